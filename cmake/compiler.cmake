@@ -1,0 +1,24 @@
+# Compiler settings shared by every target.
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+set(CMAKE_CXX_STANDARD 17)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+option(FIBER_PROXIMITY_WERROR "Treat warnings as errors (CI does)" OFF)
+set(FIBER_PROXIMITY_SANITIZE "" CACHE STRING "Sanitizers to build with, e.g. address,undefined")
+
+# One interface target carries the flags, so that they reach our targets and nobody else's. Without
+# contraction the same source gives the same bits with and without fused multiply-add.
+add_library(fiber_proximity_options INTERFACE)
+target_compile_options(fiber_proximity_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wconversion -Wno-sign-conversion
+  -ffp-contract=off $<$<BOOL:${FIBER_PROXIMITY_WERROR}>:-Werror>)
+if(FIBER_PROXIMITY_SANITIZE)
+  target_compile_options(fiber_proximity_options INTERFACE
+    -fsanitize=${FIBER_PROXIMITY_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(fiber_proximity_options INTERFACE -fsanitize=${FIBER_PROXIMITY_SANITIZE})
+endif()

@@ -1,0 +1,24 @@
+# Messages, services and dynamic parameters; declares the catkin package.
+
+set(ros_dependencies
+  diagnostic_updater dynamic_reconfigure geometry_msgs nav_msgs nodelet roscpp sensor_msgs std_msgs
+  tf2 tf2_ros visualization_msgs)
+find_package(catkin REQUIRED COMPONENTS ${ros_dependencies} message_generation)
+
+add_message_files(FILES
+  Contact.msg
+  ContactArray.msg
+  FiberArray.msg
+  InputStatistics.msg
+  QueryShape.msg
+  Statistics.msg
+)
+add_service_files(FILES QueryProximity.srv)
+generate_messages(DEPENDENCIES geometry_msgs std_msgs)
+
+catkin_package(
+  INCLUDE_DIRS include
+  LIBRARIES fiber_proximity
+  CATKIN_DEPENDS message_runtime geometry_msgs std_msgs
+  DEPENDS EIGEN3
+)

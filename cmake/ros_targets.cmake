@@ -1,0 +1,1 @@
+# Node, nodelets and launch files.

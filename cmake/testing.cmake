@@ -1,0 +1,18 @@
+# fiber_proximity_gtest(NAME SOURCE... [LIBRARIES LIB...])
+# A unit test that needs no ROS master: a catkin gtest in the package, a plain one without ROS.
+function(fiber_proximity_gtest name)
+  cmake_parse_arguments(ARG "" "" "LIBRARIES" ${ARGN})
+  if(FIBER_PROXIMITY_BUILD_ROS)
+    catkin_add_gtest(${name} ${ARG_UNPARSED_ARGUMENTS})
+    target_link_libraries(${name} gtest_main)
+  else()
+    add_executable(${name} ${ARG_UNPARSED_ARGUMENTS})
+    target_link_libraries(${name} GTest::gtest_main)
+    add_test(NAME ${name} COMMAND ${name})
+  endif()
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/test)
+  target_compile_definitions(${name} PRIVATE
+    FIBER_PROXIMITY_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+    FIBER_PROXIMITY_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  target_link_libraries(${name} fiber_proximity fiber_proximity_options ${ARG_LIBRARIES})
+endfunction()

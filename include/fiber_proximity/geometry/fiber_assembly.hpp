@@ -1,0 +1,77 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "fiber_proximity/geometry/capsule.hpp"
+
+namespace fiber_proximity {
+
+/// Where a segment is: the fibre it belongs to and its index along that fibre, both from 0.
+struct SegmentId {
+  std::uint32_t fiber = 0;
+  std::uint32_t segment = 0;
+};
+
+/// Many fibres, each a chain of points with a radius.
+///
+/// Fibre f owns points offsets[f] .. offsets[f+1]-1. Consecutive points of a fibre make a segment,
+/// a capped cylinder; the library addresses a segment by the index of its first point. Where the
+/// radii of its two points differ, the segment counts as a capsule of the larger one, so a conical
+/// fibre is enclosed, never cut.
+///
+/// The data are validated once, on the way in; everything behind this class may rely on them:
+/// finite coordinates of magnitude up to `max_coordinate`, radii in [0, max_coordinate], at least
+/// two points per fibre.
+class FiberAssembly {
+ public:
+  /// Largest magnitude of a coordinate or radius [m]; squares of differences stay finite below it.
+  static constexpr double max_coordinate = 1e150;
+
+  FiberAssembly() = default;
+
+  /// @param points  [m]
+  /// @param offsets fibre count + 1 values, from 0 to the number of points
+  /// @param radii   [m] one for all fibres, one per fibre, or one per point
+  /// @throws std::invalid_argument naming fibre, point and value of the first violation
+  FiberAssembly(std::vector<Eigen::Vector3d> points, std::vector<std::uint32_t> offsets,
+                std::vector<double> radii);
+
+  /// Moves the points without changing which fibre owns which, and without allocating.
+  /// @throws std::invalid_argument for another number of points or a bad coordinate; the assembly
+  ///         is unchanged then
+  void update_points(const std::vector<Eigen::Vector3d>& points);
+
+  std::size_t fiber_count() const { return offsets_.size() - 1; }
+  std::size_t point_count() const { return points_.size(); }
+  std::size_t segment_count() const { return points_.size() - fiber_count(); }
+
+  const std::vector<Eigen::Vector3d>& points() const { return points_; }
+  const std::vector<std::uint32_t>& offsets() const { return offsets_; }
+
+  /// Radii as they were given: one value, one per fibre, or one per point [m].
+  const std::vector<double>& radii() const { return radii_; }
+
+  /// Radius of the segment that starts at this point [m].
+  double segment_radius(std::uint32_t point) const {
+    return segment_radii_.empty() ? radii_.front() : segment_radii_[point];
+  }
+
+  /// The segment that starts at this point.
+  Capsule capsule(std::uint32_t point) const {
+    return {points_[point], points_[point + 1], segment_radius(point)};
+  }
+
+  /// Fibre and index of the segment that starts at this point; O(log fibres).
+  SegmentId segment_id(std::uint32_t point) const;
+
+ private:
+  std::vector<Eigen::Vector3d> points_;
+  std::vector<std::uint32_t> offsets_{0};
+  std::vector<double> radii_{0.0};
+  // By first point; empty when one radius serves all, so that the common case costs no memory.
+  std::vector<double> segment_radii_;
+};
+
+}  // namespace fiber_proximity

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace fiber_proximity {
+
+/// Closest points of two segments.
+struct SegmentDistance {
+  double s = 0.0;         ///< parameter on the first segment, 0 at p0 and 1 at p1
+  double t = 0.0;         ///< parameter on the second segment, 0 at q0 and 1 at q1
+  Eigen::Vector3d delta;  ///< from the point on the first to the point on the second [m]
+  double distance = 0.0;  ///< |delta| [m]
+};
+
+/// Closest points of the segments p0–p1 and q0–q1 [m].
+///
+/// The minimum of a convex quadratic over the unit square lies at its interior critical point or on
+/// an edge, so it is the best of five candidates: the four end points projected onto the other
+/// segment, and the interior point with its parameter from cross products alone,
+///   s = (v×w)·(u×v) / |u×v|²,  u = p1−p0, v = q1−q0, w = p0−q0,
+/// because the textbook numerator b·e − c·d loses half the digits near parallel. Everything is in
+/// differences of the input and nothing is compared with an absolute epsilon; parallel, degenerate
+/// and coincident segments need no case of their own. Valid for coordinates up to
+/// FiberAssembly::max_coordinate; differences whose fourth powers would leave the range of double
+/// are scaled by a power of two first.
+SegmentDistance segment_distance(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1,
+                                 const Eigen::Vector3d& q0, const Eigen::Vector3d& q1);
+
+}  // namespace fiber_proximity

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <tuple>
+#include <vector>
+
+namespace fiber_proximity {
+
+/// A pair of segments and where they are nearest.
+struct Contact {
+  std::uint32_t fiber_a = 0;
+  std::uint32_t segment_a = 0;
+  double s = 0.0;  ///< curve parameter on segment a, in [0, 1]
+  std::uint32_t fiber_b = 0;
+  std::uint32_t segment_b = 0;
+  double t = 0.0;           ///< curve parameter on segment b, in [0, 1]
+  double distance = 0.0;    ///< signed gap of the surfaces, negative in penetration [m]
+  Eigen::Vector3d point_a;  ///< nearest point on the surface of a [m]
+  Eigen::Vector3d point_b;  ///< nearest point on the surface of b [m]
+  Eigen::Vector3d normal;   ///< unit vector from a to b: (point_b − point_a)·normal = distance
+
+  /// What contacts are sorted by.
+  auto key() const { return std::tie(fiber_a, segment_a, fiber_b, segment_b); }
+};
+
+/// Work a query did. The paper's "cage tests", "cage intersections" and "primitive tests".
+struct QueryCounts {
+  std::uint64_t node_tests = 0;
+  std::uint64_t node_overlaps = 0;
+  std::uint64_t primitive_tests = 0;
+};
+
+/// Answer to a query; kept by the caller and reused, so that its memory is.
+struct QueryResult {
+  std::vector<Contact> contacts;  ///< sorted by Contact::key()
+  bool limit_reached = false;     ///< LIMITED reported max_contacts: there may be more pairs
+  QueryCounts counts;
+
+  /// The reported contact of the smallest distance, nullptr if there is none. The closest pair of
+  /// all unless the query was FIRST.
+  const Contact* closest() const;
+};
+
+}  // namespace fiber_proximity

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/query/contact.hpp"
+#include "fiber_proximity/query/options.hpp"
+
+namespace fiber_proximity {
+
+/// An axis-aligned box of a hierarchy, for drawing [m].
+struct NodeBox {
+  Eigen::Vector3d lower;
+  Eigen::Vector3d upper;
+};
+
+/// Answers proximity queries over one assembly at a time. All engines give the same contacts; they
+/// differ in what an update and a query cost.
+class ProximityEngine {
+ public:
+  virtual ~ProximityEngine() = default;
+
+  /// Makes these fibres the ones queries are about. The engine refers to them until the next
+  /// update: they must live, unchanged, until then. Without a change of topology nothing is
+  /// allocated.
+  void update(const FiberAssembly& fibers);
+  void update(FiberAssembly&&) = delete;
+
+  /// Pairs of segments of these fibres.
+  /// @throws std::invalid_argument for options that do not validate
+  void query(const QueryOptions& options, QueryResult& result) const;
+
+  /// Pairs of a segment of the shape (a) and one of the fibres (b); the neighbour skips do not
+  /// apply.
+  /// @throws std::invalid_argument for options that do not validate
+  void query_shape(const FiberAssembly& shape, const QueryOptions& options,
+                   QueryResult& result) const;
+
+  /// Number of levels of the hierarchy, 0 if there is none.
+  virtual std::uint32_t level_count() const { return 0; }
+
+  /// Boxes around the nodes of a level; 0 is the root, levels beyond the last give the last.
+  virtual void level_boxes(std::uint32_t level, std::vector<NodeBox>& boxes) const;
+
+ protected:
+  virtual void do_update(const FiberAssembly& fibers, bool same_topology) = 0;
+  virtual void do_query(const FiberAssembly& fibers, const QueryOptions& options,
+                        QueryResult& result) const = 0;
+  virtual void do_query_shape(const FiberAssembly& shape, const FiberAssembly& fibers,
+                              const QueryOptions& options, QueryResult& result) const = 0;
+
+ private:
+  const FiberAssembly* fibers_ = nullptr;
+  std::vector<std::uint32_t> offsets_;
+};
+
+/// The engine of this name (see engine_names()).
+/// @throws std::invalid_argument listing the names
+std::unique_ptr<ProximityEngine> make_engine(const std::string& name);
+
+/// Names of all engines.
+std::vector<std::string> engine_names();
+
+}  // namespace fiber_proximity

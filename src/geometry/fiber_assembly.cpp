@@ -1,0 +1,141 @@
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+namespace fiber_proximity {
+namespace {
+
+template <class... Parts>
+[[noreturn]] void refuse(const Parts&... parts) {
+  std::ostringstream message;
+  message.precision(std::numeric_limits<double>::max_digits10);
+  (message << ... << parts);
+  throw std::invalid_argument(message.str());
+}
+
+void check_offsets(const std::vector<std::uint32_t>& offsets, std::size_t point_count) {
+  // The flag bit of BinaryTree's leaves halves the range of indices.
+  constexpr std::size_t most_points = 0x8000'0000U;
+  if (point_count >= most_points) {
+    refuse(point_count, " points; at most ", most_points - 1, " are supported");
+  }
+  if (offsets.empty() || offsets.front() != 0) {
+    refuse("offsets must start with 0", offsets.empty() ? ", but are empty" : ", not ",
+           offsets.empty() ? std::string() : std::to_string(offsets.front()));
+  }
+  for (std::size_t fiber = 0; fiber + 1 < offsets.size(); ++fiber) {
+    const std::uint32_t begin = offsets[fiber];
+    const std::uint32_t end = offsets[fiber + 1];
+    if (end < begin) {
+      refuse("fibre ", fiber, ": offsets decrease from ", begin, " to ", end);
+    }
+    if (end > point_count) {
+      refuse("fibre ", fiber, ": offset ", end, " lies beyond the ", point_count, " points");
+    }
+    if (end - begin < 2) {
+      refuse("fibre ", fiber, ": has ", end - begin, " point(s), a fibre needs at least 2");
+    }
+  }
+  if (offsets.back() != point_count) {
+    refuse("the last offset is ", offsets.back(), ", but there are ", point_count, " points");
+  }
+}
+
+bool is_valid_coordinate(double value) {
+  return std::abs(value) <= FiberAssembly::max_coordinate;  // false for NaN
+}
+
+void check_points(const std::vector<Eigen::Vector3d>& points,
+                  const std::vector<std::uint32_t>& offsets) {
+  for (std::size_t fiber = 0; fiber + 1 < offsets.size(); ++fiber) {
+    for (std::size_t point = offsets[fiber]; point < offsets[fiber + 1]; ++point) {
+      for (int axis = 0; axis < 3; ++axis) {
+        if (!is_valid_coordinate(points[point][axis])) {
+          refuse("fibre ", fiber, ", point ", point - offsets[fiber], ": ", "xyz"[axis], " is ",
+                 points[point][axis], ", coordinates must be finite and within ±",
+                 FiberAssembly::max_coordinate, " m");
+        }
+      }
+    }
+  }
+}
+
+bool is_valid_radius(double radius) {
+  return radius >= 0.0 && radius <= FiberAssembly::max_coordinate;
+}
+
+constexpr const char* radius_rule = ", radii must be finite, at least 0 and at most 1e150 m";
+
+void check_radii(const std::vector<double>& radii, const std::vector<std::uint32_t>& offsets,
+                 std::size_t point_count) {
+  const std::size_t fiber_count = offsets.size() - 1;
+  const bool per_fiber = radii.size() == fiber_count;
+  if (radii.size() != 1 && !per_fiber && radii.size() != point_count) {
+    refuse(radii.size(), " radii for ", fiber_count, " fibre(s) of ", point_count,
+           " points in all; give 1, one per fibre, or one per point");
+  }
+  for (std::size_t i = 0; i < radii.size(); ++i) {
+    if (is_valid_radius(radii[i])) {
+      continue;
+    }
+    if (radii.size() == 1) {
+      refuse("the radius is ", radii[i], radius_rule);
+    }
+    if (per_fiber) {
+      refuse("fibre ", i, ": the radius is ", radii[i], radius_rule);
+    }
+    const auto fiber = std::upper_bound(offsets.begin(), offsets.end(), i) - offsets.begin() - 1;
+    refuse("fibre ", fiber, ", point ", i - offsets[static_cast<std::size_t>(fiber)],
+           ": the radius is ", radii[i], radius_rule);
+  }
+}
+
+std::vector<double> expand_radii(const std::vector<double>& radii,
+                                 const std::vector<std::uint32_t>& offsets,
+                                 std::size_t point_count) {
+  if (radii.size() == 1) {
+    return {};
+  }
+  std::vector<double> segment_radii(point_count, 0.0);
+  const bool per_fiber = radii.size() == offsets.size() - 1;
+  for (std::size_t fiber = 0; fiber + 1 < offsets.size(); ++fiber) {
+    for (std::size_t point = offsets[fiber]; point + 1 < offsets[fiber + 1]; ++point) {
+      segment_radii[point] = per_fiber ? radii[fiber] : std::max(radii[point], radii[point + 1]);
+    }
+  }
+  return segment_radii;
+}
+
+}  // namespace
+
+FiberAssembly::FiberAssembly(std::vector<Eigen::Vector3d> points,
+                             std::vector<std::uint32_t> offsets, std::vector<double> radii)
+    : points_(std::move(points)), offsets_(std::move(offsets)), radii_(std::move(radii)) {
+  check_offsets(offsets_, points_.size());
+  check_points(points_, offsets_);
+  check_radii(radii_, offsets_, points_.size());
+  segment_radii_ = expand_radii(radii_, offsets_, points_.size());
+}
+
+void FiberAssembly::update_points(const std::vector<Eigen::Vector3d>& points) {
+  if (points.size() != points_.size()) {
+    refuse("update with ", points.size(), " points for an assembly of ", points_.size());
+  }
+  check_points(points, offsets_);
+  std::copy(points.begin(), points.end(), points_.begin());
+}
+
+SegmentId FiberAssembly::segment_id(std::uint32_t point) const {
+  const auto next = std::upper_bound(offsets_.begin(), offsets_.end(), point);
+  assert(next != offsets_.begin() && next != offsets_.end() && point + 1 < *next);
+  const auto fiber = static_cast<std::uint32_t>(next - offsets_.begin() - 1);
+  return {fiber, point - offsets_[fiber]};
+}
+
+}  // namespace fiber_proximity

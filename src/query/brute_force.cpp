@@ -1,0 +1,48 @@
+#include "fiber_proximity/query/brute_force.hpp"
+
+#include "fiber_proximity/hierarchy/fiber_order.hpp"
+#include "fiber_proximity/query/pair_collector.hpp"
+
+namespace fiber_proximity {
+
+void brute_force(const FiberAssembly& fibers, const QueryOptions& options, QueryResult& result) {
+  BruteForceEngine engine;
+  engine.update(fibers);
+  engine.query(options, result);
+}
+
+void brute_force_shape(const FiberAssembly& shape, const FiberAssembly& fibers,
+                       const QueryOptions& options, QueryResult& result) {
+  BruteForceEngine engine;
+  engine.update(fibers);
+  engine.query_shape(shape, options, result);
+}
+
+void BruteForceEngine::do_update(const FiberAssembly& /*fibers*/, bool /*same_topology*/) {}
+
+void BruteForceEngine::do_query(const FiberAssembly& fibers, const QueryOptions& options,
+                                QueryResult& result) const {
+  PairCollector collector(fibers, options, result);
+  const std::vector<std::uint32_t> segments = end_point_connected_order(fibers.offsets());
+  for (std::size_t i = 0; i < segments.size() && !collector.done(); ++i) {
+    for (std::size_t j = i + 1; j < segments.size() && !collector.done(); ++j) {
+      collector.offer(segments[i], segments[j]);
+    }
+  }
+  collector.finish();
+}
+
+void BruteForceEngine::do_query_shape(const FiberAssembly& shape, const FiberAssembly& fibers,
+                                      const QueryOptions& options, QueryResult& result) const {
+  PairCollector collector(shape, fibers, options, result);
+  const std::vector<std::uint32_t> shape_segments = end_point_connected_order(shape.offsets());
+  const std::vector<std::uint32_t> segments = end_point_connected_order(fibers.offsets());
+  for (std::size_t i = 0; i < shape_segments.size() && !collector.done(); ++i) {
+    for (std::size_t j = 0; j < segments.size() && !collector.done(); ++j) {
+      collector.offer(shape_segments[i], segments[j]);
+    }
+  }
+  collector.finish();
+}
+
+}  // namespace fiber_proximity
