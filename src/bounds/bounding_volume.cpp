@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace fiber_proximity {
+namespace fiber {
 
 float round_up(double margin) {
   if (margin > std::numeric_limits<float>::max()) {
@@ -15,4 +15,4 @@ float round_up(double margin) {
              : nearest;
 }
 
-}  // namespace fiber_proximity
+}  // namespace fiber

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace fiber_proximity {
+namespace fiber {
 namespace {
 
 template <class... Parts>
@@ -138,4 +138,4 @@ SegmentId FiberAssembly::segment_id(std::uint32_t point) const {
   return {fiber, point - offsets_[fiber]};
 }
 
-}  // namespace fiber_proximity
+}  // namespace fiber

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fiber_proximity {
+namespace fiber {
 namespace {
 
 using Eigen::Vector3d;
@@ -108,4 +108,4 @@ SegmentDistance segment_distance(const Vector3d& p0, const Vector3d& p1, const V
   return result;
 }
 
-}  // namespace fiber_proximity
+}  // namespace fiber

@@ -1,6 +1,6 @@
 #include "fiber_proximity/hierarchy/binary_tree.hpp"
 
-namespace fiber_proximity {
+namespace fiber {
 
 BinaryTree BinaryTree::balanced(const std::vector<std::uint32_t>& order) {
   struct Run {
@@ -34,4 +34,4 @@ BinaryTree BinaryTree::balanced(const std::vector<std::uint32_t>& order) {
   return tree;
 }
 
-}  // namespace fiber_proximity
+}  // namespace fiber

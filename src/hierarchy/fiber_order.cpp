@@ -1,6 +1,6 @@
 #include "fiber_proximity/hierarchy/fiber_order.hpp"
 
-namespace fiber_proximity {
+namespace fiber {
 
 std::vector<std::uint32_t> end_point_connected_order(const std::vector<std::uint32_t>& offsets) {
   std::vector<std::uint32_t> order;
@@ -16,4 +16,4 @@ std::vector<std::uint32_t> end_point_connected_order(const std::vector<std::uint
   return order;
 }
 
-}  // namespace fiber_proximity
+}  // namespace fiber

@@ -3,7 +3,7 @@
 #include "fiber_proximity/hierarchy/fiber_order.hpp"
 #include "fiber_proximity/query/pair_collector.hpp"
 
-namespace fiber_proximity {
+namespace fiber {
 
 void brute_force(const FiberAssembly& fibers, const QueryOptions& options, QueryResult& result) {
   BruteForceEngine engine;
@@ -45,4 +45,4 @@ void BruteForceEngine::do_query_shape(const FiberAssembly& shape, const FiberAss
   collector.finish();
 }
 
-}  // namespace fiber_proximity
+}  // namespace fiber

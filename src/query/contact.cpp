@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace fiber_proximity {
+namespace fiber {
 
 const Contact* QueryResult::closest() const {
   const auto closest =
@@ -11,4 +11,4 @@ const Contact* QueryResult::closest() const {
   return closest == contacts.end() ? nullptr : &*closest;
 }
 
-}  // namespace fiber_proximity
+}  // namespace fiber

@@ -7,7 +7,7 @@
 #include "fiber_proximity/query/brute_force.hpp"
 #include "fiber_proximity/query/hierarchy_engine.hpp"
 
-namespace fiber_proximity {
+namespace fiber {
 namespace {
 
 template <class Engine>
@@ -86,4 +86,4 @@ std::vector<std::string> engine_names() {
   return names;
 }
 
-}  // namespace fiber_proximity
+}  // namespace fiber

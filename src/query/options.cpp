@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace fiber_proximity {
+namespace fiber {
 
 void validate(const QueryOptions& options) {
   if (!(options.margin >= 0.0)) {
@@ -36,4 +36,4 @@ QueryType query_type_from_name(const std::string& name) {
                               "', known are: first, closest, limited, all");
 }
 
-}  // namespace fiber_proximity
+}  // namespace fiber

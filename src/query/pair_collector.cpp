@@ -6,7 +6,7 @@
 #include "fiber_proximity/bounds/bounding_volume.hpp"
 #include "fiber_proximity/geometry/segment_distance.hpp"
 
-namespace fiber_proximity {
+namespace fiber {
 namespace {
 
 using Eigen::Vector3d;
@@ -163,4 +163,4 @@ void PairCollector::set_bound(double bound) {
   rounded_bound_ = round_up(std::max(bound, 0.0));
 }
 
-}  // namespace fiber_proximity
+}  // namespace fiber

@@ -7,7 +7,7 @@
 
 #include "fiber_proximity/bounds/bounding_volume.hpp"
 
-namespace fiber_proximity {
+namespace fiber {
 
 /// Axis-aligned bounding box (paper, Sect. 4.1), the hand-optimised 6-DOP.
 struct Aabb {
@@ -73,4 +73,4 @@ inline const Aabb& bounding_box(const Aabb& box) { return box; }
 
 static_assert(IsBoundingVolume<Aabb>::value, "Aabb must keep the contract of bounding volumes");
 
-}  // namespace fiber_proximity
+}  // namespace fiber

@@ -5,7 +5,7 @@
 
 #include "fiber_proximity/geometry/capsule.hpp"
 
-namespace fiber_proximity {
+namespace fiber {
 
 /// The contract of a bounding volume: a value type and free functions found beside it.
 ///
@@ -38,4 +38,4 @@ struct IsBoundingVolume<
 /// A margin [m] as the volumes take it: rounded up to single precision.
 float round_up(double margin);
 
-}  // namespace fiber_proximity
+}  // namespace fiber

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-namespace fiber_proximity {
+namespace fiber {
 
 /// A capped cylinder: all points within `radius` of the axis p0–p1. One segment of a fibre.
 struct Capsule {
@@ -11,4 +11,4 @@ struct Capsule {
   double radius = 0.0;  ///< [m]
 };
 
-}  // namespace fiber_proximity
+}  // namespace fiber

@@ -6,7 +6,7 @@
 
 #include "fiber_proximity/geometry/capsule.hpp"
 
-namespace fiber_proximity {
+namespace fiber {
 
 /// Where a segment is: the fibre it belongs to and its index along that fibre, both from 0.
 struct SegmentId {
@@ -74,4 +74,4 @@ class FiberAssembly {
   std::vector<double> segment_radii_;
 };
 
-}  // namespace fiber_proximity
+}  // namespace fiber

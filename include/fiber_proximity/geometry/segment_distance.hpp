@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-namespace fiber_proximity {
+namespace fiber {
 
 /// Closest points of two segments.
 struct SegmentDistance {
@@ -26,4 +26,4 @@ struct SegmentDistance {
 SegmentDistance segment_distance(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1,
                                  const Eigen::Vector3d& q0, const Eigen::Vector3d& q1);
 
-}  // namespace fiber_proximity
+}  // namespace fiber

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace fiber_proximity {
+namespace fiber {
 
 /// The shape of a binary tree over segments, without volumes: flat, in level order, root first.
 ///
@@ -50,4 +50,4 @@ class BinaryTree {
   std::vector<std::uint32_t> levels_;
 };
 
-}  // namespace fiber_proximity
+}  // namespace fiber

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace fiber_proximity {
+namespace fiber {
 
 /// Segments (by the index of their first point) in end-point-connected order (paper, Sect. 3.1):
 /// the fibres one after another, every other one backwards, so that the last segment of a fibre is
@@ -11,4 +11,4 @@ namespace fiber_proximity {
 /// @param offsets as in FiberAssembly
 std::vector<std::uint32_t> end_point_connected_order(const std::vector<std::uint32_t>& offsets);
 
-}  // namespace fiber_proximity
+}  // namespace fiber

@@ -9,7 +9,7 @@
 #include "fiber_proximity/hierarchy/binary_tree.hpp"
 #include "fiber_proximity/hierarchy/fiber_order.hpp"
 
-namespace fiber_proximity {
+namespace fiber {
 
 /// The paper's layered chain-aligned hierarchy (Sect. 3): a balanced binary tree over the
 /// end-point-connected order, each node's volume merged from its two children's.
@@ -54,4 +54,4 @@ class Hierarchy {
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
 };
 
-}  // namespace fiber_proximity
+}  // namespace fiber

@@ -2,7 +2,7 @@
 
 #include "fiber_proximity/query/engine.hpp"
 
-namespace fiber_proximity {
+namespace fiber {
 
 /// Tests every pair: the oracle all other engines are held against. O(n²).
 void brute_force(const FiberAssembly& fibers, const QueryOptions& options, QueryResult& result);
@@ -21,4 +21,4 @@ class BruteForceEngine final : public ProximityEngine {
                       const QueryOptions& options, QueryResult& result) const override;
 };
 
-}  // namespace fiber_proximity
+}  // namespace fiber

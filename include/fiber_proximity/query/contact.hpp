@@ -5,7 +5,7 @@
 #include <tuple>
 #include <vector>
 
-namespace fiber_proximity {
+namespace fiber {
 
 /// A pair of segments and where they are nearest.
 struct Contact {
@@ -42,4 +42,4 @@ struct QueryResult {
   const Contact* closest() const;
 };
 
-}  // namespace fiber_proximity
+}  // namespace fiber

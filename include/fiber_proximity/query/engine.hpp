@@ -8,7 +8,7 @@
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/options.hpp"
 
-namespace fiber_proximity {
+namespace fiber {
 
 /// An axis-aligned box of a hierarchy, for drawing [m].
 struct NodeBox {
@@ -63,4 +63,4 @@ std::unique_ptr<ProximityEngine> make_engine(const std::string& name);
 /// Names of all engines.
 std::vector<std::string> engine_names();
 
-}  // namespace fiber_proximity
+}  // namespace fiber

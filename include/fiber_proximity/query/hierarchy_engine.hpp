@@ -7,7 +7,7 @@
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/query/traverse.hpp"
 
-namespace fiber_proximity {
+namespace fiber {
 
 /// One of the paper's hierarchies as an engine.
 template <class Volume>
@@ -62,4 +62,4 @@ class HierarchyEngine final : public ProximityEngine {
   Hierarchy<Volume> hierarchy_;
 };
 
-}  // namespace fiber_proximity
+}  // namespace fiber

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-namespace fiber_proximity {
+namespace fiber {
 
 /// Which of the pairs within the margin to report.
 enum class QueryType {
@@ -38,4 +38,4 @@ void validate(const QueryOptions& options);
 /// @throws std::invalid_argument listing the names
 QueryType query_type_from_name(const std::string& name);
 
-}  // namespace fiber_proximity
+}  // namespace fiber

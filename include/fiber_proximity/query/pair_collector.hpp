@@ -7,7 +7,7 @@
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/options.hpp"
 
-namespace fiber_proximity {
+namespace fiber {
 
 /// Receives candidate pairs of segments, decides which are contacts, keeps those the query asks
 /// for. Every engine and brute force feed this one class, so a pair is judged in one place.
@@ -59,4 +59,4 @@ class PairCollector {
   std::vector<double> arc_length_;  // [m] by point, from its fibre's start; empty if not needed
 };
 
-}  // namespace fiber_proximity
+}  // namespace fiber

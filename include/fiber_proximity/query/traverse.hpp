@@ -9,7 +9,7 @@
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/pair_collector.hpp"
 
-namespace fiber_proximity {
+namespace fiber {
 
 /// Simultaneous descent of two hierarchies (paper, Sect. 3.2): offers the collector every pair of
 /// leaves whose volumes come within its bound. Given the same hierarchy twice it finds
@@ -115,4 +115,4 @@ void traverse(const Hierarchy<Volume>& a, const Hierarchy<Volume>& b, PairCollec
   }
 }
 
-}  // namespace fiber_proximity
+}  // namespace fiber
