@@ -60,12 +60,16 @@ inline float squared_distance(const Aabb& a, const Aabb& b) {
   return sum;
 }
 
+/// What squares below the normal range of float may err by, as their digits run out [m²].
+constexpr float squared_underflow = std::numeric_limits<float>::min();
+
 inline bool overlaps(const Aabb& a, const Aabb& b, float margin) {
-  return squared_distance(a, b) <= margin * margin + std::numeric_limits<float>::min();
+  return squared_distance(a, b) <= margin * margin + squared_underflow;
 }
 
 inline float distance_lower_bound(const Aabb& a, const Aabb& b) {
-  return std::sqrt(squared_distance(a, b));
+  const float squared = squared_distance(a, b) - squared_underflow;
+  return std::sqrt(std::clamp(squared, 0.0F, std::numeric_limits<float>::max()));
 }
 
 /// The axis-aligned box around a volume, for drawing.

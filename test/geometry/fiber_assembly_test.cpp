@@ -1,0 +1,125 @@
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace fiber {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double inf = std::numeric_limits<double>::infinity();
+
+const std::vector<Vector3d> five_points{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+
+template <class Action>
+std::string error_of(const Action& action) {
+  try {
+    action();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+std::string error_of_assembly(const std::vector<Vector3d>& points,
+                              const std::vector<std::uint32_t>& offsets,
+                              const std::vector<double>& radii) {
+  return error_of([&] { FiberAssembly(points, offsets, radii); });
+}
+
+TEST(FiberAssembly, KnowsItsFibersAndSegments) {
+  const FiberAssembly fibers(five_points, {0, 3, 5}, {0.1});
+  EXPECT_EQ(fibers.fiber_count(), 2U);
+  EXPECT_EQ(fibers.point_count(), 5U);
+  EXPECT_EQ(fibers.segment_count(), 3U);
+  EXPECT_EQ(fibers.segment_id(1).fiber, 0U);
+  EXPECT_EQ(fibers.segment_id(1).segment, 1U);
+  EXPECT_EQ(fibers.segment_id(3).fiber, 1U);
+  EXPECT_EQ(fibers.segment_id(3).segment, 0U);
+  EXPECT_EQ(fibers.capsule(3).p1, Vector3d(1, 1, 0));
+}
+
+TEST(FiberAssembly, OfNothingIsEmpty) {
+  EXPECT_EQ(FiberAssembly().segment_count(), 0U);
+  EXPECT_EQ(FiberAssembly({}, {0}, {}).fiber_count(), 0U);
+}
+
+TEST(FiberAssembly, TakesOneRadiusOnePerFiberOrOnePerPoint) {
+  EXPECT_EQ(FiberAssembly(five_points, {0, 3, 5}, {0.1}).segment_radius(3), 0.1);
+  EXPECT_EQ(FiberAssembly(five_points, {0, 3, 5}, {0.1, 0.2}).segment_radius(1), 0.1);
+  EXPECT_EQ(FiberAssembly(five_points, {0, 3, 5}, {0.1, 0.2}).segment_radius(3), 0.2);
+}
+
+TEST(FiberAssembly, CountsAConicalSegmentAsItsLargerRadius) {
+  const FiberAssembly fibers(five_points, {0, 3, 5}, {1, 3, 2, 5, 4});
+  EXPECT_EQ(fibers.segment_radius(0), 3.0);
+  EXPECT_EQ(fibers.segment_radius(1), 3.0);
+  EXPECT_EQ(fibers.segment_radius(3), 5.0);
+}
+
+TEST(FiberAssembly, NamesFiberPointAndValueOfABadCoordinate) {
+  std::vector<Vector3d> points = five_points;
+  points[4].y() = nan;
+  EXPECT_EQ(error_of_assembly(points, {0, 3, 5}, {0.1}),
+            "fibre 1, point 1: y is nan, coordinates must be finite and within ±1e150 m");
+  points[4].y() = -inf;
+  EXPECT_NE(error_of_assembly(points, {0, 3, 5}, {0.1}).find("fibre 1, point 1: y is -inf"),
+            std::string::npos);
+  points[4].y() = 1e151;
+  EXPECT_NE(error_of_assembly(points, {0, 3, 5}, {0.1}).find("y is 1e+151"), std::string::npos)
+      << error_of_assembly(points, {0, 3, 5}, {0.1});
+}
+
+TEST(FiberAssembly, NamesFiberPointAndValueOfABadRadius) {
+  EXPECT_EQ(error_of_assembly(five_points, {0, 3, 5}, {-0.5}),
+            "the radius is -0.5, radii must be finite, at least 0 and at most 1e150 m");
+  EXPECT_NE(
+      error_of_assembly(five_points, {0, 3, 5}, {0.1, nan}).find("fibre 1: the radius is nan"),
+      std::string::npos);
+  EXPECT_NE(error_of_assembly(five_points, {0, 3, 5}, {1, 1, 1, 1, inf})
+                .find("fibre 1, point 1: the radius is inf"),
+            std::string::npos);
+  EXPECT_EQ(error_of_assembly(five_points, {0, 3, 5}, {1, 1, 1}),
+            "3 radii for 2 fibre(s) of 5 points in all; give 1, one per fibre, or one per point");
+}
+
+TEST(FiberAssembly, RefusesBadOffsets) {
+  EXPECT_EQ(error_of_assembly(five_points, {}, {0.1}), "offsets must start with 0, but are empty");
+  EXPECT_EQ(error_of_assembly(five_points, {1, 5}, {0.1}), "offsets must start with 0, not 1");
+  EXPECT_EQ(error_of_assembly(five_points, {0, 4, 2, 5}, {0.1}),
+            "fibre 1: offsets decrease from 4 to 2");
+  EXPECT_EQ(error_of_assembly(five_points, {0, 3, 7}, {0.1}),
+            "fibre 1: offset 7 lies beyond the 5 points");
+  EXPECT_EQ(error_of_assembly(five_points, {0, 3}, {0.1}),
+            "the last offset is 3, but there are 5 points");
+  EXPECT_EQ(error_of_assembly(five_points, {0, 4, 5}, {0.1}),
+            "fibre 1: has 1 point(s), a fibre needs at least 2");
+  EXPECT_EQ(error_of_assembly(five_points, {0, 3, 3, 5}, {0.1}),
+            "fibre 1: has 0 point(s), a fibre needs at least 2");
+}
+
+TEST(FiberAssembly, UpdateMovesThePointsOrLeavesAllAsItWas) {
+  FiberAssembly fibers(five_points, {0, 3, 5}, {0.1});
+  std::vector<Vector3d> moved = five_points;
+  moved[2].z() = 7.0;
+  fibers.update_points(moved);
+  EXPECT_EQ(fibers.points()[2].z(), 7.0);
+
+  moved[0].x() = 3.0;
+  moved[4].x() = nan;
+  EXPECT_NE(error_of([&] { fibers.update_points(moved); }).find("fibre 1, point 1: x is nan"),
+            std::string::npos);
+  EXPECT_EQ(fibers.points()[0].x(), 0.0);
+
+  moved.pop_back();
+  EXPECT_EQ(error_of([&] { fibers.update_points(moved); }),
+            "update with 4 points for an assembly of 5");
+}
+
+}  // namespace
+}  // namespace fiber

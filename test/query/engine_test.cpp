@@ -1,0 +1,221 @@
+#include "fiber_proximity/query/engine.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "fiber_proximity/query/brute_force.hpp"
+#include "support/assemblies.hpp"
+#include "support/contacts.hpp"
+
+namespace fiber::test {
+namespace {
+
+/// Every engine must answer exactly what brute force answers.
+class EngineTest : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override { engine_ = make_engine(GetParam()); }
+
+  QueryResult ask(const FiberAssembly& fibers, const QueryOptions& options) {
+    QueryResult result;
+    engine_->update(fibers);
+    engine_->query(options, result);
+    return result;
+  }
+
+  std::unique_ptr<ProximityEngine> engine_;
+};
+
+QueryResult truth(const FiberAssembly& fibers, const QueryOptions& options) {
+  QueryResult result;
+  brute_force(fibers, options, result);
+  return result;
+}
+
+/// Extent of the scene, to choose margins that find some pairs but not all.
+double extent(const FiberAssembly& fibers) {
+  double largest = 0.0;
+  for (const Eigen::Vector3d& point : fibers.points()) {
+    largest = std::max(largest, (point - fibers.points().front()).cwiseAbs().maxCoeff());
+  }
+  return largest;
+}
+
+QueryOptions random_options(Random& random, const FiberAssembly& fibers, QueryType type) {
+  QueryOptions options;
+  options.type = type;
+  const double size = extent(fibers);
+  const double margins[] = {0.0, 1e-3 * size, 0.1 * size, size,
+                            std::numeric_limits<double>::infinity()};
+  options.margin = margins[random.integer(0, 4)];
+  options.neighbour_skip = static_cast<std::uint32_t>(random.integer(0, 3));
+  options.neighbour_skip_length = random.chance(0.3) ? 0.2 * size : 0.0;
+  options.max_contacts = static_cast<std::uint32_t>(random.integer(1, 20));
+  return options;
+}
+
+TEST_P(EngineTest, GivesBruteForcesAnswerOnEveryFamily) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  for (const AssemblyFamily& family : assembly_families()) {
+    for (int round = 0; round < 8; ++round) {
+      const FiberAssembly fibers = family.make(random);
+      for (const QueryType type : {QueryType::ALL, QueryType::CLOSEST, QueryType::LIMITED}) {
+        const QueryOptions options = random_options(random, fibers, type);
+        SCOPED_TRACE(family.name + ", round " + std::to_string(round) + ", type " +
+                     std::to_string(static_cast<int>(type)) + ", margin " +
+                     std::to_string(options.margin));
+        const QueryResult found = ask(fibers, options);
+        const QueryResult expected = truth(fibers, options);
+        ASSERT_TRUE(same_contacts(found.contacts, expected.contacts));
+        ASSERT_EQ(found.limit_reached, expected.limit_reached);
+      }
+    }
+  }
+}
+
+TEST_P(EngineTest, FindsAFirstContactIfAndOnlyIfThereIsOne) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  for (const AssemblyFamily& family : assembly_families()) {
+    for (int round = 0; round < 8; ++round) {
+      SCOPED_TRACE(family.name);
+      const FiberAssembly fibers = family.make(random);
+      QueryOptions options = random_options(random, fibers, QueryType::FIRST);
+      const QueryResult first = ask(fibers, options);
+      options.type = QueryType::ALL;
+      const QueryResult all = truth(fibers, options);
+      ASSERT_EQ(first.contacts.size(), all.contacts.empty() ? 0U : 1U);
+      if (!all.contacts.empty()) {
+        ASSERT_TRUE(contains(all.contacts, first.contacts.front()));
+      }
+    }
+  }
+}
+
+TEST_P(EngineTest, AnswersShapesAsBruteForceDoes) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  for (const AssemblyFamily& family : assembly_families()) {
+    for (int round = 0; round < 8; ++round) {
+      const FiberAssembly fibers = family.make(random);
+      const FiberAssembly shape = family.make(random);
+      for (const QueryType type : {QueryType::ALL, QueryType::CLOSEST, QueryType::LIMITED}) {
+        SCOPED_TRACE(family.name);
+        const QueryOptions options = random_options(random, fibers, type);
+        QueryResult found;
+        engine_->update(fibers);
+        engine_->query_shape(shape, options, found);
+        QueryResult expected;
+        brute_force_shape(shape, fibers, options, expected);
+        ASSERT_TRUE(same_contacts(found.contacts, expected.contacts));
+      }
+    }
+  }
+}
+
+TEST_P(EngineTest, AsksTheFibersAboutThemselvesAsAnyOtherShape) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  AssemblyBuilder builder;
+  builder.add_fiber(random_walk(random, 10, 0.1));
+  const FiberAssembly fibers = builder.build({0.01});
+  QueryResult result;
+  engine_->update(fibers);
+  engine_->query_shape(fibers, QueryOptions{}, result);
+  // Every segment touches itself and its two neighbours, in both orders.
+  EXPECT_GE(result.contacts.size(), 10U + 2U * 9U);
+}
+
+TEST_P(EngineTest, FollowsMovingFibersAndChangingTopology) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  const std::vector<AssemblyFamily> families = assembly_families();
+  for (int round = 0; round < 30; ++round) {
+    FiberAssembly fibers = families[random.integer(0, 2)].make(random);
+    for (int frame = 0; frame < 4; ++frame) {
+      const QueryResult found = ask(fibers, QueryOptions{});
+      ASSERT_TRUE(same_contacts(found.contacts, truth(fibers, QueryOptions{}).contacts));
+      std::vector<Eigen::Vector3d> points = fibers.points();
+      for (Eigen::Vector3d& point : points) {
+        point += 0.05 * random.in_cube();
+      }
+      fibers.update_points(points);
+    }
+  }
+}
+
+TEST_P(EngineTest, RepeatsItselfToTheBit) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  const FiberAssembly fibers = assembly_families().front().make(random);
+  for (const QueryType type :
+       {QueryType::FIRST, QueryType::CLOSEST, QueryType::LIMITED, QueryType::ALL}) {
+    QueryOptions options;
+    options.type = type;
+    options.margin = 0.3;
+    const QueryResult once = ask(fibers, options);
+    engine_ = make_engine(GetParam());
+    const QueryResult again = ask(fibers, options);
+    EXPECT_TRUE(same_contacts(once.contacts, again.contacts));
+    EXPECT_EQ(once.counts.node_tests, again.counts.node_tests);
+    EXPECT_EQ(once.counts.primitive_tests, again.counts.primitive_tests);
+  }
+}
+
+TEST_P(EngineTest, RefusesBadOptionsAndQueriesBeforeAnUpdate) {
+  QueryResult result;
+  EXPECT_THROW(engine_->query(QueryOptions{}, result), std::logic_error);
+  const FiberAssembly none;
+  engine_->update(none);
+  engine_->query(QueryOptions{}, result);
+  EXPECT_TRUE(result.contacts.empty());
+  QueryOptions bad;
+  bad.margin = -1.0;
+  EXPECT_THROW(engine_->query(bad, result), std::invalid_argument);
+  EXPECT_THROW(engine_->query_shape(none, bad, result), std::invalid_argument);
+}
+
+TEST_P(EngineTest, DrawsBoxesAroundAllItsSegments) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  AssemblyBuilder builder;
+  builder.add_fiber(random_walk(random, 50, 0.1));
+  const FiberAssembly fibers = builder.build({0.01});
+  engine_->update(fibers);
+  for (std::uint32_t level = 0; level < engine_->level_count() + 2; ++level) {
+    std::vector<NodeBox> boxes;
+    engine_->level_boxes(level, boxes);
+    if (engine_->level_count() == 0) {
+      EXPECT_TRUE(boxes.empty());
+      continue;
+    }
+    EXPECT_LE(boxes.size(), std::size_t{1} << level);
+    const bool all_leaves_below = level + 2 < engine_->level_count();
+    for (const Eigen::Vector3d& point : fibers.points()) {
+      const bool inside = std::any_of(boxes.begin(), boxes.end(), [&](const NodeBox& box) {
+        return (point.array() >= box.lower.array() + 0.009).all() &&
+               (point.array() <= box.upper.array() - 0.009).all();
+      });
+      EXPECT_TRUE(inside || !all_leaves_below);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, EngineTest, testing::ValuesIn(engine_names()),
+                         [](const auto& instance) { return instance.param; });
+
+TEST(MakeEngine, ListsTheNamesItKnows) {
+  try {
+    make_engine("octree");
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "unknown engine 'octree', known are: AL, brute_force");
+  }
+}
+
+}  // namespace
+}  // namespace fiber::test

@@ -1,0 +1,183 @@
+#include "fiber_proximity/query/pair_collector.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <stdexcept>
+
+#include "fiber_proximity/query/brute_force.hpp"
+#include "support/assemblies.hpp"
+#include "support/exact_distance.hpp"
+
+namespace fiber::test {
+namespace {
+
+using Eigen::Vector3d;
+
+QueryResult ask(const FiberAssembly& fibers, const QueryOptions& options) {
+  QueryResult result;
+  brute_force(fibers, options, result);
+  return result;
+}
+
+/// Two cables of radius 0.1 crossing at right angles, 0.3 between their axes, on z.
+FiberAssembly crossing() {
+  return {{{-1, 0, 0}, {1, 0, 0}, {0, -1, 0.3}, {0, 1, 0.3}}, {0, 2, 4}, {0.1}};
+}
+
+TEST(PairCollector, DescribesAContact) {
+  QueryOptions options;
+  options.margin = 0.2;
+  const QueryResult result = ask(crossing(), options);
+  ASSERT_EQ(result.contacts.size(), 1U);
+  const Contact& contact = result.contacts.front();
+  EXPECT_EQ(contact.fiber_a, 0U);
+  EXPECT_EQ(contact.fiber_b, 1U);
+  EXPECT_EQ(contact.s, 0.5);
+  EXPECT_EQ(contact.t, 0.5);
+  EXPECT_NEAR(contact.distance, 0.1, 1e-15);
+  EXPECT_TRUE(contact.normal.isApprox(Vector3d(0, 0, 1)));
+  EXPECT_TRUE(contact.point_a.isApprox(Vector3d(0, 0, 0.1)));
+  EXPECT_TRUE(contact.point_b.isApprox(Vector3d(0, 0, 0.2)));
+  EXPECT_FALSE(result.limit_reached);
+}
+
+TEST(PairCollector, TakesTheMarginAsInclusive) {
+  const FiberAssembly fibers({{-1, 0, 0}, {1, 0, 0}, {0, -1, 0.5}, {0, 1, 0.5}}, {0, 2, 4},
+                             {0.125});
+  QueryOptions options;
+  options.margin = 0.25;
+  EXPECT_EQ(ask(fibers, options).contacts.size(), 1U);
+  options.margin = std::nextafter(0.25, 0.0);
+  EXPECT_TRUE(ask(fibers, options).contacts.empty());
+}
+
+TEST(PairCollector, PointsAndNormalAgreeWithTheDistanceEvenInPenetration) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  for (const AssemblyFamily& family : assembly_families()) {
+    if (family.name == "denormal") {
+      continue;  // a unit normal times a denormal keeps no digits
+    }
+    SCOPED_TRACE(family.name);
+    QueryOptions options;
+    options.margin = std::numeric_limits<double>::infinity();
+    options.neighbour_skip = 0;
+    const FiberAssembly fibers = family.make(random);
+    double size = 0.0;
+    for (const Vector3d& point : fibers.points()) {
+      size = std::max(size, point.cwiseAbs().maxCoeff());
+    }
+    for (const Contact& contact : ask(fibers, options).contacts) {
+      ASSERT_NEAR(contact.normal.norm(), 1.0, 1e-14);
+      const double tolerance = 1e-14 * (size + fibers.radii().front() + std::abs(contact.distance));
+      ASSERT_NEAR((contact.point_b - contact.point_a).dot(contact.normal), contact.distance,
+                  tolerance);
+    }
+  }
+}
+
+TEST(PairCollector, GapIsTheExactDistanceLessTheRadii) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  const FiberAssembly fibers = assembly_families()[2].make(random);
+  QueryOptions options;
+  options.margin = std::numeric_limits<double>::infinity();
+  for (const Contact& contact : ask(fibers, options).contacts) {
+    const Capsule a = fibers.capsule(fibers.offsets()[contact.fiber_a] + contact.segment_a);
+    const Capsule b = fibers.capsule(fibers.offsets()[contact.fiber_b] + contact.segment_b);
+    const double exact =
+        static_cast<double>(exact_distance(a.p0, a.p1, b.p0, b.p1) - a.radius - b.radius);
+    ASSERT_NEAR(contact.distance, exact, 1e-14);
+  }
+}
+
+TEST(PairCollector, SkipsNeighboursByIndex) {
+  std::vector<Vector3d> points;
+  for (int i = 0; i < 6; ++i) {
+    points.emplace_back(i, 0, 0);
+  }
+  const FiberAssembly fibers(points, {0, 6}, {10.0});  // five segments, all overlapping
+  QueryOptions options;
+  for (const auto& [skip, pairs] : {std::pair{0U, 10U}, {1U, 6U}, {2U, 3U}, {3U, 1U}, {4U, 0U}}) {
+    options.neighbour_skip = skip;
+    EXPECT_EQ(ask(fibers, options).contacts.size(), pairs) << "skip " << skip;
+  }
+}
+
+TEST(PairCollector, SkipsNeighboursByArcLengthOnTheirFiberOnly) {
+  std::vector<Vector3d> points;
+  for (int i = 0; i < 6; ++i) {
+    points.emplace_back(i, 0, 0);
+  }
+  QueryOptions options;
+  options.neighbour_skip_length = 2.0;  // between segments i and i + 3 lie 2 m: not less
+  EXPECT_EQ(ask(FiberAssembly(points, {0, 6}, {10.0}), options).contacts.size(), 3U);
+  // The same points as two fibres: three pairs on neither, six across.
+  EXPECT_EQ(ask(FiberAssembly(points, {0, 3, 6}, {10.0}), options).contacts.size(), 4U);
+}
+
+TEST(PairCollector, KeepsTheClosestSortedByIndex) {
+  std::vector<Vector3d> points;
+  std::vector<std::uint32_t> offsets{0};
+  for (const double z : {0.0, 1.0, 1.5, 3.0}) {
+    points.emplace_back(0, 0, z);
+    points.emplace_back(1, 0, z);
+    offsets.push_back(static_cast<std::uint32_t>(points.size()));
+  }
+  const FiberAssembly fibers(points, offsets, {0.0});
+  QueryOptions options;
+  options.type = QueryType::LIMITED;
+  options.max_contacts = 2;
+  options.margin = 10.0;
+  const QueryResult two = ask(fibers, options);
+  ASSERT_EQ(two.contacts.size(), 2U);
+  EXPECT_TRUE(two.limit_reached);
+  EXPECT_EQ(two.contacts[0].fiber_a, 0U);  // 0–1 at 1.0
+  EXPECT_EQ(two.contacts[1].fiber_a, 1U);  // 1–2 at 0.5
+  EXPECT_EQ(two.closest()->fiber_a, 1U);
+  options.type = QueryType::CLOSEST;
+  const QueryResult one = ask(fibers, options);
+  ASSERT_EQ(one.contacts.size(), 1U);
+  EXPECT_EQ(one.contacts[0].distance, 0.5);
+  EXPECT_FALSE(one.limit_reached);
+  options.margin = 0.4;
+  EXPECT_TRUE(ask(fibers, options).contacts.empty());
+}
+
+TEST(QueryOptions, AreValidated) {
+  const auto error_of = [](const QueryOptions& options) -> std::string {
+    try {
+      validate(options);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  QueryOptions options;
+  EXPECT_EQ(error_of(options), "");
+  options.margin = -1.0;
+  EXPECT_EQ(error_of(options),
+            "margin is -1.000000, it must be at least 0 m (infinity for no limit)");
+  options.margin = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(error_of(options).find("margin is nan"), std::string::npos);
+  options.margin = 0.0;
+  options.neighbour_skip_length = -2.0;
+  EXPECT_NE(error_of(options).find("neighbour_skip_length is -2"), std::string::npos);
+  options.neighbour_skip_length = 0.0;
+  options.max_contacts = 0;
+  EXPECT_EQ(error_of(options), "");
+  options.type = QueryType::LIMITED;
+  EXPECT_NE(error_of(options).find("max_contacts is 0"), std::string::npos);
+}
+
+TEST(QueryType, HasANameForEach) {
+  EXPECT_EQ(query_type_from_name("first"), QueryType::FIRST);
+  EXPECT_EQ(query_type_from_name("closest"), QueryType::CLOSEST);
+  EXPECT_EQ(query_type_from_name("limited"), QueryType::LIMITED);
+  EXPECT_EQ(query_type_from_name("all"), QueryType::ALL);
+  EXPECT_THROW(query_type_from_name("any"), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace fiber::test
