@@ -1,9 +1,21 @@
 # Messages, services and dynamic parameters; declares the catkin package.
 
+include(cmake/python.cmake)
+
 set(ros_dependencies
-  diagnostic_updater dynamic_reconfigure geometry_msgs nav_msgs nodelet roscpp sensor_msgs std_msgs
-  tf2 tf2_ros visualization_msgs)
-find_package(catkin REQUIRED COMPONENTS ${ros_dependencies} message_generation)
+  diagnostic_updater
+  dynamic_reconfigure
+  geometry_msgs
+  nav_msgs
+  nodelet
+  roscpp
+  sensor_msgs
+  std_msgs
+  tf2
+  tf2_ros
+  visualization_msgs
+)
+find_package(catkin REQUIRED COMPONENTS message_generation ${ros_dependencies})
 
 add_message_files(FILES
   Contact.msg
@@ -19,6 +31,6 @@ generate_messages(DEPENDENCIES geometry_msgs std_msgs)
 catkin_package(
   INCLUDE_DIRS include
   LIBRARIES fiber_proximity
-  CATKIN_DEPENDS message_runtime geometry_msgs std_msgs
+  CATKIN_DEPENDS message_runtime ${ros_dependencies}
   DEPENDS EIGEN3
 )

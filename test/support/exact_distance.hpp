@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <boost/multiprecision/gmp.hpp>
 
@@ -20,6 +21,8 @@ inline ExactVector add_scaled(const ExactVector& a, const Rational& factor, cons
 inline Rational dot(const ExactVector& a, const ExactVector& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
+
+inline bool is_interior(const Rational& parameter) { return parameter > 0 && parameter < 1; }
 
 /// Exact squared distance of a point from a segment.
 inline Rational squared_distance(const ExactVector& point, const ExactVector& start,
@@ -56,7 +59,7 @@ inline Rational exact_squared_distance(const Eigen::Vector3d& p0, const Eigen::V
   if (determinant > 0) {
     const Rational s = (b * dot(v, w) - c * dot(u, w)) / determinant;
     const Rational t = (a * dot(v, w) - b * dot(u, w)) / determinant;
-    if (s > 0 && s < 1 && t > 0 && t < 1) {
+    if (is_interior(s) && is_interior(t)) {
       const ExactVector delta = add_scaled(add_scaled(w, s, u), -t, v);
       best = dot(delta, delta);
     }

@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# Formatting, clang-tidy and catkin_lint over the whole tree; clang-tidy reads the compile commands
+# of build/, which scripts/test.sh makes.
+set -euo pipefail
+# shellcheck source=scripts/environment.sh
+source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
+
+"$root/scripts/setup.sh" --lint
+cd "$root"
+mapfile -t sources < <(git ls-files '*.cpp' '*.hpp')
+mapfile -t units < <(git ls-files 'src/*.cpp' 'benchmark/*.cpp' 'test/*.cpp')
+
+echo "clang-format: ${#sources[@]} files"
+clang-format --dry-run --Werror "${sources[@]}"
+echo "catkin_lint"
+ROS_PACKAGE_PATH=$root:/usr/share catkin_lint --quiet --strict "$root" 2>&1 |
+  { grep -v "rosdep database\|unknown dependencies" || true; }
+echo "clang-tidy: ${#units[@]} files"
+printf '%s\n' "${units[@]}" |
+  xargs -P "$(nproc)" -n 1 sh -c 'clang-tidy -p "$0" --quiet "$1" 2>/dev/null || { echo "clang-tidy: $1" >&2; exit 255; }' "$build"

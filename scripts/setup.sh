@@ -1,0 +1,86 @@
+#!/usr/bin/env bash
+# Installs what building, testing and the demo need, and is quick when nothing is missing.
+#   scripts/setup.sh [--lint]     --lint: also what scripts/lint.sh needs
+# Debian 12: ROS 1 from Debian's own packages, with apt, as root or through sudo.
+# Ubuntu with ROS Noetic: through rosdep.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+usage="usage: scripts/setup.sh [--lint]"
+lint=false
+for argument in "$@"; do
+  case "$argument" in
+    --lint) lint=true ;;
+    -h | --help) echo "$usage"; exit 0 ;;
+    *) echo "setup.sh: unknown option '$argument'; $usage" >&2; exit 2 ;;
+  esac
+done
+
+# Message definitions (ros-*) and Python modules come beside the headers: Debian only recommends them.
+packages=(
+  build-essential cmake catkin ros-message-generation libroscpp-dev rosbash
+  libnodelet-dev libnodeletlib-dev libnodeletlib-tools pluginlib-dev
+  libtf2-ros-dev libtf2-geometry-msgs-dev tf2-tools
+  libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure libdiagnostic-updater-dev
+  libnav-msgs-dev libsensor-msgs-dev libvisualization-msgs-dev
+  ros-{std,geometry,sensor,nav,visualization,diagnostic,tf2}-msgs
+  python3-{std,geometry,sensor,nav,visualization,diagnostic,tf2}-msgs
+  librostest-dev python3-rostest python3-roslaunch python3-rostopic python3-rosservice
+  python3-rosnode python3-rosparam python3-rosmsg python3-rosbag
+  rviz xvfb imagemagick x11-utils xdotool libgl1-mesa-dri
+  libeigen3-dev libcli11-dev nlohmann-json3-dev libboost-dev libgmp-dev libgtest-dev
+)
+if $lint; then
+  packages+=(catkin-lint clang-format clang-tidy)
+fi
+
+missing_packages() {
+  # dpkg-query reports packages it never heard of on stderr and leaves them out.
+  comm -23 <(printf '%s\n' "${packages[@]}" | sort -u) \
+    <(dpkg-query -W -f '${db:Status-Status} ${Package}\n' "${packages[@]}" 2>/dev/null |
+      sed -n 's/^installed //p' | sort -u)
+}
+
+as_root() {
+  if [ "$(id -u)" -eq 0 ]; then
+    "$@"
+  elif command -v sudo >/dev/null; then
+    sudo "$@"
+  else
+    echo "setup.sh: need root or sudo to run: $*" >&2
+    exit 1
+  fi
+}
+
+install_with_apt() {
+  mapfile -t missing < <(missing_packages)
+  if [ "${#missing[@]}" -eq 0 ]; then
+    return
+  fi
+  echo "setup.sh: installing ${#missing[@]} package(s): ${missing[*]}"
+  log=$(mktemp)
+  if ! { as_root apt-get update && as_root env DEBIAN_FRONTEND=noninteractive \
+      apt-get install -y --no-install-recommends "${missing[@]}"; } >"$log" 2>&1; then
+    cat "$log" >&2
+    echo "setup.sh: apt-get failed" >&2
+    exit 1
+  fi
+  rm -f "$log"
+}
+
+install_with_rosdep() {
+  # shellcheck disable=SC1091
+  source /opt/ros/noetic/setup.bash
+  rosdep check --from-paths . --ignore-src >/dev/null 2>&1 && return
+  rosdep update
+  rosdep install --from-paths . --ignore-src -y
+}
+
+if [ -f /opt/ros/noetic/setup.bash ]; then
+  install_with_rosdep
+elif command -v dpkg-query >/dev/null && command -v apt-get >/dev/null; then
+  install_with_apt
+else
+  echo "setup.sh: neither /opt/ros/noetic nor apt-get here; supported are Debian 12 and Ubuntu with ROS Noetic" >&2
+  exit 1
+fi
