@@ -1,5 +1,6 @@
 #include "fiber_proximity/geometry/segment_distance.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 

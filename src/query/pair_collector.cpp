@@ -1,5 +1,6 @@
 #include "fiber_proximity/query/pair_collector.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <utility>
 
