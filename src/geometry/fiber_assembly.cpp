@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -45,29 +44,19 @@ void check_offsets(const std::vector<std::uint32_t>& offsets, std::size_t point_
   }
 }
 
-bool is_valid_coordinate(double value) {
-  return std::abs(value) <= FiberAssembly::max_coordinate;  // false for NaN
-}
-
 void check_points(const std::vector<Eigen::Vector3d>& points,
                   const std::vector<std::uint32_t>& offsets) {
   for (std::size_t fiber = 0; fiber + 1 < offsets.size(); ++fiber) {
     for (std::size_t point = offsets[fiber]; point < offsets[fiber + 1]; ++point) {
       for (int axis = 0; axis < 3; ++axis) {
-        if (!is_valid_coordinate(points[point][axis])) {
+        if (!FiberAssembly::is_valid_coordinate(points[point][axis])) {
           refuse("fibre ", fiber, ", point ", point - offsets[fiber], ": ", "xyz"[axis], " is ",
-                 points[point][axis], ", coordinates must be finite and within ±1e150 m");
+                 points[point][axis], ", ", FiberAssembly::coordinate_rule);
         }
       }
     }
   }
 }
-
-bool is_valid_radius(double radius) {
-  return radius >= 0.0 && radius <= FiberAssembly::max_coordinate;
-}
-
-constexpr const char* radius_rule = ", radii must be finite, at least 0 and at most 1e150 m";
 
 void check_radii(const std::vector<double>& radii, const std::vector<std::uint32_t>& offsets,
                  std::size_t point_count) {
@@ -78,18 +67,18 @@ void check_radii(const std::vector<double>& radii, const std::vector<std::uint32
            " points in all; give 1, one per fibre, or one per point");
   }
   for (std::size_t i = 0; i < radii.size(); ++i) {
-    if (is_valid_radius(radii[i])) {
+    if (FiberAssembly::is_valid_radius(radii[i])) {
       continue;
     }
     if (radii.size() == 1) {
-      refuse("the radius is ", radii[i], radius_rule);
+      refuse("the radius is ", radii[i], ", ", FiberAssembly::radius_rule);
     }
     if (per_fiber) {
-      refuse("fibre ", i, ": the radius is ", radii[i], radius_rule);
+      refuse("fibre ", i, ": the radius is ", radii[i], ", ", FiberAssembly::radius_rule);
     }
     const auto fiber = std::upper_bound(offsets.begin(), offsets.end(), i) - offsets.begin() - 1;
     refuse("fibre ", fiber, ", point ", i - offsets[static_cast<std::size_t>(fiber)],
-           ": the radius is ", radii[i], radius_rule);
+           ": the radius is ", radii[i], ", ", FiberAssembly::radius_rule);
   }
 }
 

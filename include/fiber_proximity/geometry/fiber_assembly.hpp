@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -28,6 +29,14 @@ class FiberAssembly {
  public:
   /// Largest magnitude of a coordinate or radius [m]; squares of differences stay finite below it.
   static constexpr double max_coordinate = 1e150;
+
+  /// What the values must be, and how an error message says so.
+  static bool is_valid_coordinate(double value) {
+    return std::abs(value) <= max_coordinate;  // false for NaN
+  }
+  static bool is_valid_radius(double value) { return value >= 0.0 && value <= max_coordinate; }
+  static constexpr const char* coordinate_rule = "coordinates must be finite and within ±1e150 m";
+  static constexpr const char* radius_rule = "radii must be finite, at least 0 and at most 1e150 m";
 
   FiberAssembly() = default;
 

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/io/file_error.hpp"
+
+namespace fiber {
+
+/// The fibres at one moment of a recording.
+struct FiberFrame {
+  std::int64_t frame = 0;  ///< the frame's number in the file
+  FiberAssembly fibers;
+};
+
+/// What a fibre file holds: one frame without a number, or any number of numbered ones.
+struct FiberFile {
+  bool has_frames = false;
+  std::vector<FiberFrame> frames;  ///< in the file's order; exactly one without numbers
+};
+
+/// Reads a fibre file: a header `fiber,x,y,z` with an optional leading `frame` and an optional
+/// trailing `radius`, then a row per point [m]. Rows of a frame, and within it rows of a fibre,
+/// stand one after another. A fibre's label is any text; its index is its place in the order of
+/// appearance. Spaces around values, blank lines and CRLF line ends are allowed.
+/// @param default_radius [m] of all fibres if the file has no radius column
+/// @throws FileError
+/// @throws std::invalid_argument for a bad default_radius
+FiberFile read_csv(const std::string& path, double default_radius = 0.0);
+
+/// The same from a stream; errors call it by `name`.
+FiberFile read_csv(std::istream& stream, const std::string& name, double default_radius = 0.0);
+
+/// Writes a fibre file that reads back as the same numbers. Fibres are labelled by their index; the
+/// radius column is that of the points if there is one per point, else that of their fibre.
+/// @throws FileError
+/// @throws std::invalid_argument if a file cannot hold this: not exactly one frame without numbers,
+///         or a numbered frame that has no fibres or the number of an earlier one
+void write_csv(const std::string& path, const FiberFile& file);
+
+/// The same to a stream, which is not checked for errors.
+void write_csv(std::ostream& stream, const FiberFile& file);
+
+}  // namespace fiber

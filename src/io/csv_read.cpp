@@ -1,0 +1,257 @@
+#include <cerrno>
+#include <fstream>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+#include <unordered_set>
+#include <utility>
+
+#include "fiber_proximity/io/csv.hpp"
+#include "fiber_proximity/io/number.hpp"
+
+namespace fiber {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view space = " \t\r";
+  const std::size_t begin = text.find_first_not_of(space);
+  if (begin == std::string_view::npos) {
+    return {};
+  }
+  return text.substr(begin, text.find_last_not_of(space) - begin + 1);
+}
+
+void split(std::string_view line, std::vector<std::string_view>& fields) {
+  fields.clear();
+  std::size_t comma = line.find(',');
+  while (comma != std::string_view::npos) {
+    fields.push_back(trimmed(line.substr(0, comma)));
+    line.remove_prefix(comma + 1);
+    comma = line.find(',');
+  }
+  fields.push_back(trimmed(line));
+}
+
+std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
+
+/// One radius where it serves all: the cheap form of an assembly.
+std::vector<double> shared_if_equal(std::vector<double> radii) {
+  for (const double radius : radii) {
+    if (radius != radii.front()) {
+      return radii;
+    }
+  }
+  radii.resize(1);
+  return radii;
+}
+
+/// Takes a file line by line and puts its frames together.
+class CsvReader {
+ public:
+  CsvReader(std::string name, double default_radius)
+      : name_(std::move(name)), default_radius_(default_radius) {
+    if (!FiberAssembly::is_valid_radius(default_radius)) {
+      std::string value;
+      append_number(value, default_radius);
+      throw std::invalid_argument("the default radius is " + value + ", " +
+                                  FiberAssembly::radius_rule);
+    }
+  }
+
+  void read_line(std::string_view line) {
+    ++line_;
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // spreadsheets write one
+    if (line_ == 1 && line.substr(0, byte_order_mark.size()) == byte_order_mark) {
+      line.remove_prefix(byte_order_mark.size());
+    }
+    if (trimmed(line).empty()) {
+      return;
+    }
+    split(line, fields_);
+    if (columns_ == 0) {
+      read_header();
+    } else {
+      read_row();
+    }
+  }
+
+  FiberFile finish() {
+    if (columns_ == 0) {
+      throw FileError(name_, "is empty, expected the header " + std::string(header_rule));
+    }
+    if (!file_.has_frames || in_frame_) {
+      close_frame();
+    }
+    return std::move(file_);
+  }
+
+ private:
+  static constexpr const char* header_rule = "[frame,]fiber,x,y,z[,radius]";
+
+  [[noreturn]] void refuse(const std::string& reason) const {
+    throw FileError(name_, line_, reason);
+  }
+
+  void read_header() {
+    columns_ = fields_.size();
+    std::vector<std::string_view> expected{"fiber", "x", "y", "z"};
+    file_.has_frames = fields_.front() == "frame";
+    if (file_.has_frames) {
+      expected.insert(expected.begin(), "frame");
+    }
+    has_radius_ = fields_.back() == "radius";
+    if (has_radius_) {
+      expected.emplace_back("radius");
+    }
+    if (fields_ != expected) {
+      std::string header;
+      for (const std::string_view field : fields_) {
+        header += (header.empty() ? "" : ",") + std::string(field);
+      }
+      refuse("the header is " + quoted(header) + ", expected " + header_rule);
+    }
+  }
+
+  void read_row() {
+    if (fields_.size() != columns_) {
+      refuse("has " + std::to_string(fields_.size()) + " values, expected " +
+             std::to_string(columns_) + " as in the header");
+    }
+    std::size_t column = 0;
+    if (file_.has_frames) {
+      enter_frame(read_frame(fields_[column++]));
+    }
+    enter_fiber(fields_[column++]);
+    Eigen::Vector3d point;
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::string_view text = fields_[column++];
+      const char name[] = {"xyz"[axis], '\0'};
+      point[axis] = read_double(name, text);
+      if (!FiberAssembly::is_valid_coordinate(point[axis])) {
+        refuse(name + (" is " + quoted(text)) + ", " + FiberAssembly::coordinate_rule);
+      }
+    }
+    points_.push_back(point);
+    if (has_radius_) {
+      radii_.push_back(read_double("radius", fields_[column]));
+      if (!FiberAssembly::is_valid_radius(radii_.back())) {
+        refuse("radius is " + quoted(fields_[column]) + ", " + FiberAssembly::radius_rule);
+      }
+    }
+  }
+
+  std::int64_t read_frame(std::string_view text) const {
+    const auto frame = parse_number<std::int64_t>(text);
+    if (!frame) {
+      refuse("frame is " + quoted(text) + ", expected a whole number");
+    }
+    return *frame;
+  }
+
+  double read_double(const char* name, std::string_view text) const {
+    const auto value = parse_number<double>(text);
+    if (!value) {
+      refuse(name + (" is " + quoted(text)) + ", expected a number");
+    }
+    return *value;
+  }
+
+  void enter_frame(std::int64_t frame) {
+    if (in_frame_ && frame == frame_) {
+      return;
+    }
+    if (in_frame_) {
+      close_frame();
+    }
+    if (!frames_seen_.insert(frame).second) {
+      refuse("frame " + std::to_string(frame) +
+             " appears again; the rows of a frame must stand one after another");
+    }
+    frame_ = frame;
+    in_frame_ = true;
+  }
+
+  void enter_fiber(std::string_view label) {
+    if (!offsets_.empty() && label == label_) {
+      return;
+    }
+    close_fiber();
+    if (label.empty()) {
+      refuse("fiber is empty, expected a label");
+    }
+    if (!labels_seen_.insert(std::string(label)).second) {
+      refuse("fibre " + quoted(label) +
+             " appears again; the rows of a fibre must stand one after another");
+    }
+    label_ = label;
+    fiber_line_ = line_;
+    offsets_.push_back(static_cast<std::uint32_t>(points_.size()));
+  }
+
+  void close_fiber() const {
+    if (!offsets_.empty() && points_.size() - offsets_.back() < 2) {
+      throw FileError(name_, fiber_line_,
+                      "fibre " + quoted(label_) + " has only this point, a fibre needs at least 2");
+    }
+  }
+
+  void close_frame() {
+    close_fiber();
+    offsets_.push_back(static_cast<std::uint32_t>(points_.size()));
+    if (radii_.empty()) {
+      radii_.push_back(default_radius_);
+    }
+    file_.frames.push_back(
+        {frame_, FiberAssembly(std::exchange(points_, {}), std::exchange(offsets_, {}),
+                               shared_if_equal(std::exchange(radii_, {})))});
+    labels_seen_.clear();
+  }
+
+  const std::string name_;
+  const double default_radius_;  // [m]
+  FiberFile file_;
+  std::size_t columns_ = 0;  // 0 before the header
+  bool has_radius_ = false;
+
+  std::size_t line_ = 0;
+  std::vector<std::string_view> fields_;
+
+  bool in_frame_ = false;
+  std::int64_t frame_ = 0;
+  std::set<std::int64_t> frames_seen_;
+
+  std::string label_;
+  std::size_t fiber_line_ = 0;
+  std::unordered_set<std::string> labels_seen_;
+
+  // Of the frame being read; offsets are those of the fibres begun.
+  std::vector<Eigen::Vector3d> points_;
+  std::vector<std::uint32_t> offsets_;
+  std::vector<double> radii_;
+};
+
+}  // namespace
+
+FiberFile read_csv(const std::string& path, double default_radius) {
+  errno = 0;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) {
+    throw FileError::from_system(path, "cannot be opened");
+  }
+  return read_csv(stream, path, default_radius);
+}
+
+FiberFile read_csv(std::istream& stream, const std::string& name, double default_radius) {
+  CsvReader reader(name, default_radius);
+  std::string line;
+  errno = 0;
+  while (std::getline(stream, line)) {
+    reader.read_line(line);
+  }
+  if (stream.bad()) {
+    throw FileError::from_system(name, "cannot be read");
+  }
+  return reader.finish();
+}
+
+}  // namespace fiber

@@ -1,0 +1,41 @@
+#include "fiber_proximity/scenes/scene.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+#include "fiber_proximity/scenes/soup.hpp"
+
+namespace fiber {
+namespace {
+
+using SceneFunction = FiberAssembly (*)(const SceneOptions& options, std::uint32_t frame);
+
+const std::vector<std::pair<std::string, SceneFunction>>& scenes() {
+  static const std::vector<std::pair<std::string, SceneFunction>> all{
+      {"soup", soup},
+  };
+  return all;
+}
+
+}  // namespace
+
+Scene make_scene(const std::string& name, const SceneOptions& options) {
+  std::string known;
+  for (const auto& [scene_name, scene] : scenes()) {
+    if (name == scene_name) {
+      return [options, function = scene](std::uint32_t frame) { return function(options, frame); };
+    }
+    known += (known.empty() ? "" : ", ") + scene_name;
+  }
+  throw std::invalid_argument("unknown scene '" + name + "', known are: " + known);
+}
+
+std::vector<std::string> scene_names() {
+  std::vector<std::string> names;
+  for (const auto& entry : scenes()) {
+    names.push_back(entry.first);
+  }
+  return names;
+}
+
+}  // namespace fiber

@@ -1,0 +1,203 @@
+#include "fiber_proximity/io/csv.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace fiber {
+namespace {
+
+FiberFile parse(const std::string& text, double default_radius = 0.0) {
+  std::istringstream stream(text);
+  return read_csv(stream, "a.csv", default_radius);
+}
+
+std::string refusal(const std::string& text) {
+  try {
+    parse(text);
+  } catch (const FileError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+using Offsets = std::vector<std::uint32_t>;
+using Radii = std::vector<double>;
+
+TEST(ReadCsv, NumbersFibersInOrderOfAppearance) {
+  const FiberFile file = parse(
+      "fiber,x,y,z\n"
+      "rope,0,0,0\nrope,1,-0.5,1e-3\nrope,+2,0,0\n"
+      "7,5,5,5\n7,6,6,6\n",
+      0.25);
+  EXPECT_FALSE(file.has_frames);
+  ASSERT_EQ(file.frames.size(), 1U);
+  const FiberAssembly& fibers = file.frames[0].fibers;
+  EXPECT_EQ(fibers.offsets(), (Offsets{0, 3, 5}));
+  EXPECT_EQ(fibers.points()[1], Eigen::Vector3d(1.0, -0.5, 1e-3));
+  EXPECT_EQ(fibers.points()[2], Eigen::Vector3d(2.0, 0.0, 0.0));
+  EXPECT_EQ(fibers.radii(), Radii{0.25});
+}
+
+TEST(ReadCsv, RadiusColumnWinsOverTheDefault) {
+  EXPECT_EQ(parse("fiber,x,y,z,radius\n0,0,0,0,0.5\n0,1,0,0,0.5\n", 0.25).frames[0].fibers.radii(),
+            Radii{0.5});
+  EXPECT_EQ(parse("fiber,x,y,z,radius\n0,0,0,0,0.5\n0,1,0,0,0.75\n").frames[0].fibers.radii(),
+            (Radii{0.5, 0.75}));
+}
+
+TEST(ReadCsv, KeepsFramesInTheFilesOrder) {
+  const FiberFile file = parse(
+      "frame,fiber,x,y,z\n"
+      "12,0,0,0,0\n12,0,1,0,0\n"
+      "-3,0,0,1,0\n-3,0,1,1,0\n-3,1,0,2,0\n-3,1,1,2,0\n");
+  EXPECT_TRUE(file.has_frames);
+  ASSERT_EQ(file.frames.size(), 2U);
+  EXPECT_EQ(file.frames[0].frame, 12);
+  EXPECT_EQ(file.frames[0].fibers.fiber_count(), 1U);
+  EXPECT_EQ(file.frames[1].frame, -3);
+  EXPECT_EQ(file.frames[1].fibers.offsets(), (Offsets{0, 2, 4}));
+}
+
+TEST(ReadCsv, ToleratesWhatEditorsAndSpreadsheetsAdd) {
+  const FiberFile file =
+      parse("\xEF\xBB\xBF fiber , x,y ,z\r\n a , 0, 0 ,0\r\na,1,\t0,0\r\n\r\n  \n\n");
+  EXPECT_EQ(file.frames[0].fibers.points()[1], Eigen::Vector3d(1.0, 0.0, 0.0));
+  EXPECT_EQ(parse("fiber,x,y,z\n0,0,0,0\n0,1,0,0").frames[0].fibers.point_count(), 2U)
+      << "a last line without an end";
+}
+
+TEST(ReadCsv, AcceptsAFileOfNoFibers) {
+  EXPECT_EQ(parse("fiber,x,y,z\n").frames.at(0).fibers.fiber_count(), 0U);
+  EXPECT_TRUE(parse("frame,fiber,x,y,z\n").frames.empty());
+}
+
+TEST(ReadCsv, RefusesABadHeader) {
+  EXPECT_EQ(refusal(""), "a.csv: is empty, expected the header [frame,]fiber,x,y,z[,radius]");
+  EXPECT_EQ(refusal("\n0,0,0,0\n"),
+            "a.csv:2: the header is '0,0,0,0', expected [frame,]fiber,x,y,z[,radius]");
+  EXPECT_EQ(refusal("fiber,frame,x,y,z\n"),
+            "a.csv:1: the header is 'fiber,frame,x,y,z', expected [frame,]fiber,x,y,z[,radius]");
+  EXPECT_EQ(refusal("frame\n"),
+            "a.csv:1: the header is 'frame', expected [frame,]fiber,x,y,z[,radius]");
+}
+
+TEST(ReadCsv, RefusesBadValuesNamingLineAndReason) {
+  const std::string head = "fiber,x,y,z,radius\n0,0,0,0,0\n";
+  EXPECT_EQ(refusal(head + "0,abc,0,0,0\n"), "a.csv:3: x is 'abc', expected a number");
+  EXPECT_EQ(refusal(head + "0,0,1.5m,0,0\n"), "a.csv:3: y is '1.5m', expected a number");
+  EXPECT_EQ(refusal(head + "0,0,0,,0\n"), "a.csv:3: z is '', expected a number");
+  EXPECT_EQ(refusal(head + "0,+-1,0,0,0\n"), "a.csv:3: x is '+-1', expected a number");
+  EXPECT_EQ(refusal(head + "0,0,0,1e999,0\n"), "a.csv:3: z is '1e999', expected a number");
+  EXPECT_EQ(refusal(head + "0,0,0,0\n"), "a.csv:3: has 4 values, expected 5 as in the header");
+  EXPECT_EQ(refusal(head + "0,0,0,0,0,\n"), "a.csv:3: has 6 values, expected 5 as in the header");
+  EXPECT_EQ(refusal(head + ",0,0,0,0\n0,1,0,0,0\n"),
+            "a.csv:2: fibre '0' has only this point, a fibre needs at least 2");
+  EXPECT_EQ(refusal(head + "0,0,0,0,0\n,0,0,0,0\n"), "a.csv:4: fiber is empty, expected a label");
+  for (const std::string value : {"nan", "-inf", "1e200"}) {
+    EXPECT_EQ(refusal(head + "0,0,0," + value + ",0\n"),
+              "a.csv:3: z is '" + value + "', coordinates must be finite and within ±1e150 m");
+  }
+  for (const std::string value : {"nan", "inf", "-0.001"}) {
+    EXPECT_EQ(
+        refusal(head + "0,0,0,0," + value + "\n"),
+        "a.csv:3: radius is '" + value + "', radii must be finite, at least 0 and at most 1e150 m");
+  }
+  EXPECT_EQ(refusal("frame,fiber,x,y,z\n1.5,0,0,0,0\n"),
+            "a.csv:2: frame is '1.5', expected a whole number");
+}
+
+TEST(ReadCsv, RefusesRowsThatDoNotStandTogether) {
+  EXPECT_EQ(refusal("fiber,x,y,z\na,0,0,0\na,1,0,0\nb,0,0,0\nb,1,0,0\na,2,0,0\n"),
+            "a.csv:6: fibre 'a' appears again; the rows of a fibre must stand one after another");
+  EXPECT_EQ(refusal("frame,fiber,x,y,z\n0,a,0,0,0\n0,a,1,0,0\n1,a,0,0,0\n1,a,1,0,0\n0,b,0,0,0\n"),
+            "a.csv:6: frame 0 appears again; the rows of a frame must stand one after another");
+}
+
+TEST(ReadCsv, RefusesAFiberOfOnePoint) {
+  EXPECT_EQ(refusal("fiber,x,y,z\na,0,0,0\nb,0,0,0\nb,1,0,0\n"),
+            "a.csv:2: fibre 'a' has only this point, a fibre needs at least 2");
+  EXPECT_EQ(refusal("frame,fiber,x,y,z\n0,a,0,0,0\n0,a,1,0,0\n1,a,0,0,0\n2,a,0,0,0\n2,a,1,0,0\n"),
+            "a.csv:4: fibre 'a' has only this point, a fibre needs at least 2");
+  EXPECT_EQ(refusal("fiber,x,y,z\na,0,0,0\n"),
+            "a.csv:2: fibre 'a' has only this point, a fibre needs at least 2");
+}
+
+TEST(ReadCsv, RefusesABadDefaultRadius) {
+  EXPECT_THROW(parse("fiber,x,y,z\n", -1.0), std::invalid_argument);
+  EXPECT_THROW(parse("fiber,x,y,z\n", std::numeric_limits<double>::quiet_NaN()),
+               std::invalid_argument);
+}
+
+TEST(ReadCsv, NamesAFileThatCannotBeRead) {
+  try {
+    read_csv("/no/such/place/a.csv");
+    FAIL() << "accepted";
+  } catch (const FileError& error) {
+    EXPECT_STREQ(error.what(), "/no/such/place/a.csv: cannot be opened: No such file or directory");
+  }
+  try {
+    read_csv("/");
+    FAIL() << "accepted";
+  } catch (const FileError& error) {
+    EXPECT_STREQ(error.what(), "/: cannot be read: Is a directory");
+  }
+}
+
+FiberAssembly awkward_numbers(Radii radii) {
+  return {{{0.1, 1.0 / 3.0, -0.0},
+           {5e-324, 1.7976931348623157e-308, 1e149},
+           {std::nextafter(1.0, 2.0), 123456789.123456789, -1e-17},
+           {0.0, 1e22, 9007199254740993.0}},
+          {0, 2, 4},
+          std::move(radii)};
+}
+
+TEST(WriteCsv, ReadsBackAsTheSameNumbers) {
+  const std::vector<Radii> all_radii{{0.1}, {1e-9, 0.7}, {0.0, 0.1, 0.2, 1.0 / 3.0}};
+  for (const Radii& radii : all_radii) {
+    const FiberAssembly fibers = awkward_numbers(radii);
+    std::ostringstream text;
+    write_csv(text, {true, {{4, fibers}, {2, fibers}}});
+    const FiberFile file = parse(text.str());
+    ASSERT_TRUE(file.has_frames);
+    ASSERT_EQ(file.frames.size(), 2U);
+    EXPECT_EQ(file.frames[1].frame, 2);
+    for (const FiberFrame& frame : file.frames) {
+      EXPECT_EQ(frame.fibers.points(), fibers.points());
+      EXPECT_EQ(frame.fibers.offsets(), fibers.offsets());
+      for (const std::uint32_t point : {0U, 2U}) {
+        EXPECT_EQ(frame.fibers.segment_radius(point), fibers.segment_radius(point));
+      }
+    }
+  }
+}
+
+TEST(WriteCsv, WritesShortestDecimals) {
+  std::ostringstream text;
+  write_csv(text, {false, {{0, FiberAssembly({{0.1, 0, -2.5}, {1e-7, 3, 1e30}}, {0, 2}, {0.2})}}});
+  EXPECT_EQ(text.str(), "fiber,x,y,z,radius\n0,0.1,0,-2.5,0.2\n0,1e-07,3,1e+30,0.2\n");
+}
+
+TEST(WriteCsv, RefusesWhatAFileCannotHold) {
+  std::ostringstream text;
+  const FiberAssembly fibers = awkward_numbers({0.0});
+  EXPECT_THROW(write_csv(text, {false, {}}), std::invalid_argument);
+  EXPECT_THROW(write_csv(text, {false, {{0, fibers}, {1, fibers}}}), std::invalid_argument);
+  EXPECT_THROW(write_csv(text, {true, {{0, FiberAssembly()}}}), std::invalid_argument);
+  EXPECT_THROW(write_csv(text, {true, {{0, fibers}, {0, fibers}}}), std::invalid_argument);
+  EXPECT_TRUE(text.str().empty());
+}
+
+TEST(WriteCsv, NamesAFileThatCannotBeWritten) {
+  const FiberFile file{false, {{0, awkward_numbers({0.0})}}};
+  EXPECT_THROW(write_csv("/no/such/place/a.csv", file), FileError);
+  EXPECT_THROW(write_csv("/dev/full", file), FileError);
+}
+
+}  // namespace
+}  // namespace fiber
