@@ -1,33 +1,47 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
-#include "fiber_proximity/hierarchy/hierarchy.hpp"
+#include "fiber_proximity/hierarchy/layered_hierarchy.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/query/traverse.hpp"
 
 namespace fiber {
 
 /// One of the paper's hierarchies as an engine.
-template <class Volume>
+/// @tparam Kind a hierarchy with build(fibers, origin) and update(fibers, origin)
+template <class Kind>
 class HierarchyEngine final : public ProximityEngine {
  public:
+  using Volume = typename Kind::Volume;
+
+  explicit HierarchyEngine(Kind hierarchy) : hierarchy_(std::move(hierarchy)) {}
+
   std::uint32_t level_count() const override { return hierarchy_.tree().level_count(); }
 
   void level_boxes(std::uint32_t level, std::vector<NodeBox>& boxes) const override {
     boxes.clear();
-    if (hierarchy_.tree().empty()) {
-      return;
-    }
-    const std::uint32_t shown = std::min(level, level_count() - 1);
-    for (std::uint32_t node = hierarchy_.tree().level_begin(shown);
-         node < hierarchy_.tree().level_end(shown); ++node) {
-      const Aabb box = bounding_box(hierarchy_.volume(node));
+    for_each_node(level, [&](const Volume& volume) {
+      const Aabb box = bounding_box(volume, hierarchy_.parameters());
       boxes.push_back({hierarchy_.origin() + Eigen::Vector3f(box.lower.data()).cast<double>(),
                        hierarchy_.origin() + Eigen::Vector3f(box.upper.data()).cast<double>()});
-    }
+    });
   }
+
+  double mean_level_volume(std::uint32_t level) const override {
+    double sum = 0.0;
+    std::size_t count = 0;
+    for_each_node(level, [&](const Volume& node_volume) {
+      sum += volume(node_volume, hierarchy_.parameters());
+      ++count;
+    });
+    return count == 0 ? 0.0 : sum / static_cast<double>(count);
+  }
+
+  std::size_t memory_bytes() const override { return hierarchy_.memory_bytes(); }
 
  protected:
   void do_update(const FiberAssembly& fibers, bool same_topology) override {
@@ -45,21 +59,34 @@ class HierarchyEngine final : public ProximityEngine {
   void do_query(const FiberAssembly& fibers, const QueryOptions& options,
                 QueryResult& result) const override {
     PairCollector collector(fibers, options, result);
-    traverse(hierarchy_, hierarchy_, collector, result.counts);
+    traverse<Volume>(hierarchy_, hierarchy_, options, collector, result.counts);
     collector.finish();
   }
 
   void do_query_shape(const FiberAssembly& shape, const FiberAssembly& fibers,
                       const QueryOptions& options, QueryResult& result) const override {
-    Hierarchy<Volume> shape_hierarchy;
+    LayeredHierarchy<Volume> shape_hierarchy(hierarchy_.parameters());
     shape_hierarchy.build(shape, hierarchy_.origin());
     PairCollector collector(shape, fibers, options, result);
-    traverse(shape_hierarchy, hierarchy_, collector, result.counts);
+    traverse<Volume>(shape_hierarchy, hierarchy_, options, collector, result.counts);
     collector.finish();
   }
 
  private:
-  Hierarchy<Volume> hierarchy_;
+  /// Calls visit(volume) for all nodes of a level; levels beyond the last give the last.
+  template <class Visit>
+  void for_each_node(std::uint32_t level, const Visit& visit) const {
+    const BinaryTree& tree = hierarchy_.tree();
+    if (tree.empty()) {
+      return;
+    }
+    const std::uint32_t shown = std::min(level, tree.level_count() - 1);
+    for (std::uint32_t node = tree.level_begin(shown); node < tree.level_end(shown); ++node) {
+      visit(hierarchy_.volume(node));
+    }
+  }
+
+  Kind hierarchy_;
 };
 
 }  // namespace fiber
