@@ -3,10 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include "support/temporary_directory.hpp"
 
 namespace fiber {
 namespace {
@@ -157,13 +161,19 @@ FiberAssembly awkward_numbers(Radii radii) {
           std::move(radii)};
 }
 
+std::string content(const std::string& path) {
+  std::ifstream stream(path);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
 TEST(WriteCsv, ReadsBackAsTheSameNumbers) {
+  const test::TemporaryDirectory directory;
+  const std::string path = directory.path("a.csv");
   const std::vector<Radii> all_radii{{0.1}, {1e-9, 0.7}, {0.0, 0.1, 0.2, 1.0 / 3.0}};
   for (const Radii& radii : all_radii) {
     const FiberAssembly fibers = awkward_numbers(radii);
-    std::ostringstream text;
-    write_csv(text, {true, {{4, fibers}, {2, fibers}}});
-    const FiberFile file = parse(text.str());
+    write_csv(path, {true, {{4, fibers}, {2, fibers}}});
+    const FiberFile file = read_csv(path);
     ASSERT_TRUE(file.has_frames);
     ASSERT_EQ(file.frames.size(), 2U);
     EXPECT_EQ(file.frames[1].frame, 2);
@@ -178,19 +188,19 @@ TEST(WriteCsv, ReadsBackAsTheSameNumbers) {
 }
 
 TEST(WriteCsv, WritesShortestDecimals) {
-  std::ostringstream text;
-  write_csv(text, {false, {{0, FiberAssembly({{0.1, 0, -2.5}, {1e-7, 3, 1e30}}, {0, 2}, {0.2})}}});
-  EXPECT_EQ(text.str(), "fiber,x,y,z,radius\n0,0.1,0,-2.5,0.2\n0,1e-07,3,1e+30,0.2\n");
+  const test::TemporaryDirectory directory;
+  const std::string path = directory.path("a.csv");
+  write_csv(path, {false, {{0, FiberAssembly({{0.1, 0, -2.5}, {1e-7, 3, 1e30}}, {0, 2}, {0.2})}}});
+  EXPECT_EQ(content(path), "fiber,x,y,z,radius\n0,0.1,0,-2.5,0.2\n0,1e-07,3,1e+30,0.2\n");
 }
 
 TEST(WriteCsv, RefusesWhatAFileCannotHold) {
-  std::ostringstream text;
+  const test::TemporaryDirectory directory;
+  const std::string path = directory.path("a.csv");
   const FiberAssembly fibers = awkward_numbers({0.0});
-  EXPECT_THROW(write_csv(text, {false, {}}), std::invalid_argument);
-  EXPECT_THROW(write_csv(text, {false, {{0, fibers}, {1, fibers}}}), std::invalid_argument);
-  EXPECT_THROW(write_csv(text, {true, {{0, FiberAssembly()}}}), std::invalid_argument);
-  EXPECT_THROW(write_csv(text, {true, {{0, fibers}, {0, fibers}}}), std::invalid_argument);
-  EXPECT_TRUE(text.str().empty());
+  EXPECT_THROW(write_csv(path, {false, {{0, fibers}, {1, fibers}}}), std::invalid_argument);
+  EXPECT_THROW(write_csv(path, {true, {{0, FiberAssembly()}}}), std::invalid_argument);
+  EXPECT_THROW(write_csv(path, {true, {{0, fibers}, {0, fibers}}}), std::invalid_argument);
 }
 
 TEST(WriteCsv, NamesAFileThatCannotBeWritten) {

@@ -1,0 +1,47 @@
+#include <optional>
+#include <string>
+
+#include "command_line.hpp"
+#include "fiber_proximity/io/csv.hpp"
+#include "fiber_proximity/scenes/scene.hpp"
+
+namespace fiber {
+namespace {
+
+struct Request {
+  std::string name;
+  SceneOptions options;
+  std::optional<std::uint32_t> frames;
+  std::string out;
+};
+
+ExitCode run(const Request& request) {
+  const Scene scene = make_scene(request.name, request.options);
+  const FiberAssembly first = scene(0);  // a scene that cannot be made leaves no file behind
+  CsvWriter writer(request.out, request.frames.has_value());
+  writer.write({0, first});
+  for (std::uint32_t frame = 1; frame < request.frames.value_or(1); ++frame) {
+    writer.write({frame, scene(frame)});
+  }
+  writer.finish();
+  return SUCCEEDED;
+}
+
+}  // namespace
+}  // namespace fiber
+
+int main(int argc, char** argv) {
+  CLI::App app("Writes a scene as a fibre file (.csv)", "fiber_scene");
+  fiber::Request request;
+  app.add_option("NAME", request.name, "one of " + fiber::listed(fiber::scene_names()))->required();
+  app.add_option("--scale", request.options.scale, "of the number of fibres")
+      ->capture_default_str();
+  app.add_option("--frames", request.frames,
+                 "frames to write, numbered from 0; without: the first, without a number")
+      ->check(fiber::whole_number(1));
+  app.add_option("--seed", request.options.seed, "of all that is random")
+      ->check(fiber::whole_number(0))
+      ->capture_default_str();
+  app.add_option("--out", request.out, "file to write")->required();
+  return fiber::run_tool(app, argc, argv, [&request] { return fiber::run(request); });
+}
