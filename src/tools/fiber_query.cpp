@@ -1,5 +1,6 @@
 #include <iostream>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -21,37 +22,32 @@ struct Request {
   std::string format = "csv";
 };
 
-void add_query(CLI::App& app, const std::string& name, const std::string& description,
-               QueryType type, double default_margin, Request& request) {
-  CLI::App* command = app.add_subcommand(name, description);
-  command->callback([&request, type, default_margin] {
-    request.query.type = type;
-    request.query.margin = request.margin.value_or(default_margin);
-  });
-  command->add_option("FILE", request.file, "fibre file (.csv)")->required();
-  command->add_option("--engine", request.engine, "one of " + listed(engine_names()))
+struct Query {
+  const char* name;
+  const char* description;
+  QueryType type;
+  double default_margin;  // [m]
+};
+
+void add_options(CLI::App& app, const Query& query, Request& request) {
+  app.add_option("FILE", request.file, "fibre file (.csv)")->required();
+  app.add_option("--engine", request.engine, "one of " + listed(engine_names()))
       ->capture_default_str();
-  command
-      ->add_option("--margin", request.margin,
-                   "pairs with a gap of at most this [m]; inf for no limit")
-      ->default_str(default_margin == 0.0 ? "0" : "inf");
-  command
-      ->add_option("--neighbour-skip", request.query.neighbour_skip,
-                   "segments of a fibre whose indices differ by at most this are no pair")
+  app.add_option("--margin", request.margin,
+                 "pairs with a gap of at most this [m]; inf for no limit")
+      ->default_str(query.default_margin == 0.0 ? "0" : "inf");
+  app.add_option("--neighbour-skip", request.query.neighbour_skip,
+                 "segments of a fibre whose indices differ by at most this are no pair")
       ->capture_default_str();
-  command
-      ->add_option("--neighbour-skip-length", request.query.neighbour_skip_length,
-                   "segments of a fibre with less than this between them are no pair [m]")
+  app.add_option("--neighbour-skip-length", request.query.neighbour_skip_length,
+                 "segments of a fibre with less than this between them are no pair [m]")
       ->capture_default_str();
-  command
-      ->add_option("--radius", request.radius,
-                   "of all fibres, if the file has no radius column [m]")
+  app.add_option("--radius", request.radius, "of all fibres, if the file has no radius column [m]")
       ->capture_default_str();
-  command
-      ->add_option("--threads", request.threads, "most threads to use; AL and brute_force use one")
+  app.add_option("--threads", request.threads, "most threads to use; AL and brute_force use one")
       ->check(whole_number(1))
       ->capture_default_str();
-  command->add_option("--format", request.format, "of the output; json: one object per frame")
+  app.add_option("--format", request.format, "of the output; json: one object per frame")
       ->check(CLI::IsMember({"csv", "json"}))
       ->capture_default_str();
 }
@@ -80,23 +76,29 @@ ExitCode run(const Request& request) {
   return SUCCEEDED;
 }
 
+void setup(CLI::App& app, Command& command) {
+  app.require_subcommand(0, 1);
+  const auto request = std::make_shared<Request>();
+  const double infinity = std::numeric_limits<double>::infinity();
+  const Query queries[] = {
+      {"contacts", "all pairs of segments within the margin", QueryType::ALL, 0.0},
+      {"closest", "the closest pair", QueryType::CLOSEST, infinity},
+      {"first", "any one pair within the margin", QueryType::FIRST, 0.0}};
+  for (const Query& query : queries) {
+    CLI::App* subcommand = app.add_subcommand(query.name, query.description);
+    add_options(*subcommand, query, *request);
+    subcommand->callback([&command, request, query] {
+      request->query.type = query.type;
+      request->query.margin = request->margin.value_or(query.default_margin);
+      command = [request] { return run(*request); };
+    });
+  }
+}
+
 }  // namespace
 }  // namespace fiber
 
 int main(int argc, char** argv) {
-  CLI::App app("Contacts and distances of the fibres in a file", "fiber_query");
-  app.require_subcommand(0, 1);  // none is refused below, with a better message
-  fiber::Request request;
-  const double infinity = std::numeric_limits<double>::infinity();
-  using fiber::QueryType;
-  fiber::add_query(app, "contacts", "all pairs of segments within the margin", QueryType::ALL, 0.0,
-                   request);
-  fiber::add_query(app, "closest", "the closest pair", QueryType::CLOSEST, infinity, request);
-  fiber::add_query(app, "first", "any one pair within the margin", QueryType::FIRST, 0.0, request);
-  return fiber::run_tool(app, argc, argv, [&] {
-    if (app.get_subcommands().empty()) {
-      throw CLI::RequiredError("contacts, closest or first");
-    }
-    return fiber::run(request);
-  });
+  return fiber::run_tool("fiber_query", "Contacts and distances of the fibres in a file",
+                         fiber::setup, argc, argv);
 }

@@ -1,3 +1,4 @@
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -27,21 +28,25 @@ ExitCode run(const Request& request) {
   return SUCCEEDED;
 }
 
+void setup(CLI::App& app, Command& command) {
+  const auto request = std::make_shared<Request>();
+  command = [request] { return run(*request); };
+  app.add_option("NAME", request->name, "one of " + listed(scene_names()))->required();
+  app.add_option("--scale", request->options.scale, "of the number of fibres")
+      ->capture_default_str();
+  app.add_option("--frames", request->frames,
+                 "frames to write, numbered from 0; without: the first, without a number")
+      ->check(whole_number(1));
+  app.add_option("--seed", request->options.seed, "of all that is random")
+      ->check(whole_number(0))
+      ->capture_default_str();
+  app.add_option("--out", request->out, "file to write")->required();
+}
+
 }  // namespace
 }  // namespace fiber
 
 int main(int argc, char** argv) {
-  CLI::App app("Writes a scene as a fibre file (.csv)", "fiber_scene");
-  fiber::Request request;
-  app.add_option("NAME", request.name, "one of " + fiber::listed(fiber::scene_names()))->required();
-  app.add_option("--scale", request.options.scale, "of the number of fibres")
-      ->capture_default_str();
-  app.add_option("--frames", request.frames,
-                 "frames to write, numbered from 0; without: the first, without a number")
-      ->check(fiber::whole_number(1));
-  app.add_option("--seed", request.options.seed, "of all that is random")
-      ->check(fiber::whole_number(0))
-      ->capture_default_str();
-  app.add_option("--out", request.out, "file to write")->required();
-  return fiber::run_tool(app, argc, argv, [&request] { return fiber::run(request); });
+  return fiber::run_tool("fiber_scene", "Writes a scene as a fibre file (.csv)", fiber::setup, argc,
+                         argv);
 }
