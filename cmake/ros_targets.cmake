@@ -1,6 +1,15 @@
 # Node, nodelets, launch files, and what a catkin workspace installs.
 
-install(TARGETS fiber_proximity
+add_library(fiber_proximity_ros SHARED
+  src/ros/conversions.cpp
+)
+target_include_directories(fiber_proximity_ros PUBLIC
+  ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION} ${catkin_INCLUDE_DIRS})
+target_link_libraries(fiber_proximity_ros
+  PUBLIC fiber_proximity ${catkin_LIBRARIES} PRIVATE fiber_proximity_options)
+add_dependencies(fiber_proximity_ros ${${PROJECT_NAME}_EXPORTED_TARGETS})
+
+install(TARGETS fiber_proximity fiber_proximity_ros
   ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION}
