@@ -1,5 +1,7 @@
 #include "fiber_proximity/ros/conversions.hpp"
 
+#include <stdexcept>
+
 namespace fiber_proximity_ros {
 
 geometry_msgs::Point to_message(const Eigen::Vector3d& point) {
@@ -40,6 +42,23 @@ void to_message(const fiber::Contact& contact, fiber_proximity::Contact& message
   message.point_a = to_message(contact.point_a);
   message.point_b = to_message(contact.point_b);
   message.normal = to_vector_message(contact.normal);
+}
+
+void to_chains(const fiber_proximity::FiberArray& message, ChainSet& chains) {
+  chains.clear();
+  chains.header = message.header;
+  chains.offsets = message.offsets;
+  chains.radii = message.radii;
+  chains.names = message.names;
+  chains.points.reserve(message.points.size());
+  for (const geometry_msgs::Point& point : message.points) {
+    chains.points.push_back(to_vector(point));
+  }
+  if (!chains.names.empty() && chains.names.size() != chains.fiber_count()) {
+    throw std::invalid_argument(std::to_string(chains.names.size()) + " names for " +
+                                std::to_string(chains.fiber_count()) +
+                                " fibre(s); give one per fibre or none");
+  }
 }
 
 }  // namespace fiber_proximity_ros

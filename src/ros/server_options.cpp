@@ -1,0 +1,107 @@
+#include "fiber_proximity/ros/server_options.hpp"
+
+#include <ros/console.h>
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+
+#include "fiber_proximity/ProximityConfig.h"
+
+namespace fiber_proximity_ros {
+namespace {
+
+using XmlRpc::XmlRpcValue;
+
+[[noreturn]] void refuse(const ros::NodeHandle& node, const std::string& name,
+                         const std::string& allowed) {
+  XmlRpcValue value;
+  node.getParam(name, value);
+  std::ostringstream message;
+  message << "parameter " << node.resolveName(name) << " is " << value << ", it must be "
+          << allowed;
+  throw std::invalid_argument(message.str());
+}
+
+void read(const ros::NodeHandle& node, const std::string& name, std::string& value) {
+  if (node.hasParam(name) && !node.getParam(name, value)) {
+    refuse(node, name, "a string");
+  }
+}
+
+/// Reads a number from `least` on; infinity is allowed.
+void read(const ros::NodeHandle& node, const std::string& name, double least, double& value) {
+  if (node.hasParam(name) && !(node.getParam(name, value) && value >= least)) {
+    std::ostringstream allowed;
+    allowed << "a number of at least " << least;
+    refuse(node, name, allowed.str());
+  }
+}
+
+std::vector<InputOptions> read_inputs(const ros::NodeHandle& node, double radius) {
+  InputOptions default_input;
+  default_input.topic = "fibers";
+  default_input.name = default_input.topic;
+  default_input.radius = radius;
+  XmlRpcValue list;
+  if (!node.getParam("inputs", list)) {
+    return {default_input};
+  }
+  if (list.getType() != XmlRpcValue::TypeArray) {
+    refuse(node, "inputs", "a list of maps with the key 'topic' at least");
+  }
+  std::vector<InputOptions> inputs;
+  for (int i = 0; i < list.size(); ++i) {
+    try {
+      inputs.push_back(read_input_options(list[i], radius));
+    } catch (const std::invalid_argument& error) {
+      ROS_ERROR_STREAM("parameter " << node.resolveName("inputs") << ", entry " << i
+                                    << " is left out: " << error.what());
+    }
+  }
+  return inputs;
+}
+
+void warn_of_unknown_parameters(const ros::NodeHandle& node) {
+  std::vector<std::string> known{"engine",        "fixed_frame", "inputs",     "radius",
+                                 "input_timeout", "marker_rate", "tf_timeout", "diagnostic_period"};
+  for (const auto& parameter : fiber_proximity::ProximityConfig::__getParamDescriptions__()) {
+    known.push_back(parameter->name);
+  }
+  std::vector<std::string> names;
+  node.getParamNames(names);
+  const std::string prefix = node.getNamespace() + "/";
+  for (const std::string& name : names) {
+    if (name.rfind(prefix, 0) != 0) {
+      continue;
+    }
+    const std::string own = name.substr(prefix.size(), name.find('/', prefix.size()) - prefix.size());
+    if (std::find(known.begin(), known.end(), own) == known.end()) {
+      ROS_WARN_STREAM("parameter " << name << " is unknown and not used");
+    }
+  }
+}
+
+}  // namespace
+
+ServerOptions read_server_options(const ros::NodeHandle& private_node) {
+  // Of a rate, a thousandth of a hertz stands for never.
+  constexpr double least_rate = 1e-3;
+  constexpr double least_timeout = 1e-3;
+  ServerOptions options;
+  read(private_node, "engine", options.engine);
+  read(private_node, "fixed_frame", options.fixed_frame);
+  read(private_node, "tf_timeout", 0.0, options.timing.tf_timeout);
+  read(private_node, "input_timeout", least_timeout, options.timing.input_timeout);
+  read(private_node, "marker_rate", least_rate, options.marker_rate);
+  double radius = InputOptions().radius;
+  read(private_node, "radius", 0.0, radius);
+  if (radius > fiber::FiberAssembly::max_coordinate) {
+    refuse(private_node, "radius", "finite");
+  }
+  options.inputs = read_inputs(private_node, radius);
+  warn_of_unknown_parameters(private_node);
+  return options;
+}
+
+}  // namespace fiber_proximity_ros
