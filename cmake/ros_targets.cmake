@@ -2,6 +2,8 @@
 
 add_library(fiber_proximity_ros SHARED
   src/ros/conversions.cpp
+  src/ros/markers.cpp
+  src/ros/tube_mesh.cpp
 )
 target_include_directories(fiber_proximity_ros PUBLIC
   ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION} ${catkin_INCLUDE_DIRS})
