@@ -40,8 +40,7 @@ void Diagnostics::report_input(std::size_t index, Status& status) {
   }
   status.add("type", input.type);
   status.add("fibres", input.fibers);
-  status.addf("rate [Hz]", "%.1f",
-              static_cast<double>(now.received - before.received) / seconds);
+  status.addf("rate [Hz]", "%.1f", static_cast<double>(now.received - before.received) / seconds);
   status.addf("age [s]", "%.3f", input.age);
   status.add("received", input.received);
   status.add("refused", input.refused);

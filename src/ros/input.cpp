@@ -37,8 +37,7 @@ void Input::store(const ReadMessage& read, FixedFrame& frame) {
   if (header.frame_id.empty()) {
     throw std::invalid_argument("header.frame_id is empty, it must name the frame of the points");
   }
-  repeats_stamp_ =
-      has_fibers_ && !header.stamp.isZero() && header.stamp == current_.header.stamp;
+  repeats_stamp_ = has_fibers_ && !header.stamp.isZero() && header.stamp == current_.header.stamp;
   if (repeats_stamp_) {
     return;  // a tracker that has frozen sends its last answer again and again
   }
@@ -83,8 +82,8 @@ bool Input::expire(const ros::Time& now) {
   }
   stale_ = true;
   ROS_WARN_STREAM(label() << ": no new message for " << timing_.input_timeout << " s"
-                          << (repeats_stamp_ ? ", its messages repeat their stamp" : "")
-                          << "; its " << fibers().fiber_count() << " fibre(s) are left out");
+                          << (repeats_stamp_ ? ", its messages repeat their stamp" : "") << "; its "
+                          << fibers().fiber_count() << " fibre(s) are left out");
   return true;
 }
 

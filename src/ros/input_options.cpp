@@ -16,7 +16,8 @@ std::string text_of(const XmlRpcValue& value) {
   return text.str();
 }
 
-[[noreturn]] void refuse(const std::string& key, const XmlRpcValue& value, const std::string& allowed) {
+[[noreturn]] void refuse(const std::string& key, const XmlRpcValue& value,
+                         const std::string& allowed) {
   throw std::invalid_argument("key '" + key + "' is " + text_of(value) + ", it must be " + allowed);
 }
 

@@ -48,8 +48,8 @@ struct InputType {
 
 template <class... Messages>
 std::vector<InputType> make_table() {
-  return {{ros::message_traits::datatype<Messages>(), is_marker<Messages>,
-           subscribe_to<Messages>}...};
+  return {
+      {ros::message_traits::datatype<Messages>(), is_marker<Messages>, subscribe_to<Messages>}...};
 }
 
 const std::vector<InputType>& table() {

@@ -76,9 +76,8 @@ void check_layout(const PointCloud2& cloud) {
 void to_chains(const PointCloud2& message, ChainSet& chains) {
   chains.clear();
   chains.header = message.header;
-  const std::array<CoordinateField, 3> fields{find_coordinate(message, "x"),
-                                              find_coordinate(message, "y"),
-                                              find_coordinate(message, "z")};
+  const std::array<CoordinateField, 3> fields{
+      find_coordinate(message, "x"), find_coordinate(message, "y"), find_coordinate(message, "z")};
   check_layout(message);
   chains.points.reserve(std::size_t{message.width} * message.height);
   const std::size_t rows = message.width == 0 ? 0 : message.height;

@@ -50,26 +50,22 @@ ProximityServer::ProximityServer(const ros::NodeHandle& node, const ros::NodeHan
       private_node_(private_node),
       options_(read_server_options(private_node)),
       detector_(options_.engine),
-      contacts_publisher_(
-          private_node_.advertise<fiber_proximity::ContactArray>("contacts", 1)),
+      contacts_publisher_(private_node_.advertise<fiber_proximity::ContactArray>("contacts", 1)),
       fibers_publisher_(private_node_.advertise<fiber_proximity::FiberArray>("fibers", 1)),
-      markers_publisher_(
-          private_node_.advertise<visualization_msgs::MarkerArray>("markers", 1)),
+      markers_publisher_(private_node_.advertise<visualization_msgs::MarkerArray>("markers", 1)),
       statistics_publisher_(private_node_.advertise<fiber_proximity::Statistics>("statistics", 1)),
       inputs_(node_, options_.inputs, options_.timing, options_.fixed_frame,
               [this] { schedule(); }),
       diagnostics_(node_, private_node_, inputs_, detector_),
       reconfigure_server_(private_node_) {
-  reconfigure_server_.setCallback(
-      [this](fiber_proximity::ProximityConfig& config, std::uint32_t /*level*/) {
-        reconfigure(config);
-      });
+  reconfigure_server_.setCallback([this](fiber_proximity::ProximityConfig& config,
+                                         std::uint32_t /*level*/) { reconfigure(config); });
   query_server_ = private_node_.advertiseService("query", &ProximityServer::query, this);
-  tick_timer_ = node_.createSteadyTimer(
-      ros::WallDuration(tick_interval), [this](const ros::SteadyTimerEvent&) { tick(); });
+  tick_timer_ = node_.createSteadyTimer(ros::WallDuration(tick_interval),
+                                        [this](const ros::SteadyTimerEvent&) { tick(); });
   retry_timer_ = node_.createSteadyTimer(
-      ros::WallDuration(retry_interval), [this](const ros::SteadyTimerEvent&) { process(); },
-      false, false);
+      ros::WallDuration(retry_interval), [this](const ros::SteadyTimerEvent&) { process(); }, false,
+      false);
 }
 
 ProximityServer::~ProximityServer() { queue_of(node_).removeByID(id_of(this)); }
@@ -202,7 +198,8 @@ bool ProximityServer::query(fiber_proximity::QueryProximity::Request& request,
   process();  // asked after a message arrived, answered with it
   try {
     if (!inputs_.is_fresh()) {
-      throw std::invalid_argument("no fresh input: no fibres have arrived within the input_timeout");
+      throw std::invalid_argument(
+          "no fresh input: no fibres have arrived within the input_timeout");
     }
     answer(request, detector_.engine(), inputs_.frame(), response);
     response.header = inputs_.header();
@@ -226,14 +223,16 @@ void ProximityServer::reconfigure(fiber_proximity::ProximityConfig& config) {
     fiber::validate(options);
     query_options_ = options;
   } catch (const std::invalid_argument& error) {
-    ROS_ERROR_STREAM("parameters of the query stay as they were: " << error.what());
-    write(query_options_, config);
+    ROS_ERROR_STREAM("parameters stay as they were: " << error.what());
+    config = config_;  // the server announces what is really in use
+    return;
   }
+  config_ = config;
   marker_options_.show_fibers = config.show_fibers;
   marker_options_.show_contacts = config.show_contacts;
   marker_options_.show_nearest = config.show_nearest;
   marker_options_.show_boxes = config.show_boxes;
-  marker_options_.level = static_cast<std::uint32_t>(config.level);
+  marker_options_.level = static_cast<std::uint32_t>(config.box_level);
 }
 
 }  // namespace fiber_proximity_ros

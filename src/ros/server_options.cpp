@@ -75,7 +75,8 @@ void warn_of_unknown_parameters(const ros::NodeHandle& node) {
     if (name.rfind(prefix, 0) != 0) {
       continue;
     }
-    const std::string own = name.substr(prefix.size(), name.find('/', prefix.size()) - prefix.size());
+    const std::string own =
+        name.substr(prefix.size(), name.find('/', prefix.size()) - prefix.size());
     if (std::find(known.begin(), known.end(), own) == known.end()) {
       ROS_WARN_STREAM("parameter " << name << " is unknown and not used");
     }

@@ -28,9 +28,8 @@ fiber::QueryOptions to_options(const QueryProximity::Request& request) {
       options.type = fiber::QueryType::ALL;
       break;
     default:
-      throw std::invalid_argument(
-          "type is " + std::to_string(request.type) +
-          ", it must be 0 (FIRST), 1 (CLOSEST), 2 (LIMITED) or 3 (ALL)");
+      throw std::invalid_argument("type is " + std::to_string(request.type) +
+                                  ", it must be 0 (FIRST), 1 (CLOSEST), 2 (LIMITED) or 3 (ALL)");
   }
   options.margin = request.margin;
   options.max_contacts = request.max_contacts;

@@ -17,8 +17,8 @@ struct ChainSet {
   std_msgs::Header header;
   std::vector<Eigen::Vector3d> points;    ///< [m] in header.frame_id
   std::vector<std::uint32_t> offsets{0};  ///< as FiberAssembly
-  std::vector<double> radii;              ///< [m] as FiberAssembly; empty where the message has none
-  std::vector<std::string> names;         ///< one per fibre; empty where the message has none
+  std::vector<double> radii;       ///< [m] as FiberAssembly; empty where the message has none
+  std::vector<std::string> names;  ///< one per fibre; empty where the message has none
 
   void clear();
 

@@ -53,6 +53,7 @@ class ProximityServer {
   ros::NodeHandle node_;
   ros::NodeHandle private_node_;
   ServerOptions options_;
+  fiber_proximity::ProximityConfig config_ = fiber_proximity::ProximityConfig::__getDefault__();
   fiber::QueryOptions query_options_;
   MarkerOptions marker_options_;
   Detector detector_;
