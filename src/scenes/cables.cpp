@@ -59,8 +59,8 @@ const std::vector<Cable>& knotted_cables() {
        {{{-0.34, -0.42, 0.007}, {0.000, 0.000, 0.000}, 0.0},
         {{-0.27, -0.27, 0.012}, {0.010, 0.000, 0.000}, 0.0},
         {{-0.18, -0.10, 0.070}, {0.008, 0.000, 0.010}, 0.3},
-        {{-0.12, 0.06, 0.119}, {0.000, 0.000, 0.010}, 0.3},
-        {{-0.06, 0.24, 0.041}, {0.004, 0.000, 0.008}, 0.3},
+        {{-0.12, 0.06, 0.115}, {0.000, 0.000, 0.007}, 0.3},
+        {{-0.06, 0.24, 0.039}, {0.004, 0.000, 0.008}, 0.3},
         {{0.04, 0.37, 0.007}, {0.020, 0.000, 0.000}, 0.8},
         {{0.20, 0.43, 0.007}, {0.000, 0.000, 0.000}, 0.0}}},
       // Meanders on the ground, under the draped cable and under the trunk.
@@ -87,7 +87,7 @@ const std::vector<Cable>& knotted_cables() {
         {{0.22, -0.12, 0.020}, {0.010, 0.010, 0.000}, 0.8},
         {{0.10, -0.05, 0.030}, {0.000, 0.012, 0.000}, 1.1},
         {{-0.02, -0.13, 0.030}, {0.012, 0.000, 0.006}, 1.4},
-        {{-0.04, -0.28, 0.024}, {0.000, 0.000, 0.007}, 1.7},
+        {{-0.04, -0.28, 0.022}, {0.000, 0.000, 0.006}, 1.7},
         {{0.05, -0.40, 0.006}, {0.000, 0.000, 0.000}, 0.0},
         {{0.24, -0.42, 0.006}, {0.010, 0.010, 0.000}, 2.0},
         {{0.46, -0.36, 0.006}, {0.000, 0.000, 0.000}, 0.0}}},
@@ -131,7 +131,7 @@ Vector3d along_vine(double time, double u) {
   const Vector3d up = side.cross(tangent);
   const double wave = std::sin(angle_at(time, 3) - tau * 1.5 * u);
   const double flare = std::pow(2.0 * u - 1.0, 6);
-  const double distance = trunk().radius + vine_radius + 0.005 + 0.006 * wave + 0.035 * flare;
+  const double distance = trunk().radius + vine_radius + 0.013 + 0.0145 * wave + 0.040 * flare;
   const double turn = tau * turns * u + 0.5 * std::sin(angle_at(time, 1));
   return center + distance * (std::cos(turn) * side + std::sin(turn) * up);
 }
