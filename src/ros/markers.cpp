@@ -178,11 +178,11 @@ void MarkerBuilder::draw_contacts(const std::vector<fiber::Contact>& contacts, d
 void MarkerBuilder::draw_normals(const std::vector<fiber::Contact>& contacts, double thickness,
                                  Canvas& canvas) {
   Marker& marker = canvas.add(NORMALS, Marker::LINE_LIST);
-  marker.scale.x = 0.15 * thickness;
+  marker.scale.x = 0.1 * thickness;
   for (const fiber::Contact& contact : contacts) {
     const Vector3d start = middle_of(contact);
     marker.points.push_back(to_message(start));
-    marker.points.push_back(to_message(start + 2.0 * thickness * contact.normal));
+    marker.points.push_back(to_message(start + 1.5 * thickness * contact.normal));
     marker.colors.insert(marker.colors.end(), 2, contact_color(contact));
   }
 }
@@ -202,7 +202,7 @@ void MarkerBuilder::draw_boxes(const std::vector<fiber::NodeBox>& boxes, double 
                                Canvas& canvas) {
   Marker& marker = canvas.add(BOXES, Marker::LINE_LIST);
   marker.scale.x = 0.001 * extent;
-  marker.color = color(0.85F, 0.9F, 1.0F, 0.3F);
+  marker.color = color(0.75F, 0.85F, 1.0F, 0.35F);
   for (const fiber::NodeBox& box : boxes) {
     append_box(box, marker.points);
   }

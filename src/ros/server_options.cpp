@@ -3,52 +3,25 @@
 #include <ros/console.h>
 
 #include <algorithm>
-#include <sstream>
 #include <stdexcept>
 
 #include "fiber_proximity/ProximityConfig.h"
+#include "fiber_proximity/ros/parameters.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
-
-using XmlRpc::XmlRpcValue;
-
-[[noreturn]] void refuse(const ros::NodeHandle& node, const std::string& name,
-                         const std::string& allowed) {
-  XmlRpcValue value;
-  node.getParam(name, value);
-  std::ostringstream message;
-  message << "parameter " << node.resolveName(name) << " is " << value << ", it must be "
-          << allowed;
-  throw std::invalid_argument(message.str());
-}
-
-void read(const ros::NodeHandle& node, const std::string& name, std::string& value) {
-  if (node.hasParam(name) && !node.getParam(name, value)) {
-    refuse(node, name, "a string");
-  }
-}
-
-/// Reads a number from `least` on; infinity is allowed.
-void read(const ros::NodeHandle& node, const std::string& name, double least, double& value) {
-  if (node.hasParam(name) && !(node.getParam(name, value) && value >= least)) {
-    std::ostringstream allowed;
-    allowed << "a number of at least " << least;
-    refuse(node, name, allowed.str());
-  }
-}
 
 std::vector<InputOptions> read_inputs(const ros::NodeHandle& node, double radius) {
   InputOptions default_input;
   default_input.topic = "fibers";
   default_input.name = default_input.topic;
   default_input.radius = radius;
-  XmlRpcValue list;
+  XmlRpc::XmlRpcValue list;
   if (!node.getParam("inputs", list)) {
     return {default_input};
   }
   if (list.getType() != XmlRpcValue::TypeArray) {
-    refuse(node, "inputs", "a list of maps with the key 'topic' at least");
+    refuse_parameter(node, "inputs", "a list of maps with the key 'topic' at least");
   }
   std::vector<InputOptions> inputs;
   for (int i = 0; i < list.size(); ++i) {
@@ -86,20 +59,16 @@ void warn_of_unknown_parameters(const ros::NodeHandle& node) {
 }  // namespace
 
 ServerOptions read_server_options(const ros::NodeHandle& private_node) {
-  // Of a rate, a thousandth of a hertz stands for never.
-  constexpr double least_rate = 1e-3;
-  constexpr double least_timeout = 1e-3;
+  constexpr double shortest_timeout = 1e-3;
+  constexpr double slowest_rate = 1e-3;
   ServerOptions options;
-  read(private_node, "engine", options.engine);
-  read(private_node, "fixed_frame", options.fixed_frame);
-  read(private_node, "tf_timeout", 0.0, options.timing.tf_timeout);
-  read(private_node, "input_timeout", least_timeout, options.timing.input_timeout);
-  read(private_node, "marker_rate", least_rate, options.marker_rate);
   double radius = InputOptions().radius;
-  read(private_node, "radius", 0.0, radius);
-  if (radius > fiber::FiberAssembly::max_coordinate) {
-    refuse(private_node, "radius", "finite");
-  }
+  read_parameter(private_node, "engine", "a string", options.engine);
+  read_parameter(private_node, "fixed_frame", "a string", options.fixed_frame);
+  read_parameter(private_node, "radius", 0.0, radius);
+  read_parameter(private_node, "tf_timeout", 0.0, options.timing.tf_timeout);
+  read_parameter(private_node, "input_timeout", shortest_timeout, options.timing.input_timeout);
+  read_parameter(private_node, "marker_rate", slowest_rate, options.marker_rate);
   options.inputs = read_inputs(private_node, radius);
   warn_of_unknown_parameters(private_node);
   return options;

@@ -125,12 +125,15 @@ TEST(TubeMesh, FramesDoNotTwist) {
   // On a planar curve the frame's normal keeps its angle to the plane: each line of corners stays
   // at its height.
   std::vector<Vector3d> points;
+  const Vector3d across = Vector3d(1, 2, 3).normalized();
+  const Vector3d x = across.unitOrthogonal();
+  const Vector3d y = across.cross(x);
   for (int i = 0; i <= 40; ++i) {
-    points.emplace_back(std::cos(0.1 * i), std::sin(0.1 * i), 0.0);
+    points.emplace_back(std::cos(0.1 * i) * x + std::sin(0.1 * i) * y);
   }
   std::vector<double> heights;
   for (const Vector3d& corner : mesh_of(chain(points, 0.05))) {
-    heights.push_back(std::round(1e9 * corner.z()) / 1e9);
+    heights.push_back(std::round(1e9 * corner.dot(across)) / 1e9);
   }
   std::sort(heights.begin(), heights.end());
   heights.erase(std::unique(heights.begin(), heights.end()), heights.end());
