@@ -20,7 +20,7 @@ std::vector<InputOptions> read_inputs(const ros::NodeHandle& node, double radius
   if (!node.getParam("inputs", list)) {
     return {default_input};
   }
-  if (list.getType() != XmlRpcValue::TypeArray) {
+  if (list.getType() != XmlRpc::XmlRpcValue::TypeArray) {
     refuse_parameter(node, "inputs", "a list of maps with the key 'topic' at least");
   }
   std::vector<InputOptions> inputs;
