@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fiber_proximity/scenes/cables.hpp"
 #include "fiber_proximity/scenes/soup.hpp"
 
 namespace fiber {
@@ -12,6 +13,7 @@ using SceneFunction = FiberAssembly (*)(const SceneOptions& options, std::uint32
 
 const std::vector<std::pair<std::string, SceneFunction>>& scenes() {
   static const std::vector<std::pair<std::string, SceneFunction>> all{
+      {"cables", cables},
       {"soup", soup},
   };
   return all;
