@@ -100,7 +100,8 @@ TEST(ReadCsv, RefusesBadValuesNamingLineAndReason) {
   EXPECT_EQ(refusal(head + "0,0,0,0,0\n,0,0,0,0\n"), "a.csv:4: fiber is empty, expected a label");
   for (const std::string value : {"nan", "-inf", "1e200"}) {
     EXPECT_EQ(refusal(head + "0,0,0," + value + ",0\n"),
-              "a.csv:3: z is '" + value + "', coordinates must be finite and within ±1e150 m");
+              "a.csv:3: z is '" + value +
+                  "', coordinates must be finite and at most 1e150 m in magnitude");
   }
   for (const std::string value : {"nan", "inf", "-0.001"}) {
     EXPECT_EQ(
