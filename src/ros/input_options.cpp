@@ -1,5 +1,7 @@
 #include "fiber_proximity/ros/input_options.hpp"
 
+#include <ros/names.h>
+
 #include <sstream>
 #include <stdexcept>
 
@@ -67,6 +69,10 @@ bool read_marker_key(const std::string& key, const XmlRpcValue& value, MarkerInp
 bool read_key(const std::string& key, const XmlRpcValue& value, InputOptions& options) {
   if (key == "topic") {
     options.topic = read_string(key, value);
+    std::string reason;
+    if (!ros::names::validate(options.topic, reason)) {
+      refuse(key, value, "a ROS name: " + reason);
+    }
   } else if (key == "type") {
     options.type = read_string(key, value);
   } else if (key == "name") {

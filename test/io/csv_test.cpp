@@ -103,11 +103,11 @@ TEST(ReadCsv, RefusesBadValuesNamingLineAndReason) {
             "a.csv:2: fibre '0' has only this point, a fibre needs at least 2");
   EXPECT_EQ(refusal(head + "0,0,0,0,0\n,0,0,0,0\n"), "a.csv:4: fiber is empty, expected a label");
   EXPECT_EQ(refusal(head + "0,0,0,nan,0\n"),
-            "a.csv:3: z is 'nan', coordinates must be finite and within ±1e150 m");
+            "a.csv:3: z is 'nan', coordinates must be finite and at most 1e150 m in magnitude");
   EXPECT_EQ(refusal(head + "0,0,-inf,0,0\n"),
-            "a.csv:3: y is '-inf', coordinates must be finite and within ±1e150 m");
+            "a.csv:3: y is '-inf', coordinates must be finite and at most 1e150 m in magnitude");
   EXPECT_EQ(refusal(head + "0,1e200,0,0,0\n"),
-            "a.csv:3: x is '1e200', coordinates must be finite and within ±1e150 m");
+            "a.csv:3: x is '1e200', coordinates must be finite and at most 1e150 m in magnitude");
   EXPECT_EQ(refusal(head + "0,0,0,0,nan\n"),
             "a.csv:3: radius is 'nan', radii must be finite, at least 0 and at most 1e150 m");
   EXPECT_EQ(refusal(head + "0,0,0,0,inf\n"),

@@ -131,7 +131,7 @@ class NodeTest : public ::testing::Test {
   Recorder<fiber_proximity::ContactArray> contacts{node, "/proximity/contacts"};
   Recorder<fiber_proximity::FiberArray> fibers{node, "/proximity/fibers"};
   Recorder<fiber_proximity::Statistics> statistics{node, "/proximity/statistics"};
-  Recorder<rosgraph_msgs::Log> logs{node, "/rosout_agg"};
+  Recorder<rosgraph_msgs::Log> logs{node, "/rosout"};
 };
 
 inline fiber::FiberAssembly to_assembly(const fiber_proximity::FiberArray& message) {

@@ -22,7 +22,6 @@ using ReadMessage = std::function<bool(ChainSet& chains)>;
 /// Subscribes to the input's topic; the receiver is called once per message, of which the newest is
 /// kept while it is busy.
 /// @throws std::invalid_argument for an unknown type
-/// @throws ros::InvalidNameException for a topic that is no ROS name
 ros::Subscriber subscribe(ros::NodeHandle& node, const InputOptions& options,
                           const std::function<void(const ReadMessage&)>& receiver);
 
