@@ -69,5 +69,12 @@ TEST_F(FiberBench, RefusesBadCommandLines) {
   EXPECT_TRUE(refused(bench("update --threads none"), "--threads: 'none'"));
 }
 
+#ifdef FIBER_BENCH_HAS_LATENCY
+TEST_F(FiberBench, LatencyNeedsAMaster) {
+  EXPECT_TRUE(refused(run_process("ROS_MASTER_URI=http://127.0.0.1:1 " FIBER_BENCH " latency"),
+                      "no ROS master at http://127.0.0.1:1"));
+}
+#endif
+
 }  // namespace
 }  // namespace fiber::test
