@@ -57,7 +57,7 @@ HairStyle make_charming() {
   style.segments = 49;
   style.length = 0.30;
   style.length_variation = 0.08;
-  style.comb = {-0.5, 0.7, 0.0};
+  style.comb = {-0.9, 0.8, 0.0};
   style.stiffness = 0.02;
   style.coat = 0.015;
   style.lock_size = 0.006;
@@ -78,7 +78,7 @@ HairStyle make_curly() {
   style.segments = 100;
   style.length = 0.16;
   style.length_variation = 0.1;
-  style.comb = {-0.3, 0.4, 0.3};
+  style.comb = {-0.3, 0.5, 0.3};
   style.stiffness = 0.03;
   style.coat = 0.03;
   style.lock_size = 0.005;
@@ -121,7 +121,7 @@ HairStyle make_longish() {
   style.segments = 54;
   style.length = 0.45;
   style.length_variation = 0.04;
-  style.comb = {-0.5, 0.7, 0.0};
+  style.comb = {-0.9, 0.8, 0.0};
   style.stiffness = 0.02;
   style.coat = 0.012;
   style.lock_size = 0.006;
