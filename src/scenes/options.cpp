@@ -18,7 +18,7 @@ std::uint32_t scaled_fiber_count(const SceneOptions& options, std::uint32_t full
     std::string message = "scale is ";
     append_number(message, options.scale);
     message += ", it must be above 0 and at most ";
-    append_number(message, std::floor(limit / full_count));
+    append_number(message, std::floor(100.0 * limit / full_count) / 100.0);
     throw std::invalid_argument(message);
   }
   return fibers < 1.0 ? 1U : static_cast<std::uint32_t>(fibers);
