@@ -59,9 +59,9 @@ HairStyle make_charming() {
   style.length_variation = 0.08;
   style.comb = {-0.9, 0.8, 0.0};
   style.stiffness = 0.02;
-  style.coat = 0.015;
+  style.coat = 0.025;
   style.lock_size = 0.006;
-  style.clump = 0.5;
+  style.clump = 0.35;
   style.curl_radius = 0.005;
   style.curl_flatness = 0.7;
   style.curl_pitch = 0.07;
