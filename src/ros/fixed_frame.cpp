@@ -38,10 +38,20 @@ void FixedFrame::adopt(const std::string& frame) {
   }
 }
 
-Eigen::Isometry3d FixedFrame::transform_from(const std_msgs::Header& header) const {
-  if (is(header.frame_id)) {
-    return Eigen::Isometry3d::Identity();
+void FixedFrame::place(const std_msgs::Header& header, fiber::FiberAssembly& fibers,
+                       std::vector<Eigen::Vector3d>& buffer) const {
+  if (header.frame_id == name_) {
+    return;
   }
+  const Eigen::Isometry3d transform = transform_from(header);
+  buffer.clear();
+  for (const Eigen::Vector3d& point : fibers.points()) {
+    buffer.push_back(transform * point);
+  }
+  fibers.update_points(buffer);
+}
+
+Eigen::Isometry3d FixedFrame::transform_from(const std_msgs::Header& header) const {
   const std::string what = "no transform from frame '" + header.frame_id + "' to '" + name_ + "'" +
                            time_of(header.stamp) + ": ";
   try {

@@ -114,20 +114,12 @@ bool Input::place(Message& message, const FixedFrame& frame) {
   if (!message.full) {
     return false;
   }
-  if (frame.is(message.header.frame_id)) {
-    return true;
-  }
   try {
-    const Eigen::Isometry3d transform = frame.transform_from(message.header);
-    placed_points_.clear();
-    for (const Eigen::Vector3d& point : message.fibers.points()) {
-      placed_points_.push_back(transform * point);
-    }
-    message.fibers.update_points(placed_points_);
+    frame.place(message.header, message.fibers, buffer_);
     return true;
   } catch (const TransformUnavailable& error) {
     transform_error_ = error.what();
-  } catch (const std::invalid_argument& error) {  // beyond the range of coordinates
+  } catch (const std::invalid_argument& error) {
     message.full = false;
     refuse(error.what());
   }

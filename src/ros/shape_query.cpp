@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 #include <string>
-#include <utility>
+#include <vector>
 
 #include "fiber_proximity/ros/conversions.hpp"
 
@@ -41,20 +41,21 @@ fiber::FiberAssembly to_assembly(const QueryShape& shape, const FixedFrame& fram
   if (shape.points.empty()) {
     throw std::invalid_argument("has no points, it needs at least 1");
   }
-  std_msgs::Header header = shape.header;
-  if (header.frame_id.empty()) {
-    header.frame_id = frame.name();
-  }
-  const Eigen::Isometry3d transform = frame.transform_from(header);
   std::vector<Eigen::Vector3d> points;
   for (const geometry_msgs::Point& point : shape.points) {
-    points.push_back(transform * to_vector(point));
+    points.push_back(to_vector(point));
   }
   if (points.size() == 1) {
     points.push_back(points.front());  // a sphere is a capsule of no length
   }
-  const auto size = static_cast<std::uint32_t>(points.size());
-  return {std::move(points), {0, size}, {shape.radius}};
+  fiber::FiberAssembly assembly(points, {0, static_cast<std::uint32_t>(points.size())},
+                                {shape.radius});
+  std_msgs::Header header = shape.header;
+  if (header.frame_id.empty()) {
+    header.frame_id = frame.name();
+  }
+  frame.place(header, assembly, points);
+  return assembly;
 }
 
 void append_contacts(const fiber::QueryResult& result, std::uint32_t shape,

@@ -1,7 +1,6 @@
 // What the running node does with input nobody should send: one clear error, nothing else.
 #include <sys/wait.h>
-#include <tf2_ros/transform_broadcaster.h>
-#include <tf2_ros/transform_listener.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <cstdio>
 #include <limits>
@@ -182,18 +181,21 @@ TEST_F(BadInputTest, MessagesWithoutATransformAreRefused) {
   EXPECT_FALSE(logs_of("frames not connected: ").empty());
 
   // Known now, but not at the time of the message.
-  tf2_ros::TransformBroadcaster broadcaster;
-  geometry_msgs::TransformStamped transform;
+  tf2_msgs::TFMessage transforms;
+  transforms.transforms.resize(1);
+  geometry_msgs::TransformStamped& transform = transforms.transforms.front();
   transform.header = header("world", ros::Time::now());
   transform.child_frame_id = "moving";
   transform.transform.rotation.w = 1.0;
-  tf2_ros::Buffer buffer;
-  const tf2_ros::TransformListener listener(buffer);
+  const ros::Publisher tf = advertise<tf2_msgs::TFMessage>("/tf");
+  tf.publish(transforms);
+  fiber_proximity::QueryProximity query;
+  query.request.shapes.resize(1);
+  query.request.shapes[0].header.frame_id = "moving";
+  query.request.shapes[0].points.resize(1);
   ASSERT_TRUE(node_test::wait_for([&] {
-    broadcaster.sendTransform(transform);
-    ros::WallDuration(0.05).sleep();
-    return buffer.canTransform("world", "moving", ros::Time());
-  }));
+    return ros::service::call("/proximity/query", query) && query.response.success;
+  })) << query.response.message;
   FiberArray message = array("moving");
   message.header.stamp = transform.header.stamp + ros::Duration(100.0);
   expect_refused("future", message, "no transform from frame 'moving' to 'world' at time ");

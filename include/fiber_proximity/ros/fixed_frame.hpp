@@ -8,6 +8,9 @@
 #include <Eigen/Geometry>
 #include <stdexcept>
 #include <string>
+#include <vector>
+
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -29,15 +32,17 @@ class FixedFrame {
   /// Takes this frame if there is none yet.
   void adopt(const std::string& frame);
 
-  /// True for points that need no transform.
-  bool is(const std::string& frame) const { return frame == name_; }
-
-  /// The transform of points in the header's frame at its stamp; a zero stamp means the latest one.
-  /// Does not wait.
+  /// Brings fibres that are in the header's frame at its stamp into this frame; a zero stamp means
+  /// the latest transform. Does not wait.
+  /// @param buffer only for its memory, which is reused
   /// @throws TransformUnavailable
-  Eigen::Isometry3d transform_from(const std_msgs::Header& header) const;
+  /// @throws std::invalid_argument for points that leave the range of coordinates on the way
+  void place(const std_msgs::Header& header, fiber::FiberAssembly& fibers,
+             std::vector<Eigen::Vector3d>& buffer) const;
 
  private:
+  Eigen::Isometry3d transform_from(const std_msgs::Header& header) const;
+
   std::string name_;
   tf2_ros::Buffer buffer_;
   tf2_ros::TransformListener listener_;

@@ -81,8 +81,8 @@ class Input {
   InputOptions options_;
   InputTiming timing_;
 
-  ChainSet chains_;  // what is being read; a member for its memory
-  std::vector<Eigen::Vector3d> placed_points_;
+  ChainSet chains_;                      // what is being read; a member for its memory
+  std::vector<Eigen::Vector3d> buffer_;  // the same
   Message next_;
   Message waiting_;
   Message current_;
