@@ -100,6 +100,10 @@ take_picture() {
   import -window root "$scratch/picture.png" 2>>"$scratch/import.log"
 }
 
+master_is_up() {
+  rosparam get /run_id >/dev/null 2>&1
+}
+
 # An empty scene has a few dozen colours, shaded tubes have hundreds.
 picture_shows_fibers() {
   take_picture && [ "$(identify -format %k "$scratch/picture.png")" -gt 400 ]
@@ -121,6 +125,7 @@ roslaunch -p "$port" "$root/launch/demo.launch" "${launch_arguments[@]}" \
   >"$scratch/roslaunch.log" 2>&1 &
 launch=$!
 processes+=("$launch")
+wait_for "the ROS master was up" roslaunch "$launch" master_is_up
 "$root/scripts/print_contacts.py" &
 printer=$!
 processes+=("$printer")
@@ -140,7 +145,7 @@ if [ -n "$screenshot" ]; then
   take_picture || fail "no picture" import
 fi
 
-kill -TERM "$printer"
+kill -TERM "$printer" 2>/dev/null || true
 wait "$printer" || fail "no contacts arrived" roslaunch
 if [ -n "$screenshot" ]; then
   mv "$scratch/picture.png" "$screenshot"

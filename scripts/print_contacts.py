@@ -25,7 +25,10 @@ class ContactPrinter:
         if self.last_line is not None and now - self.last_line < 1.0:
             return
         self.last_line = now
-        print(self.line(message, now - self.start), flush=True)
+        try:
+            print(self.line(message, now - self.start), flush=True)
+        except BrokenPipeError:  # whoever read along has gone, e.g. head
+            rospy.signal_shutdown("nobody reads")
 
     def line(self, message, elapsed):
         line = f"{elapsed:6.1f} s  {self.messages:5d} messages  {len(message.contacts):3d} contacts"
@@ -48,6 +51,7 @@ def main():
     rospy.Subscriber(arguments[0] if arguments else "/proximity/contacts", ContactArray,
                      printer.receive, queue_size=10)
     rospy.spin()
+    sys.stdout = None  # flushing it at exit would complain of a reader that has gone
     return 0 if printer.seen_contact else 1
 
 
