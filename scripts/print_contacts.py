@@ -5,6 +5,7 @@ Usage: print_contacts.py [TOPIC]     TOPIC: default /proximity/contacts
 Ends with SIGINT or SIGTERM; the exit code is 0 if there was a contact, 1 if there was none.
 """
 import sys
+import time
 
 import rospy
 from fiber_proximity.msg import ContactArray
@@ -18,7 +19,7 @@ class ContactPrinter:
         self.last_line = None
 
     def receive(self, message):
-        now = rospy.get_time()
+        now = time.monotonic()  # a bag played in a loop sets ROS's clock back
         self.start = self.start or now
         self.messages += 1
         self.seen_contact = self.seen_contact or bool(message.contacts)

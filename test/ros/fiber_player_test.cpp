@@ -25,11 +25,11 @@
 namespace fiber_proximity_ros {
 namespace {
 
-constexpr int frame_count = 3;
+constexpr std::size_t frame_count = 3;
 
 /// Two fibres, of 2 and 3 points; frame f is moved by f along x.
-fiber::FiberAssembly fibers_at(int frame) {
-  const double x = frame;
+fiber::FiberAssembly fibers_at(std::size_t frame) {
+  const auto x = static_cast<double>(frame);
   return {{{x, 0, 0.5}, {x + 1, 0, 0.5}, {x, 2, 0.25}, {x + 1, 2, 0.25}, {x + 1, 3, 0.25}},
           {0, 2, 5},
           {0.125, 0.125, 0.25, 0.25, 0.25}};
@@ -38,10 +38,10 @@ fiber::FiberAssembly fibers_at(int frame) {
 std::string recording() {
   fiber::FiberFile file;
   file.has_frames = true;
-  for (int frame = 0; frame < frame_count; ++frame) {
-    file.frames.push_back({frame, fibers_at(frame)});
+  for (std::size_t frame = 0; frame < frame_count; ++frame) {
+    file.frames.push_back({static_cast<std::int64_t>(frame), fibers_at(frame)});
   }
-  const std::string path = testing::TempDir() + "fiber_player_test.csv";
+  std::string path = testing::TempDir() + "fiber_player_test.csv";
   fiber::write_csv(path, file);
   return path;
 }
@@ -99,10 +99,10 @@ TEST(FiberPlayer, PlaysEveryFrameInOrderAndBeginsAgain) {
   const FiberPlayer player(ros::NodeHandle(), fast("fiber_array"));
   ASSERT_TRUE(spin_until([&] { return heard.count() > 2 * frame_count; }));
   // The subscriber may have been connected a few frames late.
-  const int first = static_cast<int>(heard[0].points.at(0).x);
-  for (int i = 0; i <= 2 * frame_count; ++i) {
+  const auto first = static_cast<std::size_t>(heard[0].points.at(0).x);
+  for (std::size_t i = 0; i <= 2 * frame_count; ++i) {
     const fiber::FiberAssembly expected = fibers_at((first + i) % frame_count);
-    const fiber_proximity::FiberArray& message = heard[static_cast<std::size_t>(i)];
+    const fiber_proximity::FiberArray& message = heard[i];
     expect_header(message.header);
     EXPECT_EQ(message.offsets, expected.offsets());
     EXPECT_EQ(message.radii, expected.radii());
@@ -124,7 +124,7 @@ TEST(FiberPlayer, StopsAfterTheLastFrameWithoutLoop) {
   };
   ASSERT_TRUE(spin_until(last_is_heard));
   const std::size_t count = heard.count();
-  EXPECT_LE(count, static_cast<std::size_t>(frame_count));
+  EXPECT_LE(count, frame_count);
   EXPECT_FALSE(spin_until([&] { return heard.count() > count; }, 0.5));
 }
 
@@ -149,7 +149,7 @@ void expect_second_fiber(const std::string& format,
     expect_header(heard[i].header);
     const std::vector<Eigen::Vector3d> points = read(heard[i]);
     ASSERT_EQ(points.size(), 3U);
-    const fiber::FiberAssembly expected = fibers_at(static_cast<int>(points[0].x()));
+    const fiber::FiberAssembly expected = fibers_at(static_cast<std::size_t>(points[0].x()));
     for (std::size_t p = 0; p < 3; ++p) {
       EXPECT_EQ(points[p], expected.points()[2 + p]);
     }
