@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "fiber_proximity/geometry/select_fibers.hpp"
-#include "fiber_proximity/io/csv.hpp"
+#include "fiber_proximity/io/fiber_file.hpp"
 #include "fiber_proximity/ros/parameters.hpp"
 
 namespace fiber_proximity_ros {
@@ -34,7 +34,7 @@ FiberAssembly select(FiberAssembly fibers, const PlayerOptions& options, const s
 }
 
 std::vector<FiberAssembly> read_frames(const PlayerOptions& options) {
-  fiber::FiberFile file = fiber::read_csv(options.file, options.radius);
+  fiber::FiberFile file = fiber::read_fibers(options.file, options.radius);
   std::vector<FiberAssembly> frames;
   frames.reserve(file.frames.size());
   for (fiber::FiberFrame& frame : file.frames) {
