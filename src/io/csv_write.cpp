@@ -3,17 +3,10 @@
 
 #include "fiber_proximity/io/csv.hpp"
 #include "fiber_proximity/io/number.hpp"
+#include "fiber_proximity/io/radii.hpp"
 
 namespace fiber {
 namespace {
-
-double point_radius(const FiberAssembly& fibers, std::size_t fiber, std::size_t point) {
-  const std::vector<double>& radii = fibers.radii();
-  if (radii.size() == 1) {
-    return radii.front();
-  }
-  return radii.size() == fibers.fiber_count() ? radii[fiber] : radii[point];
-}
 
 void append_rows(std::string& text, const FiberFrame& frame, bool has_frames) {
   const std::vector<std::uint32_t>& offsets = frame.fibers.offsets();

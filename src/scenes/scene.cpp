@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fiber_proximity/geometry/select_fibers.hpp"
 #include "fiber_proximity/scenes/cables.hpp"
 #include "fiber_proximity/scenes/cloth.hpp"
 #include "fiber_proximity/scenes/hair_styles.hpp"
@@ -47,7 +48,7 @@ Scene make_scene(const std::string& name, const SceneOptions& options) {
           return fibers;
         }
         const auto count = static_cast<std::uint32_t>(fibers.fiber_count());
-        return reordered(fibers, random_order(count, options.seed));
+        return select_fibers(fibers, random_order(count, options.seed));
       };
     }
     known += (known.empty() ? "" : ", ") + scene_name;

@@ -6,7 +6,7 @@
 
 #include "command_line.hpp"
 #include "contact_format.hpp"
-#include "fiber_proximity/io/csv.hpp"
+#include "fiber_proximity/io/fiber_file.hpp"
 #include "fiber_proximity/query/engine.hpp"
 
 namespace fiber {
@@ -30,7 +30,7 @@ struct Query {
 };
 
 void add_options(CLI::App& app, const Query& query, Request& request) {
-  app.add_option("FILE", request.file, "fibre file (.csv)")->required();
+  app.add_option("FILE", request.file, "fibre file (.csv or .hair)")->required();
   app.add_option("--engine", request.engine, "one of " + listed(engine_names()))
       ->capture_default_str();
   app.add_option("--margin", request.margin,
@@ -42,7 +42,7 @@ void add_options(CLI::App& app, const Query& query, Request& request) {
   app.add_option("--neighbour-skip-length", request.query.neighbour_skip_length,
                  "segments of a fibre with less than this between them are no pair [m]")
       ->capture_default_str();
-  app.add_option("--radius", request.radius, "of all fibres, if the file has no radius column [m]")
+  app.add_option("--radius", request.radius, "of all fibres, if the file has no radii [m]")
       ->capture_default_str();
   app.add_option("--threads", request.threads, "most threads to use; AL and brute_force use one")
       ->check(whole_number(1))
@@ -55,7 +55,7 @@ void add_options(CLI::App& app, const Query& query, Request& request) {
 ExitCode run(const Request& request) {
   validate(request.query);
   const std::unique_ptr<ProximityEngine> engine = make_engine(request.engine);
-  const FiberFile file = read_csv(request.file, request.radius);
+  const FiberFile file = read_fibers(request.file, request.radius);
   const bool json = request.format == "json";
   QueryResult result;
   std::string text = json ? "" : csv_header(file.has_frames);

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "command_line.hpp"
-#include "fiber_proximity/io/csv.hpp"
+#include "fiber_proximity/io/fiber_file.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
 
 namespace fiber {
@@ -19,7 +19,7 @@ struct Request {
 ExitCode run(const Request& request) {
   const Scene scene = make_scene(request.name, request.options);
   const FiberAssembly first = scene(0);  // a scene that cannot be made leaves no file behind
-  CsvWriter writer(request.out, request.frames.has_value());
+  FiberWriter writer(request.out, request.frames.has_value());
   writer.write({0, first});
   for (std::uint32_t frame = 1; frame < request.frames.value_or(1); ++frame) {
     writer.write({frame, scene(frame)});
@@ -40,13 +40,15 @@ void setup(CLI::App& app, Command& command) {
   app.add_option("--seed", request->options.seed, "of all that is random")
       ->check(whole_number(0))
       ->capture_default_str();
-  app.add_option("--out", request->out, "file to write")->required();
+  app.add_flag("--shuffle", request->options.shuffle, "put the fibres into random order");
+  app.add_option("--out", request->out, "file to write; .hair holds one frame, without a number")
+      ->required();
 }
 
 }  // namespace
 }  // namespace fiber
 
 int main(int argc, char** argv) {
-  return fiber::run_tool("fiber_scene", "Writes a scene as a fibre file (.csv)", fiber::setup, argc,
-                         argv);
+  return fiber::run_tool("fiber_scene", "Writes a scene as a fibre file (.csv or .hair)",
+                         fiber::setup, argc, argv);
 }

@@ -243,7 +243,7 @@ TEST(ReadHair, AWrongBitIsReadOrRefusedAndNothingElse) {
       changed[bit / 8] = static_cast<char>(changed[bit / 8] ^ (1 << (bit % 8)));
       SCOPED_TRACE(testing::Message() << "flags " << flags << ", bit " << bit);
       const std::string answer = refusal(changed);  // any other exception fails the test
-      if (bit < std::size_t{8 * 16}) {
+      if (bit < std::size_t{8} * 16) {
         EXPECT_NE(answer, "accepted") << "signature, counts and flags decide the size";
       }
     }

@@ -47,7 +47,8 @@ double least_level(const Vector3d& p0, const Vector3d& p1) {
 }
 
 TEST(PortableMath, SineAndCosineAreThoseOfLibm) {
-  for (double x = -3.0; x < 3.0; x += 0.001234) {
+  for (int i = -3000; i < 3000; ++i) {
+    const double x = 0.001234 * i;
     ASSERT_NEAR(sine_of_turns(x), std::sin(2.0 * M_PI * x), 1e-13) << x;
     ASSERT_NEAR(cosine_of_turns(x), std::cos(2.0 * M_PI * x), 1e-13) << x;
   }
@@ -226,7 +227,7 @@ TEST(Hair, ALargeScalpStaysOnTheHead) {
 // When a style changes on purpose, take the new values from this test's output.
 TEST(Hair, IsTheSameBitsOnEveryMachine) {
   const std::vector<std::uint64_t> expected{
-      14348534269475536967U, 9490593313876834598U,  9490593313876834598U, 1897942111687962131U,
+      14348534269475536967U, 9490593313876834598U,  9490593313876834598U, 9839022702097160673U,
       696818913066833950U,   15459173443923222407U, 865073449502582474U};
   std::vector<std::uint64_t> actual;
   for (const auto& [name, style] : styles()) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fiber_proximity/geometry/select_fibers.hpp"
 #include "fiber_proximity/scenes/shuffle.hpp"
 #include "support/hash.hpp"
 
@@ -100,23 +101,8 @@ TEST(Scene, ShuffleKeepsTheOrderOverTheFrames) {
   const Scene plain = make_scene("tress_a", {0.02, 4});
   const Scene shuffled = make_scene("tress_a", {0.02, 4, true});
   for (const std::uint32_t frame : {0U, 11U}) {
-    EXPECT_EQ(shuffled(frame).points(), reordered(plain(frame), order).points());
+    EXPECT_EQ(shuffled(frame).points(), select_fibers(plain(frame), order).points());
   }
-}
-
-TEST(Shuffle, TakesRadiiAlong) {
-  const std::vector<Eigen::Vector3d> points{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}};
-  const std::vector<std::uint32_t> offsets{0, 2, 5};
-  const auto swapped = [&](const std::vector<double>& radii) {
-    return reordered({points, offsets, radii}, {1, 0});
-  };
-  const FiberAssembly shared = swapped({0.5});
-  EXPECT_EQ(shared.offsets(), (std::vector<std::uint32_t>{0, 3, 5}));
-  EXPECT_EQ(shared.points()[0].x(), 2.0);
-  EXPECT_EQ(shared.points()[3].x(), 0.0);
-  EXPECT_EQ(shared.radii(), std::vector<double>{0.5});
-  EXPECT_EQ(swapped({0.5, 1}).radii(), (std::vector<double>{1, 0.5}));
-  EXPECT_EQ(swapped({1, 2, 3, 4, 5}).radii(), (std::vector<double>{3, 4, 5, 1, 2}));
 }
 
 TEST(Shuffle, IsTheSameOrderOnEveryMachine) {

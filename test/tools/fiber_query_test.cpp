@@ -159,6 +159,15 @@ TEST_F(FiberQuery, PrintsTheLibrarysNumbersBitForBit) {
   EXPECT_EQ(row, rows.size());
 }
 
+TEST_F(FiberQuery, ReadsHairFiles) {
+  ASSERT_EQ(scene("tress_a --scale 0.02 --out " + path("a.hair")).exit_code, 0);
+  const ProcessResult tree = query("contacts " + path("a.hair"));
+  EXPECT_EQ(tree.exit_code, 0) << tree.err;
+  EXPECT_GT(lines(tree.out).size(), 3U);
+  EXPECT_EQ(tree.out, query("contacts " + path("a.hair") + " --engine brute_force").out);
+  EXPECT_TRUE(refused(query("contacts " + write("b.hair", "HAIR")), "b.hair: ends at byte 4"));
+}
+
 TEST_F(FiberQuery, FilesOfNothing) {
   const std::string bare = write("bare.csv", "fiber,x,y,z\n");
   const std::string framed = write("framed.csv", "frame,fiber,x,y,z\n");

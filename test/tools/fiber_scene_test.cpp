@@ -1,4 +1,5 @@
 #include "fiber_proximity/io/csv.hpp"
+#include "fiber_proximity/io/hair_file.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
 #include "tools/tools_test.hpp"
 
@@ -31,6 +32,21 @@ TEST_F(FiberSceneTool, WithoutFramesThereIsNoFrameColumn) {
   const FiberFile file = read_csv(path("a.csv"));
   EXPECT_FALSE(file.has_frames);
   EXPECT_EQ(file.frames.at(0).fibers.radii(), std::vector<double>{3.5e-5});
+}
+
+TEST_F(FiberSceneTool, WritesAHairFile) {
+  EXPECT_EQ(scene("charming --scale 0.001 --out " + path("a.hair")).exit_code, 0);
+  const FiberAssembly fibers = read_hair(path("a.hair")).frames.at(0).fibers;
+  EXPECT_EQ(fibers.offsets(), make_scene("charming", {0.001, 1})(0).offsets());
+  EXPECT_TRUE(refused(scene("charming --scale 0.001 --frames 2 --out " + path("b.hair")),
+                      "a .hair file cannot hold this"));
+  EXPECT_FALSE(std::filesystem::exists(path("b.hair")));
+}
+
+TEST_F(FiberSceneTool, ShufflesOnRequest) {
+  EXPECT_EQ(scene("soup --scale 0.001 --shuffle --out " + path("a.csv")).exit_code, 0);
+  EXPECT_EQ(read_csv(path("a.csv")).frames.at(0).fibers.points(),
+            make_scene("soup", {0.001, 1, true})(0).points());
 }
 
 TEST_F(FiberSceneTool, RefusesBadCommandLines) {

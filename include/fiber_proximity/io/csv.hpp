@@ -7,22 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/io/fiber_frame.hpp"
 #include "fiber_proximity/io/file_error.hpp"
 
 namespace fiber {
-
-/// The fibres at one moment of a recording.
-struct FiberFrame {
-  std::int64_t frame = 0;  ///< the frame's number in the file
-  FiberAssembly fibers;
-};
-
-/// What a fibre file holds: one frame without a number, or any number of numbered ones.
-struct FiberFile {
-  bool has_frames = false;
-  std::vector<FiberFrame> frames;  ///< in the file's order; exactly one without numbers
-};
 
 /// Reads a fibre file: a header `fiber,x,y,z` with an optional leading `frame` and an optional
 /// trailing `radius`, then a row per point [m]. Rows of a frame, and within it rows of a fibre,

@@ -3,7 +3,8 @@
 #include <iosfwd>
 #include <string>
 
-#include "fiber_proximity/io/csv.hpp"
+#include "fiber_proximity/io/fiber_frame.hpp"
+#include "fiber_proximity/io/file_error.hpp"
 
 namespace fiber {
 
