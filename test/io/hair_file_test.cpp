@@ -215,8 +215,8 @@ TEST(ReadHair, RefusesBadNumbers) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float infinity = std::numeric_limits<float>::infinity();
   EXPECT_EQ(refusal(with(sample(2), 128 + 12 + 4, Bytes().floats({nan}))),
-            "a.hair: y of point 1 (byte 144) is nan, coordinates must be finite and within"
-            " ±1e150 m");
+            "a.hair: y of point 1 (byte 144) is nan, coordinates must be finite and at most"
+            " 1e150 m in magnitude");
   EXPECT_EQ(refusal(with(sample(6), 200 + 8, Bytes().floats({-1}))),
             "a.hair: the thickness of point 2 (byte 208) is -1, radii must be finite, at least 0"
             " and at most 1e150 m");
