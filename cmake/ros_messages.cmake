@@ -27,6 +27,7 @@ add_message_files(FILES
 )
 add_service_files(FILES QueryProximity.srv)
 generate_messages(DEPENDENCIES geometry_msgs std_msgs)
+generate_dynamic_reconfigure_options(cfg/Proximity.cfg)
 
 catkin_package(
   INCLUDE_DIRS include

@@ -65,8 +65,9 @@ TEST(FiberAssembly, CountsAConicalSegmentAsItsLargerRadius) {
 TEST(FiberAssembly, NamesFiberPointAndValueOfABadCoordinate) {
   std::vector<Vector3d> points = five_points;
   points[4].y() = nan;
-  EXPECT_EQ(error_of_assembly(points, {0, 3, 5}, {0.1}),
-            "fibre 1, point 1: y is nan, coordinates must be finite and within ±1e150 m");
+  EXPECT_EQ(
+      error_of_assembly(points, {0, 3, 5}, {0.1}),
+      "fibre 1, point 1: y is nan, coordinates must be finite and at most 1e150 m in magnitude");
   points[4].y() = -inf;
   EXPECT_NE(error_of_assembly(points, {0, 3, 5}, {0.1}).find("fibre 1, point 1: y is -inf"),
             std::string::npos);

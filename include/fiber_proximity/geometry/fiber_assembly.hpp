@@ -35,7 +35,8 @@ class FiberAssembly {
     return std::abs(value) <= max_coordinate;  // false for NaN
   }
   static bool is_valid_radius(double value) { return value >= 0.0 && value <= max_coordinate; }
-  static constexpr const char* coordinate_rule = "coordinates must be finite and within ±1e150 m";
+  static constexpr const char* coordinate_rule =
+      "coordinates must be finite and at most 1e150 m in magnitude";
   static constexpr const char* radius_rule = "radii must be finite, at least 0 and at most 1e150 m";
 
   FiberAssembly() = default;

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <geometry_msgs/Point.h>
+#include <geometry_msgs/Vector3.h>
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "fiber_proximity/Contact.h"
+#include "fiber_proximity/FiberArray.h"
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/query/contact.hpp"
+#include "fiber_proximity/ros/chain_set.hpp"
+
+namespace fiber_proximity_ros {
+
+template <class Point>
+Eigen::Vector3d to_vector(const Point& point) {
+  return {static_cast<double>(point.x), static_cast<double>(point.y), static_cast<double>(point.z)};
+}
+
+geometry_msgs::Point to_message(const Eigen::Vector3d& point);
+geometry_msgs::Vector3 to_vector_message(const Eigen::Vector3d& vector);
+
+/// Everything but the header. Memory of the message is reused.
+/// @param names one per fibre, or none
+void to_message(const fiber::FiberAssembly& fibers, const std::vector<std::string>& names,
+                fiber_proximity::FiberArray& message);
+
+/// Everything but `type_a`, which the caller knows.
+void to_message(const fiber::Contact& contact, fiber_proximity::Contact& message);
+
+/// @throws std::invalid_argument if there are names, but not one per fibre
+void to_chains(const fiber_proximity::FiberArray& message, ChainSet& chains);
+
+}  // namespace fiber_proximity_ros

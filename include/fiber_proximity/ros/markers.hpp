@@ -1,0 +1,68 @@
+#pragma once
+
+#include <std_msgs/Header.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/query/contact.hpp"
+#include "fiber_proximity/query/engine.hpp"
+
+namespace fiber_proximity_ros {
+
+/// What to draw.
+struct MarkerOptions {
+  bool show_fibers = true;
+  bool show_contacts = true;
+  bool show_nearest = true;
+  bool show_boxes = false;
+  std::uint32_t level = 4;  ///< of the hierarchy, whose boxes the caller hands in; 0 is the root
+};
+
+/// Draws fibres, contacts and boxes for rviz.
+///
+/// | ns             | id          | what                                                         |
+/// |----------------|-------------|--------------------------------------------------------------|
+/// | `fibers`       | fibre index | tubes of the exact radius (TRIANGLE_LIST); above             |
+/// |                |             | `most_tube_segments` in all one LINE_LIST of id 0            |
+/// | `contacts`     | 0           | SPHERE_LIST midway between the surfaces; red in penetration, |
+/// |                |             | amber within the margin                                      |
+/// | `normals`      | 0           | LINE_LIST from there along the normal a→b                    |
+/// | `nearest`      | 0           | LINE_LIST between the nearest points of the closest pair     |
+/// | `nearest_text` | 0           | its distance in mm                                           |
+/// | `boxes`        | 0           | LINE_LIST of the edges of the boxes                          |
+class MarkerBuilder {
+ public:
+  /// More segments than this would make messages of many megabytes: 1.2 kB each.
+  static constexpr std::size_t most_tube_segments = 5000;
+
+  /// Markers of one update; ends with DELETE for what the previous call drew and this one does not.
+  /// @param minimum the closest pair, nullptr if there is none
+  /// @param boxes   of the level to show; ignored unless options.show_boxes
+  /// @param markers overwritten; memory of an earlier call is reused
+  void build(const std_msgs::Header& header, const fiber::FiberAssembly& fibers,
+             const fiber::QueryResult& contacts, const fiber::Contact* minimum,
+             const std::vector<fiber::NodeBox>& boxes, const MarkerOptions& options,
+             visualization_msgs::MarkerArray& markers);
+
+ private:
+  enum Namespace : std::uint8_t { FIBERS, CONTACTS, NORMALS, NEAREST, NEAREST_TEXT, BOXES, COUNT };
+  class Canvas;
+
+  static void draw_tubes(const fiber::FiberAssembly& fibers, Canvas& canvas);
+  static void draw_lines(const fiber::FiberAssembly& fibers, double width, Canvas& canvas);
+  static void draw_contacts(const std::vector<fiber::Contact>& contacts, double thickness,
+                            Canvas& canvas);
+  static void draw_normals(const std::vector<fiber::Contact>& contacts, double thickness,
+                           Canvas& canvas);
+  static void draw_nearest(const fiber::Contact& minimum, double extent, Canvas& canvas);
+  static void draw_boxes(const std::vector<fiber::NodeBox>& boxes, double extent, Canvas& canvas);
+
+  // By namespace: ids 0 .. count−1 are on the screen.
+  std::array<std::int32_t, COUNT> drawn_{};
+};
+
+}  // namespace fiber_proximity_ros

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <dynamic_reconfigure/server.h>
+#include <ros/node_handle.h>
+
+#include <vector>
+
+#include "fiber_proximity/ContactArray.h"
+#include "fiber_proximity/FiberArray.h"
+#include "fiber_proximity/ProximityConfig.h"
+#include "fiber_proximity/QueryProximity.h"
+#include "fiber_proximity/Statistics.h"
+#include "fiber_proximity/ros/detector.hpp"
+#include "fiber_proximity/ros/diagnostics.hpp"
+#include "fiber_proximity/ros/input_set.hpp"
+#include "fiber_proximity/ros/markers.hpp"
+#include "fiber_proximity/ros/server_options.hpp"
+
+namespace fiber_proximity_ros {
+
+/// The proximity node: fibres in, contacts, markers and answers to queries out. One class behind
+/// node and nodelet; all its callbacks must come from one thread at a time.
+///
+/// Publishes ~contacts, ~fibers, ~markers, ~statistics and /diagnostics; serves ~query. Each set of
+/// messages that have arrived gives one answer, each answer is published once, and what nobody
+/// subscribes to is not computed.
+class ProximityServer {
+ public:
+  /// @throws std::invalid_argument for a bad parameter (see read_server_options) or an unknown
+  ///         engine: there is nothing sensible to run then
+  ProximityServer(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
+  ~ProximityServer();
+  ProximityServer(const ProximityServer&) = delete;
+  ProximityServer& operator=(const ProximityServer&) = delete;
+
+ private:
+  /// Has process() called after the callbacks that are in the queue already, so that messages that
+  /// have arrived together are answered together.
+  void schedule();
+  void process();
+  void tick();
+
+  void publish();
+  void publish_fibers();
+  void publish_contacts();
+  void publish_statistics(double total_time);
+  void publish_markers_if_due();
+
+  bool query(fiber_proximity::QueryProximity::Request& request,
+             fiber_proximity::QueryProximity::Response& response);
+  void reconfigure(fiber_proximity::ProximityConfig& config);
+
+  ros::NodeHandle node_;
+  ros::NodeHandle private_node_;
+  ServerOptions options_;
+  fiber_proximity::ProximityConfig config_ = fiber_proximity::ProximityConfig::__getDefault__();
+  fiber::QueryOptions query_options_;
+  MarkerOptions marker_options_;
+  Detector detector_;
+
+  ros::Publisher contacts_publisher_;
+  ros::Publisher fibers_publisher_;
+  ros::Publisher markers_publisher_;
+  ros::Publisher statistics_publisher_;
+
+  // Members for their memory.
+  fiber_proximity::FiberArray fibers_message_;
+  fiber_proximity::ContactArray contacts_message_;
+  fiber_proximity::Statistics statistics_message_;
+  visualization_msgs::MarkerArray markers_message_;
+  std::vector<fiber::NodeBox> boxes_;
+
+  MarkerBuilder marker_builder_;
+  ros::SteadyTime last_drawing_;
+  bool drawing_is_due_ = false;
+  double merge_time_ = 0.0;
+  bool is_scheduled_ = false;
+
+  // Last, so that they go first: callbacks come from here.
+  InputSet inputs_;
+  Diagnostics diagnostics_;
+  dynamic_reconfigure::Server<fiber_proximity::ProximityConfig> reconfigure_server_;
+  ros::ServiceServer query_server_;
+  ros::SteadyTimer tick_timer_;
+  ros::SteadyTimer retry_timer_;
+};
+
+}  // namespace fiber_proximity_ros

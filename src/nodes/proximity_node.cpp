@@ -1,0 +1,19 @@
+#include <ros/ros.h>
+
+#include <stdexcept>
+
+#include "fiber_proximity/ros/proximity_server.hpp"
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "proximity");
+  // Out here: with the last node handle goes the log, and with it the error below.
+  const ros::NodeHandle node;
+  try {
+    const fiber_proximity_ros::ProximityServer server(node, ros::NodeHandle("~"));
+    ros::spin();
+  } catch (const std::invalid_argument& error) {
+    ROS_FATAL_STREAM(error.what());
+    return 2;
+  }
+  return 0;
+}

@@ -1,0 +1,64 @@
+#include "fiber_proximity/ros/conversions.hpp"
+
+#include <stdexcept>
+
+namespace fiber_proximity_ros {
+
+geometry_msgs::Point to_message(const Eigen::Vector3d& point) {
+  geometry_msgs::Point message;
+  message.x = point.x();
+  message.y = point.y();
+  message.z = point.z();
+  return message;
+}
+
+geometry_msgs::Vector3 to_vector_message(const Eigen::Vector3d& vector) {
+  geometry_msgs::Vector3 message;
+  message.x = vector.x();
+  message.y = vector.y();
+  message.z = vector.z();
+  return message;
+}
+
+void to_message(const fiber::FiberAssembly& fibers, const std::vector<std::string>& names,
+                fiber_proximity::FiberArray& message) {
+  message.names = names;
+  message.offsets = fibers.offsets();
+  message.radii = fibers.radii();
+  message.points.resize(fibers.point_count());
+  for (std::size_t i = 0; i < fibers.point_count(); ++i) {
+    message.points[i] = to_message(fibers.points()[i]);
+  }
+}
+
+void to_message(const fiber::Contact& contact, fiber_proximity::Contact& message) {
+  message.fiber_a = contact.fiber_a;
+  message.segment_a = contact.segment_a;
+  message.s = contact.s;
+  message.fiber_b = contact.fiber_b;
+  message.segment_b = contact.segment_b;
+  message.t = contact.t;
+  message.distance = contact.distance;
+  message.point_a = to_message(contact.point_a);
+  message.point_b = to_message(contact.point_b);
+  message.normal = to_vector_message(contact.normal);
+}
+
+void to_chains(const fiber_proximity::FiberArray& message, ChainSet& chains) {
+  chains.clear();
+  chains.header = message.header;
+  chains.offsets = message.offsets;
+  chains.radii = message.radii;
+  chains.names = message.names;
+  chains.points.reserve(message.points.size());
+  for (const geometry_msgs::Point& point : message.points) {
+    chains.points.push_back(to_vector(point));
+  }
+  if (!chains.names.empty() && chains.names.size() != chains.fiber_count()) {
+    throw std::invalid_argument(std::to_string(chains.names.size()) + " names for " +
+                                std::to_string(chains.fiber_count()) +
+                                " fibre(s); give one per fibre or none");
+  }
+}
+
+}  // namespace fiber_proximity_ros

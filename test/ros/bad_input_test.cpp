@@ -1,0 +1,280 @@
+// What the running node does with input nobody should send: one clear error, nothing else.
+#include <sys/wait.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <cstdio>
+#include <limits>
+
+#include "ros/messages.hpp"
+#include "ros/node_test.hpp"
+
+namespace {
+
+using fiber_proximity::FiberArray;
+using test_messages::header;
+using test_messages::Points;
+using visualization_msgs::Marker;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+class BadInputTest : public node_test::NodeTest {
+ protected:
+  void SetUp() override {
+    good_ = advertise<FiberArray>("good");
+    connect(good_, good_message());
+  }
+
+  static FiberArray good_message() {
+    FiberArray message = test_messages::fiber_array(
+        header("world", new_stamp()), {{0, 0, 0}, {1, 0, 0}, {0, 0.001, 0}, {1, 0.001, 0}});
+    message.offsets = {0, 2, 4};
+    return message;
+  }
+
+  /// A message of one fibre of four points that is all right.
+  static FiberArray array(const std::string& frame = "world") {
+    return test_messages::fiber_array(header(frame, new_stamp()), chain());
+  }
+
+  static Points chain() { return {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}; }
+
+  static sensor_msgs::PointCloud2 cloud(const Points& points = chain()) {
+    return test_messages::point_cloud2(header("world", new_stamp()), points);
+  }
+
+  /// Sends the message and expects that it is refused for this reason, with one log entry, without
+  /// an answer, and that the node goes on.
+  template <class Message>
+  void expect_refused(const std::string& topic, const Message& message, const std::string& reason) {
+    SCOPED_TRACE(topic);
+    const std::size_t answers = contacts.messages.size();
+    const std::size_t drawn = fibers.messages.size();
+    const ros::Publisher publisher = advertise<Message>("bad/" + topic);
+    publisher.publish(message);
+    const std::string label = "input 'bad/" + topic + "'";
+    ASSERT_TRUE(node_test::wait_for([&] { return !logs_of(label).empty(); })) << "no error";
+    EXPECT_NE(logs_of(label).front().find("message refused: " + reason), std::string::npos)
+        << logs_of(label).front();
+
+    const FiberArray next = good_message();
+    good_.publish(next);
+    const fiber_proximity::Statistics* now = statistics.wait_for(next.header.stamp);
+    ASSERT_NE(now, nullptr) << "the node does not live on";
+    const fiber_proximity::InputStatistics* input = input_of(*now, "bad/" + topic);
+    ASSERT_NE(input, nullptr);
+    EXPECT_EQ(input->received, 1U);
+    EXPECT_EQ(input->refused, 1U);
+    EXPECT_EQ(input->fibers, 0U);
+    EXPECT_EQ(input->last_error.rfind(reason, 0), 0U) << input->last_error;
+    EXPECT_EQ(now->fibers, 2U);
+    ASSERT_NE(contacts.wait_for(next.header.stamp), nullptr);
+    ASSERT_NE(fibers.wait_for(next.header.stamp), nullptr);
+    EXPECT_EQ(contacts.messages.size(), answers + 1) << "the bad message was answered";
+    EXPECT_EQ(fibers.messages.size(), drawn + 1) << "the bad message was answered";
+    EXPECT_EQ(logs_of(label).size(), 1U);
+  }
+
+  ros::Publisher good_;
+};
+
+/// What a second node says and returns that does not start.
+struct Refusal {
+  std::string output;
+  int exit_code = 0;
+};
+
+Refusal run_node(const std::string& arguments) {
+  Refusal refusal;
+  const std::string command = PROXIMITY_NODE " __name:=refused " + arguments + " 2>&1";
+  FILE* const pipe = popen(command.c_str(), "r");  // NOLINT(bugprone-command-processor)
+  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) {
+    refusal.output.push_back(static_cast<char>(c));
+  }
+  refusal.exit_code = WEXITSTATUS(pclose(pipe));
+  return refusal;
+}
+
+TEST_F(BadInputTest, BadEntriesOfInputsAreLeftOutWithAnErrorEach) {
+  EXPECT_EQ(statistics.messages.back()->inputs.size(), 28U);
+  // The same list for a node whose log can be read from its beginning.
+  XmlRpc::XmlRpcValue inputs;
+  ASSERT_TRUE(ros::param::get("/proximity/inputs", inputs));
+  ros::param::set("/refused/inputs", inputs);
+  const std::string log = run_node("_engine:=none _colour:=red").output;
+  EXPECT_TRUE(ros::param::del("/refused/inputs"));
+  const auto expect_left_out = [&log](int entry, const std::string& reason) {
+    const std::string prefix =
+        "parameter /refused/inputs, entry " + std::to_string(entry) + " is left out: ";
+    const std::size_t found = log.find(prefix);
+    ASSERT_NE(found, std::string::npos) << reason;
+    EXPECT_EQ(log.substr(found, prefix.size() + reason.size()), prefix + reason);
+    EXPECT_EQ(log.find(prefix, found + 1), std::string::npos);
+  };
+  expect_left_out(1,
+                  "unknown input type 'std_msgs/String', known are: fiber_proximity/FiberArray,");
+  expect_left_out(2, "has no key 'topic'");
+  expect_left_out(3, "has the unknown key 'colour', known are: topic, type,");
+  expect_left_out(4, "key 'radius' is thick, it must be a number of metres, at least 0");
+  expect_left_out(5, "key 'topic' is yaml/not a name, it must be a ROS name");
+  expect_left_out(6, "is yaml_no_map, it must be a map with the key 'topic' at least");
+  EXPECT_NE(log.find("parameter /refused/colour is unknown"), std::string::npos);
+}
+
+TEST_F(BadInputTest, MalformedFiberArraysAreRefused) {
+  FiberArray message = array();
+  message.points[2].y = nan;
+  expect_refused("nan_point", message, "fibre 0, point 2: y is nan");
+
+  message = array();
+  message.points[3].z = -infinity;
+  expect_refused("infinite_point", message, "fibre 0, point 3: z is -inf");
+
+  message = array();
+  message.radii = {-0.5};
+  expect_refused("negative_radius", message, "the radius is -0.5");
+
+  message = array();
+  message.offsets = {0, 2, 4};
+  message.radii = {0.5, nan};
+  expect_refused("nan_radius", message, "fibre 1: the radius is nan");
+
+  message = array();
+  message.radii = {0.5, 0.5};
+  expect_refused("radius_count", message, "2 radii for 1 fibre(s) of 4 points");
+
+  message = array();
+  message.offsets = {0, 3, 2, 4};
+  expect_refused("decreasing_offsets", message, "fibre 1: offsets decrease from 3 to 2");
+
+  message = array();
+  message.offsets = {0, 2, 7};
+  expect_refused("overrunning_offsets", message, "fibre 1: offset 7 lies beyond the 4 points");
+
+  message = array();
+  message.offsets = {0, 2};
+  expect_refused("points_left_over", message, "the last offset is 2, but there are 4 points");
+
+  message = array();
+  message.offsets.clear();
+  expect_refused("no_offsets", message, "offsets must start with 0, but are empty");
+
+  message = array();
+  message.offsets = {0, 3, 4};
+  expect_refused("one_point", message, "fibre 1: has 1 point(s), a fibre needs at least 2");
+
+  message = array();
+  message.offsets = {0, 4, 4};
+  expect_refused("empty_fiber", message, "fibre 1: has 0 point(s), a fibre needs at least 2");
+
+  message = array();
+  message.names = {"one", "too many"};
+  expect_refused("names", message, "2 names for 1 fibre(s)");
+}
+
+TEST_F(BadInputTest, MessagesWithoutATransformAreRefused) {
+  expect_refused("no_frame", array(""), "header.frame_id is empty");
+  expect_refused("unknown_frame", array("nowhere"),
+                 "no transform from frame 'nowhere' to 'world' at time ");
+  EXPECT_FALSE(logs_of("unknown frame: ").empty());
+  expect_refused("island", array("crater"), "no transform from frame 'crater' to 'world' at time ");
+  EXPECT_FALSE(logs_of("frames not connected: ").empty());
+
+  // Known now, but not at the time of the message.
+  tf2_msgs::TFMessage transforms;
+  transforms.transforms.resize(1);
+  geometry_msgs::TransformStamped& transform = transforms.transforms.front();
+  transform.header = header("world", ros::Time::now());
+  transform.child_frame_id = "moving";
+  transform.transform.rotation.w = 1.0;
+  const ros::Publisher tf = advertise<tf2_msgs::TFMessage>("/tf");
+  tf.publish(transforms);
+  fiber_proximity::QueryProximity query;
+  query.request.shapes.resize(1);
+  query.request.shapes[0].header.frame_id = "moving";
+  query.request.shapes[0].points.resize(1);
+  ASSERT_TRUE(node_test::wait_for([&] {
+    return ros::service::call("/proximity/query", query) && query.response.success;
+  })) << query.response.message;
+  FiberArray message = array("moving");
+  message.header.stamp = transform.header.stamp + ros::Duration(100.0);
+  expect_refused("future", message, "no transform from frame 'moving' to 'world' at time ");
+  EXPECT_FALSE(logs_of("not known at that time: ").empty());
+}
+
+TEST_F(BadInputTest, MalformedCloudsAreRefused) {
+  sensor_msgs::PointCloud2 message = cloud();
+  message.fields[0].name = "u";
+  expect_refused("cloud_without_x", message, "the cloud has no field 'x', it needs x, y and z");
+
+  message = cloud();
+  message.fields[2].datatype = sensor_msgs::PointField::INT32;
+  expect_refused("cloud_of_integers", message, "field 'z' has datatype 5");
+
+  message = cloud();
+  message.point_step += 4;
+  expect_refused("cloud_with_wrong_step", message, "row_step is ");
+
+  message = cloud();
+  message.is_bigendian = 1;
+  expect_refused("big_endian_cloud", message, "the cloud is big-endian");
+
+  Points points = chain();
+  points[1].x() = nan;
+  expect_refused("nan_cloud", cloud(points), "fibre 0, point 1: x is nan");
+  expect_refused("empty_cloud", cloud({}), "fibre 0: has 0 point(s), a fibre needs at least 2");
+}
+
+TEST_F(BadInputTest, MalformedPosesAndMarkersAreRefused) {
+  const std_msgs::Header world = header("world", new_stamp());
+  expect_refused("one_pose", test_messages::pose_array(world, {{0, 0, 0}}),
+                 "fibre 0: has 1 point(s), a fibre needs at least 2");
+
+  nav_msgs::Path path = test_messages::path(world, chain());
+  path.poses[3].header.frame_id = "gripper";
+  expect_refused("path_frames", path, "pose 3 is in frame 'gripper', the path in 'world'");
+
+  expect_refused("odd_line_list",
+                 test_messages::marker(world, Marker::LINE_LIST, {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}),
+                 "marker cable/0: a LINE_LIST of 3 points");
+
+  visualization_msgs::MarkerArray markers;
+  markers.markers.push_back(test_messages::marker(world, Marker::TEXT_VIEW_FACING, {}));
+  expect_refused("text_marker", markers, "marker cable/0 has type 9; fibres are read from ");
+}
+
+TEST_F(BadInputTest, AFloodOfBadMessagesIsLoggedAtALowRate) {
+  const ros::Publisher publisher = advertise<FiberArray>("bad/flood");
+  FiberArray message = array();
+  const ros::SteadyTime begin = ros::SteadyTime::now();
+  const fiber_proximity::InputStatistics* input = nullptr;
+  ASSERT_TRUE(node_test::wait_for([&] {
+    for (int i = 0; i < 5; ++i) {
+      message.points[static_cast<std::size_t>(i % 4)].x = nan;  // another text each time
+      publisher.publish(message);
+      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.001));
+    }
+    good_.publish(good_message());
+    input = input_of(*statistics.messages.back(), "bad/flood");
+    return input != nullptr && input->refused > 100;
+  }));
+  const double seconds = (ros::SteadyTime::now() - begin).toSec();
+  EXPECT_GE(logs_of("bad/flood").size(), 1U);
+  EXPECT_LE(static_cast<double>(logs_of("bad/flood").size()), 2.0 + seconds);
+}
+
+TEST_F(BadInputTest, ABadParameterIsAClearErrorAndExitCode2) {
+  const auto expect_exit = [](const std::string& arguments, const std::string& error) {
+    const Refusal refusal = run_node(arguments);
+    EXPECT_EQ(refusal.exit_code, 2) << arguments;
+    EXPECT_NE(refusal.output.find(error), std::string::npos) << refusal.output;
+  };
+  expect_exit("_engine:=nonsense", "unknown engine 'nonsense', known are: AL, ");
+  expect_exit("_tf_timeout:=-1", "parameter /refused/tf_timeout is -1, it must be a number of ");
+  ros::param::del("/refused/tf_timeout");
+  expect_exit("_radius:=thick", "parameter /refused/radius is thick, it must be a number of ");
+  ros::param::del("/refused/radius");
+  expect_exit("_inputs:=fibers", "parameter /refused/inputs is fibers, it must be a list of maps");
+}
+
+}  // namespace

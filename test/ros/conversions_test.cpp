@@ -1,0 +1,200 @@
+#include "fiber_proximity/ros/conversions.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <functional>
+
+#include "fiber_proximity/ros/point_cloud_input.hpp"
+#include "fiber_proximity/ros/pose_input.hpp"
+#include "ros/messages.hpp"
+
+namespace fiber_proximity_ros {
+namespace {
+
+using test_messages::header;
+using test_messages::Points;
+
+const Points& chain() {
+  static const Points points{{0.125, -1.0, 2.5}, {0.25, 0.5, 2.0}, {1.0, 0.75, -3.0}};
+  return points;
+}
+
+std::string error_of(const std::function<void()>& function) {
+  try {
+    function();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+void expect_one_chain(const ChainSet& chains) {
+  EXPECT_EQ(chains.header.frame_id, "camera");
+  EXPECT_EQ(chains.header.stamp, ros::Time(3, 4));
+  EXPECT_EQ(chains.points, chain());
+  EXPECT_EQ(chains.offsets, (std::vector<std::uint32_t>{0, 3}));
+  EXPECT_TRUE(chains.radii.empty());
+  EXPECT_TRUE(chains.names.empty());
+}
+
+TEST(Conversions, AnAssemblyComesBackFromItsMessage) {
+  const fiber::FiberAssembly fibers({{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {9, 10, 11}}, {0, 2, 4},
+                                    {0.5, 0.25});
+  fiber_proximity::FiberArray message;
+  to_message(fibers, {"left", "right"}, message);
+  ChainSet chains;
+  to_chains(message, chains);
+  EXPECT_EQ(chains.points, fibers.points());
+  EXPECT_EQ(chains.offsets, fibers.offsets());
+  EXPECT_EQ(chains.radii, fibers.radii());
+  EXPECT_EQ(chains.names, (std::vector<std::string>{"left", "right"}));
+}
+
+TEST(Conversions, NamesMustBeOnePerFibre) {
+  fiber_proximity::FiberArray message = test_messages::fiber_array(header("map"), chain());
+  message.names = {"one", "two"};
+  ChainSet chains;
+  EXPECT_EQ(error_of([&] { to_chains(message, chains); }),
+            "2 names for 1 fibre(s); give one per fibre or none");
+}
+
+TEST(Conversions, ContactKeepsEveryField) {
+  fiber::Contact contact;
+  contact.fiber_a = 1;
+  contact.segment_a = 2;
+  contact.s = 0.25;
+  contact.fiber_b = 3;
+  contact.segment_b = 4;
+  contact.t = 0.75;
+  contact.distance = -0.5;
+  contact.point_a = {1, 2, 3};
+  contact.point_b = {4, 5, 6};
+  contact.normal = {0, 0, 1};
+  fiber_proximity::Contact message;
+  to_message(contact, message);
+  EXPECT_EQ(message.fiber_a, 1U);
+  EXPECT_EQ(message.segment_a, 2U);
+  EXPECT_EQ(message.s, 0.25);
+  EXPECT_EQ(message.fiber_b, 3U);
+  EXPECT_EQ(message.segment_b, 4U);
+  EXPECT_EQ(message.t, 0.75);
+  EXPECT_EQ(message.distance, -0.5);
+  EXPECT_EQ(to_vector(message.point_a), contact.point_a);
+  EXPECT_EQ(to_vector(message.point_b), contact.point_b);
+  EXPECT_EQ(to_vector(message.normal), contact.normal);
+}
+
+TEST(Conversions, EveryTypeOfOneChainGivesTheSame) {
+  const std_msgs::Header camera = header("camera", ros::Time(3, 4));
+  ChainSet chains;
+  to_chains(test_messages::fiber_array(camera, chain()), chains);
+  expect_one_chain(chains);
+  to_chains(test_messages::point_cloud2(camera, chain()), chains);
+  expect_one_chain(chains);
+  to_chains(test_messages::point_cloud(camera, chain()), chains);
+  expect_one_chain(chains);
+  to_chains(test_messages::pose_array(camera, chain()), chains);
+  expect_one_chain(chains);
+  to_chains(test_messages::path(camera, chain()), chains);
+  expect_one_chain(chains);
+}
+
+TEST(Conversions, APoseOfAPathMustBeInThePathsFrame) {
+  nav_msgs::Path message = test_messages::path(header("map"), chain());
+  message.poses[1].header.frame_id = "map";
+  ChainSet chains;
+  EXPECT_NO_THROW(to_chains(message, chains));
+  message.poses[2].header.frame_id = "gripper";
+  EXPECT_EQ(error_of([&] { to_chains(message, chains); }),
+            "pose 2 is in frame 'gripper', the path in 'map'; they must be the same");
+}
+
+/// A cloud laid out by hand: double z first, then float y and x, padding in points and rows, two
+/// rows of two points.
+sensor_msgs::PointCloud2 unusual_cloud() {
+  sensor_msgs::PointCloud2 cloud;
+  const auto add_field = [&cloud](const char* name, std::uint32_t offset, std::uint8_t datatype) {
+    sensor_msgs::PointField field;
+    field.name = name;
+    field.offset = offset;
+    field.datatype = datatype;
+    field.count = 1;
+    cloud.fields.push_back(field);
+  };
+  add_field("z", 1, sensor_msgs::PointField::FLOAT64);
+  add_field("y", 9, sensor_msgs::PointField::FLOAT32);
+  add_field("x", 14, sensor_msgs::PointField::FLOAT32);
+  cloud.width = 2;
+  cloud.height = 2;
+  cloud.point_step = 20;
+  cloud.row_step = 43;
+  cloud.data.resize(86, 0xAB);
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    std::uint8_t* point = cloud.data.data() + (i / 2) * 43 + (i % 2) * 20;
+    const double z = 0.1 * i;
+    const float y = 10.0F + static_cast<float>(i);
+    const float x = 20.0F + static_cast<float>(i);
+    std::memcpy(point + 1, &z, sizeof z);
+    std::memcpy(point + 9, &y, sizeof y);
+    std::memcpy(point + 14, &x, sizeof x);
+  }
+  return cloud;
+}
+
+TEST(PointCloud2, AnyLayoutIsReadRowByRow) {
+  ChainSet chains;
+  to_chains(unusual_cloud(), chains);
+  EXPECT_EQ(chains.points,
+            (Points{{20, 10, 0.0}, {21, 11, 0.1}, {22, 12, 0.2}, {23, 13, 0.1 * 3}}));
+  EXPECT_EQ(chains.offsets, (std::vector<std::uint32_t>{0, 4}));
+}
+
+TEST(PointCloud2, AnEmptyCloudIsAFibreOfNoPoints) {
+  sensor_msgs::PointCloud2 cloud = test_messages::point_cloud2(header("map"), {});
+  cloud.height = 0xFFFF'FFFFU;
+  ChainSet chains;
+  to_chains(cloud, chains);
+  EXPECT_EQ(chains.offsets, (std::vector<std::uint32_t>{0, 0}));
+}
+
+TEST(PointCloud2, MalformedCloudsAreRefused) {
+  ChainSet chains;
+  const auto error_after = [&chains](const std::function<void(sensor_msgs::PointCloud2&)>& change) {
+    sensor_msgs::PointCloud2 cloud = unusual_cloud();
+    change(cloud);
+    return error_of([&] { to_chains(cloud, chains); });
+  };
+  EXPECT_EQ(error_after([](auto& cloud) { cloud.fields.pop_back(); }),
+            "the cloud has no field 'x', it needs x, y and z");
+  EXPECT_EQ(error_after([](auto& cloud) { cloud.fields[1].datatype = 6; }),
+            "field 'y' has datatype 6, it must be 7 (FLOAT32) or 8 (FLOAT64)");
+  EXPECT_EQ(error_after([](auto& cloud) { cloud.fields[0].offset = 13; }),
+            "field 'z' ends at byte 21, beyond point_step 20");
+  EXPECT_EQ(error_after([](auto& cloud) { cloud.fields[0].offset = 0xFFFF'FFFCU; }),
+            "field 'z' ends at byte 4294967300, beyond point_step 20");
+  EXPECT_EQ(error_after([](auto& cloud) { cloud.is_bigendian = 1; }),
+            "the cloud is big-endian, only little-endian is supported");
+  EXPECT_EQ(error_after([](auto& cloud) { cloud.row_step = 39; }),
+            "row_step is 39, but 2 points of point_step 20 need 40");
+  EXPECT_EQ(error_after([](auto& cloud) { cloud.point_step = 0x8000'0000U; }),
+            "row_step is 43, but 2 points of point_step 2147483648 need 4294967296");
+  EXPECT_EQ(error_after([](auto& cloud) { cloud.data.pop_back(); }),
+            "data has 85 bytes, but 2 row(s) of row_step 43 make 86");
+}
+
+TEST(ChainSet, AssignRefusesWhatAnAssemblyRefuses) {
+  ChainSet chains;
+  chains.points = chain();
+  chains.end_chain();
+  chains.radii = {0.5};
+  fiber::FiberAssembly fibers;
+  assign(chains, fibers);
+  EXPECT_EQ(fibers.points(), chain());
+  chains.radii = {-1.0};
+  EXPECT_THROW(assign(chains, fibers), std::invalid_argument);
+  EXPECT_EQ(fibers.radii(), std::vector<double>{0.5});
+}
+
+}  // namespace
+}  // namespace fiber_proximity_ros

@@ -1,0 +1,111 @@
+#include "fiber_proximity/ros/input_options.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "fiber_proximity/ProximityConfig.h"
+#include "fiber_proximity/query/options.hpp"
+#include "fiber_proximity/ros/markers.hpp"
+
+namespace fiber_proximity_ros {
+namespace {
+
+using XmlRpc::XmlRpcValue;
+
+XmlRpcValue entry(const std::function<void(XmlRpcValue&)>& change = [](XmlRpcValue&) {}) {
+  XmlRpcValue value;
+  value["topic"] = "cable";
+  change(value);
+  return value;
+}
+
+std::string error_of(const XmlRpcValue& value) {
+  try {
+    read_input_options(value, 0.25);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(InputOptions, ATopicIsEnough) {
+  const InputOptions options = read_input_options(entry(), 0.25);
+  EXPECT_EQ(options.topic, "cable");
+  EXPECT_EQ(options.type, "fiber_proximity/FiberArray");
+  EXPECT_EQ(options.name, "cable");
+  EXPECT_EQ(options.radius, 0.25);
+}
+
+TEST(InputOptions, EveryKeyIsRead) {
+  const InputOptions options = read_input_options(entry([](XmlRpcValue& value) {
+                                                    value["type"] = "visualization_msgs/Marker";
+                                                    value["name"] = "left";
+                                                    value["radius"] = 1;
+                                                    value["namespace"] = "state";
+                                                    value["radius_from_marker"] = true;
+                                                    value["weld_tolerance"] = 0.5;
+                                                  }),
+                                                  0.25);
+  EXPECT_EQ(options.type, "visualization_msgs/Marker");
+  EXPECT_EQ(options.name, "left");
+  EXPECT_EQ(options.radius, 1.0);
+  EXPECT_EQ(options.marker.marker_namespace, "state");
+  EXPECT_TRUE(options.marker.radius_from_marker);
+  EXPECT_EQ(options.marker.weld_tolerance, 0.5);
+}
+
+TEST(InputOptions, EveryErrorNamesKeyValueAndWhatIsAllowed) {
+  const auto error_with = [](const std::string& key, const XmlRpcValue& bad) {
+    return error_of(entry([&](XmlRpcValue& value) { value[key] = bad; }));
+  };
+  EXPECT_EQ(error_of(XmlRpcValue("cable")),
+            "is cable, it must be a map with the key 'topic' at least");
+  EXPECT_EQ(error_of(entry([](XmlRpcValue& value) {
+              XmlRpcValue other;
+              other["type"] = "nav_msgs/Path";
+              value = other;
+            })),
+            "has no key 'topic'");
+  EXPECT_EQ(error_with("topic", 7), "key 'topic' is 7, it must be a string");
+  EXPECT_EQ(error_with("colour", "red"),
+            "has the unknown key 'colour', known are: topic, type, name, radius, and for markers "
+            "namespace, radius_from_marker, weld_tolerance");
+  EXPECT_EQ(error_with("type", "std_msgs/String"),
+            "unknown input type 'std_msgs/String', known are: fiber_proximity/FiberArray, "
+            "sensor_msgs/PointCloud2, sensor_msgs/PointCloud, geometry_msgs/PoseArray, "
+            "nav_msgs/Path, visualization_msgs/Marker, visualization_msgs/MarkerArray");
+  EXPECT_EQ(error_with("radius", "thick"),
+            "key 'radius' is thick, it must be a number of metres, at least 0");
+  EXPECT_EQ(error_with("radius", -1),
+            "key 'radius' is -1, it must be a number of metres, at least 0");
+  EXPECT_EQ(error_with("radius", std::numeric_limits<double>::quiet_NaN()),
+            "key 'radius' is nan, it must be a number of metres, at least 0");
+  EXPECT_EQ(error_with("namespace", "state"),
+            "key 'namespace' is for markers only, not for type 'fiber_proximity/FiberArray'");
+  EXPECT_EQ(error_with("radius_from_marker", 1),
+            "key 'radius_from_marker' is 1, it must be true or false");
+  EXPECT_EQ(error_with("weld_tolerance", -0.5),
+            "key 'weld_tolerance' is -0.5, it must be a number of at least 0, a fraction of a "
+            "segment's length");
+}
+
+TEST(DynamicParameters, DefaultsAreThoseOfTheOptions) {
+  const auto& config = fiber_proximity::ProximityConfig::__getDefault__();
+  const fiber::QueryOptions query;
+  EXPECT_EQ(fiber::query_type_from_name(config.query_type), query.type);
+  EXPECT_EQ(config.margin, query.margin);
+  EXPECT_EQ(config.max_contacts, static_cast<int>(query.max_contacts));
+  EXPECT_EQ(config.neighbour_skip, static_cast<int>(query.neighbour_skip));
+  EXPECT_EQ(config.neighbour_skip_length, query.neighbour_skip_length);
+  const MarkerOptions markers;
+  EXPECT_EQ(config.show_fibers, markers.show_fibers);
+  EXPECT_EQ(config.show_contacts, markers.show_contacts);
+  EXPECT_EQ(config.show_nearest, markers.show_nearest);
+  EXPECT_EQ(config.show_boxes, markers.show_boxes);
+  EXPECT_EQ(config.box_level, static_cast<int>(markers.level));
+}
+
+}  // namespace
+}  // namespace fiber_proximity_ros

@@ -1,0 +1,215 @@
+#include "fiber_proximity/ros/marker_input.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "ros/messages.hpp"
+
+namespace fiber_proximity_ros {
+namespace {
+
+using test_messages::header;
+using test_messages::marker;
+using test_messages::Points;
+using visualization_msgs::Marker;
+using visualization_msgs::MarkerArray;
+
+Points chain(double x) { return {{x, 0, 0}, {x, 1, 0}, {x, 1, 1}, {x, 0, 1.5}}; }
+
+/// The segments of a chain, as pairs of points.
+Points segments(const Points& chain) {
+  Points pairs;
+  for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+    pairs.push_back(chain[i]);
+    pairs.push_back(chain[i + 1]);
+  }
+  return pairs;
+}
+
+MarkerArray array(std::vector<Marker> markers) {
+  MarkerArray message;
+  message.markers = std::move(markers);
+  return message;
+}
+
+ChainSet read(const MarkerArray& message, const MarkerInputOptions& options = {}) {
+  ChainSet chains;
+  EXPECT_TRUE(to_chains(message, options, chains));
+  return chains;
+}
+
+std::string error_of(const MarkerArray& message) {
+  ChainSet chains;
+  try {
+    to_chains(message, {}, chains);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(MarkerInput, AListOfPointsIsAFibre) {
+  for (const int type :
+       {Marker::LINE_STRIP, Marker::POINTS, Marker::SPHERE_LIST, Marker::CUBE_LIST}) {
+    const ChainSet chains =
+        read(array({marker(header("map"), type, chain(0)), marker(header("map"), type, chain(5))}));
+    EXPECT_EQ(chains.offsets, (std::vector<std::uint32_t>{0, 4, 8})) << type;
+    EXPECT_EQ(Points(chains.points.begin(), chains.points.begin() + 4), chain(0)) << type;
+    EXPECT_EQ(Points(chains.points.begin() + 4, chains.points.end()), chain(5)) << type;
+    EXPECT_TRUE(chains.radii.empty());
+  }
+}
+
+TEST(MarkerInput, ASingleMarkerIsReadAsAnArrayOfOne) {
+  ChainSet chains;
+  EXPECT_TRUE(to_chains(marker(header("map"), Marker::LINE_STRIP, chain(0)), {}, chains));
+  EXPECT_EQ(chains.points, chain(0));
+  EXPECT_EQ(chains.header.frame_id, "map");
+}
+
+TEST(MarkerInput, TheMarkersPoseIsApplied) {
+  Marker strip = marker(header("map"), Marker::LINE_STRIP, chain(0));
+  const Eigen::Isometry3d pose = Eigen::Translation3d(1, 2, 3) *
+                                 Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, -2, 0.5).normalized());
+  const Eigen::Quaterniond q(pose.rotation());
+  strip.pose.position = to_message(Eigen::Vector3d(pose.translation()));
+  strip.pose.orientation.w = 2.0 * q.w();  // unit length is not to be relied on
+  strip.pose.orientation.x = 2.0 * q.x();
+  strip.pose.orientation.y = 2.0 * q.y();
+  strip.pose.orientation.z = 2.0 * q.z();
+  const ChainSet chains = read(array({strip}));
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_LT((chains.points[i] - pose * chain(0)[i]).norm(), 1e-14);
+  }
+  strip.pose.orientation = geometry_msgs::Quaternion();
+  EXPECT_EQ(read(array({strip})).points[1], Eigen::Vector3d(1, 3, 3)) << "no orientation is none";
+}
+
+TEST(MarkerInput, LineListsAreWeldedWithATolerance) {
+  Points pairs = segments(chain(0));
+  pairs[2] += Eigen::Vector3d(0.1, 0, 0);  // a gap at the first joint
+  std::swap(pairs[0], pairs[1]);           // segments turned round
+  std::swap(pairs[4], pairs[5]);
+  const ChainSet chains = read(array({marker(header("map"), Marker::LINE_LIST, pairs)}));
+  Points expected = chain(0);
+  expected[1] += Eigen::Vector3d(0.05, 0, 0);
+  EXPECT_EQ(chains.points, expected);
+  EXPECT_EQ(chains.offsets, (std::vector<std::uint32_t>{0, 4}));
+
+  MarkerInputOptions exact;
+  exact.weld_tolerance = 0.05;
+  EXPECT_EQ(read(array({marker(header("map"), Marker::LINE_LIST, pairs)}), exact).offsets,
+            (std::vector<std::uint32_t>{0, 2, 5}));
+}
+
+TEST(MarkerInput, LineListsOfTwoMarkersAreTwoFibres) {
+  const Points all = chain(0);
+  const ChainSet chains =
+      read(array({marker(header("map"), Marker::LINE_LIST, segments({all[0], all[1], all[2]})),
+                  marker(header("map"), Marker::LINE_LIST, segments({all[2], all[3]}))}));
+  EXPECT_EQ(chains.offsets, (std::vector<std::uint32_t>{0, 3, 5}));
+}
+
+TEST(MarkerInput, StripsOfTwoPointsAreWelded) {
+  MarkerArray message;
+  const Points pairs = segments(chain(0));
+  for (std::size_t i = 0; i < pairs.size(); i += 2) {
+    message.markers.push_back(marker(header("map"), Marker::LINE_STRIP, {pairs[i], pairs[i + 1]}));
+  }
+  message.markers.emplace_back();  // a planner that sizes its array one too large
+  const ChainSet chains = read(message);
+  EXPECT_EQ(chains.points, chain(0));
+  EXPECT_EQ(chains.offsets, (std::vector<std::uint32_t>{0, 4}));
+}
+
+TEST(MarkerInput, LinesWinOverPointsOfTheSameCable) {
+  const ChainSet chains =
+      read(array({marker(header("map"), Marker::POINTS, {{9, 9, 9}, {8, 8, 8}}),
+                  marker(header("map"), Marker::LINE_LIST, segments(chain(0)))}));
+  EXPECT_EQ(chains.points, chain(0));
+}
+
+TEST(MarkerInput, SpheresAreAFibreInTheOrderOfTheirIds) {
+  MarkerArray message = test_messages::spheres_and_cylinders(header("map"), chain(2));
+  std::reverse(message.markers.begin(), message.markers.end());
+  EXPECT_EQ(read(message).points, chain(2));
+
+  message.markers[0].type = Marker::CUBE;  // some draw every fifth one so
+  message.markers[1].type = Marker::CUBE;
+  EXPECT_EQ(error_of(message),
+            "marker line_3/3 and marker node_3/3 have the same id, so their "
+            "order along the fibre is unknown; choose one fibre by its "
+            "namespace");
+}
+
+TEST(MarkerInput, CylindersAreWeldedAlongTheirAxes) {
+  MarkerArray message;
+  for (int i = 0; i < 3; ++i) {
+    Marker cylinder = marker(header("map"), Marker::CYLINDER, {});
+    cylinder.id = 2 - i;
+    cylinder.scale.z = 0.5;
+    cylinder.pose.position.x = 0.25 - 0.5 * i;
+    cylinder.pose.orientation.w = std::sqrt(0.5);
+    cylinder.pose.orientation.y = std::sqrt(0.5);  // z to x
+    message.markers.push_back(cylinder);
+  }
+  MarkerInputOptions options;
+  options.radius_from_marker = true;
+  const ChainSet chains = read(message, options);
+  ASSERT_EQ(chains.offsets, (std::vector<std::uint32_t>{0, 4}));
+  EXPECT_EQ(chains.radii, std::vector<double>{0.01});
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_LT(
+        (chains.points[static_cast<std::size_t>(i)] - Eigen::Vector3d(-1 + 0.5 * i, 0, 0)).norm(),
+        1e-14);
+  }
+}
+
+TEST(MarkerInput, RadiusFromMarkerIsHalfItsWidthPerFibre) {
+  MarkerInputOptions options;
+  options.radius_from_marker = true;
+  MarkerArray message = array({marker(header("map"), Marker::LINE_STRIP, chain(0)),
+                               marker(header("map"), Marker::LINE_LIST, segments(chain(3)))});
+  message.markers[1].scale.x = 0.5;
+  EXPECT_EQ(read(message, options).radii, (std::vector<double>{0.01, 0.25}));
+}
+
+TEST(MarkerInput, OnlyTheChosenNamespaceIsRead) {
+  MarkerArray message = array({marker(header("map"), Marker::LINE_STRIP, chain(0)),
+                               marker(header("map"), Marker::LINE_STRIP, chain(3))});
+  message.markers[1].ns = "other";
+  MarkerInputOptions options;
+  options.marker_namespace = "other";
+  EXPECT_EQ(read(message, options).points, chain(3));
+  options.marker_namespace = "nobody";
+  ChainSet chains;
+  EXPECT_FALSE(to_chains(message, options, chains));
+}
+
+TEST(MarkerInput, DeletionsAreNoFibres) {
+  MarkerArray message = array({marker(header("map"), Marker::LINE_STRIP, chain(0)),
+                               marker(header("map"), Marker::LINE_STRIP, chain(3))});
+  message.markers[0].action = Marker::DELETEALL;
+  EXPECT_EQ(read(message).points, chain(3));
+  message.markers[1].action = Marker::DELETE;
+  ChainSet chains;
+  EXPECT_FALSE(to_chains(message, {}, chains));
+}
+
+TEST(MarkerInput, MalformedMarkersAreRefused) {
+  Points odd = segments(chain(0));
+  odd.pop_back();
+  EXPECT_EQ(error_of(array({marker(header("map"), Marker::LINE_LIST, odd)})),
+            "marker cable/0: a LINE_LIST of 5 points, it must have two per segment and not be "
+            "empty");
+  EXPECT_EQ(error_of(array({marker(header("map"), Marker::TEXT_VIEW_FACING, {})})),
+            "marker cable/0 has type 9; fibres are read from LINE_STRIP, LINE_LIST, POINTS, "
+            "SPHERE_LIST, CUBE_LIST, SPHERE, CUBE and CYLINDER");
+  EXPECT_EQ(error_of(array({marker(header("map"), Marker::LINE_STRIP, chain(0)),
+                            marker(header("camera"), Marker::LINE_STRIP, chain(0))})),
+            "marker cable/0 is in frame 'camera', marker cable/0 in 'map'; they must be the same");
+}
+
+}  // namespace
+}  // namespace fiber_proximity_ros

@@ -1,0 +1,203 @@
+#include "fiber_proximity/ros/markers.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+namespace fiber_proximity_ros {
+namespace {
+
+using fiber::FiberAssembly;
+using visualization_msgs::Marker;
+
+FiberAssembly parallel_fibers(std::uint32_t count, std::uint32_t points = 3) {
+  std::vector<Eigen::Vector3d> all;
+  std::vector<std::uint32_t> offsets{0};
+  for (std::uint32_t fiber = 0; fiber < count; ++fiber) {
+    for (std::uint32_t i = 0; i < points; ++i) {
+      all.emplace_back(0.1 * i, 0.03 * fiber, 0.0);
+    }
+    offsets.push_back(static_cast<std::uint32_t>(all.size()));
+  }
+  return {all, offsets, {0.01}};
+}
+
+/// Builder, its inputs and the last output.
+class Markers : public testing::Test {
+ protected:
+  Markers() {
+    header_.frame_id = "world";
+    header_.stamp = ros::Time(12, 34);
+    options_.show_boxes = true;
+  }
+
+  void build(const FiberAssembly& fibers) {
+    builder_.build(header_, fibers, contacts_, minimum_, boxes_, options_, array_);
+  }
+
+  void add_contact(double distance) {
+    fiber::Contact contact;
+    contact.fiber_b = 1;
+    contact.distance = distance;
+    contact.point_a = {0.1, 0.01, 0.0};
+    contact.point_b = {0.1, 0.01 + distance, 0.0};
+    contact.normal = Eigen::Vector3d::UnitY();
+    contacts_.contacts.push_back(contact);
+  }
+
+  const Marker* find(const std::string& ns, int id = 0, int action = Marker::ADD) const {
+    const auto found =
+        std::find_if(array_.markers.begin(), array_.markers.end(), [&](const Marker& marker) {
+          return marker.ns == ns && marker.id == id && marker.action == action;
+        });
+    return found == array_.markers.end() ? nullptr : &*found;
+  }
+
+  std::size_t deletions() const {
+    return static_cast<std::size_t>(
+        std::count_if(array_.markers.begin(), array_.markers.end(),
+                      [](const Marker& marker) { return marker.action == Marker::DELETE; }));
+  }
+
+  std_msgs::Header header_;
+  fiber::QueryResult contacts_;
+  const fiber::Contact* minimum_ = nullptr;
+  std::vector<fiber::NodeBox> boxes_;
+  MarkerOptions options_;
+  MarkerBuilder builder_;
+  visualization_msgs::MarkerArray array_;
+};
+
+TEST_F(Markers, DrawsOneTubePerFiberInItsOwnColor) {
+  build(parallel_fibers(3));
+  ASSERT_EQ(array_.markers.size(), 3U);
+  for (int fiber = 0; fiber < 3; ++fiber) {
+    const Marker* tube = find("fibers", fiber);
+    ASSERT_NE(tube, nullptr);
+    EXPECT_EQ(tube->type, Marker::TRIANGLE_LIST);
+    EXPECT_EQ(tube->header.frame_id, "world");
+    EXPECT_EQ(tube->header.stamp, ros::Time(12, 34));
+    EXPECT_EQ(tube->pose.orientation.w, 1.0);
+    EXPECT_EQ(tube->scale.x, 1.0);
+    EXPECT_FALSE(tube->points.empty());
+    EXPECT_EQ(tube->points.size() % 3, 0U);
+  }
+  EXPECT_NE(find("fibers", 0)->color.r, find("fibers", 1)->color.r);
+}
+
+TEST_F(Markers, ManySegmentsBecomeLines) {
+  const auto points = static_cast<std::uint32_t>(MarkerBuilder::most_tube_segments / 2 + 1);
+  build(parallel_fibers(2, points));
+  EXPECT_EQ(find("fibers", 0)->type, Marker::TRIANGLE_LIST);
+  build(parallel_fibers(2, points + 1));
+  const Marker* lines = find("fibers", 0);
+  ASSERT_NE(lines, nullptr);
+  EXPECT_EQ(lines->type, Marker::LINE_LIST);
+  EXPECT_EQ(lines->points.size(), 4U * points);
+  EXPECT_EQ(lines->colors.size(), lines->points.size());
+  EXPECT_DOUBLE_EQ(lines->scale.x, 0.02);
+  EXPECT_NE(find("fibers", 1, Marker::DELETE), nullptr);
+  EXPECT_EQ(deletions(), 1U);
+}
+
+TEST_F(Markers, ContactsAreRedInPenetrationAndAmberWithinTheMargin) {
+  add_contact(-0.002);
+  add_contact(0.004);
+  build(parallel_fibers(2));
+  const Marker* spheres = find("contacts");
+  ASSERT_NE(spheres, nullptr);
+  EXPECT_EQ(spheres->type, Marker::SPHERE_LIST);
+  ASSERT_EQ(spheres->points.size(), 2U);
+  EXPECT_DOUBLE_EQ(spheres->points[0].y, 0.009);
+  EXPECT_DOUBLE_EQ(spheres->points[1].y, 0.012);
+  ASSERT_EQ(spheres->colors.size(), 2U);
+  EXPECT_LT(spheres->colors[0].g, 0.3F);
+  EXPECT_GT(spheres->colors[1].g, 0.5F);
+
+  const Marker* normals = find("normals");
+  ASSERT_NE(normals, nullptr);
+  EXPECT_EQ(normals->type, Marker::LINE_LIST);
+  ASSERT_EQ(normals->points.size(), 4U);
+  EXPECT_GT(normals->points[1].y, normals->points[0].y);
+  EXPECT_DOUBLE_EQ(normals->points[1].x, normals->points[0].x);
+}
+
+TEST_F(Markers, NearestPairHasALineAndItsDistanceInMillimetres) {
+  add_contact(0.0123);
+  minimum_ = contacts_.contacts.data();
+  build(parallel_fibers(2));
+  const Marker* line = find("nearest");
+  ASSERT_NE(line, nullptr);
+  ASSERT_EQ(line->points.size(), 2U);
+  EXPECT_DOUBLE_EQ(line->points[0].y, 0.01);
+  EXPECT_DOUBLE_EQ(line->points[1].y, 0.0223);
+  const Marker* text = find("nearest_text");
+  ASSERT_NE(text, nullptr);
+  EXPECT_EQ(text->type, Marker::TEXT_VIEW_FACING);
+  EXPECT_EQ(text->text, "12.3 mm");
+  EXPECT_GT(text->scale.z, 0.0);
+}
+
+TEST_F(Markers, BoxesAreTheirTwelveEdges) {
+  boxes_.push_back({{0, 0, 0}, {1, 2, 3}});
+  boxes_.push_back({{1, 1, 1}, {2, 2, 2}});
+  build(parallel_fibers(1));
+  const Marker* boxes = find("boxes");
+  ASSERT_NE(boxes, nullptr);
+  EXPECT_EQ(boxes->type, Marker::LINE_LIST);
+  EXPECT_LT(boxes->color.a, 1.0F);
+  ASSERT_EQ(boxes->points.size(), 2U * 24U);
+  double length = 0.0;
+  for (std::size_t i = 0; i < 24; i += 2) {
+    const geometry_msgs::Point& a = boxes->points[i];
+    const geometry_msgs::Point& b = boxes->points[i + 1];
+    length += std::abs(a.x - b.x) + std::abs(a.y - b.y) + std::abs(a.z - b.z);
+  }
+  EXPECT_DOUBLE_EQ(length, 4.0 * (1 + 2 + 3));
+}
+
+TEST_F(Markers, DeletesWhatVanishedOnceAndNothingElse) {
+  add_contact(0.0);
+  minimum_ = contacts_.contacts.data();
+  boxes_.push_back({{0, 0, 0}, {1, 1, 1}});
+  build(parallel_fibers(3));
+  EXPECT_EQ(array_.markers.size(), 3U + 5U);
+  EXPECT_EQ(deletions(), 0U);
+
+  contacts_.contacts.clear();
+  minimum_ = nullptr;
+  build(parallel_fibers(1));
+  EXPECT_EQ(deletions(), 2U + 4U);
+  EXPECT_NE(find("fibers", 0), nullptr);
+  for (const char* ns : {"contacts", "normals", "nearest", "nearest_text"}) {
+    EXPECT_NE(find(ns, 0, Marker::DELETE), nullptr) << ns;
+  }
+  EXPECT_NE(find("fibers", 1, Marker::DELETE), nullptr);
+  EXPECT_NE(find("fibers", 2, Marker::DELETE), nullptr);
+  EXPECT_EQ(array_.markers.back().action, Marker::DELETE);
+
+  build(parallel_fibers(1));
+  EXPECT_EQ(deletions(), 0U);
+  build(parallel_fibers(2));
+  EXPECT_EQ(deletions(), 0U);
+}
+
+TEST_F(Markers, OptionsTurnPartsOff) {
+  add_contact(0.0);
+  minimum_ = contacts_.contacts.data();
+  boxes_.push_back({{0, 0, 0}, {1, 1, 1}});
+  build(parallel_fibers(2));
+  options_ = {false, false, false, false};
+  build(parallel_fibers(2));
+  EXPECT_EQ(array_.markers.size(), 2U + 5U);
+  EXPECT_EQ(deletions(), array_.markers.size());
+}
+
+TEST_F(Markers, NoFibersNoMarkers) {
+  build(FiberAssembly());
+  EXPECT_TRUE(array_.markers.empty());
+}
+
+}  // namespace
+}  // namespace fiber_proximity_ros

@@ -1,0 +1,128 @@
+#pragma once
+
+#include <geometry_msgs/PoseArray.h>
+#include <nav_msgs/Path.h>
+#include <sensor_msgs/PointCloud.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <sensor_msgs/point_cloud2_iterator.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "fiber_proximity/FiberArray.h"
+#include "fiber_proximity/ros/conversions.hpp"
+
+/// Messages of every input type, as trackers make them.
+namespace test_messages {
+
+using Points = std::vector<Eigen::Vector3d>;
+
+inline std_msgs::Header header(const std::string& frame, const ros::Time& stamp = ros::Time()) {
+  std_msgs::Header header;
+  header.frame_id = frame;
+  header.stamp = stamp;
+  return header;
+}
+
+inline fiber_proximity::FiberArray fiber_array(const std_msgs::Header& header,
+                                               const Points& points) {
+  fiber_proximity::FiberArray message;
+  message.header = header;
+  message.offsets = {0, static_cast<std::uint32_t>(points.size())};
+  for (const Eigen::Vector3d& point : points) {
+    message.points.push_back(fiber_proximity_ros::to_message(point));
+  }
+  return message;
+}
+
+inline sensor_msgs::PointCloud2 point_cloud2(const std_msgs::Header& header, const Points& points) {
+  sensor_msgs::PointCloud2 message;
+  message.header = header;
+  sensor_msgs::PointCloud2Modifier modifier(message);
+  modifier.setPointCloud2FieldsByString(2, "xyz", "rgb");
+  modifier.resize(points.size());
+  sensor_msgs::PointCloud2Iterator<float> xyz(message, "x");
+  for (const Eigen::Vector3d& point : points) {
+    for (int axis = 0; axis < 3; ++axis) {
+      xyz[axis] = static_cast<float>(point[axis]);
+    }
+    ++xyz;
+  }
+  return message;
+}
+
+inline sensor_msgs::PointCloud point_cloud(const std_msgs::Header& header, const Points& points) {
+  sensor_msgs::PointCloud message;
+  message.header = header;
+  for (const Eigen::Vector3d& point : points) {
+    geometry_msgs::Point32 p;
+    p.x = static_cast<float>(point.x());
+    p.y = static_cast<float>(point.y());
+    p.z = static_cast<float>(point.z());
+    message.points.push_back(p);
+  }
+  return message;
+}
+
+inline geometry_msgs::PoseArray pose_array(const std_msgs::Header& header, const Points& points) {
+  geometry_msgs::PoseArray message;
+  message.header = header;
+  for (const Eigen::Vector3d& point : points) {
+    message.poses.emplace_back();
+    message.poses.back().position = fiber_proximity_ros::to_message(point);
+  }
+  return message;
+}
+
+inline nav_msgs::Path path(const std_msgs::Header& header, const Points& points) {
+  nav_msgs::Path message;
+  message.header = header;
+  for (const Eigen::Vector3d& point : points) {
+    message.poses.emplace_back();
+    message.poses.back().pose.position = fiber_proximity_ros::to_message(point);
+  }
+  return message;
+}
+
+inline visualization_msgs::Marker marker(const std_msgs::Header& header, std::int32_t type,
+                                         const Points& points) {
+  visualization_msgs::Marker message;
+  message.header = header;
+  message.ns = "cable";
+  message.type = type;
+  message.scale.x = 0.02;
+  message.scale.y = 0.02;
+  message.scale.z = 0.02;
+  message.pose.orientation.w = 1.0;
+  for (const Eigen::Vector3d& point : points) {
+    message.points.push_back(fiber_proximity_ros::to_message(point));
+  }
+  return message;
+}
+
+/// As TrackDLO draws a cable: a sphere per node and a cylinder per segment, interleaved, each in a
+/// namespace of its own.
+inline visualization_msgs::MarkerArray spheres_and_cylinders(const std_msgs::Header& header,
+                                                             const Points& points) {
+  using visualization_msgs::Marker;
+  visualization_msgs::MarkerArray message;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (const std::int32_t type : {Marker::SPHERE, Marker::CYLINDER}) {
+      if (i == 0 && type == Marker::CYLINDER) {
+        continue;
+      }
+      Marker part = marker(header, type, {});
+      part.ns = (type == Marker::SPHERE ? "node_" : "line_") + std::to_string(i);
+      part.id = static_cast<std::int32_t>(i);
+      const Eigen::Vector3d centre =
+          type == Marker::SPHERE ? points[i] : Eigen::Vector3d(0.5 * (points[i - 1] + points[i]));
+      part.pose.position = fiber_proximity_ros::to_message(centre);
+      message.markers.push_back(part);
+    }
+  }
+  return message;
+}
+
+}  // namespace test_messages

@@ -1,0 +1,179 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <rosgraph_msgs/Log.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "fiber_proximity/ContactArray.h"
+#include "fiber_proximity/FiberArray.h"
+#include "fiber_proximity/QueryProximity.h"
+#include "fiber_proximity/Statistics.h"
+#include "fiber_proximity/query/brute_force.hpp"
+#include "fiber_proximity/ros/conversions.hpp"
+
+/// What tests of the running node share. The node under test is /proximity.
+namespace node_test {
+
+/// Handles callbacks until the condition holds.
+/// @returns false if it does not within a time that only a broken node needs
+inline bool wait_for(const std::function<bool()>& condition) {
+  constexpr double limit = 30.0;
+  const ros::SteadyTime begin = ros::SteadyTime::now();
+  while (!condition()) {
+    if (!ros::ok() || (ros::SteadyTime::now() - begin).toSec() > limit) {
+      return false;
+    }
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01));
+  }
+  return true;
+}
+
+/// Keeps all messages of a topic.
+template <class Message>
+class Recorder {
+ public:
+  using Pointer = boost::shared_ptr<const Message>;
+
+  Recorder(ros::NodeHandle& node, const std::string& topic)
+      : subscriber_(node.subscribe<Message>(
+            topic, 1000, [this](const Pointer& message) { messages.push_back(message); })) {}
+
+  const Message* find(const std::function<bool(const Message&)>& condition) const {
+    for (const Pointer& message : messages) {
+      if (condition(*message)) {
+        return message.get();
+      }
+    }
+    return nullptr;
+  }
+
+  /// Waits for a message that meets the condition; nullptr if none comes.
+  const Message* wait_for(const std::function<bool(const Message&)>& condition) const {
+    const Message* found = nullptr;
+    node_test::wait_for([&] { return (found = find(condition)) != nullptr; });
+    return found;
+  }
+
+  /// Waits for the message with this stamp.
+  const Message* wait_for(const ros::Time& stamp) const {
+    return wait_for([stamp](const Message& message) { return message.header.stamp == stamp; });
+  }
+
+  std::vector<Pointer> messages;
+
+ private:
+  ros::Subscriber subscriber_;
+};
+
+/// Records what the node says, and logs.
+class NodeTest : public ::testing::Test {
+ protected:
+  template <class Message>
+  ros::Publisher advertise(const std::string& topic) {
+    const ros::Publisher publisher = node.advertise<Message>(topic, 1000);
+    EXPECT_TRUE(wait_for([&] { return publisher.getNumSubscribers() > 0; }))
+        << "nobody listens to " << topic;
+    return publisher;
+  }
+
+  /// Publishes messages with new stamps until all recorders have seen an answer.
+  template <class Message>
+  void connect(const ros::Publisher& publisher, Message message) {
+    ros::SteadyTime last;
+    ASSERT_TRUE(wait_for([&] {
+      const ros::SteadyTime now = ros::SteadyTime::now();
+      if ((now - last).toSec() > 0.2) {
+        last = now;
+        message.header.stamp = new_stamp();
+        publisher.publish(message);
+      }
+      return !contacts.messages.empty() && !fibers.messages.empty() && !statistics.messages.empty();
+    })) << "the node does not answer";
+    ASSERT_NE(contacts.wait_for(message.header.stamp), nullptr);
+    ASSERT_NE(statistics.wait_for(message.header.stamp), nullptr);
+  }
+
+  /// Now, and later than all stamps before.
+  static ros::Time new_stamp() {
+    static ros::Time last;
+    last = std::max(ros::Time::now(), last + ros::Duration(0, 1));
+    return last;
+  }
+
+  /// The errors and warnings that name this.
+  std::vector<std::string> logs_of(const std::string& what) const {
+    std::vector<std::string> found;
+    for (const auto& log : logs.messages) {
+      if (log->level >= rosgraph_msgs::Log::WARN && log->msg.find(what) != std::string::npos) {
+        found.push_back(log->msg);
+      }
+    }
+    return found;
+  }
+
+  static const fiber_proximity::InputStatistics* input_of(
+      const fiber_proximity::Statistics& statistics, const std::string& topic) {
+    for (const fiber_proximity::InputStatistics& input : statistics.inputs) {
+      if (input.topic == topic) {
+        return &input;
+      }
+    }
+    ADD_FAILURE() << "no input " << topic;
+    return nullptr;
+  }
+
+  ros::NodeHandle node;
+  Recorder<fiber_proximity::ContactArray> contacts{node, "/proximity/contacts"};
+  Recorder<fiber_proximity::FiberArray> fibers{node, "/proximity/fibers"};
+  Recorder<fiber_proximity::Statistics> statistics{node, "/proximity/statistics"};
+  Recorder<rosgraph_msgs::Log> logs{node, "/rosout"};
+};
+
+inline fiber::FiberAssembly to_assembly(const fiber_proximity::FiberArray& message) {
+  fiber_proximity_ros::ChainSet chains;
+  fiber_proximity_ros::to_chains(message, chains);
+  return {chains.points, chains.offsets, chains.radii};
+}
+
+inline void expect_same(const fiber_proximity::Contact& message, const fiber::Contact& contact) {
+  EXPECT_EQ(message.fiber_a, contact.fiber_a);
+  EXPECT_EQ(message.segment_a, contact.segment_a);
+  EXPECT_EQ(message.fiber_b, contact.fiber_b);
+  EXPECT_EQ(message.segment_b, contact.segment_b);
+  EXPECT_EQ(message.s, contact.s);
+  EXPECT_EQ(message.t, contact.t);
+  EXPECT_EQ(message.distance, contact.distance);
+  EXPECT_EQ(fiber_proximity_ros::to_vector(message.point_a), contact.point_a);
+  EXPECT_EQ(fiber_proximity_ros::to_vector(message.point_b), contact.point_b);
+  EXPECT_EQ(fiber_proximity_ros::to_vector(message.normal), contact.normal);
+}
+
+/// Compares an answer, pair for pair and bit for bit, with brute force over the fibres it is about.
+/// @param options of the node, where they are not the defaults; the message tells the margin
+inline void expect_brute_force(const fiber_proximity::ContactArray& message,
+                               const fiber_proximity::FiberArray& fibers,
+                               fiber::QueryOptions options = {}) {
+  const fiber::FiberAssembly assembly = to_assembly(fibers);
+  options.margin = message.margin;
+  fiber::QueryResult expected;
+  fiber::brute_force(assembly, options, expected);
+  ASSERT_EQ(message.contacts.size(), expected.contacts.size());
+  for (std::size_t i = 0; i < expected.contacts.size(); ++i) {
+    expect_same(message.contacts[i], expected.contacts[i]);
+  }
+  options.type = fiber::QueryType::CLOSEST;
+  options.margin = std::numeric_limits<double>::infinity();
+  fiber::brute_force(assembly, options, expected);
+  ASSERT_EQ(message.has_minimum, !expected.contacts.empty());
+  if (message.has_minimum) {
+    EXPECT_EQ(message.minimum_distance, expected.contacts.front().distance);
+    expect_same(message.minimum, expected.contacts.front());
+  }
+}
+
+}  // namespace node_test

@@ -1,0 +1,179 @@
+// The service ~query of the running node.
+#include <Eigen/Geometry>
+#include <limits>
+#include <random>
+
+#include "ros/messages.hpp"
+#include "ros/node_test.hpp"
+
+namespace {
+
+using fiber_proximity::FiberArray;
+using fiber_proximity::QueryProximity;
+using fiber_proximity::QueryShape;
+using test_messages::header;
+using test_messages::Points;
+
+class QueryTest : public node_test::NodeTest {
+ protected:
+  static QueryShape shape(const std::string& frame, const Points& points, double radius) {
+    QueryShape shape;
+    shape.header.frame_id = frame;
+    shape.radius = radius;
+    for (const Eigen::Vector3d& point : points) {
+      shape.points.push_back(fiber_proximity_ros::to_message(point));
+    }
+    return shape;
+  }
+
+  static QueryProximity::Response call(const QueryProximity::Request& request) {
+    QueryProximity::Response response;
+    EXPECT_TRUE(ros::service::waitForService("/proximity/query", ros::Duration(30.0)));
+    EXPECT_TRUE(ros::service::call("/proximity/query",
+                                   const_cast<QueryProximity::Request&>(request), response));
+    return response;
+  }
+
+  /// Sends random fibres and keeps what the node made of them.
+  void send_fibers() {
+    const unsigned seed = std::random_device()();
+    RecordProperty("seed", std::to_string(seed));
+    std::cout << "seed " << seed << '\n';
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
+    Points points(40);
+    for (Eigen::Vector3d& point : points) {
+      point = {coordinate(random), coordinate(random), coordinate(random)};
+    }
+    FiberArray message = test_messages::fiber_array(header("world"), points);
+    message.offsets = {0, 10, 25, 40};
+    publisher_ = advertise<FiberArray>("fibers");
+    connect(publisher_, message);
+    stamp_ = new_stamp();
+    message.header.stamp = stamp_;
+    publisher_.publish(message);
+    const FiberArray* merged = fibers.wait_for(stamp_);
+    ASSERT_NE(merged, nullptr);
+    assembly_ = node_test::to_assembly(*merged);
+  }
+
+  /// Compares the answer about one shape with brute force.
+  void expect_brute_force(const QueryProximity::Response& response, std::uint32_t index,
+                          const Points& points, double radius,
+                          const fiber::QueryOptions& options) const {
+    const fiber::FiberAssembly shape(points, {0, static_cast<std::uint32_t>(points.size())},
+                                     {radius});
+    fiber::QueryResult expected;
+    fiber::brute_force_shape(shape, assembly_, options, expected);
+    const std::uint32_t begin = response.offsets[index];
+    ASSERT_EQ(response.offsets[index + 1] - begin, expected.contacts.size());
+    for (std::size_t i = 0; i < expected.contacts.size(); ++i) {
+      const fiber_proximity::Contact& contact = response.contacts[begin + i];
+      const fiber::Contact& wanted = expected.contacts[i];
+      EXPECT_EQ(contact.type_a, fiber_proximity::Contact::SHAPE);
+      EXPECT_EQ(contact.fiber_a, index);
+      EXPECT_EQ(contact.segment_a, wanted.segment_a);
+      EXPECT_EQ(contact.fiber_b, wanted.fiber_b);
+      EXPECT_EQ(contact.segment_b, wanted.segment_b);
+      EXPECT_NEAR(contact.distance, wanted.distance, 1e-12);
+      EXPECT_LT((fiber_proximity_ros::to_vector(contact.point_b) - wanted.point_b).norm(), 1e-9);
+    }
+  }
+
+  ros::Publisher publisher_;
+  ros::Time stamp_;
+  fiber::FiberAssembly assembly_;
+};
+
+TEST_F(QueryTest, AnswersOnlyOnceThereAreFibres) {
+  QueryProximity::Request request;
+  request.shapes.push_back(shape("world", {{0, 0, 0}}, 0.1));
+  const QueryProximity::Response response = call(request);
+  EXPECT_FALSE(response.success);
+  EXPECT_EQ(response.message, "no fresh input: no fibres have arrived within the input_timeout");
+}
+
+TEST_F(QueryTest, EachShapeOfABatchIsAnsweredInItsOwnFrame) {
+  send_fibers();
+  // yaw, pitch, roll of the launch file's tool frame
+  const Eigen::Isometry3d tool = Eigen::Translation3d(0.5, -0.25, 1.0) *
+                                 Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ()) *
+                                 Eigen::AngleAxisd(-0.4, Eigen::Vector3d::UnitY()) *
+                                 Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitX());
+  QueryProximity::Request request;
+  request.shapes = {shape("world", {{0.1, 0.2, 0.3}}, 0.2),
+                    shape("tool", {{0, 0, 0}, {-0.5, 0, -0.5}}, 0.05),
+                    shape("", {{-1, -1, -1}, {0, 0, 0}, {1, 0, 0}, {1, 1, 1}}, 0.0)};
+  const std::vector<Points> in_world{
+      {{0.1, 0.2, 0.3}, {0.1, 0.2, 0.3}},
+      {tool * Eigen::Vector3d(0, 0, 0), tool * Eigen::Vector3d(-0.5, 0, -0.5)},
+      {{-1, -1, -1}, {0, 0, 0}, {1, 0, 0}, {1, 1, 1}}};
+  // The static transform may still be on its way to the node.
+  ASSERT_TRUE(node_test::wait_for([&] { return call(request).success; }));
+  for (const fiber::QueryType type :
+       {fiber::QueryType::ALL, fiber::QueryType::CLOSEST, fiber::QueryType::LIMITED}) {
+    for (const double margin : {0.0, 0.2, std::numeric_limits<double>::infinity()}) {
+      fiber::QueryOptions options;
+      options.type = type;
+      options.margin = margin;
+      options.max_contacts = 3;
+      request.type = type == fiber::QueryType::ALL       ? QueryProximity::Request::ALL
+                     : type == fiber::QueryType::CLOSEST ? QueryProximity::Request::CLOSEST
+                                                         : QueryProximity::Request::LIMITED;
+      request.margin = margin;
+      request.max_contacts = 3;
+      const QueryProximity::Response response = call(request);
+      ASSERT_TRUE(response.success) << response.message;
+      EXPECT_EQ(response.header.frame_id, "world");
+      EXPECT_EQ(response.header.stamp, stamp_);
+      EXPECT_EQ(response.fiber_names,
+                (std::vector<std::string>{"fibers/0", "fibers/1", "fibers/2"}));
+      ASSERT_EQ(response.offsets.size(), 4U);
+      EXPECT_EQ(response.offsets.front(), 0U);
+      EXPECT_EQ(response.offsets.back(), response.contacts.size());
+      for (std::uint32_t i = 0; i < 3; ++i) {
+        expect_brute_force(response, i, in_world[i], request.shapes[i].radius, options);
+      }
+    }
+  }
+  request.type = QueryProximity::Request::FIRST;
+  EXPECT_EQ(call(request).offsets, (std::vector<std::uint32_t>{0, 1, 2, 3}));
+  request.shapes.clear();
+  EXPECT_EQ(call(request).offsets, std::vector<std::uint32_t>{0});
+}
+
+TEST_F(QueryTest, BadRequestsAreAnsweredWithTheReason) {
+  send_fibers();
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  QueryProximity::Request good;
+  good.type = QueryProximity::Request::ALL;
+  good.margin = 0.5;
+  good.shapes = {shape("world", {{0, 0, 0}}, 0.1), shape("world", {{0, 0, 0}, {1, 0, 0}}, 0.1)};
+  const auto expect_error = [&](const std::function<void(QueryProximity::Request&)>& change,
+                                const std::string& message) {
+    QueryProximity::Request request = good;
+    change(request);
+    const QueryProximity::Response response = call(request);
+    EXPECT_FALSE(response.success);
+    EXPECT_EQ(response.message.substr(0, message.size()), message);
+    EXPECT_TRUE(response.contacts.empty());
+    EXPECT_TRUE(response.offsets.empty());
+    EXPECT_TRUE(call(good).success) << "the node does not live on";
+  };
+  expect_error([](auto& request) { request.type = 7; },
+               "type is 7, it must be 0 (FIRST), 1 (CLOSEST), 2 (LIMITED) or 3 (ALL)");
+  expect_error([](auto& request) { request.margin = -0.25; }, "margin is -0.25");
+  expect_error([](auto& request) { request.margin = nan; }, "margin is nan");
+  expect_error([](auto& request) { request.type = QueryProximity::Request::LIMITED; },
+               "max_contacts is 0");
+  expect_error([](auto& request) { request.shapes[1].points.clear(); },
+               "shape 1: has no points, it needs at least 1");
+  expect_error([](auto& request) { request.shapes[1].points[1].z = nan; },
+               "shape 1: fibre 0, point 1: z is nan");
+  expect_error([](auto& request) { request.shapes[0].radius = -1.0; }, "shape 0: the radius is -1");
+  expect_error([](auto& request) { request.shapes[1].radius = nan; }, "shape 1: the radius is nan");
+  expect_error([](auto& request) { request.shapes[1].header.frame_id = "nowhere"; },
+               "shape 1: no transform from frame 'nowhere' to 'world': unknown frame: ");
+}
+
+}  // namespace

@@ -1,0 +1,126 @@
+// Trackers that stop, freeze and come back.
+#include <diagnostic_msgs/DiagnosticArray.h>
+
+#include "ros/messages.hpp"
+#include "ros/node_test.hpp"
+
+namespace {
+
+using fiber_proximity::ContactArray;
+using fiber_proximity::FiberArray;
+using test_messages::header;
+
+using Names = std::vector<std::string>;
+
+class StaleTest : public node_test::NodeTest {
+ protected:
+  void SetUp() override {
+    a_ = advertise<FiberArray>("a");
+    b_ = advertise<FiberArray>("b");
+    connect(a_, message(ros::Time()));
+    b_.publish(message(new_stamp()));
+    ASSERT_TRUE(wait_for_answer(Names{"a", "b"}));
+  }
+
+  static FiberArray message(const ros::Time& stamp) {
+    return test_messages::fiber_array(header("world", stamp), {{0, 0, 0}, {1, 0, 0}});
+  }
+
+  /// Publishes on these topics, with these stamps, at the rate of a camera until there is an answer
+  /// about these fibres that is newer than the call.
+  bool wait_for_answer(const Names& names, const ros::Publisher* moving = nullptr,
+                       const ros::Publisher* frozen = nullptr, ros::Time frozen_stamp = {}) {
+    const std::size_t before = contacts.messages.size();
+    ros::SteadyTime last;
+    return node_test::wait_for([&] {
+      if ((ros::SteadyTime::now() - last).toSec() > 0.02) {
+        last = ros::SteadyTime::now();
+        if (moving != nullptr) {
+          moving->publish(message(new_stamp()));
+        }
+        if (frozen != nullptr) {
+          frozen->publish(message(frozen_stamp));
+        }
+      }
+      return std::any_of(contacts.messages.begin() + static_cast<std::ptrdiff_t>(before),
+                         contacts.messages.end(),
+                         [&](const auto& answer) { return answer->fiber_names == names; });
+    });
+  }
+
+  static bool answers_queries() {
+    fiber_proximity::QueryProximity query;
+    EXPECT_TRUE(ros::service::call("/proximity/query", query));
+    return query.response.success;
+  }
+
+  ros::Publisher a_;
+  ros::Publisher b_;
+};
+
+TEST_F(StaleTest, ATrackerThatStopsIsLeftOutUntilItIsBack) {
+  const node_test::Recorder<diagnostic_msgs::DiagnosticArray> diagnostics(node, "/diagnostics");
+  const std::size_t logged = logs_of("input 'b'").size();
+  ASSERT_TRUE(wait_for_answer(Names{"a"}, &a_));
+  const auto* now = statistics.wait_for([this](const fiber_proximity::Statistics& message) {
+    const auto* b = input_of(message, "b");
+    return b->stale && message.header.stamp == contacts.messages.back()->header.stamp;
+  });
+  ASSERT_NE(now, nullptr);
+  EXPECT_EQ(now->fibers, 1U);
+  EXPECT_EQ(input_of(*now, "b")->fibers, 0U);
+  EXPECT_GE(input_of(*now, "b")->age, 1.0);
+  EXPECT_FALSE(input_of(*now, "a")->stale);
+  const auto is_stale = [](const diagnostic_msgs::DiagnosticArray& array) {
+    return std::any_of(array.status.begin(), array.status.end(), [](const auto& status) {
+      return status.name == "proximity: input b" && status.level == status.ERROR &&
+             status.message.rfind("stale: ", 0) == 0;
+    });
+  };
+  EXPECT_NE(diagnostics.wait_for(is_stale), nullptr);
+  ASSERT_EQ(logs_of("input 'b'").size(), logged + 1) << "said once";
+  EXPECT_EQ(logs_of("input 'b'").back(),
+            "input 'b' (fiber_proximity/FiberArray): no new message for 1 s; its 1 fibre(s) are "
+            "left out");
+
+  b_.publish(message(new_stamp()));
+  EXPECT_TRUE(wait_for_answer(Names{"a", "b"}, &a_));
+}
+
+TEST_F(StaleTest, ATrackerThatRepeatsItsStampIsFrozen) {
+  const ros::Time frozen = new_stamp();
+  const std::size_t logged = logs_of("input 'b'").size();
+  ASSERT_TRUE(wait_for_answer(Names{"a"}, &a_, &b_, frozen));
+  ASSERT_EQ(logs_of("input 'b'").size(), logged + 1);
+  EXPECT_NE(logs_of("input 'b'").back().find("its messages repeat their stamp"), std::string::npos);
+}
+
+TEST_F(StaleTest, WhenAllStopTheLastAnswerIsEmptyAndNoneFollows) {
+  const ros::Time frozen = new_stamp();
+  ASSERT_TRUE(wait_for_answer(Names{}, nullptr, &b_, frozen));
+  const std::size_t answers = contacts.messages.size();
+  const ContactArray last = *contacts.messages.back();
+  EXPECT_TRUE(last.contacts.empty());
+  EXPECT_FALSE(last.has_minimum);
+  EXPECT_EQ(last.header.frame_id, "world");
+  for (int i = 0; i < 20; ++i) {
+    b_.publish(message(frozen));
+    EXPECT_FALSE(answers_queries());
+  }
+  const ros::Time stamp = new_stamp();
+  a_.publish(message(stamp));
+  ASSERT_NE(contacts.wait_for(stamp), nullptr);
+  EXPECT_EQ(contacts.messages.size(), answers + 1) << "an old answer was published as new";
+  EXPECT_TRUE(answers_queries());
+}
+
+TEST_F(StaleTest, MessagesWithoutStampAreNewEachTime) {
+  const std::size_t logged = logs_of("input 'b'").size();
+  const ros::SteadyTime begin = ros::SteadyTime::now();
+  while ((ros::SteadyTime::now() - begin).toSec() < 2.5) {
+    ASSERT_TRUE(wait_for_answer(Names{"a", "b"}, &a_, &b_, ros::Time()));
+  }
+  EXPECT_EQ(logs_of("input 'b'").size(), logged);
+}
+
+}  // namespace
