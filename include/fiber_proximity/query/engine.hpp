@@ -47,7 +47,8 @@ class ProximityEngine {
   /// Memory the engine holds for its fibres, the fibres themselves apart [bytes].
   virtual std::size_t memory_bytes() const { return 0; }
 
-  /// Boxes around the nodes of a level; 0 is the root, levels beyond the last give the last.
+  /// Boxes around the nodes of a level, and around leaves above it, so that together they hold all
+  /// fibres; 0 is the root, levels beyond the last give the last.
   virtual void level_boxes(std::uint32_t level, std::vector<NodeBox>& boxes) const;
 
  protected:

@@ -24,21 +24,27 @@ class HierarchyEngine final : public ProximityEngine {
 
   void level_boxes(std::uint32_t level, std::vector<NodeBox>& boxes) const override {
     boxes.clear();
-    for_each_node(level, [&](const Volume& volume) {
-      const Aabb box = bounding_box(volume, hierarchy_.parameters());
-      boxes.push_back({hierarchy_.origin() + Eigen::Vector3f(box.lower.data()).cast<double>(),
-                       hierarchy_.origin() + Eigen::Vector3f(box.upper.data()).cast<double>()});
-    });
+    const BinaryTree& tree = hierarchy_.tree();
+    const std::uint32_t shown = shown_level(level);
+    // Leaves further up stand in for what is not there below them.
+    for (std::uint32_t node = 0; node < level_end(shown); ++node) {
+      if (node >= tree.level_begin(shown) || tree.is_leaf(node)) {
+        const Aabb box = bounding_box(hierarchy_.volume(node), hierarchy_.parameters());
+        boxes.push_back({hierarchy_.origin() + Eigen::Vector3f(box.lower.data()).cast<double>(),
+                         hierarchy_.origin() + Eigen::Vector3f(box.upper.data()).cast<double>()});
+      }
+    }
   }
 
   double mean_level_volume(std::uint32_t level) const override {
+    const std::uint32_t shown = shown_level(level);
+    const std::uint32_t begin = level_count() == 0 ? 0 : hierarchy_.tree().level_begin(shown);
+    const std::uint32_t end = level_end(shown);
     double sum = 0.0;
-    std::size_t count = 0;
-    for_each_node(level, [&](const Volume& node_volume) {
-      sum += volume(node_volume, hierarchy_.parameters());
-      ++count;
-    });
-    return count == 0 ? 0.0 : sum / static_cast<double>(count);
+    for (std::uint32_t node = begin; node < end; ++node) {
+      sum += volume(hierarchy_.volume(node), hierarchy_.parameters());
+    }
+    return begin == end ? 0.0 : sum / (end - begin);
   }
 
   std::size_t memory_bytes() const override { return hierarchy_.memory_bytes(); }
@@ -73,17 +79,12 @@ class HierarchyEngine final : public ProximityEngine {
   }
 
  private:
-  /// Calls visit(volume) for all nodes of a level; levels beyond the last give the last.
-  template <class Visit>
-  void for_each_node(std::uint32_t level, const Visit& visit) const {
-    const BinaryTree& tree = hierarchy_.tree();
-    if (tree.empty()) {
-      return;
-    }
-    const std::uint32_t shown = std::min(level, tree.level_count() - 1);
-    for (std::uint32_t node = tree.level_begin(shown); node < tree.level_end(shown); ++node) {
-      visit(hierarchy_.volume(node));
-    }
+  /// Levels beyond the last give the last.
+  std::uint32_t shown_level(std::uint32_t level) const {
+    return level_count() == 0 ? 0 : std::min(level, level_count() - 1);
+  }
+  std::uint32_t level_end(std::uint32_t level) const {
+    return level_count() == 0 ? 0 : hierarchy_.tree().level_end(level);
   }
 
   Kind hierarchy_;
