@@ -1,7 +1,6 @@
 #include "fiber_proximity/ros/detector.hpp"
 
 #include <limits>
-#include <utility>
 
 #include "fiber_proximity/ros/stopwatch.hpp"
 
@@ -12,7 +11,8 @@ void Detector::set_fibers(const fiber::FiberAssembly& fibers) { new_fibers_ = &f
 const fiber::ProximityEngine& Detector::engine() {
   if (new_fibers_ != nullptr) {
     const Stopwatch stopwatch;
-    engine_->update(*std::exchange(new_fibers_, nullptr));
+    engine_->update(*new_fibers_);
+    new_fibers_ = nullptr;  // only now: fibres the engine refuses are refused whenever it is asked
     update_time_ = stopwatch.seconds();
   }
   return *engine_;

@@ -110,7 +110,13 @@ void ProximityServer::publish() {
   if (!contacts && !statistics && !drawing_is_due_) {
     return;
   }
-  detector_.detect(query_options_);
+  try {
+    detector_.detect(query_options_);
+  } catch (const std::invalid_argument& error) {
+    ROS_ERROR_STREAM_THROTTLE(1.0, "engine " << options_.engine << ": " << error.what());
+    drawing_is_due_ = false;
+    return;
+  }
   if (contacts) {
     publish_contacts();
   }

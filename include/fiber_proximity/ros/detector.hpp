@@ -18,10 +18,11 @@ class Detector {
   void set_fibers(const fiber::FiberAssembly& fibers);
 
   /// The engine, updated to the fibres.
+  /// @throws std::invalid_argument for fibres the engine cannot take (AL-threaded: unequal ones)
   const fiber::ProximityEngine& engine();
 
   /// Finds the contacts, and the closest pair whatever the margin.
-  /// @throws std::invalid_argument for options that do not validate
+  /// @throws std::invalid_argument for options that do not validate, and as engine()
   void detect(const fiber::QueryOptions& options);
 
   // What the last detect() found:
