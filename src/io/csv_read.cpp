@@ -1,13 +1,13 @@
 #include <cerrno>
 #include <fstream>
 #include <set>
-#include <stdexcept>
 #include <string_view>
 #include <unordered_set>
 #include <utility>
 
 #include "fiber_proximity/io/csv.hpp"
 #include "fiber_proximity/io/number.hpp"
+#include "fiber_proximity/io/radii.hpp"
 
 namespace fiber {
 namespace {
@@ -34,28 +34,12 @@ void split(std::string_view line, std::vector<std::string_view>& fields) {
 
 std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
 
-/// One radius where it serves all: the cheap form of an assembly.
-std::vector<double> shared_if_equal(std::vector<double> radii) {
-  for (const double radius : radii) {
-    if (radius != radii.front()) {
-      return radii;
-    }
-  }
-  radii.resize(1);
-  return radii;
-}
-
 /// Takes a file line by line and puts its frames together.
 class CsvReader {
  public:
   CsvReader(std::string name, double default_radius)
       : name_(std::move(name)), default_radius_(default_radius) {
-    if (!FiberAssembly::is_valid_radius(default_radius)) {
-      std::string value;
-      append_number(value, default_radius);
-      throw std::invalid_argument("the default radius is " + value + ", " +
-                                  FiberAssembly::radius_rule);
-    }
+    check_default_radius(default_radius);
   }
 
   void read_line(std::string_view line) {

@@ -1,21 +1,12 @@
 #include <cerrno>
-#include <fstream>
-#include <set>
 #include <stdexcept>
 
 #include "fiber_proximity/io/csv.hpp"
 #include "fiber_proximity/io/number.hpp"
+#include "fiber_proximity/io/radii.hpp"
 
 namespace fiber {
 namespace {
-
-double point_radius(const FiberAssembly& fibers, std::size_t fiber, std::size_t point) {
-  const std::vector<double>& radii = fibers.radii();
-  if (radii.size() == 1) {
-    return radii.front();
-  }
-  return radii.size() == fibers.fiber_count() ? radii[fiber] : radii[point];
-}
 
 void append_rows(std::string& text, const FiberFrame& frame, bool has_frames) {
   const std::vector<std::uint32_t>& offsets = frame.fibers.offsets();
@@ -37,49 +28,47 @@ void append_rows(std::string& text, const FiberFrame& frame, bool has_frames) {
   }
 }
 
-void check_writable(const FiberFile& file) {
-  if (!file.has_frames && file.frames.size() != 1) {
-    throw std::invalid_argument("a file without frame numbers holds exactly 1 frame, not " +
-                                std::to_string(file.frames.size()));
-  }
-  std::set<std::int64_t> seen;
-  for (const FiberFrame& frame : file.frames) {
-    if (file.has_frames && frame.fibers.fiber_count() == 0) {
-      throw std::invalid_argument("frame " + std::to_string(frame.frame) +
-                                  " has no fibres, a file with frames cannot hold it");
-    }
-    if (!seen.insert(frame.frame).second) {
-      throw std::invalid_argument("frame number " + std::to_string(frame.frame) +
-                                  " appears more than once");
-    }
-  }
-}
-
 }  // namespace
 
-void write_csv(const std::string& path, const FiberFile& file) {
-  check_writable(file);
+CsvWriter::CsvWriter(const std::string& path, bool has_frames)
+    : path_(path), has_frames_(has_frames) {
   errno = 0;
-  std::ofstream stream(path, std::ios::binary);
-  if (!stream) {
+  stream_.open(path, std::ios::binary);
+  if (!stream_) {
     throw FileError::from_system(path, "cannot be opened for writing");
   }
-  write_csv(stream, file);
-  stream.close();
-  if (!stream) {
-    throw FileError::from_system(path, "cannot be written");
+  stream_ << (has_frames ? "frame,fiber,x,y,z,radius\n" : "fiber,x,y,z,radius\n");
+}
+
+void CsvWriter::write(const FiberFrame& frame) {
+  if (!has_frames_ && !frames_written_.empty()) {
+    throw std::invalid_argument("a file without frame numbers holds only one frame");
+  }
+  if (has_frames_ && frame.fibers.fiber_count() == 0) {
+    throw std::invalid_argument("frame " + std::to_string(frame.frame) +
+                                " has no fibres, a file with frames cannot hold it");
+  }
+  if (!frames_written_.insert(frame.frame).second) {
+    throw std::invalid_argument("frame " + std::to_string(frame.frame) + " was written before");
+  }
+  rows_.clear();
+  append_rows(rows_, frame, has_frames_);
+  stream_ << rows_;
+}
+
+void CsvWriter::finish() {
+  stream_.close();
+  if (!stream_) {
+    throw FileError::from_system(path_, "cannot be written");
   }
 }
 
-void write_csv(std::ostream& stream, const FiberFile& file) {
-  check_writable(file);
-  stream << (file.has_frames ? "frame,fiber,x,y,z,radius\n" : "fiber,x,y,z,radius\n");
-  std::string text;
+void write_csv(const std::string& path, const FiberFile& file) {
+  CsvWriter writer(path, file.has_frames);
   for (const FiberFrame& frame : file.frames) {
-    text.clear();
-    append_rows(text, frame, file.has_frames);
-    stream << text;
+    writer.write(frame);
   }
+  writer.finish();
 }
 
 }  // namespace fiber

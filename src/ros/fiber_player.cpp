@@ -6,28 +6,14 @@
 #include <memory>
 #include <stdexcept>
 
-#include "fiber_proximity/io/csv.hpp"
+#include "fiber_proximity/geometry/select_fibers.hpp"
+#include "fiber_proximity/io/fiber_file.hpp"
 #include "fiber_proximity/ros/parameters.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
 
 using fiber::FiberAssembly;
-
-FiberAssembly only(const FiberAssembly& fibers, std::uint32_t fiber) {
-  const auto begin = static_cast<std::ptrdiff_t>(fibers.offsets()[fiber]);
-  const auto end = static_cast<std::ptrdiff_t>(fibers.offsets()[fiber + 1]);
-  const auto slice = [begin, end](const auto& values) {
-    return std::decay_t<decltype(values)>(values.begin() + begin, values.begin() + end);
-  };
-  std::vector<double> radii = fibers.radii();
-  if (radii.size() == fibers.point_count()) {
-    radii = slice(radii);
-  } else if (radii.size() == fibers.fiber_count()) {
-    radii = {radii[fiber]};
-  }
-  return {slice(fibers.points()), {0, static_cast<std::uint32_t>(end - begin)}, radii};
-}
 
 /// The frame as it is played.
 FiberAssembly select(FiberAssembly fibers, const PlayerOptions& options, const std::string& where) {
@@ -39,16 +25,16 @@ FiberAssembly select(FiberAssembly fibers, const PlayerOptions& options, const s
     }
     return fibers;
   }
-  const auto fiber = static_cast<std::uint32_t>(options.fiber);
-  if (fiber >= fibers.fiber_count()) {
+  const auto index = static_cast<std::uint32_t>(options.fiber);
+  if (index >= fibers.fiber_count()) {
     throw std::invalid_argument("parameter fiber is " + std::to_string(options.fiber) + ", but " +
                                 where + " has " + count + " fibre(s), numbered from 0");
   }
-  return only(fibers, fiber);
+  return fiber::select_fibers(fibers, {index});
 }
 
 std::vector<FiberAssembly> read_frames(const PlayerOptions& options) {
-  fiber::FiberFile file = fiber::read_csv(options.file, options.radius);
+  fiber::FiberFile file = fiber::read_fibers(options.file, options.radius);
   std::vector<FiberAssembly> frames;
   frames.reserve(file.frames.size());
   for (fiber::FiberFrame& frame : file.frames) {

@@ -178,11 +178,11 @@ void MarkerBuilder::draw_contacts(const std::vector<fiber::Contact>& contacts, d
 void MarkerBuilder::draw_normals(const std::vector<fiber::Contact>& contacts, double thickness,
                                  Canvas& canvas) {
   Marker& marker = canvas.add(NORMALS, Marker::LINE_LIST);
-  marker.scale.x = 0.1 * thickness;
+  marker.scale.x = 0.08 * thickness;
   for (const fiber::Contact& contact : contacts) {
     const Vector3d start = middle_of(contact);
     marker.points.push_back(to_message(start));
-    marker.points.push_back(to_message(start + 1.5 * thickness * contact.normal));
+    marker.points.push_back(to_message(start + 1.2 * thickness * contact.normal));
     marker.colors.insert(marker.colors.end(), 2, contact_color(contact));
   }
 }
@@ -193,8 +193,8 @@ void MarkerBuilder::draw_nearest(const fiber::Contact& minimum, double extent, C
   line.points = {to_message(minimum.point_a), to_message(minimum.point_b)};
 
   Marker& text = canvas.add(NEAREST_TEXT, Marker::TEXT_VIEW_FACING);
-  text.scale.z = 0.04 * extent;
-  text.pose.position = to_message(middle_of(minimum) + 0.08 * extent * Vector3d::UnitZ());
+  text.scale.z = 0.035 * extent;
+  text.pose.position = to_message(middle_of(minimum) + 0.07 * extent * Vector3d::UnitZ());
   text.text = distance_text(minimum.distance);
 }
 
@@ -214,7 +214,7 @@ void MarkerBuilder::build(const std_msgs::Header& header, const fiber::FiberAsse
                           visualization_msgs::MarkerArray& markers) {
   const Scale scale(fibers);
   // Thicker than the fibres, to be seen where two of them hide the point of contact.
-  const double thickness = 2.6 * scale.thickest;
+  const double thickness = 3.0 * scale.thickest;
   Canvas canvas(header, markers);
   if (options.show_fibers && fibers.segment_count() > most_tube_segments) {
     draw_lines(fibers, 2.0 * scale.thinnest, canvas);

@@ -3,10 +3,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
+#include <numeric>
 #include <utility>
 #include <vector>
+
+#include "fiber_proximity/geometry/select_fibers.hpp"
 
 namespace fiber {
 namespace {
@@ -157,11 +158,13 @@ FiberAssembly cables(double time) {
 }
 
 FiberAssembly cables(const SceneOptions& options, std::uint32_t frame) {
-  if (options.scale != 1.0) {
-    throw std::invalid_argument("scale is " + std::to_string(options.scale) +
-                                ", the scene 'cables' has 5 cables at a scale of 1 and no other");
-  }
-  return cables(frame / frame_rate);
+  const FiberAssembly all = cables(frame / frame_rate);
+  const auto count = static_cast<std::uint32_t>(all.fiber_count());
+  // No cable has more points than all of them.
+  const auto points = static_cast<std::uint32_t>(all.point_count());
+  std::vector<std::uint32_t> first(scaled_fiber_count(options, count, points, count));
+  std::iota(first.begin(), first.end(), 0U);
+  return select_fibers(all, first);
 }
 
 }  // namespace fiber

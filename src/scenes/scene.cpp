@@ -3,7 +3,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fiber_proximity/geometry/select_fibers.hpp"
 #include "fiber_proximity/scenes/cables.hpp"
+#include "fiber_proximity/scenes/cloth.hpp"
+#include "fiber_proximity/scenes/hair_styles.hpp"
+#include "fiber_proximity/scenes/shuffle.hpp"
 #include "fiber_proximity/scenes/soup.hpp"
 
 namespace fiber {
@@ -11,9 +15,22 @@ namespace {
 
 using SceneFunction = FiberAssembly (*)(const SceneOptions& options, std::uint32_t frame);
 
+template <const HairStyle& style>
+FiberAssembly styled(const SceneOptions& options, std::uint32_t frame) {
+  return hair(style, options, frame);
+}
+
 const std::vector<std::pair<std::string, SceneFunction>>& scenes() {
   static const std::vector<std::pair<std::string, SceneFunction>> all{
       {"cables", cables},
+      {"tress_a", styled<tress_a>},
+      {"tress_b", styled<tress_b>},
+      {"tress_c", styled<tress_c>},
+      {"charming", styled<charming>},
+      {"curly", styled<curly>},
+      {"windy", styled<windy>},
+      {"longish", styled<longish>},
+      {"cloth", cloth},
       {"soup", soup},
   };
   return all;
@@ -25,7 +42,14 @@ Scene make_scene(const std::string& name, const SceneOptions& options) {
   std::string known;
   for (const auto& [scene_name, scene] : scenes()) {
     if (name == scene_name) {
-      return [options, function = scene](std::uint32_t frame) { return function(options, frame); };
+      return [options, function = scene](std::uint32_t frame) {
+        FiberAssembly fibers = function(options, frame);
+        if (!options.shuffle) {
+          return fibers;
+        }
+        const auto count = static_cast<std::uint32_t>(fibers.fiber_count());
+        return select_fibers(fibers, random_order(count, options.seed));
+      };
     }
     known += (known.empty() ? "" : ", ") + scene_name;
   }

@@ -24,15 +24,21 @@ void collect(const BinaryTree& tree, std::uint32_t node, std::vector<std::uint32
   collect(tree, tree.first_child(node) + 1, segments);
 }
 
+BinaryTree balanced(const std::vector<std::uint32_t>& order) {
+  BinaryTree tree;
+  tree.build(order, SplitInMiddle());
+  return tree;
+}
+
 TEST(BinaryTree, OfNothingIsEmpty) {
-  EXPECT_TRUE(BinaryTree::balanced({}).empty());
-  EXPECT_EQ(BinaryTree::balanced({}).level_count(), 0U);
+  EXPECT_TRUE(balanced({}).empty());
+  EXPECT_EQ(balanced({}).level_count(), 0U);
 }
 
 class BalancedTree : public testing::TestWithParam<std::uint32_t> {};
 
 TEST_P(BalancedTree, HoldsEverySegmentOnceInOrder) {
-  const BinaryTree tree = BinaryTree::balanced(counted(GetParam()));
+  const BinaryTree tree = balanced(counted(GetParam()));
   std::vector<std::uint32_t> segments;
   collect(tree, 0, segments);
   EXPECT_EQ(segments, counted(GetParam()));
@@ -40,7 +46,7 @@ TEST_P(BalancedTree, HoldsEverySegmentOnceInOrder) {
 }
 
 TEST_P(BalancedTree, IsOneBalancedAndInLevelOrder) {
-  const BinaryTree tree = BinaryTree::balanced(counted(GetParam()));
+  const BinaryTree tree = balanced(counted(GetParam()));
   std::uint32_t nodes = 0;
   for (std::uint32_t level = 0; level < tree.level_count(); ++level) {
     for (std::uint32_t node = tree.level_begin(level); node < tree.level_end(level); ++node) {
@@ -61,9 +67,31 @@ TEST_P(BalancedTree, IsPerfectForPowersOfTwo) {
   if ((n & (n - 1)) != 0) {
     return;
   }
-  const BinaryTree tree = BinaryTree::balanced(counted(n));
+  const BinaryTree tree = balanced(counted(n));
   const std::uint32_t last = tree.level_count() - 1;
   EXPECT_EQ(tree.level_end(last) - tree.level_begin(last), n);
+}
+
+TEST_P(BalancedTree, TellsTheLeavesBelowEachNode) {
+  BinaryTree tree;
+  std::vector<LeafRun> runs;
+  tree.build(counted(GetParam()), SplitInMiddle(), &runs);
+  ASSERT_EQ(runs.size(), tree.node_count());
+  for (std::uint32_t node = 0; node < tree.node_count(); ++node) {
+    std::vector<std::uint32_t> segments;
+    collect(tree, node, segments);
+    ASSERT_EQ(segments.size(), runs[node].size());
+    ASSERT_EQ(segments.front(), runs[node].begin + 7);
+  }
+}
+
+TEST(BinaryTree, TakesAnySplit) {
+  BinaryTree list;
+  list.build(counted(1000), [](std::uint32_t, const LeafRun& run) { return run.begin + 1; });
+  EXPECT_EQ(list.level_count(), 1000U);
+  std::vector<std::uint32_t> segments;
+  collect(list, 0, segments);
+  EXPECT_EQ(segments, counted(1000));
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, BalancedTree,

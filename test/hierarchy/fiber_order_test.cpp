@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+
 namespace fiber {
 namespace {
 
@@ -12,6 +14,23 @@ TEST(EndPointConnectedOrder, RunsForthAndBack) {
 
 TEST(EndPointConnectedOrder, OfNoFibersIsEmpty) {
   EXPECT_TRUE(end_point_connected_order({0}).empty());
+}
+
+TEST(ThreadingOrder, PutsEqualOrdinalsSideBySide) {
+  const std::vector<std::uint32_t> expected{0, 3, 6, 1, 4, 7};
+  EXPECT_EQ(threading_order({0, 3, 6, 9}), expected);
+  EXPECT_TRUE(threading_order({0}).empty());
+}
+
+TEST(ThreadingOrder, RefusesFibersOfDifferentLength) {
+  try {
+    threading_order({0, 3, 6, 8});
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(),
+                 "fibre 2 has 1 segment(s), fibre 0 has 2; threading needs the same number in all "
+                 "fibres");
+  }
 }
 
 }  // namespace

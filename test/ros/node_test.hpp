@@ -154,10 +154,11 @@ inline void expect_same(const fiber_proximity::Contact& message, const fiber::Co
 }
 
 /// Compares an answer, pair for pair and bit for bit, with brute force over the fibres it is about.
+/// @param options of the node, where they are not the defaults; the message tells the margin
 inline void expect_brute_force(const fiber_proximity::ContactArray& message,
-                               const fiber_proximity::FiberArray& fibers) {
+                               const fiber_proximity::FiberArray& fibers,
+                               fiber::QueryOptions options = {}) {
   const fiber::FiberAssembly assembly = to_assembly(fibers);
-  fiber::QueryOptions options;
   options.margin = message.margin;
   fiber::QueryResult expected;
   fiber::brute_force(assembly, options, expected);

@@ -71,11 +71,13 @@ TEST(Cables, ContactsComeAndGo) {
   EXPECT_EQ(meetings.count({3, 3}), 1U);  // the loop with itself
 }
 
-TEST(Cables, AreASceneWithoutAScale) {
+TEST(Cables, AreASceneOfAtMostFive) {
   EXPECT_EQ(make_scene("cables", {})(30).points(), cables(1.0).points());
-  SceneOptions larger;
-  larger.scale = 2.0;
-  EXPECT_THROW(make_scene("cables", larger)(0), std::invalid_argument);
+  const FiberAssembly three = make_scene("cables", {0.6, 1})(30);
+  ASSERT_EQ(three.fiber_count(), 3U);
+  EXPECT_EQ(three.radii(), (std::vector<double>{0.010, 0.007, 0.005}));
+  EXPECT_EQ(three.points().back(), cables(1.0).points()[three.point_count() - 1]);
+  EXPECT_THROW(make_scene("cables", {2.0, 1})(0), std::invalid_argument);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <utility>
@@ -45,6 +46,20 @@ inline std::vector<Eigen::Vector3d> random_walk(Random& random, int segments, do
     points.push_back(points.back() + step * heading);
   }
   return points;
+}
+
+/// The fibres of an assembly cut to the shortest one's number of points, with its first radius.
+inline FiberAssembly equal_fibers(const FiberAssembly& fibers) {
+  std::uint32_t shortest = 0xFFFF'FFFFU;
+  for (std::size_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
+    shortest = std::min(shortest, fibers.offsets()[fiber + 1] - fibers.offsets()[fiber]);
+  }
+  AssemblyBuilder builder;
+  for (std::size_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
+    const auto begin = fibers.points().begin() + fibers.offsets()[fiber];
+    builder.add_fiber({begin, begin + shortest});
+  }
+  return builder.build({fibers.radii().front()});
 }
 
 /// Ordinary and hard assemblies, small enough for brute force.

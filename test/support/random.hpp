@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cctype>
 #include <cstdint>
 #include <cstdlib>
 #include <random>
@@ -22,6 +23,14 @@ inline std::uint64_t run_seed() {
 
 inline std::string seed_message() {
   return "repeat with FIBER_PROXIMITY_TEST_SEED=" + std::to_string(run_seed());
+}
+
+/// A name as gtest takes it: letters, digits and underscores.
+inline std::string test_name(std::string name) {
+  for (char& c : name) {
+    c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+  }
+  return name;
 }
 
 /// A source of random numbers that differs from test to test and, unless fixed, run to run.

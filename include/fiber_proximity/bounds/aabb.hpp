@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "fiber_proximity/bounds/bounding_volume.hpp"
 
@@ -11,32 +12,19 @@ namespace fiber {
 
 /// Axis-aligned bounding box (paper, Sect. 4.1), the hand-optimised 6-DOP.
 struct Aabb {
+  using Parameters = NoParameters;
+
   std::array<float, 3> lower{};  ///< [m] relative to the hierarchy's origin
   std::array<float, 3> upper{};  ///< [m] relative to the hierarchy's origin
 };
 
-/// Relative padding of a box by the largest magnitude in it. A float conversion, a subtraction and
-/// a squared norm together err by less than 8 units of 2⁻²⁴ of that magnitude; 2⁻²⁰ is twice that,
-/// and a micrometre in a scene of a metre.
-constexpr float aabb_padding = 0x1p-20F;
-
-inline void fit(Aabb& box, const Capsule& capsule) {
-  std::array<double, 3> lower{};
-  std::array<double, 3> upper{};
-  double magnitude = 0.0;
+inline void fit(Aabb& box, const Capsule& capsule, const NoParameters& /*parameters*/) {
+  const RoundedCapsule rounded(capsule);
+  const float reach = rounded.representable ? rounded.radius + rounded.padding
+                                            : std::numeric_limits<float>::infinity();
   for (int axis = 0; axis < 3; ++axis) {
-    lower[axis] = std::min(capsule.p0[axis], capsule.p1[axis]) - capsule.radius;
-    upper[axis] = std::max(capsule.p0[axis], capsule.p1[axis]) + capsule.radius;
-    magnitude = std::max(magnitude, std::max(-lower[axis], upper[axis]));
-  }
-  // The smallest normal float keeps the padding alive where the product would underflow.
-  constexpr float largest = std::numeric_limits<float>::max();
-  const float padding =
-      static_cast<float>(magnitude) * aabb_padding + std::numeric_limits<float>::min();
-  for (int axis = 0; axis < 3; ++axis) {
-    // Beyond float's range the box opens to infinity; the clamp keeps ∞ − ∞ out.
-    box.lower[axis] = std::min(static_cast<float>(lower[axis]), largest) - padding;
-    box.upper[axis] = std::max(static_cast<float>(upper[axis]), -largest) + padding;
+    box.lower[axis] = std::min(rounded.p0[axis], rounded.p1[axis]) - reach;
+    box.upper[axis] = std::max(rounded.p0[axis], rounded.p1[axis]) + reach;
   }
 }
 
@@ -47,6 +35,15 @@ inline Aabb merge(const Aabb& a, const Aabb& b) {
     box.upper[axis] = std::max(a.upper[axis], b.upper[axis]);
   }
   return box;
+}
+
+inline void fit(Aabb& box, const CapsuleRun& run, const NoParameters& parameters) {
+  fit(box, *run.first, parameters);
+  for (const Capsule& capsule : run) {
+    Aabb other;
+    fit(other, capsule, parameters);
+    box = merge(box, other);
+  }
 }
 
 /// Squared distance of the boxes [m²], 0 when they overlap.
@@ -60,20 +57,48 @@ inline float squared_distance(const Aabb& a, const Aabb& b) {
   return sum;
 }
 
-/// What squares below the normal range of float may err by, as their digits run out [m²].
-constexpr float squared_underflow = std::numeric_limits<float>::min();
-
 inline bool overlaps(const Aabb& a, const Aabb& b, float margin) {
   return squared_distance(a, b) <= margin * margin + squared_underflow;
 }
 
 inline float distance_lower_bound(const Aabb& a, const Aabb& b) {
-  const float squared = squared_distance(a, b) - squared_underflow;
-  return std::sqrt(std::clamp(squared, 0.0F, std::numeric_limits<float>::max()));
+  return std::sqrt(std::max(squared_distance(a, b) - squared_underflow, 0.0F));
 }
 
-/// The axis-aligned box around a volume, for drawing.
-inline const Aabb& bounding_box(const Aabb& box) { return box; }
+inline bool contains(const Aabb& box, const Capsule& capsule, const NoParameters& /*parameters*/) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = std::min(capsule.p0[axis], capsule.p1[axis]) - capsule.radius;
+    const double high = std::max(capsule.p0[axis], capsule.p1[axis]) + capsule.radius;
+    if (low < static_cast<double>(box.lower[axis]) || high > static_cast<double>(box.upper[axis])) {
+      return false;
+    }
+  }
+  return true;
+}
+
+inline double volume(const Aabb& box, const NoParameters& /*parameters*/) {
+  double product = 1.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    product *= static_cast<double>(box.upper[axis]) - static_cast<double>(box.lower[axis]);
+  }
+  return product;
+}
+
+inline const Aabb& bounding_box(const Aabb& box, const NoParameters& /*parameters*/) { return box; }
+
+/// The three axes of a box, longest first; the first of equals keeps its place.
+inline std::vector<SplitAxis> split_axes(const Aabb& box, const CapsuleRun& /*run*/,
+                                         const NoParameters& /*parameters*/) {
+  std::vector<SplitAxis> axes;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto low = static_cast<double>(box.lower[axis]);
+    const auto high = static_cast<double>(box.upper[axis]);
+    axes.push_back({Eigen::Vector3d::Unit(axis), 0.5 * (low + high), high - low});
+  }
+  std::stable_sort(axes.begin(), axes.end(),
+                   [](const SplitAxis& x, const SplitAxis& y) { return x.extent > y.extent; });
+  return axes;
+}
 
 static_assert(IsBoundingVolume<Aabb>::value, "Aabb must keep the contract of bounding volumes");
 

@@ -7,51 +7,49 @@
 #include "fiber_proximity/bounds/bounding_volume.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/hierarchy/binary_tree.hpp"
-#include "fiber_proximity/hierarchy/fiber_order.hpp"
 
 namespace fiber {
 
-/// The paper's layered chain-aligned hierarchy (Sect. 3): a balanced binary tree over the
-/// end-point-connected order, each node's volume merged from its two children's.
-template <class Volume>
+/// A binary tree of volumes over the segments of an assembly: what a traversal sees. The kinds of
+/// hierarchy (layered, wrapped, spatial) differ in how they build and update it.
+template <class VolumeType>
 class Hierarchy {
-  static_assert(IsBoundingVolume<Volume>::value, "see bounding_volume.hpp");
+  static_assert(IsBoundingVolume<VolumeType>::value, "see bounding_volume.hpp");
 
  public:
-  /// Builds the tree for the fibres' topology and fits the volumes.
-  /// @param origin [m] the point all volumes are relative to; trees that are traversed together
-  ///        need the same one
-  void build(const FiberAssembly& fibers, const Eigen::Vector3d& origin) {
-    tree_ = BinaryTree::balanced(end_point_connected_order(fibers.offsets()));
-    volumes_.resize(tree_.node_count());
-    update(fibers, origin);
-  }
-
-  /// Refits all volumes bottom-up (Sect. 3.3) to moved points of the same topology; allocates
-  /// nothing.
-  void update(const FiberAssembly& fibers, const Eigen::Vector3d& origin) {
-    origin_ = origin;
-    for (std::uint32_t node = tree_.node_count(); node-- > 0;) {
-      if (tree_.is_leaf(node)) {
-        const std::uint32_t point = tree_.leaf_point(node);
-        const std::vector<Eigen::Vector3d>& points = fibers.points();
-        fit(volumes_[node], Capsule{points[point] - origin, points[point + 1] - origin,
-                                    fibers.segment_radius(point)});
-      } else {
-        const std::uint32_t child = tree_.first_child(node);
-        volumes_[node] = merge(volumes_[child], volumes_[child + 1]);
-      }
-    }
-  }
+  using Volume = VolumeType;
+  using Parameters = typename Volume::Parameters;
 
   const BinaryTree& tree() const { return tree_; }
   const Volume& volume(std::uint32_t node) const { return volumes_[node]; }
-  const Eigen::Vector3d& origin() const { return origin_; }
 
- private:
+  /// What all volumes are relative to [m]; hierarchies that are traversed together share it.
+  const Eigen::Vector3d& origin() const { return origin_; }
+  const Parameters& parameters() const { return parameters_; }
+
+  /// Memory of tree and volumes [bytes]; kinds that keep more add to it.
+  std::size_t memory_bytes() const {
+    return tree_.memory_bytes() + volumes_.capacity() * sizeof(Volume);
+  }
+
+ protected:
+  explicit Hierarchy(const Parameters& parameters) : parameters_(parameters) {}
+  ~Hierarchy() = default;
+  Hierarchy(const Hierarchy&) = default;
+  Hierarchy(Hierarchy&&) noexcept = default;
+  Hierarchy& operator=(const Hierarchy&) = default;
+  Hierarchy& operator=(Hierarchy&&) noexcept = default;
+
+  /// The segment that starts at this point, relative to the origin.
+  Capsule relative_capsule(const FiberAssembly& fibers, std::uint32_t point) const {
+    return {fibers.points()[point] - origin_, fibers.points()[point + 1] - origin_,
+            fibers.segment_radius(point)};
+  }
+
   BinaryTree tree_;
   std::vector<Volume> volumes_;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
+  Parameters parameters_;
 };
 
 }  // namespace fiber

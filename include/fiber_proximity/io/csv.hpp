@@ -1,26 +1,16 @@
 #pragma once
 
 #include <cstdint>
+#include <fstream>
 #include <iosfwd>
+#include <set>
 #include <string>
 #include <vector>
 
-#include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/io/fiber_frame.hpp"
 #include "fiber_proximity/io/file_error.hpp"
 
 namespace fiber {
-
-/// The fibres at one moment of a recording.
-struct FiberFrame {
-  std::int64_t frame = 0;  ///< the frame's number in the file
-  FiberAssembly fibers;
-};
-
-/// What a fibre file holds: one frame without a number, or any number of numbered ones.
-struct FiberFile {
-  bool has_frames = false;
-  std::vector<FiberFrame> frames;  ///< in the file's order; exactly one without numbers
-};
 
 /// Reads a fibre file: a header `fiber,x,y,z` with an optional leading `frame` and an optional
 /// trailing `radius`, then a row per point [m]. Rows of a frame, and within it rows of a fibre,
@@ -34,14 +24,32 @@ FiberFile read_csv(const std::string& path, double default_radius = 0.0);
 /// The same from a stream; errors call it by `name`.
 FiberFile read_csv(std::istream& stream, const std::string& name, double default_radius = 0.0);
 
-/// Writes a fibre file that reads back as the same numbers. Fibres are labelled by their index; the
-/// radius column is that of the points if there is one per point, else that of their fibre.
-/// @throws FileError
-/// @throws std::invalid_argument if a file cannot hold this: not exactly one frame without numbers,
-///         or a numbered frame that has no fibres or the number of an earlier one
-void write_csv(const std::string& path, const FiberFile& file);
+/// Writes a fibre file frame by frame, so that a long one never is in memory. Fibres are labelled
+/// by their index; the radius column is that of the point if there is one per point, else that of
+/// its fibre. All numbers read back as the same.
+class CsvWriter {
+ public:
+  /// @param has_frames whether frames have numbers; without them the file holds exactly one
+  /// @throws FileError
+  CsvWriter(const std::string& path, bool has_frames);
 
-/// The same to a stream, which is not checked for errors.
-void write_csv(std::ostream& stream, const FiberFile& file);
+  /// @throws std::invalid_argument for a frame that the file cannot hold: without numbers any but
+  ///         the first; with them one without fibres, or with the number of an earlier one
+  void write(const FiberFrame& frame);
+
+  /// Call once, after the last frame: only then is all of it in the file.
+  /// @throws FileError
+  void finish();
+
+ private:
+  const std::string path_;
+  const bool has_frames_;
+  std::ofstream stream_;
+  std::set<std::int64_t> frames_written_;
+  std::string rows_;
+};
+
+/// Writes all of a fibre file; see CsvWriter.
+void write_csv(const std::string& path, const FiberFile& file);
 
 }  // namespace fiber

@@ -41,7 +41,14 @@ class ProximityEngine {
   /// Number of levels of the hierarchy, 0 if there is none.
   virtual std::uint32_t level_count() const { return 0; }
 
-  /// Boxes around the nodes of a level; 0 is the root, levels beyond the last give the last.
+  /// Mean volume of the cages of a level [m³] (paper, Fig. 5); 0 without a hierarchy.
+  virtual double mean_level_volume(std::uint32_t /*level*/) const { return 0.0; }
+
+  /// Memory the engine holds for its fibres, the fibres themselves apart [bytes].
+  virtual std::size_t memory_bytes() const { return 0; }
+
+  /// Boxes around the nodes of a level, and around leaves above it, so that together they hold all
+  /// fibres; 0 is the root, levels beyond the last give the last.
   virtual void level_boxes(std::uint32_t level, std::vector<NodeBox>& boxes) const;
 
  protected:
@@ -56,11 +63,12 @@ class ProximityEngine {
   std::vector<std::uint32_t> offsets_;
 };
 
-/// The engine of this name (see engine_names()).
+/// The engine of this name: one of engine_names(), or DL-k and DS-k for any even k in [6, 200], or
+/// with the standard directions DL-k-classic and DS-k-classic for k of 14, 18 and 26.
 /// @throws std::invalid_argument listing the names
 std::unique_ptr<ProximityEngine> make_engine(const std::string& name);
 
-/// Names of all engines.
+/// Names of all engines; k-DOPs with the paper's best k for hair, 20.
 std::vector<std::string> engine_names();
 
 }  // namespace fiber

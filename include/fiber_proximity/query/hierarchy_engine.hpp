@@ -1,33 +1,53 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
-#include "fiber_proximity/hierarchy/hierarchy.hpp"
+#include "fiber_proximity/hierarchy/layered_hierarchy.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/query/traverse.hpp"
 
 namespace fiber {
 
 /// One of the paper's hierarchies as an engine.
-template <class Volume>
+/// @tparam Kind a hierarchy with build(fibers, origin) and update(fibers, origin)
+template <class Kind>
 class HierarchyEngine final : public ProximityEngine {
  public:
+  using Volume = typename Kind::Volume;
+
+  explicit HierarchyEngine(Kind hierarchy) : hierarchy_(std::move(hierarchy)) {}
+
   std::uint32_t level_count() const override { return hierarchy_.tree().level_count(); }
 
   void level_boxes(std::uint32_t level, std::vector<NodeBox>& boxes) const override {
     boxes.clear();
-    if (hierarchy_.tree().empty()) {
-      return;
-    }
-    const std::uint32_t shown = std::min(level, level_count() - 1);
-    for (std::uint32_t node = hierarchy_.tree().level_begin(shown);
-         node < hierarchy_.tree().level_end(shown); ++node) {
-      const Aabb box = bounding_box(hierarchy_.volume(node));
-      boxes.push_back({hierarchy_.origin() + Eigen::Vector3f(box.lower.data()).cast<double>(),
-                       hierarchy_.origin() + Eigen::Vector3f(box.upper.data()).cast<double>()});
+    const BinaryTree& tree = hierarchy_.tree();
+    const std::uint32_t shown = shown_level(level);
+    // Leaves further up stand in for what is not there below them.
+    for (std::uint32_t node = 0; node < level_end(shown); ++node) {
+      if (node >= tree.level_begin(shown) || tree.is_leaf(node)) {
+        const Aabb box = bounding_box(hierarchy_.volume(node), hierarchy_.parameters());
+        boxes.push_back({hierarchy_.origin() + Eigen::Vector3f(box.lower.data()).cast<double>(),
+                         hierarchy_.origin() + Eigen::Vector3f(box.upper.data()).cast<double>()});
+      }
     }
   }
+
+  double mean_level_volume(std::uint32_t level) const override {
+    const std::uint32_t shown = shown_level(level);
+    const std::uint32_t begin = level_count() == 0 ? 0 : hierarchy_.tree().level_begin(shown);
+    const std::uint32_t end = level_end(shown);
+    double sum = 0.0;
+    for (std::uint32_t node = begin; node < end; ++node) {
+      sum += volume(hierarchy_.volume(node), hierarchy_.parameters());
+    }
+    return begin == end ? 0.0 : sum / (end - begin);
+  }
+
+  std::size_t memory_bytes() const override { return hierarchy_.memory_bytes(); }
 
  protected:
   void do_update(const FiberAssembly& fibers, bool same_topology) override {
@@ -45,21 +65,29 @@ class HierarchyEngine final : public ProximityEngine {
   void do_query(const FiberAssembly& fibers, const QueryOptions& options,
                 QueryResult& result) const override {
     PairCollector collector(fibers, options, result);
-    traverse(hierarchy_, hierarchy_, collector, result.counts);
+    traverse<Volume>(hierarchy_, hierarchy_, options, collector, result.counts);
     collector.finish();
   }
 
   void do_query_shape(const FiberAssembly& shape, const FiberAssembly& fibers,
                       const QueryOptions& options, QueryResult& result) const override {
-    Hierarchy<Volume> shape_hierarchy;
+    LayeredHierarchy<Volume> shape_hierarchy(hierarchy_.parameters());
     shape_hierarchy.build(shape, hierarchy_.origin());
     PairCollector collector(shape, fibers, options, result);
-    traverse(shape_hierarchy, hierarchy_, collector, result.counts);
+    traverse<Volume>(shape_hierarchy, hierarchy_, options, collector, result.counts);
     collector.finish();
   }
 
  private:
-  Hierarchy<Volume> hierarchy_;
+  /// Levels beyond the last give the last.
+  std::uint32_t shown_level(std::uint32_t level) const {
+    return level_count() == 0 ? 0 : std::min(level, level_count() - 1);
+  }
+  std::uint32_t level_end(std::uint32_t level) const {
+    return level_count() == 0 ? 0 : hierarchy_.tree().level_end(level);
+  }
+
+  Kind hierarchy_;
 };
 
 }  // namespace fiber

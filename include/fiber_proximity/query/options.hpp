@@ -29,6 +29,10 @@ struct QueryOptions {
   /// [m] Segments of one fibre with less than this arc length between them are no pair; >= 0,
   /// 0 for no such limit. Needed where segments are shorter than the fibre is thick.
   double neighbour_skip_length = 0.0;
+
+  /// Test the volumes of two leaves before the segments themselves; changes only the cost. The
+  /// paper finds that it always pays (Sect. 5).
+  bool leaf_pretest = true;
 };
 
 /// @throws std::invalid_argument naming the field, its value and what is allowed

@@ -21,9 +21,14 @@ namespace fiber {
 template <class Volume, bool NearFirst>
 class Traversal {
  public:
-  Traversal(const Hierarchy<Volume>& a, const Hierarchy<Volume>& b, PairCollector& collector,
-            QueryCounts& counts)
-      : a_(a), b_(b), self_(&a == &b), collector_(collector), counts_(counts) {
+  Traversal(const Hierarchy<Volume>& a, const Hierarchy<Volume>& b, const QueryOptions& options,
+            PairCollector& collector, QueryCounts& counts)
+      : a_(a),
+        b_(b),
+        self_(&a == &b),
+        leaf_pretest_(options.leaf_pretest),
+        collector_(collector),
+        counts_(counts) {
     stack_.reserve(256);
   }
 
@@ -86,6 +91,10 @@ class Traversal {
       stack_.push_back({a, b, 0.0F});
       return;
     }
+    if (!leaf_pretest_ && a_.tree().is_leaf(a) && b_.tree().is_leaf(b)) {
+      stack_.push_back({a, b, 0.0F});
+      return;
+    }
     ++counts_.node_tests;
     const Volume& volume_a = a_.volume(a);
     const Volume& volume_b = b_.volume(b);
@@ -99,6 +108,7 @@ class Traversal {
   const Hierarchy<Volume>& a_;
   const Hierarchy<Volume>& b_;
   const bool self_;
+  const bool leaf_pretest_;
   PairCollector& collector_;
   QueryCounts& counts_;
   std::vector<Pair> stack_;
@@ -106,12 +116,12 @@ class Traversal {
 
 /// Offers the collector every pair of leaves it may be interested in; see Traversal.
 template <class Volume>
-void traverse(const Hierarchy<Volume>& a, const Hierarchy<Volume>& b, PairCollector& collector,
-              QueryCounts& counts) {
+void traverse(const Hierarchy<Volume>& a, const Hierarchy<Volume>& b, const QueryOptions& options,
+              PairCollector& collector, QueryCounts& counts) {
   if (collector.wants_near_first()) {
-    Traversal<Volume, true>(a, b, collector, counts).run();
+    Traversal<Volume, true>(a, b, options, collector, counts).run();
   } else {
-    Traversal<Volume, false>(a, b, collector, counts).run();
+    Traversal<Volume, false>(a, b, options, collector, counts).run();
   }
 }
 

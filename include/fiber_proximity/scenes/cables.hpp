@@ -18,7 +18,8 @@ FiberAssembly cables(double time);
 constexpr double cables_period = 12.0;  ///< [s]
 
 /// The same by frame, at 30 frames per second.
-/// @throws std::invalid_argument for a scale other than 1: the scene is arranged by hand
+/// A smaller scale leaves out the last cables.
+/// @throws std::invalid_argument for a scale above 1: the scene is arranged by hand
 FiberAssembly cables(const SceneOptions& options, std::uint32_t frame);
 
 }  // namespace fiber

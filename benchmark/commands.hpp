@@ -1,0 +1,13 @@
+#pragma once
+
+#include "command_line.hpp"
+
+namespace fiber {
+
+/// `update` and `cycle`: engines on a moving scene.
+void add_scene_commands(CLI::App& app, Command& command);
+
+/// `latency`: a running ROS graph; only in builds with ROS.
+void add_latency_command(CLI::App& app, Command& command);
+
+}  // namespace fiber

@@ -1,0 +1,248 @@
+#include <fiber_proximity/ContactArray.h>
+#include <fiber_proximity/FiberArray.h>
+#include <ros/ros.h>
+
+#include <cmath>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "commands.hpp"
+#include "progress.hpp"
+#include "statistics.hpp"
+
+namespace fiber {
+namespace {
+
+using fiber_proximity::ContactArray;
+using fiber_proximity::FiberArray;
+using Clock = std::chrono::steady_clock;
+
+struct Request {
+  std::uint32_t cables = 10;
+  std::uint32_t points = 100;  // per cable
+  double rate = 100.0;         // [Hz]
+  double seconds = 10.0;
+  double timeout = 10.0;  // to wait for the node [s]
+  std::string topic = "fibers";
+  std::string contacts = "proximity/contacts";
+  std::string frame = "world";
+  bool json = false;
+};
+
+/// Cables of 1 m side by side, swaying so that neighbours touch here and there.
+FiberArray make_cables(const Request& request, const ros::Time& stamp, double time) {
+  constexpr double radius = 0.005;   // [m]
+  constexpr double spacing = 0.012;  // [m]
+  constexpr double sway = 0.004;     // [m]
+  constexpr double two_pi = 6.283185307179586;
+  FiberArray message;
+  message.header.stamp = stamp;
+  message.header.frame_id = request.frame;
+  message.offsets.push_back(0);
+  for (std::uint32_t cable = 0; cable < request.cables; ++cable) {
+    for (std::uint32_t i = 0; i < request.points; ++i) {
+      geometry_msgs::Point point;
+      point.x = static_cast<double>(i) / (request.points - 1);
+      point.y = cable * spacing + sway * std::sin(two_pi * (3.0 * point.x + 0.4 * cable + time));
+      message.points.push_back(point);
+    }
+    message.offsets.push_back(static_cast<std::uint32_t>(message.points.size()));
+  }
+  message.radii.push_back(radius);
+  return message;
+}
+
+/// Which messages are under way, and how long those took that were answered.
+class LatencyLog {
+ public:
+  void sent(const ros::Time& stamp) {
+    const std::lock_guard lock(mutex_);
+    sent_[stamp] = Clock::now();
+  }
+
+  void answered(const ContactArray& contacts) {
+    const Clock::time_point now = Clock::now();
+    const std::lock_guard lock(mutex_);
+    const auto message = sent_.find(contacts.header.stamp);
+    if (message == sent_.end()) {
+      return;  // from before the measurement
+    }
+    latencies_ms_.push_back(milliseconds(now - message->second));
+    contacts_ = contacts.contacts.size();
+    sent_.erase(message);
+  }
+
+  void clear() {
+    const std::lock_guard lock(mutex_);
+    sent_.clear();
+    latencies_ms_.clear();
+  }
+
+  std::size_t pending() const {
+    const std::lock_guard lock(mutex_);
+    return sent_.size();
+  }
+  std::vector<double> latencies_ms() const {
+    const std::lock_guard lock(mutex_);
+    return latencies_ms_;
+  }
+  std::size_t contacts() const {
+    const std::lock_guard lock(mutex_);
+    return contacts_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::map<ros::Time, Clock::time_point> sent_;
+  std::vector<double> latencies_ms_;
+  std::size_t contacts_ = 0;  // of the newest answer
+};
+
+/// Polls until the condition holds or the time is over; whether it held.
+template <class Condition>
+bool wait_until(double seconds, const Condition& condition) {
+  const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
+  while (ros::ok() && !condition()) {
+    if (ros::WallTime::now() > end) {
+      return false;
+    }
+    ros::WallDuration(0.005).sleep();
+  }
+  return condition();
+}
+
+/// The node under test between a publisher and a subscriber.
+class LatencyRun {
+ public:
+  explicit LatencyRun(const Request& request)
+      : request_(request),
+        publisher_(node_.advertise<FiberArray>(request.topic, 1)),
+        subscriber_(node_.subscribe(request.contacts, 100, &LatencyRun::on_contacts, this,
+                                    ros::TransportHints().tcpNoDelay())) {
+    spinner_.start();
+  }
+
+  void run() {
+    if (!wait_until(request_.timeout, [this] { return publisher_.getNumSubscribers() > 0; })) {
+      throw std::runtime_error("nobody subscribes to " + publisher_.getTopic());
+    }
+    if (!wait_until(request_.timeout, [this] { return subscriber_.getNumPublishers() > 0; })) {
+      throw std::runtime_error("nobody publishes " + subscriber_.getTopic());
+    }
+    // The first messages build the node's tree and find its memory: they are not measured.
+    publish(request_.timeout, [this] { return !log_.latencies_ms().empty(); });
+    if (log_.latencies_ms().empty()) {
+      throw std::runtime_error("no answer on " + subscriber_.getTopic() +
+                               " to what is published on " + publisher_.getTopic());
+    }
+    log_.clear();
+    published_ = 0;
+    publish(request_.seconds, [] { return false; });
+    wait_until(1.0, [this] { return log_.pending() == 0; });
+  }
+
+  std::size_t published() const { return published_; }
+  const LatencyLog& log() const { return log_; }
+
+ private:
+  void on_contacts(const ContactArray& contacts) { log_.answered(contacts); }
+
+  template <class Condition>
+  void publish(double seconds, const Condition& enough) {
+    const ros::WallTime start = ros::WallTime::now();
+    ros::WallRate rate(request_.rate);
+    double time = 0.0;
+    while (ros::ok() && time < seconds && !enough()) {
+      const ros::Time stamp = ros::Time::now();
+      const FiberArray cables = make_cables(request_, stamp, time);
+      log_.sent(stamp);
+      publisher_.publish(cables);
+      ++published_;
+      rate.sleep();
+      time = (ros::WallTime::now() - start).toSec();
+      progress_.show(std::to_string(published_) + " messages");
+    }
+  }
+
+  const Request& request_;
+  LatencyLog log_;
+  Progress progress_;
+  std::size_t published_ = 0;
+  ros::NodeHandle node_;
+  ros::Publisher publisher_;
+  ros::Subscriber subscriber_;
+  ros::AsyncSpinner spinner_{1};  // last: stops before what its callbacks use
+};
+
+void print(const Request& request, const LatencyRun& run) {
+  const std::vector<double> latencies = run.log().latencies_ms();
+  const nlohmann::ordered_json result{{"cables", request.cables},
+                                      {"points", request.points},
+                                      {"rate", request.rate},
+                                      {"published", run.published()},
+                                      {"answered", latencies.size()},
+                                      {"contacts", run.log().contacts()},
+                                      {"median_ms", quantile(latencies, 0.5)},
+                                      {"p90_ms", quantile(latencies, 0.9)},
+                                      {"p99_ms", quantile(latencies, 0.99)},
+                                      {"max_ms", quantile(latencies, 1.0)}};
+  if (request.json) {
+    std::cout << result.dump() << '\n';
+    return;
+  }
+  for (const auto& [name, value] : result.items()) {
+    std::cout << name << ' ' << value << '\n';
+  }
+}
+
+ExitCode run(const Request& request) {
+  ros::init(ros::M_string(), "fiber_bench",
+            ros::init_options::AnonymousName | ros::init_options::NoRosout);
+  if (!ros::master::check()) {
+    throw std::runtime_error("no ROS master at " + ros::master::getURI());
+  }
+  LatencyRun latency(request);
+  latency.run();
+  if (latency.log().latencies_ms().empty()) {
+    throw std::runtime_error("none of " + std::to_string(latency.published()) +
+                             " messages was answered");
+  }
+  print(request, latency);
+  return SUCCEEDED;
+}
+
+}  // namespace
+
+void add_latency_command(CLI::App& app, Command& command) {
+  const auto request = std::make_shared<Request>();
+  CLI::App* latency = app.add_subcommand(
+      "latency", "time from publishing cables to a running node to the arrival of their contacts");
+  latency->callback([&command, request] { command = [request] { return run(*request); }; });
+  latency->add_option("--cables", request->cables, "number of cables")
+      ->check(whole_number(1))
+      ->capture_default_str();
+  latency->add_option("--points", request->points, "per cable")
+      ->check(whole_number(2))
+      ->capture_default_str();
+  latency->add_option("--rate", request->rate, "[Hz]")
+      ->check(CLI::Range(0.1, 1e5))
+      ->capture_default_str();
+  latency->add_option("--seconds", request->seconds, "to measure")
+      ->check(CLI::Range(0.1, 1e5))
+      ->capture_default_str();
+  latency->add_option("--timeout", request->timeout, "to wait for the node [s]")
+      ->check(CLI::Range(0.0, 1e5))
+      ->capture_default_str();
+  latency->add_option("--topic", request->topic, "the node's FiberArray input")
+      ->capture_default_str();
+  latency->add_option("--contacts", request->contacts, "the node's ContactArray output")
+      ->capture_default_str();
+  latency->add_option("--frame", request->frame, "of the cables")->capture_default_str();
+  latency->add_flag("--json", request->json, "a JSON object instead of lines");
+}
+
+}  // namespace fiber

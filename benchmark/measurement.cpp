@@ -1,0 +1,138 @@
+#include "measurement.hpp"
+
+#include <cassert>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+
+#include "fiber_proximity/query/engine.hpp"
+#include "fiber_proximity/scenes/scene.hpp"
+#include "progress.hpp"
+#include "statistics.hpp"
+
+namespace fiber {
+namespace {
+
+/// One engine and the times it has taken so far.
+class EngineRun {
+ public:
+  EngineRun(const std::string& name, const FiberAssembly& fibers)
+      : name_(name), engine_(make_engine(name)) {
+    engine_->update(fibers);  // builds; frames only refit
+  }
+
+  void measure_frame(const FiberAssembly& fibers, bool detect) {
+    update_ms_.push_back(time_of([&] { engine_->update(fibers); }));
+    if (!detect) {
+      return;
+    }
+    detect_ms_.push_back(time_of([&] { engine_->query(QueryOptions(), result_); }));
+    cycle_ms_.push_back(update_ms_.back() + detect_ms_.back());
+  }
+
+  const std::string& name() const { return name_; }
+  const std::vector<Contact>& contacts() const { return result_.contacts; }
+
+  EngineMeasurement summary() const {
+    EngineMeasurement summary;
+    summary.engine = name_;
+    summary.update_ms = median(update_ms_);
+    summary.detect_ms = median(detect_ms_);
+    summary.cycle_ms = median(cycle_ms_);
+    summary.pairs = result_.contacts.size();
+    summary.counts = result_.counts;
+    return summary;
+  }
+
+ private:
+  std::string name_;
+  std::unique_ptr<ProximityEngine> engine_;
+  QueryResult result_;
+  std::vector<double> update_ms_;
+  std::vector<double> detect_ms_;
+  std::vector<double> cycle_ms_;
+};
+
+/// Copies the points: the time below which no update that reads them all can come.
+class CopyRun {
+ public:
+  explicit CopyRun(const FiberAssembly& fibers) : copy_(fibers.points()) {}
+
+  void measure_frame(const FiberAssembly& fibers) {
+    const std::size_t size = copy_.size() * sizeof(Eigen::Vector3d);
+    memcpy_ms_.push_back(
+        time_of([&] { std::memcpy(copy_.data()->data(), fibers.points().data()->data(), size); }));
+    // Reading the copy keeps the compiler from leaving it out.
+    if (std::memcmp(copy_.data()->data(), fibers.points().data()->data(), size) != 0) {
+      throw std::logic_error("memcpy did not copy");
+    }
+  }
+
+  double median_ms() const { return median(memcpy_ms_); }
+
+ private:
+  std::vector<Eigen::Vector3d> copy_;
+  std::vector<double> memcpy_ms_;
+};
+
+bool same_pairs(const std::vector<Contact>& a, const std::vector<Contact>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Contact& x, const Contact& y) {
+    return x.key() == y.key() && x.distance == y.distance;
+  });
+}
+
+std::string find_disagreement(const std::vector<EngineRun>& runs, std::uint32_t frame) {
+  for (const EngineRun& run : runs) {
+    if (!same_pairs(run.contacts(), runs.front().contacts())) {
+      return "frame " + std::to_string(frame) + ": the pairs of " + runs.front().name() + " (" +
+             std::to_string(runs.front().contacts().size()) + ") and " + run.name() + " (" +
+             std::to_string(run.contacts().size()) + ") differ";
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+Measurement measure(const MeasurementOptions& options) {
+  assert(options.repeats > 0 && !options.engines.empty());
+  Progress progress;
+  const Scene scene = make_scene(options.scene, options.scene_options);
+  FiberAssembly fibers = scene(0);
+  std::vector<EngineRun> runs;
+  for (const std::string& name : options.engines) {
+    runs.emplace_back(name, fibers);
+  }
+  CopyRun copy(fibers);
+
+  Measurement measurement;
+  for (std::uint32_t frame = 1; frame <= options.repeats; ++frame) {
+    fibers.update_points(scene(frame).points());
+    const bool detect = options.detect_every_frame || frame == options.repeats;
+    const std::size_t turns = runs.size() + 1;
+    for (std::size_t turn = 0; turn < turns; ++turn) {
+      const std::size_t whose = (frame + turn) % turns;
+      if (whose == runs.size()) {
+        copy.measure_frame(fibers);
+        continue;
+      }
+      progress.show("frame " + std::to_string(frame) + " of " + std::to_string(options.repeats) +
+                    ": " + runs[whose].name());
+      runs[whose].measure_frame(fibers, detect);
+    }
+    if (measurement.disagreement.empty()) {
+      measurement.disagreement = find_disagreement(runs, frame);
+    }
+  }
+
+  measurement.fibers = fibers.fiber_count();
+  measurement.points = fibers.point_count();
+  measurement.segments = fibers.segment_count();
+  measurement.memcpy_ms = copy.median_ms();
+  for (const EngineRun& run : runs) {
+    measurement.engines.push_back(run.summary());
+  }
+  return measurement;
+}
+
+}  // namespace fiber

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "fiber_proximity/query/contact.hpp"
+#include "fiber_proximity/scenes/options.hpp"
+
+namespace fiber {
+
+/// What to measure: engines on the moving frames of a scene.
+struct MeasurementOptions {
+  std::string scene = "soup";
+  SceneOptions scene_options;
+  std::vector<std::string> engines{"AL"};
+  std::uint32_t repeats = 1;       ///< frames to measure, at least 1
+  bool detect_every_frame = true;  ///< false: only in the last frame
+};
+
+/// Times of one engine: medians over the frames [ms], work and pairs of the last frame.
+struct EngineMeasurement {
+  std::string engine;
+  std::uint32_t threads = 1;  ///< it used; no engine uses more yet
+  double update_ms = 0.0;
+  double detect_ms = 0.0;
+  double cycle_ms = 0.0;
+  std::size_t pairs = 0;
+  QueryCounts counts;
+};
+
+struct Measurement {
+  std::size_t fibers = 0;
+  std::size_t points = 0;
+  std::size_t segments = 0;
+  double memcpy_ms = 0.0;  ///< median time to copy the points
+  std::vector<EngineMeasurement> engines;
+  std::string disagreement;  ///< where two engines' pairs differ; empty when none do
+};
+
+/// Measures all engines in one run, frame by frame in turns, so that what slows the machine down
+/// for a while slows all of them. Which one goes first changes from frame to frame.
+/// @throws std::invalid_argument for unknown names and bad options
+Measurement measure(const MeasurementOptions& options);
+
+}  // namespace fiber

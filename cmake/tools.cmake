@@ -1,0 +1,19 @@
+# Command line tools; installed where rosrun finds them, or in bin without ROS.
+
+add_library(fiber_proximity_command_line OBJECT src/tools/command_line.cpp)
+target_link_libraries(fiber_proximity_command_line PUBLIC
+  fiber_proximity CLI11::CLI11 fiber_proximity_options)
+
+# fiber_proximity_tool(NAME SOURCE...)
+function(fiber_proximity_tool name)
+  add_executable(${name} ${ARGN})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/src/tools)
+  target_link_libraries(${name} fiber_proximity_command_line nlohmann_json::nlohmann_json)
+  if(FIBER_PROXIMITY_BUILD_ROS)
+    set_target_properties(${name} PROPERTIES INSTALL_RPATH "$ORIGIN/..")
+    install(TARGETS ${name} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+  else()
+    set_target_properties(${name} PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+    install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  endif()
+endfunction()

@@ -1,0 +1,105 @@
+#include <charconv>
+#include <stdexcept>
+#include <utility>
+
+#include "fiber_proximity/bounds/direction_set.hpp"
+#include "fiber_proximity/bounds/obb.hpp"
+#include "fiber_proximity/bounds/sphere.hpp"
+#include "fiber_proximity/hierarchy/cascaded_hierarchy.hpp"
+#include "fiber_proximity/hierarchy/spatial_hierarchy.hpp"
+#include "fiber_proximity/hierarchy/wrapped_hierarchy.hpp"
+#include "fiber_proximity/query/brute_force.hpp"
+#include "fiber_proximity/query/engine.hpp"
+#include "fiber_proximity/query/hierarchy_engine.hpp"
+#include "kdop_engines.hpp"
+
+namespace fiber {
+namespace {
+
+using EnginePointer = std::unique_ptr<ProximityEngine>;
+
+template <class Kind>
+EnginePointer make() {
+  return std::make_unique<HierarchyEngine<Kind>>(Kind());
+}
+
+EnginePointer make_threaded() {
+  using Kind = LayeredHierarchy<Aabb>;
+  return std::make_unique<HierarchyEngine<Kind>>(Kind({}, threading_order));
+}
+
+EnginePointer make_brute_force() { return std::make_unique<BruteForceEngine>(); }
+
+/// The paper's best k for hair (Sect. 5).
+template <EnginePointer (*MakeKdop)(const std::vector<Eigen::Vector3d>&)>
+EnginePointer make_kdop_20() {
+  return MakeKdop(grassmannian_directions(20));
+}
+
+using Maker = EnginePointer (*)();
+
+const std::vector<std::pair<std::string, Maker>>& makers() {
+  static const std::vector<std::pair<std::string, Maker>> all{
+      {"AL", make<LayeredHierarchy<Aabb>>},
+      {"AL-threaded", make_threaded},
+      {"AS", make<SpatialHierarchy<Aabb>>},
+      {"DL-20", make_kdop_20<make_layered_kdop_engine>},
+      {"DS-20", make_kdop_20<make_spatial_kdop_engine>},
+      {"SL", make<LayeredHierarchy<Sphere>>},
+      {"SW", make<CascadedHierarchy>},
+      {"SS", make<SpatialHierarchy<Sphere>>},
+      {"OL", make<LayeredHierarchy<Obb>>},
+      {"OW", make<WrappedHierarchy<Obb>>},
+      {"OS", make<SpatialHierarchy<Obb>>},
+      {"brute_force", make_brute_force},
+  };
+  return all;
+}
+
+/// The engine of a name DL-k, DS-k, DL-k-classic or DS-k-classic; null for any other name.
+/// @throws std::invalid_argument for a k that cannot be had
+EnginePointer make_kdop_engine(const std::string& name) {
+  const std::string kind = name.substr(0, 3);
+  if (kind != "DL-" && kind != "DS-") {
+    return nullptr;
+  }
+  int k = 0;
+  const char* const end = name.data() + name.size();
+  const std::from_chars_result number = std::from_chars(name.data() + kind.size(), end, k);
+  const std::string suffix(number.ptr, end);
+  if (number.ec != std::errc() || (!suffix.empty() && suffix != "-classic")) {
+    return nullptr;
+  }
+  const std::vector<Eigen::Vector3d>& directions =
+      suffix.empty() ? grassmannian_directions(k) : classic_directions(k);
+  return kind == "DL-" ? make_layered_kdop_engine(directions)
+                       : make_spatial_kdop_engine(directions);
+}
+
+}  // namespace
+
+EnginePointer make_engine(const std::string& name) {
+  std::string known;
+  for (const auto& [engine_name, maker] : makers()) {
+    if (name == engine_name) {
+      return maker();
+    }
+    known += (known.empty() ? "" : ", ") + engine_name;
+  }
+  if (EnginePointer kdop = make_kdop_engine(name)) {
+    return kdop;
+  }
+  throw std::invalid_argument("unknown engine '" + name + "', known are: " + known +
+                              "; DL-k and DS-k for even k from 6 to 200; DL-k-classic and "
+                              "DS-k-classic for k of 14, 18, 26");
+}
+
+std::vector<std::string> engine_names() {
+  std::vector<std::string> names;
+  for (const auto& entry : makers()) {
+    names.push_back(entry.first);
+  }
+  return names;
+}
+
+}  // namespace fiber

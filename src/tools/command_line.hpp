@@ -1,0 +1,32 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace fiber {
+
+/// Exit codes of all tools.
+enum ExitCode { SUCCEEDED = 0, DISAGREED = 1, REFUSED = 2 };
+
+/// What a tool does once its command line is parsed.
+using Command = std::function<ExitCode()>;
+
+/// Declares a tool's options and sets the command; one with subcommands has each of them set it
+/// when it is chosen.
+using Setup = std::function<void(CLI::App& app, Command& command)>;
+
+/// A whole tool, for main to return. Whatever is wrong with the command line, a file or a value
+/// becomes one line on stderr and REFUSED; so does output that cannot be written.
+int run_tool(const char* name, const char* description, const Setup& setup, int argc,
+             const char* const* argv);
+
+/// Accepts whole numbers from `least`.
+CLI::Validator whole_number(std::uint64_t least);
+
+/// The names with commas between them.
+std::string listed(const std::vector<std::string>& names);
+
+}  // namespace fiber

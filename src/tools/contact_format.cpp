@@ -1,0 +1,81 @@
+#include "contact_format.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "fiber_proximity/io/number.hpp"
+
+namespace fiber {
+namespace {
+
+nlohmann::ordered_json to_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+nlohmann::ordered_json to_json(const Contact& contact) {
+  return {{"fiber_a", contact.fiber_a},
+          {"segment_a", contact.segment_a},
+          {"s", contact.s},
+          {"fiber_b", contact.fiber_b},
+          {"segment_b", contact.segment_b},
+          {"t", contact.t},
+          {"distance", contact.distance},
+          {"point_a", to_json(contact.point_a)},
+          {"point_b", to_json(contact.point_b)},
+          {"normal", to_json(contact.normal)}};
+}
+
+void append_vector(std::string& text, const Eigen::Vector3d& vector) {
+  for (const double coordinate : vector) {
+    text += ',';
+    append_number(text, coordinate);
+  }
+}
+
+}  // namespace
+
+std::string csv_header(bool has_frames) {
+  return std::string(has_frames ? "frame," : "") +
+         "fiber_a,segment_a,s,fiber_b,segment_b,t,distance,point_a_x,point_a_y,point_a_z,"
+         "point_b_x,point_b_y,point_b_z,normal_x,normal_y,normal_z\n";
+}
+
+void append_csv(std::string& text, std::optional<std::int64_t> frame,
+                const std::vector<Contact>& contacts) {
+  for (const Contact& contact : contacts) {
+    if (frame) {
+      append_number(text, *frame);
+      text += ',';
+    }
+    append_number(text, contact.fiber_a);
+    text += ',';
+    append_number(text, contact.segment_a);
+    text += ',';
+    append_number(text, contact.s);
+    text += ',';
+    append_number(text, contact.fiber_b);
+    text += ',';
+    append_number(text, contact.segment_b);
+    text += ',';
+    append_number(text, contact.t);
+    text += ',';
+    append_number(text, contact.distance);
+    append_vector(text, contact.point_a);
+    append_vector(text, contact.point_b);
+    append_vector(text, contact.normal);
+    text += '\n';
+  }
+}
+
+void append_json(std::string& text, std::optional<std::int64_t> frame,
+                 const std::vector<Contact>& contacts) {
+  nlohmann::ordered_json object;
+  if (frame) {
+    object["frame"] = *frame;
+  }
+  object["contacts"] = nlohmann::ordered_json::array();
+  for (const Contact& contact : contacts) {
+    object["contacts"].push_back(to_json(contact));
+  }
+  text += object.dump();
+  text += '\n';
+}
+
+}  // namespace fiber

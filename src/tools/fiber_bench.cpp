@@ -1,0 +1,21 @@
+#include "command_line.hpp"
+#include "commands.hpp"
+
+namespace fiber {
+namespace {
+
+void setup(CLI::App& app, Command& command) {
+  app.require_subcommand(0, 1);
+  add_scene_commands(app, command);
+#ifdef FIBER_BENCH_HAS_LATENCY
+  add_latency_command(app, command);
+#endif
+}
+
+}  // namespace
+}  // namespace fiber
+
+int main(int argc, char** argv) {
+  return fiber::run_tool("fiber_bench", "Measures what updates and queries cost", fiber::setup,
+                         argc, argv);
+}

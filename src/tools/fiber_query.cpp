@@ -1,0 +1,104 @@
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "command_line.hpp"
+#include "contact_format.hpp"
+#include "fiber_proximity/io/fiber_file.hpp"
+#include "fiber_proximity/query/engine.hpp"
+
+namespace fiber {
+namespace {
+
+struct Request {
+  std::string file;
+  std::string engine = "AL";
+  QueryOptions query;
+  std::optional<double> margin;  // [m]
+  double radius = 0.0;           // [m]
+  std::uint32_t threads = 1;
+  std::string format = "csv";
+};
+
+struct Query {
+  const char* name;
+  const char* description;
+  QueryType type;
+  double default_margin;  // [m]
+};
+
+void add_options(CLI::App& app, const Query& query, Request& request) {
+  app.add_option("FILE", request.file, "fibre file (.csv or .hair)")->required();
+  app.add_option("--engine", request.engine, "one of " + listed(engine_names()))
+      ->capture_default_str();
+  app.add_option("--margin", request.margin,
+                 "pairs with a gap of at most this [m]; inf for no limit")
+      ->default_str(query.default_margin == 0.0 ? "0" : "inf");
+  app.add_option("--neighbour-skip", request.query.neighbour_skip,
+                 "segments of a fibre whose indices differ by at most this are no pair")
+      ->capture_default_str();
+  app.add_option("--neighbour-skip-length", request.query.neighbour_skip_length,
+                 "segments of a fibre with less than this between them are no pair [m]")
+      ->capture_default_str();
+  app.add_option("--radius", request.radius, "of all fibres, if the file has no radii [m]")
+      ->capture_default_str();
+  app.add_option("--threads", request.threads, "most threads to use; AL and brute_force use one")
+      ->check(whole_number(1))
+      ->capture_default_str();
+  app.add_option("--format", request.format, "of the output; json: one object per frame")
+      ->check(CLI::IsMember({"csv", "json"}))
+      ->capture_default_str();
+}
+
+ExitCode run(const Request& request) {
+  validate(request.query);
+  const std::unique_ptr<ProximityEngine> engine = make_engine(request.engine);
+  const FiberFile file = read_fibers(request.file, request.radius);
+  const bool json = request.format == "json";
+  QueryResult result;
+  std::string text = json ? "" : csv_header(file.has_frames);
+  for (const FiberFrame& frame : file.frames) {
+    engine->update(frame.fibers);
+    engine->query(request.query, result);
+    const std::optional<std::int64_t> number =
+        file.has_frames ? std::optional(frame.frame) : std::nullopt;
+    if (json) {
+      append_json(text, number, result.contacts);
+    } else {
+      append_csv(text, number, result.contacts);
+    }
+    std::cout << text;
+    text.clear();
+  }
+  std::cout << text;  // the header of a file without frames
+  return SUCCEEDED;
+}
+
+void setup(CLI::App& app, Command& command) {
+  app.require_subcommand(0, 1);
+  const auto request = std::make_shared<Request>();
+  const double infinity = std::numeric_limits<double>::infinity();
+  const Query queries[] = {
+      {"contacts", "all pairs of segments within the margin", QueryType::ALL, 0.0},
+      {"closest", "the closest pair", QueryType::CLOSEST, infinity},
+      {"first", "any one pair within the margin", QueryType::FIRST, 0.0}};
+  for (const Query& query : queries) {
+    CLI::App* subcommand = app.add_subcommand(query.name, query.description);
+    add_options(*subcommand, query, *request);
+    subcommand->callback([&command, request, query] {
+      request->query.type = query.type;
+      request->query.margin = request->margin.value_or(query.default_margin);
+      command = [request] { return run(*request); };
+    });
+  }
+}
+
+}  // namespace
+}  // namespace fiber
+
+int main(int argc, char** argv) {
+  return fiber::run_tool("fiber_query", "Contacts and distances of the fibres in a file",
+                         fiber::setup, argc, argv);
+}

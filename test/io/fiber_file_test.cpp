@@ -1,0 +1,70 @@
+#include "fiber_proximity/io/fiber_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+#include "support/temporary_directory.hpp"
+
+namespace fiber {
+namespace {
+
+const FiberAssembly fibers({{1, 2, 3}, {4, 5, 6}}, {0, 2}, {0.5});
+
+class FiberFileTest : public testing::Test {
+ protected:
+  std::string path(const std::string& name) const { return directory_.path(name); }
+
+  std::string start_of(const std::string& name) const {
+    std::string start(4, '\0');
+    std::ifstream(path(name), std::ios::binary).read(start.data(), 4);
+    return start;
+  }
+
+ private:
+  test::TemporaryDirectory directory_;
+};
+
+TEST_F(FiberFileTest, TheNameDecidesTheFormat) {
+  for (const std::string name : {"a.hair", "b.HAIR", "hair.csv", "c", ".hair"}) {
+    SCOPED_TRACE(name);
+    write_fibers(path(name), {false, {{0, fibers}}});
+    const bool is_hair = name == "a.hair" || name == "b.HAIR";
+    EXPECT_EQ(start_of(name), is_hair ? "HAIR" : "fibe");
+    const FiberFile file = read_fibers(path(name));
+    EXPECT_EQ(file.frames.at(0).fibers.points(), fibers.points());
+    EXPECT_EQ(file.frames.at(0).fibers.radii(), fibers.radii());
+  }
+}
+
+TEST_F(FiberFileTest, TheDefaultRadiusReachesBoth) {
+  std::ofstream(path("a.csv")) << "fiber,x,y,z\n0,0,0,0\n0,1,0,0\n";
+  write_fibers(path("a.hair"), {false, {{0, {fibers.points(), {0, 2}, {0.0}}}}});
+  for (const std::string name : {"a.csv", "a.hair"}) {
+    const std::vector<double> radii = read_fibers(path(name), 0.25).frames.at(0).fibers.radii();
+    EXPECT_EQ(radii, std::vector<double>{0.25}) << name;
+  }
+}
+
+TEST_F(FiberFileTest, ManyFramesGoIntoCsvOnly) {
+  write_fibers(path("a.csv"), {true, {{3, fibers}, {5, fibers}}});
+  EXPECT_EQ(read_fibers(path("a.csv")).frames.at(1).frame, 5);
+  EXPECT_THROW(write_fibers(path("a.hair"), {true, {{3, fibers}}}), std::invalid_argument);
+  EXPECT_THROW(write_fibers(path("b.hair"), {false, {}}), std::invalid_argument);
+  EXPECT_FALSE(std::filesystem::exists(path("a.hair")));
+  EXPECT_THROW(write_fibers(path("c.hair"), {false, {{0, fibers}, {1, fibers}}}),
+               std::invalid_argument);
+}
+
+TEST_F(FiberFileTest, NamesWhatCannotBeReadOrWritten) {
+  EXPECT_THROW(read_fibers(path("missing.hair")), FileError);
+  EXPECT_THROW(read_fibers(path("missing.csv")), FileError);
+  EXPECT_THROW(write_fibers("/no/such/a.hair", {false, {{0, fibers}}}), FileError);
+  EXPECT_THROW(write_fibers("/no/such/a.csv", {false, {{0, fibers}}}), FileError);
+}
+
+}  // namespace
+}  // namespace fiber

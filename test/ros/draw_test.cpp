@@ -1,0 +1,108 @@
+// What rviz is told by the running node.
+#include <visualization_msgs/MarkerArray.h>
+
+#include <map>
+#include <utility>
+
+#include "ros/messages.hpp"
+#include "ros/node_test.hpp"
+
+namespace {
+
+using test_messages::header;
+using visualization_msgs::Marker;
+using visualization_msgs::MarkerArray;
+
+/// The markers on the screen of a viewer.
+class Screen {
+ public:
+  void show(const MarkerArray& message) {
+    for (const Marker& marker : message.markers) {
+      const auto key = std::pair(marker.ns, marker.id);
+      if (marker.action == Marker::DELETE) {
+        EXPECT_EQ(markers_.erase(key), 1U) << "deletes " << marker.ns << " " << marker.id;
+      } else {
+        markers_[key] = marker;
+      }
+    }
+  }
+
+  std::vector<std::string> names() const {
+    std::vector<std::string> all;
+    for (const auto& [key, marker] : markers_) {
+      all.push_back(key.first + "/" + std::to_string(key.second));
+    }
+    return all;
+  }
+
+  const Marker& operator[](const std::string& ns) const { return markers_.at({ns, 0}); }
+
+  bool is_of(const ros::Time& stamp) const {
+    return !markers_.empty() && markers_.begin()->second.header.stamp == stamp;
+  }
+
+ private:
+  std::map<std::pair<std::string, std::int32_t>, Marker> markers_;
+};
+
+class DrawTest : public node_test::NodeTest {
+ protected:
+  /// Publishes the fibres and waits until they are on the screen.
+  void show(const ros::Publisher& publisher, fiber_proximity::FiberArray message) {
+    message.header = header("world", new_stamp());
+    publisher.publish(message);
+    ASSERT_TRUE(node_test::wait_for([&] {
+      for (; shown_ < markers_.messages.size(); ++shown_) {
+        screen.show(*markers_.messages[shown_]);
+      }
+      return screen.is_of(message.header.stamp);
+    }));
+    answer = contacts.wait_for(message.header.stamp);
+    ASSERT_NE(answer, nullptr);
+  }
+
+  Screen screen;
+  const fiber_proximity::ContactArray* answer = nullptr;
+
+ private:
+  struct MarkerRecorder {
+    MarkerRecorder(ros::NodeHandle& node, const std::string& topic)
+        : subscriber(node.subscribe<MarkerArray>(
+              topic, 1000,
+              [this](const MarkerArray::ConstPtr& message) { messages.push_back(message); })) {}
+    std::vector<MarkerArray::ConstPtr> messages;
+    ros::Subscriber subscriber;
+  };
+  MarkerRecorder markers_{node, "/proximity/markers"};
+  std::size_t shown_ = 0;
+};
+
+TEST_F(DrawTest, MarkersShowTheAnswerAndGoWithIt) {
+  const ros::Publisher publisher = advertise<fiber_proximity::FiberArray>("fibers");
+  fiber_proximity::FiberArray cross = test_messages::fiber_array(
+      header("world"), {{-1, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0.5, -1, 0.03}, {0.5, 1, 0.03}});
+  cross.offsets = {0, 3, 5};
+  cross.radii = {0.01};
+  connect(publisher, cross);
+
+  show(publisher, cross);
+  ASSERT_EQ(answer->contacts.size(), 1U);
+  EXPECT_EQ(screen.names(),
+            (std::vector<std::string>{"boxes/0", "contacts/0", "fibers/0", "fibers/1", "nearest/0",
+                                      "nearest_text/0", "normals/0"}));
+  EXPECT_EQ(screen["contacts"].points.size(), 1U);
+  EXPECT_NEAR(screen["contacts"].points[0].x, 0.5, 1e-12);
+  EXPECT_NEAR(screen["contacts"].points[0].z, 0.015, 1e-12);
+  EXPECT_EQ(screen["nearest_text"].text, "10.0 mm");
+  EXPECT_EQ(screen["boxes"].points.size() % 24, 0U);
+
+  const fiber_proximity::FiberArray lone =
+      test_messages::fiber_array(header("world"), {{0, 0, 0}, {1, 0, 0}});
+  show(publisher, lone);
+  EXPECT_EQ(screen.names(), (std::vector<std::string>{"boxes/0", "fibers/0"}));
+
+  show(publisher, cross);
+  EXPECT_EQ(screen.names().size(), 7U);
+}
+
+}  // namespace

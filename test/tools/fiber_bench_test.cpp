@@ -1,0 +1,80 @@
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <vector>
+
+#include "tools/tools_test.hpp"
+
+namespace fiber::test {
+namespace {
+
+using FiberBench = ToolsTest;
+
+std::vector<nlohmann::json> json_lines(const std::string& text) {
+  std::vector<nlohmann::json> result;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) {
+    result.push_back(nlohmann::json::parse(line));
+  }
+  return result;
+}
+
+TEST_F(FiberBench, EnginesAgreeOnEverySubcommand) {
+  // Of this seed, two fibres touch in frame 2.
+  for (const std::string command : {"update", "cycle"}) {
+    SCOPED_TRACE(command);
+    const ProcessResult result =
+        bench(command +
+              " --scene soup --scale 0.004 --seed 2 --repeats 2 --engines AL,brute_force --json");
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_EQ(result.err, "") << "progress is for terminals";
+    const std::vector<nlohmann::json> rows = json_lines(result.out);
+    ASSERT_EQ(rows.size(), 2U);
+    EXPECT_EQ(rows[0].at("engine"), "AL");
+    EXPECT_EQ(rows[1].at("engine"), "brute_force");
+    for (const nlohmann::json& row : rows) {
+      EXPECT_EQ(row.at("scene"), "soup");
+      EXPECT_EQ(row.at("segments"), 4000);
+      EXPECT_EQ(row.at("threads"), 1);
+      EXPECT_GT(row.at("detect_ms"), 0.0);
+      EXPECT_GE(row.at("cycle_ms"), row.at("detect_ms"));
+      EXPECT_GT(row.at("memcpy_ms"), 0.0);
+      EXPECT_EQ(row.at("update_per_memcpy"),
+                row.at("update_ms").get<double>() / row.at("memcpy_ms").get<double>());
+      EXPECT_EQ(row.at("pairs"), rows[0].at("pairs"));
+      EXPECT_GT(row.at("pairs"), 0);
+      EXPECT_GT(row.at("primitive_tests"), 0);
+    }
+    EXPECT_GT(rows[0].at("update_ms"), 0.0);
+    EXPECT_GT(rows[0].at("node_tests"), rows[0].at("node_overlaps"));
+    EXPECT_EQ(rows[1].at("node_tests"), 0);
+    EXPECT_LT(rows[0].at("primitive_tests"), rows[1].at("primitive_tests"));
+  }
+}
+
+TEST_F(FiberBench, PrintsATableWithoutJson) {
+  const ProcessResult result = bench("cycle --scale 0.001 --repeats 1");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("update [ms]"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("AL"), std::string::npos) << result.out;
+}
+
+TEST_F(FiberBench, RefusesBadCommandLines) {
+  EXPECT_TRUE(refused(bench(""), "a subcommand is needed: update, cycle"));
+  EXPECT_TRUE(refused(bench("race"), "race"));
+  EXPECT_TRUE(refused(bench("cycle --scene spaghetti"), "'spaghetti', known are: "));
+  EXPECT_TRUE(refused(bench("cycle --scale 0.001 --engines AL,XL"), "'XL', known are: AL"));
+  EXPECT_TRUE(refused(bench("cycle --engines"), "--engines"));
+  EXPECT_TRUE(refused(bench("cycle --scale 0"), "scale is 0"));
+  EXPECT_TRUE(refused(bench("update --repeats 0"), "--repeats: '0'"));
+  EXPECT_TRUE(refused(bench("update --threads none"), "--threads: 'none'"));
+}
+
+#ifdef FIBER_BENCH_HAS_LATENCY
+TEST_F(FiberBench, LatencyNeedsAMaster) {
+  EXPECT_TRUE(refused(run_process("ROS_MASTER_URI=http://127.0.0.1:1 " FIBER_BENCH " latency"),
+                      "no ROS master at http://127.0.0.1:1"));
+}
+#endif
+
+}  // namespace
+}  // namespace fiber::test

@@ -1,0 +1,253 @@
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <vector>
+
+#include "fiber_proximity/io/csv.hpp"
+#include "fiber_proximity/io/number.hpp"
+#include "fiber_proximity/query/brute_force.hpp"
+#include "tools/tools_test.hpp"
+
+namespace fiber::test {
+namespace {
+
+const std::string columns =
+    "fiber_a,segment_a,s,fiber_b,segment_b,t,distance,point_a_x,point_a_y,point_a_z,"
+    "point_b_x,point_b_y,point_b_z,normal_x,normal_y,normal_z\n";
+
+std::vector<std::string> lines(const std::string& text) {
+  std::vector<std::string> result;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) {
+    result.push_back(line);
+  }
+  return result;
+}
+
+/// The numbers of a contact in the order of the columns.
+std::vector<double> numbers(const Contact& c) {
+  return {double(c.fiber_a), double(c.segment_a), c.s,
+          double(c.fiber_b), double(c.segment_b), c.t,
+          c.distance,        c.point_a.x(),       c.point_a.y(),
+          c.point_a.z(),     c.point_b.x(),       c.point_b.y(),
+          c.point_b.z(),     c.normal.x(),        c.normal.y(),
+          c.normal.z()};
+}
+
+std::vector<double> numbers(const std::string& line) {
+  std::vector<double> result;
+  std::istringstream stream(line);
+  for (std::string field; std::getline(stream, field, ',');) {
+    result.push_back(parse_number<double>(field).value());
+  }
+  return result;
+}
+
+std::vector<double> numbers(const nlohmann::json& c) {
+  std::vector<double> result{c.at("fiber_a"),   c.at("segment_a"), c.at("s"),       c.at("fiber_b"),
+                             c.at("segment_b"), c.at("t"),         c.at("distance")};
+  for (const char* name : {"point_a", "point_b", "normal"}) {
+    const auto vector = c.at(name).get<std::vector<double>>();
+    result.insert(result.end(), vector.begin(), vector.end());
+  }
+  return result;
+}
+
+class FiberQuery : public ToolsTest {
+ protected:
+  /// Three fibres: two cross at a gap of 0.1 in their second and first segment, the third is 1
+  /// away.
+  std::string crossing() const {
+    return write("crossing.csv",
+                 "fiber,x,y,z,radius\n"
+                 "a,-2,0,0,0.2\na,-1,0,0,0.2\na,1,0,0,0.2\n"
+                 "b,0,-1,0.5,0.2\nb,0,1,0.5,0.2\n"
+                 "c,-2,0,1.5,0.2\nc,2,0,1.5,0.2\n");
+  }
+  std::string soup(const std::string& arguments) const {
+    const ProcessResult made = scene("soup " + arguments + " --out " + path("soup.csv"));
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    return path("soup.csv");
+  }
+};
+
+TEST_F(FiberQuery, ContactsOfACrossing) {
+  const ProcessResult result = query("contacts " + crossing() + " --margin 0.2");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err, "");
+  const std::vector<std::string> found = lines(result.out);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0] + "\n", columns);
+  EXPECT_EQ(numbers(found[1]), (std::vector<double>{0, 1, 0.5, 1, 0, 0.5, 0.5 - (0.2 + 0.2), 0, 0,
+                                                    0.2, 0, 0, 0.3, 0, 0, 1}));
+  EXPECT_EQ(query("contacts " + crossing()).out, columns) << "the margin is 0 by default";
+}
+
+TEST_F(FiberQuery, ClosestHasNoMarginByDefault) {
+  const std::vector<std::string> found = lines(query("closest " + crossing()).out);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[1].substr(0, 12), "0,1,0.5,1,0,");
+  EXPECT_EQ(query("closest " + crossing() + " --margin 0.05").out, columns);
+}
+
+TEST_F(FiberQuery, FirstIsOneOfTheContacts) {
+  const std::vector<std::string> all =
+      lines(query("contacts " + crossing() + " --margin inf --neighbour-skip 0").out);
+  const std::vector<std::string> first =
+      lines(query("first " + crossing() + " --margin inf --neighbour-skip 0").out);
+  EXPECT_EQ(all.size(), 1U + 4 * 3 / 2);
+  ASSERT_EQ(first.size(), 2U);
+  EXPECT_NE(std::find(all.begin() + 1, all.end(), first[1]), all.end());
+}
+
+TEST_F(FiberQuery, NeighbourSkips) {
+  const std::string path = write("line.csv", "fiber,x,y,z\n0,0,0,0\n0,1,0,0\n0,2,0,0\n0,3,0,0\n");
+  const auto count = [&](const std::string& options) {
+    return lines(query("contacts " + path + " --margin 1 " + options).out).size() - 1;
+  };
+  EXPECT_EQ(count(""), 1U);
+  EXPECT_EQ(count("--neighbour-skip 0"), 3U);
+  EXPECT_EQ(count("--neighbour-skip 2"), 0U);
+  EXPECT_EQ(count("--neighbour-skip-length 1.5"), 0U);
+  EXPECT_EQ(count("--radius 0.25"), 1U);
+}
+
+TEST_F(FiberQuery, RadiusIsForFilesWithoutOne) {
+  const std::string path = write("bare.csv", "fiber,x,y,z\n0,-1,0,0\n0,1,0,0\n1,0,-1,1\n1,0,1,1\n");
+  EXPECT_EQ(query("contacts " + path).out, columns);
+  EXPECT_EQ(lines(query("contacts " + path + " --radius 0.5").out).size(), 2U);
+  EXPECT_EQ(query("contacts " + crossing() + " --radius 10").out, columns);
+}
+
+TEST_F(FiberQuery, AgreesWithBruteForceInEveryFrame) {
+  const std::string path = soup("--scale 0.005 --frames 3 --seed 4");
+  for (const std::string command : {"contacts", "closest"}) {
+    const std::string arguments = " " + path + " --margin 0.002 --threads 2";
+    const ProcessResult tree = query(command + arguments + " --engine AL");
+    EXPECT_EQ(tree.exit_code, 0) << tree.err;
+    EXPECT_GT(lines(tree.out).size(), 3U) << "frames with contacts make the comparison worth it";
+    EXPECT_EQ(tree.out, query(command + arguments + " --engine brute_force").out);
+  }
+}
+
+TEST_F(FiberQuery, PrintsTheLibrarysNumbersBitForBit) {
+  const std::string path = soup("--scale 0.003 --frames 2");
+  QueryOptions options;
+  options.margin = 0.004;
+  const ProcessResult csv = query("contacts " + path + " --margin 0.004");
+  const ProcessResult json = query("contacts " + path + " --margin 0.004 --format json");
+  const std::vector<std::string> rows = lines(csv.out);
+  const std::vector<std::string> objects = lines(json.out);
+  ASSERT_EQ(rows.front() + "\n", "frame," + columns);
+  ASSERT_EQ(objects.size(), 2U);
+
+  std::size_t row = 1;
+  for (const FiberFrame& frame : read_csv(path).frames) {
+    QueryResult expected;
+    brute_force(frame.fibers, options, expected);
+    ASSERT_GT(expected.contacts.size(), 1U);
+    const auto object = nlohmann::json::parse(objects[static_cast<std::size_t>(frame.frame)]);
+    EXPECT_EQ(object.at("frame"), frame.frame);
+    ASSERT_EQ(object.at("contacts").size(), expected.contacts.size());
+    for (std::size_t i = 0; i < expected.contacts.size(); ++i) {
+      std::vector<double> values = numbers(expected.contacts[i]);
+      EXPECT_EQ(numbers(object.at("contacts")[i]), values);
+      values.insert(values.begin(), static_cast<double>(frame.frame));
+      ASSERT_LT(row, rows.size());
+      EXPECT_EQ(numbers(rows[row++]), values);
+    }
+  }
+  EXPECT_EQ(row, rows.size());
+}
+
+TEST_F(FiberQuery, ReadsHairFiles) {
+  ASSERT_EQ(scene("tress_a --scale 0.02 --out " + path("a.hair")).exit_code, 0);
+  const ProcessResult tree = query("contacts " + path("a.hair"));
+  EXPECT_EQ(tree.exit_code, 0) << tree.err;
+  EXPECT_GT(lines(tree.out).size(), 3U);
+  EXPECT_EQ(tree.out, query("contacts " + path("a.hair") + " --engine brute_force").out);
+  EXPECT_TRUE(refused(query("contacts " + write("b.hair", "HAIR")), "b.hair: ends at byte 4"));
+}
+
+TEST_F(FiberQuery, FilesOfNothing) {
+  const std::string bare = write("bare.csv", "fiber,x,y,z\n");
+  const std::string framed = write("framed.csv", "frame,fiber,x,y,z\n");
+  EXPECT_EQ(query("contacts " + bare).out, columns);
+  EXPECT_EQ(query("closest " + bare + " --format json").out, "{\"contacts\":[]}\n");
+  EXPECT_EQ(query("contacts " + framed).out, "frame," + columns);
+  EXPECT_EQ(query("contacts " + framed + " --format json").out, "");
+}
+
+TEST_F(FiberQuery, HelpIsNoError) {
+  for (const std::string arguments : {"--help", "contacts --help"}) {
+    const ProcessResult result = query(arguments);
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_NE(result.out.find("contacts"), std::string::npos);
+    EXPECT_EQ(result.err, "");
+  }
+}
+
+TEST_F(FiberQuery, RefusesBadCommandLines) {
+  const std::string file = crossing();
+  EXPECT_TRUE(refused(query(""), "a subcommand is needed: contacts, closest, first"));
+  EXPECT_TRUE(refused(query("touches " + file), "touches"));
+  EXPECT_TRUE(refused(query("contacts"), "FILE"));
+  EXPECT_TRUE(refused(query("contacts " + file + " --frobnicate"), "--frobnicate"));
+  EXPECT_TRUE(refused(query("contacts " + file + " more.csv"), "more.csv"));
+  EXPECT_TRUE(refused(query("contacts " + file + " --engine XL"), "'XL', known are: AL"));
+  EXPECT_TRUE(refused(query("contacts " + file + " --format xml"), "--format: xml"));
+  EXPECT_TRUE(refused(query("contacts " + file + " --threads 0"), "--threads: '0'"));
+  EXPECT_TRUE(refused(query("contacts " + file + " --margin wide"), "--margin = wide"));
+  EXPECT_TRUE(refused(query("contacts " + file + " --margin -1"), "margin is -1"));
+  EXPECT_TRUE(refused(query("contacts " + file + " --margin nan"), "margin is nan"));
+  EXPECT_TRUE(refused(query("contacts " + file + " --margin"), "--margin"));
+  EXPECT_TRUE(refused(query("contacts " + file + " --neighbour-skip -1"), "--neighbour-skip = -1"));
+  EXPECT_TRUE(refused(query("contacts " + file + " --neighbour-skip-length -1"),
+                      "neighbour_skip_length is -1"));
+  EXPECT_TRUE(refused(query("contacts " + file + " --radius -1"), "radius is -1"));
+}
+
+TEST_F(FiberQuery, RefusesBadFilesNamingFileLineAndReason) {
+  EXPECT_TRUE(refused(query("contacts " + path("none.csv")),
+                      path("none.csv") + ": cannot be opened: No such file or directory"));
+  EXPECT_TRUE(refused(query("contacts /"), "/: cannot be read: Is a directory"));
+  const std::string head = "fiber,x,y,z\n0,0,0,0\n";
+  const auto refusal = [this](const std::string& content, const std::string& reason) {
+    return refused(query("contacts " + write("bad.csv", content)), path("bad.csv") + reason);
+  };
+  EXPECT_TRUE(refusal("", ": is empty"));
+  EXPECT_TRUE(refusal("x,y,z\n0,0,0\n", ":1: the header is 'x,y,z'"));
+  EXPECT_TRUE(refusal(head + "0,abc,0,0\n", ":3: x is 'abc', expected a number"));
+  EXPECT_TRUE(refusal(head + "0,0,nan,0\n", ":3: y is 'nan'"));
+  EXPECT_TRUE(refusal(head + "0,0,0,inf\n", ":3: z is 'inf'"));
+  EXPECT_TRUE(refusal(head + "0,0,0\n", ":3: has 3 values, expected 4"));
+  EXPECT_TRUE(refusal(head, ":2: fibre '0' has only this point"));
+  EXPECT_TRUE(
+      refusal(head + "0,1,0,0\n1,0,0,0\n1,1,0,0\n0,2,0,0\n", ":6: fibre '0' appears again"));
+  EXPECT_TRUE(refusal("fiber,x,y,z,radius\n0,0,0,0,-1\n", ":2: radius is '-1'"));
+}
+
+TEST_F(FiberQuery, OutputThatCannotBeWrittenIsAnError) {
+  const ProcessResult result =
+      run_process("(" FIBER_QUERY " contacts " + crossing() + " >/dev/full)");
+  EXPECT_TRUE(refused(result, "cannot be written"));
+}
+
+TEST_F(FiberQuery, AnswersTheRecordedCables) {
+  const char* shared = std::getenv("FIBER_PROXIMITY_SHARED");
+  const std::filesystem::path data =
+      std::filesystem::path(shared != nullptr ? shared : FIBER_PROXIMITY_SOURCE_DIR "/../shared") /
+      "data";
+  if (!std::filesystem::exists(data / "cable_track_a.csv")) {
+    GTEST_SKIP() << "no recorded cables in " << data;
+  }
+  for (const std::string name : {"a", "b", "c"}) {
+    const std::string arguments =
+        "contacts " + (data / ("cable_track_" + name + ".csv")).string() + " --margin 0.08";
+    const ProcessResult tree = query(arguments);
+    EXPECT_EQ(tree.exit_code, 0) << tree.err;
+    EXPECT_EQ(tree.out, query(arguments + " --engine brute_force").out);
+  }
+}
+
+}  // namespace
+}  // namespace fiber::test
