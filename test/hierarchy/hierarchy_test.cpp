@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <type_traits>
 #include <vector>
 
@@ -146,8 +147,10 @@ void expect_wrapped_equals_layered() {
     wrapped.build(fibers, origin);
     ASSERT_EQ(layered.tree().node_count(), wrapped.tree().node_count());
     for (std::uint32_t node = 0; node < layered.tree().node_count(); ++node) {
-      ASSERT_EQ(layered.volume(node).lower, wrapped.volume(node).lower) << family.name;
-      ASSERT_EQ(layered.volume(node).upper, wrapped.volume(node).upper) << family.name;
+      const Volume& one = layered.volume(node);
+      const Volume& other = wrapped.volume(node);
+      ASSERT_EQ(std::memcmp(&one.lower, &other.lower, sizeof one.lower), 0) << family.name;
+      ASSERT_EQ(std::memcmp(&one.upper, &other.upper, sizeof one.upper), 0) << family.name;
     }
   }
 }

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "fiber_proximity/bounds/bounding_volume.hpp"
+#include "fiber_proximity/bounds/float4.hpp"
 
 namespace fiber {
 
@@ -14,27 +14,22 @@ namespace fiber {
 struct Aabb {
   using Parameters = NoParameters;
 
-  std::array<float, 3> lower{};  ///< [m] relative to the hierarchy's origin
-  std::array<float, 3> upper{};  ///< [m] relative to the hierarchy's origin
+  Float4 lower{};  ///< [m] relative to the hierarchy's origin; the fourth value is no coordinate
+  Float4 upper{};  ///< the same; the fourth value is at least lower's
 };
 
 inline void fit(Aabb& box, const Capsule& capsule, const NoParameters& /*parameters*/) {
   const RoundedCapsule rounded(capsule);
   const float reach = rounded.representable ? rounded.radius + rounded.padding
                                             : std::numeric_limits<float>::infinity();
-  for (int axis = 0; axis < 3; ++axis) {
-    box.lower[axis] = std::min(rounded.p0[axis], rounded.p1[axis]) - reach;
-    box.upper[axis] = std::max(rounded.p0[axis], rounded.p1[axis]) + reach;
-  }
+  const Float4 p0{rounded.p0.x(), rounded.p0.y(), rounded.p0.z(), 0.0F};
+  const Float4 p1{rounded.p1.x(), rounded.p1.y(), rounded.p1.z(), 0.0F};
+  box.lower = min(p0, p1) - reach;
+  box.upper = max(p0, p1) + reach;
 }
 
 inline Aabb merge(const Aabb& a, const Aabb& b) {
-  Aabb box;
-  for (int axis = 0; axis < 3; ++axis) {
-    box.lower[axis] = std::min(a.lower[axis], b.lower[axis]);
-    box.upper[axis] = std::max(a.upper[axis], b.upper[axis]);
-  }
-  return box;
+  return {min(a.lower, b.lower), max(a.upper, b.upper)};
 }
 
 inline void fit(Aabb& box, const CapsuleRun& run, const NoParameters& parameters) {
@@ -48,13 +43,9 @@ inline void fit(Aabb& box, const CapsuleRun& run, const NoParameters& parameters
 
 /// Squared distance of the boxes [m²], 0 when they overlap.
 inline float squared_distance(const Aabb& a, const Aabb& b) {
-  float sum = 0.0F;
-  for (int axis = 0; axis < 3; ++axis) {
-    const float gap = std::max(a.lower[axis] - b.upper[axis], b.lower[axis] - a.upper[axis]);
-    const float outside = std::max(gap, 0.0F);
-    sum += outside * outside;
-  }
-  return sum;
+  const Float4 gap = max(max(a.lower - b.upper, b.lower - a.upper), Float4{});
+  const Float4 squared = gap * gap;
+  return squared[0] + squared[1] + squared[2];
 }
 
 inline bool overlaps(const Aabb& a, const Aabb& b, float margin) {

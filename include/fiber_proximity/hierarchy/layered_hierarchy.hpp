@@ -27,27 +27,34 @@ class LayeredHierarchy : public Hierarchy<Volume> {
   /// nothing.
   void update(const FiberAssembly& fibers, const Eigen::Vector3d& origin) {
     this->origin_ = origin;
-    const BinaryTree& tree = this->tree_;
-    std::vector<Volume>& volumes = this->volumes_;
-    for (std::uint32_t node = tree.node_count(); node-- > 0;) {
-      if (tree.is_leaf(node)) {
-        fit(volumes[node], this->relative_capsule(fibers, tree.leaf_point(node)),
-            this->parameters_);
-        continue;
-      }
-      const std::uint32_t left = tree.first_child(node);
-      const std::uint32_t right = left + 1;
-      if (tree.is_leaf(left) && tree.is_leaf(right)) {
-        volumes[node] = merge_leaves(volumes[left], volumes[right],
-                                     this->relative_capsule(fibers, tree.leaf_point(left)),
-                                     this->relative_capsule(fibers, tree.leaf_point(right)));
-      } else {
-        volumes[node] = merge(volumes[left], volumes[right]);
-      }
+    if (!this->tree_.empty()) {
+      refit(fibers, 0);
     }
   }
 
  private:
+  /// Depth first: children are merged while they are in the cache, and each level is still written
+  /// in order.
+  void refit(const FiberAssembly& fibers, std::uint32_t node) {
+    const BinaryTree& tree = this->tree_;
+    std::vector<Volume>& volumes = this->volumes_;
+    if (tree.is_leaf(node)) {
+      fit(volumes[node], this->relative_capsule(fibers, tree.leaf_point(node)), this->parameters_);
+      return;
+    }
+    const std::uint32_t left = tree.first_child(node);
+    const std::uint32_t right = left + 1;
+    refit(fibers, left);
+    refit(fibers, right);
+    if (tree.is_leaf(left) && tree.is_leaf(right)) {
+      volumes[node] = merge_leaves(volumes[left], volumes[right],
+                                   this->relative_capsule(fibers, tree.leaf_point(left)),
+                                   this->relative_capsule(fibers, tree.leaf_point(right)));
+    } else {
+      volumes[node] = merge(volumes[left], volumes[right]);
+    }
+  }
+
   FiberOrder order_;
 };
 

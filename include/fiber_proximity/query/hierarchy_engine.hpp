@@ -30,8 +30,8 @@ class HierarchyEngine final : public ProximityEngine {
     for (std::uint32_t node = 0; node < level_end(shown); ++node) {
       if (node >= tree.level_begin(shown) || tree.is_leaf(node)) {
         const Aabb box = bounding_box(hierarchy_.volume(node), hierarchy_.parameters());
-        boxes.push_back({hierarchy_.origin() + Eigen::Vector3f(box.lower.data()).cast<double>(),
-                         hierarchy_.origin() + Eigen::Vector3f(box.upper.data()).cast<double>()});
+        boxes.push_back({hierarchy_.origin() + to_vector(box.lower),
+                         hierarchy_.origin() + to_vector(box.upper)});
       }
     }
   }
@@ -79,6 +79,8 @@ class HierarchyEngine final : public ProximityEngine {
   }
 
  private:
+  static Eigen::Vector3d to_vector(Float4 corner) { return {corner[0], corner[1], corner[2]}; }
+
   /// Levels beyond the last give the last.
   std::uint32_t shown_level(std::uint32_t level) const {
     return level_count() == 0 ? 0 : std::min(level, level_count() - 1);
