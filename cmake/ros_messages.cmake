@@ -3,11 +3,13 @@
 include(cmake/python.cmake)
 
 set(ros_dependencies
+  diagnostic_msgs
   diagnostic_updater
   dynamic_reconfigure
   geometry_msgs
   nav_msgs
   nodelet
+  pluginlib
   roscpp
   sensor_msgs
   std_msgs

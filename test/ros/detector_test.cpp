@@ -2,7 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <random>
 #include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "fiber_proximity/query/brute_force.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -32,6 +38,39 @@ TEST(Detector, FindsTheMinimumBeyondTheMarginAndWhateverTheType) {
     EXPECT_TRUE(detector.contacts().contacts.empty());
     ASSERT_NE(detector.minimum(), nullptr);
     EXPECT_DOUBLE_EQ(detector.minimum()->distance, 0.8);
+  }
+}
+
+TEST(Detector, FindsTheMinimumAmongContactsThatAreNotTheClosest) {
+  const unsigned seed = std::random_device()();
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
+  std::vector<Eigen::Vector3d> points(60);
+  for (int round = 0; round < 20; ++round) {
+    for (Eigen::Vector3d& point : points) {
+      point = {coordinate(random), coordinate(random), coordinate(random)};
+    }
+    const fiber::FiberAssembly fibers(points, {0, 20, 60}, {0.01});
+    fiber::QueryOptions options;
+    options.type = fiber::QueryType::CLOSEST;
+    options.margin = std::numeric_limits<double>::infinity();
+    fiber::QueryResult closest;
+    fiber::brute_force(fibers, options, closest);
+    Detector detector("AL");
+    detector.set_fibers(fibers);
+    options.max_contacts = 3;
+    for (const auto type : {fiber::QueryType::FIRST, fiber::QueryType::CLOSEST,
+                            fiber::QueryType::LIMITED, fiber::QueryType::ALL}) {
+      for (const double margin : {0.0, 0.05, 10.0}) {
+        options.type = type;
+        options.margin = margin;
+        detector.detect(options);
+        ASSERT_NE(detector.minimum(), nullptr);
+        EXPECT_EQ(detector.minimum()->key(), closest.contacts.front().key());
+        EXPECT_EQ(detector.minimum()->distance, closest.contacts.front().distance);
+      }
+    }
   }
 }
 

@@ -35,6 +35,15 @@ class TimingTest : public node_test::NodeTest {
     tf.publish(message);
   }
 
+  /// Brute force takes far longer for one of these than sending many.
+  static Points long_chain() {
+    Points points(3000);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      points[i] = {static_cast<double>(i), 0.0, 0.0};
+    }
+    return points;
+  }
+
   ros::Publisher probe_;
 };
 
@@ -69,14 +78,33 @@ TEST_F(TimingTest, AMessageKeepsItsTurnWhileNewerOnesReplaceTheOneBehindIt) {
   EXPECT_EQ(input.refused, 0U);
 }
 
+TEST_F(TimingTest, MessagesThatArriveTogetherAreAnsweredTogether) {
+  const ros::Publisher late = advertise<FiberArray>("late");
+  const std::uint32_t before = contacts.messages.back()->header.seq;
+  const FiberArray heavy = test_messages::fiber_array(header("world", new_stamp()), long_chain());
+  const FiberArray first =
+      test_messages::fiber_array(header("world", new_stamp()), {{0, 0, 0}, {0, 1, 0}});
+  const FiberArray second =
+      test_messages::fiber_array(header("world", new_stamp()), {{0, 0, 0}, {0, 2, 0}});
+  probe_.publish(heavy);
+  // Fibres go out before contacts are looked for: while that goes on, the others arrive.
+  ASSERT_NE(fibers.wait_for(heavy.header.stamp), nullptr);
+  late.publish(first);
+  probe_.publish(second);
+  const FiberArray* merged = fibers.wait_for(second.header.stamp);
+  ASSERT_NE(merged, nullptr);
+  ASSERT_EQ(merged->points.size(), 4U);
+  EXPECT_EQ(merged->points[1].y, 1.0);
+  EXPECT_EQ(merged->points[3].y, 2.0);
+  const fiber_proximity::ContactArray* answer = contacts.wait_for(second.header.stamp);
+  ASSERT_NE(answer, nullptr);
+  // Published answers are numbered, even those that were overtaken on their way here.
+  EXPECT_LE(answer->header.seq - before, 2U) << "the messages were answered one by one";
+}
+
 TEST_F(TimingTest, ABurstIsAnsweredWithItsNewestMessageAndNothingQueuesUp) {
-  // Brute force takes far longer for one of these than sending all of them.
-  Points points(3000);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    points[i] = {static_cast<double>(i), 0.0, 0.0};
-  }
   constexpr std::size_t burst = 30;
-  FiberArray message = test_messages::fiber_array(header("world"), points);
+  FiberArray message = test_messages::fiber_array(header("world"), long_chain());
   const std::size_t before = contacts.messages.size();
   for (std::size_t i = 0; i < burst; ++i) {
     message.header.stamp = new_stamp();

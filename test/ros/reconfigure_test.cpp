@@ -1,0 +1,119 @@
+// The parameters that change while the node runs.
+#include <dynamic_reconfigure/Reconfigure.h>
+
+#include <limits>
+
+#include "fiber_proximity/ProximityConfig.h"
+#include "ros/messages.hpp"
+#include "ros/node_test.hpp"
+
+namespace {
+
+using fiber_proximity::ContactArray;
+using fiber_proximity::FiberArray;
+using fiber_proximity::ProximityConfig;
+
+class ReconfigureTest : public node_test::NodeTest {
+ protected:
+  void SetUp() override {
+    publisher_ = advertise<FiberArray>("fibers");
+    connect(publisher_, fibers_message());
+  }
+
+  /// Ten straight fibres side by side, 0.1 m apart, 0.09 m between their surfaces.
+  static FiberArray fibers_message() {
+    test_messages::Points points;
+    for (int i = 0; i < 10; ++i) {
+      points.emplace_back(0.0, 0.1 * i, 0.0);
+      points.emplace_back(1.0, 0.1 * i, 0.0);
+    }
+    FiberArray message = test_messages::fiber_array(test_messages::header("map"), points);
+    message.offsets = {0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20};
+    return message;
+  }
+
+  /// Asks for these values and returns those in use then.
+  static ProximityConfig set(ProximityConfig config) {
+    dynamic_reconfigure::Reconfigure call;
+    config.__toMessage__(call.request.config);
+    EXPECT_TRUE(ros::service::waitForService("/proximity/set_parameters", ros::Duration(30.0)));
+    EXPECT_TRUE(ros::service::call("/proximity/set_parameters", call));
+    ProximityConfig in_use;
+    EXPECT_TRUE(in_use.__fromMessage__(call.response.config));
+    return in_use;
+  }
+
+  /// The answer about fibres sent now.
+  ContactArray answer() {
+    FiberArray message = fibers_message();
+    message.header.stamp = new_stamp();
+    publisher_.publish(message);
+    const ContactArray* found = contacts.wait_for(message.header.stamp);
+    EXPECT_NE(found, nullptr);
+    return found == nullptr ? ContactArray() : *found;
+  }
+
+  ros::Publisher publisher_;
+};
+
+TEST_F(ReconfigureTest, TheNextAnswerFollowsTheParameters) {
+  ContactArray now = answer();
+  EXPECT_EQ(now.margin, 0.25);
+  EXPECT_EQ(now.contacts.size(), 9U + 8U);  // neighbours, and neighbours of neighbours
+
+  ProximityConfig config = ProximityConfig::__getDefault__();
+  config.margin = 0.1;
+  set(config);
+  now = answer();
+  EXPECT_EQ(now.margin, 0.1);
+  EXPECT_EQ(now.contacts.size(), 9U);
+  EXPECT_FALSE(now.limit_reached);
+
+  config.query_type = "limited";
+  config.max_contacts = 4;
+  set(config);
+  now = answer();
+  EXPECT_EQ(now.contacts.size(), 4U);
+  EXPECT_TRUE(now.limit_reached);
+
+  config.query_type = "closest";
+  config.margin = 0.0;
+  set(config);
+  now = answer();
+  EXPECT_TRUE(now.contacts.empty());
+  EXPECT_TRUE(now.has_minimum);
+  EXPECT_NEAR(now.minimum_distance, 0.09, 1e-12);
+}
+
+TEST_F(ReconfigureTest, BadValuesAreAnErrorAndChangeNothing) {
+  ProximityConfig good = ProximityConfig::__getDefault__();
+  good.margin = 0.1;
+  set(good);
+  ProximityConfig bad = good;
+  bad.query_type = "nearest";
+  bad.margin = 0.25;
+  ProximityConfig in_use = set(bad);
+  EXPECT_EQ(in_use.query_type, "all");
+  EXPECT_EQ(in_use.margin, 0.1);
+  EXPECT_TRUE(node_test::wait_for([this] {
+    return !logs_of(
+                "parameters stay as they were: unknown query type 'nearest', known are: first, "
+                "closest, limited, all")
+                .empty();
+  }));
+
+  bad = good;
+  bad.margin = std::numeric_limits<double>::quiet_NaN();
+  in_use = set(bad);
+  EXPECT_EQ(in_use.margin, 0.1);
+  EXPECT_TRUE(node_test::wait_for([this] {
+    return !logs_of("parameters stay as they were: margin is nan, it must be at least 0 m").empty();
+  }));
+  EXPECT_EQ(answer().contacts.size(), 9U);
+
+  bad = good;
+  bad.max_contacts = -1;  // clamped to what is allowed
+  EXPECT_EQ(set(bad).max_contacts, 1);
+}
+
+}  // namespace
