@@ -29,6 +29,7 @@ constexpr double least_gain = 1e-9;  // [rad] what counts as a better set
 struct Arguments {
   std::uint64_t seed = 1;
   int starts = 1000;
+  int up_to = most_lines;
   bool from_scratch = false;
   unsigned threads = std::max(1U, std::thread::hardware_concurrency());
   std::string file;
@@ -46,7 +47,7 @@ std::vector<Lines> current_sets(bool from_scratch) {
 /// Every number of lines has random numbers of its own, so the threads' order does not matter.
 std::vector<Lines> search_all(const std::vector<Lines>& known, const Arguments& arguments) {
   std::vector<Lines> sets = known;
-  std::atomic<int> next{most_lines};
+  std::atomic<int> next{arguments.up_to};
   const auto work = [&] {
     for (int n = next--; n >= fewest_lines; n = next--) {
       Random random(arguments.seed + 0x9E3779B97F4A7C15U * static_cast<std::uint64_t>(n));
@@ -79,20 +80,35 @@ void arrange_new(std::vector<Lines>& sets, const std::vector<Lines>& known, std:
   }
 }
 
+constexpr const char* command_prefix = "//   generate_direction_sets ";
+
 std::string command_line(const Arguments& arguments) {
-  return "generate_direction_sets --seed " + std::to_string(arguments.seed) + " --starts " +
-         std::to_string(arguments.starts) + (arguments.from_scratch ? " --from-scratch" : "");
+  return command_prefix + ("--seed " + std::to_string(arguments.seed)) + " --starts " +
+         std::to_string(arguments.starts) +
+         (arguments.up_to < most_lines ? " --up-to " + std::to_string(arguments.up_to) : "") +
+         (arguments.from_scratch ? " --from-scratch" : "") + " src/bounds/direction_table.inc\n";
+}
+
+/// The commands that made the table this one improves on, as it states them.
+std::string earlier_commands(const Arguments& arguments) {
+  std::string commands;
+  if (!arguments.from_scratch) {
+    std::ifstream file(arguments.file);
+    for (std::string line; std::getline(file, line);) {
+      if (line.rfind(command_prefix, 0) == 0) {
+        commands += line + '\n';
+      }
+    }
+  }
+  return commands;
 }
 
 std::string table_text(const std::vector<Lines>& sets, const Arguments& arguments) {
   std::string text =
       "// Packings of N = 3 ... 100 lines through the origin of R^3, a unit vector for every "
       "line,\n"
-      "// one set after another. Generated, do not edit:\n//   " +
-      command_line(arguments) + " src/bounds/direction_table.inc\n";
-  if (!arguments.from_scratch) {
-    text += "// which kept the sets of the table before it wherever it found none better.\n";
-  }
+      "// one set after another. Generated, do not edit; made by, one after the other:\n" +
+      earlier_commands(arguments) + command_line(arguments);
   for (int n = fewest_lines; n <= most_lines; ++n) {
     char heading[80];
     std::snprintf(heading, sizeof(heading), "// N = %d: %.6f degrees\n", n,
@@ -113,8 +129,9 @@ void generate(const Arguments& arguments) {
   const std::vector<Lines> known = current_sets(arguments.from_scratch);
   std::vector<Lines> sets = search_all(known, arguments);
   arrange_new(sets, known, arguments.seed);
+  const std::string text = table_text(sets, arguments);
   std::ofstream file(arguments.file);
-  file << table_text(sets, arguments) << std::flush;
+  file << text << std::flush;
   if (!file) {
     throw std::runtime_error(arguments.file + ": cannot be written");
   }
@@ -130,11 +147,15 @@ int run(int argc, char** argv) {
       ->required();
   app.add_option("--seed", arguments.seed, "of the random starts")->capture_default_str();
   app.add_option("--starts", arguments.starts, "for each number of lines")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(1, 1000000000))
       ->capture_default_str();
-  app.add_flag("--from-scratch", arguments.from_scratch, "forget the sets it was built with");
+  CLI::Option* up_to = app.add_option("--up-to", arguments.up_to, "search no sets of more lines")
+                           ->check(CLI::Range(fewest_lines, most_lines))
+                           ->capture_default_str();
+  app.add_flag("--from-scratch", arguments.from_scratch, "forget the sets it was built with")
+      ->excludes(up_to);
   app.add_option("--threads", arguments.threads, "they do not change the result")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   generate(arguments);
