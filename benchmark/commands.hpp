@@ -7,6 +7,9 @@ namespace fiber {
 /// `update` and `cycle`: engines on a moving scene.
 void add_scene_commands(CLI::App& app, Command& command);
 
+/// `stages`: one engine on one scene, for the figures of the paper.
+void add_stages_command(CLI::App& app, Command& command);
+
 /// `latency`: a running ROS graph; only in builds with ROS.
 void add_latency_command(CLI::App& app, Command& command);
 

@@ -39,6 +39,7 @@ class EngineRun {
     summary.update_ms = median(update_ms_);
     summary.detect_ms = median(detect_ms_);
     summary.cycle_ms = median(cycle_ms_);
+    summary.memory_bytes = engine_->memory_bytes();
     summary.pairs = result_.contacts.size();
     summary.counts = result_.counts;
     return summary;

@@ -5,8 +5,8 @@
 
 #include "commands.hpp"
 #include "fiber_proximity/query/engine.hpp"
-#include "fiber_proximity/scenes/scene.hpp"
 #include "measurement.hpp"
+#include "scene_options.hpp"
 
 namespace fiber {
 namespace {
@@ -23,6 +23,7 @@ void print_json(const MeasurementOptions& options, const Measurement& measuremen
         {"scene", options.scene},
         {"scale", options.scene_options.scale},
         {"seed", options.scene_options.seed},
+        {"shuffle", options.scene_options.shuffle},
         {"repeats", options.repeats},
         {"engine", engine.engine},
         {"fibers", measurement.fibers},
@@ -36,6 +37,8 @@ void print_json(const MeasurementOptions& options, const Measurement& measuremen
         {"node_tests", engine.counts.node_tests},
         {"node_overlaps", engine.counts.node_overlaps},
         {"primitive_tests", engine.counts.primitive_tests},
+        {"bytes_per_segment",
+         static_cast<double>(engine.memory_bytes) / static_cast<double>(measurement.segments)},
         {"memcpy_ms", measurement.memcpy_ms},
         {"update_per_memcpy", engine.update_ms / measurement.memcpy_ms}};
     std::cout << line.dump() << '\n';
@@ -86,13 +89,7 @@ void add(CLI::App& app, Command& command, const std::string& name, const std::st
   options.detect_every_frame = detect_every_frame;
   CLI::App* subcommand = app.add_subcommand(name, description);
   subcommand->callback([&command, request] { command = [request] { return run(*request); }; });
-  subcommand->add_option("--scene", options.scene, "one of " + listed(scene_names()))
-      ->capture_default_str();
-  subcommand->add_option("--scale", options.scene_options.scale, "of the number of fibres")
-      ->capture_default_str();
-  subcommand->add_option("--seed", options.scene_options.seed, "of the scene")
-      ->check(whole_number(0))
-      ->capture_default_str();
+  add_scene_options(*subcommand, options.scene, options.scene_options);
   subcommand
       ->add_option("--engines", options.engines,
                    "with commas between them, of " + listed(engine_names()))

@@ -32,6 +32,9 @@ class Hierarchy {
     return tree_.memory_bytes() + volumes_.capacity() * sizeof(Volume);
   }
 
+  /// How many volumes the last update computed anew; kinds that keep some hide this.
+  std::uint64_t recomputed_count() const { return tree_.node_count(); }
+
  protected:
   explicit Hierarchy(const Parameters& parameters) : parameters_(parameters) {}
   ~Hierarchy() = default;

@@ -47,6 +47,8 @@ class HierarchyEngine final : public ProximityEngine {
     return begin == end ? 0.0 : sum / (end - begin);
   }
 
+  std::uint64_t recomputed_count() const override { return hierarchy_.recomputed_count(); }
+
   std::size_t memory_bytes() const override { return hierarchy_.memory_bytes(); }
 
  protected:

@@ -1,0 +1,168 @@
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "commands.hpp"
+#include "fiber_proximity/query/engine.hpp"
+#include "fiber_proximity/scenes/scene.hpp"
+#include "scene_options.hpp"
+#include "statistics.hpp"
+
+namespace fiber {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Request {
+  std::string scene = "soup";
+  SceneOptions scene_options;
+  std::string engine = "AL";
+  std::uint32_t repeats = 5;
+  std::uint32_t trials = 1000;
+  double seconds = 10.0;
+  bool levels = false;
+  bool no_leaf_pretest = false;
+};
+
+/// Times of a call that is repeated, at least once, as often as asked for, and no longer [ms].
+template <class Call>
+std::vector<double> times_of(std::uint32_t repeats, double seconds, const Call& call) {
+  constexpr double milli = 1e3;
+  std::vector<double> times_ms;
+  double spent_ms = 0.0;
+  while (times_ms.size() < repeats && (times_ms.empty() || spent_ms < milli * seconds)) {
+    times_ms.push_back(call());
+    spent_ms += times_ms.back();
+  }
+  return times_ms;
+}
+
+/// One engine on one scene, stage after stage.
+class Stages {
+ public:
+  explicit Stages(const Request& request)
+      : request_(request),
+        scene_(make_scene(request.scene, request.scene_options)),
+        fibers_(scene_(0)),
+        engine_(make_engine(request.engine)) {
+    options_.leaf_pretest = !request.no_leaf_pretest;
+    print("build", {{"build_ms", time_of([this] { engine_->update(fibers_); })}});
+  }
+
+  void update() {
+    std::uint32_t frame = 0;
+    const std::vector<double> times = times_of(request_.repeats, request_.seconds, [&] {
+      fibers_.update_points(scene_(++frame).points());
+      return time_of([this] { engine_->update(fibers_); });
+    });
+    constexpr double nano_per_milli = 1e6;
+    const auto segments = static_cast<double>(fibers_.segment_count());
+    const auto bytes = static_cast<double>(engine_->memory_bytes());
+    print("update", {{"update_ms", median(times)},
+                     {"repeats", times.size()},
+                     {"ns_per_segment", nano_per_milli * median(times) / segments},
+                     {"bytes_per_segment", bytes / segments},
+                     {"recomputed_per_segment",
+                      static_cast<double>(engine_->recomputed_count()) / segments}});
+  }
+
+  void levels() const {
+    std::vector<double> volumes;
+    for (std::uint32_t level = 0; level < engine_->level_count(); ++level) {
+      volumes.push_back(engine_->mean_level_volume(level));
+    }
+    print("levels", {{"mean_volumes", volumes}});
+  }
+
+  void first() {
+    options_.type = QueryType::FIRST;
+    const std::vector<double> times = query(request_.trials);
+    const double mean =
+        std::accumulate(times.begin(), times.end(), 0.0) / static_cast<double>(times.size());
+    print("first", {{"first_ms", mean},
+                    {"trials", times.size()},
+                    {"pairs", result_.contacts.size()},
+                    {"node_tests", result_.counts.node_tests},
+                    {"primitive_tests", result_.counts.primitive_tests}});
+  }
+
+  void detect() {
+    options_.type = QueryType::ALL;
+    const std::vector<double> times = query(request_.repeats);
+    print("detect", {{"detect_ms", median(times)},
+                     {"repeats", times.size()},
+                     {"pairs", result_.contacts.size()},
+                     {"node_tests", result_.counts.node_tests},
+                     {"node_overlaps", result_.counts.node_overlaps},
+                     {"primitive_tests", result_.counts.primitive_tests}});
+  }
+
+ private:
+  std::vector<double> query(std::uint32_t repeats) {
+    return times_of(repeats, request_.seconds,
+                    [this] { return time_of([this] { engine_->query(options_, result_); }); });
+  }
+
+  /// A line as soon as a stage is over, so that whoever ends a run that takes too long keeps it.
+  void print(const std::string& stage, const Json& results) const {
+    Json line{{"stage", stage},
+              {"scene", request_.scene},
+              {"scale", request_.scene_options.scale},
+              {"seed", request_.scene_options.seed},
+              {"shuffle", request_.scene_options.shuffle},
+              {"engine", request_.engine},
+              {"fibers", fibers_.fiber_count()},
+              {"segments", fibers_.segment_count()},
+              {"leaf_pretest", options_.leaf_pretest}};
+    line.update(results);
+    std::cout << line.dump() << std::endl;
+  }
+
+  const Request& request_;
+  Scene scene_;
+  FiberAssembly fibers_;
+  std::unique_ptr<ProximityEngine> engine_;
+  QueryOptions options_;
+  QueryResult result_;
+};
+
+ExitCode run(const Request& request) {
+  Stages stages(request);
+  stages.update();
+  if (request.levels) {
+    stages.levels();
+  }
+  stages.first();
+  stages.detect();
+  return SUCCEEDED;
+}
+
+}  // namespace
+
+void add_stages_command(CLI::App& app, Command& command) {
+  const auto request = std::make_shared<Request>();
+  CLI::App* stages = app.add_subcommand(
+      "stages",
+      "one engine on one scene: build, update, first pair, all pairs; a JSON line as "
+      "soon as each is measured");
+  stages->callback([&command, request] { command = [request] { return run(*request); }; });
+  add_scene_options(*stages, request->scene, request->scene_options);
+  stages->add_option("--engine", request->engine, "one of " + listed(engine_names()))
+      ->capture_default_str();
+  stages->add_option("--repeats", request->repeats, "of updates and of detections, at most")
+      ->check(whole_number(1))
+      ->capture_default_str();
+  stages->add_option("--trials", request->trials, "of the first pair, at most")
+      ->check(whole_number(1))
+      ->capture_default_str();
+  stages->add_option("--seconds", request->seconds, "after which no repeat or trial begins")
+      ->check(CLI::Range(0.0, 1e5))
+      ->capture_default_str();
+  stages->add_flag("--levels", request->levels, "also the mean volume of the cages of each level");
+  stages->add_flag("--no-leaf-pretest", request->no_leaf_pretest,
+                   "test segments without testing their own cages first");
+}
+
+}  // namespace fiber
