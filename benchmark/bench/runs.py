@@ -91,7 +91,7 @@ def rename(key, prefix):
 
 
 def measure_all(tool, runs, limits, folder):
-    """All runs as dicts; those that runs.jsonl has from before are not measured again."""
+    """Run → its result, for all runs; those that runs.jsonl has from before are not measured again."""
     path = pathlib.Path(folder) / "runs.jsonl"
     known = {}
     if path.exists():
@@ -99,16 +99,16 @@ def measure_all(tool, runs, limits, folder):
             result = json.loads(line)
             known[key_of(result)] = result
     runs = list(dict.fromkeys(runs))
-    with path.open("a") as file, tqdm(total=len(runs), unit="run") as bar:
+    with path.open("a") as file, tqdm(total=len(runs), unit="run", mininterval=1.0) as bar:
         for run in runs:
-            bar.set_description(run.title())
+            bar.set_description(run.title(), refresh=False)
             key = key_of(dataclasses.asdict(run))
             if key not in known:
                 known[key] = measure(tool, run, limits)
                 file.write(json.dumps(known[key]) + "\n")
                 file.flush()
             bar.update()
-    return [known[key_of(dataclasses.asdict(run))] for run in runs]
+    return {run: known[key_of(dataclasses.asdict(run))] for run in runs}
 
 
 def key_of(result):
