@@ -32,7 +32,7 @@ packages=(
   librostest-dev python3-rostest python3-roslaunch python3-rostopic python3-rosservice
   python3-rosnode python3-rosparam python3-rosmsg python3-rosbag
   rviz xvfb imagemagick x11-utils xdotool libgl1-mesa-dri
-  libeigen3-dev libcli11-dev nlohmann-json3-dev libboost-dev libgmp-dev libgtest-dev
+  libeigen3-dev libtbb-dev libhwy-dev libcli11-dev nlohmann-json3-dev libboost-dev libgmp-dev libgtest-dev
 )
 if $lint; then
   packages+=(catkin-lint clang-format clang-tidy)

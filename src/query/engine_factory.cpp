@@ -11,6 +11,7 @@
 #include "fiber_proximity/query/brute_force.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/query/hierarchy_engine.hpp"
+#include "fiber_proximity/query/run_tree_engine.hpp"
 #include "kdop_engines.hpp"
 
 namespace fiber {
@@ -28,6 +29,8 @@ EnginePointer make_threaded() {
   return std::make_unique<HierarchyEngine<Kind>>(Kind({}, threading_order));
 }
 
+EnginePointer make_run_tree() { return std::make_unique<RunTreeEngine>(); }
+
 EnginePointer make_brute_force() { return std::make_unique<BruteForceEngine>(); }
 
 /// The paper's best k for hair (Sect. 5).
@@ -40,6 +43,7 @@ using Maker = EnginePointer (*)();
 
 const std::vector<std::pair<std::string, Maker>>& makers() {
   static const std::vector<std::pair<std::string, Maker>> all{
+      {"run_tree", make_run_tree},
       {"AL", make<LayeredHierarchy<Aabb>>},
       {"AL-threaded", make_threaded},
       {"AS", make<SpatialHierarchy<Aabb>>},
