@@ -69,22 +69,6 @@ void block_box(const BoxBlock& block, float (&lower)[3], float (&upper)[3]) {
   }
 }
 
-/// Boxes of the nodes of the level below.
-void refit_level(const std::vector<BoxBlock>& below, std::vector<BoxBlock>& level) {
-  const auto last = static_cast<std::uint32_t>(below.size() - 1);
-  for (std::uint32_t node = 0; node < level.size(); ++node) {
-    for (std::uint32_t lane = 0; lane < run_width; ++lane) {
-      float lower[3];
-      float upper[3];
-      block_box(below[std::min(node * run_width + lane, last)], lower, upper);
-      for (int axis = 0; axis < 3; ++axis) {
-        level[node].lower[axis][lane] = lower[axis];
-        level[node].upper[axis][lane] = upper[axis];
-      }
-    }
-  }
-}
-
 }  // namespace
 
 void RunTree::build(const FiberAssembly& fibers, const Eigen::Vector3d& origin) {
@@ -94,9 +78,8 @@ void RunTree::build(const FiberAssembly& fibers, const Eigen::Vector3d& origin) 
   levels_.clear();
   for (std::uint32_t count = run_count(); count > 0 && (levels_.empty() || count > 1);) {
     count = divided_up(count);
-    levels_.emplace_back(count);
+    levels_.push_back({std::vector<BoxBlock>(count), std::vector<CapsuleBlock>(count)});
   }
-  chords_.resize(levels_.empty() ? 0 : levels_.front().size());
   set_view();
   sort(fibers);
   sort_count_ = 0;
@@ -136,13 +119,21 @@ void RunTree::refit(const FiberAssembly& fibers) {
   if (levels_.empty()) {
     return;
   }
-  for_ranges(static_cast<std::uint32_t>(chords_.size()),
+  Level& groups = levels_.front();
+  for_ranges(static_cast<std::uint32_t>(groups.boxes.size()),
              [&](std::uint32_t begin, std::uint32_t end) {
                fit_groups(fibers, origin_, spans_.data(), run_count(), begin, end, runs_.data(),
-                          chords_.data(), levels_.front().data());
+                          groups.capsules.data(), groups.boxes.data());
              });
-  for (std::size_t level = 1; level < levels_.size(); ++level) {
-    refit_level(levels_[level - 1], levels_[level]);
+  for (std::size_t i = 1; i < levels_.size(); ++i) {
+    const Level& below = levels_[i - 1];
+    Level& level = levels_[i];
+    for_ranges(static_cast<std::uint32_t>(level.boxes.size()),
+               [&](std::uint32_t begin, std::uint32_t end) {
+                 fit_nodes(below.boxes.data(), below.capsules.data(),
+                           static_cast<std::uint32_t>(below.boxes.size()), begin, end,
+                           level.boxes.data(), level.capsules.data());
+               });
   }
 }
 
@@ -153,7 +144,7 @@ double RunTree::looseness() const {
   }
   double of_runs = 0.0;
   double of_groups = 0.0;
-  for (const BoxBlock& block : levels_.front()) {
+  for (const BoxBlock& block : levels_.front().boxes) {
     float lower[3];
     float upper[3];
     for (std::uint32_t lane = 0; lane < run_width; ++lane) {
@@ -170,21 +161,22 @@ void RunTree::set_view() {
   view_ = {};
   view_.runs = runs_.data();
   view_.spans = spans_.data();
-  view_.chords = chords_.data();
   view_.level_count = static_cast<std::uint32_t>(levels_.size());
   std::uint32_t children = run_count();
   for (std::size_t level = 0; level < levels_.size(); ++level) {
-    const auto nodes = static_cast<std::uint32_t>(levels_[level].size());
-    view_.levels[level] = {levels_[level].data(), nodes, children};
+    const auto nodes = static_cast<std::uint32_t>(levels_[level].boxes.size());
+    view_.levels[level] = {levels_[level].boxes.data(), levels_[level].capsules.data(), nodes,
+                           children};
     children = nodes;
   }
 }
 
 std::size_t RunTree::memory_bytes() const {
   std::size_t bytes = spans_.capacity() * sizeof(RunSpan) + runs_.capacity() * sizeof(Run) +
-                      chords_.capacity() * sizeof(ChordBlock) + places_.capacity() * sizeof(Place);
-  for (const std::vector<BoxBlock>& level : levels_) {
-    bytes += level.capacity() * sizeof(BoxBlock);
+                      places_.capacity() * sizeof(Place);
+  for (const Level& level : levels_) {
+    bytes += level.boxes.capacity() * sizeof(BoxBlock) +
+             level.capsules.capacity() * sizeof(CapsuleBlock);
   }
   return bytes;
 }

@@ -30,6 +30,22 @@ struct LaneVector {
   Lanes z;
 };
 
+HWY_INLINE Lanes load(const float (&values)[run_width], std::size_t lane) {
+  return hn::Load(Floats(), values + lane);
+}
+HWY_INLINE LaneVector load(const float (&by_axis)[3][run_width], std::size_t lane) {
+  return {load(by_axis[0], lane), load(by_axis[1], lane), load(by_axis[2], lane)};
+}
+/// One vector in all lanes.
+HWY_INLINE LaneVector spread(const float (&by_axis)[3]) {
+  const Floats d;
+  return {hn::Set(d, by_axis[0]), hn::Set(d, by_axis[1]), hn::Set(d, by_axis[2])};
+}
+HWY_INLINE LaneVector spread(const float (&by_axis)[3][run_width], std::uint32_t lane) {
+  const Floats d;
+  return {hn::Set(d, by_axis[0][lane]), hn::Set(d, by_axis[1][lane]), hn::Set(d, by_axis[2][lane])};
+}
+
 HWY_INLINE LaneVector add(const LaneVector& a, const LaneVector& b) {
   return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
 }

@@ -112,7 +112,7 @@ void RunTreeEngine::level_boxes(std::uint32_t level, std::vector<NodeBox>& boxes
   const RunTreeLevel& shown =
       tree.levels[tree.level_count - 1 - std::min(level, tree.level_count - 1)];
   for (std::uint32_t child = 0; child < shown.child_count; ++child) {
-    const BoxBlock& block = shown.nodes[child / run_width];
+    const BoxBlock& block = shown.boxes[child / run_width];
     boxes.push_back({tree_.origin() + corner(block.lower, child % run_width),
                      tree_.origin() + corner(block.upper, child % run_width)});
   }

@@ -29,9 +29,9 @@ struct alignas(32) BoxBlock {
   float upper[3][run_width];
 };
 
-/// The chords of up to eight runs, from first to last point, each with the radius of the capsule
-/// around its run [m]; by axis, then lane.
-struct alignas(32) ChordBlock {
+/// Capsules around up to eight runs or nodes [m]; by axis, then lane. That of a run has the run's
+/// chord for its axis. Along bundles of hair they separate what boxes do not.
+struct alignas(32) CapsuleBlock {
   float start[3][run_width];
   float end[3][run_width];
   float radius[run_width];
@@ -40,7 +40,8 @@ struct alignas(32) ChordBlock {
 /// Nodes of one level. Level 0 are groups, whose children are runs; the children of node n are
 /// 8n … 8n + 7 one level down, as far as there are so many.
 struct RunTreeLevel {
-  const BoxBlock* nodes;  ///< boxes of the children
+  const BoxBlock* boxes;         ///< of the children, by node
+  const CapsuleBlock* capsules;  ///< of the children, by node
   std::uint32_t node_count;
   std::uint32_t child_count;  ///< of all nodes of the level
 };
@@ -51,7 +52,6 @@ struct RunTreeView {
 
   const Run* runs = nullptr;
   const RunSpan* spans = nullptr;
-  const ChordBlock* chords = nullptr;  ///< by group
   RunTreeLevel levels[most_levels] = {};
   std::uint32_t level_count = 0;
 

@@ -51,10 +51,14 @@ class RunTree {
     RunSpan span;
   };
 
+  struct Level {
+    std::vector<BoxBlock> boxes;  // of the children, by node
+    std::vector<CapsuleBlock> capsules;
+  };
+
   std::vector<RunSpan> spans_;  // in the order of the curve
   std::vector<Run> runs_;
-  std::vector<ChordBlock> chords_;
-  std::vector<std::vector<BoxBlock>> levels_;
+  std::vector<Level> levels_;  // groups first
   std::vector<Place> places_;  // scratch of sort()
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   double sorted_looseness_ = 0.0;

@@ -23,11 +23,17 @@ class PairSink {
   virtual float bound() const = 0;
 };
 
-/// Fits the runs of groups [begin, end): their points, chords and boxes.
-/// @param runs, chords, boxes by run, group, group
+/// Fits the runs of groups [begin, end): their points, capsules and boxes.
+/// @param runs, capsules, boxes by run, group, group
 void fit_groups(const FiberAssembly& fibers, const Eigen::Vector3d& origin, const RunSpan* spans,
                 std::uint32_t run_count, std::uint32_t begin, std::uint32_t end, Run* runs,
-                ChordBlock* chords, BoxBlock* boxes);
+                CapsuleBlock* capsules, BoxBlock* boxes);
+
+/// Fits the nodes [begin, end) of a level above the groups to the blocks of the level below.
+/// @param child_count of the whole level
+void fit_nodes(const BoxBlock* boxes_below, const CapsuleBlock* capsules_below,
+               std::uint32_t child_count, std::uint32_t begin, std::uint32_t end, BoxBlock* boxes,
+               CapsuleBlock* capsules);
 
 /// Offers every pair of segments of the groups [begin, end) of a and of all of b that may come
 /// within the sink's bound; of one tree with itself, every pair of runs once. Which pairs are

@@ -1,0 +1,278 @@
+// Compiled once per instruction set; Highway chooses among them at run time.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "src/hierarchy/run_tree_fit.cpp"
+#include <hwy/foreach_target.h>  // must come before highway.h
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fiber_proximity/hierarchy/run_tree_kernels.hpp"
+#include "src/hierarchy/segment_lanes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace fiber {
+namespace HWY_NAMESPACE {
+namespace {
+
+/// Beyond this magnitude squares leave the range of float: such a run is near everything [m].
+constexpr double largest_magnitude = 1e18;
+
+/// Rounding a point, and all that the tests of segment_lanes-inl.hpp do with it, errs by less than
+/// 32 u of the largest coordinate, u = 2⁻²⁴; the constant keeps it alive where floats run out [m].
+constexpr float relative_padding = 0x1p-19F;
+constexpr float least_padding = 0x1p-60F;
+
+struct RunBox {
+  float lower[3];
+  float upper[3];
+};
+
+float as_float(double relative) {
+  return static_cast<float>(
+      std::clamp(relative, -2.0 * largest_magnitude, 2.0 * largest_magnitude));
+}
+
+/// Copies the points of the run; returns the largest of its segments' radii [m].
+double load_points(const FiberAssembly& fibers, const Eigen::Vector3d& origin, const RunSpan& span,
+                   Run& run) {
+  const Eigen::Vector3d* points = fibers.points().data() + span.first_point;
+  double radius = 0.0;
+  for (std::uint32_t i = 0; i <= run_width; ++i) {
+    const Eigen::Vector3d& point = points[std::min(i, span.segment_count)];
+    run.x[i] = as_float(point.x() - origin.x());
+    run.y[i] = as_float(point.y() - origin.y());
+    run.z[i] = as_float(point.z() - origin.z());
+  }
+  for (std::uint32_t i = 0; i < span.segment_count; ++i) {
+    radius = std::max(radius, fibers.segment_radius(span.first_point + i));
+  }
+  return radius;
+}
+
+void box_of(const float (&values)[run_width + 1], float& lower, float& upper) {
+  const Floats d;
+  auto low = hn::Set(d, values[run_width]);
+  auto high = low;
+  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
+    const auto part = hn::LoadU(d, values + lane);
+    low = hn::Min(low, part);
+    high = hn::Max(high, part);
+  }
+  lower = hn::GetLane(hn::MinOfLanes(d, low));
+  upper = hn::GetLane(hn::MaxOfLanes(d, high));
+}
+
+/// Largest distance of the run's points from its chord [m].
+float sag(const Run& run) {
+  const Floats d;
+  const LaneSegments chord = broadcast_segment(run.x[0], run.y[0], run.z[0], run.x[run_width],
+                                               run.y[run_width], run.z[run_width]);
+  auto largest = hn::Zero(d);
+  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
+    const LaneVector point{hn::LoadU(d, run.x + lane), hn::LoadU(d, run.y + lane),
+                           hn::LoadU(d, run.z + lane)};
+    largest = hn::Max(largest, squared_distance_to(chord, subtract(point, chord.start)));
+  }
+  return std::sqrt(hn::GetLane(hn::MaxOfLanes(d, largest)));
+}
+
+/// A run that tests as near to everything.
+void fit_everything(Run& run, RunBox& box) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  run = {};
+  run.radius = infinity;
+  std::fill_n(box.lower, 3, -infinity);
+  std::fill_n(box.upper, 3, infinity);
+}
+
+void fit_run(const FiberAssembly& fibers, const Eigen::Vector3d& origin, const RunSpan& span,
+             Run& run, RunBox& box) {
+  const double radius = load_points(fibers, origin, span, run);
+  box_of(run.x, box.lower[0], box.upper[0]);
+  box_of(run.y, box.lower[1], box.upper[1]);
+  box_of(run.z, box.lower[2], box.upper[2]);
+  double magnitude = radius;
+  for (int axis = 0; axis < 3; ++axis) {
+    magnitude = std::max(
+        {magnitude, -static_cast<double>(box.lower[axis]), static_cast<double>(box.upper[axis])});
+  }
+  if (magnitude > largest_magnitude) {
+    fit_everything(run, box);
+    return;
+  }
+  run.radius =
+      static_cast<float>(radius) + static_cast<float>(magnitude) * relative_padding + least_padding;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.lower[axis] -= run.radius;
+    box.upper[axis] += run.radius;
+  }
+}
+
+void store(const Run& run, const RunBox& box, std::uint32_t lane, CapsuleBlock& capsules,
+           BoxBlock& boxes) {
+  const float start[3] = {run.x[0], run.y[0], run.z[0]};
+  const float end[3] = {run.x[run_width], run.y[run_width], run.z[run_width]};
+  for (int axis = 0; axis < 3; ++axis) {
+    capsules.start[axis][lane] = start[axis];
+    capsules.end[axis][lane] = end[axis];
+    boxes.lower[axis][lane] = box.lower[axis];
+    boxes.upper[axis][lane] = box.upper[axis];
+  }
+  capsules.radius[lane] = run.radius + sag(run);
+}
+
+void FitGroups(const FiberAssembly& fibers, const Eigen::Vector3d& origin, const RunSpan* spans,
+               std::uint32_t run_count, std::uint32_t begin, std::uint32_t end, Run* runs,
+               CapsuleBlock* capsules, BoxBlock* boxes) {
+  for (std::uint32_t group = begin; group < end; ++group) {
+    for (std::uint32_t lane = 0; lane < run_width; ++lane) {
+      RunBox box;
+      // Lanes without a run repeat the last: nodes above need no special case.
+      const std::uint32_t run = std::min(group * run_width + lane, run_count - 1);
+      fit_run(fibers, origin, spans[run], runs[run], box);
+      store(runs[run], box, lane, capsules[group], boxes[group]);
+    }
+  }
+}
+
+// ---- nodes above the groups
+// ----------------------------------------------------------------------
+
+/// Sums over all children: of their axes, turned the same way as the first, and of their ends.
+struct AxisSums {
+  float direction[3] = {};
+  float ends[3] = {};
+};
+
+AxisSums sum_axes(const CapsuleBlock& block) {
+  const Floats d;
+  float first[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    first[axis] = block.end[axis][0] - block.start[axis][0];
+  }
+  AxisSums sums;
+  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
+    const LaneVector start = load(block.start, lane);
+    const LaneVector end = load(block.end, lane);
+    const LaneVector direction = subtract(end, start);
+    const auto sign = hn::CopySign(hn::Set(d, 1.0F), dot(direction, spread(first)));
+    sums.direction[0] += hn::GetLane(hn::SumOfLanes(d, hn::Mul(direction.x, sign)));
+    sums.direction[1] += hn::GetLane(hn::SumOfLanes(d, hn::Mul(direction.y, sign)));
+    sums.direction[2] += hn::GetLane(hn::SumOfLanes(d, hn::Mul(direction.z, sign)));
+    const LaneVector both = add(start, end);
+    sums.ends[0] += hn::GetLane(hn::SumOfLanes(d, both.x));
+    sums.ends[1] += hn::GetLane(hn::SumOfLanes(d, both.y));
+    sums.ends[2] += hn::GetLane(hn::SumOfLanes(d, both.z));
+  }
+  return sums;
+}
+
+struct SingleCapsule {
+  float start[3];
+  float end[3];
+  float radius;
+};
+
+/// Largest distance of the block's capsules from a segment, their radii included [m].
+float reach_of(const CapsuleBlock& block, const LaneSegments& segment) {
+  const Floats d;
+  auto radius = hn::Zero(d);
+  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
+    // The distance from a convex set is largest at an end.
+    const auto start =
+        squared_distance_to(segment, subtract(load(block.start, lane), segment.start));
+    const auto end = squared_distance_to(segment, subtract(load(block.end, lane), segment.start));
+    radius = hn::Max(radius, hn::Add(hn::Sqrt(hn::Max(start, end)), load(block.radius, lane)));
+  }
+  return hn::GetLane(hn::MaxOfLanes(d, radius));
+}
+
+/// A capsule around the block's, its axis their mean one, as long as they reach along it.
+SingleCapsule enclose(const CapsuleBlock& block) {
+  const Floats d;
+  AxisSums sums = sum_axes(block);
+  const float length = std::hypot(sums.direction[0], sums.direction[1], sums.direction[2]);
+  float magnitude = 0.0F;
+  for (int axis = 0; axis < 3; ++axis) {
+    // Axes that cancel leave a sphere.
+    sums.direction[axis] = length > least_padding ? sums.direction[axis] / length : 0.0F;
+    sums.ends[axis] *= 0.5F / run_width;
+    magnitude += std::abs(sums.ends[axis]);
+  }
+  const LaneVector direction = spread(sums.direction);
+  const LaneVector middle = spread(sums.ends);
+  auto low = hn::Zero(d);
+  auto high = hn::Zero(d);
+  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
+    const auto start = dot(subtract(load(block.start, lane), middle), direction);
+    const auto end = dot(subtract(load(block.end, lane), middle), direction);
+    low = hn::Min(low, hn::Min(start, end));
+    high = hn::Max(high, hn::Max(start, end));
+  }
+  const float lowest = hn::GetLane(hn::MinOfLanes(d, low));
+  const float highest = hn::GetLane(hn::MaxOfLanes(d, high));
+  SingleCapsule capsule;
+  for (int axis = 0; axis < 3; ++axis) {
+    capsule.start[axis] = sums.ends[axis] + lowest * sums.direction[axis];
+    capsule.end[axis] = sums.ends[axis] + highest * sums.direction[axis];
+  }
+  capsule.radius = reach_of(block, lane_segments(spread(capsule.start), spread(capsule.end))) +
+                   (magnitude + highest - lowest) * relative_padding;
+  return capsule;
+}
+
+float least_of(const float (&values)[run_width]) {
+  return *std::min_element(values, values + run_width);
+}
+
+float largest_of(const float (&values)[run_width]) {
+  return *std::max_element(values, values + run_width);
+}
+
+void FitNodes(const BoxBlock* boxes_below, const CapsuleBlock* capsules_below,
+              std::uint32_t child_count, std::uint32_t begin, std::uint32_t end, BoxBlock* boxes,
+              CapsuleBlock* capsules) {
+  for (std::uint32_t node = begin; node < end; ++node) {
+    for (std::uint32_t lane = 0; lane < run_width; ++lane) {
+      const std::uint32_t child = std::min(node * run_width + lane, child_count - 1);
+      const SingleCapsule capsule = enclose(capsules_below[child]);
+      for (int axis = 0; axis < 3; ++axis) {
+        boxes[node].lower[axis][lane] = least_of(boxes_below[child].lower[axis]);
+        boxes[node].upper[axis][lane] = largest_of(boxes_below[child].upper[axis]);
+        capsules[node].start[axis][lane] = capsule.start[axis];
+        capsules[node].end[axis][lane] = capsule.end[axis];
+      }
+      capsules[node].radius[lane] = capsule.radius;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace fiber
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace fiber {
+
+HWY_EXPORT(FitGroups);
+HWY_EXPORT(FitNodes);
+
+void fit_groups(const FiberAssembly& fibers, const Eigen::Vector3d& origin, const RunSpan* spans,
+                std::uint32_t run_count, std::uint32_t begin, std::uint32_t end, Run* runs,
+                CapsuleBlock* capsules, BoxBlock* boxes) {
+  HWY_DYNAMIC_DISPATCH(FitGroups)
+  (fibers, origin, spans, run_count, begin, end, runs, capsules, boxes);
+}
+
+void fit_nodes(const BoxBlock* boxes_below, const CapsuleBlock* capsules_below,
+               std::uint32_t child_count, std::uint32_t begin, std::uint32_t end, BoxBlock* boxes,
+               CapsuleBlock* capsules) {
+  HWY_DYNAMIC_DISPATCH(FitNodes)
+  (boxes_below, capsules_below, child_count, begin, end, boxes, capsules);
+}
+
+}  // namespace fiber
+#endif
