@@ -58,20 +58,49 @@ std::uint32_t near_capsules(const CapsuleBlock& block, const CapsuleBlock& other
   return bits;
 }
 
-/// Adds bits of the segments of b from `lane` on that come near each of a's; returns all of them.
-std::uint32_t near_segments(const Run& a, std::uint32_t count_a, const Run& b, std::size_t lane,
+LaneVector load_starts(const Run& run, std::size_t lane) {
+  const Floats d;
+  return {hn::LoadU(d, run.x + lane), hn::LoadU(d, run.y + lane), hn::LoadU(d, run.z + lane)};
+}
+
+LaneVector load_ends(const Run& run, std::size_t lane) {
+  const Floats d;
+  return {hn::LoadU(d, run.x + lane + 1), hn::LoadU(d, run.y + lane + 1),
+          hn::LoadU(d, run.z + lane + 1)};
+}
+
+/// Bits of the run's segments whose boxes come within the bound of the box of another run.
+std::uint32_t near_box_of_run(const Run& run, const BoxBlock& block, std::uint32_t block_lane,
+                              float bound) {
+  const Floats d;
+  const auto reach = hn::Set(d, run.radius + bound);
+  const LaneVector reaches{reach, reach, reach};
+  const LaneVector lower = subtract(spread(block.lower, block_lane), reaches);
+  const LaneVector upper = add(spread(block.upper, block_lane), reaches);
+  std::uint32_t bits = 0;
+  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
+    const LaneVector start = load_starts(run, lane);
+    const LaneVector end = load_ends(run, lane);
+    const auto apart = boxes_apart(minimum(start, end), maximum(start, end), lower, upper);
+    bits |= bits_of(hn::Not(apart)) << lane;
+  }
+  return bits;
+}
+
+/// Adds bits of the segments of b from `lane` on that come near each of the chosen ones of a;
+/// returns all of them.
+std::uint32_t near_segments(const Run& a, std::uint32_t chosen, const Run& b, std::size_t lane,
                             float reach, std::uint8_t (&near_bits)[run_width]) {
   const Floats d;
   const auto reaches = hn::Set(d, reach);
-  const LaneVector start{hn::LoadU(d, b.x + lane), hn::LoadU(d, b.y + lane),
-                         hn::LoadU(d, b.z + lane)};
-  const LaneVector end{hn::LoadU(d, b.x + lane + 1), hn::LoadU(d, b.y + lane + 1),
-                       hn::LoadU(d, b.z + lane + 1)};
+  const LaneVector start = load_starts(b, lane);
+  const LaneVector end = load_ends(b, lane);
   const LaneSegments segments = lane_segments(start, end);
   const LaneVector lower = subtract(minimum(start, end), {reaches, reaches, reaches});
   const LaneVector upper = add(maximum(start, end), {reaches, reaches, reaches});
   std::uint32_t any = 0;
-  for (std::uint32_t i = 0; i < count_a; ++i) {
+  while (chosen != 0) {
+    const std::uint32_t i = take_lowest(chosen);
     const LaneVector p0{hn::Set(d, a.x[i]), hn::Set(d, a.y[i]), hn::Set(d, a.z[i])};
     const LaneVector p1{hn::Set(d, a.x[i + 1]), hn::Set(d, a.y[i + 1]), hn::Set(d, a.z[i + 1])};
     const auto apart = boxes_apart(minimum(p0, p1), maximum(p0, p1), lower, upper);
@@ -181,16 +210,25 @@ class Finder {
   bool visit_runs(std::uint32_t a, std::uint32_t b) {
     const RunSpan& span_a = a_.spans[a];
     const RunSpan& span_b = b_.spans[b];
-    const bool same = self_ && a == b;
-    const float reach = a_.runs[a].radius + b_.runs[b].radius + bound_;
+    const Run& run_a = a_.runs[a];
+    const Run& run_b = b_.runs[b];
+    const std::uint32_t rows =
+        first_bits(span_a.segment_count) &
+        near_box_of_run(run_a, b_.levels[0].boxes[b / run_width], b % run_width, bound_);
+    if (rows == 0 ||
+        near_box_of_run(run_b, a_.levels[0].boxes[a / run_width], a % run_width, bound_) == 0) {
+      return true;
+    }
+    const float reach = run_a.radius + run_b.radius + bound_;
     std::uint8_t near_bits[run_width] = {};
     std::uint32_t any = 0;
     for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(Floats())) {
-      any |= near_segments(a_.runs[a], span_a.segment_count, b_.runs[b], lane, reach, near_bits);
+      any |= near_segments(run_a, rows, run_b, lane, reach, near_bits);
     }
     if (any == 0) {
       return true;
     }
+    const bool same = self_ && a == b;
     for (std::uint32_t i = 0; i < run_width; ++i) {
       // Of a run with itself: each segment with those after it.
       const std::uint32_t wanted =
