@@ -5,6 +5,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <type_traits>
 
 #include "fiber_proximity/hierarchy/run_tree_kernels.hpp"
 #include "src/hierarchy/segment_lanes-inl.hpp"
@@ -87,39 +88,102 @@ std::uint32_t near_box_of_run(const Run& run, const BoxBlock& block, std::uint32
   return bits;
 }
 
-/// Adds bits of the segments of b from `lane` on that come near each of the chosen ones of a;
-/// returns all of them.
-std::uint32_t near_segments(const Run& a, std::uint32_t chosen, const Run& b, std::size_t lane,
-                            float reach, std::uint8_t (&near_bits)[run_width]) {
+/// Bits of the segments of b whose boxes come within reach of that of segment i of a.
+std::uint32_t near_box_of_segment(const Run& a, std::uint32_t i, const Run& b, float reach) {
   const Floats d;
   const auto reaches = hn::Set(d, reach);
-  const LaneVector start = load_starts(b, lane);
-  const LaneVector end = load_ends(b, lane);
-  const LaneSegments segments = lane_segments(start, end);
-  const LaneVector lower = subtract(minimum(start, end), {reaches, reaches, reaches});
-  const LaneVector upper = add(maximum(start, end), {reaches, reaches, reaches});
-  std::uint32_t any = 0;
-  while (chosen != 0) {
-    const std::uint32_t i = take_lowest(chosen);
-    const LaneVector p0{hn::Set(d, a.x[i]), hn::Set(d, a.y[i]), hn::Set(d, a.z[i])};
-    const LaneVector p1{hn::Set(d, a.x[i + 1]), hn::Set(d, a.y[i + 1]), hn::Set(d, a.z[i + 1])};
-    const auto apart = boxes_apart(minimum(p0, p1), maximum(p0, p1), lower, upper);
-    if (hn::AllTrue(d, apart)) {
-      continue;
-    }
-    const auto close = hn::AndNot(apart, near(lane_segments(p0, p1), segments, reaches));
-    const std::uint32_t bits = bits_of(close) << lane;
-    near_bits[i] = static_cast<std::uint8_t>(near_bits[i] | bits);
-    any |= bits;
+  const LaneVector p0{hn::Set(d, a.x[i]), hn::Set(d, a.y[i]), hn::Set(d, a.z[i])};
+  const LaneVector p1{hn::Set(d, a.x[i + 1]), hn::Set(d, a.y[i + 1]), hn::Set(d, a.z[i + 1])};
+  const LaneVector lower = subtract(minimum(p0, p1), {reaches, reaches, reaches});
+  const LaneVector upper = add(maximum(p0, p1), {reaches, reaches, reaches});
+  std::uint32_t bits = 0;
+  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
+    const LaneVector start = load_starts(b, lane);
+    const LaneVector end = load_ends(b, lane);
+    const auto apart = boxes_apart(minimum(start, end), maximum(start, end), lower, upper);
+    bits |= bits_of(hn::Not(apart)) << lane;
   }
-  return any;
+  return bits;
 }
+
+/// Pairs of segments whose boxes are near, on their way to the sink: few of the lanes of two runs
+/// are, so they are brought together to fill registers.
+class Candidates {
+ public:
+  Candidates(const Run* runs_a, const Run* runs_b, PairSink& sink)
+      : runs_a_(runs_a), runs_b_(runs_b), sink_(sink) {}
+
+  /// Room for all pairs of two runs; whether the sink wants to go on.
+  bool make_room() { return size_ + run_width * run_width <= capacity || flush(); }
+
+  void push(std::uint32_t run_a, std::uint32_t i, std::uint32_t run_b, std::uint32_t j,
+            PointPair pair, float reach) {
+    a_[size_] = static_cast<std::int32_t>(run_a * floats_per_run + i);
+    b_[size_] = static_cast<std::int32_t>(run_b * floats_per_run + j);
+    reach_[size_] = reach;
+    pairs_[size_] = pair;
+    ++size_;
+  }
+
+  /// Hands the pairs that are near to the sink; whether it wants to go on.
+  bool flush() {
+    const Floats d;
+    const std::uint32_t size = size_;
+    size_ = 0;
+    std::fill_n(a_ + size, run_width, 0);
+    std::fill_n(b_ + size, run_width, 0);
+    for (std::uint32_t first = 0; first < size; first += static_cast<std::uint32_t>(hn::Lanes(d))) {
+      const auto close = near(gather(runs_a_, a_ + first), gather(runs_b_, b_ + first),
+                              hn::LoadU(d, reach_ + first));
+      std::uint32_t bits = bits_of(close) & first_bits(std::min(run_width, size - first));
+      while (bits != 0) {
+        if (!sink_.offer(pairs_[first + take_lowest(bits)])) {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
+ private:
+  static constexpr std::uint32_t capacity = 512;
+  static constexpr std::uint32_t floats_per_run = sizeof(Run) / sizeof(float);
+
+  static LaneVector gather_point(const float* first, const std::int32_t* indices) {
+    const Floats d;
+    const auto index = hn::LoadU(hn::RebindToSigned<Floats>(), indices);
+    constexpr std::uint32_t stride = run_width + 1;
+    return {hn::GatherIndex(d, first, index), hn::GatherIndex(d, first + stride, index),
+            hn::GatherIndex(d, first + 2 * stride, index)};
+  }
+
+  static LaneSegments gather(const Run* runs, const std::int32_t* indices) {
+    static_assert(std::is_standard_layout_v<Run>, "runs are read as arrays of floats");
+    const float* const first = runs->x;
+    return lane_segments(gather_point(first, indices), gather_point(first + 1, indices));
+  }
+
+  const Run* const runs_a_;
+  const Run* const runs_b_;
+  PairSink& sink_;
+  std::uint32_t size_ = 0;
+  std::int32_t a_[capacity + run_width];  // where the segment's x is among all floats
+  std::int32_t b_[capacity + run_width];
+  float reach_[capacity + run_width] = {};
+  PointPair pairs_[capacity];
+};
 
 /// All pairs of the groups of one tree and the runs of another, or of the same.
 class Finder {
  public:
   Finder(const RunTreeView& a, const RunTreeView& b, PairSink& sink, QueryCounts& counts)
-      : a_(a), b_(b), self_(a.runs == b.runs), sink_(sink), counts_(counts), bound_(sink.bound()) {}
+      : a_(a),
+        b_(b),
+        self_(a.runs == b.runs),
+        sink_(sink),
+        counts_(counts),
+        candidates_(a.runs, b.runs, sink),
+        bound_(sink.bound()) {}
 
   /// Whether to go on.
   bool find(std::uint32_t group) {
@@ -129,6 +193,9 @@ class Finder {
     }
     return a_.level_count == 1 ? visit_all(group) : descend(group);
   }
+
+  /// Offers what waits; whether to go on.
+  bool finish() { return candidates_.flush(); }
 
  private:
   struct Node {
@@ -208,36 +275,38 @@ class Finder {
   }
 
   bool visit_runs(std::uint32_t a, std::uint32_t b) {
-    const RunSpan& span_a = a_.spans[a];
-    const RunSpan& span_b = b_.spans[b];
     const Run& run_a = a_.runs[a];
     const Run& run_b = b_.runs[b];
     const std::uint32_t rows =
-        first_bits(span_a.segment_count) &
+        first_bits(a_.spans[a].segment_count) &
         near_box_of_run(run_a, b_.levels[0].boxes[b / run_width], b % run_width, bound_);
     if (rows == 0 ||
         near_box_of_run(run_b, a_.levels[0].boxes[a / run_width], a % run_width, bound_) == 0) {
       return true;
     }
-    const float reach = run_a.radius + run_b.radius + bound_;
-    std::uint8_t near_bits[run_width] = {};
-    std::uint32_t any = 0;
-    for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(Floats())) {
-      any |= near_segments(run_a, rows, run_b, lane, reach, near_bits);
+    return push_candidates(a, rows, b);
+  }
+
+  bool push_candidates(std::uint32_t a, std::uint32_t rows, std::uint32_t b) {
+    if (!candidates_.make_room()) {
+      return false;
     }
-    if (any == 0) {
-      return true;
-    }
-    const bool same = self_ && a == b;
-    for (std::uint32_t i = 0; i < run_width; ++i) {
-      // Of a run with itself: each segment with those after it.
-      const std::uint32_t wanted =
-          first_bits(span_b.segment_count) & ~(same ? first_bits(i + 1) : 0U);
-      near_bits[i] = static_cast<std::uint8_t>(near_bits[i] & wanted);
-    }
-    const bool more = sink_.offer(span_a, span_b, near_bits);
     bound_ = sink_.bound();
-    return more;
+    const RunSpan& span_a = a_.spans[a];
+    const RunSpan& span_b = b_.spans[b];
+    const bool same = self_ && a == b;
+    const float reach = a_.runs[a].radius + b_.runs[b].radius + bound_;
+    while (rows != 0) {
+      const std::uint32_t i = take_lowest(rows);
+      // Of a run with itself: each segment with those after it.
+      std::uint32_t bits = first_bits(span_b.segment_count) & ~(same ? first_bits(i + 1) : 0U) &
+                           near_box_of_segment(a_.runs[a], i, b_.runs[b], reach);
+      while (bits != 0) {
+        const std::uint32_t j = take_lowest(bits);
+        candidates_.push(a, i, b, j, {span_a.first_point + i, span_b.first_point + j}, reach);
+      }
+    }
+    return true;
   }
 
   const RunTreeView& a_;
@@ -245,6 +314,7 @@ class Finder {
   const bool self_;
   PairSink& sink_;
   QueryCounts& counts_;
+  Candidates candidates_;
   float bound_;
 };
 
@@ -256,7 +326,7 @@ bool FindNearRuns(const RunTreeView& a, std::uint32_t begin, std::uint32_t end,
       return false;
     }
   }
-  return true;
+  return finder.finish();
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #include "fiber_proximity/query/contact_batch.hpp"
 
-#include <hwy/base.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
@@ -34,15 +33,10 @@ class CandidateSink final : public PairSink {
   CandidateSink(const PairTest& test, float bound, std::vector<PointPair>& pairs)
       : test_(test), bound_(bound), pairs_(pairs) {}
 
-  bool offer(const RunSpan& a, const RunSpan& b, const std::uint8_t (&near)[run_width]) override {
-    for (std::uint32_t i = 0; i < run_width; ++i) {
-      for (std::uint32_t bits = near[i]; bits != 0; bits &= bits - 1) {
-        const auto j = static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
-        const PointPair pair = test_.ordered({a.first_point + i, b.first_point + j});
-        if (!test_.is_neighbour_pair(pair)) {
-          pairs_.push_back(pair);
-        }
-      }
+  bool offer(PointPair candidate) override {
+    const PointPair pair = test_.ordered(candidate);
+    if (!test_.is_neighbour_pair(pair)) {
+      pairs_.push_back(pair);
     }
     return true;
   }

@@ -1,7 +1,5 @@
 #include "fiber_proximity/query/run_tree_engine.hpp"
 
-#include <hwy/base.h>
-
 #include <algorithm>
 
 #include "fiber_proximity/hierarchy/run_tree_kernels.hpp"
@@ -15,17 +13,9 @@ class CollectorSink final : public PairSink {
  public:
   explicit CollectorSink(PairCollector& collector) : collector_(collector) {}
 
-  bool offer(const RunSpan& a, const RunSpan& b, const std::uint8_t (&near)[run_width]) override {
-    for (std::uint32_t i = 0; i < run_width; ++i) {
-      for (std::uint32_t bits = near[i]; bits != 0; bits &= bits - 1) {
-        const auto j = static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
-        collector_.offer(a.first_point + i, b.first_point + j);
-        if (collector_.done()) {
-          return false;
-        }
-      }
-    }
-    return true;
+  bool offer(PointPair pair) override {
+    collector_.offer(pair.a, pair.b);
+    return !collector_.done();
   }
 
   float bound() const override { return collector_.bound(); }

@@ -6,6 +6,7 @@
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/hierarchy/run_blocks.hpp"
 #include "fiber_proximity/query/contact.hpp"
+#include "fiber_proximity/query/pair_test.hpp"
 
 namespace fiber {
 
@@ -14,10 +15,9 @@ class PairSink {
  public:
   virtual ~PairSink() = default;
 
-  /// Segments of run a that may come within the bound of segments of run b.
-  /// @param near by segment of a: bit j for segment j of b
+  /// A pair of segments that may come within the bound, of a and of b.
   /// @return whether to go on
-  virtual bool offer(const RunSpan& a, const RunSpan& b, const std::uint8_t (&near)[run_width]) = 0;
+  virtual bool offer(PointPair pair) = 0;
 
   /// [m] Pairs further apart than this do not matter (any more).
   virtual float bound() const = 0;
