@@ -1,12 +1,14 @@
 // Compiled once per instruction set; Highway chooses among them at run time.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "src/hierarchy/run_tree_fit.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "fiber_proximity/hierarchy/run_tree_kernels.hpp"
 #include "src/hierarchy/segment_lanes-inl.hpp"
@@ -29,22 +31,75 @@ struct RunBox {
   float upper[3];
 };
 
-float as_float(double relative) {
-  return static_cast<float>(
-      std::clamp(relative, -2.0 * largest_magnitude, 2.0 * largest_magnitude));
+constexpr std::uint32_t points_per_run = run_width + 1;
+constexpr std::uint32_t doubles_per_run = 3 * points_per_run + 1;  // one more fills a register
+
+/// The origin's coordinates over and over, as they are to be subtracted from points in memory.
+struct RepeatedOrigin {
+  static constexpr std::uint32_t period = 12;  // of three coordinates in up to four lanes
+  alignas(32) double values[period];
+
+  explicit RepeatedOrigin(const Eigen::Vector3d& origin) {
+    for (std::uint32_t i = 0; i < period; ++i) {
+      values[i] = origin[i % 3];
+    }
+  }
+};
+
+/// Coordinates relative to the origin, in single precision, in the order of memory.
+void make_relative(const double* coordinates, const RepeatedOrigin& origin, float* relative) {
+  const hn::CappedTag<double, 4> d;
+  const hn::Rebind<float, decltype(d)> floats;
+  const auto limit = hn::Set(d, 2.0 * largest_magnitude);
+  for (std::size_t i = 0; i < doubles_per_run; i += hn::Lanes(d)) {
+    const auto difference = hn::Sub(hn::LoadU(d, coordinates + i),
+                                    hn::LoadU(d, origin.values + i % RepeatedOrigin::period));
+    hn::StoreU(hn::DemoteTo(floats, hn::Clamp(difference, hn::Neg(limit), limit)), floats,
+               relative + i);
+  }
 }
 
-/// Copies the points of the run; returns the largest of its segments' radii [m].
-double load_points(const FiberAssembly& fibers, const Eigen::Vector3d& origin, const RunSpan& span,
-                   Run& run) {
-  const Eigen::Vector3d* points = fibers.points().data() + span.first_point;
-  double radius = 0.0;
-  for (std::uint32_t i = 0; i <= run_width; ++i) {
-    const Eigen::Vector3d& point = points[std::min(i, span.segment_count)];
-    run.x[i] = as_float(point.x() - origin.x());
-    run.y[i] = as_float(point.y() - origin.y());
-    run.z[i] = as_float(point.z() - origin.z());
+/// The run's values of one axis: those of its points, then the last one's again and again.
+void store_axis(Lanes values, std::size_t lane, float last, std::uint32_t count,
+                float (&axis)[run_width + 1]) {
+  const Floats d;
+  const auto valid = hn::FirstN(d, count > lane ? count - lane : 0);
+  hn::StoreU(hn::IfThenElse(valid, values, hn::Set(d, last)), d, axis + lane);
+  axis[run_width] = last;
+}
+
+void load_points(const FiberAssembly& fibers, const RepeatedOrigin& origin, const RunSpan& span,
+                 Run& run) {
+  const std::vector<Eigen::Vector3d>& points = fibers.points();
+  const double* coordinates = points[span.first_point].data();
+  double copy[doubles_per_run] = {};
+  if (points.size() - span.first_point <= points_per_run) {
+    // Near the end of the points there is nothing to read beyond them.
+    std::copy_n(coordinates, 3 * (span.segment_count + 1), copy);
+    coordinates = copy;
   }
+  float relative[doubles_per_run];
+  make_relative(coordinates, origin, relative);
+  const float* const last = relative + 3 * span.segment_count;
+  const std::uint32_t count = span.segment_count + 1;
+  const Floats d;
+  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
+    Lanes x;
+    Lanes y;
+    Lanes z;
+    hn::LoadInterleaved3(d, relative + 3 * lane, x, y, z);
+    store_axis(x, lane, last[0], count, run.x);
+    store_axis(y, lane, last[1], count, run.y);
+    store_axis(z, lane, last[2], count, run.z);
+  }
+}
+
+/// Of the thickest of the run's segments [m].
+double largest_radius(const FiberAssembly& fibers, const RunSpan& span) {
+  if (fibers.radii().size() == 1) {
+    return fibers.radii().front();
+  }
+  double radius = 0.0;
   for (std::uint32_t i = 0; i < span.segment_count; ++i) {
     radius = std::max(radius, fibers.segment_radius(span.first_point + i));
   }
@@ -87,9 +142,10 @@ void fit_everything(Run& run, RunBox& box) {
   std::fill_n(box.upper, 3, infinity);
 }
 
-void fit_run(const FiberAssembly& fibers, const Eigen::Vector3d& origin, const RunSpan& span,
+void fit_run(const FiberAssembly& fibers, const RepeatedOrigin& origin, const RunSpan& span,
              Run& run, RunBox& box) {
-  const double radius = load_points(fibers, origin, span, run);
+  load_points(fibers, origin, span, run);
+  const double radius = largest_radius(fibers, span);
   box_of(run.x, box.lower[0], box.upper[0]);
   box_of(run.y, box.lower[1], box.upper[1]);
   box_of(run.z, box.lower[2], box.upper[2]);
@@ -123,15 +179,26 @@ void store(const Run& run, const RunBox& box, std::uint32_t lane, CapsuleBlock& 
   capsules.radius[lane] = run.radius + sag(run);
 }
 
+/// Runs come in spatial order: where the next ones' points are, no processor can guess.
+void prefetch(const FiberAssembly& fibers, const RunSpan& span) {
+  constexpr std::uint32_t points_per_line = 2;
+  for (std::uint32_t i = 0; i <= span.segment_count; i += points_per_line) {
+    hwy::Prefetch(&fibers.points()[span.first_point + i]);
+  }
+}
+
 void FitGroups(const FiberAssembly& fibers, const Eigen::Vector3d& origin, const RunSpan* spans,
                std::uint32_t run_count, std::uint32_t begin, std::uint32_t end, Run* runs,
                CapsuleBlock* capsules, BoxBlock* boxes) {
+  constexpr std::uint32_t ahead = 2 * run_width;
+  const RepeatedOrigin repeated(origin);
   for (std::uint32_t group = begin; group < end; ++group) {
     for (std::uint32_t lane = 0; lane < run_width; ++lane) {
       RunBox box;
       // Lanes without a run repeat the last: nodes above need no special case.
       const std::uint32_t run = std::min(group * run_width + lane, run_count - 1);
-      fit_run(fibers, origin, spans[run], runs[run], box);
+      prefetch(fibers, spans[std::min(run + ahead, run_count - 1)]);
+      fit_run(fibers, repeated, spans[run], runs[run], box);
       store(runs[run], box, lane, capsules[group], boxes[group]);
     }
   }

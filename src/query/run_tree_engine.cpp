@@ -90,7 +90,11 @@ void RunTreeEngine::find_all(const RunTreeView& a, const PairTest& test, double 
   idle_batches_.push_back(std::move(batch));
 }
 
-std::uint32_t RunTreeEngine::level_count() const { return tree_.view().level_count; }
+// The root, which the tree has no box for, and the levels of the tree from the top down.
+std::uint32_t RunTreeEngine::level_count() const {
+  const std::uint32_t levels = tree_.view().level_count;
+  return levels == 0 ? 0 : levels + 1;
+}
 
 void RunTreeEngine::level_boxes(std::uint32_t level, std::vector<NodeBox>& boxes) const {
   boxes.clear();
@@ -98,13 +102,19 @@ void RunTreeEngine::level_boxes(std::uint32_t level, std::vector<NodeBox>& boxes
   if (tree.level_count == 0) {
     return;
   }
-  // Levels count from the root here, from the leaves there.
-  const RunTreeLevel& shown =
-      tree.levels[tree.level_count - 1 - std::min(level, tree.level_count - 1)];
+  const std::uint32_t below_root = std::clamp(level, 1U, tree.level_count) - 1;
+  const RunTreeLevel& shown = tree.levels[tree.level_count - 1 - below_root];
   for (std::uint32_t child = 0; child < shown.child_count; ++child) {
     const BoxBlock& block = shown.boxes[child / run_width];
     boxes.push_back({tree_.origin() + corner(block.lower, child % run_width),
                      tree_.origin() + corner(block.upper, child % run_width)});
+  }
+  if (level == 0) {
+    for (const NodeBox& box : boxes) {
+      boxes.front().lower = boxes.front().lower.cwiseMin(box.lower);
+      boxes.front().upper = boxes.front().upper.cwiseMax(box.upper);
+    }
+    boxes.resize(1, boxes.front());
   }
 }
 
