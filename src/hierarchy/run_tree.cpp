@@ -137,8 +137,8 @@ void RunTree::refit(const FiberAssembly& fibers) {
   }
 }
 
-/// Area of the groups' boxes per area of their runs' boxes: what sorting keeps small. Judged by some
-/// groups, evenly spread.
+/// Area of the groups' boxes per area of their runs' boxes: what sorting keeps small. Judged by
+/// some groups, evenly spread.
 double RunTree::looseness() const {
   if (levels_.empty()) {
     return 0.0;

@@ -39,14 +39,23 @@ Eigen::Vector3d corner(const float (&by_axis)[3][run_width], std::uint32_t lane)
 
 }  // namespace
 
+RunTreeEngine::RunTreeEngine(std::uint32_t threads)
+    : arena_(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads)) {}
+
+std::uint32_t RunTreeEngine::thread_count() const {
+  return static_cast<std::uint32_t>(arena_.max_concurrency());
+}
+
 void RunTreeEngine::do_update(const FiberAssembly& fibers, bool same_topology) {
   const Eigen::Vector3d origin =
       fibers.points().empty() ? Eigen::Vector3d::Zero() : fibers.points().front();
-  if (same_topology) {
-    tree_.update(fibers, origin);
-  } else {
-    tree_.build(fibers, origin);
-  }
+  arena_.execute([&] {
+    if (same_topology) {
+      tree_.update(fibers, origin);
+    } else {
+      tree_.build(fibers, origin);
+    }
+  });
 }
 
 void RunTreeEngine::do_query(const FiberAssembly& fibers, const QueryOptions& options,
@@ -85,7 +94,7 @@ void RunTreeEngine::find_all(const RunTreeView& a, const PairTest& test, double 
   if (batch == nullptr) {
     batch = std::make_unique<ContactBatch>();
   }
-  batch->find(a, tree_.view(), test, bound, point_count, result);
+  arena_.execute([&] { batch->find(a, tree_.view(), test, bound, point_count, result); });
   const std::lock_guard lock(mutex_);
   idle_batches_.push_back(std::move(batch));
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <tbb/task_arena.h>
+
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -13,6 +15,10 @@ namespace fiber {
 /// `run_tree`, the fast engine.
 class RunTreeEngine final : public ProximityEngine {
  public:
+  /// @param threads most to use, 0 for as many as there are cores
+  explicit RunTreeEngine(std::uint32_t threads);
+
+  std::uint32_t thread_count() const override;
   std::uint32_t level_count() const override;
   void level_boxes(std::uint32_t level, std::vector<NodeBox>& boxes) const override;
   double mean_level_volume(std::uint32_t level) const override;
@@ -30,6 +36,7 @@ class RunTreeEngine final : public ProximityEngine {
   void find_all(const RunTreeView& a, const PairTest& test, double bound, std::size_t point_count,
                 QueryResult& result) const;
 
+  mutable tbb::task_arena arena_;
   RunTree tree_;
   mutable std::mutex mutex_;
   mutable std::vector<std::unique_ptr<ContactBatch>> idle_batches_;
