@@ -48,6 +48,9 @@ class ProximityEngine {
   /// cascade verification (Sect. 3.3) shows that the old ones hold.
   virtual std::uint64_t recomputed_count() const { return 0; }
 
+  /// How many threads updates and queries use at most.
+  virtual std::uint32_t thread_count() const { return 1; }
+
   /// Memory the engine holds for its fibres, the fibres themselves apart [bytes].
   virtual std::size_t memory_bytes() const { return 0; }
 
