@@ -21,6 +21,7 @@ function(fiber_bench_peer name)
 endfunction()
 
 if(FIBER_PROXIMITY_PEERS)
+  #catkin_lint: ignore_once missing_cmake_modules
   find_package(TBB QUIET CONFIG)
   if(TBB_FOUND)
     # Headers only; CGAL's own configuration would ask for libraries these do not need.
@@ -29,7 +30,7 @@ if(FIBER_PROXIMITY_PEERS)
       fiber_bench_peer(CGAL benchmark/peers/cgal.cpp
         LIBRARIES TBB::tbb INCLUDES ${CGAL_INCLUDE_FOLDER})
     endif()
-    find_package(embree QUIET CONFIG NAMES embree embree-3 embree-4)
+    find_package(embree QUIET CONFIG)
     if(embree_FOUND)
       fiber_bench_peer(EMBREE benchmark/peers/embree.cpp LIBRARIES embree TBB::tbb)
     endif()

@@ -1,16 +1,21 @@
 #!/usr/bin/env bash
 # Installs what building, testing and the demo need, and is quick when nothing is missing.
-#   scripts/setup.sh [--lint]     --lint: also what scripts/lint.sh needs
+#   scripts/setup.sh [--lint] [--bench]
+#     --lint    also what scripts/lint.sh needs
+#     --bench   also the libraries fiber_bench compares with (benchmark/README.md), on Debian, and
+#               what draws its plots
 # Debian 12: ROS 1 from Debian's own packages, with apt, as root or through sudo.
 # Ubuntu with ROS Noetic: through rosdep.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-usage="usage: scripts/setup.sh [--lint]"
+usage="usage: scripts/setup.sh [--lint] [--bench]"
 lint=false
+bench=false
 for argument in "$@"; do
   case "$argument" in
     --lint) lint=true ;;
+    --bench) bench=true ;;
     -h | --help) echo "$usage"; exit 0 ;;
     *) echo "setup.sh: unknown option '$argument'; $usage" >&2; exit 2 ;;
   esac
@@ -32,6 +37,10 @@ packages=(
 )
 if $lint; then
   packages+=(catkin-lint clang-format clang-tidy)
+fi
+if $bench; then
+  packages+=(libembree-dev libtbb-dev libcgal-dev libfcl-dev libbullet-dev)
+  packages+=(python3-matplotlib python3-tqdm)
 fi
 
 missing_packages() {

@@ -1,4 +1,4 @@
-#ifdef FIBER_BENCH_HAS_EMBREE4
+#if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>
 #else
 #include <embree3/rtcore.h>
