@@ -5,8 +5,8 @@
 #include <memory>
 #include <stdexcept>
 
-#include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
+#include "peers/peer.hpp"
 #include "progress.hpp"
 #include "statistics.hpp"
 
@@ -16,8 +16,8 @@ namespace {
 /// One engine and the times it has taken so far.
 class EngineRun {
  public:
-  EngineRun(const std::string& name, const FiberAssembly& fibers)
-      : name_(name), engine_(make_engine(name)) {
+  EngineRun(const std::string& name, std::uint32_t threads, const FiberAssembly& fibers)
+      : name_(name), engine_(make_bench_engine(name, {threads, QueryOptions().margin})) {
     engine_->update(fibers);  // builds; frames only refit
   }
 
@@ -36,6 +36,7 @@ class EngineRun {
   EngineMeasurement summary() const {
     EngineMeasurement summary;
     summary.engine = name_;
+    summary.threads = engine_->thread_count();
     summary.update_ms = median(update_ms_);
     summary.detect_ms = median(detect_ms_);
     summary.cycle_ms = median(cycle_ms_);
@@ -102,7 +103,7 @@ Measurement measure(const MeasurementOptions& options) {
   FiberAssembly fibers = scene(0);
   std::vector<EngineRun> runs;
   for (const std::string& name : options.engines) {
-    runs.emplace_back(name, fibers);
+    runs.emplace_back(name, options.threads, fibers);
   }
   CopyRun copy(fibers);
 

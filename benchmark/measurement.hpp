@@ -13,15 +13,16 @@ namespace fiber {
 struct MeasurementOptions {
   std::string scene = "soup";
   SceneOptions scene_options;
-  std::vector<std::string> engines{"AL"};
-  std::uint32_t repeats = 1;       ///< frames to measure, at least 1
-  bool detect_every_frame = true;  ///< false: only in the last frame
+  std::vector<std::string> engines{"AL"};  ///< and peers
+  std::uint32_t threads = 1;               ///< most an engine may use, at least 1
+  std::uint32_t repeats = 1;               ///< frames to measure, at least 1
+  bool detect_every_frame = true;          ///< false: only in the last frame
 };
 
 /// Times of one engine: medians over the frames [ms], work and pairs of the last frame.
 struct EngineMeasurement {
   std::string engine;
-  std::uint32_t threads = 1;  ///< it used; no engine uses more yet
+  std::uint32_t threads = 1;  ///< it used
   double update_ms = 0.0;
   double detect_ms = 0.0;
   double cycle_ms = 0.0;

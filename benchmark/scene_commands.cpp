@@ -6,6 +6,7 @@
 #include "commands.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "measurement.hpp"
+#include "peers/peer.hpp"
 #include "scene_options.hpp"
 
 namespace fiber {
@@ -13,7 +14,6 @@ namespace {
 
 struct Request {
   MeasurementOptions options;
-  std::uint32_t threads = 1;  // an upper limit
   bool json = false;
 };
 
@@ -92,11 +92,13 @@ void add(CLI::App& app, Command& command, const std::string& name, const std::st
   add_scene_options(*subcommand, options.scene, options.scene_options);
   subcommand
       ->add_option("--engines", options.engines,
-                   "with commas between them, of " + listed(engine_names()))
+                   "with commas between them, of " + listed(engine_names()) +
+                       "; peers: " + listed(all_peer_names()))
       ->delimiter(',')
       ->capture_default_str();
   subcommand
-      ->add_option("--threads", request->threads, "most threads to use; AL and brute_force use one")
+      ->add_option("--threads", options.threads,
+                   "most threads to use; only the peers cgal and embree use several")
       ->check(whole_number(1))
       ->capture_default_str();
   subcommand->add_option("--repeats", options.repeats, "frames to measure")

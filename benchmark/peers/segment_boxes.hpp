@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fiber_proximity/bounds/aabb.hpp"
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
+
+namespace fiber {
+
+/// The segment that starts at this point, relative to the first point of all and thicker by half
+/// the margin [m]: two of them overlap where the segments are no further apart than it.
+Capsule peer_capsule(const FiberAssembly& fibers, std::uint32_t point, double margin);
+
+/// The box of every segment, the same for all peers: that of its peer_capsule in single precision,
+/// rounded outward as those of our own engines, and clamped to 1e12 m.
+class SegmentBoxes {
+ public:
+  explicit SegmentBoxes(double margin) : margin_(margin) {}
+
+  /// Makes room for a box per segment of these fibres; to be fitted next.
+  void reset(const FiberAssembly& fibers);
+
+  /// Fits the boxes with indices from begin to before end. Several ranges may be fitted at once.
+  void fit(const FiberAssembly& fibers, std::size_t begin, std::size_t end);
+
+  /// Fits all boxes to moved points, or to other fibres.
+  void update(const FiberAssembly& fibers, bool same_topology);
+
+  std::size_t size() const { return boxes_.size(); }
+  const Aabb& operator[](std::size_t index) const { return boxes_[index]; }
+
+  /// First points of the segments, in the order of the boxes.
+  const std::vector<std::uint32_t>& points() const { return points_; }
+
+ private:
+  double margin_;
+  std::vector<Aabb> boxes_;
+  std::vector<std::uint32_t> points_;
+};
+
+}  // namespace fiber
