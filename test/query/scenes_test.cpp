@@ -83,13 +83,14 @@ class ScenesAgreementTest : public testing::TestWithParam<std::string> {
 };
 
 TEST_P(ScenesAgreementTest, EveryEngineGivesBruteForcesContactsInMovingFrames) {
-  constexpr int rounds = 4;
+  constexpr int rounds = 3;
   for_small_scenes(rounds, [this](const SmallScene& scene, Random& random) {
     const auto frame = static_cast<std::uint32_t>(random.integer(0, 1000));
+    const auto later = static_cast<std::uint32_t>(random.integer(1, 50));  // half a sway
     FiberAssembly fibers = scene(frame);
     const std::vector<Eigen::Vector3d> before = fibers.points();
     ASSERT_NO_FATAL_FAILURE(compare(fibers, scene.radius()));
-    fibers.update_points(scene(frame + 1).points());
+    fibers.update_points(scene(frame + later).points());
     ASSERT_NE(fibers.points(), before);
     ASSERT_NO_FATAL_FAILURE(compare(fibers, scene.radius())) << "after a refit";
   });
