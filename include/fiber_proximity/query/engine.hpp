@@ -64,7 +64,7 @@ class ProximityEngine {
 };
 
 /// The engine of this name: one of engine_names(), or DL-k and DS-k for any even k in [6, 200], or
-/// with the standard directions DL-k-classic and DS-k-classic for k of 14, 18 and 26.
+/// with the standard directions DL-k-classic and DS-k-classic for k of 6, 14, 18 and 26.
 /// @throws std::invalid_argument listing the names
 std::unique_ptr<ProximityEngine> make_engine(const std::string& name);
 
