@@ -71,7 +71,7 @@ class ProximityEngine {
 };
 
 /// The engine of this name: one of engine_names(), or DL-k and DS-k for any even k in [6, 200], or
-/// with the standard directions DL-k-classic and DS-k-classic for k of 14, 18 and 26.
+/// with the standard directions DL-k-classic and DS-k-classic for k of 6, 14, 18 and 26.
 /// @param threads most to use, 0 for as many as there are cores; only run_tree uses more than one.
 /// They change what an answer costs, not the answer.
 /// @throws std::invalid_argument listing the names
