@@ -13,7 +13,7 @@ namespace fiber {
 struct MeasurementOptions {
   std::string scene = "soup";
   SceneOptions scene_options;
-  std::vector<std::string> engines{"AL"};  ///< and peers
+  std::vector<std::string> engines{"run_tree"};  ///< and peers
   std::uint32_t threads = 1;               ///< most an engine may use, at least 1
   std::uint32_t repeats = 1;               ///< frames to measure, at least 1
   bool detect_every_frame = true;          ///< false: only in the last frame

@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 struct Request {
   std::string scene = "soup";
   SceneOptions scene_options;
-  std::string engine = "AL";
+  std::string engine = "run_tree";
   std::uint32_t repeats = 5;
   std::uint32_t trials = 1000;
   double seconds = 10.0;

@@ -35,9 +35,18 @@ std::vector<InputOptions> read_inputs(const ros::NodeHandle& node, double radius
   return inputs;
 }
 
+void read_threads(const ros::NodeHandle& node, int& threads) {
+  const std::string allowed = "a whole number of at least 0";
+  read_parameter(node, "threads", allowed, threads);
+  if (threads < 0) {
+    refuse_parameter(node, "threads", allowed);
+  }
+}
+
 void warn_of_unknown_parameters(const ros::NodeHandle& node) {
-  std::vector<std::string> known{"engine",        "fixed_frame", "inputs",     "radius",
-                                 "input_timeout", "marker_rate", "tf_timeout", "diagnostic_period"};
+  std::vector<std::string> known{"engine",      "threads",    "fixed_frame",
+                                 "inputs",      "radius",     "input_timeout",
+                                 "marker_rate", "tf_timeout", "diagnostic_period"};
   for (const auto& parameter : fiber_proximity::ProximityConfig::__getParamDescriptions__()) {
     known.push_back(parameter->name);
   }
@@ -64,6 +73,7 @@ ServerOptions read_server_options(const ros::NodeHandle& private_node) {
   ServerOptions options;
   double radius = InputOptions().radius;
   read_parameter(private_node, "engine", "a string", options.engine);
+  read_threads(private_node, options.threads);
   read_parameter(private_node, "fixed_frame", "a string", options.fixed_frame);
   read_parameter(private_node, "radius", 0.0, radius);
   read_parameter(private_node, "tf_timeout", 0.0, options.timing.tf_timeout);

@@ -14,7 +14,7 @@ namespace {
 
 struct Request {
   std::string file;
-  std::string engine = "AL";
+  std::string engine = "run_tree";
   QueryOptions query;
   std::optional<double> margin;  // [m]
   double radius = 0.0;           // [m]

@@ -11,8 +11,10 @@ namespace fiber_proximity_ros {
 /// asked something.
 class Detector {
  public:
+  /// @param threads most to use, 0 for as many as there are cores
   /// @throws std::invalid_argument for an unknown engine
-  explicit Detector(const std::string& engine) : engine_(fiber::make_engine(engine)) {}
+  explicit Detector(const std::string& engine, std::uint32_t threads = 0)
+      : engine_(fiber::make_engine(engine, threads)) {}
 
   /// The fibres to ask about from now on; they must live, unchanged, until the next call.
   void set_fibers(const fiber::FiberAssembly& fibers);

@@ -12,7 +12,8 @@ namespace fiber_proximity_ros {
 
 /// Parameters of the proximity node that are read once, at its start.
 struct ServerOptions {
-  std::string engine = "AL";  ///< one of fiber::engine_names()
+  std::string engine = "run_tree";  ///< one of fiber::engine_names()
+  int threads = 0;                  ///< most to use, 0 for as many as there are cores
 
   /// All results are in this frame; empty: the frame of the first message.
   std::string fixed_frame;
