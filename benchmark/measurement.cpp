@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "copies.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
 #include "peers/peer.hpp"
 #include "progress.hpp"
@@ -125,7 +126,8 @@ class Agreement {
 Measurement measure(const MeasurementOptions& options) {
   assert(options.repeats > 0 && !options.engines.empty());
   Progress progress;
-  const Scene scene = make_scene(options.scene, options.scene_options);
+  const Scene scene =
+      side_by_side(make_scene(options.scene, options.scene_options), options.copies);
   FiberAssembly fibers = scene(0);
   std::vector<EngineRun> runs;
   for (const std::string& name : options.engines) {

@@ -1,8 +1,8 @@
 """Engines side by side on a scene that grows step by step; those that would take too long drop out.
 
-At every scale all engines that are left run in turns in one process, so that what slows the machine
+At every size all engines that are left run in turns in one process, so that what slows the machine
 down for a while slows all of them, and ratios are fair. An engine takes part as long as the times
-it took at the smaller scales say that a cycle stays within the limit.
+it took at the smaller sizes say that a cycle stays within the limit.
 """
 
 import dataclasses
@@ -12,60 +12,76 @@ from .cycle_run import CycleRun
 
 
 @dataclasses.dataclass(frozen=True)
+class Size:
+    """Of a scene: by the number of its fibres, and by copies of it side by side."""
+
+    scale: float = 1.0
+    copies: int = 1
+
+    def factor(self):
+        return self.scale * self.copies
+
+
+@dataclasses.dataclass(frozen=True)
 class Climb:
-    """One scene at growing scales."""
+    """One scene at growing sizes."""
 
     scene: str
-    scales: tuple
+    sizes: tuple
     engines: tuple
     threads: int
     repeats: int
 
+    def run(self, size, engines):
+        return CycleRun(self.scene, size.scale, size.copies, ",".join(engines), self.threads,
+                        self.repeats)
 
-def forecast_ms(known, scale):
-    """Time of a cycle at a scale from (scale, time) at smaller ones; None from nothing.
 
-    It grows on as it did between the last two, at least in proportion to the scale.
+def forecast_s(times, size):
+    """Time of a cycle at a size, from (size, time) at smaller ones; 0 from nothing.
+
+    It grows on as it did between the last two, at least in proportion to the size.
     """
-    if not known:
-        return None
-    last_scale, last_ms = known[-1]
+    if not times:
+        return 0.0
+    last, last_s = times[-1]
     exponent = 1.0
-    if len(known) > 1:
-        before_scale, before_ms = known[-2]
-        exponent = math.log(last_ms / before_ms) / math.log(last_scale / before_scale)
-    return last_ms * (scale / last_scale) ** max(1.0, exponent)
+    if len(times) > 1:
+        before, before_s = times[-2]
+        exponent = math.log(last_s / before_s) / math.log(last.factor() / before.factor())
+    return last_s * (size.factor() / last.factor()) ** max(1.0, exponent)
 
 
 def climb(runs, plan, limit_s):
-    """A row per scale and engine; one that was left out has left_out, why, instead of times."""
-    known = {engine: [] for engine in plan.engines}
+    """A row per size and engine; one that was left out has left_out, why, instead of times."""
+    times = {engine: [] for engine in plan.engines}
     rows = []
-    for scale in plan.scales:
-        left_out = {}
-        for engine, times in known.items():
-            forecast = forecast_ms(times, scale)
-            if forecast is not None and forecast > limit_s * 1e3:
-                left_out[engine] = f"forecast {forecast * 1e-3:.0f} s, limit {limit_s:g} s"
-        engines = [engine for engine in plan.engines if engine not in left_out]
-        found = measure(runs, plan, scale, engines)
-        if not found:
-            left_out.update(dict.fromkeys(engines, f"over the limit of {limit_s:g} s"))
+    for size in plan.sizes:
+        forecasts = {engine: forecast_s(times[engine], size) for engine in plan.engines}
+        left_out = {engine: f"forecast {forecast:.2g} s, limit {limit_s:g} s"
+                    for engine, forecast in forecasts.items() if forecast > limit_s}
+        found = measure_together(runs, plan, size, forecasts, left_out)
         for row in found:
-            known[row["engine"]].append((scale, row["cycle_ms"]))
+            times[row["engine"]].append((size, row["cycle_ms"] * 1e-3))
         rows += with_ratios(found)
-        rows += [{"scene": plan.scene, "scale": scale, "repeats": plan.repeats, "engine": engine,
-                  "left_out": why} for engine, why in left_out.items()]
-        if not found:
-            break
+        rows += [{"scene": plan.scene, **dataclasses.asdict(size), "repeats": plan.repeats,
+                  "engine": engine, "left_out": why} for engine, why in left_out.items()]
     return rows
 
 
-def measure(runs, plan, scale, engines):
-    if not engines:
-        return []
-    return runs.measure(
-        CycleRun(plan.scene, scale, ",".join(engines), plan.threads, plan.repeats))["rows"]
+def measure_together(runs, plan, size, forecasts, left_out):
+    """The rows of all engines but those left out, to which are added those that must be."""
+    while True:
+        engines = [engine for engine in plan.engines if engine not in left_out]
+        if not engines:
+            return []
+        rows = runs.measure(plan.run(size, engines))["rows"]
+        if rows:
+            return rows
+        # All of them took longer than the limit for all: which one, only forecasts tell; of
+        # equals, the last.
+        slowest = max(reversed(engines), key=forecasts.get)
+        left_out[slowest] = "over the limit"
 
 
 def with_ratios(rows):

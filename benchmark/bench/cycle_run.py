@@ -11,18 +11,20 @@ class CycleRun:
 
     scene: str
     scale: float
+    copies: int
     engines: str  # with commas between them
     threads: int
     repeats: int
 
     def arguments(self):
         return [
-            "cycle", "--scene", self.scene, "--scale", str(self.scale), "--engines", self.engines,
+            "cycle", "--scene", self.scene, "--scale", str(self.scale),
+            "--copies", str(self.copies), "--engines", self.engines,
             "--threads", str(self.threads), "--repeats", str(self.repeats), "--json",
         ]
 
     def title(self):
-        return f"{self.scene} ×{self.scale:g}, {self.threads} threads"
+        return f"{self.scene} ×{self.scale * self.copies:.2g}, {self.threads} thread(s)"
 
     def measure(self, tool, limits):
         """`rows`, a dict per engine; none if the engines together took too long."""

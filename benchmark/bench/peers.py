@@ -3,7 +3,7 @@
 import dataclasses
 import pathlib
 
-from .climb import Climb, climb
+from .climb import Climb, Size, climb
 from .machine import describe_machine
 from .peers_report import comparison_table, draw_cycles
 from .runs import Limits, Runs
@@ -17,19 +17,19 @@ SCENES = ("tress_a", "tress_b", "charming", "curly", "windy", "longish", "cloth"
 
 @dataclasses.dataclass(frozen=True)
 class Plan:
-    scales: tuple  # of the paper's scenes; where it ends is what the figure shows
+    sizes: tuple  # of the paper's scenes; figure and table show the last
     limits: Limits
 
     def climbs(self):
         """The paper's scenes; a demo's five cables and ten hairs, a few hundred segments each."""
-        small = [Climb("cables", (1.0,), ENGINES, THREADS, 301),
-                 Climb("tress_a", (0.004,), ENGINES, THREADS, 301)]
-        return small + [Climb(scene, self.scales, ENGINES, THREADS, self.limits.repeats)
+        small = [Climb("cables", (Size(),), ENGINES, THREADS, 301),
+                 Climb("tress_a", (Size(0.004),), ENGINES, THREADS, 301)]
+        return small + [Climb(scene, self.sizes, ENGINES, THREADS, self.limits.repeats)
                         for scene in SCENES]
 
 
-FULL = Plan((0.01, 0.1, 1.0), Limits(stage=30.0, repeats=3))
-QUICK = Plan((0.002, 0.02), Limits(stage=1.0, repeats=3))
+FULL = Plan((Size(0.01), Size(0.1), Size(1.0)), Limits(stage=30.0, repeats=3))
+QUICK = Plan((Size(0.002), Size(0.02)), Limits(stage=1.0, repeats=3))
 
 
 def run(tool, folder, quick):
@@ -37,7 +37,7 @@ def run(tool, folder, quick):
     out = pathlib.Path(folder)
     out.mkdir(parents=True, exist_ok=True)
     climbs = plan.climbs()
-    with Runs(tool, plan.limits, out, sum(len(each.scales) for each in climbs)) as runs:
+    with Runs(tool, plan.limits, out, sum(len(each.sizes) for each in climbs)) as runs:
         found = [(each, climb(runs, each, plan.limits.stage)) for each in climbs]
     write_csv([row for _, rows in found for row in rows], out / "peers.csv")
     draw_cycles(found, plan.limits.stage, out / "peers.svg")

@@ -6,17 +6,21 @@ from .tables import markdown, significant
 EMBREE = ("embree_low", "embree_medium", "embree_refit")
 
 
-def title(plan, scale):
-    return plan.scene if scale == 1.0 else f"{plan.scene} ×{scale:g}"
+def largest(plan):
+    return plan.sizes[-1].scale
+
+
+def title(plan):
+    return plan.scene if largest(plan) == 1.0 else f"{plan.scene} ×{largest(plan):g}"
 
 
 def full_rows(plan, rows):
     """Engine → its row at the largest scale."""
-    return {row["engine"]: row for row in rows if row["scale"] == plan.scales[-1]}
+    return {row["engine"]: row for row in rows if row["scale"] == largest(plan)}
 
 
 def draw_cycles(found, limit_s, path):
-    groups = {title(plan, plan.scales[-1]): full_rows(plan, rows) for plan, rows in found}
+    groups = {title(plan): full_rows(plan, rows) for plan, rows in found}
     engines = found[0][0].engines
     figure, (axis,) = panels(1, 11.0, 4.0)
     grouped_bars(axis, list(groups), engines,
@@ -24,7 +28,7 @@ def draw_cycles(found, limit_s, path):
                  limit=limit_s * 1e3)
     axis.set(ylabel="update and all collisions [ms]",
              title=f"{found[0][0].threads} threads; hatched: left out, over {limit_s:g} s")
-    axis.legend(ncols=6, loc="lower right")
+    axis.legend(ncols=len(engines), loc="upper center", bbox_to_anchor=(0.5, -0.22))
     save(figure, path)
 
 
@@ -34,12 +38,10 @@ def comparison_table(found):
     rows = []
     for plan, results in found:
         full = full_rows(plan, results)
-        if "cycle_ms" not in full.get("run_tree", {}):
-            rows.append([title(plan, plan.scales[-1]), "", "over the limit"])
-            continue
         own = full["run_tree"]
-        rows.append([title(plan, plan.scales[-1]), own["segments"], own["pairs"],
-                     significant(own["cycle_ms"]), best_embree(plan, results),
+        own_cells = ([own["segments"], own["pairs"], significant(own["cycle_ms"])]
+                     if "cycle_ms" in own else ["", "", "over the limit"])
+        rows.append([title(plan), *own_cells, best_embree(plan, results),
                      *(cell(plan, results, engine) for engine in others)])
     return markdown(["scene", "segments", "pairs", "`run_tree` [ms]", "best Embree",
                      *(f"`{engine}`" for engine in others)], rows) + explanation(found)
@@ -56,7 +58,7 @@ def cell(plan, results, engine):
     if row is None:
         return "–"
     ratio = f"{significant(row['times_run_tree'])}×"
-    return ratio if row["scale"] == plan.scales[-1] else f"{ratio} (at {row['scale']:g})"
+    return ratio if row["scale"] == largest(plan) else f"{ratio} (at {row['scale']:g})"
 
 
 def best_embree(plan, results):
@@ -64,8 +66,8 @@ def best_embree(plan, results):
     known = [row for row in (last_row(results, engine) for engine in EMBREE) if row]
     if not known:
         return "–"
-    largest = max(row["scale"] for row in known)
-    best = min((row for row in known if row["scale"] == largest), key=lambda row: row["cycle_ms"])
+    scale = max(row["scale"] for row in known)
+    best = min((row for row in known if row["scale"] == scale), key=lambda row: row["cycle_ms"])
     return f"{cell(plan, results, best['engine'])} {best['engine'].removeprefix('embree_')}"
 
 

@@ -3,39 +3,51 @@
 import dataclasses
 import pathlib
 
-from .climb import Climb, climb
+from .climb import Climb, Size, climb
 from .machine import describe_machine
 from .runs import Limits, Runs
 from .scaling_report import draw_growth, growth_table
 from .tables import write_csv
 
-SCENE = "curly"  # hairs of one density: a smaller scale is a smaller patch of the scalp
+SCENE = "curly"
+LOCK = 0.0022  # scale of a lock of 103 hairs, 10 300 segments
 ENGINES = ("run_tree", "AL", "embree_refit")
 THREADS = (1, 2)
 
 
 @dataclasses.dataclass(frozen=True)
 class Plan:
+    """Two ways to grow: locks side by side keep everything but their number; a patch of the scalp
+    keeps the number of hairs per area, but hairs from further away come to lie on it."""
+
+    copies: tuple
     scales: tuple
     limits: Limits
 
+    def climbs(self):
+        """(family, climb)"""
+        families = {"locks": tuple(Size(LOCK, copies) for copies in self.copies),
+                    "patch": tuple(Size(scale) for scale in self.scales)}
+        return [(family, Climb(SCENE, sizes, ENGINES, threads, self.limits.repeats))
+                for family, sizes in families.items() for threads in THREADS]
 
-FULL = Plan((0.0022, 0.0047, 0.01, 0.022, 0.047, 0.1, 0.22, 0.47, 1.0),
+
+FULL = Plan((1, 2, 5, 10, 22, 46, 100, 215, 456),
+            (LOCK, 0.0047, 0.01, 0.022, 0.047, 0.1, 0.22, 0.47, 1.0),
             Limits(stage=30.0, repeats=5))
-QUICK = Plan((0.0022, 0.0047, 0.01, 0.022), Limits(stage=5.0, repeats=5))
+QUICK = Plan((1, 2, 5, 10), (LOCK, 0.0047, 0.01, 0.022), Limits(stage=5.0, repeats=5))
 
 
 def run(tool, folder, quick):
     plan = QUICK if quick else FULL
     out = pathlib.Path(folder)
     out.mkdir(parents=True, exist_ok=True)
-    climbs = [Climb(SCENE, plan.scales, ENGINES, threads, plan.limits.repeats)
-              for threads in THREADS]
+    climbs = plan.climbs()
     rows = []
-    with Runs(tool, plan.limits, out, len(climbs) * len(plan.scales)) as runs:
-        for each in climbs:
-            # An engine that uses one thread, whatever it is given, is the same in both.
-            rows += [{**row, "most_threads": each.threads}
+    with Runs(tool, plan.limits, out, sum(len(each.sizes) for _, each in climbs)) as runs:
+        for family, each in climbs:
+            # most_threads: what an engine might use; threads: what it used
+            rows += [{"family": family, "most_threads": each.threads, **row}
                      for row in climb(runs, each, plan.limits.stage)]
     write_csv(rows, out / "scaling.csv")
     draw_growth(rows, out / "scaling.svg")

@@ -7,11 +7,12 @@ from .tables import markdown, significant
 
 
 def by_series(rows):
-    """(engine, most threads) → its rows that were measured, by size."""
+    """(family, engine, most threads) → its rows that were measured, by size."""
     series = {}
     for row in rows:
         if "cycle_ms" in row:
-            series.setdefault((row["engine"], row["most_threads"]), []).append(row)
+            key = row["family"], row["engine"], row["most_threads"]
+            series.setdefault(key, []).append(row)
     return series
 
 
@@ -32,40 +33,45 @@ def exponent_text(rows):
 
 
 def draw_growth(rows, path):
-    figure, (times, pairs) = panels(2, 9.0, 3.6)
     series = by_series(rows)
-    for (engine, threads), found in series.items():
-        times.plot([row["segments"] for row in found], [row["cycle_ms"] for row in found],
-                   marker=".", linestyle="--" if threads == 1 else "-", color=COLORS[engine],
-                   label=f"{engine}, {threads} threads: n^{exponent_text(found)}")
-    times.set(title="update and all collisions [ms]", xscale="log", yscale="log",
-              xlabel="segments (curly)")
-    times.legend()
-    own = next(iter(series.values()))
-    pairs.plot([row["segments"] for row in own],
-               [row["pairs"] / row["segments"] for row in own], marker=".", color="black")
-    pairs.set(title="contacts per segment", xscale="log", xlabel="segments (curly)",
-              ylim=(0, None))
+    families = list(dict.fromkeys(family for family, _, _ in series))
+    figure, axes = panels(len(families) + 1, 12.0, 3.6)
+    for family, axis in zip(families, axes):
+        for (_, engine, threads), found in select(series, family).items():
+            axis.plot([row["segments"] for row in found], [row["cycle_ms"] for row in found],
+                      marker=".", linestyle="--" if threads == 1 else "-", color=COLORS[engine],
+                      label=f"{engine}, {threads} thread(s): n^{exponent_text(found)}")
+        axis.set(title=f"{family}: update and all collisions [ms]", xscale="log", yscale="log",
+                 xlabel="segments")
+        axis.legend()
+        # All engines find the same contacts.
+        found = next(iter(select(series, family).values()))
+        axes[-1].plot([row["segments"] for row in found],
+                      [row["pairs"] / row["segments"] for row in found], marker=".", label=family)
+    axes[-1].set(title="contacts per segment", xscale="log", xlabel="segments", ylim=(0, None))
+    axes[-1].legend()
     save(figure, path)
 
 
-def speedup(series, engine, threads):
-    """Of the largest size both have, against one thread: a ratio of two processes."""
-    one = {row["segments"]: row["cycle_ms"] for row in series.get((engine, 1), [])}
-    common = [row for row in series[engine, threads] if row["segments"] in one]
-    if not common:
-        return "–"
-    return f"{one[common[-1]['segments']] / common[-1]['cycle_ms']:.2f}×"
+def select(series, family):
+    return {key: found for key, found in series.items() if key[0] == family}
+
+
+def speedup(series, family, engine, found):
+    """One thread's time over this one's, at the largest size both have: two processes."""
+    one = {row["segments"]: row["cycle_ms"] for row in series.get((family, engine, 1), [])}
+    ratios = [one[row["segments"]] / row["cycle_ms"] for row in found if row["segments"] in one]
+    return f"{ratios[-1]:.2f}×" if ratios else "–"
 
 
 def growth_table(rows):
     series = by_series(rows)
     lines = []
-    for (engine, threads), found in series.items():
-        lines.append([f"`{engine}`", threads, found[-1]["threads"],
-                      f"{found[0]['segments']} … {found[-1]['segments']}",
-                      f"{significant(found[0]['cycle_ms'])} … "
-                      f"{significant(found[-1]['cycle_ms'])}",
-                      exponent_text(found), speedup(series, engine, threads)])
-    return markdown(["engine", "most threads", "used", "segments", "cycle [ms]",
-                     "exponent", "one thread / this"], lines)
+    for (family, engine, threads), found in series.items():
+        first, last = found[0], found[-1]
+        lines.append([family, f"`{engine}`", f"{last['threads']} of {threads}",
+                      f"{first['segments']} … {last['segments']}",
+                      f"{significant(first['cycle_ms'])} … {significant(last['cycle_ms'])}",
+                      exponent_text(found), speedup(series, family, engine, found)])
+    return markdown(["scene", "engine", "threads", "segments", "cycle [ms]", "exponent",
+                     "one thread / this"], lines)
