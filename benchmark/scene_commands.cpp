@@ -98,7 +98,7 @@ void add(CLI::App& app, Command& command, const std::string& name, const std::st
       ->capture_default_str();
   subcommand
       ->add_option("--threads", options.threads,
-                   "most threads to use; only the peers cgal and embree use several")
+                   "most threads to use; only run_tree and the peers cgal and embree use several")
       ->check(whole_number(1))
       ->capture_default_str();
   subcommand->add_option("--repeats", options.repeats, "frames to measure")

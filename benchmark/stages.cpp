@@ -22,6 +22,7 @@ struct Request {
   std::uint32_t repeats = 5;
   std::uint32_t trials = 1000;
   double seconds = 10.0;
+  std::string until = "detect";
   bool levels = false;
   bool no_leaf_pretest = false;
 };
@@ -134,8 +135,13 @@ ExitCode run(const Request& request) {
   if (request.levels) {
     stages.levels();
   }
+  if (request.until == "update") {
+    return SUCCEEDED;
+  }
   stages.first();
-  stages.detect();
+  if (request.until == "detect") {
+    stages.detect();
+  }
   return SUCCEEDED;
 }
 
@@ -159,6 +165,9 @@ void add_stages_command(CLI::App& app, Command& command) {
       ->capture_default_str();
   stages->add_option("--seconds", request->seconds, "after which no repeat or trial begins")
       ->check(CLI::Range(0.0, 1e5))
+      ->capture_default_str();
+  stages->add_option("--until", request->until, "the last stage to measure")
+      ->check(CLI::IsMember({"update", "first", "detect"}))
       ->capture_default_str();
   stages->add_flag("--levels", request->levels, "also the mean volume of the cages of each level");
   stages->add_flag("--no-leaf-pretest", request->no_leaf_pretest,

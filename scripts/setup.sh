@@ -1,9 +1,8 @@
 #!/usr/bin/env bash
 # Installs what building, testing and the demo need, and is quick when nothing is missing.
 #   scripts/setup.sh [--lint] [--bench]
-#     --lint    also what scripts/lint.sh needs
-#     --bench   also the libraries fiber_bench compares with (benchmark/README.md), on Debian, and
-#               what draws its plots
+#     --lint     also what scripts/lint.sh needs
+#     --bench    also what scripts/bench.sh needs, and the libraries fiber_bench compares with
 # Debian 12: ROS 1 from Debian's own packages, with apt, as root or through sudo.
 # Ubuntu with ROS Noetic: through rosdep.
 set -euo pipefail
@@ -33,13 +32,13 @@ packages=(
   librostest-dev python3-rostest python3-roslaunch python3-rostopic python3-rosservice
   python3-rosnode python3-rosparam python3-rosmsg python3-rosbag
   rviz xvfb imagemagick x11-utils xdotool libgl1-mesa-dri
-  libeigen3-dev libcli11-dev nlohmann-json3-dev libboost-dev libgmp-dev libgtest-dev
+  libeigen3-dev libtbb-dev libhwy-dev libcli11-dev nlohmann-json3-dev libboost-dev libgmp-dev libgtest-dev
 )
 if $lint; then
   packages+=(catkin-lint clang-format clang-tidy)
 fi
 if $bench; then
-  packages+=(libembree-dev libtbb-dev libcgal-dev libfcl-dev libbullet-dev)
+  packages+=(libembree-dev libcgal-dev libfcl-dev libbullet-dev)
   packages+=(python3-matplotlib python3-tqdm)
 fi
 

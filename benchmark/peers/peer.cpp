@@ -15,11 +15,11 @@ struct Peer {
   PeerMaker make;        // null: not in this build
 };
 
-constexpr const char* embree_packages = "libembree-dev and libtbb-dev";
+constexpr const char* embree_packages = "libembree-dev";
 constexpr const char* fcl_packages = "libfcl-dev";
 constexpr Peer peers[] = {
     {"bullet", "libbullet-dev", make_bullet},
-    {"cgal", "libcgal-dev and libtbb-dev", make_cgal},
+    {"cgal", "libcgal-dev", make_cgal},
     {"embree_low", embree_packages, make_embree_low},
     {"embree_medium", embree_packages, make_embree_medium},
     {"embree_refit", embree_packages, make_embree_refit},
@@ -51,7 +51,7 @@ std::unique_ptr<ProximityEngine> make_bench_engine(const std::string& name,
     return peer.make(options);
   }
   try {
-    return make_engine(name);
+    return make_engine(name, options.threads);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(std::string(error.what()) + "; peers are: " + all_peers());
   }

@@ -11,6 +11,7 @@
 #include "fiber_proximity/query/brute_force.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/query/hierarchy_engine.hpp"
+#include "fiber_proximity/query/run_tree_engine.hpp"
 #include "kdop_engines.hpp"
 
 namespace fiber {
@@ -19,27 +20,34 @@ namespace {
 using EnginePointer = std::unique_ptr<ProximityEngine>;
 
 template <class Kind>
-EnginePointer make() {
+EnginePointer make(std::uint32_t /*threads*/) {
   return std::make_unique<HierarchyEngine<Kind>>(Kind());
 }
 
-EnginePointer make_threaded() {
+EnginePointer make_threaded(std::uint32_t /*threads*/) {
   using Kind = LayeredHierarchy<Aabb>;
   return std::make_unique<HierarchyEngine<Kind>>(Kind({}, threading_order));
 }
 
-EnginePointer make_brute_force() { return std::make_unique<BruteForceEngine>(); }
+EnginePointer make_run_tree(std::uint32_t threads) {
+  return std::make_unique<RunTreeEngine>(threads);
+}
+
+EnginePointer make_brute_force(std::uint32_t /*threads*/) {
+  return std::make_unique<BruteForceEngine>();
+}
 
 /// The paper's best k for hair (Sect. 5).
 template <EnginePointer (*MakeKdop)(const std::vector<Eigen::Vector3d>&)>
-EnginePointer make_kdop_20() {
+EnginePointer make_kdop_20(std::uint32_t /*threads*/) {
   return MakeKdop(grassmannian_directions(20));
 }
 
-using Maker = EnginePointer (*)();
+using Maker = EnginePointer (*)(std::uint32_t threads);
 
 const std::vector<std::pair<std::string, Maker>>& makers() {
   static const std::vector<std::pair<std::string, Maker>> all{
+      {"run_tree", make_run_tree},
       {"AL", make<LayeredHierarchy<Aabb>>},
       {"AL-threaded", make_threaded},
       {"AS", make<SpatialHierarchy<Aabb>>},
@@ -78,11 +86,11 @@ EnginePointer make_kdop_engine(const std::string& name) {
 
 }  // namespace
 
-EnginePointer make_engine(const std::string& name) {
+EnginePointer make_engine(const std::string& name, std::uint32_t threads) {
   std::string known;
   for (const auto& [engine_name, maker] : makers()) {
     if (name == engine_name) {
-      return maker();
+      return maker(threads);
     }
     known += (known.empty() ? "" : ", ") + engine_name;
   }

@@ -18,7 +18,7 @@ struct Request {
   QueryOptions query;
   std::optional<double> margin;  // [m]
   double radius = 0.0;           // [m]
-  std::uint32_t threads = 1;
+  std::uint32_t threads = 0;
   std::string format = "csv";
 };
 
@@ -44,8 +44,8 @@ void add_options(CLI::App& app, const Query& query, Request& request) {
       ->capture_default_str();
   app.add_option("--radius", request.radius, "of all fibres, if the file has no radii [m]")
       ->capture_default_str();
-  app.add_option("--threads", request.threads, "most threads to use; AL and brute_force use one")
-      ->check(whole_number(1))
+  app.add_option("--threads", request.threads, "most threads to use, 0 for as many as there are cores")
+      ->check(whole_number(0))
       ->capture_default_str();
   app.add_option("--format", request.format, "of the output; json: one object per frame")
       ->check(CLI::IsMember({"csv", "json"}))
@@ -54,7 +54,7 @@ void add_options(CLI::App& app, const Query& query, Request& request) {
 
 ExitCode run(const Request& request) {
   validate(request.query);
-  const std::unique_ptr<ProximityEngine> engine = make_engine(request.engine);
+  const std::unique_ptr<ProximityEngine> engine = make_engine(request.engine, request.threads);
   const FiberFile file = read_fibers(request.file, request.radius);
   const bool json = request.format == "json";
   QueryResult result;

@@ -21,8 +21,19 @@ void* operator new(std::size_t size) {
   }
   throw std::bad_alloc();
 }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  ++allocations;
+  if (void* memory = std::aligned_alloc(static_cast<std::size_t>(alignment), size)) {
+    return memory;
+  }
+  throw std::bad_alloc();
+}
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t /*size*/) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t /*alignment*/) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t /*size*/, std::align_val_t /*alignment*/) noexcept {
+  std::free(memory);
+}
 
 namespace fiber::test {
 namespace {
@@ -49,9 +60,36 @@ TEST_P(AllocationTest, AnUpdateWithTheSameTopologyAllocatesNothing) {
   EXPECT_EQ(allocations, before);
 }
 
+TEST(RunTreeAllocationTest, AFrameInSteadyStateAllocatesNothing) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  AssemblyBuilder builder;
+  for (int fiber = 0; fiber < 400; ++fiber) {  // enough for several threads to have a part
+    builder.add_fiber(random_walk(random, 50, 0.1));
+  }
+  FiberAssembly fibers = builder.build({0.02});
+  const std::vector<Eigen::Vector3d> points = fibers.points();
+  const auto engine = make_engine("run_tree", 2);
+  QueryResult result;
+  // Which thread does which job changes from frame to frame: all of them get to know all frames.
+  constexpr int warm_up = 20;
+  std::size_t before = 0;
+  for (int frame = 0; frame < 2 * warm_up; ++frame) {
+    if (frame == warm_up) {
+      before = allocations;
+    }
+    fibers.update_points(points);
+    engine->update(fibers);
+    engine->query({}, result);
+  }
+  EXPECT_FALSE(result.contacts.empty());
+  EXPECT_EQ(allocations, before);
+}
+
 // The layered hierarchies promise it; the others fit runs or divide anew.
 INSTANTIATE_TEST_SUITE_P(Engines, AllocationTest,
-                         testing::Values("AL", "AL-threaded", "DL-20", "SL", "OL", "brute_force"),
+                         testing::Values("run_tree", "AL", "AL-threaded", "DL-20", "SL", "OL",
+                                         "brute_force"),
                          [](const auto& instance) { return test_name(instance.param); });
 
 }  // namespace

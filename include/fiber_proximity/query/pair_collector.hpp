@@ -1,11 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/options.hpp"
+#include "fiber_proximity/query/pair_test.hpp"
 
 namespace fiber {
 
@@ -40,23 +40,18 @@ class PairCollector {
   void finish();
 
  private:
-  PairCollector(const FiberAssembly& a, const FiberAssembly& b, bool self,
-                const QueryOptions& options, QueryResult& result);
+  PairCollector(PairTest&& test, const QueryOptions& options, QueryResult& result);
 
-  bool is_neighbour_pair(std::uint32_t point_a, std::uint32_t point_b) const;
   void keep(const Contact& contact);
   void set_bound(double bound);
 
-  const FiberAssembly& a_;
-  const FiberAssembly& b_;
+  const PairTest test_;
   const QueryOptions& options_;
   QueryResult& result_;
-  const bool self_;
   const std::size_t capacity_;  // of the k closest; 0 keeps all
   double bound_ = 0.0;          // [m]
   float rounded_bound_ = 0.0F;  // [m]
   bool done_ = false;
-  std::vector<double> arc_length_;  // [m] by point, from its fibre's start; empty if not needed
 };
 
 }  // namespace fiber

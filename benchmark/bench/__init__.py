@@ -1,0 +1,1 @@
+"""Runs fiber_bench over whole experiments and draws what comes out; see scripts/bench.sh."""

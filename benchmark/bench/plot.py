@@ -1,0 +1,43 @@
+"""How all figures look."""
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as pyplot  # noqa: E402  (the backend is chosen first)
+
+COLORS = {
+    "AL": "#1f77b4", "AS": "#9ecae1", "AL-threaded": "#08306b",
+    "DL-20": "#d62728", "DS-20": "#fc9272",
+    "SL": "#238b45", "SW": "#74c476", "SS": "#c7e9c0",
+    "OL": "#6a51a3", "OW": "#9e9ac8", "OS": "#dadaeb",
+}
+
+pyplot.rcParams.update({
+    "font.size": 8, "axes.spines.top": False, "axes.spines.right": False,
+    "axes.grid": True, "grid.alpha": 0.3, "svg.hashsalt": "fiber_proximity", "legend.fontsize": 7,
+})
+
+
+def panels(count, width, height=3.2):
+    figure, axes = pyplot.subplots(1, count, figsize=(width, height), layout="constrained")
+    return figure, [axes] if count == 1 else list(axes)
+
+
+def save(figure, path):
+    figure.savefig(path, metadata={"Date": None})
+    pyplot.close(figure)
+
+
+def grouped_bars(axis, groups, series, value, limit=None):
+    """Bars side by side for each group; a value that is missing stands hatched at the limit."""
+    width = 0.85 / len(series)
+    for index, name in enumerate(series):
+        values = [value(group, name) for group in groups]
+        places = [place + (index - (len(series) - 1) / 2) * width for place in range(len(groups))]
+        axis.bar(places, [limit if entry is None else entry for entry in values], width,
+                 label=name, color=COLORS[name],
+                 hatch=["////" if entry is None else "" for entry in values],
+                 edgecolor="white", linewidth=0.2)
+    axis.set_xticks(range(len(groups)), groups, rotation=30, ha="right")
+    axis.set_yscale("log")
+    axis.grid(axis="x", visible=False)

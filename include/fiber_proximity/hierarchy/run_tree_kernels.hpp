@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/hierarchy/run_blocks.hpp"
+#include "fiber_proximity/query/contact.hpp"
+#include "fiber_proximity/query/pair_test.hpp"
+
+namespace fiber {
+
+/// What receives the candidates of a traversal.
+class PairSink {
+ public:
+  virtual ~PairSink() = default;
+
+  /// A pair of segments that may come within the bound, of a and of b.
+  /// @return whether to go on
+  virtual bool offer(PointPair pair) = 0;
+
+  /// [m] Pairs further apart than this do not matter (any more).
+  virtual float bound() const = 0;
+};
+
+/// Fits the runs of groups [begin, end): their points, capsules and boxes.
+/// @param runs, capsules, boxes by run, group, group
+void fit_groups(const FiberAssembly& fibers, const Eigen::Vector3d& origin, const RunSpan* spans,
+                std::uint32_t run_count, std::uint32_t begin, std::uint32_t end, Run* runs,
+                CapsuleBlock* capsules, BoxBlock* boxes);
+
+/// Fits the nodes [begin, end) of a level above the groups to the blocks of the level below.
+/// @param child_count of the whole level
+void fit_nodes(const BoxBlock* boxes_below, const CapsuleBlock* capsules_below,
+               std::uint32_t child_count, std::uint32_t begin, std::uint32_t end, BoxBlock* boxes,
+               CapsuleBlock* capsules);
+
+/// Offers every pair of segments of the groups [begin, end) of a and of all of b that may come
+/// within the sink's bound; of one tree with itself, every pair of runs once. Which pairs are
+/// offered beyond those that do come within it depends on the instruction set; their order does
+/// not.
+/// @return whether the sink wanted to go on
+bool find_near_runs(const RunTreeView& a, std::uint32_t begin, std::uint32_t end,
+                    const RunTreeView& b, PairSink& sink, QueryCounts& counts);
+
+}  // namespace fiber

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/geometry/segment_distance.hpp"
+#include "fiber_proximity/query/contact.hpp"
+#include "fiber_proximity/query/options.hpp"
+
+namespace fiber {
+
+/// Two segments by the indices of their first points: within one assembly the smaller one first,
+/// or one of a shape and one of the fibres.
+struct PointPair {
+  std::uint32_t a;
+  std::uint32_t b;
+};
+
+/// Nearest points of two segments, and the signed gap of their surfaces [m].
+struct PairDistance {
+  SegmentDistance nearest;
+  double gap = 0.0;
+};
+
+/// The one narrow phase: which pairs of segments count, how far apart they are, what is reported of
+/// them. Holds references: assemblies and options must outlive it.
+class PairTest {
+ public:
+  /// Pairs within one assembly.
+  PairTest(const FiberAssembly& fibers, const QueryOptions& options);
+  /// Pairs of a shape and the fibres.
+  PairTest(const FiberAssembly& shape, const FiberAssembly& fibers, const QueryOptions& options);
+
+  /// The pair with its smaller index first, within one assembly.
+  PointPair ordered(PointPair pair) const {
+    return self_ && pair.b < pair.a ? PointPair{pair.b, pair.a} : pair;
+  }
+
+  /// Whether the neighbour skips leave out this ordered pair.
+  bool is_neighbour_pair(PointPair pair) const {
+    const bool far_by_index = pair.b - pair.a > options_.neighbour_skip;
+    return self_ && !(far_by_index && arc_length_.empty()) && is_neighbour_of_same_fiber(pair);
+  }
+
+  PairDistance distance(PointPair pair) const;
+  Contact contact(PointPair pair, const PairDistance& distance) const;
+
+ private:
+  bool is_neighbour_of_same_fiber(PointPair pair) const;
+
+  const FiberAssembly& a_;
+  const FiberAssembly& b_;
+  const QueryOptions& options_;
+  const bool self_;
+  std::vector<double> arc_length_;  // [m] by point, from its fibre's start; empty if not needed
+};
+
+}  // namespace fiber

@@ -1,0 +1,39 @@
+#!/usr/bin/env bash
+# Runs an experiment with fiber_bench and draws its figures.
+#   scripts/bench.sh paper [--quick] [--out DIR]
+#     paper      Fig. 4 to 7 of Sobottka and Weber (2005) on this machine
+#     --quick    small scenes: minutes instead of hours
+#     --out DIR  where CSV and SVG go (default: build/bench/EXPERIMENT, -quick with --quick);
+#                a run that was stopped goes on from what is there
+set -euo pipefail
+# shellcheck source=scripts/environment.sh
+source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
+
+usage="usage: scripts/bench.sh paper [--quick] [--out DIR]"
+experiment=
+quick=()
+out=
+while [ $# -gt 0 ]; do
+  case "$1" in
+    --quick) quick=(--quick) ;;
+    --out)
+      [ $# -ge 2 ] || { echo "bench.sh: --out needs a folder; $usage" >&2; exit 2; }
+      out=$2
+      shift
+      ;;
+    -h | --help) echo "$usage"; exit 0 ;;
+    paper) experiment=$1 ;;
+    *) echo "bench.sh: unknown argument '$1'; $usage" >&2; exit 2 ;;
+  esac
+  shift
+done
+[ -n "$experiment" ] || { echo "bench.sh: which experiment? $usage" >&2; exit 2; }
+
+"$root/scripts/setup.sh" --bench
+cmake_arguments=()
+echo "building in $build ..."
+build_package fiber_bench
+out=${out:-$build/bench/$experiment${quick:+-quick}}
+PYTHONPATH=$root/benchmark /usr/bin/python3 -B -m bench "$experiment" \
+  --tool "$build/devel/lib/fiber_proximity/fiber_bench" --out "$out" "${quick[@]}"
+echo "figures, CSV and claims are in $out"

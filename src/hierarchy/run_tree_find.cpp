@@ -1,0 +1,348 @@
+// Compiled once per instruction set; Highway chooses among them at run time.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "src/hierarchy/run_tree_find.cpp"
+#include <hwy/foreach_target.h>  // must come before highway.h
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <type_traits>
+
+#include "fiber_proximity/hierarchy/run_tree_kernels.hpp"
+#include "src/hierarchy/segment_lanes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace fiber {
+namespace HWY_NAMESPACE {
+namespace {
+
+constexpr std::uint32_t first_bits(std::uint32_t count) { return (1U << count) - 1U; }
+
+std::uint32_t take_lowest(std::uint32_t& bits) {
+  const auto lane = static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
+  bits &= bits - 1;
+  return lane;
+}
+
+/// Children of a node that there are.
+std::uint32_t child_bits(const RunTreeLevel& level, std::uint32_t node) {
+  return first_bits(std::min(run_width, level.child_count - node * run_width));
+}
+
+/// Bits of the block's lanes whose boxes come within the bound of the box in one lane of another.
+/// Infinite boxes are near everything.
+std::uint32_t near_boxes(const BoxBlock& block, const BoxBlock& other, std::uint32_t other_lane,
+                         float bound) {
+  const Floats d;
+  const LaneVector bounds{hn::Set(d, bound), hn::Set(d, bound), hn::Set(d, bound)};
+  const LaneVector lower = subtract(spread(other.lower, other_lane), bounds);
+  const LaneVector upper = add(spread(other.upper, other_lane), bounds);
+  std::uint32_t bits = 0;
+  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
+    const auto apart = boxes_apart(load(block.lower, lane), load(block.upper, lane), lower, upper);
+    bits |= bits_of(hn::Not(apart)) << lane;
+  }
+  return bits;
+}
+
+/// The same of capsules.
+std::uint32_t near_capsules(const CapsuleBlock& block, const CapsuleBlock& other,
+                            std::uint32_t other_lane, float bound) {
+  const Floats d;
+  const LaneSegments axis =
+      lane_segments(spread(other.start, other_lane), spread(other.end, other_lane));
+  const auto reach = hn::Set(d, other.radius[other_lane] + bound);
+  std::uint32_t bits = 0;
+  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
+    const LaneSegments axes = lane_segments(load(block.start, lane), load(block.end, lane));
+    bits |= bits_of(near(axis, axes, hn::Add(reach, load(block.radius, lane)))) << lane;
+  }
+  return bits;
+}
+
+LaneVector load_starts(const Run& run, std::size_t lane) {
+  const Floats d;
+  return {hn::LoadU(d, run.x + lane), hn::LoadU(d, run.y + lane), hn::LoadU(d, run.z + lane)};
+}
+
+LaneVector load_ends(const Run& run, std::size_t lane) {
+  const Floats d;
+  return {hn::LoadU(d, run.x + lane + 1), hn::LoadU(d, run.y + lane + 1),
+          hn::LoadU(d, run.z + lane + 1)};
+}
+
+/// Bits of the run's segments whose boxes come within the bound of the box of another run.
+std::uint32_t near_box_of_run(const Run& run, const BoxBlock& block, std::uint32_t block_lane,
+                              float bound) {
+  const Floats d;
+  const auto reach = hn::Set(d, run.radius + bound);
+  const LaneVector reaches{reach, reach, reach};
+  const LaneVector lower = subtract(spread(block.lower, block_lane), reaches);
+  const LaneVector upper = add(spread(block.upper, block_lane), reaches);
+  std::uint32_t bits = 0;
+  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
+    const LaneVector start = load_starts(run, lane);
+    const LaneVector end = load_ends(run, lane);
+    const auto apart = boxes_apart(minimum(start, end), maximum(start, end), lower, upper);
+    bits |= bits_of(hn::Not(apart)) << lane;
+  }
+  return bits;
+}
+
+/// Bits of the segments of b whose boxes come within reach of that of segment i of a.
+std::uint32_t near_box_of_segment(const Run& a, std::uint32_t i, const Run& b, float reach) {
+  const Floats d;
+  const auto reaches = hn::Set(d, reach);
+  const LaneVector p0{hn::Set(d, a.x[i]), hn::Set(d, a.y[i]), hn::Set(d, a.z[i])};
+  const LaneVector p1{hn::Set(d, a.x[i + 1]), hn::Set(d, a.y[i + 1]), hn::Set(d, a.z[i + 1])};
+  const LaneVector lower = subtract(minimum(p0, p1), {reaches, reaches, reaches});
+  const LaneVector upper = add(maximum(p0, p1), {reaches, reaches, reaches});
+  std::uint32_t bits = 0;
+  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
+    const LaneVector start = load_starts(b, lane);
+    const LaneVector end = load_ends(b, lane);
+    const auto apart = boxes_apart(minimum(start, end), maximum(start, end), lower, upper);
+    bits |= bits_of(hn::Not(apart)) << lane;
+  }
+  return bits;
+}
+
+/// Pairs of segments whose boxes are near, on their way to the sink: few of the lanes of two runs
+/// are, so they are brought together to fill registers.
+class Candidates {
+ public:
+  Candidates(const Run* runs_a, const Run* runs_b, PairSink& sink)
+      : runs_a_(runs_a), runs_b_(runs_b), sink_(sink) {}
+
+  /// Room for all pairs of two runs; whether the sink wants to go on.
+  bool make_room() { return size_ + run_width * run_width <= capacity || flush(); }
+
+  void push(std::uint32_t run_a, std::uint32_t i, std::uint32_t run_b, std::uint32_t j,
+            PointPair pair, float reach) {
+    a_[size_] = static_cast<std::int32_t>(run_a * floats_per_run + i);
+    b_[size_] = static_cast<std::int32_t>(run_b * floats_per_run + j);
+    reach_[size_] = reach;
+    pairs_[size_] = pair;
+    ++size_;
+  }
+
+  /// Hands the pairs that are near to the sink; whether it wants to go on.
+  bool flush() {
+    const Floats d;
+    const std::uint32_t size = size_;
+    size_ = 0;
+    std::fill_n(a_ + size, run_width, 0);
+    std::fill_n(b_ + size, run_width, 0);
+    for (std::uint32_t first = 0; first < size; first += static_cast<std::uint32_t>(hn::Lanes(d))) {
+      const auto close = near(gather(runs_a_, a_ + first), gather(runs_b_, b_ + first),
+                              hn::LoadU(d, reach_ + first));
+      std::uint32_t bits = bits_of(close) & first_bits(std::min(run_width, size - first));
+      while (bits != 0) {
+        if (!sink_.offer(pairs_[first + take_lowest(bits)])) {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
+ private:
+  static constexpr std::uint32_t capacity = 512;
+  static constexpr std::uint32_t floats_per_run = sizeof(Run) / sizeof(float);
+
+  static LaneVector gather_point(const float* first, const std::int32_t* indices) {
+    const Floats d;
+    const auto index = hn::LoadU(hn::RebindToSigned<Floats>(), indices);
+    constexpr std::uint32_t stride = run_width + 1;
+    return {hn::GatherIndex(d, first, index), hn::GatherIndex(d, first + stride, index),
+            hn::GatherIndex(d, first + 2 * stride, index)};
+  }
+
+  static LaneSegments gather(const Run* runs, const std::int32_t* indices) {
+    static_assert(std::is_standard_layout_v<Run>, "runs are read as arrays of floats");
+    const float* const first = runs->x;
+    return lane_segments(gather_point(first, indices), gather_point(first + 1, indices));
+  }
+
+  const Run* const runs_a_;
+  const Run* const runs_b_;
+  PairSink& sink_;
+  std::uint32_t size_ = 0;
+  std::int32_t a_[capacity + run_width];  // where the segment's x is among all floats
+  std::int32_t b_[capacity + run_width];
+  float reach_[capacity + run_width] = {};
+  PointPair pairs_[capacity];
+};
+
+/// All pairs of the groups of one tree and the runs of another, or of the same.
+class Finder {
+ public:
+  Finder(const RunTreeView& a, const RunTreeView& b, PairSink& sink, QueryCounts& counts)
+      : a_(a),
+        b_(b),
+        self_(a.runs == b.runs),
+        sink_(sink),
+        counts_(counts),
+        candidates_(a.runs, b.runs, sink),
+        bound_(sink.bound()) {}
+
+  /// Whether to go on.
+  bool find(std::uint32_t group) {
+    // Near runs first: those of the group itself.
+    if (self_ && !visit_group(group, group, child_bits(a_.levels[0], group))) {
+      return false;
+    }
+    return a_.level_count == 1 ? visit_all(group) : descend(group);
+  }
+
+  /// Offers what waits; whether to go on.
+  bool finish() { return candidates_.flush(); }
+
+ private:
+  struct Node {
+    std::uint32_t level;
+    std::uint32_t index;
+  };
+
+  /// For the one group of a tree that has no level above it.
+  bool visit_all(std::uint32_t group) {
+    for (std::uint32_t other = self_ ? group + 1 : 0; other < b_.group_count(); ++other) {
+      if (!visit_group(group, other, child_bits(b_.levels[0], other))) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  bool descend(std::uint32_t group) {
+    Node stack[RunTreeView::most_levels * run_width];
+    std::uint32_t size = 0;
+    stack[size++] = {b_.level_count - 1, 0};
+    while (size > 0) {
+      const Node node = stack[--size];
+      std::uint32_t bits = near_children(node.level, node.index, 1, group);
+      if (node.level == 0) {
+        const bool again = self_ && node.index == group;
+        if (bits != 0 && !again && !visit_group(group, node.index, bits)) {
+          return false;
+        }
+        continue;
+      }
+      while (bits != 0) {
+        const std::uint32_t child = node.index * run_width + take_lowest(bits);
+        // Of a tree with itself, each pair of groups once: later ones only.
+        const std::uint64_t groups_end = std::uint64_t{child + 1} << (3U * (node.level - 1));
+        if (!self_ || groups_end > group + 1) {
+          stack[size++] = {node.level - 1, child};
+        }
+      }
+    }
+    return true;
+  }
+
+  /// Bits of the children of a node of b that come near one child of a level of a.
+  std::uint32_t near_children(std::uint32_t level_b, std::uint32_t b, std::uint32_t level_a,
+                              std::uint32_t child_a) {
+    const RunTreeLevel& of_a = a_.levels[level_a];
+    const RunTreeLevel& of_b = b_.levels[level_b];
+    const std::uint32_t a = child_a / run_width;
+    const std::uint32_t lane = child_a % run_width;
+    std::uint32_t bits =
+        child_bits(of_b, b) & near_boxes(of_b.boxes[b], of_a.boxes[a], lane, bound_);
+    counts_.node_tests += run_width;
+    if (bits != 0) {
+      bits &= near_capsules(of_b.capsules[b], of_a.capsules[a], lane, bound_);
+      counts_.node_overlaps += hwy::PopCount(bits);
+    }
+    return bits;
+  }
+
+  /// Pairs of runs of group g of a and of the chosen lanes of group h of b.
+  bool visit_group(std::uint32_t g, std::uint32_t h, std::uint32_t chosen) {
+    const bool same = self_ && g == h;
+    std::uint32_t rows = child_bits(a_.levels[0], g);
+    while (rows != 0) {
+      const std::uint32_t row = take_lowest(rows);
+      // Of a group with itself: a run with itself, and with those after it.
+      const std::uint32_t wanted = same ? chosen & ~first_bits(row) : chosen;
+      std::uint32_t bits = wanted & near_children(0, h, 0, g * run_width + row);
+      while (bits != 0) {
+        if (!visit_runs(g * run_width + row, h * run_width + take_lowest(bits))) {
+          return false;
+        }
+      }
+    }
+    return true;
+  }
+
+  bool visit_runs(std::uint32_t a, std::uint32_t b) {
+    const Run& run_a = a_.runs[a];
+    const Run& run_b = b_.runs[b];
+    const std::uint32_t rows =
+        first_bits(a_.spans[a].segment_count) &
+        near_box_of_run(run_a, b_.levels[0].boxes[b / run_width], b % run_width, bound_);
+    if (rows == 0 ||
+        near_box_of_run(run_b, a_.levels[0].boxes[a / run_width], a % run_width, bound_) == 0) {
+      return true;
+    }
+    return push_candidates(a, rows, b);
+  }
+
+  bool push_candidates(std::uint32_t a, std::uint32_t rows, std::uint32_t b) {
+    if (!candidates_.make_room()) {
+      return false;
+    }
+    bound_ = sink_.bound();
+    const RunSpan& span_a = a_.spans[a];
+    const RunSpan& span_b = b_.spans[b];
+    const bool same = self_ && a == b;
+    const float reach = a_.runs[a].radius + b_.runs[b].radius + bound_;
+    while (rows != 0) {
+      const std::uint32_t i = take_lowest(rows);
+      // Of a run with itself: each segment with those after it.
+      std::uint32_t bits = first_bits(span_b.segment_count) & ~(same ? first_bits(i + 1) : 0U) &
+                           near_box_of_segment(a_.runs[a], i, b_.runs[b], reach);
+      while (bits != 0) {
+        const std::uint32_t j = take_lowest(bits);
+        candidates_.push(a, i, b, j, {span_a.first_point + i, span_b.first_point + j}, reach);
+      }
+    }
+    return true;
+  }
+
+  const RunTreeView& a_;
+  const RunTreeView& b_;
+  const bool self_;
+  PairSink& sink_;
+  QueryCounts& counts_;
+  Candidates candidates_;
+  float bound_;
+};
+
+bool FindNearRuns(const RunTreeView& a, std::uint32_t begin, std::uint32_t end,
+                  const RunTreeView& b, PairSink& sink, QueryCounts& counts) {
+  Finder finder(a, b, sink, counts);
+  for (std::uint32_t group = begin; group < end; ++group) {
+    if (!finder.find(group)) {
+      return false;
+    }
+  }
+  return finder.finish();
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace fiber
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace fiber {
+
+HWY_EXPORT(FindNearRuns);
+
+bool find_near_runs(const RunTreeView& a, std::uint32_t begin, std::uint32_t end,
+                    const RunTreeView& b, PairSink& sink, QueryCounts& counts) {
+  return HWY_DYNAMIC_DISPATCH(FindNearRuns)(a, begin, end, b, sink, counts);
+}
+
+}  // namespace fiber
+#endif

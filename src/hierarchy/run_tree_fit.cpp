@@ -1,0 +1,345 @@
+// Compiled once per instruction set; Highway chooses among them at run time.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "src/hierarchy/run_tree_fit.cpp"
+#include <hwy/cache_control.h>
+#include <hwy/foreach_target.h>  // must come before highway.h
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "fiber_proximity/hierarchy/run_tree_kernels.hpp"
+#include "src/hierarchy/segment_lanes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace fiber {
+namespace HWY_NAMESPACE {
+namespace {
+
+/// Beyond this magnitude squares leave the range of float: such a run is near everything [m].
+constexpr double largest_magnitude = 1e18;
+
+/// Rounding a point, and all that the tests of segment_lanes-inl.hpp do with it, errs by less than
+/// 32 u of the largest coordinate, u = 2⁻²⁴; the constant keeps it alive where floats run out [m].
+constexpr float relative_padding = 0x1p-19F;
+constexpr float least_padding = 0x1p-60F;
+
+struct RunBox {
+  float lower[3];
+  float upper[3];
+};
+
+constexpr std::uint32_t points_per_run = run_width + 1;
+constexpr std::uint32_t doubles_per_run = 3 * points_per_run + 1;  // one more fills a register
+
+/// The origin's coordinates over and over, as they are to be subtracted from points in memory.
+struct RepeatedOrigin {
+  static constexpr std::uint32_t period = 12;  // of three coordinates in up to four lanes
+  alignas(32) double values[period];
+
+  explicit RepeatedOrigin(const Eigen::Vector3d& origin) {
+    for (std::uint32_t i = 0; i < period; ++i) {
+      values[i] = origin[i % 3];
+    }
+  }
+};
+
+/// Coordinates relative to the origin, in single precision, in the order of memory.
+void make_relative(const double* coordinates, const RepeatedOrigin& origin, float* relative) {
+  const hn::CappedTag<double, 4> d;
+  const hn::Rebind<float, decltype(d)> floats;
+  const auto limit = hn::Set(d, 2.0 * largest_magnitude);
+  for (std::size_t i = 0; i < doubles_per_run; i += hn::Lanes(d)) {
+    const auto difference = hn::Sub(hn::LoadU(d, coordinates + i),
+                                    hn::LoadU(d, origin.values + i % RepeatedOrigin::period));
+    hn::StoreU(hn::DemoteTo(floats, hn::Clamp(difference, hn::Neg(limit), limit)), floats,
+               relative + i);
+  }
+}
+
+/// The run's values of one axis: those of its points, then the last one's again and again.
+void store_axis(Lanes values, std::size_t lane, float last, std::uint32_t count,
+                float (&axis)[run_width + 1]) {
+  const Floats d;
+  const auto valid = hn::FirstN(d, count > lane ? count - lane : 0);
+  hn::StoreU(hn::IfThenElse(valid, values, hn::Set(d, last)), d, axis + lane);
+  axis[run_width] = last;
+}
+
+void load_points(const FiberAssembly& fibers, const RepeatedOrigin& origin, const RunSpan& span,
+                 Run& run) {
+  const std::vector<Eigen::Vector3d>& points = fibers.points();
+  const double* coordinates = points[span.first_point].data();
+  double copy[doubles_per_run] = {};
+  if (points.size() - span.first_point <= points_per_run) {
+    // Near the end of the points there is nothing to read beyond them.
+    std::copy_n(coordinates, 3 * (span.segment_count + 1), copy);
+    coordinates = copy;
+  }
+  float relative[doubles_per_run];
+  make_relative(coordinates, origin, relative);
+  const float* const last = relative + 3 * span.segment_count;
+  const std::uint32_t count = span.segment_count + 1;
+  const Floats d;
+  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
+    Lanes x;
+    Lanes y;
+    Lanes z;
+    hn::LoadInterleaved3(d, relative + 3 * lane, x, y, z);
+    store_axis(x, lane, last[0], count, run.x);
+    store_axis(y, lane, last[1], count, run.y);
+    store_axis(z, lane, last[2], count, run.z);
+  }
+}
+
+/// Of the thickest of the run's segments [m].
+double largest_radius(const FiberAssembly& fibers, const RunSpan& span) {
+  if (fibers.radii().size() == 1) {
+    return fibers.radii().front();
+  }
+  double radius = 0.0;
+  for (std::uint32_t i = 0; i < span.segment_count; ++i) {
+    radius = std::max(radius, fibers.segment_radius(span.first_point + i));
+  }
+  return radius;
+}
+
+void box_of(const float (&values)[run_width + 1], float& lower, float& upper) {
+  const Floats d;
+  auto low = hn::Set(d, values[run_width]);
+  auto high = low;
+  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
+    const auto part = hn::LoadU(d, values + lane);
+    low = hn::Min(low, part);
+    high = hn::Max(high, part);
+  }
+  lower = hn::GetLane(hn::MinOfLanes(d, low));
+  upper = hn::GetLane(hn::MaxOfLanes(d, high));
+}
+
+/// Largest distance of the run's points from its chord [m].
+float sag(const Run& run) {
+  const Floats d;
+  const LaneSegments chord = broadcast_segment(run.x[0], run.y[0], run.z[0], run.x[run_width],
+                                               run.y[run_width], run.z[run_width]);
+  auto largest = hn::Zero(d);
+  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
+    const LaneVector point{hn::LoadU(d, run.x + lane), hn::LoadU(d, run.y + lane),
+                           hn::LoadU(d, run.z + lane)};
+    largest = hn::Max(largest, squared_distance_to(chord, subtract(point, chord.start)));
+  }
+  return std::sqrt(hn::GetLane(hn::MaxOfLanes(d, largest)));
+}
+
+/// A run that tests as near to everything.
+void fit_everything(Run& run, RunBox& box) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  run = {};
+  run.radius = infinity;
+  std::fill_n(box.lower, 3, -infinity);
+  std::fill_n(box.upper, 3, infinity);
+}
+
+void fit_run(const FiberAssembly& fibers, const RepeatedOrigin& origin, const RunSpan& span,
+             Run& run, RunBox& box) {
+  load_points(fibers, origin, span, run);
+  const double radius = largest_radius(fibers, span);
+  box_of(run.x, box.lower[0], box.upper[0]);
+  box_of(run.y, box.lower[1], box.upper[1]);
+  box_of(run.z, box.lower[2], box.upper[2]);
+  double magnitude = radius;
+  for (int axis = 0; axis < 3; ++axis) {
+    magnitude = std::max(
+        {magnitude, -static_cast<double>(box.lower[axis]), static_cast<double>(box.upper[axis])});
+  }
+  if (magnitude > largest_magnitude) {
+    fit_everything(run, box);
+    return;
+  }
+  run.radius =
+      static_cast<float>(radius) + static_cast<float>(magnitude) * relative_padding + least_padding;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.lower[axis] -= run.radius;
+    box.upper[axis] += run.radius;
+  }
+}
+
+void store(const Run& run, const RunBox& box, std::uint32_t lane, CapsuleBlock& capsules,
+           BoxBlock& boxes) {
+  const float start[3] = {run.x[0], run.y[0], run.z[0]};
+  const float end[3] = {run.x[run_width], run.y[run_width], run.z[run_width]};
+  for (int axis = 0; axis < 3; ++axis) {
+    capsules.start[axis][lane] = start[axis];
+    capsules.end[axis][lane] = end[axis];
+    boxes.lower[axis][lane] = box.lower[axis];
+    boxes.upper[axis][lane] = box.upper[axis];
+  }
+  capsules.radius[lane] = run.radius + sag(run);
+}
+
+/// Runs come in spatial order: where the next ones' points are, no processor can guess.
+void prefetch(const FiberAssembly& fibers, const RunSpan& span) {
+  constexpr std::uint32_t points_per_line = 2;
+  for (std::uint32_t i = 0; i <= span.segment_count; i += points_per_line) {
+    hwy::Prefetch(&fibers.points()[span.first_point + i]);
+  }
+}
+
+void FitGroups(const FiberAssembly& fibers, const Eigen::Vector3d& origin, const RunSpan* spans,
+               std::uint32_t run_count, std::uint32_t begin, std::uint32_t end, Run* runs,
+               CapsuleBlock* capsules, BoxBlock* boxes) {
+  constexpr std::uint32_t ahead = 2 * run_width;
+  const RepeatedOrigin repeated(origin);
+  for (std::uint32_t group = begin; group < end; ++group) {
+    for (std::uint32_t lane = 0; lane < run_width; ++lane) {
+      RunBox box;
+      // Lanes without a run repeat the last: nodes above need no special case.
+      const std::uint32_t run = std::min(group * run_width + lane, run_count - 1);
+      prefetch(fibers, spans[std::min(run + ahead, run_count - 1)]);
+      fit_run(fibers, repeated, spans[run], runs[run], box);
+      store(runs[run], box, lane, capsules[group], boxes[group]);
+    }
+  }
+}
+
+// ---- nodes above the groups
+// ----------------------------------------------------------------------
+
+/// Sums over all children: of their axes, turned the same way as the first, and of their ends.
+struct AxisSums {
+  float direction[3] = {};
+  float ends[3] = {};
+};
+
+AxisSums sum_axes(const CapsuleBlock& block) {
+  const Floats d;
+  float first[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    first[axis] = block.end[axis][0] - block.start[axis][0];
+  }
+  AxisSums sums;
+  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
+    const LaneVector start = load(block.start, lane);
+    const LaneVector end = load(block.end, lane);
+    const LaneVector direction = subtract(end, start);
+    const auto sign = hn::CopySign(hn::Set(d, 1.0F), dot(direction, spread(first)));
+    sums.direction[0] += hn::GetLane(hn::SumOfLanes(d, hn::Mul(direction.x, sign)));
+    sums.direction[1] += hn::GetLane(hn::SumOfLanes(d, hn::Mul(direction.y, sign)));
+    sums.direction[2] += hn::GetLane(hn::SumOfLanes(d, hn::Mul(direction.z, sign)));
+    const LaneVector both = add(start, end);
+    sums.ends[0] += hn::GetLane(hn::SumOfLanes(d, both.x));
+    sums.ends[1] += hn::GetLane(hn::SumOfLanes(d, both.y));
+    sums.ends[2] += hn::GetLane(hn::SumOfLanes(d, both.z));
+  }
+  return sums;
+}
+
+struct SingleCapsule {
+  float start[3];
+  float end[3];
+  float radius;
+};
+
+/// Largest distance of the block's capsules from a segment, their radii included [m].
+float reach_of(const CapsuleBlock& block, const LaneSegments& segment) {
+  const Floats d;
+  auto radius = hn::Zero(d);
+  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
+    // The distance from a convex set is largest at an end.
+    const auto start =
+        squared_distance_to(segment, subtract(load(block.start, lane), segment.start));
+    const auto end = squared_distance_to(segment, subtract(load(block.end, lane), segment.start));
+    radius = hn::Max(radius, hn::Add(hn::Sqrt(hn::Max(start, end)), load(block.radius, lane)));
+  }
+  return hn::GetLane(hn::MaxOfLanes(d, radius));
+}
+
+/// A capsule around the block's, its axis their mean one, as long as they reach along it.
+SingleCapsule enclose(const CapsuleBlock& block) {
+  const Floats d;
+  AxisSums sums = sum_axes(block);
+  const float length = std::hypot(sums.direction[0], sums.direction[1], sums.direction[2]);
+  float magnitude = 0.0F;
+  for (int axis = 0; axis < 3; ++axis) {
+    // Axes that cancel leave a sphere.
+    sums.direction[axis] = length > least_padding ? sums.direction[axis] / length : 0.0F;
+    sums.ends[axis] *= 0.5F / run_width;
+    magnitude += std::abs(sums.ends[axis]);
+  }
+  const LaneVector direction = spread(sums.direction);
+  const LaneVector middle = spread(sums.ends);
+  auto low = hn::Zero(d);
+  auto high = hn::Zero(d);
+  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
+    const auto start = dot(subtract(load(block.start, lane), middle), direction);
+    const auto end = dot(subtract(load(block.end, lane), middle), direction);
+    low = hn::Min(low, hn::Min(start, end));
+    high = hn::Max(high, hn::Max(start, end));
+  }
+  const float lowest = hn::GetLane(hn::MinOfLanes(d, low));
+  const float highest = hn::GetLane(hn::MaxOfLanes(d, high));
+  SingleCapsule capsule;
+  for (int axis = 0; axis < 3; ++axis) {
+    capsule.start[axis] = sums.ends[axis] + lowest * sums.direction[axis];
+    capsule.end[axis] = sums.ends[axis] + highest * sums.direction[axis];
+  }
+  capsule.radius = reach_of(block, lane_segments(spread(capsule.start), spread(capsule.end))) +
+                   (magnitude + highest - lowest) * relative_padding;
+  return capsule;
+}
+
+float least_of(const float (&values)[run_width]) {
+  return *std::min_element(values, values + run_width);
+}
+
+float largest_of(const float (&values)[run_width]) {
+  return *std::max_element(values, values + run_width);
+}
+
+void FitNodes(const BoxBlock* boxes_below, const CapsuleBlock* capsules_below,
+              std::uint32_t child_count, std::uint32_t begin, std::uint32_t end, BoxBlock* boxes,
+              CapsuleBlock* capsules) {
+  for (std::uint32_t node = begin; node < end; ++node) {
+    for (std::uint32_t lane = 0; lane < run_width; ++lane) {
+      const std::uint32_t child = std::min(node * run_width + lane, child_count - 1);
+      const SingleCapsule capsule = enclose(capsules_below[child]);
+      for (int axis = 0; axis < 3; ++axis) {
+        boxes[node].lower[axis][lane] = least_of(boxes_below[child].lower[axis]);
+        boxes[node].upper[axis][lane] = largest_of(boxes_below[child].upper[axis]);
+        capsules[node].start[axis][lane] = capsule.start[axis];
+        capsules[node].end[axis][lane] = capsule.end[axis];
+      }
+      capsules[node].radius[lane] = capsule.radius;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace fiber
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace fiber {
+
+HWY_EXPORT(FitGroups);
+HWY_EXPORT(FitNodes);
+
+void fit_groups(const FiberAssembly& fibers, const Eigen::Vector3d& origin, const RunSpan* spans,
+                std::uint32_t run_count, std::uint32_t begin, std::uint32_t end, Run* runs,
+                CapsuleBlock* capsules, BoxBlock* boxes) {
+  HWY_DYNAMIC_DISPATCH(FitGroups)
+  (fibers, origin, spans, run_count, begin, end, runs, capsules, boxes);
+}
+
+void fit_nodes(const BoxBlock* boxes_below, const CapsuleBlock* capsules_below,
+               std::uint32_t child_count, std::uint32_t begin, std::uint32_t end, BoxBlock* boxes,
+               CapsuleBlock* capsules) {
+  HWY_DYNAMIC_DISPATCH(FitNodes)
+  (boxes_below, capsules_below, child_count, begin, end, boxes, capsules);
+}
+
+}  // namespace fiber
+#endif

@@ -1,0 +1,166 @@
+// Segments in the lanes of a register, and a test of their distance that never misses. Included
+// once per instruction set, so it has the guard that Highway asks for instead of #pragma once.
+#if defined(FIBER_SEGMENT_LANES_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef FIBER_SEGMENT_LANES_INL
+#undef FIBER_SEGMENT_LANES_INL
+#else
+#define FIBER_SEGMENT_LANES_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include <limits>
+
+#include "fiber_proximity/hierarchy/run_blocks.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace fiber {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// At most the eight lanes of a run, fewer where the machine has no more.
+using Floats = hn::CappedTag<float, run_width>;
+using Lanes = hn::Vec<Floats>;
+using LaneMask = hn::Mask<Floats>;
+
+struct LaneVector {
+  Lanes x;
+  Lanes y;
+  Lanes z;
+};
+
+HWY_INLINE Lanes load(const float (&values)[run_width], std::size_t lane) {
+  return hn::Load(Floats(), values + lane);
+}
+HWY_INLINE LaneVector load(const float (&by_axis)[3][run_width], std::size_t lane) {
+  return {load(by_axis[0], lane), load(by_axis[1], lane), load(by_axis[2], lane)};
+}
+/// One vector in all lanes.
+HWY_INLINE LaneVector spread(const float (&by_axis)[3]) {
+  const Floats d;
+  return {hn::Set(d, by_axis[0]), hn::Set(d, by_axis[1]), hn::Set(d, by_axis[2])};
+}
+HWY_INLINE LaneVector spread(const float (&by_axis)[3][run_width], std::uint32_t lane) {
+  const Floats d;
+  return {hn::Set(d, by_axis[0][lane]), hn::Set(d, by_axis[1][lane]), hn::Set(d, by_axis[2][lane])};
+}
+
+HWY_INLINE LaneVector add(const LaneVector& a, const LaneVector& b) {
+  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
+}
+HWY_INLINE LaneVector subtract(const LaneVector& a, const LaneVector& b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+HWY_INLINE LaneVector minimum(const LaneVector& a, const LaneVector& b) {
+  return {hn::Min(a.x, b.x), hn::Min(a.y, b.y), hn::Min(a.z, b.z)};
+}
+HWY_INLINE LaneVector maximum(const LaneVector& a, const LaneVector& b) {
+  return {hn::Max(a.x, b.x), hn::Max(a.y, b.y), hn::Max(a.z, b.z)};
+}
+HWY_INLINE Lanes dot(const LaneVector& a, const LaneVector& b) {
+  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+}
+HWY_INLINE LaneVector cross(const LaneVector& a, const LaneVector& b) {
+  return {hn::MulSub(a.y, b.z, hn::Mul(a.z, b.y)), hn::MulSub(a.z, b.x, hn::Mul(a.x, b.z)),
+          hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x))};
+}
+/// |x| + |y| + |z|, at least the length.
+HWY_INLINE Lanes length_bound(const LaneVector& a) {
+  return hn::Add(hn::Abs(a.x), hn::Add(hn::Abs(a.y), hn::Abs(a.z)));
+}
+/// offset + factor · direction
+HWY_INLINE LaneVector along(const LaneVector& offset, Lanes factor, const LaneVector& direction) {
+  return {hn::MulAdd(factor, direction.x, offset.x), hn::MulAdd(factor, direction.y, offset.y),
+          hn::MulAdd(factor, direction.z, offset.z)};
+}
+
+HWY_INLINE std::uint32_t bits_of(LaneMask mask) {
+  std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(Floats(), mask, bits);
+  return bits[0];
+}
+
+HWY_INLINE LaneMask boxes_apart(const LaneVector& lower_a, const LaneVector& upper_a,
+                                const LaneVector& lower_b, const LaneVector& upper_b) {
+  return hn::Or(hn::Or(hn::Or(hn::Gt(lower_a.x, upper_b.x), hn::Gt(lower_b.x, upper_a.x)),
+                       hn::Or(hn::Gt(lower_a.y, upper_b.y), hn::Gt(lower_b.y, upper_a.y))),
+                hn::Or(hn::Gt(lower_a.z, upper_b.z), hn::Gt(lower_b.z, upper_a.z)));
+}
+
+/// One segment per lane.
+struct LaneSegments {
+  LaneVector start;
+  LaneVector direction;          // end − start [m]
+  Lanes inverse_squared_length;  // [1/m²], finite even for segments of no length
+};
+
+HWY_INLINE LaneSegments lane_segments(const LaneVector& start, const LaneVector& end) {
+  const Floats d;
+  const LaneVector direction = subtract(end, start);
+  const auto least = hn::Set(d, std::numeric_limits<float>::min());
+  return {start, direction, hn::Div(hn::Set(d, 1.0F), hn::Max(dot(direction, direction), least))};
+}
+
+HWY_INLINE LaneSegments broadcast_segment(float x0, float y0, float z0, float x1, float y1,
+                                          float z1) {
+  const Floats d;
+  return lane_segments({hn::Set(d, x0), hn::Set(d, y0), hn::Set(d, z0)},
+                       {hn::Set(d, x1), hn::Set(d, y1), hn::Set(d, z1)});
+}
+
+/// Squared distance of a segment from the point at `offset` from its start [m²]. Whatever the
+/// rounding of the parameter, the point it gives is on the segment: the error is one of rounding
+/// coordinates, not of conditioning.
+HWY_INLINE Lanes squared_distance_to(const LaneSegments& segment, const LaneVector& offset) {
+  const Floats d;
+  const auto parameter = hn::Min(
+      hn::Max(hn::Mul(dot(offset, segment.direction), segment.inverse_squared_length), hn::Zero(d)),
+      hn::Set(d, 1.0F));
+  const LaneVector nearest = along(offset, hn::Neg(parameter), segment.direction);
+  return dot(nearest, nearest);
+}
+
+/// Whether two segments may come within `reach` of each other: true too often, never too seldom.
+///
+/// They do if an end point of one comes within reach of the other, which is well conditioned, or if
+/// the nearest points are inside both. Then their distance is that of the lines, |w·n|/|n| with
+/// n = u×v, and s = (v×w)·n/|n|² and t = (u×w)·n/|n|² are in [0, 1]. These three are compared
+/// without division, each with a bound of its rounding error: products of l₁ norms times 32 u,
+/// where no expression here rounds by more than 20 u of them. What overflows or is no number counts
+/// as near. Beyond that, rounding is covered by the padding of the radii (see fit_run).
+HWY_INLINE LaneMask near(const LaneSegments& a, const LaneSegments& b, Lanes reach) {
+  const Floats d;
+  const auto tiny = hn::Set(d, std::numeric_limits<float>::min());
+  const auto rounding = hn::Set(d, 0x1p-19F);
+  const LaneVector& u = a.direction;
+  const LaneVector& v = b.direction;
+  const LaneVector w = subtract(a.start, b.start);
+  const LaneVector minus_w = subtract(b.start, a.start);
+
+  const auto ends_on_b = hn::Min(squared_distance_to(b, w), squared_distance_to(b, add(w, u)));
+  const auto ends_on_a =
+      hn::Min(squared_distance_to(a, minus_w), squared_distance_to(a, add(minus_w, v)));
+  const auto ends_apart = hn::Gt(hn::Min(ends_on_a, ends_on_b), hn::MulAdd(reach, reach, tiny));
+
+  const LaneVector n = cross(u, v);
+  const auto nn = dot(n, n);
+  const auto length_u = length_bound(u);
+  const auto length_v = length_bound(v);
+  const auto length_w = length_bound(w);
+  const auto product = hn::Mul(rounding, hn::Mul(length_u, length_v));
+  const auto lines_apart = hn::Gt(hn::Abs(dot(w, n)), hn::MulAdd(reach, hn::Sqrt(hn::Add(nn, tiny)),
+                                                                 hn::Mul(product, length_w)));
+  const auto s = dot(cross(v, w), n);
+  const auto t = dot(cross(u, w), n);
+  const auto slack_s = hn::MulAdd(hn::Mul(product, length_v), hn::Add(length_w, length_u), tiny);
+  const auto slack_t = hn::MulAdd(hn::Mul(product, length_u), hn::Add(length_w, length_v), tiny);
+  const auto outside = hn::Or(hn::Or(hn::Gt(hn::Neg(s), slack_s), hn::Gt(s, hn::Add(nn, slack_s))),
+                              hn::Or(hn::Gt(hn::Neg(t), slack_t), hn::Gt(t, hn::Add(nn, slack_t))));
+  return hn::Not(hn::And(ends_apart, hn::Or(lines_apart, outside)));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace fiber
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,85 @@
+#include "fiber_proximity/query/pair_test.hpp"
+
+#include <Eigen/Geometry>
+
+namespace fiber {
+namespace {
+
+using Eigen::Vector3d;
+
+std::vector<double> arc_lengths(const FiberAssembly& fibers) {
+  std::vector<double> lengths(fibers.point_count(), 0.0);
+  for (std::size_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
+    for (std::size_t p = fibers.offsets()[fiber] + 1; p < fibers.offsets()[fiber + 1]; ++p) {
+      lengths[p] = lengths[p - 1] + (fibers.points()[p] - fibers.points()[p - 1]).norm();
+    }
+  }
+  return lengths;
+}
+
+/// A unit vector at right angles to both axes where they meet: that of the cross product, or any
+/// at right angles to the longer one when they are parallel.
+Vector3d normal_of_crossing(const Capsule& a, const Capsule& b) {
+  const Vector3d u = (a.p1 - a.p0).stableNormalized();
+  const Vector3d v = (b.p1 - b.p0).stableNormalized();
+  const Vector3d normal = u.cross(v);
+  if (!normal.isZero(0.0)) {
+    return normal.stableNormalized();
+  }
+  const Vector3d axis = u.isZero(0.0) ? v : u;
+  return axis.isZero(0.0) ? Vector3d::UnitZ() : axis.unitOrthogonal();
+}
+
+}  // namespace
+
+PairTest::PairTest(const FiberAssembly& fibers, const QueryOptions& options)
+    : a_(fibers), b_(fibers), options_(options), self_(true) {
+  if (options.neighbour_skip_length > 0.0) {
+    arc_length_ = arc_lengths(fibers);
+  }
+}
+
+PairTest::PairTest(const FiberAssembly& shape, const FiberAssembly& fibers,
+                   const QueryOptions& options)
+    : a_(shape), b_(fibers), options_(options), self_(false) {}
+
+bool PairTest::is_neighbour_of_same_fiber(PointPair pair) const {
+  const bool near_by_index = pair.b - pair.a <= options_.neighbour_skip;
+  const bool near_by_length =
+      !arc_length_.empty() &&
+      arc_length_[pair.b] - arc_length_[pair.a + 1] < options_.neighbour_skip_length;
+  if (!near_by_index && !near_by_length) {
+    return false;
+  }
+  return a_.segment_id(pair.a).fiber == a_.segment_id(pair.b).fiber;
+}
+
+PairDistance PairTest::distance(PointPair pair) const {
+  const Capsule a = a_.capsule(pair.a);
+  const Capsule b = b_.capsule(pair.b);
+  const SegmentDistance nearest = segment_distance(a.p0, a.p1, b.p0, b.p1);
+  return {nearest, nearest.distance - (a.radius + b.radius)};
+}
+
+Contact PairTest::contact(PointPair pair, const PairDistance& distance) const {
+  const Capsule a = a_.capsule(pair.a);
+  const Capsule b = b_.capsule(pair.b);
+  const SegmentDistance& nearest = distance.nearest;
+  const SegmentId id_a = a_.segment_id(pair.a);
+  const SegmentId id_b = b_.segment_id(pair.b);
+  Contact contact;
+  contact.fiber_a = id_a.fiber;
+  contact.segment_a = id_a.segment;
+  contact.fiber_b = id_b.fiber;
+  contact.segment_b = id_b.segment;
+  contact.s = nearest.s;
+  contact.t = nearest.t;
+  contact.distance = distance.gap;
+  contact.normal = nearest.distance > 0.0 ? Vector3d(nearest.delta.stableNormalized())
+                                          : normal_of_crossing(a, b);
+  contact.point_a = (1.0 - nearest.s) * a.p0 + nearest.s * a.p1 + a.radius * contact.normal;
+  contact.point_b = (1.0 - nearest.t) * b.p0 + nearest.t * b.p1 - b.radius * contact.normal;
+  return contact;
+}
+
+}  // namespace fiber
