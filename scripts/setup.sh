@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Installs what building, testing and the demo need, and is quick when nothing is missing.
 #   scripts/setup.sh [--lint] [--bench]
-#     --lint     also what scripts/lint.sh needs
-#     --bench    also what scripts/bench.sh needs, and the libraries fiber_bench compares with
+#     --lint    also what scripts/lint.sh needs
+#     --bench   also the libraries fiber_bench compares with (benchmark/README.md), on Debian, and
+#               what draws its plots
 # Debian 12: ROS 1 from Debian's own packages, with apt, as root or through sudo.
 # Ubuntu with ROS Noetic: through rosdep.
 set -euo pipefail

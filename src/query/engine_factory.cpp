@@ -94,12 +94,17 @@ EnginePointer make_engine(const std::string& name, std::uint32_t threads) {
     }
     known += (known.empty() ? "" : ", ") + engine_name;
   }
-  if (EnginePointer kdop = make_kdop_engine(name)) {
-    return kdop;
+  std::string reason;
+  try {
+    if (EnginePointer kdop = make_kdop_engine(name)) {
+      return kdop;
+    }
+  } catch (const std::invalid_argument& error) {
+    reason = std::string(" (") + error.what() + ")";
   }
-  throw std::invalid_argument("unknown engine '" + name + "', known are: " + known +
+  throw std::invalid_argument("unknown engine '" + name + "'" + reason + ", known are: " + known +
                               "; DL-k and DS-k for even k from 6 to 200; DL-k-classic and "
-                              "DS-k-classic for k of 14, 18, 26");
+                              "DS-k-classic for k of 6, 14, 18, 26");
 }
 
 std::vector<std::string> engine_names() {

@@ -214,16 +214,49 @@ TEST_P(EngineTest, DrawsBoxesAroundAllItsSegments) {
 INSTANTIATE_TEST_SUITE_P(Engines, EngineTest, testing::ValuesIn(engine_names()),
                          [](const auto& instance) { return test_name(instance.param); });
 
-TEST(MakeEngine, ListsTheNamesItKnows) {
+std::string refusal(const std::string& name) {
   try {
-    make_engine("octree");
-    FAIL();
+    make_engine(name);
   } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(
-        error.what(),
-        "unknown engine 'octree', known are: run_tree, AL, AL-threaded, AS, DL-20, DS-20, SL, SW, SS, "
-        "OL, OW, OS, brute_force; DL-k and DS-k for even k from 6 to 200; DL-k-classic and "
-        "DS-k-classic for k of 14, 18, 26");
+    return error.what();
+  }
+  return "accepted";
+}
+
+const std::string known_engines =
+    ", known are: run_tree, AL, AL-threaded, AS, DL-20, DS-20, SL, SW, SS, OL, OW, OS, "
+    "brute_force; DL-k and "
+    "DS-k for even k from 6 to 200; DL-k-classic and DS-k-classic for k of 6, 14, 18, 26";
+
+TEST(MakeEngine, ListsTheNamesItKnows) {
+  for (const std::string name : {"octree", "", "al", "AL ", "DL", "DL-", "DS-", "DL-x", "DL-20x",
+                                 "DL-20-classical", "DL--classic", "SL-20", "DL-99999999999"}) {
+    EXPECT_EQ(refusal(name), "unknown engine '" + name + "'" + known_engines);
+  }
+}
+
+TEST(MakeEngine, TellsWhatIsWrongWithK) {
+  for (const std::string kind : {"DL-", "DS-"}) {
+    for (const std::string k : {"7", "5", "4", "0", "-6", "201", "202"}) {
+      EXPECT_EQ(refusal(kind + k), "unknown engine '" + kind + k + "' (k-DOP with k = " + k +
+                                       ": k must be even, from 6 to 200)" + known_engines);
+    }
+    for (const std::string k : {"8", "15", "20"}) {
+      EXPECT_EQ(refusal(kind + k + "-classic"), "unknown engine '" + kind + k +
+                                                    "-classic' (classic k-DOP with k = " + k +
+                                                    ": k must be 6, 14, 18 or 26)" + known_engines);
+    }
+  }
+}
+
+TEST(MakeEngine, TakesEveryKThatItPromises) {
+  for (const std::string kind : {"DL-", "DS-"}) {
+    for (int k = 6; k <= 200; k += 2) {
+      EXPECT_EQ(refusal(kind + std::to_string(k)), "accepted");
+    }
+    for (const int k : {6, 14, 18, 26}) {
+      EXPECT_EQ(refusal(kind + std::to_string(k) + "-classic"), "accepted");
+    }
   }
 }
 

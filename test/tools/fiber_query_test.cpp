@@ -5,6 +5,7 @@
 #include "fiber_proximity/io/csv.hpp"
 #include "fiber_proximity/io/number.hpp"
 #include "fiber_proximity/query/brute_force.hpp"
+#include "fiber_proximity/query/engine.hpp"
 #include "tools/tools_test.hpp"
 
 namespace fiber::test {
@@ -127,6 +128,45 @@ TEST_F(FiberQuery, AgreesWithBruteForceInEveryFrame) {
     EXPECT_GT(lines(tree.out).size(), 3U) << "frames with contacts make the comparison worth it";
     EXPECT_EQ(tree.out, query(command + arguments + " --engine brute_force").out);
   }
+}
+
+TEST_F(FiberQuery, EveryEnginePrintsTheSameBytes) {
+  std::vector<std::string> engines = engine_names();
+  engines.insert(engines.end(), {"DL-6", "DS-200", "DL-26-classic"});
+  const std::string tress = "tress_a --scale 0.004 --seed 3";
+  ASSERT_EQ(scene(tress + " --frames 2 --out " + path("moving.csv")).exit_code, 0);
+  ASSERT_EQ(scene(tress + " --shuffle --out " + path("still.hair")).exit_code, 0);
+  for (const std::string file : {"moving.csv", "still.hair"}) {
+    for (const std::string command : {"contacts ", "closest "}) {
+      const std::string arguments = command + path(file) + " --margin 0.0002 --engine ";
+      const ProcessResult expected = query(arguments + "brute_force");
+      EXPECT_GE(lines(expected.out).size(), command == "contacts " ? 10U : 2U);
+      for (const std::string& engine : engines) {
+        const ProcessResult result = query(arguments + engine);
+        EXPECT_EQ(result.exit_code, 0) << engine << ": " << result.err;
+        EXPECT_EQ(result.out, expected.out) << command << file << " with " << engine;
+      }
+    }
+  }
+}
+
+TEST_F(FiberQuery, AnEngineThatIsNoneIsRefusedWithAllThereAre) {
+  const std::string file = crossing();
+  std::string known;
+  for (const std::string& name : engine_names()) {
+    known += (known.empty() ? "known are: " : ", ") + name;
+  }
+  known += "; DL-k and DS-k for even k from 6 to 200";
+  for (const std::string engine : {"DL-7", "DL-4", "DL-202", "XX", "DS-", "DL-20x", "\"\""}) {
+    EXPECT_TRUE(refused(query("contacts " + file + " --engine " + engine), known));
+  }
+  EXPECT_TRUE(refused(query("contacts " + file + " --engine DL-7"),
+                      "'DL-7' (k-DOP with k = 7: k must be even, from 6 to 200), known are: AL"));
+}
+
+TEST_F(FiberQuery, ThreadingRefusesFibresOfDifferentLength) {
+  EXPECT_TRUE(refused(query("contacts " + crossing() + " --engine AL-threaded"),
+                      "fibre 1 has 1 segment(s), fibre 0 has 2; threading needs the same number"));
 }
 
 TEST_F(FiberQuery, PrintsTheLibrarysNumbersBitForBit) {

@@ -41,15 +41,15 @@ class ProximityEngine {
   /// Number of levels of the hierarchy, 0 if there is none.
   virtual std::uint32_t level_count() const { return 0; }
 
-  /// How many threads updates and queries use at most.
-  virtual std::uint32_t thread_count() const { return 1; }
-
   /// Mean volume of the cages of a level [m³] (paper, Fig. 5); 0 without a hierarchy.
   virtual double mean_level_volume(std::uint32_t /*level*/) const { return 0.0; }
 
   /// How many of the hierarchy's cages the last update computed anew: all of them, except where
   /// cascade verification (Sect. 3.3) shows that the old ones hold.
   virtual std::uint64_t recomputed_count() const { return 0; }
+
+  /// How many threads updates and queries use at most.
+  virtual std::uint32_t thread_count() const { return 1; }
 
   /// Memory the engine holds for its fibres, the fibres themselves apart [bytes].
   virtual std::size_t memory_bytes() const { return 0; }
@@ -71,7 +71,7 @@ class ProximityEngine {
 };
 
 /// The engine of this name: one of engine_names(), or DL-k and DS-k for any even k in [6, 200], or
-/// with the standard directions DL-k-classic and DS-k-classic for k of 14, 18 and 26.
+/// with the standard directions DL-k-classic and DS-k-classic for k of 6, 14, 18 and 26.
 /// @param threads most to use, 0 for as many as there are cores; only run_tree uses more than one.
 /// They change what an answer costs, not the answer.
 /// @throws std::invalid_argument listing the names

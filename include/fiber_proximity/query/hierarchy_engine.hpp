@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "fiber_proximity/bounds/aabb.hpp"
 #include "fiber_proximity/hierarchy/layered_hierarchy.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/query/traverse.hpp"

@@ -1,0 +1,175 @@
+// The paper's scenes, small: every engine gives brute force's contacts, at a cost that adds up.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "fiber_proximity/bounds/aabb.hpp"
+#include "fiber_proximity/hierarchy/wrapped_hierarchy.hpp"
+#include "fiber_proximity/query/brute_force.hpp"
+#include "fiber_proximity/query/hierarchy_engine.hpp"
+#include "support/contacts.hpp"
+#include "support/small_scene.hpp"
+
+namespace fiber::test {
+namespace {
+
+constexpr double margins[] = {0.0, 0.5, 4.0};  // [radii]
+
+std::vector<std::string> engines_under_test() {
+  std::vector<std::string> names = engine_names();
+  names.insert(names.end(), {"DL-6", "DS-6", "DL-14-classic", "DS-14-classic"});
+  names.erase(std::find(names.begin(), names.end(), "brute_force"));
+  return names;
+}
+
+QueryResult ask(const ProximityEngine& engine, const QueryOptions& options) {
+  QueryResult result;
+  engine.query(options, result);
+  return result;
+}
+
+QueryResult truth(const FiberAssembly& fibers, const QueryOptions& options) {
+  QueryResult result;
+  brute_force(fibers, options, result);
+  return result;
+}
+
+class ScenesAgreementTest : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    for (const std::string& name : engines_under_test()) {
+      engines_.emplace_back(name, make_engine(name));
+    }
+  }
+
+  /// Holds all engines, updated to these fibres, against brute force at every margin.
+  void compare(const FiberAssembly& fibers, double radius) {
+    for (const auto& [name, engine] : engines_) {
+      engine->update(fibers);
+    }
+    for (const double margin : margins) {
+      QueryOptions options;
+      options.margin = margin * radius;
+      const QueryResult expected = truth(fibers, options);
+      contacts_ += expected.contacts.size();
+      for (const auto& [name, engine] : engines_) {
+        ASSERT_TRUE(same_contacts(ask(*engine, options).contacts, expected.contacts))
+            << name << ", margin " << margin << " radii, " << fibers.segment_count() << " segments";
+      }
+    }
+  }
+
+  /// Calls `check` with small scenes of this name: styled and shuffled, thin and thick.
+  template <class Check>
+  void for_small_scenes(int rounds, const Check& check) {
+    SCOPED_TRACE(seed_message());
+    const std::vector<std::string> names = scene_names();
+    const auto scene_index = std::find(names.begin(), names.end(), GetParam()) - names.begin();
+    Random random(static_cast<std::uint64_t>(scene_index));
+    for (int round = 0; round < rounds; ++round) {
+      for (const bool shuffle : {false, true}) {
+        for (const bool thick : {false, true}) {
+          SCOPED_TRACE(testing::Message() << "round " << round << (shuffle ? ", shuffled" : "")
+                                          << (thick ? ", thick" : ""));
+          const SmallScene scene(GetParam(), shuffle, thick, random);
+          ASSERT_NO_FATAL_FAILURE(check(scene, random));
+        }
+      }
+    }
+  }
+
+  std::vector<std::pair<std::string, std::unique_ptr<ProximityEngine>>> engines_;
+  std::size_t contacts_ = 0;  // seen so far
+};
+
+TEST_P(ScenesAgreementTest, EveryEngineGivesBruteForcesContactsInMovingFrames) {
+  constexpr int rounds = 3;
+  for_small_scenes(rounds, [this](const SmallScene& scene, Random& random) {
+    const auto frame = static_cast<std::uint32_t>(random.integer(0, 1000));
+    const auto later = static_cast<std::uint32_t>(random.integer(1, 50));  // half a sway
+    FiberAssembly fibers = scene(frame);
+    const std::vector<Eigen::Vector3d> before = fibers.points();
+    ASSERT_NO_FATAL_FAILURE(compare(fibers, scene.radius()));
+    fibers.update_points(scene(frame + later).points());
+    ASSERT_NE(fibers.points(), before);
+    ASSERT_NO_FATAL_FAILURE(compare(fibers, scene.radius())) << "after a refit";
+  });
+  EXPECT_GT(contacts_, 100U) << "too few to tell anything";
+}
+
+TEST_P(ScenesAgreementTest, TheLeafPretestChangesOnlyTheCost) {
+  for_small_scenes(1, [this](const SmallScene& scene, Random& random) {
+    const FiberAssembly fibers = scene(static_cast<std::uint32_t>(random.integer(0, 1000)));
+    for (const double margin : margins) {
+      QueryOptions options;
+      options.margin = margin * scene.radius();
+      const std::uint64_t all_pairs = truth(fibers, options).counts.primitive_tests;
+      for (const auto& [name, engine] : engines_) {
+        SCOPED_TRACE(testing::Message() << name << ", margin " << margin << " radii");
+        engine->update(fibers);
+        options.leaf_pretest = true;
+        const QueryResult with = ask(*engine, options);
+        options.leaf_pretest = false;
+        const QueryResult without = ask(*engine, options);
+        ASSERT_TRUE(same_contacts(without.contacts, with.contacts));
+        EXPECT_LE(with.contacts.size(), with.counts.primitive_tests);
+        EXPECT_LE(with.counts.primitive_tests, without.counts.primitive_tests);
+        EXPECT_LE(without.counts.primitive_tests, all_pairs);
+        EXPECT_LT(without.counts.node_tests, with.counts.node_tests);
+      }
+    }
+  });
+}
+
+// A node of boxes or k-DOPs holds its children's volumes, whatever the tree: what remains after the
+// pre-test are the pairs of leaves that overlap. Sect. 5 of the paper finds it nearly so for all.
+TEST_P(ScenesAgreementTest, TreesOfTheSameDopsTestTheSamePrimitives) {
+  const std::vector<std::vector<std::string>> alike{{"AL", "AL-threaded", "AS"},
+                                                    {"DL-20", "DS-20"},
+                                                    {"DL-6", "DS-6"},
+                                                    {"DL-14-classic", "DS-14-classic"}};
+  for_small_scenes(1, [&](const SmallScene& scene, Random& random) {
+    const FiberAssembly fibers = scene(static_cast<std::uint32_t>(random.integer(0, 1000)));
+    for (const double margin : margins) {
+      QueryOptions options;
+      options.margin = margin * scene.radius();
+      for (const std::vector<std::string>& names : alike) {
+        std::vector<std::uint64_t> tests;
+        for (const auto& [name, engine] : engines_) {
+          if (std::find(names.begin(), names.end(), name) != names.end()) {
+            engine->update(fibers);
+            tests.push_back(ask(*engine, options).counts.primitive_tests);
+          }
+        }
+        ASSERT_EQ(tests, std::vector<std::uint64_t>(names.size(), tests.front())) << names.front();
+      }
+    }
+  });
+}
+
+// Sect. 4.2.2: wrapping a k-DOP gives what layering gives, so a query does the same work.
+TEST_P(ScenesAgreementTest, WrappedBoxesCostWhatLayeredOnesDo) {
+  for_small_scenes(1, [](const SmallScene& scene, Random& random) {
+    const FiberAssembly fibers = scene(static_cast<std::uint32_t>(random.integer(0, 1000)));
+    HierarchyEngine<LayeredHierarchy<Aabb>> layered{LayeredHierarchy<Aabb>()};
+    HierarchyEngine<WrappedHierarchy<Aabb>> wrapped{WrappedHierarchy<Aabb>()};
+    layered.update(fibers);
+    wrapped.update(fibers);
+    for (const bool leaf_pretest : {false, true}) {
+      QueryOptions options;
+      options.margin = scene.radius();
+      options.leaf_pretest = leaf_pretest;
+      const QueryCounts one = ask(layered, options).counts;
+      const QueryCounts other = ask(wrapped, options).counts;
+      EXPECT_EQ(one.node_tests, other.node_tests);
+      EXPECT_EQ(one.node_overlaps, other.node_overlaps);
+      EXPECT_EQ(one.primitive_tests, other.primitive_tests);
+    }
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, ScenesAgreementTest, testing::ValuesIn(scene_names()),
+                         [](const auto& instance) { return test_name(instance.param); });
+
+}  // namespace
+}  // namespace fiber::test

@@ -1,0 +1,161 @@
+// The running node with every engine by its parameter.
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <system_error>
+
+#include "fiber_proximity/ros/detector.hpp"
+#include "ros/messages.hpp"
+#include "ros/node_test.hpp"
+#include "support/assemblies.hpp"
+
+namespace {
+
+using fiber::test::AssemblyBuilder;
+using fiber::test::Random;
+using fiber_proximity::FiberArray;
+using fiber_proximity::QueryProximity;
+
+/// The node /proximity with this engine, while this lives.
+class RunningNode {
+ public:
+  explicit RunningNode(const std::string& engine) {
+    std::string parameter = "_engine:=" + engine;
+    std::string program = PROXIMITY_NODE;
+    std::string name = "__name:=proximity";
+    char* const arguments[] = {program.data(), name.data(), parameter.data(), nullptr};
+    const int error = posix_spawn(&pid_, PROXIMITY_NODE, nullptr, nullptr, arguments, environ);
+    if (error != 0) {
+      throw std::system_error(error, std::generic_category(), PROXIMITY_NODE);
+    }
+  }
+  ~RunningNode() { stop(); }
+  RunningNode(const RunningNode&) = delete;
+  RunningNode& operator=(const RunningNode&) = delete;
+
+  /// Ends it as Ctrl+C does.
+  /// @returns what waitpid says of its end; 0 is a clean one
+  int stop() {
+    int status = 0;
+    if (pid_ > 0) {
+      kill(pid_, SIGINT);
+      waitpid(pid_, &status, 0);
+      pid_ = 0;
+    }
+    return status;
+  }
+
+ private:
+  pid_t pid_ = 0;
+};
+
+class EnginesTest : public node_test::NodeTest, public testing::WithParamInterface<std::string> {
+ protected:
+  /// Six fibres of the same length, for threading, tangled so that many pairs are contacts.
+  static FiberArray random_fibers(Random& random) {
+    AssemblyBuilder builder;
+    for (int i = 0; i < 6; ++i) {
+      builder.add_fiber(fiber::test::random_walk(random, 30, 0.1));
+    }
+    const fiber::FiberAssembly fibers = builder.build({0.01});
+    FiberArray message =
+        test_messages::fiber_array(test_messages::header("world"), fibers.points());
+    message.offsets = fibers.offsets();
+    return message;
+  }
+
+  /// Every point moved a little.
+  static void move(FiberArray& message, Random& random) {
+    for (geometry_msgs::Point& point : message.points) {
+      const Eigen::Vector3d moved = fiber_proximity_ros::to_vector(point) + random.in_cube(0.05);
+      point = fiber_proximity_ros::to_message(moved);
+    }
+  }
+
+  /// Compares the contacts of a ball among these fibres with brute force.
+  static void expect_query(const FiberArray& merged, const Eigen::Vector3d& center) {
+    constexpr double radius = 0.2;
+    QueryProximity query;
+    query.request.type = QueryProximity::Request::ALL;
+    query.request.margin = 0.1;
+    query.request.shapes.resize(1);
+    query.request.shapes[0].points.push_back(fiber_proximity_ros::to_message(center));
+    query.request.shapes[0].radius = radius;
+    ASSERT_TRUE(ros::service::call("/proximity/query", query));
+    ASSERT_TRUE(query.response.success) << query.response.message;
+    fiber::QueryOptions options;
+    options.margin = query.request.margin;
+    fiber::QueryResult expected;
+    fiber::brute_force_shape({{center, center}, {0, 2}, {radius}}, node_test::to_assembly(merged),
+                             options, expected);
+    ASSERT_GT(expected.contacts.size(), 0U) << "the ball is around a point of a fibre";
+    ASSERT_EQ(query.response.contacts.size(), expected.contacts.size());
+    for (std::size_t i = 0; i < expected.contacts.size(); ++i) {
+      node_test::expect_same(query.response.contacts[i], expected.contacts[i]);
+    }
+  }
+
+  /// Compares the node's work with that of its engine: the contacts could be those of any.
+  void expect_work(const fiber_proximity::ContactArray& answer,
+                   const fiber::FiberAssembly& merged) {
+    fiber::QueryOptions options;
+    options.margin = answer.margin;
+    reference_.set_fibers(merged);
+    reference_.detect(options);
+    EXPECT_EQ(answer.node_tests, reference_.counts().node_tests);
+    EXPECT_EQ(answer.node_overlaps, reference_.counts().node_overlaps);
+    EXPECT_EQ(answer.primitive_tests, reference_.counts().primitive_tests);
+  }
+
+  fiber_proximity_ros::Detector reference_{GetParam()};
+  node_test::Recorder<visualization_msgs::MarkerArray> markers{node, "/proximity/markers"};
+};
+
+TEST_P(EnginesTest, AnswerWhatBruteForceAnswers) {
+  SCOPED_TRACE(fiber::test::seed_message());
+  RunningNode proximity(GetParam());
+  const ros::Publisher publisher = advertise<FiberArray>("fibers");
+  Random random;
+  std::size_t found = 0;
+  // Other fibres, of another topology first; then the same ones moving, for the refit.
+  connect(publisher, test_messages::fiber_array(test_messages::header("world"),
+                                                {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}));
+  FiberArray message = random_fibers(random);
+  for (int frame = 0; frame < 5; ++frame) {
+    SCOPED_TRACE(frame);
+    message.header.stamp = new_stamp();
+    publisher.publish(message);
+    const fiber_proximity::ContactArray* answer = contacts.wait_for(message.header.stamp);
+    const FiberArray* merged = fibers.wait_for(message.header.stamp);
+    const fiber_proximity::Statistics* cost = statistics.wait_for(message.header.stamp);
+    ASSERT_NE(answer, nullptr);
+    ASSERT_NE(merged, nullptr);
+    ASSERT_NE(cost, nullptr);
+    EXPECT_EQ(cost->engine, GetParam());
+    EXPECT_EQ(merged->points.size(), message.points.size());
+    node_test::expect_brute_force(*answer, *merged);
+    const fiber::FiberAssembly assembly = node_test::to_assembly(*merged);
+    expect_work(*answer, assembly);
+    expect_query(*merged, fiber_proximity_ros::to_vector(message.points[40]));
+    found += answer->contacts.size();
+    move(message, random);
+  }
+  EXPECT_GT(found, 0U);
+  EXPECT_TRUE(node_test::wait_for([this] { return !markers.messages.empty(); }));
+  EXPECT_EQ(proximity.stop(), 0);
+}
+
+std::vector<std::string> engines() {
+  std::vector<std::string> names = fiber::engine_names();
+  names.insert(names.end(), {"DL-6", "DS-14-classic", "DL-200"});
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, EnginesTest, testing::ValuesIn(engines()),
+                         [](const auto& instance) {
+                           return fiber::test::test_name(instance.param);
+                         });
+
+}  // namespace
