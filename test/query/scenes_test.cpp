@@ -115,7 +115,9 @@ TEST_P(ScenesAgreementTest, TheLeafPretestChangesOnlyTheCost) {
         EXPECT_LE(with.contacts.size(), with.counts.primitive_tests);
         EXPECT_LE(with.counts.primitive_tests, without.counts.primitive_tests);
         EXPECT_LE(without.counts.primitive_tests, all_pairs);
-        EXPECT_LT(without.counts.node_tests, with.counts.node_tests);
+        if (name != "run_tree") {  // which always tests them
+          EXPECT_LT(without.counts.node_tests, with.counts.node_tests);
+        }
       }
     }
   });

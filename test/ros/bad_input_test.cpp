@@ -269,7 +269,7 @@ TEST_F(BadInputTest, ABadParameterIsAClearErrorAndExitCode2) {
     EXPECT_EQ(refusal.exit_code, 2) << arguments;
     EXPECT_NE(refusal.output.find(error), std::string::npos) << refusal.output;
   };
-  expect_exit("_engine:=nonsense", "unknown engine 'nonsense', known are: AL, ");
+  expect_exit("_engine:=nonsense", "unknown engine 'nonsense', known are: run_tree, AL, ");
   expect_exit("_engine:=DL-7",
               "unknown engine 'DL-7' (k-DOP with k = 7: k must be even, from 6 to ");
   expect_exit("_tf_timeout:=-1", "parameter /refused/tf_timeout is -1, it must be a number of ");

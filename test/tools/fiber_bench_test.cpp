@@ -62,7 +62,8 @@ TEST_F(FiberBench, RefusesBadCommandLines) {
   EXPECT_TRUE(refused(bench(""), "a subcommand is needed: update, cycle"));
   EXPECT_TRUE(refused(bench("race"), "race"));
   EXPECT_TRUE(refused(bench("cycle --scene spaghetti"), "'spaghetti', known are: "));
-  EXPECT_TRUE(refused(bench("cycle --scale 0.001 --engines AL,XL"), "'XL', known are: "));
+  EXPECT_TRUE(
+      refused(bench("cycle --scale 0.001 --engines AL,XL"), "'XL', known are: run_tree, AL"));
   EXPECT_TRUE(refused(bench("cycle --engines"), "--engines"));
   EXPECT_TRUE(refused(bench("cycle --scale 0"), "scale is 0"));
   EXPECT_TRUE(refused(bench("update --repeats 0"), "--repeats: '0'"));

@@ -160,8 +160,9 @@ TEST_F(FiberQuery, AnEngineThatIsNoneIsRefusedWithAllThereAre) {
   for (const std::string engine : {"DL-7", "DL-4", "DL-202", "XX", "DS-", "DL-20x", "\"\""}) {
     EXPECT_TRUE(refused(query("contacts " + file + " --engine " + engine), known));
   }
-  EXPECT_TRUE(refused(query("contacts " + file + " --engine DL-7"),
-                      "'DL-7' (k-DOP with k = 7: k must be even, from 6 to 200), known are: AL"));
+  EXPECT_TRUE(
+      refused(query("contacts " + file + " --engine DL-7"),
+              "'DL-7' (k-DOP with k = 7: k must be even, from 6 to 200), known are: run_tree, AL"));
 }
 
 TEST_F(FiberQuery, ThreadingRefusesFibresOfDifferentLength) {
@@ -233,9 +234,9 @@ TEST_F(FiberQuery, RefusesBadCommandLines) {
   EXPECT_TRUE(refused(query("contacts"), "FILE"));
   EXPECT_TRUE(refused(query("contacts " + file + " --frobnicate"), "--frobnicate"));
   EXPECT_TRUE(refused(query("contacts " + file + " more.csv"), "more.csv"));
-  EXPECT_TRUE(refused(query("contacts " + file + " --engine XL"), "'XL', known are: AL"));
+  EXPECT_TRUE(refused(query("contacts " + file + " --engine XL"), "'XL', known are: run_tree, AL"));
   EXPECT_TRUE(refused(query("contacts " + file + " --format xml"), "--format: xml"));
-  EXPECT_TRUE(refused(query("contacts " + file + " --threads 0"), "--threads: '0'"));
+  EXPECT_TRUE(refused(query("contacts " + file + " --threads x"), "--threads: 'x'"));
   EXPECT_TRUE(refused(query("contacts " + file + " --margin wide"), "--margin = wide"));
   EXPECT_TRUE(refused(query("contacts " + file + " --margin -1"), "margin is -1"));
   EXPECT_TRUE(refused(query("contacts " + file + " --margin nan"), "margin is nan"));

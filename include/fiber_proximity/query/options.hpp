@@ -31,7 +31,7 @@ struct QueryOptions {
   double neighbour_skip_length = 0.0;
 
   /// Test the volumes of two leaves before the segments themselves; changes only the cost. The
-  /// paper finds that it always pays (Sect. 5).
+  /// paper finds that it always pays (Sect. 5). run_tree always does.
   bool leaf_pretest = true;
 };
 
