@@ -21,17 +21,6 @@ function(fiber_bench_peer name)
 endfunction()
 
 if(FIBER_PROXIMITY_PEERS)
-  # Headers only; CGAL's own configuration would ask for libraries these do not need.
-  find_path(CGAL_INCLUDE_FOLDER CGAL/box_intersection_d.h)
-  if(CGAL_INCLUDE_FOLDER)
-    fiber_bench_peer(CGAL benchmark/peers/cgal.cpp
-      LIBRARIES TBB::tbb INCLUDES ${CGAL_INCLUDE_FOLDER})
-  endif()
-  find_package(embree QUIET CONFIG)
-  if(embree_FOUND)
-    fiber_bench_peer(EMBREE benchmark/peers/embree.cpp LIBRARIES embree TBB::tbb)
-  endif()
-
   find_path(BULLET_INCLUDE_FOLDER BulletCollision/BroadphaseCollision/btDbvt.h
     PATH_SUFFIXES bullet)
   find_library(BULLET_COLLISION_LIBRARY BulletCollision)
@@ -40,6 +29,17 @@ if(FIBER_PROXIMITY_PEERS)
     fiber_bench_peer(BULLET benchmark/peers/bullet.cpp
       LIBRARIES ${BULLET_COLLISION_LIBRARY} ${BULLET_MATH_LIBRARY}
       INCLUDES ${BULLET_INCLUDE_FOLDER})
+  endif()
+
+  # Headers only; CGAL's own configuration would ask for libraries these do not need.
+  find_path(CGAL_INCLUDE_FOLDER CGAL/box_intersection_d.h)
+  if(CGAL_INCLUDE_FOLDER)
+    fiber_bench_peer(CGAL benchmark/peers/cgal.cpp INCLUDES ${CGAL_INCLUDE_FOLDER})
+  endif()
+
+  find_package(embree QUIET CONFIG)
+  if(embree_FOUND)
+    fiber_bench_peer(EMBREE benchmark/peers/embree.cpp LIBRARIES embree)
   endif()
 
   find_package(fcl 0.6 QUIET CONFIG)  # older ones have another interface

@@ -13,10 +13,12 @@ from .cycle_run import CycleRun
 
 @dataclasses.dataclass(frozen=True)
 class Size:
-    """Of a scene: by the number of its fibres, and by copies of it side by side."""
+    """Of a scene: by the number of its fibres, and by copies of it side by side; and the number of
+    frames to measure it on, as small scenes need many."""
 
     scale: float = 1.0
     copies: int = 1
+    repeats: int = 3
 
     def factor(self):
         return self.scale * self.copies
@@ -30,11 +32,10 @@ class Climb:
     sizes: tuple
     engines: tuple
     threads: int
-    repeats: int
 
     def run(self, size, engines):
         return CycleRun(self.scene, size.scale, size.copies, ",".join(engines), self.threads,
-                        self.repeats)
+                        size.repeats)
 
 
 def forecast_s(times, size):
@@ -64,8 +65,8 @@ def climb(runs, plan, limit_s):
         for row in found:
             times[row["engine"]].append((size, row["cycle_ms"] * 1e-3))
         rows += with_ratios(found)
-        rows += [{"scene": plan.scene, **dataclasses.asdict(size), "repeats": plan.repeats,
-                  "engine": engine, "left_out": why} for engine, why in left_out.items()]
+        rows += [{"scene": plan.scene, **dataclasses.asdict(size), "engine": engine, "left_out": why}
+                 for engine, why in left_out.items()]
     return rows
 
 

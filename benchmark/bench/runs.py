@@ -18,7 +18,7 @@ class Limits:
     """How long one thing may take [s], and how much is repeated."""
 
     stage: float  # a stage; or an engine's cycle
-    repeats: int
+    repeats: int = 1
     trials: int = 1
     seconds: float = 0.0  # after which nothing is repeated any more
 

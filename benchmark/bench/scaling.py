@@ -15,6 +15,11 @@ ENGINES = ("run_tree", "AL", "embree_refit")
 THREADS = (1, 2)
 
 
+def sized(scale, copies):
+    """With as many frames as are measured in a few seconds, at least 5."""
+    return Size(scale, copies, repeats=max(5, min(101, round(0.5 / (scale * copies)))))
+
+
 @dataclasses.dataclass(frozen=True)
 class Plan:
     """Two ways to grow: locks side by side keep everything but their number; a patch of the scalp
@@ -22,20 +27,20 @@ class Plan:
 
     copies: tuple
     scales: tuple
-    limits: Limits
+    limit_s: float  # a cycle of one engine may take
 
     def climbs(self):
         """(family, climb)"""
-        families = {"locks": tuple(Size(LOCK, copies) for copies in self.copies),
-                    "patch": tuple(Size(scale) for scale in self.scales)}
-        return [(family, Climb(SCENE, sizes, ENGINES, threads, self.limits.repeats))
+        families = {"locks": tuple(sized(LOCK, copies) for copies in self.copies),
+                    "patch": tuple(sized(scale, 1) for scale in self.scales)}
+        return [(family, Climb(SCENE, sizes, ENGINES, threads))
                 for family, sizes in families.items() for threads in THREADS]
 
 
 FULL = Plan((1, 2, 5, 10, 22, 46, 100, 215, 456),
             (LOCK, 0.0047, 0.01, 0.022, 0.047, 0.1, 0.22, 0.47, 1.0),
-            Limits(stage=30.0, repeats=5))
-QUICK = Plan((1, 2, 5, 10), (LOCK, 0.0047, 0.01, 0.022), Limits(stage=5.0, repeats=5))
+            30.0)
+QUICK = Plan((1, 2, 5, 10), (LOCK, 0.0047, 0.01, 0.022), 5.0)
 
 
 def run(tool, folder, quick):
@@ -44,11 +49,11 @@ def run(tool, folder, quick):
     out.mkdir(parents=True, exist_ok=True)
     climbs = plan.climbs()
     rows = []
-    with Runs(tool, plan.limits, out, sum(len(each.sizes) for _, each in climbs)) as runs:
+    with Runs(tool, Limits(stage=plan.limit_s), out, sum(len(each.sizes) for _, each in climbs)) as runs:
         for family, each in climbs:
             # most_threads: what an engine might use; threads: what it used
             rows += [{"family": family, "most_threads": each.threads, **row}
-                     for row in climb(runs, each, plan.limits.stage)]
+                     for row in climb(runs, each, plan.limit_s)]
     write_csv(rows, out / "scaling.csv")
     draw_growth(rows, out / "scaling.svg")
     table = growth_table(rows)

@@ -75,6 +75,7 @@ void RunTree::build(const FiberAssembly& fibers, const Eigen::Vector3d& origin) 
   origin_ = origin;
   spans_ = cut_into_runs(fibers.offsets());
   runs_.resize(spans_.size());
+  segment_boxes_.resize(spans_.size());
   levels_.clear();
   for (std::uint32_t count = run_count(); count > 0 && (levels_.empty() || count > 1);) {
     count = divided_up(count);
@@ -123,7 +124,7 @@ void RunTree::refit(const FiberAssembly& fibers) {
   for_ranges(static_cast<std::uint32_t>(groups.boxes.size()),
              [&](std::uint32_t begin, std::uint32_t end) {
                fit_groups(fibers, origin_, spans_.data(), run_count(), begin, end, runs_.data(),
-                          groups.capsules.data(), groups.boxes.data());
+                          segment_boxes_.data(), groups.capsules.data(), groups.boxes.data());
              });
   for (std::size_t i = 1; i < levels_.size(); ++i) {
     const Level& below = levels_[i - 1];
@@ -164,6 +165,7 @@ void RunTree::set_view() {
   view_ = {};
   view_.runs = runs_.data();
   view_.spans = spans_.data();
+  view_.segment_boxes = segment_boxes_.data();
   view_.level_count = static_cast<std::uint32_t>(levels_.size());
   std::uint32_t children = run_count();
   for (std::size_t level = 0; level < levels_.size(); ++level) {
@@ -176,6 +178,7 @@ void RunTree::set_view() {
 
 std::size_t RunTree::memory_bytes() const {
   std::size_t bytes = spans_.capacity() * sizeof(RunSpan) + runs_.capacity() * sizeof(Run) +
+                      segment_boxes_.capacity() * sizeof(BoxBlock) +
                       places_.capacity() * sizeof(Place);
   for (const Level& level : levels_) {
     bytes += level.boxes.capacity() * sizeof(BoxBlock) +

@@ -59,69 +59,22 @@ std::uint32_t near_capsules(const CapsuleBlock& block, const CapsuleBlock& other
   return bits;
 }
 
-LaneVector load_starts(const Run& run, std::size_t lane) {
-  const Floats d;
-  return {hn::LoadU(d, run.x + lane), hn::LoadU(d, run.y + lane), hn::LoadU(d, run.z + lane)};
-}
-
-LaneVector load_ends(const Run& run, std::size_t lane) {
-  const Floats d;
-  return {hn::LoadU(d, run.x + lane + 1), hn::LoadU(d, run.y + lane + 1),
-          hn::LoadU(d, run.z + lane + 1)};
-}
-
-/// Bits of the run's segments whose boxes come within the bound of the box of another run.
-std::uint32_t near_box_of_run(const Run& run, const BoxBlock& block, std::uint32_t block_lane,
-                              float bound) {
-  const Floats d;
-  const auto reach = hn::Set(d, run.radius + bound);
-  const LaneVector reaches{reach, reach, reach};
-  const LaneVector lower = subtract(spread(block.lower, block_lane), reaches);
-  const LaneVector upper = add(spread(block.upper, block_lane), reaches);
-  std::uint32_t bits = 0;
-  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
-    const LaneVector start = load_starts(run, lane);
-    const LaneVector end = load_ends(run, lane);
-    const auto apart = boxes_apart(minimum(start, end), maximum(start, end), lower, upper);
-    bits |= bits_of(hn::Not(apart)) << lane;
-  }
-  return bits;
-}
-
-/// Bits of the segments of b whose boxes come within reach of that of segment i of a.
-std::uint32_t near_box_of_segment(const Run& a, std::uint32_t i, const Run& b, float reach) {
-  const Floats d;
-  const auto reaches = hn::Set(d, reach);
-  const LaneVector p0{hn::Set(d, a.x[i]), hn::Set(d, a.y[i]), hn::Set(d, a.z[i])};
-  const LaneVector p1{hn::Set(d, a.x[i + 1]), hn::Set(d, a.y[i + 1]), hn::Set(d, a.z[i + 1])};
-  const LaneVector lower = subtract(minimum(p0, p1), {reaches, reaches, reaches});
-  const LaneVector upper = add(maximum(p0, p1), {reaches, reaches, reaches});
-  std::uint32_t bits = 0;
-  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
-    const LaneVector start = load_starts(b, lane);
-    const LaneVector end = load_ends(b, lane);
-    const auto apart = boxes_apart(minimum(start, end), maximum(start, end), lower, upper);
-    bits |= bits_of(hn::Not(apart)) << lane;
-  }
-  return bits;
-}
-
 /// Pairs of segments whose boxes are near, on their way to the sink: few of the lanes of two runs
 /// are, so they are brought together to fill registers.
 class Candidates {
  public:
-  Candidates(const Run* runs_a, const Run* runs_b, PairSink& sink)
-      : runs_a_(runs_a), runs_b_(runs_b), sink_(sink) {}
+  Candidates(const RunTreeView& a, const RunTreeView& b, PairSink& sink)
+      : runs_a_(a.runs), runs_b_(b.runs), spans_a_(a.spans), spans_b_(b.spans), sink_(sink) {}
 
   /// Room for all pairs of two runs; whether the sink wants to go on.
   bool make_room() { return size_ + run_width * run_width <= capacity || flush(); }
 
   void push(std::uint32_t run_a, std::uint32_t i, std::uint32_t run_b, std::uint32_t j,
-            PointPair pair, float reach) {
+            float reach) {
     a_[size_] = static_cast<std::int32_t>(run_a * floats_per_run + i);
     b_[size_] = static_cast<std::int32_t>(run_b * floats_per_run + j);
     reach_[size_] = reach;
-    pairs_[size_] = pair;
+    pairs_[size_] = {spans_a_[run_a].first_point + i, spans_b_[run_b].first_point + j};
     ++size_;
   }
 
@@ -165,6 +118,8 @@ class Candidates {
 
   const Run* const runs_a_;
   const Run* const runs_b_;
+  const RunSpan* const spans_a_;
+  const RunSpan* const spans_b_;
   PairSink& sink_;
   std::uint32_t size_ = 0;
   std::int32_t a_[capacity + run_width];  // where the segment's x is among all floats
@@ -182,7 +137,7 @@ class Finder {
         self_(a.runs == b.runs),
         sink_(sink),
         counts_(counts),
-        candidates_(a.runs, b.runs, sink),
+        candidates_(a, b, sink),
         bound_(sink.bound()) {}
 
   /// Whether to go on.
@@ -219,7 +174,7 @@ class Finder {
     stack[size++] = {b_.level_count - 1, 0};
     while (size > 0) {
       const Node node = stack[--size];
-      std::uint32_t bits = near_children(node.level, node.index, 1, group);
+      std::uint32_t bits = near_group(node.level, node.index, group);
       if (node.level == 0) {
         const bool again = self_ && node.index == group;
         if (bits != 0 && !again && !visit_group(group, node.index, bits)) {
@@ -239,32 +194,34 @@ class Finder {
     return true;
   }
 
-  /// Bits of the children of a node of b that come near one child of a level of a.
-  std::uint32_t near_children(std::uint32_t level_b, std::uint32_t b, std::uint32_t level_a,
-                              std::uint32_t child_a) {
-    const RunTreeLevel& of_a = a_.levels[level_a];
-    const RunTreeLevel& of_b = b_.levels[level_b];
-    const std::uint32_t a = child_a / run_width;
-    const std::uint32_t lane = child_a % run_width;
+  /// Bits of the children of a node of b that come near group g of a. Boxes first, then capsules.
+  std::uint32_t near_group(std::uint32_t level, std::uint32_t node, std::uint32_t g) {
+    const RunTreeLevel& of_a = a_.levels[1];
+    const RunTreeLevel& of_b = b_.levels[level];
+    const std::uint32_t a = g / run_width;
+    const std::uint32_t lane = g % run_width;
     std::uint32_t bits =
-        child_bits(of_b, b) & near_boxes(of_b.boxes[b], of_a.boxes[a], lane, bound_);
-    counts_.node_tests += run_width;
+        child_bits(of_b, node) & near_boxes(of_b.boxes[node], of_a.boxes[a], lane, bound_);
     if (bits != 0) {
-      bits &= near_capsules(of_b.capsules[b], of_a.capsules[a], lane, bound_);
-      counts_.node_overlaps += hwy::PopCount(bits);
+      bits &= near_capsules(of_b.capsules[node], of_a.capsules[a], lane, bound_);
     }
+    count(bits);
     return bits;
   }
 
-  /// Pairs of runs of group g of a and of the chosen lanes of group h of b.
+  /// Pairs of runs of group g of a and of the chosen lanes of group h of b. Of runs, boxes decide:
+  /// their capsules would cost more than they save.
   bool visit_group(std::uint32_t g, std::uint32_t h, std::uint32_t chosen) {
     const bool same = self_ && g == h;
+    const BoxBlock& boxes_g = a_.levels[0].boxes[g];
+    const BoxBlock& boxes_h = b_.levels[0].boxes[h];
     std::uint32_t rows = child_bits(a_.levels[0], g);
     while (rows != 0) {
       const std::uint32_t row = take_lowest(rows);
       // Of a group with itself: a run with itself, and with those after it.
       const std::uint32_t wanted = same ? chosen & ~first_bits(row) : chosen;
-      std::uint32_t bits = wanted & near_children(0, h, 0, g * run_width + row);
+      std::uint32_t bits = wanted & near_boxes(boxes_h, boxes_g, row, bound_);
+      count(bits);
       while (bits != 0) {
         if (!visit_runs(g * run_width + row, h * run_width + take_lowest(bits))) {
           return false;
@@ -274,36 +231,41 @@ class Finder {
     return true;
   }
 
-  bool visit_runs(std::uint32_t a, std::uint32_t b) {
-    const Run& run_a = a_.runs[a];
-    const Run& run_b = b_.runs[b];
-    const std::uint32_t rows =
-        first_bits(a_.spans[a].segment_count) &
-        near_box_of_run(run_a, b_.levels[0].boxes[b / run_width], b % run_width, bound_);
-    if (rows == 0 ||
-        near_box_of_run(run_b, a_.levels[0].boxes[a / run_width], a % run_width, bound_) == 0) {
-      return true;
-    }
-    return push_candidates(a, rows, b);
+  void count(std::uint32_t bits) {
+    counts_.node_tests += run_width;
+    counts_.node_overlaps += hwy::PopCount(bits);
   }
 
-  bool push_candidates(std::uint32_t a, std::uint32_t rows, std::uint32_t b) {
+  /// Pairs of segments of two runs: those of each that are near the other's box, then each of one
+  /// with those of the other.
+  bool visit_runs(std::uint32_t a, std::uint32_t b) {
+    const BoxBlock& of_a = a_.segment_boxes[a];
+    const BoxBlock& of_b = b_.segment_boxes[b];
+    const BoxBlock& with_a = a_.levels[0].boxes[a / run_width];
+    const BoxBlock& with_b = b_.levels[0].boxes[b / run_width];
+    std::uint32_t rows =
+        first_bits(a_.spans[a].segment_count) & near_boxes(of_a, with_b, b % run_width, bound_);
+    if (rows == 0) {
+      return true;
+    }
+    const std::uint32_t columns =
+        first_bits(b_.spans[b].segment_count) & near_boxes(of_b, with_a, a % run_width, bound_);
+    if (columns == 0) {
+      return true;
+    }
     if (!candidates_.make_room()) {
       return false;
     }
     bound_ = sink_.bound();
-    const RunSpan& span_a = a_.spans[a];
-    const RunSpan& span_b = b_.spans[b];
     const bool same = self_ && a == b;
     const float reach = a_.runs[a].radius + b_.runs[b].radius + bound_;
     while (rows != 0) {
       const std::uint32_t i = take_lowest(rows);
       // Of a run with itself: each segment with those after it.
-      std::uint32_t bits = first_bits(span_b.segment_count) & ~(same ? first_bits(i + 1) : 0U) &
-                           near_box_of_segment(a_.runs[a], i, b_.runs[b], reach);
+      const std::uint32_t wanted = same ? columns & ~first_bits(i + 1) : columns;
+      std::uint32_t bits = wanted & near_boxes(of_b, of_a, i, bound_);
       while (bits != 0) {
-        const std::uint32_t j = take_lowest(bits);
-        candidates_.push(a, i, b, j, {span_a.first_point + i, span_b.first_point + j}, reach);
+        candidates_.push(a, i, b, take_lowest(bits), reach);
       }
     }
     return true;

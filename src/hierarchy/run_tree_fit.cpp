@@ -106,17 +106,34 @@ double largest_radius(const FiberAssembly& fibers, const RunSpan& span) {
   return radius;
 }
 
-void box_of(const float (&values)[run_width + 1], float& lower, float& upper) {
+/// Boxes of the run's segments along one axis, `reach` larger; the box of the run is theirs.
+void fit_axis(const float (&points)[run_width + 1], float reach, float (&lower)[run_width],
+              float (&upper)[run_width], float& run_lower, float& run_upper) {
   const Floats d;
-  auto low = hn::Set(d, values[run_width]);
-  auto high = low;
+  const auto reaches = hn::Set(d, reach);
+  auto lowest = hn::Set(d, points[run_width] - reach);
+  auto highest = hn::Set(d, points[run_width] + reach);
   for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
-    const auto part = hn::LoadU(d, values + lane);
-    low = hn::Min(low, part);
-    high = hn::Max(high, part);
+    const auto start = hn::LoadU(d, points + lane);
+    const auto end = hn::LoadU(d, points + lane + 1);
+    const auto low = hn::Sub(hn::Min(start, end), reaches);
+    const auto high = hn::Add(hn::Max(start, end), reaches);
+    hn::Store(low, d, lower + lane);
+    hn::Store(high, d, upper + lane);
+    lowest = hn::Min(lowest, low);
+    highest = hn::Max(highest, high);
   }
-  lower = hn::GetLane(hn::MinOfLanes(d, low));
-  upper = hn::GetLane(hn::MaxOfLanes(d, high));
+  run_lower = hn::GetLane(hn::MinOfLanes(d, lowest));
+  run_upper = hn::GetLane(hn::MaxOfLanes(d, highest));
+}
+
+float largest_magnitude_of(const float (&values)[run_width + 1]) {
+  const Floats d;
+  auto largest = hn::Set(d, std::abs(values[run_width]));
+  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
+    largest = hn::Max(largest, hn::Abs(hn::LoadU(d, values + lane)));
+  }
+  return hn::GetLane(hn::MaxOfLanes(d, largest));
 }
 
 /// Largest distance of the run's points from its chord [m].
@@ -133,37 +150,30 @@ float sag(const Run& run) {
   return std::sqrt(hn::GetLane(hn::MaxOfLanes(d, largest)));
 }
 
-/// A run that tests as near to everything.
-void fit_everything(Run& run, RunBox& box) {
-  constexpr float infinity = std::numeric_limits<float>::infinity();
-  run = {};
-  run.radius = infinity;
-  std::fill_n(box.lower, 3, -infinity);
-  std::fill_n(box.upper, 3, infinity);
+/// A radius with the padding that makes all tests err on the safe side; infinite beyond the range
+/// of float [m].
+float padded_radius(const Run& run, double radius) {
+  const double magnitude = std::max({radius, static_cast<double>(largest_magnitude_of(run.x)),
+                                     static_cast<double>(largest_magnitude_of(run.y)),
+                                     static_cast<double>(largest_magnitude_of(run.z))});
+  return magnitude > largest_magnitude
+             ? std::numeric_limits<float>::infinity()
+             : static_cast<float>(radius) + static_cast<float>(magnitude) * relative_padding +
+                   least_padding;
 }
 
 void fit_run(const FiberAssembly& fibers, const RepeatedOrigin& origin, const RunSpan& span,
-             Run& run, RunBox& box) {
+             Run& run, BoxBlock& segments, RunBox& box) {
   load_points(fibers, origin, span, run);
-  const double radius = largest_radius(fibers, span);
-  box_of(run.x, box.lower[0], box.upper[0]);
-  box_of(run.y, box.lower[1], box.upper[1]);
-  box_of(run.z, box.lower[2], box.upper[2]);
-  double magnitude = radius;
-  for (int axis = 0; axis < 3; ++axis) {
-    magnitude = std::max(
-        {magnitude, -static_cast<double>(box.lower[axis]), static_cast<double>(box.upper[axis])});
+  run.radius = padded_radius(run, largest_radius(fibers, span));
+  if (std::isinf(run.radius)) {
+    const float radius = run.radius;
+    run = {};  // what is beyond the range is near everything, wherever it is
+    run.radius = radius;
   }
-  if (magnitude > largest_magnitude) {
-    fit_everything(run, box);
-    return;
-  }
-  run.radius =
-      static_cast<float>(radius) + static_cast<float>(magnitude) * relative_padding + least_padding;
-  for (int axis = 0; axis < 3; ++axis) {
-    box.lower[axis] -= run.radius;
-    box.upper[axis] += run.radius;
-  }
+  fit_axis(run.x, run.radius, segments.lower[0], segments.upper[0], box.lower[0], box.upper[0]);
+  fit_axis(run.y, run.radius, segments.lower[1], segments.upper[1], box.lower[1], box.upper[1]);
+  fit_axis(run.z, run.radius, segments.lower[2], segments.upper[2], box.lower[2], box.upper[2]);
 }
 
 void store(const Run& run, const RunBox& box, std::uint32_t lane, CapsuleBlock& capsules,
@@ -189,7 +199,7 @@ void prefetch(const FiberAssembly& fibers, const RunSpan& span) {
 
 void FitGroups(const FiberAssembly& fibers, const Eigen::Vector3d& origin, const RunSpan* spans,
                std::uint32_t run_count, std::uint32_t begin, std::uint32_t end, Run* runs,
-               CapsuleBlock* capsules, BoxBlock* boxes) {
+               BoxBlock* segment_boxes, CapsuleBlock* capsules, BoxBlock* boxes) {
   constexpr std::uint32_t ahead = 2 * run_width;
   const RepeatedOrigin repeated(origin);
   for (std::uint32_t group = begin; group < end; ++group) {
@@ -198,7 +208,7 @@ void FitGroups(const FiberAssembly& fibers, const Eigen::Vector3d& origin, const
       // Lanes without a run repeat the last: nodes above need no special case.
       const std::uint32_t run = std::min(group * run_width + lane, run_count - 1);
       prefetch(fibers, spans[std::min(run + ahead, run_count - 1)]);
-      fit_run(fibers, repeated, spans[run], runs[run], box);
+      fit_run(fibers, repeated, spans[run], runs[run], segment_boxes[run], box);
       store(runs[run], box, lane, capsules[group], boxes[group]);
     }
   }
@@ -329,9 +339,9 @@ HWY_EXPORT(FitNodes);
 
 void fit_groups(const FiberAssembly& fibers, const Eigen::Vector3d& origin, const RunSpan* spans,
                 std::uint32_t run_count, std::uint32_t begin, std::uint32_t end, Run* runs,
-                CapsuleBlock* capsules, BoxBlock* boxes) {
+                BoxBlock* segment_boxes, CapsuleBlock* capsules, BoxBlock* boxes) {
   HWY_DYNAMIC_DISPATCH(FitGroups)
-  (fibers, origin, spans, run_count, begin, end, runs, capsules, boxes);
+  (fibers, origin, spans, run_count, begin, end, runs, segment_boxes, capsules, boxes);
 }
 
 void fit_nodes(const BoxBlock* boxes_below, const CapsuleBlock* capsules_below,

@@ -174,7 +174,7 @@ TEST(MakeBenchEngine, SaysWhichPackageAMissingPeerNeeds) {
 }
 
 TEST(FiberBench, RunsThePeersBesideOurEngines) {
-  std::string engines = "AL";
+  std::string engines = "run_tree,AL";
   for (const std::string& name : peer_names()) {
     engines += "," + name;
   }
@@ -190,7 +190,7 @@ TEST(FiberBench, RunsThePeersBesideOurEngines) {
     EXPECT_GT(row.at("pairs"), 0) << name;
     EXPECT_EQ(row.at("threads"), make_bench_engine(name, {2, 0.0})->thread_count()) << name;
   }
-  EXPECT_EQ(count, 1 + peer_names().size());
+  EXPECT_EQ(count, 2 + peer_names().size());
 }
 
 }  // namespace

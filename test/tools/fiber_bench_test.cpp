@@ -71,7 +71,31 @@ TEST_F(FiberBench, PrintsATableWithoutJson) {
   const ProcessResult result = bench("cycle --scale 0.001 --repeats 1");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(result.out.find("update [ms]"), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("AL"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("run_tree"), std::string::npos) << result.out;
+}
+
+TEST_F(FiberBench, PrintsStageAfterStage) {
+  const std::string command = "stages --scene soup --scale 0.004 --engine SW --trials 3 ";
+  const ProcessResult result = bench(command + "--levels --shuffle --no-leaf-pretest");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const std::vector<nlohmann::json> rows = json_lines(result.out);
+  const std::vector<std::string> stages{"build", "update", "levels", "first", "detect"};
+  ASSERT_EQ(rows.size(), stages.size());
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    EXPECT_EQ(rows[i].at("stage"), stages[i]);
+    EXPECT_EQ(rows[i].at("segments"), 4000);
+    EXPECT_EQ(rows[i].at("shuffle"), true);
+    EXPECT_EQ(rows[i].at("leaf_pretest"), false);
+  }
+  EXPECT_GT(rows[1].at("ns_per_segment"), 0.0);
+  EXPECT_GT(rows[1].at("bytes_per_segment"), 0.0);
+  EXPECT_LT(rows[1].at("recomputed_per_segment"), 2.0) << "cascade verification keeps some";
+  const std::vector<double> volumes = rows[2].at("mean_volumes");
+  EXPECT_EQ(volumes.size(), 13U);  // 2¹² leaves' worth
+  EXPECT_GT(volumes.front(), volumes.back());
+  EXPECT_EQ(rows[3].at("trials"), 3);
+  EXPECT_GT(rows[4].at("detect_ms"), 0.0);
+  EXPECT_EQ(json_lines(bench(command + "--until update").out).size(), 2U);
 }
 
 TEST_F(FiberBench, RefusesBadCommandLines) {
@@ -86,6 +110,7 @@ TEST_F(FiberBench, RefusesBadCommandLines) {
   EXPECT_TRUE(refused(bench("cycle --copies 0"), "--copies: '0'"));
   EXPECT_TRUE(refused(bench("cycle --scale 0.001 --copies 4000000"),
                       "copies is 4000000, of this scene at most 2"));
+  EXPECT_TRUE(refused(bench("stages --until tea"), "tea"));
   EXPECT_TRUE(refused(bench("update --threads none"), "--threads: 'none'"));
 }
 

@@ -23,7 +23,7 @@ struct RunSpan {
   std::uint32_t segment_count;
 };
 
-/// Boxes of up to eight runs or nodes [m]; by axis, then lane.
+/// Boxes of up to eight segments, runs or nodes [m]; by axis, then lane.
 struct alignas(32) BoxBlock {
   float lower[3][run_width];
   float upper[3][run_width];
@@ -52,6 +52,7 @@ struct RunTreeView {
 
   const Run* runs = nullptr;
   const RunSpan* spans = nullptr;
+  const BoxBlock* segment_boxes = nullptr;  ///< by run
   RunTreeLevel levels[most_levels] = {};
   std::uint32_t level_count = 0;
 

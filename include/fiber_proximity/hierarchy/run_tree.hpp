@@ -58,8 +58,9 @@ class RunTree {
 
   std::vector<RunSpan> spans_;  // in the order of the curve
   std::vector<Run> runs_;
-  std::vector<Level> levels_;  // groups first
-  std::vector<Place> places_;  // scratch of sort()
+  std::vector<BoxBlock> segment_boxes_;  // by run
+  std::vector<Level> levels_;            // groups first
+  std::vector<Place> places_;            // scratch of sort()
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   double sorted_looseness_ = 0.0;
   std::uint64_t sort_count_ = 0;

@@ -24,10 +24,10 @@ class PairSink {
 };
 
 /// Fits the runs of groups [begin, end): their points, capsules and boxes.
-/// @param runs, capsules, boxes by run, group, group
+/// @param runs, segment_boxes by run; capsules, boxes by group
 void fit_groups(const FiberAssembly& fibers, const Eigen::Vector3d& origin, const RunSpan* spans,
                 std::uint32_t run_count, std::uint32_t begin, std::uint32_t end, Run* runs,
-                CapsuleBlock* capsules, BoxBlock* boxes);
+                BoxBlock* segment_boxes, CapsuleBlock* capsules, BoxBlock* boxes);
 
 /// Fits the nodes [begin, end) of a level above the groups to the blocks of the level below.
 /// @param child_count of the whole level
