@@ -17,7 +17,7 @@ THREADS = (1, 2)
 
 def sized(scale, copies):
     """With as many frames as are measured in a few seconds, at least 5."""
-    return Size(scale, copies, repeats=max(5, min(101, round(0.5 / (scale * copies)))))
+    return Size(scale, copies, repeats=max(5, min(51, round(0.2 / (scale * copies)))))
 
 
 @dataclasses.dataclass(frozen=True)
