@@ -31,5 +31,5 @@ def run(tool, folder, quick):
     paper_figures.draw_figure7(results(plan.figure7(), "figure7"), out / "figure7.svg")
     paper_figures.draw_order(order, out / "order.svg")
     paper_figures.draw_growth(results(plan.linear_growth(), "growth"), out / "growth.svg")
-    (out / "claims.md").write_text(claims(figure4, figure6, order, pretest))
+    (out / "claims.md").write_text(claims(figure4, figure6, order, pretest, plan.limits.stage))
     (out / "machine.txt").write_text(describe_machine())
