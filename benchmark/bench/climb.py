@@ -65,8 +65,8 @@ def climb(runs, plan, limit_s):
         for row in found:
             times[row["engine"]].append((size, row["cycle_ms"] * 1e-3))
         rows += with_ratios(found)
-        rows += [{"scene": plan.scene, **dataclasses.asdict(size), "engine": engine, "left_out": why}
-                 for engine, why in left_out.items()]
+        rows += [{"scene": plan.scene, **dataclasses.asdict(size), "engine": engine,
+                  "left_out": why} for engine, why in left_out.items()]
     return rows
 
 

@@ -37,7 +37,8 @@ def run(tool, folder, quick):
     out = pathlib.Path(folder)
     out.mkdir(parents=True, exist_ok=True)
     climbs = plan.climbs()
-    with Runs(tool, Limits(stage=plan.limit_s), out, sum(len(each.sizes) for each in climbs)) as runs:
+    total = sum(len(each.sizes) for each in climbs)
+    with Runs(tool, Limits(stage=plan.limit_s), out, total) as runs:
         found = [(each, climb(runs, each, plan.limit_s)) for each in climbs]
     write_csv([row for _, rows in found for row in rows], out / "peers.csv")
     draw_cycles(found, plan.limit_s, out / "peers.svg")

@@ -49,7 +49,8 @@ def run(tool, folder, quick):
     out.mkdir(parents=True, exist_ok=True)
     climbs = plan.climbs()
     rows = []
-    with Runs(tool, Limits(stage=plan.limit_s), out, sum(len(each.sizes) for _, each in climbs)) as runs:
+    total = sum(len(each.sizes) for _, each in climbs)
+    with Runs(tool, Limits(stage=plan.limit_s), out, total) as runs:
         for family, each in climbs:
             # most_threads: what an engine might use; threads: what it used
             rows += [{"family": family, "most_threads": each.threads, **row}
