@@ -4,7 +4,9 @@
 #include <cstring>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
+#include "copies.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
 #include "peers/peer.hpp"
 #include "progress.hpp"
@@ -21,17 +23,18 @@ class EngineRun {
     engine_->update(fibers);  // builds; frames only refit
   }
 
-  void measure_frame(const FiberAssembly& fibers, bool detect) {
+  void update(const FiberAssembly& fibers) {
     update_ms_.push_back(time_of([&] { engine_->update(fibers); }));
-    if (!detect) {
-      return;
-    }
-    detect_ms_.push_back(time_of([&] { engine_->query(QueryOptions(), result_); }));
+  }
+
+  void detect(QueryResult& result) {
+    detect_ms_.push_back(time_of([&] { engine_->query(QueryOptions(), result); }));
     cycle_ms_.push_back(update_ms_.back() + detect_ms_.back());
+    pairs_ = result.contacts.size();
+    counts_ = result.counts;
   }
 
   const std::string& name() const { return name_; }
-  const std::vector<Contact>& contacts() const { return result_.contacts; }
 
   EngineMeasurement summary() const {
     EngineMeasurement summary;
@@ -41,15 +44,16 @@ class EngineRun {
     summary.detect_ms = median(detect_ms_);
     summary.cycle_ms = median(cycle_ms_);
     summary.memory_bytes = engine_->memory_bytes();
-    summary.pairs = result_.contacts.size();
-    summary.counts = result_.counts;
+    summary.pairs = pairs_;
+    summary.counts = counts_;
     return summary;
   }
 
  private:
   std::string name_;
   std::unique_ptr<ProximityEngine> engine_;
-  QueryResult result_;
+  std::size_t pairs_ = 0;
+  QueryCounts counts_;
   std::vector<double> update_ms_;
   std::vector<double> detect_ms_;
   std::vector<double> cycle_ms_;
@@ -83,23 +87,47 @@ bool same_pairs(const std::vector<Contact>& a, const std::vector<Contact>& b) {
   });
 }
 
-std::string find_disagreement(const std::vector<EngineRun>& runs, std::uint32_t frame) {
-  for (const EngineRun& run : runs) {
-    if (!same_pairs(run.contacts(), runs.front().contacts())) {
-      return "frame " + std::to_string(frame) + ": the pairs of " + runs.front().name() + " (" +
-             std::to_string(runs.front().contacts().size()) + ") and " + run.name() + " (" +
-             std::to_string(run.contacts().size()) + ") differ";
-    }
+/// Compares every answer of a frame with the one before. Only two are kept, in memory that all
+/// engines share: the contacts of a whole head take a gigabyte.
+class Agreement {
+ public:
+  void begin_frame(std::uint32_t frame) {
+    frame_ = frame;
+    previous_name_.clear();
   }
-  return "";
-}
+
+  /// Where the next answer goes.
+  QueryResult& next() { return next_; }
+
+  /// The answer is there: it becomes the one before.
+  void check(const std::string& name) {
+    if (disagreement_.empty() && !previous_name_.empty() &&
+        !same_pairs(previous_.contacts, next_.contacts)) {
+      disagreement_ = "frame " + std::to_string(frame_) + ": the pairs of " + previous_name_ +
+                      " (" + std::to_string(previous_.contacts.size()) + ") and " + name + " (" +
+                      std::to_string(next_.contacts.size()) + ") differ";
+    }
+    std::swap(previous_, next_);
+    previous_name_ = name;
+  }
+
+  const std::string& disagreement() const { return disagreement_; }
+
+ private:
+  QueryResult previous_;
+  QueryResult next_;
+  std::string previous_name_;  // empty before the first answer of a frame
+  std::uint32_t frame_ = 0;
+  std::string disagreement_;
+};
 
 }  // namespace
 
 Measurement measure(const MeasurementOptions& options) {
   assert(options.repeats > 0 && !options.engines.empty());
   Progress progress;
-  const Scene scene = make_scene(options.scene, options.scene_options);
+  const Scene scene =
+      side_by_side(make_scene(options.scene, options.scene_options), options.copies);
   FiberAssembly fibers = scene(0);
   std::vector<EngineRun> runs;
   for (const std::string& name : options.engines) {
@@ -107,26 +135,31 @@ Measurement measure(const MeasurementOptions& options) {
   }
   CopyRun copy(fibers);
 
-  Measurement measurement;
+  Agreement agreement;
   for (std::uint32_t frame = 1; frame <= options.repeats; ++frame) {
     fibers.update_points(scene(frame).points());
     const bool detect = options.detect_every_frame || frame == options.repeats;
     const std::size_t turns = runs.size() + 1;
+    agreement.begin_frame(frame);
     for (std::size_t turn = 0; turn < turns; ++turn) {
       const std::size_t whose = (frame + turn) % turns;
       if (whose == runs.size()) {
         copy.measure_frame(fibers);
         continue;
       }
+      EngineRun& run = runs[whose];
       progress.show("frame " + std::to_string(frame) + " of " + std::to_string(options.repeats) +
-                    ": " + runs[whose].name());
-      runs[whose].measure_frame(fibers, detect);
-    }
-    if (measurement.disagreement.empty()) {
-      measurement.disagreement = find_disagreement(runs, frame);
+                    ": " + run.name());
+      run.update(fibers);
+      if (detect) {
+        run.detect(agreement.next());
+        agreement.check(run.name());
+      }
     }
   }
 
+  Measurement measurement;
+  measurement.disagreement = agreement.disagreement();
   measurement.fibers = fibers.fiber_count();
   measurement.points = fibers.point_count();
   measurement.segments = fibers.segment_count();

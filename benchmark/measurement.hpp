@@ -13,10 +13,11 @@ namespace fiber {
 struct MeasurementOptions {
   std::string scene = "soup";
   SceneOptions scene_options;
+  std::uint32_t copies = 1;                      ///< of the scene, side by side, at least 1
   std::vector<std::string> engines{"run_tree"};  ///< and peers
-  std::uint32_t threads = 1;               ///< most an engine may use, at least 1
-  std::uint32_t repeats = 1;               ///< frames to measure, at least 1
-  bool detect_every_frame = true;          ///< false: only in the last frame
+  std::uint32_t threads = 1;                     ///< most an engine may use, at least 1
+  std::uint32_t repeats = 1;                     ///< frames to measure, at least 1
+  bool detect_every_frame = true;                ///< false: only in the last frame
 };
 
 /// Times of one engine: medians over the frames [ms], work and pairs of the last frame.

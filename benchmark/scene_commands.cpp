@@ -24,6 +24,7 @@ void print_json(const MeasurementOptions& options, const Measurement& measuremen
         {"scale", options.scene_options.scale},
         {"seed", options.scene_options.seed},
         {"shuffle", options.scene_options.shuffle},
+        {"copies", options.copies},
         {"repeats", options.repeats},
         {"engine", engine.engine},
         {"fibers", measurement.fibers},
@@ -90,6 +91,9 @@ void add(CLI::App& app, Command& command, const std::string& name, const std::st
   CLI::App* subcommand = app.add_subcommand(name, description);
   subcommand->callback([&command, request] { command = [request] { return run(*request); }; });
   add_scene_options(*subcommand, options.scene, options.scene_options);
+  subcommand->add_option("--copies", options.copies, "of the scene, side by side")
+      ->check(whole_number(1))
+      ->capture_default_str();
   subcommand
       ->add_option("--engines", options.engines,
                    "with commas between them, of " + listed(engine_names()) +

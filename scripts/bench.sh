@@ -1,15 +1,17 @@
 #!/usr/bin/env bash
 # Runs an experiment with fiber_bench and draws its figures.
-#   scripts/bench.sh paper [--quick] [--out DIR]
+#   scripts/bench.sh paper|peers|scaling [--quick] [--out DIR]
 #     paper      Fig. 4 to 7 of Sobottka and Weber (2005) on this machine
-#     --quick    small scenes: minutes instead of hours
+#     peers      run_tree beside other engines and Embree, CGAL, FCL and Bullet, on every scene
+#     scaling    how a cycle grows from 10⁴ to 4.7 million segments, with one thread and two
+#     --quick    small scenes: minutes at most
 #     --out DIR  where CSV and SVG go (default: build/bench/EXPERIMENT, -quick with --quick);
 #                a run that was stopped goes on from what is there
 set -euo pipefail
 # shellcheck source=scripts/environment.sh
 source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 
-usage="usage: scripts/bench.sh paper [--quick] [--out DIR]"
+usage="usage: scripts/bench.sh paper|peers|scaling [--quick] [--out DIR]"
 experiment=
 quick=()
 out=
@@ -22,7 +24,7 @@ while [ $# -gt 0 ]; do
       shift
       ;;
     -h | --help) echo "$usage"; exit 0 ;;
-    paper) experiment=$1 ;;
+    paper | peers | scaling) experiment=$1 ;;
     *) echo "bench.sh: unknown argument '$1'; $usage" >&2; exit 2 ;;
   esac
   shift
@@ -36,4 +38,4 @@ build_package fiber_bench
 out=${out:-$build/bench/$experiment${quick:+-quick}}
 PYTHONPATH=$root/benchmark /usr/bin/python3 -B -m bench "$experiment" \
   --tool "$build/devel/lib/fiber_proximity/fiber_bench" --out "$out" "${quick[@]}"
-echo "figures, CSV and claims are in $out"
+echo "figures, CSV and tables are in $out"

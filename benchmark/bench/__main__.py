@@ -2,9 +2,9 @@
 
 import argparse
 
-from . import paper
+from . import paper, peers, scaling
 
-EXPERIMENTS = {"paper": paper.run}
+EXPERIMENTS = {"paper": paper.run, "peers": peers.run, "scaling": scaling.run}
 
 
 def main():

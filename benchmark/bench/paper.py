@@ -1,6 +1,5 @@
 """The experiments of the paper: runs, CSV, figures, claims."""
 
-import csv
 import pathlib
 
 from . import paper_figures
@@ -8,14 +7,7 @@ from .machine import describe_machine
 from .paper_claims import claims
 from .paper_plan import FULL, QUICK
 from .runs import measure_all
-
-
-def write_csv(results, path):
-    columns = list(dict.fromkeys(key for result in results for key in result))
-    with open(path, "w", newline="") as file:
-        writer = csv.DictWriter(file, columns, lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(results)
+from .tables import write_csv
 
 
 def run(tool, folder, quick):

@@ -1,6 +1,7 @@
 """The claims of the paper beside what was measured: a table in Markdown."""
 
 from .paper_plan import HEADS, LAYERED_SPATIAL, MODELS
+from .tables import markdown
 
 
 def by_run(results):
@@ -149,7 +150,6 @@ def claims(figure4, figure6, order, pretest, limit_s):
     rows = [claim(table, limit_s * 1e3) for claim in (update_claim, detection_claim, cycle_claim, volumes_claim,
                                        root_claim, primitives_claim, node_tests_claim)]
     rows += [best_k_claim(figure6), threading_claim(order), pretest_claim(pretest)]
-    lines = ["| claim | measured | holds |", "|---|---|---|"]
-    lines += [f"| {claim} | {measured} | {'yes' if holds else 'no'} |"
-              for claim, measured, holds in rows]
-    return "\n".join(lines) + "\n"
+    return markdown(["claim", "measured", "holds"],
+                    [[claim, measured, "yes" if holds else "no"]
+                     for claim, measured, holds in rows])

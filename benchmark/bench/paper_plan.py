@@ -2,7 +2,8 @@
 
 import dataclasses
 
-from .runs import Limits, Run
+from .runs import Limits
+from .stage_run import StageRun
 
 MODELS = ["tress_a", "tress_b", "charming", "curly", "windy", "longish", "cloth", "soup"]
 HEADS = ["charming", "curly", "windy", "longish"]
@@ -23,7 +24,7 @@ class Plan:
     limits: Limits
 
     def figure4(self):
-        return [Run(scene, engine, self.scale, levels=self.has_levels(scene))
+        return [StageRun(scene, engine, self.scale, levels=self.has_levels(scene))
                 for scene in MODELS for engine in HIERARCHIES]
 
     @staticmethod
@@ -31,28 +32,28 @@ class Plan:
         return scene == "tress_a"  # Fig. 5, right
 
     def order(self):
-        return [Run(scene, engine, self.order_scale, shuffle)
+        return [StageRun(scene, engine, self.order_scale, shuffle)
                 for scene in MODELS for engine in ["AL-threaded", *HIERARCHIES]
                 for shuffle in (False, True)]
 
     def pretest(self):
         """With and without testing the leaves' cages before the capsules."""
-        return [Run(scene, engine, self.order_scale, leaf_pretest=pretest)
+        return [StageRun(scene, engine, self.order_scale, leaf_pretest=pretest)
                 for scene in MODELS for engine in HIERARCHIES for pretest in (True, False)]
 
     def figure6(self):
-        return [Run("tress_a", f"DL-{k}", self.scale) for k in self.every_k]
+        return [StageRun("tress_a", f"DL-{k}", self.scale) for k in self.every_k]
 
     def figure7(self):
         scenes = [*MODELS[:2], "tress_c", *MODELS[2:]]
-        return [Run(scene, f"DL-{k}", self.k_scale(scene)) for scene in scenes
+        return [StageRun(scene, f"DL-{k}", self.k_scale(scene)) for scene in scenes
                 for k in self.k_by_model]
 
     def k_scale(self, scene):
         return self.head_scale if scene in HEADS else self.scale
 
     def linear_growth(self):
-        return [Run("curly", engine, scale, until="update")
+        return [StageRun("curly", engine, scale, until="update")
                 for engine in ("AL", "DL-20") for scale in self.growth]
 
     def runs(self):

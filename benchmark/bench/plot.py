@@ -10,6 +10,9 @@ COLORS = {
     "DL-20": "#d62728", "DS-20": "#fc9272",
     "SL": "#238b45", "SW": "#74c476", "SS": "#c7e9c0",
     "OL": "#6a51a3", "OW": "#9e9ac8", "OS": "#dadaeb",
+    "run_tree": "#000000", "embree_low": "#00441b", "embree_medium": "#41ab5d",
+    "embree_refit": "#a1d99b", "cgal": "#8c510a", "fcl": "#54278f", "fcl_naive": "#bcbddc",
+    "bullet": "#fd8d3c",
 }
 
 pyplot.rcParams.update({

@@ -1,18 +1,14 @@
 """The driver of the experiments (benchmark/bench/runs.py) against a tool that only pretends."""
 
-import importlib.util
+import contextlib
+import io
 import json
-import pathlib
-import stat
 import sys
-import tempfile
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "benchmark"))
-if importlib.util.find_spec("tqdm") is None:
-    print("skipped: python3-tqdm is missing (scripts/setup.sh --bench installs it)")
-    sys.exit(0)
-from bench.runs import Limits, Run, measure_all  # noqa: E402  (the path comes first)
+from bench_test_case import BenchTestCase
+from bench.runs import Limits, measure_all
+from bench.stage_run import StageRun
 
 # Prints its stages at once; on the scene `slow` it never gets to the last, on `broken` it fails.
 TOOL = """#!/usr/bin/python3
@@ -20,7 +16,7 @@ import json, sys, time
 with open(__file__ + ".calls", "a") as calls:
     calls.write(" ".join(sys.argv[1:]) + "\\n")
 if "broken" in sys.argv:
-    sys.exit(2)
+    sys.exit("out of order")
 for stage in ["build", "update", "first", "detect"]:
     if stage == "detect" and "slow" in sys.argv:
         time.sleep(1000)
@@ -29,23 +25,15 @@ for stage in ["build", "update", "first", "detect"]:
 LIMITS = Limits(stage=0.5, repeats=1, trials=1, seconds=0.5)
 
 
-class RunsTest(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-        self.tool = self.folder / "tool"
-        self.tool.write_text(TOOL)
-        self.tool.chmod(self.tool.stat().st_mode | stat.S_IXUSR)
+class RunsTest(BenchTestCase):
+    TOOL = TOOL
 
     def measure(self, *runs):
-        return measure_all(str(self.tool), runs, LIMITS, self.folder)
-
-    def calls(self):
-        return pathlib.Path(str(self.tool) + ".calls").read_text().splitlines()
+        with contextlib.redirect_stderr(io.StringIO()) as self.errors:
+            return measure_all(str(self.tool), runs, LIMITS, self.folder)
 
     def test_a_run_has_the_values_of_its_stages(self):
-        run = Run("soup", "AL", scale=0.5, shuffle=True, leaf_pretest=False)
+        run = StageRun("soup", "AL", scale=0.5, shuffle=True, leaf_pretest=False)
         result = self.measure(run)[run]
         self.assertEqual(result["update_ms"], 1.5)
         self.assertEqual((result["pairs"], result["first_pairs"]), (7, 7))
@@ -54,14 +42,14 @@ class RunsTest(unittest.TestCase):
             self.assertIn(argument, self.calls()[0])
 
     def test_a_stage_over_the_limit_ends_the_run_and_is_named(self):
-        run = Run("slow", "AL")
+        run = StageRun("slow", "AL")
         result = self.measure(run)[run]
         self.assertEqual(result["over_limit"], "detect")
         self.assertEqual(result["first_ms"], 1.5)
         self.assertNotIn("detect_ms", result)
 
     def test_what_is_known_is_not_measured_again(self):
-        first, second = Run("soup", "AL"), Run("soup", "AS")
+        first, second = StageRun("soup", "AL"), StageRun("soup", "AS")
         self.measure(first)
         self.measure(first, second, second)
         self.assertEqual(len(self.calls()), 2)
@@ -69,8 +57,12 @@ class RunsTest(unittest.TestCase):
         self.assertEqual([json.loads(line)["engine"] for line in kept], ["AL", "AS"])
 
     def test_a_tool_that_fails_ends_everything_with_its_command(self):
-        with self.assertRaisesRegex(SystemExit, "--scene broken.*exit status 2"):
-            self.measure(Run("broken", "AL"))
+        with self.assertRaisesRegex(SystemExit, "(?s)--scene broken.*exit status 1.*out of order"):
+            self.measure(StageRun("broken", "AL"))
+
+    def test_without_a_terminal_one_line_tells_that_all_is_done(self):
+        self.measure(StageRun("soup", "AL"), StageRun("soup", "AS"))
+        self.assertRegex(self.errors.getvalue(), "^bench: 2 of 2 runs in [0-9]+ s\n$")
 
 
 unittest.main(argv=[sys.argv[0]])

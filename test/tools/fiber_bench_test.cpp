@@ -51,6 +51,22 @@ TEST_F(FiberBench, EnginesAgreeOnEverySubcommand) {
   }
 }
 
+TEST_F(FiberBench, CopiesOfASceneAreAsDenseAsOne) {
+  // Frame 1 is so near to frame 0 that no copy has moved into another.
+  const std::string command =
+      "cycle --scene tress_b --scale 0.01 --repeats 1 --json --engines run_tree,AL --copies ";
+  const nlohmann::json one = json_lines(bench(command + "1").out).at(0);
+  const std::vector<nlohmann::json> rows = json_lines(bench(command + "10").out);
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_GT(one.at("pairs"), 0);
+  for (const nlohmann::json& row : rows) {
+    for (const char* const field : {"fibers", "points", "segments", "pairs"}) {
+      EXPECT_EQ(row.at(field), 10 * one.at(field).get<std::uint64_t>()) << field;
+    }
+    EXPECT_EQ(row.at("copies"), 10);
+  }
+}
+
 TEST_F(FiberBench, PrintsATableWithoutJson) {
   const ProcessResult result = bench("cycle --scale 0.001 --repeats 1");
   EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -91,6 +107,9 @@ TEST_F(FiberBench, RefusesBadCommandLines) {
   EXPECT_TRUE(refused(bench("cycle --engines"), "--engines"));
   EXPECT_TRUE(refused(bench("cycle --scale 0"), "scale is 0"));
   EXPECT_TRUE(refused(bench("update --repeats 0"), "--repeats: '0'"));
+  EXPECT_TRUE(refused(bench("cycle --copies 0"), "--copies: '0'"));
+  EXPECT_TRUE(refused(bench("cycle --scale 0.001 --copies 4000000"),
+                      "copies is 4000000, of this scene at most 2"));
   EXPECT_TRUE(refused(bench("stages --until tea"), "tea"));
   EXPECT_TRUE(refused(bench("update --threads none"), "--threads: 'none'"));
 }

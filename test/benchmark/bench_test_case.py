@@ -1,0 +1,28 @@
+"""What tests of the driver of experiments (benchmark/bench) share: a tool that only pretends."""
+
+import importlib.util
+import pathlib
+import stat
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "benchmark"))
+if importlib.util.find_spec("tqdm") is None:
+    print("skipped: python3-tqdm is missing (scripts/setup.sh --bench installs it)")
+    sys.exit(0)
+
+
+class BenchTestCase(unittest.TestCase):
+    TOOL = ""  # a program in Python; __file__ + ".calls" is for its command lines
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.tool = self.folder / "tool"
+        self.tool.write_text(self.TOOL)
+        self.tool.chmod(self.tool.stat().st_mode | stat.S_IXUSR)
+
+    def calls(self):
+        return pathlib.Path(str(self.tool) + ".calls").read_text().splitlines()
