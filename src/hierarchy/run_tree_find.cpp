@@ -203,8 +203,8 @@ class Finder {
   float bound_;
 };
 
-bool FindNearRuns(const RunTreeView& a, std::uint32_t begin, std::uint32_t end,
-                  const RunTreeView& b, PairSink& sink, QueryCounts& counts) {
+bool find_near_runs_lanes(const RunTreeView& a, std::uint32_t begin, std::uint32_t end,
+                          const RunTreeView& b, PairSink& sink, QueryCounts& counts) {
   Finder finder(a, b, sink, counts);
   for (std::uint32_t group = begin; group < end; ++group) {
     if (!finder.find(group)) {
@@ -222,11 +222,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace fiber {
 
-HWY_EXPORT(FindNearRuns);
+HWY_EXPORT(find_near_runs_lanes);
 
 bool find_near_runs(const RunTreeView& a, std::uint32_t begin, std::uint32_t end,
                     const RunTreeView& b, PairSink& sink, QueryCounts& counts) {
-  return HWY_DYNAMIC_DISPATCH(FindNearRuns)(a, begin, end, b, sink, counts);
+  return HWY_DYNAMIC_DISPATCH(find_near_runs_lanes)(a, begin, end, b, sink, counts);
 }
 
 }  // namespace fiber

@@ -193,9 +193,10 @@ void prefetch(const FiberAssembly& fibers, const RunSpan& span) {
   }
 }
 
-void FitGroups(const FiberAssembly& fibers, const Eigen::Vector3d& origin, const RunSpan* spans,
-               std::uint32_t run_count, std::uint32_t begin, std::uint32_t end, Run* runs,
-               BoxBlock* segment_boxes, CapsuleBlock* capsules, BoxBlock* boxes) {
+void fit_groups_lanes(const FiberAssembly& fibers, const Eigen::Vector3d& origin,
+                      const RunSpan* spans, std::uint32_t run_count, std::uint32_t begin,
+                      std::uint32_t end, Run* runs, BoxBlock* segment_boxes, CapsuleBlock* capsules,
+                      BoxBlock* boxes) {
   constexpr std::uint32_t ahead = 2 * run_width;
   const RepeatedOrigin repeated(origin);
   for (std::uint32_t group = begin; group < end; ++group) {
@@ -218,9 +219,9 @@ float largest_of(const float (&values)[run_width]) {
   return *std::max_element(values, values + run_width);
 }
 
-void FitNodes(const BoxBlock* boxes_below, const CapsuleBlock* capsules_below,
-              std::uint32_t child_count, std::uint32_t begin, std::uint32_t end, BoxBlock* boxes,
-              CapsuleBlock* capsules) {
+void fit_nodes_lanes(const BoxBlock* boxes_below, const CapsuleBlock* capsules_below,
+                     std::uint32_t child_count, std::uint32_t begin, std::uint32_t end,
+                     BoxBlock* boxes, CapsuleBlock* capsules) {
   for (std::uint32_t node = begin; node < end; ++node) {
     for (std::uint32_t lane = 0; lane < run_width; ++lane) {
       const std::uint32_t child = std::min(node * run_width + lane, child_count - 1);
@@ -244,20 +245,20 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace fiber {
 
-HWY_EXPORT(FitGroups);
-HWY_EXPORT(FitNodes);
+HWY_EXPORT(fit_groups_lanes);
+HWY_EXPORT(fit_nodes_lanes);
 
 void fit_groups(const FiberAssembly& fibers, const Eigen::Vector3d& origin, const RunSpan* spans,
                 std::uint32_t run_count, std::uint32_t begin, std::uint32_t end, Run* runs,
                 BoxBlock* segment_boxes, CapsuleBlock* capsules, BoxBlock* boxes) {
-  HWY_DYNAMIC_DISPATCH(FitGroups)
+  HWY_DYNAMIC_DISPATCH(fit_groups_lanes)
   (fibers, origin, spans, run_count, begin, end, runs, segment_boxes, capsules, boxes);
 }
 
 void fit_nodes(const BoxBlock* boxes_below, const CapsuleBlock* capsules_below,
                std::uint32_t child_count, std::uint32_t begin, std::uint32_t end, BoxBlock* boxes,
                CapsuleBlock* capsules) {
-  HWY_DYNAMIC_DISPATCH(FitNodes)
+  HWY_DYNAMIC_DISPATCH(fit_nodes_lanes)
   (boxes_below, capsules_below, child_count, begin, end, boxes, capsules);
 }
 
