@@ -80,9 +80,11 @@ install_with_apt() {
 install_with_rosdep() {
   # shellcheck disable=SC1091
   source /opt/ros/noetic/setup.bash
-  rosdep check --from-paths . --ignore-src >/dev/null 2>&1 && return
+  # Ubuntu 20.04 has no package of Highway: see the README's limits.
+  local keys=(--from-paths . --ignore-src --skip-keys libhwy-dev)
+  rosdep check "${keys[@]}" >/dev/null 2>&1 && return
   rosdep update
-  rosdep install --from-paths . --ignore-src -y
+  rosdep install "${keys[@]}" -y
 }
 
 if [ -f /opt/ros/noetic/setup.bash ]; then
