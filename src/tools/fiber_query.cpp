@@ -44,7 +44,8 @@ void add_options(CLI::App& app, const Query& query, Request& request) {
       ->capture_default_str();
   app.add_option("--radius", request.radius, "of all fibres, if the file has no radii [m]")
       ->capture_default_str();
-  app.add_option("--threads", request.threads, "most threads to use, 0 for as many as there are cores")
+  app.add_option("--threads", request.threads,
+                 "most threads to use, 0 for as many as there are cores")
       ->check(whole_number(0))
       ->capture_default_str();
   app.add_option("--format", request.format, "of the output; json: one object per frame")
