@@ -42,8 +42,9 @@ FiberAssembly repeat(const FiberAssembly& fibers, std::uint32_t copies,
   points.reserve(copies * fibers.point_count());
   offsets.reserve(copies * fibers.fiber_count() + 1);
   for (std::uint32_t copy = 0; copy < copies; ++copy) {
-    const Eigen::Vector3d cell(copy % side, copy / side % side, copy / side / side);
-    const Eigen::Vector3d shift = cell.cwiseProduct(step);
+    using Cell = Eigen::Matrix<std::uint32_t, 3, 1>;
+    const Cell cell(copy % side, copy / side % side, copy / side / side);
+    const Eigen::Vector3d shift = cell.cast<double>().cwiseProduct(step);
     const auto first = static_cast<std::uint32_t>(points.size());
     for (const Eigen::Vector3d& point : fibers.points()) {
       points.push_back(point + shift);
