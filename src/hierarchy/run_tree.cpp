@@ -5,8 +5,6 @@
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "fiber_proximity/hierarchy/run_tree_kernels.hpp"
 #include "fiber_proximity/hierarchy/space_curve.hpp"

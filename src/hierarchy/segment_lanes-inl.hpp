@@ -133,7 +133,7 @@ HWY_INLINE Lanes squared_distance_to(const LaneSegments& segment, const LaneVect
 /// n = u×v, and s = (v×w)·n/|n|² and t = (u×w)·n/|n|² are in [0, 1]. These three are compared
 /// without division, each with a bound of its rounding error: products of l₁ norms times 32 u,
 /// where no expression here rounds by more than 20 u of them. What overflows or is no number counts
-/// as near. Beyond that, rounding is covered by the padding of the radii (see fit_run).
+/// as near. Beyond that, rounding is covered by the padding of the radii.
 HWY_INLINE LaneMask near(const LaneSegments& a, const LaneSegments& b, Lanes reach) {
   const Floats d;
   const auto tiny = hn::Set(d, std::numeric_limits<float>::min());

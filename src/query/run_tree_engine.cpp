@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "fiber_proximity/hierarchy/origin.hpp"
 #include "fiber_proximity/hierarchy/run_tree_kernels.hpp"
 #include "fiber_proximity/query/pair_collector.hpp"
 
@@ -47,8 +48,7 @@ std::uint32_t RunTreeEngine::thread_count() const {
 }
 
 void RunTreeEngine::do_update(const FiberAssembly& fibers, bool same_topology) {
-  const Eigen::Vector3d origin =
-      fibers.points().empty() ? Eigen::Vector3d::Zero() : fibers.points().front();
+  const Eigen::Vector3d origin = hierarchy_origin(fibers);
   arena_.execute([&] {
     if (same_topology) {
       tree_.update(fibers, origin);

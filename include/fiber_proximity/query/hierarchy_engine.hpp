@@ -7,6 +7,7 @@
 
 #include "fiber_proximity/bounds/aabb.hpp"
 #include "fiber_proximity/hierarchy/layered_hierarchy.hpp"
+#include "fiber_proximity/hierarchy/origin.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/query/traverse.hpp"
 
@@ -54,10 +55,7 @@ class HierarchyEngine final : public ProximityEngine {
 
  protected:
   void do_update(const FiberAssembly& fibers, bool same_topology) override {
-    // The first point as the origin: near all others in any scene single precision can serve, and
-    // the same for the same input.
-    const Eigen::Vector3d origin =
-        fibers.points().empty() ? Eigen::Vector3d::Zero() : fibers.points().front();
+    const Eigen::Vector3d origin = hierarchy_origin(fibers);
     if (same_topology) {
       hierarchy_.update(fibers, origin);
     } else {
