@@ -32,33 +32,34 @@ HWY_INLINE std::uint32_t take_lowest(std::uint32_t& bits) {
 class Candidates {
  public:
   Candidates(const RunTreeView& a, const RunTreeView& b, PairSink& sink)
-      : runs_a_(a.runs), runs_b_(b.runs), spans_a_(a.spans), spans_b_(b.spans), sink_(sink) {}
+      : a_(a), b_(b), sink_(sink) {}
 
   /// Room for all pairs of two runs; whether the sink wants to go on.
   bool make_room() { return size_ + run_width * run_width <= capacity || flush(); }
 
-  void push(std::uint32_t run_a, std::uint32_t i, std::uint32_t run_b, std::uint32_t j,
-            float reach) {
-    a_[size_] = static_cast<std::int32_t>(run_a * floats_per_run + i);
-    b_[size_] = static_cast<std::int32_t>(run_b * floats_per_run + j);
-    reach_[size_] = reach;
-    pairs_[size_] = {spans_a_[run_a].first_point + i, spans_b_[run_b].first_point + j};
+  /// Segments by their places along the curve.
+  void push(std::uint32_t a, std::uint32_t b) {
+    places_a_[size_] = static_cast<std::int32_t>(a);
+    places_b_[size_] = static_cast<std::int32_t>(b);
     ++size_;
   }
 
   /// Hands the pairs that are near to the sink; whether it wants to go on.
   bool flush() {
     const Floats d;
+    const auto bound = hn::Set(d, sink_.bound());
     const std::uint32_t size = size_;
     size_ = 0;
-    std::fill_n(a_ + size, run_width, 0);
-    std::fill_n(b_ + size, run_width, 0);
+    std::fill_n(places_a_ + size, run_width, 0);
+    std::fill_n(places_b_ + size, run_width, 0);
     for (std::uint32_t first = 0; first < size; first += static_cast<std::uint32_t>(hn::Lanes(d))) {
-      const auto close = near(gather(runs_a_, a_ + first), gather(runs_b_, b_ + first),
-                              hn::LoadU(d, reach_ + first));
+      const GatheredSegments a = gather(a_.runs, places_a_ + first);
+      const GatheredSegments b = gather(b_.runs, places_b_ + first);
+      const auto close = near(a.segments, b.segments, hn::Add(hn::Add(a.radius, b.radius), bound));
       std::uint32_t bits = bits_of(close) & first_bits(std::min(run_width, size - first));
       while (bits != 0) {
-        if (!sink_.offer(pairs_[first + take_lowest(bits)])) {
+        const std::uint32_t i = first + take_lowest(bits);
+        if (!sink_.offer({a_.first_points[places_a_[i]], b_.first_points[places_b_[i]]})) {
           return false;
         }
       }
@@ -68,32 +69,35 @@ class Candidates {
 
  private:
   static constexpr std::uint32_t capacity = 512;
-  static constexpr std::uint32_t floats_per_run = sizeof(Run) / sizeof(float);
 
-  static LaneVector gather_point(const float* first, const std::int32_t* indices) {
-    const Floats d;
-    const auto index = hn::LoadU(hn::RebindToSigned<Floats>(), indices);
-    constexpr std::uint32_t stride = run_width + 1;
-    return {hn::GatherIndex(d, first, index), hn::GatherIndex(d, first + stride, index),
-            hn::GatherIndex(d, first + 2 * stride, index)};
-  }
+  struct GatheredSegments {
+    LaneSegments segments;
+    Lanes radius;
+  };
 
-  static LaneSegments gather(const Run* runs, const std::int32_t* indices) {
+  static GatheredSegments gather(const Run* runs, const std::int32_t* places) {
     static_assert(std::is_standard_layout_v<Run>, "runs are read as arrays of floats");
-    const float* const first = runs->x;
-    return lane_segments(gather_point(first, indices), gather_point(first + 1, indices));
+    constexpr std::int32_t floats_per_run = sizeof(Run) / sizeof(float);
+    const Floats d;
+    const hn::RebindToSigned<Floats> integers;
+    // Where the segment's first float is among all floats: run · floats_per_run + lane.
+    const auto place = hn::LoadU(integers, places);
+    const auto run = hn::ShiftRight<3>(place);
+    const auto index =
+        hn::Add(place, hn::Mul(run, hn::Set(integers, floats_per_run - std::int32_t{run_width})));
+    const float* const first = runs->start[0];
+    const auto row = [&](std::uint32_t which) {
+      return hn::GatherIndex(d, first + std::size_t{which} * run_width, index);
+    };
+    return {lane_segments({row(0), row(1), row(2)}, {row(3), row(4), row(5)}), row(6)};
   }
 
-  const Run* const runs_a_;
-  const Run* const runs_b_;
-  const RunSpan* const spans_a_;
-  const RunSpan* const spans_b_;
+  const RunTreeView& a_;
+  const RunTreeView& b_;
   PairSink& sink_;
   std::uint32_t size_ = 0;
-  std::int32_t a_[capacity + run_width];  // where the segment's x is among all floats
-  std::int32_t b_[capacity + run_width];
-  float reach_[capacity + run_width] = {};
-  PointPair pairs_[capacity];
+  std::int32_t places_a_[capacity + run_width];
+  std::int32_t places_b_[capacity + run_width];
 };
 
 }  // namespace HWY_NAMESPACE

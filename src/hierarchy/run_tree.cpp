@@ -2,11 +2,11 @@
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 
 #include <algorithm>
 
 #include "fiber_proximity/hierarchy/run_tree_kernels.hpp"
+#include "fiber_proximity/hierarchy/sort_keys.hpp"
 #include "fiber_proximity/hierarchy/space_curve.hpp"
 
 namespace fiber {
@@ -17,19 +17,16 @@ constexpr std::uint32_t groups_per_job = 64;
 
 std::uint32_t divided_up(std::uint32_t count) { return (count + run_width - 1) / run_width; }
 
-/// Cuts every fibre into the fewest runs, of about equal length.
-std::vector<RunSpan> cut_into_runs(const std::vector<std::uint32_t>& offsets) {
-  std::vector<RunSpan> spans;
+/// First points of all segments, fibre by fibre.
+std::vector<std::uint32_t> all_segments(const std::vector<std::uint32_t>& offsets) {
+  std::vector<std::uint32_t> first_points;
+  first_points.reserve(offsets.back() - (offsets.size() - 1));
   for (std::size_t fiber = 0; fiber + 1 < offsets.size(); ++fiber) {
-    const std::uint32_t segments = offsets[fiber + 1] - offsets[fiber] - 1;
-    const std::uint32_t runs = divided_up(segments);
-    for (std::uint32_t run = 0; run < runs; ++run) {
-      const auto begin = static_cast<std::uint32_t>(std::uint64_t{segments} * run / runs);
-      const auto end = static_cast<std::uint32_t>(std::uint64_t{segments} * (run + 1) / runs);
-      spans.push_back({offsets[fiber] + begin, end - begin});
+    for (std::uint32_t point = offsets[fiber]; point + 1 < offsets[fiber + 1]; ++point) {
+      first_points.push_back(point);
     }
   }
-  return spans;
+  return first_points;
 }
 
 /// Calls for parts of [0, count), on several threads if there is enough to do.
@@ -51,33 +48,36 @@ double half_area(const float (&lower)[3], const float (&upper)[3]) {
   return x * y + y * z + z * x;
 }
 
-/// The box of one child.
-void child_box(const BoxBlock& block, std::uint32_t lane, float (&lower)[3], float (&upper)[3]) {
+/// Half the area of the box of a segment, as a run holds it [m²].
+double half_area(const Run& run, std::uint32_t lane) {
+  float lower[3];
+  float upper[3];
   for (int axis = 0; axis < 3; ++axis) {
-    lower[axis] = block.lower[axis][lane];
-    upper[axis] = block.upper[axis][lane];
+    const float radius = run.radius[lane];
+    lower[axis] = std::min(run.start[axis][lane], run.end[axis][lane]) - radius;
+    upper[axis] = std::max(run.start[axis][lane], run.end[axis][lane]) + radius;
   }
+  return half_area(lower, upper);
 }
 
-/// The box of a whole block; lanes without a child repeat the last.
-void block_box(const BoxBlock& block, float (&lower)[3], float (&upper)[3]) {
-  for (int axis = 0; axis < 3; ++axis) {
-    lower[axis] = *std::min_element(block.lower[axis], block.lower[axis] + run_width);
-    upper[axis] = *std::max_element(block.upper[axis], block.upper[axis] + run_width);
-  }
+/// The same of one child.
+double half_area(const BoxBlock& block, std::uint32_t lane) {
+  const float lower[3] = {block.lower[0][lane], block.lower[1][lane], block.lower[2][lane]};
+  const float upper[3] = {block.upper[0][lane], block.upper[1][lane], block.upper[2][lane]};
+  return half_area(lower, upper);
 }
 
 }  // namespace
 
 void RunTree::build(const FiberAssembly& fibers, const Eigen::Vector3d& origin) {
   origin_ = origin;
-  spans_ = cut_into_runs(fibers.offsets());
-  runs_.resize(spans_.size());
-  segment_boxes_.resize(spans_.size());
+  first_points_ = all_segments(fibers.offsets());
+  runs_.resize(divided_up(segment_count()));
   levels_.clear();
-  for (std::uint32_t count = run_count(); count > 0 && (levels_.empty() || count > 1);) {
+  for (auto count = static_cast<std::uint32_t>(runs_.size());
+       count > 0 && (levels_.empty() || count > 1);) {
     count = divided_up(count);
-    levels_.push_back({std::vector<BoxBlock>(count), std::vector<CapsuleBlock>(count)});
+    levels_.emplace_back(count);
   }
   set_view();
   sort(fibers);
@@ -95,92 +95,69 @@ void RunTree::update(const FiberAssembly& fibers, const Eigen::Vector3d& origin)
 
 void RunTree::sort(const FiberAssembly& fibers) {
   const SpaceCurve curve(fibers.points());
-  places_.resize(spans_.size());
-  for_ranges(run_count(), [&](std::uint32_t begin, std::uint32_t end) {
-    for (std::uint32_t run = begin; run < end; ++run) {
-      const RunSpan& span = spans_[run];
-      places_[run] = {curve.key(0.5 * fibers.points()[span.first_point] +
-                                0.5 * fibers.points()[span.first_point + span.segment_count]),
-                      span};
-    }
+  keys_.resize(first_points_.size());
+  for_ranges(segment_count(), [&](std::uint32_t begin, std::uint32_t end) {
+    curve.key_segments(fibers.points(), first_points_.data() + begin, end - begin,
+                       keys_.data() + begin);
   });
-  tbb::parallel_sort(places_.begin(), places_.end(), [](const Place& x, const Place& y) {
-    return x.key != y.key ? x.key < y.key : x.span.first_point < y.span.first_point;
-  });
-  for (std::uint32_t run = 0; run < run_count(); ++run) {
-    spans_[run] = places_[run].span;
-  }
+  sort_keys(keys_, scratch_);
+  std::transform(keys_.begin(), keys_.end(), first_points_.begin(),
+                 [](std::uint64_t key) { return static_cast<std::uint32_t>(key); });
   refit(fibers);
   sorted_looseness_ = looseness();
 }
 
 void RunTree::refit(const FiberAssembly& fibers) {
-  if (levels_.empty()) {
-    return;
-  }
-  Level& groups = levels_.front();
-  for_ranges(static_cast<std::uint32_t>(groups.boxes.size()),
-             [&](std::uint32_t begin, std::uint32_t end) {
-               fit_groups(fibers, origin_, spans_.data(), run_count(), begin, end, runs_.data(),
-                          segment_boxes_.data(), groups.capsules.data(), groups.boxes.data());
-             });
-  for (std::size_t i = 1; i < levels_.size(); ++i) {
-    const Level& below = levels_[i - 1];
-    Level& level = levels_[i];
-    for_ranges(static_cast<std::uint32_t>(level.boxes.size()),
-               [&](std::uint32_t begin, std::uint32_t end) {
-                 fit_nodes(below.boxes.data(), below.capsules.data(),
-                           static_cast<std::uint32_t>(below.boxes.size()), begin, end,
-                           level.boxes.data(), level.capsules.data());
-               });
+  for (std::size_t i = 0; i < levels_.size(); ++i) {
+    std::vector<BoxBlock>& boxes = levels_[i];
+    for_ranges(
+        static_cast<std::uint32_t>(boxes.size()), [&](std::uint32_t begin, std::uint32_t end) {
+          if (i == 0) {
+            fit_groups(fibers, origin_, first_points_.data(), segment_count(), begin, end,
+                       runs_.data(), boxes.data());
+          } else {
+            fit_nodes(levels_[i - 1].data(), static_cast<std::uint32_t>(levels_[i - 1].size()),
+                      begin, end, boxes.data());
+          }
+        });
   }
 }
 
-/// Area of the groups' boxes per area of their runs' boxes: what sorting keeps small. Judged by
-/// some groups, evenly spread.
+/// Area of the runs' boxes per area of their segments' boxes: what sorting keeps small. Judged by
+/// some runs, evenly spread.
 double RunTree::looseness() const {
-  if (levels_.empty()) {
-    return 0.0;
-  }
-  constexpr std::size_t sample = 1024;
-  const std::vector<BoxBlock>& groups = levels_.front().boxes;
+  constexpr std::size_t sample = 256;
+  double of_segments = 0.0;
   double of_runs = 0.0;
-  double of_groups = 0.0;
-  for (std::size_t group = 0; group < groups.size(); group += groups.size() / sample + 1) {
-    float lower[3];
-    float upper[3];
+  for (std::size_t run = 0; run < runs_.size(); run += runs_.size() / sample + 1) {
     for (std::uint32_t lane = 0; lane < run_width; ++lane) {
-      child_box(groups[group], lane, lower, upper);
-      of_runs += half_area(lower, upper);
+      of_segments += half_area(runs_[run], lane);
     }
-    block_box(groups[group], lower, upper);
-    of_groups += half_area(lower, upper);
+    of_runs += half_area(levels_.front()[run / run_width], run % run_width);
   }
-  return of_runs > 0.0 ? of_groups / of_runs : 0.0;
+  return of_segments > 0.0 ? of_runs / of_segments : 0.0;
 }
 
 void RunTree::set_view() {
   view_ = {};
   view_.runs = runs_.data();
-  view_.spans = spans_.data();
-  view_.segment_boxes = segment_boxes_.data();
+  view_.first_points = first_points_.data();
+  view_.segment_count = segment_count();
   view_.level_count = static_cast<std::uint32_t>(levels_.size());
-  std::uint32_t children = run_count();
+  auto children = static_cast<std::uint32_t>(runs_.size());
   for (std::size_t level = 0; level < levels_.size(); ++level) {
-    const auto nodes = static_cast<std::uint32_t>(levels_[level].boxes.size());
-    view_.levels[level] = {levels_[level].boxes.data(), levels_[level].capsules.data(), nodes,
-                           children};
+    const auto nodes = static_cast<std::uint32_t>(levels_[level].size());
+    view_.levels[level] = {levels_[level].data(), nodes, children};
     children = nodes;
   }
 }
 
 std::size_t RunTree::memory_bytes() const {
-  std::size_t bytes = spans_.capacity() * sizeof(RunSpan) + runs_.capacity() * sizeof(Run) +
-                      segment_boxes_.capacity() * sizeof(BoxBlock) +
-                      places_.capacity() * sizeof(Place);
-  for (const Level& level : levels_) {
-    bytes += level.boxes.capacity() * sizeof(BoxBlock) +
-             level.capsules.capacity() * sizeof(CapsuleBlock);
+  std::size_t bytes = first_points_.capacity() * sizeof(std::uint32_t) +
+                      runs_.capacity() * sizeof(Run) +
+                      (keys_.capacity() + scratch_.capacity()) * sizeof(std::uint64_t);
+  for (const std::vector<BoxBlock>& boxes : levels_) {
+    bytes += boxes.capacity() * sizeof(BoxBlock);
   }
   return bytes;
 }

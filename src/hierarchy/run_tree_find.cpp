@@ -15,43 +15,75 @@ namespace fiber {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// Children of a node that there are.
-std::uint32_t child_bits(const RunTreeLevel& level, std::uint32_t node) {
-  return first_bits(std::min(run_width, level.child_count - node * run_width));
-}
+constexpr std::uint32_t all_bits = first_bits(run_width);
 
-/// Bits of the block's lanes whose boxes come within the bound of the box in one lane of another.
-/// Infinite boxes are near everything.
-std::uint32_t near_boxes(const BoxBlock& block, const BoxBlock& other, std::uint32_t other_lane,
-                         float bound) {
-  const Floats d;
-  const LaneVector bounds{hn::Set(d, bound), hn::Set(d, bound), hn::Set(d, bound)};
-  const LaneVector lower = subtract(spread(other.lower, other_lane), bounds);
-  const LaneVector upper = add(spread(other.upper, other_lane), bounds);
+/// Bits of the block's lanes whose boxes overlap the box in one lane of another. Infinite boxes
+/// overlap everything.
+HWY_INLINE std::uint32_t overlapping(const BoxBlock& block, const BoxBlock& other,
+                                     std::uint32_t other_lane) {
+  const LaneVector lower = spread(other.lower, other_lane);
+  const LaneVector upper = spread(other.upper, other_lane);
   std::uint32_t bits = 0;
-  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
-    const auto apart = boxes_apart(load(block.lower, lane), load(block.upper, lane), lower, upper);
-    bits |= bits_of(hn::Not(apart)) << lane;
+  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(Floats())) {
+    bits |= bits_of(boxes_overlap(load(block.lower, lane), load(block.upper, lane), lower, upper))
+            << lane;
   }
   return bits;
 }
 
-/// The same of capsules.
-std::uint32_t near_capsules(const CapsuleBlock& block, const CapsuleBlock& other,
-                            std::uint32_t other_lane, float bound) {
-  const Floats d;
-  const LaneSegments axis =
-      lane_segments(spread(other.start, other_lane), spread(other.end, other_lane));
-  const auto reach = hn::Set(d, other.radius[other_lane] + bound);
-  std::uint32_t bits = 0;
-  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
-    const LaneSegments axes = lane_segments(load(block.start, lane), load(block.end, lane));
-    bits |= bits_of(near(axis, axes, hn::Add(reach, load(block.radius, lane)))) << lane;
+/// Boxes of a run's segments.
+HWY_INLINE void fit_boxes(const Run& run, BoxBlock& boxes) {
+  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(Floats())) {
+    const LaneVector start = load(run.start, lane);
+    const LaneVector end = load(run.end, lane);
+    const auto radius = load(run.radius, lane);
+    const LaneVector reach{radius, radius, radius};
+    store(subtract(minimum(start, end), reach), boxes.lower, lane);
+    store(add(maximum(start, end), reach), boxes.upper, lane);
   }
-  return bits;
 }
 
-/// All pairs of the groups of one tree and the runs of another, or of the same.
+/// Boxes larger by the bound on all sides.
+HWY_INLINE void inflate(const BoxBlock& boxes, float bound, BoxBlock& larger) {
+  const auto bounds = hn::Set(Floats(), bound);
+  const LaneVector reach{bounds, bounds, bounds};
+  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(Floats())) {
+    store(subtract(load(boxes.lower, lane), reach), larger.lower, lane);
+    store(add(load(boxes.upper, lane), reach), larger.upper, lane);
+  }
+}
+
+/// A group of the one tree while it looks for what is near it in the other: all its boxes, larger
+/// by the bound.
+class Probe {
+ public:
+  void aim(const RunTreeView& tree, std::uint32_t group, float bound) {
+    const std::uint32_t first = group * run_width;
+    run_count_ = std::min(run_width, tree.levels[0].child_count - first);
+    inflate(tree.levels[0].boxes[group], bound, runs_);
+    for (std::uint32_t lane = 0; lane < run_count_; ++lane) {
+      fit_boxes(tree.runs[first + lane], segments_[lane]);
+      inflate(segments_[lane], bound, segments_[lane]);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      whole_.lower[axis][0] = *std::min_element(runs_.lower[axis], runs_.lower[axis] + run_width);
+      whole_.upper[axis][0] = *std::max_element(runs_.upper[axis], runs_.upper[axis] + run_width);
+    }
+  }
+
+  std::uint32_t run_count() const { return run_count_; }
+  const BoxBlock& whole() const { return whole_; }  ///< in lane 0
+  const BoxBlock& runs() const { return runs_; }
+  const BoxBlock& segments(std::uint32_t run) const { return segments_[run]; }
+
+ private:
+  std::uint32_t run_count_ = 0;
+  BoxBlock whole_ = {};
+  BoxBlock runs_ = {};
+  BoxBlock segments_[run_width] = {};
+};
+
+/// All pairs of the groups of one tree and the segments of another, or of the same.
 class Finder {
  public:
   Finder(const RunTreeView& a, const RunTreeView& b, PairSink& sink, QueryCounts& counts)
@@ -60,16 +92,14 @@ class Finder {
         self_(a.runs == b.runs),
         sink_(sink),
         counts_(counts),
-        candidates_(a, b, sink),
-        bound_(sink.bound()) {}
+        candidates_(a, b, sink) {}
 
   /// Whether to go on.
   bool find(std::uint32_t group) {
-    // Near runs first: those of the group itself.
-    if (self_ && !visit_group(group, group, child_bits(a_.levels[0], group))) {
-      return false;
-    }
-    return a_.level_count == 1 ? visit_all(group) : descend(group);
+    group_ = group;
+    aim();
+    // Near ones first: those of the group itself.
+    return (!self_ || visit_group(group, all_bits)) && descend();
   }
 
   /// Offers what waits; whether to go on.
@@ -81,26 +111,24 @@ class Finder {
     std::uint32_t index;
   };
 
-  /// For the one group of a tree that has no level above it.
-  bool visit_all(std::uint32_t group) {
-    for (std::uint32_t other = self_ ? group + 1 : 0; other < b_.group_count(); ++other) {
-      if (!visit_group(group, other, child_bits(b_.levels[0], other))) {
-        return false;
-      }
-    }
-    return true;
+  void aim() {
+    bound_ = sink_.bound();
+    probe_.aim(a_, group_, bound_);
   }
 
-  bool descend(std::uint32_t group) {
+  bool descend() {
     Node stack[RunTreeView::most_levels * run_width];
     std::uint32_t size = 0;
     stack[size++] = {b_.level_count - 1, 0};
     while (size > 0) {
       const Node node = stack[--size];
-      std::uint32_t bits = near_group(node.level, node.index, group);
+      const RunTreeLevel& level = b_.levels[node.level];
+      std::uint32_t bits =
+          children(level, node.index) & overlapping(level.boxes[node.index], probe_.whole(), 0);
+      count(bits);
       if (node.level == 0) {
-        const bool again = self_ && node.index == group;
-        if (bits != 0 && !again && !visit_group(group, node.index, bits)) {
+        const bool again = self_ && node.index == group_;
+        if (bits != 0 && !again && !visit_group(node.index, bits)) {
           return false;
         }
         continue;
@@ -109,7 +137,7 @@ class Finder {
         const std::uint32_t child = node.index * run_width + take_lowest(bits);
         // Of a tree with itself, each pair of groups once: later ones only.
         const std::uint64_t groups_end = std::uint64_t{child + 1} << (3U * (node.level - 1));
-        if (!self_ || groups_end > group + 1) {
+        if (!self_ || groups_end > group_ + 1) {
           stack[size++] = {node.level - 1, child};
         }
       }
@@ -117,36 +145,18 @@ class Finder {
     return true;
   }
 
-  /// Bits of the children of a node of b that come near group g of a. Boxes first, then capsules.
-  std::uint32_t near_group(std::uint32_t level, std::uint32_t node, std::uint32_t g) {
-    const RunTreeLevel& of_a = a_.levels[1];
-    const RunTreeLevel& of_b = b_.levels[level];
-    const std::uint32_t a = g / run_width;
-    const std::uint32_t lane = g % run_width;
-    std::uint32_t bits =
-        child_bits(of_b, node) & near_boxes(of_b.boxes[node], of_a.boxes[a], lane, bound_);
-    if (bits != 0) {
-      bits &= near_capsules(of_b.capsules[node], of_a.capsules[a], lane, bound_);
-    }
-    count(bits);
-    return bits;
-  }
-
-  /// Pairs of runs of group g of a and of the chosen lanes of group h of b. Of runs, boxes decide:
-  /// their capsules would cost more than they save.
-  bool visit_group(std::uint32_t g, std::uint32_t h, std::uint32_t chosen) {
-    const bool same = self_ && g == h;
-    const BoxBlock& boxes_g = a_.levels[0].boxes[g];
-    const BoxBlock& boxes_h = b_.levels[0].boxes[h];
-    std::uint32_t rows = child_bits(a_.levels[0], g);
-    while (rows != 0) {
-      const std::uint32_t row = take_lowest(rows);
+  /// Pairs of the group's runs and the chosen ones of group h of b.
+  bool visit_group(std::uint32_t h, std::uint32_t chosen) {
+    const bool same = self_ && h == group_;
+    const RunTreeLevel& runs = b_.levels[0];
+    chosen &= children(runs, h);
+    for (std::uint32_t run = 0; run < probe_.run_count(); ++run) {
       // Of a group with itself: a run with itself, and with those after it.
-      const std::uint32_t wanted = same ? chosen & ~first_bits(row) : chosen;
-      std::uint32_t bits = wanted & near_boxes(boxes_h, boxes_g, row, bound_);
+      const std::uint32_t wanted = same ? chosen & ~first_bits(run) : chosen;
+      std::uint32_t bits = wanted & overlapping(runs.boxes[h], probe_.runs(), run);
       count(bits);
       while (bits != 0) {
-        if (!visit_runs(g * run_width + row, h * run_width + take_lowest(bits))) {
+        if (!visit_runs(run, h, take_lowest(bits))) {
           return false;
         }
       }
@@ -154,44 +164,60 @@ class Finder {
     return true;
   }
 
-  void count(std::uint32_t bits) {
-    counts_.node_tests += run_width;
-    counts_.node_overlaps += hwy::PopCount(bits);
-  }
-
-  /// Pairs of segments of two runs: those of each that are near the other's box, then each of one
-  /// with those of the other.
-  bool visit_runs(std::uint32_t a, std::uint32_t b) {
-    const BoxBlock& of_a = a_.segment_boxes[a];
-    const BoxBlock& of_b = b_.segment_boxes[b];
-    const BoxBlock& with_a = a_.levels[0].boxes[a / run_width];
-    const BoxBlock& with_b = b_.levels[0].boxes[b / run_width];
+  /// Pairs of segments of a run of the group and one of b: those of each that are near the other's
+  /// box, then each of one with those of the other.
+  bool visit_runs(std::uint32_t run, std::uint32_t h, std::uint32_t lane) {
+    const std::uint32_t a = group_ * run_width + run;
+    const std::uint32_t b = h * run_width + lane;
     std::uint32_t rows =
-        first_bits(a_.spans[a].segment_count) & near_boxes(of_a, with_b, b % run_width, bound_);
+        segments(a_, a) & overlapping(probe_.segments(run), b_.levels[0].boxes[h], lane);
     if (rows == 0) {
       return true;
     }
-    const std::uint32_t columns =
-        first_bits(b_.spans[b].segment_count) & near_boxes(of_b, with_a, a % run_width, bound_);
+    BoxBlock boxes;
+    fit_boxes(b_.runs[b], boxes);
+    const std::uint32_t columns = segments(b_, b) & overlapping(boxes, probe_.runs(), run);
     if (columns == 0) {
       return true;
     }
-    if (!candidates_.make_room()) {
+    if (!make_room()) {
       return false;
     }
-    bound_ = sink_.bound();
     const bool same = self_ && a == b;
-    const float reach = a_.runs[a].radius + b_.runs[b].radius + bound_;
     while (rows != 0) {
       const std::uint32_t i = take_lowest(rows);
       // Of a run with itself: each segment with those after it.
       const std::uint32_t wanted = same ? columns & ~first_bits(i + 1) : columns;
-      std::uint32_t bits = wanted & near_boxes(of_b, of_a, i, bound_);
+      std::uint32_t bits = wanted & overlapping(boxes, probe_.segments(run), i);
       while (bits != 0) {
-        candidates_.push(a, i, b, take_lowest(bits), reach);
+        candidates_.push(a * run_width + i, b * run_width + take_lowest(bits));
       }
     }
     return true;
+  }
+
+  /// For the pairs of two runs; the bound may shrink by that. Whether to go on.
+  bool make_room() {
+    if (!candidates_.make_room()) {
+      return false;
+    }
+    if (sink_.bound() < bound_) {
+      aim();
+    }
+    return true;
+  }
+
+  /// Bits of the children of a node, and of the segments of a run, that there are.
+  static std::uint32_t children(const RunTreeLevel& level, std::uint32_t node) {
+    return first_bits(std::min(run_width, level.child_count - node * run_width));
+  }
+  static std::uint32_t segments(const RunTreeView& tree, std::uint32_t run) {
+    return first_bits(std::min(run_width, tree.segment_count - run * run_width));
+  }
+
+  void count(std::uint32_t bits) {
+    counts_.node_tests += run_width;
+    counts_.node_overlaps += hwy::PopCount(bits);
   }
 
   const RunTreeView& a_;
@@ -200,11 +226,13 @@ class Finder {
   PairSink& sink_;
   QueryCounts& counts_;
   Candidates candidates_;
-  float bound_;
+  Probe probe_;
+  std::uint32_t group_ = 0;
+  float bound_ = 0.0F;
 };
 
-bool find_near_runs_lanes(const RunTreeView& a, std::uint32_t begin, std::uint32_t end,
-                          const RunTreeView& b, PairSink& sink, QueryCounts& counts) {
+bool find_near_segments_lanes(const RunTreeView& a, std::uint32_t begin, std::uint32_t end,
+                              const RunTreeView& b, PairSink& sink, QueryCounts& counts) {
   Finder finder(a, b, sink, counts);
   for (std::uint32_t group = begin; group < end; ++group) {
     if (!finder.find(group)) {
@@ -222,11 +250,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace fiber {
 
-HWY_EXPORT(find_near_runs_lanes);
+HWY_EXPORT(find_near_segments_lanes);
 
-bool find_near_runs(const RunTreeView& a, std::uint32_t begin, std::uint32_t end,
-                    const RunTreeView& b, PairSink& sink, QueryCounts& counts) {
-  return HWY_DYNAMIC_DISPATCH(find_near_runs_lanes)(a, begin, end, b, sink, counts);
+bool find_near_segments(const RunTreeView& a, std::uint32_t begin, std::uint32_t end,
+                        const RunTreeView& b, PairSink& sink, QueryCounts& counts) {
+  return HWY_DYNAMIC_DISPATCH(find_near_segments_lanes)(a, begin, end, b, sink, counts);
 }
 
 }  // namespace fiber

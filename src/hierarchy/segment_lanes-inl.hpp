@@ -41,11 +41,13 @@ HWY_INLINE Lanes load(const float (&values)[run_width], std::size_t lane) {
 HWY_INLINE LaneVector load(const float (&by_axis)[3][run_width], std::size_t lane) {
   return {load(by_axis[0], lane), load(by_axis[1], lane), load(by_axis[2], lane)};
 }
-/// One vector in all lanes.
-HWY_INLINE LaneVector spread(const float (&by_axis)[3]) {
+HWY_INLINE void store(const LaneVector& vectors, float (&by_axis)[3][run_width], std::size_t lane) {
   const Floats d;
-  return {hn::Set(d, by_axis[0]), hn::Set(d, by_axis[1]), hn::Set(d, by_axis[2])};
+  hn::Store(vectors.x, d, by_axis[0] + lane);
+  hn::Store(vectors.y, d, by_axis[1] + lane);
+  hn::Store(vectors.z, d, by_axis[2] + lane);
 }
+/// One vector in all lanes.
 HWY_INLINE LaneVector spread(const float (&by_axis)[3][run_width], std::uint32_t lane) {
   const Floats d;
   return {hn::Set(d, by_axis[0][lane]), hn::Set(d, by_axis[1][lane]), hn::Set(d, by_axis[2][lane])};
@@ -56,6 +58,12 @@ HWY_INLINE LaneVector add(const LaneVector& a, const LaneVector& b) {
 }
 HWY_INLINE LaneVector subtract(const LaneVector& a, const LaneVector& b) {
   return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+HWY_INLINE LaneVector negative(const LaneVector& a) {
+  return {hn::Neg(a.x), hn::Neg(a.y), hn::Neg(a.z)};
+}
+HWY_INLINE LaneVector absolute(const LaneVector& a) {
+  return {hn::Abs(a.x), hn::Abs(a.y), hn::Abs(a.z)};
 }
 HWY_INLINE LaneVector minimum(const LaneVector& a, const LaneVector& b) {
   return {hn::Min(a.x, b.x), hn::Min(a.y, b.y), hn::Min(a.z, b.z)};
@@ -86,11 +94,11 @@ HWY_INLINE std::uint32_t bits_of(LaneMask mask) {
   return bits[0];
 }
 
-HWY_INLINE LaneMask boxes_apart(const LaneVector& lower_a, const LaneVector& upper_a,
-                                const LaneVector& lower_b, const LaneVector& upper_b) {
-  return hn::Or(hn::Or(hn::Or(hn::Gt(lower_a.x, upper_b.x), hn::Gt(lower_b.x, upper_a.x)),
-                       hn::Or(hn::Gt(lower_a.y, upper_b.y), hn::Gt(lower_b.y, upper_a.y))),
-                hn::Or(hn::Gt(lower_a.z, upper_b.z), hn::Gt(lower_b.z, upper_a.z)));
+HWY_INLINE LaneMask boxes_overlap(const LaneVector& lower_a, const LaneVector& upper_a,
+                                  const LaneVector& lower_b, const LaneVector& upper_b) {
+  return hn::And(hn::And(hn::And(hn::Le(lower_a.x, upper_b.x), hn::Le(lower_b.x, upper_a.x)),
+                         hn::And(hn::Le(lower_a.y, upper_b.y), hn::Le(lower_b.y, upper_a.y))),
+                 hn::And(hn::Le(lower_a.z, upper_b.z), hn::Le(lower_b.z, upper_a.z)));
 }
 
 /// One segment per lane.
@@ -105,13 +113,6 @@ HWY_INLINE LaneSegments lane_segments(const LaneVector& start, const LaneVector&
   const LaneVector direction = subtract(end, start);
   const auto least = hn::Set(d, std::numeric_limits<float>::min());
   return {start, direction, hn::Div(hn::Set(d, 1.0F), hn::Max(dot(direction, direction), least))};
-}
-
-HWY_INLINE LaneSegments broadcast_segment(float x0, float y0, float z0, float x1, float y1,
-                                          float z1) {
-  const Floats d;
-  return lane_segments({hn::Set(d, x0), hn::Set(d, y0), hn::Set(d, z0)},
-                       {hn::Set(d, x1), hn::Set(d, y1), hn::Set(d, z1)});
 }
 
 /// Squared distance of a segment from the point at `offset` from its start [m²]. Whatever the

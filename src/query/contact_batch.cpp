@@ -72,7 +72,7 @@ void ContactBatch::collect(const RunTreeView& a, const RunTreeView& b, const Pai
     job.counts = {};
     const auto begin = static_cast<std::uint32_t>(index) * groups_per_job;
     CandidateSink sink(test, bound, job.pairs);
-    find_near_runs(a, begin, std::min(groups, begin + groups_per_job), b, sink, job.counts);
+    find_near_segments(a, begin, std::min(groups, begin + groups_per_job), b, sink, job.counts);
   });
   for (std::size_t job = 0; job < job_count_; ++job) {
     counts.node_tests += jobs_[job].counts.node_tests;

@@ -29,7 +29,7 @@ void find_some(const RunTreeView& a, const RunTreeView& b, PairCollector& collec
                QueryCounts& counts) {
   CollectorSink sink(collector);
   if (b.group_count() != 0) {
-    find_near_runs(a, 0, a.group_count(), b, sink, counts);
+    find_near_segments(a, 0, a.group_count(), b, sink, counts);
   }
   collector.finish();
 }

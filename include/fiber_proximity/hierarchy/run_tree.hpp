@@ -9,12 +9,13 @@
 
 namespace fiber {
 
-/// The fast hierarchy: chain-aligned at the bottom, spatially sorted above.
+/// The fast hierarchy: segments along a space-filling curve, refitted in place while that order
+/// serves.
 ///
-/// Leaves are runs of up to eight consecutive segments of one fibre, which stay small however the
-/// fibres move. Runs stand along a space-filling curve; over them lies a tree of eight children per
-/// node, without pointers, in level order. An update refits all boxes in place; only when they have
-/// grown by more than `most_decay` since the last sort are the runs sorted anew.
+/// Leaves are runs of eight segments that follow each other along the curve: of one fibre where
+/// fibres are alone, of neighbouring fibres where they are dense. Over them lies a tree of eight
+/// children per node, without pointers, in level order. An update refits all boxes in place; only
+/// when they have grown by more than `most_decay` since the last sort are segments sorted anew.
 class RunTree {
  public:
   RunTree() = default;
@@ -22,8 +23,8 @@ class RunTree {
   RunTree& operator=(const RunTree&) = delete;
   ~RunTree() = default;
 
-  /// By how much the boxes of groups may grow, relative to those of their runs, before runs are
-  /// sorted anew (docs/performance.md).
+  /// By how much the boxes of runs may grow, relative to those of their segments, before segments
+  /// are sorted anew (docs/performance.md).
   static constexpr double most_decay = 1.5;
 
   /// @param origin [m] the point all boxes are relative to
@@ -34,9 +35,8 @@ class RunTree {
 
   const RunTreeView& view() const { return view_; }
   const Eigen::Vector3d& origin() const { return origin_; }
-  std::uint32_t run_count() const { return static_cast<std::uint32_t>(spans_.size()); }
 
-  /// How often runs have been sorted since the tree was built.
+  /// How often segments have been sorted since the tree was built.
   std::uint64_t sort_count() const { return sort_count_; }
   std::size_t memory_bytes() const;
 
@@ -46,21 +46,13 @@ class RunTree {
   double looseness() const;
   void set_view();
 
-  struct Place {
-    std::uint64_t key;
-    RunSpan span;
-  };
+  std::uint32_t segment_count() const { return static_cast<std::uint32_t>(first_points_.size()); }
 
-  struct Level {
-    std::vector<BoxBlock> boxes;  // of the children, by node
-    std::vector<CapsuleBlock> capsules;
-  };
-
-  std::vector<RunSpan> spans_;  // in the order of the curve
+  std::vector<std::uint32_t> first_points_;  // of segments, in the order of the curve
   std::vector<Run> runs_;
-  std::vector<BoxBlock> segment_boxes_;  // by run
-  std::vector<Level> levels_;            // groups first
-  std::vector<Place> places_;            // scratch of sort()
+  std::vector<std::vector<BoxBlock>> levels_;  // boxes of the children, by node; groups first
+  std::vector<std::uint64_t> keys_;            // of sort()
+  std::vector<std::uint64_t> scratch_;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   double sorted_looseness_ = 0.0;
   std::uint64_t sort_count_ = 0;

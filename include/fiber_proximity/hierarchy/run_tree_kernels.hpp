@@ -23,24 +23,24 @@ class PairSink {
   virtual float bound() const = 0;
 };
 
-/// Fits the runs of groups [begin, end): their points, capsules and boxes.
-/// @param runs, segment_boxes by run; capsules, boxes by group
-void fit_groups(const FiberAssembly& fibers, const Eigen::Vector3d& origin, const RunSpan* spans,
-                std::uint32_t run_count, std::uint32_t begin, std::uint32_t end, Run* runs,
-                BoxBlock* segment_boxes, CapsuleBlock* capsules, BoxBlock* boxes);
+/// Fits the runs of groups [begin, end): their segments and boxes.
+/// @param first_points of all segments, along the curve
+/// @param runs, boxes by run, by group
+void fit_groups(const FiberAssembly& fibers, const Eigen::Vector3d& origin,
+                const std::uint32_t* first_points, std::uint32_t segment_count, std::uint32_t begin,
+                std::uint32_t end, Run* runs, BoxBlock* boxes);
 
-/// Fits the nodes [begin, end) of a level above the groups to the blocks of the level below.
+/// Fits the nodes [begin, end) of a level above the groups to the boxes of the level below.
 /// @param child_count of the whole level
-void fit_nodes(const BoxBlock* boxes_below, const CapsuleBlock* capsules_below,
-               std::uint32_t child_count, std::uint32_t begin, std::uint32_t end, BoxBlock* boxes,
-               CapsuleBlock* capsules);
+void fit_nodes(const BoxBlock* boxes_below, std::uint32_t child_count, std::uint32_t begin,
+               std::uint32_t end, BoxBlock* boxes);
 
 /// Offers every pair of segments of the groups [begin, end) of a and of all of b that may come
-/// within the sink's bound; of one tree with itself, every pair of runs once. Which pairs are
+/// within the sink's bound; of one tree with itself, every pair of segments once. Which pairs are
 /// offered beyond those that do come within it depends on the instruction set; their order does
 /// not.
 /// @return whether the sink wanted to go on
-bool find_near_runs(const RunTreeView& a, std::uint32_t begin, std::uint32_t end,
-                    const RunTreeView& b, PairSink& sink, QueryCounts& counts);
+bool find_near_segments(const RunTreeView& a, std::uint32_t begin, std::uint32_t end,
+                        const RunTreeView& b, PairSink& sink, QueryCounts& counts);
 
 }  // namespace fiber

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace fiber {
+
+/// Sorts keys in ascending order, on several threads if there are many. All keys must differ.
+/// @param scratch memory to be kept from call to call; its contents do not matter
+void sort_keys(std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>& scratch);
+
+}  // namespace fiber
