@@ -118,6 +118,13 @@ void FiberAssembly::update_points(const std::vector<Eigen::Vector3d>& points) {
 }
 
 SegmentId FiberAssembly::segment_id(std::uint32_t point) const {
+  assert(point < point_count());
+  // Fibres are often of equal length: then the guess is right.
+  const auto guess =
+      static_cast<std::uint32_t>(std::uint64_t{point} * fiber_count() / point_count());
+  if (offsets_[guess] <= point && point < offsets_[guess + 1]) {
+    return {guess, point - offsets_[guess]};
+  }
   const auto next = std::upper_bound(offsets_.begin(), offsets_.end(), point);
   assert(next != offsets_.begin() && next != offsets_.end() && point + 1 < *next);
   const auto fiber = static_cast<std::uint32_t>(next - offsets_.begin() - 1);

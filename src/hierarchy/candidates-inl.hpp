@@ -27,8 +27,8 @@ HWY_INLINE std::uint32_t take_lowest(std::uint32_t& bits) {
   return lane;
 }
 
-/// Pairs of segments whose boxes are near, on their way to the sink: few of the lanes of two runs
-/// are, so they are brought together to fill registers.
+/// Pairs of segments whose boxes and lines are near, on their way to the sink: few of the lanes of
+/// two runs are, so they are brought together to fill registers.
 class Candidates {
  public:
   Candidates(const RunTreeView& a, const RunTreeView& b, PairSink& sink)
@@ -55,7 +55,8 @@ class Candidates {
     for (std::uint32_t first = 0; first < size; first += static_cast<std::uint32_t>(hn::Lanes(d))) {
       const GatheredSegments a = gather(a_.runs, places_a_ + first);
       const GatheredSegments b = gather(b_.runs, places_b_ + first);
-      const auto close = near(a.segments, b.segments, hn::Add(hn::Add(a.radius, b.radius), bound));
+      const auto close =
+          segments_near(a.segments, b.segments, hn::Add(hn::Add(a.radius, b.radius), bound));
       std::uint32_t bits = bits_of(close) & first_bits(std::min(run_width, size - first));
       while (bits != 0) {
         const std::uint32_t i = first + take_lowest(bits);

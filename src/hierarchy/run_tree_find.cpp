@@ -43,6 +43,25 @@ HWY_INLINE void fit_boxes(const Run& run, BoxBlock& boxes) {
   }
 }
 
+/// Bits of the run's segments whose lines may come within the bound of that of a segment of
+/// another.
+HWY_INLINE std::uint32_t near_lines(const Run& run, const Run& other, std::uint32_t other_lane,
+                                    float bound) {
+  const Floats d;
+  const LaneVector start = spread(other.start, other_lane);
+  const LaneDirections u = lane_directions(start, spread(other.end, other_lane));
+  const auto reach = hn::Set(d, other.radius[other_lane] + bound);
+  std::uint32_t bits = 0;
+  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
+    const LaneVector starts = load(run.start, lane);
+    const LaneDirections v = lane_directions(starts, load(run.end, lane));
+    bits |=
+        bits_of(lines_near(u, v, subtract(start, starts), hn::Add(reach, load(run.radius, lane))))
+        << lane;
+  }
+  return bits;
+}
+
 /// Boxes larger by the bound on all sides.
 HWY_INLINE void inflate(const BoxBlock& boxes, float bound, BoxBlock& larger) {
   const auto bounds = hn::Set(Floats(), bound);
@@ -189,6 +208,9 @@ class Finder {
       // Of a run with itself: each segment with those after it.
       const std::uint32_t wanted = same ? columns & ~first_bits(i + 1) : columns;
       std::uint32_t bits = wanted & overlapping(boxes, probe_.segments(run), i);
+      if (bits != 0) {
+        bits &= near_lines(b_.runs[b], a_.runs[a], i, bound_);
+      }
       while (bits != 0) {
         candidates_.push(a * run_width + i, b * run_width + take_lowest(bits));
       }

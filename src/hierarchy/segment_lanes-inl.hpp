@@ -127,18 +127,48 @@ HWY_INLINE Lanes squared_distance_to(const LaneSegments& segment, const LaneVect
   return dot(nearest, nearest);
 }
 
-/// Whether two segments may come within `reach` of each other: true too often, never too seldom.
-///
-/// They do if an end point of one comes within reach of the other, which is well conditioned, or if
-/// the nearest points are inside both. Then their distance is that of the lines, |w·n|/|n| with
-/// n = u×v, and s = (v×w)·n/|n|² and t = (u×w)·n/|n|² are in [0, 1]. These three are compared
-/// without division, each with a bound of its rounding error: products of l₁ norms times 32 u,
-/// where no expression here rounds by more than 20 u of them. What overflows or is no number counts
-/// as near. Beyond that, rounding is covered by the padding of the radii.
-HWY_INLINE LaneMask near(const LaneSegments& a, const LaneSegments& b, Lanes reach) {
+// Two segments come within `reach` of each other if an end point of one comes within reach of the
+// other, which is well conditioned, or if the nearest points are inside both. Then their distance
+// is that of the lines, |w·n|/|n| with n = u×v, and s = (v×w)·n/|n|² and t = (u×w)·n/|n|² are in
+// [0, 1]. These three are compared without division, each with a bound of its rounding error:
+// products of l₁ norms times 32 u, where no expression here rounds by more than 20 u of them. What
+// overflows or is no number counts as near. Beyond that, rounding is covered by the padding of the
+// radii.
+
+constexpr float rounding_of_products = 0x1p-19F;
+
+/// Directions u of one segment, with what its tests need of them.
+struct LaneDirections {
+  LaneVector direction;  // [m]
+  Lanes length;          // l₁ norm [m]
+};
+
+HWY_INLINE LaneDirections lane_directions(const LaneVector& start, const LaneVector& end) {
+  const LaneVector direction = subtract(end, start);
+  return {direction, length_bound(direction)};
+}
+
+/// Whether the lines of segments in directions u and v, whose starts are w apart, may come within
+/// `reach`: true too often, never too seldom. Most segments with boxes that overlap are told apart
+/// by this, at a third of the cost of all.
+HWY_INLINE LaneMask lines_near(const LaneDirections& u, const LaneDirections& v,
+                               const LaneVector& w, Lanes reach) {
+  const Floats d;
+  const LaneVector n = cross(u.direction, v.direction);
+  const auto rounding = hn::Mul(hn::Mul(hn::Set(d, rounding_of_products), length_bound(w)),
+                                hn::Mul(u.length, v.length));
+  const auto least = hn::Max(hn::Sub(hn::Abs(dot(w, n)), rounding), hn::Zero(d));
+  const auto limit = hn::Mul(hn::Mul(reach, reach), dot(n, n));
+  return hn::Not(
+      hn::Gt(hn::Mul(least, least), hn::MulAdd(limit, hn::Set(d, 1.0F + rounding_of_products),
+                                               hn::Set(d, std::numeric_limits<float>::min()))));
+}
+
+/// Whether two segments whose lines come within `reach` may do so, too: true too often, never too
+/// seldom.
+HWY_INLINE LaneMask segments_near(const LaneSegments& a, const LaneSegments& b, Lanes reach) {
   const Floats d;
   const auto tiny = hn::Set(d, std::numeric_limits<float>::min());
-  const auto rounding = hn::Set(d, 0x1p-19F);
   const LaneVector& u = a.direction;
   const LaneVector& v = b.direction;
   const LaneVector w = subtract(a.start, b.start);
@@ -154,16 +184,14 @@ HWY_INLINE LaneMask near(const LaneSegments& a, const LaneSegments& b, Lanes rea
   const auto length_u = length_bound(u);
   const auto length_v = length_bound(v);
   const auto length_w = length_bound(w);
-  const auto product = hn::Mul(rounding, hn::Mul(length_u, length_v));
-  const auto lines_apart = hn::Gt(hn::Abs(dot(w, n)), hn::MulAdd(reach, hn::Sqrt(hn::Add(nn, tiny)),
-                                                                 hn::Mul(product, length_w)));
+  const auto product = hn::Mul(hn::Set(d, rounding_of_products), hn::Mul(length_u, length_v));
   const auto s = dot(cross(v, w), n);
   const auto t = dot(cross(u, w), n);
   const auto slack_s = hn::MulAdd(hn::Mul(product, length_v), hn::Add(length_w, length_u), tiny);
   const auto slack_t = hn::MulAdd(hn::Mul(product, length_u), hn::Add(length_w, length_v), tiny);
   const auto outside = hn::Or(hn::Or(hn::Gt(hn::Neg(s), slack_s), hn::Gt(s, hn::Add(nn, slack_s))),
                               hn::Or(hn::Gt(hn::Neg(t), slack_t), hn::Gt(t, hn::Add(nn, slack_t))));
-  return hn::Not(hn::And(ends_apart, hn::Or(lines_apart, outside)));
+  return hn::Not(hn::And(ends_apart, outside));
 }
 
 }  // namespace HWY_NAMESPACE

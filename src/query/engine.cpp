@@ -5,8 +5,8 @@
 namespace fiber {
 namespace {
 
+// Contacts are left to those that write them: clearing them would have them all initialized anew.
 void reset(QueryResult& result) {
-  result.contacts.clear();
   result.limit_reached = false;
   result.counts = {};
 }

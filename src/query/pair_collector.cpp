@@ -37,6 +37,7 @@ PairCollector::PairCollector(const FiberAssembly& shape, const FiberAssembly& fi
 
 PairCollector::PairCollector(PairTest&& test, const QueryOptions& options, QueryResult& result)
     : test_(std::move(test)), options_(options), result_(result), capacity_(capacity_of(options)) {
+  result_.contacts.clear();
   set_bound(options.margin);
 }
 

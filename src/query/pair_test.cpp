@@ -1,6 +1,7 @@
 #include "fiber_proximity/query/pair_test.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 namespace fiber {
 namespace {
@@ -58,7 +59,26 @@ PairDistance PairTest::distance(PointPair pair) const {
   const Capsule a = a_.capsule(pair.a);
   const Capsule b = b_.capsule(pair.b);
   const SegmentDistance nearest = segment_distance(a.p0, a.p1, b.p0, b.p1);
-  return {nearest, nearest.distance - (a.radius + b.radius)};
+  return {nearest, nearest.distance - radii(pair)};
+}
+
+void PairTest::distances(const PointPair* pairs, std::size_t count, PairDistance* distances) const {
+  constexpr std::size_t block = 32;
+  const Vector3d* starts_a[block];
+  const Vector3d* starts_b[block];
+  SegmentDistance nearest[block];
+  for (std::size_t begin = 0; begin < count; begin += block) {
+    const std::size_t size = std::min(block, count - begin);
+    for (std::size_t i = 0; i < size; ++i) {
+      starts_a[i] = &a_.points()[pairs[begin + i].a];
+      starts_b[i] = &b_.points()[pairs[begin + i].b];
+    }
+    segment_distances(starts_a, starts_b, size, nearest);
+    for (std::size_t i = 0; i < size; ++i) {
+      const PointPair pair = pairs[begin + i];
+      distances[begin + i] = {nearest[i], nearest[i].distance - radii(pair)};
+    }
+  }
 }
 
 Contact PairTest::contact(PointPair pair, const PairDistance& distance) const {

@@ -61,7 +61,7 @@ void RunTreeEngine::do_update(const FiberAssembly& fibers, bool same_topology) {
 void RunTreeEngine::do_query(const FiberAssembly& fibers, const QueryOptions& options,
                              QueryResult& result) const {
   if (options.type == QueryType::ALL) {
-    find_all(tree_.view(), PairTest(fibers, options), options.margin, fibers.point_count(), result);
+    find_all(tree_.view(), PairTest(fibers, options), options.margin, result);
     return;
   }
   PairCollector collector(fibers, options, result);
@@ -73,8 +73,7 @@ void RunTreeEngine::do_query_shape(const FiberAssembly& shape, const FiberAssemb
   RunTree shape_tree;
   shape_tree.build(shape, tree_.origin());
   if (options.type == QueryType::ALL) {
-    find_all(shape_tree.view(), PairTest(shape, fibers, options), options.margin,
-             shape.point_count(), result);
+    find_all(shape_tree.view(), PairTest(shape, fibers, options), options.margin, result);
     return;
   }
   PairCollector collector(shape, fibers, options, result);
@@ -82,7 +81,7 @@ void RunTreeEngine::do_query_shape(const FiberAssembly& shape, const FiberAssemb
 }
 
 void RunTreeEngine::find_all(const RunTreeView& a, const PairTest& test, double bound,
-                             std::size_t point_count, QueryResult& result) const {
+                             QueryResult& result) const {
   std::unique_ptr<ContactBatch> batch;
   {
     const std::lock_guard lock(mutex_);
@@ -94,7 +93,7 @@ void RunTreeEngine::find_all(const RunTreeView& a, const PairTest& test, double 
   if (batch == nullptr) {
     batch = std::make_unique<ContactBatch>();
   }
-  arena_.execute([&] { batch->find(a, tree_.view(), test, bound, point_count, result); });
+  arena_.execute([&] { batch->find(a, tree_.view(), test, bound, result); });
   const std::lock_guard lock(mutex_);
   idle_batches_.push_back(std::move(batch));
 }

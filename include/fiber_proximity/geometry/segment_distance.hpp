@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 
 namespace fiber {
 
@@ -25,5 +26,16 @@ struct SegmentDistance {
 /// are scaled by a power of two first.
 SegmentDistance segment_distance(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1,
                                  const Eigen::Vector3d& q0, const Eigen::Vector3d& q1);
+
+/// The same, bit for bit, of many pairs at once: of the segments a[i][0]–a[i][1] and
+/// b[i][0]–b[i][1].
+/// @param distances of the `count` pairs
+void segment_distances(const Eigen::Vector3d* const* a, const Eigen::Vector3d* const* b,
+                       std::size_t count, SegmentDistance* distances);
+
+/// |u×v|² is of the fourth power of the differences: between these magnitudes neither it nor its
+/// factors leave the range of double, beyond them everything is scaled to about 1 [m].
+constexpr double least_distance_scale = 0x1p-100;
+constexpr double largest_distance_scale = 0x1p200;
 
 }  // namespace fiber

@@ -15,27 +15,28 @@ namespace fiber {
 class ContactBatch {
  public:
   /// @param bound [m] pairs of a signed distance of at most this are contacts
-  /// @param point_count of the first tree's fibres
   void find(const RunTreeView& a, const RunTreeView& b, const PairTest& test, double bound,
-            std::size_t point_count, QueryResult& result);
+            QueryResult& result);
 
  private:
   struct Job {
-    std::vector<PointPair> pairs;
+    std::vector<std::uint64_t> keys;
     QueryCounts counts;
   };
 
   void collect(const RunTreeView& a, const RunTreeView& b, const PairTest& test, float bound,
                QueryCounts& counts);
-  void sort_pairs(std::size_t point_count);
+  void sort();
   void judge(const PairTest& test, double bound, std::vector<Contact>& contacts);
+  std::size_t judge_round(std::size_t begin, const PairTest& test, double bound,
+                          std::vector<Contact>& contacts, std::size_t contact_count);
 
   std::vector<Job> jobs_;
   std::size_t job_count_ = 0;
-  std::vector<PointPair> pairs_;       // sorted
-  std::vector<std::uint32_t> begins_;  // by first point of a: where its pairs begin
-  std::vector<std::uint8_t> is_contact_;
-  std::vector<std::size_t> slice_begins_;  // in the contacts
+  std::vector<std::uint64_t> keys_;  // of pairs, sorted
+  std::vector<std::uint64_t> scratch_;
+  std::vector<PairDistance> distances_;  // of a round
+  std::vector<std::size_t> places_;      // of its slices' contacts
 };
 
 }  // namespace fiber

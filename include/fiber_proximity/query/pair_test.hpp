@@ -44,10 +44,15 @@ class PairTest {
   }
 
   PairDistance distance(PointPair pair) const;
+  /// The same of many pairs, faster.
+  void distances(const PointPair* pairs, std::size_t count, PairDistance* distances) const;
   Contact contact(PointPair pair, const PairDistance& distance) const;
 
  private:
   bool is_neighbour_of_same_fiber(PointPair pair) const;
+  double radii(PointPair pair) const {
+    return a_.segment_radius(pair.a) + b_.segment_radius(pair.b);
+  }
 
   const FiberAssembly& a_;
   const FiberAssembly& b_;

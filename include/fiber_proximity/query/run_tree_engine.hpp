@@ -33,7 +33,7 @@ class RunTreeEngine final : public ProximityEngine {
 
  private:
   /// All contacts, in memory that queries which run at the same time do not share.
-  void find_all(const RunTreeView& a, const PairTest& test, double bound, std::size_t point_count,
+  void find_all(const RunTreeView& a, const PairTest& test, double bound,
                 QueryResult& result) const;
 
   mutable tbb::task_arena arena_;
