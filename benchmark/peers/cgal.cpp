@@ -49,13 +49,15 @@ class CgalEngine final : public PeerEngine {
 
   void collide(const FiberAssembly& fibers, const QueryOptions& options,
                QueryResult& result) const override {
-    ParallelCollector collector(fibers, options, parts_, result);
-    if (threads_.count() == 1) {
-      self_intersection<CGAL::Sequential_tag>(collector);
-    } else {
-      threads_.run([&] { self_intersection<CGAL::Parallel_tag>(collector); });
-    }
-    collector.finish();
+    threads_.run([&] {
+      collector_.collect(fibers, options, result, [&](ParallelCollector& collector) {
+        if (threads_.count() == 1) {
+          self_intersection<CGAL::Sequential_tag>(collector);
+        } else {
+          self_intersection<CGAL::Parallel_tag>(collector);
+        }
+      });
+    });
   }
 
  private:
@@ -73,7 +75,7 @@ class CgalEngine final : public PeerEngine {
   PeerThreads threads_;
   SegmentBoxes boxes_;
   mutable std::vector<CgalBox> cgal_boxes_;  // every query reorders them
-  mutable ParallelCollector::Parts parts_;
+  mutable ParallelCollector collector_;
 };
 
 }  // namespace

@@ -47,7 +47,7 @@ struct Collision {
 /// look at the boxes in them.
 void offer_pairs(void* user, RTCCollision* pairs, unsigned int count) {
   const auto& [boxes, parallel_collector] = *static_cast<const Collision*>(user);
-  PairCollector& collector = parallel_collector.local();
+  ParallelCollector::Part& collector = parallel_collector.local();
   for (const RTCCollision* pair = pairs; pair != pairs + count; ++pair) {
     if (pair->primID0 < pair->primID1 &&
         overlaps(boxes[pair->primID0], boxes[pair->primID1], 0.0F)) {
@@ -87,11 +87,13 @@ class EmbreeEngine final : public PeerEngine {
 
   void collide(const FiberAssembly& fibers, const QueryOptions& options,
                QueryResult& result) const override {
-    ParallelCollector collector(fibers, options, parts_, result);
-    Collision collision{boxes_, collector};
-    threads_.run([&] { rtcCollide(scene_.get(), scene_.get(), offer_pairs, &collision); });
+    threads_.run([&] {
+      collector_.collect(fibers, options, result, [&](ParallelCollector& collector) {
+        Collision collision{boxes_, collector};
+        rtcCollide(scene_.get(), scene_.get(), offer_pairs, &collision);
+      });
+    });
     check();
-    collector.finish();
   }
 
  private:
@@ -124,7 +126,7 @@ class EmbreeEngine final : public PeerEngine {
   Owner<RTCDevice> device_;
   Owner<RTCScene> scene_;
   Owner<RTCGeometry> geometry_;
-  mutable ParallelCollector::Parts parts_;
+  mutable ParallelCollector collector_;
 };
 
 template <RTCBuildQuality quality>

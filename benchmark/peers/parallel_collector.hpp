@@ -2,54 +2,103 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
-#include <utility>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
-#include "fiber_proximity/query/pair_collector.hpp"
+#include "fiber_proximity/query/contact_judge.hpp"
 
 namespace fiber {
 
-/// A PairCollector per thread, for broad phases that report pairs from several threads at once.
-/// For QueryType::ALL only: the other types must see the pairs of all threads.
+/// Decides about the pairs that a broad phase reports from several threads at once, with the narrow
+/// phase that run_tree has. For QueryType::ALL only: the other types must see the pairs of all
+/// threads. Keeps its memory from query to query.
 class ParallelCollector {
  public:
-  /// What each thread has found; kept from query to query, so that its memory is.
-  using Parts = tbb::enumerable_thread_specific<QueryResult>;
-
-  ParallelCollector(const FiberAssembly& fibers, const QueryOptions& options, Parts& parts,
-                    QueryResult& result)
-      : whole_(fibers, options, result),
-        result_(result),
-        parts_(parts),
-        collectors_([&] { return PairCollector(fibers, options, parts_.local()); }) {
-    for (QueryResult& part : parts_) {
-      part.contacts.clear();
-      part.counts = {};
+  /// What one thread has found. Most pairs of boxes are no contacts: they are left out at once.
+  class Part {
+   public:
+    /// Considers the segments that start at these points; each pair may be offered once.
+    void offer(std::uint32_t point_a, std::uint32_t point_b) {
+      const PointPair pair = test_->ordered({point_a, point_b});
+      if (test_->is_neighbour_pair(pair)) {
+        return;
+      }
+      waiting_[size_++] = pair;
+      if (size_ == waiting_.size()) {
+        flush();
+      }
     }
+
+   private:
+    friend ParallelCollector;
+
+    void begin(const PairTest& test, double margin) {
+      test_ = &test;
+      margin_ = margin;
+      keys_.clear();
+      tests_ = 0;
+    }
+
+    void flush() {
+      std::array<PairDistance, most_waiting> distances;
+      test_->distances(waiting_.data(), size_, distances.data());
+      for (std::size_t i = 0; i < size_; ++i) {
+        if (distances[i].gap <= margin_) {
+          keys_.push_back(key_of(waiting_[i]));
+        }
+      }
+      tests_ += size_;
+      size_ = 0;
+    }
+
+    static constexpr std::size_t most_waiting = 256;
+
+    const PairTest* test_ = nullptr;
+    double margin_ = 0.0;
+    std::array<PointPair, most_waiting> waiting_{};
+    std::size_t size_ = 0;
+    std::vector<std::uint64_t> keys_;
+    std::uint64_t tests_ = 0;
+  };
+
+  /// Calls with the collector, whose local() part each thread offers to; then puts all together.
+  /// @param collide called once
+  template <class Collide>
+  void collect(const FiberAssembly& fibers, const QueryOptions& options, QueryResult& result,
+               const Collide& collide) {
+    const PairTest test(fibers, options);
+    test_ = &test;
+    margin_ = options.margin;
+    for (Part& part : parts_) {
+      part.begin(test, margin_);
+    }
+    collide(*this);
+    judge_.keys().clear();
+    for (Part& part : parts_) {
+      part.flush();
+      judge_.keys().insert(judge_.keys().end(), part.keys_.begin(), part.keys_.end());
+      result.counts.primitive_tests += part.tests_;
+    }
+    judge_.judge(test, margin_, result.contacts);
   }
 
   /// The calling thread's own.
-  PairCollector& local() { return collectors_.local(); }
-
-  /// Puts together what the threads found and sorts it; call once, after the last offer.
-  void finish() {
-    std::vector<Contact>& contacts = result_.contacts;
-    for (QueryResult& part : parts_) {
-      result_.counts.primitive_tests += part.counts.primitive_tests;
-      if (contacts.empty()) {
-        std::swap(contacts, part.contacts);  // a single thread's are not copied
-      } else {
-        contacts.insert(contacts.end(), part.contacts.begin(), part.contacts.end());
-      }
+  Part& local() {
+    bool exists = false;
+    Part& part = parts_.local(exists);
+    if (!exists) {
+      part.begin(*test_, margin_);
     }
-    whole_.finish();
+    return part;
   }
 
  private:
-  PairCollector whole_;
-  QueryResult& result_;
-  Parts& parts_;
-  tbb::enumerable_thread_specific<PairCollector> collectors_;
+  const PairTest* test_ = nullptr;
+  double margin_ = 0.0;
+  tbb::enumerable_thread_specific<Part> parts_;
+  ContactJudge judge_;
 };
 
 }  // namespace fiber

@@ -13,7 +13,7 @@ class PeerEngine : public ProximityEngine {
   /// [m] The largest a query may ask for.
   double margin() const { return margin_; }
 
-  /// Offers every pair whose boxes overlap to a PairCollector; there are at least two segments.
+  /// Offers every pair whose boxes overlap to a collector; there are at least two segments.
   virtual void collide(const FiberAssembly& fibers, const QueryOptions& options,
                        QueryResult& result) const = 0;
 

@@ -14,7 +14,7 @@ namespace {
 TEST(ParallelCollector, GivesBruteForcesAnswerFromAnyNumberOfThreads) {
   SCOPED_TRACE(seed_message());
   Random random;
-  ParallelCollector::Parts parts;  // kept, as an engine does
+  ParallelCollector collector;  // kept, as an engine does
   for (int round = 0; round < 20; ++round) {
     AssemblyBuilder builder;
     builder.add_fiber(random_walk(random, 60, 0.05));
@@ -25,21 +25,21 @@ TEST(ParallelCollector, GivesBruteForcesAnswerFromAnyNumberOfThreads) {
     const auto thread_count = static_cast<std::uint32_t>(random.integer(1, 4));
     const QueryOptions options;
     QueryResult found;
-    ParallelCollector collector(fibers, options, parts, found);
-    std::vector<std::thread> threads;
-    for (std::uint32_t thread = 0; thread < thread_count; ++thread) {
-      threads.emplace_back([&collector, &fibers, thread, thread_count] {
-        for (std::uint32_t i = thread; i < fibers.segment_count(); i += thread_count) {
-          for (std::uint32_t j = i + 1; j < fibers.segment_count(); ++j) {
-            collector.local().offer(i, j);
+    collector.collect(fibers, options, found, [&](ParallelCollector& shared) {
+      std::vector<std::thread> threads;
+      for (std::uint32_t thread = 0; thread < thread_count; ++thread) {
+        threads.emplace_back([&shared, &fibers, thread, thread_count] {
+          for (std::uint32_t i = thread; i < fibers.segment_count(); i += thread_count) {
+            for (std::uint32_t j = i + 1; j < fibers.segment_count(); ++j) {
+              shared.local().offer(i, j);
+            }
           }
-        }
-      });
-    }
-    for (std::thread& thread : threads) {
-      thread.join();
-    }
-    collector.finish();
+        });
+      }
+      for (std::thread& thread : threads) {
+        thread.join();
+      }
+    });
     EXPECT_TRUE(same_contacts(found.contacts, expected.contacts)) << thread_count << " threads";
     EXPECT_EQ(found.counts.primitive_tests, expected.counts.primitive_tests);
   }
