@@ -72,7 +72,9 @@ double half_area(const BoxBlock& block, std::uint32_t lane) {
 void RunTree::build(const FiberAssembly& fibers, const Eigen::Vector3d& origin) {
   origin_ = origin;
   first_points_ = all_segments(fibers.offsets());
-  runs_.resize(divided_up(segment_count()));
+  segment_count_ = static_cast<std::uint32_t>(first_points_.size());
+  runs_.resize(divided_up(segment_count_));
+  first_points_.resize(runs_.size() * run_width);
   levels_.clear();
   for (auto count = static_cast<std::uint32_t>(runs_.size());
        count > 0 && (levels_.empty() || count > 1);) {
@@ -95,14 +97,18 @@ void RunTree::update(const FiberAssembly& fibers, const Eigen::Vector3d& origin)
 
 void RunTree::sort(const FiberAssembly& fibers) {
   const SpaceCurve curve(fibers.points());
-  keys_.resize(first_points_.size());
-  for_ranges(segment_count(), [&](std::uint32_t begin, std::uint32_t end) {
+  keys_.resize(segment_count_);
+  for_ranges(segment_count_, [&](std::uint32_t begin, std::uint32_t end) {
     curve.key_segments(fibers.points(), first_points_.data() + begin, end - begin,
                        keys_.data() + begin);
   });
   sort_keys(keys_, scratch_);
   std::transform(keys_.begin(), keys_.end(), first_points_.begin(),
                  [](std::uint64_t key) { return static_cast<std::uint32_t>(key); });
+  if (segment_count_ > 0) {
+    std::fill(first_points_.begin() + segment_count_, first_points_.end(),
+              first_points_[segment_count_ - 1]);
+  }
   refit(fibers);
   sorted_looseness_ = looseness();
 }
@@ -113,7 +119,7 @@ void RunTree::refit(const FiberAssembly& fibers) {
     for_ranges(
         static_cast<std::uint32_t>(boxes.size()), [&](std::uint32_t begin, std::uint32_t end) {
           if (i == 0) {
-            fit_groups(fibers, origin_, first_points_.data(), segment_count(), begin, end,
+            fit_groups(fibers, origin_, first_points_.data(), segment_count_, begin, end,
                        runs_.data(), boxes.data());
           } else {
             fit_nodes(levels_[i - 1].data(), static_cast<std::uint32_t>(levels_[i - 1].size()),
@@ -142,7 +148,7 @@ void RunTree::set_view() {
   view_ = {};
   view_.runs = runs_.data();
   view_.first_points = first_points_.data();
-  view_.segment_count = segment_count();
+  view_.segment_count = segment_count_;
   view_.level_count = static_cast<std::uint32_t>(levels_.size());
   auto children = static_cast<std::uint32_t>(runs_.size());
   for (std::size_t level = 0; level < levels_.size(); ++level) {

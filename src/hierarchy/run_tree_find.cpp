@@ -62,6 +62,20 @@ HWY_INLINE std::uint32_t near_lines(const Run& run, const Run& other, std::uint3
   return bits;
 }
 
+/// Bits of the run's segments, by their first points, that share a point with another segment.
+/// Points p and p + 1 start segments of one fibre: the last point of a fibre starts none.
+HWY_INLINE std::uint32_t sharing_point(const std::uint32_t* first_points, std::uint32_t other) {
+  const hn::RebindToUnsigned<Floats> d;
+  std::uint32_t bits = 0;
+  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
+    const auto points = hn::LoadU(d, first_points + lane);
+    const auto shared =
+        hn::Or(hn::Eq(points, hn::Set(d, other - 1)), hn::Eq(points, hn::Set(d, other + 1)));
+    bits |= bits_of(hn::RebindMask(Floats(), shared)) << lane;
+  }
+  return bits;
+}
+
 /// Boxes larger by the bound on all sides.
 HWY_INLINE void inflate(const BoxBlock& boxes, float bound, BoxBlock& larger) {
   const auto bounds = hn::Set(Floats(), bound);
@@ -109,6 +123,7 @@ class Finder {
       : a_(a),
         b_(b),
         self_(a.runs == b.runs),
+        skip_adjacent_(self_ && !sink.wants_adjacent()),
         sink_(sink),
         counts_(counts),
         candidates_(a, b, sink) {}
@@ -208,6 +223,10 @@ class Finder {
       // Of a run with itself: each segment with those after it.
       const std::uint32_t wanted = same ? columns & ~first_bits(i + 1) : columns;
       std::uint32_t bits = wanted & overlapping(boxes, probe_.segments(run), i);
+      if (bits != 0 && skip_adjacent_) {
+        const std::uint32_t point = a_.first_points[a * run_width + i];
+        bits &= ~sharing_point(b_.first_points + std::size_t{b} * run_width, point);
+      }
       if (bits != 0) {
         bits &= near_lines(b_.runs[b], a_.runs[a], i, bound_);
       }
@@ -245,6 +264,7 @@ class Finder {
   const RunTreeView& a_;
   const RunTreeView& b_;
   const bool self_;
+  const bool skip_adjacent_;
   PairSink& sink_;
   QueryCounts& counts_;
   Candidates candidates_;

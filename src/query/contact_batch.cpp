@@ -26,6 +26,7 @@ class CandidateSink final : public PairSink {
   }
 
   float bound() const override { return bound_; }
+  bool wants_adjacent() const override { return test_.wants_adjacent(); }
 
  private:
   const PairTest& test_;

@@ -20,6 +20,7 @@ class CollectorSink final : public PairSink {
   }
 
   float bound() const override { return collector_.bound(); }
+  bool wants_adjacent() const override { return collector_.wants_adjacent(); }
 
  private:
   PairCollector& collector_;

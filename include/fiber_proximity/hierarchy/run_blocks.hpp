@@ -37,7 +37,8 @@ struct RunTreeView {
   static constexpr std::uint32_t most_levels = 11;  // 8^11 runs are more than there can be
 
   const Run* runs = nullptr;
-  const std::uint32_t* first_points = nullptr;  ///< of the segments, along the curve
+  /// Of the segments, along the curve; lanes without a segment repeat the last.
+  const std::uint32_t* first_points = nullptr;
   std::uint32_t segment_count = 0;
   RunTreeLevel levels[most_levels] = {};
   std::uint32_t level_count = 0;

@@ -46,9 +46,8 @@ class RunTree {
   double looseness() const;
   void set_view();
 
-  std::uint32_t segment_count() const { return static_cast<std::uint32_t>(first_points_.size()); }
-
-  std::vector<std::uint32_t> first_points_;  // of segments, in the order of the curve
+  std::vector<std::uint32_t> first_points_;  // of segments, in the order of the curve; whole runs
+  std::uint32_t segment_count_ = 0;
   std::vector<Run> runs_;
   std::vector<std::vector<BoxBlock>> levels_;  // boxes of the children, by node; groups first
   std::vector<std::uint64_t> keys_;            // of sort()

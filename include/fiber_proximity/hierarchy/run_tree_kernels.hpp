@@ -21,6 +21,10 @@ class PairSink {
 
   /// [m] Pairs further apart than this do not matter (any more).
   virtual float bound() const = 0;
+
+  /// Whether segments that share a point are pairs. Every segment is near its neighbours: if they
+  /// are not wanted, they should go early.
+  virtual bool wants_adjacent() const = 0;
 };
 
 /// Fits the runs of groups [begin, end): their segments and boxes.

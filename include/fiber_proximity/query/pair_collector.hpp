@@ -30,6 +30,8 @@ class PairCollector {
   /// the bounding volumes take it.
   float bound() const { return rounded_bound_; }
 
+  bool wants_adjacent() const { return test_.wants_adjacent(); }
+
   /// No further pair can change the answer.
   bool done() const { return done_; }
 

@@ -37,6 +37,9 @@ class PairTest {
     return self_ && pair.b < pair.a ? PointPair{pair.b, pair.a} : pair;
   }
 
+  /// Whether segments that share a point are pairs.
+  bool wants_adjacent() const { return !self_ || options_.neighbour_skip == 0; }
+
   /// Whether the neighbour skips leave out this ordered pair.
   bool is_neighbour_pair(PointPair pair) const {
     const bool far_by_index = pair.b - pair.a > options_.neighbour_skip;
