@@ -49,12 +49,12 @@ HWY_INLINE std::uint32_t near_lines(const Run& run, const Run& other, std::uint3
                                     float bound) {
   const Floats d;
   const LaneVector start = spread(other.start, other_lane);
-  const LaneDirections u = lane_directions(start, spread(other.end, other_lane));
+  const LaneVector u = subtract(spread(other.end, other_lane), start);
   const auto reach = hn::Set(d, other.radius[other_lane] + bound);
   std::uint32_t bits = 0;
   for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
     const LaneVector starts = load(run.start, lane);
-    const LaneDirections v = lane_directions(starts, load(run.end, lane));
+    const LaneVector v = subtract(load(run.end, lane), starts);
     bits |=
         bits_of(lines_near(u, v, subtract(start, starts), hn::Add(reach, load(run.radius, lane))))
         << lane;

@@ -137,26 +137,15 @@ HWY_INLINE Lanes squared_distance_to(const LaneSegments& segment, const LaneVect
 
 constexpr float rounding_of_products = 0x1p-19F;
 
-/// Directions u of one segment, with what its tests need of them.
-struct LaneDirections {
-  LaneVector direction;  // [m]
-  Lanes length;          // l₁ norm [m]
-};
-
-HWY_INLINE LaneDirections lane_directions(const LaneVector& start, const LaneVector& end) {
-  const LaneVector direction = subtract(end, start);
-  return {direction, length_bound(direction)};
-}
-
 /// Whether the lines of segments in directions u and v, whose starts are w apart, may come within
 /// `reach`: true too often, never too seldom. Most segments with boxes that overlap are told apart
 /// by this, at a third of the cost of all.
-HWY_INLINE LaneMask lines_near(const LaneDirections& u, const LaneDirections& v,
-                               const LaneVector& w, Lanes reach) {
+HWY_INLINE LaneMask lines_near(const LaneVector& u, const LaneVector& v, const LaneVector& w,
+                               Lanes reach) {
   const Floats d;
-  const LaneVector n = cross(u.direction, v.direction);
+  const LaneVector n = cross(u, v);
   const auto rounding = hn::Mul(hn::Mul(hn::Set(d, rounding_of_products), length_bound(w)),
-                                hn::Mul(u.length, v.length));
+                                hn::Mul(length_bound(u), length_bound(v)));
   const auto least = hn::Max(hn::Sub(hn::Abs(dot(w, n)), rounding), hn::Zero(d));
   const auto limit = hn::Mul(hn::Mul(reach, reach), dot(n, n));
   return hn::Not(
