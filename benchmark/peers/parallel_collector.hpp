@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "fiber_proximity/hierarchy/sort_keys.hpp"
 #include "fiber_proximity/query/contact_judge.hpp"
 
 namespace fiber {
@@ -75,13 +76,14 @@ class ParallelCollector {
       part.begin(test, margin_);
     }
     collide(*this);
-    judge_.keys().clear();
+    keys_.clear();
     for (Part& part : parts_) {
       part.flush();
-      judge_.keys().insert(judge_.keys().end(), part.keys_.begin(), part.keys_.end());
+      keys_.insert(keys_.end(), part.keys_.begin(), part.keys_.end());
       result.counts.primitive_tests += part.tests_;
     }
-    judge_.judge(test, margin_, result.contacts);
+    sort_keys(keys_, scratch_);
+    judge_.judge(keys_, test, margin_, result.contacts);
   }
 
   /// The calling thread's own.
@@ -98,6 +100,8 @@ class ParallelCollector {
   const PairTest* test_ = nullptr;
   double margin_ = 0.0;
   tbb::enumerable_thread_specific<Part> parts_;
+  std::vector<std::uint64_t> keys_;
+  std::vector<std::uint64_t> scratch_;
   ContactJudge judge_;
 };
 

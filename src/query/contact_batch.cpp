@@ -4,6 +4,7 @@
 
 #include "fiber_proximity/bounds/bounding_volume.hpp"
 #include "fiber_proximity/hierarchy/run_tree_kernels.hpp"
+#include "fiber_proximity/hierarchy/sort_keys.hpp"
 #include "src/query/for_each_of.hpp"
 
 namespace fiber {
@@ -36,15 +37,9 @@ class CandidateSink final : public PairSink {
 
 }  // namespace
 
-void ContactBatch::find(const RunTreeView& a, const RunTreeView& b, const PairTest& test,
-                        double bound, QueryResult& result) {
-  collect(a, b, test, round_up(bound), result.counts);
-  result.counts.primitive_tests += judge_.keys().size();
-  judge_.judge(test, bound, result.contacts);
-}
-
 void ContactBatch::collect(const RunTreeView& a, const RunTreeView& b, const PairTest& test,
-                           float bound, QueryCounts& counts) {
+                           double bound, std::vector<std::uint64_t>& keys, QueryCounts& counts) {
+  const float rounded_bound = round_up(bound);
   const std::uint32_t groups = a.group_count();
   const std::size_t job_count =
       b.group_count() == 0 ? 0 : (groups + groups_per_job - 1) / groups_per_job;
@@ -54,16 +49,22 @@ void ContactBatch::collect(const RunTreeView& a, const RunTreeView& b, const Pai
     job.keys.clear();
     job.counts = {};
     const auto begin = static_cast<std::uint32_t>(index) * groups_per_job;
-    CandidateSink sink(test, bound, job.keys);
+    CandidateSink sink(test, rounded_bound, job.keys);
     find_near_segments(a, begin, std::min(groups, begin + groups_per_job), b, sink, job.counts);
   });
-  std::vector<std::uint64_t>& keys = judge_.keys();
   keys.clear();
   for (std::size_t job = 0; job < job_count; ++job) {
     keys.insert(keys.end(), jobs_[job].keys.begin(), jobs_[job].keys.end());
     counts.node_tests += jobs_[job].counts.node_tests;
     counts.node_overlaps += jobs_[job].counts.node_overlaps;
   }
+  sort_keys(keys, scratch_);
+}
+
+void ContactBatch::judge(const std::vector<std::uint64_t>& keys, const PairTest& test, double bound,
+                         QueryResult& result) {
+  result.counts.primitive_tests += keys.size();
+  judge_.judge(keys, test, bound, result.contacts);
 }
 
 }  // namespace fiber

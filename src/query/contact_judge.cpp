@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "fiber_proximity/hierarchy/sort_keys.hpp"
 #include "src/query/for_each_of.hpp"
 
 namespace fiber {
@@ -14,32 +13,33 @@ constexpr std::size_t slices_per_round = 32;
 
 }  // namespace
 
-void ContactJudge::judge(const PairTest& test, double bound, std::vector<Contact>& contacts) {
-  sort_keys(keys_, scratch_);
+void ContactJudge::judge(const std::vector<std::uint64_t>& keys, const PairTest& test, double bound,
+                         std::vector<Contact>& contacts) {
   constexpr std::size_t pairs_per_round = slices_per_round * pairs_per_slice;
-  distances_.resize(std::max(distances_.size(), std::min(pairs_per_round, keys_.size())));
+  distances_.resize(std::max(distances_.size(), std::min(pairs_per_round, keys.size())));
   std::size_t count = 0;
-  for (std::size_t begin = 0; begin < keys_.size(); begin += pairs_per_round) {
-    count = judge_round(begin, test, bound, contacts, count);
+  for (std::size_t begin = 0; begin < keys.size(); begin += pairs_per_round) {
+    count = judge_round(keys.data() + begin, std::min(pairs_per_round, keys.size() - begin), test,
+                        bound, contacts, count);
   }
   contacts.resize(count);
 }
 
-/// Judges the pairs from `begin` on; returns how many contacts there are now.
-std::size_t ContactJudge::judge_round(std::size_t begin, const PairTest& test, double bound,
+/// Judges `count` pairs; returns how many contacts there are now.
+std::size_t ContactJudge::judge_round(const std::uint64_t* keys, std::size_t count,
+                                      const PairTest& test, double bound,
                                       std::vector<Contact>& contacts, std::size_t contact_count) {
-  const std::size_t end = std::min(keys_.size(), begin + slices_per_round * pairs_per_slice);
-  const std::size_t slices = (end - begin + pairs_per_slice - 1) / pairs_per_slice;
+  const std::size_t slices = (count + pairs_per_slice - 1) / pairs_per_slice;
   const auto slice_begin = [&](std::size_t slice) {
-    return std::min(end, begin + slice * pairs_per_slice);
+    return std::min(count, slice * pairs_per_slice);
   };
   places_.assign(slices + 1, 0);
   for_each_of(slices, [&](std::size_t slice) {
-    const std::size_t first = slice_begin(slice);
-    const std::size_t size = slice_begin(slice + 1) - first;
-    PairDistance* const distances = distances_.data() + (first - begin);
+    const std::size_t begin = slice_begin(slice);
+    const std::size_t size = slice_begin(slice + 1) - begin;
+    PairDistance* const distances = distances_.data() + begin;
     PointPair pairs[pairs_per_slice];
-    std::transform(keys_.begin() + first, keys_.begin() + first + size, pairs, pair_of);
+    std::transform(keys + begin, keys + begin + size, pairs, pair_of);
     test.distances(pairs, size, distances);
     places_[slice + 1] = std::count_if(distances, distances + size,
                                        [&](const PairDistance& each) { return each.gap <= bound; });
@@ -53,9 +53,8 @@ std::size_t ContactJudge::judge_round(std::size_t begin, const PairTest& test, d
   for_each_of(slices, [&](std::size_t slice) {
     std::size_t place = places_[slice];
     for (std::size_t i = slice_begin(slice); i < slice_begin(slice + 1); ++i) {
-      const PairDistance& distance = distances_[i - begin];
-      if (distance.gap <= bound) {
-        contacts[place++] = test.contact(pair_of(keys_[i]), distance);
+      if (distances_[i].gap <= bound) {
+        contacts[place++] = test.contact(pair_of(keys[i]), distances_[i]);
       }
     }
   });

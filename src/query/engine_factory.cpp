@@ -20,30 +20,30 @@ namespace {
 using EnginePointer = std::unique_ptr<ProximityEngine>;
 
 template <class Kind>
-EnginePointer make(std::uint32_t /*threads*/) {
+EnginePointer make(const EngineOptions& /*options*/) {
   return std::make_unique<HierarchyEngine<Kind>>(Kind());
 }
 
-EnginePointer make_threaded(std::uint32_t /*threads*/) {
+EnginePointer make_threaded(const EngineOptions& /*options*/) {
   using Kind = LayeredHierarchy<Aabb>;
   return std::make_unique<HierarchyEngine<Kind>>(Kind({}, threading_order));
 }
 
-EnginePointer make_run_tree(std::uint32_t threads) {
-  return std::make_unique<RunTreeEngine>(threads);
+EnginePointer make_run_tree(const EngineOptions& options) {
+  return std::make_unique<RunTreeEngine>(options);
 }
 
-EnginePointer make_brute_force(std::uint32_t /*threads*/) {
+EnginePointer make_brute_force(const EngineOptions& /*options*/) {
   return std::make_unique<BruteForceEngine>();
 }
 
 /// The paper's best k for hair (Sect. 5).
 template <EnginePointer (*MakeKdop)(const std::vector<Eigen::Vector3d>&)>
-EnginePointer make_kdop_20(std::uint32_t /*threads*/) {
+EnginePointer make_kdop_20(const EngineOptions& /*options*/) {
   return MakeKdop(grassmannian_directions(20));
 }
 
-using Maker = EnginePointer (*)(std::uint32_t threads);
+using Maker = EnginePointer (*)(const EngineOptions& threads);
 
 const std::vector<std::pair<std::string, Maker>>& makers() {
   static const std::vector<std::pair<std::string, Maker>> all{
@@ -86,11 +86,11 @@ EnginePointer make_kdop_engine(const std::string& name) {
 
 }  // namespace
 
-EnginePointer make_engine(const std::string& name, std::uint32_t threads) {
+EnginePointer make_engine(const std::string& name, const EngineOptions& options) {
   std::string known;
   for (const auto& [engine_name, maker] : makers()) {
     if (name == engine_name) {
-      return maker(threads);
+      return maker(options);
     }
     known += (known.empty() ? "" : ", ") + engine_name;
   }

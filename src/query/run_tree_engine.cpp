@@ -1,7 +1,11 @@
 #include "fiber_proximity/query/run_tree_engine.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
 
+#include "fiber_proximity/bounds/bounding_volume.hpp"
 #include "fiber_proximity/hierarchy/origin.hpp"
 #include "fiber_proximity/hierarchy/run_tree_kernels.hpp"
 #include "fiber_proximity/query/pair_collector.hpp"
@@ -12,23 +16,29 @@ namespace {
 /// Hands candidates to a collector one by one: for the queries whose bound shrinks.
 class CollectorSink final : public PairSink {
  public:
-  explicit CollectorSink(PairCollector& collector) : collector_(collector) {}
+  /// @param moved [m] by how much pairs may be nearer than the trees have them
+  CollectorSink(PairCollector& collector, double moved)
+      : collector_(collector), moved_(round_up(moved)) {}
 
   bool offer(PointPair pair) override {
     collector_.offer(pair.a, pair.b);
     return !collector_.done();
   }
 
-  float bound() const override { return collector_.bound(); }
+  float bound() const override {
+    return moved_ == 0.0F ? collector_.bound() : round_up(double{collector_.bound()} + moved_);
+  }
+
   bool wants_adjacent() const override { return collector_.wants_adjacent(); }
 
  private:
   PairCollector& collector_;
+  const float moved_;
 };
 
-void find_some(const RunTreeView& a, const RunTreeView& b, PairCollector& collector,
+void find_some(const RunTreeView& a, const RunTreeView& b, double moved, PairCollector& collector,
                QueryCounts& counts) {
-  CollectorSink sink(collector);
+  CollectorSink sink(collector, moved);
   if (b.group_count() != 0) {
     find_near_segments(a, 0, a.group_count(), b, sink, counts);
   }
@@ -39,34 +49,72 @@ Eigen::Vector3d corner(const float (&by_axis)[3][run_width], std::uint32_t lane)
   return {by_axis[0][lane], by_axis[1][lane], by_axis[2][lane]};
 }
 
+double checked_skin(double skin) {
+  if (!(skin >= 0.0 && std::isfinite(skin))) {
+    throw std::invalid_argument("skin is " + std::to_string(skin) +
+                                " m, it must be finite and not negative");
+  }
+  return skin;
+}
+
 }  // namespace
 
-RunTreeEngine::RunTreeEngine(std::uint32_t threads)
-    : arena_(threads == 0 ? tbb::task_arena::automatic : static_cast<int>(threads)) {}
+RunTreeEngine::RunTreeEngine(const EngineOptions& options)
+    : arena_(options.threads == 0 ? tbb::task_arena::automatic : static_cast<int>(options.threads)),
+      skin_(checked_skin(options.skin)) {}
 
 std::uint32_t RunTreeEngine::thread_count() const {
   return static_cast<std::uint32_t>(arena_.max_concurrency());
 }
 
+std::size_t RunTreeEngine::memory_bytes() const {
+  return tree_.memory_bytes() + motion_.memory_bytes() + kept_.memory_bytes();
+}
+
 void RunTreeEngine::do_update(const FiberAssembly& fibers, bool same_topology) {
-  const Eigen::Vector3d origin = hierarchy_origin(fibers);
   arena_.execute([&] {
+    if (same_topology && tree_still_serves(fibers)) {
+      return;
+    }
+    const Eigen::Vector3d origin = hierarchy_origin(fibers);
     if (same_topology) {
       tree_.update(fibers, origin);
     } else {
       tree_.build(fibers, origin);
     }
+    moved_ = 0.0;
+    ++refit_count_;
+    kept_.forget();
+    if (skin_ > 0.0) {
+      motion_.start(fibers);
+    }
   });
+}
+
+/// Whether the points are close enough to where the tree has them; notes how close.
+bool RunTreeEngine::tree_still_serves(const FiberAssembly& fibers) {
+  if (skin_ == 0.0) {
+    return false;
+  }
+  const double moved = motion_.largest_motion(fibers);
+  // Two segments may have come towards each other.
+  const bool serves = 2.0 * moved <= skin_;
+  skin_pays_ = serves || last_kept_ == refit_count_;
+  if (serves) {
+    moved_ = moved;
+    last_kept_ = refit_count_;
+  }
+  return serves;
 }
 
 void RunTreeEngine::do_query(const FiberAssembly& fibers, const QueryOptions& options,
                              QueryResult& result) const {
   if (options.type == QueryType::ALL) {
-    find_all(tree_.view(), PairTest(fibers, options), options.margin, result);
+    find_own(PairTest(fibers, options), options, result);
     return;
   }
   PairCollector collector(fibers, options, result);
-  find_some(tree_.view(), tree_.view(), collector, result.counts);
+  find_some(tree_.view(), tree_.view(), 2.0 * moved_, collector, result.counts);
 }
 
 void RunTreeEngine::do_query_shape(const FiberAssembly& shape, const FiberAssembly& fibers,
@@ -74,15 +122,45 @@ void RunTreeEngine::do_query_shape(const FiberAssembly& shape, const FiberAssemb
   RunTree shape_tree;
   shape_tree.build(shape, tree_.origin());
   if (options.type == QueryType::ALL) {
-    find_all(shape_tree.view(), PairTest(shape, fibers, options), options.margin, result);
+    find_shape(shape_tree.view(), PairTest(shape, fibers, options), options.margin, result);
     return;
   }
   PairCollector collector(shape, fibers, options, result);
-  find_some(shape_tree.view(), tree_.view(), collector, result.counts);
+  find_some(shape_tree.view(), tree_.view(), moved_, collector, result.counts);
 }
 
-void RunTreeEngine::find_all(const RunTreeView& a, const PairTest& test, double bound,
+/// All contacts of the fibres with each other: from candidates that are kept, if there are such.
+void RunTreeEngine::find_own(const PairTest& test, const QueryOptions& options,
                              QueryResult& result) const {
+  // Which pairs a length leaves out changes as fibres stretch: such candidates cannot be kept.
+  const bool keeps = skin_ > 0.0 && skin_pays_ && options.neighbour_skip_length == 0.0;
+  with_batch([&](ContactBatch& batch) {
+    if (!keeps) {
+      batch.collect(tree_.view(), tree_.view(), test, options.margin + 2.0 * moved_, batch.keys(),
+                    result.counts);
+      batch.judge(batch.keys(), test, options.margin, result);
+      return;
+    }
+    KeptCandidates::Keys keys = kept_.find(options);
+    if (keys == nullptr) {
+      keys = kept_.make();
+      batch.collect(tree_.view(), tree_.view(), test, options.margin + skin_, *keys, result.counts);
+      kept_.keep(options, keys);
+    }
+    batch.judge(*keys, test, options.margin, result);
+  });
+}
+
+void RunTreeEngine::find_shape(const RunTreeView& shape, const PairTest& test, double margin,
+                               QueryResult& result) const {
+  with_batch([&](ContactBatch& batch) {
+    batch.collect(shape, tree_.view(), test, margin + moved_, batch.keys(), result.counts);
+    batch.judge(batch.keys(), test, margin, result);
+  });
+}
+
+template <class Call>
+void RunTreeEngine::with_batch(const Call& call) const {
   std::unique_ptr<ContactBatch> batch;
   {
     const std::lock_guard lock(mutex_);
@@ -94,7 +172,7 @@ void RunTreeEngine::find_all(const RunTreeView& a, const PairTest& test, double 
   if (batch == nullptr) {
     batch = std::make_unique<ContactBatch>();
   }
-  arena_.execute([&] { batch->find(a, tree_.view(), test, bound, result); });
+  arena_.execute([&] { call(*batch); });
   const std::lock_guard lock(mutex_);
   idle_batches_.push_back(std::move(batch));
 }

@@ -55,7 +55,7 @@ void add_options(CLI::App& app, const Query& query, Request& request) {
 
 ExitCode run(const Request& request) {
   validate(request.query);
-  const std::unique_ptr<ProximityEngine> engine = make_engine(request.engine, request.threads);
+  const std::unique_ptr<ProximityEngine> engine = make_engine(request.engine, {request.threads});
   const FiberFile file = read_fibers(request.file, request.radius);
   const bool json = request.format == "json";
   QueryResult result;

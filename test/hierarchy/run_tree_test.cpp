@@ -32,7 +32,7 @@ FiberAssembly tangle(Random& random, int fibers, int segments, double size, doub
 
 QueryResult contacts_of(const FiberAssembly& fibers, std::uint32_t threads,
                         const QueryOptions& options = {}) {
-  RunTreeEngine engine(threads);
+  RunTreeEngine engine({threads});
   engine.update(fibers);
   QueryResult result;
   engine.query(options, result);

@@ -69,7 +69,7 @@ TEST(RunTreeAllocationTest, AFrameInSteadyStateAllocatesNothing) {
   }
   FiberAssembly fibers = builder.build({0.02});
   const std::vector<Eigen::Vector3d> points = fibers.points();
-  const auto engine = make_engine("run_tree", 2);
+  const auto engine = make_engine("run_tree", {2});
   QueryResult result;
   // Which thread does which job changes from frame to frame: all of them get to know all frames.
   constexpr int warm_up = 20;

@@ -11,13 +11,21 @@
 namespace fiber {
 
 /// Finds all contacts of two run trees, or of one with itself, on several threads: candidates job
-/// by job, which a ContactJudge then sorts and judges. Gives the same for any number of threads.
-/// Keeps its memory from query to query.
+/// by job, which a ContactJudge then decides about. Gives the same for any number of threads. Keeps
+/// its memory from query to query.
 class ContactBatch {
  public:
-  /// @param bound [m] pairs of a signed distance of at most this are contacts
-  void find(const RunTreeView& a, const RunTreeView& b, const PairTest& test, double bound,
-            QueryResult& result);
+  /// Candidates in the order of the contacts: all pairs that may come within the bound [m], and
+  /// others.
+  void collect(const RunTreeView& a, const RunTreeView& b, const PairTest& test, double bound,
+               std::vector<std::uint64_t>& keys, QueryCounts& counts);
+
+  /// The contacts among such candidates: pairs of a signed distance of at most the bound [m].
+  void judge(const std::vector<std::uint64_t>& keys, const PairTest& test, double bound,
+             QueryResult& result);
+
+  /// For candidates of a single query.
+  std::vector<std::uint64_t>& keys() { return keys_; }
 
  private:
   struct Job {
@@ -25,10 +33,9 @@ class ContactBatch {
     QueryCounts counts;
   };
 
-  void collect(const RunTreeView& a, const RunTreeView& b, const PairTest& test, float bound,
-               QueryCounts& counts);
-
   std::vector<Job> jobs_;
+  std::vector<std::uint64_t> keys_;
+  std::vector<std::uint64_t> scratch_;
   ContactJudge judge_;
 };
 

@@ -14,23 +14,20 @@ inline PointPair pair_of(std::uint64_t key) {
   return {static_cast<std::uint32_t>(key >> 32U), static_cast<std::uint32_t>(key)};
 }
 
-/// Makes contacts of candidates, on several threads: sorts them, then judges them slice by slice.
-/// Gives the same for any number of threads. Keeps its memory from query to query.
+/// Makes contacts of candidates, slice by slice on several threads. Gives the same for any number
+/// of threads. Keeps its memory from query to query.
 class ContactJudge {
  public:
-  /// The candidates: pairs as PairTest orders them, each once, in any order.
-  std::vector<std::uint64_t>& keys() { return keys_; }
-
+  /// @param keys of the candidates, as PairTest orders pairs, in ascending order
   /// @param bound [m] pairs of a signed distance of at most this are contacts
   /// @param contacts what they held is replaced
-  void judge(const PairTest& test, double bound, std::vector<Contact>& contacts);
+  void judge(const std::vector<std::uint64_t>& keys, const PairTest& test, double bound,
+             std::vector<Contact>& contacts);
 
  private:
-  std::size_t judge_round(std::size_t begin, const PairTest& test, double bound,
-                          std::vector<Contact>& contacts, std::size_t contact_count);
+  std::size_t judge_round(const std::uint64_t* keys, std::size_t count, const PairTest& test,
+                          double bound, std::vector<Contact>& contacts, std::size_t contact_count);
 
-  std::vector<std::uint64_t> keys_;
-  std::vector<std::uint64_t> scratch_;
   std::vector<PairDistance> distances_;  // of a round
   std::vector<std::size_t> places_;      // of its slices' contacts
 };

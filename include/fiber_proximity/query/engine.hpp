@@ -16,6 +16,17 @@ struct NodeBox {
   Eigen::Vector3d upper;
 };
 
+/// What changes the cost of answers, not the answers. Only run_tree heeds them.
+struct EngineOptions {
+  /// Most threads to use, 0 for as many as there are cores.
+  std::uint32_t threads = 0;
+
+  /// [m] finite, >= 0. Pairs up to this far beyond the margin are kept, too, and serve as long as
+  /// no two points have moved by more than this together; 0 looks for them in every query. Pays for
+  /// slow motion: several times what points move from frame to frame.
+  double skin = 0.0;
+};
+
 /// Answers proximity queries over one assembly at a time. All engines give the same contacts; they
 /// differ in what an update and a query cost.
 class ProximityEngine {
@@ -72,10 +83,9 @@ class ProximityEngine {
 
 /// The engine of this name: one of engine_names(), or DL-k and DS-k for any even k in [6, 200], or
 /// with the standard directions DL-k-classic and DS-k-classic for k of 6, 14, 18 and 26.
-/// @param threads most to use, 0 for as many as there are cores; only run_tree uses more than one.
-/// They change what an answer costs, not the answer.
-/// @throws std::invalid_argument listing the names
-std::unique_ptr<ProximityEngine> make_engine(const std::string& name, std::uint32_t threads = 0);
+/// @throws std::invalid_argument listing the names, or for options that are not allowed
+std::unique_ptr<ProximityEngine> make_engine(const std::string& name,
+                                             const EngineOptions& options = {});
 
 /// Names of all engines; k-DOPs with the paper's best k for hair, 20.
 std::vector<std::string> engine_names();

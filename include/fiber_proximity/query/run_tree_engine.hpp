@@ -6,23 +6,30 @@
 #include <mutex>
 #include <vector>
 
+#include "fiber_proximity/hierarchy/motion_bound.hpp"
 #include "fiber_proximity/hierarchy/run_tree.hpp"
 #include "fiber_proximity/query/contact_batch.hpp"
 #include "fiber_proximity/query/engine.hpp"
+#include "fiber_proximity/query/kept_candidates.hpp"
 
 namespace fiber {
 
-/// `run_tree`, the fast engine.
+/// `run_tree`, the fast engine. With a skin, the tree stays where it is while points move by at
+/// most half of it: all bounds are larger by what they have moved, and the candidates of one query
+/// serve the next ones.
 class RunTreeEngine final : public ProximityEngine {
  public:
-  /// @param threads most to use, 0 for as many as there are cores
-  explicit RunTreeEngine(std::uint32_t threads);
+  /// @throws std::invalid_argument for a skin that is negative or not finite
+  explicit RunTreeEngine(const EngineOptions& options);
 
   std::uint32_t thread_count() const override;
   std::uint32_t level_count() const override;
   void level_boxes(std::uint32_t level, std::vector<NodeBox>& boxes) const override;
   double mean_level_volume(std::uint32_t level) const override;
-  std::size_t memory_bytes() const override { return tree_.memory_bytes(); }
+  std::size_t memory_bytes() const override;
+
+  /// How often updates have moved the tree.
+  std::uint64_t refit_count() const { return refit_count_; }
 
  protected:
   void do_update(const FiberAssembly& fibers, bool same_topology) override;
@@ -32,12 +39,24 @@ class RunTreeEngine final : public ProximityEngine {
                       const QueryOptions& options, QueryResult& result) const override;
 
  private:
-  /// All contacts, in memory that queries which run at the same time do not share.
-  void find_all(const RunTreeView& a, const PairTest& test, double bound,
-                QueryResult& result) const;
+  bool tree_still_serves(const FiberAssembly& fibers);
+  void find_own(const PairTest& test, const QueryOptions& options, QueryResult& result) const;
+  void find_shape(const RunTreeView& shape, const PairTest& test, double margin,
+                  QueryResult& result) const;
+
+  /// Calls with memory that queries which run at the same time do not share.
+  template <class Call>
+  void with_batch(const Call& call) const;
 
   mutable tbb::task_arena arena_;
+  const double skin_;  // [m]
   RunTree tree_;
+  MotionBound motion_;
+  double moved_ = 0.0;  // [m] at most, since the tree was fitted
+  std::uint64_t refit_count_ = 0;
+  bool skin_pays_ = true;  // the tree served more than one update when it was last fitted
+  std::uint64_t last_kept_ = 0;
+  mutable KeptCandidates kept_;
   mutable std::mutex mutex_;
   mutable std::vector<std::unique_ptr<ContactBatch>> idle_batches_;
 };
