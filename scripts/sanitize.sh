@@ -1,14 +1,29 @@
 #!/usr/bin/env bash
-# Builds the core with AddressSanitizer and UndefinedBehaviorSanitizer and runs its tests.
+# Builds the core with AddressSanitizer and UndefinedBehaviorSanitizer and runs its tests, then with
+# ThreadSanitizer and runs those in which several threads are at work.
 set -euo pipefail
 # shellcheck source=scripts/environment.sh
 source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 
 "$root/scripts/setup.sh"
+core_arguments=(-DFIBER_PROXIMITY_BUILD_ROS=OFF -DCMAKE_BUILD_TYPE=RelWithDebInfo
+  -DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1\ -g)
+
 build=$root/build-sanitize
-cmake_arguments=(-DFIBER_PROXIMITY_BUILD_ROS=OFF -DCMAKE_BUILD_TYPE=RelWithDebInfo
-  -DFIBER_PROXIMITY_SANITIZE=address,undefined -DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1\ -g)
+cmake_arguments=("${core_arguments[@]}" -DFIBER_PROXIMITY_SANITIZE=address,undefined)
 echo "building in $build ..."
 build_package all
+(cd "$build" && ctest --output-on-failure)
+
+build=$root/build-sanitize-threads
+if ! dpkg-query -W libtbb12 >/dev/null 2>&1; then
+  echo "sanitize.sh: ThreadSanitizer needs Debian 12's TBB: left out" >&2
+  exit
+fi
+echo "building in $build ..."
+"$root/scripts/build_tbb.sh" "$build/tbb"
+cmake_arguments=("${core_arguments[@]}" -DFIBER_PROXIMITY_SANITIZE=thread
+  -DTBB_DIR="$build/tbb/install/lib/cmake/TBB")
+build_package threaded_tests
 cd "$build"
-ctest --output-on-failure
+ctest --output-on-failure --label-regex threaded
