@@ -31,7 +31,7 @@ apt_options=(-o Dir::Etc::sourcelist=/dev/null -o Dir::Etc::sourceparts="$PWD/ap
 quietly update.log apt-get "${apt_options[@]}" update
 (cd source && quietly ../source.log apt-get "${apt_options[@]}" source "$version")
 
-cmake_arguments=(-DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1\ -g
+cmake_arguments=(-DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1\ -g1
   -DTBB_SANITIZE=thread -DTBB_TEST=OFF -DTBB_STRICT=OFF -DTBBMALLOC_BUILD=OFF
   -DCMAKE_INSTALL_PREFIX="$PWD/install" -DCMAKE_INSTALL_LIBDIR=lib)
 quietly configure.log cmake -S source/*/ -B build "${cmake_arguments[@]}"
