@@ -1,7 +1,11 @@
-# fiber_proximity_gtest(NAME SOURCE... [LIBRARIES LIB...])
-# A unit test that needs no ROS master: a catkin gtest in the package, a plain one without ROS.
+# Those of the tests below that ThreadSanitizer is to see.
+add_custom_target(threaded_tests)
+
+# fiber_proximity_gtest(NAME SOURCE... [THREADED] [LIBRARIES LIB...])
+# A unit test that needs no ROS master: a catkin gtest in the package, a plain one without ROS, with
+# the label `threaded` if it is THREADED: if several threads at once are what it is about.
 function(fiber_proximity_gtest name)
-  cmake_parse_arguments(ARG "" "" "LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "THREADED" "" "LIBRARIES" ${ARGN})
   if(FIBER_PROXIMITY_BUILD_ROS)
     catkin_add_gtest(${name} ${ARG_UNPARSED_ARGUMENTS})
     target_link_libraries(${name} gtest_main)
@@ -9,6 +13,10 @@ function(fiber_proximity_gtest name)
     add_executable(${name} ${ARG_UNPARSED_ARGUMENTS})
     target_link_libraries(${name} GTest::gtest_main)
     add_test(NAME ${name} COMMAND ${name})
+    if(ARG_THREADED)
+      set_tests_properties(${name} PROPERTIES LABELS threaded)
+      add_dependencies(threaded_tests ${name})
+    endif()
   endif()
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/test)
   target_compile_definitions(${name} PRIVATE

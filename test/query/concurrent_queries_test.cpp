@@ -1,0 +1,69 @@
+// Queries are const: several threads may ask one engine at once.
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "fiber_proximity/query/engine.hpp"
+#include "support/assemblies.hpp"
+#include "support/contacts.hpp"
+
+namespace fiber::test {
+namespace {
+
+constexpr QueryType types[] = {QueryType::ALL, QueryType::FIRST, QueryType::CLOSEST,
+                               QueryType::LIMITED};
+
+/// The engine's answers of every type about its fibres, then about the shape.
+std::vector<QueryResult> ask_everything(const ProximityEngine& engine, const FiberAssembly& shape) {
+  std::vector<QueryResult> answers;
+  for (const QueryType type : types) {
+    QueryOptions options;
+    options.type = type;
+    options.margin = 0.1;
+    engine.query(options, answers.emplace_back());
+    engine.query_shape(shape, options, answers.emplace_back());
+  }
+  return answers;
+}
+
+class ConcurrentQueriesTest : public testing::TestWithParam<std::string> {};
+
+TEST_P(ConcurrentQueriesTest, AreAnsweredAsOneAfterAnother) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  AssemblyBuilder fiber_builder;
+  AssemblyBuilder shape_builder;
+  for (int fiber = 0; fiber < 80; ++fiber) {
+    AssemblyBuilder& builder = fiber % 10 == 0 ? shape_builder : fiber_builder;
+    builder.add_fiber(random_walk(random, 8, 0.1));
+  }
+  const FiberAssembly fibers = fiber_builder.build({0.01});
+  const FiberAssembly shape = shape_builder.build({0.01});
+  const auto engine = make_engine(GetParam(), 2);
+  engine->update(fibers);
+
+  constexpr int thread_count = 3;
+  std::vector<std::vector<QueryResult>> found(thread_count);
+  std::vector<std::thread> threads;
+  threads.reserve(thread_count);
+  for (std::vector<QueryResult>& answers : found) {
+    threads.emplace_back([&] { answers = ask_everything(*engine, shape); });
+  }
+  for (std::thread& thread : threads) {
+    thread.join();
+  }
+  const std::vector<QueryResult> expected = ask_everything(*engine, shape);
+  for (const std::vector<QueryResult>& answers : found) {
+    ASSERT_EQ(answers.size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      EXPECT_FALSE(expected[i].contacts.empty());
+      EXPECT_TRUE(same_contacts(answers[i].contacts, expected[i].contacts)) << "query " << i;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, ConcurrentQueriesTest, testing::ValuesIn(engine_names()),
+                         [](const auto& instance) { return test_name(instance.param); });
+
+}  // namespace
+}  // namespace fiber::test
