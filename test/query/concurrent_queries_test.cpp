@@ -39,7 +39,7 @@ TEST_P(ConcurrentQueriesTest, AreAnsweredAsOneAfterAnother) {
   }
   const FiberAssembly fibers = fiber_builder.build({0.01});
   const FiberAssembly shape = shape_builder.build({0.01});
-  const auto engine = make_engine(GetParam(), 2);
+  const auto engine = make_engine(GetParam(), {2});
   engine->update(fibers);
 
   constexpr int thread_count = 3;

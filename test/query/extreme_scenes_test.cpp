@@ -62,8 +62,8 @@ class ExtremeScenesTest : public testing::Test {
   }
 
   Random random_;
-  std::unique_ptr<ProximityEngine> one_thread_ = make_engine("run_tree", 1);
-  std::unique_ptr<ProximityEngine> two_threads_ = make_engine("run_tree", 2);
+  std::unique_ptr<ProximityEngine> one_thread_ = make_engine("run_tree", {1});
+  std::unique_ptr<ProximityEngine> two_threads_ = make_engine("run_tree", {2});
   std::size_t found_ = 0;  // contacts so far
 };
 

@@ -1,0 +1,192 @@
+// With a skin, run_tree keeps its tree and its candidates while fibres move little: no answer may
+// show that.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "fiber_proximity/query/brute_force.hpp"
+#include "fiber_proximity/query/run_tree_engine.hpp"
+#include "support/assemblies.hpp"
+#include "support/contacts.hpp"
+
+namespace fiber::test {
+namespace {
+
+using Eigen::Vector3d;
+
+double size_of(const FiberAssembly& fibers) {
+  double size = 0.0;
+  for (const Vector3d& point : fibers.points()) {
+    size = std::max(size, (point - fibers.points().front()).cwiseAbs().maxCoeff());
+  }
+  return size;
+}
+
+/// Moves every point, each within a cube of its own.
+void shake(Random& random, FiberAssembly& fibers, double half_edge) {
+  std::vector<Vector3d> points = fibers.points();
+  for (Vector3d& point : points) {
+    point += random.in_cube(half_edge);
+  }
+  fibers.update_points(points);
+}
+
+QueryOptions random_options(Random& random, double size) {
+  QueryOptions options;
+  options.type = static_cast<QueryType>(random.integer(0, 3));
+  options.margin = random.chance(0.3) ? 0.0 : size * random.uniform(0.0, 0.1);
+  options.max_contacts = 5;
+  options.neighbour_skip = static_cast<std::uint32_t>(random.integer(0, 3));
+  options.neighbour_skip_length = random.chance(0.2) ? 0.05 * size : 0.0;
+  return options;
+}
+
+/// As brute force has it; of FIRST, any pair that brute force knows, or none.
+void expect_answer(const FiberAssembly& fibers, const QueryOptions& options,
+                   const std::vector<Contact>& found) {
+  QueryOptions wanted = options;
+  if (options.type == QueryType::FIRST) {
+    wanted.type = QueryType::ALL;
+  }
+  QueryResult truth;
+  brute_force(fibers, wanted, truth);
+  if (options.type == QueryType::FIRST) {
+    ASSERT_EQ(found.empty(), truth.contacts.empty());
+    EXPECT_TRUE(found.empty() || std::any_of(truth.contacts.begin(), truth.contacts.end(),
+                                             [&](const Contact& contact) {
+                                               return contact.key() == found.front().key();
+                                             }));
+    return;
+  }
+  EXPECT_TRUE(same_contacts(found, truth.contacts));
+}
+
+TEST(SkinTest, AnswersAsBruteForceWhileFibersMove) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  std::uint64_t frames = 0;
+  std::uint64_t refits = 0;
+  for (int round = 0; round < 10; ++round) {
+    for (const AssemblyFamily& family : assembly_families()) {
+      SCOPED_TRACE(family.name);
+      FiberAssembly fibers = family.make(random);
+      const double size = size_of(fibers);
+      const double skin = size * random.uniform(0.0, 0.2);
+      RunTreeEngine engine({1, skin});
+      const QueryOptions options = random_options(random, size);
+      for (int frame = 0; frame < 10; ++frame) {
+        engine.update(fibers);
+        QueryResult result;
+        engine.query(options, result);
+        expect_answer(fibers, options, result.contacts);
+        const QueryOptions others = random_options(random, size);
+        engine.query(others, result);
+        expect_answer(fibers, others, result.contacts);
+        shake(random, fibers, skin * random.uniform(0.0, 0.3));
+        ++frames;
+      }
+      refits += engine.refit_count();
+    }
+  }
+  // Both ways are taken, and often.
+  EXPECT_GT(refits, frames / 10);
+  EXPECT_LT(refits, frames * 9 / 10);
+}
+
+TEST(SkinTest, AShapeMeetsFibersThatHaveMoved) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  const auto oracle = make_engine("brute_force");
+  std::size_t found = 0;
+  for (int round = 0; round < 200; ++round) {
+    AssemblyBuilder builder;
+    builder.add_fiber(random_walk(random, 40, 0.1));
+    FiberAssembly fibers = builder.build({0.02});
+    RunTreeEngine engine({1, 0.2});
+    engine.update(fibers);
+    shake(random, fibers, 0.05);
+    engine.update(fibers);
+    EXPECT_EQ(engine.refit_count(), 1U);
+    AssemblyBuilder shape_builder;
+    shape_builder.add_fiber(random_walk(random, 5, 0.2));
+    const FiberAssembly shape = shape_builder.build({0.1});
+    for (const QueryType type : {QueryType::ALL, QueryType::CLOSEST}) {
+      QueryOptions options;
+      options.type = type;
+      options.margin = 0.3;
+      QueryResult truth;
+      oracle->update(fibers);
+      oracle->query_shape(shape, options, truth);
+      QueryResult result;
+      engine.query_shape(shape, options, result);
+      EXPECT_TRUE(same_contacts(result.contacts, truth.contacts));
+      found += truth.contacts.size();
+    }
+  }
+  EXPECT_GT(found, 100U);
+}
+
+/// Two fibres that are as far apart as the skin and come together by just as much.
+TEST(SkinTest, LosesNothingAtItsVeryEdge) {
+  const double skin = 0.25;
+  AssemblyBuilder builder;
+  builder.add_fiber({{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}});
+  builder.add_fiber({{0.0, skin, 0.0}, {1.0, skin, 0.0}});
+  FiberAssembly fibers = builder.build({0.0});
+  RunTreeEngine engine({1, skin});
+  QueryResult result;
+  engine.update(fibers);
+  engine.query({}, result);
+  EXPECT_TRUE(result.contacts.empty());
+  // The bound is rounded up, so half of the skin itself may be too far for the old tree.
+  for (const double half : {0.49 * skin, 0.5 * skin}) {
+    std::vector<Vector3d> points = fibers.points();
+    points[0].y() = points[1].y() = half;
+    points[2].y() = points[3].y() = skin - half;
+    fibers.update_points(points);
+    engine.update(fibers);
+    QueryOptions options;
+    options.margin = skin - 2.0 * half;
+    QueryResult truth;
+    brute_force(fibers, options, truth);
+    ASSERT_FALSE(truth.contacts.empty());
+    engine.query(options, result);
+    EXPECT_TRUE(same_contacts(result.contacts, truth.contacts));
+  }
+}
+
+TEST(SkinTest, SeesThatRadiiOrTopologyHaveChanged) {
+  AssemblyBuilder builder;
+  builder.add_fiber({{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {2.0, 0.0, 0.0}});
+  builder.add_fiber({{0.0, 1.0, 0.0}, {1.0, 1.0, 0.0}});
+  AssemblyBuilder other;
+  other.add_fiber({{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}});
+  other.add_fiber({{1.0, 0.5, 0.0}, {0.0, 1.0, 0.0}, {1.0, 1.0, 0.0}});
+  RunTreeEngine engine({1, 0.1});
+  QueryResult result;
+  const auto contacts = [&](const FiberAssembly& fibers) {
+    engine.update(fibers);
+    engine.query({}, result);
+    QueryResult truth;
+    brute_force(fibers, {}, truth);
+    EXPECT_TRUE(same_contacts(result.contacts, truth.contacts));
+    return result.contacts.size();
+  };
+  const FiberAssembly thin = builder.build({0.1});
+  const FiberAssembly thick = builder.build({0.6});
+  const FiberAssembly moved = other.build({0.3});
+  EXPECT_EQ(contacts(thin), 0U);
+  EXPECT_EQ(contacts(thick), 2U);
+  EXPECT_EQ(contacts(moved), 1U);
+}
+
+TEST(SkinTest, RefusesWhatIsNoLength) {
+  for (const double skin :
+       {-1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_THROW(make_engine("run_tree", {1, skin}), std::invalid_argument) << skin;
+  }
+}
+
+}  // namespace
+}  // namespace fiber::test
