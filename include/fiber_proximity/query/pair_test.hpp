@@ -44,6 +44,10 @@ class PairTest {
   }
 
   PairDistance distance(PointPair pair) const;
+
+  /// [m] distance(pair).gap is at least this, its rounding included; costs a fraction of it.
+  double gap_lower_bound(PointPair pair) const;
+
   Contact contact(PointPair pair, const PairDistance& distance) const;
 
  private:
