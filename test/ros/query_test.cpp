@@ -164,7 +164,8 @@ TEST_F(QueryTest, FiberPairsGiveEachShapeItsClosestSegmentOfEachFibre) {
     const std::uint32_t fiber = response.contacts[i].fiber_b;
     const auto begin = assembly_.points().begin();
     const Points points(begin + assembly_.offsets()[fiber], begin + assembly_.offsets()[fiber + 1]);
-    const fiber::FiberAssembly only(points, {0, static_cast<std::uint32_t>(points.size())}, {0.01});
+    const fiber::FiberAssembly only(points, {0, static_cast<std::uint32_t>(points.size())},
+                                    {assembly_.segment_radius(assembly_.offsets()[fiber])});
     fiber::QueryResult expected;
     fiber::brute_force_shape(shapes[i / 3], only, closest, expected);
     EXPECT_EQ(response.contacts[i].segment_b, expected.contacts.front().segment_b);
