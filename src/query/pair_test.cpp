@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <limits>
 
 namespace fiber {
 namespace {
@@ -75,8 +74,9 @@ double PairTest::gap_lower_bound(PointPair pair) const {
   const double apart = std::max((lower_b - upper_a).maxCoeff(), (lower_a - upper_b).maxCoeff());
   const double extent = std::max((upper_b - lower_a).maxCoeff(), (upper_a - lower_b).maxCoeff());
   // The distance errs by up to 4 roundings (2⁻⁵²) of the extent, the sums here and there by less
-  // than one each; among denormals, where roundings do not shrink, by a few of the smallest.
-  const double error = 0x1p-48 * (extent + radii) + std::numeric_limits<double>::min();
+  // than one each. Where this underflows those are exact, and the distance a rounded multiple of
+  // the smallest double, as `apart` is.
+  const double error = 0x1p-48 * (extent + radii);
   return apart - radii - error;
 }
 
