@@ -34,10 +34,10 @@ PairCollector::PairCollector(const FiberAssembly& shape, const FiberAssembly& fi
                              const QueryOptions& options, QueryResult& result)
     : PairCollector(PairTest(shape, fibers, options), {shape, fibers, result}, options, result) {}
 
-PairCollector::PairCollector(PairTest&& test, FiberPairMinima&& minima, const QueryOptions& options,
-                             QueryResult& result)
+PairCollector::PairCollector(PairTest&& test, const FiberPairMinima& minima,
+                             const QueryOptions& options, QueryResult& result)
     : test_(std::move(test)),
-      minima_(std::move(minima)),
+      minima_(minima),
       options_(options),
       result_(result),
       capacity_(capacity_of(options)) {

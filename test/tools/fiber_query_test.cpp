@@ -293,6 +293,8 @@ TEST_F(FiberQuery, FilesOfNothing) {
   EXPECT_EQ(query("closest " + bare + " --format json").out, "{\"contacts\":[]}\n");
   EXPECT_EQ(query("contacts " + framed).out, "frame," + columns);
   EXPECT_EQ(query("contacts " + framed + " --format json").out, "");
+  EXPECT_EQ(query("nearest " + bare + " --point 0,0,0").out, columns);
+  EXPECT_TRUE(refused(query("fiber_pairs " + framed + " --margin -1"), "margin is -1"));
 }
 
 TEST_F(FiberQuery, HelpIsNoError) {

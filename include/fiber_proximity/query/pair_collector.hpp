@@ -43,7 +43,7 @@ class PairCollector {
   void finish();
 
  private:
-  PairCollector(PairTest&& test, FiberPairMinima&& minima, const QueryOptions& options,
+  PairCollector(PairTest&& test, const FiberPairMinima& minima, const QueryOptions& options,
                 QueryResult& result);
 
   void offer_to_minima(PointPair pair);
