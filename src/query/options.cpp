@@ -22,18 +22,19 @@ void validate(const QueryOptions& options) {
 }
 
 QueryType query_type_from_name(const std::string& name) {
-  static const std::array<std::pair<const char*, QueryType>, 4> types{
+  static const std::array<std::pair<const char*, QueryType>, 5> types{
       {{"first", QueryType::FIRST},
        {"closest", QueryType::CLOSEST},
        {"limited", QueryType::LIMITED},
-       {"all", QueryType::ALL}}};
+       {"all", QueryType::ALL},
+       {"fiber_pairs", QueryType::FIBER_PAIRS}}};
   for (const auto& [type_name, type] : types) {
     if (name == type_name) {
       return type;
     }
   }
   throw std::invalid_argument("unknown query type '" + name +
-                              "', known are: first, closest, limited, all");
+                              "', known are: first, closest, limited, all, fiber_pairs");
 }
 
 }  // namespace fiber

@@ -8,9 +8,7 @@
 namespace fiber {
 namespace {
 
-bool closer(const Contact& x, const Contact& y) {
-  return x.distance < y.distance || (x.distance == y.distance && x.key() < y.key());
-}
+bool closer(const Contact& x, const Contact& y) { return x.closer_than(y); }
 
 std::size_t capacity_of(const QueryOptions& options) {
   switch (options.type) {
@@ -20,6 +18,7 @@ std::size_t capacity_of(const QueryOptions& options) {
       return options.max_contacts;
     case QueryType::FIRST:
     case QueryType::ALL:
+    case QueryType::FIBER_PAIRS:
       break;
   }
   return 0;
@@ -29,14 +28,19 @@ std::size_t capacity_of(const QueryOptions& options) {
 
 PairCollector::PairCollector(const FiberAssembly& fibers, const QueryOptions& options,
                              QueryResult& result)
-    : PairCollector(PairTest(fibers, options), options, result) {}
+    : PairCollector(PairTest(fibers, options), {fibers, fibers, result}, options, result) {}
 
 PairCollector::PairCollector(const FiberAssembly& shape, const FiberAssembly& fibers,
                              const QueryOptions& options, QueryResult& result)
-    : PairCollector(PairTest(shape, fibers, options), options, result) {}
+    : PairCollector(PairTest(shape, fibers, options), {shape, fibers, result}, options, result) {}
 
-PairCollector::PairCollector(PairTest&& test, const QueryOptions& options, QueryResult& result)
-    : test_(std::move(test)), options_(options), result_(result), capacity_(capacity_of(options)) {
+PairCollector::PairCollector(PairTest&& test, const FiberPairMinima& minima,
+                             const QueryOptions& options, QueryResult& result)
+    : test_(std::move(test)),
+      minima_(minima),
+      options_(options),
+      result_(result),
+      capacity_(capacity_of(options)) {
   result_.contacts.clear();
   set_bound(options.margin);
 }
@@ -46,10 +50,27 @@ void PairCollector::offer(std::uint32_t point_a, std::uint32_t point_b) {
   if (test_.is_neighbour_pair(pair)) {
     return;
   }
+  if (options_.type == QueryType::FIBER_PAIRS) {
+    offer_to_minima(pair);
+    return;
+  }
   ++result_.counts.primitive_tests;
   const PairDistance distance = test_.distance(pair);
   if (distance.gap <= bound_) {
     keep(test_.contact(pair, distance));
+  }
+}
+
+void PairCollector::offer_to_minima(PointPair pair) {
+  const Contact* best = minima_.find(pair);
+  const double most = best == nullptr ? bound_ : best->distance;
+  if (test_.gap_lower_bound(pair) > most) {
+    return;
+  }
+  ++result_.counts.primitive_tests;
+  const PairDistance distance = test_.distance(pair);
+  if (distance.gap <= most) {
+    minima_.keep(test_.contact(pair, distance));
   }
 }
 

@@ -81,6 +81,24 @@ void PairTest::distances(const PointPair* pairs, std::size_t count, PairDistance
   }
 }
 
+double PairTest::gap_lower_bound(PointPair pair) const {
+  const Capsule a = a_.capsule(pair.a);
+  const Capsule b = b_.capsule(pair.b);
+  const Vector3d lower_a = a.p0.cwiseMin(a.p1);
+  const Vector3d upper_a = a.p0.cwiseMax(a.p1);
+  const Vector3d lower_b = b.p0.cwiseMin(b.p1);
+  const Vector3d upper_b = b.p0.cwiseMax(b.p1);
+  const double radii = a.radius + b.radius;
+  // Axis by axis: squares could leave the range of double.
+  const double apart = std::max((lower_b - upper_a).maxCoeff(), (lower_a - upper_b).maxCoeff());
+  const double extent = std::max((upper_b - lower_a).maxCoeff(), (upper_a - lower_b).maxCoeff());
+  // The distance errs by up to 4 roundings (2⁻⁵²) of the extent, the sums here and there by less
+  // than one each. Where this underflows those are exact, and the distance a rounded multiple of
+  // the smallest double, as `apart` is.
+  const double error = 0x1p-48 * (extent + radii);
+  return apart - radii - error;
+}
+
 Contact PairTest::contact(PointPair pair, const PairDistance& distance) const {
   const Capsule a = a_.capsule(pair.a);
   const Capsule b = b_.capsule(pair.b);

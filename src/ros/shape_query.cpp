@@ -27,9 +27,13 @@ fiber::QueryOptions to_options(const QueryProximity::Request& request) {
     case QueryProximity::Request::ALL:
       options.type = fiber::QueryType::ALL;
       break;
+    case QueryProximity::Request::FIBER_PAIRS:
+      options.type = fiber::QueryType::FIBER_PAIRS;
+      break;
     default:
       throw std::invalid_argument("type is " + std::to_string(request.type) +
-                                  ", it must be 0 (FIRST), 1 (CLOSEST), 2 (LIMITED) or 3 (ALL)");
+                                  ", it must be 0 (FIRST), 1 (CLOSEST), 2 (LIMITED), 3 (ALL) or 4 "
+                                  "(FIBER_PAIRS)");
   }
   options.margin = request.margin;
   options.max_contacts = request.max_contacts;

@@ -1,13 +1,18 @@
+#include <cmath>
+#include <functional>
 #include <iostream>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <string>
 
 #include "command_line.hpp"
 #include "contact_format.hpp"
 #include "fiber_proximity/io/fiber_file.hpp"
+#include "fiber_proximity/io/number.hpp"
 #include "fiber_proximity/query/engine.hpp"
+#include "fiber_proximity/query/nearest_segments.hpp"
 
 namespace fiber {
 namespace {
@@ -17,7 +22,9 @@ struct Request {
   std::string engine = "run_tree";
   QueryOptions query;
   std::optional<double> margin;  // [m]
-  double radius = 0.0;           // [m]
+  Eigen::Vector3d point;         // [m]
+  std::uint32_t k = 1;
+  double radius = 0.0;  // [m]
   std::uint32_t threads = 0;
   std::string format = "csv";
 };
@@ -29,18 +36,12 @@ struct Query {
   double default_margin;  // [m]
 };
 
-void add_options(CLI::App& app, const Query& query, Request& request) {
+/// Asks an engine that knows the fibres of a frame.
+using Ask = std::function<void(const ProximityEngine& engine, QueryResult& result)>;
+
+void add_file_options(CLI::App& app, Request& request) {
   app.add_option("FILE", request.file, "fibre file (.csv or .hair)")->required();
   app.add_option("--engine", request.engine, "one of " + listed(engine_names()))
-      ->capture_default_str();
-  app.add_option("--margin", request.margin,
-                 "pairs with a gap of at most this [m]; inf for no limit")
-      ->default_str(query.default_margin == 0.0 ? "0" : "inf");
-  app.add_option("--neighbour-skip", request.query.neighbour_skip,
-                 "segments of a fibre whose indices differ by at most this are no pair")
-      ->capture_default_str();
-  app.add_option("--neighbour-skip-length", request.query.neighbour_skip_length,
-                 "segments of a fibre with less than this between them are no pair [m]")
       ->capture_default_str();
   app.add_option("--radius", request.radius, "of all fibres, if the file has no radii [m]")
       ->capture_default_str();
@@ -53,8 +54,36 @@ void add_options(CLI::App& app, const Query& query, Request& request) {
       ->capture_default_str();
 }
 
-ExitCode run(const Request& request) {
-  validate(request.query);
+void add_pair_options(CLI::App& app, const Query& query, Request& request) {
+  app.add_option("--margin", request.margin,
+                 "pairs with a gap of at most this [m]; inf for no limit")
+      ->default_str(query.default_margin == 0.0 ? "0" : "inf");
+  app.add_option("--neighbour-skip", request.query.neighbour_skip,
+                 "segments of a fibre whose indices differ by at most this are no pair")
+      ->capture_default_str();
+  app.add_option("--neighbour-skip-length", request.query.neighbour_skip_length,
+                 "segments of a fibre with less than this between them are no pair [m]")
+      ->capture_default_str();
+}
+
+/// The point of a text X,Y,Z [m].
+Eigen::Vector3d parse_point(const std::string& text) {
+  Eigen::Vector3d point;
+  std::istringstream stream(text);
+  std::string coordinate;
+  for (double& value : point) {
+    std::getline(stream, coordinate, ',');
+    value = parse_number<double>(coordinate).value_or(std::nan(""));
+    coordinate.clear();
+  }
+  if (!stream.eof() || !point.unaryExpr(&FiberAssembly::is_valid_coordinate).all()) {
+    throw CLI::ValidationError(
+        "--point", "'" + text + "' must be three numbers X,Y,Z; " + FiberAssembly::coordinate_rule);
+  }
+  return point;
+}
+
+ExitCode run(const Request& request, const Ask& ask) {
   const std::unique_ptr<ProximityEngine> engine = make_engine(request.engine, {request.threads});
   const FiberFile file = read_fibers(request.file, request.radius);
   const bool json = request.format == "json";
@@ -62,7 +91,7 @@ ExitCode run(const Request& request) {
   std::string text = json ? "" : csv_header(file.has_frames);
   for (const FiberFrame& frame : file.frames) {
     engine->update(frame.fibers);
-    engine->query(request.query, result);
+    ask(*engine, result);
     const std::optional<std::int64_t> number =
         file.has_frames ? std::optional(frame.frame) : std::nullopt;
     if (json) {
@@ -77,23 +106,57 @@ ExitCode run(const Request& request) {
   return SUCCEEDED;
 }
 
-void setup(CLI::App& app, Command& command) {
-  app.require_subcommand(0, 1);
-  const auto request = std::make_shared<Request>();
+void add_pair_queries(CLI::App& app, Command& command, const std::shared_ptr<Request>& request) {
   const double infinity = std::numeric_limits<double>::infinity();
   const Query queries[] = {
       {"contacts", "all pairs of segments within the margin", QueryType::ALL, 0.0},
       {"closest", "the closest pair", QueryType::CLOSEST, infinity},
-      {"first", "any one pair within the margin", QueryType::FIRST, 0.0}};
+      {"first", "any one pair within the margin", QueryType::FIRST, 0.0},
+      {"fiber_pairs", "the closest pair of each pair of fibres, of a fibre with itself too",
+       QueryType::FIBER_PAIRS, infinity}};
   for (const Query& query : queries) {
     CLI::App* subcommand = app.add_subcommand(query.name, query.description);
-    add_options(*subcommand, query, *request);
+    add_file_options(*subcommand, *request);
+    add_pair_options(*subcommand, query, *request);
     subcommand->callback([&command, request, query] {
       request->query.type = query.type;
       request->query.margin = request->margin.value_or(query.default_margin);
-      command = [request] { return run(*request); };
+      validate(request->query);
+      command = [request] {
+        return run(*request, [request](const ProximityEngine& engine, QueryResult& result) {
+          engine.query(request->query, result);
+        });
+      };
     });
   }
+}
+
+void add_nearest(CLI::App& app, Command& command, const std::shared_ptr<Request>& request) {
+  CLI::App* nearest = app.add_subcommand(
+      "nearest", "the segments nearest to a point, nearest first; in the output b is the segment");
+  add_file_options(*nearest, *request);
+  nearest
+      ->add_option_function<std::string>(
+          "--point", [request](const std::string& text) { request->point = parse_point(text); },
+          "X,Y,Z [m]")
+      ->required();
+  nearest->add_option("--k", request->k, "how many segments")
+      ->check(whole_number(1))
+      ->capture_default_str();
+  nearest->callback([&command, request] {
+    command = [request] {
+      return run(*request, [request](const ProximityEngine& engine, QueryResult& result) {
+        nearest_segments(engine, request->point, request->k, result);
+      });
+    };
+  });
+}
+
+void setup(CLI::App& app, Command& command) {
+  app.require_subcommand(0, 1);
+  const auto request = std::make_shared<Request>();
+  add_pair_queries(app, command, request);
+  add_nearest(app, command, request);
 }
 
 }  // namespace

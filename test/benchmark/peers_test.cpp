@@ -120,7 +120,8 @@ TEST_P(PeerTest, RefusesWhatItDoesNotAnswer) {
   const std::unique_ptr<ProximityEngine> peer = make_bench_engine(GetParam(), {1, 0.01});
   peer->update(fibers);
   QueryResult result;
-  for (const QueryType type : {QueryType::FIRST, QueryType::CLOSEST, QueryType::LIMITED}) {
+  for (const QueryType type :
+       {QueryType::FIRST, QueryType::CLOSEST, QueryType::LIMITED, QueryType::FIBER_PAIRS}) {
     QueryOptions options;
     options.type = type;
     EXPECT_THROW(peer->query(options, result), std::invalid_argument);

@@ -86,6 +86,27 @@ TEST(RunTreeAllocationTest, AFrameInSteadyStateAllocatesNothing) {
   EXPECT_EQ(allocations, before);
 }
 
+TEST(RunTreeAllocationTest, AskingForFiberPairsAgainAllocatesNothing) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  AssemblyBuilder builder;
+  for (int fiber = 0; fiber < 100; ++fiber) {
+    builder.add_fiber(random_walk(random, 10, 0.1));
+  }
+  const FiberAssembly fibers = builder.build({0.02});
+  const auto engine = make_engine("run_tree");
+  engine->update(fibers);
+  QueryOptions options;
+  options.type = QueryType::FIBER_PAIRS;
+  options.margin = 0.5;
+  QueryResult result;
+  engine->query(options, result);
+  EXPECT_GT(result.contacts.size(), 100U) << "too few for the table to have grown";
+  const std::size_t before = allocations;
+  engine->query(options, result);
+  EXPECT_EQ(allocations, before);
+}
+
 // The layered hierarchies promise it; the others fit runs or divide anew.
 INSTANTIATE_TEST_SUITE_P(Engines, AllocationTest,
                          testing::Values("run_tree", "AL", "AL-threaded", "DL-20", "SL", "OL",

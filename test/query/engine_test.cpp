@@ -158,8 +158,8 @@ TEST_P(EngineTest, RepeatsItselfToTheBit) {
   SCOPED_TRACE(seed_message());
   Random random;
   const FiberAssembly fibers = make(assembly_families().front(), random);
-  for (const QueryType type :
-       {QueryType::FIRST, QueryType::CLOSEST, QueryType::LIMITED, QueryType::ALL}) {
+  for (const QueryType type : {QueryType::FIRST, QueryType::CLOSEST, QueryType::LIMITED,
+                               QueryType::ALL, QueryType::FIBER_PAIRS}) {
     QueryOptions options;
     options.type = type;
     options.margin = 0.3;

@@ -176,6 +176,7 @@ TEST(QueryType, HasANameForEach) {
   EXPECT_EQ(query_type_from_name("closest"), QueryType::CLOSEST);
   EXPECT_EQ(query_type_from_name("limited"), QueryType::LIMITED);
   EXPECT_EQ(query_type_from_name("all"), QueryType::ALL);
+  EXPECT_EQ(query_type_from_name("fiber_pairs"), QueryType::FIBER_PAIRS);
   EXPECT_THROW(query_type_from_name("any"), std::invalid_argument);
 }
 

@@ -60,8 +60,9 @@ TEST(Detector, FindsTheMinimumAmongContactsThatAreNotTheClosest) {
     Detector detector("AL");
     detector.set_fibers(fibers);
     options.max_contacts = 3;
-    for (const auto type : {fiber::QueryType::FIRST, fiber::QueryType::CLOSEST,
-                            fiber::QueryType::LIMITED, fiber::QueryType::ALL}) {
+    for (const auto type :
+         {fiber::QueryType::FIRST, fiber::QueryType::CLOSEST, fiber::QueryType::LIMITED,
+          fiber::QueryType::ALL, fiber::QueryType::FIBER_PAIRS}) {
       for (const double margin : {0.0, 0.05, 10.0}) {
         options.type = type;
         options.margin = margin;

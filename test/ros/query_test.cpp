@@ -1,5 +1,6 @@
 // The service ~query of the running node.
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <limits>
 #include <random>
 
@@ -110,16 +111,18 @@ TEST_F(QueryTest, EachShapeOfABatchIsAnsweredInItsOwnFrame) {
       {{-1, -1, -1}, {0, 0, 0}, {1, 0, 0}, {1, 1, 1}}};
   // The static transform may still be on its way to the node.
   ASSERT_TRUE(node_test::wait_for([&] { return call(request).success; }));
-  for (const fiber::QueryType type :
-       {fiber::QueryType::ALL, fiber::QueryType::CLOSEST, fiber::QueryType::LIMITED}) {
+  const std::pair<fiber::QueryType, std::uint8_t> types[] = {
+      {fiber::QueryType::ALL, QueryProximity::Request::ALL},
+      {fiber::QueryType::CLOSEST, QueryProximity::Request::CLOSEST},
+      {fiber::QueryType::LIMITED, QueryProximity::Request::LIMITED},
+      {fiber::QueryType::FIBER_PAIRS, QueryProximity::Request::FIBER_PAIRS}};
+  for (const auto& [type, type_in_message] : types) {
     for (const double margin : {0.0, 0.2, std::numeric_limits<double>::infinity()}) {
       fiber::QueryOptions options;
       options.type = type;
       options.margin = margin;
       options.max_contacts = 3;
-      request.type = type == fiber::QueryType::ALL       ? QueryProximity::Request::ALL
-                     : type == fiber::QueryType::CLOSEST ? QueryProximity::Request::CLOSEST
-                                                         : QueryProximity::Request::LIMITED;
+      request.type = type_in_message;
       request.margin = margin;
       request.max_contacts = 3;
       const QueryProximity::Response response = call(request);
@@ -142,6 +145,78 @@ TEST_F(QueryTest, EachShapeOfABatchIsAnsweredInItsOwnFrame) {
   EXPECT_EQ(call(request).offsets, std::vector<std::uint32_t>{0});
 }
 
+TEST_F(QueryTest, FiberPairsGiveEachShapeItsClosestSegmentOfEachFibre) {
+  send_fibers();
+  QueryProximity::Request request;
+  request.type = QueryProximity::Request::FIBER_PAIRS;
+  request.margin = std::numeric_limits<double>::infinity();
+  const Points line{{-1, 0, 0}, {0, 0, 0}, {1, 0, 0}};
+  request.shapes = {shape("world", {{0, 0, 0}}, 0.0), shape("world", line, 0.1)};
+  const QueryProximity::Response response = call(request);
+  ASSERT_TRUE(response.success) << response.message;
+  ASSERT_EQ(response.offsets, (std::vector<std::uint32_t>{0, 3, 6}));
+  fiber::QueryOptions closest;
+  closest.type = fiber::QueryType::CLOSEST;
+  closest.margin = request.margin;
+  const std::vector<fiber::FiberAssembly> shapes{{{{0, 0, 0}, {0, 0, 0}}, {0, 2}, {0.0}},
+                                                 {line, {0, 3}, {0.1}}};
+  for (std::uint32_t i = 0; i < 6; ++i) {
+    const std::uint32_t fiber = response.contacts[i].fiber_b;
+    const auto begin = assembly_.points().begin();
+    const Points points(begin + assembly_.offsets()[fiber], begin + assembly_.offsets()[fiber + 1]);
+    const fiber::FiberAssembly only(points, {0, static_cast<std::uint32_t>(points.size())},
+                                    {assembly_.segment_radius(assembly_.offsets()[fiber])});
+    fiber::QueryResult expected;
+    fiber::brute_force_shape(shapes[i / 3], only, closest, expected);
+    EXPECT_EQ(response.contacts[i].segment_b, expected.contacts.front().segment_b);
+    EXPECT_NEAR(response.contacts[i].distance, expected.contacts.front().distance, 1e-12);
+  }
+  for (const std::uint32_t first : {0U, 3U}) {
+    std::vector<std::uint32_t> seen;
+    for (std::uint32_t i = first; i < first + 3; ++i) {
+      seen.push_back(response.contacts[i].fiber_b);
+    }
+    std::sort(seen.begin(), seen.end());
+    EXPECT_EQ(seen, (std::vector<std::uint32_t>{0, 1, 2}));
+  }
+}
+
+TEST_F(QueryTest, ALimitedQueryAboutAPointGivesItsNearestSegments) {
+  send_fibers();
+  const Eigen::Vector3d point(0.3, -0.2, 0.1);
+  std::vector<double> distances;
+  for (std::uint32_t fiber = 0; fiber < 3; ++fiber) {
+    for (std::uint32_t p = assembly_.offsets()[fiber]; p + 1 < assembly_.offsets()[fiber + 1];
+         ++p) {
+      const fiber::Capsule segment = assembly_.capsule(p);
+      const Eigen::Vector3d axis = segment.p1 - segment.p0;
+      const double s = (point - segment.p0).dot(axis) / axis.squaredNorm();
+      const Eigen::Vector3d nearest = segment.p0 + std::clamp(s, 0.0, 1.0) * axis;
+      distances.push_back((nearest - point).norm() - segment.radius);
+    }
+  }
+  std::sort(distances.begin(), distances.end());
+  QueryProximity::Request request;
+  request.type = QueryProximity::Request::LIMITED;
+  request.margin = std::numeric_limits<double>::infinity();
+  request.shapes = {shape("world", {point}, 0.0)};
+  for (const std::uint32_t k : {1U, 5U, 1000U}) {
+    request.max_contacts = k;
+    const QueryProximity::Response response = call(request);
+    ASSERT_TRUE(response.success) << response.message;
+    std::vector<double> found;
+    for (const fiber_proximity::Contact& contact : response.contacts) {
+      found.push_back(contact.distance);
+      EXPECT_EQ(fiber_proximity_ros::to_vector(contact.point_a), point);
+    }
+    std::sort(found.begin(), found.end());
+    ASSERT_EQ(found.size(), std::min<std::size_t>(k, distances.size()));
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_NEAR(found[i], distances[i], 1e-12) << "rank " << i;
+    }
+  }
+}
+
 TEST_F(QueryTest, BadRequestsAreAnsweredWithTheReason) {
   send_fibers();
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -160,8 +235,10 @@ TEST_F(QueryTest, BadRequestsAreAnsweredWithTheReason) {
     EXPECT_TRUE(response.offsets.empty());
     EXPECT_TRUE(call(good).success) << "the node does not live on";
   };
-  expect_error([](auto& request) { request.type = 7; },
-               "type is 7, it must be 0 (FIRST), 1 (CLOSEST), 2 (LIMITED) or 3 (ALL)");
+  expect_error(
+      [](auto& request) { request.type = 7; },
+      "type is 7, it must be 0 (FIRST), 1 (CLOSEST), 2 (LIMITED), 3 (ALL) or 4 (FIBER_PAIRS)");
+  expect_error([](auto& request) { request.type = 5; }, "type is 5, it must be 0 (FIRST)");
   expect_error([](auto& request) { request.margin = -0.25; }, "margin is -0.25");
   expect_error([](auto& request) { request.margin = nan; }, "margin is nan");
   expect_error([](auto& request) { request.type = QueryProximity::Request::LIMITED; },

@@ -76,6 +76,13 @@ TEST_F(ReconfigureTest, TheNextAnswerFollowsTheParameters) {
   EXPECT_EQ(now.contacts.size(), 4U);
   EXPECT_TRUE(now.limit_reached);
 
+  config.query_type = "fiber_pairs";
+  config.margin = 0.2;
+  set(config);
+  now = answer();
+  EXPECT_EQ(now.contacts.size(), 9U + 8U) << "one segment per fibre";
+  EXPECT_FALSE(now.limit_reached);
+
   config.query_type = "closest";
   config.margin = 0.0;
   set(config);
@@ -98,7 +105,7 @@ TEST_F(ReconfigureTest, BadValuesAreAnErrorAndChangeNothing) {
   EXPECT_TRUE(node_test::wait_for([this] {
     return !logs_of(
                 "parameters stay as they were: unknown query type 'nearest', known are: first, "
-                "closest, limited, all")
+                "closest, limited, all, fiber_pairs")
                 .empty();
   }));
 

@@ -100,6 +100,83 @@ TEST_F(FiberQuery, FirstIsOneOfTheContacts) {
   EXPECT_NE(std::find(all.begin() + 1, all.end(), first[1]), all.end());
 }
 
+// Of the hairpin a with itself, and of each pair of fibres.
+TEST_F(FiberQuery, FiberPairsAreTheMinimumDistancesOfFibres) {
+  const std::string file = write("hairpin.csv",
+                                 "fiber,x,y,z\n"
+                                 "a,0,0,0\na,4,0,0\na,4,1,0\na,0,1,0\n"
+                                 "b,1,2,3\nb,3,2,3\nc,0,0,-2\nc,0,-1,-2\n");
+  const auto rows = [&](const std::string& options) {
+    std::vector<std::vector<double>> values;
+    const std::vector<std::string> found = lines(query("fiber_pairs " + file + options).out);
+    for (std::size_t i = 1; i < found.size(); ++i) {
+      const std::vector<double> row = numbers(found[i]);
+      values.push_back({row[0], row[1], row[3], row[4], row[6]});
+    }
+    return values;
+  };
+  const std::vector<double> hairpin{0, 0, 0, 2, 1};
+  const std::vector<double> a_c{0, 0, 2, 0, 2};
+  EXPECT_EQ(rows(" --margin 0"), std::vector<std::vector<double>>());
+  EXPECT_EQ(rows(" --margin 1"), std::vector<std::vector<double>>{hairpin});
+  EXPECT_EQ(rows(" --margin 3"), (std::vector<std::vector<double>>{hairpin, a_c}));
+  const std::vector<std::vector<double>> all = rows("");
+  ASSERT_EQ(all.size(), 4U) << "no margin by default";
+  EXPECT_EQ(all[0], hairpin);
+  EXPECT_EQ(all[1], a_c);
+  EXPECT_EQ(all[2], (std::vector<double>{0, 2, 1, 0, std::sqrt(10.0)}));
+  EXPECT_EQ(all[3], (std::vector<double>{1, 0, 2, 0, std::sqrt(30.0)}));
+}
+
+TEST_F(FiberQuery, NearestAreTheSegmentsNearestToAPoint) {
+  const std::string nearest = "nearest " + crossing() + " --point ";
+  const std::vector<std::string> found = lines(query(nearest + "0,0,1.75 --k 3").out);
+  ASSERT_EQ(found.size(), 4U);
+  EXPECT_EQ(found[0] + "\n", columns);
+  EXPECT_EQ(numbers(found[1]), (std::vector<double>{0, 0, 0, 2, 0, 0.5, 0.25 - 0.2, 0, 0, 1.75, 0,
+                                                    0, 1.5 + 0.2, 0, 0, -1}));
+  EXPECT_EQ(found[2].substr(0, 12), "0,0,0,1,0,0.");
+  EXPECT_EQ(found[3].substr(0, 12), "0,0,0,0,1,0.");
+  EXPECT_EQ(lines(query(nearest + "0,0,0").out).size(), 2U) << "one by default";
+  EXPECT_EQ(lines(query(nearest + "-1e3,+2.5,0 --k 1000").out).size(), 1U + 4U);
+  const ProcessResult json = query(nearest + "0,0,1.75 --k 2 --format json");
+  const auto contacts = nlohmann::json::parse(json.out).at("contacts");
+  ASSERT_EQ(contacts.size(), 2U);
+  EXPECT_EQ(numbers(contacts[0]), numbers(found[1]));
+  EXPECT_EQ(numbers(contacts[1]), numbers(found[2]));
+}
+
+TEST_F(FiberQuery, NearestAnswersEveryFrameWithEveryEngine) {
+  const std::string path = soup("--scale 0.005 --frames 3 --seed 4");
+  const std::string arguments = "nearest " + path + " --point 0.1,-0.05,0.2 --k 7 --engine ";
+  const ProcessResult expected = query(arguments + "brute_force");
+  EXPECT_EQ(lines(expected.out).size(), 1U + 3 * 7);
+  EXPECT_EQ(lines(expected.out)[0] + "\n", "frame," + columns);
+  for (const std::string& engine : engine_names()) {
+    EXPECT_EQ(query(arguments + engine).out, expected.out) << engine;
+  }
+}
+
+TEST_F(FiberQuery, NearestRefusesBadPointsAndCounts) {
+  const std::string nearest = "nearest " + crossing();
+  EXPECT_TRUE(refused(query(nearest), "--point is required"));
+  for (const std::string point :
+       {"1,2", "1,2,3,4", "1,2,3,", "1;2;3", "a,b,c", "1,,3", "1,2,", ",,", "0,nan,0", "inf,0,0",
+        "0,0,-1e200", "1,2,3x", "\"1, 2, 3\""}) {
+    EXPECT_TRUE(refused(query(nearest + " --point " + (point == "1;2;3" ? "'1;2;3'" : point)),
+                        "must be three numbers X,Y,Z; coordinates must be finite and at most 1e150 "
+                        "m in magnitude"))
+        << point;
+  }
+  for (const std::string k : {"0", "-1", "two", "1.5"}) {
+    EXPECT_TRUE(refused(query(nearest + " --point 0,0,0 --k " + k),
+                        "--k: '" + k + "' must be a whole number from 1"));
+  }
+  EXPECT_TRUE(refused(query(nearest + " --point 0,0,0 --k 4294967296"), "--k"));
+  EXPECT_TRUE(refused(query(nearest + " --point 0,0,0 --margin 1"), "--margin"));
+  EXPECT_TRUE(refused(query("contacts " + crossing() + " --point 0,0,0"), "--point"));
+}
+
 TEST_F(FiberQuery, NeighbourSkips) {
   const std::string path = write("line.csv", "fiber,x,y,z\n0,0,0,0\n0,1,0,0\n0,2,0,0\n0,3,0,0\n");
   const auto count = [&](const std::string& options) {
@@ -121,7 +198,7 @@ TEST_F(FiberQuery, RadiusIsForFilesWithoutOne) {
 
 TEST_F(FiberQuery, AgreesWithBruteForceInEveryFrame) {
   const std::string path = soup("--scale 0.005 --frames 3 --seed 4");
-  for (const std::string command : {"contacts", "closest"}) {
+  for (const std::string command : {"contacts", "closest", "fiber_pairs"}) {
     const std::string arguments = " " + path + " --margin 0.002 --threads 2";
     const ProcessResult tree = query(command + arguments + " --engine AL");
     EXPECT_EQ(tree.exit_code, 0) << tree.err;
@@ -137,10 +214,10 @@ TEST_F(FiberQuery, EveryEnginePrintsTheSameBytes) {
   ASSERT_EQ(scene(tress + " --frames 2 --out " + path("moving.csv")).exit_code, 0);
   ASSERT_EQ(scene(tress + " --shuffle --out " + path("still.hair")).exit_code, 0);
   for (const std::string file : {"moving.csv", "still.hair"}) {
-    for (const std::string command : {"contacts ", "closest "}) {
+    for (const std::string command : {"contacts ", "closest ", "fiber_pairs "}) {
       const std::string arguments = command + path(file) + " --margin 0.0002 --engine ";
       const ProcessResult expected = query(arguments + "brute_force");
-      EXPECT_GE(lines(expected.out).size(), command == "contacts " ? 10U : 2U);
+      EXPECT_GE(lines(expected.out).size(), command == "closest " ? 2U : 10U);
       for (const std::string& engine : engines) {
         const ProcessResult result = query(arguments + engine);
         EXPECT_EQ(result.exit_code, 0) << engine << ": " << result.err;
@@ -216,6 +293,8 @@ TEST_F(FiberQuery, FilesOfNothing) {
   EXPECT_EQ(query("closest " + bare + " --format json").out, "{\"contacts\":[]}\n");
   EXPECT_EQ(query("contacts " + framed).out, "frame," + columns);
   EXPECT_EQ(query("contacts " + framed + " --format json").out, "");
+  EXPECT_EQ(query("nearest " + bare + " --point 0,0,0").out, columns);
+  EXPECT_TRUE(refused(query("fiber_pairs " + framed + " --margin -1"), "margin is -1"));
 }
 
 TEST_F(FiberQuery, HelpIsNoError) {
@@ -229,7 +308,8 @@ TEST_F(FiberQuery, HelpIsNoError) {
 
 TEST_F(FiberQuery, RefusesBadCommandLines) {
   const std::string file = crossing();
-  EXPECT_TRUE(refused(query(""), "a subcommand is needed: contacts, closest, first"));
+  EXPECT_TRUE(
+      refused(query(""), "a subcommand is needed: contacts, closest, first, fiber_pairs, nearest"));
   EXPECT_TRUE(refused(query("touches " + file), "touches"));
   EXPECT_TRUE(refused(query("contacts"), "FILE"));
   EXPECT_TRUE(refused(query("contacts " + file + " --frobnicate"), "--frobnicate"));

@@ -22,6 +22,11 @@ struct Contact {
 
   /// What contacts are sorted by.
   auto key() const { return std::tie(fiber_a, segment_a, fiber_b, segment_b); }
+
+  /// Closer than another; of the same distance, of smaller indices.
+  bool closer_than(const Contact& other) const {
+    return distance < other.distance || (distance == other.distance && key() < other.key());
+  }
 };
 
 /// Work a query did. The paper's "cage tests", "cage intersections" and "primitive tests".
@@ -36,6 +41,8 @@ struct QueryResult {
   std::vector<Contact> contacts;  ///< sorted by Contact::key()
   bool limit_reached = false;     ///< LIMITED reported max_contacts: there may be more pairs
   QueryCounts counts;
+
+  std::vector<std::uint32_t> fiber_pair_slots;  ///< FIBER_PAIRS: work memory, see FiberPairMinima
 
   /// The reported contact of the smallest distance, nullptr if there is none. The closest pair of
   /// all unless the query was FIRST.

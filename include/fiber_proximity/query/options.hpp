@@ -7,10 +7,11 @@ namespace fiber {
 
 /// Which of the pairs within the margin to report.
 enum class QueryType {
-  FIRST,    ///< any one; which one depends on the engine, the same on every run
-  CLOSEST,  ///< the closest one; ties go to the smallest segment indices
-  LIMITED,  ///< the max_contacts closest ones
-  ALL       ///< all of them
+  FIRST,       ///< any one; which one depends on the engine, the same on every run
+  CLOSEST,     ///< the closest one; ties go to the smallest segment indices
+  LIMITED,     ///< the max_contacts closest ones
+  ALL,         ///< all of them
+  FIBER_PAIRS  ///< the closest one of each pair of fibres, a fibre with itself too; ties as above
 };
 
 struct QueryOptions {
@@ -38,7 +39,7 @@ struct QueryOptions {
 /// @throws std::invalid_argument naming the field, its value and what is allowed
 void validate(const QueryOptions& options);
 
-/// The type of this name: first, closest, limited or all.
+/// The type of this name: first, closest, limited, all or fiber_pairs.
 /// @throws std::invalid_argument listing the names
 QueryType query_type_from_name(const std::string& name);
 

@@ -4,6 +4,7 @@
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/query/contact.hpp"
+#include "fiber_proximity/query/fiber_pair_minima.hpp"
 #include "fiber_proximity/query/options.hpp"
 #include "fiber_proximity/query/pair_test.hpp"
 
@@ -13,7 +14,8 @@ namespace fiber {
 /// for. Every engine and brute force feed this one class, so a pair is judged in one place.
 ///
 /// CLOSEST and LIMITED are one thing: keep the k closest, and let the bound below which a pair is
-/// of interest shrink to the k-th of them.
+/// of interest shrink to the k-th of them. FIBER_PAIRS has such a bound for each pair of fibres,
+/// and uses it here alone: bound() knows no fibres and stays the margin.
 class PairCollector {
  public:
   /// Pairs within one assembly.
@@ -35,19 +37,23 @@ class PairCollector {
   /// No further pair can change the answer.
   bool done() const { return done_; }
 
-  /// The order in which pairs are offered matters for speed: near ones first.
+  /// The order in which pairs are offered matters for speed: near ones first. For FIBER_PAIRS it
+  /// would save distances, but sorting costs more.
   bool wants_near_first() const { return capacity_ != 0; }
 
   /// Sorts the contacts; call once, after the last offer.
   void finish();
 
  private:
-  PairCollector(PairTest&& test, const QueryOptions& options, QueryResult& result);
+  PairCollector(PairTest&& test, const FiberPairMinima& minima, const QueryOptions& options,
+                QueryResult& result);
 
+  void offer_to_minima(PointPair pair);
   void keep(const Contact& contact);
   void set_bound(double bound);
 
   const PairTest test_;
+  FiberPairMinima minima_;  // FIBER_PAIRS only
   const QueryOptions& options_;
   QueryResult& result_;
   const std::size_t capacity_;  // of the k closest; 0 keeps all

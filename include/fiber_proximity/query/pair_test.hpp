@@ -49,6 +49,10 @@ class PairTest {
   PairDistance distance(PointPair pair) const;
   /// The same of many pairs, faster.
   void distances(const PointPair* pairs, std::size_t count, PairDistance* distances) const;
+
+  /// [m] distance(pair).gap is at least this, its rounding included; costs a fraction of it.
+  double gap_lower_bound(PointPair pair) const;
+
   Contact contact(PointPair pair, const PairDistance& distance) const;
 
  private:

@@ -1,0 +1,79 @@
+#include "fiber_proximity/query/fiber_pair_minima.hpp"
+
+#include <cassert>
+#include <limits>
+
+namespace fiber {
+namespace {
+
+constexpr std::size_t first_slot_count = 64;  // a power of two, as all later ones
+
+/// Fibonacci hashing: the high bits of the product depend on all bits of the fibres.
+std::size_t hash(std::uint32_t fiber_a, std::uint32_t fiber_b) {
+  const std::uint64_t key = std::uint64_t{fiber_a} << 32U | fiber_b;
+  return static_cast<std::size_t>((key * 0x9E37'79B9'7F4A'7C15U) >> 32U);
+}
+
+}  // namespace
+
+bool FiberPairMinima::FiberFinder::move_to(std::uint32_t point) {
+  if (point - begin_ < end_ - begin_) {
+    return false;
+  }
+  fiber_ = fibers_.segment_id(point).fiber;
+  begin_ = fibers_.offsets()[fiber_];
+  end_ = fibers_.offsets()[fiber_ + 1];
+  return true;
+}
+
+const Contact* FiberPairMinima::find(PointPair pair) {
+  const bool other_a = fiber_a_.move_to(pair.a);
+  const bool other_b = fiber_b_.move_to(pair.b);
+  if ((other_a || other_b) && !contacts_.empty()) {
+    const std::uint32_t entry = slots_[slot_of(fiber_a_.fiber(), fiber_b_.fiber())];
+    last_ = entry == 0 ? nullptr : &contacts_[entry - 1];
+  }
+  return last_;
+}
+
+void FiberPairMinima::keep(const Contact& contact) {
+  assert(contact.fiber_a == fiber_a_.fiber() && contact.fiber_b == fiber_b_.fiber());
+  if (last_ != nullptr) {
+    if (contact.closer_than(*last_)) {
+      *last_ = contact;
+    }
+    return;
+  }
+  if (contacts_.empty() || 2 * contacts_.size() >= slots_.size()) {
+    grow();
+  }
+  assert(contacts_.size() < std::numeric_limits<std::uint32_t>::max());
+  contacts_.push_back(contact);
+  slots_[slot_of(contact.fiber_a, contact.fiber_b)] = static_cast<std::uint32_t>(contacts_.size());
+  last_ = &contacts_.back();
+}
+
+/// The slot of this pair of fibres, or the free one it is to have.
+std::size_t FiberPairMinima::slot_of(std::uint32_t fiber_a, std::uint32_t fiber_b) const {
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t slot = hash(fiber_a, fiber_b) & mask;
+  while (slots_[slot] != 0) {
+    const Contact& contact = contacts_[slots_[slot] - 1];
+    if (contact.fiber_a == fiber_a && contact.fiber_b == fiber_b) {
+      break;
+    }
+    slot = (slot + 1) & mask;
+  }
+  return slot;
+}
+
+/// Twice as many slots; the first ones for the first contact, as slots may be left of a query
+/// before.
+void FiberPairMinima::grow() {
+  slots_.assign(contacts_.empty() ? first_slot_count : 2 * slots_.size(), 0);
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    slots_[slot_of(contacts_[i].fiber_a, contacts_[i].fiber_b)] = static_cast<std::uint32_t>(i + 1);
+  }
+}
+
+}  // namespace fiber
