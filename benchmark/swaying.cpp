@@ -10,9 +10,12 @@ namespace {
 
 constexpr double frames_per_turn = 240.0;
 
-/// [turns] from 0 to this much the phases of a wave go up and down, once across the scene.
+/// [turns] by which the phases of a wave go up and down, once across the scene.
 constexpr double phase_amplitude = 0.125;
 constexpr int wave_count = 2;
+
+/// [turns] by which a fibre is ahead or behind, at most.
+constexpr double fiber_phase = 0.02;
 
 /// [m] Diagonal of the box around the points; 1 if that is a point.
 double size_of(const std::vector<Eigen::Vector3d>& points) {
@@ -26,7 +29,8 @@ double size_of(const std::vector<Eigen::Vector3d>& points) {
   return size > 0.0 ? size : 1.0;
 }
 
-std::vector<double> smooth_phases(const std::vector<Eigen::Vector3d>& points, Random& random) {
+std::vector<double> smooth_phases(const FiberAssembly& fibers, Random& random) {
+  const std::vector<Eigen::Vector3d>& points = fibers.points();
   const double size = points.empty() ? 1.0 : size_of(points);
   std::vector<double> phases(points.size(), 0.0);
   for (int wave = 0; wave < wave_count; ++wave) {
@@ -34,6 +38,12 @@ std::vector<double> smooth_phases(const std::vector<Eigen::Vector3d>& points, Ra
     const double shift = random.uniform(0.0, 1.0);
     for (std::size_t i = 0; i < points.size(); ++i) {
       phases[i] += phase_amplitude * sine_of_turns(dot(direction, points[i]) + shift);
+    }
+  }
+  for (std::size_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
+    const double ahead = random.uniform(-fiber_phase, fiber_phase);
+    for (std::uint32_t i = fibers.offsets()[fiber]; i < fibers.offsets()[fiber + 1]; ++i) {
+      phases[i] += ahead;
     }
   }
   return phases;
@@ -44,7 +54,7 @@ std::vector<double> smooth_phases(const std::vector<Eigen::Vector3d>& points, Ra
 Swaying::Swaying(const FiberAssembly& fibers, double step, std::uint64_t seed)
     : centers_(fibers.points()), points_(fibers.points()) {
   Random random(seed);
-  phases_ = smooth_phases(centers_, random);
+  phases_ = smooth_phases(fibers, random);
   // A step is the chord of its part of a turn.
   const double radius = step / (2.0 * sine_of_turns(0.5 / frames_per_turn));
   const Eigen::Vector3d axis = random.direction();

@@ -10,6 +10,7 @@ namespace fiber {
 
 /// Coherent motion: fibres sway as in a slow current. Every point goes round a circle, all at the
 /// same speed, and what is near in space is near in phase, so a scene keeps its shape for ever.
+/// Each fibre is a little ahead of its neighbours or behind them, so pairs come and go.
 class Swaying {
  public:
   /// @param step [m] how far every point moves from one frame to the next, >= 0

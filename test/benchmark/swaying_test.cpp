@@ -74,6 +74,15 @@ TEST(Swaying, DoesNotMoveAllPointsAlike) {
   EXPECT_LT(least, 0.9);
 }
 
+TEST(Swaying, MovesFibersThatLieTogetherApart) {
+  const FiberAssembly fibers({{0, 0, 0}, {1e-6, 0, 0}, {0, 0, 0}, {1e-6, 0, 0}}, {0, 2, 4}, {0.1});
+  Swaying swaying(fibers, step, 1);
+  const std::vector<Eigen::Vector3d>& points = swaying.points(10);
+  const double apart = (points[2] - points[0]).norm();
+  EXPECT_GT(apart, 0.01 * step);
+  EXPECT_LT(apart, 10.0 * step);
+}
+
 TEST(Swaying, TakesFibersInOnePointAndNone) {
   const FiberAssembly none;
   EXPECT_EQ(mean_segment_length(none), 0.0);

@@ -100,7 +100,7 @@ TEST_F(FiberBench, PrintsStageAfterStage) {
 
 TEST_F(FiberBench, ASkinKeepsTheTreeForAsManyFramesAsItLasts) {
   const ProcessResult result = bench(
-      "coherence --scene soup --scale 0.004 --frames 12 --motion 0.1 --skins 0,0.1,0.6 --json");
+      "coherence --scene curly --scale 0.001 --frames 12 --motion 0.1 --skins 0,0.1,0.6 --json");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.err, "") << "progress is for terminals";
   const std::vector<nlohmann::json> rows = json_lines(result.out);
@@ -109,9 +109,9 @@ TEST_F(FiberBench, ASkinKeepsTheTreeForAsManyFramesAsItLasts) {
   // Two points may have come nearer by twice the motion: 0.1 does not last one frame, 0.6 three.
   const std::vector<int> refits{12, 12, 3};
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    EXPECT_EQ(rows[i].at("scene"), "soup");
+    EXPECT_EQ(rows[i].at("scene"), "curly");
     EXPECT_EQ(rows[i].at("engine"), "run_tree");
-    EXPECT_EQ(rows[i].at("segments"), 4000);
+    EXPECT_EQ(rows[i].at("segments"), 4700);
     EXPECT_EQ(rows[i].at("threads"), 1);
     EXPECT_EQ(rows[i].at("motion"), 0.1);
     EXPECT_EQ(rows[i].at("skin_lengths"), skins[i]);
