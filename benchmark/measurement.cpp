@@ -4,8 +4,8 @@
 #include <cstring>
 #include <memory>
 #include <stdexcept>
-#include <utility>
 
+#include "agreement.hpp"
 #include "copies.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
 #include "peers/peer.hpp"
@@ -79,46 +79,6 @@ class CopyRun {
  private:
   std::vector<Eigen::Vector3d> copy_;
   std::vector<double> memcpy_ms_;
-};
-
-bool same_pairs(const std::vector<Contact>& a, const std::vector<Contact>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Contact& x, const Contact& y) {
-    return x.key() == y.key() && x.distance == y.distance;
-  });
-}
-
-/// Compares every answer of a frame with the one before. Only two are kept, in memory that all
-/// engines share: the contacts of a whole head take a gigabyte.
-class Agreement {
- public:
-  void begin_frame(std::uint32_t frame) {
-    frame_ = frame;
-    previous_name_.clear();
-  }
-
-  /// Where the next answer goes.
-  QueryResult& next() { return next_; }
-
-  /// The answer is there: it becomes the one before.
-  void check(const std::string& name) {
-    if (disagreement_.empty() && !previous_name_.empty() &&
-        !same_pairs(previous_.contacts, next_.contacts)) {
-      disagreement_ = "frame " + std::to_string(frame_) + ": the pairs of " + previous_name_ +
-                      " (" + std::to_string(previous_.contacts.size()) + ") and " + name + " (" +
-                      std::to_string(next_.contacts.size()) + ") differ";
-    }
-    std::swap(previous_, next_);
-    previous_name_ = name;
-  }
-
-  const std::string& disagreement() const { return disagreement_; }
-
- private:
-  QueryResult previous_;
-  QueryResult next_;
-  std::string previous_name_;  // empty before the first answer of a frame
-  std::uint32_t frame_ = 0;
-  std::string disagreement_;
 };
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <numeric>
 
 #include "commands.hpp"
 #include "fiber_proximity/query/engine.hpp"
@@ -80,9 +79,7 @@ class Stages {
   void first() {
     options_.type = QueryType::FIRST;
     const std::vector<double> times = query(request_.trials);
-    const double mean =
-        std::accumulate(times.begin(), times.end(), 0.0) / static_cast<double>(times.size());
-    print("first", {{"first_ms", mean},
+    print("first", {{"first_ms", mean(times)},
                     {"trials", times.size()},
                     {"pairs", result_.contacts.size()},
                     {"node_tests", result_.counts.node_tests},

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 namespace fiber {
@@ -18,6 +19,11 @@ inline double quantile(std::vector<double> values, double share) {
 }
 
 inline double median(const std::vector<double>& values) { return quantile(values, 0.5); }
+
+inline double mean(const std::vector<double>& values) {
+  assert(!values.empty());
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
 
 inline double milliseconds(std::chrono::steady_clock::duration duration) {
   return std::chrono::duration<double, std::milli>(duration).count();

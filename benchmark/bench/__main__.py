@@ -2,9 +2,10 @@
 
 import argparse
 
-from . import paper, peers, scaling
+from . import coherence, paper, peers, scaling
 
-EXPERIMENTS = {"paper": paper.run, "peers": peers.run, "scaling": scaling.run}
+EXPERIMENTS = {"paper": paper.run, "peers": peers.run, "scaling": scaling.run,
+               "coherence": coherence.run}
 
 
 def main():

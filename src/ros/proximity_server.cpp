@@ -49,7 +49,7 @@ ProximityServer::ProximityServer(const ros::NodeHandle& node, const ros::NodeHan
     : node_(node),
       private_node_(private_node),
       options_(read_server_options(private_node)),
-      detector_(options_.engine, static_cast<std::uint32_t>(options_.threads)),
+      detector_(options_.engine, options_.engine_options),
       contacts_publisher_(private_node_.advertise<fiber_proximity::ContactArray>("contacts", 1)),
       fibers_publisher_(private_node_.advertise<fiber_proximity::FiberArray>("fibers", 1)),
       markers_publisher_(private_node_.advertise<visualization_msgs::MarkerArray>("markers", 1)),

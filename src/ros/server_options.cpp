@@ -35,18 +35,20 @@ std::vector<InputOptions> read_inputs(const ros::NodeHandle& node, double radius
   return inputs;
 }
 
-void read_threads(const ros::NodeHandle& node, int& threads) {
+void read_threads(const ros::NodeHandle& node, std::uint32_t& most) {
   const std::string allowed = "a whole number of at least 0";
+  auto threads = static_cast<int>(most);
   read_parameter(node, "threads", allowed, threads);
   if (threads < 0) {
     refuse_parameter(node, "threads", allowed);
   }
+  most = static_cast<std::uint32_t>(threads);
 }
 
 void warn_of_unknown_parameters(const ros::NodeHandle& node) {
-  std::vector<std::string> known{"engine",      "threads",    "fixed_frame",
-                                 "inputs",      "radius",     "input_timeout",
-                                 "marker_rate", "tf_timeout", "diagnostic_period"};
+  std::vector<std::string> known{"engine",     "threads",          "skin",          "fixed_frame",
+                                 "inputs",     "radius",           "input_timeout", "marker_rate",
+                                 "tf_timeout", "diagnostic_period"};
   for (const auto& parameter : fiber_proximity::ProximityConfig::__getParamDescriptions__()) {
     known.push_back(parameter->name);
   }
@@ -73,7 +75,8 @@ ServerOptions read_server_options(const ros::NodeHandle& private_node) {
   ServerOptions options;
   double radius = InputOptions().radius;
   read_parameter(private_node, "engine", "a string", options.engine);
-  read_threads(private_node, options.threads);
+  read_threads(private_node, options.engine_options.threads);
+  read_parameter(private_node, "skin", 0.0, options.engine_options.skin);
   read_parameter(private_node, "fixed_frame", "a string", options.fixed_frame);
   read_parameter(private_node, "radius", 0.0, radius);
   read_parameter(private_node, "tf_timeout", 0.0, options.timing.tf_timeout);

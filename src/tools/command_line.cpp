@@ -1,5 +1,6 @@
 #include "command_line.hpp"
 
+#include <cmath>
 #include <exception>
 #include <iostream>
 #include <stdexcept>
@@ -59,6 +60,18 @@ CLI::Validator whole_number(std::uint64_t least) {
   return {[range, least](std::string& text) -> std::string {
             const auto value = parse_number<std::uint64_t>(text);
             return value && *value >= least ? "" : "'" + text + "' must be a whole number " + range;
+          },
+          range};
+}
+
+CLI::Validator finite_number(double least) {
+  std::string range = "from ";
+  append_number(range, least);
+  return {[range, least](std::string& text) -> std::string {
+            const auto value = parse_number<double>(text);
+            return value && std::isfinite(*value) && *value >= least
+                       ? ""
+                       : "'" + text + "' must be a finite number " + range;
           },
           range};
 }

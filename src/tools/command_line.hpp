@@ -26,6 +26,9 @@ int run_tool(const char* name, const char* description, const Setup& setup, int 
 /// Accepts whole numbers from `least`.
 CLI::Validator whole_number(std::uint64_t least);
 
+/// Accepts finite numbers from `least`.
+CLI::Validator finite_number(double least);
+
 /// The names with commas between them.
 std::string listed(const std::vector<std::string>& names);
 

@@ -274,6 +274,11 @@ TEST_F(BadInputTest, ABadParameterIsAClearErrorAndExitCode2) {
               "unknown engine 'DL-7' (k-DOP with k = 7: k must be even, from 6 to ");
   expect_exit("_threads:=-1", "parameter /refused/threads is -1, it must be a whole number of ");
   ros::param::del("/refused/threads");
+  for (const std::string skin : {"-0.001", "nan", "inf", "thin"}) {
+    expect_exit("_skin:=" + skin,
+                "parameter /refused/skin is " + skin + ", it must be a number of at least 0");
+    ros::param::del("/refused/skin");
+  }
   expect_exit("_tf_timeout:=-1", "parameter /refused/tf_timeout is -1, it must be a number of ");
   ros::param::del("/refused/tf_timeout");
   expect_exit("_radius:=thick", "parameter /refused/radius is thick, it must be a number of ");

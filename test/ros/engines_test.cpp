@@ -13,7 +13,6 @@
 
 namespace {
 
-using fiber::test::AssemblyBuilder;
 using fiber::test::Random;
 using fiber_proximity::FiberArray;
 using fiber_proximity::QueryProximity;
@@ -53,19 +52,6 @@ class RunningNode {
 
 class EnginesTest : public node_test::NodeTest, public testing::WithParamInterface<std::string> {
  protected:
-  /// Six fibres of the same length, for threading, tangled so that many pairs are contacts.
-  static FiberArray random_fibers(Random& random) {
-    AssemblyBuilder builder;
-    for (int i = 0; i < 6; ++i) {
-      builder.add_fiber(fiber::test::random_walk(random, 30, 0.1));
-    }
-    const fiber::FiberAssembly fibers = builder.build({0.01});
-    FiberArray message =
-        test_messages::fiber_array(test_messages::header("world"), fibers.points());
-    message.offsets = fibers.offsets();
-    return message;
-  }
-
   /// Every point moved a little.
   static void move(FiberArray& message, Random& random) {
     for (geometry_msgs::Point& point : message.points) {
@@ -122,7 +108,7 @@ TEST_P(EnginesTest, AnswerWhatBruteForceAnswers) {
   // Other fibres, of another topology first; then the same ones moving, for the refit.
   connect(publisher, test_messages::fiber_array(test_messages::header("world"),
                                                 {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}));
-  FiberArray message = random_fibers(random);
+  FiberArray message = test_messages::tangled_fibers(random);
   for (int frame = 0; frame < 5; ++frame) {
     SCOPED_TRACE(frame);
     message.header.stamp = new_stamp();

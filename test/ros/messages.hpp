@@ -13,6 +13,7 @@
 
 #include "fiber_proximity/FiberArray.h"
 #include "fiber_proximity/ros/conversions.hpp"
+#include "support/assemblies.hpp"
 
 /// Messages of every input type, as trackers make them.
 namespace test_messages {
@@ -34,6 +35,18 @@ inline fiber_proximity::FiberArray fiber_array(const std_msgs::Header& header,
   for (const Eigen::Vector3d& point : points) {
     message.points.push_back(fiber_proximity_ros::to_message(point));
   }
+  return message;
+}
+
+/// Six fibres of the same length, for threading, tangled so that many pairs are contacts.
+inline fiber_proximity::FiberArray tangled_fibers(fiber::test::Random& random) {
+  fiber::test::AssemblyBuilder builder;
+  for (int i = 0; i < 6; ++i) {
+    builder.add_fiber(fiber::test::random_walk(random, 30, 0.1));
+  }
+  const fiber::FiberAssembly fibers = builder.build({0.01});
+  fiber_proximity::FiberArray message = fiber_array(header("world"), fibers.points());
+  message.offsets = fibers.offsets();
   return message;
 }
 

@@ -98,6 +98,40 @@ TEST_F(FiberBench, PrintsStageAfterStage) {
   EXPECT_EQ(json_lines(bench(command + "--until update").out).size(), 2U);
 }
 
+TEST_F(FiberBench, ASkinKeepsTheTreeForAsManyFramesAsItLasts) {
+  const ProcessResult result = bench(
+      "coherence --scene curly --scale 0.001 --frames 12 --motion 0.1 --skins 0,0.1,0.6 --json");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "") << "progress is for terminals";
+  const std::vector<nlohmann::json> rows = json_lines(result.out);
+  ASSERT_EQ(rows.size(), 3U);
+  const std::vector<double> skins{0.0, 0.1, 0.6};
+  // Two points may have come nearer by twice the motion: 0.1 does not last one frame, 0.6 three.
+  const std::vector<int> refits{12, 12, 3};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(rows[i].at("scene"), "curly");
+    EXPECT_EQ(rows[i].at("engine"), "run_tree");
+    EXPECT_EQ(rows[i].at("segments"), 4700);
+    EXPECT_EQ(rows[i].at("threads"), 1);
+    EXPECT_EQ(rows[i].at("motion"), 0.1);
+    EXPECT_EQ(rows[i].at("skin_lengths"), skins[i]);
+    EXPECT_EQ(rows[i].at("skin"), skins[i] * rows[i].at("segment_length").get<double>());
+    EXPECT_GT(rows[i].at("segment_length"), 0.0);
+    EXPECT_EQ(rows[i].at("refits"), refits[i]) << i;
+    EXPECT_GT(rows[i].at("detect_ms"), 0.0);
+    EXPECT_EQ(rows[i].at("cycle_ms"),
+              rows[i].at("update_ms").get<double>() + rows[i].at("detect_ms").get<double>());
+    EXPECT_GT(rows[i].at("pairs"), 0);
+    EXPECT_EQ(rows[i].at("pairs"), rows[0].at("pairs"));
+  }
+}
+
+TEST_F(FiberBench, PrintsATableOfSkinsWithoutJson) {
+  const ProcessResult result = bench("coherence --scale 0.001 --frames 1 --skins 0.1");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("skin [m]"), std::string::npos) << result.out;
+}
+
 TEST_F(FiberBench, RefusesBadCommandLines) {
   EXPECT_TRUE(refused(bench(""), "a subcommand is needed: update, cycle"));
   EXPECT_TRUE(refused(bench("race"), "race"));
@@ -111,6 +145,12 @@ TEST_F(FiberBench, RefusesBadCommandLines) {
   EXPECT_TRUE(refused(bench("cycle --scale 0.001 --copies 4000000"),
                       "copies is 4000000, of this scene at most 2"));
   EXPECT_TRUE(refused(bench("stages --until tea"), "tea"));
+  EXPECT_TRUE(refused(bench("coherence --motion -1"), "--motion: '-1' must be a finite number"));
+  EXPECT_TRUE(refused(bench("coherence --motion nan"), "--motion: 'nan' must be a finite number"));
+  EXPECT_TRUE(
+      refused(bench("coherence --skins 0,thin"), "--skins: 'thin' must be a finite number"));
+  EXPECT_TRUE(refused(bench("coherence --skins"), "--skins"));
+  EXPECT_TRUE(refused(bench("coherence --frames 0"), "--frames: '0'"));
   EXPECT_TRUE(refused(bench("update --threads none"), "--threads: 'none'"));
 }
 

@@ -11,10 +11,9 @@ namespace fiber_proximity_ros {
 /// asked something.
 class Detector {
  public:
-  /// @param threads most to use, 0 for as many as there are cores
-  /// @throws std::invalid_argument for an unknown engine
-  explicit Detector(const std::string& engine, std::uint32_t threads = 0)
-      : engine_(fiber::make_engine(engine, threads)) {}
+  /// @throws std::invalid_argument for an unknown engine, or for options that are not allowed
+  explicit Detector(const std::string& engine, const fiber::EngineOptions& options = {})
+      : engine_(fiber::make_engine(engine, options)) {}
 
   /// The fibres to ask about from now on; they must live, unchanged, until the next call.
   void set_fibers(const fiber::FiberAssembly& fibers);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/ros/input.hpp"
 #include "fiber_proximity/ros/input_options.hpp"
 
@@ -13,7 +14,7 @@ namespace fiber_proximity_ros {
 /// Parameters of the proximity node that are read once, at its start.
 struct ServerOptions {
   std::string engine = "run_tree";  ///< one of fiber::engine_names()
-  int threads = 0;                  ///< most to use, 0 for as many as there are cores
+  fiber::EngineOptions engine_options;
 
   /// All results are in this frame; empty: the frame of the first message.
   std::string fixed_frame;

@@ -1,0 +1,212 @@
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "agreement.hpp"
+#include "commands.hpp"
+#include "fiber_proximity/query/run_tree_engine.hpp"
+#include "fiber_proximity/scenes/scene.hpp"
+#include "progress.hpp"
+#include "scene_options.hpp"
+#include "statistics.hpp"
+#include "swaying.hpp"
+
+namespace fiber {
+namespace {
+
+struct Request {
+  std::string scene = "soup";
+  SceneOptions scene_options;
+  double motion = 0.02;                                        // mean segment lengths per frame
+  std::vector<double> skins{0, 0.03, 0.06, 0.12, 0.24, 0.48};  // mean segment lengths
+  std::uint32_t frames = 60;
+  std::uint32_t threads = 1;
+  bool json = false;
+};
+
+/// run_tree with one skin, and the times it has taken.
+class SkinRun {
+ public:
+  SkinRun(double skin_lengths, double segment_length, std::uint32_t threads)
+      : skin_lengths_(skin_lengths),
+        skin_(skin_lengths * segment_length),
+        engine_({threads, skin_}) {}
+
+  std::string name() const {
+    std::ostringstream name;
+    name << "skin " << skin_lengths_;
+    return name.str();
+  }
+
+  /// Builds and finds all there is, so that frames find memory and candidates.
+  void warm_up(const FiberAssembly& fibers, QueryResult& result) {
+    engine_.update(fibers);
+    engine_.query(QueryOptions(), result);
+    refits_before_ = engine_.refit_count();
+  }
+
+  void measure_frame(const FiberAssembly& fibers, QueryResult& result) {
+    update_ms_.push_back(time_of([&] { engine_.update(fibers); }));
+    detect_ms_.push_back(time_of([&] { engine_.query(QueryOptions(), result); }));
+    pairs_ = result.contacts.size();
+  }
+
+  double skin_lengths() const { return skin_lengths_; }
+  double skin() const { return skin_; }  ///< [m]
+  std::uint32_t threads() const { return engine_.thread_count(); }
+  double update_ms() const { return mean(update_ms_); }
+  double detect_ms() const { return mean(detect_ms_); }
+  double cycle_ms() const { return update_ms() + detect_ms(); }
+  std::uint64_t refits() const { return engine_.refit_count() - refits_before_; }
+  std::size_t memory_bytes() const { return engine_.memory_bytes(); }
+  std::size_t pairs() const { return pairs_; }
+
+ private:
+  const double skin_lengths_;
+  const double skin_;
+  RunTreeEngine engine_;
+  std::uint64_t refits_before_ = 0;
+  std::vector<double> update_ms_;
+  std::vector<double> detect_ms_;
+  std::size_t pairs_ = 0;
+};
+
+/// A swaying scene, and run_tree on it with every skin.
+class Coherence {
+ public:
+  explicit Coherence(const Request& request)
+      : request_(request),
+        fibers_(make_scene(request.scene, request.scene_options)(0)),
+        segment_length_(mean_segment_length(fibers_)),
+        swaying_(fibers_, request.motion * segment_length_, request.scene_options.seed) {
+    for (const double skin : request.skins) {
+      runs_.push_back(std::make_unique<SkinRun>(skin, segment_length_, request.threads));
+    }
+  }
+
+  /// In turns, so that what slows the machine down for a while slows all of them; who goes first
+  /// changes from frame to frame.
+  void measure() {
+    for (std::uint32_t frame = 0; frame <= request_.frames; ++frame) {
+      fibers_.update_points(swaying_.points(frame));
+      agreement_.begin_frame(frame);
+      for (std::size_t turn = 0; turn < runs_.size(); ++turn) {
+        SkinRun& run = *runs_[(frame + turn) % runs_.size()];
+        progress_.show("frame " + std::to_string(frame) + " of " + std::to_string(request_.frames) +
+                       ": " + run.name());
+        if (frame == 0) {
+          run.warm_up(fibers_, agreement_.next());
+        } else {
+          run.measure_frame(fibers_, agreement_.next());
+        }
+        agreement_.check(run.name());
+      }
+    }
+    progress_.show("");
+  }
+
+  void print_json() const {
+    for (const auto& run : runs_) {
+      const auto segments = static_cast<double>(fibers_.segment_count());
+      const nlohmann::ordered_json line{
+          {"scene", request_.scene},
+          {"scale", request_.scene_options.scale},
+          {"seed", request_.scene_options.seed},
+          {"shuffle", request_.scene_options.shuffle},
+          {"frames", request_.frames},
+          {"motion", request_.motion},
+          {"engine", "run_tree"},
+          {"skin", run->skin()},
+          {"skin_lengths", run->skin_lengths()},
+          {"fibers", fibers_.fiber_count()},
+          {"points", fibers_.point_count()},
+          {"segments", fibers_.segment_count()},
+          {"segment_length", segment_length_},
+          {"threads", run->threads()},
+          {"update_ms", run->update_ms()},
+          {"detect_ms", run->detect_ms()},
+          {"cycle_ms", run->cycle_ms()},
+          {"refits", run->refits()},
+          {"pairs", run->pairs()},
+          {"bytes_per_segment", static_cast<double>(run->memory_bytes()) / segments}};
+      std::cout << line.dump() << '\n';
+    }
+  }
+
+  void print_table() const {
+    std::cout << request_.scene << ": " << fibers_.fiber_count() << " fibres, "
+              << fibers_.segment_count() << " segments of " << segment_length_ << " m; means over "
+              << request_.frames << " frame(s), every point moves by " << request_.motion
+              << " segment lengths per frame\n";
+    constexpr int width = 14;
+    for (const char* column :
+         {"skin", "skin [m]", "update [ms]", "detect [ms]", "cycle [ms]", "refits", "pairs"}) {
+      std::cout << std::setw(width) << column;
+    }
+    std::cout << '\n';
+    for (const auto& run : runs_) {
+      for (const double value : {run->skin_lengths(), run->skin(), run->update_ms(),
+                                 run->detect_ms(), run->cycle_ms()}) {
+        std::cout << std::setw(width) << value;
+      }
+      std::cout << std::setw(width) << run->refits() << std::setw(width) << run->pairs() << '\n';
+    }
+  }
+
+  const std::string& disagreement() const { return agreement_.disagreement(); }
+
+ private:
+  const Request& request_;
+  FiberAssembly fibers_;
+  const double segment_length_;  // [m] mean
+  Swaying swaying_;
+  std::vector<std::unique_ptr<SkinRun>> runs_;
+  Agreement agreement_;
+  Progress progress_;
+};
+
+ExitCode run(const Request& request) {
+  Coherence coherence(request);
+  coherence.measure();
+  request.json ? coherence.print_json() : coherence.print_table();
+  if (!coherence.disagreement().empty()) {
+    std::cerr << "fiber_bench: " << coherence.disagreement() << '\n';
+    return DISAGREED;
+  }
+  return SUCCEEDED;
+}
+
+}  // namespace
+
+void add_coherence_command(CLI::App& app, Command& command) {
+  const auto request = std::make_shared<Request>();
+  CLI::App* coherence = app.add_subcommand(
+      "coherence",
+      "run_tree with several skins on a scene that moves a little in every frame; means over the "
+      "frames, as most are cheap and those that look for candidates anew are dear");
+  coherence->callback([&command, request] { command = [request] { return run(*request); }; });
+  add_scene_options(*coherence, request->scene, request->scene_options);
+  coherence
+      ->add_option("--motion", request->motion,
+                   "how far points move per frame, in mean segment lengths")
+      ->check(finite_number(0.0))
+      ->capture_default_str();
+  coherence
+      ->add_option("--skins", request->skins, "in mean segment lengths, with commas between them")
+      ->delimiter(',')
+      ->check(finite_number(0.0))
+      ->capture_default_str();
+  coherence->add_option("--frames", request->frames, "to measure, after one to warm up")
+      ->check(whole_number(1))
+      ->capture_default_str();
+  coherence->add_option("--threads", request->threads, "most threads to use")
+      ->check(whole_number(1))
+      ->capture_default_str();
+  coherence->add_flag("--json", request->json, "JSON Lines instead of a table");
+}
+
+}  // namespace fiber
