@@ -2,6 +2,7 @@
 
 #include <cassert>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 
@@ -27,8 +28,13 @@ class EngineRun {
     update_ms_.push_back(time_of([&] { engine_->update(fibers); }));
   }
 
-  void detect(QueryResult& result) {
-    detect_ms_.push_back(time_of([&] { engine_->query(QueryOptions(), result); }));
+  void detect(bool closest, QueryResult& result) {
+    detect_ms_.push_back(time_of([&] {
+      engine_->query(QueryOptions(), result);
+      if (closest) {
+        engine_->query(closest_pair(), closest_);
+      }
+    }));
     cycle_ms_.push_back(update_ms_.back() + detect_ms_.back());
     pairs_ = result.contacts.size();
     counts_ = result.counts;
@@ -50,8 +56,16 @@ class EngineRun {
   }
 
  private:
+  static QueryOptions closest_pair() {
+    QueryOptions options;
+    options.type = QueryType::CLOSEST;
+    options.margin = std::numeric_limits<double>::infinity();
+    return options;
+  }
+
   std::string name_;
   std::unique_ptr<ProximityEngine> engine_;
+  QueryResult closest_;
   std::size_t pairs_ = 0;
   QueryCounts counts_;
   std::vector<double> update_ms_;
@@ -112,7 +126,7 @@ Measurement measure(const MeasurementOptions& options) {
                     ": " + run.name());
       run.update(fibers);
       if (detect) {
-        run.detect(agreement.next());
+        run.detect(options.closest, agreement.next());
         agreement.check(run.name());
       }
     }

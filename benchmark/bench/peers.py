@@ -28,7 +28,7 @@ class Plan:
                         for scene in SCENES]
 
 
-FULL = Plan((Size(0.01), Size(0.1), Size(1.0)), 30.0)
+FULL = Plan((Size(0.01), Size(0.1), Size(1.0)), 15.0)
 QUICK = Plan((Size(0.002), Size(0.02)), 1.0)
 
 

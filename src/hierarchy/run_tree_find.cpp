@@ -122,11 +122,11 @@ class Finder {
   Finder(const RunTreeView& a, const RunTreeView& b, PairSink& sink, QueryCounts& counts)
       : a_(a),
         b_(b),
-        self_(a.runs == b.runs),
-        skip_adjacent_(self_ && !sink.wants_adjacent()),
         sink_(sink),
         counts_(counts),
-        candidates_(a, b, sink) {}
+        candidates_(a, b, sink),
+        self_(a.runs == b.runs),
+        skip_adjacent_(self_ && !sink.wants_adjacent()) {}
 
   /// Whether to go on.
   bool find(std::uint32_t group) {
@@ -261,16 +261,16 @@ class Finder {
     counts_.node_overlaps += hwy::PopCount(bits);
   }
 
+  Probe probe_;
   const RunTreeView& a_;
   const RunTreeView& b_;
-  const bool self_;
-  const bool skip_adjacent_;
   PairSink& sink_;
   QueryCounts& counts_;
   Candidates candidates_;
-  Probe probe_;
   std::uint32_t group_ = 0;
-  float bound_ = 0.0F;
+  float bound_ = 0.0F;  // [m]
+  const bool self_;
+  const bool skip_adjacent_;
 };
 
 bool find_near_segments_lanes(const RunTreeView& a, std::uint32_t begin, std::uint32_t end,

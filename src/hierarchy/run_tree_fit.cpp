@@ -129,8 +129,8 @@ class GroupFit {
  public:
   GroupFit(const FiberAssembly& fibers, const Eigen::Vector3d& origin,
            const std::uint32_t* first_points, std::uint32_t segment_count)
-      : fibers_(fibers),
-        origin_(origin),
+      : origin_(origin),
+        fibers_(fibers),
         first_points_(first_points),
         segment_count_(segment_count),
         same_radius_(fibers.radii().size() == 1) {
@@ -173,13 +173,13 @@ class GroupFit {
     }
   }
 
-  const FiberAssembly& fibers_;
+  GroupPoints points_;
   const HalvedOrigin origin_;
+  float radii_[segments_per_group];
+  const FiberAssembly& fibers_;
   const std::uint32_t* const first_points_;
   const std::uint32_t segment_count_;
   const bool same_radius_;
-  GroupPoints points_;
-  float radii_[segments_per_group];
 };
 
 void fit_groups_lanes(const FiberAssembly& fibers, const Eigen::Vector3d& origin,
