@@ -67,6 +67,20 @@ TEST_F(FiberBench, CopiesOfASceneAreAsDenseAsOne) {
   }
 }
 
+TEST_F(FiberBench, AsksForTheClosestPairWhereThereIsNoContact) {
+  const std::string command = "cycle --scene soup --scale 0.0002 --repeats 1 --engines ";
+  const ProcessResult result = bench(command + "run_tree,AL --closest --json");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(json_lines(result.out).at(0).at("pairs"), 0);
+  // A peer gives away that it is asked: it cannot answer.
+  if (bench(command + "bullet").exit_code != 0) {
+    GTEST_SKIP() << "Bullet is not installed";
+  }
+  const ProcessResult refused = bench(command + "bullet --closest");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("a peer answers only ALL"), std::string::npos) << refused.err;
+}
+
 TEST_F(FiberBench, PrintsATableWithoutJson) {
   const ProcessResult result = bench("cycle --scale 0.001 --repeats 1");
   EXPECT_EQ(result.exit_code, 0) << result.err;
