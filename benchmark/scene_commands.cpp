@@ -108,8 +108,9 @@ void add(CLI::App& app, Command& command, const std::string& name, const std::st
   subcommand->add_option("--repeats", options.repeats, "frames to measure")
       ->check(whole_number(1))
       ->capture_default_str();
-  subcommand->add_flag("--closest", options.closest,
-                       "find the closest pair even if there is no contact, as the node does; not peers");
+  subcommand->add_flag(
+      "--closest", options.closest,
+      "find the closest pair even if there is no contact, as the node does; not peers");
   subcommand->add_flag("--json", request->json, "JSON Lines instead of a table");
 }
 
