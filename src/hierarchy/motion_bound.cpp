@@ -11,7 +11,7 @@
 namespace fiber {
 namespace {
 
-// Below this many points one thread is faster than several.
+// A range of this many is not split: one thread is faster than several.
 constexpr std::size_t points_per_job = 1U << 13U;
 
 using Range = tbb::blocked_range<std::size_t>;
@@ -28,18 +28,15 @@ double MotionBound::largest_motion(const FiberAssembly& fibers) const {
   if (fibers.radii() != radii_) {
     return std::numeric_limits<double>::infinity();
   }
-  const auto largest_in = [&](const Range& range, double largest) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
-      largest = std::max(largest, (fibers.points()[i] - points_[i]).squaredNorm());
-    }
-    return largest;
-  };
-  const Range all(0, points_.size(), points_per_job);
-  const double squared = points_.size() <= points_per_job
-                             ? largest_in(all, 0.0)
-                             : tbb::parallel_reduce(all, 0.0, largest_in, [](double a, double b) {
-                                 return std::max(a, b);
-                               });
+  const double squared = tbb::parallel_reduce(
+      Range(0, points_.size(), points_per_job), 0.0,
+      [&](const Range& range, double largest) {
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+          largest = std::max(largest, (fibers.points()[i] - points_[i]).squaredNorm());
+        }
+        return largest;
+      },
+      [](double a, double b) { return std::max(a, b); });
   // Squares round by less than 4 u; those too small for them are covered by the smallest normal.
   constexpr double slack = 1.0 + 8.0 * std::numeric_limits<double>::epsilon();
   return std::sqrt(squared * slack + std::numeric_limits<double>::min()) * slack;

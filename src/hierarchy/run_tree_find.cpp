@@ -37,9 +37,8 @@ HWY_INLINE void fit_boxes(const Run& run, BoxBlock& boxes) {
     const LaneVector start = load(run.start, lane);
     const LaneVector end = load(run.end, lane);
     const auto radius = load(run.radius, lane);
-    const LaneVector reach{radius, radius, radius};
-    store(subtract(minimum(start, end), reach), boxes.lower, lane);
-    store(add(maximum(start, end), reach), boxes.upper, lane);
+    store(lower_corner(start, end, radius), boxes.lower, lane);
+    store(upper_corner(start, end, radius), boxes.upper, lane);
   }
 }
 

@@ -96,9 +96,8 @@ void fit_run(const float (*first_halves)[half], const float (*second_halves)[hal
     store(start, run.start, i);
     store(end, run.end, i);
     hn::Store(radius, d, run.radius + i);
-    const LaneVector reach{radius, radius, radius};
-    box.lower = minimum(box.lower, subtract(minimum(start, end), reach));
-    box.upper = maximum(box.upper, add(maximum(start, end), reach));
+    box.lower = minimum(box.lower, lower_corner(start, end, radius));
+    box.upper = maximum(box.upper, upper_corner(start, end, radius));
   }
   box.store(boxes, lane);
 }

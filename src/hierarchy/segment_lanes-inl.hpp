@@ -94,6 +94,14 @@ HWY_INLINE std::uint32_t bits_of(LaneMask mask) {
   return bits[0];
 }
 
+/// Corners of the boxes around segments with these radii.
+HWY_INLINE LaneVector lower_corner(const LaneVector& start, const LaneVector& end, Lanes radius) {
+  return subtract(minimum(start, end), {radius, radius, radius});
+}
+HWY_INLINE LaneVector upper_corner(const LaneVector& start, const LaneVector& end, Lanes radius) {
+  return add(maximum(start, end), {radius, radius, radius});
+}
+
 HWY_INLINE LaneMask boxes_overlap(const LaneVector& lower_a, const LaneVector& upper_a,
                                   const LaneVector& lower_b, const LaneVector& upper_b) {
   return hn::And(hn::And(hn::And(hn::Le(lower_a.x, upper_b.x), hn::Le(lower_b.x, upper_a.x)),

@@ -67,4 +67,10 @@ void ContactBatch::judge(const std::vector<std::uint64_t>& keys, const PairTest&
   judge_.judge(keys, test, bound, result.contacts);
 }
 
+void ContactBatch::find(const RunTreeView& a, const RunTreeView& b, const PairTest& test,
+                        double reach, double bound, QueryResult& result) {
+  collect(a, b, test, reach, keys_, result.counts);
+  judge(keys_, test, bound, result);
+}
+
 }  // namespace fiber

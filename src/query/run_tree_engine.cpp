@@ -83,6 +83,7 @@ void RunTreeEngine::do_update(const FiberAssembly& fibers, bool same_topology) {
       tree_.build(fibers, origin);
     }
     moved_ = 0.0;
+    has_served_ = false;
     ++refit_count_;
     kept_.forget();
     if (skin_ > 0.0) {
@@ -99,10 +100,10 @@ bool RunTreeEngine::tree_still_serves(const FiberAssembly& fibers) {
   const double moved = motion_.largest_motion(fibers);
   // Two segments may have come towards each other.
   const bool serves = 2.0 * moved <= skin_;
-  skin_pays_ = serves || last_kept_ == refit_count_;
+  skin_pays_ = serves || has_served_;
   if (serves) {
     moved_ = moved;
-    last_kept_ = refit_count_;
+    has_served_ = true;
   }
   return serves;
 }
@@ -122,7 +123,11 @@ void RunTreeEngine::do_query_shape(const FiberAssembly& shape, const FiberAssemb
   RunTree shape_tree;
   shape_tree.build(shape, tree_.origin());
   if (options.type == QueryType::ALL) {
-    find_shape(shape_tree.view(), PairTest(shape, fibers, options), options.margin, result);
+    const PairTest test(shape, fibers, options);
+    with_batch([&](ContactBatch& batch) {
+      batch.find(shape_tree.view(), tree_.view(), test, options.margin + moved_, options.margin,
+                 result);
+    });
     return;
   }
   PairCollector collector(shape, fibers, options, result);
@@ -136,9 +141,8 @@ void RunTreeEngine::find_own(const PairTest& test, const QueryOptions& options,
   const bool keeps = skin_ > 0.0 && skin_pays_ && options.neighbour_skip_length == 0.0;
   with_batch([&](ContactBatch& batch) {
     if (!keeps) {
-      batch.collect(tree_.view(), tree_.view(), test, options.margin + 2.0 * moved_, batch.keys(),
-                    result.counts);
-      batch.judge(batch.keys(), test, options.margin, result);
+      batch.find(tree_.view(), tree_.view(), test, options.margin + 2.0 * moved_, options.margin,
+                 result);
       return;
     }
     KeptCandidates::Keys keys = kept_.find(options);
@@ -148,14 +152,6 @@ void RunTreeEngine::find_own(const PairTest& test, const QueryOptions& options,
       kept_.keep(options, keys);
     }
     batch.judge(*keys, test, options.margin, result);
-  });
-}
-
-void RunTreeEngine::find_shape(const RunTreeView& shape, const PairTest& test, double margin,
-                               QueryResult& result) const {
-  with_batch([&](ContactBatch& batch) {
-    batch.collect(shape, tree_.view(), test, margin + moved_, batch.keys(), result.counts);
-    batch.judge(batch.keys(), test, margin, result);
   });
 }
 

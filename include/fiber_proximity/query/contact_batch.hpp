@@ -24,8 +24,11 @@ class ContactBatch {
   void judge(const std::vector<std::uint64_t>& keys, const PairTest& test, double bound,
              QueryResult& result);
 
-  /// For candidates of a single query.
-  std::vector<std::uint64_t>& keys() { return keys_; }
+  /// Both, for candidates that serve this query alone.
+  /// @param reach [m] of the candidates: the bound, and what points have moved since the trees were
+  /// fitted
+  void find(const RunTreeView& a, const RunTreeView& b, const PairTest& test, double reach,
+            double bound, QueryResult& result);
 
  private:
   struct Job {

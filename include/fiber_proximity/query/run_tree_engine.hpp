@@ -41,8 +41,6 @@ class RunTreeEngine final : public ProximityEngine {
  private:
   bool tree_still_serves(const FiberAssembly& fibers);
   void find_own(const PairTest& test, const QueryOptions& options, QueryResult& result) const;
-  void find_shape(const RunTreeView& shape, const PairTest& test, double margin,
-                  QueryResult& result) const;
 
   /// Calls with memory that queries which run at the same time do not share.
   template <class Call>
@@ -54,8 +52,8 @@ class RunTreeEngine final : public ProximityEngine {
   MotionBound motion_;
   double moved_ = 0.0;  // [m] at most, since the tree was fitted
   std::uint64_t refit_count_ = 0;
-  bool skin_pays_ = true;  // the tree served more than one update when it was last fitted
-  std::uint64_t last_kept_ = 0;
+  bool has_served_ = false;  // the tree, an update after the one that fitted it
+  bool skin_pays_ = true;    // the tree has served so, or the one before it had
   mutable KeptCandidates kept_;
   mutable std::mutex mutex_;
   mutable std::vector<std::unique_ptr<ContactBatch>> idle_batches_;
