@@ -22,6 +22,7 @@ struct Request {
   std::string scene = "soup";
   SceneOptions scene_options;
   double motion = 0.02;                                        // mean segment lengths per frame
+  double moving = 1.0;                                         // part of the fibres
   std::vector<double> skins{0, 0.03, 0.06, 0.12, 0.24, 0.48};  // mean segment lengths
   std::uint32_t frames = 60;
   std::uint32_t threads = 1;
@@ -47,6 +48,7 @@ class SkinRun {
     engine_.update(fibers);
     engine_.query(QueryOptions(), result);
     refits_before_ = engine_.refit_count();
+    partial_before_ = engine_.partial_count();
   }
 
   void measure_frame(const FiberAssembly& fibers, QueryResult& result) {
@@ -62,6 +64,7 @@ class SkinRun {
   double detect_ms() const { return mean(detect_ms_); }
   double cycle_ms() const { return update_ms() + detect_ms(); }
   std::uint64_t refits() const { return engine_.refit_count() - refits_before_; }
+  std::uint64_t partial() const { return engine_.partial_count() - partial_before_; }
   std::size_t memory_bytes() const { return engine_.memory_bytes(); }
   std::size_t pairs() const { return pairs_; }
 
@@ -70,6 +73,7 @@ class SkinRun {
   const double skin_;
   RunTreeEngine engine_;
   std::uint64_t refits_before_ = 0;
+  std::uint64_t partial_before_ = 0;
   std::vector<double> update_ms_;
   std::vector<double> detect_ms_;
   std::size_t pairs_ = 0;
@@ -82,7 +86,8 @@ class Coherence {
       : request_(request),
         fibers_(make_scene(request.scene, request.scene_options)(0)),
         segment_length_(mean_segment_length(fibers_)),
-        swaying_(fibers_, request.motion * segment_length_, request.scene_options.seed) {
+        swaying_(fibers_, request.motion * segment_length_, request.scene_options.seed,
+                 request.moving) {
     for (const double skin : request.skins) {
       runs_.push_back(std::make_unique<SkinRun>(skin, segment_length_, request.threads));
     }
@@ -119,6 +124,7 @@ class Coherence {
           {"shuffle", request_.scene_options.shuffle},
           {"frames", request_.frames},
           {"motion", request_.motion},
+          {"moving", request_.moving},
           {"engine", "run_tree"},
           {"skin", run->skin()},
           {"skin_lengths", run->skin_lengths()},
@@ -131,6 +137,7 @@ class Coherence {
           {"detect_ms", run->detect_ms()},
           {"cycle_ms", run->cycle_ms()},
           {"refits", run->refits()},
+          {"partial", run->partial()},
           {"pairs", run->pairs()},
           {"bytes_per_segment", static_cast<double>(run->memory_bytes()) / segments}};
       std::cout << line.dump() << '\n';
@@ -140,11 +147,11 @@ class Coherence {
   void print_table() const {
     std::cout << request_.scene << ": " << fibers_.fiber_count() << " fibres, "
               << fibers_.segment_count() << " segments of " << segment_length_ << " m; means over "
-              << request_.frames << " frame(s), every point moves by " << request_.motion
-              << " segment lengths per frame\n";
+              << request_.frames << " frame(s), the points of " << request_.moving
+              << " of the fibres move by " << request_.motion << " segment lengths per frame\n";
     constexpr int width = 14;
-    for (const char* column :
-         {"skin", "skin [m]", "update [ms]", "detect [ms]", "cycle [ms]", "refits", "pairs"}) {
+    for (const char* column : {"skin", "skin [m]", "update [ms]", "detect [ms]", "cycle [ms]",
+                               "refits", "partial", "pairs"}) {
       std::cout << std::setw(width) << column;
     }
     std::cout << '\n';
@@ -153,7 +160,8 @@ class Coherence {
                                  run->detect_ms(), run->cycle_ms()}) {
         std::cout << std::setw(width) << value;
       }
-      std::cout << std::setw(width) << run->refits() << std::setw(width) << run->pairs() << '\n';
+      std::cout << std::setw(width) << run->refits() << std::setw(width) << run->partial()
+                << std::setw(width) << run->pairs() << '\n';
     }
   }
 
@@ -194,6 +202,9 @@ void add_coherence_command(CLI::App& app, Command& command) {
       ->add_option("--motion", request->motion,
                    "how far points move per frame, in mean segment lengths")
       ->check(finite_number(0.0))
+      ->capture_default_str();
+  coherence->add_option("--moving", request->moving, "the part of the fibres that moves")
+      ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   coherence
       ->add_option("--skins", request->skins, "in mean segment lengths, with commas between them")

@@ -1,5 +1,6 @@
 #include "swaying.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "fiber_proximity/scenes/portable_math.hpp"
@@ -49,10 +50,23 @@ std::vector<double> smooth_phases(const FiberAssembly& fibers, Random& random) {
   return phases;
 }
 
+/// By point: 1 where its fibre is one of those that move, 0 elsewhere.
+std::vector<double> speeds(const FiberAssembly& fibers, double moving) {
+  std::vector<double> speeds(fibers.point_count(), 0.0);
+  for (std::size_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
+    const auto index = static_cast<double>(fiber);
+    if (std::floor((index + 1.0) * moving) > std::floor(index * moving)) {
+      std::fill(speeds.begin() + fibers.offsets()[fiber],
+                speeds.begin() + fibers.offsets()[fiber + 1], 1.0);
+    }
+  }
+  return speeds;
+}
+
 }  // namespace
 
-Swaying::Swaying(const FiberAssembly& fibers, double step, std::uint64_t seed)
-    : centers_(fibers.points()), points_(fibers.points()) {
+Swaying::Swaying(const FiberAssembly& fibers, double step, std::uint64_t seed, double moving)
+    : centers_(fibers.points()), speeds_(speeds(fibers, moving)), points_(fibers.points()) {
   Random random(seed);
   phases_ = smooth_phases(fibers, random);
   // A step is the chord of its part of a turn.
@@ -65,7 +79,7 @@ Swaying::Swaying(const FiberAssembly& fibers, double step, std::uint64_t seed)
 const std::vector<Eigen::Vector3d>& Swaying::points(std::uint32_t frame) {
   const double turned = frame / frames_per_turn;
   for (std::size_t i = 0; i < centers_.size(); ++i) {
-    const double phase = phases_[i] + turned;
+    const double phase = phases_[i] + speeds_[i] * turned;
     points_[i] =
         centers_[i] + cosine_of_turns(phase) * first_axis_ + sine_of_turns(phase) * second_axis_;
   }

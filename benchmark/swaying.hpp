@@ -15,7 +15,8 @@ class Swaying {
  public:
   /// @param step [m] how far every point moves from one frame to the next, >= 0
   /// @param seed of the directions, planes and phases
-  Swaying(const FiberAssembly& fibers, double step, std::uint64_t seed);
+  /// @param moving the part of the fibres that move, evenly spread, in [0, 1]; others stand still
+  Swaying(const FiberAssembly& fibers, double step, std::uint64_t seed, double moving = 1.0);
 
   /// The points in a frame; they stay until the next call.
   const std::vector<Eigen::Vector3d>& points(std::uint32_t frame);
@@ -23,6 +24,7 @@ class Swaying {
  private:
   std::vector<Eigen::Vector3d> centers_;
   std::vector<double> phases_;  // [turns]
+  std::vector<double> speeds_;  // by point, 1 or 0
   std::vector<Eigen::Vector3d> points_;
   Eigen::Vector3d first_axis_;  // [m] these two span the circles
   Eigen::Vector3d second_axis_;

@@ -11,39 +11,57 @@
 namespace fiber {
 namespace {
 
-// A range of this many is not split: one thread is faster than several.
+// Fibres of this many points together are not shared out: one thread is faster than several.
 constexpr std::size_t points_per_job = 1U << 13U;
 
-using Range = tbb::blocked_range<std::size_t>;
+using Range = tbb::blocked_range<std::uint32_t>;
 
 }  // namespace
 
 void MotionBound::start(const FiberAssembly& fibers) {
   points_ = fibers.points();
   radii_ = fibers.radii();
+  by_fiber_.assign(fibers.fiber_count(), 0.0);
 }
 
-double MotionBound::largest_motion(const FiberAssembly& fibers) const {
-  assert(fibers.point_count() == points_.size());
+void MotionBound::restart(const FiberAssembly& fibers, std::uint32_t fiber) {
+  const auto begin = fibers.points().begin();
+  std::copy(begin + fibers.offsets()[fiber], begin + fibers.offsets()[fiber + 1],
+            points_.begin() + fibers.offsets()[fiber]);
+}
+
+double MotionBound::measure(const FiberAssembly& fibers) {
+  assert(fibers.point_count() == points_.size() && fibers.fiber_count() == by_fiber_.size());
   if (fibers.radii() != radii_) {
     return std::numeric_limits<double>::infinity();
   }
-  const double squared = tbb::parallel_reduce(
-      Range(0, points_.size(), points_per_job), 0.0,
+  const std::size_t fibers_per_job =
+      points_per_job * fibers.fiber_count() / std::max(std::size_t{1}, fibers.point_count());
+  return tbb::parallel_reduce(
+      Range(0, static_cast<std::uint32_t>(fibers.fiber_count()), fibers_per_job + 1), 0.0,
       [&](const Range& range, double largest) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-          largest = std::max(largest, (fibers.points()[i] - points_[i]).squaredNorm());
+        for (std::uint32_t fiber = range.begin(); fiber < range.end(); ++fiber) {
+          by_fiber_[fiber] = motion_of(fibers, fiber);
+          largest = std::max(largest, by_fiber_[fiber]);
         }
         return largest;
       },
       [](double a, double b) { return std::max(a, b); });
+}
+
+double MotionBound::motion_of(const FiberAssembly& fibers, std::uint32_t fiber) const {
+  double squared = 0.0;
+  for (std::size_t i = fibers.offsets()[fiber]; i < fibers.offsets()[fiber + 1]; ++i) {
+    squared = std::max(squared, (fibers.points()[i] - points_[i]).squaredNorm());
+  }
   // Squares round by less than 4 u; those too small for them are covered by the smallest normal.
   constexpr double slack = 1.0 + 8.0 * std::numeric_limits<double>::epsilon();
   return std::sqrt(squared * slack + std::numeric_limits<double>::min()) * slack;
 }
 
 std::size_t MotionBound::memory_bytes() const {
-  return points_.capacity() * sizeof(Eigen::Vector3d) + radii_.capacity() * sizeof(double);
+  return points_.capacity() * sizeof(Eigen::Vector3d) +
+         (radii_.capacity() + by_fiber_.capacity()) * sizeof(double);
 }
 
 }  // namespace fiber

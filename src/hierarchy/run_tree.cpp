@@ -70,17 +70,24 @@ double half_area(const BoxBlock& block, std::uint32_t lane) {
 }  // namespace
 
 void RunTree::build(const FiberAssembly& fibers, const Eigen::Vector3d& origin) {
+  build(fibers, all_segments(fibers.offsets()), origin);
+}
+
+void RunTree::build(const FiberAssembly& fibers, const std::vector<std::uint32_t>& first_points,
+                    const Eigen::Vector3d& origin) {
   origin_ = origin;
-  first_points_ = all_segments(fibers.offsets());
+  first_points_ = first_points;
   segment_count_ = static_cast<std::uint32_t>(first_points_.size());
   runs_.resize(divided_up(segment_count_));
   first_points_.resize(runs_.size() * run_width);
-  levels_.clear();
+  std::size_t level_count = 0;
   for (auto count = static_cast<std::uint32_t>(runs_.size());
-       count > 0 && (levels_.empty() || count > 1);) {
+       count > 0 && (level_count == 0 || count > 1); ++level_count) {
     count = divided_up(count);
-    levels_.emplace_back(count);
+    levels_.resize(std::max(levels_.size(), level_count + 1));
+    levels_[level_count].resize(count);
   }
+  levels_.resize(level_count);
   set_view();
   sort(fibers);
   sort_count_ = 0;

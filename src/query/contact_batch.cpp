@@ -61,6 +61,28 @@ void ContactBatch::collect(const RunTreeView& a, const RunTreeView& b, const Pai
   sort_keys(keys, scratch_);
 }
 
+void ContactBatch::replace(const std::vector<std::uint64_t>& old_keys,
+                           const OutdatedSegments& outdated, const RunTreeView& tree,
+                           const PairTest& test, double bound, std::vector<std::uint64_t>& keys,
+                           QueryCounts& counts) {
+  collect(outdated.tree(), tree, test, bound, keys_, counts);
+  // Pairs of two outdated segments are found from both sides.
+  keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
+  keys.clear();
+  auto next = keys_.begin();
+  for (const std::uint64_t key : old_keys) {
+    const PointPair pair = pair_of(key);
+    if (outdated.contains(pair.a) || outdated.contains(pair.b)) {
+      continue;
+    }
+    for (; next != keys_.end() && *next < key; ++next) {
+      keys.push_back(*next);
+    }
+    keys.push_back(key);
+  }
+  keys.insert(keys.end(), next, keys_.end());
+}
+
 void ContactBatch::judge(const std::vector<std::uint64_t>& keys, const PairTest& test, double bound,
                          QueryResult& result) {
   result.counts.primitive_tests += keys.size();

@@ -1,38 +1,52 @@
 #include "fiber_proximity/query/kept_candidates.hpp"
 
+#include <algorithm>
+
 namespace fiber {
 
-void KeptCandidates::forget() {
+KeptCandidates::State KeptCandidates::state() const {
   const std::lock_guard lock(mutex_);
-  valid_ = false;
+  return state_;
 }
 
-KeptCandidates::Keys KeptCandidates::find(const QueryOptions& options) const {
+void KeptCandidates::become(State worse) {
+  const std::lock_guard lock(mutex_);
+  state_ = std::min(state_, worse);
+}
+
+KeptCandidates::Keys KeptCandidates::find(const QueryOptions& options, State state) const {
   const std::lock_guard lock(mutex_);
   const bool same =
-      valid_ && options.margin == margin_ && options.neighbour_skip == neighbour_skip_;
+      state_ == state && options.margin == margin_ && options.neighbour_skip == neighbour_skip_;
   return same ? keys_ : nullptr;
 }
 
 KeptCandidates::Keys KeptCandidates::make() {
   const std::lock_guard lock(mutex_);
-  if (valid_ || keys_ == nullptr || keys_.use_count() > 1) {
+  Keys& unused = state_ == State::NONE && keys_ != nullptr ? keys_ : spare_;
+  if (unused == nullptr || unused.use_count() > 1) {
     return std::make_shared<std::vector<std::uint64_t>>();
   }
-  return std::move(keys_);
+  return std::move(unused);
 }
 
 void KeptCandidates::keep(const QueryOptions& options, const Keys& keys) {
   const std::lock_guard lock(mutex_);
-  valid_ = true;
+  state_ = State::CURRENT;
   margin_ = options.margin;
   neighbour_skip_ = options.neighbour_skip;
+  if (keys_ != nullptr) {
+    spare_ = std::move(keys_);
+  }
   keys_ = keys;
 }
 
 std::size_t KeptCandidates::memory_bytes() const {
   const std::lock_guard lock(mutex_);
-  return keys_ == nullptr ? 0 : keys_->capacity() * sizeof(std::uint64_t);
+  const auto bytes = [](const Keys& keys) {
+    return keys == nullptr ? 0 : keys->capacity() * sizeof(std::uint64_t);
+  };
+  return bytes(keys_) + bytes(spare_);
 }
 
 }  // namespace fiber

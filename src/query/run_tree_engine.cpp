@@ -49,6 +49,9 @@ Eigen::Vector3d corner(const float (&by_axis)[3][run_width], std::uint32_t lane)
   return {by_axis[0][lane], by_axis[1][lane], by_axis[2][lane]};
 }
 
+// Replacing the candidates of more segments than this part of all takes longer than finding all.
+constexpr double most_outdated = 0.25;
+
 double checked_skin(double skin) {
   if (!(skin >= 0.0 && std::isfinite(skin))) {
     throw std::invalid_argument("skin is " + std::to_string(skin) +
@@ -68,44 +71,89 @@ std::uint32_t RunTreeEngine::thread_count() const {
 }
 
 std::size_t RunTreeEngine::memory_bytes() const {
-  return tree_.memory_bytes() + motion_.memory_bytes() + kept_.memory_bytes();
+  return tree_.memory_bytes() + motion_.memory_bytes() + kept_.memory_bytes() +
+         outdated_.memory_bytes();
 }
 
 void RunTreeEngine::do_update(const FiberAssembly& fibers, bool same_topology) {
   arena_.execute([&] {
-    if (same_topology && tree_still_serves(fibers)) {
+    if (!same_topology) {
+      tree_.build(fibers, hierarchy_origin(fibers));
+      start_anew(fibers);
       return;
     }
-    const Eigen::Vector3d origin = hierarchy_origin(fibers);
-    if (same_topology) {
-      tree_.update(fibers, origin);
-    } else {
-      tree_.build(fibers, origin);
+    if (skin_ > 0.0 && tree_still_serves(fibers)) {
+      return;
     }
-    moved_ = 0.0;
-    has_served_ = false;
-    ++refit_count_;
-    kept_.forget();
-    if (skin_ > 0.0) {
-      motion_.start(fibers);
+    tree_.update(fibers, hierarchy_origin(fibers));
+    if (skin_ > 0.0 && most_still_serve(fibers)) {
+      return;
     }
+    start_anew(fibers);
   });
+}
+
+/// With a tree that has been fitted: forgets where the fibres were.
+void RunTreeEngine::start_anew(const FiberAssembly& fibers) {
+  ++refit_count_;
+  moved_ = 0.0;
+  moved_before_fit_ = 0.0;
+  has_served_ = false;
+  kept_.become(KeptCandidates::State::NONE);
+  if (skin_ > 0.0) {
+    motion_.start(fibers);
+  }
 }
 
 /// Whether the points are close enough to where the tree has them; notes how close.
 bool RunTreeEngine::tree_still_serves(const FiberAssembly& fibers) {
-  if (skin_ == 0.0) {
+  moved_ = motion_.measure(fibers);
+  // Two segments may have come towards each other.
+  const bool serves = 2.0 * moved_ <= skin_;
+  skin_pays_ = serves || has_served_;
+  has_served_ = has_served_ || serves;
+  return serves;
+}
+
+/// With a tree that has been fitted: if few fibres have moved far, measures their motion from here,
+/// and has only their candidates looked for anew.
+bool RunTreeEngine::most_still_serve(const FiberAssembly& fibers) {
+  if (!std::isfinite(moved_)) {
     return false;
   }
-  const double moved = motion_.largest_motion(fibers);
-  // Two segments may have come towards each other.
-  const bool serves = 2.0 * moved <= skin_;
-  skin_pays_ = serves || has_served_;
-  if (serves) {
-    moved_ = moved;
-    has_served_ = true;
+  if (kept_.state() != KeptCandidates::State::OUTDATED) {
+    outdated_.clear();
   }
-  return serves;
+  // Those that are far from the limit are left where they are; the others would follow soon.
+  const double limit = skin_ / 4.0;
+  double of_others = 0.0;
+  const std::vector<double>& moved = motion_.by_fiber();
+  for (std::uint32_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
+    if (moved[fiber] > limit) {
+      outdated_.add(fibers, fiber);
+    } else {
+      of_others = std::max(of_others, moved[fiber]);
+    }
+  }
+  if (static_cast<double>(outdated_.size()) >
+      most_outdated * static_cast<double>(fibers.segment_count())) {
+    outdated_.clear();
+    return false;
+  }
+  for (std::uint32_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
+    if (moved[fiber] > limit) {
+      motion_.restart(fibers, fiber);
+    }
+  }
+  outdated_.fit(fibers, tree_.origin());
+  kept_.become(KeptCandidates::State::OUTDATED);
+  moved_ = of_others;
+  moved_before_fit_ = of_others;
+  skin_pays_ = true;
+  has_served_ = true;
+  ++refit_count_;
+  ++partial_count_;
+  return true;
 }
 
 void RunTreeEngine::do_query(const FiberAssembly& fibers, const QueryOptions& options,
@@ -115,7 +163,7 @@ void RunTreeEngine::do_query(const FiberAssembly& fibers, const QueryOptions& op
     return;
   }
   PairCollector collector(fibers, options, result);
-  find_some(tree_.view(), tree_.view(), 2.0 * moved_, collector, result.counts);
+  find_some(tree_.view(), tree_.view(), 2.0 * moved_since_fit(), collector, result.counts);
 }
 
 void RunTreeEngine::do_query_shape(const FiberAssembly& shape, const FiberAssembly& fibers,
@@ -125,13 +173,13 @@ void RunTreeEngine::do_query_shape(const FiberAssembly& shape, const FiberAssemb
   if (options.type == QueryType::ALL) {
     const PairTest test(shape, fibers, options);
     with_batch([&](ContactBatch& batch) {
-      batch.find(shape_tree.view(), tree_.view(), test, options.margin + moved_, options.margin,
-                 result);
+      batch.find(shape_tree.view(), tree_.view(), test, options.margin + moved_since_fit(),
+                 options.margin, result);
     });
     return;
   }
   PairCollector collector(shape, fibers, options, result);
-  find_some(shape_tree.view(), tree_.view(), moved_, collector, result.counts);
+  find_some(shape_tree.view(), tree_.view(), moved_since_fit(), collector, result.counts);
 }
 
 /// All contacts of the fibres with each other: from candidates that are kept, if there are such.
@@ -140,19 +188,36 @@ void RunTreeEngine::find_own(const PairTest& test, const QueryOptions& options,
   // Which pairs a length leaves out changes as fibres stretch: such candidates cannot be kept.
   const bool keeps = skin_ > 0.0 && skin_pays_ && options.neighbour_skip_length == 0.0;
   with_batch([&](ContactBatch& batch) {
-    if (!keeps) {
-      batch.find(tree_.view(), tree_.view(), test, options.margin + 2.0 * moved_, options.margin,
-                 result);
+    if (keeps) {
+      batch.judge(*current_candidates(test, options, batch, result.counts), test, options.margin,
+                  result);
       return;
     }
-    KeptCandidates::Keys keys = kept_.find(options);
-    if (keys == nullptr) {
-      keys = kept_.make();
-      batch.collect(tree_.view(), tree_.view(), test, options.margin + skin_, *keys, result.counts);
-      kept_.keep(options, keys);
-    }
-    batch.judge(*keys, test, options.margin, result);
+    batch.find(tree_.view(), tree_.view(), test, options.margin + 2.0 * moved_since_fit(),
+               options.margin, result);
   });
+}
+
+/// Candidates that serve until motion exceeds the skin: kept ones, as far as there are such.
+KeptCandidates::Keys RunTreeEngine::current_candidates(const PairTest& test,
+                                                       const QueryOptions& options,
+                                                       ContactBatch& batch,
+                                                       QueryCounts& counts) const {
+  KeptCandidates::Keys keys = kept_.find(options, KeptCandidates::State::CURRENT);
+  if (keys != nullptr) {
+    return keys;
+  }
+  // Since the tree was fitted, two segments can each have come back by what they had moved before.
+  const double reach = options.margin + skin_ + 2.0 * moved_before_fit_;
+  const KeptCandidates::Keys old = kept_.find(options, KeptCandidates::State::OUTDATED);
+  keys = kept_.make();
+  if (old != nullptr) {
+    batch.replace(*old, outdated_, tree_.view(), test, reach, *keys, counts);
+  } else {
+    batch.collect(tree_.view(), tree_.view(), test, reach, *keys, counts);
+  }
+  kept_.keep(options, keys);
+  return keys;
 }
 
 template <class Call>

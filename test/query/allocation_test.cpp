@@ -5,6 +5,7 @@
 #include <new>
 
 #include "fiber_proximity/query/engine.hpp"
+#include "fiber_proximity/query/run_tree_engine.hpp"
 #include "support/assemblies.hpp"
 
 namespace {
@@ -82,6 +83,35 @@ TEST(RunTreeAllocationTest, AFrameInSteadyStateAllocatesNothing) {
     engine->update(fibers);
     engine->query({}, result);
   }
+  EXPECT_FALSE(result.contacts.empty());
+  EXPECT_EQ(allocations, before);
+}
+
+TEST(RunTreeAllocationTest, AFrameInWhichSomeFibersMoveAllocatesNothing) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  AssemblyBuilder builder;
+  for (int fiber = 0; fiber < 100; ++fiber) {
+    builder.add_fiber(random_walk(random, 50, 0.1));
+  }
+  FiberAssembly fibers = builder.build({0.02});
+  std::vector<Eigen::Vector3d> points = fibers.points();
+  RunTreeEngine engine({1, 0.01});
+  QueryResult result;
+  constexpr int warm_up = 20;
+  std::size_t before = 0;
+  for (int frame = 0; frame < 2 * warm_up; ++frame) {
+    if (frame == warm_up) {
+      before = allocations;
+    }
+    for (int i = 0; i < 50; ++i) {  // the first fibre goes there and back
+      points[i].x() += frame % 2 == 0 ? 0.05 : -0.05;
+    }
+    fibers.update_points(points);
+    engine.update(fibers);
+    engine.query({}, result);
+  }
+  EXPECT_EQ(engine.partial_count(), 2U * warm_up - 1);
   EXPECT_FALSE(result.contacts.empty());
   EXPECT_EQ(allocations, before);
 }

@@ -94,6 +94,58 @@ TEST(SkinTest, AnswersAsBruteForceWhileFibersMove) {
   EXPECT_LT(refits, frames * 9 / 10);
 }
 
+/// Moves some of the fibres, each as a whole and as far as it likes, and all others a little.
+void move_some(Random& random, FiberAssembly& fibers, double far, double little) {
+  std::vector<Vector3d> points = fibers.points();
+  for (std::size_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
+    const Vector3d step = random.in_cube(random.chance(0.05) ? far : little);
+    for (std::uint32_t i = fibers.offsets()[fiber]; i < fibers.offsets()[fiber + 1]; ++i) {
+      points[i] += step;
+    }
+  }
+  fibers.update_points(points);
+}
+
+TEST(SkinTest, AnswersAsBruteForceWhileSomeFibersMove) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  std::uint64_t refits = 0;
+  std::uint64_t partial = 0;
+  std::size_t found = 0;
+  for (int round = 0; round < 30; ++round) {
+    AssemblyBuilder builder;
+    for (int fiber = 0; fiber < 30; ++fiber) {
+      builder.add_fiber(random_walk(random, random.integer(2, 12), 0.1));
+    }
+    FiberAssembly fibers = builder.build({0.02});
+    const double skin = random.uniform(0.01, 0.3);
+    RunTreeEngine engine({1, skin});
+    QueryOptions options = random_options(random, 1.0);
+    options.type = QueryType::ALL;
+    options.neighbour_skip_length = 0.0;
+    QueryResult result;
+    for (int frame = 0; frame < 40; ++frame) {
+      engine.update(fibers);
+      if (random.chance(0.7)) {  // several updates may come between two queries
+        engine.query(options, result);
+        expect_answer(fibers, options, result.contacts);
+        found += result.contacts.size();
+      }
+      if (random.chance(0.2)) {  // others replace the kept candidates, or use the tree itself
+        const QueryOptions others = random_options(random, 1.0);
+        engine.query(others, result);
+        expect_answer(fibers, others, result.contacts);
+      }
+      move_some(random, fibers, 1.0, 0.05 * skin);
+    }
+    refits += engine.refit_count();
+    partial += engine.partial_count();
+  }
+  EXPECT_GT(found, 1000U);
+  EXPECT_GT(partial, 200U);
+  EXPECT_GT(refits - partial, 50U);
+}
+
 TEST(SkinTest, AShapeMeetsFibersThatHaveMoved) {
   SCOPED_TRACE(seed_message());
   Random random;

@@ -1,27 +1,38 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 
 namespace fiber {
 
-/// Remembers where fibres were, to tell how far they have moved since.
+/// Remembers where fibres were, to tell how far each has moved since.
 class MotionBound {
  public:
   /// From now on, motion is measured from here.
   void start(const FiberAssembly& fibers);
 
-  /// The largest distance of a point from where it was, rounded up [m]; a segment's points move no
-  /// further than its ends. Infinite if radii have changed. The topology must be that of start().
-  double largest_motion(const FiberAssembly& fibers) const;
+  /// The same of one fibre alone, of the topology and radii of start().
+  void restart(const FiberAssembly& fibers, std::uint32_t fiber);
+
+  /// Measures how far every fibre has moved. The topology must be that of start().
+  /// @return [m] the largest distance of a point from where it was, rounded up; a segment's points
+  /// move no further than its ends. Infinite if radii have changed.
+  double measure(const FiberAssembly& fibers);
+
+  /// [m] The same of each fibre, as measured last; not set if radii have changed.
+  const std::vector<double>& by_fiber() const { return by_fiber_; }
 
   std::size_t memory_bytes() const;
 
  private:
+  double motion_of(const FiberAssembly& fibers, std::uint32_t fiber) const;
+
   std::vector<Eigen::Vector3d> points_;
   std::vector<double> radii_;
+  std::vector<double> by_fiber_;
 };
 
 }  // namespace fiber

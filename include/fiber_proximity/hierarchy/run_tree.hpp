@@ -30,6 +30,11 @@ class RunTree {
   /// @param origin [m] the point all boxes are relative to
   void build(const FiberAssembly& fibers, const Eigen::Vector3d& origin);
 
+  /// The same of some segments only.
+  /// @param first_points of the segments, all different
+  void build(const FiberAssembly& fibers, const std::vector<std::uint32_t>& first_points,
+             const Eigen::Vector3d& origin);
+
   /// Refits to moved points of the same topology, and sorts anew if the order has decayed.
   void update(const FiberAssembly& fibers, const Eigen::Vector3d& origin);
 

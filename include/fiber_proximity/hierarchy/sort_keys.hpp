@@ -5,7 +5,7 @@
 
 namespace fiber {
 
-/// Sorts keys in ascending order, on several threads if there are many. All keys must differ.
+/// Sorts keys in ascending order, on several threads if there are many.
 /// @param scratch memory to be kept from call to call; its contents do not matter
 void sort_keys(std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>& scratch);
 

@@ -6,6 +6,7 @@
 #include "fiber_proximity/hierarchy/run_blocks.hpp"
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/contact_judge.hpp"
+#include "fiber_proximity/query/outdated_segments.hpp"
 #include "fiber_proximity/query/pair_test.hpp"
 
 namespace fiber {
@@ -18,6 +19,12 @@ class ContactBatch {
   /// Candidates in the order of the contacts: all pairs that may come within the bound [m], and
   /// others.
   void collect(const RunTreeView& a, const RunTreeView& b, const PairTest& test, double bound,
+               std::vector<std::uint64_t>& keys, QueryCounts& counts);
+
+  /// The same from candidates of a tree with itself that were collected before: those of outdated
+  /// segments are left out and looked for anew.
+  void replace(const std::vector<std::uint64_t>& old_keys, const OutdatedSegments& outdated,
+               const RunTreeView& tree, const PairTest& test, double bound,
                std::vector<std::uint64_t>& keys, QueryCounts& counts);
 
   /// The contacts among such candidates: pairs of a signed distance of at most the bound [m].

@@ -14,26 +14,36 @@ class KeptCandidates {
  public:
   using Keys = std::shared_ptr<std::vector<std::uint64_t>>;
 
-  /// Nobody is to have the ones there are any more; their memory is kept.
-  void forget();
+  enum class State {
+    NONE,      ///< nobody is to have them any more; their memory is kept
+    OUTDATED,  ///< those of some segments are to be replaced
+    CURRENT
+  };
 
-  /// Those of a query of the same margin and neighbour skip; null if there are none.
-  Keys find(const QueryOptions& options) const;
+  /// Of the ones that are kept.
+  State state() const;
+
+  /// Makes them worse: CURRENT ones OUTDATED or NONE, OUTDATED ones NONE.
+  void become(State worse);
+
+  /// Those in this state of a query of the same margin and neighbour skip; null if there are none.
+  Keys find(const QueryOptions& options, State state) const;
 
   /// Where to put new ones: memory that nobody else uses.
   Keys make();
 
-  /// Keeps them for such queries.
+  /// Keeps them, as CURRENT ones, for such queries.
   void keep(const QueryOptions& options, const Keys& keys);
 
   std::size_t memory_bytes() const;
 
  private:
   mutable std::mutex mutex_;
-  bool valid_ = false;
+  State state_ = State::NONE;
   double margin_ = 0.0;  // [m]
   std::uint32_t neighbour_skip_ = 0;
   Keys keys_;
+  Keys spare_;  // the ones before, for their memory
 };
 
 }  // namespace fiber

@@ -11,12 +11,14 @@
 #include "fiber_proximity/query/contact_batch.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/query/kept_candidates.hpp"
+#include "fiber_proximity/query/outdated_segments.hpp"
 
 namespace fiber {
 
 /// `run_tree`, the fast engine. With a skin, the tree stays where it is while points move by at
 /// most half of it: all bounds are larger by what they have moved, and the candidates of one query
-/// serve the next ones.
+/// serve the next ones. When few fibres have moved further, only their candidates are looked for
+/// anew.
 class RunTreeEngine final : public ProximityEngine {
  public:
   /// @throws std::invalid_argument for a skin that is negative or not finite
@@ -31,6 +33,9 @@ class RunTreeEngine final : public ProximityEngine {
   /// How often updates have moved the tree.
   std::uint64_t refit_count() const { return refit_count_; }
 
+  /// How often of these most candidates could be kept.
+  std::uint64_t partial_count() const { return partial_count_; }
+
  protected:
   void do_update(const FiberAssembly& fibers, bool same_topology) override;
   void do_query(const FiberAssembly& fibers, const QueryOptions& options,
@@ -40,6 +45,11 @@ class RunTreeEngine final : public ProximityEngine {
 
  private:
   bool tree_still_serves(const FiberAssembly& fibers);
+  bool most_still_serve(const FiberAssembly& fibers);
+  void start_anew(const FiberAssembly& fibers);
+  double moved_since_fit() const { return moved_ + moved_before_fit_; }
+  KeptCandidates::Keys current_candidates(const PairTest& test, const QueryOptions& options,
+                                          ContactBatch& batch, QueryCounts& counts) const;
   void find_own(const PairTest& test, const QueryOptions& options, QueryResult& result) const;
 
   /// Calls with memory that queries which run at the same time do not share.
@@ -50,11 +60,14 @@ class RunTreeEngine final : public ProximityEngine {
   const double skin_;  // [m]
   RunTree tree_;
   MotionBound motion_;
-  double moved_ = 0.0;  // [m] at most, since the tree was fitted
+  double moved_ = 0.0;             // [m] at most, since motion is measured
+  double moved_before_fit_ = 0.0;  // [m] of that when the tree was fitted
   std::uint64_t refit_count_ = 0;
+  std::uint64_t partial_count_ = 0;
   bool has_served_ = false;  // the tree, an update after the one that fitted it
   bool skin_pays_ = true;    // the tree has served so, or the one before it had
   mutable KeptCandidates kept_;
+  OutdatedSegments outdated_;  // what makes the kept candidates OUTDATED
   mutable std::mutex mutex_;
   mutable std::vector<std::unique_ptr<ContactBatch>> idle_batches_;
 };
