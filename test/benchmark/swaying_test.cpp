@@ -83,6 +83,27 @@ TEST(Swaying, MovesFibersThatLieTogetherApart) {
   EXPECT_LT(apart, 10.0 * step);
 }
 
+TEST(Swaying, MovesAsManyFibersAsAskedFor) {
+  std::vector<Eigen::Vector3d> places;
+  std::vector<std::uint32_t> offsets{0};
+  for (std::uint32_t fiber = 0; fiber < 20; ++fiber) {
+    places.emplace_back(fiber, 0, 0);
+    places.emplace_back(fiber, 1, 0);
+    offsets.push_back(2 * (fiber + 1));
+  }
+  const FiberAssembly fibers(places, offsets, {0.1});
+  for (const std::size_t moving : {0U, 1U, 5U, 20U}) {
+    Swaying swaying(fibers, step, 1, static_cast<double>(moving) / 20.0);
+    const std::vector<Eigen::Vector3d> before = swaying.points(0);
+    const std::vector<Eigen::Vector3d>& after = swaying.points(1);
+    std::size_t moved = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      moved += before[i] == after[i] ? 0 : 1;
+    }
+    EXPECT_EQ(moved, 2 * moving);
+  }
+}
+
 TEST(Swaying, TakesFibersInOnePointAndNone) {
   const FiberAssembly none;
   EXPECT_EQ(mean_segment_length(none), 0.0);

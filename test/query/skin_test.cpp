@@ -146,6 +146,48 @@ TEST(SkinTest, AnswersAsBruteForceWhileSomeFibersMove) {
   EXPECT_GT(refits - partial, 50U);
 }
 
+/// Ten fibres far from each other, but for the first two: parallel, at these heights [m].
+FiberAssembly two_of_ten(double height_a, double height_b) {
+  AssemblyBuilder builder;
+  builder.add_fiber({{0.0, height_a, 0.0}, {1.0, height_a, 0.0}});
+  builder.add_fiber({{0.0, height_b, 0.0}, {1.0, height_b, 0.0}});
+  for (int i = 1; i < 9; ++i) {
+    builder.add_fiber({{1000.0 * i, 0.0, 0.0}, {1000.0 * i, 1.0, 0.0}});
+  }
+  return builder.build({0.0});
+}
+
+/// One fibre comes from afar when the other has already moved away by nearly a quarter of the skin;
+/// then both come together as far as the skin lets them.
+TEST(SkinTest, CountsWhatFibersHadMovedBeforeOthersWereLookedForAnew) {
+  RunTreeEngine engine({1, 1.0});
+  QueryResult result;
+  for (const FiberAssembly& frame :
+       {two_of_ten(0.0, 100.0), two_of_ten(-0.24, 0.98), two_of_ten(0.4900001, 0.49)}) {
+    engine.update(frame);
+    for (const QueryType type : {QueryType::ALL, QueryType::CLOSEST}) {
+      QueryOptions options;
+      options.type = type;
+      options.margin = 0.001;
+      engine.query(options, result);
+      expect_answer(frame, options, result.contacts);
+    }
+  }
+  EXPECT_EQ(result.contacts.size(), 1U);
+  EXPECT_EQ(engine.partial_count(), 1U);
+  EXPECT_EQ(engine.refit_count(), 2U);
+}
+
+TEST(SkinTest, MeasuresFromWhereFibersWereLookedForAnew) {
+  RunTreeEngine engine({1, 1.0});
+  for (const double height : {100.0, 50.0, 49.9, 49.8, 20.0, 20.1}) {
+    const FiberAssembly frame = two_of_ten(0.0, height);
+    engine.update(frame);
+  }
+  EXPECT_EQ(engine.partial_count(), 2U);
+  EXPECT_EQ(engine.refit_count(), 3U);
+}
+
 TEST(SkinTest, AShapeMeetsFibersThatHaveMoved) {
   SCOPED_TRACE(seed_message());
   Random random;

@@ -140,6 +140,19 @@ TEST_F(FiberBench, ASkinKeepsTheTreeForAsManyFramesAsItLasts) {
   }
 }
 
+TEST_F(FiberBench, ASkinKeepsTheCandidatesOfFibersThatStandStill) {
+  const ProcessResult result = bench(
+      "coherence --scene curly --scale 0.001 --frames 6 --motion 0.1 --moving 0.1 --skins 0,0.01 "
+      "--json");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const std::vector<nlohmann::json> rows = json_lines(result.out);
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0].at("partial"), 0);
+  EXPECT_EQ(rows[1].at("partial"), 6);
+  EXPECT_EQ(rows[1].at("moving"), 0.1);
+  EXPECT_EQ(rows[1].at("pairs"), rows[0].at("pairs"));
+}
+
 TEST_F(FiberBench, PrintsATableOfSkinsWithoutJson) {
   const ProcessResult result = bench("coherence --scale 0.001 --frames 1 --skins 0.1");
   EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -164,6 +177,7 @@ TEST_F(FiberBench, RefusesBadCommandLines) {
   EXPECT_TRUE(
       refused(bench("coherence --skins 0,thin"), "--skins: 'thin' must be a finite number"));
   EXPECT_TRUE(refused(bench("coherence --skins"), "--skins"));
+  EXPECT_TRUE(refused(bench("coherence --moving 2"), "--moving"));
   EXPECT_TRUE(refused(bench("coherence --frames 0"), "--frames: '0'"));
   EXPECT_TRUE(refused(bench("update --threads none"), "--threads: 'none'"));
 }
