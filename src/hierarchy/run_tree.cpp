@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cassert>
 
 #include "fiber_proximity/hierarchy/run_tree_kernels.hpp"
 #include "fiber_proximity/hierarchy/sort_keys.hpp"
@@ -18,15 +19,15 @@ constexpr std::uint32_t groups_per_job = 64;
 std::uint32_t divided_up(std::uint32_t count) { return (count + run_width - 1) / run_width; }
 
 /// First points of all segments, fibre by fibre.
-std::vector<std::uint32_t> all_segments(const std::vector<std::uint32_t>& offsets) {
-  std::vector<std::uint32_t> first_points;
-  first_points.reserve(offsets.back() - (offsets.size() - 1));
+/// @param first_points at least as many as there are segments
+void number_segments(const std::vector<std::uint32_t>& offsets,
+                     std::vector<std::uint32_t>& first_points) {
+  auto next = first_points.begin();
   for (std::size_t fiber = 0; fiber + 1 < offsets.size(); ++fiber) {
     for (std::uint32_t point = offsets[fiber]; point + 1 < offsets[fiber + 1]; ++point) {
-      first_points.push_back(point);
+      *next++ = point;
     }
   }
-  return first_points;
 }
 
 /// Calls for parts of [0, count), on several threads if there is enough to do.
@@ -70,7 +71,9 @@ double half_area(const BoxBlock& block, std::uint32_t lane) {
 }  // namespace
 
 void RunTree::build(const FiberAssembly& fibers, const Eigen::Vector3d& origin) {
-  build(fibers, all_segments(fibers.offsets()), origin);
+  std::vector<std::uint32_t> first_points(fibers.segment_count());
+  number_segments(fibers.offsets(), first_points);
+  build(fibers, first_points, origin);
 }
 
 void RunTree::build(const FiberAssembly& fibers, const std::vector<std::uint32_t>& first_points,
@@ -90,16 +93,21 @@ void RunTree::build(const FiberAssembly& fibers, const std::vector<std::uint32_t
   levels_.resize(level_count);
   set_view();
   sort(fibers);
+  refit(fibers);
   sort_count_ = 0;
 }
 
 void RunTree::update(const FiberAssembly& fibers, const Eigen::Vector3d& origin) {
+  assert(segment_count_ == fibers.segment_count());
   origin_ = origin;
-  refit(fibers);
-  if (looseness() > most_decay * sorted_looseness_) {
+  if (looseness(fibers) > most_decay * sorted_looseness_) {
+    // Read along the fibres, points are near each other in memory: along a curve that has decayed,
+    // they are near in nothing.
+    number_segments(fibers.offsets(), first_points_);
     sort(fibers);
     ++sort_count_;
   }
+  refit(fibers);
 }
 
 void RunTree::sort(const FiberAssembly& fibers) {
@@ -116,8 +124,7 @@ void RunTree::sort(const FiberAssembly& fibers) {
     std::fill(first_points_.begin() + segment_count_, first_points_.end(),
               first_points_[segment_count_ - 1]);
   }
-  refit(fibers);
-  sorted_looseness_ = looseness();
+  sorted_looseness_ = looseness(fibers);
 }
 
 void RunTree::refit(const FiberAssembly& fibers) {
@@ -137,16 +144,24 @@ void RunTree::refit(const FiberAssembly& fibers) {
 }
 
 /// Area of the runs' boxes per area of their segments' boxes: what sorting keeps small. Judged by
-/// some runs, evenly spread.
-double RunTree::looseness() const {
-  constexpr std::size_t sample = 256;
+/// some groups, evenly spread, which it fits.
+double RunTree::looseness(const FiberAssembly& fibers) {
+  constexpr std::size_t sample = 32;
   double of_segments = 0.0;
   double of_runs = 0.0;
-  for (std::size_t run = 0; run < runs_.size(); run += runs_.size() / sample + 1) {
-    for (std::uint32_t lane = 0; lane < run_width; ++lane) {
-      of_segments += half_area(runs_[run], lane);
+  const std::size_t groups = levels_.empty() ? 0 : levels_.front().size();
+  for (std::size_t group = 0; group < groups; group += groups / sample + 1) {
+    const auto begin = static_cast<std::uint32_t>(group);
+    fit_groups(fibers, origin_, first_points_.data(), segment_count_, begin, begin + 1,
+               runs_.data(), levels_.front().data());
+    const std::size_t first_run = group * run_width;
+    const std::size_t run_count = std::min<std::size_t>(run_width, runs_.size() - first_run);
+    for (std::uint32_t run = 0; run < run_count; ++run) {
+      for (std::uint32_t lane = 0; lane < run_width; ++lane) {
+        of_segments += half_area(runs_[first_run + run], lane);
+      }
+      of_runs += half_area(levels_.front()[group], run);
     }
-    of_runs += half_area(levels_.front()[run / run_width], run % run_width);
   }
   return of_segments > 0.0 ? of_runs / of_segments : 0.0;
 }

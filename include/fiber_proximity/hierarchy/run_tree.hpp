@@ -35,7 +35,8 @@ class RunTree {
   void build(const FiberAssembly& fibers, const std::vector<std::uint32_t>& first_points,
              const Eigen::Vector3d& origin);
 
-  /// Refits to moved points of the same topology, and sorts anew if the order has decayed.
+  /// Refits a tree of all segments to moved points of the same topology; sorts anew first if the
+  /// order has decayed.
   void update(const FiberAssembly& fibers, const Eigen::Vector3d& origin);
 
   const RunTreeView& view() const { return view_; }
@@ -48,7 +49,7 @@ class RunTree {
  private:
   void sort(const FiberAssembly& fibers);
   void refit(const FiberAssembly& fibers);
-  double looseness() const;
+  double looseness(const FiberAssembly& fibers);
   void set_view();
 
   std::vector<std::uint32_t> first_points_;  // of segments, in the order of the curve; whole runs
