@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <numeric>
 
 #include "fiber_proximity/hierarchy/run_tree_kernels.hpp"
 #include "fiber_proximity/hierarchy/sort_keys.hpp"
@@ -18,18 +19,6 @@ constexpr std::uint32_t groups_per_job = 64;
 
 std::uint32_t divided_up(std::uint32_t count) { return (count + run_width - 1) / run_width; }
 
-/// First points of all segments, fibre by fibre.
-/// @param first_points at least as many as there are segments
-void number_segments(const std::vector<std::uint32_t>& offsets,
-                     std::vector<std::uint32_t>& first_points) {
-  auto next = first_points.begin();
-  for (std::size_t fiber = 0; fiber + 1 < offsets.size(); ++fiber) {
-    for (std::uint32_t point = offsets[fiber]; point + 1 < offsets[fiber + 1]; ++point) {
-      *next++ = point;
-    }
-  }
-}
-
 /// Calls for parts of [0, count), on several threads if there is enough to do.
 template <class Call>
 void for_ranges(std::uint32_t count, const Call& call) {
@@ -40,6 +29,20 @@ void for_ranges(std::uint32_t count, const Call& call) {
   tbb::parallel_for(
       tbb::blocked_range<std::uint32_t>(0, count, groups_per_job),
       [&](const tbb::blocked_range<std::uint32_t>& range) { call(range.begin(), range.end()); });
+}
+
+/// First points of all segments, fibre by fibre.
+/// @param first_points at least as many as there are segments
+void number_segments(const std::vector<std::uint32_t>& offsets,
+                     std::vector<std::uint32_t>& first_points) {
+  for_ranges(
+      static_cast<std::uint32_t>(offsets.size() - 1), [&](std::uint32_t begin, std::uint32_t end) {
+        for (std::uint32_t fiber = begin; fiber < end; ++fiber) {
+          // Every fibre before it has one point more than segments.
+          const auto first = first_points.begin() + (offsets[fiber] - fiber);
+          std::iota(first, first + (offsets[fiber + 1] - offsets[fiber] - 1), offsets[fiber]);
+        }
+      });
 }
 
 double half_area(const float (&lower)[3], const float (&upper)[3]) {
@@ -118,8 +121,10 @@ void RunTree::sort(const FiberAssembly& fibers) {
                        keys_.data() + begin);
   });
   sort_keys(keys_, scratch_);
-  std::transform(keys_.begin(), keys_.end(), first_points_.begin(),
-                 [](std::uint64_t key) { return static_cast<std::uint32_t>(key); });
+  for_ranges(segment_count_, [&](std::uint32_t begin, std::uint32_t end) {
+    std::transform(keys_.begin() + begin, keys_.begin() + end, first_points_.begin() + begin,
+                   [](std::uint64_t key) { return static_cast<std::uint32_t>(key); });
+  });
   if (segment_count_ > 0) {
     std::fill(first_points_.begin() + segment_count_, first_points_.end(),
               first_points_[segment_count_ - 1]);

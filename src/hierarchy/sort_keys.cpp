@@ -1,7 +1,9 @@
 #include "fiber_proximity/hierarchy/sort_keys.hpp"
 
 #include <hwy/contrib/sort/vqsort.h>
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <array>
@@ -27,9 +29,18 @@ void sort_range(std::uint64_t* keys, std::size_t count) {
 class Buckets {
  public:
   explicit Buckets(const std::vector<std::uint64_t>& keys) {
-    const auto [least, largest] = std::minmax_element(keys.begin(), keys.end());
-    least_ = *least;
-    const std::uint64_t range = *largest - *least;
+    const Extremes extremes = tbb::parallel_reduce(
+        tbb::blocked_range<std::size_t>(0, keys.size(), worth_splitting),
+        Extremes{keys.front(), keys.front()},
+        [&](const tbb::blocked_range<std::size_t>& range, Extremes found) {
+          for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            found = united(found, {keys[i], keys[i]});
+          }
+          return found;
+        },
+        united);
+    least_ = extremes.least;
+    const std::uint64_t range = extremes.largest - extremes.least;
     while ((range >> shift_) >= bucket_count) {
       ++shift_;
     }
@@ -38,6 +49,15 @@ class Buckets {
   std::size_t of(std::uint64_t key) const { return (key - least_) >> shift_; }
 
  private:
+  struct Extremes {
+    std::uint64_t least;
+    std::uint64_t largest;
+  };
+
+  static Extremes united(const Extremes& a, const Extremes& b) {
+    return {std::min(a.least, b.least), std::max(a.largest, b.largest)};
+  }
+
   std::uint64_t least_ = 0;
   unsigned shift_ = 0;
 };
