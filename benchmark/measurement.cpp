@@ -12,6 +12,7 @@
 #include "peers/peer.hpp"
 #include "progress.hpp"
 #include "statistics.hpp"
+#include "swapped_places.hpp"
 
 namespace fiber {
 namespace {
@@ -112,7 +113,8 @@ Measurement measure(const MeasurementOptions& options) {
 
   Agreement agreement;
   for (std::uint32_t frame = 1; frame <= options.repeats; ++frame) {
-    fibers.update_points(scene(frame).points());
+    const FiberAssembly moved = scene(frame);
+    fibers.update_points(options.swap && frame % 2 != 0 ? swapped_places(moved) : moved.points());
     const bool detect = options.detect_every_frame || frame == options.repeats;
     const std::size_t turns = runs.size() + 1;
     agreement.begin_frame(frame);

@@ -18,6 +18,7 @@ struct MeasurementOptions {
   std::uint32_t threads = 1;                     ///< most an engine may use, at least 1
   std::uint32_t repeats = 1;                     ///< frames to measure, at least 1
   bool detect_every_frame = true;                ///< false: only in the last frame
+  bool swap = false;     ///< in every other frame fibres stand where others stood
   bool closest = false;  ///< detection finds the closest pair even if there is no contact
 };
 

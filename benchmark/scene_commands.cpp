@@ -26,6 +26,7 @@ void print_json(const MeasurementOptions& options, const Measurement& measuremen
         {"shuffle", options.scene_options.shuffle},
         {"copies", options.copies},
         {"repeats", options.repeats},
+        {"swap", options.swap},
         {"engine", engine.engine},
         {"fibers", measurement.fibers},
         {"points", measurement.points},
@@ -108,6 +109,9 @@ void add(CLI::App& app, Command& command, const std::string& name, const std::st
   subcommand->add_option("--repeats", options.repeats, "frames to measure")
       ->check(whole_number(1))
       ->capture_default_str();
+  subcommand->add_flag("--swap", options.swap,
+                       "in every other frame fibres stand where others stood, so that an order in "
+                       "space has to be made anew in every frame");
   subcommand->add_flag(
       "--closest", options.closest,
       "find the closest pair even if there is no contact, as the node does; not peers");
