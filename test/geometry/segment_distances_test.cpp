@@ -36,7 +36,8 @@ std::vector<Vector3d> random_segments(Random& random, int count) {
 }
 
 bool same_bits(const SegmentDistance& x, const SegmentDistance& y) {
-  return x.s == y.s && x.t == y.t && x.delta == y.delta && x.distance == y.distance;
+  return x.s == y.s && x.t == y.t && x.delta == y.delta && x.distance == y.distance &&
+         x.error == y.error;
 }
 
 TEST(SegmentDistances, EqualOnePairAlone) {
