@@ -15,9 +15,9 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// The algorithm of segment_distance() in as many lanes of double as D has. Every operation is
-/// rounded on its own, in the same order for any D: no multiplication is fused with an addition,
-/// so all instruction sets and numbers of lanes give the same bits.
+/// The algorithm of segment_distance() in as many lanes of double or float as D has. Every
+/// operation is rounded on its own, in the same order for any D: no multiplication is fused with an
+/// addition, so all instruction sets and numbers of lanes give the same bits.
 template <class D>
 class LaneDistance {
  public:
@@ -56,7 +56,7 @@ class LaneDistance {
 
   explicit LaneDistance(const Differences& d) {
     const V zero = hn::Zero(D());
-    const V one = hn::Set(D(), 1.0);
+    const V one = hn::Set(D(), hn::TFromD<D>(1));
     const V uu = dot(d.u, d.u);
     const V vv = dot(d.v, d.v);
     s = zero;  // p0 on q
@@ -107,8 +107,9 @@ class LaneDistance {
   /// segment of no length.
   static V project(const Vector& offset, const Vector& direction, V squared_length) {
     const V along = dot(offset, direction);
-    const V parameter = hn::IfThenElse(hn::Lt(along, squared_length),
-                                       hn::Div(along, squared_length), hn::Set(D(), 1.0));
+    const V parameter =
+        hn::IfThenElse(hn::Lt(along, squared_length), hn::Div(along, squared_length),
+                       hn::Set(D(), hn::TFromD<D>(1)));
     return hn::IfThenElseZero(hn::Gt(along, hn::Zero(D())), parameter);
   }
 
