@@ -85,7 +85,7 @@ struct alignas(64) Results {
     hn::Store(hn::Mul(promoted(hn::Neg(nearest.delta.y)), scale), d, values[3]);
     hn::Store(hn::Mul(promoted(hn::Neg(nearest.delta.z)), scale), d, values[4]);
     hn::Store(hn::Mul(promoted(hn::Sqrt(nearest.squared)), scale), d, values[5]);
-    hn::Store(hn::Mul(extent, hn::Set(d, fast_error)), d, values[6]);
+    hn::Store(extent, d, values[6]);
   }
 
   SegmentDistance of(std::size_t lane) const {
@@ -93,8 +93,10 @@ struct alignas(64) Results {
             values[1][lane],
             {values[2][lane], values[3][lane], values[4][lane]},
             values[5][lane],
-            values[6][lane]};
+            fast_error * extent(lane)};
   }
+
+  double extent(std::size_t lane) const { return values[6][lane]; }
 };
 
 Results distances_of(const Ends& ends_a, const Ends& ends_b) {
@@ -127,11 +129,10 @@ void fast_segment_distances_lanes(const Eigen::Vector3d* const* a, const Eigen::
     const Results results = distances_of(ends_a, ends_b);
     for (std::size_t lane = 0; lane < size; ++lane) {
       const std::size_t pair = begin + lane;
-      distances[pair] = results.of(lane);
-      const double error = distances[pair].error;
-      if (error > 0.0 && error < least_extent) {
-        distances[pair] = segment_distance(a[pair][0], a[pair][1], b[pair][0], b[pair][1]);
-      }
+      const double extent = results.extent(lane);
+      const bool in_range = extent == 0.0 || extent > least_extent;
+      distances[pair] = in_range ? results.of(lane)
+                                 : segment_distance(a[pair][0], a[pair][1], b[pair][0], b[pair][1]);
     }
   }
 }
