@@ -15,9 +15,9 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// The algorithm of segment_distance() in as many lanes of double as D has. Every operation is
-/// rounded on its own, in the same order for any D: no multiplication is fused with an addition,
-/// so all instruction sets and numbers of lanes give the same bits.
+/// The algorithm of segment_distance() in as many lanes of double or float as D has. Every
+/// operation is rounded on its own, in the same order for any D: no multiplication is fused with an
+/// addition, so all instruction sets and numbers of lanes give the same bits.
 template <class D>
 class LaneDistance {
  public:
@@ -42,14 +42,10 @@ class LaneDistance {
     return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
   }
 
-  static V largest_magnitude(const Vector& a) {
-    return hn::Max(hn::Abs(a.x), hn::Max(hn::Abs(a.y), hn::Abs(a.z)));
-  }
-
-  static V largest_magnitude(const Differences& d) {
-    return hn::Max(hn::Max(largest_magnitude(d.u), largest_magnitude(d.v)),
-                   hn::Max(largest_magnitude(d.w),
-                           hn::Max(largest_magnitude(d.w_u), largest_magnitude(d.w_v))));
+  /// Largest difference of coordinates along one axis, of all four points.
+  static V extent(const Vector& p0, const Vector& p1, const Vector& q0, const Vector& q1) {
+    return hn::Max(extent(p0.x, p1.x, q0.x, q1.x),
+                   hn::Max(extent(p0.y, p1.y, q0.y, q1.y), extent(p0.z, p1.z, q0.z, q1.z)));
   }
 
   /// Best candidate so far.
@@ -60,7 +56,7 @@ class LaneDistance {
 
   explicit LaneDistance(const Differences& d) {
     const V zero = hn::Zero(D());
-    const V one = hn::Set(D(), 1.0);
+    const V one = hn::Set(D(), hn::TFromD<D>(1));
     const V uu = dot(d.u, d.u);
     const V vv = dot(d.v, d.v);
     s = zero;  // p0 on q
@@ -87,6 +83,10 @@ class LaneDistance {
   }
 
  private:
+  static V extent(V p0, V p1, V q0, V q1) {
+    return hn::Sub(hn::Max(hn::Max(p0, p1), hn::Max(q0, q1)),
+                   hn::Min(hn::Min(p0, p1), hn::Min(q0, q1)));
+  }
   static Vector add(const Vector& a, const Vector& b) {
     return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
   }
@@ -107,8 +107,9 @@ class LaneDistance {
   /// segment of no length.
   static V project(const Vector& offset, const Vector& direction, V squared_length) {
     const V along = dot(offset, direction);
-    const V parameter = hn::IfThenElse(hn::Lt(along, squared_length),
-                                       hn::Div(along, squared_length), hn::Set(D(), 1.0));
+    const V parameter =
+        hn::IfThenElse(hn::Lt(along, squared_length), hn::Div(along, squared_length),
+                       hn::Set(D(), hn::TFromD<D>(1)));
     return hn::IfThenElseZero(hn::Gt(along, hn::Zero(D())), parameter);
   }
 

@@ -33,10 +33,10 @@ SegmentDistance segment_distance(const Vector3d& p0, const Vector3d& p1, const V
                                  const Vector3d& q1) {
   Distance::Differences differences{in_lane(p1 - p0), in_lane(q1 - q0), in_lane(p0 - q0),
                                     in_lane(p1 - q0), in_lane(p0 - q1)};
-  const double largest = value(Distance::largest_magnitude(differences));
+  const double extent = value(Distance::extent(in_lane(p0), in_lane(p1), in_lane(q0), in_lane(q1)));
   int exponent = 0;
-  if (largest > 0.0 && !(largest > least_distance_scale && largest < largest_distance_scale)) {
-    exponent = std::ilogb(largest);
+  if (extent > 0.0 && !(extent > least_distance_scale && extent < largest_distance_scale)) {
+    exponent = std::ilogb(extent);
     for (Distance::Vector* difference :
          {&differences.u, &differences.v, &differences.w, &differences.w_u, &differences.w_v}) {
       scale(*difference, -exponent);
@@ -45,10 +45,12 @@ SegmentDistance segment_distance(const Vector3d& p0, const Vector3d& p1, const V
   const Distance nearest(differences);
 
   SegmentDistance result{value(nearest.s), value(nearest.t), -value(nearest.delta),
-                         std::sqrt(value(nearest.squared))};
+                         std::sqrt(value(nearest.squared)), robust_error * extent};
   if (exponent != 0) {
     result.distance = std::ldexp(result.distance, exponent);
     result.delta = result.delta.unaryExpr([=](double x) { return std::ldexp(x, exponent); });
+    // Distance and error may have been rounded once more, where they are subnormal.
+    result.error += std::numeric_limits<double>::denorm_min();
   }
   return result;
 }

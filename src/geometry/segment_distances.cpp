@@ -39,9 +39,9 @@ struct alignas(64) Ends {
 
 /// Results of the lanes, one kind after the other.
 struct alignas(64) Results {
-  double values[coordinates][hn::MaxLanes(Doubles())];
+  double values[7][hn::MaxLanes(Doubles())];
 
-  Results(const Distance& nearest) {
+  Results(const Distance& nearest, Distance::V extent) {
     const Doubles d;
     hn::Store(nearest.s, d, values[0]);
     hn::Store(nearest.t, d, values[1]);
@@ -49,23 +49,24 @@ struct alignas(64) Results {
     hn::Store(hn::Neg(nearest.delta.y), d, values[3]);
     hn::Store(hn::Neg(nearest.delta.z), d, values[4]);
     hn::Store(hn::Sqrt(nearest.squared), d, values[5]);
+    hn::Store(hn::Mul(extent, hn::Set(d, robust_error)), d, values[6]);
   }
 
   SegmentDistance of(std::size_t lane) const {
     return {values[0][lane],
             values[1][lane],
             {values[2][lane], values[3][lane], values[4][lane]},
-            values[5][lane]};
+            values[5][lane],
+            values[6][lane]};
   }
 };
 
 /// Whether the range of double needs no scaling in any lane.
-bool is_in_range(const Distance::Differences& differences) {
+bool is_in_range(Distance::V extent) {
   const Doubles d;
-  const auto largest = Distance::largest_magnitude(differences);
-  const auto inside = hn::And(hn::Gt(largest, hn::Set(d, least_distance_scale)),
-                              hn::Lt(largest, hn::Set(d, largest_distance_scale)));
-  return hn::AllTrue(d, hn::Or(inside, hn::Eq(largest, hn::Zero(d))));
+  const auto inside = hn::And(hn::Gt(extent, hn::Set(d, least_distance_scale)),
+                              hn::Lt(extent, hn::Set(d, largest_distance_scale)));
+  return hn::AllTrue(d, hn::Or(inside, hn::Eq(extent, hn::Zero(d))));
 }
 
 void segment_distances_lanes(const Eigen::Vector3d* const* a, const Eigen::Vector3d* const* b,
@@ -87,8 +88,9 @@ void segment_distances_lanes(const Eigen::Vector3d* const* a, const Eigen::Vecto
     const Distance::Differences differences{Distance::subtract(p1, p0), Distance::subtract(q1, q0),
                                             Distance::subtract(p0, q0), Distance::subtract(p1, q0),
                                             Distance::subtract(p0, q1)};
-    if (is_in_range(differences)) {
-      const Results results{Distance(differences)};
+    const Distance::V extent = Distance::extent(p0, p1, q0, q1);
+    if (is_in_range(extent)) {
+      const Results results(Distance(differences), extent);
       for (std::size_t lane = 0; lane < size; ++lane) {
         distances[begin + lane] = results.of(lane);
       }

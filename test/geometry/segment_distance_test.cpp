@@ -5,10 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
 #include <limits>
-#include <sstream>
 
 #include "support/exact_distance.hpp"
 #include "support/random.hpp"
@@ -185,34 +182,6 @@ TEST(SegmentDistance, FindsTheInteriorPoint) {
   EXPECT_DOUBLE_EQ(found.t, 0.5);
   EXPECT_DOUBLE_EQ(found.distance, 2.0);
   EXPECT_EQ(found.delta, Vector3d(0, 0, 2));
-}
-
-TEST(SegmentDistance, AgreesWithPublicEdgePairs) {
-  const char* shared = std::getenv("FIBER_PROXIMITY_SHARED");
-  const std::string folder =
-      shared != nullptr ? shared : std::string(FIBER_PROXIMITY_SOURCE_DIR) + "/../shared";
-  std::ifstream file(folder + "/data/edge_pairs_public.csv");
-  if (!file) {
-    GTEST_SKIP() << "no edge_pairs_public.csv in " << folder << "/data";
-  }
-  int pairs = 0;
-  for (std::string line; std::getline(file, line);) {
-    std::istringstream fields(line);
-    std::string field;
-    std::getline(fields, field, ',');
-    double values[13];
-    for (double& value : values) {
-      ASSERT_TRUE(std::getline(fields, field, ','));
-      value = std::strtod(field.c_str(), nullptr);
-    }
-    const Pair pair{Vector3d(values), Vector3d(values + 3), Vector3d(values + 6),
-                    Vector3d(values + 9)};
-    ASSERT_NEAR(distance(pair).distance, values[12],
-                4 * std::numeric_limits<double>::epsilon() * pair.largest_difference())
-        << line;
-    ++pairs;
-  }
-  EXPECT_EQ(pairs, 2097);
 }
 
 }  // namespace

@@ -36,10 +36,14 @@ std::vector<Vector3d> random_segments(Random& random, int count) {
 }
 
 bool same_bits(const SegmentDistance& x, const SegmentDistance& y) {
-  return x.s == y.s && x.t == y.t && x.delta == y.delta && x.distance == y.distance;
+  return x.s == y.s && x.t == y.t && x.delta == y.delta && x.distance == y.distance &&
+         x.error == y.error;
 }
 
-TEST(SegmentDistances, EqualOnePairAlone) {
+using Batch = void (*)(const Vector3d* const*, const Vector3d* const*, std::size_t,
+                       SegmentDistance*);
+
+void expect_same_bits(Kernel kernel, Batch batch) {
   SCOPED_TRACE(seed_message());
   Random random;
   for (int round = 0; round < 200; ++round) {
@@ -51,12 +55,13 @@ TEST(SegmentDistances, EqualOnePairAlone) {
     for (std::size_t i = 0; i < points.size(); i += 4) {
       a.push_back(&points[i]);
       b.push_back(&points[i + 2]);
-      expected.push_back(segment_distance(points[i], points[i + 1], points[i + 2], points[i + 3]));
+      expected.push_back(
+          segment_distance(kernel, points[i], points[i + 1], points[i + 2], points[i + 3]));
     }
     for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
       hwy::SetSupportedTargetsForTest(target);
       std::vector<SegmentDistance> found(a.size());
-      segment_distances(a.data(), b.data(), a.size(), found.data());
+      batch(a.data(), b.data(), a.size(), found.data());
       for (std::size_t i = 0; i < found.size(); ++i) {
         EXPECT_TRUE(same_bits(found[i], expected[i]))
             << hwy::TargetName(target) << ", pair " << i << " of " << found.size();
@@ -64,6 +69,12 @@ TEST(SegmentDistances, EqualOnePairAlone) {
     }
     hwy::SetSupportedTargetsForTest(0);
   }
+}
+
+TEST(SegmentDistances, EqualOnePairAlone) { expect_same_bits(Kernel::ROBUST, segment_distances); }
+
+TEST(FastSegmentDistances, EqualOnePairAlone) {
+  expect_same_bits(Kernel::FAST, fast_segment_distances);
 }
 
 }  // namespace

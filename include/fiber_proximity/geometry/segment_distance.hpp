@@ -1,16 +1,36 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstddef>
+#include <limits>
+
+#include "fiber_proximity/geometry/kernel.hpp"
 
 namespace fiber {
 
-/// Closest points of two segments.
+/// Closest points of two segments, and how far the distance may be from the true one. The error is
+/// that of the kernel: see docs/numerics.md for what is proven of each and what is measured.
 struct SegmentDistance {
   double s = 0.0;         ///< parameter on the first segment, 0 at p0 and 1 at p1
   double t = 0.0;         ///< parameter on the second segment, 0 at q0 and 1 at q1
   Eigen::Vector3d delta;  ///< from the point on the first to the point on the second [m]
   double distance = 0.0;  ///< |delta| [m]
+  double error = 0.0;     ///< |distance − true distance| is at most this [m]
+
+  /// [m] The true distance is at least this; never below 0.
+  double lower() const {
+    const double difference = distance - error;
+    if (error == 0.0) {
+      return distance;
+    }
+    return difference > 0.0 ? std::nextafter(difference, 0.0) : 0.0;
+  }
+  /// [m] The true distance is at most this.
+  double upper() const {
+    return error > 0.0 ? std::nextafter(distance + error, std::numeric_limits<double>::infinity())
+                       : distance;
+  }
 };
 
 /// Closest points of the segments p0–p1 and q0–q1 [m].
@@ -24,6 +44,8 @@ struct SegmentDistance {
 /// and coincident segments need no case of their own. Valid for coordinates up to
 /// FiberAssembly::max_coordinate; differences whose fourth powers would leave the range of double
 /// are scaled by a power of two first.
+///
+/// The error is robust_error times the largest difference of coordinates along one axis.
 SegmentDistance segment_distance(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1,
                                  const Eigen::Vector3d& q0, const Eigen::Vector3d& q1);
 
@@ -32,6 +54,29 @@ SegmentDistance segment_distance(const Eigen::Vector3d& p0, const Eigen::Vector3
 /// @param distances of the `count` pairs
 void segment_distances(const Eigen::Vector3d* const* a, const Eigen::Vector3d* const* b,
                        std::size_t count, SegmentDistance* distances);
+
+/// Nearest points in single precision, of many pairs at once: the same algorithm on differences
+/// that are taken in double and scaled by a power of two before they are rounded, so neither a
+/// position far from the origin nor a tiny or huge scene costs accuracy. The error is fast_error
+/// times the largest difference of coordinates, and proven: what upper() and lower() rule out is
+/// ruled out. The same bits on every instruction set and in any batch.
+void fast_segment_distances(const Eigen::Vector3d* const* a, const Eigen::Vector3d* const* b,
+                            std::size_t count, SegmentDistance* distances);
+
+/// Of one pair, by the kernel of choice.
+SegmentDistance segment_distance(Kernel kernel, const Eigen::Vector3d& p0,
+                                 const Eigen::Vector3d& p1, const Eigen::Vector3d& q0,
+                                 const Eigen::Vector3d& q1);
+
+/// Error of fast_segment_distances() in units of the largest difference of coordinates: 48
+/// roundings of float.
+constexpr double fast_error = 48 * 0x1p-23;
+
+/// Error of segment_distance() in units of the largest difference of coordinates: four roundings.
+/// The tests have never seen a third of it exceeded; proven is proven_robust_error_per_error times
+/// as much, which is what decisions rest on.
+constexpr double robust_error = 0x1p-50;
+constexpr double proven_robust_error_per_error = 12.0;
 
 /// |u×v|² is of the fourth power of the differences: between these magnitudes neither it nor its
 /// factors leave the range of double, beyond them everything is scaled to about 1 [m].

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace fiber {
+
+/// How the distance of two segments is computed; docs/numerics.md has the bounds of each.
+enum class Kernel {
+  FAST,    ///< in single precision, on differences taken in double
+  ROBUST,  ///< in double precision
+  EXACT    ///< in integers as long as it takes, rounded once at the end
+};
+
+/// The kernel of this name: fast, robust or exact.
+/// @throws std::invalid_argument listing the names
+Kernel kernel_from_name(const std::string& name);
+
+/// All names, in the order of Kernel.
+const std::vector<std::string>& kernel_names();
+
+}  // namespace fiber

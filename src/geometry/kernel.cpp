@@ -1,0 +1,47 @@
+#include "fiber_proximity/geometry/kernel.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <stdexcept>
+
+#include "fiber_proximity/geometry/exact_distance.hpp"
+#include "fiber_proximity/geometry/segment_distance.hpp"
+
+namespace fiber {
+
+const std::vector<std::string>& kernel_names() {
+  static const std::vector<std::string> names{"fast", "robust", "exact"};
+  return names;
+}
+
+Kernel kernel_from_name(const std::string& name) {
+  const std::vector<std::string>& names = kernel_names();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    throw std::invalid_argument("unknown kernel '" + name + "', known are: fast, robust, exact");
+  }
+  return static_cast<Kernel>(found - names.begin());
+}
+
+SegmentDistance segment_distance(Kernel kernel, const Eigen::Vector3d& p0,
+                                 const Eigen::Vector3d& p1, const Eigen::Vector3d& q0,
+                                 const Eigen::Vector3d& q1) {
+  switch (kernel) {
+    case Kernel::FAST: {
+      const Eigen::Vector3d ends[] = {p0, p1, q0, q1};
+      const Eigen::Vector3d* const a = &ends[0];
+      const Eigen::Vector3d* const b = &ends[2];
+      SegmentDistance distance;
+      fast_segment_distances(&a, &b, 1, &distance);
+      return distance;
+    }
+    case Kernel::ROBUST:
+      return segment_distance(p0, p1, q0, q1);
+    case Kernel::EXACT:
+      return exact_segment_distance(p0, p1, q0, q1);
+  }
+  assert(false);
+  return {};
+}
+
+}  // namespace fiber

@@ -1,0 +1,30 @@
+#include "fiber_proximity/geometry/kernel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+namespace fiber::test {
+namespace {
+
+TEST(Kernel, HasAName) {
+  EXPECT_EQ(kernel_from_name("fast"), Kernel::FAST);
+  EXPECT_EQ(kernel_from_name("robust"), Kernel::ROBUST);
+  EXPECT_EQ(kernel_from_name("exact"), Kernel::EXACT);
+  EXPECT_EQ(kernel_names().size(), 3U);
+}
+
+TEST(Kernel, AnotherNameIsRefusedWithAllThereAre) {
+  for (const char* name : {"", "Exact", "ROBUST", "exact ", "float"}) {
+    try {
+      kernel_from_name(name);
+      ADD_FAILURE() << name;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_EQ(error.what(),
+                "unknown kernel '" + std::string(name) + "', known are: fast, robust, exact");
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fiber::test
