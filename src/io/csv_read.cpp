@@ -8,31 +8,10 @@
 #include "fiber_proximity/io/csv.hpp"
 #include "fiber_proximity/io/number.hpp"
 #include "fiber_proximity/io/radii.hpp"
+#include "src/io/text.hpp"
 
 namespace fiber {
 namespace {
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view space = " \t\r";
-  const std::size_t begin = text.find_first_not_of(space);
-  if (begin == std::string_view::npos) {
-    return {};
-  }
-  return text.substr(begin, text.find_last_not_of(space) - begin + 1);
-}
-
-void split(std::string_view line, std::vector<std::string_view>& fields) {
-  fields.clear();
-  std::size_t comma = line.find(',');
-  while (comma != std::string_view::npos) {
-    fields.push_back(trimmed(line.substr(0, comma)));
-    line.remove_prefix(comma + 1);
-    comma = line.find(',');
-  }
-  fields.push_back(trimmed(line));
-}
-
-std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
 
 /// Takes a file line by line and puts its frames together.
 class CsvReader {
@@ -44,9 +23,8 @@ class CsvReader {
 
   void read_line(std::string_view line) {
     ++line_;
-    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // spreadsheets write one
-    if (line_ == 1 && line.substr(0, byte_order_mark.size()) == byte_order_mark) {
-      line.remove_prefix(byte_order_mark.size());
+    if (line_ == 1) {
+      line = without_byte_order_mark(line);
     }
     if (trimmed(line).empty()) {
       return;

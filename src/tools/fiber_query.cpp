@@ -13,6 +13,7 @@
 #include "fiber_proximity/io/number.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/query/nearest_segments.hpp"
+#include "segments_command.hpp"
 
 namespace fiber {
 namespace {
@@ -157,6 +158,7 @@ void setup(CLI::App& app, Command& command) {
   const auto request = std::make_shared<Request>();
   add_pair_queries(app, command, request);
   add_nearest(app, command, request);
+  add_segments(app, command);
 }
 
 }  // namespace

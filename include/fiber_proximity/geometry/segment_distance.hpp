@@ -16,14 +16,14 @@ struct SegmentDistance {
   double t = 0.0;         ///< parameter on the second segment, 0 at q0 and 1 at q1
   Eigen::Vector3d delta;  ///< from the point on the first to the point on the second [m]
   double distance = 0.0;  ///< |delta| [m]
-  double error = 0.0;     ///< |distance − true distance| is at most this [m]
+  double error = 0.0;     ///< |distance − true distance| is at most this [m]; see the kernels
 
   /// [m] The true distance is at least this; never below 0.
   double lower() const {
-    const double difference = distance - error;
     if (error == 0.0) {
       return distance;
     }
+    const double difference = distance - error;
     return difference > 0.0 ? std::nextafter(difference, 0.0) : 0.0;
   }
   /// [m] The true distance is at most this.
@@ -73,8 +73,8 @@ SegmentDistance segment_distance(Kernel kernel, const Eigen::Vector3d& p0,
 constexpr double fast_error = 48 * 0x1p-23;
 
 /// Error of segment_distance() in units of the largest difference of coordinates: four roundings.
-/// The tests have never seen a third of it exceeded; proven is proven_robust_error_per_error times
-/// as much, which is what decisions rest on.
+/// Measured, not proven: see docs/numerics.md. Proven is proven_robust_error_per_error times as
+/// much, which is what decisions rest on.
 constexpr double robust_error = 0x1p-50;
 constexpr double proven_robust_error_per_error = 12.0;
 

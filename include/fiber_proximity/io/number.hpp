@@ -32,4 +32,25 @@ std::optional<Number> parse_number(std::string_view text) {
   return value;
 }
 
+/// The same of a decimal number or a C hexadecimal one, such as -0x1.8p-3.
+inline std::optional<double> parse_decimal_or_hex(std::string_view text) {
+  const bool signs = !text.empty() && (text[0] == '-' || text[0] == '+');
+  std::string_view digits = text.substr(signs ? 1 : 0);
+  if (digits.substr(0, 2) != "0x" && digits.substr(0, 2) != "0X") {
+    return parse_number<double>(text);
+  }
+  digits.remove_prefix(2);
+  if (digits.find_first_not_of("0123456789abcdefABCDEF.") == 0) {
+    return std::nullopt;  // neither another sign nor a name like nan
+  }
+  double value = 0.0;
+  const char* end = digits.data() + digits.size();
+  const std::from_chars_result result =
+      std::from_chars(digits.data(), end, value, std::chars_format::hex);
+  if (result.ec != std::errc() || result.ptr != end) {
+    return std::nullopt;
+  }
+  return text[0] == '-' ? -value : value;
+}
+
 }  // namespace fiber

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fiber {
+
+constexpr std::string_view blanks = " \t\r";
+
+/// Without the blanks around it.
+inline std::string_view trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(blanks);
+  if (begin == std::string_view::npos) {
+    return {};
+  }
+  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
+}
+
+/// The fields of a line between commas, trimmed.
+inline void split(std::string_view line, std::vector<std::string_view>& fields) {
+  fields.clear();
+  std::size_t comma = line.find(',');
+  while (comma != std::string_view::npos) {
+    fields.push_back(trimmed(line.substr(0, comma)));
+    line.remove_prefix(comma + 1);
+    comma = line.find(',');
+  }
+  fields.push_back(trimmed(line));
+}
+
+/// The first line of a file without the byte order mark that spreadsheets write.
+inline std::string_view without_byte_order_mark(std::string_view line) {
+  constexpr std::string_view mark = "\xEF\xBB\xBF";
+  return line.substr(0, mark.size()) == mark ? line.substr(mark.size()) : line;
+}
+
+inline std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
+
+}  // namespace fiber
