@@ -15,17 +15,18 @@ namespace HWY_NAMESPACE {
 namespace {
 
 using Doubles = hn::CappedTag<double, 8>;
-using Floats = hn::Rebind<float, Doubles>;
+using Floats = hn::CappedTag<float, 16>;
+using HalfFloats = hn::Rebind<float, Doubles>;
 using Wide = LaneDistance<Doubles>;
 using Narrow = LaneDistance<Floats>;
 
 constexpr std::size_t coordinates = 6;  // of the two ends of a segment
-constexpr std::size_t most_lanes = hn::MaxLanes(Doubles());
+constexpr std::size_t most_lanes = hn::MaxLanes(Floats());
 
 /// Below this extent [m] a pair is left to the robust kernel.
 constexpr double least_extent = 0x1p-900;
-/// Differences are scaled to have an extent from 2²⁰ on: their fourth powers, and the squares of
-/// what is 2⁻⁴⁵ of that, still are normal floats.
+/// Differences are scaled to have an extent from 2²⁰ on: their fourth powers do not overflow, and
+/// those of which the squares underflow are nothing beside it (docs/numerics.md).
 constexpr std::uint64_t scaled_exponent = 1023 + 20;
 
 /// Ends of the segments of the lanes, coordinate by coordinate.
@@ -39,10 +40,11 @@ struct alignas(64) Ends {
     }
   }
 
-  Wide::Vector point(std::size_t which) const {
+  /// Of as many lanes as fit in doubles, from this one.
+  Wide::Vector point(std::size_t which, std::size_t lane) const {
     const Doubles d;
-    return {hn::Load(d, values[3 * which]), hn::Load(d, values[3 * which + 1]),
-            hn::Load(d, values[3 * which + 2])};
+    return {hn::Load(d, values[3 * which] + lane), hn::Load(d, values[3 * which + 1] + lane),
+            hn::Load(d, values[3 * which + 2] + lane)};
   }
 };
 
@@ -64,59 +66,72 @@ struct Scale {
   }
 };
 
-Narrow::V demoted(Wide::V value, Wide::V scale) {
-  return hn::DemoteTo(Floats(), hn::Mul(value, scale));
-}
+/// Differences of the lanes in float, scaled; made from doubles a part of the lanes at a time.
+struct alignas(64) ScaledDifferences {
+  float values[15][most_lanes];
+  double extents[most_lanes];  // [m]
+  double scales[most_lanes];   // back to metres
 
-Narrow::Vector demoted(const Wide::Vector& v, Wide::V scale) {
-  return {demoted(v.x, scale), demoted(v.y, scale), demoted(v.z, scale)};
-}
+  ScaledDifferences(const Ends& a, const Ends& b) {
+    for (std::size_t lane = 0; lane < hn::Lanes(Floats()); lane += hn::Lanes(Doubles())) {
+      const Wide::Vector p0 = a.point(0, lane);
+      const Wide::Vector p1 = a.point(1, lane);
+      const Wide::Vector q0 = b.point(0, lane);
+      const Wide::Vector q1 = b.point(1, lane);
+      const Wide::V extent = Wide::extent(p0, p1, q0, q1);
+      const Scale scale(extent);
+      hn::Store(extent, Doubles(), extents + lane);
+      hn::Store(scale.back, Doubles(), scales + lane);
+      set(0, lane, Wide::subtract(p1, p0), scale.to);
+      set(1, lane, Wide::subtract(q1, q0), scale.to);
+      set(2, lane, Wide::subtract(p0, q0), scale.to);
+      set(3, lane, Wide::subtract(p1, q0), scale.to);
+      set(4, lane, Wide::subtract(p0, q1), scale.to);
+    }
+  }
+
+  Narrow::Differences all() const { return {get(0), get(1), get(2), get(3), get(4)}; }
+
+ private:
+  void set(std::size_t which, std::size_t lane, const Wide::Vector& v, Wide::V scale) {
+    const HalfFloats h;
+    hn::Store(hn::DemoteTo(h, hn::Mul(v.x, scale)), h, values[3 * which] + lane);
+    hn::Store(hn::DemoteTo(h, hn::Mul(v.y, scale)), h, values[3 * which + 1] + lane);
+    hn::Store(hn::DemoteTo(h, hn::Mul(v.z, scale)), h, values[3 * which + 2] + lane);
+  }
+  Narrow::Vector get(std::size_t which) const {
+    const Floats f;
+    return {hn::Load(f, values[3 * which]), hn::Load(f, values[3 * which + 1]),
+            hn::Load(f, values[3 * which + 2])};
+  }
+};
 
 /// Results of the lanes, one kind after the other.
 struct alignas(64) Results {
-  double values[7][most_lanes];
+  float values[6][most_lanes];
 
-  Results(const Narrow& nearest, Wide::V extent, Wide::V scale) {
-    const Doubles d;
-    const auto promoted = [&](Narrow::V value) { return hn::PromoteTo(d, value); };
-    hn::Store(promoted(nearest.s), d, values[0]);
-    hn::Store(promoted(nearest.t), d, values[1]);
-    hn::Store(hn::Mul(promoted(hn::Neg(nearest.delta.x)), scale), d, values[2]);
-    hn::Store(hn::Mul(promoted(hn::Neg(nearest.delta.y)), scale), d, values[3]);
-    hn::Store(hn::Mul(promoted(hn::Neg(nearest.delta.z)), scale), d, values[4]);
-    hn::Store(hn::Mul(promoted(hn::Sqrt(nearest.squared)), scale), d, values[5]);
-    hn::Store(extent, d, values[6]);
+  Results(const Narrow& nearest) {
+    const Floats f;
+    hn::Store(nearest.s, f, values[0]);
+    hn::Store(nearest.t, f, values[1]);
+    hn::Store(hn::Neg(nearest.delta.x), f, values[2]);
+    hn::Store(hn::Neg(nearest.delta.y), f, values[3]);
+    hn::Store(hn::Neg(nearest.delta.z), f, values[4]);
+    hn::Store(hn::Sqrt(nearest.squared), f, values[5]);
   }
 
-  SegmentDistance of(std::size_t lane) const {
+  SegmentDistance of(std::size_t lane, double extent, double scale) const {
     return {values[0][lane],
             values[1][lane],
-            {values[2][lane], values[3][lane], values[4][lane]},
-            values[5][lane],
-            fast_error * extent(lane)};
+            {scale * values[2][lane], scale * values[3][lane], scale * values[4][lane]},
+            scale * values[5][lane],
+            fast_error * extent};
   }
-
-  double extent(std::size_t lane) const { return values[6][lane]; }
 };
-
-Results distances_of(const Ends& ends_a, const Ends& ends_b) {
-  const Wide::Vector p0 = ends_a.point(0);
-  const Wide::Vector p1 = ends_a.point(1);
-  const Wide::Vector q0 = ends_b.point(0);
-  const Wide::Vector q1 = ends_b.point(1);
-  const Wide::V extent = Wide::extent(p0, p1, q0, q1);
-  const Scale scale(extent);
-  const auto difference = [&](const Wide::Vector& a, const Wide::Vector& b) {
-    return demoted(Wide::subtract(a, b), scale.to);
-  };
-  const Narrow nearest({difference(p1, p0), difference(q1, q0), difference(p0, q0),
-                        difference(p1, q0), difference(p0, q1)});
-  return {nearest, extent, scale.back};
-}
 
 void fast_segment_distances_lanes(const Eigen::Vector3d* const* a, const Eigen::Vector3d* const* b,
                                   std::size_t count, SegmentDistance* distances) {
-  const std::size_t lanes = hn::Lanes(Doubles());
+  const std::size_t lanes = hn::Lanes(Floats());
   for (std::size_t begin = 0; begin < count; begin += lanes) {
     const std::size_t size = std::min(lanes, count - begin);
     Ends ends_a;
@@ -126,12 +141,13 @@ void fast_segment_distances_lanes(const Eigen::Vector3d* const* a, const Eigen::
       ends_a.set(lane, a[pair]);
       ends_b.set(lane, b[pair]);
     }
-    const Results results = distances_of(ends_a, ends_b);
+    const ScaledDifferences differences(ends_a, ends_b);
+    const Results results{Narrow(differences.all())};
     for (std::size_t lane = 0; lane < size; ++lane) {
       const std::size_t pair = begin + lane;
-      const double extent = results.extent(lane);
+      const double extent = differences.extents[lane];
       const bool in_range = extent == 0.0 || extent > least_extent;
-      distances[pair] = in_range ? results.of(lane)
+      distances[pair] = in_range ? results.of(lane, extent, differences.scales[lane])
                                  : segment_distance(a[pair][0], a[pair][1], b[pair][0], b[pair][1]);
     }
   }

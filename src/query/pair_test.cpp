@@ -92,9 +92,9 @@ double PairTest::gap_lower_bound(PointPair pair) const {
   // Axis by axis: squares could leave the range of double.
   const double apart = std::max((lower_b - upper_a).maxCoeff(), (lower_a - upper_b).maxCoeff());
   const double extent = std::max((upper_b - lower_a).maxCoeff(), (upper_a - lower_b).maxCoeff());
-  // The distance errs by up to 4 roundings (2⁻⁵²) of the extent, the sums here and there by less
-  // than one each. Where this underflows those are exact, and the distance a rounded multiple of
-  // the smallest double, as `apart` is.
+  // The computed distance is less than the true one by at most 7.4 roundings (2⁻⁵²) of the extent
+  // (docs/numerics.md), the sums here and there err by less than one each. Where this underflows
+  // those are exact, and the distance a rounded multiple of the smallest double, as `apart` is.
   const double error = 0x1p-48 * (extent + radii);
   return apart - radii - error;
 }
