@@ -309,7 +309,8 @@ TEST_F(FiberQuery, HelpIsNoError) {
 TEST_F(FiberQuery, RefusesBadCommandLines) {
   const std::string file = crossing();
   EXPECT_TRUE(
-      refused(query(""), "a subcommand is needed: contacts, closest, first, fiber_pairs, nearest, segments"));
+      refused(query(""),
+              "a subcommand is needed: contacts, closest, first, fiber_pairs, nearest, segments"));
   EXPECT_TRUE(refused(query("touches " + file), "touches"));
   EXPECT_TRUE(refused(query("contacts"), "FILE"));
   EXPECT_TRUE(refused(query("contacts " + file + " --frobnicate"), "--frobnicate"));
