@@ -13,6 +13,15 @@ void add_stages_command(CLI::App& app, Command& command);
 /// `coherence`: what a skin is worth on a scene that moves a little in every frame.
 void add_coherence_command(CLI::App& app, Command& command);
 
+/// `accuracy`: kernels, tolerances and deadlines on a moving scene.
+void add_accuracy_command(CLI::App& app, Command& command);
+
+/// `kernels`: distances of two segments, their errors and times on hard pairs.
+void add_kernels_command(CLI::App& app, Command& command);
+
+/// `environment`: a cell with a robot beside FCL, octrees of clouds, batches of candidates.
+void add_environment_command(CLI::App& app, Command& command);
+
 /// `latency`: a running ROS graph; only in builds with ROS.
 void add_latency_command(CLI::App& app, Command& command);
 

@@ -1,12 +1,18 @@
-# Other libraries as engines of fiber_bench: those installed here, the others are left out. Only
-# fiber_bench and a test link them. With CGAL in it, fiber_bench is under CGAL's GPL.
+# Other libraries as engines and as kernels of fiber_bench: those installed here, the others are left
+# out. Only fiber_bench and tests link them. With CGAL in it, fiber_bench is under CGAL's GPL.
 
 option(FIBER_PROXIMITY_PEERS "Build fiber_bench with the peers installed here" ON)
 
 add_library(fiber_bench_peers STATIC
   benchmark/peers/peer.cpp
   benchmark/peers/peer_engine.cpp
-  benchmark/peers/segment_boxes.cpp
+  benchmark/pairs/child_process.cpp
+  benchmark/pairs/guarded_answers.cpp
+  benchmark/pairs/own_pairs.cpp
+  benchmark/pairs/pair_kernel.cpp
+  benchmark/pairs/pair_score.cpp
+  benchmark/pairs/pair_times.cpp
+  benchmark/pairs/textbook_pairs.cpp
 )
 target_include_directories(fiber_bench_peers PUBLIC benchmark)
 target_link_libraries(fiber_bench_peers PUBLIC fiber_proximity PRIVATE fiber_proximity_options)
@@ -31,10 +37,40 @@ if(FIBER_PROXIMITY_PEERS)
       INCLUDES ${BULLET_INCLUDE_FOLDER})
   endif()
 
+  # In double Bullet has the same symbols: a module with its own libraries, loaded when asked for, in
+  # a way that sanitizers refuse.
+  find_library(BULLET_COLLISION_DOUBLE_LIBRARY BulletCollision-float64)
+  find_library(BULLET_MATH_DOUBLE_LIBRARY LinearMath-float64)
+  if(BULLET_INCLUDE_FOLDER AND BULLET_COLLISION_DOUBLE_LIBRARY AND BULLET_MATH_DOUBLE_LIBRARY
+      AND NOT FIBER_PROXIMITY_SANITIZE)
+    add_library(fiber_bench_bullet_pairs MODULE benchmark/peers/bullet_pairs.cpp)
+    target_compile_definitions(fiber_bench_bullet_pairs PRIVATE BT_USE_DOUBLE_PRECISION)
+    target_include_directories(fiber_bench_bullet_pairs PRIVATE benchmark)
+    target_include_directories(fiber_bench_bullet_pairs SYSTEM PRIVATE ${BULLET_INCLUDE_FOLDER})
+    set_target_properties(fiber_bench_bullet_pairs PROPERTIES CXX_VISIBILITY_PRESET hidden)
+    target_link_libraries(fiber_bench_bullet_pairs PRIVATE
+      Eigen3::Eigen ${BULLET_COLLISION_DOUBLE_LIBRARY} ${BULLET_MATH_DOUBLE_LIBRARY}
+      fiber_proximity_options)
+    fiber_bench_peer(BULLET_PAIRS benchmark/peers/bullet_pairs_module.cpp
+      LIBRARIES ${CMAKE_DL_LIBS})
+    target_compile_definitions(fiber_bench_peers PRIVATE
+      FIBER_BENCH_BULLET_PAIRS="$<TARGET_FILE:fiber_bench_bullet_pairs>")
+    add_dependencies(fiber_bench_peers fiber_bench_bullet_pairs)
+  endif()
+
   # Headers only; CGAL's own configuration would ask for libraries these do not need.
   find_path(CGAL_INCLUDE_FOLDER CGAL/box_intersection_d.h)
   if(CGAL_INCLUDE_FOLDER)
     fiber_bench_peer(CGAL benchmark/peers/cgal.cpp INCLUDES ${CGAL_INCLUDE_FOLDER})
+    find_library(CGAL_GMP_LIBRARY gmp)
+    find_library(CGAL_MPFR_LIBRARY mpfr)
+    if(CGAL_GMP_LIBRARY AND CGAL_MPFR_LIBRARY)
+      fiber_bench_peer(CGAL_PAIRS benchmark/peers/cgal_pairs.cpp
+        LIBRARIES ${CGAL_MPFR_LIBRARY} ${CGAL_GMP_LIBRARY} INCLUDES ${CGAL_INCLUDE_FOLDER})
+      # Its intervals set the direction of rounding.
+      set_source_files_properties(benchmark/peers/cgal_pairs.cpp PROPERTIES
+        COMPILE_OPTIONS -frounding-math)
+    endif()
   endif()
 
   find_package(embree QUIET CONFIG)
@@ -42,8 +78,6 @@ if(FIBER_PROXIMITY_PEERS)
     fiber_bench_peer(EMBREE benchmark/peers/embree.cpp LIBRARIES embree)
   endif()
 
-  find_package(fcl 0.6 QUIET CONFIG)  # older ones have another interface
-  if(fcl_FOUND)
-    fiber_bench_peer(FCL benchmark/peers/fcl.cpp benchmark/peers/fcl_naive.cpp LIBRARIES fcl)
-  endif()
+  fiber_bench_peer(FCL benchmark/peers/fcl.cpp benchmark/peers/fcl_pairs.cpp
+    LIBRARIES fiber_proximity_fcl fcl)
 endif()

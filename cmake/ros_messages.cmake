@@ -6,34 +6,63 @@ set(ros_dependencies
   diagnostic_msgs
   diagnostic_updater
   dynamic_reconfigure
+  geometric_shapes
   geometry_msgs
   nav_msgs
   nodelet
   pluginlib
+  rosgraph_msgs
   roscpp
+  roslib
   sensor_msgs
+  shape_msgs
   std_msgs
+  std_srvs
   tf2
   tf2_ros
+  urdf
   visualization_msgs
 )
 find_package(catkin REQUIRED COMPONENTS message_generation ${ros_dependencies})
+find_package(yaml-cpp REQUIRED)
 
 add_message_files(FILES
+  AllowedPair.msg
+  Capsule.msg
+  Comparison.msg
   Contact.msg
   ContactArray.msg
+  Crossing.msg
+  CrossingArray.msg
+  Disagreement.msg
+  FclComparison.msg
   FiberArray.msg
   InputStatistics.msg
+  Obstacle.msg
+  ObstacleArray.msg
   QueryShape.msg
   Statistics.msg
 )
-add_service_files(FILES QueryProximity.srv)
-generate_messages(DEPENDENCIES geometry_msgs std_msgs)
+add_service_files(FILES
+  AllowPairs.srv
+  ApplyObstacles.srv
+  AttachFiber.srv
+  CheckFibers.srv
+  CompareWithFcl.srv
+  DetachFiber.srv
+  QueryProximity.srv
+  StepSimulation.srv
+)
+generate_messages(DEPENDENCIES geometry_msgs shape_msgs std_msgs)
+# The environment that tests run in is a snapshot, taken before the directory of the messages' Python
+# modules exists, which is why it would be left out. catkin_python_setup takes another one, too.
+file(MAKE_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${PYTHON_INSTALL_DIR})
+safe_execute_process(COMMAND ${GENERATE_ENVIRONMENT_CACHE_COMMAND})
 generate_dynamic_reconfigure_options(cfg/Proximity.cfg)
 
 catkin_package(
   INCLUDE_DIRS include
-  LIBRARIES fiber_proximity
+  LIBRARIES fiber_proximity fiber_proximity_environment
   CATKIN_DEPENDS message_runtime ${ros_dependencies}
   DEPENDS EIGEN3
 )

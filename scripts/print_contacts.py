@@ -1,14 +1,15 @@
 #!/usr/bin/python3
 """Prints the contacts that a proximity node publishes, a line per second.
 
-Usage: print_contacts.py [TOPIC]     TOPIC: default /proximity/contacts
+Usage: print_contacts.py [TOPIC]     TOPIC: default /proximity/contacts; or
+                                            /proximity/environment_contacts
 Ends with SIGINT or SIGTERM; the exit code is 0 if there was a contact, 1 if there was none.
 """
 import sys
 import time
 
 import rospy
-from fiber_proximity.msg import ContactArray
+from fiber_proximity.msg import Contact, ContactArray
 
 
 class ContactPrinter:
@@ -35,8 +36,10 @@ class ContactPrinter:
         line = f"{elapsed:6.1f} s  {self.messages:5d} messages  {len(message.contacts):3d} contacts"
         if message.has_minimum:
             nearest = message.minimum
+            names = (message.object_names if nearest.type_b == Contact.OBJECT else
+                     message.fiber_names)
             line += (f"  closest: {message.fiber_names[nearest.fiber_a]}[{nearest.segment_a}] - "
-                     f"{message.fiber_names[nearest.fiber_b]}[{nearest.segment_b}]  "
+                     f"{names[nearest.fiber_b]}[{nearest.segment_b}]  "
                      f"{1e3 * message.minimum_distance:+.1f} mm")
         return line
 

@@ -2,10 +2,10 @@
 
 import argparse
 
-from . import coherence, paper, peers, scaling
+from . import accuracy, coherence, paper, peers, scaling
 
 EXPERIMENTS = {"paper": paper.run, "peers": peers.run, "scaling": scaling.run,
-               "coherence": coherence.run}
+               "coherence": coherence.run, "accuracy": accuracy.run}
 
 
 def main():

@@ -1,9 +1,9 @@
 #include <BulletCollision/BroadphaseCollision/btDbvt.h>
 
+#include "fiber_proximity/hierarchy/segment_boxes.hpp"
 #include "fiber_proximity/query/pair_collector.hpp"
 #include "peers/makers.hpp"
 #include "peers/peer_engine.hpp"
-#include "peers/segment_boxes.hpp"
 
 namespace fiber {
 namespace {

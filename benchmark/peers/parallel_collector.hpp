@@ -23,7 +23,7 @@ class ParallelCollector {
     /// Considers the segments that start at these points; each pair may be offered once.
     void offer(std::uint32_t point_a, std::uint32_t point_b) {
       const PointPair pair = test_->ordered({point_a, point_b});
-      if (test_->is_neighbour_pair(pair)) {
+      if (test_->is_left_out(pair)) {
         return;
       }
       waiting_[size_++] = pair;
@@ -35,9 +35,8 @@ class ParallelCollector {
    private:
     friend ParallelCollector;
 
-    void begin(const PairTest& test, double margin) {
+    void begin(const PairTest& test) {
       test_ = &test;
-      margin_ = margin;
       keys_.clear();
       tests_ = 0;
     }
@@ -46,7 +45,7 @@ class ParallelCollector {
       std::array<PairDistance, most_waiting> distances;
       test_->distances(waiting_.data(), size_, distances.data());
       for (std::size_t i = 0; i < size_; ++i) {
-        if (distances[i].gap <= margin_) {
+        if (test_->is_within_margin(waiting_[i], distances[i])) {
           keys_.push_back(key_of(waiting_[i]));
         }
       }
@@ -57,7 +56,6 @@ class ParallelCollector {
     static constexpr std::size_t most_waiting = 256;
 
     const PairTest* test_ = nullptr;
-    double margin_ = 0.0;
     std::array<PointPair, most_waiting> waiting_{};
     std::size_t size_ = 0;
     std::vector<std::uint64_t> keys_;
@@ -71,9 +69,8 @@ class ParallelCollector {
                const Collide& collide) {
     const PairTest test(fibers, options);
     test_ = &test;
-    margin_ = options.margin;
     for (Part& part : parts_) {
-      part.begin(test, margin_);
+      part.begin(test);
     }
     collide(*this);
     keys_.clear();
@@ -83,7 +80,7 @@ class ParallelCollector {
       result.counts.primitive_tests += part.tests_;
     }
     sort_keys(keys_, scratch_);
-    judge_.judge(keys_, test, margin_, result.contacts);
+    judge_.judge(keys_, test, Deadline(0.0), result);
   }
 
   /// The calling thread's own.
@@ -91,14 +88,13 @@ class ParallelCollector {
     bool exists = false;
     Part& part = parts_.local(exists);
     if (!exists) {
-      part.begin(*test_, margin_);
+      part.begin(*test_);
     }
     return part;
   }
 
  private:
   const PairTest* test_ = nullptr;
-  double margin_ = 0.0;
   tbb::enumerable_thread_specific<Part> parts_;
   std::vector<std::uint64_t> keys_;
   std::vector<std::uint64_t> scratch_;

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <thread>
 
-#include "peers/segment_boxes.hpp"
+#include "fiber_proximity/hierarchy/segment_boxes.hpp"
 
 namespace fiber {
 

@@ -39,31 +39,14 @@ struct IntegerPair {
   }
 };
 
-int common_exponent(std::initializer_list<double> values) {
-  int exponent = std::numeric_limits<int>::max();
-  for (const double value : values) {
-    exponent = std::min(exponent, last_bit(value));
-  }
-  return exponent;
-}
-
-int common_exponent(const Vector3d& a, const Vector3d& b) {
-  return common_exponent({a.x(), a.y(), a.z(), b.x(), b.y(), b.z()});
-}
-
-IntegerVector integers(const Vector3d& v, int exponent) {
-  return {scaled_integer(v.x(), exponent), scaled_integer(v.y(), exponent),
-          scaled_integer(v.z(), exponent)};
-}
-
 /// @param finest at most this exponent, for other numbers in the same units
 IntegerPair integer_pair(const Vector3d& p0, const Vector3d& p1, const Vector3d& q0,
                          const Vector3d& q1, int finest) {
-  int exponent = std::min({common_exponent(p0, p1), common_exponent(q0, q1), finest});
+  int exponent = std::min(last_bit({p0, p1, q0, q1}), finest);
   exponent = exponent == std::numeric_limits<int>::max() ? 0 : exponent;  // all are 0
-  const IntegerVector a = integers(p0, exponent);
-  const IntegerVector b = integers(q0, exponent);
-  return {exponent, integers(p1, exponent) - a, integers(q1, exponent) - b, a - b};
+  const IntegerVector a = scaled_integers(p0, exponent);
+  const IntegerVector b = scaled_integers(q0, exponent);
+  return {exponent, scaled_integers(p1, exponent) - a, scaled_integers(q1, exponent) - b, a - b};
 }
 
 /// Parameter, as a fraction of the squared length, of the projection of a point at `offset` from a
@@ -134,8 +117,8 @@ bool exact_gap_at_most(const Vector3d& p0, const Vector3d& p1, const Vector3d& q
     return true;
   }
   const auto& [radius_a, radius_b, margin] = limit;
-  const IntegerPair pair =
-      integer_pair(p0, p1, q0, q1, common_exponent({radius_a, radius_b, margin}));
+  const IntegerPair pair = integer_pair(
+      p0, p1, q0, q1, std::min({last_bit(radius_a), last_bit(radius_b), last_bit(margin)}));
   Integer sum = 0;
   for (const double part : {radius_a, radius_b, margin}) {
     sum += scaled_integer(part, pair.exponent);

@@ -60,6 +60,21 @@ Integer scaled_integer(double value, int exponent) {
   return Integer(static_cast<std::int64_t>(std::ldexp(value, -last))) << (last - exponent);
 }
 
+int last_bit(std::initializer_list<Eigen::Vector3d> vectors) {
+  int exponent = std::numeric_limits<int>::max();
+  for (const Eigen::Vector3d& vector : vectors) {
+    for (const double coordinate : vector) {
+      exponent = std::min(exponent, last_bit(coordinate));
+    }
+  }
+  return exponent;
+}
+
+IntegerVector scaled_integers(const Eigen::Vector3d& vector, int exponent) {
+  return {scaled_integer(vector.x(), exponent), scaled_integer(vector.y(), exponent),
+          scaled_integer(vector.z(), exponent)};
+}
+
 Rounded rounded_quotient(const Integer& numerator, const Integer& denominator, int exponent) {
   assert(denominator > 0);
   const Integer magnitude = abs(numerator);

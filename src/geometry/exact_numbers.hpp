@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <boost/multiprecision/cpp_int.hpp>
+#include <initializer_list>
 
 namespace fiber {
 
@@ -32,6 +33,12 @@ int last_bit(double value);
 
 /// value · 2^−exponent, exactly; the exponent is at most last_bit(value).
 Integer scaled_integer(double value, int exponent);
+
+/// The least exponent of the last bits of all coordinates; the largest int if all are 0.
+int last_bit(std::initializer_list<Eigen::Vector3d> vectors);
+
+/// The same as scaled_integer() by coordinate.
+IntegerVector scaled_integers(const Eigen::Vector3d& vector, int exponent);
 
 /// A double and whether it is exact.
 struct Rounded {

@@ -4,10 +4,7 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
-#include <algorithm>
-
-#include "fiber_proximity/geometry/segment_distance.hpp"
-#include "src/geometry/segment_distance-inl.hpp"
+#include "src/geometry/segment_pairs_in_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace fiber {
@@ -19,8 +16,8 @@ using Floats = hn::CappedTag<float, 16>;
 using HalfFloats = hn::Rebind<float, Doubles>;
 using Wide = LaneDistance<Doubles>;
 using Narrow = LaneDistance<Floats>;
+using Ends = SegmentEnds<Floats>;
 
-constexpr std::size_t coordinates = 6;  // of the two ends of a segment
 constexpr std::size_t most_lanes = hn::MaxLanes(Floats());
 
 /// Below this extent [m] a pair is left to the robust kernel.
@@ -28,25 +25,6 @@ constexpr double least_extent = 0x1p-900;
 /// Differences are scaled to have an extent from 2²⁰ on: their fourth powers do not overflow, and
 /// those of which the squares underflow are nothing beside it (docs/numerics.md).
 constexpr std::uint64_t scaled_exponent = 1023 + 20;
-
-/// Ends of the segments of the lanes, coordinate by coordinate.
-struct alignas(64) Ends {
-  double values[coordinates][most_lanes];
-
-  void set(std::size_t lane, const Eigen::Vector3d* start) {
-    const double* const from = start->data();
-    for (std::size_t i = 0; i < coordinates; ++i) {
-      values[i][lane] = from[i];
-    }
-  }
-
-  /// Of as many lanes as fit in doubles, from this one.
-  Wide::Vector point(std::size_t which, std::size_t lane) const {
-    const Doubles d;
-    return {hn::Load(d, values[3 * which] + lane), hn::Load(d, values[3 * which + 1] + lane),
-            hn::Load(d, values[3 * which + 2] + lane)};
-  }
-};
 
 /// The power of two that brings the extent to [2²⁰, 2²¹), and its inverse.
 struct Scale {
@@ -74,10 +52,10 @@ struct alignas(64) ScaledDifferences {
 
   ScaledDifferences(const Ends& a, const Ends& b) {
     for (std::size_t lane = 0; lane < hn::Lanes(Floats()); lane += hn::Lanes(Doubles())) {
-      const Wide::Vector p0 = a.point(0, lane);
-      const Wide::Vector p1 = a.point(1, lane);
-      const Wide::Vector q0 = b.point(0, lane);
-      const Wide::Vector q1 = b.point(1, lane);
+      const Wide::Vector p0 = a.points(Doubles(), 0, lane);
+      const Wide::Vector p1 = a.points(Doubles(), 1, lane);
+      const Wide::Vector q0 = b.points(Doubles(), 0, lane);
+      const Wide::Vector q1 = b.points(Doubles(), 1, lane);
       const Wide::V extent = Wide::extent(p0, p1, q0, q1);
       const Scale scale(extent);
       hn::Store(extent, Doubles(), extents + lane);
@@ -106,49 +84,24 @@ struct alignas(64) ScaledDifferences {
   }
 };
 
-/// Results of the lanes, one kind after the other.
-struct alignas(64) Results {
-  float values[6][most_lanes];
-
-  Results(const Narrow& nearest) {
-    const Floats f;
-    hn::Store(nearest.s, f, values[0]);
-    hn::Store(nearest.t, f, values[1]);
-    hn::Store(hn::Neg(nearest.delta.x), f, values[2]);
-    hn::Store(hn::Neg(nearest.delta.y), f, values[3]);
-    hn::Store(hn::Neg(nearest.delta.z), f, values[4]);
-    hn::Store(hn::Sqrt(nearest.squared), f, values[5]);
-  }
-
-  SegmentDistance of(std::size_t lane, double extent, double scale) const {
-    return {values[0][lane],
-            values[1][lane],
-            {scale * values[2][lane], scale * values[3][lane], scale * values[4][lane]},
-            scale * values[5][lane],
-            fast_error * extent};
-  }
-};
-
 void fast_segment_distances_lanes(const Eigen::Vector3d* const* a, const Eigen::Vector3d* const* b,
                                   std::size_t count, SegmentDistance* distances) {
   const std::size_t lanes = hn::Lanes(Floats());
   for (std::size_t begin = 0; begin < count; begin += lanes) {
     const std::size_t size = std::min(lanes, count - begin);
-    Ends ends_a;
-    Ends ends_b;
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      const std::size_t pair = begin + std::min(lane, size - 1);  // the last one again and again
-      ends_a.set(lane, a[pair]);
-      ends_b.set(lane, b[pair]);
-    }
-    const ScaledDifferences differences(ends_a, ends_b);
-    const Results results{Narrow(differences.all())};
+    const ScaledDifferences differences({a + begin, size}, {b + begin, size});
+    const LaneResults<Floats> results{Narrow(differences.all())};
     for (std::size_t lane = 0; lane < size; ++lane) {
       const std::size_t pair = begin + lane;
       const double extent = differences.extents[lane];
       const bool in_range = extent == 0.0 || extent > least_extent;
-      distances[pair] = in_range ? results.of(lane, extent, differences.scales[lane])
-                                 : segment_distance(a[pair][0], a[pair][1], b[pair][0], b[pair][1]);
+      if (!in_range) {
+        distances[pair] = segment_distance(a[pair][0], a[pair][1], b[pair][0], b[pair][1]);
+        continue;
+      }
+      distances[pair] = results.of(lane, fast_error * extent);
+      distances[pair].delta *= differences.scales[lane];
+      distances[pair].distance *= differences.scales[lane];
     }
   }
 }

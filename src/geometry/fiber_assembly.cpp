@@ -107,6 +107,7 @@ FiberAssembly::FiberAssembly(std::vector<Eigen::Vector3d> points,
   check_points(points_, offsets_);
   check_radii(radii_, offsets_, points_.size());
   segment_radii_ = expand_radii(radii_, offsets_, points_.size());
+  largest_radius_ = radii_.empty() ? 0.0 : *std::max_element(radii_.begin(), radii_.end());
 }
 
 void FiberAssembly::update_points(const std::vector<Eigen::Vector3d>& points) {
@@ -115,6 +116,22 @@ void FiberAssembly::update_points(const std::vector<Eigen::Vector3d>& points) {
   }
   check_points(points, offsets_);
   std::copy(points.begin(), points.end(), points_.begin());
+}
+
+void FiberAssembly::assign_segments(const std::vector<Eigen::Vector3d>& points,
+                                    const std::vector<std::uint32_t>& offsets,
+                                    const std::vector<double>& segment_radii) {
+  check_offsets(offsets, points.size());
+  check_points(points, offsets);
+  if (segment_radii.size() != points.size()) {
+    refuse(segment_radii.size(), " radii of segments for ", points.size(), " points");
+  }
+  check_radii(segment_radii, offsets, points.size());
+  points_ = points;
+  offsets_ = offsets;
+  radii_ = segment_radii;
+  segment_radii_ = segment_radii;
+  largest_radius_ = radii_.empty() ? 0.0 : *std::max_element(radii_.begin(), radii_.end());
 }
 
 SegmentId FiberAssembly::segment_id(std::uint32_t point) const {

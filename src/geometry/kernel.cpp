@@ -18,7 +18,11 @@ Kernel kernel_from_name(const std::string& name) {
   const std::vector<std::string>& names = kernel_names();
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) {
-    throw std::invalid_argument("unknown kernel '" + name + "', known are: fast, robust, exact");
+    std::string known;
+    for (const std::string& each : names) {
+      known += (known.empty() ? "" : ", ") + each;
+    }
+    throw std::invalid_argument("unknown kernel '" + name + "', known are: " + known);
   }
   return static_cast<Kernel>(found - names.begin());
 }

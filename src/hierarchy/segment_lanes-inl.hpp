@@ -139,11 +139,14 @@ HWY_INLINE Lanes squared_distance_to(const LaneSegments& segment, const LaneVect
 // other, which is well conditioned, or if the nearest points are inside both. Then their distance
 // is that of the lines, |w·n|/|n| with n = u×v, and s = (v×w)·n/|n|² and t = (u×w)·n/|n|² are in
 // [0, 1]. These three are compared without division, each with a bound of its rounding error:
-// products of l₁ norms times 32 u, where no expression here rounds by more than 20 u of them. What
-// overflows or is no number counts as near. Beyond that, rounding is covered by the padding of the
-// radii.
+// products of l₁ norms times 32 u, where no expression here rounds by more than 20 u of them. Where
+// such a product overflows, so does the bound, and nothing is told apart. Beyond that, rounding is
+// covered by the padding of the radii.
 
 constexpr float rounding_of_products = 0x1p-19F;
+
+/// Below this sum of l₁ norms no product of two overflows [m].
+constexpr float largest_extent = 0x1p60F;
 
 /// Whether the lines of segments in directions u and v, whose starts are w apart, may come within
 /// `reach`: true too often, never too seldom. Most segments with boxes that overlap are told apart
@@ -152,8 +155,9 @@ HWY_INLINE LaneMask lines_near(const LaneVector& u, const LaneVector& v, const L
                                Lanes reach) {
   const Floats d;
   const LaneVector n = cross(u, v);
-  const auto rounding = hn::Mul(hn::Mul(hn::Set(d, rounding_of_products), length_bound(w)),
-                                hn::Mul(length_bound(u), length_bound(v)));
+  const auto rounding =
+      hn::Mul(hn::Set(d, rounding_of_products),
+              hn::Mul(length_bound(w), hn::Mul(length_bound(u), length_bound(v))));
   const auto least = hn::Max(hn::Sub(hn::Abs(dot(w, n)), rounding), hn::Zero(d));
   const auto limit = hn::Mul(hn::Mul(reach, reach), dot(n, n));
   return hn::Not(
@@ -181,14 +185,19 @@ HWY_INLINE LaneMask segments_near(const LaneSegments& a, const LaneSegments& b, 
   const auto length_u = length_bound(u);
   const auto length_v = length_bound(v);
   const auto length_w = length_bound(w);
-  const auto product = hn::Mul(hn::Set(d, rounding_of_products), hn::Mul(length_u, length_v));
+  const auto product = hn::Mul(length_u, length_v);
+  const auto rounding = hn::Set(d, rounding_of_products);
   const auto s = dot(cross(v, w), n);
   const auto t = dot(cross(u, w), n);
-  const auto slack_s = hn::MulAdd(hn::Mul(product, length_v), hn::Add(length_w, length_u), tiny);
-  const auto slack_t = hn::MulAdd(hn::Mul(product, length_u), hn::Add(length_w, length_v), tiny);
+  const auto slack_s =
+      hn::MulAdd(rounding, hn::Mul(hn::Mul(product, length_v), hn::Add(length_w, length_u)), tiny);
+  const auto slack_t =
+      hn::MulAdd(rounding, hn::Mul(hn::Mul(product, length_u), hn::Add(length_w, length_v)), tiny);
   const auto outside = hn::Or(hn::Or(hn::Gt(hn::Neg(s), slack_s), hn::Gt(s, hn::Add(nn, slack_s))),
                               hn::Or(hn::Gt(hn::Neg(t), slack_t), hn::Gt(t, hn::Add(nn, slack_t))));
-  return hn::Not(hn::And(ends_apart, outside));
+  const auto is_in_range =
+      hn::Lt(hn::Add(length_w, hn::Add(length_u, length_v)), hn::Set(d, largest_extent));
+  return hn::Not(hn::And(hn::And(ends_apart, outside), is_in_range));
 }
 
 }  // namespace HWY_NAMESPACE

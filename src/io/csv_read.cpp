@@ -1,5 +1,3 @@
-#include <cerrno>
-#include <fstream>
 #include <set>
 #include <string_view>
 #include <unordered_set>
@@ -8,6 +6,7 @@
 #include "fiber_proximity/io/csv.hpp"
 #include "fiber_proximity/io/number.hpp"
 #include "fiber_proximity/io/radii.hpp"
+#include "src/io/input_file.hpp"
 #include "src/io/text.hpp"
 
 namespace fiber {
@@ -23,9 +22,6 @@ class CsvReader {
 
   void read_line(std::string_view line) {
     ++line_;
-    if (line_ == 1) {
-      line = without_byte_order_mark(line);
-    }
     if (trimmed(line).empty()) {
       return;
     }
@@ -195,24 +191,13 @@ class CsvReader {
 }  // namespace
 
 FiberFile read_csv(const std::string& path, double default_radius) {
-  errno = 0;
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) {
-    throw FileError::from_system(path, "cannot be opened");
-  }
+  std::ifstream stream = open_to_read(path);
   return read_csv(stream, path, default_radius);
 }
 
 FiberFile read_csv(std::istream& stream, const std::string& name, double default_radius) {
   CsvReader reader(name, default_radius);
-  std::string line;
-  errno = 0;
-  while (std::getline(stream, line)) {
-    reader.read_line(line);
-  }
-  if (stream.bad()) {
-    throw FileError::from_system(name, "cannot be read");
-  }
+  for_each_line(stream, name, [&](std::string_view line) { reader.read_line(line); });
   return reader.finish();
 }
 

@@ -2,7 +2,6 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <optional>
 #include <utility>
 
@@ -10,6 +9,7 @@
 #include "fiber_proximity/io/number.hpp"
 #include "fiber_proximity/io/radii.hpp"
 #include "hair_format.hpp"
+#include "src/io/input_file.hpp"
 
 namespace fiber {
 namespace {
@@ -244,11 +244,7 @@ class HairReader {
 }  // namespace
 
 FiberFile read_hair(const std::string& path, double default_radius) {
-  errno = 0;
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) {
-    throw FileError::from_system(path, "cannot be opened");
-  }
+  std::ifstream stream = open_to_read(path);
   return read_hair(stream, path, default_radius);
 }
 

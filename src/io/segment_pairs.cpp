@@ -1,13 +1,12 @@
 #include "fiber_proximity/io/segment_pairs.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <fstream>
 #include <string_view>
 #include <utility>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/io/number.hpp"
+#include "src/io/input_file.hpp"
 #include "src/io/text.hpp"
 
 namespace fiber {
@@ -50,9 +49,6 @@ class PairReader {
 
   void read_line(std::string_view line) {
     ++line_;
-    if (line_ == 1) {
-      line = without_byte_order_mark(line);
-    }
     line = trimmed(line);
     if (line.empty()) {
       return;
@@ -110,24 +106,13 @@ class PairReader {
 }  // namespace
 
 std::vector<SegmentPair> read_segment_pairs(const std::string& path) {
-  errno = 0;
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) {
-    throw FileError::from_system(path, "cannot be opened");
-  }
+  std::ifstream stream = open_to_read(path);
   return read_segment_pairs(stream, path);
 }
 
 std::vector<SegmentPair> read_segment_pairs(std::istream& stream, const std::string& name) {
   PairReader reader(name);
-  std::string line;
-  errno = 0;
-  while (std::getline(stream, line)) {
-    reader.read_line(line);
-  }
-  if (stream.bad()) {
-    throw FileError::from_system(name, "cannot be read");
-  }
+  for_each_line(stream, name, [&](std::string_view line) { reader.read_line(line); });
   return reader.finish();
 }
 

@@ -29,12 +29,6 @@ inline void split(std::string_view line, std::vector<std::string_view>& fields) 
   fields.push_back(trimmed(line));
 }
 
-/// The first line of a file without the byte order mark that spreadsheets write.
-inline std::string_view without_byte_order_mark(std::string_view line) {
-  constexpr std::string_view mark = "\xEF\xBB\xBF";
-  return line.substr(0, mark.size()) == mark ? line.substr(mark.size()) : line;
-}
-
 inline std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
 
 }  // namespace fiber

@@ -1,14 +1,38 @@
 #include "fiber_proximity/query/contact.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace fiber {
+
+void sort_by_key(std::vector<Contact>& contacts) {
+  std::sort(contacts.begin(), contacts.end(),
+            [](const Contact& x, const Contact& y) { return x.key() < y.key(); });
+}
+
+void sort_by_distance(std::vector<Contact>& contacts) {
+  std::sort(contacts.begin(), contacts.end(),
+            [](const Contact& x, const Contact& y) { return x.closer_than(y); });
+}
+
+QueryCounts& QueryCounts::operator+=(const QueryCounts& more) {
+  node_tests += more.node_tests;
+  node_overlaps += more.node_overlaps;
+  primitive_tests += more.primitive_tests;
+  return *this;
+}
 
 const Contact* QueryResult::closest() const {
   const auto closest =
       std::min_element(contacts.begin(), contacts.end(),
                        [](const Contact& x, const Contact& y) { return x.distance < y.distance; });
   return closest == contacts.end() ? nullptr : &*closest;
+}
+
+double QueryResult::minimum_lower() const {
+  return std::accumulate(
+      contacts.begin(), contacts.end(), others_lower,
+      [](double least, const Contact& contact) { return std::min(least, contact.lower); });
 }
 
 }  // namespace fiber

@@ -12,6 +12,9 @@ namespace {
 
 constexpr std::uint32_t groups_per_job = 32;
 
+// Judging what has been found takes a quarter of the time.
+constexpr double part_to_collect = 2.0 / 3.0;
+
 /// Keeps all candidates but those that are no pairs.
 class CandidateSink final : public PairSink {
  public:
@@ -20,7 +23,7 @@ class CandidateSink final : public PairSink {
 
   bool offer(PointPair candidate) override {
     const PointPair pair = test_.ordered(candidate);
-    if (!test_.is_neighbour_pair(pair)) {
+    if (!test_.is_left_out(pair)) {
       keys_.push_back(key_of(pair));
     }
     return true;
@@ -37,10 +40,12 @@ class CandidateSink final : public PairSink {
 
 }  // namespace
 
-void ContactBatch::collect(const RunTreeView& a, const RunTreeView& b, const PairTest& test,
-                           double bound, std::vector<std::uint64_t>& keys, QueryCounts& counts) {
+bool ContactBatch::collect(const RunTreeView& a, const RunTreeView& b, const PairTest& test,
+                           double bound, const Deadline& deadline, std::vector<std::uint64_t>& keys,
+                           QueryCounts& counts) {
   const float rounded_bound = round_up(bound);
   const std::uint32_t groups = a.group_count();
+  const std::uint32_t step = deadline.is_set() ? 1 : groups_per_job;
   const std::size_t job_count =
       b.group_count() == 0 ? 0 : (groups + groups_per_job - 1) / groups_per_job;
   jobs_.resize(std::max(jobs_.size(), job_count));
@@ -48,24 +53,33 @@ void ContactBatch::collect(const RunTreeView& a, const RunTreeView& b, const Pai
     Job& job = jobs_[index];
     job.keys.clear();
     job.counts = {};
+    job.complete = true;
     const auto begin = static_cast<std::uint32_t>(index) * groups_per_job;
+    const std::uint32_t end = std::min(groups, begin + groups_per_job);
     CandidateSink sink(test, rounded_bound, job.keys);
-    find_near_segments(a, begin, std::min(groups, begin + groups_per_job), b, sink, job.counts);
+    for (std::uint32_t group = begin; group < end && job.complete; group += step) {
+      job.complete = !deadline.has_passed(part_to_collect);
+      if (job.complete) {
+        find_near_segments(a, group, std::min(end, group + step), b, sink, job.counts);
+      }
+    }
   });
   keys.clear();
+  bool complete = true;
   for (std::size_t job = 0; job < job_count; ++job) {
     keys.insert(keys.end(), jobs_[job].keys.begin(), jobs_[job].keys.end());
-    counts.node_tests += jobs_[job].counts.node_tests;
-    counts.node_overlaps += jobs_[job].counts.node_overlaps;
+    counts += jobs_[job].counts;
+    complete = complete && jobs_[job].complete;
   }
   sort_keys(keys, scratch_);
+  return complete;
 }
 
-void ContactBatch::replace(const std::vector<std::uint64_t>& old_keys,
+bool ContactBatch::replace(const std::vector<std::uint64_t>& old_keys,
                            const OutdatedSegments& outdated, const RunTreeView& tree,
-                           const PairTest& test, double bound, std::vector<std::uint64_t>& keys,
-                           QueryCounts& counts) {
-  collect(outdated.tree(), tree, test, bound, keys_, counts);
+                           const PairTest& test, double bound, const Deadline& deadline,
+                           std::vector<std::uint64_t>& keys, QueryCounts& counts) {
+  const bool complete = collect(outdated.tree(), tree, test, bound, deadline, keys_, counts);
   // Pairs of two outdated segments are found from both sides.
   keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
   keys.clear();
@@ -81,18 +95,20 @@ void ContactBatch::replace(const std::vector<std::uint64_t>& old_keys,
     keys.push_back(key);
   }
   keys.insert(keys.end(), next, keys_.end());
+  return complete;
 }
 
-void ContactBatch::judge(const std::vector<std::uint64_t>& keys, const PairTest& test, double bound,
-                         QueryResult& result) {
+void ContactBatch::judge(const std::vector<std::uint64_t>& keys, bool are_all, const PairTest& test,
+                         const Deadline& deadline, QueryResult& result) {
   result.counts.primitive_tests += keys.size();
-  judge_.judge(keys, test, bound, result.contacts);
+  result.complete = are_all;
+  judge_.judge(keys, test, deadline, result);
 }
 
 void ContactBatch::find(const RunTreeView& a, const RunTreeView& b, const PairTest& test,
-                        double reach, double bound, QueryResult& result) {
-  collect(a, b, test, reach, keys_, result.counts);
-  judge(keys_, test, bound, result);
+                        double moved, const Deadline& deadline, QueryResult& result) {
+  const bool are_all = collect(a, b, test, test.margin() + moved, deadline, keys_, result.counts);
+  judge(keys_, are_all, test, deadline, result);
 }
 
 }  // namespace fiber

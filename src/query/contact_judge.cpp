@@ -1,6 +1,7 @@
 #include "fiber_proximity/query/contact_judge.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "src/query/for_each_of.hpp"
 
@@ -11,54 +12,76 @@ constexpr std::size_t pairs_per_slice = 512;
 // Pairs are judged in rounds, so that their distances stay in the cache until they are reported.
 constexpr std::size_t slices_per_round = 32;
 
+// Contacts are written down after that.
+constexpr double part_to_judge = 0.9;
+
 }  // namespace
 
-void ContactJudge::judge(const std::vector<std::uint64_t>& keys, const PairTest& test, double bound,
-                         std::vector<Contact>& contacts) {
+void ContactJudge::judge(const std::vector<std::uint64_t>& keys, const PairTest& test,
+                         const Deadline& deadline, QueryResult& result) {
   constexpr std::size_t pairs_per_round = slices_per_round * pairs_per_slice;
-  distances_.resize(std::max(distances_.size(), std::min(pairs_per_round, keys.size())));
-  std::size_t count = 0;
+  const std::size_t most = std::max(distances_.size(), std::min(pairs_per_round, keys.size()));
+  distances_.resize(most);
+  is_contact_.resize(most);
+  contact_count_ = 0;
+  result.others_lower = test.margin();  // of pairs that are no candidates
   for (std::size_t begin = 0; begin < keys.size(); begin += pairs_per_round) {
-    count = judge_round(keys.data() + begin, std::min(pairs_per_round, keys.size() - begin), test,
-                        bound, contacts, count);
+    judge_round(keys.data() + begin, std::min(pairs_per_round, keys.size() - begin), test, deadline,
+                result);
   }
-  contacts.resize(count);
+  result.contacts.resize(contact_count_);
+  if (!result.complete) {
+    result.others_lower = test.least_gap();
+  }
 }
 
-/// Judges `count` pairs; returns how many contacts there are now.
-std::size_t ContactJudge::judge_round(const std::uint64_t* keys, std::size_t count,
-                                      const PairTest& test, double bound,
-                                      std::vector<Contact>& contacts, std::size_t contact_count) {
-  const std::size_t slices = (count + pairs_per_slice - 1) / pairs_per_slice;
-  const auto slice_begin = [&](std::size_t slice) {
-    return std::min(count, slice * pairs_per_slice);
-  };
-  places_.assign(slices + 1, 0);
-  for_each_of(slices, [&](std::size_t slice) {
-    const std::size_t begin = slice_begin(slice);
-    const std::size_t size = slice_begin(slice + 1) - begin;
-    PairDistance* const distances = distances_.data() + begin;
-    PointPair pairs[pairs_per_slice];
-    std::transform(keys + begin, keys + begin + size, pairs, pair_of);
-    test.distances(pairs, size, distances);
-    places_[slice + 1] = std::count_if(distances, distances + size,
-                                       [&](const PairDistance& each) { return each.gap <= bound; });
+void ContactJudge::judge_round(const std::uint64_t* keys, std::size_t count, const PairTest& test,
+                               const Deadline& deadline, QueryResult& result) {
+  slices_.assign((count + pairs_per_slice - 1) / pairs_per_slice, Slice());
+  for_each_of(slices_.size(), [&](std::size_t index) {
+    Slice& slice = slices_[index];
+    slice.begin = index * pairs_per_slice;
+    slice.end = std::min(count, slice.begin + pairs_per_slice);
+    slice.complete = !deadline.has_passed(part_to_judge);
+    if (slice.complete) {
+      judge_slice(keys, test, slice);
+    }
   });
-  places_[0] = contact_count;
-  for (std::size_t slice = 0; slice < slices; ++slice) {
-    places_[slice + 1] += places_[slice];
+  for (Slice& slice : slices_) {
+    slice.place = contact_count_;
+    contact_count_ += slice.contact_count;
+    result.others_lower = std::min(result.others_lower, slice.others_lower);
+    result.complete = result.complete && slice.complete;
   }
   // What a query before has left there is written over: making it anew would take as long.
-  contacts.resize(std::max(contacts.size(), places_[slices]));
-  for_each_of(slices, [&](std::size_t slice) {
-    std::size_t place = places_[slice];
-    for (std::size_t i = slice_begin(slice); i < slice_begin(slice + 1); ++i) {
-      if (distances_[i].gap <= bound) {
+  std::vector<Contact>& contacts = result.contacts;
+  contacts.resize(std::max(contacts.size(), contact_count_));
+  for_each_of(slices_.size(), [&](std::size_t index) {
+    const Slice& slice = slices_[index];
+    std::size_t place = slice.place;
+    for (std::size_t i = slice.begin; i < slice.end && slice.contact_count > 0; ++i) {
+      if (is_contact_[i] != 0) {
         contacts[place++] = test.contact(pair_of(keys[i]), distances_[i]);
       }
     }
   });
-  return places_[slices];
+}
+
+void ContactJudge::judge_slice(const std::uint64_t* keys, const PairTest& test, Slice& slice) {
+  PointPair pairs[pairs_per_slice];
+  PairDistance* const distances = distances_.data() + slice.begin;
+  const std::size_t size = slice.end - slice.begin;
+  std::transform(keys + slice.begin, keys + slice.end, pairs, pair_of);
+  test.distances(pairs, size, distances);
+  slice.others_lower = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < size; ++i) {
+    const bool is_contact = test.is_within_margin(pairs[i], distances[i]);
+    is_contact_[slice.begin + i] = is_contact ? 1 : 0;
+    slice.contact_count += is_contact ? 1 : 0;
+    if (!is_contact) {
+      slice.others_lower = std::min(slice.others_lower, test.gap_lower(pairs[i], distances[i]));
+    }
+  }
 }
 
 }  // namespace fiber

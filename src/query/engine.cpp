@@ -8,6 +8,7 @@ namespace {
 // Contacts are left to those that write them: clearing them would have them all initialized anew.
 void reset(QueryResult& result) {
   result.limit_reached = false;
+  result.complete = true;
   result.counts = {};
 }
 

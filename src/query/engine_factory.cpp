@@ -12,6 +12,7 @@
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/query/hierarchy_engine.hpp"
 #include "fiber_proximity/query/run_tree_engine.hpp"
+#include "fiber_proximity/query/simplified_engine.hpp"
 #include "kdop_engines.hpp"
 
 namespace fiber {
@@ -84,9 +85,8 @@ EnginePointer make_kdop_engine(const std::string& name) {
                        : make_spatial_kdop_engine(directions);
 }
 
-}  // namespace
-
-EnginePointer make_engine(const std::string& name, const EngineOptions& options) {
+/// An engine over the fibres as they are.
+EnginePointer make_plain_engine(const std::string& name, const EngineOptions& options) {
   std::string known;
   for (const auto& [engine_name, maker] : makers()) {
     if (name == engine_name) {
@@ -105,6 +105,20 @@ EnginePointer make_engine(const std::string& name, const EngineOptions& options)
   throw std::invalid_argument("unknown engine '" + name + "'" + reason + ", known are: " + known +
                               "; DL-k and DS-k for even k from 6 to 200; DL-k-classic and "
                               "DS-k-classic for k of 6, 14, 18, 26");
+}
+
+}  // namespace
+
+EnginePointer make_engine(const std::string& name, const EngineOptions& options) {
+  EnginePointer engine = make_plain_engine(name, options);
+  if (options.simplification == 0.0) {
+    return engine;
+  }
+  if (name == "AL-threaded") {
+    throw std::invalid_argument(
+        "AL-threaded needs fibres of equal segment counts, which a simplification does not leave");
+  }
+  return std::make_unique<SimplifiedEngine>(std::move(engine), options.simplification);
 }
 
 std::vector<std::string> engine_names() {

@@ -16,28 +16,18 @@ std::size_t hash(std::uint32_t fiber_a, std::uint32_t fiber_b) {
 
 }  // namespace
 
-bool FiberPairMinima::FiberFinder::move_to(std::uint32_t point) {
-  if (point - begin_ < end_ - begin_) {
-    return false;
-  }
-  fiber_ = fibers_.segment_id(point).fiber;
-  begin_ = fibers_.offsets()[fiber_];
-  end_ = fibers_.offsets()[fiber_ + 1];
-  return true;
-}
-
-const Contact* FiberPairMinima::find(PointPair pair) {
-  const bool other_a = fiber_a_.move_to(pair.a);
-  const bool other_b = fiber_b_.move_to(pair.b);
-  if ((other_a || other_b) && !contacts_.empty()) {
-    const std::uint32_t entry = slots_[slot_of(fiber_a_.fiber(), fiber_b_.fiber())];
+const Contact* FiberPairMinima::find(std::uint32_t fiber_a, std::uint32_t fiber_b) {
+  if ((fiber_a != last_a_ || fiber_b != last_b_) && !contacts_.empty()) {
+    const std::uint32_t entry = slots_[slot_of(fiber_a, fiber_b)];
     last_ = entry == 0 ? nullptr : &contacts_[entry - 1];
   }
+  last_a_ = fiber_a;
+  last_b_ = fiber_b;
   return last_;
 }
 
 void FiberPairMinima::keep(const Contact& contact) {
-  assert(contact.fiber_a == fiber_a_.fiber() && contact.fiber_b == fiber_b_.fiber());
+  assert(contact.fiber_a == last_a_ && contact.fiber_b == last_b_);
   if (last_ != nullptr) {
     if (contact.closer_than(*last_)) {
       *last_ = contact;

@@ -16,8 +16,8 @@ void KeptCandidates::become(State worse) {
 
 KeptCandidates::Keys KeptCandidates::find(const QueryOptions& options, State state) const {
   const std::lock_guard lock(mutex_);
-  const bool same =
-      state_ == state && options.margin == margin_ && options.neighbour_skip == neighbour_skip_;
+  const bool same = state_ == state && options.margin == margin_ &&
+                    options.neighbour_skip == neighbour_skip_ && options.pairing == pairing_;
   return same ? keys_ : nullptr;
 }
 
@@ -35,6 +35,7 @@ void KeptCandidates::keep(const QueryOptions& options, const Keys& keys) {
   state_ = State::CURRENT;
   margin_ = options.margin;
   neighbour_skip_ = options.neighbour_skip;
+  pairing_ = options.pairing;
   if (keys_ != nullptr) {
     spare_ = std::move(keys_);
   }

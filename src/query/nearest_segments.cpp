@@ -1,6 +1,5 @@
 #include "fiber_proximity/query/nearest_segments.hpp"
 
-#include <algorithm>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
@@ -33,8 +32,7 @@ void nearest_segments(const ProximityEngine& engine, const Eigen::Vector3d& poin
   options.margin = std::numeric_limits<double>::infinity();
   // A point is a capsule of no length and no radius.
   engine.query_shape(FiberAssembly({point, point}, {0, 2}, {0.0}), options, result);
-  std::sort(result.contacts.begin(), result.contacts.end(),
-            [](const Contact& x, const Contact& y) { return x.closer_than(y); });
+  sort_by_distance(result.contacts);
 }
 
 }  // namespace fiber

@@ -1,113 +1,73 @@
 #include "fiber_proximity/query/pair_collector.hpp"
 
-#include <algorithm>
-#include <utility>
-
-#include "fiber_proximity/bounds/bounding_volume.hpp"
-
 namespace fiber {
-namespace {
 
-bool closer(const Contact& x, const Contact& y) { return x.closer_than(y); }
-
-std::size_t capacity_of(const QueryOptions& options) {
-  switch (options.type) {
-    case QueryType::CLOSEST:
-      return 1;
-    case QueryType::LIMITED:
-      return options.max_contacts;
-    case QueryType::FIRST:
-    case QueryType::ALL:
-    case QueryType::FIBER_PAIRS:
-      break;
+std::uint32_t PairCollector::FiberFinder::fiber_of(std::uint32_t point) {
+  if (point - begin_ >= end_ - begin_) {
+    fiber_ = fibers_.segment_id(point).fiber;
+    begin_ = fibers_.offsets()[fiber_];
+    end_ = fibers_.offsets()[fiber_ + 1];
   }
-  return 0;
+  return fiber_;
 }
-
-}  // namespace
 
 PairCollector::PairCollector(const FiberAssembly& fibers, const QueryOptions& options,
                              QueryResult& result)
-    : PairCollector(PairTest(fibers, options), {fibers, fibers, result}, options, result) {}
+    : keeper_(options, result),
+      test_(fibers, options),
+      fibers_a_(fibers),
+      fibers_b_(fibers),
+      options_(options),
+      counts_(result.counts) {}
 
 PairCollector::PairCollector(const FiberAssembly& shape, const FiberAssembly& fibers,
                              const QueryOptions& options, QueryResult& result)
-    : PairCollector(PairTest(shape, fibers, options), {shape, fibers, result}, options, result) {}
-
-PairCollector::PairCollector(PairTest&& test, const FiberPairMinima& minima,
-                             const QueryOptions& options, QueryResult& result)
-    : test_(std::move(test)),
-      minima_(minima),
+    : keeper_(options, result),
+      test_(shape, fibers, options),
+      fibers_a_(shape),
+      fibers_b_(fibers),
       options_(options),
-      result_(result),
-      capacity_(capacity_of(options)) {
-  result_.contacts.clear();
-  set_bound(options.margin);
-}
+      counts_(result.counts) {}
 
 void PairCollector::offer(std::uint32_t point_a, std::uint32_t point_b) {
   const PointPair pair = test_.ordered({point_a, point_b});
-  if (test_.is_neighbour_pair(pair)) {
+  if (test_.is_left_out(pair)) {
     return;
   }
   if (options_.type == QueryType::FIBER_PAIRS) {
-    offer_to_minima(pair);
+    offer_of_fibers(pair);
     return;
   }
-  ++result_.counts.primitive_tests;
-  const PairDistance distance = test_.distance(pair);
-  if (distance.gap <= bound_) {
-    keep(test_.contact(pair, distance));
+  if (const std::optional<Contact> contact = contact_within(pair, keeper_.bound())) {
+    keeper_.keep(*contact);
   }
 }
 
-void PairCollector::offer_to_minima(PointPair pair) {
-  const Contact* best = minima_.find(pair);
-  const double most = best == nullptr ? bound_ : best->distance;
-  if (test_.gap_lower_bound(pair) > most) {
+void PairCollector::offer_of_fibers(PointPair pair) {
+  const double bound = keeper_.bound_of(fibers_a_.fiber_of(pair.a), fibers_b_.fiber_of(pair.b));
+  if (test_.gap_lower_bound(pair) > bound) {
+    keeper_.leave_out(bound);
     return;
   }
-  ++result_.counts.primitive_tests;
-  const PairDistance distance = test_.distance(pair);
-  if (distance.gap <= most) {
-    minima_.keep(test_.contact(pair, distance));
+  if (const std::optional<Contact> contact = contact_within(pair, bound)) {
+    keeper_.keep(*contact);
   }
 }
 
-void PairCollector::keep(const Contact& contact) {
-  std::vector<Contact>& contacts = result_.contacts;
-  if (capacity_ == 0) {
-    contacts.push_back(contact);
-    done_ = options_.type == QueryType::FIRST;
-    return;
-  }
-  // A heap with the farthest of the k closest on top.
-  if (contacts.size() == capacity_) {
-    if (!closer(contact, contacts.front())) {
-      return;
+/// The contact of a pair that is within the margin and, if the bound [m] is less, within that by
+/// the distance that is reported.
+std::optional<Contact> PairCollector::contact_within(PointPair pair, double bound) {
+  ++counts_.primitive_tests;
+  const PairDistance distance = test_.distance(pair);
+  const double lower = test_.gap_lower(pair, distance);
+  if (lower <= bound && test_.is_within_margin(pair, distance)) {
+    const Contact contact = test_.contact(pair, distance);
+    if (bound >= options_.margin || contact.distance <= bound) {
+      return contact;
     }
-    std::pop_heap(contacts.begin(), contacts.end(), closer);
-    contacts.pop_back();
   }
-  contacts.push_back(contact);
-  std::push_heap(contacts.begin(), contacts.end(), closer);
-  if (contacts.size() == capacity_) {
-    set_bound(contacts.front().distance);
-  }
-}
-
-void PairCollector::finish() {
-  std::vector<Contact>& contacts = result_.contacts;
-  result_.limit_reached =
-      options_.type == QueryType::LIMITED && contacts.size() == options_.max_contacts;
-  std::sort(contacts.begin(), contacts.end(),
-            [](const Contact& x, const Contact& y) { return x.key() < y.key(); });
-}
-
-void PairCollector::set_bound(double bound) {
-  bound_ = bound;
-  // Capsules that penetrate have volumes that overlap: those know no negative margin.
-  rounded_bound_ = round_up(std::max(bound, 0.0));
+  keeper_.leave_out(lower);
+  return std::nullopt;
 }
 
 }  // namespace fiber

@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "fiber_proximity/geometry/exact_distance.hpp"
+
 namespace fiber {
 namespace {
 
@@ -31,10 +33,27 @@ Vector3d normal_of_crossing(const Capsule& a, const Capsule& b) {
   return axis.isZero(0.0) ? Vector3d::UnitZ() : axis.unitOrthogonal();
 }
 
+/// Unit vector from the first point to the second; at right angles to both axes where they meet.
+Vector3d direction(const SegmentDistance& nearest, const Capsule& a, const Capsule& b) {
+  constexpr double least_norm = 0x1p-500;  // its square has all its digits
+  const double norm = nearest.delta.norm();
+  if (norm > least_norm && std::isfinite(norm)) {
+    return nearest.delta / norm;
+  }
+  return nearest.delta.isZero(0.0) ? normal_of_crossing(a, b)
+                                   : Vector3d(nearest.delta.stableNormalized());
+}
+
+/// Single precision pays for many pairs at once only.
+Kernel kernel_of(const QueryOptions& options) {
+  return options.kernel == Kernel::FAST && options.type == QueryType::ALL ? Kernel::FAST
+                                                                          : Kernel::ROBUST;
+}
+
 }  // namespace
 
 PairTest::PairTest(const FiberAssembly& fibers, const QueryOptions& options)
-    : a_(fibers), b_(fibers), options_(options), self_(true) {
+    : a_(fibers), b_(fibers), options_(options), self_(true), kernel_(kernel_of(options)) {
   if (options.neighbour_skip_length > 0.0) {
     arc_length_ = arc_lengths(fibers);
   }
@@ -42,7 +61,7 @@ PairTest::PairTest(const FiberAssembly& fibers, const QueryOptions& options)
 
 PairTest::PairTest(const FiberAssembly& shape, const FiberAssembly& fibers,
                    const QueryOptions& options)
-    : a_(shape), b_(fibers), options_(options), self_(false) {}
+    : a_(shape), b_(fibers), options_(options), self_(false), kernel_(kernel_of(options)) {}
 
 bool PairTest::is_neighbour_of_same_fiber(PointPair pair) const {
   const bool near_by_index = pair.b - pair.a <= options_.neighbour_skip;
@@ -52,13 +71,17 @@ bool PairTest::is_neighbour_of_same_fiber(PointPair pair) const {
   if (!near_by_index && !near_by_length) {
     return false;
   }
-  return a_.segment_id(pair.a).fiber == a_.segment_id(pair.b).fiber;
+  return is_of_one_fiber(pair);
+}
+
+bool PairTest::is_of_other_pairing(PointPair pair) const {
+  return is_of_one_fiber(pair) != (options_.pairing == Pairing::SAME_FIBER);
 }
 
 PairDistance PairTest::distance(PointPair pair) const {
   const Capsule a = a_.capsule(pair.a);
   const Capsule b = b_.capsule(pair.b);
-  const SegmentDistance nearest = segment_distance(a.p0, a.p1, b.p0, b.p1);
+  const SegmentDistance nearest = segment_distance(kernel_, a.p0, a.p1, b.p0, b.p1);
   return {nearest, nearest.distance - radii(pair)};
 }
 
@@ -73,12 +96,53 @@ void PairTest::distances(const PointPair* pairs, std::size_t count, PairDistance
       starts_a[i] = &a_.points()[pairs[begin + i].a];
       starts_b[i] = &b_.points()[pairs[begin + i].b];
     }
-    segment_distances(starts_a, starts_b, size, nearest);
+    if (kernel_ == Kernel::FAST) {
+      fast_segment_distances(starts_a, starts_b, size, nearest);
+    } else {
+      segment_distances(starts_a, starts_b, size, nearest);
+    }
     for (std::size_t i = 0; i < size; ++i) {
       const PointPair pair = pairs[begin + i];
       distances[begin + i] = {nearest[i], nearest[i].distance - radii(pair)};
     }
   }
+}
+
+bool PairTest::is_within_margin(PointPair pair, const PairDistance& distance) const {
+  if (options_.kernel == Kernel::ROBUST) {
+    return distance.gap <= options_.margin;
+  }
+  if (kernel_ == Kernel::FAST) {
+    const double error = gap_error(pair, distance);
+    if (distance.gap - error > options_.margin || distance.gap + error <= options_.margin) {
+      return distance.gap <= options_.margin;
+    }
+  }
+  const Capsule a = a_.capsule(pair.a);
+  const Capsule b = b_.capsule(pair.b);
+  const ContactLimit limit{a.radius, b.radius, options_.margin};
+  return kernel_ == Kernel::FAST ? gap_at_most(a.p0, a.p1, b.p0, b.p1, limit)
+                                 : gap_at_most(distance.nearest, a.p0, a.p1, b.p0, b.p1, limit);
+}
+
+/// The distance, rounded correctly.
+PairDistance PairTest::rounded(PointPair pair, const PairDistance& distance) const {
+  const Capsule a = a_.capsule(pair.a);
+  const Capsule b = b_.capsule(pair.b);
+  const SegmentDistance nearest =
+      rounded_segment_distance(distance.nearest, a.p0, a.p1, b.p0, b.p1);
+  return {nearest, nearest.distance - radii(pair)};
+}
+
+/// The error of the distance, and what the sum of the radii, the gap and its bounds are rounded by:
+/// half an ε each. Where they are subnormal sums are exact.
+double PairTest::gap_error(PointPair pair, const PairDistance& distance) const {
+  const SegmentDistance& nearest = distance.nearest;
+  return (1.0 + 0x1p-50) * nearest.error + 0x1p-51 * (radii(pair) + nearest.distance);
+}
+
+double PairTest::least_gap() const {
+  return -(1.0 + 0x1p-51) * (a_.largest_radius() + b_.largest_radius());
 }
 
 double PairTest::gap_lower_bound(PointPair pair) const {
@@ -99,7 +163,9 @@ double PairTest::gap_lower_bound(PointPair pair) const {
   return apart - radii - error;
 }
 
-Contact PairTest::contact(PointPair pair, const PairDistance& distance) const {
+Contact PairTest::contact(PointPair pair, const PairDistance& computed) const {
+  const PairDistance distance =
+      options_.kernel == Kernel::EXACT ? rounded(pair, computed) : computed;
   const Capsule a = a_.capsule(pair.a);
   const Capsule b = b_.capsule(pair.b);
   const SegmentDistance& nearest = distance.nearest;
@@ -113,8 +179,10 @@ Contact PairTest::contact(PointPair pair, const PairDistance& distance) const {
   contact.s = nearest.s;
   contact.t = nearest.t;
   contact.distance = distance.gap;
-  contact.normal = nearest.distance > 0.0 ? Vector3d(nearest.delta.stableNormalized())
-                                          : normal_of_crossing(a, b);
+  const double error = gap_error(pair, distance);
+  contact.lower = distance.gap - error;
+  contact.upper = distance.gap + error;
+  contact.normal = direction(nearest, a, b);
   contact.point_a = (1.0 - nearest.s) * a.p0 + nearest.s * a.p1 + a.radius * contact.normal;
   contact.point_b = (1.0 - nearest.t) * b.p0 + nearest.t * b.p1 - b.radius * contact.normal;
   return contact;

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 
 #include "fiber_proximity/bounds/bounding_volume.hpp"
 #include "fiber_proximity/hierarchy/origin.hpp"
 #include "fiber_proximity/hierarchy/run_tree_kernels.hpp"
 #include "fiber_proximity/query/pair_collector.hpp"
+#include "src/query/checked_length.hpp"
 
 namespace fiber {
 namespace {
@@ -36,11 +35,14 @@ class CollectorSink final : public PairSink {
   const float moved_;
 };
 
-void find_some(const RunTreeView& a, const RunTreeView& b, double moved, PairCollector& collector,
-               QueryCounts& counts) {
+void find_some(const RunTreeView& a, const RunTreeView& b, const QueryOptions& options,
+               double moved, PairCollector& collector, QueryCounts& counts) {
   CollectorSink sink(collector, moved);
-  if (b.group_count() != 0) {
-    find_near_segments(a, 0, a.group_count(), b, sink, counts);
+  const std::uint32_t groups = b.group_count() == 0 ? 0 : a.group_count();
+  // Where no candidates are, nobody would look at the deadline.
+  const std::uint32_t step = options.deadline > 0.0 ? 1 : std::max(groups, 1U);
+  for (std::uint32_t group = 0; group < groups && !collector.done(); group += step) {
+    find_near_segments(a, group, std::min(groups, group + step), b, sink, counts);
   }
   collector.finish();
 }
@@ -52,19 +54,11 @@ Eigen::Vector3d corner(const float (&by_axis)[3][run_width], std::uint32_t lane)
 // Replacing the candidates of more segments than this part of all takes longer than finding all.
 constexpr double most_outdated = 0.25;
 
-double checked_skin(double skin) {
-  if (!(skin >= 0.0 && std::isfinite(skin))) {
-    throw std::invalid_argument("skin is " + std::to_string(skin) +
-                                " m, it must be finite and not negative");
-  }
-  return skin;
-}
-
 }  // namespace
 
 RunTreeEngine::RunTreeEngine(const EngineOptions& options)
     : arena_(options.threads == 0 ? tbb::task_arena::automatic : static_cast<int>(options.threads)),
-      skin_(checked_skin(options.skin)) {}
+      skin_(checked_length("skin", options.skin)) {}
 
 std::uint32_t RunTreeEngine::thread_count() const {
   return static_cast<std::uint32_t>(arena_.max_concurrency());
@@ -159,11 +153,12 @@ bool RunTreeEngine::most_still_serve(const FiberAssembly& fibers) {
 void RunTreeEngine::do_query(const FiberAssembly& fibers, const QueryOptions& options,
                              QueryResult& result) const {
   if (options.type == QueryType::ALL) {
-    find_own(PairTest(fibers, options), options, result);
+    const Deadline deadline(options.deadline);
+    find_own(PairTest(fibers, options), options, deadline, result);
     return;
   }
   PairCollector collector(fibers, options, result);
-  find_some(tree_.view(), tree_.view(), 2.0 * moved_since_fit(), collector, result.counts);
+  find_some(tree_.view(), tree_.view(), options, 2.0 * moved_since_fit(), collector, result.counts);
 }
 
 void RunTreeEngine::do_query_shape(const FiberAssembly& shape, const FiberAssembly& fibers,
@@ -171,53 +166,54 @@ void RunTreeEngine::do_query_shape(const FiberAssembly& shape, const FiberAssemb
   RunTree shape_tree;
   shape_tree.build(shape, tree_.origin());
   if (options.type == QueryType::ALL) {
+    const Deadline deadline(options.deadline);
     const PairTest test(shape, fibers, options);
     with_batch([&](ContactBatch& batch) {
-      batch.find(shape_tree.view(), tree_.view(), test, options.margin + moved_since_fit(),
-                 options.margin, result);
+      batch.find(shape_tree.view(), tree_.view(), test, moved_since_fit(), deadline, result);
     });
     return;
   }
   PairCollector collector(shape, fibers, options, result);
-  find_some(shape_tree.view(), tree_.view(), moved_since_fit(), collector, result.counts);
+  find_some(shape_tree.view(), tree_.view(), options, moved_since_fit(), collector, result.counts);
 }
 
 /// All contacts of the fibres with each other: from candidates that are kept, if there are such.
 void RunTreeEngine::find_own(const PairTest& test, const QueryOptions& options,
-                             QueryResult& result) const {
+                             const Deadline& deadline, QueryResult& result) const {
   // Which pairs a length leaves out changes as fibres stretch: such candidates cannot be kept.
   const bool keeps = skin_ > 0.0 && skin_pays_ && options.neighbour_skip_length == 0.0;
   with_batch([&](ContactBatch& batch) {
     if (keeps) {
-      batch.judge(*current_candidates(test, options, batch, result.counts), test, options.margin,
-                  result);
+      const Candidates candidates =
+          current_candidates(test, options, deadline, batch, result.counts);
+      batch.judge(*candidates.keys, candidates.are_all, test, deadline, result);
       return;
     }
-    batch.find(tree_.view(), tree_.view(), test, options.margin + 2.0 * moved_since_fit(),
-               options.margin, result);
+    batch.find(tree_.view(), tree_.view(), test, 2.0 * moved_since_fit(), deadline, result);
   });
 }
 
 /// Candidates that serve until motion exceeds the skin: kept ones, as far as there are such.
-KeptCandidates::Keys RunTreeEngine::current_candidates(const PairTest& test,
-                                                       const QueryOptions& options,
-                                                       ContactBatch& batch,
-                                                       QueryCounts& counts) const {
-  KeptCandidates::Keys keys = kept_.find(options, KeptCandidates::State::CURRENT);
-  if (keys != nullptr) {
-    return keys;
+RunTreeEngine::Candidates RunTreeEngine::current_candidates(const PairTest& test,
+                                                            const QueryOptions& options,
+                                                            const Deadline& deadline,
+                                                            ContactBatch& batch,
+                                                            QueryCounts& counts) const {
+  if (const KeptCandidates::Keys keys = kept_.find(options, KeptCandidates::State::CURRENT)) {
+    return {keys, true};
   }
   // Since the tree was fitted, two segments can each have come back by what they had moved before.
   const double reach = options.margin + skin_ + 2.0 * moved_before_fit_;
   const KeptCandidates::Keys old = kept_.find(options, KeptCandidates::State::OUTDATED);
-  keys = kept_.make();
-  if (old != nullptr) {
-    batch.replace(*old, outdated_, tree_.view(), test, reach, *keys, counts);
-  } else {
-    batch.collect(tree_.view(), tree_.view(), test, reach, *keys, counts);
+  const KeptCandidates::Keys keys = kept_.make();
+  const bool are_all =
+      old != nullptr
+          ? batch.replace(*old, outdated_, tree_.view(), test, reach, deadline, *keys, counts)
+          : batch.collect(tree_.view(), tree_.view(), test, reach, deadline, *keys, counts);
+  if (are_all) {
+    kept_.keep(options, keys);
   }
-  kept_.keep(options, keys);
-  return keys;
+  return {keys, are_all};
 }
 
 template <class Call>

@@ -31,7 +31,10 @@ void to_message(const fiber::FiberAssembly& fibers, const std::vector<std::strin
   }
 }
 
-void to_message(const fiber::Contact& contact, fiber_proximity::Contact& message) {
+void to_message(const fiber::Contact& contact, std::uint8_t body_a, std::uint8_t body_b,
+                fiber_proximity::Contact& message) {
+  message.type_a = body_a;
+  message.type_b = body_b;
   message.fiber_a = contact.fiber_a;
   message.segment_a = contact.segment_a;
   message.s = contact.s;
@@ -39,9 +42,26 @@ void to_message(const fiber::Contact& contact, fiber_proximity::Contact& message
   message.segment_b = contact.segment_b;
   message.t = contact.t;
   message.distance = contact.distance;
+  message.lower = contact.lower;
+  message.upper = contact.upper;
   message.point_a = to_message(contact.point_a);
   message.point_b = to_message(contact.point_b);
   message.normal = to_vector_message(contact.normal);
+}
+
+void to_message(const fiber::Crossing& crossing, fiber_proximity::Crossing& message) {
+  message.fiber_a = crossing.fiber_a;
+  message.segment_a = crossing.segment_a;
+  message.s = crossing.s;
+  message.fiber_b = crossing.fiber_b;
+  message.segment_b = crossing.segment_b;
+  message.t = crossing.t;
+  message.a_is_over = crossing.a_is_over;
+  message.sign = static_cast<std::int8_t>(crossing.sign);
+  message.separation = crossing.separation;
+  message.gap = crossing.gap;
+  message.point_a = to_message(crossing.point_a);
+  message.point_b = to_message(crossing.point_b);
 }
 
 void to_chains(const fiber_proximity::FiberArray& message, ChainSet& chains) {

@@ -1,7 +1,5 @@
 #include "fiber_proximity/ros/detector.hpp"
 
-#include <limits>
-
 #include "fiber_proximity/ros/stopwatch.hpp"
 
 namespace fiber_proximity_ros {
@@ -18,24 +16,12 @@ const fiber::ProximityEngine& Detector::engine() {
   return *engine_;
 }
 
-void Detector::detect(const fiber::QueryOptions& options) {
+void Detector::detect(const fiber::QueryOptions& options, bool wants_minimum) {
   const fiber::ProximityEngine& updated = engine();
-  const Stopwatch stopwatch;
-  updated.query(options, contacts_);
-  counts_ = contacts_.counts;
-  // The first contact found need not be the closest.
-  minimum_ = options.type == fiber::QueryType::FIRST ? nullptr : contacts_.closest();
-  if (minimum_ == nullptr) {
-    fiber::QueryOptions closest = options;
-    closest.type = fiber::QueryType::CLOSEST;
-    closest.margin = std::numeric_limits<double>::infinity();
-    updated.query(closest, closest_);
-    minimum_ = closest_.closest();
-    counts_.node_tests += closest_.counts.node_tests;
-    counts_.node_overlaps += closest_.counts.node_overlaps;
-    counts_.primitive_tests += closest_.counts.primitive_tests;
-  }
-  detect_time_ = stopwatch.seconds();
+  detection_.detect(options, wants_minimum,
+                    [&](const fiber::QueryOptions& asked, fiber::QueryResult& result) {
+                      updated.query(asked, result);
+                    });
 }
 
 }  // namespace fiber_proximity_ros

@@ -57,9 +57,10 @@ void Diagnostics::report_engine(Status& status) {
     status.summary(DiagnosticStatus::OK, "answering");
   }
   status.add("fixed frame", inputs_.frame().name());
-  status.add("contacts", detector_.contacts().contacts.size());
-  if (detector_.minimum() != nullptr) {
-    status.addf("minimum distance [m]", "%.6f", detector_.minimum()->distance);
+  const Detection& found = detector_.detection();
+  status.add("contacts", found.contacts().contacts.size());
+  if (found.minimum() != nullptr) {
+    status.addf("minimum distance [m]", "%.6f", found.minimum()->distance);
   }
   status.addf("update [ms]", "%.3f", 1e3 * detector_.update_time());
   status.addf("detect [ms]", "%.3f", 1e3 * detector_.detect_time());

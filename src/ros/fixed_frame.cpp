@@ -27,6 +27,10 @@ std::string time_of(const ros::Time& stamp) {
 
 }  // namespace
 
+std::string tf2_name(const std::string& frame_id) {
+  return frame_id.substr(!frame_id.empty() && frame_id.front() == '/' ? 1 : 0);
+}
+
 FixedFrame::FixedFrame(std::string name, const ros::NodeHandle& node)
     : name_(std::move(name)), listener_(buffer_, node) {}
 
@@ -52,10 +56,34 @@ void FixedFrame::place(const std_msgs::Header& header, fiber::FiberAssembly& fib
 }
 
 Eigen::Isometry3d FixedFrame::transform_from(const std_msgs::Header& header) const {
+  if (header.frame_id.empty() || header.frame_id == name_) {
+    return Eigen::Isometry3d::Identity();
+  }
+  return to_isometry(look_up(header).transform);
+}
+
+FramePose FixedFrame::latest_pose(const std::string& frame, const ros::Time& stamp) const {
+  if (frame == name_) {
+    return {};
+  }
+  std_msgs::Header header;
+  header.frame_id = frame;
+  if (!name_.empty() && buffer_.canTransform(name_, frame, stamp)) {
+    header.stamp = stamp;
+  }
+  const geometry_msgs::TransformStamped transform = look_up(header);
+  return {to_isometry(transform.transform), transform.header.stamp};
+}
+
+geometry_msgs::TransformStamped FixedFrame::look_up(const std_msgs::Header& header) const {
+  if (name_.empty()) {
+    throw TransformUnavailable("no transform from frame '" + header.frame_id +
+                               "': there is no fixed frame yet");
+  }
   const std::string what = "no transform from frame '" + header.frame_id + "' to '" + name_ + "'" +
                            time_of(header.stamp) + ": ";
   try {
-    return to_isometry(buffer_.lookupTransform(name_, header.frame_id, header.stamp).transform);
+    return buffer_.lookupTransform(name_, header.frame_id, header.stamp);
   } catch (const tf2::LookupException& error) {
     throw TransformUnavailable(what + "unknown frame: " + error.what());
   } catch (const tf2::ConnectivityException& error) {

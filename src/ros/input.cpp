@@ -6,23 +6,16 @@
 #include <utility>
 
 namespace fiber_proximity_ros {
-namespace {
-
-/// [s] At most one refusal per input and interval is logged: a tracker that sends nonsense does so
-/// at camera rate.
-constexpr double log_interval = 1.0;
-
-}  // namespace
 
 Input::Input(InputOptions options, const InputTiming& timing)
-    : options_(std::move(options)), timing_(timing) {}
+    : options_(std::move(options)), timing_(timing), refusals_(label()) {}
 
 void Input::receive(const ReadMessage& read, FixedFrame& frame) {
   ++received_;
   try {
     store(read, frame);
   } catch (const std::invalid_argument& error) {
-    refuse(error.what());
+    refusals_.refuse(error.what());
   }
 }
 
@@ -31,9 +24,7 @@ void Input::store(const ReadMessage& read, FixedFrame& frame) {
     return;
   }
   std_msgs::Header& header = chains_.header;
-  if (!header.frame_id.empty() && header.frame_id.front() == '/') {
-    header.frame_id.erase(0, 1);  // tf1 had it, tf2 does not know it
-  }
+  header.frame_id = tf2_name(header.frame_id);
   if (header.frame_id.empty()) {
     throw std::invalid_argument("header.frame_id is empty, it must name the frame of the points");
   }
@@ -68,7 +59,7 @@ bool Input::place_waiting(const FixedFrame& frame) {
   const auto waited = [this] { return ros::SteadyTime::now() - waiting_.steady_arrival; };
   if (waiting_.full && waited().toSec() > timing_.tf_timeout) {
     waiting_.full = false;
-    refuse(transform_error_);
+    refusals_.refuse(transform_error_);
   }
   if (!waiting_.full) {
     std::swap(waiting_, next_);
@@ -100,12 +91,12 @@ fiber_proximity::InputStatistics Input::statistics(const ros::Time& now) const {
   statistics.topic = options_.topic;
   statistics.type = options_.type;
   statistics.received = received_;
-  statistics.refused = refused_;
+  statistics.refused = refusals_.count();
   statistics.overtaken = overtaken_;
   statistics.fibers = is_fresh() ? static_cast<std::uint32_t>(fibers().fiber_count()) : 0;
   statistics.age = has_fibers_ ? (now - current_.arrival).toSec() : -1.0;
   statistics.stale = stale_;
-  statistics.last_error = last_error_;
+  statistics.last_error = refusals_.last_error();
   return statistics;
 }
 
@@ -121,7 +112,7 @@ bool Input::place(Message& message, const FixedFrame& frame) {
     transform_error_ = error.what();
   } catch (const std::invalid_argument& error) {
     message.full = false;
-    refuse(error.what());
+    refusals_.refuse(error.what());
   }
   return false;
 }
@@ -139,22 +130,6 @@ void Input::accept(Message& message) {
 void Input::overtake(Message& message) {
   overtaken_ += message.full ? 1 : 0;
   message.full = false;
-}
-
-void Input::refuse(const std::string& reason) {
-  ++refused_;
-  last_error_ = reason;
-  const ros::SteadyTime now = ros::SteadyTime::now();
-  if (!last_log_.isZero() && (now - last_log_).toSec() < log_interval) {
-    ++unlogged_;
-    return;
-  }
-  ROS_ERROR_STREAM(label() << ": message refused: " << reason
-                           << (unlogged_ > 0
-                                   ? " (and " + std::to_string(unlogged_) + " more refused since)"
-                                   : std::string()));
-  last_log_ = now;
-  unlogged_ = 0;
 }
 
 void Input::name_fibers(Message& message) const {

@@ -3,6 +3,7 @@
 #include <ros/console.h>
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 #include "fiber_proximity/ros/stopwatch.hpp"
@@ -103,6 +104,12 @@ bool InputSet::is_waiting() const {
 bool InputSet::is_fresh() const {
   return std::any_of(inputs_.begin(), inputs_.end(),
                      [](const std::unique_ptr<Input>& input) { return input->is_fresh(); });
+}
+
+void InputSet::require_fresh() const {
+  if (!is_fresh()) {
+    throw std::invalid_argument("no fresh input: no fibres have arrived within the input_timeout");
+  }
 }
 
 const fiber::FiberAssembly& InputSet::fibers() {

@@ -26,4 +26,14 @@ void read_parameter(const ros::NodeHandle& node, const std::string& name, double
   }
 }
 
+void read_parameter(const ros::NodeHandle& node, const std::string& name, std::uint32_t& value) {
+  const std::string allowed = "a whole number of at least 0";
+  auto number = static_cast<int>(value);
+  read_parameter(node, name, allowed, number);
+  if (number < 0) {
+    refuse_parameter(node, name, allowed);
+  }
+  value = static_cast<std::uint32_t>(number);
+}
+
 }  // namespace fiber_proximity_ros

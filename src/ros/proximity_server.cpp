@@ -8,7 +8,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fiber_proximity/ros/check_service.hpp"
+#include "fiber_proximity/ros/contact_array.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
+#include "fiber_proximity/ros/query_settings.hpp"
 #include "fiber_proximity/ros/shape_query.hpp"
 #include "fiber_proximity/ros/stopwatch.hpp"
 
@@ -39,6 +42,8 @@ ros::CallbackQueueInterface& queue_of(const ros::NodeHandle& node) {
   return queue != nullptr ? *queue : *ros::getGlobalCallbackQueue();
 }
 
+std::uint32_t to_count(std::size_t count) { return static_cast<std::uint32_t>(count); }
+
 std::uint64_t id_of(const ProximityServer* server) {
   return reinterpret_cast<std::uintptr_t>(server);
 }
@@ -56,11 +61,18 @@ ProximityServer::ProximityServer(const ros::NodeHandle& node, const ros::NodeHan
       statistics_publisher_(private_node_.advertise<fiber_proximity::Statistics>("statistics", 1)),
       inputs_(node_, options_.inputs, options_.timing, options_.fixed_frame,
               [this] { schedule(); }),
+      crossings_(private_node_, inputs_.frame()),
       diagnostics_(node_, private_node_, inputs_, detector_),
+      environment_(node_, private_node_, inputs_, options_.timing.tf_timeout,
+                   [this] { schedule(); }),
+      comparison_(private_node_, {inputs_, detector_, query_options_, options_},
+                  [this] { process(); }),
       reconfigure_server_(private_node_) {
   reconfigure_server_.setCallback([this](fiber_proximity::ProximityConfig& config,
                                          std::uint32_t /*level*/) { reconfigure(config); });
   query_server_ = private_node_.advertiseService("query", &ProximityServer::query, this);
+  check_server_ =
+      private_node_.advertiseService("check_fibers", &ProximityServer::check_fibers, this);
   tick_timer_ = node_.createSteadyTimer(ros::WallDuration(tick_interval),
                                         [this](const ros::SteadyTimerEvent&) { tick(); });
   retry_timer_ = node_.createSteadyTimer(
@@ -81,10 +93,15 @@ void ProximityServer::schedule() {
 }
 
 void ProximityServer::process() {
-  if (inputs_.update()) {
+  const bool fibers_changed = inputs_.update();
+  const bool environment_changed = environment_.update();
+  if (fibers_changed) {
     publish();
+  } else if (environment_changed && inputs_.is_fresh() && environment_.has_listeners()) {
+    parts_.clear();
+    detect_in_environment();
   }
-  if (inputs_.is_waiting()) {
+  if (inputs_.is_waiting() || environment_.inputs().is_waiting()) {
     retry_timer_.start();
   } else {
     retry_timer_.stop();
@@ -99,31 +116,70 @@ void ProximityServer::tick() {
 
 void ProximityServer::publish() {
   detector_.set_fibers(inputs_.fibers());
-  merge_time_ = inputs_.take_work_time();
-  const Stopwatch stopwatch;
+  crossings_.forget();
+  parts_.clear();
+  add_part("merge", inputs_.take_work_time());
   if (fibers_publisher_.getNumSubscribers() > 0) {
     publish_fibers();
   }
-  const bool contacts = contacts_publisher_.getNumSubscribers() > 0;
+  if (crossings_.is_wanted()) {
+    const Stopwatch crossings_time;
+    crossings_.publish(inputs_.fibers(), inputs_.header(), inputs_.names());
+    add_part("crossings", crossings_time.seconds());
+  }
   const bool statistics = statistics_publisher_.getNumSubscribers() > 0;
   drawing_is_due_ = markers_publisher_.getNumSubscribers() > 0;
-  if (!contacts && !statistics && !drawing_is_due_) {
+  const bool everything = statistics || drawing_is_due_;
+  const Stopwatch stopwatch;
+  if ((everything || contacts_publisher_.getNumSubscribers() > 0) && !detect()) {
     return;
   }
+  if (environment_.is_used() && (everything || environment_.has_listeners())) {
+    detect_in_environment();
+  }
+  publish_markers_if_due();
+  const Stopwatch comparison_time;
+  if (comparison_.publish_if_wanted()) {
+    add_part("comparison", comparison_time.seconds());
+  }
+  if (statistics) {
+    publish_statistics(parts_.front().second + stopwatch.seconds());
+  }
+}
+
+/// Finds contacts and closest pair of the fibres, and publishes them.
+/// @returns false if the engine cannot
+bool ProximityServer::detect() {
   try {
-    detector_.detect(query_options_);
+    detector_.detect(query_options_, config_.minimum_distance);
   } catch (const std::invalid_argument& error) {
     ROS_ERROR_STREAM_THROTTLE(1.0, "engine " << options_.engine << ": " << error.what());
     drawing_is_due_ = false;
-    return;
+    return false;
   }
-  if (contacts) {
+  add_part("update", detector_.update_time());
+  add_part("contacts", detector_.detection().contact_time());
+  if (config_.minimum_distance) {
+    add_part("minimum", detector_.detection().minimum_time());
+  }
+  if (contacts_publisher_.getNumSubscribers() > 0) {
     publish_contacts();
   }
-  publish_markers_if_due();
-  if (statistics) {
-    publish_statistics(merge_time_ + stopwatch.seconds());
+  return true;
+}
+
+void ProximityServer::detect_in_environment() {
+  environment_.detect(query_options_, config_.minimum_distance);
+  add_part("environment_update", environment_.update_time());
+  add_part("environment_contacts", environment_.detection().contact_time());
+  if (config_.minimum_distance) {
+    add_part("environment_minimum", environment_.detection().minimum_time());
   }
+  environment_.publish(query_options_);
+}
+
+void ProximityServer::add_part(const std::string& name, double seconds) {
+  parts_.emplace_back(name, seconds);
 }
 
 void ProximityServer::publish_fibers() {
@@ -133,52 +189,54 @@ void ProximityServer::publish_fibers() {
 }
 
 void ProximityServer::publish_contacts() {
-  fiber_proximity::ContactArray& message = contacts_message_;
-  message.header = inputs_.header();
-  message.fiber_names = inputs_.names();
-  const std::vector<fiber::Contact>& contacts = detector_.contacts().contacts;
-  message.contacts.resize(contacts.size());
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    to_message(contacts[i], message.contacts[i]);
-  }
-  message.margin = query_options_.margin;
-  message.limit_reached = detector_.contacts().limit_reached;
-  message.has_minimum = detector_.minimum() != nullptr;
-  message.minimum_distance = std::numeric_limits<double>::infinity();
-  message.minimum = fiber_proximity::Contact();
-  if (message.has_minimum) {
-    message.minimum_distance = detector_.minimum()->distance;
-    to_message(*detector_.minimum(), message.minimum);
-  }
-  message.node_tests = detector_.counts().node_tests;
-  message.node_overlaps = detector_.counts().node_overlaps;
-  message.primitive_tests = detector_.counts().primitive_tests;
-  message.update_time = detector_.update_time();
-  message.detect_time = detector_.detect_time();
-  contacts_publisher_.publish(message);
+  to_message(detector_.detection(), query_options_, fiber_proximity::Contact::FIBER,
+             contacts_message_);
+  contacts_message_.header = inputs_.header();
+  contacts_message_.fiber_names = inputs_.names();
+  contacts_message_.update_time = detector_.update_time();
+  contacts_publisher_.publish(contacts_message_);
 }
 
 void ProximityServer::publish_statistics(double total_time) {
   fiber_proximity::Statistics& message = statistics_message_;
   message.header = inputs_.header();
   message.engine = options_.engine;
-  message.fibers = static_cast<std::uint32_t>(inputs_.fibers().fiber_count());
-  message.points = static_cast<std::uint32_t>(inputs_.fibers().point_count());
-  message.segments = static_cast<std::uint32_t>(inputs_.fibers().segment_count());
-  message.contacts = static_cast<std::uint32_t>(detector_.contacts().contacts.size());
-  message.minimum_distance = detector_.minimum() != nullptr
-                                 ? detector_.minimum()->distance
-                                 : std::numeric_limits<double>::infinity();
-  message.merge_time = merge_time_;
+  message.fibers = to_count(inputs_.fibers().fiber_count());
+  message.points = to_count(inputs_.fibers().point_count());
+  message.segments = to_count(inputs_.fibers().segment_count());
+  const Detection& found = detector_.detection();
+  message.contacts = to_count(found.contacts().contacts.size());
+  message.minimum_distance = found.minimum() != nullptr ? found.minimum()->distance
+                                                        : std::numeric_limits<double>::infinity();
+  message.merge_time = parts_.front().second;
   message.update_time = detector_.update_time();
   message.detect_time = detector_.detect_time();
   message.total_time = total_time;
-  message.node_tests = detector_.counts().node_tests;
-  message.node_overlaps = detector_.counts().node_overlaps;
-  message.primitive_tests = detector_.counts().primitive_tests;
+  message.kernel = name_of(query_options_.kernel);
+  message.complete = found.is_complete();
+  message.minimum_lower = found.minimum_lower();
+  message.minimum_upper = found.minimum_upper();
+  message.contact_error = found.contact_error();
+  message.node_tests = found.counts().node_tests;
+  message.node_overlaps = found.counts().node_overlaps;
+  message.primitive_tests = found.counts().primitive_tests;
+  message.parts.clear();
+  message.part_times.clear();
+  for (const auto& [name, seconds] : parts_) {
+    message.parts.push_back(name);
+    message.part_times.push_back(seconds);
+  }
+  const bool is_alone = !environment_.is_used();
+  message.objects = is_alone ? 0 : to_count(environment_.environment().objects().size());
+  message.environment_contacts =
+      is_alone ? 0 : to_count(environment_.detection().contacts().contacts.size());
+  message.unknown_objects = environment_.inputs().unknown();
   message.inputs.clear();
   for (const std::unique_ptr<Input>& input : inputs_.inputs()) {
     message.inputs.push_back(input->statistics(ros::Time::now()));
+  }
+  for (const auto& input : environment_.inputs().statistics(ros::Time::now())) {
+    message.inputs.push_back(input);
   }
   statistics_publisher_.publish(message);
 }
@@ -194,50 +252,94 @@ void ProximityServer::publish_markers_if_due() {
   if (marker_options_.show_boxes) {
     detector_.engine().level_boxes(marker_options_.level, boxes_);
   }
-  marker_builder_.build(inputs_.header(), inputs_.fibers(), detector_.contacts(),
-                        detector_.minimum(), boxes_, marker_options_, markers_message_);
+  std::string cost;
+  if (marker_options_.show_cost) {
+    cost =
+        cost_text(name_of(query_options_.kernel), detector_.update_time() + detector_.detect_time(),
+                  detector_.detection().contact_error(), detector_.detection().is_complete());
+  }
+  if (marker_options_.show_crossings) {
+    crossings_.find(inputs_.fibers(), inputs_.header());
+  }
+  const CrossingDrawing crossings{crossings_.crossings(), crossings_.view()};
+  const Drawing drawing{inputs_.fibers(),
+                        detector_.detection().contacts().contacts,
+                        detector_.detection().minimum(),
+                        boxes_,
+                        cost,
+                        &crossings};
+  marker_builder_.build(inputs_.header(), drawing, marker_options_, markers_message_);
+  const Detection& around = environment_.detection();
+  environment_markers_.append(inputs_.header(),
+                              {inputs_.fibers(), environment_.environment().objects(),
+                               around.contacts().contacts, around.minimum()},
+                              environment_marker_options(), markers_message_);
   markers_publisher_.publish(markers_message_);
 }
 
-bool ProximityServer::query(fiber_proximity::QueryProximity::Request& request,
-                            fiber_proximity::QueryProximity::Response& response) {
+EnvironmentMarkerOptions ProximityServer::environment_marker_options() const {
+  // What was detected while there was something around is not to be seen any more when there is
+  // not.
+  const bool is_used = environment_.is_used();
+  EnvironmentMarkerOptions options;
+  options.show_objects = is_used && config_.show_objects;
+  options.show_distances = is_used && config_.show_contacts;
+  options.show_nearest = is_used && config_.show_nearest;
+  return options;
+}
+
+/// Answers a request about the newest fibres, or says why it cannot.
+template <class Response, class Answer>
+bool ProximityServer::respond(Response& response, const Answer& answer_it) {
   process();  // asked after a message arrived, answered with it
   try {
-    if (!inputs_.is_fresh()) {
-      throw std::invalid_argument(
-          "no fresh input: no fibres have arrived within the input_timeout");
-    }
-    answer(request, detector_.engine(), inputs_.frame(), response);
+    inputs_.require_fresh();
+    const std::shared_ptr<const fiber::Environment> environment =
+        environment_.inputs().environment();
+    answer_it(QueryTarget{inputs_.fibers(), detector_.engine(), *environment, inputs_.frame(),
+                          query_options_});
     response.header = inputs_.header();
     response.fiber_names = inputs_.names();
+    response.object_names = object_names(*environment);
     response.success = true;
   } catch (const std::exception& error) {
-    response = fiber_proximity::QueryProximity::Response();
+    response = Response();
     response.message = error.what();
   }
   return true;
 }
 
+bool ProximityServer::query(fiber_proximity::QueryProximity::Request& request,
+                            fiber_proximity::QueryProximity::Response& response) {
+  return respond(response, [&](const QueryTarget& target) { answer(request, target, response); });
+}
+
+bool ProximityServer::check_fibers(fiber_proximity::CheckFibers::Request& request,
+                                   fiber_proximity::CheckFibers::Response& response) {
+  return respond(response, [&](const QueryTarget& target) {
+    const auto allowed = [this](const std::vector<std::string>& names) {
+      return environment_.inputs().allowed(names);
+    };
+    answer(request, target, inputs_.names(), allowed, response);
+  });
+}
+
 void ProximityServer::reconfigure(fiber_proximity::ProximityConfig& config) {
   try {
-    fiber::QueryOptions options;
-    options.type = fiber::query_type_from_name(config.query_type);
-    options.margin = config.margin;
-    options.max_contacts = static_cast<std::uint32_t>(config.max_contacts);
-    options.neighbour_skip = static_cast<std::uint32_t>(config.neighbour_skip);
-    options.neighbour_skip_length = config.neighbour_skip_length;
-    fiber::validate(options);
-    query_options_ = options;
+    query_options_ = to_query_options(config);
   } catch (const std::invalid_argument& error) {
     ROS_ERROR_STREAM("parameters stay as they were: " << error.what());
     config = config_;  // the server announces what is really in use
     return;
   }
   config_ = config;
+  comparison_.switch_on(config.compare);
   marker_options_.show_fibers = config.show_fibers;
   marker_options_.show_contacts = config.show_contacts;
   marker_options_.show_nearest = config.show_nearest;
+  marker_options_.show_cost = config.show_cost;
   marker_options_.show_boxes = config.show_boxes;
+  marker_options_.show_crossings = config.show_crossings;
   marker_options_.level = static_cast<std::uint32_t>(config.box_level);
 }
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "fiber_proximity/ProximityConfig.h"
+#include "fiber_proximity/ros/environment_options.hpp"
 #include "fiber_proximity/ros/parameters.hpp"
 
 namespace fiber_proximity_ros {
@@ -35,20 +36,12 @@ std::vector<InputOptions> read_inputs(const ros::NodeHandle& node, double radius
   return inputs;
 }
 
-void read_threads(const ros::NodeHandle& node, std::uint32_t& most) {
-  const std::string allowed = "a whole number of at least 0";
-  auto threads = static_cast<int>(most);
-  read_parameter(node, "threads", allowed, threads);
-  if (threads < 0) {
-    refuse_parameter(node, "threads", allowed);
-  }
-  most = static_cast<std::uint32_t>(threads);
-}
-
 void warn_of_unknown_parameters(const ros::NodeHandle& node) {
-  std::vector<std::string> known{"engine",     "threads",          "skin",          "fixed_frame",
-                                 "inputs",     "radius",           "input_timeout", "marker_rate",
-                                 "tf_timeout", "diagnostic_period"};
+  std::vector<std::string> known{
+      "engine",         "threads",       "skin",        "fixed_frame", "inputs",
+      "radius",         "input_timeout", "marker_rate", "tf_timeout",  "diagnostic_period",
+      "simplification", "crossings"};
+  known.insert(known.end(), environment_parameters().begin(), environment_parameters().end());
   for (const auto& parameter : fiber_proximity::ProximityConfig::__getParamDescriptions__()) {
     known.push_back(parameter->name);
   }
@@ -75,8 +68,9 @@ ServerOptions read_server_options(const ros::NodeHandle& private_node) {
   ServerOptions options;
   double radius = InputOptions().radius;
   read_parameter(private_node, "engine", "a string", options.engine);
-  read_threads(private_node, options.engine_options.threads);
+  read_parameter(private_node, "threads", options.engine_options.threads);
   read_parameter(private_node, "skin", 0.0, options.engine_options.skin);
+  read_parameter(private_node, "simplification", 0.0, options.engine_options.simplification);
   read_parameter(private_node, "fixed_frame", "a string", options.fixed_frame);
   read_parameter(private_node, "radius", 0.0, radius);
   read_parameter(private_node, "tf_timeout", 0.0, options.timing.tf_timeout);

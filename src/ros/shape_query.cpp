@@ -4,7 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "fiber_proximity/query/deadline.hpp"
+#include "fiber_proximity/query/merge_results.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
+#include "fiber_proximity/ros/naming.hpp"
+#include "fiber_proximity/ros/request_options.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -12,32 +16,16 @@ namespace {
 using fiber_proximity::QueryProximity;
 using fiber_proximity::QueryShape;
 
-fiber::QueryOptions to_options(const QueryProximity::Request& request) {
-  fiber::QueryOptions options;
-  switch (request.type) {
-    case QueryProximity::Request::FIRST:
-      options.type = fiber::QueryType::FIRST;
-      break;
-    case QueryProximity::Request::CLOSEST:
-      options.type = fiber::QueryType::CLOSEST;
-      break;
-    case QueryProximity::Request::LIMITED:
-      options.type = fiber::QueryType::LIMITED;
-      break;
-    case QueryProximity::Request::ALL:
-      options.type = fiber::QueryType::ALL;
-      break;
-    case QueryProximity::Request::FIBER_PAIRS:
-      options.type = fiber::QueryType::FIBER_PAIRS;
-      break;
-    default:
-      throw std::invalid_argument("type is " + std::to_string(request.type) +
-                                  ", it must be 0 (FIRST), 1 (CLOSEST), 2 (LIMITED), 3 (ALL) or 4 "
-                                  "(FIBER_PAIRS)");
-  }
-  options.margin = request.margin;
-  options.max_contacts = request.max_contacts;
+fiber::QueryOptions validated_options(const QueryProximity::Request& request,
+                                      const fiber::QueryOptions& defaults) {
+  fiber::QueryOptions options = to_options(request, defaults);
+  options.tolerance = request.tolerance;
+  options.relative_tolerance = request.relative_tolerance;
   fiber::validate(options);
+  if (request.against > QueryProximity::Request::EVERYTHING) {
+    throw std::invalid_argument("against is " + std::to_string(request.against) +
+                                ", it must be 0 (FIBERS), 1 (ENVIRONMENT) or 2 (EVERYTHING)");
+  }
   return options;
 }
 
@@ -62,35 +50,71 @@ fiber::FiberAssembly to_assembly(const QueryShape& shape, const FixedFrame& fram
   return assembly;
 }
 
-void append_contacts(const fiber::QueryResult& result, std::uint32_t shape,
-                     QueryProximity::Response& response) {
-  for (const fiber::Contact& contact : result.contacts) {
-    fiber_proximity::Contact message;
-    to_message(contact, message);
-    message.type_a = fiber_proximity::Contact::SHAPE;
-    message.fiber_a = shape;
-    response.contacts.push_back(message);
+/// Asks about one shape. Objects are numbered after the fibres.
+class ShapeQuery {
+ public:
+  ShapeQuery(const QueryTarget& target, std::uint8_t against)
+      : target_(target),
+        with_fibers_(against != QueryProximity::Request::ENVIRONMENT),
+        with_environment_(against != QueryProximity::Request::FIBERS),
+        fiber_count_(static_cast<std::uint32_t>(target.fibers.fiber_count())) {}
+
+  void ask(const fiber::FiberAssembly& shape, const fiber::QueryOptions& options) {
+    if (!with_environment_) {
+      target_.engine.query_shape(shape, options, result_);
+      return;
+    }
+    target_.environment.query(shape, options, {}, result_);
+    for (fiber::Contact& contact : result_.contacts) {
+      contact.fiber_b += fiber_count_;
+    }
+    if (with_fibers_) {
+      target_.engine.query_shape(shape, options, of_fibers_);
+      fiber::merge_results(options, of_fibers_, result_);
+    }
   }
-  response.offsets.push_back(static_cast<std::uint32_t>(response.contacts.size()));
-}
+
+  const fiber::QueryResult& result() const { return result_; }
+
+  void append_contacts(std::uint32_t shape, QueryProximity::Response& response) const {
+    for (const fiber::Contact& contact : result_.contacts) {
+      const bool is_object = contact.fiber_b >= fiber_count_;
+      fiber_proximity::Contact message;
+      to_message(contact, fiber_proximity::Contact::SHAPE,
+                 is_object ? fiber_proximity::Contact::OBJECT : fiber_proximity::Contact::FIBER,
+                 message);
+      message.fiber_a = shape;
+      message.fiber_b -= is_object ? fiber_count_ : 0;
+      response.contacts.push_back(message);
+    }
+    response.offsets.push_back(static_cast<std::uint32_t>(response.contacts.size()));
+  }
+
+ private:
+  const QueryTarget& target_;
+  bool with_fibers_;
+  bool with_environment_;
+  std::uint32_t fiber_count_;
+  fiber::QueryResult result_;
+  fiber::QueryResult of_fibers_;
+};
 
 }  // namespace
 
-void answer(const QueryProximity::Request& request, const fiber::ProximityEngine& engine,
-            const FixedFrame& frame, QueryProximity::Response& response) {
-  const fiber::QueryOptions options = to_options(request);
-  fiber::QueryResult result;
+void answer(const QueryProximity::Request& request, const QueryTarget& target,
+            QueryProximity::Response& response) {
+  fiber::QueryOptions options = validated_options(request, target.defaults);
+  const fiber::Deadline deadline(options.deadline);
+  ShapeQuery query(target, request.against);
+  response.complete = true;
   response.offsets.push_back(0);
   for (std::uint32_t i = 0; i < request.shapes.size(); ++i) {
-    const std::string shape = "shape " + std::to_string(i) + ": ";
-    try {
-      engine.query_shape(to_assembly(request.shapes[i], frame), options, result);
-    } catch (const std::invalid_argument& error) {
-      throw std::invalid_argument(shape + error.what());
-    } catch (const TransformUnavailable& error) {
-      throw TransformUnavailable(shape + error.what());
-    }
-    append_contacts(result, i, response);
+    options.deadline = deadline.left();
+    naming("shape " + std::to_string(i),
+           [&] { query.ask(to_assembly(request.shapes[i], target.frame), options); });
+    query.append_contacts(i, response);
+    response.minimum_lower.push_back(query.result().minimum_lower());
+    response.complete = response.complete && query.result().complete;
   }
 }
 

@@ -28,6 +28,15 @@ HardPair along_first(Random& random, double from, double to, const Vector3d& off
   return pair;
 }
 
+/// Generic pairs, each changed in this way.
+HardFamily changed(const std::string& name, const std::function<void(HardPair&)>& change) {
+  return {name, [change](Random& random) {
+            HardPair pair = generic_pair(random);
+            change(pair);
+            return pair;
+          }};
+}
+
 }  // namespace
 
 void append_scales(std::vector<HardFamily>& families) {
@@ -75,32 +84,22 @@ void append_parallels(std::vector<HardFamily>& families) {
                         return along_first(random, from, from + random.uniform(-1.0, 1.0),
                                            Vector3d::Zero());
                       }});
-  families.push_back({"identical", [](Random& random) {
-                        HardPair pair = generic_pair(random);
-                        pair.q0 = pair.p0;
-                        pair.q1 = pair.p1;
-                        return pair;
-                      }});
-  families.push_back({"reversed", [](Random& random) {
-                        HardPair pair = generic_pair(random);
-                        pair.q0 = pair.p1;
-                        pair.q1 = pair.p0;
-                        return pair;
-                      }});
+  families.push_back(changed("identical", [](HardPair& pair) {
+    pair.q0 = pair.p0;
+    pair.q1 = pair.p1;
+  }));
+  families.push_back(changed("reversed", [](HardPair& pair) {
+    pair.q0 = pair.p1;
+    pair.q1 = pair.p0;
+  }));
 }
 
 void append_lengths(std::vector<HardFamily>& families) {
-  families.push_back({"one_zero_length", [](Random& random) {
-                        HardPair pair = generic_pair(random);
-                        pair.q1 = pair.q0;
-                        return pair;
-                      }});
-  families.push_back({"both_zero_length", [](Random& random) {
-                        HardPair pair = generic_pair(random);
-                        pair.p1 = pair.p0;
-                        pair.q1 = pair.q0;
-                        return pair;
-                      }});
+  families.push_back(changed("one_zero_length", [](HardPair& pair) { pair.q1 = pair.q0; }));
+  families.push_back(changed("both_zero_length", [](HardPair& pair) {
+    pair.p1 = pair.p0;
+    pair.q1 = pair.q0;
+  }));
   for (const int exponent : {-300, -16, -8}) {
     const double ratio = power_of_ten(exponent);
     const auto make = [=](Random& random) {
@@ -128,11 +127,7 @@ void append_lengths(std::vector<HardFamily>& families) {
 }
 
 void append_touches(std::vector<HardFamily>& families) {
-  families.push_back({"shared_end", [](Random& random) {
-                        HardPair pair = generic_pair(random);
-                        pair.q0 = pair.p1;
-                        return pair;
-                      }});
+  families.push_back(changed("shared_end", [](HardPair& pair) { pair.q0 = pair.p1; }));
   families.push_back({"shared_end_folded", [](Random& random) {
                         HardPair pair = crossing_pair(random, 1e-7, 0.0);
                         pair.q0 = pair.p0;
@@ -150,15 +145,13 @@ void append_touches(std::vector<HardFamily>& families) {
                         return pair;
                       }});
   // On a coarse grid differences are exact, and ties and exact contacts are common.
-  families.push_back({"grid", [](Random& random) {
-                        HardPair pair = generic_pair(random);
-                        for (Vector3d* point : {&pair.p0, &pair.p1, &pair.q0, &pair.q1}) {
-                          *point = (4.0 * *point).unaryExpr([](double x) {
-                            return static_cast<double>(static_cast<int>(x));
-                          });
-                        }
-                        return pair;
-                      }});
+  families.push_back(changed("grid", [](HardPair& pair) {
+    for (Vector3d* point : {&pair.p0, &pair.p1, &pair.q0, &pair.q1}) {
+      *point = (4.0 * *point).unaryExpr([](double x) {
+        return static_cast<double>(static_cast<int>(x));
+      });
+    }
+  }));
 }
 
 }  // namespace fiber

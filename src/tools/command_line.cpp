@@ -3,8 +3,10 @@
 #include <cmath>
 #include <exception>
 #include <iostream>
+#include <sstream>
 #include <stdexcept>
 
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/io/number.hpp"
 
 namespace fiber {
@@ -74,6 +76,22 @@ CLI::Validator finite_number(double least) {
                        : "'" + text + "' must be a finite number " + range;
           },
           range};
+}
+
+Eigen::Vector3d parse_vector(const std::string& option, const std::string& text) {
+  Eigen::Vector3d vector;
+  std::istringstream stream(text);
+  std::string coordinate;
+  for (double& value : vector) {
+    std::getline(stream, coordinate, ',');
+    value = parse_number<double>(coordinate).value_or(std::nan(""));
+    coordinate.clear();
+  }
+  if (!stream.eof() || !vector.unaryExpr(&FiberAssembly::is_valid_coordinate).all()) {
+    throw CLI::ValidationError(
+        option, "'" + text + "' must be three numbers X,Y,Z; " + FiberAssembly::coordinate_rule);
+  }
+  return vector;
 }
 
 std::string listed(const std::vector<std::string>& names) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <Eigen/Core>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -28,6 +29,10 @@ CLI::Validator whole_number(std::uint64_t least);
 
 /// Accepts finite numbers from `least`.
 CLI::Validator finite_number(double least);
+
+/// The vector of an option's text X,Y,Z.
+/// @throws CLI::ValidationError naming the option, the text and what is allowed
+Eigen::Vector3d parse_vector(const std::string& option, const std::string& text);
 
 /// The names with commas between them.
 std::string listed(const std::vector<std::string>& names);

@@ -1,5 +1,6 @@
 #include "contact_format.hpp"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "fiber_proximity/io/number.hpp"
@@ -17,6 +18,8 @@ nlohmann::ordered_json to_json(const Contact& contact) {
           {"segment_b", contact.segment_b},
           {"t", contact.t},
           {"distance", contact.distance},
+          {"lower", contact.lower},
+          {"upper", contact.upper},
           {"point_a", to_json(contact.point_a)},
           {"point_b", to_json(contact.point_b)},
           {"normal", to_json(contact.normal)}};
@@ -33,8 +36,9 @@ void append_vector(std::string& text, const Eigen::Vector3d& vector) {
 
 std::string csv_header(bool has_frames) {
   return std::string(has_frames ? "frame," : "") +
-         "fiber_a,segment_a,s,fiber_b,segment_b,t,distance,point_a_x,point_a_y,point_a_z,"
-         "point_b_x,point_b_y,point_b_z,normal_x,normal_y,normal_z\n";
+         "fiber_a,segment_a,s,fiber_b,segment_b,t,distance,point_a_x,point_a_y,point_a_"
+         "z,"
+         "point_b_x,point_b_y,point_b_z,normal_x,normal_y,normal_z,lower,upper\n";
 }
 
 void append_csv(std::string& text, std::optional<std::int64_t> frame,
@@ -60,18 +64,24 @@ void append_csv(std::string& text, std::optional<std::int64_t> frame,
     append_vector(text, contact.point_a);
     append_vector(text, contact.point_b);
     append_vector(text, contact.normal);
+    text += ',';
+    append_number(text, contact.lower);
+    text += ',';
+    append_number(text, contact.upper);
     text += '\n';
   }
 }
 
-void append_json(std::string& text, std::optional<std::int64_t> frame,
-                 const std::vector<Contact>& contacts) {
+void append_json(std::string& text, std::optional<std::int64_t> frame, const QueryResult& result) {
   nlohmann::ordered_json object;
   if (frame) {
     object["frame"] = *frame;
   }
+  object["complete"] = result.complete;
+  const double lower = result.minimum_lower();
+  object["minimum_lower"] = std::isfinite(lower) ? nlohmann::ordered_json(lower) : nullptr;
   object["contacts"] = nlohmann::ordered_json::array();
-  for (const Contact& contact : contacts) {
+  for (const Contact& contact : result.contacts) {
     object["contacts"].push_back(to_json(contact));
   }
   text += object.dump();

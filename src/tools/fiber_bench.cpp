@@ -8,7 +8,10 @@ void setup(CLI::App& app, Command& command) {
   app.require_subcommand(0, 1);
   add_scene_commands(app, command);
   add_stages_command(app, command);
+  add_accuracy_command(app, command);
   add_coherence_command(app, command);
+  add_kernels_command(app, command);
+  add_environment_command(app, command);
 #ifdef FIBER_BENCH_HAS_LATENCY
   add_latency_command(app, command);
 #endif

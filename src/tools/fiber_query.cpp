@@ -1,19 +1,19 @@
-#include <cmath>
 #include <functional>
 #include <iostream>
 #include <limits>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <string>
 
 #include "command_line.hpp"
+#include "compare_command.hpp"
 #include "contact_format.hpp"
+#include "fiber_proximity/geometry/kernel.hpp"
 #include "fiber_proximity/io/fiber_file.hpp"
-#include "fiber_proximity/io/number.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/query/nearest_segments.hpp"
 #include "segments_command.hpp"
+#include "topology_commands.hpp"
 
 namespace fiber {
 namespace {
@@ -26,7 +26,7 @@ struct Request {
   Eigen::Vector3d point;         // [m]
   std::uint32_t k = 1;
   double radius = 0.0;  // [m]
-  std::uint32_t threads = 0;
+  EngineOptions engine_options;
   std::string format = "csv";
 };
 
@@ -46,12 +46,33 @@ void add_file_options(CLI::App& app, Request& request) {
       ->capture_default_str();
   app.add_option("--radius", request.radius, "of all fibres, if the file has no radii [m]")
       ->capture_default_str();
-  app.add_option("--threads", request.threads,
+  app.add_option("--threads", request.engine_options.threads,
                  "most threads to use, 0 for as many as there are cores")
       ->check(whole_number(0))
       ->capture_default_str();
   app.add_option("--format", request.format, "of the output; json: one object per frame")
       ->check(CLI::IsMember({"csv", "json"}))
+      ->capture_default_str();
+}
+
+void add_accuracy_options(CLI::App& app, Request& request) {
+  app.add_option_function<std::string>(
+         "--kernel",
+         [&request](const std::string& name) { request.query.kernel = kernel_from_name(name); },
+         "one of " + listed(kernel_names()))
+      ->default_str("robust");
+  app.add_option("--tolerance", request.query.tolerance,
+                 "the closest pairs may be missed by less than this [m]")
+      ->capture_default_str();
+  app.add_option("--relative-tolerance", request.query.relative_tolerance,
+                 "the same as a part of the distance")
+      ->capture_default_str();
+  app.add_option("--simplification", request.engine_options.simplification,
+                 "runs of segments that deviate from one by at most this count as one [m]: bounds "
+                 "are up to 4 times as far apart, no contact is missed")
+      ->capture_default_str();
+  app.add_option("--deadline", request.query.deadline,
+                 "time to answer a frame [s]; what is found by then is the answer; 0 for none")
       ->capture_default_str();
 }
 
@@ -67,25 +88,9 @@ void add_pair_options(CLI::App& app, const Query& query, Request& request) {
       ->capture_default_str();
 }
 
-/// The point of a text X,Y,Z [m].
-Eigen::Vector3d parse_point(const std::string& text) {
-  Eigen::Vector3d point;
-  std::istringstream stream(text);
-  std::string coordinate;
-  for (double& value : point) {
-    std::getline(stream, coordinate, ',');
-    value = parse_number<double>(coordinate).value_or(std::nan(""));
-    coordinate.clear();
-  }
-  if (!stream.eof() || !point.unaryExpr(&FiberAssembly::is_valid_coordinate).all()) {
-    throw CLI::ValidationError(
-        "--point", "'" + text + "' must be three numbers X,Y,Z; " + FiberAssembly::coordinate_rule);
-  }
-  return point;
-}
-
 ExitCode run(const Request& request, const Ask& ask) {
-  const std::unique_ptr<ProximityEngine> engine = make_engine(request.engine, {request.threads});
+  const std::unique_ptr<ProximityEngine> engine =
+      make_engine(request.engine, request.engine_options);
   const FiberFile file = read_fibers(request.file, request.radius);
   const bool json = request.format == "json";
   QueryResult result;
@@ -96,12 +101,17 @@ ExitCode run(const Request& request, const Ask& ask) {
     const std::optional<std::int64_t> number =
         file.has_frames ? std::optional(frame.frame) : std::nullopt;
     if (json) {
-      append_json(text, number, result.contacts);
+      append_json(text, number, result);
     } else {
       append_csv(text, number, result.contacts);
     }
     std::cout << text;
     text.clear();
+    if (!result.complete) {
+      std::cerr << "fiber_query: the deadline has passed"
+                << (number ? " in frame " + std::to_string(*number) : "")
+                << ": pairs may be missing\n";
+    }
   }
   std::cout << text;  // the header of a file without frames
   return SUCCEEDED;
@@ -119,6 +129,7 @@ void add_pair_queries(CLI::App& app, Command& command, const std::shared_ptr<Req
     CLI::App* subcommand = app.add_subcommand(query.name, query.description);
     add_file_options(*subcommand, *request);
     add_pair_options(*subcommand, query, *request);
+    add_accuracy_options(*subcommand, *request);
     subcommand->callback([&command, request, query] {
       request->query.type = query.type;
       request->query.margin = request->margin.value_or(query.default_margin);
@@ -138,7 +149,8 @@ void add_nearest(CLI::App& app, Command& command, const std::shared_ptr<Request>
   add_file_options(*nearest, *request);
   nearest
       ->add_option_function<std::string>(
-          "--point", [request](const std::string& text) { request->point = parse_point(text); },
+          "--point",
+          [request](const std::string& text) { request->point = parse_vector("--point", text); },
           "X,Y,Z [m]")
       ->required();
   nearest->add_option("--k", request->k, "how many segments")
@@ -159,12 +171,14 @@ void setup(CLI::App& app, Command& command) {
   add_pair_queries(app, command, request);
   add_nearest(app, command, request);
   add_segments(app, command);
+  add_compare(app, command);
+  add_topology(app, command);
 }
 
 }  // namespace
 }  // namespace fiber
 
 int main(int argc, char** argv) {
-  return fiber::run_tool("fiber_query", "Contacts and distances of the fibres in a file",
+  return fiber::run_tool("fiber_query", "Contacts, distances and crossings of the fibres in a file",
                          fiber::setup, argc, argv);
 }

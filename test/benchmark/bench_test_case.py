@@ -1,6 +1,8 @@
 """What tests of the driver of experiments (benchmark/bench) share: a tool that only pretends."""
 
+import contextlib
 import importlib.util
+import io
 import pathlib
 import stat
 import sys
@@ -23,6 +25,13 @@ class BenchTestCase(unittest.TestCase):
         self.tool = self.folder / "tool"
         self.tool.write_text(self.TOOL)
         self.tool.chmod(self.tool.stat().st_mode | stat.S_IXUSR)
+
+    def printed_by(self, run, **arguments):
+        """What an experiment with the tool prints; its results are in the folder `out`."""
+        with contextlib.redirect_stderr(io.StringIO()), \
+                contextlib.redirect_stdout(io.StringIO()) as printed:
+            run(str(self.tool), self.folder / "out", **arguments)
+        return printed.getvalue()
 
     def calls(self):
         return pathlib.Path(str(self.tool) + ".calls").read_text().splitlines()

@@ -43,10 +43,7 @@ class CoherenceTest(BenchTestCase):
     TOOL = TOOL
 
     def quick(self):
-        with contextlib.redirect_stderr(io.StringIO()), \
-                contextlib.redirect_stdout(io.StringIO()) as printed:
-            run(str(self.tool), self.folder / "out", quick=True)
-        return printed.getvalue()
+        return self.printed_by(run, quick=True)
 
     def test_every_scene_of_the_paper_runs_once_with_all_skins(self):
         self.quick()

@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <thread>
 
+#include "fiber_proximity/hierarchy/segment_boxes.hpp"
 #include "fiber_proximity/query/brute_force.hpp"
 #include "peers/peer.hpp"
-#include "peers/segment_boxes.hpp"
 #include "support/assemblies.hpp"
 #include "support/contacts.hpp"
 #include "support/process.hpp"

@@ -5,15 +5,10 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
-#include <type_traits>
 #include <vector>
 
-#include "fiber_proximity/bounds/aabb.hpp"
-#include "fiber_proximity/bounds/direction_set.hpp"
-#include "fiber_proximity/bounds/kdop.hpp"
-#include "fiber_proximity/bounds/obb.hpp"
-#include "fiber_proximity/bounds/sphere.hpp"
 #include "fiber_proximity/geometry/segment_distance.hpp"
+#include "support/bounding_volumes.hpp"
 #include "support/random.hpp"
 
 namespace fiber::test {
@@ -21,11 +16,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The properties every volume must have; one line in VolumeTypes adds a volume.
+/// The properties every volume must have.
 template <class Volume>
 class BoundingVolumeTest : public testing::Test {};
 
-using VolumeTypes = testing::Types<Aabb, Kdop<1>, Kdop<3>, Kdop<25>, Obb, Sphere>;
 TYPED_TEST_SUITE(BoundingVolumeTest, VolumeTypes);
 
 /// Capsules of all kinds: from points to needles, from far below to far beyond float's range.
@@ -44,33 +38,6 @@ constexpr double scales[] = {1e-310, 1e-40, 1e-20, 1e-3, 1.0, 1e6, 1e30, 1e60};
 
 double gap(const Capsule& a, const Capsule& b) {
   return segment_distance(a.p0, a.p1, b.p0, b.p1).distance - (a.radius + b.radius);
-}
-
-/// Parameters to test a volume with: for k-DOPs the fewest directions their groups take.
-template <class Volume>
-typename Volume::Parameters parameters() {
-  if constexpr (std::is_same_v<typename Volume::Parameters, NoParameters>) {
-    return {};
-  } else {
-    const int directions = std::max(3, Volume::padded_count - slabs_per_group + 1);
-    return typename Volume::Parameters(grassmannian_directions(2 * directions));
-  }
-}
-
-template <class Volume>
-Volume fitted(const Capsule& capsule) {
-  static const auto shared = parameters<Volume>();
-  Volume volume;
-  fit(volume, capsule, shared);
-  return volume;
-}
-
-template <class Volume>
-Volume fitted(const std::vector<Capsule>& capsules) {
-  static const auto shared = parameters<Volume>();
-  Volume volume;
-  fit(volume, CapsuleRun{capsules.data(), capsules.size()}, shared);
-  return volume;
 }
 
 std::vector<Capsule> random_run(Random& random, double scale) {

@@ -55,6 +55,27 @@ TEST(FiberAssembly, TakesOneRadiusOnePerFiberOrOnePerPoint) {
   EXPECT_EQ(FiberAssembly(five_points, {0, 3, 5}, {0.1, 0.2}).segment_radius(3), 0.2);
 }
 
+TEST(FiberAssembly, TakesOneRadiusPerSegmentWithNewFibers) {
+  FiberAssembly fibers({{7, 7, 7}, {8, 8, 8}}, {0, 2}, {9.0});
+  fibers.assign_segments(five_points, {0, 3, 5}, {1, 3, 0, 2, 0});
+  EXPECT_EQ(fibers.points(), five_points);
+  EXPECT_EQ(fibers.offsets(), (std::vector<std::uint32_t>{0, 3, 5}));
+  EXPECT_EQ(fibers.segment_radius(0), 1.0);
+  EXPECT_EQ(fibers.segment_radius(1), 3.0);
+  EXPECT_EQ(fibers.segment_radius(3), 2.0);
+  EXPECT_EQ(fibers.largest_radius(), 3.0);
+  const auto error_of_segments = [&](const std::vector<std::uint32_t>& offsets,
+                                     const std::vector<double>& radii) {
+    return error_of([&] { fibers.assign_segments(five_points, offsets, radii); });
+  };
+  EXPECT_EQ(error_of_segments({0, 3, 5}, {1}), "1 radii of segments for 5 points");
+  EXPECT_EQ(error_of_segments({0, 3, 5}, {1, -1, 0, 2, 0}).rfind("fibre 0, point 1: the radius", 0),
+            0U);
+  EXPECT_EQ(error_of_segments({0, 3}, {1, 1, 0, 2, 0}),
+            "the last offset is 3, but there are 5 points");
+  EXPECT_EQ(fibers.segment_radius(1), 3.0) << "what was refused changes nothing";
+}
+
 TEST(FiberAssembly, CountsAConicalSegmentAsItsLargerRadius) {
   const FiberAssembly fibers(five_points, {0, 3, 5}, {1, 3, 2, 5, 4});
   EXPECT_EQ(fibers.segment_radius(0), 3.0);

@@ -39,16 +39,37 @@ void operator delete(void* memory, std::size_t /*size*/, std::align_val_t /*alig
 namespace fiber::test {
 namespace {
 
+FiberAssembly walks(Random& random, int fibers, int segments, double radius) {
+  AssemblyBuilder builder;
+  for (int fiber = 0; fiber < fibers; ++fiber) {
+    builder.add_fiber(random_walk(random, segments, 0.1));
+  }
+  return builder.build({radius});
+}
+
+// Which thread does which job changes from frame to frame: all of them get to know all frames.
+constexpr int warm_up = 20;
+
+/// Calls frame(number) twice as often as it takes to reach a steady state.
+/// @return how often it has allocated since
+template <class Frame>
+std::size_t allocations_in_steady_state(const Frame& frame) {
+  std::size_t before = 0;
+  for (int number = 0; number < 2 * warm_up; ++number) {
+    if (number == warm_up) {
+      before = allocations;
+    }
+    frame(number);
+  }
+  return allocations - before;
+}
+
 class AllocationTest : public testing::TestWithParam<std::string> {};
 
 TEST_P(AllocationTest, AnUpdateWithTheSameTopologyAllocatesNothing) {
   SCOPED_TRACE(seed_message());
   Random random;
-  AssemblyBuilder builder;
-  for (int fiber = 0; fiber < 20; ++fiber) {
-    builder.add_fiber(random_walk(random, 50, 0.1));
-  }
-  FiberAssembly fibers = builder.build({0.01});
+  FiberAssembly fibers = walks(random, 20, 50, 0.01);
   std::vector<Eigen::Vector3d> points = fibers.points();
   const auto engine = make_engine(GetParam());
   engine->update(fibers);
@@ -64,66 +85,44 @@ TEST_P(AllocationTest, AnUpdateWithTheSameTopologyAllocatesNothing) {
 TEST(RunTreeAllocationTest, AFrameInSteadyStateAllocatesNothing) {
   SCOPED_TRACE(seed_message());
   Random random;
-  AssemblyBuilder builder;
-  for (int fiber = 0; fiber < 400; ++fiber) {  // enough for several threads to have a part
-    builder.add_fiber(random_walk(random, 50, 0.1));
-  }
-  FiberAssembly fibers = builder.build({0.02});
+  // Enough for several threads to have a part.
+  FiberAssembly fibers = walks(random, 400, 50, 0.02);
   const std::vector<Eigen::Vector3d> points = fibers.points();
   const auto engine = make_engine("run_tree", {2});
   QueryResult result;
-  // Which thread does which job changes from frame to frame: all of them get to know all frames.
-  constexpr int warm_up = 20;
-  std::size_t before = 0;
-  for (int frame = 0; frame < 2 * warm_up; ++frame) {
-    if (frame == warm_up) {
-      before = allocations;
-    }
+  const std::size_t found = allocations_in_steady_state([&](int /*frame*/) {
     fibers.update_points(points);
     engine->update(fibers);
     engine->query({}, result);
-  }
+  });
   EXPECT_FALSE(result.contacts.empty());
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(found, 0U);
 }
 
 TEST(RunTreeAllocationTest, AFrameInWhichSomeFibersMoveAllocatesNothing) {
   SCOPED_TRACE(seed_message());
   Random random;
-  AssemblyBuilder builder;
-  for (int fiber = 0; fiber < 100; ++fiber) {
-    builder.add_fiber(random_walk(random, 50, 0.1));
-  }
-  FiberAssembly fibers = builder.build({0.02});
+  FiberAssembly fibers = walks(random, 100, 50, 0.02);
   std::vector<Eigen::Vector3d> points = fibers.points();
   RunTreeEngine engine({1, 0.01});
   QueryResult result;
-  constexpr int warm_up = 20;
-  std::size_t before = 0;
-  for (int frame = 0; frame < 2 * warm_up; ++frame) {
-    if (frame == warm_up) {
-      before = allocations;
-    }
+  const std::size_t found = allocations_in_steady_state([&](int frame) {
     for (int i = 0; i < 50; ++i) {  // the first fibre goes there and back
       points[i].x() += frame % 2 == 0 ? 0.05 : -0.05;
     }
     fibers.update_points(points);
     engine.update(fibers);
     engine.query({}, result);
-  }
+  });
   EXPECT_EQ(engine.partial_count(), 2U * warm_up - 1);
   EXPECT_FALSE(result.contacts.empty());
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(found, 0U);
 }
 
 TEST(RunTreeAllocationTest, AskingForFiberPairsAgainAllocatesNothing) {
   SCOPED_TRACE(seed_message());
   Random random;
-  AssemblyBuilder builder;
-  for (int fiber = 0; fiber < 100; ++fiber) {
-    builder.add_fiber(random_walk(random, 10, 0.1));
-  }
-  const FiberAssembly fibers = builder.build({0.02});
+  const FiberAssembly fibers = walks(random, 100, 10, 0.02);
   const auto engine = make_engine("run_tree");
   engine->update(fibers);
   QueryOptions options;

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "fiber_proximity/query/brute_force.hpp"
+#include "fiber_proximity/scenes/hard_pairs.hpp"
 #include "support/assemblies.hpp"
 #include "support/contacts.hpp"
 
@@ -57,6 +58,8 @@ QueryOptions random_options(Random& random, const FiberAssembly& fibers, QueryTy
   const double margins[] = {0.0, 1e-3 * size, 0.1 * size, size,
                             std::numeric_limits<double>::infinity()};
   options.margin = margins[random.integer(0, 4)];
+  const Pairing pairings[] = {Pairing::ALL, Pairing::SAME_FIBER, Pairing::DIFFERENT_FIBERS};
+  options.pairing = random.chance(0.3) ? pairings[random.integer(0, 2)] : Pairing::ALL;
   options.neighbour_skip = static_cast<std::uint32_t>(random.integer(0, 3));
   options.neighbour_skip_length = random.chance(0.3) ? 0.2 * size : 0.0;
   options.max_contacts = static_cast<std::uint32_t>(random.integer(1, 20));
@@ -79,6 +82,23 @@ TEST_P(EngineTest, GivesBruteForcesAnswerOnEveryFamily) {
         ASSERT_TRUE(same_contacts(found.contacts, expected.contacts));
         ASSERT_EQ(found.limit_reached, expected.limit_reached);
       }
+    }
+  }
+}
+
+/// Volumes are in single precision: products of a few lengths leave its range long before lengths
+/// do.
+TEST_P(EngineTest, FindsCapsulesThatTouchAtEveryMagnitude) {
+  SCOPED_TRACE(seed_message());
+  const std::vector<HardPair> pairs = hard_pairs(hard_families().front(), 20, run_seed());
+  for (int exponent = -200; exponent <= 200; exponent += 2) {
+    const double scale = std::ldexp(1.0, exponent);
+    for (const HardPair& pair : pairs) {
+      const FiberAssembly fibers(
+          {scale * pair.p0, scale * pair.p1, scale * pair.q0, scale * pair.q1}, {0, 2, 4},
+          {scale * pair.radius_a, scale * pair.radius_b});
+      ASSERT_TRUE(same_contacts(ask(fibers, {}).contacts, truth(fibers, {}).contacts))
+          << "scale 2^" << exponent;
     }
   }
 }

@@ -27,8 +27,7 @@ std::vector<Contact> closest_by_fibers(const std::vector<Contact>& contacts) {
   for (const auto& [fibers, contact] : by_fibers) {
     closest.push_back(contact);
   }
-  std::sort(closest.begin(), closest.end(),
-            [](const Contact& x, const Contact& y) { return x.key() < y.key(); });
+  sort_by_key(closest);
   return closest;
 }
 

@@ -52,6 +52,28 @@ TEST(PairCollector, TakesTheMarginAsInclusive) {
   EXPECT_TRUE(ask(fibers, options).contacts.empty());
 }
 
+TEST(PairCollector, LeavesOutPairsOfTheOtherPairing) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  for (const AssemblyFamily& family : assembly_families()) {
+    const FiberAssembly fibers = family.make(random);
+    QueryOptions options;
+    options.margin = std::numeric_limits<double>::infinity();
+    const QueryResult all = ask(fibers, options);
+    options.pairing = Pairing::SAME_FIBER;
+    const QueryResult same = ask(fibers, options);
+    options.pairing = Pairing::DIFFERENT_FIBERS;
+    const QueryResult different = ask(fibers, options);
+    EXPECT_EQ(same.contacts.size() + different.contacts.size(), all.contacts.size());
+    for (const Contact& contact : same.contacts) {
+      ASSERT_EQ(contact.fiber_a, contact.fiber_b);
+    }
+    for (const Contact& contact : different.contacts) {
+      ASSERT_NE(contact.fiber_a, contact.fiber_b);
+    }
+  }
+}
+
 TEST(PairCollector, PointsAndNormalAgreeWithTheDistanceEvenInPenetration) {
   SCOPED_TRACE(seed_message());
   Random random;

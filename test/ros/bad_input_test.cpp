@@ -96,7 +96,7 @@ Refusal run_node(const std::string& arguments) {
 }
 
 TEST_F(BadInputTest, BadEntriesOfInputsAreLeftOutWithAnErrorEach) {
-  EXPECT_EQ(statistics.messages.back()->inputs.size(), 28U);
+  EXPECT_EQ(statistics.messages.back()->inputs.size(), 28U + 1U);  // and ~obstacles
   // The same list for a node whose log can be read from its beginning.
   XmlRpc::XmlRpcValue inputs;
   ASSERT_TRUE(ros::param::get("/proximity/inputs", inputs));
@@ -274,10 +274,12 @@ TEST_F(BadInputTest, ABadParameterIsAClearErrorAndExitCode2) {
               "unknown engine 'DL-7' (k-DOP with k = 7: k must be even, from 6 to ");
   expect_exit("_threads:=-1", "parameter /refused/threads is -1, it must be a whole number of ");
   ros::param::del("/refused/threads");
-  for (const std::string skin : {"-0.001", "nan", "inf", "thin"}) {
-    expect_exit("_skin:=" + skin,
-                "parameter /refused/skin is " + skin + ", it must be a number of at least 0");
-    ros::param::del("/refused/skin");
+  for (const std::string name : {"skin", "simplification"}) {
+    for (const std::string value : {"-0.001", "nan", "inf", "thin"}) {
+      expect_exit("_" + name + ":=" + value, "parameter /refused/" + name + " is " + value +
+                                                 ", it must be a number of at least 0");
+      ros::param::del("/refused/" + name);
+    }
   }
   expect_exit("_tf_timeout:=-1", "parameter /refused/tf_timeout is -1, it must be a number of ");
   ros::param::del("/refused/tf_timeout");

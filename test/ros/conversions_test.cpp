@@ -68,11 +68,13 @@ TEST(Conversions, ContactKeepsEveryField) {
   contact.segment_b = 4;
   contact.t = 0.75;
   contact.distance = -0.5;
+  contact.lower = -0.625;
+  contact.upper = -0.375;
   contact.point_a = {1, 2, 3};
   contact.point_b = {4, 5, 6};
   contact.normal = {0, 0, 1};
   fiber_proximity::Contact message;
-  to_message(contact, message);
+  to_message(contact, fiber_proximity::Contact::FIBER, fiber_proximity::Contact::OBJECT, message);
   EXPECT_EQ(message.fiber_a, 1U);
   EXPECT_EQ(message.segment_a, 2U);
   EXPECT_EQ(message.s, 0.25);
@@ -80,6 +82,8 @@ TEST(Conversions, ContactKeepsEveryField) {
   EXPECT_EQ(message.segment_b, 4U);
   EXPECT_EQ(message.t, 0.75);
   EXPECT_EQ(message.distance, -0.5);
+  EXPECT_EQ(message.lower, -0.625);
+  EXPECT_EQ(message.upper, -0.375);
   EXPECT_EQ(to_vector(message.point_a), contact.point_a);
   EXPECT_EQ(to_vector(message.point_b), contact.point_b);
   EXPECT_EQ(to_vector(message.normal), contact.normal);

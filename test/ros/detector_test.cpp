@@ -24,8 +24,8 @@ TEST(Detector, RefusesFibersTheEngineCannotTakeAsOftenAsItIsAsked) {
   EXPECT_THROW(detector.engine(), std::invalid_argument);
   detector.set_fibers(equal);
   detector.detect(fiber::QueryOptions());
-  ASSERT_NE(detector.minimum(), nullptr);
-  EXPECT_DOUBLE_EQ(detector.minimum()->distance, 0.8);
+  ASSERT_NE(detector.detection().minimum(), nullptr);
+  EXPECT_DOUBLE_EQ(detector.detection().minimum()->distance, 0.8);
 }
 
 TEST(Detector, FindsTheMinimumBeyondTheMarginAndWhateverTheType) {
@@ -35,9 +35,9 @@ TEST(Detector, FindsTheMinimumBeyondTheMarginAndWhateverTheType) {
   for (const auto type : {fiber::QueryType::ALL, fiber::QueryType::FIRST}) {
     options.type = type;
     detector.detect(options);
-    EXPECT_TRUE(detector.contacts().contacts.empty());
-    ASSERT_NE(detector.minimum(), nullptr);
-    EXPECT_DOUBLE_EQ(detector.minimum()->distance, 0.8);
+    EXPECT_TRUE(detector.detection().contacts().contacts.empty());
+    ASSERT_NE(detector.detection().minimum(), nullptr);
+    EXPECT_DOUBLE_EQ(detector.detection().minimum()->distance, 0.8);
   }
 }
 
@@ -67,9 +67,9 @@ TEST(Detector, FindsTheMinimumAmongContactsThatAreNotTheClosest) {
         options.type = type;
         options.margin = margin;
         detector.detect(options);
-        ASSERT_NE(detector.minimum(), nullptr);
-        EXPECT_EQ(detector.minimum()->key(), closest.contacts.front().key());
-        EXPECT_EQ(detector.minimum()->distance, closest.contacts.front().distance);
+        ASSERT_NE(detector.detection().minimum(), nullptr);
+        EXPECT_EQ(detector.detection().minimum()->key(), closest.contacts.front().key());
+        EXPECT_EQ(detector.detection().minimum()->distance, closest.contacts.front().distance);
       }
     }
   }
@@ -80,7 +80,7 @@ TEST(Detector, HasNoMinimumWithoutAPair) {
   Detector detector("AL");
   detector.set_fibers(none);
   detector.detect(fiber::QueryOptions());
-  EXPECT_EQ(detector.minimum(), nullptr);
+  EXPECT_EQ(detector.detection().minimum(), nullptr);
 }
 
 }  // namespace

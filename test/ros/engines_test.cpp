@@ -90,9 +90,9 @@ class EnginesTest : public node_test::NodeTest, public testing::WithParamInterfa
     options.margin = answer.margin;
     reference_.set_fibers(merged);
     reference_.detect(options);
-    EXPECT_EQ(answer.node_tests, reference_.counts().node_tests);
-    EXPECT_EQ(answer.node_overlaps, reference_.counts().node_overlaps);
-    EXPECT_EQ(answer.primitive_tests, reference_.counts().primitive_tests);
+    EXPECT_EQ(answer.node_tests, reference_.detection().counts().node_tests);
+    EXPECT_EQ(answer.node_overlaps, reference_.detection().counts().node_overlaps);
+    EXPECT_EQ(answer.primitive_tests, reference_.detection().counts().primitive_tests);
   }
 
   fiber_proximity_ros::Detector reference_{GetParam()};

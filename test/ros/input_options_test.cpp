@@ -104,6 +104,7 @@ TEST(DynamicParameters, DefaultsAreThoseOfTheOptions) {
   EXPECT_EQ(config.show_contacts, markers.show_contacts);
   EXPECT_EQ(config.show_nearest, markers.show_nearest);
   EXPECT_EQ(config.show_boxes, markers.show_boxes);
+  EXPECT_EQ(config.show_crossings, markers.show_crossings);
   EXPECT_EQ(config.box_level, static_cast<int>(markers.level));
 }
 

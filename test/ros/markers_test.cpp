@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <string>
 
+#include "fiber_proximity/query/crossings.hpp"
+
 namespace fiber_proximity_ros {
 namespace {
 
@@ -33,7 +35,8 @@ class Markers : public testing::Test {
   }
 
   void build(const FiberAssembly& fibers) {
-    builder_.build(header_, fibers, contacts_, minimum_, boxes_, options_, array_);
+    builder_.build(header_, {fibers, contacts_.contacts, minimum_, boxes_, cost_}, options_,
+                   array_);
   }
 
   void add_contact(double distance) {
@@ -64,6 +67,7 @@ class Markers : public testing::Test {
   fiber::QueryResult contacts_;
   const fiber::Contact* minimum_ = nullptr;
   std::vector<fiber::NodeBox> boxes_;
+  std::string cost_;
   MarkerOptions options_;
   MarkerBuilder builder_;
   visualization_msgs::MarkerArray array_;
@@ -139,6 +143,24 @@ TEST_F(Markers, NearestPairHasALineAndItsDistanceInMillimetres) {
   EXPECT_GT(text->scale.z, 0.0);
 }
 
+TEST_F(Markers, CostIsATextAboveTheFibersIfAskedFor) {
+  cost_ = cost_text("robust", 0.00123, 4e-16, false);
+  EXPECT_EQ(cost_, "robust: 1.23 ms, error <= 4.0e-16 m, cut off");
+  EXPECT_EQ(cost_text("fast", 1.0, 1e-7, true), "fast: 1000.00 ms, error <= 1.0e-07 m");
+  build(parallel_fibers(2));
+  EXPECT_EQ(find("cost"), nullptr);
+  options_.show_cost = true;
+  build(parallel_fibers(2));
+  const Marker* text = find("cost");
+  ASSERT_NE(text, nullptr);
+  EXPECT_EQ(text->type, Marker::TEXT_VIEW_FACING);
+  EXPECT_EQ(text->text, cost_);
+  EXPECT_GT(text->pose.position.z, 0.0);
+  options_.show_cost = false;
+  build(parallel_fibers(2));
+  EXPECT_NE(find("cost", 0, Marker::DELETE), nullptr);
+}
+
 TEST_F(Markers, BoxesAreTheirTwelveEdges) {
   boxes_.push_back({{0, 0, 0}, {1, 2, 3}});
   boxes_.push_back({{1, 1, 1}, {2, 2, 2}});
@@ -197,6 +219,33 @@ TEST_F(Markers, OptionsTurnPartsOff) {
 TEST_F(Markers, NoFibersNoMarkers) {
   build(FiberAssembly());
   EXPECT_TRUE(array_.markers.empty());
+}
+
+// b over a, seen from above: in front of their surfaces, whole above and parted below.
+TEST(CrossingMarkers, AreABarOverAndStubsUnder) {
+  const FiberAssembly fibers({{-1, 0, 0}, {1, 0, 0}, {0, -1, 0.5}, {0, 1, 0.5}}, {0, 2, 4}, {0.1});
+  const fiber::View view;
+  std::vector<fiber::Crossing> crossings = fiber::find_crossings(fibers, view);
+  ASSERT_EQ(crossings.size(), 1U);
+  Marker marker;
+  draw_crossings(fibers, {crossings, view}, 0.2, marker);
+  EXPECT_EQ(marker.scale.x, 0.2);
+  ASSERT_EQ(marker.points.size(), 6U);
+  ASSERT_EQ(marker.colors.size(), 6U);
+  EXPECT_EQ(marker.points[0].x, 0.0);
+  EXPECT_EQ(marker.points[0].y, -0.5);
+  EXPECT_DOUBLE_EQ(marker.points[0].z, 0.61);
+  EXPECT_EQ(marker.points[1].y, 0.5);
+  EXPECT_EQ(marker.points[2].x, -0.5);
+  EXPECT_EQ(marker.points[3].x, -0.2);
+  EXPECT_EQ(marker.points[4].x, 0.2);
+  EXPECT_EQ(marker.points[5].x, 0.5);
+  EXPECT_DOUBLE_EQ(marker.points[5].z, 0.11);
+  EXPECT_GT(marker.colors[0].r, marker.colors[0].g) << "the sign is -1";
+  crossings[0].sign = 1;
+  draw_crossings(fibers, {crossings, view}, 0.2, marker);
+  ASSERT_EQ(marker.points.size(), 12U);
+  EXPECT_GT(marker.colors[6].g, marker.colors[6].r);
 }
 
 }  // namespace

@@ -81,9 +81,12 @@ class NodeTest : public ::testing::Test {
     return publisher;
   }
 
-  /// Publishes messages with new stamps until all recorders have seen an answer.
+  /// Publishes messages with new stamps until all recorders have seen an answer, and another one
+  /// has if there is one.
   template <class Message>
-  void connect(const ros::Publisher& publisher, Message message) {
+  void connect(
+      const ros::Publisher& publisher, Message message,
+      const std::function<bool()>& has_answer = [] { return true; }) {
     ros::SteadyTime last;
     ASSERT_TRUE(wait_for([&] {
       const ros::SteadyTime now = ros::SteadyTime::now();
@@ -92,7 +95,8 @@ class NodeTest : public ::testing::Test {
         message.header.stamp = new_stamp();
         publisher.publish(message);
       }
-      return !contacts.messages.empty() && !fibers.messages.empty() && !statistics.messages.empty();
+      return !contacts.messages.empty() && !fibers.messages.empty() &&
+             !statistics.messages.empty() && has_answer();
     })) << "the node does not answer";
     ASSERT_NE(contacts.wait_for(message.header.stamp), nullptr);
     ASSERT_NE(statistics.wait_for(message.header.stamp), nullptr);
@@ -148,6 +152,8 @@ inline void expect_same(const fiber_proximity::Contact& message, const fiber::Co
   EXPECT_EQ(message.s, contact.s);
   EXPECT_EQ(message.t, contact.t);
   EXPECT_EQ(message.distance, contact.distance);
+  EXPECT_EQ(message.lower, contact.lower);
+  EXPECT_EQ(message.upper, contact.upper);
   EXPECT_EQ(fiber_proximity_ros::to_vector(message.point_a), contact.point_a);
   EXPECT_EQ(fiber_proximity_ros::to_vector(message.point_b), contact.point_b);
   EXPECT_EQ(fiber_proximity_ros::to_vector(message.normal), contact.normal);
@@ -173,6 +179,9 @@ inline void expect_brute_force(const fiber_proximity::ContactArray& message,
   if (message.has_minimum) {
     EXPECT_EQ(message.minimum_distance, expected.contacts.front().distance);
     expect_same(message.minimum, expected.contacts.front());
+    EXPECT_LE(message.minimum_lower, expected.contacts.front().upper);
+    EXPECT_GE(message.minimum_upper, expected.contacts.front().lower);
+    EXPECT_LT(message.minimum_upper - message.minimum_lower, 1e-9);
   }
 }
 

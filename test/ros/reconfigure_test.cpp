@@ -53,6 +53,12 @@ class ReconfigureTest : public node_test::NodeTest {
     return found == nullptr ? ContactArray() : *found;
   }
 
+  fiber_proximity::Statistics statistics_of(const ContactArray& answer) {
+    const fiber_proximity::Statistics* found = statistics.wait_for(answer.header.stamp);
+    EXPECT_NE(found, nullptr);
+    return found == nullptr ? fiber_proximity::Statistics() : *found;
+  }
+
   ros::Publisher publisher_;
 };
 
@@ -90,6 +96,69 @@ TEST_F(ReconfigureTest, TheNextAnswerFollowsTheParameters) {
   EXPECT_TRUE(now.contacts.empty());
   EXPECT_TRUE(now.has_minimum);
   EXPECT_NEAR(now.minimum_distance, 0.09, 1e-12);
+}
+
+TEST_F(ReconfigureTest, AccuracyCanBeChosenWhileItRuns) {
+  ProximityConfig config = ProximityConfig::__getDefault__();
+  config.margin = 0.1;
+  config.kernel = "exact";
+  config.tolerance = 0.001;
+  set(config);
+  ContactArray now = answer();
+  EXPECT_EQ(now.kernel, "exact");
+  EXPECT_EQ(now.tolerance, 0.001);
+  EXPECT_TRUE(now.complete);
+  EXPECT_LE(now.minimum_lower, now.minimum_distance);
+  EXPECT_LE(now.minimum_distance, now.minimum_upper);
+
+  config.accuracy = "fast";
+  set(config);
+  now = answer();
+  EXPECT_EQ(now.kernel, "fast");
+  EXPECT_EQ(now.tolerance, 0.0);
+  EXPECT_EQ(now.contacts.size(), 9U);
+  const double fast_error = statistics_of(now).contact_error;
+  EXPECT_GT(fast_error, 1e-9);
+
+  config.accuracy = "robust";
+  set(config);
+  now = answer();
+  EXPECT_EQ(now.kernel, "robust");
+  EXPECT_LT(statistics_of(now).contact_error, 1e-6 * fast_error);
+
+  config.accuracy = "deadline";
+  config.deadline = 1e-9;
+  set(config);
+  now = answer();
+  EXPECT_FALSE(now.complete);
+  EXPECT_FALSE(statistics_of(now).complete);
+  EXPECT_LT(now.minimum_lower, 0.0);
+  config.deadline = 1000.0;
+  set(config);
+  now = answer();
+  EXPECT_TRUE(now.complete);
+  EXPECT_EQ(now.contacts.size(), 9U);
+}
+
+TEST_F(ReconfigureTest, AnAccuracyThatCannotBeIsAnError) {
+  set(ProximityConfig::__getDefault__());
+  ProximityConfig bad = ProximityConfig::__getDefault__();
+  bad.accuracy = "deadline";
+  EXPECT_EQ(set(bad).accuracy, "custom");
+  EXPECT_TRUE(node_test::wait_for([this] {
+    return !logs_of("accuracy is 'deadline' and deadline is 0 s, it must be above 0").empty();
+  }));
+  bad.accuracy = "sloppy";
+  EXPECT_EQ(set(bad).accuracy, "custom");
+  EXPECT_TRUE(node_test::wait_for([this] {
+    return !logs_of("unknown accuracy 'sloppy', known are: custom, fast, robust, exact, deadline")
+                .empty();
+  }));
+  bad = ProximityConfig::__getDefault__();
+  bad.kernel = "double";
+  EXPECT_EQ(set(bad).kernel, "robust");
+  EXPECT_TRUE(node_test::wait_for(
+      [this] { return !logs_of("unknown kernel 'double', known are: fast").empty(); }));
 }
 
 TEST_F(ReconfigureTest, BadValuesAreAnErrorAndChangeNothing) {

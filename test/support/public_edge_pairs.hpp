@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "support/shared_data.hpp"
+
 namespace fiber::test {
 
 /// A pair of segments and its exact distance, rounded to the nearest double [m].
@@ -19,9 +21,7 @@ struct EdgePair {
 
 /// The file of public edge pairs, which need not be there.
 inline std::string public_edge_pairs_path() {
-  const char* shared = std::getenv("FIBER_PROXIMITY_SHARED");
-  return (shared != nullptr ? shared : std::string(FIBER_PROXIMITY_SOURCE_DIR) + "/../shared") +
-         "/data/edge_pairs_public.csv";
+  return (shared_data() / "edge_pairs_public.csv").string();
 }
 
 /// Empty if the file is not there.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <vector>
@@ -159,6 +160,129 @@ TEST_F(FiberBench, PrintsATableOfSkinsWithoutJson) {
   EXPECT_NE(result.out.find("skin [m]"), std::string::npos) << result.out;
 }
 
+TEST_F(FiberBench, SaysWhatAccuracyCostsAndBrings) {
+  const ProcessResult result =
+      bench("accuracy --scene tress_a --scale 0.01 --repeats 2 --threads 2 --json");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const std::vector<nlohmann::json> rows = json_lines(result.out);
+  ASSERT_GT(rows.size(), 15U);
+  for (const nlohmann::json& row : rows) {
+    SCOPED_TRACE(row.dump());
+    EXPECT_GT(row.at("detect_ms"), 0.0);
+    EXPECT_EQ(row.at("missed"), 0);
+    EXPECT_EQ(row.at("false"), 0);
+    EXPECT_EQ(row.at("wrong_bounds"), 0);
+    if (row.at("deadline_ms") == 0.0) {
+      EXPECT_EQ(row.at("found"), 1.0);
+      EXPECT_LE(row.at("error"), row.at("bound"));
+    }
+    if (row.at("setting") == "exact" && row.at("query") != "contacts") {
+      EXPECT_EQ(row.at("error"), 0.0);
+    }
+  }
+  EXPECT_NE(
+      bench("accuracy --scene tress_a --scale 0.01 --repeats 1").out.find("tolerance of 0.10"),
+      std::string::npos);
+}
+
+TEST_F(FiberBench, JudgesKernelsOnHardPairs) {
+  const ProcessResult result =
+      bench("kernels --json --pairs 3 --repeats 1 --kernels fast,robust,exact");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "") << "progress is for terminals";
+  const std::vector<nlohmann::json> rows = json_lines(result.out);
+  const std::vector<std::string> kernels{"fast", "robust", "exact"};
+  ASSERT_GT(rows.size(), 3U * 50U);
+  ASSERT_EQ(rows.size() % kernels.size(), 0U);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    SCOPED_TRACE(rows[i].dump());
+    EXPECT_EQ(rows[i].at("kernel"), kernels[i % kernels.size()]);
+    EXPECT_EQ(rows[i].at("family"), rows[i - i % kernels.size()].at("family"));
+    EXPECT_EQ(rows[i].at("answered"), 3);
+    for (const char* const field :
+         {"missed", "outside_bounds", "not_finite", "no_answer", "ended"}) {
+      EXPECT_EQ(rows[i].at(field), 0) << field;
+    }
+    if (rows[i].at("kernel") != "fast") {
+      EXPECT_EQ(rows[i].at("false"), 0);
+      EXPECT_LT(rows[i].at("error_units"), 4.0);
+    }
+    EXPECT_GT(rows[i].at("p99_ns"), 0.0);
+    EXPECT_GE(rows[i].at("p99_ns"), rows[i].at("p50_ns"));
+  }
+}
+
+TEST_F(FiberBench, PrintsATableOfKernelsWithoutJson) {
+  const ProcessResult result =
+      bench("kernels --pairs 3 --repeats 1 --kernels robust --families collinear,generic --seed 5");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 3) << result.out;
+  for (const char* const word : {"error [eps*M]", "collinear", "generic", "robust"}) {
+    EXPECT_NE(result.out.find(word), std::string::npos) << result.out;
+  }
+}
+
+/// The links are coarse: what matters is that both find the same.
+TEST_F(FiberBench, ChecksACellBesideFcl) {
+  const ProcessResult result =
+      bench("environment --parts cell --triangles 200 --repeats 4 --threads 2 --json");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "") << "progress is for terminals";
+  const std::vector<nlohmann::json> rows = json_lines(result.out);
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0].at("checker"), "own");
+  EXPECT_EQ(rows[1].at("checker"), "fcl");
+  EXPECT_EQ(rows[0].at("times_own"), 1.0);
+  EXPECT_GT(rows[1].at("times_own"), 0.0);
+  for (const nlohmann::json& row : rows) {
+    SCOPED_TRACE(row.dump());
+    EXPECT_EQ(row.at("segments"), 990);
+    EXPECT_EQ(row.at("objects"), 28);
+    for (const char* const field :
+         {"objects_ms", "cables_ms", "self_ms", "contacts_ms", "nearest_ms"}) {
+      EXPECT_GT(row.at(field), 0.0) << field;
+      EXPECT_LE(row.at(field), row.at("sum_ms")) << field;
+    }
+    EXPECT_GT(row.at("self_contacts"), 0);
+    EXPECT_GT(row.at("contacts"), 0);
+    EXPECT_EQ(row.at("self_contacts"), rows[0].at("self_contacts"));
+    EXPECT_NEAR(row.at("nearest"), 0.002, 1e-6) << "cables lie so far above the table";
+    EXPECT_LT(row.at("nearest_error"), 1e-6);
+    EXPECT_EQ(row.at("unwanted"), 0);
+    EXPECT_EQ(row.at("exceptions"), 0);
+  }
+}
+
+TEST_F(FiberBench, MakesOctreesOfACameraAndChecksABatch) {
+  const ProcessResult result = bench(
+      "environment --parts batch,octree --pixels 3000 --candidates 40 --points 20 --triangles 200 "
+      "--repeats 2 --threads 2 --json");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const std::vector<nlohmann::json> rows = json_lines(result.out);
+  ASSERT_EQ(rows.size(), 4U);
+  for (const std::size_t i : {0U, 1U}) {
+    EXPECT_EQ(rows[i].at("part"), "octree");
+    EXPECT_GT(rows[i].at("build_ms"), 0.0);
+    EXPECT_LE(rows[i].at("cells"), 3000);
+    EXPECT_EQ(rows[i + 2].at("part"), "batch");
+    EXPECT_EQ(rows[i + 2].at("threads"), i + 1);
+    EXPECT_GT(rows[i + 2].at("per_candidate_ms"), 0.0);
+    EXPECT_GT(rows[i + 2].at("touching"), 0);
+    EXPECT_LT(rows[i + 2].at("touching"), 40);
+  }
+  EXPECT_GT(rows[0].at("cells"), rows[1].at("cells")) << "the larger ones come second";
+  EXPECT_EQ(rows[2].at("touching"), rows[3].at("touching"));
+}
+
+TEST_F(FiberBench, PrintsTablesOfTheEnvironmentWithoutJson) {
+  const ProcessResult result = bench(
+      "environment --cables 1 --points 9 --triangles 20 --pixels 100 --candidates 2 --repeats 1");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  for (const char* const word : {"cell", "times_own", "fcl", "build_ms", "per_candidate_ms"}) {
+    EXPECT_NE(result.out.find(word), std::string::npos) << result.out;
+  }
+}
+
 TEST_F(FiberBench, RefusesBadCommandLines) {
   EXPECT_TRUE(refused(bench(""), "a subcommand is needed: update, cycle"));
   EXPECT_TRUE(refused(bench("race"), "race"));
@@ -180,6 +304,17 @@ TEST_F(FiberBench, RefusesBadCommandLines) {
   EXPECT_TRUE(refused(bench("coherence --moving 2"), "--moving"));
   EXPECT_TRUE(refused(bench("coherence --frames 0"), "--frames: '0'"));
   EXPECT_TRUE(refused(bench("update --threads none"), "--threads: 'none'"));
+  EXPECT_TRUE(refused(bench("kernels --kernels fast,quick"),
+                      "unknown kernel 'quick', known are: fast, fast_batch, robust, "));
+  EXPECT_TRUE(refused(bench("kernels --families easy"),
+                      "unknown family 'easy', known are: generic, scale_1e-300, "));
+  EXPECT_TRUE(refused(bench("kernels --pairs 0"), "--pairs: '0'"));
+  EXPECT_TRUE(refused(bench("kernels --repeats 0"), "--repeats: '0'"));
+  EXPECT_TRUE(refused(bench("kernels --kernels"), "--kernels"));
+  EXPECT_TRUE(refused(bench("environment --parts cell,kitchen"), "kitchen"));
+  EXPECT_TRUE(refused(bench("environment --points 1"), "--points: '1'"));
+  EXPECT_TRUE(refused(bench("environment --margin inf"), "--margin: 'inf' must be a finite"));
+  EXPECT_TRUE(refused(bench("environment --repeats 0"), "--repeats: '0'"));
 }
 
 #ifdef FIBER_BENCH_HAS_LATENCY

@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "fiber_proximity/io/csv.hpp"
-#include "fiber_proximity/io/number.hpp"
 #include "fiber_proximity/query/brute_force.hpp"
 #include "fiber_proximity/query/engine.hpp"
+#include "support/shared_data.hpp"
 #include "tools/tools_test.hpp"
 
 namespace fiber::test {
@@ -13,7 +13,7 @@ namespace {
 
 const std::string columns =
     "fiber_a,segment_a,s,fiber_b,segment_b,t,distance,point_a_x,point_a_y,point_a_z,"
-    "point_b_x,point_b_y,point_b_z,normal_x,normal_y,normal_z\n";
+    "point_b_x,point_b_y,point_b_z,normal_x,normal_y,normal_z,lower,upper\n";
 
 std::vector<std::string> lines(const std::string& text) {
   std::vector<std::string> result;
@@ -26,21 +26,24 @@ std::vector<std::string> lines(const std::string& text) {
 
 /// The numbers of a contact in the order of the columns.
 std::vector<double> numbers(const Contact& c) {
-  return {double(c.fiber_a), double(c.segment_a), c.s,
-          double(c.fiber_b), double(c.segment_b), c.t,
-          c.distance,        c.point_a.x(),       c.point_a.y(),
-          c.point_a.z(),     c.point_b.x(),       c.point_b.y(),
-          c.point_b.z(),     c.normal.x(),        c.normal.y(),
-          c.normal.z()};
-}
-
-std::vector<double> numbers(const std::string& line) {
-  std::vector<double> result;
-  std::istringstream stream(line);
-  for (std::string field; std::getline(stream, field, ',');) {
-    result.push_back(parse_number<double>(field).value());
-  }
-  return result;
+  return {double(c.fiber_a),
+          double(c.segment_a),
+          c.s,
+          double(c.fiber_b),
+          double(c.segment_b),
+          c.t,
+          c.distance,
+          c.point_a.x(),
+          c.point_a.y(),
+          c.point_a.z(),
+          c.point_b.x(),
+          c.point_b.y(),
+          c.point_b.z(),
+          c.normal.x(),
+          c.normal.y(),
+          c.normal.z(),
+          c.lower,
+          c.upper};
 }
 
 std::vector<double> numbers(const nlohmann::json& c) {
@@ -50,7 +53,15 @@ std::vector<double> numbers(const nlohmann::json& c) {
     const auto vector = c.at(name).get<std::vector<double>>();
     result.insert(result.end(), vector.begin(), vector.end());
   }
+  result.push_back(c.at("lower"));
+  result.push_back(c.at("upper"));
   return result;
+}
+
+std::vector<double> without_bounds(std::vector<double> numbers) {
+  EXPECT_EQ(numbers.size(), 18U);
+  numbers.resize(16);
+  return numbers;
 }
 
 class FiberQuery : public ToolsTest {
@@ -78,8 +89,9 @@ TEST_F(FiberQuery, ContactsOfACrossing) {
   const std::vector<std::string> found = lines(result.out);
   ASSERT_EQ(found.size(), 2U);
   EXPECT_EQ(found[0] + "\n", columns);
-  EXPECT_EQ(numbers(found[1]), (std::vector<double>{0, 1, 0.5, 1, 0, 0.5, 0.5 - (0.2 + 0.2), 0, 0,
-                                                    0.2, 0, 0, 0.3, 0, 0, 1}));
+  EXPECT_EQ(without_bounds(numbers_in(found[1])),
+            (std::vector<double>{0, 1, 0.5, 1, 0, 0.5, 0.5 - (0.2 + 0.2), 0, 0, 0.2, 0, 0, 0.3, 0,
+                                 0, 1}));
   EXPECT_EQ(query("contacts " + crossing()).out, columns) << "the margin is 0 by default";
 }
 
@@ -110,7 +122,7 @@ TEST_F(FiberQuery, FiberPairsAreTheMinimumDistancesOfFibres) {
     std::vector<std::vector<double>> values;
     const std::vector<std::string> found = lines(query("fiber_pairs " + file + options).out);
     for (std::size_t i = 1; i < found.size(); ++i) {
-      const std::vector<double> row = numbers(found[i]);
+      const std::vector<double> row = numbers_in(found[i]);
       values.push_back({row[0], row[1], row[3], row[4], row[6]});
     }
     return values;
@@ -133,8 +145,9 @@ TEST_F(FiberQuery, NearestAreTheSegmentsNearestToAPoint) {
   const std::vector<std::string> found = lines(query(nearest + "0,0,1.75 --k 3").out);
   ASSERT_EQ(found.size(), 4U);
   EXPECT_EQ(found[0] + "\n", columns);
-  EXPECT_EQ(numbers(found[1]), (std::vector<double>{0, 0, 0, 2, 0, 0.5, 0.25 - 0.2, 0, 0, 1.75, 0,
-                                                    0, 1.5 + 0.2, 0, 0, -1}));
+  EXPECT_EQ(
+      without_bounds(numbers_in(found[1])),
+      (std::vector<double>{0, 0, 0, 2, 0, 0.5, 0.25 - 0.2, 0, 0, 1.75, 0, 0, 1.5 + 0.2, 0, 0, -1}));
   EXPECT_EQ(found[2].substr(0, 12), "0,0,0,1,0,0.");
   EXPECT_EQ(found[3].substr(0, 12), "0,0,0,0,1,0.");
   EXPECT_EQ(lines(query(nearest + "0,0,0").out).size(), 2U) << "one by default";
@@ -142,8 +155,8 @@ TEST_F(FiberQuery, NearestAreTheSegmentsNearestToAPoint) {
   const ProcessResult json = query(nearest + "0,0,1.75 --k 2 --format json");
   const auto contacts = nlohmann::json::parse(json.out).at("contacts");
   ASSERT_EQ(contacts.size(), 2U);
-  EXPECT_EQ(numbers(contacts[0]), numbers(found[1]));
-  EXPECT_EQ(numbers(contacts[1]), numbers(found[2]));
+  EXPECT_EQ(numbers(contacts[0]), numbers_in(found[1]));
+  EXPECT_EQ(numbers(contacts[1]), numbers_in(found[2]));
 }
 
 TEST_F(FiberQuery, NearestAnswersEveryFrameWithEveryEngine) {
@@ -177,6 +190,43 @@ TEST_F(FiberQuery, NearestRefusesBadPointsAndCounts) {
   EXPECT_TRUE(refused(query("contacts " + crossing() + " --point 0,0,0"), "--point"));
 }
 
+TEST_F(FiberQuery, AccuracyIsChosenOnTheCommandLine) {
+  const double gap = 0.5 - (0.2 + 0.2);
+  for (const std::string kernel : {"fast", "robust", "exact"}) {
+    const ProcessResult result =
+        query("contacts " + crossing() + " --margin 0.2 --format json --kernel " + kernel);
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const nlohmann::json answer = nlohmann::json::parse(result.out);
+    EXPECT_EQ(answer.at("complete"), true);
+    ASSERT_EQ(answer.at("contacts").size(), 1U);
+    const nlohmann::json& contact = answer.at("contacts")[0];
+    EXPECT_LE(contact.at("lower"), gap);
+    EXPECT_GE(contact.at("upper"), gap);
+    EXPECT_LE(answer.at("minimum_lower"), contact.at("lower"));
+    const double width = contact.at("upper").get<double>() - contact.at("lower").get<double>();
+    EXPECT_EQ(width > 1e-9, kernel == "fast") << width;
+  }
+  const ProcessResult loose = query("closest " + crossing() + " --tolerance 5");
+  EXPECT_EQ(lines(loose.out).size(), 2U);
+  EXPECT_GE(numbers_in(lines(loose.out)[1])[6], gap);
+
+  const ProcessResult cut = query("contacts " + soup("--scale 0.001") + " --deadline 1e-9");
+  EXPECT_EQ(cut.exit_code, 0);
+  EXPECT_EQ(cut.out, columns);
+  EXPECT_EQ(cut.err, "fiber_query: the deadline has passed: pairs may be missing\n");
+  EXPECT_EQ(query("contacts " + crossing() + " --deadline 1000").err, "");
+
+  for (const auto& [arguments, reason] :
+       {std::pair{"--kernel double", "unknown kernel 'double', known are: fast, robust, exact"},
+        std::pair{"--tolerance -1", "tolerance is -1.000000, it must be finite and at least 0 m"},
+        std::pair{"--relative-tolerance inf", "relative_tolerance is inf"},
+        std::pair{"--deadline nan", "deadline is nan"}}) {
+    const ProcessResult refused = query("contacts " + crossing() + " " + arguments);
+    EXPECT_EQ(refused.exit_code, 2) << arguments;
+    EXPECT_NE(refused.err.find(reason), std::string::npos) << refused.err;
+  }
+}
+
 TEST_F(FiberQuery, NeighbourSkips) {
   const std::string path = write("line.csv", "fiber,x,y,z\n0,0,0,0\n0,1,0,0\n0,2,0,0\n0,3,0,0\n");
   const auto count = [&](const std::string& options) {
@@ -187,6 +237,26 @@ TEST_F(FiberQuery, NeighbourSkips) {
   EXPECT_EQ(count("--neighbour-skip 2"), 0U);
   EXPECT_EQ(count("--neighbour-skip-length 1.5"), 0U);
   EXPECT_EQ(count("--radius 0.25"), 1U);
+}
+
+TEST_F(FiberQuery, ASimplificationMakesOneContactOfThoseOfARun) {
+  const std::string file = write("dense.csv",
+                                 "fiber,x,y,z,radius\n"
+                                 "a,-2,0,0,0.2\na,-1,0,0,0.2\na,0,0,0,0.2\na,1,0,0,0.2\n"
+                                 "a,2,0,0,0.2\nb,0,-1,0.5,0.2\nb,0,1,0.5,0.2\n");
+  const std::string contacts = "contacts " + file + " --margin 0.2 --format json";
+  const auto found = [&](const std::string& options) {
+    return nlohmann::json::parse(query(contacts + options).out).at("contacts");
+  };
+  EXPECT_EQ(found("").size(), 2U);
+  const nlohmann::json simplified = found(" --simplification 0.01");
+  ASSERT_EQ(simplified.size(), 1U);
+  EXPECT_EQ(simplified[0].at("segment_a"), 1);
+  EXPECT_NEAR(simplified[0].at("s").get<double>(), 1.0, 1e-12);
+  EXPECT_LE(simplified[0].at("lower").get<double>(), 0.1);
+  EXPECT_GE(simplified[0].at("upper").get<double>(), 0.1);
+  EXPECT_TRUE(refused(query(contacts + " --simplification -1"), "simplification is -1"));
+  EXPECT_TRUE(refused(query(contacts + " --simplification nan"), "simplification is nan"));
 }
 
 TEST_F(FiberQuery, RadiusIsForFilesWithoutOne) {
@@ -271,7 +341,7 @@ TEST_F(FiberQuery, PrintsTheLibrarysNumbersBitForBit) {
       EXPECT_EQ(numbers(object.at("contacts")[i]), values);
       values.insert(values.begin(), static_cast<double>(frame.frame));
       ASSERT_LT(row, rows.size());
-      EXPECT_EQ(numbers(rows[row++]), values);
+      EXPECT_EQ(numbers_in(rows[row++]), values);
     }
   }
   EXPECT_EQ(row, rows.size());
@@ -290,7 +360,8 @@ TEST_F(FiberQuery, FilesOfNothing) {
   const std::string bare = write("bare.csv", "fiber,x,y,z\n");
   const std::string framed = write("framed.csv", "frame,fiber,x,y,z\n");
   EXPECT_EQ(query("contacts " + bare).out, columns);
-  EXPECT_EQ(query("closest " + bare + " --format json").out, "{\"contacts\":[]}\n");
+  EXPECT_EQ(query("closest " + bare + " --format json").out,
+            "{\"complete\":true,\"minimum_lower\":null,\"contacts\":[]}\n");
   EXPECT_EQ(query("contacts " + framed).out, "frame," + columns);
   EXPECT_EQ(query("contacts " + framed + " --format json").out, "");
   EXPECT_EQ(query("nearest " + bare + " --point 0,0,0").out, columns);
@@ -355,10 +426,7 @@ TEST_F(FiberQuery, OutputThatCannotBeWrittenIsAnError) {
 }
 
 TEST_F(FiberQuery, AnswersTheRecordedCables) {
-  const char* shared = std::getenv("FIBER_PROXIMITY_SHARED");
-  const std::filesystem::path data =
-      std::filesystem::path(shared != nullptr ? shared : FIBER_PROXIMITY_SOURCE_DIR "/../shared") /
-      "data";
+  const std::filesystem::path data = shared_data();
   if (!std::filesystem::exists(data / "cable_track_a.csv")) {
     GTEST_SKIP() << "no recorded cables in " << data;
   }

@@ -26,15 +26,6 @@ class Segments : public ToolsTest {
   }
 };
 
-std::vector<double> numbers(const std::string& line) {
-  std::vector<double> result;
-  std::istringstream stream(line);
-  for (std::string field; std::getline(stream, field, ',');) {
-    result.push_back(parse_number<double>(field).value());
-  }
-  return result;
-}
-
 std::vector<double> numbers(const SegmentDistance& d) {
   return {d.distance, d.lower(), d.upper(), d.s, d.t};
 }
@@ -47,7 +38,7 @@ TEST_F(Segments, PrintsDistanceBoundsAndParameters) {
     ASSERT_EQ(result.out.substr(0, header.size()), header);
     ASSERT_EQ(result.out.back(), '\n');
     const std::size_t length = result.out.size() - header.size() - 1;
-    const std::vector<double> row = numbers(result.out.substr(header.size(), length));
+    const std::vector<double> row = numbers_in(result.out.substr(header.size(), length));
     ASSERT_EQ(row.size(), 5U);
     EXPECT_EQ(row[0], 2.0);
     EXPECT_EQ(row[3], 0.25);
@@ -81,7 +72,8 @@ TEST_F(Segments, PrintsTheLibrarysNumbersBitForBit) {
     std::getline(out, line);
     for (const auto& [p0, p1, q0, q1, radius_a, radius_b] : pairs) {
       ASSERT_TRUE(std::getline(out, line)) << kernel;
-      ASSERT_EQ(numbers(line), numbers(segment_distance(kernel_from_name(kernel), p0, p1, q0, q1)))
+      ASSERT_EQ(numbers_in(line),
+                numbers(segment_distance(kernel_from_name(kernel), p0, p1, q0, q1)))
           << kernel;
     }
     EXPECT_FALSE(std::getline(out, line)) << "a line per pair";
@@ -144,7 +136,7 @@ TEST_F(Segments, AnswersThePublicEdgePairs) {
   std::getline(out, line);
   for (const EdgePair& pair : pairs) {
     ASSERT_TRUE(std::getline(out, line));
-    ASSERT_EQ(numbers(line)[0], pair.distance);
+    ASSERT_EQ(numbers_in(line)[0], pair.distance);
   }
 }
 

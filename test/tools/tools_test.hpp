@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <sstream>
 #include <string>
+#include <vector>
 
+#include "fiber_proximity/io/number.hpp"
 #include "support/process.hpp"
 #include "support/temporary_directory.hpp"
 
@@ -20,6 +23,16 @@ inline testing::AssertionResult refused(const ProcessResult& result, const std::
            << result.err << "', expected a refusal with '" << reason << "'";
   }
   return testing::AssertionSuccess();
+}
+
+/// The numbers of a line, between commas.
+inline std::vector<double> numbers_in(const std::string& line) {
+  std::vector<double> result;
+  std::istringstream stream(line);
+  for (std::string field; std::getline(stream, field, ',');) {
+    result.push_back(parse_number<double>(field).value());
+  }
+  return result;
 }
 
 /// Tests that run the tools that were built.

@@ -53,6 +53,13 @@ class FiberAssembly {
   ///         is unchanged then
   void update_points(const std::vector<Eigen::Vector3d>& points);
 
+  /// Makes it other fibres, in the memory it has, with a radius for each segment [m]: that of its
+  /// first point. The last point of a fibre has one as well, which must be 0.
+  /// @throws std::invalid_argument as the constructor; the assembly is unchanged then
+  void assign_segments(const std::vector<Eigen::Vector3d>& points,
+                       const std::vector<std::uint32_t>& offsets,
+                       const std::vector<double>& segment_radii);
+
   std::size_t fiber_count() const { return offsets_.size() - 1; }
   std::size_t point_count() const { return points_.size(); }
   std::size_t segment_count() const { return points_.size() - fiber_count(); }
@@ -60,13 +67,17 @@ class FiberAssembly {
   const std::vector<Eigen::Vector3d>& points() const { return points_; }
   const std::vector<std::uint32_t>& offsets() const { return offsets_; }
 
-  /// Radii as they were given: one value, one per fibre, or one per point [m].
+  /// Radii as they were given: one value, one per fibre, one per point, or one per segment at its
+  /// first point [m]. Taken for radii of points, those of segments enclose the fibres, too.
   const std::vector<double>& radii() const { return radii_; }
 
   /// Radius of the segment that starts at this point [m].
   double segment_radius(std::uint32_t point) const {
     return segment_radii_.empty() ? radii_.front() : segment_radii_[point];
   }
+
+  /// The largest radius of all segments [m]; 0 without any.
+  double largest_radius() const { return largest_radius_; }
 
   /// The segment that starts at this point.
   Capsule capsule(std::uint32_t point) const {
@@ -82,6 +93,7 @@ class FiberAssembly {
   std::vector<double> radii_{0.0};
   // By first point; empty when one radius serves all, so that the common case costs no memory.
   std::vector<double> segment_radii_;
+  double largest_radius_ = 0.0;
 };
 
 }  // namespace fiber

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -18,5 +19,9 @@ Kernel kernel_from_name(const std::string& name);
 
 /// All names, in the order of Kernel.
 const std::vector<std::string>& kernel_names();
+
+inline const std::string& name_of(Kernel kernel) {
+  return kernel_names()[static_cast<std::size_t>(kernel)];
+}
 
 }  // namespace fiber

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <tuple>
 #include <vector>
 
@@ -16,6 +17,8 @@ struct Contact {
   std::uint32_t segment_b = 0;
   double t = 0.0;           ///< curve parameter on segment b, in [0, 1]
   double distance = 0.0;    ///< signed gap of the surfaces, negative in penetration [m]
+  double lower = 0.0;       ///< the true gap is at least this [m]
+  double upper = 0.0;       ///< and at most this [m]
   Eigen::Vector3d point_a;  ///< nearest point on the surface of a [m]
   Eigen::Vector3d point_b;  ///< nearest point on the surface of b [m]
   Eigen::Vector3d normal;   ///< unit vector from a to b: (point_b − point_a)·normal = distance
@@ -29,17 +32,30 @@ struct Contact {
   }
 };
 
+/// Sorts by Contact::key(), as results have them.
+void sort_by_key(std::vector<Contact>& contacts);
+
+/// Sorts the closest one first.
+void sort_by_distance(std::vector<Contact>& contacts);
+
 /// Work a query did. The paper's "cage tests", "cage intersections" and "primitive tests".
 struct QueryCounts {
   std::uint64_t node_tests = 0;
   std::uint64_t node_overlaps = 0;
   std::uint64_t primitive_tests = 0;
+
+  QueryCounts& operator+=(const QueryCounts& more);
 };
 
 /// Answer to a query; kept by the caller and reused, so that its memory is.
 struct QueryResult {
   std::vector<Contact> contacts;  ///< sorted by Contact::key()
   bool limit_reached = false;     ///< LIMITED reported max_contacts: there may be more pairs
+  bool complete = true;           ///< false: the deadline came before all pairs had been ruled out
+
+  /// [m] Of the pairs that were asked about, none that is not reported has a smaller true gap.
+  double others_lower = -std::numeric_limits<double>::infinity();
+
   QueryCounts counts;
 
   std::vector<std::uint32_t> fiber_pair_slots;  ///< FIBER_PAIRS: work memory, see FiberPairMinima
@@ -47,6 +63,10 @@ struct QueryResult {
   /// The reported contact of the smallest distance, nullptr if there is none. The closest pair of
   /// all unless the query was FIRST.
   const Contact* closest() const;
+
+  /// [m] Of all pairs that were asked about, none has a smaller true gap. With the closest()->upper
+  /// of a query that looks for the closest pair, this encloses the true minimum.
+  double minimum_lower() const;
 };
 
 }  // namespace fiber

@@ -6,6 +6,7 @@
 #include "fiber_proximity/hierarchy/run_blocks.hpp"
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/contact_judge.hpp"
+#include "fiber_proximity/query/deadline.hpp"
 #include "fiber_proximity/query/outdated_segments.hpp"
 #include "fiber_proximity/query/pair_test.hpp"
 
@@ -17,28 +18,30 @@ namespace fiber {
 class ContactBatch {
  public:
   /// Candidates in the order of the contacts: all pairs that may come within the bound [m], and
-  /// others.
-  void collect(const RunTreeView& a, const RunTreeView& b, const PairTest& test, double bound,
-               std::vector<std::uint64_t>& keys, QueryCounts& counts);
+  /// others. Takes two thirds of the time until the deadline, if need be: the rest is for judging.
+  /// @return whether they are all
+  bool collect(const RunTreeView& a, const RunTreeView& b, const PairTest& test, double bound,
+               const Deadline& deadline, std::vector<std::uint64_t>& keys, QueryCounts& counts);
 
   /// The same from candidates of a tree with itself that were collected before: those of outdated
   /// segments are left out and looked for anew.
-  void replace(const std::vector<std::uint64_t>& old_keys, const OutdatedSegments& outdated,
+  bool replace(const std::vector<std::uint64_t>& old_keys, const OutdatedSegments& outdated,
                const RunTreeView& tree, const PairTest& test, double bound,
-               std::vector<std::uint64_t>& keys, QueryCounts& counts);
+               const Deadline& deadline, std::vector<std::uint64_t>& keys, QueryCounts& counts);
 
-  /// The contacts among such candidates: pairs of a signed distance of at most the bound [m].
-  void judge(const std::vector<std::uint64_t>& keys, const PairTest& test, double bound,
-             QueryResult& result);
+  /// The contacts among such candidates.
+  /// @param are_all whether no candidates are missing
+  void judge(const std::vector<std::uint64_t>& keys, bool are_all, const PairTest& test,
+             const Deadline& deadline, QueryResult& result);
 
   /// Both, for candidates that serve this query alone.
-  /// @param reach [m] of the candidates: the bound, and what points have moved since the trees were
-  /// fitted
-  void find(const RunTreeView& a, const RunTreeView& b, const PairTest& test, double reach,
-            double bound, QueryResult& result);
+  /// @param moved [m] by how much pairs may be nearer than the trees have them
+  void find(const RunTreeView& a, const RunTreeView& b, const PairTest& test, double moved,
+            const Deadline& deadline, QueryResult& result);
 
  private:
   struct Job {
+    bool complete = true;
     std::vector<std::uint64_t> keys;
     QueryCounts counts;
   };

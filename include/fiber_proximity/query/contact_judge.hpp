@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "fiber_proximity/query/contact.hpp"
+#include "fiber_proximity/query/deadline.hpp"
 #include "fiber_proximity/query/pair_test.hpp"
 
 namespace fiber {
@@ -19,17 +20,31 @@ inline PointPair pair_of(std::uint64_t key) {
 class ContactJudge {
  public:
   /// @param keys of the candidates, as PairTest orders pairs, in ascending order
-  /// @param bound [m] pairs of a signed distance of at most this are contacts
-  /// @param contacts what they held is replaced
-  void judge(const std::vector<std::uint64_t>& keys, const PairTest& test, double bound,
-             std::vector<Contact>& contacts);
+  /// @param result its contacts and others_lower are replaced; complete becomes false if the
+  /// deadline has passed before all were judged, and is to be false if some candidates are missing
+  void judge(const std::vector<std::uint64_t>& keys, const PairTest& test, const Deadline& deadline,
+             QueryResult& result);
 
  private:
-  std::size_t judge_round(const std::uint64_t* keys, std::size_t count, const PairTest& test,
-                          double bound, std::vector<Contact>& contacts, std::size_t contact_count);
+  /// 512 candidates: what one thread judges at a time.
+  struct Slice {
+    std::size_t begin = 0;  // of its candidates in the round
+    std::size_t end = 0;
+    std::size_t place = 0;  // of its first contact
+    std::size_t contact_count = 0;
+    double others_lower = 0.0;  // [m]
+    bool complete = true;
+  };
 
-  std::vector<PairDistance> distances_;  // of a round
-  std::vector<std::size_t> places_;      // of its slices' contacts
+  void judge_round(const std::uint64_t* keys, std::size_t count, const PairTest& test,
+                   const Deadline& deadline, QueryResult& result);
+  void judge_slice(const std::uint64_t* keys, const PairTest& test, Slice& slice);
+
+  // Of a round:
+  std::vector<Slice> slices_;
+  std::vector<PairDistance> distances_;
+  std::vector<std::uint8_t> is_contact_;
+  std::size_t contact_count_ = 0;  // of all rounds so far
 };
 
 }  // namespace fiber

@@ -26,7 +26,8 @@ class KeptCandidates {
   /// Makes them worse: CURRENT ones OUTDATED or NONE, OUTDATED ones NONE.
   void become(State worse);
 
-  /// Those in this state of a query of the same margin and neighbour skip; null if there are none.
+  /// Those in this state of a query of the same margin, neighbour skip and pairing; null if there
+  /// are none.
   Keys find(const QueryOptions& options, State state) const;
 
   /// Where to put new ones: memory that nobody else uses.
@@ -42,6 +43,7 @@ class KeptCandidates {
   State state_ = State::NONE;
   double margin_ = 0.0;  // [m]
   std::uint32_t neighbour_skip_ = 0;
+  Pairing pairing_ = Pairing::ALL;
   Keys keys_;
   Keys spare_;  // the ones before, for their memory
 };

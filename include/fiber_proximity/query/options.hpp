@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <string>
 
+#include "fiber_proximity/geometry/kernel.hpp"
+
 namespace fiber {
 
 /// Which of the pairs within the margin to report.
@@ -14,6 +16,13 @@ enum class QueryType {
   FIBER_PAIRS  ///< the closest one of each pair of fibres, a fibre with itself too; ties as above
 };
 
+/// Which pairs of one assembly count, by their fibres.
+enum class Pairing {
+  ALL,
+  SAME_FIBER,       ///< self-contacts only
+  DIFFERENT_FIBERS  ///< no self-contacts
+};
+
 struct QueryOptions {
   QueryType type = QueryType::ALL;
 
@@ -23,6 +32,8 @@ struct QueryOptions {
   /// LIMITED only: the most contacts to report, at least 1.
   std::uint32_t max_contacts = 100;
 
+  Pairing pairing = Pairing::ALL;
+
   /// Segments of one fibre whose indices differ by at most this are no pair. 1 leaves out the
   /// neighbours that share a point; 0 reports even those.
   std::uint32_t neighbour_skip = 1;
@@ -30,6 +41,24 @@ struct QueryOptions {
   /// [m] Segments of one fibre with less than this arc length between them are no pair; >= 0,
   /// 0 for no such limit. Needed where segments are shorter than the fibre is thick.
   double neighbour_skip_length = 0.0;
+
+  /// How distances are computed, and which pairs are within the margin. ROBUST goes by the distance
+  /// it computes. FAST and EXACT decide without any error. FAST reports distances in single
+  /// precision, of ALL only: the others have robust ones. EXACT reports distances that are rounded
+  /// correctly, before the radii are subtracted.
+  Kernel kernel = Kernel::ROBUST;
+
+  /// CLOSEST, LIMITED and FIBER_PAIRS: a pair need not be looked for that is closer than a reported
+  /// one by less than this [m]; >= 0. Which pair is reported then depends on the engine.
+  double tolerance = 0.0;
+
+  /// The same as a part of the distance; >= 0. The larger of both counts: a distance d is reported
+  /// where the closest is at least d / (1 + relative_tolerance).
+  double relative_tolerance = 0.0;
+
+  /// [s] Time from the start of the query after which it answers with what it has found; >= 0, 0
+  /// for none. QueryResult::complete tells whether it was enough.
+  double deadline = 0.0;
 
   /// Test the volumes of two leaves before the segments themselves; changes only the cost. The
   /// paper finds that it always pays (Sect. 5). run_tree always does.
@@ -42,5 +71,9 @@ void validate(const QueryOptions& options);
 /// The type of this name: first, closest, limited, all or fiber_pairs.
 /// @throws std::invalid_argument listing the names
 QueryType query_type_from_name(const std::string& name);
+
+/// The pairing of this name: all, same_fiber or different_fibers.
+/// @throws std::invalid_argument listing the names
+Pairing pairing_from_name(const std::string& name);
 
 }  // namespace fiber

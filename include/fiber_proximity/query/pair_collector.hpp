@@ -1,10 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/query/contact.hpp"
-#include "fiber_proximity/query/fiber_pair_minima.hpp"
+#include "fiber_proximity/query/contact_keeper.hpp"
 #include "fiber_proximity/query/options.hpp"
 #include "fiber_proximity/query/pair_test.hpp"
 
@@ -13,9 +14,7 @@ namespace fiber {
 /// Receives candidate pairs of segments, decides which are contacts, keeps those the query asks
 /// for. Every engine and brute force feed this one class, so a pair is judged in one place.
 ///
-/// CLOSEST and LIMITED are one thing: keep the k closest, and let the bound below which a pair is
-/// of interest shrink to the k-th of them. FIBER_PAIRS has such a bound for each pair of fibres,
-/// and uses it here alone: bound() knows no fibres and stays the margin.
+/// The bounds of FIBER_PAIRS are used here alone: bound() knows no fibres and stays the margin.
 class PairCollector {
  public:
   /// Pairs within one assembly.
@@ -30,36 +29,40 @@ class PairCollector {
 
   /// [m] Pairs further apart than this do not matter any more; rounded up to single precision, as
   /// the bounding volumes take it.
-  float bound() const { return rounded_bound_; }
+  float bound() const { return keeper_.rounded_bound(); }
 
   bool wants_adjacent() const { return test_.wants_adjacent(); }
 
-  /// No further pair can change the answer.
-  bool done() const { return done_; }
-
-  /// The order in which pairs are offered matters for speed: near ones first. For FIBER_PAIRS it
-  /// would save distances, but sorting costs more.
-  bool wants_near_first() const { return capacity_ != 0; }
+  /// See ContactKeeper.
+  bool done() { return keeper_.done(); }
+  bool wants_near_first() const { return keeper_.wants_near_first(); }
 
   /// Sorts the contacts; call once, after the last offer.
-  void finish();
+  void finish() { keeper_.finish(test_.least_gap()); }
 
  private:
-  PairCollector(PairTest&& test, const FiberPairMinima& minima, const QueryOptions& options,
-                QueryResult& result);
+  /// Finds the fibre of a point; at once if it is that of the point before.
+  class FiberFinder {
+   public:
+    explicit FiberFinder(const FiberAssembly& fibers) : fibers_(fibers) {}
+    std::uint32_t fiber_of(std::uint32_t point);
 
-  void offer_to_minima(PointPair pair);
-  void keep(const Contact& contact);
-  void set_bound(double bound);
+   private:
+    const FiberAssembly& fibers_;
+    std::uint32_t fiber_ = 0;
+    std::uint32_t begin_ = 0;  // of its points; none yet
+    std::uint32_t end_ = 0;
+  };
 
+  void offer_of_fibers(PointPair pair);
+  std::optional<Contact> contact_within(PointPair pair, double bound);
+
+  ContactKeeper keeper_;  // first: its time begins, and the test takes time to make
   const PairTest test_;
-  FiberPairMinima minima_;  // FIBER_PAIRS only
+  FiberFinder fibers_a_;
+  FiberFinder fibers_b_;
   const QueryOptions& options_;
-  QueryResult& result_;
-  const std::size_t capacity_;  // of the k closest; 0 keeps all
-  double bound_ = 0.0;          // [m]
-  float rounded_bound_ = 0.0F;  // [m]
-  bool done_ = false;
+  QueryCounts& counts_;
 };
 
 }  // namespace fiber

@@ -40,23 +40,45 @@ class PairTest {
   /// Whether segments that share a point are pairs.
   bool wants_adjacent() const { return !self_ || options_.neighbour_skip == 0; }
 
-  /// Whether the neighbour skips leave out this ordered pair.
-  bool is_neighbour_pair(PointPair pair) const {
+  /// Whether this ordered pair is left out: by the neighbour skips or the pairing.
+  bool is_left_out(PointPair pair) const {
     const bool far_by_index = pair.b - pair.a > options_.neighbour_skip;
-    return self_ && !(far_by_index && arc_length_.empty()) && is_neighbour_of_same_fiber(pair);
+    return self_ && ((!(far_by_index && arc_length_.empty()) && is_neighbour_of_same_fiber(pair)) ||
+                     (options_.pairing != Pairing::ALL && is_of_other_pairing(pair)));
   }
 
+  /// In single precision for FAST and ALL, otherwise robust.
   PairDistance distance(PointPair pair) const;
   /// The same of many pairs, faster.
   void distances(const PointPair* pairs, std::size_t count, PairDistance* distances) const;
 
+  /// Whether the gap is at most the margin: of ROBUST the one computed, otherwise the true one.
+  bool is_within_margin(PointPair pair, const PairDistance& distance) const;
+
+  /// [m] The true gap is at least this.
+  double gap_lower(PointPair pair, const PairDistance& distance) const {
+    return distance.gap - gap_error(pair, distance);
+  }
+
+  double margin() const { return options_.margin; }  ///< [m]
+
+  /// [m] No gap is less.
+  double least_gap() const;
+
   /// [m] distance(pair).gap is at least this, its rounding included; costs a fraction of it.
   double gap_lower_bound(PointPair pair) const;
 
+  /// What is reported of a pair; of EXACT with a distance that is rounded correctly.
   Contact contact(PointPair pair, const PairDistance& distance) const;
 
  private:
   bool is_neighbour_of_same_fiber(PointPair pair) const;
+  bool is_of_other_pairing(PointPair pair) const;
+  bool is_of_one_fiber(PointPair pair) const {
+    return a_.segment_id(pair.a).fiber == a_.segment_id(pair.b).fiber;
+  }
+  PairDistance rounded(PointPair pair, const PairDistance& distance) const;
+  double gap_error(PointPair pair, const PairDistance& distance) const;
   double radii(PointPair pair) const {
     return a_.segment_radius(pair.a) + b_.segment_radius(pair.b);
   }
@@ -65,6 +87,7 @@ class PairTest {
   const FiberAssembly& b_;
   const QueryOptions& options_;
   const bool self_;
+  const Kernel kernel_;             // of distance()
   std::vector<double> arc_length_;  // [m] by point, from its fibre's start; empty if not needed
 };
 

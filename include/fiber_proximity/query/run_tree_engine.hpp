@@ -48,9 +48,16 @@ class RunTreeEngine final : public ProximityEngine {
   bool most_still_serve(const FiberAssembly& fibers);
   void start_anew(const FiberAssembly& fibers);
   double moved_since_fit() const { return moved_ + moved_before_fit_; }
-  KeptCandidates::Keys current_candidates(const PairTest& test, const QueryOptions& options,
-                                          ContactBatch& batch, QueryCounts& counts) const;
-  void find_own(const PairTest& test, const QueryOptions& options, QueryResult& result) const;
+
+  struct Candidates {
+    KeptCandidates::Keys keys;
+    bool are_all;  // or the deadline came first
+  };
+  Candidates current_candidates(const PairTest& test, const QueryOptions& options,
+                                const Deadline& deadline, ContactBatch& batch,
+                                QueryCounts& counts) const;
+  void find_own(const PairTest& test, const QueryOptions& options, const Deadline& deadline,
+                QueryResult& result) const;
 
   /// Calls with memory that queries which run at the same time do not share.
   template <class Call>

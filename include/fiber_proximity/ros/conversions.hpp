@@ -4,13 +4,16 @@
 #include <geometry_msgs/Vector3.h>
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "fiber_proximity/Contact.h"
+#include "fiber_proximity/Crossing.h"
 #include "fiber_proximity/FiberArray.h"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/query/contact.hpp"
+#include "fiber_proximity/query/crossing.hpp"
 #include "fiber_proximity/ros/chain_set.hpp"
 
 namespace fiber_proximity_ros {
@@ -28,8 +31,11 @@ geometry_msgs::Vector3 to_vector_message(const Eigen::Vector3d& vector);
 void to_message(const fiber::FiberAssembly& fibers, const std::vector<std::string>& names,
                 fiber_proximity::FiberArray& message);
 
-/// Everything but `type_a`, which the caller knows.
-void to_message(const fiber::Contact& contact, fiber_proximity::Contact& message);
+/// @param body_a, body_b what the bodies are, as the message has it
+void to_message(const fiber::Contact& contact, std::uint8_t body_a, std::uint8_t body_b,
+                fiber_proximity::Contact& message);
+
+void to_message(const fiber::Crossing& crossing, fiber_proximity::Crossing& message);
 
 /// @throws std::invalid_argument if there are names, but not one per fibre
 void to_chains(const fiber_proximity::FiberArray& message, ChainSet& chains);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "fiber_proximity/query/engine.hpp"
+#include "fiber_proximity/ros/detection.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -22,27 +23,23 @@ class Detector {
   /// @throws std::invalid_argument for fibres the engine cannot take (AL-threaded: unequal ones)
   const fiber::ProximityEngine& engine();
 
-  /// Finds the contacts, and the closest pair whatever the margin.
+  /// Finds the contacts and, if it is wanted, the closest pair whatever the margin.
   /// @throws std::invalid_argument for options that do not validate, and as engine()
-  void detect(const fiber::QueryOptions& options);
+  void detect(const fiber::QueryOptions& options, bool wants_minimum = true);
 
-  // What the last detect() found:
-  const fiber::QueryResult& contacts() const { return contacts_; }
-  const fiber::Contact* minimum() const { return minimum_; }  ///< nullptr if there is no pair
-  const fiber::QueryCounts& counts() const { return counts_; }
+  /// What the last detect() found.
+  const Detection& detection() const { return detection_; }
 
   double update_time() const { return update_time_; }  ///< [s] of the last update
-  double detect_time() const { return detect_time_; }  ///< [s] of the last detection
+  double detect_time() const {                         ///< [s] of the last detection
+    return detection_.contact_time() + detection_.minimum_time();
+  }
 
  private:
   std::unique_ptr<fiber::ProximityEngine> engine_;
   const fiber::FiberAssembly* new_fibers_ = nullptr;
-  fiber::QueryResult contacts_;
-  fiber::QueryResult closest_;
-  const fiber::Contact* minimum_ = nullptr;
-  fiber::QueryCounts counts_;
+  Detection detection_;
   double update_time_ = 0.0;
-  double detect_time_ = 0.0;
 };
 
 }  // namespace fiber_proximity_ros

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <geometry_msgs/TransformStamped.h>
 #include <ros/node_handle.h>
 #include <std_msgs/Header.h>
 #include <tf2_ros/buffer.h>
@@ -18,6 +19,15 @@ namespace fiber_proximity_ros {
 class TransformUnavailable : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+/// Name of a frame as tf2 knows it: without the slash in front that tf1 had.
+std::string tf2_name(const std::string& frame_id);
+
+/// Where a frame is, and when it was there; a zero stamp: always.
+struct FramePose {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  ros::Time stamp;
 };
 
 /// The frame everything is brought into.
@@ -40,8 +50,17 @@ class FixedFrame {
   void place(const std_msgs::Header& header, fiber::FiberAssembly& fibers,
              std::vector<Eigen::Vector3d>& buffer) const;
 
- private:
+  /// Pose of the header's frame in this one at its stamp; a zero stamp means the latest transform,
+  /// an empty frame this one. Does not wait.
+  /// @throws TransformUnavailable
   Eigen::Isometry3d transform_from(const std_msgs::Header& header) const;
+
+  /// Pose of a frame in this one at a time, or the latest one where tf does not know that.
+  /// @throws TransformUnavailable where tf knows none at all
+  FramePose latest_pose(const std::string& frame, const ros::Time& stamp) const;
+
+ private:
+  geometry_msgs::TransformStamped look_up(const std_msgs::Header& header) const;
 
   std::string name_;
   tf2_ros::Buffer buffer_;

@@ -9,6 +9,7 @@
 #include "fiber_proximity/ros/chain_set.hpp"
 #include "fiber_proximity/ros/fixed_frame.hpp"
 #include "fiber_proximity/ros/input_types.hpp"
+#include "fiber_proximity/ros/refusal_log.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -74,12 +75,12 @@ class Input {
   bool place(Message& message, const FixedFrame& frame);
   void accept(Message& message);
   void overtake(Message& message);
-  void refuse(const std::string& reason);
   void name_fibers(Message& message) const;
   std::string label() const;
 
   InputOptions options_;
   InputTiming timing_;
+  RefusalLog refusals_;
 
   ChainSet chains_;                      // what is being read; a member for its memory
   std::vector<Eigen::Vector3d> buffer_;  // the same
@@ -91,11 +92,7 @@ class Input {
   bool repeats_stamp_ = false;
 
   std::string transform_error_;
-  std::string last_error_;
-  ros::SteadyTime last_log_;
-  std::uint64_t unlogged_ = 0;
   std::uint64_t received_ = 0;
-  std::uint64_t refused_ = 0;
   std::uint64_t overtaken_ = 0;
 };
 

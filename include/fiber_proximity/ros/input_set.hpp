@@ -31,6 +31,9 @@ class InputSet {
   /// True if at least one input is fresh, so that there is something to answer about.
   bool is_fresh() const;
 
+  /// @throws std::invalid_argument saying so unless it is
+  void require_fresh() const;
+
   /// The fibres of all fresh inputs, merged at the first call after a change.
   const fiber::FiberAssembly& fibers();
   const std::vector<std::string>& names() const { return merged_.names; }
@@ -39,6 +42,7 @@ class InputSet {
   const std_msgs::Header& header() const { return merged_.header; }
 
   const FixedFrame& frame() const { return frame_; }
+  FixedFrame& frame() { return frame_; }
   const std::vector<std::unique_ptr<Input>>& inputs() const { return inputs_; }
 
   /// [s] Time spent on reading, transforming and merging since this was last asked.

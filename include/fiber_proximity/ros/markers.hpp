@@ -3,13 +3,15 @@
 #include <std_msgs/Header.h>
 #include <visualization_msgs/MarkerArray.h>
 
-#include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/engine.hpp"
+#include "fiber_proximity/ros/crossing_markers.hpp"
+#include "fiber_proximity/ros/marker_canvas.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -18,9 +20,29 @@ struct MarkerOptions {
   bool show_fibers = true;
   bool show_contacts = true;
   bool show_nearest = true;
+  bool show_cost = false;
   bool show_boxes = false;
+  bool show_crossings = false;
   std::uint32_t level = 4;  ///< of the hierarchy, whose boxes the caller hands in; 0 is the root
 };
+
+/// An answer to draw. Holds references: only for the call.
+struct Drawing {
+  const fiber::FiberAssembly& fibers;
+  const std::vector<fiber::Contact>& contacts;
+  const fiber::Contact* minimum;               ///< the closest pair, nullptr if there is none
+  const std::vector<fiber::NodeBox>& boxes;    ///< of the level to show, if boxes are shown
+  const std::string& cost;                     ///< see cost_text(), if the cost is shown
+  const CrossingDrawing* crossings = nullptr;  ///< nullptr if there are none to show
+};
+
+/// A distance [m] as texts have it, in mm.
+std::string distance_text(double distance);
+
+/// What an answer cost and how accurate it is, in one line.
+/// @param seconds of update and detection
+/// @param error   [m] of a contact's distance, at most
+std::string cost_text(const std::string& kernel, double seconds, double error, bool is_complete);
 
 /// Draws fibres, contacts and boxes for rviz.
 ///
@@ -33,24 +55,32 @@ struct MarkerOptions {
 /// | `normals`      | 0           | LINE_LIST from there along the normal a→b                    |
 /// | `nearest`      | 0           | LINE_LIST between the nearest points of the closest pair     |
 /// | `nearest_text` | 0           | its distance in mm                                           |
+/// | `cost`         | 0           | TEXT_VIEW_FACING above all fibres: kernel, ms, error in m    |
 /// | `boxes`        | 0           | LINE_LIST of the edges of the boxes                          |
+/// | `crossings`    | 0           | LINE_LIST: bars over, stubs under; green +1, magenta −1      |
 class MarkerBuilder {
  public:
   /// More segments than this would make messages of many megabytes: 1.2 kB each.
   static constexpr std::size_t most_tube_segments = 5000;
 
   /// Markers of one update; ends with DELETE for what the previous call drew and this one does not.
-  /// @param minimum the closest pair, nullptr if there is none
-  /// @param boxes   of the level to show; ignored unless options.show_boxes
   /// @param markers overwritten; memory of an earlier call is reused
-  void build(const std_msgs::Header& header, const fiber::FiberAssembly& fibers,
-             const fiber::QueryResult& contacts, const fiber::Contact* minimum,
-             const std::vector<fiber::NodeBox>& boxes, const MarkerOptions& options,
+  void build(const std_msgs::Header& header, const Drawing& drawing, const MarkerOptions& options,
              visualization_msgs::MarkerArray& markers);
 
  private:
-  enum Namespace : std::uint8_t { FIBERS, CONTACTS, NORMALS, NEAREST, NEAREST_TEXT, BOXES, COUNT };
-  class Canvas;
+  enum Namespace : std::uint8_t {
+    FIBERS,
+    CONTACTS,
+    NORMALS,
+    NEAREST,
+    NEAREST_TEXT,
+    COST,
+    BOXES,
+    CROSSINGS,
+    COUNT
+  };
+  using Canvas = MarkerCanvas<COUNT>;
 
   static void draw_tubes(const fiber::FiberAssembly& fibers, Canvas& canvas);
   static void draw_lines(const fiber::FiberAssembly& fibers, double width, Canvas& canvas);
@@ -59,10 +89,12 @@ class MarkerBuilder {
   static void draw_normals(const std::vector<fiber::Contact>& contacts, double thickness,
                            Canvas& canvas);
   static void draw_nearest(const fiber::Contact& minimum, double extent, Canvas& canvas);
+  static void draw_cost(const std::string& cost, const Eigen::Vector3d& top, double extent,
+                        Canvas& canvas);
   static void draw_boxes(const std::vector<fiber::NodeBox>& boxes, double extent, Canvas& canvas);
 
   // By namespace: ids 0 .. count−1 are on the screen.
-  std::array<std::int32_t, COUNT> drawn_{};
+  Canvas::Counts drawn_{};
 };
 
 }  // namespace fiber_proximity_ros

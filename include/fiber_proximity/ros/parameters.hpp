@@ -2,6 +2,7 @@
 
 #include <ros/node_handle.h>
 
+#include <cstdint>
 #include <string>
 
 namespace fiber_proximity_ros {
@@ -24,5 +25,9 @@ void read_parameter(const ros::NodeHandle& node, const std::string& name,
 /// @throws std::invalid_argument if it is anything else
 void read_parameter(const ros::NodeHandle& node, const std::string& name, double least,
                     double& value);
+
+/// Reads a whole number of at least 0.
+/// @throws std::invalid_argument if it is anything else
+void read_parameter(const ros::NodeHandle& node, const std::string& name, std::uint32_t& value);
 
 }  // namespace fiber_proximity_ros

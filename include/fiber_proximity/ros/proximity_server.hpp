@@ -3,15 +3,22 @@
 #include <dynamic_reconfigure/server.h>
 #include <ros/node_handle.h>
 
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "fiber_proximity/CheckFibers.h"
 #include "fiber_proximity/ContactArray.h"
 #include "fiber_proximity/FiberArray.h"
 #include "fiber_proximity/ProximityConfig.h"
 #include "fiber_proximity/QueryProximity.h"
 #include "fiber_proximity/Statistics.h"
+#include "fiber_proximity/ros/comparison_output.hpp"
+#include "fiber_proximity/ros/crossings_output.hpp"
 #include "fiber_proximity/ros/detector.hpp"
 #include "fiber_proximity/ros/diagnostics.hpp"
+#include "fiber_proximity/ros/environment_markers.hpp"
+#include "fiber_proximity/ros/environment_output.hpp"
 #include "fiber_proximity/ros/input_set.hpp"
 #include "fiber_proximity/ros/markers.hpp"
 #include "fiber_proximity/ros/server_options.hpp"
@@ -21,9 +28,10 @@ namespace fiber_proximity_ros {
 /// The proximity node: fibres in, contacts, markers and answers to queries out. One class behind
 /// node and nodelet; all its callbacks must come from one thread at a time.
 ///
-/// Publishes ~contacts, ~fibers, ~markers, ~statistics and /diagnostics; serves ~query. Each set of
-/// messages that have arrived gives one answer, each answer is published once, and what nobody
-/// subscribes to is not computed.
+/// Publishes ~contacts, ~environment_contacts, ~crossings (see CrossingsOutput), ~fibers, ~markers,
+/// ~statistics, ~comparison and /diagnostics; serves ~query, ~check_fibers and ~compare, and what
+/// EnvironmentInputs serve. Each set of messages that have arrived gives one answer, each answer is
+/// published once, and what nobody subscribes to is not computed.
 class ProximityServer {
  public:
   /// @throws std::invalid_argument for a bad parameter (see read_server_options) or an unknown
@@ -41,13 +49,21 @@ class ProximityServer {
   void tick();
 
   void publish();
+  bool detect();
+  void detect_in_environment();
+  void add_part(const std::string& name, double seconds);
   void publish_fibers();
   void publish_contacts();
   void publish_statistics(double total_time);
   void publish_markers_if_due();
+  EnvironmentMarkerOptions environment_marker_options() const;
 
+  template <class Response, class Answer>
+  bool respond(Response& response, const Answer& answer_it);
   bool query(fiber_proximity::QueryProximity::Request& request,
              fiber_proximity::QueryProximity::Response& response);
+  bool check_fibers(fiber_proximity::CheckFibers::Request& request,
+                    fiber_proximity::CheckFibers::Response& response);
   void reconfigure(fiber_proximity::ProximityConfig& config);
 
   ros::NodeHandle node_;
@@ -71,16 +87,21 @@ class ProximityServer {
   std::vector<fiber::NodeBox> boxes_;
 
   MarkerBuilder marker_builder_;
+  EnvironmentMarkers environment_markers_;
   ros::SteadyTime last_drawing_;
   bool drawing_is_due_ = false;
-  double merge_time_ = 0.0;
+  std::vector<std::pair<std::string, double>> parts_;  // [s] what the last update ran
   bool is_scheduled_ = false;
 
   // Last, so that they go first: callbacks come from here.
   InputSet inputs_;
+  CrossingsOutput crossings_;
   Diagnostics diagnostics_;
+  EnvironmentOutput environment_;
+  ComparisonOutput comparison_;
   dynamic_reconfigure::Server<fiber_proximity::ProximityConfig> reconfigure_server_;
   ros::ServiceServer query_server_;
+  ros::ServiceServer check_server_;
   ros::SteadyTimer tick_timer_;
   ros::SteadyTimer retry_timer_;
 };

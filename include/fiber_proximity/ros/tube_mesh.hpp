@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/ros/tube_sweep.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -21,8 +22,5 @@ constexpr int tube_sides = 8;
 /// @param fiber index below fibers.fiber_count()
 void append_tube(const fiber::FiberAssembly& fibers, std::uint32_t fiber,
                  std::vector<geometry_msgs::Point>& triangles);
-
-/// What stands in for a radius of 0 [m].
-constexpr double hairline_radius = 1e-4;
 
 }  // namespace fiber_proximity_ros

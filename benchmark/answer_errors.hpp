@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstddef>
+
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/query/contact.hpp"
+#include "fiber_proximity/query/options.hpp"
+
+namespace fiber {
+
+/// What is wrong with an answer, or with several: the worst, and counts in all.
+struct AnswerErrors {
+  std::size_t expected = 0;      ///< contacts of the exact answers
+  std::size_t missed = 0;        ///< of these not reported, in answers that were complete
+  std::size_t cut_off = 0;       ///< of these not reported, in answers that were not
+  std::size_t extra = 0;         ///< reported, though not among them
+  std::size_t wrong_bounds = 0;  ///< answers whose bounds exclude the exact distance
+  double error = 0.0;            ///< [m] of a distance; of CLOSEST, of the minimum
+  double bound = 0.0;            ///< [m] that an answer stated for it
+
+  void add(const AnswerErrors& other);
+
+  /// The part of the exact contacts that was reported.
+  double found_part() const;
+};
+
+/// Holds an answer against the exact answer to the same query. Distances are checked by integers,
+/// at most a thousand of them.
+/// @param exact of the kernel EXACT, without tolerance and deadline
+AnswerErrors answer_errors(const FiberAssembly& fibers, const QueryOptions& options,
+                           const QueryResult& answer, const QueryResult& exact);
+
+}  // namespace fiber

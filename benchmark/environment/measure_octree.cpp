@@ -1,0 +1,45 @@
+#include <array>
+
+#include "environment/camera_cloud.hpp"
+#include "environment/measurements.hpp"
+#include "fiber_proximity/environment/occupancy_octree.hpp"
+#include "progress.hpp"
+#include "statistics.hpp"
+
+namespace fiber {
+namespace {
+
+struct OctreeRun {
+  double resolution;  // [m]
+  std::vector<double> times_ms;
+  std::size_t cells = 0;
+};
+
+}  // namespace
+
+std::vector<BenchmarkRow> measure_octree(const EnvironmentMeasurement& what) {
+  const std::vector<Eigen::Vector3d> cloud = camera_cloud(what.pixels, what.seed);
+  std::array<OctreeRun, 2> runs{{{0.01, {}}, {0.02, {}}}};
+  Progress progress;
+  for (std::uint32_t repeat = 1; repeat <= what.repeats; ++repeat) {
+    progress.show("cloud " + std::to_string(repeat) + " of " + std::to_string(what.repeats));
+    for (std::size_t turn = 0; turn < runs.size(); ++turn) {
+      OctreeRun& run = runs[(repeat + turn) % runs.size()];
+      run.times_ms.push_back(
+          time_of([&] { run.cells = OccupancyOctree(run.resolution, cloud).cell_count(); }));
+    }
+  }
+  std::vector<BenchmarkRow> rows;
+  for (const OctreeRun& run : runs) {
+    rows.push_back({{"part", "octree"},
+                    {"resolution", run.resolution},
+                    {"build_ms", median(run.times_ms)},
+                    {"cells", run.cells},
+                    {"pixels", what.pixels},
+                    {"seed", what.seed},
+                    {"repeats", what.repeats}});
+  }
+  return rows;
+}
+
+}  // namespace fiber

@@ -1,0 +1,72 @@
+#include <fcl/geometry/shape/capsule.h>
+#include <fcl/narrowphase/distance.h>
+
+#include "pairs/makers.hpp"
+#include "peers/capsule_pose.hpp"
+
+namespace fiber {
+namespace {
+
+/// A segment as an object of FCL.
+struct FclCapsule {
+  FclCapsule(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1, double radius)
+      : capsule(radius, 0.0), pose(fcl::Transform3d::Identity()) {
+    const CapsulePose found = capsule_pose(p0, p1);
+    capsule.lz = found.length;
+    pose.linear().col(0) = found.side;
+    pose.linear().col(1) = found.other;
+    pose.linear().col(2) = found.along;
+    pose.translation() = found.centre;
+  }
+
+  fcl::Capsuled capsule;
+  fcl::Transform3d pose;
+};
+
+/// fcl::distance() of two capsules in poses. Unsigned, FCL takes its own algorithm for two
+/// capsules; signed, GJK, and EPA where they overlap, as for all other shapes.
+class FclPairs final : public PairKernel {
+ public:
+  explicit FclPairs(bool is_signed) { request_.enable_signed_distance = is_signed; }
+
+  void prepare(const std::vector<HardPair>& pairs) override { make_capsules(pairs, a_, b_); }
+
+  void distances(std::size_t first, std::size_t count, double* distances) override {
+    for (std::size_t i = 0; i < count; ++i) {
+      try {
+        distances[i] = gap(first + i);
+      } catch (const std::exception&) {  // EPA gives up
+        distances[i] = std::numeric_limits<double>::quiet_NaN();
+      }
+    }
+  }
+
+  PairAnswer answer(std::size_t index) override {
+    const double found = gap(index);
+    PairAnswer answer;
+    answer.distance = found + (a_[index].capsule.radius + b_[index].capsule.radius);
+    answer.contact = found <= 0.0;
+    return answer;
+  }
+
+ private:
+  /// Of the surfaces [m].
+  double gap(std::size_t index) const {
+    fcl::DistanceResultd result;
+    fcl::distance(&a_[index].capsule, a_[index].pose, &b_[index].capsule, b_[index].pose, request_,
+                  result);
+    return result.min_distance;
+  }
+
+  fcl::DistanceRequestd request_;
+  std::vector<FclCapsule> a_;
+  std::vector<FclCapsule> b_;
+};
+
+}  // namespace
+
+std::unique_ptr<PairKernel> make_fcl_capsule_pairs() { return std::make_unique<FclPairs>(false); }
+
+std::unique_ptr<PairKernel> make_fcl_gjk_pairs() { return std::make_unique<FclPairs>(true); }
+
+}  // namespace fiber

@@ -1,0 +1,26 @@
+# Scenes of the simulation from YAML, and the node that runs them.
+
+add_library(fiber_proximity_cable_sim SHARED
+  src/ros/sim_effects.cpp
+  src/ros/sim_fibers.cpp
+  src/ros/sim_holds.cpp
+  src/ros/sim_scene.cpp
+  src/ros/sim_server.cpp
+  src/ros/sim_shapes.cpp
+)
+target_link_libraries(fiber_proximity_cable_sim
+  PUBLIC fiber_proximity_ros fiber_proximity_sim PRIVATE yaml-cpp fiber_proximity_options)
+
+add_executable(cable_sim src/nodes/cable_sim.cpp)
+target_link_libraries(cable_sim fiber_proximity_cable_sim fiber_proximity_options)
+
+add_library(fiber_proximity_nodelets SHARED src/nodes/nodelets.cpp)
+target_link_libraries(fiber_proximity_nodelets
+  PUBLIC fiber_proximity_cable_sim PRIVATE fiber_proximity_options)
+
+install(TARGETS fiber_proximity_sim fiber_proximity_cable_sim fiber_proximity_nodelets
+  ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
+  LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
+  RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION}
+)
+install(TARGETS cable_sim RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})

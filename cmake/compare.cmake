@@ -1,0 +1,12 @@
+# FCL run beside our engines.
+
+add_library(fiber_proximity_fcl SHARED
+  src/compare/comparison.cpp
+  src/compare/disagreement.cpp
+  src/compare/fcl_boxes.cpp
+  src/compare/fcl_capsules.cpp
+  src/compare/fcl_comparer.cpp
+)
+target_include_directories(fiber_proximity_fcl PRIVATE ${PROJECT_SOURCE_DIR})
+target_link_libraries(fiber_proximity_fcl
+  PUBLIC fiber_proximity PRIVATE fcl fiber_proximity_options)

@@ -1,0 +1,18 @@
+# What is around the fibres, over FCL: a library of its own, so that the core does not need it.
+
+add_library(fiber_proximity_environment SHARED
+  src/environment/axis_distance.cpp
+  src/environment/check_fibers.cpp
+  src/environment/environment.cpp
+  src/environment/environment_query.cpp
+  src/environment/mesh_topology.cpp
+  src/environment/occupancy_octree.cpp
+  src/environment/point_distance.cpp
+  src/environment/shape_box.cpp
+  src/environment/shapes.cpp
+  src/environment/triangle_distance.cpp
+  src/environment/triangle_mesh.cpp
+  src/environment/world.cpp
+)
+target_link_libraries(fiber_proximity_environment
+  PUBLIC fiber_proximity PRIVATE fcl fiber_proximity_options)

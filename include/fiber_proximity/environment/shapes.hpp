@@ -1,0 +1,82 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace fiber {
+
+class TriangleMesh;
+class OccupancyOctree;
+
+/// Solids of the environment, each in its own frame, as shape_msgs/SolidPrimitive has them: centred
+/// at the origin, along z. All lengths in metres, finite and at least 0.
+struct BoxShape {
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< edge to edge
+};
+
+struct SphereShape {
+  double radius = 0.0;
+};
+
+struct CylinderShape {
+  double radius = 0.0;
+  double height = 0.0;
+};
+
+/// Its base at z = −height/2, its apex at z = height/2.
+struct ConeShape {
+  double radius = 0.0;
+  double height = 0.0;
+};
+
+/// Around a segment along z of this length, so that it is 2 radius + length high.
+struct CapsuleShape {
+  double radius = 0.0;
+  double length = 0.0;
+};
+
+/// All points p with normal·p <= offset are solid.
+struct HalfSpaceShape {
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< of unit length, out of the solid
+  double offset = 0.0;
+};
+
+/// All points p with normal·p = offset: a sheet that can be touched from both sides.
+struct PlaneShape {
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< of unit length
+  double offset = 0.0;
+};
+
+/// Shapes that are made once and shared are behind a pointer, which is never null.
+using Shape = std::variant<BoxShape, SphereShape, CylinderShape, ConeShape, CapsuleShape,
+                           HalfSpaceShape, PlaneShape, std::shared_ptr<const TriangleMesh>,
+                           std::shared_ptr<const OccupancyOctree>>;
+
+/// A shape somewhere.
+struct PlacedShape {
+  Shape shape;
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< of the shape in its object's frame
+};
+
+/// A body of one or more shapes, such as a link of a robot.
+struct EnvironmentObject {
+  std::string name;
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< of the object in the world
+  std::vector<PlacedShape> shapes;
+};
+
+/// @throws std::invalid_argument naming what is wrong with the shape, the value and what is allowed
+void validate(const Shape& shape);
+
+/// A pose must be a rotation and a finite translation.
+/// @throws std::invalid_argument otherwise
+void validate(const Eigen::Isometry3d& pose);
+
+/// The same of an object, all its shapes and its name, which must not be empty.
+/// @throws std::invalid_argument naming the object and the shape, too
+void validate(const EnvironmentObject& object);
+
+}  // namespace fiber

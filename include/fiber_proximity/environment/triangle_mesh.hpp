@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "fiber_proximity/environment/axis_distance.hpp"
+#include "fiber_proximity/environment/shape_box.hpp"
+
+namespace fiber {
+
+/// Triangles in their own frame, with a tree over them; never changes once it is made, so that any
+/// number of threads may ask at once.
+///
+/// A mesh whose every edge joins two triangles of opposite direction, after vertices at the same
+/// place are welded, is closed and encloses a solid: distances inside are negative. Any other is a
+/// sheet that can be touched from both sides.
+class TriangleMesh {
+ public:
+  using Triangle = std::array<std::uint32_t, 3>;  ///< indices of vertices, counter-clockwise
+
+  /// More triangles than this are refused: building trees over them takes seconds.
+  static constexpr std::size_t most_triangles = 1'000'000;
+
+  /// @param vertices  [m]
+  /// @throws std::invalid_argument naming the first index out of range, coordinate that is not
+  ///         finite, or too many or no triangles
+  TriangleMesh(std::vector<Eigen::Vector3d> vertices, std::vector<Triangle> triangles);
+  ~TriangleMesh();
+  TriangleMesh(const TriangleMesh&) = delete;
+  TriangleMesh& operator=(const TriangleMesh&) = delete;
+
+  const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+  const WorldBox& box() const { return box_; }  ///< around the vertices, in their frame [m]
+  bool is_closed() const;
+
+  /// Where a segment is nearest to the surface, or deepest inside of it. Infinitely far if nothing
+  /// is within the bound [m]. How deep it is inside is known to a sixteenth of that or of the
+  /// segment's length, whichever is more; `lower` tells.
+  AxisDistance axis_distance(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1,
+                             double bound) const;
+
+ private:
+  class Surface;
+
+  std::vector<Eigen::Vector3d> vertices_;
+  std::vector<Triangle> triangles_;
+  WorldBox box_;
+  std::unique_ptr<const Surface> surface_;
+};
+
+}  // namespace fiber

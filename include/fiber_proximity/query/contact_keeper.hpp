@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "fiber_proximity/query/contact.hpp"
+#include "fiber_proximity/query/deadline.hpp"
+#include "fiber_proximity/query/fiber_pair_minima.hpp"
+#include "fiber_proximity/query/options.hpp"
+
+namespace fiber {
+
+/// Keeps of the contacts it is given those the query asks for, and tells how close others must be
+/// to matter. Whatever the bodies are: all queries keep their contacts here.
+///
+/// CLOSEST and LIMITED are one thing: keep the k closest, and let the bound below which a pair is
+/// of interest shrink to the k-th of them. FIBER_PAIRS has such a bound for each pair of fibres;
+/// the one for all stays the margin. A tolerance makes these bounds smaller than what has been
+/// found.
+class ContactKeeper {
+ public:
+  /// Holds references: options and result must outlive it. Forgets what is in the result.
+  ContactKeeper(const QueryOptions& options, QueryResult& result);
+
+  /// [m] Pairs further apart than this do not matter any more.
+  double bound() const { return bound_; }
+  /// [m] The same, rounded up to single precision, as the bounding volumes take it.
+  float rounded_bound() const { return rounded_bound_; }
+
+  /// [m] Pairs of these fibres further apart than this do not matter any more.
+  double bound_of(std::uint32_t fiber_a, std::uint32_t fiber_b);
+
+  /// Keeps a contact that is within the bound, or notes that it does not.
+  void keep(const Contact& contact);
+
+  /// Notes that a pair is not reported whose gap is at least this [m].
+  void leave_out(double lower);
+
+  /// No further pair can change the answer, or none may: the deadline has passed. To be asked
+  /// often.
+  bool done() {
+    if (deadline_.is_set() && ++steps_ % steps_between_looks == 0) {
+      look_at_deadline();
+    }
+    return done_;
+  }
+
+  /// The order in which pairs are found matters for speed: near ones first. For FIBER_PAIRS it
+  /// would save distances, but sorting costs more.
+  bool wants_near_first() const { return capacity_ != 0; }
+
+  /// Sorts the contacts; call once, at the end.
+  /// @param least_gap [m] no pair at all has a smaller gap
+  void finish(double least_gap);
+
+ private:
+  void keep_of_fibers(const Contact& contact);
+  void keep_closest(const Contact& contact);
+  void set_bound(double bound);
+  double slack(double distance) const;
+  void look_at_deadline();
+
+  static constexpr std::uint32_t steps_between_looks = 32;  // looking takes as long as a few steps
+
+  const Deadline deadline_;
+  FiberPairMinima minima_;  // FIBER_PAIRS only
+  const QueryOptions& options_;
+  QueryResult& result_;
+  const std::size_t capacity_;  // of the k closest; 0 keeps all
+  double bound_ = 0.0;          // [m]
+  float rounded_bound_ = 0.0F;  // [m]
+  bool done_ = false;
+  std::uint32_t steps_ = 0;
+};
+
+}  // namespace fiber

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "fiber_proximity/CheckFibers.h"
+#include "fiber_proximity/environment/allowed_pairs.hpp"
+#include "fiber_proximity/ros/query_target.hpp"
+
+namespace fiber_proximity_ros {
+
+/// What may touch fibres of these names.
+using FindAllowed = std::function<fiber::AllowedPairs(const std::vector<std::string>&)>;
+
+/// Checks the candidates of a request; fills in all of the response but header, names and success.
+/// @param names of the target's fibres
+/// @throws std::invalid_argument naming the candidate, the value and what is allowed
+/// @throws TransformUnavailable naming the candidate and its frame
+void answer(const fiber_proximity::CheckFibers::Request& request, const QueryTarget& target,
+            const std::vector<std::string>& names, const FindAllowed& find_allowed,
+            fiber_proximity::CheckFibers::Response& response);
+
+}  // namespace fiber_proximity_ros

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <functional>
+
+#include "fiber_proximity/query/contact.hpp"
+#include "fiber_proximity/query/options.hpp"
+
+namespace fiber_proximity_ros {
+
+/// Contacts and closest pair of whatever can be queried: the fibres among themselves, or the fibres
+/// and the environment.
+class Detection {
+ public:
+  using Ask = std::function<void(const fiber::QueryOptions&, fiber::QueryResult&)>;
+
+  /// Asks for the contacts and, where these do not tell, for the closest pair whatever the margin.
+  /// A deadline is one for both.
+  /// @param wants_minimum whether to ask for the closest pair
+  /// @throws std::invalid_argument for options that do not validate
+  void detect(const fiber::QueryOptions& options, bool wants_minimum, const Ask& ask);
+
+  // What the last detect() found:
+  const fiber::QueryResult& contacts() const { return contacts_; }
+  const fiber::Contact* minimum() const { return minimum_; }  ///< nullptr if there is no pair
+  bool is_complete() const { return complete_; }              ///< no deadline came before its end
+  /// [m] Bounds of the true distance of the closest pair; infinite where there is no pair.
+  double minimum_lower() const { return minimum_lower_; }
+  double minimum_upper() const;
+  double contact_error() const;  ///< [m] by which a contact's distance is wrong at most
+  const fiber::QueryCounts& counts() const { return counts_; }
+
+  double contact_time() const { return contact_time_; }  ///< [s] to find the contacts
+  double minimum_time() const { return minimum_time_; }  ///< [s] to find the closest pair, apart
+
+ private:
+  fiber::QueryResult contacts_;
+  fiber::QueryResult closest_;
+  const fiber::Contact* minimum_ = nullptr;
+  bool complete_ = true;
+  double minimum_lower_ = 0.0;
+  fiber::QueryCounts counts_;
+  double contact_time_ = 0.0;
+  double minimum_time_ = 0.0;
+};
+
+}  // namespace fiber_proximity_ros

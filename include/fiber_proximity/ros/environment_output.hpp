@@ -1,0 +1,63 @@
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fiber_proximity/ContactArray.h"
+#include "fiber_proximity/ros/detection.hpp"
+#include "fiber_proximity/ros/environment_inputs.hpp"
+#include "fiber_proximity/ros/input_set.hpp"
+
+namespace fiber_proximity_ros {
+
+/// Contacts of the fibres with what is around them, on ~environment_contacts; not looked for while
+/// there is nothing around, or nobody asks.
+class EnvironmentOutput {
+ public:
+  /// @param fibers     must outlive this
+  /// @param tf_timeout [s]
+  /// @param on_message see EnvironmentInputs
+  /// @throws std::invalid_argument for bad parameters (read_environment_options)
+  EnvironmentOutput(const ros::NodeHandle& node, ros::NodeHandle private_node, InputSet& fibers,
+                    double tf_timeout, std::function<void()> on_message);
+  EnvironmentOutput(const EnvironmentOutput&) = delete;
+  EnvironmentOutput& operator=(const EnvironmentOutput&) = delete;
+
+  /// Takes over what has arrived about the environment.
+  /// @returns true if that changed it
+  bool update();
+
+  /// Whether somebody listens, and there is or may be something around.
+  bool has_listeners() const { return publisher_.getNumSubscribers() > 0; }
+  bool is_used() const { return inputs_.is_used(); }
+
+  /// Finds contacts and, if wanted, the closest pair. Once at most after each update().
+  void detect(const fiber::QueryOptions& options, bool wants_minimum);
+  /// Publishes what detect() found, if somebody listens.
+  void publish(const fiber::QueryOptions& options);
+
+  const EnvironmentInputs& inputs() const { return inputs_; }
+
+  // What the last detect() found, in which environment:
+  const Detection& detection() const { return detection_; }
+  const fiber::Environment& environment() const { return *environment_; }
+  double update_time() const { return update_time_; }  ///< [s] to bring it up to date
+
+ private:
+  InputSet& fibers_;
+  EnvironmentInputs inputs_;
+  std::shared_ptr<const fiber::Environment> environment_;
+  Detection detection_;
+  double update_time_ = 0.0;
+  ros::Publisher publisher_;
+  fiber_proximity::ContactArray message_;  // for its memory
+};
+
+/// By index.
+std::vector<std::string> object_names(const fiber::Environment& environment);
+
+}  // namespace fiber_proximity_ros

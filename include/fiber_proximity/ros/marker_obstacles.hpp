@@ -1,0 +1,64 @@
+#pragma once
+
+#include <visualization_msgs/Marker.h>
+
+#include <array>
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fiber_proximity/ros/mesh_loader.hpp"
+#include "fiber_proximity/ros/obstacle_set.hpp"
+
+namespace fiber_proximity_ros {
+
+/// Markers of one topic as obstacles with the names NAMESPACE/ID: those of the types CUBE, SPHERE,
+/// CYLINDER, CUBE_LIST, SPHERE_LIST, TRIANGLE_LIST and MESH_RESOURCE; others are no bodies. As in
+/// rviz, a marker is in place of the one of its name before, DELETE of one that is not there does
+/// nothing, and a lifetime ends.
+class MarkerObstacles {
+ public:
+  using Markers = std::vector<visualization_msgs::Marker>;
+
+  MarkerObstacles(std::string topic, const MeshLoader& meshes, ObstacleSet& obstacles)
+      : topic_(std::move(topic)), meshes_(meshes), obstacles_(obstacles) {}
+
+  /// Reads a message.
+  /// @returns what applies all of it, or throws as ObstacleSet::apply does
+  /// @throws std::invalid_argument naming the marker, what is wrong with it and what is allowed
+  std::function<void()> read(const Markers& markers, const ros::Time& now);
+
+  /// Removes the obstacles whose lifetimes have ended.
+  /// @returns true if there are any
+  bool expire(const ros::Time& now);
+
+ private:
+  /// What one marker asks for.
+  struct Step {
+    std::int32_t action = visualization_msgs::Marker::ADD;
+    FramedChange change;  // of DELETE only the name
+    ros::Time expiry;     // zero: never
+  };
+  using Names = std::map<std::string, ros::Time>;  // and when their lifetimes end; zero: never
+
+  std::optional<Step> read(const visualization_msgs::Marker& marker, const ros::Time& now);
+  std::vector<fiber::PlacedShape> shapes_of(const visualization_msgs::Marker& marker);
+  fiber::Shape mesh_of(const visualization_msgs::Marker& marker);
+  void apply(const std::vector<Step>& steps);
+  Names present() const;
+
+  std::string topic_;
+  MeshLoader meshes_;
+  ObstacleSet& obstacles_;
+  Names names_;
+
+  // Meshes that were read, by resource and scale: markers repeat them at camera rate.
+  std::map<std::pair<std::string, std::array<double, 3>>, fiber::Shape> read_meshes_;
+  std::set<std::int32_t> ignored_types_;
+};
+
+}  // namespace fiber_proximity_ros

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fiber_proximity/ros/sim_fibers.hpp"
+#include "fiber_proximity/ros/yaml_field.hpp"
+#include "fiber_proximity/sim/effects/attachment.hpp"
+
+namespace fiber_proximity_ros {
+
+/// A frame of tf that holds a fibre. What is held is where the frame was last, and turns with it.
+struct FollowedFrame {
+  std::string frame;
+  std::string what;                             ///< what it holds, for warnings
+  fiber::Placement in_frame;                    ///< what it holds, in the frame
+  std::shared_ptr<fiber::Placement> placement;  ///< in the world; the hold reads it
+};
+
+/// A hold as the scene has it.
+struct SimHold {
+  fiber::Attachment::Hold hold;
+  std::string place;  ///< where it stands, for errors
+};
+
+struct SimHolds {
+  std::vector<SimHold> holds;
+  std::vector<FollowedFrame> frames;
+};
+
+/// Reads the options of the effect `attachment`: a list of holds, each of
+///   fiber:    name; that of a repeated fibre means each of them
+///   node:     first, last, or an index; first if there is none
+///   kind:     pin or clamp; pin if there is none
+///   position, tangent, director: where and how it is held; where and how the fibre is if there are
+///             none
+///   path:     a list of {time, position, tangent, director}, in between straight lines; what is
+///             not given stays as it was
+///   frame:    of tf, that carries it: position, the frame's origin if there is none, tangent and
+///             director are in this frame. As long as tf does not know it, the fibre stays where it
+///             is
+/// @throws std::invalid_argument naming file, line, field and value, and what is allowed
+SimHolds read_sim_holds(const YamlField& list, const std::vector<SimFiber>& fibers);
+
+}  // namespace fiber_proximity_ros

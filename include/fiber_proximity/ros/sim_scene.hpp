@@ -1,0 +1,31 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fiber_proximity/ros/mesh_loader.hpp"
+#include "fiber_proximity/ros/sim_effects.hpp"
+#include "fiber_proximity/sim/stepper.hpp"
+
+namespace fiber_proximity_ros {
+
+/// A scene of the simulation, ready to move.
+struct SimScene {
+  std::string frame_id;
+  std::vector<std::string> fiber_names;
+  std::vector<std::string> effect_names;
+  double time_step = 1.0 / 60.0;  ///< from frame to frame [s]
+  std::uint32_t substeps = 4;     ///< of a frame
+  std::unique_ptr<fiber::Stepper> stepper;
+  fiber::Attachment* attachment = nullptr;  ///< of the stepper; null without the effect
+  std::vector<FollowedFrame> frames;        ///< whose placements are to be kept up to date
+};
+
+/// Reads a scene from a YAML file with the keys fibers, effects, environment (as the node's scene
+/// has it), frame_id, time_step, substeps, iterations, integrator.
+/// @param threads most to use, 0 for as many as there are cores
+/// @throws std::invalid_argument naming file, line, field and value, and what is allowed
+SimScene read_sim_scene(const std::string& file, const MeshLoader& meshes, std::uint32_t threads);
+
+}  // namespace fiber_proximity_ros

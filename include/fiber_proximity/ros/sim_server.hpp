@@ -1,0 +1,75 @@
+#pragma once
+
+#include <ros/node_handle.h>
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
+
+#include <string>
+
+#include "fiber_proximity/AttachFiber.h"
+#include "fiber_proximity/DetachFiber.h"
+#include "fiber_proximity/FiberArray.h"
+#include "fiber_proximity/StepSimulation.h"
+#include "fiber_proximity/ros/fixed_frame.hpp"
+#include "fiber_proximity/ros/sim_scene.hpp"
+
+namespace fiber_proximity_ros {
+
+/// What the simulation runs, and how; the node's private parameters of the same names.
+struct SimOptions {
+  std::string scene;          ///< YAML file
+  std::uint32_t threads = 0;  ///< most to use, 0 for as many as there are cores
+  bool clock = false;         ///< publish /clock, and stamp fibres with the scene's time
+  bool paused = false;        ///< wait for ~step or ~pause
+  MeshLoader meshes;          ///< of the environment, from the folders of ~mesh_folders
+};
+
+/// @throws std::invalid_argument naming the parameter, its value and what is allowed
+SimOptions read_sim_options(const ros::NodeHandle& private_node);
+
+/// Stands in for a tracker: moves the fibres of a scene in real time, and publishes ~fibers.
+class SimServer {
+ public:
+  /// @throws std::invalid_argument as read_sim_scene
+  SimServer(const ros::NodeHandle& private_node, const SimOptions& options);
+
+ private:
+  /// A node of a rod, from the rod's first one.
+  struct NodeOfRod {
+    std::uint32_t rod;
+    std::uint32_t node;
+  };
+
+  void log_scene() const;
+  void keep_pace();
+  void advance();
+  void follow_frames();
+  void publish();
+  NodeOfRod find_node(const std::string& fiber, std::int32_t node) const;
+
+  bool reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  bool pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
+  bool step(fiber_proximity::StepSimulation::Request& request,
+            fiber_proximity::StepSimulation::Response& response);
+  bool attach(fiber_proximity::AttachFiber::Request& request,
+              fiber_proximity::AttachFiber::Response& response);
+  bool detach(fiber_proximity::DetachFiber::Request& request,
+              fiber_proximity::DetachFiber::Response& response);
+
+  ros::NodeHandle node_;
+  SimOptions options_;
+  SimScene scene_;
+  FixedFrame world_;
+  bool is_paused_;
+  ros::SteadyTime next_frame_;  // when it is due
+  double behind_ = 0.0;         // [s] given up so far because steps took too long
+  fiber_proximity::FiberArray message_;
+  ros::Publisher fibers_;
+  ros::Publisher clock_;
+
+  // Last: their callbacks use all of the above.
+  std::vector<ros::ServiceServer> servers_;
+  ros::SteadyTimer timer_;
+};
+
+}  // namespace fiber_proximity_ros

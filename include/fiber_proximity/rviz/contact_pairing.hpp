@@ -1,0 +1,38 @@
+#pragma once
+
+#include "fiber_proximity/ContactArray.h"
+#include "fiber_proximity/FiberArray.h"
+
+namespace fiber_proximity_rviz {
+
+/// Fibres and the contacts among them, which come as two messages of one stamp, in either order.
+struct FibersAndContacts {
+  fiber_proximity::FiberArrayConstPtr fibers;      ///< null: nothing yet
+  fiber_proximity::ContactArrayConstPtr contacts;  ///< null: none came with these fibres
+};
+
+/// Decides what to draw: the newest fibres whose contacts are there. Contacts that do not come are
+/// waited for only so long, so that fibres are seen in any case.
+class ContactPairing {
+ public:
+  /// [s] that fibres are kept back at most, counted from the last ones that were not.
+  static constexpr double patience = 0.5;
+
+  void add(const fiber_proximity::FiberArrayConstPtr& fibers);
+  void add(const fiber_proximity::ContactArrayConstPtr& contacts);
+  void clear();
+
+  /// What has become ready since the last call; null fibres if nothing has.
+  /// @param elapsed [s] since that call
+  FibersAndContacts take(double elapsed);
+
+ private:
+  void match();
+
+  FibersAndContacts newest_;  // not necessarily of one stamp
+  FibersAndContacts ready_;
+  bool fibers_wait_ = false;  // the newest fibres have not been handed out
+  double waited_ = 0.0;
+};
+
+}  // namespace fiber_proximity_rviz

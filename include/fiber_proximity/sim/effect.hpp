@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+
+#include "fiber_proximity/sim/rod_system.hpp"
+#include "fiber_proximity/sim/rods.hpp"
+
+namespace fiber {
+
+/// When a step begins, and how long it is [s].
+struct TimeStep {
+  double start;
+  double length;
+
+  double end() const { return start + length; }
+};
+
+/// One thing that acts on rods. A scene has objects only for the effects it names; what it does not
+/// name takes neither time nor memory.
+///
+/// A step finds the minimum of the sum of all energies and of the kinetic one, the incremental
+/// potential of implicit Euler. What has no potential, like drag, is brought into this form for the
+/// duration of one step.
+class Effect {
+ public:
+  virtual ~Effect() = default;
+
+  /// Called once before each step, by one thread. With implicit midpoint the step is the half to
+  /// the middle: that is what is solved for.
+  virtual void begin_step(Rods& /*rods*/, const TimeStep& /*step*/) {}
+
+  /// Energy of a rod where it is now [J], up to a constant of the step.
+  virtual double energy(const Rods& rods, std::uint32_t rod) const = 0;
+
+  /// Adds the gradient of the energy by what is unknown, and a positive semidefinite matrix near
+  /// its Hessian.
+  virtual void add_derivatives(const Rods& rods, std::uint32_t rod, RodSystem& system) const = 0;
+
+  /// Called once after each step, by one thread: with implicit midpoint, after the whole step.
+  virtual void end_step(Rods& /*rods*/, const TimeStep& /*step*/) {}
+};
+
+}  // namespace fiber

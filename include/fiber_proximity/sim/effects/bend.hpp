@@ -1,0 +1,18 @@
+#pragma once
+
+#include "fiber_proximity/sim/effect.hpp"
+
+namespace fiber {
+
+/// Resistance of a round rod to bending: ½ EI/l (|k| − k₀)² at each inner node, with the turn k of
+/// EdgePair and the length l that belongs to the node (Bergou et al. 2008, Sect. 4.2).
+///
+/// Rods::natural_curvatures, if there are any, give k₀. Without twist they have no direction: a
+/// cross-section that may turn about the tangent without effort lets the rod bend to any side.
+class Bend : public Effect {
+ public:
+  double energy(const Rods& rods, std::uint32_t rod) const override;
+  void add_derivatives(const Rods& rods, std::uint32_t rod, RodSystem& system) const override;
+};
+
+}  // namespace fiber

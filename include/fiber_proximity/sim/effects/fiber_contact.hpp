@@ -1,0 +1,82 @@
+#pragma once
+
+#include <memory>
+
+#include "fiber_proximity/geometry/segment_distance.hpp"
+#include "fiber_proximity/query/engine.hpp"
+#include "fiber_proximity/sim/contact_source.hpp"
+
+namespace fiber {
+
+/// Contacts of rods with themselves, with each other, or both: as springs between the axes where
+/// they are nearest, whose force begins where the surfaces meet.
+///
+/// Candidates come from run_tree, with a reach that serves as long as nothing moves further. Two
+/// edges cannot pass through each other: where they are nearest when a step begins, a plane across
+/// the line between them parts them, which moves with them but does not turn in the step.
+class FiberContact : public ContactSource {
+ public:
+  struct Options {
+    Pairing pairing = Pairing::ALL;
+
+    /// [N/m] >= 0; 0 derives it from the rods: a fifth of Young's modulus times the radius, about
+    /// what crossed cylinders have when they are pressed together by a twentieth of it, but at most
+    /// what moves a node by its whole depth in a thirtieth of a step.
+    double stiffness = 0.0;
+  };
+
+  /// @throws std::invalid_argument for a stiffness that is negative or not finite
+  explicit FiberContact(const Options& options);
+
+  void begin_step(const Rods& rods, const TimeStep& step) override;
+  void measure(const Rods& rods) override;
+  void find(const Rods& rods, std::vector<ContactPoint>& points) const override;
+  void limit(const Rods& rods, std::vector<Eigen::Vector3d>& displacements) override;
+
+ private:
+  struct Candidate {
+    std::uint32_t rod_a;
+    std::uint32_t edge_a;
+    std::uint32_t rod_b;
+    std::uint32_t edge_b;
+  };
+
+  /// Edges do not pass through each other as long as all of b is further along the normal than all
+  /// of a, wherever both go.
+  struct Parting {
+    Eigen::Vector3d normal;  // 0 for edges that may
+    double room;             // to leave between a and b [m]
+  };
+
+  void find_candidates(const Rods& rods);
+  void part_candidates(const Rods& rods);
+  void measure_at(const std::vector<Eigen::Vector3d>& positions);
+  bool keep_apart(const Rods& rods, std::size_t candidate, bool is_fixed,
+                  std::vector<Eigen::Vector3d>& displacements) const;
+  void look_further(const Rods& rods, const std::vector<Eigen::Vector3d>& displacements);
+  double stiffness_of(const Rods& rods, const Candidate& candidate) const;
+
+  Options options_;
+  std::unique_ptr<ProximityEngine> engine_;
+  std::vector<Eigen::Vector3d> beginning_;  // of the step: where nodes were [m]
+  FiberAssembly fibers_;                    // where the rods were when candidates were looked for
+  QueryResult result_;
+  std::vector<Candidate> candidates_;
+  std::vector<Parting> partings_;           // of the candidates
+  std::vector<SegmentDistance> distances_;  // of the candidates, from a to b
+  double reach_ = 0.0;                      // [m] surfaces further apart then are no candidates
+  double longest_move_ = 0.0;               // [m] in this step
+  double step_ = 0.0;                       // [s]
+};
+
+/// What part of a contact at a point of an edge is described on this edge, in [0, 1]; what other
+/// edges have of it makes that about one. At an end it is all on the edge that comes next, or
+/// before, if the target is nearer to that. In the hollow of a bend a target is nearest to inner
+/// points of both edges: there one gives way to the other little by little, so that what slides
+/// along feels no step.
+/// @param target what the point is nearest to [m]
+/// @param other  direction of the target's edge, of unit length, if it is inside of that; or zero
+double edge_share(const Rods& rods, std::uint32_t rod, std::uint32_t edge, double parameter,
+                  const Eigen::Vector3d& target, const Eigen::Vector3d& other);
+
+}  // namespace fiber

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "fiber_proximity/sim/effect.hpp"
+
+namespace fiber {
+
+/// Resistance of edges to change their lengths: ½ EA l (|e|/l − 1)² each, with the edge e and its
+/// length l at rest (Bergou et al. 2010, Sect. 4.1).
+class Stretch : public Effect {
+ public:
+  double energy(const Rods& rods, std::uint32_t rod) const override;
+  void add_derivatives(const Rods& rods, std::uint32_t rod, RodSystem& system) const override;
+};
+
+}  // namespace fiber

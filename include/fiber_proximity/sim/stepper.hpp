@@ -1,0 +1,68 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "fiber_proximity/sim/contacts.hpp"
+#include "fiber_proximity/sim/effect.hpp"
+
+namespace fiber {
+
+class RodGroup;
+
+enum class Integrator {
+  IMPLICIT_EULER,    ///< damps what it does not resolve; for everything that should settle
+  IMPLICIT_MIDPOINT  ///< keeps the energy of undamped motion, and its order in time is two
+};
+
+struct StepperOptions {
+  Integrator integrator = Integrator::IMPLICIT_EULER;
+
+  /// Newton iterations a step, at least 1; as many again, from the shape that the rod had, where
+  /// the first ones end higher than that.
+  std::uint32_t iterations = 2;
+
+  /// [m] A rod whose Newton step is smaller everywhere needs no further one; >= 0.
+  double tolerance = 1e-9;
+
+  /// Most threads to use, 0 for as many as there are cores.
+  std::uint32_t threads = 0;
+};
+
+/// Moves rods by the effects a scene calls for: discrete elastic rods in implicit time steps
+/// (Bergou et al. 2008, 2010), each the minimum of kinetic and potential energy near where the rods
+/// were (Martin et al. 2011, Eq. 4), found by Newton's method with a line search. One banded
+/// factorisation per rod and iteration; where contacts join rods, conjugate gradients with these
+/// factors as preconditioner. The result does not depend on the threads.
+class Stepper {
+ public:
+  /// @param contacts null for none; nothing is computed for them then
+  /// @throws std::invalid_argument for options that are not allowed
+  Stepper(Rods rods, std::vector<std::unique_ptr<Effect>> effects,
+          const StepperOptions& options = {}, std::unique_ptr<Contacts> contacts = nullptr);
+  ~Stepper();
+  Stepper(const Stepper&) = delete;
+  Stepper& operator=(const Stepper&) = delete;
+
+  /// @param length [s]
+  /// @throws std::invalid_argument for a length that is not positive and finite
+  void step(double length);
+
+  const Rods& rods() const { return rods_; }
+  Rods& rods() { return rods_; }
+
+  /// [s] since the beginning
+  double time() const { return time_; }
+
+ private:
+  void solve(const TimeStep& step);
+
+  Rods rods_;
+  std::vector<std::unique_ptr<Effect>> effects_;
+  StepperOptions options_;
+  double time_ = 0.0;
+  std::unique_ptr<Contacts> contacts_;
+  std::vector<RodGroup> groups_;
+};
+
+}  // namespace fiber

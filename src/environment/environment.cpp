@@ -1,0 +1,52 @@
+#include "fiber_proximity/environment/environment.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "broad_phase.hpp"
+#include "environment_query.hpp"
+
+namespace fiber {
+namespace {
+
+/// Segments whose box is looked up at once.
+constexpr std::uint32_t segments_per_run = 8;
+
+}  // namespace
+
+Environment::Environment(std::vector<EnvironmentObject> objects) : objects_(std::move(objects)) {
+  std::set<std::string> names;
+  for (const EnvironmentObject& object : objects_) {
+    validate(object);
+    if (!names.insert(object.name).second) {
+      throw std::invalid_argument("there are two objects of the name '" + object.name + "'");
+    }
+  }
+  broad_phase_ = std::make_unique<BroadPhase>(objects_);
+}
+
+Environment::~Environment() = default;
+
+void Environment::query(const FiberAssembly& fibers, const QueryOptions& options,
+                        const AllowedPairs& allowed, QueryResult& result) const {
+  validate(options);
+  result.counts = QueryCounts();
+  result.complete = true;
+  EnvironmentQuery query(fibers, objects_, options, allowed, result);
+  for (std::uint32_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
+    const std::uint32_t last = fibers.offsets()[fiber + 1] - 1;
+    for (std::uint32_t first = fibers.offsets()[fiber]; first < last && !query.done();
+         first += segments_per_run) {
+      const SegmentRun run(fibers, fiber, first, std::min(first + segments_per_run, last));
+      broad_phase_->visit_near(run.box,
+                               [&](const WorldShape& shape) { return query.offer(run, shape); });
+    }
+  }
+  query.finish();
+}
+
+}  // namespace fiber

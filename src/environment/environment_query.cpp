@@ -1,0 +1,140 @@
+#include "environment_query.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "broad_phase.hpp"
+
+namespace fiber {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Index of a segment that may be counted from the end.
+std::int64_t from_begin(std::int64_t segment, std::int64_t segment_count) {
+  return segment < 0 ? segment_count + segment : segment;
+}
+
+std::vector<std::vector<AllowedPair>> by_object(const AllowedPairs& allowed,
+                                                const std::vector<EnvironmentObject>& objects) {
+  std::vector<std::vector<AllowedPair>> sorted;
+  if (!allowed.empty()) {
+    sorted.resize(objects.size());
+  }
+  for (const AllowedPair& pair : allowed) {
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+      if (pair.object.empty() || pair.object == objects[i].name) {
+        sorted[i].push_back(pair);
+      }
+    }
+  }
+  return sorted;
+}
+
+}  // namespace
+
+SegmentRun::SegmentRun(const FiberAssembly& fibers, std::uint32_t owner, std::uint32_t first_point,
+                       std::uint32_t last_point)
+    : fiber(owner), begin(first_point), end(last_point) {
+  box.extend(fibers.points()[end]);
+  for (std::uint32_t point = begin; point < end; ++point) {
+    box.extend(fibers.points()[point]);
+    radius = std::max(radius, fibers.segment_radius(point));
+  }
+}
+
+EnvironmentQuery::EnvironmentQuery(const FiberAssembly& fibers,
+                                   const std::vector<EnvironmentObject>& objects,
+                                   const QueryOptions& options, const AllowedPairs& allowed,
+                                   QueryResult& result)
+    : keeper_(options, result),
+      fibers_(fibers),
+      allowed_(by_object(allowed, objects)),
+      counts_(result.counts) {}
+
+double EnvironmentQuery::offer(const SegmentRun& run, const WorldShape& shape) {
+  ++counts_.node_tests;
+  const double bound = keeper_.bound_of(run.fiber, shape.object);
+  if (run.box.exteriorDistance(shape.box) > std::max(bound + run.radius, 0.0)) {
+    keeper_.leave_out(bound);
+    return reach_of(run);
+  }
+  ++counts_.node_overlaps;
+  for (std::uint32_t point = run.begin; point < run.end; ++point) {
+    if (keeper_.done()) {
+      return -infinity;
+    }
+    offer_segment(run, point, shape);
+  }
+  return reach_of(run);
+}
+
+void EnvironmentQuery::offer_segment(const SegmentRun& run, std::uint32_t point,
+                                     const WorldShape& shape) {
+  if (is_allowed(run, point, shape)) {
+    return;
+  }
+  const Capsule capsule = fibers_.capsule(point);
+  const double bound = keeper_.bound_of(run.fiber, shape.object);
+  const double within = bound + capsule.radius;
+  const WorldBox box(capsule.p0.cwiseMin(capsule.p1), capsule.p0.cwiseMax(capsule.p1));
+  if (box.exteriorDistance(shape.box) > std::max(within, 0.0)) {
+    keeper_.leave_out(bound);
+    return;
+  }
+  ++counts_.primitive_tests;
+  const AxisDistance axis =
+      axis_distance(shape.shape, shape.to_shape * capsule.p0, shape.to_shape * capsule.p1, within);
+  if (axis.distance == infinity) {
+    keeper_.leave_out(bound);
+    return;
+  }
+  const Contact found = contact(run, point, shape, axis);
+  if (found.distance <= bound) {
+    keeper_.keep(found);
+  } else {
+    keeper_.leave_out(found.lower);
+  }
+}
+
+bool EnvironmentQuery::is_allowed(const SegmentRun& run, std::uint32_t point,
+                                  const WorldShape& shape) const {
+  if (allowed_.empty()) {
+    return false;
+  }
+  const std::uint32_t first = fibers_.offsets()[run.fiber];
+  const std::int64_t count = fibers_.offsets()[run.fiber + 1] - first - 1;
+  const std::int64_t segment = point - first;
+  const std::vector<AllowedPair>& pairs = allowed_[shape.object];
+  return std::any_of(pairs.begin(), pairs.end(), [&](const AllowedPair& pair) {
+    return (pair.fiber == AllowedPair::every_fiber || pair.fiber == run.fiber) &&
+           from_begin(pair.first_segment, count) <= segment &&
+           segment <= from_begin(pair.last_segment, count);
+  });
+}
+
+Contact EnvironmentQuery::contact(const SegmentRun& run, std::uint32_t point,
+                                  const WorldShape& shape, const AxisDistance& axis) const {
+  const Capsule capsule = fibers_.capsule(point);
+  const Eigen::Vector3d nearest = capsule.p0 + axis.s * (capsule.p1 - capsule.p0);
+  const Eigen::Vector3d away = shape.pose.linear() * axis.gradient;
+  const double error = shape.rounding + 0x1p-48 * std::max(capsule.p0.cwiseAbs().maxCoeff(),
+                                                           capsule.p1.cwiseAbs().maxCoeff());
+  Contact contact;
+  contact.fiber_a = run.fiber;
+  contact.segment_a = point - fibers_.offsets()[run.fiber];
+  contact.s = axis.s;
+  contact.fiber_b = shape.object;
+  contact.segment_b = shape.index;
+  contact.distance = axis.distance - capsule.radius;
+  contact.lower = axis.lower - error - capsule.radius;
+  contact.upper = axis.distance + error - capsule.radius;
+  contact.normal = -away;
+  contact.point_a = nearest - capsule.radius * away;
+  contact.point_b = nearest - axis.distance * away;
+  return contact;
+}
+
+void EnvironmentQuery::finish() { keeper_.finish(-infinity); }
+
+}  // namespace fiber

@@ -1,0 +1,162 @@
+#include "fiber_proximity/environment/occupancy_octree.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+#include "fiber_proximity/environment/point_distance.hpp"
+#include "fiber_proximity/hierarchy/sort_keys.hpp"
+#include "morton_code.hpp"
+
+namespace fiber {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Cells along an axis on either side of the origin.
+constexpr int half_of_cells = 1 << (morton_levels - 1);
+
+double checked_resolution(double resolution) {
+  if (!(resolution > 0.0 && resolution < infinity)) {
+    std::ostringstream message;
+    message << "resolution of the octree is " << resolution << " m, it must be positive and finite";
+    throw std::invalid_argument(message.str());
+  }
+  return resolution;
+}
+
+/// Where a cube of the octree is: its centre in units of half a cell, which numbers have exactly.
+using HalfCells = Eigen::Array3i;
+
+/// Looks for the nearest cell, near ones first.
+class Search {
+ public:
+  using Codes = const std::uint64_t*;
+
+  Search(double resolution, const Vector3d& p0, const Vector3d& p1, double bound)
+      : resolution_(resolution), p0_(p0), p1_(p1), bound_(bound) {
+    axis_box_.extend(p0).extend(p1);
+    best_.distance = infinity;
+    best_.lower = infinity;
+  }
+
+  /// @param codes of the cells, in ascending order
+  AxisDistance nearest(const std::vector<std::uint64_t>& codes) {
+    if (!codes.empty()) {
+      visit({codes.data(), codes.data() + codes.size(), HalfCells::Zero(), 0.0}, 0);
+    }
+    return best_;
+  }
+
+ private:
+  /// A cube with cells in it.
+  struct Cube {
+    Codes begin = nullptr;
+    Codes end = nullptr;
+    HalfCells centre;
+    double distance = infinity;  // [m] at least this far
+  };
+
+  void visit(const Cube& parent, int level) {
+    if (level == morton_levels) {
+      look_at(parent.centre);
+      return;
+    }
+    const int step = 1 << (morton_levels - level - 1);
+    std::array<Cube, 8> children;
+    std::size_t count = 0;
+    for (Codes begin = parent.begin; begin != parent.end; ++count) {
+      const unsigned place = morton_child(*begin, level);
+      Cube& child = children[count];
+      child.begin = begin;
+      child.end = begin = std::partition_point(begin, parent.end, [&](std::uint64_t code) {
+        return morton_child(code, level) == place;
+      });
+      child.centre =
+          parent.centre + step * HalfCells(sign(place & 1U), sign(place & 2U), sign(place & 4U));
+      child.distance = axis_box_.exteriorDistance(box(child.centre, step));
+    }
+    const auto end = children.begin() + static_cast<std::ptrdiff_t>(count);
+    std::sort(children.begin(), end,
+              [](const Cube& x, const Cube& y) { return x.distance < y.distance; });
+    for (auto child = children.begin(); child != end; ++child) {
+      if (child->distance > std::max(bound_, 0.0)) {
+        return;
+      }
+      visit(*child, level + 1);
+    }
+  }
+
+  static int sign(unsigned bit) { return bit != 0 ? 1 : -1; }
+
+  Vector3d position(const HalfCells& centre) const {
+    return centre.cast<double>() * (resolution_ / 2.0);
+  }
+
+  /// @param half of its edge, in half cells
+  WorldBox box(const HalfCells& centre, int half) const {
+    return {position(centre - half), position(centre + half)};
+  }
+
+  void look_at(const HalfCells& centre) {
+    const BoxShape cell{Vector3d::Constant(resolution_)};
+    const Vector3d offset = position(centre);
+    const AxisDistance found = axis_distance(cell, p0_ - offset, p1_ - offset);
+    if (found.distance < best_.distance && found.distance <= bound_) {
+      best_.s = found.s;
+      best_.distance = found.distance;
+      best_.gradient = found.gradient;
+      bound_ = found.distance;
+    }
+    best_.lower = std::min(best_.lower, found.lower);
+  }
+
+  const double resolution_;  // [m]
+  const Vector3d& p0_;
+  const Vector3d& p1_;
+  WorldBox axis_box_;
+  double bound_;
+  AxisDistance best_;
+};
+
+}  // namespace
+
+OccupancyOctree::OccupancyOctree(double resolution, const std::vector<Vector3d>& points)
+    : resolution_(checked_resolution(resolution)) {
+  const double cells_per_metre = 1.0 / resolution;
+  codes_.reserve(points.size());
+  for (const Vector3d& point : points) {
+    const Eigen::Array3d cell =
+        (cells_per_metre * point.array()).floor() + static_cast<double>(half_of_cells);
+    if ((cell >= 0.0 && cell < 2.0 * half_of_cells).all()) {  // false for NaN
+      codes_.push_back(morton_code(cell.cast<int>()));
+    }
+  }
+  left_out_ = points.size() - codes_.size();
+  std::vector<std::uint64_t> scratch;
+  sort_keys(codes_, scratch);
+  codes_.erase(std::unique(codes_.begin(), codes_.end()), codes_.end());
+
+  centres_.reserve(codes_.size());
+  for (const std::uint64_t code : codes_) {
+    const Eigen::Array3d cell = (morton_cell(code) - half_of_cells).cast<double>();
+    centres_.emplace_back((cell + 0.5) * resolution);
+    box_.extend(centres_.back());
+  }
+  if (!centres_.empty()) {
+    box_.min().array() -= resolution / 2.0;
+    box_.max().array() += resolution / 2.0;
+  }
+}
+
+AxisDistance OccupancyOctree::axis_distance(const Vector3d& p0, const Vector3d& p1,
+                                            double bound) const {
+  return Search(resolution_, p0, p1, bound).nearest(codes_);
+}
+
+}  // namespace fiber

@@ -1,0 +1,87 @@
+#include "fiber_proximity/environment/world.hpp"
+
+#include <stdexcept>
+
+namespace fiber {
+namespace {
+
+using Operation = ObjectChange::Operation;
+
+[[noreturn]] void refuse(const EnvironmentObject& object, const std::string& why) {
+  throw std::invalid_argument("object '" + object.name + "': " + why);
+}
+
+}  // namespace
+
+void World::apply(const std::vector<ObjectChange>& changes) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  Objects objects = objects_;
+  for (const ObjectChange& change : changes) {
+    apply(change, objects);
+  }
+  objects_.swap(objects);
+  if (!changes.empty()) {
+    environment_.reset();
+  }
+}
+
+void World::apply(const ObjectChange& change, Objects& objects) {
+  const EnvironmentObject& object = change.object;
+  const bool adds = change.operation == Operation::ADD || change.operation == Operation::APPEND;
+  const auto place = objects.find(object.name);
+  const bool exists = place != objects.end();
+  validate(object);
+  if (adds && object.shapes.empty()) {
+    refuse(object, "an object to add or to append to needs at least 1 shape, it has none");
+  }
+  if (!adds && !exists) {
+    refuse(object, "there is no object of this name to move or to remove");
+  }
+  switch (change.operation) {
+    case Operation::ADD:
+      objects[object.name] = object;
+      break;
+    case Operation::REMOVE:
+      objects.erase(place);
+      break;
+    case Operation::APPEND:
+      if (exists) {
+        auto& shapes = place->second.shapes;
+        shapes.insert(shapes.end(), object.shapes.begin(), object.shapes.end());
+      } else {
+        objects[object.name] = object;
+      }
+      break;
+    case Operation::MOVE:
+      if (!object.shapes.empty()) {
+        refuse(object, "it is to be moved, but comes with shapes; to replace these, add it");
+      }
+      place->second.pose = object.pose;
+      break;
+  }
+}
+
+bool World::has(const std::string& name) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return objects_.count(name) > 0;
+}
+
+std::size_t World::object_count() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return objects_.size();
+}
+
+std::shared_ptr<const Environment> World::environment() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (environment_ == nullptr) {
+    std::vector<EnvironmentObject> objects;
+    objects.reserve(objects_.size());
+    for (const auto& [name, object] : objects_) {
+      objects.push_back(object);
+    }
+    environment_ = std::make_shared<const Environment>(std::move(objects));
+  }
+  return environment_;
+}
+
+}  // namespace fiber

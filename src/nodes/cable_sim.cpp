@@ -1,0 +1,20 @@
+#include <ros/init.h>
+
+#include <exception>
+#include <iostream>
+
+#include "fiber_proximity/ros/sim_server.hpp"
+
+int main(int argc, char** argv) {
+  try {
+    ros::init(argc, argv, "cable_sim");
+    const ros::NodeHandle private_node("~");
+    const fiber_proximity_ros::SimServer server(
+        private_node, fiber_proximity_ros::read_sim_options(private_node));
+    ros::spin();
+  } catch (const std::exception& error) {
+    std::cerr << "cable_sim: " << error.what() << '\n';
+    return 2;
+  }
+  return 0;
+}

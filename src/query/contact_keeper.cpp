@@ -1,0 +1,122 @@
+#include "fiber_proximity/query/contact_keeper.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fiber_proximity/bounds/bounding_volume.hpp"
+
+namespace fiber {
+namespace {
+
+bool closer(const Contact& x, const Contact& y) { return x.closer_than(y); }
+
+std::size_t capacity_of(const QueryOptions& options) {
+  switch (options.type) {
+    case QueryType::CLOSEST:
+      return 1;
+    case QueryType::LIMITED:
+      return options.max_contacts;
+    case QueryType::FIRST:
+    case QueryType::ALL:
+    case QueryType::FIBER_PAIRS:
+      break;
+  }
+  return 0;
+}
+
+}  // namespace
+
+ContactKeeper::ContactKeeper(const QueryOptions& options, QueryResult& result)
+    : deadline_(options.deadline),
+      minima_(result),
+      options_(options),
+      result_(result),
+      capacity_(capacity_of(options)) {
+  result_.contacts.clear();
+  result_.others_lower = std::numeric_limits<double>::infinity();
+  set_bound(options.margin);
+}
+
+double ContactKeeper::bound_of(std::uint32_t fiber_a, std::uint32_t fiber_b) {
+  if (options_.type != QueryType::FIBER_PAIRS) {
+    return bound_;
+  }
+  const Contact* best = minima_.find(fiber_a, fiber_b);
+  return best == nullptr ? bound_ : best->distance - slack(best->distance);
+}
+
+void ContactKeeper::keep(const Contact& contact) {
+  if (options_.type == QueryType::FIBER_PAIRS) {
+    keep_of_fibers(contact);
+  } else if (capacity_ != 0) {
+    keep_closest(contact);
+  } else {
+    result_.contacts.push_back(contact);
+    done_ = options_.type == QueryType::FIRST;
+  }
+}
+
+void ContactKeeper::keep_of_fibers(const Contact& contact) {
+  const Contact* best = minima_.find(contact.fiber_a, contact.fiber_b);
+  if (best != nullptr) {
+    leave_out(contact.closer_than(*best) ? best->lower : contact.lower);
+  }
+  minima_.keep(contact);
+}
+
+/// The contacts are a heap with the farthest of the k closest on top.
+void ContactKeeper::keep_closest(const Contact& contact) {
+  std::vector<Contact>& contacts = result_.contacts;
+  if (contacts.size() == capacity_) {
+    if (!closer(contact, contacts.front())) {
+      leave_out(contact.lower);
+      return;
+    }
+    std::pop_heap(contacts.begin(), contacts.end(), closer);
+    leave_out(contacts.back().lower);
+    contacts.pop_back();
+  }
+  contacts.push_back(contact);
+  std::push_heap(contacts.begin(), contacts.end(), closer);
+  if (contacts.size() == capacity_) {
+    set_bound(contacts.front().distance - slack(contacts.front().distance));
+  }
+}
+
+/// [m] By how much less than this distance a pair must be closer to be looked for.
+double ContactKeeper::slack(double distance) const {
+  const double relative = options_.relative_tolerance;
+  return std::max(options_.tolerance, std::abs(distance) * (relative / (1.0 + relative)));
+}
+
+void ContactKeeper::leave_out(double lower) {
+  result_.others_lower = std::min(result_.others_lower, lower);
+}
+
+/// What is found is sorted at the end, which must be over by then.
+void ContactKeeper::look_at_deadline() {
+  constexpr double seconds_to_sort_one = 4e-7;
+  const double needed = seconds_to_sort_one * static_cast<double>(result_.contacts.size());
+  if (!done_ && deadline_.has_passed(1.0, needed)) {
+    done_ = true;
+    result_.complete = false;
+  }
+}
+
+void ContactKeeper::finish(double least_gap) {
+  std::vector<Contact>& contacts = result_.contacts;
+  // Pairs that were not found are beyond the bound, unless it ended early.
+  leave_out(done_ ? least_gap : bound_);
+  result_.limit_reached =
+      options_.type == QueryType::LIMITED && contacts.size() == options_.max_contacts;
+  sort_by_key(contacts);
+}
+
+void ContactKeeper::set_bound(double bound) {
+  bound_ = bound;
+  // Capsules that penetrate have volumes that overlap: those know no negative margin.
+  rounded_bound_ = round_up(std::max(bound, 0.0));
+}
+
+}  // namespace fiber

@@ -1,0 +1,65 @@
+#include "fiber_proximity/query/merge_results.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace fiber {
+namespace {
+
+/// Keeps the closest ones only.
+void keep_closest(std::size_t count, QueryResult& result) {
+  std::vector<Contact>& contacts = result.contacts;
+  sort_by_distance(contacts);
+  while (contacts.size() > count) {
+    result.others_lower = std::min(result.others_lower, contacts.back().lower);
+    contacts.pop_back();
+  }
+}
+
+/// Keeps the closest one of each pair of fibres only.
+void keep_closest_of_fibers(QueryResult& result) {
+  std::vector<Contact>& contacts = result.contacts;
+  std::sort(contacts.begin(), contacts.end(), [](const Contact& x, const Contact& y) {
+    const auto x_fibers = std::tie(x.fiber_a, x.fiber_b);
+    const auto y_fibers = std::tie(y.fiber_a, y.fiber_b);
+    return x_fibers < y_fibers || (x_fibers == y_fibers && x.closer_than(y));
+  });
+  std::size_t kept = 0;
+  for (const Contact& contact : contacts) {
+    if (kept > 0 && contacts[kept - 1].fiber_a == contact.fiber_a &&
+        contacts[kept - 1].fiber_b == contact.fiber_b) {
+      result.others_lower = std::min(result.others_lower, contact.lower);
+    } else {
+      contacts[kept++] = contact;
+    }
+  }
+  contacts.resize(kept);
+}
+
+}  // namespace
+
+void merge_results(const QueryOptions& options, const QueryResult& more, QueryResult& result) {
+  std::vector<Contact>& contacts = result.contacts;
+  contacts.insert(contacts.end(), more.contacts.begin(), more.contacts.end());
+  result.others_lower = std::min(result.others_lower, more.others_lower);
+  result.complete = result.complete && more.complete;
+  result.counts += more.counts;
+  switch (options.type) {
+    case QueryType::FIRST:
+    case QueryType::CLOSEST:
+      keep_closest(1, result);
+      break;
+    case QueryType::LIMITED:
+      keep_closest(options.max_contacts, result);
+      result.limit_reached = contacts.size() == options.max_contacts;
+      break;
+    case QueryType::FIBER_PAIRS:
+      keep_closest_of_fibers(result);
+      break;
+    case QueryType::ALL:
+      break;
+  }
+  sort_by_key(contacts);
+}
+
+}  // namespace fiber

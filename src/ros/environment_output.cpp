@@ -1,0 +1,60 @@
+#include "fiber_proximity/ros/environment_output.hpp"
+
+#include <utility>
+
+#include "fiber_proximity/ros/contact_array.hpp"
+#include "fiber_proximity/ros/stopwatch.hpp"
+
+namespace fiber_proximity_ros {
+
+EnvironmentOutput::EnvironmentOutput(const ros::NodeHandle& node, ros::NodeHandle private_node,
+                                     InputSet& fibers, double tf_timeout,
+                                     std::function<void()> on_message)
+    : fibers_(fibers),
+      inputs_(node, private_node, read_environment_options(node, private_node), fibers.frame(),
+              tf_timeout, std::move(on_message)),
+      environment_(inputs_.environment()),
+      publisher_(private_node.advertise<fiber_proximity::ContactArray>("environment_contacts", 1)) {
+}
+
+bool EnvironmentOutput::update() {
+  fibers_.fibers();  // merged by now, and with them their stamp
+  const Stopwatch stopwatch;
+  const bool changed = inputs_.update(fibers_.header().stamp);
+  update_time_ = stopwatch.seconds();
+  return changed;
+}
+
+void EnvironmentOutput::detect(const fiber::QueryOptions& options, bool wants_minimum) {
+  const Stopwatch stopwatch;
+  environment_ = inputs_.environment();
+  update_time_ += stopwatch.seconds();
+  const fiber::AllowedPairs allowed = inputs_.allowed(fibers_.names());
+  detection_.detect(options, wants_minimum,
+                    [&](const fiber::QueryOptions& asked, fiber::QueryResult& result) {
+                      environment_->query(fibers_.fibers(), asked, allowed, result);
+                    });
+}
+
+void EnvironmentOutput::publish(const fiber::QueryOptions& options) {
+  if (!has_listeners()) {
+    return;
+  }
+  to_message(detection_, options, fiber_proximity::Contact::OBJECT, message_);
+  message_.header = fibers_.header();
+  message_.fiber_names = fibers_.names();
+  message_.object_names = object_names(*environment_);
+  message_.update_time = update_time_;
+  publisher_.publish(message_);
+}
+
+std::vector<std::string> object_names(const fiber::Environment& environment) {
+  std::vector<std::string> names;
+  names.reserve(environment.objects().size());
+  for (const fiber::EnvironmentObject& object : environment.objects()) {
+    names.push_back(object.name);
+  }
+  return names;
+}
+
+}  // namespace fiber_proximity_ros

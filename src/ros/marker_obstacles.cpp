@@ -1,0 +1,216 @@
+#include "fiber_proximity/ros/marker_obstacles.hpp"
+
+#include <ros/console.h>
+
+#include <memory>
+#include <stdexcept>
+
+#include "fiber_proximity/environment/triangle_mesh.hpp"
+#include "fiber_proximity/ros/conversions.hpp"
+#include "fiber_proximity/ros/obstacle_change.hpp"
+#include "fiber_proximity/ros/obstacle_pose.hpp"
+#include "fiber_proximity/ros/obstacle_shapes.hpp"
+
+namespace fiber_proximity_ros {
+namespace {
+
+using Operation = fiber::ObjectChange::Operation;
+using Shapes = std::vector<fiber::PlacedShape>;
+using visualization_msgs::Marker;
+
+std::string name_of(const Marker& marker) { return marker.ns + "/" + std::to_string(marker.id); }
+
+Eigen::Isometry3d pose_of(const Marker& marker) {
+  geometry_msgs::Pose pose = marker.pose;
+  geometry_msgs::Quaternion& q = pose.orientation;
+  if (q.x == 0.0 && q.y == 0.0 && q.z == 0.0 && q.w == 0.0) {
+    q.w = 1.0;  // as rviz reads an orientation nobody filled in
+  }
+  return to_pose(pose);
+}
+
+FramedChange removal(const std::string& name) {
+  FramedChange removal;
+  removal.change.operation = Operation::REMOVE;
+  removal.change.object.name = name;
+  return removal;
+}
+
+void require_equal(double a, double b, const std::string& what) {
+  if (!(a == b)) {
+    throw std::invalid_argument("scale has the diameters " + std::to_string(a) + " and " +
+                                std::to_string(b) + ", of a " + what + " they must be the same");
+  }
+}
+
+fiber::Shape sphere_of(const Marker& marker) {
+  require_equal(marker.scale.x, marker.scale.y, "sphere");
+  require_equal(marker.scale.x, marker.scale.z, "sphere");
+  return fiber::SphereShape{0.5 * marker.scale.x};
+}
+
+fiber::Shape cylinder_of(const Marker& marker) {
+  require_equal(marker.scale.x, marker.scale.y, "cylinder");
+  return fiber::CylinderShape{0.5 * marker.scale.x, marker.scale.z};
+}
+
+fiber::Shape triangles_of(const Marker& marker) {
+  if (marker.points.size() % 3 != 0) {
+    throw std::invalid_argument("a TRIANGLE_LIST of " + std::to_string(marker.points.size()) +
+                                " points, it must have three for each triangle");
+  }
+  std::vector<Eigen::Vector3d> vertices;
+  for (const geometry_msgs::Point& point : marker.points) {
+    vertices.push_back(to_vector(marker.scale).cwiseProduct(to_vector(point)));
+  }
+  std::vector<fiber::TriangleMesh::Triangle> triangles;
+  for (std::uint32_t i = 0; i + 2 < vertices.size(); i += 3) {
+    triangles.push_back({i, i + 1, i + 2});
+  }
+  return std::make_shared<const fiber::TriangleMesh>(std::move(vertices), std::move(triangles));
+}
+
+/// The shape at each of the marker's points.
+Shapes at_points(const Marker& marker, const fiber::Shape& shape) {
+  Shapes shapes;
+  for (const geometry_msgs::Point& point : marker.points) {
+    shapes.push_back({shape, Eigen::Isometry3d(Eigen::Translation3d(to_vector(point)))});
+  }
+  return shapes;
+}
+
+Shapes one(const fiber::Shape& shape) { return {{shape, Eigen::Isometry3d::Identity()}}; }
+
+bool is_body(const Marker& marker) {
+  switch (marker.type) {
+    case Marker::CUBE:
+    case Marker::SPHERE:
+    case Marker::CYLINDER:
+    case Marker::CUBE_LIST:
+    case Marker::SPHERE_LIST:
+    case Marker::TRIANGLE_LIST:
+    case Marker::MESH_RESOURCE:
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+std::function<void()> MarkerObstacles::read(const Markers& markers, const ros::Time& now) {
+  std::vector<Step> steps;
+  for (const Marker& marker : markers) {
+    try {
+      if (auto step = read(marker, now)) {
+        steps.push_back(std::move(*step));
+      }
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument("marker '" + name_of(marker) + "': " + error.what());
+    }
+  }
+  return [this, steps] { apply(steps); };
+}
+
+bool MarkerObstacles::expire(const ros::Time& now) {
+  std::vector<FramedChange> removals;
+  for (const auto& [name, expiry] : present()) {
+    if (!expiry.isZero() && expiry <= now) {
+      removals.push_back(removal(name));
+    }
+  }
+  obstacles_.apply(removals);
+  return !removals.empty();
+}
+
+std::optional<MarkerObstacles::Step> MarkerObstacles::read(const Marker& marker,
+                                                           const ros::Time& now) {
+  Step step;
+  step.action = marker.action;
+  if (marker.action == Marker::DELETEALL) {
+    return step;
+  }
+  if (marker.action == Marker::DELETE) {
+    step.change = removal(name_of(marker));
+    return step;
+  }
+  if (marker.action != Marker::ADD) {
+    throw std::invalid_argument("action is " + std::to_string(marker.action) +
+                                ", it must be 0 (ADD), 2 (DELETE) or 3 (DELETEALL)");
+  }
+  if (!is_body(marker)) {
+    if (ignored_types_.insert(marker.type).second) {
+      ROS_INFO_STREAM("'" << topic_ << "': markers of type " << marker.type << ", such as '"
+                          << name_of(marker) << "', are no obstacles");
+    }
+    return std::nullopt;
+  }
+  validate_obstacle_name(name_of(marker));
+  fiber::EnvironmentObject object{name_of(marker), pose_of(marker), shapes_of(marker)};
+  step.change = {marker.header, {Operation::ADD, std::move(object)}};
+  fiber::World().apply({step.change.change});  // what is refused is refused here
+  step.expiry = marker.lifetime.isZero() ? ros::Time() : now + marker.lifetime;
+  return step;
+}
+
+Shapes MarkerObstacles::shapes_of(const Marker& marker) {
+  switch (marker.type) {
+    case Marker::CUBE:
+      return one(fiber::BoxShape{to_vector(marker.scale)});
+    case Marker::SPHERE:
+      return one(sphere_of(marker));
+    case Marker::CYLINDER:
+      return one(cylinder_of(marker));
+    case Marker::CUBE_LIST:
+      return at_points(marker, fiber::BoxShape{to_vector(marker.scale)});
+    case Marker::SPHERE_LIST:
+      return at_points(marker, sphere_of(marker));
+    case Marker::TRIANGLE_LIST:
+      return one(triangles_of(marker));
+    default:
+      return one(mesh_of(marker));
+  }
+}
+
+fiber::Shape MarkerObstacles::mesh_of(const Marker& marker) {
+  const std::array<double, 3> scale{marker.scale.x, marker.scale.y, marker.scale.z};
+  const auto known = read_meshes_.find({marker.mesh_resource, scale});
+  if (known != read_meshes_.end() && to_vector(marker.scale).allFinite()) {  // NaN equals any
+    return known->second;
+  }
+  fiber::Shape mesh = to_shape(meshes_.load(marker.mesh_resource, to_vector(marker.scale)));
+  read_meshes_.emplace(std::make_pair(marker.mesh_resource, scale), mesh);
+  return mesh;
+}
+
+void MarkerObstacles::apply(const std::vector<Step>& steps) {
+  Names names = present();
+  std::vector<FramedChange> changes;
+  for (const Step& step : steps) {
+    const std::string& name = step.change.change.object.name;
+    if (step.action == Marker::ADD) {
+      changes.push_back(step.change);
+      names[name] = step.expiry;
+    } else if (step.action == Marker::DELETEALL) {
+      for (const auto& [present, expiry] : std::exchange(names, {})) {
+        changes.push_back(removal(present));
+      }
+    } else if (names.erase(name) > 0) {
+      changes.push_back(step.change);
+    }
+  }
+  obstacles_.apply(changes);
+  names_ = std::move(names);
+}
+
+MarkerObstacles::Names MarkerObstacles::present() const {
+  Names names;
+  for (const auto& [name, expiry] : names_) {
+    if (obstacles_.has(name)) {
+      names.emplace(name, expiry);
+    }
+  }
+  return names;
+}
+
+}  // namespace fiber_proximity_ros

@@ -1,0 +1,50 @@
+#include "fiber_proximity/ros/query_settings.hpp"
+
+#include <stdexcept>
+
+namespace fiber_proximity_ros {
+namespace {
+
+/// The parameter `accuracy` stands for some of the others.
+void apply_accuracy(const std::string& accuracy, fiber::QueryOptions& options) {
+  if (accuracy == "custom") {
+    return;
+  }
+  options.tolerance = 0.0;
+  options.relative_tolerance = 0.0;
+  if (accuracy == "deadline") {
+    if (options.deadline == 0.0) {
+      throw std::invalid_argument("accuracy is 'deadline' and deadline is 0 s, it must be above 0");
+    }
+    options.kernel = fiber::Kernel::ROBUST;
+    return;
+  }
+  options.deadline = 0.0;
+  try {
+    options.kernel = fiber::kernel_from_name(accuracy);
+  } catch (const std::invalid_argument&) {
+    throw std::invalid_argument("unknown accuracy '" + accuracy +
+                                "', known are: custom, fast, robust, exact, deadline");
+  }
+}
+
+}  // namespace
+
+fiber::QueryOptions to_query_options(const fiber_proximity::ProximityConfig& config) {
+  fiber::QueryOptions options;
+  options.type = fiber::query_type_from_name(config.query_type);
+  options.margin = config.margin;
+  options.max_contacts = static_cast<std::uint32_t>(config.max_contacts);
+  options.pairing = fiber::pairing_from_name(config.pairing);
+  options.neighbour_skip = static_cast<std::uint32_t>(config.neighbour_skip);
+  options.neighbour_skip_length = config.neighbour_skip_length;
+  options.kernel = fiber::kernel_from_name(config.kernel);
+  options.tolerance = config.tolerance;
+  options.relative_tolerance = config.relative_tolerance;
+  options.deadline = config.deadline;
+  fiber::validate(options);
+  apply_accuracy(config.accuracy, options);
+  return options;
+}
+
+}  // namespace fiber_proximity_ros

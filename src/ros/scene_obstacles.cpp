@@ -1,0 +1,45 @@
+#include "fiber_proximity/ros/scene_obstacles.hpp"
+
+#include <ros/console.h>
+
+#include <exception>
+#include <utility>
+
+namespace fiber_proximity_ros {
+
+SceneObstacles::SceneObstacles(const std::vector<FramedChange>& obstacles) {
+  for (const FramedChange& obstacle : obstacles) {
+    waiting_.push_back({obstacle, "not looked for yet"});
+  }
+}
+
+bool SceneObstacles::update(ObstacleSet& obstacles) {
+  const std::size_t before = waiting_.size();
+  std::vector<Waiting> waiting;
+  for (Waiting& obstacle : waiting_) {
+    const std::string& name = obstacle.change.change.object.name;
+    if (obstacles.has(name)) {
+      ROS_WARN_STREAM("obstacle '" << name << "' of the scene is left out: another of this name "
+                                   << "was added before its transform was known");
+      continue;
+    }
+    try {
+      obstacles.apply({obstacle.change});
+    } catch (const std::exception& error) {  // above all TransformUnavailable
+      obstacle.error = error.what();
+      waiting.push_back(std::move(obstacle));
+    }
+  }
+  waiting_ = std::move(waiting);
+  return waiting_.size() != before;
+}
+
+std::vector<std::string> SceneObstacles::unknown() const {
+  std::vector<std::string> unknown;
+  for (const Waiting& obstacle : waiting_) {
+    unknown.push_back(obstacle.error);
+  }
+  return unknown;
+}
+
+}  // namespace fiber_proximity_ros

@@ -1,0 +1,94 @@
+#include "fiber_proximity/ros/sim_fibers.hpp"
+
+#include <set>
+#include <stdexcept>
+
+#include "fiber_proximity/ros/naming.hpp"
+#include "fiber_proximity/ros/sim_shapes.hpp"
+
+namespace fiber_proximity_ros {
+namespace {
+
+constexpr std::int64_t most_segments = 1000000;
+constexpr std::int64_t most_repeats = 100000;
+
+/// A preset's name, or the moduli and so on; with both, these replace the preset's.
+fiber::RodMaterial read_material(const YamlField& field, bool is_name) {
+  if (is_name) {
+    return naming(field.place(), [&] { return fiber::material_preset(field.text()); });
+  }
+  field.require_map({"preset", "youngs_modulus", "shear_modulus", "density", "bending_share"});
+  fiber::RodMaterial material;
+  if (const auto preset = field.find("preset")) {
+    material = read_material(*preset, true);
+  }
+  const auto read = [&field](const char* key, double& value) {
+    if (const auto given = field.find(key)) {
+      value = given->number();
+    }
+  };
+  read("youngs_modulus", material.youngs_modulus);
+  read("shear_modulus", material.shear_modulus);
+  read("density", material.density);
+  read("bending_share", material.bending_share);
+  return material;
+}
+
+SimFiber read_fiber(const YamlField& entry) {
+  entry.require_map({"name", "shape", "segments", "radius", "material", "repeat"});
+  SimFiber fiber;
+  fiber.name = entry.get("name").text();
+  fiber.group = fiber.name;
+  fiber.points =
+      read_sim_shape(entry.get("shape"), entry.get("segments").integer(1, most_segments));
+  fiber.radius = entry.get("radius").number();
+  const YamlField given = entry.get("material");
+  const fiber::RodMaterial material = read_material(given, given.is_text());
+  naming(entry.place() + ": fibre '" + fiber.name + "'", [&] {
+    fiber.section = fiber::solid_round_section(material, fiber.radius);
+    // What the rods refuse is refused here, where the fibre has a name and a line.
+    fiber::Rods().add(fiber.points, fiber.radius, fiber.section);
+  });
+  return fiber;
+}
+
+/// The fibre, or as many as it is to be repeated, each moved by the offset from the one before.
+std::vector<SimFiber> repeat(const SimFiber& fiber, const YamlField& entry) {
+  const auto repeat = entry.find("repeat");
+  if (!repeat) {
+    return {fiber};
+  }
+  repeat->require_map({"count", "offset"});
+  const std::int64_t count = repeat->get("count").integer(1, most_repeats);
+  const Eigen::Vector3d offset = repeat->get("offset").vector();
+  std::vector<SimFiber> fibers(static_cast<std::size_t>(count), fiber);
+  for (std::size_t i = 0; i < fibers.size(); ++i) {
+    fibers[i].name += "_" + std::to_string(i);
+    for (Eigen::Vector3d& point : fibers[i].points) {
+      point += static_cast<double>(i) * offset;
+    }
+  }
+  return fibers;
+}
+
+}  // namespace
+
+std::vector<SimFiber> read_sim_fibers(const YamlField& list) {
+  std::vector<SimFiber> fibers;
+  std::set<std::string> names;
+  for (const YamlField& entry : list.items()) {
+    for (SimFiber& fiber : repeat(read_fiber(entry), entry)) {
+      if (!names.insert(fiber.name).second) {
+        throw std::invalid_argument(entry.place() + " has the name '" + fiber.name +
+                                    "' of another fibre of the scene");
+      }
+      fibers.push_back(std::move(fiber));
+    }
+  }
+  if (fibers.empty()) {
+    list.refuse("a list of at least one fibre");
+  }
+  return fibers;
+}
+
+}  // namespace fiber_proximity_ros

@@ -1,0 +1,102 @@
+#include "fiber_proximity/ros/sim_scene.hpp"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "fiber_proximity/ros/allowed_contacts.hpp"
+#include "fiber_proximity/ros/environment_scene.hpp"
+
+namespace fiber_proximity_ros {
+namespace {
+
+constexpr std::int64_t most_substeps = 1000;
+constexpr std::int64_t most_iterations = 100;
+
+std::uint32_t read_count(const YamlField& document, const char* key, std::int64_t most,
+                         std::uint32_t count) {
+  const auto field = document.find(key);
+  return field ? static_cast<std::uint32_t>(field->integer(1, most)) : count;
+}
+
+fiber::StepperOptions read_options(const YamlField& document) {
+  fiber::StepperOptions options;
+  options.iterations = read_count(document, "iterations", most_iterations, options.iterations);
+  if (const auto integrator = document.find("integrator")) {
+    if (integrator->text() == "implicit_midpoint") {
+      options.integrator = fiber::Integrator::IMPLICIT_MIDPOINT;
+    } else if (integrator->text() != "implicit_euler") {
+      integrator->refuse("implicit_euler or implicit_midpoint");
+    }
+  }
+  return options;
+}
+
+/// The obstacles of a scene, which are all in its frame: nothing moves them.
+std::shared_ptr<const fiber::Environment> make_environment(const YamlField& field,
+                                                           const EnvironmentScene& scene,
+                                                           const std::string& frame_id) {
+  fiber::World world;
+  for (const FramedChange& obstacle : scene.obstacles) {
+    const std::string& frame = obstacle.header.frame_id;
+    if (!frame.empty() && frame != frame_id) {
+      std::ostringstream error;
+      error << field.place() << ": obstacle '" << obstacle.change.object.name << "' is in frame '"
+            << frame << "', it must be in the scene's, '" << frame_id << "'";
+      throw std::invalid_argument(error.str());
+    }
+    world.apply({obstacle.change});
+  }
+  return world.environment();
+}
+
+fiber::AllowedPairs resolve(const std::vector<fiber_proximity::AllowedPair>& pairs,
+                            const std::vector<std::string>& fiber_names) {
+  AllowedContacts allowed;
+  fiber_proximity::AllowPairs::Request request;
+  request.allow = pairs;
+  allowed.apply(request);
+  return allowed.resolve(fiber_names);
+}
+
+}  // namespace
+
+SimScene read_sim_scene(const std::string& file, const MeshLoader& meshes, std::uint32_t threads) {
+  const YamlField document = load_yaml(file);
+  document.require_map({"frame_id", "time_step", "substeps", "iterations", "integrator", "fibers",
+                        "effects", "environment"});
+  SimScene scene;
+  const auto frame_id = document.find("frame_id");
+  scene.frame_id = frame_id ? frame_id->text() : "world";
+  if (const auto time_step = document.find("time_step")) {
+    scene.time_step = time_step->number();
+    if (!(std::isfinite(scene.time_step) && scene.time_step > 0.0)) {
+      time_step->refuse("positive and finite");
+    }
+  }
+  scene.substeps = read_count(document, "substeps", most_substeps, scene.substeps);
+
+  const std::vector<SimFiber> fibers = read_sim_fibers(document.get("fibers"));
+  fiber::Rods rods;
+  for (const SimFiber& fiber : fibers) {
+    rods.add(fiber.points, fiber.radius, fiber.section);
+    scene.fiber_names.push_back(fiber.name);
+  }
+  SimWorld world{fibers, nullptr, {}};
+  if (const auto field = document.find("environment")) {
+    const EnvironmentScene environment = read_scene(*field, meshes);
+    world.environment = make_environment(*field, environment, scene.frame_id);
+    world.allowed = resolve(environment.allowed, scene.fiber_names);
+  }
+  SimEffects effects = read_sim_effects(document.get("effects"), world, rods);
+  scene.effect_names = std::move(effects.names);
+  scene.attachment = effects.attachment;
+  scene.frames = std::move(effects.frames);
+  fiber::StepperOptions options = read_options(document);
+  options.threads = threads;
+  scene.stepper = std::make_unique<fiber::Stepper>(std::move(rods), std::move(effects.effects),
+                                                   options, std::move(effects.contacts));
+  return scene;
+}
+
+}  // namespace fiber_proximity_ros

@@ -1,0 +1,140 @@
+#include "fiber_proximity/rviz/display_properties.hpp"
+
+#include <ros/message_traits.h>
+#include <rviz/properties/bool_property.h>
+#include <rviz/properties/color_property.h>
+#include <rviz/properties/enum_property.h>
+#include <rviz/properties/float_property.h>
+#include <rviz/properties/int_property.h>
+#include <rviz/properties/ros_topic_property.h>
+
+#include <initializer_list>
+
+namespace fiber_proximity_rviz {
+namespace {
+
+template <class Value>
+void add_option(rviz::EnumProperty& property, const char* name, Value value) {
+  property.addOption(name, static_cast<int>(value));
+}
+
+template <class Value>
+Value chosen(rviz::EnumProperty& property) {
+  return static_cast<Value>(property.getOptionInt());
+}
+
+}  // namespace
+
+DisplayProperties::DisplayProperties(rviz::Property& display, const std::function<void()>& look,
+                                     const std::function<void()>& source)
+    : style_(new rviz::EnumProperty(
+          "Style", "Automatic",
+          "Tubes of the fibres' radii, ribbons that face the viewer, or tubes as long as "
+          "there are not too many.",
+          &display)),
+      sides_(new rviz::IntProperty("Sides", 8, "Corners around a tube.", &display)),
+      reduce_detail_(new rviz::BoolProperty("Level of Detail", true,
+                                            "Leave out points of ribbons where the picture stays "
+                                            "the same but for the pixel error, and "
+                                            "draw what is thinner than a pixel as lines.",
+                                            &display)),
+      pixel_error_(new rviz::FloatProperty(
+          "Pixel Error", DetailOptions().pixel_error,
+          "[pixels] By at most this much a fiber with fewer points is drawn beside its place.",
+          reduce_detail_)),
+      color_by_(new rviz::EnumProperty("Color By", "Fiber", "What the colors tell.", &display)),
+      color_(new rviz::ColorProperty("Color", QColor(150, 110, 70),
+                                     "Of all fibers, or of those without a contact.", &display)),
+      contact_topic_(new rviz::RosTopicProperty(
+          "Contact Topic", "", ros::message_traits::datatype<fiber_proximity::ContactArray>(),
+          "Contacts among these fibers, with the same stamps: ~contacts of the node whose ~fibers "
+          "are shown. Their distances color the segments.",
+          &display)),
+      follow_values_(new rviz::BoolProperty(
+          "Autocompute Range", true,
+          "Radius: from the least to the greatest. Distance: from the contacts' margin to 0.",
+          &display)),
+      least_(new rviz::FloatProperty("Min Value", 0.0F, "[m]", &display)),
+      greatest_(new rviz::FloatProperty("Max Value", 0.01F, "[m]", &display)),
+      opacity_(new rviz::FloatProperty("Alpha", 1.0F, "0 is invisible, 1 is opaque.", &display)),
+      default_radius_(new rviz::FloatProperty(
+          "Default Radius", 0.005F, "[m] Of fibers in messages without radii.", &display)) {
+  add_option(*style_, "Automatic", Style::automatic);
+  add_option(*style_, "Tubes", Style::tubes);
+  add_option(*style_, "Ribbons", Style::ribbons);
+  add_option(*color_by_, "Fiber", ColorBy::fiber);
+  add_option(*color_by_, "Radius", ColorBy::radius);
+  add_option(*color_by_, "Distance", ColorBy::distance);
+  add_option(*color_by_, "Flat Color", ColorBy::nothing);
+  sides_->setMin(3);
+  sides_->setMax(32);
+  reduce_detail_->setDisableChildrenIfFalse(true);
+  pixel_error_->setMin(0.01F);
+  opacity_->setMin(0.0F);
+  opacity_->setMax(1.0F);
+  default_radius_->setMin(0.0F);
+
+  for (rviz::Property* property : std::initializer_list<rviz::Property*>{
+           style_, sides_, reduce_detail_, pixel_error_, color_by_, color_, follow_values_, least_,
+           greatest_, opacity_, default_radius_}) {
+    QObject::connect(property, &rviz::Property::changed, property, look);
+  }
+  for (rviz::Property* property :
+       std::initializer_list<rviz::Property*>{style_, color_by_, follow_values_}) {
+    QObject::connect(property, &rviz::Property::changed, property, [this] { update_visibility(); });
+  }
+  for (rviz::Property* property :
+       std::initializer_list<rviz::Property*>{color_by_, contact_topic_}) {
+    QObject::connect(property, &rviz::Property::changed, property, source);
+  }
+  update_visibility();
+}
+
+void DisplayProperties::update_visibility() {
+  const bool has_values = color_by() == ColorBy::radius || color_by() == ColorBy::distance;
+  sides_->setHidden(style() == Style::ribbons);
+  reduce_detail_->setHidden(style() == Style::tubes);
+  color_->setHidden(color_by() != ColorBy::nothing && color_by() != ColorBy::distance);
+  contact_topic_->setHidden(color_by() != ColorBy::distance);
+  follow_values_->setHidden(!has_values);
+  least_->setHidden(!has_values || follow_values_->getBool());
+  greatest_->setHidden(!has_values || follow_values_->getBool());
+}
+
+DisplayProperties::Style DisplayProperties::style() const { return chosen<Style>(*style_); }
+
+int DisplayProperties::sides() const { return sides_->getInt(); }
+
+DetailOptions DisplayProperties::detail() const {
+  return {reduce_detail_->getBool(), pixel_error_->getFloat()};
+}
+
+DisplayProperties::ColorBy DisplayProperties::color_by() const {
+  return chosen<ColorBy>(*color_by_);
+}
+
+Color DisplayProperties::color() const {
+  const QColor color = color_->getColor();
+  return to_color({static_cast<float>(color.redF()), static_cast<float>(color.greenF()),
+                   static_cast<float>(color.blueF())},
+                  opacity());
+}
+
+float DisplayProperties::opacity() const { return opacity_->getFloat(); }
+
+std::optional<ValueRange> DisplayProperties::range() const {
+  if (follow_values_->getBool()) {
+    return std::nullopt;
+  }
+  const double least = least_->getFloat();
+  const double greatest = greatest_->getFloat();
+  // Red is what to beware of: short distances, but thick fibres.
+  return color_by() == ColorBy::distance ? ValueRange{greatest, least}
+                                         : ValueRange{least, greatest};
+}
+
+double DisplayProperties::default_radius() const { return default_radius_->getFloat(); }
+
+std::string DisplayProperties::contact_topic() const { return contact_topic_->getTopicStd(); }
+
+}  // namespace fiber_proximity_rviz

@@ -1,0 +1,233 @@
+#include "fiber_proximity/rviz/fiber_array_display.hpp"
+
+#include <OgreSceneManager.h>
+#include <OgreSceneNode.h>
+#include <rviz/display_context.h>
+#include <rviz/frame_manager.h>
+
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <pluginlib/class_list_macros.hpp>
+#include <stdexcept>
+#include <string>
+
+#include "fiber_proximity/ros/conversions.hpp"
+#include "fiber_proximity/ros/stopwatch.hpp"
+#include "fiber_proximity/rviz/fiber_materials.hpp"
+#include "fiber_proximity/rviz/fiber_renderable.hpp"
+
+namespace fiber_proximity_rviz {
+namespace {
+
+using fiber_proximity::ContactArrayConstPtr;
+using fiber_proximity::FiberArrayConstPtr;
+using ColorBy = DisplayProperties::ColorBy;
+using Level = rviz::StatusProperty::Level;
+using Style = DisplayProperties::Style;
+
+const char* const fiber_status = "Fibers";
+const char* const contact_status = "Contacts";
+
+std::string drawn_text(const fiber::FiberAssembly& fibers, FiberMesh::Kind kind, double seconds) {
+  return std::to_string(fibers.fiber_count()) + " fiber(s), " +
+         std::to_string(fibers.segment_count()) + " segment(s) as " +
+         (kind == FiberMesh::Kind::ribbons ? "ribbons" : "tubes") + " in " +
+         std::to_string(std::lround(1e3 * seconds)) + " ms";
+}
+
+}  // namespace
+
+FiberArrayDisplay::FiberArrayDisplay()
+    : properties_(
+          *this, [this] { is_changed_ = true; }, [this] { subscribe_to_contacts(); }) {}
+
+FiberArrayDisplay::~FiberArrayDisplay() {
+  if (mesh_node_ != nullptr) {
+    mesh_node_->detachAllObjects();
+    scene_manager_->destroySceneNode(mesh_node_);
+  }
+}
+
+void FiberArrayDisplay::onInitialize() {
+  MFDClass::onInitialize();
+  materials_ = std::make_unique<FiberMaterials>();
+  renderable_ = std::make_unique<FiberRenderable>(*materials_);
+  mesh_node_ = scene_node_->createChildSceneNode();
+  mesh_node_->attachObject(renderable_.get());
+}
+
+void FiberArrayDisplay::reset() {
+  MFDClass::reset();
+  pairing_.clear();
+  shown_ = FibersAndContacts();
+  if (renderable_ != nullptr) {
+    renderable_->show_nothing();
+  }
+}
+
+void FiberArrayDisplay::subscribe() {
+  MFDClass::subscribe();
+  subscribe_to_contacts();
+}
+
+void FiberArrayDisplay::unsubscribe() {
+  MFDClass::unsubscribe();
+  contact_subscriber_.shutdown();
+}
+
+bool FiberArrayDisplay::wants_contacts() const {
+  return properties_.color_by() == ColorBy::distance && !properties_.contact_topic().empty();
+}
+
+void FiberArrayDisplay::subscribe_to_contacts() {
+  contact_subscriber_.shutdown();
+  deleteStatus(contact_status);
+  shown_.contacts.reset();
+  is_changed_ = true;
+  if (!isEnabled() || !wants_contacts()) {
+    return;
+  }
+  try {
+    contact_subscriber_ = update_nh_.subscribe(properties_.contact_topic(), 1,
+                                               &FiberArrayDisplay::process_contacts, this);
+  } catch (const ros::Exception& error) {
+    setStatus(Level::Error, contact_status, QString("cannot subscribe: ") + error.what());
+  }
+}
+
+void FiberArrayDisplay::processMessage(const FiberArrayConstPtr& message) {
+  if (wants_contacts()) {
+    pairing_.add(message);
+  } else {
+    shown_ = {message, nullptr};
+    is_new_ = true;
+  }
+}
+
+void FiberArrayDisplay::process_contacts(const ContactArrayConstPtr& message) {
+  pairing_.add(message);
+}
+
+void FiberArrayDisplay::update(float wall_dt, float /*ros_dt*/) {
+  if (wants_contacts()) {
+    const FibersAndContacts ready = pairing_.take(wall_dt);
+    if (ready.fibers) {
+      shown_ = ready;
+      is_new_ = true;
+    }
+  }
+  if (shown_.fibers && (is_new_ || is_changed_)) {
+    draw();
+    context_->queueRender();
+  }
+  if (renderable_ != nullptr && !renderable_->failure().empty()) {
+    setStatusStd(Level::Error, fiber_status, renderable_->failure());
+  }
+}
+
+void FiberArrayDisplay::draw() {
+  try {
+    const fiber_proximity_ros::Stopwatch stopwatch;
+    if (is_new_) {  // the transform of an old stamp may be forgotten
+      place(shown_.fibers->header);
+    }
+    read_fibers();
+    choose_colors();
+    const FiberMesh& mesh = make_mesh();
+    materials_->set_transparent(properties_.is_transparent());
+    if (mesh.kind == FiberMesh::Kind::tubes) {
+      renderable_->show_tubes(mesh);
+    } else {
+      renderable_->show_ribbons(mesh, fibers_.points(), make_chunks(fibers_, mesh.origin),
+                                properties_.detail());
+    }
+    mesh_node_->setPosition(static_cast<float>(mesh.origin.x()),
+                            static_cast<float>(mesh.origin.y()),
+                            static_cast<float>(mesh.origin.z()));
+    setStatusStd(Level::Ok, fiber_status, drawn_text(fibers_, mesh.kind, stopwatch.seconds()));
+  } catch (const std::exception& error) {
+    renderable_->show_nothing();
+    setStatusStd(Level::Error, fiber_status, error.what());
+  }
+  is_new_ = false;
+  is_changed_ = false;
+}
+
+void FiberArrayDisplay::read_fibers() {
+  to_chains(*shown_.fibers, chains_);
+  if (chains_.radii.empty()) {
+    chains_.radii = {properties_.default_radius()};
+  }
+  assign(chains_, fibers_);
+}
+
+void FiberArrayDisplay::place(const std_msgs::Header& header) {
+  Ogre::Vector3 position;
+  Ogre::Quaternion orientation;
+  if (!context_->getFrameManager()->getTransform(header, position, orientation)) {
+    throw std::runtime_error("no transform from frame '" + header.frame_id + "' to '" +
+                             fixed_frame_.toStdString() + "' at the message's stamp");
+  }
+  scene_node_->setPosition(position);
+  scene_node_->setOrientation(orientation);
+}
+
+void FiberArrayDisplay::choose_colors() {
+  switch (properties_.color_by()) {
+    case ColorBy::fiber:
+      color_by_fiber(fibers_, properties_.opacity(), colors_);
+      return;
+    case ColorBy::radius: {
+      const std::vector<std::optional<double>> radii = radii_of_points(fibers_);
+      const std::optional<ValueRange> range = properties_.range();
+      color_by_value(radii, range ? *range : range_of(radii), properties_.color(), colors_);
+      return;
+    }
+    case ColorBy::distance:
+      color_by_distance();
+      return;
+    case ColorBy::nothing:
+      color_alike(fibers_, properties_.color(), colors_);
+      return;
+  }
+}
+
+void FiberArrayDisplay::color_by_distance() {
+  colors_.assign(fibers_.point_count(), properties_.color());
+  if (properties_.contact_topic().empty()) {
+    setStatus(Level::Warn, contact_status, "no contact topic");
+    return;
+  }
+  if (!shown_.contacts) {
+    setStatus(Level::Warn, contact_status, "no contacts with the stamp of these fibers");
+    return;
+  }
+  const ContactArrayConstPtr& contacts = shown_.contacts;
+  try {
+    const std::optional<ValueRange> range = properties_.range();
+    // Without a margin contacts penetrate; then they are all red.
+    const double margin = std::isfinite(contacts->margin) ? contacts->margin : 0.0;
+    color_by_value(distances_of_points(fibers_, *contacts),
+                   range ? *range : ValueRange{std::max(margin, 1e-9), 0.0}, properties_.color(),
+                   colors_);
+    setStatus(Level::Ok, contact_status,
+              QString::number(contacts->contacts.size()) + " contact(s)");
+  } catch (const std::invalid_argument& error) {
+    setStatus(Level::Error, contact_status, error.what());
+  }
+}
+
+const FiberMesh& FiberArrayDisplay::make_mesh() {
+  const int sides = properties_.sides();
+  const std::size_t least_vertices = fibers_.point_count() * static_cast<std::size_t>(sides);
+  const bool as_tubes =
+      properties_.style() == Style::tubes ||
+      (properties_.style() == Style::automatic && least_vertices <= most_automatic_vertices);
+  return as_tubes ? mesher_.make_tubes(fibers_, colors_, sides)
+                  : mesher_.make_ribbons(fibers_, colors_);
+}
+
+}  // namespace fiber_proximity_rviz
+
+PLUGINLIB_EXPORT_CLASS(fiber_proximity_rviz::FiberArrayDisplay, rviz::Display)

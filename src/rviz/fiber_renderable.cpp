@@ -1,0 +1,177 @@
+#include "fiber_proximity/rviz/fiber_renderable.hpp"
+
+#include <OgreCamera.h>
+#include <OgreHardwareBufferManager.h>
+#include <OgreMath.h>
+#include <OgreRenderQueue.h>
+#include <OgreViewport.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <exception>
+#include <limits>
+
+namespace fiber_proximity_rviz {
+namespace {
+
+/// Capacity for what is needed now and a little more.
+std::size_t with_reserve(std::size_t count) { return count + count / 8; }
+
+Ogre::AxisAlignedBox to_ogre(const Eigen::AlignedBox3f& box) {
+  return {box.min().x(), box.min().y(), box.min().z(), box.max().x(), box.max().y(), box.max().z()};
+}
+
+/// How much of the world a pixel covers, as the shader of ribbons computes it.
+class PixelSize {
+ public:
+  /// @param world where boxes are
+  PixelSize(const Ogre::Camera& camera, const Ogre::Affine3& world) {
+    const Ogre::Matrix4& projection = camera.getProjectionMatrix();
+    const Ogre::Matrix4 clip = projection * Ogre::Matrix4(camera.getViewMatrix() * world);
+    for (int i = 0; i < 4; ++i) {
+      depth_[i] = static_cast<double>(clip[3][i]);
+    }
+    const bool parallel_rays = projection[3][3] == 1.0F;
+    least_depth_ = parallel_rays ? 1.0 : static_cast<double>(camera.getNearClipDistance());
+    scale_ = 2.0 / std::abs(static_cast<double>(projection[1][1])) /
+             camera.getViewport()->getActualHeight();
+  }
+
+  /// [m] at the nearest place of the box that can be seen, above 0
+  double at(const Eigen::AlignedBox3f& box) const {
+    double depth = depth_[3];
+    for (int i = 0; i < 3; ++i) {
+      depth += std::min(depth_[i] * static_cast<double>(box.min()[i]),
+                        depth_[i] * static_cast<double>(box.max()[i]));
+    }
+    return std::max(scale_ * std::max(depth, least_depth_), std::numeric_limits<double>::min());
+  }
+
+ private:
+  double depth_[4];  // [m] by place: a plane
+  double least_depth_;
+  double scale_;  // pixel's size by depth
+};
+
+}  // namespace
+
+FiberRenderable::FiberRenderable(const FiberMaterials& materials)
+    : materials_(materials), vertices_(std::make_unique<Ogre::VertexData>()) {
+  Ogre::VertexDeclaration& layout = *vertices_->vertexDeclaration;
+  layout.addElement(0, offsetof(MeshVertex, position), Ogre::VET_FLOAT3, Ogre::VES_POSITION);
+  layout.addElement(0, offsetof(MeshVertex, direction), Ogre::VET_FLOAT3, Ogre::VES_NORMAL);
+  layout.addElement(0, offsetof(MeshVertex, color), Ogre::VET_COLOUR_ABGR, Ogre::VES_DIFFUSE);
+  layout.addElement(0, offsetof(MeshVertex, offset), Ogre::VET_FLOAT1,
+                    Ogre::VES_TEXTURE_COORDINATES);
+}
+
+void FiberRenderable::show_nothing() {
+  parts_.clear();
+  in_view_.clear();
+  points_ = nullptr;
+  failure_.clear();
+  box_.setNull();
+}
+
+void FiberRenderable::set_vertices(const FiberMesh& mesh) {
+  Ogre::VertexBufferBinding& binding = *vertices_->vertexBufferBinding;
+  if (!binding.isBufferBound(0) || binding.getBuffer(0)->getNumVertices() < mesh.vertices.size()) {
+    binding.unsetAllBindings();  // frees the old one first
+    binding.setBinding(0, Ogre::HardwareBufferManager::getSingleton().createVertexBuffer(
+                              sizeof(MeshVertex), with_reserve(mesh.vertices.size()),
+                              Ogre::HardwareBuffer::HBU_DYNAMIC_WRITE_ONLY_DISCARDABLE));
+  }
+  binding.getBuffer(0)->writeData(0, sizeof(MeshVertex) * mesh.vertices.size(),
+                                  mesh.vertices.data(), true);
+  vertices_->vertexStart = 0;
+  vertices_->vertexCount = mesh.vertices.size();
+}
+
+void FiberRenderable::show_tubes(const FiberMesh& mesh) {
+  show_nothing();  // if anything below throws
+  if (mesh.vertices.empty()) {
+    return;
+  }
+  set_vertices(mesh);
+  auto part = std::make_unique<FiberPart>(*this, *vertices_, materials_);
+  part->show_tubes(mesh);
+  parts_.push_back(std::move(part));
+  box_ = to_ogre(mesh.box);
+}
+
+void FiberRenderable::show_ribbons(const FiberMesh& mesh,
+                                   const std::vector<Eigen::Vector3d>& points,
+                                   const std::vector<FiberChunk>& chunks,
+                                   const DetailOptions& options) {
+  show_nothing();
+  if (mesh.vertices.empty()) {
+    return;
+  }
+  set_vertices(mesh);
+  for (const FiberChunk& chunk : chunks) {
+    parts_.push_back(std::make_unique<FiberPart>(*this, *vertices_, materials_));
+    parts_.back()->set_chunk(mesh, chunk);
+  }
+  points_ = &points;
+  options_ = options;
+  box_ = to_ogre(mesh.box);
+}
+
+void FiberRenderable::_notifyCurrentCamera(Ogre::Camera* camera) {
+  Ogre::MovableObject::_notifyCurrentCamera(camera);
+  in_view_.clear();
+  failure_.clear();
+  try {
+    choose_parts(*camera);
+  } catch (const std::exception& error) {  // no memory for it; rviz would end
+    in_view_.clear();
+    failure_ = error.what();
+  }
+}
+
+void FiberRenderable::choose_parts(const Ogre::Camera& camera) {
+  const Ogre::Affine3& world = _getParentNodeFullTransform();
+  for (const std::unique_ptr<FiberPart>& part : parts_) {
+    Ogre::AxisAlignedBox box = to_ogre(part->chunk().box);
+    box.transform(world);
+    if (camera.isVisible(box)) {
+      in_view_.push_back(part.get());
+    }
+  }
+  if (points_ == nullptr) {  // tubes
+    return;
+  }
+  const PixelSize pixel(camera, world);
+  tbb::parallel_for(std::size_t{0}, in_view_.size(), [&](std::size_t i) {
+    const FiberChunk& chunk = in_view_[i]->chunk();
+    in_view_[i]->prepare(*points_, choose_detail(chunk, pixel.at(chunk.box), options_));
+  });
+  for (FiberPart* part : in_view_) {
+    part->show();
+  }
+}
+
+void FiberRenderable::_updateRenderQueue(Ogre::RenderQueue* queue) {
+  for (FiberPart* part : in_view_) {
+    queue->addRenderable(part, mRenderQueueID, OGRE_RENDERABLE_DEFAULT_PRIORITY);
+  }
+}
+
+void FiberRenderable::visitRenderables(Ogre::Renderable::Visitor* visitor, bool /*debug*/) {
+  for (const std::unique_ptr<FiberPart>& part : parts_) {
+    visitor->visit(part.get(), 0, false);
+  }
+}
+
+Ogre::Real FiberRenderable::getBoundingRadius() const {
+  return box_.isFinite() ? Ogre::Math::boundingRadiusFromAABB(box_) : 0.0F;
+}
+
+const Ogre::String& FiberRenderable::getMovableType() const {
+  static const Ogre::String type = "FiberRenderable";
+  return type;
+}
+
+}  // namespace fiber_proximity_rviz

@@ -1,0 +1,24 @@
+#include "fiber_proximity/sim/contact_stiffness.hpp"
+
+#include <cmath>
+
+#include "require.hpp"
+
+namespace fiber {
+
+double largest_contact_stiffness(double mass, double step) {
+  constexpr double largest_ratio = 1000.0;
+  return largest_ratio * mass / (step * step);
+}
+
+double material_contact_stiffness(const RodSection& section, double radius) {
+  const double second_moment = 0.25 * M_PI * std::pow(radius, 4);
+  constexpr double share = 0.2;
+  return share * section.bending_stiffness / second_moment * radius;
+}
+
+void validate_contact_stiffness(const std::string& effect, double stiffness) {
+  require_not_negative(effect + ": the stiffness", stiffness, " N/m");
+}
+
+}  // namespace fiber

@@ -1,0 +1,131 @@
+#include "fiber_proximity/sim/contacts.hpp"
+
+#include <algorithm>
+
+namespace fiber {
+
+using Eigen::Matrix3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+namespace {
+
+/// What nodes of an edge share in a point of it; nodes that are held have no share.
+Vector2d weights_of(const Rods& rods, std::uint32_t edge, double parameter) {
+  const auto is_held = [&rods](std::uint32_t node) {
+    return std::binary_search(rods.held.begin(), rods.held.end(), HeldNode{node, {}},
+                              [](const HeldNode& a, const HeldNode& b) { return a.node < b.node; });
+  };
+  return {is_held(edge) ? 0.0 : 1.0 - parameter, is_held(edge + 1) ? 0.0 : parameter};
+}
+
+/// Adds one side of a contact to the rod it is on.
+void add_side(const Rods& rods, std::uint32_t edge, const Vector2d& weights,
+              const Vector3d& gradient, const Matrix3d& hessian,
+              const std::vector<RodSystem*>& systems) {
+  const auto next = std::upper_bound(rods.offsets.begin(), rods.offsets.end(), edge);
+  const auto rod = static_cast<std::uint32_t>(next - rods.offsets.begin()) - 1;
+  const std::uint32_t node = edge - rods.first(rod);
+  RodSystem& system = *systems[rod];
+  system.add_gradient(node, weights[0] * gradient);
+  system.add_gradient(node + 1, weights[1] * gradient);
+  system.add_hessian(node, weights[0] * weights[0] * hessian);
+  system.add_hessian(node + 1, weights[1] * weights[1] * hessian);
+  system.add_hessian(node + 1, node, weights[0] * weights[1] * hessian);
+}
+
+}  // namespace
+
+Contacts::Contacts(std::vector<std::unique_ptr<ContactSource>> sources,
+                   std::unique_ptr<Friction> friction)
+    : sources_(std::move(sources)), friction_(std::move(friction)) {}
+
+void Contacts::begin_step(const Rods& rods, const TimeStep& step) {
+  for (const std::unique_ptr<ContactSource>& source : sources_) {
+    source->begin_step(rods, step);
+  }
+  if (friction_ != nullptr) {
+    friction_->begin_step(rods, step);
+  }
+}
+
+double Contacts::measure(const Rods& rods) {
+  found_.clear();
+  for (const std::unique_ptr<ContactSource>& source : sources_) {
+    source->measure(rods);
+    source->find(rods, found_);
+  }
+  return energy_of(found_, rods);
+}
+
+double Contacts::energy_of(const std::vector<ContactPoint>& points, const Rods& rods) const {
+  double energy = 0.0;
+  for (const ContactPoint& point : points) {
+    energy += 0.5 * point.stiffness * point.depth * point.depth;
+  }
+  if (friction_ != nullptr) {
+    for (const ContactPoint& point : points_) {
+      energy += friction_->energy(point, friction_->slip(rods, point));
+    }
+  }
+  return energy;
+}
+
+void Contacts::add_derivatives(const Rods& rods, const std::vector<RodSystem*>& systems) {
+  terms_.clear();
+  for (const ContactPoint& point : points_) {
+    Vector3d gradient = -point.stiffness * point.depth * point.normal;
+    const Matrix3d along = point.normal * point.normal.transpose();
+    Matrix3d hessian = point.stiffness * along;
+    if (friction_ != nullptr) {
+      const Vector3d slip = friction_->slip(rods, point);
+      const double resistance = friction_->resistance(point, slip);
+      gradient += resistance * slip;
+      hessian += resistance * (Matrix3d::Identity() - along);
+    }
+    Term term{point.edge_a, point.edge_b, weights_of(rods, point.edge_a, point.s), Vector2d::Zero(),
+              hessian};
+    add_side(rods, point.edge_a, term.weights_a, gradient, hessian, systems);
+    if (!point.is_obstacle()) {
+      term.weights_b = weights_of(rods, point.edge_b, point.t);
+      add_side(rods, point.edge_b, term.weights_b, -gradient, hessian, systems);
+      terms_.push_back(term);
+    }
+  }
+}
+
+bool Contacts::has_coupling() const { return !terms_.empty(); }
+
+void Contacts::add_coupling(const Eigen::VectorXd& displacements, std::uint32_t unknowns,
+                            Eigen::VectorXd& product) const {
+  const auto index = [unknowns](std::uint32_t node) {
+    return static_cast<Eigen::Index>(node) * unknowns;
+  };
+  const auto combine = [&](std::uint32_t node, const Vector2d& weights) -> Vector3d {
+    return weights[0] * displacements.segment<3>(index(node)) +
+           weights[1] * displacements.segment<3>(index(node + 1));
+  };
+  const auto spread = [&](std::uint32_t node, const Vector2d& weights, const Vector3d& v) {
+    product.segment<3>(index(node)) -= weights[0] * v;
+    product.segment<3>(index(node + 1)) -= weights[1] * v;
+  };
+  for (const Term& term : terms_) {
+    const Vector3d from_a = term.hessian * combine(term.node_a, term.weights_a);
+    const Vector3d from_b = term.hessian * combine(term.node_b, term.weights_b);
+    spread(term.node_a, term.weights_a, from_b);
+    spread(term.node_b, term.weights_b, from_a);
+  }
+}
+
+void Contacts::limit(const Rods& rods, std::vector<Vector3d>& displacements) {
+  // What one source stops, another's rods may follow into.
+  std::vector<Vector3d> before;
+  do {
+    before = displacements;
+    for (const std::unique_ptr<ContactSource>& source : sources_) {
+      source->limit(rods, displacements);
+    }
+  } while (sources_.size() > 1 && displacements != before);
+}
+
+}  // namespace fiber

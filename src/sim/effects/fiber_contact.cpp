@@ -1,0 +1,266 @@
+#include "fiber_proximity/sim/effects/fiber_contact.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "fiber_proximity/sim/contact_limits.hpp"
+#include "fiber_proximity/sim/contact_stiffness.hpp"
+#include "fiber_proximity/sim/edge_pair.hpp"
+
+namespace fiber {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// Of a contact at a point of an edge near its end node: none at the node, all from where on the
+/// target is not over the next edge.
+/// @param next   the next edge's other node [m]
+/// @param across from the point to the target [m]
+/// @param other  along which the target slides, of unit length; zero for a target that does not
+double end_share(const Vector3d& next, const Vector3d& node, const Vector3d& point,
+                 const Vector3d& across, const Vector3d& other) {
+  // Seen along the target's edge, which is a point then.
+  const Vector3d beyond = next - node;
+  const Vector3d rest = node - point;
+  const double over_next = across.dot(beyond);
+  const double ahead = rest.dot(beyond) - other.dot(rest) * other.dot(beyond);
+  // The target is over the next edge up to where these are the same.
+  return over_next > 0.0 && ahead < over_next ? std::max(0.0, ahead / over_next) : 1.0;
+}
+
+}  // namespace
+
+double edge_share(const Rods& rods, std::uint32_t rod, std::uint32_t edge, double parameter,
+                  const Vector3d& target, const Vector3d& other) {
+  const bool has_next = edge + 2 < rods.end(rod);
+  const bool has_previous = edge > rods.first(rod);
+  const std::vector<Vector3d>& x = rods.positions;
+  if (parameter >= 1.0) {
+    return has_next ? 0.0 : 1.0;
+  }
+  if (parameter <= 0.0) {
+    return has_previous && (x[edge - 1] - x[edge]).dot(target - x[edge]) > 0.0 ? 0.0 : 1.0;
+  }
+  const Vector3d point = x[edge] + parameter * (x[edge + 1] - x[edge]);
+  const Vector3d across = target - point;
+  const double before = has_previous ? end_share(x[edge - 1], x[edge], point, across, other) : 1.0;
+  const double after = has_next ? end_share(x[edge + 2], x[edge + 1], point, across, other) : 1.0;
+  return std::min(before, after);
+}
+
+FiberContact::FiberContact(const Options& options) : options_(options) {
+  validate_contact_stiffness("contact", options.stiffness);
+  engine_ = make_engine("run_tree");
+}
+
+void FiberContact::begin_step(const Rods& rods, const TimeStep& step) {
+  step_ = step.length;
+  beginning_ = rods.positions;
+  // What a node has moved since, and will in this step if nothing happens, must leave half of the
+  // reach for what does happen.
+  double farthest = 0.0;
+  double fastest = 0.0;
+  const bool is_first = fibers_.point_count() != rods.positions.size();
+  for (std::size_t i = 0; i < rods.positions.size(); ++i) {
+    const double speed = rods.velocities[i].norm();
+    fastest = std::max(fastest, speed);
+    if (!is_first) {
+      const double moved = (rods.positions[i] - fibers_.points()[i]).norm();
+      farthest = std::max(farthest, moved + step.length * speed);
+    }
+  }
+  longest_move_ = longest_move(rods, step.length * fastest);
+  if (is_first || farthest > 0.25 * reach_) {
+    constexpr double steps = 8.0;
+    const double largest = *std::max_element(rods.radii.begin(), rods.radii.end());
+    reach_ = std::max(2.0 * largest, steps * step.length * fastest);
+    find_candidates(rods);
+  }
+  measure(rods);
+  part_candidates(rods);
+}
+
+void FiberContact::find_candidates(const Rods& rods) {
+  if (fibers_.point_count() != beginning_.size()) {
+    fibers_ = FiberAssembly(beginning_, rods.offsets, rods.radii);
+  } else {
+    fibers_.update_points(beginning_);
+  }
+  engine_->update(fibers_);
+  QueryOptions query;
+  query.margin = reach_;
+  query.pairing = options_.pairing;
+  // Edges that share a node, or are joined by one edge, do not touch but by folding; and a rod
+  // cannot be bent so far that it touches itself within this.
+  query.neighbour_skip = 2;
+  query.neighbour_skip_length = 4.0 * *std::max_element(rods.radii.begin(), rods.radii.end());
+  engine_->query(query, result_);
+  candidates_.clear();
+  for (const Contact& contact : result_.contacts) {
+    candidates_.push_back({contact.fiber_a, rods.first(contact.fiber_a) + contact.segment_a,
+                           contact.fiber_b, rods.first(contact.fiber_b) + contact.segment_b});
+  }
+}
+
+double FiberContact::stiffness_of(const Rods& rods, const Candidate& candidate) const {
+  if (options_.stiffness > 0.0) {
+    return options_.stiffness;
+  }
+  const double mass = std::min({rods.masses[candidate.edge_a], rods.masses[candidate.edge_a + 1],
+                                rods.masses[candidate.edge_b], rods.masses[candidate.edge_b + 1]});
+  const auto material = [&rods](std::uint32_t rod) {
+    return material_contact_stiffness(rods.sections[rod], rods.radii[rod]);
+  };
+  const double softer = std::min(material(candidate.rod_a), material(candidate.rod_b));
+  return std::min(softer, largest_contact_stiffness(mass, step_));
+}
+
+void FiberContact::measure(const Rods& rods) { measure_at(rods.positions); }
+
+void FiberContact::measure_at(const std::vector<Vector3d>& positions) {
+  constexpr std::size_t batch = 64;
+  std::array<const Vector3d*, batch> a{};
+  std::array<const Vector3d*, batch> b{};
+  distances_.resize(candidates_.size());
+  for (std::size_t begin = 0; begin < candidates_.size(); begin += batch) {
+    const std::size_t count = std::min(batch, candidates_.size() - begin);
+    for (std::size_t i = 0; i < count; ++i) {
+      a[i] = &positions[candidates_[begin + i].edge_a];
+      b[i] = &positions[candidates_[begin + i].edge_b];
+    }
+    segment_distances(a.data(), b.data(), count, &distances_[begin]);
+  }
+}
+
+void FiberContact::find(const Rods& rods, std::vector<ContactPoint>& points) const {
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    const Candidate& candidate = candidates_[i];
+    const SegmentDistance& nearest = distances_[i];
+    const double depth =
+        rods.radii[candidate.rod_a] + rods.radii[candidate.rod_b] - nearest.distance;
+    if (!(depth > 0.0) || nearest.distance == 0.0) {
+      continue;
+    }
+    const auto point_at = [&rods](std::uint32_t edge, double parameter) -> Vector3d {
+      return (1.0 - parameter) * rods.positions[edge] + parameter * rods.positions[edge + 1];
+    };
+    const Vector3d point_a = point_at(candidate.edge_a, nearest.s);
+    const Vector3d point_b = point_at(candidate.edge_b, nearest.t);
+    const auto slide = [&rods](std::uint32_t edge, double parameter) -> Vector3d {
+      const bool is_inner = parameter > 0.0 && parameter < 1.0;
+      return is_inner ? edge_direction(rods, edge).tangent : Vector3d::Zero();
+    };
+    const double share = edge_share(rods, candidate.rod_a, candidate.edge_a, nearest.s, point_b,
+                                    slide(candidate.edge_b, nearest.t)) *
+                         edge_share(rods, candidate.rod_b, candidate.edge_b, nearest.t, point_a,
+                                    slide(candidate.edge_a, nearest.s));
+    if (share > 0.0) {
+      points.push_back({candidate.edge_a, nearest.s, candidate.edge_b, nearest.t, point_b,
+                        -nearest.delta / nearest.distance, depth,
+                        share * stiffness_of(rods, candidate)});
+    }
+  }
+}
+
+void FiberContact::part_candidates(const Rods& rods) {
+  partings_.resize(candidates_.size());
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    const SegmentDistance& nearest = distances_[i];
+    if (nearest.distance == 0.0) {
+      // They cross where the simulation began: there is no side to stay on.
+      partings_[i] = {Vector3d::Zero(), 0.0};
+      continue;
+    }
+    constexpr double share = 0.1;
+    const double touching = rods.radii[candidates_[i].rod_a] + rods.radii[candidates_[i].rod_b];
+    partings_[i] = {nearest.delta / nearest.distance,
+                    std::max(share * nearest.distance, least_distance * touching)};
+  }
+}
+
+/// Shortens displacements that bring the edges of a candidate through each other.
+/// @param is_fixed in the middle of where they are now; else where they want to meet
+/// @returns whether it had to
+bool FiberContact::keep_apart(const Rods& rods, std::size_t candidate, bool is_fixed,
+                              std::vector<Vector3d>& displacements) const {
+  const std::uint32_t a = candidates_[candidate].edge_a;
+  const std::uint32_t b = candidates_[candidate].edge_b;
+  const Vector3d& normal = partings_[candidate].normal;
+  const std::array<double, 2> of_a{normal.dot(rods.positions[a]),
+                                   normal.dot(rods.positions[a + 1])};
+  const std::array<double, 2> of_b{normal.dot(rods.positions[b]),
+                                   normal.dot(rods.positions[b + 1])};
+  const double next_a =
+      std::max(of_a[0] + normal.dot(displacements[a]), of_a[1] + normal.dot(displacements[a + 1]));
+  const double next_b =
+      std::min(of_b[0] + normal.dot(displacements[b]), of_b[1] + normal.dot(displacements[b + 1]));
+  const double room = partings_[candidate].room;
+  constexpr double rounding = 1e-9;
+  if (next_b - next_a >= (1.0 - rounding) * room) {
+    return false;
+  }
+  const double end_a = std::max(of_a[0], of_a[1]);
+  const double end_b = std::min(of_b[0], of_b[1]);
+  double plane = 0.5 * (end_a + end_b);
+  if (!is_fixed && end_b - end_a > room) {
+    plane = std::clamp(0.5 * (next_a + next_b), end_a + 0.5 * room, end_b - 0.5 * room);
+  }
+  bool is_shorter = false;
+  for (std::uint32_t end = 0; end < 2; ++end) {
+    is_shorter |= limit_approach(normal, plane - of_a[end] - 0.5 * room, displacements[a + end]);
+    is_shorter |= limit_approach(-normal, of_b[end] - plane - 0.5 * room, displacements[b + end]);
+  }
+  return is_shorter;
+}
+
+/// Candidates that serve for these displacements too.
+void FiberContact::look_further(const Rods& rods, const std::vector<Vector3d>& displacements) {
+  double longest = 0.0;
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < displacements.size(); ++i) {
+    const Vector3d target = rods.positions[i] + displacements[i];
+    longest = std::max(longest, (target - beginning_[i]).norm());
+    farthest = std::max(farthest, (target - fibers_.points()[i]).norm());
+  }
+  const double longest_reach = 2.0 * longest_move_;
+  if (farthest <= 0.5 * reach_ || (reach_ >= longest_reach && beginning_ == fibers_.points())) {
+    return;
+  }
+  constexpr double rounding = 1.0 + 1e-9;
+  reach_ = std::max(reach_, std::min(2.0 * rounding * longest, longest_reach));
+  find_candidates(rods);
+  measure_at(beginning_);
+  part_candidates(rods);
+  measure(rods);
+}
+
+void FiberContact::limit(const Rods& rods, std::vector<Vector3d>& displacements) {
+  look_further(rods, displacements);
+  // Against all that was too far away to be a candidate.
+  for (std::size_t i = 0; i < displacements.size(); ++i) {
+    const double moved = (rods.positions[i] - fibers_.points()[i]).norm();
+    limit_approach(displacements[i].normalized(), 0.5 * reach_ - moved, displacements[i]);
+  }
+  // What one pair stops, another may follow into: until none has to be stopped. After some passes,
+  // the planes around what is still being stopped do not move any more, which ends it.
+  constexpr int moving_passes = 8;
+  std::vector<bool> is_fixed(displacements.size(), false);
+  bool is_settled = false;
+  for (int pass = 0; !is_settled; ++pass) {
+    is_settled = true;
+    for (std::size_t i = 0; i < candidates_.size(); ++i) {
+      const std::uint32_t a = candidates_[i].edge_a;
+      const std::uint32_t b = candidates_[i].edge_b;
+      const bool fixed = is_fixed[a] || is_fixed[a + 1] || is_fixed[b] || is_fixed[b + 1];
+      if (keep_apart(rods, i, fixed, displacements)) {
+        is_settled = false;
+        if (pass >= moving_passes) {
+          is_fixed[a] = is_fixed[a + 1] = is_fixed[b] = is_fixed[b + 1] = true;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace fiber

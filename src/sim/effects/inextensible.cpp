@@ -1,0 +1,57 @@
+#include "fiber_proximity/sim/effects/inextensible.hpp"
+
+#include <algorithm>
+
+#include "fiber_proximity/sim/edge_pair.hpp"
+
+namespace fiber {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+Inextensible::Inextensible(const Rods& rods)
+    : tensions_(rods.positions.size()), stiffnesses_(rods.positions.size()) {}
+
+void Inextensible::begin_step(Rods& rods, const TimeStep& step) {
+  // Far stiffer than inertia, and yet of a magnitude that rounding errors can bear.
+  constexpr double ratio = 1e4;
+  for (std::size_t i = 0; i < stiffnesses_.size(); ++i) {
+    stiffnesses_[i] = ratio * rods.masses[i] / (step.length * step.length);
+  }
+}
+
+double Inextensible::force(const Rods& rods, std::uint32_t edge, double length) const {
+  return tensions_[edge] + stiffnesses_[edge] * (length - rods.rest_lengths[edge]);
+}
+
+double Inextensible::energy(const Rods& rods, std::uint32_t rod) const {
+  double energy = 0.0;
+  for (std::uint32_t i = rods.first(rod); i + 1 < rods.end(rod); ++i) {
+    const double excess = edge_direction(rods, i).length - rods.rest_lengths[i];
+    energy += (tensions_[i] + 0.5 * stiffnesses_[i] * excess) * excess;
+  }
+  return energy;
+}
+
+void Inextensible::add_derivatives(const Rods& rods, std::uint32_t rod, RodSystem& system) const {
+  const std::uint32_t first = rods.first(rod);
+  for (std::uint32_t i = first; i + 1 < rods.end(rod); ++i) {
+    const EdgeDirection edge = edge_direction(rods, i);
+    const double force = this->force(rods, i, edge.length);
+    const Matrix3d along = edge.tangent * edge.tangent.transpose();
+    // As in Stretch, without what gives way under pressure.
+    const Matrix3d block = stiffnesses_[i] * along +
+                           std::max(0.0, force) / edge.length * (Matrix3d::Identity() - along);
+    system.add_edge(i - first, force * edge.tangent, block);
+  }
+}
+
+void Inextensible::end_step(Rods& rods, const TimeStep& /*step*/) {
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    for (std::uint32_t i = rods.first(rod); i + 1 < rods.end(rod); ++i) {
+      tensions_[i] = force(rods, i, edge_direction(rods, i).length);
+    }
+  }
+}
+
+}  // namespace fiber

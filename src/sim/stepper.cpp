@@ -1,0 +1,104 @@
+#include "fiber_proximity/sim/stepper.hpp"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "rod_group.hpp"
+
+namespace fiber {
+namespace {
+
+void validate(const StepperOptions& options) {
+  if (options.iterations == 0) {
+    throw std::invalid_argument("iterations is 0, it must be at least 1");
+  }
+  if (!(std::isfinite(options.tolerance) && options.tolerance >= 0.0)) {
+    throw std::invalid_argument("tolerance is " + std::to_string(options.tolerance) +
+                                " m, it must be at least 0 and finite");
+  }
+}
+
+/// Implicit midpoint is a step of implicit Euler to the middle, continued in a straight line.
+/// @param contacts what this line must not lead through; null for nothing
+void continue_from_middle(Rods& rods, const std::vector<Eigen::Vector3d>& old_velocities,
+                          const std::vector<double>& old_spins, double half_step,
+                          Contacts* contacts) {
+  std::vector<Eigen::Vector3d> displacements = rods.velocities;
+  for (Eigen::Vector3d& displacement : displacements) {
+    displacement *= half_step;
+  }
+  if (contacts != nullptr) {
+    contacts->measure(rods);
+    contacts->limit(rods, displacements);
+  }
+  for (std::size_t i = 0; i < rods.positions.size(); ++i) {
+    rods.positions[i] += displacements[i];
+    rods.velocities[i] = 2.0 * rods.velocities[i] - old_velocities[i];
+  }
+  for (std::size_t i = 0; i < rods.spins.size(); ++i) {
+    rods.angles[i] += half_step * rods.spins[i];
+    rods.spins[i] = 2.0 * rods.spins[i] - old_spins[i];
+  }
+}
+
+}  // namespace
+
+Stepper::Stepper(Rods rods, std::vector<std::unique_ptr<Effect>> effects,
+                 const StepperOptions& options, std::unique_ptr<Contacts> contacts)
+    : rods_(std::move(rods)),
+      effects_(std::move(effects)),
+      options_(options),
+      contacts_(std::move(contacts)) {
+  validate(options);
+  if (contacts_ != nullptr && rods_.count() > 0) {
+    groups_.emplace_back(rods_, 0, rods_.count(), contacts_.get());
+    return;
+  }
+  groups_.reserve(rods_.count());
+  for (std::uint32_t rod = 0; rod < rods_.count(); ++rod) {
+    groups_.emplace_back(rods_, rod, rod + 1, nullptr);
+  }
+}
+
+Stepper::~Stepper() = default;
+
+void Stepper::step(double length) {
+  if (!(std::isfinite(length) && length > 0.0)) {
+    throw std::invalid_argument("the length of a step is " + std::to_string(length) +
+                                " s, it must be positive and finite");
+  }
+  if (options_.integrator == Integrator::IMPLICIT_MIDPOINT) {
+    const std::vector<Eigen::Vector3d> old_velocities = rods_.velocities;
+    const std::vector<double> old_spins = rods_.spins;
+    solve({time_, 0.5 * length});
+    continue_from_middle(rods_, old_velocities, old_spins, 0.5 * length, contacts_.get());
+  } else {
+    solve({time_, length});
+  }
+  for (const std::unique_ptr<Effect>& effect : effects_) {
+    effect->end_step(rods_, {time_, length});
+  }
+  time_ += length;
+}
+
+void Stepper::solve(const TimeStep& step) {
+  for (const std::unique_ptr<Effect>& effect : effects_) {
+    effect->begin_step(rods_, step);
+  }
+  if (contacts_ != nullptr) {
+    contacts_->begin_step(rods_, step);
+  }
+  tbb::task_arena arena(options_.threads == 0 ? tbb::task_arena::automatic
+                                              : static_cast<int>(options_.threads));
+  arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, groups_.size(), [&](std::size_t group) {
+      groups_[group].solve(rods_, effects_, options_, step.length);
+    });
+  });
+}
+
+}  // namespace fiber

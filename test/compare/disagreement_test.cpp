@@ -1,0 +1,84 @@
+#include "fiber_proximity/compare/disagreement.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace fiber::test {
+namespace {
+
+/// Two segments that cross at a gap of exactly 1 m, by claims of an ulp and more.
+class PairOracleTest : public testing::Test {
+ protected:
+  Verdict verdict(const std::optional<PairClaim>& ours, const std::optional<PairClaim>& fcl,
+                  double margin = 1.0, Kernel kernel = Kernel::ROBUST) const {
+    QueryOptions options;
+    options.margin = margin;
+    options.kernel = kernel;
+    const Disagreement found = PairOracle(fibers_, options).judge({0, 2}, ours, fcl, true);
+    EXPECT_EQ(found.gap, 1.0);
+    EXPECT_EQ(found.is_contact, margin >= 1.0);
+    return found.verdict;
+  }
+
+  static constexpr double ulp_ = std::numeric_limits<double>::epsilon();
+  static constexpr double below_ = 1.0 - 0.5 * ulp_;
+  static constexpr PairClaim exact_{1.0, 1.0, 1.0};
+  static constexpr PairClaim too_near_{0.5, 0.5, below_};
+  static constexpr PairClaim too_far_{1.5, 1.0 + ulp_, 2.0};
+
+ private:
+  const FiberAssembly fibers_{
+      {{-1, 0, 0}, {1, 0, 0}, {0, -1, 1.5}, {0, 1, 1.5}}, {0, 2, 4}, {0.25}};
+};
+
+TEST_F(PairOracleTest, HoldsClaimsAgainstTheTruthToTheLastDigit) {
+  EXPECT_EQ(verdict(exact_, exact_), Verdict::BOTH);
+  for (const PairClaim& wrong : {too_near_, too_far_}) {
+    EXPECT_EQ(verdict(exact_, wrong), Verdict::OURS);
+    EXPECT_EQ(verdict(wrong, exact_), Verdict::FCL);
+    EXPECT_EQ(verdict(wrong, wrong), Verdict::NEITHER);
+  }
+}
+
+TEST_F(PairOracleTest, BoundsMustHoldTheirOwnDistance) {
+  EXPECT_EQ(verdict(PairClaim{2.0, 0.0, 1.0}, exact_), Verdict::FCL);
+  EXPECT_EQ(verdict(PairClaim{0.0, 1.0, 2.0}, exact_), Verdict::FCL);
+}
+
+TEST_F(PairOracleTest, UnboundedClaimsAreTrue) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(verdict(PairClaim{7.0, -infinity, infinity}, exact_), Verdict::BOTH);
+}
+
+TEST_F(PairOracleTest, WhoSaysNothingOfAContactIsWrong) {
+  EXPECT_EQ(verdict(std::nullopt, exact_), Verdict::FCL);
+  EXPECT_EQ(verdict(exact_, std::nullopt, 1.1), Verdict::OURS);
+  EXPECT_EQ(verdict(std::nullopt, std::nullopt, 0.9), Verdict::BOTH);
+}
+
+TEST_F(PairOracleTest, FclMayMissWhatItsRoundingHides) {
+  EXPECT_EQ(verdict(exact_, std::nullopt, 1.0), Verdict::BOTH);
+  EXPECT_EQ(verdict(exact_, std::nullopt, 1.0 + 16 * ulp_), Verdict::BOTH);
+  EXPECT_EQ(verdict(exact_, std::nullopt, 1.0 + 64 * ulp_), Verdict::OURS);
+}
+
+// Robust goes by the distance it computes; the others never take a pair for a contact that is none.
+TEST_F(PairOracleTest, OnlyRobustMayReportANearMiss) {
+  const PairClaim near{below_, below_, 1.0};
+  EXPECT_EQ(verdict(near, std::nullopt, below_, Kernel::ROBUST), Verdict::BOTH);
+  EXPECT_EQ(verdict(near, std::nullopt, below_, Kernel::EXACT), Verdict::FCL);
+  EXPECT_EQ(verdict(near, std::nullopt, below_, Kernel::FAST), Verdict::FCL);
+}
+
+TEST_F(PairOracleTest, NoAnswerIsNeverRight) {
+  const FiberAssembly fibers({{0, 0, 0}, {1, 0, 0}, {0, 0, 2}, {1, 0, 2}}, {0, 2, 4}, {0.5});
+  QueryOptions options;
+  options.margin = 1.0;
+  const PairOracle oracle(fibers, options);
+  EXPECT_EQ(oracle.judge({0, 2}, exact_, std::nullopt, false).verdict, Verdict::OURS);
+  EXPECT_EQ(oracle.judge({0, 2}, too_far_, std::nullopt, false).verdict, Verdict::NEITHER);
+}
+
+}  // namespace
+}  // namespace fiber::test

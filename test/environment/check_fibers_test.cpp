@@ -1,0 +1,132 @@
+#include "fiber_proximity/environment/check_fibers.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "environment/random_shapes.hpp"
+#include "fiber_proximity/query/fiber_snapshots.hpp"
+
+namespace fiber::test {
+namespace {
+
+using Eigen::Vector3d;
+
+FiberAssembly random_fibers(Random& random, int fiber_count) {
+  std::vector<Vector3d> points;
+  std::vector<std::uint32_t> offsets{0};
+  for (int fiber = 0; fiber < fiber_count; ++fiber) {
+    Vector3d point = random.in_cube();
+    for (int i = random.integer(2, 20); i > 0; --i) {
+      points.push_back(point);
+      point += random.in_cube(0.1);
+    }
+    offsets.push_back(static_cast<std::uint32_t>(points.size()));
+  }
+  return {points, offsets, {0.01}};
+}
+
+void expect_same(const QueryResult& found, const QueryResult& wanted) {
+  ASSERT_EQ(found.contacts.size(), wanted.contacts.size());
+  for (std::size_t i = 0; i < wanted.contacts.size(); ++i) {
+    EXPECT_EQ(found.contacts[i].key(), wanted.contacts[i].key());
+    EXPECT_EQ(found.contacts[i].distance, wanted.contacts[i].distance);
+  }
+}
+
+class CheckFibersTest : public testing::Test {
+ protected:
+  CheckFibersTest() {
+    std::vector<EnvironmentObject> objects;
+    for (const Shape& shape : random_shapes(random_, 0.2)) {
+      if (!std::holds_alternative<HalfSpaceShape>(shape)) {
+        objects.push_back(
+            {"object" + std::to_string(objects.size()), random_pose(random_, 1.0), {{shape}}});
+      }
+    }
+    environment_ = std::make_unique<const Environment>(objects);
+    snapshots_.apply(random_fibers(random_, 10));
+    present_ = snapshots_.newest();
+    surroundings_.environment = environment_.get();
+    surroundings_.fibers = present_->engine.get();
+    for (int i = 0; i < 100; ++i) {
+      candidates_.push_back(random_fibers(random_, random_.integer(1, 3)));
+    }
+  }
+
+  Random random_;
+  std::unique_ptr<const Environment> environment_;
+  FiberSnapshots snapshots_;
+  std::shared_ptr<const FiberSnapshot> present_;
+  Surroundings surroundings_;
+  std::vector<FiberAssembly> candidates_;
+  std::vector<FiberCheck> checks_;
+};
+
+TEST_F(CheckFibersTest, AnswersAsTheThreeQueriesDo) {
+  SCOPED_TRACE(seed_message());
+  surroundings_.allowed = {{"object0", AllowedPair::every_fiber, 0, -1}};
+  QueryOptions options;
+  options.margin = 0.05;
+  check_fibers(candidates_, surroundings_, options, checks_);
+  ASSERT_EQ(checks_.size(), candidates_.size());
+  const auto engine = make_engine("run_tree");
+  int free = 0;
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    QueryResult wanted;
+    environment_->query(candidates_[i], options, surroundings_.allowed, wanted);
+    expect_same(checks_[i].environment, wanted);
+    present_->engine->query_shape(candidates_[i], options, wanted);
+    expect_same(checks_[i].fibers, wanted);
+    engine->update(candidates_[i]);
+    engine->query(options, wanted);
+    expect_same(checks_[i].self, wanted);
+    EXPECT_TRUE(checks_[i].is_complete());
+    free += checks_[i].is_free() ? 1 : 0;
+  }
+  EXPECT_GT(free, 0);
+  EXPECT_LT(free, 100);
+}
+
+TEST_F(CheckFibersTest, TheFirstContactDecides) {
+  SCOPED_TRACE(seed_message());
+  QueryOptions options;
+  check_fibers(candidates_, surroundings_, options, checks_);
+  const std::vector<FiberCheck> all = checks_;
+  options.type = QueryType::FIRST;
+  check_fibers(candidates_, surroundings_, options, checks_);
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    EXPECT_EQ(checks_[i].is_free(), all[i].is_free());
+    const std::size_t count = checks_[i].self.contacts.size() + checks_[i].fibers.contacts.size() +
+                              checks_[i].environment.contacts.size();
+    EXPECT_EQ(count, checks_[i].is_free() ? 0U : 1U);
+  }
+}
+
+TEST_F(CheckFibersTest, WhatIsLeftOutHasNoContacts) {
+  QueryOptions options;
+  options.margin = 10.0;
+  surroundings_.fibers = nullptr;
+  surroundings_.self = false;
+  check_fibers(candidates_, surroundings_, options, checks_);
+  EXPECT_TRUE(checks_[0].fibers.contacts.empty());
+  EXPECT_TRUE(checks_[0].self.contacts.empty());
+  EXPECT_FALSE(checks_[0].environment.contacts.empty());
+  surroundings_.environment = nullptr;
+  check_fibers(candidates_, surroundings_, options, checks_);
+  EXPECT_TRUE(checks_[0].is_free());
+}
+
+TEST_F(CheckFibersTest, SaysWhichTheDeadlineDidNotReach) {
+  QueryOptions options;
+  options.margin = 10.0;
+  options.deadline = 1e-9;
+  check_fibers(candidates_, surroundings_, options, checks_);
+  EXPECT_FALSE(checks_.back().is_complete());
+  options.deadline = 0.0;
+  options.margin = -1.0;
+  EXPECT_THROW(check_fibers(candidates_, surroundings_, options, checks_), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace fiber::test

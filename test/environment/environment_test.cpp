@@ -1,0 +1,281 @@
+#include "fiber_proximity/environment/environment.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+#include "environment/random_shapes.hpp"
+#include "fiber_proximity/environment/axis_distance.hpp"
+
+namespace fiber::test {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::vector<EnvironmentObject> random_objects(Random& random, double extent) {
+  std::vector<EnvironmentObject> objects;
+  for (int i = 0; i < 3; ++i) {
+    for (const Shape& shape : random_shapes(random, 0.3 * extent)) {
+      if (shape.index() == 5 || random.chance(0.3)) {
+        continue;  // a half-space would be near everything
+      }
+      EnvironmentObject object{"object" + std::to_string(objects.size()),
+                               random_pose(random, extent),
+                               {{shape, random_pose(random, 0.1 * extent)}}};
+      if (random.chance(0.3)) {
+        object.shapes.push_back({SphereShape{0.1 * extent}, random_pose(random, 0.2 * extent)});
+      }
+      objects.push_back(object);
+    }
+  }
+  return objects;
+}
+
+FiberAssembly random_fibers(Random& random, double extent) {
+  std::vector<Vector3d> points;
+  std::vector<std::uint32_t> offsets{0};
+  std::vector<double> radii;
+  for (int fiber = 0; fiber < 4; ++fiber) {
+    Vector3d point = random.in_cube(extent);
+    for (int i = random.integer(2, 30); i > 0; --i) {
+      points.push_back(point);
+      point += random.in_cube(0.1 * extent);
+    }
+    offsets.push_back(static_cast<std::uint32_t>(points.size()));
+    radii.push_back(0.02 * extent * random.uniform(0.0, 1.0));
+  }
+  return {points, offsets, radii};
+}
+
+/// All pairs of a segment and a shape, by the distance in the shape's frame.
+std::vector<Contact> all_pairs(const FiberAssembly& fibers,
+                               const std::vector<EnvironmentObject>& objects) {
+  std::vector<Contact> pairs;
+  for (std::uint32_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
+    for (std::uint32_t p = fibers.offsets()[fiber]; p + 1 < fibers.offsets()[fiber + 1]; ++p) {
+      for (std::uint32_t i = 0; i < objects.size(); ++i) {
+        for (std::uint32_t j = 0; j < objects[i].shapes.size(); ++j) {
+          const Eigen::Isometry3d to_shape =
+              (objects[i].pose * objects[i].shapes[j].pose).inverse(Eigen::Isometry);
+          const Capsule capsule = fibers.capsule(p);
+          const AxisDistance axis = axis_distance(objects[i].shapes[j].shape, to_shape * capsule.p0,
+                                                  to_shape * capsule.p1, infinity);
+          Contact contact;
+          contact.fiber_a = fiber;
+          contact.segment_a = p - fibers.offsets()[fiber];
+          contact.fiber_b = i;
+          contact.segment_b = j;
+          contact.distance = axis.distance - capsule.radius;
+          contact.point_a = contact.point_b = contact.normal = Vector3d::Zero();
+          pairs.push_back(contact);
+        }
+      }
+    }
+  }
+  return pairs;
+}
+
+/// Of these pairs what a query is to report.
+std::vector<Contact> expected(std::vector<Contact> pairs, const QueryOptions& options) {
+  const auto beyond = [&](const Contact& pair) { return pair.distance > options.margin; };
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), beyond), pairs.end());
+  sort_by_distance(pairs);
+  const std::size_t most = options.type == QueryType::CLOSEST   ? 1
+                           : options.type == QueryType::LIMITED ? options.max_contacts
+                                                                : pairs.size();
+  pairs.resize(std::min(most, pairs.size()));
+  if (options.type == QueryType::FIBER_PAIRS) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, Contact> closest;
+    for (const Contact& pair : pairs) {
+      closest.emplace(std::pair(pair.fiber_a, pair.fiber_b), pair);
+    }
+    pairs.clear();
+    for (const auto& [fibers, pair] : closest) {
+      pairs.push_back(pair);
+    }
+  }
+  sort_by_key(pairs);
+  return pairs;
+}
+
+QueryResult ask(const Environment& environment, const FiberAssembly& fibers,
+                const QueryOptions& options, const AllowedPairs& allowed = {}) {
+  QueryResult result;
+  environment.query(fibers, options, allowed, result);
+  return result;
+}
+
+TEST(Environment, ReportsWhatBruteForceReports) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  for (const double extent : {1e-3, 1.0, 1e3}) {
+    for (int round = 0; round < 10; ++round) {
+      const std::vector<EnvironmentObject> objects = random_objects(random, extent);
+      const Environment environment(objects);
+      const FiberAssembly fibers = random_fibers(random, extent);
+      const std::vector<Contact> pairs = all_pairs(fibers, objects);
+      for (const QueryType type :
+           {QueryType::CLOSEST, QueryType::LIMITED, QueryType::ALL, QueryType::FIBER_PAIRS}) {
+        for (const double margin : {0.0, 0.1 * extent, infinity}) {
+          QueryOptions options;
+          options.type = type;
+          options.margin = margin;
+          options.max_contacts = 7;
+          const QueryResult result = ask(environment, fibers, options);
+          const std::vector<Contact> wanted = expected(pairs, options);
+          ASSERT_EQ(result.contacts.size(), wanted.size()) << static_cast<int>(type) << margin;
+          for (std::size_t i = 0; i < wanted.size(); ++i) {
+            ASSERT_EQ(result.contacts[i].key(), wanted[i].key()) << static_cast<int>(type);
+            ASSERT_NEAR(result.contacts[i].distance, wanted[i].distance, 1e-13 * extent);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(Environment, PointsNormalDistanceAndBoundsAgree) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  const std::vector<EnvironmentObject> objects = random_objects(random, 1.0);
+  const Environment environment(objects);
+  const FiberAssembly fibers = random_fibers(random, 1.0);
+  QueryOptions options;
+  options.margin = infinity;
+  const QueryResult result = ask(environment, fibers, options);
+  ASSERT_FALSE(result.contacts.empty());
+  for (const Contact& contact : result.contacts) {
+    EXPECT_NEAR(contact.normal.norm(), 1.0, 1e-12);
+    EXPECT_NEAR((contact.point_b - contact.point_a).dot(contact.normal), contact.distance, 1e-12);
+    const std::uint32_t first = fibers.offsets()[contact.fiber_a] + contact.segment_a;
+    const Capsule capsule = fibers.capsule(first);
+    const Vector3d on_axis = capsule.p0 + contact.s * (capsule.p1 - capsule.p0);
+    EXPECT_NEAR((contact.point_a - on_axis).norm(), capsule.radius, 1e-12);
+    EXPECT_LE(contact.lower, contact.distance);
+    EXPECT_LT(contact.distance, contact.upper);
+    EXPECT_LT(contact.upper - contact.distance, 1e-13);
+  }
+}
+
+TEST(Environment, FirstIsOneOfTheContactsAndNoneWithoutAny) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  QueryOptions options;
+  options.type = QueryType::FIRST;
+  for (int round = 0; round < 30; ++round) {
+    const std::vector<EnvironmentObject> objects = random_objects(random, 1.0);
+    const FiberAssembly fibers = random_fibers(random, 1.0);
+    const std::vector<Contact> pairs = all_pairs(fibers, objects);
+    const QueryResult result = ask(Environment(objects), fibers, options);
+    const bool any = std::any_of(pairs.begin(), pairs.end(),
+                                 [](const Contact& pair) { return pair.distance <= 0.0; });
+    ASSERT_EQ(result.contacts.size(), any ? 1U : 0U);
+    if (any) {
+      EXPECT_LE(result.contacts.front().distance, 0.0);
+    }
+  }
+}
+
+TEST(Environment, NothingIsNearerThanTheOthersLowerBound) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  for (int round = 0; round < 20; ++round) {
+    const std::vector<EnvironmentObject> objects = random_objects(random, 1.0);
+    const Environment environment(objects);
+    const FiberAssembly fibers = random_fibers(random, 1.0);
+    const std::vector<Contact> pairs = all_pairs(fibers, objects);
+    for (const QueryType type :
+         {QueryType::CLOSEST, QueryType::LIMITED, QueryType::ALL, QueryType::FIBER_PAIRS}) {
+      QueryOptions options;
+      options.type = type;
+      options.margin = random.chance(0.5) ? 0.05 : infinity;
+      options.max_contacts = 3;
+      const QueryResult result = ask(environment, fibers, options);
+      for (const Contact& pair : pairs) {
+        const bool reported =
+            std::any_of(result.contacts.begin(), result.contacts.end(),
+                        [&](const Contact& contact) { return contact.key() == pair.key(); });
+        if (!reported) {
+          ASSERT_GE(pair.distance, result.others_lower - 1e-13) << static_cast<int>(type);
+        }
+        ASSERT_GE(pair.distance, result.minimum_lower() - 1e-13);
+      }
+    }
+  }
+}
+
+TEST(Environment, AFarUnboundedSolidIsFound) {
+  const Environment environment(
+      {{"floor", Eigen::Isometry3d::Identity(), {{HalfSpaceShape{Vector3d::UnitZ(), -1.0}}}}});
+  const FiberAssembly fibers({{0, 0, 0}, {1000, 0, -0.75}}, {0, 2}, {0.125});
+  QueryOptions options;
+  options.margin = 0.125;
+  const QueryResult result = ask(environment, fibers, options);
+  ASSERT_EQ(result.contacts.size(), 1U);
+  EXPECT_NEAR(result.contacts[0].distance, 0.125, 1e-12);
+  EXPECT_EQ(result.contacts[0].s, 1.0);
+  EXPECT_TRUE(result.contacts[0].normal.isApprox(Vector3d(0, 0, -1)));
+}
+
+TEST(Environment, AllowedPairsAreNoPairs) {
+  EnvironmentObject gripper{"gripper", Eigen::Isometry3d::Identity(), {{SphereShape{10.0}}}};
+  EnvironmentObject table = gripper;
+  table.name = "table";
+  const Environment environment({gripper, table});
+  std::vector<Vector3d> points;
+  for (int i = 0; i < 6; ++i) {
+    points.emplace_back(0.1 * i, 0.0, 0.0);
+  }
+  points.insert(points.end(), points.begin(), points.end());
+  const FiberAssembly fibers(points, {0, 6, 12}, {0.01});
+  const auto count = [&](const AllowedPair& allowed) {
+    return ask(environment, fibers, {}, {allowed}).contacts.size();
+  };
+  EXPECT_EQ(ask(environment, fibers, {}).contacts.size(), 20U);
+  EXPECT_EQ(count({"gripper", 0, 0, 1}), 18U);
+  EXPECT_EQ(count({"gripper", 0, -2, -1}), 18U);
+  EXPECT_EQ(count({"gripper", 1, 0, -1}), 15U);
+  EXPECT_EQ(count({"", 1, 0, -1}), 10U);
+  EXPECT_EQ(count({"gripper", AllowedPair::every_fiber, 0, 0}), 18U);
+  EXPECT_EQ(count({"chair", AllowedPair::every_fiber, 0, -1}), 20U);
+  EXPECT_EQ(count({"", AllowedPair::every_fiber, 0, -1}), 0U);
+}
+
+TEST(Environment, NamesWhatItRefuses) {
+  const auto refusal = [](const std::vector<EnvironmentObject>& objects) {
+    try {
+      const Environment environment(objects);
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const Eigen::Isometry3d identity = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d scaled = identity;
+  scaled.linear() *= 2.0;
+  Eigen::Isometry3d nowhere = identity;
+  nowhere.translation().x() = std::nan("");
+  EXPECT_EQ(refusal({{"table", identity, {{SphereShape{1.0}}}}}), "");
+  EXPECT_EQ(refusal({{"", identity, {{SphereShape{1.0}}}}}), "an object has no name");
+  EXPECT_EQ(
+      refusal({{"table", identity, {{SphereShape{1.0}}, {SphereShape{-1.0}}}}}),
+      "object 'table', shape 1: radius of the sphere is -1, it must be finite, at least 0 and "
+      "at most 1e150 m");
+  EXPECT_NE(refusal({{"table", scaled, {{SphereShape{1.0}}}}}).find("'table': the orientation"),
+            std::string::npos);
+  EXPECT_NE(refusal({{"table", nowhere, {{SphereShape{1.0}}}}}).find("'table': a coordinate"),
+            std::string::npos);
+  EXPECT_NE(refusal({{"floor", identity, {{PlaneShape{{0, 0, 2}, 0.0}}}}}).find("normal is 2"),
+            std::string::npos);
+  EXPECT_NE(refusal({{"mesh", identity, {{std::shared_ptr<const TriangleMesh>()}}}}).find("null"),
+            std::string::npos);
+  EXPECT_NE(refusal({{"a", identity, {}}, {"a", identity, {}}}).find("two objects of the name 'a'"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace fiber::test

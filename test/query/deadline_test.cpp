@@ -1,0 +1,121 @@
+// What is left of an answer that a deadline cuts off.
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "fiber_proximity/query/brute_force.hpp"
+#include "support/contacts.hpp"
+#include "support/engines_test.hpp"
+
+namespace fiber::test {
+namespace {
+
+constexpr QueryType all_types[] = {QueryType::FIRST, QueryType::CLOSEST, QueryType::LIMITED,
+                                   QueryType::ALL, QueryType::FIBER_PAIRS};
+
+using DeadlineTest = EnginesTest;
+
+FiberAssembly many_walks(Random& random) {
+  AssemblyBuilder builder;
+  for (int fiber = 0; fiber < 60; ++fiber) {
+    builder.add_fiber(random_walk(random, 50, 0.05));
+  }
+  return builder.build({0.02});
+}
+
+TEST_P(DeadlineTest, ADeadlineLeavesAnAnswerThatIsTrue) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  const FiberAssembly fibers = many_walks(random);
+  for (const QueryType type : all_types) {
+    QueryOptions options;
+    options.type = QueryType::ALL;
+    const QueryResult all = ask(fibers, options);
+    options.type = type;
+    const QueryResult whole = ask(fibers, options);
+    for (const double deadline : {1e-9, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e3}) {
+      SCOPED_TRACE("type " + std::to_string(static_cast<int>(type)) + ", deadline " +
+                   std::to_string(deadline));
+      options.deadline = deadline;
+      const QueryResult found = ask(fibers, options);
+      for (const Contact& contact : found.contacts) {
+        ASSERT_TRUE(contains(all.contacts, contact));
+      }
+      ASSERT_LE(found.minimum_lower(), all.closest()->upper);
+      if (found.complete) {
+        ASSERT_TRUE(same_contacts(found.contacts, whole.contacts));
+      } else {
+        ASSERT_EQ(found.others_lower, -(1.0 + 0x1p-51) * 0.04);
+      }
+      if (deadline == 1e-9 && type != QueryType::FIRST) {
+        ASSERT_FALSE(found.complete);
+      }
+      if (deadline == 1e3) {
+        ASSERT_TRUE(found.complete);
+      }
+    }
+  }
+}
+
+TEST_P(DeadlineTest, ADeadlineHoldsForShapesToo) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  const FiberAssembly fibers = many_walks(random);
+  const FiberAssembly shape = many_walks(random);
+  const std::unique_ptr<ProximityEngine> engine = make_engine(GetParam());
+  engine->update(fibers);
+  QueryOptions options;
+  options.deadline = 1e-9;
+  QueryResult result;
+  engine->query_shape(shape, options, result);
+  EXPECT_FALSE(result.complete);
+  options.deadline = 0.0;
+  engine->query_shape(shape, options, result);
+  EXPECT_TRUE(result.complete);
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, DeadlineTest, all_engines(), name_of_engine);
+
+TEST(RunTreeDeadline, ADeadlineCutsOffCandidatesThatWereKept) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  const FiberAssembly fibers = many_walks(random);
+  const std::unique_ptr<ProximityEngine> engine = make_engine("run_tree", {1, 0.01});
+  QueryOptions options;
+  QueryResult whole;
+  engine->update(fibers);
+  engine->query(options, whole);  // the next one only judges
+  ASSERT_TRUE(whole.complete);
+  options.deadline = 1e-9;
+  QueryResult found;
+  engine->query(options, found);
+  EXPECT_FALSE(found.complete);
+  EXPECT_TRUE(found.contacts.empty());
+  EXPECT_LT(found.minimum_lower(), -0.03);
+  options.deadline = 0.0;
+  engine->query(options, found);
+  EXPECT_TRUE(found.complete);
+  EXPECT_TRUE(same_contacts(found.contacts, whole.contacts));
+}
+
+TEST(RunTreeDeadline, WhatADeadlineLeavesIsNotKept) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  const FiberAssembly fibers = many_walks(random);
+  const std::unique_ptr<ProximityEngine> engine = make_engine("run_tree", {1, 0.01});
+  engine->update(fibers);
+  QueryOptions options;
+  options.deadline = 1e-9;
+  QueryResult found;
+  engine->query(options, found);
+  ASSERT_FALSE(found.complete);
+  options.deadline = 0.0;
+  engine->query(options, found);
+  QueryResult expected;
+  brute_force(fibers, options, expected);
+  EXPECT_TRUE(found.complete);
+  EXPECT_TRUE(same_contacts(found.contacts, expected.contacts));
+}
+
+}  // namespace
+}  // namespace fiber::test

@@ -1,0 +1,76 @@
+// What a tolerance of the closest pairs promises.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fiber_proximity/query/brute_force.hpp"
+#include "support/engines_test.hpp"
+
+namespace fiber::test {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+using ToleranceTest = EnginesTest;
+
+std::vector<double> sorted_distances(const QueryResult& result) {
+  std::vector<double> distances;
+  for (const Contact& contact : result.contacts) {
+    distances.push_back(contact.distance);
+  }
+  std::sort(distances.begin(), distances.end());
+  return distances;
+}
+
+TEST_P(ToleranceTest, NothingIsCloserByMoreThanTheTolerance) {
+  for_each_assembly(3, [this](const FiberAssembly& fibers, Random& random) {
+    for (const QueryType type : {QueryType::CLOSEST, QueryType::LIMITED}) {
+      QueryOptions options;
+      options.type = type;
+      options.margin = infinity;
+      options.max_contacts = static_cast<std::uint32_t>(random.integer(1, 8));
+      QueryResult truth;
+      brute_force(fibers, options, truth);
+      options.tolerance = random.chance(0.5) ? 0.0 : random.uniform(0.0, 0.1);
+      options.relative_tolerance = random.chance(0.5) ? 0.0 : random.uniform(0.0, 1.0);
+      const std::vector<double> found = sorted_distances(ask(fibers, options));
+      const std::vector<double> closest = sorted_distances(truth);
+      ASSERT_EQ(found.size(), closest.size());
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        const double relative = options.relative_tolerance / (1.0 + options.relative_tolerance);
+        // A bound is that of the farthest reported pair.
+        const double slack = std::max(options.tolerance, std::abs(found.back()) * relative);
+        ASSERT_LE(found[i], closest[i] + slack * (1.0 + 1e-15) + 1e-15 * std::abs(found[i]));
+      }
+    }
+  });
+}
+
+TEST_P(ToleranceTest, EveryPairOfFibersIsWithinTheTolerance) {
+  for_each_assembly(3, [this](const FiberAssembly& fibers, Random& random) {
+    QueryOptions options;
+    options.type = QueryType::FIBER_PAIRS;
+    options.margin = infinity;
+    QueryResult truth;
+    brute_force(fibers, options, truth);
+    options.tolerance = random.uniform(0.0, 0.1);
+    const QueryResult found = ask(fibers, options);
+    ASSERT_EQ(found.contacts.size(), truth.contacts.size());
+    for (const Contact& best : truth.contacts) {
+      const auto same =
+          std::find_if(found.contacts.begin(), found.contacts.end(), [&](const Contact& each) {
+            return each.fiber_a == best.fiber_a && each.fiber_b == best.fiber_b;
+          });
+      ASSERT_NE(same, found.contacts.end());
+      ASSERT_LE(same->distance,
+                best.distance + options.tolerance + 1e-15 * std::abs(best.distance));
+    }
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(Engines, ToleranceTest, all_engines(), name_of_engine);
+
+}  // namespace
+}  // namespace fiber::test

@@ -1,0 +1,131 @@
+#pragma once
+
+#include <geometry_msgs/TransformStamped.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include <future>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "fiber_proximity/ros/environment_inputs.hpp"
+#include "ros/messages.hpp"
+#include "ros/node_test.hpp"
+#include "support/error_of.hpp"
+
+namespace environment_test {
+
+using fiber_proximity::Obstacle;
+using fiber_proximity_ros::EnvironmentInputs;
+
+/// EnvironmentInputs with parameters and topics of its own, in the frame `world`.
+class EnvironmentFixture : public ::testing::Test {
+ protected:
+  EnvironmentFixture() { own.deleteParam(""); }
+
+  fiber_proximity_ros::EnvironmentOptions options() const {
+    return fiber_proximity_ros::read_environment_options(node, own);
+  }
+
+  void start() {
+    inputs = std::make_unique<EnvironmentInputs>(node, own, options(), frame, 0.1, [] {});
+  }
+
+  /// Updates and handles callbacks until the condition holds.
+  bool wait_for(const std::function<bool()>& condition) const {
+    return node_test::wait_for([&] {
+      inputs->update(ros::Time::now());
+      return condition();
+    });
+  }
+
+  template <class Message>
+  ros::Publisher advertise(const std::string& topic) {
+    const ros::Publisher publisher = own.advertise<Message>(topic, 1000);
+    EXPECT_TRUE(node_test::wait_for([&] { return publisher.getNumSubscribers() > 0; }));
+    return publisher;
+  }
+
+  template <class Service>
+  typename Service::Response call(const std::string& name,
+                                  const typename Service::Request& request) const {
+    Service service;
+    service.request = request;
+    // Answered by this thread, so asked by another.
+    auto called = std::async(std::launch::async,
+                             [&] { return ros::service::call(own.resolveName(name), service); });
+    EXPECT_TRUE(node_test::wait_for(
+        [&] { return called.wait_for(std::chrono::seconds(0)) == std::future_status::ready; }));
+    EXPECT_TRUE(called.get());
+    return service.response;
+  }
+
+  std::string apply(const std::vector<Obstacle>& obstacles) const {
+    fiber_proximity::ApplyObstacles::Request request;
+    request.obstacles = obstacles;
+    const auto response = call<fiber_proximity::ApplyObstacles>("apply_obstacles", request);
+    EXPECT_EQ(response.success != 0, response.message.empty());
+    return response.message;
+  }
+
+  static geometry_msgs::TransformStamped transform(const std::string& frame, double x) {
+    geometry_msgs::TransformStamped transform;
+    transform.header = test_messages::header("world", ros::Time::now());
+    transform.child_frame_id = frame;
+    transform.transform.translation.x = x;
+    transform.transform.rotation.w = 1.0;
+    return transform;
+  }
+
+  /// A ball of 0.5 m, at this place along x.
+  static Obstacle ball(const std::string& id, double x = 0.0, const std::string& frame = "") {
+    Obstacle obstacle;
+    obstacle.header.frame_id = frame;
+    obstacle.id = id;
+    obstacle.operation = Obstacle::ADD;
+    obstacle.pose.position.x = x;
+    obstacle.pose.orientation.w = 1.0;
+    obstacle.primitives.resize(1);
+    obstacle.primitives[0].type = shape_msgs::SolidPrimitive::SPHERE;
+    obstacle.primitives[0].dimensions = {0.5};
+    return obstacle;
+  }
+
+  static Obstacle removal(const std::string& id) {
+    Obstacle obstacle;
+    obstacle.id = id;
+    obstacle.operation = Obstacle::REMOVE;
+    return obstacle;
+  }
+
+  using Places = std::map<std::string, double>;
+
+  /// Name and x of all there is.
+  Places places() const {
+    Places places;
+    for (const fiber::EnvironmentObject& object : inputs->environment()->objects()) {
+      places[object.name] = object.pose.translation().x();
+    }
+    return places;
+  }
+
+  fiber_proximity::InputStatistics statistics_of(const std::string& topic) const {
+    for (const auto& statistics : inputs->statistics(ros::Time::now())) {
+      if (statistics.topic == topic) {
+        return statistics;
+      }
+    }
+    ADD_FAILURE() << "no statistics of " << topic;
+    return {};
+  }
+
+  ros::NodeHandle node;
+  ros::NodeHandle own{std::string("~") +
+                      ::testing::UnitTest::GetInstance()->current_test_info()->name()};
+  tf2_ros::StaticTransformBroadcaster static_transforms;
+  fiber_proximity_ros::FixedFrame frame{"world", node};
+  std::unique_ptr<EnvironmentInputs> inputs;
+};
+
+}  // namespace environment_test

@@ -1,0 +1,235 @@
+#include "fiber_proximity/sim/effect.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <ostream>
+#include <vector>
+
+#include "fiber_proximity/sim/effects/attachment.hpp"
+#include "fiber_proximity/sim/effects/bend.hpp"
+#include "fiber_proximity/sim/effects/damping.hpp"
+#include "fiber_proximity/sim/effects/drag.hpp"
+#include "fiber_proximity/sim/effects/gravity.hpp"
+#include "fiber_proximity/sim/effects/inextensible.hpp"
+#include "fiber_proximity/sim/effects/stretch.hpp"
+#include "fiber_proximity/sim/effects/twist.hpp"
+#include "sim/effect_derivatives.hpp"
+#include "sim/random_rods.hpp"
+
+namespace fiber::test {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+using EffectPointer = std::unique_ptr<Effect>;
+
+constexpr TimeStep a_step{1.5, 0.02};
+
+/// Makes an effect for rods at rest, and what it needs of them.
+struct EffectCase {
+  const char* name;
+  bool has_twist;
+  std::function<EffectPointer(Rods&, Random&)> make;
+};
+
+std::ostream& operator<<(std::ostream& out, const EffectCase& effect_case) {
+  return out << effect_case.name;
+}
+
+EffectPointer make_drag(Rods& /*rods*/, Random& random) {
+  Drag::Options options;
+  options.fluid_density = random.uniform(1.0, 1000.0);
+  options.along = random.uniform(0.0, 1.0);
+  options.wind = {random.in_cube(10.0), random.in_cube(3.0), 0.7, 2.0};
+  return std::make_unique<Drag>(options);
+}
+
+EffectPointer make_curved_bend(Rods& rods, Random& random) {
+  rods.natural_curvatures.resize(rods.positions.size());
+  for (double& curvature : rods.natural_curvatures) {
+    curvature = random.uniform(0.0, 3.0);
+  }
+  return std::make_unique<Bend>();
+}
+
+/// With tensions that an earlier step has left.
+EffectPointer make_inextensible(Rods& rods, Random& random) {
+  auto inextensible = std::make_unique<Inextensible>(rods);
+  Rods elsewhere = rods;
+  inextensible->begin_step(elsewhere, a_step);
+  displace(elsewhere, random, 0.05);
+  inextensible->end_step(elsewhere, a_step);
+  return inextensible;
+}
+
+/// Clamps at both ends of all rods, which lie near to how the ends lie.
+EffectPointer make_clamps(Rods& rods, Random& random) {
+  auto attachment = std::make_unique<Attachment>();
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    for (const bool is_first : {true, false}) {
+      const std::uint32_t node = is_first ? 0 : rods.node_count(rod) - 1;
+      const std::uint32_t edge = rods.first(rod) + (is_first ? 0 : node - 1);
+      Placement placement;
+      placement.position = rods.positions[rods.first(rod) + node];
+      placement.tangent = (rods.positions[edge + 1] - rods.positions[edge]).normalized();
+      placement.tangent = (placement.tangent + 0.5 * random.in_cube()).normalized();
+      placement.director = placement.tangent.unitOrthogonal();
+      attachment->add(rods, {rod, node, Attachment::Kind::CLAMP,
+                             [placement](double /*time*/) { return placement; }});
+    }
+  }
+  return attachment;
+}
+
+template <class E>
+EffectPointer make(Rods& /*rods*/, Random& /*random*/) {
+  return std::make_unique<E>();
+}
+
+class EffectTest : public testing::TestWithParam<EffectCase> {
+ protected:
+  static constexpr double edge_length = 0.3;
+
+  /// Rods at rest with an effect on them.
+  void make(Random& random) {
+    rods_ = random_rods(random, edge_length);
+    twist_ = GetParam().has_twist ? std::make_unique<Twist>(rods_) : nullptr;
+    effect_ = GetParam().make(rods_, random);
+  }
+
+  /// The middle of a step that deforms the rods.
+  void begin_random_step(Random& random) {
+    displace(rods_, random, 0.1 * edge_length, 0.5);
+    give_velocities(rods_, random, 2.0);
+    effect_->begin_step(rods_, a_step);
+    displace(rods_, random, 0.1 * edge_length, 0.5);
+  }
+
+  Rods rods_;
+  EffectPointer twist_;  // only for the frames that it gives the rods
+  EffectPointer effect_;
+};
+
+TEST_P(EffectTest, HasTheGradientOfItsEnergy) {
+  SCOPED_TRACE(seed_message());
+  Random random(1);
+  for (int round = 0; round < 50; ++round) {
+    make(random);
+    begin_random_step(random);
+    for (std::uint32_t rod = 0; rod < rods_.count(); ++rod) {
+      const VectorXd found = derivatives_of(*effect_, rods_, rod).gradient;
+      const VectorXd expected = gradient_by_differences(*effect_, rods_, rod, 1e-6);
+      // What differences are wrong by: near a straight rod, much, if it wants to be curved.
+      const VectorXd coarse = gradient_by_differences(*effect_, rods_, rod, 2e-6);
+      const double error = 1e-9 + 2.0 * (coarse - expected).cwiseAbs().maxCoeff();
+      const double scale = expected.cwiseAbs().maxCoeff() + std::abs(effect_->energy(rods_, rod));
+      ASSERT_LE((found - expected).cwiseAbs().maxCoeff(), 1e-7 * scale + error)
+          << "rod " << rod << " of round " << round << "\nfound\n"
+          << found.transpose() << "\nexpected\n"
+          << expected.transpose();
+    }
+  }
+}
+
+/// The matrix that stands for the Hessian lets the energy rise in no direction faster than it could
+/// fall: it is symmetric as it is stored, and positive semidefinite.
+TEST_P(EffectTest, HasAPositiveSemidefiniteMatrix) {
+  SCOPED_TRACE(seed_message());
+  Random random(2);
+  for (int round = 0; round < 50; ++round) {
+    make(random);
+    begin_random_step(random);
+    for (std::uint32_t rod = 0; rod < rods_.count(); ++rod) {
+      const MatrixXd hessian = derivatives_of(*effect_, rods_, rod).hessian;
+      const VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<MatrixXd>(hessian).eigenvalues();
+      ASSERT_GE(eigenvalues.minCoeff(), -1e-12 * eigenvalues.maxCoeff() - 1e-300)
+          << "rod " << rod << " of round " << round;
+    }
+  }
+}
+
+/// Those whose matrix is the Hessian, no part of it left out, where all edges are stretched.
+class ExactEffectTest : public EffectTest {};
+
+TEST_P(ExactEffectTest, HasItsHessian) {
+  SCOPED_TRACE(seed_message());
+  Random random(3);
+  for (int round = 0; round < 50; ++round) {
+    make(random);
+    begin_random_step(random);
+    for (Vector3d& position : rods_.positions) {
+      position *= 3.0;  // all edges are under tension then
+    }
+    for (std::uint32_t rod = 0; rod < rods_.count(); ++rod) {
+      const MatrixXd found = derivatives_of(*effect_, rods_, rod).hessian;
+      const MatrixXd expected = hessian_by_differences(*effect_, rods_, rod, 1e-5);
+      ASSERT_LE((found - expected).cwiseAbs().maxCoeff(),
+                1e-7 * (1.0 + expected.cwiseAbs().maxCoeff()))
+          << "rod " << rod << " of round " << round;
+    }
+  }
+}
+
+/// A rod's energy is that of the same rod elsewhere among others.
+TEST_P(EffectTest, ActsOnEachRodAlone) {
+  SCOPED_TRACE(seed_message());
+  Random random(4);
+  make(random);
+  begin_random_step(random);
+  for (std::uint32_t rod = 0; rod < rods_.count(); ++rod) {
+    const double energy = effect_->energy(rods_, rod);
+    Rods moved = rods_;
+    for (std::uint32_t i = 0; i < moved.positions.size(); ++i) {
+      if (i < moved.first(rod) || i >= moved.end(rod)) {
+        moved.positions[i] += random.in_cube();
+      }
+    }
+    EXPECT_EQ(effect_->energy(moved, rod), energy);
+  }
+}
+
+const auto name_of = [](const auto& effect_case) { return std::string(effect_case.param.name); };
+
+const std::vector<EffectCase> exact_cases = {
+    {"gravity", false,
+     [](Rods& /*rods*/, Random& random) -> EffectPointer {
+       return std::make_unique<Gravity>(random.in_cube(10.0));
+     }},
+    {"stretch", false, make<Stretch>},
+    {"drag", false, make_drag},
+};
+INSTANTIATE_TEST_SUITE_P(Exact, EffectTest, testing::ValuesIn(exact_cases), name_of);
+INSTANTIATE_TEST_SUITE_P(Exact, ExactEffectTest, testing::ValuesIn(exact_cases), name_of);
+
+/// What bends a straight rod a little meets all of the Hessian, to either side.
+TEST(Bend, HasItsHessianWhereARodIsStraight) {
+  Rods rods;
+  rods.add({{0, 0, 0}, {0.3, 0, 0}, {0.5, 0, 0}, {0.9, 0, 0}}, 0.01, {1.0, 0.7, 0.0, 1.0, 0.0});
+  const MatrixXd found = derivatives_of(Bend(), rods, 0).hessian;
+  const MatrixXd expected = hessian_by_differences(Bend(), rods, 0, 1e-6);
+  EXPECT_LE((found - expected).cwiseAbs().maxCoeff(), 1e-7 * expected.cwiseAbs().maxCoeff());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Approximate, EffectTest,
+    testing::Values(EffectCase{"bend", false, make<Bend>},
+                    EffectCase{"bend_of_curved_rods", false, make_curved_bend},
+                    EffectCase{"bend_beside_twist", true, make<Bend>},
+                    EffectCase{"twist", true,
+                               [](Rods& rods, Random& /*random*/) -> EffectPointer {
+                                 return std::make_unique<Twist>(rods);
+                               }},
+                    EffectCase{"damping", false,
+                               [](Rods& /*rods*/, Random& random) -> EffectPointer {
+                                 return std::make_unique<Damping>(random.uniform(0.01, 0.1));
+                               }},
+                    EffectCase{"inextensible", false, make_inextensible},
+                    EffectCase{"clamps", false, make_clamps},
+                    EffectCase{"clamps_of_twisted_rods", true, make_clamps}),
+    name_of);
+
+}  // namespace
+}  // namespace fiber::test

@@ -1,0 +1,258 @@
+// Whatever a scene asks for, rods stay somewhere: no number that is none, and no more energy than
+// was put in.
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "fiber_proximity/sim/effects/damping.hpp"
+#include "fiber_proximity/sim/effects/drag.hpp"
+#include "fiber_proximity/sim/effects/twist.hpp"
+#include "sim/random_rods.hpp"
+#include "sim/rod_scene.hpp"
+
+namespace fiber::test {
+namespace {
+
+using Eigen::Vector3d;
+
+const Vector3d gravity(0.0, 0.0, -9.81);
+
+::testing::AssertionResult all_finite(const Rods& rods) {
+  for (std::size_t i = 0; i < rods.positions.size(); ++i) {
+    if (!rods.positions[i].allFinite() || !rods.velocities[i].allFinite() ||
+        (!rods.angles.empty() &&
+         !(std::isfinite(rods.angles[i]) && std::isfinite(rods.spins[i])))) {
+      return ::testing::AssertionFailure() << "node " << i;
+    }
+  }
+  return ::testing::AssertionSuccess();
+}
+
+/// That of motion, and of all that gives it back: not of what only damps.
+double mechanical_energy(const Rods& rods, const std::vector<const Effect*>& storing) {
+  double energy = kinetic_energy(rods);
+  for (const Effect* effect : storing) {
+    energy += energy_of(*effect, rods);
+  }
+  return energy;
+}
+
+/// How far the potential of gravity can fall by what a scene's rods let it [J].
+double reach_of_gravity(const Rods& rods) {
+  double reach = 0.0;
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    double length = 0.0;
+    double mass = 0.0;
+    for (std::uint32_t i = rods.first(rod); i < rods.end(rod); ++i) {
+      length += rods.rest_lengths[i];
+      mass += rods.masses[i];
+    }
+    reach += 2.0 * mass * gravity.norm() * length;
+  }
+  return reach;
+}
+
+/// A rod that runs back along itself at some of its nodes.
+std::vector<Vector3d> folded_chain(Random& random, int nodes, double edge_length) {
+  std::vector<Vector3d> points = random_chain(random, nodes, edge_length);
+  for (std::size_t i = 2; i < points.size(); ++i) {
+    if (random.chance(0.3)) {
+      points[i] = points[i - 2] + (random.chance(0.5) ? 1e-9 : 0.0) * random.in_cube();
+    }
+  }
+  return points;
+}
+
+struct RandomScene {
+  Rods rods;
+  Effects effects;
+  std::vector<const Effect*> storing;  // of the effects, those that give back what they take
+  bool is_windy = false;
+  StepperOptions options;
+  double step;
+  std::string description;
+};
+
+RandomScene random_scene(Random& random) {
+  RandomScene scene;
+  std::ostringstream text;
+  const int count = random.integer(1, 3);
+  for (int rod = 0; rod < count; ++rod) {
+    const RodMaterial material{std::pow(10.0, random.uniform(4.0, 12.0)),
+                               std::pow(10.0, random.uniform(4.0, 12.0)),
+                               std::pow(10.0, random.uniform(2.0, 4.0))};
+    const double length = std::pow(10.0, random.uniform(-2.0, 1.0));
+    const double radius = length * std::pow(10.0, random.uniform(-4.0, -1.5));
+    const int nodes = random.integer(2, 40);
+    const bool is_folded = random.chance(0.3);
+    scene.rods.add(is_folded ? folded_chain(random, nodes, length / nodes)
+                             : random_chain(random, nodes, length / nodes),
+                   radius, solid_round_section(material, radius));
+    text << nodes << " nodes, length " << length << ", radius " << radius << ", E "
+         << material.youngs_modulus << (is_folded ? ", folded; " : "; ");
+  }
+  const auto maybe = [&](const char* name, bool is_storing, auto make) {
+    if (random.chance(0.7)) {
+      text << name << ' ';
+      scene.effects.push_back(make());
+      if (is_storing) {
+        scene.storing.push_back(scene.effects.back().get());
+      }
+    }
+  };
+  maybe("twist", true, [&] { return std::make_unique<Twist>(scene.rods); });
+  displace(scene.rods, random, 0.0, 3.0);
+  maybe("gravity", true, [&] { return std::make_unique<Gravity>(gravity); });
+  maybe("stretch", true, [&] { return std::make_unique<Stretch>(); });
+  maybe("bend", true, [&] { return std::make_unique<Bend>(); });
+  maybe("damping", false,
+        [&] { return std::make_unique<Damping>(std::pow(10.0, random.uniform(-4.0, 1.0))); });
+  maybe("drag", false, [&] {
+    scene.is_windy = true;
+    Drag::Options options;
+    options.fluid_density = std::pow(10.0, random.uniform(0.0, 3.0));
+    options.wind = {random.in_cube(5.0), random.in_cube(5.0), 0.3, 1.0};
+    return std::make_unique<Drag>(options);
+  });
+  maybe("holds", true, [&] {
+    auto held = std::make_unique<Attachment>();
+    for (std::uint32_t rod = 0; rod < scene.rods.count(); ++rod) {
+      const Vector3d tangent = random.direction();
+      const Placement placement{scene.rods.positions[scene.rods.first(rod)], tangent,
+                                tangent.unitOrthogonal()};
+      Attachment::Hold hold = random.chance(0.5) ? clamp(0, placement) : pin(0, placement.position);
+      hold.rod = rod;
+      held->add(scene.rods, hold);
+    }
+    return held;
+  });
+  scene.options.iterations = static_cast<std::uint32_t>(random.integer(1, 3));
+  scene.options.threads = 1;
+  scene.step = std::pow(10.0, random.uniform(-3.0, -1.5));
+  text << ", " << scene.options.iterations << " iterations, step " << scene.step;
+  scene.description = text.str();
+  return scene;
+}
+
+TEST(Robustness, RandomScenesStayBounded) {
+  SCOPED_TRACE(seed_message());
+  Random random(1);
+  for (int round = 0; round < 30; ++round) {
+    RandomScene scene = random_scene(random);
+    SCOPED_TRACE("round " + std::to_string(round) + ": " + scene.description);
+    const double before = mechanical_energy(scene.rods, scene.storing);
+    const double allowed = before + 1e-6 * (std::abs(before) + reach_of_gravity(scene.rods));
+    Stepper stepper(std::move(scene.rods), std::move(scene.effects), scene.options);
+    const int steps = round == 0 ? 10000 : 150;
+    for (int i = 0; i < steps; ++i) {
+      stepper.step(scene.step);
+      ASSERT_TRUE(all_finite(stepper.rods())) << "step " << i;
+      ASSERT_TRUE(scene.is_windy || mechanical_energy(stepper.rods(), scene.storing) <= allowed)
+          << "step " << i << ", from " << before << " J to "
+          << mechanical_energy(stepper.rods(), scene.storing) << " J";
+    }
+  }
+}
+
+/// A rod on a pin, stiff, heavy or not: its energy never exceeds what it began with.
+TEST(Robustness, StiffAndFoldedRodsGainNoEnergy) {
+  SCOPED_TRACE(seed_message());
+  Random random(2);
+  for (int round = 0; round < 30; ++round) {
+    const double length = std::pow(10.0, random.uniform(-2.0, 1.0));
+    const double radius = length * std::pow(10.0, random.uniform(-3.0, -1.5));
+    const RodMaterial material{1e10, 4e9, std::pow(10.0, random.uniform(2.0, 4.0))};
+    const int nodes = round == 0 ? 1001 : random.integer(2, 30);
+    Rods rods;
+    rods.add(round % 2 == 0 ? folded_chain(random, nodes, length / nodes)
+                            : random_chain(random, nodes, length / nodes),
+             radius, solid_round_section(material, radius));
+    const double step = std::pow(10.0, random.uniform(-3.0, -1.5));
+    SCOPED_TRACE("round " + std::to_string(round) + ": " + std::to_string(nodes) +
+                 " nodes, length " + std::to_string(length) + ", radius " + std::to_string(radius) +
+                 ", step " + std::to_string(step));
+    auto held = hold(rods, {pin(0, rods.positions[0])});
+    Effects all = effects(std::make_unique<Stretch>(), std::make_unique<Bend>(),
+                          std::make_unique<Gravity>(gravity));
+    const std::vector<const Effect*> storing{all[0].get(), all[1].get(), all[2].get()};
+    all.push_back(std::move(held));
+    const double before = mechanical_energy(rods, storing);
+    const double allowed = before + 1e-6 * (std::abs(before) + reach_of_gravity(rods));
+    StepperOptions options;
+    options.threads = 1;
+    Stepper stepper(rods, std::move(all), options);
+    const int steps = round == 1 ? 10000 : 150;
+    for (int i = 0; i < steps; ++i) {
+      stepper.step(step);
+      ASSERT_TRUE(all_finite(stepper.rods())) << "step " << i;
+      ASSERT_LE(mechanical_energy(stepper.rods(), storing), allowed)
+          << "step " << i << ", from " << before << " J";
+    }
+  }
+}
+
+/// A gripper that is at 5 m/s at once, and stops as suddenly, after a metre.
+TEST(Robustness, AFastGripperDragsARodAlong) {
+  for (const bool has_twist : {false, true}) {
+    for (const int nodes : {2, 3, 51, 1001}) {
+      SCOPED_TRACE(std::to_string(nodes) + " nodes" + (has_twist ? ", with twist" : ""));
+      Rods rods;
+      rods.add(straight({0, 0, 0}, {1, 0, 0}, nodes - 1), 0.005,
+               solid_round_section({1e9, 4e8, 1000.0}, 0.005));
+      Effects all = effects(std::make_unique<Gravity>(gravity), std::make_unique<Stretch>(),
+                            std::make_unique<Bend>(), std::make_unique<Damping>(0.01));
+      if (has_twist) {
+        all.push_back(std::make_unique<Twist>(rods));
+      }
+      const auto path =
+          [director = Vector3d(has_twist ? rods.directors[0] : Vector3d::UnitY())](double time) {
+            return Placement{{0.0, std::min(1.0, 5.0 * time), 0.0}, Vector3d::UnitX(), director};
+          };
+      all.push_back(hold(rods, {{0, 0, Attachment::Kind::CLAMP, path}}));
+      StepperOptions options;
+      options.threads = 1;
+      Stepper stepper(rods, std::move(all), options);
+      for (int i = 0; i < 120; ++i) {
+        stepper.step(1.0 / 240.0);
+        ASSERT_TRUE(all_finite(stepper.rods())) << "step " << i;
+        double length = 0.0;
+        for (int node = 0; node + 1 < nodes; ++node) {
+          length += (stepper.rods().positions[node + 1] - stepper.rods().positions[node]).norm();
+        }
+        ASSERT_LT(length, 1.5) << "step " << i;
+      }
+      EXPECT_NEAR(stepper.rods().positions[0].y(), 1.0, 1e-12);
+    }
+  }
+}
+
+/// As many turns as one likes between two clamps are no fewer when the rod is measured.
+TEST(Robustness, TwistCountsItsTurns) {
+  constexpr int segments = 20;
+  constexpr double turns = 3.0;
+  Rods rods;
+  rods.add(straight({0, 0, 0}, {1, 0, 0}, segments), 0.01, {1e4, 100.0, 0.5, 1.0, 1e-4});
+  auto twist = std::make_unique<Twist>(rods);
+  const Vector3d director = rods.directors[0];
+  const auto screw = [director](double time) {
+    const Eigen::AngleAxisd turn(2.0 * M_PI * turns * std::min(time, 1.0), Vector3d::UnitX());
+    return Placement{Vector3d::UnitX(), Vector3d::UnitX(), turn * director};
+  };
+  auto held = hold(rods, {clamp(0, {Vector3d::Zero(), Vector3d::UnitX(), director}),
+                          {0, segments, Attachment::Kind::CLAMP, screw}});
+  const Twist& watched = *twist;
+  Stepper stepper(rods,
+                  effects(std::make_unique<Stretch>(), std::make_unique<Bend>(), std::move(twist),
+                          std::move(held)),
+                  precise());
+  for (int i = 0; i < 300; ++i) {
+    stepper.step(0.01);
+  }
+  for (std::uint32_t node = 1; node < segments; ++node) {
+    EXPECT_NEAR(watched.twist_at(stepper.rods(), node), 2.0 * M_PI * turns / segments, 1e-3);
+  }
+}
+
+}  // namespace
+}  // namespace fiber::test

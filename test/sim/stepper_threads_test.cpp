@@ -1,0 +1,60 @@
+#include <gtest/gtest.h>
+
+#include "fiber_proximity/sim/effects/damping.hpp"
+#include "fiber_proximity/sim/effects/drag.hpp"
+#include "fiber_proximity/sim/effects/twist.hpp"
+#include "sim/random_rods.hpp"
+#include "sim/rod_scene.hpp"
+
+namespace fiber::test {
+namespace {
+
+using Eigen::Vector3d;
+
+/// All effects at once on some dozens of rods, each held at one end.
+Rods after_some_steps(Rods rods, Integrator integrator, std::uint32_t threads) {
+  auto twist = std::make_unique<Twist>(rods);
+  auto held = std::make_unique<Attachment>();
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    Attachment::Hold pinned = pin(0, rods.positions[rods.first(rod)]);
+    pinned.rod = rod;
+    held->add(rods, pinned);
+  }
+  Drag::Options wind;
+  wind.wind.mean = {5.0, 1.0, 0.0};
+  wind.wind.gust = {2.0, 0.0, 1.0};
+  StepperOptions options;
+  options.integrator = integrator;
+  options.threads = threads;
+  Stepper stepper(
+      rods,
+      effects(std::make_unique<Gravity>(Vector3d(0, 0, -9.81)), std::make_unique<Stretch>(),
+              std::make_unique<Bend>(), std::move(twist), std::make_unique<Damping>(0.01),
+              std::make_unique<Drag>(wind), std::move(held)),
+      options);
+  for (int i = 0; i < 100; ++i) {
+    stepper.step(0.01);
+  }
+  return stepper.rods();
+}
+
+TEST(StepperThreads, GiveTheSameBits) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  Rods rods;
+  for (int rod = 0; rod < 30; ++rod) {
+    rods.add(random_chain(random, random.integer(2, 20), 0.1), 0.01, random_section(random));
+  }
+  for (const Integrator integrator : {Integrator::IMPLICIT_EULER, Integrator::IMPLICIT_MIDPOINT}) {
+    const Rods once = after_some_steps(rods, integrator, 1);
+    for (const std::uint32_t threads : {1U, 2U, 4U, 0U}) {
+      const Rods again = after_some_steps(rods, integrator, threads);
+      EXPECT_EQ(again.positions, once.positions) << threads << " threads";
+      EXPECT_EQ(again.velocities, once.velocities) << threads << " threads";
+      EXPECT_EQ(again.angles, once.angles) << threads << " threads";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fiber::test

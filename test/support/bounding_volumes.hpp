@@ -1,0 +1,47 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <type_traits>
+#include <vector>
+
+#include "fiber_proximity/bounds/aabb.hpp"
+#include "fiber_proximity/bounds/direction_set.hpp"
+#include "fiber_proximity/bounds/kdop.hpp"
+#include "fiber_proximity/bounds/obb.hpp"
+#include "fiber_proximity/bounds/sphere.hpp"
+
+namespace fiber::test {
+
+/// The volumes that every typed suite is about: one line here adds one.
+using VolumeTypes = testing::Types<Aabb, Kdop<1>, Kdop<3>, Kdop<25>, Obb, Sphere>;
+
+/// Parameters to test a volume with: for k-DOPs the fewest directions their groups take.
+template <class Volume>
+const typename Volume::Parameters& parameters() {
+  if constexpr (std::is_same_v<typename Volume::Parameters, NoParameters>) {
+    static const NoParameters none;
+    return none;
+  } else {
+    constexpr int directions = std::max(3, Volume::padded_count - slabs_per_group + 1);
+    static const typename Volume::Parameters shared(grassmannian_directions(2 * directions));
+    return shared;
+  }
+}
+
+template <class Volume>
+Volume fitted(const Capsule& capsule) {
+  Volume volume;
+  fit(volume, capsule, parameters<Volume>());
+  return volume;
+}
+
+template <class Volume>
+Volume fitted(const std::vector<Capsule>& capsules) {
+  Volume volume;
+  fit(volume, CapsuleRun{capsules.data(), capsules.size()}, parameters<Volume>());
+  return volume;
+}
+
+}  // namespace fiber::test
