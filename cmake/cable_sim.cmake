@@ -10,6 +10,7 @@ add_library(fiber_proximity_cable_sim SHARED
 )
 target_link_libraries(fiber_proximity_cable_sim
   PUBLIC fiber_proximity_ros fiber_proximity_sim PRIVATE yaml-cpp fiber_proximity_options)
+fiber_proximity_precompile(fiber_proximity_cable_sim ${ros_headers})
 
 add_executable(cable_sim src/nodes/cable_sim.cpp)
 target_link_libraries(cable_sim fiber_proximity_cable_sim fiber_proximity_options)

@@ -64,6 +64,7 @@ target_include_directories(fiber_proximity_ros SYSTEM PUBLIC
 target_link_libraries(fiber_proximity_ros
   PUBLIC fiber_proximity_environment fiber_proximity_fcl ${catkin_LIBRARIES}
   PRIVATE yaml-cpp fiber_proximity_options)
+fiber_proximity_precompile(fiber_proximity_ros ${ros_headers})
 add_dependencies(fiber_proximity_ros ${${PROJECT_NAME}_EXPORTED_TARGETS})
 
 add_executable(fiber_player src/nodes/fiber_player.cpp)

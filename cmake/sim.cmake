@@ -27,3 +27,4 @@ add_library(fiber_proximity_sim SHARED
 )
 target_link_libraries(fiber_proximity_sim
   PUBLIC fiber_proximity_environment PRIVATE TBB::tbb fiber_proximity_options)
+fiber_proximity_precompile(fiber_proximity_sim ${core_headers})

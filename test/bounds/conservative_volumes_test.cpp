@@ -9,6 +9,7 @@
 #include "fiber_proximity/geometry/exact_distance.hpp"
 #include "support/bounding_volumes.hpp"
 #include "support/hard_runs.hpp"
+#include "support/rounds.hpp"
 
 namespace fiber::test {
 namespace {
@@ -135,14 +136,13 @@ class ConservativeVolumesTest : public testing::Test {
   /// Calls with contents of every family at every place.
   template <class Check>
   void for_all(const Check& check) {
-    constexpr int rounds = 300;
     SCOPED_TRACE(seed_message());
     Random random;
     for (const RunFamily& family : run_families()) {
       for (const Place& place : places) {
         SCOPED_TRACE(family.name + " of " + std::to_string(place.scale) + " m at " +
                      std::to_string(place.away) + " m" + (place.local ? ", local" : ""));
-        for (int round = 0; round < rounds && !this->HasFatalFailure(); ++round) {
+        for (int round = 0; round < rounds(300) && !this->HasFatalFailure(); ++round) {
           check(make(family, place, random));
         }
       }
@@ -204,7 +204,7 @@ void expect_minimal(const std::vector<Vector3d>& points, double enough) {
 TEST(MinimalSphereTest, OfCosphericalPointsIsNoLargerThanTheirs) {
   SCOPED_TRACE(seed_message());
   Random random;
-  for (int round = 0; round < 5000; ++round) {
+  for (int round = 0; round < rounds(5000); ++round) {
     const Cospherical sphere = cospherical(random);
     expect_minimal(sphere.points, sphere.radius);
   }
@@ -213,7 +213,7 @@ TEST(MinimalSphereTest, OfCosphericalPointsIsNoLargerThanTheirs) {
 TEST(MinimalSphereTest, OfCoincidentAndCollinearPointsIsTheirSpan) {
   SCOPED_TRACE(seed_message());
   Random random;
-  for (int round = 0; round < 5000; ++round) {
+  for (int round = 0; round < rounds(5000); ++round) {
     const Vector3d p = random.in_cube();
     const Vector3d u = random.direction();
     const double off = tiny(random);
@@ -236,7 +236,7 @@ TEST(MinimalSphereTest, OfCoincidentAndCollinearPointsIsTheirSpan) {
 TEST(ObbTest, OfCollinearPointsIsThin) {
   SCOPED_TRACE(seed_message());
   Random random;
-  for (int round = 0; round < 2000; ++round) {
+  for (int round = 0; round < rounds(2000); ++round) {
     const Vector3d u = random.direction();
     Capsules run;
     for (int i = 0; i < 5; ++i) {

@@ -11,6 +11,7 @@
 #include "fiber_proximity/scenes/hard_pairs.hpp"
 #include "support/assemblies.hpp"
 #include "support/contacts.hpp"
+#include "support/rounds.hpp"
 
 namespace fiber::test {
 namespace {
@@ -70,7 +71,7 @@ TEST_P(EngineTest, GivesBruteForcesAnswerOnEveryFamily) {
   SCOPED_TRACE(seed_message());
   Random random;
   for (const AssemblyFamily& family : assembly_families()) {
-    for (int round = 0; round < 4; ++round) {
+    for (int round = 0; round < rounds(4); ++round) {
       const FiberAssembly fibers = make(family, random);
       for (const QueryType type : {QueryType::ALL, QueryType::CLOSEST, QueryType::LIMITED}) {
         const QueryOptions options = random_options(random, fibers, type);
@@ -107,7 +108,7 @@ TEST_P(EngineTest, FindsAFirstContactIfAndOnlyIfThereIsOne) {
   SCOPED_TRACE(seed_message());
   Random random;
   for (const AssemblyFamily& family : assembly_families()) {
-    for (int round = 0; round < 4; ++round) {
+    for (int round = 0; round < rounds(4); ++round) {
       SCOPED_TRACE(family.name);
       const FiberAssembly fibers = make(family, random);
       QueryOptions options = random_options(random, fibers, QueryType::FIRST);
@@ -126,7 +127,7 @@ TEST_P(EngineTest, AnswersShapesAsBruteForceDoes) {
   SCOPED_TRACE(seed_message());
   Random random;
   for (const AssemblyFamily& family : assembly_families()) {
-    for (int round = 0; round < 4; ++round) {
+    for (int round = 0; round < rounds(4); ++round) {
       const FiberAssembly fibers = make(family, random);
       const FiberAssembly shape = make(family, random);
       for (const QueryType type : {QueryType::ALL, QueryType::CLOSEST, QueryType::LIMITED}) {
@@ -160,7 +161,7 @@ TEST_P(EngineTest, FollowsMovingFibersAndChangingTopology) {
   SCOPED_TRACE(seed_message());
   Random random;
   const std::vector<AssemblyFamily> families = assembly_families();
-  for (int round = 0; round < 30; ++round) {
+  for (int round = 0; round < rounds(30); ++round) {
     FiberAssembly fibers = make(families[random.integer(0, 2)], random);
     for (int frame = 0; frame < 4; ++frame) {
       const QueryResult found = ask(fibers, QueryOptions{});

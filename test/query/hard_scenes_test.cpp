@@ -12,6 +12,7 @@
 #include "fiber_proximity/geometry/exact_distance.hpp"
 #include "fiber_proximity/query/brute_force.hpp"
 #include "support/contacts.hpp"
+#include "support/rounds.hpp"
 
 namespace fiber::test {
 namespace {
@@ -57,7 +58,7 @@ TEST_P(HardScenesEngineTest, GivesBruteForcesContactsToTheBit) {
   Random random;
   const auto& [name, scene] = GetParam();
   const auto engine = make_engine(name);
-  for (int frame = 0; frame < 3; ++frame) {
+  for (int frame = 0; frame < rounds(3); ++frame) {
     const FiberAssembly fibers = make(scene, random);
     engine->update(fibers);
     for (const double margin : hard_margins(fibers, random)) {

@@ -12,6 +12,7 @@
 #include "fiber_proximity/query/simplified_engine.hpp"
 #include "support/contacts.hpp"
 #include "support/exact_gap.hpp"
+#include "support/rounds.hpp"
 #include "support/simplifiable.hpp"
 
 namespace fiber::test {
@@ -242,7 +243,7 @@ class SimplifiedTest : public testing::TestWithParam<std::string> {
   void for_each_assembly(const Call& call) const {
     SCOPED_TRACE(seed_message());
     Random random;
-    for (const AssemblyFamily& family : simplifiable_families()) {
+    for (const AssemblyFamily& family : sampled(simplifiable_families(), random)) {
       const FiberAssembly fibers = family.make(random);
       const double deviation =
           std::max(1e-300, size_of(fibers) * std::pow(10.0, random.uniform(-4.0, -0.5)));
@@ -280,7 +281,7 @@ std::string described(const QueryOptions& options) {
 TEST_P(SimplifiedTest, ContactsHoldTheTruthAndNoneIsMissing) {
   for_each_assembly([](const FiberAssembly& fibers, const ProximityEngine& engine, double deviation,
                        Random& random) {
-    for (int round = 0; round < 3; ++round) {
+    for (int round = 0; round < rounds(3); ++round) {
       QueryOptions options = random_options(random, size_of(fibers));
       options.type = round == 0 ? QueryType::ALL : options.type;
       options.margin = round == 0 && options.margin == infinity ? 0.0 : options.margin;
@@ -444,7 +445,7 @@ TEST_P(SimplifiedTest, WithinNothingAllIsAsBruteForceHasIt) {
 TEST_P(SimplifiedTest, APairAtTheMarginIsNotLostToRounding) {
   SCOPED_TRACE(seed_message());
   Random random;
-  for (int round = 0; round < 100; ++round) {
+  for (int round = 0; round < rounds(100); ++round) {
     // Small, so that deviations and what they are rounded up by are far below digits of the gap.
     AssemblyBuilder builder;
     for (int f = 0; f < 2; ++f) {
@@ -496,7 +497,7 @@ TEST_P(SimplifiedTest, NothingIsMissingNearCorners) {
   const auto hairpins =
       std::find_if(families.begin(), families.end(),
                    [](const AssemblyFamily& family) { return family.name == "hairpins"; });
-  for (int round = 0; round < 60; ++round) {
+  for (int round = 0; round < rounds(60); ++round) {
     const FiberAssembly fibers = hairpins->make(random);
     const double deviation = random.uniform(0.001, 0.02);
     QueryOptions options;

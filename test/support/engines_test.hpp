@@ -7,6 +7,7 @@
 
 #include "fiber_proximity/query/engine.hpp"
 #include "support/assemblies.hpp"
+#include "support/rounds.hpp"
 
 namespace fiber::test {
 
@@ -18,7 +19,7 @@ class EnginesTest : public testing::TestWithParam<std::string> {
   void for_each_assembly(int rounds, const Call& call) const {
     SCOPED_TRACE(seed_message());
     Random random;
-    for (const AssemblyFamily& family : assembly_families()) {
+    for (const AssemblyFamily& family : sampled(assembly_families(), random)) {
       for (int round = 0; round < rounds; ++round) {
         SCOPED_TRACE(family.name + ", round " + std::to_string(round));
         FiberAssembly fibers = family.make(random);

@@ -44,9 +44,6 @@ class ToolsTest : public testing::Test {
   static ProcessResult scene(const std::string& arguments) {
     return run_process(FIBER_SCENE " " + arguments);
   }
-  static ProcessResult bench(const std::string& arguments) {
-    return run_process(FIBER_BENCH " " + arguments);
-  }
 
   std::string path(const std::string& name) const { return directory_.path(name); }
 

@@ -8,7 +8,12 @@
 namespace fiber::test {
 namespace {
 
-using FiberBench = ToolsTest;
+class FiberBench : public ToolsTest {
+ protected:
+  static ProcessResult bench(const std::string& arguments) {
+    return run_process(FIBER_BENCH " " + arguments);
+  }
+};
 
 std::vector<nlohmann::json> json_lines(const std::string& text) {
   std::vector<nlohmann::json> result;

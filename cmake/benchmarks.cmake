@@ -1,0 +1,24 @@
+# fiber_bench: our engines beside others, and what accuracy costs.
+
+include(cmake/peers.cmake)
+fiber_proximity_tool(fiber_bench src/tools/fiber_bench.cpp
+  benchmark/accuracy.cpp benchmark/accuracy_settings.cpp benchmark/agreement.cpp
+  benchmark/answer_errors.cpp benchmark/coherence.cpp benchmark/copies.cpp
+  benchmark/environment.cpp benchmark/environment/arm.cpp benchmark/environment/camera_cloud.cpp
+  benchmark/environment/capsule_mesh.cpp benchmark/environment/cell.cpp
+  benchmark/environment/cell_difference.cpp benchmark/environment/fcl_checker.cpp
+  benchmark/environment/fcl_shapes.cpp benchmark/environment/measure_batch.cpp
+  benchmark/environment/measure_cell.cpp benchmark/environment/measure_octree.cpp
+  benchmark/environment/own_checker.cpp benchmark/kernels.cpp
+  benchmark/measurement.cpp benchmark/progress.cpp benchmark/scene_commands.cpp
+  benchmark/scene_options.cpp benchmark/stages.cpp benchmark/swapped_places.cpp
+  benchmark/swaying.cpp)
+target_link_libraries(fiber_bench fiber_bench_peers fiber_proximity_environment fcl)
+fiber_proximity_precompile(fiber_bench ${fcl_headers})
+if(FIBER_PROXIMITY_BUILD_ROS)
+  target_sources(fiber_bench PRIVATE benchmark/latency.cpp)
+  target_compile_definitions(fiber_bench PRIVATE FIBER_BENCH_HAS_LATENCY)
+  target_include_directories(fiber_bench SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
+  target_link_libraries(fiber_bench ${catkin_LIBRARIES})
+  add_dependencies(fiber_bench ${${PROJECT_NAME}_EXPORTED_TARGETS})
+endif()
