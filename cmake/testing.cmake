@@ -5,10 +5,9 @@ add_custom_target(threaded_tests)
 if(FIBER_PROXIMITY_PRECOMPILE_HEADERS)
   file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/test_headers.cpp "")
   add_library(test_headers OBJECT ${CMAKE_CURRENT_BINARY_DIR}/test_headers.cpp)
-  target_link_libraries(test_headers PRIVATE Eigen3::Eigen fiber_proximity_options)
-  if(NOT FIBER_PROXIMITY_BUILD_ROS)
-    target_link_libraries(test_headers PRIVATE GTest::gtest)
-  endif()
+  # With the definitions that come with gtest, or it is refused.
+  target_link_libraries(test_headers PRIVATE Eigen3::Eigen fiber_proximity_options
+    $<TARGET_NAME_IF_EXISTS:GTest::gtest>)
   target_precompile_headers(test_headers PRIVATE ${core_headers} <gtest/gtest.h>)
 endif()
 
