@@ -82,7 +82,7 @@ void solve_band(const double* entries, std::size_t size, double* values) {
 BandMatrix::BandMatrix(std::size_t size, std::size_t half_bandwidth)
     : size_(size),
       half_bandwidth_(half_bandwidth),
-      entries_((size + half_bandwidth) * (half_bandwidth + 1)) {
+      entries_(size > 0 ? (size + half_bandwidth) * (half_bandwidth + 1) : 0) {
   assert(half_bandwidth == without_twist || half_bandwidth == with_twist);
 }
 
@@ -90,13 +90,19 @@ void BandMatrix::set_zero() { std::fill(entries_.begin(), entries_.end(), 0.0); 
 
 void BandMatrix::decouple(std::size_t index) {
   assert(index < size_);
-  for (std::size_t j = 1; j <= half_bandwidth_; ++j) {
-    at(index + j, index) = 0.0;
+  fiber::decouple(index, half_bandwidth_, 1, entries_.data());
+}
+
+void decouple(std::size_t index, std::size_t half_bandwidth, std::size_t stride, double* entries) {
+  const std::size_t height = half_bandwidth + 1;
+  double* const column = entries + index * height * stride;
+  column[0] = 1.0;
+  for (std::size_t j = 1; j <= half_bandwidth; ++j) {
+    column[j * stride] = 0.0;
     if (j <= index) {
-      at(index, index - j) = 0.0;
+      entries[((index - j) * height + j) * stride] = 0.0;
     }
   }
-  at(index, index) = 1.0;
 }
 
 bool BandMatrix::factorise() {
