@@ -7,24 +7,31 @@ add_library(fiber_proximity_sim SHARED
   src/sim/contacts.cpp
   src/sim/effects/attachment.cpp
   src/sim/effects/bend.cpp
+  src/sim/effects/bend_lanes.cpp
   src/sim/effects/damping.cpp
   src/sim/effects/drag.cpp
+  src/sim/effects/drag_lanes.cpp
   src/sim/effects/environment_contact.cpp
   src/sim/effects/fiber_contact.cpp
   src/sim/effects/friction.cpp
   src/sim/effects/gravity.cpp
+  src/sim/effects/gravity_lanes.cpp
   src/sim/effects/inextensible.cpp
   src/sim/effects/plasticity.cpp
   src/sim/effects/stretch.cpp
+  src/sim/effects/stretch_lanes.cpp
   src/sim/effects/twist.cpp
+  src/sim/lane_solver.cpp
   src/sim/material.cpp
   src/sim/material_presets.cpp
   src/sim/moving_rod.cpp
+  src/sim/rod_batch.cpp
   src/sim/rod_group.cpp
   src/sim/rod_system.cpp
   src/sim/rods.cpp
   src/sim/stepper.cpp
 )
 target_link_libraries(fiber_proximity_sim
-  PUBLIC fiber_proximity_environment PRIVATE TBB::tbb fiber_proximity_options)
+  PUBLIC fiber_proximity_environment PRIVATE TBB::tbb hwy::hwy fiber_proximity_options)
+target_include_directories(fiber_proximity_sim PRIVATE ${PROJECT_SOURCE_DIR})
 fiber_proximity_precompile(fiber_proximity_sim ${core_headers})

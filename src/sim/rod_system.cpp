@@ -8,9 +8,19 @@ RodSystem::RodSystem(std::uint32_t node_count, std::uint32_t unknowns)
     : unknowns_(unknowns),
       hessian_(std::size_t{node_count} * unknowns,
                unknowns == 3 ? BandMatrix::without_twist : BandMatrix::with_twist),
-      gradient_(hessian_.size()) {
+      gradient_(hessian_.size()),
+      entries_(hessian_.data()),
+      gradients_(gradient_.data()),
+      stride_(1) {
   assert(unknowns == 3 || unknowns == 4);
 }
+
+RodSystem::RodSystem(LaneSystem& system, std::size_t lane)
+    : unknowns_(3),
+      hessian_(0, BandMatrix::without_twist),
+      entries_(&system.hessian[0][lane]),
+      gradients_(&system.gradient[0][lane]),
+      stride_(lane_count) {}
 
 void RodSystem::set_zero() {
   hessian_.set_zero();
@@ -19,8 +29,8 @@ void RodSystem::set_zero() {
 
 void RodSystem::hold(std::uint32_t node) {
   for (std::size_t i = std::size_t{node} * unknowns_, end = i + 3; i < end; ++i) {
-    hessian_.decouple(i);
-    gradient_[i] = 0.0;
+    decouple(i, hessian_.half_bandwidth(), stride_, entries_);
+    gradients_[i * stride_] = 0.0;
   }
 }
 

@@ -4,9 +4,11 @@
 #include <tbb/task_arena.h>
 
 #include <cmath>
+#include <map>
 #include <stdexcept>
 #include <string>
 
+#include "rod_batch.hpp"
 #include "rod_group.hpp"
 
 namespace fiber {
@@ -45,6 +47,22 @@ void continue_from_middle(Rods& rods, const std::vector<Eigen::Vector3d>& old_ve
   }
 }
 
+/// Rods of equal sizes, as many together as can be moved side by side; with twist, none can.
+std::vector<std::vector<std::uint32_t>> rods_side_by_side(const Rods& rods) {
+  const std::size_t most = rods.angles.empty() ? lane_count : 1;
+  std::vector<std::vector<std::uint32_t>> parts;
+  std::map<std::uint32_t, std::size_t> open;  // parts, by node count
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    const auto [found, is_new] = open.try_emplace(rods.node_count(rod), parts.size());
+    if (is_new || parts[found->second].size() == most) {
+      found->second = parts.size();
+      parts.emplace_back();
+    }
+    parts[found->second].push_back(rod);
+  }
+  return parts;
+}
+
 }  // namespace
 
 Stepper::Stepper(Rods rods, std::vector<std::unique_ptr<Effect>> effects,
@@ -58,9 +76,12 @@ Stepper::Stepper(Rods rods, std::vector<std::unique_ptr<Effect>> effects,
     groups_.emplace_back(rods_, 0, rods_.count(), contacts_.get());
     return;
   }
-  groups_.reserve(rods_.count());
-  for (std::uint32_t rod = 0; rod < rods_.count(); ++rod) {
-    groups_.emplace_back(rods_, rod, rod + 1, nullptr);
+  for (const std::vector<std::uint32_t>& members : rods_side_by_side(rods_)) {
+    if (members.size() > 1) {
+      batches_.emplace_back(rods_, members);
+    } else {
+      groups_.emplace_back(rods_, members.front(), members.front() + 1, nullptr);
+    }
   }
 }
 
@@ -86,17 +107,20 @@ void Stepper::step(double length) {
 }
 
 void Stepper::solve(const TimeStep& step) {
-  for (const std::unique_ptr<Effect>& effect : effects_) {
-    effect->begin_step(rods_, step);
-  }
-  if (contacts_ != nullptr) {
-    contacts_->begin_step(rods_, step);
-  }
   tbb::task_arena arena(options_.threads == 0 ? tbb::task_arena::automatic
                                               : static_cast<int>(options_.threads));
   arena.execute([&] {
+    for (const std::unique_ptr<Effect>& effect : effects_) {
+      effect->begin_step(rods_, step);
+    }
+    if (contacts_ != nullptr) {
+      contacts_->begin_step(rods_, step);
+    }
     tbb::parallel_for(std::size_t{0}, groups_.size(), [&](std::size_t group) {
       groups_[group].solve(rods_, effects_, options_, step.length);
+    });
+    tbb::parallel_for(std::size_t{0}, batches_.size(), [&](std::size_t batch) {
+      batches_[batch].solve(rods_, effects_, options_, step.length);
     });
   });
 }

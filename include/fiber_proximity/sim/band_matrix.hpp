@@ -31,6 +31,9 @@ class BandMatrix {
     return entries_[column * (half_bandwidth_ + 1) + (row - column)];
   }
 
+  /// All entries, column by column from the diagonal down.
+  double* data() { return entries_.data(); }
+
   void set_zero();
 
   /// Row and column become those of the identity: the unknown is known to be its right-hand side.
@@ -51,5 +54,10 @@ class BandMatrix {
   std::size_t half_bandwidth_;
   std::vector<double> entries_;  // column by column, from the diagonal down; zero columns follow
 };
+
+/// BandMatrix::decouple() of a matrix with other ones' entries between its own.
+/// @param entries column by column from the diagonal down
+/// @param stride  from one entry to the next
+void decouple(std::size_t index, std::size_t half_bandwidth, std::size_t stride, double* entries);
 
 }  // namespace fiber

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "fiber_proximity/sim/rod_lanes.hpp"
 #include "fiber_proximity/sim/rod_system.hpp"
 #include "fiber_proximity/sim/rods.hpp"
 
@@ -35,6 +36,22 @@ class Effect {
   /// Adds the gradient of the energy by what is unknown, and a positive semidefinite matrix near
   /// its Hessian.
   virtual void add_derivatives(const Rods& rods, std::uint32_t rod, RodSystem& system) const = 0;
+
+  /// True if the two following functions do for rods side by side what the two above do for each;
+  /// they are called with no others then.
+  virtual bool works_in_lanes(const Rods& /*rods*/) const { return false; }
+
+  /// How many numbers these need of each node that begin_step() has found, and where they are.
+  virtual std::uint32_t values_per_node() const { return 0; }
+  virtual const double* values_of(std::uint32_t /*node*/) const { return nullptr; }
+
+  /// @param values those numbers, node by node
+  /// @param energy by lane, overwritten
+  virtual void energy_in_lanes(const RodLanes& /*rods*/, const std::vector<Lanes>& /*values*/,
+                               Lanes& /*energy*/) const {}
+  virtual void add_derivatives_in_lanes(const RodLanes& /*rods*/,
+                                        const std::vector<Lanes>& /*values*/,
+                                        LaneSystem& /*system*/) const {}
 
   /// Called once after each step, by one thread: with implicit midpoint, after the whole step.
   virtual void end_step(Rods& /*rods*/, const TimeStep& /*step*/) {}

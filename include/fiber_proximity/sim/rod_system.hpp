@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fiber_proximity/sim/band_matrix.hpp"
+#include "fiber_proximity/sim/rod_lanes.hpp"
 
 namespace fiber {
 
@@ -17,10 +18,24 @@ class RodSystem {
   /// @param unknowns of each node: 3, or 4 with twist
   RodSystem(std::uint32_t node_count, std::uint32_t unknowns);
 
+  /// That of one of some rods side by side, to add to; only hold() and the functions that
+  /// add are for it.
+  /// @param system must outlive this, and not change its size
+  RodSystem(LaneSystem& system, std::size_t lane);
+
+  RodSystem(RodSystem&&) = default;
+  RodSystem(const RodSystem&) = delete;
+  RodSystem& operator=(RodSystem&&) = delete;
+  RodSystem& operator=(const RodSystem&) = delete;
+  ~RodSystem() = default;
+
   void set_zero();
 
   void add_gradient(std::uint32_t node, const Eigen::Vector3d& gradient) {
-    Eigen::Map<Eigen::Vector3d>(&gradient_[std::size_t{node} * unknowns_]) += gradient;
+    double* const first = gradients_ + std::size_t{node} * unknowns_ * stride_;
+    for (int i = 0; i < 3; ++i) {
+      first[i * stride_] += gradient[i];
+    }
   }
   void add_angle_gradient(std::uint32_t edge, double gradient) {
     assert(unknowns_ == 4);
@@ -32,7 +47,7 @@ class RodSystem {
     const std::size_t first = std::size_t{node} * unknowns_;
     for (int c = 0; c < 3; ++c) {
       for (int r = c; r < 3; ++r) {
-        hessian_.at(first + r, first + c) += block(r, c);
+        add_hessian_entry(first + r, first + c, block(r, c));
       }
     }
   }
@@ -42,8 +57,8 @@ class RodSystem {
     assert(row > column);
     for (int c = 0; c < 3; ++c) {
       for (int r = 0; r < 3; ++r) {
-        hessian_.at(std::size_t{row} * unknowns_ + r, std::size_t{column} * unknowns_ + c) +=
-            block(r, c);
+        add_hessian_entry(std::size_t{row} * unknowns_ + r, std::size_t{column} * unknowns_ + c,
+                          block(r, c));
       }
     }
   }
@@ -60,7 +75,7 @@ class RodSystem {
 
   /// One entry, of unknowns counted through: row >= column.
   void add_hessian_entry(std::size_t row, std::size_t column, double value) {
-    hessian_.at(row, column) += value;
+    entries_[(column * (hessian_.half_bandwidth() + 1) + (row - column)) * stride_] += value;
   }
 
   /// The node does not move: its gradient is zero, and so is what solve() makes of that.
@@ -83,6 +98,9 @@ class RodSystem {
   std::uint32_t unknowns_;
   BandMatrix hessian_;
   std::vector<double> gradient_;
+  double* entries_;     // of the Hessian, in the order of BandMatrix
+  double* gradients_;   // in the order of the unknowns
+  std::size_t stride_;  // from one entry to the next
 };
 
 }  // namespace fiber

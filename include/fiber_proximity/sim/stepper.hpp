@@ -8,6 +8,7 @@
 
 namespace fiber {
 
+class RodBatch;
 class RodGroup;
 
 enum class Integrator {
@@ -63,6 +64,7 @@ class Stepper {
   double time_ = 0.0;
   std::unique_ptr<Contacts> contacts_;
   std::vector<RodGroup> groups_;
+  std::vector<RodBatch> batches_;
 };
 
 }  // namespace fiber

@@ -53,24 +53,71 @@ void validate(const Rods& rods, const Attachment::Hold& hold, const Placement& p
   }
 }
 
-/// The end of a rod that a clamp holds, and how the clamp looks from there.
+/// Which edge a clamp holds, from the rod's first one.
+std::uint32_t clamped_edge(const Attachment::Hold& hold) {
+  return hold.node == 0 ? 0 : hold.node - 1;
+}
+
+/// How the end of a rod is bent against the clamp that holds it.
+struct ClampedBend {
+  std::uint32_t edge;
+  EdgeDirection direction;
+  Vector3d turn;
+  double stiffness;
+
+  ClampedBend(const Attachment::Hold& hold, const Placement& placement,
+              const EdgeDirection& direction_of_edge, double rest_length, double bending_stiffness)
+      : edge(clamped_edge(hold)),
+        direction(direction_of_edge),
+        turn(direction.tangent - placement.tangent),
+        stiffness(bending_stiffness / (0.5 * rest_length)) {}
+
+  ClampedBend(const Rods& rods, const Attachment::Hold& hold, const Placement& placement)
+      : ClampedBend(hold, placement,
+                    edge_direction(rods, rods.first(hold.rod) + clamped_edge(hold)),
+                    rods.rest_lengths[rods.first(hold.rod) + clamped_edge(hold)],
+                    rods.sections[hold.rod].bending_stiffness) {}
+
+  ClampedBend(const RodLanes& rods, std::size_t lane, const Attachment::Hold& hold,
+              const Placement& placement)
+      : ClampedBend(hold, placement, direction_in_lane(rods, lane, clamped_edge(hold)),
+                    rods.rest_lengths[clamped_edge(hold)][lane], rods.bending_stiffness[lane]) {}
+
+  double energy() const { return 0.5 * stiffness * turn.squaredNorm(); }
+
+  void add_derivatives(RodSystem& system) const {
+    const Eigen::Matrix3d across =
+        (Eigen::Matrix3d::Identity() - direction.tangent * direction.tangent.transpose()) /
+        direction.length;
+    const Vector3d gradient = stiffness * (across * turn);
+    const Eigen::Matrix3d block = stiffness / direction.length * across;
+    system.add_edge(edge, gradient, block);
+  }
+
+ private:
+  static EdgeDirection direction_in_lane(const RodLanes& rods, std::size_t lane,
+                                         std::uint32_t edge) {
+    const Lanes* const tangent = &rods.tangents[std::size_t{3} * edge];
+    return {rods.lengths[edge][lane], {tangent[0][lane], tangent[1][lane], tangent[2][lane]}};
+  }
+};
+
+/// The end of a rod with twist that a clamp holds, and how the clamp looks from there.
 class ClampedEnd {
  public:
   ClampedEnd(const Rods& rods, const Attachment::Hold& hold, const Placement& placement)
       : rods_(rods),
         rod_(hold.rod),
-        is_first_(hold.node == 0),
-        edge_(is_first_ ? rods.first(rod_) : rods.end(rod_) - 2),
+        edge_(rods.first(rod_) + clamped_edge(hold)),
         direction_(edge_direction(rods, edge_)),
         placement_(placement) {}
 
   /// The index of the edge from the rod's first one.
   std::uint32_t edge() const { return edge_ - rods_.first(rod_); }
-  const EdgeDirection& direction() const { return direction_; }
 
-  Vector3d turn() const { return direction_.tangent - placement_.tangent; }
-  double bending() const { return rods_.sections[rod_].bending_stiffness / length(); }
-  double twisting() const { return rods_.sections[rod_].twisting_stiffness / length(); }
+  double twisting() const {
+    return rods_.sections[rod_].twisting_stiffness / (0.5 * rods_.rest_lengths[edge_]);
+  }
 
   /// From the clamp to the cross-section of the edge [rad], by whole turns near another.
   double twist(double near) const {
@@ -87,25 +134,12 @@ class ClampedEnd {
   }
 
  private:
-  double length() const { return 0.5 * rods_.rest_lengths[edge_]; }
-
   const Rods& rods_;
   std::uint32_t rod_;
-  bool is_first_;
   std::uint32_t edge_;
   EdgeDirection direction_;
   const Placement& placement_;
 };
-
-void add_bending(const ClampedEnd& end, RodSystem& system) {
-  const EdgeDirection& edge = end.direction();
-  const double stiffness = end.bending();
-  const Eigen::Matrix3d across =
-      (Eigen::Matrix3d::Identity() - edge.tangent * edge.tangent.transpose()) / edge.length;
-  const Vector3d gradient = stiffness * (across * end.turn());
-  const Eigen::Matrix3d block = stiffness / edge.length * across;
-  system.add_edge(end.edge(), gradient, block);
-}
 
 void add_twisting(const ClampedEnd& end, double twist, RodSystem& system) {
   const double stiffness = end.twisting();
@@ -189,9 +223,9 @@ double Attachment::energy(const Rods& rods, std::uint32_t rod) const {
   double energy = 0.0;
   for (auto held = first_of(rod); held != held_.end() && held->hold.rod == rod; ++held) {
     if (held->hold.kind == Kind::CLAMP) {
-      const ClampedEnd end(rods, held->hold, held->placement);
-      energy += 0.5 * end.bending() * end.turn().squaredNorm();
+      energy += ClampedBend(rods, held->hold, held->placement).energy();
       if (!rods.directors.empty()) {
+        const ClampedEnd end(rods, held->hold, held->placement);
         const double twist = end.twist(held->twist);
         energy += 0.5 * end.twisting() * twist * twist;
       }
@@ -203,10 +237,37 @@ double Attachment::energy(const Rods& rods, std::uint32_t rod) const {
 void Attachment::add_derivatives(const Rods& rods, std::uint32_t rod, RodSystem& system) const {
   for (auto held = first_of(rod); held != held_.end() && held->hold.rod == rod; ++held) {
     if (held->hold.kind == Kind::CLAMP) {
-      const ClampedEnd end(rods, held->hold, held->placement);
-      add_bending(end, system);
+      ClampedBend(rods, held->hold, held->placement).add_derivatives(system);
       if (!rods.directors.empty()) {
+        const ClampedEnd end(rods, held->hold, held->placement);
         add_twisting(end, end.twist(held->twist), system);
+      }
+    }
+  }
+}
+
+void Attachment::energy_in_lanes(const RodLanes& rods, const std::vector<Lanes>& /*values*/,
+                                 Lanes& energy) const {
+  energy = Lanes{};
+  for (std::size_t lane = 0; lane < rods.used; ++lane) {
+    const std::uint32_t rod = rods.rods[lane];
+    for (auto held = first_of(rod); held != held_.end() && held->hold.rod == rod; ++held) {
+      if (held->hold.kind == Kind::CLAMP) {
+        energy[lane] += ClampedBend(rods, lane, held->hold, held->placement).energy();
+      }
+    }
+  }
+}
+
+void Attachment::add_derivatives_in_lanes(const RodLanes& rods,
+                                          const std::vector<Lanes>& /*values*/,
+                                          LaneSystem& system) const {
+  for (std::size_t lane = 0; lane < rods.used; ++lane) {
+    const std::uint32_t rod = rods.rods[lane];
+    for (auto held = first_of(rod); held != held_.end() && held->hold.rod == rod; ++held) {
+      if (held->hold.kind == Kind::CLAMP) {
+        RodSystem of_lane(system, lane);
+        ClampedBend(rods, lane, held->hold, held->placement).add_derivatives(of_lane);
       }
     }
   }

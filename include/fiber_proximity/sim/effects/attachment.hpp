@@ -49,6 +49,13 @@ class Attachment : public Effect {
   void begin_step(Rods& rods, const TimeStep& step) override;
   double energy(const Rods& rods, std::uint32_t rod) const override;
   void add_derivatives(const Rods& rods, std::uint32_t rod, RodSystem& system) const override;
+
+  bool works_in_lanes(const Rods& /*rods*/) const override { return true; }
+  void energy_in_lanes(const RodLanes& rods, const std::vector<Lanes>& values,
+                       Lanes& energy) const override;
+  void add_derivatives_in_lanes(const RodLanes& rods, const std::vector<Lanes>& values,
+                                LaneSystem& system) const override;
+
   void end_step(Rods& rods, const TimeStep& step) override;
 
  private:

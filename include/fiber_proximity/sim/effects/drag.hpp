@@ -35,10 +35,27 @@ class Drag : public Effect {
   double energy(const Rods& rods, std::uint32_t rod) const override;
   void add_derivatives(const Rods& rods, std::uint32_t rod, RodSystem& system) const override;
 
+  bool works_in_lanes(const Rods& /*rods*/) const override { return true; }
+  std::uint32_t values_per_node() const override { return 8; }
+  const double* values_of(std::uint32_t node) const override;
+  void energy_in_lanes(const RodLanes& rods, const std::vector<Lanes>& values,
+                       Lanes& energy) const override;
+  void add_derivatives_in_lanes(const RodLanes& rods, const std::vector<Lanes>& values,
+                                LaneSystem& system) const override;
+
  private:
+  /// What resists the motion of a node in a step, as functions in lanes read it.
+  struct Node {
+    Eigen::Vector3d tangent;
+    Eigen::Vector3d carried;  // where the wind alone would bring it [m]
+    double across;            // force by distance from there [N/m]
+    double along;
+  };
+
+  Node node_at(const Rods& rods, std::uint32_t rod, std::uint32_t node, const TimeStep& step) const;
+
   Options options_;
-  std::vector<Eigen::Matrix3d> resistances_;  // of nodes, by the length of the step [N/m]
-  std::vector<Eigen::Vector3d> carried_;      // where the wind alone would bring a node [m]
+  std::vector<Node> nodes_;
 };
 
 }  // namespace fiber

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace fiber {
+
+/// How many rods are moved side by side, each in a lane of its own of wide registers.
+constexpr std::size_t lane_count = 4;
+
+/// The same number of each of them.
+struct alignas(lane_count * sizeof(double)) Lanes {
+  std::array<double, lane_count> of{};
+
+  double& operator[](std::size_t lane) { return of[lane]; }
+  double operator[](std::size_t lane) const { return of[lane]; }
+};
+
+/// Rods with the same number of nodes, without twist. Arrays of vectors go node by node, and
+/// coordinate by coordinate; an edge has the index of its first node, as in Rods.
+struct RodLanes {
+  std::array<std::uint32_t, lane_count> rods{};  ///< which rod is in which lane
+  std::size_t used = 0;                          ///< lanes; the others repeat the first one
+  std::uint32_t node_count = 0;
+
+  Lanes stretching_stiffness;
+  Lanes bending_stiffness;
+  std::vector<Lanes> masses;                ///< of nodes [kg]
+  std::vector<Lanes> rest_lengths;          ///< of edges [m]
+  std::vector<Lanes> inverse_rest_lengths;  ///< of edges [1/m]
+  std::vector<Lanes> inverse_node_lengths;  ///< of inner nodes: of what belongs to them [1/m]
+
+  std::vector<Lanes> positions;  ///< vectors [m]
+
+  /// Of the edges between these positions, by measure_edges().
+  std::vector<Lanes> lengths;          ///< [m] never 0, as in EdgeDirection
+  std::vector<Lanes> inverse_lengths;  ///< [1/m]
+  std::vector<Lanes> tangents;         ///< vectors
+};
+
+/// Gradients and Hessians of rods side by side, in the order of RodSystem and BandMatrix.
+struct LaneSystem {
+  std::vector<Lanes> gradient;
+  std::vector<Lanes> hessian;
+};
+
+}  // namespace fiber

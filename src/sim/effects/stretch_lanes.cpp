@@ -1,0 +1,79 @@
+// Compiled once per instruction set; Highway chooses among them at run time.
+#include "fiber_proximity/sim/effects/stretch.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "src/sim/effects/stretch_lanes.cpp"
+#include <hwy/foreach_target.h>  // must come before highway.h
+#include <hwy/highway.h>
+
+#include "src/sim/lanes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace fiber {
+namespace HWY_NAMESPACE {
+namespace {
+
+void energy(const RodLanes& rods, Lanes& energy) {
+  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+    Real sum = real(0.0);
+    for (std::size_t i = 0; i + 1 < rods.node_count; ++i) {
+      const Real excess = load(rods.lengths[i], lane) - load(rods.rest_lengths[i], lane);
+      sum = sum + excess * excess * load(rods.inverse_rest_lengths[i], lane);
+    }
+    store(real(0.5) * load(rods.stretching_stiffness, lane) * sum, energy, lane);
+  }
+}
+
+void add_derivatives(const RodLanes& rods, LaneSystem& system) {
+  const Real zero = real(0.0);
+  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+    const Real total = load(rods.stretching_stiffness, lane);
+    for (std::size_t i = 0; i + 1 < rods.node_count; ++i) {
+      const Real stiffness = total * load(rods.inverse_rest_lengths[i], lane);
+      const Real excess = load(rods.lengths[i], lane) - load(rods.rest_lengths[i], lane);
+      const Vector tangent = load_vector(rods.tangents, i, lane);
+      const Vector force = stiffness * excess * tangent;
+      add_gradient(negative(force), i, lane, system);
+      add_gradient(force, i + 1, lane, system);
+      // Under pressure an edge gives way sideways; that part is negative definite and left out.
+      const Real sideways = stiffness * larger(zero, excess * load(rods.inverse_lengths[i], lane));
+      const Vector along = (stiffness - sideways) * tangent;
+      Block block;
+      Block minus;
+      for (std::size_t r = 0; r < 3; ++r) {
+        for (std::size_t c = 0; c < 3; ++c) {
+          const Real product = along.of[r] * tangent.of[c];
+          block.of[r][c] = r == c ? product + sideways : product;
+          minus.of[r][c] = negative(block.of[r][c]);
+        }
+      }
+      add_diagonal(block, i, lane, system);
+      add_diagonal(block, i + 1, lane, system);
+      add_below(minus, i, 1, lane, system);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace fiber
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace fiber {
+
+HWY_EXPORT(energy);
+HWY_EXPORT(add_derivatives);
+
+void Stretch::energy_in_lanes(const RodLanes& rods, const std::vector<Lanes>& /*values*/,
+                              Lanes& energy) const {
+  HWY_DYNAMIC_DISPATCH(energy)(rods, energy);
+}
+
+void Stretch::add_derivatives_in_lanes(const RodLanes& rods, const std::vector<Lanes>& /*values*/,
+                                       LaneSystem& system) const {
+  HWY_DYNAMIC_DISPATCH(add_derivatives)(rods, system);
+}
+
+}  // namespace fiber
+#endif

@@ -1,0 +1,114 @@
+// Numbers and vectors of rods side by side, in registers. Included once per instruction set, so it
+// has the guard that Highway asks for instead of #pragma once.
+#if defined(FIBER_SIM_LANES_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef FIBER_SIM_LANES_INL
+#undef FIBER_SIM_LANES_INL
+#else
+#define FIBER_SIM_LANES_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include "fiber_proximity/sim/rod_lanes.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace fiber {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// As many lanes as registers have, at most all: functions below work from one lane on.
+using LaneTag = hn::CappedTag<double, lane_count>;
+
+HWY_INLINE std::size_t lanes_at_once() { return hn::Lanes(LaneTag()); }
+
+struct Real {
+  hn::Vec<LaneTag> value;
+};
+
+HWY_INLINE Real real(double value) { return {hn::Set(LaneTag(), value)}; }
+HWY_INLINE Real load(const Lanes& from, std::size_t lane) {
+  return {hn::Load(LaneTag(), from.of.data() + lane)};
+}
+HWY_INLINE void store(Real value, Lanes& to, std::size_t lane) {
+  hn::Store(value.value, LaneTag(), to.of.data() + lane);
+}
+
+HWY_INLINE Real operator+(Real a, Real b) { return {hn::Add(a.value, b.value)}; }
+HWY_INLINE Real operator-(Real a, Real b) { return {hn::Sub(a.value, b.value)}; }
+HWY_INLINE Real operator*(Real a, Real b) { return {hn::Mul(a.value, b.value)}; }
+HWY_INLINE Real operator/(Real a, Real b) { return {hn::Div(a.value, b.value)}; }
+HWY_INLINE Real negative(Real a) { return {hn::Neg(a.value)}; }
+HWY_INLINE Real square_root(Real a) { return {hn::Sqrt(a.value)}; }
+HWY_INLINE Real larger(Real a, Real b) { return {hn::Max(a.value, b.value)}; }
+
+HWY_INLINE void add(Real value, Lanes& to, std::size_t lane) {
+  store(load(to, lane) + value, to, lane);
+}
+
+struct Vector {
+  Real of[3];
+};
+
+HWY_INLINE Vector load_vector(const std::vector<Lanes>& from, std::size_t index, std::size_t lane) {
+  const Lanes* const first = &from[3 * index];
+  return {{load(first[0], lane), load(first[1], lane), load(first[2], lane)}};
+}
+HWY_INLINE Vector operator+(const Vector& a, const Vector& b) {
+  return {{a.of[0] + b.of[0], a.of[1] + b.of[1], a.of[2] + b.of[2]}};
+}
+HWY_INLINE Vector operator-(const Vector& a, const Vector& b) {
+  return {{a.of[0] - b.of[0], a.of[1] - b.of[1], a.of[2] - b.of[2]}};
+}
+HWY_INLINE Vector negative(const Vector& a) {
+  return {{negative(a.of[0]), negative(a.of[1]), negative(a.of[2])}};
+}
+HWY_INLINE Vector operator*(Real factor, const Vector& a) {
+  return {{factor * a.of[0], factor * a.of[1], factor * a.of[2]}};
+}
+HWY_INLINE Real dot(const Vector& a, const Vector& b) {
+  return a.of[0] * b.of[0] + a.of[1] * b.of[1] + a.of[2] * b.of[2];
+}
+
+HWY_INLINE void add_gradient(const Vector& v, std::size_t node, std::size_t lane,
+                             LaneSystem& system) {
+  Lanes* const first = &system.gradient[3 * node];
+  for (std::size_t i = 0; i < 3; ++i) {
+    add(v.of[i], first[i], lane);
+  }
+}
+
+/// A block of the Hessian, in registers.
+struct Block {
+  Real of[3][3];  // row, column
+};
+
+constexpr std::size_t column_height = 9;  // of the band, with the diagonal
+
+/// Adds the symmetric block of one node.
+HWY_INLINE void add_diagonal(const Block& block, std::size_t node, std::size_t lane,
+                             LaneSystem& system) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    Lanes* const column = &system.hessian[(3 * node + c) * column_height];
+    for (std::size_t r = c; r < 3; ++r) {
+      add(block.of[r][c], column[r - c], lane);
+    }
+  }
+}
+
+/// Adds the block whose rows are those of a node so many further.
+HWY_INLINE void add_below(const Block& block, std::size_t node, std::size_t further,
+                          std::size_t lane, LaneSystem& system) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    Lanes* const column = &system.hessian[(3 * node + c) * column_height];
+    for (std::size_t r = 0; r < 3; ++r) {
+      add(block.of[r][c], column[3 * further + r - c], lane);
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace fiber
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard
