@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "fiber_proximity/sim/contact_stiffness.hpp"
 #include "sim/contact_scenes.hpp"
 #include "support/random.hpp"
 
