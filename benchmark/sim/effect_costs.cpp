@@ -157,6 +157,7 @@ EffectCost measure(const EffectScene& scene, const std::string& added, const Nam
 void measure_effects(const EffectScene& scene,
                      const std::function<void(const EffectCost&)>& report) {
   const Names base{"gravity", "stretch", "bend"};
+  measure(scene, "base", base);  // what is made once in a process is no effect's
   report(measure(scene, "base", base));
   report(measure(scene, "inextensible", {"gravity", "inextensible", "bend"}));
   for (const char* added : {"twist", "damping", "drag", "plasticity", "attachment", "self_contact",
