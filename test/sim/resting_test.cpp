@@ -6,6 +6,7 @@
 
 #include "fiber_proximity/sim/contact_stiffness.hpp"
 #include "sim/contact_scenes.hpp"
+#include "sim/random_rods.hpp"
 #include "support/random.hpp"
 
 namespace fiber::test {
