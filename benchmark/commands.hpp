@@ -22,6 +22,9 @@ void add_kernels_command(CLI::App& app, Command& command);
 /// `environment`: a cell with a robot beside FCL, octrees of clouds, batches of candidates.
 void add_environment_command(CLI::App& app, Command& command);
 
+/// `simulate`: the simulation of rods, its accuracy, its time and what each effect costs.
+void add_simulate_command(CLI::App& app, Command& command);
+
 /// `latency`: a running ROS graph; only in builds with ROS.
 void add_latency_command(CLI::App& app, Command& command);
 

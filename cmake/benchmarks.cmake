@@ -11,9 +11,11 @@ fiber_proximity_tool(fiber_bench src/tools/fiber_bench.cpp
   benchmark/environment/measure_cell.cpp benchmark/environment/measure_octree.cpp
   benchmark/environment/own_checker.cpp benchmark/kernels.cpp
   benchmark/measurement.cpp benchmark/progress.cpp benchmark/scene_commands.cpp
-  benchmark/scene_options.cpp benchmark/stages.cpp benchmark/swapped_places.cpp
+  benchmark/scene_options.cpp benchmark/sim/effect_costs.cpp benchmark/sim/hose.cpp
+  benchmark/sim/measurements.cpp benchmark/sim/validation.cpp benchmark/sim/xpbd_rod.cpp
+  benchmark/simulate.cpp benchmark/stages.cpp benchmark/swapped_places.cpp
   benchmark/swaying.cpp)
-target_link_libraries(fiber_bench fiber_bench_peers fiber_proximity_environment fcl)
+target_link_libraries(fiber_bench fiber_bench_peers fiber_bench_sim fiber_proximity_environment fcl)
 fiber_proximity_precompile(fiber_bench ${fcl_headers})
 if(FIBER_PROXIMITY_BUILD_ROS)
   target_sources(fiber_bench PRIVATE benchmark/latency.cpp)

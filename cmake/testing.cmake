@@ -28,7 +28,9 @@ function(fiber_proximity_gtest name)
       add_dependencies(threaded_tests ${name})
     endif()
   endif()
-  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/test)
+  # Some scenes are those of benchmarks, too.
+  target_include_directories(${name} PRIVATE
+    ${PROJECT_SOURCE_DIR}/test ${PROJECT_SOURCE_DIR}/benchmark)
   target_compile_definitions(${name} PRIVATE
     FIBER_PROXIMITY_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
     FIBER_PROXIMITY_BINARY_DIR="${PROJECT_BINARY_DIR}")

@@ -28,6 +28,11 @@ def panels(count, width, height=3.2):
     return figure, [axes] if count == 1 else list(axes)
 
 
+def grid(rows, columns, width, height):
+    return pyplot.subplots(rows, columns, figsize=(width, height), layout="constrained",
+                           squeeze=False)
+
+
 def save(figure, path):
     figure.savefig(path, metadata={"Date": None})
     pyplot.close(figure)

@@ -12,6 +12,7 @@ void setup(CLI::App& app, Command& command) {
   add_coherence_command(app, command);
   add_kernels_command(app, command);
   add_environment_command(app, command);
+  add_simulate_command(app, command);
 #ifdef FIBER_BENCH_HAS_LATENCY
   add_latency_command(app, command);
 #endif

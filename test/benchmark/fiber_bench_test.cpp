@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <vector>
@@ -190,6 +192,47 @@ TEST_F(FiberBench, SaysWhatAccuracyCostsAndBrings) {
       std::string::npos);
 }
 
+TEST_F(FiberBench, HoldsTheSimulationAgainstTheory) {
+  const ProcessResult result = bench("simulate --parts validation --json");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const std::vector<nlohmann::json> rows = json_lines(result.out);
+  ASSERT_GT(rows.size(), 40U);
+  for (const nlohmann::json& row : rows) {
+    EXPECT_LE(std::abs(row.at("error").get<double>()), row.at("allowed").get<double>())
+        << row.dump();
+  }
+}
+
+TEST_F(FiberBench, SaysWhatTheSimulationCostsAndHowItErrs) {
+  const ProcessResult result = bench(
+      "simulate --parts convergence,xpbd,effects --segments 10,20 --substeps 1,8 --iterations 1 "
+      "--xpbd-segments 10 --xpbd-substeps 10,400 --xpbd-inertias 1 --frames 20 "
+      "--reference-segments 20 --reference-substeps 16 --least-ms 0 --cables 2 --cable-segments 8 "
+      "--cable-frames 2 --json");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "") << "progress is for terminals";
+  std::map<std::string, std::vector<nlohmann::json>> parts;
+  for (const nlohmann::json& row : json_lines(result.out)) {
+    parts[row.at("part")].push_back(row);
+  }
+  const std::vector<nlohmann::json>& hose = parts["convergence"];
+  ASSERT_EQ(hose.size(), 2U * 2U * 2U + 2U + 2U + 1U + 1U);
+  EXPECT_EQ(hose[0].at("method"), "implicit_euler");
+  EXPECT_GT(hose[2].at("error"), 2.0 * hose[3].at("error").get<double>()) << "by substeps";
+  EXPECT_EQ(hose[8].at("motion"), "settling");
+  const std::vector<nlohmann::json>& xpbd = parts["xpbd"];
+  ASSERT_EQ(xpbd.size(), 2U * 2U);
+  EXPECT_GT(xpbd[0].at("error"), 2.0 * xpbd[1].at("error").get<double>())
+      << "it converges to the same";
+  for (const nlohmann::json& row : parts["effects"]) {
+    const bool has_twist = row.at("added") == "twist" || row.at("added") == "all";
+    EXPECT_EQ(row.at("unknowns_per_node"), has_twist ? 4 : 3) << row.dump();
+    EXPECT_EQ(row.at("nodes"), 18);
+    EXPECT_GT(row.at("bytes"), 0);
+  }
+  EXPECT_EQ(parts["effects"].size(), 12U);
+}
+
 TEST_F(FiberBench, JudgesKernelsOnHardPairs) {
   const ProcessResult result =
       bench("kernels --json --pairs 3 --repeats 1 --kernels fast,robust,exact");
@@ -308,6 +351,9 @@ TEST_F(FiberBench, RefusesBadCommandLines) {
   EXPECT_TRUE(refused(bench("coherence --skins"), "--skins"));
   EXPECT_TRUE(refused(bench("coherence --moving 2"), "--moving"));
   EXPECT_TRUE(refused(bench("coherence --frames 0"), "--frames: '0'"));
+  EXPECT_TRUE(refused(bench("simulate --parts theory"), "--parts"));
+  EXPECT_TRUE(refused(bench("simulate --segments 10,0"), "--segments: '0'"));
+  EXPECT_TRUE(refused(bench("simulate --reference-segments 1"), "--reference-segments: '1'"));
   EXPECT_TRUE(refused(bench("update --threads none"), "--threads: 'none'"));
   EXPECT_TRUE(refused(bench("kernels --kernels fast,quick"),
                       "unknown kernel 'quick', known are: fast, fast_batch, robust, "));

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "sim/contact_scenes.hpp"
+#include "sim/random_rods.hpp"
 #include "sim/tunnelling.hpp"
 #include "support/error_of.hpp"
 #include "support/random.hpp"

@@ -1,163 +1,44 @@
 // Loads at which a rod leaves the shape it was in, bracketed: below it returns from a small
 // disturbance, above it goes ever farther.
 
+#include "sim/instability.hpp"
+
 #include <gtest/gtest.h>
 
-#include "fiber_proximity/sim/effects/twist.hpp"
-#include "sim/elastica.hpp"
-#include "sim/rod_scene.hpp"
+#include <cmath>
 
 namespace fiber::test {
 namespace {
 
-using Eigen::Vector3d;
-
-constexpr int segments = 50;
 constexpr double below = 0.98;
 constexpr double above = 1.02;
 
-/// Length, bending stiffness, twisting stiffness and mass are 1.
-const RodSection unit_section{1e5, 1.0, 1.0, 1.0, 1e-4};
-
-/// How far from its plane a rod is along an axis across it.
-double distance_along(const Rods& rods, int axis) {
-  double largest = 0.0;
-  for (const Vector3d& position : rods.positions) {
-    largest = std::max(largest, std::abs(position[axis]));
-  }
-  return largest;
-}
-
-/// How many times farther from where it was a rod is than shortly after it was disturbed.
-template <class Distance>
-double growth(Stepper& stepper, const Distance& distance, double step, int steps) {
-  for (int i = 0; i < steps / 4; ++i) {
-    stepper.step(step);
-  }
-  const double early = distance(stepper.rods());
-  for (int i = 0; i < steps; ++i) {
-    stepper.step(step);
-  }
-  return distance(stepper.rods()) / early;
-}
-
-/// Of a column that is clamped at its foot and weighs this much.
-double growth_of_column(double weight) {
-  Rods rods;
-  rods.add(straight({0, 0, 0}, {0, 0, 1}, segments), 0.01, unit_section);
-  for (Vector3d& velocity : rods.velocities) {
-    velocity.x() = 1e-7;
-  }
-  rods.velocities.front().setZero();
-  auto clamped = hold(rods, {clamp(0, {Vector3d::Zero(), Vector3d::UnitZ(), Vector3d::UnitX()})});
-  Stepper stepper(
-      rods,
-      effects(std::make_unique<Gravity>(Vector3d(0, 0, -weight)), std::make_unique<Stretch>(),
-              std::make_unique<Bend>(), std::move(clamped)),
-      precise());
-  return growth(
-      stepper, [](const Rods& r) { return distance_along(r, 0); }, 0.2, 100);
-}
-
-/// θ'' = -β (1 - s) θ from a clamp to an end without moment: where that has a solution, by a series
-/// in β, each power of which follows from the last: θ = Σ (-β)^n r^(3n) / Π (3k)(3k-1), r = 1 - s.
-double column_determinant(double weight) {
-  double term = 1.0;
-  double sum = 1.0;
-  for (int k = 1; k < 30; ++k) {
-    term *= -weight / (3.0 * k * (3.0 * k - 1.0));
-    sum += term;
-  }
-  return sum;
-}
-
 TEST(Instability, AColumnBucklesUnderItsOwnWeight) {
-  const double critical = root_between(column_determinant, 5.0, 10.0);
+  const double critical = critical_weight_of_column();
   EXPECT_NEAR(critical, 7.837, 6e-4);
   EXPECT_LT(growth_of_column(below * critical), 1.0);
   EXPECT_GT(growth_of_column(above * critical), 10.0);
 }
 
-/// Twists a rod by an angle that is the same per length, and clamps both ends.
-std::unique_ptr<Attachment> clamp_twisted(Rods& rods, const Placement& first, const Placement& last,
-                                          double angle) {
-  for (int i = 0; i < segments; ++i) {
-    rods.angles[i] = angle * (i + 0.5) / segments;
-  }
-  Placement turned = last;
-  turned.director = Eigen::AngleAxisd(angle, last.tangent) * last.director;
-  return hold(rods, {clamp(0, first), clamp(segments, turned)});
-}
-
-/// Of a straight rod between two clamps that are twisted against each other.
-double growth_of_twisted(double angle) {
-  Rods rods;
-  rods.add(straight({0, 0, 0}, {1, 0, 0}, segments), 0.01, unit_section);
-  auto twist = std::make_unique<Twist>(rods);
-  const Vector3d director = rods.directors[0];
-  auto clamped = clamp_twisted(rods, {Vector3d::Zero(), Vector3d::UnitX(), director},
-                               {Vector3d::UnitX(), Vector3d::UnitX(), director}, angle);
-  for (int i = 0; i <= segments; ++i) {
-    const double s = static_cast<double>(i) / segments;
-    rods.velocities[i].z() = 1e-7 * std::pow(std::sin(M_PI * s), 2);
-  }
-  Stepper stepper(rods,
-                  effects(std::make_unique<Stretch>(), std::make_unique<Bend>(), std::move(twist),
-                          std::move(clamped)),
-                  precise());
-  return growth(
-      stepper, [](const Rods& r) { return distance_along(r, 2); }, 0.02, 200);
-}
-
 TEST(Instability, ATwistedRodBuckles) {
-  // Greenhill's rod between clamps: tan x = x for x = ML/2EI.
-  const double critical =
-      2.0 * root_between([](double x) { return std::sin(x) - x * std::cos(x); }, 4.0, 5.0);
+  const double critical = critical_twist();
   EXPECT_NEAR(critical, 8.987, 6e-4);
   EXPECT_LT(growth_of_twisted(below * critical), 1.0);
   EXPECT_GT(growth_of_twisted(above * critical), 10.0);
 }
 
-/// A rod bent to a full circle, with both ends clamped in the same place and twisted against each
-/// other. Nothing need disturb it: a clamp hands the moment over in the middle of half an edge, not
-/// at its end, and that small difference pushes the ring's halves out of its plane to either side.
-/// @returns where in the plane the point across from the clamps is in the end, which is
-///          1/pi in the beginning
-double height_of_ring(double angle) {
-  std::vector<Vector3d> points;
-  const double radius = 0.5 / (segments * std::sin(M_PI / segments));
-  for (int i = 0; i <= segments; ++i) {
-    const double turn = 2.0 * M_PI * (i % segments) / segments;
-    points.emplace_back(radius * std::sin(turn), radius * (1.0 - std::cos(turn)), 0.0);
-  }
-  Rods rods;
-  rods.add(points, 0.01, unit_section);
-  auto twist = std::make_unique<Twist>(rods);
-  // The first edge is half a node's turn after the clamp.
-  const Vector3d tangent = Vector3d::UnitX();
-  const auto back = Eigen::Quaterniond::FromTwoVectors(points[1] - points[0], tangent);
-  const Placement placement{Vector3d::Zero(), tangent, back * rods.directors[0]};
-  auto clamped = clamp_twisted(rods, placement, placement, angle);
-  Stepper stepper(rods,
-                  effects(std::make_unique<Stretch>(), std::make_unique<Bend>(), std::move(twist),
-                          std::move(clamped)),
-                  precise());
-  for (int i = 0; i < 200; ++i) {
-    stepper.step(0.02);
-  }
-  EXPECT_LT(distance_along(stepper.rods(), 2), 2e-3) << "it lies in its plane again";
-  return stepper.rods().positions[segments / 2].y();
-}
-
 TEST(Instability, ATwistedRingLeavesItsPlane) {
-  // Michell 1890, Zajac 1962, for equal stiffnesses against bending and twist.
-  const double critical = 2.0 * M_PI * std::sqrt(3.0);
+  const double critical = critical_twist_of_ring();
   EXPECT_NEAR(critical * 180.0 / M_PI, 623.5, 0.1);
   const double height = 1.0 / M_PI;
-  EXPECT_NEAR(height_of_ring(below * critical), height, 0.01 * height);
+  const EndOfRing stays = end_of_ring(below * critical);
+  EXPECT_NEAR(stays.height, height, 0.01 * height);
+  EXPECT_LT(stays.out_of_plane, 2e-3);
   // It folds to a figure of eight, runs through itself, which no contact keeps it from here, and
   // opens on the other side with two turns less.
-  EXPECT_NEAR(height_of_ring(above * critical), -height, 0.01 * height);
+  const EndOfRing turns = end_of_ring(above * critical);
+  EXPECT_NEAR(turns.height, -height, 0.01 * height);
+  EXPECT_LT(turns.out_of_plane, 2e-3) << "it lies in its plane again";
 }
 
 }  // namespace

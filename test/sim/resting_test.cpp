@@ -4,7 +4,9 @@
 
 #include <cmath>
 
+#include "fiber_proximity/sim/contact_stiffness.hpp"
 #include "sim/contact_scenes.hpp"
+#include "sim/random_rods.hpp"
 #include "support/random.hpp"
 
 namespace fiber::test {

@@ -8,6 +8,7 @@
 
 #include "environment/random_shapes.hpp"
 #include "sim/contact_scenes.hpp"
+#include "sim/random_rods.hpp"
 #include "support/random.hpp"
 
 namespace fiber::test {

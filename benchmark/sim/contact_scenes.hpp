@@ -12,10 +12,9 @@
 #include "fiber_proximity/sim/effects/gravity.hpp"
 #include "fiber_proximity/sim/effects/stretch.hpp"
 #include "fiber_proximity/sim/stepper.hpp"
-#include "sim/random_rods.hpp"
 #include "sim/rod_scene.hpp"
 
-namespace fiber::test {
+namespace fiber {
 
 constexpr double standard_gravity = 9.81;  // [m/s²]
 
@@ -84,4 +83,4 @@ inline bool all_finite(const Rods& rods) {
   return true;
 }
 
-}  // namespace fiber::test
+}  // namespace fiber

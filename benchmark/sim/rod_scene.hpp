@@ -12,7 +12,7 @@
 #include "fiber_proximity/sim/effects/stretch.hpp"
 #include "fiber_proximity/sim/stepper.hpp"
 
-namespace fiber::test {
+namespace fiber {
 
 using Effects = std::vector<std::unique_ptr<Effect>>;
 
@@ -79,4 +79,4 @@ inline StepperOptions precise(Integrator integrator = Integrator::IMPLICIT_EULER
   return options;
 }
 
-}  // namespace fiber::test
+}  // namespace fiber

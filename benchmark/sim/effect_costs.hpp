@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace fiber {
+
+/// The scene on which effects are weighed: cables in two layers that cross, just above a table.
+struct EffectScene {
+  std::uint32_t cables = 20;
+  std::uint32_t segments = 60;  ///< of each
+  std::uint32_t substeps = 4;   ///< steps of a frame of 1/60 s
+  std::uint32_t frames = 60;    ///< to measure, after a quarter as many
+};
+
+/// What simulating it with these effects takes, on one thread.
+struct EffectCost {
+  std::vector<std::string> effects;  ///< their names in scene files
+  std::string added;                 ///< beside the base, or "base" or "all"
+  double ms_per_step = 0.0;
+  std::size_t bytes = 0;  ///< on the heap, rods included
+  int unknowns_per_node = 3;
+  std::uint32_t nodes = 0;
+};
+
+/// With gravity, stretch and bend, and with each effect added to these alone; with all of them.
+/// Inextensible takes the place of stretch, and friction comes with environment_contact.
+void measure_effects(const EffectScene& scene,
+                     const std::function<void(const EffectCost&)>& report);
+
+}  // namespace fiber

@@ -1,0 +1,31 @@
+#pragma once
+
+namespace fiber {
+
+/// Rods of 50 segments whose length, bending stiffness, twisting stiffness and mass are 1, near the
+/// loads at which they leave the shape they were in: below, they return from a small disturbance,
+/// above, they go ever farther. Growth is how many times farther they are than shortly after they
+/// were disturbed.
+
+/// Of a column that is clamped at its foot and weighs this much.
+double growth_of_column(double weight);
+double critical_weight_of_column();
+
+/// Of a straight rod between two clamps that are twisted against each other by this angle [rad].
+double growth_of_twisted(double angle);
+double critical_twist();  ///< Greenhill's
+
+/// A rod bent to a full circle, with both ends clamped in the same place and twisted against each
+/// other. Nothing need disturb it: a clamp hands the moment over in the middle of half an edge, not
+/// at its end, and that small difference pushes the ring's halves out of its plane to either side.
+struct EndOfRing {
+  double height;        ///< in the plane, across from the clamps; 1/π in the beginning
+  double out_of_plane;  ///< farthest
+};
+
+/// @param angle [rad]
+/// @param steps of 0.02 s
+EndOfRing end_of_ring(double angle, int steps = 200);
+double critical_twist_of_ring();  ///< Michell 1890, Zajac 1962
+
+}  // namespace fiber

@@ -1,0 +1,173 @@
+#include "sim/measurements.hpp"
+
+#include <algorithm>
+
+#include "processor_time.hpp"
+#include "sim/hose.hpp"
+#include "sim/validation.hpp"
+#include "sim/xpbd_rod.hpp"
+
+namespace fiber {
+
+using Eigen::Vector3d;
+
+namespace {
+
+const char* name_of(HoseMotion motion) {
+  return motion == HoseMotion::SWINGING ? "swinging" : "settling";
+}
+
+const char* name_of(Integrator integrator) {
+  return integrator == Integrator::IMPLICIT_EULER ? "implicit_euler" : "implicit_midpoint";
+}
+
+/// A motion, for how long, and how it should go.
+struct HoseTask {
+  HoseTask(const SimulationMeasurement& what, HoseMotion of)
+      : motion(of),
+        frames(static_cast<int>(of == HoseMotion::SWINGING ? what.frames : 2 * what.frames)),
+        reference(hose_reference(of, frames, what.reference_segments, what.reference_substeps)) {}
+
+  HoseMotion motion;
+  int frames;
+  std::vector<Vector3d> reference;
+};
+
+/// Runs a simulation until it has taken long enough to be timed; the fastest counts.
+template <class Simulate>
+HoseRun repeated(double least_ms, const Simulate& simulate) {
+  HoseRun run = simulate();
+  for (double sum = run.ms; sum < least_ms;) {
+    const double ms = simulate().ms;
+    run.ms = std::min(run.ms, ms);
+    sum += std::max(ms, 1e-3);
+  }
+  return run;
+}
+
+SimulationRow row_of(const char* method, const char* varied, const HoseTask& task,
+                     const HoseSetting& setting, const HoseRun& run) {
+  const double steps = static_cast<double>(task.frames) * setting.substeps;
+  const double ms_per_step = run.ms / steps;
+  return {{"method", method},
+          {"motion", name_of(task.motion)},
+          {"varied", varied},
+          {"segments", setting.segments},
+          {"substeps", setting.substeps},
+          {"iterations", setting.iterations},
+          {"frames", task.frames},
+          {"error", hose_error(task.motion, run.tips, task.reference)},
+          {"ms_per_step", ms_per_step},
+          {"us_per_node_step", 1e3 * ms_per_step / (setting.segments + 1)},
+          {"ms_per_second", run.ms / (task.frames * Hose::frame)}};
+}
+
+void measure_hose(const SimulationMeasurement& what, const HoseTask& task,
+                  const HoseSetting& setting, const char* varied, const ReportRow& report) {
+  const HoseRun run =
+      repeated(what.least_ms, [&] { return simulate_hose(task.motion, setting, task.frames); });
+  report(row_of(name_of(setting.integrator), varied, task, setting, run));
+}
+
+HoseRun simulate_xpbd(const HoseTask& task, const HoseSetting& setting, int inertia) {
+  XpbdRod rod(Hose::points(setting.segments), Hose::section(), inertia);
+  const double step = Hose::frame / setting.substeps;
+  const double damping = hose_damping(task.motion, step);
+  HoseRun run;
+  run.ms = processor_time_of([&] {
+    for (int frame = 0; frame < task.frames; ++frame) {
+      for (int i = 0; i < setting.substeps; ++i) {
+        rod.step(step, Vector3d(0.0, 0.0, -Hose::gravity), setting.iterations);
+        rod.damp(damping);
+      }
+      run.tips.push_back(rod.positions().back());
+    }
+  });
+  return run;
+}
+
+}  // namespace
+
+void measure_validation(const SimulationMeasurement& /*what*/, const ReportRow& report) {
+  validate_simulation([&](const Validation& found) {
+    report({{"test", found.test},
+            {"scene", found.scene},
+            {"quantity", found.quantity},
+            {"segments", found.segments},
+            {"theory", found.theory},
+            {"simulated", found.simulated},
+            {"error", found.error()},
+            {"allowed", found.allowed}});
+  });
+}
+
+void measure_convergence(const SimulationMeasurement& what, const ReportRow& report) {
+  const HoseTask swinging(what, HoseMotion::SWINGING);
+  for (const Integrator integrator : {Integrator::IMPLICIT_EULER, Integrator::IMPLICIT_MIDPOINT}) {
+    HoseSetting setting;
+    setting.integrator = integrator;
+    for (const int segments : what.segments) {
+      for (const int substeps : what.substeps) {
+        setting.segments = segments;
+        setting.substeps = substeps;
+        measure_hose(what, swinging, setting, "grid", report);
+      }
+    }
+  }
+  const HoseTask settling(what, HoseMotion::SETTLING);
+  const auto measure_line = [&](const HoseTask& task, const char* name, int HoseSetting::*of,
+                                const std::vector<int>& values) {
+    HoseSetting setting;
+    for (const int value : values) {
+      setting.*of = value;
+      measure_hose(what, task, setting, name, report);
+    }
+  };
+  measure_line(settling, "segments", &HoseSetting::segments, what.segments);
+  measure_line(settling, "substeps", &HoseSetting::substeps, what.substeps);
+  measure_line(settling, "iterations", &HoseSetting::iterations, what.iterations);
+  measure_line(swinging, "iterations", &HoseSetting::iterations, what.iterations);
+}
+
+void measure_xpbd(const SimulationMeasurement& what, const ReportRow& report) {
+  for (const HoseMotion motion : {HoseMotion::SWINGING, HoseMotion::SETTLING}) {
+    const HoseTask task(what, motion);
+    const auto measure = [&](int segments, int inertia, int substeps) {
+      HoseSetting setting;
+      setting.segments = segments;
+      setting.substeps = substeps;
+      setting.iterations = 1;
+      const HoseRun run =
+          repeated(what.least_ms, [&] { return simulate_xpbd(task, setting, inertia); });
+      SimulationRow row = row_of("xpbd", "grid", task, setting, run);
+      row["inertia"] = inertia;
+      report(row);
+    };
+    for (const int segments : what.xpbd_segments) {
+      for (const int inertia : what.xpbd_inertias) {
+        for (const int substeps : what.xpbd_substeps) {
+          measure(segments, inertia, substeps);
+        }
+      }
+    }
+  }
+}
+
+void measure_effect_costs(const SimulationMeasurement& what, const ReportRow& report) {
+  measure_effects(what.effects, [&](const EffectCost& cost) {
+    report({{"added", cost.added},
+            {"effects", cost.effects},
+            {"cables", what.effects.cables},
+            {"segments", what.effects.segments},
+            {"substeps", what.effects.substeps},
+            {"frames", what.effects.frames},
+            {"nodes", cost.nodes},
+            {"ms_per_step", cost.ms_per_step},
+            {"us_per_node_step", 1e3 * cost.ms_per_step / cost.nodes},
+            {"bytes", cost.bytes},
+            {"bytes_per_node", static_cast<double>(cost.bytes) / cost.nodes},
+            {"unknowns_per_node", cost.unknowns_per_node}});
+  });
+}
+
+}  // namespace fiber

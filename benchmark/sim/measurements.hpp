@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "sim/effect_costs.hpp"
+
+namespace fiber {
+
+/// What to measure of the simulation; all counts at least 1.
+struct SimulationMeasurement {
+  std::vector<int> segments{10, 20, 30, 50, 100, 200, 400};  ///< of the hose
+  std::vector<int> substeps{1, 2, 4, 8, 16, 32};             ///< of a frame of 1/60 s
+  std::vector<int> iterations{1, 2, 3, 4, 6, 8};             ///< of Newton's method in a step
+  std::vector<int> xpbd_segments{20, 50};
+  std::vector<int> xpbd_substeps{5, 10, 20, 50, 100, 200, 500, 1000};
+  std::vector<int> xpbd_inertias{1, 10, 100};  ///< of cross-sections, times what they have
+  std::uint32_t frames = 120;    ///< of the swinging hose; the settling one has twice as many
+  int reference_segments = 400;  ///< of what the hose is compared with, and half as many
+  int reference_substeps = 128;  ///< likewise
+  double least_ms = 50.0;        ///< what is faster is measured again and again
+  EffectScene effects;
+};
+
+/// A line of results, names to values.
+using SimulationRow = nlohmann::ordered_json;
+using ReportRow = std::function<void(const SimulationRow&)>;
+
+/// Closed forms and simulated rods of 50 segments.
+void measure_validation(const SimulationMeasurement& what, const ReportRow& report);
+
+/// Error and time of the hose by segments, substeps and iterations.
+void measure_convergence(const SimulationMeasurement& what, const ReportRow& report);
+
+/// The same hose as a textbook's XPBD rod; rows as of the above.
+void measure_xpbd(const SimulationMeasurement& what, const ReportRow& report);
+
+/// Time and memory of each effect on one scene.
+void measure_effect_costs(const SimulationMeasurement& what, const ReportRow& report);
+
+}  // namespace fiber

@@ -1,0 +1,145 @@
+#include "sim/validation.hpp"
+
+#include <cmath>
+#include <sstream>
+
+#include "sim/friction_scenes.hpp"
+#include "sim/instability.hpp"
+#include "sim/motion.hpp"
+#include "sim/statics.hpp"
+
+namespace fiber {
+namespace {
+
+using Report = std::function<void(const Validation&)>;
+
+constexpr int segments = 50;
+constexpr double one_percent = 0.01;
+constexpr double two_percent = 0.02;  // of friction and where a shape becomes unstable
+constexpr double free_fall_part = 1e-11;
+
+std::string text(const std::string& what, double value) {
+  std::ostringstream out;
+  out << what << " = " << value;
+  return out.str();
+}
+
+/// Where a test turns from false to true as a load grows, by halving from 2 % below to 2 % above
+/// what theory says; one of these ends if it does not turn between them.
+template <class Test>
+double threshold(double theory, const Test& test) {
+  constexpr int halvings = 7;
+  double low = (1.0 - two_percent) * theory;
+  double high = (1.0 + two_percent) * theory;
+  if (test(low)) {
+    return low;
+  }
+  if (!test(high)) {
+    return high;
+  }
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (test(middle) ? high : low) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+void validate_cantilevers(const Report& report) {
+  for (const double load : {0.25, 1.0, 2.0, 3.0, 5.0, 10.0}) {
+    const CantileverTip theory = cantilever_tip(load, 0.0);
+    const CantileverTip tip = simulated_tip(segments, load, 0.0);
+    const std::string scene = text("PL²/EI", load);
+    report({"cantilever, tip load", scene, "drop / L", segments, theory.drop, tip.drop});
+    report({"cantilever, tip load", scene, "reach / L", segments, theory.reach, tip.reach});
+  }
+  for (const double weight : {1.0, 2.0, 4.0, 8.0, 10.0, 20.0}) {
+    report({"cantilever, own weight", text("ρAgL³/EI", weight), "drop / L", segments,
+            cantilever_tip(0.0, weight).drop, simulated_tip(segments, 0.0, weight).drop});
+  }
+}
+
+void validate_catenaries(const Report& report) {
+  for (const double length : {1.01, 1.05, 1.1, 1.2, 1.5, 2.0}) {
+    const HangingChain theory = exact_catenary(length);
+    const HangingChain chain = simulated_catenary(length, segments);
+    const std::string scene = text("length / span", length);
+    report({"catenary", scene, "sag / span", segments, theory.sag, chain.sag});
+    report({"catenary", scene, "pull / weight per span", segments, theory.pull, chain.pull});
+  }
+}
+
+void validate_motion(const Report& report) {
+  struct Mode {
+    const char* name;
+    double low;
+    double high;
+  };
+  for (const Mode& mode : {Mode{"first mode", 1.5, 2.5}, Mode{"second mode", 4.0, 5.0}}) {
+    const double root = cantilever_root(mode.low, mode.high);
+    report({"cantilever, frequency", mode.name, "f · L² √(ρA/EI)", segments,
+            root * root / (2.0 * M_PI), simulated_frequency(segments, root)});
+  }
+  for (const double degrees : {10.0, 45.0, 90.0}) {
+    const double angle = degrees * M_PI / 180.0;
+    const double period = simulated_pendulum_period(segments, angle, 0.01);
+    report({"pendulum", text("amplitude [°]", degrees), "period / that of small ones", segments,
+            exact_pendulum_ratio(angle), period / rod_pendulum_period()});
+  }
+  constexpr int steps = 50;
+  constexpr double step = 0.01;
+  for (const Integrator integrator : {Integrator::IMPLICIT_EULER, Integrator::IMPLICIT_MIDPOINT}) {
+    const bool is_euler = integrator == Integrator::IMPLICIT_EULER;
+    report({"free fall", is_euler ? "implicit Euler, its bias included" : "implicit midpoint",
+            "height after 0.5 s [m]", 10, exact_fall(integrator, step, steps),
+            fallen_rod(integrator, step, steps).positions.front().z(), free_fall_part});
+  }
+}
+
+void validate_instability(const Report& report) {
+  const double weight = critical_weight_of_column();
+  const double buckling =
+      threshold(weight, [](double load) { return growth_of_column(load) > 1.0; });
+  report({"buckling under own weight", "clamped column", "ρAgL³/EI", segments, weight, buckling,
+          two_percent});
+  const double twist = critical_twist();
+  report({"Greenhill's buckling", "twisted between clamps", "ML/EI", segments, twist,
+          threshold(twist, [](double angle) { return growth_of_twisted(angle) > 1.0; }),
+          two_percent});
+  constexpr int ring_steps = 800;
+  const double ring = critical_twist_of_ring();
+  report({"Michell's ring", "GJ = EI", "twist [rad]", segments, ring,
+          threshold(ring, [](double angle) { return end_of_ring(angle, ring_steps).height < 0.0; }),
+          two_percent});
+}
+
+void validate_friction(const Report& report) {
+  constexpr double moves = 1e-3;  // [m/s]
+  for (const double friction : {0.1, 0.2, 0.3}) {
+    const double slope = threshold(friction, [&](double tangent) {
+      Incline incline(std::atan(tangent), friction);
+      incline.run(2.0);
+      return incline.speed() > moves;
+    });
+    report({"incline", text("μ", friction), "slope where it slides [°]", 10,
+            std::atan(friction) * 180.0 / M_PI, std::atan(slope) * 180.0 / M_PI, two_percent});
+  }
+  constexpr double friction = 0.3;
+  constexpr int edges_per_turn = 50;
+  for (const double turns : {0.25, 0.5, 1.0}) {
+    report({"capstan", text("μ = 0.3, turns", turns), "ratio of the tensions", edges_per_turn,
+            std::exp(friction * 2.0 * M_PI * turns),
+            tension_ratio({turns, edges_per_turn}, friction), two_percent});
+  }
+}
+
+}  // namespace
+
+void validate_simulation(const Report& report) {
+  validate_cantilevers(report);
+  validate_catenaries(report);
+  validate_motion(report);
+  validate_instability(report);
+  validate_friction(report);
+}
+
+}  // namespace fiber

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace fiber {
+
+/// A number that theory knows, beside the same of a simulated rod.
+struct Validation {
+  std::string test;
+  std::string scene;
+  std::string quantity;
+  int segments = 0;  ///< of the rod, or of a turn around a post
+  double theory = 0.0;
+  double simulated = 0.0;
+  double allowed = 0.01;  ///< error, as a part of what theory says
+
+  double error() const { return simulated / theory - 1.0; }
+};
+
+/// Simulates all of them, one after the other; some seconds.
+void validate_simulation(const std::function<void(const Validation&)>& report);
+
+}  // namespace fiber
