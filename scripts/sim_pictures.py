@@ -17,13 +17,13 @@ SHEET = ROOT / "docs" / "simulation_scenes.png"
 # Seconds until the picture is taken; the view: yaw and pitch [rad], distance and focal point [m];
 # what the sheet says.
 SCENES = {
-    "hanging_cable": (3, (5.2, 0.25, 1.5, (0.0, 0.0, 0.85)), "hanging cable, swung by a gripper"),
+    "hanging_cable": (3, (5.2, 0.25, 1.2, (0.0, 0.0, 0.9)), "hanging cable, swung by a gripper"),
     "pile": (4, (5.0, 0.55, 0.6, (0.0, 0.0, 0.03)), "cable dropped into a pile"),
     "knot": (2, (4.9, 0.35, 0.85, (0.0, 0.0, 0.47)), "overhand knot, tightened"),
-    "harness": (4, (4.9, 0.75, 0.75, (0.0, 0.0, 0.0)), "wire pulled through clips"),
-    "capstan": (2, (5.1, 0.25, 1.1, (0.0, 0.0, -0.15)), "rope around a post"),
-    "wind": (3, (4.5, 0.2, 0.55, (0.06, 0.025, 0.88)), "tress in gusts of wind"),
-    "hose": (6, (5.3, 0.5, 1.5, (0.1, 0.05, 0.8)), "robot arm dragging a hose"),
+    "harness": (4, (4.9, 0.75, 0.62, (0.0, 0.0, 0.0)), "wire pulled through clips"),
+    "capstan": (2, (5.1, 0.25, 1.0, (0.0, 0.0, -0.2)), "rope around a post"),
+    "wind": (3, (5.75, 0.15, 0.42, (0.07, 0.025, 0.9)), "tress in gusts of wind"),
+    "hose": (6, (5.2, 0.5, 1.3, (0.0, 0.05, 0.85)), "robot arm dragging a hose"),
     "demo": (6, (5.0, 0.6, 1.2, (0.0, -0.03, 0.0)), "the demo: one cable dragged over others"),
 }
 
@@ -48,7 +48,7 @@ def take(scene):
     seconds, view, _ = SCENES[scene]
     arguments = [f"rviz_config:={write_view(scene, view)}"]
     if scene != "hose":
-        arguments += [f"scene:={ROOT / 'config' / 'sim' / (scene + '.yaml')}", "interactive:=false"]
+        arguments += [f"scene:={ROOT / 'config' / 'sim' / (scene + '.yaml')}"]
     subprocess.run([ROOT / "scripts" / "screenshot.sh", "--after", str(seconds),
                     launch_file(scene), PICTURES / f"{scene}.png", *arguments], check=True)
 
