@@ -3,7 +3,12 @@
 add_library(fiber_proximity_cable_sim SHARED
   src/ros/sim_effects.cpp
   src/ros/sim_fibers.cpp
+  src/ros/sim_frames.cpp
   src/ros/sim_holds.cpp
+  src/ros/sim_markers.cpp
+  src/ros/sim_parameters.cpp
+  src/ros/sim_report.cpp
+  src/ros/sim_resolution.cpp
   src/ros/sim_scene.cpp
   src/ros/sim_server.cpp
   src/ros/sim_shapes.cpp

@@ -8,6 +8,7 @@ set(ros_dependencies
   dynamic_reconfigure
   geometric_shapes
   geometry_msgs
+  interactive_markers
   nav_msgs
   nodelet
   pluginlib
@@ -41,6 +42,7 @@ add_message_files(FILES
   Obstacle.msg
   ObstacleArray.msg
   QueryShape.msg
+  SimulationParameter.msg
   Statistics.msg
 )
 add_service_files(FILES
@@ -51,6 +53,7 @@ add_service_files(FILES
   CompareWithFcl.srv
   DetachFiber.srv
   QueryProximity.srv
+  SetSimulationParameters.srv
   StepSimulation.srv
 )
 generate_messages(DEPENDENCIES geometry_msgs shape_msgs std_msgs)

@@ -25,6 +25,7 @@ add_library(fiber_proximity_sim SHARED
   src/sim/material.cpp
   src/sim/material_presets.cpp
   src/sim/moving_rod.cpp
+  src/sim/resolution.cpp
   src/sim/rod_batch.cpp
   src/sim/rod_group.cpp
   src/sim/rod_system.cpp

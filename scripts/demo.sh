@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Sets up, builds and shows the demo: swaying cables, their contacts, in rviz.
+# Sets up, builds and shows the demo: simulated cables, their contacts, in rviz.
 #   scripts/demo.sh [--cell] [--headless] [--seconds N] [--screenshot FILE]
 #     --cell             instead an arm that moves a cable about a table, and its distances to both
 #     --headless         no window: prints contacts as they come; so it does without a display

@@ -27,6 +27,7 @@ packages=(
   libnodelet-dev libnodeletlib-dev libnodeletlib-tools pluginlib-dev
   libtf2-ros-dev libtf2-geometry-msgs-dev tf2-tools
   libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure libdiagnostic-updater-dev
+  libinteractive-markers-dev
   libnav-msgs-dev libsensor-msgs-dev libvisualization-msgs-dev libros-rosgraph-msgs-dev libstd-srvs-dev
   libshape-msgs-dev libgeometric-shapes-dev liburdf-dev libroslib-dev ros-robot-state-publisher python3-numpy
   ros-{std,geometry,sensor,shape,nav,visualization,diagnostic,tf2}-msgs ros-{rosgraph-msgs,std-srvs}

@@ -100,6 +100,12 @@ std::unique_ptr<Made> make(const NamedEffects& named, const std::string& name,
                 [&] { return std::make_unique<Made>(std::forward<Arguments>(arguments)...); });
 }
 
+Eigen::Vector3d read_gravity(const NamedEffects& named) {
+  Eigen::Vector3d acceleration(0.0, 0.0, -9.81);
+  read(named.options("gravity", {"acceleration"}), "acceleration", acceleration);
+  return acceleration;
+}
+
 void set_natural_curvature(const NamedEffects& named, fiber::Rods& rods) {
   double curvature = 0.0;
   const auto options = named.options("bend", {"natural_curvature"});
@@ -112,7 +118,7 @@ void set_natural_curvature(const NamedEffects& named, fiber::Rods& rods) {
   }
 }
 
-std::unique_ptr<fiber::Effect> make_drag(const NamedEffects& named) {
+std::unique_ptr<fiber::Effect> make_drag(const NamedEffects& named, SimParameters& parameters) {
   fiber::Drag::Options drag;
   const auto options = named.options("drag", {"fluid_density", "across", "along", "wind"});
   read(options, "fluid_density", drag.fluid_density);
@@ -125,7 +131,9 @@ std::unique_ptr<fiber::Effect> make_drag(const NamedEffects& named) {
     read(wind, "gust_period", drag.wind.gust_period);
     read(wind, "gust_length", drag.wind.gust_length);
   }
-  return make<fiber::Drag>(named, "drag", drag);
+  auto made = make<fiber::Drag>(named, "drag", drag);
+  parameters.add(*made, drag);
+  return made;
 }
 
 std::unique_ptr<fiber::Effect> make_attachment(const NamedEffects& named, const SimWorld& world,
@@ -137,6 +145,7 @@ std::unique_ptr<fiber::Effect> make_attachment(const NamedEffects& named, const 
       naming(hold.place, [&] { return attachment->add(rods, hold.hold); });
     }
     made.frames = std::move(holds.frames);
+    made.fastest_hold = holds.fastest;
   }
   made.attachment = attachment.get();
   return attachment;
@@ -169,7 +178,8 @@ std::vector<std::unique_ptr<fiber::ContactSource>> make_sources(const NamedEffec
   return sources;
 }
 
-std::unique_ptr<fiber::Contacts> make_contacts(const NamedEffects& named, const SimWorld& world) {
+std::unique_ptr<fiber::Contacts> make_contacts(const NamedEffects& named, const SimWorld& world,
+                                               SimParameters& parameters) {
   std::vector<std::unique_ptr<fiber::ContactSource>> sources = make_sources(named, world);
   std::unique_ptr<fiber::Friction> friction;
   if (named.has("friction")) {
@@ -183,6 +193,7 @@ std::unique_ptr<fiber::Contacts> make_contacts(const NamedEffects& named, const 
     read(given, "coefficient", options.coefficient);
     read(given, "stick_speed", options.stick_speed);
     friction = make<fiber::Friction>(named, "friction", options);
+    parameters.add(*friction, options);
   }
   return sources.empty()
              ? nullptr
@@ -197,6 +208,17 @@ std::vector<std::string> sim_effect_names() {
           "self_contact",  "stretch",  "twist"};
 }
 
+double named_gravity(const YamlField& list) {
+  const NamedEffects named(list);
+  return named.has("gravity") ? read_gravity(named).norm() : 0.0;
+}
+
+bool names_contacts(const YamlField& list) {
+  const NamedEffects named(list);
+  return named.has("self_contact") || named.has("fiber_contact") ||
+         named.has("environment_contact");
+}
+
 SimEffects read_sim_effects(const YamlField& list, const SimWorld& world, fiber::Rods& rods) {
   const NamedEffects named(list);
   if (named.has("stretch") && named.has("inextensible")) {
@@ -207,9 +229,10 @@ SimEffects read_sim_effects(const YamlField& list, const SimWorld& world, fiber:
   made.names = named.names();
   std::vector<std::unique_ptr<fiber::Effect>>& effects = made.effects;
   if (named.has("gravity")) {
-    Eigen::Vector3d acceleration(0.0, 0.0, -9.81);
-    read(named.options("gravity", {"acceleration"}), "acceleration", acceleration);
-    effects.push_back(make<fiber::Gravity>(named, "gravity", acceleration));
+    const Eigen::Vector3d acceleration = read_gravity(named);
+    auto gravity = make<fiber::Gravity>(named, "gravity", acceleration);
+    made.parameters.add(*gravity, acceleration);
+    effects.push_back(std::move(gravity));
   }
   if (named.has("stretch")) {
     named.options("stretch", {});
@@ -230,10 +253,12 @@ SimEffects read_sim_effects(const YamlField& list, const SimWorld& world, fiber:
   if (named.has("damping")) {
     double relaxation_time = 0.01;
     read(named.options("damping", {"relaxation_time"}), "relaxation_time", relaxation_time);
-    effects.push_back(make<fiber::Damping>(named, "damping", relaxation_time));
+    auto damping = make<fiber::Damping>(named, "damping", relaxation_time);
+    made.parameters.add(*damping, relaxation_time);
+    effects.push_back(std::move(damping));
   }
   if (named.has("drag")) {
-    effects.push_back(make_drag(named));
+    effects.push_back(make_drag(named, made.parameters));
   }
   if (named.has("plasticity")) {
     fiber::Plasticity::Options plasticity;
@@ -245,7 +270,7 @@ SimEffects read_sim_effects(const YamlField& list, const SimWorld& world, fiber:
   if (named.has("attachment")) {  // after twist, which gives rods the directors that clamps hold
     effects.push_back(make_attachment(named, world, rods, made));
   }
-  made.contacts = make_contacts(named, world);
+  made.contacts = make_contacts(named, world, made.parameters);
   return made;
 }
 

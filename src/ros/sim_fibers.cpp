@@ -1,10 +1,13 @@
 #include "fiber_proximity/ros/sim_fibers.hpp"
 
+#include <Eigen/Geometry>
+#include <cmath>
 #include <set>
 #include <stdexcept>
 
 #include "fiber_proximity/ros/naming.hpp"
 #include "fiber_proximity/ros/sim_shapes.hpp"
+#include "fiber_proximity/sim/resolution.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -34,21 +37,42 @@ fiber::RodMaterial read_material(const YamlField& field, bool is_name) {
   return material;
 }
 
-SimFiber read_fiber(const YamlField& entry) {
+/// By how much a curve turns in all [rad].
+double turning_of(const std::vector<Eigen::Vector3d>& points) {
+  double turning = 0.0;
+  for (std::size_t i = 2; i < points.size(); ++i) {
+    const Eigen::Vector3d before = points[i - 1] - points[i - 2];
+    const Eigen::Vector3d after = points[i] - points[i - 1];
+    turning += std::atan2(before.cross(after).norm(), before.dot(after));
+  }
+  return turning;
+}
+
+std::int64_t read_segments(const YamlField& entry, std::optional<double> accuracy) {
+  if (!accuracy || entry.find("segments")) {
+    return entry.get("segments").integer(1, most_segments);
+  }
+  constexpr std::int64_t fine = 1000;
+  return fiber::segments_for(*accuracy, turning_of(read_sim_shape(entry.get("shape"), fine)));
+}
+
+void read_body(const YamlField& entry, std::optional<double> accuracy, SimFiber& fiber) {
+  fiber.points = read_sim_shape(entry.get("shape"), read_segments(entry, accuracy));
+  fiber.radius = entry.get("radius").number();
+  const YamlField given = entry.get("material");
+  const fiber::RodMaterial material = read_material(given, given.is_text());
+  naming(given.place(),
+         [&] { fiber.section = fiber::solid_round_section(material, fiber.radius); });
+  // What the rods refuse is refused here, where the fibre has a name and a line.
+  naming(entry.place(), [&] { fiber::Rods().add(fiber.points, fiber.radius, fiber.section); });
+}
+
+SimFiber read_fiber(const YamlField& entry, std::optional<double> accuracy) {
   entry.require_map({"name", "shape", "segments", "radius", "material", "repeat"});
   SimFiber fiber;
   fiber.name = entry.get("name").text();
   fiber.group = fiber.name;
-  fiber.points =
-      read_sim_shape(entry.get("shape"), entry.get("segments").integer(1, most_segments));
-  fiber.radius = entry.get("radius").number();
-  const YamlField given = entry.get("material");
-  const fiber::RodMaterial material = read_material(given, given.is_text());
-  naming(entry.place() + ": fibre '" + fiber.name + "'", [&] {
-    fiber.section = fiber::solid_round_section(material, fiber.radius);
-    // What the rods refuse is refused here, where the fibre has a name and a line.
-    fiber::Rods().add(fiber.points, fiber.radius, fiber.section);
-  });
+  naming_fiber(fiber.name, [&] { read_body(entry, accuracy, fiber); });
   return fiber;
 }
 
@@ -73,11 +97,11 @@ std::vector<SimFiber> repeat(const SimFiber& fiber, const YamlField& entry) {
 
 }  // namespace
 
-std::vector<SimFiber> read_sim_fibers(const YamlField& list) {
+std::vector<SimFiber> read_sim_fibers(const YamlField& list, std::optional<double> accuracy) {
   std::vector<SimFiber> fibers;
   std::set<std::string> names;
   for (const YamlField& entry : list.items()) {
-    for (SimFiber& fiber : repeat(read_fiber(entry), entry)) {
+    for (SimFiber& fiber : repeat(read_fiber(entry, accuracy), entry)) {
       if (!names.insert(fiber.name).second) {
         throw std::invalid_argument(entry.place() + " has the name '" + fiber.name +
                                     "' of another fibre of the scene");

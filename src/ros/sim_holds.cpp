@@ -14,8 +14,7 @@ using Eigen::Vector3d;
 using fiber::Attachment;
 using fiber::Placement;
 
-/// Placements by time [s], which rises.
-using Path = std::vector<std::pair<double, Placement>>;
+using Path = PlacementPath;
 
 /// Indices of the fibres of this name, or of the entry of this name.
 std::vector<std::uint32_t> find_fibers(const YamlField& name, const std::vector<SimFiber>& fibers) {
@@ -85,6 +84,9 @@ Path read_path(const YamlField& list, Placement placement) {
   for (const YamlField& entry : list.items()) {
     entry.require_map({"time", "position", "tangent", "director"});
     const YamlField time = entry.get("time");
+    if (!std::isfinite(time.number())) {
+      time.refuse("finite");
+    }
     if (!path.empty() && !(time.number() > path.back().first)) {
       time.refuse("later than the time before, " + std::to_string(path.back().first) + " s");
     }
@@ -98,6 +100,27 @@ Path read_path(const YamlField& list, Placement placement) {
     list.refuse("a list of at least one entry");
   }
   return path;
+}
+
+/// Leads a path back to where it begins, after which it begins again.
+/// @returns the period [s]
+double close_path(const YamlField& period, Path& path) {
+  const double length = period.number();
+  if (!(std::isfinite(length) && length > path.back().first)) {
+    period.refuse("longer than the path, " + std::to_string(path.back().first) +
+                  " s: it leads back to its beginning");
+  }
+  path.emplace_back(length, path.front().second);
+  return length;
+}
+
+double fastest_speed(const Path& path) {
+  double fastest = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    fastest = std::max(fastest, (path[i].second.position - path[i - 1].second.position).norm() /
+                                    (path[i].first - path[i - 1].first));
+  }
+  return fastest;
 }
 
 /// Before the first entry and after the last one these hold.
@@ -133,6 +156,30 @@ Attachment::Kind read_kind(const std::optional<YamlField>& kind) {
   return Attachment::Kind::CLAMP;
 }
 
+/// Where the fibre would be torn in the first step: a hold begins where it is, within an edge.
+void require_near(const YamlField& entry, const Placement& begin, const SimFiber& fiber,
+                  std::uint32_t node) {
+  const std::uint32_t edge = std::min(node, static_cast<std::uint32_t>(fiber.points.size()) - 2);
+  const double length = (fiber.points[edge + 1] - fiber.points[edge]).norm();
+  const double away = (begin.position - fiber.points[node]).norm();
+  if (!(away <= length)) {
+    throw std::invalid_argument(entry.place() + " begins " + std::to_string(away) +
+                                " m from where node " + std::to_string(node) +
+                                " is, it must begin within " + std::to_string(length) +
+                                " m, an edge's length");
+  }
+}
+
+std::function<Placement(double)> follow(const YamlField& entry, Path path, double& fastest) {
+  const auto period = entry.find("period");
+  const double length = period ? close_path(*period, path) : 0.0;
+  fastest = std::max(fastest, fastest_speed(path));
+  if (period) {
+    return [path, length](double time) { return at(path, std::fmod(time, length)); };
+  }
+  return [path](double time) { return at(path, time); };
+}
+
 void read_hold(const YamlField& entry, std::uint32_t rod, const SimFiber& fiber, SimHolds& holds) {
   Attachment::Hold hold;
   hold.rod = rod;
@@ -149,15 +196,26 @@ void read_hold(const YamlField& entry, std::uint32_t rod, const SimFiber& fiber,
   if (path && frame) {
     frame->refuse("absent where there is a path");
   }
+  if (!path && entry.find("period")) {
+    entry.get("period").refuse("absent where there is no path");
+  }
   if (path) {
-    hold.placement = [path = read_path(*path, placement)](double time) { return at(path, time); };
+    hold.placement = follow(entry, read_path(*path, placement), holds.fastest);
   } else {
-    const auto shared = std::make_shared<Placement>(frame ? beginning : placement);
-    hold.placement = [shared](double) { return *shared; };
+    const auto shared = std::make_shared<Path>(Path{{0.0, frame ? beginning : placement}});
+    hold.placement = [shared](double time) { return at(*shared, time); };
     if (frame) {
       holds.frames.push_back(
-          {frame->text(), "node " + std::to_string(hold.node) + " of fibre '" + fiber.name + "'",
+          {frame->text(),
+           entry.place() + ": node " + std::to_string(hold.node) + " of fibre '" + fiber.name + "'",
            placement, shared});
+    }
+  }
+  require_near(entry, hold.placement(0.0), fiber, hold.node);
+  for (const SimHold& other : holds.holds) {
+    if (other.hold.rod == rod && other.hold.node == hold.node) {
+      throw std::invalid_argument(entry.place() + " holds node " + std::to_string(hold.node) +
+                                  ", which is held already: " + other.place);
     }
   }
   holds.holds.push_back({hold, entry.place()});
@@ -169,9 +227,9 @@ SimHolds read_sim_holds(const YamlField& list, const std::vector<SimFiber>& fibe
   SimHolds holds;
   for (const YamlField& entry : list.items()) {
     entry.require_map(
-        {"fiber", "node", "kind", "position", "tangent", "director", "path", "frame"});
+        {"fiber", "node", "kind", "position", "tangent", "director", "path", "period", "frame"});
     for (const std::uint32_t rod : find_fibers(entry.get("fiber"), fibers)) {
-      read_hold(entry, rod, fibers[rod], holds);
+      naming_fiber(fibers[rod].name, [&] { read_hold(entry, rod, fibers[rod], holds); });
     }
   }
   return holds;

@@ -6,6 +6,8 @@
 
 #include "fiber_proximity/ros/allowed_contacts.hpp"
 #include "fiber_proximity/ros/environment_scene.hpp"
+#include "fiber_proximity/ros/sim_resolution.hpp"
+#include "fiber_proximity/ros/yaml_obstacle.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -50,6 +52,20 @@ std::shared_ptr<const fiber::Environment> make_environment(const YamlField& fiel
   return world.environment();
 }
 
+/// The same obstacles as messages, for others that are to know them.
+std::vector<fiber_proximity::Obstacle> read_obstacles(const YamlField& environment,
+                                                      const MeshLoader& meshes,
+                                                      const std::string& frame_id) {
+  std::vector<fiber_proximity::Obstacle> obstacles;
+  if (const auto list = environment.find("obstacles")) {
+    for (const YamlField& entry : list->items()) {
+      obstacles.push_back(read_obstacle(entry, meshes));
+      obstacles.back().header.frame_id = frame_id;
+    }
+  }
+  return obstacles;
+}
+
 fiber::AllowedPairs resolve(const std::vector<fiber_proximity::AllowedPair>& pairs,
                             const std::vector<std::string>& fiber_names) {
   AllowedContacts allowed;
@@ -61,10 +77,11 @@ fiber::AllowedPairs resolve(const std::vector<fiber_proximity::AllowedPair>& pai
 
 }  // namespace
 
-SimScene read_sim_scene(const std::string& file, const MeshLoader& meshes, std::uint32_t threads) {
+SimScene read_sim_scene(const std::string& file, const MeshLoader& meshes, std::uint32_t threads,
+                        std::optional<std::uint32_t> iterations) {
   const YamlField document = load_yaml(file);
-  document.require_map({"frame_id", "time_step", "substeps", "iterations", "integrator", "fibers",
-                        "effects", "environment"});
+  document.require_map({"frame_id", "time_step", "substeps", "iterations", "integrator", "accuracy",
+                        "real_time", "fibers", "effects", "environment"});
   SimScene scene;
   const auto frame_id = document.find("frame_id");
   scene.frame_id = frame_id ? frame_id->text() : "world";
@@ -74,9 +91,21 @@ SimScene read_sim_scene(const std::string& file, const MeshLoader& meshes, std::
       time_step->refuse("positive and finite");
     }
   }
-  scene.substeps = read_count(document, "substeps", most_substeps, scene.substeps);
-
-  const std::vector<SimFiber> fibers = read_sim_fibers(document.get("fibers"));
+  scene.options = read_options(document);
+  scene.options.threads = threads;
+  scene.options.iterations = iterations.value_or(scene.options.iterations);
+  SimSteps steps;
+  steps.time_step = scene.time_step;
+  if (document.find("substeps")) {
+    steps.substeps = read_count(document, "substeps", most_substeps, scene.substeps);
+  }
+  steps.options = scene.options;
+  steps.gravity = named_gravity(document.get("effects"));
+  steps.has_contacts = scene.has_contacts = names_contacts(document.get("effects"));
+  const SimResolution resolution = read_sim_resolution(document, steps);
+  const std::vector<SimFiber>& fibers = resolution.fibers;
+  scene.substeps = resolution.substeps;
+  scene.accuracy = resolution.accuracy;
   fiber::Rods rods;
   for (const SimFiber& fiber : fibers) {
     rods.add(fiber.points, fiber.radius, fiber.section);
@@ -87,15 +116,16 @@ SimScene read_sim_scene(const std::string& file, const MeshLoader& meshes, std::
     const EnvironmentScene environment = read_scene(*field, meshes);
     world.environment = make_environment(*field, environment, scene.frame_id);
     world.allowed = resolve(environment.allowed, scene.fiber_names);
+    scene.obstacles = read_obstacles(*field, meshes, scene.frame_id);
   }
   SimEffects effects = read_sim_effects(document.get("effects"), world, rods);
   scene.effect_names = std::move(effects.names);
   scene.attachment = effects.attachment;
   scene.frames = std::move(effects.frames);
-  fiber::StepperOptions options = read_options(document);
-  options.threads = threads;
+  scene.parameters = std::move(effects.parameters);
+  scene.fastest_hold = effects.fastest_hold;
   scene.stepper = std::make_unique<fiber::Stepper>(std::move(rods), std::move(effects.effects),
-                                                   options, std::move(effects.contacts));
+                                                   scene.options, std::move(effects.contacts));
   return scene;
 }
 

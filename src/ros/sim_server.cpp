@@ -7,10 +7,12 @@
 #include <exception>
 #include <stdexcept>
 
+#include "fiber_proximity/ObstacleArray.h"
 #include "fiber_proximity/ros/conversions.hpp"
 #include "fiber_proximity/ros/environment_options.hpp"
 #include "fiber_proximity/ros/listed.hpp"
 #include "fiber_proximity/ros/parameters.hpp"
+#include "fiber_proximity/ros/sim_report.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -43,6 +45,8 @@ SimOptions read_sim_options(const ros::NodeHandle& private_node) {
   read_parameter(private_node, "threads", options.threads);
   read_parameter(private_node, "clock", "true or false", options.clock);
   read_parameter(private_node, "paused", "true or false", options.paused);
+  read_parameter(private_node, "interactive", "true or false", options.interactive);
+  read_parameter(private_node, "frame_timeout", 0.0, options.frame_timeout);
   options.meshes = read_mesh_folders(private_node);
   return options;
 }
@@ -52,6 +56,7 @@ SimServer::SimServer(const ros::NodeHandle& private_node, const SimOptions& opti
       options_(options),
       scene_(read_sim_scene(options.scene, options.meshes, options.threads)),
       world_(scene_.frame_id, private_node),
+      frames_(world_, options.frame_timeout),
       is_paused_(options.paused),
       next_frame_(ros::SteadyTime::now()) {
   log_scene();
@@ -59,12 +64,16 @@ SimServer::SimServer(const ros::NodeHandle& private_node, const SimOptions& opti
   if (options_.clock) {
     clock_ = node_.advertise<rosgraph_msgs::Clock>("/clock", 1);
   }
+  obstacles_ = node_.advertise<fiber_proximity::ObstacleArray>("obstacles", 1, true);
   publish();
+  publish_obstacles({});
+  make_markers();
   servers_.push_back(node_.advertiseService("reset", &SimServer::reset, this));
   servers_.push_back(node_.advertiseService("pause", &SimServer::pause, this));
   servers_.push_back(node_.advertiseService("step", &SimServer::step, this));
   servers_.push_back(node_.advertiseService("attach", &SimServer::attach, this));
   servers_.push_back(node_.advertiseService("detach", &SimServer::detach, this));
+  servers_.push_back(node_.advertiseService("set_parameters", &SimServer::set_parameters, this));
   timer_ = node_.createSteadyTimer(ros::WallDuration(scene_.time_step),
                                    [this](const ros::SteadyTimerEvent&) { keep_pace(); });
 }
@@ -82,6 +91,19 @@ void SimServer::log_scene() const {
                               << " N, EI " << section.bending_stiffness << " N m^2, GJ "
                               << section.twisting_stiffness << " N m^2, " << section.mass_per_length
                               << " kg/m");
+  }
+  if (scene_.accuracy) {
+    ROS_INFO_STREAM(
+        "segments and substeps that the scene leaves open are chosen for an accuracy of "
+        << 100.0 * *scene_.accuracy << " %");
+  }
+  const SimReport expected =
+      report(scene_, try_scene(options_.scene, options_.meshes, options_.threads));
+  for (const std::string& fact : expected.facts) {
+    ROS_INFO_STREAM(fact);
+  }
+  for (const std::string& warning : expected.warnings) {
+    ROS_WARN_STREAM(options_.scene << ": " << warning);
   }
 }
 
@@ -104,24 +126,16 @@ void SimServer::keep_pace() {
 }
 
 void SimServer::advance() {
-  follow_frames();
+  frames_.follow(scene_.frames, {scene_.stepper->time(), scene_.time_step});
+  if (markers_ != nullptr) {
+    markers_->apply(scene_);
+  }
   for (std::uint32_t i = 0; i < scene_.substeps; ++i) {
     scene_.stepper->step(scene_.time_step / scene_.substeps);
   }
   publish();
-}
-
-void SimServer::follow_frames() {
-  for (const FollowedFrame& followed : scene_.frames) {
-    try {
-      const FramePose frame = world_.latest_pose(followed.frame, ros::Time(0));
-      followed.placement->position = frame.pose * followed.in_frame.position;
-      followed.placement->tangent = frame.pose.linear() * followed.in_frame.tangent;
-      followed.placement->director = frame.pose.linear() * followed.in_frame.director;
-    } catch (const TransformUnavailable& error) {
-      ROS_WARN_STREAM_THROTTLE(warning_period,
-                               followed.what << " stays where it is: " << error.what());
-    }
+  if (markers_ != nullptr) {
+    markers_->update(scene_);
   }
 }
 
@@ -138,6 +152,33 @@ void SimServer::publish() {
     clock_.publish(clock);
   }
   fibers_.publish(message_);
+}
+
+/// @param before what was published of the scene before, of which what is no longer there goes
+void SimServer::publish_obstacles(const std::vector<fiber_proximity::Obstacle>& before) {
+  fiber_proximity::ObstacleArray message;
+  for (const fiber_proximity::Obstacle& old : before) {
+    const auto is_same = [&old](const auto& obstacle) { return obstacle.id == old.id; };
+    if (std::none_of(scene_.obstacles.begin(), scene_.obstacles.end(), is_same)) {
+      message.obstacles.emplace_back();
+      message.obstacles.back().id = old.id;
+      message.obstacles.back().operation = fiber_proximity::Obstacle::REMOVE;
+    }
+  }
+  message.obstacles.insert(message.obstacles.end(), scene_.obstacles.begin(),
+                           scene_.obstacles.end());
+  obstacles_.publish(message);
+}
+
+void SimServer::make_markers() {
+  if (!options_.interactive || scene_.attachment == nullptr) {
+    markers_.reset();
+    return;
+  }
+  if (markers_ == nullptr) {
+    markers_ = std::make_unique<SimMarkers>(node_.resolveName("interactive_markers"), world_);
+  }
+  markers_->begin(scene_);
 }
 
 SimServer::NodeOfRod SimServer::find_node(const std::string& fiber, std::int32_t node) const {
@@ -162,8 +203,11 @@ SimServer::NodeOfRod SimServer::find_node(const std::string& fiber, std::int32_t
 bool SimServer::reset(std_srvs::Trigger::Request& /*request*/,
                       std_srvs::Trigger::Response& response) {
   return answer(response, [this] {
-    scene_ = read_sim_scene(options_.scene, options_.meshes, options_.threads);
+    SimScene scene = read_sim_scene(options_.scene, options_.meshes, options_.threads);
+    std::swap(scene_, scene);
     publish();
+    publish_obstacles(scene.obstacles);
+    make_markers();
   });
 }
 
@@ -223,6 +267,13 @@ bool SimServer::detach(fiber_proximity::DetachFiber::Request& request,
     }
     scene_.attachment->remove(*id);
   });
+}
+
+bool SimServer::set_parameters(fiber_proximity::SetSimulationParameters::Request& request,
+                               fiber_proximity::SetSimulationParameters::Response& response) {
+  answer(response, [&] { scene_.parameters.set(request.parameters); });
+  response.parameters = scene_.parameters.all();
+  return true;
 }
 
 }  // namespace fiber_proximity_ros

@@ -1,9 +1,16 @@
 // The simulation's node through the real graph.
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
+#include <tf2_ros/transform_broadcaster.h>
+#include <visualization_msgs/InteractiveMarkerFeedback.h>
+#include <visualization_msgs/InteractiveMarkerInit.h>
+
+#include <optional>
 
 #include "fiber_proximity/AttachFiber.h"
 #include "fiber_proximity/DetachFiber.h"
+#include "fiber_proximity/ObstacleArray.h"
+#include "fiber_proximity/SetSimulationParameters.h"
 #include "fiber_proximity/StepSimulation.h"
 #include "ros/node_test.hpp"
 
@@ -123,6 +130,145 @@ TEST_F(CableSimTest, RefusesWhatIsNotThere) {
   request.position.x = std::nan("");
   EXPECT_EQ(call<fiber_proximity::AttachFiber>("attach", request).message,
             "position must be finite and speed at least 0");
+}
+
+TEST_F(CableSimTest, ParametersChangeWhileItRuns) {
+  using SetParameters = fiber_proximity::SetSimulationParameters;
+  const auto set = [this](const std::string& name, const std::vector<double>& value) {
+    SetParameters::Request request;
+    request.parameters.emplace_back();
+    request.parameters.back().name = name;
+    request.parameters.back().value = value;
+    return call<SetParameters>("set_parameters", request);
+  };
+  pause(true);
+  EXPECT_TRUE(call<std_srvs::Trigger>("reset").success);
+  const double hanging = points_after(30)[30].z();
+  EXPECT_LT(hanging, 0.8);
+  const auto changed = set("gravity.acceleration", {0.0, 0.0, 9.81});
+  EXPECT_TRUE(changed.success) << changed.message;
+  EXPECT_GT(points_after(60)[30].z(), 1.1) << "gravity does not pull upwards";
+
+  const auto refused = set("damping.relaxation_time", {-1.0});
+  EXPECT_FALSE(refused.success);
+  EXPECT_EQ(refused.message,
+            "parameter 'damping.relaxation_time' is [-1.000000]: damping: the relaxation time is "
+            "-1.000000 s, it must be at least 0 and finite");
+  ASSERT_EQ(refused.parameters.size(), 2U);
+  EXPECT_EQ(refused.parameters[0].name, "damping.relaxation_time");
+  EXPECT_EQ(refused.parameters[0].value, std::vector<double>{0.02});
+  EXPECT_EQ(refused.parameters[1].value, (std::vector<double>{0.0, 0.0, 9.81}));
+  EXPECT_EQ(set("friction.coefficient", {0.5}).message,
+            "parameter 'friction.coefficient' is [0.500000]: there is no such parameter, known "
+            "are: damping.relaxation_time, gravity.acceleration");
+  // A new beginning is that of the file.
+  EXPECT_TRUE(call<std_srvs::Trigger>("reset").success);
+  EXPECT_LT(points_after(30)[30].z(), 0.8);
+}
+
+TEST_F(CableSimTest, AnEndIsDraggedByItsHandle) {
+  using visualization_msgs::InteractiveMarkerFeedback;
+  const node_test::Recorder<visualization_msgs::InteractiveMarkerInit> handles{
+      node, "/cable_sim/interactive_markers/update_full"};
+  const auto publisher =
+      node.advertise<InteractiveMarkerFeedback>("/cable_sim/interactive_markers/feedback", 10);
+  ASSERT_TRUE(node_test::wait_for([&] { return publisher.getNumSubscribers() > 0; }));
+  const auto* init = handles.wait_for([](const auto& message) { return !message.markers.empty(); });
+  ASSERT_NE(init, nullptr);
+  ASSERT_EQ(init->markers.size(), 2U);
+  EXPECT_EQ(init->markers[0].name, "cable/first");
+  EXPECT_EQ(init->markers[1].name, "cable/last");
+  EXPECT_EQ(init->markers[1].header.frame_id, "world");
+
+  pause(true);
+  EXPECT_TRUE(call<std_srvs::Trigger>("reset").success);
+  InteractiveMarkerFeedback feedback;
+  feedback.header.frame_id = "world";
+  feedback.client_id = "test";
+  feedback.marker_name = "cable/first";
+  feedback.pose.position.x = -0.3;
+  feedback.pose.position.z = 1.2;
+  feedback.pose.orientation.w = 1.0;
+  const Vector3d target(-0.3, 0.0, 1.2);
+  const auto send = [&](std::uint8_t event) {
+    feedback.event_type = event;
+    publisher.publish(feedback);
+  };
+  send(InteractiveMarkerFeedback::POSE_UPDATE);
+  // Feedback and services come in any order: frame by frame, until it has come.
+  Vector3d before = points_after(1)[0];
+  Vector3d here = before;
+  EXPECT_TRUE(node_test::wait_for([&] {
+    before = here;
+    here = points_after(1)[0];
+    EXPECT_LT((here - before).norm(), 2.0 / 60.0 + 1e-9) << "faster than a hand";
+    return (here - target).norm() < 1e-9;
+  }));
+  // The scene held this end: it stays where it is left.
+  send(InteractiveMarkerFeedback::MOUSE_UP);
+  EXPECT_NEAR((points_after(30)[0] - target).norm(), 0.0, 1e-9);
+}
+
+class SimFramesTest : public CableSimTest {
+ protected:
+  /// Where the fibre's first node is after a frame with the gripper there; none: without a word.
+  Vector3d step_with(const std::optional<Vector3d>& gripper) {
+    if (gripper) {
+      geometry_msgs::TransformStamped transform;
+      transform.header.stamp = ros::Time::now();
+      transform.header.frame_id = "world";
+      transform.child_frame_id = "gripper";
+      transform.transform.translation.x = gripper->x();
+      transform.transform.translation.y = gripper->y();
+      transform.transform.translation.z = gripper->z();
+      transform.transform.rotation.w = 1.0;
+      broadcaster_.sendTransform(transform);
+    }
+    return points_after(1)[0];
+  }
+
+  /// Until the fibre's first node is there.
+  bool reaches(const Vector3d& gripper, const Vector3d& wanted) {
+    return node_test::wait_for([&] { return (step_with(gripper) - wanted).norm() < 1e-9; });
+  }
+
+  bool is_logged(const std::string& text) {
+    return logs.wait_for([&](const rosgraph_msgs::Log& log) {
+      return log.msg.find(text) != std::string::npos;
+    }) != nullptr;
+  }
+
+  node_test::Recorder<rosgraph_msgs::Log> logs{node, "/rosout"};
+
+ private:
+  tf2_ros::TransformBroadcaster broadcaster_;
+};
+
+TEST_F(SimFramesTest, AGripperFollowsItsFrameAndFreezesWhereThatIsLost) {
+  const Vector3d offset(0.0, 0.1, 0.0);
+  ASSERT_TRUE(reaches({0.0, -0.05, 1.05}, Vector3d(0.0, -0.05, 1.05) + offset));
+  const Vector3d last(0.02, -0.05, 1.1);
+  ASSERT_TRUE(reaches(last, last + offset));
+  // Nothing more is heard of the frame: it stays, and that is said, with where it stands.
+  const ros::SteadyTime start = ros::SteadyTime::now();
+  while ((ros::SteadyTime::now() - start).toSec() < 1.0) {
+    EXPECT_EQ(step_with(std::nullopt), last + offset);
+  }
+  EXPECT_TRUE(
+      is_logged("sim_frames.yaml:15: effects[4].attachment[0]: node 0 of fibre 'cable' stays "
+                "where it is: nothing new of frame 'gripper'"));
+  const Vector3d again(0.05, 0.0, 1.0);
+  ASSERT_TRUE(reaches(again, again + offset));
+  EXPECT_TRUE(is_logged("node 0 of fibre 'cable' follows frame 'gripper' again"));
+}
+
+TEST_F(SimFramesTest, TellsOthersItsObstacles) {
+  const node_test::Recorder<fiber_proximity::ObstacleArray> obstacles{node, "/cable_sim/obstacles"};
+  const auto* message = obstacles.wait_for([](const auto&) { return true; });
+  ASSERT_NE(message, nullptr);
+  ASSERT_EQ(message->obstacles.size(), 1U);
+  EXPECT_EQ(message->obstacles[0].id, "table");
+  EXPECT_EQ(message->obstacles[0].header.frame_id, "world");
 }
 
 }  // namespace

@@ -1,9 +1,8 @@
-#include "fiber_proximity/ros/sim_scene.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "fiber_proximity/ros/sim_report.hpp"
 #include "ros/mesh_files.hpp"
 #include "support/error_of.hpp"
 #include "support/temporary_directory.hpp"
@@ -120,7 +119,7 @@ TEST_F(SimSceneTest, ErrorsNameLineAndWhatIsAllowed) {
       {scene_text(line, "[{damping: {relaxation_time: -1}}]"), "relaxation time is -1"},
       {scene_text(line, "[{bend: {natural_curvature: -1}}]"), "natural_curvature is -1"},
       {scene_text("{line: {from: [0, 0, 0], to: [0, 0, 0]}}", "[stretch]"),
-       "fibre 'cable': rod 0: edge 0 has no length"},
+       "2: fibers[0]: rod 0: edge 0 has no length: its points are the same (fibre 'cable')"},
       {scene_text("{circle: {}}", "[stretch]"), "has the unknown key 'circle', known are: arc"},
       {scene_text("{arc: {from: [0, 0, 0], to: [1, 0, 0], length: 0.5}}", "[stretch]"),
        "length is 0.5, it must be longer than"},
@@ -130,10 +129,34 @@ TEST_F(SimSceneTest, ErrorsNameLineAndWhatIsAllowed) {
       {scene_text(line, held + "{fiber: cable, node: 2, kind: clamp}]}]"),
        "a clamp must be at an end of the rod"},
       {scene_text(line, held + "{fiber: cable}, {fiber: cable, node: first}]}]"),
-       "it is held already"},
+       "effects[1].attachment[1] holds node 0, which is held already: "},
       {scene_text(line, held + "{fiber: cable, path: [{time: 0}, {time: 0}]}]}]"),
        "time is 0, it must be later than the time before"},
-      {scene_text(line, held + "{fiber: cable, path: [{time: 1}]}]}]"), "it must be 0"},
+      {scene_text(line, held + "{fiber: cable, path: [{time: 1}]}]}]"),
+       "it must be 0, where the path begins (fibre 'cable')"},
+      {scene_text(line, held + "{fiber: cable, path: [{time: 0}, {position: [0, 0, 1]}]}]}]"),
+       "effects[1].attachment[0].path[1] has no key 'time' (fibre 'cable')"},
+      {scene_text(line, held + "{fiber: cable, path: [{time: 0}, {time: .inf}]}]}]"),
+       "time is .inf, it must be finite (fibre 'cable')"},
+      {scene_text(line, held + "{fiber: cable, path: [{time: 0}, {time: 2}, {time: 1}]}]}]"),
+       "time is 1, it must be later than the time before, 2.000000 s (fibre 'cable')"},
+      {scene_text(line, held + "{fiber: cable, path: []}]}]"), "a list of at least one entry"},
+      {scene_text(line, held + "{fiber: cable, path: [{time: 0, position: [0, 0, 0.3]}]}]}]"),
+       "7: effects[1].attachment[0] begins 0.300000 m from where node 0 is, it must begin within "
+       "0.250000 m, an edge's length (fibre 'cable')"},
+      {scene_text(line, held + "{fiber: cable, position: [0, .nan, 0]}]}]"), "m from where node 0"},
+      {scene_text(line, held + "{fiber: cable, path: [{time: 0}, {time: 2}], period: 2}]}]"),
+       "period is 2, it must be longer than the path, 2.000000 s"},
+      {scene_text(line, held + "{fiber: cable, period: 2}]}]"),
+       "period is 2, it must be absent where there is no path"},
+      {scene_text(line, held + "{fiber: cable, kind: clamp}, {fiber: cable, node: 0}]}]"),
+       "which is held already: " + file_ + ":7: effects[1].attachment[0] (fibre 'cable')"},
+      {scene_text(line, "[stretch]", "accuracy: 60 %\n"),
+       "accuracy is 60 %, it must be above 0 and at most 0.5, or 50 %"},
+      {scene_text(line, "[stretch]", "accuracy: 1 percent\n"), "accuracy is 1 percent"},
+      {scene_text(line, "[stretch]", "accuracy: 0.01\nreal_time: true\n"),
+       "real_time is true, it must be absent or false where there is an accuracy"},
+      {scene_text(line, "[stretch]", "real_time: soon\n"), "real_time is soon"},
       {scene_text(line, "[stretch]", "time_step: 0\n"), "time_step is 0, it must be positive"},
       {scene_text(line, "[stretch]", "substeps: 0\n"), "substeps is 0"},
       {scene_text(line, "[stretch]", "integrator: euler\n"),
@@ -147,9 +170,158 @@ TEST_F(SimSceneTest, ErrorsNameLineAndWhatIsAllowed) {
     const std::string found = error(bad.text);
     EXPECT_NE(found.find(bad.error), std::string::npos) << found << "\nexpected " << bad.error;
   }
-  std::string bad_material = scene_text(line, "[stretch]");
-  bad_material.replace(bad_material.find("rope"), 4, "{youngs_modulus: -1}");
-  EXPECT_NE(error(bad_material).find("fibre 'cable': youngs_modulus is -1"), std::string::npos);
+}
+
+TEST_F(SimSceneTest, ErrorsOfMaterialsNameFibreAndLine) {
+  for (const std::string value : {"youngs_modulus", "shear_modulus", "density"}) {
+    std::string text = scene_text(line, "[stretch]");
+    text.replace(text.find("rope"), 4, "{" + value + ": -1}");
+    EXPECT_EQ(error(text), "6: fibers[0].material: " + value +
+                               " is -1.000000, it must be positive and finite (fibre 'cable')");
+  }
+  std::string text = scene_text(line, "[stretch]");
+  text.replace(text.find("    segments: 4\n"), 16, "");
+  EXPECT_EQ(error(text), "2: fibers[0] has no key 'segments' (fibre 'cable')");
+}
+
+TEST_F(SimSceneTest, APathWithAPeriodBeginsAgain) {
+  SimScene scene = read(scene_text(line,
+                                   "[stretch, bend, {attachment: [{fiber: cable, node: last, path: "
+                                   "[{time: 0}, {time: 1, position: [1, 0, 1]}], period: 2}]}]"));
+  EXPECT_EQ(scene.fastest_hold, 1.0);
+  const auto height_at = [&scene](double time) {
+    while (scene.stepper->time() < time - 1e-9) {
+      scene.stepper->step(0.01);
+    }
+    return scene.stepper->rods().positions.back().z();
+  };
+  EXPECT_NEAR(height_at(1.0), 1.0, 1e-9);
+  EXPECT_NEAR(height_at(1.5), 0.5, 1e-9);
+  EXPECT_NEAR(height_at(2.25), 0.25, 1e-9);
+  EXPECT_NEAR(height_at(4.75), 0.75, 1e-9);
+}
+
+/// A scene whose fibre has no segments of its own.
+std::string open_text(const std::string& shape, const std::string& more) {
+  std::string text = scene_text(shape, "[gravity, stretch, bend]", more);
+  text.replace(text.find("    segments: 4\n"), 16, "");
+  return text;
+}
+
+TEST_F(SimSceneTest, AccuracyChoosesSegmentsAndSubsteps) {
+  const SimScene coarse = read(open_text(line, "accuracy: 10 %\n"));
+  const SimScene fine = read(open_text(line, "accuracy: 0.001\n"));
+  const SimScene midpoint =
+      read(open_text(line, "accuracy: 0.1 %\nintegrator: implicit_midpoint\n"));
+  const auto segments = [](const SimScene& scene) {
+    return scene.stepper->rods().node_count(0) - 1;
+  };
+  EXPECT_NEAR(segments(fine), 10.0 * segments(coarse), 10.0);
+  EXPECT_NEAR(fine.substeps, 100.0 * coarse.substeps, 100.0);
+  EXPECT_LT(midpoint.substeps, fine.substeps);
+  EXPECT_EQ(fine.accuracy, 0.001);
+  // What is given stays; what turns needs more.
+  const SimScene given = read(scene_text(line, "[stretch]", "accuracy: 1 %\nsubsteps: 7\n"));
+  EXPECT_EQ(segments(given), 4U);
+  EXPECT_EQ(given.substeps, 7U);
+  const SimScene coil = read(open_text(
+      "{helix: {center: [0, 0, 0], radius: 0.1, pitch: 0.05, turns: 20}}", "accuracy: 1 %\n"));
+  EXPECT_GT(segments(coil), 200U);
+}
+
+TEST_F(SimSceneTest, RealTimeChoosesLessForMore) {
+  const auto nodes = [this](int count) {
+    std::string text = open_text(line, "real_time: true\n");
+    text.replace(text.find("effects"), 0,
+                 "    repeat: {count: " + std::to_string(count) + ", offset: [0, 1, 0]}\n");
+    const SimScene scene = read(text);
+    return scene.stepper->rods().node_count(0) * scene.substeps;
+  };
+  EXPECT_GT(nodes(1), 4 * nodes(300));
+  EXPECT_EQ(read(open_text(line, "real_time: true\n")).accuracy.has_value(), true);
+}
+
+std::string sentences(const std::vector<std::string>& list) {
+  std::string text;
+  for (const std::string& sentence : list) {
+    text += sentence + "\n";
+  }
+  return text;
+}
+
+TEST_F(SimSceneTest, ReportsWhatToExpect) {
+  const std::string fast =
+      "[gravity, stretch, bend, self_contact, {attachment: [{fiber: cable, path: [{time: 0}, "
+      "{time: "
+      "1, position: [0, 0, 5]}]}]}]";
+  const SimScene scene = read(scene_text(line, fast));
+  SimTrial trial{10, 3.0, 0.0};
+  const SimReport good = report(scene, trial);
+  EXPECT_NE(sentences(good.facts).find("stable: implicit Euler in steps of 4.17 ms"),
+            std::string::npos);
+  EXPECT_NE(sentences(good.facts).find("a swing of 1 Hz to lose 7.9 %"), std::string::npos);
+  EXPECT_NE(sentences(good.facts).find("expected real-time factor 3"), std::string::npos);
+  // 5 m/s and a radius of 10 mm: 21 mm a step.
+  EXPECT_NE(sentences(good.warnings).find("a gripper moves 20.8 mm a step"), std::string::npos);
+  EXPECT_NE(sentences(good.warnings).find("12 substeps would be enough"), std::string::npos);
+
+  trial.real_time_factor = 0.5;
+  trial.iteration_error = 0.006;
+  const SimReport slow = report(read(scene_text(line, "[stretch]")), trial);
+  ASSERT_EQ(slow.warnings.size(), 2U);
+  EXPECT_NE(slow.warnings[0].find("2 iteration(s) were within 6 mm of 8"), std::string::npos);
+  EXPECT_NE(slow.warnings[1].find("expect it to fall behind"), std::string::npos);
+}
+
+TEST_F(SimSceneTest, TrialsAreOnCopies) {
+  read(scene_text(line, "[gravity, stretch, bend]"));
+  const SimTrial trial = try_scene(file_, MeshLoader(), 1);
+  EXPECT_GE(trial.frames, 1U);
+  EXPECT_GT(trial.real_time_factor, 0.0);
+  EXPECT_GE(trial.iteration_error, 0.0);
+  EXPECT_LT(trial.iteration_error, 0.01);
+}
+
+fiber_proximity::SimulationParameter parameter(const std::string& name,
+                                               const std::vector<double>& value) {
+  fiber_proximity::SimulationParameter parameter;
+  parameter.name = name;
+  parameter.value = value;
+  return parameter;
+}
+
+TEST_F(SimSceneTest, ParametersChangeWhatMoves) {
+  SimScene scene = read(scene_text(line, "[gravity, stretch, bend, damping, drag]"));
+  EXPECT_EQ(scene.parameters.all().size(), 9U);
+  const auto fall = [&scene] {
+    scene.stepper->step(0.01);
+    return scene.stepper->rods().velocities[0];
+  };
+  EXPECT_LT(fall().z(), 0.0);
+  scene.parameters.set(
+      {parameter("gravity.acceleration", {0, 0, 0}), parameter("drag.wind.mean", {0, 300, 0})});
+  const Eigen::Vector3d before = scene.stepper->rods().velocities[0];
+  const Eigen::Vector3d after = fall();
+  EXPECT_GE(after.z(), before.z());
+  EXPECT_GT(after.y(), 0.0);
+}
+
+TEST_F(SimSceneTest, ParametersAreAllSetOrNone) {
+  SimScene scene = read(scene_text(line, "[gravity, stretch, damping]"));
+  EXPECT_EQ(error_of([&] {
+              scene.parameters.set({parameter("gravity.acceleration", {0, 0, 1}),
+                                    parameter("damping.relaxation_time", {-1})});
+            }),
+            "parameter 'damping.relaxation_time' is [-1.000000]: damping: the relaxation time is "
+            "-1.000000 s, it must be at least 0 and finite");
+  EXPECT_EQ(scene.parameters.all()[1].value, (std::vector<double>{0, 0, -9.81}));
+  scene.stepper->step(0.01);
+  EXPECT_LT(scene.stepper->rods().velocities[0].z(), 0.0) << "gravity was changed";
+  EXPECT_EQ(error_of([&] { scene.parameters.set({parameter("drag.across", {1})}); }),
+            "parameter 'drag.across' is [1.000000]: there is no such parameter, known are: "
+            "damping.relaxation_time, gravity.acceleration");
+  EXPECT_EQ(error_of([&] { scene.parameters.set({parameter("gravity.acceleration", {1})}); }),
+            "parameter 'gravity.acceleration' is [1.000000]: it must be a list of 3 number(s)");
 }
 
 class ShippedScene : public ::testing::TestWithParam<const char*> {};
@@ -173,8 +345,8 @@ TEST_P(ShippedScene, RunsAndKeepsItsFibresWhole) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ShippedScene,
-                         ::testing::Values("capstan", "hanging_cable", "harness", "hose", "knot",
-                                           "pile", "wind"),
+                         ::testing::Values("capstan", "demo", "hanging_cable", "harness", "hose",
+                                           "knot", "pile", "wind"),
                          [](const auto& scene) { return std::string(scene.param); });
 
 }  // namespace

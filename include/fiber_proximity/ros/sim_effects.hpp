@@ -7,6 +7,7 @@
 
 #include "fiber_proximity/environment/environment.hpp"
 #include "fiber_proximity/ros/sim_holds.hpp"
+#include "fiber_proximity/ros/sim_parameters.hpp"
 #include "fiber_proximity/sim/contacts.hpp"
 
 namespace fiber_proximity_ros {
@@ -18,6 +19,8 @@ struct SimEffects {
   std::unique_ptr<fiber::Contacts> contacts;  ///< null without a contact effect
   fiber::Attachment* attachment = nullptr;    ///< one of the effects; null without
   std::vector<FollowedFrame> frames;
+  double fastest_hold = 0.0;  ///< on a path [m/s]
+  SimParameters parameters;   ///< of the effects
 };
 
 /// What effects are made for.
@@ -32,6 +35,11 @@ struct SimWorld {
 /// @param rods get what the effects need to be with them
 /// @throws std::invalid_argument naming file, line, effect and value, and what is allowed
 SimEffects read_sim_effects(const YamlField& list, const SimWorld& world, fiber::Rods& rods);
+
+/// The size of the gravity that the list names [m/s²], 0 without; whether it names contacts.
+/// @throws std::invalid_argument as read_sim_effects
+double named_gravity(const YamlField& list);
+bool names_contacts(const YamlField& list);
 
 /// Names of all effects.
 std::vector<std::string> sim_effect_names();

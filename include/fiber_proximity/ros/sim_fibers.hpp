@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -18,8 +20,20 @@ struct SimFiber {
 };
 
 /// Reads the list `fibers` of a scene: name, shape, segments, radius, material, repeat.
+/// @param accuracy by which segments are chosen that are not given (fiber::segments_for); none:
+///                 they must be given
 /// @throws std::invalid_argument naming file, line, field and value, and what is allowed; the fibre
 ///         too where it is about its physics
-std::vector<SimFiber> read_sim_fibers(const YamlField& list);
+std::vector<SimFiber> read_sim_fibers(const YamlField& list, std::optional<double> accuracy);
+
+/// Runs a function; an error of its names the fibre, too, after what it says.
+template <class Function>
+auto naming_fiber(const std::string& name, const Function& function) {
+  try {
+    return function();
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(std::string(error.what()) + " (fibre '" + name + "')");
+  }
+}
 
 }  // namespace fiber_proximity_ros

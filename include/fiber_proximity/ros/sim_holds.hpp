@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fiber_proximity/ros/sim_fibers.hpp"
@@ -10,12 +11,16 @@
 
 namespace fiber_proximity_ros {
 
+/// Placements by time [s], which rises. In between straight lines; before and after, the first and
+/// the last.
+using PlacementPath = std::vector<std::pair<double, fiber::Placement>>;
+
 /// A frame of tf that holds a fibre. What is held is where the frame was last, and turns with it.
 struct FollowedFrame {
   std::string frame;
-  std::string what;                             ///< what it holds, for warnings
-  fiber::Placement in_frame;                    ///< what it holds, in the frame
-  std::shared_ptr<fiber::Placement> placement;  ///< in the world; the hold reads it
+  std::string what;                     ///< what it holds and where that stands, for warnings
+  fiber::Placement in_frame;            ///< what it holds, in the frame
+  std::shared_ptr<PlacementPath> path;  ///< in the world, never empty; the hold follows it
 };
 
 /// A hold as the scene has it.
@@ -27,6 +32,7 @@ struct SimHold {
 struct SimHolds {
   std::vector<SimHold> holds;
   std::vector<FollowedFrame> frames;
+  double fastest = 0.0;  ///< on a path [m/s]
 };
 
 /// Reads the options of the effect `attachment`: a list of holds, each of
@@ -37,6 +43,7 @@ struct SimHolds {
 ///             none
 ///   path:     a list of {time, position, tangent, director}, in between straight lines; what is
 ///             not given stays as it was
+///   period:   [s] after which the path begins again, to where it leads back from its last entry
 ///   frame:    of tf, that carries it: position, the frame's origin if there is none, tangent and
 ///             director are in this frame. As long as tf does not know it, the fibre stays where it
 ///             is

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "fiber_proximity/Obstacle.h"
 #include "fiber_proximity/ros/mesh_loader.hpp"
 #include "fiber_proximity/ros/sim_effects.hpp"
 #include "fiber_proximity/sim/stepper.hpp"
@@ -17,15 +19,23 @@ struct SimScene {
   std::vector<std::string> effect_names;
   double time_step = 1.0 / 60.0;  ///< from frame to frame [s]
   std::uint32_t substeps = 4;     ///< of a frame
+  fiber::StepperOptions options;
+  std::optional<double> accuracy;  ///< by which segments and substeps were chosen; none: given
+  bool has_contacts = false;
   std::unique_ptr<fiber::Stepper> stepper;
-  fiber::Attachment* attachment = nullptr;  ///< of the stepper; null without the effect
-  std::vector<FollowedFrame> frames;        ///< whose placements are to be kept up to date
+  fiber::Attachment* attachment = nullptr;           ///< of the stepper; null without the effect
+  std::vector<FollowedFrame> frames;                 ///< whose placements are to be kept up to date
+  std::vector<fiber_proximity::Obstacle> obstacles;  ///< of its environment
+  SimParameters parameters;                          ///< of its effects
+  double fastest_hold = 0.0;                         ///< on a path [m/s]
 };
 
 /// Reads a scene from a YAML file with the keys fibers, effects, environment (as the node's scene
-/// has it), frame_id, time_step, substeps, iterations, integrator.
-/// @param threads most to use, 0 for as many as there are cores
+/// has it), frame_id, time_step, substeps, iterations, integrator, accuracy, real_time.
+/// @param threads    most to use, 0 for as many as there are cores
+/// @param iterations in place of the scene's
 /// @throws std::invalid_argument naming file, line, field and value, and what is allowed
-SimScene read_sim_scene(const std::string& file, const MeshLoader& meshes, std::uint32_t threads);
+SimScene read_sim_scene(const std::string& file, const MeshLoader& meshes, std::uint32_t threads,
+                        std::optional<std::uint32_t> iterations = std::nullopt);
 
 }  // namespace fiber_proximity_ros

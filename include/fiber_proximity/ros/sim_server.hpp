@@ -9,25 +9,31 @@
 #include "fiber_proximity/AttachFiber.h"
 #include "fiber_proximity/DetachFiber.h"
 #include "fiber_proximity/FiberArray.h"
+#include "fiber_proximity/SetSimulationParameters.h"
 #include "fiber_proximity/StepSimulation.h"
 #include "fiber_proximity/ros/fixed_frame.hpp"
+#include "fiber_proximity/ros/sim_frames.hpp"
+#include "fiber_proximity/ros/sim_markers.hpp"
 #include "fiber_proximity/ros/sim_scene.hpp"
 
 namespace fiber_proximity_ros {
 
 /// What the simulation runs, and how; the node's private parameters of the same names.
 struct SimOptions {
-  std::string scene;          ///< YAML file
-  std::uint32_t threads = 0;  ///< most to use, 0 for as many as there are cores
-  bool clock = false;         ///< publish /clock, and stamp fibres with the scene's time
-  bool paused = false;        ///< wait for ~step or ~pause
-  MeshLoader meshes;          ///< of the environment, from the folders of ~mesh_folders
+  std::string scene;           ///< YAML file
+  std::uint32_t threads = 0;   ///< most to use, 0 for as many as there are cores
+  bool clock = false;          ///< publish /clock, and stamp fibres with the scene's time
+  bool paused = false;         ///< wait for ~step or ~pause
+  bool interactive = false;    ///< handles for rviz, if the scene has the effect attachment
+  double frame_timeout = 1.0;  ///< [s] of wall time without news of a frame that holds something
+  MeshLoader meshes;           ///< of the environment, from the folders of ~mesh_folders
 };
 
 /// @throws std::invalid_argument naming the parameter, its value and what is allowed
 SimOptions read_sim_options(const ros::NodeHandle& private_node);
 
-/// Stands in for a tracker: moves the fibres of a scene in real time, and publishes ~fibers.
+/// Stands in for a tracker: moves the fibres of a scene in real time, and publishes ~fibers; and
+/// ~obstacles, the scene's environment, once.
 class SimServer {
  public:
   /// @throws std::invalid_argument as read_sim_scene
@@ -43,8 +49,9 @@ class SimServer {
   void log_scene() const;
   void keep_pace();
   void advance();
-  void follow_frames();
+  void make_markers();
   void publish();
+  void publish_obstacles(const std::vector<fiber_proximity::Obstacle>& before);
   NodeOfRod find_node(const std::string& fiber, std::int32_t node) const;
 
   bool reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
@@ -55,17 +62,23 @@ class SimServer {
               fiber_proximity::AttachFiber::Response& response);
   bool detach(fiber_proximity::DetachFiber::Request& request,
               fiber_proximity::DetachFiber::Response& response);
+  bool set_parameters(fiber_proximity::SetSimulationParameters::Request& request,
+                      fiber_proximity::SetSimulationParameters::Response& response);
 
   ros::NodeHandle node_;
   SimOptions options_;
   SimScene scene_;
   FixedFrame world_;
+  SimFrames frames_;
   bool is_paused_;
   ros::SteadyTime next_frame_;  // when it is due
   double behind_ = 0.0;         // [s] given up so far because steps took too long
   fiber_proximity::FiberArray message_;
   ros::Publisher fibers_;
+  ros::Publisher obstacles_;
   ros::Publisher clock_;
+
+  std::unique_ptr<SimMarkers> markers_;  // null without
 
   // Last: their callbacks use all of the above.
   std::vector<ros::ServiceServer> servers_;

@@ -1,0 +1,62 @@
+#include "fiber_proximity/ros/sim_frames.hpp"
+
+#include <ros/console.h>
+
+#include <algorithm>
+
+namespace fiber_proximity_ros {
+namespace {
+
+constexpr double fastest = 5.0;  // [m/s]
+
+/// Where something in a frame is in the world, or as far on the way there as a step leads.
+fiber::Placement place(const FollowedFrame& followed, const Eigen::Isometry3d& frame,
+                       double longest_way) {
+  const fiber::Placement& last = followed.path->back().second;
+  const fiber::Placement& in_frame = followed.in_frame;
+  const Eigen::Vector3d way = frame * in_frame.position - last.position;
+  const double share = longest_way / std::max(longest_way, way.norm());
+  return {last.position + share * way, frame.linear() * in_frame.tangent,
+          frame.linear() * in_frame.director};
+}
+
+}  // namespace
+
+void SimFrames::watch(const FollowedFrame& followed, Watch& watch,
+                      const std::string& problem) const {
+  const ros::SteadyTime now = ros::SteadyTime::now();
+  if (problem.empty() || watch.since.isZero()) {
+    watch.since = now;
+  }
+  const bool is_frozen = (now - watch.since).toSec() > timeout_;
+  if (is_frozen && !watch.is_frozen) {
+    ROS_WARN_STREAM(followed.what << " stays where it is: " << problem);
+  } else if (!is_frozen && watch.is_frozen) {
+    ROS_INFO_STREAM(followed.what << " follows frame '" << followed.frame << "' again");
+  }
+  watch.is_frozen = is_frozen;
+}
+
+void SimFrames::follow(const std::vector<FollowedFrame>& frames, const fiber::TimeStep& step) {
+  for (const FollowedFrame& followed : frames) {
+    const fiber::Placement last = followed.path->back().second;
+    fiber::Placement next = last;
+    Watch& watch = watches_[followed.what];
+    try {
+      const FramePose frame = world_.latest_pose(followed.frame, ros::Time(0));
+      // A static frame has no stamp, and is there for ever.
+      const bool is_new = frame.stamp.isZero() || frame.stamp != watch.stamp;
+      watch.stamp = frame.stamp;
+      this->watch(followed, watch,
+                  is_new ? ""
+                         : "nothing new of frame '" + followed.frame + "' for more than " +
+                               std::to_string(timeout_) + " s");
+      next = place(followed, frame.pose, fastest * step.length);
+    } catch (const TransformUnavailable& error) {
+      this->watch(followed, watch, error.what());
+    }
+    *followed.path = {{step.start, last}, {step.end(), next}};
+  }
+}
+
+}  // namespace fiber_proximity_ros

@@ -1,0 +1,164 @@
+#include "fiber_proximity/ros/sim_report.hpp"
+
+#include <ros/time.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "fiber_proximity/sim/contact_stiffness.hpp"
+
+namespace fiber_proximity_ros {
+namespace {
+
+constexpr std::uint32_t most_frames = 20;
+constexpr double longest_trial = 0.3;  // [s]
+constexpr std::uint32_t more_iterations = 4;
+
+/// Runs one frame.
+/// @returns the wall time it took [s]
+double run_frame(SimScene& scene) {
+  const ros::SteadyTime begin = ros::SteadyTime::now();
+  for (std::uint32_t i = 0; i < scene.substeps; ++i) {
+    scene.stepper->step(scene.time_step / scene.substeps);
+  }
+  return (ros::SteadyTime::now() - begin).toSec();
+}
+
+double furthest(const fiber::Rods& a, const fiber::Rods& b) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < a.positions.size(); ++i) {
+    most = std::max(most, (a.positions[i] - b.positions[i]).norm());
+  }
+  return most;
+}
+
+double thinnest(const fiber::Rods& rods) {
+  return *std::min_element(rods.radii.begin(), rods.radii.end());
+}
+
+/// A sentence of numbers and words, with three digits each.
+template <class... Parts>
+std::string sentence(const Parts&... parts) {
+  std::ostringstream text;
+  text.precision(3);
+  (text << ... << parts);
+  return text.str();
+}
+
+/// Bending waves shorter than this go faster than steps [m]: those of ω h = 1, ω = k² √(EI/ρA).
+double shortest_wave(const fiber::RodSection& section, double step) {
+  return 2.0 * M_PI *
+         std::pow(step * step * section.bending_stiffness / section.mass_per_length, 0.25);
+}
+
+void judge_steps(const SimScene& scene, SimReport& report) {
+  const double step = scene.time_step / scene.substeps;
+  double longest = 0.0;
+  for (const fiber::RodSection& section : scene.stepper->rods().sections) {
+    longest = std::max(longest, shortest_wave(section, step));
+  }
+  if (scene.options.integrator == fiber::Integrator::IMPLICIT_MIDPOINT) {
+    report.facts.push_back(sentence("stable: implicit midpoint in steps of ", 1e3 * step,
+                                    " ms keeps energy; bending waves below about ", 1e3 * longest,
+                                    " mm are not resolved and ring"));
+    return;
+  }
+  // ω² h / 2 is the rate at which implicit Euler damps a swing of ω.
+  const double lost = 1.0 - std::exp(-0.5 * std::pow(2.0 * M_PI, 2) * step);
+  report.facts.push_back(sentence("stable: implicit Euler in steps of ", 1e3 * step,
+                                  " ms; expect bending waves below about ", 1e3 * longest,
+                                  " mm to be damped at once, and a swing of 1 Hz to lose ",
+                                  100.0 * lost, " % of its height a second"));
+}
+
+void judge_grippers(const SimScene& scene, SimReport& report) {
+  const double way = scene.fastest_hold * scene.time_step / scene.substeps;
+  const double radius = thinnest(scene.stepper->rods());
+  if (way > radius) {
+    report.warnings.push_back(sentence(
+        "a gripper moves ", 1e3 * way, " mm a step, more than the thinnest radius, ", 1e3 * radius,
+        " mm: nothing passes through anything, but expect jerks in contacts; ",
+        std::ceil(way / radius) * scene.substeps, " substeps would be enough"));
+  } else if (way > 0.0) {
+    report.facts.push_back(sentence("grippers move up to ", 1e3 * way, " mm a step, ", way / radius,
+                                    " of the thinnest radius"));
+  }
+}
+
+void judge_contacts(const SimScene& scene, SimReport& report) {
+  if (!scene.has_contacts) {
+    return;
+  }
+  const fiber::Rods& rods = scene.stepper->rods();
+  const double step = scene.time_step / scene.substeps;
+  double softest = 1.0;
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    const double mass = *std::min_element(rods.masses.begin() + rods.first(rod),
+                                          rods.masses.begin() + rods.end(rod));
+    softest = std::min(softest,
+                       fiber::largest_contact_stiffness(mass, step) /
+                           fiber::material_contact_stiffness(rods.sections[rod], rods.radii[rod]));
+  }
+  report.facts.push_back(
+      softest < 1.0
+          ? sentence(
+                "contacts are stable: springs are softened to ", softest,
+                " of the material's stiffness, as much as a node's mass bears in a step; expect "
+                "surfaces to give way accordingly, more substeps make them harder")
+          : std::string("contacts are stable: springs are as stiff as the material"));
+}
+
+void judge_trial(const SimScene& scene, const SimTrial& trial, SimReport& report) {
+  const double radius = thinnest(scene.stepper->rods());
+  const std::string solved = sentence(
+      scene.options.iterations, " iteration(s) were within ", 1e3 * trial.iteration_error,
+      " mm of ", more_iterations * scene.options.iterations, " after ", trial.frames, " frame(s)");
+  if (trial.iteration_error > 0.5 * radius) {
+    report.warnings.push_back(solved +
+                              sentence(", more than half of the thinnest radius, ", 1e3 * radius,
+                                       " mm: expect lag; more iterations or substeps mend it"));
+  } else {
+    report.facts.push_back(solved + ", and suffice there");
+  }
+  const std::string speed = sentence("expected real-time factor ", trial.real_time_factor,
+                                     ", by the first ", trial.frames, " frame(s)");
+  if (trial.real_time_factor < 1.0) {
+    report.warnings.push_back(speed +
+                              ": expect it to fall behind; fewer segments or substeps, or "
+                              "real_time: true, mend it");
+  } else {
+    report.facts.push_back(speed);
+  }
+}
+
+}  // namespace
+
+SimTrial try_scene(const std::string& file, const MeshLoader& meshes, std::uint32_t threads) {
+  SimScene scene = read_sim_scene(file, meshes, threads);
+  SimScene better =
+      read_sim_scene(file, meshes, threads, more_iterations * scene.options.iterations);
+  SimTrial trial;
+  double taken = 0.0;
+  double both = 0.0;
+  while (trial.frames < most_frames && both < longest_trial) {
+    const double time = run_frame(scene);
+    taken += time;
+    both += time + run_frame(better);
+    ++trial.frames;
+  }
+  trial.real_time_factor = trial.frames * scene.time_step / taken;
+  trial.iteration_error = furthest(scene.stepper->rods(), better.stepper->rods());
+  return trial;
+}
+
+SimReport report(const SimScene& scene, const SimTrial& trial) {
+  SimReport report;
+  judge_steps(scene, report);
+  judge_grippers(scene, report);
+  judge_contacts(scene, report);
+  judge_trial(scene, trial, report);
+  return report;
+}
+
+}  // namespace fiber_proximity_ros

@@ -1,0 +1,56 @@
+#include "fiber_proximity/sim/resolution.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "require.hpp"
+
+namespace fiber {
+namespace {
+
+void require_accuracy(double accuracy) {
+  require(accuracy > 0.0 && accuracy <= 0.5, "accuracy", accuracy, "", "above 0 and at most 0.5");
+}
+
+std::uint32_t whole(double number) {
+  constexpr double most = std::numeric_limits<std::uint32_t>::max();
+  // What rounding errors add to a whole number is none more.
+  return static_cast<std::uint32_t>(std::clamp(std::ceil(number - 1e-9 * number), 1.0, most));
+}
+
+}  // namespace
+
+std::uint32_t segments_for(double accuracy, double turning) {
+  require_accuracy(accuracy);
+  require_not_negative("turning", turning, " rad");
+  return whole(std::max(std::sqrt(ResolutionTable::bending / accuracy),
+                        turning * std::sqrt(ResolutionTable::turning / accuracy)));
+}
+
+std::uint32_t substeps_for(double accuracy, Integrator integrator, double frame, double period) {
+  require_accuracy(accuracy);
+  require_positive("frame", frame, " s");
+  require(period > 0.0, "period", period, " s", "positive");
+  const double step = integrator == Integrator::IMPLICIT_EULER
+                          ? accuracy / ResolutionTable::euler * period
+                          : std::sqrt(accuracy / ResolutionTable::midpoint) * period;
+  return whole(frame / step);
+}
+
+double swing_period(const RodSection& section, double length, double gravity) {
+  constexpr double chain = 1.2024;       // half the first zero of the Bessel function J0
+  constexpr double cantilever = 3.5160;  // the first root of 1 + cos k cosh k, squared
+  const double by_weight = chain * chain * gravity / length;
+  const double by_stiffness = cantilever * cantilever * section.bending_stiffness /
+                              (section.mass_per_length * std::pow(length, 4));
+  return 2.0 * M_PI / std::sqrt(by_weight + by_stiffness);
+}
+
+double frame_time(std::uint64_t nodes, std::uint32_t substeps, std::uint32_t iterations,
+                  bool has_contacts) {
+  return static_cast<double>(nodes) * substeps * iterations *
+         (has_contacts ? ResolutionTable::contact_node_time : ResolutionTable::node_time);
+}
+
+}  // namespace fiber

@@ -1,0 +1,152 @@
+// The table by which scenes get their segments and steps, against rods of just these.
+#include "fiber_proximity/sim/resolution.hpp"
+
+#include <gtest/gtest.h>
+
+#include "sim/elastica.hpp"
+#include "sim/rod_scene.hpp"
+#include "support/error_of.hpp"
+
+namespace fiber::test {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Loads that bend a rod of length and bending stiffness 1: at its tip, and along it.
+struct Load {
+  double tip;
+  double spread;
+};
+
+const std::vector<Load> loads{{1, 0}, {3, 0}, {10, 0}, {0, 1}, {0, 8}, {0, 20}, {2, 5}};
+
+/// How much less or more the tip sinks than it should, in parts of that.
+double tip_error(int segments, const Load& load) {
+  Rods rods;
+  const double mass = load.spread > 0.0 ? load.spread : 1e-9;
+  rods.add(straight({0, 0, 0}, {1, 0, 0}, segments), 0.01, {1e7, 1.0, 1.0, mass, 1e-6});
+  rods.masses.back() += load.tip;
+  auto clamped = hold(rods, {clamp(0, {Vector3d::Zero(), Vector3d::UnitX(), Vector3d::UnitY()})});
+  Stepper stepper(
+      rods,
+      effects(std::make_unique<Gravity>(Vector3d(0, 0, -1)), std::make_unique<Stretch>(),
+              std::make_unique<Bend>(), std::move(clamped)),
+      precise());
+  settle(stepper);
+  const double exact = cantilever_tip(load.tip, load.spread).drop;
+  return std::abs(-stepper.rods().positions.back().z() / exact - 1.0);
+}
+
+TEST(Resolution, ErrorsOfSegmentsAreTheTablesAndNoLess) {
+  double worst = 0.0;
+  for (const Load& load : loads) {
+    for (const int segments : {10, 20, 40}) {
+      const double constant = tip_error(segments, load) * segments * segments;
+      EXPECT_LE(constant, ResolutionTable::bending)
+          << segments << " segments, loads " << load.tip << ", " << load.spread;
+      worst = std::max(worst, constant);
+    }
+  }
+  RecordProperty("bending", std::to_string(worst));
+  EXPECT_GE(worst, 0.5 * ResolutionTable::bending) << "the table promises too little";
+}
+
+TEST(Resolution, ChosenSegmentsAreAsAccurateAsAskedFor) {
+  for (const double accuracy : {0.1, 0.01, 0.002}) {
+    const std::uint32_t segments = segments_for(accuracy, 0.0);
+    for (const Load& load : loads) {
+      EXPECT_LE(tip_error(static_cast<int>(segments), load), accuracy)
+          << segments << " segments, loads " << load.tip << ", " << load.spread;
+    }
+  }
+}
+
+TEST(Resolution, CurvesAreAsLongAsAskedFor) {
+  constexpr double accuracy = 0.001;
+  for (const double turning : {10.0, 40.0}) {
+    const double segments = segments_for(accuracy, turning);
+    // A chord of the angle x of a circle is sin (x / 2) / (x / 2) times as long as its arc.
+    const auto error = [turning](double count) {
+      return 1.0 - std::sin(0.5 * turning / count) / (0.5 * turning / count);
+    };
+    EXPECT_LE(error(segments), accuracy);
+    EXPECT_GT(error(0.9 * segments), accuracy);
+  }
+}
+
+/// One edge that swings a little under gravity: in a closed form 0.001 sin ω t.
+Stepper swing(Integrator integrator) {
+  Rods rods;
+  rods.add(straight({0, 0, 0}, {0, 0, -1}, 1), 0.01, {1e9, 0.0, 0.0, 1.0, 0.0});
+  rods.velocities[1].x() = 0.001;
+  auto pinned = hold(rods, {pin(0, Vector3d::Zero())});
+  return Stepper(rods,
+                 effects(std::make_unique<Gravity>(Vector3d(0, 0, -1)), std::make_unique<Stretch>(),
+                         std::move(pinned)),
+                 precise(integrator));
+}
+
+constexpr double period = 2.0 * M_PI;  // of this swing [s]
+
+/// What a period in so many steps takes of the swing's height.
+double lost_height(std::uint32_t steps) {
+  Stepper stepper = swing(Integrator::IMPLICIT_EULER);
+  for (std::uint32_t i = 0; i < steps; ++i) {
+    stepper.step(period / steps);
+  }
+  const Rods& rods = stepper.rods();
+  return 1.0 - std::hypot(rods.positions[1].x(), rods.velocities[1].x()) / 0.001;
+}
+
+/// By what part its angle is behind after a period in so many steps.
+double late(std::uint32_t steps) {
+  Stepper stepper = swing(Integrator::IMPLICIT_MIDPOINT);
+  for (std::uint32_t i = 0; i < steps; ++i) {
+    stepper.step(period / steps);
+  }
+  const Rods& rods = stepper.rods();
+  return std::abs(std::atan2(rods.positions[1].x(), rods.velocities[1].x())) / (2.0 * M_PI);
+}
+
+TEST(Resolution, ErrorsOfStepsAreTheTables) {
+  for (const std::uint32_t steps : {1000U, 4000U}) {
+    EXPECT_NEAR(lost_height(steps) * steps, ResolutionTable::euler, 0.02 * ResolutionTable::euler);
+  }
+  for (const std::uint32_t steps : {50U, 200U}) {
+    EXPECT_NEAR(late(steps) * steps * steps, ResolutionTable::midpoint,
+                0.02 * ResolutionTable::midpoint);
+  }
+}
+
+TEST(Resolution, ChosenStepsAreAsAccurateAsAskedFor) {
+  for (const double accuracy : {0.1, 0.02, 0.005}) {
+    // A frame that is a whole period.
+    EXPECT_LE(lost_height(substeps_for(accuracy, Integrator::IMPLICIT_EULER, period, period)),
+              accuracy);
+    EXPECT_LE(late(substeps_for(accuracy, Integrator::IMPLICIT_MIDPOINT, period, period)),
+              1.02 * accuracy);
+  }
+  EXPECT_EQ(substeps_for(0.5, Integrator::IMPLICIT_EULER, 1e-3, 1e9), 1U);
+}
+
+TEST(Resolution, SwingsByWeightAndByStiffness) {
+  const double infinite = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(swing_period({1.0, 0.0, 0.0, 1.0, 0.0}, 1.0, 0.0), infinite);
+  // A chain of a metre; a cantilever of 2 m, whose frequency is that of one of 1 m over 4.
+  EXPECT_NEAR(swing_period({1.0, 0.0, 0.0, 1.0, 0.0}, 1.0, 9.81), 1.6684, 1e-3);
+  EXPECT_NEAR(swing_period({1.0, 1.0, 0.0, 1.0, 0.0}, 2.0, 0.0), 4.0 / 0.5596, 1e-3);
+}
+
+TEST(Resolution, RefusesWhatIsNotAllowed) {
+  EXPECT_EQ(error_of([] { segments_for(0.0, 1.0); }),
+            "accuracy is 0.000000, it must be above 0 and at most 0.5");
+  EXPECT_EQ(error_of([] { segments_for(0.1, -1.0); }),
+            "turning is -1.000000 rad, it must be at least 0 and finite");
+  EXPECT_EQ(error_of([] { substeps_for(0.1, Integrator::IMPLICIT_EULER, 0.0, 1.0); }),
+            "frame is 0.000000 s, it must be positive and finite");
+  EXPECT_EQ(error_of([] { substeps_for(0.1, Integrator::IMPLICIT_EULER, 1.0, 0.0); }),
+            "period is 0.000000 s, it must be positive");
+}
+
+}  // namespace
+}  // namespace fiber::test
