@@ -9,7 +9,7 @@ namespace fiber {
 
 /// What segments and steps leave of accuracy and take of time. The errors are those that
 /// `sim_validation_test --gtest_filter=Resolution.*` measures and holds against these numbers; the
-/// times are those of its scenes on a 2-core AMD EPYC VM, 2026-11-22, with some reserve.
+/// times are about what scenes of the package take (docs/simulation.md).
 struct ResolutionTable {
   /// A cantilever's tip under loads that bend it by up to 80°, in parts of how far it sinks: this
   /// / segments².
