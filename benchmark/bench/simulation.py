@@ -14,9 +14,9 @@ PARTS = ("validation", "convergence", "xpbd", "effects")
 FULL = {part: "" for part in PARTS}
 QUICK = {
     "validation": "",
-    "convergence": "--segments 10,20,50 --substeps 1,4,16 --iterations 1,2,4 --frames 60 "
+    "convergence": "--segments 10,20,50 --substeps 1,4,16 --iterations 1,2,4 "
                    "--reference-segments 100 --reference-substeps 32 --least-ms 5",
-    "xpbd": "--xpbd-segments 20,50 --xpbd-substeps 10,50,200 --xpbd-inertias 1,10 --frames 60 "
+    "xpbd": "--xpbd-segments 20,50 --xpbd-substeps 10,50,200 --xpbd-inertias 1,10 "
             "--reference-segments 100 --reference-substeps 32 --least-ms 5",
     "effects": "--cables 10 --cable-segments 30 --cable-frames 20",
 }

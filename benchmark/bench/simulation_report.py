@@ -60,7 +60,7 @@ def draw_convergence(rows, path):
                                   select(of_grid, method=method, substeps=most_substeps)))
         lines["substeps"].append((f"swinging, {NAMES[method]}, {most_segments} segments",
                                   select(of_grid, method=method, segments=most_segments)))
-    figure, axes = grid(2, len(lines), 12.0, 6.4)
+    figure, axes = grid(2, len(lines), 12.0, 7.0)
     for column, (key, shown) in enumerate(lines.items()):
         upper, lower = axes[0][column], axes[1][column]
         for label, of_line in shown:
@@ -69,7 +69,7 @@ def draw_convergence(rows, path):
                        marker=".", label=label)
             lower.plot(values, [row["ms_per_step"] for row in of_line], marker=".", label=label)
         upper.set(xscale="log", yscale="log", title=f"by {key}")
-        upper.legend()
+        upper.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1))
         lower.set(xscale="log", yscale="log", xlabel=key)
     axes[0][0].set_ylabel("error [% of the length]")
     axes[1][0].set_ylabel("time of a step [ms]")
@@ -78,7 +78,7 @@ def draw_convergence(rows, path):
 
 def draw_xpbd(rows, path):
     """Error against time, a panel per motion, a line per method and number of segments."""
-    figure, axes = panels(2, 10.0, 4.2)
+    figure, axes = panels(2, 10.0, 4.8)
     for axis, motion in zip(axes, ("swinging", "settling")):
         for label, of_line in lines_of(rows, motion):
             axis.plot([row["ms_per_second"] for row in of_line],
@@ -86,7 +86,7 @@ def draw_xpbd(rows, path):
                       linestyle="--" if of_line[0]["method"] == "xpbd" else "-", label=label)
         axis.set(xscale="log", yscale="log", xlabel="time [ms per second of the scene]",
                  title=f"{motion} hose")
-        axis.legend()
+        axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2)
     axes[0].set_ylabel("error [% of the length]")
     save(figure, path)
 
