@@ -159,16 +159,18 @@ TEST(Cost, OfAnEffectThatAnotherSceneNamesIsNothing) {
   EXPECT_EQ(memory_of(plain), alone);
 }
 
-/// That the counts above would have seen it.
+/// That the counts above would have seen it. Of rods that fill their lanes: empty ones take memory,
+/// too, which rods with twist do not, as they are moved one by one.
 TEST(Cost, OfAnEffectThatTheSceneNamesIsThere) {
-  const Memory without = memory_of([] { simulate(stacked(3, 20, 0.1), base); });
+  const int count = lane_count;
+  const Memory without = memory_of([=] { simulate(stacked(count, 20, 0.1), base); });
   for (const NamedEffect& effect : effects_with_state()) {
-    const Memory with = memory_of([&] { simulate(stacked(3, 20, 0.1), effect.make); });
+    const Memory with = memory_of([&] { simulate(stacked(count, 20, 0.1), effect.make); });
     EXPECT_GT(with.bytes, without.bytes) << effect.name;
     EXPECT_GT(with.allocations, without.allocations) << effect.name;
   }
   const Memory contacts =
-      memory_of([] { simulate(stacked(3, 20, 0.1), base, contacts_of_everything()); });
+      memory_of([=] { simulate(stacked(count, 20, 0.1), base, contacts_of_everything()); });
   EXPECT_GT(contacts.allocations, without.allocations);
 }
 
@@ -193,7 +195,6 @@ class Probe : public Effect {
     std::atomic<int> derivatives{0};
     std::atomic<int> end_step{0};
     std::atomic<std::uint32_t> unknowns{0};
-    std::atomic<std::size_t> equations{0};
   };
 
   explicit Probe(Calls& calls) : calls_(&calls) {}
@@ -207,7 +208,6 @@ class Probe : public Effect {
                        RodSystem& system) const override {
     ++calls_->derivatives;
     calls_->unknowns = system.unknowns();
-    calls_->equations = system.gradient().size();
   }
   void end_step(Rods& /*rods*/, const TimeStep& /*step*/) override { ++calls_->end_step; }
 
@@ -230,11 +230,9 @@ TEST(Cost, OnlyTwistAddsAnUnknown) {
   Probe::Calls without;
   simulate_probed(without, false);
   EXPECT_EQ(without.unknowns, 3U);
-  EXPECT_EQ(without.equations, 21U * 3U);
   Probe::Calls with;
   simulate_probed(with, true);
   EXPECT_EQ(with.unknowns, 4U);
-  EXPECT_EQ(with.equations, 21U * 4U);
 }
 
 /// So that what effects cost adds up: no effect has others called more often.
