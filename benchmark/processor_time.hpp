@@ -4,8 +4,8 @@
 
 namespace fiber {
 
-/// Time a call takes of all processors [ms]: for what one thread does, without what else the machine
-/// is busy with.
+/// Time a call takes of all processors [ms]: for what one thread does, without what else the
+/// machine is busy with.
 template <class Call>
 double processor_time_of(const Call& call) {
   const std::clock_t start = std::clock();

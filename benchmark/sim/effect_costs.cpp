@@ -42,7 +42,8 @@ Rods make_cables(const EffectScene& scene) {
   Rods rods;
   for (std::uint32_t cable = 0; cable < scene.cables; ++cable) {
     const bool is_upper = cable % 2 != 0;
-    const double place = distance * (cable / 2);
+    const std::uint32_t row = cable / 2;
+    const double place = distance * row;
     std::vector<Vector3d> points;
     for (std::uint32_t i = 0; i <= scene.segments; ++i) {
       const double along = length * i / scene.segments;

@@ -14,7 +14,6 @@ namespace {
 using Report = std::function<void(const Validation&)>;
 
 constexpr int segments = 50;
-constexpr double one_percent = 0.01;
 constexpr double two_percent = 0.02;  // of friction and where a shape becomes unstable
 constexpr double free_fall_part = 1e-11;
 
