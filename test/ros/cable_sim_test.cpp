@@ -36,6 +36,14 @@ class CableSimTest : public ::testing::Test {
     EXPECT_TRUE(call<std_srvs::SetBool>("pause", request).success);
   }
 
+  /// And waits for what is published then, as what was before may still be on its way.
+  void reset() {
+    const ros::Time asked = ros::Time::now();
+    EXPECT_TRUE(call<std_srvs::Trigger>("reset").success);
+    EXPECT_TRUE(node_test::wait_for(
+        [&] { return !fibers.messages.empty() && fibers.messages.back()->header.stamp >= asked; }));
+  }
+
   double step(std::uint32_t frames) {
     fiber_proximity::StepSimulation::Request request;
     request.frames = frames;
@@ -60,12 +68,12 @@ class CableSimTest : public ::testing::Test {
 
 TEST_F(CableSimTest, StepsWhenAskedAndStartsAgainTheSame) {
   pause(true);
-  EXPECT_TRUE(call<std_srvs::Trigger>("reset").success);
+  reset();
   const std::vector<Vector3d> first = points_after(30);
   EXPECT_NEAR(step(0), 0.5, 1e-9);
   const std::vector<Vector3d> later = points_after(30);
   EXPECT_GT((later[30] - first[30]).norm(), 1e-3);
-  EXPECT_TRUE(call<std_srvs::Trigger>("reset").success);
+  reset();
   EXPECT_EQ(step(0), 0.0);
   EXPECT_EQ(points_after(30), first);
 }
@@ -94,7 +102,7 @@ TEST_F(CableSimTest, RunsInRealTimeUntilItIsPaused) {
 
 TEST_F(CableSimTest, TakesHoldOfNodesAndLetsGo) {
   pause(true);
-  EXPECT_TRUE(call<std_srvs::Trigger>("reset").success);
+  reset();
   fiber_proximity::AttachFiber::Request request;
   request.fiber = "cable";
   request.node = 30;
@@ -142,7 +150,7 @@ TEST_F(CableSimTest, ParametersChangeWhileItRuns) {
     return call<SetParameters>("set_parameters", request);
   };
   pause(true);
-  EXPECT_TRUE(call<std_srvs::Trigger>("reset").success);
+  reset();
   const double hanging = points_after(30)[30].z();
   EXPECT_LT(hanging, 0.8);
   const auto changed = set("gravity.acceleration", {0.0, 0.0, 9.81});
@@ -162,7 +170,7 @@ TEST_F(CableSimTest, ParametersChangeWhileItRuns) {
             "parameter 'friction.coefficient' is [0.500000]: there is no such parameter, known "
             "are: damping.relaxation_time, gravity.acceleration");
   // A new beginning is that of the file.
-  EXPECT_TRUE(call<std_srvs::Trigger>("reset").success);
+  reset();
   EXPECT_LT(points_after(30)[30].z(), 0.8);
 }
 
@@ -181,7 +189,7 @@ TEST_F(CableSimTest, AnEndIsDraggedByItsHandle) {
   EXPECT_EQ(init->markers[1].header.frame_id, "world");
 
   pause(true);
-  EXPECT_TRUE(call<std_srvs::Trigger>("reset").success);
+  reset();
   InteractiveMarkerFeedback feedback;
   feedback.header.frame_id = "world";
   feedback.client_id = "test";
