@@ -9,7 +9,6 @@
 #include "fiber_proximity/query/run_tree_engine.hpp"
 #include "support/assemblies.hpp"
 #include "support/contacts.hpp"
-#include "support/rounds.hpp"
 
 namespace fiber::test {
 namespace {
@@ -68,7 +67,7 @@ TEST(SkinTest, AnswersAsBruteForceWhileFibersMove) {
   Random random;
   std::uint64_t frames = 0;
   std::uint64_t refits = 0;
-  for (int round = 0; round < rounds(10); ++round) {
+  for (int round = 0; round < 10; ++round) {
     for (const AssemblyFamily& family : assembly_families()) {
       SCOPED_TRACE(family.name);
       FiberAssembly fibers = family.make(random);
@@ -113,7 +112,7 @@ TEST(SkinTest, AnswersAsBruteForceWhileSomeFibersMove) {
   std::uint64_t refits = 0;
   std::uint64_t partial = 0;
   std::size_t found = 0;
-  for (int round = 0; round < rounds(30); ++round) {
+  for (int round = 0; round < 30; ++round) {
     AssemblyBuilder builder;
     for (int fiber = 0; fiber < 30; ++fiber) {
       builder.add_fiber(random_walk(random, random.integer(2, 12), 0.1));
@@ -194,7 +193,7 @@ TEST(SkinTest, AShapeMeetsFibersThatHaveMoved) {
   Random random;
   const auto oracle = make_engine("brute_force");
   std::size_t found = 0;
-  for (int round = 0; round < rounds(200); ++round) {
+  for (int round = 0; round < 200; ++round) {
     AssemblyBuilder builder;
     builder.add_fiber(random_walk(random, 40, 0.1));
     FiberAssembly fibers = builder.build({0.02});
