@@ -8,7 +8,6 @@
 #include "fiber_proximity/query/brute_force.hpp"
 #include "fiber_proximity/query/hierarchy_engine.hpp"
 #include "support/contacts.hpp"
-#include "support/rounds.hpp"
 #include "support/small_scene.hpp"
 
 namespace fiber::test {
@@ -62,12 +61,12 @@ class ScenesAgreementTest : public testing::TestWithParam<std::string> {
 
   /// Calls `check` with small scenes of this name: styled and shuffled, thin and thick.
   template <class Check>
-  void for_small_scenes(int count, const Check& check) {
+  void for_small_scenes(int rounds, const Check& check) {
     SCOPED_TRACE(seed_message());
     const std::vector<std::string> names = scene_names();
     const auto scene_index = std::find(names.begin(), names.end(), GetParam()) - names.begin();
     Random random(static_cast<std::uint64_t>(scene_index));
-    for (int round = 0; round < rounds(count); ++round) {
+    for (int round = 0; round < rounds; ++round) {
       for (const bool shuffle : {false, true}) {
         for (const bool thick : {false, true}) {
           SCOPED_TRACE(testing::Message() << "round " << round << (shuffle ? ", shuffled" : "")
@@ -84,7 +83,8 @@ class ScenesAgreementTest : public testing::TestWithParam<std::string> {
 };
 
 TEST_P(ScenesAgreementTest, EveryEngineGivesBruteForcesContactsInMovingFrames) {
-  for_small_scenes(3, [this](const SmallScene& scene, Random& random) {
+  constexpr int rounds = 3;
+  for_small_scenes(rounds, [this](const SmallScene& scene, Random& random) {
     const auto frame = static_cast<std::uint32_t>(random.integer(0, 1000));
     const auto later = static_cast<std::uint32_t>(random.integer(1, 50));  // half a sway
     FiberAssembly fibers = scene(frame);
