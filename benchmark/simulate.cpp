@@ -32,7 +32,11 @@ const std::vector<Part>& parts() {
       {"xpbd", measure_xpbd, hose_columns},
       {"effects",
        measure_effect_costs,
-       {"added", "ms_per_step", "us_per_node_step", "bytes_per_node", "unknowns_per_node"}}};
+       {"added", "ms_per_step", "us_per_node_step", "bytes_per_node", "unknowns_per_node"}},
+      {"real_time",
+       measure_real_time,
+       {"scene", "rods", "segments", "substeps", "threads", "ms_per_step", "us_per_node_step",
+        "real_time_factor"}}};
   return all;
 }
 
@@ -103,10 +107,10 @@ ExitCode run(const Request& request) {
 }
 
 void add_counts(CLI::App& app, const std::string& name, std::vector<int>& values,
-                const std::string& meaning) {
+                const std::string& meaning, std::uint64_t least = 1) {
   app.add_option(name, values, meaning + ", with commas between them")
       ->delimiter(',')
-      ->check(whole_number(1))
+      ->check(whole_number(least))
       ->capture_default_str();
 }
 
@@ -124,7 +128,8 @@ void add_simulate_command(CLI::App& app, Command& command) {
   CLI::App* simulate = app.add_subcommand(
       "simulate",
       "the simulation: what theory says, error and time by segments and steps, beside a "
-      "textbook's XPBD rod, and what each effect costs; on one thread, in processor time");
+      "textbook's XPBD rod, what each effect costs, on one thread, in processor time; and how many "
+      "times faster than the clock large scenes are");
   simulate->callback([&command, request] { command = [request] { return run(*request); }; });
   simulate
       ->add_option("--parts", request->parts,
@@ -150,6 +155,11 @@ void add_simulate_command(CLI::App& app, Command& command) {
   add_count(*simulate, "--cables", what.effects.cables, "on which effects are weighed");
   add_count(*simulate, "--cable-segments", what.effects.segments, "of each of these");
   add_count(*simulate, "--cable-frames", what.effects.frames, "to measure of these");
+  add_count(*simulate, "--load-cables", what.loads.cables, "in contact, with friction");
+  add_count(*simulate, "--load-rods", what.loads.rods, "without contact");
+  add_count(*simulate, "--load-frames", what.loads.frames, "to time of each of these");
+  add_counts(*simulate, "--load-substeps", what.loads.substeps, "of these frames");
+  add_counts(*simulate, "--load-threads", what.loads.threads, "to move these with", 0);
   simulate->add_flag("--json", request->json, "JSON Lines instead of tables");
 }
 

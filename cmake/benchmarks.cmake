@@ -11,7 +11,8 @@ fiber_proximity_tool(fiber_bench src/tools/fiber_bench.cpp
   benchmark/environment/measure_cell.cpp benchmark/environment/measure_octree.cpp
   benchmark/environment/own_checker.cpp benchmark/kernels.cpp
   benchmark/measurement.cpp benchmark/progress.cpp benchmark/scene_commands.cpp
-  benchmark/scene_options.cpp benchmark/sim/effect_costs.cpp benchmark/sim/hose.cpp
+  benchmark/scene_options.cpp benchmark/sim/effect_costs.cpp benchmark/sim/effect_scene.cpp
+  benchmark/sim/hose.cpp benchmark/sim/loads.cpp
   benchmark/sim/measurements.cpp benchmark/sim/validation.cpp benchmark/sim/xpbd_rod.cpp
   benchmark/simulate.cpp benchmark/stages.cpp benchmark/swapped_places.cpp
   benchmark/swaying.cpp)

@@ -5,15 +5,9 @@
 #include <string>
 #include <vector>
 
-namespace fiber {
+#include "sim/effect_scene.hpp"
 
-/// The scene on which effects are weighed: cables in two layers that cross, just above a table.
-struct EffectScene {
-  std::uint32_t cables = 20;
-  std::uint32_t segments = 60;  ///< of each
-  std::uint32_t substeps = 4;   ///< steps of a frame of 1/60 s
-  std::uint32_t frames = 60;    ///< to measure, after a quarter as many
-};
+namespace fiber {
 
 /// What simulating it with these effects takes, on one thread.
 struct EffectCost {

@@ -170,4 +170,19 @@ void measure_effect_costs(const SimulationMeasurement& what, const ReportRow& re
   });
 }
 
+void measure_real_time(const SimulationMeasurement& what, const ReportRow& report) {
+  measure_loads(what.loads, [&](const LoadResult& result) {
+    const double nodes = static_cast<double>(result.rods) * (result.segments + 1);
+    report({{"scene", result.scene},
+            {"rods", result.rods},
+            {"segments", result.segments},
+            {"substeps", result.substeps},
+            {"threads", result.threads},
+            {"frames", what.loads.frames},
+            {"ms_per_step", result.ms_per_step},
+            {"us_per_node_step", 1e3 * result.ms_per_step / nodes},
+            {"real_time_factor", result.real_time_factor}});
+  });
+}
+
 }  // namespace fiber

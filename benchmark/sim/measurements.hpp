@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/effect_costs.hpp"
+#include "sim/loads.hpp"
 
 namespace fiber {
 
@@ -22,6 +23,7 @@ struct SimulationMeasurement {
   int reference_substeps = 128;  ///< likewise
   double least_ms = 50.0;        ///< what is faster is measured again and again
   EffectScene effects;
+  LoadSizes loads;
 };
 
 /// A line of results, names to values.
@@ -39,5 +41,8 @@ void measure_xpbd(const SimulationMeasurement& what, const ReportRow& report);
 
 /// Time and memory of each effect on one scene.
 void measure_effect_costs(const SimulationMeasurement& what, const ReportRow& report);
+
+/// How many times faster than the clock large scenes are.
+void measure_real_time(const SimulationMeasurement& what, const ReportRow& report);
 
 }  // namespace fiber

@@ -1,0 +1,95 @@
+#include "sim/loads.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "fiber_proximity/sim/effects/attachment.hpp"
+#include "sim/contact_scenes.hpp"
+#include "sim/effect_scene.hpp"
+
+namespace fiber {
+
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double frame = 1.0 / 60.0;  // [s]
+
+template <class Call>
+double seconds_of(const Call& call) {
+  const auto start = std::chrono::steady_clock::now();
+  call();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Rods in rows, held at their upper ends, that begin level and so swing.
+Stepper swinging_rods(const LoadSizes& sizes, std::uint32_t threads) {
+  constexpr double radius = 0.004;
+  constexpr double length = 0.5;
+  constexpr double distance = 0.05;
+  constexpr std::uint32_t row = 40;
+  Rods rods;
+  std::vector<Attachment::Hold> holds;
+  for (std::uint32_t rod = 0; rod < sizes.rods; ++rod) {
+    const Vector3d start(length * (rod / row), distance * (rod % row), 0.0);
+    std::vector<Vector3d> points;
+    for (std::uint32_t i = 0; i <= sizes.rod_segments; ++i) {
+      points.push_back(start + Vector3d(length * i / sizes.rod_segments, 0.0, 0.0));
+    }
+    rods.add(points, radius, rubber(radius));
+    holds.push_back(pin(0, points.front()));
+    holds.back().rod = rod;
+  }
+  std::vector<std::unique_ptr<Effect>> effects = elastic(standard_gravity);
+  effects.push_back(hold(rods, holds));
+  StepperOptions options;
+  options.threads = threads;
+  return {std::move(rods), std::move(effects), options};
+}
+
+double time_cables(const LoadSizes& sizes, std::uint32_t substeps, std::uint32_t threads) {
+  EffectScene scene;
+  scene.cables = sizes.cables;
+  scene.segments = sizes.cable_segments;
+  scene.substeps = substeps;
+  scene.threads = threads;
+  EffectSimulation simulation(scene, {"gravity", "stretch", "bend", "self_contact", "fiber_contact",
+                                      "environment_contact", "friction"});
+  simulation.run(std::max(1U, sizes.frames / 4));
+  return seconds_of([&] { simulation.run(sizes.frames); });
+}
+
+double time_rods(const LoadSizes& sizes, std::uint32_t substeps, std::uint32_t threads) {
+  Stepper stepper = swinging_rods(sizes, threads);
+  const auto run = [&](std::uint32_t frames) {
+    for (std::uint32_t i = 0; i < frames * substeps; ++i) {
+      stepper.step(frame / substeps);
+    }
+  };
+  run(std::max(1U, sizes.frames / 4));
+  return seconds_of([&] { run(sizes.frames); });
+}
+
+}  // namespace
+
+void measure_loads(const LoadSizes& sizes, const std::function<void(const LoadResult&)>& report) {
+  for (const int substeps : sizes.substeps) {
+    for (const int threads : sizes.threads) {
+      const auto add = [&](const char* scene, std::uint32_t rods, std::uint32_t segments,
+                           const auto& time) {
+        const auto steps = static_cast<std::uint32_t>(substeps);
+        const auto wanted = static_cast<std::uint32_t>(threads);
+        const double seconds = time(sizes, steps, wanted);
+        const std::uint32_t used = threads == 0 ? std::thread::hardware_concurrency() : wanted;
+        report({scene, rods, segments, steps, used, 1e3 * seconds / (sizes.frames * steps),
+                sizes.frames * frame / seconds});
+      };
+      add("cables in contact", sizes.cables, sizes.cable_segments, time_cables);
+      add("swinging rods", sizes.rods, sizes.rod_segments, time_rods);
+    }
+  }
+}
+
+}  // namespace fiber
