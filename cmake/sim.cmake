@@ -1,7 +1,7 @@
 # Rods that move by the effects a scene calls for; no ROS.
 
 add_library(fiber_proximity_sim SHARED
-  src/sim/band_matrix.cpp
+  src/sim/band_solver.cpp
   src/sim/contact_limits.cpp
   src/sim/contact_stiffness.cpp
   src/sim/contacts.cpp
@@ -21,13 +21,12 @@ add_library(fiber_proximity_sim SHARED
   src/sim/effects/stretch.cpp
   src/sim/effects/stretch_lanes.cpp
   src/sim/effects/twist.cpp
-  src/sim/lane_solver.cpp
   src/sim/material.cpp
   src/sim/material_presets.cpp
-  src/sim/moving_rod.cpp
   src/sim/resolution.cpp
   src/sim/rod_batch.cpp
   src/sim/rod_group.cpp
+  src/sim/rod_lanes.cpp
   src/sim/rod_system.cpp
   src/sim/rods.cpp
   src/sim/stepper.cpp

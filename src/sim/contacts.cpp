@@ -96,18 +96,19 @@ void Contacts::add_derivatives(const Rods& rods, const std::vector<RodSystem*>& 
 
 bool Contacts::has_coupling() const { return !terms_.empty(); }
 
-void Contacts::add_coupling(const Eigen::VectorXd& displacements, std::uint32_t unknowns,
-                            Eigen::VectorXd& product) const {
-  const auto index = [unknowns](std::uint32_t node) {
-    return static_cast<Eigen::Index>(node) * unknowns;
+void Contacts::add_coupling(const std::vector<std::size_t>& places, const double* displacements,
+                            double* product) const {
+  using Stride = Eigen::InnerStride<lane_count>;
+  const auto displacement = [&](std::uint32_t node) {
+    return Eigen::Map<const Vector3d, 0, Stride>(displacements + places[node]);
   };
   const auto combine = [&](std::uint32_t node, const Vector2d& weights) -> Vector3d {
-    return weights[0] * displacements.segment<3>(index(node)) +
-           weights[1] * displacements.segment<3>(index(node + 1));
+    return weights[0] * displacement(node) + weights[1] * displacement(node + 1);
   };
   const auto spread = [&](std::uint32_t node, const Vector2d& weights, const Vector3d& v) {
-    product.segment<3>(index(node)) -= weights[0] * v;
-    product.segment<3>(index(node + 1)) -= weights[1] * v;
+    for (std::uint32_t end = 0; end < 2; ++end) {
+      Eigen::Map<Vector3d, 0, Stride>(product + places[node + end]) -= weights[end] * v;
+    }
   };
   for (const Term& term : terms_) {
     const Vector3d from_a = term.hessian * combine(term.node_a, term.weights_a);

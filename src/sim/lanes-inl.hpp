@@ -9,7 +9,7 @@
 
 #include <hwy/highway.h>
 
-#include "fiber_proximity/sim/rod_lanes.hpp"
+#include "fiber_proximity/sim/band_solver.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace fiber {
@@ -83,7 +83,7 @@ struct Block {
   Real of[3][3];  // row, column
 };
 
-constexpr std::size_t column_height = 9;  // of the band, with the diagonal
+constexpr std::size_t column_height = half_bandwidth(3) + 1;  // with the diagonal
 
 /// Adds the symmetric block of one node.
 HWY_INLINE void add_diagonal(const Block& block, std::size_t node, std::size_t lane,

@@ -1,51 +1,111 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
-#include "fiber_proximity/sim/rod_lanes.hpp"
-#include "fiber_proximity/sim/stepper.hpp"
-#include "moving_rod.hpp"
+#include "fiber_proximity/sim/effect.hpp"
+#include "merit.hpp"
 
 namespace fiber {
 
-/// Rods with the same number of nodes, without twist and contacts, that are moved side by side.
-/// Each moves as RodGroup would move it alone, whatever the others do.
+using Effects = std::vector<std::unique_ptr<Effect>>;
+using LaneFlags = std::array<bool, lane_count>;
+
+/// Rods with the same number of nodes side by side in a step of implicit Euler: where they began,
+/// where inertia alone would bring them, where they are now, and the incremental potential of that.
+/// What becomes of a rod does not depend on what it is beside.
 class RodBatch {
  public:
   /// @param members from 1 to lane_count rods
   RodBatch(const Rods& rods, const std::vector<std::uint32_t>& members);
 
-  /// Moves the rods by one step of implicit Euler.
+  std::size_t used() const { return lanes_.used; }
+  std::uint32_t rod(std::size_t lane) const { return lanes_.rods[lane]; }
+
+  /// How many Lanes a step takes: what is unknown, and the zeros that solve_band() wants after it.
+  std::size_t step_size() const { return unknown_count_ + half_bandwidth(system_.unknowns); }
+  std::size_t unknown_count() const { return unknown_count_; }
+
+  /// Begins a step where the rods are, by moving them to where inertia and what holds them bring
+  /// them.
   /// @param step [s]
-  void solve(Rods& rods, const Effects& effects, const StepperOptions& options, double step);
+  void begin(const Rods& rods, const Effects& effects, double step);
 
- private:
-  using Flags = std::array<bool, lane_count>;
+  /// Nodes that are held, from the rod's first one.
+  const std::vector<std::uint32_t>& held(std::size_t lane) const { return held_[lane]; }
 
-  void load(const Rods& rods);
-  void load_values(const Rods& rods, const Effects& effects);
-  void hold(const Rods& rods);
+  /// Moves the rods.
+  /// @param positions of all nodes of all rods [m]
+  void place(const std::vector<Eigen::Vector3d>& positions);
+
+  /// Moves the rods to where they began, in their shapes, but for the nodes that are held; those of
+  /// which none is, on with their momentum.
   void carry();
+
+  /// Remembers where the rods are as where a move() starts.
+  void remember() { remembered_ = lanes_.positions; }
+
+  /// Brings rods back there.
+  void restore(const LaneFlags& which);
+
+  /// Brings each rod a share of a step away from there.
+  /// @param step step_size() of them
+  void move(const Lanes* step, const Lanes& shares);
+
+  /// Writes down where the rods are.
+  void store(Rods& rods) const;
+
+  /// Measures kinetic and potential energy [J]; may store() for effects that do not know lanes.
   void measure(Rods& rods, const Effects& effects);
-  void iterate(Rods& rods, const Effects& effects, const StepperOptions& options, Flags active);
-  void find_step(const Rods& rods, const Effects& effects);
-  Flags search(Rods& rods, const Effects& effects, const Flags& active);
-  void move(const Lanes& shares);
-  void store_positions(Rods& rods) const;
+  const Merit& merit(std::size_t lane) const { return merits_[lane]; }
+
+  /// Remembers the energy of a rod.
+  void accept(std::size_t lane) { accepted_[lane] = merits_[lane]; }
+  const Merit& accepted(std::size_t lane) const { return accepted_[lane]; }
+
+  /// Makes the systems those of the energies where the rods are now; may store(), too.
+  void assemble(Rods& rods, const Effects& effects);
+
+  /// To add what else acts on a rod to what was assembled.
+  RodSystem& system(std::size_t lane) { return views_[lane]; }
+
+  /// Holds what is held, factorises, and finds Newton's step.
+  /// @param step step_size() of them, overwritten
+  void find_step(Lanes* step);
+
+  /// Solves for other right-hand sides.
+  /// @param values step_size() of them, zeros where nothing is unknown
+  void solve(Lanes* values) const { solve_band(system_, values); }
+
+  /// Of the energies, when the step was found.
+  const std::vector<Lanes>& gradient() const { return system_.gradient; }
+
+  /// Stores, with velocities that bring the rods from where they began to where they are.
   void finish(Rods& rods) const;
 
+ private:
+  void load(const Rods& rods);
+  void load_inertias(const Rods& rods, std::size_t lane);
+  void load_values(const Effects& effects);
+  void hold(const Rods& rods);
+  bool is_in_lanes(const Rods& rods, const Effect& effect) const;
+  void store_for(Rods& rods, const Effects& effects) const;
+  void has_moved();
+
   RodLanes lanes_;
+  std::array<std::uint32_t, lane_count> first_nodes_{};
   LaneSystem system_;
-  std::vector<RodSystem> views_;                   // of the system, by lane
-  std::vector<std::vector<std::uint32_t>> held_;   // nodes, by lane
-  std::vector<Lanes> beginning_;                   // positions
-  std::vector<Lanes> predicted_;                   // where inertia and what holds rods bring them
-  std::vector<Lanes> iterate_;                     // where a move() starts
-  std::vector<Lanes> step_;                        // and zeros after it
-  std::array<Merit, lane_count> merits_;           // where they were tried last
-  std::array<Merit, lane_count> accepted_merits_;  // and where they were accepted
-  std::vector<std::vector<Lanes>> values_;         // by effect: what it needs of the nodes
-  double step_length_ = 0.0;                       // [s]
+  std::size_t unknown_count_;
+  std::vector<RodSystem> views_;                  // of the system, by lane
+  std::vector<std::vector<std::uint32_t>> held_;  // nodes, by lane
+  std::vector<Lanes> inertias_;                   // of what is unknown: masses, and those of angles
+  std::vector<Lanes> beginning_;                  // of the step
+  std::vector<Lanes> predicted_;                  // where inertia and what holds rods bring them
+  std::vector<Lanes> remembered_;
+  std::array<Merit, lane_count> merits_;
+  std::array<Merit, lane_count> accepted_;
+  std::vector<std::vector<Lanes>> values_;  // by effect: what it needs of the nodes
+  double step_length_ = 0.0;                // [s]
 };
 
 }  // namespace fiber

@@ -3,98 +3,149 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace fiber {
 
 using Eigen::Vector3d;
-using Eigen::VectorXd;
 
 namespace {
 
-Merit sum_of(const std::vector<Merit>& merits) {
-  Merit sum;
-  for (const Merit& merit : merits) {
-    sum.add(merit);
-  }
-  return sum;
+using Numbers = Eigen::Map<Eigen::VectorXd>;
+
+Numbers numbers(std::vector<Lanes>& values) {
+  return {values.data()->of.data(), static_cast<Eigen::Index>(values.size() * lane_count)};
 }
 
 }  // namespace
 
-RodGroup::RodGroup(const Rods& rods, std::uint32_t begin, std::uint32_t end, Contacts* contacts)
+RodGroup::RodGroup(const Rods& rods, const std::vector<std::vector<std::uint32_t>>& batches,
+                   Contacts* contacts)
     : contacts_(contacts),
-      first_node_(rods.first(begin)),
-      unknowns_(rods.angles.empty() ? 3 : 4),
-      merits_(end - begin),
-      accepted_merits_(end - begin),
-      is_lost_(end - begin) {
-  rods_.reserve(end - begin);
-  for (std::uint32_t rod = begin; rod < end; ++rod) {
-    rods_.emplace_back(rods, rod);
-    systems_.push_back(&rods_.back().system());
-    offsets_.push_back(std::size_t{rods.first(rod) - first_node_} * unknowns_);
+      is_found_(batches.size()),
+      searches_(contacts != nullptr ? 1 : lane_count) {
+  std::size_t size = 0;
+  for (const std::vector<std::uint32_t>& members : batches) {
+    batches_.emplace_back(rods, members);
+    offsets_.push_back(size);
+    size += batches_.back().step_size();
   }
-  const std::size_t count = std::size_t{rods.first(end) - first_node_} * unknowns_;
-  gradient_.resize(static_cast<Eigen::Index>(count));
-  step_.resize(gradient_.size());
+  step_.resize(size);
+  if (contacts == nullptr) {
+    return;
+  }
+  for (auto* array : {&gradients_.residual, &gradients_.preconditioned, &gradients_.direction,
+                      &gradients_.product, &gradients_.image}) {
+    array->resize(size);
+  }
+  systems_.resize(rods.count());
+  places_.resize(rods.positions.size());
+  displacements_.resize(rods.positions.size());
+  const std::size_t unknowns = rods.angles.empty() ? 3 : 4;
+  for_each_rod([&](std::size_t batch, std::size_t lane) {
+    const std::uint32_t rod = batches_[batch].rod(lane);
+    systems_[rod] = &batches_[batch].system(lane);
+    for (std::uint32_t i = 0; i < rods.node_count(rod); ++i) {
+      places_[rods.first(rod) + i] = (offsets_[batch] + i * unknowns) * lane_count + lane;
+    }
+  });
 }
 
 template <typename Function>
-void RodGroup::for_each_rod(const Function& function) {
-  if (rods_.size() == 1) {
-    function(0);
+void RodGroup::for_each_batch(const Function& function) {
+  if (batches_.size() == 1) {
+    function(std::size_t{0});
   } else {
-    tbb::parallel_for(std::size_t{0}, rods_.size(), function);
+    tbb::parallel_for(std::size_t{0}, batches_.size(), function);
   }
 }
 
-double* RodGroup::part(VectorXd& values, std::size_t rod) const {
-  return values.data() + offsets_[rod];
+/// One after the other.
+template <typename Function>
+void RodGroup::for_each_rod(const Function& function) {
+  for (std::size_t batch = 0; batch < batches_.size(); ++batch) {
+    for (std::size_t lane = 0; lane < batches_[batch].used(); ++lane) {
+      function(batch, lane);
+    }
+  }
+}
+
+/// Without contacts there is one batch.
+RodGroup::Search& RodGroup::search_of(std::size_t lane) {
+  return searches_[contacts_ != nullptr ? 0 : lane];
+}
+
+Lanes* RodGroup::part(std::vector<Lanes>& values, std::size_t batch) {
+  return values.data() + offsets_[batch];
 }
 
 void RodGroup::solve(Rods& rods, const Effects& effects, const StepperOptions& options,
                      double step) {
-  for_each_rod([&](std::size_t rod) { rods_[rod].begin(rods, step); });
-  limit_start(rods, effects);
-  iterate(rods, effects, options);
-  if (find_lost(rods, effects)) {
-    for_each_rod([&](std::size_t rod) {
-      if (is_lost_[rod] != 0) {
-        rods_[rod].carry(rods);
-      } else {
-        rods_[rod].predict(rods);
-      }
-    });
+  for_each_batch([&](std::size_t batch) { batches_[batch].begin(rods, effects, step); });
+  for (std::size_t i = 0; i < searches_.size(); ++i) {
+    searches_[i].is_active = contacts_ != nullptr || i < batches_.front().used();
+  }
+  if (contacts_ != nullptr) {
+    beginning_ = rods.positions;
     limit_start(rods, effects);
+  }
+  iterate(rods, effects, options);
+  if (restart_lost(rods, effects)) {
     iterate(rods, effects, options);
   }
-  for_each_rod([&](std::size_t rod) { rods_[rod].finish(rods); });
+  for_each_batch([&](std::size_t batch) { batches_[batch].finish(rods); });
 }
 
 /// Finds rods that inertia has thrown where few iterations do not lead back from, as it does with
-/// something stiff: to keep their shapes is nearer to what they do.
-/// @returns true if there are any
-bool RodGroup::find_lost(Rods& rods, const Effects& effects) {
-  for_each_rod([&](std::size_t rod) {
-    const double found = accepted_merits_[rod].energy;
-    rods_[rod].store(rods);
-    rods_[rod].carry(rods);
-    const Merit carried = rods_[rod].merit(rods, effects);
-    rods_[rod].restore(rods);
-    is_lost_[rod] = found > carried.energy + carried.unseen() ? 1 : 0;
+/// something stiff, and brings them where they keep their shapes: that is nearer to what they do.
+/// @returns true if there are any; their searches are active then
+bool RodGroup::restart_lost(Rods& rods, const Effects& effects) {
+  for_each_batch([&](std::size_t index) {
+    RodBatch& batch = batches_[index];
+    std::array<double, lane_count> found{};
+    for (std::size_t lane = 0; lane < batch.used(); ++lane) {
+      found[lane] = batch.accepted(lane).energy;
+    }
+    batch.remember();
+    batch.carry();
+    batch.measure(rods, effects);
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      const Merit& carried = batch.merit(lane);
+      is_found_[index][lane] = found[lane] <= carried.energy + carried.unseen();
+    }
+    batch.restore(is_found_[index]);
   });
-  return std::find(is_lost_.begin(), is_lost_.end(), 1) != is_lost_.end();
+  for (Search& search : searches_) {
+    search.is_active = false;
+  }
+  bool is_any_lost = false;
+  for_each_rod([&](std::size_t batch, std::size_t lane) {
+    search_of(lane).is_active |= !is_found_[batch][lane];
+    is_any_lost |= !is_found_[batch][lane];
+  });
+  if (is_any_lost && contacts_ != nullptr) {
+    limit_start(rods, effects);
+  }
+  return is_any_lost;
 }
 
 /// Newton's method from where the rods are.
 void RodGroup::iterate(Rods& rods, const Effects& effects, const StepperOptions& options) {
+  const auto is_any_active = [this] {
+    return std::any_of(searches_.begin(), searches_.end(),
+                       [](const Search& search) { return search.is_active; });
+  };
   measure(rods, effects);
-  accept();
-  for (std::uint32_t iteration = 0; iteration < options.iterations; ++iteration) {
+  for (Search& search : searches_) {
+    if (search.is_active) {
+      accept(search);
+    }
+  }
+  for (std::uint32_t i = 0; i < options.iterations && is_any_active(); ++i) {
     find_step(rods, effects);
-    const bool is_last = step_.cwiseAbs().maxCoeff() < options.tolerance;
-    if (!search(rods, effects) || is_last) {
-      break;
+    search_line(rods, effects);
+    for (Search& search : searches_) {
+      search.is_active = search.is_active && !(search.longest < options.tolerance);
     }
   }
 }
@@ -102,104 +153,140 @@ void RodGroup::iterate(Rods& rods, const Effects& effects, const StepperOptions&
 /// Neither inertia nor what holds a rod may carry it through another on its way from where it
 /// began.
 void RodGroup::limit_start(Rods& rods, const Effects& effects) {
-  if (contacts_ == nullptr) {
-    return;
-  }
-  displacements_ = rods.positions;
-  for (std::size_t rod = 0; rod < rods_.size(); ++rod) {
-    std::copy(rods_[rod].beginning().begin(), rods_[rod].beginning().end(),
-              rods.positions.begin() + rods.first(static_cast<std::uint32_t>(rod)));
-  }
+  for_each_batch([&](std::size_t batch) { batches_[batch].store(rods); });
   for (std::size_t i = 0; i < displacements_.size(); ++i) {
-    displacements_[i] -= rods.positions[i];
+    displacements_[i] = rods.positions[i] - beginning_[i];
   }
-  const std::vector<Vector3d> wanted = displacements_;
+  rods.positions = beginning_;
+  wanted_ = displacements_;
   contacts_->measure(rods);
   contacts_->limit(rods, displacements_);
-  for_each_rod([&](std::size_t rod) { stop_torn(rods, effects, rod, wanted); });
+  for_each_batch([&](std::size_t batch) { stop_torn(rods, effects, batch); });
+  rods.positions = beginning_;
   // What stays may be in the way of what follows it.
   contacts_->limit(rods, displacements_);
   for (std::size_t i = 0; i < displacements_.size(); ++i) {
     rods.positions[i] += displacements_[i];
   }
+  for_each_batch([&](std::size_t batch) { batches_[batch].place(rods.positions); });
 }
 
 /// Where limits have stopped nodes of a rod so that their neighbours are torn from them, only what
 /// is held moves: the rod has no more energy than it began with.
-void RodGroup::stop_torn(Rods& rods, const Effects& effects, std::size_t rod,
-                         const std::vector<Vector3d>& wanted) {
-  const std::uint32_t first = rods.first(static_cast<std::uint32_t>(rod));
-  const std::uint32_t end = rods.end(static_cast<std::uint32_t>(rod));
-  if (std::equal(wanted.begin() + first, wanted.begin() + end, displacements_.begin() + first)) {
+void RodGroup::stop_torn(Rods& rods, const Effects& effects, std::size_t index) {
+  RodBatch& batch = batches_[index];
+  LaneFlags is_limited{};
+  for (std::size_t lane = 0; lane < batch.used(); ++lane) {
+    const auto first = static_cast<std::ptrdiff_t>(rods.first(batch.rod(lane)));
+    const auto end = static_cast<std::ptrdiff_t>(rods.end(batch.rod(lane)));
+    is_limited[lane] =
+        !std::equal(wanted_.begin() + first, wanted_.begin() + end, displacements_.begin() + first);
+  }
+  if (std::none_of(is_limited.begin(), is_limited.end(), [](bool is) { return is; })) {
     return;
   }
-  std::vector<Vector3d> stopped(end - first, Vector3d::Zero());
-  for (const std::uint32_t node : rods_[rod].held()) {
-    stopped[node] = displacements_[first + node];
-  }
-  rods_[rod].store(rods);
-  const auto merit_after = [&](const Vector3d* displacements) {
-    for (std::uint32_t i = first; i < end; ++i) {
-      rods.positions[i] += displacements[i - first];
+  const auto merits_after = [&](const std::vector<Vector3d>& displacements) {
+    std::vector<Vector3d> positions = beginning_;
+    for (std::size_t lane = 0; lane < batch.used(); ++lane) {
+      const std::uint32_t rod = batch.rod(lane);
+      for (std::uint32_t i = rods.first(rod); i < rods.end(rod); ++i) {
+        positions[i] += displacements[i];
+      }
     }
-    const double merit = rods_[rod].merit(rods, effects).energy;
-    rods_[rod].restore(rods);
-    return merit;
+    batch.place(positions);
+    batch.measure(rods, effects);
+    std::array<double, lane_count> merits{};
+    for (std::size_t lane = 0; lane < batch.used(); ++lane) {
+      merits[lane] = batch.merit(lane).energy;
+    }
+    return merits;
   };
-  if (merit_after(&displacements_[first]) > merit_after(stopped.data())) {
-    std::copy(stopped.begin(), stopped.end(), displacements_.begin() + first);
+  std::vector<Vector3d> stopped(displacements_.size(), Vector3d::Zero());
+  for (std::size_t lane = 0; lane < batch.used(); ++lane) {
+    for (const std::uint32_t node : batch.held(lane)) {
+      const std::uint32_t held = rods.first(batch.rod(lane)) + node;
+      stopped[held] = displacements_[held];
+    }
+  }
+  const std::array<double, lane_count> limited = merits_after(displacements_);
+  const std::array<double, lane_count> at_rest = merits_after(stopped);
+  for (std::size_t lane = 0; lane < batch.used(); ++lane) {
+    if (is_limited[lane] && limited[lane] > at_rest[lane]) {
+      const std::uint32_t rod = batch.rod(lane);
+      std::copy(stopped.begin() + rods.first(rod), stopped.begin() + rods.end(rod),
+                displacements_.begin() + rods.first(rod));
+    }
   }
 }
 
-/// The merit of where the rods are now, with the contacts there.
-Merit RodGroup::measure(const Rods& rods, const Effects& effects) {
-  for_each_rod([&](std::size_t rod) { merits_[rod] = rods_[rod].merit(rods, effects); });
-  Merit merit = sum_of(merits_);
+/// Measures where the rods are now, with the contacts there.
+void RodGroup::measure(Rods& rods, const Effects& effects) {
+  for_each_batch([&](std::size_t batch) { batches_[batch].measure(rods, effects); });
+  for (Search& search : searches_) {
+    search.tried = Merit{};
+  }
+  for_each_rod([&](std::size_t batch, std::size_t lane) {
+    search_of(lane).tried.add(batches_[batch].merit(lane));
+  });
   if (contacts_ != nullptr) {
-    merit.add(contacts_->measure(rods));
+    for_each_batch([&](std::size_t batch) { batches_[batch].store(rods); });
+    searches_.front().tried.add(contacts_->measure(rods));
   }
-  return merit;
 }
 
-/// The same of where the rods and contacts were accepted; the friction is that of these contacts.
-Merit RodGroup::accepted_merit(const Rods& rods) const {
-  Merit merit = sum_of(accepted_merits_);
-  if (contacts_ != nullptr) {
-    merit.add(contacts_->energy(rods));
-  }
-  return merit;
-}
-
-/// Accepts where the rods were measured.
-void RodGroup::accept() {
-  accepted_merits_.swap(merits_);
+/// Accepts where rods were measured. The energy of contacts is not kept: that of friction changes
+/// when they are accepted.
+void RodGroup::accept(Search& search) {
+  search.accepted = Merit{};
+  for_each_rod([&](std::size_t batch, std::size_t lane) {
+    if (&search_of(lane) == &search) {
+      batches_[batch].accept(lane);
+      search.accepted.add(batches_[batch].merit(lane));
+    }
+  });
   if (contacts_ != nullptr) {
     contacts_->accept();
   }
 }
 
-void RodGroup::find_step(const Rods& rods, const Effects& effects) {
-  for_each_rod([&](std::size_t rod) { rods_[rod].assemble(rods, effects); });
+void RodGroup::find_step(Rods& rods, const Effects& effects) {
+  for_each_batch([&](std::size_t batch) { batches_[batch].assemble(rods, effects); });
   if (contacts_ != nullptr) {
     contacts_->add_derivatives(rods, systems_);
   }
-  for_each_rod([&](std::size_t rod) {
-    rods_[rod].factorise();
-    const std::vector<double>& gradient = systems_[rod]->gradient();
-    std::copy(gradient.begin(), gradient.end(), part(gradient_, rod));
-  });
-  step_ = -gradient_;
-  precondition(step_);
+  for_each_batch([&](std::size_t batch) { batches_[batch].find_step(part(step_, batch)); });
   if (contacts_ != nullptr) {
+    weigh_step();
     if (contacts_->has_coupling()) {
       correct_step();
     }
     limit_step(rods);
   }
+  weigh_step();
 }
 
-void RodGroup::precondition(VectorXd& values) {
-  for_each_rod([&](std::size_t rod) { systems_[rod]->solve(part(values, rod)); });
+/// How long the step is, and what its slope promises.
+void RodGroup::weigh_step() {
+  for (Search& search : searches_) {
+    search.decrease = search.longest = 0.0;
+  }
+  for (std::size_t batch = 0; batch < batches_.size(); ++batch) {
+    const Lanes* const step = part(step_, batch);
+    const std::vector<Lanes>& gradient = batches_[batch].gradient();
+    Lanes decrease;
+    Lanes longest;
+    for (std::size_t i = 0; i < gradient.size(); ++i) {
+      for (std::size_t lane = 0; lane < lane_count; ++lane) {
+        decrease[lane] -= gradient[i][lane] * step[i][lane];
+        longest[lane] = std::max(longest[lane], std::abs(step[i][lane]));
+      }
+    }
+    for (std::size_t lane = 0; lane < batches_[batch].used(); ++lane) {
+      Search& search = search_of(lane);
+      search.decrease += decrease[lane];
+      search.longest = std::max(search.longest, longest[lane]);
+    }
+  }
 }
 
 /// Conjugate gradients for what joins rods, from the step without it, with the factors of the rods
@@ -208,26 +295,37 @@ void RodGroup::precondition(VectorXd& values) {
 void RodGroup::correct_step() {
   constexpr int most_iterations = 100;
   constexpr double tolerance = 1e-3;  // of the residual, in the preconditioner's norm
-  const auto add_coupling = [this](const VectorXd& values, VectorXd& product) {
-    contacts_->add_coupling(values, unknowns_, product);
+  const auto add_coupling = [this](const Numbers& values, Numbers& product) {
+    contacts_->add_coupling(places_, values.data(), product.data());
   };
-  VectorXd residual = VectorXd::Zero(step_.size());
-  add_coupling(-step_, residual);
-  VectorXd direction = residual;
-  precondition(direction);
-  VectorXd preconditioned = direction;
-  VectorXd product = residual;  // of the preconditioner and the direction
-  VectorXd image(step_.size());
-  double norm = residual.dot(preconditioned);
-  const double small = tolerance * tolerance * -gradient_.dot(step_);
+  // Few rods are solved for sooner than threads are told to.
+  const auto precondition = [this](std::vector<Lanes>& values) {
+    for (std::size_t batch = 0; batch < batches_.size(); ++batch) {
+      batches_[batch].solve(part(values, batch));
+    }
+  };
+  Numbers step = numbers(step_);
+  Numbers residual = numbers(gradients_.residual);
+  Numbers preconditioned = numbers(gradients_.preconditioned);
+  Numbers direction = numbers(gradients_.direction);
+  Numbers product = numbers(gradients_.product);
+  Numbers image = numbers(gradients_.image);
+  image = -step;
+  residual.setZero();
+  add_coupling(image, residual);
+  direction = residual;
+  precondition(gradients_.direction);
+  product = residual;
+  double norm = residual.dot(direction);
+  const double small = tolerance * tolerance * searches_.front().decrease;
   for (int i = 0; i < most_iterations && norm > small; ++i) {
     image = product;
     add_coupling(direction, image);
     const double share = norm / direction.dot(image);
-    step_ += share * direction;
+    step += share * direction;
     residual -= share * image;
     preconditioned = residual;
-    precondition(preconditioned);
+    precondition(gradients_.preconditioned);
     const double next_norm = residual.dot(preconditioned);
     direction = preconditioned + next_norm / norm * direction;
     product = residual + next_norm / norm * product;
@@ -236,37 +334,74 @@ void RodGroup::correct_step() {
 }
 
 void RodGroup::limit_step(const Rods& rods) {
+  using Stride = Eigen::InnerStride<lane_count>;
+  double* const step = numbers(step_).data();
   for (std::size_t i = 0; i < displacements_.size(); ++i) {
-    displacements_[i] = step_.segment<3>(static_cast<Eigen::Index>(i * unknowns_));
+    displacements_[i] = Eigen::Map<const Vector3d, 0, Stride>(step + places_[i]);
   }
   contacts_->limit(rods, displacements_);
   for (std::size_t i = 0; i < displacements_.size(); ++i) {
-    step_.segment<3>(static_cast<Eigen::Index>(i * unknowns_)) = displacements_[i];
+    Eigen::Map<Vector3d, 0, Stride>(step + places_[i]) = displacements_[i];
   }
 }
 
-bool RodGroup::search(Rods& rods, const Effects& effects) {
+/// Moves rods by a share of the step that brings them lower, or ends their search.
+void RodGroup::search_line(Rods& rods, const Effects& effects) {
   // A step must bring at least this part of the decrease that its slope promises (Armijo).
   constexpr double sufficient = 1e-4;
   constexpr int most_halvings = 20;
-  for_each_rod([&](std::size_t rod) { rods_[rod].store(rods); });
-  const auto move = [&](double share) {
-    for_each_rod([&](std::size_t rod) { rods_[rod].move(rods, part(step_, rod), share); });
-  };
-  const Merit before = accepted_merit(rods);
-  const double decrease = std::max(0.0, -gradient_.dot(step_));
-  double share = 1.0;
-  for (int i = 0; i < most_halvings; ++i, share *= 0.5) {
-    move(share);
-    const double wanted = before.energy - sufficient * share * decrease + before.unseen();
-    if (measure(rods, effects).energy <= wanted) {
-      accept();
-      return true;
+  for (RodBatch& batch : batches_) {
+    batch.remember();
+  }
+  Merit before_contacts;
+  if (contacts_ != nullptr) {
+    before_contacts.add(contacts_->energy(rods));  // with the friction of those accepted
+  }
+  for (Search& search : searches_) {
+    search.is_searching = search.is_active;
+    search.share = search.is_active ? 1.0 : 0.0;
+  }
+  const auto is_searching = [](const Search& search) { return search.is_searching; };
+  for (int i = 0; i < most_halvings; ++i) {
+    move();
+    measure(rods, effects);
+    for (Search& search : searches_) {
+      if (!search.is_searching) {
+        continue;
+      }
+      Merit before = search.accepted;
+      before.add(before_contacts);
+      const double promised = sufficient * search.share * std::max(0.0, search.decrease);
+      if (search.tried.energy <= before.energy - promised + before.unseen()) {
+        accept(search);
+        search.is_searching = false;
+      } else {
+        search.share *= 0.5;
+      }
+    }
+    if (std::none_of(searches_.begin(), searches_.end(), is_searching)) {
+      return;
     }
   }
   // Nothing is left to gain, or the rods are where no step of this direction helps.
-  move(0.0);
-  return false;
+  for (Search& search : searches_) {
+    if (search.is_searching) {
+      search.share = 0.0;
+      search.is_active = false;
+    }
+  }
+  move();
+}
+
+/// Moves rods by their shares of the step.
+void RodGroup::move() {
+  for_each_batch([&](std::size_t batch) {
+    Lanes shares;
+    for (std::size_t lane = 0; lane < batches_[batch].used(); ++lane) {
+      shares[lane] = search_of(lane).share;
+    }
+    batches_[batch].move(part(step_, batch), shares);
+  });
 }
 
 }  // namespace fiber

@@ -4,53 +4,73 @@
 
 #include "fiber_proximity/sim/contacts.hpp"
 #include "fiber_proximity/sim/stepper.hpp"
-#include "moving_rod.hpp"
+#include "rod_batch.hpp"
 
 namespace fiber {
 
-/// Rods whose equations are solved together: all of them where there are contacts, one where there
-/// are none.
+/// Rods whose equations are solved together: all of them where there are contacts, one batch where
+/// there are none.
 class RodGroup {
  public:
-  /// @param begin    the first rod
-  /// @param end      the rod after the last
+  /// @param batches  whose rods they are, each at most lane_count
   /// @param contacts null for none; must outlive this
-  RodGroup(const Rods& rods, std::uint32_t begin, std::uint32_t end, Contacts* contacts);
+  RodGroup(const Rods& rods, const std::vector<std::vector<std::uint32_t>>& batches,
+           Contacts* contacts);
 
   /// Moves the rods by one step of implicit Euler.
   /// @param step [s]
   void solve(Rods& rods, const Effects& effects, const StepperOptions& options, double step);
 
  private:
+  /// The search for a minimum: each rod has its own, but where contacts join them there is one.
+  struct Search {
+    Merit accepted;            ///< of the rods
+    Merit tried;               ///< of the rods and what they touch
+    double decrease = 0.0;     ///< that the slope promises for a whole step [J]
+    double longest = 0.0;      ///< component of the step
+    double share = 1.0;        ///< of the step, to be tried
+    bool is_active = true;     ///< goes on
+    bool is_searching = true;  ///< has not found a share of this step
+  };
+
+  template <typename Function>
+  void for_each_batch(const Function& function);
   template <typename Function>
   void for_each_rod(const Function& function);
-  void limit_start(Rods& rods, const Effects& effects);
-  void stop_torn(Rods& rods, const Effects& effects, std::size_t rod,
-                 const std::vector<Eigen::Vector3d>& wanted);
-  bool find_lost(Rods& rods, const Effects& effects);
-  void iterate(Rods& rods, const Effects& effects, const StepperOptions& options);
-  Merit measure(const Rods& rods, const Effects& effects);
-  Merit accepted_merit(const Rods& rods) const;
-  void accept();
-  void find_step(const Rods& rods, const Effects& effects);
-  void correct_step();
-  void precondition(Eigen::VectorXd& values);
-  void limit_step(const Rods& rods);
-  bool search(Rods& rods, const Effects& effects);
-  double* part(Eigen::VectorXd& values, std::size_t rod) const;
+  Search& search_of(std::size_t lane);
+  Lanes* part(std::vector<Lanes>& values, std::size_t batch);
 
-  std::vector<MovingRod> rods_;
+  void limit_start(Rods& rods, const Effects& effects);
+  void stop_torn(Rods& rods, const Effects& effects, std::size_t batch);
+  bool restart_lost(Rods& rods, const Effects& effects);
+  void iterate(Rods& rods, const Effects& effects, const StepperOptions& options);
+  void measure(Rods& rods, const Effects& effects);
+  void accept(Search& search);
+  void find_step(Rods& rods, const Effects& effects);
+  void weigh_step();
+  void correct_step();
+  void limit_step(const Rods& rods);
+  void search_line(Rods& rods, const Effects& effects);
+  void move();
+
+  std::vector<RodBatch> batches_;
   Contacts* contacts_;
-  std::vector<RodSystem*> systems_;
-  std::uint32_t first_node_;
-  std::uint32_t unknowns_;
-  std::vector<std::size_t> offsets_;  // of the rods in all unknowns
-  Eigen::VectorXd gradient_;
-  Eigen::VectorXd step_;
-  std::vector<Merit> merits_;                   // by rod, where they were tried last
-  std::vector<Merit> accepted_merits_;          // and where they were accepted
-  std::vector<std::uint8_t> is_lost_;           // by rod
+  std::vector<RodSystem*> systems_;   // by rod
+  std::vector<std::size_t> offsets_;  // of the batches in steps
+  std::vector<std::size_t> places_;   // of the nodes' positions in these
+  std::vector<LaneFlags> is_found_;   // by batch: not lost
+  std::vector<Search> searches_;
+  std::vector<Lanes> step_;
+  struct {
+    std::vector<Lanes> residual;
+    std::vector<Lanes> preconditioned;
+    std::vector<Lanes> direction;
+    std::vector<Lanes> product;                 // of the preconditioner and the direction
+    std::vector<Lanes> image;                   // of the direction
+  } gradients_;                                 // conjugate ones
+  std::vector<Eigen::Vector3d> beginning_;      // of the step, where there are contacts
   std::vector<Eigen::Vector3d> displacements_;  // of nodes, to be limited
+  std::vector<Eigen::Vector3d> wanted_;         // before they were
 };
 
 }  // namespace fiber

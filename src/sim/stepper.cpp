@@ -8,7 +8,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "rod_batch.hpp"
 #include "rod_group.hpp"
 
 namespace fiber {
@@ -47,14 +46,13 @@ void continue_from_middle(Rods& rods, const std::vector<Eigen::Vector3d>& old_ve
   }
 }
 
-/// Rods of equal sizes, as many together as can be moved side by side; with twist, none can.
+/// Rods of equal sizes, as many together as can be moved side by side.
 std::vector<std::vector<std::uint32_t>> rods_side_by_side(const Rods& rods) {
-  const std::size_t most = rods.angles.empty() ? lane_count : 1;
   std::vector<std::vector<std::uint32_t>> parts;
   std::map<std::uint32_t, std::size_t> open;  // parts, by node count
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
     const auto [found, is_new] = open.try_emplace(rods.node_count(rod), parts.size());
-    if (is_new || parts[found->second].size() == most) {
+    if (is_new || parts[found->second].size() == lane_count) {
       found->second = parts.size();
       parts.emplace_back();
     }
@@ -72,16 +70,13 @@ Stepper::Stepper(Rods rods, std::vector<std::unique_ptr<Effect>> effects,
       options_(options),
       contacts_(std::move(contacts)) {
   validate(options);
-  if (contacts_ != nullptr && rods_.count() > 0) {
-    groups_.emplace_back(rods_, 0, rods_.count(), contacts_.get());
+  const std::vector<std::vector<std::uint32_t>> batches = rods_side_by_side(rods_);
+  if (contacts_ != nullptr && !batches.empty()) {
+    groups_.emplace_back(rods_, batches, contacts_.get());
     return;
   }
-  for (const std::vector<std::uint32_t>& members : rods_side_by_side(rods_)) {
-    if (members.size() > 1) {
-      batches_.emplace_back(rods_, members);
-    } else {
-      groups_.emplace_back(rods_, members.front(), members.front() + 1, nullptr);
-    }
+  for (const std::vector<std::uint32_t>& batch : batches) {
+    groups_.push_back({rods_, {batch}, nullptr});
   }
 }
 
@@ -118,9 +113,6 @@ void Stepper::solve(const TimeStep& step) {
     }
     tbb::parallel_for(std::size_t{0}, groups_.size(), [&](std::size_t group) {
       groups_[group].solve(rods_, effects_, options_, step.length);
-    });
-    tbb::parallel_for(std::size_t{0}, batches_.size(), [&](std::size_t batch) {
-      batches_[batch].solve(rods_, effects_, options_, step.length);
     });
   });
 }

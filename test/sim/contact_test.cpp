@@ -44,41 +44,43 @@ struct FullSystem {
   MatrixXd hessian;
 };
 
-/// The blocks of the rods are read through solve(): of M and the block, with M known.
 FullSystem full_system(Contacts& contacts, const Rods& rods) {
   const auto size = static_cast<Eigen::Index>(3 * rods.positions.size());
+  std::vector<LaneSystem> lanes;
   std::vector<RodSystem> systems;
   std::vector<RodSystem*> pointers;
+  lanes.reserve(rods.count());
+  systems.reserve(rods.count());
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
-    systems.emplace_back(rods.node_count(rod), 3);
-  }
-  constexpr double mass = 1e4;
-  for (RodSystem& system : systems) {
-    system.set_zero();
-    for (std::uint32_t node = 0; node < system.gradient().size() / 3; ++node) {
-      system.add_hessian(node, mass * Eigen::Matrix3d::Identity());
-    }
-    pointers.push_back(&system);
+    lanes.emplace_back(rods.node_count(rod), 3);
+    systems.emplace_back(lanes.back(), rod % lane_count);
+    pointers.push_back(&systems.back());
   }
   contacts.add_derivatives(rods, pointers);
   FullSystem full{VectorXd::Zero(size), MatrixXd::Zero(size, size)};
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
-    const std::vector<double>& gradient = systems[rod].gradient();
-    const auto count = static_cast<Eigen::Index>(gradient.size());
     const Eigen::Index first = index_of(rods.first(rod));
-    full.gradient.segment(first, count) = Eigen::Map<const VectorXd>(gradient.data(), count);
-    systems[rod].factorise();
-    MatrixXd inverse = MatrixXd::Identity(count, count);
-    for (Eigen::Index c = 0; c < count; ++c) {
-      systems[rod].solve(inverse.col(c).data());
+    const std::size_t count = lanes[rod].size();
+    for (std::size_t c = 0; c < count; ++c) {
+      const Eigen::Index column = first + static_cast<Eigen::Index>(c);
+      full.gradient[column] = systems[rod].gradient(c);
+      for (std::size_t r = c; r < std::min(count, c + half_bandwidth(3) + 1); ++r) {
+        const Eigen::Index row = first + static_cast<Eigen::Index>(r);
+        full.hessian(row, column) = full.hessian(column, row) = systems[rod].hessian(r, c);
+      }
     }
-    full.hessian.block(first, first, count, count) =
-        inverse.inverse() - mass * MatrixXd::Identity(count, count);
   }
+  // Unknowns in lanes of their own, node by node.
+  std::vector<std::size_t> places;
+  for (std::size_t node = 0; node < rods.positions.size(); ++node) {
+    places.push_back(3 * node * lane_count);
+  }
+  using Spread = Eigen::Map<VectorXd, 0, Eigen::InnerStride<lane_count>>;
   for (Eigen::Index c = 0; c < size; ++c) {
-    VectorXd column = VectorXd::Zero(size);
-    contacts.add_coupling(VectorXd::Unit(size, c), 3, column);
-    full.hessian.col(c) += column;
+    VectorXd unit = VectorXd::Unit(size * lane_count, c * lane_count);
+    VectorXd column = VectorXd::Zero(size * lane_count);
+    contacts.add_coupling(places, unit.data(), column.data());
+    full.hessian.col(c) += Spread(column.data(), size);
   }
   return full;
 }

@@ -207,7 +207,7 @@ class Probe : public Effect {
   void add_derivatives(const Rods& /*rods*/, std::uint32_t /*rod*/,
                        RodSystem& system) const override {
     ++calls_->derivatives;
-    calls_->unknowns = system.unknowns();
+    calls_->unknowns = static_cast<std::uint32_t>(system.unknowns());
   }
   void end_step(Rods& /*rods*/, const TimeStep& /*step*/) override { ++calls_->end_step; }
 

@@ -23,17 +23,17 @@ inline double& unknown(Rods& rods, std::uint32_t rod, std::uint32_t index) {
 
 inline Derivatives derivatives_of(const Effect& effect, const Rods& rods, std::uint32_t rod) {
   const std::uint32_t unknowns = unknowns_of(rods);
-  RodSystem system(rods.node_count(rod), unknowns);
-  system.set_zero();
+  LaneSystem lanes(rods.node_count(rod), unknowns);
+  RodSystem system(lanes, 1);
   effect.add_derivatives(rods, rod, system);
   const Eigen::Index size = rods.node_count(rod) * unknowns;
-  Derivatives derivatives{Eigen::Map<const Eigen::VectorXd>(system.gradient().data(), size),
-                          Eigen::MatrixXd::Zero(size, size)};
-  const auto width = static_cast<Eigen::Index>(system.hessian().half_bandwidth());
+  Derivatives derivatives{Eigen::VectorXd(size), Eigen::MatrixXd::Zero(size, size)};
+  const auto width = static_cast<Eigen::Index>(half_bandwidth(unknowns));
   for (Eigen::Index c = 0; c < size; ++c) {
+    derivatives.gradient[c] = system.gradient(static_cast<std::size_t>(c));
     for (Eigen::Index r = c; r < std::min(size, c + width + 1); ++r) {
       derivatives.hessian(r, c) = derivatives.hessian(c, r) =
-          system.hessian().at(static_cast<std::size_t>(r), static_cast<std::size_t>(c));
+          system.hessian(static_cast<std::size_t>(r), static_cast<std::size_t>(c));
     }
   }
   return derivatives;

@@ -36,10 +36,10 @@ class Contacts {
   bool has_coupling() const;
 
   /// Adds what of the Hessian's product with displacements joins two parts of rods.
-  /// @param displacements of all that is unknown, node by node
-  /// @param unknowns      of each node, its position first
-  void add_coupling(const Eigen::VectorXd& displacements, std::uint32_t unknowns,
-                    Eigen::VectorXd& product) const;
+  /// @param places        of each node's x in these arrays; y and z are lane_count further each
+  /// @param displacements of all that is unknown
+  void add_coupling(const std::vector<std::size_t>& places, const double* displacements,
+                    double* product) const;
 
   /// Shortens displacements so that nothing passes through anything.
   void limit(const Rods& rods, std::vector<Eigen::Vector3d>& displacements);

@@ -18,8 +18,8 @@ struct alignas(lane_count * sizeof(double)) Lanes {
   double operator[](std::size_t lane) const { return of[lane]; }
 };
 
-/// Rods with the same number of nodes, without twist. Arrays of vectors go node by node, and
-/// coordinate by coordinate; an edge has the index of its first node, as in Rods.
+/// Rods with the same number of nodes. Arrays of vectors go node by node, and coordinate by
+/// coordinate; an edge has the index of its first node, as in Rods.
 struct RodLanes {
   std::array<std::uint32_t, lane_count> rods{};  ///< which rod is in which lane
   std::size_t used = 0;                          ///< lanes; the others repeat the first one
@@ -32,18 +32,15 @@ struct RodLanes {
   std::vector<Lanes> inverse_rest_lengths;  ///< of edges [1/m]
   std::vector<Lanes> inverse_node_lengths;  ///< of inner nodes: of what belongs to them [1/m]
 
-  std::vector<Lanes> positions;  ///< vectors [m]
+  std::vector<Lanes> positions;  ///< vectors [m]; with twist, each with the angle of its edge
 
-  /// Of the edges between these positions, by measure_edges().
+  /// Without twist: of the edges between these positions, by measure_edges().
   std::vector<Lanes> lengths;          ///< [m] never 0, as in EdgeDirection
   std::vector<Lanes> inverse_lengths;  ///< [1/m]
   std::vector<Lanes> tangents;         ///< vectors
 };
 
-/// Gradients and Hessians of rods side by side, in the order of RodSystem and BandMatrix.
-struct LaneSystem {
-  std::vector<Lanes> gradient;
-  std::vector<Lanes> hessian;
-};
+/// Lengths and tangents of the edges of rods without twist, where they are now.
+void measure_edges(RodLanes& rods);
 
 }  // namespace fiber

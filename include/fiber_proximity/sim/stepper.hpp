@@ -8,7 +8,6 @@
 
 namespace fiber {
 
-class RodBatch;
 class RodGroup;
 
 enum class Integrator {
@@ -64,7 +63,6 @@ class Stepper {
   double time_ = 0.0;
   std::unique_ptr<Contacts> contacts_;
   std::vector<RodGroup> groups_;
-  std::vector<RodBatch> batches_;
 };
 
 }  // namespace fiber

@@ -1,0 +1,52 @@
+// Compiled once per instruction set; Highway chooses among them at run time.
+#include "fiber_proximity/sim/rod_lanes.hpp"
+
+#include <limits>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "src/sim/rod_lanes.cpp"
+#include <hwy/foreach_target.h>  // must come before highway.h
+#include <hwy/highway.h>
+
+#include "src/sim/lanes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace fiber {
+namespace HWY_NAMESPACE {
+namespace {
+
+void measure(RodLanes& rods) {
+  const Real least = real(std::numeric_limits<double>::min());
+  const Real one = real(1.0);
+  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+    Vector point = load_vector(rods.positions, 0, lane);
+    for (std::size_t i = 0; i + 1 < rods.node_count; ++i) {
+      const Vector next = load_vector(rods.positions, i + 1, lane);
+      const Vector edge = next - point;
+      const Real length = larger(square_root(dot(edge, edge)), least);
+      const Real inverse = one / length;
+      store(length, rods.lengths[i], lane);
+      store(inverse, rods.inverse_lengths[i], lane);
+      const Vector tangent = inverse * edge;
+      for (std::size_t k = 0; k < 3; ++k) {
+        store(tangent.of[k], rods.tangents[3 * i + k], lane);
+      }
+      point = next;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace fiber
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace fiber {
+
+HWY_EXPORT(measure);
+
+void measure_edges(RodLanes& rods) { HWY_DYNAMIC_DISPATCH(measure)(rods); }
+
+}  // namespace fiber
+#endif
