@@ -103,11 +103,12 @@ namespace fiber {
 HWY_EXPORT(factorise);
 HWY_EXPORT(solve);
 
-LaneSystem::LaneSystem(std::size_t node_count, std::size_t unknowns_per_node)
-    : unknowns(unknowns_per_node),
-      gradient(node_count * unknowns),
-      hessian((gradient.size() + half_bandwidth(unknowns)) * (half_bandwidth(unknowns) + 1)) {
-  assert(unknowns == 3 || unknowns == 4);
+void LaneSystem::resize(std::size_t node_count, std::size_t unknowns_per_node) {
+  assert(unknowns_per_node == 3 || unknowns_per_node == 4);
+  unknowns = unknowns_per_node;
+  const std::size_t width = half_bandwidth(unknowns);
+  gradient.resize(node_count * unknowns);
+  hessian.resize((gradient.size() + width) * (width + 1));
 }
 
 void LaneSystem::set_zero() {

@@ -6,16 +6,15 @@ namespace fiber {
 
 using Eigen::Vector3d;
 
-RodBatch::RodBatch(const Rods& rods, const std::vector<std::uint32_t>& members)
-    : system_(rods.node_count(members.front()), rods.angles.empty() ? 3 : 4),
-      unknown_count_(system_.size()),
-      held_(members.size()) {
+void RodBatch::assign(const Rods& rods, const std::vector<std::uint32_t>& members) {
   lanes_.used = members.size();
   lanes_.node_count = rods.node_count(members.front());
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     lanes_.rods[lane] = members[lane < members.size() ? lane : 0];
     first_nodes_[lane] = rods.first(lanes_.rods[lane]);
   }
+  system_.resize(lanes_.node_count, rods.angles.empty() ? 3 : 4);
+  unknown_count_ = system_.size();
   const std::size_t nodes = lanes_.node_count;
   for (auto* array : {&lanes_.masses, &lanes_.rest_lengths, &lanes_.inverse_rest_lengths,
                       &lanes_.inverse_node_lengths}) {
@@ -29,9 +28,11 @@ RodBatch::RodBatch(const Rods& rods, const std::vector<std::uint32_t>& members)
   for (auto* array : {&lanes_.positions, &inertias_, &beginning_, &predicted_, &remembered_}) {
     array->resize(unknown_count_);
   }
+  views_.clear();
   for (std::size_t lane = 0; lane < lanes_.used; ++lane) {
     views_.emplace_back(system_, lane);
   }
+  held_.resize(lane_count);
 }
 
 void RodBatch::begin(const Rods& rods, const Effects& effects, double step) {

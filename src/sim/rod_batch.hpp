@@ -16,8 +16,9 @@ using LaneFlags = std::array<bool, lane_count>;
 /// What becomes of a rod does not depend on what it is beside.
 class RodBatch {
  public:
+  /// Makes it about these rods; what it was about before does not matter but for the memory it has.
   /// @param members from 1 to lane_count rods
-  RodBatch(const Rods& rods, const std::vector<std::uint32_t>& members);
+  void assign(const Rods& rods, const std::vector<std::uint32_t>& members);
 
   std::size_t used() const { return lanes_.used; }
   std::uint32_t rod(std::size_t lane) const { return lanes_.rods[lane]; }
@@ -95,7 +96,7 @@ class RodBatch {
   RodLanes lanes_;
   std::array<std::uint32_t, lane_count> first_nodes_{};
   LaneSystem system_;
-  std::size_t unknown_count_;
+  std::size_t unknown_count_ = 0;
   std::vector<RodSystem> views_;                  // of the system, by lane
   std::vector<std::vector<std::uint32_t>> held_;  // nodes, by lane
   std::vector<Lanes> inertias_;                   // of what is unknown: masses, and those of angles

@@ -19,24 +19,29 @@ Numbers numbers(std::vector<Lanes>& values) {
 
 }  // namespace
 
-RodGroup::RodGroup(const Rods& rods, const std::vector<std::vector<std::uint32_t>>& batches,
-                   Contacts* contacts)
-    : contacts_(contacts),
-      is_found_(batches.size()),
-      searches_(contacts != nullptr ? 1 : lane_count) {
+RodGroup::RodGroup(Contacts* contacts)
+    : contacts_(contacts), searches_(contacts != nullptr ? 1 : lane_count) {}
+
+void RodGroup::assign(const Rods& rods, const Batches& batches) {
+  batches_.resize(batches.size());
+  offsets_.clear();
   std::size_t size = 0;
-  for (const std::vector<std::uint32_t>& members : batches) {
-    batches_.emplace_back(rods, members);
+  for (std::size_t i = 0; i < batches.size(); ++i) {
+    batches_[i].assign(rods, batches[i]);
     offsets_.push_back(size);
-    size += batches_.back().step_size();
+    size += batches_[i].step_size();
   }
   step_.resize(size);
-  if (contacts == nullptr) {
-    return;
+  is_found_.resize(batches.size());
+  if (contacts_ != nullptr) {
+    prepare_coupling(rods);
   }
+}
+
+void RodGroup::prepare_coupling(const Rods& rods) {
   for (auto* array : {&gradients_.residual, &gradients_.preconditioned, &gradients_.direction,
                       &gradients_.product, &gradients_.image}) {
-    array->resize(size);
+    array->resize(step_.size());
   }
   systems_.resize(rods.count());
   places_.resize(rods.positions.size());

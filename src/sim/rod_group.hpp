@@ -8,14 +8,21 @@
 
 namespace fiber {
 
+/// Rods of each batch.
+using Batches = std::vector<std::vector<std::uint32_t>>;
+
 /// Rods whose equations are solved together: all of them where there are contacts, one batch where
 /// there are none.
 class RodGroup {
  public:
-  /// @param batches  whose rods they are, each at most lane_count
+  /// One without rods.
   /// @param contacts null for none; must outlive this
-  RodGroup(const Rods& rods, const std::vector<std::vector<std::uint32_t>>& batches,
-           Contacts* contacts);
+  explicit RodGroup(Contacts* contacts);
+
+  /// Makes it about these rods; of what it was about before, it only keeps the memory.
+  /// @param batches rods with the same number of nodes each, at most lane_count; without contacts,
+  ///                one batch
+  void assign(const Rods& rods, const Batches& batches);
 
   /// Moves the rods by one step of implicit Euler.
   /// @param step [s]
@@ -33,6 +40,7 @@ class RodGroup {
     bool is_searching = true;  ///< has not found a share of this step
   };
 
+  void prepare_coupling(const Rods& rods);
   template <typename Function>
   void for_each_batch(const Function& function);
   template <typename Function>

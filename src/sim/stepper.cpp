@@ -1,5 +1,6 @@
 #include "fiber_proximity/sim/stepper.hpp"
 
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -47,8 +48,8 @@ void continue_from_middle(Rods& rods, const std::vector<Eigen::Vector3d>& old_ve
 }
 
 /// Rods of equal sizes, as many together as can be moved side by side.
-std::vector<std::vector<std::uint32_t>> rods_side_by_side(const Rods& rods) {
-  std::vector<std::vector<std::uint32_t>> parts;
+Batches rods_side_by_side(const Rods& rods) {
+  Batches parts;
   std::map<std::uint32_t, std::size_t> open;  // parts, by node count
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
     const auto [found, is_new] = open.try_emplace(rods.node_count(rod), parts.size());
@@ -63,6 +64,19 @@ std::vector<std::vector<std::uint32_t>> rods_side_by_side(const Rods& rods) {
 
 }  // namespace
 
+/// Who moves which rods. Nothing but memory stays with a worker from one step to the next, so that
+/// there need not be more of them than threads.
+struct Stepper::Workers {
+  Workers(const StepperOptions& options, Contacts* contacts)
+      : arena(options.threads == 0 ? tbb::task_arena::automatic
+                                   : static_cast<int>(options.threads)),
+        groups([contacts] { return RodGroup(contacts); }) {}
+
+  tbb::task_arena arena;
+  std::vector<Batches> parts;  // that are moved independently
+  tbb::enumerable_thread_specific<RodGroup> groups;
+};
+
 Stepper::Stepper(Rods rods, std::vector<std::unique_ptr<Effect>> effects,
                  const StepperOptions& options, std::unique_ptr<Contacts> contacts)
     : rods_(std::move(rods)),
@@ -70,13 +84,14 @@ Stepper::Stepper(Rods rods, std::vector<std::unique_ptr<Effect>> effects,
       options_(options),
       contacts_(std::move(contacts)) {
   validate(options);
-  const std::vector<std::vector<std::uint32_t>> batches = rods_side_by_side(rods_);
-  if (contacts_ != nullptr && !batches.empty()) {
-    groups_.emplace_back(rods_, batches, contacts_.get());
-    return;
-  }
-  for (const std::vector<std::uint32_t>& batch : batches) {
-    groups_.push_back({rods_, {batch}, nullptr});
+  workers_ = std::make_unique<Workers>(options, contacts_.get());
+  const Batches batches = rods_side_by_side(rods_);
+  if (contacts_ == nullptr) {
+    for (const std::vector<std::uint32_t>& batch : batches) {
+      workers_->parts.push_back({batch});
+    }
+  } else if (!batches.empty()) {
+    workers_->parts.push_back(batches);
   }
 }
 
@@ -102,17 +117,17 @@ void Stepper::step(double length) {
 }
 
 void Stepper::solve(const TimeStep& step) {
-  tbb::task_arena arena(options_.threads == 0 ? tbb::task_arena::automatic
-                                              : static_cast<int>(options_.threads));
-  arena.execute([&] {
+  workers_->arena.execute([&] {
     for (const std::unique_ptr<Effect>& effect : effects_) {
       effect->begin_step(rods_, step);
     }
     if (contacts_ != nullptr) {
       contacts_->begin_step(rods_, step);
     }
-    tbb::parallel_for(std::size_t{0}, groups_.size(), [&](std::size_t group) {
-      groups_[group].solve(rods_, effects_, options_, step.length);
+    tbb::parallel_for(std::size_t{0}, workers_->parts.size(), [&](std::size_t part) {
+      RodGroup& group = workers_->groups.local();
+      group.assign(rods_, workers_->parts[part]);
+      group.solve(rods_, effects_, options_, step.length);
     });
   });
 }

@@ -15,15 +15,22 @@ constexpr std::size_t half_bandwidth(std::size_t unknowns) { return 2 * unknowns
 /// diagonal down; after the last there are as many columns of zeros as a column has entries off the
 /// diagonal.
 struct LaneSystem {
+  LaneSystem() = default;
+
   /// All zero.
   /// @param unknowns_per_node 3, or 4 with twist
-  LaneSystem(std::size_t node_count, std::size_t unknowns_per_node);
+  LaneSystem(std::size_t node_count, std::size_t unknowns_per_node) {
+    resize(node_count, unknowns_per_node);
+  }
+
+  /// What it holds then is not said.
+  void resize(std::size_t node_count, std::size_t unknowns_per_node);
 
   void set_zero();
 
   std::size_t size() const { return gradient.size(); }
 
-  std::size_t unknowns;  ///< of each node
+  std::size_t unknowns = 3;  ///< of each node
   std::vector<Lanes> gradient;
   std::vector<Lanes> hessian;
 };

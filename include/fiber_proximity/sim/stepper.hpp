@@ -8,8 +8,6 @@
 
 namespace fiber {
 
-class RodGroup;
-
 enum class Integrator {
   IMPLICIT_EULER,    ///< damps what it does not resolve; for everything that should settle
   IMPLICIT_MIDPOINT  ///< keeps the energy of undamped motion, and its order in time is two
@@ -55,6 +53,8 @@ class Stepper {
   double time() const { return time_; }
 
  private:
+  struct Workers;
+
   void solve(const TimeStep& step);
 
   Rods rods_;
@@ -62,7 +62,7 @@ class Stepper {
   StepperOptions options_;
   double time_ = 0.0;
   std::unique_ptr<Contacts> contacts_;
-  std::vector<RodGroup> groups_;
+  std::unique_ptr<Workers> workers_;
 };
 
 }  // namespace fiber
