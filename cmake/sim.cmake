@@ -5,6 +5,7 @@ add_library(fiber_proximity_sim SHARED
   src/sim/contact_limits.cpp
   src/sim/contact_stiffness.cpp
   src/sim/contacts.cpp
+  src/sim/edge_share.cpp
   src/sim/effects/attachment.cpp
   src/sim/effects/bend.cpp
   src/sim/effects/bend_lanes.cpp

@@ -1,15 +1,16 @@
 #include "fiber_proximity/sim/contact_limits.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace fiber {
 
-double fastest_speed(const Rods& rods) {
-  double fastest = 0.0;
-  for (const Eigen::Vector3d& velocity : rods.velocities) {
-    fastest = std::max(fastest, velocity.norm());
+double largest_square(const std::vector<Eigen::Vector3d>& vectors) {
+  double largest = 0.0;
+  for (const Eigen::Vector3d& vector : vectors) {
+    largest = std::max(largest, vector.squaredNorm());
   }
-  return fastest;
+  return largest;
 }
 
 double longest_move(const Rods& rods, double fastest) {
@@ -17,6 +18,29 @@ double longest_move(const Rods& rods, double fastest) {
   constexpr double steps = 4.0;
   return edges * *std::max_element(rods.rest_lengths.begin(), rods.rest_lengths.end()) +
          steps * fastest;
+}
+
+double farthest_move(const std::vector<Eigen::Vector3d>& from,
+                     const std::vector<Eigen::Vector3d>& now,
+                     const std::vector<Eigen::Vector3d>& displacements) {
+  Eigen::Vector3d drift = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    drift += now[i] + displacements[i] - from[i];
+  }
+  drift /= static_cast<double>(now.size());
+  double farthest_square = 0.0;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    farthest_square =
+        std::max(farthest_square, (now[i] + displacements[i] - from[i] - drift).squaredNorm());
+  }
+  return std::sqrt(farthest_square);
+}
+
+void limit_length(double most, Eigen::Vector3d& displacement) {
+  const double length = displacement.norm();
+  if (length > std::max(0.0, most)) {
+    displacement *= std::max(0.0, most) / length;
+  }
 }
 
 bool limit_approach(const Eigen::Vector3d& towards, double most, Eigen::Vector3d& displacement) {

@@ -8,13 +8,23 @@ namespace fiber {
 /// presses them: a spring alone would let them through.
 constexpr double least_distance = 0.1;
 
-/// Speed of the fastest node [m/s].
-double fastest_speed(const Rods& rods);
+/// Square of the length of the longest of some vectors, 0 if there are none.
+double largest_square(const std::vector<Eigen::Vector3d>& vectors);
 
 /// How far nodes may go in a step before contacts limit it [m]: how fast they will be is not known
 /// when it begins, but what to look at within very many edges would be too much.
 /// @param fastest how far the fastest node goes at its speed [m]
 double longest_move(const Rods& rods, double fastest);
+
+/// How far nodes get from where they were, beside how far all of them get on the average: without
+/// that, pairs of them would come as near to each other [m].
+/// @param displacements of the nodes from where they are now
+double farthest_move(const std::vector<Eigen::Vector3d>& from,
+                     const std::vector<Eigen::Vector3d>& now,
+                     const std::vector<Eigen::Vector3d>& displacements);
+
+/// Shortens a displacement to at most a length.
+void limit_length(double most, Eigen::Vector3d& displacement);
 
 /// Shortens a displacement to one that approaches along a unit vector by at most a distance.
 /// @returns whether it was longer

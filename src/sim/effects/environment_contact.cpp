@@ -1,6 +1,7 @@
 #include "fiber_proximity/sim/effects/environment_contact.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <tuple>
 
@@ -36,14 +37,6 @@ bool is_convex(const Shape& shape) {
          !std::holds_alternative<std::shared_ptr<const OccupancyOctree>>(shape);
 }
 
-/// Shortens a displacement to at most a length.
-void limit_length(double most, Vector3d& displacement) {
-  const double length = displacement.norm();
-  if (length > std::max(0.0, most)) {
-    displacement *= std::max(0.0, most) / length;
-  }
-}
-
 }  // namespace
 
 EnvironmentContact::EnvironmentContact(std::shared_ptr<const Environment> environment,
@@ -61,7 +54,11 @@ void EnvironmentContact::set_environment(std::shared_ptr<const Environment> envi
 
 void EnvironmentContact::begin_step(const Rods& rods, const TimeStep& step) {
   step_ = step.length;
-  const double fastest = fastest_speed(rods);
+  material_stiffness_.resize(rods.count());
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    material_stiffness_[rod] = material_contact_stiffness(rods.sections[rod], rods.radii[rod]);
+  }
+  const double fastest = std::sqrt(largest_square(rods.velocities));
   longest_move_ = longest_move(rods, step.length * fastest);
   place_fibers(rods);
   look(rods, *std::max_element(rods.radii.begin(), rods.radii.end()) + 2.0 * step.length * fastest);
@@ -81,9 +78,11 @@ void EnvironmentContact::look(const Rods& rods, double margin) {
     const bool is_last = !is_edge && node + 1 == rods.end(contact.fiber_a);
     const double s = is_edge ? contact.s : is_last ? 1.0 : 0.0;
     const EnvironmentObject& object = environment_->objects()[contact.fiber_b];
-    planes_.push_back({contact.fiber_a, is_last ? node - 1 : node, s, is_edge,
+    const std::uint32_t edge = is_last ? node - 1 : node;
+    planes_.push_back({contact.fiber_a, edge, s, is_edge,
                        is_convex(object.shapes[contact.segment_b].shape), is_edge ? 0.0 : 1.0,
-                       contact.point_b, -contact.normal});
+                       stiffness_of(rods, contact.fiber_a, edge), contact.point_b,
+                       -contact.normal});
   }
   share_contacts(rods);
 }
@@ -100,14 +99,23 @@ void EnvironmentContact::place_fibers(const Rods& rods) {
   fibers_ = FiberAssembly(doubled(rods.positions), offsets, rods.radii);
 }
 
+double EnvironmentContact::stiffness_of(const Rods& rods, std::uint32_t rod,
+                                        std::uint32_t edge) const {
+  if (options_.stiffness > 0.0) {
+    return options_.stiffness;
+  }
+  const double mass = std::min(rods.masses[edge], rods.masses[edge + 1]);
+  return std::min(material_stiffness_[rod], largest_contact_stiffness(mass, step_));
+}
+
 void EnvironmentContact::share_contacts(const Rods& rods) {
   for (std::size_t i = 0; i < planes_.size(); ++i) {
     const Contact& contact = result_.contacts[i];
     if (!planes_[i].is_edge) {
       continue;
     }
-    const std::size_t before = find_plane(contact.fiber_a, contact.segment_a - 1, contact);
-    const std::size_t after = find_plane(contact.fiber_a, contact.segment_a + 1, contact);
+    const std::size_t before = find_plane(i, contact.segment_a - 1);
+    const std::size_t after = find_plane(i, contact.segment_a + 1);
     const auto gap_of = [this](std::size_t plane) {
       return plane < planes_.size() ? result_.contacts[plane].distance
                                     : std::numeric_limits<double>::infinity();
@@ -128,39 +136,39 @@ void EnvironmentContact::share_contacts(const Rods& rods) {
   }
 }
 
-/// The plane of another segment and the same shape, or how many there are if there is none.
-std::size_t EnvironmentContact::find_plane(std::uint32_t rod, std::uint32_t segment,
-                                           const Contact& like) const {
-  const auto key = std::make_tuple(rod, segment, like.fiber_b, like.segment_b);
-  const auto found = std::lower_bound(
-      result_.contacts.begin(), result_.contacts.end(), key,
-      [](const Contact& contact, const auto& wanted) { return contact.key() < wanted; });
-  const bool is_there = found != result_.contacts.end() && found->key() == key;
-  return is_there ? static_cast<std::size_t>(found - result_.contacts.begin()) : planes_.size();
+/// The plane of the segment before or after that of another plane, and the same shape; or how many
+/// there are if there is none. Contacts are in the order of their keys: it is not far.
+std::size_t EnvironmentContact::find_plane(std::size_t near, std::uint32_t segment) const {
+  const std::vector<Contact>& contacts = result_.contacts;
+  const auto key = std::make_tuple(contacts[near].fiber_a, segment, contacts[near].fiber_b,
+                                   contacts[near].segment_b);
+  std::size_t found = near;
+  while (found > 0 && contacts[found].key() > key) {
+    --found;
+  }
+  while (found + 1 < contacts.size() && contacts[found].key() < key) {
+    ++found;
+  }
+  return contacts[found].key() == key ? found : planes_.size();
 }
 
 void EnvironmentContact::measure(const Rods& rods) {
   heights_.clear();
   for (const Plane& plane : planes_) {
-    const Vector3d point =
-        (1.0 - plane.s) * rods.positions[plane.edge] + plane.s * rods.positions[plane.edge + 1];
-    heights_.push_back(plane.normal.dot(point - plane.point));
+    const double first = plane.normal.dot(rods.positions[plane.edge] - plane.point);
+    const double last = plane.normal.dot(rods.positions[plane.edge + 1] - plane.point);
+    const double nearest = (1.0 - plane.s) * first + plane.s * last;
+    heights_.push_back({nearest, plane.is_edge ? std::min(first, last) : nearest});
   }
 }
 
 void EnvironmentContact::find(const Rods& rods, std::vector<ContactPoint>& points) const {
   for (std::size_t i = 0; i < planes_.size(); ++i) {
     const Plane& plane = planes_[i];
-    const double depth = rods.radii[plane.rod] - heights_[i];
+    const double depth = rods.radii[plane.rod] - heights_[i].nearest;
     if (depth > 0.0 && plane.share > 0.0) {
-      const double mass = std::min(rods.masses[plane.edge], rods.masses[plane.edge + 1]);
-      const double stiffness = options_.stiffness > 0.0
-                                   ? options_.stiffness
-                                   : std::min(material_contact_stiffness(rods.sections[plane.rod],
-                                                                         rods.radii[plane.rod]),
-                                              largest_contact_stiffness(mass, step_));
       points.push_back({plane.edge, plane.s, ContactPoint::obstacle, 0.0, plane.point, plane.normal,
-                        depth, plane.share * stiffness});
+                        depth, plane.share * plane.stiffness});
     }
   }
 }
@@ -179,36 +187,56 @@ double EnvironmentContact::free_distance(const Rods& rods, const Plane& plane) c
 }
 
 void EnvironmentContact::limit(const Rods& rods, std::vector<Vector3d>& displacements) {
-  double farthest = 0.0;
-  for (std::size_t i = 0; i < displacements.size(); ++i) {
-    const Vector3d target = rods.positions[i] + displacements[i];
-    farthest = std::max(farthest, (target - fibers_.points()[2 * i]).norm());
+  limit_to_known(rods, displacements);
+  const double longest = std::sqrt(largest_square(displacements));
+  for (std::size_t i = 0; i < planes_.size(); ++i) {
+    const Plane& plane = planes_[i];
+    const bool is_inside = !(heights_[i].nearest > 0.0);  // the axis, already
+    const double room = heights_[i].lowest - least_distance * rods.radii[plane.rod];
+    if (is_inside || (plane.is_convex && room >= longest)) {
+      continue;
+    }
+    const std::uint32_t last = plane.edge + (plane.is_edge || plane.s == 1.0 ? 1 : 0);
+    for (std::uint32_t node = last - (plane.is_edge ? 1 : 0); node <= last; ++node) {
+      limit_to_side(rods, plane, node, displacements[node]);
+    }
   }
+}
+
+/// Shortens displacements to within the margin; it grows first as far as it may.
+void EnvironmentContact::limit_to_known(const Rods& rods, std::vector<Vector3d>& displacements) {
+  const auto was = [this](std::size_t node) { return fibers_.points()[2 * node]; };
+  double farthest_square = 0.0;
+  double longest_square = 0.0;  // at least that of any way there and on
+  for (std::size_t i = 0; i < displacements.size(); ++i) {
+    const Vector3d moved = rods.positions[i] - was(i);
+    farthest_square = std::max(farthest_square, (moved + displacements[i]).squaredNorm());
+    longest_square =
+        std::max(longest_square, 2.0 * (moved.squaredNorm() + displacements[i].squaredNorm()));
+  }
+  if (longest_square <= margin_ * margin_) {
+    return;
+  }
+  const double farthest = std::sqrt(farthest_square);
   if (farthest > margin_ && margin_ < longest_move_) {
     constexpr double rounding = 1.0 + 1e-9;
     look(rods, std::min(rounding * farthest, longest_move_));
     measure(rods);
   }
   for (std::size_t i = 0; i < displacements.size(); ++i) {
-    const double moved = (rods.positions[i] - fibers_.points()[2 * i]).norm();
-    limit_length(margin_ - moved, displacements[i]);
+    limit_length(margin_ - (rods.positions[i] - was(i)).norm(), displacements[i]);
   }
-  for (std::size_t i = 0; i < planes_.size(); ++i) {
-    const Plane& plane = planes_[i];
-    if (!(heights_[i] > 0.0)) {
-      continue;  // the axis is inside already
-    }
-    const std::uint32_t last = plane.edge + (plane.is_edge || plane.s == 1.0 ? 1 : 0);
-    for (std::uint32_t node = last - (plane.is_edge ? 1 : 0); node <= last; ++node) {
-      if (!plane.is_convex) {
-        limit_length(free_distance(rods, plane), displacements[node]);
-        continue;
-      }
-      const double height = plane.normal.dot(rods.positions[node] - plane.point);
-      limit_approach(-plane.normal, height - least_distance * rods.radii[plane.rod],
-                     displacements[node]);
-    }
+}
+
+/// Shortens the displacement of a node to one that stays on its side of what a plane stands for.
+void EnvironmentContact::limit_to_side(const Rods& rods, const Plane& plane, std::uint32_t node,
+                                       Vector3d& displacement) const {
+  if (!plane.is_convex) {
+    limit_length(free_distance(rods, plane), displacement);
+    return;
   }
+  const double height = plane.normal.dot(rods.positions[node] - plane.point);
+  limit_approach(-plane.normal, height - least_distance * rods.radii[plane.rod], displacement);
 }
 
 }  // namespace fiber

@@ -2,52 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "fiber_proximity/sim/contact_limits.hpp"
 #include "fiber_proximity/sim/contact_stiffness.hpp"
 #include "fiber_proximity/sim/edge_pair.hpp"
+#include "fiber_proximity/sim/edge_share.hpp"
 
 namespace fiber {
 
 using Eigen::Vector3d;
-
-namespace {
-
-/// Of a contact at a point of an edge near its end node: none at the node, all from where on the
-/// target is not over the next edge.
-/// @param next   the next edge's other node [m]
-/// @param across from the point to the target [m]
-/// @param other  along which the target slides, of unit length; zero for a target that does not
-double end_share(const Vector3d& next, const Vector3d& node, const Vector3d& point,
-                 const Vector3d& across, const Vector3d& other) {
-  // Seen along the target's edge, which is a point then.
-  const Vector3d beyond = next - node;
-  const Vector3d rest = node - point;
-  const double over_next = across.dot(beyond);
-  const double ahead = rest.dot(beyond) - other.dot(rest) * other.dot(beyond);
-  // The target is over the next edge up to where these are the same.
-  return over_next > 0.0 && ahead < over_next ? std::max(0.0, ahead / over_next) : 1.0;
-}
-
-}  // namespace
-
-double edge_share(const Rods& rods, std::uint32_t rod, std::uint32_t edge, double parameter,
-                  const Vector3d& target, const Vector3d& other) {
-  const bool has_next = edge + 2 < rods.end(rod);
-  const bool has_previous = edge > rods.first(rod);
-  const std::vector<Vector3d>& x = rods.positions;
-  if (parameter >= 1.0) {
-    return has_next ? 0.0 : 1.0;
-  }
-  if (parameter <= 0.0) {
-    return has_previous && (x[edge - 1] - x[edge]).dot(target - x[edge]) > 0.0 ? 0.0 : 1.0;
-  }
-  const Vector3d point = x[edge] + parameter * (x[edge + 1] - x[edge]);
-  const Vector3d across = target - point;
-  const double before = has_previous ? end_share(x[edge - 1], x[edge], point, across, other) : 1.0;
-  const double after = has_next ? end_share(x[edge + 2], x[edge + 1], point, across, other) : 1.0;
-  return std::min(before, after);
-}
 
 FiberContact::FiberContact(const Options& options) : options_(options) {
   validate_contact_stiffness("contact", options.stiffness);
@@ -57,24 +21,22 @@ FiberContact::FiberContact(const Options& options) : options_(options) {
 void FiberContact::begin_step(const Rods& rods, const TimeStep& step) {
   step_ = step.length;
   beginning_ = rods.positions;
-  // What a node has moved since, and will in this step if nothing happens, must leave half of the
-  // reach for what does happen.
-  double farthest = 0.0;
-  double fastest = 0.0;
-  const bool is_first = fibers_.point_count() != rods.positions.size();
-  for (std::size_t i = 0; i < rods.positions.size(); ++i) {
-    const double speed = rods.velocities[i].norm();
-    fastest = std::max(fastest, speed);
-    if (!is_first) {
-      const double moved = (rods.positions[i] - fibers_.points()[i]).norm();
-      farthest = std::max(farthest, moved + step.length * speed);
-    }
+  material_stiffness_.resize(rods.count());
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    material_stiffness_[rod] = material_contact_stiffness(rods.sections[rod], rods.radii[rod]);
   }
-  longest_move_ = longest_move(rods, step.length * fastest);
-  if (is_first || farthest > 0.25 * reach_) {
-    constexpr double steps = 8.0;
+  longest_move_ = longest_move(rods, step.length * std::sqrt(largest_square(rods.velocities)));
+  // What a node has moved since, and will in this step if nothing happens, must leave half of the
+  // reach for what does happen. Where all move together, nothing comes nearer.
+  displacements_.resize(rods.positions.size());
+  for (std::size_t i = 0; i < rods.positions.size(); ++i) {
+    displacements_[i] = step.length * rods.velocities[i];
+  }
+  const bool is_first = fibers_.point_count() != rods.positions.size();
+  if (is_first || farthest_move(fibers_.points(), rods.positions, displacements_) > 0.25 * reach_) {
+    constexpr double steps = 2.5;
     const double largest = *std::max_element(rods.radii.begin(), rods.radii.end());
-    reach_ = std::max(2.0 * largest, steps * step.length * fastest);
+    reach_ = 2.0 * largest + steps * farthest_move(beginning_, rods.positions, displacements_);
     find_candidates(rods);
   }
   measure(rods);
@@ -125,10 +87,8 @@ double FiberContact::stiffness_of(const Rods& rods, const Candidate& candidate) 
   }
   const double mass = std::min({rods.masses[candidate.edge_a], rods.masses[candidate.edge_a + 1],
                                 rods.masses[candidate.edge_b], rods.masses[candidate.edge_b + 1]});
-  const auto material = [&rods](std::uint32_t rod) {
-    return material_contact_stiffness(rods.sections[rod], rods.radii[rod]);
-  };
-  const double softer = std::min(material(candidate.rod_a), material(candidate.rod_b));
+  const double softer =
+      std::min(material_stiffness_[candidate.rod_a], material_stiffness_[candidate.rod_b]);
   return std::min(softer, largest_contact_stiffness(mass, step_));
 }
 
@@ -230,36 +190,57 @@ bool FiberContact::keep_apart(const Rods& rods, std::size_t candidate, bool is_f
   return is_shorter;
 }
 
-/// Candidates that serve for these displacements too.
-void FiberContact::look_further(const Rods& rods, const std::vector<Vector3d>& displacements) {
-  double longest = 0.0;
-  double farthest = 0.0;
-  for (std::size_t i = 0; i < displacements.size(); ++i) {
-    const Vector3d target = rods.positions[i] + displacements[i];
-    longest = std::max(longest, (target - beginning_[i]).norm());
-    farthest = std::max(farthest, (target - fibers_.points()[i]).norm());
+/// Whether all that displacements may bring together is a candidate. It is enough that nodes do not
+/// get far beside each other.
+bool FiberContact::is_known(const Rods& rods, const std::vector<Vector3d>& displacements) const {
+  if (farthest_move(fibers_.points(), rods.positions, displacements) <= 0.5 * reach_) {
+    return true;
   }
-  const double longest_reach = 2.0 * longest_move_;
-  if (farthest <= 0.5 * reach_ || (reach_ >= longest_reach && beginning_ == fibers_.points())) {
-    return;
+  double farthest_square = 0.0;
+  for (std::size_t i = 0; i < displacements.size(); ++i) {
+    const Vector3d move = rods.positions[i] + displacements[i] - fibers_.points()[i];
+    farthest_square = std::max(farthest_square, move.squaredNorm());
   }
   constexpr double rounding = 1.0 + 1e-9;
-  reach_ = std::max(reach_, std::min(2.0 * rounding * longest, longest_reach));
-  find_candidates(rods);
-  measure_at(beginning_);
-  part_candidates(rods);
-  measure(rods);
+  return std::sqrt(farthest_square) <= 0.5 * rounding * reach_;
+}
+
+/// Looks for candidates as far as these displacements lead; where that is too far, shortens them.
+void FiberContact::look_further(const Rods& rods, std::vector<Vector3d>& displacements) {
+  constexpr double rounding = 1.0 + 1e-9;
+  const double longest_reach = 2.0 * longest_move_;
+  const double needed = 2.0 * rounding * farthest_move(beginning_, rods.positions, displacements);
+  if (reach_ < longest_reach || beginning_ != fibers_.points()) {
+    reach_ = std::max(reach_, std::min(needed, longest_reach));
+    find_candidates(rods);
+    measure_at(beginning_);
+    part_candidates(rods);
+    measure(rods);
+  }
+  if (needed > reach_) {
+    for (std::size_t i = 0; i < displacements.size(); ++i) {
+      limit_length(0.5 * reach_ - (rods.positions[i] - beginning_[i]).norm(), displacements[i]);
+    }
+    if (!is_known(rods, displacements)) {
+      // Far from where they began already: they stay where they are.
+      std::fill(displacements.begin(), displacements.end(), Vector3d::Zero());
+    }
+  }
 }
 
 void FiberContact::limit(const Rods& rods, std::vector<Vector3d>& displacements) {
-  look_further(rods, displacements);
-  // Against all that was too far away to be a candidate.
-  for (std::size_t i = 0; i < displacements.size(); ++i) {
-    const double moved = (rods.positions[i] - fibers_.points()[i]).norm();
-    limit_approach(displacements[i].normalized(), 0.5 * reach_ - moved, displacements[i]);
-  }
-  // What one pair stops, another may follow into: until none has to be stopped. After some passes,
-  // the planes around what is still being stopped do not move any more, which ends it.
+  // What is stopped moves against what is not: it may get further beside that than before.
+  do {
+    if (!is_known(rods, displacements)) {
+      look_further(rods, displacements);
+    }
+    limit_to_sides(rods, displacements);
+  } while (largest_square(displacements) > 0.0 && !is_known(rods, displacements));
+}
+
+/// What one pair stops, another may follow into: until none has to be stopped. After some passes,
+/// the planes around what is still being stopped do not move any more, which ends it.
+void FiberContact::limit_to_sides(const Rods& rods, std::vector<Vector3d>& displacements) const {
   constexpr int moving_passes = 8;
   std::vector<bool> is_fixed(displacements.size(), false);
   bool is_settled = false;

@@ -44,6 +44,7 @@ class EnvironmentContact : public ContactSource {
     bool is_edge;            // or the node at this end
     bool is_convex;          // the object is all behind the plane
     double share;            // of a contact; 0 where others do better
+    double stiffness;        // of a whole contact [N/m]
     Eigen::Vector3d point;   // of the object's surface [m]
     Eigen::Vector3d normal;  // out of the object
   };
@@ -51,8 +52,12 @@ class EnvironmentContact : public ContactSource {
   void look(const Rods& rods, double margin);
   void place_fibers(const Rods& rods);
   void share_contacts(const Rods& rods);
-  std::size_t find_plane(std::uint32_t rod, std::uint32_t segment, const Contact& like) const;
+  std::size_t find_plane(std::size_t near, std::uint32_t segment) const;
+  double stiffness_of(const Rods& rods, std::uint32_t rod, std::uint32_t edge) const;
   double free_distance(const Rods& rods, const Plane& plane) const;
+  void limit_to_known(const Rods& rods, std::vector<Eigen::Vector3d>& displacements);
+  void limit_to_side(const Rods& rods, const Plane& plane, std::uint32_t node,
+                     Eigen::Vector3d& displacement) const;
 
   std::shared_ptr<const Environment> environment_;
   Options options_;
@@ -63,8 +68,15 @@ class EnvironmentContact : public ContactSource {
   FiberAssembly fibers_;
   AllowedPairs allowed_;  // in segments of these
   QueryResult result_;
-  std::vector<Plane> planes_;    // by contact of the result
-  std::vector<double> heights_;  // of the axes above them [m]
+  std::vector<Plane> planes_;  // by contact of the result
+
+  /// How far above a plane an axis is [m].
+  struct Height {
+    double nearest;  // where the plane is about
+    double lowest;   // of the nodes it is about
+  };
+  std::vector<Height> heights_;             // by plane
+  std::vector<double> material_stiffness_;  // of contacts, by rod [N/m]
 };
 
 }  // namespace fiber

@@ -54,13 +54,17 @@ class FiberContact : public ContactSource {
   void measure_at(const std::vector<Eigen::Vector3d>& positions);
   bool keep_apart(const Rods& rods, std::size_t candidate, bool is_fixed,
                   std::vector<Eigen::Vector3d>& displacements) const;
-  void look_further(const Rods& rods, const std::vector<Eigen::Vector3d>& displacements);
+  bool is_known(const Rods& rods, const std::vector<Eigen::Vector3d>& displacements) const;
+  void look_further(const Rods& rods, std::vector<Eigen::Vector3d>& displacements);
+  void limit_to_sides(const Rods& rods, std::vector<Eigen::Vector3d>& displacements) const;
   double stiffness_of(const Rods& rods, const Candidate& candidate) const;
 
   Options options_;
   std::unique_ptr<ProximityEngine> engine_;
-  std::vector<Eigen::Vector3d> beginning_;  // of the step: where nodes were [m]
-  FiberAssembly fibers_;                    // where the rods were when candidates were looked for
+  std::vector<Eigen::Vector3d> beginning_;      // of the step: where nodes were [m]
+  std::vector<Eigen::Vector3d> displacements_;  // that its velocities would bring [m]
+  std::vector<double> material_stiffness_;      // of contacts, by rod [N/m]
+  FiberAssembly fibers_;  // where the rods were when candidates were looked for
   QueryResult result_;
   std::vector<Candidate> candidates_;
   std::vector<Parting> partings_;           // of the candidates
@@ -69,15 +73,5 @@ class FiberContact : public ContactSource {
   double longest_move_ = 0.0;               // [m] in this step
   double step_ = 0.0;                       // [s]
 };
-
-/// What part of a contact at a point of an edge is described on this edge, in [0, 1]; what other
-/// edges have of it makes that about one. At an end it is all on the edge that comes next, or
-/// before, if the target is nearer to that. In the hollow of a bend a target is nearest to inner
-/// points of both edges: there one gives way to the other little by little, so that what slides
-/// along feels no step.
-/// @param target what the point is nearest to [m]
-/// @param other  direction of the target's edge, of unit length, if it is inside of that; or zero
-double edge_share(const Rods& rods, std::uint32_t rod, std::uint32_t edge, double parameter,
-                  const Eigen::Vector3d& target, const Eigen::Vector3d& other);
 
 }  // namespace fiber
