@@ -1,5 +1,7 @@
 #include "fiber_proximity/sim/contacts.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 
 namespace fiber {
@@ -38,22 +40,30 @@ void add_side(const Rods& rods, std::uint32_t edge, const Vector2d& weights,
 
 Contacts::Contacts(std::vector<std::unique_ptr<ContactSource>> sources,
                    std::unique_ptr<Friction> friction)
-    : sources_(std::move(sources)), friction_(std::move(friction)) {}
+    : sources_(std::move(sources)), friction_(std::move(friction)), found_by_(sources_.size()) {}
+
+/// In parallel: sources do not know of each other.
+template <class Function>
+void Contacts::for_each_source(const Function& function) {
+  tbb::parallel_for(std::size_t{0}, sources_.size(), function);
+}
 
 void Contacts::begin_step(const Rods& rods, const TimeStep& step) {
-  for (const std::unique_ptr<ContactSource>& source : sources_) {
-    source->begin_step(rods, step);
-  }
+  for_each_source([&](std::size_t source) { sources_[source]->begin_step(rods, step); });
   if (friction_ != nullptr) {
     friction_->begin_step(rods, step);
   }
 }
 
 double Contacts::measure(const Rods& rods) {
+  for_each_source([&](std::size_t source) {
+    sources_[source]->measure(rods);
+    found_by_[source].clear();
+    sources_[source]->find(rods, found_by_[source]);
+  });
   found_.clear();
-  for (const std::unique_ptr<ContactSource>& source : sources_) {
-    source->measure(rods);
-    source->find(rods, found_);
+  for (const std::vector<ContactPoint>& found : found_by_) {
+    found_.insert(found_.end(), found.begin(), found.end());
   }
   return energy_of(found_, rods);
 }

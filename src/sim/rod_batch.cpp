@@ -212,7 +212,16 @@ void RodBatch::store(Rods& rods) const {
   }
 }
 
-void RodBatch::measure(Rods& rods, const Effects& effects) {
+void RodBatch::store_for(const Effects& effects, Rods& rods) const {
+  const auto needs_it = [&](const std::unique_ptr<Effect>& effect) {
+    return !is_in_lanes(rods, *effect);
+  };
+  if (std::any_of(effects.begin(), effects.end(), needs_it)) {
+    store(rods);
+  }
+}
+
+void RodBatch::measure(const Rods& rods, const Effects& effects) {
   Lanes kinetic;
   for (std::size_t i = 0; i < unknown_count_; ++i) {
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
@@ -224,7 +233,6 @@ void RodBatch::measure(Rods& rods, const Effects& effects) {
     merits_[lane] = Merit{};
     merits_[lane].add(0.5 * kinetic[lane] / (step_length_ * step_length_));
   }
-  store_for(rods, effects);
   for (std::size_t e = 0; e < effects.size(); ++e) {
     Lanes energy;
     if (is_in_lanes(rods, *effects[e])) {
@@ -245,17 +253,7 @@ bool RodBatch::is_in_lanes(const Rods& rods, const Effect& effect) const {
   return system_.unknowns == 3 && effect.works_in_lanes(rods);
 }
 
-/// Writes down where the rods are, for effects that do not know lanes.
-void RodBatch::store_for(Rods& rods, const Effects& effects) const {
-  const auto needs_it = [&](const std::unique_ptr<Effect>& effect) {
-    return !is_in_lanes(rods, *effect);
-  };
-  if (std::any_of(effects.begin(), effects.end(), needs_it)) {
-    store(rods);
-  }
-}
-
-void RodBatch::assemble(Rods& rods, const Effects& effects) {
+void RodBatch::assemble(const Rods& rods, const Effects& effects) {
   const double inverse_square = 1.0 / (step_length_ * step_length_);
   const std::size_t height = half_bandwidth(system_.unknowns) + 1;
   system_.set_zero();
@@ -266,7 +264,6 @@ void RodBatch::assemble(Rods& rods, const Effects& effects) {
       system_.hessian[i * height][lane] = inertia;
     }
   }
-  store_for(rods, effects);
   for (std::size_t e = 0; e < effects.size(); ++e) {
     if (is_in_lanes(rods, *effects[e])) {
       effects[e]->add_derivatives_in_lanes(lanes_, values_[e], system_);

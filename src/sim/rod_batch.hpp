@@ -56,16 +56,19 @@ class RodBatch {
   /// Writes down where the rods are.
   void store(Rods& rods) const;
 
-  /// Measures kinetic and potential energy [J]; may store() for effects that do not know lanes.
-  void measure(Rods& rods, const Effects& effects);
+  /// The same, but only if there are effects that do not know lanes.
+  void store_for(const Effects& effects, Rods& rods) const;
+
+  /// Measures kinetic and potential energy [J] where the rods are now, and were stored for effects.
+  void measure(const Rods& rods, const Effects& effects);
   const Merit& merit(std::size_t lane) const { return merits_[lane]; }
 
   /// Remembers the energy of a rod.
   void accept(std::size_t lane) { accepted_[lane] = merits_[lane]; }
   const Merit& accepted(std::size_t lane) const { return accepted_[lane]; }
 
-  /// Makes the systems those of the energies where the rods are now; may store(), too.
-  void assemble(Rods& rods, const Effects& effects);
+  /// Makes the systems those of the energies where the rods are now, and were stored.
+  void assemble(const Rods& rods, const Effects& effects);
 
   /// To add what else acts on a rod to what was assembled.
   RodSystem& system(std::size_t lane) { return views_[lane]; }
@@ -90,7 +93,6 @@ class RodBatch {
   void load_values(const Effects& effects);
   void hold(const Rods& rods);
   bool is_in_lanes(const Rods& rods, const Effect& effect) const;
-  void store_for(Rods& rods, const Effects& effects) const;
   void has_moved();
 
   RodLanes lanes_;

@@ -1,6 +1,8 @@
 #include "rod_group.hpp"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <cmath>
@@ -56,13 +58,17 @@ void RodGroup::prepare_coupling(const Rods& rods) {
   });
 }
 
+/// In parallel, but little work only if there are many: one of them is done before another thread
+/// has heard of it.
 template <typename Function>
-void RodGroup::for_each_batch(const Function& function) {
-  if (batches_.size() == 1) {
-    function(std::size_t{0});
-  } else {
-    tbb::parallel_for(std::size_t{0}, batches_.size(), function);
-  }
+void RodGroup::for_each_batch(Work work, const Function& function) {
+  const std::size_t together = work == Work::MUCH ? 1 : 16;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, batches_.size(), together),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t batch = range.begin(); batch < range.end(); ++batch) {
+                        function(batch);
+                      }
+                    });
 }
 
 /// One after the other.
@@ -86,7 +92,8 @@ Lanes* RodGroup::part(std::vector<Lanes>& values, std::size_t batch) {
 
 void RodGroup::solve(Rods& rods, const Effects& effects, const StepperOptions& options,
                      double step) {
-  for_each_batch([&](std::size_t batch) { batches_[batch].begin(rods, effects, step); });
+  for_each_batch(Work::LITTLE,
+                 [&](std::size_t batch) { batches_[batch].begin(rods, effects, step); });
   for (std::size_t i = 0; i < searches_.size(); ++i) {
     searches_[i].is_active = contacts_ != nullptr || i < batches_.front().used();
   }
@@ -98,14 +105,14 @@ void RodGroup::solve(Rods& rods, const Effects& effects, const StepperOptions& o
   if (restart_lost(rods, effects)) {
     iterate(rods, effects, options);
   }
-  for_each_batch([&](std::size_t batch) { batches_[batch].finish(rods); });
+  for_each_batch(Work::LITTLE, [&](std::size_t batch) { batches_[batch].finish(rods); });
 }
 
 /// Finds rods that inertia has thrown where few iterations do not lead back from, as it does with
 /// something stiff, and brings them where they keep their shapes: that is nearer to what they do.
 /// @returns true if there are any; their searches are active then
 bool RodGroup::restart_lost(Rods& rods, const Effects& effects) {
-  for_each_batch([&](std::size_t index) {
+  for_each_batch(Work::MUCH, [&](std::size_t index) {
     RodBatch& batch = batches_[index];
     std::array<double, lane_count> found{};
     for (std::size_t lane = 0; lane < batch.used(); ++lane) {
@@ -113,6 +120,7 @@ bool RodGroup::restart_lost(Rods& rods, const Effects& effects) {
     }
     batch.remember();
     batch.carry();
+    batch.store_for(effects, rods);
     batch.measure(rods, effects);
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       const Merit& carried = batch.merit(lane);
@@ -129,6 +137,11 @@ bool RodGroup::restart_lost(Rods& rods, const Effects& effects) {
     is_any_lost |= !is_found_[batch][lane];
   });
   if (is_any_lost && contacts_ != nullptr) {
+    for_each_batch(Work::LITTLE, [&](std::size_t batch) { batches_[batch].store(rods); });
+    wanted_ = rods.positions;
+    rods.positions = beginning_;
+    contacts_->measure(rods);
+    rods.positions = wanted_;
     limit_start(rods, effects);
   }
   return is_any_lost;
@@ -155,25 +168,24 @@ void RodGroup::iterate(Rods& rods, const Effects& effects, const StepperOptions&
   }
 }
 
-/// Neither inertia nor what holds a rod may carry it through another on its way from where it
-/// began.
+/// From where the contacts were measured, the beginning: neither inertia nor what holds a rod may
+/// carry it through another on its way from where it began.
 void RodGroup::limit_start(Rods& rods, const Effects& effects) {
-  for_each_batch([&](std::size_t batch) { batches_[batch].store(rods); });
+  for_each_batch(Work::LITTLE, [&](std::size_t batch) { batches_[batch].store(rods); });
   for (std::size_t i = 0; i < displacements_.size(); ++i) {
     displacements_[i] = rods.positions[i] - beginning_[i];
   }
   rods.positions = beginning_;
   wanted_ = displacements_;
-  contacts_->measure(rods);
   contacts_->limit(rods, displacements_);
-  for_each_batch([&](std::size_t batch) { stop_torn(rods, effects, batch); });
+  for_each_batch(Work::MUCH, [&](std::size_t batch) { stop_torn(rods, effects, batch); });
   rods.positions = beginning_;
   // What stays may be in the way of what follows it.
   contacts_->limit(rods, displacements_);
   for (std::size_t i = 0; i < displacements_.size(); ++i) {
     rods.positions[i] += displacements_[i];
   }
-  for_each_batch([&](std::size_t batch) { batches_[batch].place(rods.positions); });
+  for_each_batch(Work::LITTLE, [&](std::size_t batch) { batches_[batch].place(rods.positions); });
 }
 
 /// Where limits have stopped nodes of a rod so that their neighbours are torn from them, only what
@@ -199,6 +211,7 @@ void RodGroup::stop_torn(Rods& rods, const Effects& effects, std::size_t index) 
       }
     }
     batch.place(positions);
+    batch.store_for(effects, rods);
     batch.measure(rods, effects);
     std::array<double, lane_count> merits{};
     for (std::size_t lane = 0; lane < batch.used(); ++lane) {
@@ -226,17 +239,26 @@ void RodGroup::stop_torn(Rods& rods, const Effects& effects, std::size_t index) 
 
 /// Measures where the rods are now, with the contacts there.
 void RodGroup::measure(Rods& rods, const Effects& effects) {
-  for_each_batch([&](std::size_t batch) { batches_[batch].measure(rods, effects); });
   for (Search& search : searches_) {
     search.tried = Merit{};
+  }
+  if (contacts_ == nullptr) {
+    batches_.front().store_for(effects, rods);
+    batches_.front().measure(rods, effects);
+  } else {
+    for_each_batch(Work::LITTLE, [&](std::size_t batch) { batches_[batch].store(rods); });
+    double energy = 0.0;
+    tbb::parallel_invoke([&] { energy = contacts_->measure(rods); },
+                         [&] {
+                           for_each_batch(Work::MUCH, [&](std::size_t batch) {
+                             batches_[batch].measure(rods, effects);
+                           });
+                         });
+    searches_.front().tried.add(energy);
   }
   for_each_rod([&](std::size_t batch, std::size_t lane) {
     search_of(lane).tried.add(batches_[batch].merit(lane));
   });
-  if (contacts_ != nullptr) {
-    for_each_batch([&](std::size_t batch) { batches_[batch].store(rods); });
-    searches_.front().tried.add(contacts_->measure(rods));
-  }
 }
 
 /// Accepts where rods were measured. The energy of contacts is not kept: that of friction changes
@@ -255,11 +277,15 @@ void RodGroup::accept(Search& search) {
 }
 
 void RodGroup::find_step(Rods& rods, const Effects& effects) {
-  for_each_batch([&](std::size_t batch) { batches_[batch].assemble(rods, effects); });
+  for_each_batch(Work::MUCH, [&](std::size_t batch) {
+    batches_[batch].store_for(effects, rods);
+    batches_[batch].assemble(rods, effects);
+  });
   if (contacts_ != nullptr) {
     contacts_->add_derivatives(rods, systems_);
   }
-  for_each_batch([&](std::size_t batch) { batches_[batch].find_step(part(step_, batch)); });
+  for_each_batch(Work::MUCH,
+                 [&](std::size_t batch) { batches_[batch].find_step(part(step_, batch)); });
   if (contacts_ != nullptr) {
     weigh_step();
     if (contacts_->has_coupling()) {
@@ -400,7 +426,7 @@ void RodGroup::search_line(Rods& rods, const Effects& effects) {
 
 /// Moves rods by their shares of the step.
 void RodGroup::move() {
-  for_each_batch([&](std::size_t batch) {
+  for_each_batch(Work::LITTLE, [&](std::size_t batch) {
     Lanes shares;
     for (std::size_t lane = 0; lane < batches_[batch].used(); ++lane) {
       shares[lane] = search_of(lane).share;

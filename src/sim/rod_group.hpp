@@ -29,6 +29,8 @@ class RodGroup {
   void solve(Rods& rods, const Effects& effects, const StepperOptions& options, double step);
 
  private:
+  enum class Work { LITTLE, MUCH };
+
   /// The search for a minimum: each rod has its own, but where contacts join them there is one.
   struct Search {
     Merit accepted;            ///< of the rods
@@ -42,7 +44,7 @@ class RodGroup {
 
   void prepare_coupling(const Rods& rods);
   template <typename Function>
-  void for_each_batch(const Function& function);
+  void for_each_batch(Work work, const Function& function);
   template <typename Function>
   void for_each_rod(const Function& function);
   Search& search_of(std::size_t lane);

@@ -56,12 +56,15 @@ class Contacts {
     Eigen::Matrix3d hessian;
   };
 
+  template <class Function>
+  void for_each_source(const Function& function);
   double energy_of(const std::vector<ContactPoint>& points, const Rods& rods) const;
 
   std::vector<std::unique_ptr<ContactSource>> sources_;
   std::unique_ptr<Friction> friction_;
   std::vector<ContactPoint> points_;
   std::vector<ContactPoint> found_;
+  std::vector<std::vector<ContactPoint>> found_by_;  // by source
   std::vector<Term> terms_;
 };
 
