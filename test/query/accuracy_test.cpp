@@ -75,11 +75,12 @@ TEST_P(AccuracyTest, BoundsHoldTheTruth) {
           options.tolerance = random.chance(0.5) ? 0.0 : 0.01;
           const QueryResult result = ask(fibers, options);
           ASSERT_TRUE(result.complete);
+          const double minimum_lower = result.minimum_lower();
           for (const Pair& pair : pairs) {
             const Contact* contact = find(result.contacts, pair.key);
             const double lower = contact != nullptr ? contact->lower : result.others_lower;
             ASSERT_TRUE(pair.gap.is_at_least(lower)) << name_of(kernel);
-            ASSERT_TRUE(pair.gap.is_at_least(result.minimum_lower())) << name_of(kernel);
+            ASSERT_TRUE(pair.gap.is_at_least(minimum_lower)) << name_of(kernel);
             if (contact != nullptr) {
               ASSERT_TRUE(pair.gap.is_at_most(contact->upper)) << name_of(kernel);
               ASSERT_LE(contact->lower, contact->distance);

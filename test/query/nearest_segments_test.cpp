@@ -9,6 +9,7 @@
 #include "fiber_proximity/query/brute_force.hpp"
 #include "support/assemblies.hpp"
 #include "support/contacts.hpp"
+#include "support/rounds.hpp"
 
 namespace fiber::test {
 namespace {
@@ -64,7 +65,7 @@ Vector3d point_about(const FiberAssembly& fibers, Random& random) {
 TEST_P(NearestSegmentsTest, AreTheNearestOfAllOnEveryFamily) {
   SCOPED_TRACE(seed_message());
   Random random;
-  for (const AssemblyFamily& family : assembly_families()) {
+  for (const AssemblyFamily& family : sampled(assembly_families(), random)) {
     SCOPED_TRACE(family.name);
     const FiberAssembly fibers = make(family, random);
     engine_->update(fibers);
@@ -102,7 +103,7 @@ TEST_P(NearestSegmentsTest, AreBruteForcesToTheBit) {
   Random random;
   BruteForceEngine oracle;
   QueryResult expected;
-  for (const AssemblyFamily& family : assembly_families()) {
+  for (const AssemblyFamily& family : sampled(assembly_families(), random)) {
     SCOPED_TRACE(family.name);
     const FiberAssembly fibers = make(family, random);
     engine_->update(fibers);

@@ -20,7 +20,11 @@ class Gap {
     if (std::abs(gap) > 16.0 * distance_.error + 1e-14 * scale) {
       return gap < 0.0;  // as integers would say, in a thousandth of their time
     }
-    return exact_gap_at_most(a_.p0, a_.p1, b_.p0, b_.p1, {a_.radius, b_.radius, limit});
+    if (limit > known_least_ && limit < known_most_) {
+      const bool is = exact_gap_at_most(a_.p0, a_.p1, b_.p0, b_.p1, {a_.radius, b_.radius, limit});
+      (is ? known_most_ : known_least_) = limit;
+    }
+    return limit >= known_most_;
   }
   bool is_at_least(double limit) const {
     return limit == -std::numeric_limits<double>::infinity() ||
@@ -34,6 +38,8 @@ class Gap {
   Capsule a_;
   Capsule b_;
   SegmentDistance distance_;
+  mutable double known_most_ = std::numeric_limits<double>::infinity();    // the gap is at most
+  mutable double known_least_ = -std::numeric_limits<double>::infinity();  // the gap is more than
 };
 
 }  // namespace fiber::test
