@@ -219,10 +219,11 @@ void expect_true(const Contact& contact, const Truth& truth, double deviation,
 
 /// That every pair is reported, stood for, or ruled out.
 void expect_complete(const QueryResult& result, const Truth& truth, const QueryOptions& options) {
+  const double minimum_lower = result.minimum_lower();
   for (const Pair& pair : truth.pairs()) {
     const bool is_covered = truth.find(result.contacts, pair.a, pair.b) != nullptr;
     ASSERT_TRUE(is_covered || pair.gap.is_at_least(result.others_lower));
-    ASSERT_TRUE(pair.gap.is_at_least(result.minimum_lower()));
+    ASSERT_TRUE(pair.gap.is_at_least(minimum_lower));
     if (options.type == QueryType::ALL && pair.gap.is_at_most(options.margin)) {
       ASSERT_TRUE(is_covered) << "segments " << pair.a << " and " << pair.b << " are missing";
     }
