@@ -21,11 +21,14 @@ std::uint32_t read_count(const YamlField& document, const char* key, std::int64_
   return field ? static_cast<std::uint32_t>(field->integer(1, most)) : count;
 }
 
-fiber::StepperOptions read_options(const YamlField& document) {
+fiber::StepperOptions read_options(const YamlField& document, bool has_contacts) {
   fiber::StepperOptions options;
   options.iterations = read_count(document, "iterations", most_iterations, options.iterations);
   if (const auto integrator = document.find("integrator")) {
     if (integrator->text() == "implicit_midpoint") {
+      if (has_contacts) {
+        integrator->refuse("implicit_euler where there are contacts");
+      }
       options.integrator = fiber::Integrator::IMPLICIT_MIDPOINT;
     } else if (integrator->text() != "implicit_euler") {
       integrator->refuse("implicit_euler or implicit_midpoint");
@@ -91,7 +94,8 @@ SimScene read_sim_scene(const std::string& file, const MeshLoader& meshes, std::
       time_step->refuse("positive and finite");
     }
   }
-  scene.options = read_options(document);
+  scene.has_contacts = names_contacts(document.get("effects"));
+  scene.options = read_options(document, scene.has_contacts);
   scene.options.threads = threads;
   scene.options.iterations = iterations.value_or(scene.options.iterations);
   SimSteps steps;
@@ -101,7 +105,7 @@ SimScene read_sim_scene(const std::string& file, const MeshLoader& meshes, std::
   }
   steps.options = scene.options;
   steps.gravity = named_gravity(document.get("effects"));
-  steps.has_contacts = scene.has_contacts = names_contacts(document.get("effects"));
+  steps.has_contacts = scene.has_contacts;
   const SimResolution resolution = read_sim_resolution(document, steps);
   const std::vector<SimFiber>& fibers = resolution.fibers;
   scene.substeps = resolution.substeps;

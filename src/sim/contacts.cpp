@@ -129,13 +129,14 @@ void Contacts::add_coupling(const std::vector<std::size_t>& places, const double
 }
 
 void Contacts::limit(const Rods& rods, std::vector<Vector3d>& displacements) {
-  // What one source stops, another's rods may follow into.
   std::vector<Vector3d> before;
+  int round = 0;
   do {
     before = displacements;
     for (const std::unique_ptr<ContactSource>& source : sources_) {
-      source->limit(rods, displacements);
+      source->limit(rods, displacements, round);
     }
+    ++round;
   } while (sources_.size() > 1 && displacements != before);
 }
 

@@ -291,6 +291,26 @@ void RodBatch::find_step(Lanes* step) {
   }
   std::fill(step + unknown_count_, step + step_size(), Lanes{});
   solve(step);
+  keep_finite(step);
+}
+
+/// Where edges have shrunk to nothing, as without stretch they may, stiffnesses are beyond what
+/// numbers can hold: such a rod has no step.
+void RodBatch::keep_finite(Lanes* step) const {
+  Lanes zero;
+  for (std::size_t i = 0; i < unknown_count_; ++i) {
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      zero[lane] += 0.0 * step[i][lane];
+    }
+  }
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    if (zero[lane] == 0.0) {
+      continue;
+    }
+    for (std::size_t i = 0; i < unknown_count_; ++i) {
+      step[i][lane] = 0.0;
+    }
+  }
 }
 
 void RodBatch::finish(Rods& rods) const {

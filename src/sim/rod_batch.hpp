@@ -94,6 +94,7 @@ class RodBatch {
   void hold(const Rods& rods);
   bool is_in_lanes(const Rods& rods, const Effect& effect) const;
   void has_moved();
+  void keep_finite(Lanes* step) const;
 
   RodLanes lanes_;
   std::array<std::uint32_t, lane_count> first_nodes_{};

@@ -106,6 +106,11 @@ void RodGroup::solve(Rods& rods, const Effects& effects, const StepperOptions& o
     iterate(rods, effects, options);
   }
   for_each_batch(Work::LITTLE, [&](std::size_t batch) { batches_[batch].finish(rods); });
+  for_each_rod([&](std::size_t batch, std::size_t lane) {
+    for (const std::unique_ptr<Effect>& effect : effects) {
+      effect->end_solve(rods, batches_[batch].rod(lane));
+    }
+  });
 }
 
 /// Finds rods that inertia has thrown where few iterations do not lead back from, as it does with
@@ -352,7 +357,11 @@ void RodGroup::correct_step() {
   for (int i = 0; i < most_iterations && norm > small; ++i) {
     image = product;
     add_coupling(direction, image);
-    const double share = norm / direction.dot(image);
+    const double curvature = direction.dot(image);
+    if (!(curvature > 0.0 && std::isfinite(curvature))) {
+      break;
+    }
+    const double share = norm / curvature;
     step += share * direction;
     residual -= share * image;
     preconditioned = residual;

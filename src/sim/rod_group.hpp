@@ -8,9 +8,6 @@
 
 namespace fiber {
 
-/// Rods of each batch.
-using Batches = std::vector<std::vector<std::uint32_t>>;
-
 /// Rods whose equations are solved together: all of them where there are contacts, one batch where
 /// there are none.
 class RodGroup {

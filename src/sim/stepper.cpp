@@ -6,15 +6,17 @@
 
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
+#include "energy_guard.hpp"
 #include "rod_group.hpp"
 
 namespace fiber {
 namespace {
 
-void validate(const StepperOptions& options) {
+void validate(const StepperOptions& options, bool has_contacts) {
   if (options.iterations == 0) {
     throw std::invalid_argument("iterations is 0, it must be at least 1");
   }
@@ -22,23 +24,17 @@ void validate(const StepperOptions& options) {
     throw std::invalid_argument("tolerance is " + std::to_string(options.tolerance) +
                                 " m, it must be at least 0 and finite");
   }
+  if (has_contacts && options.integrator == Integrator::IMPLICIT_MIDPOINT) {
+    throw std::invalid_argument(
+        "the integrator is implicit midpoint, it must be implicit Euler where there are contacts");
+  }
 }
 
 /// Implicit midpoint is a step of implicit Euler to the middle, continued in a straight line.
-/// @param contacts what this line must not lead through; null for nothing
 void continue_from_middle(Rods& rods, const std::vector<Eigen::Vector3d>& old_velocities,
-                          const std::vector<double>& old_spins, double half_step,
-                          Contacts* contacts) {
-  std::vector<Eigen::Vector3d> displacements = rods.velocities;
-  for (Eigen::Vector3d& displacement : displacements) {
-    displacement *= half_step;
-  }
-  if (contacts != nullptr) {
-    contacts->measure(rods);
-    contacts->limit(rods, displacements);
-  }
+                          const std::vector<double>& old_spins, double half_step) {
   for (std::size_t i = 0; i < rods.positions.size(); ++i) {
-    rods.positions[i] += displacements[i];
+    rods.positions[i] += half_step * rods.velocities[i];
     rods.velocities[i] = 2.0 * rods.velocities[i] - old_velocities[i];
   }
   for (std::size_t i = 0; i < rods.spins.size(); ++i) {
@@ -48,10 +44,10 @@ void continue_from_middle(Rods& rods, const std::vector<Eigen::Vector3d>& old_ve
 }
 
 /// Rods of equal sizes, as many together as can be moved side by side.
-Batches rods_side_by_side(const Rods& rods) {
+Batches side_by_side(const Rods& rods, const std::vector<std::uint32_t>& which) {
   Batches parts;
   std::map<std::uint32_t, std::size_t> open;  // parts, by node count
-  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+  for (const std::uint32_t rod : which) {
     const auto [found, is_new] = open.try_emplace(rods.node_count(rod), parts.size());
     if (is_new || parts[found->second].size() == lane_count) {
       found->second = parts.size();
@@ -63,6 +59,20 @@ Batches rods_side_by_side(const Rods& rods) {
 }
 
 }  // namespace
+
+/// What is moved independently: everything together where there are contacts, else batch by batch.
+std::vector<Batches> independent_parts(const Rods& rods, const std::vector<std::uint32_t>& which,
+                                       bool has_contacts) {
+  const Batches batches = side_by_side(rods, which);
+  std::vector<Batches> parts;
+  if (has_contacts && !batches.empty()) {
+    return {batches};
+  }
+  for (const std::vector<std::uint32_t>& batch : batches) {
+    parts.push_back({batch});
+  }
+  return parts;
+}
 
 /// Who moves which rods. Nothing but memory stays with a worker from one step to the next, so that
 /// there need not be more of them than threads.
@@ -83,15 +93,13 @@ Stepper::Stepper(Rods rods, std::vector<std::unique_ptr<Effect>> effects,
       effects_(std::move(effects)),
       options_(options),
       contacts_(std::move(contacts)) {
-  validate(options);
+  validate(options, contacts_ != nullptr);
   workers_ = std::make_unique<Workers>(options, contacts_.get());
-  const Batches batches = rods_side_by_side(rods_);
-  if (contacts_ == nullptr) {
-    for (const std::vector<std::uint32_t>& batch : batches) {
-      workers_->parts.push_back({batch});
-    }
-  } else if (!batches.empty()) {
-    workers_->parts.push_back(batches);
+  std::vector<std::uint32_t> all(rods_.count());
+  std::iota(all.begin(), all.end(), 0U);
+  workers_->parts = independent_parts(rods_, all, contacts_ != nullptr);
+  if (options.integrator == Integrator::IMPLICIT_MIDPOINT) {
+    guard_ = std::make_unique<EnergyGuard>(rods_.count());
   }
 }
 
@@ -102,13 +110,11 @@ void Stepper::step(double length) {
     throw std::invalid_argument("the length of a step is " + std::to_string(length) +
                                 " s, it must be positive and finite");
   }
-  if (options_.integrator == Integrator::IMPLICIT_MIDPOINT) {
-    const std::vector<Eigen::Vector3d> old_velocities = rods_.velocities;
-    const std::vector<double> old_spins = rods_.spins;
-    solve({time_, 0.5 * length});
-    continue_from_middle(rods_, old_velocities, old_spins, 0.5 * length, contacts_.get());
+  if (guard_ != nullptr) {
+    step_by_midpoint(length);
   } else {
-    solve({time_, length});
+    begin({time_, length});
+    solve(workers_->parts, length);
   }
   for (const std::unique_ptr<Effect>& effect : effects_) {
     effect->end_step(rods_, {time_, length});
@@ -116,7 +122,22 @@ void Stepper::step(double length) {
   time_ += length;
 }
 
-void Stepper::solve(const TimeStep& step) {
+void Stepper::step_by_midpoint(double length) {
+  begin({time_, 0.5 * length});
+  guard_->begin(rods_, effects_);
+  const std::vector<Eigen::Vector3d> old_velocities = rods_.velocities;
+  const std::vector<double> old_spins = rods_.spins;
+  solve(workers_->parts, 0.5 * length);
+  continue_from_middle(rods_, old_velocities, old_spins, 0.5 * length);
+  const std::vector<std::uint32_t> gained = guard_->bring_back_gained(rods_, effects_);
+  if (!gained.empty()) {
+    begin({time_, length});
+    solve(independent_parts(rods_, gained, false), length);
+    guard_->accept_again(gained, rods_, effects_);
+  }
+}
+
+void Stepper::begin(const TimeStep& step) {
   workers_->arena.execute([&] {
     for (const std::unique_ptr<Effect>& effect : effects_) {
       effect->begin_step(rods_, step);
@@ -124,10 +145,15 @@ void Stepper::solve(const TimeStep& step) {
     if (contacts_ != nullptr) {
       contacts_->begin_step(rods_, step);
     }
-    tbb::parallel_for(std::size_t{0}, workers_->parts.size(), [&](std::size_t part) {
+  });
+}
+
+void Stepper::solve(const std::vector<Batches>& parts, double length) {
+  workers_->arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t part) {
       RodGroup& group = workers_->groups.local();
-      group.assign(rods_, workers_->parts[part]);
-      group.solve(rods_, effects_, options_, step.length);
+      group.assign(rods_, parts[part]);
+      group.solve(rods_, effects_, options_, length);
     });
   });
 }

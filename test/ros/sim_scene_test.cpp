@@ -161,6 +161,8 @@ TEST_F(SimSceneTest, ErrorsNameLineAndWhatIsAllowed) {
       {scene_text(line, "[stretch]", "substeps: 0\n"), "substeps is 0"},
       {scene_text(line, "[stretch]", "integrator: euler\n"),
        "it must be implicit_euler or implicit_midpoint"},
+      {scene_text(line, "[stretch, self_contact]", "integrator: implicit_midpoint\n"),
+       "it must be implicit_euler where there are contacts"},
       {scene_text(line, "[stretch]",
                   "environment: {obstacles: [{id: b, frame_id: arm, half_spaces: "
                   "[{coef: [0, 0, 1, 0]}]}]}\n"),

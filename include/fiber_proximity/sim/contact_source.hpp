@@ -41,7 +41,11 @@ class ContactSource {
   /// Shortens displacements of nodes so far that on straight ways from where the step began no
   /// rod's axis passes through what it may meet. Looks for more of that where displacements lead
   /// further than begin_step() could know.
-  virtual void limit(const Rods& rods, std::vector<Eigen::Vector3d>& displacements) = 0;
+  /// @param round how often it has been called for these displacements: what one source stops,
+  ///              another's rods may follow into, so that each has its turn until none changes any.
+  ///              From settling_round on it may do no more than has an end.
+  virtual void limit(const Rods& rods, std::vector<Eigen::Vector3d>& displacements, int round) = 0;
+  static constexpr int settling_round = 4;
 };
 
 }  // namespace fiber

@@ -33,6 +33,11 @@ class Effect {
   /// Energy of a rod where it is now [J], up to a constant of the step.
   virtual double energy(const Rods& rods, std::uint32_t rod) const = 0;
 
+  /// What of that is there again when the rod moves back [J]; what only holds it in place is not.
+  virtual double stored_energy(const Rods& rods, std::uint32_t rod) const {
+    return energy(rods, rod);
+  }
+
   /// Adds the gradient of the energy by what is unknown, and a positive semidefinite matrix near
   /// its Hessian.
   virtual void add_derivatives(const Rods& rods, std::uint32_t rod, RodSystem& system) const = 0;
@@ -52,6 +57,10 @@ class Effect {
   virtual void add_derivatives_in_lanes(const RodLanes& /*rods*/,
                                         const std::vector<Lanes>& /*values*/,
                                         LaneSystem& /*system*/) const {}
+
+  /// Called for each rod that has been solved for, where the solution is: with implicit midpoint,
+  /// in the middle of the step. A rod may be solved for again in a step: the last one counts.
+  virtual void end_solve(const Rods& /*rods*/, std::uint32_t /*rod*/) {}
 
   /// Called once after each step, by one thread: with implicit midpoint, after the whole step.
   virtual void end_step(Rods& /*rods*/, const TimeStep& /*step*/) {}

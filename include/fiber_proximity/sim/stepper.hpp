@@ -8,9 +8,18 @@
 
 namespace fiber {
 
+class EnergyGuard;
+
+/// Rods of equal sizes, by batch: as many as are moved side by side.
+using Batches = std::vector<std::vector<std::uint32_t>>;
+
 enum class Integrator {
-  IMPLICIT_EULER,    ///< damps what it does not resolve; for everything that should settle
-  IMPLICIT_MIDPOINT  ///< keeps the energy of undamped motion, and its order in time is two
+  IMPLICIT_EULER,  ///< damps what it does not resolve; for everything that should settle
+
+  /// Keeps the energy of undamped motion, and its order in time is two. A rod that is too stiff for
+  /// it, and so gains energy in a step, takes this one by implicit Euler. Not for contacts: what
+  /// they stop, it would throw on.
+  IMPLICIT_MIDPOINT
 };
 
 struct StepperOptions {
@@ -55,7 +64,9 @@ class Stepper {
  private:
   struct Workers;
 
-  void solve(const TimeStep& step);
+  void step_by_midpoint(double length);
+  void begin(const TimeStep& step);
+  void solve(const std::vector<Batches>& parts, double length);
 
   Rods rods_;
   std::vector<std::unique_ptr<Effect>> effects_;
@@ -63,6 +74,7 @@ class Stepper {
   double time_ = 0.0;
   std::unique_ptr<Contacts> contacts_;
   std::unique_ptr<Workers> workers_;
+  std::unique_ptr<EnergyGuard> guard_;  // of implicit midpoint
 };
 
 }  // namespace fiber

@@ -197,7 +197,7 @@ void Attachment::remove(std::uint32_t id) {
 
 void Attachment::begin_step(Rods& rods, const TimeStep& step) {
   rods.held.clear();
-  placed_at_ = step.end();
+  solving_for_ = step.end();
   for (Held& held : held_) {
     held.placement = held.hold.placement(step.end());
     validate(rods, held.hold, held.placement);
@@ -205,13 +205,21 @@ void Attachment::begin_step(Rods& rods, const TimeStep& step) {
   }
 }
 
+void Attachment::end_solve(const Rods& /*rods*/, std::uint32_t rod) {
+  const auto first = held_.begin() + (first_of(rod) - held_.cbegin());
+  for (auto held = first; held != held_.end() && held->hold.rod == rod; ++held) {
+    held->solved_at = solving_for_;
+    held->solved_position = held->placement.position;
+  }
+}
+
 void Attachment::place_at_end(Rods& rods, Held& held, const TimeStep& step) const {
-  const Vector3d middle = held.placement.position;
   held.placement = held.hold.placement(step.end());
   validate(rods, held.hold, held.placement);
   const std::uint32_t node = rods.first(held.hold.rod) + held.hold.node;
   rods.positions[node] = held.placement.position;
-  rods.velocities[node] = (held.placement.position - middle) / (step.end() - placed_at_);
+  rods.velocities[node] =
+      (held.placement.position - held.solved_position) / (step.end() - held.solved_at);
 }
 
 std::vector<Attachment::Held>::const_iterator Attachment::first_of(std::uint32_t rod) const {
@@ -276,7 +284,7 @@ void Attachment::add_derivatives_in_lanes(const RodLanes& rods,
 void Attachment::end_step(Rods& rods, const TimeStep& step) {
   const bool has_twist = !rods.directors.empty();
   for (Held& held : held_) {
-    if (step.end() != placed_at_) {
+    if (step.end() != held.solved_at) {
       place_at_end(rods, held, step);
     }
     if (has_twist && held.hold.kind == Kind::CLAMP) {

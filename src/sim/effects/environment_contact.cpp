@@ -186,7 +186,8 @@ double EnvironmentContact::free_distance(const Rods& rods, const Plane& plane) c
   return height - least_distance * rods.radii[plane.rod] - moved;
 }
 
-void EnvironmentContact::limit(const Rods& rods, std::vector<Vector3d>& displacements) {
+void EnvironmentContact::limit(const Rods& rods, std::vector<Vector3d>& displacements,
+                               int /*round*/) {
   limit_to_known(rods, displacements);
   const double longest = std::sqrt(largest_square(displacements));
   for (std::size_t i = 0; i < planes_.size(); ++i) {

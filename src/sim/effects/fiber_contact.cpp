@@ -228,21 +228,25 @@ void FiberContact::look_further(const Rods& rods, std::vector<Vector3d>& displac
   }
 }
 
-void FiberContact::limit(const Rods& rods, std::vector<Vector3d>& displacements) {
+void FiberContact::limit(const Rods& rods, std::vector<Vector3d>& displacements, int round) {
   // What is stopped moves against what is not: it may get further beside that than before.
   do {
     if (!is_known(rods, displacements)) {
       look_further(rods, displacements);
     }
-    limit_to_sides(rods, displacements);
+    limit_to_sides(rods, displacements, round >= settling_round);
+    ++round;
   } while (largest_square(displacements) > 0.0 && !is_known(rods, displacements));
 }
 
-/// What one pair stops, another may follow into: until none has to be stopped. After some passes,
-/// the planes around what is still being stopped do not move any more, which ends it.
-void FiberContact::limit_to_sides(const Rods& rods, std::vector<Vector3d>& displacements) const {
+/// What one pair stops, another may follow into: until none has to be stopped. Planes that make
+/// room for what wants to move could do so by less and less for ever: after some passes those
+/// around what is still being stopped do not move any more. A pair that was stopped by such a plane
+/// stays on its sides of it, which ends it.
+void FiberContact::limit_to_sides(const Rods& rods, std::vector<Vector3d>& displacements,
+                                  bool is_settling) const {
   constexpr int moving_passes = 8;
-  std::vector<bool> is_fixed(displacements.size(), false);
+  std::vector<bool> is_fixed(displacements.size(), is_settling);
   bool is_settled = false;
   for (int pass = 0; !is_settled; ++pass) {
     is_settled = true;

@@ -1,6 +1,7 @@
 #include "fiber_proximity/sim/effects/inextensible.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "fiber_proximity/sim/edge_pair.hpp"
 
@@ -10,7 +11,9 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 Inextensible::Inextensible(const Rods& rods)
-    : tensions_(rods.positions.size()), stiffnesses_(rods.positions.size()) {}
+    : tensions_(rods.positions.size()),
+      found_(rods.positions.size()),
+      stiffnesses_(rods.positions.size()) {}
 
 void Inextensible::begin_step(Rods& rods, const TimeStep& step) {
   // Far stiffer than inertia, and yet of a magnitude that rounding errors can bear.
@@ -46,12 +49,17 @@ void Inextensible::add_derivatives(const Rods& rods, std::uint32_t rod, RodSyste
   }
 }
 
-void Inextensible::end_step(Rods& rods, const TimeStep& /*step*/) {
-  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
-    for (std::uint32_t i = rods.first(rod); i + 1 < rods.end(rod); ++i) {
-      tensions_[i] = force(rods, i, edge_direction(rods, i).length);
-    }
+void Inextensible::end_solve(const Rods& rods, std::uint32_t rod) {
+  constexpr double learnt_from = 0.01;  // largest strain
+  for (std::uint32_t i = rods.first(rod); i + 1 < rods.end(rod); ++i) {
+    const double length = edge_direction(rods, i).length;
+    // What a contact has kept from its length says nothing about tension.
+    const bool is_kept =
+        std::abs(length - rods.rest_lengths[i]) < learnt_from * rods.rest_lengths[i];
+    found_[i] = is_kept ? force(rods, i, length) : tensions_[i];
   }
 }
+
+void Inextensible::end_step(Rods& /*rods*/, const TimeStep& /*step*/) { tensions_ = found_; }
 
 }  // namespace fiber

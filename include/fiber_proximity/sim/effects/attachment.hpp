@@ -56,14 +56,17 @@ class Attachment : public Effect {
   void add_derivatives_in_lanes(const RodLanes& rods, const std::vector<Lanes>& values,
                                 LaneSystem& system) const override;
 
+  void end_solve(const Rods& rods, std::uint32_t rod) override;
   void end_step(Rods& rods, const TimeStep& step) override;
 
  private:
   struct Held {
     std::uint32_t id;
     Hold hold;
-    Placement placement;  // at the end of this step
-    double twist = 0.0;   // between clamp and edge when the step began, may exceed a turn [rad]
+    Placement placement;     // at the end of this step
+    double solved_at = 0.0;  // the time that the rod was solved for last [s], and where it was held
+    Eigen::Vector3d solved_position = Eigen::Vector3d::Zero();
+    double twist = 0.0;  // between clamp and edge when the step began, may exceed a turn [rad]
   };
 
   /// Implicit midpoint solves for the middle of a step: from there to its end the path of a hold
@@ -73,8 +76,8 @@ class Attachment : public Effect {
   /// The first hold of a rod, or of one after it.
   std::vector<Held>::const_iterator first_of(std::uint32_t rod) const;
 
-  std::vector<Held> held_;  // by rod and node
-  double placed_at_ = 0.0;  // the time of the placements [s]
+  std::vector<Held> held_;    // by rod and node
+  double solving_for_ = 0.0;  // the time of the placements [s]
   std::uint32_t next_id_ = 0;
 };
 

@@ -33,7 +33,7 @@ class EnvironmentContact : public ContactSource {
   void begin_step(const Rods& rods, const TimeStep& step) override;
   void measure(const Rods& rods) override;
   void find(const Rods& rods, std::vector<ContactPoint>& points) const override;
-  void limit(const Rods& rods, std::vector<Eigen::Vector3d>& displacements) override;
+  void limit(const Rods& rods, std::vector<Eigen::Vector3d>& displacements, int round) override;
 
  private:
   /// What is near a node or an edge, as a plane.

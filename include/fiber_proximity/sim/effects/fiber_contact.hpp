@@ -31,7 +31,7 @@ class FiberContact : public ContactSource {
   void begin_step(const Rods& rods, const TimeStep& step) override;
   void measure(const Rods& rods) override;
   void find(const Rods& rods, std::vector<ContactPoint>& points) const override;
-  void limit(const Rods& rods, std::vector<Eigen::Vector3d>& displacements) override;
+  void limit(const Rods& rods, std::vector<Eigen::Vector3d>& displacements, int round) override;
 
  private:
   struct Candidate {
@@ -56,7 +56,8 @@ class FiberContact : public ContactSource {
                   std::vector<Eigen::Vector3d>& displacements) const;
   bool is_known(const Rods& rods, const std::vector<Eigen::Vector3d>& displacements) const;
   void look_further(const Rods& rods, std::vector<Eigen::Vector3d>& displacements);
-  void limit_to_sides(const Rods& rods, std::vector<Eigen::Vector3d>& displacements) const;
+  void limit_to_sides(const Rods& rods, std::vector<Eigen::Vector3d>& displacements,
+                      bool is_settling) const;
   double stiffness_of(const Rods& rods, const Candidate& candidate) const;
 
   Options options_;

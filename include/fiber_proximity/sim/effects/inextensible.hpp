@@ -13,7 +13,9 @@ class Inextensible : public Effect {
 
   void begin_step(Rods& rods, const TimeStep& step) override;
   double energy(const Rods& rods, std::uint32_t rod) const override;
+  double stored_energy(const Rods& /*rods*/, std::uint32_t /*rod*/) const override { return 0.0; }
   void add_derivatives(const Rods& rods, std::uint32_t rod, RodSystem& system) const override;
+  void end_solve(const Rods& rods, std::uint32_t rod) override;
   void end_step(Rods& rods, const TimeStep& step) override;
 
   /// Tension of an edge; negative under pressure [N].
@@ -23,6 +25,7 @@ class Inextensible : public Effect {
   double force(const Rods& rods, std::uint32_t edge, double length) const;
 
   std::vector<double> tensions_;     // of edges [N]
+  std::vector<double> found_;        // in this step [N]
   std::vector<double> stiffnesses_;  // of their springs in this step [N/m]
 };
 

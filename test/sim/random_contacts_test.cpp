@@ -1,0 +1,210 @@
+// Random subsets of all effects with random parameters, contacts among them, for ten thousand
+// steps: nothing passes through anything, nothing blows up, nothing gains energy.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "fiber_proximity/sim/effects/damping.hpp"
+#include "fiber_proximity/sim/effects/drag.hpp"
+#include "fiber_proximity/sim/effects/inextensible.hpp"
+#include "fiber_proximity/sim/effects/plasticity.hpp"
+#include "fiber_proximity/sim/effects/twist.hpp"
+#include "sim/contact_scenes.hpp"
+#include "sim/random_rods.hpp"
+#include "sim/tunnelling.hpp"
+#include "support/random.hpp"
+
+namespace fiber::test {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int scenes = 40;
+constexpr int steps_of_first = 2000;
+constexpr int steps_of_others = 250;
+constexpr double top = 1.5;  // [m] rods begin below, above a table at 0
+
+/// Rods and effects of which each is there by chance, and what it takes to judge them.
+struct Scene {
+  Rods rods;
+  std::vector<std::unique_ptr<Effect>> effects;
+  std::vector<const Effect*> storing;  // of the effects: what they take, they give back
+  std::unique_ptr<Contacts> contacts;
+  StepperOptions options;
+  double step = 0.0;
+  bool is_windy = false;
+  std::string description;
+};
+
+/// Chains in cells of their own, so that none begins in another, thrown at each other.
+Rods random_rods_apart(Random& random, double cell) {
+  Rods rods;
+  const RodMaterial material{std::pow(10.0, random.uniform(5.0, 9.0)),
+                             std::pow(10.0, random.uniform(5.0, 9.0)),
+                             random.uniform(500.0, 5000.0)};
+  const double radius = cell * random.uniform(0.01, 0.04);
+  const RodSection section = solid_round_section(material, radius);
+  const int count = random.integer(2, 5);
+  const double speed = std::pow(10.0, random.uniform(-1.0, 1.0));
+  for (int rod = 0; rod < count; ++rod) {
+    const int edges = random.integer(1, 14);
+    const Vector3d middle(cell * (rod % 2), cell * (rod / 2 % 2), 0.1 + cell * (0.5 + rod / 4));
+    std::vector<Vector3d> points{middle};
+    Vector3d direction = random.direction();
+    for (int i = 0; i < edges; ++i) {
+      points.push_back(points.back() + 0.4 * cell / edges * direction);
+      direction = (direction + 0.2 * random.direction()).normalized();
+    }
+    rods.add(points, radius, section);
+    const Vector3d velocity = speed * random.direction();
+    for (std::uint32_t i = rods.first(rods.count() - 1); i < rods.positions.size(); ++i) {
+      rods.velocities[i] = velocity;
+    }
+  }
+  return rods;
+}
+
+class SceneMaker {
+ public:
+  explicit SceneMaker(Random& random) : random_(random) {}
+
+  Scene make() {
+    scene_.rods = random_rods_apart(random_, 0.3);
+    add_effects();
+    add_contacts();
+    scene_.options.iterations = static_cast<std::uint32_t>(random_.integer(1, 3));
+    scene_.step = std::pow(10.0, random_.uniform(-3.0, -1.7));
+    text_ << scene_.rods.count() << " rods, " << scene_.options.iterations << " iterations, step "
+          << scene_.step;
+    scene_.description = text_.str();
+    return std::move(scene_);
+  }
+
+ private:
+  bool chance(const char* name, double probability) {
+    const bool is = random_.chance(probability);
+    text_ << (is ? name : "") << (is ? " " : "");
+    return is;
+  }
+
+  enum class Energy { STORED, LOST };
+
+  void add(std::unique_ptr<Effect> effect, Energy energy) {
+    if (energy == Energy::STORED) {
+      scene_.storing.push_back(effect.get());
+    }
+    scene_.effects.push_back(std::move(effect));
+  }
+
+  template <class Make>
+  void maybe(const char* name, Energy energy, const Make& make) {
+    if (chance(name, 0.6)) {
+      add(make(), energy);
+    }
+  }
+
+  void add_effects() {
+    Rods& rods = scene_.rods;
+    if (chance("inextensible", 0.3)) {
+      add(std::make_unique<Inextensible>(rods), Energy::STORED);
+    } else {
+      maybe("stretch", Energy::STORED, [] { return std::make_unique<Stretch>(); });
+    }
+    maybe("gravity", Energy::STORED,
+          [] { return std::make_unique<Gravity>(Vector3d(0, 0, -standard_gravity)); });
+    maybe("bend", Energy::STORED, [] { return std::make_unique<Bend>(); });
+    maybe("twist", Energy::STORED, [&] { return std::make_unique<Twist>(rods); });
+    maybe("damping", Energy::LOST,
+          [&] { return std::make_unique<Damping>(std::pow(10.0, random_.uniform(-4.0, 0.0))); });
+    maybe("plasticity", Energy::LOST,
+          [&] { return std::make_unique<Plasticity>(rods, Plasticity::Options{}); });
+    if (chance("drag", 0.3)) {
+      scene_.is_windy = true;
+      Drag::Options wind;
+      wind.wind.mean = random_.in_cube(5.0);
+      add(std::make_unique<Drag>(wind), Energy::LOST);
+    }
+    maybe("attachment", Energy::STORED, [&] {
+      const auto node = static_cast<std::uint32_t>(random_.integer(0, 1)) * rods.node_count(0) / 2;
+      return hold(rods, {pin(node, rods.positions[node])});
+    });
+  }
+
+  void add_contacts() {
+    std::vector<std::unique_ptr<ContactSource>> sources;
+    sources.push_back(std::make_unique<FiberContact>(FiberContact::Options{}));
+    if (chance("table", 0.6)) {
+      sources.push_back(std::make_unique<EnvironmentContact>(environment_of(HalfSpaceShape{}),
+                                                             EnvironmentContact::Options{}));
+    }
+    std::unique_ptr<Friction> friction;
+    if (chance("friction", 0.6)) {
+      friction = std::make_unique<Friction>(Friction::Options{random_.uniform(0.0, 1.0), 1e-3});
+    }
+    scene_.contacts = std::make_unique<Contacts>(std::move(sources), std::move(friction));
+  }
+
+  Random& random_;
+  Scene scene_;
+  std::ostringstream text_;
+};
+
+double stored_energy_of(const Effect& effect, const Rods& rods) {
+  double energy = 0.0;
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    energy += effect.stored_energy(rods, rod);
+  }
+  return energy;
+}
+
+/// That of motion, and of what gives it back.
+double energy_of(const Scene& scene, const std::vector<const Effect*>& storing, const Rods& rods) {
+  double energy = 0.0;
+  for (std::size_t i = 0; i < rods.positions.size(); ++i) {
+    energy += 0.5 * rods.masses[i] * rods.velocities[i].squaredNorm();
+  }
+  for (std::size_t i = 0; i < rods.spins.size(); ++i) {
+    const auto rod = static_cast<std::uint32_t>(
+        std::upper_bound(rods.offsets.begin(), rods.offsets.end(), i) - rods.offsets.begin() - 1);
+    energy += 0.5 * rods.sections[rod].inertia_per_length * rods.rest_lengths[i] * rods.spins[i] *
+              rods.spins[i];
+  }
+  for (const Effect* effect : storing) {
+    energy += stored_energy_of(*effect, rods);
+  }
+  return scene.is_windy ? 0.0 : energy;
+}
+
+TEST(RandomContacts, NothingPassesThroughAnythingOrBlowsUp) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  for (int round = 0; round < scenes; ++round) {
+    Scene scene = SceneMaker(random).make();
+    SCOPED_TRACE("round " + std::to_string(round) + ": " + scene.description);
+    const std::vector<const Effect*> storing = scene.storing;
+    double weight = 0.0;  // [N]
+    for (const double mass : scene.rods.masses) {
+      weight += mass * standard_gravity;
+    }
+    const double before = energy_of(scene, storing, scene.rods);
+    // Steps of few iterations that contacts cut short may gain a little; not what grows on.
+    const double allowed = before + std::abs(before) + weight * top;
+    Stepper stepper(std::move(scene.rods), std::move(scene.effects), scene.options,
+                    std::move(scene.contacts));
+    TunnellingChecker checker(stepper.rods());
+    const int steps = round == 0 ? steps_of_first : steps_of_others;
+    for (int i = 0; i < steps; ++i) {
+      stepper.step(scene.step);
+      ASSERT_TRUE(all_finite(stepper.rods())) << "step " << i;
+      ASSERT_EQ(checker.check(stepper.rods()), "") << "step " << i;
+      ASSERT_LE(energy_of(scene, storing, stepper.rods()), allowed)
+          << "step " << i << ", before " << before << " J";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fiber::test
