@@ -6,11 +6,12 @@ import pathlib
 from .machine import describe_machine
 from .runs import Limits, measure_all
 from .simulation_report import (draw_convergence, draw_effects, draw_xpbd, effect_table,
-                                resolution_table, validation_summary, validation_table, xpbd_table)
+                                real_time_table, resolution_table, validation_summary,
+                                validation_table, xpbd_table)
 from .simulation_run import SimulationRun
 from .tables import write_csv
 
-PARTS = ("validation", "convergence", "xpbd", "effects")
+PARTS = ("validation", "convergence", "xpbd", "effects", "real_time")
 FULL = {part: "" for part in PARTS}
 QUICK = {
     "validation": "",
@@ -19,6 +20,7 @@ QUICK = {
     "xpbd": "--xpbd-segments 20,50 --xpbd-substeps 10,50,200 --xpbd-inertias 1,10 "
             "--reference-segments 100 --reference-substeps 32 --least-ms 5",
     "effects": "--cables 10 --cable-segments 30 --cable-frames 20",
+    "real_time": "--load-frames 20",
 }
 ROW_LIMIT_S = 300.0  # the first row of a part waits for what the others are compared with
 BEGIN = "<!-- begin: scripts/bench.sh simulation -->\n"
@@ -43,7 +45,8 @@ def run(tool, folder, quick):
     tables = {"validation": validation_table(rows["validation"]),
               "resolution": resolution_table(rows["convergence"]),
               "xpbd": xpbd_table(rows["convergence"] + rows["xpbd"]),
-              "effects": effect_table(rows["effects"])}
+              "effects": effect_table(rows["effects"]),
+              "real_time": real_time_table(rows["real_time"])}
     for name, table in tables.items():
         (out / f"{name}.md").write_text(f"{table}\n{command}")
     (out / "machine.txt").write_text(machine)

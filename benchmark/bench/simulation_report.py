@@ -165,3 +165,11 @@ def effect_table(rows):
                     [[row["added"], f"{row['ms_per_step']:.3f}", f"{row['us_per_node_step']:.2f}",
                       f"{row['ms_per_step'] / base['ms_per_step']:.2f}×",
                       f"{row['bytes_per_node']:.0f}", row["unknowns_per_node"]] for row in rows])
+
+
+def real_time_table(rows):
+    return markdown(["scene", "rods", "segments", "substeps of a frame", "threads", "ms per step",
+                     "µs per node and step", "times as fast as the clock"],
+                    [[row["scene"], row["rods"], row["segments"], row["substeps"], row["threads"],
+                      f"{row['ms_per_step']:.2f}", f"{row['us_per_node_step']:.3f}",
+                      f"{row['real_time_factor']:.2f}"] for row in rows])

@@ -233,6 +233,25 @@ TEST_F(FiberBench, SaysWhatTheSimulationCostsAndHowItErrs) {
   EXPECT_EQ(parts["effects"].size(), 12U);
 }
 
+TEST_F(FiberBench, SaysHowFastLargeScenesAreBesideTheClock) {
+  const ProcessResult result = bench(
+      "simulate --parts real_time --load-cables 2 --load-rods 5 --load-frames 4 "
+      "--load-substeps 2 --load-threads 1,0 --json");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const std::vector<nlohmann::json> rows = json_lines(result.out);
+  ASSERT_EQ(rows.size(), 2U * 2U);
+  EXPECT_EQ(rows[0].at("scene"), "cables in contact");
+  EXPECT_EQ(rows[1].at("rods"), 5);
+  EXPECT_EQ(rows[1].at("threads"), 1);
+  for (const nlohmann::json& row : rows) {
+    EXPECT_GE(row.at("threads"), 1);
+    const double steps_per_second = 60.0 * row.at("substeps").get<double>();
+    EXPECT_NEAR(row.at("real_time_factor").get<double>() * row.at("ms_per_step").get<double>(),
+                1e3 / steps_per_second, 1e-6)
+        << row.dump();
+  }
+}
+
 TEST_F(FiberBench, JudgesKernelsOnHardPairs) {
   const ProcessResult result =
       bench("kernels --json --pairs 3 --repeats 1 --kernels fast,robust,exact");

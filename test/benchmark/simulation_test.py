@@ -57,6 +57,10 @@ if part == "effects":
         row(added=added, effects=["gravity", added], cables=10, segments=30, substeps=4, frames=20,
             nodes=310, ms_per_step=ms, us_per_node_step=ms / 0.31, bytes=31000,
             bytes_per_node=100.0, unknowns_per_node=unknowns)
+if part == "real_time":
+    for threads, factor in ((1, 2.5), (2, 3.4)):
+        row(scene="cables in contact", rods=10, segments=100, substeps=4, threads=threads, frames=60,
+            ms_per_step=4.0 / factor, us_per_node_step=4.0 / factor, real_time_factor=factor)
 """
 PAGE = f"before\n{BEGIN}old\n{END}after\n"
 
@@ -75,7 +79,7 @@ class SimulationTest(BenchTestCase):
         self.quick()
         calls = self.calls()
         self.assertEqual([call.split()[2] for call in calls],
-                         ["validation", "convergence", "xpbd", "effects"])
+                         ["validation", "convergence", "xpbd", "effects", "real_time"])
         for call in calls:
             self.assertTrue(call.startswith("simulate --parts ") and call.endswith(" --json"), call)
         self.assertIn("--segments 10,20,50", calls[1])
@@ -140,6 +144,10 @@ class SimulationTest(BenchTestCase):
 
     def test_effects_stand_beside_the_base(self):
         self.assertIn("| twist | 0.300 | 0.97 | 1.50× | 100 | 4 |", self.out_of_quick("effects.md"))
+
+    def test_the_table_of_real_time_names_threads(self):
+        self.assertIn("| cables in contact | 10 | 100 | 4 | 2 | 1.18 | 1.176 | 3.40 |",
+                      self.out_of_quick("real_time.md"))
 
     def test_xpbd_stands_beside_ours(self):
         table = self.out_of_quick("xpbd.md")
