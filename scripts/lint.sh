@@ -32,13 +32,14 @@ mapfile -t units < <(git ls-files 'src/*.cpp' 'benchmark/*.cpp' |
     fi
   done)
 
-# changed_units: those of `units` that read a changed file, by the dependencies the build wrote down; all
-# where there is no telling.
+# changed_units: those of `units` that read a changed file, by the dependencies the build wrote down (make
+# does, ninja does not); all where there is no telling.
 changed_units() {
   local base changed
   base=$(cat .ci/linted)
   if ! changed=$(git diff --name-only "$base" -- '*.cpp' '*.hpp' '*.inc' .clang-tidy 2>/dev/null) ||
-    grep -qxF .clang-tidy <<<"$changed"; then
+    grep -qxF .clang-tidy <<<"$changed" ||
+    [ -z "$(find "$build/CMakeFiles" -name '*.cpp.o.d' -print -quit)" ]; then
     printf '%s\n' "${units[@]}"
   elif [ -n "$changed" ]; then
     find "$build/CMakeFiles" -name '*.cpp.o.d' -print0 |
