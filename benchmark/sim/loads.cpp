@@ -33,7 +33,8 @@ Stepper swinging_rods(const LoadSizes& sizes, std::uint32_t threads) {
   Rods rods;
   std::vector<Attachment::Hold> holds;
   for (std::uint32_t rod = 0; rod < sizes.rods; ++rod) {
-    const Vector3d start(length * (rod / row), distance * (rod % row), 0.0);
+    const std::uint32_t column = rod / row;
+    const Vector3d start(length * column, distance * (rod % row), 0.0);
     std::vector<Vector3d> points;
     for (std::uint32_t i = 0; i <= sizes.rod_segments; ++i) {
       points.push_back(start + Vector3d(length * i / sizes.rod_segments, 0.0, 0.0));
