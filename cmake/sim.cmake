@@ -23,6 +23,7 @@ add_library(fiber_proximity_sim SHARED
   src/sim/effects/stretch_lanes.cpp
   src/sim/effects/twist.cpp
   src/sim/energy_guard.cpp
+  src/sim/lane_sums.cpp
   src/sim/material.cpp
   src/sim/material_presets.cpp
   src/sim/resolution.cpp

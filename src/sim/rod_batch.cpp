@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "lane_sums.hpp"
+
 namespace fiber {
 
 using Eigen::Vector3d;
@@ -187,12 +189,7 @@ void RodBatch::restore(const LaneFlags& which) {
 }
 
 void RodBatch::move(const Lanes* step, const Lanes& shares) {
-  for (std::size_t i = 0; i < unknown_count_; ++i) {
-    for (std::size_t lane = 0; lane < lane_count; ++lane) {
-      const double way = shares[lane] > 0.0 ? shares[lane] * step[i][lane] : 0.0;
-      lanes_.positions[i][lane] = remembered_[i][lane] + way;
-    }
-  }
+  move_by(unknown_count_, remembered_.data(), step, shares, lanes_.positions.data());
   has_moved();
 }
 
@@ -222,13 +219,8 @@ void RodBatch::store_for(const Effects& effects, Rods& rods) const {
 }
 
 void RodBatch::measure(const Rods& rods, const Effects& effects) {
-  Lanes kinetic;
-  for (std::size_t i = 0; i < unknown_count_; ++i) {
-    for (std::size_t lane = 0; lane < lane_count; ++lane) {
-      const double change = lanes_.positions[i][lane] - predicted_[i][lane];
-      kinetic[lane] += inertias_[i][lane] * change * change;
-    }
-  }
+  const Lanes kinetic = weighted_squares(unknown_count_, inertias_.data(), lanes_.positions.data(),
+                                         predicted_.data());
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     merits_[lane] = Merit{};
     merits_[lane].add(0.5 * kinetic[lane] / (step_length_ * step_length_));
@@ -257,13 +249,8 @@ void RodBatch::assemble(const Rods& rods, const Effects& effects) {
   const double inverse_square = 1.0 / (step_length_ * step_length_);
   const std::size_t height = half_bandwidth(system_.unknowns) + 1;
   system_.set_zero();
-  for (std::size_t i = 0; i < unknown_count_; ++i) {
-    for (std::size_t lane = 0; lane < lane_count; ++lane) {
-      const double inertia = inertias_[i][lane] * inverse_square;
-      system_.gradient[i][lane] = inertia * (lanes_.positions[i][lane] - predicted_[i][lane]);
-      system_.hessian[i * height][lane] = inertia;
-    }
-  }
+  set_inertia(unknown_count_, inverse_square, inertias_.data(), lanes_.positions.data(),
+              predicted_.data(), system_.gradient.data(), system_.hessian.data(), height);
   for (std::size_t e = 0; e < effects.size(); ++e) {
     if (is_in_lanes(rods, *effects[e])) {
       effects[e]->add_derivatives_in_lanes(lanes_, values_[e], system_);

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lane_sums.hpp"
+
 namespace fiber {
 
 using Eigen::Vector3d;
@@ -307,20 +309,12 @@ void RodGroup::weigh_step() {
     search.decrease = search.longest = 0.0;
   }
   for (std::size_t batch = 0; batch < batches_.size(); ++batch) {
-    const Lanes* const step = part(step_, batch);
     const std::vector<Lanes>& gradient = batches_[batch].gradient();
-    Lanes decrease;
-    Lanes longest;
-    for (std::size_t i = 0; i < gradient.size(); ++i) {
-      for (std::size_t lane = 0; lane < lane_count; ++lane) {
-        decrease[lane] -= gradient[i][lane] * step[i][lane];
-        longest[lane] = std::max(longest[lane], std::abs(step[i][lane]));
-      }
-    }
+    const StepWeight weight = weigh(gradient.size(), gradient.data(), part(step_, batch));
     for (std::size_t lane = 0; lane < batches_[batch].used(); ++lane) {
       Search& search = search_of(lane);
-      search.decrease += decrease[lane];
-      search.longest = std::max(search.longest, longest[lane]);
+      search.decrease += weight.decrease[lane];
+      search.longest = std::max(search.longest, weight.longest[lane]);
     }
   }
 }

@@ -155,10 +155,17 @@ std::size_t EnvironmentContact::find_plane(std::size_t near, std::uint32_t segme
 void EnvironmentContact::measure(const Rods& rods) {
   heights_.clear();
   for (const Plane& plane : planes_) {
-    const double first = plane.normal.dot(rods.positions[plane.edge] - plane.point);
-    const double last = plane.normal.dot(rods.positions[plane.edge + 1] - plane.point);
-    const double nearest = (1.0 - plane.s) * first + plane.s * last;
-    heights_.push_back({nearest, plane.is_edge ? std::min(first, last) : nearest});
+    const auto height = [&](std::uint32_t node) {
+      return plane.normal.dot(rods.positions[node] - plane.point);
+    };
+    if (plane.is_edge) {
+      const double first = height(plane.edge);
+      const double last = height(plane.edge + 1);
+      heights_.push_back({(1.0 - plane.s) * first + plane.s * last, std::min(first, last)});
+    } else {
+      const double at_node = height(plane.edge + (plane.s == 1.0 ? 1 : 0));
+      heights_.push_back({at_node, at_node});
+    }
   }
 }
 

@@ -229,24 +229,26 @@ void FiberContact::look_further(const Rods& rods, std::vector<Vector3d>& displac
 }
 
 void FiberContact::limit(const Rods& rods, std::vector<Vector3d>& displacements, int round) {
-  // What is stopped moves against what is not: it may get further beside that than before.
+  bool has_shortened = false;
   do {
     if (!is_known(rods, displacements)) {
       look_further(rods, displacements);
     }
-    limit_to_sides(rods, displacements, round >= settling_round);
+    has_shortened = limit_to_sides(rods, displacements, round >= settling_round);
     ++round;
-  } while (largest_square(displacements) > 0.0 && !is_known(rods, displacements));
+    // What is stopped moves against what is not: it may get further beside that than before.
+  } while (has_shortened && largest_square(displacements) > 0.0 && !is_known(rods, displacements));
 }
 
 /// What one pair stops, another may follow into: until none has to be stopped. Planes that make
 /// room for what wants to move could do so by less and less for ever: after some passes those
 /// around what is still being stopped do not move any more. A pair that was stopped by such a plane
 /// stays on its sides of it, which ends it.
-void FiberContact::limit_to_sides(const Rods& rods, std::vector<Vector3d>& displacements,
+bool FiberContact::limit_to_sides(const Rods& rods, std::vector<Vector3d>& displacements,
                                   bool is_settling) const {
   constexpr int moving_passes = 8;
   std::vector<bool> is_fixed(displacements.size(), is_settling);
+  bool has_shortened = false;
   bool is_settled = false;
   for (int pass = 0; !is_settled; ++pass) {
     is_settled = true;
@@ -256,12 +258,14 @@ void FiberContact::limit_to_sides(const Rods& rods, std::vector<Vector3d>& displ
       const bool fixed = is_fixed[a] || is_fixed[a + 1] || is_fixed[b] || is_fixed[b + 1];
       if (keep_apart(rods, i, fixed, displacements)) {
         is_settled = false;
+        has_shortened = true;
         if (pass >= moving_passes) {
           is_fixed[a] = is_fixed[a + 1] = is_fixed[b] = is_fixed[b + 1] = true;
         }
       }
     }
   }
+  return has_shortened;
 }
 
 }  // namespace fiber

@@ -56,7 +56,7 @@ class FiberContact : public ContactSource {
                   std::vector<Eigen::Vector3d>& displacements) const;
   bool is_known(const Rods& rods, const std::vector<Eigen::Vector3d>& displacements) const;
   void look_further(const Rods& rods, std::vector<Eigen::Vector3d>& displacements);
-  void limit_to_sides(const Rods& rods, std::vector<Eigen::Vector3d>& displacements,
+  bool limit_to_sides(const Rods& rods, std::vector<Eigen::Vector3d>& displacements,
                       bool is_settling) const;
   double stiffness_of(const Rods& rods, const Candidate& candidate) const;
 
