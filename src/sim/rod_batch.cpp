@@ -240,6 +240,21 @@ void RodBatch::measure(const Rods& rods, const Effects& effects) {
   }
 }
 
+/// With the velocity of moving somewhere from where the step began, in place of what merits have.
+Lanes RodBatch::energy_with(const std::array<Merit, lane_count>& merits,
+                            const std::vector<Lanes>& moved_to) const {
+  const Lanes moved =
+      weighted_squares(unknown_count_, inertias_.data(), moved_to.data(), beginning_.data());
+  const Lanes missed = weighted_squares(unknown_count_, inertias_.data(), lanes_.positions.data(),
+                                        predicted_.data());
+  Lanes energy;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    energy[lane] =
+        merits[lane].energy + 0.5 * (moved[lane] - missed[lane]) / (step_length_ * step_length_);
+  }
+  return energy;
+}
+
 /// The kernels of effects are for rods without twist.
 bool RodBatch::is_in_lanes(const Rods& rods, const Effect& effect) const {
   return system_.unknowns == 3 && effect.works_in_lanes(rods);

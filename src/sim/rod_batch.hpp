@@ -67,6 +67,13 @@ class RodBatch {
   void accept(std::size_t lane) { accepted_[lane] = merits_[lane]; }
   const Merit& accepted(std::size_t lane) const { return accepted_[lane]; }
 
+  /// What a rod has of kinetic and potential energy if the step ends where it is and was accepted
+  /// [J].
+  Lanes energy_at_end() const { return energy_with(accepted_, lanes_.positions); }
+
+  /// The same if it ends where it is and was measured, with the velocity that it began with.
+  Lanes energy_with_old_velocity() const { return energy_with(merits_, predicted_); }
+
   /// Makes the systems those of the energies where the rods are now, and were stored.
   void assemble(const Rods& rods, const Effects& effects);
 
@@ -94,6 +101,8 @@ class RodBatch {
   void hold(const Rods& rods);
   bool is_in_lanes(const Rods& rods, const Effect& effect) const;
   void has_moved();
+  Lanes energy_with(const std::array<Merit, lane_count>& merits,
+                    const std::vector<Lanes>& moved_to) const;
   void keep_finite(Lanes* step) const;
 
   RodLanes lanes_;

@@ -117,6 +117,7 @@ void RodGroup::solve(Rods& rods, const Effects& effects, const StepperOptions& o
 
 /// Finds rods that inertia has thrown where few iterations do not lead back from, as it does with
 /// something stiff, and brings them where they keep their shapes: that is nearer to what they do.
+/// So it does with those that end with more energy than they had, which contacts alone may bring.
 /// @returns true if there are any; their searches are active then
 bool RodGroup::restart_lost(Rods& rods, const Effects& effects) {
   for_each_batch(Work::MUCH, [&](std::size_t index) {
@@ -125,13 +126,17 @@ bool RodGroup::restart_lost(Rods& rods, const Effects& effects) {
     for (std::size_t lane = 0; lane < batch.used(); ++lane) {
       found[lane] = batch.accepted(lane).energy;
     }
+    const Lanes found_total = batch.energy_at_end();
     batch.remember();
     batch.carry();
     batch.store_for(effects, rods);
     batch.measure(rods, effects);
+    const Lanes carried_total = batch.energy_with_old_velocity();
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       const Merit& carried = batch.merit(lane);
-      is_found_[index][lane] = found[lane] <= carried.energy + carried.unseen();
+      const double gained = found_total[lane] - carried_total[lane];
+      is_found_[index][lane] = found[lane] <= carried.energy + carried.unseen() &&
+                               (contacts_ != nullptr || gained <= carried.unseen());
     }
     batch.restore(is_found_[index]);
   });
