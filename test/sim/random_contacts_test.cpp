@@ -16,6 +16,7 @@
 #include "sim/random_rods.hpp"
 #include "sim/tunnelling.hpp"
 #include "support/random.hpp"
+#include "support/rounds.hpp"
 
 namespace fiber::test {
 namespace {
@@ -181,7 +182,7 @@ double energy_of(const Scene& scene, const std::vector<const Effect*>& storing, 
 TEST(RandomContacts, NothingPassesThroughAnythingOrBlowsUp) {
   SCOPED_TRACE(seed_message());
   Random random;
-  for (int round = 0; round < scenes; ++round) {
+  for (int round = 0; round < rounds(scenes); ++round) {
     Scene scene = SceneMaker(random).make();
     SCOPED_TRACE("round " + std::to_string(round) + ": " + scene.description);
     const std::vector<const Effect*> storing = scene.storing;

@@ -10,6 +10,7 @@
 #include "fiber_proximity/sim/effects/twist.hpp"
 #include "sim/random_rods.hpp"
 #include "sim/rod_scene.hpp"
+#include "support/rounds.hpp"
 
 namespace fiber::test {
 namespace {
@@ -153,7 +154,7 @@ RandomScene random_scene(Random& random) {
 TEST(Robustness, RandomScenesStayBounded) {
   SCOPED_TRACE(seed_message());
   Random random(1);
-  for (int round = 0; round < 30; ++round) {
+  for (int round = 0; round < rounds(30); ++round) {
     RandomScene scene = random_scene(random);
     SCOPED_TRACE("round " + std::to_string(round) + ": " + scene.description);
     const double before = mechanical_energy(scene.rods, scene.storing);
