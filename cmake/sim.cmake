@@ -29,6 +29,7 @@ add_library(fiber_proximity_sim SHARED
   src/sim/resolution.cpp
   src/sim/rod_batch.cpp
   src/sim/rod_group.cpp
+  src/sim/rod_group_contacts.cpp
   src/sim/rod_lanes.cpp
   src/sim/rod_system.cpp
   src/sim/rods.cpp

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <vector>
 
 #include "fiber_proximity/sim/contacts.hpp"
@@ -79,5 +82,28 @@ class RodGroup {
   std::vector<Eigen::Vector3d> displacements_;  // of nodes, to be limited
   std::vector<Eigen::Vector3d> wanted_;         // before they were
 };
+
+/// In parallel, but little work only if there are many: one of them is done before another thread
+/// has heard of it.
+template <typename Function>
+void RodGroup::for_each_batch(Work work, const Function& function) {
+  const std::size_t together = work == Work::MUCH ? 1 : 16;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, batches_.size(), together),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t batch = range.begin(); batch < range.end(); ++batch) {
+                        function(batch);
+                      }
+                    });
+}
+
+/// One after the other.
+template <typename Function>
+void RodGroup::for_each_rod(const Function& function) {
+  for (std::size_t batch = 0; batch < batches_.size(); ++batch) {
+    for (std::size_t lane = 0; lane < batches_[batch].used(); ++lane) {
+      function(batch, lane);
+    }
+  }
+}
 
 }  // namespace fiber
