@@ -17,6 +17,13 @@ double material_contact_stiffness(const RodSection& section, double radius) {
   return share * section.bending_stiffness / second_moment * radius;
 }
 
+void material_contact_stiffnesses(const Rods& rods, std::vector<double>& stiffnesses) {
+  stiffnesses.resize(rods.count());
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    stiffnesses[rod] = material_contact_stiffness(rods.sections[rod], rods.radii[rod]);
+  }
+}
+
 void validate_contact_stiffness(const std::string& effect, double stiffness) {
   require_not_negative(effect + ": the stiffness", stiffness, " N/m");
 }

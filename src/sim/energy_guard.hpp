@@ -10,10 +10,19 @@ namespace fiber {
 /// high. Rods whose step does that take it again, by a method that cannot.
 class EnergyGuard {
  public:
+  /// Where all rods are, and how they move.
+  struct Motion {
+    std::vector<Eigen::Vector3d> positions;
+    std::vector<Eigen::Vector3d> velocities;
+    std::vector<double> angles;
+    std::vector<double> spins;
+  };
+
   explicit EnergyGuard(std::uint32_t rod_count) : gained_(rod_count, 0.0) {}
 
   /// Remembers rods, and measures their energy; effects have begun the step.
   void begin(const Rods& rods, const Effects& effects);
+  const Motion& beginning() const { return beginning_; }
 
   /// Measures what the step has brought.
   /// @returns the rods that have gained energy; brought back to where they were
@@ -29,12 +38,7 @@ class EnergyGuard {
 
   std::vector<double> gained_;  // by rod, in all steps so far [J]
   std::vector<Merit> before_;   // by rod
-  struct {
-    std::vector<Eigen::Vector3d> positions;
-    std::vector<Eigen::Vector3d> velocities;
-    std::vector<double> angles;
-    std::vector<double> spins;
-  } beginning_;
+  Motion beginning_;            // of the step
 };
 
 }  // namespace fiber

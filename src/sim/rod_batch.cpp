@@ -16,7 +16,6 @@ void RodBatch::assign(const Rods& rods, const std::vector<std::uint32_t>& member
     first_nodes_[lane] = rods.first(lanes_.rods[lane]);
   }
   system_.resize(lanes_.node_count, rods.angles.empty() ? 3 : 4);
-  unknown_count_ = system_.size();
   const std::size_t nodes = lanes_.node_count;
   for (auto* array : {&lanes_.masses, &lanes_.rest_lengths, &lanes_.inverse_rest_lengths,
                       &lanes_.inverse_node_lengths}) {
@@ -28,7 +27,7 @@ void RodBatch::assign(const Rods& rods, const std::vector<std::uint32_t>& member
     lanes_.tangents.resize(3 * nodes);
   }
   for (auto* array : {&lanes_.positions, &inertias_, &beginning_, &predicted_, &remembered_}) {
-    array->resize(unknown_count_);
+    array->resize(system_.size());
   }
   views_.clear();
   for (std::size_t lane = 0; lane < lanes_.used; ++lane) {
@@ -180,7 +179,7 @@ void RodBatch::carry() {
 }
 
 void RodBatch::restore(const LaneFlags& which) {
-  for (std::size_t i = 0; i < unknown_count_; ++i) {
+  for (std::size_t i = 0; i < system_.size(); ++i) {
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       lanes_.positions[i][lane] = which[lane] ? remembered_[i][lane] : lanes_.positions[i][lane];
     }
@@ -189,7 +188,7 @@ void RodBatch::restore(const LaneFlags& which) {
 }
 
 void RodBatch::move(const Lanes* step, const Lanes& shares) {
-  move_by(unknown_count_, remembered_.data(), step, shares, lanes_.positions.data());
+  move_by(system_.size(), remembered_.data(), step, shares, lanes_.positions.data());
   has_moved();
 }
 
@@ -219,7 +218,7 @@ void RodBatch::store_for(const Effects& effects, Rods& rods) const {
 }
 
 void RodBatch::measure(const Rods& rods, const Effects& effects) {
-  const Lanes kinetic = weighted_squares(unknown_count_, inertias_.data(), lanes_.positions.data(),
+  const Lanes kinetic = weighted_squares(system_.size(), inertias_.data(), lanes_.positions.data(),
                                          predicted_.data());
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     merits_[lane] = Merit{};
@@ -244,8 +243,8 @@ void RodBatch::measure(const Rods& rods, const Effects& effects) {
 Lanes RodBatch::energy_with(const std::array<Merit, lane_count>& merits,
                             const std::vector<Lanes>& moved_to) const {
   const Lanes moved =
-      weighted_squares(unknown_count_, inertias_.data(), moved_to.data(), beginning_.data());
-  const Lanes missed = weighted_squares(unknown_count_, inertias_.data(), lanes_.positions.data(),
+      weighted_squares(system_.size(), inertias_.data(), moved_to.data(), beginning_.data());
+  const Lanes missed = weighted_squares(system_.size(), inertias_.data(), lanes_.positions.data(),
                                         predicted_.data());
   Lanes energy;
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
@@ -264,7 +263,7 @@ void RodBatch::assemble(const Rods& rods, const Effects& effects) {
   const double inverse_square = 1.0 / (step_length_ * step_length_);
   const std::size_t height = half_bandwidth(system_.unknowns) + 1;
   system_.set_zero();
-  set_inertia(unknown_count_, inverse_square, inertias_.data(), lanes_.positions.data(),
+  set_inertia(system_.size(), inverse_square, inertias_.data(), lanes_.positions.data(),
               predicted_.data(), system_.gradient.data(), system_.hessian.data(), height);
   for (std::size_t e = 0; e < effects.size(); ++e) {
     if (is_in_lanes(rods, *effects[e])) {
@@ -286,12 +285,12 @@ void RodBatch::find_step(Lanes* step) {
   // All effects add positive semidefinite blocks, and masses are positive: only rounding errors can
   // make it indefinite, and what it solves for then still lets the energy fall.
   factorise_band(system_);
-  for (std::size_t i = 0; i < unknown_count_; ++i) {
+  for (std::size_t i = 0; i < system_.size(); ++i) {
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       step[i][lane] = -system_.gradient[i][lane];
     }
   }
-  std::fill(step + unknown_count_, step + step_size(), Lanes{});
+  std::fill(step + system_.size(), step + step_size(), Lanes{});
   solve(step);
   keep_finite(step);
 }
@@ -300,7 +299,7 @@ void RodBatch::find_step(Lanes* step) {
 /// numbers can hold: such a rod has no step.
 void RodBatch::keep_finite(Lanes* step) const {
   Lanes zero;
-  for (std::size_t i = 0; i < unknown_count_; ++i) {
+  for (std::size_t i = 0; i < system_.size(); ++i) {
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       zero[lane] += 0.0 * step[i][lane];
     }
@@ -309,7 +308,7 @@ void RodBatch::keep_finite(Lanes* step) const {
     if (zero[lane] == 0.0) {
       continue;
     }
-    for (std::size_t i = 0; i < unknown_count_; ++i) {
+    for (std::size_t i = 0; i < system_.size(); ++i) {
       step[i][lane] = 0.0;
     }
   }

@@ -24,8 +24,7 @@ class RodBatch {
   std::uint32_t rod(std::size_t lane) const { return lanes_.rods[lane]; }
 
   /// How many Lanes a step takes: what is unknown, and the zeros that solve_band() wants after it.
-  std::size_t step_size() const { return unknown_count_ + half_bandwidth(system_.unknowns); }
-  std::size_t unknown_count() const { return unknown_count_; }
+  std::size_t step_size() const { return system_.size() + half_bandwidth(system_.unknowns); }
 
   /// Begins a step where the rods are, by moving them to where inertia and what holds them bring
   /// them.
@@ -108,7 +107,6 @@ class RodBatch {
   RodLanes lanes_;
   std::array<std::uint32_t, lane_count> first_nodes_{};
   LaneSystem system_;
-  std::size_t unknown_count_ = 0;
   std::vector<RodSystem> views_;                  // of the system, by lane
   std::vector<std::vector<std::uint32_t>> held_;  // nodes, by lane
   std::vector<Lanes> inertias_;                   // of what is unknown: masses, and those of angles

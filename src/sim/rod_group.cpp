@@ -67,10 +67,6 @@ void RodGroup::solve(Rods& rods, const Effects& effects, const StepperOptions& o
 bool RodGroup::restart_lost(Rods& rods, const Effects& effects) {
   for_each_batch(Work::MUCH, [&](std::size_t index) {
     RodBatch& batch = batches_[index];
-    std::array<double, lane_count> found{};
-    for (std::size_t lane = 0; lane < batch.used(); ++lane) {
-      found[lane] = batch.accepted(lane).energy;
-    }
     const Lanes found_total = batch.energy_at_end();
     batch.remember();
     batch.carry();
@@ -80,7 +76,7 @@ bool RodGroup::restart_lost(Rods& rods, const Effects& effects) {
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       const Merit& carried = batch.merit(lane);
       const double gained = found_total[lane] - carried_total[lane];
-      is_found_[index][lane] = found[lane] <= carried.energy + carried.unseen() &&
+      is_found_[index][lane] = batch.accepted(lane).energy <= carried.energy + carried.unseen() &&
                                (contacts_ != nullptr || gained <= carried.unseen());
     }
     batch.restore(is_found_[index]);
@@ -94,11 +90,8 @@ bool RodGroup::restart_lost(Rods& rods, const Effects& effects) {
     is_any_lost |= !is_found_[batch][lane];
   });
   if (is_any_lost && contacts_ != nullptr) {
-    for_each_batch(Work::LITTLE, [&](std::size_t batch) { batches_[batch].store(rods); });
-    wanted_ = rods.positions;
     rods.positions = beginning_;
     contacts_->measure(rods);
-    rods.positions = wanted_;
     limit_start(rods, effects);
   }
   return is_any_lost;

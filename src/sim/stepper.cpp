@@ -31,15 +31,14 @@ void validate(const StepperOptions& options, bool has_contacts) {
 }
 
 /// Implicit midpoint is a step of implicit Euler to the middle, continued in a straight line.
-void continue_from_middle(Rods& rods, const std::vector<Eigen::Vector3d>& old_velocities,
-                          const std::vector<double>& old_spins, double half_step) {
+void continue_from_middle(Rods& rods, const EnergyGuard::Motion& beginning, double half_step) {
   for (std::size_t i = 0; i < rods.positions.size(); ++i) {
     rods.positions[i] += half_step * rods.velocities[i];
-    rods.velocities[i] = 2.0 * rods.velocities[i] - old_velocities[i];
+    rods.velocities[i] = 2.0 * rods.velocities[i] - beginning.velocities[i];
   }
   for (std::size_t i = 0; i < rods.spins.size(); ++i) {
     rods.angles[i] += half_step * rods.spins[i];
-    rods.spins[i] = 2.0 * rods.spins[i] - old_spins[i];
+    rods.spins[i] = 2.0 * rods.spins[i] - beginning.spins[i];
   }
 }
 
@@ -58,8 +57,6 @@ Batches side_by_side(const Rods& rods, const std::vector<std::uint32_t>& which) 
   return parts;
 }
 
-}  // namespace
-
 /// What is moved independently: everything together where there are contacts, else batch by batch.
 std::vector<Batches> independent_parts(const Rods& rods, const std::vector<std::uint32_t>& which,
                                        bool has_contacts) {
@@ -73,6 +70,8 @@ std::vector<Batches> independent_parts(const Rods& rods, const std::vector<std::
   }
   return parts;
 }
+
+}  // namespace
 
 /// Who moves which rods. Nothing but memory stays with a worker from one step to the next, so that
 /// there need not be more of them than threads.
@@ -125,10 +124,8 @@ void Stepper::step(double length) {
 void Stepper::step_by_midpoint(double length) {
   begin({time_, 0.5 * length});
   guard_->begin(rods_, effects_);
-  const std::vector<Eigen::Vector3d> old_velocities = rods_.velocities;
-  const std::vector<double> old_spins = rods_.spins;
   solve(workers_->parts, 0.5 * length);
-  continue_from_middle(rods_, old_velocities, old_spins, 0.5 * length);
+  continue_from_middle(rods_, guard_->beginning(), 0.5 * length);
   const std::vector<std::uint32_t> gained = guard_->bring_back_gained(rods_, effects_);
   if (!gained.empty()) {
     begin({time_, length});

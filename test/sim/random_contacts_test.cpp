@@ -163,16 +163,7 @@ double stored_energy_of(const Effect& effect, const Rods& rods) {
 
 /// That of motion, and of what gives it back.
 double energy_of(const Scene& scene, const std::vector<const Effect*>& storing, const Rods& rods) {
-  double energy = 0.0;
-  for (std::size_t i = 0; i < rods.positions.size(); ++i) {
-    energy += 0.5 * rods.masses[i] * rods.velocities[i].squaredNorm();
-  }
-  for (std::size_t i = 0; i < rods.spins.size(); ++i) {
-    const auto rod = static_cast<std::uint32_t>(
-        std::upper_bound(rods.offsets.begin(), rods.offsets.end(), i) - rods.offsets.begin() - 1);
-    energy += 0.5 * rods.sections[rod].inertia_per_length * rods.rest_lengths[i] * rods.spins[i] *
-              rods.spins[i];
-  }
+  double energy = kinetic_energy(rods);
   for (const Effect* effect : storing) {
     energy += stored_energy_of(*effect, rods);
   }

@@ -1,8 +1,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
-#include "fiber_proximity/sim/material.hpp"
+#include "fiber_proximity/sim/rods.hpp"
 
 namespace fiber {
 
@@ -12,6 +13,10 @@ double largest_contact_stiffness(double mass, double step);
 
 /// A contact's stiffness by that of the rod's material [N/m].
 double material_contact_stiffness(const RodSection& section, double radius);
+
+/// That of each rod.
+/// @param stiffnesses overwritten
+void material_contact_stiffnesses(const Rods& rods, std::vector<double>& stiffnesses);
 
 /// @param effect named by the error
 /// @throws std::invalid_argument for a stiffness [N/m] that is negative or not finite

@@ -54,10 +54,7 @@ void EnvironmentContact::set_environment(std::shared_ptr<const Environment> envi
 
 void EnvironmentContact::begin_step(const Rods& rods, const TimeStep& step) {
   step_ = step.length;
-  material_stiffness_.resize(rods.count());
-  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
-    material_stiffness_[rod] = material_contact_stiffness(rods.sections[rod], rods.radii[rod]);
-  }
+  material_contact_stiffnesses(rods, material_stiffness_);
   const double fastest = std::sqrt(largest_square(rods.velocities));
   longest_move_ = longest_move(rods, step.length * fastest);
   place_fibers(rods);

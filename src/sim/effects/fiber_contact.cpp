@@ -21,10 +21,7 @@ FiberContact::FiberContact(const Options& options) : options_(options) {
 void FiberContact::begin_step(const Rods& rods, const TimeStep& step) {
   step_ = step.length;
   beginning_ = rods.positions;
-  material_stiffness_.resize(rods.count());
-  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
-    material_stiffness_[rod] = material_contact_stiffness(rods.sections[rod], rods.radii[rod]);
-  }
+  material_contact_stiffnesses(rods, material_stiffness_);
   longest_move_ = longest_move(rods, step.length * std::sqrt(largest_square(rods.velocities)));
   // What a node has moved since, and will in this step if nothing happens, must leave half of the
   // reach for what does happen. Where all move together, nothing comes nearer.
