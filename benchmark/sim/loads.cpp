@@ -1,13 +1,13 @@
 #include "sim/loads.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <thread>
 
 #include "fiber_proximity/sim/effects/attachment.hpp"
 #include "sim/contact_scenes.hpp"
 #include "sim/effect_scene.hpp"
+#include "statistics.hpp"
 
 namespace fiber {
 
@@ -16,13 +16,6 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double frame = 1.0 / 60.0;  // [s]
-
-template <class Call>
-double seconds_of(const Call& call) {
-  const auto start = std::chrono::steady_clock::now();
-  call();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// Rods in rows, held at their upper ends, that begin level and so swing.
 Stepper swinging_rods(const LoadSizes& sizes, std::uint32_t threads) {
@@ -50,6 +43,7 @@ Stepper swinging_rods(const LoadSizes& sizes, std::uint32_t threads) {
   return {std::move(rods), std::move(effects), options};
 }
 
+/// [ms]
 double time_cables(const LoadSizes& sizes, std::uint32_t substeps, std::uint32_t threads) {
   EffectScene scene;
   scene.cables = sizes.cables;
@@ -59,9 +53,10 @@ double time_cables(const LoadSizes& sizes, std::uint32_t substeps, std::uint32_t
   EffectSimulation simulation(scene, {"gravity", "stretch", "bend", "self_contact", "fiber_contact",
                                       "environment_contact", "friction"});
   simulation.run(std::max(1U, sizes.frames / 4));
-  return seconds_of([&] { simulation.run(sizes.frames); });
+  return time_of([&] { simulation.run(sizes.frames); });
 }
 
+/// [ms]
 double time_rods(const LoadSizes& sizes, std::uint32_t substeps, std::uint32_t threads) {
   Stepper stepper = swinging_rods(sizes, threads);
   const auto run = [&](std::uint32_t frames) {
@@ -70,7 +65,7 @@ double time_rods(const LoadSizes& sizes, std::uint32_t substeps, std::uint32_t t
     }
   };
   run(std::max(1U, sizes.frames / 4));
-  return seconds_of([&] { run(sizes.frames); });
+  return time_of([&] { run(sizes.frames); });
 }
 
 }  // namespace
@@ -82,10 +77,10 @@ void measure_loads(const LoadSizes& sizes, const std::function<void(const LoadRe
                            const auto& time) {
         const auto steps = static_cast<std::uint32_t>(substeps);
         const auto wanted = static_cast<std::uint32_t>(threads);
-        const double seconds = time(sizes, steps, wanted);
+        const double ms = time(sizes, steps, wanted);
         const std::uint32_t used = threads == 0 ? std::thread::hardware_concurrency() : wanted;
-        report({scene, rods, segments, steps, used, 1e3 * seconds / (sizes.frames * steps),
-                sizes.frames * frame / seconds});
+        report({scene, rods, segments, steps, used, ms / (sizes.frames * steps),
+                1e3 * sizes.frames * frame / ms});
       };
       add("cables in contact", sizes.cables, sizes.cable_segments, time_cables);
       add("swinging rods", sizes.rods, sizes.rod_segments, time_rods);
