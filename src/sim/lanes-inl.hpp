@@ -50,9 +50,19 @@ struct Vector {
   Real of[3];
 };
 
-HWY_INLINE Vector load_vector(const std::vector<Lanes>& from, std::size_t index, std::size_t lane) {
-  const Lanes* const first = &from[3 * index];
-  return {{load(first[0], lane), load(first[1], lane), load(first[2], lane)}};
+HWY_INLINE Vector load_vector(const Lanes* from, std::size_t lane) {
+  return {{load(from[0], lane), load(from[1], lane), load(from[2], lane)}};
+}
+HWY_INLINE Vector position_at(const RodLanes& rods, std::size_t node, std::size_t lane) {
+  return load_vector(&rods.positions[rods.unknowns * node], lane);
+}
+HWY_INLINE Vector tangent_at(const RodLanes& rods, std::size_t edge, std::size_t lane) {
+  return load_vector(&rods.tangents[3 * edge], lane);
+}
+HWY_INLINE void store(const Vector& v, Lanes* to, std::size_t lane) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    store(v.of[i], to[i], lane);
+  }
 }
 HWY_INLINE Vector operator+(const Vector& a, const Vector& b) {
   return {{a.of[0] + b.of[0], a.of[1] + b.of[1], a.of[2] + b.of[2]}};
@@ -70,9 +80,13 @@ HWY_INLINE Real dot(const Vector& a, const Vector& b) {
   return a.of[0] * b.of[0] + a.of[1] * b.of[1] + a.of[2] * b.of[2];
 }
 
+// Derivatives of rods with U unknowns a node, which is known when compiling: where something goes
+// takes as long to find as to add.
+
+template <std::size_t U>
 HWY_INLINE void add_gradient(const Vector& v, std::size_t node, std::size_t lane,
                              LaneSystem& system) {
-  Lanes* const first = &system.gradient[3 * node];
+  Lanes* const first = &system.gradient[U * node];
   for (std::size_t i = 0; i < 3; ++i) {
     add(v.of[i], first[i], lane);
   }
@@ -83,13 +97,15 @@ struct Block {
   Real of[3][3];  // row, column
 };
 
-constexpr std::size_t column_height = half_bandwidth(3) + 1;  // with the diagonal
+template <std::size_t U>
+constexpr std::size_t column_height = half_bandwidth(U) + 1;  // with the diagonal
 
 /// Adds the symmetric block of one node.
+template <std::size_t U>
 HWY_INLINE void add_diagonal(const Block& block, std::size_t node, std::size_t lane,
                              LaneSystem& system) {
   for (std::size_t c = 0; c < 3; ++c) {
-    Lanes* const column = &system.hessian[(3 * node + c) * column_height];
+    Lanes* const column = &system.hessian[(U * node + c) * column_height<U>];
     for (std::size_t r = c; r < 3; ++r) {
       add(block.of[r][c], column[r - c], lane);
     }
@@ -97,12 +113,13 @@ HWY_INLINE void add_diagonal(const Block& block, std::size_t node, std::size_t l
 }
 
 /// Adds the block whose rows are those of a node so many further.
+template <std::size_t U>
 HWY_INLINE void add_below(const Block& block, std::size_t node, std::size_t further,
                           std::size_t lane, LaneSystem& system) {
   for (std::size_t c = 0; c < 3; ++c) {
-    Lanes* const column = &system.hessian[(3 * node + c) * column_height];
+    Lanes* const column = &system.hessian[(U * node + c) * column_height<U>];
     for (std::size_t r = 0; r < 3; ++r) {
-      add(block.of[r][c], column[3 * further + r - c], lane);
+      add(block.of[r][c], column[U * further + r - c], lane);
     }
   }
 }

@@ -15,17 +15,14 @@ void RodBatch::assign(const Rods& rods, const std::vector<std::uint32_t>& member
     lanes_.rods[lane] = members[lane < members.size() ? lane : 0];
     first_nodes_[lane] = rods.first(lanes_.rods[lane]);
   }
-  system_.resize(lanes_.node_count, rods.angles.empty() ? 3 : 4);
+  lanes_.unknowns = rods.angles.empty() ? 3 : 4;
+  system_.resize(lanes_.node_count, lanes_.unknowns);
   const std::size_t nodes = lanes_.node_count;
   for (auto* array : {&lanes_.masses, &lanes_.rest_lengths, &lanes_.inverse_rest_lengths,
-                      &lanes_.inverse_node_lengths}) {
+                      &lanes_.inverse_node_lengths, &lanes_.lengths, &lanes_.inverse_lengths}) {
     array->resize(nodes);
   }
-  if (system_.unknowns == 3) {
-    lanes_.lengths.resize(nodes);
-    lanes_.inverse_lengths.resize(nodes);
-    lanes_.tangents.resize(3 * nodes);
-  }
+  lanes_.tangents.resize(3 * nodes);
   for (auto* array : {&lanes_.positions, &inertias_, &beginning_, &predicted_, &remembered_}) {
     array->resize(system_.size());
   }
@@ -130,11 +127,7 @@ void RodBatch::hold(const Rods& rods) {
   }
 }
 
-void RodBatch::has_moved() {
-  if (system_.unknowns == 3) {
-    measure_edges(lanes_);
-  }
-}
+void RodBatch::has_moved() { measure_edges(lanes_); }
 
 void RodBatch::place(const std::vector<Vector3d>& positions) {
   const std::size_t unknowns = system_.unknowns;
@@ -210,7 +203,7 @@ void RodBatch::store(Rods& rods) const {
 
 void RodBatch::store_for(const Effects& effects, Rods& rods) const {
   const auto needs_it = [&](const std::unique_ptr<Effect>& effect) {
-    return !is_in_lanes(rods, *effect);
+    return !effect->works_in_lanes(rods);
   };
   if (std::any_of(effects.begin(), effects.end(), needs_it)) {
     store(rods);
@@ -226,7 +219,7 @@ void RodBatch::measure(const Rods& rods, const Effects& effects) {
   }
   for (std::size_t e = 0; e < effects.size(); ++e) {
     Lanes energy;
-    if (is_in_lanes(rods, *effects[e])) {
+    if (effects[e]->works_in_lanes(rods)) {
       effects[e]->energy_in_lanes(lanes_, values_[e], energy);
     } else {
       for (std::size_t lane = 0; lane < lanes_.used; ++lane) {
@@ -254,11 +247,6 @@ Lanes RodBatch::energy_with(const std::array<Merit, lane_count>& merits,
   return energy;
 }
 
-/// The kernels of effects are for rods without twist.
-bool RodBatch::is_in_lanes(const Rods& rods, const Effect& effect) const {
-  return system_.unknowns == 3 && effect.works_in_lanes(rods);
-}
-
 void RodBatch::assemble(const Rods& rods, const Effects& effects) {
   const double inverse_square = 1.0 / (step_length_ * step_length_);
   const std::size_t height = half_bandwidth(system_.unknowns) + 1;
@@ -266,7 +254,7 @@ void RodBatch::assemble(const Rods& rods, const Effects& effects) {
   set_inertia(system_.size(), inverse_square, inertias_.data(), lanes_.positions.data(),
               predicted_.data(), system_.gradient.data(), system_.hessian.data(), height);
   for (std::size_t e = 0; e < effects.size(); ++e) {
-    if (is_in_lanes(rods, *effects[e])) {
+    if (effects[e]->works_in_lanes(rods)) {
       effects[e]->add_derivatives_in_lanes(lanes_, values_[e], system_);
       continue;
     }

@@ -98,7 +98,6 @@ class RodBatch {
   void load_inertias(const Rods& rods, std::size_t lane);
   void load_values(const Effects& effects);
   void hold(const Rods& rods);
-  bool is_in_lanes(const Rods& rods, const Effect& effect) const;
   void has_moved();
   Lanes energy_with(const std::array<Merit, lane_count>& merits,
                     const std::vector<Lanes>& moved_to) const;

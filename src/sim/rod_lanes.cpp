@@ -19,18 +19,15 @@ void measure(RodLanes& rods) {
   const Real least = real(std::numeric_limits<double>::min());
   const Real one = real(1.0);
   for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
-    Vector point = load_vector(rods.positions, 0, lane);
+    Vector point = position_at(rods, 0, lane);
     for (std::size_t i = 0; i + 1 < rods.node_count; ++i) {
-      const Vector next = load_vector(rods.positions, i + 1, lane);
+      const Vector next = position_at(rods, i + 1, lane);
       const Vector edge = next - point;
       const Real length = larger(square_root(dot(edge, edge)), least);
       const Real inverse = one / length;
       store(length, rods.lengths[i], lane);
       store(inverse, rods.inverse_lengths[i], lane);
-      const Vector tangent = inverse * edge;
-      for (std::size_t k = 0; k < 3; ++k) {
-        store(tangent.of[k], rods.tangents[3 * i + k], lane);
-      }
+      store(inverse * edge, &rods.tangents[3 * i], lane);
       point = next;
     }
   }

@@ -39,6 +39,10 @@ std::ostream& operator<<(std::ostream& out, const EffectCase& effect_case) {
   return out << effect_case.name;
 }
 
+EffectPointer make_gravity(Rods& /*rods*/, Random& random) {
+  return std::make_unique<Gravity>(random.in_cube(10.0));
+}
+
 EffectPointer make_drag(Rods& /*rods*/, Random& random) {
   Drag::Options options;
   options.fluid_density = random.uniform(1.0, 1000.0);
@@ -94,8 +98,10 @@ class EffectTest : public testing::TestWithParam<EffectCase> {
   static constexpr double edge_length = 0.3;
 
   /// Rods at rest with an effect on them.
-  void make(Random& random) {
-    rods_ = random_rods(random, edge_length);
+  void make(Random& random) { make(random, random_rods(random, edge_length)); }
+
+  void make(Random& random, Rods rods) {
+    rods_ = std::move(rods);
     twist_ = GetParam().has_twist ? std::make_unique<Twist>(rods_) : nullptr;
     effect_ = GetParam().make(rods_, random);
   }
@@ -151,6 +157,33 @@ TEST_P(EffectTest, HasAPositiveSemidefiniteMatrix) {
   }
 }
 
+/// What the functions for rods side by side find is what those for one rod find.
+TEST_P(EffectTest, DoesTheSameToRodsSideBySide) {
+  SCOPED_TRACE(seed_message());
+  Random random(5);
+  for (int round = 0; round < 50; ++round) {
+    make(random, rods_of_equal_sizes(random, 3, random.integer(2, 9), edge_length));
+    begin_random_step(random);
+    Effects effects;
+    effects.push_back(std::move(effect_));
+    const SideBySide found = side_by_side(effects, rods_);
+    for (std::uint32_t rod = 0; rod < rods_.count(); ++rod) {
+      const auto expect_near = [&](const auto& each, const auto& expected) {
+        ASSERT_LE((each - expected).cwiseAbs().maxCoeff(),
+                  1e-11 * expected.cwiseAbs().maxCoeff() + 1e-100)
+            << "rod " << rod << " of round " << round << "\nfound\n"
+            << each << "\nexpected\n"
+            << expected;
+      };
+      const double energy = effects.front()->energy(rods_, rod);
+      ASSERT_NEAR(found.energies[rod], energy, 1e-11 * std::abs(energy));
+      const Derivatives expected = derivatives_of(*effects.front(), rods_, rod);
+      expect_near(found.derivatives[rod].gradient, expected.gradient);
+      expect_near(found.derivatives[rod].hessian, expected.hessian);
+    }
+  }
+}
+
 /// Those whose matrix is the Hessian, no part of it left out, where all edges are stretched.
 class ExactEffectTest : public EffectTest {};
 
@@ -194,12 +227,9 @@ TEST_P(EffectTest, ActsOnEachRodAlone) {
 const auto name_of = [](const auto& effect_case) { return std::string(effect_case.param.name); };
 
 const std::vector<EffectCase> exact_cases = {
-    {"gravity", false,
-     [](Rods& /*rods*/, Random& random) -> EffectPointer {
-       return std::make_unique<Gravity>(random.in_cube(10.0));
-     }},
-    {"stretch", false, make<Stretch>},
-    {"drag", false, make_drag},
+    {"gravity", false, make_gravity},  {"gravity_beside_twist", true, make_gravity},
+    {"stretch", false, make<Stretch>}, {"stretch_beside_twist", true, make<Stretch>},
+    {"drag", false, make_drag},        {"drag_beside_twist", true, make_drag},
 };
 INSTANTIATE_TEST_SUITE_P(Exact, EffectTest, testing::ValuesIn(exact_cases), name_of);
 INSTANTIATE_TEST_SUITE_P(Exact, ExactEffectTest, testing::ValuesIn(exact_cases), name_of);

@@ -38,6 +38,15 @@ inline Rods random_rods(Random& random, double edge_length = 0.3) {
   return rods;
 }
 
+/// Rods with the same number of nodes, at rest.
+inline Rods rods_of_equal_sizes(Random& random, int count, int nodes, double edge_length) {
+  Rods rods;
+  for (int rod = 0; rod < count; ++rod) {
+    rods.add(random_chain(random, nodes, edge_length), 0.01, random_section(random));
+  }
+  return rods;
+}
+
 /// Moves each node by up to a distance along each axis, and turns each edge by up to an angle.
 inline void displace(Rods& rods, Random& random, double distance, double angle = 0.0) {
   for (Eigen::Vector3d& position : rods.positions) {

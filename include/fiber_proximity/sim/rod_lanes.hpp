@@ -24,6 +24,7 @@ struct RodLanes {
   std::array<std::uint32_t, lane_count> rods{};  ///< which rod is in which lane
   std::size_t used = 0;                          ///< lanes; the others repeat the first one
   std::uint32_t node_count = 0;
+  std::size_t unknowns = 3;  ///< of each node: 3, or 4 with twist
 
   Lanes stretching_stiffness;
   Lanes bending_stiffness;
@@ -34,13 +35,13 @@ struct RodLanes {
 
   std::vector<Lanes> positions;  ///< vectors [m]; with twist, each with the angle of its edge
 
-  /// Without twist: of the edges between these positions, by measure_edges().
+  /// Of the edges between these positions, by measure_edges().
   std::vector<Lanes> lengths;          ///< [m] never 0, as in EdgeDirection
   std::vector<Lanes> inverse_lengths;  ///< [1/m]
   std::vector<Lanes> tangents;         ///< vectors
 };
 
-/// Lengths and tangents of the edges of rods without twist, where they are now.
+/// Lengths and tangents of the edges of rods, where they are now.
 void measure_edges(RodLanes& rods);
 
 }  // namespace fiber

@@ -16,9 +16,9 @@ namespace {
 void energy(const RodLanes& rods, Lanes& energy) {
   for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
     Real sum = real(0.0);
-    Vector before = load_vector(rods.tangents, 0, lane);
+    Vector before = tangent_at(rods, 0, lane);
     for (std::size_t i = 1; i + 1 < rods.node_count; ++i) {
-      const Vector after = load_vector(rods.tangents, i, lane);
+      const Vector after = tangent_at(rods, i, lane);
       const Vector turn = after - before;
       sum = sum + dot(turn, turn) * load(rods.inverse_node_lengths[i], lane);
       before = after;
@@ -28,22 +28,23 @@ void energy(const RodLanes& rods, Lanes& energy) {
 }
 
 /// EdgePair::add_derivatives() with an energy of the turn's square.
-void add_derivatives(const RodLanes& rods, LaneSystem& system) {
+template <std::size_t U>
+void add_derivatives_of(const RodLanes& rods, LaneSystem& system) {
   const Real one = real(1.0);
   for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
     const Real total = load(rods.bending_stiffness, lane);
     for (std::size_t i = 1; i + 1 < rods.node_count; ++i) {
       const Real stiffness = total * load(rods.inverse_node_lengths[i], lane);
-      const Vector a = load_vector(rods.tangents, i - 1, lane);
-      const Vector b = load_vector(rods.tangents, i, lane);
+      const Vector a = tangent_at(rods, i - 1, lane);
+      const Vector b = tangent_at(rods, i, lane);
       const Real inverse_a = load(rods.inverse_lengths[i - 1], lane);
       const Real inverse_b = load(rods.inverse_lengths[i], lane);
       const Vector turn = b - a;
       const Vector on_a = stiffness * inverse_a * (dot(a, turn) * a - turn);
       const Vector on_b = stiffness * inverse_b * (turn - dot(b, turn) * b);
-      add_gradient(negative(on_a), i - 1, lane, system);
-      add_gradient(on_a - on_b, i, lane, system);
-      add_gradient(on_b, i + 1, lane, system);
+      add_gradient<U>(negative(on_a), i - 1, lane, system);
+      add_gradient<U>(on_a - on_b, i, lane, system);
+      add_gradient<U>(on_b, i + 1, lane, system);
 
       const Real cosine = dot(a, b);
       const Real of_first = stiffness * inverse_a * inverse_a;
@@ -71,14 +72,18 @@ void add_derivatives(const RodLanes& rods, LaneSystem& system) {
           middle.of[r][c] = first.of[r][c] + last.of[r][c] + cross.of[r][c] + cross.of[c][r];
         }
       }
-      add_diagonal(first, i - 1, lane, system);
-      add_below(below_first, i - 1, 1, lane, system);
-      add_below(cross, i - 1, 2, lane, system);
-      add_diagonal(middle, i, lane, system);
-      add_below(above_last, i, 1, lane, system);
-      add_diagonal(last, i + 1, lane, system);
+      add_diagonal<U>(first, i - 1, lane, system);
+      add_below<U>(below_first, i - 1, 1, lane, system);
+      add_below<U>(cross, i - 1, 2, lane, system);
+      add_diagonal<U>(middle, i, lane, system);
+      add_below<U>(above_last, i, 1, lane, system);
+      add_diagonal<U>(last, i + 1, lane, system);
     }
   }
+}
+
+void add_derivatives(const RodLanes& rods, LaneSystem& system) {
+  system.unknowns == 3 ? add_derivatives_of<3>(rods, system) : add_derivatives_of<4>(rods, system);
 }
 
 }  // namespace

@@ -24,10 +24,8 @@ struct Node {
 HWY_INLINE Node node_at(const RodLanes& rods, const std::vector<Lanes>& values, std::size_t index,
                         std::size_t lane) {
   const Lanes* const first = &values[8 * index];
-  const Vector tangent{{load(first[0], lane), load(first[1], lane), load(first[2], lane)}};
-  const Vector carried{{load(first[3], lane), load(first[4], lane), load(first[5], lane)}};
-  return {tangent, load_vector(rods.positions, index, lane) - carried, load(first[6], lane),
-          load(first[7], lane)};
+  return {load_vector(first, lane), position_at(rods, index, lane) - load_vector(first + 3, lane),
+          load(first[6], lane), load(first[7], lane)};
 }
 
 void energy(const RodLanes& rods, const std::vector<Lanes>& values, Lanes& energy) {
@@ -43,12 +41,14 @@ void energy(const RodLanes& rods, const std::vector<Lanes>& values, Lanes& energ
   }
 }
 
-void add_derivatives(const RodLanes& rods, const std::vector<Lanes>& values, LaneSystem& system) {
+template <std::size_t U>
+void add_derivatives_of(const RodLanes& rods, const std::vector<Lanes>& values,
+                        LaneSystem& system) {
   for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
     for (std::size_t i = 0; i < rods.node_count; ++i) {
       const Node node = node_at(rods, values, i, lane);
       const Vector more = (node.along - node.across) * node.tangent;
-      add_gradient(node.across * node.lag + dot(node.tangent, node.lag) * more, i, lane, system);
+      add_gradient<U>(node.across * node.lag + dot(node.tangent, node.lag) * more, i, lane, system);
       Block block;
       for (std::size_t r = 0; r < 3; ++r) {
         for (std::size_t c = 0; c < 3; ++c) {
@@ -56,9 +56,14 @@ void add_derivatives(const RodLanes& rods, const std::vector<Lanes>& values, Lan
           block.of[r][c] = r == c ? product + node.across : product;
         }
       }
-      add_diagonal(block, i, lane, system);
+      add_diagonal<U>(block, i, lane, system);
     }
   }
+}
+
+void add_derivatives(const RodLanes& rods, const std::vector<Lanes>& values, LaneSystem& system) {
+  system.unknowns == 3 ? add_derivatives_of<3>(rods, values, system)
+                       : add_derivatives_of<4>(rods, values, system);
 }
 
 }  // namespace

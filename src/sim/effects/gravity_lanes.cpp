@@ -20,20 +20,27 @@ void energy(const RodLanes& rods, const Eigen::Vector3d& acceleration, Lanes& en
     const Vector a = vector(acceleration);
     Real sum = real(0.0);
     for (std::size_t i = 0; i < rods.node_count; ++i) {
-      sum = sum - load(rods.masses[i], lane) * dot(a, load_vector(rods.positions, i, lane));
+      sum = sum - load(rods.masses[i], lane) * dot(a, position_at(rods, i, lane));
     }
     store(sum, energy, lane);
   }
 }
 
-void add_derivatives(const RodLanes& rods, const Eigen::Vector3d& acceleration,
-                     LaneSystem& system) {
+template <std::size_t U>
+void add_derivatives_of(const RodLanes& rods, const Eigen::Vector3d& acceleration,
+                        LaneSystem& system) {
   for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
     const Vector upward = negative(vector(acceleration));
     for (std::size_t i = 0; i < rods.node_count; ++i) {
-      add_gradient(load(rods.masses[i], lane) * upward, i, lane, system);
+      add_gradient<U>(load(rods.masses[i], lane) * upward, i, lane, system);
     }
   }
+}
+
+void add_derivatives(const RodLanes& rods, const Eigen::Vector3d& acceleration,
+                     LaneSystem& system) {
+  system.unknowns == 3 ? add_derivatives_of<3>(rods, acceleration, system)
+                       : add_derivatives_of<4>(rods, acceleration, system);
 }
 
 }  // namespace

@@ -24,17 +24,18 @@ void energy(const RodLanes& rods, Lanes& energy) {
   }
 }
 
-void add_derivatives(const RodLanes& rods, LaneSystem& system) {
+template <std::size_t U>
+void add_derivatives_of(const RodLanes& rods, LaneSystem& system) {
   const Real zero = real(0.0);
   for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
     const Real total = load(rods.stretching_stiffness, lane);
     for (std::size_t i = 0; i + 1 < rods.node_count; ++i) {
       const Real stiffness = total * load(rods.inverse_rest_lengths[i], lane);
       const Real excess = load(rods.lengths[i], lane) - load(rods.rest_lengths[i], lane);
-      const Vector tangent = load_vector(rods.tangents, i, lane);
+      const Vector tangent = tangent_at(rods, i, lane);
       const Vector force = stiffness * excess * tangent;
-      add_gradient(negative(force), i, lane, system);
-      add_gradient(force, i + 1, lane, system);
+      add_gradient<U>(negative(force), i, lane, system);
+      add_gradient<U>(force, i + 1, lane, system);
       // Under pressure an edge gives way sideways; that part is negative definite and left out.
       const Real sideways = stiffness * larger(zero, excess * load(rods.inverse_lengths[i], lane));
       const Vector along = (stiffness - sideways) * tangent;
@@ -47,11 +48,15 @@ void add_derivatives(const RodLanes& rods, LaneSystem& system) {
           minus.of[r][c] = negative(block.of[r][c]);
         }
       }
-      add_diagonal(block, i, lane, system);
-      add_diagonal(block, i + 1, lane, system);
-      add_below(minus, i, 1, lane, system);
+      add_diagonal<U>(block, i, lane, system);
+      add_diagonal<U>(block, i + 1, lane, system);
+      add_below<U>(minus, i, 1, lane, system);
     }
   }
+}
+
+void add_derivatives(const RodLanes& rods, LaneSystem& system) {
+  system.unknowns == 3 ? add_derivatives_of<3>(rods, system) : add_derivatives_of<4>(rods, system);
 }
 
 }  // namespace
