@@ -9,6 +9,7 @@ add_library(fiber_proximity_sim SHARED
   src/sim/effects/attachment.cpp
   src/sim/effects/bend.cpp
   src/sim/effects/bend_lanes.cpp
+  src/sim/effects/clamped_end.cpp
   src/sim/effects/damping.cpp
   src/sim/effects/drag.cpp
   src/sim/effects/drag_lanes.cpp
@@ -22,6 +23,7 @@ add_library(fiber_proximity_sim SHARED
   src/sim/effects/stretch.cpp
   src/sim/effects/stretch_lanes.cpp
   src/sim/effects/twist.cpp
+  src/sim/effects/twist_lanes.cpp
   src/sim/energy_guard.cpp
   src/sim/lane_sums.cpp
   src/sim/material.cpp

@@ -23,6 +23,12 @@ void RodBatch::assign(const Rods& rods, const std::vector<std::uint32_t>& member
     array->resize(nodes);
   }
   lanes_.tangents.resize(3 * nodes);
+  if (system_.unknowns == 4) {
+    for (auto* array : {&lanes_.start_directors, &lanes_.start_tangents, &lanes_.directors}) {
+      array->resize(3 * nodes);
+    }
+    lanes_.director_twists.resize(nodes);
+  }
   for (auto* array : {&lanes_.positions, &inertias_, &beginning_, &predicted_, &remembered_}) {
     array->resize(system_.size());
   }
@@ -57,6 +63,10 @@ void RodBatch::load(const Rods& rods) {
       if (unknowns == 4) {
         beginning_[place + 3][lane] = rods.angles[first + i];
         predicted_[place + 3][lane] = rods.angles[first + i] + step_length_ * rods.spins[first + i];
+        for (std::uint32_t k = 0; k < 3; ++k) {
+          lanes_.start_directors[3 * i + k][lane] = rods.directors[first + i][k];
+          lanes_.start_tangents[3 * i + k][lane] = rods.start_tangents[first + i][k];
+        }
       }
     }
   }
@@ -76,6 +86,7 @@ void RodBatch::load_inertias(const Rods& rods, std::size_t lane) {
   const RodSection& section = rods.sections[lanes_.rods[lane]];
   lanes_.stretching_stiffness[lane] = section.stretching_stiffness;
   lanes_.bending_stiffness[lane] = section.bending_stiffness;
+  lanes_.twisting_stiffness[lane] = section.twisting_stiffness;
   for (std::uint32_t i = 0; i < lanes_.node_count; ++i) {
     lanes_.masses[i][lane] = rods.masses[first + i];
     lanes_.rest_lengths[i][lane] = rods.rest_lengths[first + i];

@@ -1,6 +1,7 @@
 // Compiled once per instruction set; Highway chooses among them at run time.
 #include "fiber_proximity/sim/rod_lanes.hpp"
 
+#include <cmath>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
@@ -8,7 +9,7 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
-#include "src/sim/lanes-inl.hpp"
+#include "src/sim/frames-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace fiber {
@@ -33,6 +34,38 @@ void measure(RodLanes& rods) {
   }
 }
 
+HWY_INLINE Vector director_at(const RodLanes& rods, std::size_t edge, std::size_t lane) {
+  return load_vector(&rods.directors[3 * edge], lane);
+}
+
+/// Angles are found one by one: Highway has none that are the same on all instruction sets.
+HWY_INLINE void measure_twist(RodLanes& rods, std::size_t node, std::size_t lane) {
+  const Vector tangent = tangent_at(rods, node, lane);
+  const Vector director = director_at(rods, node, lane);
+  const Vector carried =
+      transport(director_at(rods, node - 1, lane), tangent_at(rods, node - 1, lane), tangent);
+  Lanes sine;
+  Lanes cosine;
+  store(dot(tangent, cross(carried, director)), sine, lane);
+  store(dot(carried, director), cosine, lane);
+  for (std::size_t l = lane; l < lane + lanes_at_once(); ++l) {
+    rods.director_twists[node][l] = std::atan2(sine[l], cosine[l]);
+  }
+}
+
+void measure_directors(RodLanes& rods) {
+  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+    for (std::size_t i = 0; i + 1 < rods.node_count; ++i) {
+      const Vector start = load_vector(&rods.start_tangents[3 * i], lane);
+      const Vector director = load_vector(&rods.start_directors[3 * i], lane);
+      store(transport(director, start, tangent_at(rods, i, lane)), &rods.directors[3 * i], lane);
+      if (i > 0) {
+        measure_twist(rods, i, lane);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace fiber
@@ -42,8 +75,14 @@ HWY_AFTER_NAMESPACE();
 namespace fiber {
 
 HWY_EXPORT(measure);
+HWY_EXPORT(measure_directors);
 
-void measure_edges(RodLanes& rods) { HWY_DYNAMIC_DISPATCH(measure)(rods); }
+void measure_edges(RodLanes& rods) {
+  HWY_DYNAMIC_DISPATCH(measure)(rods);
+  if (rods.unknowns == 4) {
+    HWY_DYNAMIC_DISPATCH(measure_directors)(rods);
+  }
+}
 
 }  // namespace fiber
 #endif

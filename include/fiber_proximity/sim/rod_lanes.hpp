@@ -28,6 +28,7 @@ struct RodLanes {
 
   Lanes stretching_stiffness;
   Lanes bending_stiffness;
+  Lanes twisting_stiffness;
   std::vector<Lanes> masses;                ///< of nodes [kg]
   std::vector<Lanes> rest_lengths;          ///< of edges [m]
   std::vector<Lanes> inverse_rest_lengths;  ///< of edges [1/m]
@@ -39,9 +40,18 @@ struct RodLanes {
   std::vector<Lanes> lengths;          ///< [m] never 0, as in EdgeDirection
   std::vector<Lanes> inverse_lengths;  ///< [1/m]
   std::vector<Lanes> tangents;         ///< vectors
+
+  /// With twist only, vectors of edges: those of Rods, and the directors where the edges are now.
+  std::vector<Lanes> start_directors;
+  std::vector<Lanes> start_tangents;
+  std::vector<Lanes> directors;  ///< by measure_edges()
+
+  /// With twist only, of inner nodes, by measure_edges(): the angle from the director of one edge
+  /// to that of the next, in (-pi, pi] [rad].
+  std::vector<Lanes> director_twists;
 };
 
-/// Lengths and tangents of the edges of rods, where they are now.
+/// What rods have of edges where they are now.
 void measure_edges(RodLanes& rods);
 
 }  // namespace fiber

@@ -5,8 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "fiber_proximity/sim/edge_pair.hpp"
-#include "fiber_proximity/sim/effects/twist.hpp"
+#include "clamped_end.hpp"
 
 namespace fiber {
 
@@ -50,110 +49,6 @@ void validate(const Rods& rods, const Attachment::Hold& hold, const Placement& p
   if (!rods.directors.empty() && (!is_unit(placement.director) ||
                                   std::abs(placement.director.dot(placement.tangent)) > 1e-6)) {
     refuse(hold, "a clamp's director must be of unit length and across its tangent");
-  }
-}
-
-/// Which edge a clamp holds, from the rod's first one.
-std::uint32_t clamped_edge(const Attachment::Hold& hold) {
-  return hold.node == 0 ? 0 : hold.node - 1;
-}
-
-/// How the end of a rod is bent against the clamp that holds it.
-struct ClampedBend {
-  std::uint32_t edge;
-  EdgeDirection direction;
-  Vector3d turn;
-  double stiffness;
-
-  ClampedBend(const Attachment::Hold& hold, const Placement& placement,
-              const EdgeDirection& direction_of_edge, double rest_length, double bending_stiffness)
-      : edge(clamped_edge(hold)),
-        direction(direction_of_edge),
-        turn(direction.tangent - placement.tangent),
-        stiffness(bending_stiffness / (0.5 * rest_length)) {}
-
-  ClampedBend(const Rods& rods, const Attachment::Hold& hold, const Placement& placement)
-      : ClampedBend(hold, placement,
-                    edge_direction(rods, rods.first(hold.rod) + clamped_edge(hold)),
-                    rods.rest_lengths[rods.first(hold.rod) + clamped_edge(hold)],
-                    rods.sections[hold.rod].bending_stiffness) {}
-
-  ClampedBend(const RodLanes& rods, std::size_t lane, const Attachment::Hold& hold,
-              const Placement& placement)
-      : ClampedBend(hold, placement, direction_in_lane(rods, lane, clamped_edge(hold)),
-                    rods.rest_lengths[clamped_edge(hold)][lane], rods.bending_stiffness[lane]) {}
-
-  double energy() const { return 0.5 * stiffness * turn.squaredNorm(); }
-
-  void add_derivatives(RodSystem& system) const {
-    const Eigen::Matrix3d across =
-        (Eigen::Matrix3d::Identity() - direction.tangent * direction.tangent.transpose()) /
-        direction.length;
-    const Vector3d gradient = stiffness * (across * turn);
-    const Eigen::Matrix3d block = stiffness / direction.length * across;
-    system.add_edge(edge, gradient, block);
-  }
-
- private:
-  static EdgeDirection direction_in_lane(const RodLanes& rods, std::size_t lane,
-                                         std::uint32_t edge) {
-    const Lanes* const tangent = &rods.tangents[std::size_t{3} * edge];
-    return {rods.lengths[edge][lane], {tangent[0][lane], tangent[1][lane], tangent[2][lane]}};
-  }
-};
-
-/// The end of a rod with twist that a clamp holds, and how the clamp looks from there.
-class ClampedEnd {
- public:
-  ClampedEnd(const Rods& rods, const Attachment::Hold& hold, const Placement& placement)
-      : rods_(rods),
-        rod_(hold.rod),
-        edge_(rods.first(rod_) + clamped_edge(hold)),
-        direction_(edge_direction(rods, edge_)),
-        placement_(placement) {}
-
-  /// The index of the edge from the rod's first one.
-  std::uint32_t edge() const { return edge_ - rods_.first(rod_); }
-
-  double twisting() const {
-    return rods_.sections[rod_].twisting_stiffness / (0.5 * rods_.rest_lengths[edge_]);
-  }
-
-  /// From the clamp to the cross-section of the edge [rad], by whole turns near another.
-  double twist(double near) const {
-    const Vector3d carried = transport(placement_.director, placement_.tangent, direction_.tangent);
-    const double reference =
-        signed_angle(carried, current_director(rods_, edge_), direction_.tangent);
-    return nearest_turn(rods_.angles[edge_] + reference, near);
-  }
-
-  /// The derivative of that by the edge's second node; by the first minus this.
-  Vector3d twist_derivative() const {
-    return director_turn(rods_, edge_) +
-           curvature_binormal(placement_.tangent, direction_.tangent) / (2.0 * direction_.length);
-  }
-
- private:
-  const Rods& rods_;
-  std::uint32_t rod_;
-  std::uint32_t edge_;
-  EdgeDirection direction_;
-  const Placement& placement_;
-};
-
-void add_twisting(const ClampedEnd& end, double twist, RodSystem& system) {
-  const double stiffness = end.twisting();
-  const Vector3d derivative = end.twist_derivative();
-  system.add_gradient(end.edge(), -stiffness * twist * derivative);
-  system.add_gradient(end.edge() + 1, stiffness * twist * derivative);
-  system.add_angle_gradient(end.edge(), stiffness * twist);
-  Eigen::Matrix<double, 7, 1> by_all;
-  by_all << -derivative, 1.0, derivative;
-  const std::size_t start = std::size_t{end.edge()} * system.unknowns();
-  for (Eigen::Index c = 0; c < by_all.size(); ++c) {
-    for (Eigen::Index r = c; r < by_all.size(); ++r) {
-      system.add_hessian_entry(start + r, start + c, stiffness * by_all[r] * by_all[c]);
-    }
   }
 }
 
@@ -227,43 +122,36 @@ std::vector<Attachment::Held>::const_iterator Attachment::first_of(std::uint32_t
                           [](const Held& held, std::uint32_t r) { return held.hold.rod < r; });
 }
 
-double Attachment::energy(const Rods& rods, std::uint32_t rod) const {
-  double energy = 0.0;
+template <class Visit>
+void Attachment::for_each_clamp(std::uint32_t rod, const Visit& visit) const {
   for (auto held = first_of(rod); held != held_.end() && held->hold.rod == rod; ++held) {
     if (held->hold.kind == Kind::CLAMP) {
-      energy += ClampedBend(rods, held->hold, held->placement).energy();
-      if (!rods.directors.empty()) {
-        const ClampedEnd end(rods, held->hold, held->placement);
-        const double twist = end.twist(held->twist);
-        energy += 0.5 * end.twisting() * twist * twist;
-      }
+      visit(*held);
     }
   }
+}
+
+double Attachment::energy(const Rods& rods, std::uint32_t rod) const {
+  double energy = 0.0;
+  for_each_clamp(rod, [&](const Held& held) {
+    energy += ClampedEnd(rods, held.hold, held.placement).energy(held.twist);
+  });
   return energy;
 }
 
 void Attachment::add_derivatives(const Rods& rods, std::uint32_t rod, RodSystem& system) const {
-  for (auto held = first_of(rod); held != held_.end() && held->hold.rod == rod; ++held) {
-    if (held->hold.kind == Kind::CLAMP) {
-      ClampedBend(rods, held->hold, held->placement).add_derivatives(system);
-      if (!rods.directors.empty()) {
-        const ClampedEnd end(rods, held->hold, held->placement);
-        add_twisting(end, end.twist(held->twist), system);
-      }
-    }
-  }
+  for_each_clamp(rod, [&](const Held& held) {
+    ClampedEnd(rods, held.hold, held.placement).add_derivatives(held.twist, system);
+  });
 }
 
 void Attachment::energy_in_lanes(const RodLanes& rods, const std::vector<Lanes>& /*values*/,
                                  Lanes& energy) const {
   energy = Lanes{};
   for (std::size_t lane = 0; lane < rods.used; ++lane) {
-    const std::uint32_t rod = rods.rods[lane];
-    for (auto held = first_of(rod); held != held_.end() && held->hold.rod == rod; ++held) {
-      if (held->hold.kind == Kind::CLAMP) {
-        energy[lane] += ClampedBend(rods, lane, held->hold, held->placement).energy();
-      }
-    }
+    for_each_clamp(rods.rods[lane], [&](const Held& held) {
+      energy[lane] += ClampedEnd(rods, lane, held.hold, held.placement).energy(held.twist);
+    });
   }
 }
 
@@ -271,13 +159,10 @@ void Attachment::add_derivatives_in_lanes(const RodLanes& rods,
                                           const std::vector<Lanes>& /*values*/,
                                           LaneSystem& system) const {
   for (std::size_t lane = 0; lane < rods.used; ++lane) {
-    const std::uint32_t rod = rods.rods[lane];
-    for (auto held = first_of(rod); held != held_.end() && held->hold.rod == rod; ++held) {
-      if (held->hold.kind == Kind::CLAMP) {
-        RodSystem of_lane(system, lane);
-        ClampedBend(rods, lane, held->hold, held->placement).add_derivatives(of_lane);
-      }
-    }
+    RodSystem of_lane(system, lane);
+    for_each_clamp(rods.rods[lane], [&](const Held& held) {
+      ClampedEnd(rods, lane, held.hold, held.placement).add_derivatives(held.twist, of_lane);
+    });
   }
 }
 

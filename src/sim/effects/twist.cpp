@@ -41,10 +41,8 @@ Vector3d curvature_binormal(const Vector3d& tangent_before, const Vector3d& tang
          std::max(folded, 1.0 + tangent_before.dot(tangent_after));
 }
 
-Vector3d director_turn(const Rods& rods, std::uint32_t edge) {
-  const EdgeDirection direction = edge_direction(rods, edge);
-  return curvature_binormal(rods.start_tangents[edge], direction.tangent) /
-         (-2.0 * direction.length);
+Vector3d director_turn(const Vector3d& start_tangent, const EdgeDirection& edge) {
+  return curvature_binormal(start_tangent, edge.tangent) / (-2.0 * edge.length);
 }
 
 Twist::Twist(Rods& rods) : reference_twists_(rods.positions.size()) {
@@ -90,8 +88,10 @@ void Twist::add_derivatives(const Rods& rods, std::uint32_t rod, RodSystem& syst
     const EdgeDirection before = edge_direction(rods, i - 1);
     const EdgeDirection after = edge_direction(rods, i);
     const Vector3d binormal = curvature_binormal(before.tangent, after.tangent);
-    const Vector3d by_previous = director_turn(rods, i - 1) - binormal / (2.0 * before.length);
-    const Vector3d by_next = director_turn(rods, i) + binormal / (2.0 * after.length);
+    const Vector3d by_previous =
+        director_turn(rods.start_tangents[i - 1], before) - binormal / (2.0 * before.length);
+    const Vector3d by_next =
+        director_turn(rods.start_tangents[i], after) + binormal / (2.0 * after.length);
     const double stiffness = rods.sections[rod].twisting_stiffness / rods.rest_length_at(i);
     const double moment = stiffness * twist_at(rods, i);
     const std::uint32_t node = i - first;
@@ -115,15 +115,18 @@ void Twist::add_derivatives(const Rods& rods, std::uint32_t rod, RodSystem& syst
 
 void Twist::end_step(Rods& rods, const TimeStep& /*step*/) {
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
-    for (std::uint32_t i = rods.first(rod) + 1; i + 1 < rods.end(rod); ++i) {
-      reference_twists_[i] = twist_at(rods, i) - (rods.angles[i] - rods.angles[i - 1]);
-    }
     for (std::uint32_t i = rods.first(rod); i + 1 < rods.end(rod); ++i) {
       const Vector3d tangent = edge_direction(rods, i).tangent;
+      const Vector3d director = transport(rods.directors[i], rods.start_tangents[i], tangent);
       // Rounding errors of many steps would let it lean and grow.
-      const Vector3d carried = current_director(rods, i);
-      rods.directors[i] = (carried - tangent * tangent.dot(carried)).normalized();
+      rods.directors[i] = (director - tangent * tangent.dot(director)).normalized();
       rods.start_tangents[i] = tangent;
+      if (i > rods.first(rod)) {
+        const Vector3d carried =
+            transport(rods.directors[i - 1], rods.start_tangents[i - 1], tangent);
+        reference_twists_[i] =
+            nearest_turn(signed_angle(carried, rods.directors[i], tangent), reference_twists_[i]);
+      }
     }
   }
 }

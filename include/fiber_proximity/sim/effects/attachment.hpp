@@ -50,7 +50,7 @@ class Attachment : public Effect {
   double energy(const Rods& rods, std::uint32_t rod) const override;
   void add_derivatives(const Rods& rods, std::uint32_t rod, RodSystem& system) const override;
 
-  bool works_in_lanes(const Rods& rods) const override { return rods.directors.empty(); }
+  bool works_in_lanes(const Rods& /*rods*/) const override { return true; }
   void energy_in_lanes(const RodLanes& rods, const std::vector<Lanes>& values,
                        Lanes& energy) const override;
   void add_derivatives_in_lanes(const RodLanes& rods, const std::vector<Lanes>& values,
@@ -75,6 +75,9 @@ class Attachment : public Effect {
 
   /// The first hold of a rod, or of one after it.
   std::vector<Held>::const_iterator first_of(std::uint32_t rod) const;
+
+  template <class Visit>
+  void for_each_clamp(std::uint32_t rod, const Visit& visit) const;
 
   std::vector<Held> held_;    // by rod and node
   double solving_for_ = 0.0;  // the time of the placements [s]

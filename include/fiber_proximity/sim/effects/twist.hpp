@@ -1,5 +1,6 @@
 #pragma once
 
+#include "fiber_proximity/sim/edge_pair.hpp"
 #include "fiber_proximity/sim/effect.hpp"
 
 namespace fiber {
@@ -18,6 +19,15 @@ class Twist : public Effect {
 
   double energy(const Rods& rods, std::uint32_t rod) const override;
   void add_derivatives(const Rods& rods, std::uint32_t rod, RodSystem& system) const override;
+
+  bool works_in_lanes(const Rods& /*rods*/) const override { return true; }
+  std::uint32_t values_per_node() const override { return 1; }
+  const double* values_of(std::uint32_t node) const override { return &reference_twists_[node]; }
+  void energy_in_lanes(const RodLanes& rods, const std::vector<Lanes>& values,
+                       Lanes& energy) const override;
+  void add_derivatives_in_lanes(const RodLanes& rods, const std::vector<Lanes>& values,
+                                LaneSystem& system) const override;
+
   void end_step(Rods& rods, const TimeStep& step) override;
 
   /// Twist at an inner node [rad].
@@ -47,6 +57,6 @@ Eigen::Vector3d curvature_binormal(const Eigen::Vector3d& tangent_before,
 /// How much current_director() turns about the tangent as the edge changes, against one that does
 /// not turn about it: the derivative by the edge's second point; by the first, minus this. It is
 /// transported in one turn from where the step began, which is not the same as bit by bit.
-Eigen::Vector3d director_turn(const Rods& rods, std::uint32_t edge);
+Eigen::Vector3d director_turn(const Eigen::Vector3d& start_tangent, const EdgeDirection& edge);
 
 }  // namespace fiber

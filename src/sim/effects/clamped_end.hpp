@@ -1,0 +1,50 @@
+#pragma once
+
+#include "fiber_proximity/sim/edge_pair.hpp"
+#include "fiber_proximity/sim/effects/attachment.hpp"
+
+namespace fiber {
+
+/// The end of a rod that a clamp holds: how the edge there is bent against the clamp, and with
+/// twist how its cross-section is turned.
+class ClampedEnd {
+ public:
+  /// @param placement must outlive this
+  ClampedEnd(const Rods& rods, const Attachment::Hold& hold, const Placement& placement);
+
+  /// The same of a rod in a lane.
+  ClampedEnd(const RodLanes& rods, std::size_t lane, const Attachment::Hold& hold,
+             const Placement& placement);
+
+  /// With twist only: from the clamp to the cross-section of the edge [rad], by whole turns near
+  /// another.
+  double twist(double near) const;
+
+  /// [J]
+  /// @param near what twist() takes
+  double energy(double near) const;
+  void add_derivatives(double near, RodSystem& system) const;
+
+ private:
+  ClampedEnd(const Attachment::Hold& hold, const Placement& placement)
+      : placement_(placement), edge_(hold.node == 0 ? 0 : hold.node - 1) {}
+
+  void set_stiffnesses(double bending, double twisting, double rest_length);
+  Eigen::Vector3d bend() const { return direction_.tangent - placement_.tangent; }
+  void add_bending(RodSystem& system) const;
+  void add_twisting(double twist, RodSystem& system) const;
+
+  const Placement& placement_;
+  std::uint32_t edge_;  // from the rod's first one
+  EdgeDirection direction_;
+  double bending_ = 0.0;   // stiffness [J]
+  double twisting_ = 0.0;  // the same
+
+  // With twist:
+  bool has_twist_ = false;
+  double angle_ = 0.0;  // of the cross-section against the director [rad]
+  Eigen::Vector3d director_;
+  Eigen::Vector3d start_tangent_;
+};
+
+}  // namespace fiber
