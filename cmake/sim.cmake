@@ -11,6 +11,7 @@ add_library(fiber_proximity_sim SHARED
   src/sim/effects/bend_lanes.cpp
   src/sim/effects/clamped_end.cpp
   src/sim/effects/damping.cpp
+  src/sim/effects/damping_lanes.cpp
   src/sim/effects/drag.cpp
   src/sim/effects/drag_lanes.cpp
   src/sim/effects/environment_contact.cpp
@@ -19,6 +20,7 @@ add_library(fiber_proximity_sim SHARED
   src/sim/effects/gravity.cpp
   src/sim/effects/gravity_lanes.cpp
   src/sim/effects/inextensible.cpp
+  src/sim/effects/inextensible_lanes.cpp
   src/sim/effects/plasticity.cpp
   src/sim/effects/stretch.cpp
   src/sim/effects/stretch_lanes.cpp

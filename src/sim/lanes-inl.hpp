@@ -97,6 +97,18 @@ struct Block {
   Real of[3][3];  // row, column
 };
 
+/// isotropic I + a bᵀ
+HWY_INLINE Block block_of(Real isotropic, const Vector& a, const Vector& b) {
+  Block block;
+  for (std::size_t r = 0; r < 3; ++r) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Real product = a.of[r] * b.of[c];
+      block.of[r][c] = r == c ? product + isotropic : product;
+    }
+  }
+  return block;
+}
+
 template <std::size_t U>
 constexpr std::size_t column_height = half_bandwidth(U) + 1;  // with the diagonal
 
@@ -122,6 +134,23 @@ HWY_INLINE void add_below(const Block& block, std::size_t node, std::size_t furt
       add(block.of[r][c], column[U * further + r - c], lane);
     }
   }
+}
+
+/// Adds the derivatives of an energy of one edge, as RodSystem does.
+template <std::size_t U>
+HWY_INLINE void add_edge(const Vector& gradient, const Block& block, std::size_t edge,
+                         std::size_t lane, LaneSystem& system) {
+  Block minus;
+  for (std::size_t r = 0; r < 3; ++r) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      minus.of[r][c] = negative(block.of[r][c]);
+    }
+  }
+  add_gradient<U>(negative(gradient), edge, lane, system);
+  add_gradient<U>(gradient, edge + 1, lane, system);
+  add_diagonal<U>(block, edge, lane, system);
+  add_diagonal<U>(block, edge + 1, lane, system);
+  add_below<U>(minus, edge, 1, lane, system);
 }
 
 }  // namespace HWY_NAMESPACE

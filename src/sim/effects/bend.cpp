@@ -28,6 +28,15 @@ Vector3d direction_of_turn(const EdgePair& pair) {
 
 }  // namespace
 
+void Bend::begin_step(Rods& rods, const TimeStep& /*step*/) {
+  natural_turns_.resize(rods.natural_curvatures.size());
+  for (std::uint32_t rod = 0; rod < rods.count() && !natural_turns_.empty(); ++rod) {
+    for (std::uint32_t i = rods.first(rod) + 1; i + 1 < rods.end(rod); ++i) {
+      natural_turns_[i] = natural_turn(rods, i);
+    }
+  }
+}
+
 double Bend::energy(const Rods& rods, std::uint32_t rod) const {
   double energy = 0.0;
   for (std::uint32_t i = rods.first(rod) + 1; i + 1 < rods.end(rod); ++i) {

@@ -6,7 +6,7 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
-#include "src/sim/lanes-inl.hpp"
+#include "src/sim/edge_pair-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace fiber {
@@ -27,63 +27,103 @@ void energy(const RodLanes& rods, Lanes& energy) {
   }
 }
 
-/// EdgePair::add_derivatives() with an energy of the turn's square.
 template <std::size_t U>
 void add_derivatives_of(const RodLanes& rods, LaneSystem& system) {
-  const Real one = real(1.0);
   for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
     const Real total = load(rods.bending_stiffness, lane);
     for (std::size_t i = 1; i + 1 < rods.node_count; ++i) {
       const Real stiffness = total * load(rods.inverse_node_lengths[i], lane);
-      const Vector a = tangent_at(rods, i - 1, lane);
-      const Vector b = tangent_at(rods, i, lane);
-      const Real inverse_a = load(rods.inverse_lengths[i - 1], lane);
-      const Real inverse_b = load(rods.inverse_lengths[i], lane);
-      const Vector turn = b - a;
-      const Vector on_a = stiffness * inverse_a * (dot(a, turn) * a - turn);
-      const Vector on_b = stiffness * inverse_b * (turn - dot(b, turn) * b);
-      add_gradient<U>(negative(on_a), i - 1, lane, system);
-      add_gradient<U>(on_a - on_b, i, lane, system);
-      add_gradient<U>(on_b, i + 1, lane, system);
-
-      const Real cosine = dot(a, b);
-      const Real of_first = stiffness * inverse_a * inverse_a;
-      const Real of_last = stiffness * inverse_b * inverse_b;
-      const Real of_cross = stiffness * inverse_a * inverse_b;
-      Block first;
-      Block last;
-      Block cross;
-      for (std::size_t r = 0; r < 3; ++r) {
-        for (std::size_t c = 0; c < 3; ++c) {
-          const Real aa = r == c ? one - a.of[r] * a.of[c] : negative(a.of[r] * a.of[c]);
-          const Real bb = b.of[r] * b.of[c];
-          first.of[r][c] = of_first * aa;
-          last.of[r][c] = of_last * (r == c ? one - bb : negative(bb));
-          cross.of[r][c] = of_cross * (aa - bb + b.of[r] * (cosine * a.of[c]));
-        }
-      }
-      Block middle;
-      Block below_first;
-      Block above_last;
-      for (std::size_t r = 0; r < 3; ++r) {
-        for (std::size_t c = 0; c < 3; ++c) {
-          below_first.of[r][c] = negative(first.of[r][c] + cross.of[r][c]);
-          above_last.of[r][c] = negative(last.of[r][c] + cross.of[r][c]);
-          middle.of[r][c] = first.of[r][c] + last.of[r][c] + cross.of[r][c] + cross.of[c][r];
-        }
-      }
-      add_diagonal<U>(first, i - 1, lane, system);
-      add_below<U>(below_first, i - 1, 1, lane, system);
-      add_below<U>(cross, i - 1, 2, lane, system);
-      add_diagonal<U>(middle, i, lane, system);
-      add_below<U>(above_last, i, 1, lane, system);
-      add_diagonal<U>(last, i + 1, lane, system);
+      const TwoEdges edges = edges_beside(rods, i, lane);
+      const Vector gradient = stiffness * (edges.after - edges.before);
+      add_gradient<U>(edges, negative(gradient), gradient, i, lane, system);
+      add_hessian<U>(isotropic_blocks(edges, stiffness), i, lane, system);
     }
   }
 }
 
 void add_derivatives(const RodLanes& rods, LaneSystem& system) {
   system.unknowns == 3 ? add_derivatives_of<3>(rods, system) : add_derivatives_of<4>(rods, system);
+}
+
+/// How a node is bent against its natural curvature.
+struct CurvedTurn {
+  Vector turn;
+  Real size;
+  Real excess;
+};
+
+/// @param natural what Bend keeps of the nodes
+HWY_INLINE CurvedTurn curved_turn(const TwoEdges& edges, const Lanes& natural, std::size_t lane) {
+  const Vector turn = edges.after - edges.before;
+  const Real size = square_root(dot(turn, turn));
+  return {turn, size, size - load(natural, lane)};
+}
+
+void curved_energy(const RodLanes& rods, const std::vector<Lanes>& natural, Lanes& energy) {
+  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+    Real sum = real(0.0);
+    for (std::size_t i = 1; i + 1 < rods.node_count; ++i) {
+      const Real excess = curved_turn(edges_beside(rods, i, lane), natural[i], lane).excess;
+      sum = sum + excess * excess * load(rods.inverse_node_lengths[i], lane);
+    }
+    store(real(0.5) * load(rods.bending_stiffness, lane) * sum, energy, lane);
+  }
+}
+
+/// Of the turn; where there is none, one of those across the rod, found lane by lane.
+HWY_INLINE Vector direction_of(const CurvedTurn& turn, const Vector& tangent) {
+  const Real zero = real(0.0);
+  const auto is_bent = hn::Gt(turn.size.value, zero.value);
+  if (hn::AllTrue(LaneTag(), is_bent)) {
+    return real(1.0) / turn.size * turn.turn;
+  }
+  Lanes across[3];
+  store(tangent, across, 0);
+  for (std::size_t l = 0; l < lanes_at_once(); ++l) {
+    const Eigen::Vector3d of_lane =
+        Eigen::Vector3d(across[0][l], across[1][l], across[2][l]).unitOrthogonal();
+    for (std::size_t k = 0; k < 3; ++k) {
+      across[k][l] = of_lane[static_cast<Eigen::Index>(k)];
+    }
+  }
+  Vector direction;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Real along = turn.turn.of[k] / turn.size;
+    direction.of[k] = {hn::IfThenElse(is_bent, along.value, load(across[k], 0).value)};
+  }
+  return direction;
+}
+
+template <std::size_t U>
+void add_curved_derivatives_of(const RodLanes& rods, const std::vector<Lanes>& natural,
+                               LaneSystem& system) {
+  const Real zero = real(0.0);
+  const Real one = real(1.0);
+  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+    const Real total = load(rods.bending_stiffness, lane);
+    for (std::size_t i = 1; i + 1 < rods.node_count; ++i) {
+      const Real stiffness = total * load(rods.inverse_node_lengths[i], lane);
+      const TwoEdges edges = edges_beside(rods, i, lane);
+      const CurvedTurn turn = curved_turn(edges, natural[i], lane);
+      const Vector direction = direction_of(turn, edges.before);
+      const Vector gradient = stiffness * turn.excess * direction;
+      add_gradient<U>(edges, negative(gradient), gradient, i, lane, system);
+      // A rod that is straighter than it wants to be gives way sideways: as in Stretch.
+      const Real wanted = load(natural[i], lane);
+      const Real share = larger(zero, turn.excess) / larger(turn.size, wanted);
+      const auto is_straight = hn::Eq(wanted.value, zero.value);
+      const Real sideways = {hn::IfThenElse(is_straight, one.value, share.value)};
+      EdgeBlocks blocks = isotropic_blocks(edges, stiffness * sideways);
+      add_along(edges, stiffness * (one - sideways), direction, blocks);
+      add_hessian<U>(blocks, i, lane, system);
+    }
+  }
+}
+
+void add_curved_derivatives(const RodLanes& rods, const std::vector<Lanes>& natural,
+                            LaneSystem& system) {
+  system.unknowns == 3 ? add_curved_derivatives_of<3>(rods, natural, system)
+                       : add_curved_derivatives_of<4>(rods, natural, system);
 }
 
 }  // namespace
@@ -96,15 +136,25 @@ namespace fiber {
 
 HWY_EXPORT(energy);
 HWY_EXPORT(add_derivatives);
+HWY_EXPORT(curved_energy);
+HWY_EXPORT(add_curved_derivatives);
 
-void Bend::energy_in_lanes(const RodLanes& rods, const std::vector<Lanes>& /*values*/,
+void Bend::energy_in_lanes(const RodLanes& rods, const std::vector<Lanes>& values,
                            Lanes& energy) const {
-  HWY_DYNAMIC_DISPATCH(energy)(rods, energy);
+  if (natural_turns_.empty()) {
+    HWY_DYNAMIC_DISPATCH(energy)(rods, energy);
+  } else {
+    HWY_DYNAMIC_DISPATCH(curved_energy)(rods, values, energy);
+  }
 }
 
-void Bend::add_derivatives_in_lanes(const RodLanes& rods, const std::vector<Lanes>& /*values*/,
+void Bend::add_derivatives_in_lanes(const RodLanes& rods, const std::vector<Lanes>& values,
                                     LaneSystem& system) const {
-  HWY_DYNAMIC_DISPATCH(add_derivatives)(rods, system);
+  if (natural_turns_.empty()) {
+    HWY_DYNAMIC_DISPATCH(add_derivatives)(rods, system);
+  } else {
+    HWY_DYNAMIC_DISPATCH(add_curved_derivatives)(rods, values, system);
+  }
 }
 
 }  // namespace fiber

@@ -49,14 +49,7 @@ void add_derivatives_of(const RodLanes& rods, const std::vector<Lanes>& values,
       const Node node = node_at(rods, values, i, lane);
       const Vector more = (node.along - node.across) * node.tangent;
       add_gradient<U>(node.across * node.lag + dot(node.tangent, node.lag) * more, i, lane, system);
-      Block block;
-      for (std::size_t r = 0; r < 3; ++r) {
-        for (std::size_t c = 0; c < 3; ++c) {
-          const Real product = more.of[r] * node.tangent.of[c];
-          block.of[r][c] = r == c ? product + node.across : product;
-        }
-      }
-      add_diagonal<U>(block, i, lane, system);
+      add_diagonal<U>(block_of(node.across, more, node.tangent), i, lane, system);
     }
   }
 }

@@ -34,23 +34,10 @@ void add_derivatives_of(const RodLanes& rods, LaneSystem& system) {
       const Real excess = load(rods.lengths[i], lane) - load(rods.rest_lengths[i], lane);
       const Vector tangent = tangent_at(rods, i, lane);
       const Vector force = stiffness * excess * tangent;
-      add_gradient<U>(negative(force), i, lane, system);
-      add_gradient<U>(force, i + 1, lane, system);
       // Under pressure an edge gives way sideways; that part is negative definite and left out.
       const Real sideways = stiffness * larger(zero, excess * load(rods.inverse_lengths[i], lane));
       const Vector along = (stiffness - sideways) * tangent;
-      Block block;
-      Block minus;
-      for (std::size_t r = 0; r < 3; ++r) {
-        for (std::size_t c = 0; c < 3; ++c) {
-          const Real product = along.of[r] * tangent.of[c];
-          block.of[r][c] = r == c ? product + sideways : product;
-          minus.of[r][c] = negative(block.of[r][c]);
-        }
-      }
-      add_diagonal<U>(block, i, lane, system);
-      add_diagonal<U>(block, i + 1, lane, system);
-      add_below<U>(minus, i, 1, lane, system);
+      add_edge<U>(force, block_of(sideways, along, tangent), i, lane, system);
     }
   }
 }

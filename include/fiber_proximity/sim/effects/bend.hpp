@@ -14,11 +14,18 @@ class Bend : public Effect {
   double energy(const Rods& rods, std::uint32_t rod) const override;
   void add_derivatives(const Rods& rods, std::uint32_t rod, RodSystem& system) const override;
 
-  bool works_in_lanes(const Rods& rods) const override { return rods.natural_curvatures.empty(); }
+  void begin_step(Rods& rods, const TimeStep& step) override;
+
+  bool works_in_lanes(const Rods& /*rods*/) const override { return true; }
+  std::uint32_t values_per_node() const override { return natural_turns_.empty() ? 0 : 1; }
+  const double* values_of(std::uint32_t node) const override { return &natural_turns_[node]; }
   void energy_in_lanes(const RodLanes& rods, const std::vector<Lanes>& values,
                        Lanes& energy) const override;
   void add_derivatives_in_lanes(const RodLanes& rods, const std::vector<Lanes>& values,
                                 LaneSystem& system) const override;
+
+ private:
+  std::vector<double> natural_turns_;  // k₀ of inner nodes in this step; empty: all are 0
 };
 
 }  // namespace fiber

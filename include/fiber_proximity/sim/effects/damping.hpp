@@ -18,14 +18,25 @@ class Damping : public Effect {
   double energy(const Rods& rods, std::uint32_t rod) const override;
   void add_derivatives(const Rods& rods, std::uint32_t rod, RodSystem& system) const override;
 
+  bool works_in_lanes(const Rods& /*rods*/) const override { return true; }
+  std::uint32_t values_per_node() const override { return 7; }
+  const double* values_of(std::uint32_t node) const override;
+  void energy_in_lanes(const RodLanes& rods, const std::vector<Lanes>& values,
+                       Lanes& energy) const override;
+  void add_derivatives_in_lanes(const RodLanes& rods, const std::vector<Lanes>& values,
+                                LaneSystem& system) const override;
+
  private:
+  /// An edge and its first node when the step began, as functions in lanes read it.
+  struct Start {
+    Eigen::Vector3d turn = Eigen::Vector3d::Zero();
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // of the tangents; zero where it is folded
+    double length = 0.0;                               // [m]
+  };
+
   double relaxation_time_;
   double share_ = 0.0;  // of a stiffness that resists what a step changes
-
-  // When the step began:
-  std::vector<double> lengths_;           // of edges [m]
-  std::vector<Eigen::Vector3d> turns_;    // at nodes
-  std::vector<Eigen::Vector3d> middles_;  // of the tangents beside the nodes, not normalised
+  std::vector<Start> starts_;
 };
 
 }  // namespace fiber

@@ -21,6 +21,7 @@ class Plasticity : public Effect {
   double energy(const Rods& /*rods*/, std::uint32_t /*rod*/) const override { return 0.0; }
   void add_derivatives(const Rods& /*rods*/, std::uint32_t /*rod*/,
                        RodSystem& /*system*/) const override {}
+  bool works_in_lanes(const Rods& /*rods*/) const override { return true; }  // by doing nothing
   void end_step(Rods& rods, const TimeStep& step) override;
 
  private:
