@@ -104,6 +104,10 @@ void validate_instability(const Report& report) {
   report({"Greenhill's buckling", "twisted between clamps", "ML/EI", segments, twist,
           threshold(twist, [](double angle) { return growth_of_twisted(angle) > 1.0; }),
           two_percent});
+  const double moment = critical_moment_of_hinged();
+  report({"Greenhill's buckling", "twisted between hinges", "ML/EI", segments, moment,
+          threshold(moment, [](double load) { return growth_of_hinged(load) > 1.0; }),
+          two_percent});
   constexpr int ring_steps = 800;
   const double ring = critical_twist_of_ring();
   report({"Michell's ring", "GJ = EI", "twist [rad]", segments, ring,
