@@ -78,6 +78,9 @@ void validate_motion(const Report& report) {
     report({"cantilever, frequency", mode.name, "f · L² √(ρA/EI)", segments,
             root * root / (2.0 * M_PI), simulated_frequency(segments, root)});
   }
+  constexpr double inertia = 1e-4;
+  report({"torsion, frequency", "first mode", "f · L √(ρI/GJ)", segments, 0.25,
+          simulated_torsion(segments, inertia) * std::sqrt(inertia)});
   for (const double degrees : {10.0, 45.0, 90.0}) {
     const double angle = degrees * M_PI / 180.0;
     const double period = simulated_pendulum_period(segments, angle, 0.01);
