@@ -32,8 +32,11 @@ add_library(fiber_proximity_sim SHARED
   src/sim/material_presets.cpp
   src/sim/resolution.cpp
   src/sim/rod_batch.cpp
+  src/sim/rod_batch_beginning.cpp
+  src/sim/rod_batch_energy.cpp
   src/sim/rod_group.cpp
   src/sim/rod_group_contacts.cpp
+  src/sim/rod_group_energy.cpp
   src/sim/rod_lanes.cpp
   src/sim/rod_system.cpp
   src/sim/rods.cpp

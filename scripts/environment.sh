@@ -29,7 +29,7 @@ build_package() {
   quietly "$build/configure.log" cmake -S "$root" -B "$build" "${cmake_arguments[@]}"
   local target
   for target in "${@:-all}"; do
-    quietly "$build/make.log" make -C "$build" -j"$(nproc)" "$target"
+    quietly "$build/make.log" cmake --build "$build" --parallel "$(nproc)" --target "$target"
   done
 }
 

@@ -14,14 +14,15 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 PICTURES = ROOT / "build" / "simulation_pictures"
 SHEET = ROOT / "docs" / "simulation_scenes.png"
 
-# Seconds until the picture is taken; the view: yaw and pitch [rad], distance and focal point [m].
+# Seconds until the picture is taken; the view: yaw and pitch [rad], distance and focal point [m];
+# further arguments of the launch file.
 SCENES = {
     "hanging_cable": (3, (5.2, 0.25, 1.2, (0.0, 0.0, 0.9))),
     "pile": (4, (5.0, 0.55, 0.6, (0.0, 0.0, 0.03))),
     "knot": (2, (4.9, 0.35, 0.85, (0.0, 0.0, 0.47))),
     "harness": (4, (4.9, 0.75, 0.62, (0.0, 0.0, 0.0))),
     "capstan": (2, (5.1, 0.25, 1.0, (0.0, 0.0, -0.2))),
-    "wind": (3, (5.75, 0.15, 0.42, (0.07, 0.025, 0.9))),
+    "wind": (3, (5.75, 0.15, 0.42, (0.09, 0.02, 0.89)), "margin:=0"),
     "hose": (6, (5.2, 0.5, 1.3, (0.0, 0.05, 0.85))),
     "demo": (6, (5.0, 0.6, 1.2, (0.0, -0.03, 0.0))),
 }
@@ -44,8 +45,8 @@ def write_view(scene, view):
 
 
 def take(scene):
-    seconds, view = SCENES[scene]
-    arguments = [f"rviz_config:={write_view(scene, view)}"]
+    seconds, view, *arguments = SCENES[scene]
+    arguments.append(f"rviz_config:={write_view(scene, view)}")
     if scene != "hose":
         arguments += [f"scene:={ROOT / 'config' / 'sim' / (scene + '.yaml')}"]
     subprocess.run([ROOT / "scripts" / "screenshot.sh", "--after", str(seconds),

@@ -1,6 +1,7 @@
 #include "sim/instability.hpp"
 
 #include <cmath>
+#include <iterator>
 
 #include "fiber_proximity/sim/effects/twist.hpp"
 #include "sim/rod_scene.hpp"
@@ -27,14 +28,14 @@ double distance_along(const Rods& rods, int axis) {
 }
 
 /// How many times farther from where it was a rod is than shortly after it was disturbed.
-template <class Distance>
-double growth(Stepper& stepper, const Distance& distance, double step, int steps) {
+template <class Advance, class Distance>
+double growth(const Stepper& stepper, const Advance& advance, const Distance& distance, int steps) {
   for (int i = 0; i < steps / 4; ++i) {
-    stepper.step(step);
+    advance();
   }
   const double early = distance(stepper.rods());
   for (int i = 0; i < steps; ++i) {
-    stepper.step(step);
+    advance();
   }
   return distance(stepper.rods()) / early;
 }
@@ -51,15 +52,50 @@ double column_determinant(double weight) {
   return sum;
 }
 
-/// Twists a rod by an angle that is the same per length, and clamps both ends.
-std::unique_ptr<Attachment> clamp_twisted(Rods& rods, const Placement& first, const Placement& last,
-                                          double angle) {
+/// By an angle that is the same per length [rad].
+void twist_evenly(Rods& rods, double angle) {
   for (int i = 0; i < segments; ++i) {
     rods.angles[i] = angle * (i + 0.5) / segments;
   }
+}
+
+/// Twists a rod evenly, and clamps both ends.
+std::unique_ptr<Attachment> clamp_twisted(Rods& rods, const Placement& first, const Placement& last,
+                                          double angle) {
+  twist_evenly(rods, angle);
   Placement turned = last;
   turned.director = Eigen::AngleAxisd(angle, last.tangent) * last.director;
   return hold(rods, {clamp(0, first), clamp(segments, turned)});
+}
+
+/// Turns the ends of a rod against each other, each about its own tangent, by a constant moment.
+class EndMoments : public Effect {
+ public:
+  explicit EndMoments(double moment) : moment_(moment) {}
+
+  double energy(const Rods& rods, std::uint32_t /*rod*/) const override {
+    return moment_ * (rods.angles.front() - rods.angles[segments - 1]);
+  }
+
+  void add_derivatives(const Rods& /*rods*/, std::uint32_t /*rod*/,
+                       RodSystem& system) const override {
+    system.add_angle_gradient(0, moment_);
+    system.add_angle_gradient(segments - 1, -moment_);
+  }
+
+ private:
+  double moment_;  // [N m]
+};
+
+/// A straight rod that something holds twisted, disturbed to a side.
+Stepper disturbed_stepper(Rods rods, std::unique_ptr<Twist> twist, Effects holding) {
+  for (int i = 0; i <= segments; ++i) {
+    const double s = static_cast<double>(i) / segments;
+    rods.velocities[i].z() = 1e-7 * std::pow(std::sin(M_PI * s), 2);
+  }
+  Effects all = effects(std::make_unique<Stretch>(), std::make_unique<Bend>(), std::move(twist));
+  std::move(holding.begin(), holding.end(), std::back_inserter(all));
+  return {std::move(rods), std::move(all), precise()};
 }
 
 }  // namespace
@@ -78,7 +114,7 @@ double growth_of_column(double weight) {
               std::make_unique<Bend>(), std::move(clamped)),
       precise());
   return growth(
-      stepper, [](const Rods& r) { return distance_along(r, 0); }, 0.2, 100);
+      stepper, [&] { stepper.step(0.2); }, [](const Rods& r) { return distance_along(r, 0); }, 100);
 }
 
 double critical_weight_of_column() { return root_between(column_determinant, 5.0, 10.0); }
@@ -90,22 +126,39 @@ double growth_of_twisted(double angle) {
   const Vector3d director = rods.directors[0];
   auto clamped = clamp_twisted(rods, {Vector3d::Zero(), Vector3d::UnitX(), director},
                                {Vector3d::UnitX(), Vector3d::UnitX(), director}, angle);
-  for (int i = 0; i <= segments; ++i) {
-    const double s = static_cast<double>(i) / segments;
-    rods.velocities[i].z() = 1e-7 * std::pow(std::sin(M_PI * s), 2);
-  }
-  Stepper stepper(rods,
-                  effects(std::make_unique<Stretch>(), std::make_unique<Bend>(), std::move(twist),
-                          std::move(clamped)),
-                  precise());
+  Stepper stepper = disturbed_stepper(rods, std::move(twist), effects(std::move(clamped)));
   return growth(
-      stepper, [](const Rods& r) { return distance_along(r, 2); }, 0.02, 200);
+      stepper, [&] { stepper.step(0.02); }, [](const Rods& r) { return distance_along(r, 2); },
+      200);
+}
+
+double growth_of_hinged(double moment) {
+  Rods rods;
+  rods.add(straight({0, 0, 0}, {1, 0, 0}, segments), 0.01, unit_section);
+  auto twist = std::make_unique<Twist>(rods);
+  twist_evenly(rods, moment);
+  auto pinned = hold(rods, {pin(0, Vector3d::Zero()), pin(segments, Vector3d::UnitX())});
+  Stepper stepper = disturbed_stepper(
+      rods, std::move(twist), effects(std::move(pinned), std::make_unique<EndMoments>(moment)));
+  const auto creep = [&stepper] {
+    stepper.step(0.05);
+    std::fill(stepper.rods().velocities.begin(), stepper.rods().velocities.end(), Vector3d::Zero());
+    std::fill(stepper.rods().spins.begin(), stepper.rods().spins.end(), 0.0);
+  };
+  const auto distance = [](const Rods& r) {
+    return std::max(distance_along(r, 1), distance_along(r, 2));
+  };
+  return growth(stepper, creep, distance, 300);
 }
 
 // Between clamps: tan x = x for x = ML/2EI.
 double critical_twist() {
   return 2.0 * root_between([](double x) { return std::sin(x) - x * std::cos(x); }, 4.0, 5.0);
 }
+
+// Between hinges, w = (1 - cos kx) and (kx - sin kx) across the axis, k = M/EI, meet both ends at a
+// full turn.
+double critical_moment_of_hinged() { return 2.0 * M_PI; }
 
 EndOfRing end_of_ring(double angle, int steps) {
   std::vector<Vector3d> points;

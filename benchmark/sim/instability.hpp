@@ -15,6 +15,13 @@ double critical_weight_of_column();
 double growth_of_twisted(double angle);
 double critical_twist();  ///< Greenhill's
 
+/// Of a straight rod between two hinges, the ends of which a moment turns against each other [N m].
+/// It creeps, without inertia: a moment that follows the ends it turns has no potential, and what
+/// the integrator damps makes motion flutter below the load at which the rod is not stiff any more
+/// (Ziegler 1968).
+double growth_of_hinged(double moment);
+double critical_moment_of_hinged();  ///< Greenhill's
+
 /// A rod bent to a full circle, with both ends clamped in the same place and twisted against each
 /// other. Nothing need disturb it: a clamp hands the moment over in the middle of half an edge, not
 /// at its end, and that small difference pushes the ring's halves out of its plane to either side.

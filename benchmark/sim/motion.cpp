@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "fiber_proximity/sim/effects/twist.hpp"
 #include "sim/rod_scene.hpp"
 #include "sim/root.hpp"
 
@@ -67,6 +68,29 @@ double simulated_frequency(int segments, double root) {
   for (int i = 0; i < 400; ++i) {
     stepper.step(0.01 / exact);
     zeros.add(stepper.time(), stepper.rods().positions.back().z());
+  }
+  return 1.0 / zeros.period();
+}
+
+// A quarter of a wave lies on the rod.
+double exact_torsion(double inertia) { return 0.25 / std::sqrt(inertia); }
+
+double simulated_torsion(int segments, double inertia) {
+  Rods rods;
+  rods.add(straight({0, 0, 0}, {1, 0, 0}, segments), 0.01, {1e5, 1.0, 1.0, 1.0, inertia});
+  auto twist = std::make_unique<Twist>(rods);
+  for (int i = 0; i < segments; ++i) {
+    rods.angles[i] = 0.1 * std::sin(0.5 * M_PI * (i + 0.5) / segments);
+  }
+  auto clamped = hold(rods, {clamp(0, {Vector3d::Zero(), Vector3d::UnitX(), rods.directors[0]})});
+  Stepper stepper(rods,
+                  effects(std::make_unique<Stretch>(), std::make_unique<Bend>(), std::move(twist),
+                          std::move(clamped)),
+                  precise(Integrator::IMPLICIT_MIDPOINT));
+  Zeros zeros;
+  for (int i = 0; i < 400; ++i) {
+    stepper.step(0.01 / exact_torsion(inertia));
+    zeros.add(stepper.time(), stepper.rods().angles[segments - 1]);
   }
   return 1.0 / zeros.period();
 }

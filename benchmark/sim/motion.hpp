@@ -11,6 +11,12 @@ double cantilever_root(double low, double high);
 /// Frequency of such a cantilever that is let go in the mode of this root.
 double simulated_frequency(int segments, double root);
 
+/// Frequency at which a rod of length, bending and twisting stiffness and mass 1 that is clamped at
+/// one end turns its sections back and forth, in its first mode.
+/// @param inertia of the sections, per length [kg m]
+double simulated_torsion(int segments, double inertia);
+double exact_torsion(double inertia);
+
 /// Ratio of a pendulum's period at an amplitude [rad] to that of small ones.
 double exact_pendulum_ratio(double amplitude);
 

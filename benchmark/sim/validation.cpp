@@ -78,6 +78,9 @@ void validate_motion(const Report& report) {
     report({"cantilever, frequency", mode.name, "f · L² √(ρA/EI)", segments,
             root * root / (2.0 * M_PI), simulated_frequency(segments, root)});
   }
+  constexpr double inertia = 1e-4;
+  report({"torsion, frequency", "first mode", "f · L √(ρI/GJ)", segments, 0.25,
+          simulated_torsion(segments, inertia) * std::sqrt(inertia)});
   for (const double degrees : {10.0, 45.0, 90.0}) {
     const double angle = degrees * M_PI / 180.0;
     const double period = simulated_pendulum_period(segments, angle, 0.01);
@@ -103,6 +106,10 @@ void validate_instability(const Report& report) {
   const double twist = critical_twist();
   report({"Greenhill's buckling", "twisted between clamps", "ML/EI", segments, twist,
           threshold(twist, [](double angle) { return growth_of_twisted(angle) > 1.0; }),
+          two_percent});
+  const double moment = critical_moment_of_hinged();
+  report({"Greenhill's buckling", "twisted between hinges", "ML/EI", segments, moment,
+          threshold(moment, [](double load) { return growth_of_hinged(load) > 1.0; }),
           two_percent});
   constexpr int ring_steps = 800;
   const double ring = critical_twist_of_ring();

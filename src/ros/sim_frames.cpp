@@ -1,8 +1,10 @@
 #include "fiber_proximity/ros/sim_frames.hpp"
 
 #include <ros/console.h>
+#include <ros/init.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace fiber_proximity_ros {
 namespace {
@@ -35,6 +37,24 @@ void SimFrames::watch(const FollowedFrame& followed, Watch& watch,
     ROS_INFO_STREAM(followed.what << " follows frame '" << followed.frame << "' again");
   }
   watch.is_frozen = is_frozen;
+}
+
+void SimFrames::wait_for(const std::vector<FollowedFrame>& frames, double timeout) const {
+  const ros::SteadyTime begin = ros::SteadyTime::now();
+  for (const FollowedFrame& followed : frames) {
+    for (bool is_known = false; !is_known && ros::ok();) {
+      try {
+        world_.latest_pose(followed.frame, ros::Time(0));
+        is_known = true;
+      } catch (const TransformUnavailable& error) {
+        if ((ros::SteadyTime::now() - begin).toSec() >= timeout) {
+          throw std::invalid_argument(followed.what + ": nothing of frame '" + followed.frame +
+                                      "' in " + std::to_string(timeout) + " s: " + error.what());
+        }
+        ros::WallDuration(0.05).sleep();
+      }
+    }
+  }
 }
 
 void SimFrames::follow(const std::vector<FollowedFrame>& frames, const fiber::TimeStep& step) {

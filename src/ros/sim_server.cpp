@@ -22,6 +22,9 @@ using Eigen::Vector3d;
 /// [s] How often a warning is repeated.
 constexpr double warning_period = 5.0;
 
+/// How often handles are moved: rviz takes far longer for them than for fibres.
+const ros::WallDuration marker_period(1.0 / 30.0);
+
 /// Runs what a service was asked for; its error is the answer.
 template <class Response, class Function>
 bool answer(Response& response, const Function& function) {
@@ -47,6 +50,7 @@ SimOptions read_sim_options(const ros::NodeHandle& private_node) {
   read_parameter(private_node, "paused", "true or false", options.paused);
   read_parameter(private_node, "interactive", "true or false", options.interactive);
   read_parameter(private_node, "frame_timeout", 0.0, options.frame_timeout);
+  read_parameter(private_node, "frame_wait", 0.0, options.frame_wait);
   options.meshes = read_mesh_folders(private_node);
   return options;
 }
@@ -59,6 +63,7 @@ SimServer::SimServer(const ros::NodeHandle& private_node, const SimOptions& opti
       frames_(world_, options.frame_timeout),
       is_paused_(options.paused),
       next_frame_(ros::SteadyTime::now()) {
+  frames_.wait_for(scene_.frames, options.frame_wait);
   log_scene();
   fibers_ = node_.advertise<fiber_proximity::FiberArray>("fibers", 1, true);
   if (options_.clock) {
@@ -76,6 +81,11 @@ SimServer::SimServer(const ros::NodeHandle& private_node, const SimOptions& opti
   servers_.push_back(node_.advertiseService("set_parameters", &SimServer::set_parameters, this));
   timer_ = node_.createSteadyTimer(ros::WallDuration(scene_.time_step),
                                    [this](const ros::SteadyTimerEvent&) { keep_pace(); });
+  marker_timer_ = node_.createSteadyTimer(marker_period, [this](const ros::SteadyTimerEvent&) {
+    if (markers_ != nullptr) {
+      markers_->update(scene_);
+    }
+  });
 }
 
 void SimServer::log_scene() const {
@@ -134,9 +144,6 @@ void SimServer::advance() {
     scene_.stepper->step(scene_.time_step / scene_.substeps);
   }
   publish();
-  if (markers_ != nullptr) {
-    markers_->update(scene_);
-  }
 }
 
 void SimServer::publish() {
@@ -204,6 +211,7 @@ bool SimServer::reset(std_srvs::Trigger::Request& /*request*/,
                       std_srvs::Trigger::Response& response) {
   return answer(response, [this] {
     SimScene scene = read_sim_scene(options_.scene, options_.meshes, options_.threads);
+    frames_.wait_for(scene.frames, 0.0);
     std::swap(scene_, scene);
     publish();
     publish_obstacles(scene.obstacles);

@@ -38,9 +38,12 @@ class RodBatch {
   /// @param positions of all nodes of all rods [m]
   void place(const std::vector<Eigen::Vector3d>& positions);
 
-  /// Moves the rods to where they began, in their shapes, but for the nodes that are held; those of
-  /// which none is, on with their momentum.
-  void carry();
+  /// Moves the rods to where they began, but for the nodes that are held.
+  void stay();
+
+  /// From there, carries those of which no node is held on with their momentum, in their shapes.
+  /// @returns false if there are none
+  bool drift();
 
   /// Remembers where the rods are as where a move() starts.
   void remember() { remembered_ = lanes_.positions; }
@@ -66,12 +69,14 @@ class RodBatch {
   void accept(std::size_t lane) { accepted_[lane] = merits_[lane]; }
   const Merit& accepted(std::size_t lane) const { return accepted_[lane]; }
 
-  /// What a rod has of kinetic and potential energy if the step ends where it is and was accepted
-  /// [J].
-  Lanes energy_at_end() const { return energy_with(accepted_, lanes_.positions); }
+  /// Remembers, as the most that rods may have at the end, the kinetic energy that they began with
+  /// and the potential one where they stay and were measured.
+  void limit_energy() { allowed_ = energy_with(merits_, predicted_); }
 
-  /// The same if it ends where it is and was measured, with the velocity that it began with.
-  Lanes energy_with_old_velocity() const { return energy_with(merits_, predicted_); }
+  /// Takes what rods would end with in excess of that, where they are and were accepted, from their
+  /// velocities. A step of implicit Euler gains energy where a potential is far from convex on the
+  /// way, as where an edge shrinks to nothing and comes out on the other side of its clamp.
+  void slow_down();
 
   /// Makes the systems those of the energies where the rods are now, and were stored.
   void assemble(const Rods& rods, const Effects& effects);
@@ -98,7 +103,6 @@ class RodBatch {
   void load_inertias(const Rods& rods, std::size_t lane);
   void load_values(const Effects& effects);
   void hold(const Rods& rods);
-  void has_moved();
   Lanes energy_with(const std::array<Merit, lane_count>& merits,
                     const std::vector<Lanes>& moved_to) const;
   void keep_finite(Lanes* step) const;
@@ -112,8 +116,11 @@ class RodBatch {
   std::vector<Lanes> beginning_;                  // of the step
   std::vector<Lanes> predicted_;                  // where inertia and what holds rods bring them
   std::vector<Lanes> remembered_;
+  std::vector<Lanes> carried_;  // where the rods stay, or drift to
   std::array<Merit, lane_count> merits_;
   std::array<Merit, lane_count> accepted_;
+  Lanes allowed_;                           // energy at the end of the step [J]
+  Lanes kept_;                              // shares of the velocities against those to carried_
   std::vector<std::vector<Lanes>> values_;  // by effect: what it needs of the nodes
   double step_length_ = 0.0;                // [s]
 };

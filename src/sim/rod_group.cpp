@@ -37,8 +37,8 @@ Lanes* RodGroup::part(std::vector<Lanes>& values, std::size_t batch) {
   return values.data() + offsets_[batch];
 }
 
-void RodGroup::solve(Rods& rods, const Effects& effects, const StepperOptions& options,
-                     double step) {
+void RodGroup::solve(Rods& rods, const Effects& effects, const StepperOptions& options, double step,
+                     Gains gains) {
   for_each_batch(Work::LITTLE,
                  [&](std::size_t batch) { batches_[batch].begin(rods, effects, step); });
   for (std::size_t i = 0; i < searches_.size(); ++i) {
@@ -52,49 +52,15 @@ void RodGroup::solve(Rods& rods, const Effects& effects, const StepperOptions& o
   if (restart_lost(rods, effects)) {
     iterate(rods, effects, options);
   }
+  if (gains == Gains::TAKEN && contacts_ == nullptr) {
+    batches_.front().slow_down();
+  }
   for_each_batch(Work::LITTLE, [&](std::size_t batch) { batches_[batch].finish(rods); });
   for_each_rod([&](std::size_t batch, std::size_t lane) {
     for (const std::unique_ptr<Effect>& effect : effects) {
       effect->end_solve(rods, batches_[batch].rod(lane));
     }
   });
-}
-
-/// Finds rods that inertia has thrown where few iterations do not lead back from, as it does with
-/// something stiff, and brings them where they keep their shapes: that is nearer to what they do.
-/// So it does with those that end with more energy than they had, which contacts alone may bring.
-/// @returns true if there are any; their searches are active then
-bool RodGroup::restart_lost(Rods& rods, const Effects& effects) {
-  for_each_batch(Work::MUCH, [&](std::size_t index) {
-    RodBatch& batch = batches_[index];
-    const Lanes found_total = batch.energy_at_end();
-    batch.remember();
-    batch.carry();
-    batch.store_for(effects, rods);
-    batch.measure(rods, effects);
-    const Lanes carried_total = batch.energy_with_old_velocity();
-    for (std::size_t lane = 0; lane < lane_count; ++lane) {
-      const Merit& carried = batch.merit(lane);
-      const double gained = found_total[lane] - carried_total[lane];
-      is_found_[index][lane] = batch.accepted(lane).energy <= carried.energy + carried.unseen() &&
-                               (contacts_ != nullptr || gained <= carried.unseen());
-    }
-    batch.restore(is_found_[index]);
-  });
-  for (Search& search : searches_) {
-    search.is_active = false;
-  }
-  bool is_any_lost = false;
-  for_each_rod([&](std::size_t batch, std::size_t lane) {
-    search_of(lane).is_active |= !is_found_[batch][lane];
-    is_any_lost |= !is_found_[batch][lane];
-  });
-  if (is_any_lost && contacts_ != nullptr) {
-    rods.positions = beginning_;
-    contacts_->measure(rods);
-    limit_start(rods, effects);
-  }
-  return is_any_lost;
 }
 
 /// Newton's method from where the rods are.

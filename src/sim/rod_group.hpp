@@ -11,6 +11,9 @@
 
 namespace fiber {
 
+/// Energy that a step of implicit Euler gains: implicit midpoint wants its half as it is.
+enum class Gains { LEFT, TAKEN };
+
 /// Rods whose equations are solved together: all of them where there are contacts, one batch where
 /// there are none.
 class RodGroup {
@@ -26,7 +29,8 @@ class RodGroup {
 
   /// Moves the rods by one step of implicit Euler.
   /// @param step [s]
-  void solve(Rods& rods, const Effects& effects, const StepperOptions& options, double step);
+  void solve(Rods& rods, const Effects& effects, const StepperOptions& options, double step,
+             Gains gains);
 
  private:
   enum class Work { LITTLE, MUCH };

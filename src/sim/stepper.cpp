@@ -113,7 +113,7 @@ void Stepper::step(double length) {
     step_by_midpoint(length);
   } else {
     begin({time_, length});
-    solve(workers_->parts, length);
+    solve(workers_->parts, length, Gains::TAKEN);
   }
   for (const std::unique_ptr<Effect>& effect : effects_) {
     effect->end_step(rods_, {time_, length});
@@ -124,12 +124,12 @@ void Stepper::step(double length) {
 void Stepper::step_by_midpoint(double length) {
   begin({time_, 0.5 * length});
   guard_->begin(rods_, effects_);
-  solve(workers_->parts, 0.5 * length);
+  solve(workers_->parts, 0.5 * length, Gains::LEFT);
   continue_from_middle(rods_, guard_->beginning(), 0.5 * length);
   const std::vector<std::uint32_t> gained = guard_->bring_back_gained(rods_, effects_);
   if (!gained.empty()) {
     begin({time_, length});
-    solve(independent_parts(rods_, gained, false), length);
+    solve(independent_parts(rods_, gained, false), length, Gains::TAKEN);
     guard_->accept_again(gained, rods_, effects_);
   }
 }
@@ -145,12 +145,12 @@ void Stepper::begin(const TimeStep& step) {
   });
 }
 
-void Stepper::solve(const std::vector<Batches>& parts, double length) {
+void Stepper::solve(const std::vector<Batches>& parts, double length, Gains gains) {
   workers_->arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t part) {
       RodGroup& group = workers_->groups.local();
       group.assign(rods_, parts[part]);
-      group.solve(rods_, effects_, options_, length);
+      group.solve(rods_, effects_, options_, length, gains);
     });
   });
 }

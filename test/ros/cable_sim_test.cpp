@@ -6,12 +6,14 @@
 #include <visualization_msgs/InteractiveMarkerInit.h>
 
 #include <optional>
+#include <stdexcept>
 
 #include "fiber_proximity/AttachFiber.h"
 #include "fiber_proximity/DetachFiber.h"
 #include "fiber_proximity/ObstacleArray.h"
 #include "fiber_proximity/SetSimulationParameters.h"
 #include "fiber_proximity/StepSimulation.h"
+#include "fiber_proximity/ros/sim_server.hpp"
 #include "ros/node_test.hpp"
 
 namespace {
@@ -219,18 +221,30 @@ TEST_F(CableSimTest, AnEndIsDraggedByItsHandle) {
 
 class SimFramesTest : public CableSimTest {
  protected:
+  /// The node waits for the gripper when it is loaded.
+  void SetUp() override {
+    ASSERT_TRUE(node_test::wait_for([this] {
+      send({0.0, -0.05, 1.05});
+      return !fibers.messages.empty();
+    }));
+  }
+
+  void send(const Vector3d& gripper) {
+    geometry_msgs::TransformStamped transform;
+    transform.header.stamp = ros::Time::now();
+    transform.header.frame_id = "world";
+    transform.child_frame_id = "gripper";
+    transform.transform.translation.x = gripper.x();
+    transform.transform.translation.y = gripper.y();
+    transform.transform.translation.z = gripper.z();
+    transform.transform.rotation.w = 1.0;
+    broadcaster_.sendTransform(transform);
+  }
+
   /// Where the fibre's first node is after a frame with the gripper there; none: without a word.
   Vector3d step_with(const std::optional<Vector3d>& gripper) {
     if (gripper) {
-      geometry_msgs::TransformStamped transform;
-      transform.header.stamp = ros::Time::now();
-      transform.header.frame_id = "world";
-      transform.child_frame_id = "gripper";
-      transform.transform.translation.x = gripper->x();
-      transform.transform.translation.y = gripper->y();
-      transform.transform.translation.z = gripper->z();
-      transform.transform.rotation.w = 1.0;
-      broadcaster_.sendTransform(transform);
+      send(*gripper);
     }
     return points_after(1)[0];
   }
@@ -268,6 +282,24 @@ TEST_F(SimFramesTest, AGripperFollowsItsFrameAndFreezesWhereThatIsLost) {
   const Vector3d again(0.05, 0.0, 1.0);
   ASSERT_TRUE(reaches(again, again + offset));
   EXPECT_TRUE(is_logged("node 0 of fibre 'cable' follows frame 'gripper' again"));
+}
+
+TEST_F(SimFramesTest, AFrameThatDoesNotComeIsAnErrorWhenTheSceneIsLoaded) {
+  using namespace fiber_proximity_ros;
+  // tf of this one hears nothing: the gripper was sent before.
+  const ros::NodeHandle second("/second_cable_sim");
+  second.setParam("scene", node.param<std::string>("/cable_sim/scene", ""));
+  second.setParam("frame_wait", 0.2);
+  try {
+    const SimServer server(second, read_sim_options(second));
+    ADD_FAILURE() << "it does not wait";
+  } catch (const std::invalid_argument& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("sim_frames.yaml:15: effects[4].attachment[0]: node 0 of fibre 'cable': "
+                           "nothing of frame 'gripper' in 0.200000 s"),
+              std::string::npos)
+        << message;
+  }
 }
 
 TEST_F(SimFramesTest, TellsOthersItsObstacles) {

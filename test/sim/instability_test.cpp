@@ -27,6 +27,12 @@ TEST(Instability, ATwistedRodBuckles) {
   EXPECT_GT(growth_of_twisted(above * critical), 10.0);
 }
 
+TEST(Instability, ATwistedRodBucklesBetweenHinges) {
+  const double critical = critical_moment_of_hinged();
+  EXPECT_LT(growth_of_hinged(below * critical), 1.0);
+  EXPECT_GT(growth_of_hinged(above * critical), 10.0);
+}
+
 TEST(Instability, ATwistedRingLeavesItsPlane) {
   const double critical = critical_twist_of_ring();
   EXPECT_NEAR(critical * 180.0 / M_PI, 623.5, 0.1);

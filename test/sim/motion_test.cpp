@@ -27,6 +27,13 @@ TEST(Motion, ACantileverSwingsWithItsFrequencies) {
   }
 }
 
+TEST(Motion, ATwistedRodSwingsBackWithItsFrequency) {
+  for (const double inertia : {1e-4, 0.01}) {
+    const double exact = exact_torsion(inertia);
+    EXPECT_NEAR(simulated_torsion(50, inertia), exact, one_percent * exact);
+  }
+}
+
 TEST(Motion, ARigidPendulumSwingsWithTheEllipticIntegral) {
   for (const auto& [degrees, ratio] :
        std::vector<std::pair<double, double>>{{10, 1.00191}, {45, 1.03997}, {90, 1.18034}}) {

@@ -72,17 +72,24 @@ inline double energy_of(const Effect& effect, const Rods& rods) {
   return energy;
 }
 
-/// That of the nodes and of the edges' spins [J].
-inline double kinetic_energy(const Rods& rods) {
+/// Of a rod's nodes and of its edges' spins [J].
+inline double kinetic_energy(const Rods& rods, std::uint32_t rod) {
   double energy = 0.0;
-  for (std::size_t i = 0; i < rods.positions.size(); ++i) {
+  for (std::uint32_t i = rods.first(rod); i < rods.end(rod); ++i) {
     energy += 0.5 * rods.masses[i] * rods.velocities[i].squaredNorm();
   }
-  for (std::uint32_t rod = 0; rod < rods.count() && !rods.spins.empty(); ++rod) {
-    for (std::uint32_t i = rods.first(rod); i + 1 < rods.end(rod); ++i) {
-      energy += 0.5 * rods.sections[rod].inertia_per_length * rods.rest_lengths[i] * rods.spins[i] *
-                rods.spins[i];
-    }
+  for (std::uint32_t i = rods.first(rod); i + 1 < rods.end(rod) && !rods.spins.empty(); ++i) {
+    energy += 0.5 * rods.sections[rod].inertia_per_length * rods.rest_lengths[i] * rods.spins[i] *
+              rods.spins[i];
+  }
+  return energy;
+}
+
+/// Of all rods [J].
+inline double kinetic_energy(const Rods& rods) {
+  double energy = 0.0;
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    energy += kinetic_energy(rods, rod);
   }
   return energy;
 }

@@ -20,6 +20,12 @@ class SimFrames {
   /// @param timeout [s] of wall time without anything new of a frame
   SimFrames(const FixedFrame& world, double timeout) : world_(world), timeout_(timeout) {}
 
+  /// Waits until tf knows all these frames.
+  /// @param timeout [s] of wall time
+  /// @throws std::invalid_argument naming the scene's line, the fibre and the frame that did not
+  /// come
+  void wait_for(const std::vector<FollowedFrame>& frames, double timeout) const;
+
   /// Leads all that is held from where it is to where the frames are, during the next frame of the
   /// scene; no faster than 5 m/s, as after a gap it may be far away.
   void follow(const std::vector<FollowedFrame>& frames, const fiber::TimeStep& step);

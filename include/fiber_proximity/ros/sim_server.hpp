@@ -26,7 +26,8 @@ struct SimOptions {
   bool paused = false;         ///< wait for ~step or ~pause
   bool interactive = false;    ///< handles for rviz, if the scene has the effect attachment
   double frame_timeout = 1.0;  ///< [s] of wall time without news of a frame that holds something
-  MeshLoader meshes;           ///< of the environment, from the folders of ~mesh_folders
+  double frame_wait = 10.0;  ///< [s] of wall time for such frames to come when the scene is loaded
+  MeshLoader meshes;         ///< of the environment, from the folders of ~mesh_folders
 };
 
 /// @throws std::invalid_argument naming the parameter, its value and what is allowed
@@ -36,7 +37,7 @@ SimOptions read_sim_options(const ros::NodeHandle& private_node);
 /// ~obstacles, the scene's environment, once.
 class SimServer {
  public:
-  /// @throws std::invalid_argument as read_sim_scene
+  /// @throws std::invalid_argument as read_sim_scene, and for a frame of tf that does not come
   SimServer(const ros::NodeHandle& private_node, const SimOptions& options);
 
  private:
@@ -83,6 +84,7 @@ class SimServer {
   // Last: their callbacks use all of the above.
   std::vector<ros::ServiceServer> servers_;
   ros::SteadyTimer timer_;
+  ros::SteadyTimer marker_timer_;
 };
 
 }  // namespace fiber_proximity_ros

@@ -9,6 +9,7 @@
 namespace fiber {
 
 class EnergyGuard;
+enum class Gains;
 
 /// Rods of equal sizes, by batch: as many as are moved side by side.
 using Batches = std::vector<std::vector<std::uint32_t>>;
@@ -66,7 +67,7 @@ class Stepper {
 
   void step_by_midpoint(double length);
   void begin(const TimeStep& step);
-  void solve(const std::vector<Batches>& parts, double length);
+  void solve(const std::vector<Batches>& parts, double length, Gains gains);
 
   Rods rods_;
   std::vector<std::unique_ptr<Effect>> effects_;
