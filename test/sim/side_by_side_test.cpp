@@ -1,6 +1,7 @@
 // Rods of equal sizes are moved in lanes side by side: each must move as it does alone.
 
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 
 #include "fiber_proximity/sim/effects/damping.hpp"
 #include "fiber_proximity/sim/effects/drag.hpp"
@@ -148,6 +149,21 @@ TEST_P(SideBySide, RodsMoveWhateverIsBesideThem) {
     EXPECT_EQ(with_it(3, 4, 1000.0), once);
     EXPECT_EQ(with_it(4, 6, 0.0), once);
   }
+}
+
+TEST_P(SideBySide, RodsMoveTheSameOnAnyInstructionSet) {
+  SCOPED_TRACE(seed_message());
+  Random random(2);
+  std::vector<Thrown> thrown;
+  for (int rod = 0; rod < 15; ++rod) {
+    thrown.push_back(random_rod(random, random.integer(2, 5), 1.0));
+  }
+  const std::vector<Vector3d> expected = run(thrown, 30);
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    hwy::SetSupportedTargetsForTest(target);
+    EXPECT_EQ(run(thrown, 30), expected) << hwy::TargetName(target);
+  }
+  hwy::SetSupportedTargetsForTest(0);
 }
 
 INSTANTIATE_TEST_SUITE_P(
