@@ -10,6 +10,7 @@
 #include <hwy/highway.h>
 
 #include <cmath>
+#include <limits>
 
 #include "src/sim/lanes-inl.hpp"
 
@@ -39,6 +40,37 @@ HWY_INLINE Vector curvature_binormal(const Vector& before, const Vector& after) 
   constexpr double folded = 1e-3;
   const Real factor = real(2.0) / larger(real(folded), real(1.0) + dot(before, after));
   return factor * cross(before, after);
+}
+
+/// In [-pi, pi]. Neither Highway nor the standard library has an arctangent that is the same on all
+/// processors; this one is wrong by some units of the last digit.
+HWY_INLINE Real angle_of(Real cosine, Real sine) {
+  const Real one = real(1.0);
+  const Real least = real(std::numeric_limits<double>::min());
+  const Real across = {hn::Abs(sine.value)};
+  const Real along = {hn::Abs(cosine.value)};
+  // The tangent of an angle of up to pi/4, and of a quarter of it, whose series is short.
+  Real tangent = smaller(across, along) / larger(larger(across, along), least);
+  for (int i = 0; i < 2; ++i) {
+    tangent = tangent / (one + square_root(one + tangent * tangent));
+  }
+  const Real square = tangent * tangent;
+  Real series = real(0.0);
+  for (int power = 21; power > 0; power -= 2) {
+    series = real(1.0 / power) - square * series;
+  }
+  const Real angle = real(4.0) * tangent * series;
+  const auto is_steep = hn::Gt(across.value, along.value);
+  const Real in_quadrant = {
+      hn::IfThenElse(is_steep, (real(0.5 * M_PI) - angle).value, angle.value)};
+  const auto is_behind = hn::Lt(cosine.value, real(0.0).value);
+  const Real in_half = {
+      hn::IfThenElse(is_behind, (real(M_PI) - in_quadrant).value, in_quadrant.value)};
+  return {hn::CopySignToAbs(in_half.value, sine.value)};
+}
+
+HWY_INLINE Real signed_angle(const Vector& from, const Vector& to, const Vector& about) {
+  return angle_of(dot(from, to), dot(about, cross(from, to)));
 }
 
 HWY_INLINE Real nearest_turn(Real angle, Real to) {

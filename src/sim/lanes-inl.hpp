@@ -40,6 +40,7 @@ HWY_INLINE Real operator*(Real a, Real b) { return {hn::Mul(a.value, b.value)}; 
 HWY_INLINE Real operator/(Real a, Real b) { return {hn::Div(a.value, b.value)}; }
 HWY_INLINE Real negative(Real a) { return {hn::Neg(a.value)}; }
 HWY_INLINE Real square_root(Real a) { return {hn::Sqrt(a.value)}; }
+HWY_INLINE Real smaller(Real a, Real b) { return {hn::Min(a.value, b.value)}; }
 HWY_INLINE Real larger(Real a, Real b) { return {hn::Max(a.value, b.value)}; }
 
 HWY_INLINE void add(Real value, Lanes& to, std::size_t lane) {

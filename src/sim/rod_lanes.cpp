@@ -1,7 +1,6 @@
 // Compiled once per instruction set; Highway chooses among them at run time.
 #include "fiber_proximity/sim/rod_lanes.hpp"
 
-#include <cmath>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
@@ -38,19 +37,12 @@ HWY_INLINE Vector director_at(const RodLanes& rods, std::size_t edge, std::size_
   return load_vector(&rods.directors[3 * edge], lane);
 }
 
-/// Angles are found one by one: Highway has none that are the same on all instruction sets.
-HWY_INLINE void measure_twist(RodLanes& rods, std::size_t node, std::size_t lane) {
+/// From the director of the edge before a node to that of the edge after it.
+HWY_INLINE Real twist_at(const RodLanes& rods, std::size_t node, std::size_t lane) {
   const Vector tangent = tangent_at(rods, node, lane);
-  const Vector director = director_at(rods, node, lane);
   const Vector carried =
       transport(director_at(rods, node - 1, lane), tangent_at(rods, node - 1, lane), tangent);
-  Lanes sine;
-  Lanes cosine;
-  store(dot(tangent, cross(carried, director)), sine, lane);
-  store(dot(carried, director), cosine, lane);
-  for (std::size_t l = lane; l < lane + lanes_at_once(); ++l) {
-    rods.director_twists[node][l] = std::atan2(sine[l], cosine[l]);
-  }
+  return signed_angle(carried, director_at(rods, node, lane), tangent);
 }
 
 void measure_directors(RodLanes& rods) {
@@ -60,7 +52,7 @@ void measure_directors(RodLanes& rods) {
       const Vector director = load_vector(&rods.start_directors[3 * i], lane);
       store(transport(director, start, tangent_at(rods, i, lane)), &rods.directors[3 * i], lane);
       if (i > 0) {
-        measure_twist(rods, i, lane);
+        store(twist_at(rods, i, lane), rods.director_twists[i], lane);
       }
     }
   }
