@@ -55,6 +55,19 @@ EffectPointer make_curved_bend(Rods& rods, Random& random) {
   return std::make_unique<Bend>();
 }
 
+/// To random sides, up to a fold and beyond.
+void curve(Rods& rods, Random& random) {
+  rods.natural_curvature_vectors.resize(rods.positions.size());
+  for (Eigen::Vector2d& curvature : rods.natural_curvature_vectors) {
+    curvature = {random.uniform(-8.0, 8.0), random.uniform(-8.0, 8.0)};
+  }
+}
+
+EffectPointer make_naturally_curved_bend(Rods& rods, Random& random) {
+  curve(rods, random);
+  return std::make_unique<Bend>();
+}
+
 /// With tensions that an earlier step has left.
 EffectPointer make_inextensible(Rods& rods, Random& random) {
   auto inextensible = std::make_unique<Inextensible>(rods);
@@ -82,6 +95,11 @@ EffectPointer make_clamps(Rods& rods, Random& random) {
     }
   }
   return attachment;
+}
+
+EffectPointer make_clamps_of_curved(Rods& rods, Random& random) {
+  curve(rods, random);
+  return make_clamps(rods, random);
 }
 
 template <class E>
@@ -218,6 +236,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(EffectCase{"bend", false, make<Bend>},
                     EffectCase{"bend_of_curved_rods", false, make_curved_bend},
                     EffectCase{"bend_beside_twist", true, make<Bend>},
+                    EffectCase{"bend_to_natural_sides", true, make_naturally_curved_bend},
                     EffectCase{"twist", true,
                                [](Rods& rods, Random& /*random*/) -> EffectPointer {
                                  return std::make_unique<Twist>(rods);
@@ -228,7 +247,8 @@ INSTANTIATE_TEST_SUITE_P(
                                }},
                     EffectCase{"inextensible", false, make_inextensible},
                     EffectCase{"clamps", false, make_clamps},
-                    EffectCase{"clamps_of_twisted_rods", true, make_clamps}),
+                    EffectCase{"clamps_of_twisted_rods", true, make_clamps},
+                    EffectCase{"clamps_of_curved_rods", true, make_clamps_of_curved}),
     name_of);
 
 }  // namespace

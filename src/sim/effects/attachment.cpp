@@ -7,6 +7,7 @@
 
 #include "fiber_proximity/sim/edge_pair.hpp"
 #include "fiber_proximity/sim/effects/twist.hpp"
+#include "natural_bend.hpp"
 
 namespace fiber {
 
@@ -157,6 +158,14 @@ void add_twisting(const ClampedEnd& end, double twist, RodSystem& system) {
   }
 }
 
+/// How a rod with natural curvature is bent against the clamp that holds it.
+NaturalBend natural_bend(const Rods& rods, const Attachment::Hold& hold,
+                         const Placement& placement) {
+  return NaturalBend::at_clamp(
+      rods, hold.rod, hold.node,
+      {placement.tangent, placement.director, placement.tangent.cross(placement.director)});
+}
+
 }  // namespace
 
 std::uint32_t Attachment::add(const Rods& rods, const Hold& hold) {
@@ -231,7 +240,9 @@ double Attachment::energy(const Rods& rods, std::uint32_t rod) const {
   double energy = 0.0;
   for (auto held = first_of(rod); held != held_.end() && held->hold.rod == rod; ++held) {
     if (held->hold.kind == Kind::CLAMP) {
-      energy += ClampedBend(rods, held->hold, held->placement).energy();
+      energy += rods.natural_curvature_vectors.empty()
+                    ? ClampedBend(rods, held->hold, held->placement).energy()
+                    : natural_bend(rods, held->hold, held->placement).energy();
       if (!rods.directors.empty()) {
         const ClampedEnd end(rods, held->hold, held->placement);
         const double twist = end.twist(held->twist);
@@ -245,7 +256,11 @@ double Attachment::energy(const Rods& rods, std::uint32_t rod) const {
 void Attachment::add_derivatives(const Rods& rods, std::uint32_t rod, RodSystem& system) const {
   for (auto held = first_of(rod); held != held_.end() && held->hold.rod == rod; ++held) {
     if (held->hold.kind == Kind::CLAMP) {
-      ClampedBend(rods, held->hold, held->placement).add_derivatives(system);
+      if (rods.natural_curvature_vectors.empty()) {
+        ClampedBend(rods, held->hold, held->placement).add_derivatives(system);
+      } else {
+        natural_bend(rods, held->hold, held->placement).add_derivatives(system);
+      }
       if (!rods.directors.empty()) {
         const ClampedEnd end(rods, held->hold, held->placement);
         add_twisting(end, end.twist(held->twist), system);

@@ -8,13 +8,17 @@ namespace fiber {
 /// EdgePair and the length l that belongs to the node (Bergou et al. 2008, Sect. 4.2).
 ///
 /// Rods::natural_curvatures, if there are any, give k₀. Without twist they have no direction: a
-/// cross-section that may turn about the tangent without effort lets the rod bend to any side.
+/// cross-section that may turn about the tangent without effort lets the rod bend to any side. With
+/// Rods::natural_curvature_vectors the energy is that of the turn away from the natural one, which
+/// the cross-sections beside the node carry along.
 class Bend : public Effect {
  public:
   double energy(const Rods& rods, std::uint32_t rod) const override;
   void add_derivatives(const Rods& rods, std::uint32_t rod, RodSystem& system) const override;
 
-  bool works_in_lanes(const Rods& rods) const override { return rods.natural_curvatures.empty(); }
+  bool works_in_lanes(const Rods& rods) const override {
+    return rods.natural_curvatures.empty() && rods.natural_curvature_vectors.empty();
+  }
   void energy_in_lanes(const RodLanes& rods, const std::vector<Lanes>& values,
                        Lanes& energy) const override;
   void add_derivatives_in_lanes(const RodLanes& rods, const std::vector<Lanes>& values,

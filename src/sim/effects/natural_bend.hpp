@@ -1,0 +1,56 @@
+#pragma once
+
+#include "fiber_proximity/sim/rod_system.hpp"
+#include "fiber_proximity/sim/rods.hpp"
+
+namespace fiber {
+
+/// What is across a rod or a clamp: the tangent there, and the material directions.
+struct CrossSection {
+  Eigen::Vector3d tangent;
+  Eigen::Vector3d first;
+  Eigen::Vector3d second;  ///< tangent x first
+};
+
+/// That of an edge of a rod with twist, where it is now.
+CrossSection cross_section(const Rods& rods, std::uint32_t edge);
+
+/// Bending of a rod with Rods::natural_curvature_vectors between two cross-sections a length l
+/// apart: ½ EI/l times what each tangent differs by from where the other cross-section would have
+/// it by nature, squared and averaged. Between edges that lie as they naturally do this is 0, in
+/// the plane of that it is the energy of Bend for the excess of the angle, and without natural
+/// curvature it is that of Bend. It averages over both cross-sections as Bergou et al. (2008,
+/// Eq. 2) do with their material curvatures, which a turn φ makes 2 tan(φ/2).
+class NaturalBend {
+ public:
+  /// @param node an inner one, counted from the rod's first
+  static NaturalBend at_node(const Rods& rods, std::uint32_t rod, std::uint32_t node);
+
+  /// At a clamp, which is an edge before the first or after the last one, half an edge's length of
+  /// rod away.
+  /// @param node an end of the rod, counted from its first node
+  static NaturalBend at_clamp(const Rods& rods, std::uint32_t rod, std::uint32_t node,
+                              const CrossSection& clamp);
+
+  double energy() const { return 0.5 * stiffness_ * residual_.squaredNorm(); }
+
+  /// Adds the gradient of the energy, and what is left of its Hessian without second derivatives of
+  /// what is squared (Gauss-Newton).
+  void add_derivatives(RodSystem& system) const;
+
+ private:
+  NaturalBend(const Rods& rods, std::uint32_t rod, std::uint32_t node, double length,
+              const CrossSection& before, const CrossSection& after);
+
+  const Rods& rods_;
+  std::uint32_t rod_;
+  std::uint32_t node_;
+  double stiffness_;  // EI/l
+  Eigen::Vector3d before_;
+  Eigen::Vector3d after_;
+  Eigen::Vector3d natural_before_;  // the tangent that the cross-section after would have before it
+  Eigen::Vector3d natural_after_;
+  Eigen::Matrix<double, 6, 1> residual_;
+};
+
+}  // namespace fiber
