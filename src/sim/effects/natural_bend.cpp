@@ -17,9 +17,6 @@ namespace {
 /// Of an edge: its first node, its angle, its second node.
 using RotationByEdge = Eigen::Matrix<double, 3, 7>;
 
-/// The average of two squares is the square of both with these shares.
-const double half_share = std::sqrt(0.5);
-
 /// The matrix of the cross product with a vector on the left.
 Matrix3d cross_matrix(const Vector3d& v) {
   Matrix3d matrix;
@@ -86,7 +83,10 @@ NaturalBend::NaturalBend(const Rods& rods, std::uint32_t rod, std::uint32_t node
       size > 0.0 ? Vector2d(std::sin(angle) / size * curvature) : Vector2d::Zero();
   natural_after_ = std::cos(angle) * before_ + side.x() * before.first + side.y() * before.second;
   natural_before_ = std::cos(angle) * after_ - side.x() * after.first - side.y() * after.second;
-  residual_ << half_share * (after_ - natural_after_), half_share * (before_ - natural_before_);
+  // A fold has no side.
+  constexpr double folded = 0.1;
+  weight_ = 0.5 / std::max(folded, std::cos(0.5 * angle));
+  residual_ = weight_ * (after_ - natural_after_ + natural_before_ - before_);
 }
 
 NaturalBend NaturalBend::at_node(const Rods& rods, std::uint32_t rod, std::uint32_t node) {
@@ -108,16 +108,15 @@ void NaturalBend::add_derivatives(RodSystem& system) const {
   const bool has_before = node_ > 0;
   const bool has_after = first + node_ + 1 < rods_.end(rod_);
   // Of the residual by what is unknown, from the first to the last node of the one or two edges.
-  Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 11> by_all;
-  by_all.setZero(6, has_before && has_after ? 11 : 7);
-  Eigen::Matrix<double, 6, 3> by_rotation;
+  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 11> by_all;
+  by_all.setZero(3, has_before && has_after ? 11 : 7);
   if (has_before) {
-    by_rotation << half_share * cross_matrix(natural_after_), -half_share * cross_matrix(before_);
-    by_all.leftCols<7>() += by_rotation * rotation_by_edge(rods_, first + node_ - 1);
+    by_all.leftCols<7>() += weight_ * cross_matrix(before_ + natural_after_) *
+                            rotation_by_edge(rods_, first + node_ - 1);
   }
   if (has_after) {
-    by_rotation << -half_share * cross_matrix(after_), half_share * cross_matrix(natural_before_);
-    by_all.rightCols<7>() += by_rotation * rotation_by_edge(rods_, first + node_);
+    by_all.rightCols<7>() -= weight_ * cross_matrix(after_ + natural_before_) *
+                             rotation_by_edge(rods_, first + node_);
   }
   add_square(has_before ? node_ - 1 : node_, stiffness_, residual_, by_all, system);
 }

@@ -50,7 +50,8 @@ class NaturalBend {
   Eigen::Vector3d after_;
   Eigen::Vector3d natural_before_;  // the tangent that the cross-section after would have before it
   Eigen::Vector3d natural_after_;
-  Eigen::Matrix<double, 6, 1> residual_;
+  double weight_;
+  Eigen::Vector3d residual_;
 };
 
 }  // namespace fiber
