@@ -10,9 +10,11 @@
 #include "fiber_proximity/sim/effects/plasticity.hpp"
 #include "fiber_proximity/sim/effects/twist.hpp"
 #include "sim/effect_derivatives.hpp"
+#include "sim/energy_bounds.hpp"
 #include "sim/random_rods.hpp"
 #include "sim/rod_scene.hpp"
 #include "support/error_of.hpp"
+#include "support/rounds.hpp"
 
 namespace fiber::test {
 namespace {
@@ -220,6 +222,51 @@ TEST(NaturalCurvature, WithoutTwistItHasSizeAlone) {
     EXPECT_NEAR(rods.natural_curvatures[i], 0.2 / (2.0 * std::sin(0.1)), 1e-12);
   }
   EXPECT_NEAR(Bend().energy(rods, 0), 0.0, 1e-24);
+}
+
+/// On a clamp, far from their natural shapes, which are curled up to folds.
+TEST(NaturalCurvature, RodsGainNoEnergyOnTheWay) {
+  SCOPED_TRACE(seed_message());
+  Random random(6);
+  for (int round = 0; round < rounds(30); ++round) {
+    const double length = std::pow(10.0, random.uniform(-2.0, 1.0));
+    const double radius = length * std::pow(10.0, random.uniform(-3.0, -1.5));
+    const RodMaterial material{std::pow(10.0, random.uniform(5.0, 11.0)),
+                               std::pow(10.0, random.uniform(5.0, 11.0)), 1000.0};
+    const int nodes = random.integer(2, 40);
+    const double edge = length / nodes;
+    Rods rods;
+    rods.add(random_chain(random, nodes, edge), radius, solid_round_section(material, radius));
+    auto twist = std::make_unique<Twist>(rods);
+    for (int node = 0; node < nodes; ++node) {
+      rods.natural_curvature_vectors.emplace_back(random.uniform(-3.0, 3.0) / edge,
+                                                  random.uniform(-3.0, 3.0) / edge);
+    }
+    displace(rods, random, 0.0, 3.0);
+    const Vector3d tangent = random.direction();
+    auto held = hold(rods, {clamp(0, {rods.positions[0], tangent, tangent.unitOrthogonal()})});
+    Effects all = effects(std::make_unique<Stretch>(), std::make_unique<Bend>(), std::move(twist),
+                          std::make_unique<Gravity>(gravity), std::move(held));
+    Storing storing;
+    for (const std::unique_ptr<Effect>& effect : all) {
+      storing.push_back(effect.get());
+    }
+    StepperOptions options;
+    options.threads = 1;
+    options.iterations = static_cast<std::uint32_t>(random.integer(1, 3));
+    options.integrator =
+        random.chance(0.5) ? Integrator::IMPLICIT_EULER : Integrator::IMPLICIT_MIDPOINT;
+    EnergyBounds bounds(rods, storing, options.integrator);
+    const double step = std::pow(10.0, random.uniform(-3.0, -1.5));
+    Stepper stepper(rods, std::move(all), options);
+    for (int i = 0; i < 150; ++i) {
+      stepper.step(step);
+      ASSERT_TRUE(bounds.hold(stepper.rods()))
+          << "round " << round << ", step " << i << " of " << step << " s, " << nodes
+          << " nodes, length " << length << ", radius " << radius << ", E "
+          << material.youngs_modulus << ", G " << material.shear_modulus;
+    }
+  }
 }
 
 TEST(NaturalCurvature, RefusesWhatItCannotUse) {

@@ -197,53 +197,6 @@ TEST(Robustness, EdgesThatTurnThroughTheirClampsGainNoEnergy) {
   }
 }
 
-/// Rods with twist, far from how they are by nature, on a clamp.
-TEST(Robustness, NaturallyCurvedRodsGainNoEnergy) {
-  SCOPED_TRACE(seed_message());
-  Random random(3);
-  for (int round = 0; round < rounds(30); ++round) {
-    const double length = std::pow(10.0, random.uniform(-2.0, 1.0));
-    const double radius = length * std::pow(10.0, random.uniform(-3.0, -1.5));
-    const RodMaterial material{std::pow(10.0, random.uniform(5.0, 11.0)),
-                               std::pow(10.0, random.uniform(5.0, 11.0)), 1000.0};
-    const int nodes = random.integer(2, 40);
-    const double edge = length / nodes;
-    Rods rods;
-    rods.add(random_chain(random, nodes, edge), radius, solid_round_section(material, radius));
-    auto twist = std::make_unique<Twist>(rods);
-    for (int node = 0; node < nodes; ++node) {
-      rods.natural_curvature_vectors.emplace_back(random.uniform(-3.0, 3.0) / edge,
-                                                  random.uniform(-3.0, 3.0) / edge);
-    }
-    displace(rods, random, 0.0, 3.0);
-    const double step = std::pow(10.0, random.uniform(-3.0, -1.5));
-    SCOPED_TRACE("round " + std::to_string(round) + ": " + std::to_string(nodes) +
-                 " nodes, length " + std::to_string(length) + ", radius " + std::to_string(radius) +
-                 ", E " + std::to_string(material.youngs_modulus) + ", G " +
-                 std::to_string(material.shear_modulus) + ", step " + std::to_string(step));
-    const Vector3d tangent = random.direction();
-    auto held = hold(rods, {clamp(0, {rods.positions[0], tangent, tangent.unitOrthogonal()})});
-    Effects all = effects(std::make_unique<Stretch>(), std::make_unique<Bend>(), std::move(twist),
-                          std::make_unique<Gravity>(gravity), std::move(held));
-    std::vector<const Effect*> storing;
-    for (const std::unique_ptr<Effect>& effect : all) {
-      storing.push_back(effect.get());
-    }
-    StepperOptions options;
-    options.threads = 1;
-    options.iterations = static_cast<std::uint32_t>(random.integer(1, 3));
-    const double before = mechanical_energy(rods, storing);
-    const double allowed = before + 1e-6 * (std::abs(before) + reach_of_gravity(rods));
-    Stepper stepper(rods, std::move(all), options);
-    for (int i = 0; i < 150; ++i) {
-      stepper.step(step);
-      ASSERT_TRUE(all_finite(stepper.rods())) << "step " << i;
-      ASSERT_LE(mechanical_energy(stepper.rods(), storing), allowed)
-          << "step " << i << ", from " << before << " J";
-    }
-  }
-}
-
 /// A gripper that is at 5 m/s at once, and stops as suddenly, after a metre.
 TEST(Robustness, AFastGripperDragsARodAlong) {
   for (const bool has_twist : {false, true}) {

@@ -76,15 +76,23 @@ class SpringTest : public testing::TestWithParam<Spring> {};
 TEST_P(SpringTest, IsAsStiffAsLoveSays) {
   const double exact = exact_stiffness(GetParam());
   const double found = simulated_stiffness(GetParam());
-  std::printf("exact %g found %g error %g %%\n", exact, found, 100.0 * (found / exact - 1.0));
   EXPECT_NEAR(found, exact, 0.01 * exact);
 }
 
 INSTANTIATE_TEST_SUITE_P(Springs, SpringTest,
-                         testing::Values(Spring{0.03, 0.77, 5, 40, 1e-4},
-                                         Spring{0.03, 0.3, 10, 40, 1e-4},
-                                         Spring{0.3, 0.77, 10, 40, 1e-4},
-                                         Spring{0.3, 0.3, 10, 80, 1e-4}));
+                         testing::Values(Spring{0.03, 0.77, 5, 60, 1e-4},
+                                         Spring{0.03, 0.3, 10, 60, 1e-4},
+                                         Spring{0.3, 0.77, 10, 60, 1e-4},
+                                         Spring{0.3, 0.3, 10, 60, 1e-4}));
+
+/// Theory is 0.2 % away from what it comes to: the clamps do not give way to the side, either.
+TEST(Spring, ItsErrorIsOfSecondOrderInTheSegments) {
+  std::vector<double> stiffness;
+  for (const int segments : {20, 40, 80}) {
+    stiffness.push_back(simulated_stiffness({0.03, 0.77, 5, segments, 1e-4}));
+  }
+  EXPECT_NEAR((stiffness[0] - stiffness[1]) / (stiffness[1] - stiffness[2]), 4.0, 0.4);
+}
 
 }  // namespace
 }  // namespace fiber::test
