@@ -191,14 +191,27 @@ TEST(NaturalCurvature, NoneIsThatOfAStraightRod) {
 
 /// In the plane of the natural arc the energy is that of Bend, for the excess of the angle.
 TEST(NaturalCurvature, BendingInItsPlaneIsThatOfTheExcess) {
-  constexpr double natural = 0.7;
-  for (const double angle : {-1.0, 0.0, 0.5, 2.0}) {
-    NaturalRod rod(helix(1.0, 0.0, natural, 2));
-    Rods& rods = rod.rods;
-    const Vector3d before = rods.positions[1] - rods.positions[0];
-    rods.positions[2] = rods.positions[1] + Eigen::AngleAxisd(angle, Vector3d::UnitZ()) * before;
-    const double excess = 2.0 * std::sin(0.5 * (angle - natural));
-    EXPECT_NEAR(Bend().energy(rods, 0), 0.5 * excess * excess / before.norm(), 1e-12);
+  for (const double natural : {0.7, 1.6, 3.0}) {
+    for (const double angle : {-1.0, 0.0, 0.5, 2.0}) {
+      NaturalRod rod(helix(1.0, 0.0, natural, 2));
+      Rods& rods = rod.rods;
+      const Vector3d before = rods.positions[1] - rods.positions[0];
+      rods.positions[2] = rods.positions[1] + Eigen::AngleAxisd(angle, Vector3d::UnitZ()) * before;
+      const double excess = 2.0 * std::sin(0.5 * (angle - natural));
+      EXPECT_NEAR(Bend().energy(rods, 0), 0.5 * excess * excess / before.norm(), 1e-12);
+    }
+  }
+}
+
+/// What is to turn by half a turn has no side to turn to, and cannot turn any further.
+TEST(NaturalCurvature, AFoldIsTheMost) {
+  for (const double natural : {M_PI, 4.0, 100.0}) {
+    Rods rods;
+    rods.add({{0, 0, 0}, {1, 0, 0}, {1.5, 0.9, 0}}, 0.01, section);
+    const Twist twist(rods);
+    set_natural_arc(rods, 0, natural / rods.rest_length_at(1), Vector3d::UnitZ());
+    EXPECT_NEAR(Bend().energy(rods, 0), 0.0, 1e-15);
+    EXPECT_NEAR(derivatives_of(Bend(), rods, 0).gradient.norm(), 0.0, 1e-8);
   }
 }
 
