@@ -176,7 +176,7 @@ TEST_F(SimSceneTest, ErrorsNameLineAndWhatIsAllowed) {
       {scene_text(line, "[twist, {bend: {natural_curvature: from_shape, towards: [0, 1, 0]}}]"),
        "it must be absent where the natural curvature is from_shape"},
       {scene_text(line, "[twist, plasticity, {bend: {natural_curvature: from_shape}}]"),
-       "7: effects[1].plasticity: plasticity: what stays has no direction"},
+       "7: effects[1]: plasticity: what stays has no direction"},
       {scene_text("{line: {from: [0, 0, 0], to: [0, 0, 0]}}", "[stretch]"),
        "2: fibers[0]: rod 0: edge 0 has no length: its points are the same (fibre 'cable')"},
       {scene_text("{circle: {}}", "[stretch]"), "has the unknown key 'circle', known are: arc"},

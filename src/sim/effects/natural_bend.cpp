@@ -61,7 +61,7 @@ void add_square(std::uint32_t first_node, double stiffness, const Residual& resi
 
 CrossSection cross_section(const Rods& rods, std::uint32_t edge) {
   const Vector3d tangent = edge_direction(rods, edge).tangent;
-  const Vector3d director = transport(rods.directors[edge], rods.start_tangents[edge], tangent);
+  const Vector3d director = current_director(rods, edge);
   const Vector3d across = tangent.cross(director);
   const double cosine = std::cos(rods.angles[edge]);
   const double sine = std::sin(rods.angles[edge]);
@@ -115,8 +115,8 @@ void NaturalBend::add_derivatives(RodSystem& system) const {
                             rotation_by_edge(rods_, first + node_ - 1);
   }
   if (has_after) {
-    by_all.rightCols<7>() -= weight_ * cross_matrix(after_ + natural_before_) *
-                             rotation_by_edge(rods_, first + node_);
+    by_all.rightCols<7>() -=
+        weight_ * cross_matrix(after_ + natural_before_) * rotation_by_edge(rods_, first + node_);
   }
   add_square(has_before ? node_ - 1 : node_, stiffness_, residual_, by_all, system);
 }

@@ -16,11 +16,12 @@ struct CrossSection {
 CrossSection cross_section(const Rods& rods, std::uint32_t edge);
 
 /// Bending of a rod with Rods::natural_curvature_vectors between two cross-sections a length l
-/// apart: ½ EI/l times what each tangent differs by from where the other cross-section would have
-/// it by nature, squared and averaged. Between edges that lie as they naturally do this is 0, in
-/// the plane of that it is the energy of Bend for the excess of the angle, and without natural
-/// curvature it is that of Bend. It averages over both cross-sections as Bergou et al. (2008,
-/// Eq. 2) do with their material curvatures, which a turn φ makes 2 tan(φ/2).
+/// apart: ½ EI/l |r|², r = (t₂ − t̂₂ − t₁ + t̂₁) / 2 cos(φ₀/2), with their tangents t, the tangents t̂
+/// that each would have as the other cross-section has it by nature, and the angle φ₀ between them
+/// then. As Bergou et al. (2008, Sect. 4.2) do with their material curvatures it averages over both
+/// cross-sections, but before it squares: twist between them would be stiffer otherwise. In the
+/// plane of the natural bend it is the energy of Bend for the excess of the angle; without natural
+/// curvature it is that of Bend.
 class NaturalBend {
  public:
   /// @param node an inner one, counted from the rod's first

@@ -8,9 +8,9 @@ namespace fiber {
 /// EdgePair and the length l that belongs to the node (Bergou et al. 2008, Sect. 4.2).
 ///
 /// Rods::natural_curvatures, if there are any, give k₀. Without twist they have no direction: a
-/// cross-section that may turn about the tangent without effort lets the rod bend to any side. With
-/// Rods::natural_curvature_vectors the energy is that of the turn away from the natural one, which
-/// the cross-sections beside the node carry along.
+/// cross-section that may turn about the tangent without effort lets the rod bend to any side.
+/// Rods::natural_curvature_vectors have one, which cross-sections carry along: the energy is then
+/// that of the turn away from the natural one.
 class Bend : public Effect {
  public:
   double energy(const Rods& rods, std::uint32_t rod) const override;
