@@ -66,12 +66,14 @@ TEST_F(SimSceneTest, OnlyNamedEffectsAreMade) {
   const SimScene bare = read(scene_text(line, "[stretch, bend]"));
   EXPECT_TRUE(bare.stepper->rods().angles.empty());
   EXPECT_TRUE(bare.stepper->rods().natural_curvatures.empty());
+  EXPECT_TRUE(bare.stepper->rods().natural_curvature_vectors.empty());
   EXPECT_EQ(bare.attachment, nullptr);
   EXPECT_EQ(bare.effect_names, (std::vector<std::string>{"stretch", "bend"}));
   const SimScene twisted =
       read(scene_text(line, "[stretch, {bend: {natural_curvature: 2}}, twist, attachment]"));
   EXPECT_EQ(twisted.stepper->rods().angles.size(), 5U);
   EXPECT_EQ(twisted.stepper->rods().natural_curvatures, std::vector<double>(5, 2.0));
+  EXPECT_TRUE(twisted.stepper->rods().natural_curvature_vectors.empty());
   EXPECT_NE(twisted.attachment, nullptr);
 }
 
@@ -93,11 +95,13 @@ TEST_F(SimSceneTest, NaturalCurvatureHasASideWhereTheSceneSaysSo) {
   const char* const helix = "{helix: {center: [0, 0, 0], radius: 1, pitch: 1, turns: 1}}";
   const fiber::Rods curled =
       rods_of(helix, "[stretch, twist, {bend: {natural_curvature: from_shape}}]");
+  ASSERT_EQ(curled.natural_curvature_vectors.size(), 5U);
   EXPECT_GT(curled.natural_curvature_vectors[2].norm(), 0.5);
   EXPECT_LT(fiber::Bend().energy(curled, 0), 1e-20);
   const fiber::Rods untwisted =
       rods_of(helix, "[stretch, {bend: {natural_curvature: from_shape}}]");
   EXPECT_TRUE(untwisted.natural_curvature_vectors.empty());
+  ASSERT_EQ(untwisted.natural_curvatures.size(), 5U);
   EXPECT_NEAR(untwisted.natural_curvatures[2], curled.natural_curvature_vectors[2].norm(), 1e-12);
 }
 
