@@ -6,6 +6,7 @@ add_library(fiber_proximity_cable_sim SHARED
   src/ros/sim_frames.cpp
   src/ros/sim_holds.cpp
   src/ros/sim_markers.cpp
+  src/ros/sim_natural_curvature.cpp
   src/ros/sim_parameters.cpp
   src/ros/sim_report.cpp
   src/ros/sim_resolution.cpp

@@ -21,6 +21,7 @@ add_library(fiber_proximity_sim SHARED
   src/sim/effects/gravity_lanes.cpp
   src/sim/effects/inextensible.cpp
   src/sim/effects/inextensible_lanes.cpp
+  src/sim/effects/natural_bend.cpp
   src/sim/effects/plasticity.cpp
   src/sim/effects/stretch.cpp
   src/sim/effects/stretch_lanes.cpp
@@ -30,6 +31,7 @@ add_library(fiber_proximity_sim SHARED
   src/sim/lane_sums.cpp
   src/sim/material.cpp
   src/sim/material_presets.cpp
+  src/sim/natural_curvature.cpp
   src/sim/resolution.cpp
   src/sim/rod_batch.cpp
   src/sim/rod_batch_beginning.cpp

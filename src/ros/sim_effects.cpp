@@ -6,6 +6,7 @@
 
 #include "fiber_proximity/ros/listed.hpp"
 #include "fiber_proximity/ros/naming.hpp"
+#include "fiber_proximity/ros/sim_natural_curvature.hpp"
 #include "fiber_proximity/sim/effects/bend.hpp"
 #include "fiber_proximity/sim/effects/damping.hpp"
 #include "fiber_proximity/sim/effects/drag.hpp"
@@ -106,18 +107,6 @@ Eigen::Vector3d read_gravity(const NamedEffects& named) {
   return acceleration;
 }
 
-void set_natural_curvature(const NamedEffects& named, fiber::Rods& rods) {
-  double curvature = 0.0;
-  const auto options = named.options("bend", {"natural_curvature"});
-  read(options, "natural_curvature", curvature);
-  if (!(std::isfinite(curvature) && curvature >= 0.0)) {
-    options->get("natural_curvature").refuse("at least 0 and finite");
-  }
-  if (curvature > 0.0) {
-    rods.natural_curvatures.assign(rods.positions.size(), curvature);
-  }
-}
-
 std::unique_ptr<fiber::Effect> make_drag(const NamedEffects& named, SimParameters& parameters) {
   fiber::Drag::Options drag;
   const auto options = named.options("drag", {"fluid_density", "across", "along", "wind"});
@@ -140,7 +129,7 @@ std::unique_ptr<fiber::Effect> make_attachment(const NamedEffects& named, const 
                                                const fiber::Rods& rods, SimEffects& made) {
   auto attachment = std::make_unique<fiber::Attachment>();
   if (const auto& list = named.list("attachment")) {
-    SimHolds holds = read_sim_holds(*list, world.fibers);
+    SimHolds holds = read_sim_holds(*list, world.fibers, rods);
     for (const SimHold& hold : holds.holds) {
       naming(hold.place, [&] { return attachment->add(rods, hold.hold); });
     }
@@ -243,12 +232,14 @@ SimEffects read_sim_effects(const YamlField& list, const SimWorld& world, fiber:
     effects.push_back(make<fiber::Inextensible>(named, "inextensible", rods));
   }
   if (named.has("bend")) {
-    set_natural_curvature(named, rods);
     effects.push_back(make<fiber::Bend>(named, "bend"));
   }
   if (named.has("twist")) {
     named.options("twist", {});
     effects.push_back(make<fiber::Twist>(named, "twist", rods));
+  }
+  if (named.has("bend") && named.list("bend")) {  // after twist, which gives rods their frames
+    read_natural_curvature(*named.list("bend"), world.fibers, rods);
   }
   if (named.has("damping")) {
     double relaxation_time = 0.01;

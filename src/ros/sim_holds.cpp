@@ -41,11 +41,13 @@ std::uint32_t read_node(const std::optional<YamlField>& node, std::size_t count)
   return static_cast<std::uint32_t>(node->text() == "last" ? last : node->integer(0, last));
 }
 
-/// How the fibre is at this node when the simulation begins.
-Placement placement_of(const SimFiber& fiber, std::uint32_t node) {
-  const std::uint32_t edge = std::min(node, static_cast<std::uint32_t>(fiber.points.size()) - 2);
-  const Vector3d tangent = (fiber.points[edge + 1] - fiber.points[edge]).normalized();
-  return {fiber.points[node], tangent, tangent.unitOrthogonal()};
+/// How a rod is at this node when the simulation begins.
+Placement placement_of(const fiber::Rods& rods, std::uint32_t rod, std::uint32_t node) {
+  const std::uint32_t i = rods.first(rod) + node;
+  const std::uint32_t edge = std::min(i, rods.end(rod) - 2);
+  const Vector3d tangent = (rods.positions[edge + 1] - rods.positions[edge]).normalized();
+  return {rods.positions[i], tangent,
+          rods.directors.empty() ? tangent.unitOrthogonal() : rods.directors[edge]};
 }
 
 Vector3d unit(const YamlField& field) {
@@ -180,14 +182,15 @@ std::function<Placement(double)> follow(const YamlField& entry, Path path, doubl
   return [path](double time) { return at(path, time); };
 }
 
-void read_hold(const YamlField& entry, std::uint32_t rod, const SimFiber& fiber, SimHolds& holds) {
+void read_hold(const YamlField& entry, std::uint32_t rod, const SimFiber& fiber,
+               const fiber::Rods& rods, SimHolds& holds) {
   Attachment::Hold hold;
   hold.rod = rod;
   hold.node = read_node(entry.find("node"), fiber.points.size());
   hold.kind = read_kind(entry.find("kind"));
   const auto path = entry.find("path");
   const auto frame = entry.find("frame");
-  Placement placement = placement_of(fiber, hold.node);
+  Placement placement = placement_of(rods, rod, hold.node);
   const Placement beginning = placement;
   if (frame) {
     placement.position.setZero();
@@ -223,13 +226,14 @@ void read_hold(const YamlField& entry, std::uint32_t rod, const SimFiber& fiber,
 
 }  // namespace
 
-SimHolds read_sim_holds(const YamlField& list, const std::vector<SimFiber>& fibers) {
+SimHolds read_sim_holds(const YamlField& list, const std::vector<SimFiber>& fibers,
+                        const fiber::Rods& rods) {
   SimHolds holds;
   for (const YamlField& entry : list.items()) {
     entry.require_map(
         {"fiber", "node", "kind", "position", "tangent", "director", "path", "period", "frame"});
     for (const std::uint32_t rod : find_fibers(entry.get("fiber"), fibers)) {
-      naming_fiber(fibers[rod].name, [&] { read_hold(entry, rod, fibers[rod], holds); });
+      naming_fiber(fibers[rod].name, [&] { read_hold(entry, rod, fibers[rod], rods, holds); });
     }
   }
   return holds;

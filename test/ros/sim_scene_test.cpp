@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "fiber_proximity/ros/sim_report.hpp"
+#include "fiber_proximity/sim/effects/bend.hpp"
 #include "ros/mesh_files.hpp"
 #include "support/error_of.hpp"
 #include "support/temporary_directory.hpp"
@@ -65,13 +66,58 @@ TEST_F(SimSceneTest, OnlyNamedEffectsAreMade) {
   const SimScene bare = read(scene_text(line, "[stretch, bend]"));
   EXPECT_TRUE(bare.stepper->rods().angles.empty());
   EXPECT_TRUE(bare.stepper->rods().natural_curvatures.empty());
+  EXPECT_TRUE(bare.stepper->rods().natural_curvature_vectors.empty());
   EXPECT_EQ(bare.attachment, nullptr);
   EXPECT_EQ(bare.effect_names, (std::vector<std::string>{"stretch", "bend"}));
   const SimScene twisted =
       read(scene_text(line, "[stretch, {bend: {natural_curvature: 2}}, twist, attachment]"));
   EXPECT_EQ(twisted.stepper->rods().angles.size(), 5U);
   EXPECT_EQ(twisted.stepper->rods().natural_curvatures, std::vector<double>(5, 2.0));
+  EXPECT_TRUE(twisted.stepper->rods().natural_curvature_vectors.empty());
   EXPECT_NE(twisted.attachment, nullptr);
+}
+
+TEST_F(SimSceneTest, NaturalCurvatureHasASideWhereTheSceneSaysSo) {
+  const auto rods_of = [this](const std::string& shape, const std::string& effects) {
+    return read(scene_text(shape, effects)).stepper->rods();
+  };
+  const fiber::Rods rods =
+      rods_of(line, "[stretch, {bend: {natural_curvature: 2, towards: [1, 0, -3]}}, twist]");
+  EXPECT_TRUE(rods.natural_curvatures.empty());
+  ASSERT_EQ(rods.natural_curvature_vectors.size(), 5U);
+  for (const Eigen::Vector2d& curvature : rods.natural_curvature_vectors) {
+    const Eigen::Vector3d& first = rods.directors[0];
+    const Eigen::Vector3d bent =
+        curvature.x() * first + curvature.y() * Eigen::Vector3d::UnitX().cross(first);
+    EXPECT_NEAR((bent - Eigen::Vector3d(0, 0, -2)).norm(), 0.0, 1e-12);
+  }
+
+  const char* const helix = "{helix: {center: [0, 0, 0], radius: 1, pitch: 1, turns: 1}}";
+  const fiber::Rods curled =
+      rods_of(helix, "[stretch, twist, {bend: {natural_curvature: from_shape}}]");
+  ASSERT_EQ(curled.natural_curvature_vectors.size(), 5U);
+  EXPECT_GT(curled.natural_curvature_vectors[2].norm(), 0.5);
+  EXPECT_LT(fiber::Bend().energy(curled, 0), 1e-20);
+  const fiber::Rods untwisted =
+      rods_of(helix, "[stretch, {bend: {natural_curvature: from_shape}}]");
+  EXPECT_TRUE(untwisted.natural_curvature_vectors.empty());
+  ASSERT_EQ(untwisted.natural_curvatures.size(), 5U);
+  EXPECT_NEAR(untwisted.natural_curvatures[2], curled.natural_curvature_vectors[2].norm(), 1e-12);
+}
+
+/// A clamp that says nothing of how the section lies takes it as it is, at both ends.
+TEST_F(SimSceneTest, ClampsDoNotTwistACurledFibre) {
+  SimScene scene = read(
+      scene_text("{helix: {center: [0, 0, 0], radius: 1, pitch: 1, turns: 0.7}}",
+                 "[stretch, twist, {bend: {natural_curvature: from_shape}}, {attachment: [{fiber: "
+                 "cable, kind: clamp}, {fiber: cable, kind: clamp, node: last}]}]"));
+  const std::vector<Eigen::Vector3d> beginning = scene.stepper->rods().positions;
+  for (int i = 0; i < 10; ++i) {
+    scene.stepper->step(0.1);
+  }
+  for (std::size_t i = 0; i < beginning.size(); ++i) {
+    EXPECT_NEAR((scene.stepper->rods().positions[i] - beginning[i]).norm(), 0.0, 1e-9);
+  }
 }
 
 TEST_F(SimSceneTest, AGripperFollowsItsPathAndStopsAtItsEnd) {
@@ -117,7 +163,24 @@ TEST_F(SimSceneTest, ErrorsNameLineAndWhatIsAllowed) {
       {scene_text(line, "[friction]"), "name self_contact, fiber_contact or environment_contact"},
       {scene_text(line, "[environment_contact]"), "the scene has no environment"},
       {scene_text(line, "[{damping: {relaxation_time: -1}}]"), "relaxation time is -1"},
-      {scene_text(line, "[{bend: {natural_curvature: -1}}]"), "natural_curvature is -1"},
+      {scene_text(line, "[{bend: {natural_curvature: -1}}]"),
+       "7: effects[0].bend.natural_curvature is -1, it must be at least 0 and finite, or "
+       "from_shape"},
+      {scene_text(line, "[{bend: {natural_curvature: shape}}]"),
+       "natural_curvature is shape, it must be at least 0 and finite, or from_shape"},
+      {scene_text(line, "[{bend: {natural_curvature: 1, towards: [0, 1, 0]}}]"),
+       "7: effects[0].bend.towards is [0, 1, 0], it must be absent where there is no twist"},
+      {scene_text(line, "[{bend: {natural_curvature: 1, towards: [2, 0, 0]}}, twist]"),
+       "7: effects[0].bend.towards is [2, 0, 0], it must be finite and a direction across the "
+       "fibre's first edge (fibre 'cable')"},
+      {scene_text(line, "[twist, {bend: {natural_curvature: 1, towards: 3}}]"),
+       "towards is 3, it must be a list of 3 numbers"},
+      {scene_text(line, "[twist, {bend: {towards: [0, 1, 0]}}]"),
+       "it must be absent where there is no natural_curvature"},
+      {scene_text(line, "[twist, {bend: {natural_curvature: from_shape, towards: [0, 1, 0]}}]"),
+       "it must be absent where the natural curvature is from_shape"},
+      {scene_text(line, "[twist, plasticity, {bend: {natural_curvature: from_shape}}]"),
+       "7: effects[1]: plasticity: what stays has no direction"},
       {scene_text("{line: {from: [0, 0, 0], to: [0, 0, 0]}}", "[stretch]"),
        "2: fibers[0]: rod 0: edge 0 has no length: its points are the same (fibre 'cable')"},
       {scene_text("{circle: {}}", "[stretch]"), "has the unknown key 'circle', known are: arc"},

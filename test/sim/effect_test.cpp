@@ -63,6 +63,19 @@ EffectPointer make_curved_bend(Rods& rods, Random& random) {
   return std::make_unique<Bend>();
 }
 
+/// To random sides, up to a fold and beyond.
+void curve(Rods& rods, Random& random) {
+  rods.natural_curvature_vectors.resize(rods.positions.size());
+  for (Eigen::Vector2d& curvature : rods.natural_curvature_vectors) {
+    curvature = {random.uniform(-8.0, 8.0), random.uniform(-8.0, 8.0)};
+  }
+}
+
+EffectPointer make_naturally_curved_bend(Rods& rods, Random& random) {
+  curve(rods, random);
+  return std::make_unique<Bend>();
+}
+
 /// With tensions that an earlier step has left.
 EffectPointer make_inextensible(Rods& rods, Random& random) {
   auto inextensible = std::make_unique<Inextensible>(rods);
@@ -103,6 +116,11 @@ EffectPointer make_clamps(Rods& rods, Random& random) {
     }
   }
   return attachment;
+}
+
+EffectPointer make_clamps_of_curved(Rods& rods, Random& random) {
+  curve(rods, random);
+  return make_clamps(rods, random);
 }
 
 template <class E>
@@ -184,7 +202,7 @@ void expect_near(const MatrixXd& found, const MatrixXd& expected) {
 
 /// What the functions for rods side by side find is what those for one rod find.
 void expect_same_side_by_side(EffectPointer effect, const Rods& rods) {
-  EXPECT_TRUE(effect->works_in_lanes(rods));
+  EXPECT_EQ(effect->works_in_lanes(rods), rods.natural_curvature_vectors.empty());
   Effects effects;
   effects.push_back(std::move(effect));
   const SideBySide found = side_by_side(effects, rods);
@@ -307,19 +325,21 @@ TEST(Damping, OfRodsThatAreFoldedIsTheSameSideBySide) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Approximate, EffectTest,
-                         testing::Values(EffectCase{"bend", false, make<Bend>},
-                                         EffectCase{"bend_of_curved_rods", false, make_curved_bend},
-                                         EffectCase{"bend_beside_twist", true, make<Bend>},
-                                         EffectCase{"bend_of_curved_rods_beside_twist", true,
-                                                    make_curved_bend},
-                                         EffectCase{"twist", true, make_twist},
-                                         EffectCase{"damping", false, make_damping},
-                                         EffectCase{"damping_beside_twist", true, make_damping},
-                                         EffectCase{"inextensible", false, make_inextensible},
-                                         EffectCase{"clamps", false, make_clamps},
-                                         EffectCase{"clamps_of_twisted_rods", true, make_clamps}),
-                         name_of);
+INSTANTIATE_TEST_SUITE_P(
+    Approximate, EffectTest,
+    testing::Values(EffectCase{"bend", false, make<Bend>},
+                    EffectCase{"bend_of_curved_rods", false, make_curved_bend},
+                    EffectCase{"bend_beside_twist", true, make<Bend>},
+                    EffectCase{"bend_of_curved_rods_beside_twist", true, make_curved_bend},
+                    EffectCase{"twist", true, make_twist},
+                    EffectCase{"damping", false, make_damping},
+                    EffectCase{"damping_beside_twist", true, make_damping},
+                    EffectCase{"inextensible", false, make_inextensible},
+                    EffectCase{"clamps", false, make_clamps},
+                    EffectCase{"bend_to_natural_sides", true, make_naturally_curved_bend},
+                    EffectCase{"clamps_of_twisted_rods", true, make_clamps},
+                    EffectCase{"clamps_of_curved_rods", true, make_clamps_of_curved}),
+    name_of);
 
 }  // namespace
 }  // namespace fiber::test

@@ -47,7 +47,9 @@ struct SimHolds {
 ///   frame:    of tf, that carries it: position, the frame's origin if there is none, tangent and
 ///             director are in this frame. As long as tf does not know it, the fibre stays where it
 ///             is
+/// @param rods those of the fibres, as the simulation begins
 /// @throws std::invalid_argument naming file, line, field and value, and what is allowed
-SimHolds read_sim_holds(const YamlField& list, const std::vector<SimFiber>& fibers);
+SimHolds read_sim_holds(const YamlField& list, const std::vector<SimFiber>& fibers,
+                        const fiber::Rods& rods);
 
 }  // namespace fiber_proximity_ros

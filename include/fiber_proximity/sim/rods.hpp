@@ -33,6 +33,11 @@ struct Rods {
 
   std::vector<double> natural_curvatures;  ///< of nodes [1/m]; empty: all are 0
 
+  /// With twist only, and in place of these if not empty: how the rod bends at rest, along the
+  /// material directions of its cross-sections (material curvatures of Bergou et al. 2008, Sect.
+  /// 4.2), of nodes [1/m]. At an end it is against a clamp. natural_curvature.hpp makes them.
+  std::vector<Eigen::Vector2d> natural_curvature_vectors;
+
   /// With twist only, by edge: a unit vector across the edge that follows it without turning about
   /// it, as it was when the step began, and the tangent then.
   std::vector<Eigen::Vector3d> directors;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "clamped_end.hpp"
+#include "natural_bend.hpp"
 
 namespace fiber {
 
@@ -50,6 +51,14 @@ void validate(const Rods& rods, const Attachment::Hold& hold, const Placement& p
                                   std::abs(placement.director.dot(placement.tangent)) > 1e-6)) {
     refuse(hold, "a clamp's director must be of unit length and across its tangent");
   }
+}
+
+/// How a rod with natural curvature is bent against the clamp that holds it.
+NaturalBend natural_bend(const Rods& rods, const Attachment::Hold& hold,
+                         const Placement& placement) {
+  return NaturalBend::at_clamp(
+      rods, hold.rod, hold.node,
+      {placement.tangent, placement.director, placement.tangent.cross(placement.director)});
 }
 
 }  // namespace
@@ -135,6 +144,9 @@ double Attachment::energy(const Rods& rods, std::uint32_t rod) const {
   double energy = 0.0;
   for_each_clamp(rod, [&](const Held& held) {
     energy += ClampedEnd(rods, held.hold, held.placement).energy(held.twist);
+    if (!rods.natural_curvature_vectors.empty()) {
+      energy += natural_bend(rods, held.hold, held.placement).energy();
+    }
   });
   return energy;
 }
@@ -142,6 +154,9 @@ double Attachment::energy(const Rods& rods, std::uint32_t rod) const {
 void Attachment::add_derivatives(const Rods& rods, std::uint32_t rod, RodSystem& system) const {
   for_each_clamp(rod, [&](const Held& held) {
     ClampedEnd(rods, held.hold, held.placement).add_derivatives(held.twist, system);
+    if (!rods.natural_curvature_vectors.empty()) {
+      natural_bend(rods, held.hold, held.placement).add_derivatives(system);
+    }
   });
 }
 

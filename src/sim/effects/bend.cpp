@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fiber_proximity/sim/edge_pair.hpp"
+#include "natural_bend.hpp"
 
 namespace fiber {
 
@@ -39,6 +40,12 @@ void Bend::begin_step(Rods& rods, const TimeStep& /*step*/) {
 
 double Bend::energy(const Rods& rods, std::uint32_t rod) const {
   double energy = 0.0;
+  if (!rods.natural_curvature_vectors.empty()) {
+    for (std::uint32_t node = 1; node + 1 < rods.node_count(rod); ++node) {
+      energy += NaturalBend::at_node(rods, rod, node).energy();
+    }
+    return energy;
+  }
   for (std::uint32_t i = rods.first(rod) + 1; i + 1 < rods.end(rod); ++i) {
     const double excess = EdgePair(rods, i).turn().norm() - natural_turn(rods, i);
     energy += excess * excess / rods.rest_length_at(i);
@@ -47,6 +54,12 @@ double Bend::energy(const Rods& rods, std::uint32_t rod) const {
 }
 
 void Bend::add_derivatives(const Rods& rods, std::uint32_t rod, RodSystem& system) const {
+  if (!rods.natural_curvature_vectors.empty()) {
+    for (std::uint32_t node = 1; node + 1 < rods.node_count(rod); ++node) {
+      NaturalBend::at_node(rods, rod, node).add_derivatives(system);
+    }
+    return;
+  }
   const std::uint32_t first = rods.first(rod);
   for (std::uint32_t i = first + 1; i + 1 < rods.end(rod); ++i) {
     const EdgePair pair(rods, i);

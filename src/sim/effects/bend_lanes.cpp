@@ -74,8 +74,9 @@ void curved_energy(const RodLanes& rods, const std::vector<Lanes>& natural, Lane
 HWY_INLINE Vector direction_of(const CurvedTurn& turn, const Vector& tangent) {
   const Real zero = real(0.0);
   const auto is_bent = hn::Gt(turn.size.value, zero.value);
+  const Vector along = real(1.0) / turn.size * turn.turn;
   if (hn::AllTrue(LaneTag(), is_bent)) {
-    return real(1.0) / turn.size * turn.turn;
+    return along;
   }
   Lanes across[3];
   store(tangent, across, 0);
@@ -88,8 +89,7 @@ HWY_INLINE Vector direction_of(const CurvedTurn& turn, const Vector& tangent) {
   }
   Vector direction;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Real along = turn.turn.of[k] / turn.size;
-    direction.of[k] = {hn::IfThenElse(is_bent, along.value, load(across[k], 0).value)};
+    direction.of[k] = {hn::IfThenElse(is_bent, along.of[k].value, load(across[k], 0).value)};
   }
   return direction;
 }

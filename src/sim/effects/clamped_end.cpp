@@ -20,7 +20,8 @@ ClampedEnd::ClampedEnd(const Rods& rods, const Attachment::Hold& hold, const Pla
   const std::uint32_t edge = rods.first(hold.rod) + edge_;
   const RodSection& section = rods.sections[hold.rod];
   direction_ = edge_direction(rods, edge);
-  set_stiffnesses(section.bending_stiffness, section.twisting_stiffness, rods.rest_lengths[edge]);
+  const double bending = rods.natural_curvature_vectors.empty() ? section.bending_stiffness : 0.0;
+  set_stiffnesses(bending, section.twisting_stiffness, rods.rest_lengths[edge]);
   has_twist_ = !rods.directors.empty();
   if (has_twist_) {
     angle_ = rods.angles[edge];

@@ -12,6 +12,10 @@ Plasticity::Plasticity(Rods& rods, const Options& options) : options_(options) {
   require_positive("plasticity: the yield strain", options.yield_strain);
   require(options.hardening >= 0.0 && options.hardening < 1.0, "plasticity: the hardening",
           options.hardening, "", "at least 0 and less than 1");
+  if (!rods.natural_curvature_vectors.empty()) {
+    throw std::invalid_argument(
+        "plasticity: what stays has no direction, natural curvature must have none, too");
+  }
   rods.natural_curvatures.resize(rods.positions.size(), 0.0);
 }
 

@@ -50,7 +50,9 @@ class Attachment : public Effect {
   double energy(const Rods& rods, std::uint32_t rod) const override;
   void add_derivatives(const Rods& rods, std::uint32_t rod, RodSystem& system) const override;
 
-  bool works_in_lanes(const Rods& /*rods*/) const override { return true; }
+  bool works_in_lanes(const Rods& rods) const override {
+    return rods.natural_curvature_vectors.empty();
+  }
   void energy_in_lanes(const RodLanes& rods, const std::vector<Lanes>& values,
                        Lanes& energy) const override;
   void add_derivatives_in_lanes(const RodLanes& rods, const std::vector<Lanes>& values,

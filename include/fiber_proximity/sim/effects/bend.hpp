@@ -9,6 +9,8 @@ namespace fiber {
 ///
 /// Rods::natural_curvatures, if there are any, give k₀. Without twist they have no direction: a
 /// cross-section that may turn about the tangent without effort lets the rod bend to any side.
+/// Rods::natural_curvature_vectors have one, which cross-sections carry along: the energy is then
+/// that of the turn away from the natural one.
 class Bend : public Effect {
  public:
   double energy(const Rods& rods, std::uint32_t rod) const override;
@@ -16,7 +18,9 @@ class Bend : public Effect {
 
   void begin_step(Rods& rods, const TimeStep& step) override;
 
-  bool works_in_lanes(const Rods& /*rods*/) const override { return true; }
+  bool works_in_lanes(const Rods& rods) const override {
+    return rods.natural_curvature_vectors.empty();
+  }
   std::uint32_t values_per_node() const override { return natural_turns_.empty() ? 0 : 1; }
   const double* values_of(std::uint32_t node) const override { return &natural_turns_[node]; }
   void energy_in_lanes(const RodLanes& rods, const std::vector<Lanes>& values,

@@ -15,7 +15,8 @@ class Plasticity : public Effect {
   };
 
   /// Adds Rods::natural_curvatures if there are none.
-  /// @throws std::invalid_argument naming the value that is out of its range
+  /// @throws std::invalid_argument naming the value that is out of its range, or for rods with
+  ///         natural curvature vectors
   Plasticity(Rods& rods, const Options& options);
 
   double energy(const Rods& /*rods*/, std::uint32_t /*rod*/) const override { return 0.0; }

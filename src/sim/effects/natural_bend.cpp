@@ -1,0 +1,125 @@
+#include "natural_bend.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fiber_proximity/sim/edge_pair.hpp"
+#include "fiber_proximity/sim/effects/twist.hpp"
+
+namespace fiber {
+
+using Eigen::Matrix3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+namespace {
+
+/// Of an edge: its first node, its angle, its second node.
+using RotationByEdge = Eigen::Matrix<double, 3, 7>;
+
+/// The matrix of the cross product with a vector on the left.
+Matrix3d cross_matrix(const Vector3d& v) {
+  Matrix3d matrix;
+  matrix << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
+  return matrix;
+}
+
+/// How the cross-section of an edge rotates by what is unknown of the edge.
+RotationByEdge rotation_by_edge(const Rods& rods, std::uint32_t edge) {
+  const EdgeDirection direction = edge_direction(rods, edge);
+  const Matrix3d by_second =
+      cross_matrix(direction.tangent) / direction.length +
+      direction.tangent * director_turn(rods.start_tangents[edge], direction).transpose();
+  RotationByEdge rotation;
+  rotation << -by_second, direction.tangent, by_second;
+  return rotation;
+}
+
+/// Adds the derivatives of half the square of a residual.
+/// @param first_node counted from the rod's first
+/// @param by_all     of the residual by all unknowns from there on
+template <class Residual, class ByAll>
+void add_square(std::uint32_t first_node, double stiffness, const Residual& residual,
+                const ByAll& by_all, RodSystem& system) {
+  const Eigen::Index count = by_all.cols();
+  for (Eigen::Index c = 0; c < count; c += 4) {
+    const auto node = first_node + static_cast<std::uint32_t>(c / 4);
+    const Vector3d gradient = by_all.template middleCols<3>(c).transpose() * residual;
+    system.add_gradient(node, stiffness * gradient);
+    if (c + 3 < count) {
+      system.add_angle_gradient(node, stiffness * by_all.col(c + 3).dot(residual));
+    }
+  }
+  const std::size_t start = std::size_t{first_node} * system.unknowns();
+  for (Eigen::Index c = 0; c < count; ++c) {
+    for (Eigen::Index r = c; r < count; ++r) {
+      system.add_hessian_entry(start + r, start + c, stiffness * by_all.col(r).dot(by_all.col(c)));
+    }
+  }
+}
+
+}  // namespace
+
+CrossSection cross_section(const Rods& rods, std::uint32_t edge) {
+  const Vector3d tangent = edge_direction(rods, edge).tangent;
+  const Vector3d director = current_director(rods, edge);
+  const Vector3d across = tangent.cross(director);
+  const double cosine = std::cos(rods.angles[edge]);
+  const double sine = std::sin(rods.angles[edge]);
+  return {tangent, cosine * director + sine * across, cosine * across - sine * director};
+}
+
+NaturalBend::NaturalBend(const Rods& rods, std::uint32_t rod, std::uint32_t node, double length,
+                         const CrossSection& before, const CrossSection& after)
+    : rods_(rods),
+      rod_(rod),
+      node_(node),
+      stiffness_(rods.sections[rod].bending_stiffness / length),
+      before_(before.tangent),
+      after_(after.tangent) {
+  const Vector2d& curvature = rods.natural_curvature_vectors[rods.first(rod) + node];
+  const double size = curvature.norm();
+  const double angle = std::min(size * length, M_PI);
+  const Vector2d side =
+      size > 0.0 ? Vector2d(std::sin(angle) / size * curvature) : Vector2d::Zero();
+  natural_after_ = std::cos(angle) * before_ + side.x() * before.first + side.y() * before.second;
+  natural_before_ = std::cos(angle) * after_ - side.x() * after.first - side.y() * after.second;
+  // A fold has no side: there, nothing but rounding errors would be left.
+  constexpr double folded = 1e-6;
+  weight_ = 0.5 / std::max(folded, std::cos(0.5 * angle));
+  residual_ = weight_ * (after_ - natural_after_ + natural_before_ - before_);
+}
+
+NaturalBend NaturalBend::at_node(const Rods& rods, std::uint32_t rod, std::uint32_t node) {
+  const std::uint32_t i = rods.first(rod) + node;
+  return {
+      rods, rod, node, rods.rest_length_at(i), cross_section(rods, i - 1), cross_section(rods, i)};
+}
+
+NaturalBend NaturalBend::at_clamp(const Rods& rods, std::uint32_t rod, std::uint32_t node,
+                                  const CrossSection& clamp) {
+  const std::uint32_t edge = rods.first(rod) + (node == 0 ? 0 : node - 1);
+  const double length = 0.5 * rods.rest_lengths[edge];
+  const CrossSection end = cross_section(rods, edge);
+  return {rods, rod, node, length, node == 0 ? clamp : end, node == 0 ? end : clamp};
+}
+
+void NaturalBend::add_derivatives(RodSystem& system) const {
+  const std::uint32_t first = rods_.first(rod_);
+  const bool has_before = node_ > 0;
+  const bool has_after = first + node_ + 1 < rods_.end(rod_);
+  // Of the residual by what is unknown, from the first to the last node of the one or two edges.
+  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 11> by_all;
+  by_all.setZero(3, has_before && has_after ? 11 : 7);
+  if (has_before) {
+    by_all.leftCols<7>() += weight_ * cross_matrix(before_ + natural_after_) *
+                            rotation_by_edge(rods_, first + node_ - 1);
+  }
+  if (has_after) {
+    by_all.rightCols<7>() -=
+        weight_ * cross_matrix(after_ + natural_before_) * rotation_by_edge(rods_, first + node_);
+  }
+  add_square(has_before ? node_ - 1 : node_, stiffness_, residual_, by_all, system);
+}
+
+}  // namespace fiber
