@@ -25,7 +25,8 @@ HWY_INLINE Vector cross(const Vector& a, const Vector& b) {
 
 HWY_INLINE Vector transport(const Vector& v, const Vector& from, const Vector& to) {
   const Real cosine = dot(from, to);
-  const Real beside_opposite = real(1.0) + cosine;
+  const Vector sum = from + to;
+  const Real beside_opposite = real(0.5) * dot(sum, sum);
   const Vector axis = cross(from, to);
   const Vector turned = cosine * v + cross(axis, v) + dot(axis, v) / beside_opposite * axis;
   const auto is_opposite = hn::Lt(beside_opposite.value, real(1e-12).value);

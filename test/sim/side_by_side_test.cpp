@@ -28,6 +28,9 @@ struct Thrown {
 Thrown random_rod(Random& random, int nodes, double speed) {
   Thrown rod{
       random_chain(random, nodes, 0.1), {}, {}, random_section(random), random.integer(0, 2)};
+  if (random.chance(0.3)) {
+    rod.points = straight({0.0, 0.0, 0.0}, {0.5, 0.0, 0.0}, nodes - 1);
+  }
   for (int i = 0; i < nodes; ++i) {
     rod.velocities.push_back(random.in_cube(speed));
     rod.spins.push_back(random.uniform(-speed, speed));

@@ -96,14 +96,15 @@ class EdgePair {
 /// Turns a vector as the shortest rotation from one unit vector to another does.
 inline Eigen::Vector3d transport(const Eigen::Vector3d& v, const Eigen::Vector3d& from,
                                  const Eigen::Vector3d& to) {
-  const double cosine = from.dot(to);
+  // 1 + cosine, in a form that keeps its digits where the directions are nearly opposite.
+  const double beside_opposite = 0.5 * (from + to).squaredNorm();
   // Opposite directions have no shortest rotation: a vector across both keeps its direction.
   constexpr double opposite = 1e-12;
-  if (1.0 + cosine < opposite) {
+  if (beside_opposite < opposite) {
     return v;
   }
   const Eigen::Vector3d axis = from.cross(to);
-  return cosine * v + axis.cross(v) + axis * (axis.dot(v) / (1.0 + cosine));
+  return from.dot(to) * v + axis.cross(v) + axis * (axis.dot(v) / beside_opposite);
 }
 
 }  // namespace fiber
