@@ -29,10 +29,11 @@ HWY_INLINE Vector transport(const Vector& v, const Vector& from, const Vector& t
   const Real beside_opposite = real(0.5) * dot(sum, sum);
   const Vector axis = cross(from, to);
   const Vector turned = cosine * v + cross(axis, v) + dot(axis, v) / beside_opposite * axis;
-  const auto is_opposite = hn::Lt(beside_opposite.value, real(1e-12).value);
+  const auto stays = hn::Or(hn::Lt(beside_opposite.value, real(1e-12).value),
+                            hn::Eq((dot(from, from) * dot(to, to)).value, real(0.0).value));
   Vector result;
   for (std::size_t k = 0; k < 3; ++k) {
-    result.of[k] = {hn::IfThenElse(is_opposite, v.of[k].value, turned.of[k].value)};
+    result.of[k] = {hn::IfThenElse(stays, v.of[k].value, turned.of[k].value)};
   }
   return result;
 }

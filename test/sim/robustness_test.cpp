@@ -232,6 +232,31 @@ TEST(Robustness, AFastGripperDragsARodAlong) {
   }
 }
 
+/// An edge that is brought to nothing and back has its section as it was.
+TEST(Robustness, AnEdgeWithoutLengthKeepsItsDirector) {
+  Rods rods;
+  rods.add(straight({0, 0, 0}, {3, 0, 0}, 3), 0.01, {1.0, 0.1, 0.1, 1.0, 1e-2});
+  auto twist = std::make_unique<Twist>(rods);
+  rods.angles[1] = 0.5;
+  const Vector3d director = rods.directors[1];
+  const auto path = [](double time) {
+    return Placement{{1.0 + std::max(0.0, 1.0 - 10.0 * std::min(time, 0.4 - time)), 0.0, 0.0},
+                     Vector3d::Zero(),
+                     Vector3d::Zero()};
+  };
+  auto held = hold(rods, {pin(1, Vector3d::UnitX()), {0, 2, Attachment::Kind::PIN, path}});
+  const Twist& watched = *twist;
+  Stepper stepper(rods, effects(std::move(twist), std::move(held)));
+  for (int i = 0; i < 40; ++i) {
+    stepper.step(0.01);
+    EXPECT_TRUE(stepper.rods().directors[1].isApprox(director, 1e-12)) << "step " << i;
+    for (std::uint32_t node = 1; node < 3; ++node) {
+      const double turned = stepper.rods().angles[node] - stepper.rods().angles[node - 1];
+      EXPECT_NEAR(watched.twist_at(stepper.rods(), node), turned, 1e-12) << "step " << i;
+    }
+  }
+}
+
 /// As many turns as one likes between two clamps are no fewer when the rod is measured.
 TEST(Robustness, TwistCountsItsTurns) {
   constexpr int segments = 20;

@@ -93,14 +93,15 @@ class EdgePair {
   Eigen::Vector3d turn_;
 };
 
-/// Turns a vector as the shortest rotation from one unit vector to another does.
+/// Turns a vector as the shortest rotation from one unit vector to another does. Where one of them
+/// is zero, as the tangent of an edge without length is, it stays as it is.
 inline Eigen::Vector3d transport(const Eigen::Vector3d& v, const Eigen::Vector3d& from,
                                  const Eigen::Vector3d& to) {
   // 1 + cosine, in a form that keeps its digits where the directions are nearly opposite.
   const double beside_opposite = 0.5 * (from + to).squaredNorm();
   // Opposite directions have no shortest rotation: a vector across both keeps its direction.
   constexpr double opposite = 1e-12;
-  if (beside_opposite < opposite) {
+  if (beside_opposite < opposite || from.squaredNorm() * to.squaredNorm() == 0.0) {
     return v;
   }
   const Eigen::Vector3d axis = from.cross(to);

@@ -120,7 +120,9 @@ void Twist::end_step(Rods& rods, const TimeStep& /*step*/) {
       const Vector3d director = transport(rods.directors[i], rods.start_tangents[i], tangent);
       // Rounding errors of many steps would let it lean and grow.
       rods.directors[i] = (director - tangent * tangent.dot(director)).normalized();
-      rods.start_tangents[i] = tangent;
+      if (tangent.squaredNorm() > 0.0) {
+        rods.start_tangents[i] = tangent;
+      }
       if (i > rods.first(rod)) {
         const Vector3d carried =
             transport(rods.directors[i - 1], rods.start_tangents[i - 1], tangent);
