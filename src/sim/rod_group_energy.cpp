@@ -37,30 +37,11 @@ bool RodGroup::restart_lost(Rods& rods, const Effects& effects) {
     is_any_lost |= !is_found_[batch][lane];
   });
   if (is_any_lost && contacts_ != nullptr) {
-    stop_pressed(rods, effects);
     rods.positions = beginning_;
     contacts_->measure(rods);
     limit_start(rods, effects);
   }
   return is_any_lost;
-}
-
-/// Brings lost rods where they stay if that is nearer to what they do than to drift: where they
-/// drift against what they touch, and no step is found, they would press on it harder and harder.
-void RodGroup::stop_pressed(Rods& rods, const Effects& effects) {
-  measure(rods, effects);
-  const double drifting = searches_.front().tried.energy;
-  for_each_batch(Work::LITTLE, [&](std::size_t batch) {
-    batches_[batch].remember();
-    batches_[batch].stay();
-    batches_[batch].restore(is_found_[batch]);
-  });
-  measure(rods, effects);
-  if (searches_.front().tried.energy >= drifting) {
-    LaneFlags all;
-    all.fill(true);
-    for_each_batch(Work::LITTLE, [&](std::size_t batch) { batches_[batch].restore(all); });
-  }
 }
 
 }  // namespace fiber
