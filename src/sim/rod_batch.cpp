@@ -58,8 +58,10 @@ bool RodBatch::drift() {
       }
     }
   }
-  carried_ = lanes_.positions;
-  measure_edges(lanes_);
+  if (is_any_free) {
+    carried_ = lanes_.positions;
+    measure_edges(lanes_);
+  }
   return is_any_free;
 }
 

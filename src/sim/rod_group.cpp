@@ -49,10 +49,11 @@ void RodGroup::solve(Rods& rods, const Effects& effects, const StepperOptions& o
     limit_start(rods, effects);
   }
   iterate(rods, effects, options);
-  if (restart_lost(rods, effects)) {
+  const bool limits_energy = gains == Gains::TAKEN && contacts_ == nullptr;
+  if (restart_lost(rods, effects, limits_energy)) {
     iterate(rods, effects, options);
   }
-  if (gains == Gains::TAKEN && contacts_ == nullptr) {
+  if (limits_energy) {
     batches_.front().slow_down();
   }
   for_each_batch(Work::LITTLE, [&](std::size_t batch) { batches_[batch].finish(rods); });

@@ -56,7 +56,7 @@ class RodGroup {
 
   void limit_start(Rods& rods, const Effects& effects);
   void stop_torn(Rods& rods, const Effects& effects, std::size_t batch);
-  bool restart_lost(Rods& rods, const Effects& effects);
+  bool restart_lost(Rods& rods, const Effects& effects, bool limits_energy);
   void iterate(Rods& rods, const Effects& effects, const StepperOptions& options);
   void measure(Rods& rods, const Effects& effects);
   void accept(Search& search);

@@ -9,18 +9,23 @@ namespace fiber {
 
 /// Finds rods that inertia has thrown where few iterations do not lead back from, as it does with
 /// something stiff, and brings them where they keep their shapes: that is nearer to what they do.
+/// @param limits_energy what rods may end with is to be known as well
 /// @returns true if there are any; their searches are active then
-bool RodGroup::restart_lost(Rods& rods, const Effects& effects) {
+bool RodGroup::restart_lost(Rods& rods, const Effects& effects, bool limits_energy) {
   for_each_batch(Work::MUCH, [&](std::size_t index) {
     RodBatch& batch = batches_[index];
     batch.remember();
-    batch.stay();
-    batch.store_for(effects, rods);
-    batch.measure(rods, effects);
-    batch.limit_energy();
-    if (batch.drift()) {
+    const auto measure_here = [&] {
       batch.store_for(effects, rods);
       batch.measure(rods, effects);
+    };
+    batch.stay();
+    if (limits_energy) {
+      measure_here();
+      batch.limit_energy();
+    }
+    if (batch.drift() || !limits_energy) {
+      measure_here();
     }
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       const Merit& carried = batch.merit(lane);
