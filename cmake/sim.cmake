@@ -28,6 +28,7 @@ add_library(fiber_proximity_sim SHARED
   src/sim/effects/twist.cpp
   src/sim/effects/twist_lanes.cpp
   src/sim/energy_guard.cpp
+  src/sim/islands.cpp
   src/sim/lane_sums.cpp
   src/sim/material.cpp
   src/sim/material_presets.cpp
@@ -38,6 +39,7 @@ add_library(fiber_proximity_sim SHARED
   src/sim/rod_batch_energy.cpp
   src/sim/rod_group.cpp
   src/sim/rod_group_contacts.cpp
+  src/sim/rod_group_coupling.cpp
   src/sim/rod_group_energy.cpp
   src/sim/rod_lanes.cpp
   src/sim/rod_system.cpp

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace fiber {
 
@@ -22,13 +23,9 @@ Vector2d weights_of(const Rods& rods, std::uint32_t edge, double parameter) {
 }
 
 /// Adds one side of a contact to the rod it is on.
-void add_side(const Rods& rods, std::uint32_t edge, const Vector2d& weights,
-              const Vector3d& gradient, const Matrix3d& hessian,
-              const std::vector<RodSystem*>& systems) {
-  const auto next = std::upper_bound(rods.offsets.begin(), rods.offsets.end(), edge);
-  const auto rod = static_cast<std::uint32_t>(next - rods.offsets.begin()) - 1;
-  const std::uint32_t node = edge - rods.first(rod);
-  RodSystem& system = *systems[rod];
+/// @param node of the rod, where the edge begins
+void add_side(std::uint32_t node, const Vector2d& weights, const Vector3d& gradient,
+              const Matrix3d& hessian, RodSystem& system) {
   system.add_gradient(node, weights[0] * gradient);
   system.add_gradient(node + 1, weights[1] * gradient);
   system.add_hessian(node, weights[0] * weights[0] * hessian);
@@ -53,9 +50,17 @@ void Contacts::begin_step(const Rods& rods, const TimeStep& step) {
   if (friction_ != nullptr) {
     friction_->begin_step(rods, step);
   }
+  islands_.reset(rods.count());
+  join();
 }
 
-double Contacts::measure(const Rods& rods) {
+void Contacts::join() {
+  for (const std::unique_ptr<ContactSource>& source : sources_) {
+    source->join(islands_);
+  }
+}
+
+void Contacts::measure(const Rods& rods, std::vector<double>& energies) {
   for_each_source([&](std::size_t source) {
     sources_[source]->measure(rods);
     found_by_[source].clear();
@@ -65,20 +70,40 @@ double Contacts::measure(const Rods& rods) {
   for (const std::vector<ContactPoint>& found : found_by_) {
     found_.insert(found_.end(), found.begin(), found.end());
   }
-  return energy_of(found_, rods);
+  set_springs(found_, rods, energies);
+  add_friction(rods, energies);
 }
 
-double Contacts::energy_of(const std::vector<ContactPoint>& points, const Rods& rods) const {
-  double energy = 0.0;
+void Contacts::accept(const std::vector<bool>& of_rods) {
+  const auto is_accepted = [&](const ContactPoint& point) { return of_rods[point.rod_a]; };
+  points_.erase(std::remove_if(points_.begin(), points_.end(), is_accepted), points_.end());
+  std::copy_if(found_.begin(), found_.end(), std::back_inserter(points_), is_accepted);
+}
+
+void Contacts::energies(const Rods& rods, std::vector<double>& energies) const {
+  stored_energies(rods, energies);
+  add_friction(rods, energies);
+}
+
+void Contacts::stored_energies(const Rods& rods, std::vector<double>& energies) const {
+  set_springs(points_, rods, energies);
+}
+
+void Contacts::set_springs(const std::vector<ContactPoint>& points, const Rods& rods,
+                           std::vector<double>& energies) {
+  energies.assign(rods.count(), 0.0);
   for (const ContactPoint& point : points) {
-    energy += 0.5 * point.stiffness * point.depth * point.depth;
+    energies[point.rod_a] += 0.5 * point.stiffness * point.depth * point.depth;
   }
-  if (friction_ != nullptr) {
-    for (const ContactPoint& point : points_) {
-      energy += friction_->energy(point, friction_->slip(rods, point));
-    }
+}
+
+void Contacts::add_friction(const Rods& rods, std::vector<double>& energies) const {
+  if (friction_ == nullptr) {
+    return;
   }
-  return energy;
+  for (const ContactPoint& point : points_) {
+    energies[point.rod_a] += friction_->energy(point, friction_->slip(rods, point));
+  }
 }
 
 void Contacts::add_derivatives(const Rods& rods, const std::vector<RodSystem*>& systems) {
@@ -95,10 +120,12 @@ void Contacts::add_derivatives(const Rods& rods, const std::vector<RodSystem*>& 
     }
     Term term{point.edge_a, point.edge_b, weights_of(rods, point.edge_a, point.s), Vector2d::Zero(),
               hessian};
-    add_side(rods, point.edge_a, term.weights_a, gradient, hessian, systems);
+    add_side(point.edge_a - rods.first(point.rod_a), term.weights_a, gradient, hessian,
+             *systems[point.rod_a]);
     if (!point.is_obstacle()) {
       term.weights_b = weights_of(rods, point.edge_b, point.t);
-      add_side(rods, point.edge_b, term.weights_b, -gradient, hessian, systems);
+      add_side(point.edge_b - rods.first(point.rod_b), term.weights_b, -gradient, hessian,
+               *systems[point.rod_b]);
       terms_.push_back(term);
     }
   }
@@ -138,6 +165,7 @@ void Contacts::limit(const Rods& rods, std::vector<Vector3d>& displacements) {
     }
     ++round;
   } while (sources_.size() > 1 && displacements != before);
+  join();
 }
 
 }  // namespace fiber

@@ -37,11 +37,21 @@ void inertia(std::size_t count, double factor, const Lanes* inertias, const Lane
   }
 }
 
+void sum_products(std::size_t count, const Lanes* a, const Lanes* b, Lanes& sum) {
+  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+    Real products = real(0.0);
+    for (std::size_t i = 0; i < count; ++i) {
+      products = products + load(a[i], lane) * load(b[i], lane);
+    }
+    store(products, sum, lane);
+  }
+}
+
 void move(std::size_t count, const Lanes* from, const Lanes* step, const Lanes& shares,
           Lanes* positions) {
   for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
     const Real share = load(shares, lane);
-    const auto is_moving = hn::Gt(share.value, real(0.0).value);
+    const auto is_moving = hn::Ne(share.value, real(0.0).value);
     for (std::size_t i = 0; i < count; ++i) {
       const Real way = share * load(step[i], lane);
       const Real moved = {hn::IfThenElseZero(is_moving, way.value)};
@@ -74,6 +84,7 @@ namespace fiber {
 
 HWY_EXPORT(sum_squares);
 HWY_EXPORT(inertia);
+HWY_EXPORT(sum_products);
 HWY_EXPORT(move);
 HWY_EXPORT(weigh_step);
 
@@ -88,6 +99,12 @@ void set_inertia(std::size_t count, double factor, const Lanes* inertias, const 
                  const Lanes* predicted, Lanes* gradient, Lanes* hessian, std::size_t height) {
   HWY_DYNAMIC_DISPATCH(inertia)
   (count, factor, inertias, positions, predicted, gradient, hessian, height);
+}
+
+Lanes products(std::size_t count, const Lanes* a, const Lanes* b) {
+  Lanes sum;
+  HWY_DYNAMIC_DISPATCH(sum_products)(count, a, b, sum);
+  return sum;
 }
 
 void move_by(std::size_t count, const Lanes* from, const Lanes* step, const Lanes& shares,

@@ -15,7 +15,11 @@ Lanes weighted_squares(std::size_t count, const Lanes* inertias, const Lanes* po
 void set_inertia(std::size_t count, double factor, const Lanes* inertias, const Lanes* positions,
                  const Lanes* predicted, Lanes* gradient, Lanes* hessian, std::size_t height);
 
-/// positions = from + share · step; where the share of a lane is 0, whatever the step is, from.
+/// Σ a · b, by lane.
+Lanes products(std::size_t count, const Lanes* a, const Lanes* b);
+
+/// positions = from + share · step; where the share of a lane is 0, whatever the step is, from. All
+/// of them may be the same.
 void move_by(std::size_t count, const Lanes* from, const Lanes* step, const Lanes& shares,
              Lanes* positions);
 

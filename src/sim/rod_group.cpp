@@ -9,8 +9,7 @@
 
 namespace fiber {
 
-RodGroup::RodGroup(Contacts* contacts)
-    : contacts_(contacts), searches_(contacts != nullptr ? 1 : lane_count) {}
+RodGroup::RodGroup(Contacts* contacts) : contacts_(contacts) {}
 
 void RodGroup::assign(const Rods& rods, const Batches& batches) {
   batches_.resize(batches.size());
@@ -29,8 +28,9 @@ void RodGroup::assign(const Rods& rods, const Batches& batches) {
 }
 
 /// Without contacts there is one batch.
-RodGroup::Search& RodGroup::search_of(std::size_t lane) {
-  return searches_[contacts_ != nullptr ? 0 : lane];
+RodGroup::Search& RodGroup::search_of(std::size_t batch, std::size_t lane) {
+  return searches_[contacts_ != nullptr ? contacts_->islands().of(batches_[batch].rod(lane))
+                                        : lane];
 }
 
 Lanes* RodGroup::part(std::vector<Lanes>& values, std::size_t batch) {
@@ -41,13 +41,11 @@ void RodGroup::solve(Rods& rods, const Effects& effects, const StepperOptions& o
                      Gains gains) {
   for_each_batch(Work::LITTLE,
                  [&](std::size_t batch) { batches_[batch].begin(rods, effects, step); });
-  for (std::size_t i = 0; i < searches_.size(); ++i) {
-    searches_[i].is_active = contacts_ != nullptr || i < batches_.front().used();
-  }
   if (contacts_ != nullptr) {
     beginning_ = rods.positions;
     limit_start(rods, effects);
   }
+  begin_searches();
   iterate(rods, effects, options);
   const bool limits_energy = gains == Gains::TAKEN && contacts_ == nullptr;
   if (restart_lost(rods, effects, limits_energy)) {
@@ -64,6 +62,11 @@ void RodGroup::solve(Rods& rods, const Effects& effects, const StepperOptions& o
   });
 }
 
+void RodGroup::begin_searches() {
+  searches_.assign(contacts_ != nullptr ? systems_.size() : batches_.front().used(), Search{});
+  join_searches();
+}
+
 /// Newton's method from where the rods are.
 void RodGroup::iterate(Rods& rods, const Effects& effects, const StepperOptions& options) {
   const auto is_any_active = [this] {
@@ -72,10 +75,9 @@ void RodGroup::iterate(Rods& rods, const Effects& effects, const StepperOptions&
   };
   measure(rods, effects);
   for (Search& search : searches_) {
-    if (search.is_active) {
-      accept(search);
-    }
+    search.is_accepting = search.is_active;
   }
+  accept();
   for (std::uint32_t i = 0; i < options.iterations && is_any_active(); ++i) {
     find_step(rods, effects);
     search_line(rods, effects);
@@ -95,32 +97,44 @@ void RodGroup::measure(Rods& rods, const Effects& effects) {
     batches_.front().measure(rods, effects);
   } else {
     for_each_batch(Work::LITTLE, [&](std::size_t batch) { batches_[batch].store(rods); });
-    double energy = 0.0;
-    tbb::parallel_invoke([&] { energy = contacts_->measure(rods); },
+    tbb::parallel_invoke([&] { contacts_->measure(rods, contact_energies_); },
                          [&] {
                            for_each_batch(Work::MUCH, [&](std::size_t batch) {
                              batches_[batch].measure(rods, effects);
                            });
                          });
-    searches_.front().tried.add(energy);
   }
   for_each_rod([&](std::size_t batch, std::size_t lane) {
-    search_of(lane).tried.add(batches_[batch].merit(lane));
+    Search& search = search_of(batch, lane);
+    search.tried.add(batches_[batch].merit(lane));
+    if (contacts_ != nullptr) {
+      search.tried.add(contact_energies_[batches_[batch].rod(lane)]);
+    }
   });
 }
 
-/// Accepts where rods were measured. The energy of contacts is not kept: that of friction changes
-/// when they are accepted.
-void RodGroup::accept(Search& search) {
-  search.accepted = Merit{};
+/// Accepts where rods of accepting searches were measured. The energy of contacts is not kept: that
+/// of friction changes when they are accepted.
+void RodGroup::accept() {
+  if (std::none_of(searches_.begin(), searches_.end(),
+                   [](const Search& search) { return search.is_accepting; })) {
+    return;
+  }
+  for (Search& search : searches_) {
+    search.accepted = search.is_accepting ? Merit{} : search.accepted;
+  }
   for_each_rod([&](std::size_t batch, std::size_t lane) {
-    if (&search_of(lane) == &search) {
+    Search& search = search_of(batch, lane);
+    if (search.is_accepting) {
       batches_[batch].accept(lane);
       search.accepted.add(batches_[batch].merit(lane));
     }
+    if (contacts_ != nullptr) {
+      is_accepting_[batches_[batch].rod(lane)] = search.is_accepting;
+    }
   });
   if (contacts_ != nullptr) {
-    contacts_->accept();
+    contacts_->accept(is_accepting_);
   }
 }
 
@@ -134,14 +148,29 @@ void RodGroup::find_step(Rods& rods, const Effects& effects) {
   }
   for_each_batch(Work::MUCH,
                  [&](std::size_t batch) { batches_[batch].find_step(part(step_, batch)); });
+  stop_inactive();
   if (contacts_ != nullptr) {
     weigh_step();
     if (contacts_->has_coupling()) {
       correct_step();
     }
     limit_step(rods);
+    join_searches();
   }
   weigh_step();
+}
+
+/// What does not search has no step, so that nothing makes room for it.
+void RodGroup::stop_inactive() {
+  for_each_rod([&](std::size_t batch, std::size_t lane) {
+    if (search_of(batch, lane).is_active) {
+      return;
+    }
+    Lanes* const step = part(step_, batch);
+    for (std::size_t i = 0; i < batches_[batch].step_size(); ++i) {
+      step[i][lane] = 0.0;
+    }
+  });
 }
 
 /// How long the step is, and what its slope promises.
@@ -153,7 +182,7 @@ void RodGroup::weigh_step() {
     const std::vector<Lanes>& gradient = batches_[batch].gradient();
     const StepWeight weight = weigh(gradient.size(), gradient.data(), part(step_, batch));
     for (std::size_t lane = 0; lane < batches_[batch].used(); ++lane) {
-      Search& search = search_of(lane);
+      Search& search = search_of(batch, lane);
       search.decrease += weight.decrease[lane];
       search.longest = std::max(search.longest, weight.longest[lane]);
     }
@@ -162,39 +191,19 @@ void RodGroup::weigh_step() {
 
 /// Moves rods by a share of the step that brings them lower, or ends their search.
 void RodGroup::search_line(Rods& rods, const Effects& effects) {
-  // A step must bring at least this part of the decrease that its slope promises (Armijo).
-  constexpr double sufficient = 1e-4;
   constexpr int most_halvings = 20;
   for (RodBatch& batch : batches_) {
     batch.remember();
   }
-  Merit before_contacts;
-  if (contacts_ != nullptr) {
-    before_contacts.add(contacts_->energy(rods));  // with the friction of those accepted
-  }
   for (Search& search : searches_) {
     search.is_searching = search.is_active;
-    search.share = search.is_active ? 1.0 : 0.0;
+    search.share = 1.0;
   }
-  const auto is_searching = [](const Search& search) { return search.is_searching; };
+  measure_contacts(rods);
   for (int i = 0; i < most_halvings; ++i) {
     move();
     measure(rods, effects);
-    for (Search& search : searches_) {
-      if (!search.is_searching) {
-        continue;
-      }
-      Merit before = search.accepted;
-      before.add(before_contacts);
-      const double promised = sufficient * search.share * std::max(0.0, search.decrease);
-      if (search.tried.energy <= before.energy - promised + before.unseen()) {
-        accept(search);
-        search.is_searching = false;
-      } else {
-        search.share *= 0.5;
-      }
-    }
-    if (std::none_of(searches_.begin(), searches_.end(), is_searching)) {
+    if (!judge_step()) {
       return;
     }
   }
@@ -206,17 +215,48 @@ void RodGroup::search_line(Rods& rods, const Effects& effects) {
     }
   }
   move();
+  if (contacts_ != nullptr) {
+    measure(rods, effects);  // others go on, and look at where all are
+  }
+}
+
+/// Accepts steps that have brought rods lower, and halves the others.
+/// @returns whether there are any of these
+bool RodGroup::judge_step() {
+  // A step must bring at least this part of the decrease that its slope promises (Armijo).
+  constexpr double sufficient = 1e-4;
+  bool is_any_searching = false;
+  for (Search& search : searches_) {
+    search.is_accepting = false;
+    if (!search.is_searching) {
+      continue;
+    }
+    Merit before = search.accepted;
+    before.add(search.contacts);
+    const double promised = sufficient * search.share * std::max(0.0, search.decrease);
+    search.is_accepting = search.tried.energy <= before.energy - promised + before.unseen();
+    search.is_searching = !search.is_accepting;
+    search.share *= search.is_searching ? 0.5 : 1.0;
+    is_any_searching |= search.is_searching;
+  }
+  accept();
+  return is_any_searching;
 }
 
 /// Moves rods by their shares of the step.
 void RodGroup::move() {
   for_each_batch(Work::LITTLE, [&](std::size_t batch) {
-    Lanes shares;
-    for (std::size_t lane = 0; lane < batches_[batch].used(); ++lane) {
-      shares[lane] = search_of(lane).share;
-    }
-    batches_[batch].move(part(step_, batch), shares);
+    batches_[batch].move(part(step_, batch), by_lane(batch, &Search::share));
   });
+}
+
+/// What the searches of a batch's rods have.
+Lanes RodGroup::by_lane(std::size_t batch, double Search::*value) {
+  Lanes values;
+  for (std::size_t lane = 0; lane < batches_[batch].used(); ++lane) {
+    values[lane] = search_of(batch, lane).*value;
+  }
+  return values;
 }
 
 }  // namespace fiber

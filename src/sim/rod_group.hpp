@@ -35,15 +35,24 @@ class RodGroup {
  private:
   enum class Work { LITTLE, MUCH };
 
-  /// The search for a minimum: each rod has its own, but where contacts join them there is one.
+  /// The search of rods for a minimum: each has its own, but where contacts may join them, in
+  /// islands, there is one for all of these.
   struct Search {
-    Merit accepted;            ///< of the rods
-    Merit tried;               ///< of the rods and what they touch
-    double decrease = 0.0;     ///< that the slope promises for a whole step [J]
-    double longest = 0.0;      ///< component of the step
-    double share = 1.0;        ///< of the step, to be tried
-    bool is_active = true;     ///< goes on
-    bool is_searching = true;  ///< has not found a share of this step
+    Merit accepted;             ///< of the rods, without contacts
+    Merit tried;                ///< of the rods and what they touch
+    Merit contacts;             ///< of what they touch, when the line search began
+    double decrease = 0.0;      ///< that the slope promises for a whole step [J]
+    double longest = 0.0;       ///< component of the step
+    double share = 1.0;         ///< of the step, to be tried
+    double norm = 0.0;          ///< of the residual of conjugate gradients
+    double curvature = 0.0;     ///< along their direction
+    double forward = 0.0;       ///< share of it
+    double back = 0.0;          ///< the same, negative
+    double growth = 0.0;        ///< of the norm
+    bool is_active = true;      ///< goes on
+    bool is_searching = false;  ///< has not found a share of this step
+    bool is_accepting = false;  ///< where its rods were measured
+    bool is_solving = false;    ///< for its step
   };
 
   void prepare_coupling(const Rods& rods);
@@ -51,20 +60,32 @@ class RodGroup {
   void for_each_batch(Work work, const Function& function);
   template <typename Function>
   void for_each_rod(const Function& function);
-  Search& search_of(std::size_t lane);
+  Search& search_of(std::size_t batch, std::size_t lane);
   Lanes* part(std::vector<Lanes>& values, std::size_t batch);
 
   void limit_start(Rods& rods, const Effects& effects);
+  bool is_limited(const Rods& rods, std::uint32_t rod) const;
   void stop_torn(Rods& rods, const Effects& effects, std::size_t batch);
   bool restart_lost(Rods& rods, const Effects& effects, bool limits_energy);
+  void begin_searches();
+  void join_searches();
   void iterate(Rods& rods, const Effects& effects, const StepperOptions& options);
   void measure(Rods& rods, const Effects& effects);
-  void accept(Search& search);
+  void measure_contacts(const Rods& rods);
+  void accept();
   void find_step(Rods& rods, const Effects& effects);
+  void stop_inactive();
   void weigh_step();
   void correct_step();
+  bool is_any_solving(double tolerance);
+  void precondition(const std::vector<Lanes>& values, std::vector<Lanes>& preconditioned);
+  void sum_products(const std::vector<Lanes>& a, const std::vector<Lanes>& b, double Search::*sum);
+  void add_shares(const std::vector<Lanes>& a, const std::vector<Lanes>& b, double Search::*share,
+                  std::vector<Lanes>& sum);
+  Lanes by_lane(std::size_t batch, double Search::*value);
   void limit_step(const Rods& rods);
   void search_line(Rods& rods, const Effects& effects);
+  bool judge_step();
   void move();
 
   std::vector<RodBatch> batches_;
@@ -73,7 +94,7 @@ class RodGroup {
   std::vector<std::size_t> offsets_;  // of the batches in steps
   std::vector<std::size_t> places_;   // of the nodes' positions in these
   std::vector<LaneFlags> is_found_;   // by batch: not lost
-  std::vector<Search> searches_;
+  std::vector<Search> searches_;      // by island where there are contacts, else by lane
   std::vector<Lanes> step_;
   struct {
     std::vector<Lanes> residual;
@@ -82,6 +103,8 @@ class RodGroup {
     std::vector<Lanes> product;                 // of the preconditioner and the direction
     std::vector<Lanes> image;                   // of the direction
   } gradients_;                                 // conjugate ones
+  std::vector<double> contact_energies_;        // [J] by rod
+  std::vector<bool> is_accepting_;              // by rod: its search is
   std::vector<Eigen::Vector3d> beginning_;      // of the step, where there are contacts
   std::vector<Eigen::Vector3d> displacements_;  // of nodes, to be limited
   std::vector<Eigen::Vector3d> wanted_;         // before they were

@@ -37,15 +37,19 @@ bool RodGroup::restart_lost(Rods& rods, const Effects& effects, bool limits_ener
     search.is_active = false;
   }
   bool is_any_lost = false;
-  for_each_rod([&](std::size_t batch, std::size_t lane) {
-    search_of(lane).is_active |= !is_found_[batch][lane];
-    is_any_lost |= !is_found_[batch][lane];
-  });
+  for_each_rod(
+      [&](std::size_t batch, std::size_t lane) { is_any_lost |= !is_found_[batch][lane]; });
   if (is_any_lost && contacts_ != nullptr) {
     rods.positions = beginning_;
-    contacts_->measure(rods);
+    contacts_->measure(rods, contact_energies_);
     limit_start(rods, effects);
   }
+  for_each_rod([&](std::size_t batch, std::size_t lane) {
+    const bool is_moved =
+        contacts_ != nullptr && is_any_lost && is_limited(rods, batches_[batch].rod(lane));
+    search_of(batch, lane).is_active |= !is_found_[batch][lane] || is_moved;
+  });
+  join_searches();
   return is_any_lost;
 }
 

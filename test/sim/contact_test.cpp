@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "sim/contact_scenes.hpp"
+#include "sim/found_contacts.hpp"
 #include "sim/random_rods.hpp"
 #include "sim/tunnelling.hpp"
 #include "support/error_of.hpp"
@@ -116,8 +117,7 @@ Found found(Rods& rods, const std::shared_ptr<const Environment>& environment, R
     position += random.in_cube(2e-5);  // some stick, some slide
   }
   for (Contacts* contacts : {found.contacts.get(), found.without_friction.get()}) {
-    contacts->measure(rods);
-    contacts->accept();
+    find_and_accept(*contacts, rods);
   }
   return found;
 }
@@ -146,9 +146,10 @@ TEST(Contacts, GradientIsThatOfTheEnergy) {
     contact_count += both.contacts->points().size();
     // Normal forces follow the rods; friction holds those, and directions, of the last iteration.
     const VectorXd expected =
-        differences(rods, [&](const Rods& r) { return both.without_friction->measure(r); }) +
-        differences(rods, [&](const Rods& r) { return both.contacts->energy(r); });
-    both.without_friction->measure(rods);
+        differences(rods,
+                    [&](const Rods& r) { return measured_energy(*both.without_friction, r); }) +
+        differences(rods, [&](const Rods& r) { return accepted_energy(*both.contacts, r); });
+    measured_energy(*both.without_friction, rods);
     const VectorXd gradient = full_system(*both.contacts, rods).gradient;
     EXPECT_LE((gradient - expected).norm(), 1e-4 * (gradient.norm() + 1.0)) << "repeat " << repeat;
   }
@@ -242,8 +243,7 @@ TEST(Contacts, ConjugateGradientsSolveAsDenseAlgebraDoes) {
     }
     const auto contacts = contacts_with(nullptr);
     contacts->begin_step(rods, {0.0, step_length});
-    contacts->measure(rods);
-    contacts->accept();
+    find_and_accept(*contacts, rods);
     ASSERT_GE(contacts->points().size(), 3U);
     FullSystem full = full_system(*contacts, rods);
     for (std::uint32_t node = 0; node < rods.positions.size(); ++node) {
@@ -274,8 +274,7 @@ Force force_on(const Rods& rods, std::uint32_t edges,
                const std::shared_ptr<const Environment>& environment) {
   const auto contacts = contacts_with(environment);
   contacts->begin_step(rods, {0.0, step_length});
-  contacts->measure(rods);
-  contacts->accept();
+  find_and_accept(*contacts, rods);
   Force force;
   for (const ContactPoint& point : contacts->points()) {
     if (point.edge_a < edges) {

@@ -8,6 +8,7 @@
 
 #include "environment/random_shapes.hpp"
 #include "sim/contact_scenes.hpp"
+#include "sim/found_contacts.hpp"
 #include "sim/random_rods.hpp"
 #include "support/error_of.hpp"
 #include "support/random.hpp"
@@ -74,7 +75,7 @@ TEST(Tunnelling, OfRodsThrownAtEachOther) {
         contacts->begin_step(rods, {0.0, 1.0 / 60.0});
         // They are bent, and some may touch from the beginning.
         const double energy =
-            kinetic_energy(rods) + elastic_energy_of(rods) + contacts->measure(rods);
+            kinetic_energy(rods) + elastic_energy_of(rods) + measured_energy(*contacts, rods);
         Stepper stepper(rods, elastic(), StepperOptions{}, std::move(contacts));
         run(stepper, 40, 1.0 / 60.0);
         EXPECT_LE(kinetic_energy(stepper.rods()) + elastic_energy_of(stepper.rods()), energy);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "fiber_proximity/sim/effect.hpp"
+#include "fiber_proximity/sim/islands.hpp"
 
 namespace fiber {
 
@@ -12,8 +13,10 @@ namespace fiber {
 struct ContactPoint {
   static constexpr std::uint32_t obstacle = std::numeric_limits<std::uint32_t>::max();
 
+  std::uint32_t rod_a = 0;
   std::uint32_t edge_a = 0;
-  double s = 0.0;  ///< curve parameter of a on its edge, in [0, 1]
+  double s = 0.0;           ///< curve parameter of a on its edge, in [0, 1]
+  std::uint32_t rod_b = 0;  ///< of edge_b
   std::uint32_t edge_b = obstacle;
   double t = 0.0;           ///< curve parameter of b, in [0, 1]
   Eigen::Vector3d point_b;  ///< on obstacles: b [m]
@@ -34,6 +37,9 @@ class ContactSource {
 
   /// Measures what is how near where the rods are now; the following functions are about that.
   virtual void measure(const Rods& rods) = 0;
+
+  /// Joins rods that may touch each other on ways that limit() allows.
+  virtual void join(Islands& islands) const = 0;
 
   /// Appends all places where rods touch something.
   virtual void find(const Rods& rods, std::vector<ContactPoint>& points) const = 0;

@@ -18,14 +18,23 @@ class Contacts {
   void begin_step(const Rods& rods, const TimeStep& step);
 
   /// Finds what touches where the rods are now, and its energy, together with the friction of the
-  /// accepted contacts [J].
-  double measure(const Rods& rods);
+  /// accepted contacts.
+  /// @param energies [J] by rod, overwritten; that of contacts of two is that of one of them
+  void measure(const Rods& rods, std::vector<double>& energies);
 
-  /// Accepts the contacts found last: the following functions are about them.
-  void accept() { points_.swap(found_); }
+  /// Accepts, of the contacts found last, those of some islands: the following functions are about
+  /// them.
+  /// @param of_rods whether a rod's contacts are accepted
+  void accept(const std::vector<bool>& of_rods);
 
-  /// Their energy, where the rods were when they were found [J].
-  double energy(const Rods& rods) const { return energy_of(points_, rods); }
+  /// Their energies, where the rods were when they were found, as measure() gives them.
+  void energies(const Rods& rods, std::vector<double>& energies) const;
+
+  /// The same without friction, which stores nothing.
+  void stored_energies(const Rods& rods, std::vector<double>& energies) const;
+
+  /// Rods that may touch each other, as far as limit() has been asked since the step began.
+  const Islands& islands() const { return islands_; }
 
   /// Adds gradients, and of the Hessian all that is within one rod; nodes that are held do not
   /// count.
@@ -58,10 +67,14 @@ class Contacts {
 
   template <class Function>
   void for_each_source(const Function& function);
-  double energy_of(const std::vector<ContactPoint>& points, const Rods& rods) const;
+  void join();
+  static void set_springs(const std::vector<ContactPoint>& points, const Rods& rods,
+                          std::vector<double>& energies);
+  void add_friction(const Rods& rods, std::vector<double>& energies) const;
 
   std::vector<std::unique_ptr<ContactSource>> sources_;
   std::unique_ptr<Friction> friction_;
+  Islands islands_;
   std::vector<ContactPoint> points_;
   std::vector<ContactPoint> found_;
   std::vector<std::vector<ContactPoint>> found_by_;  // by source

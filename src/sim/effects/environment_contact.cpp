@@ -171,8 +171,8 @@ void EnvironmentContact::find(const Rods& rods, std::vector<ContactPoint>& point
     const Plane& plane = planes_[i];
     const double depth = rods.radii[plane.rod] - heights_[i].nearest;
     if (depth > 0.0 && plane.share > 0.0) {
-      points.push_back({plane.edge, plane.s, ContactPoint::obstacle, 0.0, plane.point, plane.normal,
-                        depth, plane.share * plane.stiffness});
+      points.push_back({plane.rod, plane.edge, plane.s, 0, ContactPoint::obstacle, 0.0,
+                        plane.point, plane.normal, depth, plane.share * plane.stiffness});
     }
   }
 }

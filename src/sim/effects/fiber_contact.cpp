@@ -106,6 +106,12 @@ void FiberContact::measure_at(const std::vector<Vector3d>& positions) {
   }
 }
 
+void FiberContact::join(Islands& islands) const {
+  for (const Candidate& candidate : candidates_) {
+    islands.join(candidate.rod_a, candidate.rod_b);
+  }
+}
+
 void FiberContact::find(const Rods& rods, std::vector<ContactPoint>& points) const {
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     const Candidate& candidate = candidates_[i];
@@ -129,9 +135,9 @@ void FiberContact::find(const Rods& rods, std::vector<ContactPoint>& points) con
                          edge_share(rods, candidate.rod_b, candidate.edge_b, nearest.t, point_a,
                                     slide(candidate.edge_a, nearest.s));
     if (share > 0.0) {
-      points.push_back({candidate.edge_a, nearest.s, candidate.edge_b, nearest.t, point_b,
-                        -nearest.delta / nearest.distance, depth,
-                        share * stiffness_of(rods, candidate)});
+      points.push_back({candidate.rod_a, candidate.edge_a, nearest.s, candidate.rod_b,
+                        candidate.edge_b, nearest.t, point_b, -nearest.delta / nearest.distance,
+                        depth, share * stiffness_of(rods, candidate)});
     }
   }
 }

@@ -32,6 +32,7 @@ class EnvironmentContact : public ContactSource {
 
   void begin_step(const Rods& rods, const TimeStep& step) override;
   void measure(const Rods& rods) override;
+  void join(Islands& /*islands*/) const override {}
   void find(const Rods& rods, std::vector<ContactPoint>& points) const override;
   void limit(const Rods& rods, std::vector<Eigen::Vector3d>& displacements, int round) override;
 
