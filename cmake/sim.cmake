@@ -41,6 +41,7 @@ add_library(fiber_proximity_sim SHARED
   src/sim/rod_group_contacts.cpp
   src/sim/rod_group_coupling.cpp
   src/sim/rod_group_energy.cpp
+  src/sim/rod_group_gains.cpp
   src/sim/rod_lanes.cpp
   src/sim/rod_system.cpp
   src/sim/rods.cpp

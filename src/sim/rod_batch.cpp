@@ -27,11 +27,10 @@ void RodBatch::stay() {
     for (const std::uint32_t node : held_[lane]) {
       const std::size_t first = node * system_.unknowns;
       for (std::size_t place = first; place < first + 3; ++place) {
-        lanes_.positions[place][lane] = predicted_[place][lane];
+        lanes_.positions[place][lane] = remembered_[place][lane];
       }
     }
   }
-  carried_ = lanes_.positions;
   measure_edges(lanes_);
 }
 
@@ -59,7 +58,6 @@ bool RodBatch::drift() {
     }
   }
   if (is_any_free) {
-    carried_ = lanes_.positions;
     measure_edges(lanes_);
   }
   return is_any_free;
@@ -77,6 +75,14 @@ void RodBatch::restore(const LaneFlags& which) {
 void RodBatch::move(const Lanes* step, const Lanes& shares) {
   move_by(system_.size(), remembered_.data(), step, shares, lanes_.positions.data());
   measure_edges(lanes_);
+}
+
+void RodBatch::way_from_remembered(Lanes* step) const {
+  for (std::size_t i = 0; i < system_.size(); ++i) {
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      step[i][lane] = lanes_.positions[i][lane] - remembered_[i][lane];
+    }
+  }
 }
 
 void RodBatch::store(Rods& rods) const {
@@ -164,11 +170,8 @@ void RodBatch::finish(Rods& rods) const {
   const std::size_t unknowns = system_.unknowns;
   for (std::size_t lane = 0; lane < lanes_.used; ++lane) {
     const std::uint32_t first = first_nodes_[lane];
-    const double lost = 1.0 - kept_[lane];
     const auto rate = [&](std::size_t place) {
-      const double position = lanes_.positions[place][lane];
-      return (position - beginning_[place][lane] - lost * (position - carried_[place][lane])) /
-             step_length_;
+      return (lanes_.positions[place][lane] - beginning_[place][lane]) / step_length_;
     };
     for (std::uint32_t i = 0; i < lanes_.node_count; ++i) {
       const std::size_t place = i * unknowns;

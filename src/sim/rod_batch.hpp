@@ -38,7 +38,8 @@ class RodBatch {
   /// @param positions of all nodes of all rods [m]
   void place(const std::vector<Eigen::Vector3d>& positions);
 
-  /// Moves the rods to where they began, but for the nodes that are held.
+  /// Moves the rods to where they began, but for the nodes that are held: these stay where they
+  /// are.
   void stay();
 
   /// From there, carries those of which no node is held on with their momentum, in their shapes.
@@ -50,6 +51,9 @@ class RodBatch {
 
   /// Brings rods back there.
   void restore(const LaneFlags& which);
+
+  /// Writes down the step that leads from there to where the rods are.
+  void way_from_remembered(Lanes* step) const;
 
   /// Brings each rod a share of a step away from there.
   /// @param step step_size() of them
@@ -73,10 +77,8 @@ class RodBatch {
   /// and the potential one where they stay and were measured.
   void limit_energy() { allowed_ = energy_with(merits_, predicted_); }
 
-  /// Takes what rods would end with in excess of that, where they are and were accepted, from their
-  /// velocities. A step of implicit Euler gains energy where a potential is far from convex on the
-  /// way, as where an edge shrinks to nothing and comes out on the other side of its clamp.
-  void slow_down();
+  /// What rods have in excess of that where they are and were accepted [J].
+  Lanes gains() const;
 
   /// Makes the systems those of the energies where the rods are now, and were stored.
   void assemble(const Rods& rods, const Effects& effects);
@@ -116,11 +118,9 @@ class RodBatch {
   std::vector<Lanes> beginning_;                  // of the step
   std::vector<Lanes> predicted_;                  // where inertia and what holds rods bring them
   std::vector<Lanes> remembered_;
-  std::vector<Lanes> carried_;  // where the rods stay, or drift to
   std::array<Merit, lane_count> merits_;
   std::array<Merit, lane_count> accepted_;
   Lanes allowed_;                           // energy at the end of the step [J]
-  Lanes kept_;                              // shares of the velocities against those to carried_
   std::vector<std::vector<Lanes>> values_;  // by effect: what it needs of the nodes
   double step_length_ = 0.0;                // [s]
 };

@@ -27,8 +27,7 @@ void RodBatch::assign(const Rods& rods, const std::vector<std::uint32_t>& member
     }
     lanes_.director_twists.resize(nodes);
   }
-  for (auto* array :
-       {&lanes_.positions, &inertias_, &beginning_, &predicted_, &remembered_, &carried_}) {
+  for (auto* array : {&lanes_.positions, &inertias_, &beginning_, &predicted_, &remembered_}) {
     array->resize(system_.size());
   }
   views_.clear();
@@ -40,7 +39,6 @@ void RodBatch::assign(const Rods& rods, const std::vector<std::uint32_t>& member
 
 void RodBatch::begin(const Rods& rods, const Effects& effects, double step) {
   step_length_ = step;
-  kept_.of.fill(1.0);
   load(rods);
   load_values(effects);
   hold(rods);

@@ -1,7 +1,5 @@
 // What energies rods of a batch have, and may have at the end of a step.
 
-#include <cmath>
-
 #include "lane_sums.hpp"
 #include "rod_batch.hpp"
 
@@ -44,17 +42,12 @@ Lanes RodBatch::energy_with(const std::array<Merit, lane_count>& merits,
   return energy;
 }
 
-void RodBatch::slow_down() {
-  const Lanes energy = energy_with(accepted_, lanes_.positions);
-  const Lanes squares =
-      weighted_squares(system_.size(), inertias_.data(), lanes_.positions.data(), carried_.data());
-  for (std::size_t lane = 0; lane < lanes_.used; ++lane) {
-    const double motion = 0.5 * squares[lane] / (step_length_ * step_length_);
-    const double gained = energy[lane] - allowed_[lane];
-    if (gained > accepted_[lane].unseen()) {
-      kept_[lane] = gained < motion ? std::sqrt(1.0 - gained / motion) : 0.0;
-    }
+Lanes RodBatch::gains() const {
+  Lanes gains = energy_with(accepted_, lanes_.positions);
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    gains[lane] -= allowed_[lane];
   }
+  return gains;
 }
 
 }  // namespace fiber

@@ -47,14 +47,13 @@ void RodGroup::solve(Rods& rods, const Effects& effects, const StepperOptions& o
   }
   begin_searches();
   iterate(rods, effects, options);
-  const bool limits_energy = gains == Gains::TAKEN && contacts_ == nullptr;
-  if (restart_lost(rods, effects, limits_energy)) {
+  if (restart_lost(rods, effects, gains)) {
     iterate(rods, effects, options);
   }
-  if (limits_energy) {
-    batches_.front().slow_down();
-  }
   for_each_batch(Work::LITTLE, [&](std::size_t batch) { batches_[batch].finish(rods); });
+  if (gains == Gains::TAKEN) {
+    take_gains(rods, effects);
+  }
   for_each_rod([&](std::size_t batch, std::size_t lane) {
     for (const std::unique_ptr<Effect>& effect : effects) {
       effect->end_solve(rods, batches_[batch].rod(lane));

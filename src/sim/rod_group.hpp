@@ -41,6 +41,7 @@ class RodGroup {
     Merit accepted;             ///< of the rods, without contacts
     Merit tried;                ///< of the rods and what they touch
     Merit contacts;             ///< of what they touch, when the line search began
+    double gained = 0.0;        ///< beyond what the rods may end with [J]
     double decrease = 0.0;      ///< that the slope promises for a whole step [J]
     double longest = 0.0;       ///< component of the step
     double share = 1.0;         ///< of the step, to be tried
@@ -53,6 +54,15 @@ class RodGroup {
     bool is_searching = false;  ///< has not found a share of this step
     bool is_accepting = false;  ///< where its rods were measured
     bool is_solving = false;    ///< for its step
+    bool is_beyond = false;     ///< has gained more than its rods can lose by being slower
+  };
+
+  /// Of a search's rods, but for what is held.
+  struct Motion {
+    std::vector<std::uint32_t> nodes;
+    Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< that all have [m/s]
+    double common = 0.0;                                 ///< kinetic energy of that [J]
+    double relative = 0.0;                               ///< and of the rest
   };
 
   void prepare_coupling(const Rods& rods);
@@ -64,9 +74,18 @@ class RodGroup {
   Lanes* part(std::vector<Lanes>& values, std::size_t batch);
 
   void limit_start(Rods& rods, const Effects& effects);
+  void limit_again(Rods& rods, const Effects& effects);
   bool is_limited(const Rods& rods, std::uint32_t rod) const;
   void stop_torn(Rods& rods, const Effects& effects, std::size_t batch);
-  bool restart_lost(Rods& rods, const Effects& effects, bool limits_energy);
+  bool restart_lost(Rods& rods, const Effects& effects, Gains gains);
+  void limit_energy(Rods& rods, const Effects& effects);
+  void take_gains(Rods& rods, const Effects& effects);
+  void weigh_gains(const Rods& rods);
+  bool is_any_beyond() const;
+  Motion motion_of(const Rods& rods, const Search& search);
+  void aim_back(Rods& rods, const Effects& effects);
+  void go_back(Rods& rods, const Effects& effects, double share);
+  void slow_down(Rods& rods, const Search& search);
   void begin_searches();
   void join_searches();
   void iterate(Rods& rods, const Effects& effects, const StepperOptions& options);
@@ -104,6 +123,7 @@ class RodGroup {
     std::vector<Lanes> image;                   // of the direction
   } gradients_;                                 // conjugate ones
   std::vector<double> contact_energies_;        // [J] by rod
+  std::vector<double> allowed_contacts_;        // [J] by rod: what contacts may end with
   std::vector<bool> is_accepting_;              // by rod: its search is
   std::vector<Eigen::Vector3d> beginning_;      // of the step, where there are contacts
   std::vector<Eigen::Vector3d> displacements_;  // of nodes, to be limited

@@ -49,6 +49,15 @@ void RodGroup::limit_start(Rods& rods, const Effects& effects) {
   for_each_batch(Work::LITTLE, [&](std::size_t batch) { batches_[batch].place(rods.positions); });
 }
 
+/// The same for other places that they are to end at than they began with.
+void RodGroup::limit_again(Rods& rods, const Effects& effects) {
+  rods.positions.swap(beginning_);
+  contacts_->measure(rods, contact_energies_);
+  rods.positions.swap(beginning_);
+  limit_start(rods, effects);
+  join_searches();
+}
+
 /// Whether limits have changed what was wanted of a rod.
 bool RodGroup::is_limited(const Rods& rods, std::uint32_t rod) const {
   const auto first = static_cast<std::ptrdiff_t>(rods.first(rod));
@@ -114,7 +123,8 @@ void RodGroup::join_searches() {
       Search& joined = searches_[island];
       joined.accepted.add(searches_[rod].accepted);
       joined.is_active |= searches_[rod].is_active;
-      searches_[rod].accepted = Merit{};
+      joined.is_beyond |= searches_[rod].is_beyond;
+      searches_[rod] = Search{};
       searches_[rod].is_active = false;
     }
   }

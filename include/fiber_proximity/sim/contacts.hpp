@@ -53,6 +53,9 @@ class Contacts {
   /// Shortens displacements so that nothing passes through anything.
   void limit(const Rods& rods, std::vector<Eigen::Vector3d>& displacements);
 
+  /// Whether a rod touches anything but rods.
+  bool touches_obstacle(std::uint32_t rod) const;
+
   const std::vector<ContactPoint>& points() const { return points_; }
 
  private:
