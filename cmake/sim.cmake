@@ -5,6 +5,7 @@ add_library(fiber_proximity_sim SHARED
   src/sim/contact_limits.cpp
   src/sim/contact_stiffness.cpp
   src/sim/contacts.cpp
+  src/sim/coupled_step.cpp
   src/sim/edge_share.cpp
   src/sim/effects/attachment.cpp
   src/sim/effects/bend.cpp
@@ -39,7 +40,6 @@ add_library(fiber_proximity_sim SHARED
   src/sim/rod_batch_energy.cpp
   src/sim/rod_group.cpp
   src/sim/rod_group_contacts.cpp
-  src/sim/rod_group_coupling.cpp
   src/sim/rod_group_energy.cpp
   src/sim/rod_group_gains.cpp
   src/sim/rod_lanes.cpp

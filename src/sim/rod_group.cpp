@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "lane_sums.hpp"
 
@@ -22,15 +23,14 @@ void RodGroup::assign(const Rods& rods, const Batches& batches) {
   }
   step_.resize(size);
   is_found_.resize(batches.size());
+  islands_.resize(batches.size());
   if (contacts_ != nullptr) {
     prepare_coupling(rods);
   }
 }
 
-/// Without contacts there is one batch.
 RodGroup::Search& RodGroup::search_of(std::size_t batch, std::size_t lane) {
-  return searches_[contacts_ != nullptr ? contacts_->islands().of(batches_[batch].rod(lane))
-                                        : lane];
+  return searches_[islands_[batch][lane]];
 }
 
 Lanes* RodGroup::part(std::vector<Lanes>& values, std::size_t batch) {
@@ -63,7 +63,11 @@ void RodGroup::solve(Rods& rods, const Effects& effects, const StepperOptions& o
 
 void RodGroup::begin_searches() {
   searches_.assign(contacts_ != nullptr ? systems_.size() : batches_.front().used(), Search{});
-  join_searches();
+  if (contacts_ != nullptr) {
+    join_searches();
+  } else {
+    std::iota(islands_.front().begin(), islands_.front().end(), 0U);
+  }
 }
 
 /// Newton's method from where the rods are.
@@ -245,17 +249,12 @@ bool RodGroup::judge_step() {
 /// Moves rods by their shares of the step.
 void RodGroup::move() {
   for_each_batch(Work::LITTLE, [&](std::size_t batch) {
-    batches_[batch].move(part(step_, batch), by_lane(batch, &Search::share));
+    Lanes shares;
+    for (std::size_t lane = 0; lane < batches_[batch].used(); ++lane) {
+      shares[lane] = search_of(batch, lane).share;
+    }
+    batches_[batch].move(part(step_, batch), shares);
   });
-}
-
-/// What the searches of a batch's rods have.
-Lanes RodGroup::by_lane(std::size_t batch, double Search::*value) {
-  Lanes values;
-  for (std::size_t lane = 0; lane < batches_[batch].used(); ++lane) {
-    values[lane] = search_of(batch, lane).*value;
-  }
-  return values;
 }
 
 }  // namespace fiber

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "coupled_step.hpp"
 #include "fiber_proximity/sim/contacts.hpp"
 #include "fiber_proximity/sim/stepper.hpp"
 #include "rod_batch.hpp"
@@ -45,15 +46,9 @@ class RodGroup {
     double decrease = 0.0;      ///< that the slope promises for a whole step [J]
     double longest = 0.0;       ///< component of the step
     double share = 1.0;         ///< of the step, to be tried
-    double norm = 0.0;          ///< of the residual of conjugate gradients
-    double curvature = 0.0;     ///< along their direction
-    double forward = 0.0;       ///< share of it
-    double back = 0.0;          ///< the same, negative
-    double growth = 0.0;        ///< of the norm
     bool is_active = true;      ///< goes on
     bool is_searching = false;  ///< has not found a share of this step
     bool is_accepting = false;  ///< where its rods were measured
-    bool is_solving = false;    ///< for its step
     bool is_beyond = false;     ///< has gained more than its rods can lose by being slower
   };
 
@@ -96,12 +91,6 @@ class RodGroup {
   void stop_inactive();
   void weigh_step();
   void correct_step();
-  bool is_any_solving(double tolerance);
-  void precondition(const std::vector<Lanes>& values, std::vector<Lanes>& preconditioned);
-  void sum_products(const std::vector<Lanes>& a, const std::vector<Lanes>& b, double Search::*sum);
-  void add_shares(const std::vector<Lanes>& a, const std::vector<Lanes>& b, double Search::*share,
-                  std::vector<Lanes>& sum);
-  Lanes by_lane(std::size_t batch, double Search::*value);
   void limit_step(const Rods& rods);
   void search_line(Rods& rods, const Effects& effects);
   bool judge_step();
@@ -115,13 +104,9 @@ class RodGroup {
   std::vector<LaneFlags> is_found_;   // by batch: not lost
   std::vector<Search> searches_;      // by island where there are contacts, else by lane
   std::vector<Lanes> step_;
-  struct {
-    std::vector<Lanes> residual;
-    std::vector<Lanes> preconditioned;
-    std::vector<Lanes> direction;
-    std::vector<Lanes> product;                 // of the preconditioner and the direction
-    std::vector<Lanes> image;                   // of the direction
-  } gradients_;                                 // conjugate ones
+  std::vector<LaneIndices> islands_;  // by batch: of searches, to which its rods belong
+  std::vector<double> decreases_;     // by search
+  CoupledStep coupled_step_;
   std::vector<double> contact_energies_;        // [J] by rod
   std::vector<double> allowed_contacts_;        // [J] by rod: what contacts may end with
   std::vector<bool> is_accepting_;              // by rod: its search is

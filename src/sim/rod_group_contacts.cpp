@@ -11,10 +11,6 @@ namespace fiber {
 using Eigen::Vector3d;
 
 void RodGroup::prepare_coupling(const Rods& rods) {
-  for (auto* array : {&gradients_.residual, &gradients_.preconditioned, &gradients_.direction,
-                      &gradients_.product, &gradients_.image}) {
-    array->resize(step_.size());
-  }
   systems_.resize(rods.count());
   is_accepting_.resize(rods.count());
   places_.resize(rods.positions.size());
@@ -114,9 +110,9 @@ void RodGroup::stop_torn(Rods& rods, const Effects& effects, std::size_t index) 
 
 /// Rods that may touch are searched for together from now on.
 void RodGroup::join_searches() {
-  if (contacts_ == nullptr) {
-    return;
-  }
+  for_each_rod([&](std::size_t batch, std::size_t lane) {
+    islands_[batch][lane] = contacts_->islands().of(batches_[batch].rod(lane));
+  });
   for (std::uint32_t rod = 0; rod < searches_.size(); ++rod) {
     const std::uint32_t island = contacts_->islands().of(rod);
     if (island != rod) {
@@ -142,6 +138,14 @@ void RodGroup::measure_contacts(const Rods& rods) {
   for (std::uint32_t rod = 0; rod < searches_.size(); ++rod) {
     searches_[contacts_->islands().of(rod)].contacts.add(contact_energies_[rod]);
   }
+}
+
+void RodGroup::correct_step() {
+  decreases_.clear();
+  for (const Search& search : searches_) {
+    decreases_.push_back(search.decrease);
+  }
+  coupled_step_.correct({batches_, offsets_, islands_, decreases_, *contacts_, places_}, step_);
 }
 
 void RodGroup::limit_step(const Rods& rods) {
