@@ -20,14 +20,20 @@ double longest_move(const Rods& rods, double fastest) {
          steps * fastest;
 }
 
+Eigen::Vector3d mean_move(const std::vector<Eigen::Vector3d>& from,
+                          const std::vector<Eigen::Vector3d>& now,
+                          const std::vector<Eigen::Vector3d>& displacements) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    sum += now[i] + displacements[i] - from[i];
+  }
+  return sum / static_cast<double>(now.size());
+}
+
 double farthest_move(const std::vector<Eigen::Vector3d>& from,
                      const std::vector<Eigen::Vector3d>& now,
-                     const std::vector<Eigen::Vector3d>& displacements) {
-  Eigen::Vector3d drift = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < now.size(); ++i) {
-    drift += now[i] + displacements[i] - from[i];
-  }
-  drift /= static_cast<double>(now.size());
+                     const std::vector<Eigen::Vector3d>& displacements,
+                     const Eigen::Vector3d& drift) {
   double farthest_square = 0.0;
   for (std::size_t i = 0; i < now.size(); ++i) {
     farthest_square =

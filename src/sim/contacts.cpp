@@ -51,13 +51,6 @@ void Contacts::begin_step(const Rods& rods, const TimeStep& step) {
     friction_->begin_step(rods, step);
   }
   islands_.reset(rods.count());
-  join();
-}
-
-void Contacts::join() {
-  for (const std::unique_ptr<ContactSource>& source : sources_) {
-    source->join(islands_);
-  }
 }
 
 void Contacts::measure(const Rods& rods, std::vector<double>& energies) {
@@ -72,6 +65,14 @@ void Contacts::measure(const Rods& rods, std::vector<double>& energies) {
   }
   set_springs(found_, rods, energies);
   add_friction(rods, energies);
+}
+
+void Contacts::join_found() {
+  for (const ContactPoint& point : found_) {
+    if (!point.is_obstacle()) {
+      islands_.join(point.rod_a, point.rod_b);
+    }
+  }
 }
 
 void Contacts::accept(const std::vector<bool>& of_rods) {
@@ -161,17 +162,22 @@ void Contacts::add_coupling(const std::vector<std::size_t>& places, const double
   }
 }
 
-void Contacts::limit(const Rods& rods, std::vector<Vector3d>& displacements) {
+void Contacts::limit(const Rods& rods, std::vector<Vector3d>& displacements,
+                     ContactSource::Way way) {
   std::vector<Vector3d> before;
   int round = 0;
   do {
     before = displacements;
     for (const std::unique_ptr<ContactSource>& source : sources_) {
-      source->limit(rods, displacements, round);
+      source->limit(rods, displacements, way, round);
     }
     ++round;
   } while (sources_.size() > 1 && displacements != before);
-  join();
+  if (way == ContactSource::Way::SHARES) {
+    for (const std::unique_ptr<ContactSource>& source : sources_) {
+      source->join(rods, displacements, islands_);
+    }
+  }
 }
 
 }  // namespace fiber

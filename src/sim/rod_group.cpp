@@ -77,6 +77,9 @@ void RodGroup::iterate(Rods& rods, const Effects& effects, const StepperOptions&
                        [](const Search& search) { return search.is_active; });
   };
   measure(rods, effects);
+  if (contacts_ != nullptr) {
+    join_touching();
+  }
   for (Search& search : searches_) {
     search.is_accepting = search.is_active;
   }
@@ -158,7 +161,6 @@ void RodGroup::find_step(Rods& rods, const Effects& effects) {
       correct_step();
     }
     limit_step(rods);
-    join_searches();
   }
   weigh_step();
 }

@@ -78,11 +78,12 @@ class RodGroup {
   void weigh_gains(const Rods& rods);
   bool is_any_beyond() const;
   Motion motion_of(const Rods& rods, const Search& search);
-  void aim_back(Rods& rods, const Effects& effects);
+  void aim_back(Rods& rods);
   void go_back(Rods& rods, const Effects& effects, double share);
   void slow_down(Rods& rods, const Search& search);
   void begin_searches();
   void join_searches();
+  void join_touching();
   void iterate(Rods& rods, const Effects& effects, const StepperOptions& options);
   void measure(Rods& rods, const Effects& effects);
   void measure_contacts(const Rods& rods);
@@ -112,6 +113,7 @@ class RodGroup {
   std::vector<bool> is_accepting_;              // by rod: its search is
   std::vector<Eigen::Vector3d> beginning_;      // of the step, where there are contacts
   std::vector<Eigen::Vector3d> displacements_;  // of nodes, to be limited
+  std::vector<Eigen::Vector3d> ends_;           // of ways from the beginning
   std::vector<Eigen::Vector3d> wanted_;         // before they were
 };
 

@@ -32,16 +32,20 @@ void RodGroup::limit_start(Rods& rods, const Effects& effects) {
   for (std::size_t i = 0; i < displacements_.size(); ++i) {
     displacements_[i] = rods.positions[i] - beginning_[i];
   }
+  ends_ = rods.positions;
   rods.positions = beginning_;
   wanted_ = displacements_;
-  contacts_->limit(rods, displacements_);
+  contacts_->limit(rods, displacements_, ContactSource::Way::WHOLE);
   for_each_batch(Work::MUCH, [&](std::size_t batch) { stop_torn(rods, effects, batch); });
   rods.positions = beginning_;
   // What stays may be in the way of what follows it.
-  contacts_->limit(rods, displacements_);
+  contacts_->limit(rods, displacements_, ContactSource::Way::WHOLE);
   for (std::size_t i = 0; i < displacements_.size(); ++i) {
-    rods.positions[i] += displacements_[i];
+    if (displacements_[i] != wanted_[i]) {
+      ends_[i] = beginning_[i] + displacements_[i];
+    }
   }
+  rods.positions = ends_;
   for_each_batch(Work::LITTLE, [&](std::size_t batch) { batches_[batch].place(rods.positions); });
 }
 
@@ -51,7 +55,6 @@ void RodGroup::limit_again(Rods& rods, const Effects& effects) {
   contacts_->measure(rods, contact_energies_);
   rods.positions.swap(beginning_);
   limit_start(rods, effects);
-  join_searches();
 }
 
 /// Whether limits have changed what was wanted of a rod.
@@ -108,6 +111,12 @@ void RodGroup::stop_torn(Rods& rods, const Effects& effects, std::size_t index) 
   }
 }
 
+/// Rods that touch where they were measured are searched for together from now on.
+void RodGroup::join_touching() {
+  contacts_->join_found();
+  join_searches();
+}
+
 /// Rods that may touch are searched for together from now on.
 void RodGroup::join_searches() {
   for_each_rod([&](std::size_t batch, std::size_t lane) {
@@ -154,10 +163,11 @@ void RodGroup::limit_step(const Rods& rods) {
   for (std::size_t i = 0; i < displacements_.size(); ++i) {
     displacements_[i] = Eigen::Map<const Vector3d, 0, Stride>(step + places_[i]);
   }
-  contacts_->limit(rods, displacements_);
+  contacts_->limit(rods, displacements_, ContactSource::Way::SHARES);
   for (std::size_t i = 0; i < displacements_.size(); ++i) {
     Eigen::Map<Vector3d, 0, Stride>(step + places_[i]) = displacements_[i];
   }
+  join_searches();
 }
 
 }  // namespace fiber

@@ -17,7 +17,7 @@ void RodGroup::take_gains(Rods& rods, const Effects& effects) {
   constexpr int most_halvings = 6;
   weigh_gains(rods);
   if (is_any_beyond()) {
-    aim_back(rods, effects);
+    aim_back(rods);
     double share = 0.5;
     for (int i = 1; is_any_beyond() && i <= most_halvings; ++i) {
       go_back(rods, effects, i < most_halvings ? share : 1.0);
@@ -127,10 +127,9 @@ void RodGroup::slow_down(Rods& rods, const Search& search) {
   });
 }
 
-/// Makes steps that lead rods which have gained too much to where they began; what is held stays
-/// where it is, as far as nothing is in the way. Nothing passes through anything on straight ways
-/// there: at both of their ends, rods of an island are on their sides of the planes between them.
-void RodGroup::aim_back(Rods& rods, const Effects& effects) {
+/// Makes steps that lead rods which have gained too much to where they began, as far as nothing is
+/// in the way; what is held stays where it is.
+void RodGroup::aim_back(Rods& rods) {
   for (std::size_t index = 0; index < batches_.size(); ++index) {
     RodBatch& batch = batches_[index];
     LaneFlags is_content{};
@@ -140,12 +139,11 @@ void RodGroup::aim_back(Rods& rods, const Effects& effects) {
     batch.remember();
     batch.stay();
     batch.restore(is_content);
+    batch.way_from_remembered(part(step_, index));
   }
   if (contacts_ != nullptr) {
-    limit_again(rods, effects);
-  }
-  for (std::size_t batch = 0; batch < batches_.size(); ++batch) {
-    batches_[batch].way_from_remembered(part(step_, batch));
+    contacts_->measure(rods, contact_energies_);
+    limit_step(rods);
   }
   for (Search& search : searches_) {
     search.share = 0.0;

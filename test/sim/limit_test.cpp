@@ -37,7 +37,7 @@ TEST(Limit, WhatFollowsIsStoppedByWhatIsStopped) {
   contact.begin_step(rods, {0.0, 0.01});
   std::vector<Vector3d> displacements(rods.positions.size(), Vector3d::UnitX());
   displacements[2].x() = displacements[3].x() = 0.98;
-  contact.limit(rods, displacements, ContactSource::settling_round);
+  contact.limit(rods, displacements, ContactSource::Way::WHOLE, ContactSource::settling_round);
   TunnellingChecker checker(rods);
   move(rods, displacements);
   EXPECT_LT(rods.positions[0].x(), radius) << "it settles";
@@ -67,7 +67,8 @@ TEST(Limit, NoDisplacementsLeadThroughAnything) {
     for (std::size_t i = 0; i < rods.positions.size(); ++i) {
       displacements.emplace_back(shared + random.in_cube(own));
     }
-    contact.limit(rods, displacements, random.chance(0.5) ? ContactSource::settling_round : 0);
+    contact.limit(rods, displacements, ContactSource::Way::WHOLE,
+                  random.chance(0.5) ? ContactSource::settling_round : 0);
     move(rods, displacements);
     ASSERT_EQ(checker.check(rods), "");
   }

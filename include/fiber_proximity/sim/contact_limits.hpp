@@ -16,12 +16,18 @@ double largest_square(const std::vector<Eigen::Vector3d>& vectors);
 /// @param fastest how far the fastest node goes at its speed [m]
 double longest_move(const Rods& rods, double fastest);
 
-/// How far nodes get from where they were, beside how far all of them get on the average: without
-/// that, pairs of them would come as near to each other [m].
+/// How far nodes get from where they were, on the average [m].
 /// @param displacements of the nodes from where they are now
+Eigen::Vector3d mean_move(const std::vector<Eigen::Vector3d>& from,
+                          const std::vector<Eigen::Vector3d>& now,
+                          const std::vector<Eigen::Vector3d>& displacements);
+
+/// How far the farthest gets beside a drift: without what all share, pairs of nodes come as near to
+/// each other [m].
 double farthest_move(const std::vector<Eigen::Vector3d>& from,
                      const std::vector<Eigen::Vector3d>& now,
-                     const std::vector<Eigen::Vector3d>& displacements);
+                     const std::vector<Eigen::Vector3d>& displacements,
+                     const Eigen::Vector3d& drift);
 
 /// Shortens a displacement to at most a length.
 void limit_length(double most, Eigen::Vector3d& displacement);

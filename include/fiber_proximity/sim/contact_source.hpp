@@ -38,11 +38,12 @@ class ContactSource {
   /// Measures what is how near where the rods are now; the following functions are about that.
   virtual void measure(const Rods& rods) = 0;
 
-  /// Joins rods that may touch each other on ways that limit() allows.
-  virtual void join(Islands& islands) const = 0;
-
   /// Appends all places where rods touch something.
   virtual void find(const Rods& rods, std::vector<ContactPoint>& points) const = 0;
+
+  /// How displacements will be gone: by all in whole, from where the step began, or by each island
+  /// a share of its own, from where it is.
+  enum class Way { WHOLE, SHARES };
 
   /// Shortens displacements of nodes so far that on straight ways from where the step began no
   /// rod's axis passes through what it may meet. Looks for more of that where displacements lead
@@ -50,8 +51,14 @@ class ContactSource {
   /// @param round how often it has been called for these displacements: what one source stops,
   ///              another's rods may follow into, so that each has its turn until none changes any.
   ///              From settling_round on it may do no more than has an end.
-  virtual void limit(const Rods& rods, std::vector<Eigen::Vector3d>& displacements, int round) = 0;
+  virtual void limit(const Rods& rods, std::vector<Eigen::Vector3d>& displacements, Way way,
+                     int round) = 0;
   static constexpr int settling_round = 4;
+
+  /// Joins rods that may touch or pass through each other where they go shares of displacements,
+  /// each its own.
+  virtual void join(const Rods& rods, const std::vector<Eigen::Vector3d>& displacements,
+                    Islands& islands) const = 0;
 };
 
 }  // namespace fiber

@@ -22,6 +22,9 @@ class Contacts {
   /// @param energies [J] by rod, overwritten; that of contacts of two is that of one of them
   void measure(const Rods& rods, std::vector<double>& energies);
 
+  /// Makes one island of rods that touch where they were measured last.
+  void join_found();
+
   /// Accepts, of the contacts found last, those of some islands: the following functions are about
   /// them.
   /// @param of_rods whether a rod's contacts are accepted
@@ -33,7 +36,8 @@ class Contacts {
   /// The same without friction, which stores nothing.
   void stored_energies(const Rods& rods, std::vector<double>& energies) const;
 
-  /// Rods that may touch each other, as far as limit() has been asked since the step began.
+  /// Rods that have touched each other in this step, or may have in shares of displacements that
+  /// were limited.
   const Islands& islands() const { return islands_; }
 
   /// Adds gradients, and of the Hessian all that is within one rod; nodes that are held do not
@@ -50,8 +54,9 @@ class Contacts {
   void add_coupling(const std::vector<std::size_t>& places, const double* displacements,
                     double* product) const;
 
-  /// Shortens displacements so that nothing passes through anything.
-  void limit(const Rods& rods, std::vector<Eigen::Vector3d>& displacements);
+  /// Shortens displacements so that nothing passes through anything. Where islands go shares of
+  /// them, joins those that may touch.
+  void limit(const Rods& rods, std::vector<Eigen::Vector3d>& displacements, ContactSource::Way way);
 
   /// Whether a rod touches anything but rods.
   bool touches_obstacle(std::uint32_t rod) const;
@@ -70,7 +75,6 @@ class Contacts {
 
   template <class Function>
   void for_each_source(const Function& function);
-  void join();
   static void set_springs(const std::vector<ContactPoint>& points, const Rods& rods,
                           std::vector<double>& energies);
   void add_friction(const Rods& rods, std::vector<double>& energies) const;

@@ -171,8 +171,8 @@ void EnvironmentContact::find(const Rods& rods, std::vector<ContactPoint>& point
     const Plane& plane = planes_[i];
     const double depth = rods.radii[plane.rod] - heights_[i].nearest;
     if (depth > 0.0 && plane.share > 0.0) {
-      points.push_back({plane.rod, plane.edge, plane.s, 0, ContactPoint::obstacle, 0.0,
-                        plane.point, plane.normal, depth, plane.share * plane.stiffness});
+      points.push_back({plane.rod, plane.edge, plane.s, 0, ContactPoint::obstacle, 0.0, plane.point,
+                        plane.normal, depth, plane.share * plane.stiffness});
     }
   }
 }
@@ -190,7 +190,7 @@ double EnvironmentContact::free_distance(const Rods& rods, const Plane& plane) c
   return height - least_distance * rods.radii[plane.rod] - moved;
 }
 
-void EnvironmentContact::limit(const Rods& rods, std::vector<Vector3d>& displacements,
+void EnvironmentContact::limit(const Rods& rods, std::vector<Vector3d>& displacements, Way /*way*/,
                                int /*round*/) {
   limit_to_known(rods, displacements);
   const double longest = std::sqrt(largest_square(displacements));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "fiber_proximity/sim/contact_limits.hpp"
 #include "fiber_proximity/sim/contact_stiffness.hpp"
@@ -30,10 +31,14 @@ void FiberContact::begin_step(const Rods& rods, const TimeStep& step) {
     displacements_[i] = step.length * rods.velocities[i];
   }
   const bool is_first = fibers_.point_count() != rods.positions.size();
-  if (is_first || farthest_move(fibers_.points(), rods.positions, displacements_) > 0.25 * reach_) {
+  const auto farthest_from = [&](const std::vector<Vector3d>& from) {
+    return farthest_move(from, beginning_, displacements_,
+                         mean_move(from, beginning_, displacements_));
+  };
+  if (is_first || farthest_from(fibers_.points()) > 0.25 * reach_) {
     constexpr double steps = 2.5;
     const double largest = *std::max_element(rods.radii.begin(), rods.radii.end());
-    reach_ = 2.0 * largest + steps * farthest_move(beginning_, rods.positions, displacements_);
+    reach_ = 2.0 * largest + steps * farthest_from(beginning_);
     find_candidates(rods);
   }
   measure(rods);
@@ -103,12 +108,6 @@ void FiberContact::measure_at(const std::vector<Vector3d>& positions) {
       b[i] = &positions[candidates_[begin + i].edge_b];
     }
     segment_distances(a.data(), b.data(), count, &distances_[begin]);
-  }
-}
-
-void FiberContact::join(Islands& islands) const {
-  for (const Candidate& candidate : candidates_) {
-    islands.join(candidate.rod_a, candidate.rod_b);
   }
 }
 
@@ -194,53 +193,81 @@ bool FiberContact::keep_apart(const Rods& rods, std::size_t candidate, bool is_f
 }
 
 /// Whether all that displacements may bring together is a candidate. It is enough that nodes do not
-/// get far beside each other.
-bool FiberContact::is_known(const Rods& rods, const std::vector<Vector3d>& displacements) const {
-  if (farthest_move(fibers_.points(), rods.positions, displacements) <= 0.5 * reach_) {
-    return true;
-  }
-  double farthest_square = 0.0;
-  for (std::size_t i = 0; i < displacements.size(); ++i) {
-    const Vector3d move = rods.positions[i] + displacements[i] - fibers_.points()[i];
-    farthest_square = std::max(farthest_square, move.squaredNorm());
-  }
+/// get far beside a drift. That is what all share that go in whole; who then goes a share of
+/// something else does so beside the same drift, which not all may share with.
+bool FiberContact::is_known(const Rods& rods, const std::vector<Vector3d>& displacements, Way way) {
   constexpr double rounding = 1.0 + 1e-9;
-  return std::sqrt(farthest_square) <= 0.5 * rounding * reach_;
+  const auto is_near = [&](const Vector3d& drift) {
+    return farthest_move(fibers_.points(), rods.positions, displacements, drift) <=
+           0.5 * rounding * reach_;
+  };
+  if (way == Way::SHARES) {
+    return is_near(drift_);
+  }
+  for (const Vector3d& drift :
+       {mean_move(fibers_.points(), rods.positions, displacements), Vector3d(Vector3d::Zero())}) {
+    if (is_near(drift)) {
+      drift_ = drift;
+      return true;
+    }
+  }
+  return false;
+}
+
+/// How far candidates that are looked for where the step began must be looked for, so that these
+/// displacements are known then [m].
+double FiberContact::needed_reach(const Rods& rods, const std::vector<Vector3d>& displacements,
+                                  Way way) const {
+  constexpr double rounding = 1.0 + 1e-9;
+  const bool is_whole = way == Way::WHOLE;
+  const Vector3d drift = is_whole ? mean_move(beginning_, rods.positions, displacements) : drift_;
+  double farthest = farthest_move(beginning_, rods.positions, displacements, drift);
+  if (!is_whole) {
+    const std::vector<Vector3d> none(displacements.size(), Vector3d::Zero());
+    farthest = std::max(farthest, farthest_move(beginning_, rods.positions, none, drift));
+  }
+  return 2.0 * rounding * farthest;
 }
 
 /// Looks for candidates as far as these displacements lead; where that is too far, shortens them.
-void FiberContact::look_further(const Rods& rods, std::vector<Vector3d>& displacements) {
-  constexpr double rounding = 1.0 + 1e-9;
+void FiberContact::look_further(const Rods& rods, std::vector<Vector3d>& displacements, Way way) {
   const double longest_reach = 2.0 * longest_move_;
-  const double needed = 2.0 * rounding * farthest_move(beginning_, rods.positions, displacements);
   if (reach_ < longest_reach || beginning_ != fibers_.points()) {
+    const std::vector<Vector3d> none(displacements.size(), Vector3d::Zero());
+    drift_ -= mean_move(fibers_.points(), beginning_, none);
+    const double needed = needed_reach(rods, displacements, way);
     reach_ = std::max(reach_, std::min(needed, longest_reach));
     find_candidates(rods);
     measure_at(beginning_);
     part_candidates(rods);
     measure(rods);
   }
-  if (needed > reach_) {
-    for (std::size_t i = 0; i < displacements.size(); ++i) {
-      limit_length(0.5 * reach_ - (rods.positions[i] - beginning_[i]).norm(), displacements[i]);
-    }
-    if (!is_known(rods, displacements)) {
-      // Far from where they began already: they stay where they are.
-      std::fill(displacements.begin(), displacements.end(), Vector3d::Zero());
-    }
+  if (is_known(rods, displacements, way)) {
+    return;
+  }
+  const Vector3d drift = way == Way::WHOLE ? Vector3d(Vector3d::Zero()) : drift_;
+  for (std::size_t i = 0; i < displacements.size(); ++i) {
+    const Vector3d moved = rods.positions[i] - beginning_[i] - drift;
+    limit_length(0.5 * reach_ - moved.norm(), displacements[i]);
+  }
+  if (!is_known(rods, displacements, way)) {
+    // Far from where they began already: they stay where they are.
+    std::fill(displacements.begin(), displacements.end(), Vector3d::Zero());
   }
 }
 
-void FiberContact::limit(const Rods& rods, std::vector<Vector3d>& displacements, int round) {
+void FiberContact::limit(const Rods& rods, std::vector<Vector3d>& displacements, Way way,
+                         int round) {
   bool has_shortened = false;
   do {
-    if (!is_known(rods, displacements)) {
-      look_further(rods, displacements);
+    if (!is_known(rods, displacements, way)) {
+      look_further(rods, displacements, way);
     }
     has_shortened = limit_to_sides(rods, displacements, round >= settling_round);
     ++round;
     // What is stopped moves against what is not: it may get further beside that than before.
-  } while (has_shortened && largest_square(displacements) > 0.0 && !is_known(rods, displacements));
+  } while (has_shortened && !is_known(rods, displacements, way) &&
+           largest_square(displacements) > 0.0);
 }
 
 /// What one pair stops, another may follow into: until none has to be stopped. Planes that make
@@ -269,6 +296,31 @@ bool FiberContact::limit_to_sides(const Rods& rods, std::vector<Vector3d>& displ
     }
   }
   return has_shortened;
+}
+
+void FiberContact::join(const Rods& rods, const std::vector<Vector3d>& displacements,
+                        Islands& islands) const {
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    const Candidate& candidate = candidates_[i];
+    if (islands.of(candidate.rod_a) == islands.of(candidate.rod_b)) {
+      continue;
+    }
+    const Vector3d& normal = partings_[i].normal;
+    double farthest_a = -std::numeric_limits<double>::infinity();
+    double nearest_b = std::numeric_limits<double>::infinity();
+    for (std::uint32_t end = 0; end < 2; ++end) {
+      const std::uint32_t a = candidate.edge_a + end;
+      const std::uint32_t b = candidate.edge_b + end;
+      farthest_a = std::max(
+          farthest_a, normal.dot(rods.positions[a]) + std::max(0.0, normal.dot(displacements[a])));
+      nearest_b = std::min(
+          nearest_b, normal.dot(rods.positions[b]) + std::min(0.0, normal.dot(displacements[b])));
+    }
+    const double touching = rods.radii[candidate.rod_a] + rods.radii[candidate.rod_b];
+    if (!(nearest_b - farthest_a > std::max(touching, partings_[i].room))) {
+      islands.join(candidate.rod_a, candidate.rod_b);
+    }
+  }
 }
 
 }  // namespace fiber

@@ -32,9 +32,11 @@ class EnvironmentContact : public ContactSource {
 
   void begin_step(const Rods& rods, const TimeStep& step) override;
   void measure(const Rods& rods) override;
-  void join(Islands& /*islands*/) const override {}
   void find(const Rods& rods, std::vector<ContactPoint>& points) const override;
-  void limit(const Rods& rods, std::vector<Eigen::Vector3d>& displacements, int round) override;
+  void limit(const Rods& rods, std::vector<Eigen::Vector3d>& displacements, Way way,
+             int round) override;
+  void join(const Rods& /*rods*/, const std::vector<Eigen::Vector3d>& /*displacements*/,
+            Islands& /*islands*/) const override {}
 
  private:
   /// What is near a node or an edge, as a plane.

@@ -30,9 +30,11 @@ class FiberContact : public ContactSource {
 
   void begin_step(const Rods& rods, const TimeStep& step) override;
   void measure(const Rods& rods) override;
-  void join(Islands& islands) const override;
   void find(const Rods& rods, std::vector<ContactPoint>& points) const override;
-  void limit(const Rods& rods, std::vector<Eigen::Vector3d>& displacements, int round) override;
+  void limit(const Rods& rods, std::vector<Eigen::Vector3d>& displacements, Way way,
+             int round) override;
+  void join(const Rods& rods, const std::vector<Eigen::Vector3d>& displacements,
+            Islands& islands) const override;
 
  private:
   struct Candidate {
@@ -55,8 +57,10 @@ class FiberContact : public ContactSource {
   void measure_at(const std::vector<Eigen::Vector3d>& positions);
   bool keep_apart(const Rods& rods, std::size_t candidate, bool is_fixed,
                   std::vector<Eigen::Vector3d>& displacements) const;
-  bool is_known(const Rods& rods, const std::vector<Eigen::Vector3d>& displacements) const;
-  void look_further(const Rods& rods, std::vector<Eigen::Vector3d>& displacements);
+  bool is_known(const Rods& rods, const std::vector<Eigen::Vector3d>& displacements, Way way);
+  void look_further(const Rods& rods, std::vector<Eigen::Vector3d>& displacements, Way way);
+  double needed_reach(const Rods& rods, const std::vector<Eigen::Vector3d>& displacements,
+                      Way way) const;
   bool limit_to_sides(const Rods& rods, std::vector<Eigen::Vector3d>& displacements,
                       bool is_settling) const;
   double stiffness_of(const Rods& rods, const Candidate& candidate) const;
@@ -69,11 +73,12 @@ class FiberContact : public ContactSource {
   FiberAssembly fibers_;  // where the rods were when candidates were looked for
   QueryResult result_;
   std::vector<Candidate> candidates_;
-  std::vector<Parting> partings_;           // of the candidates
-  std::vector<SegmentDistance> distances_;  // of the candidates, from a to b
-  double reach_ = 0.0;                      // [m] surfaces further apart then are no candidates
-  double longest_move_ = 0.0;               // [m] in this step
-  double step_ = 0.0;                       // [s]
+  std::vector<Parting> partings_;                    // of the candidates
+  std::vector<SegmentDistance> distances_;           // of the candidates, from a to b
+  Eigen::Vector3d drift_ = Eigen::Vector3d::Zero();  // of all since candidates were looked for [m]
+  double reach_ = 0.0;         // [m] surfaces further apart then are no candidates
+  double longest_move_ = 0.0;  // [m] in this step
+  double step_ = 0.0;          // [s]
 };
 
 }  // namespace fiber
