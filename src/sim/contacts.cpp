@@ -67,6 +67,12 @@ void Contacts::measure(const Rods& rods, std::vector<double>& energies) {
   add_friction(rods, energies);
 }
 
+void Contacts::join(const Rods& rods, const std::vector<Vector3d>& displacements) {
+  for (const std::unique_ptr<ContactSource>& source : sources_) {
+    source->join(rods, displacements, islands_);
+  }
+}
+
 void Contacts::join_found() {
   for (const ContactPoint& point : found_) {
     if (!point.is_obstacle()) {
@@ -174,9 +180,7 @@ void Contacts::limit(const Rods& rods, std::vector<Vector3d>& displacements,
     ++round;
   } while (sources_.size() > 1 && displacements != before);
   if (way == ContactSource::Way::SHARES) {
-    for (const std::unique_ptr<ContactSource>& source : sources_) {
-      source->join(rods, displacements, islands_);
-    }
+    join(rods, displacements);
   }
 }
 

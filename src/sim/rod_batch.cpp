@@ -77,10 +77,10 @@ void RodBatch::move(const Lanes* step, const Lanes& shares) {
   measure_edges(lanes_);
 }
 
-void RodBatch::way_from_remembered(Lanes* step) const {
+void RodBatch::way_back(const LaneFlags& which, Lanes* step) const {
   for (std::size_t i = 0; i < system_.size(); ++i) {
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
-      step[i][lane] = lanes_.positions[i][lane] - remembered_[i][lane];
+      step[i][lane] = which[lane] ? beginning_[i][lane] - lanes_.positions[i][lane] : 0.0;
     }
   }
 }

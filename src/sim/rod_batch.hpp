@@ -52,8 +52,8 @@ class RodBatch {
   /// Brings rods back there.
   void restore(const LaneFlags& which);
 
-  /// Writes down the step that leads from there to where the rods are.
-  void way_from_remembered(Lanes* step) const;
+  /// Writes down the step that leads rods to where they began, and others nowhere.
+  void way_back(const LaneFlags& which, Lanes* step) const;
 
   /// Brings each rod a share of a step away from there.
   /// @param step step_size() of them

@@ -92,6 +92,7 @@ class RodGroup {
   void stop_inactive();
   void weigh_step();
   void correct_step();
+  void take_displacements();
   void limit_step(const Rods& rods);
   void search_line(Rods& rods, const Effects& effects);
   bool judge_step();

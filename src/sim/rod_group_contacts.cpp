@@ -157,12 +157,19 @@ void RodGroup::correct_step() {
   coupled_step_.correct({batches_, offsets_, islands_, decreases_, *contacts_, places_}, step_);
 }
 
-void RodGroup::limit_step(const Rods& rods) {
+/// From the step, of all nodes.
+void RodGroup::take_displacements() {
   using Stride = Eigen::InnerStride<lane_count>;
-  double* const step = step_.data()->of.data();
+  const double* const step = step_.data()->of.data();
   for (std::size_t i = 0; i < displacements_.size(); ++i) {
     displacements_[i] = Eigen::Map<const Vector3d, 0, Stride>(step + places_[i]);
   }
+}
+
+void RodGroup::limit_step(const Rods& rods) {
+  using Stride = Eigen::InnerStride<lane_count>;
+  double* const step = step_.data()->of.data();
+  take_displacements();
   contacts_->limit(rods, displacements_, ContactSource::Way::SHARES);
   for (std::size_t i = 0; i < displacements_.size(); ++i) {
     Eigen::Map<Vector3d, 0, Stride>(step + places_[i]) = displacements_[i];

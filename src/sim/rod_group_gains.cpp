@@ -127,24 +127,30 @@ void RodGroup::slow_down(Rods& rods, const Search& search) {
   });
 }
 
-/// Makes steps that lead rods which have gained too much to where they began, as far as nothing is
-/// in the way; what is held stays where it is.
+/// Makes steps that lead rods which have gained too much to where they began. An island that goes
+/// back as a whole does not pass through itself: at both ends of its straight way, all is on its
+/// sides of the planes between them. What it may meet on it goes back as well.
 void RodGroup::aim_back(Rods& rods) {
-  for (std::size_t index = 0; index < batches_.size(); ++index) {
-    RodBatch& batch = batches_[index];
-    LaneFlags is_content{};
-    for (std::size_t lane = 0; lane < batch.used(); ++lane) {
-      is_content[lane] = !search_of(index, lane).is_beyond;
-    }
+  for (RodBatch& batch : batches_) {
     batch.remember();
-    batch.stay();
-    batch.restore(is_content);
-    batch.way_from_remembered(part(step_, index));
   }
-  if (contacts_ != nullptr) {
-    contacts_->measure(rods, contact_energies_);
-    limit_step(rods);
-  }
+  std::vector<LaneFlags> go_back(batches_.size());
+  std::vector<LaneFlags> before;
+  do {
+    before = go_back;
+    for_each_rod([&](std::size_t batch, std::size_t lane) {
+      go_back[batch][lane] = search_of(batch, lane).is_beyond;
+    });
+    for (std::size_t batch = 0; batch < batches_.size(); ++batch) {
+      batches_[batch].way_back(go_back[batch], part(step_, batch));
+    }
+    if (contacts_ != nullptr) {
+      contacts_->measure(rods, contact_energies_);
+      take_displacements();
+      contacts_->join(rods, displacements_);
+      join_searches();
+    }
+  } while (go_back != before);
   for (Search& search : searches_) {
     search.share = 0.0;
   }

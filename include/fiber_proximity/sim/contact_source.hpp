@@ -58,7 +58,7 @@ class ContactSource {
   /// Joins rods that may touch or pass through each other where they go shares of displacements,
   /// each its own.
   virtual void join(const Rods& rods, const std::vector<Eigen::Vector3d>& displacements,
-                    Islands& islands) const = 0;
+                    Islands& islands) = 0;
 };
 
 }  // namespace fiber

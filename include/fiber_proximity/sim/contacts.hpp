@@ -25,6 +25,9 @@ class Contacts {
   /// Makes one island of rods that touch where they were measured last.
   void join_found();
 
+  /// Makes one island of rods that may touch where islands go shares of displacements.
+  void join(const Rods& rods, const std::vector<Eigen::Vector3d>& displacements);
+
   /// Accepts, of the contacts found last, those of some islands: the following functions are about
   /// them.
   /// @param of_rods whether a rod's contacts are accepted

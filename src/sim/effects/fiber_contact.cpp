@@ -229,8 +229,10 @@ double FiberContact::needed_reach(const Rods& rods, const std::vector<Vector3d>&
   return 2.0 * rounding * farthest;
 }
 
-/// Looks for candidates as far as these displacements lead; where that is too far, shortens them.
-void FiberContact::look_further(const Rods& rods, std::vector<Vector3d>& displacements, Way way) {
+/// Looks for candidates as far as these displacements lead, if that is not too far.
+/// @returns whether it is not
+bool FiberContact::look_further(const Rods& rods, const std::vector<Vector3d>& displacements,
+                                Way way) {
   const double longest_reach = 2.0 * longest_move_;
   if (reach_ < longest_reach || beginning_ != fibers_.points()) {
     const std::vector<Vector3d> none(displacements.size(), Vector3d::Zero());
@@ -242,12 +244,14 @@ void FiberContact::look_further(const Rods& rods, std::vector<Vector3d>& displac
     part_candidates(rods);
     measure(rods);
   }
-  if (is_known(rods, displacements, way)) {
-    return;
-  }
+  return is_known(rods, displacements, way);
+}
+
+/// Shortens displacements to what candidates are known for.
+void FiberContact::limit_to_known(const Rods& rods, std::vector<Vector3d>& displacements, Way way) {
   const Vector3d drift = way == Way::WHOLE ? Vector3d(Vector3d::Zero()) : drift_;
   for (std::size_t i = 0; i < displacements.size(); ++i) {
-    const Vector3d moved = rods.positions[i] - beginning_[i] - drift;
+    const Vector3d moved = rods.positions[i] - fibers_.points()[i] - drift;
     limit_length(0.5 * reach_ - moved.norm(), displacements[i]);
   }
   if (!is_known(rods, displacements, way)) {
@@ -260,8 +264,8 @@ void FiberContact::limit(const Rods& rods, std::vector<Vector3d>& displacements,
                          int round) {
   bool has_shortened = false;
   do {
-    if (!is_known(rods, displacements, way)) {
-      look_further(rods, displacements, way);
+    if (!is_known(rods, displacements, way) && !look_further(rods, displacements, way)) {
+      limit_to_known(rods, displacements, way);
     }
     has_shortened = limit_to_sides(rods, displacements, round >= settling_round);
     ++round;
@@ -299,7 +303,13 @@ bool FiberContact::limit_to_sides(const Rods& rods, std::vector<Vector3d>& displ
 }
 
 void FiberContact::join(const Rods& rods, const std::vector<Vector3d>& displacements,
-                        Islands& islands) const {
+                        Islands& islands) {
+  if (!is_known(rods, displacements, Way::SHARES) &&
+      !look_further(rods, displacements, Way::SHARES)) {
+    for (std::uint32_t rod = 1; rod < rods.count(); ++rod) {
+      islands.join(0, rod);
+    }
+  }
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     const Candidate& candidate = candidates_[i];
     if (islands.of(candidate.rod_a) == islands.of(candidate.rod_b)) {

@@ -36,7 +36,7 @@ class EnvironmentContact : public ContactSource {
   void limit(const Rods& rods, std::vector<Eigen::Vector3d>& displacements, Way way,
              int round) override;
   void join(const Rods& /*rods*/, const std::vector<Eigen::Vector3d>& /*displacements*/,
-            Islands& /*islands*/) const override {}
+            Islands& /*islands*/) override {}
 
  private:
   /// What is near a node or an edge, as a plane.

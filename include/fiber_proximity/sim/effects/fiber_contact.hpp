@@ -34,7 +34,7 @@ class FiberContact : public ContactSource {
   void limit(const Rods& rods, std::vector<Eigen::Vector3d>& displacements, Way way,
              int round) override;
   void join(const Rods& rods, const std::vector<Eigen::Vector3d>& displacements,
-            Islands& islands) const override;
+            Islands& islands) override;
 
  private:
   struct Candidate {
@@ -58,7 +58,8 @@ class FiberContact : public ContactSource {
   bool keep_apart(const Rods& rods, std::size_t candidate, bool is_fixed,
                   std::vector<Eigen::Vector3d>& displacements) const;
   bool is_known(const Rods& rods, const std::vector<Eigen::Vector3d>& displacements, Way way);
-  void look_further(const Rods& rods, std::vector<Eigen::Vector3d>& displacements, Way way);
+  bool look_further(const Rods& rods, const std::vector<Eigen::Vector3d>& displacements, Way way);
+  void limit_to_known(const Rods& rods, std::vector<Eigen::Vector3d>& displacements, Way way);
   double needed_reach(const Rods& rods, const std::vector<Eigen::Vector3d>& displacements,
                       Way way) const;
   bool limit_to_sides(const Rods& rods, std::vector<Eigen::Vector3d>& displacements,
