@@ -87,12 +87,6 @@ void Contacts::accept(const std::vector<bool>& of_rods) {
   std::copy_if(found_.begin(), found_.end(), std::back_inserter(points_), is_accepted);
 }
 
-bool Contacts::touches_obstacle(std::uint32_t rod) const {
-  return std::any_of(points_.begin(), points_.end(), [rod](const ContactPoint& point) {
-    return point.rod_a == rod && point.is_obstacle();
-  });
-}
-
 void Contacts::energies(const Rods& rods, std::vector<double>& energies) const {
   stored_energies(rods, energies);
   add_friction(rods, energies);

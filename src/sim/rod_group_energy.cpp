@@ -14,7 +14,6 @@ void RodGroup::limit_energy(Rods& rods, const Effects& effects) {
   });
   if (contacts_ != nullptr) {
     contacts_->measure(rods, allowed_contacts_);
-    join_touching();  // what a contact gives back when it ends is of both of its rods
   }
 }
 

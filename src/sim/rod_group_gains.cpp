@@ -51,11 +51,11 @@ void RodGroup::weigh_gains(const Rods& rods) {
     }
   }
   for (Search& search : searches_) {
-    const bool is_beyond = search.gained > 0.0 && [&] {
+    search.is_beyond = false;
+    if (search.gained > 0.0) {
       const Motion motion = motion_of(rods, search);
-      return search.gained > motion.common + motion.relative;
-    }();
-    search.is_beyond = is_beyond;
+      search.is_beyond = search.gained > motion.common + motion.relative;
+    }
   }
 }
 
@@ -64,18 +64,15 @@ bool RodGroup::is_any_beyond() const {
                      [](const Search& search) { return search.is_beyond; });
 }
 
-/// The motion of what is not held. Where something holds or carries rods, none of it is common.
+/// The motion of what is not held.
 RodGroup::Motion RodGroup::motion_of(const Rods& rods, const Search& search) {
   Motion motion;
-  bool is_free = true;
   for_each_rod([&](std::size_t batch, std::size_t lane) {
     if (&search_of(batch, lane) != &search) {
       return;
     }
     const std::vector<std::uint32_t>& held = batches_[batch].held(lane);
-    is_free = is_free && held.empty();
     const std::uint32_t rod = batches_[batch].rod(lane);
-    is_free = is_free && (contacts_ == nullptr || !contacts_->touches_obstacle(rod));
     for (std::uint32_t node = rods.first(rod); node < rods.end(rod); ++node) {
       if (!std::binary_search(held.begin(), held.end(), node - rods.first(rod))) {
         motion.nodes.push_back(node);
@@ -92,7 +89,7 @@ RodGroup::Motion RodGroup::motion_of(const Rods& rods, const Search& search) {
     mass += rods.masses[node];
     momentum += rods.masses[node] * rods.velocities[node];
   }
-  if (is_free) {
+  if (mass > 0.0) {
     motion.velocity = momentum / mass;
     motion.common = 0.5 * mass * motion.velocity.squaredNorm();
   }
@@ -103,7 +100,7 @@ RodGroup::Motion RodGroup::motion_of(const Rods& rods, const Search& search) {
   return motion;
 }
 
-/// Free rods keep their momentum as long as they can.
+/// They keep their momentum as long as they can.
 void RodGroup::slow_down(Rods& rods, const Search& search) {
   const auto share_left = [](double lost, double energy) {
     return lost <= 0.0 ? 1.0 : lost < energy ? std::sqrt(1.0 - lost / energy) : 0.0;

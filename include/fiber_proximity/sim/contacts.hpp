@@ -61,9 +61,6 @@ class Contacts {
   /// them, joins those that may touch.
   void limit(const Rods& rods, std::vector<Eigen::Vector3d>& displacements, ContactSource::Way way);
 
-  /// Whether a rod touches anything but rods.
-  bool touches_obstacle(std::uint32_t rod) const;
-
   const std::vector<ContactPoint>& points() const { return points_; }
 
  private:
