@@ -24,7 +24,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int scenes = 40;
-constexpr int steps_of_first = 2000;
+constexpr int steps_of_first = 10000;
 constexpr int steps_of_others = 250;
 constexpr double top = 1.5;  // [m] rods begin below, above a table at 0
 
