@@ -17,6 +17,7 @@ add_library(fiber_proximity_sim SHARED
   src/sim/effects/drag_lanes.cpp
   src/sim/effects/environment_contact.cpp
   src/sim/effects/fiber_contact.cpp
+  src/sim/effects/fiber_contact_limits.cpp
   src/sim/effects/friction.cpp
   src/sim/effects/gravity.cpp
   src/sim/effects/gravity_lanes.cpp
