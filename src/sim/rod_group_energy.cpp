@@ -4,13 +4,17 @@
 
 namespace fiber {
 
-/// Measures what rods and contacts may end with: that of staying where they began.
+/// Measures what rods and contacts may end with: that of staying where they are now.
 void RodGroup::limit_energy(Rods& rods, const Effects& effects) {
-  for_each_batch(Work::MUCH, [&](std::size_t batch) {
-    batches_[batch].stay();
-    batches_[batch].store(rods);
-    batches_[batch].measure(rods, effects);
-    batches_[batch].limit_energy();
+  for_each_batch(Work::MUCH, [&](std::size_t index) {
+    RodBatch& batch = batches_[index];
+    if (contacts_ != nullptr) {
+      batch.store(rods);
+    } else {
+      batch.store_for(effects, rods);
+    }
+    batch.measure(rods, effects);
+    batch.limit_energy();
   });
   if (contacts_ != nullptr) {
     contacts_->measure(rods, allowed_contacts_);
@@ -21,15 +25,15 @@ void RodGroup::limit_energy(Rods& rods, const Effects& effects) {
 /// something stiff, and brings them where they keep their shapes: that is nearer to what they do.
 /// @returns true if there are any; their searches are active then
 bool RodGroup::restart_lost(Rods& rods, const Effects& effects, Gains gains) {
-  for (RodBatch& batch : batches_) {
-    batch.remember();
-  }
+  for_each_batch(Work::LITTLE, [&](std::size_t batch) {
+    batches_[batch].remember();
+    batches_[batch].stay();
+  });
   if (gains == Gains::TAKEN) {
     limit_energy(rods, effects);
   }
   for_each_batch(Work::MUCH, [&](std::size_t index) {
     RodBatch& batch = batches_[index];
-    batch.stay();
     if (batch.drift() || gains == Gains::LEFT) {
       batch.store_for(effects, rods);
       batch.measure(rods, effects);
