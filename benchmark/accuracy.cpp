@@ -18,7 +18,7 @@
 namespace fiber {
 namespace {
 
-struct Request {
+struct AccuracyRequest {
   std::string scene = "tress_a";
   SceneOptions scene_options;
   std::string engine = "run_tree";
@@ -68,7 +68,7 @@ class SettingRun {
 /// A moving scene, and one engine asked with every setting.
 class Accuracy {
  public:
-  explicit Accuracy(const Request& request)
+  explicit Accuracy(const AccuracyRequest& request)
       : request_(request),
         scene_(make_scene(request.scene, request.scene_options)),
         fibers_(scene_(0)),
@@ -190,7 +190,7 @@ class Accuracy {
     QueryResult result;
   };
 
-  const Request& request_;
+  const AccuracyRequest& request_;
   const Scene scene_;
   FiberAssembly fibers_;
   std::unique_ptr<ProximityEngine> engine_;
@@ -201,7 +201,7 @@ class Accuracy {
   Progress progress_;
 };
 
-ExitCode run(const Request& request) {
+ExitCode run(const AccuracyRequest& request) {
   Accuracy accuracy(request);
   accuracy.measure();
   request.json ? accuracy.print_json() : accuracy.print_table();
@@ -215,7 +215,7 @@ ExitCode run(const Request& request) {
 }  // namespace
 
 void add_accuracy_command(CLI::App& app, Command& command) {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<AccuracyRequest>();
   CLI::App* accuracy = app.add_subcommand(
       "accuracy", "what kernels, tolerances and deadlines cost and bring on a moving scene");
   accuracy->callback([&command, request] { command = [request] { return run(*request); }; });

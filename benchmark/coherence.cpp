@@ -18,7 +18,7 @@
 namespace fiber {
 namespace {
 
-struct Request {
+struct CoherenceRequest {
   std::string scene = "soup";
   SceneOptions scene_options;
   double motion = 0.02;                                        // mean segment lengths per frame
@@ -82,7 +82,7 @@ class SkinRun {
 /// A swaying scene, and run_tree on it with every skin.
 class Coherence {
  public:
-  explicit Coherence(const Request& request)
+  explicit Coherence(const CoherenceRequest& request)
       : request_(request),
         fibers_(make_scene(request.scene, request.scene_options)(0)),
         segment_length_(mean_segment_length(fibers_)),
@@ -168,7 +168,7 @@ class Coherence {
   const std::string& disagreement() const { return agreement_.disagreement(); }
 
  private:
-  const Request& request_;
+  const CoherenceRequest& request_;
   FiberAssembly fibers_;
   const double segment_length_;  // [m] mean
   Swaying swaying_;
@@ -177,7 +177,7 @@ class Coherence {
   Progress progress_;
 };
 
-ExitCode run(const Request& request) {
+ExitCode run(const CoherenceRequest& request) {
   Coherence coherence(request);
   coherence.measure();
   request.json ? coherence.print_json() : coherence.print_table();
@@ -191,7 +191,7 @@ ExitCode run(const Request& request) {
 }  // namespace
 
 void add_coherence_command(CLI::App& app, Command& command) {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<CoherenceRequest>();
   CLI::App* coherence = app.add_subcommand(
       "coherence",
       "run_tree with several skins on a scene that moves a little in every frame; means over the "

@@ -28,4 +28,7 @@ void add_simulate_command(CLI::App& app, Command& command);
 /// `latency`: a running ROS graph; only in builds with ROS.
 void add_latency_command(CLI::App& app, Command& command);
 
+/// `obstacle_latency`: the same, for obstacles beside bad and large ones.
+void add_obstacle_latency_command(CLI::App& app, Command& command);
+
 }  // namespace fiber

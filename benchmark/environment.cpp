@@ -38,7 +38,7 @@ std::vector<std::string> part_names() {
   return names;
 }
 
-struct Request {
+struct EnvironmentRequest {
   std::vector<std::string> parts = part_names();
   EnvironmentMeasurement measurement;
   bool json = false;
@@ -65,7 +65,7 @@ void print_table(const Part& part, const std::vector<BenchmarkRow>& rows) {
   }
 }
 
-ExitCode run(const Request& request) {
+ExitCode run(const EnvironmentRequest& request) {
   for (const Part& part : parts()) {
     if (std::count(request.parts.begin(), request.parts.end(), part.name) == 0) {
       continue;
@@ -91,7 +91,7 @@ void add_count(CLI::App& app, const std::string& name, std::uint32_t& value,
 }  // namespace
 
 void add_environment_command(CLI::App& app, Command& command) {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<EnvironmentRequest>();
   EnvironmentMeasurement& what = request->measurement;
   CLI::App* environment =
       app.add_subcommand("environment",

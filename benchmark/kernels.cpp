@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Request {
+struct KernelsRequest {
   std::vector<std::string> kernels = pair_kernel_names();
   std::vector<std::string> families;  // none: all
   std::uint64_t seed = 1;
@@ -36,7 +36,7 @@ const HardFamily& family_of(const std::string& name) {
   throw std::invalid_argument("unknown family '" + name + "', known are: " + listed(known));
 }
 
-std::vector<HardFamily> families_of(const Request& request) {
+std::vector<HardFamily> families_of(const KernelsRequest& request) {
   if (request.families.empty()) {
     return hard_families();
   }
@@ -83,7 +83,7 @@ Json time_quantile(const KernelRun& run, double share) {
   return run.times_ns.empty() ? Json() : Json(quantile(run.times_ns, share));
 }
 
-Json to_json(const Request& request, const std::string& family, std::size_t contacts,
+Json to_json(const KernelsRequest& request, const std::string& family, std::size_t contacts,
              const KernelRun& run) {
   constexpr double middle = 0.5;
   constexpr double high = 0.99;
@@ -134,7 +134,7 @@ void print_heading() {
 }
 
 /// All kernels on one family, a row each.
-std::vector<Json> rows_of(const Request& request, const HardFamily& family) {
+std::vector<Json> rows_of(const KernelsRequest& request, const HardFamily& family) {
   const std::vector<HardPair> pairs = hard_pairs(family, request.pairs, request.seed);
   std::vector<PairTruth> truths;
   for (const HardPair& pair : pairs) {
@@ -155,7 +155,7 @@ std::vector<Json> rows_of(const Request& request, const HardFamily& family) {
   return rows;
 }
 
-ExitCode run(const Request& request) {
+ExitCode run(const KernelsRequest& request) {
   for (const std::string& name : request.kernels) {
     make_pair_kernel(name);  // refuses before anything is printed
   }
@@ -183,7 +183,7 @@ ExitCode run(const Request& request) {
 }  // namespace
 
 void add_kernels_command(CLI::App& app, Command& command) {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<KernelsRequest>();
   CLI::App* kernels = app.add_subcommand(
       "kernels",
       "time and error of ways to compute the distance of two segments, on families of hard pairs");

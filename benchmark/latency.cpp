@@ -21,7 +21,7 @@ using fiber_proximity::ContactArray;
 using fiber_proximity::FiberArray;
 using Clock = std::chrono::steady_clock;
 
-struct Request {
+struct LatencyRequest {
   std::uint32_t cables = 10;
   std::uint32_t points = 100;  // per cable
   double rate = 100.0;         // [Hz]
@@ -34,7 +34,7 @@ struct Request {
 };
 
 /// Cables of 1 m side by side, swaying so that neighbours touch here and there.
-FiberArray make_cables(const Request& request, const ros::Time& stamp, double time) {
+FiberArray make_cables(const LatencyRequest& request, const ros::Time& stamp, double time) {
   constexpr double radius = 0.005;   // [m]
   constexpr double spacing = 0.012;  // [m]
   constexpr double sway = 0.004;     // [m]
@@ -118,7 +118,7 @@ bool wait_until(double seconds, const Condition& condition) {
 /// The node under test between a publisher and a subscriber.
 class LatencyRun {
  public:
-  explicit LatencyRun(const Request& request)
+  explicit LatencyRun(const LatencyRequest& request)
       : request_(request),
         publisher_(node_.advertise<FiberArray>(request.topic, 1)),
         subscriber_(node_.subscribe(request.contacts, 100, &LatencyRun::on_contacts, this,
@@ -168,7 +168,7 @@ class LatencyRun {
     }
   }
 
-  const Request& request_;
+  const LatencyRequest& request_;
   LatencyLog log_;
   Progress progress_;
   std::size_t published_ = 0;
@@ -178,7 +178,7 @@ class LatencyRun {
   ros::AsyncSpinner spinner_{1};  // last: stops before what its callbacks use
 };
 
-void print(const Request& request, const LatencyRun& run) {
+void print(const LatencyRequest& request, const LatencyRun& run) {
   const std::vector<double> latencies = run.log().latencies_ms();
   const nlohmann::ordered_json result{{"cables", request.cables},
                                       {"points", request.points},
@@ -199,7 +199,7 @@ void print(const Request& request, const LatencyRun& run) {
   }
 }
 
-ExitCode run(const Request& request) {
+ExitCode run(const LatencyRequest& request) {
   ros::init(ros::M_string(), "fiber_bench",
             ros::init_options::AnonymousName | ros::init_options::NoRosout);
   if (!ros::master::check()) {
@@ -218,7 +218,7 @@ ExitCode run(const Request& request) {
 }  // namespace
 
 void add_latency_command(CLI::App& app, Command& command) {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<LatencyRequest>();
   CLI::App* latency = app.add_subcommand(
       "latency", "time from publishing cables to a running node to the arrival of their contacts");
   latency->callback([&command, request] { command = [request] { return run(*request); }; });

@@ -12,12 +12,12 @@
 namespace fiber {
 namespace {
 
-struct Request {
+struct SceneCommandsRequest {
   MeasurementOptions options;
   bool json = false;
 };
 
-void print_json(const MeasurementOptions& options, const Measurement& measurement) {
+void print_measurement_json(const MeasurementOptions& options, const Measurement& measurement) {
   for (const EngineMeasurement& engine : measurement.engines) {
     const nlohmann::ordered_json line{
         {"scene", options.scene},
@@ -47,7 +47,7 @@ void print_json(const MeasurementOptions& options, const Measurement& measuremen
   }
 }
 
-void print_table(const MeasurementOptions& options, const Measurement& measurement) {
+void print_measurement_table(const MeasurementOptions& options, const Measurement& measurement) {
   std::cout << options.scene << ": " << measurement.fibers << " fibres, " << measurement.segments
             << " segments; median of " << options.repeats << " frame(s); memcpy of the points "
             << std::fixed << std::setprecision(3) << measurement.memcpy_ms << " ms\n";
@@ -73,9 +73,9 @@ void print_table(const MeasurementOptions& options, const Measurement& measureme
   }
 }
 
-ExitCode run(const Request& request) {
+ExitCode run(const SceneCommandsRequest& request) {
   const Measurement measurement = measure(request.options);
-  (request.json ? print_json : print_table)(request.options, measurement);
+  (request.json ? print_measurement_json : print_measurement_table)(request.options, measurement);
   if (!measurement.disagreement.empty()) {
     std::cerr << "fiber_bench: " << measurement.disagreement << '\n';
     return DISAGREED;
@@ -85,7 +85,7 @@ ExitCode run(const Request& request) {
 
 void add(CLI::App& app, Command& command, const std::string& name, const std::string& description,
          std::uint32_t repeats, bool detect_every_frame) {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<SceneCommandsRequest>();
   MeasurementOptions& options = request->options;
   options.repeats = repeats;
   options.detect_every_frame = detect_every_frame;

@@ -48,7 +48,7 @@ std::vector<std::string> part_names() {
   return names;
 }
 
-struct Request {
+struct SimulateRequest {
   std::vector<std::string> parts = part_names();
   SimulationMeasurement measurement;
   bool json = false;
@@ -78,7 +78,7 @@ void print_row(const Part& part, const SimulationRow& row) {
 }
 
 /// Rows come one by one: what is measured last takes longest.
-ExitCode run(const Request& request) {
+ExitCode run(const SimulateRequest& request) {
   Progress progress;
   for (const Part& part : parts()) {
     if (std::count(request.parts.begin(), request.parts.end(), part.name) == 0) {
@@ -123,7 +123,7 @@ void add_count(CLI::App& app, const std::string& name, Count& value, const std::
 }  // namespace
 
 void add_simulate_command(CLI::App& app, Command& command) {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<SimulateRequest>();
   SimulationMeasurement& what = request->measurement;
   CLI::App* simulate = app.add_subcommand(
       "simulate",

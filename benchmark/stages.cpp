@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Request {
+struct StagesRequest {
   std::string scene = "soup";
   SceneOptions scene_options;
   std::string engine = "run_tree";
@@ -42,7 +42,7 @@ std::vector<double> times_of(std::uint32_t repeats, double seconds, const Call& 
 /// One engine on one scene, stage after stage.
 class Stages {
  public:
-  explicit Stages(const Request& request)
+  explicit Stages(const StagesRequest& request)
       : request_(request),
         scene_(make_scene(request.scene, request.scene_options)),
         fibers_(scene_(0)),
@@ -118,7 +118,7 @@ class Stages {
     std::cout << line.dump() << std::endl;
   }
 
-  const Request& request_;
+  const StagesRequest& request_;
   Scene scene_;
   FiberAssembly fibers_;
   std::unique_ptr<ProximityEngine> engine_;
@@ -126,7 +126,7 @@ class Stages {
   QueryResult result_;
 };
 
-ExitCode run(const Request& request) {
+ExitCode run(const StagesRequest& request) {
   Stages stages(request);
   stages.update();
   if (request.levels) {
@@ -145,7 +145,7 @@ ExitCode run(const Request& request) {
 }  // namespace
 
 void add_stages_command(CLI::App& app, Command& command) {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<StagesRequest>();
   CLI::App* stages = app.add_subcommand(
       "stages",
       "one engine on one scene: build, update, first pair, all pairs; a JSON line as "

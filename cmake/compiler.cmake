@@ -14,6 +14,8 @@ set(FIBER_PROXIMITY_SANITIZE "" CACHE STRING "Sanitizers to build with, e.g. add
 # One interface target carries the flags, so that they reach our targets and nobody else's. Without
 # contraction the same source gives the same bits with and without fused multiply-add.
 add_library(fiber_proximity_options INTERFACE)
+# Kernels are compiled for each instruction set: processors without SSE4 (before 2008) take the plain code.
+target_compile_definitions(fiber_proximity_options INTERFACE HWY_DISABLED_TARGETS=HWY_SSSE3)
 target_compile_options(fiber_proximity_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wconversion -Wno-sign-conversion
   -ffp-contract=off $<$<BOOL:${FIBER_PROXIMITY_WERROR}>:-Werror>)

@@ -16,4 +16,4 @@ add_library(fiber_proximity_environment SHARED
 )
 target_link_libraries(fiber_proximity_environment
   PUBLIC fiber_proximity PRIVATE fcl fiber_proximity_options)
-fiber_proximity_precompile(fiber_proximity_environment ${fcl_headers})
+fiber_proximity_parse_once(fiber_proximity_environment ${fcl_headers})

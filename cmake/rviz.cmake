@@ -7,10 +7,12 @@ add_library(fiber_proximity_mesh STATIC
   src/rviz/fiber_colors.cpp
   src/rviz/fiber_detail.cpp
   src/rviz/fiber_mesh.cpp
+  src/rviz/view_fit.cpp
 )
 set_target_properties(fiber_proximity_mesh PROPERTIES POSITION_INDEPENDENT_CODE ON)
 target_link_libraries(fiber_proximity_mesh
   PUBLIC fiber_proximity_ros PRIVATE fiber_proximity_options)
+fiber_proximity_parse_once(fiber_proximity_mesh)
 
 find_package(rviz QUIET)
 find_package(Qt5 QUIET COMPONENTS Widgets)
@@ -25,12 +27,16 @@ add_library(fiber_proximity_rviz SHARED
   src/rviz/fiber_materials.cpp
   src/rviz/fiber_part.cpp
   src/rviz/fiber_renderable.cpp
+  src/rviz/view_fitter.cpp
 )
 #catkin_lint: ignore_once external_directory
 #catkin_lint: ignore_once external_interface_path
 target_include_directories(fiber_proximity_rviz SYSTEM PUBLIC ${rviz_INCLUDE_DIRS})
 target_link_libraries(fiber_proximity_rviz
   PUBLIC fiber_proximity_mesh ${rviz_LIBRARIES} Qt5::Widgets PRIVATE fiber_proximity_options)
+# Or TBB's headers do not survive after Qt's: both have something called emit.
+target_compile_definitions(fiber_proximity_rviz PRIVATE QT_NO_KEYWORDS)
+fiber_proximity_parse_once(fiber_proximity_rviz)
 
 install(TARGETS fiber_proximity_rviz
   ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}

@@ -35,6 +35,8 @@ add_library(fiber_proximity_sim SHARED
   src/sim/material.cpp
   src/sim/material_presets.cpp
   src/sim/natural_curvature.cpp
+  src/sim/overlaps.cpp
+  src/sim/reach.cpp
   src/sim/resolution.cpp
   src/sim/rod_batch.cpp
   src/sim/rod_batch_beginning.cpp
@@ -46,9 +48,10 @@ add_library(fiber_proximity_sim SHARED
   src/sim/rod_lanes.cpp
   src/sim/rod_system.cpp
   src/sim/rods.cpp
+  src/sim/separate_overlaps.cpp
   src/sim/stepper.cpp
 )
 target_link_libraries(fiber_proximity_sim
   PUBLIC fiber_proximity_environment PRIVATE TBB::tbb hwy::hwy fiber_proximity_options)
 target_include_directories(fiber_proximity_sim PRIVATE ${PROJECT_SOURCE_DIR})
-fiber_proximity_precompile(fiber_proximity_sim ${core_headers})
+fiber_proximity_parse_once(fiber_proximity_sim ${core_headers})

@@ -1,6 +1,11 @@
 # Those of the tests below that ThreadSanitizer is to see.
 add_custom_target(threaded_tests)
 
+# All tests below, and a file with their programs, for scripts/campaign.sh.
+add_custom_target(unit_tests)
+file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/unit_tests.txt
+  CONTENT "$<JOIN:$<TARGET_GENEX_EVAL:unit_tests,$<TARGET_PROPERTY:unit_tests,PROGRAMS>>,\n>\n")
+
 # Precompiled once for all tests: gtest, and what our headers include.
 if(FIBER_PROXIMITY_PRECOMPILE_HEADERS)
   file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/test_headers.cpp "")
@@ -10,6 +15,13 @@ if(FIBER_PROXIMITY_PRECOMPILE_HEADERS)
     $<TARGET_NAME_IF_EXISTS:GTest::gtest>)
   target_precompile_headers(test_headers PRIVATE ${core_headers} <gtest/gtest.h>)
 endif()
+
+# The one source that knows where the package is: what else the compiler reads is the same in every checkout,
+# so that ccache knows it again.
+add_library(test_support STATIC ${PROJECT_SOURCE_DIR}/test/support/source_folder.cpp)
+target_include_directories(test_support PRIVATE ${PROJECT_SOURCE_DIR}/test)
+target_compile_definitions(test_support PRIVATE FIBER_PROXIMITY_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+target_link_libraries(test_support PRIVATE fiber_proximity_options)
 
 # fiber_proximity_gtest(NAME SOURCE... [THREADED] [LIBRARIES LIB...])
 # A unit test that needs no ROS master: a catkin gtest in the package, a plain one without ROS, with
@@ -31,11 +43,13 @@ function(fiber_proximity_gtest name)
   # Some scenes are those of benchmarks, too.
   target_include_directories(${name} PRIVATE
     ${PROJECT_SOURCE_DIR}/test ${PROJECT_SOURCE_DIR}/benchmark)
-  target_compile_definitions(${name} PRIVATE
-    FIBER_PROXIMITY_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
-    FIBER_PROXIMITY_BINARY_DIR="${PROJECT_BINARY_DIR}")
-  target_link_libraries(${name} fiber_proximity fiber_proximity_options ${ARG_LIBRARIES})
+  target_link_libraries(${name} fiber_proximity fiber_proximity_options test_support ${ARG_LIBRARIES})
+  add_dependencies(unit_tests ${name})
+  set_property(TARGET unit_tests APPEND PROPERTY PROGRAMS $<TARGET_FILE:${name}>)
   if(FIBER_PROXIMITY_PRECOMPILE_HEADERS)
     target_precompile_headers(${name} REUSE_FROM test_headers)
+  endif()
+  if(FIBER_PROXIMITY_UNITY_BUILD)
+    fiber_proximity_parse_once(${name})
   endif()
 endfunction()

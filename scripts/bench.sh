@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs an experiment with fiber_bench and draws its figures.
-#   scripts/bench.sh paper|peers|scaling|coherence|accuracy|simulation [--quick] [--out DIR]
+#   scripts/bench.sh paper|peers|scaling|coherence|accuracy|simulation [--quick] [--out DIR] [--verbose]
 #     paper      Fig. 4 to 7 of Sobottka and Weber (2005) on this machine
 #     peers      run_tree beside other engines and Embree, CGAL, FCL and Bullet, on every scene
 #     scaling    how a cycle grows from 10⁴ to 4.7 million segments, with one thread and two
@@ -8,13 +8,14 @@
 #     accuracy   time against error: kernels and other libraries on hard pairs, queries on scenes
 #     simulation whether rods move as theory says, time against error, what each effect costs
 #     --quick    small scenes: minutes at most
+#     --verbose  all that installing and building write
 #     --out DIR  where CSV and SVG go (default: build/bench/EXPERIMENT, -quick with --quick);
 #                a run that was stopped goes on from what is there
 set -euo pipefail
 # shellcheck source=scripts/environment.sh
 source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 
-usage="usage: scripts/bench.sh paper|peers|scaling|coherence|accuracy|simulation [--quick] [--out DIR]"
+usage="usage: scripts/bench.sh paper|peers|scaling|coherence|accuracy|simulation [--quick] [--out DIR] [--verbose]"
 experiment=
 quick=()
 out=
@@ -26,6 +27,7 @@ while [ $# -gt 0 ]; do
       out=$2
       shift
       ;;
+    --verbose) be_verbose ;;
     -h | --help) echo "$usage"; exit 0 ;;
     paper | peers | scaling | coherence | accuracy | simulation) experiment=$1 ;;
     *) echo "bench.sh: unknown argument '$1'; $usage" >&2; exit 2 ;;
@@ -36,7 +38,6 @@ done
 
 "$root/scripts/setup.sh" --bench
 cmake_arguments=()
-echo "building in $build ..."
 build_package fiber_bench
 out=${out:-$build/bench/$experiment${quick:+-quick}}
 PYTHONPATH=$root/benchmark /usr/bin/python3 -B -m bench "$experiment" \

@@ -28,12 +28,12 @@ for list in /etc/apt/sources.list /etc/apt/sources.list.d/*.{list,sources}; do
 done
 apt_options=(-o Dir::Etc::sourcelist=/dev/null -o Dir::Etc::sourceparts="$PWD/apt/parts"
   -o Dir::State::lists="$PWD/apt/lists" -o Dir::Cache="$PWD/apt/cache")
-quietly update.log apt-get "${apt_options[@]}" update
-(cd source && quietly ../source.log apt-get "${apt_options[@]}" source "$version")
+run_step "asking for the source of TBB" update.log apt-get "${apt_options[@]}" update
+(cd source && run_step "fetching the source of TBB" ../source.log apt-get "${apt_options[@]}" source "$version")
 
 cmake_arguments=(-DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1\ -g1
   -DTBB_SANITIZE=thread -DTBB_TEST=OFF -DTBB_STRICT=OFF -DTBBMALLOC_BUILD=OFF
   -DCMAKE_INSTALL_PREFIX="$PWD/install" -DCMAKE_INSTALL_LIBDIR=lib)
-quietly configure.log cmake -S source/*/ -B build "${cmake_arguments[@]}"
-quietly make.log make -C build -j"$(nproc)" install
+run_step "configuring TBB" configure.log cmake -S source/*/ -B build "${cmake_arguments[@]}"
+run_step "building TBB" make.log make -C build -j"$(nproc)" install
 echo "$version" >version

@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # Sets up, builds and shows the demo: simulated cables, their contacts, in rviz.
-#   scripts/demo.sh [--cell] [--headless] [--seconds N] [--screenshot FILE]
+#   scripts/demo.sh [--cell] [--headless] [--seconds N] [--screenshot FILE] [--verbose]
 #     --cell             instead an arm that moves a cable about a table, and its distances to both
 #     --headless         no window: prints contacts as they come; so it does without a display
 #     --seconds N        ends after N seconds; default: with Ctrl-C
 #     --screenshot FILE  headless: saves what rviz shows, at the end of the N seconds (default: as
 #                        soon as it shows something), and exits 0 only if there was a contact
+#     --verbose          all that installing and building write
 # It has a ROS master of its own, beside any other that runs.
 set -euo pipefail
 # shellcheck source=scripts/environment.sh
@@ -13,7 +14,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 # shellcheck source=scripts/processes.sh
 source "$(dirname "${BASH_SOURCE[0]}")/processes.sh"
 
-usage="usage: scripts/demo.sh [--cell] [--headless] [--seconds N] [--screenshot FILE]"
+usage="usage: scripts/demo.sh [--cell] [--headless] [--seconds N] [--screenshot FILE] [--verbose]"
 refuse() {
   echo "demo.sh: $1; $usage" >&2
   exit 2
@@ -31,6 +32,7 @@ while [ $# -gt 0 ]; do
       contacts=/proximity/environment_contacts
       ;;
     --headless) headless=true ;;
+    --verbose) be_verbose ;;
     --seconds)
       [[ ${2-} =~ ^[0-9]{1,6}$ && $2 -gt 0 ]] ||
         refuse "--seconds needs a whole number from 1, not '${2-}'"
@@ -55,9 +57,8 @@ if ! $headless && [ -z "${DISPLAY-}" ]; then
 fi
 
 "$root/scripts/setup.sh"
-echo "building in $build ..."
 cmake_arguments=()
-build_package
+build_package fiber_proximity_demo
 use_devel_space
 
 launch_arguments=(rviz:=true)

@@ -8,7 +8,6 @@ source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 source "$(dirname "${BASH_SOURCE[0]}")/processes.sh"
 
 "$root/scripts/setup.sh"
-echo "building in $build ..."
 cmake_arguments=()
 build_package display_rate
 use_devel_space

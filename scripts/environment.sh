@@ -1,5 +1,6 @@
 # Sourced by the other scripts: one place that knows where ROS and the build are.
-# Sets `root` and `build`, defines build_package, and readies PATH and ROS's variables.
+# Sets `root` and `build`, defines build_package and what progress.sh does, and readies PATH and ROS's
+# variables.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$root/build
@@ -13,24 +14,36 @@ if [ -f /opt/ros/noetic/setup.bash ]; then
   set -u
 fi
 
-# quietly LOG COMMAND...: runs it, shows its output only if it fails.
-quietly() {
-  local log=$1
-  shift
-  if ! "$@" >"$log" 2>&1; then
-    cat "$log" >&2
-    return 1
-  fi
-}
+# shellcheck source=scripts/progress.sh
+source "$root/scripts/progress.sh"
 
 # build_package [TARGET...]: configures (arguments in the array cmake_arguments) and builds.
+# A new build is one of Ninja, which starts in no time where make asks hundreds of catkin's targets, and what
+# ccache has compiled before it does not compile again.
 build_package() {
+  local tools=()
+  if [ ! -f "$build/CMakeCache.txt" ]; then
+    ! command -v ninja >/dev/null || tools+=(-G Ninja)
+    ! command -v ccache >/dev/null || tools+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  fi
+  # What another checkout has compiled counts, and so do precompiled headers.
+  export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=true CCACHE_SLOPPINESS=pch_defines,time_macros
   mkdir -p "$build"
-  quietly "$build/configure.log" cmake -S "$root" -B "$build" "${cmake_arguments[@]}"
+  run_step "configuring $(basename "$build")" "$build/configure.log" \
+    cmake -S "$root" -B "$build" "${tools[@]}" "${cmake_arguments[@]}"
   local target
   for target in "${@:-all}"; do
-    quietly "$build/make.log" cmake --build "$build" --parallel "$(nproc)" --target "$target"
+    run_step "building $target" "$build/make.log" \
+      cmake --build "$build" --parallel "$(nproc)" --target "$target"
   done
+}
+
+# run_tests [ARGUMENT...]: ctest with these, in the build; of what passes only how many.
+run_tests() {
+  cd "$build"
+  run_step "testing $(basename "$build")" ctest.log ctest --output-on-failure "$@"
+  cd - >/dev/null
+  $verbose || sed -n "/tests passed/,\$p" "$build/ctest.log"
 }
 
 # use_devel_space: what `source build/devel/setup.bash` does, under set -u.

@@ -1,5 +1,5 @@
-# Sourced by scripts that start rviz and others and end them again: a folder `scratch`, the list
-# `processes` of what to end, and functions to start, to wait and to take pictures.
+# Sourced, after environment.sh, by scripts that start rviz and others and end them again: a folder
+# `scratch`, the list `processes` of what to end, and functions to start, to wait and to take pictures.
 
 scratch=$(mktemp -d)
 processes=()  # in the order of their start
@@ -18,6 +18,7 @@ trap 'exit 130' INT
 trap 'exit 143' TERM
 
 fail() {
+  end_progress
   echo "$(basename "$0"): $1" >&2
   [ ! -f "$scratch/$2.log" ] || tail -n 30 "$scratch/$2.log" >&2
   exit 1
@@ -25,13 +26,15 @@ fail() {
 
 # wait_for TEXT LOG PROCESS COMMAND...: until it succeeds, for a minute while the process lives.
 wait_for() {
-  local what=$1 log=$2 process=$3 attempt
+  local what=$1 log=$2 process=$3 attempt start=$SECONDS
   shift 3
   for ((attempt = 0; attempt < 300; ++attempt)); do
     if "$@"; then
+      end_progress
       return
     fi
     kill -0 "$process" 2>/dev/null || fail "ended before $what" "$log"
+    say_progress starting "" $((SECONDS - start))
     sleep 0.2
   done
   fail "waited a minute in vain until $what" "$log"

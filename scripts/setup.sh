@@ -1,21 +1,28 @@
 #!/usr/bin/env bash
 # Installs what building, testing and the demo need, and is quick when nothing is missing.
-#   scripts/setup.sh [--lint] [--bench]
+#   scripts/setup.sh [--lint] [--bench] [--fuzz] [--verbose]
 #     --lint    also what scripts/lint.sh needs
 #     --bench   also the libraries fiber_bench compares with (benchmark/README.md), on Debian, and
 #               what draws its plots
+#     --fuzz    also what scripts/fuzz.sh needs, on Debian
+#     --verbose all that installing writes
 # Debian 12: ROS 1 from Debian's own packages, with apt, as root or through sudo.
 # Ubuntu with ROS Noetic: through rosdep.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+# shellcheck source=scripts/progress.sh
+source scripts/progress.sh
 
-usage="usage: scripts/setup.sh [--lint] [--bench]"
+usage="usage: scripts/setup.sh [--lint] [--bench] [--fuzz] [--verbose]"
 lint=false
 bench=false
+fuzz=false
 for argument in "$@"; do
   case "$argument" in
     --lint) lint=true ;;
     --bench) bench=true ;;
+    --fuzz) fuzz=true ;;
+    --verbose) be_verbose ;;
     -h | --help) echo "$usage"; exit 0 ;;
     *) echo "setup.sh: unknown option '$argument'; $usage" >&2; exit 2 ;;
   esac
@@ -23,7 +30,7 @@ done
 
 # Message definitions (ros-*) and Python modules come beside the headers: Debian only recommends them.
 packages=(
-  build-essential cmake catkin ros-message-generation libroscpp-dev rosbash
+  build-essential cmake ninja-build catkin ros-message-generation libroscpp-dev rosbash
   libnodelet-dev libnodeletlib-dev libnodeletlib-tools pluginlib-dev
   libtf2-ros-dev libtf2-geometry-msgs-dev tf2-tools
   libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure libdiagnostic-updater-dev
@@ -45,6 +52,9 @@ if $bench; then
   packages+=(libembree-dev libcgal-dev libbullet-dev)
   packages+=(python3-matplotlib python3-tqdm)
 fi
+if $fuzz; then
+  packages+=(clang-14 libclang-rt-14-dev)
+fi
 
 missing_packages() {
   # dpkg-query reports packages it never heard of on stderr and leaves them out.
@@ -64,16 +74,22 @@ as_root() {
   fi
 }
 
+# Before progress is shown, which would cover the question.
+ask_for_password() {
+  [ "$(id -u)" -eq 0 ] || ! command -v sudo >/dev/null || sudo -v
+}
+
 install_with_apt() {
   mapfile -t missing < <(missing_packages)
   if [ "${#missing[@]}" -eq 0 ]; then
     return
   fi
   echo "setup.sh: installing ${#missing[@]} package(s): ${missing[*]}"
+  ask_for_password
   log=$(mktemp)
-  if ! { as_root apt-get update && as_root env DEBIAN_FRONTEND=noninteractive \
-      apt-get install -y --no-install-recommends "${missing[@]}"; } >"$log" 2>&1; then
-    cat "$log" >&2
+  if ! run_step "asking for packages" "$log" as_root apt-get update ||
+    ! run_step "installing packages" "$log" as_root env DEBIAN_FRONTEND=noninteractive LC_ALL=C \
+      apt-get install -y --no-install-recommends "${missing[@]}"; then
     echo "setup.sh: apt-get failed" >&2
     exit 1
   fi
@@ -86,8 +102,11 @@ install_with_rosdep() {
   # Ubuntu 20.04 has no package of Highway: see the README's limits.
   local keys=(--from-paths . --ignore-src --skip-keys libhwy-dev)
   rosdep check "${keys[@]}" >/dev/null 2>&1 && return
-  rosdep update
-  rosdep install "${keys[@]}" -y
+  log=$(mktemp)
+  run_step "asking for packages" "$log" rosdep update
+  ask_for_password
+  run_step "installing packages" "$log" rosdep install "${keys[@]}" -y
+  rm -f "$log"
 }
 
 if [ -f /opt/ros/noetic/setup.bash ]; then

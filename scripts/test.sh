@@ -2,7 +2,7 @@
 # Sets up, builds and runs all tests; quiet unless something fails.
 #   scripts/test.sh [--werror] [--verbose] [-R REGEX]
 #     --werror    warnings are errors
-#     --verbose   show every test's output
+#     --verbose   show every test's output, and all that installing and building write
 #     -R REGEX    only the tests whose names match
 set -euo pipefail
 # shellcheck source=scripts/environment.sh
@@ -10,11 +10,14 @@ source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 
 usage="usage: scripts/test.sh [--werror] [--verbose] [-R REGEX]"
 cmake_arguments=(-DCATKIN_ENABLE_TESTING=ON)
-ctest_arguments=(--output-on-failure --parallel "$(nproc)")
+ctest_arguments=(--parallel "$(nproc)")
 while [ $# -gt 0 ]; do
   case "$1" in
     --werror) cmake_arguments+=(-DFIBER_PROXIMITY_WERROR=ON) ;;
-    --verbose) ctest_arguments+=(--verbose) ;;
+    --verbose)
+      ctest_arguments+=(--verbose)
+      be_verbose
+      ;;
     -R)
       [ $# -ge 2 ] || { echo "test.sh: -R needs a regular expression; $usage" >&2; exit 2; }
       ctest_arguments+=(-R "$2")
@@ -27,8 +30,6 @@ while [ $# -gt 0 ]; do
 done
 
 "$root/scripts/setup.sh"
-echo "building in $build ..."
 build_package all tests
 use_devel_space
-cd "$build"
-ctest "${ctest_arguments[@]}"
+run_tests "${ctest_arguments[@]}"

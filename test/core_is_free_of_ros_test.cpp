@@ -5,13 +5,15 @@
 #include <regex>
 #include <string>
 
+#include "support/source_folder.hpp"
+
 namespace {
 
 /// The core's modules; `ros` sits on top of them.
 const char* const core_modules[] = {"geometry", "bounds", "hierarchy", "query", "io", "scenes"};
 
 TEST(Core, IncludesNeitherRosNorFcl) {
-  const std::filesystem::path source(FIBER_PROXIMITY_SOURCE_DIR);
+  const std::filesystem::path source = fiber::test::source_folder();
   const std::regex forbidden(
       R"(^\s*#\s*include\s*[<"](ros|tf2?|tf2_ros|std_msgs|geometry_msgs|sensor_msgs|nav_msgs|)"
       R"(visualization_msgs|fcl|ccd|nodelet|pluginlib|fiber_proximity/ros)(/|\.h))"

@@ -12,6 +12,7 @@
 
 #include "environment/cell_checker.hpp"
 #include "environment/fcl_shapes.hpp"
+#include "fiber_proximity/geometry/smallest_rotation.hpp"
 
 namespace fiber {
 namespace {
@@ -88,7 +89,7 @@ class FclSegments {
       const Vector3d axis = capsule.p1 - capsule.p0;
       capsules_[i]->lz = axis.norm();
       capsules_[i]->computeLocalAABB();
-      Eigen::Isometry3d pose(Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), axis));
+      Eigen::Isometry3d pose(smallest_rotation(Vector3d::UnitZ(), axis));
       pose.translation() = 0.5 * (capsule.p0 + capsule.p1);
       objects_.move(i, pose);
     }

@@ -4,6 +4,7 @@
 
 #include "environment/measurements.hpp"
 #include "fiber_proximity/environment/check_fibers.hpp"
+#include "fiber_proximity/query/threads.hpp"
 #include "progress.hpp"
 #include "statistics.hpp"
 
@@ -21,7 +22,7 @@ class BatchRun {
     surroundings.self = false;
     QueryOptions first;
     first.type = QueryType::FIRST;
-    tbb::task_arena arena(static_cast<int>(threads_));
+    tbb::task_arena arena(arena_concurrency(threads_));
     times_ms_.push_back(time_of(
         [&] { arena.execute([&] { check_fibers(candidates, surroundings, first, checks_); }); }));
   }

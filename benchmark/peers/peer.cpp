@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "fiber_proximity/query/threads.hpp"
 #include "peers/makers.hpp"
 
 namespace fiber {
@@ -40,6 +41,7 @@ std::string all_peers() {
 std::unique_ptr<ProximityEngine> make_bench_engine(const std::string& name,
                                                    const BenchEngineOptions& options) {
   assert(options.threads > 0 && options.margin >= 0.0 && std::isfinite(options.margin));
+  validate_threads(options.threads);
   for (const Peer& peer : peers) {
     if (name != peer.name) {
       continue;

@@ -4,10 +4,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include <algorithm>
-#include <thread>
-
 #include "fiber_proximity/hierarchy/segment_boxes.hpp"
+#include "fiber_proximity/query/threads.hpp"
 
 namespace fiber {
 
@@ -16,8 +14,8 @@ namespace fiber {
 class PeerThreads {
  public:
   explicit PeerThreads(std::uint32_t limit)
-      : count_(std::min(limit, std::max(1U, std::thread::hardware_concurrency()))),
-        arena_(static_cast<int>(count_)) {}
+      : arena_(arena_concurrency(limit)),
+        count_(static_cast<std::uint32_t>(arena_.max_concurrency())) {}
 
   std::uint32_t count() const { return count_; }
 
@@ -47,8 +45,8 @@ class PeerThreads {
   }
 
  private:
-  std::uint32_t count_;
   mutable tbb::task_arena arena_;
+  std::uint32_t count_;
 };
 
 }  // namespace fiber

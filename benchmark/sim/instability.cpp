@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "fiber_proximity/geometry/smallest_rotation.hpp"
 #include "fiber_proximity/sim/effects/twist.hpp"
 #include "sim/rod_scene.hpp"
 #include "sim/root.hpp"
@@ -172,7 +173,7 @@ EndOfRing end_of_ring(double angle, int steps) {
   auto twist = std::make_unique<Twist>(rods);
   // The first edge is half a node's turn after the clamp.
   const Vector3d tangent = Vector3d::UnitX();
-  const auto back = Eigen::Quaterniond::FromTwoVectors(points[1] - points[0], tangent);
+  const auto back = smallest_rotation(points[1] - points[0], tangent);
   const Placement placement{Vector3d::Zero(), tangent, back * rods.directors[0]};
   auto clamped = clamp_twisted(rods, placement, placement, angle);
   Stepper stepper(rods,

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double frame = 1.0 / 60.0;  // [s]
+constexpr double frame_time = 1.0 / 60.0;  // [s]
 
 /// Rods in rows, held at their upper ends, that begin level and so swing.
 Stepper swinging_rods(const LoadSizes& sizes, std::uint32_t threads) {
@@ -61,7 +61,7 @@ double time_rods(const LoadSizes& sizes, std::uint32_t substeps, std::uint32_t t
   Stepper stepper = swinging_rods(sizes, threads);
   const auto run = [&](std::uint32_t frames) {
     for (std::uint32_t i = 0; i < frames * substeps; ++i) {
-      stepper.step(frame / substeps);
+      stepper.step(frame_time / substeps);
     }
   };
   run(std::max(1U, sizes.frames / 4));
@@ -80,7 +80,7 @@ void measure_loads(const LoadSizes& sizes, const std::function<void(const LoadRe
         const double ms = time(sizes, steps, wanted);
         const std::uint32_t used = threads == 0 ? std::thread::hardware_concurrency() : wanted;
         report({scene, rods, segments, steps, used, ms / (sizes.frames * steps),
-                1e3 * sizes.frames * frame / ms});
+                1e3 * sizes.frames * frame_time / ms});
       };
       add("cables in contact", sizes.cables, sizes.cable_segments, time_cables);
       add("swinging rods", sizes.rods, sizes.rod_segments, time_rods);

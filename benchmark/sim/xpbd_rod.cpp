@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "fiber_proximity/geometry/smallest_rotation.hpp"
+
 namespace fiber {
 
 using Eigen::Quaterniond;
@@ -26,7 +28,7 @@ XpbdRod::XpbdRod(const std::vector<Vector3d>& points, const RodSection& section,
       positions_(points),
       velocities_(points.size(), Vector3d::Zero()),
       weights_(points.size(), 1.0 / (section.mass_per_length * edge_length_)),
-      frames_(points.size(), Quaterniond::FromTwoVectors(Vector3d::UnitZ(), points[1] - points[0])),
+      frames_(points.size(), smallest_rotation(Vector3d::UnitZ(), points[1] - points[0])),
       spins_(points.size(), Vector3d::Zero()),
       stretch_multipliers_(points.size() - 1),
       bend_multipliers_(points.size() - 1) {

@@ -1,12 +1,17 @@
 #include "fiber_proximity/bounds/minimal_sphere.hpp"
 
-#include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
+#include <random>
+#include <utility>
 
 namespace fiber {
 namespace {
 
 using Eigen::Vector3d;
+
+/// Points whose edges' smallest pivot is this small beside the largest define no sphere.
+constexpr double dependent = 1.5e-8;
 
 /// The state of Welzl's recursion: points that must lie on the surface, and the sphere they define.
 class Support {
@@ -26,7 +31,9 @@ class Support {
   }
 
  private:
-  /// Center = p0 + Σ λi qi with qi = pi − p0 and 2 Q'Q λ = (|qi|²).
+  /// Center = p0 + c with c in the span of the edges qi = pi − p0 and 2 qi·c = |qi|². By the QR
+  /// decomposition of the edges: Gram's matrix would square their condition number, and make a
+  /// sphere through four points that are nearly in a plane too large by 1e-9 and more.
   bool circumscribe() {
     const Vector3d& p0 = points_[sphere_.basis[0]];
     const auto n = static_cast<Eigen::Index>(size()) - 1;
@@ -42,14 +49,19 @@ class Support {
       if (!(scale > 0.0)) {
         return false;
       }
-      edges /= scale;  // so that Gram's determinant neither over- nor underflows
-      const UpTo3 gram = 2.0 * edges.transpose() * edges;
-      const Eigen::FullPivLU<UpTo3> solver(gram);
-      if (!solver.isInvertible()) {
+      edges /= scale;  // so that squares neither over- nor underflow
+      Eigen::ColPivHouseholderQR<UpTo3> qr(edges);
+      qr.setThreshold(dependent);
+      if (qr.rank() < n) {
         return false;
       }
-      const VectorUpTo3 squares = edges.colwise().squaredNorm().transpose();
-      offset = scale * (edges * solver.solve(squares));
+      const VectorUpTo3 half_squares =
+          0.5 * (qr.colsPermutation().transpose() * edges.colwise().squaredNorm().transpose());
+      VectorUpTo3 c = VectorUpTo3::Zero(3);
+      c.head(n) = qr.matrixR().topLeftCorner(n, n).triangularView<Eigen::Upper>().transpose().solve(
+          half_squares);
+      c.applyOnTheLeft(qr.householderQ());
+      offset = scale * c;
     }
     sphere_.center = p0 + offset;
     // By the farthest of the support: rounding must not leave one of them outside.
@@ -89,10 +101,19 @@ MinimalSphere enclose(const std::vector<Vector3d>& points, std::vector<std::uint
   return best;
 }
 
+/// Shuffles: the same way for the same count, on every machine.
+void shuffle(std::vector<std::uint32_t>& order) {
+  std::minstd_rand draw;
+  for (std::size_t left = order.size(); left > 1; --left) {
+    std::swap(order[left - 1], order[draw() % left]);
+  }
+}
+
 }  // namespace
 
 MinimalSphere minimal_sphere(const std::vector<Vector3d>& points,
                              std::vector<std::uint32_t>& order) {
+  shuffle(order);
   MinimalSphere sphere = enclose(points, order, order.size(), Support(points));
   // Rounding and dependent points may leave one outside by a little: the radius takes them in.
   for (const std::uint32_t index : order) {

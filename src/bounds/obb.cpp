@@ -14,13 +14,13 @@ using Eigen::Matrix3f;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-Obb everything() {
+Obb unbounded_box() {
   Obb box;
   box.half_extents.setConstant(std::numeric_limits<float>::infinity());
   return box;
 }
 
-bool is_everything(const Obb& box) { return !box.half_extents.allFinite(); }
+bool is_unbounded(const Obb& box) { return !box.half_extents.allFinite(); }
 
 /// A right-handed orthonormal frame with `first` along the given direction and `second` as near to
 /// the other as that allows; directions that vanish or coincide are replaced.
@@ -72,7 +72,7 @@ class Extents {
     const Vector3d half = 0.5 * (upper_ - lower_);
     const double magnitude = center.cwiseAbs().maxCoeff() + half.maxCoeff();
     if (!(magnitude <= RoundedCapsule::largest_magnitude)) {
-      return everything();
+      return unbounded_box();
     }
     // Pads for the rounded centre and for axes that are orthonormal to single precision only.
     const float padding =
@@ -163,8 +163,8 @@ Obb merge_leaves(const Obb& /*a*/, const Obb& /*b*/, const Capsule& capsule_a,
 }
 
 Obb merge(const Obb& a, const Obb& b) {
-  if (is_everything(a) || is_everything(b)) {
-    return everything();
+  if (is_unbounded(a) || is_unbounded(b)) {
+    return unbounded_box();
   }
   // The covariance of the 16 corners: of each box's about its centre, and of the two centres.
   Matrix3d covariance = Matrix3d::Zero();

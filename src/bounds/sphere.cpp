@@ -15,7 +15,7 @@ using Eigen::Vector3f;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-Sphere everything() { return {Vector3f::Zero(), infinity}; }
+Sphere unbounded_sphere() { return {Vector3f::Zero(), infinity}; }
 
 /// Magnitude of the largest coordinate a sphere reaches [m].
 float reach(const Sphere& sphere) { return sphere.center.cwiseAbs().maxCoeff() + sphere.radius; }
@@ -37,7 +37,7 @@ void fit_around(Sphere& sphere, const Vector3d& center, const CapsuleRun& run) {
   }
   const double radius = std::sqrt(farthest) + widest;
   if (!(center.cwiseAbs().maxCoeff() + radius <= RoundedCapsule::largest_magnitude)) {
-    sphere = everything();
+    sphere = unbounded_sphere();
     return;
   }
   sphere.center = center.cast<float>();

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "fiber_proximity/compare/fcl_broad_phase.hpp"
+#include "fiber_proximity/geometry/smallest_rotation.hpp"
 #include "fiber_proximity/hierarchy/fiber_order.hpp"
 #include "src/compare/fcl_manager.hpp"
 
@@ -29,8 +30,7 @@ Eigen::Quaterniond rotation_to(const Vector3d& axis) {
   }
   // Twice: the length of a tiny axis has few digits.
   const Vector3d along = axis.stableNormalized().normalized();
-  return Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(),
-                                            along.z() < 0.0 ? Vector3d(-along) : along);
+  return smallest_rotation(Vector3d::UnitZ(), along.z() < 0.0 ? Vector3d(-along) : along);
 }
 
 class CapsuleObject final : public FclSegment {
@@ -103,7 +103,7 @@ class Capsules final : public FclCapsules {
       if (!test.is_left_out(pair)) {
         ++measured;
         const double gap = gap_of(a, b);
-        if (!(gap > test.margin())) {
+        if (!(gap > test.margin()) && !test.lacks_loop(pair)) {
           found.push_back({pair, gap});
         }
       }

@@ -3,6 +3,7 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
+#include <limits>
 #include <memory>
 
 #include "fiber_proximity/query/deadline.hpp"
@@ -10,10 +11,13 @@
 namespace fiber {
 namespace {
 
-void forget(QueryResult& result) {
+/// Makes it the answer to what was not asked, or was not reached before the deadline.
+void forget(QueryResult& result, bool is_reached) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   result.contacts.clear();
   result.limit_reached = false;
-  result.complete = true;
+  result.complete = is_reached;
+  result.others_lower = is_reached ? infinity : -infinity;
   result.counts = QueryCounts();
 }
 
@@ -29,12 +33,14 @@ class Checker {
   Checker(const Surroundings& surroundings, const QueryOptions& options)
       : surroundings_(surroundings), options_(options), engine_(make_engine_of_one_thread()) {}
 
-  /// @param seconds until the deadline, 0 for none
-  void check(const FiberAssembly& candidate, double seconds, FiberCheck& check) {
-    const Deadline deadline(seconds);
-    forget(check.self);
-    forget(check.fibers);
-    forget(check.environment);
+  void check(const FiberAssembly& candidate, const Deadline& deadline, FiberCheck& check) {
+    const bool is_reached = !deadline.has_passed();
+    forget(check.self, is_reached);
+    forget(check.fibers, is_reached);
+    forget(check.environment, is_reached);
+    if (!is_reached) {
+      return;
+    }
     if (surroundings_.environment != nullptr) {
       surroundings_.environment->query(candidate, options(deadline), surroundings_.allowed,
                                        check.environment);
@@ -71,7 +77,7 @@ void check_fibers(const std::vector<FiberAssembly>& candidates, const Surroundin
   checks.resize(candidates.size());
   tbb::enumerable_thread_specific<Checker> checkers(surroundings, options);
   tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t i) {
-    checkers.local().check(candidates[i], deadline.left(), checks[i]);
+    checkers.local().check(candidates[i], deadline, checks[i]);
   });
 }
 

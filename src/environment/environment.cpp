@@ -9,6 +9,7 @@
 
 #include "broad_phase.hpp"
 #include "environment_query.hpp"
+#include "fiber_proximity/text/quote.hpp"
 
 namespace fiber {
 namespace {
@@ -23,7 +24,7 @@ Environment::Environment(std::vector<EnvironmentObject> objects) : objects_(std:
   for (const EnvironmentObject& object : objects_) {
     validate(object);
     if (!names.insert(object.name).second) {
-      throw std::invalid_argument("there are two objects of the name '" + object.name + "'");
+      throw std::invalid_argument("there are two objects of the name " + quote(object.name));
     }
   }
   broad_phase_ = std::make_unique<BroadPhase>(objects_);

@@ -2,31 +2,45 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
+#include <string_view>
 
 #include "broad_phase.hpp"
 
 namespace fiber {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// Index of a segment that may be counted from the end.
 std::int64_t from_begin(std::int64_t segment, std::int64_t segment_count) {
   return segment < 0 ? segment_count + segment : segment;
 }
 
-std::vector<std::vector<AllowedPair>> by_object(const AllowedPairs& allowed,
+/// Sorts and finds parts by fibre.
+struct OfFiber {
+  bool operator()(const AllowedPart& a, const AllowedPart& b) const { return a.fiber < b.fiber; }
+  bool operator()(const AllowedPart& a, std::uint32_t fiber) const { return a.fiber < fiber; }
+  bool operator()(std::uint32_t fiber, const AllowedPart& b) const { return fiber < b.fiber; }
+};
+
+/// By object, behind them those of every object; each sorted by fibre.
+std::vector<std::vector<AllowedPart>> by_object(const AllowedPairs& allowed,
                                                 const std::vector<EnvironmentObject>& objects) {
-  std::vector<std::vector<AllowedPair>> sorted;
-  if (!allowed.empty()) {
-    sorted.resize(objects.size());
+  std::vector<std::vector<AllowedPart>> sorted;
+  if (allowed.empty()) {
+    return sorted;
+  }
+  sorted.resize(objects.size() + 1);
+  std::map<std::string_view, std::size_t> indices{{"", objects.size()}};
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    indices.emplace(objects[i].name, i);
   }
   for (const AllowedPair& pair : allowed) {
-    for (std::size_t i = 0; i < objects.size(); ++i) {
-      if (pair.object.empty() || pair.object == objects[i].name) {
-        sorted[i].push_back(pair);
-      }
+    if (const auto found = indices.find(pair.object); found != indices.end()) {
+      sorted[found->second].push_back({pair.fiber, pair.first_segment, pair.last_segment});
     }
+  }
+  for (std::vector<AllowedPart>& parts : sorted) {
+    std::sort(parts.begin(), parts.end(), OfFiber());
   }
   return sorted;
 }
@@ -62,7 +76,7 @@ double EnvironmentQuery::offer(const SegmentRun& run, const WorldShape& shape) {
   ++counts_.node_overlaps;
   for (std::uint32_t point = run.begin; point < run.end; ++point) {
     if (keeper_.done()) {
-      return -infinity;
+      return -std::numeric_limits<double>::infinity();
     }
     offer_segment(run, point, shape);
   }
@@ -85,7 +99,7 @@ void EnvironmentQuery::offer_segment(const SegmentRun& run, std::uint32_t point,
   ++counts_.primitive_tests;
   const AxisDistance axis =
       axis_distance(shape.shape, shape.to_shape * capsule.p0, shape.to_shape * capsule.p1, within);
-  if (axis.distance == infinity) {
+  if (axis.distance == std::numeric_limits<double>::infinity()) {
     keeper_.leave_out(bound);
     return;
   }
@@ -105,12 +119,19 @@ bool EnvironmentQuery::is_allowed(const SegmentRun& run, std::uint32_t point,
   const std::uint32_t first = fibers_.offsets()[run.fiber];
   const std::int64_t count = fibers_.offsets()[run.fiber + 1] - first - 1;
   const std::int64_t segment = point - first;
-  const std::vector<AllowedPair>& pairs = allowed_[shape.object];
-  return std::any_of(pairs.begin(), pairs.end(), [&](const AllowedPair& pair) {
-    return (pair.fiber == AllowedPair::every_fiber || pair.fiber == run.fiber) &&
-           from_begin(pair.first_segment, count) <= segment &&
-           segment <= from_begin(pair.last_segment, count);
-  });
+  const auto holds_segment = [&](const AllowedPart& part) {
+    return from_begin(part.first_segment, count) <= segment &&
+           segment <= from_begin(part.last_segment, count);
+  };
+  for (const std::vector<AllowedPart>* parts : {&allowed_[shape.object], &allowed_.back()}) {
+    for (const std::uint32_t fiber : {run.fiber, AllowedPair::every_fiber}) {
+      const auto [begin, end] = std::equal_range(parts->begin(), parts->end(), fiber, OfFiber());
+      if (std::any_of(begin, end, holds_segment)) {
+        return true;
+      }
+    }
+  }
+  return false;
 }
 
 Contact EnvironmentQuery::contact(const SegmentRun& run, std::uint32_t point,
@@ -135,6 +156,6 @@ Contact EnvironmentQuery::contact(const SegmentRun& run, std::uint32_t point,
   return contact;
 }
 
-void EnvironmentQuery::finish() { keeper_.finish(-infinity); }
+void EnvironmentQuery::finish() { keeper_.finish(-std::numeric_limits<double>::infinity()); }
 
 }  // namespace fiber

@@ -26,6 +26,13 @@ struct SegmentRun {
   double radius = 0.0;  // the largest [m]
 };
 
+/// A part of a fibre that may touch an object: as AllowedPair has it.
+struct AllowedPart {
+  std::uint32_t fiber;
+  std::int64_t first_segment;
+  std::int64_t last_segment;
+};
+
 /// One query of an environment: decides which pairs of segments and shapes are contacts.
 class EnvironmentQuery {
  public:
@@ -50,7 +57,8 @@ class EnvironmentQuery {
 
   ContactKeeper keeper_;
   const FiberAssembly& fibers_;
-  std::vector<std::vector<AllowedPair>> allowed_;  // by object; empty if there are none at all
+  // By object, behind them those of every object; empty if there are none at all.
+  std::vector<std::vector<AllowedPart>> allowed_;
   QueryCounts& counts_;
 };
 

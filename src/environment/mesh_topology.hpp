@@ -25,6 +25,8 @@ class MeshTopology {
   Eigen::Vector3d normal(std::uint32_t triangle, const TriangleFeature& feature) const;
 
  private:
+  void join_triangles();
+
   struct Normals {
     Eigen::Vector3d face = Eigen::Vector3d::Zero();
     std::array<Eigen::Vector3d, 3> edges;

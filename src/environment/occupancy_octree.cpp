@@ -16,13 +16,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// Cells along an axis on either side of the origin.
 constexpr int half_of_cells = 1 << (morton_levels - 1);
 
 double checked_resolution(double resolution) {
-  if (!(resolution > 0.0 && resolution < infinity)) {
+  if (!(resolution > 0.0 && resolution < std::numeric_limits<double>::infinity())) {
     std::ostringstream message;
     message << "resolution of the octree is " << resolution << " m, it must be positive and finite";
     throw std::invalid_argument(message.str());
@@ -41,8 +39,8 @@ class Search {
   Search(double resolution, const Vector3d& p0, const Vector3d& p1, double bound)
       : resolution_(resolution), p0_(p0), p1_(p1), bound_(bound) {
     axis_box_.extend(p0).extend(p1);
-    best_.distance = infinity;
-    best_.lower = infinity;
+    best_.distance = std::numeric_limits<double>::infinity();
+    best_.lower = std::numeric_limits<double>::infinity();
   }
 
   /// @param codes of the cells, in ascending order
@@ -59,7 +57,7 @@ class Search {
     Codes begin = nullptr;
     Codes end = nullptr;
     HalfCells centre;
-    double distance = infinity;  // [m] at least this far
+    double distance = std::numeric_limits<double>::infinity();  // [m] at least this far
   };
 
   void visit(const Cube& parent, int level) {

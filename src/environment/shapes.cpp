@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/text/quote.hpp"
 
 namespace fiber {
 namespace {
@@ -89,11 +90,11 @@ void validate(const EnvironmentObject& object) {
   if (object.name.empty()) {
     throw std::invalid_argument("an object has no name");
   }
-  std::string where = "object '" + object.name + "'";
+  std::string where = "object " + quote(object.name);
   try {
     validate(object.pose);
     for (std::size_t i = 0; i < object.shapes.size(); ++i) {
-      where = "object '" + object.name + "', shape " + std::to_string(i);
+      where = "object " + quote(object.name) + ", shape " + std::to_string(i);
       validate(object.shapes[i].shape);
       validate(object.shapes[i].pose);
     }

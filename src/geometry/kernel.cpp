@@ -6,6 +6,7 @@
 
 #include "fiber_proximity/geometry/exact_distance.hpp"
 #include "fiber_proximity/geometry/segment_distance.hpp"
+#include "fiber_proximity/text/quote.hpp"
 
 namespace fiber {
 
@@ -22,7 +23,7 @@ Kernel kernel_from_name(const std::string& name) {
     for (const std::string& each : names) {
       known += (known.empty() ? "" : ", ") + each;
     }
-    throw std::invalid_argument("unknown kernel '" + name + "', known are: " + known);
+    throw std::invalid_argument("unknown kernel " + quote(name) + ", known are: " + known);
   }
   return static_cast<Kernel>(found - names.begin());
 }

@@ -147,6 +147,28 @@ class Finder {
   void aim() {
     bound_ = sink_.bound();
     probe_.aim(a_, group_, bound_);
+    prunes_ = self_ && is_smaller_than_bound(probe_.whole());
+  }
+
+  /// Where the bound is less than the extent of a group, few pairs of it are near: it does not pay
+  /// to ask whether all are ruled out.
+  /// @param box of the group, larger by the bound on all sides
+  bool is_smaller_than_bound(const BoxBlock& box) const {
+    float extent = 0.0F;
+    for (int axis = 0; axis < 3; ++axis) {
+      extent = std::max(extent, box.upper[axis][0] - box.lower[axis][0]);
+    }
+    return !(extent > 4.0F * bound_);
+  }
+
+  /// Whether no segments of these runs of both trees are pairs.
+  bool is_ruled_out(std::uint32_t a, std::uint32_t count_a, std::uint32_t b,
+                    std::uint32_t count_b) const {
+    const std::uint32_t* const of_a = a_.first_points + std::size_t{a} * run_width;
+    const std::uint32_t* const of_b = b_.first_points + std::size_t{b} * run_width;
+    const auto [least_a, most_a] = std::minmax_element(of_a, of_a + count_a * run_width);
+    const auto [least_b, most_b] = std::minmax_element(of_b, of_b + count_b * run_width);
+    return sink_.rules_out(std::min(*least_a, *least_b), std::max(*most_a, *most_b));
   }
 
   bool descend() {
@@ -182,6 +204,10 @@ class Finder {
   bool visit_group(std::uint32_t h, std::uint32_t chosen) {
     const bool same = self_ && h == group_;
     const RunTreeLevel& runs = b_.levels[0];
+    if (prunes_ && is_ruled_out(group_ * run_width, probe_.run_count(), h * run_width,
+                                std::min(run_width, runs.child_count - h * run_width))) {
+      return true;
+    }
     chosen &= children(runs, h);
     for (std::uint32_t run = 0; run < probe_.run_count(); ++run) {
       // Of a group with itself: a run with itself, and with those after it.
@@ -211,6 +237,9 @@ class Finder {
     fit_boxes(b_.runs[b], boxes);
     const std::uint32_t columns = segments(b_, b) & overlapping(boxes, probe_.runs(), run);
     if (columns == 0) {
+      return true;
+    }
+    if (prunes_ && is_ruled_out(a, 1, b, 1)) {
       return true;
     }
     if (!make_room()) {
@@ -270,6 +299,7 @@ class Finder {
   float bound_ = 0.0F;  // [m]
   const bool self_;
   const bool skip_adjacent_;
+  bool prunes_ = false;  // asks whether runs are ruled out
 };
 
 bool find_near_segments_lanes(const RunTreeView& a, std::uint32_t begin, std::uint32_t end,

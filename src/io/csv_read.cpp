@@ -6,6 +6,7 @@
 #include "fiber_proximity/io/csv.hpp"
 #include "fiber_proximity/io/number.hpp"
 #include "fiber_proximity/io/radii.hpp"
+#include "fiber_proximity/text/quote.hpp"
 #include "src/io/input_file.hpp"
 #include "src/io/text.hpp"
 
@@ -26,6 +27,7 @@ class CsvReader {
       return;
     }
     split(line, fields_);
+    check_fields(fields_, name_, line_);
     if (columns_ == 0) {
       read_header();
     } else {
@@ -66,7 +68,7 @@ class CsvReader {
       for (const std::string_view field : fields_) {
         header += (header.empty() ? "" : ",") + std::string(field);
       }
-      refuse("the header is " + quoted(header) + ", expected " + header_rule);
+      refuse("the header is " + quote(header) + ", expected " + header_rule);
     }
   }
 
@@ -86,14 +88,14 @@ class CsvReader {
       const char name[] = {"xyz"[axis], '\0'};
       point[axis] = read_double(name, text);
       if (!FiberAssembly::is_valid_coordinate(point[axis])) {
-        refuse(name + (" is " + quoted(text)) + ", " + FiberAssembly::coordinate_rule);
+        refuse(name + (" is " + quote(text)) + ", " + FiberAssembly::coordinate_rule);
       }
     }
     points_.push_back(point);
     if (has_radius_) {
       radii_.push_back(read_double("radius", fields_[column]));
       if (!FiberAssembly::is_valid_radius(radii_.back())) {
-        refuse("radius is " + quoted(fields_[column]) + ", " + FiberAssembly::radius_rule);
+        refuse("radius is " + quote(fields_[column]) + ", " + FiberAssembly::radius_rule);
       }
     }
   }
@@ -101,7 +103,7 @@ class CsvReader {
   std::int64_t read_frame(std::string_view text) const {
     const auto frame = parse_number<std::int64_t>(text);
     if (!frame) {
-      refuse("frame is " + quoted(text) + ", expected a whole number");
+      refuse("frame is " + quote(text) + ", expected a whole number");
     }
     return *frame;
   }
@@ -109,7 +111,7 @@ class CsvReader {
   double read_double(const char* name, std::string_view text) const {
     const auto value = parse_number<double>(text);
     if (!value) {
-      refuse(name + (" is " + quoted(text)) + ", expected a number");
+      refuse(name + (" is " + quote(text)) + ", expected a number");
     }
     return *value;
   }
@@ -138,7 +140,7 @@ class CsvReader {
       refuse("fiber is empty, expected a label");
     }
     if (!labels_seen_.insert(std::string(label)).second) {
-      refuse("fibre " + quoted(label) +
+      refuse("fibre " + quote(label) +
              " appears again; the rows of a fibre must stand one after another");
     }
     label_ = label;
@@ -149,7 +151,7 @@ class CsvReader {
   void close_fiber() const {
     if (!offsets_.empty() && points_.size() - offsets_.back() < 2) {
       throw FileError(name_, fiber_line_,
-                      "fibre " + quoted(label_) + " has only this point, a fibre needs at least 2");
+                      "fibre " + quote(label_) + " has only this point, a fibre needs at least 2");
     }
   }
 

@@ -1,40 +1,51 @@
 #pragma once
 
-#include <cerrno>
 #include <fstream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "fiber_proximity/io/file_error.hpp"
 
 namespace fiber {
 
-/// @throws FileError
-inline std::ifstream open_to_read(const std::string& path) {
-  errno = 0;
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) {
-    throw FileError::from_system(path, "cannot be opened");
-  }
-  return stream;
-}
+/// [byte] The longest line and the longest field of a text file: what is longer is another kind of
+/// file, or has no end, and is refused before memory is.
+constexpr std::size_t longest_line = 65'536;
+constexpr std::size_t longest_field = 4'096;
 
-/// Calls take(line) with each line, the first without the byte order mark that spreadsheets write.
-/// @throws FileError that calls the stream by `name`
+/// @throws FileError
+std::ifstream open_to_read(const std::string& path);
+
+/// Gives lines one after another, the first without the byte order mark that spreadsheets write.
+class LineReader {
+ public:
+  /// @param name what errors call the stream
+  LineReader(std::istream& stream, std::string name);
+
+  /// Whether there is a line; it stays until the next one is read.
+  /// @throws FileError for a line that is longer than longest_line or cannot be read
+  bool next(std::string_view& line);
+
+ private:
+  std::istream& stream_;
+  const std::string name_;
+  std::size_t line_ = 0;
+  std::vector<char> buffer_;
+};
+
+/// Calls take(line) with each line.
+/// @throws FileError as LineReader
 template <class Take>
 void for_each_line(std::istream& stream, const std::string& name, const Take& take) {
-  constexpr std::string_view mark = "\xEF\xBB\xBF";
-  std::string line;
-  bool first = true;
-  errno = 0;
-  while (std::getline(stream, line)) {
-    const bool marked = first && line.compare(0, mark.size(), mark) == 0;
-    first = false;
-    take(std::string_view(line).substr(marked ? mark.size() : 0));
-  }
-  if (stream.bad()) {
-    throw FileError::from_system(name, "cannot be read");
+  LineReader reader(stream, name);
+  for (std::string_view line; reader.next(line);) {
+    take(line);
   }
 }
+
+/// @throws FileError for a field that is longer than longest_field
+void check_fields(const std::vector<std::string_view>& fields, const std::string& name,
+                  std::size_t line);
 
 }  // namespace fiber

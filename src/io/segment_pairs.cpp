@@ -6,6 +6,7 @@
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/io/number.hpp"
+#include "fiber_proximity/text/quote.hpp"
 #include "src/io/input_file.hpp"
 #include "src/io/text.hpp"
 
@@ -54,6 +55,7 @@ class PairReader {
       return;
     }
     split_pair(line, between_commas_, fields_);
+    check_fields(fields_, name_, line_);
     const bool first = std::exchange(is_first_, false);
     if (!(first && is_header())) {
       pairs_.push_back(read_pair());
@@ -73,7 +75,7 @@ class PairReader {
     if (fields_.size() < names + column_count) {
       throw FileError(name_, line_,
                       "has " + std::to_string(fields_.size() - names) + " values" +
-                          (names == 0 ? "" : " after the name " + quoted(fields_.front())) +
+                          (names == 0 ? "" : " after the name " + quote(fields_.front())) +
                           ", expected the 12 coordinates of p0, p1, q0 and q1");
     }
     double values[column_count];
@@ -89,7 +91,7 @@ class PairReader {
     if (!value || !FiberAssembly::is_valid_coordinate(*value)) {
       throw FileError(name_, line_,
                       "column " + std::to_string(field + 1) + " (" + column + ") is " +
-                          quoted(fields_[field]) + ", " +
+                          quote(fields_[field]) + ", " +
                           (value ? FiberAssembly::coordinate_rule : "expected a number"));
     }
     return *value;

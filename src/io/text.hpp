@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -28,7 +27,5 @@ inline void split(std::string_view line, std::vector<std::string_view>& fields) 
   }
   fields.push_back(trimmed(line));
 }
-
-inline std::string quoted(std::string_view text) { return "'" + std::string(text) + "'"; }
 
 }  // namespace fiber

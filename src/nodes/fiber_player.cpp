@@ -1,18 +1,19 @@
 #include "fiber_proximity/ros/fiber_player.hpp"
 
-#include <ros/init.h>
+#include <ros/ros.h>
 
 #include <exception>
-#include <iostream>
 
 int main(int argc, char** argv) {
+  ros::init(argc, argv, "fiber_player");
+  // Out here: with the last node handle goes the log, and with it the error below.
+  const ros::NodeHandle node;
   try {
-    ros::init(argc, argv, "fiber_player");
     const fiber_proximity_ros::FiberPlayer player(
-        ros::NodeHandle(), fiber_proximity_ros::read_player_options(ros::NodeHandle("~")));
+        node, fiber_proximity_ros::read_player_options(ros::NodeHandle("~")));
     ros::spin();
   } catch (const std::exception& error) {
-    std::cerr << "fiber_player: " << error.what() << '\n';
+    ROS_FATAL_STREAM(error.what());
     return 2;
   }
   return 0;

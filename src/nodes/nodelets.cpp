@@ -1,17 +1,36 @@
 #include <nodelet/nodelet.h>
+#include <ros/console.h>
 
+#include <exception>
 #include <memory>
 #include <pluginlib/class_list_macros.hpp>
+#include <string>
 
 #include "fiber_proximity/ros/proximity_server.hpp"
 #include "fiber_proximity/ros/sim_server.hpp"
 
 namespace fiber_proximity_ros {
+namespace {
+
+/// Makes what a nodelet runs; why it cannot is in the manager's log, which says only that.
+template <class Make>
+auto make_or_log(const std::string& name, const Make& make) {
+  try {
+    return make();
+  } catch (const std::exception& error) {
+    ROS_FATAL_STREAM("nodelet " << name << ": " << error.what());
+    throw;
+  }
+}
+
+}  // namespace
 
 class ProximityNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
-    server_ = std::make_unique<ProximityServer>(getNodeHandle(), getPrivateNodeHandle());
+    server_ = make_or_log(getName(), [this] {
+      return std::make_unique<ProximityServer>(getNodeHandle(), getPrivateNodeHandle());
+    });
   }
 
   std::unique_ptr<ProximityServer> server_;
@@ -20,8 +39,10 @@ class ProximityNodelet : public nodelet::Nodelet {
 class CableSimNodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
-    server_ = std::make_unique<SimServer>(getPrivateNodeHandle(),
-                                          read_sim_options(getPrivateNodeHandle()));
+    server_ = make_or_log(getName(), [this] {
+      return std::make_unique<SimServer>(getPrivateNodeHandle(),
+                                         read_sim_options(getPrivateNodeHandle()));
+    });
   }
 
   std::unique_ptr<SimServer> server_;

@@ -1,6 +1,6 @@
 #include <ros/ros.h>
 
-#include <stdexcept>
+#include <exception>
 
 #include "fiber_proximity/ros/proximity_server.hpp"
 
@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
   try {
     const fiber_proximity_ros::ProximityServer server(node, ros::NodeHandle("~"));
     ros::spin();
-  } catch (const std::invalid_argument& error) {
+  } catch (const std::exception& error) {
     ROS_FATAL_STREAM(error.what());
     return 2;
   }

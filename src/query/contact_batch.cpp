@@ -18,8 +18,9 @@ constexpr double part_to_collect = 2.0 / 3.0;
 /// Keeps all candidates but those that are no pairs.
 class CandidateSink final : public PairSink {
  public:
-  CandidateSink(const PairTest& test, float bound, std::vector<std::uint64_t>& keys)
-      : test_(test), bound_(bound), keys_(keys) {}
+  /// @param prunes leave out what lacks a loop as the fibres are now
+  CandidateSink(const PairTest& test, float bound, bool prunes, std::vector<std::uint64_t>& keys)
+      : test_(test), bound_(bound), prunes_(prunes), keys_(keys) {}
 
   bool offer(PointPair candidate) override {
     const PointPair pair = test_.ordered(candidate);
@@ -31,18 +32,22 @@ class CandidateSink final : public PairSink {
 
   float bound() const override { return bound_; }
   bool wants_adjacent() const override { return test_.wants_adjacent(); }
+  bool rules_out(std::uint32_t first, std::uint32_t last) const override {
+    return prunes_ && test_.rules_out(first, last);
+  }
 
  private:
   const PairTest& test_;
   const float bound_;
+  const bool prunes_;
   std::vector<std::uint64_t>& keys_;
 };
 
 }  // namespace
 
 bool ContactBatch::collect(const RunTreeView& a, const RunTreeView& b, const PairTest& test,
-                           double bound, const Deadline& deadline, std::vector<std::uint64_t>& keys,
-                           QueryCounts& counts) {
+                           double bound, const Deadline& deadline, bool prunes,
+                           std::vector<std::uint64_t>& keys, QueryCounts& counts) {
   const float rounded_bound = round_up(bound);
   const std::uint32_t groups = a.group_count();
   const std::uint32_t step = deadline.is_set() ? 1 : groups_per_job;
@@ -56,7 +61,7 @@ bool ContactBatch::collect(const RunTreeView& a, const RunTreeView& b, const Pai
     job.complete = true;
     const auto begin = static_cast<std::uint32_t>(index) * groups_per_job;
     const std::uint32_t end = std::min(groups, begin + groups_per_job);
-    CandidateSink sink(test, rounded_bound, job.keys);
+    CandidateSink sink(test, rounded_bound, prunes, job.keys);
     for (std::uint32_t group = begin; group < end && job.complete; group += step) {
       job.complete = !deadline.has_passed(part_to_collect);
       if (job.complete) {
@@ -107,7 +112,8 @@ void ContactBatch::judge(const std::vector<std::uint64_t>& keys, bool are_all, c
 
 void ContactBatch::find(const RunTreeView& a, const RunTreeView& b, const PairTest& test,
                         double moved, const Deadline& deadline, QueryResult& result) {
-  const bool are_all = collect(a, b, test, test.margin() + moved, deadline, keys_, result.counts);
+  const bool are_all =
+      collect(a, b, test, test.margin() + moved, deadline, true, keys_, result.counts);
   judge(keys_, are_all, test, deadline, result);
 }
 

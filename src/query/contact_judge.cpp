@@ -75,10 +75,11 @@ void ContactJudge::judge_slice(const std::uint64_t* keys, const PairTest& test, 
   test.distances(pairs, size, distances);
   slice.others_lower = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < size; ++i) {
-    const bool is_contact = test.is_within_margin(pairs[i], distances[i]);
+    const bool is_near = test.is_within_margin(pairs[i], distances[i]);
+    const bool is_contact = is_near && !test.lacks_loop(pairs[i], distances[i]);
     is_contact_[slice.begin + i] = is_contact ? 1 : 0;
     slice.contact_count += is_contact ? 1 : 0;
-    if (!is_contact) {
+    if (!is_near) {
       slice.others_lower = std::min(slice.others_lower, test.gap_lower(pairs[i], distances[i]));
     }
   }

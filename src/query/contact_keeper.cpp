@@ -84,7 +84,8 @@ void ContactKeeper::keep_closest(const Contact& contact) {
   }
 }
 
-/// [m] By how much less than this distance a pair must be closer to be looked for.
+/// [m] By how much less than this distance a pair must be closer to be looked for: the same for
+/// distances and depths.
 double ContactKeeper::slack(double distance) const {
   const double relative = options_.relative_tolerance;
   return std::max(options_.tolerance, std::abs(distance) * (relative / (1.0 + relative)));

@@ -26,7 +26,9 @@ void CrossingFinder::find(const FiberAssembly& fibers, const View& view,
   crossings.clear();
   make_view_image(fibers, view, image_);
   engine_->update(image_);
-  engine_->query(QueryOptions(), candidates_);
+  QueryOptions options;
+  options.neighbour_skip = 1;  // a loop seen from the side can be flat: crossings need none
+  engine_->query(options, candidates_);
   const CrossingTest test(fibers, view);
   const std::vector<std::uint32_t>& offsets = fibers.offsets();
   for (const Contact& pair : candidates_.contacts) {

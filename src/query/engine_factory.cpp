@@ -13,6 +13,8 @@
 #include "fiber_proximity/query/hierarchy_engine.hpp"
 #include "fiber_proximity/query/run_tree_engine.hpp"
 #include "fiber_proximity/query/simplified_engine.hpp"
+#include "fiber_proximity/query/threads.hpp"
+#include "fiber_proximity/text/quote.hpp"
 #include "kdop_engines.hpp"
 
 namespace fiber {
@@ -102,7 +104,7 @@ EnginePointer make_plain_engine(const std::string& name, const EngineOptions& op
   } catch (const std::invalid_argument& error) {
     reason = std::string(" (") + error.what() + ")";
   }
-  throw std::invalid_argument("unknown engine '" + name + "'" + reason + ", known are: " + known +
+  throw std::invalid_argument("unknown engine " + quote(name) + reason + ", known are: " + known +
                               "; DL-k and DS-k for even k from 6 to 200; DL-k-classic and "
                               "DS-k-classic for k of 6, 14, 18, 26");
 }
@@ -110,6 +112,7 @@ EnginePointer make_plain_engine(const std::string& name, const EngineOptions& op
 }  // namespace
 
 EnginePointer make_engine(const std::string& name, const EngineOptions& options) {
+  validate_threads(options.threads);  // also where the engine has one thread
   EnginePointer engine = make_plain_engine(name, options);
   if (options.simplification == 0.0) {
     return engine;

@@ -23,9 +23,9 @@ void validate(const QueryOptions& options) {
     throw std::invalid_argument("margin is " + std::to_string(options.margin) +
                                 ", it must be at least 0 m (infinity for no limit)");
   }
-  if (!(options.neighbour_skip_length >= 0.0)) {
+  if (!(options.neighbour_skip_length.value_or(0.0) >= 0.0)) {
     throw std::invalid_argument("neighbour_skip_length is " +
-                                std::to_string(options.neighbour_skip_length) +
+                                std::to_string(*options.neighbour_skip_length) +
                                 ", it must be at least 0 m");
   }
   if (options.type == QueryType::LIMITED && options.max_contacts == 0) {

@@ -61,6 +61,9 @@ std::optional<Contact> PairCollector::contact_within(PointPair pair, double boun
   const PairDistance distance = test_.distance(pair);
   const double lower = test_.gap_lower(pair, distance);
   if (lower <= bound && test_.is_within_margin(pair, distance)) {
+    if (test_.lacks_loop(pair, distance)) {
+      return std::nullopt;
+    }
     const Contact contact = test_.contact(pair, distance);
     if (bound >= options_.margin || contact.distance <= bound) {
       return contact;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "fiber_proximity/geometry/exact_distance.hpp"
+#include "fiber_proximity/geometry/norm.hpp"
 
 namespace fiber {
 namespace {
@@ -14,7 +15,7 @@ std::vector<double> arc_lengths(const FiberAssembly& fibers) {
   std::vector<double> lengths(fibers.point_count(), 0.0);
   for (std::size_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
     for (std::size_t p = fibers.offsets()[fiber] + 1; p < fibers.offsets()[fiber + 1]; ++p) {
-      lengths[p] = lengths[p - 1] + (fibers.points()[p] - fibers.points()[p - 1]).norm();
+      lengths[p] = lengths[p - 1] + norm_of(fibers.points()[p] - fibers.points()[p - 1]);
     }
   }
   return lengths;
@@ -23,11 +24,11 @@ std::vector<double> arc_lengths(const FiberAssembly& fibers) {
 /// A unit vector at right angles to both axes where they meet: that of the cross product, or any
 /// at right angles to the longer one when they are parallel.
 Vector3d normal_of_crossing(const Capsule& a, const Capsule& b) {
-  const Vector3d u = (a.p1 - a.p0).stableNormalized();
-  const Vector3d v = (b.p1 - b.p0).stableNormalized();
+  const Vector3d u = unit_of(a.p1 - a.p0);
+  const Vector3d v = unit_of(b.p1 - b.p0);
   const Vector3d normal = u.cross(v);
   if (!normal.isZero(0.0)) {
-    return normal.stableNormalized();
+    return unit_of(normal);
   }
   const Vector3d axis = u.isZero(0.0) ? v : u;
   return axis.isZero(0.0) ? Vector3d::UnitZ() : axis.unitOrthogonal();
@@ -35,13 +36,7 @@ Vector3d normal_of_crossing(const Capsule& a, const Capsule& b) {
 
 /// Unit vector from the first point to the second; at right angles to both axes where they meet.
 Vector3d direction(const SegmentDistance& nearest, const Capsule& a, const Capsule& b) {
-  constexpr double least_norm = 0x1p-500;  // its square has all its digits
-  const double norm = nearest.delta.norm();
-  if (norm > least_norm && std::isfinite(norm)) {
-    return nearest.delta / norm;
-  }
-  return nearest.delta.isZero(0.0) ? normal_of_crossing(a, b)
-                                   : Vector3d(nearest.delta.stableNormalized());
+  return nearest.delta.isZero(0.0) ? normal_of_crossing(a, b) : unit_of(nearest.delta);
 }
 
 /// Single precision pays for many pairs at once only.
@@ -53,21 +48,43 @@ Kernel kernel_of(const QueryOptions& options) {
 }  // namespace
 
 PairTest::PairTest(const FiberAssembly& fibers, const QueryOptions& options)
-    : a_(fibers), b_(fibers), options_(options), self_(true), kernel_(kernel_of(options)) {
-  if (options.neighbour_skip_length > 0.0) {
+    : a_(fibers),
+      b_(fibers),
+      options_(options),
+      self_(true),
+      kernel_(kernel_of(options)),
+      neighbour_skip_(options.neighbour_skip.value_or(1)),
+      neighbour_skip_length_(options.neighbour_skip_length.value_or(0.0)) {
+  if (options.needs_loops()) {
+    loops_.emplace(fibers);
+  }
+  if (neighbour_skip_length_ > 0.0) {
     arc_length_ = arc_lengths(fibers);
   }
 }
 
 PairTest::PairTest(const FiberAssembly& shape, const FiberAssembly& fibers,
                    const QueryOptions& options)
-    : a_(shape), b_(fibers), options_(options), self_(false), kernel_(kernel_of(options)) {}
+    : a_(shape),
+      b_(fibers),
+      options_(options),
+      self_(false),
+      kernel_(kernel_of(options)),
+      neighbour_skip_(0),
+      neighbour_skip_length_(0.0) {}
+
+/// Decided by robust distances, so that all kernels have the same pairs.
+bool PairTest::makes_loop(PointPair pair) const {
+  const Capsule a = a_.capsule(pair.a);
+  const Capsule b = a_.capsule(pair.b);
+  return loops_->makes_loop(pair, segment_distance(a.p0, a.p1, b.p0, b.p1));
+}
 
 bool PairTest::is_neighbour_of_same_fiber(PointPair pair) const {
-  const bool near_by_index = pair.b - pair.a <= options_.neighbour_skip;
+  const bool near_by_index = pair.b - pair.a <= neighbour_skip_;
   const bool near_by_length =
       !arc_length_.empty() &&
-      arc_length_[pair.b] - arc_length_[pair.a + 1] < options_.neighbour_skip_length;
+      arc_length_[pair.b] - arc_length_[pair.a + 1] < neighbour_skip_length_;
   if (!near_by_index && !near_by_length) {
     return false;
   }

@@ -7,6 +7,7 @@
 #include "fiber_proximity/hierarchy/origin.hpp"
 #include "fiber_proximity/hierarchy/run_tree_kernels.hpp"
 #include "fiber_proximity/query/pair_collector.hpp"
+#include "fiber_proximity/query/threads.hpp"
 #include "src/query/checked_length.hpp"
 
 namespace fiber {
@@ -29,6 +30,9 @@ class CollectorSink final : public PairSink {
   }
 
   bool wants_adjacent() const override { return collector_.wants_adjacent(); }
+  bool rules_out(std::uint32_t first, std::uint32_t last) const override {
+    return collector_.rules_out(first, last);
+  }
 
  private:
   PairCollector& collector_;
@@ -57,8 +61,7 @@ constexpr double most_outdated = 0.25;
 }  // namespace
 
 RunTreeEngine::RunTreeEngine(const EngineOptions& options)
-    : arena_(options.threads == 0 ? tbb::task_arena::automatic : static_cast<int>(options.threads)),
-      skin_(checked_length("skin", options.skin)) {}
+    : arena_(arena_concurrency(options.threads)), skin_(checked_length("skin", options.skin)) {}
 
 std::uint32_t RunTreeEngine::thread_count() const {
   return static_cast<std::uint32_t>(arena_.max_concurrency());
@@ -181,7 +184,8 @@ void RunTreeEngine::do_query_shape(const FiberAssembly& shape, const FiberAssemb
 void RunTreeEngine::find_own(const PairTest& test, const QueryOptions& options,
                              const Deadline& deadline, QueryResult& result) const {
   // Which pairs a length leaves out changes as fibres stretch: such candidates cannot be kept.
-  const bool keeps = skin_ > 0.0 && skin_pays_ && options.neighbour_skip_length == 0.0;
+  const bool keeps =
+      skin_ > 0.0 && skin_pays_ && options.neighbour_skip_length.value_or(0.0) == 0.0;
   with_batch([&](ContactBatch& batch) {
     if (keeps) {
       const Candidates candidates =

@@ -30,7 +30,7 @@ double size_of_segments(const FiberAssembly& fibers) {
 /// What to ask the engine for: its fibres are segments or pieces of up to these sizes [m].
 QueryOptions options_for_pieces(const QueryOptions& options, double size_a, double size_b) {
   QueryOptions for_pieces = options;
-  for_pieces.neighbour_skip_length = 0.0;
+  for_pieces.neighbour_skip_length = 0.0;  // the rule of loops is for the fibres themselves
   if (options.kernel == Kernel::ROBUST) {
     // Twice what is proven of the error of a computed distance: that of the pieces may be above
     // the margin, that of the segments below. FAST and EXACT decide without error.

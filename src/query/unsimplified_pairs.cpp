@@ -14,6 +14,11 @@ UnsimplifiedPairs::UnsimplifiedPairs(const FiberAssembly& fibers,
       simplified_(simplified),
       test_(fibers, options),
       wants_adjacent_(test_.wants_adjacent()) {
+  if (options.needs_loops()) {
+    // A loop is one of the fibre, not of its pieces.
+    neighbour_skip_ = std::numeric_limits<std::uint32_t>::max();
+    return;
+  }
   const std::vector<std::uint32_t>& offsets = simplified.assembly().offsets();
   for (std::size_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
     const std::uint32_t end = offsets[fiber + 1] - 1;
@@ -41,7 +46,8 @@ void UnsimplifiedPairs::offer(PairCollector& collector) {
       }
       const std::uint32_t end = window_end(piece, fiber);
       first = first_far(simplified_.run_begin(piece), first, end);
-      if (first < end && !are_far({piece, end, first}, collector.bound())) {
+      if (first < end && !test_.rules_out(simplified_.run_begin(piece), end - 1) &&
+          !are_far({piece, end, first}, collector.bound())) {
         offer_within({piece, end, first}, collector);
       }
     }

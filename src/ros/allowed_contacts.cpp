@@ -1,7 +1,11 @@
 #include "fiber_proximity/ros/allowed_contacts.hpp"
 
 #include <algorithm>
+#include <map>
+#include <set>
 #include <stdexcept>
+#include <string_view>
+#include <tuple>
 #include <utility>
 
 namespace fiber_proximity_ros {
@@ -19,12 +23,10 @@ std::string label(const Pair& pair) {
          segments + "]";
 }
 
-Pairs::iterator find(Pairs& pairs, const Pair& pair) {
-  return std::find_if(pairs.begin(), pairs.end(), [&pair](const Pair& other) {
-    return other.object == pair.object && other.fiber == pair.fiber &&
-           other.segments == pair.segments;
-  });
-}
+/// What makes two pairs the same.
+using Key = std::tuple<std::string, std::string, std::vector<std::int32_t>>;
+
+Key key_of(const Pair& pair) { return {pair.object, pair.fiber, pair.segments}; }
 
 }  // namespace
 
@@ -45,16 +47,22 @@ void validate(const Pair& pair) {
 
 void AllowedContacts::apply(const fiber_proximity::AllowPairs::Request& request) {
   Pairs pairs = request.reset != 0 ? Pairs() : pairs_;
+  std::set<Key> keys;
+  for (const Pair& pair : pairs) {
+    keys.insert(key_of(pair));
+  }
   for (const Pair& pair : request.forbid) {
-    const auto found = find(pairs, pair);
-    if (found == pairs.end()) {
+    if (keys.erase(key_of(pair)) == 0) {
       throw std::invalid_argument(label(pair) + ": it is not allowed, so it cannot be taken back");
     }
-    pairs.erase(found);
+  }
+  if (!request.forbid.empty()) {
+    const auto is_forbidden = [&keys](const Pair& pair) { return keys.count(key_of(pair)) == 0; };
+    pairs.erase(std::remove_if(pairs.begin(), pairs.end(), is_forbidden), pairs.end());
   }
   for (const Pair& pair : request.allow) {
     validate(pair);
-    if (find(pairs, pair) == pairs.end()) {
+    if (keys.insert(key_of(pair)).second) {
       pairs.push_back(pair);
     }
   }
@@ -62,6 +70,12 @@ void AllowedContacts::apply(const fiber_proximity::AllowPairs::Request& request)
 }
 
 fiber::AllowedPairs AllowedContacts::resolve(const std::vector<std::string>& fiber_names) const {
+  std::multimap<std::string_view, std::uint32_t> fibers;  // those of one name in their order
+  if (!pairs_.empty()) {
+    for (std::size_t i = 0; i < fiber_names.size(); ++i) {
+      fibers.emplace(fiber_names[i], static_cast<std::uint32_t>(i));
+    }
+  }
   fiber::AllowedPairs resolved;
   for (const Pair& pair : pairs_) {
     fiber::AllowedPair allowed;
@@ -74,11 +88,10 @@ fiber::AllowedPairs AllowedContacts::resolve(const std::vector<std::string>& fib
       resolved.push_back(allowed);
       continue;
     }
-    for (std::size_t i = 0; i < fiber_names.size(); ++i) {
-      if (fiber_names[i] == pair.fiber) {
-        allowed.fiber = static_cast<std::uint32_t>(i);
-        resolved.push_back(allowed);
-      }
+    const auto [begin, end] = fibers.equal_range(pair.fiber);
+    for (auto fiber = begin; fiber != end; ++fiber) {
+      allowed.fiber = fiber->second;
+      resolved.push_back(allowed);
     }
   }
   return resolved;

@@ -1,13 +1,11 @@
 #include "fiber_proximity/ros/check_service.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <memory>
 #include <stdexcept>
 
 #include "fiber_proximity/environment/check_fibers.hpp"
 #include "fiber_proximity/geometry/select_fibers.hpp"
-#include "fiber_proximity/query/deadline.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
 #include "fiber_proximity/ros/naming.hpp"
 #include "fiber_proximity/ros/request_options.hpp"
@@ -34,16 +32,32 @@ fiber::FiberAssembly to_assembly(const fiber_proximity::FiberArray& message,
   return fibers;
 }
 
-std::vector<fiber::FiberAssembly> to_assemblies(const CheckFibers::Request& request,
-                                                const FixedFrame& frame) {
-  std::vector<fiber::FiberAssembly> candidates;
-  candidates.reserve(request.candidates.size());
-  for (std::size_t i = 0; i < request.candidates.size(); ++i) {
-    candidates.push_back(naming("candidate " + std::to_string(i),
-                                [&] { return to_assembly(request.candidates[i], frame); }));
+/// Candidates of a request that are checked at once: those of the same names in a row, which may
+/// touch the same, and not so many that it takes long to see that a deadline has come.
+class Block {
+ public:
+  static constexpr std::size_t most_candidates = 256;
+
+  /// Reads the block that begins at this candidate.
+  Block(const CheckFibers::Request& request, std::size_t begin, const QueryTarget& target)
+      : names_(request.candidates[begin].names) {
+    const std::size_t end = std::min(request.candidates.size(), begin + most_candidates);
+    for (std::size_t i = begin;
+         i < end && request.candidates[i].names == names_ && !(i > begin && target.is_time_up());
+         ++i) {
+      candidates_.push_back(naming("candidate " + std::to_string(i), [&] {
+        return to_assembly(request.candidates[i], target.frame);
+      }));
+    }
   }
-  return candidates;
-}
+
+  const std::vector<std::string>& names() const { return names_; }
+  const std::vector<fiber::FiberAssembly>& candidates() const { return candidates_; }
+
+ private:
+  const std::vector<std::string>& names_;
+  std::vector<fiber::FiberAssembly> candidates_;
+};
 
 fiber::QueryOptions validated_options(const CheckFibers::Request& request,
                                       const fiber::QueryOptions& defaults) {
@@ -57,8 +71,8 @@ fiber::QueryOptions validated_options(const CheckFibers::Request& request,
 /// The fibres that are checked against: all, or all but those that are replaced.
 class PresentFibers {
  public:
-  PresentFibers(const QueryTarget& target, const std::vector<std::string>& names,
-                const std::vector<std::string>& replaced) {
+  PresentFibers(const QueryTarget& target, const std::vector<std::string>& replaced) {
+    const std::vector<std::string>& names = target.fiber_names;
     for (const std::string& name : replaced) {
       if (std::find(names.begin(), names.end(), name) == names.end()) {
         throw std::invalid_argument("there is no fibre '" + name + "' to be replaced");
@@ -69,7 +83,7 @@ class PresentFibers {
         kept_.push_back(i);
       }
     }
-    engine_ = &target.engine;
+    engine_ = target.engine;
     if (!replaced.empty()) {
       others_ = fiber::select_fibers(target.fibers, kept_);
       engine_of_others_ = fiber::make_engine("run_tree");
@@ -78,7 +92,7 @@ class PresentFibers {
     }
   }
 
-  const fiber::ProximityEngine& engine() const { return *engine_; }
+  const fiber::ProximityEngine* engine() const { return engine_; }
   std::uint32_t index_of(std::uint32_t fiber) const { return kept_[fiber]; }
 
  private:
@@ -114,34 +128,31 @@ void append(const fiber::FiberCheck& check, const PresentFibers& present,
 }  // namespace
 
 void answer(const CheckFibers::Request& request, const QueryTarget& target,
-            const std::vector<std::string>& names, const FindAllowed& find_allowed,
-            CheckFibers::Response& response) {
+            const FindAllowed& find_allowed, CheckFibers::Response& response) {
   fiber::QueryOptions options = validated_options(request, target.defaults);
-  const fiber::Deadline deadline(options.deadline);
-  std::vector<fiber::FiberAssembly> candidates = to_assemblies(request, target.frame);
-  const PresentFibers present(target, names, request.replaced_fibers);
+  // Without fibres to check against, none are to be replaced.
+  const PresentFibers present(
+      target, request.ignore_fibers ? std::vector<std::string>() : request.replaced_fibers);
   fiber::Surroundings surroundings;
-  surroundings.fibers = request.ignore_fibers ? nullptr : &present.engine();
+  surroundings.fibers = request.ignore_fibers ? nullptr : present.engine();
   surroundings.environment = request.ignore_environment ? nullptr : &target.environment;
   surroundings.self = !request.ignore_self;
+  const std::size_t count = request.candidates.size();
   response.offsets.push_back(0);
   std::vector<fiber::FiberCheck> checks;
-  // At once those of the same names in a row, which may touch the same: mostly all.
-  for (std::size_t begin = 0, end = 0; begin < candidates.size(); begin = end) {
-    const std::vector<std::string>& fiber_names = request.candidates[begin].names;
-    while (end < candidates.size() && request.candidates[end].names == fiber_names) {
-      ++end;
-    }
-    surroundings.allowed = find_allowed(fiber_names);
-    options.deadline = deadline.left();
-    const auto at = [&](std::size_t i) {
-      return std::make_move_iterator(candidates.begin() + static_cast<std::ptrdiff_t>(i));
-    };
-    check_fibers({at(begin), at(end)}, surroundings, options, checks);
+  while (response.free.size() < count && !target.is_time_up()) {
+    const Block block(request, response.free.size(), target);
+    surroundings.allowed = find_allowed(block.names());
+    options.deadline = target.time_for_query();
+    check_fibers(block.candidates(), surroundings, options, checks);
     for (const fiber::FiberCheck& check : checks) {
       append(check, present, response);
     }
   }
+  // Nothing is known to touch the candidates that the deadline came before.
+  response.free.resize(count, 1);
+  response.complete.resize(count, 0);
+  response.offsets.resize(count + 1, response.offsets.back());
 }
 
 }  // namespace fiber_proximity_ros

@@ -30,6 +30,21 @@ void check(const CloudOptions& options) {
 
 }  // namespace
 
+std::string reasons_of(const CloudCounts& counts, double resolution) {
+  std::ostringstream reasons;
+  const auto add = [&reasons](std::size_t count, const auto&... what) {
+    if (count > 0) {
+      reasons << (reasons.tellp() > 0 ? ", " : "") << count << (count == 1 ? " is " : " are ");
+      (reasons << ... << what);
+    }
+  };
+  add(counts.not_finite, "not finite");
+  add(counts.outside_box, "outside the box");
+  add(counts.too_far, "further than ", half_range * resolution,
+      " m from the origin of the fixed frame along an axis (is the unit metres?)");
+  return reasons.str();
+}
+
 CloudCells::CloudCells(const CloudOptions& options) : options_(options) { check(options); }
 
 CloudCounts CloudCells::add(const std::vector<Eigen::Vector3d>& points,

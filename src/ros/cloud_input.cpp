@@ -1,6 +1,7 @@
 #include "fiber_proximity/ros/cloud_input.hpp"
 
-#include <stdexcept>
+#include <ros/console.h>
+
 #include <utility>
 
 #include "fiber_proximity/ros/obstacle_change.hpp"
@@ -9,6 +10,9 @@ namespace fiber_proximity_ros {
 namespace {
 
 const char* const type_name = "sensor_msgs/PointCloud2";
+
+/// [s] How often a cloud of which nothing is used is logged.
+constexpr double unused_warning_period = 5.0;
 
 bool remove_cloud(fiber::World& world) {
   if (!world.has(cloud_name)) {
@@ -25,7 +29,8 @@ bool remove_cloud(fiber::World& world) {
 
 CloudInput::CloudInput(ros::NodeHandle private_node, const CloudOptions& options, double tf_timeout,
                        std::function<void()> on_message)
-    : decay_(options.decay),
+    : resolution_(options.resolution),
+      decay_(options.decay),
       tf_timeout_(tf_timeout),
       on_message_(std::move(on_message)),
       refusals_(std::string("'cloud' (") + type_name + ")"),
@@ -50,8 +55,14 @@ fiber_proximity::InputStatistics CloudInput::statistics(const ros::Time& now) co
   statistics.received = received_;
   statistics.refused = refusals_.count();
   statistics.overtaken = overtaken_;
+  statistics.dropped = -1;  // not counted
   statistics.age = newest_.stamp.isZero() ? -1.0 : (now - newest_.stamp).toSec();
   statistics.last_error = refusals_.last_error();
+  statistics.points_received = newest_.counts.points;
+  statistics.points_used = newest_.counts.used();
+  statistics.points_not_finite = newest_.counts.not_finite;
+  statistics.points_outside_box = newest_.counts.outside_box;
+  statistics.points_too_far = newest_.counts.too_far;
   return statistics;
 }
 
@@ -95,6 +106,7 @@ bool CloudInput::put_into_world(CloudResult result, fiber::World& world) {
     return false;
   }
   newest_ = std::move(result);
+  warn_if_unused();
   if (newest_.octree == nullptr) {
     return remove_cloud(world);
   }
@@ -104,6 +116,16 @@ bool CloudInput::put_into_world(CloudResult result, fiber::World& world) {
   change.object.shapes.push_back({newest_.octree, Eigen::Isometry3d::Identity()});
   world.apply({change});
   return true;
+}
+
+/// A cloud that has points, but none to use, is most likely a mistake.
+void CloudInput::warn_if_unused() const {
+  const CloudCounts& counts = newest_.counts;
+  if (counts.points > 0 && counts.used() == 0) {
+    ROS_WARN_STREAM_THROTTLE(unused_warning_period, "'cloud': none of its "
+                                                        << counts.points << " point(s) is used: "
+                                                        << reasons_of(counts, resolution_));
+  }
 }
 
 bool CloudInput::remove_decayed(const ros::Time& now, fiber::World& world) {

@@ -1,10 +1,9 @@
 #include "fiber_proximity/ros/crossing_markers.hpp"
 
-#include <std_msgs/ColorRGBA.h>
-
 #include <cstdint>
 
 #include "fiber_proximity/ros/conversions.hpp"
+#include "fiber_proximity/ros/marker_canvas.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -16,12 +15,7 @@ constexpr double bar_end = 2.5;
 constexpr double gap_end = 1.0;
 
 std_msgs::ColorRGBA color_of(int sign) {
-  std_msgs::ColorRGBA color;
-  color.r = sign > 0 ? 0.25F : 0.90F;
-  color.g = sign > 0 ? 0.90F : 0.25F;
-  color.b = sign > 0 ? 0.35F : 0.85F;
-  color.a = 1.0F;
-  return color;
+  return color(sign > 0 ? palette::positive_crossing : palette::negative_crossing);
 }
 
 /// One of the two strands of a crossing.

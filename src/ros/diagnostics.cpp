@@ -30,7 +30,7 @@ void Diagnostics::report_input(std::size_t index, Status& status) {
   const double seconds = (now.time - before.time).toSec();
 
   if (input.stale) {
-    status.summaryf(DiagnosticStatus::ERROR, "stale: no new message for %.1f s", input.age);
+    status.summary(DiagnosticStatus::ERROR, "stale: " + inputs_.inputs()[index]->stale_reason());
   } else if (now.refused > before.refused) {
     status.summary(DiagnosticStatus::ERROR, "messages refused: " + input.last_error);
   } else if (input.age < 0.0) {
@@ -45,6 +45,10 @@ void Diagnostics::report_input(std::size_t index, Status& status) {
   status.add("received", input.received);
   status.add("refused", input.refused);
   status.add("overtaken", input.overtaken);
+  status.add("dropped", input.dropped < 0 ? "unknown" : std::to_string(input.dropped));
+  status.add("missing points", input.missing_points);
+  status.add("missing fibres", input.missing_fibers);
+  status.add("lone points", input.lone_points);
   status.add("last error", input.last_error);
 }
 

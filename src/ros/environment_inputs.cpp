@@ -3,8 +3,10 @@
 #include <ros/console.h>
 
 #include <algorithm>
-#include <stdexcept>
+#include <exception>
 #include <utility>
+
+#include "fiber_proximity/ros/subscribing.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -20,6 +22,13 @@ bool is_configured(const EnvironmentOptions& options) {
          !options.marker_topics.empty();
 }
 
+/// A part of a message, which keeps the message alive.
+template <class Message, class Part>
+std::shared_ptr<const Part> part_of(const boost::shared_ptr<const Message>& message,
+                                    const Part& part) {
+  return std::shared_ptr<const Part>(&part, [message](const Part* /*part*/) {});
+}
+
 fiber_proximity::AllowPairs::Request allow_all(
     const std::vector<fiber_proximity::AllowedPair>& pairs) {
   fiber_proximity::AllowPairs::Request request;
@@ -29,12 +38,13 @@ fiber_proximity::AllowPairs::Request allow_all(
 
 }  // namespace
 
-EnvironmentInputs::MarkerSource::MarkerSource(const MarkerTopic& topic, const MeshLoader& meshes,
-                                              ObstacleSet& set, double timeout)
-    : obstacles(topic.topic, meshes, set),
-      changes(topic.topic,
-              topic.is_array ? "visualization_msgs/MarkerArray" : "visualization_msgs/Marker",
-              timeout) {}
+EnvironmentInputs::MarkerSource::MarkerSource(const MarkerTopic& marker_topic,
+                                              const MeshLoader& meshes, ObstacleSet& set,
+                                              FixedFrame& frame)
+    : obstacles(marker_topic.topic, meshes, set),
+      topic(marker_topic.topic,
+            marker_topic.is_array ? "visualization_msgs/MarkerArray" : "visualization_msgs/Marker"),
+      changes(frame) {}
 
 EnvironmentInputs::EnvironmentInputs(const ros::NodeHandle& node,
                                      const ros::NodeHandle& private_node,
@@ -42,31 +52,36 @@ EnvironmentInputs::EnvironmentInputs(const ros::NodeHandle& node,
                                      double tf_timeout, std::function<void()> on_message)
     : frame_(frame),
       on_message_(std::move(on_message)),
-      obstacles_(world_, frame),
+      obstacles_(world_),
       scene_(options.scene.obstacles),
       robot_(options.robot, options.robot_timeout),
-      changes_("obstacles", "fiber_proximity/ObstacleArray", options.obstacle_timeout),
+      obstacle_timeout_(options.obstacle_timeout),
+      obstacle_topic_("obstacles", "fiber_proximity/ObstacleArray"),
+      changes_(frame),
       is_configured_(is_configured(options)) {
   allowed_.apply(allow_all(options.scene.allowed));
-  scene_.update(obstacles_);
+  scene_.update(obstacles_, frame_);
   ros::NodeHandle own(private_node);
   if (options.cloud) {
     cloud_ = std::make_unique<CloudInput>(own, *options.cloud, tf_timeout, on_message_);
   }
-  subscribe_to_markers(node, options);
-  const boost::function<void(const fiber_proximity::ObstacleArray&)> receiver =
-      [this](const fiber_proximity::ObstacleArray& message) { receive(message); };
   subscribers_.push_back(
-      own.subscribe<fiber_proximity::ObstacleArray, const fiber_proximity::ObstacleArray&>(
-          "obstacles", queue_size, receiver));
-  servers_.push_back(own.advertiseService("apply_obstacles", &EnvironmentInputs::apply, this));
+      own.subscribe("obstacles", queue_size, &EnvironmentInputs::receive_obstacles, this));
+  subscribe_to_markers(node, options);  // after the node's own topics, which come first
+  obstacle_service_ = std::make_unique<ObstacleService>(
+      own, [this](std::shared_ptr<const ObstacleService::Obstacles> obstacles,
+                  const ObstacleService::Answer& answer) { apply(std::move(obstacles), answer); });
   servers_.push_back(own.advertiseService("allow_pairs", &EnvironmentInputs::allow, this));
+}
+
+EnvironmentInputs::~EnvironmentInputs() {
+  changes_.clear();  // the service's threads wait for them
 }
 
 bool EnvironmentInputs::update(const ros::Time& stamp) {
   const ros::Time now = ros::Time::now();
   bool changed = std::exchange(was_changed_, false);
-  changed = scene_.update(obstacles_) || changed;
+  changed = scene_.update(obstacles_, frame_) || changed;
   changed = changes_.update() || changed;
   for (const std::unique_ptr<MarkerSource>& source : markers_) {
     changed = source->changes.update() || changed;
@@ -98,9 +113,9 @@ std::vector<std::string> EnvironmentInputs::unknown() const {
 
 std::vector<fiber_proximity::InputStatistics> EnvironmentInputs::statistics(
     const ros::Time& now) const {
-  std::vector<fiber_proximity::InputStatistics> statistics{changes_.statistics(now)};
+  std::vector<fiber_proximity::InputStatistics> statistics{obstacle_topic_.statistics(now)};
   for (const std::unique_ptr<MarkerSource>& source : markers_) {
-    statistics.push_back(source->changes.statistics(now));
+    statistics.push_back(source->topic.statistics(now));
   }
   if (cloud_ != nullptr) {
     statistics.push_back(cloud_->statistics(now));
@@ -113,50 +128,50 @@ void EnvironmentInputs::subscribe_to_markers(ros::NodeHandle node,
   using visualization_msgs::Marker;
   using visualization_msgs::MarkerArray;
   for (const MarkerTopic& topic : options.marker_topics) {
-    markers_.push_back(std::make_unique<MarkerSource>(topic, options.meshes, obstacles_,
-                                                      options.obstacle_timeout));
+    markers_.push_back(std::make_unique<MarkerSource>(topic, options.meshes, obstacles_, frame_));
     MarkerSource& source = *markers_.back();
-    const boost::function<void(const MarkerArray&)> receive_array =
-        [this, &source](const MarkerArray& message) { receive(message.markers, source); };
-    const boost::function<void(const Marker&)> receive_one =
-        [this, &source](const Marker& message) { receive({message}, source); };
-    subscribers_.push_back(topic.is_array ? node.subscribe<MarkerArray, const MarkerArray&>(
-                                                topic.topic, queue_size, receive_array)
-                                          : node.subscribe<Marker, const Marker&>(
-                                                topic.topic, queue_size, receive_one));
+    using Markers = MarkerObstacles::Markers;
+    const boost::function<void(const MarkerArray::ConstPtr&)> receive_array =
+        [this, &source](const MarkerArray::ConstPtr& message) {
+          receive_markers(part_of(message, message->markers), source);
+        };
+    const boost::function<void(const Marker::ConstPtr&)> receive_one =
+        [this, &source](const Marker::ConstPtr& message) {
+          receive_markers(std::make_shared<const Markers>(1, *message), source);
+        };
+    const auto subscribe = [&] {
+      subscribers_.push_back(
+          topic.is_array ? node.subscribe<MarkerArray>(topic.topic, queue_size, receive_array)
+                         : node.subscribe<Marker>(topic.topic, queue_size, receive_one));
+    };
+    if (!subscribes("parameter ~obstacle_markers, topic '" + topic.topic + "'", subscribe)) {
+      markers_.pop_back();
+    }
   }
 }
 
-void EnvironmentInputs::receive(const fiber_proximity::ObstacleArray& message) {
-  try {
-    changes_.receive(
-        [this, changes = to_changes(message.obstacles)] { obstacles_.apply(changes); });
-  } catch (const std::invalid_argument& error) {
-    changes_.refuse(error.what());
-  }
+void EnvironmentInputs::receive_obstacles(const fiber_proximity::ObstacleArray::ConstPtr& message) {
+  changes_.receive(obstacle_topic_.received(obstacles_.change_of(
+      part_of(message, message->obstacles), obstacle_timeout_, mesh_builder_)));
   on_message_();
 }
 
-void EnvironmentInputs::receive(const MarkerObstacles::Markers& markers, MarkerSource& source) {
-  try {
-    source.changes.receive(source.obstacles.read(markers, ros::Time::now()));
-  } catch (const std::invalid_argument& error) {
-    source.changes.refuse(error.what());
-  }
+void EnvironmentInputs::receive_markers(std::shared_ptr<const MarkerObstacles::Markers> markers,
+                                        MarkerSource& source) {
+  source.changes.receive(source.topic.received(source.obstacles.change_of(
+      std::move(markers), ros::Time::now(), obstacle_timeout_, mesh_builder_)));
   on_message_();
 }
 
-bool EnvironmentInputs::apply(fiber_proximity::ApplyObstacles::Request& request,
-                              fiber_proximity::ApplyObstacles::Response& response) {
-  try {
-    obstacles_.apply(to_changes(request.obstacles));
-    response.success = true;
-    was_changed_ = true;
-    on_message_();
-  } catch (const std::exception& error) {
-    response.message = error.what();
-  }
-  return true;
+void EnvironmentInputs::apply(std::shared_ptr<const ObstacleService::Obstacles> obstacles,
+                              const ObstacleService::Answer& answer) {
+  Change change = obstacles_.change_of(std::move(obstacles), 0.0, mesh_builder_);
+  change.on_end = [answer](Change::End end, const std::string& reason) {
+    answer(end == Change::End::OVERTAKEN ? "all its objects were removed meanwhile" : reason);
+  };
+  changes_.receive(std::move(change));
+  was_changed_ = changes_.update() || was_changed_;
+  on_message_();
 }
 
 bool EnvironmentInputs::allow(fiber_proximity::AllowPairs::Request& request,

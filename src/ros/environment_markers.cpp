@@ -74,21 +74,13 @@ class Neighbourhood {
   WorldBox around_;
 };
 
-/// From a to b as a part from 0 to 1.
-std_msgs::ColorRGBA mix(const std_msgs::ColorRGBA& a, const std_msgs::ColorRGBA& b, double part) {
-  const auto u = static_cast<float>(part);
-  return color(a.r + u * (b.r - a.r), a.g + u * (b.g - a.g), a.b + u * (b.b - a.b));
-}
-
 }  // namespace
 
 std_msgs::ColorRGBA distance_color(double distance, double free_distance) {
   assert(free_distance > 0.0);
-  static const std_msgs::ColorRGBA red = color(0.95F, 0.15F, 0.12F);
-  static const std_msgs::ColorRGBA yellow = color(1.0F, 0.85F, 0.10F);
-  static const std_msgs::ColorRGBA green = color(0.25F, 0.80F, 0.35F);
   const double part = 2.0 * std::clamp(distance / free_distance, 0.0, 1.0);
-  return part <= 1.0 ? mix(red, yellow, part) : mix(yellow, green, part - 1.0);
+  return color(part <= 1.0 ? mix(palette::penetrating, palette::nearby, part)
+                           : mix(palette::nearby, palette::distant, part - 1.0));
 }
 
 void EnvironmentMarkers::draw_objects(const EnvironmentDrawing& drawing, double reach,
@@ -136,7 +128,8 @@ void EnvironmentMarkers::draw_nearest(const EnvironmentDrawing& drawing, double 
   text.scale.z = 0.035 * scale.extent;
   // Above all fibres, as beside the point the object would often hide it.
   Vector3d place = minimum.point_b;
-  place.z() = std::max(place.z(), scale.top.z()) + 0.07 * scale.extent;
+  const double below_top = std::max(0.0, scale.up.dot(scale.top - place));
+  place += (below_top + 0.07 * scale.extent) * scale.up;
   text.pose.position = to_message(place);
   text.text = drawing.objects[minimum.fiber_b].name + ": " + distance_text(minimum.distance);
 }
@@ -150,7 +143,7 @@ void EnvironmentMarkers::append(const std_msgs::Header& header, const Environmen
                                    "environment_points",
                                    "environment_nearest",
                                    "environment_nearest_text"};
-  const MarkerScale scale(drawing.fibers);
+  const MarkerScale scale(drawing.fibers, header.frame_id);
   Canvas canvas(header, names, markers, markers.markers.size());
   if (options.show_objects && drawing.fibers.fiber_count() > 0) {
     draw_objects(drawing, options.reach, canvas);

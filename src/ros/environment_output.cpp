@@ -20,7 +20,8 @@ EnvironmentOutput::EnvironmentOutput(const ros::NodeHandle& node, ros::NodeHandl
 bool EnvironmentOutput::update() {
   fibers_.fibers();  // merged by now, and with them their stamp
   const Stopwatch stopwatch;
-  const bool changed = inputs_.update(fibers_.header().stamp);
+  const ros::Time stamp = fibers_.is_fresh() ? fibers_.header().stamp : ros::Time::now();
+  const bool changed = inputs_.update(stamp);
   update_time_ = stopwatch.seconds();
   return changed;
 }

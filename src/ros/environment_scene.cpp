@@ -7,6 +7,7 @@
 #include "fiber_proximity/ros/naming.hpp"
 #include "fiber_proximity/ros/obstacle_change.hpp"
 #include "fiber_proximity/ros/yaml_obstacle.hpp"
+#include "fiber_proximity/text/quote.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -48,8 +49,8 @@ void read_obstacles(const YamlField& list, const MeshLoader& meshes,
   for (const YamlField& entry : list.items()) {
     const fiber_proximity::Obstacle obstacle = read_obstacle(entry, meshes);
     if (!ids.insert(obstacle.id).second) {
-      throw std::invalid_argument(entry.place() + " has the id '" + obstacle.id +
-                                  "' of another obstacle of the scene");
+      throw std::invalid_argument(entry.place() + " has the id " + fiber::quote(obstacle.id) +
+                                  " of another obstacle of the scene");
     }
     naming(entry.place(), [&] {
       changes.push_back(to_changes({obstacle}).front());
@@ -86,7 +87,7 @@ YamlField load_yaml(const std::string& file) {
     throw std::invalid_argument("scene '" + file + "': there is no such file to read");
   } catch (const YAML::Exception& error) {
     throw std::invalid_argument(file + ":" + std::to_string(error.mark.line + 1) + ": " +
-                                error.msg);
+                                fiber::shortened(error.msg));
   }
 }
 

@@ -110,8 +110,8 @@ template <class Message>
 FiberFormat::Publish advertise(ros::NodeHandle& node, const std::string& topic) {
   // The queue holds a second's worth of a usual tracker: a listener that is slow to connect or to
   // read gets every frame of a short recording.
-  constexpr std::uint32_t queue_size = 30;
-  return [publisher = node.advertise<Message>(topic, queue_size), message = Message()](
+  constexpr std::uint32_t waiting_messages = 30;
+  return [publisher = node.advertise<Message>(topic, waiting_messages), message = Message()](
              const std_msgs::Header& header, const FiberAssembly& fibers) mutable {
     fill(header, fibers, message);
     publisher.publish(message);

@@ -59,10 +59,13 @@ PlayerOptions read_player_options(const ros::NodeHandle& private_node) {
   read_parameter(private_node, "format", text, options.format);
   read_parameter(private_node, "frame_id", text, options.frame_id);
   read_parameter(private_node, "loop", "true or false", options.loop);
-  read_parameter(private_node, "fiber", "the index of a fibre, or -1 for all", options.fiber);
-  read_parameter(private_node, "rate", 1e-3, options.rate);
-  read_parameter(private_node, "start_delay", 0.0, options.start_delay);
-  read_parameter(private_node, "radius", 0.0, options.radius);
+  read_parameter(private_node, "fiber", -1, options.fiber);
+  read_parameter(private_node, "rate", Limits{1e-3, 1e6}, options.rate);
+  read_parameter(private_node, "start_delay", Limits{0.0, 1e9}, options.start_delay);
+  read_parameter(private_node, "radius", Limits{0.0, FiberAssembly::max_coordinate},
+                 options.radius);
+  warn_of_unknown_parameters(private_node, {"file", "scene", "topic", "format", "frame_id", "loop",
+                                            "fiber", "rate", "start_delay", "radius"});
   if (!options.file.empty() && private_node.hasParam("scene")) {
     throw std::invalid_argument("parameters file and scene are both set: " + options.file +
                                 " and " + options.scene);

@@ -4,7 +4,6 @@
 #include <tf2/exceptions.h>
 
 #include <sstream>
-#include <utility>
 
 namespace fiber_proximity_ros {
 namespace {
@@ -31,12 +30,12 @@ std::string tf2_name(const std::string& frame_id) {
   return frame_id.substr(!frame_id.empty() && frame_id.front() == '/' ? 1 : 0);
 }
 
-FixedFrame::FixedFrame(std::string name, const ros::NodeHandle& node)
-    : name_(std::move(name)), listener_(buffer_, node) {}
+FixedFrame::FixedFrame(const std::string& name, const ros::NodeHandle& node)
+    : name_(tf2_name(name)), listener_(buffer_, node) {}
 
 void FixedFrame::adopt(const std::string& frame) {
   if (name_.empty() && !frame.empty()) {
-    name_ = frame;
+    name_ = tf2_name(frame);
     ROS_INFO_STREAM("fixed_frame is not set: using '" << name_ << "', the frame of the first "
                                                       << "message");
   }
@@ -44,7 +43,7 @@ void FixedFrame::adopt(const std::string& frame) {
 
 void FixedFrame::place(const std_msgs::Header& header, fiber::FiberAssembly& fibers,
                        std::vector<Eigen::Vector3d>& buffer) const {
-  if (header.frame_id == name_) {
+  if (tf2_name(header.frame_id) == name_) {
     return;
   }
   const Eigen::Isometry3d transform = transform_from(header);
@@ -56,13 +55,20 @@ void FixedFrame::place(const std_msgs::Header& header, fiber::FiberAssembly& fib
 }
 
 Eigen::Isometry3d FixedFrame::transform_from(const std_msgs::Header& header) const {
-  if (header.frame_id.empty() || header.frame_id == name_) {
+  if (header.frame_id.empty() || tf2_name(header.frame_id) == name_) {
     return Eigen::Isometry3d::Identity();
   }
   return to_isometry(look_up(header).transform);
 }
 
-FramePose FixedFrame::latest_pose(const std::string& frame, const ros::Time& stamp) const {
+bool FixedFrame::knows(const std_msgs::Header& header) const {
+  const std::string frame = tf2_name(header.frame_id);
+  return frame.empty() || frame == name_ ||
+         (!name_.empty() && buffer_.canTransform(name_, frame, header.stamp));
+}
+
+FramePose FixedFrame::latest_pose(const std::string& frame_id, const ros::Time& stamp) const {
+  const std::string frame = tf2_name(frame_id);
   if (frame == name_) {
     return {};
   }
@@ -77,13 +83,16 @@ FramePose FixedFrame::latest_pose(const std::string& frame, const ros::Time& sta
 
 geometry_msgs::TransformStamped FixedFrame::look_up(const std_msgs::Header& header) const {
   if (name_.empty()) {
-    throw TransformUnavailable("no transform from frame '" + header.frame_id +
-                               "': there is no fixed frame yet");
+    throw TransformUnavailable(
+        "no transform from frame '" + header.frame_id +
+        "': there is no fixed frame yet, set the parameter fixed_frame or wait "
+        "for a message that names one");
   }
-  const std::string what = "no transform from frame '" + header.frame_id + "' to '" + name_ + "'" +
-                           time_of(header.stamp) + ": ";
+  const std::string frame = tf2_name(header.frame_id);
+  const std::string what =
+      "no transform from frame '" + frame + "' to '" + name_ + "'" + time_of(header.stamp) + ": ";
   try {
-    return buffer_.lookupTransform(name_, header.frame_id, header.stamp);
+    return buffer_.lookupTransform(name_, frame, header.stamp);
   } catch (const tf2::LookupException& error) {
     throw TransformUnavailable(what + "unknown frame: " + error.what());
   } catch (const tf2::ConnectivityException& error) {

@@ -2,21 +2,15 @@
 
 #include <ros/names.h>
 
-#include <sstream>
 #include <stdexcept>
 
 #include "fiber_proximity/ros/input_types.hpp"
+#include "fiber_proximity/ros/parameters.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
 
 using XmlRpc::XmlRpcValue;
-
-std::string text_of(const XmlRpcValue& value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
 
 [[noreturn]] void refuse(const std::string& key, const XmlRpcValue& value,
                          const std::string& allowed) {
@@ -41,6 +35,19 @@ double read_number(const std::string& key, const XmlRpcValue& value, const std::
     refuse(key, value, allowed);
   }
   return number;
+}
+
+MissingPoints read_missing_points(const std::string& key, const XmlRpcValue& value) {
+  const std::string allowed = "refuse, bridge or split";
+  if (value.getType() != XmlRpcValue::TypeString) {
+    refuse(key, value, allowed);
+  }
+  const std::optional<MissingPoints> policy =
+      missing_points_from_name(static_cast<const std::string&>(value));
+  if (!policy) {
+    refuse(key, value, allowed);
+  }
+  return *policy;
 }
 
 bool read_bool(const std::string& key, const XmlRpcValue& value) {
@@ -79,6 +86,8 @@ bool read_key(const std::string& key, const XmlRpcValue& value, InputOptions& op
     options.name = read_string(key, value);
   } else if (key == "radius") {
     options.radius = read_number(key, value, "a number of metres, at least 0");
+  } else if (key == "missing_points") {
+    options.missing_points = read_missing_points(key, value);
   } else {
     return false;
   }
@@ -102,7 +111,7 @@ InputOptions read_input_options(const XmlRpcValue& entry, double default_radius)
     if (!read_marker_key(key, value, options.marker)) {
       throw std::invalid_argument(
           "has the unknown key '" + key +
-          "', known are: topic, type, name, radius, and for markers namespace, "
+          "', known are: topic, type, name, radius, missing_points, and for markers namespace, "
           "radius_from_marker, weld_tolerance");
     }
     marker_key = key;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "fiber_proximity/ros/stopwatch.hpp"
+#include "fiber_proximity/ros/subscribing.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -75,12 +76,24 @@ void merge_radii(const std::vector<const Input*>& inputs, std::vector<double>& r
 InputSet::InputSet(ros::NodeHandle node, const std::vector<InputOptions>& inputs,
                    const InputTiming& timing, const std::string& fixed_frame,
                    std::function<void()> on_message)
-    : frame_(fixed_frame, node), on_message_(std::move(on_message)), last_time_(ros::Time::now()) {
+    : frame_(fixed_frame, node),
+      on_message_(std::move(on_message)),
+      input_timeout_(timing.input_timeout),
+      last_time_(ros::Time::now()) {
   for (const InputOptions& options : inputs) {
     inputs_.push_back(std::make_unique<Input>(options, timing));
     Input& input = *inputs_.back();
-    subscribers_.push_back(subscribe(
-        node, options, [this, &input](const ReadMessage& read) { receive(input, read); }));
+    const auto receiver = [this, &input](const ReceivedMessage& message) {
+      receive(input, message);
+    };
+    if (!subscribes(options.where,
+                    [&] { subscribers_.push_back(subscribe(node, options, receiver)); })) {
+      inputs_.pop_back();
+    }
+  }
+  if (timing.synchronize) {
+    last_match_ = last_time_;
+    matcher_.emplace(inputs_.size(), timing.synchronize_slop, timing.queue_size());
   }
 }
 
@@ -88,9 +101,9 @@ bool InputSet::update() {
   const ScopeTimer timer(work_time_);
   watch_time();
   bool changed = std::exchange(was_reset_, false);
-  for (const std::unique_ptr<Input>& input : inputs_) {
-    changed = input->place_waiting(frame_) || changed;
-    changed = input->expire(last_time_) || changed;
+  changed = (matcher_ ? accept_matches() : accept_placed()) || changed;
+  for (std::size_t i = 0; i < inputs_.size(); ++i) {
+    changed = inputs_[i]->expire(last_time_, matcher_ && matcher_->is_stranger(i)) || changed;
   }
   merged_is_old_ = merged_is_old_ || changed;
   return changed;
@@ -121,11 +134,11 @@ const fiber::FiberAssembly& InputSet::fibers() {
 
 double InputSet::take_work_time() { return std::exchange(work_time_, 0.0); }
 
-void InputSet::receive(Input& input, const ReadMessage& read) {
+void InputSet::receive(Input& input, const ReceivedMessage& message) {
   {
     const ScopeTimer timer(work_time_);
     watch_time();
-    input.receive(read, frame_);
+    input.receive(message, frame_);
   }
   on_message_();
 }
@@ -139,8 +152,59 @@ void InputSet::watch_time() {
     for (const std::unique_ptr<Input>& input : inputs_) {
       input->reset();
     }
+    if (matcher_) {
+      matcher_->reset();
+      last_match_ = now;
+    }
   }
   last_time_ = now;
+}
+
+/// Takes what each input has, on its own.
+/// @returns true if that changed the fibres
+bool InputSet::accept_placed() {
+  bool changed = false;
+  for (const std::unique_ptr<Input>& input : inputs_) {
+    const std::vector<ros::Time> stamps = input->place_waiting(frame_);
+    if (!stamps.empty()) {
+      input->accept(stamps.back());
+      changed = true;
+    }
+  }
+  return changed;
+}
+
+/// Takes what belongs together.
+/// @returns true if that changed the fibres
+bool InputSet::accept_matches() {
+  for (std::size_t i = 0; i < inputs_.size(); ++i) {
+    for (const ros::Time& stamp : inputs_[i]->place_waiting(frame_)) {
+      matcher_->add(i, stamp);
+    }
+  }
+  bool one_has_left = false;
+  for (std::size_t i = 0; i < inputs_.size(); ++i) {
+    if (inputs_[i]->is_silent(last_time_)) {
+      one_has_left = matcher_->leave_out(i) || one_has_left;
+    }
+  }
+  std::vector<StampSet> sets = matcher_->take();
+  // Who waited for one that has left had no time to match yet.
+  if (!sets.empty() || one_has_left || !matcher_->is_waiting()) {
+    last_match_ = last_time_;
+  } else if ((last_time_ - last_match_).toSec() > input_timeout_) {
+    matcher_->leave_out_stranger(last_time_);
+    sets = matcher_->take();
+    last_match_ = last_time_;
+  }
+  for (const StampSet& set : sets) {
+    for (std::size_t i = 0; i < inputs_.size(); ++i) {
+      if (set[i]) {
+        inputs_[i]->accept(*set[i]);
+      }
+    }
+  }
+  return !sets.empty();
 }
 
 void InputSet::merge() {

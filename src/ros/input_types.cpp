@@ -12,7 +12,7 @@
 namespace fiber_proximity_ros {
 namespace {
 
-using Receiver = std::function<void(const ReadMessage&)>;
+using Receiver = std::function<void(const ReceivedMessage&)>;
 
 template <class Message>
 constexpr bool is_marker = std::is_same_v<Message, visualization_msgs::Marker> ||
@@ -28,16 +28,28 @@ bool read(const Message& message, const MarkerInputOptions& marker, ChainSet& ch
   }
 }
 
+/// Publishers number the messages of types that begin with a header, and no others.
+template <class Message>
+std::optional<std::uint32_t> sequence_of(const Message& message) {
+  if constexpr (ros::message_traits::HasHeader<Message>::value) {
+    return message.header.seq;
+  } else {
+    return std::nullopt;
+  }
+}
+
 template <class Message>
 ros::Subscriber subscribe_to(ros::NodeHandle& node, const InputOptions& options,
                              const Receiver& receiver) {
-  using Pointer = boost::shared_ptr<const Message>;
-  const boost::function<void(const Pointer&)> callback =
-      [receiver, marker = options.marker](const Pointer& message) {
-        receiver([&](ChainSet& chains) { return read(*message, marker, chains); });
+  using Event = ros::MessageEvent<const Message>;
+  const boost::function<void(const Event&)> callback =
+      [receiver, marker = options.marker](const Event& event) {
+        const Message& message = *event.getConstMessage();
+        receiver({[&](ChainSet& chains) { return read(message, marker, chains); },
+                  event.getPublisherName(), sequence_of(message)});
       };
-  return node.subscribe<Message>(options.topic, 1, callback, ros::VoidConstPtr(),
-                                 ros::TransportHints().tcpNoDelay());
+  return node.subscribe<Message, const Event&>(options.topic, 1, callback, ros::VoidConstPtr(),
+                                               ros::TransportHints().tcpNoDelay());
 }
 
 struct InputType {

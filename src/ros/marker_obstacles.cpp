@@ -7,6 +7,7 @@
 
 #include "fiber_proximity/environment/triangle_mesh.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
+#include "fiber_proximity/ros/naming.hpp"
 #include "fiber_proximity/ros/obstacle_change.hpp"
 #include "fiber_proximity/ros/obstacle_pose.hpp"
 #include "fiber_proximity/ros/obstacle_shapes.hpp"
@@ -18,9 +19,11 @@ using Operation = fiber::ObjectChange::Operation;
 using Shapes = std::vector<fiber::PlacedShape>;
 using visualization_msgs::Marker;
 
-std::string name_of(const Marker& marker) { return marker.ns + "/" + std::to_string(marker.id); }
+std::string marker_name(const Marker& marker) {
+  return marker.ns + "/" + std::to_string(marker.id);
+}
 
-Eigen::Isometry3d pose_of(const Marker& marker) {
+Eigen::Isometry3d marker_pose(const Marker& marker) {
   geometry_msgs::Pose pose = marker.pose;
   geometry_msgs::Quaternion& q = pose.orientation;
   if (q.x == 0.0 && q.y == 0.0 && q.z == 0.0 && q.w == 0.0) {
@@ -29,10 +32,10 @@ Eigen::Isometry3d pose_of(const Marker& marker) {
   return to_pose(pose);
 }
 
-FramedChange removal(const std::string& name) {
-  FramedChange removal;
-  removal.change.operation = Operation::REMOVE;
-  removal.change.object.name = name;
+fiber::ObjectChange removal(const std::string& name) {
+  fiber::ObjectChange removal;
+  removal.operation = Operation::REMOVE;
+  removal.object.name = name;
   return removal;
 }
 
@@ -70,6 +73,11 @@ fiber::Shape triangles_of(const Marker& marker) {
   return std::make_shared<const fiber::TriangleMesh>(std::move(vertices), std::move(triangles));
 }
 
+/// What tells one mesh from another: resource and scale.
+std::pair<std::string, std::array<double, 3>> key_of(const Marker& marker) {
+  return {marker.mesh_resource, {marker.scale.x, marker.scale.y, marker.scale.z}};
+}
+
 /// The shape at each of the marker's points.
 Shapes at_points(const Marker& marker, const fiber::Shape& shape) {
   Shapes shapes;
@@ -98,22 +106,35 @@ bool is_body(const Marker& marker) {
 
 }  // namespace
 
-std::function<void()> MarkerObstacles::read(const Markers& markers, const ros::Time& now) {
-  std::vector<Step> steps;
-  for (const Marker& marker : markers) {
-    try {
-      if (auto step = read(marker, now)) {
-        steps.push_back(std::move(*step));
-      }
-    } catch (const std::invalid_argument& error) {
-      throw std::invalid_argument("marker '" + name_of(marker) + "': " + error.what());
+Change MarkerObstacles::change_of(std::shared_ptr<const Markers> markers, const ros::Time& now,
+                                  double patience, Worker& worker) {
+  TouchedObjects touched;
+  std::vector<FramedName> frames(markers->size());
+  for (std::size_t i = 0; i < markers->size(); ++i) {
+    const Marker& marker = (*markers)[i];
+    if (marker.action == Marker::DELETEALL) {
+      touched.remove_all();
+    } else if (marker.action == Marker::DELETE) {
+      touched.remove(marker_name(marker));
+    } else if (is_body(marker)) {
+      touched.add(marker_name(marker));
+      frames[i] = {"obstacle '" + marker_name(marker) + "'", marker.header};
     }
   }
-  return [this, steps] { apply(steps); };
+  const bool is_large = this->is_large(*markers);
+  const auto prepare = [this, now, markers = std::move(markers)]() -> Change::Apply {
+    return [this, steps = read(*markers, now)](const Change::Poses& poses,
+                                               const Change::Names& /*cancelled*/) {
+      apply(steps, poses);
+    };
+  };
+  Prepared<Change::Apply> apply =
+      is_large ? Prepared<Change::Apply>(prepare, worker) : Prepared<Change::Apply>(prepare);
+  return {std::move(touched), std::move(frames), std::move(apply), patience, {}};
 }
 
 bool MarkerObstacles::expire(const ros::Time& now) {
-  std::vector<FramedChange> removals;
+  std::vector<fiber::ObjectChange> removals;
   for (const auto& [name, expiry] : present()) {
     if (!expiry.isZero() && expiry <= now) {
       removals.push_back(removal(name));
@@ -121,6 +142,20 @@ bool MarkerObstacles::expire(const ros::Time& now) {
   }
   obstacles_.apply(removals);
   return !removals.empty();
+}
+
+std::vector<MarkerObstacles::Step> MarkerObstacles::read(const Markers& markers,
+                                                         const ros::Time& now) {
+  std::vector<Step> steps;
+  for (std::size_t i = 0; i < markers.size(); ++i) {
+    naming("marker '" + marker_name(markers[i]) + "'", [&] {
+      if (auto step = read(markers[i], now)) {
+        step->marker = i;
+        steps.push_back(std::move(*step));
+      }
+    });
+  }
+  return steps;
 }
 
 std::optional<MarkerObstacles::Step> MarkerObstacles::read(const Marker& marker,
@@ -131,7 +166,7 @@ std::optional<MarkerObstacles::Step> MarkerObstacles::read(const Marker& marker,
     return step;
   }
   if (marker.action == Marker::DELETE) {
-    step.change = removal(name_of(marker));
+    step.change = removal(marker_name(marker));
     return step;
   }
   if (marker.action != Marker::ADD) {
@@ -139,16 +174,17 @@ std::optional<MarkerObstacles::Step> MarkerObstacles::read(const Marker& marker,
                                 ", it must be 0 (ADD), 2 (DELETE) or 3 (DELETEALL)");
   }
   if (!is_body(marker)) {
+    const std::lock_guard<std::mutex> lock(mutex_);
     if (ignored_types_.insert(marker.type).second) {
       ROS_INFO_STREAM("'" << topic_ << "': markers of type " << marker.type << ", such as '"
-                          << name_of(marker) << "', are no obstacles");
+                          << marker_name(marker) << "', are no obstacles");
     }
     return std::nullopt;
   }
-  validate_obstacle_name(name_of(marker));
-  fiber::EnvironmentObject object{name_of(marker), pose_of(marker), shapes_of(marker)};
-  step.change = {marker.header, {Operation::ADD, std::move(object)}};
-  fiber::World().apply({step.change.change});  // what is refused is refused here
+  validate_obstacle_name(marker_name(marker));
+  fiber::EnvironmentObject object{marker_name(marker), marker_pose(marker), shapes_of(marker)};
+  step.change = {Operation::ADD, std::move(object)};
+  fiber::World().apply({step.change});  // what is refused is refused here
   step.expiry = marker.lifetime.isZero() ? ros::Time() : now + marker.lifetime;
   return step;
 }
@@ -172,24 +208,45 @@ Shapes MarkerObstacles::shapes_of(const Marker& marker) {
   }
 }
 
-fiber::Shape MarkerObstacles::mesh_of(const Marker& marker) {
-  const std::array<double, 3> scale{marker.scale.x, marker.scale.y, marker.scale.z};
-  const auto known = read_meshes_.find({marker.mesh_resource, scale});
+bool MarkerObstacles::is_large(const Markers& markers) const {
+  std::size_t triangles = 0;
+  for (const Marker& marker : markers) {
+    if (marker.action == Marker::ADD && marker.type == Marker::MESH_RESOURCE &&
+        !find_mesh(marker)) {
+      return true;
+    }
+    triangles += marker.type == Marker::TRIANGLE_LIST ? marker.points.size() / 3 : 0;
+  }
+  return is_large_mesh(triangles);
+}
+
+std::optional<fiber::Shape> MarkerObstacles::find_mesh(const Marker& marker) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto known = read_meshes_.find(key_of(marker));
   if (known != read_meshes_.end() && to_vector(marker.scale).allFinite()) {  // NaN equals any
     return known->second;
   }
+  return std::nullopt;
+}
+
+fiber::Shape MarkerObstacles::mesh_of(const Marker& marker) {
+  if (auto known = find_mesh(marker)) {
+    return std::move(*known);
+  }
   fiber::Shape mesh = to_shape(meshes_.load(marker.mesh_resource, to_vector(marker.scale)));
-  read_meshes_.emplace(std::make_pair(marker.mesh_resource, scale), mesh);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  read_meshes_.emplace(key_of(marker), mesh);
   return mesh;
 }
 
-void MarkerObstacles::apply(const std::vector<Step>& steps) {
+void MarkerObstacles::apply(const std::vector<Step>& steps, const Change::Poses& poses) {
   Names names = present();
-  std::vector<FramedChange> changes;
+  std::vector<fiber::ObjectChange> changes;
   for (const Step& step : steps) {
-    const std::string& name = step.change.change.object.name;
+    const std::string& name = step.change.object.name;
     if (step.action == Marker::ADD) {
       changes.push_back(step.change);
+      changes.back().object.pose = poses[step.marker] * step.change.object.pose;
       names[name] = step.expiry;
     } else if (step.action == Marker::DELETEALL) {
       for (const auto& [present, expiry] : std::exchange(names, {})) {

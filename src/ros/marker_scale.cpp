@@ -1,12 +1,16 @@
 #include "fiber_proximity/ros/marker_scale.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "fiber_proximity/ros/optical_frame.hpp"
 #include "fiber_proximity/ros/tube_mesh.hpp"
 
 namespace fiber_proximity_ros {
 
-MarkerScale::MarkerScale(const fiber::FiberAssembly& fibers) {
+MarkerScale::MarkerScale(const fiber::FiberAssembly& fibers, const std::string& frame)
+    : up(is_optical_frame(frame) ? Eigen::Vector3d(-Eigen::Vector3d::UnitY())
+                                 : Eigen::Vector3d(Eigen::Vector3d::UnitZ())) {
   for (const double radius : fibers.radii()) {
     thickest = std::max(thickest, radius);
     thinnest = std::min(thinnest, radius);
@@ -20,8 +24,8 @@ MarkerScale::MarkerScale(const fiber::FiberAssembly& fibers) {
     box.extend(point);
   }
   extent = std::max(box.sizes().maxCoeff(), thickest);
-  top = 0.5 * box.min() + 0.5 * box.max();
-  top.z() = box.max().z();
+  const Eigen::Vector3d half = 0.5 * box.max() - 0.5 * box.min();
+  top = box.min() + half + std::abs(up.dot(half)) * up;
 }
 
 }  // namespace fiber_proximity_ros

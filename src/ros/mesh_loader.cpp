@@ -11,6 +11,7 @@
 
 #include "fiber_proximity/environment/triangle_mesh.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
+#include "fiber_proximity/text/quote.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -44,8 +45,8 @@ path resolve_in_package(const std::string& resource) {
   const std::string package = resource.substr(package_scheme.size(), slash - package_scheme.size());
   const std::string folder = package.empty() ? "" : ros::package::getPath(package);
   if (folder.empty() || slash == std::string::npos) {
-    throw std::invalid_argument("there is no package '" + package +
-                                "', it must be package://NAME/PATH with a package ROS finds");
+    throw std::invalid_argument("there is no package " + fiber::quote(package) +
+                                ", it must be package://NAME/PATH with a package ROS finds");
   }
   path file = real_path(folder + resource.substr(slash));
   if (!lies_in(file, real_path(folder))) {
@@ -135,7 +136,7 @@ shape_msgs::Mesh MeshLoader::load(const std::string& resource, const Eigen::Vect
     const path file = resolve(resource);
     return to_mesh(*parse(read(file), file), scale);
   } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument("mesh '" + resource + "': " + error.what());
+    throw std::invalid_argument("mesh " + fiber::quote(resource) + ": " + error.what());
   }
 }
 

@@ -6,6 +6,7 @@
 #include "fiber_proximity/ros/naming.hpp"
 #include "fiber_proximity/ros/obstacle_pose.hpp"
 #include "fiber_proximity/ros/obstacle_shapes.hpp"
+#include "fiber_proximity/text/quote.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -13,8 +14,9 @@ namespace {
 using fiber_proximity::Obstacle;
 using Poses = std::vector<geometry_msgs::Pose>;
 
-fiber::ObjectChange::Operation to_operation(const Obstacle& obstacle) {
-  using Operation = fiber::ObjectChange::Operation;
+using Operation = fiber::ObjectChange::Operation;
+
+Operation to_operation(const Obstacle& obstacle) {
   switch (obstacle.operation) {
     case Obstacle::ADD:
       return Operation::ADD;
@@ -83,7 +85,7 @@ void validate_obstacle_name(const std::string& name) {
 
 fiber::ObjectChange to_change(const Obstacle& obstacle) {
   fiber::ObjectChange change =
-      naming("obstacle '" + obstacle.id + "'", [&] { return to_unnamed_change(obstacle); });
+      naming("obstacle " + fiber::quote(obstacle.id), [&] { return to_unnamed_change(obstacle); });
   if (!change.object.name.empty()) {
     fiber::validate(change.object);
   }

@@ -3,11 +3,13 @@
 #include <utility>
 
 #include "fiber_proximity/ros/obstacle_change.hpp"
+#include "fiber_proximity/ros/obstacle_shapes.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
 
 using Changes = std::vector<fiber::ObjectChange>;
+using Obstacles = std::vector<fiber_proximity::Obstacle>;
 using Operation = fiber::ObjectChange::Operation;
 
 void remove_all(std::set<std::string>& names, Changes& changes) {
@@ -17,6 +19,16 @@ void remove_all(std::set<std::string>& names, Changes& changes) {
     change.object.name = name;
     changes.push_back(std::move(change));
   }
+}
+
+std::size_t triangle_count(const Obstacles& obstacles) {
+  std::size_t count = 0;
+  for (const fiber_proximity::Obstacle& obstacle : obstacles) {
+    for (const shape_msgs::Mesh& mesh : obstacle.meshes) {
+      count += mesh.triangles.size();
+    }
+  }
+  return count;
 }
 
 }  // namespace
@@ -29,36 +41,64 @@ std::vector<FramedChange> to_changes(const std::vector<fiber_proximity::Obstacle
   return changes;
 }
 
-void ObstacleSet::apply(const std::vector<FramedChange>& changes) {
+FramedName framed_name(const FramedChange& framed) {
+  return {"obstacle '" + framed.change.object.name + "'", framed.header};
+}
+
+fiber::ObjectChange placed(const FramedChange& framed, const Eigen::Isometry3d& pose) {
+  fiber::ObjectChange change = framed.change;
+  change.object.pose = pose * change.object.pose;
+  return change;
+}
+
+void ObstacleSet::apply(const Changes& changes, const std::set<std::string>& cancelled) {
   std::set<std::string> names = names_;
-  Changes placed;
-  for (const FramedChange& framed : changes) {
-    const std::string& name = framed.change.object.name;
-    if (framed.change.operation != Operation::REMOVE) {
-      placed.push_back(place(framed));
+  Changes steps;
+  for (const fiber::ObjectChange& change : changes) {
+    const std::string& name = change.object.name;
+    if (change.operation != Operation::REMOVE) {
+      steps.push_back(change);
       names.insert(name);
     } else if (name.empty()) {
-      remove_all(names, placed);
-    } else {
-      placed.push_back(framed.change);
-      names.erase(name);
+      remove_all(names, steps);
+    } else if (names.erase(name) > 0 || cancelled.count(name) == 0) {
+      steps.push_back(change);
     }
   }
-  world_.apply(placed);
+  world_.apply(steps);
   names_ = std::move(names);
 }
 
-fiber::ObjectChange ObstacleSet::place(const FramedChange& framed) {
-  std_msgs::Header header = framed.header;
-  header.frame_id = tf2_name(header.frame_id);
-  frame_.adopt(header.frame_id);
-  fiber::ObjectChange change = framed.change;
-  try {
-    change.object.pose = frame_.transform_from(header) * change.object.pose;
-  } catch (const TransformUnavailable& error) {
-    throw TransformUnavailable("obstacle '" + change.object.name + "': " + error.what());
+Change ObstacleSet::change_of(std::shared_ptr<const Obstacles> obstacles, double patience,
+                              Worker& worker) {
+  TouchedObjects touched;
+  std::vector<FramedName> frames;
+  for (const fiber_proximity::Obstacle& obstacle : *obstacles) {
+    const bool removes = obstacle.operation == fiber_proximity::Obstacle::REMOVE;
+    if (!removes) {
+      touched.add(obstacle.id);
+    } else if (obstacle.id.empty()) {
+      touched.remove_all();
+    } else {
+      touched.remove(obstacle.id);
+    }
+    frames.push_back(
+        {"obstacle '" + obstacle.id + "'", removes ? std_msgs::Header() : obstacle.header});
   }
-  return change;
+  const bool is_large = is_large_mesh(triangle_count(*obstacles));
+  const auto prepare = [this, obstacles = std::move(obstacles)]() -> Change::Apply {
+    return [this, changes = to_changes(*obstacles)](const Change::Poses& poses,
+                                                    const Change::Names& cancelled) {
+      Changes steps;
+      for (std::size_t i = 0; i < changes.size(); ++i) {
+        steps.push_back(placed(changes[i], poses[i]));
+      }
+      apply(steps, cancelled);
+    };
+  };
+  Prepared<Change::Apply> apply =
+      is_large ? Prepared<Change::Apply>(prepare, worker) : Prepared<Change::Apply>(prepare);
+  return {std::move(touched), std::move(frames), std::move(apply), patience, {}};
 }
 
 }  // namespace fiber_proximity_ros

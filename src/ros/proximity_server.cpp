@@ -1,18 +1,16 @@
 #include "fiber_proximity/ros/proximity_server.hpp"
 
-#include <ros/callback_queue.h>
 #include <ros/console.h>
 
-#include <functional>
 #include <limits>
 #include <stdexcept>
 #include <utility>
 
-#include "fiber_proximity/ros/check_service.hpp"
+#include "fiber_proximity/ros/callback_task.hpp"
 #include "fiber_proximity/ros/contact_array.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
+#include "fiber_proximity/ros/legend.hpp"
 #include "fiber_proximity/ros/query_settings.hpp"
-#include "fiber_proximity/ros/shape_query.hpp"
 #include "fiber_proximity/ros/stopwatch.hpp"
 
 namespace fiber_proximity_ros {
@@ -24,36 +22,15 @@ constexpr double tick_interval = 0.1;
 /// [s] How often a message that waits for its transform is tried again.
 constexpr double retry_interval = 0.005;
 
-/// A function in a callback queue.
-class Task : public ros::CallbackInterface {
- public:
-  explicit Task(std::function<void()> function) : function_(std::move(function)) {}
-  CallResult call() override {
-    function_();
-    return Success;
-  }
-
- private:
-  std::function<void()> function_;
-};
-
-ros::CallbackQueueInterface& queue_of(const ros::NodeHandle& node) {
-  ros::CallbackQueueInterface* queue = node.getCallbackQueue();
-  return queue != nullptr ? *queue : *ros::getGlobalCallbackQueue();
-}
-
 std::uint32_t to_count(std::size_t count) { return static_cast<std::uint32_t>(count); }
-
-std::uint64_t id_of(const ProximityServer* server) {
-  return reinterpret_cast<std::uintptr_t>(server);
-}
 
 }  // namespace
 
 ProximityServer::ProximityServer(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
     : node_(node),
       private_node_(private_node),
-      options_(read_server_options(private_node)),
+      options_(read_server_options(node, private_node)),
+      config_(options_.config),
       detector_(options_.engine, options_.engine_options),
       contacts_publisher_(private_node_.advertise<fiber_proximity::ContactArray>("contacts", 1)),
       fibers_publisher_(private_node_.advertise<fiber_proximity::FiberArray>("fibers", 1)),
@@ -67,12 +44,11 @@ ProximityServer::ProximityServer(const ros::NodeHandle& node, const ros::NodeHan
                    [this] { schedule(); }),
       comparison_(private_node_, {inputs_, detector_, query_options_, options_},
                   [this] { process(); }),
+      queries_(private_node_, {inputs_, detector_, environment_.inputs(), query_options_},
+               [this] { process(); }),
       reconfigure_server_(private_node_) {
-  reconfigure_server_.setCallback([this](fiber_proximity::ProximityConfig& config,
-                                         std::uint32_t /*level*/) { reconfigure(config); });
-  query_server_ = private_node_.advertiseService("query", &ProximityServer::query, this);
-  check_server_ =
-      private_node_.advertiseService("check_fibers", &ProximityServer::check_fibers, this);
+  reconfigure_server_.setCallback(
+      [this](AskedConfig& config, std::uint32_t /*level*/) { reconfigure(config); });
   tick_timer_ = node_.createSteadyTimer(ros::WallDuration(tick_interval),
                                         [this](const ros::SteadyTimerEvent&) { tick(); });
   retry_timer_ = node_.createSteadyTimer(
@@ -80,15 +56,14 @@ ProximityServer::ProximityServer(const ros::NodeHandle& node, const ros::NodeHan
       false);
 }
 
-ProximityServer::~ProximityServer() { queue_of(node_).removeByID(id_of(this)); }
+ProximityServer::~ProximityServer() { remove_tasks(queue_of(node_), this); }
 
 void ProximityServer::schedule() {
   if (!std::exchange(is_scheduled_, true)) {
-    queue_of(node_).addCallback(boost::make_shared<Task>([this] {
-                                  is_scheduled_ = false;
-                                  process();
-                                }),
-                                id_of(this));
+    add_task(queue_of(node_), this, [this] {
+      is_scheduled_ = false;
+      process();
+    });
   }
 }
 
@@ -261,13 +236,19 @@ void ProximityServer::publish_markers_if_due() {
   if (marker_options_.show_crossings) {
     crossings_.find(inputs_.fibers(), inputs_.header());
   }
+  std::vector<LegendLine> legend;
+  if (marker_options_.show_legend) {
+    legend = legend_lines(marker_options_, environment_marker_options(), query_options_.margin);
+  }
   const CrossingDrawing crossings{crossings_.crossings(), crossings_.view()};
   const Drawing drawing{inputs_.fibers(),
                         detector_.detection().contacts().contacts,
                         detector_.detection().minimum(),
                         boxes_,
                         cost,
-                        &crossings};
+                        &crossings,
+                        &inputs_.names(),
+                        &legend};
   marker_builder_.build(inputs_.header(), drawing, marker_options_, markers_message_);
   const Detection& around = environment_.detection();
   environment_markers_.append(inputs_.header(),
@@ -288,51 +269,19 @@ EnvironmentMarkerOptions ProximityServer::environment_marker_options() const {
   return options;
 }
 
-/// Answers a request about the newest fibres, or says why it cannot.
-template <class Response, class Answer>
-bool ProximityServer::respond(Response& response, const Answer& answer_it) {
-  process();  // asked after a message arrived, answered with it
+void ProximityServer::reconfigure(AskedConfig& config) {
   try {
-    inputs_.require_fresh();
-    const std::shared_ptr<const fiber::Environment> environment =
-        environment_.inputs().environment();
-    answer_it(QueryTarget{inputs_.fibers(), detector_.engine(), *environment, inputs_.frame(),
-                          query_options_});
-    response.header = inputs_.header();
-    response.fiber_names = inputs_.names();
-    response.object_names = object_names(*environment);
-    response.success = true;
-  } catch (const std::exception& error) {
-    response = Response();
-    response.message = error.what();
-  }
-  return true;
-}
-
-bool ProximityServer::query(fiber_proximity::QueryProximity::Request& request,
-                            fiber_proximity::QueryProximity::Response& response) {
-  return respond(response, [&](const QueryTarget& target) { answer(request, target, response); });
-}
-
-bool ProximityServer::check_fibers(fiber_proximity::CheckFibers::Request& request,
-                                   fiber_proximity::CheckFibers::Response& response) {
-  return respond(response, [&](const QueryTarget& target) {
-    const auto allowed = [this](const std::vector<std::string>& names) {
-      return environment_.inputs().allowed(names);
-    };
-    answer(request, target, inputs_.names(), allowed, response);
-  });
-}
-
-void ProximityServer::reconfigure(fiber_proximity::ProximityConfig& config) {
-  try {
-    query_options_ = to_query_options(config);
+    if (!config.problem().empty()) {
+      throw std::invalid_argument(config.problem());
+    }
+    check(private_node_, config);
   } catch (const std::invalid_argument& error) {
     ROS_ERROR_STREAM("parameters stay as they were: " << error.what());
     config = config_;  // the server announces what is really in use
     return;
   }
   config_ = config;
+  query_options_ = to_query_options(config);
   comparison_.switch_on(config.compare);
   marker_options_.show_fibers = config.show_fibers;
   marker_options_.show_contacts = config.show_contacts;
@@ -340,6 +289,8 @@ void ProximityServer::reconfigure(fiber_proximity::ProximityConfig& config) {
   marker_options_.show_cost = config.show_cost;
   marker_options_.show_boxes = config.show_boxes;
   marker_options_.show_crossings = config.show_crossings;
+  marker_options_.show_names = config.show_names;
+  marker_options_.show_legend = config.show_legend;
   marker_options_.level = static_cast<std::uint32_t>(config.box_level);
 }
 

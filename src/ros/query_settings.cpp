@@ -36,8 +36,12 @@ fiber::QueryOptions to_query_options(const fiber_proximity::ProximityConfig& con
   options.margin = config.margin;
   options.max_contacts = static_cast<std::uint32_t>(config.max_contacts);
   options.pairing = fiber::pairing_from_name(config.pairing);
-  options.neighbour_skip = static_cast<std::uint32_t>(config.neighbour_skip);
-  options.neighbour_skip_length = config.neighbour_skip_length;
+  if (config.neighbour_skip >= 0) {
+    options.neighbour_skip = static_cast<std::uint32_t>(config.neighbour_skip);
+  }
+  if (config.neighbour_skip_length >= 0.0) {
+    options.neighbour_skip_length = config.neighbour_skip_length;
+  }
   options.kernel = fiber::kernel_from_name(config.kernel);
   options.tolerance = config.tolerance;
   options.relative_tolerance = config.relative_tolerance;

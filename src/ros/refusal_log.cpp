@@ -2,11 +2,35 @@
 
 #include <ros/console.h>
 
+#include <algorithm>
+#include <cctype>
+
 namespace fiber_proximity_ros {
 namespace {
 
-/// [s] At most one refusal per source and interval is logged.
+/// [s] How often one reason is logged at most.
 constexpr double log_interval = 1.0;
+
+bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+
+/// The reason without its numbers, of which each message may have its own.
+std::string reason_kind(const std::string& reason) {
+  constexpr std::size_t longest = 300;
+  const std::string text = reason.substr(0, longest);
+  std::string kind;
+  bool in_number = false;
+  for (const char c : text) {
+    in_number = is_digit(c) || (in_number && (c == '.' || c == 'e' || c == '-' || c == '+'));
+    if (!in_number && c != '-' && c != '+') {
+      kind.push_back(c);
+    }
+  }
+  return kind;
+}
+
+std::string and_more(std::uint64_t count, const std::string& what) {
+  return count == 0 ? "" : " (and " + std::to_string(count) + " more refused " + what + ")";
+}
 
 }  // namespace
 
@@ -14,16 +38,42 @@ void RefusalLog::refuse(const std::string& reason) {
   ++count_;
   last_error_ = reason;
   const ros::SteadyTime now = ros::SteadyTime::now();
-  if (!last_log_.isZero() && (now - last_log_).toSec() < log_interval) {
+  Reason* const place = place_of(reason_kind(reason), now);
+  if (place == nullptr) {
     ++unlogged_;
     return;
   }
-  ROS_ERROR_STREAM(source_ << ": message refused: " << reason
-                           << (unlogged_ > 0
-                                   ? " (and " + std::to_string(unlogged_) + " more refused since)"
-                                   : std::string()));
-  last_log_ = now;
+  if (!place->logged.isZero() && (now - place->logged).toSec() < log_interval) {
+    ++place->unlogged;
+    return;
+  }
+  ROS_ERROR_STREAM(source_ << ": message refused: " << reason << and_more(place->unlogged, "since")
+                           << and_more(unlogged_, "for other reasons"));
+  place->logged = now;
+  place->unlogged = 0;
   unlogged_ = 0;
+}
+
+/// The entry of a reason, a new one if need be; nullptr if all are taken by reasons of this second.
+RefusalLog::Reason* RefusalLog::place_of(const std::string& kind, const ros::SteadyTime& now) {
+  for (Reason& reason : reasons_) {
+    if (reason.kind == kind) {
+      return &reason;
+    }
+  }
+  if (reasons_.size() < most_reasons) {
+    reasons_.push_back({kind, {}});
+    return &reasons_.back();
+  }
+  Reason& oldest =
+      *std::min_element(reasons_.begin(), reasons_.end(),
+                        [](const Reason& x, const Reason& y) { return x.logged < y.logged; });
+  if ((now - oldest.logged).toSec() < log_interval) {
+    return nullptr;
+  }
+  unlogged_ += oldest.unlogged;
+  oldest = {kind, {}};
+  return &oldest;
 }
 
 }  // namespace fiber_proximity_ros

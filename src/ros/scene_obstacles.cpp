@@ -13,7 +13,7 @@ SceneObstacles::SceneObstacles(const std::vector<FramedChange>& obstacles) {
   }
 }
 
-bool SceneObstacles::update(ObstacleSet& obstacles) {
+bool SceneObstacles::update(ObstacleSet& obstacles, FixedFrame& frame) {
   const std::size_t before = waiting_.size();
   std::vector<Waiting> waiting;
   for (Waiting& obstacle : waiting_) {
@@ -24,7 +24,8 @@ bool SceneObstacles::update(ObstacleSet& obstacles) {
       continue;
     }
     try {
-      obstacles.apply({obstacle.change});
+      const Eigen::Isometry3d pose = locate(framed_name(obstacle.change), frame);
+      obstacles.apply({placed(obstacle.change, pose)});
     } catch (const std::exception& error) {  // above all TransformUnavailable
       obstacle.error = error.what();
       waiting.push_back(std::move(obstacle));

@@ -8,6 +8,7 @@
 
 #include "fiber_proximity/environment/occupancy_octree.hpp"
 #include "fiber_proximity/environment/triangle_mesh.hpp"
+#include "fiber_proximity/geometry/smallest_rotation.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
 #include "fiber_proximity/ros/tube_mesh.hpp"
 
@@ -18,7 +19,6 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using visualization_msgs::Marker;
 
-constexpr double pi = 3.14159265358979323846;
 constexpr int sides = 32;     // of what is round
 constexpr int arc_steps = 8;  // from pole to rim of a half sphere
 
@@ -30,7 +30,7 @@ using ProfilePoint = std::pair<double, double>;
 void append_revolved(const std::vector<ProfilePoint>& profile,
                      std::vector<geometry_msgs::Point>& triangles) {
   const auto at = [](const ProfilePoint& point, int side) {
-    const double angle = 2.0 * pi * side / sides;
+    const double angle = 2.0 * M_PI * side / sides;
     return to_message(
         Vector3d(point.first * std::cos(angle), point.first * std::sin(angle), point.second));
   };
@@ -53,7 +53,7 @@ std::vector<ProfilePoint> capsule_profile(double radius, double length) {
   std::vector<ProfilePoint> profile;
   for (const double end : {-1.0, 1.0}) {
     for (int step = 0; step <= arc_steps; ++step) {
-      const double angle = 0.5 * pi * (end < 0.0 ? arc_steps - step : step) / arc_steps;
+      const double angle = 0.5 * M_PI * (end < 0.0 ? arc_steps - step : step) / arc_steps;
       const bool is_pole = step == (end < 0.0 ? 0 : arc_steps);
       profile.emplace_back(is_pole ? 0.0 : radius * std::cos(angle),
                            end * (0.5 * length + radius * std::sin(angle)));
@@ -158,7 +158,7 @@ class ShapeDrawer {
   void draw_sheet(const Sheet& sheet, double shift) {
     const double width = around_.sizes().norm();
     const double thickness = visible(0.002 * width);
-    Isometry3d middle(Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), sheet.normal));
+    Isometry3d middle(fiber::smallest_rotation(Vector3d::UnitZ(), sheet.normal));
     const Vector3d centre = around_.center();
     middle.translation() =
         centre + (sheet.height - sheet.normal.dot(centre) + shift * thickness) * sheet.normal;

@@ -1,10 +1,10 @@
 #include "fiber_proximity/ros/shape_query.hpp"
 
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "fiber_proximity/query/deadline.hpp"
 #include "fiber_proximity/query/merge_results.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
 #include "fiber_proximity/ros/naming.hpp"
@@ -61,7 +61,7 @@ class ShapeQuery {
 
   void ask(const fiber::FiberAssembly& shape, const fiber::QueryOptions& options) {
     if (!with_environment_) {
-      target_.engine.query_shape(shape, options, result_);
+      target_.engine->query_shape(shape, options, result_);
       return;
     }
     target_.environment.query(shape, options, {}, result_);
@@ -69,7 +69,7 @@ class ShapeQuery {
       contact.fiber_b += fiber_count_;
     }
     if (with_fibers_) {
-      target_.engine.query_shape(shape, options, of_fibers_);
+      target_.engine->query_shape(shape, options, of_fibers_);
       fiber::merge_results(options, of_fibers_, result_);
     }
   }
@@ -104,18 +104,24 @@ class ShapeQuery {
 void answer(const QueryProximity::Request& request, const QueryTarget& target,
             QueryProximity::Response& response) {
   fiber::QueryOptions options = validated_options(request, target.defaults);
-  const fiber::Deadline deadline(options.deadline);
   ShapeQuery query(target, request.against);
+  const std::size_t count = request.shapes.size();
   response.complete = true;
+  response.offsets.reserve(count + 1);
+  response.minimum_lower.reserve(count);
   response.offsets.push_back(0);
-  for (std::uint32_t i = 0; i < request.shapes.size(); ++i) {
-    options.deadline = deadline.left();
+  for (std::uint32_t i = 0; i < count && !target.is_time_up(); ++i) {
+    options.deadline = target.time_for_query();
     naming("shape " + std::to_string(i),
            [&] { query.ask(to_assembly(request.shapes[i], target.frame), options); });
     query.append_contacts(i, response);
     response.minimum_lower.push_back(query.result().minimum_lower());
     response.complete = response.complete && query.result().complete;
   }
+  // Of the shapes that the deadline came before nothing is known.
+  response.complete = response.complete && response.minimum_lower.size() == count;
+  response.offsets.resize(count + 1, response.offsets.back());
+  response.minimum_lower.resize(count, -std::numeric_limits<double>::infinity());
 }
 
 }  // namespace fiber_proximity_ros

@@ -12,7 +12,7 @@
 namespace fiber_proximity_ros {
 namespace {
 
-constexpr std::int64_t most_segments = 1000000;
+constexpr std::int64_t most_segments = 1000000;  // of all fibres together, too
 constexpr std::int64_t most_repeats = 100000;
 
 /// A preset's name, or the moduli and so on; with both, these replace the preset's.
@@ -53,7 +53,14 @@ std::int64_t read_segments(const YamlField& entry, std::optional<double> accurac
     return entry.get("segments").integer(1, most_segments);
   }
   constexpr std::int64_t fine = 1000;
-  return fiber::segments_for(*accuracy, turning_of(read_sim_shape(entry.get("shape"), fine)));
+  const std::int64_t segments =
+      fiber::segments_for(*accuracy, turning_of(read_sim_shape(entry.get("shape"), fine)));
+  if (segments > most_segments) {
+    throw std::invalid_argument(entry.place() + ": the scene's accuracy takes " +
+                                std::to_string(segments) + " segments, " +
+                                std::to_string(most_segments) + " are the most");
+  }
+  return segments;
 }
 
 void read_body(const YamlField& entry, std::optional<double> accuracy, SimFiber& fiber) {
@@ -72,6 +79,7 @@ SimFiber read_fiber(const YamlField& entry, std::optional<double> accuracy) {
   SimFiber fiber;
   fiber.name = entry.get("name").text();
   fiber.group = fiber.name;
+  fiber.place = entry.place();
   naming_fiber(fiber.name, [&] { read_body(entry, accuracy, fiber); });
   return fiber;
 }
@@ -84,6 +92,14 @@ std::vector<SimFiber> repeat(const SimFiber& fiber, const YamlField& entry) {
   }
   repeat->require_map({"count", "offset"});
   const std::int64_t count = repeat->get("count").integer(1, most_repeats);
+  const auto segments = static_cast<std::int64_t>(fiber.points.size()) - 1;
+  if (count > most_segments / segments) {
+    throw std::invalid_argument(repeat->place() + ": " + std::to_string(count) + " fibres of " +
+                                std::to_string(segments) +
+                                " segments are too many, a scene has at "
+                                "most " +
+                                std::to_string(most_segments) + " segments");
+  }
   const Eigen::Vector3d offset = repeat->get("offset").vector();
   std::vector<SimFiber> fibers(static_cast<std::size_t>(count), fiber);
   for (std::size_t i = 0; i < fibers.size(); ++i) {
@@ -100,13 +116,20 @@ std::vector<SimFiber> repeat(const SimFiber& fiber, const YamlField& entry) {
 std::vector<SimFiber> read_sim_fibers(const YamlField& list, std::optional<double> accuracy) {
   std::vector<SimFiber> fibers;
   std::set<std::string> names;
+  std::size_t segments = 0;
   for (const YamlField& entry : list.items()) {
     for (SimFiber& fiber : repeat(read_fiber(entry, accuracy), entry)) {
       if (!names.insert(fiber.name).second) {
         throw std::invalid_argument(entry.place() + " has the name '" + fiber.name +
                                     "' of another fibre of the scene");
       }
+      segments += fiber.points.size() - 1;
       fibers.push_back(std::move(fiber));
+    }
+    if (segments > static_cast<std::size_t>(most_segments)) {
+      throw std::invalid_argument(entry.place() + ": with this fibre the scene has " +
+                                  std::to_string(segments) + " segments, " +
+                                  std::to_string(most_segments) + " are the most");
     }
   }
   if (fibers.empty()) {

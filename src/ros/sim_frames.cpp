@@ -3,24 +3,14 @@
 #include <ros/console.h>
 #include <ros/init.h>
 
-#include <algorithm>
 #include <stdexcept>
+
+#include "fiber_proximity/ros/sim_reach.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
 
-constexpr double fastest = 5.0;  // [m/s]
-
-/// Where something in a frame is in the world, or as far on the way there as a step leads.
-fiber::Placement place(const FollowedFrame& followed, const Eigen::Isometry3d& frame,
-                       double longest_way) {
-  const fiber::Placement& last = followed.path->back().second;
-  const fiber::Placement& in_frame = followed.in_frame;
-  const Eigen::Vector3d way = frame * in_frame.position - last.position;
-  const double share = longest_way / std::max(longest_way, way.norm());
-  return {last.position + share * way, frame.linear() * in_frame.tangent,
-          frame.linear() * in_frame.director};
-}
+constexpr double fastest_frame = 5.0;  // [m/s]
 
 }  // namespace
 
@@ -57,8 +47,27 @@ void SimFrames::wait_for(const std::vector<FollowedFrame>& frames, double timeou
   }
 }
 
-void SimFrames::follow(const std::vector<FollowedFrame>& frames, const fiber::TimeStep& step) {
-  for (const FollowedFrame& followed : frames) {
+/// Where something in a frame is in the world, or as far on the way there as a step leads.
+fiber::Placement SimFrames::next_placement(const SimScene& scene, const FollowedFrame& followed,
+                                           const Eigen::Isometry3d& frame, Watch& watch) const {
+  const fiber::Placement& last = followed.path->back().second;
+  const fiber::Placement& in_frame = followed.in_frame;
+  const Lead lead = fiber_proximity_ros::lead(scene, {followed.rod, followed.node}, last.position,
+                                              frame * in_frame.position, fastest_frame);
+  const bool is_held_back = !lead.problem.empty();
+  if (is_held_back && !watch.is_held_back) {
+    ROS_WARN_STREAM(followed.what << " does not follow frame '" << followed.frame
+                                  << "': " << lead.problem);
+  } else if (!is_held_back && watch.is_held_back) {
+    ROS_INFO_STREAM(followed.what << " follows frame '" << followed.frame << "' again");
+  }
+  watch.is_held_back = is_held_back;
+  return {lead.position, frame.linear() * in_frame.tangent, frame.linear() * in_frame.director};
+}
+
+void SimFrames::follow(const SimScene& scene) {
+  const double start = scene.stepper->time();
+  for (const FollowedFrame& followed : scene.frames) {
     const fiber::Placement last = followed.path->back().second;
     fiber::Placement next = last;
     Watch& watch = watches_[followed.what];
@@ -71,11 +80,11 @@ void SimFrames::follow(const std::vector<FollowedFrame>& frames, const fiber::Ti
                   is_new ? ""
                          : "nothing new of frame '" + followed.frame + "' for more than " +
                                std::to_string(timeout_) + " s");
-      next = place(followed, frame.pose, fastest * step.length);
+      next = next_placement(scene, followed, frame.pose, watch);
     } catch (const TransformUnavailable& error) {
       this->watch(followed, watch, error.what());
     }
-    *followed.path = {{step.start, last}, {step.end(), next}};
+    *followed.path = {{start, last}, {start + scene.time_step, next}};
   }
 }
 

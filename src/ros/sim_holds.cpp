@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "fiber_proximity/geometry/smallest_rotation.hpp"
 #include "fiber_proximity/ros/listed.hpp"
 
 namespace fiber_proximity_ros {
@@ -138,7 +139,7 @@ Placement at(const Path& path, double time) {
   Placement placement;
   placement.position = from.position + share * (to.position - from.position);
   // Directions turn at equal rates; opposite ones turn about any axis.
-  const auto turn = Eigen::Quaterniond::FromTwoVectors(from.tangent, to.tangent);
+  const auto turn = fiber::smallest_rotation(from.tangent, to.tangent);
   const auto part = Eigen::Quaterniond::Identity().slerp(share, turn);
   placement.tangent = part * from.tangent;
   const Vector3d carried = turn * from.director;
@@ -209,7 +210,7 @@ void read_hold(const YamlField& entry, std::uint32_t rod, const SimFiber& fiber,
     hold.placement = [shared](double time) { return at(*shared, time); };
     if (frame) {
       holds.frames.push_back(
-          {frame->text(),
+          {frame->text(), rod, hold.node,
            entry.place() + ": node " + std::to_string(hold.node) + " of fibre '" + fiber.name + "'",
            placement, shared});
     }

@@ -16,8 +16,9 @@ using visualization_msgs::InteractiveMarkerFeedback;
 using visualization_msgs::Marker;
 
 constexpr std::uint32_t most_fibers = 100;
-constexpr double fastest_hand = 2.0;  // [m/s]
-constexpr double thickness = 3.0;     // of a handle, by that of its fibre
+constexpr double fastest_hand = 2.0;    // [m/s]
+constexpr double warning_period = 5.0;  // [s]
+constexpr double thickness = 3.0;       // of a handle, by that of its fibre
 
 InteractiveMarker handle(const std::string& name, const std::string& frame, double radius,
                          const Vector3d& position) {
@@ -65,11 +66,20 @@ void SimMarkers::begin(const SimScene& scene) {
 }
 
 void SimMarkers::receive(const InteractiveMarkerFeedback& feedback) {
+  const bool is_pose = feedback.event_type == InteractiveMarkerFeedback::POSE_UPDATE;
+  if (!is_pose && feedback.event_type != InteractiveMarkerFeedback::MOUSE_UP) {
+    return;
+  }
   const std::lock_guard<std::mutex> lock(mutex_);
+  // Nothing is taken over while the simulation is paused: of a handle, only the latest counts.
+  const auto is_same = [&feedback](const InteractiveMarkerFeedback& other) {
+    return other.marker_name == feedback.marker_name && other.event_type == feedback.event_type;
+  };
+  received_.erase(std::remove_if(received_.begin(), received_.end(), is_same), received_.end());
   received_.push_back(feedback);
 }
 
-void SimMarkers::take_hold(SimScene& scene, const End& end, Grab& grab) const {
+void SimMarkers::take_hold(SimScene& scene, const NodeOfRod& end, Grab& grab) const {
   const fiber::Rods& rods = scene.stepper->rods();
   const Vector3d& here = rods.positions[rods.first(end.rod) + end.node];
   grab.way = std::make_shared<Way>(Way{here, here, 0.0, 0.0});
@@ -106,9 +116,6 @@ void SimMarkers::apply(SimScene& scene) {
     try {
       const Vector3d target =
           world_.transform_from(feedback.header) * to_vector(feedback.pose.position);
-      if (!target.allFinite()) {
-        continue;
-      }
       Grab& grab = grabs_[end->first];
       if (grab.way == nullptr) {
         take_hold(scene, end->second, grab);
@@ -121,7 +128,7 @@ void SimMarkers::apply(SimScene& scene) {
   }
   for (auto grabbed = grabs_.begin(); grabbed != grabs_.end();) {
     const Grab& grab = grabbed->second;
-    const End& end = ends_.at(grabbed->first);
+    const NodeOfRod& end = ends_.at(grabbed->first);
     Way& way = *grab.way;
     way.from = way.to;
     way.start = scene.stepper->time();
@@ -134,9 +141,13 @@ void SimMarkers::apply(SimScene& scene) {
       grabbed = grabs_.erase(grabbed);
       continue;
     }
-    const Vector3d rest = grab.target - way.from;
-    const double most = fastest_hand * scene.time_step;
-    way.to = way.from + rest * std::min(1.0, most / std::max(most, rest.norm()));
+    const Lead lead = fiber_proximity_ros::lead(scene, end, way.from, grab.target, fastest_hand);
+    if (!lead.problem.empty()) {
+      ROS_WARN_STREAM_THROTTLE(warning_period, "the handle "
+                                                   << grabbed->first
+                                                   << " is not followed further: " << lead.problem);
+    }
+    way.to = lead.position;
     ++grabbed;
   }
 }

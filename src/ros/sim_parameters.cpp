@@ -1,5 +1,6 @@
 #include "fiber_proximity/ros/sim_parameters.hpp"
 
+#include <cmath>
 #include <stdexcept>
 
 #include "fiber_proximity/ros/listed.hpp"
@@ -10,6 +11,12 @@ namespace {
 using Eigen::Vector3d;
 using Value = SimParameters::Value;
 
+/// In SI units: far beyond all that fibres are in, and far from where numbers end.
+constexpr double largest = 1e6;
+
+/// [character] Values that are longer are cut off in errors.
+constexpr std::size_t longest_text = 80;
+
 Value to_value(const Vector3d& vector) { return {vector.x(), vector.y(), vector.z()}; }
 
 Vector3d to_vector(const Value& value) { return {value[0], value[1], value[2]}; }
@@ -18,6 +25,10 @@ std::string text_of(const Value& value) {
   std::string text;
   for (const double number : value) {
     text += (text.empty() ? "" : ", ") + std::to_string(number);
+    if (text.size() > longest_text) {
+      text = text.substr(0, longest_text) + "...";
+      break;
+    }
   }
   return "[" + text + "]";
 }
@@ -93,6 +104,11 @@ void SimParameters::set_one(const fiber_proximity::SimulationParameter& paramete
   Value& value = effect->second.options.at(option);
   if (parameter.value.size() != value.size()) {
     refuse(parameter, "it must be a list of " + std::to_string(value.size()) + " number(s)");
+  }
+  for (const double number : parameter.value) {
+    if (!(std::abs(number) <= largest)) {
+      refuse(parameter, "its numbers must be finite and at most 1e6 in magnitude");
+    }
   }
   value = parameter.value;
   try {

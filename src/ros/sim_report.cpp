@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <sstream>
 
 #include "fiber_proximity/sim/contact_stiffness.hpp"
@@ -11,17 +12,15 @@
 namespace fiber_proximity_ros {
 namespace {
 
-constexpr std::uint32_t most_frames = 20;
+constexpr std::uint32_t most_trial_frames = 20;
 constexpr double longest_trial = 0.3;  // [s]
 constexpr std::uint32_t more_iterations = 4;
 
-/// Runs one frame.
+/// Runs one step.
 /// @returns the wall time it took [s]
-double run_frame(SimScene& scene) {
+double run_step(SimScene& scene) {
   const ros::SteadyTime begin = ros::SteadyTime::now();
-  for (std::uint32_t i = 0; i < scene.substeps; ++i) {
-    scene.stepper->step(scene.time_step / scene.substeps);
-  }
+  scene.stepper->step(scene.time_step / scene.substeps);
   return (ros::SteadyTime::now() - begin).toSec();
 }
 
@@ -110,10 +109,15 @@ void judge_contacts(const SimScene& scene, SimReport& report) {
 }
 
 void judge_trial(const SimScene& scene, const SimTrial& trial, SimReport& report) {
+  if (!trial.failure.empty()) {
+    report.warnings.push_back(
+        sentence("expect it to stop after ", trial.steps, " step(s): ", trial.failure));
+    return;
+  }
   const double radius = thinnest(scene.stepper->rods());
   const std::string solved = sentence(
       scene.options.iterations, " iteration(s) were within ", 1e3 * trial.iteration_error,
-      " mm of ", more_iterations * scene.options.iterations, " after ", trial.frames, " frame(s)");
+      " mm of ", more_iterations * scene.options.iterations, " after ", trial.steps, " step(s)");
   if (trial.iteration_error > 0.5 * radius) {
     report.warnings.push_back(solved +
                               sentence(", more than half of the thinnest radius, ", 1e3 * radius,
@@ -122,7 +126,7 @@ void judge_trial(const SimScene& scene, const SimTrial& trial, SimReport& report
     report.facts.push_back(solved + ", and suffice there");
   }
   const std::string speed = sentence("expected real-time factor ", trial.real_time_factor,
-                                     ", by the first ", trial.frames, " frame(s)");
+                                     ", by the first ", trial.steps, " step(s)");
   if (trial.real_time_factor < 1.0) {
     report.warnings.push_back(speed +
                               ": expect it to fall behind; fewer segments or substeps, or "
@@ -141,13 +145,18 @@ SimTrial try_scene(const std::string& file, const MeshLoader& meshes, std::uint3
   SimTrial trial;
   double taken = 0.0;
   double both = 0.0;
-  while (trial.frames < most_frames && both < longest_trial) {
-    const double time = run_frame(scene);
-    taken += time;
-    both += time + run_frame(better);
-    ++trial.frames;
+  try {
+    while (trial.steps < most_trial_frames * scene.substeps && both < longest_trial) {
+      const double time = run_step(scene);
+      taken += time;
+      both += time + run_step(better);
+      ++trial.steps;
+    }
+  } catch (const std::exception& error) {
+    trial.failure = error.what();
+    return trial;
   }
-  trial.real_time_factor = trial.frames * scene.time_step / taken;
+  trial.real_time_factor = trial.steps * scene.time_step / scene.substeps / taken;
   trial.iteration_error = furthest(scene.stepper->rods(), better.stepper->rods());
   return trial;
 }

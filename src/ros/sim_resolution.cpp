@@ -69,6 +69,15 @@ bool is_fast(const SimResolution& resolution, const SimSteps& steps) {
                            steps.has_contacts) <= share_of_time * steps.time_step;
 }
 
+void require_possible(const SimResolution& resolution, const YamlField& accuracy) {
+  if (resolution.substeps > most_substeps) {
+    accuracy.refuse("coarser: it takes " + std::to_string(resolution.substeps) +
+                    " substeps a frame, " + std::to_string(most_substeps) +
+                    " are the most; implicit_midpoint takes fewer, and `substeps` in the scene are "
+                    "not chosen");
+  }
+}
+
 }  // namespace
 
 SimResolution read_sim_resolution(const YamlField& document, const SimSteps& steps) {
@@ -79,7 +88,9 @@ SimResolution read_sim_resolution(const YamlField& document, const SimSteps& ste
     real_time->refuse("absent or false where there is an accuracy");
   }
   if (accuracy) {
-    return choose(document, steps, read_accuracy(*accuracy));
+    SimResolution chosen = choose(document, steps, read_accuracy(*accuracy));
+    require_possible(chosen, *accuracy);
+    return chosen;
   }
   if (!is_real_time) {
     SimResolution given;
@@ -90,6 +101,7 @@ SimResolution read_sim_resolution(const YamlField& document, const SimSteps& ste
   SimResolution chosen;
   for (const double candidate : accuracies) {
     chosen = choose(document, steps, candidate);
+    chosen.substeps = std::min(chosen.substeps, static_cast<std::uint32_t>(most_substeps));
     if (is_fast(chosen, steps)) {
       break;
     }

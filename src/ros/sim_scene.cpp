@@ -1,24 +1,43 @@
 #include "fiber_proximity/ros/sim_scene.hpp"
 
-#include <cmath>
 #include <sstream>
 #include <stdexcept>
 
 #include "fiber_proximity/ros/allowed_contacts.hpp"
 #include "fiber_proximity/ros/environment_scene.hpp"
+#include "fiber_proximity/ros/sim_overlap.hpp"
 #include "fiber_proximity/ros/sim_resolution.hpp"
 #include "fiber_proximity/ros/yaml_obstacle.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
 
-constexpr std::int64_t most_substeps = 1000;
+/// [s] A timer calls for frames, which needs some time itself.
+constexpr double shortest_frame = 1e-6;
+constexpr double longest_frame = 1000.0;
+
 constexpr std::int64_t most_iterations = 100;
 
 std::uint32_t read_count(const YamlField& document, const char* key, std::int64_t most,
                          std::uint32_t count) {
   const auto field = document.find(key);
   return field ? static_cast<std::uint32_t>(field->integer(1, most)) : count;
+}
+
+/// A number above 0, and from the least to the most.
+double read_within(const YamlField& document, const char* key, double least, double most,
+                   double value) {
+  const auto field = document.find(key);
+  if (!field) {
+    return value;
+  }
+  const double number = field->number();
+  if (!(number > 0.0 && number >= least && number <= most)) {
+    std::ostringstream allowed;
+    allowed << (least > 0.0 ? "at least " : "above ") << least << " and at most " << most;
+    field->refuse(allowed.str());
+  }
+  return number;
 }
 
 fiber::StepperOptions read_options(const YamlField& document, bool has_contacts) {
@@ -84,16 +103,14 @@ SimScene read_sim_scene(const std::string& file, const MeshLoader& meshes, std::
                         std::optional<std::uint32_t> iterations) {
   const YamlField document = load_yaml(file);
   document.require_map({"frame_id", "time_step", "substeps", "iterations", "integrator", "accuracy",
-                        "real_time", "fibers", "effects", "environment"});
+                        "real_time", "fibers", "effects", "environment", "initial_overlap",
+                        "max_strain"});
   SimScene scene;
   const auto frame_id = document.find("frame_id");
   scene.frame_id = frame_id ? frame_id->text() : "world";
-  if (const auto time_step = document.find("time_step")) {
-    scene.time_step = time_step->number();
-    if (!(std::isfinite(scene.time_step) && scene.time_step > 0.0)) {
-      time_step->refuse("positive and finite");
-    }
-  }
+  scene.time_step =
+      read_within(document, "time_step", shortest_frame, longest_frame, scene.time_step);
+  scene.max_strain = read_within(document, "max_strain", 0.0, 10.0, scene.max_strain);
   scene.has_contacts = names_contacts(document.get("effects"));
   scene.options = read_options(document, scene.has_contacts);
   scene.options.threads = threads;
@@ -123,6 +140,7 @@ SimScene read_sim_scene(const std::string& file, const MeshLoader& meshes, std::
     scene.obstacles = read_obstacles(*field, meshes, scene.frame_id);
   }
   SimEffects effects = read_sim_effects(document.get("effects"), world, rods);
+  scene.overlap_note = read_initial_overlap(document, world, effects, rods);
   scene.effect_names = std::move(effects.names);
   scene.attachment = effects.attachment;
   scene.frames = std::move(effects.frames);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <sstream>
 #include <stdexcept>
 
 #include "fiber_proximity/ObstacleArray.h"
@@ -13,6 +14,7 @@
 #include "fiber_proximity/ros/listed.hpp"
 #include "fiber_proximity/ros/parameters.hpp"
 #include "fiber_proximity/ros/sim_report.hpp"
+#include "fiber_proximity/sim/reach.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -20,22 +22,10 @@ namespace {
 using Eigen::Vector3d;
 
 /// [s] How often a warning is repeated.
-constexpr double warning_period = 5.0;
+constexpr double speed_warning_period = 5.0;
 
 /// How often handles are moved: rviz takes far longer for them than for fibres.
 const ros::WallDuration marker_period(1.0 / 30.0);
-
-/// Runs what a service was asked for; its error is the answer.
-template <class Response, class Function>
-bool answer(Response& response, const Function& function) {
-  try {
-    function();
-    response.success = true;
-  } catch (const std::exception& error) {
-    response.message = error.what();
-  }
-  return true;
-}
 
 }  // namespace
 
@@ -73,20 +63,15 @@ SimServer::SimServer(const ros::NodeHandle& private_node, const SimOptions& opti
   publish();
   publish_obstacles({});
   make_markers();
-  servers_.push_back(node_.advertiseService("reset", &SimServer::reset, this));
-  servers_.push_back(node_.advertiseService("pause", &SimServer::pause, this));
-  servers_.push_back(node_.advertiseService("step", &SimServer::step, this));
-  servers_.push_back(node_.advertiseService("attach", &SimServer::attach, this));
-  servers_.push_back(node_.advertiseService("detach", &SimServer::detach, this));
-  servers_.push_back(node_.advertiseService("set_parameters", &SimServer::set_parameters, this));
+  advertise_services();
   timer_ = node_.createSteadyTimer(ros::WallDuration(scene_.time_step),
                                    [this](const ros::SteadyTimerEvent&) { keep_pace(); });
-  marker_timer_ = node_.createSteadyTimer(marker_period, [this](const ros::SteadyTimerEvent&) {
-    if (markers_ != nullptr) {
-      markers_->update(scene_);
-    }
-  });
+  marker_timer_ = node_.createSteadyTimer(
+      marker_period, [this](const ros::SteadyTimerEvent&) { update_markers(); });
+  step_spinner_.start();
 }
+
+SimServer::~SimServer() { is_ending_ = true; }
 
 void SimServer::log_scene() const {
   const fiber::Rods& rods = scene_.stepper->rods();
@@ -107,6 +92,9 @@ void SimServer::log_scene() const {
         "segments and substeps that the scene leaves open are chosen for an accuracy of "
         << 100.0 * *scene_.accuracy << " %");
   }
+  if (!scene_.overlap_note.empty()) {
+    ROS_INFO_STREAM(scene_.overlap_note);
+  }
   const SimReport expected =
       report(scene_, try_scene(options_.scene, options_.meshes, options_.threads));
   for (const std::string& fact : expected.facts) {
@@ -118,25 +106,57 @@ void SimServer::log_scene() const {
 }
 
 void SimServer::keep_pace() {
-  if (is_paused_) {
+  const std::lock_guard<FairMutex> lock(mutex_);
+  if (is_paused_ || is_stepping_ || !failure_.empty()) {
     next_frame_ = ros::SteadyTime::now();
     return;
   }
-  advance();
+  try {
+    advance();
+  } catch (const std::runtime_error&) {
+    return;  // it was logged, and services say so
+  }
   next_frame_ += ros::WallDuration(scene_.time_step);
   const double late = (ros::SteadyTime::now() - next_frame_).toSec();
   // The timer makes up for frames that came a little late.
   if (late > scene_.time_step) {
     behind_ += late;
     next_frame_ = ros::SteadyTime::now();
-    ROS_WARN_STREAM_THROTTLE(warning_period, "the simulation is slower than real time: "
-                                                 << behind_ << " s behind after "
-                                                 << scene_.stepper->time() << " s of the scene");
+    ROS_WARN_STREAM_THROTTLE(speed_warning_period, "the simulation is slower than real time: "
+                                                       << behind_ << " s behind after "
+                                                       << scene_.stepper->time()
+                                                       << " s of the scene");
+  }
+}
+
+void SimServer::update_markers() {
+  const std::lock_guard<FairMutex> lock(mutex_);
+  if (markers_ != nullptr && failure_.empty()) {
+    markers_->update(scene_);
+  }
+}
+
+void SimServer::require_running() const {
+  if (!failure_.empty()) {
+    throw std::runtime_error("the simulation has stopped " + failure_ + "; ~reset begins again");
   }
 }
 
 void SimServer::advance() {
-  frames_.follow(scene_.frames, {scene_.stepper->time(), scene_.time_step});
+  require_running();
+  std::ostringstream failure;
+  failure << "after " << scene_.stepper->time() << " s of the scene: ";
+  try {
+    run_frame();
+  } catch (const std::exception& error) {
+    failure_ = failure.str() + error.what();
+    ROS_ERROR_STREAM("the simulation has stopped " << failure_ << "; ~reset begins again");
+    require_running();
+  }
+}
+
+void SimServer::run_frame() {
+  frames_.follow(scene_);
   if (markers_ != nullptr) {
     markers_->apply(scene_);
   }
@@ -144,6 +164,24 @@ void SimServer::advance() {
     scene_.stepper->step(scene_.time_step / scene_.substeps);
   }
   publish();
+  warn_of_strain();
+}
+
+/// Where something keeps edges from being stretched, and what holds a fibre does it all the same.
+void SimServer::warn_of_strain() const {
+  const auto names = [this](const char* effect) {
+    return std::find(scene_.effect_names.begin(), scene_.effect_names.end(), effect) !=
+           scene_.effect_names.end();
+  };
+  const fiber::LargestStrain largest = fiber::largest_strain(scene_.stepper->rods());
+  if (largest.strain > scene_.max_strain && (names("stretch") || names("inextensible"))) {
+    ROS_WARN_STREAM_THROTTLE(speed_warning_period,
+                             "edge " << largest.edge << " of fibre '"
+                                     << scene_.fiber_names[largest.rod] << "' is stretched by "
+                                     << 100.0 * largest.strain << " %, more than "
+                                     << 100.0 * scene_.max_strain
+                                     << " % (max_strain): what moves it goes too far or too fast");
+  }
 }
 
 void SimServer::publish() {
@@ -186,102 +224,6 @@ void SimServer::make_markers() {
     markers_ = std::make_unique<SimMarkers>(node_.resolveName("interactive_markers"), world_);
   }
   markers_->begin(scene_);
-}
-
-SimServer::NodeOfRod SimServer::find_node(const std::string& fiber, std::int32_t node) const {
-  const auto& names = scene_.fiber_names;
-  const auto found = std::find(names.begin(), names.end(), fiber);
-  if (found == names.end()) {
-    throw std::invalid_argument("there is no fibre '" + fiber + "'");
-  }
-  const auto rod = static_cast<std::uint32_t>(found - names.begin());
-  const auto count = static_cast<std::int64_t>(scene_.stepper->rods().node_count(rod));
-  const std::int64_t index = node < 0 ? count + node : node;
-  if (index < 0 || index >= count) {
-    throw std::invalid_argument("fibre '" + fiber + "' has " + std::to_string(count) +
-                                " nodes, there is no node " + std::to_string(node));
-  }
-  if (scene_.attachment == nullptr) {
-    throw std::invalid_argument("the scene does not name the effect attachment");
-  }
-  return {rod, static_cast<std::uint32_t>(index)};
-}
-
-bool SimServer::reset(std_srvs::Trigger::Request& /*request*/,
-                      std_srvs::Trigger::Response& response) {
-  return answer(response, [this] {
-    SimScene scene = read_sim_scene(options_.scene, options_.meshes, options_.threads);
-    frames_.wait_for(scene.frames, 0.0);
-    std::swap(scene_, scene);
-    publish();
-    publish_obstacles(scene.obstacles);
-    make_markers();
-  });
-}
-
-bool SimServer::pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
-  is_paused_ = request.data;
-  response.success = true;
-  return true;
-}
-
-bool SimServer::step(fiber_proximity::StepSimulation::Request& request,
-                     fiber_proximity::StepSimulation::Response& response) {
-  for (std::uint32_t i = 0; i < request.frames; ++i) {
-    advance();
-  }
-  response.success = true;
-  response.time = scene_.stepper->time();
-  return true;
-}
-
-bool SimServer::attach(fiber_proximity::AttachFiber::Request& request,
-                       fiber_proximity::AttachFiber::Response& response) {
-  return answer(response, [&] {
-    const NodeOfRod held = find_node(request.fiber, request.node);
-    const Vector3d target = to_vector(request.position);
-    if (!target.allFinite() || !(request.speed >= 0.0)) {
-      throw std::invalid_argument("position must be finite and speed at least 0");
-    }
-    const fiber::Rods& rods = scene_.stepper->rods();
-    const Vector3d from = rods.positions[rods.first(held.rod) + held.node];
-    const double start = scene_.stepper->time();
-    const double way = (target - from).norm();
-    const double speed = request.speed;
-    fiber::Attachment::Hold hold;
-    hold.rod = held.rod;
-    hold.node = held.node;
-    hold.placement = [=](double time) {
-      const double share = speed > 0.0 && way > 0.0
-                               ? std::min(1.0, std::max(0.0, speed * (time - start) / way))
-                               : 1.0;
-      return fiber::Placement{from + share * (target - from), Vector3d::UnitX(), Vector3d::UnitY()};
-    };
-    if (const auto id = scene_.attachment->find(held.rod, held.node)) {
-      scene_.attachment->remove(*id);
-    }
-    scene_.attachment->add(rods, hold);
-  });
-}
-
-bool SimServer::detach(fiber_proximity::DetachFiber::Request& request,
-                       fiber_proximity::DetachFiber::Response& response) {
-  return answer(response, [&] {
-    const NodeOfRod held = find_node(request.fiber, request.node);
-    const auto id = scene_.attachment->find(held.rod, held.node);
-    if (!id) {
-      throw std::invalid_argument("nothing holds node " + std::to_string(request.node) +
-                                  " of fibre '" + request.fiber + "'");
-    }
-    scene_.attachment->remove(*id);
-  });
-}
-
-bool SimServer::set_parameters(fiber_proximity::SetSimulationParameters::Request& request,
-                               fiber_proximity::SetSimulationParameters::Response& response) {
-  answer(response, [&] { scene_.parameters.set(request.parameters); });
-  response.parameters = scene_.parameters.all();
-  return true;
 }
 
 }  // namespace fiber_proximity_ros

@@ -4,12 +4,12 @@
 #include <cassert>
 #include <cmath>
 
+#include "fiber_proximity/geometry/smallest_rotation.hpp"
+
 namespace fiber_proximity_ros {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double pi = 3.14159265358979323846;
 
 /// Above this bend (its cosine, 25°) one ring between two segments would visibly pinch the tube.
 constexpr double cosine_of_sharp_bend = 0.9;
@@ -24,7 +24,7 @@ struct Frame {
 
   /// Turns into the new direction by the smallest rotation that does.
   void turn(const Vector3d& direction) {
-    normal = Eigen::Quaterniond::FromTwoVectors(tangent, direction) * normal;
+    normal = fiber::smallest_rotation(tangent, direction) * normal;
     tangent = direction;
     normal = (normal - normal.dot(tangent) * tangent).normalized();  // rounding does not add up
   }
@@ -76,7 +76,7 @@ std::vector<Eigen::Vector2d> corner_directions(int sides) {
   std::vector<Eigen::Vector2d> directions;
   directions.reserve(static_cast<std::size_t>(sides));
   for (int i = 0; i < sides; ++i) {
-    const double angle = 2.0 * pi * i / sides;
+    const double angle = 2.0 * M_PI * i / sides;
     directions.emplace_back(std::cos(angle), std::sin(angle));
   }
   return directions;

@@ -5,21 +5,15 @@
 #include <stdexcept>
 
 #include "fiber_proximity/ros/listed.hpp"
+#include "fiber_proximity/text/quote.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
 
-/// [character] Longer values are cut off in errors.
-constexpr std::size_t longest_value = 80;
-
 std::string value_of(const YAML::Node& node) {
   YAML::Emitter emitter;
   emitter << YAML::Flow << node;
-  std::string text = node.IsDefined() ? emitter.c_str() : "not there";
-  if (text.size() > longest_value) {
-    text = text.substr(0, longest_value) + "...";
-  }
-  return text;
+  return node.IsDefined() ? fiber::shortened(emitter.c_str()) : "not there";
 }
 
 }  // namespace
@@ -33,11 +27,11 @@ void YamlField::require_map(const std::vector<std::string>& keys) const {
     const YamlField name(entry.first, source_, path_);
     const std::string text = name.text();
     if (std::find(keys.begin(), keys.end(), text) == keys.end()) {
-      throw std::invalid_argument(name.place() + " has the unknown key '" + text +
-                                  "', known are: " + listed(keys));
+      throw std::invalid_argument(name.place() + " has the unknown key " + fiber::quote(text) +
+                                  ", known are: " + listed(keys));
     }
     if (!seen.insert(text).second) {
-      throw std::invalid_argument(name.place() + " has the key '" + text + "' twice");
+      throw std::invalid_argument(name.place() + " has the key " + fiber::quote(text) + " twice");
     }
   }
 }

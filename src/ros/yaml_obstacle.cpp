@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "fiber_proximity/ros/conversions.hpp"
+#include "fiber_proximity/text/quote.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -137,7 +138,7 @@ Obstacle read_obstacle(const YamlField& entry, const MeshLoader& meshes) {
   Obstacle obstacle;
   obstacle.operation = Obstacle::ADD;
   obstacle.id = entry.get("id").text();
-  const YamlField named = entry.named("obstacle '" + obstacle.id + "'");
+  const YamlField named = entry.named("obstacle " + fiber::quote(obstacle.id));
   if (const auto frame = named.find("frame_id")) {
     obstacle.header.frame_id = frame->text();
   }

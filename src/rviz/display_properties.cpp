@@ -26,7 +26,8 @@ Value chosen(rviz::EnumProperty& property) {
 }  // namespace
 
 DisplayProperties::DisplayProperties(rviz::Property& display, const std::function<void()>& look,
-                                     const std::function<void()>& source)
+                                     const std::function<void()>& source,
+                                     const std::function<void()>& view)
     : style_(new rviz::EnumProperty(
           "Style", "Automatic",
           "Tubes of the fibres' radii, ribbons that face the viewer, or tubes as long as "
@@ -58,7 +59,12 @@ DisplayProperties::DisplayProperties(rviz::Property& display, const std::functio
       greatest_(new rviz::FloatProperty("Max Value", 0.01F, "[m]", &display)),
       opacity_(new rviz::FloatProperty("Alpha", 1.0F, "0 is invisible, 1 is opaque.", &display)),
       default_radius_(new rviz::FloatProperty(
-          "Default Radius", 0.005F, "[m] Of fibers in messages without radii.", &display)) {
+          "Default Radius", 0.005F, "[m] Of fibers in messages without radii.", &display)),
+      fit_view_(new rviz::BoolProperty(
+          "Fit View", false,
+          "Moves the view to where the first fibers are, and again when there are more, as long as "
+          "nobody has moved it.",
+          &display)) {
   add_option(*style_, "Automatic", Style::automatic);
   add_option(*style_, "Tubes", Style::tubes);
   add_option(*style_, "Ribbons", Style::ribbons);
@@ -87,6 +93,7 @@ DisplayProperties::DisplayProperties(rviz::Property& display, const std::functio
        std::initializer_list<rviz::Property*>{color_by_, contact_topic_}) {
     QObject::connect(property, &rviz::Property::changed, property, source);
   }
+  QObject::connect(fit_view_, &rviz::Property::changed, fit_view_, view);
   update_visibility();
 }
 
@@ -134,6 +141,8 @@ std::optional<ValueRange> DisplayProperties::range() const {
 }
 
 double DisplayProperties::default_radius() const { return default_radius_->getFloat(); }
+
+bool DisplayProperties::fits_view() const { return fit_view_->getBool(); }
 
 std::string DisplayProperties::contact_topic() const { return contact_topic_->getTopicStd(); }
 

@@ -4,6 +4,7 @@
 #include <OgreSceneNode.h>
 #include <rviz/display_context.h>
 #include <rviz/frame_manager.h>
+#include <rviz/view_manager.h>
 
 #include <cmath>
 #include <exception>
@@ -40,7 +41,11 @@ std::string drawn_text(const fiber::FiberAssembly& fibers, FiberMesh::Kind kind,
 
 FiberArrayDisplay::FiberArrayDisplay()
     : properties_(
-          *this, [this] { is_changed_ = true; }, [this] { subscribe_to_contacts(); }) {}
+          *this, [this] { is_changed_ = true; }, [this] { subscribe_to_contacts(); },
+          [this] {
+            view_fitter_.forget();
+            is_changed_ = true;
+          }) {}
 
 FiberArrayDisplay::~FiberArrayDisplay() {
   if (mesh_node_ != nullptr) {
@@ -74,6 +79,11 @@ void FiberArrayDisplay::subscribe() {
 void FiberArrayDisplay::unsubscribe() {
   MFDClass::unsubscribe();
   contact_subscriber_.shutdown();
+}
+
+void FiberArrayDisplay::fixedFrameChanged() {
+  MFDClass::fixedFrameChanged();
+  view_fitter_.forget();
 }
 
 bool FiberArrayDisplay::wants_contacts() const {
@@ -133,6 +143,9 @@ void FiberArrayDisplay::draw() {
       place(shown_.fibers->header);
     }
     read_fibers();
+    if (properties_.fits_view()) {
+      fit_view();
+    }
     choose_colors();
     const FiberMesh& mesh = make_mesh();
     materials_->set_transparent(properties_.is_transparent());
@@ -152,6 +165,16 @@ void FiberArrayDisplay::draw() {
   }
   is_new_ = false;
   is_changed_ = false;
+}
+
+void FiberArrayDisplay::fit_view() {
+  const Ogre::Vector3& position = scene_node_->getPosition();
+  const Ogre::Quaternion& orientation = scene_node_->getOrientation();
+  const Eigen::Isometry3d pose =
+      Eigen::Translation3d(position.x, position.y, position.z) *
+      Eigen::Quaterniond(orientation.w, orientation.x, orientation.y, orientation.z);
+  view_fitter_.fit(*context_->getViewManager()->getCurrent(), fixed_frame_.toStdString(), fibers_,
+                   pose);
 }
 
 void FiberArrayDisplay::read_fibers() {

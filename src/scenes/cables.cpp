@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/select_fibers.hpp"
+#include "fiber_proximity/scenes/portable_math.hpp"
 
 namespace fiber {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double tau = 6.283185307179586;
 constexpr double frame_rate = 30.0;  // [Hz]
 
 /// A point that the cable passes through: where it rests, how far it sways, and when [m, rad].

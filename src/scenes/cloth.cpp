@@ -13,12 +13,12 @@ using Eigen::Vector3d;
 
 constexpr std::uint32_t yarn_count = 500;
 constexpr std::uint32_t segments_per_yarn = 2'600;
-constexpr double segment_length = 1e-4;      // without crimp and folds [m]
-constexpr double edge = 0.25;                // of the woven square [m]
-constexpr double crimp = 0.9 * hair_radius;  // of a yarn above and below the middle [m]
-constexpr double fold_height = 0.01;         // [m]
-constexpr double wave_height = 0.004;        // [m]
-constexpr std::uint32_t period = 100;        // of the wave [frames]
+constexpr double yarn_segment_length = 1e-4;  // without crimp and folds [m]
+constexpr double edge = 0.25;                 // of the woven square [m]
+constexpr double crimp = 0.9 * hair_radius;   // of a yarn above and below the middle [m]
+constexpr double fold_height = 0.01;          // [m]
+constexpr double wave_height = 0.004;         // [m]
+constexpr std::uint32_t wave_period = 100;    // of the wave [frames]
 
 /// One of the two sets of parallel yarns.
 struct Yarns {
@@ -44,7 +44,7 @@ void append_yarns(const Yarns& yarns, const Yarns& crossed, double side,
   for (std::uint32_t yarn = 0; yarn < yarns.count; ++yarn) {
     const double first_side = yarn % 2 == 0 ? side : -side;
     for (std::uint32_t i = 0; i <= segments_per_yarn; ++i) {
-      const double along = (i - middle) * segment_length;
+      const double along = (i - middle) * yarn_segment_length;
       const double crossings =
           crossed.count == 0 ? 0.0 : (along - crossed.position(0)) / crossed.spacing();
       const double height = first_side * crimp * cosine_of_turns(0.5 * crossings);
@@ -59,7 +59,7 @@ FiberAssembly cloth(const SceneOptions& options, std::uint32_t frame) {
   const std::uint32_t count = scaled_fiber_count(options, yarn_count, segments_per_yarn + 1);
   const Yarns weft{count / 2};
   const Yarns warp{count - weft.count};
-  const double time = static_cast<double>(frame % period) / period;
+  const double time = static_cast<double>(frame % wave_period) / wave_period;
   std::vector<Vector3d> points;
   points.reserve(std::size_t{count} * (segments_per_yarn + 1));
   append_yarns(

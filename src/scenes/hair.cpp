@@ -219,7 +219,6 @@ FiberAssembly hair(const HairStyle& style, const SceneOptions& options, std::uin
 
 double max_hair_step(const HairStyle& style) {
   // The slope of the sine, and how much lifting off the head stretches distances at most.
-  constexpr double tau = 6.283185307179586;
   constexpr double stretch = 2.0;
   return stretch * tau * style.sway / sway_period;
 }

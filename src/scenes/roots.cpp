@@ -13,7 +13,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double tau = 6.283185307179586;
 constexpr double cell_area = 1.0 / hair_density;  // [m²]
 constexpr double jitter = 0.35;                   // of a cell's width, to either side
 

@@ -9,6 +9,7 @@
 #include "fiber_proximity/scenes/hair_styles.hpp"
 #include "fiber_proximity/scenes/shuffle.hpp"
 #include "fiber_proximity/scenes/soup.hpp"
+#include "fiber_proximity/text/quote.hpp"
 
 namespace fiber {
 namespace {
@@ -53,7 +54,7 @@ Scene make_scene(const std::string& name, const SceneOptions& options) {
     }
     known += (known.empty() ? "" : ", ") + scene_name;
   }
-  throw std::invalid_argument("unknown scene '" + name + "', known are: " + known);
+  throw std::invalid_argument("unknown scene " + quote(name) + ", known are: " + known);
 }
 
 std::vector<std::string> scene_names() {

@@ -13,11 +13,11 @@ using Eigen::Vector3d;
 
 constexpr std::uint32_t fiber_count = 10'000;
 constexpr std::uint32_t segments_per_fiber = 100;
-constexpr double segment_length = 0.01;  // [m]
-constexpr double radius = 3.5e-5;        // [m]
-constexpr double bend = 0.15;            // about the angle between neighbouring segments [rad]
-constexpr double amplitude = 0.005;      // of the sway [m]
-constexpr std::uint32_t period = 100;    // of the sway [frames]
+constexpr double segment_length = 0.01;     // [m]
+constexpr double radius = 3.5e-5;           // [m]
+constexpr double bend = 0.15;               // about the angle between neighbouring segments [rad]
+constexpr double amplitude = 0.005;         // of the sway [m]
+constexpr std::uint32_t soup_period = 100;  // of the sway [frames]
 
 /// A wave of period and amplitude 1, smooth like the sine but of two parabolas.
 double wave(double x) {
@@ -62,7 +62,7 @@ FiberAssembly soup(const SceneOptions& options, std::uint32_t frame) {
   std::vector<std::uint32_t> offsets{0};
   offsets.reserve(fibers + 1);
   Random random(options.seed);
-  const double time = static_cast<double>(frame % period) / period;
+  const double time = static_cast<double>(frame % soup_period) / soup_period;
   for (std::uint32_t fiber = 0; fiber < fibers; ++fiber) {
     append_walk(points, random);
     const Vector3d sway = amplitude * random.direction();

@@ -5,6 +5,19 @@
 
 namespace fiber {
 
+double contact_neighbour_length(const Rods& rods) {
+  return 4.0 * *std::max_element(rods.radii.begin(), rods.radii.end());
+}
+
+bool are_contact_neighbours(const Rods& rods, std::uint32_t edge_a, std::uint32_t edge_b) {
+  const double least = contact_neighbour_length(rods);
+  double between = 0.0;
+  for (std::uint32_t i = edge_a + 1; i < edge_b && between < least; ++i) {
+    between += rods.rest_lengths[i];
+  }
+  return between < least;
+}
+
 double largest_square(const std::vector<Eigen::Vector3d>& vectors) {
   double largest = 0.0;
   for (const Eigen::Vector3d& vector : vectors) {

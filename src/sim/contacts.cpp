@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <stdexcept>
+#include <string>
 
 namespace fiber {
 
@@ -31,6 +33,15 @@ void add_side(std::uint32_t node, const Vector2d& weights, const Vector3d& gradi
   system.add_hessian(node, weights[0] * weights[0] * hessian);
   system.add_hessian(node + 1, weights[1] * weights[1] * hessian);
   system.add_hessian(node + 1, node, weights[0] * weights[1] * hessian);
+}
+
+void require_finite(const std::vector<Vector3d>& displacements) {
+  const auto bad = std::find_if_not(displacements.begin(), displacements.end(),
+                                    [](const Vector3d& v) { return v.allFinite(); });
+  if (bad != displacements.end()) {
+    throw std::runtime_error("the step diverges: the displacement of node " +
+                             std::to_string(bad - displacements.begin()) + " is not finite");
+  }
 }
 
 }  // namespace
@@ -167,6 +178,7 @@ void Contacts::limit(const Rods& rods, std::vector<Vector3d>& displacements,
   std::vector<Vector3d> before;
   int round = 0;
   do {
+    require_finite(displacements);  // else they would never be the same as before
     before = displacements;
     for (const std::unique_ptr<ContactSource>& source : sources_) {
       source->limit(rods, displacements, way, round);

@@ -1,5 +1,6 @@
 #include "fiber_proximity/sim/natural_curvature.hpp"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "effects/natural_bend.hpp"

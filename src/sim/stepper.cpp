@@ -4,13 +4,16 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
 #include "energy_guard.hpp"
+#include "fiber_proximity/query/threads.hpp"
 #include "rod_group.hpp"
 
 namespace fiber {
@@ -71,14 +74,40 @@ std::vector<Batches> independent_parts(const Rods& rods, const std::vector<std::
   return parts;
 }
 
+[[noreturn]] void refuse_state(const Rods& rods, std::size_t node, const char* what,
+                               const Eigen::RowVectorXd& value) {
+  const auto after = std::upper_bound(rods.offsets.begin(), rods.offsets.end(), node);
+  const auto rod = static_cast<std::size_t>(after - rods.offsets.begin()) - 1;
+  std::ostringstream error;
+  error << "the step diverges: node " << node - rods.offsets[rod] << " of rod " << rod
+        << " has the " << what << " (" << value << "), which is not finite";
+  throw std::runtime_error(error.str());
+}
+
 }  // namespace
+
+void require_finite(const Rods& rods) {
+  for (std::size_t i = 0; i < rods.positions.size(); ++i) {
+    if (!rods.positions[i].allFinite()) {
+      refuse_state(rods, i, "position", rods.positions[i].transpose());
+    }
+    if (!rods.velocities[i].allFinite()) {
+      refuse_state(rods, i, "velocity", rods.velocities[i].transpose());
+    }
+  }
+  for (std::size_t i = 0; i < rods.angles.size(); ++i) {
+    const Eigen::RowVector2d turn(rods.angles[i], rods.spins[i]);
+    if (!turn.allFinite()) {
+      refuse_state(rods, i, "angle and spin", turn);
+    }
+  }
+}
 
 /// Who moves which rods. Nothing but memory stays with a worker from one step to the next, so that
 /// there need not be more of them than threads.
 struct Stepper::Workers {
   Workers(const StepperOptions& options, Contacts* contacts)
-      : arena(options.threads == 0 ? tbb::task_arena::automatic
-                                   : static_cast<int>(options.threads)),
+      : arena(arena_concurrency(options.threads)),
         groups([contacts] { return RodGroup(contacts); }) {}
 
   tbb::task_arena arena;
@@ -118,6 +147,7 @@ void Stepper::step(double length) {
   for (const std::unique_ptr<Effect>& effect : effects_) {
     effect->end_step(rods_, {time_, length});
   }
+  require_finite(rods_);
   time_ += length;
 }
 

@@ -1,19 +1,26 @@
 #include "command_line.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <iostream>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/io/number.hpp"
+#include "fiber_proximity/text/quote.hpp"
 
 namespace fiber {
 namespace {
 
-ExitCode refuse(const char* tool, const char* reason) {
-  std::cerr << tool << ": " << reason << '\n';
+// [byte] Our errors shorten what they repeat, but for the path of a file; those of CLI11 do not.
+constexpr std::size_t longest_error = 6'000;
+constexpr std::size_t longest_parse_error = 600;
+
+ExitCode refuse(const char* tool, const std::string& reason) {
+  std::cerr << tool << ": " << shortened(reason, longest_error) << '\n';
   return REFUSED;
 }
 
@@ -25,20 +32,57 @@ std::vector<std::string> subcommands(CLI::App& app) {
   return names;
 }
 
+/// Refuses what CLI11 takes for a number and is none: nothing at all would be 0, what is beyond the
+/// type's range infinity. `inf` is a number.
+std::string refuse_no_number(const std::string& text) {
+  return parse_number<double>(text) ? "" : quote(text) + " must be a number";
+}
+
+/// Every option with a number as its value has it checked, whoever declared it.
+void check_numbers(CLI::App& app) {
+  for (CLI::Option* option : app.get_options()) {
+    const std::string type = option->get_type_name();
+    for (const char* number : {"FLOAT", "INT", "UINT"}) {
+      if (type.rfind(number, 0) == 0) {
+        option->check(refuse_no_number);
+      }
+    }
+  }
+  for (CLI::App* subcommand : app.get_subcommands([](CLI::App*) { return true; })) {
+    check_numbers(*subcommand);
+  }
+}
+
+/// What stands where a subcommand should, if there is one and none of this name.
+std::optional<std::string> unknown_subcommand(const std::vector<std::string>& known, int argc,
+                                              const char* const* argv) {
+  if (known.empty() || argc < 2 || argv[1][0] == '-' ||
+      std::find(known.begin(), known.end(), argv[1]) != known.end()) {
+    return std::nullopt;
+  }
+  return argv[1];
+}
+
 ExitCode parse_and_run(CLI::App& app, const Setup& setup, int argc, const char* const* argv) {
   Command command;
   setup(app, command);
+  check_numbers(app);
+  const std::vector<std::string> known = subcommands(app);
+  if (const std::optional<std::string> unknown = unknown_subcommand(known, argc, argv)) {
+    throw std::invalid_argument("unknown subcommand " + quote(*unknown) +
+                                ", known are: " + listed(known));
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() != 0) {
-      throw;
+      throw std::invalid_argument(shortened(error.what(), longest_parse_error));
     }
     app.exit(error);  // prints the help that was asked for
     return SUCCEEDED;
   }
   if (!command) {
-    throw std::invalid_argument("a subcommand is needed: " + listed(subcommands(app)));
+    throw std::invalid_argument("a subcommand is needed: " + listed(known));
   }
   return command();
 }
@@ -61,7 +105,7 @@ CLI::Validator whole_number(std::uint64_t least) {
   const std::string range = "from " + std::to_string(least);
   return {[range, least](std::string& text) -> std::string {
             const auto value = parse_number<std::uint64_t>(text);
-            return value && *value >= least ? "" : "'" + text + "' must be a whole number " + range;
+            return value && *value >= least ? "" : quote(text) + " must be a whole number " + range;
           },
           range};
 }
@@ -73,7 +117,7 @@ CLI::Validator finite_number(double least) {
             const auto value = parse_number<double>(text);
             return value && std::isfinite(*value) && *value >= least
                        ? ""
-                       : "'" + text + "' must be a finite number " + range;
+                       : quote(text) + " must be a finite number " + range;
           },
           range};
 }
@@ -89,7 +133,7 @@ Eigen::Vector3d parse_vector(const std::string& option, const std::string& text)
   }
   if (!stream.eof() || !vector.unaryExpr(&FiberAssembly::is_valid_coordinate).all()) {
     throw CLI::ValidationError(
-        option, "'" + text + "' must be three numbers X,Y,Z; " + FiberAssembly::coordinate_rule);
+        option, quote(text) + " must be three numbers X,Y,Z; " + FiberAssembly::coordinate_rule);
   }
   return vector;
 }

@@ -12,7 +12,7 @@
 namespace fiber {
 namespace {
 
-struct Request {
+struct CompareRequest {
   std::string file;
   std::string engine = "run_tree";
   QueryOptions query;
@@ -60,7 +60,7 @@ class Totals {
   std::array<std::uint64_t, 4> counts_{};  // by Verdict
 };
 
-ExitCode run(const Request& request) {
+ExitCode run(const CompareRequest& request) {
   const std::unique_ptr<ProximityEngine> engine =
       make_engine(request.engine, request.engine_options);
   const FiberFile file = read_fibers(request.file, request.radius);
@@ -86,7 +86,7 @@ ExitCode run(const Request& request) {
   return totals.exit_code();
 }
 
-void add_options(CLI::App& app, Request& request) {
+void add_options(CLI::App& app, CompareRequest& request) {
   app.add_option("FILE", request.file, "fibre file (.csv or .hair)")->required();
   app.add_option("--engine", request.engine, "one of " + listed(engine_names()))
       ->capture_default_str();
@@ -100,13 +100,13 @@ void add_options(CLI::App& app, Request& request) {
       ->check(finite_number(0.0))
       ->capture_default_str();
   app.add_option("--neighbour-skip", request.query.neighbour_skip,
-                 "segments of a fibre whose indices differ by at most this are no pair")
-      ->check(whole_number(0))
-      ->capture_default_str();
+                 "segments of a fibre whose indices differ by at most this are no pair; without "
+                 "this and the next option, those are that the fibre makes a loop between")
+      ->check(whole_number(0));
   app.add_option("--neighbour-skip-length", request.query.neighbour_skip_length,
-                 "segments of a fibre with less than this between them are no pair [m]")
-      ->check(finite_number(0.0))
-      ->capture_default_str();
+                 "segments of a fibre with less than this between them are no pair [m]; with one "
+                 "of the two given, the other is 1 or 0 m, and no loop is needed")
+      ->check(finite_number(0.0));
   app.add_option_function<std::string>(
          "--kernel",
          [&request](const std::string& name) { request.query.kernel = kernel_from_name(name); },
@@ -127,7 +127,7 @@ void add_compare(CLI::App& app, Command& command) {
       "our contacts beside those of FCL, used as it mostly is and as well as can be: pairs, "
       "distances, times, and who is right by exact arithmetic where they differ; exit 1 if we are "
       "wrong anywhere");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<CompareRequest>();
   add_options(*compare, *request);
   compare->callback([&command, request] { command = [request] { return run(*request); }; });
 }

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fiber_proximity/io/number.hpp"
+#include "json_list.hpp"
 
 namespace fiber {
 namespace {
@@ -41,8 +42,9 @@ std::string csv_header(bool has_frames) {
          "point_b_x,point_b_y,point_b_z,normal_x,normal_y,normal_z,lower,upper\n";
 }
 
-void append_csv(std::string& text, std::optional<std::int64_t> frame,
-                const std::vector<Contact>& contacts) {
+void write_csv(TextOutput& output, std::optional<std::int64_t> frame,
+               const std::vector<Contact>& contacts) {
+  std::string& text = output.text();
   for (const Contact& contact : contacts) {
     if (frame) {
       append_number(text, *frame);
@@ -69,10 +71,11 @@ void append_csv(std::string& text, std::optional<std::int64_t> frame,
     text += ',';
     append_number(text, contact.upper);
     text += '\n';
+    output.flush_if_long();
   }
 }
 
-void append_json(std::string& text, std::optional<std::int64_t> frame, const QueryResult& result) {
+void write_json(TextOutput& output, std::optional<std::int64_t> frame, const QueryResult& result) {
   nlohmann::ordered_json object;
   if (frame) {
     object["frame"] = *frame;
@@ -80,12 +83,8 @@ void append_json(std::string& text, std::optional<std::int64_t> frame, const Que
   object["complete"] = result.complete;
   const double lower = result.minimum_lower();
   object["minimum_lower"] = std::isfinite(lower) ? nlohmann::ordered_json(lower) : nullptr;
-  object["contacts"] = nlohmann::ordered_json::array();
-  for (const Contact& contact : result.contacts) {
-    object["contacts"].push_back(to_json(contact));
-  }
-  text += object.dump();
-  text += '\n';
+  write_json_list(output, std::move(object), "contacts", result.contacts,
+                  [](const Contact& contact) { return to_json(contact); });
 }
 
 }  // namespace fiber

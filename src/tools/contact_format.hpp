@@ -6,18 +6,19 @@
 #include <vector>
 
 #include "fiber_proximity/query/contact.hpp"
+#include "text_output.hpp"
 
 namespace fiber {
 
 /// The header line of contacts as CSV; `frame` leads where frames have numbers.
 std::string csv_header(bool has_frames);
 
-/// Appends a line of CSV per contact, shortest round-trip decimals.
-void append_csv(std::string& text, std::optional<std::int64_t> frame,
-                const std::vector<Contact>& contacts);
+/// Writes a line of CSV per contact, shortest round-trip decimals.
+void write_csv(TextOutput& output, std::optional<std::int64_t> frame,
+               const std::vector<Contact>& contacts);
 
-/// Appends a line with one JSON object: the frame's number, if it has one, whether the answer is
+/// Writes a line with one JSON object: the frame's number, if it has one, whether the answer is
 /// complete, what no pair is closer than (null without a pair), and the contacts.
-void append_json(std::string& text, std::optional<std::int64_t> frame, const QueryResult& result);
+void write_json(TextOutput& output, std::optional<std::int64_t> frame, const QueryResult& result);
 
 }  // namespace fiber

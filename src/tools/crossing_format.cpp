@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fiber_proximity/io/number.hpp"
+#include "json_list.hpp"
 
 namespace fiber {
 namespace {
@@ -39,8 +40,9 @@ std::string crossings_csv_header() {
          "point_a_x,point_a_y,point_a_z,point_b_x,point_b_y,point_b_z\n";
 }
 
-void append_csv(std::string& text, std::optional<std::int64_t> frame,
-                const std::vector<Crossing>& crossings) {
+void write_csv(TextOutput& output, std::optional<std::int64_t> frame,
+               const std::vector<Crossing>& crossings) {
+  std::string& text = output.text();
   for (const Crossing& crossing : crossings) {
     if (frame) {
       append_field(text, *frame);
@@ -61,21 +63,18 @@ void append_csv(std::string& text, std::optional<std::int64_t> frame,
       }
     }
     text.back() = '\n';
+    output.flush_if_long();
   }
 }
 
-void append_json(std::string& text, std::optional<std::int64_t> frame,
-                 const std::vector<Crossing>& crossings) {
+void write_json(TextOutput& output, std::optional<std::int64_t> frame,
+                const std::vector<Crossing>& crossings) {
   nlohmann::ordered_json object;
   if (frame) {
     object["frame"] = *frame;
   }
-  object["crossings"] = nlohmann::ordered_json::array();
-  for (const Crossing& crossing : crossings) {
-    object["crossings"].push_back(to_json(crossing));
-  }
-  text += object.dump();
-  text += '\n';
+  write_json_list(output, std::move(object), "crossings", crossings,
+                  [](const Crossing& crossing) { return to_json(crossing); });
 }
 
 }  // namespace fiber

@@ -6,18 +6,19 @@
 #include <vector>
 
 #include "fiber_proximity/query/crossing.hpp"
+#include "text_output.hpp"
 
 namespace fiber {
 
 /// The header line of crossings as CSV, without the frame.
 std::string crossings_csv_header();
 
-/// Appends a line of CSV per crossing, shortest round-trip decimals.
-void append_csv(std::string& text, std::optional<std::int64_t> frame,
-                const std::vector<Crossing>& crossings);
+/// Writes a line of CSV per crossing, shortest round-trip decimals.
+void write_csv(TextOutput& output, std::optional<std::int64_t> frame,
+               const std::vector<Crossing>& crossings);
 
-/// Appends a line with one JSON object: the frame's number, if it has one, and the crossings.
-void append_json(std::string& text, std::optional<std::int64_t> frame,
-                 const std::vector<Crossing>& crossings);
+/// Writes a line with one JSON object: the frame's number, if it has one, and the crossings.
+void write_json(TextOutput& output, std::optional<std::int64_t> frame,
+                const std::vector<Crossing>& crossings);
 
 }  // namespace fiber

@@ -15,6 +15,7 @@ void setup(CLI::App& app, Command& command) {
   add_simulate_command(app, command);
 #ifdef FIBER_BENCH_HAS_LATENCY
   add_latency_command(app, command);
+  add_obstacle_latency_command(app, command);
 #endif
 }
 

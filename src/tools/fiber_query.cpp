@@ -81,11 +81,11 @@ void add_pair_options(CLI::App& app, const Query& query, Request& request) {
                  "pairs with a gap of at most this [m]; inf for no limit")
       ->default_str(query.default_margin == 0.0 ? "0" : "inf");
   app.add_option("--neighbour-skip", request.query.neighbour_skip,
-                 "segments of a fibre whose indices differ by at most this are no pair")
-      ->capture_default_str();
+                 "segments of a fibre whose indices differ by at most this are no pair; without "
+                 "this and the next option, those are that the fibre makes a loop between");
   app.add_option("--neighbour-skip-length", request.query.neighbour_skip_length,
-                 "segments of a fibre with less than this between them are no pair [m]")
-      ->capture_default_str();
+                 "segments of a fibre with less than this between them are no pair [m]; with one "
+                 "of the two given, the other is 1 or 0 m, and no loop is needed");
 }
 
 ExitCode run(const Request& request, const Ask& ask) {
@@ -94,26 +94,26 @@ ExitCode run(const Request& request, const Ask& ask) {
   const FiberFile file = read_fibers(request.file, request.radius);
   const bool json = request.format == "json";
   QueryResult result;
-  std::string text = json ? "" : csv_header(file.has_frames);
+  TextOutput output(std::cout);
+  output.text() = json ? "" : csv_header(file.has_frames);
   for (const FiberFrame& frame : file.frames) {
     engine->update(frame.fibers);
     ask(*engine, result);
     const std::optional<std::int64_t> number =
         file.has_frames ? std::optional(frame.frame) : std::nullopt;
     if (json) {
-      append_json(text, number, result);
+      write_json(output, number, result);
     } else {
-      append_csv(text, number, result.contacts);
+      write_csv(output, number, result.contacts);
     }
-    std::cout << text;
-    text.clear();
+    output.flush();
     if (!result.complete) {
       std::cerr << "fiber_query: the deadline has passed"
                 << (number ? " in frame " + std::to_string(*number) : "")
                 << ": pairs may be missing\n";
     }
   }
-  std::cout << text;  // the header of a file without frames
+  output.flush();  // the header of a file without frames
   return SUCCEEDED;
 }
 

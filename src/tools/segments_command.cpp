@@ -7,30 +7,34 @@
 #include "fiber_proximity/geometry/segment_distance.hpp"
 #include "fiber_proximity/io/number.hpp"
 #include "fiber_proximity/io/segment_pairs.hpp"
+#include "text_output.hpp"
 
 namespace fiber {
 namespace {
 
-struct Request {
+struct SegmentsRequest {
   std::string file;
   Kernel kernel = Kernel::ROBUST;
 };
 
-void append_csv(std::string& text, const SegmentDistance& nearest) {
+void write_csv(TextOutput& output, const SegmentDistance& nearest) {
+  std::string& text = output.text();
   append_number(text, nearest.distance);
   for (const double value : {nearest.lower(), nearest.upper(), nearest.s, nearest.t}) {
     text += ',';
     append_number(text, value);
   }
   text += '\n';
+  output.flush_if_long();
 }
 
-ExitCode run(const Request& request) {
-  std::string text = "distance,lower,upper,s,t\n";
+ExitCode run(const SegmentsRequest& request) {
+  TextOutput output(std::cout);
+  output.text() = "distance,lower,upper,s,t\n";
   for (const auto& [p0, p1, q0, q1] : read_segment_pairs(request.file)) {
-    append_csv(text, segment_distance(request.kernel, p0, p1, q0, q1));
+    write_csv(output, segment_distance(request.kernel, p0, p1, q0, q1));
   }
-  std::cout << text;
+  output.flush();
   return SUCCEEDED;
 }
 
@@ -39,7 +43,7 @@ ExitCode run(const Request& request) {
 void add_segments(CLI::App& app, Command& command) {
   CLI::App* segments = app.add_subcommand(
       "segments", "the distance of each pair of segments, and bounds the true one lies between");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<SegmentsRequest>();
   segments
       ->add_option("FILE", request->file,
                    "a pair per line: [name,] and the coordinates of p0, p1, q0 and q1 [m]")

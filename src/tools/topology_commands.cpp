@@ -15,13 +15,14 @@
 #include "fiber_proximity/query/crossings.hpp"
 #include "fiber_proximity/query/linking_number.hpp"
 #include "fiber_proximity/query/writhe.hpp"
+#include "text_output.hpp"
 
 namespace fiber {
 namespace {
 
 using Frame = std::optional<std::int64_t>;
 
-struct Request {
+struct TopologyRequest {
   std::string file;
   std::string format = "csv";
   double radius = 0.0;  // [m]
@@ -32,35 +33,36 @@ struct Request {
   bool json() const { return format == "json"; }
 };
 
-/// Appends the answer for the fibres of a frame.
-using Answer = std::function<void(const FiberAssembly& fibers, Frame frame, std::string& text)>;
+/// Writes the answer for the fibres of a frame.
+using Answer = std::function<void(const FiberAssembly& fibers, Frame frame, TextOutput& output)>;
 
-ExitCode run(const Request& request, const std::string& columns, const Answer& answer) {
+ExitCode run(const TopologyRequest& request, const std::string& columns, const Answer& answer) {
   const FiberFile file = read_fibers(request.file, request.radius);
-  std::string text = request.json() ? "" : (file.has_frames ? "frame," : "") + columns;
+  TextOutput output(std::cout);
+  output.text() = request.json() ? "" : (file.has_frames ? "frame," : "") + columns;
   for (const FiberFrame& frame : file.frames) {
-    answer(frame.fibers, file.has_frames ? Frame(frame.frame) : std::nullopt, text);
-    std::cout << text;
-    text.clear();
+    answer(frame.fibers, file.has_frames ? Frame(frame.frame) : std::nullopt, output);
+    output.flush();
   }
-  std::cout << text;  // the header of a file without frames
+  output.flush();  // the header of a file without frames
   return SUCCEEDED;
 }
 
-ExitCode run_crossings(const Request& request) {
+ExitCode run_crossings(const TopologyRequest& request) {
   CrossingFinder finder(request.threads);
   std::vector<Crossing> crossings;
   return run(request, crossings_csv_header(),
-             [&](const FiberAssembly& fibers, Frame frame, std::string& text) {
+             [&](const FiberAssembly& fibers, Frame frame, TextOutput& output) {
                finder.find(fibers, request.view, crossings);
-               request.json() ? append_json(text, frame, crossings)
-                              : append_csv(text, frame, crossings);
+               request.json() ? write_json(output, frame, crossings)
+                              : write_csv(output, frame, crossings);
              });
 }
 
-/// Appends fields, with commas between them, as a line.
+/// Writes fields, with commas between them, as a line.
 template <class... Fields>
-void append_line(std::string& text, Frame frame, const Fields&... fields) {
+void write_line(TextOutput& output, Frame frame, const Fields&... fields) {
+  std::string& text = output.text();
   if (frame) {
     append_number(text, *frame);
     text += ',';
@@ -72,39 +74,40 @@ void append_line(std::string& text, Frame frame, const Fields&... fields) {
       }(fields),
       ...);
   text.back() = '\n';
+  output.flush_if_long();
 }
 
-void append_object(std::string& text, Frame frame, const char* name, nlohmann::ordered_json list) {
+void write_object(TextOutput& output, Frame frame, const char* name, nlohmann::ordered_json list) {
   nlohmann::ordered_json object;
   if (frame) {
     object["frame"] = *frame;
   }
   object[name] = std::move(list);
-  text += object.dump();
-  text += '\n';
+  output.text() += object.dump();
+  output.text() += '\n';
 }
 
-ExitCode run_linking(const Request& request) {
+ExitCode run_linking(const TopologyRequest& request) {
   return run(
       request, "fiber_a,fiber_b,linking_number\n",
-      [&](const FiberAssembly& fibers, Frame frame, std::string& text) {
+      [&](const FiberAssembly& fibers, Frame frame, TextOutput& output) {
         auto list = nlohmann::ordered_json::array();
         for (const auto& [fiber_a, fiber_b, value] : linking_numbers(fibers)) {
           if (request.json()) {
             list.push_back({{"fiber_a", fiber_a}, {"fiber_b", fiber_b}, {"linking_number", value}});
           } else {
-            append_line(text, frame, fiber_a, fiber_b, value);
+            write_line(output, frame, fiber_a, fiber_b, value);
           }
         }
         if (request.json()) {
-          append_object(text, frame, "linking_numbers", std::move(list));
+          write_object(output, frame, "linking_numbers", std::move(list));
         }
       });
 }
 
-ExitCode run_writhe(const Request& request) {
+ExitCode run_writhe(const TopologyRequest& request) {
   return run(
-      request, "fiber,writhe\n", [&](const FiberAssembly& fibers, Frame frame, std::string& text) {
+      request, "fiber,writhe\n", [&](const FiberAssembly& fibers, Frame frame, TextOutput& output) {
         auto list = nlohmann::ordered_json::array();
         for (std::size_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
           const auto begin = fibers.points().begin();
@@ -113,18 +116,18 @@ ExitCode run_writhe(const Request& request) {
           if (request.json()) {
             list.push_back({{"fiber", fiber}, {"writhe", value}});
           } else {
-            append_line(text, frame, fiber, value);
+            write_line(output, frame, fiber, value);
           }
         }
         if (request.json()) {
-          append_object(text, frame, "writhes", std::move(list));
+          write_object(output, frame, "writhes", std::move(list));
         }
       });
 }
 
 /// A subcommand with the options all of these have.
-CLI::App* add(CLI::App& app, Command& command, const std::shared_ptr<Request>& request,
-              const char* name, const char* description, ExitCode (*run_it)(const Request&)) {
+CLI::App* add(CLI::App& app, Command& command, const std::shared_ptr<TopologyRequest>& request,
+              const char* name, const char* description, ExitCode (*run_it)(const TopologyRequest&)) {
   CLI::App* subcommand = app.add_subcommand(name, description);
   subcommand->add_option("FILE", request->file, "fibre file (.csv or .hair)")->required();
   subcommand->add_option("--format", request->format, "of the output; json: one object per frame")
@@ -135,7 +138,7 @@ CLI::App* add(CLI::App& app, Command& command, const std::shared_ptr<Request>& r
   return subcommand;
 }
 
-void add_view_options(CLI::App& crossings, const std::shared_ptr<Request>& request) {
+void add_view_options(CLI::App& crossings, const std::shared_ptr<TopologyRequest>& request) {
   crossings
       .add_option_function<std::string>(
           "--direction",
@@ -158,7 +161,7 @@ void add_view_options(CLI::App& crossings, const std::shared_ptr<Request>& reque
 }  // namespace
 
 void add_topology(CLI::App& app, Command& command) {
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<TopologyRequest>();
   CLI::App* crossings =
       add(app, command, request, "crossings",
           "where fibres cross over and under each other and themselves in a view", run_crossings);

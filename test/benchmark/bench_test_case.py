@@ -19,12 +19,25 @@ class BenchTestCase(unittest.TestCase):
     TOOL = ""  # a program in Python; __file__ + ".calls" is for its command lines
 
     def setUp(self):
+        self.begin(self.addCleanup)
+
+    def begin(self, add_cleanup):
+        """A new folder with the tool."""
         folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
+        add_cleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
         self.tool = self.folder / "tool"
         self.tool.write_text(self.TOOL)
         self.tool.chmod(self.tool.stat().st_mode | stat.S_IXUSR)
+
+    def printed_once_by(self, run, **arguments):
+        """As printed_by, but the experiment runs once for all tests of the class that read its
+        results, as drawing its figures takes seconds."""
+        if "once" not in vars(type(self)):
+            self.begin(self.addClassCleanup)
+            type(self).once = self.folder, self.printed_by(run, **arguments)
+        self.folder, printed = self.once
+        return printed
 
     def printed_by(self, run, **arguments):
         """What an experiment with the tool prints; its results are in the folder `out`."""

@@ -90,7 +90,7 @@ class CoherenceTest(BenchTestCase):
 
     def test_answers_that_differ_end_everything(self):
         with self.assertRaisesRegex(SystemExit, "(?s)--scene wrong.*the pairs differ"):
-            self.measure("wrong", 10.0)
+            self.measure("wrong", 300.0)
 
 
 unittest.main(argv=[sys.argv[0]])

@@ -389,8 +389,11 @@ TEST_F(FiberBench, RefusesBadCommandLines) {
 
 #ifdef FIBER_BENCH_HAS_LATENCY
 TEST_F(FiberBench, LatencyNeedsAMaster) {
-  EXPECT_TRUE(refused(run_process("ROS_MASTER_URI=http://127.0.0.1:1 " FIBER_BENCH " latency"),
-                      "no ROS master at http://127.0.0.1:1"));
+  for (const char* const command : {" latency", " obstacle_latency"}) {
+    EXPECT_TRUE(refused(
+        run_process(std::string("ROS_MASTER_URI=http://127.0.0.1:1 " FIBER_BENCH) + command),
+        "no ROS master at http://127.0.0.1:1"));
+  }
 }
 #endif
 

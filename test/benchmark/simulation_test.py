@@ -68,15 +68,18 @@ PAGE = f"before\n{BEGIN}old\n{END}after\n"
 class SimulationTest(BenchTestCase):
     TOOL = TOOL
 
-    def quick(self):
+    def run_quick(self):
         return self.printed_by(run, quick=True)
+
+    def quick(self):
+        return self.printed_once_by(run, quick=True)
 
     def out(self, name):
         return (self.folder / "out" / name).read_text()
 
     def test_each_part_runs_once_in_a_process_of_its_own(self):
-        self.quick()
-        self.quick()
+        self.run_quick()
+        self.run_quick()
         calls = self.calls()
         self.assertEqual([call.split()[2] for call in calls],
                          ["validation", "convergence", "xpbd", "effects", "real_time"])
@@ -105,8 +108,8 @@ class SimulationTest(BenchTestCase):
     def test_the_summary_goes_between_the_marks_of_the_page_beside_the_folder(self):
         page = self.folder / "out.md"
         page.write_text(PAGE)
-        self.quick()
-        self.quick()
+        self.run_quick()
+        self.run_quick()
         text = page.read_text()
         self.assertTrue(text.startswith(f"before\n{BEGIN}| test | numbers |"), text)
         self.assertTrue(text.endswith(f"\n{END}after\n"), text)
@@ -116,7 +119,7 @@ class SimulationTest(BenchTestCase):
     def test_a_page_without_marks_stays_as_it_is(self):
         page = self.folder / "out.md"
         page.write_text("nothing to replace\n")
-        self.quick()
+        self.run_quick()
         self.assertEqual(page.read_text(), "nothing to replace\n")
 
     def test_rows_are_kept_as_csv(self):

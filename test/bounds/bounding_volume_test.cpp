@@ -213,7 +213,7 @@ TYPED_TEST(BoundingVolumeTest, AnswersStaySafeUnderRigidMotion) {
     Capsule a = random_capsule(random, 1.0);
     Capsule b = random_capsule(random, 1.0);
     const double before = gap(a, b);
-    const Eigen::Quaterniond rotation = Eigen::Quaterniond::UnitRandom();
+    const Eigen::Quaterniond rotation = random.rotation();
     const Vector3d shift = random.in_cube(10.0);
     for (Capsule* capsule : {&a, &b}) {
       capsule->p0 = rotation * capsule->p0 + shift;

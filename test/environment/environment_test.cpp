@@ -5,6 +5,11 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <random>
+#include <set>
+#include <string>
+#include <tuple>
+#include <vector>
 
 #include "environment/random_shapes.hpp"
 #include "fiber_proximity/environment/axis_distance.hpp"
@@ -243,6 +248,52 @@ TEST(Environment, AllowedPairsAreNoPairs) {
   EXPECT_EQ(count({"gripper", AllowedPair::every_fiber, 0, 0}), 18U);
   EXPECT_EQ(count({"chair", AllowedPair::every_fiber, 0, -1}), 20U);
   EXPECT_EQ(count({"", AllowedPair::every_fiber, 0, -1}), 0U);
+}
+
+TEST(Environment, OfManyAllowedPairsEachIsNone) {
+  const std::vector<std::string> names{"", "gripper", "table", "chair"};
+  const EnvironmentObject gripper{"gripper", Eigen::Isometry3d::Identity(), {{SphereShape{10.0}}}};
+  EnvironmentObject table = gripper;
+  table.name = "table";
+  const Environment environment({gripper, table});
+  std::vector<Vector3d> points;
+  for (int i = 0; i < 3 * 9; ++i) {
+    points.emplace_back(0.1 * (i % 9), 0.0, 0.0);
+  }
+  const FiberAssembly fibers(points, {0, 9, 18, 27}, {0.01});
+  std::mt19937 random(11);
+  for (int round = 0; round < 100; ++round) {
+    AllowedPairs allowed;
+    for (std::uint32_t i = 0; i < 1 + random() % 8; ++i) {
+      const std::uint32_t fiber = random() % 4;
+      allowed.push_back({names[random() % names.size()],
+                         fiber < 3 ? fiber : AllowedPair::every_fiber,
+                         static_cast<std::int64_t>(random() % 16) - 8,
+                         static_cast<std::int64_t>(random() % 16) - 8});
+    }
+    std::set<std::tuple<std::uint32_t, std::int64_t, std::uint32_t>> expected;
+    for (std::uint32_t fiber = 0; fiber < 3; ++fiber) {
+      for (std::int64_t segment = 0; segment < 8; ++segment) {
+        for (std::uint32_t object = 0; object < 2; ++object) {
+          const bool is_allowed =
+              std::any_of(allowed.begin(), allowed.end(), [&](const AllowedPair& pair) {
+                const auto at = [](std::int64_t index) { return index < 0 ? 8 + index : index; };
+                return (pair.object.empty() || pair.object == names[object + 1]) &&
+                       (pair.fiber == AllowedPair::every_fiber || pair.fiber == fiber) &&
+                       at(pair.first_segment) <= segment && segment <= at(pair.last_segment);
+              });
+          if (!is_allowed) {
+            expected.emplace(fiber, segment, object);
+          }
+        }
+      }
+    }
+    std::set<std::tuple<std::uint32_t, std::int64_t, std::uint32_t>> found;
+    for (const Contact& contact : ask(environment, fibers, {}, allowed).contacts) {
+      found.emplace(contact.fiber_a, contact.segment_a, contact.fiber_b);
+    }
+    ASSERT_EQ(found, expected) << "round " << round;
+  }
 }
 
 TEST(Environment, NamesWhatItRefuses) {

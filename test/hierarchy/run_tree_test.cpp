@@ -97,7 +97,7 @@ TEST(RunTree, AnswersTheSameWithAnyNumberOfThreads) {
   const FiberAssembly fibers = tangle(random, 600, 80, 1.0, 0.002);
   const tbb::global_control more_than_cores(tbb::global_control::max_allowed_parallelism, 7);
   const QueryResult expected = contacts_of(fibers, 1);
-  ASSERT_GT(expected.contacts.size(), 100U);
+  expect_enough(expected.contacts.size(), std::size_t{101});
   for (const std::uint32_t threads : {2U, 3U, 7U}) {
     EXPECT_TRUE(same_contacts(contacts_of(fibers, threads).contacts, expected.contacts));
   }
@@ -142,6 +142,7 @@ TEST(RunTree, EqualsBruteForceWhateverSizeAndPlace) {
     fibers.update_points(points);
     QueryOptions options;
     options.margin = round % 3 == 0 ? 0.0 : random.uniform(0.0, 0.1) * size;
+    options.neighbour_skip = 1;  // many contacts: neighbours' too
     QueryResult expected;
     brute_force(fibers, options, expected);
     if (round % 3 == 1 && !expected.contacts.empty()) {
@@ -154,7 +155,7 @@ TEST(RunTree, EqualsBruteForceWhateverSizeAndPlace) {
         << "size " << size << ", away " << away;
     found += expected.contacts.size();
   }
-  EXPECT_GT(found, 1000U);
+  expect_enough(found, std::size_t{1001});
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ using AccuracyTest = EnginesTest;
 /// Margins at which some pairs only just are contacts, and some only just are not.
 std::vector<double> hard_margins(const FiberAssembly& fibers, Random& random) {
   QueryOptions options;
+  options.neighbour_skip = 1;  // as all_pairs() has it, which knows no loops
   options.margin = infinity;
   QueryResult result;
   brute_force(fibers, options, result);
@@ -45,6 +46,7 @@ TEST_P(AccuracyTest, FastAndExactDecideExactly) {
     for (const double margin : hard_margins(fibers, random)) {
       for (const Kernel kernel : {Kernel::FAST, Kernel::EXACT}) {
         QueryOptions options;
+        options.neighbour_skip = 1;  // as all_pairs() has it, which knows no loops
         options.margin = margin;
         options.kernel = kernel;
         const QueryResult result = ask(fibers, options);
@@ -68,6 +70,7 @@ TEST_P(AccuracyTest, BoundsHoldTheTruth) {
       for (const QueryType type : all_types) {
         for (const Kernel kernel : all_kernels) {
           QueryOptions options;
+          options.neighbour_skip = 1;  // as all_pairs() has it, which knows no loops
           options.type = type;
           options.margin = margin;
           options.kernel = kernel;

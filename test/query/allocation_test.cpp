@@ -95,7 +95,7 @@ TEST(RunTreeAllocationTest, AFrameInSteadyStateAllocatesNothing) {
     engine->update(fibers);
     engine->query({}, result);
   });
-  EXPECT_FALSE(result.contacts.empty());
+  expect_enough(result.contacts.size(), std::size_t{1});
   EXPECT_EQ(found, 0U);
 }
 
@@ -115,7 +115,7 @@ TEST(RunTreeAllocationTest, AFrameInWhichSomeFibersMoveAllocatesNothing) {
     engine.query({}, result);
   });
   EXPECT_EQ(engine.partial_count(), 2U * warm_up - 1);
-  EXPECT_FALSE(result.contacts.empty());
+  expect_enough(result.contacts.size(), std::size_t{1});
   EXPECT_EQ(found, 0U);
 }
 
@@ -130,7 +130,7 @@ TEST(RunTreeAllocationTest, AskingForFiberPairsAgainAllocatesNothing) {
   options.margin = 0.5;
   QueryResult result;
   engine->query(options, result);
-  EXPECT_GT(result.contacts.size(), 100U) << "too few for the table to have grown";
+  expect_enough(result.contacts.size(), std::size_t{101});  // or the table has not grown
   const std::size_t before = allocations;
   engine->query(options, result);
   EXPECT_EQ(allocations, before);

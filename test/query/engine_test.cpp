@@ -11,6 +11,7 @@
 #include "fiber_proximity/scenes/hard_pairs.hpp"
 #include "support/assemblies.hpp"
 #include "support/contacts.hpp"
+#include "support/neighbour_skips.hpp"
 #include "support/rounds.hpp"
 
 namespace fiber::test {
@@ -61,8 +62,7 @@ QueryOptions random_options(Random& random, const FiberAssembly& fibers, QueryTy
   options.margin = margins[random.integer(0, 4)];
   const Pairing pairings[] = {Pairing::ALL, Pairing::SAME_FIBER, Pairing::DIFFERENT_FIBERS};
   options.pairing = random.chance(0.3) ? pairings[random.integer(0, 2)] : Pairing::ALL;
-  options.neighbour_skip = static_cast<std::uint32_t>(random.integer(0, 3));
-  options.neighbour_skip_length = random.chance(0.3) ? 0.2 * size : 0.0;
+  set_neighbour_skips(options, random, 3, random.chance(0.3) ? 0.2 * size : 0.0);
   options.max_contacts = static_cast<std::uint32_t>(random.integer(1, 20));
   return options;
 }
@@ -77,7 +77,7 @@ TEST_P(EngineTest, GivesBruteForcesAnswerOnEveryFamily) {
         const QueryOptions options = random_options(random, fibers, type);
         SCOPED_TRACE(family.name + ", round " + std::to_string(round) + ", type " +
                      std::to_string(static_cast<int>(type)) + ", margin " +
-                     std::to_string(options.margin));
+                     std::to_string(options.margin) + ", " + skips_of(options));
         const QueryResult found = ask(fibers, options);
         const QueryResult expected = truth(fibers, options);
         ASSERT_TRUE(same_contacts(found.contacts, expected.contacts));

@@ -8,6 +8,7 @@
 #include "fiber_proximity/query/brute_force.hpp"
 #include "support/assemblies.hpp"
 #include "support/contacts.hpp"
+#include "support/neighbour_skips.hpp"
 #include "support/rounds.hpp"
 
 namespace fiber::test {
@@ -45,7 +46,7 @@ QueryOptions of_all(double margin, Random& random) {
   QueryOptions options;
   options.type = QueryType::ALL;
   options.margin = margin;
-  options.neighbour_skip = static_cast<std::uint32_t>(random.integer(0, 3));
+  set_neighbour_skips(options, random, 3, 0.0);
   return options;
 }
 
@@ -67,8 +68,7 @@ class FiberPairsTest : public testing::TestWithParam<std::string> {
     QueryResult expected;
     brute_force(fibers, all, expected);
     ASSERT_TRUE(same_contacts(found_.contacts, closest_by_fibers(expected.contacts)))
-        << "margin " << all.margin << ", neighbour skip " << all.neighbour_skip << " and "
-        << all.neighbour_skip_length << " m";
+        << "margin " << all.margin << ", " << skips_of(all);
     EXPECT_FALSE(found_.limit_reached);
     EXPECT_LE(found_.counts.primitive_tests, expected.counts.primitive_tests);
   }

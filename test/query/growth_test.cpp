@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "fiber_proximity/geometry/smallest_rotation.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "support/assemblies.hpp"
 
@@ -65,12 +66,13 @@ Points crammed_chain(int segments, Random& random) {
 double growth_exponent(const std::string& engine_name, MakeChain make_chain, int first, int last) {
   Random random;
   // One for all lengths: how well boxes fit depends on it.
-  const Eigen::Quaterniond rotation =
-      Eigen::Quaterniond::FromTwoVectors(random.direction(), random.direction());
-  Eigen::MatrixX2d lengths(last - first + 1, 2);
-  Eigen::VectorXd tests(last - first + 1);
-  for (int i = 0; i < tests.size(); ++i) {
-    Points points = make_chain(1 << (first + i), random);
+  const Eigen::Quaterniond rotation = smallest_rotation(random.direction(), random.direction());
+  // The slope of a straight line through the logarithms, by least squares.
+  double above = 0.0;
+  double below = 0.0;
+  const double middle = 0.5 * (first + last);
+  for (int exponent = first; exponent <= last; ++exponent) {
+    Points points = make_chain(1 << exponent, random);
     for (Vector3d& point : points) {
       point = rotation * point;
     }
@@ -81,10 +83,10 @@ double growth_exponent(const std::string& engine_name, MakeChain make_chain, int
     QueryResult result;
     engine->update(chain);
     engine->query({}, result);
-    lengths.row(i) << first + i, 1.0;
-    tests[i] = std::log2(static_cast<double>(result.counts.node_tests));
+    above += (exponent - middle) * std::log2(static_cast<double>(result.counts.node_tests));
+    below += (exponent - middle) * (exponent - middle);
   }
-  return lengths.colPivHouseholderQr().solve(tests)[0];
+  return above / below;
 }
 
 class GrowthTest : public testing::TestWithParam<std::string> {

@@ -139,6 +139,51 @@ TEST(PairCollector, SkipsNeighboursByArcLengthOnTheirFiberOnly) {
   EXPECT_EQ(ask(FiberAssembly(points, {0, 3, 6}, {10.0}), options).contacts.size(), 4U);
 }
 
+/// Lengths whose squares underflow are lengths.
+TEST(PairCollector, SkipsNeighboursByArcLengthAtEveryScale) {
+  std::vector<Vector3d> line;
+  for (int i = 0; i < 6; ++i) {
+    line.emplace_back(i, 2 * i, -2 * i);  // 3 apart
+  }
+  for (const int exponent : {-1070, -1040, -600, -565, -500, -300, 0, 300, 490}) {
+    const double scale = std::ldexp(1.0, exponent);
+    std::vector<Vector3d> points = line;
+    for (Vector3d& point : points) {
+      point *= scale;
+    }
+    const FiberAssembly fibers(points, {0, 6}, {10.0 * scale});
+    QueryOptions options;
+    for (const auto& [length, pairs] :
+         {std::pair{3.0, 6U}, {4.0, 3U}, {6.0, 3U}, {7.0, 1U}, {9.0, 1U}, {10.0, 0U}}) {
+      options.neighbour_skip_length = length * scale;
+      EXPECT_EQ(ask(fibers, options).contacts.size(), pairs)
+          << length << " of 3, times 2^" << exponent;
+    }
+  }
+}
+
+TEST(PairCollector, NormalsOfSubnormalGapsAreOfUnitLength) {
+  constexpr double least = std::numeric_limits<double>::denorm_min();
+  QueryOptions options;
+  options.margin = 1.0;
+  for (const Vector3d& gap : {Vector3d(1, 1, 0), Vector3d(1, 1, -1), Vector3d(3, -4, 0),
+                              Vector3d(0, 0, 1), Vector3d(1e9, 2e9, -2e9)}) {
+    // Two points beside each other.
+    const Vector3d q = least * gap;
+    const FiberAssembly fibers({Vector3d::Zero(), Vector3d::Zero(), q, q}, {0, 2, 4}, {0.0});
+    const QueryResult found = ask(fibers, options);
+    ASSERT_EQ(found.contacts.size(), 1U);
+    EXPECT_NEAR((found.contacts[0].normal - gap.normalized()).norm(), 0.0, 1e-15) << gap;
+  }
+  // Segments that meet, as short as can be: at right angles to both.
+  const Vector3d u(least, 0, 0);
+  const Vector3d v(0, least, 0);
+  const FiberAssembly crossed({-u, u, -v, v}, {0, 2, 4}, {0.0});
+  const QueryResult found = ask(crossed, options);
+  ASSERT_EQ(found.contacts.size(), 1U);
+  EXPECT_NEAR(found.contacts[0].normal.cwiseAbs().z(), 1.0, 1e-15);
+}
+
 TEST(PairCollector, KeepsTheClosestSortedByIndex) {
   std::vector<Vector3d> points;
   std::vector<std::uint32_t> offsets{0};

@@ -48,6 +48,43 @@ TEST_P(ToleranceTest, NothingIsCloserByMoreThanTheTolerance) {
   });
 }
 
+/// The depth that is reported is at least the greatest / (1 + ρ), and more than half of it.
+TEST_P(ToleranceTest, ADepthIsWithinItsPartOfTheGreatest) {
+  for_each_assembly(3, [this](const FiberAssembly& given, Random& random) {
+    double size = 0.0;
+    for (const Eigen::Vector3d& point : given.points()) {
+      size = std::max(size, (point - given.points().front()).cwiseAbs().maxCoeff());
+    }
+    const FiberAssembly fibers(given.points(), given.offsets(),
+                               {std::min(0.3 * size + given.largest_radius(), 1e150)});
+    for (const QueryType type : {QueryType::CLOSEST, QueryType::LIMITED, QueryType::FIBER_PAIRS}) {
+      QueryOptions options;
+      options.type = type;
+      options.max_contacts = 3;
+      QueryResult truth;
+      brute_force(fibers, options, truth);
+      const double part = std::exp(random.uniform(-5.0, 5.0));
+      options.relative_tolerance = part;
+      const QueryResult found = ask(fibers, options);
+      const std::vector<double> distances = sorted_distances(found);
+      const std::vector<double> closest = sorted_distances(truth);
+      ASSERT_EQ(distances.size(), closest.size());
+      for (std::size_t i = 0; i < distances.size() && type != QueryType::FIBER_PAIRS; ++i) {
+        // The bound is that of the least depth that is reported.
+        const double depth = std::abs(distances.back());
+        ASSERT_GE(closest[i], distances[i] - depth * part / (1.0 + part) - 1e-15 * size);
+      }
+      if (type == QueryType::CLOSEST && !distances.empty() && distances[0] < 0.0) {
+        ASSERT_LE(-closest[0], -distances[0] * (1.0 + part) * (1.0 + 1e-15) + 1e-15 * size);
+        ASSERT_LE(-closest[0], -distances[0] * 2.0 + 1e-15 * size);
+        // What is stated of the pairs that were not looked for is no less.
+        ASSERT_GE(found.minimum_lower(),
+                  distances[0] + distances[0] * part / (1.0 + part) - 1e-12 * size);
+      }
+    }
+  });
+}
+
 TEST_P(ToleranceTest, EveryPairOfFibersIsWithinTheTolerance) {
   for_each_assembly(3, [this](const FiberAssembly& fibers, Random& random) {
     QueryOptions options;

@@ -7,6 +7,8 @@
 
 #include "ros/messages.hpp"
 #include "ros/node_test.hpp"
+#include "ros/running_node.hpp"
+#include "support/process.hpp"
 
 namespace {
 
@@ -96,12 +98,12 @@ Refusal run_node(const std::string& arguments) {
 }
 
 TEST_F(BadInputTest, BadEntriesOfInputsAreLeftOutWithAnErrorEach) {
-  EXPECT_EQ(statistics.messages.back()->inputs.size(), 28U + 1U);  // and ~obstacles
+  EXPECT_EQ(statistics.messages.back()->inputs.size(), 29U + 2U);  // and ~obstacles and markers
   // The same list for a node whose log can be read from its beginning.
   XmlRpc::XmlRpcValue inputs;
   ASSERT_TRUE(ros::param::get("/proximity/inputs", inputs));
   ros::param::set("/refused/inputs", inputs);
-  const std::string log = run_node("_engine:=none _colour:=red").output;
+  const std::string log = run_node("_crossings:=none _margn:=0.1").output;
   EXPECT_TRUE(ros::param::del("/refused/inputs"));
   const auto expect_left_out = [&log](int entry, const std::string& reason) {
     const std::string prefix =
@@ -118,7 +120,70 @@ TEST_F(BadInputTest, BadEntriesOfInputsAreLeftOutWithAnErrorEach) {
   expect_left_out(4, "key 'radius' is thick, it must be a number of metres, at least 0");
   expect_left_out(5, "key 'topic' is yaml/not a name, it must be a ROS name");
   expect_left_out(6, "is yaml_no_map, it must be a map with the key 'topic' at least");
-  EXPECT_NE(log.find("parameter /refused/colour is unknown"), std::string::npos);
+  expect_left_out(36,
+                  "key 'name' is good (without it, the topic), as of parameter /refused/inputs, "
+                  "entry 0, it must be another one");
+  EXPECT_NE(log.find("parameter /refused/margn is unknown and not used; is margin meant?"),
+            std::string::npos);
+  ros::param::del("/refused");
+}
+
+TEST_F(BadInputTest, ATopicOfTwoTypesIsThatOfTheFirst) {
+  XmlRpc::XmlRpcValue inputs;
+  inputs[0]["topic"] = "good";
+  inputs[1]["topic"] = "good";
+  inputs[1]["type"] = "sensor_msgs/PointCloud2";
+  inputs[1]["name"] = "another type";
+  inputs[2]["topic"] = "two_types/obstacles";
+  inputs[2]["type"] = "sensor_msgs/PointCloud2";
+  inputs[3]["topic"] = "two_types/fibers";
+  XmlRpc::XmlRpcValue markers;
+  markers[0] = "good";
+  markers[1] = "two_types/obstacles";
+  markers[2] = "two_types/cloud";
+  ros::param::set("/two_types/inputs", inputs);
+  ros::param::set("/two_types/obstacle_markers", markers);
+  const fiber::test::TemporaryDirectory directory;
+  const std::string log = directory.path("log");
+  node_test::RunningNode running(PROXIMITY_NODE, {"__name:=two_types", "_cloud:=true"}, log);
+  for (const std::string error :
+       {"parameter /two_types/inputs, entry 1 is left out: its topic is subscribed to with another "
+        "type already",
+        "parameter /two_types/inputs, entry 2 is left out: key 'topic' is two_types/obstacles, it "
+        "must be none of the node's own topics",
+        "parameter /two_types/inputs, entry 3 is left out: key 'topic' is two_types/fibers",
+        "parameter ~obstacle_markers, topic 'good' is left out: its topic is",
+        "parameter ~obstacle_markers, topic 'two_types/obstacles' is left out: its topic is",
+        "parameter ~obstacle_markers, topic 'two_types/cloud' is left out: its topic is"}) {
+    ASSERT_TRUE(node_test::wait_for([&] {
+      return fiber::test::read_file(log).find(error) != std::string::npos;
+    })) << error
+        << " is not in " << fiber::test::read_file(log);
+  }
+  // The others go on.
+  node_test::Recorder<fiber_proximity::FiberArray> fibers_of(node, "/two_types/fibers");
+  ASSERT_TRUE(node_test::wait_for([&] {
+    good_.publish(good_message());
+    return !fibers_of.messages.empty();
+  })) << fiber::test::read_file(log);
+  EXPECT_EQ(fibers_of.messages.back()->offsets.size(), 3U);
+  EXPECT_EQ(running.stop(), 0);
+  ros::param::del("/two_types");
+}
+
+TEST_F(BadInputTest, AnEmptyListOfInputsIsAllowedWithAWarning) {
+  XmlRpc::XmlRpcValue none;
+  none.setSize(0);
+  ros::param::set("/no_inputs/inputs", none);
+  const fiber::test::TemporaryDirectory directory;
+  const std::string log = directory.path("log");
+  node_test::RunningNode running(PROXIMITY_NODE, {"__name:=no_inputs"}, log);
+  EXPECT_TRUE(ros::service::waitForService("/no_inputs/query", ros::Duration(30.0)));
+  EXPECT_EQ(running.stop(), 0);
+  EXPECT_NE(fiber::test::read_file(log).find("parameter /no_inputs/inputs is an empty list"),
+            std::string::npos)
+      << fiber::test::read_file(log);
+  ros::param::del("/no_inputs");
 }
 
 TEST_F(BadInputTest, MalformedFiberArraysAreRefused) {
@@ -184,7 +249,7 @@ TEST_F(BadInputTest, MessagesWithoutATransformAreRefused) {
   tf2_msgs::TFMessage transforms;
   transforms.transforms.resize(1);
   geometry_msgs::TransformStamped& transform = transforms.transforms.front();
-  transform.header = header("world", ros::Time::now());
+  transform.header = header("world", ros::Time::now() - ros::Duration(100.0));
   transform.child_frame_id = "moving";
   transform.transform.rotation.w = 1.0;
   const ros::Publisher tf = advertise<tf2_msgs::TFMessage>("/tf");
@@ -263,29 +328,113 @@ TEST_F(BadInputTest, AFloodOfBadMessagesIsLoggedAtALowRate) {
   EXPECT_LE(static_cast<double>(logs_of("bad/flood").size()), 2.0 + seconds);
 }
 
+/// The number in "(and N more refused since)", 0 without.
+std::uint64_t more_in(const std::string& log) {
+  const std::string before = "(and ";
+  const std::size_t found = log.find(before);
+  return found == std::string::npos ? 0 : std::stoul(log.substr(found + before.size()));
+}
+
+TEST_F(BadInputTest, OneReasonDoesNotHideAnother) {
+  const ros::Publisher publisher = advertise<FiberArray>("bad/reasons");
+  FiberArray frequent = array();
+  frequent.points[2].y = nan;
+  FiberArray rare = array();
+  rare.names = {"one", "too many"};
+  // Both reasons; the frequent one again and again, until it is logged another time.
+  publisher.publish(frequent);
+  ASSERT_TRUE(node_test::wait_for([this] { return !logs_of("point 2: y is nan").empty(); }));
+  publisher.publish(rare);
+  ASSERT_TRUE(node_test::wait_for([this] { return !logs_of("2 names for 1 fibre(s)").empty(); }))
+      << "hidden by the other reason";
+  std::uint64_t sent = 1;
+  ASSERT_TRUE(node_test::wait_for([&] {
+    publisher.publish(frequent);
+    ++sent;
+    return logs_of("point 2: y is nan").size() > 1;
+  }));
+  // All that were refused are told of, each once.
+  const std::vector<std::string> told = logs_of("point 2: y is nan");
+  EXPECT_GT(more_in(told[1]), 0U);
+  EXPECT_LE(more_in(told[1]) + 2, sent);
+}
+
 TEST_F(BadInputTest, ABadParameterIsAClearErrorAndExitCode2) {
   const auto expect_exit = [](const std::string& arguments, const std::string& error) {
+    ros::param::del("/refused");
     const Refusal refusal = run_node(arguments);
     EXPECT_EQ(refusal.exit_code, 2) << arguments;
     EXPECT_NE(refusal.output.find(error), std::string::npos) << refusal.output;
+    const std::size_t fatal = refusal.output.find("FATAL");
+    EXPECT_NE(fatal, std::string::npos) << refusal.output;
+    EXPECT_EQ(refusal.output.find("FATAL", fatal + 1), std::string::npos) << refusal.output;
   };
+  struct Bad {
+    std::string name;
+    std::string value;
+    std::string allowed;
+  };
+  for (const Bad& bad : std::vector<Bad>{
+           {"margin", "-1", "a number of at least 0"},
+           {"margin", "a", "a number of at least 0"},
+           {"margin", "nan", "a number of at least 0"},
+           {"neighbour_skip", "-2", "a whole number of at least -1"},
+           {"neighbour_skip_length", "-1.5", "a number of at least -1"},
+           {"max_stamp_ahead", "-1", "a number of at least 0"},
+           {"synchronize", "yes", "true or false"},
+           {"synchronize_slop", "some", "a number of at least 0"},
+           {"show_names", "3", "true or false"},
+           {"show_legend", "none", "true or false"},
+           {"tolerance", "inf", "finite and at least 0 m"},
+           {"deadline", "inf", "finite and at least 0 s"},
+           {"deadline", "soon", "a number of at least 0"},
+           {"max_contacts", "0", "a whole number of at least 1"},
+           {"max_contacts", "2.5", "a whole number of at least 1"},
+           {"box_level", "-1", "a whole number of at least 0"},
+           {"query_type", "nearest", "one of first, closest, limited, all, fiber_pairs"},
+           {"query_type", "3", "one of first, closest, limited, all, fiber_pairs"},
+           {"kernel", "double", "one of fast, robust, exact"},
+           {"accuracy", "sloppy", "one of custom, fast, robust, exact, deadline"},
+           {"pairing", "none", "one of all, same_fiber, different_fibers"},
+           {"show_boxes", "yes", "true or false"},
+           {"compare", "1", "true or false"},
+           {"minimum_distance", "0.5", "true or false"},
+           {"threads", "1.5", "a whole number of at least 0"},
+           {"radius", "1e+200", "a number from 0 to 1e+150"},
+           {"marker_rate", "0", "a number of at least 0.001"},
+           {"diagnostic_period", "never", "a number of at least 0.001"},
+           {"fixed_frame", "7", "a string"}}) {
+    SCOPED_TRACE(bad.name + " " + bad.value);
+    const Refusal refusal = run_node("_" + bad.name + ":=" + bad.value);
+    EXPECT_EQ(refusal.exit_code, 2);
+    EXPECT_NE(refusal.output.find("FATAL"), std::string::npos) << refusal.output;
+    EXPECT_EQ(refusal.output.find("FATAL"), refusal.output.rfind("FATAL")) << refusal.output;
+    const std::size_t named = refusal.output.find("parameter /refused/" + bad.name + " is ");
+    ASSERT_NE(named, std::string::npos) << refusal.output;
+    EXPECT_NE(refusal.output.find(bad.value.substr(0, 3), named), std::string::npos)
+        << refusal.output;
+    EXPECT_NE(refusal.output.find("it must be " + bad.allowed, named), std::string::npos)
+        << refusal.output;
+    ros::param::del("/refused");
+  }
+  expect_exit("_accuracy:=deadline",
+              "parameter /refused/accuracy is 'deadline' and deadline is 0 s, it must be above 0");
   expect_exit("_engine:=nonsense", "unknown engine 'nonsense', known are: run_tree, AL, ");
   expect_exit("_engine:=DL-7",
               "unknown engine 'DL-7' (k-DOP with k = 7: k must be even, from 6 to ");
   expect_exit("_threads:=-1", "parameter /refused/threads is -1, it must be a whole number of ");
-  ros::param::del("/refused/threads");
+  expect_exit("_threads:=100000", "threads is 100000, it must be at most 1024 (0 for as many as ");
   for (const std::string name : {"skin", "simplification"}) {
     for (const std::string value : {"-0.001", "nan", "inf", "thin"}) {
       expect_exit("_" + name + ":=" + value, "parameter /refused/" + name + " is " + value +
                                                  ", it must be a number of at least 0");
-      ros::param::del("/refused/" + name);
     }
   }
   expect_exit("_tf_timeout:=-1", "parameter /refused/tf_timeout is -1, it must be a number of ");
-  ros::param::del("/refused/tf_timeout");
-  expect_exit("_radius:=thick", "parameter /refused/radius is thick, it must be a number of ");
-  ros::param::del("/refused/radius");
+  expect_exit("_radius:=thick",
+              "parameter /refused/radius is thick, it must be a number from 0 to ");
   expect_exit("_inputs:=fibers", "parameter /refused/inputs is fibers, it must be a list of maps");
+  ros::param::del("/refused");
 }
 
 }  // namespace

@@ -40,7 +40,8 @@ class BridgeTest : public node_test::NodeTest {
     query.request.margin = std::numeric_limits<double>::infinity();
     query.request.shapes.resize(1);
     query.request.shapes[0].points.resize(1);
-    EXPECT_TRUE(ros::service::waitForService("/proximity/query", ros::Duration(30.0)));
+    EXPECT_TRUE(
+        ros::service::waitForService("/proximity/query", ros::Duration(node_test::patience)));
     EXPECT_TRUE(ros::service::call("/proximity/query", query));
     EXPECT_TRUE(query.response.success) << query.response.message;
     Distances found;

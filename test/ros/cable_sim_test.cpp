@@ -1,6 +1,4 @@
 // The simulation's node through the real graph.
-#include <std_srvs/SetBool.h>
-#include <std_srvs/Trigger.h>
 #include <tf2_ros/transform_broadcaster.h>
 #include <visualization_msgs/InteractiveMarkerFeedback.h>
 #include <visualization_msgs/InteractiveMarkerInit.h>
@@ -8,65 +6,13 @@
 #include <optional>
 #include <stdexcept>
 
-#include "fiber_proximity/AttachFiber.h"
-#include "fiber_proximity/DetachFiber.h"
 #include "fiber_proximity/ObstacleArray.h"
-#include "fiber_proximity/SetSimulationParameters.h"
-#include "fiber_proximity/StepSimulation.h"
 #include "fiber_proximity/ros/sim_server.hpp"
-#include "ros/node_test.hpp"
+#include "ros/cable_sim_fixture.hpp"
 
 namespace {
 
 using Eigen::Vector3d;
-
-class CableSimTest : public ::testing::Test {
- protected:
-  template <class Service>
-  typename Service::Response call(const std::string& name,
-                                  const typename Service::Request& request = {}) {
-    Service service;
-    service.request = request;
-    EXPECT_TRUE(ros::service::waitForService("/cable_sim/" + name, ros::Duration(20.0)));
-    EXPECT_TRUE(ros::service::call("/cable_sim/" + name, service)) << name;
-    return service.response;
-  }
-
-  void pause(bool is_paused) {
-    std_srvs::SetBool::Request request;
-    request.data = static_cast<decltype(request.data)>(is_paused);
-    EXPECT_TRUE(call<std_srvs::SetBool>("pause", request).success);
-  }
-
-  /// And waits for what is published then, as what was before may still be on its way.
-  void reset() {
-    const ros::Time asked = ros::Time::now();
-    EXPECT_TRUE(call<std_srvs::Trigger>("reset").success);
-    EXPECT_TRUE(node_test::wait_for(
-        [&] { return !fibers.messages.empty() && fibers.messages.back()->header.stamp >= asked; }));
-  }
-
-  double step(std::uint32_t frames) {
-    fiber_proximity::StepSimulation::Request request;
-    request.frames = frames;
-    const auto response = call<fiber_proximity::StepSimulation>("step", request);
-    EXPECT_TRUE(response.success);
-    return response.time;
-  }
-
-  /// Where the fibre is after so many frames.
-  std::vector<Vector3d> points_after(std::uint32_t frames) {
-    EXPECT_TRUE(node_test::wait_for([this] { return !fibers.messages.empty(); }));
-    const auto seq = fibers.messages.back()->header.seq;
-    step(frames);
-    EXPECT_TRUE(
-        node_test::wait_for([&] { return fibers.messages.back()->header.seq >= seq + frames; }));
-    return node_test::to_assembly(*fibers.messages.back()).points();
-  }
-
-  ros::NodeHandle node;
-  node_test::Recorder<fiber_proximity::FiberArray> fibers{node, "/cable_sim/fibers"};
-};
 
 TEST_F(CableSimTest, StepsWhenAskedAndStartsAgainTheSame) {
   pause(true);
@@ -90,14 +36,15 @@ TEST_F(CableSimTest, MessagesAreWhatATrackerWouldSend) {
 }
 
 TEST_F(CableSimTest, RunsInRealTimeUntilItIsPaused) {
-  pause(false);
-  const double begin = step(0);
   const ros::SteadyTime start = ros::SteadyTime::now();
-  EXPECT_TRUE(node_test::wait_for([&] { return (ros::SteadyTime::now() - start).toSec() > 1.0; }));
+  const double begin = step(0);
+  pause(false);
+  // It may fall behind on a busy machine, but never run ahead.
+  const std::size_t before = fibers.messages.size();
+  EXPECT_TRUE(node_test::wait_for([&] { return fibers.messages.size() > before + 60; }));
   pause(true);
   const double end = step(0);
-  // It may fall behind on a busy machine, but never run ahead.
-  EXPECT_GT(end, begin);
+  EXPECT_GE(end - begin, 59.0 / 60.0);
   EXPECT_LT(end - begin, (ros::SteadyTime::now() - start).toSec() + 0.1);
   EXPECT_EQ(step(0), end);
 }
@@ -282,6 +229,34 @@ TEST_F(SimFramesTest, AGripperFollowsItsFrameAndFreezesWhereThatIsLost) {
   const Vector3d again(0.05, 0.0, 1.0);
   ASSERT_TRUE(reaches(again, again + offset));
   EXPECT_TRUE(is_logged("node 0 of fibre 'cable' follows frame 'gripper' again"));
+}
+
+/// Of 0.5 m of fibre, stretched by a tenth; and no number that is none.
+TEST_F(SimFramesTest, AGripperLeadsAFibreAsFarAsItReaches) {
+  const Vector3d offset(0.0, 0.1, 0.0);
+  ASSERT_TRUE(reaches({0.0, -0.1, 1.0}, {0.0, 0.0, 1.0}));
+  fiber_proximity::AttachFiber::Request hold;
+  hold.fiber = "cable";
+  hold.node = -1;
+  const Vector3d last = points_after(1)[10];
+  hold.position.x = last.x();
+  hold.position.y = last.y();
+  hold.position.z = last.z();
+  const auto held = call<fiber_proximity::AttachFiber>("attach", hold);
+  ASSERT_TRUE(held.success) << held.message;
+  for (const double x : {-5.0, -1e200, -1e308}) {
+    for (int i = 0; i < 60; ++i) {
+      EXPECT_LE((step_with(Vector3d(x, 0.0, 1.0)) - last).norm(), 0.55 + 1e-9);
+    }
+  }
+  EXPECT_TRUE(is_logged("node 0 of fibre 'cable' does not follow frame 'gripper': position ("));
+  const Vector3d back(0.0, -0.1, 1.05);
+  ASSERT_TRUE(reaches(back, back + offset));
+  EXPECT_TRUE(is_logged("node 0 of fibre 'cable' follows frame 'gripper' again"));
+  fiber_proximity::DetachFiber::Request release;
+  release.fiber = "cable";
+  release.node = -1;
+  EXPECT_TRUE(call<fiber_proximity::DetachFiber>("detach", release).success);
 }
 
 TEST_F(SimFramesTest, AFrameThatDoesNotComeIsAnErrorWhenTheSceneIsLoaded) {

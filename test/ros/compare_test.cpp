@@ -17,7 +17,8 @@ class CompareTest : public node_test::NodeTest {
  protected:
   static CompareWithFcl::Response call() {
     CompareWithFcl call;
-    EXPECT_TRUE(ros::service::waitForService("/proximity/compare", ros::Duration(30.0)));
+    EXPECT_TRUE(
+        ros::service::waitForService("/proximity/compare", ros::Duration(node_test::patience)));
     EXPECT_TRUE(ros::service::call("/proximity/compare", call));
     return call.response;
   }
@@ -27,7 +28,8 @@ class CompareTest : public node_test::NodeTest {
     call.request.config.bools.resize(1);
     call.request.config.bools[0].name = "compare";
     call.request.config.bools[0].value = on;
-    EXPECT_TRUE(ros::service::waitForService("/proximity/set_parameters", ros::Duration(30.0)));
+    EXPECT_TRUE(ros::service::waitForService("/proximity/set_parameters",
+                                             ros::Duration(node_test::patience)));
     EXPECT_TRUE(ros::service::call("/proximity/set_parameters", call));
   }
 

@@ -20,7 +20,9 @@ TEST_F(DemoTest, CablesTouchAndContactsAreThoseOfBruteForce) {
   EXPECT_EQ(merged->offsets.size(), 6U);
   EXPECT_EQ(answer->header.frame_id, "world");
   fiber::QueryOptions options;
-  ASSERT_TRUE(node.getParam("/proximity/neighbour_skip_length", options.neighbour_skip_length));
+  double neighbour_skip_length = 0.0;
+  ASSERT_TRUE(node.getParam("/proximity/neighbour_skip_length", neighbour_skip_length));
+  options.neighbour_skip_length = neighbour_skip_length;
   node_test::expect_brute_force(*answer, *merged, options);
 }
 

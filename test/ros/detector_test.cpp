@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <random>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "fiber_proximity/query/brute_force.hpp"
+#include "support/random.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -42,14 +42,12 @@ TEST(Detector, FindsTheMinimumBeyondTheMarginAndWhateverTheType) {
 }
 
 TEST(Detector, FindsTheMinimumAmongContactsThatAreNotTheClosest) {
-  const unsigned seed = std::random_device()();
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
+  SCOPED_TRACE(fiber::test::seed_message());
+  fiber::test::Random random;
   std::vector<Eigen::Vector3d> points(60);
   for (int round = 0; round < 20; ++round) {
     for (Eigen::Vector3d& point : points) {
-      point = {coordinate(random), coordinate(random), coordinate(random)};
+      point = random.in_cube();
     }
     const fiber::FiberAssembly fibers(points, {0, 20, 60}, {0.01});
     fiber::QueryOptions options;

@@ -1,4 +1,5 @@
 // What rviz is told by the running node.
+#include <dynamic_reconfigure/Reconfigure.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <map>
@@ -61,6 +62,28 @@ class DrawTest : public node_test::NodeTest {
     ASSERT_NE(answer, nullptr);
   }
 
+  /// Two fibres of the same input, 10 mm apart where they cross.
+  static fiber_proximity::FiberArray cross() {
+    fiber_proximity::FiberArray message = test_messages::fiber_array(
+        header("world"), {{-1, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0.5, -1, 0.03}, {0.5, 1, 0.03}});
+    message.offsets = {0, 3, 5};
+    message.radii = {0.01};
+    return message;
+  }
+
+  static void switch_texts(bool on) {
+    dynamic_reconfigure::Reconfigure call;
+    for (const char* name : {"show_names", "show_legend"}) {
+      dynamic_reconfigure::BoolParameter parameter;
+      parameter.name = name;
+      parameter.value = static_cast<unsigned char>(on);
+      call.request.config.bools.push_back(parameter);
+    }
+    ASSERT_TRUE(ros::service::waitForService("/proximity/set_parameters",
+                                             ros::Duration(node_test::patience)));
+    ASSERT_TRUE(ros::service::call("/proximity/set_parameters", call));
+  }
+
   Screen screen;
   const fiber_proximity::ContactArray* answer = nullptr;
 
@@ -79,13 +102,9 @@ class DrawTest : public node_test::NodeTest {
 
 TEST_F(DrawTest, MarkersShowTheAnswerAndGoWithIt) {
   const ros::Publisher publisher = advertise<fiber_proximity::FiberArray>("fibers");
-  fiber_proximity::FiberArray cross = test_messages::fiber_array(
-      header("world"), {{-1, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0.5, -1, 0.03}, {0.5, 1, 0.03}});
-  cross.offsets = {0, 3, 5};
-  cross.radii = {0.01};
-  connect(publisher, cross);
+  connect(publisher, cross());
 
-  show(publisher, cross);
+  show(publisher, cross());
   ASSERT_EQ(answer->contacts.size(), 1U);
   EXPECT_EQ(screen.names(),
             (std::vector<std::string>{"boxes/0", "contacts/0", "fibers/0", "fibers/1", "nearest/0",
@@ -101,8 +120,36 @@ TEST_F(DrawTest, MarkersShowTheAnswerAndGoWithIt) {
   show(publisher, lone);
   EXPECT_EQ(screen.names(), (std::vector<std::string>{"boxes/0", "fibers/0"}));
 
-  show(publisher, cross);
+  show(publisher, cross());
   EXPECT_EQ(screen.names().size(), 7U);
+}
+
+TEST_F(DrawTest, NamesAndLegendAreShownWhileSomebodyWantsThem) {
+  const ros::Publisher publisher = advertise<fiber_proximity::FiberArray>("fibers");
+  connect(publisher, cross());
+  switch_texts(true);
+  show(publisher, cross());
+  EXPECT_EQ(screen.names(),
+            (std::vector<std::string>{"axes/0", "boxes/0", "contacts/0", "fibers/0", "fibers/1",
+                                      "legend/0", "legend/1", "legend/2", "legend/3", "names/0",
+                                      "names/1", "nearest/0", "nearest_text/0", "normals/0"}));
+  EXPECT_EQ(screen["names"].text, "fibers/0");
+  EXPECT_NE(screen["legend"].text.find("red"), std::string::npos);
+  switch_texts(false);
+  show(publisher, cross());
+  EXPECT_EQ(screen.names().size(), 7U);
+}
+
+TEST_F(DrawTest, DiscsAreBoundByTheFibersNotByTheMargin) {
+  const ros::Publisher publisher = advertise<fiber_proximity::FiberArray>("fibers");
+  connect(publisher, cross());
+  fiber_proximity::FiberArray apart = cross();
+  apart.points[3].z = apart.points[4].z = 0.06;  // 40 mm between them, the margin is 50
+  show(publisher, apart);
+  ASSERT_EQ(answer->contacts.size(), 1U);
+  EXPECT_LT(screen["contacts"].scale.x, 2 * apart.radii[0]) << "less wide than the fibres";
+  show(publisher, cross());
+  EXPECT_GT(screen["contacts"].scale.x, 2 * apart.radii[0]) << "to be seen between the fibres";
 }
 
 }  // namespace

@@ -1,14 +1,8 @@
 // The running node with every engine by its parameter.
-#include <signal.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <system_error>
-
 #include "fiber_proximity/ros/detector.hpp"
 #include "ros/messages.hpp"
 #include "ros/node_test.hpp"
+#include "ros/running_node.hpp"
 #include "support/assemblies.hpp"
 
 namespace {
@@ -16,39 +10,6 @@ namespace {
 using fiber::test::Random;
 using fiber_proximity::FiberArray;
 using fiber_proximity::QueryProximity;
-
-/// The node /proximity with this engine, while this lives.
-class RunningNode {
- public:
-  explicit RunningNode(const std::string& engine) {
-    std::string parameter = "_engine:=" + engine;
-    std::string program = PROXIMITY_NODE;
-    std::string name = "__name:=proximity";
-    char* const arguments[] = {program.data(), name.data(), parameter.data(), nullptr};
-    const int error = posix_spawn(&pid_, PROXIMITY_NODE, nullptr, nullptr, arguments, environ);
-    if (error != 0) {
-      throw std::system_error(error, std::generic_category(), PROXIMITY_NODE);
-    }
-  }
-  ~RunningNode() { stop(); }
-  RunningNode(const RunningNode&) = delete;
-  RunningNode& operator=(const RunningNode&) = delete;
-
-  /// Ends it as Ctrl+C does.
-  /// @returns what waitpid says of its end; 0 is a clean one
-  int stop() {
-    int status = 0;
-    if (pid_ > 0) {
-      kill(pid_, SIGINT);
-      waitpid(pid_, &status, 0);
-      pid_ = 0;
-    }
-    return status;
-  }
-
- private:
-  pid_t pid_ = 0;
-};
 
 class EnginesTest : public node_test::NodeTest, public testing::WithParamInterface<std::string> {
  protected:
@@ -101,7 +62,7 @@ class EnginesTest : public node_test::NodeTest, public testing::WithParamInterfa
 
 TEST_P(EnginesTest, AnswerWhatBruteForceAnswers) {
   SCOPED_TRACE(fiber::test::seed_message());
-  RunningNode proximity(GetParam());
+  node_test::RunningNode proximity(PROXIMITY_NODE, {"__name:=proximity", "_engine:=" + GetParam()});
   const ros::Publisher publisher = advertise<FiberArray>("fibers");
   Random random;
   std::size_t found = 0;
@@ -128,7 +89,7 @@ TEST_P(EnginesTest, AnswerWhatBruteForceAnswers) {
     found += answer->contacts.size();
     move(message, random);
   }
-  EXPECT_GT(found, 0U);
+  fiber::test::expect_enough(found, std::size_t{1});
   EXPECT_TRUE(node_test::wait_for([this] { return !markers.messages.empty(); }));
   EXPECT_EQ(proximity.stop(), 0);
 }

@@ -106,6 +106,46 @@ TEST_F(CloudTest, ABadCloudChangesNothing) {
   expect_refusal(bad, "'moon'");
 }
 
+TEST_F(CloudTest, WhatBecomesOfThePointsIsTold) {
+  own.setParam("cloud/resolution", 0.02);
+  own.setParam("cloud/box/max", std::vector<double>{1e40, 1e40, 2.0});
+  start_with_topic();
+  const node_test::Recorder<rosgraph_msgs::Log> logs(node, "/rosout");
+  ASSERT_TRUE(node_test::wait_for([&] {
+    ROS_INFO("is the log heard?");
+    return !logs.messages.empty();
+  }));
+  std::uint64_t received = 0;
+  const auto send = [&](const Points& points) {
+    publish(points);
+    ++received;
+    EXPECT_TRUE(wait_for(
+        [&] { return statistics_of("cloud").received == received && !inputs->is_waiting(); }));
+    return statistics_of("cloud");
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  fiber_proximity::InputStatistics told =
+      send({{0, 0, 1}, {0, 0, 1}, {nan, 0, 1}, {0, 0, 3}, {0, 1e30, 1}, {700, 0, 1}});
+  EXPECT_EQ(told.points_received, 6U);
+  EXPECT_EQ(told.points_used, 2U);
+  EXPECT_EQ(told.points_not_finite, 1U);
+  EXPECT_EQ(told.points_outside_box, 1U);
+  EXPECT_EQ(told.points_too_far, 2U);
+  EXPECT_EQ(cells().size(), 1U);
+  // Millimetres, in front of the box's end.
+  told = send({{0, 900, 1}, {700, 0, 1}, {nan, nan, nan}});
+  EXPECT_EQ(told.points_used, 0U);
+  EXPECT_TRUE(cells().empty());
+  const auto* log = logs.wait_for([](const rosgraph_msgs::Log& message) {
+    return message.msg.find("'cloud': none of its 3 point(s) is used") != std::string::npos;
+  });
+  ASSERT_NE(log, nullptr);
+  EXPECT_EQ(log->level, rosgraph_msgs::Log::WARN);
+  EXPECT_NE(log->msg.find("1 is not finite, 2 are further than 655.36 m"), std::string::npos)
+      << log->msg;
+  EXPECT_EQ(send({}).points_received, 0U);
+}
+
 TEST_F(CloudTest, ACloudKeepsItsTurnUntilItsTransformComes) {
   own.setParam("cloud/resolution", 1.0);
   start_with_topic();

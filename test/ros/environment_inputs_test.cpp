@@ -2,9 +2,16 @@
 #include "fiber_proximity/ros/environment_inputs.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <future>
 #include <limits>
+#include <memory>
 
+#include "fiber_proximity/environment/triangle_mesh.hpp"
+#include "fiber_proximity/ros/conversions.hpp"
 #include "ros/environment_fixture.hpp"
+#include "ros/gate.hpp"
 
 namespace environment_test {
 namespace {
@@ -18,6 +25,57 @@ class EnvironmentInputsTest : public EnvironmentFixture {
     ObstacleArray message;
     message.obstacles = obstacles;
     publisher_.publish(message);
+  }
+
+  /// A sphere of triangles, so many that they are not built at once.
+  static Obstacle rock(const std::string& id, double x) {
+    constexpr std::uint32_t rings = 21, sides = 20;
+    Obstacle obstacle = ball(id, x);
+    obstacle.primitives.clear();
+    obstacle.meshes.resize(1);
+    shape_msgs::Mesh& mesh = obstacle.meshes[0];
+    for (std::uint32_t i = 0; i < rings; ++i) {
+      for (std::uint32_t j = 0; j < sides; ++j) {
+        const double height = M_PI * i / (rings - 1);
+        const double turn = 2.0 * M_PI * j / sides;
+        mesh.vertices.push_back(fiber_proximity_ros::to_message(
+            0.5 * Eigen::Vector3d(std::sin(height) * std::cos(turn),
+                                  std::sin(height) * std::sin(turn), std::cos(height))));
+      }
+    }
+    for (std::uint32_t i = 0; i + 1 < rings; ++i) {
+      for (std::uint32_t j = 0; j < sides; ++j) {
+        const std::uint32_t a = i * sides + j;
+        const std::uint32_t b = i * sides + (j + 1) % sides;
+        mesh.triangles.resize(mesh.triangles.size() + 2);
+        mesh.triangles.end()[-2].vertex_indices = {a, a + sides, b};
+        mesh.triangles.end()[-1].vertex_indices = {b, a + sides, b + sides};
+      }
+    }
+    return obstacle;
+  }
+  static constexpr std::size_t rock_triangles = 800;
+
+  static Obstacle moved(const std::string& id, double x) {
+    Obstacle obstacle = ball(id, x);
+    obstacle.primitives.clear();
+    obstacle.operation = Obstacle::MOVE;
+    return obstacle;
+  }
+
+  /// Calls the service while this thread goes on.
+  std::future<std::string> apply_meanwhile(const std::vector<Obstacle>& obstacles) const {
+    return std::async(std::launch::async, [this, obstacles] {
+      fiber_proximity::ApplyObstacles service;
+      service.request.obstacles = obstacles;
+      EXPECT_TRUE(ros::service::call(own.resolveName("apply_obstacles"), service));
+      return service.response.message;
+    });
+  }
+
+  template <class Value>
+  static bool is_ready(const std::future<Value>& value) {
+    return value.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
   }
 
   void start_with_topic() {
@@ -143,18 +201,146 @@ TEST_F(EnvironmentInputsTest, ObstaclesWaitForTheirTransformsInTheirOrder) {
   EXPECT_EQ(places(), (Places{{"a", 2.0}}));
 }
 
-TEST_F(EnvironmentInputsTest, AnObstacleWhoseTransformDoesNotComeIsRefusedAndTheNextApplied) {
+TEST_F(EnvironmentInputsTest, AnObstacleWhoseTransformDoesNotComeIsRefusedAndTheOtherApplied) {
   own.setParam("obstacle_timeout", 0.05);
   start_with_topic();
   publish({ball("lost", 1.0, "moon")});
   publish({ball("here", 2.0)});
-  ASSERT_TRUE(wait_for([&] { return inputs->is_used(); }));
+  ASSERT_TRUE(wait_for([&] { return inputs->is_used() && !inputs->is_waiting(); }));
   EXPECT_EQ(places(), (Places{{"here", 2.0}}));
   EXPECT_EQ(statistics_of("obstacles").refused, 1U);
   EXPECT_NE(statistics_of("obstacles")
                 .last_error.find("obstacle 'lost': no transform from frame "
                                  "'moon' to 'world'"),
             std::string::npos);
+}
+
+TEST_F(EnvironmentInputsTest, ABadObstacleEveryTimeDelaysNoOther) {
+  own.setParam("obstacle_timeout", 1000.0);
+  start_with_topic();
+  for (int i = 1; i <= 5; ++i) {
+    publish({ball("lost", i, "moon")});
+    publish({ball("good", i)});
+    ASSERT_TRUE(wait_for([&] { return places() == Places{{"good", i}}; })) << i;
+  }
+  EXPECT_TRUE(inputs->is_waiting());
+  EXPECT_EQ(statistics_of("obstacles").refused, 0U);
+  static_transforms.sendTransform(transform("moon", 100.0));
+  ASSERT_TRUE(wait_for([&] { return !inputs->is_waiting(); }));
+  EXPECT_EQ(places(), (Places{{"good", 5.0}, {"lost", 105.0}}));
+}
+
+TEST_F(EnvironmentInputsTest, WhileAMeshIsBuiltEverythingElseGoesOn) {
+  start_with_topic();
+  Gate gate(inputs->mesh_builder());
+  publish({rock("rock", 1.0), ball("with rock", 1.0)});
+  publish({moved("rock", 2.0)});
+  publish({ball("ball", 1.0)});
+  ASSERT_TRUE(wait_for([&] { return inputs->is_used(); }));
+  publish({ball("ball", 2.0)});
+  ASSERT_TRUE(wait_for([&] { return places() == Places{{"ball", 2.0}}; }));
+  EXPECT_EQ(apply({ball("of the service", 3.0)}), "");
+  EXPECT_EQ(places(), (Places{{"ball", 2.0}, {"of the service", 3.0}}));
+  EXPECT_TRUE(inputs->is_waiting());
+  gate.open();
+  ASSERT_TRUE(wait_for([&] { return !inputs->is_waiting(); }));
+  EXPECT_EQ(places(),
+            (Places{{"ball", 2.0}, {"of the service", 3.0}, {"rock", 2.0}, {"with rock", 1.0}}));
+  const fiber::EnvironmentObject& mesh = inputs->environment()->objects()[2];
+  using Mesh = std::shared_ptr<const fiber::TriangleMesh>;
+  EXPECT_EQ(std::get<Mesh>(mesh.shapes.at(0).shape)->triangles().size(), rock_triangles);
+  EXPECT_EQ(statistics_of("obstacles").received, 4U);
+  EXPECT_EQ(statistics_of("obstacles").refused, 0U);
+}
+
+TEST_F(EnvironmentInputsTest, AMeshIsWhereItsFrameWasWhenItCame) {
+  start_with_topic();
+  static_transforms.sendTransform(transform("hand", 10.0));
+  Obstacle held = rock("rock", 1.0);
+  held.header.frame_id = "hand";
+  Gate gate(inputs->mesh_builder());
+  ASSERT_TRUE(node_test::wait_for([&] { return frame.knows(held.header); }));
+  publish({held});
+  ASSERT_TRUE(wait_for([&] { return inputs->is_waiting(); }));
+  static_transforms.sendTransform(transform("hand", 20.0));
+  ASSERT_TRUE(
+      wait_for([&] { return frame.transform_from(held.header).translation().x() == 20.0; }));
+  gate.open();
+  ASSERT_TRUE(wait_for([&] { return !inputs->is_waiting(); }));
+  EXPECT_EQ(places(), (Places{{"rock", 11.0}}));
+}
+
+TEST_F(EnvironmentInputsTest, ABadMeshIsRefusedByNameAndNoOtherIs) {
+  start_with_topic();
+  Obstacle bad = rock("bad", 1.0);
+  bad.meshes[0].triangles.back().vertex_indices[2] = 1000000;
+  publish({bad, ball("with bad", 1.0)});
+  publish({rock("good", 2.0)});
+  ASSERT_TRUE(wait_for([&] { return inputs->is_used(); }));
+  EXPECT_EQ(places(), (Places{{"good", 2.0}}));
+  EXPECT_EQ(statistics_of("obstacles").refused, 1U);
+  EXPECT_EQ(statistics_of("obstacles").last_error.rfind("obstacle 'bad': mesh 0: triangle", 0), 0U)
+      << statistics_of("obstacles").last_error;
+}
+
+TEST_F(EnvironmentInputsTest, ARemovalCancelsAMeshThatIsBeingBuilt) {
+  start_with_topic();
+  Gate gate(inputs->mesh_builder());
+  publish({rock("rock", 1.0)});
+  ASSERT_TRUE(wait_for([&] { return inputs->is_waiting(); }));
+  publish({removal("rock")});
+  ASSERT_TRUE(wait_for([&] { return !inputs->is_waiting(); }));
+  publish({rock("stone", 2.0)});
+  ASSERT_TRUE(wait_for([&] { return inputs->is_waiting(); }));
+  EXPECT_EQ(apply({removal("")}), "");
+  EXPECT_FALSE(inputs->is_waiting());
+  EXPECT_EQ(statistics_of("obstacles").overtaken, 2U);
+  EXPECT_EQ(statistics_of("obstacles").refused, 0U);
+  publish({rock("last", 3.0)});
+  gate.open();
+  ASSERT_TRUE(wait_for([&] { return inputs->is_used(); }));
+  EXPECT_EQ(places(), (Places{{"last", 3.0}}));
+  EXPECT_NE(apply({removal("rock")}), "");
+}
+
+TEST_F(EnvironmentInputsTest, TheServiceAnswersWhenTheMeshIsThere) {
+  start_with_topic();
+  Gate gate(inputs->mesh_builder());
+  auto answer = apply_meanwhile({rock("rock", 1.0)});
+  auto other = apply_meanwhile({ball("other", 3.0)});  // not held up
+  ASSERT_TRUE(wait_for([&] { return is_ready(other); }));
+  publish({ball("ball", 2.0)});
+  ASSERT_TRUE(wait_for([&] { return places() == Places{{"ball", 2.0}, {"other", 3.0}}; }));
+  EXPECT_FALSE(is_ready(answer));
+  gate.open();
+  ASSERT_TRUE(wait_for([&] { return is_ready(answer); }));
+  EXPECT_EQ(answer.get(), "");
+  EXPECT_EQ(other.get(), "");
+  EXPECT_EQ(places().count("rock"), 1U);
+  Obstacle bad = rock("bad", 1.0);
+  bad.meshes[0].triangles.back().vertex_indices[2] = 1000000;
+  answer = apply_meanwhile({bad});
+  ASSERT_TRUE(wait_for([&] { return is_ready(answer); }));
+  EXPECT_EQ(answer.get().rfind("obstacle 'bad': mesh 0: triangle", 0), 0U);
+}
+
+TEST_F(EnvironmentInputsTest, EndsWhileAMeshIsBeingBuiltAndAServiceWaitsForIt) {
+  start_with_topic();
+  Gate gate(inputs->mesh_builder());
+  publish({rock("of the topic", 1.0)});
+  ASSERT_TRUE(wait_for([&] { return inputs->is_waiting(); }));
+  auto answer = std::async(std::launch::async, [&] {
+    fiber_proximity::ApplyObstacles service;
+    service.request.obstacles = {rock("of the topic", 2.0)};
+    ros::service::call(own.resolveName("apply_obstacles"), service);
+    gate.open();  // the worker ends with this job
+    return service.response.success != 0;
+  });
+  // The first one answers only after the second one has been taken in, behind it or not.
+  auto after = apply_meanwhile({ball("after", 1.0)});
+  ASSERT_TRUE(wait_for([&] { return is_ready(after); }));
+  inputs.reset();
+  EXPECT_FALSE(answer.get());
 }
 
 TEST_F(EnvironmentInputsTest, PairsAreAllowedByTheSceneAndTheService) {

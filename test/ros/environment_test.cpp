@@ -45,7 +45,7 @@ FiberArray upright(double x) {
 template <class Service>
 typename Service::Response call(const std::string& name, typename Service::Request request) {
   typename Service::Response response;
-  EXPECT_TRUE(ros::service::waitForService(name, ros::Duration(30.0)));
+  EXPECT_TRUE(ros::service::waitForService(name, ros::Duration(node_test::patience)));
   EXPECT_TRUE(ros::service::call(name, request, response));
   return response;
 }

@@ -46,7 +46,7 @@ std::string recording() {
   return path;
 }
 
-bool spin_until(const std::function<bool()>& condition, double seconds = 20.0) {
+bool spin_until(const std::function<bool()>& condition, double seconds = 120.0) {
   const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
   while (!condition() && ros::WallTime::now() < end) {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02));
@@ -63,6 +63,15 @@ class Heard {
             topic, 1000, [this](const boost::shared_ptr<const Message>& message) {
               messages_.push_back(message);
             })) {}
+
+  /// Waits, without letting the player play, until it is heard.
+  bool is_connected() const {
+    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(120.0);
+    while (subscriber_.getNumPublishers() == 0 && ros::WallTime::now() < end) {
+      ros::WallDuration(0.01).sleep();
+    }
+    return subscriber_.getNumPublishers() > 0;
+  }
 
   std::size_t count() const { return messages_.size(); }
   const Message& operator[](std::size_t i) const { return *messages_.at(i); }
@@ -119,6 +128,7 @@ TEST(FiberPlayer, StopsAfterTheLastFrameWithoutLoop) {
   options.topic = "played/once";
   options.loop = false;
   const FiberPlayer player(ros::NodeHandle(), options);
+  ASSERT_TRUE(heard.is_connected());
   const auto last_is_heard = [&] {
     return heard.count() > 0 && heard[heard.count() - 1].points.at(0).x == frame_count - 1;
   };
@@ -272,6 +282,9 @@ TEST(FiberPlayer, BadParametersEndTheNodeWithOneLine) {
   expect_refusal("_rate:=quick", {"/bad_player/rate", "quick"});
   expect_refusal("_radius:=-1", {"/bad_player/radius", "-1"});
   expect_refusal("_loop:=maybe", {"/bad_player/loop", "maybe"});
+  expect_refusal("_fiber:=-2", {"FATAL", "/bad_player/fiber is -2", "at least -1"});
+  expect_refusal("_fiber:=0.5", {"/bad_player/fiber is 0.5", "a whole number"});
+  expect_refusal("_start_delay:=1e12", {"/bad_player/start_delay", "from 0 to 1e+09"});
 }
 
 }  // namespace

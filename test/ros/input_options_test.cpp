@@ -36,6 +36,7 @@ TEST(InputOptions, ATopicIsEnough) {
   EXPECT_EQ(options.type, "fiber_proximity/FiberArray");
   EXPECT_EQ(options.name, "cable");
   EXPECT_EQ(options.radius, 0.25);
+  EXPECT_EQ(options.missing_points, MissingPoints::REFUSE);
 }
 
 TEST(InputOptions, EveryKeyIsRead) {
@@ -43,6 +44,7 @@ TEST(InputOptions, EveryKeyIsRead) {
                                                     value["type"] = "visualization_msgs/Marker";
                                                     value["name"] = "left";
                                                     value["radius"] = 1;
+                                                    value["missing_points"] = "split";
                                                     value["namespace"] = "state";
                                                     value["radius_from_marker"] = true;
                                                     value["weld_tolerance"] = 0.5;
@@ -51,6 +53,7 @@ TEST(InputOptions, EveryKeyIsRead) {
   EXPECT_EQ(options.type, "visualization_msgs/Marker");
   EXPECT_EQ(options.name, "left");
   EXPECT_EQ(options.radius, 1.0);
+  EXPECT_EQ(options.missing_points, MissingPoints::SPLIT);
   EXPECT_EQ(options.marker.marker_namespace, "state");
   EXPECT_TRUE(options.marker.radius_from_marker);
   EXPECT_EQ(options.marker.weld_tolerance, 0.5);
@@ -69,9 +72,10 @@ TEST(InputOptions, EveryErrorNamesKeyValueAndWhatIsAllowed) {
             })),
             "has no key 'topic'");
   EXPECT_EQ(error_with("topic", 7), "key 'topic' is 7, it must be a string");
-  EXPECT_EQ(error_with("colour", "red"),
-            "has the unknown key 'colour', known are: topic, type, name, radius, and for markers "
-            "namespace, radius_from_marker, weld_tolerance");
+  EXPECT_EQ(
+      error_with("colour", "red"),
+      "has the unknown key 'colour', known are: topic, type, name, radius, missing_points, and for "
+      "markers namespace, radius_from_marker, weld_tolerance");
   EXPECT_EQ(error_with("type", "std_msgs/String"),
             "unknown input type 'std_msgs/String', known are: fiber_proximity/FiberArray, "
             "sensor_msgs/PointCloud2, sensor_msgs/PointCloud, geometry_msgs/PoseArray, "
@@ -82,6 +86,12 @@ TEST(InputOptions, EveryErrorNamesKeyValueAndWhatIsAllowed) {
             "key 'radius' is -1, it must be a number of metres, at least 0");
   EXPECT_EQ(error_with("radius", std::numeric_limits<double>::quiet_NaN()),
             "key 'radius' is nan, it must be a number of metres, at least 0");
+  for (const XmlRpcValue& bad : {XmlRpcValue("drop"), XmlRpcValue("")}) {
+    EXPECT_EQ(error_with("missing_points", bad), "key 'missing_points' is " + std::string(bad) +
+                                                     ", it must be refuse, bridge or split");
+  }
+  EXPECT_EQ(error_with("missing_points", true),
+            "key 'missing_points' is 1, it must be refuse, bridge or split");
   EXPECT_EQ(error_with("namespace", "state"),
             "key 'namespace' is for markers only, not for type 'fiber_proximity/FiberArray'");
   EXPECT_EQ(error_with("radius_from_marker", 1),
@@ -97,14 +107,18 @@ TEST(DynamicParameters, DefaultsAreThoseOfTheOptions) {
   EXPECT_EQ(fiber::query_type_from_name(config.query_type), query.type);
   EXPECT_EQ(config.margin, query.margin);
   EXPECT_EQ(config.max_contacts, static_cast<int>(query.max_contacts));
-  EXPECT_EQ(config.neighbour_skip, static_cast<int>(query.neighbour_skip));
-  EXPECT_EQ(config.neighbour_skip_length, query.neighbour_skip_length);
+  EXPECT_EQ(config.neighbour_skip, -1);
+  EXPECT_EQ(config.neighbour_skip_length, -1.0);
+  EXPECT_FALSE(query.neighbour_skip);
+  EXPECT_FALSE(query.neighbour_skip_length);
   const MarkerOptions markers;
   EXPECT_EQ(config.show_fibers, markers.show_fibers);
   EXPECT_EQ(config.show_contacts, markers.show_contacts);
   EXPECT_EQ(config.show_nearest, markers.show_nearest);
   EXPECT_EQ(config.show_boxes, markers.show_boxes);
   EXPECT_EQ(config.show_crossings, markers.show_crossings);
+  EXPECT_EQ(config.show_names, markers.show_names);
+  EXPECT_EQ(config.show_legend, markers.show_legend);
   EXPECT_EQ(config.box_level, static_cast<int>(markers.level));
 }
 

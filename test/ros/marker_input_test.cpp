@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <limits>
 
 #include "ros/messages.hpp"
 
@@ -164,6 +165,63 @@ TEST(MarkerInput, CylindersAreWeldedAlongTheirAxes) {
         (chains.points[static_cast<std::size_t>(i)] - Eigen::Vector3d(-1 + 0.5 * i, 0, 0)).norm(),
         1e-14);
   }
+}
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+const Eigen::Vector3d missing(nan, nan, nan);
+
+/// A character per point: k known, m missing, a bar between fibres.
+std::string pattern_of(const ChainSet& chains) {
+  std::string pattern;
+  for (std::size_t i = 0; i < chains.points.size(); ++i) {
+    const auto begin = std::find(chains.offsets.begin(), chains.offsets.end(), i);
+    pattern += begin != chains.offsets.end() && i > 0 ? "|" : "";
+    pattern += chains.points[i].allFinite() ? "k" : "m";
+  }
+  return pattern;
+}
+
+TEST(MarkerInput, AMissingPointOfALineListIsInItsChainWhateverElseIsMissing) {
+  for (unsigned lost = 0; lost < 64; ++lost) {
+    Points points;
+    std::string expected;
+    for (unsigned i = 0; i < 6; ++i) {
+      const bool is_lost = ((lost >> i) & 1U) != 0;
+      points.push_back(is_lost ? missing : Eigen::Vector3d(i, i % 2, 0));
+      expected += is_lost ? "m" : "k";
+    }
+    const ChainSet lines =
+        read(array({marker(header("map"), Marker::LINE_LIST, segments(points))}));
+    EXPECT_EQ(pattern_of(lines), expected);
+    const ChainSet strip = read(array({marker(header("map"), Marker::LINE_STRIP, points)}));
+    for (std::size_t i = 0; i < std::min(points.size(), lines.points.size()); ++i) {
+      EXPECT_EQ(lines.points[i].allFinite() ? lines.points[i] : Eigen::Vector3d::Zero(),
+                strip.points[i].allFinite() ? strip.points[i] : Eigen::Vector3d::Zero());
+    }
+  }
+}
+
+TEST(MarkerInput, AMissingEndOfALineListDoesNotJoinAnotherFibreFarAway) {
+  Points pairs = segments({{0, 0, 0}, {1, 0, 0}, missing});
+  const Points far = segments({{0, 9, 0}, {1, 9, 0}, {2, 9, 0}});
+  pairs.insert(pairs.end(), far.begin(), far.end());
+  EXPECT_EQ(pattern_of(read(array({marker(header("map"), Marker::LINE_LIST, pairs)}))), "kkm|kkk");
+}
+
+TEST(MarkerInput, AMissingCylinderIsAGapOfItsFibre) {
+  MarkerArray message;
+  for (int i = 0; i < 5; ++i) {
+    Marker cylinder = marker(header("map"), Marker::CYLINDER, {});
+    cylinder.id = i;
+    cylinder.scale.z = 0.5;
+    cylinder.pose.position.z = i == 2 ? nan : 0.5 * i;
+    message.markers.push_back(cylinder);
+  }
+  MarkerInputOptions options;
+  options.radius_from_marker = true;
+  const ChainSet chains = read(message, options);
+  EXPECT_EQ(pattern_of(chains), "kkkmkkk");
+  EXPECT_EQ(chains.radii, std::vector<double>{0.01});
 }
 
 TEST(MarkerInput, RadiusFromMarkerIsHalfItsWidthPerFibre) {

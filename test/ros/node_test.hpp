@@ -5,6 +5,7 @@
 #include <ros/ros.h>
 #include <rosgraph_msgs/Log.h>
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <vector>
@@ -19,13 +20,15 @@
 /// What tests of the running node share. The node under test is /proximity.
 namespace node_test {
 
+/// [s] that only a broken node needs, however busy the machine is.
+constexpr double patience = 120.0;
+
 /// Handles callbacks until the condition holds.
-/// @returns false if it does not within a time that only a broken node needs
+/// @returns false if it does not within our patience
 inline bool wait_for(const std::function<bool()>& condition) {
-  constexpr double limit = 30.0;
   const ros::SteadyTime begin = ros::SteadyTime::now();
   while (!condition()) {
-    if (!ros::ok() || (ros::SteadyTime::now() - begin).toSec() > limit) {
+    if (!ros::ok() || (ros::SteadyTime::now() - begin).toSec() > patience) {
       return false;
     }
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01));
@@ -181,7 +184,11 @@ inline void expect_brute_force(const fiber_proximity::ContactArray& message,
     expect_same(message.minimum, expected.contacts.front());
     EXPECT_LE(message.minimum_lower, expected.contacts.front().upper);
     EXPECT_GE(message.minimum_upper, expected.contacts.front().lower);
-    EXPECT_LT(message.minimum_upper - message.minimum_lower, 1e-9);
+    double largest = 0.0;  // [m] coordinate
+    for (const Eigen::Vector3d& point : assembly.points()) {
+      largest = std::max(largest, point.cwiseAbs().maxCoeff());
+    }
+    EXPECT_LT(message.minimum_upper - message.minimum_lower, std::max(1e-9, 1e-14 * largest));
   }
 }
 

@@ -125,7 +125,7 @@ TYPED_TEST(OctomapCloud, HoldsTheCellsThatOctomapTakesForOccupied) {
     tree.prune();
     EXPECT_EQ(cells_of(binary(tree)), cells_of(tree));
   }
-  EXPECT_GT(pruned, 1000U);
+  fiber::test::expect_enough(pruned, std::size_t{1001});
 }
 
 TYPED_TEST(OctomapCloud, OfAnEmptyTreeIsEmpty) {
@@ -176,7 +176,7 @@ TEST(OctomapCloudOfBadInput, HasAnEndForAnyBytes) {
     }
     refused += error_of([&] { to_cloud(map); }) != "no error" ? 1 : 0;
   }
-  EXPECT_GT(refused, count * 9 / 10);
+  fiber::test::expect_enough(refused, count * 9 / 10 + 1);
 }
 
 TEST(OctomapCloudOfBadInput, IsAnErrorForNodesThatCannotBe) {

@@ -2,7 +2,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
-#include <random>
 
 #include "ros/messages.hpp"
 #include "ros/node_test.hpp"
@@ -29,7 +28,8 @@ class QueryTest : public node_test::NodeTest {
 
   static QueryProximity::Response call(const QueryProximity::Request& request) {
     QueryProximity::Response response;
-    EXPECT_TRUE(ros::service::waitForService("/proximity/query", ros::Duration(30.0)));
+    EXPECT_TRUE(
+        ros::service::waitForService("/proximity/query", ros::Duration(node_test::patience)));
     EXPECT_TRUE(ros::service::call("/proximity/query",
                                    const_cast<QueryProximity::Request&>(request), response));
     return response;
@@ -37,14 +37,11 @@ class QueryTest : public node_test::NodeTest {
 
   /// Sends random fibres and keeps what the node made of them.
   void send_fibers() {
-    const unsigned seed = std::random_device()();
-    RecordProperty("seed", std::to_string(seed));
-    std::cout << "seed " << seed << '\n';
-    std::mt19937 random(seed);
-    std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
+    std::cout << fiber::test::seed_message() << '\n';
+    fiber::test::Random random;
     Points points(40);
     for (Eigen::Vector3d& point : points) {
-      point = {coordinate(random), coordinate(random), coordinate(random)};
+      point = random.in_cube();
     }
     FiberArray message = test_messages::fiber_array(header("world"), points);
     message.offsets = {0, 10, 25, 40};

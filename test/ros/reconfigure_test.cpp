@@ -36,7 +36,8 @@ class ReconfigureTest : public node_test::NodeTest {
   static ProximityConfig set(ProximityConfig config) {
     dynamic_reconfigure::Reconfigure call;
     config.__toMessage__(call.request.config);
-    EXPECT_TRUE(ros::service::waitForService("/proximity/set_parameters", ros::Duration(30.0)));
+    EXPECT_TRUE(ros::service::waitForService("/proximity/set_parameters",
+                                             ros::Duration(node_test::patience)));
     EXPECT_TRUE(ros::service::call("/proximity/set_parameters", call));
     ProximityConfig in_use;
     EXPECT_TRUE(in_use.__fromMessage__(call.response.config));
@@ -151,14 +152,18 @@ TEST_F(ReconfigureTest, AnAccuracyThatCannotBeIsAnError) {
   bad.accuracy = "sloppy";
   EXPECT_EQ(set(bad).accuracy, "custom");
   EXPECT_TRUE(node_test::wait_for([this] {
-    return !logs_of("unknown accuracy 'sloppy', known are: custom, fast, robust, exact, deadline")
+    return !logs_of(
+                "parameter /proximity/accuracy is sloppy, it must be one of custom, fast, "
+                "robust, exact, deadline")
                 .empty();
   }));
   bad = ProximityConfig::__getDefault__();
   bad.kernel = "double";
   EXPECT_EQ(set(bad).kernel, "robust");
-  EXPECT_TRUE(node_test::wait_for(
-      [this] { return !logs_of("unknown kernel 'double', known are: fast").empty(); }));
+  EXPECT_TRUE(node_test::wait_for([this] {
+    return !logs_of("parameter /proximity/kernel is double, it must be one of fast, robust, exact")
+                .empty();
+  }));
 }
 
 TEST_F(ReconfigureTest, BadValuesAreAnErrorAndChangeNothing) {
@@ -173,8 +178,8 @@ TEST_F(ReconfigureTest, BadValuesAreAnErrorAndChangeNothing) {
   EXPECT_EQ(in_use.margin, 0.1);
   EXPECT_TRUE(node_test::wait_for([this] {
     return !logs_of(
-                "parameters stay as they were: unknown query type 'nearest', known are: first, "
-                "closest, limited, all, fiber_pairs")
+                "parameters stay as they were: parameter /proximity/query_type is nearest, it must "
+                "be one of first, closest, limited, all, fiber_pairs")
                 .empty();
   }));
 
@@ -183,13 +188,53 @@ TEST_F(ReconfigureTest, BadValuesAreAnErrorAndChangeNothing) {
   in_use = set(bad);
   EXPECT_EQ(in_use.margin, 0.1);
   EXPECT_TRUE(node_test::wait_for([this] {
-    return !logs_of("parameters stay as they were: margin is nan, it must be at least 0 m").empty();
+    return !logs_of(
+                "parameters stay as they were: parameter /proximity/margin is nan, it must be a "
+                "number of at least 0")
+                .empty();
   }));
   EXPECT_EQ(answer().contacts.size(), 9U);
 
   bad = good;
-  bad.max_contacts = -1;  // clamped to what is allowed
-  EXPECT_EQ(set(bad).max_contacts, 1);
+  bad.max_contacts = -1;
+  EXPECT_EQ(set(bad).max_contacts, good.max_contacts);
+  EXPECT_TRUE(node_test::wait_for([this] {
+    return !logs_of(
+                "parameters stay as they were: parameter /proximity/max_contacts is -1, it must be "
+                "a whole number of at least 1")
+                .empty();
+  }));
+  int on_server = 0;
+  EXPECT_TRUE(ros::param::get("/proximity/max_contacts", on_server));
+  EXPECT_EQ(on_server, good.max_contacts);
+}
+
+TEST_F(ReconfigureTest, ValuesOfAnotherTypeOrNameChangeNothing) {
+  set(ProximityConfig::__getDefault__());
+  dynamic_reconfigure::Reconfigure call;
+  call.request.config.ints.resize(1);
+  call.request.config.ints[0].name = "show_boxes";
+  call.request.config.ints[0].value = 1;
+  call.request.config.doubles.resize(1);
+  call.request.config.doubles[0].name = "margin";
+  call.request.config.doubles[0].value = 0.1;
+  ASSERT_TRUE(ros::service::call("/proximity/set_parameters", call));
+  ProximityConfig in_use;
+  ASSERT_TRUE(in_use.__fromMessage__(call.response.config));
+  EXPECT_EQ(in_use.margin, 0.0) << "all of a request, or nothing";
+  EXPECT_TRUE(node_test::wait_for([this] {
+    return !logs_of(
+                "parameters stay as they were: parameter show_boxes is a value of type int, it "
+                "must be true or false")
+                .empty();
+  }));
+  call.request.config = {};
+  call.request.config.doubles.resize(1);
+  call.request.config.doubles[0].name = "margn";
+  ASSERT_TRUE(ros::service::call("/proximity/set_parameters", call));
+  EXPECT_TRUE(node_test::wait_for([this] {
+    return !logs_of("parameters stay as they were: there is no parameter margn").empty();
+  }));
 }
 
 }  // namespace

@@ -220,7 +220,8 @@ TEST_F(SimSceneTest, ErrorsNameLineAndWhatIsAllowed) {
       {scene_text(line, "[stretch]", "accuracy: 0.01\nreal_time: true\n"),
        "real_time is true, it must be absent or false where there is an accuracy"},
       {scene_text(line, "[stretch]", "real_time: soon\n"), "real_time is soon"},
-      {scene_text(line, "[stretch]", "time_step: 0\n"), "time_step is 0, it must be positive"},
+      {scene_text(line, "[stretch]", "time_step: 0\n"),
+       "8: time_step is 0, it must be at least 1e-06 and at most 1000"},
       {scene_text(line, "[stretch]", "substeps: 0\n"), "substeps is 0"},
       {scene_text(line, "[stretch]", "integrator: euler\n"),
        "it must be implicit_euler or implicit_midpoint"},
@@ -320,7 +321,7 @@ TEST_F(SimSceneTest, ReportsWhatToExpect) {
       "{time: "
       "1, position: [0, 0, 5]}]}]}]";
   const SimScene scene = read(scene_text(line, fast));
-  SimTrial trial{10, 3.0, 0.0};
+  SimTrial trial{10, 3.0, 0.0, ""};
   const SimReport good = report(scene, trial);
   EXPECT_NE(sentences(good.facts).find("stable: implicit Euler in steps of 4.17 ms"),
             std::string::npos);
@@ -341,7 +342,7 @@ TEST_F(SimSceneTest, ReportsWhatToExpect) {
 TEST_F(SimSceneTest, TrialsAreOnCopies) {
   read(scene_text(line, "[gravity, stretch, bend]"));
   const SimTrial trial = try_scene(file_, MeshLoader(), 1);
-  EXPECT_GE(trial.frames, 1U);
+  EXPECT_GE(trial.steps, 1U);
   EXPECT_GT(trial.real_time_factor, 0.0);
   EXPECT_GE(trial.iteration_error, 0.0);
   EXPECT_LT(trial.iteration_error, 0.01);
@@ -385,8 +386,114 @@ TEST_F(SimSceneTest, ParametersAreAllSetOrNone) {
   EXPECT_EQ(error_of([&] { scene.parameters.set({parameter("drag.across", {1})}); }),
             "parameter 'drag.across' is [1.000000]: there is no such parameter, known are: "
             "damping.relaxation_time, gravity.acceleration");
+  EXPECT_EQ(error_of([&] {
+              scene.parameters.set({parameter("gravity.acceleration", {0, 0, -1.1e6})});
+            }),
+            "parameter 'gravity.acceleration' is [0.000000, 0.000000, -1100000.000000]: its "
+            "numbers must be finite and at most 1e6 in magnitude");
   EXPECT_EQ(error_of([&] { scene.parameters.set({parameter("gravity.acceleration", {1})}); }),
             "parameter 'gravity.acceleration' is [1.000000]: it must be a list of 3 number(s)");
+}
+
+/// Two fibres of these shapes and this radius, which touch each other, themselves and a table.
+std::string two_fibers(const std::string& a, const std::string& b, const std::string& more = "",
+                       const std::string& contacts =
+                           "self_contact, fiber_contact, "
+                           "environment_contact, ") {
+  const auto fiber = [](const std::string& name, const std::string& shape) {
+    return "  - name: " + name + "\n    shape: " + shape +
+           "\n    segments: 10\n    radius: 0.01\n    material: rope\n";
+  };
+  return "fibers:\n" + fiber("a", a) + fiber("b", b) + "effects: [" + contacts +
+         "stretch, bend, twist]\nenvironment:\n  obstacles:\n    - {id: table, half_spaces: "
+         "[{coef: [0.0, 0.0, 1.0, 0.0]}]}\n" +
+         more;
+}
+
+const char* const high = "{line: {from: [0, 0, 1], to: [1, 0, 1]}}";
+const char* const across = "{line: {from: [0.33, -0.5, 1.005], to: [0.33, 0.5, 1.005]}}";
+const char* const far_away = "{line: {from: [0, 5, 1], to: [1, 5, 1]}}";
+
+TEST_F(SimSceneTest, FibresThatBeginInEachOtherAreNamed) {
+  const auto at = [this](int number) { return file_ + ":" + std::to_string(number); };
+  EXPECT_EQ(error(two_fibers(high, across)),
+            "2: fibers[0] begins inside of " + at(7) +
+                ": fibers[1]: segment 3 of fibre 'a' and segment 4 of fibre 'b' are 15 mm deep in "
+                "it, 0.2 mm is the most; so are 1 more pairs; move them apart, or have "
+                "`initial_overlap: separate`");
+  EXPECT_NE(error(two_fibers(high, high)).find("are 20 mm deep in it"), std::string::npos);
+  EXPECT_EQ(error(two_fibers("{polyline: [[0, 0, 1], [0.4, 0, 1], [0.4, 0.3, 1], [0.2, 0.3, 1], "
+                             "[0.2, -0.2, 1]]}",
+                             far_away))
+                .find("2: fibers[0] begins inside of itself: segment "),
+            0U);
+  EXPECT_EQ(error(two_fibers(far_away, "{line: {from: [0, 0, 1], to: [0, 0, 0.003]}}"))
+                .find("7: fibers[1] begins inside of obstacle 'table': segment 9 of fibre 'b' is 7 "
+                      "mm deep in it, 0.1 mm is the most; move them apart"),
+            0U);
+  EXPECT_EQ(error(two_fibers(high, far_away, "initial_overlap: maybe\n")),
+            "16: initial_overlap is maybe, it must be refuse or separate");
+}
+
+TEST_F(SimSceneTest, OnlyContactsThatAreNamedMayNotBeginInEachOther) {
+  EXPECT_EQ(error(two_fibers(high, across, "", "fiber_contact, ")).find("2: fibers[0] begins"), 0U);
+  EXPECT_NO_THROW(read(two_fibers(high, across, "", "self_contact, environment_contact, ")));
+  EXPECT_NO_THROW(read(two_fibers(high, high, "", "")));
+  // They touch, and no more.
+  EXPECT_NO_THROW(read(two_fibers(high, "{line: {from: [0, 0, 1.02], to: [1, 0.3, 1.02]}}")));
+  EXPECT_NO_THROW(read(two_fibers(high, "{line: {from: [0, 0, 0.01], to: [1, 0, 0.01]}}")));
+}
+
+TEST_F(SimSceneTest, FibresMoveApartWhereTheSceneSaysSo) {
+  const std::string separate = "initial_overlap: separate\n";
+  for (const char* const other : {high, across}) {
+    SimScene scene = read(two_fibers(high, other, separate));
+    EXPECT_EQ(scene.overlap_note.find("initial_overlap: "), 0U) << scene.overlap_note;
+    EXPECT_NE(scene.overlap_note.find("began inside of each other; nodes were moved by up to "),
+              std::string::npos);
+    const fiber::Rods& rods = scene.stepper->rods();
+    EXPECT_NEAR(rods.rest_lengths[0], 0.1, 1e-12) << "lengths are those of the file";
+    const std::vector<Eigen::Vector3d> beginning = rods.positions;
+    for (int i = 0; i < 50; ++i) {
+      scene.stepper->step(1.0 / 240.0);
+      for (std::size_t node = 0; node < beginning.size(); ++node) {
+        ASSERT_LT((rods.positions[node] - beginning[node]).norm(), 0.05) << "it bursts";
+      }
+    }
+  }
+  EXPECT_EQ(read(two_fibers(high, far_away, separate)).overlap_note, "");
+  std::string held = two_fibers(high, high, separate);
+  held.replace(held.find("twist"), 5,
+               "twist, {attachment: [{fiber: a}, {fiber: b}, {fiber: a, node: last}]}");
+  EXPECT_NE(error(held).find(", where `initial_overlap: separate` has moved them"),
+            std::string::npos);
+}
+
+TEST_F(SimSceneTest, NumbersThatTakeForEverAreRefused) {
+  EXPECT_EQ(error(open_text(line, "accuracy: 1e-6\n"))
+                .find("7: accuracy is 1e-6, it must be "
+                      "coarser: it takes "),
+            0U);
+  EXPECT_EQ(error(open_text(line, "accuracy: 1e-13\nsubsteps: 4\n")),
+            "2: fibers[0]: the scene's accuracy takes 3741658 segments, 1000000 are the most "
+            "(fibre 'cable')");
+  EXPECT_LE(
+      read(open_text("{line: {from: [0, 0, 0], to: [0.01, 0, 0]}}", "real_time: true\n")).substeps,
+      1000U);
+  std::string text = scene_text(line, "[stretch]");
+  text.replace(text.find("effects"), 0, "    repeat: {count: 100000, offset: [0, 1, 0]}\n");
+  EXPECT_NO_THROW(read(text));
+  text.replace(text.find("segments: 4"), 11, "segments: 11");
+  EXPECT_EQ(error(text),
+            "7: fibers[0].repeat: 100000 fibres of 11 segments are too many, a scene has at most "
+            "1000000 segments");
+  for (const char* const value : {"0", "-1", ".nan", ".inf", "1e-7", "1001"}) {
+    EXPECT_EQ(
+        error(scene_text(line, "[stretch]", std::string("time_step: ") + value + "\n")),
+        std::string("8: time_step is ") + value + ", it must be at least 1e-06 and at most 1000");
+  }
+  EXPECT_EQ(error(scene_text(line, "[stretch]", "max_strain: 0\n")),
+            "8: max_strain is 0, it must be above 0 and at most 10");
 }
 
 class ShippedScene : public ::testing::TestWithParam<const char*> {};

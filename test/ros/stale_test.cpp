@@ -1,8 +1,10 @@
 // Trackers that stop, freeze and come back.
 #include <diagnostic_msgs/DiagnosticArray.h>
 
+#include <optional>
+
 #include "ros/messages.hpp"
-#include "ros/node_test.hpp"
+#include "ros/simulated_time_test.hpp"
 
 namespace {
 
@@ -12,36 +14,28 @@ using test_messages::header;
 
 using Names = std::vector<std::string>;
 
-class StaleTest : public node_test::NodeTest {
+class StaleTest : public node_test::SimulatedTimeTest {
  protected:
-  void SetUp() override {
-    a_ = advertise<FiberArray>("a");
-    b_ = advertise<FiberArray>("b");
-    connect(a_, message(ros::Time()));
-    b_.publish(message(new_stamp()));
-    ASSERT_TRUE(wait_for_answer(Names{"a", "b"}));
-  }
+  void SetUp() override { ASSERT_TRUE(wait_for_answer(Names{"a", "b"}, &a_, &b_)); }
 
   static FiberArray message(const ros::Time& stamp) {
     return test_messages::fiber_array(header("world", stamp), {{0, 0, 0}, {1, 0, 0}});
   }
 
-  /// Publishes on these topics, with these stamps, at the rate of a camera until there is an answer
-  /// about these fibres that is newer than the call.
+  /// Publishes as time goes on: on one topic with new stamps, on another with this one (default:
+  /// new ones, too), until there is an answer about these fibres that is newer than the call.
   bool wait_for_answer(const Names& names, const ros::Publisher* moving = nullptr,
-                       const ros::Publisher* frozen = nullptr, ros::Time frozen_stamp = {}) {
+                       const ros::Publisher* other = nullptr,
+                       std::optional<ros::Time> stamp_of_other = {}) {
     const std::size_t before = contacts.messages.size();
-    ros::SteadyTime last;
     return node_test::wait_for([&] {
-      if ((ros::SteadyTime::now() - last).toSec() > 0.02) {
-        last = ros::SteadyTime::now();
-        if (moving != nullptr) {
-          moving->publish(message(new_stamp()));
-        }
-        if (frozen != nullptr) {
-          frozen->publish(message(frozen_stamp));
-        }
+      if (moving != nullptr) {
+        moving->publish(message(now()));
       }
+      if (other != nullptr) {
+        other->publish(message(stamp_of_other.value_or(now())));
+      }
+      pass(0.05);
       return std::any_of(contacts.messages.begin() + static_cast<std::ptrdiff_t>(before),
                          contacts.messages.end(),
                          [&](const auto& answer) { return answer->fiber_names == names; });
@@ -54,8 +48,8 @@ class StaleTest : public node_test::NodeTest {
     return query.response.success;
   }
 
-  ros::Publisher a_;
-  ros::Publisher b_;
+  ros::Publisher a_ = advertise<FiberArray>("a");
+  ros::Publisher b_ = advertise<FiberArray>("b");
 };
 
 TEST_F(StaleTest, ATrackerThatStopsIsLeftOutUntilItIsBack) {
@@ -85,12 +79,11 @@ TEST_F(StaleTest, ATrackerThatStopsIsLeftOutUntilItIsBack) {
             "input 'b' (fiber_proximity/FiberArray): no new message for 1 s; its 1 fibre(s) are "
             "left out");
 
-  b_.publish(message(new_stamp()));
-  EXPECT_TRUE(wait_for_answer(Names{"a", "b"}, &a_));
+  EXPECT_TRUE(wait_for_answer(Names{"a", "b"}, &a_, &b_));
 }
 
 TEST_F(StaleTest, ATrackerThatRepeatsItsStampIsFrozen) {
-  const ros::Time frozen = new_stamp();
+  const ros::Time frozen = now();
   const std::size_t logged = logs_of("input 'b'").size();
   ASSERT_TRUE(wait_for_answer(Names{"a"}, &a_, &b_, frozen));
   ASSERT_TRUE(node_test::wait_for([&] { return logs_of("input 'b'").size() > logged; }));
@@ -99,7 +92,7 @@ TEST_F(StaleTest, ATrackerThatRepeatsItsStampIsFrozen) {
 }
 
 TEST_F(StaleTest, WhenAllStopTheLastAnswerIsEmptyAndNoneFollows) {
-  const ros::Time frozen = new_stamp();
+  const ros::Time frozen = now();
   ASSERT_TRUE(wait_for_answer(Names{}, nullptr, &b_, frozen));
   const std::size_t answers = contacts.messages.size();
   const ContactArray last = *contacts.messages.back();
@@ -110,7 +103,7 @@ TEST_F(StaleTest, WhenAllStopTheLastAnswerIsEmptyAndNoneFollows) {
     b_.publish(message(frozen));
     EXPECT_FALSE(answers_queries());
   }
-  const ros::Time stamp = new_stamp();
+  const ros::Time stamp = now();
   a_.publish(message(stamp));
   ASSERT_NE(contacts.wait_for(stamp), nullptr);
   EXPECT_EQ(contacts.messages.size(), answers + 1) << "an old answer was published as new";
@@ -119,8 +112,8 @@ TEST_F(StaleTest, WhenAllStopTheLastAnswerIsEmptyAndNoneFollows) {
 
 TEST_F(StaleTest, MessagesWithoutStampAreNewEachTime) {
   const std::size_t logged = logs_of("input 'b'").size();
-  const ros::SteadyTime begin = ros::SteadyTime::now();
-  while ((ros::SteadyTime::now() - begin).toSec() < 2.5) {
+  const ros::Time begin = now();
+  while ((now() - begin).toSec() < 2.5) {
     ASSERT_TRUE(wait_for_answer(Names{"a", "b"}, &a_, &b_, ros::Time()));
   }
   EXPECT_EQ(logs_of("input 'b'").size(), logged);

@@ -10,6 +10,7 @@
 #include <rviz/view_controller.h>
 #include <rviz/view_manager.h>
 #include <rviz/visualization_manager.h>
+#include <rviz/yaml_config_reader.h>
 
 #include <Eigen/Core>
 #include <QApplication>
@@ -67,6 +68,25 @@ class RvizWindow {
     focus.subProp("Z")->setValue(point.z());
   }
 
+  rviz::ViewController& view() { return *manager_->getViewManager()->getCurrent(); }
+
+  /// Shows what a configuration file says, but in this frame, as `rviz -d FILE -f FRAME` does.
+  /// @returns false if the file cannot be read
+  bool load(const std::string& file, const std::string& frame) {
+    rviz::YamlConfigReader reader;
+    rviz::Config config;
+    reader.readFile(config, QString::fromStdString(file));
+    if (reader.error()) {
+      return false;
+    }
+    manager_->load(config.mapGetChild("Visualization Manager"));
+    set_fixed_frame(frame);
+    return true;
+  }
+  void set_fixed_frame(const std::string& frame) {
+    manager_->setFixedFrame(QString::fromStdString(frame));
+  }
+
   /// A display made by its class's name, as from a configuration file.
   rviz::Display& add(const char* class_id) {
     return *manager_->createDisplay(class_id, class_id, true);
@@ -115,12 +135,15 @@ class RvizWindow {
   void draw() { panel_->getRenderWindow()->update(); }
 
   /// What is to be seen now.
-  std::vector<Pixel> picture() {
+  /// @param border part of the width and height that is left out at each side
+  std::vector<Pixel> picture(double border = 0.0) {
     draw();
     const QImage image = QGuiApplication::primaryScreen()->grabWindow(panel_->winId()).toImage();
+    const auto left = static_cast<int>(border * image.width());
+    const auto top = static_cast<int>(border * image.height());
     std::vector<Pixel> pixels;
-    for (int y = 0; y < image.height(); ++y) {
-      for (int x = 0; x < image.width(); ++x) {
+    for (int y = top; y < image.height() - top; ++y) {
+      for (int x = left; x < image.width() - left; ++x) {
         const QRgb pixel = image.pixel(x, y);
         pixels.push_back({static_cast<std::uint8_t>(qRed(pixel)),
                           static_cast<std::uint8_t>(qGreen(pixel)),
@@ -130,9 +153,10 @@ class RvizWindow {
     return pixels;
   }
 
-  std::size_t count_pixels(const std::function<bool(const Pixel&)>& is_counted) {
+  std::size_t count_pixels(const std::function<bool(const Pixel&)>& is_counted,
+                           double border = 0.0) {
     std::size_t count = 0;
-    for (const Pixel& pixel : picture()) {
+    for (const Pixel& pixel : picture(border)) {
       count += is_counted(pixel) ? 1 : 0;
     }
     return count;

@@ -6,6 +6,7 @@
 
 #include <limits>
 
+#include "fiber_proximity/geometry/smallest_rotation.hpp"
 #include "fiber_proximity/sim/effects/damping.hpp"
 #include "fiber_proximity/sim/effects/plasticity.hpp"
 #include "fiber_proximity/sim/effects/twist.hpp"
@@ -159,8 +160,7 @@ TEST(NaturalCurvature, ItsEnergyIsTheSameWhereverARodIsTurned) {
     NaturalRod rod(random_chain(random, 6, 0.3));
     displace(rod.rods, random, 0.1, 1.0);
     Rods turned = rod.rods;
-    const Eigen::Quaterniond rotation =
-        Eigen::Quaterniond::FromTwoVectors(random.direction(), random.direction());
+    const Eigen::Quaterniond rotation = smallest_rotation(random.direction(), random.direction());
     for (auto* vectors : {&turned.positions, &turned.directors, &turned.start_tangents}) {
       for (Vector3d& v : *vectors) {
         v = rotation * v;

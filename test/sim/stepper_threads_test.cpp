@@ -1,10 +1,13 @@
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
+#include "fiber_proximity/query/threads.hpp"
 #include "fiber_proximity/sim/effects/damping.hpp"
 #include "fiber_proximity/sim/effects/drag.hpp"
 #include "fiber_proximity/sim/effects/twist.hpp"
 #include "sim/random_rods.hpp"
 #include "sim/rod_scene.hpp"
+#include "support/error_of.hpp"
 
 namespace fiber::test {
 namespace {
@@ -47,6 +50,7 @@ TEST(StepperThreads, GiveTheSameBits) {
   for (int rod = 0; rod < 30; ++rod) {
     rods.add(random_chain(random, random.integer(2, 20), 0.1), 0.01, random_section(random));
   }
+  const tbb::global_control more_than_cores(tbb::global_control::max_allowed_parallelism, 4);
   for (const bool has_twist : {true, false}) {
     for (const Integrator integrator :
          {Integrator::IMPLICIT_EULER, Integrator::IMPLICIT_MIDPOINT}) {
@@ -59,6 +63,13 @@ TEST(StepperThreads, GiveTheSameBits) {
       }
     }
   }
+}
+
+TEST(StepperThreads, BeyondTheMostAreRefused) {
+  StepperOptions options;
+  options.threads = most_threads + 1;
+  EXPECT_EQ(error_of([&] { Stepper(Rods(), {}, options); }),
+            "threads is 1025, it must be at most 1024 (0 for as many as there are cores)");
 }
 
 }  // namespace

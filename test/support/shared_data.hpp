@@ -3,13 +3,14 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "support/source_folder.hpp"
+
 namespace fiber::test {
 
 /// Where the recorded cables and public edge pairs are, if they are anywhere.
 inline std::filesystem::path shared_data() {
   const char* shared = std::getenv("FIBER_PROXIMITY_SHARED");
-  return std::filesystem::path(shared != nullptr ? shared
-                                                 : FIBER_PROXIMITY_SOURCE_DIR "/../shared") /
+  return (shared != nullptr ? std::filesystem::path(shared) : source_folder() / "../shared") /
          "data";
 }
 

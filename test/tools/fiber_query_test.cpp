@@ -232,11 +232,13 @@ TEST_F(FiberQuery, NeighbourSkips) {
   const auto count = [&](const std::string& options) {
     return lines(query("contacts " + path + " --margin 1 " + options).out).size() - 1;
   };
-  EXPECT_EQ(count(""), 1U);
+  EXPECT_EQ(count(""), 0U);  // a straight line makes no loop
+  EXPECT_EQ(count("--radius 0.25"), 0U);
+  EXPECT_EQ(count("--neighbour-skip 1"), 1U);
   EXPECT_EQ(count("--neighbour-skip 0"), 3U);
   EXPECT_EQ(count("--neighbour-skip 2"), 0U);
   EXPECT_EQ(count("--neighbour-skip-length 1.5"), 0U);
-  EXPECT_EQ(count("--radius 0.25"), 1U);
+  EXPECT_EQ(count("--neighbour-skip 1 --radius 0.25"), 1U);
 }
 
 TEST_F(FiberQuery, ASimplificationMakesOneContactOfThoseOfARun) {
@@ -389,7 +391,8 @@ TEST_F(FiberQuery, RefusesBadCommandLines) {
   EXPECT_TRUE(refused(query("contacts " + file + " --engine XL"), "'XL', known are: run_tree, AL"));
   EXPECT_TRUE(refused(query("contacts " + file + " --format xml"), "--format: xml"));
   EXPECT_TRUE(refused(query("contacts " + file + " --threads x"), "--threads: 'x'"));
-  EXPECT_TRUE(refused(query("contacts " + file + " --margin wide"), "--margin = wide"));
+  EXPECT_TRUE(
+      refused(query("contacts " + file + " --margin wide"), "--margin: 'wide' must be a number"));
   EXPECT_TRUE(refused(query("contacts " + file + " --margin -1"), "margin is -1"));
   EXPECT_TRUE(refused(query("contacts " + file + " --margin nan"), "margin is nan"));
   EXPECT_TRUE(refused(query("contacts " + file + " --margin"), "--margin"));

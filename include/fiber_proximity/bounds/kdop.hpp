@@ -13,8 +13,8 @@ namespace fiber {
 /// Slabs are kept four at a time, one SIMD register.
 constexpr int slabs_per_group = 4;
 
-/// The directions all k-DOPs of a hierarchy share, as a structure of arrays. Where k/2 is no
-/// multiple of four the last direction fills the group: its slabs are copies, and change nothing.
+/// The directions all k-DOPs of a hierarchy share, as a structure of arrays. Where there is room
+/// for more than k/2 the last direction fills it: its slabs are copies, and change nothing.
 template <int Groups>
 struct KdopDirections {
   static constexpr int padded_count = Groups * slabs_per_group;
@@ -26,7 +26,7 @@ struct KdopDirections {
 
   KdopDirections() = default;
 
-  /// @param directions unit vectors; more than padded_count − 4 and at most padded_count of them
+  /// @param directions unit vectors, at least 1 and at most padded_count of them
   explicit KdopDirections(const std::vector<Eigen::Vector3d>& directions)
       : count(static_cast<int>(directions.size())) {
     for (int i = 0; i < padded_count; ++i) {

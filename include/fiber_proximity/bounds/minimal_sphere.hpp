@@ -16,8 +16,9 @@ struct MinimalSphere {
   std::uint32_t basis_size = 0;
 };
 
-/// Welzl's algorithm in its iterative move-to-front form: expected linear time, no recursion over
-/// the points, and no randomisation: the same points in the same order give the same sphere.
+/// Welzl's algorithm in its iterative move-to-front form, without recursion over the points. Its
+/// time is linear only where points come in no order of theirs (points along a line are quadratic),
+/// so it shuffles them first, always the same way: the same points give the same sphere.
 /// @param order indices of the points to enclose; reordered, defining points first
 MinimalSphere minimal_sphere(const std::vector<Eigen::Vector3d>& points,
                              std::vector<std::uint32_t>& order);

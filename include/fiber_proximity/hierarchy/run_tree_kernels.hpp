@@ -25,6 +25,10 @@ class PairSink {
   /// Whether segments that share a point are pairs. Every segment is near its neighbours: if they
   /// are not wanted, they should go early.
   virtual bool wants_adjacent() const = 0;
+
+  /// Whether it is certain, at little cost, that no segments are pairs that start at the points
+  /// first … last.
+  virtual bool rules_out(std::uint32_t first, std::uint32_t last) const = 0;
 };
 
 /// Fits the runs of groups [begin, end): their segments and boxes.

@@ -15,7 +15,8 @@ namespace fiber {
 /// Reads a fibre file: a header `fiber,x,y,z` with an optional leading `frame` and an optional
 /// trailing `radius`, then a row per point [m]. Rows of a frame, and within it rows of a fibre,
 /// stand one after another. A fibre's label is any text; its index is its place in the order of
-/// appearance. Spaces around values, blank lines and CRLF line ends are allowed.
+/// appearance. Spaces around values, blank lines and CRLF line ends are allowed. A line has at most
+/// 65 536 bytes, a value 4 096.
 /// @param default_radius [m] of all fibres if the file has no radius column
 /// @throws FileError
 /// @throws std::invalid_argument for a bad default_radius

@@ -18,7 +18,7 @@ struct SegmentPair {
 /// Reads a file of pairs of segments, one a line: the 12 coordinates of p0, p1, q0 and q1 [m],
 /// decimal or C hexadecimal, separated by commas, blanks or both. A name that is no number may
 /// stand before them; further columns are ignored, and so are blank lines and a first line of
-/// column names.
+/// column names. Lines and values are at most as long as in csv.hpp.
 /// @throws FileError naming line, column, value and what is allowed
 std::vector<SegmentPair> read_segment_pairs(const std::string& path);
 

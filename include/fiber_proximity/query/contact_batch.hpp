@@ -18,10 +18,13 @@ namespace fiber {
 class ContactBatch {
  public:
   /// Candidates in the order of the contacts: all pairs that may come within the bound [m], and
-  /// others. Takes two thirds of the time until the deadline, if need be: the rest is for judging.
+  /// others; they may serve other queries, too, when points have moved. Takes two thirds of the
+  /// time until the deadline, if need be: the rest is for judging.
   /// @return whether they are all
   bool collect(const RunTreeView& a, const RunTreeView& b, const PairTest& test, double bound,
-               const Deadline& deadline, std::vector<std::uint64_t>& keys, QueryCounts& counts);
+               const Deadline& deadline, std::vector<std::uint64_t>& keys, QueryCounts& counts) {
+    return collect(a, b, test, bound, deadline, false, keys, counts);
+  }
 
   /// The same from candidates of a tree with itself that were collected before: those of outdated
   /// segments are left out and looked for anew.
@@ -40,6 +43,10 @@ class ContactBatch {
             const Deadline& deadline, QueryResult& result);
 
  private:
+  bool collect(const RunTreeView& a, const RunTreeView& b, const PairTest& test, double bound,
+               const Deadline& deadline, bool prunes, std::vector<std::uint64_t>& keys,
+               QueryCounts& counts);
+
   struct Job {
     bool complete = true;
     std::vector<std::uint64_t> keys;

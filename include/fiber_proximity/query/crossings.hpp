@@ -30,6 +30,7 @@ namespace fiber {
 class CrossingFinder {
  public:
   /// @param threads most to use, 0 for as many as there are cores
+  /// @throws std::invalid_argument for more than most_threads
   explicit CrossingFinder(std::uint32_t threads = 0);
 
   /// @param crossings overwritten; sorted by Crossing::key()

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "fiber_proximity/query/options.hpp"
@@ -42,7 +43,7 @@ class KeptCandidates {
   mutable std::mutex mutex_;
   State state_ = State::NONE;
   double margin_ = 0.0;  // [m]
-  std::uint32_t neighbour_skip_ = 0;
+  std::optional<std::uint32_t> neighbour_skip_;
   Pairing pairing_ = Pairing::ALL;
   Keys keys_;
   Keys spare_;  // the ones before, for their memory

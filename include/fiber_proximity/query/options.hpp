@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "fiber_proximity/geometry/kernel.hpp"
@@ -34,13 +35,21 @@ struct QueryOptions {
 
   Pairing pairing = Pairing::ALL;
 
-  /// Segments of one fibre whose indices differ by at most this are no pair. 1 leaves out the
-  /// neighbours that share a point; 0 reports even those.
-  std::uint32_t neighbour_skip = 1;
+  // Which segments of one fibre are pairs. With none of the next two set: those that the fibre
+  // makes a loop between (LoopTest), whatever the margin and however finely the fibre is sampled.
 
-  /// [m] Segments of one fibre with less than this arc length between them are no pair; >= 0,
-  /// 0 for no such limit. Needed where segments are shorter than the fibre is thick.
-  double neighbour_skip_length = 0.0;
+  /// Segments of one fibre whose indices differ by at most this are no pair; the rule of loops does
+  /// not apply. 1 leaves out the neighbours that share a point; 0 reports even those. If only
+  /// neighbour_skip_length is set, this counts as 1.
+  std::optional<std::uint32_t> neighbour_skip;
+
+  /// [m] Segments of one fibre with less than this arc length between them are no pair; >= 0, 0 for
+  /// no such limit; the rule of loops does not apply. If only neighbour_skip is set, this counts
+  /// as 0.
+  std::optional<double> neighbour_skip_length;
+
+  /// Whether self-contacts need a loop.
+  bool needs_loops() const { return !neighbour_skip && !neighbour_skip_length; }
 
   /// How distances are computed, and which pairs are within the margin. ROBUST goes by the distance
   /// it computes. FAST and EXACT decide without any error. FAST reports distances in single
@@ -53,7 +62,9 @@ struct QueryOptions {
   double tolerance = 0.0;
 
   /// The same as a part of the distance; >= 0. The larger of both counts: a distance d is reported
-  /// where the closest is at least d / (1 + relative_tolerance).
+  /// where the closest is at least d − |d|·ρ / (1 + ρ), where ρ is this. For d ≥ 0 that is
+  /// d / (1 + ρ). In penetration a depth is reported where the greatest is at most 1 + ρ times as
+  /// much, and less than twice.
   double relative_tolerance = 0.0;
 
   /// [s] Time from the start of the query after which it answers with what it has found; >= 0, 0

@@ -32,6 +32,9 @@ class PairCollector {
   float bound() const { return keeper_.rounded_bound(); }
 
   bool wants_adjacent() const { return test_.wants_adjacent(); }
+  bool rules_out(std::uint32_t first, std::uint32_t last) const {
+    return test_.rules_out(first, last);
+  }
 
   /// See ContactKeeper.
   bool done() { return keeper_.done(); }

@@ -1,21 +1,17 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/geometry/segment_distance.hpp"
 #include "fiber_proximity/query/contact.hpp"
+#include "fiber_proximity/query/loop_test.hpp"
 #include "fiber_proximity/query/options.hpp"
+#include "fiber_proximity/query/point_pair.hpp"
 
 namespace fiber {
-
-/// Two segments by the indices of their first points: within one assembly the smaller one first,
-/// or one of a shape and one of the fibres.
-struct PointPair {
-  std::uint32_t a;
-  std::uint32_t b;
-};
 
 /// Nearest points of two segments, and the signed gap of their surfaces [m].
 struct PairDistance {
@@ -38,13 +34,30 @@ class PairTest {
   }
 
   /// Whether segments that share a point are pairs.
-  bool wants_adjacent() const { return !self_ || options_.neighbour_skip == 0; }
+  bool wants_adjacent() const { return !self_ || neighbour_skip_ == 0; }
 
-  /// Whether this ordered pair is left out: by the neighbour skips or the pairing.
+  /// Whether this ordered pair is left out: by the neighbour skips or the pairing. Where points are
+  /// changes this only through neighbour_skip_length.
   bool is_left_out(PointPair pair) const {
-    const bool far_by_index = pair.b - pair.a > options_.neighbour_skip;
+    const bool far_by_index = pair.b - pair.a > neighbour_skip_;
     return self_ && ((!(far_by_index && arc_length_.empty()) && is_neighbour_of_same_fiber(pair)) ||
                      (options_.pairing != Pairing::ALL && is_of_other_pairing(pair)));
+  }
+
+  /// Whether this ordered pair that is not left out is none all the same: the options need loops,
+  /// and the fibre makes none between these segments.
+  bool lacks_loop(PointPair pair, const PairDistance& distance) const {
+    return loops_ && loops_->are_of_one_fiber(pair) && !makes_loop(pair, distance);
+  }
+  /// The same where the distance is not there.
+  bool lacks_loop(PointPair pair) const {
+    return loops_ && loops_->are_of_one_fiber(pair) && !makes_loop(pair);
+  }
+
+  /// Whether it is certain that all pairs lack a loop that start at the points first … last; see
+  /// LoopTest.
+  bool rules_out(std::uint32_t first, std::uint32_t last) const {
+    return loops_ && loops_->rules_out(first, last);
   }
 
   /// In single precision for FAST and ALL, otherwise robust.
@@ -72,6 +85,11 @@ class PairTest {
   Contact contact(PointPair pair, const PairDistance& distance) const;
 
  private:
+  bool makes_loop(PointPair pair) const;
+  bool makes_loop(PointPair pair, const PairDistance& distance) const {
+    return kernel_ == Kernel::ROBUST ? loops_->makes_loop(pair, distance.nearest)
+                                     : makes_loop(pair);
+  }
   bool is_neighbour_of_same_fiber(PointPair pair) const;
   bool is_of_other_pairing(PointPair pair) const;
   bool is_of_one_fiber(PointPair pair) const {
@@ -87,7 +105,10 @@ class PairTest {
   const FiberAssembly& b_;
   const QueryOptions& options_;
   const bool self_;
-  const Kernel kernel_;             // of distance()
+  const Kernel kernel_;  // of distance()
+  const std::uint32_t neighbour_skip_;
+  const double neighbour_skip_length_;  // [m]
+  std::optional<LoopTest> loops_;
   std::vector<double> arc_length_;  // [m] by point, from its fibre's start; empty if not needed
 };
 

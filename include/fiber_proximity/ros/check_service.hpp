@@ -13,12 +13,11 @@ namespace fiber_proximity_ros {
 /// What may touch fibres of these names.
 using FindAllowed = std::function<fiber::AllowedPairs(const std::vector<std::string>&)>;
 
-/// Checks the candidates of a request; fills in all of the response but header, names and success.
-/// @param names of the target's fibres
+/// Checks the candidates of a request; fills in all of the response but header, names and
+/// success. Candidates that the deadline comes before are not read.
 /// @throws std::invalid_argument naming the candidate, the value and what is allowed
 /// @throws TransformUnavailable naming the candidate and its frame
 void answer(const fiber_proximity::CheckFibers::Request& request, const QueryTarget& target,
-            const std::vector<std::string>& names, const FindAllowed& find_allowed,
-            fiber_proximity::CheckFibers::Response& response);
+            const FindAllowed& find_allowed, fiber_proximity::CheckFibers::Response& response);
 
 }  // namespace fiber_proximity_ros

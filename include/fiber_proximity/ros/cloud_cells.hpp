@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -28,7 +29,13 @@ struct CloudCounts {
   std::size_t not_finite = 0;   ///< as cameras mark what they do not see
   std::size_t outside_box = 0;  ///< and so not wanted
   std::size_t too_far = 0;      ///< further than an octree of the resolution reaches
+
+  /// Those that have become cells.
+  std::size_t used() const { return points - not_finite - outside_box - too_far; }
 };
+
+/// Why points were not used, such as "3 are not finite, 1 is outside the box"; empty if all were.
+std::string reasons_of(const CloudCounts& counts, double resolution);
 
 /// The cells that clouds have occupied of late.
 class CloudCells {

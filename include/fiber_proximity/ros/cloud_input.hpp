@@ -51,8 +51,10 @@ class CloudInput {
   /// @returns false if the waiting cloud goes on waiting
   bool place_waiting(FixedFrame& frame);
   bool put_into_world(CloudResult result, fiber::World& world);
+  void warn_if_unused() const;
   bool remove_decayed(const ros::Time& now, fiber::World& world);
 
+  double resolution_;
   double decay_;
   double tf_timeout_;
   std::function<void()> on_message_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <ros/node_handle.h>
+#include <visualization_msgs/Marker.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <functional>
@@ -10,24 +11,28 @@
 #include <vector>
 
 #include "fiber_proximity/AllowPairs.h"
-#include "fiber_proximity/ApplyObstacles.h"
 #include "fiber_proximity/InputStatistics.h"
 #include "fiber_proximity/ObstacleArray.h"
 #include "fiber_proximity/environment/world.hpp"
 #include "fiber_proximity/ros/allowed_contacts.hpp"
+#include "fiber_proximity/ros/change_topic.hpp"
 #include "fiber_proximity/ros/cloud_input.hpp"
 #include "fiber_proximity/ros/environment_options.hpp"
 #include "fiber_proximity/ros/marker_obstacles.hpp"
+#include "fiber_proximity/ros/obstacle_service.hpp"
 #include "fiber_proximity/ros/obstacle_set.hpp"
 #include "fiber_proximity/ros/robot_links.hpp"
 #include "fiber_proximity/ros/scene_obstacles.hpp"
 #include "fiber_proximity/ros/waiting_changes.hpp"
+#include "fiber_proximity/ros/worker.hpp"
 
 namespace fiber_proximity_ros {
 
 /// All that is around the fibres: the scene, the robot, obstacles, markers and the point cloud, in
 /// one world. Subscribes to ~obstacles, and to ~cloud and topics of markers if they are configured;
-/// serves ~apply_obstacles and ~allow_pairs. All its callbacks must come from one thread at a time.
+/// serves ~apply_obstacles and ~allow_pairs. Changes of obstacles are made in the order in which
+/// they came, through topic or service; those of a topic of markers in theirs. Large meshes are
+/// built in a thread of their own. All its callbacks must come from one thread at a time.
 class EnvironmentInputs {
  public:
   /// @param frame      must outlive this
@@ -38,6 +43,7 @@ class EnvironmentInputs {
   EnvironmentInputs(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
                     const EnvironmentOptions& options, FixedFrame& frame, double tf_timeout,
                     std::function<void()> on_message);
+  ~EnvironmentInputs();
   EnvironmentInputs(const EnvironmentInputs&) = delete;
   EnvironmentInputs& operator=(const EnvironmentInputs&) = delete;
 
@@ -46,8 +52,8 @@ class EnvironmentInputs {
   /// @returns true if that, or a service since, changed the world or what is allowed
   bool update(const ros::Time& stamp);
 
-  /// True if update() should be called again soon: something waits for its transform, or the cloud
-  /// is being worked on.
+  /// True if update() should be called again soon: something waits for its transform or its mesh,
+  /// or the cloud is being worked on.
   bool is_waiting() const;
 
   /// True if there is something to look at, or may be later: otherwise the fibres are alone.
@@ -70,21 +76,26 @@ class EnvironmentInputs {
   /// Null if no cloud is configured.
   const CloudInput* cloud() const { return cloud_.get(); }
 
+  /// What builds the meshes, one after the other.
+  Worker& mesh_builder() { return mesh_builder_; }
+
  private:
   /// A topic of markers.
   struct MarkerSource {
-    MarkerSource(const MarkerTopic& topic, const MeshLoader& meshes, ObstacleSet& set,
-                 double timeout);
+    MarkerSource(const MarkerTopic& marker_topic, const MeshLoader& meshes, ObstacleSet& set,
+                 FixedFrame& frame);
 
     MarkerObstacles obstacles;
+    ChangeTopic topic;
     WaitingChanges changes;
   };
 
   void subscribe_to_markers(ros::NodeHandle node, const EnvironmentOptions& options);
-  void receive(const fiber_proximity::ObstacleArray& message);
-  void receive(const MarkerObstacles::Markers& markers, MarkerSource& source);
-  bool apply(fiber_proximity::ApplyObstacles::Request& request,
-             fiber_proximity::ApplyObstacles::Response& response);
+  void receive_obstacles(const fiber_proximity::ObstacleArray::ConstPtr& message);
+  void receive_markers(std::shared_ptr<const MarkerObstacles::Markers> markers,
+                       MarkerSource& source);
+  void apply(std::shared_ptr<const ObstacleService::Obstacles> obstacles,
+             const ObstacleService::Answer& answer);
   bool allow(fiber_proximity::AllowPairs::Request& request,
              fiber_proximity::AllowPairs::Response& response);
   void warn_of_unknown() const;
@@ -96,13 +107,17 @@ class EnvironmentInputs {
   AllowedContacts allowed_;
   SceneObstacles scene_;
   RobotLinks robot_;
-  WaitingChanges changes_;
+  double obstacle_timeout_;  // [s]
+  ChangeTopic obstacle_topic_;
+  WaitingChanges changes_;  // of topic and service
   std::vector<std::unique_ptr<MarkerSource>> markers_;
   std::unique_ptr<CloudInput> cloud_;
   bool is_configured_;
   bool was_changed_ = false;
 
-  // Last: their callbacks use all of the above.
+  // Last: their threads and callbacks use all of the above.
+  Worker mesh_builder_;
+  std::unique_ptr<ObstacleService> obstacle_service_;
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> servers_;
 };

@@ -30,11 +30,11 @@ struct FramePose {
   ros::Time stamp;
 };
 
-/// The frame everything is brought into.
+/// The frame everything is brought into. Frames are given to it with or without the slash in front.
 class FixedFrame {
  public:
   /// @param name empty: the frame that is adopted first
-  FixedFrame(std::string name, const ros::NodeHandle& node);
+  FixedFrame(const std::string& name, const ros::NodeHandle& node);
 
   /// Empty until a frame is configured or adopted.
   const std::string& name() const { return name_; }
@@ -55,9 +55,12 @@ class FixedFrame {
   /// @throws TransformUnavailable
   Eigen::Isometry3d transform_from(const std_msgs::Header& header) const;
 
+  /// Whether transform_from() would give a pose.
+  bool knows(const std_msgs::Header& header) const;
+
   /// Pose of a frame in this one at a time, or the latest one where tf does not know that.
   /// @throws TransformUnavailable where tf knows none at all
-  FramePose latest_pose(const std::string& frame, const ros::Time& stamp) const;
+  FramePose latest_pose(const std::string& frame_id, const ros::Time& stamp) const;
 
  private:
   geometry_msgs::TransformStamped look_up(const std_msgs::Header& header) const;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "fiber_proximity/ros/marker_input.hpp"
+#include "fiber_proximity/ros/missing_points.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -19,7 +20,11 @@ struct InputOptions {
 
   double radius = 0.005;  ///< [m] where the message has none; 5 mm, a common cable
 
+  MissingPoints missing_points = MissingPoints::REFUSE;
+
   MarkerInputOptions marker;  ///< used by the marker types
+
+  std::string where;  ///< what the log calls the entry
 };
 
 /// Reads one entry of the list; keys that are absent keep their defaults.

@@ -4,16 +4,19 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "fiber_proximity/ros/fixed_frame.hpp"
 #include "fiber_proximity/ros/input.hpp"
+#include "fiber_proximity/ros/stamp_matcher.hpp"
 
 namespace fiber_proximity_ros {
 
 /// All inputs together: one assembly, in one frame, of the fibres of every input that is fresh, in
-/// the order of the inputs.
+/// the order of the inputs. If they are synchronised, all fibres change together; inputs that have
+/// fallen silent, or whose stamps never match, are left out then, as they would stop the others.
 class InputSet {
  public:
   /// @param on_message called for each message that arrives; it should see to it that update() is
@@ -49,13 +52,18 @@ class InputSet {
   double take_work_time();
 
  private:
-  void receive(Input& input, const ReadMessage& read);
+  void receive(Input& input, const ReceivedMessage& message);
   void watch_time();
+  bool accept_placed();
+  bool accept_matches();
   void merge();
 
   FixedFrame frame_;
   std::function<void()> on_message_;
   std::vector<std::unique_ptr<Input>> inputs_;
+  double input_timeout_;                 // [s]
+  std::optional<StampMatcher> matcher_;  // if the inputs are synchronised
+  ros::Time last_match_;                 // when a set was found, or none was waited for
   ros::Time last_time_;
   bool was_reset_ = false;
   bool merged_is_old_ = false;

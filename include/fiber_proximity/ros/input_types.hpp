@@ -2,7 +2,9 @@
 
 #include <ros/node_handle.h>
 
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "fiber_proximity/ros/chain_set.hpp"
@@ -19,10 +21,17 @@ bool is_marker_type(const std::string& type);
 /// malformed.
 using ReadMessage = std::function<bool(ChainSet& chains)>;
 
+/// A message as it arrives.
+struct ReceivedMessage {
+  ReadMessage read;
+  std::string publisher;                  ///< name of the node that has sent it
+  std::optional<std::uint32_t> sequence;  ///< its header.seq; none where roscpp numbers none
+};
+
 /// Subscribes to the input's topic; the receiver is called once per message, of which the newest is
 /// kept while it is busy.
 /// @throws std::invalid_argument for an unknown type
 ros::Subscriber subscribe(ros::NodeHandle& node, const InputOptions& options,
-                          const std::function<void(const ReadMessage&)>& receiver);
+                          const std::function<void(const ReceivedMessage&)>& receiver);
 
 }  // namespace fiber_proximity_ros

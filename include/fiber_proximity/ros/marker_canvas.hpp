@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "fiber_proximity/ros/palette.hpp"
+
 namespace fiber_proximity_ros {
 
 inline std_msgs::ColorRGBA color(float r, float g, float b, float a = 1.0F) {
@@ -18,6 +20,10 @@ inline std_msgs::ColorRGBA color(float r, float g, float b, float a = 1.0F) {
   result.b = b;
   result.a = a;
   return result;
+}
+
+inline std_msgs::ColorRGBA color(const Rgb& rgb, float a = 1.0F) {
+  return color(rgb[0], rgb[1], rgb[2], a);
 }
 
 /// Hands out the markers of one update and keeps count of them: those of each of `count` namespaces

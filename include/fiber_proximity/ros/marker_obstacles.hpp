@@ -3,8 +3,9 @@
 #include <visualization_msgs/Marker.h>
 
 #include <array>
-#include <functional>
 #include <map>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <set>
 #include <string>
@@ -27,10 +28,12 @@ class MarkerObstacles {
   MarkerObstacles(std::string topic, const MeshLoader& meshes, ObstacleSet& obstacles)
       : topic_(std::move(topic)), meshes_(meshes), obstacles_(obstacles) {}
 
-  /// Reads a message.
-  /// @returns what applies all of it, or throws as ObstacleSet::apply does
-  /// @throws std::invalid_argument naming the marker, what is wrong with it and what is allowed
-  std::function<void()> read(const Markers& markers, const ros::Time& now);
+  /// What a message asks for; meshes that are large, or have to be read first, are left to the
+  /// worker, which must end before this does. An error names the marker, what is wrong with it and
+  /// what is allowed.
+  /// @param patience see Change
+  Change change_of(std::shared_ptr<const Markers> markers, const ros::Time& now, double patience,
+                   Worker& worker);
 
   /// Removes the obstacles whose lifetimes have ended.
   /// @returns true if there are any
@@ -40,15 +43,20 @@ class MarkerObstacles {
   /// What one marker asks for.
   struct Step {
     std::int32_t action = visualization_msgs::Marker::ADD;
-    FramedChange change;  // of DELETE only the name
-    ros::Time expiry;     // zero: never
+    std::size_t marker = 0;      // its index
+    fiber::ObjectChange change;  // in its frame; of DELETE only the name
+    ros::Time expiry;            // zero: never
   };
+  using MeshKey = std::pair<std::string, std::array<double, 3>>;  // resource and scale
   using Names = std::map<std::string, ros::Time>;  // and when their lifetimes end; zero: never
 
+  std::vector<Step> read(const Markers& markers, const ros::Time& now);
   std::optional<Step> read(const visualization_msgs::Marker& marker, const ros::Time& now);
+  bool is_large(const Markers& markers) const;
+  std::optional<fiber::Shape> find_mesh(const visualization_msgs::Marker& marker) const;
   std::vector<fiber::PlacedShape> shapes_of(const visualization_msgs::Marker& marker);
   fiber::Shape mesh_of(const visualization_msgs::Marker& marker);
-  void apply(const std::vector<Step>& steps);
+  void apply(const std::vector<Step>& steps, const Change::Poses& poses);
   Names present() const;
 
   std::string topic_;
@@ -56,8 +64,9 @@ class MarkerObstacles {
   ObstacleSet& obstacles_;
   Names names_;
 
-  // Meshes that were read, by resource and scale: markers repeat them at camera rate.
-  std::map<std::pair<std::string, std::array<double, 3>>, fiber::Shape> read_meshes_;
+  // The worker reads markers, too.
+  mutable std::mutex mutex_;
+  std::map<MeshKey, fiber::Shape> read_meshes_;  // markers repeat them at camera rate
   std::set<std::int32_t> ignored_types_;
 };
 

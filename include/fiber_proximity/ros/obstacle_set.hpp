@@ -2,13 +2,15 @@
 
 #include <std_msgs/Header.h>
 
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "fiber_proximity/Obstacle.h"
 #include "fiber_proximity/environment/world.hpp"
-#include "fiber_proximity/ros/fixed_frame.hpp"
+#include "fiber_proximity/ros/waiting_changes.hpp"
+#include "fiber_proximity/ros/worker.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -21,24 +23,34 @@ struct FramedChange {
 /// @throws std::invalid_argument as to_change
 std::vector<FramedChange> to_changes(const std::vector<fiber_proximity::Obstacle>& obstacles);
 
+/// What the frame of the change is to be located for.
+FramedName framed_name(const FramedChange& framed);
+
+/// The change with its object where it is in the fixed frame.
+/// @param pose of the change's frame there
+fiber::ObjectChange placed(const FramedChange& framed, const Eigen::Isometry3d& pose);
+
 /// The objects of the world that came as obstacles, and so not those of robot and cloud.
 class ObstacleSet {
  public:
-  ObstacleSet(fiber::World& world, FixedFrame& frame) : world_(world), frame_(frame) {}
+  explicit ObstacleSet(fiber::World& world) : world_(world) {}
 
-  /// Brings the changes into the fixed frame and applies them all, or none. The first frame there
-  /// is becomes the fixed frame if there is none yet.
+  /// Applies the changes, which are in the fixed frame, or none. A REMOVE of an empty name is that
+  /// of all obstacles.
+  /// @param cancelled names that a REMOVE may have even if there is no such obstacle
   /// @throws std::invalid_argument as fiber::World::apply
-  /// @throws TransformUnavailable naming the obstacle
-  void apply(const std::vector<FramedChange>& changes);
+  void apply(const std::vector<fiber::ObjectChange>& changes,
+             const std::set<std::string>& cancelled = {});
+
+  /// What these obstacles ask for; large meshes are built by the worker.
+  /// @param patience see Change
+  Change change_of(std::shared_ptr<const std::vector<fiber_proximity::Obstacle>> obstacles,
+                   double patience, Worker& worker);
 
   bool has(const std::string& name) const { return names_.count(name) != 0; }
 
  private:
-  fiber::ObjectChange place(const FramedChange& framed);
-
   fiber::World& world_;
-  FixedFrame& frame_;
   std::set<std::string> names_;
 };
 

@@ -4,8 +4,12 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace fiber_proximity_ros {
+
+/// A value as a message shows it: on one line, and no more of it than the reader needs.
+std::string text_of(const XmlRpc::XmlRpcValue& value);
 
 /// @throws std::invalid_argument naming the parameter, its value and what is allowed
 [[noreturn]] void refuse_parameter(const ros::NodeHandle& node, const std::string& name,
@@ -21,13 +25,33 @@ void read_parameter(const ros::NodeHandle& node, const std::string& name,
   }
 }
 
+/// What a number may be.
+struct Limits {
+  double least;
+  double most;
+};
+
+/// Reads a finite number within these limits; a whole number is one, too.
+/// @throws std::invalid_argument if it is anything else
+void read_parameter(const ros::NodeHandle& node, const std::string& name, const Limits& limits,
+                    double& value);
+
 /// Reads a finite number of at least this limit.
 /// @throws std::invalid_argument if it is anything else
 void read_parameter(const ros::NodeHandle& node, const std::string& name, double least,
                     double& value);
 
+/// Reads a whole number of at least this limit; roscpp alone would round others.
+/// @throws std::invalid_argument if it is anything else
+void read_parameter(const ros::NodeHandle& node, const std::string& name, int least, int& value);
+
 /// Reads a whole number of at least 0.
 /// @throws std::invalid_argument if it is anything else
 void read_parameter(const ros::NodeHandle& node, const std::string& name, std::uint32_t& value);
+
+/// Logs a warning for each private parameter that is none of these, with the known one it may have
+/// been meant to be.
+void warn_of_unknown_parameters(const ros::NodeHandle& private_node,
+                                const std::vector<std::string>& known);
 
 }  // namespace fiber_proximity_ros

@@ -7,20 +7,20 @@
 #include <utility>
 #include <vector>
 
-#include "fiber_proximity/CheckFibers.h"
 #include "fiber_proximity/ContactArray.h"
 #include "fiber_proximity/FiberArray.h"
 #include "fiber_proximity/ProximityConfig.h"
-#include "fiber_proximity/QueryProximity.h"
 #include "fiber_proximity/Statistics.h"
 #include "fiber_proximity/ros/comparison_output.hpp"
 #include "fiber_proximity/ros/crossings_output.hpp"
 #include "fiber_proximity/ros/detector.hpp"
 #include "fiber_proximity/ros/diagnostics.hpp"
+#include "fiber_proximity/ros/dynamic_parameters.hpp"
 #include "fiber_proximity/ros/environment_markers.hpp"
 #include "fiber_proximity/ros/environment_output.hpp"
 #include "fiber_proximity/ros/input_set.hpp"
 #include "fiber_proximity/ros/markers.hpp"
+#include "fiber_proximity/ros/query_services.hpp"
 #include "fiber_proximity/ros/server_options.hpp"
 
 namespace fiber_proximity_ros {
@@ -29,7 +29,7 @@ namespace fiber_proximity_ros {
 /// node and nodelet; all its callbacks must come from one thread at a time.
 ///
 /// Publishes ~contacts, ~environment_contacts, ~crossings (see CrossingsOutput), ~fibers, ~markers,
-/// ~statistics, ~comparison and /diagnostics; serves ~query, ~check_fibers and ~compare, and what
+/// ~statistics, ~comparison and /diagnostics; serves ~compare, and what QueryServices and
 /// EnvironmentInputs serve. Each set of messages that have arrived gives one answer, each answer is
 /// published once, and what nobody subscribes to is not computed.
 class ProximityServer {
@@ -58,18 +58,12 @@ class ProximityServer {
   void publish_markers_if_due();
   EnvironmentMarkerOptions environment_marker_options() const;
 
-  template <class Response, class Answer>
-  bool respond(Response& response, const Answer& answer_it);
-  bool query(fiber_proximity::QueryProximity::Request& request,
-             fiber_proximity::QueryProximity::Response& response);
-  bool check_fibers(fiber_proximity::CheckFibers::Request& request,
-                    fiber_proximity::CheckFibers::Response& response);
-  void reconfigure(fiber_proximity::ProximityConfig& config);
+  void reconfigure(AskedConfig& config);
 
   ros::NodeHandle node_;
   ros::NodeHandle private_node_;
   ServerOptions options_;
-  fiber_proximity::ProximityConfig config_ = fiber_proximity::ProximityConfig::__getDefault__();
+  fiber_proximity::ProximityConfig config_;
   fiber::QueryOptions query_options_;
   MarkerOptions marker_options_;
   Detector detector_;
@@ -99,9 +93,8 @@ class ProximityServer {
   Diagnostics diagnostics_;
   EnvironmentOutput environment_;
   ComparisonOutput comparison_;
-  dynamic_reconfigure::Server<fiber_proximity::ProximityConfig> reconfigure_server_;
-  ros::ServiceServer query_server_;
-  ros::ServiceServer check_server_;
+  QueryServices queries_;
+  dynamic_reconfigure::Server<AskedConfig> reconfigure_server_;
   ros::SteadyTimer tick_timer_;
   ros::SteadyTimer retry_timer_;
 };

@@ -16,7 +16,7 @@ class SceneObstacles {
   /// Adds those whose frames are known by now; one whose name is taken by now is left out, with a
   /// warning.
   /// @returns true if there are any
-  bool update(ObstacleSet& obstacles);
+  bool update(ObstacleSet& obstacles, FixedFrame& frame);
 
   /// Names of those that are not in the world yet, and why.
   std::vector<std::string> unknown() const;

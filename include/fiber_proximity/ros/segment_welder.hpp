@@ -6,7 +6,9 @@
 
 namespace fiber_proximity_ros {
 
-/// Joins segments that come one after another into chains.
+/// Joins segments that come one after another into chains. Ends with a coordinate that is not
+/// finite are missing: a chain goes on across them, with the missing points in it, unless the
+/// points known on both sides are farther apart than the segments between them can reach.
 class SegmentWelder {
  public:
   /// @param tolerance largest gap between ends that are joined, as a fraction of the shorter
@@ -23,11 +25,15 @@ class SegmentWelder {
 
  private:
   std::size_t chain_size() const { return chains_.points.size() - chains_.offsets.back(); }
-  void turn_first_segment_towards(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+  void push(const Eigen::Vector3d& point, double length);
+  bool reaches(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double length) const;
+  void turn_first_segment_towards(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                                  double tolerance);
 
   double tolerance_;
   ChainSet& chains_;
-  double last_length_ = 0.0;
+  double last_length_ = 0.0;  // nan of a segment with a missing end
+  double longest_ = 0.0;      // of the chain's segments
 };
 
 }  // namespace fiber_proximity_ros

@@ -5,13 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "fiber_proximity/ProximityConfig.h"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/ros/input.hpp"
 #include "fiber_proximity/ros/input_options.hpp"
 
 namespace fiber_proximity_ros {
 
-/// Parameters of the proximity node that are read once, at its start.
+/// Parameters of the proximity node at its start.
 struct ServerOptions {
   std::string engine = "run_tree";  ///< one of fiber::engine_names()
   fiber::EngineOptions engine_options;
@@ -24,6 +25,8 @@ struct ServerOptions {
   double marker_rate = 15.0;  ///< [Hz] markers are drawn at most this often
 
   std::vector<InputOptions> inputs;
+
+  fiber_proximity::ProximityConfig config;  ///< those that can change later
 };
 
 /// Reads the private parameters; those that are absent keep their defaults. A bad entry of `inputs`
@@ -31,6 +34,6 @@ struct ServerOptions {
 /// is every parameter nothing knows.
 /// @throws std::invalid_argument for any other bad parameter, naming it, its value and what is
 ///         allowed
-ServerOptions read_server_options(const ros::NodeHandle& private_node);
+ServerOptions read_server_options(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
 
 }  // namespace fiber_proximity_ros

@@ -14,6 +14,7 @@ namespace fiber_proximity_ros {
 struct SimFiber {
   std::string name;
   std::string group;                    ///< name of the entry it comes from
+  std::string place;                    ///< where that stands, for errors
   std::vector<Eigen::Vector3d> points;  ///< [m]
   double radius = 0.0;                  ///< [m]
   fiber::RodSection section;

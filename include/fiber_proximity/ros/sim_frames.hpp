@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "fiber_proximity/ros/fixed_frame.hpp"
-#include "fiber_proximity/ros/sim_holds.hpp"
+#include "fiber_proximity/ros/sim_scene.hpp"
 
 namespace fiber_proximity_ros {
 
 /// Keeps what frames of tf hold where these are. What a frame holds that tf does not know, or of
-/// which nothing new has come for some time, stays where it is, with a warning; and with a word
-/// when it follows again.
+/// which nothing new has come for some time, stays where it is, and what its fibre does not reach
+/// goes no further (lead()), with a warning; and with a word when it follows again.
 class SimFrames {
  public:
   /// @param world   in which the fibres are; must outlive this
@@ -28,17 +28,20 @@ class SimFrames {
 
   /// Leads all that is held from where it is to where the frames are, during the next frame of the
   /// scene; no faster than 5 m/s, as after a gap it may be far away.
-  void follow(const std::vector<FollowedFrame>& frames, const fiber::TimeStep& step);
+  void follow(const SimScene& scene);
 
  private:
   struct Watch {
     ros::Time stamp;        // of the latest transform
     ros::SteadyTime since;  // when it came; when it was first asked for while there is none
     bool is_frozen = false;
+    bool is_held_back = false;  // out of reach, or nowhere
   };
 
   /// @param problem why nothing new is known; empty if there is something new
   void watch(const FollowedFrame& followed, Watch& watch, const std::string& problem) const;
+  fiber::Placement next_placement(const SimScene& scene, const FollowedFrame& followed,
+                                  const Eigen::Isometry3d& frame, Watch& watch) const;
 
   const FixedFrame& world_;
   double timeout_;

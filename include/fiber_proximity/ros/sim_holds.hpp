@@ -18,6 +18,8 @@ using PlacementPath = std::vector<std::pair<double, fiber::Placement>>;
 /// A frame of tf that holds a fibre. What is held is where the frame was last, and turns with it.
 struct FollowedFrame {
   std::string frame;
+  std::uint32_t rod;                    ///< that it holds
+  std::uint32_t node;                   ///< of the rod, from its first one
   std::string what;                     ///< what it holds and where that stands, for warnings
   fiber::Placement in_frame;            ///< what it holds, in the frame
   std::shared_ptr<PlacementPath> path;  ///< in the world, never empty; the hold follows it

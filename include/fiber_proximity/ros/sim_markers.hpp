@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "fiber_proximity/ros/fixed_frame.hpp"
-#include "fiber_proximity/ros/sim_scene.hpp"
+#include "fiber_proximity/ros/sim_reach.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -34,11 +34,6 @@ class SimMarkers {
   void update(const SimScene& scene);
 
  private:
-  struct End {
-    std::uint32_t rod;
-    std::uint32_t node;
-  };
-
   /// Where a dragged end is from one frame to the next.
   struct Way {
     Eigen::Vector3d from;
@@ -55,10 +50,10 @@ class SimMarkers {
   };
 
   void receive(const visualization_msgs::InteractiveMarkerFeedback& feedback);
-  void take_hold(SimScene& scene, const End& end, Grab& grab) const;
+  void take_hold(SimScene& scene, const NodeOfRod& end, Grab& grab) const;
 
   const FixedFrame& world_;
-  std::map<std::string, End> ends_;
+  std::map<std::string, NodeOfRod> ends_;
   std::map<std::string, Grab> grabs_;
 
   // The server's callbacks may run in another thread than all else, in a nodelet.

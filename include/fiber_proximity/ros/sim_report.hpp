@@ -7,17 +7,19 @@
 
 namespace fiber_proximity_ros {
 
-/// What the first frames of a scene took and how far they are solved, measured on copies of it.
+/// What the first steps of a scene took and how far they are solved, measured on copies of it.
 struct SimTrial {
-  std::uint32_t frames = 0;
+  std::uint32_t steps = 0;
   double real_time_factor = 0.0;  ///< time of the scene by wall time
 
   /// [m] How far nodes are at most from where more Newton iterations would have them.
   double iteration_error = 0.0;
+
+  std::string failure;  ///< why the scene does not get further than that; empty if it does
 };
 
 /// Steps two copies of a scene, one of them with four times the iterations, for some frames or
-/// some tenths of a second.
+/// some tenths of a second, whichever is less; one step at least.
 /// @throws std::invalid_argument as read_sim_scene
 SimTrial try_scene(const std::string& file, const MeshLoader& meshes, std::uint32_t threads);
 

@@ -7,6 +7,9 @@
 
 namespace fiber_proximity_ros {
 
+/// The finest a scene may be, whether it says so itself or by an accuracy.
+constexpr std::int64_t most_substeps = 1000;
+
 /// How a scene is cut into segments and steps.
 struct SimResolution {
   std::vector<SimFiber> fibers;
@@ -28,7 +31,8 @@ struct SimSteps {
 /// chosen by fiber::ResolutionTable: as few as are that accurate, or the most accurate that are
 /// estimated to take at most half of the time there is.
 /// @param document the scene
-/// @throws std::invalid_argument naming file, line, field and value, and what is allowed
+/// @throws std::invalid_argument naming file, line, field and value, and what is allowed; for an
+///         accuracy that takes more substeps or segments than there may be, too
 SimResolution read_sim_resolution(const YamlField& document, const SimSteps& steps);
 
 }  // namespace fiber_proximity_ros

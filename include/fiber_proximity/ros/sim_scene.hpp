@@ -28,10 +28,17 @@ struct SimScene {
   std::vector<fiber_proximity::Obstacle> obstacles;  ///< of its environment
   SimParameters parameters;                          ///< of its effects
   double fastest_hold = 0.0;                         ///< on a path [m/s]
+
+  /// By how much of their length what holds fibres may stretch them where the scene does not say
+  /// itself how it moves: ~attach, handles and frames of tf.
+  double max_strain = 0.1;
+
+  std::string overlap_note;  ///< what was moved before the beginning; empty if nothing was
 };
 
 /// Reads a scene from a YAML file with the keys fibers, effects, environment (as the node's scene
-/// has it), frame_id, time_step, substeps, iterations, integrator, accuracy, real_time.
+/// has it), frame_id, time_step, substeps, iterations, integrator, accuracy, real_time,
+/// initial_overlap, max_strain.
 /// @param threads    most to use, 0 for as many as there are cores
 /// @param iterations in place of the scene's
 /// @throws std::invalid_argument naming file, line, field and value, and what is allowed

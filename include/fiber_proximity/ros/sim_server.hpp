@@ -1,9 +1,12 @@
 #pragma once
 
+#include <ros/callback_queue.h>
 #include <ros/node_handle.h>
+#include <ros/spinner.h>
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 
+#include <atomic>
 #include <string>
 
 #include "fiber_proximity/AttachFiber.h"
@@ -11,6 +14,7 @@
 #include "fiber_proximity/FiberArray.h"
 #include "fiber_proximity/SetSimulationParameters.h"
 #include "fiber_proximity/StepSimulation.h"
+#include "fiber_proximity/ros/fair_mutex.hpp"
 #include "fiber_proximity/ros/fixed_frame.hpp"
 #include "fiber_proximity/ros/sim_frames.hpp"
 #include "fiber_proximity/ros/sim_markers.hpp"
@@ -35,26 +39,39 @@ SimOptions read_sim_options(const ros::NodeHandle& private_node);
 
 /// Stands in for a tracker: moves the fibres of a scene in real time, and publishes ~fibers; and
 /// ~obstacles, the scene's environment, once.
+///
+/// A frame that fails, because a step diverges or for whatever else it throws, stops the simulation
+/// for good: what was published last stays, services answer with the reason, ~reset begins again.
+///
+/// ~step has a thread of its own, so that the other callbacks are served between its frames.
 class SimServer {
  public:
   /// @throws std::invalid_argument as read_sim_scene, and for a frame of tf that does not come
   SimServer(const ros::NodeHandle& private_node, const SimOptions& options);
+  ~SimServer();
+  SimServer(const SimServer&) = delete;
+  SimServer& operator=(const SimServer&) = delete;
 
  private:
-  /// A node of a rod, from the rod's first one.
-  struct NodeOfRod {
-    std::uint32_t rod;
-    std::uint32_t node;
-  };
-
+  void advertise_services();
   void log_scene() const;
   void keep_pace();
+  void update_markers();
+
+  /// Moves the scene on by a frame. All of these are called with the mutex.
+  /// @throws std::runtime_error why the simulation has stopped, in this frame or before
   void advance();
+  void run_frame();
+  void require_running() const;
+  void warn_of_strain() const;
   void make_markers();
   void publish();
   void publish_obstacles(const std::vector<fiber_proximity::Obstacle>& before);
   NodeOfRod find_node(const std::string& fiber, std::int32_t node) const;
 
+  void step_frames(std::uint32_t count);
+  void begin_again();
+  void hold(const fiber_proximity::AttachFiber::Request& request);
   bool reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
   bool step(fiber_proximity::StepSimulation::Request& request,
@@ -68,10 +85,14 @@ class SimServer {
 
   ros::NodeHandle node_;
   SimOptions options_;
+  FairMutex mutex_;  // of all that follows
   SimScene scene_;
   FixedFrame world_;
   SimFrames frames_;
   bool is_paused_;
+  std::string failure_;         // why the simulation has stopped; empty if it has not
+  bool is_stepping_ = false;    // ~step runs
+  std::string interruption_;    // why ~step is to end; empty if it is not
   ros::SteadyTime next_frame_;  // when it is due
   double behind_ = 0.0;         // [s] given up so far because steps took too long
   fiber_proximity::FiberArray message_;
@@ -82,9 +103,12 @@ class SimServer {
   std::unique_ptr<SimMarkers> markers_;  // null without
 
   // Last: their callbacks use all of the above.
+  std::atomic<bool> is_ending_{false};
+  ros::CallbackQueue step_queue_;
   std::vector<ros::ServiceServer> servers_;
   ros::SteadyTimer timer_;
   ros::SteadyTimer marker_timer_;
+  ros::AsyncSpinner step_spinner_{1, &step_queue_};
 };
 
 }  // namespace fiber_proximity_ros

@@ -26,8 +26,9 @@ class DisplayProperties {
 
   /// @param look   called when fibres look different from now on
   /// @param source called when contacts come from elsewhere from now on
+  /// @param view   called when the view is to be fitted, or no longer
   DisplayProperties(rviz::Property& display, const std::function<void()>& look,
-                    const std::function<void()>& source);
+                    const std::function<void()>& source, const std::function<void()>& view);
 
   Style style() const;
   int sides() const;
@@ -42,6 +43,7 @@ class DisplayProperties {
   double default_radius() const;  ///< [m] of messages without radii
   /// Topic of the contacts whose distances colour fibres.
   std::string contact_topic() const;
+  bool fits_view() const;  ///< rviz's view is moved to where the fibres are
 
  private:
   /// Hides what has no effect.
@@ -60,6 +62,7 @@ class DisplayProperties {
   rviz::FloatProperty* greatest_;
   rviz::FloatProperty* opacity_;
   rviz::FloatProperty* default_radius_;
+  rviz::BoolProperty* fit_view_;
 };
 
 }  // namespace fiber_proximity_rviz

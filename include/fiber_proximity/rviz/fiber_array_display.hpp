@@ -3,6 +3,7 @@
 #include <ros/subscriber.h>
 #include <rviz/message_filter_display.h>
 
+#include <Eigen/Geometry>
 #include <memory>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "fiber_proximity/rviz/contact_pairing.hpp"
 #include "fiber_proximity/rviz/display_properties.hpp"
 #include "fiber_proximity/rviz/fiber_mesh.hpp"
+#include "fiber_proximity/rviz/view_fitter.hpp"
 
 namespace fiber_proximity_rviz {
 
@@ -38,6 +40,7 @@ class FiberArrayDisplay : public rviz::MessageFilterDisplay<fiber_proximity::Fib
   void onInitialize() override;
   void subscribe() override;
   void unsubscribe() override;
+  void fixedFrameChanged() override;
 
  private:
   void processMessage(const fiber_proximity::FiberArrayConstPtr& message) override;
@@ -49,6 +52,7 @@ class FiberArrayDisplay : public rviz::MessageFilterDisplay<fiber_proximity::Fib
 
   /// Draws `shown_` anew.
   void draw();
+  void fit_view();
   void read_fibers();
   void place(const std_msgs::Header& header);
   void choose_colors();
@@ -66,6 +70,7 @@ class FiberArrayDisplay : public rviz::MessageFilterDisplay<fiber_proximity::Fib
   fiber::FiberAssembly fibers_;
   std::vector<Color> colors_;
   FiberMesher mesher_;
+  ViewFitter view_fitter_;
   std::unique_ptr<FiberMaterials> materials_;
   std::unique_ptr<FiberRenderable> renderable_;
   Ogre::SceneNode* mesh_node_ = nullptr;  // at the mesh's origin, in the fibres' frame

@@ -8,12 +8,15 @@ namespace fiber {
 // The arithmetic of the scenes, the same bits on every machine: from + − · / √ and floor alone, in
 // an order that is written down, where libm's functions and Eigen's reductions fix neither.
 
+/// A full turn [rad].
+inline constexpr double tau = 6.283185307179586;
+
 /// sin(2πx), with an error below 1e-13.
 inline double sine_of_turns(double x) {
   double y = x - std::floor(x + 0.5);
   y = y > 0.25 ? 0.5 - y : y;
   y = y < -0.25 ? -0.5 - y : y;
-  const double angle = 6.283185307179586 * y;  // within ±π/2
+  const double angle = tau * y;  // within ±π/2
   const double square = angle * angle;
   // The Taylor series, whose first term left out is (π/2)¹⁹ / 19! = 4e-14.
   double sum = 0.0;

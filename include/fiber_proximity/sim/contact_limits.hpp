@@ -8,6 +8,18 @@ namespace fiber {
 /// presses them: a spring alone would let them through.
 constexpr double least_distance = 0.1;
 
+/// Edges of one rod that share a node, or are joined by one edge, do not touch but by folding.
+constexpr std::uint32_t contact_neighbour_skip = 2;
+
+/// A rod cannot be bent so far that it touches itself within so much of it [m]: four of the largest
+/// radius.
+double contact_neighbour_length(const Rods& rods);
+
+/// Whether two edges of one rod are too near each other along it to touch. By lengths at rest:
+/// where something throws a rod's nodes together, edges far apart along it would be neighbours for
+/// as long as they are short, and could change sides.
+bool are_contact_neighbours(const Rods& rods, std::uint32_t edge_a, std::uint32_t edge_b);
+
 /// Square of the length of the longest of some vectors, 0 if there are none.
 double largest_square(const std::vector<Eigen::Vector3d>& vectors);
 

@@ -8,6 +8,10 @@
 
 namespace fiber {
 
+/// @throws std::runtime_error naming rod, node and value for the first position, velocity, angle or
+///         spin that is not finite
+void require_finite(const Rods& rods);
+
 class EnergyGuard;
 enum class Gains;
 
@@ -54,6 +58,8 @@ class Stepper {
 
   /// @param length [s]
   /// @throws std::invalid_argument for a length that is not positive and finite
+  /// @throws std::runtime_error where the step diverges, as require_finite(); the rods are in no
+  ///         defined state then
   void step(double length);
 
   const Rods& rods() const { return rods_; }

@@ -90,6 +90,14 @@ std::optional<std::uint32_t> Attachment::find(std::uint32_t rod, std::uint32_t n
   return std::nullopt;
 }
 
+std::vector<HeldNode> Attachment::held_at(std::uint32_t rod, double time) const {
+  std::vector<HeldNode> nodes;
+  for (auto held = first_of(rod); held != held_.end() && held->hold.rod == rod; ++held) {
+    nodes.push_back({held->hold.node, held->hold.placement(time).position});
+  }
+  return nodes;
+}
+
 void Attachment::remove(std::uint32_t id) {
   const auto place =
       std::find_if(held_.begin(), held_.end(), [id](const Held& held) { return held.id == id; });

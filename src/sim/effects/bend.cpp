@@ -1,5 +1,6 @@
 #include "fiber_proximity/sim/effects/bend.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 

@@ -1,4 +1,6 @@
 // Compiled once per instruction set; Highway chooses among them at run time.
+#include <Eigen/Geometry>
+
 #include "fiber_proximity/sim/effects/bend.hpp"
 
 #undef HWY_TARGET_INCLUDE

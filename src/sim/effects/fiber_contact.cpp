@@ -54,32 +54,17 @@ void FiberContact::find_candidates(const Rods& rods) {
   QueryOptions query;
   query.margin = reach_;
   query.pairing = options_.pairing;
-  // Edges that share a node, or are joined by one edge, do not touch but by folding.
-  query.neighbour_skip = 2;
+  query.neighbour_skip = contact_neighbour_skip;
   engine_->query(query, result_);
   candidates_.clear();
   for (const Contact& contact : result_.contacts) {
     const Candidate candidate{contact.fiber_a, rods.first(contact.fiber_a) + contact.segment_a,
                               contact.fiber_b, rods.first(contact.fiber_b) + contact.segment_b};
-    if (!are_neighbours(rods, candidate)) {
+    if (candidate.rod_a != candidate.rod_b ||
+        !are_contact_neighbours(rods, candidate.edge_a, candidate.edge_b)) {
       candidates_.push_back(candidate);
     }
   }
-}
-
-/// A rod cannot be bent so far that it touches itself within a few radii along itself. By lengths
-/// at rest: where something throws a rod's nodes together, edges far apart along it would be
-/// neighbours for as long as they are short, and could change sides.
-bool FiberContact::are_neighbours(const Rods& rods, const Candidate& candidate) {
-  if (candidate.rod_a != candidate.rod_b) {
-    return false;
-  }
-  const double least = 4.0 * *std::max_element(rods.radii.begin(), rods.radii.end());
-  double between = 0.0;
-  for (std::uint32_t i = candidate.edge_a + 1; i < candidate.edge_b && between < least; ++i) {
-    between += rods.rest_lengths[i];
-  }
-  return between < least;
 }
 
 double FiberContact::stiffness_of(const Rods& rods, const Candidate& candidate) const {

@@ -1,5 +1,6 @@
 #include "fiber_proximity/sim/effects/twist.hpp"
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <stdexcept>
 #include <string>

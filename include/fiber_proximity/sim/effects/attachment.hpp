@@ -42,6 +42,10 @@ class Attachment : public Effect {
   /// What holds this node, counted from the rod's first one.
   std::optional<std::uint32_t> find(std::uint32_t rod, std::uint32_t node) const;
 
+  /// The nodes of a rod that are held, rising, counted from the rod's first one, and where they are
+  /// to be at a time [s].
+  std::vector<HeldNode> held_at(std::uint32_t rod, double time) const;
+
   /// @throws std::invalid_argument if there is no such hold
   void remove(std::uint32_t id);
 

@@ -52,7 +52,6 @@ class FiberContact : public ContactSource {
   };
 
   void find_candidates(const Rods& rods);
-  static bool are_neighbours(const Rods& rods, const Candidate& candidate);
   void part_candidates(const Rods& rods);
   void measure_at(const std::vector<Eigen::Vector3d>& positions);
   bool keep_apart(const Rods& rods, std::size_t candidate, bool is_fixed,

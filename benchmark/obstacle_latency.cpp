@@ -1,0 +1,289 @@
+#include <fiber_proximity/ContactArray.h>
+#include <fiber_proximity/FiberArray.h>
+#include <fiber_proximity/ObstacleArray.h>
+#include <ros/ros.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <stdexcept>
+
+#include "commands.hpp"
+#include "progress.hpp"
+#include "statistics.hpp"
+
+namespace fiber {
+namespace {
+
+using fiber_proximity::ContactArray;
+using fiber_proximity::FiberArray;
+using fiber_proximity::Obstacle;
+using fiber_proximity::ObstacleArray;
+using Clock = std::chrono::steady_clock;
+
+struct ObstacleLatencyRequest {
+  double rate = 20.0;           // of the moving obstacle [Hz]
+  double bad_rate = 1.0;        // of obstacles in an unknown frame [Hz]
+  std::uint32_t triangles = 0;  // of a mesh
+  double mesh_period = 2.0;     // [s] between meshes
+  double seconds = 10.0;
+  double timeout = 10.0;  // to wait for the node [s]
+  std::string topic = "fibers";
+  std::string obstacles = "proximity/obstacles";
+  std::string contacts = "proximity/environment_contacts";
+  std::string frame = "world";
+  bool json = false;
+};
+
+constexpr double radius = 0.01;       // of ball and fibre [m]
+constexpr double first_height = 1.0;  // of the ball's centre above the fibre [m]
+constexpr double step = 1e-3;         // by which it rises with each message [m]
+
+Obstacle obstacle(const std::string& id, const std::string& frame, double height) {
+  Obstacle obstacle;
+  obstacle.header.frame_id = frame;
+  obstacle.id = id;
+  obstacle.operation = Obstacle::ADD;
+  obstacle.pose.position.z = height;
+  obstacle.pose.orientation.w = 1.0;
+  return obstacle;
+}
+
+Obstacle ball(const std::string& id, const std::string& frame, double height) {
+  Obstacle ball = obstacle(id, frame, height);
+  ball.primitives.resize(1);
+  ball.primitives[0].type = shape_msgs::SolidPrimitive::SPHERE;
+  ball.primitives[0].dimensions = {radius};
+  return ball;
+}
+
+/// Triangles in no order, far away.
+Obstacle thicket(const ObstacleLatencyRequest& request) {
+  constexpr double far_away = 1e4;  // [m]
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
+  Obstacle thicket = obstacle("thicket", request.frame, far_away);
+  thicket.meshes.resize(1);
+  for (std::uint32_t i = 0; i < request.triangles; ++i) {
+    thicket.meshes[0].triangles.emplace_back();
+    for (std::uint32_t corner = 0; corner < 3; ++corner) {
+      thicket.meshes[0].triangles.back().vertex_indices[corner] = 3 * i + corner;
+      geometry_msgs::Point point;
+      point.x = coordinate(random);
+      point.y = coordinate(random);
+      point.z = coordinate(random);
+      thicket.meshes[0].vertices.push_back(point);
+    }
+  }
+  return thicket;
+}
+
+/// When the ball was sent to which place, and how long it took until the node had it there or
+/// further.
+class ObstacleLog {
+ public:
+  std::size_t send() {
+    const std::lock_guard lock(mutex_);
+    sent_[next_] = Clock::now();
+    return next_++;
+  }
+
+  void seen(double distance) {
+    const Clock::time_point now = Clock::now();
+    const auto index = static_cast<std::size_t>(
+        std::max(0.0, std::round((distance + 2.0 * radius - first_height) / step)));
+    const std::lock_guard lock(mutex_);
+    while (!sent_.empty() && sent_.begin()->first <= index) {
+      lags_ms_.push_back(milliseconds(now - sent_.begin()->second));
+      sent_.erase(sent_.begin());
+    }
+    if (last_.time_since_epoch().count() != 0) {
+      longest_gap_ms_ = std::max(longest_gap_ms_, milliseconds(now - last_));
+    }
+    last_ = now;
+  }
+
+  void clear() {
+    const std::lock_guard lock(mutex_);
+    lags_ms_.clear();
+    longest_gap_ms_ = 0.0;
+  }
+
+  std::vector<double> lags_ms() const {
+    const std::lock_guard lock(mutex_);
+    return lags_ms_;
+  }
+  double longest_gap_ms() const {
+    const std::lock_guard lock(mutex_);
+    return longest_gap_ms_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::map<std::size_t, Clock::time_point> sent_;
+  std::size_t next_ = 0;
+  std::vector<double> lags_ms_;
+  double longest_gap_ms_ = 0.0;  // between answers
+  Clock::time_point last_;
+};
+
+/// A moving obstacle among bad ones and large ones, and a node that tells how far it is.
+class ObstacleRun {
+ public:
+  explicit ObstacleRun(const ObstacleLatencyRequest& request)
+      : request_(request),
+        fibers_(node_.advertise<FiberArray>(request.topic, 1)),
+        obstacles_(node_.advertise<ObstacleArray>(request.obstacles, 1000)),
+        subscriber_(node_.subscribe(request.contacts, 100, &ObstacleRun::on_contacts, this,
+                                    ros::TransportHints().tcpNoDelay())) {
+    if (request.triangles > 0) {
+      thicket_.obstacles = {thicket(request)};
+    }
+    spinner_.start();
+  }
+
+  void run() {
+    publish(request_.timeout, false, [this] { return !log_.lags_ms().empty(); });
+    if (log_.lags_ms().empty()) {
+      throw std::runtime_error("no answer on " + subscriber_.getTopic() +
+                               " to what is published on " + fibers_.getTopic() + " and " +
+                               obstacles_.getTopic());
+    }
+    log_.clear();
+    publish(request_.seconds, true, [] { return false; });
+  }
+
+  const ObstacleLog& log() const { return log_; }
+
+ private:
+  void on_contacts(const ContactArray& contacts) { log_.seen(contacts.minimum_distance); }
+
+  void publish_obstacle(const Obstacle& obstacle) {
+    ObstacleArray message;
+    message.obstacles = {obstacle};
+    obstacles_.publish(message);
+  }
+
+  void publish_fiber() {
+    FiberArray fiber;
+    fiber.header.frame_id = request_.frame;
+    fiber.header.stamp = ros::Time::now();
+    fiber.offsets = {0, 2};
+    fiber.radii = {radius};
+    fiber.points.resize(2);
+    fiber.points[0].x = -1.0;
+    fiber.points[1].x = 1.0;
+    fibers_.publish(fiber);
+  }
+
+  template <class Condition>
+  void publish(double seconds, bool disturbed, const Condition& enough) {
+    const ros::WallTime start = ros::WallTime::now();
+    ros::WallRate rate(request_.rate);
+    double next_bad = 0.0;
+    double next_mesh = 0.0;
+    for (double time = 0.0; ros::ok() && time < seconds && !enough();
+         time = (ros::WallTime::now() - start).toSec()) {
+      if (disturbed && request_.bad_rate > 0.0 && time >= next_bad) {
+        publish_obstacle(ball("lost", "no_such_frame", 0.0));
+        next_bad = time + 1.0 / request_.bad_rate;
+      }
+      if (disturbed && request_.triangles > 0 && time >= next_mesh) {
+        obstacles_.publish(thicket_);
+        next_mesh = time + request_.mesh_period;
+      }
+      publish_fiber();
+      publish_obstacle(
+          ball("ball", request_.frame, first_height + step * static_cast<double>(log_.send())));
+      rate.sleep();
+      progress_.show(std::to_string(log_.lags_ms().size()) + " places");
+    }
+  }
+
+  const ObstacleLatencyRequest& request_;
+  ObstacleArray thicket_;
+  ObstacleLog log_;
+  Progress progress_;
+  ros::NodeHandle node_;
+  ros::Publisher fibers_;
+  ros::Publisher obstacles_;
+  ros::Subscriber subscriber_;
+  ros::AsyncSpinner spinner_{1};  // last: stops before what its callbacks use
+};
+
+ExitCode run(const ObstacleLatencyRequest& request) {
+  ros::init(ros::M_string(), "fiber_bench",
+            ros::init_options::AnonymousName | ros::init_options::NoRosout);
+  if (!ros::master::check()) {
+    throw std::runtime_error("no ROS master at " + ros::master::getURI());
+  }
+  ObstacleRun obstacles(request);
+  obstacles.run();
+  const std::vector<double> lags = obstacles.log().lags_ms();
+  if (lags.empty()) {
+    throw std::runtime_error("the moving obstacle was not seen to move");
+  }
+  const nlohmann::ordered_json result{{"rate", request.rate},
+                                      {"bad_rate", request.bad_rate},
+                                      {"triangles", request.triangles},
+                                      {"places", lags.size()},
+                                      {"median_ms", quantile(lags, 0.5)},
+                                      {"p90_ms", quantile(lags, 0.9)},
+                                      {"max_ms", quantile(lags, 1.0)},
+                                      {"longest_gap_ms", obstacles.log().longest_gap_ms()}};
+  if (request.json) {
+    std::cout << result.dump() << '\n';
+    return SUCCEEDED;
+  }
+  for (const auto& [name, value] : result.items()) {
+    std::cout << name << ' ' << value << '\n';
+  }
+  return SUCCEEDED;
+}
+
+}  // namespace
+
+void add_obstacle_latency_command(CLI::App& app, Command& command) {
+  const auto request = std::make_shared<ObstacleLatencyRequest>();
+  CLI::App* latency = app.add_subcommand(
+      "obstacle_latency",
+      "time from publishing a moving obstacle to a running node to its being there, beside "
+      "obstacles that are bad or large");
+  latency->callback([&command, request] { command = [request] { return run(*request); }; });
+  const CLI::Range positive(0.1, 1e5);
+  const CLI::Range not_negative(0.0, 1e5);
+  latency->add_option("--rate", request->rate, "of the moving obstacle [Hz]")
+      ->check(positive)
+      ->capture_default_str();
+  latency->add_option("--bad-rate", request->bad_rate, "of obstacles in an unknown frame [Hz]")
+      ->check(not_negative)
+      ->capture_default_str();
+  latency->add_option("--triangles", request->triangles, "of a mesh; 0 for none")
+      ->check(whole_number(0))
+      ->capture_default_str();
+  latency->add_option("--mesh-period", request->mesh_period, "from mesh to mesh [s]")
+      ->check(positive)
+      ->capture_default_str();
+  latency->add_option("--seconds", request->seconds, "to measure")
+      ->check(positive)
+      ->capture_default_str();
+  latency->add_option("--timeout", request->timeout, "to wait for the node [s]")
+      ->check(not_negative)
+      ->capture_default_str();
+  latency->add_option("--topic", request->topic, "the node's FiberArray input")
+      ->capture_default_str();
+  latency->add_option("--obstacles", request->obstacles, "the node's obstacles")
+      ->capture_default_str();
+  latency->add_option("--contacts", request->contacts, "the node's environment contacts")
+      ->capture_default_str();
+  latency->add_option("--frame", request->frame, "of fibre and obstacle")->capture_default_str();
+  latency->add_flag("--json", request->json, "a JSON object instead of lines");
+}
+
+}  // namespace fiber

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/geometry/segment_distance.hpp"
+#include "fiber_proximity/query/point_pair.hpp"
+
+namespace fiber {
+
+/// Tells contacts of a fibre with itself from segments that are near because they follow each
+/// other: self-contact needs a loop.
+///
+/// Two places of a fibre are joined by a loop if a point between them is further away from one of
+/// the two than 5/4 of their distance and 5/2 radii. Places of touching strands, two radii apart,
+/// therefore need a point between them that is five radii away. Of two segments, the places where
+/// they are nearest count, and the outer end of each with the place nearest to it, if these are at
+/// most one radius further apart: parallel strands are nearest at more than one place. The radius
+/// is that of the thicker segment.
+///
+/// The rule knows no margin, so a larger margin never hides a contact. No stretch of a fibre has
+/// contacts with itself that turns by less than a right angle, even if every point is off by up to
+/// half a radius (LoopFreeStretches proves it).
+///
+/// Holds a reference: the fibres must outlive it, unchanged. Several threads may ask.
+class LoopTest {
+ public:
+  explicit LoopTest(const FiberAssembly& fibers);
+  ~LoopTest();
+  LoopTest(const LoopTest&) = delete;
+  LoopTest& operator=(const LoopTest&) = delete;
+
+  /// Whether both are segments of one fibre.
+  bool are_of_one_fiber(PointPair pair) const {
+    return pair.b - pair.a < most_points_ && is_within(fibers_.segment_id(pair.a).fiber, pair.b);
+  }
+
+  /// Whether the fibre makes a loop between two of its segments that share no point.
+  /// @param pair the smaller index first
+  /// @param nearest of the kernel robust
+  bool makes_loop(PointPair pair, const SegmentDistance& nearest) const;
+
+  /// Whether it is certain that no two segments make a loop that start at the points first … last;
+  /// false if these are not of one fibre. Costs little, once a fibre has been looked at.
+  bool rules_out(std::uint32_t first, std::uint32_t last) const;
+
+ private:
+  struct Chain;
+  struct Place;
+
+  bool is_within(std::uint32_t fiber, std::uint32_t point) const {
+    return point < fibers_.offsets()[fiber + 1];
+  }
+  const Chain& chain(std::uint32_t fiber) const;
+  Place place(std::uint32_t segment, double s) const;
+  bool leaves(const Place& place, PointPair pair, double limit) const;
+  bool makes_loop(const Place& a, const Place& b, PointPair pair, double limit) const {
+    return leaves(a, pair, limit) || leaves(b, pair, limit);
+  }
+
+  const FiberAssembly& fibers_;
+  std::uint32_t most_points_ = 0;  // of a fibre
+  // Made when they are asked for, most never are.
+  mutable std::once_flag chains_made_;
+  mutable std::unique_ptr<std::atomic<const Chain*>[]> chains_;  // by fibre
+  mutable std::mutex mutex_;
+  mutable std::vector<std::unique_ptr<const Chain>> owned_chains_;
+};
+
+}  // namespace fiber

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+
+namespace fiber {
+
+/// The most threads that may be asked for; more cores than most machines have.
+constexpr std::uint32_t most_threads = 1024;
+
+/// @throws std::invalid_argument naming the value and what is allowed, if that is more
+void validate_threads(std::uint32_t threads);
+
+/// The concurrency of a tbb::task_arena for at most this many threads, 0 for as many as there are
+/// cores. It is never above what TBB allows (the cores of this process, or what a
+/// tbb::global_control says): TBB would write a warning to stderr and use no more of them.
+/// @throws std::invalid_argument as validate_threads
+int arena_concurrency(std::uint32_t threads);
+
+}  // namespace fiber

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "fiber_proximity/ros/chain_set.hpp"
+
+namespace fiber_proximity_ros {
+
+/// What becomes of points a tracker has lost sight of: those with a coordinate that is not finite.
+enum class MissingPoints {
+  REFUSE,  ///< the message is refused
+  BRIDGE,  ///< the neighbours of missing points are joined, missing ends are left off
+  SPLIT    ///< the fibre is cut into the pieces that are known
+};
+
+/// Of the names refuse, bridge and split; none of any other.
+std::optional<MissingPoints> missing_points_from_name(const std::string& name);
+
+/// What was missing, in all messages so far.
+struct MissingPointCounts {
+  std::uint64_t points = 0;
+  std::uint64_t fibers = 0;       ///< left out: fewer than two of their points are known
+  std::uint64_t lone_points = 0;  ///< known, but left out: no neighbour of theirs is known
+};
+
+/// Takes the missing points out of the chains. Those that lie about their own layout stay as they
+/// are: the assembly refuses them.
+///
+/// A fibre that is cut keeps its name for the first of its pieces; another piece is called
+/// `name[i]`, where i is the index its first point had in the message's fibre, so that names are
+/// unique and the same piece has the same name whatever else is missing. A radius goes with its
+/// point, or with the pieces of its fibre.
+/// @throws std::invalid_argument naming the first of the missing points if they are to be refused
+void handle_missing_points(MissingPoints policy, ChainSet& chains, MissingPointCounts& counts);
+
+}  // namespace fiber_proximity_ros

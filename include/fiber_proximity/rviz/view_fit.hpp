@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace fiber_proximity_rviz {
+
+/// Where a camera looks that orbits a focal point, with z upwards, and how wide it sees.
+struct OrbitView {
+  double yaw = 0.0;    ///< [rad] about z, of the direction from the focal point to the camera
+  double pitch = 0.0;  ///< [rad] of that direction above the plane of x and y
+  double tan_half_width =
+      1.0;  ///< of the angle from the picture's middle to its left or right side
+  double tan_half_height = 1.0;  ///< the same to its upper or lower side
+};
+
+/// What to look at.
+struct ViewFit {
+  Eigen::Vector3d focal_point = Eigen::Vector3d::Zero();
+  double distance = 0.0;  ///< [m] of the camera from there
+};
+
+/// Fits the view to points: they reach over `share` of the picture's width or height, whichever is
+/// less, and at most over that much of the other. What is near them and thick, or written above
+/// them, has room beside.
+/// @param points [m] at least one
+/// @param share  above 0 and at most 1
+ViewFit fit_view(const std::vector<Eigen::Vector3d>& points, const OrbitView& view, double share);
+
+}  // namespace fiber_proximity_rviz

@@ -1,0 +1,74 @@
+#include "src/query/loop_free_stretches.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+
+#include "fiber_proximity/geometry/norm.hpp"
+
+namespace fiber {
+namespace {
+
+using Eigen::Vector3d;
+
+// δ in radii: √2·1.75 < 5/2, the rest is for rounding.
+constexpr double most_fall_back = 1.75;
+
+// Products of shorter steps may lose digits.
+constexpr double least_step = 0x1p-1000;
+
+/// Whether these points fall back along none of the four directions by more than the limit [m].
+/// Of every step, what rounding may have added is taken off first.
+bool is_loop_free(const std::vector<Vector3d>& points, std::uint32_t first, std::uint32_t last,
+                  double limit) {
+  const Vector3d axis = unit_of(points[last] - points[first]);
+  if (axis.isZero(0.0)) {
+    return false;
+  }
+  const Vector3d side = axis.unitOrthogonal();
+  const Vector3d other_side = axis.cross(side);
+  const std::array<Vector3d, 4> directions{axis + side, axis - side, axis + other_side,
+                                           axis - other_side};
+  std::array<double, 4> fall_back{};
+  for (std::uint32_t i = first; i < last; ++i) {
+    const Vector3d step = points[i + 1] - points[i];
+    const double size = step.cwiseAbs().sum();
+    if (size == 0.0) {
+      continue;
+    }
+    if (size < least_step) {
+      return false;
+    }
+    for (std::size_t d = 0; d < directions.size(); ++d) {
+      const double advance = directions[d].dot(step) - 0x1p-40 * size;
+      fall_back[d] = std::max(0.0, fall_back[d] - advance);
+      if (fall_back[d] > limit) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+LoopFreeStretches::LoopFreeStretches(const FiberAssembly& fibers, std::uint32_t fiber,
+                                     double thinnest)
+    : begin_(fibers.offsets()[fiber]), end_(fibers.offsets()[fiber + 1] - begin_) {
+  const double limit = most_fall_back * thinnest;
+  const std::uint32_t last = fibers.offsets()[fiber + 1] - 1;
+  std::uint32_t count = last - begin_;  // of segments to try
+  for (std::uint32_t first = begin_; first <= last;) {
+    std::uint32_t end = first + std::min(count, last - first);
+    while (end > first + 1 && !is_loop_free(fibers.points(), first, end, limit)) {
+      end = first + (end - first) / 2;
+    }
+    // The next one begins half-way, so that near points share a stretch.
+    const std::uint32_t next = end == last ? last + 1 : first + std::max(1U, (end - first) / 2);
+    std::fill(end_.begin() + (first - begin_), end_.begin() + (next - begin_), end);
+    count = 4 * std::max(1U, end - first);
+    first = next;
+  }
+}
+
+}  // namespace fiber

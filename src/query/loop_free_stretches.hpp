@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
+
+namespace fiber {
+
+/// Stretches of a fibre in which no two places are joined by a loop (LoopTest).
+///
+/// A stretch is loop-free if along four directions, an axis e ± two at right angles to it, it never
+/// falls back by more than δ, where √2·δ is at most 5/2 radii. Proof: let v be the vector from a
+/// place x to a later one k, w that from k to a still later one y, and z = v + w. In coordinates
+/// (a, b, c) along e and the two others, |b| and |c| of both v and w are at most a + δ.
+/// - If v has a ≤ 0, then |v| ≤ √2·δ. If w has, then |w| ≤ √2·δ, and |v| ≤ |z| + √2·δ.
+/// - Otherwise, with b and c of v taken positive, the part of z along (2, 1, 1)/√6 is at least
+///   m = (2a + b + c − 2δ)/√6, because that of w along it is at least −2δ/√6. Where m ≤ 0, v is in
+///   a polytope whose corners are within √2·δ. Where m ≥ 0, f = κ·m + √2·δ − |v| is concave, not
+///   negative at the corners of the polyhedron that v is in, and does not fall along its rays, the
+///   directions (1, 0, 0), (1, 1, 0), (1, 0, 1) and (1, 1, 1), for every κ ≥ √(3/2) = 1.225.
+/// So |v| ≤ κ·|z| + √2·δ, of w the same, and 5/4 is above κ by more than anything is rounded.
+class LoopFreeStretches {
+ public:
+  /// Finds them in time linear in the fibre's points.
+  /// @param thinnest radius of the fibre's segments [m]
+  LoopFreeStretches(const FiberAssembly& fibers, std::uint32_t fiber, double thinnest);
+
+  /// Whether one of them holds the points first … last of the fibre.
+  bool hold(std::uint32_t first, std::uint32_t last) const { return last <= end_[first - begin_]; }
+
+ private:
+  std::uint32_t begin_;             // the fibre's first point
+  std::vector<std::uint32_t> end_;  // by point: the last point of the stretch that reaches furthest
+};
+
+}  // namespace fiber

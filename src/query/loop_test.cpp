@@ -1,0 +1,155 @@
+#include "fiber_proximity/query/loop_test.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fiber_proximity/geometry/norm.hpp"
+#include "src/query/loop_free_stretches.hpp"
+
+namespace fiber {
+namespace {
+
+using Eigen::Vector3d;
+
+// How far the fibre must go from two places: this part of their distance, and so many radii.
+constexpr double part_of_distance = 1.25;
+constexpr double radii = 2.5;
+
+// So few points are looked at one by one.
+constexpr std::uint32_t short_walk = 32;
+
+double thinnest_radius(const FiberAssembly& fibers, std::uint32_t fiber) {
+  double radius = fibers.largest_radius();
+  for (std::uint32_t i = fibers.offsets()[fiber]; i + 1 < fibers.offsets()[fiber + 1]; ++i) {
+    radius = std::min(radius, fibers.segment_radius(i));
+  }
+  return radius;
+}
+
+/// [m] At least the length of every segment.
+double longest_step(const FiberAssembly& fibers, std::uint32_t fiber) {
+  double longest = 0.0;
+  for (std::uint32_t i = fibers.offsets()[fiber] + 1; i < fibers.offsets()[fiber + 1]; ++i) {
+    longest = std::max(longest, norm_of(fibers.points()[i] - fibers.points()[i - 1]));
+  }
+  return longest * (1.0 + 0x1p-40);
+}
+
+}  // namespace
+
+/// What is worth knowing of a fibre for long walks along it.
+struct LoopTest::Chain {
+  Chain(const FiberAssembly& fibers, std::uint32_t fiber)
+      : step(longest_step(fibers, fiber)),
+        stretches(fibers, fiber, thinnest_radius(fibers, fiber)) {}
+
+  double step;  // [m] no two points that follow each other are further apart
+  LoopFreeStretches stretches;
+};
+
+/// A place on a segment, as the sum of its nearer end and the way from there: what is near the end
+/// is then known to all digits.
+struct LoopTest::Place {
+  Vector3d end;
+  Vector3d way;
+};
+
+LoopTest::LoopTest(const FiberAssembly& fibers) : fibers_(fibers) {
+  for (std::size_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
+    most_points_ = std::max(most_points_, fibers.offsets()[fiber + 1] - fibers.offsets()[fiber]);
+  }
+}
+
+LoopTest::~LoopTest() = default;
+
+const LoopTest::Chain& LoopTest::chain(std::uint32_t fiber) const {
+  std::call_once(chains_made_, [this] {
+    chains_ = std::make_unique<std::atomic<const Chain*>[]>(fibers_.fiber_count());
+  });
+  if (const Chain* chain = chains_[fiber].load(std::memory_order_acquire)) {
+    return *chain;
+  }
+  const std::lock_guard lock(mutex_);
+  if (const Chain* chain = chains_[fiber].load(std::memory_order_acquire)) {
+    return *chain;
+  }
+  owned_chains_.push_back(std::make_unique<const Chain>(fibers_, fiber));
+  chains_[fiber].store(owned_chains_.back().get(), std::memory_order_release);
+  return *owned_chains_.back();
+}
+
+LoopTest::Place LoopTest::place(std::uint32_t segment, double s) const {
+  const Vector3d& p0 = fibers_.points()[segment];
+  const Vector3d& p1 = fibers_.points()[segment + 1];
+  return s <= 0.5 ? Place{p0, s * (p1 - p0)} : Place{p1, (1.0 - s) * (p0 - p1)};
+}
+
+/// Whether a point between the segments is further from the place than the limit [m]. As many
+/// points are left out each time as it takes at least to get there.
+bool LoopTest::leaves(const Place& place, PointPair pair, double limit) const {
+  const double scale = limit > least_safe_norm ? 1.0 : tiny_vector_scale;
+  const double scaled_limit = scale * limit;
+  const std::vector<Vector3d>& points = fibers_.points();
+  const bool is_long = pair.b - pair.a > short_walk;
+  const double step = is_long ? scale * chain(fibers_.segment_id(pair.a).fiber).step : 0.0;
+  for (std::uint32_t k = pair.a + 1; k <= pair.b; ++k) {
+    const double squared = (scale * ((points[k] - place.end) - place.way)).squaredNorm();
+    if (squared > scaled_limit * scaled_limit) {
+      return true;
+    }
+    if (is_long) {
+      const double rest = (1.0 - 0x1p-40) * scaled_limit - std::sqrt(squared);
+      if (rest >= step * (pair.b - k)) {
+        return false;
+      }
+      k += rest > 0.0 ? static_cast<std::uint32_t>(rest / step) : 0;
+    }
+  }
+  return false;
+}
+
+bool LoopTest::makes_loop(PointPair pair, const SegmentDistance& nearest) const {
+  if (pair.b - pair.a > short_walk && rules_out(pair.a, pair.b)) {
+    return false;
+  }
+  const std::vector<Vector3d>& points = fibers_.points();
+  const double radius = std::max(fibers_.segment_radius(pair.a), fibers_.segment_radius(pair.b));
+  const double length_a = norm_of(points[pair.a + 1] - points[pair.a]);
+  const double length_b = norm_of(points[pair.b + 1] - points[pair.b]);
+  // What places on segments are rounded by makes no loop.
+  const double allowance = radii * radius + 0x1p-48 * (length_a + length_b);
+  const auto limit = [&](double distance) { return part_of_distance * distance + allowance; };
+  const Place a = place(pair.a, nearest.s);
+  const Place b = place(pair.b, nearest.t);
+  const double nearest_limit = limit(nearest.distance);
+  // Other places on the segments are no further from these than the longer segment.
+  const double limit_for_all = nearest_limit - std::max(length_a, length_b);
+  if (limit_for_all > 0.0 && !makes_loop(a, b, pair, limit_for_all)) {
+    return false;
+  }
+  if (makes_loop(a, b, pair, nearest_limit)) {
+    return true;
+  }
+  const double most = nearest.distance + radius;
+  const Vector3d& outer_a = points[pair.a];
+  const Vector3d& outer_b = points[pair.b + 1];
+  const SegmentDistance of_a =
+      segment_distance(outer_a, outer_a, points[pair.b], points[pair.b + 1]);
+  if (of_a.distance <= most &&
+      makes_loop(place(pair.a, 0.0), place(pair.b, of_a.t), pair, limit(of_a.distance))) {
+    return true;
+  }
+  const SegmentDistance of_b =
+      segment_distance(points[pair.a], points[pair.a + 1], outer_b, outer_b);
+  return of_b.distance <= most &&
+         makes_loop(place(pair.a, of_b.s), place(pair.b, 1.0), pair, limit(of_b.distance));
+}
+
+bool LoopTest::rules_out(std::uint32_t first, std::uint32_t last) const {
+  if (!are_of_one_fiber({first, last})) {
+    return false;
+  }
+  return chain(fibers_.segment_id(first).fiber).stretches.hold(first, last + 1);
+}
+
+}  // namespace fiber

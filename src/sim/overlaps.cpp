@@ -1,0 +1,60 @@
+#include "fiber_proximity/sim/overlaps.hpp"
+
+#include <algorithm>
+
+#include "fiber_proximity/sim/contact_limits.hpp"
+
+namespace fiber {
+
+OverlapFinder::OverlapFinder(const Options& options)
+    : options_(options), engine_(make_engine("run_tree")) {
+  query_.type = QueryType::LIMITED;
+  query_.pairing = options.same_fiber && options.different_fibers ? Pairing::ALL
+                   : options.same_fiber                           ? Pairing::SAME_FIBER
+                                                                  : Pairing::DIFFERENT_FIBERS;
+}
+
+std::vector<Overlap> OverlapFinder::find(const Rods& rods, double share, std::uint32_t most) {
+  query_.max_contacts = most;
+  fibers_ = FiberAssembly(rods.positions, rods.offsets, rods.radii);
+  std::vector<Overlap> found;
+  if (options_.same_fiber || options_.different_fibers) {
+    find_between_rods(rods, share, found);
+  }
+  if (options_.environment != nullptr) {
+    find_in_objects(rods, share, found);
+  }
+  std::stable_sort(found.begin(), found.end(), [](const Overlap& a, const Overlap& b) {
+    return a.contact.distance < b.contact.distance;
+  });
+  return found;
+}
+
+void OverlapFinder::find_between_rods(const Rods& rods, double share, std::vector<Overlap>& found) {
+  query_.neighbour_skip = contact_neighbour_skip;
+  // The rule of lengths again, by where the rods are: what it leaves out is not to use up the most.
+  query_.neighbour_skip_length = contact_neighbour_length(rods);
+  engine_->update(fibers_);
+  engine_->query(query_, result_);
+  for (const Contact& contact : result_.contacts) {
+    const double touching = rods.radii[contact.fiber_a] + rods.radii[contact.fiber_b];
+    const bool are_neighbours =
+        contact.fiber_a == contact.fiber_b &&
+        are_contact_neighbours(rods, rods.first(contact.fiber_a) + contact.segment_a,
+                               rods.first(contact.fiber_b) + contact.segment_b);
+    if (-contact.distance > share * touching && !are_neighbours) {
+      found.push_back({contact, false});
+    }
+  }
+}
+
+void OverlapFinder::find_in_objects(const Rods& rods, double share, std::vector<Overlap>& found) {
+  options_.environment->query(fibers_, query_, options_.allowed, result_);
+  for (const Contact& contact : result_.contacts) {
+    if (-contact.distance > share * rods.radii[contact.fiber_a]) {
+      found.push_back({contact, true});
+    }
+  }
+}
+
+}  // namespace fiber

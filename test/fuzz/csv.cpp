@@ -1,0 +1,16 @@
+// Fibre files as CSV.
+#include "fiber_proximity/io/csv.hpp"
+
+#include <sstream>
+
+#include "fuzz_target.hpp"
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  std::istringstream stream(fiber::test::text_of(data, size));
+  try {
+    fiber::read_csv(stream, "fuzz.csv", 0.01);
+  } catch (const fiber::FileError& error) {
+    fiber::test::check_error(error);
+  }
+  return 0;
+}

@@ -1,0 +1,16 @@
+// Files of pairs of segments.
+#include "fiber_proximity/io/segment_pairs.hpp"
+
+#include <sstream>
+
+#include "fuzz_target.hpp"
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  std::istringstream stream(fiber::test::text_of(data, size));
+  try {
+    fiber::read_segment_pairs(stream, "fuzz.csv");
+  } catch (const fiber::FileError& error) {
+    fiber::test::check_error(error);
+  }
+  return 0;
+}

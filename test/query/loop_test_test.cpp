@@ -1,0 +1,179 @@
+#include "fiber_proximity/query/loop_test.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/cables.hpp"
+#include "support/rounds.hpp"
+
+namespace fiber::test {
+namespace {
+
+using Eigen::Vector3d;
+
+/// The rule as it is stated, point by point, in twice a double's digits where the machine has them.
+class Rule {
+ public:
+  explicit Rule(const FiberAssembly& fibers) : fibers_(fibers) {}
+
+  bool makes_loop(PointPair pair, const SegmentDistance& nearest, double factor = 1.0) const {
+    const std::vector<Vector3d>& p = fibers_.points();
+    const double radius = std::max(fibers_.segment_radius(pair.a), fibers_.segment_radius(pair.b));
+    const auto at = [&](std::uint32_t i, double s) -> Long {
+      return (1.0L - s) * p[i].cast<long double>() + s * p[i + 1].cast<long double>();
+    };
+    const auto leaves = [&](const Long& x, const Long& y) {
+      const long double limit = factor * (1.25L * (x - y).norm() + 2.5L * radius);
+      for (std::uint32_t k = pair.a + 1; k <= pair.b; ++k) {
+        const Long point = p[k].cast<long double>();
+        if (std::max((point - x).norm(), (point - y).norm()) > limit) {
+          return true;
+        }
+      }
+      return false;
+    };
+    if (leaves(at(pair.a, nearest.s), at(pair.b, nearest.t))) {
+      return true;
+    }
+    const long double most = factor * (nearest.distance + radius);
+    const SegmentDistance of_a = segment_distance(p[pair.a], p[pair.a], p[pair.b], p[pair.b + 1]);
+    const SegmentDistance of_b =
+        segment_distance(p[pair.a], p[pair.a + 1], p[pair.b + 1], p[pair.b + 1]);
+    return (of_a.distance <= most && leaves(at(pair.a, 0.0), at(pair.b, of_a.t))) ||
+           (of_b.distance <= most && leaves(at(pair.a, of_b.s), at(pair.b, 1.0)));
+  }
+
+ private:
+  using Long = Eigen::Matrix<long double, 3, 1>;
+  const FiberAssembly& fibers_;
+};
+
+/// A random walk: with bends, loops and knots of every size, and radii that change.
+FiberAssembly random_cable(Random& random, int count) {
+  Curve points;
+  std::vector<double> radii;
+  Vector3d place = Vector3d::Zero();
+  Vector3d direction = random.direction();
+  const double step = std::exp(random.uniform(-3.0, 2.0));
+  const double stiffness = random.uniform(0.0, 8.0);
+  for (int i = 0; i < count; ++i) {
+    points.push_back(place);
+    radii.push_back(random.chance(0.1) ? 0.0 : random.uniform(0.5, 1.0));
+    direction = (stiffness * direction + random.direction()).normalized();
+    place += step * direction;
+  }
+  const double scale = std::exp(random.uniform(-5.0, 5.0));
+  for (int i = 0; i < count; ++i) {
+    points[i] *= scale;
+    radii[i] *= scale;
+  }
+  return {points, {0, static_cast<std::uint32_t>(count)}, radii};
+}
+
+TEST(LoopTest, DecidesByTheRule) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  int loops = 0;
+  int others = 0;
+  for (int round = 0; round < rounds(60); ++round) {
+    const FiberAssembly fibers = random_cable(random, random.integer(4, 150));
+    const LoopTest test(fibers);
+    const Rule rule(fibers);
+    const auto last = static_cast<std::uint32_t>(fibers.segment_count()) - 1;
+    for (std::uint32_t i = 0; i < last; ++i) {
+      for (std::uint32_t j = i + 2; j <= last; ++j) {
+        const std::vector<Vector3d>& p = fibers.points();
+        const SegmentDistance nearest = segment_distance(p[i], p[i + 1], p[j], p[j + 1]);
+        const bool found = test.makes_loop({i, j}, nearest);
+        (found ? loops : others) += 1;
+        ASSERT_TRUE(test.are_of_one_fiber({i, j}));
+        // Rounding may decide within a billionth.
+        ASSERT_TRUE(found == rule.makes_loop({i, j}, nearest, 1.0 + 1e-9) ||
+                    found == rule.makes_loop({i, j}, nearest, 1.0 - 1e-9))
+            << "segments " << i << " and " << j << " of " << last + 1;
+        ASSERT_FALSE(found && test.rules_out(i, j));
+      }
+    }
+  }
+  EXPECT_GT(loops, 1000);
+  EXPECT_GT(others, 1000);
+}
+
+/// What is ruled out at once is ruled out pair by pair, by the rule itself.
+TEST(LoopTest, RulesOutOnlyWhatHasNoLoop) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  std::size_t ruled_out = 0;
+  for (int round = 0; round < rounds(30); ++round) {
+    for (const Cable& cable :
+         loopless_cables(random.integer(4, 120), std::exp(random.uniform(0.0, 7.0)), random)) {
+      const FiberAssembly fibers = cable.fibers(std::exp(random.uniform(-5.0, 5.0)));
+      const LoopTest test(fibers);
+      const Rule rule(fibers);
+      for (std::uint32_t i = 0; i < fibers.segment_count(); ++i) {
+        for (std::uint32_t j = i + 2; j < fibers.segment_count(); ++j) {
+          if (test.rules_out(i, j)) {
+            ++ruled_out;
+            const std::vector<Vector3d>& p = fibers.points();
+            ASSERT_FALSE(rule.makes_loop({i, j}, segment_distance(p[i], p[i + 1], p[j], p[j + 1])))
+                << cable.name << ", segments " << i << " and " << j;
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(ruled_out, 1000U);
+}
+
+TEST(LoopTest, RulesOutAllOfAStraightNoisyCableAtOnce) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  for (const double length : {100.0, 2000.0, 20000.0}) {
+    for (const Cable& cable : loopless_cables(2000, length, random)) {
+      if (cable.name.find("straight") == std::string::npos) {
+        continue;
+      }
+      const FiberAssembly fibers = cable.fibers();
+      EXPECT_TRUE(LoopTest(fibers).rules_out(0, 1998)) << cable.name;
+    }
+  }
+}
+
+TEST(LoopTest, DoesNotDependOnSizeOrPlaceNorOnTheDirectionOfPoints) {
+  for (const Cable& cable : {hairpin(7.0, 11), coil(2.6, 3.0, 7), tight_knot(30)}) {
+    SCOPED_TRACE(cable.name);
+    const FiberAssembly fibers = cable.fibers();
+    Cable reversed = cable;
+    std::reverse(reversed.points.begin(), reversed.points.end());
+    const auto last = static_cast<std::uint32_t>(fibers.segment_count()) - 1;
+    const auto makes_loop = [](const FiberAssembly& of, std::uint32_t i, std::uint32_t j) {
+      const std::vector<Vector3d>& p = of.points();
+      return LoopTest(of).makes_loop({i, j}, segment_distance(p[i], p[i + 1], p[j], p[j + 1]));
+    };
+    for (std::uint32_t i = 0; i < last; ++i) {
+      for (std::uint32_t j = i + 2; j <= last; ++j) {
+        const bool expected = makes_loop(fibers, i, j);
+        // Powers of two: nothing is rounded on the way.
+        for (const double scale : {0x1p-1000, 0x1p-600, 0x1p-300, 0x1p-30, 0x1p40, 0x1p490}) {
+          ASSERT_EQ(makes_loop(cable.fibers(scale), i, j), expected) << scale;
+        }
+        ASSERT_EQ(makes_loop(reversed.fibers(), last - j, last - i), expected);
+      }
+    }
+  }
+}
+
+TEST(LoopTest, TellsFibersApart) {
+  const FiberAssembly fibers({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {4, 0, 0}, {5, 0, 0}},
+                             {0, 4, 6}, {0.1});
+  const LoopTest test(fibers);
+  EXPECT_TRUE(test.are_of_one_fiber({0, 2}));
+  EXPECT_FALSE(test.are_of_one_fiber({0, 4}));
+  EXPECT_FALSE(test.are_of_one_fiber({2, 4}));
+  EXPECT_TRUE(test.rules_out(0, 2));
+  EXPECT_FALSE(test.rules_out(0, 4));
+}
+
+}  // namespace
+}  // namespace fiber::test

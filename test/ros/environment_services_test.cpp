@@ -1,0 +1,326 @@
+// The running node without a fixed frame: asked before there are any fibres, with deadlines, and
+// while it builds a mesh. The tests run in this order.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <set>
+
+#include "fiber_proximity/AllowPairs.h"
+#include "fiber_proximity/ApplyObstacles.h"
+#include "fiber_proximity/CheckFibers.h"
+#include "fiber_proximity/ObstacleArray.h"
+#include "fiber_proximity/QueryProximity.h"
+#include "ros/messages.hpp"
+#include "ros/node_test.hpp"
+
+namespace {
+
+using fiber_proximity::AllowPairs;
+using fiber_proximity::ApplyObstacles;
+using fiber_proximity::CheckFibers;
+using fiber_proximity::Contact;
+using fiber_proximity::ContactArray;
+using fiber_proximity::FiberArray;
+using fiber_proximity::Obstacle;
+using fiber_proximity::ObstacleArray;
+using fiber_proximity::QueryProximity;
+using test_messages::header;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Obstacle obstacle(const std::string& id, const std::string& frame = "world") {
+  Obstacle obstacle;
+  obstacle.header.frame_id = frame;
+  obstacle.id = id;
+  obstacle.operation = Obstacle::ADD;
+  return obstacle;
+}
+
+/// Of a radius of 0.25, on the x axis.
+Obstacle ball(const std::string& id, double x, const std::string& frame = "world") {
+  Obstacle ball = obstacle(id, frame);
+  ball.pose.position.x = x;
+  ball.pose.orientation.w = 1.0;
+  ball.primitives.resize(1);
+  ball.primitives[0].type = shape_msgs::SolidPrimitive::SPHERE;
+  ball.primitives[0].dimensions = {0.25};
+  return ball;
+}
+
+fiber_proximity::QueryShape shape(const Eigen::Vector3d& point, const std::string& frame) {
+  fiber_proximity::QueryShape shape;
+  shape.header.frame_id = frame;
+  shape.points = {fiber_proximity_ros::to_message(point)};
+  shape.radius = 0.01;
+  return shape;
+}
+
+template <class Service>
+typename Service::Response call(const std::string& name, typename Service::Request request) {
+  typename Service::Response response;
+  EXPECT_TRUE(
+      ros::service::waitForService("/proximity/" + name, ros::Duration(node_test::patience)));
+  EXPECT_TRUE(ros::service::call("/proximity/" + name, request, response));
+  return response;
+}
+
+class EnvironmentServicesTest : public node_test::NodeTest {
+ protected:
+  static void apply(const std::vector<Obstacle>& obstacles) {
+    ApplyObstacles::Request request;
+    request.obstacles = obstacles;
+    const auto response = call<ApplyObstacles>("apply_obstacles", request);
+    EXPECT_TRUE(response.success) << response.message;
+  }
+
+  static QueryProximity::Response query(const QueryProximity::Request& request) {
+    return call<QueryProximity>("query", request);
+  }
+
+  /// A fibre along y at x, from the first y to the second.
+  static FiberArray fiber(double x, double begin, double end) {
+    FiberArray fiber = test_messages::fiber_array(
+        header("world"), {{x, begin, 0.0}, {x, 0.5 * (begin + end), 0.0}, {x, end, 0.0}});
+    fiber.radii = {0.01};
+    fiber.names = {"fiber"};
+    return fiber;
+  }
+};
+
+TEST_F(EnvironmentServicesTest, WithoutFibresTheEnvironmentIsAskedAboutAllTheSame) {
+  QueryProximity::Request request;
+  request.against = QueryProximity::Request::ENVIRONMENT;
+  request.type = QueryProximity::Request::CLOSEST;
+  request.margin = infinity;
+  // No frame is known yet: only shapes that name one cannot be placed.
+  request.shapes = {shape({1, 0, 0}, "")};
+  QueryProximity::Response answer = query(request);
+  ASSERT_TRUE(answer.success) << answer.message;
+  EXPECT_TRUE(answer.complete);
+  EXPECT_EQ(answer.offsets, (std::vector<std::uint32_t>{0, 0}));
+  EXPECT_EQ(answer.minimum_lower, std::vector<double>{infinity});
+  request.shapes = {shape({1, 0, 0}, "world")};
+  answer = query(request);
+  EXPECT_FALSE(answer.success);
+  EXPECT_NE(answer.message.find("shape 0: no transform from frame 'world': there is no fixed frame "
+                                "yet, set the parameter fixed_frame"),
+            std::string::npos)
+      << answer.message;
+
+  apply({ball("ball", 0.0)});  // its frame is the fixed one from now on
+  answer = query(request);
+  ASSERT_TRUE(answer.success) << answer.message;
+  EXPECT_EQ(answer.header.frame_id, "world");
+  EXPECT_FALSE(answer.header.stamp.isZero());
+  EXPECT_TRUE(answer.fiber_names.empty());
+  EXPECT_EQ(answer.object_names, std::vector<std::string>{"ball"});
+  ASSERT_EQ(answer.contacts.size(), 1U);
+  EXPECT_NEAR(answer.contacts[0].distance, 0.74, 1e-12);
+
+  // What is asked about fibres is refused still.
+  for (const auto against :
+       {QueryProximity::Request::FIBERS, QueryProximity::Request::EVERYTHING}) {
+    request.against = against;
+    answer = query(request);
+    EXPECT_FALSE(answer.success);
+    EXPECT_NE(answer.message.find("no fresh input"), std::string::npos) << answer.message;
+  }
+}
+
+TEST_F(EnvironmentServicesTest, WithoutFibresCandidatesAreCheckedThatAreToIgnoreThem) {
+  apply({ball("ball", 0.0)});
+  CheckFibers::Request request;
+  request.type = CheckFibers::Request::ALL;
+  request.candidates = {fiber(0.2, -1, 1), fiber(0.3, -1, 1)};
+  request.replaced_fibers = {"none of them"};
+  EXPECT_FALSE(call<CheckFibers>("check_fibers", request).success);
+  request.ignore_fibers = true;
+  const auto answer = call<CheckFibers>("check_fibers", request);
+  ASSERT_TRUE(answer.success) << answer.message;
+  EXPECT_EQ(answer.free, (std::vector<std::uint8_t>{0, 1}));
+  EXPECT_EQ(answer.complete, (std::vector<std::uint8_t>{1, 1}));
+  ASSERT_GE(answer.contacts.size(), 1U);
+  EXPECT_EQ(answer.contacts[0].type_b, Contact::OBJECT);
+}
+
+TEST_F(EnvironmentServicesTest, ADeadlineIsThatOfTheWholeBatch) {
+  const ros::Publisher publisher = advertise<FiberArray>("fibers");
+  connect(publisher, fiber(0.4, -1, 1));
+  apply({ball("ball", 0.0)});
+  std::mt19937 random(16);
+  std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
+  QueryProximity::Request request;
+  request.type = QueryProximity::Request::CLOSEST;
+  request.margin = infinity;
+  for (int i = 0; i < 3000; ++i) {
+    request.shapes.push_back(
+        shape({coordinate(random), coordinate(random), coordinate(random)}, "world"));
+  }
+  for (const auto against : {QueryProximity::Request::FIBERS, QueryProximity::Request::ENVIRONMENT,
+                             QueryProximity::Request::EVERYTHING}) {
+    request.against = against;
+    request.deadline = 0.0;
+    const QueryProximity::Response truth = query(request);
+    ASSERT_TRUE(truth.success) << truth.message;
+    EXPECT_TRUE(truth.complete);
+    ASSERT_EQ(truth.contacts.size(), request.shapes.size());
+    for (const double deadline : {1e-9, 1e-4, 1e-3}) {
+      request.deadline = deadline;
+      const QueryProximity::Response answer = query(request);
+      ASSERT_TRUE(answer.success) << answer.message;
+      ASSERT_EQ(answer.offsets.size(), request.shapes.size() + 1);
+      ASSERT_EQ(answer.minimum_lower.size(), request.shapes.size());
+      EXPECT_EQ(answer.offsets.back(), answer.contacts.size());
+      std::size_t unknown = 0;
+      for (std::size_t i = 0; i < request.shapes.size(); ++i) {
+        EXPECT_LE(answer.minimum_lower[i], truth.contacts[i].upper);
+        if (answer.offsets[i + 1] == answer.offsets[i]) {
+          EXPECT_EQ(answer.minimum_lower[i], -infinity);
+          ++unknown;
+        } else {
+          EXPECT_EQ(answer.contacts[answer.offsets[i]].fiber_a, i);
+          EXPECT_GE(answer.contacts[answer.offsets[i]].upper, truth.contacts[i].lower);
+        }
+      }
+      EXPECT_TRUE(!answer.complete || unknown == 0);
+      if (deadline == 1e-9) {
+        EXPECT_FALSE(answer.complete);
+        EXPECT_EQ(unknown, request.shapes.size());
+      }
+    }
+  }
+}
+
+TEST_F(EnvironmentServicesTest, ADeadlineIsThatOfAllCandidates) {
+  const ros::Publisher publisher = advertise<FiberArray>("fibers");
+  connect(publisher, fiber(0.4, -1, 1));
+  apply({ball("ball", 0.0)});
+  CheckFibers::Request request;
+  request.type = CheckFibers::Request::ALL;
+  for (int i = 0; i < 2000; ++i) {
+    request.candidates.push_back(fiber(0.001 * i, -1, 1));
+  }
+  const auto truth = call<CheckFibers>("check_fibers", request);
+  ASSERT_TRUE(truth.success) << truth.message;
+  EXPECT_EQ(std::count(truth.complete.begin(), truth.complete.end(), 1), 2000);
+  for (const double deadline : {1e-9, 1e-4, 1e-3}) {
+    request.deadline = deadline;
+    const auto answer = call<CheckFibers>("check_fibers", request);
+    ASSERT_TRUE(answer.success) << answer.message;
+    ASSERT_EQ(answer.free.size(), 2000U);
+    ASSERT_EQ(answer.complete.size(), 2000U);
+    ASSERT_EQ(answer.offsets.size(), 2001U);
+    EXPECT_EQ(answer.offsets.back(), answer.contacts.size());
+    for (std::size_t i = 0; i < 2000; ++i) {
+      EXPECT_TRUE(answer.free[i] || !truth.free[i]) << i;
+      EXPECT_TRUE(!answer.complete[i] || answer.free[i] == truth.free[i]) << i;
+    }
+    if (deadline == 1e-9) {
+      EXPECT_EQ(std::count(answer.complete.begin(), answer.complete.end(), 0), 2000);
+    }
+  }
+}
+
+TEST_F(EnvironmentServicesTest, ABadObstacleBeforeEachOneOfAnotherDelaysNothing) {
+  const ros::Publisher publisher = advertise<FiberArray>("fibers");
+  node_test::Recorder<ContactArray> around(node, "/proximity/environment_contacts");
+  connect(publisher, fiber(0.4, -1, 1), [&] { return !around.messages.empty(); });
+  const ros::Publisher obstacles = advertise<ObstacleArray>("/proximity/obstacles");
+  for (int i = 0; i < 5; ++i) {
+    ObstacleArray message;
+    message.obstacles = {ball("lost", 0.0, "nowhere")};
+    obstacles.publish(message);
+    const double x = 2.0 + i;
+    message.obstacles = {ball("ball", x)};
+    obstacles.publish(message);
+    ASSERT_NE(around.wait_for([x](const ContactArray& found) {
+      return std::abs(found.minimum_distance - (x - 0.4 - 0.25 - 0.01)) < 1e-9;
+    }),
+              nullptr)
+        << i;
+  }
+  Obstacle all = obstacle("");
+  all.operation = Obstacle::REMOVE;
+  apply({all});  // those that wait, too
+}
+
+/// Triangles in no order.
+Obstacle thicket(const std::string& id, std::uint32_t triangles) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
+  Obstacle thicket = obstacle(id);
+  thicket.meshes.resize(1);
+  for (std::uint32_t i = 0; i < triangles; ++i) {
+    thicket.meshes[0].triangles.emplace_back();
+    for (std::uint32_t corner = 0; corner < 3; ++corner) {
+      thicket.meshes[0].triangles.back().vertex_indices[corner] = 3 * i + corner;
+      thicket.meshes[0].vertices.push_back(fiber_proximity_ros::to_message(
+          Eigen::Vector3d(coordinate(random), coordinate(random), 10.0)));
+    }
+  }
+  return thicket;
+}
+
+// Building takes much longer than some frames, whatever else the machine does: what is asserted is
+// their order.
+TEST_F(EnvironmentServicesTest, ContactsKeepComingWhileALargeMeshIsBuilt) {
+  const ros::Publisher publisher = advertise<FiberArray>("fibers");
+  node_test::Recorder<ContactArray> around(node, "/proximity/environment_contacts");
+  apply({ball("ball", 0.0)});
+  connect(publisher, fiber(0.4, -1, 1), [&] { return !around.messages.empty(); });
+  const ros::Publisher obstacles = advertise<ObstacleArray>("/proximity/obstacles");
+  const auto input = [&] { return input_of(*statistics.messages.back(), "obstacles"); };
+  ObstacleArray message;
+  message.obstacles = {ball("other", 1.0)};
+  obstacles.publish(message);
+  const std::uint64_t received = input()->received + 1;
+  message.obstacles = {thicket("thicket", 300000)};
+  obstacles.publish(message);
+  // Answers between the arrival of the mesh and its being there.
+  std::set<ros::Time> meanwhile;
+  bool is_there = false;
+  ASSERT_TRUE(node_test::wait_for([&] {
+    FiberArray cable = fiber(0.4, -1, 1);
+    cable.header.stamp = new_stamp();
+    publisher.publish(cable);
+    const ContactArray* answer = around.wait_for(cable.header.stamp);
+    const auto* told = statistics.wait_for(cable.header.stamp);
+    if (answer == nullptr || told == nullptr) {
+      return true;
+    }
+    is_there = answer->object_names.size() == 3;
+    if (!is_there && input()->received > received) {
+      meanwhile.insert(cable.header.stamp);
+    }
+    return is_there;
+  }));
+  EXPECT_TRUE(is_there);
+  EXPECT_GE(meanwhile.size(), 3U);
+  EXPECT_EQ(around.messages.back()->object_names,
+            (std::vector<std::string>{"ball", "other", "thicket"}));
+}
+
+TEST_F(EnvironmentServicesTest, ManyPairsAreAllowedAtOnceAndTakenBack) {
+  AllowPairs::Request request;
+  request.reset = true;
+  for (std::int32_t i = 0; i < 20000; ++i) {
+    request.allow.emplace_back();
+    request.allow.back().object = i % 2 == 0 ? "ball" : "object " + std::to_string(i);
+    request.allow.back().fiber = "fiber";
+    request.allow.back().segments = {i, i + 1};
+  }
+  auto answer = call<AllowPairs>("allow_pairs", request);
+  ASSERT_TRUE(answer.success) << answer.message;
+  ASSERT_EQ(answer.allowed.size(), 20000U);
+  EXPECT_EQ(answer.allowed[12345].object, "object 12345");
+  request.reset = false;
+  request.forbid.assign(request.allow.begin() + 1, request.allow.end());
+  request.allow = {request.allow[0]};
+  answer = call<AllowPairs>("allow_pairs", request);
+  ASSERT_TRUE(answer.success) << answer.message;
+  ASSERT_EQ(answer.allowed.size(), 1U);
+  EXPECT_EQ(answer.allowed[0].object, "ball");
+}
+
+}  // namespace

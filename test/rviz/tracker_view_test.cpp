@@ -1,0 +1,138 @@
+// The view of launch/with_tracker.launch: from cables somewhere before a camera to pixels.
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+
+#include <cmath>
+#include <string>
+
+#include "fiber_proximity/FiberArray.h"
+#include "ros/messages.hpp"
+#include "rviz/rviz_window.hpp"
+
+namespace {
+
+using fiber_proximity::FiberArray;
+using rviz_test::Pixel;
+using rviz_test::RvizWindow;
+
+constexpr const char* optical_frame = "camera_color_optical_frame";
+
+/// The first fibre's colour, lit from wherever; the z axis is of another blue, without green.
+bool is_blue(const Pixel& pixel) {
+  return pixel[2] > 50 && pixel[2] > 3 * pixel[0] && 3 * pixel[1] > pixel[2];
+}
+
+/// Cables of 0.5 m that hang side by side, 5 cm apart, each a little bent.
+/// @param middle [m] of the first
+FiberArray cables(const Eigen::Vector3d& middle, std::uint32_t count = 1) {
+  test_messages::Points points;
+  std::vector<std::uint32_t> offsets{0};
+  for (std::uint32_t cable = 0; cable < count; ++cable) {
+    for (int i = -22; i <= 22; ++i) {
+      const double s = i / 22.0;
+      points.emplace_back(middle + Eigen::Vector3d(0.25 * s, 0.05 * s * s + 0.05 * cable, 0.0));
+    }
+    offsets.push_back(static_cast<std::uint32_t>(points.size()));
+  }
+  FiberArray message =
+      test_messages::fiber_array(test_messages::header(optical_frame, ros::Time::now()), points);
+  message.offsets = offsets;
+  message.radii = {0.005};
+  return message;
+}
+
+/// rviz as with_tracker.launch starts it.
+class TrackerViewTest : public testing::Test {
+ protected:
+  // rviz's window can be made once in a process; load() begins anew.
+  static void SetUpTestSuite() { window_ = new RvizWindow(640, 400); }
+  static void TearDownTestSuite() {
+    delete window_;
+    window_ = nullptr;
+  }
+
+  void SetUp() override {
+    ASSERT_TRUE(window_->load(TRACKER_VIEW, optical_frame));
+    wait_for_subscriber();
+  }
+
+  void wait_for_subscriber() {
+    ASSERT_TRUE(RvizWindow::wait_until([this] { return publisher_.getNumSubscribers() == 1; }));
+  }
+
+  /// Publishes until so many pixels of the picture's middle, two thirds of it, are the first
+  /// cable's.
+  void expect_cable(const FiberArray& message) {
+    EXPECT_TRUE(RvizWindow::wait_until([&] {
+      publisher_.publish(message);
+      window_->settle();
+      return window_->count_pixels(is_blue, 1.0 / 6.0) > 500;
+    }));
+    // All of it is in the picture, and nearly all of that is the middle.
+    EXPECT_GT(window_->count_pixels(is_blue, 1.0 / 6.0), window_->count_pixels(is_blue) * 9 / 10);
+  }
+
+  void show(const FiberArray& message) {
+    publisher_.publish(message);
+    for (int i = 0; i < 3; ++i) {
+      window_->settle();
+    }
+  }
+
+  double number(const char* name) { return window_->view().subProp(name)->getValue().toDouble(); }
+
+  static RvizWindow* window_;
+  ros::NodeHandle node_;
+  ros::Publisher publisher_{node_.advertise<FiberArray>("/proximity/fibers", 1)};
+};
+
+RvizWindow* TrackerViewTest::window_ = nullptr;
+
+TEST_F(TrackerViewTest, FindsACableBeforeTheCamera) {
+  window_->settle();
+  EXPECT_LT(window_->count_pixels(is_blue, 1.0 / 6.0), 50U) << "but for the smoothed z axis";
+  expect_cable(cables({0.0, 0.0, 0.6}));
+}
+
+TEST_F(TrackerViewTest, FindsACableFarAwayInAnotherFrame) {
+  window_->set_fixed_frame("base_link");
+  FiberArray message = cables({3.0, -2.0, 1.5});
+  message.header.frame_id = "base_link";
+  const double pitch = number("Pitch");
+  expect_cable(message);
+  EXPECT_EQ(number("Pitch"), pitch) << "z is upwards there";
+}
+
+TEST_F(TrackerViewTest, FollowsNewCablesUntilTheUserMovesIt) {
+  expect_cable(cables({0.0, 0.0, 0.6}));
+  const double distance = number("Distance");
+  // The same cable elsewhere is no reason to move.
+  show(cables({0.3, 0.0, 0.6}));
+  EXPECT_EQ(number("Distance"), distance);
+  EXPECT_NEAR(window_->view().subProp("Focal Point")->subProp("X")->getValue().toDouble(), 0.0,
+              1e-6);
+  // More cables are: these reach over 2 m.
+  show(cables({0.0, 0.0, 0.6}, 40));
+  EXPECT_GT(number("Distance"), 1.5 * distance);
+  window_->view().subProp("Yaw")->setValue(1.0);
+  show(cables({0.0, 0.0, 0.6}, 80));
+  EXPECT_EQ(number("Yaw"), 1.0);
+}
+
+TEST_F(TrackerViewTest, AnotherFrameIsLookedAtAnew) {
+  expect_cable(cables({0.0, 0.0, 0.6}));
+  window_->view().subProp("Distance")->setValue(100.0);
+  window_->set_fixed_frame("base_link");
+  FiberArray message = cables({3.0, -2.0, 1.5});
+  message.header.frame_id = "base_link";
+  expect_cable(message);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "tracker_view_test");
+  testing::InitGoogleTest(&argc, argv);
+  const QApplication application(argc, argv);
+  return RUN_ALL_TESTS();
+}
