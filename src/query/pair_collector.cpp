@@ -31,7 +31,8 @@ PairCollector::PairCollector(const FiberAssembly& shape, const FiberAssembly& fi
 
 void PairCollector::offer(std::uint32_t point_a, std::uint32_t point_b) {
   const PointPair pair = test_.ordered({point_a, point_b});
-  if (test_.is_left_out(pair)) {
+  // Pairs that are near but make no loop would be measured in vain: they do not shrink the bound.
+  if (test_.is_left_out(pair) || test_.rules_out(pair.a, pair.b)) {
     return;
   }
   if (options_.type == QueryType::FIBER_PAIRS) {
