@@ -31,12 +31,15 @@ PairCollector::PairCollector(const FiberAssembly& shape, const FiberAssembly& fi
 
 void PairCollector::offer(std::uint32_t point_a, std::uint32_t point_b) {
   const PointPair pair = test_.ordered({point_a, point_b});
-  // Pairs that are near but make no loop would be measured in vain: they do not shrink the bound.
-  if (test_.is_left_out(pair) || test_.rules_out(pair.a, pair.b)) {
+  if (test_.is_left_out(pair)) {
     return;
   }
   if (options_.type == QueryType::FIBER_PAIRS) {
     offer_of_fibers(pair);
+    return;
+  }
+  // Near pairs that make no loop would be measured in vain, as they do not lower the bound.
+  if (keeper_.lowers_bound() && test_.rules_out(pair.a, pair.b)) {
     return;
   }
   if (const std::optional<Contact> contact = contact_within(pair, keeper_.bound())) {

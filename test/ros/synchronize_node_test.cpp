@@ -39,18 +39,20 @@ class SynchronizeTest : public node_test::SimulatedTimeTest {
     }
   }
 
-  /// Sends frames as a camera would until there is a new answer about these fibres.
+  /// Sends frames as a camera would until there is a new answer about these fibres, and waits for
+  /// that to the last frame.
   bool send_until_answered(
       const std::vector<std::size_t>& inputs, const Names& names,
       const std::function<void()>& also = [] {}) {
     const std::size_t before = fibers.messages.size();
-    return node_test::wait_for([&] {
+    const bool answered = node_test::wait_for([&] {
       send(inputs);
       also();
       return std::any_of(fibers.messages.begin() + static_cast<std::ptrdiff_t>(before),
                          fibers.messages.end(),
                          [&](const auto& answer) { return answer->names == names; });
     });
+    return answered && fibers.wait_for(stamp_) != nullptr;
   }
 
   /// No answer is a mixture of frames.

@@ -24,6 +24,8 @@ class ContactKeeper {
 
   /// [m] Pairs further apart than this do not matter any more.
   double bound() const { return bound_; }
+  /// Whether contacts that are kept lower it.
+  bool lowers_bound() const { return capacity_ != 0; }
   /// [m] The same, rounded up to single precision, as the bounding volumes take it.
   float rounded_bound() const { return rounded_bound_; }
 
