@@ -127,7 +127,8 @@ ExitCode run_writhe(const TopologyRequest& request) {
 
 /// A subcommand with the options all of these have.
 CLI::App* add(CLI::App& app, Command& command, const std::shared_ptr<TopologyRequest>& request,
-              const char* name, const char* description, ExitCode (*run_it)(const TopologyRequest&)) {
+              const char* name, const char* description,
+              ExitCode (*run_it)(const TopologyRequest&)) {
   CLI::App* subcommand = app.add_subcommand(name, description);
   subcommand->add_option("FILE", request->file, "fibre file (.csv or .hair)")->required();
   subcommand->add_option("--format", request->format, "of the output; json: one object per frame")
