@@ -35,7 +35,7 @@ path real_path(const path& written) {
   std::error_code error;
   path real = std::filesystem::weakly_canonical(written, error);
   if (error) {
-    throw std::invalid_argument("'" + written.string() + "': " + error.message());
+    throw std::invalid_argument(fiber::quote(written.string()) + ": " + error.message());
   }
   return real;
 }
@@ -50,7 +50,8 @@ path resolve_in_package(const std::string& resource) {
   }
   path file = real_path(folder + resource.substr(slash));
   if (!lies_in(file, real_path(folder))) {
-    throw std::invalid_argument("it leads to '" + file.string() + "', outside of the package");
+    throw std::invalid_argument("it leads to " + fiber::quote(file.string()) +
+                                ", outside of the package");
   }
   return file;
 }
@@ -58,7 +59,7 @@ path resolve_in_package(const std::string& resource) {
 std::string read(const path& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) {
-    throw std::invalid_argument("there is no file '" + file.string() + "'");
+    throw std::invalid_argument("there is no file " + fiber::quote(file.string()) + "");
   }
   const std::uintmax_t size = std::filesystem::file_size(file);
   if (size > MeshLoader::largest_file) {
@@ -69,7 +70,7 @@ std::string read(const path& file) {
   std::string bytes(size, '\0');
   std::ifstream stream(file, std::ios::binary);
   if (!stream.read(bytes.data(), static_cast<std::streamsize>(size))) {
-    throw std::invalid_argument("the file '" + file.string() + "' cannot be read");
+    throw std::invalid_argument("the file " + fiber::quote(file.string()) + " cannot be read");
   }
   return bytes;
 }
@@ -79,8 +80,8 @@ std::unique_ptr<const shapes::Mesh> parse(const std::string& bytes, const path& 
   std::unique_ptr<const shapes::Mesh> mesh(
       shapes::createMeshFromBinary(bytes.data(), bytes.size(), file.filename().string()));
   if (mesh == nullptr || mesh->triangle_count == 0) {
-    throw std::invalid_argument("the file '" + file.string() +
-                                "' holds no mesh in a format that assimp reads");
+    throw std::invalid_argument("the file " + fiber::quote(file.string()) +
+                                " holds no mesh in a format that assimp reads");
   }
   if (mesh->triangle_count > fiber::TriangleMesh::most_triangles) {
     throw std::invalid_argument("the mesh has " + std::to_string(mesh->triangle_count) +
@@ -123,8 +124,8 @@ void check_scale(const Eigen::Vector3d& scale) {
 MeshLoader::MeshLoader(const std::vector<std::string>& folders) {
   for (const std::string& folder : folders) {
     if (!path(folder).is_absolute() || !std::filesystem::is_directory(folder)) {
-      throw std::invalid_argument("folder of meshes '" + folder +
-                                  "' is not there, it must be an absolute path of a folder");
+      throw std::invalid_argument("folder of meshes " + fiber::quote(folder) +
+                                  " is not there, it must be an absolute path of a folder");
     }
     folders_.push_back(real_path(folder));
   }

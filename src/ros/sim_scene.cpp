@@ -8,6 +8,7 @@
 #include "fiber_proximity/ros/sim_overlap.hpp"
 #include "fiber_proximity/ros/sim_resolution.hpp"
 #include "fiber_proximity/ros/yaml_obstacle.hpp"
+#include "fiber_proximity/text/quote.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -65,8 +66,9 @@ std::shared_ptr<const fiber::Environment> make_environment(const YamlField& fiel
     const std::string& frame = obstacle.header.frame_id;
     if (!frame.empty() && frame != frame_id) {
       std::ostringstream error;
-      error << field.place() << ": obstacle '" << obstacle.change.object.name << "' is in frame '"
-            << frame << "', it must be in the scene's, '" << frame_id << "'";
+      error << field.place() << ": obstacle " << fiber::quote(obstacle.change.object.name)
+            << " is in frame " << fiber::quote(frame) << ", it must be in the scene's, "
+            << fiber::quote(frame_id);
       throw std::invalid_argument(error.str());
     }
     world.apply({obstacle.change});

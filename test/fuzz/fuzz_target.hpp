@@ -84,8 +84,8 @@ class Bounds {
     }
   }
   static void freed(const volatile void* place) {
-    in_use() -= static_cast<std::int64_t>(
-        __sanitizer_get_allocated_size(const_cast<const void*>(place)));
+    in_use() -=
+        static_cast<std::int64_t>(__sanitizer_get_allocated_size(const_cast<const void*>(place)));
   }
 
   static double processor_time() {

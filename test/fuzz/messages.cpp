@@ -1,7 +1,7 @@
 // Messages that come to the node: of every type of input, of which it makes fibres, clouds of which
-// it makes an octree, and obstacles. An input is two bytes, which type and which options, and the message
-// as ROS sends it. `build-fuzz/fuzz_messages --write_seeds=test/fuzz/corpus/messages` writes the
-// seeds.
+// it makes an octree, and obstacles. An input is two bytes, which type and which options, and the
+// message as ROS sends it. `build-fuzz/fuzz_messages --write_seeds=test/fuzz/corpus/messages`
+// writes the seeds.
 #include <cmath>
 #include <functional>
 
@@ -93,11 +93,15 @@ void try_obstacles(MessageStream& stream, const Options& /*options*/) {
 }
 
 using Try = void (*)(MessageStream&, const Options&);
-constexpr Try types[] = {
-    try_fibers<fiber_proximity::FiberArray>, try_fibers<sensor_msgs::PointCloud2>,
-    try_fibers<sensor_msgs::PointCloud>,     try_fibers<geometry_msgs::PoseArray>,
-    try_fibers<nav_msgs::Path>,              try_fibers<visualization_msgs::Marker>,
-    try_fibers<visualization_msgs::MarkerArray>, try_cloud, try_obstacles};
+constexpr Try types[] = {try_fibers<fiber_proximity::FiberArray>,
+                         try_fibers<sensor_msgs::PointCloud2>,
+                         try_fibers<sensor_msgs::PointCloud>,
+                         try_fibers<geometry_msgs::PoseArray>,
+                         try_fibers<nav_msgs::Path>,
+                         try_fibers<visualization_msgs::Marker>,
+                         try_fibers<visualization_msgs::MarkerArray>,
+                         try_cloud,
+                         try_obstacles};
 
 template <class Message>
 std::string seed(std::uint8_t type, std::uint8_t options, const Message& message) {
