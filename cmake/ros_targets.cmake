@@ -31,6 +31,7 @@ add_library(fiber_proximity_ros SHARED
   src/ros/input_set.cpp
   src/ros/input_types.cpp
   src/ros/legend.cpp
+  src/ros/load_yaml.cpp
   src/ros/marker_input.cpp
   src/ros/marker_obstacles.cpp
   src/ros/marker_scale.cpp

@@ -5,6 +5,7 @@
 
 #include "fiber_proximity/ros/allowed_contacts.hpp"
 #include "fiber_proximity/ros/environment_scene.hpp"
+#include "fiber_proximity/ros/load_yaml.hpp"
 #include "fiber_proximity/ros/sim_overlap.hpp"
 #include "fiber_proximity/ros/sim_resolution.hpp"
 #include "fiber_proximity/ros/yaml_obstacle.hpp"
@@ -103,7 +104,11 @@ fiber::AllowedPairs resolve(const std::vector<fiber_proximity::AllowedPair>& pai
 
 SimScene read_sim_scene(const std::string& file, const MeshLoader& meshes, std::uint32_t threads,
                         std::optional<std::uint32_t> iterations) {
-  const YamlField document = load_yaml(file);
+  return read_sim_scene(load_yaml(file), meshes, threads, iterations);
+}
+
+SimScene read_sim_scene(const YamlField& document, const MeshLoader& meshes, std::uint32_t threads,
+                        std::optional<std::uint32_t> iterations) {
   document.require_map({"frame_id", "time_step", "substeps", "iterations", "integrator", "accuracy",
                         "real_time", "fibers", "effects", "environment", "initial_overlap",
                         "max_strain"});

@@ -110,3 +110,23 @@ add_dependencies(fuzzed_messages message_headers)
 target_link_libraries(fuzzed_shapes PUBLIC fiber_queries)
 target_link_libraries(fuzzed_messages PUBLIC fuzzed_shapes ${roscpp_LIBRARIES})
 fuzz_target(messages fuzzed_messages)
+
+fuzzed_library(fuzzed_yaml UNITY 4
+  src/ros/allowed_contacts.cpp
+  src/ros/environment_scene.cpp
+  src/ros/load_yaml.cpp
+  src/ros/mesh_loader.cpp
+  src/ros/obstacle_set.cpp
+  src/ros/yaml_field.cpp
+  src/ros/yaml_obstacle.cpp
+)
+unwatched_library(waiting_changes
+  src/ros/fixed_frame.cpp
+  src/ros/touched_objects.cpp
+  src/ros/waiting_changes.cpp
+  src/ros/worker.cpp
+)
+target_link_libraries(waiting_changes PUBLIC fuzzed_io ${tf2_ros_LIBRARIES})
+target_link_libraries(fuzzed_yaml PUBLIC
+  fuzzed_messages waiting_changes yaml-cpp ${geometric_shapes_LIBRARIES} ${roslib_LIBRARIES})
+fuzz_target(obstacles fuzzed_yaml)
