@@ -66,6 +66,7 @@ unwatched_library(fiber_queries
   src/geometry/rounded_distance.cpp
   src/geometry/segment_distance.cpp
   src/geometry/segment_distances.cpp
+  src/geometry/smallest_rotation.cpp
   src/bounds/bounding_volume.cpp
   src/hierarchy/fiber_order.cpp
   src/hierarchy/run_tree_find.cpp
@@ -82,6 +83,7 @@ unwatched_library(fiber_queries
   src/query/options.cpp
   src/query/pair_collector.cpp
   src/query/pair_test.cpp
+  src/query/threads.cpp
 )
 target_link_libraries(fiber_queries PUBLIC fuzzed_io fcl TBB::tbb hwy::hwy hwy::hwy_contrib)
 
@@ -130,3 +132,22 @@ target_link_libraries(waiting_changes PUBLIC fuzzed_io ${tf2_ros_LIBRARIES})
 target_link_libraries(fuzzed_yaml PUBLIC
   fuzzed_messages waiting_changes yaml-cpp ${geometric_shapes_LIBRARIES} ${roslib_LIBRARIES})
 fuzz_target(obstacles fuzzed_yaml)
+
+file(GLOB simulation RELATIVE ${root} CONFIGURE_DEPENDS
+  ${root}/src/sim/*.cpp ${root}/src/sim/effects/*.cpp)
+unwatched_library(simulation ${simulation})
+target_link_libraries(simulation PUBLIC fiber_queries)
+target_sources(simulation PRIVATE engine.cpp)
+fuzzed_library(fuzzed_scenes UNITY 6
+  src/ros/sim_effects.cpp
+  src/ros/sim_fibers.cpp
+  src/ros/sim_holds.cpp
+  src/ros/sim_natural_curvature.cpp
+  src/ros/sim_overlap.cpp
+  src/ros/sim_parameters.cpp
+  src/ros/sim_resolution.cpp
+  src/ros/sim_scene.cpp
+  src/ros/sim_shapes.cpp
+)
+target_link_libraries(fuzzed_scenes PUBLIC fuzzed_yaml simulation)
+fuzz_target(scenes fuzzed_scenes)
