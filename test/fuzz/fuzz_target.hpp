@@ -38,24 +38,28 @@ inline void check_error(const std::exception& error) {
   }
 }
 
-/// As long as it lives, no more memory is in use than a multiple of the input's size, and no more
-/// time passes than is given: that of the processor, which does not depend on what else runs.
+/// What may be in use for an input [byte]: a multiple of its size, and what little takes in any
+/// case.
+inline std::size_t times(std::size_t multiple, std::size_t size) {
+  constexpr std::size_t in_any_case = std::size_t{4} << 20U;
+  return in_any_case + multiple * size;
+}
+
+/// As long as it lives, no more memory is in use than it says, and no more time passes: that of the
+/// processor, which does not depend on what else runs.
 class Bounds {
  public:
-  /// @param multiple of the input's size [byte/byte]: what its elements grow to when they are read
-  /// @param seconds  that an input may take at most
-  Bounds(std::size_t size, std::size_t multiple, double seconds = 1.0)
+  explicit Bounds(std::size_t most_bytes, double seconds = 1.0)
       : begin_(processor_time()), seconds_(seconds) {
     static const int installed = __sanitizer_install_malloc_and_free_hooks(allocated, freed);
     if (installed == 0) {
       finding("no room for another hook of malloc");
     }
-    constexpr std::int64_t whatever_the_size = 4 << 20;
     in_use() = 0;
-    most() = whatever_the_size + static_cast<std::int64_t>(multiple * size);
+    most() = static_cast<std::int64_t>(most_bytes);
   }
   ~Bounds() {
-    most() = unlimited;
+    lift();
     const double seconds = processor_time() - begin_;
     if (seconds > seconds_) {
       finding("an input that takes " + std::to_string(seconds) + " s");
@@ -63,6 +67,8 @@ class Bounds {
   }
   Bounds(const Bounds&) = delete;
   Bounds& operator=(const Bounds&) = delete;
+
+  static void lift() { most() = unlimited; }
 
  private:
   static constexpr std::int64_t unlimited = INT64_MAX;

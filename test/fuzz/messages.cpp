@@ -118,7 +118,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size < 2) {
     return 0;
   }
-  const fiber::test::Bounds bounds(size, 200);
+  const fiber::test::Bounds bounds(fiber::test::times(200, size));
   MessageStream stream(data + 2, size - 2);
   try {
     types[data[0] % std::size(types)](stream, options_of(data[1]));

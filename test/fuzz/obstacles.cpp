@@ -32,7 +32,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (text.find("package://") != std::string::npos) {
     return 0;  // ROS would look for it in all packages there are
   }
-  const fiber::test::Bounds bounds(size, 2000);
+  const fiber::test::Bounds bounds(fiber::test::times(2000, size));
   try {
     try_scene(text);
   } catch (const std::invalid_argument& error) {

@@ -119,6 +119,7 @@ fuzzed_library(fuzzed_yaml UNITY 4
   src/ros/load_yaml.cpp
   src/ros/mesh_loader.cpp
   src/ros/obstacle_set.cpp
+  src/ros/parse_mesh.cpp
   src/ros/yaml_field.cpp
   src/ros/yaml_obstacle.cpp
 )
@@ -151,3 +152,4 @@ fuzzed_library(fuzzed_scenes UNITY 6
 )
 target_link_libraries(fuzzed_scenes PUBLIC fuzzed_yaml simulation)
 fuzz_target(scenes fuzzed_scenes)
+fuzz_target(meshes fuzzed_yaml)

@@ -63,7 +63,7 @@ void try_scene(const std::string& text, double seconds = 1.0) {
   if (!has_few_segments(text, document)) {
     return;
   }
-  const fiber::test::Bounds bounds(text.size(), 2000, seconds);
+  const fiber::test::Bounds bounds(fiber::test::times(2000, text.size()), seconds);
   const SimScene scene = read_sim_scene(document, MeshLoader(), 1);
   if (scene.stepper->rods().count() != scene.fiber_names.size()) {
     fiber::test::finding("rods that are not the scene's fibres");
