@@ -24,8 +24,8 @@ namespace fiber_proximity_ros {
 namespace {
 
 /// How much the bytes of a file may cost: several times what large valid ones do.
-struct Limits {
-  explicit Limits(std::size_t bytes)
+struct ParseLimits {
+  explicit ParseLimits(std::size_t bytes)
       : seconds(1 + bytes / 250'000), memory((std::size_t{256} << 20U) + 100 * bytes) {}
 
   std::size_t seconds;  // of the processor
@@ -33,7 +33,7 @@ struct Limits {
 };
 
 /// What comes through the pipe first.
-struct Counts {
+struct MeshCounts {
   std::uint64_t vertices = 0;
   std::uint64_t triangles = 0;
 };
@@ -64,27 +64,27 @@ class FileDescriptor {
 // ---- in the child: nothing is thrown, and no destructor of the node's is called
 // ------------------
 
-void limit(int resource, std::size_t most) {
+void set_limit(int resource, std::size_t most) {
   const rlimit limits{most, most};
   setrlimit(static_cast<__rlimit_resource>(resource), &limits);
 }
 
 /// @param used address space that the node has [byte]; 0 if that is not known
-void enter_limits(const Limits& limits, std::size_t used) {
+void enter_limits(const ParseLimits& limits, std::size_t used) {
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU, SIGTERM, SIGINT}) {
     std::signal(signal, SIG_DFL);
   }
-  limit(RLIMIT_CORE, 0);
-  limit(RLIMIT_CPU, limits.seconds);
+  set_limit(RLIMIT_CORE, 0);
+  set_limit(RLIMIT_CPU, limits.seconds);
   if (used > 0) {
-    limit(RLIMIT_AS, used + limits.memory);
+    set_limit(RLIMIT_AS, used + limits.memory);
   }
   const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
   dup2(nowhere, STDOUT_FILENO);
   dup2(nowhere, STDERR_FILENO);
 }
 
-bool send(int pipe, const void* data, std::size_t size) {
+bool send_all(int pipe, const void* data, std::size_t size) {
   const auto* next = static_cast<const char*>(data);
   while (size > 0) {
     const ssize_t sent = write(pipe, next, size);
@@ -101,21 +101,21 @@ void parse_and_send(const std::string& bytes, const std::string& name, int pipe)
   // The name tells the format.
   const std::unique_ptr<const shapes::Mesh> mesh(
       shapes::createMeshFromBinary(bytes.data(), bytes.size(), name));
-  Counts counts;
+  MeshCounts counts;
   if (mesh != nullptr) {
     counts = {mesh->vertex_count, mesh->triangle_count};
   }
-  if (!send(pipe, &counts, sizeof counts) || mesh == nullptr ||
+  if (!send_all(pipe, &counts, sizeof counts) || mesh == nullptr ||
       counts.triangles > fiber::TriangleMesh::most_triangles) {
     return;
   }
-  send(pipe, mesh->vertices, 3 * sizeof(double) * counts.vertices) &&
-      send(pipe, mesh->triangles, 3 * sizeof(std::uint32_t) * counts.triangles);
+  send_all(pipe, mesh->vertices, 3 * sizeof(double) * counts.vertices) &&
+      send_all(pipe, mesh->triangles, 3 * sizeof(std::uint32_t) * counts.triangles);
 }
 
 [[noreturn]] void run_child(const std::string& bytes, const std::string& name, int pipe,
                             std::size_t used) {
-  enter_limits(Limits(bytes.size()), used);
+  enter_limits(ParseLimits(bytes.size()), used);
   try {
     parse_and_send(bytes, name, pipe);
   } catch (...) {  // what is missing in the pipe tells
@@ -133,9 +133,9 @@ std::size_t used_address_space() {
 }
 
 /// The process that reads a mesh; ends with this.
-class Child {
+class ParsingProcess {
  public:
-  Child(const std::string& bytes, const std::string& name) {
+  ParsingProcess(const std::string& bytes, const std::string& name) {
     const std::size_t used = used_address_space();
     std::array<int, 2> ends{};
     if (pipe2(ends.data(), O_CLOEXEC) != 0) {
@@ -151,13 +151,13 @@ class Child {
       run_child(bytes, name, to.number(), used);
     }
   }
-  ~Child() {
+  ~ParsingProcess() {
     kill(process_, SIGKILL);
     while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
     }
   }
-  Child(const Child&) = delete;
-  Child& operator=(const Child&) = delete;
+  ParsingProcess(const ParsingProcess&) = delete;
+  ParsingProcess& operator=(const ParsingProcess&) = delete;
 
   /// @returns false if it has ended, or the time is over, before so much came
   bool receive(void* data, std::size_t size, std::chrono::steady_clock::time_point end) const {
@@ -189,7 +189,7 @@ class Child {
   pid_t process_ = -1;
 };
 
-void check(const Counts& counts) {
+void check_counts(const MeshCounts& counts) {
   if (counts.triangles == 0) {
     throw std::invalid_argument("it holds no mesh in a format that assimp reads");
   }
@@ -203,11 +203,11 @@ void check(const Counts& counts) {
 }  // namespace
 
 ParsedMesh parse_mesh(const std::string& bytes, const std::string& name) {
-  const Limits limits(bytes.size());
+  const ParseLimits limits(bytes.size());
   // It may have to wait for the processor, and for a lock that another thread held when it began.
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10 * limits.seconds);
-  const Child child(bytes, name);
-  Counts counts;
+  const ParsingProcess child(bytes, name);
+  MeshCounts counts;
   ParsedMesh mesh;
   const auto receive = [&](auto& values, std::uint64_t count) {
     values.resize(count);
@@ -215,7 +215,7 @@ ParsedMesh parse_mesh(const std::string& bytes, const std::string& name) {
   };
   bool is_whole = child.receive(&counts, sizeof counts, end);
   if (is_whole) {
-    check(counts);
+    check_counts(counts);
     constexpr std::uint64_t most_vertices = 3 * fiber::TriangleMesh::most_triangles;
     is_whole = counts.vertices <= most_vertices && receive(mesh.coordinates, 3 * counts.vertices) &&
                receive(mesh.corners, 3 * counts.triangles);
