@@ -31,6 +31,7 @@ add_library(fiber_proximity_ros SHARED
   src/ros/input_set.cpp
   src/ros/input_types.cpp
   src/ros/legend.cpp
+  src/ros/load_yaml.cpp
   src/ros/marker_input.cpp
   src/ros/marker_obstacles.cpp
   src/ros/marker_scale.cpp
@@ -43,6 +44,7 @@ add_library(fiber_proximity_ros SHARED
   src/ros/obstacle_set.cpp
   src/ros/obstacle_shapes.cpp
   src/ros/parameters.cpp
+  src/ros/parse_mesh.cpp
   src/ros/point_cloud_input.cpp
   src/ros/pose_input.cpp
   src/ros/proximity_server.cpp

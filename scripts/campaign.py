@@ -204,6 +204,12 @@ def shares(only, parts):
     return {part: wanted[part] / total for part in parts}
 
 
+def seconds_per_fuzzer(seconds, jobs):
+    """Of the time for all, of which so many run at once."""
+    count = len(list((ROOT / "test" / "fuzz" / "corpus").iterdir()))
+    return max(1, int(seconds / -(-count // jobs)))
+
+
 def run_campaign(arguments, report):
     fuzz = ROOT / "scripts" / "fuzz.sh"
     soak = ROOT / "test" / "ros" / "soak.test"
@@ -232,7 +238,8 @@ def run_campaign(arguments, report):
         if part == "tests":
             try_tests(paths, arguments.jobs, programs, report)
         elif part == "fuzz":
-            try_once(part, [fuzz, "--seconds", str(int(seconds)), "--seed", str(seed), "--jobs",
+            try_once(part, [fuzz, "--seconds", str(seconds_per_fuzzer(seconds, arguments.jobs)),
+                            "--seed", str(seed), "--jobs",
                             str(arguments.jobs)], seconds, seed, {}, programs, report)
         else:
             try_once(part, ["rostest", f"seconds:={int(seconds)}", str(soak)], seconds, seed,

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# Feeds what reads files with what nobody foresaw: libFuzzer on the inputs kept in test/fuzz/corpus. A
-# crash, a report of a sanitizer, too much memory, a hang or an unreadable error is a finding: exit 1, and
-# the input stays in build-fuzz/findings.
+# Feeds what reads files and messages with what nobody foresaw: libFuzzer on the inputs kept in
+# test/fuzz/corpus. A crash, a report of a sanitizer, too much memory, a hang or an unreadable error is a
+# finding: exit 1, and the input stays in build-fuzz/findings. Without ROS there are fewer targets.
 #   scripts/fuzz.sh [--runs N | --seconds N] [--seed S] [--target T]... [--jobs N]
-#     --runs N      inputs per target (default 20000): the same inputs each time, however busy the machine
+#     --runs N      inputs per target (default 20000, fewer of slow ones): the same inputs each time,
+#                   however busy the machine
 #     --seconds N   time per target instead
 #     --seed S      of the random changes (default 1)
 #     --target T    one of those in test/fuzz/corpus (default: all)
@@ -14,7 +15,9 @@ source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 
 usage="usage: scripts/fuzz.sh [--runs N | --seconds N] [--seed S] [--target T]... [--jobs N]"
 refuse() { echo "fuzz.sh: $1; $usage" >&2; exit 2; }
-limit=-runs=20000
+limit=
+# Inputs per target: those of meshes are read in a process of their own each.
+declare -A runs=([meshes]=100)
 seed=1
 jobs=$(nproc)
 targets=()
@@ -48,9 +51,16 @@ run_step "configuring build-fuzz" "$build/configure.log" \
   cmake -S "$root/test/fuzz" -B "$build" -DCMAKE_CXX_COMPILER=clang++-14
 run_step "building fuzzers" "$build/make.log" cmake --build "$build" --parallel "$(nproc)"
 
-# run TARGET: one line; the log of a finding names the input that made it.
+# run TARGET LIMIT NUMBER: one line with the number; the log of a finding names the input that made it.
 run() {
-  local target=$1 log=$build/$1.log learned=$build/corpus/${limit%%=*}/$1
+  local target=$1 limit=$2 log=$build/$1.log learned=$build/corpus/${2%%=*}/$1 dictionary=()
+  if [ ! -x "$build/fuzz_$target" ]; then
+    echo "[$3] fuzz $target: left out, it needs ROS"
+    return
+  fi
+  if [ -f "$root/test/fuzz/dictionaries/$target" ]; then
+    dictionary=(-dict="$root/test/fuzz/dictionaries/$target")
+  fi
   # What a campaign learns is no part of the repository; a fixed number of runs begins without it.
   if [[ $limit = -runs=* ]]; then rm -rf "$learned"; fi
   mkdir -p "$learned"
@@ -58,17 +68,24 @@ run() {
   # than a thousandth of a second.
   if "$build/fuzz_$target" "$limit" -seed="$seed" -max_len=16384 -timeout=60 -rss_limit_mb=2048 \
     -malloc_limit_mb=256 -print_final_stats=1 -artifact_prefix="$build/findings/$target-" \
-    "$learned" "$root/test/fuzz/corpus/$target" \
+    "${dictionary[@]}" "$learned" "$root/test/fuzz/corpus/$target" \
     >"$log" 2>&1; then
-    echo "fuzz $target: $(sed -n 's/^stat::number_of_executed_units: *//p' "$log") inputs, no finding"
+    echo "[$3] fuzz $target: $(sed -n 's/^stat::number_of_executed_units: *//p' "$log") inputs, no finding"
   else
     tail -n 60 "$log" | grep -E "^(finding|SUMMARY|==.*ERROR)|runtime error|Test unit written" >&2 ||
       tail -n 5 "$log" >&2
-    echo "fuzz $target: FINDING, see $log and $build/findings" >&2
+    echo "[$3] fuzz $target: FINDING, see $log and $build/findings" >&2
     return 1
   fi
 }
 export -f run
-export build root limit seed
-printf '%s\n' "${targets[@]}" | xargs -P "$jobs" -n 1 bash -c 'run "$0" || exit 1' ||
+export build root seed
+run_all() {
+  local target number=0
+  for target in "${targets[@]}"; do
+    echo "$target" "${limit:--runs=${runs[$target]:-20000}}" "$((++number))/${#targets[@]}"
+  done | xargs -P "$jobs" -n 3 bash -c 'run "$0" "$1" "$2" || exit 1'
+}
+run_step "fuzzing" "$build/fuzz.log" run_all ||
   { echo "fuzz.sh: there are findings in $build/findings" >&2; exit 1; }
+$verbose || sed 's|^\[[0-9/]*\] ||' "$build/fuzz.log"

@@ -2,13 +2,15 @@
 
 #include <stdexcept>
 
+#include "fiber_proximity/text/quote.hpp"
+
 namespace fiber {
 namespace {
 
 using Operation = ObjectChange::Operation;
 
 [[noreturn]] void refuse(const EnvironmentObject& object, const std::string& why) {
-  throw std::invalid_argument("object '" + object.name + "': " + why);
+  throw std::invalid_argument("object " + quote(object.name) + ": " + why);
 }
 
 }  // namespace

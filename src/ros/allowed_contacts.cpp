@@ -8,6 +8,8 @@
 #include <tuple>
 #include <utility>
 
+#include "fiber_proximity/text/quote.hpp"
+
 namespace fiber_proximity_ros {
 namespace {
 
@@ -19,8 +21,8 @@ std::string label(const Pair& pair) {
   for (const std::int32_t segment : pair.segments) {
     segments += (segments.empty() ? "" : ", ") + std::to_string(segment);
   }
-  return "pair of object '" + pair.object + "' and fiber '" + pair.fiber + "', segments [" +
-         segments + "]";
+  return "pair of object " + fiber::quote(pair.object) + " and fiber " + fiber::quote(pair.fiber) +
+         ", segments [" + fiber::shortened(segments) + "]";
 }
 
 /// What makes two pairs the same.

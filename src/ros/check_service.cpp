@@ -9,6 +9,7 @@
 #include "fiber_proximity/ros/conversions.hpp"
 #include "fiber_proximity/ros/naming.hpp"
 #include "fiber_proximity/ros/request_options.hpp"
+#include "fiber_proximity/text/quote.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -75,7 +76,7 @@ class PresentFibers {
     const std::vector<std::string>& names = target.fiber_names;
     for (const std::string& name : replaced) {
       if (std::find(names.begin(), names.end(), name) == names.end()) {
-        throw std::invalid_argument("there is no fibre '" + name + "' to be replaced");
+        throw std::invalid_argument("there is no fibre " + fiber::quote(name) + " to be replaced");
       }
     }
     for (std::uint32_t i = 0; i < target.fibers.fiber_count(); ++i) {

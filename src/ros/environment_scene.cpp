@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "fiber_proximity/ros/allowed_contacts.hpp"
+#include "fiber_proximity/ros/load_yaml.hpp"
 #include "fiber_proximity/ros/naming.hpp"
 #include "fiber_proximity/ros/obstacle_change.hpp"
 #include "fiber_proximity/ros/yaml_obstacle.hpp"
@@ -78,17 +79,6 @@ EnvironmentScene read_scene(const YamlField& field, const MeshLoader& meshes) {
     read_allowed(*allowed, scene.allowed);
   }
   return scene;
-}
-
-YamlField load_yaml(const std::string& file) {
-  try {
-    return {YAML::LoadFile(file), file};
-  } catch (const YAML::BadFile&) {
-    throw std::invalid_argument("scene '" + file + "': there is no such file to read");
-  } catch (const YAML::Exception& error) {
-    throw std::invalid_argument(file + ":" + std::to_string(error.mark.line + 1) + ": " +
-                                fiber::shortened(error.msg));
-  }
 }
 
 EnvironmentScene read_scene(const std::string& file, const MeshLoader& meshes) {

@@ -5,6 +5,8 @@
 
 #include <sstream>
 
+#include "fiber_proximity/text/quote.hpp"
+
 namespace fiber_proximity_ros {
 namespace {
 
@@ -36,8 +38,9 @@ FixedFrame::FixedFrame(const std::string& name, const ros::NodeHandle& node)
 void FixedFrame::adopt(const std::string& frame) {
   if (name_.empty() && !frame.empty()) {
     name_ = tf2_name(frame);
-    ROS_INFO_STREAM("fixed_frame is not set: using '" << name_ << "', the frame of the first "
-                                                      << "message");
+    ROS_INFO_STREAM("fixed_frame is not set: using " << fiber::quote(name_)
+                                                     << ", the frame of the first "
+                                                     << "message");
   }
 }
 
@@ -84,13 +87,13 @@ FramePose FixedFrame::latest_pose(const std::string& frame_id, const ros::Time& 
 geometry_msgs::TransformStamped FixedFrame::look_up(const std_msgs::Header& header) const {
   if (name_.empty()) {
     throw TransformUnavailable(
-        "no transform from frame '" + header.frame_id +
-        "': there is no fixed frame yet, set the parameter fixed_frame or wait "
+        "no transform from frame " + fiber::quote(header.frame_id) +
+        ": there is no fixed frame yet, set the parameter fixed_frame or wait "
         "for a message that names one");
   }
   const std::string frame = tf2_name(header.frame_id);
-  const std::string what =
-      "no transform from frame '" + frame + "' to '" + name_ + "'" + time_of(header.stamp) + ": ";
+  const std::string what = "no transform from frame " + fiber::quote(frame) + " to " +
+                           fiber::quote(name_) + time_of(header.stamp) + ": ";
   try {
     return buffer_.lookupTransform(name_, frame, header.stamp);
   } catch (const tf2::LookupException& error) {

@@ -6,6 +6,7 @@
 
 #include "fiber_proximity/ros/conversions.hpp"
 #include "fiber_proximity/ros/segment_welder.hpp"
+#include "fiber_proximity/text/quote.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -36,7 +37,7 @@ Kind kind_of(const Marker& marker) {
 }
 
 std::string name_of(const Marker& marker) {
-  return "marker " + marker.ns + "/" + std::to_string(marker.id);
+  return "marker " + fiber::shortened(marker.ns) + "/" + std::to_string(marker.id);
 }
 
 Eigen::Isometry3d pose_of(const Marker& marker) {
@@ -151,9 +152,10 @@ void sort_by_id(Markers& markers) {
 void check_frames(const Markers& markers) {
   for (const Marker* marker : markers) {
     if (marker->header.frame_id != markers.front()->header.frame_id) {
-      throw std::invalid_argument(name_of(*marker) + " is in frame '" + marker->header.frame_id +
-                                  "', " + name_of(*markers.front()) + " in '" +
-                                  markers.front()->header.frame_id + "'; they must be the same");
+      throw std::invalid_argument(
+          name_of(*marker) + " is in frame " + fiber::quote(marker->header.frame_id) + ", " +
+          name_of(*markers.front()) + " in " + fiber::quote(markers.front()->header.frame_id) +
+          "; they must be the same");
     }
   }
 }

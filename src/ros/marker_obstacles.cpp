@@ -11,6 +11,7 @@
 #include "fiber_proximity/ros/obstacle_change.hpp"
 #include "fiber_proximity/ros/obstacle_pose.hpp"
 #include "fiber_proximity/ros/obstacle_shapes.hpp"
+#include "fiber_proximity/text/quote.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -118,7 +119,7 @@ Change MarkerObstacles::change_of(std::shared_ptr<const Markers> markers, const 
       touched.remove(marker_name(marker));
     } else if (is_body(marker)) {
       touched.add(marker_name(marker));
-      frames[i] = {"obstacle '" + marker_name(marker) + "'", marker.header};
+      frames[i] = {"obstacle " + fiber::quote(marker_name(marker)), marker.header};
     }
   }
   const bool is_large = this->is_large(*markers);
@@ -148,7 +149,7 @@ std::vector<MarkerObstacles::Step> MarkerObstacles::read(const Markers& markers,
                                                          const ros::Time& now) {
   std::vector<Step> steps;
   for (std::size_t i = 0; i < markers.size(); ++i) {
-    naming("marker '" + marker_name(markers[i]) + "'", [&] {
+    naming("marker " + fiber::quote(marker_name(markers[i])), [&] {
       if (auto step = read(markers[i], now)) {
         step->marker = i;
         steps.push_back(std::move(*step));
@@ -176,8 +177,8 @@ std::optional<MarkerObstacles::Step> MarkerObstacles::read(const Marker& marker,
   if (!is_body(marker)) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (ignored_types_.insert(marker.type).second) {
-      ROS_INFO_STREAM("'" << topic_ << "': markers of type " << marker.type << ", such as '"
-                          << marker_name(marker) << "', are no obstacles");
+      ROS_INFO_STREAM("'" << topic_ << "': markers of type " << marker.type << ", such as "
+                          << fiber::quote(marker_name(marker)) << ", are no obstacles");
     }
     return std::nullopt;
   }

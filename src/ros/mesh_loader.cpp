@@ -1,16 +1,14 @@
 #include "fiber_proximity/ros/mesh_loader.hpp"
 
-#include <geometric_shapes/mesh_operations.h>
 #include <ros/package.h>
 
 #include <algorithm>
 #include <fstream>
-#include <memory>
 #include <sstream>
 #include <stdexcept>
 
-#include "fiber_proximity/environment/triangle_mesh.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
+#include "fiber_proximity/ros/parse_mesh.hpp"
 #include "fiber_proximity/text/quote.hpp"
 
 namespace fiber_proximity_ros {
@@ -35,7 +33,7 @@ path real_path(const path& written) {
   std::error_code error;
   path real = std::filesystem::weakly_canonical(written, error);
   if (error) {
-    throw std::invalid_argument("'" + written.string() + "': " + error.message());
+    throw std::invalid_argument(fiber::quote(written.string()) + ": " + error.message());
   }
   return real;
 }
@@ -50,7 +48,8 @@ path resolve_in_package(const std::string& resource) {
   }
   path file = real_path(folder + resource.substr(slash));
   if (!lies_in(file, real_path(folder))) {
-    throw std::invalid_argument("it leads to '" + file.string() + "', outside of the package");
+    throw std::invalid_argument("it leads to " + fiber::quote(file.string()) +
+                                ", outside of the package");
   }
   return file;
 }
@@ -58,7 +57,7 @@ path resolve_in_package(const std::string& resource) {
 std::string read(const path& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) {
-    throw std::invalid_argument("there is no file '" + file.string() + "'");
+    throw std::invalid_argument("there is no file " + fiber::quote(file.string()) + "");
   }
   const std::uintmax_t size = std::filesystem::file_size(file);
   if (size > MeshLoader::largest_file) {
@@ -69,39 +68,23 @@ std::string read(const path& file) {
   std::string bytes(size, '\0');
   std::ifstream stream(file, std::ios::binary);
   if (!stream.read(bytes.data(), static_cast<std::streamsize>(size))) {
-    throw std::invalid_argument("the file '" + file.string() + "' cannot be read");
+    throw std::invalid_argument("the file " + fiber::quote(file.string()) + " cannot be read");
   }
   return bytes;
 }
 
-std::unique_ptr<const shapes::Mesh> parse(const std::string& bytes, const path& file) {
-  // The name tells the format. Scaled later: what is not a number must not get lost on the way.
-  std::unique_ptr<const shapes::Mesh> mesh(
-      shapes::createMeshFromBinary(bytes.data(), bytes.size(), file.filename().string()));
-  if (mesh == nullptr || mesh->triangle_count == 0) {
-    throw std::invalid_argument("the file '" + file.string() +
-                                "' holds no mesh in a format that assimp reads");
-  }
-  if (mesh->triangle_count > fiber::TriangleMesh::most_triangles) {
-    throw std::invalid_argument("the mesh has " + std::to_string(mesh->triangle_count) +
-                                " triangles, it may have at most " +
-                                std::to_string(fiber::TriangleMesh::most_triangles));
-  }
-  return mesh;
-}
-
-shape_msgs::Mesh to_mesh(const shapes::Mesh& mesh, const Eigen::Vector3d& scale) {
+shape_msgs::Mesh to_mesh(const ParsedMesh& mesh, const Eigen::Vector3d& scale) {
   shape_msgs::Mesh message;
-  message.vertices.reserve(mesh.vertex_count);
-  for (unsigned i = 0; i < mesh.vertex_count; ++i) {
-    const Eigen::Map<const Eigen::Vector3d> vertex(mesh.vertices + 3 * i);
+  message.vertices.reserve(mesh.coordinates.size() / 3);
+  for (std::size_t i = 0; i < mesh.coordinates.size(); i += 3) {
+    const Eigen::Map<const Eigen::Vector3d> vertex(mesh.coordinates.data() + i);
     message.vertices.push_back(to_message(Eigen::Vector3d(scale.cwiseProduct(vertex))));
   }
   const bool mirrored = (scale.array() < 0.0).count() % 2 == 1;
-  message.triangles.resize(mesh.triangle_count);
-  for (unsigned i = 0; i < mesh.triangle_count; ++i) {
+  message.triangles.resize(mesh.corners.size() / 3);
+  for (std::size_t i = 0; i < message.triangles.size(); ++i) {
     auto& triangle = message.triangles[i].vertex_indices;
-    std::copy_n(mesh.triangles + 3 * i, 3, triangle.begin());
+    std::copy_n(mesh.corners.begin() + static_cast<std::ptrdiff_t>(3 * i), 3, triangle.begin());
     if (mirrored) {
       std::swap(triangle[1], triangle[2]);
     }
@@ -123,8 +106,8 @@ void check_scale(const Eigen::Vector3d& scale) {
 MeshLoader::MeshLoader(const std::vector<std::string>& folders) {
   for (const std::string& folder : folders) {
     if (!path(folder).is_absolute() || !std::filesystem::is_directory(folder)) {
-      throw std::invalid_argument("folder of meshes '" + folder +
-                                  "' is not there, it must be an absolute path of a folder");
+      throw std::invalid_argument("folder of meshes " + fiber::quote(folder) +
+                                  " is not there, it must be an absolute path of a folder");
     }
     folders_.push_back(real_path(folder));
   }
@@ -134,7 +117,7 @@ shape_msgs::Mesh MeshLoader::load(const std::string& resource, const Eigen::Vect
   try {
     check_scale(scale);
     const path file = resolve(resource);
-    return to_mesh(*parse(read(file), file), scale);
+    return to_mesh(parse_mesh(read(file), file.filename().string()), scale);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument("mesh " + fiber::quote(resource) + ": " + error.what());
   }

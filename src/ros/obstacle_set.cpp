@@ -4,6 +4,7 @@
 
 #include "fiber_proximity/ros/obstacle_change.hpp"
 #include "fiber_proximity/ros/obstacle_shapes.hpp"
+#include "fiber_proximity/text/quote.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -42,7 +43,7 @@ std::vector<FramedChange> to_changes(const std::vector<fiber_proximity::Obstacle
 }
 
 FramedName framed_name(const FramedChange& framed) {
-  return {"obstacle '" + framed.change.object.name + "'", framed.header};
+  return {"obstacle " + fiber::quote(framed.change.object.name), framed.header};
 }
 
 fiber::ObjectChange placed(const FramedChange& framed, const Eigen::Isometry3d& pose) {
@@ -83,7 +84,7 @@ Change ObstacleSet::change_of(std::shared_ptr<const Obstacles> obstacles, double
       touched.remove(obstacle.id);
     }
     frames.push_back(
-        {"obstacle '" + obstacle.id + "'", removes ? std_msgs::Header() : obstacle.header});
+        {"obstacle " + fiber::quote(obstacle.id), removes ? std_msgs::Header() : obstacle.header});
   }
   const bool is_large = is_large_mesh(triangle_count(*obstacles));
   const auto prepare = [this, obstacles = std::move(obstacles)]() -> Change::Apply {

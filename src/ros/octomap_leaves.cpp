@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "fiber_proximity/text/quote.hpp"
+
 namespace fiber_proximity_ros {
 namespace {
 
@@ -129,8 +131,8 @@ class LeafReader {
 
 std::vector<OctomapLeaf> read_occupied_leaves(const octomap_msgs::Octomap& map) {
   if (map.id != "OcTree" && map.id != "ColorOcTree" && map.id != "OcTreeStamped") {
-    throw std::invalid_argument("id is '" + map.id +
-                                "', it must be OcTree, ColorOcTree or OcTreeStamped");
+    throw std::invalid_argument("id is " + fiber::quote(map.id) +
+                                ", it must be OcTree, ColorOcTree or OcTreeStamped");
   }
   if (!(map.resolution >= least_resolution && map.resolution <= greatest_resolution)) {
     std::ostringstream message;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "fiber_proximity/ros/conversions.hpp"
+#include "fiber_proximity/text/quote.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -24,9 +25,10 @@ void to_chains(const nav_msgs::Path& message, ChainSet& chains) {
   for (const geometry_msgs::PoseStamped& pose : message.poses) {
     // Many publishers fill in the path's frame only.
     if (!pose.header.frame_id.empty() && pose.header.frame_id != message.header.frame_id) {
-      throw std::invalid_argument("pose " + std::to_string(chains.points.size()) +
-                                  " is in frame '" + pose.header.frame_id + "', the path in '" +
-                                  message.header.frame_id + "'; they must be the same");
+      throw std::invalid_argument("pose " + std::to_string(chains.points.size()) + " is in frame " +
+                                  fiber::quote(pose.header.frame_id) + ", the path in " +
+                                  fiber::quote(message.header.frame_id) +
+                                  "; they must be the same");
     }
     chains.points.push_back(to_vector(pose.pose.position));
   }

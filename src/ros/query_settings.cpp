@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "fiber_proximity/text/quote.hpp"
+
 namespace fiber_proximity_ros {
 namespace {
 
@@ -23,8 +25,8 @@ void apply_accuracy(const std::string& accuracy, fiber::QueryOptions& options) {
   try {
     options.kernel = fiber::kernel_from_name(accuracy);
   } catch (const std::invalid_argument&) {
-    throw std::invalid_argument("unknown accuracy '" + accuracy +
-                                "', known are: custom, fast, robust, exact, deadline");
+    throw std::invalid_argument("unknown accuracy " + fiber::quote(accuracy) +
+                                ", known are: custom, fast, robust, exact, deadline");
   }
 }
 

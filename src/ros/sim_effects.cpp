@@ -17,6 +17,7 @@
 #include "fiber_proximity/sim/effects/plasticity.hpp"
 #include "fiber_proximity/sim/effects/stretch.hpp"
 #include "fiber_proximity/sim/effects/twist.hpp"
+#include "fiber_proximity/text/quote.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -37,7 +38,8 @@ class NamedEffects {
       }
       const auto options = entry.is_map() ? entry.find(name) : std::nullopt;
       if (!entries_.emplace(name, Entry{keys.front(), options}).second) {
-        throw std::invalid_argument(entry.place() + ": the effect '" + name + "' is there twice");
+        throw std::invalid_argument(entry.place() + ": the effect " + fiber::quote(name) +
+                                    " is there twice");
       }
       names_.push_back(name);
     }
@@ -69,8 +71,8 @@ class NamedEffects {
 
   [[noreturn]] static void refuse_name(const YamlField& field,
                                        const std::vector<std::string>& known) {
-    throw std::invalid_argument(field.place() + ": there is no effect '" + field.text() +
-                                "', known are: " + listed(known));
+    throw std::invalid_argument(field.place() + ": there is no effect " +
+                                fiber::quote(field.text()) + ", known are: " + listed(known));
   }
 
   std::map<std::string, Entry> entries_;

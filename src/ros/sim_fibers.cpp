@@ -8,6 +8,7 @@
 #include "fiber_proximity/ros/naming.hpp"
 #include "fiber_proximity/ros/sim_shapes.hpp"
 #include "fiber_proximity/sim/resolution.hpp"
+#include "fiber_proximity/text/quote.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -120,8 +121,8 @@ std::vector<SimFiber> read_sim_fibers(const YamlField& list, std::optional<doubl
   for (const YamlField& entry : list.items()) {
     for (SimFiber& fiber : repeat(read_fiber(entry, accuracy), entry)) {
       if (!names.insert(fiber.name).second) {
-        throw std::invalid_argument(entry.place() + " has the name '" + fiber.name +
-                                    "' of another fibre of the scene");
+        throw std::invalid_argument(entry.place() + " has the name " + fiber::quote(fiber.name) +
+                                    " of another fibre of the scene");
       }
       segments += fiber.points.size() - 1;
       fibers.push_back(std::move(fiber));

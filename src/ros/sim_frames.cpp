@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "fiber_proximity/ros/sim_reach.hpp"
+#include "fiber_proximity/text/quote.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -24,7 +25,7 @@ void SimFrames::watch(const FollowedFrame& followed, Watch& watch,
   if (is_frozen && !watch.is_frozen) {
     ROS_WARN_STREAM(followed.what << " stays where it is: " << problem);
   } else if (!is_frozen && watch.is_frozen) {
-    ROS_INFO_STREAM(followed.what << " follows frame '" << followed.frame << "' again");
+    ROS_INFO_STREAM(followed.what << " follows frame " << fiber::quote(followed.frame) << " again");
   }
   watch.is_frozen = is_frozen;
 }
@@ -38,8 +39,9 @@ void SimFrames::wait_for(const std::vector<FollowedFrame>& frames, double timeou
         is_known = true;
       } catch (const TransformUnavailable& error) {
         if ((ros::SteadyTime::now() - begin).toSec() >= timeout) {
-          throw std::invalid_argument(followed.what + ": nothing of frame '" + followed.frame +
-                                      "' in " + std::to_string(timeout) + " s: " + error.what());
+          throw std::invalid_argument(followed.what + ": nothing of frame " +
+                                      fiber::quote(followed.frame) + " in " +
+                                      std::to_string(timeout) + " s: " + error.what());
         }
         ros::WallDuration(0.05).sleep();
       }
@@ -56,10 +58,10 @@ fiber::Placement SimFrames::next_placement(const SimScene& scene, const Followed
                                               frame * in_frame.position, fastest_frame);
   const bool is_held_back = !lead.problem.empty();
   if (is_held_back && !watch.is_held_back) {
-    ROS_WARN_STREAM(followed.what << " does not follow frame '" << followed.frame
-                                  << "': " << lead.problem);
+    ROS_WARN_STREAM(followed.what << " does not follow frame " << fiber::quote(followed.frame)
+                                  << ": " << lead.problem);
   } else if (!is_held_back && watch.is_held_back) {
-    ROS_INFO_STREAM(followed.what << " follows frame '" << followed.frame << "' again");
+    ROS_INFO_STREAM(followed.what << " follows frame " << fiber::quote(followed.frame) << " again");
   }
   watch.is_held_back = is_held_back;
   return {lead.position, frame.linear() * in_frame.tangent, frame.linear() * in_frame.director};
@@ -78,8 +80,8 @@ void SimFrames::follow(const SimScene& scene) {
       watch.stamp = frame.stamp;
       this->watch(followed, watch,
                   is_new ? ""
-                         : "nothing new of frame '" + followed.frame + "' for more than " +
-                               std::to_string(timeout_) + " s");
+                         : "nothing new of frame " + fiber::quote(followed.frame) +
+                               " for more than " + std::to_string(timeout_) + " s");
       next = next_placement(scene, followed, frame.pose, watch);
     } catch (const TransformUnavailable& error) {
       this->watch(followed, watch, error.what());

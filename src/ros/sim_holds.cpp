@@ -7,6 +7,7 @@
 
 #include "fiber_proximity/geometry/smallest_rotation.hpp"
 #include "fiber_proximity/ros/listed.hpp"
+#include "fiber_proximity/text/quote.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -29,7 +30,7 @@ std::vector<std::uint32_t> find_fibers(const YamlField& name, const std::vector<
     names.insert(fibers[i].group);
   }
   if (found.empty()) {
-    name.refuse("the name of a fibre of the scene: " + listed(names));
+    name.refuse("the name of a fibre of the scene: " + fiber::shortened(listed(names)));
   }
   return found;
 }
@@ -209,10 +210,10 @@ void read_hold(const YamlField& entry, std::uint32_t rod, const SimFiber& fiber,
     const auto shared = std::make_shared<Path>(Path{{0.0, frame ? beginning : placement}});
     hold.placement = [shared](double time) { return at(*shared, time); };
     if (frame) {
-      holds.frames.push_back(
-          {frame->text(), rod, hold.node,
-           entry.place() + ": node " + std::to_string(hold.node) + " of fibre '" + fiber.name + "'",
-           placement, shared});
+      holds.frames.push_back({frame->text(), rod, hold.node,
+                              entry.place() + ": node " + std::to_string(hold.node) + " of fibre " +
+                                  fiber::quote(fiber.name),
+                              placement, shared});
     }
   }
   require_near(entry, hold.placement(0.0), fiber, hold.node);

@@ -6,6 +6,7 @@
 
 #include "fiber_proximity/sim/overlaps.hpp"
 #include "fiber_proximity/sim/reach.hpp"
+#include "fiber_proximity/text/quote.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -48,14 +49,14 @@ std::string describe(const std::vector<fiber::Overlap>& overlaps, const SimWorld
   text << a.place << " begins inside of ";
   double touching = rods.radii[contact.fiber_a];
   if (deepest.is_object) {
-    text << "obstacle '" << world.environment->objects()[contact.fiber_b].name << "': segment "
-         << contact.segment_a << " of fibre '" << a.name << "' is ";
+    text << "obstacle " << fiber::quote(world.environment->objects()[contact.fiber_b].name)
+         << ": segment " << contact.segment_a << " of fibre " << fiber::quote(a.name) << " is ";
   } else {
     const SimFiber& b = world.fibers[contact.fiber_b];
     touching += rods.radii[contact.fiber_b];
     text << (contact.fiber_a == contact.fiber_b ? "itself" : b.place) << ": segment "
-         << contact.segment_a << " of fibre '" << a.name << "' and segment " << contact.segment_b
-         << " of fibre '" << b.name << "' are ";
+         << contact.segment_a << " of fibre " << fiber::quote(a.name) << " and segment "
+         << contact.segment_b << " of fibre " << fiber::quote(b.name) << " are ";
   }
   text << 1e3 * deepest.depth() << " mm deep in it, " << 1e3 * fiber::touching_share * touching
        << " mm is the most";

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "fiber_proximity/ros/listed.hpp"
+#include "fiber_proximity/text/quote.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -35,8 +36,8 @@ std::string text_of(const Value& value) {
 
 [[noreturn]] void refuse(const fiber_proximity::SimulationParameter& parameter,
                          const std::string& problem) {
-  throw std::invalid_argument("parameter '" + parameter.name + "' is " + text_of(parameter.value) +
-                              ": " + problem);
+  throw std::invalid_argument("parameter " + fiber::quote(parameter.name) + " is " +
+                              text_of(parameter.value) + ": " + problem);
 }
 
 }  // namespace

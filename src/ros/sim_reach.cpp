@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "fiber_proximity/sim/reach.hpp"
+#include "fiber_proximity/text/quote.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -31,8 +32,8 @@ std::string text_of(const Vector3d& position) {
 std::string not_a_place(const SimScene& scene, std::uint32_t rod, const Vector3d& position) {
   std::ostringstream text;
   text.precision(3);
-  text << "position is " << text_of(position) << ", coordinates of fibre '"
-       << scene.fiber_names[rod] << "' must be finite and at most "
+  text << "position is " << text_of(position) << ", coordinates of fibre "
+       << fiber::quote(scene.fiber_names[rod]) << " must be finite and at most "
        << largest_coordinate(scene, rod) << " m, a billion of its lengths";
   return text.str();
 }
@@ -48,9 +49,10 @@ std::string out_of_reach(const SimScene& scene, const NodeOfRod& held, const Vec
   std::ostringstream text;
   text.precision(3);
   text << "position " << text_of(position) << " is " << (position - limit.center).norm()
-       << " m from where node " << limit.node << " of fibre '" << scene.fiber_names[held.rod]
-       << "' is held, with " << limit.rest_length << " m of it between: it reaches " << limit.radius
-       << " m, stretched by " << 100.0 * scene.max_strain << " % (max_strain)";
+       << " m from where node " << limit.node << " of fibre "
+       << fiber::quote(scene.fiber_names[held.rod]) << " is held, with " << limit.rest_length
+       << " m of it between: it reaches " << limit.radius << " m, stretched by "
+       << 100.0 * scene.max_strain << " % (max_strain)";
   return text.str();
 }
 
@@ -100,8 +102,9 @@ void require_reach(const SimScene& scene, const NodeOfRod& held, const Vector3d&
       error << ", which is at once: " << way << " m in a step of " << step << " s are "
             << way / step << " m/s";
     }
-    error << "; fibre '" << scene.fiber_names[held.rod] << "' may be moved at up to " << at_most
-          << " m/s, which stretches it by " << 100.0 * scene.max_strain << " % (max_strain)";
+    error << "; fibre " << fiber::quote(scene.fiber_names[held.rod]) << " may be moved at up to "
+          << at_most << " m/s, which stretches it by " << 100.0 * scene.max_strain
+          << " % (max_strain)";
     throw std::invalid_argument(error.str());
   }
 }

@@ -5,9 +5,11 @@
 
 #include "fiber_proximity/ros/allowed_contacts.hpp"
 #include "fiber_proximity/ros/environment_scene.hpp"
+#include "fiber_proximity/ros/load_yaml.hpp"
 #include "fiber_proximity/ros/sim_overlap.hpp"
 #include "fiber_proximity/ros/sim_resolution.hpp"
 #include "fiber_proximity/ros/yaml_obstacle.hpp"
+#include "fiber_proximity/text/quote.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -65,8 +67,9 @@ std::shared_ptr<const fiber::Environment> make_environment(const YamlField& fiel
     const std::string& frame = obstacle.header.frame_id;
     if (!frame.empty() && frame != frame_id) {
       std::ostringstream error;
-      error << field.place() << ": obstacle '" << obstacle.change.object.name << "' is in frame '"
-            << frame << "', it must be in the scene's, '" << frame_id << "'";
+      error << field.place() << ": obstacle " << fiber::quote(obstacle.change.object.name)
+            << " is in frame " << fiber::quote(frame) << ", it must be in the scene's, "
+            << fiber::quote(frame_id);
       throw std::invalid_argument(error.str());
     }
     world.apply({obstacle.change});
@@ -101,7 +104,11 @@ fiber::AllowedPairs resolve(const std::vector<fiber_proximity::AllowedPair>& pai
 
 SimScene read_sim_scene(const std::string& file, const MeshLoader& meshes, std::uint32_t threads,
                         std::optional<std::uint32_t> iterations) {
-  const YamlField document = load_yaml(file);
+  return read_sim_scene(load_yaml(file), meshes, threads, iterations);
+}
+
+SimScene read_sim_scene(const YamlField& document, const MeshLoader& meshes, std::uint32_t threads,
+                        std::optional<std::uint32_t> iterations) {
   document.require_map({"frame_id", "time_step", "substeps", "iterations", "integrator", "accuracy",
                         "real_time", "fibers", "effects", "environment", "initial_overlap",
                         "max_strain"});

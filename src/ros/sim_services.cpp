@@ -9,6 +9,7 @@
 #include "fiber_proximity/ros/conversions.hpp"
 #include "fiber_proximity/ros/sim_reach.hpp"
 #include "fiber_proximity/ros/sim_server.hpp"
+#include "fiber_proximity/text/quote.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -54,13 +55,13 @@ NodeOfRod SimServer::find_node(const std::string& fiber, std::int32_t node) cons
   const auto& names = scene_.fiber_names;
   const auto found = std::find(names.begin(), names.end(), fiber);
   if (found == names.end()) {
-    throw std::invalid_argument("there is no fibre '" + fiber + "'");
+    throw std::invalid_argument("there is no fibre " + fiber::quote(fiber));
   }
   const auto rod = static_cast<std::uint32_t>(found - names.begin());
   const auto count = static_cast<std::int64_t>(scene_.stepper->rods().node_count(rod));
   const std::int64_t index = node < 0 ? count + node : node;
   if (index < 0 || index >= count) {
-    throw std::invalid_argument("fibre '" + fiber + "' has " + std::to_string(count) +
+    throw std::invalid_argument("fibre " + fiber::quote(fiber) + " has " + std::to_string(count) +
                                 " nodes, there is no node " + std::to_string(node));
   }
   if (scene_.attachment == nullptr) {
@@ -173,7 +174,7 @@ bool SimServer::detach(fiber_proximity::DetachFiber::Request& request,
     const auto id = scene_.attachment->find(held.rod, held.node);
     if (!id) {
       throw std::invalid_argument("nothing holds node " + std::to_string(request.node) +
-                                  " of fibre '" + request.fiber + "'");
+                                  " of fibre " + fiber::quote(request.fiber));
     }
     scene_.attachment->remove(*id);
   });

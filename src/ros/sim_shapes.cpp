@@ -136,11 +136,9 @@ void smooth(Points& points) {
   }
 }
 
-/// A closed trefoil, cut where it is widest, its ends led up and apart: an overhand knot.
-Points read_trefoil(const YamlField& options) {
-  options.require_map({"center", "size"});
-  const Vector3d center = options.get("center").vector();
-  const double size = positive(options.get("size"));
+/// A closed trefoil, cut where it is widest, its ends led up and apart: an overhand knot, 6 wide,
+/// about the origin. The first end is the one at smaller x.
+Points make_trefoil() {
   const double cut = M_PI / 3.0;
   const double half_gap = 0.4;
   const Vector3d out(std::cos(M_PI / 6.0), std::sin(M_PI / 6.0), 0.0);
@@ -162,12 +160,21 @@ Points read_trefoil(const YamlField& options) {
     points.push_back(last + length * Vector3d(-0.6 * apart, 0.0, 1.0));
   }
   smooth(points);
+  if (apart > 0.0) {
+    std::reverse(points.begin(), points.end());
+  }
+  return points;
+}
+
+Points read_trefoil(const YamlField& options) {
+  static const Points trefoil = make_trefoil();  // rounding its corners takes a while
+  options.require_map({"center", "size"});
+  const Vector3d center = options.get("center").vector();
+  const double size = positive(options.get("size"));
   constexpr double width = 6.0;
+  Points points = trefoil;
   for (Vector3d& point : points) {
     point = center + size / width * point;
-  }
-  if (apart > 0.0) {
-    std::reverse(points.begin(), points.end());  // the first end is the one at smaller x
   }
   return points;
 }

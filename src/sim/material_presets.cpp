@@ -2,6 +2,7 @@
 #include <stdexcept>
 
 #include "fiber_proximity/sim/material.hpp"
+#include "fiber_proximity/text/quote.hpp"
 
 namespace fiber {
 namespace {
@@ -31,7 +32,7 @@ RodMaterial material_preset(const std::string& name) {
   for (const std::string& known : material_names()) {
     names += (names.empty() ? "" : ", ") + known;
   }
-  throw std::invalid_argument("there is no material '" + name + "', known are: " + names);
+  throw std::invalid_argument("there is no material " + quote(name) + ", known are: " + names);
 }
 
 std::vector<std::string> material_names() {

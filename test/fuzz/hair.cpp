@@ -21,6 +21,7 @@ void check_written(const fiber::FiberFile& file) {
 }  // namespace
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const fiber::test::Bounds bounds(fiber::test::times(200, size));
   std::istringstream stream(fiber::test::text_of(data, size));
   try {
     check_written(fiber::read_hair(stream, "fuzz.hair"));

@@ -6,6 +6,7 @@
 #include "fuzz_target.hpp"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const fiber::test::Bounds bounds(fiber::test::times(200, size));
   std::istringstream stream(fiber::test::text_of(data, size));
   try {
     fiber::read_segment_pairs(stream, "fuzz.csv");

@@ -112,6 +112,9 @@ TEST(Conversions, APoseOfAPathMustBeInThePathsFrame) {
   message.poses[2].header.frame_id = "gripper";
   EXPECT_EQ(error_of([&] { to_chains(message, chains); }),
             "pose 2 is in frame 'gripper', the path in 'map'; they must be the same");
+  message.poses[2].header.frame_id = "grip\xC0\n";
+  EXPECT_EQ(error_of([&] { to_chains(message, chains); }),
+            "pose 2 is in frame 'grip\\xC0\\n', the path in 'map'; they must be the same");
 }
 
 /// A cloud laid out by hand: double z first, then float y and x, padding in points and rows, two

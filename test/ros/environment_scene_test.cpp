@@ -153,6 +153,31 @@ TEST_F(EnvironmentScene, ErrorsNameFileLineFieldAndWhatIsAllowed) {
             "scene '/no/such/file.yaml': there is no such file to read");
 }
 
+/// So many times `item`, the first of them with a name for the others.
+std::string repeated(const std::string& item, const std::string& alias, int count) {
+  std::string list = "[&" + alias + " " + item;
+  for (int i = 1; i < count; ++i) {
+    list += ", *" + alias;
+  }
+  return list + "]";
+}
+
+TEST_F(EnvironmentScene, AliasesStandForWhatTheyName) {
+  const auto scene =
+      read("obstacles: [{id: a, capsules: " + repeated("{radius: 0.1, length: 1}", "c", 20) + "}]");
+  EXPECT_EQ(scene.obstacles.at(0).change.object.shapes.size(), 20U);
+}
+
+TEST_F(EnvironmentScene, AliasesThatMultiplyAreRefused) {
+  constexpr int count = 1000;
+  const std::string mesh = "{vertices: " + repeated("[0, 1, 2]", "v", count) +
+                           ", triangles: " + repeated("[0, 1, 2]", "t", count) + "}";
+  const std::string text = "obstacles:\n- {id: a, meshes: " + repeated(mesh, "m", count) + "}\n";
+  EXPECT_EQ(error(text), "2: with its aliases written out the document has more than " +
+                             std::to_string(10 * text.size()) + " values, 10 per byte");
+  EXPECT_EQ(error("obstacles: &a [*a]"), "1: an alias is part of what it stands for");
+}
+
 TEST_F(EnvironmentScene, ErrorsInAnObstacleNameIt) {
   const auto error_in = [this](const std::string& fields) {
     return error("obstacles:\n  - id: table\n    " + fields);

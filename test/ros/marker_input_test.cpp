@@ -267,6 +267,9 @@ TEST(MarkerInput, MalformedMarkersAreRefused) {
   EXPECT_EQ(error_of(array({marker(header("map"), Marker::LINE_STRIP, chain(0)),
                             marker(header("camera"), Marker::LINE_STRIP, chain(0))})),
             "marker cable/0 is in frame 'camera', marker cable/0 in 'map'; they must be the same");
+  Marker unprintable = marker(header("map"), Marker::TEXT_VIEW_FACING, {});
+  unprintable.ns = "ca\nble";
+  EXPECT_EQ(error_of(array({unprintable})).substr(0, 18), "marker ca\\nble/0 h");
 }
 
 }  // namespace

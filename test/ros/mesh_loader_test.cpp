@@ -118,6 +118,24 @@ TEST(MeshLoader, WhatIsNoMeshIsRefused) {
   }
 }
 
+TEST(MeshLoader, WhatAssimpFailsOnCostsOnlyItself) {
+  const Package package;
+  const std::string header =
+      "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_h";
+  write(package.file("endless.ply"), "ply\nformat binary_little_endian 1.0\n" + header);
+  write(package.file("crash.ply"),
+        "ply\nformat ascii 1.0\n" + header + "eader\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2000000000\n");
+  for (const char* name : {"endless.ply", "crash.ply"}) {
+    const std::string resource = std::string("package://test_meshes/") + name;
+    const std::string error = error_of([&] { MeshLoader().load(resource, unscaled); });
+    EXPECT_EQ(error.rfind("mesh '" + resource + "': ", 0), 0U) << error;
+  }
+  EXPECT_EQ(
+      MeshLoader().load("package://test_meshes/meshes/tetrahedron.obj", unscaled).triangles.size(),
+      4U);
+}
+
 TEST(MeshLoader, GiantFilesAreRefusedUnread) {
   const Package package;
   write(package.file("giant.stl"), "solid");

@@ -231,6 +231,10 @@ TEST_F(SimSceneTest, ErrorsNameLineAndWhatIsAllowed) {
                   "environment: {obstacles: [{id: b, frame_id: arm, half_spaces: "
                   "[{coef: [0, 0, 1, 0]}]}]}\n"),
        "obstacle 'b' is in frame 'arm', it must be in the scene's, 'world'"},
+      {"fibers: [{name: \"a\\n\", shape: " + std::string(line) +
+           ", segments: 1, radius: 0.01, material: \"ro\\npe\"}]\neffects: [stretch]\n",
+       "there is no material 'ro\\npe', known are: hair, power_cable, rope, silicone_tube (fibre "
+       "'a\\n')"},
   };
   for (const Case& bad : cases) {
     const std::string found = error(bad.text);

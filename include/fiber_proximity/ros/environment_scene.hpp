@@ -26,10 +26,6 @@ struct EnvironmentScene {
 ///         allowed
 EnvironmentScene read_scene(const std::string& file, const MeshLoader& meshes);
 
-/// A YAML file.
-/// @throws std::invalid_argument naming the file, and the line if it is malformed
-YamlField load_yaml(const std::string& file);
-
 /// The same from a part of a document.
 EnvironmentScene read_scene(const YamlField& field, const MeshLoader& meshes);
 

@@ -12,7 +12,7 @@ namespace fiber_proximity_ros {
 
 /// Reads meshes from files, in any format that assimp knows, and only from where they may lie: in
 /// ROS packages, package://NAME/PATH, and in the folders that are configured, file:///PATH.
-/// Symbolic links do not lead out of these.
+/// Symbolic links do not lead out of these. Files that assimp crashes on or hangs with are refused.
 class MeshLoader {
  public:
   /// [byte] Larger files are refused unread: twice a binary STL of as many triangles as

@@ -7,6 +7,7 @@
 
 #include "fiber_proximity/ros/yaml_field.hpp"
 #include "fiber_proximity/sim/rods.hpp"
+#include "fiber_proximity/text/quote.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -33,7 +34,7 @@ auto naming_fiber(const std::string& name, const Function& function) {
   try {
     return function();
   } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(std::string(error.what()) + " (fibre '" + name + "')");
+    throw std::invalid_argument(std::string(error.what()) + " (fibre " + fiber::quote(name) + ")");
   }
 }
 

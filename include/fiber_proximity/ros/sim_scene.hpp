@@ -8,6 +8,7 @@
 #include "fiber_proximity/Obstacle.h"
 #include "fiber_proximity/ros/mesh_loader.hpp"
 #include "fiber_proximity/ros/sim_effects.hpp"
+#include "fiber_proximity/ros/yaml_field.hpp"
 #include "fiber_proximity/sim/stepper.hpp"
 
 namespace fiber_proximity_ros {
@@ -43,6 +44,10 @@ struct SimScene {
 /// @param iterations in place of the scene's
 /// @throws std::invalid_argument naming file, line, field and value, and what is allowed
 SimScene read_sim_scene(const std::string& file, const MeshLoader& meshes, std::uint32_t threads,
+                        std::optional<std::uint32_t> iterations = std::nullopt);
+
+/// The same from a document.
+SimScene read_sim_scene(const YamlField& document, const MeshLoader& meshes, std::uint32_t threads,
                         std::optional<std::uint32_t> iterations = std::nullopt);
 
 }  // namespace fiber_proximity_ros

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace fiber_proximity_ros {
+
+/// What a file of a mesh holds.
+struct ParsedMesh {
+  std::vector<double> coordinates;     ///< [m] three of each vertex
+  std::vector<std::uint32_t> corners;  ///< three of each triangle
+};
+
+/// Lets assimp take a file's bytes apart, in a process of its own that ends with it: there are
+/// files it crashes on, does not come back from, or takes all memory for, and these are to cost
+/// only themselves.
+/// @param name of the file, which tells the format
+/// @throws std::invalid_argument if there is no mesh in it, too large a one, or if assimp fails on
+/// it
+ParsedMesh parse_mesh(const std::string& bytes, const std::string& name);
+
+}  // namespace fiber_proximity_ros

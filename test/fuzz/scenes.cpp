@@ -1,0 +1,95 @@
+// Scenes of the simulation, as YAML: from the document to the rods, effects and contacts that are
+// ready to move.
+#include <yaml-cpp/yaml.h>
+
+#include "fiber_proximity/ros/load_yaml.hpp"
+#include "fiber_proximity/ros/sim_resolution.hpp"
+#include "fiber_proximity/ros/sim_scene.hpp"
+#include "fuzz_target.hpp"
+
+namespace {
+
+using namespace fiber_proximity_ros;
+
+/// A scene may have a million segments, which is no longer to write than one. Those of the fuzzer
+/// have few, so that what they cost is what there is of them to read.
+constexpr std::int64_t most_segments = 40;
+
+std::int64_t number_of(const YAML::Node& map, const char* key) {
+  std::int64_t number = 1;
+  if (map.IsMap() && map[key].IsDefined() && map[key].IsScalar()) {
+    YAML::convert<std::int64_t>::decode(map[key], number);
+  }
+  return number;
+}
+
+bool writes_few_segments(const YAML::Node& fibers) {
+  std::int64_t segments = 0;
+  if (fibers.IsSequence()) {
+    for (const YAML::Node& fiber : fibers) {
+      const std::int64_t of_one = number_of(fiber, "segments");
+      const std::int64_t count =
+          fiber.IsMap() && fiber["repeat"].IsDefined() ? number_of(fiber["repeat"], "count") : 1;
+      if (of_one > most_segments || count > most_segments) {
+        return false;
+      }
+      segments += of_one * count;
+    }
+  }
+  return segments <= most_segments;
+}
+
+/// Few segments of those that the scene's accuracy takes, too.
+bool has_few_segments(const std::string& text, const YamlField& document) {
+  const YAML::Node node = YAML::Load(text);
+  if (!node.IsMap() || !node["fibers"].IsDefined()) {
+    return true;
+  }
+  if (!writes_few_segments(node["fibers"])) {
+    return false;
+  }
+  if (!node["accuracy"].IsDefined() && !node["real_time"].IsDefined()) {
+    return true;
+  }
+  std::size_t points = 0;
+  for (const SimFiber& fiber : read_sim_resolution(document, {}).fibers) {
+    points += fiber.points.size();
+  }
+  return points <= std::size_t{2} * most_segments;
+}
+
+void try_scene(const std::string& text, double seconds = 1.0) {
+  const YamlField document = parse_yaml(text, "fuzz.yaml");
+  if (!has_few_segments(text, document)) {
+    return;
+  }
+  const fiber::test::Bounds bounds(fiber::test::times(2000, text.size()), seconds);
+  const SimScene scene = read_sim_scene(document, MeshLoader(), 1);
+  if (scene.stepper->rods().count() != scene.fiber_names.size()) {
+    fiber::test::finding("rods that are not the scene's fibres");
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerInitialize(int* /*argc*/, char*** /*argv*/) {
+  // The first knot is made for all, which takes a second with sanitizers.
+  try_scene(
+      "{fibers: [{name: a, shape: {trefoil: {center: [0, 0, 0], size: 1}}, segments: 20, radius: "
+      "0.001, material: hair}], effects: [stretch]}",
+      60.0);
+  return 0;
+}
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string text = fiber::test::text_of(data, size);
+  if (text.find("package://") != std::string::npos) {
+    return 0;  // ROS would look for it in all packages there are
+  }
+  try {
+    try_scene(text);
+  } catch (const std::invalid_argument& error) {
+    fiber::test::check_error(error);
+  }
+  return 0;
+}
