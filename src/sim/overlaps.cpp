@@ -5,6 +5,22 @@
 #include "fiber_proximity/sim/contact_limits.hpp"
 
 namespace fiber {
+namespace {
+
+/// [m] What lies between two places of a rod is now at least this, if it is the given length at
+/// rest.
+double least_length_now(const Rods& rods, double at_rest) {
+  double ratio = 1.0 - 1e-12;  // for rounding
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    for (std::uint32_t i = rods.first(rod); i + 1 < rods.end(rod); ++i) {
+      const double now = (rods.positions[i + 1] - rods.positions[i]).norm();
+      ratio = std::min(ratio, now / rods.rest_lengths[i]);
+    }
+  }
+  return ratio * at_rest;
+}
+
+}  // namespace
 
 OverlapFinder::OverlapFinder(const Options& options)
     : options_(options), engine_(make_engine("run_tree")) {
@@ -32,8 +48,8 @@ std::vector<Overlap> OverlapFinder::find(const Rods& rods, double share, std::ui
 
 void OverlapFinder::find_between_rods(const Rods& rods, double share, std::vector<Overlap>& found) {
   query_.neighbour_skip = contact_neighbour_skip;
-  // The rule of lengths again, by where the rods are: what it leaves out is not to use up the most.
-  query_.neighbour_skip_length = contact_neighbour_length(rods);
+  // Not all that the rule of lengths leaves out is to use up the most.
+  query_.neighbour_skip_length = least_length_now(rods, contact_neighbour_length(rods));
   engine_->update(fibers_);
   engine_->query(query_, result_);
   for (const Contact& contact : result_.contacts) {

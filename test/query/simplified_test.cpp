@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "fiber_proximity/geometry/exact_distance.hpp"
+#include "fiber_proximity/geometry/norm.hpp"
 #include "fiber_proximity/query/brute_force.hpp"
 #include "fiber_proximity/query/simplified_engine.hpp"
 #include "support/contacts.hpp"
@@ -140,7 +141,7 @@ class Truth {
     }
     arc_.assign(b.point_count(), 0.0);
     for (std::size_t i = 1; i < arc_.size(); ++i) {
-      arc_[i] = arc_[i - 1] + (b.points()[i] - b.points()[i - 1]).norm();
+      arc_[i] = arc_[i - 1] + norm_of(b.points()[i] - b.points()[i - 1]);
     }
   }
 

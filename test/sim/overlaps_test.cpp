@@ -207,6 +207,24 @@ TEST(SeparateOverlaps, RodsThatAreTheSamePart) {
   separated(arcs, 3.0 * radius, 0.05);
 }
 
+/// Which edges of a rod are neighbours is told by their distance along it at rest.
+TEST(OverlapFinder, FindsWhatIsPressedTogetherAlongTheRodToo) {
+  std::vector<Vector3d> hexagon;
+  for (int i = 0; i <= 6; ++i) {
+    const double angle = M_PI * i / 3.0;
+    hexagon.emplace_back(1.1 * radius * std::cos(angle), 1.1 * radius * std::sin(angle), 0.0);
+  }
+  Rods rods;
+  add(rods, hexagon);
+  for (Vector3d& position : rods.positions) {
+    position *= 0.85;  // four edges are shorter than four radii now
+  }
+  const std::vector<Overlap> found = finder_of().find(rods, touching_share, many);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].contact.segment_a, 0U);
+  EXPECT_EQ(found[0].contact.segment_b, 5U);
+}
+
 TEST(SeparateOverlaps, ARodThatRunsBackAlongItselfOpens) {
   for (const int segments : {20, 100}) {
     Rods rods;
