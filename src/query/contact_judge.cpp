@@ -18,21 +18,39 @@ constexpr double part_to_judge = 0.9;
 }  // namespace
 
 void ContactJudge::judge(const std::vector<std::uint64_t>& keys, const PairTest& test,
-                         const Deadline& deadline, QueryResult& result) {
+                         const QueryLimits& limits, QueryResult& result) {
   constexpr std::size_t pairs_per_round = slices_per_round * pairs_per_slice;
   const std::size_t most = std::max(distances_.size(), std::min(pairs_per_round, keys.size()));
   distances_.resize(most);
   is_contact_.resize(most);
   contact_count_ = 0;
+  bound_ = std::numeric_limits<double>::infinity();
   result.others_lower = test.margin();  // of pairs that are no candidates
   for (std::size_t begin = 0; begin < keys.size(); begin += pairs_per_round) {
-    judge_round(keys.data() + begin, std::min(pairs_per_round, keys.size() - begin), test, deadline,
-                result);
+    judge_round(keys.data() + begin, std::min(pairs_per_round, keys.size() - begin), test,
+                limits.deadline, result);
+    if (contact_count_ >= limits.most_kept) {
+      leave_closest(limits.contacts, result);
+    }
   }
   result.contacts.resize(contact_count_);
+  if (contact_count_ > limits.contacts) {
+    leave_closest(limits.contacts, result);
+  }
+  if (result.limit_reached) {
+    sort_by_key(result.contacts);
+  }
   if (!result.complete) {
     result.others_lower = test.least_gap();
   }
+}
+
+/// Of the contacts so far, which are more.
+void ContactJudge::leave_closest(std::uint64_t count, QueryResult& result) {
+  result.contacts.resize(contact_count_);
+  result.limit_reached = keep_closest(count, result);
+  contact_count_ = result.contacts.size();
+  bound_ = result.contacts.back().upper;
 }
 
 void ContactJudge::judge_round(const std::uint64_t* keys, std::size_t count, const PairTest& test,
@@ -75,7 +93,8 @@ void ContactJudge::judge_slice(const std::uint64_t* keys, const PairTest& test, 
   test.distances(pairs, size, distances);
   slice.others_lower = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < size; ++i) {
-    const bool is_near = test.is_within_margin(pairs[i], distances[i]);
+    const bool is_near = test.gap_lower(pairs[i], distances[i]) <= bound_ &&
+                         test.is_within_margin(pairs[i], distances[i]);
     const bool is_contact = is_near && !test.lacks_loop(pairs[i], distances[i]);
     is_contact_[slice.begin + i] = is_contact ? 1 : 0;
     slice.contact_count += is_contact ? 1 : 0;

@@ -30,6 +30,9 @@ PairCollector::PairCollector(const FiberAssembly& shape, const FiberAssembly& fi
       counts_(result.counts) {}
 
 void PairCollector::offer(std::uint32_t point_a, std::uint32_t point_b) {
+  if (!keeper_.takes_pair()) {
+    return;
+  }
   const PointPair pair = test_.ordered({point_a, point_b});
   if (test_.is_left_out(pair)) {
     return;

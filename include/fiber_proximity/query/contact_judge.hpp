@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "fiber_proximity/query/contact.hpp"
-#include "fiber_proximity/query/deadline.hpp"
 #include "fiber_proximity/query/pair_test.hpp"
+#include "fiber_proximity/query/query_limits.hpp"
 
 namespace fiber {
 
@@ -21,9 +21,10 @@ class ContactJudge {
  public:
   /// @param keys of the candidates, as PairTest orders pairs, in ascending order
   /// @param result its contacts and others_lower are replaced; complete becomes false if the
-  /// deadline has passed before all were judged, and is to be false if some candidates are missing
-  void judge(const std::vector<std::uint64_t>& keys, const PairTest& test, const Deadline& deadline,
-             QueryResult& result);
+  /// deadline has passed before all were judged, and is to be false if some candidates are missing;
+  /// limit_reached becomes true if there are more contacts than may be reported
+  void judge(const std::vector<std::uint64_t>& keys, const PairTest& test,
+             const QueryLimits& limits, QueryResult& result);
 
  private:
   /// 512 candidates: what one thread judges at a time.
@@ -38,13 +39,17 @@ class ContactJudge {
 
   void judge_round(const std::uint64_t* keys, std::size_t count, const PairTest& test,
                    const Deadline& deadline, QueryResult& result);
+  void leave_closest(std::uint64_t count, QueryResult& result);
   void judge_slice(const std::uint64_t* keys, const PairTest& test, Slice& slice);
 
   // Of a round:
   std::vector<Slice> slices_;
   std::vector<PairDistance> distances_;
   std::vector<std::uint8_t> is_contact_;
-  std::size_t contact_count_ = 0;  // of all rounds so far
+
+  // Of all rounds so far:
+  std::size_t contact_count_ = 0;
+  double bound_ = 0.0;  // [m] so many are within it that pairs beyond are not reported
 };
 
 }  // namespace fiber
