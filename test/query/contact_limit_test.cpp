@@ -79,7 +79,7 @@ TEST_P(ContactLimitTest, TheClosestOfVeryManyAreReported) {
       QueryResult all;
       brute_force(fibers, options, all);
       ASSERT_GT(all.contacts.size(), 20'000U);
-      for (const std::uint32_t limit : {1U, 300U, 10'000U}) {
+      for (const std::uint32_t limit : {300U, 10'000U}) {
         options.contact_limit = limit;
         ASSERT_NO_FATAL_FAILURE(expect_closest(ask(fibers, options), all, limit));
       }
@@ -267,7 +267,7 @@ TEST_P(RunTreeLimits, GiveTheSameForAnyNumberOfThreads) {
   Random random;
   const FiberAssembly fibers = tangle(random, 1000);
   QueryOptions options = within(0.1);
-  for (const std::uint64_t pairs : {1000U, 100'000U, 400'000U}) {
+  for (const std::uint64_t pairs : {1000U, 100'000U}) {
     for (const std::uint32_t contacts : {100U, 20'000U}) {
       SCOPED_TRACE(std::to_string(pairs) + " pairs, " + std::to_string(contacts) + " contacts");
       options.pair_limit = pairs;
