@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -39,6 +40,11 @@ class ContactKeeper {
     }
     --pairs_left_;
     return true;
+  }
+
+  /// Counts looks along a fibre that a pair has taken: many are as much work as other pairs.
+  void count_looks(std::uint64_t looks) {
+    pairs_left_ -= std::min(pairs_left_, looks / QueryLimits::looks_per_pair);
   }
 
   /// Keeps a contact that is within the bound, or notes that it does not.

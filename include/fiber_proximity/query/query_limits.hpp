@@ -28,6 +28,9 @@ struct QueryLimits {
   /// them are the closest.
   std::uint64_t most_kept;
 
+  /// Where a pair takes more looks along its fibre (LoopTest), each so many count as one more pair.
+  static constexpr std::uint64_t looks_per_pair = 8;
+
   static constexpr std::uint64_t least_surplus = 1024;
 };
 
