@@ -307,6 +307,27 @@ INSTANTIATE_TEST_SUITE_P(Skins, RunTreeLimits, testing::Values(0.0, 0.02),
                            return skin.param > 0.0 ? "with_a_skin" : "without";
                          });
 
+TEST_P(RunTreeLimits, HoldForAFiberThatStaysNearOnePlace) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  AssemblyBuilder builder;
+  for (int point = 0; point < 3000; ++point) {
+    builder.add_point(random.in_cube());
+  }
+  builder.end_fiber();
+  // Few points are as far away as a loop needs: nearly all are looked at.
+  const FiberAssembly fibers = builder.build({1.36});
+  QueryOptions options;
+  options.pair_limit = 5'000'000;
+  ASSERT_NO_FATAL_FAILURE(expect_the_same(fibers, options));
+  EXPECT_FALSE(found_.complete);
+  EXPECT_TRUE(found_.limit_reached);
+  options.pair_limit = 0;
+  ASSERT_NO_FATAL_FAILURE(expect_the_same(fibers, options));
+  EXPECT_TRUE(found_.complete);
+  EXPECT_FALSE(found_.limit_reached);
+}
+
 TEST(RunTreeLimitsOfSkin, CandidatesThatWereKeptDoNotServeASmallerLimit) {
   SCOPED_TRACE(seed_message());
   Random random;
