@@ -9,6 +9,7 @@
 
 #include "fiber_proximity/hierarchy/sort_keys.hpp"
 #include "fiber_proximity/query/contact_judge.hpp"
+#include "fiber_proximity/query/query_limits.hpp"
 
 namespace fiber {
 
@@ -80,7 +81,7 @@ class ParallelCollector {
       result.counts.primitive_tests += part.tests_;
     }
     sort_keys(keys_, scratch_);
-    judge_.judge(keys_, test, Deadline(0.0), result);
+    judge_.judge(keys_, test, QueryLimits(QueryOptions()), result);
   }
 
   /// The calling thread's own.

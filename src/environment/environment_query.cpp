@@ -96,6 +96,9 @@ void EnvironmentQuery::offer_segment(const SegmentRun& run, std::uint32_t point,
     keeper_.leave_out(bound);
     return;
   }
+  if (!keeper_.takes_pair()) {
+    return;
+  }
   ++counts_.primitive_tests;
   const AxisDistance axis =
       axis_distance(shape.shape, shape.to_shape * capsule.p0, shape.to_shape * capsule.p1, within);

@@ -15,6 +15,21 @@ void sort_by_distance(std::vector<Contact>& contacts) {
             [](const Contact& x, const Contact& y) { return x.closer_than(y); });
 }
 
+bool keep_closest(std::size_t count, QueryResult& result) {
+  std::vector<Contact>& contacts = result.contacts;
+  if (contacts.size() <= count) {
+    return false;
+  }
+  const auto end = contacts.begin() + static_cast<std::ptrdiff_t>(count);
+  std::nth_element(contacts.begin(), end - 1, contacts.end(),
+                   [](const Contact& x, const Contact& y) { return x.closer_than(y); });
+  result.others_lower =
+      std::accumulate(end, contacts.end(), result.others_lower,
+                      [](double least, const Contact& x) { return std::min(least, x.lower); });
+  contacts.erase(end, contacts.end());
+  return true;
+}
+
 QueryCounts& QueryCounts::operator+=(const QueryCounts& more) {
   node_tests += more.node_tests;
   node_overlaps += more.node_overlaps;

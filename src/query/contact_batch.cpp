@@ -1,6 +1,7 @@
 #include "fiber_proximity/query/contact_batch.hpp"
 
 #include <algorithm>
+#include <atomic>
 
 #include "fiber_proximity/bounds/bounding_volume.hpp"
 #include "fiber_proximity/hierarchy/run_tree_kernels.hpp"
@@ -15,19 +16,38 @@ constexpr std::uint32_t groups_per_job = 32;
 // Judging what has been found takes a quarter of the time.
 constexpr double part_to_collect = 2.0 / 3.0;
 
+/// Counts the candidates that all threads come by.
+class CandidateCount {
+ public:
+  explicit CandidateCount(std::uint64_t most) : most_(most) {}
+
+  void add(std::uint64_t count) { count_.fetch_add(count, std::memory_order_relaxed); }
+
+  /// Once and for all: whether it comes to that does not depend on the threads.
+  bool is_too_much() const { return count_.load(std::memory_order_relaxed) > most_; }
+
+ private:
+  const std::uint64_t most_;
+  std::atomic<std::uint64_t> count_{0};
+};
+
 /// Keeps all candidates but those that are no pairs.
 class CandidateSink final : public PairSink {
  public:
   /// @param prunes leave out what lacks a loop as the fibres are now
-  CandidateSink(const PairTest& test, float bound, bool prunes, std::vector<std::uint64_t>& keys)
-      : test_(test), bound_(bound), prunes_(prunes), keys_(keys) {}
+  CandidateSink(const PairTest& test, float bound, bool prunes, CandidateCount& count,
+                std::vector<std::uint64_t>& keys)
+      : test_(test), bound_(bound), prunes_(prunes), count_(count), keys_(keys) {}
+  CandidateSink(const CandidateSink&) = delete;
+  CandidateSink& operator=(const CandidateSink&) = delete;
+  ~CandidateSink() override { count_.add(uncounted_); }
 
   bool offer(PointPair candidate) override {
     const PointPair pair = test_.ordered(candidate);
     if (!test_.is_left_out(pair)) {
       keys_.push_back(key_of(pair));
     }
-    return true;
+    return ++uncounted_ < uncounted_at_most || count_and_go_on();
   }
 
   float bound() const override { return bound_; }
@@ -37,23 +57,35 @@ class CandidateSink final : public PairSink {
   }
 
  private:
+  static constexpr std::uint32_t uncounted_at_most = 1024;  // threads wait for each other to count
+
+  bool count_and_go_on() {
+    count_.add(uncounted_);
+    uncounted_ = 0;
+    return !count_.is_too_much();
+  }
+
   const PairTest& test_;
   const float bound_;
   const bool prunes_;
+  CandidateCount& count_;
+  std::uint32_t uncounted_ = 0;
   std::vector<std::uint64_t>& keys_;
 };
 
 }  // namespace
 
-bool ContactBatch::collect(const RunTreeView& a, const RunTreeView& b, const PairTest& test,
-                           double bound, const Deadline& deadline, bool prunes,
-                           std::vector<std::uint64_t>& keys, QueryCounts& counts) {
+ContactBatch::Found ContactBatch::collect(const RunTreeView& a, const RunTreeView& b,
+                                          const PairTest& test, double bound,
+                                          const QueryLimits& limits, bool prunes,
+                                          std::vector<std::uint64_t>& keys, QueryCounts& counts) {
   const float rounded_bound = round_up(bound);
   const std::uint32_t groups = a.group_count();
-  const std::uint32_t step = deadline.is_set() ? 1 : groups_per_job;
+  const std::uint32_t step = limits.deadline.is_set() ? 1 : groups_per_job;
   const std::size_t job_count =
       b.group_count() == 0 ? 0 : (groups + groups_per_job - 1) / groups_per_job;
   jobs_.resize(std::max(jobs_.size(), job_count));
+  CandidateCount count(limits.pairs);
   for_each_of(job_count, [&](std::size_t index) {
     Job& job = jobs_[index];
     job.keys.clear();
@@ -61,15 +93,20 @@ bool ContactBatch::collect(const RunTreeView& a, const RunTreeView& b, const Pai
     job.complete = true;
     const auto begin = static_cast<std::uint32_t>(index) * groups_per_job;
     const std::uint32_t end = std::min(groups, begin + groups_per_job);
-    CandidateSink sink(test, rounded_bound, prunes, job.keys);
-    for (std::uint32_t group = begin; group < end && job.complete; group += step) {
-      job.complete = !deadline.has_passed(part_to_collect);
+    CandidateSink sink(test, rounded_bound, prunes, count, job.keys);
+    for (std::uint32_t group = begin; group < end && job.complete && !count.is_too_much();
+         group += step) {
+      job.complete = !limits.deadline.has_passed(part_to_collect);
       if (job.complete) {
         find_near_segments(a, group, std::min(end, group + step), b, sink, job.counts);
       }
     }
   });
   keys.clear();
+  if (count.is_too_much()) {
+    jobs_.clear();  // so much memory is not kept
+    return Found::TOO_MANY;
+  }
   bool complete = true;
   for (std::size_t job = 0; job < job_count; ++job) {
     keys.insert(keys.end(), jobs_[job].keys.begin(), jobs_[job].keys.end());
@@ -77,14 +114,18 @@ bool ContactBatch::collect(const RunTreeView& a, const RunTreeView& b, const Pai
     complete = complete && jobs_[job].complete;
   }
   sort_keys(keys, scratch_);
-  return complete;
+  return complete ? Found::ALL : Found::SOME;
 }
 
-bool ContactBatch::replace(const std::vector<std::uint64_t>& old_keys,
-                           const OutdatedSegments& outdated, const RunTreeView& tree,
-                           const PairTest& test, double bound, const Deadline& deadline,
-                           std::vector<std::uint64_t>& keys, QueryCounts& counts) {
-  const bool complete = collect(outdated.tree(), tree, test, bound, deadline, keys_, counts);
+ContactBatch::Found ContactBatch::replace(const std::vector<std::uint64_t>& old_keys,
+                                          const OutdatedSegments& outdated, const RunTreeView& tree,
+                                          const PairTest& test, double bound,
+                                          const QueryLimits& limits,
+                                          std::vector<std::uint64_t>& keys, QueryCounts& counts) {
+  const Found found = collect(outdated.tree(), tree, test, bound, limits, keys_, counts);
+  if (found == Found::TOO_MANY) {
+    return found;
+  }
   // Pairs of two outdated segments are found from both sides.
   keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
   keys.clear();
@@ -100,21 +141,25 @@ bool ContactBatch::replace(const std::vector<std::uint64_t>& old_keys,
     keys.push_back(key);
   }
   keys.insert(keys.end(), next, keys_.end());
-  return complete;
+  return keys.size() > limits.pairs ? Found::TOO_MANY : found;
 }
 
 void ContactBatch::judge(const std::vector<std::uint64_t>& keys, bool are_all, const PairTest& test,
-                         const Deadline& deadline, QueryResult& result) {
+                         const QueryLimits& limits, QueryResult& result) {
   result.counts.primitive_tests += keys.size();
   result.complete = are_all;
-  judge_.judge(keys, test, deadline, result);
+  judge_.judge(keys, test, limits, result);
 }
 
-void ContactBatch::find(const RunTreeView& a, const RunTreeView& b, const PairTest& test,
-                        double moved, const Deadline& deadline, QueryResult& result) {
-  const bool are_all =
-      collect(a, b, test, test.margin() + moved, deadline, true, keys_, result.counts);
-  judge(keys_, are_all, test, deadline, result);
+bool ContactBatch::find(const RunTreeView& a, const RunTreeView& b, const PairTest& test,
+                        double moved, const QueryLimits& limits, QueryResult& result) {
+  const Found found =
+      collect(a, b, test, test.margin() + moved, limits, true, keys_, result.counts);
+  if (found == Found::TOO_MANY) {
+    return false;
+  }
+  judge(keys_, found == Found::ALL, test, limits, result);
+  return true;
 }
 
 }  // namespace fiber

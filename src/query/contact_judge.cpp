@@ -15,44 +15,76 @@ constexpr std::size_t slices_per_round = 32;
 // Contacts are written down after that.
 constexpr double part_to_judge = 0.9;
 
+/// Along fibres, of all candidates together.
+std::uint64_t most_looks(const QueryLimits& limits) {
+  constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
+  constexpr std::uint64_t per_pair = QueryLimits::looks_per_pair;
+  return limits.pairs > most / per_pair ? most : limits.pairs * per_pair;
+}
+
 }  // namespace
 
 void ContactJudge::judge(const std::vector<std::uint64_t>& keys, const PairTest& test,
-                         const Deadline& deadline, QueryResult& result) {
+                         const QueryLimits& limits, QueryResult& result) {
   constexpr std::size_t pairs_per_round = slices_per_round * pairs_per_slice;
   const std::size_t most = std::max(distances_.size(), std::min(pairs_per_round, keys.size()));
   distances_.resize(most);
   is_contact_.resize(most);
   contact_count_ = 0;
+  looks_ = 0;
+  took_too_long_ = false;
+  bound_ = std::numeric_limits<double>::infinity();
   result.others_lower = test.margin();  // of pairs that are no candidates
-  for (std::size_t begin = 0; begin < keys.size(); begin += pairs_per_round) {
-    judge_round(keys.data() + begin, std::min(pairs_per_round, keys.size() - begin), test, deadline,
+  for (std::size_t begin = 0; begin < keys.size() && !took_too_long_; begin += pairs_per_round) {
+    judge_round(keys.data() + begin, std::min(pairs_per_round, keys.size() - begin), test, limits,
                 result);
+    if (contact_count_ >= limits.most_kept) {
+      leave_closest(limits.contacts, result);
+    }
   }
+  result.complete = result.complete && !took_too_long_;
+  result.limit_reached = result.limit_reached || took_too_long_;
   result.contacts.resize(contact_count_);
+  if (contact_count_ > limits.contacts) {
+    leave_closest(limits.contacts, result);
+  }
+  if (result.limit_reached) {
+    sort_by_key(result.contacts);
+  }
   if (!result.complete) {
     result.others_lower = test.least_gap();
   }
 }
 
+/// Of the contacts so far, which are more.
+void ContactJudge::leave_closest(std::uint64_t count, QueryResult& result) {
+  result.contacts.resize(contact_count_);
+  result.limit_reached = keep_closest(count, result) || result.limit_reached;
+  contact_count_ = result.contacts.size();
+  bound_ = result.contacts.back().upper;
+}
+
 void ContactJudge::judge_round(const std::uint64_t* keys, std::size_t count, const PairTest& test,
-                               const Deadline& deadline, QueryResult& result) {
+                               const QueryLimits& limits, QueryResult& result) {
   slices_.assign((count + pairs_per_slice - 1) / pairs_per_slice, Slice());
   for_each_of(slices_.size(), [&](std::size_t index) {
     Slice& slice = slices_[index];
     slice.begin = index * pairs_per_slice;
     slice.end = std::min(count, slice.begin + pairs_per_slice);
-    slice.complete = !deadline.has_passed(part_to_judge);
+    slice.complete = !limits.deadline.has_passed(part_to_judge);
     if (slice.complete) {
-      judge_slice(keys, test, slice);
+      judge_slice(keys, test, most_looks(limits) / slices_per_round, slice);
     }
   });
   for (Slice& slice : slices_) {
     slice.place = contact_count_;
     contact_count_ += slice.contact_count;
+    looks_ += slice.looks;
+    took_too_long_ = took_too_long_ || slice.took_too_long;
     result.others_lower = std::min(result.others_lower, slice.others_lower);
     result.complete = result.complete && slice.complete;
   }
+  took_too_long_ = took_too_long_ || looks_ > most_looks(limits);
   // What a query before has left there is written over: making it anew would take as long.
   std::vector<Contact>& contacts = result.contacts;
   contacts.resize(std::max(contacts.size(), contact_count_));
@@ -67,22 +99,27 @@ void ContactJudge::judge_round(const std::uint64_t* keys, std::size_t count, con
   });
 }
 
-void ContactJudge::judge_slice(const std::uint64_t* keys, const PairTest& test, Slice& slice) {
+/// @param looks_left along fibres; where they are used up the rest of the slice is left out
+void ContactJudge::judge_slice(const std::uint64_t* keys, const PairTest& test,
+                               std::uint64_t looks_left, Slice& slice) {
   PointPair pairs[pairs_per_slice];
   PairDistance* const distances = distances_.data() + slice.begin;
   const std::size_t size = slice.end - slice.begin;
   std::transform(keys + slice.begin, keys + slice.end, pairs, pair_of);
   test.distances(pairs, size, distances);
   slice.others_lower = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < size; ++i) {
-    const bool is_near = test.is_within_margin(pairs[i], distances[i]);
-    const bool is_contact = is_near && !test.lacks_loop(pairs[i], distances[i]);
+  std::fill_n(is_contact_.begin() + static_cast<std::ptrdiff_t>(slice.begin), size, 0);
+  for (std::size_t i = 0; i < size && slice.looks <= looks_left; ++i) {
+    const bool is_near = test.gap_lower(pairs[i], distances[i]) <= bound_ &&
+                         test.is_within_margin(pairs[i], distances[i]);
+    const bool is_contact = is_near && !test.lacks_loop(pairs[i], distances[i], slice.looks);
     is_contact_[slice.begin + i] = is_contact ? 1 : 0;
     slice.contact_count += is_contact ? 1 : 0;
     if (!is_near) {
       slice.others_lower = std::min(slice.others_lower, test.gap_lower(pairs[i], distances[i]));
     }
   }
+  slice.took_too_long = slice.looks > looks_left;
 }
 
 }  // namespace fiber

@@ -11,12 +11,12 @@ namespace {
 
 bool closer(const Contact& x, const Contact& y) { return x.closer_than(y); }
 
-std::size_t capacity_of(const QueryOptions& options) {
+std::size_t capacity_of(const QueryOptions& options, const QueryLimits& limits) {
   switch (options.type) {
     case QueryType::CLOSEST:
       return 1;
     case QueryType::LIMITED:
-      return options.max_contacts;
+      return std::min<std::size_t>(options.max_contacts, limits.contacts);
     case QueryType::FIRST:
     case QueryType::ALL:
     case QueryType::FIBER_PAIRS:
@@ -28,12 +28,14 @@ std::size_t capacity_of(const QueryOptions& options) {
 }  // namespace
 
 ContactKeeper::ContactKeeper(const QueryOptions& options, QueryResult& result)
-    : deadline_(options.deadline),
+    : limits_(options),
+      pairs_left_(limits_.pairs),
       minima_(result),
       options_(options),
       result_(result),
-      capacity_(capacity_of(options)) {
+      capacity_(capacity_of(options, limits_)) {
   result_.contacts.clear();
+  result_.limit_reached = false;
   result_.others_lower = std::numeric_limits<double>::infinity();
   set_bound(options.margin);
 }
@@ -50,10 +52,11 @@ void ContactKeeper::keep(const Contact& contact) {
   if (options_.type == QueryType::FIBER_PAIRS) {
     keep_of_fibers(contact);
   } else if (capacity_ != 0) {
-    keep_closest(contact);
+    keep_if_closest(contact);
   } else {
     result_.contacts.push_back(contact);
     done_ = options_.type == QueryType::FIRST;
+    stay_within_limit();
   }
 }
 
@@ -63,10 +66,29 @@ void ContactKeeper::keep_of_fibers(const Contact& contact) {
     leave_out(contact.closer_than(*best) ? best->lower : contact.lower);
   }
   minima_.keep(contact);
+  stay_within_limit();
+}
+
+/// Contacts beyond the limit of them go, but not one by one; what is farther than those that stay
+/// does not matter any more.
+void ContactKeeper::stay_within_limit() {
+  std::vector<Contact>& contacts = result_.contacts;
+  if (contacts.size() < limits_.most_kept) {
+    return;
+  }
+  keep_closest(limits_.contacts, result_);
+  result_.limit_reached = true;
+  if (options_.type == QueryType::FIBER_PAIRS) {
+    minima_.contacts_have_moved();
+  }
+  // In single precision a pair can be reported as closer than it is: a bound would leave it out.
+  if (options_.kernel != Kernel::FAST || options_.type != QueryType::ALL) {
+    set_bound(std::min(bound_, contacts.back().distance));
+  }
 }
 
 /// The contacts are a heap with the farthest of the k closest on top.
-void ContactKeeper::keep_closest(const Contact& contact) {
+void ContactKeeper::keep_if_closest(const Contact& contact) {
   std::vector<Contact>& contacts = result_.contacts;
   if (contacts.size() == capacity_) {
     if (!closer(contact, contacts.front())) {
@@ -99,18 +121,29 @@ void ContactKeeper::leave_out(double lower) {
 void ContactKeeper::look_at_deadline() {
   constexpr double seconds_to_sort_one = 4e-7;
   const double needed = seconds_to_sort_one * static_cast<double>(result_.contacts.size());
-  if (!done_ && deadline_.has_passed(1.0, needed)) {
-    done_ = true;
-    result_.complete = false;
+  if (!done_ && limits_.deadline.has_passed(1.0, needed)) {
+    end_early();
   }
+}
+
+void ContactKeeper::end_early() {
+  done_ = true;
+  result_.complete = false;
+}
+
+void ContactKeeper::reach_pair_limit() {
+  end_early();
+  result_.limit_reached = true;
 }
 
 void ContactKeeper::finish(double least_gap) {
   std::vector<Contact>& contacts = result_.contacts;
   // Pairs that were not found are beyond the bound, unless it ended early.
   leave_out(done_ ? least_gap : bound_);
-  result_.limit_reached =
-      options_.type == QueryType::LIMITED && contacts.size() == options_.max_contacts;
+  const bool more = keep_closest(limits_.contacts, result_);
+  if (more || (options_.type == QueryType::LIMITED && contacts.size() == capacity_)) {
+    result_.limit_reached = true;
+  }
   sort_by_key(contacts);
 }
 

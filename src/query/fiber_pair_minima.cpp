@@ -1,5 +1,6 @@
 #include "fiber_proximity/query/fiber_pair_minima.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <limits>
 
@@ -60,7 +61,18 @@ std::size_t FiberPairMinima::slot_of(std::uint32_t fiber_a, std::uint32_t fiber_
 /// Twice as many slots; the first ones for the first contact, as slots may be left of a query
 /// before.
 void FiberPairMinima::grow() {
-  slots_.assign(contacts_.empty() ? first_slot_count : 2 * slots_.size(), 0);
+  slots_.resize(contacts_.empty() ? first_slot_count : 2 * slots_.size());
+  fill_slots();
+}
+
+void FiberPairMinima::contacts_have_moved() {
+  fill_slots();
+  const std::uint32_t entry = slots_[slot_of(last_a_, last_b_)];
+  last_ = entry == 0 ? nullptr : &contacts_[entry - 1];
+}
+
+void FiberPairMinima::fill_slots() {
+  std::fill(slots_.begin(), slots_.end(), 0);
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     slots_[slot_of(contacts_[i].fiber_a, contacts_[i].fiber_b)] = static_cast<std::uint32_t>(i + 1);
   }

@@ -5,6 +5,7 @@
 
 #include "fiber_proximity/geometry/norm.hpp"
 #include "src/query/loop_free_stretches.hpp"
+#include "src/query/point_boxes.hpp"
 
 namespace fiber {
 namespace {
@@ -41,10 +42,12 @@ double longest_step(const FiberAssembly& fibers, std::uint32_t fiber) {
 struct LoopTest::Chain {
   Chain(const FiberAssembly& fibers, std::uint32_t fiber)
       : step(longest_step(fibers, fiber)),
-        stretches(fibers, fiber, thinnest_radius(fibers, fiber)) {}
+        stretches(fibers, fiber, thinnest_radius(fibers, fiber)),
+        boxes(fibers, fiber) {}
 
   double step;  // [m] no two points that follow each other are further apart
   LoopFreeStretches stretches;
+  PointBoxes boxes;
 };
 
 /// A place on a segment, as the sum of its nearer end and the way from there: what is near the end
@@ -85,19 +88,35 @@ LoopTest::Place LoopTest::place(std::uint32_t segment, double s) const {
 }
 
 /// Whether a point between the segments is further from the place than the limit [m]. As many
-/// points are left out each time as it takes at least to get there.
-bool LoopTest::leaves(const Place& place, PointPair pair, double limit) const {
+/// points are left out each time as it takes at least to get there, or as are in a box that is not
+/// further: a fibre may stay near one place for a million points.
+bool LoopTest::leaves(const Place& place, PointPair pair, double limit,
+                      std::uint64_t& looks) const {
   const double scale = limit > least_safe_norm ? 1.0 : tiny_vector_scale;
   const double scaled_limit = scale * limit;
   const std::vector<Vector3d>& points = fibers_.points();
   const bool is_long = pair.b - pair.a > short_walk;
-  const double step = is_long ? scale * chain(fibers_.segment_id(pair.a).fiber).step : 0.0;
+  const Chain* const along = is_long ? &chain(fibers_.segment_id(pair.a).fiber) : nullptr;
+  const double step = is_long ? scale * along->step : 0.0;
+  const auto way_to = [&](const Vector3d& point) -> Vector3d {
+    return scale * ((point - place.end) - place.way);
+  };
+  const auto is_within = [&](const Vector3d& lower, const Vector3d& upper) {
+    // Sums and products are monotonic, roundings included: of no point more comes out.
+    const Vector3d most = way_to(lower).cwiseAbs().cwiseMax(way_to(upper).cwiseAbs());
+    return most.squaredNorm() <= scaled_limit * scaled_limit;
+  };
   for (std::uint32_t k = pair.a + 1; k <= pair.b; ++k) {
-    const double squared = (scale * ((points[k] - place.end) - place.way)).squaredNorm();
+    ++looks;
+    const double squared = way_to(points[k]).squaredNorm();
     if (squared > scaled_limit * scaled_limit) {
       return true;
     }
     if (is_long) {
+      if (const std::uint32_t count = along->boxes.count_within(k, pair.b, is_within)) {
+        k += count - 1;
+        continue;
+      }
       const double rest = (1.0 - 0x1p-40) * scaled_limit - std::sqrt(squared);
       if (rest >= step * (pair.b - k)) {
         return false;
@@ -108,7 +127,8 @@ bool LoopTest::leaves(const Place& place, PointPair pair, double limit) const {
   return false;
 }
 
-bool LoopTest::makes_loop(PointPair pair, const SegmentDistance& nearest) const {
+bool LoopTest::makes_loop(PointPair pair, const SegmentDistance& nearest,
+                          std::uint64_t& looks) const {
   if (pair.b - pair.a > short_walk && rules_out(pair.a, pair.b)) {
     return false;
   }
@@ -119,15 +139,18 @@ bool LoopTest::makes_loop(PointPair pair, const SegmentDistance& nearest) const 
   // What places on segments are rounded by makes no loop.
   const double allowance = radii * radius + 0x1p-48 * (length_a + length_b);
   const auto limit = [&](double distance) { return part_of_distance * distance + allowance; };
+  const auto is_left = [&](const Place& x, const Place& y, double from_either) {
+    return leaves(x, pair, from_either, looks) || leaves(y, pair, from_either, looks);
+  };
   const Place a = place(pair.a, nearest.s);
   const Place b = place(pair.b, nearest.t);
   const double nearest_limit = limit(nearest.distance);
   // Other places on the segments are no further from these than the longer segment.
   const double limit_for_all = nearest_limit - std::max(length_a, length_b);
-  if (limit_for_all > 0.0 && !makes_loop(a, b, pair, limit_for_all)) {
+  if (limit_for_all > 0.0 && !is_left(a, b, limit_for_all)) {
     return false;
   }
-  if (makes_loop(a, b, pair, nearest_limit)) {
+  if (is_left(a, b, nearest_limit)) {
     return true;
   }
   const double most = nearest.distance + radius;
@@ -136,13 +159,13 @@ bool LoopTest::makes_loop(PointPair pair, const SegmentDistance& nearest) const 
   const SegmentDistance of_a =
       segment_distance(outer_a, outer_a, points[pair.b], points[pair.b + 1]);
   if (of_a.distance <= most &&
-      makes_loop(place(pair.a, 0.0), place(pair.b, of_a.t), pair, limit(of_a.distance))) {
+      is_left(place(pair.a, 0.0), place(pair.b, of_a.t), limit(of_a.distance))) {
     return true;
   }
   const SegmentDistance of_b =
       segment_distance(points[pair.a], points[pair.a + 1], outer_b, outer_b);
   return of_b.distance <= most &&
-         makes_loop(place(pair.a, of_b.s), place(pair.b, 1.0), pair, limit(of_b.distance));
+         is_left(place(pair.a, of_b.s), place(pair.b, 1.0), limit(of_b.distance));
 }
 
 bool LoopTest::rules_out(std::uint32_t first, std::uint32_t last) const {

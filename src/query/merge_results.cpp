@@ -1,20 +1,13 @@
 #include "fiber_proximity/query/merge_results.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <tuple>
+
+#include "fiber_proximity/query/query_limits.hpp"
 
 namespace fiber {
 namespace {
-
-/// Keeps the closest ones only.
-void keep_closest(std::size_t count, QueryResult& result) {
-  std::vector<Contact>& contacts = result.contacts;
-  sort_by_distance(contacts);
-  while (contacts.size() > count) {
-    result.others_lower = std::min(result.others_lower, contacts.back().lower);
-    contacts.pop_back();
-  }
-}
 
 /// Keeps the closest one of each pair of fibres only.
 void keep_closest_of_fibers(QueryResult& result) {
@@ -44,19 +37,24 @@ void merge_results(const QueryOptions& options, const QueryResult& more, QueryRe
   result.others_lower = std::min(result.others_lower, more.others_lower);
   result.complete = result.complete && more.complete;
   result.counts += more.counts;
+  result.limit_reached = result.limit_reached || more.limit_reached;
+  const QueryLimits limits(options);
   switch (options.type) {
     case QueryType::FIRST:
     case QueryType::CLOSEST:
       keep_closest(1, result);
       break;
-    case QueryType::LIMITED:
-      keep_closest(options.max_contacts, result);
-      result.limit_reached = contacts.size() == options.max_contacts;
+    case QueryType::LIMITED: {
+      const std::uint64_t most = std::min<std::uint64_t>(options.max_contacts, limits.contacts);
+      keep_closest(most, result);
+      result.limit_reached = result.limit_reached || contacts.size() == most;
       break;
+    }
     case QueryType::FIBER_PAIRS:
       keep_closest_of_fibers(result);
-      break;
+      [[fallthrough]];
     case QueryType::ALL:
+      result.limit_reached = keep_closest(limits.contacts, result) || result.limit_reached;
       break;
   }
   sort_by_key(contacts);

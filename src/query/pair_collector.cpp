@@ -30,6 +30,9 @@ PairCollector::PairCollector(const FiberAssembly& shape, const FiberAssembly& fi
       counts_(result.counts) {}
 
 void PairCollector::offer(std::uint32_t point_a, std::uint32_t point_b) {
+  if (!keeper_.takes_pair()) {
+    return;
+  }
   const PointPair pair = test_.ordered({point_a, point_b});
   if (test_.is_left_out(pair)) {
     return;
@@ -65,7 +68,10 @@ std::optional<Contact> PairCollector::contact_within(PointPair pair, double boun
   const PairDistance distance = test_.distance(pair);
   const double lower = test_.gap_lower(pair, distance);
   if (lower <= bound && test_.is_within_margin(pair, distance)) {
-    if (test_.lacks_loop(pair, distance)) {
+    std::uint64_t looks = 0;
+    const bool lacks_loop = test_.lacks_loop(pair, distance, looks);
+    keeper_.count_looks(looks);
+    if (lacks_loop) {
       return std::nullopt;
     }
     const Contact contact = test_.contact(pair, distance);

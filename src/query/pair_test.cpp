@@ -74,10 +74,10 @@ PairTest::PairTest(const FiberAssembly& shape, const FiberAssembly& fibers,
       neighbour_skip_length_(0.0) {}
 
 /// Decided by robust distances, so that all kernels have the same pairs.
-bool PairTest::makes_loop(PointPair pair) const {
+bool PairTest::makes_loop(PointPair pair, std::uint64_t& looks) const {
   const Capsule a = a_.capsule(pair.a);
   const Capsule b = a_.capsule(pair.b);
-  return loops_->makes_loop(pair, segment_distance(a.p0, a.p1, b.p0, b.p1));
+  return loops_->makes_loop(pair, segment_distance(a.p0, a.p1, b.p0, b.p1), looks);
 }
 
 bool PairTest::is_neighbour_of_same_fiber(PointPair pair) const {

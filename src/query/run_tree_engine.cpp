@@ -155,69 +155,86 @@ bool RunTreeEngine::most_still_serve(const FiberAssembly& fibers) {
 
 void RunTreeEngine::do_query(const FiberAssembly& fibers, const QueryOptions& options,
                              QueryResult& result) const {
+  QueryOptions left = options;
   if (options.type == QueryType::ALL) {
-    const Deadline deadline(options.deadline);
-    find_own(PairTest(fibers, options), options, deadline, result);
-    return;
+    const QueryLimits limits(options);
+    if (find_own(PairTest(fibers, options), options, limits, result)) {
+      return;
+    }
+    left.deadline = limits.deadline.left();
   }
-  PairCollector collector(fibers, options, result);
-  find_some(tree_.view(), tree_.view(), options, 2.0 * moved_since_fit(), collector, result.counts);
+  PairCollector collector(fibers, left, result);
+  find_some(tree_.view(), tree_.view(), left, 2.0 * moved_since_fit(), collector, result.counts);
 }
 
 void RunTreeEngine::do_query_shape(const FiberAssembly& shape, const FiberAssembly& fibers,
                                    const QueryOptions& options, QueryResult& result) const {
   RunTree shape_tree;
   shape_tree.build(shape, tree_.origin());
+  QueryOptions left = options;
   if (options.type == QueryType::ALL) {
-    const Deadline deadline(options.deadline);
+    const QueryLimits limits(options);
     const PairTest test(shape, fibers, options);
+    bool is_found = false;
     with_batch([&](ContactBatch& batch) {
-      batch.find(shape_tree.view(), tree_.view(), test, moved_since_fit(), deadline, result);
+      is_found =
+          batch.find(shape_tree.view(), tree_.view(), test, moved_since_fit(), limits, result);
     });
-    return;
+    if (is_found) {
+      return;
+    }
+    left.deadline = limits.deadline.left();
   }
-  PairCollector collector(shape, fibers, options, result);
-  find_some(shape_tree.view(), tree_.view(), options, moved_since_fit(), collector, result.counts);
+  PairCollector collector(shape, fibers, left, result);
+  find_some(shape_tree.view(), tree_.view(), left, moved_since_fit(), collector, result.counts);
 }
 
 /// All contacts of the fibres with each other: from candidates that are kept, if there are such.
-void RunTreeEngine::find_own(const PairTest& test, const QueryOptions& options,
-                             const Deadline& deadline, QueryResult& result) const {
+/// @return false, with no answer, if more pairs would have to be examined than may be
+bool RunTreeEngine::find_own(const PairTest& test, const QueryOptions& options,
+                             const QueryLimits& limits, QueryResult& result) const {
   // Which pairs a length leaves out changes as fibres stretch: such candidates cannot be kept.
   const bool keeps =
       skin_ > 0.0 && skin_pays_ && options.neighbour_skip_length.value_or(0.0) == 0.0;
+  bool is_found = false;
   with_batch([&](ContactBatch& batch) {
     if (keeps) {
-      const Candidates candidates =
-          current_candidates(test, options, deadline, batch, result.counts);
-      batch.judge(*candidates.keys, candidates.are_all, test, deadline, result);
-      return;
+      const Candidates candidates = current_candidates(test, options, limits, batch, result.counts);
+      if (candidates.found != ContactBatch::Found::TOO_MANY) {
+        batch.judge(*candidates.keys, candidates.found == ContactBatch::Found::ALL, test, limits,
+                    result);
+        is_found = true;
+        return;
+      }
     }
-    batch.find(tree_.view(), tree_.view(), test, 2.0 * moved_since_fit(), deadline, result);
+    is_found =
+        batch.find(tree_.view(), tree_.view(), test, 2.0 * moved_since_fit(), limits, result);
   });
+  return is_found;
 }
 
 /// Candidates that serve until motion exceeds the skin: kept ones, as far as there are such.
 RunTreeEngine::Candidates RunTreeEngine::current_candidates(const PairTest& test,
                                                             const QueryOptions& options,
-                                                            const Deadline& deadline,
+                                                            const QueryLimits& limits,
                                                             ContactBatch& batch,
                                                             QueryCounts& counts) const {
+  using Found = ContactBatch::Found;
   if (const KeptCandidates::Keys keys = kept_.find(options, KeptCandidates::State::CURRENT)) {
-    return {keys, true};
+    return {keys, keys->size() > limits.pairs ? Found::TOO_MANY : Found::ALL};
   }
   // Since the tree was fitted, two segments can each have come back by what they had moved before.
   const double reach = options.margin + skin_ + 2.0 * moved_before_fit_;
   const KeptCandidates::Keys old = kept_.find(options, KeptCandidates::State::OUTDATED);
   const KeptCandidates::Keys keys = kept_.make();
-  const bool are_all =
+  const Found found =
       old != nullptr
-          ? batch.replace(*old, outdated_, tree_.view(), test, reach, deadline, *keys, counts)
-          : batch.collect(tree_.view(), tree_.view(), test, reach, deadline, *keys, counts);
-  if (are_all) {
+          ? batch.replace(*old, outdated_, tree_.view(), test, reach, limits, *keys, counts)
+          : batch.collect(tree_.view(), tree_.view(), test, reach, limits, *keys, counts);
+  if (found == Found::ALL) {
     kept_.keep(options, keys);
   }
-  return {keys, are_all};
+  return {keys, found};
 }
 
 template <class Call>

@@ -33,6 +33,9 @@ fiber::FiberAssembly to_assembly(const fiber_proximity::FiberArray& message,
   return fibers;
 }
 
+/// A candidate is held against itself, fibres and objects.
+constexpr std::size_t queries_per_candidate = 3;
+
 /// Candidates of a request that are checked at once: those of the same names in a row, which may
 /// touch the same, and not so many that it takes long to see that a deadline has come.
 class Block {
@@ -116,6 +119,7 @@ void append(const fiber::FiberCheck& check, const PresentFibers& present,
             CheckFibers::Response& response) {
   response.free.push_back(check.is_free());
   response.complete.push_back(check.is_complete());
+  response.limit_reached = response.limit_reached || check.is_limit_reached();
   append(check.self, Contact::CANDIDATE, response);
   const std::size_t first = response.contacts.size();
   append(check.fibers, Contact::FIBER, response);
@@ -145,6 +149,9 @@ void answer(const CheckFibers::Request& request, const QueryTarget& target,
     const Block block(request, response.free.size(), target);
     surroundings.allowed = find_allowed(block.names());
     options.deadline = target.time_for_query();
+    options.contact_limit =
+        share_of_contacts(target.defaults.contact_limit, response.contacts.size(),
+                          queries_per_candidate * block.candidates().size());
     check_fibers(block.candidates(), surroundings, options, checks);
     for (const fiber::FiberCheck& check : checks) {
       append(check, present, response);

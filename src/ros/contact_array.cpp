@@ -14,7 +14,7 @@ void to_message(const Detection& detection, const fiber::QueryOptions& options, 
     to_message(contacts[i], fiber_proximity::Contact::FIBER, body_b, message.contacts[i]);
   }
   message.margin = options.margin;
-  message.limit_reached = detection.contacts().limit_reached;
+  message.limit_reached = detection.is_limit_reached();
   message.has_minimum = detection.minimum() != nullptr;
   message.minimum_distance = std::numeric_limits<double>::infinity();
   message.minimum = fiber_proximity::Contact();

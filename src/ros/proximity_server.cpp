@@ -132,6 +132,10 @@ bool ProximityServer::detect() {
     drawing_is_due_ = false;
     return false;
   }
+  if (const std::string problem = detector_.detection().limit_problem(query_options_);
+      !problem.empty()) {
+    ROS_WARN_STREAM_THROTTLE(1.0, "fibres (engine " << options_.engine << "): " << problem);
+  }
   add_part("update", detector_.update_time());
   add_part("contacts", detector_.detection().contact_time());
   if (config_.minimum_distance) {
@@ -145,6 +149,10 @@ bool ProximityServer::detect() {
 
 void ProximityServer::detect_in_environment() {
   environment_.detect(query_options_, config_.minimum_distance);
+  if (const std::string problem = environment_.detection().limit_problem(query_options_);
+      !problem.empty()) {
+    ROS_WARN_STREAM_THROTTLE(1.0, "environment: " << problem);
+  }
   add_part("environment_update", environment_.update_time());
   add_part("environment_contacts", environment_.detection().contact_time());
   if (config_.minimum_distance) {
@@ -189,6 +197,7 @@ void ProximityServer::publish_statistics(double total_time) {
   message.total_time = total_time;
   message.kernel = name_of(query_options_.kernel);
   message.complete = found.is_complete();
+  message.limit_reached = found.is_limit_reached();
   message.minimum_lower = found.minimum_lower();
   message.minimum_upper = found.minimum_upper();
   message.contact_error = found.contact_error();

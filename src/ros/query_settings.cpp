@@ -48,6 +48,8 @@ fiber::QueryOptions to_query_options(const fiber_proximity::ProximityConfig& con
   options.tolerance = config.tolerance;
   options.relative_tolerance = config.relative_tolerance;
   options.deadline = config.deadline;
+  options.contact_limit = static_cast<std::uint32_t>(config.contact_limit);
+  options.pair_limit = static_cast<std::uint64_t>(config.pair_limit);
   fiber::validate(options);
   apply_accuracy(config.accuracy, options);
   return options;

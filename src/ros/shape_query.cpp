@@ -112,11 +112,14 @@ void answer(const QueryProximity::Request& request, const QueryTarget& target,
   response.offsets.push_back(0);
   for (std::uint32_t i = 0; i < count && !target.is_time_up(); ++i) {
     options.deadline = target.time_for_query();
+    options.contact_limit =
+        share_of_contacts(target.defaults.contact_limit, response.contacts.size(), 1);
     naming("shape " + std::to_string(i),
            [&] { query.ask(to_assembly(request.shapes[i], target.frame), options); });
     query.append_contacts(i, response);
     response.minimum_lower.push_back(query.result().minimum_lower());
     response.complete = response.complete && query.result().complete;
+    response.limit_reached = response.limit_reached || query.result().limit_reached;
   }
   // Of the shapes that the deadline came before nothing is known.
   response.complete = response.complete && response.minimum_lower.size() == count;

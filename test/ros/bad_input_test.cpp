@@ -390,6 +390,8 @@ TEST_F(BadInputTest, ABadParameterIsAClearErrorAndExitCode2) {
            {"deadline", "soon", "a number of at least 0"},
            {"max_contacts", "0", "a whole number of at least 1"},
            {"max_contacts", "2.5", "a whole number of at least 1"},
+           {"contact_limit", "-1", "a whole number of at least 0"},
+           {"pair_limit", "1.5", "a whole number of at least 0"},
            {"box_level", "-1", "a whole number of at least 0"},
            {"query_type", "nearest", "one of first, closest, limited, all, fiber_pairs"},
            {"query_type", "3", "one of first, closest, limited, all, fiber_pairs"},

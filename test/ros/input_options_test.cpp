@@ -107,6 +107,10 @@ TEST(DynamicParameters, DefaultsAreThoseOfTheOptions) {
   EXPECT_EQ(fiber::query_type_from_name(config.query_type), query.type);
   EXPECT_EQ(config.margin, query.margin);
   EXPECT_EQ(config.max_contacts, static_cast<int>(query.max_contacts));
+  EXPECT_EQ(query.contact_limit, 0U);  // the node alone has to answer whatever comes
+  EXPECT_EQ(query.pair_limit, 0U);
+  EXPECT_GT(config.contact_limit, 0);
+  EXPECT_GT(config.pair_limit, config.contact_limit);
   EXPECT_EQ(config.neighbour_skip, -1);
   EXPECT_EQ(config.neighbour_skip_length, -1.0);
   EXPECT_FALSE(query.neighbour_skip);

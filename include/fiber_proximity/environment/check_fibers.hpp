@@ -27,6 +27,10 @@ struct FiberCheck {
   }
   /// Whether all pairs have been looked at; of a candidate that is not free some need not be.
   bool is_complete() const { return self.complete && fibers.complete && environment.complete; }
+  /// Of one of the three answers.
+  bool is_limit_reached() const {
+    return self.limit_reached || fibers.limit_reached || environment.limit_reached;
+  }
 };
 
 /// Whether fibres could be there: candidates for where a planner might put a cable, each an

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <tuple>
@@ -38,6 +39,13 @@ void sort_by_key(std::vector<Contact>& contacts);
 /// Sorts the closest one first.
 void sort_by_distance(std::vector<Contact>& contacts);
 
+struct QueryResult;
+
+/// Leaves the closest ones of a result's contacts, in any order, the farthest of them last. Those
+/// that go count in others_lower.
+/// @return whether any go
+bool keep_closest(std::size_t count, QueryResult& result);
+
 /// Work a query did. The paper's "cage tests", "cage intersections" and "primitive tests".
 struct QueryCounts {
   std::uint64_t node_tests = 0;
@@ -50,8 +58,13 @@ struct QueryCounts {
 /// Answer to a query; kept by the caller and reused, so that its memory is.
 struct QueryResult {
   std::vector<Contact> contacts;  ///< sorted by Contact::key()
-  bool limit_reached = false;     ///< LIMITED reported max_contacts: there may be more pairs
-  bool complete = true;           ///< false: the deadline came before all pairs had been ruled out
+
+  /// LIMITED reported max_contacts: there may be more pairs. Or there were more than the options'
+  /// contact_limit or pair_limit allows.
+  bool limit_reached = false;
+
+  /// False: the deadline or the pair_limit came before all pairs had been ruled out.
+  bool complete = true;
 
   /// [m] Of the pairs that were asked about, none that is not reported has a smaller true gap.
   double others_lower = -std::numeric_limits<double>::infinity();

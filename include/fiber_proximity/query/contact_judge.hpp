@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "fiber_proximity/query/contact.hpp"
-#include "fiber_proximity/query/deadline.hpp"
 #include "fiber_proximity/query/pair_test.hpp"
+#include "fiber_proximity/query/query_limits.hpp"
 
 namespace fiber {
 
@@ -21,9 +21,11 @@ class ContactJudge {
  public:
   /// @param keys of the candidates, as PairTest orders pairs, in ascending order
   /// @param result its contacts and others_lower are replaced; complete becomes false if the
-  /// deadline has passed before all were judged, and is to be false if some candidates are missing
-  void judge(const std::vector<std::uint64_t>& keys, const PairTest& test, const Deadline& deadline,
-             QueryResult& result);
+  /// deadline has passed before all were judged, and is to be false if some candidates are missing;
+  /// limit_reached becomes true if there are more contacts than may be reported. Both do if
+  /// candidates take so many looks along fibres that they count as too many pairs
+  void judge(const std::vector<std::uint64_t>& keys, const PairTest& test,
+             const QueryLimits& limits, QueryResult& result);
 
  private:
   /// 512 candidates: what one thread judges at a time.
@@ -33,18 +35,27 @@ class ContactJudge {
     std::size_t place = 0;  // of its first contact
     std::size_t contact_count = 0;
     double others_lower = 0.0;  // [m]
+    std::uint64_t looks = 0;    // along fibres
+    bool took_too_long = false;
     bool complete = true;
   };
 
   void judge_round(const std::uint64_t* keys, std::size_t count, const PairTest& test,
-                   const Deadline& deadline, QueryResult& result);
-  void judge_slice(const std::uint64_t* keys, const PairTest& test, Slice& slice);
+                   const QueryLimits& limits, QueryResult& result);
+  void leave_closest(std::uint64_t count, QueryResult& result);
+  void judge_slice(const std::uint64_t* keys, const PairTest& test, std::uint64_t looks_left,
+                   Slice& slice);
 
   // Of a round:
   std::vector<Slice> slices_;
   std::vector<PairDistance> distances_;
   std::vector<std::uint8_t> is_contact_;
-  std::size_t contact_count_ = 0;  // of all rounds so far
+
+  // Of all rounds so far:
+  std::size_t contact_count_ = 0;
+  std::uint64_t looks_ = 0;  // along fibres
+  bool took_too_long_ = false;
+  double bound_ = 0.0;  // [m] so many are within it that pairs beyond are not reported
 };
 
 }  // namespace fiber

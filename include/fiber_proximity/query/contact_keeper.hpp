@@ -1,12 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
 #include "fiber_proximity/query/contact.hpp"
-#include "fiber_proximity/query/deadline.hpp"
 #include "fiber_proximity/query/fiber_pair_minima.hpp"
 #include "fiber_proximity/query/options.hpp"
+#include "fiber_proximity/query/query_limits.hpp"
 
 namespace fiber {
 
@@ -16,7 +17,8 @@ namespace fiber {
 /// CLOSEST and LIMITED are one thing: keep the k closest, and let the bound below which a pair is
 /// of interest shrink to the k-th of them. FIBER_PAIRS has such a bound for each pair of fibres;
 /// the one for all stays the margin. A tolerance makes these bounds smaller than what has been
-/// found.
+/// found. Where ALL and FIBER_PAIRS find more contacts than may be reported, they become such
+/// queries too.
 class ContactKeeper {
  public:
   /// Holds references: options and result must outlive it. Forgets what is in the result.
@@ -32,16 +34,31 @@ class ContactKeeper {
   /// [m] Pairs of these fibres further apart than this do not matter any more.
   double bound_of(std::uint32_t fiber_a, std::uint32_t fiber_b);
 
+  /// Whether one more pair may be examined; to be asked for each. Otherwise it is done.
+  bool takes_pair() {
+    if (pairs_left_ == 0) {
+      reach_pair_limit();
+      return false;
+    }
+    --pairs_left_;
+    return true;
+  }
+
+  /// Counts looks along a fibre that a pair has taken: many are as much work as other pairs.
+  void count_looks(std::uint64_t looks) {
+    pairs_left_ -= std::min(pairs_left_, looks / QueryLimits::looks_per_pair);
+  }
+
   /// Keeps a contact that is within the bound, or notes that it does not.
   void keep(const Contact& contact);
 
   /// Notes that a pair is not reported whose gap is at least this [m].
   void leave_out(double lower);
 
-  /// No further pair can change the answer, or none may: the deadline has passed. To be asked
-  /// often.
+  /// No further pair can change the answer, or none may: the deadline has passed, or the limit of
+  /// pairs is reached. To be asked often.
   bool done() {
-    if (deadline_.is_set() && ++steps_ % steps_between_looks == 0) {
+    if (limits_.deadline.is_set() && ++steps_ % steps_between_looks == 0) {
       look_at_deadline();
     }
     return done_;
@@ -57,14 +74,18 @@ class ContactKeeper {
 
  private:
   void keep_of_fibers(const Contact& contact);
-  void keep_closest(const Contact& contact);
+  void keep_if_closest(const Contact& contact);
+  void stay_within_limit();
   void set_bound(double bound);
   double slack(double distance) const;
   void look_at_deadline();
+  void end_early();
+  void reach_pair_limit();
 
   static constexpr std::uint32_t steps_between_looks = 32;  // looking takes as long as a few steps
 
-  const Deadline deadline_;
+  const QueryLimits limits_;
+  std::uint64_t pairs_left_;
   FiberPairMinima minima_;  // FIBER_PAIRS only
   const QueryOptions& options_;
   QueryResult& result_;

@@ -25,9 +25,13 @@ class FiberPairMinima {
   /// and of smaller indices.
   void keep(const Contact& contact);
 
+  /// To be called when some contacts have been taken out of the result, or have changed places.
+  void contacts_have_moved();
+
  private:
   std::size_t slot_of(std::uint32_t fiber_a, std::uint32_t fiber_b) const;
   void grow();
+  void fill_slots();
 
   std::vector<Contact>& contacts_;
   std::vector<std::uint32_t>& slots_;  // index of a contact + 1, 0 where free

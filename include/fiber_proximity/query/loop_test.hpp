@@ -42,7 +42,12 @@ class LoopTest {
   /// Whether the fibre makes a loop between two of its segments that share no point.
   /// @param pair the smaller index first
   /// @param nearest of the kernel robust
-  bool makes_loop(PointPair pair, const SegmentDistance& nearest) const;
+  /// @param looks at points or boxes of the fibre that it took are added to these
+  bool makes_loop(PointPair pair, const SegmentDistance& nearest, std::uint64_t& looks) const;
+  bool makes_loop(PointPair pair, const SegmentDistance& nearest) const {
+    std::uint64_t looks = 0;
+    return makes_loop(pair, nearest, looks);
+  }
 
   /// Whether it is certain that no two segments make a loop that start at the points first … last;
   /// false if these are not of one fibre. Costs little, once a fibre has been looked at.
@@ -57,10 +62,7 @@ class LoopTest {
   }
   const Chain& chain(std::uint32_t fiber) const;
   Place place(std::uint32_t segment, double s) const;
-  bool leaves(const Place& place, PointPair pair, double limit) const;
-  bool makes_loop(const Place& a, const Place& b, PointPair pair, double limit) const {
-    return leaves(a, pair, limit) || leaves(b, pair, limit);
-  }
+  bool leaves(const Place& place, PointPair pair, double limit, std::uint64_t& looks) const;
 
   const FiberAssembly& fibers_;
   std::uint32_t most_points_ = 0;  // of a fibre

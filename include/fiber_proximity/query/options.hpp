@@ -71,6 +71,18 @@ struct QueryOptions {
   /// for none. QueryResult::complete tells whether it was enough.
   double deadline = 0.0;
 
+  /// ALL, LIMITED and FIBER_PAIRS: the most contacts to report, 0 for no limit. Where there are
+  /// more, the closest ones are reported, ties by smallest indices, and QueryResult::limit_reached
+  /// is set. Bounds the memory of a query whose answer nobody has foreseen.
+  std::uint32_t contact_limit = 0;
+
+  /// The most pairs of segments to examine, 0 for no limit: where more come up, the query answers
+  /// with what it has found among the first ones. QueryResult::complete is then false, as by a
+  /// deadline, and limit_reached set. Bounds the time where nearly all is near all; unlike a
+  /// deadline it gives the same on every run, for any number of threads. Engines differ in which
+  /// pairs come up.
+  std::uint64_t pair_limit = 0;
+
   /// Test the volumes of two leaves before the segments themselves; changes only the cost. The
   /// paper finds that it always pays (Sect. 5). run_tree always does.
   bool leaf_pretest = true;

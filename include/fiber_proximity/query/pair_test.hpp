@@ -46,12 +46,14 @@ class PairTest {
 
   /// Whether this ordered pair that is not left out is none all the same: the options need loops,
   /// and the fibre makes none between these segments.
-  bool lacks_loop(PointPair pair, const PairDistance& distance) const {
-    return loops_ && loops_->are_of_one_fiber(pair) && !makes_loop(pair, distance);
+  /// @param looks at points of the fibre that it took are added to these
+  bool lacks_loop(PointPair pair, const PairDistance& distance, std::uint64_t& looks) const {
+    return loops_ && loops_->are_of_one_fiber(pair) && !makes_loop(pair, distance, looks);
   }
   /// The same where the distance is not there.
   bool lacks_loop(PointPair pair) const {
-    return loops_ && loops_->are_of_one_fiber(pair) && !makes_loop(pair);
+    std::uint64_t looks = 0;
+    return loops_ && loops_->are_of_one_fiber(pair) && !makes_loop(pair, looks);
   }
 
   /// Whether it is certain that all pairs lack a loop that start at the points first … last; see
@@ -85,10 +87,10 @@ class PairTest {
   Contact contact(PointPair pair, const PairDistance& distance) const;
 
  private:
-  bool makes_loop(PointPair pair) const;
-  bool makes_loop(PointPair pair, const PairDistance& distance) const {
-    return kernel_ == Kernel::ROBUST ? loops_->makes_loop(pair, distance.nearest)
-                                     : makes_loop(pair);
+  bool makes_loop(PointPair pair, std::uint64_t& looks) const;
+  bool makes_loop(PointPair pair, const PairDistance& distance, std::uint64_t& looks) const {
+    return kernel_ == Kernel::ROBUST ? loops_->makes_loop(pair, distance.nearest, looks)
+                                     : makes_loop(pair, looks);
   }
   bool is_neighbour_of_same_fiber(PointPair pair) const;
   bool is_of_other_pairing(PointPair pair) const;

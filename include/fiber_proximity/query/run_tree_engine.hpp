@@ -51,12 +51,12 @@ class RunTreeEngine final : public ProximityEngine {
 
   struct Candidates {
     KeptCandidates::Keys keys;
-    bool are_all;  // or the deadline came first
+    ContactBatch::Found found;
   };
   Candidates current_candidates(const PairTest& test, const QueryOptions& options,
-                                const Deadline& deadline, ContactBatch& batch,
+                                const QueryLimits& limits, ContactBatch& batch,
                                 QueryCounts& counts) const;
-  void find_own(const PairTest& test, const QueryOptions& options, const Deadline& deadline,
+  bool find_own(const PairTest& test, const QueryOptions& options, const QueryLimits& limits,
                 QueryResult& result) const;
 
   /// Calls with memory that queries which run at the same time do not share.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/options.hpp"
@@ -22,7 +23,11 @@ class Detection {
   // What the last detect() found:
   const fiber::QueryResult& contacts() const { return contacts_; }
   const fiber::Contact* minimum() const { return minimum_; }  ///< nullptr if there is no pair
-  bool is_complete() const { return complete_; }              ///< no deadline came before its end
+  bool is_complete() const { return complete_; }  ///< no deadline or limit came before its end
+  bool is_limit_reached() const { return limit_reached_; }
+  /// What a user is told who has not asked for so few contacts or pairs; empty if no limit of the
+  /// options but that of LIMITED is reached.
+  std::string limit_problem(const fiber::QueryOptions& options) const;
   /// [m] Bounds of the true distance of the closest pair; infinite where there is no pair.
   double minimum_lower() const { return minimum_lower_; }
   double minimum_upper() const;
@@ -37,6 +42,7 @@ class Detection {
   fiber::QueryResult closest_;
   const fiber::Contact* minimum_ = nullptr;
   bool complete_ = true;
+  bool limit_reached_ = false;
   double minimum_lower_ = 0.0;
   fiber::QueryCounts counts_;
   double contact_time_ = 0.0;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -42,7 +44,21 @@ fiber::QueryOptions to_options(const Request& request, const fiber::QueryOptions
   options.kernel =
       request.kernel.empty() ? defaults.kernel : fiber::kernel_from_name(request.kernel);
   options.deadline = request.deadline;
+  options.contact_limit = defaults.contact_limit;
+  options.pair_limit = defaults.pair_limit;
   return options;
+}
+
+/// How many contacts each of the next queries of a request may report where the response may have
+/// so many; at least one.
+/// @param limit of the response, 0 for none
+inline std::uint32_t share_of_contacts(std::uint32_t limit, std::size_t reported,
+                                       std::size_t queries) {
+  if (limit == 0) {
+    return 0;
+  }
+  const std::size_t left = limit - std::min<std::size_t>(reported, limit);
+  return static_cast<std::uint32_t>(std::max<std::size_t>(left / queries, 1));
 }
 
 }  // namespace fiber_proximity_ros

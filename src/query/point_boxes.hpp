@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
+
+namespace fiber {
+
+/// Boxes around 16, 16², 16³, … points of a fibre that follow each other: of many points at once
+/// they tell that something holds for all. Short fibres have none.
+class PointBoxes {
+ public:
+  PointBoxes(const FiberAssembly& fibers, std::uint32_t fiber);
+
+  /// How many points from this one on, and not beyond the last, are in the largest box that begins
+  /// here and is within; 0 if none is.
+  /// @param is_within tells of the corners of a box whether it is, and with it all in it
+  template <class IsWithin>
+  std::uint32_t count_within(std::uint32_t point, std::uint32_t last,
+                             const IsWithin& is_within) const {
+    const std::uint32_t index = point - begin_;
+    std::uint32_t level = 0;
+    while (level < levels_.size() && index % size_of(level) == 0 &&
+           size_of(level) - 1 <= last - point) {
+      ++level;
+    }
+    while (level-- > 0) {
+      const Box& box = levels_[level][index / size_of(level)];
+      if (is_within(box.lower, box.upper)) {
+        return size_of(level);
+      }
+    }
+    return 0;
+  }
+
+ private:
+  struct Box {
+    Eigen::Vector3d lower = Eigen::Vector3d::Zero();
+    Eigen::Vector3d upper = Eigen::Vector3d::Zero();
+  };
+
+  static constexpr std::uint32_t log_width = 4;
+
+  /// In points.
+  static std::uint32_t size_of(std::size_t level) {
+    return 1U << (log_width * (static_cast<std::uint32_t>(level) + 1));
+  }
+
+  std::uint32_t begin_;
+  std::vector<std::vector<Box>> levels_;  // of whole boxes only
+};
+
+}  // namespace fiber

@@ -1,0 +1,61 @@
+// Messages in which nearly all is in contact: the node answers within its limits, says so, and goes
+// on.
+#include "ros/messages.hpp"
+#include "ros/node_test.hpp"
+#include "support/random.hpp"
+
+namespace {
+
+using Eigen::Vector3d;
+using fiber_proximity::ContactArray;
+
+constexpr std::size_t contact_limit = 1000;  // as limits.test has it
+
+class LimitsTest : public node_test::NodeTest {
+ protected:
+  const ContactArray* answer_about(const std::vector<Vector3d>& points) {
+    const ros::Time stamp = new_stamp();
+    cloud_.publish(test_messages::point_cloud2(test_messages::header("world", stamp), points));
+    return contacts.wait_for(stamp);
+  }
+
+  ros::Publisher cloud_ = advertise<sensor_msgs::PointCloud2>("/cloud");
+};
+
+TEST_F(LimitsTest, ATangleIsAnsweredAndTheNextMessageToo) {
+  fiber::test::Random random;
+  std::vector<Vector3d> tangle;
+  for (int point = 0; point < 30'000; ++point) {
+    tangle.push_back(0.1 * random.in_cube());
+  }
+  const ContactArray* answer = answer_about(tangle);
+  ASSERT_NE(answer, nullptr);
+  EXPECT_EQ(answer->contacts.size(), contact_limit);
+  EXPECT_TRUE(answer->limit_reached);
+  EXPECT_FALSE(answer->complete);
+  ASSERT_TRUE(answer->has_minimum);
+  EXPECT_LE(answer->minimum_lower, answer->minimum_distance);
+  EXPECT_TRUE(node_test::wait_for(
+      [this] { return !logs_of("the closest 1000 are reported, as contact_limit says").empty(); }));
+  EXPECT_FALSE(logs_of("as pair_limit says").empty());
+
+  fiber_proximity::QueryProximity query;
+  query.request.type = fiber_proximity::QueryProximity::Request::ALL;
+  query.request.shapes.resize(2);
+  for (fiber_proximity::QueryShape& shape : query.request.shapes) {
+    shape.points.resize(1);
+    shape.radius = 1.0;
+  }
+  ASSERT_TRUE(ros::service::call("/proximity/query", query));
+  ASSERT_TRUE(query.response.success) << query.response.message;
+  EXPECT_TRUE(query.response.limit_reached);
+  EXPECT_EQ(query.response.contacts.size(), contact_limit + 1);  // and the second shape's closest
+
+  const ContactArray* next = answer_about({{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {1.0, 1.0, 0.0}});
+  ASSERT_NE(next, nullptr);
+  EXPECT_TRUE(next->contacts.empty());
+  EXPECT_FALSE(next->limit_reached);
+  EXPECT_TRUE(next->complete);
+}
+
+}  // namespace
