@@ -61,8 +61,7 @@ class FileDescriptor {
   throw std::invalid_argument(std::string(what) + ": " + std::generic_category().message(errno));
 }
 
-// ---- in the child: nothing is thrown, and no destructor of the node's is called
-// ------------------
+// ---- in the child: nothing is thrown, and no destructor of the node's is called ----------------
 
 void set_limit(int resource, std::size_t most) {
   const rlimit limits{most, most};
@@ -123,8 +122,7 @@ void parse_and_send(const std::string& bytes, const std::string& name, int pipe)
   _exit(0);
 }
 
-// ---- in the node
-// -----------------------------------------------------------------------------------
+// ---- in the node -------------------------------------------------------------------------------
 
 std::size_t used_address_space() {
   std::size_t pages = 0;

@@ -7,9 +7,8 @@
 namespace fiber_proximity_ros {
 
 /// A YAML file.
-/// @throws std::invalid_argument naming the file, and the line if it is malformed, or if its
-/// aliases
-///         stand for more than ten values per byte: a few lines could stand for any number
+/// @throws std::invalid_argument naming the file, and the line if it is malformed, or if aliases
+///         in it stand for more than ten values per byte: a few lines could stand for any number
 YamlField load_yaml(const std::string& file);
 
 /// The same from a document.

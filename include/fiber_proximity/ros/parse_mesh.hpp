@@ -16,8 +16,7 @@ struct ParsedMesh {
 /// files it crashes on, does not come back from, or takes all memory for, and these are to cost
 /// only themselves.
 /// @param name of the file, which tells the format
-/// @throws std::invalid_argument if there is no mesh in it, too large a one, or if assimp fails on
-/// it
+/// @throws std::invalid_argument if there is no mesh in it or too large a one, or assimp fails
 ParsedMesh parse_mesh(const std::string& bytes, const std::string& name);
 
 }  // namespace fiber_proximity_ros
