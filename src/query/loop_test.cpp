@@ -16,8 +16,8 @@ using Eigen::Vector3d;
 constexpr double part_of_distance = 1.25;
 constexpr double radii = 2.5;
 
-// So few points are looked at one by one.
-constexpr std::uint32_t short_walk = 32;
+// So few points are looked at one by one: that takes no longer than the distance of the pair.
+constexpr std::uint32_t short_walk = 64;
 
 double thinnest_radius(const FiberAssembly& fibers, std::uint32_t fiber) {
   double radius = fibers.largest_radius();

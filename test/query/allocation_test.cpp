@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdlib>
 #include <new>
@@ -96,6 +97,27 @@ TEST(RunTreeAllocationTest, AFrameInSteadyStateAllocatesNothing) {
     engine->query({}, result);
   });
   expect_enough(result.contacts.size(), std::size_t{1});
+  EXPECT_EQ(found, 0U);
+}
+
+/// Found by the campaign: a contact of a fibre with itself over more than a few segments.
+TEST(RunTreeAllocationTest, AFrameInWhichAFiberTouchesItselfAllocatesNothing) {
+  std::vector<Eigen::Vector3d> hairpin;
+  for (int i = 0; i <= 50; ++i) {
+    hairpin.emplace_back(0.1 * std::min(i, 50 - i), 0.001 * i, 0.0);
+  }
+  AssemblyBuilder builder;
+  builder.add_fiber(hairpin);
+  const FiberAssembly fibers = builder.build({0.03});
+  const auto engine = make_engine("run_tree", {1});
+  QueryResult result;
+  const std::size_t found = allocations_in_steady_state([&](int /*frame*/) {
+    engine->update(fibers);
+    engine->query({}, result);
+  });
+  ASSERT_FALSE(result.contacts.empty());
+  EXPECT_EQ(result.contacts.front().segment_a, 0U);
+  EXPECT_GT(result.contacts.back().segment_b, 40U);
   EXPECT_EQ(found, 0U);
 }
 
