@@ -108,16 +108,20 @@ void ContactJudge::judge_slice(const std::uint64_t* keys, const PairTest& test,
   std::transform(keys + slice.begin, keys + slice.end, pairs, pair_of);
   test.distances(pairs, size, distances);
   slice.others_lower = std::numeric_limits<double>::infinity();
-  std::fill_n(is_contact_.begin() + static_cast<std::ptrdiff_t>(slice.begin), size, 0);
-  for (std::size_t i = 0; i < size && slice.looks <= looks_left; ++i) {
-    const bool is_near = test.gap_lower(pairs[i], distances[i]) <= bound_ &&
-                         test.is_within_margin(pairs[i], distances[i]);
+  const bool is_bounded = bound_ < std::numeric_limits<double>::infinity();
+  std::size_t i = 0;
+  for (; i < size && slice.looks <= looks_left; ++i) {
+    const bool is_near = test.is_within_margin(pairs[i], distances[i]) &&
+                         (!is_bounded || test.gap_lower(pairs[i], distances[i]) <= bound_);
     const bool is_contact = is_near && !test.lacks_loop(pairs[i], distances[i], slice.looks);
     is_contact_[slice.begin + i] = is_contact ? 1 : 0;
     slice.contact_count += is_contact ? 1 : 0;
     if (!is_near) {
       slice.others_lower = std::min(slice.others_lower, test.gap_lower(pairs[i], distances[i]));
     }
+  }
+  for (; i < size; ++i) {
+    is_contact_[slice.begin + i] = 0;
   }
   slice.took_too_long = slice.looks > looks_left;
 }

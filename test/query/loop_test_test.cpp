@@ -101,6 +101,32 @@ TEST(LoopTest, DecidesByTheRule) {
 }
 
 /// What is ruled out at once is ruled out pair by pair, by the rule itself.
+TEST(LoopTest, HoldsToItsRuleWhereAFiberStaysNearOnePlaceForLong) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  for (int round = 0; round < 4; ++round) {
+    std::vector<Vector3d> points;
+    for (int i = 0; i < 700; ++i) {
+      points.push_back(random.in_cube());
+    }
+    // Between what all points are within of all, and what none is.
+    const double radius = random.uniform(0.4, 1.4);
+    const FiberAssembly fibers(points, {0, 700}, {radius});
+    const LoopTest test(fibers);
+    const Rule rule(fibers);
+    for (std::uint32_t i = 0; i + 2 < 699; i += 7) {
+      for (std::uint32_t j = i + 2; j < 699; j += 5) {
+        const SegmentDistance nearest =
+            segment_distance(points[i], points[i + 1], points[j], points[j + 1]);
+        const bool found = test.makes_loop({i, j}, nearest);
+        ASSERT_TRUE(found == rule.makes_loop({i, j}, nearest, 1.0 + 1e-9) ||
+                    found == rule.makes_loop({i, j}, nearest, 1.0 - 1e-9))
+            << i << ", " << j << ", radius " << radius;
+      }
+    }
+  }
+}
+
 TEST(LoopTest, RulesOutOnlyWhatHasNoLoop) {
   SCOPED_TRACE(seed_message());
   Random random;
