@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr int segments = 50;
+constexpr int rod_segments = 50;
 
 /// Length, bending stiffness, twisting stiffness and mass are 1.
 const RodSection unit_section{1e5, 1.0, 1.0, 1.0, 1e-4};
@@ -55,8 +55,8 @@ double column_determinant(double weight) {
 
 /// By an angle that is the same per length [rad].
 void twist_evenly(Rods& rods, double angle) {
-  for (int i = 0; i < segments; ++i) {
-    rods.angles[i] = angle * (i + 0.5) / segments;
+  for (int i = 0; i < rod_segments; ++i) {
+    rods.angles[i] = angle * (i + 0.5) / rod_segments;
   }
 }
 
@@ -66,7 +66,7 @@ std::unique_ptr<Attachment> clamp_twisted(Rods& rods, const Placement& first, co
   twist_evenly(rods, angle);
   Placement turned = last;
   turned.director = Eigen::AngleAxisd(angle, last.tangent) * last.director;
-  return hold(rods, {clamp(0, first), clamp(segments, turned)});
+  return hold(rods, {clamp(0, first), clamp(rod_segments, turned)});
 }
 
 /// Turns the ends of a rod against each other, each about its own tangent, by a constant moment.
@@ -75,13 +75,13 @@ class EndMoments : public Effect {
   explicit EndMoments(double moment) : moment_(moment) {}
 
   double energy(const Rods& rods, std::uint32_t /*rod*/) const override {
-    return moment_ * (rods.angles.front() - rods.angles[segments - 1]);
+    return moment_ * (rods.angles.front() - rods.angles[rod_segments - 1]);
   }
 
   void add_derivatives(const Rods& /*rods*/, std::uint32_t /*rod*/,
                        RodSystem& system) const override {
     system.add_angle_gradient(0, moment_);
-    system.add_angle_gradient(segments - 1, -moment_);
+    system.add_angle_gradient(rod_segments - 1, -moment_);
   }
 
  private:
@@ -90,8 +90,8 @@ class EndMoments : public Effect {
 
 /// A straight rod that something holds twisted, disturbed to a side.
 Stepper disturbed_stepper(Rods rods, std::unique_ptr<Twist> twist, Effects holding) {
-  for (int i = 0; i <= segments; ++i) {
-    const double s = static_cast<double>(i) / segments;
+  for (int i = 0; i <= rod_segments; ++i) {
+    const double s = static_cast<double>(i) / rod_segments;
     rods.velocities[i].z() = 1e-7 * std::pow(std::sin(M_PI * s), 2);
   }
   Effects all = effects(std::make_unique<Stretch>(), std::make_unique<Bend>(), std::move(twist));
@@ -103,7 +103,7 @@ Stepper disturbed_stepper(Rods rods, std::unique_ptr<Twist> twist, Effects holdi
 
 double growth_of_column(double weight) {
   Rods rods;
-  rods.add(straight({0, 0, 0}, {0, 0, 1}, segments), 0.01, unit_section);
+  rods.add(straight({0, 0, 0}, {0, 0, 1}, rod_segments), 0.01, unit_section);
   for (Vector3d& velocity : rods.velocities) {
     velocity.x() = 1e-7;
   }
@@ -122,7 +122,7 @@ double critical_weight_of_column() { return root_between(column_determinant, 5.0
 
 double growth_of_twisted(double angle) {
   Rods rods;
-  rods.add(straight({0, 0, 0}, {1, 0, 0}, segments), 0.01, unit_section);
+  rods.add(straight({0, 0, 0}, {1, 0, 0}, rod_segments), 0.01, unit_section);
   auto twist = std::make_unique<Twist>(rods);
   const Vector3d director = rods.directors[0];
   auto clamped = clamp_twisted(rods, {Vector3d::Zero(), Vector3d::UnitX(), director},
@@ -135,10 +135,10 @@ double growth_of_twisted(double angle) {
 
 double growth_of_hinged(double moment) {
   Rods rods;
-  rods.add(straight({0, 0, 0}, {1, 0, 0}, segments), 0.01, unit_section);
+  rods.add(straight({0, 0, 0}, {1, 0, 0}, rod_segments), 0.01, unit_section);
   auto twist = std::make_unique<Twist>(rods);
   twist_evenly(rods, moment);
-  auto pinned = hold(rods, {pin(0, Vector3d::Zero()), pin(segments, Vector3d::UnitX())});
+  auto pinned = hold(rods, {pin(0, Vector3d::Zero()), pin(rod_segments, Vector3d::UnitX())});
   Stepper stepper = disturbed_stepper(
       rods, std::move(twist), effects(std::move(pinned), std::make_unique<EndMoments>(moment)));
   const auto creep = [&stepper] {
@@ -163,9 +163,9 @@ double critical_moment_of_hinged() { return 2.0 * M_PI; }
 
 EndOfRing end_of_ring(double angle, int steps) {
   std::vector<Vector3d> points;
-  const double radius = 0.5 / (segments * std::sin(M_PI / segments));
-  for (int i = 0; i <= segments; ++i) {
-    const double turn = 2.0 * M_PI * (i % segments) / segments;
+  const double radius = 0.5 / (rod_segments * std::sin(M_PI / rod_segments));
+  for (int i = 0; i <= rod_segments; ++i) {
+    const double turn = 2.0 * M_PI * (i % rod_segments) / rod_segments;
     points.emplace_back(radius * std::sin(turn), radius * (1.0 - std::cos(turn)), 0.0);
   }
   Rods rods;
@@ -183,7 +183,7 @@ EndOfRing end_of_ring(double angle, int steps) {
   for (int i = 0; i < steps; ++i) {
     stepper.step(0.02);
   }
-  return {stepper.rods().positions[segments / 2].y(), distance_along(stepper.rods(), 2)};
+  return {stepper.rods().positions[rod_segments / 2].y(), distance_along(stepper.rods(), 2)};
 }
 
 double critical_twist_of_ring() { return 2.0 * M_PI * std::sqrt(3.0); }

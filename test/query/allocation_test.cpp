@@ -117,7 +117,7 @@ TEST(RunTreeAllocationTest, AFrameInWhichAFiberTouchesItselfAllocatesNothing) {
   });
   ASSERT_FALSE(result.contacts.empty());
   EXPECT_EQ(result.contacts.front().segment_a, 0U);
-  EXPECT_GT(result.contacts.back().segment_b, 40U);
+  EXPECT_GT(result.contacts.front().segment_b, 40U);
   EXPECT_EQ(found, 0U);
 }
 
