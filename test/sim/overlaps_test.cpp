@@ -76,7 +76,11 @@ Rods separated(const Rods& rods, double most_moved, double most_strain,
   Rods moved = rods;
   OverlapFinder finder = finder_of();
   EXPECT_TRUE(separate_overlaps(moved, finder, is_held).empty());
-  EXPECT_TRUE(brute_force_overlaps(moved, touching_share).empty());
+  for (const auto& [pair, depth] : brute_force_overlaps(moved, touching_share)) {
+    const auto [rod_a, edge_a, rod_b, edge_b] = pair;
+    ADD_FAILURE() << "edge " << edge_a << " of rod " << rod_a << " is " << depth
+                  << " m inside of edge " << edge_b << " of rod " << rod_b;
+  }
   EXPECT_LT(farthest(rods, moved), most_moved);
   EXPECT_LT(largest_strain(moved).strain, most_strain);
   Rods again = rods;

@@ -39,7 +39,9 @@ inline double edge_distance(const Eigen::Vector3d& a0, const Eigen::Vector3d& a1
   double distance = std::min({point_segment(a0, b0, b1), point_segment(a1, b0, b1),
                               point_segment(b0, a0, a1), point_segment(b1, a0, a1)});
   const Eigen::Vector3d normal = (a1 - a0).cross(b1 - b0);
-  if (normal.squaredNorm() > 0.0) {
+  // Where they are parallel but for rounding the normal points anywhere, and an end is as near.
+  constexpr double parallel = 1e-9;
+  if (normal.norm() > parallel * (a1 - a0).norm() * (b1 - b0).norm()) {
     // Each crosses the plane that holds the other and the normal.
     const auto crosses = [&](const Eigen::Vector3d& p, const Eigen::Vector3d& along,
                              const Eigen::Vector3d& r0, const Eigen::Vector3d& r1) {
