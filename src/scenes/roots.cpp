@@ -95,14 +95,14 @@ std::vector<Root> scalp_roots(std::uint32_t count, Random& random) {
 
 std::vector<Root> disc_roots(std::uint32_t count, Random& random) {
   constexpr double golden_angle = 0.3819660112501051;  // [turns]
-  const double edge = std::sqrt(cell_area);
+  const double cell_edge = std::sqrt(cell_area);
   std::vector<Root> roots;
   roots.reserve(count);
   for (std::uint32_t i = 0; i < count; ++i) {
     const double radius = std::sqrt((i + 0.5) * cell_area * 2.0 / tau);
     const double turn = golden_angle * i;
-    const double dx = random.uniform(-jitter, jitter) * edge;
-    const double dy = random.uniform(-jitter, jitter) * edge;
+    const double dx = random.uniform(-jitter, jitter) * cell_edge;
+    const double dy = random.uniform(-jitter, jitter) * cell_edge;
     const Vector2d map(radius * cosine_of_turns(turn) + dx, radius * sine_of_turns(turn) + dy);
     roots.push_back({{map.x(), map.y(), 0.0}, {0.0, 0.0, -1.0}, map, 0.0});
   }
