@@ -85,8 +85,8 @@ NaturalBend::NaturalBend(const Rods& rods, std::uint32_t rod, std::uint32_t node
   natural_after_ = std::cos(angle) * before_ + side.x() * before.first + side.y() * before.second;
   natural_before_ = std::cos(angle) * after_ - side.x() * after.first - side.y() * after.second;
   // A fold has no side: there, nothing but rounding errors would be left.
-  constexpr double folded = 1e-6;
-  weight_ = 0.5 / std::max(folded, std::cos(0.5 * angle));
+  constexpr double least_cosine = 1e-6;
+  weight_ = 0.5 / std::max(least_cosine, std::cos(0.5 * angle));
   residual_ = weight_ * (after_ - natural_after_ + natural_before_ - before_);
 }
 
