@@ -289,7 +289,7 @@ void ProximityServer::reconfigure(AskedConfig& config) {
     config = config_;  // the server announces what is really in use
     return;
   }
-  config_ = config;
+  config_ = static_cast<const fiber_proximity::ProximityConfig&>(config);
   query_options_ = to_query_options(config);
   comparison_.switch_on(config.compare);
   marker_options_.show_fibers = config.show_fibers;
