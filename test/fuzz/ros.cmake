@@ -83,6 +83,7 @@ unwatched_library(fiber_queries
   src/query/options.cpp
   src/query/pair_collector.cpp
   src/query/pair_test.cpp
+  src/query/point_boxes.cpp
   src/query/threads.cpp
 )
 target_link_libraries(fiber_queries PUBLIC fuzzed_io fcl TBB::tbb hwy::hwy hwy::hwy_contrib)

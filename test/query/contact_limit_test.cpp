@@ -153,7 +153,7 @@ INSTANTIATE_TEST_SUITE_P(Engines, ContactLimitTest, all_engines(), name_of_engin
 TEST_P(PairLimitTest, AQueryEndsAfterSoManyPairsWithWhatItHasFound) {
   SCOPED_TRACE(seed_message());
   Random random;
-  const FiberAssembly fibers = tangle(random, 18 + rounds(42));
+  const FiberAssembly fibers = tangle(random, 60);
   QueryOptions options = within(0.5);
   QueryResult all;
   brute_force(fibers, options, all);
@@ -333,7 +333,7 @@ TEST_P(RunTreeLimits, HoldForAFiberThatStaysNearOnePlace) {
 TEST(RunTreeLimitsOfSkin, CandidatesThatWereKeptDoNotServeASmallerLimit) {
   SCOPED_TRACE(seed_message());
   Random random;
-  const FiberAssembly fibers = tangle(random, 18 + rounds(42));
+  const FiberAssembly fibers = tangle(random, 60);
   EngineOptions engine_options;
   engine_options.skin = 0.01;
   const std::unique_ptr<ProximityEngine> engine = make_engine("run_tree", engine_options);
