@@ -74,7 +74,8 @@ def main():
                 chosen.append(unit)
                 unread -= read
         units = sorted(chosen)
-    print('\n'.join(units))
+    for unit in units:
+        print(unit)
 
 
 if __name__ == '__main__':
