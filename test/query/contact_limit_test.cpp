@@ -71,7 +71,7 @@ TEST_P(ContactLimitTest, TheClosestAreReportedOnEveryFamily) {
 TEST_P(ContactLimitTest, TheClosestOfVeryManyAreReported) {
   SCOPED_TRACE(seed_message());
   Random random;
-  const FiberAssembly fibers = tangle(random, 18 + rounds(42));
+  const FiberAssembly fibers = tangle(random, 60);
   for (const Kernel kernel : {Kernel::FAST, Kernel::ROBUST, Kernel::EXACT}) {
     for (const double margin : {0.6, infinity}) {
       QueryOptions options = within(margin);
@@ -139,7 +139,7 @@ TEST_P(ContactLimitTest, LimitedReportsNoMore) {
 TEST_P(ContactLimitTest, FewMoreThanTheLimitAreInMemory) {
   SCOPED_TRACE(seed_message());
   Random random;
-  const FiberAssembly fibers = tangle(random, 18 + rounds(42));
+  const FiberAssembly fibers = tangle(random, 60);
   QueryOptions options = within(infinity);
   options.contact_limit = 100;
   constexpr std::size_t of_one_round = 16'384;  // ContactJudge's
