@@ -6,15 +6,20 @@ add_custom_target(unit_tests)
 file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/unit_tests.txt
   CONTENT "$<JOIN:$<TARGET_GENEX_EVAL:unit_tests,$<TARGET_PROPERTY:unit_tests,PROGRAMS>>,\n>\n")
 
-# Precompiled once for all tests: gtest, and what our headers include.
-if(FIBER_PROXIMITY_PRECOMPILE_HEADERS)
-  file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/test_headers.cpp "")
-  add_library(test_headers OBJECT ${CMAKE_CURRENT_BINARY_DIR}/test_headers.cpp)
-  # With the definitions that come with gtest, or it is refused.
-  target_link_libraries(test_headers PRIVATE Eigen3::Eigen fiber_proximity_options
-    $<TARGET_NAME_IF_EXISTS:GTest::gtest>)
-  target_precompile_headers(test_headers PRIVATE ${core_headers} <gtest/gtest.h>)
-endif()
+# fiber_proximity_test_headers(NAME LIBRARY HEADER...)
+# Precompiles gtest and these headers, of this library, once for all tests that reuse them from NAME: with the
+# definitions that come with gtest, or it is refused.
+function(fiber_proximity_test_headers name library)
+  if(FIBER_PROXIMITY_PRECOMPILE_HEADERS)
+    file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/test_headers.cpp "")
+    add_library(${name} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/test_headers.cpp)
+    target_link_libraries(${name} PRIVATE ${library} fiber_proximity_options
+      $<TARGET_NAME_IF_EXISTS:GTest::gtest>)
+    target_precompile_headers(${name} PRIVATE ${ARGN} <gtest/gtest.h>)
+  endif()
+endfunction()
+
+fiber_proximity_test_headers(test_headers Eigen3::Eigen ${core_headers})
 
 # The one source that knows where the package is: what else the compiler reads is the same in every checkout,
 # so that ccache knows it again.
@@ -54,15 +59,10 @@ endfunction()
 # fiber_proximity_graph_tests(PROGRAM...)
 # For programs that ask a running node: their headers are precompiled once for all.
 function(fiber_proximity_graph_tests)
-  foreach(program IN LISTS ARGN)
-    fiber_proximity_compile_fast(${program})
-  endforeach()
+  fiber_proximity_compile_fast(${ARGN})
+  fiber_proximity_test_headers(graph_test_headers fiber_proximity_ros ${ros_headers})
   if(FIBER_PROXIMITY_PRECOMPILE_HEADERS)
-    add_library(graph_test_headers OBJECT ${CMAKE_CURRENT_BINARY_DIR}/test_headers.cpp)
-    target_link_libraries(graph_test_headers PRIVATE fiber_proximity_ros fiber_proximity_options
-      $<TARGET_NAME_IF_EXISTS:GTest::gtest>)
     fiber_proximity_compile_fast(graph_test_headers)
-    target_precompile_headers(graph_test_headers PRIVATE ${ros_headers} <gtest/gtest.h>)
     foreach(program IN LISTS ARGN)
       target_precompile_headers(${program} REUSE_FROM graph_test_headers)
     endforeach()

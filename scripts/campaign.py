@@ -9,6 +9,7 @@ import pathlib
 import re
 import secrets
 import shlex
+import shutil
 import signal
 import subprocess
 import sys
@@ -215,7 +216,7 @@ def run_campaign(arguments, report):
     soak = ROOT / "test" / "ros" / "soak.test"
     paths = pathlib.Path(arguments.tests).read_text().split()
     parts = ["tests"] + ["fuzz"] * fuzz.exists() + ["soak"] * ("ROS_DISTRO" in os.environ or
-                                                             bool(which("rostest")))
+                                                             bool(shutil.which("rostest")))
     if arguments.only and arguments.only not in parts:
         sys.exit(f"campaign.sh: {arguments.only} is not to be had here")
     report.begin(arguments.jobs)
@@ -246,11 +247,6 @@ def run_campaign(arguments, report):
                      {"FIBER_PROXIMITY_TEST_SEED": str(seed)}, programs, report)
     progress.close()
     report.write()
-
-
-def which(program):
-    return any((pathlib.Path(folder) / program).exists()
-               for folder in os.environ.get("PATH", "").split(":"))
 
 
 def main():

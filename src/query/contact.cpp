@@ -11,8 +11,7 @@ void sort_by_key(std::vector<Contact>& contacts) {
 }
 
 void sort_by_distance(std::vector<Contact>& contacts) {
-  std::sort(contacts.begin(), contacts.end(),
-            [](const Contact& x, const Contact& y) { return x.closer_than(y); });
+  std::sort(contacts.begin(), contacts.end(), closer);
 }
 
 bool keep_closest(std::size_t count, QueryResult& result) {
@@ -21,8 +20,7 @@ bool keep_closest(std::size_t count, QueryResult& result) {
     return false;
   }
   const auto end = contacts.begin() + static_cast<std::ptrdiff_t>(count);
-  std::nth_element(contacts.begin(), end - 1, contacts.end(),
-                   [](const Contact& x, const Contact& y) { return x.closer_than(y); });
+  std::nth_element(contacts.begin(), end - 1, contacts.end(), closer);
   result.others_lower =
       std::accumulate(end, contacts.end(), result.others_lower,
                       [](double least, const Contact& x) { return std::min(least, x.lower); });

@@ -11,6 +11,7 @@ namespace {
 constexpr std::size_t pairs_per_slice = 512;
 // Pairs are judged in rounds, so that their distances stay in the cache until they are reported.
 constexpr std::size_t slices_per_round = 32;
+constexpr std::size_t pairs_per_round = slices_per_round * pairs_per_slice;
 
 // Contacts are written down after that.
 constexpr double part_to_judge = 0.9;
@@ -26,7 +27,6 @@ std::uint64_t most_looks(const QueryLimits& limits) {
 
 void ContactJudge::judge(const std::vector<std::uint64_t>& keys, const PairTest& test,
                          const QueryLimits& limits, QueryResult& result) {
-  constexpr std::size_t pairs_per_round = slices_per_round * pairs_per_slice;
   const std::size_t most = std::max(distances_.size(), std::min(pairs_per_round, keys.size()));
   distances_.resize(most);
   is_contact_.resize(most);
@@ -36,8 +36,10 @@ void ContactJudge::judge(const std::vector<std::uint64_t>& keys, const PairTest&
   bound_ = std::numeric_limits<double>::infinity();
   result.others_lower = test.margin();  // of pairs that are no candidates
   for (std::size_t begin = 0; begin < keys.size() && !took_too_long_; begin += pairs_per_round) {
-    judge_round(keys.data() + begin, std::min(pairs_per_round, keys.size() - begin), test, limits,
-                result);
+    const std::size_t end = std::min(keys.size(), begin + pairs_per_round);
+    judge_round(keys.data() + begin, end - begin, test, limits, result);
+    make_room(end, keys.size(), limits, result.contacts);
+    report(keys.data() + begin, test, result.contacts);
     if (contact_count_ >= limits.most_kept) {
       leave_closest(limits.contacts, result);
     }
@@ -85,9 +87,27 @@ void ContactJudge::judge_round(const std::uint64_t* keys, std::size_t count, con
     result.complete = result.complete && slice.complete;
   }
   took_too_long_ = took_too_long_ || looks_ > most_looks(limits);
+}
+
+/// For all contacts there will be if the candidates that are left have as many as those judged, and
+/// some more. A list that grows to twice its size is there twice while it does.
+void ContactJudge::make_room(std::size_t judged, std::size_t candidates, const QueryLimits& limits,
+                             std::vector<Contact>& contacts) const {
+  if (contact_count_ > contacts.capacity()) {
+    constexpr double more = 1.1;
+    constexpr double a_few = 512.0;
+    const double rest = static_cast<double>(candidates) / static_cast<double>(judged);
+    const double expected = a_few + more * rest * static_cast<double>(contact_count_);
+    contacts.reserve(
+        std::min(static_cast<std::uint64_t>(expected), limits.most_kept + pairs_per_round));
+  }
   // What a query before has left there is written over: making it anew would take as long.
-  std::vector<Contact>& contacts = result.contacts;
   contacts.resize(std::max(contacts.size(), contact_count_));
+}
+
+/// The contacts of a round.
+void ContactJudge::report(const std::uint64_t* keys, const PairTest& test,
+                          std::vector<Contact>& contacts) const {
   for_each_of(slices_.size(), [&](std::size_t index) {
     const Slice& slice = slices_[index];
     std::size_t place = slice.place;

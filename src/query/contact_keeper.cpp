@@ -9,14 +9,12 @@
 namespace fiber {
 namespace {
 
-bool closer(const Contact& x, const Contact& y) { return x.closer_than(y); }
-
 std::size_t capacity_of(const QueryOptions& options, const QueryLimits& limits) {
   switch (options.type) {
     case QueryType::CLOSEST:
       return 1;
     case QueryType::LIMITED:
-      return std::min<std::size_t>(options.max_contacts, limits.contacts);
+      return limits.contacts;
     case QueryType::FIRST:
     case QueryType::ALL:
     case QueryType::FIBER_PAIRS:
@@ -91,7 +89,7 @@ void ContactKeeper::stay_within_limit() {
 void ContactKeeper::keep_if_closest(const Contact& contact) {
   std::vector<Contact>& contacts = result_.contacts;
   if (contacts.size() == capacity_) {
-    if (!closer(contact, contacts.front())) {
+    if (!contact.closer_than(contacts.front())) {
       leave_out(contact.lower);
       return;
     }

@@ -101,9 +101,9 @@ bool LoopTest::leaves(const Place& place, PointPair pair, double limit,
   const auto way_to = [&](const Vector3d& point) -> Vector3d {
     return scale * ((point - place.end) - place.way);
   };
-  const auto is_within = [&](const Vector3d& lower, const Vector3d& upper) {
+  const auto is_within = [&](const Eigen::AlignedBox3d& box) {
     // Sums and products are monotonic, roundings included: of no point more comes out.
-    const Vector3d most = way_to(lower).cwiseAbs().cwiseMax(way_to(upper).cwiseAbs());
+    const Vector3d most = way_to(box.min()).cwiseAbs().cwiseMax(way_to(box.max()).cwiseAbs());
     return most.squaredNorm() <= scaled_limit * scaled_limit;
   };
   for (std::uint32_t k = pair.a + 1; k <= pair.b; ++k) {

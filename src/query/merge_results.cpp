@@ -44,12 +44,10 @@ void merge_results(const QueryOptions& options, const QueryResult& more, QueryRe
     case QueryType::CLOSEST:
       keep_closest(1, result);
       break;
-    case QueryType::LIMITED: {
-      const std::uint64_t most = std::min<std::uint64_t>(options.max_contacts, limits.contacts);
-      keep_closest(most, result);
-      result.limit_reached = result.limit_reached || contacts.size() == most;
+    case QueryType::LIMITED:
+      keep_closest(limits.contacts, result);
+      result.limit_reached = result.limit_reached || contacts.size() == limits.contacts;
       break;
-    }
     case QueryType::FIBER_PAIRS:
       keep_closest_of_fibers(result);
       [[fallthrough]];

@@ -10,33 +10,29 @@ constexpr std::uint32_t least_boxed_points = 256;
 
 }  // namespace
 
+/// A box around as many points, or boxes, each as one has below it.
+template <class Item>
+std::vector<Eigen::AlignedBox3d> PointBoxes::around(const Item* items, std::size_t count) {
+  constexpr std::size_t width = std::size_t{1} << log_width;
+  std::vector<Eigen::AlignedBox3d> boxes(count / width);
+  for (std::size_t i = 0; i < boxes.size() * width; ++i) {
+    boxes[i / width].extend(items[i]);
+  }
+  return boxes;
+}
+
 PointBoxes::PointBoxes(const FiberAssembly& fibers, std::uint32_t fiber)
     : begin_(fibers.offsets()[fiber]) {
   const std::uint32_t count = fibers.offsets()[fiber + 1] - begin_;
   if (count < least_boxed_points) {
     return;
   }
-  constexpr std::uint32_t width = 1U << log_width;
   const Eigen::Vector3d* const points = fibers.points().data() + begin_;
-  std::vector<Box> boxes(count / width);
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    boxes[i] = {points[i * width], points[i * width]};
-    for (std::size_t k = i * width + 1; k < (i + 1) * width; ++k) {
-      boxes[i].lower = boxes[i].lower.cwiseMin(points[k]);
-      boxes[i].upper = boxes[i].upper.cwiseMax(points[k]);
-    }
-  }
+  std::vector<Eigen::AlignedBox3d> boxes = around(points, count);
   while (!boxes.empty()) {
     levels_.push_back(std::move(boxes));
-    const std::vector<Box>& below = levels_.back();
-    boxes.assign(below.size() / width, Box());
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
-      boxes[i] = below[i * width];
-      for (std::size_t k = i * width + 1; k < (i + 1) * width; ++k) {
-        boxes[i].lower = boxes[i].lower.cwiseMin(below[k].lower);
-        boxes[i].upper = boxes[i].upper.cwiseMax(below[k].upper);
-      }
-    }
+    const std::vector<Eigen::AlignedBox3d>& below = levels_.back();
+    boxes = around(below.data(), below.size());
   }
 }
 

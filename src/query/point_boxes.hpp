@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <vector>
 
@@ -16,7 +16,7 @@ class PointBoxes {
 
   /// How many points from this one on, and not beyond the last, are in the largest box that begins
   /// here and is within; 0 if none is.
-  /// @param is_within tells of the corners of a box whether it is, and with it all in it
+  /// @param is_within tells whether all that is in an Eigen::AlignedBox3d is
   template <class IsWithin>
   std::uint32_t count_within(std::uint32_t point, std::uint32_t last,
                              const IsWithin& is_within) const {
@@ -27,8 +27,8 @@ class PointBoxes {
       ++level;
     }
     while (level-- > 0) {
-      const Box& box = levels_[level][index / size_of(level)];
-      if (is_within(box.lower, box.upper)) {
+      const Eigen::AlignedBox3d& box = levels_[level][index / size_of(level)];
+      if (is_within(box)) {
         return size_of(level);
       }
     }
@@ -36,11 +36,6 @@ class PointBoxes {
   }
 
  private:
-  struct Box {
-    Eigen::Vector3d lower = Eigen::Vector3d::Zero();
-    Eigen::Vector3d upper = Eigen::Vector3d::Zero();
-  };
-
   static constexpr std::uint32_t log_width = 4;
 
   /// In points.
@@ -48,8 +43,11 @@ class PointBoxes {
     return 1U << (log_width * (static_cast<std::uint32_t>(level) + 1));
   }
 
+  template <class Item>
+  static std::vector<Eigen::AlignedBox3d> around(const Item* items, std::size_t count);
+
   std::uint32_t begin_;
-  std::vector<std::vector<Box>> levels_;  // of whole boxes only
+  std::vector<std::vector<Eigen::AlignedBox3d>> levels_;  // of whole boxes only
 };
 
 }  // namespace fiber

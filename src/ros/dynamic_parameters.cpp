@@ -1,9 +1,7 @@
 #include "fiber_proximity/ros/dynamic_parameters.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <regex>
-#include <sstream>
 #include <stdexcept>
 #include <vector>
 
@@ -52,15 +50,8 @@ std::vector<std::string> values_of_enumeration(const Description& parameter) {
 
 template <class Number>
 std::string allowed_number(const std::string& kind, const Description& parameter) {
-  const auto least = config_value<Number>(parameter, ProximityConfig::__getMin__());
-  const auto most = config_value<Number>(parameter, ProximityConfig::__getMax__());
-  std::ostringstream text;
-  if (most < std::numeric_limits<Number>::max()) {
-    text << kind << " from " << least << " to " << most;
-  } else {
-    text << kind << " of at least " << least;
-  }
-  return text.str();
+  return allowed_range(kind, config_value<Number>(parameter, ProximityConfig::__getMin__()),
+                       config_value<Number>(parameter, ProximityConfig::__getMax__()));
 }
 
 std::string what_is_allowed(const Description& parameter) {

@@ -129,8 +129,7 @@ Change MarkerObstacles::change_of(std::shared_ptr<const Markers> markers, const 
       apply(steps, poses);
     };
   };
-  Prepared<Change::Apply> apply =
-      is_large ? Prepared<Change::Apply>(prepare, worker) : Prepared<Change::Apply>(prepare);
+  auto apply = Prepared<Change::Apply>::of(prepare, worker, is_large);
   return {std::move(touched), std::move(frames), std::move(apply), patience, {}};
 }
 

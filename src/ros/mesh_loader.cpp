@@ -57,7 +57,7 @@ path resolve_in_package(const std::string& resource) {
 std::string read(const path& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) {
-    throw std::invalid_argument("there is no file " + fiber::quote(file.string()) + "");
+    throw std::invalid_argument("there is no file " + fiber::quote(file.string()));
   }
   const std::uintmax_t size = std::filesystem::file_size(file);
   if (size > MeshLoader::largest_file) {

@@ -97,8 +97,7 @@ Change ObstacleSet::change_of(std::shared_ptr<const Obstacles> obstacles, double
       apply(steps, cancelled);
     };
   };
-  Prepared<Change::Apply> apply =
-      is_large ? Prepared<Change::Apply>(prepare, worker) : Prepared<Change::Apply>(prepare);
+  auto apply = Prepared<Change::Apply>::of(prepare, worker, is_large);
   return {std::move(touched), std::move(frames), std::move(apply), patience, {}};
 }
 

@@ -16,16 +16,6 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-std::string number_within(const Limits& limits) {
-  std::ostringstream allowed;
-  if (std::isfinite(limits.most)) {
-    allowed << "a number from " << limits.least << " to " << limits.most;
-  } else {
-    allowed << "a number of at least " << limits.least;
-  }
-  return allowed.str();
-}
-
 /// How many letters must be changed, added or left out to make one name of the other.
 std::size_t edit_distance(const std::string& from, const std::string& to) {
   std::vector<std::size_t> row(to.size() + 1);
@@ -74,9 +64,10 @@ void refuse_parameter(const ros::NodeHandle& node, const std::string& name,
 
 void read_parameter(const ros::NodeHandle& node, const std::string& name, const Limits& limits,
                     double& value) {
-  read_parameter(node, name, number_within(limits), value);
+  const std::string allowed = allowed_range("a number", limits.least, limits.most);
+  read_parameter(node, name, allowed, value);
   if (!(value >= limits.least && value <= limits.most && std::isfinite(value))) {
-    refuse_parameter(node, name, number_within(limits));
+    refuse_parameter(node, name, allowed);
   }
 }
 
@@ -91,7 +82,8 @@ void read_parameter(const ros::NodeHandle& node, const std::string& name, int le
     return;
   }
   if (number.getType() != XmlRpcValue::TypeInt || static_cast<const int&>(number) < least) {
-    refuse_parameter(node, name, "a whole number of at least " + std::to_string(least));
+    refuse_parameter(node, name,
+                     allowed_range("a whole number", least, std::numeric_limits<int>::max()));
   }
   value = static_cast<const int&>(number);
 }

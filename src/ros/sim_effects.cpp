@@ -193,6 +193,10 @@ std::unique_ptr<fiber::Contacts> make_contacts(const NamedEffects& named, const 
 
 }  // namespace
 
+bool has_effect(const std::vector<std::string>& names, const std::string& effect) {
+  return std::find(names.begin(), names.end(), effect) != names.end();
+}
+
 std::vector<std::string> sim_effect_names() {
   return {"attachment",    "bend",     "damping", "drag",         "environment_contact",
           "fiber_contact", "friction", "gravity", "inextensible", "plasticity",

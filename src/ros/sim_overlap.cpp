@@ -26,13 +26,10 @@ bool read_is_separate(const YamlField& document) {
 }
 
 fiber::OverlapFinder make_finder(const SimWorld& world, const SimEffects& effects) {
-  const auto names = [&effects](const char* effect) {
-    return std::find(effects.names.begin(), effects.names.end(), effect) != effects.names.end();
-  };
   fiber::OverlapFinder::Options options;
-  options.same_fiber = names("self_contact");
-  options.different_fibers = names("fiber_contact");
-  if (names("environment_contact")) {
+  options.same_fiber = has_effect(effects.names, "self_contact");
+  options.different_fibers = has_effect(effects.names, "fiber_contact");
+  if (has_effect(effects.names, "environment_contact")) {
     options.environment = world.environment;
     options.allowed = world.allowed;
   }

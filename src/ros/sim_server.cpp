@@ -15,6 +15,7 @@
 #include "fiber_proximity/ros/parameters.hpp"
 #include "fiber_proximity/ros/sim_report.hpp"
 #include "fiber_proximity/sim/reach.hpp"
+#include "fiber_proximity/text/quote.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -169,17 +170,15 @@ void SimServer::run_frame() {
 
 /// Where something keeps edges from being stretched, and what holds a fibre does it all the same.
 void SimServer::warn_of_strain() const {
-  const auto names = [this](const char* effect) {
-    return std::find(scene_.effect_names.begin(), scene_.effect_names.end(), effect) !=
-           scene_.effect_names.end();
-  };
+  const std::vector<std::string>& effects = scene_.effect_names;
   const fiber::LargestStrain largest = fiber::largest_strain(scene_.stepper->rods());
-  if (largest.strain > scene_.max_strain && (names("stretch") || names("inextensible"))) {
+  if (largest.strain > scene_.max_strain &&
+      (has_effect(effects, "stretch") || has_effect(effects, "inextensible"))) {
     ROS_WARN_STREAM_THROTTLE(speed_warning_period,
-                             "edge " << largest.edge << " of fibre '"
-                                     << scene_.fiber_names[largest.rod] << "' is stretched by "
-                                     << 100.0 * largest.strain << " %, more than "
-                                     << 100.0 * scene_.max_strain
+                             "edge " << largest.edge << " of fibre "
+                                     << fiber::quote(scene_.fiber_names[largest.rod])
+                                     << " is stretched by " << 100.0 * largest.strain
+                                     << " %, more than " << 100.0 * scene_.max_strain
                                      << " % (max_strain): what moves it goes too far or too fast");
   }
 }

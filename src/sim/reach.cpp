@@ -10,13 +10,6 @@ using Eigen::Vector3d;
 
 namespace {
 
-double rest_length_between(const Rods& rods, std::uint32_t rod, std::uint32_t node,
-                           std::uint32_t other) {
-  const auto edges = rods.rest_lengths.begin() + rods.first(rod);
-  const auto [first, last] = std::minmax(node, other);
-  return std::accumulate(edges + first, edges + last, 0.0);
-}
-
 /// The largest share of a way from inside of a sphere, or from its surface, that stays inside.
 double share_inside(const Vector3d& from, const Vector3d& way, double radius) {
   // |from + s way|² = radius²: the larger solution
@@ -32,6 +25,13 @@ double share_inside(const Vector3d& from, const Vector3d& way, double radius) {
 }
 
 }  // namespace
+
+double rest_length_between(const Rods& rods, std::uint32_t rod, std::uint32_t node,
+                           std::uint32_t other) {
+  const auto edges = rods.rest_lengths.begin() + rods.first(rod);
+  const auto [first, last] = std::minmax(node, other);
+  return std::accumulate(edges + first, edges + last, 0.0);
+}
 
 double rest_length(const Rods& rods, std::uint32_t rod) {
   return rest_length_between(rods, rod, 0, rods.node_count(rod) - 1);

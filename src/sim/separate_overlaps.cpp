@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <tuple>
 
 #include "fiber_proximity/sim/edge_pair.hpp"
 #include "fiber_proximity/sim/overlaps.hpp"
+#include "fiber_proximity/sim/reach.hpp"
 
 namespace fiber {
 
@@ -95,10 +95,10 @@ double Separation::width_of(const Overlap& overlap) const {
   if (overlap.is_object || contact.fiber_a != contact.fiber_b) {
     return spread * radius;
   }
-  const auto edges = rods_.rest_lengths.begin() + rods_.first(contact.fiber_a);
   const auto [first, last] = std::minmax(contact.segment_a, contact.segment_b);
   constexpr double share = 0.45;
-  return std::min(spread * radius, share * std::accumulate(edges + first + 1, edges + last, 0.0));
+  const double between = rest_length_between(rods_, contact.fiber_a, first + 1, last);
+  return std::min(spread * radius, share * between);
 }
 
 Vector3d Separation::point_of(const Side& side) const {

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
-#include <utility>
 
 #include "fiber_proximity/query/brute_force.hpp"
 #include "support/contacts.hpp"
 #include "support/engines_test.hpp"
+#include "support/tangle.hpp"
 
 namespace fiber::test {
 namespace {
@@ -17,21 +17,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 using ContactLimitTest = EnginesTest;
 using PairLimitTest = EnginesTest;
-
-/// Where nearly all is near all.
-FiberAssembly tangle(Random& random, int fibers) {
-  AssemblyBuilder builder;
-  for (int fiber = 0; fiber < fibers; ++fiber) {
-    builder.add_fiber(random_walk(random, 12, 0.05));
-  }
-  return builder.build({0.1});
-}
-
-QueryOptions within(double margin) {
-  QueryOptions options;
-  options.margin = margin;
-  return options;
-}
 
 /// What a query must give that may report so many of these contacts.
 void expect_closest(const QueryResult& found, const QueryResult& all, std::uint32_t limit) {
@@ -72,17 +57,20 @@ TEST_P(ContactLimitTest, TheClosestOfVeryManyAreReported) {
   SCOPED_TRACE(seed_message());
   Random random;
   const FiberAssembly fibers = tangle(random, 60);
+  std::vector<QueryOptions> queries;
   for (const Kernel kernel : {Kernel::FAST, Kernel::ROBUST, Kernel::EXACT}) {
     for (const double margin : {0.6, infinity}) {
-      QueryOptions options = within(margin);
-      options.kernel = kernel;
-      QueryResult all;
-      brute_force(fibers, options, all);
-      ASSERT_GT(all.contacts.size(), 20'000U);
-      for (const std::uint32_t limit : {300U, 10'000U}) {
-        options.contact_limit = limit;
-        ASSERT_NO_FATAL_FAILURE(expect_closest(ask(fibers, options), all, limit));
-      }
+      queries.push_back(within(margin));
+      queries.back().kernel = kernel;
+    }
+  }
+  for (QueryOptions options : sampled(queries, random)) {
+    QueryResult all;
+    brute_force(fibers, options, all);
+    ASSERT_GT(all.contacts.size(), 20'000U);
+    for (const std::uint32_t limit : {300U, 10'000U}) {
+      options.contact_limit = limit;
+      ASSERT_NO_FATAL_FAILURE(expect_closest(ask(fibers, options), all, limit));
     }
   }
 }
@@ -230,127 +218,6 @@ TEST(BruteForcePairLimit, CountsEachPair) {
     EXPECT_EQ(result.complete, too_few == 0);
     EXPECT_EQ(result.limit_reached, too_few == 1);
   }
-}
-
-/// Answers of engines of one thread and of several.
-class RunTreeLimits : public testing::TestWithParam<double> {
- protected:
-  static EngineOptions with_threads(std::uint32_t threads) {
-    EngineOptions options;
-    options.threads = threads;
-    options.skin = GetParam();
-    return options;
-  }
-
-  /// Of the same motion, twice: with a skin the second query has candidates of the first.
-  void expect_the_same(const FiberAssembly& fibers, const QueryOptions& options) {
-    const std::unique_ptr<ProximityEngine> one = make_engine("run_tree", with_threads(1));
-    const std::unique_ptr<ProximityEngine> four = make_engine("run_tree", with_threads(4));
-    QueryResult of_four;
-    for (int round = 0; round < 2; ++round) {
-      one->update(fibers);
-      one->query(options, found_);
-      four->update(fibers);
-      four->query(options, of_four);
-      ASSERT_TRUE(same_contacts(found_.contacts, of_four.contacts));
-      ASSERT_EQ(found_.complete, of_four.complete);
-      ASSERT_EQ(found_.limit_reached, of_four.limit_reached);
-      ASSERT_EQ(found_.others_lower, of_four.others_lower);
-      ASSERT_EQ(found_.counts.primitive_tests, of_four.counts.primitive_tests);
-      ASSERT_EQ(found_.counts.node_tests, of_four.counts.node_tests);
-    }
-  }
-
-  QueryResult found_;
-};
-
-TEST_P(RunTreeLimits, GiveTheSameForAnyNumberOfThreads) {
-  SCOPED_TRACE(seed_message());
-  Random random;
-  const FiberAssembly fibers = tangle(random, 1000);
-  QueryOptions options = within(0.1);
-  for (const std::uint64_t pairs : {1000U, 100'000U}) {
-    for (const std::uint32_t contacts : {100U, 20'000U}) {
-      SCOPED_TRACE(std::to_string(pairs) + " pairs, " + std::to_string(contacts) + " contacts");
-      options.pair_limit = pairs;
-      options.contact_limit = contacts;
-      ASSERT_NO_FATAL_FAILURE(expect_the_same(fibers, options));
-      EXPECT_FALSE(found_.complete);
-      EXPECT_TRUE(found_.limit_reached);
-      EXPECT_LE(found_.counts.primitive_tests, pairs);
-    }
-  }
-}
-
-TEST_P(RunTreeLimits, TheClosestAreFoundAmongFarMorePairsThanAreExamined) {
-  SCOPED_TRACE(seed_message());
-  Random random;
-  AssemblyBuilder builder;
-  for (int fiber = 0; fiber < 300; ++fiber) {
-    builder.add_fiber(random_walk(random, 12, 0.05));
-  }
-  const FiberAssembly fibers = builder.build({1e-6});
-  QueryOptions options = within(infinity);
-  options.type = QueryType::LIMITED;
-  options.max_contacts = 500;
-  QueryResult expected;
-  brute_force(fibers, options, expected);
-  options.type = QueryType::ALL;
-  options.contact_limit = 500;
-  options.pair_limit = 1'000'000;
-  ASSERT_NO_FATAL_FAILURE(expect_the_same(fibers, options));
-  EXPECT_TRUE(same_contacts(found_.contacts, expected.contacts));
-  EXPECT_TRUE(found_.complete);
-  EXPECT_TRUE(found_.limit_reached);
-}
-
-INSTANTIATE_TEST_SUITE_P(Skins, RunTreeLimits, testing::Values(0.0, 0.02),
-                         [](const testing::TestParamInfo<double>& skin) {
-                           return skin.param > 0.0 ? "with_a_skin" : "without";
-                         });
-
-TEST_P(RunTreeLimits, HoldForAFiberThatStaysNearOnePlace) {
-  SCOPED_TRACE(seed_message());
-  Random random;
-  AssemblyBuilder builder;
-  for (int point = 0; point < 600; ++point) {
-    builder.add_point(random.in_cube());
-  }
-  builder.end_fiber();
-  // Few points are as far away as a loop needs: nearly all are looked at.
-  const FiberAssembly fibers = builder.build({1.36});
-  QueryOptions options;
-  options.pair_limit = 300'000;  // more than there are pairs
-  ASSERT_NO_FATAL_FAILURE(expect_the_same(fibers, options));
-  EXPECT_FALSE(found_.complete);
-  EXPECT_TRUE(found_.limit_reached);
-  options.pair_limit = 0;
-  ASSERT_NO_FATAL_FAILURE(expect_the_same(fibers, options));
-  EXPECT_TRUE(found_.complete);
-  EXPECT_FALSE(found_.limit_reached);
-}
-
-TEST(RunTreeLimitsOfSkin, CandidatesThatWereKeptDoNotServeASmallerLimit) {
-  SCOPED_TRACE(seed_message());
-  Random random;
-  const FiberAssembly fibers = tangle(random, 60);
-  EngineOptions engine_options;
-  engine_options.skin = 0.01;
-  const std::unique_ptr<ProximityEngine> engine = make_engine("run_tree", engine_options);
-  engine->update(fibers);
-  QueryOptions options = within(0.1);
-  QueryResult whole;
-  engine->query(options, whole);
-  ASSERT_TRUE(whole.complete);
-  options.pair_limit = 1000;
-  QueryResult found;
-  engine->query(options, found);
-  EXPECT_FALSE(found.complete);
-  EXPECT_LE(found.counts.primitive_tests, 1000U);
-  options.pair_limit = 0;
-  engine->query(options, found);
-  EXPECT_TRUE(found.complete);
-  EXPECT_TRUE(same_contacts(found.contacts, whole.contacts));
 }
 
 }  // namespace

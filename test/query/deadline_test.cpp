@@ -17,7 +17,7 @@ using DeadlineTest = EnginesTest;
 
 FiberAssembly many_walks(Random& random) {
   AssemblyBuilder builder;
-  for (int fiber = 0; fiber < 60; ++fiber) {
+  for (int fiber = 0; fiber < 30; ++fiber) {
     builder.add_fiber(random_walk(random, 50, 0.05));
   }
   return builder.build({0.02});

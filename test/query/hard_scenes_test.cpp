@@ -194,11 +194,11 @@ class CoincidentFibersTest : public testing::Test {
   }
 };
 
-TEST_F(CoincidentFibersTest, AreBruteForcesNearestOfThousands) {
+TEST_F(CoincidentFibersTest, AreBruteForcesNearestOfAThousand) {
   SCOPED_TRACE(seed_message());
   const auto engine = make_engine("run_tree");
   for (const double radius : {0.0, 0.01}) {
-    const FiberAssembly fibers = copies(2000, radius);
+    const FiberAssembly fibers = copies(1000, radius);
     engine->update(fibers);
     for (const QueryType type : {QueryType::CLOSEST, QueryType::LIMITED, QueryType::FIRST}) {
       QueryOptions options;

@@ -107,9 +107,8 @@ class ScenesAgreementTest : public testing::TestWithParam<std::string> {
 };
 
 TEST_P(ScenesAgreementTest, EveryEngineGivesBruteForcesContactsInMovingFrames) {
-  constexpr int rounds = 3;
   keep_some_engines();
-  for_small_scenes(rounds, [this](const SmallScene& scene, Random& random) {
+  for_small_scenes(rounds(3), [this](const SmallScene& scene, Random& random) {
     const auto frame = static_cast<std::uint32_t>(random.integer(0, 1000));
     const auto later = static_cast<std::uint32_t>(random.integer(1, 50));  // half a sway
     FiberAssembly fibers = scene(frame);

@@ -10,6 +10,7 @@
 #include "support/assemblies.hpp"
 #include "support/contacts.hpp"
 #include "support/neighbour_skips.hpp"
+#include "support/rounds.hpp"
 
 namespace fiber::test {
 namespace {
@@ -67,7 +68,7 @@ TEST(SkinTest, AnswersAsBruteForceWhileFibersMove) {
   Random random;
   std::uint64_t frames = 0;
   std::uint64_t refits = 0;
-  for (int round = 0; round < 10; ++round) {
+  for (int round = 0; round < rounds(10); ++round) {
     for (const AssemblyFamily& family : assembly_families()) {
       SCOPED_TRACE(family.name);
       FiberAssembly fibers = family.make(random);
@@ -112,7 +113,7 @@ TEST(SkinTest, AnswersAsBruteForceWhileSomeFibersMove) {
   std::uint64_t refits = 0;
   std::uint64_t partial = 0;
   std::size_t found = 0;
-  for (int round = 0; round < 30; ++round) {
+  for (int round = 0; round < rounds(30); ++round) {
     AssemblyBuilder builder;
     for (int fiber = 0; fiber < 30; ++fiber) {
       builder.add_fiber(random_walk(random, random.integer(2, 12), 0.1));
@@ -141,9 +142,9 @@ TEST(SkinTest, AnswersAsBruteForceWhileSomeFibersMove) {
     refits += engine.refit_count();
     partial += engine.partial_count();
   }
-  expect_enough(found, std::size_t{1001});
-  expect_enough(partial, std::uint64_t{201});
-  expect_enough(refits - partial, std::uint64_t{51});
+  expect_enough<std::size_t>(found, rounds(1001));
+  expect_enough<std::uint64_t>(partial, rounds(201));
+  expect_enough<std::uint64_t>(refits - partial, rounds(51));
 }
 
 /// Ten fibres far from each other, but for the first two: parallel, at these heights [m].

@@ -1,5 +1,4 @@
 // What the running node does with input nobody should send: one clear error, nothing else.
-#include <sys/wait.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <cstdio>
@@ -144,8 +143,8 @@ TEST_F(BadInputTest, ATopicOfTwoTypesIsThatOfTheFirst) {
   ros::param::set("/two_types/inputs", inputs);
   ros::param::set("/two_types/obstacle_markers", markers);
   const fiber::test::TemporaryDirectory directory;
-  const std::string log = directory.path("log");
-  node_test::RunningNode running(PROXIMITY_NODE, {"__name:=two_types", "_cloud:=true"}, log);
+  node_test::RunningNode running({PROXIMITY_NODE, "__name:=two_types", "_cloud:=true"},
+                                 directory.path("log"));
   for (const std::string error :
        {"parameter /two_types/inputs, entry 1 is left out: its topic is subscribed to with another "
         "type already",
@@ -156,16 +155,16 @@ TEST_F(BadInputTest, ATopicOfTwoTypesIsThatOfTheFirst) {
         "parameter ~obstacle_markers, topic 'two_types/obstacles' is left out: its topic is",
         "parameter ~obstacle_markers, topic 'two_types/cloud' is left out: its topic is"}) {
     ASSERT_TRUE(node_test::wait_for([&] {
-      return fiber::test::read_file(log).find(error) != std::string::npos;
+      return running.output().find(error) != std::string::npos;
     })) << error
-        << " is not in " << fiber::test::read_file(log);
+        << " is not in " << running.output();
   }
   // The others go on.
   node_test::Recorder<fiber_proximity::FiberArray> fibers_of(node, "/two_types/fibers");
   ASSERT_TRUE(node_test::wait_for([&] {
     good_.publish(good_message());
     return !fibers_of.messages.empty();
-  })) << fiber::test::read_file(log);
+  })) << running.output();
   EXPECT_EQ(fibers_of.messages.back()->offsets.size(), 3U);
   EXPECT_EQ(running.stop(), 0);
   ros::param::del("/two_types");
@@ -176,13 +175,12 @@ TEST_F(BadInputTest, AnEmptyListOfInputsIsAllowedWithAWarning) {
   none.setSize(0);
   ros::param::set("/no_inputs/inputs", none);
   const fiber::test::TemporaryDirectory directory;
-  const std::string log = directory.path("log");
-  node_test::RunningNode running(PROXIMITY_NODE, {"__name:=no_inputs"}, log);
+  node_test::RunningNode running({PROXIMITY_NODE, "__name:=no_inputs"}, directory.path("log"));
   EXPECT_TRUE(ros::service::waitForService("/no_inputs/query", ros::Duration(30.0)));
   EXPECT_EQ(running.stop(), 0);
-  EXPECT_NE(fiber::test::read_file(log).find("parameter /no_inputs/inputs is an empty list"),
+  EXPECT_NE(running.output().find("parameter /no_inputs/inputs is an empty list"),
             std::string::npos)
-      << fiber::test::read_file(log);
+      << running.output();
   ros::param::del("/no_inputs");
 }
 

@@ -8,7 +8,7 @@
 
 #include "ros/cable_sim_fixture.hpp"
 #include "ros/mesh_files.hpp"
-#include "ros/spawned_node.hpp"
+#include "ros/running_node.hpp"
 #include "support/process.hpp"
 
 namespace {
@@ -274,7 +274,7 @@ class OwnSceneTest : public ::testing::Test {
 
 TEST_F(OwnSceneTest, SigintEndsALongStep) {
   write(scene(fiber("cable", "[0, 0, 0]", "[1, 0, 0]"), "  - stretch\n"));
-  SpawnedNode spawned(command());
+  node_test::RunningNode own_sim(command());
   const node_test::Recorder<fiber_proximity::FiberArray> fibers{node, "/own_sim/fibers"};
   ASSERT_TRUE(step(0).success);
   auto answer = std::async(std::launch::async, [] {
@@ -283,9 +283,9 @@ TEST_F(OwnSceneTest, SigintEndsALongStep) {
     ros::service::call("/own_sim/step", service);
   });
   ASSERT_TRUE(node_test::wait_for([&] { return fibers.messages.size() > 3; }));
-  spawned.send(SIGINT);
-  EXPECT_TRUE(node_test::wait_for([&] { return !spawned.is_running(); }));
-  EXPECT_EQ(spawned.wait(), 0);
+  own_sim.send(SIGINT);
+  EXPECT_TRUE(node_test::wait_for([&] { return !own_sim.is_running(); }));
+  EXPECT_EQ(own_sim.wait(), 0);
   answer.wait();
 }
 
@@ -303,7 +303,7 @@ TEST_F(OwnSceneTest, ASimulationThatFailsStopsAndBeginsAgain) {
   write(
       with_path("{time: 0}, {time: 0.5, position: [-1e308, 0, 0.5]}, "
                 "{time: 1, position: [1e308, 0, 0.5]}"));
-  SpawnedNode spawned(command(), folder_.path("errors.txt"));
+  node_test::RunningNode own_sim(command(), folder_.path("output.txt"));
   ASSERT_TRUE(step(0).success);
   const StepSimulation::Response failed = step(100);
   EXPECT_FALSE(failed.success);
@@ -324,7 +324,7 @@ TEST_F(OwnSceneTest, ASimulationThatFailsStopsAndBeginsAgain) {
   EXPECT_EQ(call<std_srvs::SetBool>("pause", pause).message, failed.message);
   EXPECT_EQ(call<SetSimulationParameters>("set_parameters").message, failed.message);
   EXPECT_EQ(call<SetSimulationParameters>("set_parameters").parameters.size(), 1U);
-  EXPECT_NE(spawned.errors().find("the simulation has stopped after "), std::string::npos);
+  EXPECT_NE(own_sim.output().find("the simulation has stopped after "), std::string::npos);
 
   pause.data = 1;
   call<std_srvs::SetBool>("pause", pause);
@@ -333,11 +333,11 @@ TEST_F(OwnSceneTest, ASimulationThatFailsStopsAndBeginsAgain) {
   const StepSimulation::Response again = step(30);
   EXPECT_TRUE(again.success) << again.message;
   EXPECT_NEAR(again.time, 0.5, 1e-9);
-  EXPECT_TRUE(spawned.is_running());
-  const std::string errors = spawned.errors();
-  const std::size_t first = errors.find("[ERROR]");
+  EXPECT_TRUE(own_sim.is_running());
+  const std::string output = own_sim.output();
+  const std::size_t first = output.find("[ERROR]");
   EXPECT_NE(first, std::string::npos);
-  EXPECT_EQ(errors.find("[ERROR]", first + 1), std::string::npos) << errors;
+  EXPECT_EQ(output.find("[ERROR]", first + 1), std::string::npos) << output;
 }
 
 TEST_F(OwnSceneTest, AnAccuracyThatTakesForEverIsRefused) {
@@ -376,7 +376,7 @@ TEST_F(OwnSceneTest, FibresThatBeginInEachOtherAreRefusedOrMovedApart) {
 
   write(text + "initial_overlap: separate\n");
   const node_test::Recorder<fiber_proximity::FiberArray> fibers{node, "/own_sim/fibers"};
-  SpawnedNode spawned(command());
+  node_test::RunningNode own_sim(command());
   const auto count_near = [](const fiber_proximity::FiberArray& message, double distance) {
     const fiber::FiberAssembly assembly = node_test::to_assembly(message);
     fiber::QueryOptions options;

@@ -53,6 +53,7 @@ TEST_F(CellTest, TheArmHoldsTheCableWhichIsNeverLongerOrShorter) {
 
 TEST_F(CellTest, DistancesToRobotAndTableAreReportedAndVary) {
   std::map<std::pair<std::string, std::string>, std::set<double>> distances;  // of fibre and object
+  std::set<std::uint32_t> at_finger;                                          // segments
   const auto spread = [&](const std::string& fiber, const std::string& object) {
     const std::set<double>& all = distances[{fiber, object}];
     return all.empty() ? 0.0 : *all.rbegin() - *all.begin();
@@ -62,20 +63,23 @@ TEST_F(CellTest, DistancesToRobotAndTableAreReportedAndVary) {
     for (const auto& message : environment.messages) {
       for (const fiber_proximity::Contact& contact : message->contacts) {
         EXPECT_EQ(contact.type_b, fiber_proximity::Contact::OBJECT);
-        distances[{message->fiber_names.at(contact.fiber_a),
-                   message->object_names.at(contact.fiber_b)}]
-            .insert(contact.distance);
+        const std::string& fiber = message->fiber_names.at(contact.fiber_a);
+        const std::string& object = message->object_names.at(contact.fiber_b);
+        distances[{fiber, object}].insert(contact.distance);
+        if (fiber == "held" && object == "robot/finger_left") {
+          at_finger.insert(contact.segment_a);
+        }
       }
     }
     environment.messages.clear();
     return spread("cord", "robot/forearm") > 0.01;
   }));
   EXPECT_LT(std::abs(*distances[{"held", "table"}].begin()), 0.005);
-  // The gripper may touch what it holds: its distance is that of the rest of the cable.
+  // The gripper may touch what it holds, the first four segments: what is told is the rest of the
+  // cable. How far that is depends on whether the arm's transforms come in time.
   EXPECT_EQ(distances.count({"held", "robot/hand"}), 1U);
-  for (const double distance : distances[{"held", "robot/finger_left"}]) {
-    EXPECT_GT(distance, 0.0);
-  }
+  ASSERT_FALSE(at_finger.empty());
+  EXPECT_GT(*at_finger.begin(), 3U);
 }
 
 TEST_F(CellTest, EveryLinkAndObstacleIsThere) {

@@ -62,7 +62,7 @@ class EnginesTest : public node_test::NodeTest, public testing::WithParamInterfa
 
 TEST_P(EnginesTest, AnswerWhatBruteForceAnswers) {
   SCOPED_TRACE(fiber::test::seed_message());
-  node_test::RunningNode proximity(PROXIMITY_NODE, {"__name:=proximity", "_engine:=" + GetParam()});
+  node_test::RunningNode proximity({PROXIMITY_NODE, "__name:=proximity", "_engine:=" + GetParam()});
   const ros::Publisher publisher = advertise<FiberArray>("fibers");
   Random random;
   std::size_t found = 0;

@@ -80,16 +80,7 @@ class EnvironmentFixture : public ::testing::Test {
 
   /// A ball of 0.5 m, at this place along x.
   static Obstacle ball(const std::string& id, double x = 0.0, const std::string& frame = "") {
-    Obstacle obstacle;
-    obstacle.header.frame_id = frame;
-    obstacle.id = id;
-    obstacle.operation = Obstacle::ADD;
-    obstacle.pose.position.x = x;
-    obstacle.pose.orientation.w = 1.0;
-    obstacle.primitives.resize(1);
-    obstacle.primitives[0].type = shape_msgs::SolidPrimitive::SPHERE;
-    obstacle.primitives[0].dimensions = {0.5};
-    return obstacle;
+    return test_messages::ball(id, x, 0.5, frame);
   }
 
   static Obstacle removal(const std::string& id) {

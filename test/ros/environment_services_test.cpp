@@ -25,27 +25,17 @@ using fiber_proximity::FiberArray;
 using fiber_proximity::Obstacle;
 using fiber_proximity::ObstacleArray;
 using fiber_proximity::QueryProximity;
+using test_messages::ball;
 using test_messages::header;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-Obstacle obstacle(const std::string& id, const std::string& frame = "world") {
+Obstacle obstacle(const std::string& id) {
   Obstacle obstacle;
-  obstacle.header.frame_id = frame;
+  obstacle.header.frame_id = "world";
   obstacle.id = id;
   obstacle.operation = Obstacle::ADD;
   return obstacle;
-}
-
-/// Of a radius of 0.25, on the x axis.
-Obstacle ball(const std::string& id, double x, const std::string& frame = "world") {
-  Obstacle ball = obstacle(id, frame);
-  ball.pose.position.x = x;
-  ball.pose.orientation.w = 1.0;
-  ball.primitives.resize(1);
-  ball.primitives[0].type = shape_msgs::SolidPrimitive::SPHERE;
-  ball.primitives[0].dimensions = {0.25};
-  return ball;
 }
 
 fiber_proximity::QueryShape shape(const Eigen::Vector3d& point, const std::string& frame) {
@@ -108,7 +98,7 @@ TEST_F(EnvironmentServicesTest, WithoutFibresTheEnvironmentIsAskedAboutAllTheSam
             std::string::npos)
       << answer.message;
 
-  apply({ball("ball", 0.0)});  // its frame is the fixed one from now on
+  apply({ball("ball", 0.0, 0.25)});  // its frame is the fixed one from now on
   answer = query(request);
   ASSERT_TRUE(answer.success) << answer.message;
   EXPECT_EQ(answer.header.frame_id, "world");
@@ -129,7 +119,7 @@ TEST_F(EnvironmentServicesTest, WithoutFibresTheEnvironmentIsAskedAboutAllTheSam
 }
 
 TEST_F(EnvironmentServicesTest, WithoutFibresCandidatesAreCheckedThatAreToIgnoreThem) {
-  apply({ball("ball", 0.0)});
+  apply({ball("ball", 0.0, 0.25)});
   CheckFibers::Request request;
   request.type = CheckFibers::Request::ALL;
   request.candidates = {fiber(0.2, -1, 1), fiber(0.3, -1, 1)};
@@ -147,7 +137,7 @@ TEST_F(EnvironmentServicesTest, WithoutFibresCandidatesAreCheckedThatAreToIgnore
 TEST_F(EnvironmentServicesTest, ADeadlineIsThatOfTheWholeBatch) {
   const ros::Publisher publisher = advertise<FiberArray>("fibers");
   connect(publisher, fiber(0.4, -1, 1));
-  apply({ball("ball", 0.0)});
+  apply({ball("ball", 0.0, 0.25)});
   std::mt19937 random(16);
   std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
   QueryProximity::Request request;
@@ -195,7 +185,7 @@ TEST_F(EnvironmentServicesTest, ADeadlineIsThatOfTheWholeBatch) {
 TEST_F(EnvironmentServicesTest, ADeadlineIsThatOfAllCandidates) {
   const ros::Publisher publisher = advertise<FiberArray>("fibers");
   connect(publisher, fiber(0.4, -1, 1));
-  apply({ball("ball", 0.0)});
+  apply({ball("ball", 0.0, 0.25)});
   CheckFibers::Request request;
   request.type = CheckFibers::Request::ALL;
   for (int i = 0; i < 2000; ++i) {
@@ -229,10 +219,10 @@ TEST_F(EnvironmentServicesTest, ABadObstacleBeforeEachOneOfAnotherDelaysNothing)
   const ros::Publisher obstacles = advertise<ObstacleArray>("/proximity/obstacles");
   for (int i = 0; i < 5; ++i) {
     ObstacleArray message;
-    message.obstacles = {ball("lost", 0.0, "nowhere")};
+    message.obstacles = {ball("lost", 0.0, 0.25, "nowhere")};
     obstacles.publish(message);
     const double x = 2.0 + i;
-    message.obstacles = {ball("ball", x)};
+    message.obstacles = {ball("ball", x, 0.25)};
     obstacles.publish(message);
     ASSERT_NE(around.wait_for([x](const ContactArray& found) {
       return std::abs(found.minimum_distance - (x - 0.4 - 0.25 - 0.01)) < 1e-9;
@@ -267,12 +257,12 @@ Obstacle thicket(const std::string& id, std::uint32_t triangles) {
 TEST_F(EnvironmentServicesTest, ContactsKeepComingWhileALargeMeshIsBuilt) {
   const ros::Publisher publisher = advertise<FiberArray>("fibers");
   node_test::Recorder<ContactArray> around(node, "/proximity/environment_contacts");
-  apply({ball("ball", 0.0)});
+  apply({ball("ball", 0.0, 0.25)});
   connect(publisher, fiber(0.4, -1, 1), [&] { return !around.messages.empty(); });
   const ros::Publisher obstacles = advertise<ObstacleArray>("/proximity/obstacles");
   const auto input = [&] { return input_of(*statistics.messages.back(), "obstacles"); };
   ObstacleArray message;
-  message.obstacles = {ball("other", 1.0)};
+  message.obstacles = {ball("other", 1.0, 0.25)};
   obstacles.publish(message);
   const std::uint64_t received = input()->received + 1;
   message.obstacles = {thicket("thicket", 300000)};

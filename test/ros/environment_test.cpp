@@ -16,23 +16,8 @@ using fiber_proximity::ContactArray;
 using fiber_proximity::FiberArray;
 using fiber_proximity::Obstacle;
 using fiber_proximity::QueryProximity;
+using test_messages::ball;
 using test_messages::header;
-
-/// A ball on the x axis.
-Obstacle ball(const std::string& id, double x, double radius) {
-  Obstacle obstacle;
-  obstacle.header.frame_id = "world";
-  obstacle.id = id;
-  obstacle.pose.position.x = x;
-  obstacle.pose.orientation.w = 1.0;
-  obstacle.primitives.resize(1);
-  obstacle.primitives[0].type = shape_msgs::SolidPrimitive::SPHERE;
-  obstacle.primitives[0].dimensions = {radius};
-  obstacle.primitive_poses.resize(1);
-  obstacle.primitive_poses[0].orientation.w = 1.0;
-  obstacle.operation = Obstacle::ADD;
-  return obstacle;
-}
 
 /// Along z, at x, of radius 0.01.
 FiberArray upright(double x) {

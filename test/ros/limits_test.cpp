@@ -13,6 +13,13 @@ constexpr std::size_t contact_limit = 1000;  // as limits.test has it
 
 class LimitsTest : public node_test::NodeTest {
  protected:
+  void SetUp() override {
+    connect(cloud_, test_messages::point_cloud2(test_messages::header("world"), few_points()));
+  }
+
+  /// That touch nothing.
+  static std::vector<Vector3d> few_points() { return {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}; }
+
   const ContactArray* answer_about(const std::vector<Vector3d>& points) {
     const ros::Time stamp = new_stamp();
     cloud_.publish(test_messages::point_cloud2(test_messages::header("world", stamp), points));
@@ -51,7 +58,7 @@ TEST_F(LimitsTest, ATangleIsAnsweredAndTheNextMessageToo) {
   EXPECT_TRUE(query.response.limit_reached);
   EXPECT_EQ(query.response.contacts.size(), contact_limit + 1);  // and the second shape's closest
 
-  const ContactArray* next = answer_about({{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {1.0, 1.0, 0.0}});
+  const ContactArray* next = answer_about(few_points());
   ASSERT_NE(next, nullptr);
   EXPECT_TRUE(next->contacts.empty());
   EXPECT_FALSE(next->limit_reached);

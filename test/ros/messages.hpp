@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "fiber_proximity/FiberArray.h"
+#include "fiber_proximity/Obstacle.h"
 #include "fiber_proximity/ros/conversions.hpp"
 #include "support/assemblies.hpp"
 
@@ -136,6 +137,21 @@ inline visualization_msgs::MarkerArray spheres_and_cylinders(const std_msgs::Hea
     }
   }
   return message;
+}
+
+/// A sphere, at this place along x.
+inline fiber_proximity::Obstacle ball(const std::string& id, double x, double radius,
+                                      const std::string& frame = "world") {
+  fiber_proximity::Obstacle obstacle;
+  obstacle.header.frame_id = frame;
+  obstacle.id = id;
+  obstacle.operation = fiber_proximity::Obstacle::ADD;
+  obstacle.pose.position.x = x;
+  obstacle.pose.orientation.w = 1.0;
+  obstacle.primitives.resize(1);
+  obstacle.primitives[0].type = shape_msgs::SolidPrimitive::SPHERE;
+  obstacle.primitives[0].dimensions = {radius};
+  return obstacle;
 }
 
 }  // namespace test_messages

@@ -6,8 +6,17 @@
 #include <vector>
 
 #include "fiber_proximity/query/contact.hpp"
+#include "fiber_proximity/query/options.hpp"
 
 namespace fiber::test {
+
+/// Options of a query for pairs within a margin [m], all else as by default.
+inline QueryOptions within(double margin, QueryType type = QueryType::ALL) {
+  QueryOptions options;
+  options.margin = margin;
+  options.type = type;
+  return options;
+}
 
 inline bool identical(const Contact& x, const Contact& y) {
   return x.key() == y.key() && x.s == y.s && x.t == y.t && x.distance == y.distance &&

@@ -269,9 +269,9 @@ TEST_F(FiberQuery, RadiusIsForFilesWithoutOne) {
 }
 
 TEST_F(FiberQuery, AgreesWithBruteForceInEveryFrame) {
-  const std::string path = soup("--scale 0.005 --frames 3 --seed 4");
+  const std::string path = soup("--scale 0.002 --frames 3 --seed 4");
   for (const std::string command : {"contacts", "closest", "fiber_pairs"}) {
-    const std::string arguments = " " + path + " --margin 0.002 --threads 2";
+    const std::string arguments = " " + path + " --margin 0.005 --threads 2";
     const ProcessResult tree = query(command + arguments + " --engine AL");
     EXPECT_EQ(tree.exit_code, 0) << tree.err;
     EXPECT_GT(lines(tree.out).size(), 3U) << "frames with contacts make the comparison worth it";
@@ -350,7 +350,7 @@ TEST_F(FiberQuery, PrintsTheLibrarysNumbersBitForBit) {
 }
 
 TEST_F(FiberQuery, ReadsHairFiles) {
-  ASSERT_EQ(scene("tress_a --scale 0.02 --out " + path("a.hair")).exit_code, 0);
+  ASSERT_EQ(scene("tress_a --scale 0.01 --out " + path("a.hair")).exit_code, 0);
   const ProcessResult tree = query("contacts " + path("a.hair"));
   EXPECT_EQ(tree.exit_code, 0) << tree.err;
   EXPECT_GT(lines(tree.out).size(), 3U);

@@ -33,6 +33,9 @@ struct Contact {
   }
 };
 
+/// Contact::closer_than for algorithms.
+inline constexpr auto closer = [](const Contact& x, const Contact& y) { return x.closer_than(y); };
+
 /// Sorts by Contact::key(), as results have them.
 void sort_by_key(std::vector<Contact>& contacts);
 

@@ -42,6 +42,10 @@ class ContactJudge {
 
   void judge_round(const std::uint64_t* keys, std::size_t count, const PairTest& test,
                    const QueryLimits& limits, QueryResult& result);
+  void make_room(std::size_t judged, std::size_t candidates, const QueryLimits& limits,
+                 std::vector<Contact>& contacts) const;
+  void report(const std::uint64_t* keys, const PairTest& test,
+              std::vector<Contact>& contacts) const;
   void leave_closest(std::uint64_t count, QueryResult& result);
   void judge_slice(const std::uint64_t* keys, const PairTest& test, std::uint64_t looks_left,
                    Slice& slice);

@@ -16,8 +16,7 @@ struct QueryLimits {
       : deadline(options.deadline),
         pairs(options.pair_limit == 0 ? std::numeric_limits<std::uint64_t>::max()
                                       : options.pair_limit),
-        contacts(options.contact_limit == 0 ? std::numeric_limits<std::uint32_t>::max()
-                                            : options.contact_limit),
+        contacts(most_contacts(options)),
         most_kept(std::max(2 * contacts, contacts + least_surplus)) {}
 
   Deadline deadline;
@@ -32,6 +31,13 @@ struct QueryLimits {
   static constexpr std::uint64_t looks_per_pair = 8;
 
   static constexpr std::uint64_t least_surplus = 1024;
+
+ private:
+  static std::uint64_t most_contacts(const QueryOptions& options) {
+    constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+    const std::uint32_t limit = options.contact_limit == 0 ? none : options.contact_limit;
+    return options.type == QueryType::LIMITED ? std::min(options.max_contacts, limit) : limit;
+  }
 };
 
 }  // namespace fiber

@@ -3,6 +3,8 @@
 #include <ros/node_handle.h>
 
 #include <cstdint>
+#include <limits>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,19 @@ void read_parameter(const ros::NodeHandle& node, const std::string& name,
   if (node.hasParam(name) && !node.getParam(name, value)) {
     refuse_parameter(node, name, allowed);
   }
+}
+
+/// What a number may be, as a message says it: whether it has an upper limit, too.
+/// @param kind as "a number"
+template <class Number>
+std::string allowed_range(const std::string& kind, Number least, Number most) {
+  std::ostringstream text;
+  if (most < std::numeric_limits<Number>::max()) {
+    text << kind << " from " << least << " to " << most;
+  } else {
+    text << kind << " of at least " << least;
+  }
+  return text.str();
 }
 
 /// What a number may be.

@@ -20,6 +20,11 @@ class Prepared {
   /// Made before this returns.
   explicit Prepared(Make make) : Prepared(std::make_shared<Task>(std::move(make))) { (*task_)(); }
 
+  /// By a worker if it takes long, else before this returns.
+  static Prepared of(Make make, Worker& worker, bool takes_long) {
+    return takes_long ? Prepared(std::move(make), worker) : Prepared(std::move(make));
+  }
+
   Prepared(Make make, Worker& worker) : Prepared(std::make_shared<Task>(std::move(make))) {
     worker.submit([waiting = std::weak_ptr<Task>(task_)] {
       if (const std::shared_ptr<Task> task = waiting.lock()) {

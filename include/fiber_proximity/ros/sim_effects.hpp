@@ -23,6 +23,9 @@ struct SimEffects {
   SimParameters parameters;   ///< of the effects
 };
 
+/// Whether a scene names an effect.
+bool has_effect(const std::vector<std::string>& names, const std::string& effect);
+
 /// What effects are made for.
 struct SimWorld {
   const std::vector<SimFiber>& fibers;

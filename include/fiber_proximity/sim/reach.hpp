@@ -19,6 +19,10 @@ struct ReachLimit {
   }
 };
 
+/// Length at rest of a rod between two of its nodes, which are counted from its first one [m].
+double rest_length_between(const Rods& rods, std::uint32_t rod, std::uint32_t node,
+                           std::uint32_t other);
+
 /// Length at rest of a whole rod [m].
 double rest_length(const Rods& rods, std::uint32_t rod);
 
