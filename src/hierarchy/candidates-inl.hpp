@@ -27,6 +27,12 @@ HWY_INLINE std::uint32_t take_lowest(std::uint32_t& bits) {
   return lane;
 }
 
+HWY_INLINE std::uint32_t take_highest(std::uint32_t& bits) {
+  const auto lane = 31U - static_cast<std::uint32_t>(hwy::Num0BitsAboveMS1Bit_Nonzero32(bits));
+  bits ^= 1U << lane;
+  return lane;
+}
+
 /// Pairs of segments whose boxes and lines are near, on their way to the sink: few of the lanes of
 /// two runs are, so they are brought together to fill registers.
 class Candidates {
@@ -47,7 +53,6 @@ class Candidates {
   /// Hands the pairs that are near to the sink; whether it wants to go on.
   bool flush() {
     const Floats d;
-    const auto bound = hn::Set(d, sink_.bound());
     const std::uint32_t size = size_;
     size_ = 0;
     std::fill_n(places_a_ + size, run_width, 0);
@@ -55,8 +60,8 @@ class Candidates {
     for (std::uint32_t first = 0; first < size; first += static_cast<std::uint32_t>(hn::Lanes(d))) {
       const GatheredSegments a = gather(a_.runs, places_a_ + first);
       const GatheredSegments b = gather(b_.runs, places_b_ + first);
-      const auto close =
-          segments_near(a.segments, b.segments, hn::Add(hn::Add(a.radius, b.radius), bound));
+      const auto close = segments_near(
+          a.segments, b.segments, hn::Add(hn::Add(a.radius, b.radius), hn::Set(d, sink_.bound())));
       std::uint32_t bits = bits_of(close) & first_bits(std::min(run_width, size - first));
       while (bits != 0) {
         const std::uint32_t i = first + take_lowest(bits);

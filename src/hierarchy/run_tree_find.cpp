@@ -75,6 +75,19 @@ HWY_INLINE std::uint32_t sharing_point(const std::uint32_t* first_points, std::u
   return bits;
 }
 
+/// Bits of the run's segments, by their first points, that are in the range.
+HWY_INLINE std::uint32_t in_range(const std::uint32_t* first_points, PointRange range) {
+  const hn::RebindToUnsigned<Floats> d;
+  const auto begin = hn::Set(d, range.begin);
+  const auto size = hn::Set(d, range.end - range.begin);
+  std::uint32_t bits = 0;
+  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
+    const auto places = hn::Sub(hn::LoadU(d, first_points + lane), begin);
+    bits |= bits_of(hn::RebindMask(Floats(), hn::Lt(places, size))) << lane;
+  }
+  return bits;
+}
+
 /// Boxes larger by the bound on all sides.
 HWY_INLINE void inflate(const BoxBlock& boxes, float bound, BoxBlock& larger) {
   const auto bounds = hn::Set(Floats(), bound);
@@ -130,6 +143,7 @@ class Finder {
   /// Whether to go on.
   bool find(std::uint32_t group) {
     group_ = group;
+    known_ranges_ = 0;
     aim();
     // Near ones first: those of the group itself.
     return (!self_ || visit_group(group, all_bits)) && descend();
@@ -147,28 +161,45 @@ class Finder {
   void aim() {
     bound_ = sink_.bound();
     probe_.aim(a_, group_, bound_);
-    prunes_ = self_ && is_smaller_than_bound(probe_.whole());
+    prunes_group_ = self_ && is_smaller_than_bound(probe_.whole(), 0);
+    prunes_runs_ = 0;
+    for (std::uint32_t run = 0; self_ && run < probe_.run_count(); ++run) {
+      prunes_runs_ |= is_smaller_than_bound(probe_.runs(), run) ? 1U << run : 0U;
+    }
   }
 
-  /// Where the bound is less than the extent of a group, few pairs of it are near: it does not pay
-  /// to ask whether all are ruled out.
-  /// @param box of the group, larger by the bound on all sides
-  bool is_smaller_than_bound(const BoxBlock& box) const {
+  /// Where the bound is less than the extent of a group or a run, few pairs of it are near: it does
+  /// not pay to ask whether all are ruled out.
+  /// @param boxes larger by the bound on all sides
+  bool is_smaller_than_bound(const BoxBlock& boxes, std::uint32_t lane) const {
     float extent = 0.0F;
     for (int axis = 0; axis < 3; ++axis) {
-      extent = std::max(extent, box.upper[axis][0] - box.lower[axis][0]);
+      extent = std::max(extent, boxes.upper[axis][lane] - boxes.lower[axis][lane]);
     }
-    return !(extent > 4.0F * bound_);
+    return !(extent > 16.0F * bound_);
   }
 
-  /// Whether no segments of these runs of both trees are pairs.
-  bool is_ruled_out(std::uint32_t a, std::uint32_t count_a, std::uint32_t b,
-                    std::uint32_t count_b) const {
-    const std::uint32_t* const of_a = a_.first_points + std::size_t{a} * run_width;
-    const std::uint32_t* const of_b = b_.first_points + std::size_t{b} * run_width;
-    const auto [least_a, most_a] = std::minmax_element(of_a, of_a + count_a * run_width);
-    const auto [least_b, most_b] = std::minmax_element(of_b, of_b + count_b * run_width);
-    return sink_.rules_out(std::min(*least_a, *least_b), std::max(*most_a, *most_b));
+  /// Whether no segments of the group and of group h are pairs.
+  bool is_ruled_out(std::uint32_t h) const {
+    const std::uint32_t* const of_a = a_.first_points + std::size_t{group_} * run_width * run_width;
+    const std::uint32_t* const of_b = b_.first_points + std::size_t{h} * run_width * run_width;
+    const std::uint32_t runs_b = std::min(run_width, b_.levels[0].child_count - h * run_width);
+    const auto [least_a, most_a] = std::minmax_element(of_a, of_a + probe_.run_count() * run_width);
+    const auto [least_b, most_b] = std::minmax_element(of_b, of_b + runs_b * run_width);
+    const PointRange range = sink_.ruled_out_with(std::min(*least_a, *least_b));
+    return std::max(*most_a, *most_b) < range.end;
+  }
+
+  /// Finds what is ruled out with the segments of a run of the group.
+  void know_ranges(std::uint32_t run) {
+    if ((known_ranges_ >> run & 1U) == 0) {
+      known_ranges_ |= 1U << run;
+      const std::uint32_t a = group_ * run_width + run;
+      for (std::uint32_t bits = segments(a_, a); bits != 0;) {
+        const std::uint32_t lane = take_lowest(bits);
+        ranges_[run][lane] = sink_.ruled_out_with(a_.first_points[a * run_width + lane]);
+      }
+    }
   }
 
   bool descend() {
@@ -188,8 +219,9 @@ class Finder {
         }
         continue;
       }
+      // Those next along the curve, which are near, are popped first.
       while (bits != 0) {
-        const std::uint32_t child = node.index * run_width + take_lowest(bits);
+        const std::uint32_t child = node.index * run_width + take_highest(bits);
         // Of a tree with itself, each pair of groups once: later ones only.
         const std::uint64_t groups_end = std::uint64_t{child + 1} << (3U * (node.level - 1));
         if (!self_ || groups_end > group_ + 1) {
@@ -204,8 +236,7 @@ class Finder {
   bool visit_group(std::uint32_t h, std::uint32_t chosen) {
     const bool same = self_ && h == group_;
     const RunTreeLevel& runs = b_.levels[0];
-    if (prunes_ && is_ruled_out(group_ * run_width, probe_.run_count(), h * run_width,
-                                std::min(run_width, runs.child_count - h * run_width))) {
+    if (prunes_group_ && is_ruled_out(h)) {
       return true;
     }
     chosen &= children(runs, h);
@@ -239,11 +270,12 @@ class Finder {
     if (columns == 0) {
       return true;
     }
-    if (prunes_ && is_ruled_out(a, 1, b, 1)) {
-      return true;
-    }
     if (!make_room()) {
       return false;
+    }
+    const bool prunes = (prunes_runs_ >> run & 1U) != 0;
+    if (prunes) {
+      know_ranges(run);
     }
     const bool same = self_ && a == b;
     while (rows != 0) {
@@ -254,6 +286,9 @@ class Finder {
       if (bits != 0 && skip_adjacent_) {
         const std::uint32_t point = a_.first_points[a * run_width + i];
         bits &= ~sharing_point(b_.first_points + std::size_t{b} * run_width, point);
+      }
+      if (bits != 0 && prunes) {
+        bits &= ~in_range(b_.first_points + std::size_t{b} * run_width, ranges_[run][i]);
       }
       if (bits != 0) {
         bits &= near_lines(b_.runs[b], a_.runs[a], i, bound_);
@@ -299,7 +334,11 @@ class Finder {
   float bound_ = 0.0F;  // [m]
   const bool self_;
   const bool skip_adjacent_;
-  bool prunes_ = false;  // asks whether runs are ruled out
+  // Whether to ask if they are ruled out: the group, and by bit its runs.
+  bool prunes_group_ = false;
+  std::uint32_t prunes_runs_ = 0;
+  std::uint32_t known_ranges_ = 0;  // by bit the group's runs whose ranges are
+  PointRange ranges_[run_width][run_width];
 };
 
 bool find_near_segments_lanes(const RunTreeView& a, std::uint32_t begin, std::uint32_t end,

@@ -52,8 +52,8 @@ class CandidateSink final : public PairSink {
 
   float bound() const override { return bound_; }
   bool wants_adjacent() const override { return test_.wants_adjacent(); }
-  bool rules_out(std::uint32_t first, std::uint32_t last) const override {
-    return prunes_ && test_.rules_out(first, last);
+  PointRange ruled_out_with(std::uint32_t point) const override {
+    return prunes_ ? test_.ruled_out_with(point) : PointRange{};
   }
 
  private:

@@ -52,12 +52,14 @@ bool is_loop_free(const std::vector<Vector3d>& points, std::uint32_t first, std:
 
 }  // namespace
 
-LoopFreeStretches::LoopFreeStretches(const FiberAssembly& fibers, std::uint32_t fiber,
-                                     double thinnest)
-    : begin_(fibers.offsets()[fiber]), end_(fibers.offsets()[fiber + 1] - begin_) {
+void LoopFreeStretches::find(const FiberAssembly& fibers, std::uint32_t fiber, double thinnest) {
+  begin_ = fibers.offsets()[fiber];
+  first_.resize(fibers.offsets()[fiber + 1] - begin_);
+  last_.resize(first_.size());
   const double limit = most_fall_back * thinnest;
   const std::uint32_t last = fibers.offsets()[fiber + 1] - 1;
   std::uint32_t count = last - begin_;  // of segments to try
+  std::uint32_t furthest = begin_;      // point of the stretches so far
   for (std::uint32_t first = begin_; first <= last;) {
     std::uint32_t end = first + std::min(count, last - first);
     while (end > first + 1 && !is_loop_free(fibers.points(), first, end, limit)) {
@@ -65,9 +67,17 @@ LoopFreeStretches::LoopFreeStretches(const FiberAssembly& fibers, std::uint32_t 
     }
     // The next one begins half-way, so that near points share a stretch.
     const std::uint32_t next = end == last ? last + 1 : first + std::max(1U, (end - first) / 2);
-    std::fill(end_.begin() + (first - begin_), end_.begin() + (next - begin_), end);
+    furthest = std::max(furthest, end);
+    std::fill(last_.begin() + (first - begin_), last_.begin() + (next - begin_), furthest);
     count = 4 * std::max(1U, end - first);
     first = next;
+  }
+  std::uint32_t first = begin_;
+  for (std::uint32_t point = begin_; point <= last; ++point) {
+    while (!hold(first, point)) {
+      ++first;
+    }
+    first_[point - begin_] = first;
   }
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/query/point_pair.hpp"
 
 namespace fiber {
 
@@ -22,16 +24,27 @@ namespace fiber {
 /// So |v| ≤ κ·|z| + √2·δ, of w the same, and 5/4 is above κ by more than anything is rounded.
 class LoopFreeStretches {
  public:
-  /// Finds them in time linear in the fibre's points.
+  /// Finds them in time linear in the fibre's points, in the memory it has.
   /// @param thinnest radius of the fibre's segments [m]
-  LoopFreeStretches(const FiberAssembly& fibers, std::uint32_t fiber, double thinnest);
+  void find(const FiberAssembly& fibers, std::uint32_t fiber, double thinnest);
 
   /// Whether one of them holds the points first … last of the fibre.
-  bool hold(std::uint32_t first, std::uint32_t last) const { return last <= end_[first - begin_]; }
+  bool hold(std::uint32_t first, std::uint32_t last) const { return last <= last_[first - begin_]; }
+
+  /// The segments that one of them holds together with the one that starts at this point.
+  PointRange around(std::uint32_t point) const {
+    return {first_[point + 1 - begin_], last_[point - begin_]};
+  }
+
+  std::size_t memory_bytes() const {
+    return (first_.capacity() + last_.capacity()) * sizeof(std::uint32_t);
+  }
 
  private:
-  std::uint32_t begin_;             // the fibre's first point
-  std::vector<std::uint32_t> end_;  // by point: the last point of the stretch that reaches furthest
+  std::uint32_t begin_ = 0;  // the fibre's first point
+  // By point, the first and the last one that a stretch holds together with it.
+  std::vector<std::uint32_t> first_;
+  std::vector<std::uint32_t> last_;
 };
 
 }  // namespace fiber

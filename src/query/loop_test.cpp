@@ -1,7 +1,9 @@
 #include "fiber_proximity/query/loop_test.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <memory>
 
 #include "fiber_proximity/geometry/norm.hpp"
 #include "src/query/loop_free_stretches.hpp"
@@ -40,14 +42,20 @@ double longest_step(const FiberAssembly& fibers, std::uint32_t fiber) {
 
 /// What is worth knowing of a fibre for long walks along it.
 struct LoopTest::Chain {
-  Chain(const FiberAssembly& fibers, std::uint32_t fiber)
-      : step(longest_step(fibers, fiber)),
-        stretches(fibers, fiber, thinnest_radius(fibers, fiber)),
-        boxes(fibers, fiber) {}
+  void fit(const FiberAssembly& fibers, std::uint32_t fiber) {
+    step = longest_step(fibers, fiber);
+    stretches.find(fibers, fiber, thinnest_radius(fibers, fiber));
+    boxes.fit(fibers, fiber);
+  }
 
-  double step;  // [m] no two points that follow each other are further apart
+  double step = 0.0;  // [m] no two points that follow each other are further apart
   LoopFreeStretches stretches;
   PointBoxes boxes;
+};
+
+struct LoopTest::Slot {
+  std::atomic<bool> is_filled{false};
+  std::unique_ptr<Chain> chain;  // may be that of fibres before these, for its memory
 };
 
 /// A place on a segment, as the sum of its nearer end and the way from there: what is near the end
@@ -57,33 +65,54 @@ struct LoopTest::Place {
   Vector3d way;
 };
 
-LoopTest::LoopTest(const FiberAssembly& fibers) : fibers_(fibers) {
-  for (std::size_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
-    most_points_ = std::max(most_points_, fibers.offsets()[fiber + 1] - fibers.offsets()[fiber]);
-  }
-}
+LoopTest::LoopTest() = default;
+
+LoopTest::LoopTest(const FiberAssembly& fibers) { reset(fibers); }
 
 LoopTest::~LoopTest() = default;
 
-const LoopTest::Chain& LoopTest::chain(std::uint32_t fiber) const {
-  std::call_once(chains_made_, [this] {
-    chains_ = std::make_unique<std::atomic<const Chain*>[]>(fibers_.fiber_count());
-  });
-  if (const Chain* chain = chains_[fiber].load(std::memory_order_acquire)) {
-    return *chain;
+void LoopTest::reset(const FiberAssembly& fibers) {
+  fibers_ = &fibers;
+  if (slots_.size() != fibers.fiber_count()) {
+    slots_ = std::vector<Slot>(fibers.fiber_count());
   }
+  most_points_ = 0;
+  for (std::size_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
+    most_points_ = std::max(most_points_, fibers.offsets()[fiber + 1] - fibers.offsets()[fiber]);
+    slots_[fiber].is_filled.store(false, std::memory_order_relaxed);
+  }
+}
+
+std::size_t LoopTest::memory_bytes() const {
   const std::lock_guard lock(mutex_);
-  if (const Chain* chain = chains_[fiber].load(std::memory_order_acquire)) {
-    return *chain;
+  std::size_t bytes = slots_.capacity() * sizeof(Slot);
+  for (const Slot& slot : slots_) {
+    if (slot.chain != nullptr) {
+      bytes +=
+          sizeof(Chain) + slot.chain->stretches.memory_bytes() + slot.chain->boxes.memory_bytes();
+    }
   }
-  owned_chains_.push_back(std::make_unique<const Chain>(fibers_, fiber));
-  chains_[fiber].store(owned_chains_.back().get(), std::memory_order_release);
-  return *owned_chains_.back();
+  return bytes;
+}
+
+const LoopTest::Chain& LoopTest::chain(std::uint32_t fiber) const {
+  Slot& slot = slots_[fiber];
+  if (!slot.is_filled.load(std::memory_order_acquire)) {
+    const std::lock_guard lock(mutex_);
+    if (!slot.is_filled.load(std::memory_order_relaxed)) {
+      if (slot.chain == nullptr) {
+        slot.chain = std::make_unique<Chain>();
+      }
+      slot.chain->fit(*fibers_, fiber);
+      slot.is_filled.store(true, std::memory_order_release);
+    }
+  }
+  return *slot.chain;
 }
 
 LoopTest::Place LoopTest::place(std::uint32_t segment, double s) const {
-  const Vector3d& p0 = fibers_.points()[segment];
-  const Vector3d& p1 = fibers_.points()[segment + 1];
+  const Vector3d& p0 = fibers_->points()[segment];
+  const Vector3d& p1 = fibers_->points()[segment + 1];
   return s <= 0.5 ? Place{p0, s * (p1 - p0)} : Place{p1, (1.0 - s) * (p0 - p1)};
 }
 
@@ -94,9 +123,9 @@ bool LoopTest::leaves(const Place& place, PointPair pair, double limit,
                       std::uint64_t& looks) const {
   const double scale = limit > least_safe_norm ? 1.0 : tiny_vector_scale;
   const double scaled_limit = scale * limit;
-  const std::vector<Vector3d>& points = fibers_.points();
+  const std::vector<Vector3d>& points = fibers_->points();
   const bool is_long = pair.b - pair.a > short_walk;
-  const Chain* const along = is_long ? &chain(fibers_.segment_id(pair.a).fiber) : nullptr;
+  const Chain* const along = is_long ? &chain(fibers_->segment_id(pair.a).fiber) : nullptr;
   const double step = is_long ? scale * along->step : 0.0;
   const auto way_to = [&](const Vector3d& point) -> Vector3d {
     return scale * ((point - place.end) - place.way);
@@ -132,8 +161,8 @@ bool LoopTest::makes_loop(PointPair pair, const SegmentDistance& nearest,
   if (pair.b - pair.a > short_walk && rules_out(pair.a, pair.b)) {
     return false;
   }
-  const std::vector<Vector3d>& points = fibers_.points();
-  const double radius = std::max(fibers_.segment_radius(pair.a), fibers_.segment_radius(pair.b));
+  const std::vector<Vector3d>& points = fibers_->points();
+  const double radius = std::max(fibers_->segment_radius(pair.a), fibers_->segment_radius(pair.b));
   const double length_a = norm_of(points[pair.a + 1] - points[pair.a]);
   const double length_b = norm_of(points[pair.b + 1] - points[pair.b]);
   // What places on segments are rounded by makes no loop.
@@ -169,10 +198,15 @@ bool LoopTest::makes_loop(PointPair pair, const SegmentDistance& nearest,
 }
 
 bool LoopTest::rules_out(std::uint32_t first, std::uint32_t last) const {
-  if (!are_of_one_fiber({first, last})) {
+  if (last - first >= most_points_) {
     return false;
   }
-  return chain(fibers_.segment_id(first).fiber).stretches.hold(first, last + 1);
+  const std::uint32_t fiber = fibers_->segment_id(first).fiber;
+  return is_within(fiber, last) && chain(fiber).stretches.hold(first, last + 1);
+}
+
+PointRange LoopTest::ruled_out_with(std::uint32_t point) const {
+  return chain(fibers_->segment_id(point).fiber).stretches.around(point);
 }
 
 }  // namespace fiber

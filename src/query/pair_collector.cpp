@@ -12,9 +12,9 @@ std::uint32_t PairCollector::FiberFinder::fiber_of(std::uint32_t point) {
 }
 
 PairCollector::PairCollector(const FiberAssembly& fibers, const QueryOptions& options,
-                             QueryResult& result)
+                             QueryResult& result, const LoopTest* loops)
     : keeper_(options, result),
-      test_(fibers, options),
+      test_(fibers, options, loops),
       fibers_a_(fibers),
       fibers_b_(fibers),
       options_(options),

@@ -47,7 +47,7 @@ Kernel kernel_of(const QueryOptions& options) {
 
 }  // namespace
 
-PairTest::PairTest(const FiberAssembly& fibers, const QueryOptions& options)
+PairTest::PairTest(const FiberAssembly& fibers, const QueryOptions& options, const LoopTest* loops)
     : a_(fibers),
       b_(fibers),
       options_(options),
@@ -56,7 +56,7 @@ PairTest::PairTest(const FiberAssembly& fibers, const QueryOptions& options)
       neighbour_skip_(options.neighbour_skip.value_or(1)),
       neighbour_skip_length_(options.neighbour_skip_length.value_or(0.0)) {
   if (options.needs_loops()) {
-    loops_.emplace(fibers);
+    loops_ = loops != nullptr ? loops : &own_loops_.emplace(fibers);
   }
   if (neighbour_skip_length_ > 0.0) {
     arc_length_ = arc_lengths(fibers);

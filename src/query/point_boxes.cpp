@@ -1,7 +1,5 @@
 #include "src/query/point_boxes.hpp"
 
-#include <utility>
-
 namespace fiber {
 namespace {
 
@@ -10,30 +8,44 @@ constexpr std::uint32_t least_boxed_points = 256;
 
 }  // namespace
 
-/// A box around as many points, or boxes, each as one has below it.
+/// Boxes around as many points, or boxes, each as one has below it.
 template <class Item>
-std::vector<Eigen::AlignedBox3d> PointBoxes::around(const Item* items, std::size_t count) {
+void PointBoxes::fit_around(const Item* items, std::size_t count,
+                            std::vector<Eigen::AlignedBox3d>& boxes) {
   constexpr std::size_t width = std::size_t{1} << log_width;
-  std::vector<Eigen::AlignedBox3d> boxes(count / width);
+  boxes.assign(count / width, Eigen::AlignedBox3d());
   for (std::size_t i = 0; i < boxes.size() * width; ++i) {
     boxes[i / width].extend(items[i]);
   }
-  return boxes;
 }
 
-PointBoxes::PointBoxes(const FiberAssembly& fibers, std::uint32_t fiber)
-    : begin_(fibers.offsets()[fiber]) {
+void PointBoxes::fit(const FiberAssembly& fibers, std::uint32_t fiber) {
+  begin_ = fibers.offsets()[fiber];
+  level_count_ = 0;
   const std::uint32_t count = fibers.offsets()[fiber + 1] - begin_;
   if (count < least_boxed_points) {
     return;
   }
-  const Eigen::Vector3d* const points = fibers.points().data() + begin_;
-  std::vector<Eigen::AlignedBox3d> boxes = around(points, count);
-  while (!boxes.empty()) {
-    levels_.push_back(std::move(boxes));
-    const std::vector<Eigen::AlignedBox3d>& below = levels_.back();
-    boxes = around(below.data(), below.size());
+  for (std::size_t left = count >> log_width; left > 0; left >>= log_width) {
+    if (levels_.size() == level_count_) {
+      levels_.emplace_back();
+    }
+    if (level_count_ == 0) {
+      fit_around(fibers.points().data() + begin_, count, levels_[0]);
+    } else {
+      const std::vector<Eigen::AlignedBox3d>& below = levels_[level_count_ - 1];
+      fit_around(below.data(), below.size(), levels_[level_count_]);
+    }
+    ++level_count_;
   }
+}
+
+std::size_t PointBoxes::memory_bytes() const {
+  std::size_t bytes = levels_.capacity() * sizeof(levels_[0]);
+  for (const std::vector<Eigen::AlignedBox3d>& level : levels_) {
+    bytes += level.capacity() * sizeof(level[0]);
+  }
+  return bytes;
 }
 
 }  // namespace fiber

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -12,7 +13,8 @@ namespace fiber {
 /// they tell that something holds for all. Short fibres have none.
 class PointBoxes {
  public:
-  PointBoxes(const FiberAssembly& fibers, std::uint32_t fiber);
+  /// Makes them, in the memory it has.
+  void fit(const FiberAssembly& fibers, std::uint32_t fiber);
 
   /// How many points from this one on, and not beyond the last, are in the largest box that begins
   /// here and is within; 0 if none is.
@@ -22,7 +24,7 @@ class PointBoxes {
                              const IsWithin& is_within) const {
     const std::uint32_t index = point - begin_;
     std::uint32_t level = 0;
-    while (level < levels_.size() && index % size_of(level) == 0 &&
+    while (level < level_count_ && index % size_of(level) == 0 &&
            size_of(level) - 1 <= last - point) {
       ++level;
     }
@@ -35,6 +37,8 @@ class PointBoxes {
     return 0;
   }
 
+  std::size_t memory_bytes() const;
+
  private:
   static constexpr std::uint32_t log_width = 4;
 
@@ -44,10 +48,13 @@ class PointBoxes {
   }
 
   template <class Item>
-  static std::vector<Eigen::AlignedBox3d> around(const Item* items, std::size_t count);
+  static void fit_around(const Item* items, std::size_t count,
+                         std::vector<Eigen::AlignedBox3d>& boxes);
 
-  std::uint32_t begin_;
-  std::vector<std::vector<Eigen::AlignedBox3d>> levels_;  // of whole boxes only
+  std::uint32_t begin_ = 0;
+  std::size_t level_count_ = 0;
+  std::vector<std::vector<Eigen::AlignedBox3d>>
+      levels_;  // of whole boxes only; more than there are
 };
 
 }  // namespace fiber

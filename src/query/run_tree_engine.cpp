@@ -30,8 +30,8 @@ class CollectorSink final : public PairSink {
   }
 
   bool wants_adjacent() const override { return collector_.wants_adjacent(); }
-  bool rules_out(std::uint32_t first, std::uint32_t last) const override {
-    return collector_.rules_out(first, last);
+  PointRange ruled_out_with(std::uint32_t point) const override {
+    return collector_.ruled_out_with(point);
   }
 
  private:
@@ -69,10 +69,11 @@ std::uint32_t RunTreeEngine::thread_count() const {
 
 std::size_t RunTreeEngine::memory_bytes() const {
   return tree_.memory_bytes() + motion_.memory_bytes() + kept_.memory_bytes() +
-         outdated_.memory_bytes();
+         outdated_.memory_bytes() + loops_.memory_bytes();
 }
 
 void RunTreeEngine::do_update(const FiberAssembly& fibers, bool same_topology) {
+  loops_.reset(fibers);
   arena_.execute([&] {
     if (!same_topology) {
       tree_.build(fibers, hierarchy_origin(fibers));
@@ -158,12 +159,12 @@ void RunTreeEngine::do_query(const FiberAssembly& fibers, const QueryOptions& op
   QueryOptions left = options;
   if (options.type == QueryType::ALL) {
     const QueryLimits limits(options);
-    if (find_own(PairTest(fibers, options), options, limits, result)) {
+    if (find_own(PairTest(fibers, options, &loops_), options, limits, result)) {
       return;
     }
     left.deadline = limits.deadline.left();
   }
-  PairCollector collector(fibers, left, result);
+  PairCollector collector(fibers, left, result, &loops_);
   find_some(tree_.view(), tree_.view(), left, 2.0 * moved_since_fit(), collector, result.counts);
 }
 

@@ -8,6 +8,7 @@
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/query/run_tree_engine.hpp"
 #include "support/assemblies.hpp"
+#include "support/seeded_test.hpp"
 
 namespace {
 std::atomic<std::size_t> allocations{0};
@@ -100,11 +101,14 @@ TEST(RunTreeAllocationTest, AFrameInSteadyStateAllocatesNothing) {
   EXPECT_EQ(found, 0U);
 }
 
+class TouchingItselfAllocationTest : public testing::TestWithParam<int> {};
+
 /// Found by the campaign: a contact of a fibre with itself over more than a few segments.
-TEST(RunTreeAllocationTest, AFrameInWhichAFiberTouchesItselfAllocatesNothing) {
+TEST_P(TouchingItselfAllocationTest, AFrameInWhichAFiberTouchesItselfAllocatesNothing) {
+  const int segments = GetParam();
   std::vector<Eigen::Vector3d> hairpin;
-  for (int i = 0; i <= 50; ++i) {
-    hairpin.emplace_back(0.1 * std::min(i, 50 - i), 0.001 * i, 0.0);
+  for (int i = 0; i <= segments; ++i) {
+    hairpin.emplace_back(0.1 * std::min(i, segments - i), 0.05 * i / segments, 0.0);
   }
   AssemblyBuilder builder;
   builder.add_fiber(hairpin);
@@ -117,9 +121,13 @@ TEST(RunTreeAllocationTest, AFrameInWhichAFiberTouchesItselfAllocatesNothing) {
   });
   ASSERT_FALSE(result.contacts.empty());
   EXPECT_EQ(result.contacts.front().segment_a, 0U);
-  EXPECT_GT(result.contacts.front().segment_b, 40U);
+  EXPECT_GT(static_cast<int>(result.contacts.front().segment_b), segments - 10);
   EXPECT_EQ(found, 0U);
 }
+
+// Points between are looked at one by one, by what is known of their fibre, and by boxes of many.
+INSTANTIATE_TEST_SUITE_P(Segments, TouchingItselfAllocationTest, testing::Values(50, 100, 1000),
+                         testing::PrintToStringParamName());
 
 TEST(RunTreeAllocationTest, AFrameInWhichSomeFibersMoveAllocatesNothing) {
   SCOPED_TRACE(seed_message());
@@ -141,9 +149,11 @@ TEST(RunTreeAllocationTest, AFrameInWhichSomeFibersMoveAllocatesNothing) {
   EXPECT_EQ(found, 0U);
 }
 
-TEST(RunTreeAllocationTest, AskingForFiberPairsAgainAllocatesNothing) {
+class FiberPairsAllocationTest : public SeededTest {};
+
+TEST_P(FiberPairsAllocationTest, AskingAgainAllocatesNothing) {
   SCOPED_TRACE(seed_message());
-  Random random;
+  Random random(seed(), 0);
   const FiberAssembly fibers = walks(random, 100, 10, 0.02);
   const auto engine = make_engine("run_tree");
   engine->update(fibers);
@@ -156,6 +166,28 @@ TEST(RunTreeAllocationTest, AskingForFiberPairsAgainAllocatesNothing) {
   const std::size_t before = allocations;
   engine->query(options, result);
   EXPECT_EQ(allocations, before);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, FiberPairsAllocationTest, run_seed_and({78366793}), name_of_seed);
+
+/// All segments of a fibre are then looked at together: whether it makes a loop at all.
+TEST(RunTreeAllocationTest, AFrameWhoseMarginIsLargerThanItsFibersAllocatesNothing) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  FiberAssembly fibers = walks(random, 100, 10, 0.02);
+  const std::vector<Eigen::Vector3d> points = fibers.points();
+  const auto engine = make_engine("run_tree", {2});
+  QueryOptions options;
+  options.type = QueryType::FIBER_PAIRS;
+  options.margin = 10.0;
+  QueryResult result;
+  const std::size_t found = allocations_in_steady_state([&](int /*frame*/) {
+    fibers.update_points(points);
+    engine->update(fibers);
+    engine->query(options, result);
+  });
+  EXPECT_GE(result.contacts.size(), 100U * 99U / 2U);
+  EXPECT_EQ(found, 0U);
 }
 
 // The layered hierarchies promise it; the others fit runs or divide anew.

@@ -138,7 +138,11 @@ TEST(LoopTest, RulesOutOnlyWhatHasNoLoop) {
       const LoopTest test(fibers);
       const Rule rule(fibers);
       for (std::uint32_t i = 0; i < fibers.segment_count(); ++i) {
+        const PointRange with_i = test.ruled_out_with(i);
         for (std::uint32_t j = i + 2; j < fibers.segment_count(); ++j) {
+          const PointRange with_j = test.ruled_out_with(j);
+          ASSERT_EQ(with_i.begin <= j && j < with_i.end, test.rules_out(i, j)) << i << ", " << j;
+          ASSERT_EQ(with_j.begin <= i && i < with_j.end, test.rules_out(i, j)) << i << ", " << j;
           if (test.rules_out(i, j)) {
             ++ruled_out;
             const std::vector<Vector3d>& p = fibers.points();

@@ -26,9 +26,9 @@ class PairSink {
   /// are not wanted, they should go early.
   virtual bool wants_adjacent() const = 0;
 
-  /// Whether it is certain, at little cost, that no segments are pairs that start at the points
-  /// first … last.
-  virtual bool rules_out(std::uint32_t first, std::uint32_t last) const = 0;
+  /// Segments of which it is certain, at little cost, that they are no pairs with the one that
+  /// starts at this point, nor with any between.
+  virtual PointRange ruled_out_with(std::uint32_t point) const = 0;
 };
 
 /// Fits the runs of groups [begin, end): their segments and boxes.

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <atomic>
+#include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <mutex>
 #include <vector>
 
@@ -26,17 +25,24 @@ namespace fiber {
 /// contacts with itself that turns by less than a right angle, even if every point is off by up to
 /// half a radius (LoopFreeStretches proves it).
 ///
-/// Holds a reference: the fibres must outlive it, unchanged. Several threads may ask.
+/// Refers to the fibres: they must outlive it, unchanged. Several threads may ask.
 class LoopTest {
  public:
+  LoopTest();  ///< of no fibres
   explicit LoopTest(const FiberAssembly& fibers);
   ~LoopTest();
   LoopTest(const LoopTest&) = delete;
   LoopTest& operator=(const LoopTest&) = delete;
 
+  /// From now on asks about these fibres, or about where they are now, in the memory it has.
+  void reset(const FiberAssembly& fibers);
+
+  /// Memory of what is known of fibres [bytes].
+  std::size_t memory_bytes() const;
+
   /// Whether both are segments of one fibre.
   bool are_of_one_fiber(PointPair pair) const {
-    return pair.b - pair.a < most_points_ && is_within(fibers_.segment_id(pair.a).fiber, pair.b);
+    return pair.b - pair.a < most_points_ && is_within(fibers_->segment_id(pair.a).fiber, pair.b);
   }
 
   /// Whether the fibre makes a loop between two of its segments that share no point.
@@ -53,24 +59,26 @@ class LoopTest {
   /// false if these are not of one fibre. Costs little, once a fibre has been looked at.
   bool rules_out(std::uint32_t first, std::uint32_t last) const;
 
+  /// The segments of which it is certain, in the same way, that the fibre makes no loop between
+  /// them and the one that starts at this point, nor any between.
+  PointRange ruled_out_with(std::uint32_t point) const;
+
  private:
   struct Chain;
+  struct Slot;
   struct Place;
 
   bool is_within(std::uint32_t fiber, std::uint32_t point) const {
-    return point < fibers_.offsets()[fiber + 1];
+    return point < fibers_->offsets()[fiber + 1];
   }
   const Chain& chain(std::uint32_t fiber) const;
   Place place(std::uint32_t segment, double s) const;
   bool leaves(const Place& place, PointPair pair, double limit, std::uint64_t& looks) const;
 
-  const FiberAssembly& fibers_;
-  std::uint32_t most_points_ = 0;  // of a fibre
-  // Made when they are asked for, most never are.
-  mutable std::once_flag chains_made_;
-  mutable std::unique_ptr<std::atomic<const Chain*>[]> chains_;  // by fibre
-  mutable std::mutex mutex_;
-  mutable std::vector<std::unique_ptr<const Chain>> owned_chains_;
+  const FiberAssembly* fibers_ = nullptr;
+  std::uint32_t most_points_ = 0;    // of a fibre
+  mutable std::vector<Slot> slots_;  // by fibre; filled when asked for, most never are
+  mutable std::mutex mutex_;         // of those that fill them
 };
 
 }  // namespace fiber

@@ -18,7 +18,9 @@ namespace fiber {
 class PairCollector {
  public:
   /// Pairs within one assembly.
-  PairCollector(const FiberAssembly& fibers, const QueryOptions& options, QueryResult& result);
+  /// @param loops as PairTest takes them
+  PairCollector(const FiberAssembly& fibers, const QueryOptions& options, QueryResult& result,
+                const LoopTest* loops = nullptr);
   /// Pairs of a shape and the fibres.
   PairCollector(const FiberAssembly& shape, const FiberAssembly& fibers,
                 const QueryOptions& options, QueryResult& result);
@@ -32,9 +34,7 @@ class PairCollector {
   float bound() const { return keeper_.rounded_bound(); }
 
   bool wants_adjacent() const { return test_.wants_adjacent(); }
-  bool rules_out(std::uint32_t first, std::uint32_t last) const {
-    return test_.rules_out(first, last);
-  }
+  PointRange ruled_out_with(std::uint32_t point) const { return test_.ruled_out_with(point); }
 
   /// See ContactKeeper.
   bool done() { return keeper_.done(); }

@@ -24,7 +24,10 @@ struct PairDistance {
 class PairTest {
  public:
   /// Pairs within one assembly.
-  PairTest(const FiberAssembly& fibers, const QueryOptions& options);
+  /// @param loops of these fibres, if somebody keeps them; otherwise what is known of their loops
+  ///              is found anew
+  PairTest(const FiberAssembly& fibers, const QueryOptions& options,
+           const LoopTest* loops = nullptr);
   /// Pairs of a shape and the fibres.
   PairTest(const FiberAssembly& shape, const FiberAssembly& fibers, const QueryOptions& options);
 
@@ -48,18 +51,21 @@ class PairTest {
   /// and the fibre makes none between these segments.
   /// @param looks at points of the fibre that it took are added to these
   bool lacks_loop(PointPair pair, const PairDistance& distance, std::uint64_t& looks) const {
-    return loops_ && loops_->are_of_one_fiber(pair) && !makes_loop(pair, distance, looks);
+    return loops_ != nullptr && loops_->are_of_one_fiber(pair) &&
+           !makes_loop(pair, distance, looks);
   }
   /// The same where the distance is not there.
   bool lacks_loop(PointPair pair) const {
     std::uint64_t looks = 0;
-    return loops_ && loops_->are_of_one_fiber(pair) && !makes_loop(pair, looks);
+    return loops_ != nullptr && loops_->are_of_one_fiber(pair) && !makes_loop(pair, looks);
   }
 
-  /// Whether it is certain that all pairs lack a loop that start at the points first … last; see
-  /// LoopTest.
+  /// What is certain to lack a loop; see LoopTest.
   bool rules_out(std::uint32_t first, std::uint32_t last) const {
-    return loops_ && loops_->rules_out(first, last);
+    return loops_ != nullptr && loops_->rules_out(first, last);
+  }
+  PointRange ruled_out_with(std::uint32_t point) const {
+    return loops_ != nullptr ? loops_->ruled_out_with(point) : PointRange{};
   }
 
   /// In single precision for FAST and ALL, otherwise robust.
@@ -110,8 +116,9 @@ class PairTest {
   const Kernel kernel_;  // of distance()
   const std::uint32_t neighbour_skip_;
   const double neighbour_skip_length_;  // [m]
-  std::optional<LoopTest> loops_;
-  std::vector<double> arc_length_;  // [m] by point, from its fibre's start; empty if not needed
+  std::optional<LoopTest> own_loops_;
+  const LoopTest* loops_ = nullptr;  // none where the options do not need them
+  std::vector<double> arc_length_;   // [m] by point, from its fibre's start; empty if not needed
 };
 
 }  // namespace fiber

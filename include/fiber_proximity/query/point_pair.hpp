@@ -11,4 +11,10 @@ struct PointPair {
   std::uint32_t b;
 };
 
+/// Segments that follow each other, by the indices of their first points: begin … end - 1.
+struct PointRange {
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+};
+
 }  // namespace fiber

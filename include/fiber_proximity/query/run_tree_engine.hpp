@@ -11,6 +11,7 @@
 #include "fiber_proximity/query/contact_batch.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/query/kept_candidates.hpp"
+#include "fiber_proximity/query/loop_test.hpp"
 #include "fiber_proximity/query/outdated_segments.hpp"
 
 namespace fiber {
@@ -75,6 +76,7 @@ class RunTreeEngine final : public ProximityEngine {
   bool skin_pays_ = true;    // the tree has served so, or the one before it had
   mutable KeptCandidates kept_;
   OutdatedSegments outdated_;  // what makes the kept candidates OUTDATED
+  LoopTest loops_;
   mutable std::mutex mutex_;
   mutable std::vector<std::unique_ptr<ContactBatch>> idle_batches_;
 };
