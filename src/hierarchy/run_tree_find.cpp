@@ -192,13 +192,11 @@ class Finder {
 
   /// Finds what is ruled out with the segments of a run of the group.
   void know_ranges(std::uint32_t run) {
-    if ((known_ranges_ >> run & 1U) == 0) {
-      known_ranges_ |= 1U << run;
-      const std::uint32_t a = group_ * run_width + run;
-      for (std::uint32_t bits = segments(a_, a); bits != 0;) {
-        const std::uint32_t lane = take_lowest(bits);
-        ranges_[run][lane] = sink_.ruled_out_with(a_.first_points[a * run_width + lane]);
-      }
+    known_ranges_ |= 1U << run;
+    const std::uint32_t a = group_ * run_width + run;
+    for (std::uint32_t bits = segments(a_, a); bits != 0;) {
+      const std::uint32_t lane = take_lowest(bits);
+      ranges_[run][lane] = sink_.ruled_out_with(a_.first_points[a * run_width + lane]);
     }
   }
 
@@ -273,8 +271,7 @@ class Finder {
     if (!make_room()) {
       return false;
     }
-    const bool prunes = (prunes_runs_ >> run & 1U) != 0;
-    if (prunes) {
+    if (HWY_UNLIKELY((prunes_runs_ & ~known_ranges_) >> run & 1U)) {
       know_ranges(run);
     }
     const bool same = self_ && a == b;
@@ -283,12 +280,8 @@ class Finder {
       // Of a run with itself: each segment with those after it.
       const std::uint32_t wanted = same ? columns & ~first_bits(i + 1) : columns;
       std::uint32_t bits = wanted & overlapping(boxes, probe_.segments(run), i);
-      if (bits != 0 && skip_adjacent_) {
-        const std::uint32_t point = a_.first_points[a * run_width + i];
-        bits &= ~sharing_point(b_.first_points + std::size_t{b} * run_width, point);
-      }
-      if (bits != 0 && prunes) {
-        bits &= ~in_range(b_.first_points + std::size_t{b} * run_width, ranges_[run][i]);
+      if (bits != 0 && self_) {
+        bits &= ~left_out(run, i, b);
       }
       if (bits != 0) {
         bits &= near_lines(b_.runs[b], a_.runs[a], i, bound_);
@@ -298,6 +291,19 @@ class Finder {
       }
     }
     return true;
+  }
+
+  /// Bits of the segments of run b that are no pairs with that in one lane of a run of the group.
+  HWY_INLINE std::uint32_t left_out(std::uint32_t run, std::uint32_t lane, std::uint32_t b) const {
+    const std::uint32_t* const first_points = b_.first_points + std::size_t{b} * run_width;
+    if (HWY_UNLIKELY((prunes_runs_ >> run & 1U) != 0)) {
+      return in_range(first_points, ranges_[run][lane]);
+    }
+    if (!skip_adjacent_) {
+      return 0;
+    }
+    const std::uint32_t a = group_ * run_width + run;
+    return sharing_point(first_points, a_.first_points[a * run_width + lane]);
   }
 
   /// For the pairs of two runs; the bound may shrink by that. Whether to go on.
