@@ -41,7 +41,7 @@ void PointBoxes::fit(const FiberAssembly& fibers, std::uint32_t fiber) {
 }
 
 std::size_t PointBoxes::memory_bytes() const {
-  std::size_t bytes = levels_.capacity() * sizeof(levels_[0]);
+  std::size_t bytes = levels_.capacity() * sizeof(std::vector<Eigen::AlignedBox3d>);
   for (const std::vector<Eigen::AlignedBox3d>& level : levels_) {
     bytes += level.capacity() * sizeof(level[0]);
   }
