@@ -69,6 +69,8 @@ class DisplayTest : public testing::Test {
 
   /// Publishes and waits for the display's judgement, which must hold the text.
   void expect_status(const FiberArray& message, int level, const std::string& text) {
+    // Statuses of before are on their way: the next one may have the same text.
+    window_->settle();
     const std::string before = status("Topic").text;
     publisher_.publish(message);
     ASSERT_TRUE(RvizWindow::wait_until([&] { return status("Topic").text != before; }));
