@@ -296,15 +296,14 @@ class Finder {
   /// Bits of the segments of run b that are no pairs with that in one lane of a run of the group.
   HWY_INLINE std::uint32_t left_out(std::uint32_t run, std::uint32_t lane, std::uint32_t b) const {
     const std::uint32_t* const first_points = b_.first_points + std::size_t{b} * run_width;
-    std::uint32_t bits = 0;
-    if (skip_adjacent_) {
-      const std::uint32_t a = group_ * run_width + run;
-      bits = sharing_point(first_points, a_.first_points[a * run_width + lane]);
-    }
     if (HWY_UNLIKELY((prunes_runs_ >> run & 1U) != 0)) {
-      bits |= in_range(first_points, ranges_[run][lane]);
+      return in_range(first_points, ranges_[run][lane]);
     }
-    return bits;
+    if (!skip_adjacent_) {
+      return 0;
+    }
+    const std::uint32_t a = group_ * run_width + run;
+    return sharing_point(first_points, a_.first_points[a * run_width + lane]);
   }
 
   /// For the pairs of two runs; the bound may shrink by that. Whether to go on.
