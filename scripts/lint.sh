@@ -34,6 +34,8 @@ sed -E 's/-Winvalid-pch//; s/-include [^ ]*cmake_pch\.hxx//' "$build/compile_com
 changed_files() {
   local base changed
   base=$(cat .ci/linted)
+  # Work may be taken up again as one commit, without those it was made of: that one is meant then.
+  git cat-file -e "$base^{commit}" 2>/dev/null || base=$(git log -1 --format=%H -- .ci/linted)
   if $all || ! changed=$(git diff --name-only "$base" -- '*.cpp' '*.hpp' '*.inc' .clang-tidy 2>/dev/null) ||
     grep -qxF .clang-tidy <<<"$changed"; then
     echo all
