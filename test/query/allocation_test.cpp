@@ -8,6 +8,7 @@
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/query/run_tree_engine.hpp"
 #include "support/assemblies.hpp"
+#include "support/contacts.hpp"
 #include "support/seeded_test.hpp"
 
 namespace {
@@ -66,6 +67,19 @@ std::size_t allocations_in_steady_state(const Frame& frame) {
   return allocations - before;
 }
 
+/// The same of frames of run_tree in which points stay where they are.
+/// @param result that of the last frame
+std::size_t allocations_at_rest(FiberAssembly fibers, std::uint32_t threads,
+                                const QueryOptions& options, QueryResult& result) {
+  const std::vector<Eigen::Vector3d> points = fibers.points();
+  const auto engine = make_engine("run_tree", {threads});
+  return allocations_in_steady_state([&](int /*frame*/) {
+    fibers.update_points(points);
+    engine->update(fibers);
+    engine->query(options, result);
+  });
+}
+
 class AllocationTest : public testing::TestWithParam<std::string> {};
 
 TEST_P(AllocationTest, AnUpdateWithTheSameTopologyAllocatesNothing) {
@@ -88,15 +102,9 @@ TEST(RunTreeAllocationTest, AFrameInSteadyStateAllocatesNothing) {
   SCOPED_TRACE(seed_message());
   Random random;
   // Enough for several threads to have a part.
-  FiberAssembly fibers = walks(random, 400, 50, 0.02);
-  const std::vector<Eigen::Vector3d> points = fibers.points();
-  const auto engine = make_engine("run_tree", {2});
+  const FiberAssembly fibers = walks(random, 400, 50, 0.02);
   QueryResult result;
-  const std::size_t found = allocations_in_steady_state([&](int /*frame*/) {
-    fibers.update_points(points);
-    engine->update(fibers);
-    engine->query({}, result);
-  });
+  const std::size_t found = allocations_at_rest(fibers, 2, {}, result);
   expect_enough(result.contacts.size(), std::size_t{1});
   EXPECT_EQ(found, 0U);
 }
@@ -112,13 +120,8 @@ TEST_P(TouchingItselfAllocationTest, AFrameInWhichAFiberTouchesItselfAllocatesNo
   }
   AssemblyBuilder builder;
   builder.add_fiber(hairpin);
-  const FiberAssembly fibers = builder.build({0.03});
-  const auto engine = make_engine("run_tree", {1});
   QueryResult result;
-  const std::size_t found = allocations_in_steady_state([&](int /*frame*/) {
-    engine->update(fibers);
-    engine->query({}, result);
-  });
+  const std::size_t found = allocations_at_rest(builder.build({0.03}), 1, {}, result);
   ASSERT_FALSE(result.contacts.empty());
   EXPECT_EQ(result.contacts.front().segment_a, 0U);
   EXPECT_GT(static_cast<int>(result.contacts.front().segment_b), segments - 10);
@@ -157,9 +160,7 @@ TEST_P(FiberPairsAllocationTest, AskingAgainAllocatesNothing) {
   const FiberAssembly fibers = walks(random, 100, 10, 0.02);
   const auto engine = make_engine("run_tree");
   engine->update(fibers);
-  QueryOptions options;
-  options.type = QueryType::FIBER_PAIRS;
-  options.margin = 0.5;
+  const QueryOptions options = within(0.5, QueryType::FIBER_PAIRS);
   QueryResult result;
   engine->query(options, result);
   expect_enough(result.contacts.size(), std::size_t{101});  // or the table has not grown
@@ -174,18 +175,9 @@ INSTANTIATE_TEST_SUITE_P(Seeds, FiberPairsAllocationTest, run_seed_and({78366793
 TEST(RunTreeAllocationTest, AFrameWhoseMarginIsLargerThanItsFibersAllocatesNothing) {
   SCOPED_TRACE(seed_message());
   Random random;
-  FiberAssembly fibers = walks(random, 100, 10, 0.02);
-  const std::vector<Eigen::Vector3d> points = fibers.points();
-  const auto engine = make_engine("run_tree", {2});
-  QueryOptions options;
-  options.type = QueryType::FIBER_PAIRS;
-  options.margin = 10.0;
   QueryResult result;
-  const std::size_t found = allocations_in_steady_state([&](int /*frame*/) {
-    fibers.update_points(points);
-    engine->update(fibers);
-    engine->query(options, result);
-  });
+  const std::size_t found = allocations_at_rest(walks(random, 100, 10, 0.02), 2,
+                                                within(10.0, QueryType::FIBER_PAIRS), result);
   EXPECT_GE(result.contacts.size(), 100U * 99U / 2U);
   EXPECT_EQ(found, 0U);
 }
