@@ -13,7 +13,17 @@ namespace fiber {
 struct DoubleDouble {
   double high = 0.0;
   double low = 0.0;
+
+  DoubleDouble() = default;
+  explicit DoubleDouble(double value) : high(value) {}
+  DoubleDouble(double high_part, double low_part) : high(high_part), low(low_part) {}
+
+  explicit operator double() const { return high; }
 };
+
+inline bool operator<(DoubleDouble a, DoubleDouble b) {
+  return a.high < b.high || (a.high == b.high && a.low < b.low);
+}
 
 /// Exactly a + b, of any a and b.
 inline DoubleDouble exact_sum(double a, double b) {
@@ -53,10 +63,10 @@ inline DoubleDouble operator*(DoubleDouble a, DoubleDouble b) {
 
 inline DoubleDouble operator/(DoubleDouble a, DoubleDouble b) {
   const double first = a.high / b.high;
-  const DoubleDouble rest = a - b * DoubleDouble{first, 0.0};
+  const DoubleDouble rest = a - b * DoubleDouble(first);
   const double second = rest.high / b.high;
-  const DoubleDouble last = rest - b * DoubleDouble{second, 0.0};
-  return exact_ordered_sum(first, second) + DoubleDouble{last.high / b.high, 0.0};
+  const DoubleDouble last = rest - b * DoubleDouble(second);
+  return exact_ordered_sum(first, second) + DoubleDouble(last.high / b.high);
 }
 
 /// Of a number above 0.

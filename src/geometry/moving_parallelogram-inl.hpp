@@ -1,0 +1,171 @@
+// The vectors from one moving segment to another, and a plane that keeps them away from the origin.
+// Included once per instruction set, so it has the guard that Highway asks for instead of
+// #pragma once.
+#if defined(FIBER_MOVING_PARALLELOGRAM_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef FIBER_MOVING_PARALLELOGRAM_INL
+#undef FIBER_MOVING_PARALLELOGRAM_INL
+#else
+#define FIBER_MOVING_PARALLELOGRAM_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include "src/geometry/number_vector-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace fiber {
+namespace HWY_NAMESPACE {
+
+/// The vectors from the points of a segment b to those of a segment a [m], or how fast they change
+/// [m per motion]: corners[i][j] is that from end j of b to end i of a.
+template <class Number>
+struct Parallelogram {
+  NumberVector<Number> corners[2][2];
+
+  HWY_INLINE NumberVector<Number> along_a() const { return corners[1][0] - corners[0][0]; }
+  HWY_INLINE NumberVector<Number> along_b() const { return corners[0][0] - corners[0][1]; }
+
+  /// The vector between the points with these parameters.
+  HWY_INLINE NumberVector<Number> between(const Number& s, const Number& t) const {
+    const Number rest_s = Number(1.0) - s;
+    const Number rest_t = Number(1.0) - t;
+    return rest_s * (rest_t * corners[0][0] + t * corners[0][1]) +
+           s * (rest_t * corners[1][0] + t * corners[1][1]);
+  }
+};
+
+template <class Number>
+HWY_INLINE Parallelogram<Number> moved(const Parallelogram<Number>& start,
+                                       const Parallelogram<Number>& rate, const Number& time) {
+  Parallelogram<Number> now;
+  for (int i = 0; i < 2; ++i) {
+    for (int j = 0; j < 2; ++j) {
+      now.corners[i][j] = start.corners[i][j] + time * rate.corners[i][j];
+    }
+  }
+  return now;
+}
+
+/// What is seen of two moving segments at one time.
+template <class Number>
+struct MotionLook {
+  Number distance;  ///< [m] of the two points
+  Number closing;   ///< [m per motion] how fast they come nearer
+  Number free;      ///< for so long there is no contact from here on
+};
+
+/// Later than any motion ends. Not infinite, of which numbers of twice the digits know nothing.
+constexpr double never = 0x1p100;
+
+/// The first h > 0 where a + b·h + c·h² falls to 0, `never` if it does not; 0 if a is not positive,
+/// or if something is not a number.
+template <class Number>
+HWY_INLINE Number first_root(const Number& a, const Number& b, const Number& c) {
+  const Number zero(0.0);
+  const Number no_root(never);
+  const Number discriminant = b * b - Number(4.0) * a * c;
+  const Number root = root_of(choose(discriminant < zero, zero, discriminant));
+  // Neither difference cancels. A positive c with a discriminant below 0 has no root.
+  const Number falling = choose(discriminant < zero, no_root, (a + a) / (root - b));
+  const Number rising = choose(c < zero, (b + root) / (Number(-2.0) * c), no_root);
+  const Number result = choose(b < zero, falling, rising);
+  return choose(both(zero < a, zero < result), result, zero);
+}
+
+/// A plane at right angles to a unit vector that turns at a constant rate: where it was, and where
+/// it is turning to.
+template <class Number>
+struct TurningPlane {
+  NumberVector<Number> normal;
+  NumberVector<Number> turn;  ///< [1 per motion] at right angles to the normal
+};
+
+/// About the plane through the nearest points that follows the segments: at right angles to those
+/// whose inside is nearest, now and a little later. Whatever it is, it is only a guess.
+/// @param s, t of about the nearest points, 0 or 1 exactly at ends
+template <class Number>
+HWY_INLINE TurningPlane<Number> plane_between(const Parallelogram<Number>& now,
+                                              const Parallelogram<Number>& rate, const Number& s,
+                                              const Number& t,
+                                              const NumberVector<Number>& nearest) {
+  const Number zero(0.0);
+  const Number one(1.0);
+  // Of lines at smaller angles than this, the cross product is not as good as what is nearest.
+  const Number least_sine_squared(1e-6);
+  const NumberVector<Number> u = now.along_a();
+  const NumberVector<Number> v = now.along_b();
+  const NumberVector<Number> upright = cross(u, v);
+  const Number uu = dot(u, u);
+  const Number uv = dot(u, v);
+  const Number vv = dot(v, v);
+  const Number sine = dot(upright, upright);  // squared, times both squared lengths
+  const auto on_a = both(zero < s, s < one);
+  const auto on_b = both(zero < t, t < one);
+  const auto on_both = both(both(on_a, on_b), least_sine_squared * (uu * vv) < sine);
+
+  const NumberVector<Number> towards =
+      choose_vector(dot(upright, nearest) < zero, Number(-1.0) * upright, upright);
+  const Number part_a = choose(on_a, dot(nearest, u) / uu, zero);
+  const NumberVector<Number> across_a = nearest - part_a * u;
+  const Number part_b = choose(on_b, dot(across_a, v) / vv, zero);
+  const NumberVector<Number> direction = choose_vector(on_both, towards, across_a - part_b * v);
+  const NumberVector<Number> normal = (one / length_of(direction)) * direction;
+
+  // To stay at right angles to a segment, the normal turns against what the segment turns out of
+  // the plane.
+  const Number out_a = dot(normal, rate.along_a());
+  const Number out_b = dot(normal, rate.along_b());
+  const auto of_a = both(on_a, zero < uu);
+  const auto of_b = both(on_b, zero < vv);
+  const Number single_a = choose(of_a, -out_a / uu, zero);
+  const Number single_b = choose(of_a, zero, choose(of_b, -out_b / vv, zero));
+  const Number turn_a = choose(on_both, (out_b * uv - out_a * vv) / sine, single_a);
+  const Number turn_b = choose(on_both, (out_a * uv - out_b * uu) / sine, single_b);
+  return {normal, turn_a * u + turn_b * v};
+}
+
+/// For how long the plane has all corners further beyond it than the limit.
+/// @param limit [m]
+/// @param error [m] of all that is computed here, for a turn by at most one radian
+template <class Number>
+HWY_INLINE Number free_time(const Parallelogram<Number>& now, const Parallelogram<Number>& rate,
+                            const TurningPlane<Number>& plane, const Number& limit,
+                            const Number& error) {
+  const Number zero(0.0);
+  const Number one(1.0);
+  const Number turn = dot(plane.turn, plane.turn);
+  // The normal grows longer as it turns: |n + h·m| is at most 1 + h²·m²/2.
+  const Number growth = Number(0.5) * limit * turn;
+  Number standing(never);
+  Number turning = one / root_of(turn);
+  for (int i = 0; i < 2; ++i) {
+    for (int j = 0; j < 2; ++j) {
+      const NumberVector<Number>& corner = now.corners[i][j];
+      const NumberVector<Number>& speed = rate.corners[i][j];
+      const Number beyond = dot(plane.normal, corner) - limit - error;
+      const Number away = dot(plane.normal, speed);
+      standing = smaller(first_root(beyond, away, zero), standing);
+      turning = smaller(
+          first_root(beyond, away + dot(plane.turn, corner), dot(plane.turn, speed) - growth),
+          turning);
+    }
+  }
+  // The roots' own rounding.
+  return Number(1.0 - 0x1p-50) * choose(standing < turning, turning, standing);
+}
+
+/// @param s, t of about the nearest points now; what is proven does not depend on them
+template <class Number>
+HWY_INLINE MotionLook<Number> look_at(const Parallelogram<Number>& now,
+                                      const Parallelogram<Number>& rate, const Number& s,
+                                      const Number& t, const Number& limit, const Number& error) {
+  const NumberVector<Number> nearest = now.between(s, t);
+  const TurningPlane<Number> plane = plane_between(now, rate, s, t, nearest);
+  return {length_of(nearest), -dot(plane.normal, rate.between(s, t)),
+          free_time(now, rate, plane, limit, error)};
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace fiber
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,275 @@
+// The way of one pair of moving segments from time 0 to its contact. Included once per instruction
+// set, so it has the guard that Highway asks for instead of #pragma once.
+#if defined(FIBER_SEGMENT_MOTION_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef FIBER_SEGMENT_MOTION_INL
+#undef FIBER_SEGMENT_MOTION_INL
+#else
+#define FIBER_SEGMENT_MOTION_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "fiber_proximity/geometry/contact_time.hpp"
+#include "src/geometry/moving_parallelogram-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace fiber {
+namespace HWY_NAMESPACE {
+
+/// What contact_time() is asked, in numbers of this kind. Lengths are in metres, or where fourth
+/// powers of these leave the range of double, in a power of two of them.
+template <class Number>
+class SegmentMotion {
+ public:
+  Parallelogram<Number> start;
+  Parallelogram<Number> rate;
+  Number limit;  ///< the distance of a contact
+  Number tolerance;
+  Number error;  ///< of all that is computed of it (docs/numerics.md)
+
+  SegmentMotion() = default;
+
+  /// @param roundings the error, as a part of the largest coordinate and the limit
+  SegmentMotion(const SegmentMotions& motions, double tolerance_in_metres, double roundings)
+      : limit(Number(motions.limit.radius_a) + Number(motions.limit.radius_b) +
+              Number(motions.limit.margin)),
+        tolerance(tolerance_in_metres) {
+    const Vector none{Number(0.0), Number(0.0), Number(0.0)};
+    least_ = difference(motions.a_before[0], motions.b_before[0]);
+    most_ = least_;
+    for (int i = 0; i < 2; ++i) {
+      for (int j = 0; j < 2; ++j) {
+        start.corners[i][j] = difference(motions.a_before[i], motions.b_before[j]);
+        const Vector end = difference(motions.a_after[i], motions.b_after[j]);
+        rate.corners[i][j] = end - start.corners[i][j];
+        enclose(start.corners[i][j]);
+        enclose(end);
+      }
+    }
+    const Vector magnitudes = larger_of(none - least_, most_);
+    const Number largest = larger(magnitudes.x, larger(magnitudes.y, magnitudes.z));
+    error = Number(roundings) * (largest + limit);
+    const auto extent = static_cast<double>(largest);
+    if (extent > 0.0 && !(extent > least_distance_scale && extent < largest_distance_scale)) {
+      constexpr int largest_exponent = 1000;
+      scale(std::ldexp(1.0, std::min(-std::ilogb(extent), largest_exponent)));
+    }
+  }
+
+  /// Whether even the box around all corners is out of reach.
+  bool is_apart() const {
+    const Number reach = limit + error;
+    const Number below = -reach;
+    return reach < least_.x || most_.x < below || reach < least_.y || most_.y < below ||
+           reach < least_.z || most_.z < below;
+  }
+
+ private:
+  using Vector = NumberVector<Number>;
+
+  void enclose(const Vector& corner) {
+    least_ = {smaller(corner.x, least_.x), smaller(corner.y, least_.y),
+              smaller(corner.z, least_.z)};
+    most_ = larger_of(corner, most_);
+  }
+
+  void scale(double factor) {
+    const Number unit(factor);
+    for (Parallelogram<Number>* shape : {&start, &rate}) {
+      for (auto& row : shape->corners) {
+        row[0] = unit * row[0];
+        row[1] = unit * row[1];
+      }
+    }
+    for (Number* length : {&limit, &tolerance, &error}) {
+      *length = smaller(unit * *length, Number(longest));
+    }
+    least_ = unit * least_;
+    most_ = unit * most_;
+  }
+
+  static Vector difference(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return Vector{Number(a.x()), Number(a.y()), Number(a.z())} -
+           Vector{Number(b.x()), Number(b.y()), Number(b.z())};
+  }
+  static Number larger(const Number& a, const Number& b) { return a < b ? b : a; }
+  static Vector larger_of(const Vector& a, const Vector& b) {
+    return {larger(a.x, b.x), larger(a.y, b.y), larger(a.z, b.z)};
+  }
+
+  static constexpr double longest = 0x1p1000;  // than all corners, and no infinity
+
+  Vector least_;  // of all corners, before and after
+  Vector most_;
+};
+
+/// Whether two segments surely cross between two times: the volume that they span changes its sign,
+/// and until then their lines cross inside both.
+template <class Number>
+bool surely_cross(const SegmentMotion<Number>& motion, const Number& from, const Number& to) {
+  const auto first = moved(motion.start, motion.rate, from);
+  const auto last = moved(motion.start, motion.rate, to);
+  const NumberVector<Number> u = first.along_a();
+  const NumberVector<Number> v = first.along_b();
+  const NumberVector<Number>& w = first.corners[0][0];
+  const NumberVector<Number> normal = cross(u, v);
+  const NumberVector<Number> last_normal = cross(last.along_a(), last.along_b());
+  const Number volume = dot(w, normal);
+  const Number last_volume = dot(last.corners[0][0], last_normal);
+
+  // No vector differs by more than `way` from what it is at the first time, its error included.
+  const Number error = Number(4.0) * motion.error;
+  const Number way = length_of(last.along_a() - u) + length_of(last.along_b() - v) +
+                     length_of(last.corners[0][0] - w) + error;
+  const Number most_u = length_of(u) + way;
+  const Number most_v = length_of(v) + way;
+  const Number most_w = length_of(w) + way;
+  const Number volume_error = Number(4.0) * error * (most_u * most_v + most_w * (most_u + most_v));
+  const Number length = length_of(normal);
+  const Number normal_way = way * (most_u + most_v);
+  const Number most_length = length + normal_way;
+  const Number squared = dot(normal, normal);
+  const Number squared_way = normal_way * (length + most_length);
+  const Number s = dot(cross(v, w), normal);
+  const Number t = dot(cross(u, w), normal);
+  const Number s_way = way * (most_v + most_w) * most_length + most_v * most_w * normal_way;
+  const Number t_way = way * (most_u + most_w) * most_length + most_u * most_w * normal_way;
+  const Number zero(0.0);
+  const bool changes_sign = (volume_error < volume && last_volume < -volume_error) ||
+                            (volume < -volume_error && volume_error < last_volume);
+  return changes_sign && s_way < s && t_way < t && s_way + squared_way < squared - s &&
+         t_way + squared_way < squared - t && zero < squared - squared_way;
+}
+
+/// Goes from time to time as far as there is surely no contact, then looks for a time at which
+/// there surely is one. Times are doubles, whatever the numbers are.
+template <class Number>
+class Advancement {
+ public:
+  enum class State {
+    ADVANCES,   ///< wants a look at time()
+    PROBES,     ///< does, too: there is a result, which may become a certain one
+    DONE,       ///< there is a result
+    UNDECIDED,  ///< these numbers do not tell whether there is contact at time()
+  };
+
+  Advancement() = default;
+
+  /// @param time until which there is no contact
+  /// @param is_last whether there are no better numbers, so that it never ends undecided
+  explicit Advancement(double time, bool is_last) : time_(time), is_last_(is_last) {}
+
+  State state() const { return state_; }
+  double time() const { return time_; }
+  const ContactTime& result() const { return result_; }
+
+  /// What is seen at time().
+  void take(const SegmentMotion<Number>& motion, const MotionLook<Number>& look) {
+    const Number upper = look.distance + motion.error;
+    const bool is_near =
+        upper < Number(1.0 - 0x1p-51) * (motion.limit + motion.tolerance) || !(Number(0.0) < upper);
+    const bool is_contact = !(motion.limit < upper);
+    ++looks_;
+    if (state_ == State::PROBES) {
+      probe(motion, look, is_near, is_contact);
+    } else {
+      advance(motion, look, is_near, is_contact);
+    }
+  }
+
+ private:
+  // Grazing motions take the most looks: 65 have been seen.
+  static constexpr std::uint32_t most_looks = 256;
+  static constexpr std::uint32_t most_probes = 4;
+
+  void advance(const SegmentMotion<Number>& motion, const MotionLook<Number>& look, bool is_near,
+               bool is_contact) {
+    const double until = time_after(time_, look.free);
+    if (until >= 1.0) {
+      result_ = ContactTime();
+      state_ = State::DONE;
+    } else if (is_near) {
+      result_ = {true, time_, time_, is_contact};
+      go_on_from(motion, look, is_contact);
+    } else if (until > time_ && looks_ < most_looks) {
+      time_ = until;
+    } else if (until > time_ || is_last_) {
+      result_ = {true, time_, std::numeric_limits<double>::infinity(), false};
+      go_on_from(motion, look, is_contact);
+    } else {
+      state_ = State::UNDECIDED;
+    }
+  }
+
+  void probe(const SegmentMotion<Number>& motion, const MotionLook<Number>& look, bool is_near,
+             bool is_contact) {
+    result_.certain = is_contact || (is_near && crosses_before(motion, look));
+    if (result_.certain || (is_near && time_ < result_.upper)) {
+      result_.upper = time_;
+    }
+    go_on_from(motion, look, result_.certain);
+  }
+
+  /// Whether segments without thickness have crossed: since some time before, as far from the
+  /// crossing as now, where it is sure which side they are on.
+  bool crosses_before(const SegmentMotion<Number>& motion, const MotionLook<Number>& look) const {
+    if (Number(0.0) < motion.limit) {
+      return false;
+    }
+    const Number since = Number(time_) - (look.distance + look.distance) / speed_;
+    return Number(0.0) < since && surely_cross(motion, since, Number(time_));
+  }
+
+  /// Looks for a certain contact a little later: where at this speed they were half the tolerance
+  /// nearer than they need be. Where they graze each other they do not come as near: less, then.
+  void go_on_from(const SegmentMotion<Number>& motion, const MotionLook<Number>& look,
+                  bool is_certain) {
+    state_ = State::DONE;
+    if (is_certain || probes_ == most_probes) {
+      return;
+    }
+    depth_ = probes_ == 0 ? Number(0.5) * motion.tolerance : Number(0.125) * depth_;
+    speed_ = look.closing;
+    ++probes_;
+    const Number way = look.distance - motion.limit + depth_ + Number(4.0) * motion.error;
+    const double next = later(time_, way / speed_);
+    if (next > time_ && time_ < 1.0) {
+      time_ = std::min(next, 1.0);
+      state_ = State::PROBES;
+    }
+  }
+
+  /// The last double before time + free.
+  static double time_after(double time, double free) { return time + free - 0x1p-53; }
+  static double time_after(double time, DoubleDouble free) {
+    const DoubleDouble sum = DoubleDouble(time) + free;
+    return sum.low < 0.0 ? std::nextafter(sum.high, 0.0) : sum.high;
+  }
+
+  /// The time that much later, but at least the next one; the time itself where it is not later.
+  static double later(double time, const Number& wait) {
+    if (!(Number(0.0) < wait && wait < Number(1.0))) {
+      return time;
+    }
+    return std::max(std::nextafter(time, 2.0), static_cast<double>(Number(time) + wait));
+  }
+
+  State state_ = State::ADVANCES;
+  double time_ = 0.0;
+  bool is_last_ = false;
+  std::uint32_t looks_ = 0;
+  std::uint32_t probes_ = 0;
+  Number depth_ = Number(0.0);  // to be looked for
+  Number speed_ = Number(0.0);  // when it was last looked for
+  ContactTime result_;
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace fiber
+HWY_AFTER_NAMESPACE();
+#endif
