@@ -162,10 +162,14 @@ class Truth {
     return most;
   }
 
-  /// How fast the nearest points come nearer at this time [m per motion].
+  /// How fast the nearest points come nearer at this time [m per motion]; 0 where they are so near
+  /// that rounding would make the direction.
   long double closing(double time) const {
     const Placed<long double> placed = rough_.at(time);
     const Nearest<long double> nearest = nearest_of(placed);
+    if (std::sqrt(nearest.squared) < 1e3L * error_) {
+      return 0.0L;
+    }
     const auto& [u, v, w] = rough_.rate();
     const Vector<long double> between = placed.w + nearest.s * placed.u - nearest.t * placed.v;
     const Vector<long double> rate = w + nearest.s * u - nearest.t * v;
@@ -216,32 +220,18 @@ class Truth {
     return Verdict::NONE;
   }
 
-  /// Whether segments without thickness cross until a time; since shortly before another.
+  /// Whether segments without thickness cross between two times, or shortly before the first.
   Verdict crosses_between(double lower, double upper) const {
     const Motion<Rational> exact(motion_);
-    Rational begin = std::max(0.0, lower - 4.0 * (upper - lower) - 0x1p-40);
-    Rational end = upper;
-    const auto volume = [&](const Rational& time) {
-      const Placed<Rational> placed = exact.at(time);
-      return dot(placed.w, cross(placed.u, placed.v));
-    };
-    const bool begins_above = volume(begin) > 0;
-    if (begins_above == (volume(end) > 0)) {
-      return Verdict::UNDECIDED;
+    // There is no contact before `lower`, but the crossing may be there but for rounding.
+    const Rational begin = std::max(0.0, lower - 0x1p-40);
+    const Rational step = (Rational(upper) - begin) / crossing_pieces;
+    Verdict verdict = Verdict::UNDECIDED;
+    for (int i = 0; i < crossing_pieces && verdict != Verdict::CONTACT; ++i) {
+      const Verdict piece = crosses_once(exact, begin + i * step, begin + (i + 1) * step);
+      verdict = piece == Verdict::UNDECIDED ? verdict : piece;
     }
-    constexpr int halvings = 60;
-    for (int i = 0; i < halvings; ++i) {
-      const Rational middle = (begin + end) / 2;
-      ((volume(middle) > 0) == begins_above ? begin : end) = middle;
-    }
-    const auto [u, v, w] = exact.at(begin);
-    const Vector<Rational> normal = cross(u, v);
-    const Rational squared = dot(normal, normal);
-    const Rational s = dot(cross(v, w), normal);
-    const Rational t = dot(cross(u, w), normal);
-    const Rational slack = squared * Rational(0x1p-40);
-    const bool is_inside = s > -slack && s < squared + slack && t > -slack && t < squared + slack;
-    return is_inside ? Verdict::CONTACT : Verdict::NONE;
+    return verdict;
   }
 
   /// Whether the plane between the segments at one time is between them for a while: their ends
@@ -266,6 +256,32 @@ class Truth {
 
  private:
   static constexpr int most_looks = 20000;
+  static constexpr int crossing_pieces = 256;
+
+  /// Undecided if the volume that the segments span has the same sign at both times.
+  static Verdict crosses_once(const Motion<Rational>& exact, Rational begin, Rational end) {
+    const auto is_above = [&](const Rational& time) {
+      const Placed<Rational> placed = exact.at(time);
+      return dot(placed.w, cross(placed.u, placed.v)) > 0;
+    };
+    const bool begins_above = is_above(begin);
+    if (is_above(end) == begins_above) {
+      return Verdict::UNDECIDED;
+    }
+    constexpr int halvings = 60;
+    for (int i = 0; i < halvings; ++i) {
+      const Rational middle = (begin + end) / 2;
+      (is_above(middle) == begins_above ? begin : end) = middle;
+    }
+    const auto [u, v, w] = exact.at(begin);
+    const Vector<Rational> normal = cross(u, v);
+    const Rational squared = dot(normal, normal);
+    const Rational s = dot(cross(v, w), normal);
+    const Rational t = dot(cross(u, w), normal);
+    const Rational slack = squared * Rational(0x1p-40);
+    const bool is_inside = s > -slack && s < squared + slack && t > -slack && t < squared + slack;
+    return is_inside ? Verdict::CONTACT : Verdict::NONE;
+  }
 
   static long double least_error(const HardMotion& motion) {
     return 1e-17L *

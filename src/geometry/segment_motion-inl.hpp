@@ -39,7 +39,6 @@ class SegmentMotion {
       : limit(Number(motions.limit.radius_a) + Number(motions.limit.radius_b) +
               Number(motions.limit.margin)),
         tolerance(tolerance_in_metres) {
-    const Vector none{Number(0.0), Number(0.0), Number(0.0)};
     least_ = difference(motions.a_before[0], motions.b_before[0]);
     most_ = least_;
     for (int i = 0; i < 2; ++i) {
@@ -51,14 +50,12 @@ class SegmentMotion {
         enclose(end);
       }
     }
-    const Vector magnitudes = larger_of(none - least_, most_);
-    const Number largest = larger(magnitudes.x, larger(magnitudes.y, magnitudes.z));
-    error = Number(roundings) * (largest + limit);
-    const auto extent = static_cast<double>(largest);
+    const auto extent = static_cast<double>(largest());
     if (extent > 0.0 && !(extent > least_distance_scale && extent < largest_distance_scale)) {
       constexpr int largest_exponent = 1000;
       scale(std::ldexp(1.0, std::min(-std::ilogb(extent), largest_exponent)));
     }
+    error = Number(roundings) * (largest() + limit);
   }
 
   /// Whether even the box around all corners is out of reach.
@@ -78,6 +75,12 @@ class SegmentMotion {
     most_ = larger_of(corner, most_);
   }
 
+  /// The largest magnitude of a coordinate.
+  Number largest() const {
+    const Vector magnitudes = larger_of(Number(-1.0) * least_, most_);
+    return larger(magnitudes.x, larger(magnitudes.y, magnitudes.z));
+  }
+
   void scale(double factor) {
     const Number unit(factor);
     for (Parallelogram<Number>* shape : {&start, &rate}) {
@@ -86,7 +89,7 @@ class SegmentMotion {
         row[1] = unit * row[1];
       }
     }
-    for (Number* length : {&limit, &tolerance, &error}) {
+    for (Number* length : {&limit, &tolerance}) {
       *length = smaller(unit * *length, Number(longest));
     }
     least_ = unit * least_;
@@ -171,9 +174,9 @@ class Advancement {
   /// What is seen at time().
   void take(const SegmentMotion<Number>& motion, const MotionLook<Number>& look) {
     const Number upper = look.distance + motion.error;
-    const bool is_near =
-        upper < Number(1.0 - 0x1p-51) * (motion.limit + motion.tolerance) || !(Number(0.0) < upper);
     const bool is_contact = !(motion.limit < upper);
+    const Number tolerance = Number(1.0 - 0x1p-51) * motion.tolerance;
+    const bool is_near = is_contact || upper < motion.limit + tolerance;
     ++looks_;
     if (state_ == State::PROBES) {
       probe(motion, look, is_near, is_contact);
@@ -233,12 +236,15 @@ class Advancement {
     if (is_certain || probes_ == most_probes) {
       return;
     }
-    depth_ = probes_ == 0 ? Number(0.5) * motion.tolerance : Number(0.125) * depth_;
-    speed_ = look.closing;
+    if (probes_ == 0 || Number(0.0) < look.closing) {
+      from_ = time_;
+      gap_ = look.distance - motion.limit;
+      speed_ = look.closing;
+    }
+    depth_ = probes_ == 0 ? Number(0.5) * motion.tolerance : Number(0x1p-10) * depth_;
     ++probes_;
-    const Number way = look.distance - motion.limit + depth_ + Number(4.0) * motion.error;
-    const double next = later(time_, way / speed_);
-    if (next > time_ && time_ < 1.0) {
+    const double next = later(from_, (gap_ + depth_ + Number(4.0) * motion.error) / speed_);
+    if (next > from_ && from_ < 1.0) {
       time_ = std::min(next, 1.0);
       state_ = State::PROBES;
     }
@@ -264,8 +270,10 @@ class Advancement {
   bool is_last_ = false;
   std::uint32_t looks_ = 0;
   std::uint32_t probes_ = 0;
-  Number depth_ = Number(0.0);  // to be looked for
-  Number speed_ = Number(0.0);  // when it was last looked for
+  Number depth_ = Number(0.0);  // that probes look for
+  double from_ = 0.0;           // the time of the last look at which the segments came nearer,
+  Number gap_ = Number(0.0);    // what was seen then,
+  Number speed_ = Number(0.0);  // and how fast they did
   ContactTime result_;
 };
 

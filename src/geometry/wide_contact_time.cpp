@@ -14,42 +14,60 @@ using WideState = Advancement<DoubleDouble>::State;
 /// Of coordinates and limit: as those of double, with numbers that err by 2⁻¹⁰² instead of 2⁻⁵³.
 constexpr double wide_roundings = 0x1p-94;
 
-Eigen::Vector3d rounded_corner(const NumberVector<DoubleDouble>& vector) {
-  return {vector.x.high, vector.y.high, vector.z.high};
+using WideVector = NumberVector<DoubleDouble>;
+
+const DoubleDouble wide_zero(0.0);
+const DoubleDouble wide_one(1.0);
+
+/// Parameter of the projection of a point at `offset` from a segment's start.
+DoubleDouble wide_projection(const WideVector& offset, const WideVector& direction) {
+  const DoubleDouble along = dot(offset, direction);
+  const DoubleDouble squared_length = dot(direction, direction);
+  if (!(wide_zero < along)) {
+    return wide_zero;
+  }
+  return along < squared_length ? along / squared_length : wide_one;
 }
 
-DoubleDouble clamped_parameter(DoubleDouble parameter) {
-  return parameter.high < 0.0 ? DoubleDouble(0.0) : smaller(parameter, DoubleDouble(1.0));
-}
-
-/// Parameters of the nearest points: robust ones tell which ends they are or whose inside, the
-/// rest is computed anew.
+/// Parameters of the nearest points: the best of the candidates of segment_distance().
 struct WideParameters {
   DoubleDouble s;
   DoubleDouble t;
 
   explicit WideParameters(const Parallelogram<DoubleDouble>& now) {
-    const NumberVector<DoubleDouble> u = now.along_a();
-    const NumberVector<DoubleDouble> v = now.along_b();
-    const NumberVector<DoubleDouble>& w = now.corners[0][0];
-    const SegmentDistance robust =
-        segment_distance(rounded_corner(w), rounded_corner(now.corners[1][0]),
-                         Eigen::Vector3d::Zero(), rounded_corner(v));
-    s = DoubleDouble(robust.s);
-    t = DoubleDouble(robust.t);
-    const bool on_a = robust.s > 0.0 && robust.s < 1.0;
-    const bool on_b = robust.t > 0.0 && robust.t < 1.0;
-    const NumberVector<DoubleDouble> normal = cross(u, v);
+    const WideVector u = now.along_a();
+    const WideVector v = now.along_b();
+    const auto& corners = now.corners;
+    const WideVector& w = corners[0][0];
+    const WideVector none{wide_zero, wide_zero, wide_zero};
+    consider(now, wide_zero, wide_projection(w, v));
+    consider(now, wide_one, wide_projection(corners[1][0], v));
+    consider(now, wide_projection(none - w, u), wide_zero);
+    consider(now, wide_projection(none - corners[0][1], u), wide_one);
+    const WideVector normal = cross(u, v);
     const DoubleDouble squared = dot(normal, normal);
-    if (on_a && on_b && squared.high > 0.0) {
-      s = clamped_parameter(dot(cross(v, w), normal) / squared);
-      t = clamped_parameter(dot(cross(u, w), normal) / squared);
-    } else if (on_b && dot(v, v).high > 0.0) {
-      t = clamped_parameter(dot(w + s * u, v) / dot(v, v));
-    } else if (on_a && dot(u, u).high > 0.0) {
-      s = clamped_parameter(dot(t * v - w, u) / dot(u, u));
+    const DoubleDouble s_inside = dot(cross(v, w), normal);
+    const DoubleDouble t_inside = dot(cross(u, w), normal);
+    if (wide_zero < s_inside && s_inside < squared && wide_zero < t_inside && t_inside < squared) {
+      consider(now, s_inside / squared, t_inside / squared);
     }
   }
+
+ private:
+  void consider(const Parallelogram<DoubleDouble>& now, DoubleDouble other_s,
+                DoubleDouble other_t) {
+    const WideVector between = now.between(other_s, other_t);
+    const DoubleDouble squared = dot(between, between);
+    if (!has_any_ || squared < squared_) {
+      s = other_s;
+      t = other_t;
+      squared_ = squared;
+      has_any_ = true;
+    }
+  }
+
+  DoubleDouble squared_;
+  bool has_any_ = false;
 };
 
 }  // namespace
