@@ -1,6 +1,13 @@
 #include "fiber_proximity/query/engine.hpp"
 
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <limits>
 #include <stdexcept>
+
+#include "fiber_proximity/geometry/swept_fibers.hpp"
+#include "fiber_proximity/query/contact_judge.hpp"
 
 namespace fiber {
 namespace {
@@ -12,6 +19,40 @@ void reset(QueryResult& result) {
   result.counts = {};
 }
 
+void reset(MotionResult& result) {
+  result.contacts.clear();
+  result.touching.clear();
+}
+
+/// For an engine that finds candidates as contacts.
+QueryOptions candidate_options(const PairTest& test, const QueryLimits& limits) {
+  QueryOptions options;
+  options.margin = test.margin();
+  options.kernel = Kernel::FAST;  // decides without any error
+  options.deadline = limits.deadline.left();
+  options.pair_limit = limits.pairs == std::numeric_limits<std::uint64_t>::max() ? 0 : limits.pairs;
+  return options;
+}
+
+/// Makes candidates of contacts of swept segments.
+void take(const QueryResult& result, const FiberAssembly& a, const FiberAssembly& b,
+          const PairTest& test, const QueryLimits& limits, MotionCandidates& candidates) {
+  for (const Contact& contact : result.contacts) {
+    const PointPair pair = test.ordered({a.offsets()[contact.fiber_a] + contact.segment_a,
+                                         b.offsets()[contact.fiber_b] + contact.segment_b});
+    if (!test.is_left_out(pair)) {
+      candidates.keys.push_back(key_of(pair));
+    }
+  }
+  std::sort(candidates.keys.begin(), candidates.keys.end());
+  candidates.are_all = result.complete || result.limit_reached;
+  candidates.are_too_many = result.limit_reached || candidates.keys.size() > limits.pairs;
+  if (candidates.are_too_many) {
+    candidates.keys.clear();
+  }
+  candidates.counts = result.counts;
+}
+
 const FiberAssembly& require_fibers(const FiberAssembly* fibers) {
   if (fibers == nullptr) {
     throw std::logic_error("the engine has no fibres yet: call update() first");
@@ -21,14 +62,50 @@ const FiberAssembly& require_fibers(const FiberAssembly* fibers) {
 
 }  // namespace
 
+/// The states that a motion is between, and what is swept; its memory is kept.
+struct ProximityEngine::Motion {
+  const FiberAssembly* before = nullptr;
+  const FiberAssembly* after = nullptr;
+  SweptFibers swept;
+};
+
+ProximityEngine::ProximityEngine() = default;
+ProximityEngine::~ProximityEngine() = default;
+
 void ProximityEngine::update(const FiberAssembly& fibers) {
-  const bool same_topology = fibers_ != nullptr && offsets_ == fibers.offsets();
-  fibers_ = nullptr;  // an update that throws leaves no half-updated engine behind
+  const bool same_topology = has_hierarchy_ && offsets_ == fibers.offsets();
+  forget();
   do_update(fibers, same_topology);
-  if (!same_topology) {
+  know(fibers);
+  fibers_ = &fibers;
+}
+
+void ProximityEngine::update_motion(const FiberAssembly& before, const FiberAssembly& after) {
+  const bool same_topology = has_hierarchy_ && offsets_ == before.offsets();
+  forget();
+  if (motion_ == nullptr) {
+    motion_ = std::make_unique<Motion>();
+  }
+  do_update_motion(before, after, same_topology);
+  know(before);
+  motion_->before = &before;
+  motion_->after = &after;
+}
+
+/// An update that throws leaves no half-updated engine behind.
+void ProximityEngine::forget() {
+  fibers_ = nullptr;
+  has_hierarchy_ = false;
+  if (motion_ != nullptr) {
+    motion_->before = nullptr;
+  }
+}
+
+void ProximityEngine::know(const FiberAssembly& fibers) {
+  if (offsets_ != fibers.offsets()) {
     offsets_ = fibers.offsets();
   }
-  fibers_ = &fibers;
+  has_hierarchy_ = true;
 }
 
 void ProximityEngine::query(const QueryOptions& options, QueryResult& result) const {
@@ -42,6 +119,95 @@ void ProximityEngine::query_shape(const FiberAssembly& shape, const QueryOptions
   validate(options);
   reset(result);
   do_query_shape(shape, require_fibers(fibers_), options, result);
+}
+
+const ProximityEngine::Motion& ProximityEngine::require_motion() const {
+  if (motion_ == nullptr || motion_->before == nullptr) {
+    throw std::logic_error("the engine has no motion: call update_motion() first");
+  }
+  return *motion_;
+}
+
+void ProximityEngine::query_motion(const MotionOptions& options, MotionResult& result) const {
+  validate(options);
+  reset(result);
+  require_motion();
+  do_query_motion(options, result);
+}
+
+void ProximityEngine::query_motion_shape(const FiberAssembly& shape_before,
+                                         const FiberAssembly& shape_after,
+                                         const MotionOptions& options, MotionResult& result) const {
+  validate(options);
+  reset(result);
+  require_motion();
+  do_query_motion_shape(shape_before, shape_after, options, result);
+}
+
+void ProximityEngine::do_query_motion(const MotionOptions& options, MotionResult& result) const {
+  const Motion& motion = require_motion();
+  const QueryOptions pairs = pairs_of(options);
+  on_threads([&] {
+    const QueryLimits limits(pairs);
+    const PairTest test(*motion.before, pairs, loops_before());
+    MotionCandidates candidates;
+    do_find_candidates(motion.swept.fibers(), test, limits, candidates);
+    const FiberMotion fibers{*motion.before, *motion.after};
+    judge_motion(candidates, fibers, fibers, test, options, limits, result);
+  });
+}
+
+void ProximityEngine::do_query_motion_shape(const FiberAssembly& shape_before,
+                                            const FiberAssembly& shape_after,
+                                            const MotionOptions& options,
+                                            MotionResult& result) const {
+  const Motion& motion = require_motion();
+  SweptFibers shape;
+  shape.update(shape_before, shape_after, motion.swept.drift());
+  const QueryOptions pairs = pairs_of(options);
+  on_threads([&] {
+    const QueryLimits limits(pairs);
+    const PairTest test(shape_before, *motion.before, pairs);
+    MotionCandidates candidates;
+    do_find_shape_candidates(shape.fibers(), motion.swept.fibers(), test, limits, candidates);
+    judge_motion(candidates, {shape_before, shape_after}, {*motion.before, *motion.after}, test,
+                 options, limits, result);
+  });
+}
+
+void ProximityEngine::do_update_motion(const FiberAssembly& before, const FiberAssembly& after,
+                                       bool same_topology) {
+  motion_->swept.update(before, after);
+  do_update_swept(before, motion_->swept.fibers(), same_topology);
+}
+
+void ProximityEngine::do_update_swept(const FiberAssembly& /*before*/, const FiberAssembly& swept,
+                                      bool same_topology) {
+  do_update(swept, same_topology);
+}
+
+void ProximityEngine::do_find_candidates(const FiberAssembly& swept, const PairTest& test,
+                                         const QueryLimits& limits,
+                                         MotionCandidates& candidates) const {
+  QueryOptions options = candidate_options(test, limits);
+  // What is left out by where the fibres are is judged by where they were before the motion.
+  options.neighbour_skip = test.wants_adjacent() ? 0 : 1;
+  QueryResult result;
+  do_query(swept, options, result);
+  take(result, swept, swept, test, limits, candidates);
+}
+
+void ProximityEngine::do_find_shape_candidates(const FiberAssembly& shape,
+                                               const FiberAssembly& swept, const PairTest& test,
+                                               const QueryLimits& limits,
+                                               MotionCandidates& candidates) const {
+  QueryResult result;
+  do_query_shape(shape, swept, candidate_options(test, limits), result);
+  take(result, shape, swept, test, limits, candidates);
+}
+
+void ProximityEngine::on_threads(const std::function<void()>& work) const {
+  tbb::task_arena(1).execute(work);
 }
 
 void ProximityEngine::level_boxes(std::uint32_t /*level*/, std::vector<NodeBox>& boxes) const {

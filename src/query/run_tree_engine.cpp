@@ -238,6 +238,44 @@ RunTreeEngine::Candidates RunTreeEngine::current_candidates(const PairTest& test
   return {keys, found};
 }
 
+void RunTreeEngine::do_update_swept(const FiberAssembly& before, const FiberAssembly& swept,
+                                     bool same_topology) {
+  loops_.reset(before);
+  arena_.execute([&] {
+    if (same_topology) {
+      tree_.update(swept, hierarchy_origin(swept));
+    } else {
+      tree_.build(swept, hierarchy_origin(swept));
+    }
+    start_anew(swept);
+  });
+}
+
+void RunTreeEngine::do_find_candidates(const FiberAssembly& /*swept*/, const PairTest& test,
+                                       const QueryLimits& limits,
+                                       MotionCandidates& candidates) const {
+  find_candidates(tree_.view(), test, limits, candidates);
+}
+
+void RunTreeEngine::do_find_shape_candidates(const FiberAssembly& shape,
+                                             const FiberAssembly& /*swept*/, const PairTest& test,
+                                             const QueryLimits& limits,
+                                             MotionCandidates& candidates) const {
+  RunTree shape_tree;
+  shape_tree.build(shape, tree_.origin());
+  find_candidates(shape_tree.view(), test, limits, candidates);
+}
+
+void RunTreeEngine::find_candidates(const RunTreeView& a, const PairTest& test,
+                                    const QueryLimits& limits, MotionCandidates& candidates) const {
+  with_batch([&](ContactBatch& batch) {
+    const ContactBatch::Found found =
+        batch.collect(a, tree_.view(), test, limits, candidates.keys, candidates.counts);
+    candidates.are_all = found != ContactBatch::Found::SOME;
+    candidates.are_too_many = found == ContactBatch::Found::TOO_MANY;
+  });
+}
+
 template <class Call>
 void RunTreeEngine::with_batch(const Call& call) const {
   std::unique_ptr<ContactBatch> batch;

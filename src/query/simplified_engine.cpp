@@ -129,4 +129,20 @@ double SimplifiedEngine::restore(const FiberAssembly& fibers, std::uint32_t fibe
   return deviation;
 }
 
+void SimplifiedEngine::do_update_motion(const FiberAssembly& before, const FiberAssembly& after,
+                                        bool /*same_topology*/) {
+  engine_->update_motion(before, after);
+}
+
+void SimplifiedEngine::do_query_motion(const MotionOptions& options, MotionResult& result) const {
+  engine_->query_motion(options, result);
+}
+
+void SimplifiedEngine::do_query_motion_shape(const FiberAssembly& shape_before,
+                                             const FiberAssembly& shape_after,
+                                             const MotionOptions& options,
+                                             MotionResult& result) const {
+  engine_->query_motion_shape(shape_before, shape_after, options, result);
+}
+
 }  // namespace fiber

@@ -32,6 +32,13 @@ class ContactBatch {
     return collect(a, b, test, bound, limits, false, keys, counts);
   }
 
+  /// The same of all pairs within the margin, as the fibres of the test are now: without those that
+  /// lack a loop.
+  Found collect(const RunTreeView& a, const RunTreeView& b, const PairTest& test,
+                const QueryLimits& limits, std::vector<std::uint64_t>& keys, QueryCounts& counts) {
+    return collect(a, b, test, test.margin(), limits, true, keys, counts);
+  }
+
   /// The same from candidates of a tree with itself that were collected before: those of outdated
   /// segments are left out and looked for anew.
   Found replace(const std::vector<std::uint64_t>& old_keys, const OutdatedSegments& outdated,

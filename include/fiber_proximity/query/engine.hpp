@@ -1,11 +1,14 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/query/contact.hpp"
+#include "fiber_proximity/query/motion.hpp"
+#include "fiber_proximity/query/motion_judge.hpp"
 #include "fiber_proximity/query/options.hpp"
 
 namespace fiber {
@@ -41,7 +44,10 @@ struct EngineOptions {
 /// differ in what an update and a query cost.
 class ProximityEngine {
  public:
-  virtual ~ProximityEngine() = default;
+  ProximityEngine();
+  virtual ~ProximityEngine();
+  ProximityEngine(const ProximityEngine&) = delete;
+  ProximityEngine& operator=(const ProximityEngine&) = delete;
 
   /// Makes these fibres the ones queries are about. The engine refers to them until the next
   /// update: they must live, unchanged, until then. Without a change of topology nothing is
@@ -58,6 +64,26 @@ class ProximityEngine {
   /// @throws std::invalid_argument for options that do not validate
   void query_shape(const FiberAssembly& shape, const QueryOptions& options,
                    QueryResult& result) const;
+
+  /// Makes this motion the one that query_motion() is about: every point moves linearly from where
+  /// it is before to where it is after. Of each segment the larger radius counts. The engine refers
+  /// to both until the next update. There are no fibres for query() then.
+  /// @throws std::invalid_argument if the two are not of one topology, or a segment moves further
+  ///         than SweptFibers allows
+  void update_motion(const FiberAssembly& before, const FiberAssembly& after);
+  void update_motion(FiberAssembly&&, const FiberAssembly&) = delete;
+  void update_motion(const FiberAssembly&, FiberAssembly&&) = delete;
+
+  /// Pairs of segments of these fibres that come into contact during the motion, and when. No
+  /// contact is missed, and each time has proven bounds: see contact_time().
+  /// @throws std::invalid_argument for options that do not validate
+  void query_motion(const MotionOptions& options, MotionResult& result) const;
+
+  /// Pairs of a segment of a shape (a), which moves as well, and one of the fibres (b); the
+  /// neighbour skips and the pairing do not apply.
+  /// @throws std::invalid_argument for options that do not validate, or as update_motion()
+  void query_motion_shape(const FiberAssembly& shape_before, const FiberAssembly& shape_after,
+                          const MotionOptions& options, MotionResult& result) const;
 
   /// Number of levels of the hierarchy, 0 if there is none.
   virtual std::uint32_t level_count() const { return 0; }
@@ -86,9 +112,42 @@ class ProximityEngine {
   virtual void do_query_shape(const FiberAssembly& shape, const FiberAssembly& fibers,
                               const QueryOptions& options, QueryResult& result) const = 0;
 
+  // Motions: any engine finds candidates among the swept fibres as it finds contacts.
+
+  virtual void do_update_motion(const FiberAssembly& before, const FiberAssembly& after,
+                                bool same_topology);
+  virtual void do_query_motion(const MotionOptions& options, MotionResult& result) const;
+  virtual void do_query_motion_shape(const FiberAssembly& shape_before,
+                                     const FiberAssembly& shape_after, const MotionOptions& options,
+                                     MotionResult& result) const;
+
+  /// @param before for what is known of the fibres where they begin
+  virtual void do_update_swept(const FiberAssembly& before, const FiberAssembly& swept,
+                               bool same_topology);
+  /// Pairs of swept segments with a gap of at most the margin, but for those that the test leaves
+  /// out; others may be among them.
+  virtual void do_find_candidates(const FiberAssembly& swept, const PairTest& test,
+                                  const QueryLimits& limits, MotionCandidates& candidates) const;
+  /// The same of a swept shape (a) and the swept fibres (b).
+  virtual void do_find_shape_candidates(const FiberAssembly& shape, const FiberAssembly& swept,
+                                        const PairTest& test, const QueryLimits& limits,
+                                        MotionCandidates& candidates) const;
+  /// What is known of the loops of the fibres before the motion, nullptr if nothing is.
+  virtual const LoopTest* loops_before() const { return nullptr; }
+  /// Works on as many threads as this engine may use.
+  virtual void on_threads(const std::function<void()>& work) const;
+
  private:
+  struct Motion;
+
+  void forget();
+  void know(const FiberAssembly& fibers);
+  const Motion& require_motion() const;
+
   const FiberAssembly* fibers_ = nullptr;
-  std::vector<std::uint32_t> offsets_;
+  bool has_hierarchy_ = false;
+  std::vector<std::uint32_t> offsets_;  // of the fibres that it is of
+  std::unique_ptr<Motion> motion_;      // none until there is one
 };
 
 /// The engine of this name: one of engine_names(), or DL-k and DS-k for any even k in [6, 200], or

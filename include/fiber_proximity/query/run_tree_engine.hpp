@@ -43,6 +43,15 @@ class RunTreeEngine final : public ProximityEngine {
                 QueryResult& result) const override;
   void do_query_shape(const FiberAssembly& shape, const FiberAssembly& fibers,
                       const QueryOptions& options, QueryResult& result) const override;
+  void do_update_swept(const FiberAssembly& before, const FiberAssembly& swept,
+                        bool same_topology) override;
+  void do_find_candidates(const FiberAssembly& swept, const PairTest& test,
+                          const QueryLimits& limits, MotionCandidates& candidates) const override;
+  void do_find_shape_candidates(const FiberAssembly& shape, const FiberAssembly& swept,
+                                const PairTest& test, const QueryLimits& limits,
+                                MotionCandidates& candidates) const override;
+  const LoopTest* loops_before() const override { return &loops_; }
+  void on_threads(const std::function<void()>& work) const override { arena_.execute(work); }
 
  private:
   bool tree_still_serves(const FiberAssembly& fibers);
@@ -59,6 +68,9 @@ class RunTreeEngine final : public ProximityEngine {
                                 QueryCounts& counts) const;
   bool find_own(const PairTest& test, const QueryOptions& options, const QueryLimits& limits,
                 QueryResult& result) const;
+
+  void find_candidates(const RunTreeView& a, const PairTest& test, const QueryLimits& limits,
+                       MotionCandidates& candidates) const;
 
   /// Calls with memory that queries which run at the same time do not share.
   template <class Call>

@@ -40,6 +40,13 @@ class SimplifiedEngine final : public ProximityEngine {
   void do_query_shape(const FiberAssembly& shape, const FiberAssembly& fibers,
                       const QueryOptions& options, QueryResult& result) const override;
 
+  // Motions are those of the fibres as they are.
+  void do_update_motion(const FiberAssembly& before, const FiberAssembly& after,
+                        bool same_topology) override;
+  void do_query_motion(const MotionOptions& options, MotionResult& result) const override;
+  void do_query_motion_shape(const FiberAssembly& shape_before, const FiberAssembly& shape_after,
+                             const MotionOptions& options, MotionResult& result) const override;
+
  private:
   double restore(const FiberAssembly& fibers, std::uint32_t fiber, std::uint32_t& segment,
                  double& s, Contact& contact) const;

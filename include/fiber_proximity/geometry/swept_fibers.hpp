@@ -1,0 +1,39 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
+
+namespace fiber {
+
+/// Fibres that hold all that others come by while each of their points moves linearly: each segment
+/// where it is halfway, thicker by half the way of its ends.
+///
+/// What all points have in common, the drift, is taken out of the ways: it brings no two segments
+/// nearer. Between two segments the true gap at any time is at least that of the swept ones.
+class SweptFibers {
+ public:
+  /// @throws std::invalid_argument if the two are not of one topology, or naming the fibre and
+  ///         segment that moves so far that it would be thicker than FiberAssembly::max_coordinate;
+  ///         what there was is lost then
+  void update(const FiberAssembly& before, const FiberAssembly& after);
+
+  /// The same of a shape that is looked for among fibres with this drift [m].
+  void update(const FiberAssembly& before, const FiberAssembly& after,
+              const Eigen::Vector3d& drift);
+
+  const FiberAssembly& fibers() const { return fibers_; }
+  const Eigen::Vector3d& drift() const { return drift_; }
+  std::size_t memory_bytes() const;
+
+ private:
+  Eigen::Vector3d drift_ = Eigen::Vector3d::Zero();  // [m]
+  FiberAssembly fibers_;
+  std::vector<Eigen::Vector3d> points_;
+  std::vector<double> half_ways_;      // [m] by point
+  std::vector<double> segment_radii_;  // [m] by first point
+};
+
+}  // namespace fiber

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/query/motion.hpp"
+#include "fiber_proximity/query/pair_test.hpp"
+#include "fiber_proximity/query/query_limits.hpp"
+
+namespace fiber {
+
+/// Fibres before and after a motion.
+struct FiberMotion {
+  const FiberAssembly& before;
+  const FiberAssembly& after;
+};
+
+/// Pairs that may come into contact during a motion.
+struct MotionCandidates {
+  std::vector<std::uint64_t> keys;  ///< see key_of(); in ascending order
+  bool are_all = true;              ///< false: the deadline has passed
+  bool are_too_many = false;        ///< more than may be examined: there are none
+  QueryCounts counts;
+};
+
+/// When each candidate comes into contact, slice by slice on several threads, and which of these
+/// the options ask for. The same for any number of threads.
+/// @param a, b of the first and the second segments of pairs, the same for fibres with each other
+/// @param test of the fibres before the motion
+void judge_motion(const MotionCandidates& candidates, const FiberMotion& a, const FiberMotion& b,
+                  const PairTest& test, const MotionOptions& options, const QueryLimits& limits,
+                  MotionResult& result);
+
+}  // namespace fiber

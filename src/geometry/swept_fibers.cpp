@@ -1,0 +1,81 @@
+#include "fiber_proximity/geometry/swept_fibers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "fiber_proximity/geometry/norm.hpp"
+
+namespace fiber {
+namespace {
+
+void check_topology(const FiberAssembly& before, const FiberAssembly& after) {
+  if (before.offsets() != after.offsets()) {
+    std::ostringstream message;
+    message << "the fibres change their topology: " << before.fiber_count() << " of "
+            << before.point_count() << " points before, " << after.fiber_count() << " of "
+            << after.point_count()
+            << " after; a motion needs the same fibres with the same numbers of points";
+    throw std::invalid_argument(message.str());
+  }
+}
+
+/// What the points move on average [m].
+Eigen::Vector3d mean_way(const FiberAssembly& before, const FiberAssembly& after) {
+  // Of each its part: the sum of all could leave the range of double.
+  const double part = 1.0 / static_cast<double>(std::max<std::size_t>(before.point_count(), 1));
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < before.point_count(); ++i) {
+    mean += part * (after.points()[i] - before.points()[i]);
+  }
+  return mean;
+}
+
+}  // namespace
+
+void SweptFibers::update(const FiberAssembly& before, const FiberAssembly& after) {
+  check_topology(before, after);
+  update(before, after, mean_way(before, after));
+}
+
+void SweptFibers::update(const FiberAssembly& before, const FiberAssembly& after,
+                         const Eigen::Vector3d& drift) {
+  check_topology(before, after);
+  drift_ = drift;
+  const std::size_t count = before.point_count();
+  points_.resize(count);
+  half_ways_.resize(count);
+  segment_radii_.assign(count, 0.0);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3d& from = before.points()[i];
+    const Eigen::Vector3d& to = after.points()[i];
+    points_[i] = 0.5 * from + 0.5 * to;
+    // Sums and differences here and in what is swept err by less than 2⁻⁵¹ of these together.
+    const double magnitude = std::max(from.cwiseAbs().maxCoeff(), to.cwiseAbs().maxCoeff()) +
+                             drift.cwiseAbs().maxCoeff();
+    half_ways_[i] = 0.5 * norm_of((to - from) - drift) * (1.0 + 0x1p-50) + 0x1p-48 * magnitude;
+  }
+  for (std::size_t fiber = 0; fiber < before.fiber_count(); ++fiber) {
+    for (std::uint32_t i = before.offsets()[fiber]; i + 1 < before.offsets()[fiber + 1]; ++i) {
+      const double radius = std::max(before.segment_radius(i), after.segment_radius(i));
+      segment_radii_[i] = (radius + std::max(half_ways_[i], half_ways_[i + 1])) * (1.0 + 0x1p-50);
+      if (!FiberAssembly::is_valid_radius(segment_radii_[i])) {
+        std::ostringstream message;
+        message << "fibre " << fiber << ", segment " << i - before.offsets()[fiber]
+                << ": moves so far that with its radius it sweeps " << segment_radii_[i]
+                << " m to each side; at most " << FiberAssembly::max_coordinate << " m are allowed";
+        throw std::invalid_argument(message.str());
+      }
+    }
+  }
+  fibers_.assign_segments(points_, before.offsets(), segment_radii_);
+}
+
+std::size_t SweptFibers::memory_bytes() const {
+  // Points, radii as given and by segment, of the fibres and of what they are made from.
+  return points_.capacity() * 2 * sizeof(Eigen::Vector3d) +
+         segment_radii_.capacity() * 3 * sizeof(double) + half_ways_.capacity() * sizeof(double);
+}
+
+}  // namespace fiber

@@ -1,0 +1,38 @@
+#include "fiber_proximity/query/motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace fiber {
+
+QueryOptions pairs_of(const MotionOptions& options) {
+  QueryOptions pairs;
+  pairs.margin = options.margin;
+  pairs.pairing = options.pairing;
+  pairs.neighbour_skip = options.neighbour_skip;
+  pairs.neighbour_skip_length = options.neighbour_skip_length;
+  pairs.deadline = options.deadline;
+  pairs.contact_limit = options.contact_limit;
+  pairs.pair_limit = options.pair_limit;
+  return pairs;
+}
+
+void validate(const MotionOptions& options) {
+  QueryOptions pairs = pairs_of(options);
+  pairs.tolerance = options.tolerance;
+  validate(pairs);
+  if (options.type == MotionType::LIMITED && options.max_contacts == 0) {
+    throw std::invalid_argument("max_contacts is 0, a limited query needs at least 1");
+  }
+}
+
+const MotionContact* MotionResult::earliest() const {
+  const auto first = std::min_element(
+      contacts.begin(), contacts.end(),
+      [](const MotionContact& x, const MotionContact& y) { return x.earlier_than(y); });
+  return first == contacts.end() ? nullptr : &*first;
+}
+
+}  // namespace fiber

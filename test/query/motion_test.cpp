@@ -1,0 +1,375 @@
+// Queries about motions: every engine finds what all pairs, one by one, find.
+#include "fiber_proximity/query/motion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+
+#include "fiber_proximity/geometry/contact_time.hpp"
+#include "fiber_proximity/query/contact_judge.hpp"
+#include "fiber_proximity/query/pair_test.hpp"
+#include "support/engines_test.hpp"
+#include "support/error_of.hpp"
+
+namespace fiber::test {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+bool same(const std::vector<MotionContact>& x, const std::vector<MotionContact>& y) {
+  return std::equal(x.begin(), x.end(), y.begin(), y.end(),
+                    [](const MotionContact& a, const MotionContact& b) {
+                      return a.key() == b.key() && a.lower == b.lower && a.upper == b.upper &&
+                             a.certain == b.certain;
+                    });
+}
+
+/// The same fibres, moved.
+FiberAssembly with_points(const FiberAssembly& fibers, const std::vector<Vector3d>& points) {
+  FiberAssembly moved = fibers;
+  moved.update_points(points);
+  return moved;
+}
+
+/// [m] About the size of a segment with its radius: what a motion is measured by.
+double size_of(const FiberAssembly& fibers) {
+  double size = fibers.largest_radius();
+  for (std::size_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
+    const std::uint32_t first = fibers.offsets()[fiber];
+    size = std::max(size, (fibers.points()[first + 1] - fibers.points()[first]).norm());
+  }
+  return size;
+}
+
+/// Every point goes its own way, and all together one more.
+FiberAssembly moved(const FiberAssembly& fibers, double way, Random& random) {
+  const Vector3d common = 3.0 * way * random.in_cube();
+  std::vector<Vector3d> points = fibers.points();
+  for (Vector3d& point : points) {
+    point += common + way * random.in_cube();
+  }
+  return with_points(fibers, points);
+}
+
+SegmentMotions motions_of(const FiberAssembly& before, const FiberAssembly& after, PointPair pair,
+                          double margin) {
+  return {&before.points()[pair.a],
+          &after.points()[pair.a],
+          &before.points()[pair.b],
+          &after.points()[pair.b],
+          {before.segment_radius(pair.a), before.segment_radius(pair.b), margin}};
+}
+
+std::vector<std::uint32_t> first_points(const FiberAssembly& fibers) {
+  std::vector<std::uint32_t> points;
+  for (std::size_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
+    for (std::uint32_t i = fibers.offsets()[fiber]; i + 1 < fibers.offsets()[fiber + 1]; ++i) {
+      points.push_back(i);
+    }
+  }
+  return points;
+}
+
+/// All pairs, one by one.
+MotionResult expected_of(const FiberAssembly& before, const FiberAssembly& after,
+                         const MotionOptions& options) {
+  const QueryOptions pairs = pairs_of(options);
+  const PairTest test(before, pairs);
+  const std::vector<std::uint32_t> segments = first_points(before);
+  MotionResult result;
+  for (const std::uint32_t a : segments) {
+    for (const std::uint32_t b : segments) {
+      if (a >= b || test.is_left_out({a, b})) {
+        continue;
+      }
+      const ContactTime time =
+          contact_time(motions_of(before, after, {a, b}, options.margin), options.tolerance);
+      if (time.hit && !test.lacks_loop({a, b})) {
+        const SegmentId id_a = before.segment_id(a);
+        const SegmentId id_b = before.segment_id(b);
+        const bool touches = time.certain && time.upper == 0.0;
+        (touches ? result.touching : result.contacts)
+            .push_back({id_a.fiber, id_a.segment, id_b.fiber, id_b.segment, time.lower, time.upper,
+                        time.certain});
+      }
+    }
+  }
+  return result;
+}
+
+std::vector<MotionContact> by_time(std::vector<MotionContact> contacts) {
+  std::sort(contacts.begin(), contacts.end(),
+            [](const MotionContact& x, const MotionContact& y) { return x.earlier_than(y); });
+  return contacts;
+}
+
+class MotionQueries : public EnginesTest {
+ protected:
+  MotionResult ask_motion(const FiberAssembly& before, const FiberAssembly& after,
+                          const MotionOptions& options, std::uint32_t threads = 0) const {
+    const std::unique_ptr<ProximityEngine> engine = make_engine(GetParam(), {threads});
+    MotionResult result;
+    engine->update_motion(before, after);
+    engine->query_motion(options, result);
+    EXPECT_TRUE(result.complete);
+    return result;
+  }
+};
+
+TEST_P(MotionQueries, FindWhatAllPairsFind) {
+  std::size_t began = 0;
+  std::size_t touched = 0;
+  for_each_assembly(1, [&](const FiberAssembly& before, Random& random) {
+    for (const double part : {0.0, 0.1, 3.0}) {
+      const FiberAssembly after = moved(before, part * size_of(before), random);
+      MotionOptions options;
+      options.margin = random.chance(0.5) ? 0.0 : 0.2 * size_of(before);
+      options.tolerance = 1e-6 * size_of(before);
+      options.pairing = static_cast<Pairing>(random.integer(0, 2));
+      if (random.chance(0.5)) {
+        options.neighbour_skip = static_cast<std::uint32_t>(random.integer(0, 3));
+      }
+      const MotionResult expected = expected_of(before, after, options);
+      const MotionResult found = ask_motion(before, after, options);
+      ASSERT_EQ(found.contacts.size(), expected.contacts.size());
+      ASSERT_TRUE(same(found.contacts, expected.contacts));
+      ASSERT_TRUE(same(found.touching, expected.touching));
+      began += expected.contacts.size();
+      touched += expected.touching.size();
+    }
+  });
+  expect_enough(began, std::size_t{100});
+  expect_enough(touched, std::size_t{100});
+}
+
+TEST_P(MotionQueries, WithoutMotionThoseInContactAreAll) {
+  for_each_assembly(1, [&](const FiberAssembly& fibers, Random&) {
+    QueryOptions pairs;
+    pairs.kernel = Kernel::EXACT;
+    const QueryResult contacts = ask(fibers, pairs);
+    MotionOptions options;
+    options.tolerance = 0.0;
+    const MotionResult result = ask_motion(fibers, fibers, options);
+    ASSERT_EQ(result.touching.size(), contacts.contacts.size());
+    for (std::size_t i = 0; i < result.touching.size(); ++i) {
+      ASSERT_EQ(result.touching[i].key(), contacts.contacts[i].key());
+    }
+    ASSERT_TRUE(result.contacts.empty());
+  });
+}
+
+TEST_P(MotionQueries, AShapeThatMovesMeetsFibersThatMove) {
+  for_each_assembly(1, [&](const FiberAssembly& before, Random& random) {
+    const FiberAssembly after = moved(before, size_of(before), random);
+    const FiberAssembly shape_before = moved(before, size_of(before), random);
+    const FiberAssembly shape_after = moved(before, 2.0 * size_of(before), random);
+    const std::unique_ptr<ProximityEngine> engine = make_engine(GetParam());
+    MotionOptions options;
+    options.tolerance = 1e-6 * size_of(before);
+    MotionResult found;
+    engine->update_motion(before, after);
+    engine->query_motion_shape(shape_before, shape_after, options, found);
+    MotionResult expected;
+    for (const std::uint32_t a : first_points(before)) {
+      for (const std::uint32_t b : first_points(before)) {
+        const ContactTime time =
+            contact_time({&shape_before.points()[a],
+                          &shape_after.points()[a],
+                          &before.points()[b],
+                          &after.points()[b],
+                          {before.segment_radius(a), before.segment_radius(b), 0.0}},
+                         options.tolerance);
+        if (time.hit) {
+          const SegmentId id_a = before.segment_id(a);
+          const SegmentId id_b = before.segment_id(b);
+          (time.certain && time.upper == 0.0 ? expected.touching : expected.contacts)
+              .push_back({id_a.fiber, id_a.segment, id_b.fiber, id_b.segment, time.lower,
+                          time.upper, time.certain});
+        }
+      }
+    }
+    ASSERT_TRUE(same(found.contacts, expected.contacts));
+    ASSERT_TRUE(same(found.touching, expected.touching));
+  });
+}
+
+TEST_P(MotionQueries, AfterAMotionAnUpdateAnswersAsEver) {
+  for_each_assembly(1, [&](const FiberAssembly& before, Random& random) {
+    const FiberAssembly after = moved(before, size_of(before), random);
+    const std::unique_ptr<ProximityEngine> engine = make_engine(GetParam());
+    engine->update_motion(before, after);
+    QueryResult result;
+    EXPECT_THROW(engine->query({}, result), std::logic_error);
+    engine->update(after);
+    engine->query({}, result);
+    const QueryResult fresh = ask(after, {});
+    ASSERT_EQ(result.contacts.size(), fresh.contacts.size());
+    for (std::size_t i = 0; i < fresh.contacts.size(); ++i) {
+      ASSERT_EQ(result.contacts[i].key(), fresh.contacts[i].key());
+      ASSERT_EQ(result.contacts[i].distance, fresh.contacts[i].distance);
+    }
+    MotionResult motion;
+    EXPECT_THROW(engine->query_motion({}, motion), std::logic_error);
+  });
+}
+
+/// One straight fibre above another, which comes down through it.
+std::vector<Vector3d> straight(double z, bool along_x) {
+  std::vector<Vector3d> points;
+  for (int i = 0; i <= 20; ++i) {
+    const double x = -0.5 + 0.05 * i;
+    points.push_back(along_x ? Vector3d(x, 0.01, z) : Vector3d(0.01, x, z));
+  }
+  return points;
+}
+
+FiberAssembly crossed_cables(double z) {
+  AssemblyBuilder builder;
+  builder.add_fiber(straight(0.0, true));
+  builder.add_fiber(straight(z, false));
+  return builder.build({0.002});
+}
+
+TEST_P(MotionQueries, ACableThatPassesThroughAnotherBetweenFramesIsCaught) {
+  const FiberAssembly before = crossed_cables(0.1);
+  const FiberAssembly after = crossed_cables(-0.1);
+  EXPECT_TRUE(ask(before, {}).contacts.empty());
+  EXPECT_TRUE(ask(after, {}).contacts.empty());
+  MotionOptions options;
+  options.tolerance = 1e-9;
+  const MotionResult result = ask_motion(before, after, options);
+  ASSERT_EQ(result.contacts.size(), 1U);
+  const MotionContact& contact = result.contacts.front();
+  const double truth = (0.1 - 0.004) / 0.2;
+  EXPECT_TRUE(contact.certain);
+  EXPECT_LE(contact.lower, truth);
+  EXPECT_GE(contact.upper, truth);
+  EXPECT_LE(contact.upper - contact.lower, 1e-8);
+  EXPECT_EQ(contact.fiber_a, 0U);
+  EXPECT_EQ(contact.fiber_b, 1U);
+  EXPECT_TRUE(result.touching.empty());
+}
+
+TEST_P(MotionQueries, TheEarliestAreThoseOfAll) {
+  const FiberAssembly before = crossed_cables(0.1);
+  const FiberAssembly after = crossed_cables(-0.1);
+  MotionOptions options;
+  options.margin = 0.06;
+  const MotionResult all = ask_motion(before, after, options);
+  EXPECT_EQ(all.others_lower, 1.0);
+  const std::vector<MotionContact> ordered = by_time(all.contacts);
+  ASSERT_GT(ordered.size(), 3U);
+  ASSERT_NE(all.earliest(), nullptr);
+  EXPECT_TRUE(same({*all.earliest()}, {ordered.front()}));
+
+  options.type = MotionType::FIRST;
+  const MotionResult first = ask_motion(before, after, options);
+  ASSERT_EQ(first.contacts.size(), 1U);
+  EXPECT_TRUE(same(first.contacts, {ordered.front()}));
+  EXPECT_EQ(first.others_lower, ordered[1].lower);
+  EXPECT_FALSE(first.limit_reached);
+  EXPECT_TRUE(same(first.touching, all.touching));
+
+  options.type = MotionType::LIMITED;
+  options.max_contacts = 3;
+  const MotionResult three = ask_motion(before, after, options);
+  EXPECT_TRUE(same(by_time(three.contacts), {ordered.begin(), ordered.begin() + 3}));
+  EXPECT_EQ(three.others_lower, ordered[3].lower);
+  EXPECT_TRUE(three.limit_reached);
+}
+
+TEST_P(MotionQueries, LimitsAreKeptAndTold) {
+  const FiberAssembly before = crossed_cables(0.1);
+  const FiberAssembly after = crossed_cables(-0.1);
+  MotionOptions options;
+  options.margin = 0.06;
+  const std::vector<MotionContact> all = by_time(ask_motion(before, after, options).contacts);
+  ASSERT_GT(all.size(), 2U);
+  options.contact_limit = 2;
+  const MotionResult two = ask_motion(before, after, options);
+  EXPECT_TRUE(same(by_time(two.contacts), {all.begin(), all.begin() + 2}));
+  EXPECT_TRUE(two.limit_reached);
+  options.contact_limit = 0;
+  options.pair_limit = 1;
+  const std::unique_ptr<ProximityEngine> engine = make_engine(GetParam());
+  MotionResult none;
+  engine->update_motion(before, after);
+  engine->query_motion(options, none);
+  EXPECT_TRUE(none.contacts.empty() && none.limit_reached && !none.complete);
+  EXPECT_EQ(none.others_lower, 0.0);
+}
+
+TEST_P(MotionQueries, BadInputIsRefused) {
+  const FiberAssembly before = crossed_cables(0.1);
+  const std::unique_ptr<ProximityEngine> engine = make_engine(GetParam());
+  MotionResult result;
+  EXPECT_THROW(engine->query_motion({}, result), std::logic_error);
+  AssemblyBuilder other;
+  other.add_fiber(straight(0.0, true));
+  const FiberAssembly one = other.build({0.002});
+  EXPECT_EQ(
+      error_of([&] { engine->update_motion(before, one); }),
+      "the fibres change their topology: 2 of 42 points before, 1 of 21 after; a motion needs "
+      "the same fibres with the same numbers of points");
+  EXPECT_THROW(engine->query_motion({}, result), std::logic_error) << "nothing half updated";
+
+  engine->update_motion(before, before);
+  for (const double tolerance : {-1e-9, infinity, std::nan("")}) {
+    MotionOptions options;
+    options.tolerance = tolerance;
+    EXPECT_THROW(engine->query_motion(options, result), std::invalid_argument) << tolerance;
+  }
+  MotionOptions options;
+  options.type = MotionType::LIMITED;
+  options.max_contacts = 0;
+  EXPECT_THROW(engine->query_motion(options, result), std::invalid_argument);
+  options = {};
+  options.margin = -1.0;
+  EXPECT_THROW(engine->query_motion(options, result), std::invalid_argument);
+
+  std::vector<Vector3d> far = before.points();
+  far.front().x() = 1e150;
+  far.back().x() = -1e150;
+  std::vector<Vector3d> back = before.points();
+  back.front().x() = -1e150;
+  back.back().x() = 1e150;
+  const FiberAssembly from = with_points(before, far);
+  const FiberAssembly to = with_points(before, back);
+  EXPECT_NE(
+      error_of([&] { engine->update_motion(from, to); }).find("fibre 0, segment 0: moves so far"),
+      std::string::npos);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, MotionQueries, all_engines(), name_of_engine);
+
+TEST(MotionQueriesOnThreads, AnswerTheSame) {
+  Random random;
+  AssemblyBuilder builder;
+  for (int i = 0; i < 200; ++i) {
+    builder.add_fiber(random_walk(random, 20, 0.05));
+  }
+  const FiberAssembly before = builder.build({0.004});
+  const FiberAssembly after = moved(before, 0.05, random);
+  MotionResult expected;
+  for (const std::uint32_t threads : {1U, 2U, 4U}) {
+    const std::unique_ptr<ProximityEngine> engine = make_engine("run_tree", {threads});
+    MotionResult result;
+    engine->update_motion(before, after);
+    engine->query_motion({}, result);
+    if (threads == 1) {
+      expected = result;
+    }
+    expect_enough(result.contacts.size(), std::size_t{100});
+    EXPECT_TRUE(same(result.contacts, expected.contacts) &&
+                same(result.touching, expected.touching));
+  }
+}
+
+}  // namespace
+}  // namespace fiber::test
