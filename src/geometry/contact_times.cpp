@@ -27,7 +27,115 @@ constexpr std::size_t most_lanes = hn::MaxLanes(Doubles());
 /// Of coordinates and limit (docs/numerics.md).
 constexpr double roundings = 0x1p-46;
 
-/// What is looked at, a pair a lane: coordinate by coordinate, then lane.
+Parallelogram<LaneNumber> load(const double (&values)[12][most_lanes]) {
+  const Doubles d;
+  Parallelogram<LaneNumber> result;
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    result.corners[corner / 2][corner % 2] = {LaneNumber(hn::Load(d, values[3 * corner])),
+                                              LaneNumber(hn::Load(d, values[3 * corner + 1])),
+                                              LaneNumber(hn::Load(d, values[3 * corner + 2]))};
+  }
+  return result;
+}
+
+Nearest::Vector lanes_of(const NumberVector<LaneNumber>& vector) {
+  return {vector.x.lanes, vector.y.lanes, vector.z.lanes};
+}
+
+HWY_INLINE MotionLook<LaneNumber> look_in_lanes(const Parallelogram<LaneNumber>& now,
+                                                const Parallelogram<LaneNumber>& rate,
+                                                LaneNumber limit, LaneNumber error) {
+  const Nearest nearest({lanes_of(now.along_a()), lanes_of(now.along_b()),
+                         lanes_of(now.corners[0][0]), lanes_of(now.corners[1][0]),
+                         lanes_of(now.corners[0][1])});
+  return look_at(now, rate, LaneNumber(nearest.s), LaneNumber(nearest.t), limit, error);
+}
+
+/// The look at time 0, which shows for most pairs that they never come into contact.
+class FirstLook {
+ public:
+  /// @param count from 1 to the number of lanes
+  FirstLook(const SegmentMotions* motions, std::size_t count) {
+    for (std::size_t lane = 0; lane < hn::Lanes(Doubles()); ++lane) {
+      const SegmentMotions& pair = motions[std::min(lane, count - 1)];
+      read(pair.a_before, lane, a_before_);
+      read(pair.a_after, lane, a_after_);
+      read(pair.b_before, lane, b_before_);
+      read(pair.b_after, lane, b_after_);
+      limit_[lane] = pair.limit.radius_a + pair.limit.radius_b + pair.limit.margin;
+    }
+  }
+
+  /// Bits of the pairs that are to be looked at more closely.
+  std::uint64_t open_bits() const {
+    const Doubles d;
+    const LaneNumber limit(hn::Load(d, limit_));
+    const Parallelogram<LaneNumber> start = differences(a_before_, b_before_);
+    const Parallelogram<LaneNumber> end = differences(a_after_, b_after_);
+    NumberVector<LaneNumber> least = start.corners[0][0];
+    NumberVector<LaneNumber> most = least;
+    Parallelogram<LaneNumber> rate;
+    for (int i = 0; i < 2; ++i) {
+      for (int j = 0; j < 2; ++j) {
+        rate.corners[i][j] = end.corners[i][j] - start.corners[i][j];
+        least = smaller(smaller(least, start.corners[i][j]), end.corners[i][j]);
+        most = larger(larger(most, start.corners[i][j]), end.corners[i][j]);
+      }
+    }
+    const LaneNumber largest = larger(larger(larger(-least.x, most.x), larger(-least.y, most.y)),
+                                      larger(-least.z, most.z));
+    const LaneNumber error = LaneNumber(roundings) * (largest + limit);
+    const LaneNumber reach = limit + error;
+    const LaneNumber gap = larger(larger(larger(least.x, -most.x), larger(least.y, -most.y)),
+                                  larger(least.z, -most.z));
+    const auto is_in_range = hn::And(LaneNumber(least_distance_scale) < largest,
+                                     largest < LaneNumber(largest_distance_scale));
+    const auto is_apart = hn::And(is_in_range, reach < gap);
+    if (hn::AllTrue(d, is_apart)) {
+      return 0;
+    }
+    const MotionLook<LaneNumber> look = look_in_lanes(start, rate, limit, error);
+    const auto is_free = hn::And(is_in_range, LaneNumber(1.0) < look.free);
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(d, hn::Not(hn::Or(is_apart, is_free)), bits);
+    return bits[0];
+  }
+
+ private:
+  using Ends = double[6][most_lanes];
+
+  static void read(const Eigen::Vector3d* ends, std::size_t lane, Ends& values) {
+    const double* const coordinates = ends->data();
+    for (std::size_t i = 0; i < 6; ++i) {
+      values[i][lane] = coordinates[i];
+    }
+  }
+
+  static NumberVector<LaneNumber> end(const Ends& values, int which) {
+    const Doubles d;
+    return {LaneNumber(hn::Load(d, values[3 * which])),
+            LaneNumber(hn::Load(d, values[3 * which + 1])),
+            LaneNumber(hn::Load(d, values[3 * which + 2]))};
+  }
+
+  static Parallelogram<LaneNumber> differences(const Ends& a, const Ends& b) {
+    Parallelogram<LaneNumber> result;
+    for (int i = 0; i < 2; ++i) {
+      for (int j = 0; j < 2; ++j) {
+        result.corners[i][j] = end(a, i) - end(b, j);
+      }
+    }
+    return result;
+  }
+
+  alignas(64) Ends a_before_;
+  alignas(64) Ends a_after_;
+  alignas(64) Ends b_before_;
+  alignas(64) Ends b_after_;
+  alignas(64) double limit_[most_lanes];
+};
+
+/// What is looked at more closely, a pair a lane: coordinate by coordinate, then lane.
 class alignas(64) LaneMotions {
  public:
   void set(std::size_t lane, const Motion& motion) {
@@ -46,10 +154,8 @@ class alignas(64) LaneMotions {
     const Doubles d;
     const Parallelogram<LaneNumber> rate = load(rate_);
     const auto now = moved(load(start_), rate, LaneNumber(hn::Load(d, time_)));
-    const Nearest nearest(differences(now));
     const MotionLook<LaneNumber> look =
-        look_at(now, rate, LaneNumber(nearest.s), LaneNumber(nearest.t),
-                LaneNumber(hn::Load(d, limit_)), LaneNumber(hn::Load(d, error_)));
+        look_in_lanes(now, rate, LaneNumber(hn::Load(d, limit_)), LaneNumber(hn::Load(d, error_)));
     hn::Store(look.distance.lanes, d, distance_);
     hn::Store(look.closing.lanes, d, closing_);
     hn::Store(look.free.lanes, d, free_);
@@ -69,25 +175,6 @@ class alignas(64) LaneMotions {
     values[row + 2][lane] = vector.z;
   }
 
-  static Parallelogram<LaneNumber> load(const Values& values) {
-    const Doubles d;
-    Parallelogram<LaneNumber> result;
-    for (std::size_t corner = 0; corner < 4; ++corner) {
-      result.corners[corner / 2][corner % 2] = {LaneNumber(hn::Load(d, values[3 * corner])),
-                                                LaneNumber(hn::Load(d, values[3 * corner + 1])),
-                                                LaneNumber(hn::Load(d, values[3 * corner + 2]))};
-    }
-    return result;
-  }
-
-  static Nearest::Vector lanes_of(const NumberVector<LaneNumber>& vector) {
-    return {vector.x.lanes, vector.y.lanes, vector.z.lanes};
-  }
-  static Nearest::Differences differences(const Parallelogram<LaneNumber>& now) {
-    return {lanes_of(now.along_a()), lanes_of(now.along_b()), lanes_of(now.corners[0][0]),
-            lanes_of(now.corners[1][0]), lanes_of(now.corners[0][1])};
-  }
-
   Values start_ = {};
   Values rate_ = {};
   double limit_[most_lanes] = {};
@@ -103,12 +190,16 @@ bool touch_before(const SegmentMotions& pair) {
                      pair.limit);
 }
 
-/// All pairs, as many at a time as there are lanes: where one has come to its end, the next begins.
+constexpr std::size_t pairs_at_a_time = 256;
+
+/// Some pairs that may come into contact, as many at a time as there are lanes: where one has come
+/// to its end, the next begins.
 class ContactTimes {
  public:
-  ContactTimes(const SegmentMotions* motions, std::size_t count, double tolerance,
-               ContactTime* times)
-      : motions_(motions), count_(count), tolerance_(tolerance), times_(times) {}
+  ContactTimes(const SegmentMotions* motions, double tolerance, ContactTime* times)
+      : motions_(motions), tolerance_(tolerance), times_(times) {}
+
+  void add(std::size_t pair) { pairs_[count_++] = pair; }
 
   void find() {
     const std::size_t lanes = hn::Lanes(Doubles());
@@ -135,17 +226,13 @@ class ContactTimes {
     bool is_busy = false;
   };
 
-  /// Puts the next pair that needs a look into a lane.
+  /// Puts the next pair into a lane, if there is one.
   void begin(std::size_t lane) {
     Way& way = ways_[lane];
-    way.is_busy = false;
-    for (; next_ < count_ && !way.is_busy; ++next_) {
-      way.motion = Motion(motions_[next_], tolerance_, roundings);
-      way.is_busy = !way.motion.is_apart();
-      times_[next_] = ContactTime();
-      way.pair = next_;
-    }
+    way.is_busy = next_ < count_;
     if (way.is_busy) {
+      way.pair = pairs_[next_++];
+      way.motion = Motion(motions_[way.pair], tolerance_, roundings);
       way.advancement = Advancement<double>(0.0, false);
       lanes_.set(lane, way.motion);
       lanes_.set_time(lane, 0.0);
@@ -177,18 +264,34 @@ class ContactTimes {
   }
 
   const SegmentMotions* const motions_;
-  const std::size_t count_;
   const double tolerance_;  // [m]
   ContactTime* const times_;
   LaneMotions lanes_;
   Way ways_[most_lanes];
-  std::size_t busy_count_ = 0;
+  std::size_t pairs_[pairs_at_a_time];
+  std::size_t count_ = 0;
   std::size_t next_ = 0;
+  std::size_t busy_count_ = 0;
 };
 
 void contact_times_lanes(const SegmentMotions* motions, std::size_t count, double tolerance,
                          ContactTime* times) {
-  ContactTimes(motions, count, tolerance, times).find();
+  const std::size_t lanes = hn::Lanes(Doubles());
+  for (std::size_t begin = 0; begin < count; begin += pairs_at_a_time) {
+    const std::size_t end = std::min(count, begin + pairs_at_a_time);
+    ContactTimes open(motions, tolerance, times);
+    for (std::size_t first = begin; first < end; first += lanes) {
+      const std::size_t size = std::min(lanes, end - first);
+      std::uint64_t bits = FirstLook(motions + first, size).open_bits();
+      for (std::size_t lane = 0; lane < size; ++lane, bits >>= 1U) {
+        times[first + lane] = ContactTime();
+        if ((bits & 1U) != 0) {
+          open.add(first + lane);
+        }
+      }
+    }
+    open.find();
+  }
 }
 
 }  // namespace

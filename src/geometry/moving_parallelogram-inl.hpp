@@ -57,18 +57,29 @@ struct MotionLook {
 /// Later than any motion ends. Not infinite, of which numbers of twice the digits know nothing.
 constexpr double never = 0x1p100;
 
-/// The first h > 0 where a + b·h + c·h² falls to 0, `never` if it does not; 0 if a is not positive,
-/// or if something is not a number.
+/// The first h > 0 where a + b·h falls to 0, `never` if it does not; 0 if a is not positive, or if
+/// something is not a number.
+template <class Number>
+HWY_INLINE Number first_root(const Number& a, const Number& b) {
+  const Number zero(0.0);
+  const Number result = choose(b < zero, a / -b, Number(never));
+  return choose(both(zero < a, zero < result), result, zero);
+}
+
+/// The same of a + b·h + c·h².
 template <class Number>
 HWY_INLINE Number first_root(const Number& a, const Number& b, const Number& c) {
   const Number zero(0.0);
-  const Number no_root(never);
   const Number discriminant = b * b - Number(4.0) * a * c;
-  const Number root = root_of(choose(discriminant < zero, zero, discriminant));
-  // Neither difference cancels. A positive c with a discriminant below 0 has no root.
-  const Number falling = choose(discriminant < zero, no_root, (a + a) / (root - b));
-  const Number rising = choose(c < zero, (b + root) / (Number(-2.0) * c), no_root);
-  const Number result = choose(b < zero, falling, rising);
+  const auto has_none = discriminant < zero;
+  const Number root = root_of(choose(has_none, zero, discriminant));
+  // Neither difference cancels.
+  const auto falls = b < zero;
+  const Number quotient =
+      choose(falls, a + a, b + root) / choose(falls, root - b, Number(-2.0) * c);
+  const Number falling = choose(has_none, Number(never), quotient);
+  const Number rising = choose(c < zero, quotient, Number(never));
+  const Number result = choose(falls, falling, rising);
   return choose(both(zero < a, zero < result), result, zero);
 }
 
@@ -117,10 +128,11 @@ HWY_INLINE TurningPlane<Number> plane_between(const Parallelogram<Number>& now,
   const Number out_b = dot(normal, rate.along_b());
   const auto of_a = both(on_a, zero < uu);
   const auto of_b = both(on_b, zero < vv);
-  const Number single_a = choose(of_a, -out_a / uu, zero);
-  const Number single_b = choose(of_a, zero, choose(of_b, -out_b / vv, zero));
-  const Number turn_a = choose(on_both, (out_b * uv - out_a * vv) / sine, single_a);
-  const Number turn_b = choose(on_both, (out_a * uv - out_b * uu) / sine, single_b);
+  const Number turn_a = choose(on_both, out_b * uv - out_a * vv, choose(of_a, -out_a, zero)) /
+                        choose(on_both, sine, choose(of_a, uu, one));
+  const auto of_b_alone = but_not(of_b, of_a);
+  const Number turn_b = choose(on_both, out_a * uv - out_b * uu, choose(of_b_alone, -out_b, zero)) /
+                        choose(on_both, sine, choose(of_b_alone, vv, one));
   return {normal, turn_a * u + turn_b * v};
 }
 
@@ -144,7 +156,7 @@ HWY_INLINE Number free_time(const Parallelogram<Number>& now, const Parallelogra
       const NumberVector<Number>& speed = rate.corners[i][j];
       const Number beyond = dot(plane.normal, corner) - limit - error;
       const Number away = dot(plane.normal, speed);
-      standing = smaller(first_root(beyond, away, zero), standing);
+      standing = smaller(first_root(beyond, away), standing);
       turning = smaller(
           first_root(beyond, away + dot(plane.turn, corner), dot(plane.turn, speed) - growth),
           turning);

@@ -50,6 +50,9 @@ HWY_INLINE LaneNumber::Mask operator<(LaneNumber a, LaneNumber b) {
   return hn::Lt(a.lanes, b.lanes);
 }
 HWY_INLINE LaneNumber::Mask both(LaneNumber::Mask a, LaneNumber::Mask b) { return hn::And(a, b); }
+HWY_INLINE LaneNumber::Mask but_not(LaneNumber::Mask a, LaneNumber::Mask b) {
+  return hn::AndNot(b, a);
+}
 HWY_INLINE LaneNumber choose(LaneNumber::Mask condition, LaneNumber yes, LaneNumber no) {
   return LaneNumber(hn::IfThenElse(condition, yes.lanes, no.lanes));
 }
@@ -58,6 +61,7 @@ HWY_INLINE LaneNumber choose(LaneNumber::Mask condition, LaneNumber yes, LaneNum
 inline double root_of(double a) { return std::sqrt(a); }
 inline DoubleDouble root_of(DoubleDouble a) { return a.high == 0.0 ? a : root(a); }
 inline bool both(bool a, bool b) { return a && b; }
+inline bool but_not(bool a, bool b) { return a && !b; }
 template <class Number>
 Number choose(bool condition, const Number& yes, const Number& no) {
   return condition ? yes : no;
@@ -109,6 +113,20 @@ HWY_INLINE NumberVector<Number> choose_vector(const Mask& condition,
 template <class Number>
 HWY_INLINE Number smaller(const Number& a, const Number& b) {
   return choose(a < b, a, b);
+}
+template <class Number>
+HWY_INLINE Number larger(const Number& a, const Number& b) {
+  return choose(b < a, a, b);
+}
+template <class Number>
+HWY_INLINE NumberVector<Number> smaller(const NumberVector<Number>& a,
+                                        const NumberVector<Number>& b) {
+  return {smaller(a.x, b.x), smaller(a.y, b.y), smaller(a.z, b.z)};
+}
+template <class Number>
+HWY_INLINE NumberVector<Number> larger(const NumberVector<Number>& a,
+                                       const NumberVector<Number>& b) {
+  return {larger(a.x, b.x), larger(a.y, b.y), larger(a.z, b.z)};
 }
 
 }  // namespace HWY_NAMESPACE

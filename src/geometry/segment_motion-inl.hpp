@@ -58,26 +58,17 @@ class SegmentMotion {
     error = Number(roundings) * (largest() + limit);
   }
 
-  /// Whether even the box around all corners is out of reach.
-  bool is_apart() const {
-    const Number reach = limit + error;
-    const Number below = -reach;
-    return reach < least_.x || most_.x < below || reach < least_.y || most_.y < below ||
-           reach < least_.z || most_.z < below;
-  }
-
  private:
   using Vector = NumberVector<Number>;
 
   void enclose(const Vector& corner) {
-    least_ = {smaller(corner.x, least_.x), smaller(corner.y, least_.y),
-              smaller(corner.z, least_.z)};
-    most_ = larger_of(corner, most_);
+    least_ = smaller(corner, least_);
+    most_ = larger(corner, most_);
   }
 
   /// The largest magnitude of a coordinate.
   Number largest() const {
-    const Vector magnitudes = larger_of(Number(-1.0) * least_, most_);
+    const Vector magnitudes = larger(Number(-1.0) * least_, most_);
     return larger(magnitudes.x, larger(magnitudes.y, magnitudes.z));
   }
 
@@ -100,11 +91,6 @@ class SegmentMotion {
     return Vector{Number(a.x()), Number(a.y()), Number(a.z())} -
            Vector{Number(b.x()), Number(b.y()), Number(b.z())};
   }
-  static Number larger(const Number& a, const Number& b) { return a < b ? b : a; }
-  static Vector larger_of(const Vector& a, const Vector& b) {
-    return {larger(a.x, b.x), larger(a.y, b.y), larger(a.z, b.z)};
-  }
-
   static constexpr double longest = 0x1p1000;  // than all corners, and no infinity
 
   Vector least_;  // of all corners, before and after
