@@ -8,25 +8,23 @@
 #include "command_line.hpp"
 #include "compare_command.hpp"
 #include "contact_format.hpp"
+#include "fiber_options.hpp"
 #include "fiber_proximity/geometry/kernel.hpp"
 #include "fiber_proximity/io/fiber_file.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/query/nearest_segments.hpp"
 #include "segments_command.hpp"
+#include "sweep_command.hpp"
 #include "topology_commands.hpp"
 
 namespace fiber {
 namespace {
 
-struct Request {
-  std::string file;
-  std::string engine = "run_tree";
+struct Request : FiberRequest {
   QueryOptions query;
   std::optional<double> margin;  // [m]
   Eigen::Vector3d point;         // [m]
   std::uint32_t k = 1;
-  double radius = 0.0;  // [m]
-  EngineOptions engine_options;
   std::string format = "csv";
 };
 
@@ -41,15 +39,7 @@ struct Query {
 using Ask = std::function<void(const ProximityEngine& engine, QueryResult& result)>;
 
 void add_file_options(CLI::App& app, Request& request) {
-  app.add_option("FILE", request.file, "fibre file (.csv or .hair)")->required();
-  app.add_option("--engine", request.engine, "one of " + listed(engine_names()))
-      ->capture_default_str();
-  app.add_option("--radius", request.radius, "of all fibres, if the file has no radii [m]")
-      ->capture_default_str();
-  app.add_option("--threads", request.engine_options.threads,
-                 "most threads to use, 0 for as many as there are cores")
-      ->check(whole_number(0))
-      ->capture_default_str();
+  add_fiber_options(app, request);
   app.add_option("--format", request.format, "of the output; json: one object per frame")
       ->check(CLI::IsMember({"csv", "json"}))
       ->capture_default_str();
@@ -80,12 +70,7 @@ void add_pair_options(CLI::App& app, const Query& query, Request& request) {
   app.add_option("--margin", request.margin,
                  "pairs with a gap of at most this [m]; inf for no limit")
       ->default_str(query.default_margin == 0.0 ? "0" : "inf");
-  app.add_option("--neighbour-skip", request.query.neighbour_skip,
-                 "segments of a fibre whose indices differ by at most this are no pair; without "
-                 "this and the next option, those are that the fibre makes a loop between");
-  app.add_option("--neighbour-skip-length", request.query.neighbour_skip_length,
-                 "segments of a fibre with less than this between them are no pair [m]; with one "
-                 "of the two given, the other is 1 or 0 m, and no loop is needed");
+  add_neighbour_options(app, request.query.neighbour_skip, request.query.neighbour_skip_length);
 }
 
 ExitCode run(const Request& request, const Ask& ask) {
@@ -171,6 +156,7 @@ void setup(CLI::App& app, Command& command) {
   add_pair_queries(app, command, request);
   add_nearest(app, command, request);
   add_segments(app, command);
+  add_sweep(app, command);
   add_compare(app, command);
   add_topology(app, command);
 }

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "command_line.hpp"
+#include "fiber_proximity/query/engine.hpp"
+
+namespace fiber {
+
+/// A file of fibres, and who answers questions about them.
+struct FiberRequest {
+  std::string file;
+  double radius = 0.0;  // [m]
+  std::string engine = "run_tree";
+  EngineOptions engine_options;
+};
+
+void add_fiber_options(CLI::App& app, FiberRequest& request);
+
+/// Which segments of one fibre are pairs.
+void add_neighbour_options(CLI::App& app, std::optional<std::uint32_t>& skip,
+                           std::optional<double>& skip_length);
+
+}  // namespace fiber

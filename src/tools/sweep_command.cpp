@@ -1,0 +1,119 @@
+#include "sweep_command.hpp"
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "fiber_options.hpp"
+#include "fiber_proximity/io/fiber_file.hpp"
+#include "fiber_proximity/io/number.hpp"
+#include "fiber_proximity/query/motion.hpp"
+#include "fiber_proximity/text/quote.hpp"
+#include "text_output.hpp"
+
+namespace fiber {
+namespace {
+
+struct SweepRequest : FiberRequest {
+  MotionOptions motion;
+  bool new_only = false;
+};
+
+void append_row(TextOutput& output, std::int64_t frame, const MotionContact& contact) {
+  std::string& text = output.text();
+  append_number(text, frame);
+  for (const std::uint32_t index :
+       {contact.fiber_a, contact.segment_a, contact.fiber_b, contact.segment_b}) {
+    text += ',';
+    append_number(text, index);
+  }
+  for (const double time : {contact.lower, contact.upper}) {
+    text += ',';
+    append_number(text, time);
+  }
+  text += '\n';
+  output.flush_if_long();
+}
+
+/// What to report of a step, sorted by pair; what is in contact before it is earliest.
+std::vector<MotionContact> reported(const SweepRequest& request, const MotionResult& result) {
+  std::vector<MotionContact> contacts = result.contacts;
+  if (!request.new_only) {
+    contacts.insert(contacts.end(), result.touching.begin(), result.touching.end());
+  }
+  if (request.motion.type == MotionType::FIRST && !contacts.empty()) {
+    return {*std::min_element(
+        contacts.begin(), contacts.end(),
+        [](const MotionContact& x, const MotionContact& y) { return x.earlier_than(y); })};
+  }
+  std::sort(contacts.begin(), contacts.end(),
+            [](const MotionContact& x, const MotionContact& y) { return x.key() < y.key(); });
+  return contacts;
+}
+
+ExitCode run(const SweepRequest& request) {
+  const std::unique_ptr<ProximityEngine> engine =
+      make_engine(request.engine, request.engine_options);
+  const FiberFile file = read_fibers(request.file, request.radius);
+  if (file.frames.size() < 2) {
+    throw std::invalid_argument(quote(request.file) + " has " +
+                                (file.has_frames ? "one frame" : "no frames") +
+                                ", a motion needs at least two");
+  }
+  TextOutput output(std::cout);
+  output.text() = "frame,fiber_a,segment_a,fiber_b,segment_b,time_lower,time_upper\n";
+  MotionResult result;
+  for (std::size_t i = 0; i + 1 < file.frames.size(); ++i) {
+    const FiberFrame& from = file.frames[i];
+    const FiberFrame& to = file.frames[i + 1];
+    const bool moves = from.fibers.offsets() == to.fibers.offsets();
+    if (!moves) {
+      std::cerr << "fiber_query: frames " << from.frame << " and " << to.frame
+                << " have different fibres: of frame " << from.frame
+                << " the contacts it has itself\n";
+    }
+    engine->update_motion(from.fibers, moves ? to.fibers : from.fibers);
+    engine->query_motion(request.motion, result);
+    for (const MotionContact& contact : reported(request, result)) {
+      append_row(output, from.frame, contact);
+    }
+    output.flush();
+  }
+  return SUCCEEDED;
+}
+
+}  // namespace
+
+void add_sweep(CLI::App& app, Command& command) {
+  CLI::App* sweep = app.add_subcommand(
+      "sweep", "pairs of segments that come into contact from each frame to the next");
+  const auto request = std::make_shared<SweepRequest>();
+  add_fiber_options(*sweep, *request);
+  sweep->add_option("--margin", request->motion.margin, "pairs with a gap of at most this [m]")
+      ->capture_default_str();
+  sweep
+      ->add_option("--tolerance", request->motion.tolerance,
+                   "pairs that come within the margin and this may be reported [m]")
+      ->capture_default_str();
+  sweep
+      ->add_option_function<std::string>(
+          "--type",
+          [request](const std::string& type) {
+            request->motion.type = type == "first" ? MotionType::FIRST : MotionType::ALL;
+          },
+          "all: each pair with the time of its first contact; first: the earliest pair")
+      ->check(CLI::IsMember({"all", "first"}))
+      ->default_str("all");
+  sweep->add_flag("--new-only", request->new_only,
+                  "without the pairs that are in contact in the frame already, at time 0");
+  add_neighbour_options(*sweep, request->motion.neighbour_skip,
+                        request->motion.neighbour_skip_length);
+  sweep->callback([&command, request] {
+    validate(request->motion);
+    command = [request] { return run(*request); };
+  });
+}
+
+}  // namespace fiber
