@@ -88,7 +88,7 @@ HWY_INLINE Number first_root(const Number& a, const Number& b, const Number& c) 
 template <class Number>
 struct TurningPlane {
   NumberVector<Number> normal;
-  NumberVector<Number> turn;  ///< [1 per motion] at right angles to the normal
+  NumberVector<Number> turn;  ///< [1 per motion]
 };
 
 /// About the plane through the nearest points that follows the segments: at right angles to those
@@ -146,8 +146,9 @@ HWY_INLINE Number free_time(const Parallelogram<Number>& now, const Parallelogra
   const Number zero(0.0);
   const Number one(1.0);
   const Number turn = dot(plane.turn, plane.turn);
-  // The normal grows longer as it turns: |n + h·m| is at most 1 + h²·m²/2.
-  const Number growth = Number(0.5) * limit * turn;
+  // The normal changes its length as it turns: |n + h·m| is at most 1 + h·(n·m) + h²·m²/2.
+  const Number growth = limit * dot(plane.normal, plane.turn);
+  const Number growth_of_growth = Number(0.5) * limit * turn;
   Number standing(never);
   Number turning = one / root_of(turn);
   for (int i = 0; i < 2; ++i) {
@@ -157,9 +158,9 @@ HWY_INLINE Number free_time(const Parallelogram<Number>& now, const Parallelogra
       const Number beyond = dot(plane.normal, corner) - limit - error;
       const Number away = dot(plane.normal, speed);
       standing = smaller(first_root(beyond, away), standing);
-      turning = smaller(
-          first_root(beyond, away + dot(plane.turn, corner), dot(plane.turn, speed) - growth),
-          turning);
+      turning = smaller(first_root(beyond, away + dot(plane.turn, corner) - growth,
+                                   dot(plane.turn, speed) - growth_of_growth),
+                        turning);
     }
   }
   // The roots' own rounding.
