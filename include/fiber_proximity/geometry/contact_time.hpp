@@ -16,7 +16,7 @@ struct SegmentMotions {
   const Eigen::Vector3d* a_after;
   const Eigen::Vector3d* b_before;
   const Eigen::Vector3d* b_after;
-  ContactLimit limit;  ///< contact is a gap of at most limit.margin; all three >= 0
+  ContactLimit limit;  ///< contact is a gap of at most limit.margin; radii and margin together >= 0
 };
 
 /// When the gap of two moving capsules first falls to the margin, as a part of the motion.
