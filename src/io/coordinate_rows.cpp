@@ -79,7 +79,8 @@ bool CoordinateRows::is_header() const {
 }
 
 void CoordinateRows::read_coordinates() {
-  if (fields_.size() < name_count_ + coordinates_.size()) {
+  const std::size_t expected = name_count_ + coordinates_.size();
+  if (fields_.size() < expected || (fields_.size() > expected && !format_.ignores_more)) {
     refuse_field_count();
   }
   for (std::size_t i = 0; i < coordinates_.size(); ++i) {

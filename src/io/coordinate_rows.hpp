@@ -21,13 +21,16 @@ struct RowFormat {
   /// Those of the coordinates, of which there are three for each point.
   std::vector<const char*> coordinates;
 
+  /// Whether further columns are ignored, or refused.
+  bool ignores_more = false;
+
   /// How an error calls all coordinates together.
   const char* all_coordinates = "";
 };
 
 /// Reads a file of points row by row. Fields are separated by commas, blanks or both; where there
-/// are commas, names end with them and may have blanks in them. Further columns are ignored, and so
-/// are blank lines and a first line of column names.
+/// are commas, names end with them and may have blanks in them. Blank lines are ignored, and so is
+/// a first line of column names.
 class CoordinateRows {
  public:
   /// @param name what errors call the stream

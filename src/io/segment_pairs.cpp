@@ -12,6 +12,7 @@ RowFormat pair_format() {
   format.may_lack_names = true;
   format.coordinates = {"p0.x", "p0.y", "p0.z", "p1.x", "p1.y", "p1.z",
                         "q0.x", "q0.y", "q0.z", "q1.x", "q1.y", "q1.z"};
+  format.ignores_more = true;
   format.all_coordinates = "the 12 coordinates of p0, p1, q0 and q1";
   return format;
 }
