@@ -4,6 +4,7 @@
 #include <cmath>
 #include <exception>
 #include <iostream>
+#include <limits>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -51,6 +52,24 @@ void check_numbers(CLI::App& app) {
   for (CLI::App* subcommand : app.get_subcommands([](CLI::App*) { return true; })) {
     check_numbers(*subcommand);
   }
+}
+
+/// Accepts numbers of a kind and range for which is_allowed(number) holds.
+template <class Number, class IsAllowed>
+CLI::Validator number_of(const std::string& kind, const std::string& range,
+                         const IsAllowed& is_allowed) {
+  return {[=](std::string& text) -> std::string {
+            const auto value = parse_number<Number>(text);
+            return value && is_allowed(*value) ? ""
+                                               : quote(text) + " must be " + kind + ' ' + range;
+          },
+          range};
+}
+
+std::string length_range() {
+  std::string range = "from 0 to ";
+  append_number(range, FiberAssembly::max_coordinate);
+  return range;
 }
 
 /// What stands where a subcommand should, if there is one and none of this name.
@@ -102,24 +121,27 @@ int run_tool(const char* name, const char* description, const Setup& setup, int 
 }
 
 CLI::Validator whole_number(std::uint64_t least) {
-  const std::string range = "from " + std::to_string(least);
-  return {[range, least](std::string& text) -> std::string {
-            const auto value = parse_number<std::uint64_t>(text);
-            return value && *value >= least ? "" : quote(text) + " must be a whole number " + range;
-          },
-          range};
+  return number_of<std::uint64_t>("a whole number", "from " + std::to_string(least),
+                                  [least](std::uint64_t value) { return value >= least; });
 }
 
 CLI::Validator finite_number(double least) {
   std::string range = "from ";
   append_number(range, least);
-  return {[range, least](std::string& text) -> std::string {
-            const auto value = parse_number<double>(text);
-            return value && std::isfinite(*value) && *value >= least
-                       ? ""
-                       : quote(text) + " must be a finite number " + range;
-          },
-          range};
+  return number_of<double>("a finite number", range, [least](double value) {
+    return std::isfinite(value) && value >= least;
+  });
+}
+
+CLI::Validator length() {
+  return number_of<double>("a number", length_range(), &FiberAssembly::is_valid_radius);
+}
+
+CLI::Validator length_or_infinity() {
+  return number_of<double>("a number", length_range() + ", or inf", [](double value) {
+    return FiberAssembly::is_valid_radius(value) ||
+           value == std::numeric_limits<double>::infinity();
+  });
 }
 
 Eigen::Vector3d parse_vector(const std::string& option, const std::string& text) {

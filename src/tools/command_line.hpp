@@ -30,6 +30,12 @@ CLI::Validator whole_number(std::uint64_t least);
 /// Accepts finite numbers from `least`.
 CLI::Validator finite_number(double least);
 
+/// Accepts lengths [m] from 0 to FiberAssembly::max_coordinate.
+CLI::Validator length();
+
+/// The same, and infinity.
+CLI::Validator length_or_infinity();
+
 /// The vector of an option's text X,Y,Z.
 /// @throws CLI::ValidationError naming the option, the text and what is allowed
 Eigen::Vector3d parse_vector(const std::string& option, const std::string& text);

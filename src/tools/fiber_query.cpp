@@ -13,6 +13,7 @@
 #include "fiber_proximity/io/fiber_file.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/query/nearest_segments.hpp"
+#include "motions_command.hpp"
 #include "segments_command.hpp"
 #include "sweep_command.hpp"
 #include "topology_commands.hpp"
@@ -156,6 +157,7 @@ void setup(CLI::App& app, Command& command) {
   add_pair_queries(app, command, request);
   add_nearest(app, command, request);
   add_segments(app, command);
+  add_motions(app, command);
   add_sweep(app, command);
   add_compare(app, command);
   add_topology(app, command);

@@ -67,7 +67,7 @@ TEST_F(BadCommandLine, RefusesWhatIsNoNumberWhereOneIsAskedFor) {
 
 TEST_F(BadCommandLine, AnUnknownSubcommandIsRefusedWithAllThereAre) {
   const std::string known =
-      ", known are: contacts, closest, first, fiber_pairs, nearest, segments, compare, ";
+      ", known are: contacts, closest, first, fiber_pairs, nearest, segments, motions, sweep, ";
   EXPECT_TRUE(refused(query("touches " + crossing()), "unknown subcommand 'touches'" + known));
   EXPECT_TRUE(refused(query("''"), "unknown subcommand ''" + known));
 }
@@ -89,7 +89,9 @@ TEST_F(BadCommandLine, ErrorsAreShortAndPrintable) {
                                         "contacts " + file + " --kernel @",
                                         "contacts " + file + " --neighbour-skip @",
                                         "nearest " + file + " --point @",
-                                        "segments @"};
+                                        "segments @",
+                                        "motions @",
+                                        "motions " + file + " --radius @"};
   const std::vector<std::string> values{"'" + many + "'", "x$(printf '\\n\\r\\033[2J\\177')y"};
   for (const std::string& where : places) {
     for (const std::string& value : values) {
@@ -123,6 +125,7 @@ TEST_F(BadCommandLine, FilesWithLongLinesAreRefusedWithShortErrors) {
   EXPECT_TRUE(refusal("x" + std::string(4'000, '\x01') + "\n", ":1: the header is 'x\\x01"));
   EXPECT_TRUE(refused(query("contacts /dev/zero"), "/dev/zero:1: is longer than 65536 bytes"));
   EXPECT_TRUE(refused(query("segments /dev/zero"), "/dev/zero:1: is longer than 65536 bytes"));
+  EXPECT_TRUE(refused(query("motions /dev/zero"), "/dev/zero:1: is longer than 65536 bytes"));
 
   const std::string zeros(4'000, '0');
   const std::string longest = "0,1." + zeros + ",0," + zeros + "1";

@@ -1,0 +1,17 @@
+// Files of pairs of segments that move.
+#include "fiber_proximity/io/segment_motions.hpp"
+
+#include <sstream>
+
+#include "fuzz_target.hpp"
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const fiber::test::Bounds bounds(fiber::test::times(200, size));
+  std::istringstream stream(fiber::test::text_of(data, size));
+  try {
+    fiber::read_segment_motions(stream, "fuzz.csv");
+  } catch (const fiber::FileError& error) {
+    fiber::test::check_error(error);
+  }
+  return 0;
+}
