@@ -134,6 +134,33 @@ TEST(ReadCsv, RefusesAFiberOfOnePoint) {
             "a.csv:2: fibre 'a' has only this point, a fibre needs at least 2");
 }
 
+TEST(ReadCsv, ReadsLinesAndValuesUpToTheirLongest) {
+  constexpr std::size_t longest_line = 65'536;
+  constexpr std::size_t longest_value = 4'096;
+  const std::string head = "fiber,x,y,z\n0,0,0,0\n";
+  const auto padded = [](std::size_t size) {
+    const std::string row = "0,1,0,0";
+    return row + std::string(size - row.size(), ' ');
+  };
+  const std::string too_long =
+      "a.csv:3: is longer than 65536 bytes and begins with '" + padded(40) + "'";
+  for (const char* end : {"\n", ""}) {
+    EXPECT_EQ(refusal(head + padded(longest_line) + end), "accepted");
+    EXPECT_EQ(refusal(head + padded(longest_line + 1) + end), too_long);
+  }
+  EXPECT_EQ(refusal(head + padded(longest_line) + "\n" + padded(longest_line) + "\n0,x,0,0\n"),
+            "a.csv:5: x is 'x', expected a number");
+
+  const auto with_value = [&head](std::size_t size) {
+    return head + "0,1," + std::string(size - 1, '0') + "1,0\n";
+  };
+  EXPECT_EQ(parse(with_value(longest_value)).frames.at(0).fibers.points().at(1),
+            Eigen::Vector3d(1.0, 1.0, 0.0));
+  const std::string reason = refusal(with_value(longest_value + 1));
+  EXPECT_EQ(reason.substr(0, reason.find(": '")),
+            "a.csv:3: value 3 has 4097 bytes, at most 4096 are allowed");
+}
+
 TEST(ReadCsv, RefusesABadDefaultRadius) {
   EXPECT_THROW(parse("fiber,x,y,z\n", -1.0), std::invalid_argument);
   EXPECT_THROW(parse("fiber,x,y,z\n", std::numeric_limits<double>::quiet_NaN()),

@@ -1,7 +1,9 @@
 // The running node without a fixed frame: asked before there are any fibres, with deadlines, and
 // while it builds a mesh. The tests run in this order.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <future>
 #include <limits>
 #include <random>
 #include <set>
@@ -212,6 +214,74 @@ TEST_F(EnvironmentServicesTest, ADeadlineIsThatOfAllCandidates) {
   }
 }
 
+/// Along y at x, two metres long.
+FiberArray fiber_of(std::size_t points, double x) {
+  test_messages::Points along_y;
+  for (std::size_t i = 0; i < points; ++i) {
+    along_y.emplace_back(x, 2.0 * static_cast<double>(i) / static_cast<double>(points - 1), 0.0);
+  }
+  FiberArray fiber = test_messages::fiber_array(header("world"), along_y);
+  fiber.radii = {0.001};
+  fiber.names = {"fiber"};
+  return fiber;
+}
+
+// Blocks are checked one after another. FIRST looks for contacts until the time is up; other types
+// keep some of it to write them down, and may end while there is time for the next block.
+TEST_F(EnvironmentServicesTest, AfterTheDeadlineNoBlockOfCandidatesIsChecked) {
+  constexpr std::size_t count = 2000;
+  constexpr std::size_t block = 256;
+  const ros::Publisher publisher = advertise<FiberArray>("fibers");
+  connect(publisher, fiber(0.4, -1, 1));
+  apply({ball("ball", 0.0, 0.25)});
+  CheckFibers::Request request;
+  request.type = CheckFibers::Request::FIRST;
+  for (std::size_t i = 0; i < count; ++i) {
+    request.candidates.push_back(fiber_of(400, 1.0 + 0.001 * static_cast<double>(i)));
+  }
+  std::size_t complete = 0;
+  for (double deadline = 0.25e-3; complete < count && deadline < node_test::patience;
+       deadline *= 2.0) {
+    SCOPED_TRACE(deadline);
+    request.deadline = deadline;
+    const auto answer = call<CheckFibers>("check_fibers", request);
+    ASSERT_TRUE(answer.success) << answer.message;
+    ASSERT_EQ(answer.complete.size(), count);
+    EXPECT_EQ(answer.free, std::vector<std::uint8_t>(count, 1));
+    complete =
+        static_cast<std::size_t>(std::count(answer.complete.begin(), answer.complete.end(), 1));
+    const auto first = std::find(answer.complete.begin(), answer.complete.end(), 0);
+    const auto blocks = static_cast<std::size_t>(first - answer.complete.begin()) / block;
+    const std::size_t next = std::min((blocks + 1) * block, count);
+    EXPECT_EQ(std::count(answer.complete.begin() + next, answer.complete.end(), 1), 0)
+        << "candidate " << first - answer.complete.begin() << " is not complete";
+  }
+  EXPECT_EQ(complete, count);
+}
+
+TEST_F(EnvironmentServicesTest, CandidatesTheDeadlineComesBeforeAreNotRead) {
+  CheckFibers::Request request;
+  request.ignore_self = true;
+  request.ignore_fibers = true;
+  request.ignore_environment = true;
+  // No machine reads a million points in a millisecond. Those after it cannot be read: one of the
+  // same block, and one of another.
+  request.candidates = {fiber_of(1'000'000, 1.0), fiber_of(2, 1.0), fiber_of(2, 1.0)};
+  request.candidates[1].radii.clear();
+  request.candidates[2].radii.clear();
+  request.candidates[2].names = {"other"};
+  const auto refusal = call<CheckFibers>("check_fibers", request);
+  EXPECT_FALSE(refusal.success);
+  EXPECT_NE(refusal.message.find("candidate 1: has no radii"), std::string::npos)
+      << refusal.message;
+
+  request.deadline = 1e-3;
+  const auto answer = call<CheckFibers>("check_fibers", request);
+  ASSERT_TRUE(answer.success) << answer.message;
+  EXPECT_EQ(answer.complete, (std::vector<std::uint8_t>{0, 0, 0}));
+  EXPECT_EQ(answer.free, (std::vector<std::uint8_t>{1, 1, 1}));
+}
+
 TEST_F(EnvironmentServicesTest, ABadObstacleBeforeEachOneOfAnotherDelaysNothing) {
   const ros::Publisher publisher = advertise<FiberArray>("fibers");
   node_test::Recorder<ContactArray> around(node, "/proximity/environment_contacts");
@@ -291,23 +361,33 @@ TEST_F(EnvironmentServicesTest, ContactsKeepComingWhileALargeMeshIsBuilt) {
             (std::vector<std::string>{"ball", "other", "thicket"}));
 }
 
+// So many that a search through all of them for each would take many times our patience; it takes
+// seconds.
 TEST_F(EnvironmentServicesTest, ManyPairsAreAllowedAtOnceAndTakenBack) {
+  constexpr std::int32_t count = 500'000;
+  const auto answer_to = [](const AllowPairs::Request& request) {
+    auto answer = std::async(std::launch::async, call<AllowPairs>, "allow_pairs", request);
+    EXPECT_TRUE(node_test::wait_for([&answer] {
+      return answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+    })) << "there is no answer yet";
+    return answer.get();
+  };
   AllowPairs::Request request;
   request.reset = true;
-  for (std::int32_t i = 0; i < 20000; ++i) {
+  for (std::int32_t i = 0; i < count; ++i) {
     request.allow.emplace_back();
     request.allow.back().object = i % 2 == 0 ? "ball" : "object " + std::to_string(i);
     request.allow.back().fiber = "fiber";
     request.allow.back().segments = {i, i + 1};
   }
-  auto answer = call<AllowPairs>("allow_pairs", request);
+  auto answer = answer_to(request);
   ASSERT_TRUE(answer.success) << answer.message;
-  ASSERT_EQ(answer.allowed.size(), 20000U);
-  EXPECT_EQ(answer.allowed[12345].object, "object 12345");
+  ASSERT_EQ(answer.allowed.size(), static_cast<std::size_t>(count));
+  EXPECT_EQ(answer.allowed[123'457].object, "object 123457");
   request.reset = false;
   request.forbid.assign(request.allow.begin() + 1, request.allow.end());
   request.allow = {request.allow[0]};
-  answer = call<AllowPairs>("allow_pairs", request);
+  answer = answer_to(request);
   ASSERT_TRUE(answer.success) << answer.message;
   ASSERT_EQ(answer.allowed.size(), 1U);
   EXPECT_EQ(answer.allowed[0].object, "ball");

@@ -1,5 +1,6 @@
 // Messages in which nearly all is in contact: the node answers within its limits, says so, and goes
 // on.
+#include "fiber_proximity/CheckFibers.h"
 #include "ros/messages.hpp"
 #include "ros/node_test.hpp"
 #include "support/random.hpp"
@@ -7,6 +8,7 @@
 namespace {
 
 using Eigen::Vector3d;
+using fiber_proximity::CheckFibers;
 using fiber_proximity::ContactArray;
 
 constexpr std::size_t contact_limit = 1000;  // as limits.test has it
@@ -20,6 +22,16 @@ class LimitsTest : public node_test::NodeTest {
   /// That touch nothing.
   static std::vector<Vector3d> few_points() { return {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}; }
 
+  /// In which nearly all is in contact.
+  static std::vector<Vector3d> tangle(int count) {
+    fiber::test::Random random;
+    std::vector<Vector3d> points;
+    for (int i = 0; i < count; ++i) {
+      points.push_back(0.1 * random.in_cube());
+    }
+    return points;
+  }
+
   const ContactArray* answer_about(const std::vector<Vector3d>& points) {
     const ros::Time stamp = new_stamp();
     cloud_.publish(test_messages::point_cloud2(test_messages::header("world", stamp), points));
@@ -30,12 +42,7 @@ class LimitsTest : public node_test::NodeTest {
 };
 
 TEST_F(LimitsTest, ATangleIsAnsweredAndTheNextMessageToo) {
-  fiber::test::Random random;
-  std::vector<Vector3d> tangle;
-  for (int point = 0; point < 30'000; ++point) {
-    tangle.push_back(0.1 * random.in_cube());
-  }
-  const ContactArray* answer = answer_about(tangle);
+  const ContactArray* answer = answer_about(tangle(30'000));
   ASSERT_NE(answer, nullptr);
   EXPECT_EQ(answer->contacts.size(), contact_limit);
   EXPECT_TRUE(answer->limit_reached);
@@ -63,6 +70,26 @@ TEST_F(LimitsTest, ATangleIsAnsweredAndTheNextMessageToo) {
   EXPECT_TRUE(next->contacts.empty());
   EXPECT_FALSE(next->limit_reached);
   EXPECT_TRUE(next->complete);
+}
+
+// In two blocks, of which the first is full and leaves little to the second.
+TEST_F(LimitsTest, ManyCandidatesShareTheLimitOfContacts) {
+  constexpr std::size_t count = 260;
+  const std::vector<Vector3d> points = tangle(50);
+  ASSERT_NE(answer_about(points), nullptr);
+  CheckFibers check;
+  check.request.type = CheckFibers::Request::ALL;
+  check.request.candidates.assign(
+      count, test_messages::fiber_array(test_messages::header("world"), points));
+  for (fiber_proximity::FiberArray& candidate : check.request.candidates) {
+    candidate.radii = {0.01};
+  }
+  ASSERT_TRUE(ros::service::call("/proximity/check_fibers", check));
+  ASSERT_TRUE(check.response.success) << check.response.message;
+  EXPECT_EQ(check.response.free, std::vector<std::uint8_t>(count, 0));
+  EXPECT_TRUE(check.response.limit_reached);
+  EXPECT_LE(check.response.contacts.size(), contact_limit);
+  EXPECT_GT(check.response.contacts.size(), contact_limit / 2) << "or too little is left out";
 }
 
 }  // namespace

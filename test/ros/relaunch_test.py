@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """Launches with_tracker.launch again and again on one master, each time with other arguments."""
+import os
 import signal
 import subprocess
 import tempfile
@@ -7,6 +8,9 @@ import time
 import unittest
 
 import rosgraph
+import roslaunch.config
+import roslaunch.xmlloader
+import rospkg
 import rostest
 
 LIMIT = 60.0  # [s] that only a broken launch needs
@@ -63,6 +67,8 @@ class RelaunchTest(unittest.TestCase):
         self.assertEqual(first["margin"], 0.02)
         self.assertEqual(first["neighbour_skip"], 2)
         self.assertEqual(first["radius"], 0.02)
+        self.assertIs(first["show_names"], True)
+        self.assertIs(first["show_legend"], True)
         self.master.setParam("/proximity/max_contacts", 7)  # by hand, as with rosparam
 
         second = self.start("frame:=base_link", "topic:=/points", "margin:=0.005")
@@ -81,6 +87,16 @@ class RelaunchTest(unittest.TestCase):
         parameters = self.start("frame:=camera_frame", f"config:={self.config.name}", "margin:=0.001")
         self.assertEqual(parameters["margin"], 0.001)
         self.assertEqual(parameters["neighbour_skip"], 2)
+
+    def test_rviz_shows_a_view_that_finds_cables(self):
+        package = rospkg.RosPack().get_path("fiber_proximity")
+        config = roslaunch.config.ROSLaunchConfig()
+        roslaunch.xmlloader.XmlLoader().load(f"{package}/launch/with_tracker.launch", config,
+                                             argv=["frame:=camera_frame"], verbose=False)
+        view = f"{package}/rviz/tracker.rviz"
+        self.assertTrue(os.path.isfile(view))
+        self.assertEqual([node.args.strip() for node in config.nodes if node.type == "rviz"],
+                         [f"-d {view} -f camera_frame"])
 
 
 if __name__ == "__main__":
