@@ -8,11 +8,13 @@ add_library(fiber_bench_peers STATIC
   benchmark/peers/peer_engine.cpp
   benchmark/pairs/child_process.cpp
   benchmark/pairs/guarded_answers.cpp
+  benchmark/pairs/guarded_calls.cpp
   benchmark/pairs/own_pairs.cpp
   benchmark/pairs/pair_kernel.cpp
   benchmark/pairs/pair_score.cpp
   benchmark/pairs/pair_times.cpp
   benchmark/pairs/textbook_pairs.cpp
+  benchmark/pairs/turn_times.cpp
 )
 target_include_directories(fiber_bench_peers PUBLIC benchmark)
 target_link_libraries(fiber_bench_peers PUBLIC fiber_proximity PRIVATE fiber_proximity_options)
