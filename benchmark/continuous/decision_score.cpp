@@ -1,0 +1,35 @@
+#include "continuous/decision_score.hpp"
+
+namespace fiber::bench {
+
+MotionTruth::MotionTruth(const HardMotion& motion, double tolerance_in_metres)
+    : tolerance(tolerance_in_metres) {
+  const MotionScore never = judge(motion, tolerance, ContactTime());
+  HardMotion thicker = motion;
+  thicker.radius_a += tolerance;
+  const MotionScore never_near = judge(thicker, tolerance, ContactTime());
+  contact = never.misses > 0;
+  near = contact || never_near.misses + never_near.undecided > 0;
+  undecided = !contact && never.undecided + never_near.undecided > 0;
+}
+
+void DecisionScore::add(const HardMotion& motion, const MotionTruth& truth,
+                        const GuardedTime& guarded) {
+  ended += guarded.outcome == Outcome::ENDED ? 1 : 0;
+  no_answer +=
+      guarded.outcome == Outcome::NO_ANSWER || guarded.outcome == Outcome::NOT_FINITE ? 1 : 0;
+  if (guarded.outcome != Outcome::ANSWERED) {
+    return;
+  }
+  ++answered;
+  if (!guarded.time.hit) {
+    misses += truth.contact ? 1 : 0;
+    return;
+  }
+  false_alarms += truth.near ? 0 : 1;
+  const MotionScore score = judge(motion, truth.tolerance, guarded.time);
+  late += score.misses;
+  early += score.false_alarms;
+}
+
+}  // namespace fiber::bench
