@@ -25,8 +25,8 @@ const std::vector<MotionPart>& motion_parts() {
   static const std::vector<MotionPart> all{
       {"times",
        bench::measure_motion_times,
-       {"family", "kernel", "tolerance", "misses", "false_alarms", "late", "early", "ended",
-        "rejected_ns", "hit_ns"}},
+       {"family", "kernel", "tolerance", "misses", "start_misses", "false_alarms", "late", "early",
+        "ended", "rejected_ns", "hit_ns"}},
       {"known",
        bench::measure_known_motions,
        {"tolerance", "motions", "contacts", "contacts_missed", "contacts_invented", "near_hits"}},
@@ -83,10 +83,6 @@ ExitCode run(const MotionsRequest& request) {
     if (std::count(request.parts.begin(), request.parts.end(), part.name) == 0) {
       continue;
     }
-    if (!request.json) {
-      std::cout << part.name << '\n';
-      print_cells(part, [](const std::string& column) { std::cout << column; });
-    }
     std::uint64_t count = 0;
     const auto show = [&] { progress.show(part.name + ": " + std::to_string(count) + " rows"); };
     show();
@@ -97,6 +93,10 @@ ExitCode run(const MotionsRequest& request) {
         line.update(row);
         std::cout << line.dump() << '\n' << std::flush;
       } else {
+        if (count == 0) {
+          std::cout << part.name << '\n';
+          print_cells(part, [](const std::string& column) { std::cout << column; });
+        }
         print_motion_row(part, row);
       }
       ++count;

@@ -4,13 +4,26 @@ namespace fiber::bench {
 
 MotionTruth::MotionTruth(const HardMotion& motion, double tolerance_in_metres)
     : tolerance(tolerance_in_metres) {
+  const ContactTime claim = contact_time(motion.motions(), tolerance);
+  const MotionScore judged = judge(motion, tolerance, claim);
+  const bool is_proven = judged.without_upper + judged.false_alarms + judged.wrongly_certain == 0;
+  contact = is_proven && claim.hit && claim.certain;
+  near = is_proven && claim.hit;
+  at_start = contact && claim.upper == 0.0;
+  if (contact) {
+    return;
+  }
   const MotionScore never = judge(motion, tolerance, ContactTime());
-  HardMotion thicker = motion;
-  thicker.radius_a += tolerance;
-  const MotionScore never_near = judge(thicker, tolerance, ContactTime());
   contact = never.misses > 0;
-  near = contact || never_near.misses + never_near.undecided > 0;
-  undecided = !contact && never.undecided + never_near.undecided > 0;
+  undecided = !contact && never.undecided > 0;
+  if (!contact && !near) {
+    HardMotion thicker = motion;
+    thicker.radius_a += tolerance;
+    const MotionScore never_near = judge(thicker, tolerance, ContactTime());
+    near = never_near.misses + never_near.undecided > 0;
+    undecided = undecided || never_near.undecided > 0;
+  }
+  near = near || contact;
 }
 
 void DecisionScore::add(const HardMotion& motion, const MotionTruth& truth,
@@ -24,6 +37,7 @@ void DecisionScore::add(const HardMotion& motion, const MotionTruth& truth,
   ++answered;
   if (!guarded.time.hit) {
     misses += truth.contact ? 1 : 0;
+    start_misses += truth.at_start ? 1 : 0;
     return;
   }
   false_alarms += truth.near ? 0 : 1;

@@ -38,6 +38,9 @@ KnownMotion known_motion(const std::string& line) {
       }
     }
   }
+  if (std::string rest; std::getline(fields, rest)) {
+    throw std::invalid_argument("too many fields, it must be set, truth and 24 coordinates");
+  }
   return known;
 }
 

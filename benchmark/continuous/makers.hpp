@@ -26,11 +26,9 @@ constexpr MotionKernelMaker make_fcl_naive_motions = nullptr;
 #ifdef FIBER_BENCH_HAS_BULLET_PAIRS
 std::unique_ptr<MotionKernel> make_bullet_continuous_motions();
 std::unique_ptr<MotionKernel> make_bullet_gjk_motions();
-std::unique_ptr<MotionKernel> make_bullet_subsimplex_motions();
 #else
 constexpr MotionKernelMaker make_bullet_continuous_motions = nullptr;
 constexpr MotionKernelMaker make_bullet_gjk_motions = nullptr;
-constexpr MotionKernelMaker make_bullet_subsimplex_motions = nullptr;
 #endif
 
 }  // namespace fiber::bench

@@ -60,6 +60,7 @@ MotionRow row_of(const MotionMeasurement& what, const std::string& family, const
           {"no_answer", score.no_answer},
           {"ended", score.ended},
           {"misses", score.misses},
+          {"start_misses", score.start_misses},
           {"false_alarms", score.false_alarms},
           {"late", score.late},
           {"early", score.early},

@@ -16,7 +16,6 @@ constexpr KernelEntry<MotionKernel> motion_kernels[] = {
     {"fcl_naive", "libfcl-dev", make_fcl_naive_motions},
     {"bullet_continuous", "libbullet-dev", make_bullet_continuous_motions},
     {"bullet_gjk", "libbullet-dev", make_bullet_gjk_motions},
-    {"bullet_subsimplex", "libbullet-dev", make_bullet_subsimplex_motions},
 };
 
 }  // namespace

@@ -47,9 +47,5 @@ std::unique_ptr<MotionKernel> make_bullet_continuous_motions() {
 
 std::unique_ptr<MotionKernel> make_bullet_gjk_motions() { return bullet_motions(BulletCast::GJK); }
 
-std::unique_ptr<MotionKernel> make_bullet_subsimplex_motions() {
-  return bullet_motions(BulletCast::SUBSIMPLEX);
-}
-
 }  // namespace bench
 }  // namespace fiber

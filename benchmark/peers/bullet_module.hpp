@@ -6,7 +6,7 @@
 namespace fiber::bench {
 
 /// Bullet's convex casts.
-enum class BulletCast { CONTINUOUS, GJK, SUBSIMPLEX };
+enum class BulletCast { CONTINUOUS, GJK };
 
 }  // namespace fiber::bench
 

@@ -2,7 +2,6 @@
 #include <BulletCollision/NarrowPhaseCollision/btContinuousConvexCollision.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkConvexCast.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
-#include <BulletCollision/NarrowPhaseCollision/btSubSimplexConvexCast.h>
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
 
 #include "peers/bullet_capsule.hpp"
@@ -24,8 +23,8 @@ struct BulletMovingCapsule : BulletCapsule {
   btTransform end;
 };
 
-/// One of Bullet's casts, in double. They stop where the gap is a thousandth [m], but the one of
-/// subsimplices.
+/// One of Bullet's casts, in double; btCollisionWorld::convexSweepTest() takes the continuous one.
+/// They stop where the gap is a millimetre, and report no overlap of capsules that move apart.
 class BulletMotions final : public MotionKernel {
  public:
   explicit BulletMotions(BulletCast cast) : cast_(cast) {}
@@ -48,16 +47,10 @@ class BulletMotions final : public MotionKernel {
   ContactTime found(std::size_t index) {
     const BulletMovingCapsule& a = a_[index];
     const BulletMovingCapsule& b = b_[index];
-    switch (cast_) {
-      case BulletCast::CONTINUOUS:
-        return found(index,
-                     btContinuousConvexCollision(&a.shape, &b.shape, &simplex_, &penetration_));
-      case BulletCast::GJK:
-        return found(index, btGjkConvexCast(&a.shape, &b.shape, &simplex_));
-      case BulletCast::SUBSIMPLEX:
-        break;
+    if (cast_ == BulletCast::GJK) {
+      return found(index, btGjkConvexCast(&a.shape, &b.shape, &simplex_));
     }
-    return found(index, btSubsimplexConvexCast(&a.shape, &b.shape, &simplex_));
+    return found(index, btContinuousConvexCollision(&a.shape, &b.shape, &simplex_, &penetration_));
   }
 
   template <class Cast>
