@@ -52,6 +52,7 @@ MotionRow row_of(const MotionMeasurement& what, const std::string& family, const
           {"repeats", what.repeats},
           {"kernel", question.kernel},
           {"tolerance", question.tolerance},
+          {"translations", result.translations},
           {"contacts", result.contacts},
           {"near", result.near},
           {"undecided", result.undecided},

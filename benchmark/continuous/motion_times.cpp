@@ -1,5 +1,6 @@
 #include "continuous/motion_times.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -7,6 +8,7 @@
 #include "pairs/child_process.hpp"
 #include "pairs/guarded_calls.hpp"
 #include "pairs/turn_times.hpp"
+#include "peers/translation.hpp"
 
 namespace fiber::bench {
 namespace {
@@ -65,6 +67,8 @@ class MotionRun {
       result_.near += truth.near && !truth.contact ? 1 : 0;
       result_.undecided += truth.undecided ? 1 : 0;
     }
+    result_.translations =
+        static_cast<std::uint64_t>(std::count_if(motions.begin(), motions.end(), is_translation));
     const std::unique_ptr<MotionKernel> kernel = contestant.make();
     std::vector<HardMotion> known;
     std::vector<MotionTruth> known_truths;
