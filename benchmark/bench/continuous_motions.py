@@ -111,14 +111,16 @@ def with_group(row):
 
 
 def summaries(rows):
-    """(group, kernel, tolerance) → what holds of its families together, of kernels that can answer
-    some: counts add up; of times the median family counts."""
+    """(group, kernel, tolerance) → what holds together of its families that the kernel knows:
+    counts add up; of times the median family counts."""
     found = {}
     for row in rows:
+        if row["answerable"] < row["motions"]:
+            continue
         found.setdefault((row["group"], row["kernel"], row["tolerance"]), []).append(row)
     return {key: {**{count: sum(row[count] for row in of_key) for count in COUNTS},
                   **{time: median_time(of_key, time) for time in ("rejected_ns", "hit_ns")}}
-            for key, of_key in found.items() if any(row["answerable"] for row in of_key)}
+            for key, of_key in found.items()}
 
 
 def median_time(rows, key):

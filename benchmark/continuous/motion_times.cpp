@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "pairs/child_process.hpp"
@@ -61,12 +62,7 @@ class MotionRun {
  public:
   MotionRun(const std::vector<HardMotion>& motions, const std::vector<MotionTruth>& truths,
             const MotionContestant& contestant)
-      : contestant_(contestant), rejected_(contestant), hits_(contestant) {
-    for (const MotionTruth& truth : truths) {
-      result_.contacts += truth.contact ? 1 : 0;
-      result_.near += truth.near && !truth.contact ? 1 : 0;
-      result_.undecided += truth.undecided ? 1 : 0;
-    }
+      : rejected_(contestant), hits_(contestant) {
     result_.translations =
         static_cast<std::uint64_t>(std::count_if(motions.begin(), motions.end(), is_translation));
     const std::unique_ptr<MotionKernel> kernel = contestant.make();
@@ -79,6 +75,11 @@ class MotionRun {
       }
     }
     result_.answerable = known.size();
+    for (const MotionTruth& truth : known_truths) {
+      result_.contacts += truth.contact ? 1 : 0;
+      result_.near += truth.near && !truth.contact ? 1 : 0;
+      result_.undecided += truth.undecided ? 1 : 0;
+    }
     kernel->prepare(known, contestant.tolerance);
     ask(*kernel, known, known_truths);
   }
@@ -126,7 +127,6 @@ class MotionRun {
     return {motions, sum_ns / static_cast<double>(motions)};
   }
 
-  MotionContestant contestant_;
   MotionResult result_;
   MotionCalls rejected_;
   MotionCalls hits_;

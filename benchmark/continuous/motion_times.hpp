@@ -19,13 +19,13 @@ struct MotionContestant {
 /// What a contestant answers, and how fast.
 struct MotionResult {
   std::uint64_t translations = 0;  ///< motions of rigid bodies
-  std::uint64_t contacts = 0;      ///< motions that surely touch
+  std::uint64_t answerable = 0;    ///< motions that the kernel knows; of these:
+  std::uint64_t contacts = 0;      ///< they surely touch
   std::uint64_t near = 0;          ///< others that may come within the tolerance
   std::uint64_t undecided = 0;     ///< of which the truth could not be found
-  std::uint64_t answerable = 0;    ///< motions that the kernel knows
-  DecisionScore score;             ///< of these
-  std::uint64_t rejected = 0;      ///< measured: motions that do not come near
-  std::uint64_t hits = 0;          ///< measured: motions that surely touch
+  DecisionScore score;
+  std::uint64_t rejected = 0;  ///< measured: motions that do not come near
+  std::uint64_t hits = 0;      ///< measured: motions that surely touch
 
   /// Time per motion, over blocks of 256 [ns]; none without motions.
   std::optional<double> rejected_ns;

