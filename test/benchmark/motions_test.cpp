@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <stdexcept>
 
 #include "continuous/decision_score.hpp"
-#include "continuous/known_motions.hpp"
 #include "continuous/motion_accuracy.hpp"
 #include "continuous/motion_kernel.hpp"
 #include "continuous/motion_times.hpp"
-#include "support/temporary_directory.hpp"
 
 namespace fiber::test {
 namespace {
@@ -275,42 +272,6 @@ TEST(MotionKernels, OfOthersKnowOnlyTranslations) {
       EXPECT_EQ(count(family), knows_all ? 50 : 0) << name << ", " << family;
     }
   }
-}
-
-TEST(KnownMotions, AreReadAsTheyAreWritten) {
-  const HardMotion motion = hard_motions(motion_family("random"), 1, 1).front();
-  const TemporaryDirectory directory;
-  const std::string path = directory.path("motions.csv");
-  std::ofstream(path) << "walls,1," << bench::coordinates_of(motion) << "\n";
-  const std::vector<bench::KnownMotion> known = bench::read_known_motions(path);
-  ASSERT_EQ(known.size(), 1U);
-  EXPECT_EQ(known[0].set, "walls");
-  EXPECT_TRUE(known[0].contact);
-  EXPECT_EQ(bench::coordinates_of(known[0].motion), bench::coordinates_of(motion));
-}
-
-TEST(KnownMotions, AreRefusedWithFileAndLine) {
-  const TemporaryDirectory directory;
-  const std::string path = directory.path("motions.csv");
-  const std::string good =
-      "walls,1," + bench::coordinates_of(hard_motions(motion_family("random"), 1, 1).front());
-  const auto reason = [&](const std::string& line) -> std::string {
-    std::ofstream(path) << good << "\n" << line << "\n";
-    try {
-      bench::read_known_motions(path);
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "none";
-  };
-  EXPECT_EQ(reason("walls,1,0x1p0"),
-            path + ":2: too few fields, it must be set, truth and 24 coordinates");
-  EXPECT_EQ(reason(good + ",0x1p0"),
-            path + ":2: too many fields, it must be set, truth and 24 coordinates");
-  EXPECT_EQ(reason("walls,maybe,0x1p0"), path + ":2: the truth is 'maybe', it must be 0 or 1");
-  EXPECT_EQ(reason("walls,1,tall"), path + ":2: 'tall' is no number");
-  EXPECT_EQ(reason(good), "none");
-  EXPECT_THROW(bench::read_known_motions(directory.path("none.csv")), std::runtime_error);
 }
 
 }  // namespace
