@@ -34,8 +34,13 @@ class MotionCalls final : public TimedCalls {
   }
 
   void leave_out(std::size_t first, std::size_t count) override {
-    const auto begin = motions_.begin() + static_cast<std::ptrdiff_t>(first);
-    motions_.erase(begin, begin + static_cast<std::ptrdiff_t>(count));
+    std::vector<HardMotion> left;
+    for (std::size_t i = 0; i < motions_.size(); ++i) {
+      if (i < first || i >= first + count) {
+        left.push_back(motions_[i]);
+      }
+    }
+    motions_.swap(left);
   }
 
  private:
