@@ -19,6 +19,9 @@ void add_accuracy_command(CLI::App& app, Command& command);
 /// `kernels`: distances of two segments, their errors and times on hard pairs.
 void add_kernels_command(CLI::App& app, Command& command);
 
+/// `motions`: when moving capsules touch, judged against the truth and beside other libraries.
+void add_motions_command(CLI::App& app, Command& command);
+
 /// `environment`: a cell with a robot beside FCL, octrees of clouds, batches of candidates.
 void add_environment_command(CLI::App& app, Command& command);
 

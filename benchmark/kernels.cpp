@@ -3,9 +3,9 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "commands.hpp"
+#include "pairs/chosen_families.hpp"
 #include "pairs/pair_score.hpp"
 #include "pairs/pair_times.hpp"
 #include "progress.hpp"
@@ -24,28 +24,6 @@ struct KernelsRequest {
   std::uint32_t repeats = 11;
   bool json = false;
 };
-
-const HardFamily& family_of(const std::string& name) {
-  std::vector<std::string> known;
-  for (const HardFamily& family : hard_families()) {
-    if (family.name == name) {
-      return family;
-    }
-    known.push_back(family.name);
-  }
-  throw std::invalid_argument("unknown family '" + name + "', known are: " + listed(known));
-}
-
-std::vector<HardFamily> families_of(const KernelsRequest& request) {
-  if (request.families.empty()) {
-    return hard_families();
-  }
-  std::vector<HardFamily> families;
-  for (const std::string& name : request.families) {
-    families.push_back(family_of(name));
-  }
-  return families;
-}
 
 /// One kernel on the pairs of one family.
 struct KernelRun {
@@ -159,7 +137,7 @@ ExitCode run(const KernelsRequest& request) {
   for (const std::string& name : request.kernels) {
     make_pair_kernel(name);  // refuses before anything is printed
   }
-  const std::vector<HardFamily> families = families_of(request);
+  const std::vector<HardFamily> families = chosen_families(hard_families(), request.families);
   if (!request.json) {
     print_heading();
   }

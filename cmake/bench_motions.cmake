@@ -1,6 +1,11 @@
 # Answers about moving capsules and the truth, as tests and benchmarks compare them.
 
-add_library(fiber_bench_motions STATIC benchmark/continuous/motion_score.cpp)
+add_library(fiber_bench_motions STATIC
+  benchmark/continuous/decision_score.cpp
+  benchmark/continuous/known_motions.cpp
+  benchmark/continuous/motion_accuracy.cpp
+  benchmark/continuous/motion_score.cpp
+)
 target_include_directories(fiber_bench_motions PUBLIC benchmark)
 target_link_libraries(fiber_bench_motions
-  PUBLIC fiber_proximity PRIVATE Boost::headers fiber_proximity_options)
+  PUBLIC fiber_proximity PRIVATE Boost::headers Threads::Threads fiber_proximity_options)

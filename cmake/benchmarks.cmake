@@ -10,13 +10,14 @@ fiber_proximity_tool(fiber_bench src/tools/fiber_bench.cpp
   benchmark/environment/fcl_shapes.cpp benchmark/environment/measure_batch.cpp
   benchmark/environment/measure_cell.cpp benchmark/environment/measure_octree.cpp
   benchmark/environment/own_checker.cpp benchmark/kernels.cpp
-  benchmark/measurement.cpp benchmark/progress.cpp benchmark/scene_commands.cpp
+  benchmark/continuous/measure_accuracy.cpp benchmark/continuous/measure_times.cpp
+  benchmark/measurement.cpp benchmark/motions.cpp benchmark/progress.cpp benchmark/scene_commands.cpp
   benchmark/scene_options.cpp benchmark/sim/effect_costs.cpp benchmark/sim/effect_scene.cpp
   benchmark/sim/hose.cpp benchmark/sim/loads.cpp
   benchmark/sim/measurements.cpp benchmark/sim/validation.cpp benchmark/sim/xpbd_rod.cpp
   benchmark/simulate.cpp benchmark/stages.cpp benchmark/swapped_places.cpp
   benchmark/swaying.cpp)
-target_link_libraries(fiber_bench fiber_bench_peers fiber_bench_sim fiber_proximity_environment fcl)
+target_link_libraries(fiber_bench fiber_bench_motions fiber_bench_peers fiber_bench_sim fiber_proximity_environment fcl)
 if(FIBER_PROXIMITY_BUILD_ROS)
   target_sources(fiber_bench PRIVATE benchmark/latency.cpp benchmark/obstacle_latency.cpp)
   target_compile_definitions(fiber_bench PRIVATE FIBER_BENCH_HAS_LATENCY)

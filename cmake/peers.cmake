@@ -6,16 +6,23 @@ option(FIBER_PROXIMITY_PEERS "Build fiber_bench with the peers installed here" O
 add_library(fiber_bench_peers STATIC
   benchmark/peers/peer.cpp
   benchmark/peers/peer_engine.cpp
+  benchmark/continuous/discrete_motions.cpp
+  benchmark/continuous/motion_kernel.cpp
+  benchmark/continuous/motion_times.cpp
+  benchmark/continuous/own_motions.cpp
   benchmark/pairs/child_process.cpp
   benchmark/pairs/guarded_answers.cpp
+  benchmark/pairs/guarded_calls.cpp
   benchmark/pairs/own_pairs.cpp
   benchmark/pairs/pair_kernel.cpp
   benchmark/pairs/pair_score.cpp
   benchmark/pairs/pair_times.cpp
   benchmark/pairs/textbook_pairs.cpp
+  benchmark/pairs/turn_times.cpp
 )
 target_include_directories(fiber_bench_peers PUBLIC benchmark)
-target_link_libraries(fiber_bench_peers PUBLIC fiber_proximity PRIVATE fiber_proximity_options)
+target_link_libraries(fiber_bench_peers
+  PUBLIC fiber_bench_motions fiber_proximity PRIVATE fiber_proximity_options)
 
 # fiber_bench_peer(NAME SOURCE... [LIBRARIES LIB...] [INCLUDES FOLDER...])
 function(fiber_bench_peer name)
@@ -43,7 +50,8 @@ if(FIBER_PROXIMITY_PEERS)
   find_library(BULLET_MATH_DOUBLE_LIBRARY LinearMath-float64)
   if(BULLET_INCLUDE_FOLDER AND BULLET_COLLISION_DOUBLE_LIBRARY AND BULLET_MATH_DOUBLE_LIBRARY
       AND NOT FIBER_PROXIMITY_SANITIZE)
-    add_library(fiber_bench_bullet_pairs MODULE benchmark/peers/bullet_pairs.cpp)
+    add_library(fiber_bench_bullet_pairs MODULE
+      benchmark/peers/bullet_motions.cpp benchmark/peers/bullet_pairs.cpp)
     target_compile_definitions(fiber_bench_bullet_pairs PRIVATE BT_USE_DOUBLE_PRECISION)
     target_include_directories(fiber_bench_bullet_pairs PRIVATE benchmark)
     target_include_directories(fiber_bench_bullet_pairs SYSTEM PRIVATE ${BULLET_INCLUDE_FOLDER})
@@ -51,7 +59,7 @@ if(FIBER_PROXIMITY_PEERS)
     target_link_libraries(fiber_bench_bullet_pairs PRIVATE
       Eigen3::Eigen ${BULLET_COLLISION_DOUBLE_LIBRARY} ${BULLET_MATH_DOUBLE_LIBRARY}
       fiber_proximity_options)
-    fiber_bench_peer(BULLET_PAIRS benchmark/peers/bullet_pairs_module.cpp
+    fiber_bench_peer(BULLET_PAIRS benchmark/peers/bullet_module.cpp
       LIBRARIES ${CMAKE_DL_LIBS})
     target_compile_definitions(fiber_bench_peers PRIVATE
       FIBER_BENCH_BULLET_PAIRS="$<TARGET_FILE:fiber_bench_bullet_pairs>")
@@ -78,6 +86,7 @@ if(FIBER_PROXIMITY_PEERS)
     fiber_bench_peer(EMBREE benchmark/peers/embree.cpp LIBRARIES embree)
   endif()
 
-  fiber_bench_peer(FCL benchmark/peers/fcl.cpp benchmark/peers/fcl_pairs.cpp
+  fiber_bench_peer(FCL benchmark/peers/fcl.cpp benchmark/peers/fcl_motions.cpp
+    benchmark/peers/fcl_pairs.cpp
     LIBRARIES fiber_proximity_fcl fcl)
 endif()

@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # Runs an experiment with fiber_bench and draws its figures.
-#   scripts/bench.sh paper|peers|scaling|coherence|accuracy|simulation [--quick] [--out DIR] [--verbose]
+#   scripts/bench.sh paper|peers|scaling|coherence|accuracy|continuous|simulation [--quick] [--out DIR] [--verbose]
 #     paper      Fig. 4 to 7 of Sobottka and Weber (2005) on this machine
 #     peers      run_tree beside other engines and Embree, CGAL, FCL and Bullet, on every scene
 #     scaling    how a cycle grows from 10⁴ to 4.7 million segments, with one thread and two
 #     coherence  what a skin is worth where points move a little in every frame
 #     accuracy   time against error: kernels and other libraries on hard pairs, queries on scenes
+#     continuous whether moving capsules touch, and when: right or wrong, and how fast
 #     simulation whether rods move as theory says, time against error, what each effect costs
 #     --quick    small scenes: minutes at most
 #     --verbose  all that installing and building write
@@ -15,7 +16,7 @@ set -euo pipefail
 # shellcheck source=scripts/environment.sh
 source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 
-usage="usage: scripts/bench.sh paper|peers|scaling|coherence|accuracy|simulation [--quick] [--out DIR] [--verbose]"
+usage="usage: scripts/bench.sh paper|peers|scaling|coherence|accuracy|continuous|simulation [--quick] [--out DIR] [--verbose]"
 experiment=
 quick=()
 out=
@@ -29,7 +30,7 @@ while [ $# -gt 0 ]; do
       ;;
     --verbose) be_verbose ;;
     -h | --help) echo "$usage"; exit 0 ;;
-    paper | peers | scaling | coherence | accuracy | simulation) experiment=$1 ;;
+    paper | peers | scaling | coherence | accuracy | continuous | simulation) experiment=$1 ;;
     *) echo "bench.sh: unknown argument '$1'; $usage" >&2; exit 2 ;;
   esac
   shift

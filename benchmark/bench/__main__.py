@@ -2,11 +2,11 @@
 
 import argparse
 
-from . import accuracy, coherence, paper, peers, scaling, simulation
+from . import accuracy, coherence, continuous, paper, peers, scaling, simulation
 
 EXPERIMENTS = {"paper": paper.run, "peers": peers.run, "scaling": scaling.run,
                "coherence": coherence.run, "accuracy": accuracy.run,
-               "simulation": simulation.run}
+               "continuous": continuous.run, "simulation": simulation.run}
 
 
 def main():

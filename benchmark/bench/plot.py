@@ -15,6 +15,9 @@ COLORS = {
     "bullet": "#fd8d3c",
     "fast": "#1f77b4", "fast_batch": "#9ecae1", "robust": "#000000", "robust_batch": "#969696",
     "exact": "#d62728", "textbook": "#238b45", "fcl_capsule": "#54278f", "fcl_gjk": "#bcbddc",
+    "own": "#000000", "own_single": "#969696", "discrete_1": "#c7e9c0", "discrete_10": "#74c476",
+    "discrete_100": "#238b45", "fcl_advancement": "#54278f", "fcl_naive": "#bcbddc",
+    "bullet_continuous": "#fd8d3c", "bullet_gjk": "#fdd0a2",
 }
 
 pyplot.rcParams.update({

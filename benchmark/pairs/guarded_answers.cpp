@@ -1,11 +1,10 @@
 #include "pairs/guarded_answers.hpp"
 
-#include <sys/time.h>
-
 #include <cmath>
 #include <stdexcept>
 
 #include "pairs/child_process.hpp"
+#include "pairs/guarded_calls.hpp"
 
 namespace fiber {
 namespace {
@@ -22,32 +21,12 @@ GuardedAnswer ask(PairKernel& kernel, std::size_t index) {
   return result;
 }
 
-/// Ends the process after a second of computing, waiting not counted; from now on.
-void set_alarm() {
-  const itimerval second{{0, 0}, {1, 0}};
-  setitimer(ITIMER_VIRTUAL, &second, nullptr);
-}
-
 }  // namespace
 
 std::vector<GuardedAnswer> guarded_answers(PairKernel& kernel, std::size_t count) {
   static_assert(static_cast<int>(Outcome::ENDED) == 0, "what shared memory has at first");
   const SharedArray<GuardedAnswer> answers(count);
-  const SharedArray<volatile std::size_t> begun(1);  // pairs
-  while (begun[0] < count) {
-    const std::size_t before = begun[0];
-    survives([&] {
-      while (begun[0] < count) {
-        const std::size_t index = begun[0];
-        begun[0] = index + 1;
-        set_alarm();
-        answers[index] = ask(kernel, index);
-      }
-    });
-    if (begun[0] == before) {
-      throw std::runtime_error("a child process ended before it began");
-    }
-  }
+  guarded_calls(count, [&](std::size_t index) { answers[index] = ask(kernel, index); });
   return {answers.begin(), answers.end()};
 }
 

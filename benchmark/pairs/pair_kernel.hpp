@@ -39,10 +39,7 @@ class PairKernel {
   virtual PairAnswer answer(std::size_t index) = 0;
 };
 
-/// The kernel of this name.
-/// @throws std::invalid_argument for an unknown name, listing the names, and for a kernel this
-/// build
-///         is without, naming the package to install
+/// The kernel of this name, by make_kernel().
 std::unique_ptr<PairKernel> make_pair_kernel(const std::string& name);
 
 /// Names of the kernels in this build.

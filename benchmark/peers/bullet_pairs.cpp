@@ -1,34 +1,15 @@
-// A module of its own: Bullet in double has the symbols of Bullet in single precision.
-#include "peers/bullet_pairs.hpp"
-
-#include <BulletCollision/CollisionShapes/btCapsuleShape.h>
+// In a module: Bullet in double has the symbols of Bullet in single precision.
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
 
 #include <stdexcept>
 
-#include "peers/capsule_pose.hpp"
+#include "peers/bullet_capsule.hpp"
+#include "peers/bullet_module.hpp"
 
 namespace fiber {
 namespace {
-
-/// A segment as an object of Bullet, whose capsules stand along y.
-struct BulletCapsule {
-  BulletCapsule(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1, double capsule_radius)
-      : radius(capsule_radius), shape(capsule_radius, (p1 - p0).stableNorm()) {
-    const CapsulePose found = capsule_pose(p0, p1);
-    const Eigen::Vector3d& x = found.other;
-    const Eigen::Vector3d& y = found.along;
-    const Eigen::Vector3d& z = found.side;
-    pose.setBasis({x.x(), y.x(), z.x(), x.y(), y.y(), z.y(), x.z(), y.z(), z.z()});
-    pose.setOrigin({found.centre.x(), found.centre.y(), found.centre.z()});
-  }
-
-  double radius;
-  btCapsuleShape shape;
-  btTransform pose;
-};
 
 /// What GJK found, if anything.
 struct Found final : btDiscreteCollisionDetectorInterface::Result {

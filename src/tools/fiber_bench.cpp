@@ -11,6 +11,7 @@ void setup(CLI::App& app, Command& command) {
   add_accuracy_command(app, command);
   add_coherence_command(app, command);
   add_kernels_command(app, command);
+  add_motions_command(app, command);
   add_environment_command(app, command);
   add_simulate_command(app, command);
 #ifdef FIBER_BENCH_HAS_LATENCY

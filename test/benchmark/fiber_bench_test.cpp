@@ -289,6 +289,76 @@ TEST_F(FiberBench, PrintsATableOfKernelsWithoutJson) {
   }
 }
 
+TEST_F(FiberBench, JudgesContactTimesOfHardMotions) {
+  const ProcessResult result = bench(
+      "motions --parts accuracy --count 110 --threads 2 --tolerances 1e-3,1e-9 --seed 2 --json");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "") << "progress is for terminals";
+  const std::vector<nlohmann::json> rows = json_lines(result.out);
+  ASSERT_GT(rows.size(), 2U * 20U);
+  for (const nlohmann::json& row : rows) {
+    SCOPED_TRACE(row.dump());
+    EXPECT_EQ(row.at("part"), "accuracy");
+    const bool has_thickness = row.at("family").get<std::string>().rfind("crossing", 0) != 0;
+    EXPECT_EQ(row.at("motions"), has_thickness ? 110 : 2);
+    for (const char* const field : {"misses", "false_alarms", "wrongly_certain", "wide"}) {
+      EXPECT_EQ(row.at(field), 0) << field;
+    }
+    EXPECT_EQ(row.at("wrong").size(), 0U);
+  }
+}
+
+TEST_F(FiberBench, MeasuresContactTimesInTurns) {
+  const ProcessResult result = bench(
+      "motions --parts times --families random 'grazing, translating' --timed 50 --repeats 2 "
+      "--kernels own,own_single,discrete_10 --tolerances 1e-6,1e-9 --json");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const std::vector<nlohmann::json> rows = json_lines(result.out);
+  ASSERT_EQ(rows.size(), 2U * 4U);
+  const std::vector<std::string> kernels{"own", "own", "own_single", "discrete_10"};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    SCOPED_TRACE(rows[i].dump());
+    EXPECT_EQ(rows[i].at("kernel"), kernels[i % kernels.size()]);
+    EXPECT_EQ(rows[i].at("tolerance"), i % kernels.size() == 1 ? 1e-9 : 1e-6);
+    EXPECT_EQ(rows[i].at("answered"), 50);
+    EXPECT_GT(rows[i].at("hit_ns"), 0.0);
+    EXPECT_EQ(rows[i].at("rejected_ns").is_null(), rows[i].at("rejected") == 0);
+    if (kernels[i % kernels.size()] != "discrete_10") {
+      EXPECT_EQ(rows[i].at("misses"), 0);
+      EXPECT_EQ(rows[i].at("early"), 0);
+    }
+    EXPECT_EQ(rows[i].at("false_alarms"), 0);
+  }
+  EXPECT_GT(rows.back().at("misses"), 0) << "some only graze each other";
+}
+
+TEST_F(FiberBench, HoldsContactTimesAgainstAFileOfKnownMotions) {
+  // The second of two segments at right angles comes down upon the first; or not.
+  const std::string start =
+      "0x0p0,0x0p0,0x0p0,0x1p0,0x0p0,0x0p0,0x1p-1,-0x1p0,0x1p0,0x1p-1,0x1p0,0x1p0,";
+  const std::string still = "0x0p0,0x0p0,0x0p0,0x1p0,0x0p0,0x0p0,";
+  const std::string file = write(
+      "motions.csv", "walls,1," + start + still + "0x1p-1,-0x1p0,-0x1p0,0x1p-1,0x1p0,-0x1p0\n" +
+                         "walls,0," + start + still + "0x1p-1,-0x1p0,0x1p-1,0x1p-1,0x1p0,0x1p-1\n");
+  const ProcessResult result = bench("motions --parts known --tolerances 1e-6 --known " + file);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const nlohmann::json row =
+      json_lines(bench("motions --json --parts known --tolerances 1e-6 --known " + file).out).at(0);
+  EXPECT_EQ(row.at("motions"), 2);
+  EXPECT_EQ(row.at("contacts"), 1);
+  EXPECT_EQ(row.at("hits"), 1);
+  EXPECT_EQ(row.at("contacts_missed"), 0);
+  EXPECT_EQ(row.at("contacts_invented"), 0);
+  EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 3) << result.out;
+  // One whose truth is wrong.
+  const std::string wrong = write("wrong.csv", "walls,1," + start + start);
+  EXPECT_EQ(json_lines(bench("motions --json --parts known --known " + wrong).out)
+                .at(0)
+                .at("contacts_missed"),
+            1);
+  EXPECT_TRUE(refused(bench("motions --parts known --known " + path("none.csv")), "none.csv"));
+}
+
 /// The links are coarse: what matters is that both find the same.
 TEST_F(FiberBench, ChecksACellBesideFcl) {
   const ProcessResult result =
@@ -381,6 +451,14 @@ TEST_F(FiberBench, RefusesBadCommandLines) {
   EXPECT_TRUE(refused(bench("kernels --pairs 0"), "--pairs: '0'"));
   EXPECT_TRUE(refused(bench("kernels --repeats 0"), "--repeats: '0'"));
   EXPECT_TRUE(refused(bench("kernels --kernels"), "--kernels"));
+  EXPECT_TRUE(refused(bench("motions --parts times,truth"), "truth"));
+  EXPECT_TRUE(refused(bench("motions --parts times --kernels own,fast"),
+                      "unknown kernel 'fast', known are: own, own_single, "));
+  EXPECT_TRUE(refused(bench("motions --parts accuracy --families easy"),
+                      "unknown family 'easy', known are: random, translating, "));
+  EXPECT_TRUE(refused(bench("motions --count 0"), "--count: '0'"));
+  EXPECT_TRUE(
+      refused(bench("motions --tolerances 1e-6,-1"), "--tolerances: '-1' must be a finite"));
   EXPECT_TRUE(refused(bench("environment --parts cell,kitchen"), "kitchen"));
   EXPECT_TRUE(refused(bench("environment --points 1"), "--points: '1'"));
   EXPECT_TRUE(refused(bench("environment --margin inf"), "--margin: 'inf' must be a finite"));

@@ -207,14 +207,14 @@ INSTANTIATE_TEST_SUITE_P(All, MotionFamilies, testing::ValuesIn(family_names()),
                          [](const auto& family) { return test_name(family.param); });
 
 TEST(PublicEdgeMotions, NoneIsMissed) {
-  const std::vector<EdgeMotion> motions = public_edge_motions();
+  const std::vector<bench::KnownMotion> motions = public_edge_motions();
   if (motions.empty()) {
     GTEST_SKIP() << "no public edge motions at " << public_edge_motions_path();
   }
   for (const double tolerance : {1e-3, 1e-6, 1e-9, 1e-12}) {
     int collisions = 0;
     int near_hits = 0;
-    for (const auto& [motion, collides] : motions) {
+    for (const auto& [set, collides, motion] : motions) {
       const ContactTime answer = time_of(motion, tolerance);
       EXPECT_TRUE(answer.hit || !collides);
       EXPECT_FALSE(answer.hit && answer.certain && !collides);

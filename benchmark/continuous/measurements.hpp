@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "continuous/motion_kernel.hpp"
+
+namespace fiber::bench {
+
+/// What to measure of contact times; all counts at least 1.
+struct MotionMeasurement {
+  std::vector<std::string> families;                        ///< none: all
+  std::vector<double> tolerances{1e-3, 1e-6, 1e-9, 1e-12};  ///< parts of the motion's extent
+  std::uint64_t seed = 1;
+
+  /// To judge, per family and tolerance; of motions without thickness, whose truth is in rationals,
+  /// a hundredth.
+  std::uint32_t count = 120'000;
+  std::uint32_t threads = 1;  ///< to judge with
+
+  std::vector<std::string> kernels = motion_kernel_names();
+  double tolerance = 1e-6;    ///< of those that keep none, and of the motions told apart
+  std::uint32_t timed = 500;  ///< motions of a family to ask all kernels about
+  std::uint32_t repeats = 11;
+
+  std::string known;  ///< a file of motions for read_known_motions(); none: no such rows
+};
+
+/// A line of results, names to values.
+using MotionRow = nlohmann::ordered_json;
+using ReportMotionRow = std::function<void(const MotionRow&)>;
+
+/// Our answers to motions of each family, judged.
+void measure_motion_accuracy(const MotionMeasurement& what, const ReportMotionRow& report);
+
+/// Our answers to the known motions, judged and compared with the truth in the file.
+void measure_known_motions(const MotionMeasurement& what, const ReportMotionRow& report);
+
+/// Decisions and times of all kernels.
+void measure_motion_times(const MotionMeasurement& what, const ReportMotionRow& report);
+
+}  // namespace fiber::bench

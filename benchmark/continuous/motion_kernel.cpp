@@ -1,0 +1,29 @@
+#include "continuous/motion_kernel.hpp"
+
+#include "continuous/makers.hpp"
+#include "pairs/kernel_list.hpp"
+
+namespace fiber::bench {
+namespace {
+
+constexpr KernelEntry<MotionKernel> motion_kernels[] = {
+    {"own", "", make_own_motions},
+    {"own_single", "", make_own_single_motions},
+    {"discrete_1", "", make_discrete_1_motions},
+    {"discrete_10", "", make_discrete_10_motions},
+    {"discrete_100", "", make_discrete_100_motions},
+    {"fcl_advancement", "libfcl-dev", make_fcl_advancement_motions},
+    {"fcl_naive", "libfcl-dev", make_fcl_naive_motions},
+    {"bullet_continuous", "libbullet-dev", make_bullet_continuous_motions},
+    {"bullet_gjk", "libbullet-dev", make_bullet_gjk_motions},
+};
+
+}  // namespace
+
+std::unique_ptr<MotionKernel> make_motion_kernel(const std::string& name) {
+  return make_kernel(motion_kernels, name);
+}
+
+std::vector<std::string> motion_kernel_names() { return kernel_names(motion_kernels); }
+
+}  // namespace fiber::bench

@@ -1,0 +1,45 @@
+#include "continuous/makers.hpp"
+
+namespace fiber::bench {
+namespace {
+
+/// contact_times(), or one call for each motion.
+class OwnMotions final : public MotionKernel {
+ public:
+  explicit OwnMotions(bool is_batch) : is_batch_(is_batch) {}
+
+  bool keeps_tolerance() const override { return true; }
+
+  void prepare(const std::vector<HardMotion>& motions, double tolerance) override {
+    queries_.clear();
+    for (const HardMotion& motion : motions) {
+      queries_.push_back(motion.motions());
+    }
+    tolerance_ = tolerance;
+  }
+
+  void find(std::size_t first, std::size_t count, ContactTime* times) override {
+    if (is_batch_) {
+      contact_times(&queries_[first], count, tolerance_, times);
+      return;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      times[i] = contact_time(queries_[first + i], tolerance_);
+    }
+  }
+
+ private:
+  const bool is_batch_;
+  std::vector<SegmentMotions> queries_;
+  double tolerance_ = 0.0;  // [m]
+};
+
+}  // namespace
+
+std::unique_ptr<MotionKernel> make_own_motions() { return std::make_unique<OwnMotions>(true); }
+
+std::unique_ptr<MotionKernel> make_own_single_motions() {
+  return std::make_unique<OwnMotions>(false);
+}
+
+}  // namespace fiber::bench

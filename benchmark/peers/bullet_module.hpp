@@ -1,0 +1,18 @@
+#pragma once
+
+#include "continuous/motion_kernel.hpp"
+#include "pairs/pair_kernel.hpp"
+
+namespace fiber::bench {
+
+/// Bullet's convex casts.
+enum class BulletCast { CONTINUOUS, GJK };
+
+}  // namespace fiber::bench
+
+// What the module with Bullet in double precision offers: new kernels.
+extern "C" {
+__attribute__((visibility("default"))) fiber::PairKernel* fiber_bench_make_bullet_pairs();
+__attribute__((visibility("default"))) fiber::bench::MotionKernel* fiber_bench_make_bullet_motions(
+    fiber::bench::BulletCast cast);
+}

@@ -1,0 +1,79 @@
+// In a module: Bullet in double has the symbols of Bullet in single precision.
+#include <BulletCollision/NarrowPhaseCollision/btContinuousConvexCollision.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkConvexCast.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
+#include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
+
+#include "peers/bullet_capsule.hpp"
+#include "peers/bullet_module.hpp"
+#include "peers/translation.hpp"
+
+namespace fiber::bench {
+namespace {
+
+/// A capsule and where it is at the end.
+struct BulletMovingCapsule : BulletCapsule {
+  BulletMovingCapsule(const Eigen::Vector3d* before, const Eigen::Vector3d* after,
+                      double capsule_radius)
+      : BulletCapsule(before[0], before[1], capsule_radius), end(pose) {
+    const Eigen::Vector3d centre = 0.5 * (after[0] + after[1]);
+    end.setOrigin({centre.x(), centre.y(), centre.z()});
+  }
+
+  btTransform end;
+};
+
+/// One of Bullet's casts, in double; btCollisionWorld::convexSweepTest() takes the continuous one.
+/// They stop where the gap is a millimetre, and report no overlap of capsules that move apart.
+class BulletMotions final : public MotionKernel {
+ public:
+  explicit BulletMotions(BulletCast cast) : cast_(cast) {}
+
+  bool can_answer(const HardMotion& motion) const override { return is_translation(motion); }
+
+  void prepare(const std::vector<HardMotion>& motions, double tolerance) override {
+    motions_ = &motions;
+    tolerance_ = tolerance;
+    make_moving_capsules(motions, a_, b_);
+  }
+
+  void find(std::size_t first, std::size_t count, ContactTime* times) override {
+    for (std::size_t i = 0; i < count; ++i) {
+      times[i] = found(first + i);
+    }
+  }
+
+ private:
+  ContactTime found(std::size_t index) {
+    const BulletMovingCapsule& a = a_[index];
+    const BulletMovingCapsule& b = b_[index];
+    if (cast_ == BulletCast::GJK) {
+      return found(index, btGjkConvexCast(&a.shape, &b.shape, &simplex_));
+    }
+    return found(index, btContinuousConvexCollision(&a.shape, &b.shape, &simplex_, &penetration_));
+  }
+
+  template <class Cast>
+  ContactTime found(std::size_t index, Cast&& cast) const {
+    btConvexCast::CastResult result;
+    result.m_fraction = 1.0;  // as btCollisionWorld::convexSweepTest() has it
+    const bool hit =
+        cast.calcTimeOfImpact(a_[index].pose, a_[index].end, b_[index].pose, b_[index].end, result);
+    return hit ? stated_time((*motions_)[index], result.m_fraction, tolerance_) : ContactTime();
+  }
+
+  const BulletCast cast_;
+  btVoronoiSimplexSolver simplex_;
+  btGjkEpaPenetrationDepthSolver penetration_;
+  const std::vector<HardMotion>* motions_ = nullptr;
+  double tolerance_ = 0.0;  // [m]
+  std::vector<BulletMovingCapsule> a_;
+  std::vector<BulletMovingCapsule> b_;
+};
+
+}  // namespace
+}  // namespace fiber::bench
+
+fiber::bench::MotionKernel* fiber_bench_make_bullet_motions(fiber::bench::BulletCast cast) {
+  return new fiber::bench::BulletMotions(cast);
+}

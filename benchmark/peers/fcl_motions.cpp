@@ -1,0 +1,73 @@
+#include <fcl/narrowphase/continuous_collision.h>
+
+#include "continuous/makers.hpp"
+#include "peers/fcl_capsule.hpp"
+#include "peers/translation.hpp"
+
+namespace fiber::bench {
+namespace {
+
+/// A capsule and where it is at the end.
+struct FclMovingCapsule : FclCapsule {
+  FclMovingCapsule(const Eigen::Vector3d* before, const Eigen::Vector3d* after, double radius)
+      : FclCapsule(before[0], before[1], radius), end(pose) {
+    end.translation() = 0.5 * (after[0] + after[1]);
+  }
+
+  fcl::Transform3d end;
+};
+
+/// fcl::continuousCollide() of two capsules.
+class FclMotions final : public MotionKernel {
+ public:
+  explicit FclMotions(const fcl::ContinuousCollisionRequestd& request) : request_(request) {}
+
+  bool can_answer(const HardMotion& motion) const override { return is_translation(motion); }
+
+  void prepare(const std::vector<HardMotion>& motions, double tolerance) override {
+    motions_ = &motions;
+    tolerance_ = tolerance;
+    make_moving_capsules(motions, a_, b_);
+  }
+
+  void find(std::size_t first, std::size_t count, ContactTime* times) override {
+    for (std::size_t i = first; i < first + count; ++i) {
+      fcl::ContinuousCollisionResultd result;
+      fcl::continuousCollide(&a_[i].capsule, a_[i].pose, a_[i].end, &b_[i].capsule, b_[i].pose,
+                             b_[i].end, request_, result);
+      times[i - first] =
+          result.is_collide ? answer((*motions_)[i], result.time_of_contact) : ContactTime();
+    }
+  }
+
+ private:
+  ContactTime answer(const HardMotion& motion, double time) const {
+    if (request_.ccd_solver_type != fcl::CCDC_NAIVE) {
+      return stated_time(motion, time, tolerance_);
+    }
+    // Looks at times that are as far from each other as this.
+    const double step = 1.0 / (static_cast<double>(request_.num_max_iterations) - 1.0);
+    return {true, std::max(0.0, time - step), time, true};
+  }
+
+  const fcl::ContinuousCollisionRequestd request_;
+  const std::vector<HardMotion>* motions_ = nullptr;
+  double tolerance_ = 0.0;  // [m]
+  std::vector<FclMovingCapsule> a_;
+  std::vector<FclMovingCapsule> b_;
+};
+
+}  // namespace
+
+std::unique_ptr<MotionKernel> make_fcl_advancement_motions() {
+  fcl::ContinuousCollisionRequestd request;
+  request.ccd_motion_type = fcl::CCDM_TRANS;
+  request.ccd_solver_type = fcl::CCDC_CONSERVATIVE_ADVANCEMENT;
+  return std::make_unique<FclMotions>(request);
+}
+
+std::unique_ptr<MotionKernel> make_fcl_naive_motions() {
+  return std::make_unique<FclMotions>(fcl::ContinuousCollisionRequestd());
+}
+
+}  // namespace fiber::bench

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "fiber_proximity/scenes/hard_motions.hpp"
+
+namespace fiber::bench {
+
+/// Whether both capsules have thickness and keep length and direction: of all motions of ends on
+/// straight lines these are those of rigid bodies.
+inline bool is_translation(const HardMotion& motion) {
+  const auto keeps_axis = [](const Eigen::Vector3d* before, const Eigen::Vector3d* after) {
+    constexpr double rounding = 0x1p-50;
+    const Eigen::Vector3d change = (after[1] - after[0]) - (before[1] - before[0]);
+    const double size = std::max(before[0].cwiseAbs().maxCoeff(), after[0].cwiseAbs().maxCoeff()) +
+                        std::max(before[1].cwiseAbs().maxCoeff(), after[1].cwiseAbs().maxCoeff());
+    return change.cwiseAbs().maxCoeff() <= rounding * size;
+  };
+  return motion.radius_a > 0.0 && motion.radius_b > 0.0 &&
+         keeps_axis(motion.a_before, motion.a_after) && keeps_axis(motion.b_before, motion.b_after);
+}
+
+/// The answer of a library that states one time: contact may have begun earlier by as much as these
+/// capsules take for the tolerance [m].
+inline ContactTime stated_time(const HardMotion& motion, double time, double tolerance) {
+  const Eigen::Vector3d way =
+      (motion.a_after[0] - motion.a_before[0]) - (motion.b_after[0] - motion.b_before[0]);
+  const double length = way.stableNorm();
+  const double earlier = length > 0.0 ? tolerance / length : 1.0;
+  return {true, std::max(0.0, time - earlier), time, false};
+}
+
+/// The capsules of motions as objects of a library, made of both ends before, both after, and a
+/// radius [m].
+template <class Capsule>
+void make_moving_capsules(const std::vector<HardMotion>& motions, std::vector<Capsule>& a,
+                          std::vector<Capsule>& b) {
+  a.clear();
+  b.clear();
+  for (const HardMotion& motion : motions) {
+    a.emplace_back(motion.a_before, motion.a_after, motion.radius_a);
+    b.emplace_back(motion.b_before, motion.b_after, motion.radius_b);
+  }
+}
+
+}  // namespace fiber::bench
