@@ -175,6 +175,7 @@ class Advancement {
   // Grazing motions take the most looks: 65 have been seen.
   static constexpr std::uint32_t most_looks = 256;
   static constexpr std::uint32_t most_probes = 4;
+  static constexpr std::uint32_t most_near_looks = 1;
 
   void advance(const SegmentMotion<Number>& motion, const MotionLook<Number>& look, bool is_near,
                bool is_contact) {
@@ -184,7 +185,11 @@ class Advancement {
       state_ = State::DONE;
     } else if (is_near) {
       result_ = {true, time_, time_, is_contact};
-      go_on_from(motion, look, is_contact);
+      if (until > time_ && near_looks_++ < most_near_looks) {
+        time_ = until;  // so little is left that it pays to see more of it
+      } else {
+        go_on_from(motion, look, is_contact);
+      }
     } else if (until > time_ && looks_ < most_looks) {
       time_ = until;
     } else if (until > time_ || is_last_) {
@@ -255,6 +260,7 @@ class Advancement {
   double time_ = 0.0;
   bool is_last_ = false;
   std::uint32_t looks_ = 0;
+  std::uint32_t near_looks_ = 0;
   std::uint32_t probes_ = 0;
   Number depth_ = Number(0.0);  // that probes look for
   double from_ = 0.0;           // the time of the last look at which the segments came nearer,

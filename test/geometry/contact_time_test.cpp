@@ -143,6 +143,35 @@ TEST(ContactTime, TwentyMetresThroughAnotherAlwaysAnswerTheSame) {
   }
 }
 
+// Found by scripts/bench.sh continuous: bounds on the time wider than 20 T/L, where segments came
+// nearer ever more slowly between reaching the tolerance and contact.
+TEST(ContactTime, BoundsAreNarrowWhereSegmentsSlowDown) {
+  const auto crossing =
+      std::find_if(motion_families().begin(), motion_families().end(),
+                   [](const MotionFamily& family) { return family.name == "crossing"; });
+  const HardMotion crossed = hard_motions(*crossing, 2000, 77)[925];
+  const double tolerance = 0x1.c3c4010f0721bp-10;
+  const ContactTime time = time_of(crossed, tolerance);
+  EXPECT_TRUE(time.hit) << described(time);
+  EXPECT_FALSE(bench::judge(crossed, tolerance, time).has_wrong_answers()) << described(time);
+
+  HardMotion swapped;
+  swapped.a_before[0] = {-0x1.be221ba91721p-1, -0x1.0e8eceb416e34p-1, 0x1.4acea1987aa28p-2};
+  swapped.a_before[1] = {-0x1.25b9fa2750085p+0, -0x1.0e066162f13bp-3, 0x1.49ab64c98145p-3};
+  swapped.b_before[0] = {-0x1.be8b30c074b4p-2, -0x1.46f08ae5cf85cp-1, 0x1.c01366d486e1ep-1};
+  swapped.b_before[1] = {-0x1.ed628c1bf25e2p-2, -0x1.2d6784f02805cp-3, 0x1.338a795c24c89p+0};
+  swapped.a_after[0] = {-0x1.e6a328a53f474p-2, -0x1.0adf1acef6ea6p-1, 0x1.40336a5b09474p-1};
+  swapped.a_after[1] = {-0x1.961f544ce6988p-3, -0x1.d5ed3f3b88b82p-1, 0x1.92faf0ec7fb8ap-1};
+  swapped.b_after[0] = {-0x1.363a4f94827bfp-1, -0x1.a15be92e2e4f2p-2, 0x1.9bfd591317ed4p-2};
+  swapped.b_after[1] = {-0x1.1ecea1e6c3a6ep-1, -0x1.cc449e40dcabep-1, 0x1.37e9052e4a3bp-4};
+  swapped.radius_a = 0.038457164813706785;
+  swapped.radius_b = 0.007520568640004277;
+  const ContactTime turned = time_of(swapped, 0.0010403602577176796);
+  EXPECT_TRUE(turned.hit && turned.certain) << described(turned);
+  EXPECT_FALSE(bench::judge(swapped, 0.0010403602577176796, turned).has_wrong_answers())
+      << described(turned);
+}
+
 std::vector<std::string> family_names() {
   std::vector<std::string> names;
   for (const MotionFamily& family : motion_families()) {
