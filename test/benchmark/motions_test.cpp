@@ -59,7 +59,7 @@ TEST(MotionAccuracy, NoticesAKernelThatNeverSeesAContact) {
     const MotionScore missed = accuracy_of(family, never);
     EXPECT_GT(own.certain, 0U) << family;
     // Some contacts are less deep than the truth can tell.
-    EXPECT_GT(2 * missed.misses, own.certain) << own.family;
+    EXPECT_GT(2 * missed.misses, own.certain) << family;
     EXPECT_GE(missed.misses + missed.undecided, own.certain) << family;
     EXPECT_LE(missed.misses, own.hits) << family;
   }
