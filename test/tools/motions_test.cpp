@@ -250,7 +250,7 @@ TEST_F(Motions, RefusesBadCommandLines) {
 }
 
 TEST_F(Motions, FindsThePublicCollisions) {
-  const std::vector<EdgeMotion> motions = public_edge_motions();
+  const std::vector<bench::KnownMotion> motions = public_edge_motions();
   if (motions.empty()) {
     GTEST_SKIP() << "no " << public_edge_motions_path();
   }
@@ -258,7 +258,7 @@ TEST_F(Motions, FindsThePublicCollisions) {
       rows_of(query("motions " + public_edge_motions_path()).out);
   ASSERT_EQ(rows.size(), motions.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    ASSERT_TRUE(rows[i][0] == 1.0 || !motions[i].collides) << "row " << i;
+    ASSERT_TRUE(rows[i][0] == 1.0 || !motions[i].contact) << "row " << i;
     ASSERT_EQ(rows[i], numbers_of(contact_time(motions[i].motion.motions(), 1e-6))) << i;
   }
 }
