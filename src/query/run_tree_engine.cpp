@@ -239,7 +239,7 @@ RunTreeEngine::Candidates RunTreeEngine::current_candidates(const PairTest& test
 }
 
 void RunTreeEngine::do_update_swept(const FiberAssembly& before, const FiberAssembly& swept,
-                                     bool same_topology) {
+                                    bool same_topology) {
   loops_.reset(before);
   arena_.execute([&] {
     if (same_topology) {

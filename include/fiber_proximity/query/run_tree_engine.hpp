@@ -44,7 +44,7 @@ class RunTreeEngine final : public ProximityEngine {
   void do_query_shape(const FiberAssembly& shape, const FiberAssembly& fibers,
                       const QueryOptions& options, QueryResult& result) const override;
   void do_update_swept(const FiberAssembly& before, const FiberAssembly& swept,
-                        bool same_topology) override;
+                       bool same_topology) override;
   void do_find_candidates(const FiberAssembly& swept, const PairTest& test,
                           const QueryLimits& limits, MotionCandidates& candidates) const override;
   void do_find_shape_candidates(const FiberAssembly& shape, const FiberAssembly& swept,
