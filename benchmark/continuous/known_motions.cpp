@@ -26,7 +26,8 @@ KnownMotion known_motion(const std::string& line) {
   }
   known.contact = truth == "1";
   HardMotion& motion = known.motion;
-  for (Eigen::Vector3d* ends : {motion.a_before, motion.b_before, motion.a_after, motion.b_after}) {
+  for (Eigen::Vector3d* ends : {motion.a_before.data(), motion.b_before.data(),
+                                motion.a_after.data(), motion.b_after.data()}) {
     for (int end = 0; end < 2; ++end) {
       for (double& coordinate : ends[end]) {
         const std::string field = next();
@@ -67,8 +68,8 @@ std::string coordinates_of(const HardMotion& motion) {
   std::ostringstream text;
   text << std::hexfloat;
   const char* separator = "";
-  for (const Eigen::Vector3d* ends :
-       {motion.a_before, motion.b_before, motion.a_after, motion.b_after}) {
+  for (const Eigen::Vector3d* ends : {motion.a_before.data(), motion.b_before.data(),
+                                      motion.a_after.data(), motion.b_after.data()}) {
     for (int end = 0; end < 2; ++end) {
       for (const double coordinate : ends[end]) {
         text << separator << coordinate;

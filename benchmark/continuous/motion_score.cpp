@@ -310,8 +310,8 @@ MotionScore& MotionScore::operator+=(const MotionScore& more) {
 
 double extent_of(const HardMotion& motion) {
   double extent = 0.0;
-  for (const auto& [a, b] :
-       {std::pair(motion.a_before, motion.b_before), std::pair(motion.a_after, motion.b_after)}) {
+  for (const auto& [a, b] : {std::pair(motion.a_before.data(), motion.b_before.data()),
+                             std::pair(motion.a_after.data(), motion.b_after.data())}) {
     for (int i = 0; i < 2; ++i) {
       for (int j = 0; j < 2; ++j) {
         extent = std::max(extent, (a[i] - b[j]).cwiseAbs().maxCoeff());

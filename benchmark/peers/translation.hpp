@@ -18,7 +18,8 @@ inline bool is_translation(const HardMotion& motion) {
     return change.cwiseAbs().maxCoeff() <= rounding * size;
   };
   return motion.radius_a > 0.0 && motion.radius_b > 0.0 &&
-         keeps_axis(motion.a_before, motion.a_after) && keeps_axis(motion.b_before, motion.b_after);
+         keeps_axis(motion.a_before.data(), motion.a_after.data()) &&
+         keeps_axis(motion.b_before.data(), motion.b_after.data());
 }
 
 /// The answer of a library that states one time: contact may have begun earlier by as much as these
@@ -39,8 +40,8 @@ void make_moving_capsules(const std::vector<HardMotion>& motions, std::vector<Ca
   a.clear();
   b.clear();
   for (const HardMotion& motion : motions) {
-    a.emplace_back(motion.a_before, motion.a_after, motion.radius_a);
-    b.emplace_back(motion.b_before, motion.b_after, motion.radius_b);
+    a.emplace_back(motion.a_before.data(), motion.a_after.data(), motion.radius_a);
+    b.emplace_back(motion.b_before.data(), motion.b_after.data(), motion.radius_b);
   }
 }
 

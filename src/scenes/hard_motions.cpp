@@ -50,8 +50,8 @@ void place(const MovingPart& part, Vector3d* before, Vector3d* after) {
 
 HardMotion motion_of(const MovingParts& parts) {
   HardMotion motion;
-  place(parts.a, motion.a_before, motion.a_after);
-  place(parts.b, motion.b_before, motion.b_after);
+  place(parts.a, motion.a_before.data(), motion.a_after.data());
+  place(parts.b, motion.b_before.data(), motion.b_after.data());
   return motion;
 }
 
@@ -72,28 +72,29 @@ MotionFamily family(const std::string& name, const Change& change) {
 }
 
 MotionFamily scaled_family(const std::string& name, double scale, double offset) {
-  return {
-      name, [=](Random& random) {
-        HardMotion motion =
-            with_radii(motion_of(random_parts(random)), random.uniform(0.01, 0.3), random);
-        const Vector3d origin = offset * random.direction();
-        for (Vector3d* ends : {motion.a_before, motion.a_after, motion.b_before, motion.b_after}) {
-          ends[0] = scale * ends[0] + origin;
-          ends[1] = scale * ends[1] + origin;
-        }
-        motion.radius_a *= scale;
-        motion.radius_b *= scale;
-        return motion;
-      }};
+  return {name, [=](Random& random) {
+            HardMotion motion =
+                with_radii(motion_of(random_parts(random)), random.uniform(0.01, 0.3), random);
+            const Vector3d origin = offset * random.direction();
+            for (Vector3d* ends : {motion.a_before.data(), motion.a_after.data(),
+                                   motion.b_before.data(), motion.b_after.data()}) {
+              ends[0] = scale * ends[0] + origin;
+              ends[1] = scale * ends[1] + origin;
+            }
+            motion.radius_a *= scale;
+            motion.radius_b *= scale;
+            return motion;
+          }};
 }
 
 double distance_at(const HardMotion& motion, double time) {
   const auto at = [=](const Vector3d* before, const Vector3d* after, int end) {
     return Vector3d((1.0 - time) * before[end] + time * after[end]);
   };
-  return segment_distance(
-             at(motion.a_before, motion.a_after, 0), at(motion.a_before, motion.a_after, 1),
-             at(motion.b_before, motion.b_after, 0), at(motion.b_before, motion.b_after, 1))
+  return segment_distance(at(motion.a_before.data(), motion.a_after.data(), 0),
+                          at(motion.a_before.data(), motion.a_after.data(), 1),
+                          at(motion.b_before.data(), motion.b_after.data(), 0),
+                          at(motion.b_before.data(), motion.b_after.data(), 1))
       .distance;
 }
 

@@ -88,7 +88,7 @@ TEST(ContactTime, TheMarginCounts) {
 
 TEST(ContactTime, WhatPassesByIsNoHit) {
   HardMotion motion = falling(0.1);
-  for (Vector3d* ends : {motion.a_before, motion.a_after}) {
+  for (Vector3d* ends : {motion.a_before.data(), motion.a_after.data()}) {
     ends[0].x() += 0.71;
     ends[1].x() += 0.71;
   }

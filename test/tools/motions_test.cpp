@@ -53,8 +53,8 @@ std::vector<std::vector<double>> rows_of(const std::string& text) {
 
 std::string row_of(const HardMotion& motion) {
   std::string row = "hard,0";
-  for (const Eigen::Vector3d* ends :
-       {motion.a_before, motion.b_before, motion.a_after, motion.b_after}) {
+  for (const Eigen::Vector3d* ends : {motion.a_before.data(), motion.b_before.data(),
+                                      motion.a_after.data(), motion.b_after.data()}) {
     for (int i = 0; i < 2; ++i) {
       for (const double coordinate : ends[i]) {
         row += ',';

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -13,16 +14,20 @@ namespace fiber {
 
 /// Two capsules that move: the two ends of each axis, before and after [m].
 struct HardMotion {
-  Eigen::Vector3d a_before[2];
-  Eigen::Vector3d a_after[2];
-  Eigen::Vector3d b_before[2];
-  Eigen::Vector3d b_after[2];
+  std::array<Eigen::Vector3d, 2> a_before;
+  std::array<Eigen::Vector3d, 2> a_after;
+  std::array<Eigen::Vector3d, 2> b_before;
+  std::array<Eigen::Vector3d, 2> b_after;
   double radius_a = 0.0;  ///< [m]
   double radius_b = 0.0;  ///< [m]
 
   /// As contact_time() takes it; refers to this motion.
   SegmentMotions motions() const {
-    return {a_before, a_after, b_before, b_after, {radius_a, radius_b, 0.0}};
+    return {a_before.data(),
+            a_after.data(),
+            b_before.data(),
+            b_after.data(),
+            {radius_a, radius_b, 0.0}};
   }
 };
 
