@@ -59,6 +59,7 @@ unwatched_library(fiber_queries
   src/environment/environment_query.cpp
   src/environment/point_distance.cpp
   src/environment/triangle_distance.cpp
+  src/geometry/contact_times.cpp
   src/geometry/exact_distance.cpp
   src/geometry/exact_numbers.cpp
   src/geometry/fast_segment_distances.cpp
@@ -67,6 +68,8 @@ unwatched_library(fiber_queries
   src/geometry/segment_distance.cpp
   src/geometry/segment_distances.cpp
   src/geometry/smallest_rotation.cpp
+  src/geometry/swept_fibers.cpp
+  src/geometry/wide_contact_time.cpp
   src/bounds/bounding_volume.cpp
   src/hierarchy/fiber_order.cpp
   src/hierarchy/run_tree_find.cpp
@@ -80,6 +83,8 @@ unwatched_library(fiber_queries
   src/query/fiber_pair_minima.cpp
   src/query/loop_free_stretches.cpp
   src/query/loop_test.cpp
+  src/query/motion.cpp
+  src/query/motion_judge.cpp
   src/query/options.cpp
   src/query/pair_collector.cpp
   src/query/pair_test.cpp
