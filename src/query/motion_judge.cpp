@@ -30,11 +30,11 @@ class MotionJudge {
       return;
     }
     SegmentMotions motions[motions_per_slice];
-    ContactTime times[motions_per_slice];
+    std::vector<ContactTime> times(count);
     for (std::size_t i = 0; i < count; ++i) {
       motions[i] = motions_of(pair_of(keys[i]));
     }
-    contact_times(motions, count, options_.tolerance, times);
+    contact_times(motions, count, options_.tolerance, times.data());
     for (std::size_t i = 0; i < count; ++i) {
       const PointPair pair = pair_of(keys[i]);
       // Few come so far: whether a fibre makes a loop costs more than when it has contact.
