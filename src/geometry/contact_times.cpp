@@ -263,10 +263,10 @@ class ContactTimes {
     }
   }
 
+  LaneMotions lanes_;
   const SegmentMotions* const motions_;
   const double tolerance_;  // [m]
   ContactTime* const times_;
-  LaneMotions lanes_;
   Way ways_[most_lanes];
   std::size_t pairs_[pairs_at_a_time];
   std::size_t count_ = 0;
