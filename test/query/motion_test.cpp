@@ -144,8 +144,8 @@ TEST_P(MotionQueries, FindWhatAllPairsFind) {
       touched += expected.touching.size();
     }
   });
-  expect_enough(began, std::size_t{100});
-  expect_enough(touched, std::size_t{100});
+  expect_enough(began, static_cast<std::size_t>(rounds(100)));
+  expect_enough(touched, static_cast<std::size_t>(rounds(100)));
 }
 
 TEST_P(MotionQueries, WithoutMotionThoseInContactAreAll) {
