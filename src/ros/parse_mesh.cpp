@@ -169,7 +169,7 @@ class ParsingProcess {
       if (ready < 0 && errno == EINTR) {
         continue;
       }
-      const ssize_t received = ready > 0 ? read(from_->number(), next, size) : 0;
+      const ssize_t received = ready > 0 ? ::read(from_->number(), next, size) : 0;
       if (received < 0 && errno == EINTR) {
         continue;
       }
