@@ -66,22 +66,25 @@ void PredictionOutput::take_frames() {
   }
 }
 
-/// Where the points will be at the horizon.
-/// @returns false if an input has too few messages for that
+/// Where the points will be at the horizon. Who has sent one message only stands still.
+/// @returns false if that are all of them
 bool PredictionOutput::predict_places() {
   const std::vector<std::unique_ptr<Input>>& inputs = inputs_.inputs();
   points_.clear();
   message_.frames = std::numeric_limits<std::uint32_t>::max();
   message_.frame_time = std::numeric_limits<double>::infinity();
+  bool one_moves = false;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     if (!inputs[i]->is_fresh()) {
       continue;
     }
     const fiber::PointVelocities& frames = inputs_frames_[i].velocities;
-    message_.frames = std::min(message_.frames, static_cast<std::uint32_t>(frames.frame_count()));
-    message_.frame_time = std::min(message_.frame_time, frames.duration());
     if (frames.frame_count() < 2) {
-      return false;
+      message_.assumption += "; " + inputs[i]->options().topic + ", with one message, stands still";
+    } else {
+      one_moves = true;
+      message_.frames = std::min(message_.frames, static_cast<std::uint32_t>(frames.frame_count()));
+      message_.frame_time = std::min(message_.frame_time, frames.duration());
     }
     frames.find(velocities_);
     const std::vector<Eigen::Vector3d>& points = inputs[i]->fibers().points();
@@ -89,7 +92,7 @@ bool PredictionOutput::predict_places() {
       points_.push_back(points[point] + options_.horizon * velocities_[point]);
     }
   }
-  return true;
+  return one_moves;
 }
 
 void PredictionOutput::predict(const fiber::QueryOptions& options,
@@ -99,7 +102,9 @@ void PredictionOutput::predict(const fiber::QueryOptions& options,
     return;
   }
   if (!predict_places()) {
-    message_.problem = "an input has sent one message: there are no velocities yet";
+    message_.frames = 1;
+    message_.frame_time = 0.0;
+    message_.problem = "no input has sent more than one message: there are no velocities yet";
     return;
   }
   before_ = inputs_.fibers();  // its own: the engine refers to it until the next time
