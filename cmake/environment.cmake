@@ -1,6 +1,7 @@
 # What is around the fibres, over FCL: a library of its own, so that the core does not need it.
 
 add_library(fiber_proximity_environment SHARED
+  src/environment/allowed_parts.cpp
   src/environment/axis_distance.cpp
   src/environment/check_fibers.cpp
   src/environment/environment.cpp

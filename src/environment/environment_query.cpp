@@ -2,51 +2,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
-#include <string_view>
 
 #include "broad_phase.hpp"
 
 namespace fiber {
-namespace {
-
-/// Index of a segment that may be counted from the end.
-std::int64_t from_begin(std::int64_t segment, std::int64_t segment_count) {
-  return segment < 0 ? segment_count + segment : segment;
-}
-
-/// Sorts and finds parts by fibre.
-struct OfFiber {
-  bool operator()(const AllowedPart& a, const AllowedPart& b) const { return a.fiber < b.fiber; }
-  bool operator()(const AllowedPart& a, std::uint32_t fiber) const { return a.fiber < fiber; }
-  bool operator()(std::uint32_t fiber, const AllowedPart& b) const { return fiber < b.fiber; }
-};
-
-/// By object, behind them those of every object; each sorted by fibre.
-std::vector<std::vector<AllowedPart>> by_object(const AllowedPairs& allowed,
-                                                const std::vector<EnvironmentObject>& objects) {
-  std::vector<std::vector<AllowedPart>> sorted;
-  if (allowed.empty()) {
-    return sorted;
-  }
-  sorted.resize(objects.size() + 1);
-  std::map<std::string_view, std::size_t> indices{{"", objects.size()}};
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    indices.emplace(objects[i].name, i);
-  }
-  for (const AllowedPair& pair : allowed) {
-    if (const auto found = indices.find(pair.object); found != indices.end()) {
-      sorted[found->second].push_back({pair.fiber, pair.first_segment, pair.last_segment});
-    }
-  }
-  for (std::vector<AllowedPart>& parts : sorted) {
-    std::sort(parts.begin(), parts.end(), OfFiber());
-  }
-  return sorted;
-}
-
-}  // namespace
-
 SegmentRun::SegmentRun(const FiberAssembly& fibers, std::uint32_t owner, std::uint32_t first_point,
                        std::uint32_t last_point)
     : fiber(owner), begin(first_point), end(last_point) {
@@ -63,7 +22,7 @@ EnvironmentQuery::EnvironmentQuery(const FiberAssembly& fibers,
                                    QueryResult& result)
     : keeper_(options, result),
       fibers_(fibers),
-      allowed_(by_object(allowed, objects)),
+      allowed_(allowed, objects),
       counts_(result.counts) {}
 
 double EnvironmentQuery::offer(const SegmentRun& run, const WorldShape& shape) {
@@ -85,7 +44,8 @@ double EnvironmentQuery::offer(const SegmentRun& run, const WorldShape& shape) {
 
 void EnvironmentQuery::offer_segment(const SegmentRun& run, std::uint32_t point,
                                      const WorldShape& shape) {
-  if (is_allowed(run, point, shape)) {
+  const std::uint32_t first = fibers_.offsets()[run.fiber];
+  if (allowed_.holds(fibers_, {run.fiber, point - first}, shape.object)) {
     return;
   }
   const Capsule capsule = fibers_.capsule(point);
@@ -112,29 +72,6 @@ void EnvironmentQuery::offer_segment(const SegmentRun& run, std::uint32_t point,
   } else {
     keeper_.leave_out(found.lower);
   }
-}
-
-bool EnvironmentQuery::is_allowed(const SegmentRun& run, std::uint32_t point,
-                                  const WorldShape& shape) const {
-  if (allowed_.empty()) {
-    return false;
-  }
-  const std::uint32_t first = fibers_.offsets()[run.fiber];
-  const std::int64_t count = fibers_.offsets()[run.fiber + 1] - first - 1;
-  const std::int64_t segment = point - first;
-  const auto holds_segment = [&](const AllowedPart& part) {
-    return from_begin(part.first_segment, count) <= segment &&
-           segment <= from_begin(part.last_segment, count);
-  };
-  for (const std::vector<AllowedPart>* parts : {&allowed_[shape.object], &allowed_.back()}) {
-    for (const std::uint32_t fiber : {run.fiber, AllowedPair::every_fiber}) {
-      const auto [begin, end] = std::equal_range(parts->begin(), parts->end(), fiber, OfFiber());
-      if (std::any_of(begin, end, holds_segment)) {
-        return true;
-      }
-    }
-  }
-  return false;
 }
 
 Contact EnvironmentQuery::contact(const SegmentRun& run, std::uint32_t point,

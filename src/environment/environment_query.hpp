@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "allowed_parts.hpp"
 #include "fiber_proximity/environment/allowed_pairs.hpp"
 #include "fiber_proximity/environment/axis_distance.hpp"
 #include "fiber_proximity/environment/shape_box.hpp"
@@ -26,13 +27,6 @@ struct SegmentRun {
   double radius = 0.0;  // the largest [m]
 };
 
-/// A part of a fibre that may touch an object: as AllowedPair has it.
-struct AllowedPart {
-  std::uint32_t fiber;
-  std::int64_t first_segment;
-  std::int64_t last_segment;
-};
-
 /// One query of an environment: decides which pairs of segments and shapes are contacts.
 class EnvironmentQuery {
  public:
@@ -51,14 +45,12 @@ class EnvironmentQuery {
  private:
   double reach_of(const SegmentRun& run) const { return keeper_.bound() + run.radius; }
   void offer_segment(const SegmentRun& run, std::uint32_t point, const WorldShape& shape);
-  bool is_allowed(const SegmentRun& run, std::uint32_t point, const WorldShape& shape) const;
   Contact contact(const SegmentRun& run, std::uint32_t point, const WorldShape& shape,
                   const AxisDistance& axis) const;
 
   ContactKeeper keeper_;
   const FiberAssembly& fibers_;
-  // By object, behind them those of every object; empty if there are none at all.
-  std::vector<std::vector<AllowedPart>> allowed_;
+  AllowedParts allowed_;
   QueryCounts& counts_;
 };
 
