@@ -172,6 +172,7 @@ TEST(EnvironmentMotion, ACableThatSlidesAlongAThingIsFree) {
   SCOPED_TRACE(seed_message());
   Random random;
   constexpr double radius = 3e-3;
+  std::uint64_t looks = 0;  // where boxes alone did not tell
   for (const auto& [shape, height] : thin_things()) {
     for (const double gap : {1e-3, 1e-6}) {
       SCOPED_TRACE(std::to_string(shape.index()) + " " + std::to_string(gap));
@@ -190,13 +191,14 @@ TEST(EnvironmentMotion, ACableThatSlidesAlongAThingIsFree) {
       MotionResult result = ask(thing, before, after, options);
       EXPECT_TRUE(result.contacts.empty() && result.touching.empty());
       EXPECT_EQ(result.others_lower, 1.0);
-      EXPECT_GT(result.counts.primitive_tests, 0U);
+      looks += result.counts.primitive_tests;
       options.margin = 1.01 * gap;
       result = ask(thing, before, after, options);
       const bool is_ball = std::holds_alternative<SphereShape>(shape);  // it is beside the cable
       EXPECT_TRUE(is_ball || !result.touching.empty());
     }
   }
+  EXPECT_GT(looks, 100U);
 }
 
 TEST(EnvironmentMotion, ABladeThatTurnsThroughACableIsCaught) {
