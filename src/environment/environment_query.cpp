@@ -16,6 +16,24 @@ SegmentRun::SegmentRun(const FiberAssembly& fibers, std::uint32_t owner, std::ui
   }
 }
 
+Contact contact_of(const Capsule& capsule, const WorldShape& shape, const AxisDistance& axis) {
+  const Eigen::Vector3d nearest = capsule.p0 + axis.s * (capsule.p1 - capsule.p0);
+  const Eigen::Vector3d away = shape.pose.linear() * axis.gradient;
+  const double error = shape.rounding + 0x1p-48 * std::max(capsule.p0.cwiseAbs().maxCoeff(),
+                                                           capsule.p1.cwiseAbs().maxCoeff());
+  Contact contact;
+  contact.s = axis.s;
+  contact.fiber_b = shape.object;
+  contact.segment_b = shape.index;
+  contact.distance = axis.distance - capsule.radius;
+  contact.lower = axis.lower - error - capsule.radius;
+  contact.upper = axis.distance + error - capsule.radius;
+  contact.normal = -away;
+  contact.point_a = nearest - capsule.radius * away;
+  contact.point_b = nearest - axis.distance * away;
+  return contact;
+}
+
 EnvironmentQuery::EnvironmentQuery(const FiberAssembly& fibers,
                                    const std::vector<EnvironmentObject>& objects,
                                    const QueryOptions& options, const AllowedPairs& allowed,
@@ -66,34 +84,14 @@ void EnvironmentQuery::offer_segment(const SegmentRun& run, std::uint32_t point,
     keeper_.leave_out(bound);
     return;
   }
-  const Contact found = contact(run, point, shape, axis);
+  Contact found = contact_of(capsule, shape, axis);
+  found.fiber_a = run.fiber;
+  found.segment_a = point - first;
   if (found.distance <= bound) {
     keeper_.keep(found);
   } else {
     keeper_.leave_out(found.lower);
   }
-}
-
-Contact EnvironmentQuery::contact(const SegmentRun& run, std::uint32_t point,
-                                  const WorldShape& shape, const AxisDistance& axis) const {
-  const Capsule capsule = fibers_.capsule(point);
-  const Eigen::Vector3d nearest = capsule.p0 + axis.s * (capsule.p1 - capsule.p0);
-  const Eigen::Vector3d away = shape.pose.linear() * axis.gradient;
-  const double error = shape.rounding + 0x1p-48 * std::max(capsule.p0.cwiseAbs().maxCoeff(),
-                                                           capsule.p1.cwiseAbs().maxCoeff());
-  Contact contact;
-  contact.fiber_a = run.fiber;
-  contact.segment_a = point - fibers_.offsets()[run.fiber];
-  contact.s = axis.s;
-  contact.fiber_b = shape.object;
-  contact.segment_b = shape.index;
-  contact.distance = axis.distance - capsule.radius;
-  contact.lower = axis.lower - error - capsule.radius;
-  contact.upper = axis.distance + error - capsule.radius;
-  contact.normal = -away;
-  contact.point_a = nearest - capsule.radius * away;
-  contact.point_b = nearest - axis.distance * away;
-  return contact;
 }
 
 void EnvironmentQuery::finish() { keeper_.finish(-std::numeric_limits<double>::infinity()); }

@@ -9,6 +9,7 @@
 #include "fiber_proximity/environment/shape_box.hpp"
 #include "fiber_proximity/environment/shapes.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/contact_keeper.hpp"
 
 namespace fiber {
@@ -26,6 +27,9 @@ struct SegmentRun {
   WorldBox box;         // around their axes [m]
   double radius = 0.0;  // the largest [m]
 };
+
+/// What is reported of a segment (a) and a shape (b); which segment it is is left open.
+Contact contact_of(const Capsule& capsule, const WorldShape& shape, const AxisDistance& axis);
 
 /// One query of an environment: decides which pairs of segments and shapes are contacts.
 class EnvironmentQuery {
@@ -45,8 +49,6 @@ class EnvironmentQuery {
  private:
   double reach_of(const SegmentRun& run) const { return keeper_.bound() + run.radius; }
   void offer_segment(const SegmentRun& run, std::uint32_t point, const WorldShape& shape);
-  Contact contact(const SegmentRun& run, std::uint32_t point, const WorldShape& shape,
-                  const AxisDistance& axis) const;
 
   ContactKeeper keeper_;
   const FiberAssembly& fibers_;

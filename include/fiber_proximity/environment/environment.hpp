@@ -37,6 +37,11 @@ class Environment {
   void query(const FiberAssembly& fibers, const QueryOptions& options, const AllowedPairs& allowed,
              QueryResult& result) const;
 
+  /// A segment (a) and a shape of an object (b), however far apart: as query() has it, but for
+  /// fiber_a and segment_a, which are 0.
+  /// @throws std::out_of_range for an object or a shape that there is not
+  Contact contact(const Capsule& segment, std::uint32_t object, std::uint32_t shape) const;
+
   /// Pairs of a segment (a) and a shape of an object (b), as query() has them, that come into
   /// contact while every point of the fibres moves linearly from where it is before to where it is
   /// after. Of each segment the larger radius counts. No contact is missed, however thin both are,
