@@ -50,4 +50,15 @@ void Environment::query(const FiberAssembly& fibers, const QueryOptions& options
   query.finish();
 }
 
+Contact Environment::contact(const Capsule& segment, std::uint32_t object,
+                             std::uint32_t shape) const {
+  const EnvironmentObject& owner = objects_.at(object);
+  static_cast<void>(owner.shapes.at(shape));
+  const WorldShape placed(owner, object, shape);
+  return contact_of(
+      segment, placed,
+      axis_distance(placed.shape, placed.to_shape * segment.p0, placed.to_shape * segment.p1,
+                    std::numeric_limits<double>::infinity()));
+}
+
 }  // namespace fiber

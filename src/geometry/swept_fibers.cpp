@@ -10,17 +10,6 @@
 namespace fiber {
 namespace {
 
-void check_topology(const FiberAssembly& before, const FiberAssembly& after) {
-  if (before.offsets() != after.offsets()) {
-    std::ostringstream message;
-    message << "the fibres change their topology: " << before.fiber_count() << " of "
-            << before.point_count() << " points before, " << after.fiber_count() << " of "
-            << after.point_count()
-            << " after; a motion needs the same fibres with the same numbers of points";
-    throw std::invalid_argument(message.str());
-  }
-}
-
 /// What the points move on average [m].
 Eigen::Vector3d mean_way(const FiberAssembly& before, const FiberAssembly& after) {
   // Of each its part: the sum of all could leave the range of double.
@@ -34,14 +23,25 @@ Eigen::Vector3d mean_way(const FiberAssembly& before, const FiberAssembly& after
 
 }  // namespace
 
+void require_same_topology(const FiberAssembly& before, const FiberAssembly& after) {
+  if (before.offsets() != after.offsets()) {
+    std::ostringstream message;
+    message << "the fibres change their topology: " << before.fiber_count() << " of "
+            << before.point_count() << " points before, " << after.fiber_count() << " of "
+            << after.point_count()
+            << " after; a motion needs the same fibres with the same numbers of points";
+    throw std::invalid_argument(message.str());
+  }
+}
+
 void SweptFibers::update(const FiberAssembly& before, const FiberAssembly& after) {
-  check_topology(before, after);
+  require_same_topology(before, after);
   update(before, after, mean_way(before, after));
 }
 
 void SweptFibers::update(const FiberAssembly& before, const FiberAssembly& after,
                          const Eigen::Vector3d& drift) {
-  check_topology(before, after);
+  require_same_topology(before, after);
   drift_ = drift;
   const std::size_t count = before.point_count();
   points_.resize(count);

@@ -8,6 +8,10 @@
 
 namespace fiber {
 
+/// @throws std::invalid_argument if there is no motion from one to the other, as the numbers of
+///         their fibres and of the points of these are not the same
+void require_same_topology(const FiberAssembly& before, const FiberAssembly& after);
+
 /// Fibres that hold all that others come by while each of their points moves linearly: each segment
 /// where it is halfway, thicker by half the way of its ends.
 ///

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/query/motion.hpp"
+#include "fiber_proximity/query/motion_slices.hpp"
 #include "fiber_proximity/query/pair_test.hpp"
 #include "fiber_proximity/query/query_limits.hpp"
 
@@ -14,14 +12,6 @@ namespace fiber {
 struct FiberMotion {
   const FiberAssembly& before;
   const FiberAssembly& after;
-};
-
-/// Pairs that may come into contact during a motion.
-struct MotionCandidates {
-  std::vector<std::uint64_t> keys;  ///< see key_of(); in ascending order
-  bool are_all = true;              ///< false: the deadline has passed
-  bool are_too_many = false;        ///< more than may be examined: there are none
-  QueryCounts counts;
 };
 
 /// When each candidate comes into contact, slice by slice on several threads, and which of these
