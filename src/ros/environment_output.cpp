@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "fiber_proximity/ros/contact_array.hpp"
+#include "fiber_proximity/ros/fiber_step.hpp"
 #include "fiber_proximity/ros/stopwatch.hpp"
 
 namespace fiber_proximity_ros {
@@ -14,8 +15,8 @@ EnvironmentOutput::EnvironmentOutput(const ros::NodeHandle& node, ros::NodeHandl
       inputs_(node, private_node, read_environment_options(node, private_node), fibers.frame(),
               tf_timeout, std::move(on_message)),
       environment_(inputs_.environment()),
-      publisher_(private_node.advertise<fiber_proximity::ContactArray>("environment_contacts", 1)) {
-}
+      publisher_(private_node.advertise<fiber_proximity::ContactArray>("environment_contacts", 1)),
+      touches_(fiber_proximity::Contact::OBJECT, advertise_contact_events(private_node)) {}
 
 bool EnvironmentOutput::update() {
   fibers_.fibers();  // merged by now, and with them their stamp
@@ -37,14 +38,23 @@ void EnvironmentOutput::detect(const fiber::QueryOptions& options, bool wants_mi
                     });
 }
 
-void EnvironmentOutput::publish(const fiber::QueryOptions& options) {
+void EnvironmentOutput::publish(const fiber::QueryOptions& options, bool has_gradients) {
   if (!has_listeners()) {
+    skip();
     return;
   }
-  to_message(detection_, options, fiber_proximity::Contact::OBJECT, message_);
-  message_.header = fibers_.header();
-  message_.fiber_names = fibers_.names();
-  message_.object_names = object_names(*environment_);
+  const std_msgs::Header& header = fibers_.header();
+  const std::chrono::nanoseconds now = to_time(header.stamp);
+  const BodyNames names{fibers_.names(), object_names(*environment_)};
+  contacts_.assign(detection_.contacts().contacts, touches_.step_to(now), nullptr);
+  touches_.track(contacts_.contacts(), names, header);
+  if (publisher_.getNumSubscribers() == 0) {
+    return;
+  }
+  to_message(detection_, {contacts_.contacts(), touches_, now, has_gradients}, options,
+             fiber_proximity::Contact::OBJECT, header, message_);
+  message_.fiber_names = names.a;
+  message_.object_names = names.b;
   message_.update_time = update_time_;
   publisher_.publish(message_);
 }

@@ -17,39 +17,23 @@ namespace {
 using fiber_proximity::CheckFibers;
 using fiber_proximity::Contact;
 
-fiber::MotionType to_motion_type(std::uint8_t type) {
-  switch (to_query_type(type)) {
-    case fiber::QueryType::FIRST:
-      return fiber::MotionType::FIRST;
-    case fiber::QueryType::LIMITED:
-      return fiber::MotionType::LIMITED;
-    case fiber::QueryType::ALL:
-      return fiber::MotionType::ALL;
-    default:
-      throw std::invalid_argument("type is " + std::to_string(type) +
-                                  ", of motions it must be 0 (FIRST), 2 (LIMITED) or 3 (ALL)");
+fiber::MotionOptions options_of_motions(const CheckFibers::Request& request,
+                                        const fiber::QueryOptions& defaults) {
+  constexpr double usual_tolerance = 1e-6;  // [m]
+  fiber::QueryOptions options = to_options(request, defaults);
+  if (options.type == fiber::QueryType::CLOSEST || options.type == fiber::QueryType::FIBER_PAIRS) {
+    throw std::invalid_argument("type is " + std::to_string(request.type) +
+                                ", of motions it must be 0 (FIRST), 2 (LIMITED) or 3 (ALL)");
   }
-}
-
-fiber::MotionOptions motion_options(const CheckFibers::Request& request,
-                                    const fiber::QueryOptions& defaults) {
-  fiber::MotionOptions options;
-  options.type = to_motion_type(request.type);
-  options.margin = request.margin;
-  options.max_contacts = request.max_contacts;
-  options.neighbour_skip = defaults.neighbour_skip;
-  options.neighbour_skip_length = defaults.neighbour_skip_length;
-  options.deadline = request.deadline;
-  options.pair_limit = defaults.pair_limit;
-  if (!(request.motion_tolerance >= 0.0 && std::isfinite(request.motion_tolerance))) {
-    throw std::invalid_argument("motion_tolerance is " + std::to_string(request.motion_tolerance) +
+  const double tolerance = request.motion_tolerance;
+  if (!(tolerance >= 0.0 && std::isfinite(tolerance))) {
+    throw std::invalid_argument("motion_tolerance is " + std::to_string(tolerance) +
                                 " m, it must be finite and at least 0");
   }
-  if (request.motion_tolerance > 0.0) {
-    options.tolerance = request.motion_tolerance;
-  }
+  options.neighbour_skip = defaults.neighbour_skip;
+  options.neighbour_skip_length = defaults.neighbour_skip_length;
   fiber::validate(options);
-  return options;
+  return fiber::motion_options(options, tolerance > 0.0 ? tolerance : usual_tolerance);
 }
 
 /// Which candidates are the states of which motion.
@@ -158,7 +142,7 @@ void append(const fiber::MotionCheck& check, const PresentFibers& present,
 
 void answer_motions(const CheckFibers::Request& request, const QueryTarget& target,
                     const FindAllowed& find_allowed, CheckFibers::Response& response) {
-  fiber::MotionOptions options = motion_options(request, target.defaults);
+  fiber::MotionOptions options = options_of_motions(request, target.defaults);
   const Waypoints waypoints(request);
   const PresentFibers present(target, request);
   fiber::Surroundings surroundings = present.surroundings();

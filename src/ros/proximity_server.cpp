@@ -3,6 +3,7 @@
 #include <ros/console.h>
 
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -32,7 +33,10 @@ ProximityServer::ProximityServer(const ros::NodeHandle& node, const ros::NodeHan
       options_(read_server_options(node, private_node)),
       config_(options_.config),
       detector_(options_.engine, options_.engine_options),
+      motion_detector_(options_.engine, options_.engine_options),
+      step_(options_.timing.input_timeout),
       contacts_publisher_(private_node_.advertise<fiber_proximity::ContactArray>("contacts", 1)),
+      touches_(fiber_proximity::Contact::FIBER, advertise_contact_events(private_node_)),
       fibers_publisher_(private_node_.advertise<fiber_proximity::FiberArray>("fibers", 1)),
       markers_publisher_(private_node_.advertise<visualization_msgs::MarkerArray>("markers", 1)),
       statistics_publisher_(private_node_.advertise<fiber_proximity::Statistics>("statistics", 1)),
@@ -42,6 +46,7 @@ ProximityServer::ProximityServer(const ros::NodeHandle& node, const ros::NodeHan
       diagnostics_(node_, private_node_, inputs_, detector_),
       environment_(node_, private_node_, inputs_, options_.timing.tf_timeout,
                    [this] { schedule(); }),
+      prediction_(private_node_, inputs_, options_.engine, options_.engine_options),
       comparison_(private_node_, {inputs_, detector_, query_options_, options_},
                   [this] { process(); }),
       queries_(private_node_, {inputs_, detector_, environment_.inputs(), query_options_},
@@ -91,6 +96,7 @@ void ProximityServer::tick() {
 
 void ProximityServer::publish() {
   detector_.set_fibers(inputs_.fibers());
+  step_.advance(inputs_, config_.continuous);
   crossings_.forget();
   parts_.clear();
   add_part("merge", inputs_.take_work_time());
@@ -105,12 +111,25 @@ void ProximityServer::publish() {
   const bool statistics = statistics_publisher_.getNumSubscribers() > 0;
   drawing_is_due_ = markers_publisher_.getNumSubscribers() > 0;
   const bool everything = statistics || drawing_is_due_;
+  const bool contacts = contacts_publisher_.getNumSubscribers() > 0 || touches_.has_listeners();
   const Stopwatch stopwatch;
-  if ((everything || contacts_publisher_.getNumSubscribers() > 0) && !detect()) {
+  if ((everything || contacts) && !detect()) {
     return;
+  }
+  if (everything || contacts) {
+    track_contacts();
+  } else {
+    touches_.skip();
   }
   if (environment_.is_used() && (everything || environment_.has_listeners())) {
     detect_in_environment();
+  } else {
+    environment_.skip();
+  }
+  if (prediction_.is_wanted()) {
+    predict();
+  } else {
+    prediction_.skip();
   }
   publish_markers_if_due();
   const Stopwatch comparison_time;
@@ -141,10 +160,48 @@ bool ProximityServer::detect() {
   if (config_.minimum_distance) {
     add_part("minimum", detector_.detection().minimum_time());
   }
+  return true;
+}
+
+/// What came into contact since the fibres before. Where that cannot be told, the answer is of its
+/// stamp alone.
+void ProximityServer::detect_motion() {
+  if (step_.is_motion()) {
+    try {
+      motion_detector_.detect(step_, query_options_, config_.motion_tolerance);
+      add_part("motion", motion_detector_.time());
+    } catch (const std::invalid_argument& error) {
+      step_.refuse(error.what());
+    }
+  }
+  if (!step_.problem().empty()) {
+    ROS_WARN_STREAM_THROTTLE(
+        1.0, "continuous: " << step_.problem() << "; this answer is of its stamp alone");
+  }
+}
+
+/// Recognises the contacts that were found, and publishes them.
+void ProximityServer::track_contacts() {
+  detect_motion();
+  const Detection& found = detector_.detection();
+  const fiber::TimeBounds step = touches_.step_to(to_time(inputs_.header().stamp));
+  std::optional<KnownMotion> motion;
+  if (step_.is_motion()) {
+    const bool reports_all = query_options_.type == fiber::QueryType::ALL &&
+                             found.contacts().complete && !found.contacts().limit_reached;
+    motion.emplace(motion_detector_.known_motion(reports_all));
+  }
+  contacts_.assign(found.contacts().contacts, step, motion ? &*motion : nullptr);
+  touches_.track(contacts_.contacts(), {inputs_.names(), {}}, inputs_.header());
   if (contacts_publisher_.getNumSubscribers() > 0) {
     publish_contacts();
   }
-  return true;
+}
+
+void ProximityServer::predict() {
+  const Stopwatch stopwatch;
+  prediction_.publish(query_options_, environment_);
+  add_part("prediction", stopwatch.seconds());
 }
 
 void ProximityServer::detect_in_environment() {
@@ -158,7 +215,7 @@ void ProximityServer::detect_in_environment() {
   if (config_.minimum_distance) {
     add_part("environment_minimum", environment_.detection().minimum_time());
   }
-  environment_.publish(query_options_);
+  environment_.publish(query_options_, config_.gradients);
 }
 
 void ProximityServer::add_part(const std::string& name, double seconds) {
@@ -172,10 +229,16 @@ void ProximityServer::publish_fibers() {
 }
 
 void ProximityServer::publish_contacts() {
-  to_message(detector_.detection(), query_options_, fiber_proximity::Contact::FIBER,
-             contacts_message_);
-  contacts_message_.header = inputs_.header();
+  to_message(detector_.detection(),
+             {contacts_.contacts(), touches_, step_.time().lower, config_.gradients},
+             query_options_, fiber_proximity::Contact::FIBER, inputs_.header(), contacts_message_);
   contacts_message_.fiber_names = inputs_.names();
+  contacts_message_.continuous = step_.is_motion();
+  if (step_.is_motion()) {
+    const fiber::MotionResult& motion = motion_detector_.result();
+    contacts_message_.complete = contacts_message_.complete && motion.complete;
+    contacts_message_.limit_reached = contacts_message_.limit_reached || motion.limit_reached;
+  }
   contacts_message_.update_time = detector_.update_time();
   contacts_publisher_.publish(contacts_message_);
 }
@@ -210,6 +273,8 @@ void ProximityServer::publish_statistics(double total_time) {
     message.parts.push_back(name);
     message.part_times.push_back(seconds);
   }
+  message.discrete_answers = step_.problem_count();
+  message.discrete_reason = step_.problem();
   const bool is_alone = !environment_.is_used();
   message.objects = is_alone ? 0 : to_count(environment_.environment().objects().size());
   message.environment_contacts =
@@ -292,6 +357,8 @@ void ProximityServer::reconfigure(AskedConfig& config) {
   config_ = static_cast<const fiber_proximity::ProximityConfig&>(config);
   query_options_ = to_query_options(config);
   comparison_.switch_on(config.compare);
+  prediction_.configure({config.prediction, static_cast<std::size_t>(config.prediction_frames),
+                         config.motion_tolerance});
   marker_options_.show_fibers = config.show_fibers;
   marker_options_.show_contacts = config.show_contacts;
   marker_options_.show_nearest = config.show_nearest;

@@ -8,14 +8,16 @@
 #include <vector>
 
 #include "fiber_proximity/ContactArray.h"
+#include "fiber_proximity/ros/contact_events.hpp"
 #include "fiber_proximity/ros/detection.hpp"
 #include "fiber_proximity/ros/environment_inputs.hpp"
 #include "fiber_proximity/ros/input_set.hpp"
+#include "fiber_proximity/ros/step_contacts.hpp"
 
 namespace fiber_proximity_ros {
 
-/// Contacts of the fibres with what is around them, on ~environment_contacts; not looked for while
-/// there is nothing around, or nobody asks.
+/// Contacts of the fibres with what is around them, on ~environment_contacts and
+/// ~contact_events; not looked for while there is nothing around, or nobody asks.
 class EnvironmentOutput {
  public:
   /// @param fibers     must outlive this
@@ -32,13 +34,19 @@ class EnvironmentOutput {
   bool update();
 
   /// Whether somebody listens, and there is or may be something around.
-  bool has_listeners() const { return publisher_.getNumSubscribers() > 0; }
+  bool has_listeners() const {
+    return publisher_.getNumSubscribers() > 0 || touches_.has_listeners();
+  }
   bool is_used() const { return inputs_.is_used(); }
 
   /// Finds contacts and, if wanted, the closest pair. Once at most after each update().
   void detect(const fiber::QueryOptions& options, bool wants_minimum);
-  /// Publishes what detect() found, if somebody listens.
-  void publish(const fiber::QueryOptions& options);
+  /// Publishes what detect() found, and what of it began or ended, if somebody listens.
+  /// @param has_gradients whether derivatives are asked for
+  void publish(const fiber::QueryOptions& options, bool has_gradients);
+
+  /// An answer is given without looking around.
+  void skip() { touches_.skip(); }
 
   const EnvironmentInputs& inputs() const { return inputs_; }
 
@@ -54,7 +62,9 @@ class EnvironmentOutput {
   Detection detection_;
   double update_time_ = 0.0;
   ros::Publisher publisher_;
-  fiber_proximity::ContactArray message_;  // for its memory
+  ContactEvents touches_;
+  StepContacts contacts_;                  // for its memory
+  fiber_proximity::ContactArray message_;  // the same
 };
 
 /// By index.
