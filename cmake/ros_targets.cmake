@@ -2,6 +2,7 @@
 
 add_library(fiber_proximity_ros SHARED
   src/ros/allowed_contacts.cpp
+  src/ros/candidates.cpp
   src/ros/chain_set.cpp
   src/ros/change_topic.cpp
   src/ros/check_service.cpp
@@ -41,6 +42,7 @@ add_library(fiber_proximity_ros SHARED
   src/ros/markers.cpp
   src/ros/mesh_loader.cpp
   src/ros/missing_points.cpp
+  src/ros/motion_check.cpp
   src/ros/motion_detector.cpp
   src/ros/obstacle_change.cpp
   src/ros/obstacle_pose.cpp

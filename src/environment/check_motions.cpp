@@ -4,13 +4,14 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <stdexcept>
 #include <string>
 
 #include "fiber_proximity/geometry/swept_fibers.hpp"
+#include "fiber_proximity/query/contact_in_motion.hpp"
 #include "fiber_proximity/query/deadline.hpp"
-#include "fiber_proximity/query/pair_test.hpp"
 #include "path_collector.hpp"
 
 namespace fiber {
@@ -40,20 +41,6 @@ Capsule capsule_at(const FiberAssembly& before, const FiberAssembly& after, Segm
   const Capsule last = after.capsule(point);
   return {(1.0 - time) * first.p0 + time * last.p0, (1.0 - time) * first.p1 + time * last.p1,
           std::max(first.radius, last.radius)};
-}
-
-/// What is reported of two segments, alone.
-Contact contact_of_segments(const Capsule& a, const Capsule& b, const MotionContact& which) {
-  const FiberAssembly first({a.p0, a.p1}, {0, 2}, {a.radius});
-  const FiberAssembly second({b.p0, b.p1}, {0, 2}, {b.radius});
-  const QueryOptions options;
-  const PairTest test(first, second, options);
-  Contact contact = test.contact({0, 0}, test.distance({0, 0}));
-  contact.fiber_a = which.fiber_a;
-  contact.segment_a = which.segment_a;
-  contact.fiber_b = which.fiber_b;
-  contact.segment_b = which.segment_b;
-  return contact;
 }
 
 /// The fibres there are, standing still; nothing if they are left out.
@@ -131,8 +118,9 @@ class MotionChecker {
     }
     const Environment& environment = *surroundings_.environment;
     environment.query_motion(before, after, options_for(collector), surroundings_.allowed, found_);
-    collector.take(found_, step, [&](const MotionContact& contact, double time) {
+    collector.take(found_, step, [&](const MotionContact& contact) {
       const SegmentId id{contact.fiber_a, contact.segment_a};
+      const double time = std::isfinite(contact.upper) ? contact.upper : contact.lower;
       Contact where = environment.contact(capsule_at(before, after, id, time), contact.fiber_b,
                                           contact.segment_b);
       where.fiber_a = id.fiber;
@@ -147,11 +135,9 @@ class MotionChecker {
       return;
     }
     still_.engine()->query_motion_shape(before, after, options_for(collector), found_);
-    collector.take(found_, step, [&](const MotionContact& contact, double time) {
-      const std::uint32_t first = still_.fibers().offsets()[contact.fiber_b];
-      return contact_of_segments(
-          capsule_at(before, after, {contact.fiber_a, contact.segment_a}, time),
-          still_.fibers().capsule(first + contact.segment_b), contact);
+    const FiberMotion still{still_.fibers(), still_.fibers()};
+    collector.take(found_, step, [&](const MotionContact& contact) {
+      return first_contact({before, after}, still, contact);
     });
   }
 
@@ -162,10 +148,9 @@ class MotionChecker {
     }
     engine_->update_motion(before, after);
     engine_->query_motion(options_for(collector), found_);
-    collector.take(found_, step, [&](const MotionContact& contact, double time) {
-      return contact_of_segments(
-          capsule_at(before, after, {contact.fiber_a, contact.segment_a}, time),
-          capsule_at(before, after, {contact.fiber_b, contact.segment_b}, time), contact);
+    const FiberMotion motion{before, after};
+    collector.take(found_, step, [&](const MotionContact& contact) {
+      return first_contact(motion, motion, contact);
     });
   }
 

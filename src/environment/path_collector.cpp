@@ -1,7 +1,6 @@
 #include "path_collector.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace fiber {
@@ -40,8 +39,7 @@ void PathCollector::take(const MotionResult& found, std::size_t step, const Repo
   for (const auto* list : {&found.touching, &found.contacts}) {
     for (const MotionContact& contact : *list) {
       if (seen_.insert(contact.key()).second) {
-        const double time = std::isfinite(contact.upper) ? contact.upper : contact.lower;
-        contacts_.contacts.push_back({contact, report(contact, time)});
+        contacts_.contacts.push_back({contact, report(contact)});
         contacts_.contacts.back().when.lower += begin;
         contacts_.contacts.back().when.upper += begin;
       }

@@ -14,8 +14,8 @@ namespace fiber {
 /// earliest ones.
 class PathCollector {
  public:
-  /// What is reported of a contact in a step, at a time in it.
-  using Report = std::function<Contact(const MotionContact&, double)>;
+  /// What is reported of a contact in a step.
+  using Report = std::function<Contact(const MotionContact&)>;
 
   /// @param contacts is cleared
   PathCollector(const MotionOptions& options, PathContacts& contacts);
