@@ -31,20 +31,30 @@ HWY_INLINE std::uint32_t overlapping(const BoxBlock& block, const BoxBlock& othe
   return bits;
 }
 
-/// Boxes of a run's segments.
-HWY_INLINE void fit_boxes(const Run& run, BoxBlock& boxes) {
+/// Boxes of a run's segments, where they are and where they move.
+HWY_INLINE void fit_boxes(const RunTreeView& tree, std::uint32_t which, BoxBlock& boxes) {
+  const Run& run = tree.runs[which];
   for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(Floats())) {
     const LaneVector start = load(run.start, lane);
     const LaneVector end = load(run.end, lane);
     const auto radius = load(run.radius, lane);
-    store(lower_corner(start, end, radius), boxes.lower, lane);
-    store(upper_corner(start, end, radius), boxes.upper, lane);
+    LaneVector lower = lower_corner(start, end, radius);
+    LaneVector upper = upper_corner(start, end, radius);
+    if (tree.ways != nullptr) {
+      const LaneVector way = absolute(load(tree.ways[which].half, lane));
+      lower = subtract(lower, way);
+      upper = add(upper, way);
+    }
+    store(lower, boxes.lower, lane);
+    store(upper, boxes.upper, lane);
   }
 }
 
 /// Bits of the run's segments whose lines may come within the bound of that of a segment of
 /// another.
-HWY_INLINE std::uint32_t near_lines(const Run& run, const Run& other, std::uint32_t other_lane,
+/// @param ways of both runs, none where nothing moves
+HWY_INLINE std::uint32_t near_lines(const Run& run, const RunWays* way, const Run& other,
+                                    const RunWays* other_way, std::uint32_t other_lane,
                                     float bound) {
   const Floats d;
   const LaneVector start = spread(other.start, other_lane);
@@ -54,9 +64,15 @@ HWY_INLINE std::uint32_t near_lines(const Run& run, const Run& other, std::uint3
   for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
     const LaneVector starts = load(run.start, lane);
     const LaneVector v = subtract(load(run.end, lane), starts);
-    bits |=
-        bits_of(lines_near(u, v, subtract(start, starts), hn::Add(reach, load(run.radius, lane))))
-        << lane;
+    const LaneVector w = subtract(start, starts);
+    const auto reaches = hn::Add(reach, load(run.radius, lane));
+    const auto are_near =
+        way == nullptr
+            ? lines_near(u, v, w, reaches)
+            : moving_lines_near(
+                  u, v, w, subtract(spread(other_way->half, other_lane), load(way->half, lane)),
+                  reaches);
+    bits |= bits_of(are_near) << lane;
   }
   return bits;
 }
@@ -107,7 +123,7 @@ class Probe {
     run_count_ = std::min(run_width, tree.levels[0].child_count - first);
     inflate(tree.levels[0].boxes[group], bound, runs_);
     for (std::uint32_t lane = 0; lane < run_count_; ++lane) {
-      fit_boxes(tree.runs[first + lane], segments_[lane]);
+      fit_boxes(tree, first + lane, segments_[lane]);
       inflate(segments_[lane], bound, segments_[lane]);
     }
     for (int axis = 0; axis < 3; ++axis) {
@@ -263,7 +279,7 @@ class Finder {
       return true;
     }
     BoxBlock boxes;
-    fit_boxes(b_.runs[b], boxes);
+    fit_boxes(b_, b, boxes);
     const std::uint32_t columns = segments(b_, b) & overlapping(boxes, probe_.runs(), run);
     if (columns == 0) {
       return true;
@@ -284,7 +300,7 @@ class Finder {
         bits &= ~left_out(run, i, b);
       }
       if (bits != 0) {
-        bits &= near_lines(b_.runs[b], a_.runs[a], i, bound_);
+        bits &= near_lines(b_.runs[b], ways(b_, b), a_.runs[a], ways(a_, a), i, bound_);
       }
       while (bits != 0) {
         candidates_.push(a * run_width + i, b * run_width + take_lowest(bits));
@@ -323,6 +339,10 @@ class Finder {
   }
   static std::uint32_t segments(const RunTreeView& tree, std::uint32_t run) {
     return first_bits(std::min(run_width, tree.segment_count - run * run_width));
+  }
+
+  static const RunWays* ways(const RunTreeView& tree, std::uint32_t run) {
+    return tree.ways == nullptr ? nullptr : tree.ways + run;
   }
 
   void count(std::uint32_t bits) {

@@ -24,6 +24,13 @@ void reset(MotionResult& result) {
   result.touching.clear();
 }
 
+/// For pairs that may be reported: those that come within the margin and the tolerance.
+QueryOptions candidates_of(const MotionOptions& options) {
+  QueryOptions pairs = pairs_of(options);
+  pairs.margin = (1.0 + 0x1p-50) * (options.margin + options.tolerance);
+  return pairs;
+}
+
 /// For an engine that finds candidates as contacts.
 QueryOptions candidate_options(const PairTest& test, const QueryLimits& limits) {
   QueryOptions options;
@@ -146,12 +153,12 @@ void ProximityEngine::query_motion_shape(const FiberAssembly& shape_before,
 
 void ProximityEngine::do_query_motion(const MotionOptions& options, MotionResult& result) const {
   const Motion& motion = require_motion();
-  const QueryOptions pairs = pairs_of(options);
+  const QueryOptions pairs = candidates_of(options);
   on_threads([&] {
     const QueryLimits limits(pairs);
     const PairTest test(*motion.before, pairs, loops_before());
     MotionCandidates candidates;
-    do_find_candidates(motion.swept.fibers(), test, limits, candidates);
+    do_find_candidates(test, limits, candidates);
     const FiberMotion fibers{*motion.before, *motion.after};
     judge_motion(candidates, fibers, fibers, test, options, limits, result);
   });
@@ -162,33 +169,26 @@ void ProximityEngine::do_query_motion_shape(const FiberAssembly& shape_before,
                                             const MotionOptions& options,
                                             MotionResult& result) const {
   const Motion& motion = require_motion();
-  SweptFibers shape;
-  shape.update(shape_before, shape_after, motion.swept.drift());
-  const QueryOptions pairs = pairs_of(options);
+  const FiberMotion shape{shape_before, shape_after};
+  const QueryOptions pairs = candidates_of(options);
   on_threads([&] {
     const QueryLimits limits(pairs);
     const PairTest test(shape_before, *motion.before, pairs);
     MotionCandidates candidates;
-    do_find_shape_candidates(shape.fibers(), motion.swept.fibers(), test, limits, candidates);
-    judge_motion(candidates, {shape_before, shape_after}, {*motion.before, *motion.after}, test,
-                 options, limits, result);
+    do_find_shape_candidates(shape, test, limits, candidates);
+    judge_motion(candidates, shape, {*motion.before, *motion.after}, test, options, limits, result);
   });
 }
 
 void ProximityEngine::do_update_motion(const FiberAssembly& before, const FiberAssembly& after,
                                        bool same_topology) {
   motion_->swept.update(before, after);
-  do_update_swept(before, motion_->swept.fibers(), same_topology);
+  do_update(motion_->swept.fibers(), same_topology);
 }
 
-void ProximityEngine::do_update_swept(const FiberAssembly& /*before*/, const FiberAssembly& swept,
-                                      bool same_topology) {
-  do_update(swept, same_topology);
-}
-
-void ProximityEngine::do_find_candidates(const FiberAssembly& swept, const PairTest& test,
-                                         const QueryLimits& limits,
+void ProximityEngine::do_find_candidates(const PairTest& test, const QueryLimits& limits,
                                          MotionCandidates& candidates) const {
+  const FiberAssembly& swept = motion_->swept.fibers();
   QueryOptions options = candidate_options(test, limits);
   // What is left out by where the fibres are is judged by where they were before the motion.
   options.neighbour_skip = test.wants_adjacent() ? 0 : 1;
@@ -197,13 +197,15 @@ void ProximityEngine::do_find_candidates(const FiberAssembly& swept, const PairT
   take(result, swept, swept, test, limits, candidates);
 }
 
-void ProximityEngine::do_find_shape_candidates(const FiberAssembly& shape,
-                                               const FiberAssembly& swept, const PairTest& test,
+void ProximityEngine::do_find_shape_candidates(const FiberMotion& shape, const PairTest& test,
                                                const QueryLimits& limits,
                                                MotionCandidates& candidates) const {
+  const FiberAssembly& swept = motion_->swept.fibers();
+  SweptFibers swept_shape;
+  swept_shape.update(shape.before, shape.after, motion_->swept.drift());
   QueryResult result;
-  do_query_shape(shape, swept, candidate_options(test, limits), result);
-  take(result, shape, swept, test, limits, candidates);
+  do_query_shape(swept_shape.fibers(), swept, candidate_options(test, limits), result);
+  take(result, swept_shape.fibers(), swept, test, limits, candidates);
 }
 
 void ProximityEngine::on_threads(const std::function<void()>& work) const {

@@ -43,12 +43,12 @@ class RunTreeEngine final : public ProximityEngine {
                 QueryResult& result) const override;
   void do_query_shape(const FiberAssembly& shape, const FiberAssembly& fibers,
                       const QueryOptions& options, QueryResult& result) const override;
-  void do_update_swept(const FiberAssembly& before, const FiberAssembly& swept,
-                       bool same_topology) override;
-  void do_find_candidates(const FiberAssembly& swept, const PairTest& test,
-                          const QueryLimits& limits, MotionCandidates& candidates) const override;
-  void do_find_shape_candidates(const FiberAssembly& shape, const FiberAssembly& swept,
-                                const PairTest& test, const QueryLimits& limits,
+  void do_update_motion(const FiberAssembly& before, const FiberAssembly& after,
+                        bool same_topology) override;
+  void do_find_candidates(const PairTest& test, const QueryLimits& limits,
+                          MotionCandidates& candidates) const override;
+  void do_find_shape_candidates(const FiberMotion& shape, const PairTest& test,
+                                const QueryLimits& limits,
                                 MotionCandidates& candidates) const override;
   const LoopTest* loops_before() const override { return &loops_; }
   void on_threads(const std::function<void()>& work) const override { arena_.execute(work); }
