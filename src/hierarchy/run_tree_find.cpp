@@ -5,6 +5,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "fiber_proximity/hierarchy/run_tree_kernels.hpp"
 #include "src/hierarchy/candidates-inl.hpp"
@@ -177,6 +178,7 @@ class Finder {
   void aim() {
     bound_ = sink_.bound();
     probe_.aim(a_, group_, bound_);
+    span_ = bound_ + longest_way();
     prunes_group_ = self_ && is_smaller_than_bound(probe_.whole(), 0);
     prunes_runs_ = 0;
     for (std::uint32_t run = 0; self_ && run < probe_.run_count(); ++run) {
@@ -184,15 +186,28 @@ class Finder {
     }
   }
 
-  /// Where a group or a run extends over many times the bound, few of its pairs are near: it does
-  /// not pay to ask which are ruled out.
+  /// [m] Half of it, by axis, of the group.
+  float longest_way() const {
+    float longest = 0.0F;
+    for (std::uint32_t run = 0; a_.ways != nullptr && run < probe_.run_count(); ++run) {
+      for (const auto& halves : a_.ways[group_ * run_width + run].half) {
+        for (const float half : halves) {
+          longest = std::max(longest, std::abs(half));
+        }
+      }
+    }
+    return longest;
+  }
+
+  /// Where a group or a run extends over many times the bound and the ways, few of its pairs are
+  /// near: it does not pay to ask which are ruled out.
   /// @param boxes larger by the bound on all sides
   bool is_smaller_than_bound(const BoxBlock& boxes, std::uint32_t lane) const {
     float extent = 0.0F;
     for (int axis = 0; axis < 3; ++axis) {
       extent = std::max(extent, boxes.upper[axis][lane] - boxes.lower[axis][lane]);
     }
-    return !(extent > 16.0F * bound_);
+    return !(extent > 16.0F * span_);
   }
 
   /// Whether no segments of the group and of group h are pairs.
@@ -358,6 +373,7 @@ class Finder {
   Candidates candidates_;
   std::uint32_t group_ = 0;
   float bound_ = 0.0F;  // [m]
+  float span_ = 0.0F;   // [m] the bound, and half of the longest way of the group
   const bool self_;
   const bool skip_adjacent_;
   // Whether to ask if they are ruled out: the group, and by bit its runs.

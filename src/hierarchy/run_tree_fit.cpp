@@ -75,8 +75,8 @@ struct LaneEnds {
   LaneVector end;
   Lanes radius;
 
-  LaneVector lower() const { return lower_corner(start, end, radius); }
-  LaneVector upper() const { return upper_corner(start, end, radius); }
+  HWY_INLINE LaneVector lower() const { return lower_corner(start, end, radius); }
+  HWY_INLINE LaneVector upper() const { return upper_corner(start, end, radius); }
 
   void store(Run& run, std::size_t lane) const {
     HWY_NAMESPACE::store(start, run.start, lane);
@@ -87,10 +87,10 @@ struct LaneEnds {
 
 /// Box of all lanes.
 struct SingleBox {
-  LaneVector lower = all(std::numeric_limits<float>::infinity());
-  LaneVector upper = all(-std::numeric_limits<float>::infinity());
+  LaneVector lower;
+  LaneVector upper;
 
-  void take(const LaneVector& lower_corners, const LaneVector& upper_corners) {
+  HWY_INLINE void take(const LaneVector& lower_corners, const LaneVector& upper_corners) {
     lower = minimum(lower, lower_corners);
     upper = maximum(upper, upper_corners);
   }
@@ -104,12 +104,14 @@ struct SingleBox {
     block.upper[1][lane] = hn::GetLane(hn::MaxOfLanes(d, upper.y));
     block.upper[2][lane] = hn::GetLane(hn::MaxOfLanes(d, upper.z));
   }
-
-  static LaneVector all(float value) {
-    const auto values = hn::Set(Floats(), value);
-    return {values, values, values};
-  }
 };
+
+/// Of no segments.
+HWY_INLINE SingleBox empty_box() {
+  const auto infinity = hn::Set(Floats(), std::numeric_limits<float>::infinity());
+  const LaneVector infinities{infinity, infinity, infinity};
+  return {infinities, negative(infinities)};
+}
 
 /// Segments come in spatial order: where the next ones' points are, no processor can guess.
 void prefetch(const FiberAssembly& fibers, const std::uint32_t* first_points,
@@ -168,7 +170,7 @@ class GroupReader {
   }
 
   /// Some segments of the group in lanes.
-  LaneEnds ends(std::uint32_t first) const {
+  HWY_INLINE LaneEnds ends(std::uint32_t first) const {
     const Floats d;
     LaneEnds ends;
     Lanes again;
@@ -193,7 +195,7 @@ class GroupReader {
 /// Puts segments where they are into lanes, and the box of all into a lane of the block.
 void fit_run(const GroupReader& group, std::uint32_t first, Run& run, BoxBlock& boxes,
              std::uint32_t lane) {
-  SingleBox box;
+  SingleBox box = empty_box();
   for (std::uint32_t i = 0; i < run_width; i += static_cast<std::uint32_t>(hn::Lanes(Floats()))) {
     LaneEnds ends = group.ends(first + i);
     ends.radius = padded(ends.radius, maximum(absolute(ends.start), absolute(ends.end)));
@@ -211,7 +213,7 @@ void fit_run(const GroupReader& group, std::uint32_t first, Run& run, BoxBlock& 
 void fit_moving_run(const GroupReader& before, const GroupReader& after, std::uint32_t first,
                     Run& run, RunWays& ways, BoxBlock& boxes, std::uint32_t lane) {
   const Floats d;
-  SingleBox box;
+  SingleBox box = empty_box();
   for (std::uint32_t i = 0; i < run_width; i += static_cast<std::uint32_t>(hn::Lanes(d))) {
     const LaneEnds from = before.ends(first + i);
     const LaneEnds to = after.ends(first + i);
@@ -276,7 +278,7 @@ void fit_nodes_lanes(const BoxBlock* boxes_below, std::uint32_t child_count, std
   for (std::uint32_t node = begin; node < end; ++node) {
     for (std::uint32_t lane = 0; lane < run_width; ++lane) {
       const BoxBlock& below = boxes_below[std::min(node * run_width + lane, child_count - 1)];
-      SingleBox box;
+      SingleBox box = empty_box();
       for (std::size_t i = 0; i < run_width; i += hn::Lanes(d)) {
         box.take(load(below.lower, i), load(below.upper, i));
       }
