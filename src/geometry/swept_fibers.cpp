@@ -21,7 +21,7 @@ void check_same_topology(const FiberAssembly& before, const FiberAssembly& after
 }
 
 Eigen::Vector3d drift_of(const FiberAssembly& before, const FiberAssembly& after) {
-  constexpr std::size_t sample = 4096;
+  constexpr std::size_t sample = 512;
   const std::size_t step = before.point_count() / sample + 1;
   const std::size_t count = (before.point_count() + step - 1) / step;
   // Of each its part: the sum of all could leave the range of double.
