@@ -89,39 +89,37 @@ class Candidates {
   };
 
   static GatheredSegments gather(const Run* runs, const std::int32_t* places) {
-    const Rows<Run> rows(runs, places);
+    static_assert(std::is_standard_layout_v<Run>, "runs are read as arrays of floats");
+    const Rows rows(runs->start[0], sizeof(Run) / sizeof(float), places);
     return {lane_segments({rows[0], rows[1], rows[2]}, {rows[3], rows[4], rows[5]}), rows[6]};
   }
 
   static LaneVector gather(const RunWays* ways, const std::int32_t* places) {
-    const Rows<RunWays> rows(ways, places);
+    static_assert(std::is_standard_layout_v<RunWays>, "ways are read as arrays of floats");
+    const Rows rows(ways->half[0], sizeof(RunWays) / sizeof(float), places);
     return {rows[0], rows[1], rows[2]};
   }
 
-  /// Of blocks of eight segments: what is known of some, a segment a lane.
-  template <class Block>
+  /// Rows of eight floats, some to a run: of each its part of some segments, one a lane.
   class Rows {
    public:
-    Rows(const Block* blocks, const std::int32_t* places)
-        : floats_(reinterpret_cast<const float*>(blocks)) {
-      static_assert(std::is_standard_layout_v<Block>, "blocks are read as arrays of floats");
-      constexpr std::int32_t floats_per_block = sizeof(Block) / sizeof(float);
-      // Where the segment's first float is among all floats: block · floats_per_block + lane.
+    Rows(const float* first, std::int32_t floats_per_run, const std::int32_t* places)
+        : first_(first) {
+      // Where the segment's first float is among all floats: run · floats_per_run + lane.
       const Integers d;
       const auto place = hn::LoadU(d, places);
-      const auto block = hn::ShiftRight<3>(place);
-      index_ =
-          hn::Add(place, hn::Mul(block, hn::Set(d, floats_per_block - std::int32_t{run_width})));
+      const auto run = hn::ShiftRight<3>(place);
+      index_ = hn::Add(place, hn::Mul(run, hn::Set(d, floats_per_run - std::int32_t{run_width})));
     }
 
-    Lanes operator[](std::size_t which) const {
-      return hn::GatherIndex(Floats(), floats_ + which * run_width, index_);
+    HWY_INLINE Lanes operator[](std::size_t row) const {
+      return hn::GatherIndex(Floats(), first_ + row * run_width, index_);
     }
 
    private:
     using Integers = hn::RebindToSigned<Floats>;
 
-    const float* const floats_;
+    const float* const first_;
     hn::Vec<Integers> index_;
   };
 

@@ -36,23 +36,19 @@ class MovingPairs {
     squared_v_inverse_ = b.inverse_squared_length;
   }
 
+  /// Tries planes along each segment's way, and that through the shortest vector about when the
+  /// middles are nearest. That along both segments has been tried: moving_lines_near().
   LaneMask are_near() const {
     const Floats d;
-    const auto zero = hn::Zero(d);
     const auto one = hn::Set(d, 1.0F);
-    const auto inverse_squared_way =
-        hn::Div(one, hn::Max(dot(way_, way_), hn::Set(d, std::numeric_limits<float>::min())));
-    LaneMask are_apart = hn::Or(are_beyond(cross(u_, way_)), are_beyond(cross(v_, way_)));
     const auto half_of_one = hn::Set(d, 0.5F);
-    LaneVector between = along(along(w_, half_of_one, u_), hn::Neg(half_of_one), v_);
-    auto time = zero;
-    for (int i = 0; i < 2; ++i) {
-      const auto later = hn::NegMulAdd(dot(between, way_), inverse_squared_way, time);
-      time = hn::Min(hn::Max(later, hn::Neg(one)), one);
-      between = nearest(along(w_, time, way_));
-      are_apart = hn::Or(are_apart, are_beyond(between));
-    }
-    return hn::Not(are_apart);
+    const auto squared_way =
+        hn::Max(dot(way_, way_), hn::Set(d, std::numeric_limits<float>::min()));
+    const LaneVector middles = along(along(w_, half_of_one, u_), hn::Neg(half_of_one), v_);
+    const auto nearest_time = hn::Neg(hn::Div(dot(middles, way_), squared_way));
+    const auto time = hn::Min(hn::Max(nearest_time, hn::Neg(one)), one);
+    return hn::Not(hn::Or(hn::Or(are_beyond(cross(u_, way_)), are_beyond(cross(v_, way_))),
+                          are_beyond(shortest(along(w_, time, way_)))));
   }
 
  private:
@@ -74,7 +70,7 @@ class MovingPairs {
   }
 
   /// About the shortest of the vectors at one time.
-  HWY_INLINE LaneVector nearest(const LaneVector& start) const {
+  HWY_INLINE LaneVector shortest(const LaneVector& start) const {
     const Floats d;
     const auto zero = hn::Zero(d);
     const auto one = hn::Set(d, 1.0F);

@@ -8,6 +8,7 @@
 
 #include "fiber_proximity/geometry/swept_fibers.hpp"
 #include "fiber_proximity/query/contact_judge.hpp"
+#include "fiber_proximity/query/idle_memory.hpp"
 
 namespace fiber {
 namespace {
@@ -22,6 +23,13 @@ void reset(QueryResult& result) {
 void reset(MotionResult& result) {
   result.contacts.clear();
   result.touching.clear();
+}
+
+void reset(MotionCandidates& candidates) {
+  candidates.keys.clear();
+  candidates.are_all = true;
+  candidates.are_too_many = false;
+  candidates.counts = {};
 }
 
 /// For pairs that may be reported: those that come within the margin and the tolerance.
@@ -69,11 +77,18 @@ const FiberAssembly& require_fibers(const FiberAssembly* fibers) {
 
 }  // namespace
 
-/// The states that a motion is between, and what is swept; its memory is kept.
+/// The states that a motion is between, what is swept where the engine needs that, and what queries
+/// about it work in; all memory is kept.
 struct ProximityEngine::Motion {
+  struct Memory {
+    MotionCandidates candidates;
+    MotionJudge judge;
+  };
+
   const FiberAssembly* before = nullptr;
   const FiberAssembly* after = nullptr;
   SweptFibers swept;
+  mutable IdleMemory<Memory> memory;
 };
 
 ProximityEngine::ProximityEngine() = default;
@@ -154,14 +169,17 @@ void ProximityEngine::query_motion_shape(const FiberAssembly& shape_before,
 void ProximityEngine::do_query_motion(const MotionOptions& options, MotionResult& result) const {
   const Motion& motion = require_motion();
   const QueryOptions pairs = candidates_of(options);
-  on_threads([&] {
+  const auto work = [&] {
     const QueryLimits limits(pairs);
     const PairTest test(*motion.before, pairs, loops_before());
-    MotionCandidates candidates;
-    do_find_candidates(test, limits, candidates);
     const FiberMotion fibers{*motion.before, *motion.after};
-    judge_motion(candidates, fibers, fibers, test, options, limits, result);
-  });
+    motion.memory.lend([&](Motion::Memory& memory) {
+      reset(memory.candidates);
+      do_find_candidates(test, limits, memory.candidates);
+      memory.judge.judge(memory.candidates, fibers, fibers, test, options, limits, result);
+    });
+  };
+  on_threads(std::cref(work));  // a function of its own would be allocated
 }
 
 void ProximityEngine::do_query_motion_shape(const FiberAssembly& shape_before,
@@ -171,13 +189,17 @@ void ProximityEngine::do_query_motion_shape(const FiberAssembly& shape_before,
   const Motion& motion = require_motion();
   const FiberMotion shape{shape_before, shape_after};
   const QueryOptions pairs = candidates_of(options);
-  on_threads([&] {
+  const auto work = [&] {
     const QueryLimits limits(pairs);
     const PairTest test(shape_before, *motion.before, pairs);
-    MotionCandidates candidates;
-    do_find_shape_candidates(shape, test, limits, candidates);
-    judge_motion(candidates, shape, {*motion.before, *motion.after}, test, options, limits, result);
-  });
+    const FiberMotion fibers{*motion.before, *motion.after};
+    motion.memory.lend([&](Motion::Memory& memory) {
+      reset(memory.candidates);
+      do_find_shape_candidates(shape, test, limits, memory.candidates);
+      memory.judge.judge(memory.candidates, shape, fibers, test, options, limits, result);
+    });
+  };
+  on_threads(std::cref(work));  // a function of its own would be allocated
 }
 
 void ProximityEngine::do_update_motion(const FiberAssembly& before, const FiberAssembly& after,

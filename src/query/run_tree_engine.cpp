@@ -293,20 +293,7 @@ void RunTreeEngine::find_candidates(const RunTreeView& a, const PairTest& test,
 
 template <class Call>
 void RunTreeEngine::with_batch(const Call& call) const {
-  std::unique_ptr<ContactBatch> batch;
-  {
-    const std::lock_guard lock(mutex_);
-    if (!idle_batches_.empty()) {
-      batch = std::move(idle_batches_.back());
-      idle_batches_.pop_back();
-    }
-  }
-  if (batch == nullptr) {
-    batch = std::make_unique<ContactBatch>();
-  }
-  arena_.execute([&] { call(*batch); });
-  const std::lock_guard lock(mutex_);
-  idle_batches_.push_back(std::move(batch));
+  batches_.lend([&](ContactBatch& batch) { arena_.execute([&] { call(batch); }); });
 }
 
 // The root, which the tree has no box for, and the levels of the tree from the top down.

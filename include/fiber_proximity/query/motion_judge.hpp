@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "fiber_proximity/geometry/contact_time.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/query/motion.hpp"
 #include "fiber_proximity/query/pair_test.hpp"
@@ -24,12 +25,27 @@ struct MotionCandidates {
   QueryCounts counts;
 };
 
-/// When each candidate comes into contact, slice by slice on several threads, and which of these
-/// the options ask for. The same for any number of threads.
-/// @param a, b of the first and the second segments of pairs, the same for fibres with each other
-/// @param test of the fibres before the motion
-void judge_motion(const MotionCandidates& candidates, const FiberMotion& a, const FiberMotion& b,
-                  const PairTest& test, const MotionOptions& options, const QueryLimits& limits,
-                  MotionResult& result);
+/// Finds when candidates come into contact, slice by slice on several threads. Gives the same for
+/// any number of threads. Keeps its memory from query to query.
+class MotionJudge {
+ public:
+  /// @param a, b of the first and the second segments of pairs, the same for fibres with each other
+  /// @param test of the fibres before the motion
+  /// @param result replaced, its contacts by those that the options ask for
+  void judge(const MotionCandidates& candidates, const FiberMotion& a, const FiberMotion& b,
+             const PairTest& test, const MotionOptions& options, const QueryLimits& limits,
+             MotionResult& result);
+
+ private:
+  /// What one thread finds at a time.
+  struct Slice {
+    std::vector<ContactTime> times;
+    std::vector<MotionContact> contacts;
+    std::vector<MotionContact> touching;
+    bool complete = true;
+  };
+
+  std::vector<Slice> slices_;  // of a round
+};
 
 }  // namespace fiber

@@ -2,14 +2,11 @@
 
 #include <tbb/task_arena.h>
 
-#include <memory>
-#include <mutex>
-#include <vector>
-
 #include "fiber_proximity/hierarchy/motion_bound.hpp"
 #include "fiber_proximity/hierarchy/run_tree.hpp"
 #include "fiber_proximity/query/contact_batch.hpp"
 #include "fiber_proximity/query/engine.hpp"
+#include "fiber_proximity/query/idle_memory.hpp"
 #include "fiber_proximity/query/kept_candidates.hpp"
 #include "fiber_proximity/query/loop_test.hpp"
 #include "fiber_proximity/query/outdated_segments.hpp"
@@ -89,8 +86,7 @@ class RunTreeEngine final : public ProximityEngine {
   mutable KeptCandidates kept_;
   OutdatedSegments outdated_;  // what makes the kept candidates OUTDATED
   LoopTest loops_;
-  mutable std::mutex mutex_;
-  mutable std::vector<std::unique_ptr<ContactBatch>> idle_batches_;
+  mutable IdleMemory<ContactBatch> batches_;
 };
 
 }  // namespace fiber
