@@ -9,7 +9,7 @@
 
 #include "fiber_proximity/hierarchy/run_tree_kernels.hpp"
 #include "src/hierarchy/candidates-inl.hpp"
-#include "src/hierarchy/segment_lanes-inl.hpp"
+#include "src/hierarchy/run_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace fiber {
@@ -18,105 +18,9 @@ namespace {
 
 constexpr std::uint32_t all_bits = first_bits(run_width);
 
-/// Bits of the block's lanes whose boxes overlap the box in one lane of another. Infinite boxes
-/// overlap everything.
-HWY_INLINE std::uint32_t overlapping(const BoxBlock& block, const BoxBlock& other,
-                                     std::uint32_t other_lane) {
-  const LaneVector lower = spread(other.lower, other_lane);
-  const LaneVector upper = spread(other.upper, other_lane);
-  std::uint32_t bits = 0;
-  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(Floats())) {
-    bits |= bits_of(boxes_overlap(load(block.lower, lane), load(block.upper, lane), lower, upper))
-            << lane;
-  }
-  return bits;
-}
-
-/// Boxes of a run's segments, where they are and where they move.
-HWY_INLINE void fit_boxes(const RunTreeView& tree, std::uint32_t which, BoxBlock& boxes) {
-  const Run& run = tree.runs[which];
-  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(Floats())) {
-    const LaneVector start = load(run.start, lane);
-    const LaneVector end = load(run.end, lane);
-    const auto radius = load(run.radius, lane);
-    LaneVector lower = lower_corner(start, end, radius);
-    LaneVector upper = upper_corner(start, end, radius);
-    if (tree.ways != nullptr) {
-      const LaneVector way = absolute(load(tree.ways[which].half, lane));
-      lower = subtract(lower, way);
-      upper = add(upper, way);
-    }
-    store(lower, boxes.lower, lane);
-    store(upper, boxes.upper, lane);
-  }
-}
-
-/// Bits of the run's segments whose lines may come within the bound of that of a segment of
-/// another.
-/// @param ways of both runs, none where nothing moves
-HWY_INLINE std::uint32_t near_lines(const Run& run, const RunWays* way, const Run& other,
-                                    const RunWays* other_way, std::uint32_t other_lane,
-                                    float bound) {
-  const Floats d;
-  const LaneVector start = spread(other.start, other_lane);
-  const LaneVector u = subtract(spread(other.end, other_lane), start);
-  const auto reach = hn::Set(d, other.radius[other_lane] + bound);
-  std::uint32_t bits = 0;
-  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
-    const LaneVector starts = load(run.start, lane);
-    const LaneVector v = subtract(load(run.end, lane), starts);
-    const LaneVector w = subtract(start, starts);
-    const auto reaches = hn::Add(reach, load(run.radius, lane));
-    const auto are_near =
-        way == nullptr
-            ? lines_near(u, v, w, reaches)
-            : moving_lines_near(
-                  u, v, w, subtract(spread(other_way->half, other_lane), load(way->half, lane)),
-                  reaches);
-    bits |= bits_of(are_near) << lane;
-  }
-  return bits;
-}
-
-/// Bits of the run's segments, by their first points, that share a point with another segment.
-/// Points p and p + 1 start segments of one fibre: the last point of a fibre starts none.
-HWY_INLINE std::uint32_t sharing_point(const std::uint32_t* first_points, std::uint32_t other) {
-  const hn::RebindToUnsigned<Floats> d;
-  std::uint32_t bits = 0;
-  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
-    const auto points = hn::LoadU(d, first_points + lane);
-    const auto shared =
-        hn::Or(hn::Eq(points, hn::Set(d, other - 1)), hn::Eq(points, hn::Set(d, other + 1)));
-    bits |= bits_of(hn::RebindMask(Floats(), shared)) << lane;
-  }
-  return bits;
-}
-
-/// Bits of the run's segments, by their first points, that are in the range.
-HWY_INLINE std::uint32_t in_range(const std::uint32_t* first_points, PointRange range) {
-  const hn::RebindToUnsigned<Floats> d;
-  const auto begin = hn::Set(d, range.begin);
-  const auto size = hn::Set(d, range.end - range.begin);
-  std::uint32_t bits = 0;
-  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
-    const auto places = hn::Sub(hn::LoadU(d, first_points + lane), begin);
-    bits |= bits_of(hn::RebindMask(Floats(), hn::Lt(places, size))) << lane;
-  }
-  return bits;
-}
-
-/// Boxes larger by the bound on all sides.
-HWY_INLINE void inflate(const BoxBlock& boxes, float bound, BoxBlock& larger) {
-  const auto bounds = hn::Set(Floats(), bound);
-  const LaneVector reach{bounds, bounds, bounds};
-  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(Floats())) {
-    store(subtract(load(boxes.lower, lane), reach), larger.lower, lane);
-    store(add(load(boxes.upper, lane), reach), larger.upper, lane);
-  }
-}
-
 /// A group of the one tree while it looks for what is near it in the other: all its boxes, larger
 /// by the bound.
+template <bool moves>
 class Probe {
  public:
   void aim(const RunTreeView& tree, std::uint32_t group, float bound) {
@@ -124,7 +28,7 @@ class Probe {
     run_count_ = std::min(run_width, tree.levels[0].child_count - first);
     inflate(tree.levels[0].boxes[group], bound, runs_);
     for (std::uint32_t lane = 0; lane < run_count_; ++lane) {
-      fit_boxes(tree, first + lane, segments_[lane]);
+      fit_boxes<moves>(tree, first + lane, segments_[lane]);
       inflate(segments_[lane], bound, segments_[lane]);
     }
     for (int axis = 0; axis < 3; ++axis) {
@@ -146,6 +50,8 @@ class Probe {
 };
 
 /// All pairs of the groups of one tree and the segments of another, or of the same.
+/// @tparam moves both
+template <bool moves>
 class Finder {
  public:
   Finder(const RunTreeView& a, const RunTreeView& b, PairSink& sink, QueryCounts& counts)
@@ -189,7 +95,7 @@ class Finder {
   /// [m] Half of it, by axis, of the group.
   float longest_way() const {
     float longest = 0.0F;
-    for (std::uint32_t run = 0; a_.ways != nullptr && run < probe_.run_count(); ++run) {
+    for (std::uint32_t run = 0; moves && run < probe_.run_count(); ++run) {
       for (const auto& halves : a_.ways[group_ * run_width + run].half) {
         for (const float half : halves) {
           longest = std::max(longest, std::abs(half));
@@ -294,7 +200,7 @@ class Finder {
       return true;
     }
     BoxBlock boxes;
-    fit_boxes(b_, b, boxes);
+    fit_boxes<moves>(b_, b, boxes);
     const std::uint32_t columns = segments(b_, b) & overlapping(boxes, probe_.runs(), run);
     if (columns == 0) {
       return true;
@@ -315,7 +221,7 @@ class Finder {
         bits &= ~left_out(run, i, b);
       }
       if (bits != 0) {
-        bits &= near_lines(b_.runs[b], ways(b_, b), a_.runs[a], ways(a_, a), i, bound_);
+        bits &= near_lines<moves>(b_, b, a_, a, i, bound_);
       }
       while (bits != 0) {
         candidates_.push(a * run_width + i, b * run_width + take_lowest(bits));
@@ -356,16 +262,12 @@ class Finder {
     return first_bits(std::min(run_width, tree.segment_count - run * run_width));
   }
 
-  static const RunWays* ways(const RunTreeView& tree, std::uint32_t run) {
-    return tree.ways == nullptr ? nullptr : tree.ways + run;
-  }
-
   void count(std::uint32_t bits) {
     counts_.node_tests += run_width;
     counts_.node_overlaps += hwy::PopCount(bits);
   }
 
-  Probe probe_;
+  Probe<moves> probe_;
   const RunTreeView& a_;
   const RunTreeView& b_;
   PairSink& sink_;
@@ -383,15 +285,22 @@ class Finder {
   PointRange ranges_[run_width][run_width];
 };
 
-bool find_near_segments_lanes(const RunTreeView& a, std::uint32_t begin, std::uint32_t end,
-                              const RunTreeView& b, PairSink& sink, QueryCounts& counts) {
-  Finder finder(a, b, sink, counts);
+template <bool moves>
+bool find_near(const RunTreeView& a, std::uint32_t begin, std::uint32_t end, const RunTreeView& b,
+               PairSink& sink, QueryCounts& counts) {
+  Finder<moves> finder(a, b, sink, counts);
   for (std::uint32_t group = begin; group < end; ++group) {
     if (!finder.find(group)) {
       return false;
     }
   }
   return finder.finish();
+}
+
+bool find_near_segments_lanes(const RunTreeView& a, std::uint32_t begin, std::uint32_t end,
+                              const RunTreeView& b, PairSink& sink, QueryCounts& counts) {
+  return a.ways == nullptr ? find_near<false>(a, begin, end, b, sink, counts)
+                           : find_near<true>(a, begin, end, b, sink, counts);
 }
 
 }  // namespace
