@@ -96,12 +96,14 @@ TEST(RunTreeMotion, FindsWhatAllPairsFindWhateverSizePlaceAndWay) {
   expect_enough(uncertain, std::size_t{10});
 }
 
-/// Two points that move past each other at a gap, along any direction, touch at exactly that
-/// margin: rounding decides whether a tree finds them.
+/// Two segments that pass each other at the margin, or at a little more than that, within the
+/// tolerance.
 TEST(RunTreeMotion, FindsWhatOnlyJustTouches) {
   SCOPED_TRACE(seed_message());
   Random random;
+  std::size_t uncertain = 0;
   for (int round = 0; round < 2000; ++round) {
+    const bool touches = round % 2 == 0;
     const Vector3d along = random.direction();
     const Vector3d gap = random.direction().cross(along).normalized() * random.uniform(0.01, 1.0);
     const Vector3d place = 100.0 * random.in_cube();
@@ -113,13 +115,15 @@ TEST(RunTreeMotion, FindsWhatOnlyJustTouches) {
     points[2] += 3.0 * along;
     points[3] += 3.0 * along;
     MotionOptions options;
-    options.margin = gap.norm() * (1.0 + 0x1p-40);
-    options.tolerance = 1e-9;
+    options.margin = gap.norm() * (touches ? 1.0 + 0x1p-40 : 0.99);
+    options.tolerance = touches ? 1e-9 : 0.02 * gap.norm();
     const FiberAssembly after = with_points(before, points);
     const MotionResult found = ask_run_tree(before, after, options);
     expect_same(found, expected_of(before, after, options));
-    EXPECT_EQ(found.contacts.size(), 1U);
+    EXPECT_TRUE(!touches || found.contacts.size() == 1);
+    uncertain += touches ? 0 : found.contacts.size();
   }
+  expect_enough(uncertain, std::size_t{100});
 }
 
 TEST(RunTreeMotion, AnswersTheSameWithEveryInstructionSet) {
@@ -170,6 +174,9 @@ TEST(RunTreeMotion, LeavesNoTreeForFibersThatStand) {
     fresh.update(*fibers);
     fresh.query({}, expected);
     expect_enough(expected.contacts.size(), std::size_t{100});
+    EXPECT_TRUE(same_contacts(result.contacts, expected.contacts));
+    engine.query_shape(before, {}, result);
+    fresh.query_shape(before, {}, expected);
     EXPECT_TRUE(same_contacts(result.contacts, expected.contacts));
   }
 }
