@@ -11,6 +11,7 @@
 #include "support/assemblies.hpp"
 #include "support/contacts.hpp"
 #include "support/motions.hpp"
+#include "support/rounds.hpp"
 
 namespace fiber::test {
 namespace {
@@ -140,25 +141,26 @@ double least_distance(const FiberAssembly& before, const FiberAssembly& after) {
   return least;
 }
 
-/// What comes near, but not to the margin, may be reported: then by all.
+/// What comes near, but not to the margin, may be reported: then by all. That a tree alone could
+/// tell so is rare: ten pairs in 100 000.
 TEST(RunTreeMotion, FindsWhatIsReportedForTheToleranceAlone) {
   SCOPED_TRACE(seed_message());
   Random random;
-  std::size_t uncertain = 0;
-  for (int round = 0; round < 2000; ++round) {
+  std::size_t reported = 0;
+  for (int round = 0; round < rounds(40000); ++round) {
     AssemblyBuilder from;
     from.add_fiber({random.in_cube(), random.in_cube()});
     from.add_fiber({random.in_cube(), random.in_cube()});
     const FiberAssembly before = from.build({0.0});
-    const FiberAssembly after = after_ways(before, 0.1, 0.5, random);
+    const FiberAssembly after = after_ways(before, 1.0, random.uniform(0.0, 0.3), random);
     MotionOptions options;
-    options.margin = 0.9 * least_distance(before, after);
+    options.margin = 0.7 * least_distance(before, after);
     options.tolerance = options.margin;
     const MotionResult expected = expected_of(before, after, options);
     expect_same(ask_run_tree(before, after, options), expected);
-    uncertain += expected.contacts.size();
+    reported += expected.contacts.size();
   }
-  expect_enough(uncertain, std::size_t{100});
+  expect_enough(reported, std::size_t{1000});
 }
 
 TEST(RunTreeMotion, AnswersTheSameWithEveryInstructionSet) {
