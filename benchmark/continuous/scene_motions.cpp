@@ -166,7 +166,7 @@ class SceneMethodRun {
     ++result_.frames;
     result_.candidates += look_.candidates;
     times_ms_.push_back(look_.time_ms);
-    ratios_.push_back(look_.time_ms / std::max(discrete.time_ms, least_ms));
+    ratios_.push_back(look_.time_ms / discrete.time_ms);
     result_.contacts += all.found.size();
     const auto is_missed = [&](std::uint64_t key) {
       return !std::binary_search(look_.found.begin(), look_.found.end(), key);
@@ -185,8 +185,6 @@ class SceneMethodRun {
   }
 
  private:
-  static constexpr double least_ms = 1e-3;  // that the clock tells of
-
   std::unique_ptr<SceneMethod> method_;
   SceneLook look_;
   SceneMotionResult result_;
