@@ -6,6 +6,7 @@
 
 #include "commands.hpp"
 #include "continuous/measurements.hpp"
+#include "fiber_proximity/scenes/scene.hpp"
 #include "progress.hpp"
 
 namespace fiber {
@@ -33,7 +34,11 @@ const std::vector<MotionPart>& motion_parts() {
       {"accuracy",
        bench::measure_motion_accuracy,
        {"family", "tolerance", "motions", "hits", "misses", "false_alarms", "wrongly_certain",
-        "wide", "without_upper", "undecided"}}};
+        "wide", "without_upper", "undecided"}},
+      {"scenes",
+       bench::measure_scene_motions,
+       {"scene", "way", "method", "frames", "contacts", "missed", "candidates", "time_ms",
+        "times_discrete"}}};
   return all;
 }
 
@@ -56,7 +61,8 @@ void print_cells(const MotionPart& part,
   constexpr int width = 18;
   constexpr int name_width = 22;
   for (const std::string& column : part.columns) {
-    const bool is_name = column == "family" || column == "kernel";
+    const bool is_name =
+        column == "family" || column == "kernel" || column == "scene" || column == "method";
     std::cout << (is_name ? std::left : std::right) << std::setw(is_name ? name_width : width);
     print_cell(column);
   }
@@ -148,6 +154,19 @@ void add_motions_command(CLI::App& app, Command& command) {
       ->capture_default_str();
   add_count("--timed", what.timed, "motions per family that all kernels are asked about");
   add_count("--repeats", what.repeats, "of each time, of which the median counts");
+  motions
+      ->add_option("--scenes", what.scenes, "with commas between them, of " + listed(scene_names()))
+      ->delimiter(',')
+      ->capture_default_str();
+  motions->add_option("--scale", what.scale, "of the scenes' numbers of fibres")
+      ->capture_default_str();
+  motions
+      ->add_option("--ways", what.ways,
+                   "of the scenes' points from frame to frame, in mean radii, with commas between "
+                   "them")
+      ->delimiter(',')
+      ->check(finite_number(0.0))
+      ->capture_default_str();
   motions->add_option("--known", what.known,
                       "file of motions that somebody else knows: set,truth and 24 numbers a line");
   motions->add_flag("--json", request->json, "JSON Lines instead of tables");

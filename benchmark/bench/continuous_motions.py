@@ -41,6 +41,7 @@ class MotionsRun:
         return {**dataclasses.asdict(self), "rows": rows, "peak_mib": peak_mib}
 
 
+# The parts about pairs.
 FULL = {"times": "--timed 1000 --repeats 11", "accuracy": "--threads 2", "known": ""}
 QUICK = {"times": "--timed 100 --repeats 3", "accuracy": "--count 500 --threads 2", "known": ""}
 

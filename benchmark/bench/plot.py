@@ -17,6 +17,7 @@ COLORS = {
     "exact": "#d62728", "textbook": "#238b45", "fcl_capsule": "#54278f", "fcl_gjk": "#bcbddc",
     "own": "#000000", "own_single": "#969696", "discrete_1": "#c7e9c0", "discrete_10": "#74c476",
     "discrete_100": "#238b45", "fcl_advancement": "#54278f", "fcl_naive": "#bcbddc",
+    "motion_all": "#000000", "motion_first": "#969696",
     "bullet_continuous": "#fd8d3c", "bullet_gjk": "#fdd0a2",
 }
 

@@ -26,6 +26,10 @@ struct MotionMeasurement {
   std::uint32_t timed = 500;  ///< motions of a family to ask all kernels about
   std::uint32_t repeats = 11;
 
+  std::vector<std::string> scenes{"tress_a", "soup", "cables", "cloth"};
+  double scale = 0.1;                    ///< of their numbers of fibres
+  std::vector<double> ways{1, 10, 100};  ///< of points from frame to frame, mean radii
+
   std::string known;  ///< a file of motions for read_known_motions(); none: no such rows
 };
 
@@ -41,5 +45,8 @@ void measure_known_motions(const MotionMeasurement& what, const ReportMotionRow&
 
 /// Decisions and times of all kernels.
 void measure_motion_times(const MotionMeasurement& what, const ReportMotionRow& report);
+
+/// Whole scenes, one state after the other against the motion between them.
+void measure_scene_motions(const MotionMeasurement& what, const ReportMotionRow& report);
 
 }  // namespace fiber::bench

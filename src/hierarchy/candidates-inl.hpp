@@ -13,6 +13,7 @@
 #include <type_traits>
 
 #include "fiber_proximity/hierarchy/run_tree_kernels.hpp"
+#include "src/hierarchy/moving_lanes-inl.hpp"
 #include "src/hierarchy/segment_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -60,8 +61,14 @@ class Candidates {
     for (std::uint32_t first = 0; first < size; first += static_cast<std::uint32_t>(hn::Lanes(d))) {
       const GatheredSegments a = gather(a_.runs, places_a_ + first);
       const GatheredSegments b = gather(b_.runs, places_b_ + first);
-      const auto close = segments_near(
-          a.segments, b.segments, hn::Add(hn::Add(a.radius, b.radius), hn::Set(d, sink_.bound())));
+      const auto reach = hn::Add(hn::Add(a.radius, b.radius), hn::Set(d, sink_.bound()));
+      const auto close = a_.ways == nullptr
+                             ? segments_near(a.segments, b.segments, reach)
+                             : MovingPairs(a.segments, b.segments,
+                                           subtract(gather(a_.ways, places_a_ + first),
+                                                    gather(b_.ways, places_b_ + first)),
+                                           reach)
+                                   .are_near();
       std::uint32_t bits = bits_of(close) & first_bits(std::min(run_width, size - first));
       while (bits != 0) {
         const std::uint32_t i = first + take_lowest(bits);
@@ -83,20 +90,38 @@ class Candidates {
 
   static GatheredSegments gather(const Run* runs, const std::int32_t* places) {
     static_assert(std::is_standard_layout_v<Run>, "runs are read as arrays of floats");
-    constexpr std::int32_t floats_per_run = sizeof(Run) / sizeof(float);
-    const Floats d;
-    const hn::RebindToSigned<Floats> integers;
-    // Where the segment's first float is among all floats: run · floats_per_run + lane.
-    const auto place = hn::LoadU(integers, places);
-    const auto run = hn::ShiftRight<3>(place);
-    const auto index =
-        hn::Add(place, hn::Mul(run, hn::Set(integers, floats_per_run - std::int32_t{run_width})));
-    const float* const first = runs->start[0];
-    const auto row = [&](std::uint32_t which) {
-      return hn::GatherIndex(d, first + std::size_t{which} * run_width, index);
-    };
-    return {lane_segments({row(0), row(1), row(2)}, {row(3), row(4), row(5)}), row(6)};
+    const Rows rows(runs->start[0], sizeof(Run) / sizeof(float), places);
+    return {lane_segments({rows[0], rows[1], rows[2]}, {rows[3], rows[4], rows[5]}), rows[6]};
   }
+
+  static LaneVector gather(const RunWays* ways, const std::int32_t* places) {
+    static_assert(std::is_standard_layout_v<RunWays>, "ways are read as arrays of floats");
+    const Rows rows(ways->half[0], sizeof(RunWays) / sizeof(float), places);
+    return {rows[0], rows[1], rows[2]};
+  }
+
+  /// Rows of eight floats, some to a run: of each its part of some segments, one a lane.
+  class Rows {
+   public:
+    Rows(const float* first, std::int32_t floats_per_run, const std::int32_t* places)
+        : first_(first) {
+      // Where the segment's first float is among all floats: run · floats_per_run + lane.
+      const Integers d;
+      const auto place = hn::LoadU(d, places);
+      const auto run = hn::ShiftRight<3>(place);
+      index_ = hn::Add(place, hn::Mul(run, hn::Set(d, floats_per_run - std::int32_t{run_width})));
+    }
+
+    HWY_INLINE Lanes operator[](std::size_t row) const {
+      return hn::GatherIndex(Floats(), first_ + row * run_width, index_);
+    }
+
+   private:
+    using Integers = hn::RebindToSigned<Floats>;
+
+    const float* const first_;
+    hn::Vec<Integers> index_;
+  };
 
   const RunTreeView& a_;
   const RunTreeView& b_;

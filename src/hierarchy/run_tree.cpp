@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 #include <numeric>
 
 #include "fiber_proximity/hierarchy/run_tree_kernels.hpp"
@@ -73,15 +74,13 @@ double half_area(const BoxBlock& block, std::uint32_t lane) {
 
 }  // namespace
 
-void RunTree::build(const FiberAssembly& fibers, const Eigen::Vector3d& origin) {
-  std::vector<std::uint32_t> first_points(fibers.segment_count());
-  number_segments(fibers.offsets(), first_points);
-  build(fibers, first_points, origin);
+void RunTree::build(const TreeFibers& fibers) {
+  std::vector<std::uint32_t> first_points(fibers.before.segment_count());
+  number_segments(fibers.before.offsets(), first_points);
+  build(fibers, first_points);
 }
 
-void RunTree::build(const FiberAssembly& fibers, const std::vector<std::uint32_t>& first_points,
-                    const Eigen::Vector3d& origin) {
-  origin_ = origin;
+void RunTree::build(const TreeFibers& fibers, const std::vector<std::uint32_t>& first_points) {
   first_points_ = first_points;
   segment_count_ = static_cast<std::uint32_t>(first_points_.size());
   runs_.resize(divided_up(segment_count_));
@@ -95,19 +94,20 @@ void RunTree::build(const FiberAssembly& fibers, const std::vector<std::uint32_t
   }
   levels_.resize(level_count);
   set_view();
-  sort(fibers);
+  origin_ = fibers.origin_before;
+  sort(fibers.before);
   refit(fibers);
   sort_count_ = 0;
 }
 
-void RunTree::update(const FiberAssembly& fibers, const Eigen::Vector3d& origin) {
-  assert(segment_count_ == fibers.segment_count());
-  origin_ = origin;
-  if (looseness(fibers) > most_decay * sorted_looseness_) {
+void RunTree::update(const TreeFibers& fibers) {
+  assert(segment_count_ == fibers.before.segment_count());
+  origin_ = fibers.origin_before;
+  if (looseness(fibers.before) > most_decay * sorted_looseness_) {
     // Read along the fibres, points are near each other in memory: along a curve that has decayed,
     // they are near in nothing.
-    number_segments(fibers.offsets(), first_points_);
-    sort(fibers);
+    number_segments(fibers.before.offsets(), first_points_);
+    sort(fibers.before);
     ++sort_count_;
   }
   refit(fibers);
@@ -132,14 +132,19 @@ void RunTree::sort(const FiberAssembly& fibers) {
   sorted_looseness_ = looseness(fibers);
 }
 
-void RunTree::refit(const FiberAssembly& fibers) {
+void RunTree::refit(const TreeFibers& fibers) {
+  origin_after_ = fibers.origin_after;
+  if (fibers.moves) {
+    ways_.resize(runs_.size());
+  }
+  view_.ways = fibers.moves ? ways_.data() : nullptr;
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     std::vector<BoxBlock>& boxes = levels_[i];
     for_ranges(
         static_cast<std::uint32_t>(boxes.size()), [&](std::uint32_t begin, std::uint32_t end) {
           if (i == 0) {
-            fit_groups(fibers, origin_, first_points_.data(), segment_count_, begin, end,
-                       runs_.data(), boxes.data());
+            fit_groups(fibers, first_points_.data(), segment_count_, begin, end, runs_.data(),
+                       ways_.data(), boxes.data());
           } else {
             fit_nodes(levels_[i - 1].data(), static_cast<std::uint32_t>(levels_[i - 1].size()),
                       begin, end, boxes.data());
@@ -149,7 +154,7 @@ void RunTree::refit(const FiberAssembly& fibers) {
 }
 
 /// Area of the runs' boxes per area of their segments' boxes: what sorting keeps small. Judged by
-/// some groups, evenly spread, which it fits.
+/// some groups, evenly spread, which it fits; where segments are, not where they move.
 double RunTree::looseness(const FiberAssembly& fibers) {
   constexpr std::size_t sample = 32;
   double of_segments = 0.0;
@@ -157,8 +162,8 @@ double RunTree::looseness(const FiberAssembly& fibers) {
   const std::size_t groups = levels_.empty() ? 0 : levels_.front().size();
   for (std::size_t group = 0; group < groups; group += groups / sample + 1) {
     const auto begin = static_cast<std::uint32_t>(group);
-    fit_groups(fibers, origin_, first_points_.data(), segment_count_, begin, begin + 1,
-               runs_.data(), levels_.front().data());
+    fit_groups({fibers, origin_}, first_points_.data(), segment_count_, begin, begin + 1,
+               runs_.data(), nullptr, levels_.front().data());
     const std::size_t first_run = group * run_width;
     const std::size_t run_count = std::min<std::size_t>(run_width, runs_.size() - first_run);
     for (std::uint32_t run = 0; run < run_count; ++run) {
@@ -185,9 +190,18 @@ void RunTree::set_view() {
   }
 }
 
+bool RunTree::is_unbounded() const {
+  if (levels_.empty()) {
+    return false;
+  }
+  const BoxBlock& boxes = levels_.back().front();
+  return std::any_of(boxes.upper[0], boxes.upper[0] + run_width,
+                     [](float upper) { return !(upper < std::numeric_limits<float>::infinity()); });
+}
+
 std::size_t RunTree::memory_bytes() const {
   std::size_t bytes = first_points_.capacity() * sizeof(std::uint32_t) +
-                      runs_.capacity() * sizeof(Run) +
+                      runs_.capacity() * sizeof(Run) + ways_.capacity() * sizeof(RunWays) +
                       (keys_.capacity() + scratch_.capacity()) * sizeof(std::uint64_t);
   for (const std::vector<BoxBlock>& boxes : levels_) {
     bytes += boxes.capacity() * sizeof(BoxBlock);

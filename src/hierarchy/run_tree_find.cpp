@@ -5,10 +5,11 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "fiber_proximity/hierarchy/run_tree_kernels.hpp"
 #include "src/hierarchy/candidates-inl.hpp"
-#include "src/hierarchy/segment_lanes-inl.hpp"
+#include "src/hierarchy/run_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace fiber {
@@ -17,89 +18,9 @@ namespace {
 
 constexpr std::uint32_t all_bits = first_bits(run_width);
 
-/// Bits of the block's lanes whose boxes overlap the box in one lane of another. Infinite boxes
-/// overlap everything.
-HWY_INLINE std::uint32_t overlapping(const BoxBlock& block, const BoxBlock& other,
-                                     std::uint32_t other_lane) {
-  const LaneVector lower = spread(other.lower, other_lane);
-  const LaneVector upper = spread(other.upper, other_lane);
-  std::uint32_t bits = 0;
-  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(Floats())) {
-    bits |= bits_of(boxes_overlap(load(block.lower, lane), load(block.upper, lane), lower, upper))
-            << lane;
-  }
-  return bits;
-}
-
-/// Boxes of a run's segments.
-HWY_INLINE void fit_boxes(const Run& run, BoxBlock& boxes) {
-  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(Floats())) {
-    const LaneVector start = load(run.start, lane);
-    const LaneVector end = load(run.end, lane);
-    const auto radius = load(run.radius, lane);
-    store(lower_corner(start, end, radius), boxes.lower, lane);
-    store(upper_corner(start, end, radius), boxes.upper, lane);
-  }
-}
-
-/// Bits of the run's segments whose lines may come within the bound of that of a segment of
-/// another.
-HWY_INLINE std::uint32_t near_lines(const Run& run, const Run& other, std::uint32_t other_lane,
-                                    float bound) {
-  const Floats d;
-  const LaneVector start = spread(other.start, other_lane);
-  const LaneVector u = subtract(spread(other.end, other_lane), start);
-  const auto reach = hn::Set(d, other.radius[other_lane] + bound);
-  std::uint32_t bits = 0;
-  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
-    const LaneVector starts = load(run.start, lane);
-    const LaneVector v = subtract(load(run.end, lane), starts);
-    bits |=
-        bits_of(lines_near(u, v, subtract(start, starts), hn::Add(reach, load(run.radius, lane))))
-        << lane;
-  }
-  return bits;
-}
-
-/// Bits of the run's segments, by their first points, that share a point with another segment.
-/// Points p and p + 1 start segments of one fibre: the last point of a fibre starts none.
-HWY_INLINE std::uint32_t sharing_point(const std::uint32_t* first_points, std::uint32_t other) {
-  const hn::RebindToUnsigned<Floats> d;
-  std::uint32_t bits = 0;
-  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
-    const auto points = hn::LoadU(d, first_points + lane);
-    const auto shared =
-        hn::Or(hn::Eq(points, hn::Set(d, other - 1)), hn::Eq(points, hn::Set(d, other + 1)));
-    bits |= bits_of(hn::RebindMask(Floats(), shared)) << lane;
-  }
-  return bits;
-}
-
-/// Bits of the run's segments, by their first points, that are in the range.
-HWY_INLINE std::uint32_t in_range(const std::uint32_t* first_points, PointRange range) {
-  const hn::RebindToUnsigned<Floats> d;
-  const auto begin = hn::Set(d, range.begin);
-  const auto size = hn::Set(d, range.end - range.begin);
-  std::uint32_t bits = 0;
-  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(d)) {
-    const auto places = hn::Sub(hn::LoadU(d, first_points + lane), begin);
-    bits |= bits_of(hn::RebindMask(Floats(), hn::Lt(places, size))) << lane;
-  }
-  return bits;
-}
-
-/// Boxes larger by the bound on all sides.
-HWY_INLINE void inflate(const BoxBlock& boxes, float bound, BoxBlock& larger) {
-  const auto bounds = hn::Set(Floats(), bound);
-  const LaneVector reach{bounds, bounds, bounds};
-  for (std::size_t lane = 0; lane < run_width; lane += hn::Lanes(Floats())) {
-    store(subtract(load(boxes.lower, lane), reach), larger.lower, lane);
-    store(add(load(boxes.upper, lane), reach), larger.upper, lane);
-  }
-}
-
 /// A group of the one tree while it looks for what is near it in the other: all its boxes, larger
 /// by the bound.
+template <bool moves>
 class Probe {
  public:
   void aim(const RunTreeView& tree, std::uint32_t group, float bound) {
@@ -107,7 +28,7 @@ class Probe {
     run_count_ = std::min(run_width, tree.levels[0].child_count - first);
     inflate(tree.levels[0].boxes[group], bound, runs_);
     for (std::uint32_t lane = 0; lane < run_count_; ++lane) {
-      fit_boxes(tree.runs[first + lane], segments_[lane]);
+      fit_boxes<moves>(tree, first + lane, segments_[lane]);
       inflate(segments_[lane], bound, segments_[lane]);
     }
     for (int axis = 0; axis < 3; ++axis) {
@@ -129,6 +50,8 @@ class Probe {
 };
 
 /// All pairs of the groups of one tree and the segments of another, or of the same.
+/// @tparam moves both
+template <bool moves>
 class Finder {
  public:
   Finder(const RunTreeView& a, const RunTreeView& b, PairSink& sink, QueryCounts& counts)
@@ -161,6 +84,7 @@ class Finder {
   void aim() {
     bound_ = sink_.bound();
     probe_.aim(a_, group_, bound_);
+    span_ = bound_ + longest_way();
     prunes_group_ = self_ && is_smaller_than_bound(probe_.whole(), 0);
     prunes_runs_ = 0;
     for (std::uint32_t run = 0; self_ && run < probe_.run_count(); ++run) {
@@ -168,15 +92,28 @@ class Finder {
     }
   }
 
-  /// Where a group or a run extends over many times the bound, few of its pairs are near: it does
-  /// not pay to ask which are ruled out.
+  /// [m] Half of it, by axis, of the group.
+  float longest_way() const {
+    float longest = 0.0F;
+    for (std::uint32_t run = 0; moves && run < probe_.run_count(); ++run) {
+      for (const auto& halves : a_.ways[group_ * run_width + run].half) {
+        for (const float half : halves) {
+          longest = std::max(longest, std::abs(half));
+        }
+      }
+    }
+    return longest;
+  }
+
+  /// Where a group or a run extends over many times the bound and the ways, few of its pairs are
+  /// near: it does not pay to ask which are ruled out.
   /// @param boxes larger by the bound on all sides
   bool is_smaller_than_bound(const BoxBlock& boxes, std::uint32_t lane) const {
     float extent = 0.0F;
     for (int axis = 0; axis < 3; ++axis) {
       extent = std::max(extent, boxes.upper[axis][lane] - boxes.lower[axis][lane]);
     }
-    return !(extent > 16.0F * bound_);
+    return !(extent > 16.0F * span_);
   }
 
   /// Whether no segments of the group and of group h are pairs.
@@ -263,7 +200,7 @@ class Finder {
       return true;
     }
     BoxBlock boxes;
-    fit_boxes(b_.runs[b], boxes);
+    fit_boxes<moves>(b_, b, boxes);
     const std::uint32_t columns = segments(b_, b) & overlapping(boxes, probe_.runs(), run);
     if (columns == 0) {
       return true;
@@ -284,7 +221,7 @@ class Finder {
         bits &= ~left_out(run, i, b);
       }
       if (bits != 0) {
-        bits &= near_lines(b_.runs[b], a_.runs[a], i, bound_);
+        bits &= near_lines<moves>(b_, b, a_, a, i, bound_);
       }
       while (bits != 0) {
         candidates_.push(a * run_width + i, b * run_width + take_lowest(bits));
@@ -330,7 +267,7 @@ class Finder {
     counts_.node_overlaps += hwy::PopCount(bits);
   }
 
-  Probe probe_;
+  Probe<moves> probe_;
   const RunTreeView& a_;
   const RunTreeView& b_;
   PairSink& sink_;
@@ -338,6 +275,7 @@ class Finder {
   Candidates candidates_;
   std::uint32_t group_ = 0;
   float bound_ = 0.0F;  // [m]
+  float span_ = 0.0F;   // [m] the bound, and half of the longest way of the group
   const bool self_;
   const bool skip_adjacent_;
   // Whether to ask if they are ruled out: the group, and by bit its runs.
@@ -347,15 +285,22 @@ class Finder {
   PointRange ranges_[run_width][run_width];
 };
 
-bool find_near_segments_lanes(const RunTreeView& a, std::uint32_t begin, std::uint32_t end,
-                              const RunTreeView& b, PairSink& sink, QueryCounts& counts) {
-  Finder finder(a, b, sink, counts);
+template <bool moves>
+bool find_near(const RunTreeView& a, std::uint32_t begin, std::uint32_t end, const RunTreeView& b,
+               PairSink& sink, QueryCounts& counts) {
+  Finder<moves> finder(a, b, sink, counts);
   for (std::uint32_t group = begin; group < end; ++group) {
     if (!finder.find(group)) {
       return false;
     }
   }
   return finder.finish();
+}
+
+bool find_near_segments_lanes(const RunTreeView& a, std::uint32_t begin, std::uint32_t end,
+                              const RunTreeView& b, PairSink& sink, QueryCounts& counts) {
+  return a.ways == nullptr ? find_near<false>(a, begin, end, b, sink, counts)
+                           : find_near<true>(a, begin, end, b, sink, counts);
 }
 
 }  // namespace

@@ -53,9 +53,9 @@ HWY_INLINE void make_relative(const double* coordinates, const double (&origin)[
 }
 
 /// Radii with the padding that makes all tests err on the safe side [m].
-HWY_INLINE Lanes padded(Lanes radius, const LaneVector& start, const LaneVector& end) {
+/// @param largest magnitudes of coordinates
+HWY_INLINE Lanes padded(Lanes radius, const LaneVector& largest) {
   const Floats d;
-  const LaneVector largest = maximum(absolute(start), absolute(end));
   const auto magnitude = hn::Max(hn::Max(radius, largest.x), hn::Max(largest.y, largest.z));
   const auto finite = hn::Add(hn::MulAdd(magnitude, hn::Set(d, relative_padding), radius),
                               hn::Set(d, least_padding));
@@ -63,10 +63,37 @@ HWY_INLINE Lanes padded(Lanes radius, const LaneVector& start, const LaneVector&
                         hn::Set(d, std::numeric_limits<float>::infinity()), finite);
 }
 
+HWY_INLINE LaneVector middle(const LaneVector& a, const LaneVector& b) {
+  const auto half_of_one = hn::Set(Floats(), 0.5F);
+  const LaneVector sum = add(a, b);
+  return {hn::Mul(half_of_one, sum.x), hn::Mul(half_of_one, sum.y), hn::Mul(half_of_one, sum.z)};
+}
+
+/// A segment a lane.
+struct LaneEnds {
+  LaneVector start;
+  LaneVector end;
+  Lanes radius;
+
+  HWY_INLINE LaneVector lower() const { return lower_corner(start, end, radius); }
+  HWY_INLINE LaneVector upper() const { return upper_corner(start, end, radius); }
+
+  void store(Run& run, std::size_t lane) const {
+    HWY_NAMESPACE::store(start, run.start, lane);
+    HWY_NAMESPACE::store(end, run.end, lane);
+    hn::Store(radius, Floats(), run.radius + lane);
+  }
+};
+
 /// Box of all lanes.
 struct SingleBox {
   LaneVector lower;
   LaneVector upper;
+
+  HWY_INLINE void take(const LaneVector& lower_corners, const LaneVector& upper_corners) {
+    lower = minimum(lower, lower_corners);
+    upper = maximum(upper, upper_corners);
+  }
 
   void store(BoxBlock& block, std::uint32_t lane) const {
     const Floats d;
@@ -79,27 +106,11 @@ struct SingleBox {
   }
 };
 
-/// Puts segments into lanes, and the box of all into a lane of the block.
-void fit_run(const float (*first_halves)[half], const float (*second_halves)[half],
-             const float* radii, Run& run, BoxBlock& boxes, std::uint32_t lane) {
-  const Floats d;
-  const auto infinity = hn::Set(d, std::numeric_limits<float>::infinity());
+/// Of no segments.
+HWY_INLINE SingleBox empty_box() {
+  const auto infinity = hn::Set(Floats(), std::numeric_limits<float>::infinity());
   const LaneVector infinities{infinity, infinity, infinity};
-  SingleBox box{infinities, negative(infinities)};
-  for (std::size_t i = 0; i < run_width; i += hn::Lanes(d)) {
-    LaneVector start;
-    LaneVector end;
-    Lanes again;
-    hn::LoadInterleaved4(d, first_halves[i], start.x, start.y, start.z, again);
-    hn::LoadInterleaved4(d, second_halves[i], again, end.x, end.y, end.z);
-    const auto radius = padded(hn::LoadU(d, radii + i), start, end);
-    store(start, run.start, i);
-    store(end, run.end, i);
-    hn::Store(radius, d, run.radius + i);
-    box.lower = minimum(box.lower, lower_corner(start, end, radius));
-    box.upper = maximum(box.upper, upper_corner(start, end, radius));
-  }
-  box.store(boxes, lane);
+  return {infinities, negative(infinities)};
 }
 
 /// Segments come in spatial order: where the next ones' points are, no processor can guess.
@@ -124,10 +135,11 @@ float radius_of(double radius) {
   return static_cast<float>(std::min(radius, 2.0 * static_cast<double>(largest_magnitude)));
 }
 
-class GroupFit {
+/// Reads the segments of a group, relative to an origin.
+class GroupReader {
  public:
-  GroupFit(const FiberAssembly& fibers, const Eigen::Vector3d& origin,
-           const std::uint32_t* first_points, std::uint32_t segment_count)
+  GroupReader(const FiberAssembly& fibers, const Eigen::Vector3d& origin,
+              const std::uint32_t* first_points, std::uint32_t segment_count)
       : origin_(origin),
         fibers_(fibers),
         first_points_(first_points),
@@ -138,22 +150,7 @@ class GroupFit {
     }
   }
 
-  void fit(std::uint32_t group, Run* runs, BoxBlock& boxes) {
-    const std::uint32_t first = group * segments_per_group;
-    read(first);
-    const std::uint32_t segments = std::min(segments_per_group, segment_count_ - first);
-    const std::uint32_t run_count = (segments + run_width - 1) / run_width;
-    for (std::uint32_t lane = 0; lane < run_count; ++lane) {
-      const std::uint32_t begin = lane * run_width;
-      fit_run(points_.first_halves + begin, points_.second_halves + begin, radii_ + begin,
-              runs[group * run_width + lane], boxes, lane);
-    }
-    for (std::uint32_t lane = run_count; lane < run_width; ++lane) {
-      repeat(boxes, run_count - 1, lane);
-    }
-  }
-
- private:
+  /// @param first segment of the group
   void read(std::uint32_t first) {
     constexpr std::uint32_t ahead = 2 * run_width;
     constexpr std::uint32_t second_half = 2;  // of the coordinates of two points
@@ -172,6 +169,20 @@ class GroupFit {
     }
   }
 
+  /// Some segments of the group in lanes.
+  HWY_INLINE LaneEnds ends(std::uint32_t first) const {
+    const Floats d;
+    LaneEnds ends;
+    Lanes again;
+    hn::LoadInterleaved4(d, points_.first_halves[first], ends.start.x, ends.start.y, ends.start.z,
+                         again);
+    hn::LoadInterleaved4(d, points_.second_halves[first], again, ends.end.x, ends.end.y,
+                         ends.end.z);
+    ends.radius = hn::LoadU(d, radii_ + first);
+    return ends;
+  }
+
+ private:
   GroupPoints points_;
   const HalvedOrigin origin_;
   float radii_[segments_per_group];
@@ -181,12 +192,83 @@ class GroupFit {
   const bool same_radius_;
 };
 
-void fit_groups_lanes(const FiberAssembly& fibers, const Eigen::Vector3d& origin,
-                      const std::uint32_t* first_points, std::uint32_t segment_count,
-                      std::uint32_t begin, std::uint32_t end, Run* runs, BoxBlock* boxes) {
-  GroupFit fit(fibers, origin, first_points, segment_count);
+/// Puts segments where they are into lanes, and the box of all into a lane of the block.
+void fit_run(const GroupReader& group, std::uint32_t first, Run& run, BoxBlock& boxes,
+             std::uint32_t lane) {
+  SingleBox box = empty_box();
+  for (std::uint32_t i = 0; i < run_width; i += static_cast<std::uint32_t>(hn::Lanes(Floats()))) {
+    LaneEnds ends = group.ends(first + i);
+    ends.radius = padded(ends.radius, maximum(absolute(ends.start), absolute(ends.end)));
+    ends.store(run, i);
+    box.take(ends.lower(), ends.upper());
+  }
+  box.store(boxes, lane);
+}
+
+/// The same of segments that move: halfway, thicker by as much as their ends leave the way of their
+/// middle, which goes into the ways.
+///
+/// Rounded, both states are off by u of the largest coordinate M, u = 2⁻²⁴; halfway is off by 2
+/// u·M, half a way and what the ends have beside it by 3 u·M each. That makes 19 u·M in space.
+void fit_moving_run(const GroupReader& before, const GroupReader& after, std::uint32_t first,
+                    Run& run, RunWays& ways, BoxBlock& boxes, std::uint32_t lane) {
+  const Floats d;
+  SingleBox box = empty_box();
+  for (std::uint32_t i = 0; i < run_width; i += static_cast<std::uint32_t>(hn::Lanes(d))) {
+    const LaneEnds from = before.ends(first + i);
+    const LaneEnds to = after.ends(first + i);
+    const LaneVector start_way = middle(to.start, negative(from.start));
+    const LaneVector end_way = middle(to.end, negative(from.end));
+    const LaneVector way = middle(start_way, end_way);
+    const LaneVector beside = middle(end_way, negative(start_way));
+    LaneEnds ends{middle(from.start, to.start), middle(from.end, to.end),
+                  hn::Add(hn::Max(from.radius, to.radius), hn::Sqrt(dot(beside, beside)))};
+    ends.radius = padded(ends.radius, maximum(maximum(absolute(from.start), absolute(from.end)),
+                                              maximum(absolute(to.start), absolute(to.end))));
+    ends.store(run, i);
+    store(way, ways.half, i);
+    box.take(subtract(ends.lower(), absolute(way)), add(ends.upper(), absolute(way)));
+  }
+  box.store(boxes, lane);
+}
+
+/// Fits groups, with what it fits a run with.
+/// @param fit called with the first segment of a run in its group, the run, and where its box goes
+template <class Fit>
+void fit_group(std::uint32_t group, std::uint32_t segment_count, BoxBlock& boxes, const Fit& fit) {
+  const std::uint32_t first = group * segments_per_group;
+  const std::uint32_t segments = std::min(segments_per_group, segment_count - first);
+  const std::uint32_t run_count = (segments + run_width - 1) / run_width;
+  for (std::uint32_t lane = 0; lane < run_count; ++lane) {
+    fit(lane * run_width, group * run_width + lane, lane);
+  }
+  for (std::uint32_t lane = run_count; lane < run_width; ++lane) {
+    repeat(boxes, run_count - 1, lane);
+  }
+}
+
+void fit_groups_lanes(const TreeFibers& fibers, const std::uint32_t* first_points,
+                      std::uint32_t segment_count, std::uint32_t begin, std::uint32_t end,
+                      Run* runs, RunWays* ways, BoxBlock* boxes) {
+  GroupReader before(fibers.before, fibers.origin_before, first_points, segment_count);
+  if (!fibers.moves) {
+    for (std::uint32_t group = begin; group < end; ++group) {
+      before.read(group * segments_per_group);
+      fit_group(group, segment_count, boxes[group],
+                [&](std::uint32_t first, std::uint32_t run, std::uint32_t lane) {
+                  fit_run(before, first, runs[run], boxes[group], lane);
+                });
+    }
+    return;
+  }
+  GroupReader after(fibers.after, fibers.origin_after, first_points, segment_count);
   for (std::uint32_t group = begin; group < end; ++group) {
-    fit.fit(group, runs, boxes[group]);
+    before.read(group * segments_per_group);
+    after.read(group * segments_per_group);
+    fit_group(group, segment_count, boxes[group],
+              [&](std::uint32_t first, std::uint32_t run, std::uint32_t lane) {
+                fit_moving_run(before, after, first, runs[run], ways[run], boxes[group], lane);
+              });
   }
 }
 
@@ -196,10 +278,9 @@ void fit_nodes_lanes(const BoxBlock* boxes_below, std::uint32_t child_count, std
   for (std::uint32_t node = begin; node < end; ++node) {
     for (std::uint32_t lane = 0; lane < run_width; ++lane) {
       const BoxBlock& below = boxes_below[std::min(node * run_width + lane, child_count - 1)];
-      SingleBox box{load(below.lower, 0), load(below.upper, 0)};
-      for (std::size_t i = hn::Lanes(d); i < run_width; i += hn::Lanes(d)) {
-        box.lower = minimum(box.lower, load(below.lower, i));
-        box.upper = maximum(box.upper, load(below.upper, i));
+      SingleBox box = empty_box();
+      for (std::size_t i = 0; i < run_width; i += hn::Lanes(d)) {
+        box.take(load(below.lower, i), load(below.upper, i));
       }
       box.store(boxes[node], lane);
     }
@@ -217,11 +298,11 @@ namespace fiber {
 HWY_EXPORT(fit_groups_lanes);
 HWY_EXPORT(fit_nodes_lanes);
 
-void fit_groups(const FiberAssembly& fibers, const Eigen::Vector3d& origin,
-                const std::uint32_t* first_points, std::uint32_t segment_count, std::uint32_t begin,
-                std::uint32_t end, Run* runs, BoxBlock* boxes) {
+void fit_groups(const TreeFibers& fibers, const std::uint32_t* first_points,
+                std::uint32_t segment_count, std::uint32_t begin, std::uint32_t end, Run* runs,
+                RunWays* ways, BoxBlock* boxes) {
   HWY_DYNAMIC_DISPATCH(fit_groups_lanes)
-  (fibers, origin, first_points, segment_count, begin, end, runs, boxes);
+  (fibers, first_points, segment_count, begin, end, runs, ways, boxes);
 }
 
 void fit_nodes(const BoxBlock* boxes_below, std::uint32_t child_count, std::uint32_t begin,

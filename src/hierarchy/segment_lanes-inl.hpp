@@ -148,6 +148,16 @@ constexpr float rounding_of_products = 0x1p-19F;
 /// Below this sum of l₁ norms no product of two overflows [m].
 constexpr float largest_extent = 0x1p60F;
 
+/// Whether a gap, times the length of n, is within the reach: true too often, never too seldom.
+HWY_INLINE LaneMask within_reach(Lanes gap, Lanes reach, const LaneVector& n) {
+  const Floats d;
+  const auto least = hn::Max(gap, hn::Zero(d));
+  const auto limit = hn::Mul(hn::Mul(reach, reach), dot(n, n));
+  return hn::Not(
+      hn::Gt(hn::Mul(least, least), hn::MulAdd(limit, hn::Set(d, 1.0F + rounding_of_products),
+                                               hn::Set(d, std::numeric_limits<float>::min()))));
+}
+
 /// Whether the lines of segments in directions u and v, whose starts are w apart, may come within
 /// `reach`: true too often, never too seldom. Most segments with boxes that overlap are told apart
 /// by this, at a third of the cost of all.
@@ -158,11 +168,7 @@ HWY_INLINE LaneMask lines_near(const LaneVector& u, const LaneVector& v, const L
   const auto rounding =
       hn::Mul(hn::Set(d, rounding_of_products),
               hn::Mul(length_bound(w), hn::Mul(length_bound(u), length_bound(v))));
-  const auto least = hn::Max(hn::Sub(hn::Abs(dot(w, n)), rounding), hn::Zero(d));
-  const auto limit = hn::Mul(hn::Mul(reach, reach), dot(n, n));
-  return hn::Not(
-      hn::Gt(hn::Mul(least, least), hn::MulAdd(limit, hn::Set(d, 1.0F + rounding_of_products),
-                                               hn::Set(d, std::numeric_limits<float>::min()))));
+  return within_reach(hn::Sub(hn::Abs(dot(w, n)), rounding), reach, n);
 }
 
 /// Whether two segments whose lines come within `reach` may do so, too: true too often, never too

@@ -8,6 +8,7 @@
 
 #include "fiber_proximity/geometry/swept_fibers.hpp"
 #include "fiber_proximity/query/contact_judge.hpp"
+#include "fiber_proximity/query/idle_memory.hpp"
 
 namespace fiber {
 namespace {
@@ -22,6 +23,20 @@ void reset(QueryResult& result) {
 void reset(MotionResult& result) {
   result.contacts.clear();
   result.touching.clear();
+}
+
+void reset(MotionCandidates& candidates) {
+  candidates.keys.clear();
+  candidates.are_all = true;
+  candidates.are_too_many = false;
+  candidates.counts = {};
+}
+
+/// For pairs that may be reported: those that come within the margin and the tolerance.
+QueryOptions candidates_of(const MotionOptions& options) {
+  QueryOptions pairs = pairs_of(options);
+  pairs.margin = (1.0 + 0x1p-50) * (options.margin + options.tolerance);
+  return pairs;
 }
 
 /// For an engine that finds candidates as contacts.
@@ -62,11 +77,18 @@ const FiberAssembly& require_fibers(const FiberAssembly* fibers) {
 
 }  // namespace
 
-/// The states that a motion is between, and what is swept; its memory is kept.
+/// The states that a motion is between, what is swept where the engine needs that, and what queries
+/// about it work in; all memory is kept.
 struct ProximityEngine::Motion {
+  struct Memory {
+    MotionCandidates candidates;
+    MotionJudge judge;
+  };
+
   const FiberAssembly* before = nullptr;
   const FiberAssembly* after = nullptr;
   SweptFibers swept;
+  mutable IdleMemory<Memory> memory;
 };
 
 ProximityEngine::ProximityEngine() = default;
@@ -146,15 +168,18 @@ void ProximityEngine::query_motion_shape(const FiberAssembly& shape_before,
 
 void ProximityEngine::do_query_motion(const MotionOptions& options, MotionResult& result) const {
   const Motion& motion = require_motion();
-  const QueryOptions pairs = pairs_of(options);
-  on_threads([&] {
+  const QueryOptions pairs = candidates_of(options);
+  const auto work = [&] {
     const QueryLimits limits(pairs);
     const PairTest test(*motion.before, pairs, loops_before());
-    MotionCandidates candidates;
-    do_find_candidates(motion.swept.fibers(), test, limits, candidates);
     const FiberMotion fibers{*motion.before, *motion.after};
-    judge_motion(candidates, fibers, fibers, test, options, limits, result);
-  });
+    motion.memory.lend([&](Motion::Memory& memory) {
+      reset(memory.candidates);
+      do_find_candidates(test, limits, memory.candidates);
+      memory.judge.judge(memory.candidates, fibers, fibers, test, options, limits, result);
+    });
+  };
+  on_threads(std::cref(work));  // a function of its own would be allocated
 }
 
 void ProximityEngine::do_query_motion_shape(const FiberAssembly& shape_before,
@@ -162,33 +187,30 @@ void ProximityEngine::do_query_motion_shape(const FiberAssembly& shape_before,
                                             const MotionOptions& options,
                                             MotionResult& result) const {
   const Motion& motion = require_motion();
-  SweptFibers shape;
-  shape.update(shape_before, shape_after, motion.swept.drift());
-  const QueryOptions pairs = pairs_of(options);
-  on_threads([&] {
+  const FiberMotion shape{shape_before, shape_after};
+  const QueryOptions pairs = candidates_of(options);
+  const auto work = [&] {
     const QueryLimits limits(pairs);
     const PairTest test(shape_before, *motion.before, pairs);
-    MotionCandidates candidates;
-    do_find_shape_candidates(shape.fibers(), motion.swept.fibers(), test, limits, candidates);
-    judge_motion(candidates, {shape_before, shape_after}, {*motion.before, *motion.after}, test,
-                 options, limits, result);
-  });
+    const FiberMotion fibers{*motion.before, *motion.after};
+    motion.memory.lend([&](Motion::Memory& memory) {
+      reset(memory.candidates);
+      do_find_shape_candidates(shape, test, limits, memory.candidates);
+      memory.judge.judge(memory.candidates, shape, fibers, test, options, limits, result);
+    });
+  };
+  on_threads(std::cref(work));  // a function of its own would be allocated
 }
 
 void ProximityEngine::do_update_motion(const FiberAssembly& before, const FiberAssembly& after,
                                        bool same_topology) {
   motion_->swept.update(before, after);
-  do_update_swept(before, motion_->swept.fibers(), same_topology);
+  do_update(motion_->swept.fibers(), same_topology);
 }
 
-void ProximityEngine::do_update_swept(const FiberAssembly& /*before*/, const FiberAssembly& swept,
-                                      bool same_topology) {
-  do_update(swept, same_topology);
-}
-
-void ProximityEngine::do_find_candidates(const FiberAssembly& swept, const PairTest& test,
-                                         const QueryLimits& limits,
+void ProximityEngine::do_find_candidates(const PairTest& test, const QueryLimits& limits,
                                          MotionCandidates& candidates) const {
+  const FiberAssembly& swept = motion_->swept.fibers();
   QueryOptions options = candidate_options(test, limits);
   // What is left out by where the fibres are is judged by where they were before the motion.
   options.neighbour_skip = test.wants_adjacent() ? 0 : 1;
@@ -197,13 +219,15 @@ void ProximityEngine::do_find_candidates(const FiberAssembly& swept, const PairT
   take(result, swept, swept, test, limits, candidates);
 }
 
-void ProximityEngine::do_find_shape_candidates(const FiberAssembly& shape,
-                                               const FiberAssembly& swept, const PairTest& test,
+void ProximityEngine::do_find_shape_candidates(const FiberMotion& shape, const PairTest& test,
                                                const QueryLimits& limits,
                                                MotionCandidates& candidates) const {
+  const FiberAssembly& swept = motion_->swept.fibers();
+  SweptFibers swept_shape;
+  swept_shape.update(shape.before, shape.after, motion_->swept.drift());
   QueryResult result;
-  do_query_shape(shape, swept, candidate_options(test, limits), result);
-  take(result, shape, swept, test, limits, candidates);
+  do_query_shape(swept_shape.fibers(), swept, candidate_options(test, limits), result);
+  take(result, swept_shape.fibers(), swept, test, limits, candidates);
 }
 
 void ProximityEngine::on_threads(const std::function<void()>& work) const {

@@ -9,29 +9,31 @@
 namespace fiber {
 namespace {
 
-class MotionJudge {
- public:
-  MotionJudge(const FiberMotion& a, const FiberMotion& b, const PairTest& test,
-              const MotionOptions& options, const QueryLimits& limits)
-      : a_(a), b_(b), test_(test), options_(options), limits_(limits) {}
+// Motions are judged in rounds, so that what is found of them takes little memory.
+constexpr std::size_t slices_per_round = 32;
+constexpr std::size_t motions_per_round = slices_per_round * motions_per_slice;
 
-  void judge(const std::uint64_t* keys, std::size_t count, MotionSlice& slice) const {
-    slice.complete = !limits_.deadline.has_passed();
-    if (!slice.complete) {
-      return;
-    }
+/// Which motions are asked about, and what of each is reported.
+class MotionTest {
+ public:
+  MotionTest(const FiberMotion& a, const FiberMotion& b, const PairTest& test,
+             const MotionOptions& options)
+      : a_(a), b_(b), test_(test), options_(options) {}
+
+  /// @param count at most that of a slice
+  /// @param times found, as many
+  void report(const std::uint64_t* keys, std::size_t count, ContactTime* times,
+              std::vector<MotionContact>& contacts, std::vector<MotionContact>& touching) const {
     SegmentMotions motions[motions_per_slice];
-    std::vector<ContactTime> times(count);
     for (std::size_t i = 0; i < count; ++i) {
       motions[i] = motions_of(pair_of(keys[i]));
     }
-    contact_times(motions, count, options_.tolerance, times.data());
+    contact_times(motions, count, options_.tolerance, times);
     for (std::size_t i = 0; i < count; ++i) {
       const PointPair pair = pair_of(keys[i]);
       // Few come so far: whether a fibre makes a loop costs more than when it has contact.
       if (times[i].hit && !test_.lacks_loop(pair)) {
-        (is_there_before(times[i]) ? slice.touching : slice.contacts)
-            .push_back(contact(pair, times[i]));
+        (is_there_before(times[i]) ? touching : contacts).push_back(contact(pair, times[i]));
       }
     }
   }
@@ -62,23 +64,37 @@ class MotionJudge {
   const FiberMotion& b_;
   const PairTest& test_;
   const MotionOptions& options_;
-  const QueryLimits& limits_;
 };
 
 }  // namespace
 
-void judge_motion(const MotionCandidates& candidates, const FiberMotion& a, const FiberMotion& b,
-                  const PairTest& test, const MotionOptions& options, const QueryLimits& limits,
-                  MotionResult& result) {
+void MotionJudge::judge(const MotionCandidates& candidates, const FiberMotion& a,
+                        const FiberMotion& b, const PairTest& test, const MotionOptions& options,
+                        const QueryLimits& limits, MotionResult& result) {
   const std::vector<std::uint64_t>& keys = candidates.keys;
-  const MotionJudge judge(a, b, test, options, limits);
-  std::vector<MotionSlice> slices((keys.size() + motions_per_slice - 1) / motions_per_slice);
-  for_each_of(slices.size(), [&](std::size_t index) {
-    const std::size_t begin = index * motions_per_slice;
-    judge.judge(keys.data() + begin, std::min(motions_per_slice, keys.size() - begin),
-                slices[index]);
-  });
-  merge_slices(slices, candidates, options, result);
+  const MotionTest motions(a, b, test, options);
+  begin_result(candidates, result);
+  for (std::size_t begin = 0; begin < keys.size(); begin += motions_per_round) {
+    const std::size_t end = std::min(keys.size(), begin + motions_per_round);
+    const std::size_t count = (end - begin + motions_per_slice - 1) / motions_per_slice;
+    slices_.resize(std::max(slices_.size(), count));
+    for_each_of(count, [&](std::size_t index) {
+      MotionSlice& slice = slices_[index];
+      slice.contacts.clear();
+      slice.touching.clear();
+      slice.complete = !limits.deadline.has_passed();
+      if (slice.complete) {
+        const std::size_t first = begin + index * motions_per_slice;
+        slice.times.resize(motions_per_slice);
+        motions.report(keys.data() + first, std::min(motions_per_slice, end - first),
+                       slice.times.data(), slice.contacts, slice.touching);
+      }
+    });
+    for (std::size_t i = 0; i < count; ++i) {
+      append(slices_[i], result);
+    }
+  }
+  finish_result(candidates, options, result);
 }
 
 }  // namespace fiber

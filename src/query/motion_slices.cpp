@@ -34,16 +34,22 @@ bool keep_earliest(std::size_t most, MotionResult& result) {
 
 }  // namespace
 
-void merge_slices(const std::vector<MotionSlice>& slices, const MotionCandidates& candidates,
-                  const MotionOptions& options, MotionResult& result) {
+void begin_result(const MotionCandidates& candidates, MotionResult& result) {
+  result.contacts.clear();
+  result.touching.clear();
   result.counts = candidates.counts;
   result.counts.primitive_tests += candidates.keys.size();
   result.complete = candidates.are_all && !candidates.are_too_many;
-  for (const MotionSlice& slice : slices) {
-    result.contacts.insert(result.contacts.end(), slice.contacts.begin(), slice.contacts.end());
-    result.touching.insert(result.touching.end(), slice.touching.begin(), slice.touching.end());
-    result.complete = result.complete && slice.complete;
-  }
+}
+
+void append(const MotionSlice& slice, MotionResult& result) {
+  result.contacts.insert(result.contacts.end(), slice.contacts.begin(), slice.contacts.end());
+  result.touching.insert(result.touching.end(), slice.touching.begin(), slice.touching.end());
+  result.complete = result.complete && slice.complete;
+}
+
+void finish_result(const MotionCandidates& candidates, const MotionOptions& options,
+                   MotionResult& result) {
   result.others_lower = result.complete ? 1.0 : 0.0;
   result.limit_reached = candidates.are_too_many;
   if (options.contact_limit > 0 && result.touching.size() > options.contact_limit) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fiber_proximity/bounds/bounding_volume.hpp"
+#include "fiber_proximity/geometry/swept_fibers.hpp"
 #include "fiber_proximity/hierarchy/origin.hpp"
 #include "fiber_proximity/hierarchy/run_tree_kernels.hpp"
 #include "fiber_proximity/query/pair_collector.hpp"
@@ -51,6 +52,14 @@ void find_some(const RunTreeView& a, const RunTreeView& b, const QueryOptions& o
   collector.finish();
 }
 
+/// What moves so far that no engine allows it is beyond the range of float.
+/// @throws std::invalid_argument as SweptFibers
+void check_ways(const RunTree& tree, const FiberAssembly& before, const FiberAssembly& after) {
+  if (tree.is_unbounded()) {
+    SweptFibers().update(before, after, tree.origin_after() - tree.origin());
+  }
+}
+
 Eigen::Vector3d corner(const float (&by_axis)[3][run_width], std::uint32_t lane) {
   return {by_axis[0][lane], by_axis[1][lane], by_axis[2][lane]};
 }
@@ -80,11 +89,12 @@ void RunTreeEngine::do_update(const FiberAssembly& fibers, bool same_topology) {
       start_anew(fibers);
       return;
     }
-    if (skin_ > 0.0 && tree_still_serves(fibers)) {
+    const bool has_skin = skin_ > 0.0 && !tree_.moves();
+    if (has_skin && tree_still_serves(fibers)) {
       return;
     }
     tree_.update(fibers, hierarchy_origin(fibers));
-    if (skin_ > 0.0 && most_still_serve(fibers)) {
+    if (has_skin && most_still_serve(fibers)) {
       return;
     }
     start_anew(fibers);
@@ -238,31 +248,36 @@ RunTreeEngine::Candidates RunTreeEngine::current_candidates(const PairTest& test
   return {keys, found};
 }
 
-void RunTreeEngine::do_update_swept(const FiberAssembly& before, const FiberAssembly& swept,
-                                    bool same_topology) {
+/// The tree holds what segments that move come by: more closely than swept ones would.
+void RunTreeEngine::do_update_motion(const FiberAssembly& before, const FiberAssembly& after,
+                                     bool same_topology) {
+  require_same_topology(before, after);
   loops_.reset(before);
   arena_.execute([&] {
+    const Eigen::Vector3d origin = hierarchy_origin(before);
+    const TreeFibers fibers(before, after, origin, origin + drift_of(before, after));
     if (same_topology) {
-      tree_.update(swept, hierarchy_origin(swept));
+      tree_.update(fibers);
     } else {
-      tree_.build(swept, hierarchy_origin(swept));
+      tree_.build(fibers);
     }
-    start_anew(swept);
+    start_anew(before);
   });
+  check_ways(tree_, before, after);
 }
 
-void RunTreeEngine::do_find_candidates(const FiberAssembly& /*swept*/, const PairTest& test,
-                                       const QueryLimits& limits,
+void RunTreeEngine::do_find_candidates(const PairTest& test, const QueryLimits& limits,
                                        MotionCandidates& candidates) const {
   find_candidates(tree_.view(), test, limits, candidates);
 }
 
-void RunTreeEngine::do_find_shape_candidates(const FiberAssembly& shape,
-                                             const FiberAssembly& /*swept*/, const PairTest& test,
+void RunTreeEngine::do_find_shape_candidates(const FiberMotion& shape, const PairTest& test,
                                              const QueryLimits& limits,
                                              MotionCandidates& candidates) const {
+  require_same_topology(shape.before, shape.after);
   RunTree shape_tree;
-  shape_tree.build(shape, tree_.origin());
+  shape_tree.build({shape.before, shape.after, tree_.origin(), tree_.origin_after()});
+  check_ways(shape_tree, shape.before, shape.after);
   find_candidates(shape_tree.view(), test, limits, candidates);
 }
 
@@ -278,20 +293,7 @@ void RunTreeEngine::find_candidates(const RunTreeView& a, const PairTest& test,
 
 template <class Call>
 void RunTreeEngine::with_batch(const Call& call) const {
-  std::unique_ptr<ContactBatch> batch;
-  {
-    const std::lock_guard lock(mutex_);
-    if (!idle_batches_.empty()) {
-      batch = std::move(idle_batches_.back());
-      idle_batches_.pop_back();
-    }
-  }
-  if (batch == nullptr) {
-    batch = std::make_unique<ContactBatch>();
-  }
-  arena_.execute([&] { call(*batch); });
-  const std::lock_guard lock(mutex_);
-  idle_batches_.push_back(std::move(batch));
+  batches_.lend([&](ContactBatch& batch) { arena_.execute([&] { call(batch); }); });
 }
 
 // The root, which the tree has no box for, and the levels of the tree from the top down.

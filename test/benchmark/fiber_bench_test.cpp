@@ -332,6 +332,33 @@ TEST_F(FiberBench, MeasuresContactTimesInTurns) {
   EXPECT_GT(rows.back().at("misses"), 0) << "some only graze each other";
 }
 
+/// In the soup fibres come into contact and part again within a step.
+TEST_F(FiberBench, LooksAtScenesWhoseFibersMove) {
+  const ProcessResult result = bench(
+      "motions --parts scenes --scenes soup --scale 0.02 --ways 1,30 --repeats 2 --seed 3 --json");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const std::vector<nlohmann::json> rows = json_lines(result.out);
+  const std::vector<std::string> methods{"discrete_1", "discrete_10", "discrete_100", "motion_all",
+                                         "motion_first"};
+  ASSERT_EQ(rows.size(), 2 * methods.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    SCOPED_TRACE(rows[i].dump());
+    const std::string& method = methods[i % methods.size()];
+    const bool looks_once = method != "discrete_10" && method != "discrete_100";
+    EXPECT_EQ(rows[i].at("method"), method);
+    EXPECT_EQ(rows[i].at("way"), i < methods.size() ? 1.0 : 30.0);
+    EXPECT_EQ(rows[i].at("frames"), looks_once ? 2 : 1);
+    EXPECT_GT(rows[i].at("time_ms"), 0.0);
+    EXPECT_GT(rows[i].at("times_discrete"), 0.0);
+    EXPECT_EQ(rows[i].at("missed").is_null(), method == "motion_first");
+  }
+  const nlohmann::json& all = rows[8];
+  EXPECT_GT(all.at("contacts"), 0);
+  EXPECT_EQ(all.at("missed"), 0);
+  EXPECT_GE(all.at("candidates"), all.at("contacts"));
+  EXPECT_GT(rows[5].at("missed"), 0) << "one look at the end of a long way";
+}
+
 TEST_F(FiberBench, HoldsContactTimesAgainstAFileOfKnownMotions) {
   // The second of two segments at right angles comes down upon the first; or not.
   const std::string start =
@@ -457,6 +484,8 @@ TEST_F(FiberBench, RefusesBadCommandLines) {
   EXPECT_TRUE(refused(bench("motions --parts accuracy --families easy"),
                       "unknown family 'easy', known are: random, translating, "));
   EXPECT_TRUE(refused(bench("motions --count 0"), "--count: '0'"));
+  EXPECT_TRUE(refused(bench("motions --parts scenes --scenes stew"), "unknown scene 'stew'"));
+  EXPECT_TRUE(refused(bench("motions --ways 1,-1"), "--ways: '-1' must be a finite"));
   EXPECT_TRUE(
       refused(bench("motions --tolerances 1e-6,-1"), "--tolerances: '-1' must be a finite"));
   EXPECT_TRUE(refused(bench("environment --parts cell,kitchen"), "kitchen"));

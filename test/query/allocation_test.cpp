@@ -109,6 +109,27 @@ TEST(RunTreeAllocationTest, AFrameInSteadyStateAllocatesNothing) {
   EXPECT_EQ(found, 0U);
 }
 
+TEST(RunTreeAllocationTest, AMotionInSteadyStateAllocatesNothing) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  const FiberAssembly before = walks(random, 400, 50, 0.02);
+  FiberAssembly after = before;
+  std::vector<Eigen::Vector3d> points = before.points();
+  for (Eigen::Vector3d& point : points) {
+    point += 0.05 * random.in_cube();
+  }
+  const auto engine = make_engine("run_tree", {2});
+  MotionResult result;
+  const std::size_t found = allocations_in_steady_state([&](int /*frame*/) {
+    after.update_points(points);
+    engine->update_motion(before, after);
+    engine->query_motion({}, result);
+  });
+  expect_enough(result.contacts.size(), std::size_t{1});
+  expect_enough(result.touching.size(), std::size_t{1});
+  EXPECT_EQ(found, 0U);
+}
+
 class TouchingItselfAllocationTest : public testing::TestWithParam<int> {};
 
 /// Found by the campaign: a contact of a fibre with itself over more than a few segments.

@@ -12,6 +12,10 @@ namespace fiber {
 ///         their fibres and of the points of these are not the same
 void require_same_topology(const FiberAssembly& before, const FiberAssembly& after);
 
+/// [m] What fibres of one topology have in common of their ways: about the mean of some points,
+/// evenly spread.
+Eigen::Vector3d drift_of(const FiberAssembly& before, const FiberAssembly& after);
+
 /// Fibres that hold all that others come by while each of their points moves linearly: each segment
 /// where it is halfway, thicker by half the way of its ends.
 ///

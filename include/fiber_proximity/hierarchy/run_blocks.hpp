@@ -17,6 +17,12 @@ struct alignas(32) Run {
   float radius[run_width];
 };
 
+/// How far the eight segments of a run move [m]: from that much before where the run has them to as
+/// much beyond, all points of a segment alike; by how much they do not, its radius is larger.
+struct alignas(32) RunWays {
+  float half[3][run_width];
+};
+
 /// Boxes of eight segments, runs or nodes [m]; by axis, then lane. Lanes without a child repeat the
 /// last one.
 struct alignas(32) BoxBlock {
@@ -37,6 +43,7 @@ struct RunTreeView {
   static constexpr std::uint32_t most_levels = 11;  // 8^11 runs are more than there can be
 
   const Run* runs = nullptr;
+  const RunWays* ways = nullptr;  ///< of the runs; none where nothing moves
   /// Of the segments, along the curve; lanes without a segment repeat the last.
   const std::uint32_t* first_points = nullptr;
   std::uint32_t segment_count = 0;

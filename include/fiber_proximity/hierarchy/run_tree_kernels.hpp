@@ -5,6 +5,7 @@
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/hierarchy/run_blocks.hpp"
+#include "fiber_proximity/hierarchy/tree_fibers.hpp"
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/pair_test.hpp"
 
@@ -31,12 +32,13 @@ class PairSink {
   virtual PointRange ruled_out_with(std::uint32_t point) const = 0;
 };
 
-/// Fits the runs of groups [begin, end): their segments and boxes.
+/// Fits the runs of groups [begin, end): their segments and boxes, which hold all that segments
+/// that move come by.
 /// @param first_points of all segments, along the curve
-/// @param runs, boxes by run, by group
-void fit_groups(const FiberAssembly& fibers, const Eigen::Vector3d& origin,
-                const std::uint32_t* first_points, std::uint32_t segment_count, std::uint32_t begin,
-                std::uint32_t end, Run* runs, BoxBlock* boxes);
+/// @param runs, ways, boxes by run, by run, by group; no ways of what does not move
+void fit_groups(const TreeFibers& fibers, const std::uint32_t* first_points,
+                std::uint32_t segment_count, std::uint32_t begin, std::uint32_t end, Run* runs,
+                RunWays* ways, BoxBlock* boxes);
 
 /// Fits the nodes [begin, end) of a level above the groups to the boxes of the level below.
 /// @param child_count of the whole level

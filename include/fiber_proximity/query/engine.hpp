@@ -115,7 +115,7 @@ class ProximityEngine {
   virtual void do_query_shape(const FiberAssembly& shape, const FiberAssembly& fibers,
                               const QueryOptions& options, QueryResult& result) const = 0;
 
-  // Motions: any engine finds candidates among the swept fibres as it finds contacts.
+  // Motions: any engine can find candidates among swept fibres as it finds contacts.
 
   virtual void do_update_motion(const FiberAssembly& before, const FiberAssembly& after,
                                 bool same_topology);
@@ -124,16 +124,13 @@ class ProximityEngine {
                                      const FiberAssembly& shape_after, const MotionOptions& options,
                                      MotionResult& result) const;
 
-  /// @param before for what is known of the fibres where they begin
-  virtual void do_update_swept(const FiberAssembly& before, const FiberAssembly& swept,
-                               bool same_topology);
-  /// Pairs of swept segments with a gap of at most the margin, but for those that the test leaves
-  /// out; others may be among them.
-  virtual void do_find_candidates(const FiberAssembly& swept, const PairTest& test,
-                                  const QueryLimits& limits, MotionCandidates& candidates) const;
-  /// The same of a swept shape (a) and the swept fibres (b).
-  virtual void do_find_shape_candidates(const FiberAssembly& shape, const FiberAssembly& swept,
-                                        const PairTest& test, const QueryLimits& limits,
+  /// Pairs of segments whose gap comes down to the test's margin, but for those that the test
+  /// leaves out; others may be among them.
+  virtual void do_find_candidates(const PairTest& test, const QueryLimits& limits,
+                                  MotionCandidates& candidates) const;
+  /// The same of a shape that moves (a) and the fibres (b).
+  virtual void do_find_shape_candidates(const FiberMotion& shape, const PairTest& test,
+                                        const QueryLimits& limits,
                                         MotionCandidates& candidates) const;
   /// What is known of the loops of the fibres before the motion, nullptr if nothing is.
   virtual const LoopTest* loops_before() const { return nullptr; }

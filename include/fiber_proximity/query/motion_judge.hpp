@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
-#include "fiber_proximity/query/motion.hpp"
 #include "fiber_proximity/query/motion_slices.hpp"
 #include "fiber_proximity/query/pair_test.hpp"
 #include "fiber_proximity/query/query_limits.hpp"
@@ -14,12 +16,19 @@ struct FiberMotion {
   const FiberAssembly& after;
 };
 
-/// When each candidate comes into contact, slice by slice on several threads, and which of these
-/// the options ask for. The same for any number of threads.
-/// @param a, b of the first and the second segments of pairs, the same for fibres with each other
-/// @param test of the fibres before the motion
-void judge_motion(const MotionCandidates& candidates, const FiberMotion& a, const FiberMotion& b,
-                  const PairTest& test, const MotionOptions& options, const QueryLimits& limits,
-                  MotionResult& result);
+/// Finds when candidates come into contact, slice by slice on several threads. Gives the same for
+/// any number of threads. Keeps its memory from query to query.
+class MotionJudge {
+ public:
+  /// @param a, b of the first and the second segments of pairs, the same for fibres with each other
+  /// @param test of the fibres before the motion
+  /// @param result replaced, its contacts by those that the options ask for
+  void judge(const MotionCandidates& candidates, const FiberMotion& a, const FiberMotion& b,
+             const PairTest& test, const MotionOptions& options, const QueryLimits& limits,
+             MotionResult& result);
+
+ private:
+  std::vector<MotionSlice> slices_;  // of a round
+};
 
 }  // namespace fiber

@@ -2,14 +2,11 @@
 
 #include <tbb/task_arena.h>
 
-#include <memory>
-#include <mutex>
-#include <vector>
-
 #include "fiber_proximity/hierarchy/motion_bound.hpp"
 #include "fiber_proximity/hierarchy/run_tree.hpp"
 #include "fiber_proximity/query/contact_batch.hpp"
 #include "fiber_proximity/query/engine.hpp"
+#include "fiber_proximity/query/idle_memory.hpp"
 #include "fiber_proximity/query/kept_candidates.hpp"
 #include "fiber_proximity/query/loop_test.hpp"
 #include "fiber_proximity/query/outdated_segments.hpp"
@@ -43,12 +40,12 @@ class RunTreeEngine final : public ProximityEngine {
                 QueryResult& result) const override;
   void do_query_shape(const FiberAssembly& shape, const FiberAssembly& fibers,
                       const QueryOptions& options, QueryResult& result) const override;
-  void do_update_swept(const FiberAssembly& before, const FiberAssembly& swept,
-                       bool same_topology) override;
-  void do_find_candidates(const FiberAssembly& swept, const PairTest& test,
-                          const QueryLimits& limits, MotionCandidates& candidates) const override;
-  void do_find_shape_candidates(const FiberAssembly& shape, const FiberAssembly& swept,
-                                const PairTest& test, const QueryLimits& limits,
+  void do_update_motion(const FiberAssembly& before, const FiberAssembly& after,
+                        bool same_topology) override;
+  void do_find_candidates(const PairTest& test, const QueryLimits& limits,
+                          MotionCandidates& candidates) const override;
+  void do_find_shape_candidates(const FiberMotion& shape, const PairTest& test,
+                                const QueryLimits& limits,
                                 MotionCandidates& candidates) const override;
   const LoopTest* loops_before() const override { return &loops_; }
   void on_threads(const std::function<void()>& work) const override { arena_.execute(work); }
@@ -89,8 +86,7 @@ class RunTreeEngine final : public ProximityEngine {
   mutable KeptCandidates kept_;
   OutdatedSegments outdated_;  // what makes the kept candidates OUTDATED
   LoopTest loops_;
-  mutable std::mutex mutex_;
-  mutable std::vector<std::unique_ptr<ContactBatch>> idle_batches_;
+  mutable IdleMemory<ContactBatch> batches_;
 };
 
 }  // namespace fiber
