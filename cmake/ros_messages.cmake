@@ -33,6 +33,7 @@ add_message_files(FILES
   Comparison.msg
   Contact.msg
   ContactArray.msg
+  ContactEvent.msg
   Crossing.msg
   CrossingArray.msg
   Disagreement.msg
@@ -41,9 +42,11 @@ add_message_files(FILES
   InputStatistics.msg
   Obstacle.msg
   ObstacleArray.msg
+  PredictedContact.msg
   QueryShape.msg
   SimulationParameter.msg
   Statistics.msg
+  TimeToContact.msg
 )
 add_service_files(FILES
   AllowPairs.srv

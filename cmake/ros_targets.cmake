@@ -2,6 +2,7 @@
 
 add_library(fiber_proximity_ros SHARED
   src/ros/allowed_contacts.cpp
+  src/ros/candidates.cpp
   src/ros/chain_set.cpp
   src/ros/change_topic.cpp
   src/ros/check_service.cpp
@@ -11,6 +12,7 @@ add_library(fiber_proximity_ros SHARED
   src/ros/cloud_worker.cpp
   src/ros/comparison_output.cpp
   src/ros/contact_array.cpp
+  src/ros/contact_events.cpp
   src/ros/conversions.cpp
   src/ros/crossing_markers.cpp
   src/ros/crossings_output.cpp
@@ -20,11 +22,13 @@ add_library(fiber_proximity_ros SHARED
   src/ros/dynamic_parameters.cpp
   src/ros/environment_inputs.cpp
   src/ros/environment_markers.cpp
+  src/ros/environment_motion_detector.cpp
   src/ros/environment_options.cpp
   src/ros/environment_output.cpp
   src/ros/environment_scene.cpp
   src/ros/fiber_formats.cpp
   src/ros/fiber_player.cpp
+  src/ros/fiber_step.cpp
   src/ros/fixed_frame.cpp
   src/ros/input.cpp
   src/ros/input_options.cpp
@@ -38,6 +42,8 @@ add_library(fiber_proximity_ros SHARED
   src/ros/markers.cpp
   src/ros/mesh_loader.cpp
   src/ros/missing_points.cpp
+  src/ros/motion_check.cpp
+  src/ros/motion_detector.cpp
   src/ros/obstacle_change.cpp
   src/ros/obstacle_pose.cpp
   src/ros/obstacle_service.cpp
@@ -47,6 +53,7 @@ add_library(fiber_proximity_ros SHARED
   src/ros/parse_mesh.cpp
   src/ros/point_cloud_input.cpp
   src/ros/pose_input.cpp
+  src/ros/prediction_output.cpp
   src/ros/proximity_server.cpp
   src/ros/query_services.cpp
   src/ros/query_settings.cpp
@@ -60,6 +67,8 @@ add_library(fiber_proximity_ros SHARED
   src/ros/shape_marker.cpp
   src/ros/shape_query.cpp
   src/ros/stamp_matcher.cpp
+  src/ros/statistics_output.cpp
+  src/ros/step_contacts.cpp
   src/ros/touched_objects.cpp
   src/ros/tube_mesh.cpp
   src/ros/tube_sweep.cpp

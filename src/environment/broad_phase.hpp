@@ -11,40 +11,24 @@
 #include <memory>
 #include <vector>
 
-#include "fiber_proximity/environment/axis_distance.hpp"
 #include "fiber_proximity/environment/environment.hpp"
-#include "fiber_proximity/environment/shape_box.hpp"
+#include "world_shape.hpp"
 
 namespace fiber {
-
-/// A shape of an object where it is in the world.
-struct WorldShape {
-  WorldShape(const EnvironmentObject& owner, std::uint32_t object_index, std::uint32_t shape_index)
-      : object(object_index),
-        index(shape_index),
-        shape(owner.shapes[shape_index].shape),
-        pose(owner.pose * owner.shapes[shape_index].pose),
-        to_shape(pose.inverse(Eigen::Isometry)),
-        box(world_box(shape, pose)),
-        rounding(0x1p-48 * (reach(shape) + pose.translation().cwiseAbs().maxCoeff())) {}
-
-  std::uint32_t object;
-  std::uint32_t index;  // of the shape in its object
-  const Shape& shape;
-  Eigen::Isometry3d pose;
-  Eigen::Isometry3d to_shape;
-  WorldBox box;
-  double rounding;  // [m] what its place adds to the error of a distance
-};
 
 /// Finds the shapes near a box: those that end somewhere in FCL's dynamic AABB tree, the others are
 /// near everything.
 class Environment::BroadPhase {
  public:
-  explicit BroadPhase(const std::vector<EnvironmentObject>& objects) {
+  /// @param paths of objects that move, by object; empty where all stand still. Referred to
+  explicit BroadPhase(const std::vector<EnvironmentObject>& objects,
+                      const std::vector<ObjectPath>& paths = {}) {
     for (std::uint32_t i = 0; i < objects.size(); ++i) {
       for (std::uint32_t j = 0; j < objects[i].shapes.size(); ++j) {
         shapes_.emplace_back(objects[i], i, j);
+        if (!paths.empty()) {
+          shapes_.back().move_along(paths[i]);
+        }
       }
     }
     boxes_.reserve(shapes_.size());
@@ -59,6 +43,9 @@ class Environment::BroadPhase {
     tree_.registerObjects(bounded);
     tree_.setup();
   }
+
+  /// By object, then by their index in it.
+  const std::vector<WorldShape>& shapes() const { return shapes_; }
 
   /// Calls visit(shape) for the shapes near the box, nearer ones first, roughly. visit() returns
   /// how far they may be from then on [m]; boxes that overlap are never too far, unless it returns

@@ -2,51 +2,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
-#include <string_view>
 
 #include "broad_phase.hpp"
 
 namespace fiber {
-namespace {
-
-/// Index of a segment that may be counted from the end.
-std::int64_t from_begin(std::int64_t segment, std::int64_t segment_count) {
-  return segment < 0 ? segment_count + segment : segment;
-}
-
-/// Sorts and finds parts by fibre.
-struct OfFiber {
-  bool operator()(const AllowedPart& a, const AllowedPart& b) const { return a.fiber < b.fiber; }
-  bool operator()(const AllowedPart& a, std::uint32_t fiber) const { return a.fiber < fiber; }
-  bool operator()(std::uint32_t fiber, const AllowedPart& b) const { return fiber < b.fiber; }
-};
-
-/// By object, behind them those of every object; each sorted by fibre.
-std::vector<std::vector<AllowedPart>> by_object(const AllowedPairs& allowed,
-                                                const std::vector<EnvironmentObject>& objects) {
-  std::vector<std::vector<AllowedPart>> sorted;
-  if (allowed.empty()) {
-    return sorted;
-  }
-  sorted.resize(objects.size() + 1);
-  std::map<std::string_view, std::size_t> indices{{"", objects.size()}};
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    indices.emplace(objects[i].name, i);
-  }
-  for (const AllowedPair& pair : allowed) {
-    if (const auto found = indices.find(pair.object); found != indices.end()) {
-      sorted[found->second].push_back({pair.fiber, pair.first_segment, pair.last_segment});
-    }
-  }
-  for (std::vector<AllowedPart>& parts : sorted) {
-    std::sort(parts.begin(), parts.end(), OfFiber());
-  }
-  return sorted;
-}
-
-}  // namespace
-
 SegmentRun::SegmentRun(const FiberAssembly& fibers, std::uint32_t owner, std::uint32_t first_point,
                        std::uint32_t last_point)
     : fiber(owner), begin(first_point), end(last_point) {
@@ -57,13 +16,31 @@ SegmentRun::SegmentRun(const FiberAssembly& fibers, std::uint32_t owner, std::ui
   }
 }
 
+Contact contact_of(const Capsule& capsule, const WorldShape& shape, const AxisDistance& axis) {
+  const Eigen::Vector3d nearest = capsule.p0 + axis.s * (capsule.p1 - capsule.p0);
+  const Eigen::Vector3d away = shape.pose.linear() * axis.gradient;
+  const double error = shape.rounding + 0x1p-48 * std::max(capsule.p0.cwiseAbs().maxCoeff(),
+                                                           capsule.p1.cwiseAbs().maxCoeff());
+  Contact contact;
+  contact.s = axis.s;
+  contact.fiber_b = shape.object;
+  contact.segment_b = shape.index;
+  contact.distance = axis.distance - capsule.radius;
+  contact.lower = axis.lower - error - capsule.radius;
+  contact.upper = axis.distance + error - capsule.radius;
+  contact.normal = -away;
+  contact.point_a = nearest - capsule.radius * away;
+  contact.point_b = nearest - axis.distance * away;
+  return contact;
+}
+
 EnvironmentQuery::EnvironmentQuery(const FiberAssembly& fibers,
                                    const std::vector<EnvironmentObject>& objects,
                                    const QueryOptions& options, const AllowedPairs& allowed,
                                    QueryResult& result)
     : keeper_(options, result),
       fibers_(fibers),
-      allowed_(by_object(allowed, objects)),
+      allowed_(allowed, objects),
       counts_(result.counts) {}
 
 double EnvironmentQuery::offer(const SegmentRun& run, const WorldShape& shape) {
@@ -85,7 +62,8 @@ double EnvironmentQuery::offer(const SegmentRun& run, const WorldShape& shape) {
 
 void EnvironmentQuery::offer_segment(const SegmentRun& run, std::uint32_t point,
                                      const WorldShape& shape) {
-  if (is_allowed(run, point, shape)) {
+  const std::uint32_t first = fibers_.offsets()[run.fiber];
+  if (allowed_.holds(fibers_, {run.fiber, point - first}, shape.object)) {
     return;
   }
   const Capsule capsule = fibers_.capsule(point);
@@ -106,57 +84,14 @@ void EnvironmentQuery::offer_segment(const SegmentRun& run, std::uint32_t point,
     keeper_.leave_out(bound);
     return;
   }
-  const Contact found = contact(run, point, shape, axis);
+  Contact found = contact_of(capsule, shape, axis);
+  found.fiber_a = run.fiber;
+  found.segment_a = point - first;
   if (found.distance <= bound) {
     keeper_.keep(found);
   } else {
     keeper_.leave_out(found.lower);
   }
-}
-
-bool EnvironmentQuery::is_allowed(const SegmentRun& run, std::uint32_t point,
-                                  const WorldShape& shape) const {
-  if (allowed_.empty()) {
-    return false;
-  }
-  const std::uint32_t first = fibers_.offsets()[run.fiber];
-  const std::int64_t count = fibers_.offsets()[run.fiber + 1] - first - 1;
-  const std::int64_t segment = point - first;
-  const auto holds_segment = [&](const AllowedPart& part) {
-    return from_begin(part.first_segment, count) <= segment &&
-           segment <= from_begin(part.last_segment, count);
-  };
-  for (const std::vector<AllowedPart>* parts : {&allowed_[shape.object], &allowed_.back()}) {
-    for (const std::uint32_t fiber : {run.fiber, AllowedPair::every_fiber}) {
-      const auto [begin, end] = std::equal_range(parts->begin(), parts->end(), fiber, OfFiber());
-      if (std::any_of(begin, end, holds_segment)) {
-        return true;
-      }
-    }
-  }
-  return false;
-}
-
-Contact EnvironmentQuery::contact(const SegmentRun& run, std::uint32_t point,
-                                  const WorldShape& shape, const AxisDistance& axis) const {
-  const Capsule capsule = fibers_.capsule(point);
-  const Eigen::Vector3d nearest = capsule.p0 + axis.s * (capsule.p1 - capsule.p0);
-  const Eigen::Vector3d away = shape.pose.linear() * axis.gradient;
-  const double error = shape.rounding + 0x1p-48 * std::max(capsule.p0.cwiseAbs().maxCoeff(),
-                                                           capsule.p1.cwiseAbs().maxCoeff());
-  Contact contact;
-  contact.fiber_a = run.fiber;
-  contact.segment_a = point - fibers_.offsets()[run.fiber];
-  contact.s = axis.s;
-  contact.fiber_b = shape.object;
-  contact.segment_b = shape.index;
-  contact.distance = axis.distance - capsule.radius;
-  contact.lower = axis.lower - error - capsule.radius;
-  contact.upper = axis.distance + error - capsule.radius;
-  contact.normal = -away;
-  contact.point_a = nearest - capsule.radius * away;
-  contact.point_b = nearest - axis.distance * away;
-  return contact;
 }
 
 void EnvironmentQuery::finish() { keeper_.finish(-std::numeric_limits<double>::infinity()); }

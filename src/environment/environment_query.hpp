@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "allowed_parts.hpp"
 #include "fiber_proximity/environment/allowed_pairs.hpp"
 #include "fiber_proximity/environment/axis_distance.hpp"
 #include "fiber_proximity/environment/shape_box.hpp"
 #include "fiber_proximity/environment/shapes.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/contact_keeper.hpp"
 
 namespace fiber {
@@ -26,12 +28,8 @@ struct SegmentRun {
   double radius = 0.0;  // the largest [m]
 };
 
-/// A part of a fibre that may touch an object: as AllowedPair has it.
-struct AllowedPart {
-  std::uint32_t fiber;
-  std::int64_t first_segment;
-  std::int64_t last_segment;
-};
+/// What is reported of a segment (a) and a shape (b); which segment it is is left open.
+Contact contact_of(const Capsule& capsule, const WorldShape& shape, const AxisDistance& axis);
 
 /// One query of an environment: decides which pairs of segments and shapes are contacts.
 class EnvironmentQuery {
@@ -51,14 +49,10 @@ class EnvironmentQuery {
  private:
   double reach_of(const SegmentRun& run) const { return keeper_.bound() + run.radius; }
   void offer_segment(const SegmentRun& run, std::uint32_t point, const WorldShape& shape);
-  bool is_allowed(const SegmentRun& run, std::uint32_t point, const WorldShape& shape) const;
-  Contact contact(const SegmentRun& run, std::uint32_t point, const WorldShape& shape,
-                  const AxisDistance& axis) const;
 
   ContactKeeper keeper_;
   const FiberAssembly& fibers_;
-  // By object, behind them those of every object; empty if there are none at all.
-  std::vector<std::vector<AllowedPart>> allowed_;
+  AllowedParts allowed_;
   QueryCounts& counts_;
 };
 

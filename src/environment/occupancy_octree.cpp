@@ -31,24 +31,21 @@ double checked_resolution(double resolution) {
 /// Where a cube of the octree is: its centre in units of half a cell, which numbers have exactly.
 using HalfCells = Eigen::Array3i;
 
-/// Looks for the nearest cell, near ones first.
-class Search {
+/// Goes to the cells that are within a bound [m] of a box, near ones first, roughly.
+/// @tparam Look called with the centre of a cell [m] and the bound, which it may lower
+template <class Look>
+class CellSearch {
  public:
   using Codes = const std::uint64_t*;
 
-  Search(double resolution, const Vector3d& p0, const Vector3d& p1, double bound)
-      : resolution_(resolution), p0_(p0), p1_(p1), bound_(bound) {
-    axis_box_.extend(p0).extend(p1);
-    best_.distance = std::numeric_limits<double>::infinity();
-    best_.lower = std::numeric_limits<double>::infinity();
-  }
+  CellSearch(double resolution, const WorldBox& around, double bound, const Look& look)
+      : resolution_(resolution), around_(around), bound_(bound), look_(look) {}
 
   /// @param codes of the cells, in ascending order
-  AxisDistance nearest(const std::vector<std::uint64_t>& codes) {
+  void search(const std::vector<std::uint64_t>& codes) {
     if (!codes.empty()) {
       visit({codes.data(), codes.data() + codes.size(), HalfCells::Zero(), 0.0}, 0);
     }
-    return best_;
   }
 
  private:
@@ -62,7 +59,7 @@ class Search {
 
   void visit(const Cube& parent, int level) {
     if (level == morton_levels) {
-      look_at(parent.centre);
+      look_(position(parent.centre), bound_);
       return;
     }
     const int step = 1 << (morton_levels - level - 1);
@@ -77,7 +74,7 @@ class Search {
       });
       child.centre =
           parent.centre + step * HalfCells(sign(place & 1U), sign(place & 2U), sign(place & 4U));
-      child.distance = axis_box_.exteriorDistance(box(child.centre, step));
+      child.distance = around_.exteriorDistance(box(child.centre, step));
     }
     const auto end = children.begin() + static_cast<std::ptrdiff_t>(count);
     std::sort(children.begin(), end,
@@ -101,25 +98,10 @@ class Search {
     return {position(centre - half), position(centre + half)};
   }
 
-  void look_at(const HalfCells& centre) {
-    const BoxShape cell{Vector3d::Constant(resolution_)};
-    const Vector3d offset = position(centre);
-    const AxisDistance found = axis_distance(cell, p0_ - offset, p1_ - offset);
-    if (found.distance < best_.distance && found.distance <= bound_) {
-      best_.s = found.s;
-      best_.distance = found.distance;
-      best_.gradient = found.gradient;
-      bound_ = found.distance;
-    }
-    best_.lower = std::min(best_.lower, found.lower);
-  }
-
   const double resolution_;  // [m]
-  const Vector3d& p0_;
-  const Vector3d& p1_;
-  WorldBox axis_box_;
+  const WorldBox& around_;
   double bound_;
-  AxisDistance best_;
+  const Look& look_;
 };
 
 }  // namespace
@@ -154,7 +136,29 @@ OccupancyOctree::OccupancyOctree(double resolution, const std::vector<Vector3d>&
 
 AxisDistance OccupancyOctree::axis_distance(const Vector3d& p0, const Vector3d& p1,
                                             double bound) const {
-  return Search(resolution_, p0, p1, bound).nearest(codes_);
+  const BoxShape cell{Vector3d::Constant(resolution_)};
+  AxisDistance best;
+  best.distance = std::numeric_limits<double>::infinity();
+  best.lower = std::numeric_limits<double>::infinity();
+  const auto look = [&](const Vector3d& centre, double& most) {
+    const AxisDistance found = fiber::axis_distance(cell, p0 - centre, p1 - centre);
+    if (found.distance < best.distance && found.distance <= most) {
+      best.s = found.s;
+      best.distance = found.distance;
+      best.gradient = found.gradient;
+      most = found.distance;
+    }
+    best.lower = std::min(best.lower, found.lower);
+  };
+  const WorldBox axis_box(p0.cwiseMin(p1), p0.cwiseMax(p1));
+  CellSearch(resolution_, axis_box, bound, look).search(codes_);
+  return best;
+}
+
+void OccupancyOctree::visit_near(const WorldBox& box, double within,
+                                 const std::function<void(const Vector3d&)>& visit) const {
+  const auto look = [&](const Vector3d& centre, double&) { visit(centre); };
+  CellSearch(resolution_, box, within, look).search(codes_);
 }
 
 }  // namespace fiber

@@ -120,6 +120,11 @@ class TriangleMesh::Surface {
     return distance;
   }
 
+  template <class Visit>
+  void visit_near(const WorldBox& box, double within, const Visit& visit) const {
+    search(box, within, [&](std::uint32_t triangle, double&) { visit(corners(triangle)); });
+  }
+
  private:
   TriangleCorners corners(std::uint32_t triangle) const {
     const Triangle& indices = triangles_[triangle];
@@ -200,6 +205,11 @@ AxisDistance TriangleMesh::axis_distance(const Vector3d& p0, const Vector3d& p1,
   }
   return lipschitz_minimum([&](double s) { return surface_->signed_distance(p0 + s * (p1 - p0)); },
                            length, at);
+}
+
+void TriangleMesh::visit_near(const WorldBox& box, double within,
+                              const std::function<void(const TriangleCorners&)>& visit) const {
+  surface_->visit_near(box, within, visit);
 }
 
 }  // namespace fiber

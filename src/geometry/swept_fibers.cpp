@@ -9,7 +9,7 @@
 
 namespace fiber {
 
-void check_same_topology(const FiberAssembly& before, const FiberAssembly& after) {
+void require_same_topology(const FiberAssembly& before, const FiberAssembly& after) {
   if (before.offsets() != after.offsets()) {
     std::ostringstream message;
     message << "the fibres change their topology: " << before.fiber_count() << " of "
@@ -34,13 +34,13 @@ Eigen::Vector3d drift_of(const FiberAssembly& before, const FiberAssembly& after
 }
 
 void SweptFibers::update(const FiberAssembly& before, const FiberAssembly& after) {
-  check_same_topology(before, after);
+  require_same_topology(before, after);
   update(before, after, drift_of(before, after));
 }
 
 void SweptFibers::update(const FiberAssembly& before, const FiberAssembly& after,
                          const Eigen::Vector3d& drift) {
-  check_same_topology(before, after);
+  require_same_topology(before, after);
   drift_ = drift;
   const std::size_t count = before.point_count();
   points_.resize(count);

@@ -19,6 +19,25 @@ QueryOptions pairs_of(const MotionOptions& options) {
   return pairs;
 }
 
+MotionOptions motion_options(const QueryOptions& options, double tolerance) {
+  MotionOptions motion;
+  if (options.type == QueryType::FIRST || options.type == QueryType::CLOSEST) {
+    motion.type = MotionType::FIRST;
+  } else if (options.type == QueryType::LIMITED) {
+    motion.type = MotionType::LIMITED;
+  }
+  motion.margin = options.margin;
+  motion.tolerance = tolerance;
+  motion.max_contacts = options.max_contacts;
+  motion.pairing = options.pairing;
+  motion.neighbour_skip = options.neighbour_skip;
+  motion.neighbour_skip_length = options.neighbour_skip_length;
+  motion.deadline = options.deadline;
+  motion.contact_limit = options.contact_limit;
+  motion.pair_limit = options.pair_limit;
+  return motion;
+}
+
 void validate(const MotionOptions& options) {
   QueryOptions pairs = pairs_of(options);
   pairs.tolerance = options.tolerance;

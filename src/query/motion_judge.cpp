@@ -9,10 +9,8 @@
 namespace fiber {
 namespace {
 
-constexpr std::size_t motions_per_slice = 512;
-// Motions are judged in rounds, so that what is found of them takes little memory.
+// Motions are judged in rounds, so that their times take little memory.
 constexpr std::size_t slices_per_round = 32;
-constexpr std::size_t motions_per_round = slices_per_round * motions_per_slice;
 
 /// Which motions are asked about, and what of each is reported.
 class MotionTest {
@@ -24,7 +22,7 @@ class MotionTest {
   /// @param count at most that of a slice
   /// @param times found, as many
   void report(const std::uint64_t* keys, std::size_t count, ContactTime* times,
-              std::vector<MotionContact>& contacts, std::vector<MotionContact>& touching) const {
+              MotionSlice& slice) const {
     SegmentMotions motions[motions_per_slice];
     for (std::size_t i = 0; i < count; ++i) {
       motions[i] = motions_of(pair_of(keys[i]));
@@ -34,7 +32,8 @@ class MotionTest {
       const PointPair pair = pair_of(keys[i]);
       // Few come so far: whether a fibre makes a loop costs more than when it has contact.
       if (times[i].hit && !test_.lacks_loop(pair)) {
-        (is_there_before(times[i]) ? touching : contacts).push_back(contact(pair, times[i]));
+        (is_there_before(times[i]) ? slice.touching : slice.contacts)
+            .push_back(contact(pair, times[i]));
       }
     }
   }
@@ -67,33 +66,6 @@ class MotionTest {
   const MotionOptions& options_;
 };
 
-/// The most contacts to report that begin during the motion, 0 for no limit.
-std::size_t most_contacts(const MotionOptions& options) {
-  std::size_t most = options.contact_limit;
-  if (options.type != MotionType::ALL) {
-    const std::size_t asked = options.type == MotionType::FIRST ? 1 : options.max_contacts;
-    most = most == 0 ? asked : std::min(most, asked);
-  }
-  return most;
-}
-
-/// Leaves the earliest ones, sorted by key.
-/// @return whether there were more
-bool keep_earliest(std::size_t most, MotionResult& result) {
-  std::vector<MotionContact>& contacts = result.contacts;
-  if (most == 0 || contacts.size() <= most) {
-    return false;
-  }
-  std::nth_element(
-      contacts.begin(), contacts.begin() + static_cast<std::ptrdiff_t>(most), contacts.end(),
-      [](const MotionContact& x, const MotionContact& y) { return x.earlier_than(y); });
-  result.others_lower = std::min(result.others_lower, contacts[most].lower);
-  contacts.resize(most);
-  std::sort(contacts.begin(), contacts.end(),
-            [](const MotionContact& x, const MotionContact& y) { return x.key() < y.key(); });
-  return true;
-}
-
 }  // namespace
 
 void MotionJudge::judge(const MotionCandidates& candidates, const FiberMotion& a,
@@ -101,43 +73,23 @@ void MotionJudge::judge(const MotionCandidates& candidates, const FiberMotion& a
                         const QueryLimits& limits, MotionResult& result) {
   const std::vector<std::uint64_t>& keys = candidates.keys;
   const MotionTest motions(a, b, test, options);
-  result.contacts.clear();
-  result.touching.clear();
-  result.counts = candidates.counts;
-  result.counts.primitive_tests += keys.size();
-  result.complete = candidates.are_all && !candidates.are_too_many;
-  for (std::size_t begin = 0; begin < keys.size(); begin += motions_per_round) {
-    const std::size_t end = std::min(keys.size(), begin + motions_per_round);
-    const std::size_t count = (end - begin + motions_per_slice - 1) / motions_per_slice;
-    slices_.resize(std::max(slices_.size(), count));
-    for_each_of(count, [&](std::size_t index) {
-      Slice& slice = slices_[index];
+  const std::size_t count = (keys.size() + motions_per_slice - 1) / motions_per_slice;
+  slices_.resize(std::max(slices_.size(), count));
+  times_.resize(std::max(times_.size(), std::min(count, slices_per_round) * motions_per_slice));
+  for (std::size_t round = 0; round < count; round += slices_per_round) {
+    for_each_of(std::min(slices_per_round, count - round), [&](std::size_t index) {
+      MotionSlice& slice = slices_[round + index];
       slice.contacts.clear();
       slice.touching.clear();
       slice.complete = !limits.deadline.has_passed();
       if (slice.complete) {
-        const std::size_t first = begin + index * motions_per_slice;
-        slice.times.resize(motions_per_slice);
-        motions.report(keys.data() + first, std::min(motions_per_slice, end - first),
-                       slice.times.data(), slice.contacts, slice.touching);
+        const std::size_t first = (round + index) * motions_per_slice;
+        motions.report(keys.data() + first, std::min(motions_per_slice, keys.size() - first),
+                       times_.data() + index * motions_per_slice, slice);
       }
     });
-    for (std::size_t i = 0; i < count; ++i) {
-      const Slice& slice = slices_[i];
-      result.contacts.insert(result.contacts.end(), slice.contacts.begin(), slice.contacts.end());
-      result.touching.insert(result.touching.end(), slice.touching.begin(), slice.touching.end());
-      result.complete = result.complete && slice.complete;
-    }
   }
-  result.others_lower = result.complete ? 1.0 : 0.0;
-  result.limit_reached = candidates.are_too_many;
-  if (options.contact_limit > 0 && result.touching.size() > options.contact_limit) {
-    result.touching.resize(options.contact_limit);
-    result.others_lower = 0.0;
-    result.limit_reached = true;
-  }
-  const bool are_more = keep_earliest(most_contacts(options), result);
-  result.limit_reached = result.limit_reached || (are_more && options.type != MotionType::FIRST);
+  merge_slices(slices_.data(), count, candidates, options, result);
 }
 
 }  // namespace fiber

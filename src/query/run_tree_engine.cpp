@@ -251,7 +251,7 @@ RunTreeEngine::Candidates RunTreeEngine::current_candidates(const PairTest& test
 /// The tree holds what segments that move come by: more closely than swept ones would.
 void RunTreeEngine::do_update_motion(const FiberAssembly& before, const FiberAssembly& after,
                                      bool same_topology) {
-  check_same_topology(before, after);
+  require_same_topology(before, after);
   loops_.reset(before);
   arena_.execute([&] {
     const Eigen::Vector3d origin = hierarchy_origin(before);
@@ -274,7 +274,7 @@ void RunTreeEngine::do_find_candidates(const PairTest& test, const QueryLimits& 
 void RunTreeEngine::do_find_shape_candidates(const FiberMotion& shape, const PairTest& test,
                                              const QueryLimits& limits,
                                              MotionCandidates& candidates) const {
-  check_same_topology(shape.before, shape.after);
+  require_same_topology(shape.before, shape.after);
   RunTree shape_tree;
   shape_tree.build({shape.before, shape.after, tree_.origin(), tree_.origin_after()});
   check_ways(shape_tree, shape.before, shape.after);

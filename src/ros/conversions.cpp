@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "fiber_proximity/query/gap_gradient.hpp"
+
 namespace fiber_proximity_ros {
 
 geometry_msgs::Point to_message(const Eigen::Vector3d& point) {
@@ -47,6 +49,17 @@ void to_message(const fiber::Contact& contact, std::uint8_t body_a, std::uint8_t
   message.point_a = to_message(contact.point_a);
   message.point_b = to_message(contact.point_b);
   message.normal = to_vector_message(contact.normal);
+}
+
+void add_gradients(const fiber::Contact& contact, bool are_wanted,
+                   fiber_proximity::Contact& message) {
+  message.gradients.clear();
+  if (are_wanted) {
+    const fiber::GapGradient gradient = fiber::gradient_of(contact);
+    for (const Eigen::Vector3d& by_point : {gradient.a0, gradient.a1, gradient.b0, gradient.b1}) {
+      message.gradients.push_back(to_vector_message(by_point));
+    }
+  }
 }
 
 void to_message(const fiber::Crossing& crossing, fiber_proximity::Crossing& message) {

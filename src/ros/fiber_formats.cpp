@@ -17,7 +17,7 @@ namespace {
 
 using fiber::FiberAssembly;
 
-geometry_msgs::Pose to_pose(const Eigen::Vector3d& point) {
+geometry_msgs::Pose pose_of_point(const Eigen::Vector3d& point) {
   geometry_msgs::Pose pose;
   pose.position = to_message(point);
   pose.orientation.w = 1.0;
@@ -63,7 +63,7 @@ void fill(const std_msgs::Header& header, const FiberAssembly& fibers,
   message.header = header;
   message.poses.clear();
   for (const Eigen::Vector3d& point : fibers.points()) {
-    message.poses.push_back(to_pose(point));
+    message.poses.push_back(pose_of_point(point));
   }
 }
 
@@ -73,7 +73,7 @@ void fill(const std_msgs::Header& header, const FiberAssembly& fibers, nav_msgs:
   for (const Eigen::Vector3d& point : fibers.points()) {
     message.poses.emplace_back();
     message.poses.back().header = header;
-    message.poses.back().pose = to_pose(point);
+    message.poses.back().pose = pose_of_point(point);
   }
 }
 

@@ -86,7 +86,7 @@ void enter_limits(const ParseLimits& limits, std::size_t used) {
 bool send_all(int pipe, const void* data, std::size_t size) {
   const auto* next = static_cast<const char*>(data);
   while (size > 0) {
-    const ssize_t sent = write(pipe, next, size);
+    const ssize_t sent = ::write(pipe, next, size);
     if (sent < 0 && errno != EINTR) {
       return false;
     }
@@ -169,7 +169,7 @@ class ParsingProcess {
       if (ready < 0 && errno == EINTR) {
         continue;
       }
-      const ssize_t received = ready > 0 ? read(from_->number(), next, size) : 0;
+      const ssize_t received = ready > 0 ? ::read(from_->number(), next, size) : 0;
       if (received < 0 && errno == EINTR) {
         continue;
       }

@@ -7,6 +7,7 @@
 #include "fiber_proximity/environment/shapes.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/query/contact.hpp"
+#include "fiber_proximity/query/motion_judge.hpp"
 #include "fiber_proximity/query/options.hpp"
 
 namespace fiber {
@@ -36,8 +37,43 @@ class Environment {
   void query(const FiberAssembly& fibers, const QueryOptions& options, const AllowedPairs& allowed,
              QueryResult& result) const;
 
+  /// A segment (a) and a shape of an object (b), however far apart: as query() has it, but for
+  /// fiber_a and segment_a, which are 0.
+  /// @throws std::out_of_range for an object or a shape that there is not
+  Contact contact(const Capsule& segment, std::uint32_t object, std::uint32_t shape) const;
+
+  /// Pairs of a segment (a) and a shape of an object (b), as query() has them, that come into
+  /// contact while every point of the fibres moves linearly from where it is before to where it is
+  /// after. Of each segment the larger radius counts. No contact is missed, however thin both are,
+  /// and each time has proven bounds: see shape_contact_time.hpp. Pairs that query() reports before
+  /// the motion are in `touching`, with the times 0. The pairing and the neighbour skips do not
+  /// apply. Works on all cores; the answer is the same on any number.
+  /// @throws std::invalid_argument for options that do not validate, or fibres that change their
+  ///         topology
+  void query_motion(const FiberAssembly& before, const FiberAssembly& after,
+                    const MotionOptions& options, const AllowedPairs& allowed,
+                    MotionResult& result) const;
+
+  /// The same while objects move to where those of the same name are later: their positions move
+  /// linearly, and they turn at a constant rate about one axis, the shorter way round, as tf
+  /// interpolates. Objects that are not there later stand still; those that are only there later
+  /// are not looked at.
+  /// @throws std::invalid_argument for an object that has other shapes later, meshes and octrees
+  ///         not being the same ones included, or for a tolerance of 0 where one turns
+  void query_motion(const FiberAssembly& before, const FiberAssembly& after,
+                    const Environment& later, const MotionOptions& options,
+                    const AllowedPairs& allowed, MotionResult& result) const;
+
+  /// A pair that query_motion() has found, as it is at time_of() it.
+  Contact first_contact(const FiberMotion& motion, const Environment& later,
+                        const MotionContact& contact) const;
+
  private:
   class BroadPhase;
+
+  void query_motion(const BroadPhase& broad_phase, const FiberMotion& motion,
+                    const MotionOptions& options, const AllowedPairs& allowed,
+                    MotionResult& result) const;
 
   std::vector<EnvironmentObject> objects_;
   std::unique_ptr<const BroadPhase> broad_phase_;

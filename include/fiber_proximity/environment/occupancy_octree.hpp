@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "fiber_proximity/environment/axis_distance.hpp"
@@ -34,6 +35,11 @@ class OccupancyOctree {
   /// Infinitely far if nothing is within the bound [m].
   AxisDistance axis_distance(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1,
                              double bound) const;
+
+  /// Calls visit(centre) for the cells within so much [m] of a box, in an order that depends on
+  /// nothing else.
+  void visit_near(const WorldBox& box, double within,
+                  const std::function<void(const Eigen::Vector3d&)>& visit) const;
 
  private:
   double resolution_;  // [m]

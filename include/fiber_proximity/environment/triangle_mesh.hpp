@@ -4,11 +4,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
 #include "fiber_proximity/environment/axis_distance.hpp"
 #include "fiber_proximity/environment/shape_box.hpp"
+#include "fiber_proximity/environment/triangle_distance.hpp"
 
 namespace fiber {
 
@@ -43,6 +45,11 @@ class TriangleMesh {
   /// segment's length, whichever is more; `lower` tells.
   AxisDistance axis_distance(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1,
                              double bound) const;
+
+  /// Calls visit(corners) for the triangles whose boxes are within so much [m] of a box, in an
+  /// order that depends on nothing else.
+  void visit_near(const WorldBox& box, double within,
+                  const std::function<void(const TriangleCorners&)>& visit) const;
 
  private:
   class Surface;

@@ -8,8 +8,9 @@
 
 namespace fiber {
 
-/// @throws std::invalid_argument if the two are not of one topology
-void check_same_topology(const FiberAssembly& before, const FiberAssembly& after);
+/// @throws std::invalid_argument if there is no motion from one to the other, as the numbers of
+///         their fibres and of the points of these are not the same
+void require_same_topology(const FiberAssembly& before, const FiberAssembly& after);
 
 /// [m] What fibres of one topology have in common of their ways: about the mean of some points,
 /// evenly spread.

@@ -55,6 +55,9 @@ class ProximityEngine {
   void update(const FiberAssembly& fibers);
   void update(FiberAssembly&&) = delete;
 
+  /// Those of the last update; nullptr if there was none, or since a motion.
+  const FiberAssembly* fibers() const { return fibers_; }
+
   /// Pairs of segments of these fibres.
   /// @throws std::invalid_argument for options that do not validate
   void query(const QueryOptions& options, QueryResult& result) const;

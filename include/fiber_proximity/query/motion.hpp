@@ -58,6 +58,11 @@ void validate(const MotionOptions& options);
 /// Options of a query that asks for the same pairs, all of them.
 QueryOptions pairs_of(const MotionOptions& options);
 
+/// Options that ask for the same pairs over a motion: FIRST and CLOSEST for the earliest one,
+/// LIMITED for as many, all others for all of them.
+/// @param tolerance MotionOptions::tolerance [m]
+MotionOptions motion_options(const QueryOptions& options, double tolerance);
+
 /// Two segments, by fibre and index along it, and when their gap first falls to the margin: a
 /// ContactTime with a hit.
 struct MotionContact {

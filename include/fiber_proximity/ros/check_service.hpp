@@ -1,20 +1,13 @@
 #pragma once
 
-#include <functional>
-#include <string>
-#include <vector>
-
 #include "fiber_proximity/CheckFibers.h"
-#include "fiber_proximity/environment/allowed_pairs.hpp"
+#include "fiber_proximity/ros/candidates.hpp"
 #include "fiber_proximity/ros/query_target.hpp"
 
 namespace fiber_proximity_ros {
 
-/// What may touch fibres of these names.
-using FindAllowed = std::function<fiber::AllowedPairs(const std::vector<std::string>&)>;
-
-/// Checks the candidates of a request; fills in all of the response but header, names and
-/// success. Candidates that the deadline comes before are not read.
+/// Checks the candidates of a request, or their motions; fills in all of the response but header,
+/// names and success. Candidates that the deadline comes before are not read.
 /// @throws std::invalid_argument naming the candidate, the value and what is allowed
 /// @throws TransformUnavailable naming the candidate and its frame
 void answer(const fiber_proximity::CheckFibers::Request& request, const QueryTarget& target,

@@ -4,34 +4,38 @@
 #include <ros/node_handle.h>
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "fiber_proximity/ContactArray.h"
 #include "fiber_proximity/FiberArray.h"
 #include "fiber_proximity/ProximityConfig.h"
-#include "fiber_proximity/Statistics.h"
 #include "fiber_proximity/ros/comparison_output.hpp"
+#include "fiber_proximity/ros/contact_events.hpp"
 #include "fiber_proximity/ros/crossings_output.hpp"
 #include "fiber_proximity/ros/detector.hpp"
 #include "fiber_proximity/ros/diagnostics.hpp"
 #include "fiber_proximity/ros/dynamic_parameters.hpp"
 #include "fiber_proximity/ros/environment_markers.hpp"
 #include "fiber_proximity/ros/environment_output.hpp"
+#include "fiber_proximity/ros/fiber_step.hpp"
 #include "fiber_proximity/ros/input_set.hpp"
 #include "fiber_proximity/ros/markers.hpp"
+#include "fiber_proximity/ros/motion_detector.hpp"
+#include "fiber_proximity/ros/prediction_output.hpp"
 #include "fiber_proximity/ros/query_services.hpp"
 #include "fiber_proximity/ros/server_options.hpp"
+#include "fiber_proximity/ros/statistics_output.hpp"
+#include "fiber_proximity/ros/step_contacts.hpp"
 
 namespace fiber_proximity_ros {
 
 /// The proximity node: fibres in, contacts, markers and answers to queries out. One class behind
 /// node and nodelet; all its callbacks must come from one thread at a time.
 ///
-/// Publishes ~contacts, ~environment_contacts, ~crossings (see CrossingsOutput), ~fibers, ~markers,
-/// ~statistics, ~comparison and /diagnostics; serves ~compare, and what QueryServices and
-/// EnvironmentInputs serve. Each set of messages that have arrived gives one answer, each answer is
-/// published once, and what nobody subscribes to is not computed.
+/// Publishes ~contacts, ~environment_contacts, ~contact_events, ~time_to_contact, ~crossings (see
+/// CrossingsOutput), ~fibers, ~markers, ~statistics, ~comparison and /diagnostics; serves ~compare,
+/// and what QueryServices and EnvironmentInputs serve. Each set of messages that have arrived gives
+/// one answer, each answer is published once, and what nobody subscribes to is not computed.
 class ProximityServer {
  public:
   /// @throws std::invalid_argument for a bad parameter (see read_server_options) or an unknown
@@ -50,11 +54,12 @@ class ProximityServer {
 
   void publish();
   bool detect();
-  void detect_in_environment();
-  void add_part(const std::string& name, double seconds);
+  void detect_motion();
+  void detect_in_environment(const ContinuousStep* step);
+  void predict();
   void publish_fibers();
+  void track_contacts();
   void publish_contacts();
-  void publish_statistics(double total_time);
   void publish_markers_if_due();
   EnvironmentMarkerOptions environment_marker_options() const;
 
@@ -67,24 +72,26 @@ class ProximityServer {
   fiber::QueryOptions query_options_;
   MarkerOptions marker_options_;
   Detector detector_;
+  MotionDetector motion_detector_;
+  FiberStep step_;
 
   ros::Publisher contacts_publisher_;
+  ContactEvents touches_;
   ros::Publisher fibers_publisher_;
   ros::Publisher markers_publisher_;
-  ros::Publisher statistics_publisher_;
 
   // Members for their memory.
+  StepContacts contacts_;
   fiber_proximity::FiberArray fibers_message_;
   fiber_proximity::ContactArray contacts_message_;
-  fiber_proximity::Statistics statistics_message_;
   visualization_msgs::MarkerArray markers_message_;
   std::vector<fiber::NodeBox> boxes_;
 
   MarkerBuilder marker_builder_;
   EnvironmentMarkers environment_markers_;
+  PassedContacts passed_;
   ros::SteadyTime last_drawing_;
   bool drawing_is_due_ = false;
-  std::vector<std::pair<std::string, double>> parts_;  // [s] what the last update ran
   bool is_scheduled_ = false;
 
   // Last, so that they go first: callbacks come from here.
@@ -92,6 +99,8 @@ class ProximityServer {
   CrossingsOutput crossings_;
   Diagnostics diagnostics_;
   EnvironmentOutput environment_;
+  StatisticsOutput statistics_;
+  PredictionOutput prediction_;
   ComparisonOutput comparison_;
   QueryServices queries_;
   dynamic_reconfigure::Server<AskedConfig> reconfigure_server_;

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <vector>
+
+#include "fiber_proximity/environment/check_fibers.hpp"
+#include "fiber_proximity/query/motion.hpp"
+
+namespace fiber {
+
+/// A contact that a candidate has on its way.
+struct PathContact {
+  /// Times are in states: at 1.25 the candidate is a quarter of the way from state 1 to state 2.
+  MotionContact when;
+  /// Nearest points and distance at when.upper; where that is infinite, at when.lower.
+  Contact where;
+};
+
+/// The contacts of a candidate on its way with itself, or with fibres or objects.
+struct PathContacts {
+  std::vector<PathContact> contacts;  ///< of each pair the first one; sorted by their keys
+  bool limit_reached = false;         ///< there may be more
+  bool complete = true;               ///< whether all pairs have been looked at
+};
+
+/// What a candidate touches on its way. What is not asked for has no contacts.
+struct MotionCheck {
+  PathContacts self;         ///< among the fibres of the candidate
+  PathContacts fibers;       ///< of the candidate (a) with the fibres there are (b)
+  PathContacts environment;  ///< of the candidate (a) with an object (fiber_b) and its shape
+
+  bool is_free() const {
+    return self.contacts.empty() && fibers.contacts.empty() && environment.contacts.empty();
+  }
+  bool is_complete() const { return self.complete && fibers.complete && environment.complete; }
+  bool is_limit_reached() const {
+    return self.limit_reached || fibers.limit_reached || environment.limit_reached;
+  }
+};
+
+/// The states a candidate goes through: from one to the next each of its points moves linearly.
+using FiberPath = std::vector<FiberAssembly>;
+
+/// Whether fibres could move like this among fibres and objects that stand still: the edges of a
+/// planner's graph, for example, checked at the same time on all cores. No contact is missed
+/// between two states; those that there are at the first one count, at time 0. Of each segment the
+/// larger radius of the two states counts.
+/// @param options FIRST: the earliest contact of the whole motion, with whatever it is. LIMITED and
+///                ALL: of each of the three on its own, the first contact of each pair. The pairing
+///                and the neighbour skips are for contacts of the candidate with itself. The
+///                deadline is one for all motions together: those it does not reach are not
+///                complete. contact_limit and max_contacts are of each of the three answers of each
+///                motion, pair_limit is of each step
+/// @param checks  by motion; memory of an earlier call is reused
+/// @throws std::invalid_argument for options that do not validate; for a motion of less than two
+///         states, or one that changes its topology, naming both. Nothing has been checked then
+/// @throws std::logic_error if the engine of surroundings.fibers has no fibres
+void check_motions(const std::vector<FiberPath>& motions, const Surroundings& surroundings,
+                   const MotionOptions& options, std::vector<MotionCheck>& checks);
+
+}  // namespace fiber

@@ -1,0 +1,140 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <tuple>
+#include <vector>
+
+namespace fiber {
+
+/// A time that is known to be at least `lower` and at most `upper`; since any moment the caller
+/// counts from.
+struct TimeBounds {
+  std::chrono::nanoseconds lower{};
+  std::chrono::nanoseconds upper{};
+};
+
+/// Two segments that were in contact during a step from one state to the next.
+struct TouchingPair {
+  std::uint32_t fiber_a = 0;
+  std::uint32_t segment_a = 0;
+  std::uint32_t fiber_b = 0;
+  std::uint32_t segment_b = 0;
+  double distance = 0.0;  ///< [m] their gap: at the end of the step, or when it was a contact
+  bool is_gone = false;   ///< they are no longer in contact at the end of the step
+  TimeBounds first;       ///< when, during the step, they first were
+  TimeBounds last;        ///< if they are gone: when they were for the last time
+
+  auto key() const { return std::tie(fiber_a, segment_a, fiber_b, segment_b); }
+};
+
+/// One place where two fibres touch, from its beginning to its end: all pairs in contact that are
+/// neighbours of each other, their segments the same or next to each other on both fibres. As a
+/// contact slides along, its pairs change and the touch stays.
+struct Touch {
+  std::uint64_t id = 0;  ///< never 0
+  TimeBounds began;
+  double deepest = 0.0;  ///< [m] the smallest gap that was seen
+  TouchingPair pair;     ///< the one of that gap in the last step
+};
+
+/// That a touch began or ended.
+struct TouchEvent {
+  enum class Kind { BEGAN, ENDED };
+  Kind kind = Kind::BEGAN;
+  Touch touch;
+  TimeBounds time;
+
+  /// The longest that the touch can have lasted so far.
+  std::chrono::nanoseconds duration() const { return time.upper - touch.began.lower; }
+};
+
+/// Recognises contacts from step to step.
+///
+/// A touch goes on in a patch of neighbouring pairs that has a pair which is the same as, or next
+/// to, one of the touch's pairs of the step before. Where touches meet, the oldest one goes on and
+/// the others end; where one parts, it goes on in the patch of the smallest indices, and the other
+/// patches begin anew.
+class TouchTracker {
+ public:
+  /// @param first_id, id_step ids are first_id, first_id + id_step, …: two trackers need not give
+  ///        the same
+  explicit TouchTracker(std::uint64_t first_id = 1, std::uint64_t id_step = 1)
+      : next_id_(first_id), id_step_(id_step) {}
+
+  /// Takes a step.
+  /// @param pairs  of the step, sorted by key; the same segments may be there more than once
+  /// @param step   from the state before to the one after
+  /// @param events what began, then what ended, is appended
+  void advance(const std::vector<TouchingPair>& pairs, const TimeBounds& step,
+               std::vector<TouchEvent>& events);
+
+  /// The touch that a pair of the last step belongs to.
+  const Touch& touch_of(std::size_t pair) const { return touches_[touch_of_pair_[pair]].touch; }
+
+  /// New indices of fibres by old one; of those that are no more, none.
+  using FiberIndices = std::vector<std::optional<std::uint32_t>>;
+
+  /// The fibres of one assembly have other indices from now on. Touches of those that are no more
+  /// end.
+  /// @param step from the last state to that in which they are no more
+  void renumber(const FiberIndices& indices, const TimeBounds& step,
+                std::vector<TouchEvent>& events);
+  /// The same where first and second bodies are of two kinds.
+  void renumber(const FiberIndices& indices_a, const FiberIndices& indices_b,
+                const TimeBounds& step, std::vector<TouchEvent>& events);
+
+  /// Forgets all touches, which do not end by that.
+  void forget();
+
+ private:
+  /// A touch in the step that was taken last.
+  struct TouchStep {
+    Touch touch;
+    bool is_new;
+    bool lasts;       // has a pair that is not gone
+    TimeBounds last;  // when its pairs that are gone were in contact for the last time
+  };
+
+  /// A pair at the end of that step.
+  struct Standing {
+    std::uint32_t fiber_a;
+    std::uint32_t segment_a;
+    std::uint32_t fiber_b;
+    std::uint32_t segment_b;
+    std::uint32_t touch;
+
+    auto key() const { return std::tie(fiber_a, segment_a, fiber_b, segment_b); }
+  };
+
+  void find_patches(const std::vector<TouchingPair>& pairs);
+  void find_claims(const std::vector<TouchingPair>& pairs);
+  void end_unclaimed(const TimeBounds& step, std::vector<TouchEvent>& events);
+  void go_on();
+  void begin_others(std::size_t pair_count);
+  static void take(const TouchingPair& pair, TouchStep& step);
+  void sort_standing();
+
+  std::uint64_t next_id_;
+  std::uint64_t id_step_;
+  std::vector<TouchStep> touches_;            // of the last step, by id
+  std::vector<std::uint32_t> touch_of_pair_;  // of the last step
+  std::vector<Standing> standing_;            // sorted by key
+
+  /// A patch that a touch of the step before may go on in.
+  struct Claim {
+    std::uint32_t touch;
+    std::uint32_t patch;
+
+    auto key() const { return std::tie(touch, patch); }
+  };
+
+  // Of the step that is being taken; members for their memory. A patch is known by its first pair.
+  std::vector<std::uint32_t> patches_;  // by pair: an earlier pair of its patch, or itself
+  std::vector<std::uint32_t> touch_of_patch_;
+  std::vector<Claim> claims_;
+  std::vector<TouchStep> last_touches_;
+};
+
+}  // namespace fiber

@@ -1,0 +1,213 @@
+#include "fiber_proximity/query/touch_tracker.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace fiber {
+namespace {
+
+constexpr std::uint32_t no_touch = std::numeric_limits<std::uint32_t>::max();
+
+/// Calls for the index of each pair of [begin, end), sorted by key, whose segments are the same as
+/// those of another pair, or next to them.
+template <class Pair, class Other, class Use>
+void for_neighbours(const std::vector<Pair>& pairs, std::size_t end, const Other& other,
+                    const Use& use) {
+  const std::uint32_t least_a = other.segment_a == 0 ? 0 : other.segment_a - 1;
+  const std::uint32_t least_b = other.segment_b == 0 ? 0 : other.segment_b - 1;
+  auto found = pairs.begin();
+  const auto last = pairs.begin() + static_cast<std::ptrdiff_t>(end);
+  for (std::uint32_t segment_a = least_a; segment_a <= other.segment_a + 1; ++segment_a) {
+    const auto row = std::tie(other.fiber_a, segment_a, other.fiber_b, least_b);
+    found = std::lower_bound(found, last, row,
+                             [](const Pair& pair, const auto& key) { return pair.key() < key; });
+    for (; found != last && found->fiber_a == other.fiber_a && found->segment_a == segment_a &&
+           found->fiber_b == other.fiber_b && found->segment_b <= other.segment_b + 1;
+         ++found) {
+      use(static_cast<std::size_t>(found - pairs.begin()));
+    }
+  }
+}
+
+/// The first pair of a patch; makes the way there shorter.
+std::uint32_t first_of(std::vector<std::uint32_t>& patches, std::uint32_t pair) {
+  while (patches[pair] != pair) {
+    patches[pair] = patches[patches[pair]];
+    pair = patches[pair];
+  }
+  return pair;
+}
+
+TimeBounds earlier(const TimeBounds& x, const TimeBounds& y) {
+  return {std::min(x.lower, y.lower), std::min(x.upper, y.upper)};
+}
+
+TimeBounds later(const TimeBounds& x, const TimeBounds& y) {
+  return {std::max(x.lower, y.lower), std::max(x.upper, y.upper)};
+}
+
+}  // namespace
+
+void TouchTracker::advance(const std::vector<TouchingPair>& pairs, const TimeBounds& step,
+                           std::vector<TouchEvent>& events) {
+  find_patches(pairs);
+  find_claims(pairs);
+  std::swap(touches_, last_touches_);
+  touches_.clear();
+  go_on();
+  begin_others(pairs.size());
+  standing_.clear();
+  touch_of_pair_.resize(pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const TouchingPair& pair = pairs[i];
+    const std::uint32_t touch = touch_of_patch_[patches_[i]];
+    touch_of_pair_[i] = touch;
+    take(pair, touches_[touch]);
+    if (!pair.is_gone) {
+      standing_.push_back({pair.fiber_a, pair.segment_a, pair.fiber_b, pair.segment_b, touch});
+    }
+  }
+  for (const TouchStep& touch : touches_) {
+    if (touch.is_new) {
+      events.push_back({TouchEvent::Kind::BEGAN, touch.touch, touch.touch.began});
+    }
+  }
+  end_unclaimed(step, events);
+  for (const TouchStep& touch : touches_) {
+    if (!touch.lasts) {
+      events.push_back({TouchEvent::Kind::ENDED, touch.touch, touch.last});
+    }
+  }
+}
+
+/// Of all pairs: patches_ is the first pair of each.
+void TouchTracker::find_patches(const std::vector<TouchingPair>& pairs) {
+  patches_.resize(pairs.size());
+  for (std::uint32_t i = 0; i < pairs.size(); ++i) {
+    patches_[i] = i;
+    for_neighbours(pairs, i, pairs[i], [&](std::size_t neighbour) {
+      const std::uint32_t x = first_of(patches_, static_cast<std::uint32_t>(neighbour));
+      const std::uint32_t y = first_of(patches_, i);
+      patches_[std::max(x, y)] = std::min(x, y);
+    });
+  }
+  for (std::uint32_t i = 0; i < pairs.size(); ++i) {
+    patches_[i] = first_of(patches_, i);
+  }
+}
+
+void TouchTracker::find_claims(const std::vector<TouchingPair>& pairs) {
+  claims_.clear();
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    for_neighbours(standing_, standing_.size(), pairs[i], [&](std::size_t neighbour) {
+      claims_.push_back({standing_[neighbour].touch, patches_[i]});
+    });
+  }
+  std::sort(claims_.begin(), claims_.end(),
+            [](const Claim& x, const Claim& y) { return x.key() < y.key(); });
+}
+
+/// Touches go on, the oldest first, in the first patch that is left for them.
+void TouchTracker::go_on() {
+  touch_of_patch_.assign(patches_.size(), no_touch);
+  for (const Claim& claim : claims_) {
+    TouchStep& before = last_touches_[claim.touch];
+    if (before.lasts && touch_of_patch_[claim.patch] == no_touch) {
+      touch_of_patch_[claim.patch] = static_cast<std::uint32_t>(touches_.size());
+      touches_.push_back({before.touch, false, false, {}});
+      touches_.back().touch.pair.distance = std::numeric_limits<double>::infinity();
+      before.lasts = false;  // as that one
+    }
+  }
+}
+
+/// Touches of patches that none goes on in.
+void TouchTracker::begin_others(std::size_t pair_count) {
+  constexpr auto never = std::chrono::nanoseconds::max();
+  for (std::size_t i = 0; i < pair_count; ++i) {
+    if (patches_[i] == i && touch_of_patch_[i] == no_touch) {
+      touch_of_patch_[i] = static_cast<std::uint32_t>(touches_.size());
+      TouchStep touch{{}, true, false, {}};
+      touch.touch.id = next_id_;
+      touch.touch.began = {never, never};
+      touch.touch.deepest = std::numeric_limits<double>::infinity();
+      touch.touch.pair.distance = touch.touch.deepest;
+      next_id_ += id_step_;
+      touches_.push_back(touch);
+    }
+  }
+}
+
+void TouchTracker::take(const TouchingPair& pair, TouchStep& step) {
+  Touch& touch = step.touch;
+  touch.deepest = std::min(touch.deepest, pair.distance);
+  if (pair.distance < touch.pair.distance) {
+    touch.pair = pair;
+  }
+  if (step.is_new) {
+    touch.began = earlier(touch.began, pair.first);
+  }
+  if (pair.is_gone) {
+    step.last = later(step.last, pair.last);
+  }
+  step.lasts = step.lasts || !pair.is_gone;
+}
+
+/// Those that have found no patch have ended, if they had not before.
+void TouchTracker::end_unclaimed(const TimeBounds& step, std::vector<TouchEvent>& events) {
+  for (const TouchStep& touch : last_touches_) {
+    if (touch.lasts) {
+      events.push_back({TouchEvent::Kind::ENDED, touch.touch, step});
+    }
+  }
+}
+
+void TouchTracker::renumber(const FiberIndices& indices, const TimeBounds& step,
+                            std::vector<TouchEvent>& events) {
+  renumber(indices, indices, step, events);
+  for (Standing& pair : standing_) {
+    if (std::tie(pair.fiber_b, pair.segment_b) < std::tie(pair.fiber_a, pair.segment_a)) {
+      std::swap(pair.fiber_a, pair.fiber_b);
+      std::swap(pair.segment_a, pair.segment_b);
+    }
+  }
+  sort_standing();
+}
+
+void TouchTracker::renumber(const FiberIndices& indices_a, const FiberIndices& indices_b,
+                            const TimeBounds& step, std::vector<TouchEvent>& events) {
+  std::vector<bool> stays(touches_.size());
+  std::vector<Standing> standing;
+  for (Standing pair : standing_) {
+    const std::optional<std::uint32_t> a = indices_a[pair.fiber_a];
+    const std::optional<std::uint32_t> b = indices_b[pair.fiber_b];
+    if (a && b) {
+      pair.fiber_a = *a;
+      pair.fiber_b = *b;
+      standing.push_back(pair);
+      stays[pair.touch] = true;
+    }
+  }
+  standing_ = std::move(standing);
+  sort_standing();
+  for (std::size_t i = 0; i < touches_.size(); ++i) {
+    if (touches_[i].lasts && !stays[i]) {
+      events.push_back({TouchEvent::Kind::ENDED, touches_[i].touch, step});
+      touches_[i].lasts = false;
+    }
+  }
+}
+
+void TouchTracker::sort_standing() {
+  std::sort(standing_.begin(), standing_.end(),
+            [](const Standing& x, const Standing& y) { return x.key() < y.key(); });
+}
+
+void TouchTracker::forget() {
+  touches_.clear();
+  standing_.clear();
+  touch_of_pair_.clear();
+}
+
+}  // namespace fiber

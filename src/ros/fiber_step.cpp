@@ -1,0 +1,83 @@
+#include "fiber_proximity/ros/fiber_step.hpp"
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+namespace fiber_proximity_ros {
+namespace {
+
+std::string extent_of(const fiber::FiberAssembly& fibers) {
+  return std::to_string(fibers.fiber_count()) + " of " + std::to_string(fibers.point_count()) +
+         " points";
+}
+
+}  // namespace
+
+std::chrono::nanoseconds to_time(const ros::Time& stamp) {
+  return std::chrono::nanoseconds(static_cast<std::int64_t>(stamp.toNSec()));
+}
+
+ros::Time to_stamp(std::chrono::nanoseconds time) {
+  return ros::Time().fromNSec(static_cast<std::uint64_t>(std::max<std::int64_t>(time.count(), 0)));
+}
+
+void FiberStep::advance(InputSet& inputs, bool keeps_fibers) {
+  std::swap(before_, after_);
+  after_.has_fibers = keeps_fibers && inputs.is_fresh();
+  after_.stamps.clear();
+  for (const std::unique_ptr<Input>& input : inputs.inputs()) {
+    after_.stamps.push_back(input->is_fresh() ? std::optional(input->stamp()) : std::nullopt);
+  }
+  stamp_ = to_time(inputs.header().stamp);
+  time_ = {stamp_, stamp_};
+  if (after_.has_fibers) {
+    after_.fibers = inputs.fibers();
+    after_.names = inputs.names();
+  }
+  is_motion_ = false;
+  problem_.clear();
+  if (before_.has_fibers && after_.has_fibers) {
+    is_motion_ = true;
+    if (const std::string problem = find_motion(); !problem.empty()) {
+      refuse(problem);
+    }
+  }
+}
+
+void FiberStep::refuse(const std::string& problem) {
+  is_motion_ = false;
+  problem_ = problem;
+  ++problem_count_;
+  time_ = {stamp_, stamp_};
+}
+
+/// Finds when what happened.
+/// @returns why this is no motion; empty if it is
+std::string FiberStep::find_motion() {
+  std::ostringstream problem;
+  if (before_.names != after_.names || before_.fibers.offsets() != after_.fibers.offsets()) {
+    problem << "the fibres are no longer the same: " << extent_of(before_.fibers) << " before, "
+            << extent_of(after_.fibers) << " now";
+    return problem.str();
+  }
+  auto begin = ros::Time(ros::TIME_MAX);
+  ros::Time end;
+  for (std::size_t i = 0; i < after_.stamps.size(); ++i) {
+    if (after_.stamps[i] && after_.stamps[i] != before_.stamps[i]) {
+      begin = std::min(begin, *before_.stamps[i]);
+      end = std::max(end, *after_.stamps[i]);
+    }
+  }
+  if (end <= begin) {
+    problem << "their stamps do not rise";
+  } else if (const double seconds = (end - begin).toSec(); seconds > longest_motion_) {
+    problem << "their stamps jump by " << seconds << " s, a motion may take " << longest_motion_
+            << " s (input_timeout)";
+  } else {
+    time_ = {to_time(begin), to_time(end)};
+  }
+  return problem.str();
+}
+
+}  // namespace fiber_proximity_ros
