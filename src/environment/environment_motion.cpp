@@ -131,11 +131,7 @@ void EnvironmentMotion::judge(MotionResult& result) {
     tbb::this_task_arena::isolate(
         [&] { tbb::parallel_for(std::size_t{0}, slices.size(), judge_slice); });
   }
-  begin_result(candidates_, result);
-  for (const MotionSlice& slice : slices) {
-    append(slice, result);
-  }
-  finish_result(candidates_, options_, result);
+  merge_slices(slices.data(), slices.size(), candidates_, options_, result);
 }
 
 void EnvironmentMotion::judge(const std::uint64_t* keys, std::size_t count,
@@ -198,6 +194,8 @@ void Environment::query_motion(const BroadPhase& broad_phase, const FiberMotion&
                                MotionResult& result) const {
   validate(options);
   require_same_topology(motion.before, motion.after);
+  result.contacts.clear();
+  result.touching.clear();
   EnvironmentMotion query(motion, broad_phase.shapes(), objects_, options, allowed);
   const std::vector<std::uint32_t>& offsets = motion.before.offsets();
   for (std::uint32_t fiber = 0; fiber < motion.before.fiber_count(); ++fiber) {

@@ -9,9 +9,8 @@
 namespace fiber {
 namespace {
 
-// Motions are judged in rounds, so that what is found of them takes little memory.
+// Motions are judged in rounds, so that their times take little memory.
 constexpr std::size_t slices_per_round = 32;
-constexpr std::size_t motions_per_round = slices_per_round * motions_per_slice;
 
 /// Which motions are asked about, and what of each is reported.
 class MotionTest {
@@ -23,7 +22,7 @@ class MotionTest {
   /// @param count at most that of a slice
   /// @param times found, as many
   void report(const std::uint64_t* keys, std::size_t count, ContactTime* times,
-              std::vector<MotionContact>& contacts, std::vector<MotionContact>& touching) const {
+              MotionSlice& slice) const {
     SegmentMotions motions[motions_per_slice];
     for (std::size_t i = 0; i < count; ++i) {
       motions[i] = motions_of(pair_of(keys[i]));
@@ -33,7 +32,8 @@ class MotionTest {
       const PointPair pair = pair_of(keys[i]);
       // Few come so far: whether a fibre makes a loop costs more than when it has contact.
       if (times[i].hit && !test_.lacks_loop(pair)) {
-        (is_there_before(times[i]) ? touching : contacts).push_back(contact(pair, times[i]));
+        (is_there_before(times[i]) ? slice.touching : slice.contacts)
+            .push_back(contact(pair, times[i]));
       }
     }
   }
@@ -73,28 +73,23 @@ void MotionJudge::judge(const MotionCandidates& candidates, const FiberMotion& a
                         const QueryLimits& limits, MotionResult& result) {
   const std::vector<std::uint64_t>& keys = candidates.keys;
   const MotionTest motions(a, b, test, options);
-  begin_result(candidates, result);
-  for (std::size_t begin = 0; begin < keys.size(); begin += motions_per_round) {
-    const std::size_t end = std::min(keys.size(), begin + motions_per_round);
-    const std::size_t count = (end - begin + motions_per_slice - 1) / motions_per_slice;
-    slices_.resize(std::max(slices_.size(), count));
-    for_each_of(count, [&](std::size_t index) {
-      MotionSlice& slice = slices_[index];
+  const std::size_t count = (keys.size() + motions_per_slice - 1) / motions_per_slice;
+  slices_.resize(std::max(slices_.size(), count));
+  times_.resize(std::max(times_.size(), std::min(count, slices_per_round) * motions_per_slice));
+  for (std::size_t round = 0; round < count; round += slices_per_round) {
+    for_each_of(std::min(slices_per_round, count - round), [&](std::size_t index) {
+      MotionSlice& slice = slices_[round + index];
       slice.contacts.clear();
       slice.touching.clear();
       slice.complete = !limits.deadline.has_passed();
       if (slice.complete) {
-        const std::size_t first = begin + index * motions_per_slice;
-        slice.times.resize(motions_per_slice);
-        motions.report(keys.data() + first, std::min(motions_per_slice, end - first),
-                       slice.times.data(), slice.contacts, slice.touching);
+        const std::size_t first = (round + index) * motions_per_slice;
+        motions.report(keys.data() + first, std::min(motions_per_slice, keys.size() - first),
+                       times_.data() + index * motions_per_slice, slice);
       }
     });
-    for (std::size_t i = 0; i < count; ++i) {
-      append(slices_[i], result);
-    }
   }
-  finish_result(candidates, options, result);
+  merge_slices(slices_.data(), count, candidates, options, result);
 }
 
 }  // namespace fiber

@@ -34,22 +34,17 @@ bool keep_earliest(std::size_t most, MotionResult& result) {
 
 }  // namespace
 
-void begin_result(const MotionCandidates& candidates, MotionResult& result) {
-  result.contacts.clear();
-  result.touching.clear();
+void merge_slices(const MotionSlice* slices, std::size_t count, const MotionCandidates& candidates,
+                  const MotionOptions& options, MotionResult& result) {
   result.counts = candidates.counts;
   result.counts.primitive_tests += candidates.keys.size();
   result.complete = candidates.are_all && !candidates.are_too_many;
-}
-
-void append(const MotionSlice& slice, MotionResult& result) {
-  result.contacts.insert(result.contacts.end(), slice.contacts.begin(), slice.contacts.end());
-  result.touching.insert(result.touching.end(), slice.touching.begin(), slice.touching.end());
-  result.complete = result.complete && slice.complete;
-}
-
-void finish_result(const MotionCandidates& candidates, const MotionOptions& options,
-                   MotionResult& result) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const MotionSlice& slice = slices[i];
+    result.contacts.insert(result.contacts.end(), slice.contacts.begin(), slice.contacts.end());
+    result.touching.insert(result.touching.end(), slice.touching.begin(), slice.touching.end());
+    result.complete = result.complete && slice.complete;
+  }
   result.others_lower = result.complete ? 1.0 : 0.0;
   result.limit_reached = candidates.are_too_many;
   if (options.contact_limit > 0 && result.touching.size() > options.contact_limit) {

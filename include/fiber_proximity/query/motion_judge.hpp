@@ -1,9 +1,10 @@
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
+#include "fiber_proximity/geometry/contact_time.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/query/motion.hpp"
 #include "fiber_proximity/query/motion_slices.hpp"
 #include "fiber_proximity/query/pair_test.hpp"
 #include "fiber_proximity/query/query_limits.hpp"
@@ -22,13 +23,14 @@ class MotionJudge {
  public:
   /// @param a, b of the first and the second segments of pairs, the same for fibres with each other
   /// @param test of the fibres before the motion
-  /// @param result replaced, its contacts by those that the options ask for
+  /// @param result its lists must be empty
   void judge(const MotionCandidates& candidates, const FiberMotion& a, const FiberMotion& b,
              const PairTest& test, const MotionOptions& options, const QueryLimits& limits,
              MotionResult& result);
 
  private:
-  std::vector<MotionSlice> slices_;  // of a round
+  std::vector<ContactTime> times_;  // of a round
+  std::vector<MotionSlice> slices_;
 };
 
 }  // namespace fiber

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "fiber_proximity/geometry/contact_time.hpp"
 #include "fiber_proximity/query/motion.hpp"
 
 namespace fiber {
@@ -14,7 +13,6 @@ constexpr std::size_t motions_per_slice = 512;
 
 /// What one thread finds at a time.
 struct MotionSlice {
-  std::vector<ContactTime> times;  // work memory
   std::vector<MotionContact> contacts;
   std::vector<MotionContact> touching;
   bool complete = true;
@@ -28,14 +26,10 @@ struct MotionCandidates {
   QueryCounts counts;
 };
 
-/// Makes a result the answer about candidates of which none has been judged.
-void begin_result(const MotionCandidates& candidates, MotionResult& result);
-
-/// Adds what was found of a slice. Slices come in the order of their candidates.
-void append(const MotionSlice& slice, MotionResult& result);
-
-/// Leaves what the options ask for, once all slices are there.
-void finish_result(const MotionCandidates& candidates, const MotionOptions& options,
-                   MotionResult& result);
+/// Puts together what was found of the candidates, slice by slice, and leaves what the options ask
+/// for.
+/// @param result its lists must be empty
+void merge_slices(const MotionSlice* slices, std::size_t count, const MotionCandidates& candidates,
+                  const MotionOptions& options, MotionResult& result);
 
 }  // namespace fiber
