@@ -150,13 +150,19 @@ class SolidAdvance {
   }
 
   /// The contact that begins before this time, if there is one.
-  ContactTime first_before(double until) const {
+  /// @param guess a normal that may separate them all the time: where it does, that was all.
+  ///              Becomes the normal of a plane that has separated them last
+  ContactTime first_before(double until, Vector3d& guess) const {
     constexpr int most_steps = 500;
+    const AxisState start(motion_, 0.0);
+    if (SeparatingPlane<Solid>(solid_, start, guess, limit_ + error_).separates_for() >= until) {
+      return {};
+    }
     double time = 0.0;
     for (int step = 0; step < most_steps; ++step) {
       const AxisState axis(motion_, time);
       const AxisDistance near = distance_of_axis(solid_, axis.ends[0], axis.ends[1]);
-      const double next = time + free_for(axis, near, until - time);
+      const double next = time + free_for(axis, near, until - time, guess);
       if (next >= until) {
         return {};
       }
@@ -174,7 +180,8 @@ class SolidAdvance {
   }
 
   /// How long there is certainly no contact from now on, or at least `enough`.
-  double free_for(const AxisState& axis, const AxisDistance& near, double enough) const {
+  double free_for(const AxisState& axis, const AxisDistance& near, double enough,
+                  Vector3d& guess) const {
     const double apart = limit_ + error_;
     const double gap = near.lower - apart;
     double time = gap > 0.0 ? gap / speed_ : 0.0;
@@ -185,6 +192,7 @@ class SolidAdvance {
       const SeparatingPlane<Solid> plane(solid_, axis, normal, apart);
       if (time < enough) {
         time = std::max(time, plane.separates_for());
+        guess = time < enough ? guess : normal;
       }
       if (time < enough) {
         time = std::max(time, plane.turning_separates_for(enough, std::max(time, least_turning)));
@@ -290,7 +298,8 @@ class MovingAxis {
  private:
   template <class Solid>
   ContactTime advance(const Solid& solid, const AxisMotion& motion, double until) const {
-    return SolidAdvance<Solid>(solid, motion, limit_, error_, tolerance_).first_before(until);
+    return SolidAdvance<Solid>(solid, motion, limit_, error_, tolerance_)
+        .first_before(until, guess_);
   }
 
   static double until(const ContactTime& first) {
@@ -303,6 +312,8 @@ class MovingAxis {
   const double tolerance_;  // [m]
   double error_ = 0.0;      // [m]
   WorldBox box_;            // around the way of the axis [m]
+  // What separates the axis from one triangle often does so from the next ones.
+  mutable Vector3d guess_ = Vector3d::Zero();
 };
 
 }  // namespace
