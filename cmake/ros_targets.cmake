@@ -22,6 +22,7 @@ add_library(fiber_proximity_ros SHARED
   src/ros/dynamic_parameters.cpp
   src/ros/environment_inputs.cpp
   src/ros/environment_markers.cpp
+  src/ros/environment_motion_detector.cpp
   src/ros/environment_options.cpp
   src/ros/environment_output.cpp
   src/ros/environment_scene.cpp
@@ -66,6 +67,7 @@ add_library(fiber_proximity_ros SHARED
   src/ros/shape_marker.cpp
   src/ros/shape_query.cpp
   src/ros/stamp_matcher.cpp
+  src/ros/statistics_output.cpp
   src/ros/step_contacts.cpp
   src/ros/touched_objects.cpp
   src/ros/tube_mesh.cpp

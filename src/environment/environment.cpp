@@ -9,13 +9,26 @@
 
 #include "broad_phase.hpp"
 #include "environment_query.hpp"
+#include "fiber_proximity/query/contact_in_motion.hpp"
 #include "fiber_proximity/text/quote.hpp"
+#include "object_path.hpp"
 
 namespace fiber {
 namespace {
 
 /// Segments whose box is looked up at once.
 constexpr std::uint32_t segments_per_run = 8;
+
+/// A segment and a shape of this object, of which the index is that of the contact.
+Contact contact_with(const EnvironmentObject& owner, std::uint32_t object, std::uint32_t shape,
+                     const Capsule& segment) {
+  static_cast<void>(owner.shapes.at(shape));
+  const WorldShape placed(owner, object, shape);
+  return contact_of(
+      segment, placed,
+      axis_distance(placed.shape, placed.to_shape * segment.p0, placed.to_shape * segment.p1,
+                    std::numeric_limits<double>::infinity()));
+}
 
 }  // namespace
 
@@ -52,13 +65,25 @@ void Environment::query(const FiberAssembly& fibers, const QueryOptions& options
 
 Contact Environment::contact(const Capsule& segment, std::uint32_t object,
                              std::uint32_t shape) const {
-  const EnvironmentObject& owner = objects_.at(object);
-  static_cast<void>(owner.shapes.at(shape));
-  const WorldShape placed(owner, object, shape);
-  return contact_of(
-      segment, placed,
-      axis_distance(placed.shape, placed.to_shape * segment.p0, placed.to_shape * segment.p1,
-                    std::numeric_limits<double>::infinity()));
+  return contact_with(objects_.at(object), object, shape, segment);
+}
+
+Contact Environment::first_contact(const FiberMotion& motion, const Environment& later,
+                                   const MotionContact& contact) const {
+  const double time = time_of(contact);
+  EnvironmentObject object = objects_.at(contact.fiber_b);
+  const auto moved =
+      std::find_if(later.objects_.begin(), later.objects_.end(),
+                   [&](const EnvironmentObject& other) { return other.name == object.name; });
+  if (moved != later.objects_.end()) {
+    object.pose = ObjectPath(object.pose, moved->pose).pose(time);
+  }
+  const std::uint32_t point = motion.before.offsets()[contact.fiber_a] + contact.segment_a;
+  Contact found =
+      contact_with(object, contact.fiber_b, contact.segment_b, capsule_at(motion, point, time));
+  found.fiber_a = contact.fiber_a;
+  found.segment_a = contact.segment_a;
+  return found;
 }
 
 }  // namespace fiber

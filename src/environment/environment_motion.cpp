@@ -36,48 +36,6 @@ WorldBox box_of_ways(const FiberMotion& motion, std::uint32_t first, std::uint32
   return box;
 }
 
-bool is_same(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
-  return a.matrix() == b.matrix();
-}
-
-struct IsSameSolid {
-  bool operator()(const BoxShape& x, const BoxShape& y) const { return x.size == y.size; }
-  bool operator()(const SphereShape& x, const SphereShape& y) const { return x.radius == y.radius; }
-  bool operator()(const CapsuleShape& x, const CapsuleShape& y) const {
-    return x.radius == y.radius && x.length == y.length;
-  }
-  template <class Upright>  // a cylinder or a cone
-  auto operator()(const Upright& x, const Upright& y) const -> decltype(x.height == y.height) {
-    return x.radius == y.radius && x.height == y.height;
-  }
-  template <class Sheet>  // a plane or a half-space
-  auto operator()(const Sheet& x, const Sheet& y) const -> decltype(x.normal == y.normal) {
-    return x.normal == y.normal && x.offset == y.offset;
-  }
-  template <class Shared>
-  bool operator()(const std::shared_ptr<const Shared>& x,
-                  const std::shared_ptr<const Shared>& y) const {
-    return x == y;
-  }
-  template <class One, class Other>
-  std::enable_if_t<!std::is_same_v<One, Other>, bool> operator()(const One& /*x*/,
-                                                                 const Other& /*y*/) const {
-    return false;
-  }
-};
-
-void require_same_shapes(const EnvironmentObject& before, const EnvironmentObject& after) {
-  const bool are_same =
-      std::equal(before.shapes.begin(), before.shapes.end(), after.shapes.begin(),
-                 after.shapes.end(), [](const PlacedShape& x, const PlacedShape& y) {
-                   return is_same(x.pose, y.pose) && std::visit(IsSameSolid(), x.shape, y.shape);
-                 });
-  if (!are_same) {
-    throw std::invalid_argument("object " + quote(before.name) +
-                                " changes its shapes during the motion, it may only move");
-  }
-}
-
 std::vector<ObjectPath> paths_between(const std::vector<EnvironmentObject>& before,
                                       const std::vector<EnvironmentObject>& after) {
   std::map<std::string_view, const EnvironmentObject*> later;
@@ -88,8 +46,9 @@ std::vector<ObjectPath> paths_between(const std::vector<EnvironmentObject>& befo
   paths.reserve(before.size());
   for (const EnvironmentObject& object : before) {
     const auto found = later.find(object.name);
-    if (found != later.end()) {
-      require_same_shapes(object, *found->second);
+    if (found != later.end() && !have_same_shapes(object, *found->second)) {
+      throw std::invalid_argument("object " + quote(object.name) +
+                                  " changes its shapes during the motion, it may only move");
     }
     paths.emplace_back(object.pose, found == later.end() ? object.pose : found->second->pose);
   }

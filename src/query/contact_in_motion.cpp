@@ -17,22 +17,30 @@ double radius_in(const FiberMotion& motion, std::uint32_t point) {
   return std::max(motion.before.segment_radius(point), motion.after.segment_radius(point));
 }
 
-/// The segment with this first point as a fibre of its own, at a part of the motion.
-FiberAssembly segment_at(const FiberMotion& motion, std::uint32_t point, double time) {
-  const auto point_at = [&](std::uint32_t index) -> Eigen::Vector3d {
-    return (1.0 - time) * motion.before.points()[index] + time * motion.after.points()[index];
-  };
-  return FiberAssembly({point_at(point), point_at(point + 1)}, {0, 2}, {radius_in(motion, point)});
+/// As a fibre of its own.
+FiberAssembly fiber_of(const Capsule& segment) {
+  return FiberAssembly({segment.p0, segment.p1}, {0, 2}, {segment.radius});
 }
 
 }  // namespace
 
+Capsule capsule_at(const FiberMotion& motion, std::uint32_t point, double time) {
+  const auto point_at = [&](std::uint32_t index) -> Eigen::Vector3d {
+    return (1.0 - time) * motion.before.points()[index] + time * motion.after.points()[index];
+  };
+  return {point_at(point), point_at(point + 1), radius_in(motion, point)};
+}
+
+double time_of(const MotionContact& contact) {
+  return std::isfinite(contact.upper) ? contact.upper : contact.lower;
+}
+
 Contact first_contact(const FiberMotion& a, const FiberMotion& b, const MotionContact& contact) {
-  const double time = std::isfinite(contact.upper) ? contact.upper : contact.lower;
+  const double time = time_of(contact);
   const FiberAssembly segment_a =
-      segment_at(a, point_of(a, contact.fiber_a, contact.segment_a), time);
+      fiber_of(capsule_at(a, point_of(a, contact.fiber_a, contact.segment_a), time));
   const FiberAssembly segment_b =
-      segment_at(b, point_of(b, contact.fiber_b, contact.segment_b), time);
+      fiber_of(capsule_at(b, point_of(b, contact.fiber_b, contact.segment_b), time));
   const QueryOptions options;
   const PairTest test(segment_a, segment_b, options);
   constexpr PointPair only_pair{0, 0};

@@ -1,5 +1,6 @@
 #include "fiber_proximity/ros/environment_output.hpp"
 
+#include <optional>
 #include <utility>
 
 #include "fiber_proximity/ros/contact_array.hpp"
@@ -27,8 +28,10 @@ bool EnvironmentOutput::update() {
   return changed;
 }
 
-void EnvironmentOutput::detect(const fiber::QueryOptions& options, bool wants_minimum) {
+void EnvironmentOutput::detect(const fiber::QueryOptions& options, bool wants_minimum,
+                               const ContinuousStep* step) {
   const Stopwatch stopwatch;
+  environment_before_ = is_tracked_ ? environment_ : nullptr;
   environment_ = inputs_.environment();
   update_time_ += stopwatch.seconds();
   const fiber::AllowedPairs allowed = inputs_.allowed(fibers_.names());
@@ -36,27 +39,51 @@ void EnvironmentOutput::detect(const fiber::QueryOptions& options, bool wants_mi
                     [&](const fiber::QueryOptions& asked, fiber::QueryResult& result) {
                       environment_->query(fibers_.fibers(), asked, allowed, result);
                     });
+  step_ = environment_before_ == nullptr || !has_listeners() ? nullptr : step;
+  motion_time_ = 0.0;
+  if (step_ != nullptr) {
+    const Stopwatch motion_time;
+    motion_.detect(*step_, environment_before_, environment_, options, allowed);
+    motion_time_ = motion_time.seconds();
+  }
 }
 
 void EnvironmentOutput::publish(const fiber::QueryOptions& options, bool has_gradients) {
-  if (!has_listeners()) {
+  is_tracked_ = has_listeners();
+  if (!is_tracked_) {
     skip();
     return;
   }
   const std_msgs::Header& header = fibers_.header();
   const std::chrono::nanoseconds now = to_time(header.stamp);
+  std::optional<KnownMotion> motion;
+  if (step_ != nullptr) {
+    motion.emplace(motion_.known_motion(*step_, detection_.has_all_of(options)));
+  }
   const BodyNames names{fibers_.names(), object_names(*environment_)};
-  contacts_.assign(detection_.contacts().contacts, touches_.step_to(now), nullptr);
+  contacts_.assign(detection_.contacts().contacts, touches_.step_to(now),
+                   motion ? &*motion : nullptr);
   touches_.track(contacts_.contacts(), names, header);
   if (publisher_.getNumSubscribers() == 0) {
     return;
   }
-  to_message(detection_, {contacts_.contacts(), touches_, now, has_gradients}, options,
-             fiber_proximity::Contact::OBJECT, header, message_);
+  to_message(detection_,
+             {contacts_.contacts(), touches_, motion ? motion->time.lower : now, has_gradients},
+             options, fiber_proximity::Contact::OBJECT, header, message_);
+  message_.continuous = motion.has_value();
+  if (motion) {
+    message_.complete = message_.complete && motion->result.complete;
+    message_.limit_reached = message_.limit_reached || motion->result.limit_reached;
+  }
   message_.fiber_names = names.a;
   message_.object_names = names.b;
   message_.update_time = update_time_;
   publisher_.publish(message_);
+}
+
+void EnvironmentOutput::skip() {
+  is_tracked_ = false;
+  touches_.skip();
 }
 
 std::vector<std::string> object_names(const fiber::Environment& environment) {

@@ -15,6 +15,9 @@ std::vector<LegendLine> legend_lines(const MarkerOptions& options,
                                                    : "amber: apart"});
     }
   }
+  if (options.show_passed) {
+    lines.push_back({palette::passed, "cyan: came and went between two messages"});
+  }
   if (environment.show_distances) {
     lines.push_back({palette::distant, "red to green: from objects, 0 to " +
                                            distance_text(environment.free_distance)});

@@ -126,6 +126,16 @@ void MarkerBuilder::draw_normals(const fiber::FiberAssembly& fibers,
   }
 }
 
+void MarkerBuilder::draw_passed(const std::vector<fiber::Contact>& contacts, double largest,
+                                Canvas& canvas) {
+  Marker& marker = canvas.add(PASSED, Marker::SPHERE_LIST);
+  marker.scale.x = marker.scale.y = marker.scale.z = largest;
+  marker.color = color(palette::passed);
+  for (const fiber::Contact& contact : contacts) {
+    marker.points.push_back(to_message(middle_of(contact)));
+  }
+}
+
 void MarkerBuilder::draw_nearest(const fiber::Contact& minimum, const MarkerScale& scale,
                                  Canvas& canvas) {
   Marker& line = canvas.add(NEAREST, Marker::LINE_LIST);
@@ -205,13 +215,13 @@ void MarkerBuilder::draw_axes(const MarkerScale& scale, Canvas& canvas) {
 
 void MarkerBuilder::build(const std_msgs::Header& header, const Drawing& drawing,
                           const MarkerOptions& options, visualization_msgs::MarkerArray& markers) {
-  const auto& [fibers, contacts, minimum, boxes, cost, crossings, names, legend] = drawing;
+  const auto& [fibers, contacts, minimum, boxes, cost, crossings, names, legend, passed] = drawing;
   const MarkerScale scale(fibers, header.frame_id);
   // Thicker than the fibres, to be seen where two of them hide the point of contact.
   const double thickness = 3.0 * scale.thickest;
-  static const Canvas::Names namespaces{"fibers",       "contacts", "normals", "nearest",
-                                        "nearest_text", "cost",     "boxes",   "crossings",
-                                        "names",        "legend",   "axes"};
+  static const Canvas::Names namespaces{"fibers",    "contacts",     "normals", "passed",
+                                        "nearest",   "nearest_text", "cost",    "boxes",
+                                        "crossings", "names",        "legend",  "axes"};
   Canvas canvas(header, namespaces, markers);
   if (options.show_fibers && fibers.segment_count() > most_tube_segments) {
     draw_lines(fibers, 2.0 * scale.thinnest, canvas);
@@ -221,6 +231,9 @@ void MarkerBuilder::build(const std_msgs::Header& header, const Drawing& drawing
   if (options.show_contacts && !contacts.empty()) {
     draw_contacts(fibers, contacts, thickness, canvas);
     draw_normals(fibers, contacts, thickness, canvas);
+  }
+  if (options.show_passed && passed != nullptr && !passed->empty()) {
+    draw_passed(*passed, 1.5 * thickness, canvas);
   }
   if (options.show_nearest && minimum != nullptr) {
     draw_nearest(*minimum, scale, canvas);

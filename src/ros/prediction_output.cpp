@@ -96,7 +96,7 @@ bool PredictionOutput::predict_places() {
 }
 
 void PredictionOutput::predict(const fiber::QueryOptions& options,
-                               const EnvironmentOutput& /*environment*/) {
+                               const EnvironmentOutput& environment) {
   if (!inputs_.is_fresh()) {
     message_.problem = "there are no fibres";
     return;
@@ -115,6 +115,16 @@ void PredictionOutput::predict(const fiber::QueryOptions& options,
   motion.type = fiber::MotionType::FIRST;
   message_.same_fiber = earliest_of(fiber::Pairing::SAME_FIBER, motion);
   message_.different_fibers = earliest_of(fiber::Pairing::DIFFERENT_FIBERS, motion);
+  if (environment.is_used()) {
+    const std::shared_ptr<const fiber::Environment> around = environment.inputs().environment();
+    around->query_motion(before_, after_, motion, environment.inputs().allowed(inputs_.names()),
+                         result_);
+    message_.object_names = object_names(*around);
+  } else {
+    result_ = fiber::MotionResult();
+    result_.others_lower = 1.0;
+  }
+  message_.environment = to_message(result_);
 }
 
 PredictedContact PredictionOutput::earliest_of(fiber::Pairing pairing,

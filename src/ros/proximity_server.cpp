@@ -23,8 +23,6 @@ constexpr double tick_interval = 0.1;
 /// [s] How often a message that waits for its transform is tried again.
 constexpr double retry_interval = 0.005;
 
-std::uint32_t to_count(std::size_t count) { return static_cast<std::uint32_t>(count); }
-
 }  // namespace
 
 ProximityServer::ProximityServer(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
@@ -39,13 +37,13 @@ ProximityServer::ProximityServer(const ros::NodeHandle& node, const ros::NodeHan
       touches_(fiber_proximity::Contact::FIBER, advertise_contact_events(private_node_)),
       fibers_publisher_(private_node_.advertise<fiber_proximity::FiberArray>("fibers", 1)),
       markers_publisher_(private_node_.advertise<visualization_msgs::MarkerArray>("markers", 1)),
-      statistics_publisher_(private_node_.advertise<fiber_proximity::Statistics>("statistics", 1)),
       inputs_(node_, options_.inputs, options_.timing, options_.fixed_frame,
               [this] { schedule(); }),
       crossings_(private_node_, inputs_.frame()),
       diagnostics_(node_, private_node_, inputs_, detector_),
       environment_(node_, private_node_, inputs_, options_.timing.tf_timeout,
                    [this] { schedule(); }),
+      statistics_(private_node_, {options_.engine, inputs_, detector_, environment_, step_}),
       prediction_(private_node_, inputs_, options_.engine, options_.engine_options),
       comparison_(private_node_, {inputs_, detector_, query_options_, options_},
                   [this] { process(); }),
@@ -78,8 +76,11 @@ void ProximityServer::process() {
   if (fibers_changed) {
     publish();
   } else if (environment_changed && inputs_.is_fresh() && environment_.has_listeners()) {
-    parts_.clear();
-    detect_in_environment();
+    statistics_.begin();
+    const std::chrono::nanoseconds now = to_time(inputs_.header().stamp);
+    const ContinuousStep step{
+        {inputs_.fibers(), inputs_.fibers()}, {now, now}, config_.motion_tolerance};
+    detect_in_environment(config_.continuous ? &step : nullptr);
   }
   if (inputs_.is_waiting() || environment_.inputs().is_waiting()) {
     retry_timer_.start();
@@ -98,17 +99,17 @@ void ProximityServer::publish() {
   detector_.set_fibers(inputs_.fibers());
   step_.advance(inputs_, config_.continuous);
   crossings_.forget();
-  parts_.clear();
-  add_part("merge", inputs_.take_work_time());
+  statistics_.begin();
+  statistics_.add_part("merge", inputs_.take_work_time());
   if (fibers_publisher_.getNumSubscribers() > 0) {
     publish_fibers();
   }
   if (crossings_.is_wanted()) {
     const Stopwatch crossings_time;
     crossings_.publish(inputs_.fibers(), inputs_.header(), inputs_.names());
-    add_part("crossings", crossings_time.seconds());
+    statistics_.add_part("crossings", crossings_time.seconds());
   }
-  const bool statistics = statistics_publisher_.getNumSubscribers() > 0;
+  const bool statistics = statistics_.has_listeners();
   drawing_is_due_ = markers_publisher_.getNumSubscribers() > 0;
   const bool everything = statistics || drawing_is_due_;
   const bool contacts = contacts_publisher_.getNumSubscribers() > 0 || touches_.has_listeners();
@@ -122,7 +123,8 @@ void ProximityServer::publish() {
     touches_.skip();
   }
   if (environment_.is_used() && (everything || environment_.has_listeners())) {
-    detect_in_environment();
+    const ContinuousStep step{step_.motion(), step_.time(), config_.motion_tolerance};
+    detect_in_environment(step_.is_motion() ? &step : nullptr);
   } else {
     environment_.skip();
   }
@@ -134,10 +136,10 @@ void ProximityServer::publish() {
   publish_markers_if_due();
   const Stopwatch comparison_time;
   if (comparison_.publish_if_wanted()) {
-    add_part("comparison", comparison_time.seconds());
+    statistics_.add_part("comparison", comparison_time.seconds());
   }
   if (statistics) {
-    publish_statistics(parts_.front().second + stopwatch.seconds());
+    statistics_.publish(query_options_.kernel, stopwatch.seconds());
   }
 }
 
@@ -155,10 +157,10 @@ bool ProximityServer::detect() {
       !problem.empty()) {
     ROS_WARN_STREAM_THROTTLE(1.0, "fibres (engine " << options_.engine << "): " << problem);
   }
-  add_part("update", detector_.update_time());
-  add_part("contacts", detector_.detection().contact_time());
+  statistics_.add_part("update", detector_.update_time());
+  statistics_.add_part("contacts", detector_.detection().contact_time());
   if (config_.minimum_distance) {
-    add_part("minimum", detector_.detection().minimum_time());
+    statistics_.add_part("minimum", detector_.detection().minimum_time());
   }
   return true;
 }
@@ -169,7 +171,7 @@ void ProximityServer::detect_motion() {
   if (step_.is_motion()) {
     try {
       motion_detector_.detect(step_, query_options_, config_.motion_tolerance);
-      add_part("motion", motion_detector_.time());
+      statistics_.add_part("motion", motion_detector_.time());
     } catch (const std::invalid_argument& error) {
       step_.refuse(error.what());
     }
@@ -187,12 +189,11 @@ void ProximityServer::track_contacts() {
   const fiber::TimeBounds step = touches_.step_to(to_time(inputs_.header().stamp));
   std::optional<KnownMotion> motion;
   if (step_.is_motion()) {
-    const bool reports_all = query_options_.type == fiber::QueryType::ALL &&
-                             found.contacts().complete && !found.contacts().limit_reached;
-    motion.emplace(motion_detector_.known_motion(reports_all));
+    motion.emplace(motion_detector_.known_motion(found.has_all_of(query_options_)));
   }
   contacts_.assign(found.contacts().contacts, step, motion ? &*motion : nullptr);
   touches_.track(contacts_.contacts(), {inputs_.names(), {}}, inputs_.header());
+  passed_.add(contacts_.contacts());
   if (contacts_publisher_.getNumSubscribers() > 0) {
     publish_contacts();
   }
@@ -201,25 +202,31 @@ void ProximityServer::track_contacts() {
 void ProximityServer::predict() {
   const Stopwatch stopwatch;
   prediction_.publish(query_options_, environment_);
-  add_part("prediction", stopwatch.seconds());
+  statistics_.add_part("prediction", stopwatch.seconds());
 }
 
-void ProximityServer::detect_in_environment() {
-  environment_.detect(query_options_, config_.minimum_distance);
+/// @param step see EnvironmentOutput
+void ProximityServer::detect_in_environment(const ContinuousStep* step) {
+  try {
+    environment_.detect(query_options_, config_.minimum_distance, step);
+  } catch (const std::invalid_argument& error) {
+    ROS_WARN_STREAM_THROTTLE(
+        1.0, "environment, continuous: " << error.what() << "; this answer is of its stamp alone");
+    environment_.detect(query_options_, config_.minimum_distance, nullptr);
+  }
   if (const std::string problem = environment_.detection().limit_problem(query_options_);
       !problem.empty()) {
     ROS_WARN_STREAM_THROTTLE(1.0, "environment: " << problem);
   }
-  add_part("environment_update", environment_.update_time());
-  add_part("environment_contacts", environment_.detection().contact_time());
+  statistics_.add_part("environment_update", environment_.update_time());
+  statistics_.add_part("environment_contacts", environment_.detection().contact_time());
   if (config_.minimum_distance) {
-    add_part("environment_minimum", environment_.detection().minimum_time());
+    statistics_.add_part("environment_minimum", environment_.detection().minimum_time());
+  }
+  if (environment_.motion_time() > 0.0) {
+    statistics_.add_part("environment_motion", environment_.motion_time());
   }
   environment_.publish(query_options_, config_.gradients);
-}
-
-void ProximityServer::add_part(const std::string& name, double seconds) {
-  parts_.emplace_back(name, seconds);
 }
 
 void ProximityServer::publish_fibers() {
@@ -241,53 +248,6 @@ void ProximityServer::publish_contacts() {
   }
   contacts_message_.update_time = detector_.update_time();
   contacts_publisher_.publish(contacts_message_);
-}
-
-void ProximityServer::publish_statistics(double total_time) {
-  fiber_proximity::Statistics& message = statistics_message_;
-  message.header = inputs_.header();
-  message.engine = options_.engine;
-  message.fibers = to_count(inputs_.fibers().fiber_count());
-  message.points = to_count(inputs_.fibers().point_count());
-  message.segments = to_count(inputs_.fibers().segment_count());
-  const Detection& found = detector_.detection();
-  message.contacts = to_count(found.contacts().contacts.size());
-  message.minimum_distance = found.minimum() != nullptr ? found.minimum()->distance
-                                                        : std::numeric_limits<double>::infinity();
-  message.merge_time = parts_.front().second;
-  message.update_time = detector_.update_time();
-  message.detect_time = detector_.detect_time();
-  message.total_time = total_time;
-  message.kernel = name_of(query_options_.kernel);
-  message.complete = found.is_complete();
-  message.limit_reached = found.is_limit_reached();
-  message.minimum_lower = found.minimum_lower();
-  message.minimum_upper = found.minimum_upper();
-  message.contact_error = found.contact_error();
-  message.node_tests = found.counts().node_tests;
-  message.node_overlaps = found.counts().node_overlaps;
-  message.primitive_tests = found.counts().primitive_tests;
-  message.parts.clear();
-  message.part_times.clear();
-  for (const auto& [name, seconds] : parts_) {
-    message.parts.push_back(name);
-    message.part_times.push_back(seconds);
-  }
-  message.discrete_answers = step_.problem_count();
-  message.discrete_reason = step_.problem();
-  const bool is_alone = !environment_.is_used();
-  message.objects = is_alone ? 0 : to_count(environment_.environment().objects().size());
-  message.environment_contacts =
-      is_alone ? 0 : to_count(environment_.detection().contacts().contacts.size());
-  message.unknown_objects = environment_.inputs().unknown();
-  message.inputs.clear();
-  for (const std::unique_ptr<Input>& input : inputs_.inputs()) {
-    message.inputs.push_back(input->statistics(ros::Time::now()));
-  }
-  for (const auto& input : environment_.inputs().statistics(ros::Time::now())) {
-    message.inputs.push_back(input);
-  }
-  statistics_publisher_.publish(message);
 }
 
 void ProximityServer::publish_markers_if_due() {
@@ -314,6 +274,7 @@ void ProximityServer::publish_markers_if_due() {
   if (marker_options_.show_legend) {
     legend = legend_lines(marker_options_, environment_marker_options(), query_options_.margin);
   }
+  passed_.forget_old();
   const CrossingDrawing crossings{crossings_.crossings(), crossings_.view()};
   const Drawing drawing{inputs_.fibers(),
                         detector_.detection().contacts().contacts,
@@ -322,7 +283,8 @@ void ProximityServer::publish_markers_if_due() {
                         cost,
                         &crossings,
                         &inputs_.names(),
-                        &legend};
+                        &legend,
+                        &passed_.contacts()};
   marker_builder_.build(inputs_.header(), drawing, marker_options_, markers_message_);
   const Detection& around = environment_.detection();
   environment_markers_.append(inputs_.header(),
@@ -361,6 +323,7 @@ void ProximityServer::reconfigure(AskedConfig& config) {
                          config.motion_tolerance});
   marker_options_.show_fibers = config.show_fibers;
   marker_options_.show_contacts = config.show_contacts;
+  marker_options_.show_passed = config.continuous && config.show_contacts;
   marker_options_.show_nearest = config.show_nearest;
   marker_options_.show_cost = config.show_cost;
   marker_options_.show_boxes = config.show_boxes;

@@ -73,4 +73,26 @@ void StepContacts::add_what_is_gone(const std::vector<MotionContact>& found,
   }
 }
 
+void PassedContacts::add(const std::vector<StepContact>& contacts) {
+  forget_old();
+  const auto now = std::chrono::steady_clock::now();
+  for (const StepContact& contact : contacts) {
+    if (contact.state == StepContact::State::PASSED && contacts_.size() < most) {
+      contacts_.push_back(contact.contact);
+      arrivals_.push_back(now);
+    }
+  }
+}
+
+void PassedContacts::forget_old() {
+  const auto now = std::chrono::steady_clock::now();
+  const auto first_left =
+      std::find_if(arrivals_.begin(), arrivals_.end(), [now](const auto& arrival) {
+        return now - arrival < std::chrono::duration<double>(shown_for);
+      });
+  const auto gone = first_left - arrivals_.begin();
+  arrivals_.erase(arrivals_.begin(), first_left);
+  contacts_.erase(contacts_.begin(), contacts_.begin() + gone);
+}
+
 }  // namespace fiber_proximity_ros

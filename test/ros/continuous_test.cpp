@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "fiber_proximity/ApplyObstacles.h"
 #include "fiber_proximity/ContactEvent.h"
 #include "fiber_proximity/TimeToContact.h"
 #include "fiber_proximity/query/gap_gradient.hpp"
@@ -35,6 +36,22 @@ FiberArray crossed(double x, double z) {
   message.offsets = {0, 5, 7};
   message.names = {"along", "across"};
   return message;
+}
+
+/// 2 cm wide, 1 mm thick.
+fiber_proximity::Obstacle plate(const Vector3d& center) {
+  fiber_proximity::Obstacle obstacle;
+  obstacle.header.frame_id = "world";
+  obstacle.id = "plate";
+  obstacle.operation = fiber_proximity::Obstacle::ADD;
+  obstacle.pose.orientation.w = 1.0;
+  obstacle.pose.position = fiber_proximity_ros::to_message(center);
+  obstacle.primitives.resize(1);
+  obstacle.primitives[0].type = shape_msgs::SolidPrimitive::BOX;
+  obstacle.primitives[0].dimensions = {0.02, 0.02, 0.001};
+  obstacle.primitive_poses.resize(1);
+  obstacle.primitive_poses[0].orientation.w = 1.0;
+  return obstacle;
 }
 
 /// Stamps are a tenth of a second apart, whenever messages are sent.
@@ -288,6 +305,71 @@ TEST_F(ContinuousTest, GradientsAreThoseOfTheContact) {
   set("gradients", true);
   ASSERT_NE(without, nullptr);
   EXPECT_TRUE(without->contacts[0].gradients.empty());
+}
+
+/// A plate between two states, and a ball that moves while the cables stand still.
+TEST_F(ContinuousTest, WhatIsAroundIsMetBetweenMessages) {
+  node_test::Recorder<ContactArray> around(node, "/proximity/environment_contacts");
+  const auto apply = [](const fiber_proximity::Obstacle& obstacle) {
+    fiber_proximity::ApplyObstacles service;
+    service.request.obstacles = {obstacle};
+    ASSERT_TRUE(ros::service::call("/proximity/apply_obstacles", service));
+    ASSERT_TRUE(service.response.success) << service.response.message;
+  };
+  apply(plate({0.1, 0.2, 0.05 * z_ / 0.1}));
+  ASSERT_TRUE(node_test::wait_for([&] {
+    return answer_to(crossed(0.1, z_)) != nullptr && !around.messages.empty() &&
+           around.messages.back()->continuous;
+  }));
+  events_.messages.clear();
+  const ros::Time stamp = publish(crossed(0.1, -z_));
+  const ContactArray* const met = around.wait_for(stamp);
+  ASSERT_NE(met, nullptr);
+  EXPECT_TRUE(met->continuous);
+  ASSERT_EQ(met->contacts.size(), 1U);
+  EXPECT_TRUE(met->contacts[0].gone);
+  EXPECT_EQ(met->contacts[0].type_b, Contact::OBJECT);
+  EXPECT_EQ(met->contacts[0].fiber_a, 1U);
+  EXPECT_NEAR(met->contacts[0].distance, 0.0, 2e-6);
+  const double expected = (0.1 - 0.05 - 0.0005 - radius) / 2.0;
+  EXPECT_LE(after(met->contacts[0].time_lower, *met), expected + 1e-9);
+  EXPECT_GE(after(met->contacts[0].time_upper, *met), expected - 1e-9);
+  EXPECT_LT((met->contacts[0].time_upper - met->contacts[0].time_lower).toSec(), 1e-4);
+  std::vector<ContactEvent> of_plate;
+  for (const ContactEvent& event : events_until(stamp, 4)) {
+    if (event.type_b == Contact::OBJECT) {
+      of_plate.push_back(event);
+    }
+  }
+  ASSERT_EQ(of_plate.size(), 2U);
+  EXPECT_EQ(of_plate[0].kind, ContactEvent::BEGAN);
+  EXPECT_EQ(of_plate[0].body_b, "plate");
+  EXPECT_EQ(of_plate[1].kind, ContactEvent::ENDED);
+  EXPECT_EQ(of_plate[0].id, met->contacts[0].id);
+
+  // Towards the plate, whose side the cable is on now, it is predicted.
+  const double side = z_ > 0.0 ? 1.0 : -1.0;
+  apply(plate({0.1, 0.2, -0.2 * side}));
+  ASSERT_NE(answer_to(crossed(0.1, -z_)), nullptr);
+  ASSERT_NE(answer_to(crossed(0.1, -z_ - 0.01 * side)), nullptr);
+  const TimeToContact* const told = times_.wait_for(publish(crossed(0.1, -z_ - 0.02 * side)));
+  ASSERT_NE(told, nullptr);
+  ASSERT_TRUE(told->environment.expected);
+  EXPECT_EQ(told->object_names, std::vector<std::string>{"plate"});
+  EXPECT_LT(told->environment.time_lower, told->environment.time_upper);
+  EXPECT_NEAR(told->environment.time_upper, (0.08 - 0.0005 - radius) / 0.1, 1e-3);
+
+  // The plate itself goes through the cable that stands still.
+  ASSERT_NE(answer_to(crossed(0.1, -z_)), nullptr);
+  ASSERT_NE(answer_to(crossed(0.1, -z_)), nullptr);
+  around.messages.clear();
+  apply(plate({0.1, 0.2, 0.3 * side}));
+  ASSERT_TRUE(node_test::wait_for([&] {
+    answer_to(crossed(0.1, -z_));
+    return around.find([](const ContactArray& answer) {
+      return answer.contacts.size() == 1 && answer.contacts[0].gone;
+    }) != nullptr;
+  }));
 }
 
 // The last one: the other input stays, ahead of the cables.

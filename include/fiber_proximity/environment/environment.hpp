@@ -64,6 +64,10 @@ class Environment {
                     const Environment& later, const MotionOptions& options,
                     const AllowedPairs& allowed, MotionResult& result) const;
 
+  /// A pair that query_motion() has found, as it is at time_of() it.
+  Contact first_contact(const FiberMotion& motion, const Environment& later,
+                        const MotionContact& contact) const;
+
  private:
   class BroadPhase;
 

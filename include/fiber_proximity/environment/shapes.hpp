@@ -68,6 +68,9 @@ struct EnvironmentObject {
   std::vector<PlacedShape> shapes;
 };
 
+/// Whether one could be the other, moved; meshes and octrees must be the same objects in memory.
+bool have_same_shapes(const EnvironmentObject& x, const EnvironmentObject& y);
+
 /// @throws std::invalid_argument naming what is wrong with the shape, the value and what is allowed
 void validate(const Shape& shape);
 

@@ -6,9 +6,15 @@
 
 namespace fiber {
 
-/// The pair of a MotionContact as it is at its MotionContact::upper, or at `lower` where no such
-/// time was found: distance, nearest points and normal as a robust query about the fibres of that
-/// time has them.
+/// A segment at a part of the motion, of the larger of its radii.
+/// @param point its first one
+Capsule capsule_at(const FiberMotion& motion, std::uint32_t point, double time);
+
+/// The time at which a MotionContact is looked at: its `upper`, or `lower` where there is none.
+double time_of(const MotionContact& contact);
+
+/// The pair of a MotionContact as it is at time_of() it: distance, nearest points and normal as a
+/// robust query about the fibres of that time has them.
 /// @param a, b of the first and of the second segment, the same for fibres with each other
 Contact first_contact(const FiberMotion& a, const FiberMotion& b, const MotionContact& contact);
 

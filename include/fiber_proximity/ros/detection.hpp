@@ -25,6 +25,10 @@ class Detection {
   const fiber::Contact* minimum() const { return minimum_; }  ///< nullptr if there is no pair
   bool is_complete() const { return complete_; }  ///< no deadline or limit came before its end
   bool is_limit_reached() const { return limit_reached_; }
+  /// Whether these options asked for all contacts, and there are no others.
+  bool has_all_of(const fiber::QueryOptions& options) const {
+    return options.type == fiber::QueryType::ALL && contacts_.complete && !contacts_.limit_reached;
+  }
   /// What a user is told who has not asked for so few contacts or pairs; empty if no limit of the
   /// options but that of LIMITED is reached.
   std::string limit_problem(const fiber::QueryOptions& options) const;

@@ -11,6 +11,7 @@
 #include "fiber_proximity/ros/contact_events.hpp"
 #include "fiber_proximity/ros/detection.hpp"
 #include "fiber_proximity/ros/environment_inputs.hpp"
+#include "fiber_proximity/ros/environment_motion_detector.hpp"
 #include "fiber_proximity/ros/input_set.hpp"
 #include "fiber_proximity/ros/step_contacts.hpp"
 
@@ -40,13 +41,15 @@ class EnvironmentOutput {
   bool is_used() const { return inputs_.is_used(); }
 
   /// Finds contacts and, if wanted, the closest pair. Once at most after each update().
-  void detect(const fiber::QueryOptions& options, bool wants_minimum);
+  /// @param step since the answer before, if contacts in between are wanted and can be found; it
+  ///        must live, unchanged, until publish()
+  void detect(const fiber::QueryOptions& options, bool wants_minimum, const ContinuousStep* step);
   /// Publishes what detect() found, and what of it began or ended, if somebody listens.
   /// @param has_gradients whether derivatives are asked for
   void publish(const fiber::QueryOptions& options, bool has_gradients);
 
   /// An answer is given without looking around.
-  void skip() { touches_.skip(); }
+  void skip();
 
   const EnvironmentInputs& inputs() const { return inputs_; }
 
@@ -54,13 +57,19 @@ class EnvironmentOutput {
   const Detection& detection() const { return detection_; }
   const fiber::Environment& environment() const { return *environment_; }
   double update_time() const { return update_time_; }  ///< [s] to bring it up to date
+  double motion_time() const { return motion_time_; }  ///< [s] to find contacts in between
 
  private:
   InputSet& fibers_;
   EnvironmentInputs inputs_;
   std::shared_ptr<const fiber::Environment> environment_;
+  std::shared_ptr<const fiber::Environment> environment_before_;  // null if it was not looked at
   Detection detection_;
+  EnvironmentMotionDetector motion_;
+  bool is_tracked_ = false;               // the answer before was looked at
+  const ContinuousStep* step_ = nullptr;  // null if the answer is of its stamp alone
   double update_time_ = 0.0;
+  double motion_time_ = 0.0;
   ros::Publisher publisher_;
   ContactEvents touches_;
   StepContacts contacts_;                  // for its memory

@@ -27,6 +27,7 @@ struct MarkerOptions {
   std::uint32_t level = 4;  ///< of the hierarchy, whose boxes the caller hands in; 0 is the root
   bool show_names = false;
   bool show_legend = false;
+  bool show_passed = false;  ///< contacts that came and went, if there are any to show
 };
 
 /// What a colour means.
@@ -45,6 +46,7 @@ struct Drawing {
   const CrossingDrawing* crossings = nullptr;       ///< nullptr if there are none to show
   const std::vector<std::string>* names = nullptr;  ///< of the fibres, if they are shown
   const std::vector<LegendLine>* legend = nullptr;  ///< if it is shown
+  const std::vector<fiber::Contact>* passed = nullptr;  ///< contacts that came and went
 };
 
 /// A distance [m] as texts have it, in mm.
@@ -69,6 +71,7 @@ std::string cost_text(const std::string& kernel, double seconds, double error, b
 /// | `contacts`     | n           | SPHERE_LIST midway between the surfaces; red in penetration, |
 /// |                |             | amber within the margin; one of each size, see disc_size()   |
 /// | `normals`      | 0           | LINE_LIST from there along the normal a→b                    |
+/// | `passed`       | 0           | SPHERE_LIST where contacts came and went, of late; cyan      |
 /// | `nearest`      | 0           | LINE_LIST between the nearest points of the closest pair     |
 /// | `nearest_text` | 0           | its distance in mm                                           |
 /// | `cost`         | 0           | TEXT_VIEW_FACING above all fibres: kernel, ms, error in m    |
@@ -99,6 +102,7 @@ class MarkerBuilder {
     FIBERS,
     CONTACTS,
     NORMALS,
+    PASSED,
     NEAREST,
     NEAREST_TEXT,
     COST,
@@ -119,6 +123,8 @@ class MarkerBuilder {
   static void draw_normals(const fiber::FiberAssembly& fibers,
                            const std::vector<fiber::Contact>& contacts, double largest,
                            Canvas& canvas);
+  static void draw_passed(const std::vector<fiber::Contact>& contacts, double largest,
+                          Canvas& canvas);
   static void draw_nearest(const fiber::Contact& minimum, const MarkerScale& scale, Canvas& canvas);
   static void draw_cost(const std::string& cost, const MarkerScale& scale, Canvas& canvas);
   static void draw_boxes(const std::vector<fiber::NodeBox>& boxes, double extent, Canvas& canvas);

@@ -4,13 +4,11 @@
 #include <ros/node_handle.h>
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "fiber_proximity/ContactArray.h"
 #include "fiber_proximity/FiberArray.h"
 #include "fiber_proximity/ProximityConfig.h"
-#include "fiber_proximity/Statistics.h"
 #include "fiber_proximity/ros/comparison_output.hpp"
 #include "fiber_proximity/ros/contact_events.hpp"
 #include "fiber_proximity/ros/crossings_output.hpp"
@@ -26,6 +24,7 @@
 #include "fiber_proximity/ros/prediction_output.hpp"
 #include "fiber_proximity/ros/query_services.hpp"
 #include "fiber_proximity/ros/server_options.hpp"
+#include "fiber_proximity/ros/statistics_output.hpp"
 #include "fiber_proximity/ros/step_contacts.hpp"
 
 namespace fiber_proximity_ros {
@@ -56,13 +55,11 @@ class ProximityServer {
   void publish();
   bool detect();
   void detect_motion();
-  void detect_in_environment();
+  void detect_in_environment(const ContinuousStep* step);
   void predict();
-  void add_part(const std::string& name, double seconds);
   void publish_fibers();
   void track_contacts();
   void publish_contacts();
-  void publish_statistics(double total_time);
   void publish_markers_if_due();
   EnvironmentMarkerOptions environment_marker_options() const;
 
@@ -82,21 +79,19 @@ class ProximityServer {
   ContactEvents touches_;
   ros::Publisher fibers_publisher_;
   ros::Publisher markers_publisher_;
-  ros::Publisher statistics_publisher_;
 
   // Members for their memory.
   StepContacts contacts_;
   fiber_proximity::FiberArray fibers_message_;
   fiber_proximity::ContactArray contacts_message_;
-  fiber_proximity::Statistics statistics_message_;
   visualization_msgs::MarkerArray markers_message_;
   std::vector<fiber::NodeBox> boxes_;
 
   MarkerBuilder marker_builder_;
   EnvironmentMarkers environment_markers_;
+  PassedContacts passed_;
   ros::SteadyTime last_drawing_;
   bool drawing_is_due_ = false;
-  std::vector<std::pair<std::string, double>> parts_;  // [s] what the last update ran
   bool is_scheduled_ = false;
 
   // Last, so that they go first: callbacks come from here.
@@ -104,6 +99,7 @@ class ProximityServer {
   CrossingsOutput crossings_;
   Diagnostics diagnostics_;
   EnvironmentOutput environment_;
+  StatisticsOutput statistics_;
   PredictionOutput prediction_;
   ComparisonOutput comparison_;
   QueryServices queries_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <vector>
 
@@ -51,6 +52,21 @@ class StepContacts {
 
   std::vector<StepContact> contacts_;
   std::vector<StepContact> gone_;  // a member for its memory
+};
+
+/// Contacts that came and went, kept for a moment so that somebody can see them.
+class PassedContacts {
+ public:
+  static constexpr double shown_for = 1.0;    ///< [s] of wall time
+  static constexpr std::size_t most = 10000;  ///< more cannot be told apart
+
+  void add(const std::vector<StepContact>& contacts);
+  void forget_old();
+  const std::vector<fiber::Contact>& contacts() const { return contacts_; }
+
+ private:
+  std::vector<fiber::Contact> contacts_;
+  std::vector<std::chrono::steady_clock::time_point> arrivals_;  // of each, in their order
 };
 
 }  // namespace fiber_proximity_ros
