@@ -37,6 +37,30 @@ AxisDistance distance_of_axis(const TriangleCorners& triangle, const Vector3d& p
   return {found.s, found.distance, found.distance, unit_of(between)};
 }
 
+/// What of a direction is at right angles to where the solid is straight in a plane of this normal:
+/// along its own axes, as far as they are in the plane.
+template <class Solid>
+Vector3d off_straight(const Solid& /*solid*/, const Vector3d& normal, const Vector3d& direction) {
+  Vector3d off = direction;
+  for (int i = 0; i < 3; ++i) {
+    off[i] = normal[i] == 0.0 ? 0.0 : direction[i];
+  }
+  return off;
+}
+
+/// The same of a triangle: along the edge that is in the plane, nearly.
+Vector3d off_straight(const TriangleCorners& triangle, const Vector3d& normal,
+                      const Vector3d& direction) {
+  constexpr double nearly = 1e-6;
+  for (std::size_t i = 0; i < triangle.size(); ++i) {
+    const Vector3d edge = unit_of(triangle[(i + 1) % triangle.size()] - triangle[i]);
+    if (std::abs(edge.dot(normal)) < nearly) {
+      return direction - edge.dot(direction) * edge;
+    }
+  }
+  return direction;
+}
+
 /// An axis at one time of its motion, and how its ends move from there.
 struct AxisState {
   AxisState(const AxisMotion& motion, double time) {
@@ -96,15 +120,12 @@ class SeparatingPlane {
  private:
   static double length(const Vector3d& normal) { return std::max(normal.norm(), 1.0); }
 
-  /// How the normal changes so that it stays at right angles to the axis, and to those axes of the
-  /// solid that it is at right angles to: it may be straight along them.
+  /// How the normal changes so that it stays at right angles to the axis, and to what of the solid
+  /// is straight.
   Vector3d turning() const {
     const Vector3d along = axis_.ends[1] - axis_.ends[0];
     const Vector3d way = axis_.ways[1] - axis_.ways[0];
-    Vector3d free = along;
-    for (int i = 0; i < 3; ++i) {
-      free[i] = normal_[i] == 0.0 ? 0.0 : along[i];
-    }
+    const Vector3d free = off_straight(solid_, normal_, along);
     return (-normal_.dot(way) / free.dot(along)) * free;
   }
 
