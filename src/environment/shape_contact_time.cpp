@@ -109,12 +109,11 @@ class SeparatingPlane {
   double turning_separates_for(double most, double least) const {
     constexpr double less = 0.25;
     const Vector3d turn = turning();
-    for (double time = most; time > least; time *= less) {
-      if (separates_turning(turn, time)) {
-        return time;
-      }
+    double time = most;
+    while (time > least && !separates_turning(turn, time)) {
+      time *= less;
     }
-    return 0.0;
+    return time > least ? time : 0.0;
   }
 
  private:
@@ -227,7 +226,8 @@ class SolidAdvance {
   ContactTime found_from(double lower, AxisDistance near) const {
     ContactTime found{true, lower, never, false};
     double step = std::max({near.distance - limit_, tolerance_, error_}) / speed_;
-    for (double time = lower;; step *= 2.0) {
+    double time = lower;
+    while (true) {
       if (is_within(near, 0.0)) {
         found.upper = time;
         found.certain = true;
@@ -242,6 +242,7 @@ class SolidAdvance {
         return found;
       }
       time = std::min(time + step, 1.0);
+      step *= 2.0;
       const AxisState axis(motion_, time);
       near = distance_of_axis(solid_, axis.ends[0], axis.ends[1]);
     }
