@@ -26,7 +26,8 @@ const std::vector<Part>& parts() {
        {"checker", "objects_ms", "cables_ms", "self_ms", "contacts_ms", "nearest_ms", "sum_ms",
         "times_own", "self_contacts", "contacts", "missed", "unwanted"}},
       {"octree", measure_octree, {"resolution", "build_ms", "cells"}},
-      {"batch", measure_batch, {"threads", "per_candidate_ms", "touching"}}};
+      {"batch", measure_batch, {"threads", "per_candidate_ms", "touching"}},
+      {"motions", measure_steps, {"threads", "per_candidate_ms", "touching"}}};
   return all;
 }
 
@@ -93,11 +94,11 @@ void add_count(CLI::App& app, const std::string& name, std::uint32_t& value,
 void add_environment_command(CLI::App& app, Command& command) {
   const auto request = std::make_shared<EnvironmentRequest>();
   EnvironmentMeasurement& what = request->measurement;
-  CLI::App* environment =
-      app.add_subcommand("environment",
-                         "what the objects around cables cost: a cell with a robot, checked in "
-                         "every frame beside FCL; "
-                         "octrees of a depth camera's cloud; candidate cables checked in a batch");
+  CLI::App* environment = app.add_subcommand(
+      "environment",
+      "what the objects around cables cost: a cell with a robot, checked in "
+      "every frame beside FCL; "
+      "octrees of a depth camera's cloud; candidate cables, and their motions, checked in a batch");
   environment->callback([&command, request] { command = [request] { return run(*request); }; });
   environment
       ->add_option("--parts", request->parts,

@@ -8,6 +8,7 @@ fiber_proximity_tool(fiber_bench src/tools/fiber_bench.cpp
   benchmark/environment/capsule_mesh.cpp benchmark/environment/cell.cpp
   benchmark/environment/cell_difference.cpp benchmark/environment/fcl_checker.cpp
   benchmark/environment/fcl_shapes.cpp benchmark/environment/measure_batch.cpp
+  benchmark/environment/measure_steps.cpp
   benchmark/environment/measure_cell.cpp benchmark/environment/measure_octree.cpp
   benchmark/environment/own_checker.cpp benchmark/kernels.cpp
   benchmark/continuous/fiber_ways.cpp benchmark/continuous/measure_accuracy.cpp benchmark/continuous/measure_scenes.cpp

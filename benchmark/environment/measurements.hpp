@@ -31,4 +31,7 @@ std::vector<BenchmarkRow> measure_octree(const EnvironmentMeasurement& what);
 /// turns.
 std::vector<BenchmarkRow> measure_batch(const EnvironmentMeasurement& what);
 
+/// The same of candidates that go 5 cm, for their first contact on the way.
+std::vector<BenchmarkRow> measure_steps(const EnvironmentMeasurement& what);
+
 }  // namespace fiber

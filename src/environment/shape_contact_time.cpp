@@ -37,6 +37,30 @@ AxisDistance distance_of_axis(const TriangleCorners& triangle, const Vector3d& p
   return {found.s, found.distance, found.distance, unit_of(between)};
 }
 
+/// What of a direction is at right angles to where the solid is straight in a plane of this normal:
+/// along its own axes, as far as they are in the plane.
+template <class Solid>
+Vector3d off_straight(const Solid& /*solid*/, const Vector3d& normal, const Vector3d& direction) {
+  Vector3d off = direction;
+  for (int i = 0; i < 3; ++i) {
+    off[i] = normal[i] == 0.0 ? 0.0 : direction[i];
+  }
+  return off;
+}
+
+/// The same of a triangle: along the edge that is in the plane, nearly.
+Vector3d off_straight(const TriangleCorners& triangle, const Vector3d& normal,
+                      const Vector3d& direction) {
+  constexpr double nearly = 1e-6;
+  for (std::size_t i = 0; i < triangle.size(); ++i) {
+    const Vector3d edge = unit_of(triangle[(i + 1) % triangle.size()] - triangle[i]);
+    if (std::abs(edge.dot(normal)) < nearly) {
+      return direction - edge.dot(direction) * edge;
+    }
+  }
+  return direction;
+}
+
 /// An axis at one time of its motion, and how its ends move from there.
 struct AxisState {
   AxisState(const AxisMotion& motion, double time) {
@@ -85,26 +109,22 @@ class SeparatingPlane {
   double turning_separates_for(double most, double least) const {
     constexpr double less = 0.25;
     const Vector3d turn = turning();
-    for (double time = most; time > least; time *= less) {
-      if (separates_turning(turn, time)) {
-        return time;
-      }
+    double time = most;
+    while (time > least && !separates_turning(turn, time)) {
+      time *= less;
     }
-    return 0.0;
+    return time > least ? time : 0.0;
   }
 
  private:
   static double length(const Vector3d& normal) { return std::max(normal.norm(), 1.0); }
 
-  /// How the normal changes so that it stays at right angles to the axis, and to those axes of the
-  /// solid that it is at right angles to: it may be straight along them.
+  /// How the normal changes so that it stays at right angles to the axis, and to what of the solid
+  /// is straight.
   Vector3d turning() const {
     const Vector3d along = axis_.ends[1] - axis_.ends[0];
     const Vector3d way = axis_.ways[1] - axis_.ways[0];
-    Vector3d free = along;
-    for (int i = 0; i < 3; ++i) {
-      free[i] = normal_[i] == 0.0 ? 0.0 : along[i];
-    }
+    const Vector3d free = off_straight(solid_, normal_, along);
     return (-normal_.dot(way) / free.dot(along)) * free;
   }
 
@@ -150,13 +170,19 @@ class SolidAdvance {
   }
 
   /// The contact that begins before this time, if there is one.
-  ContactTime first_before(double until) const {
+  /// @param guess a normal that may separate them all the time: where it does, that was all.
+  ///              Becomes the normal of a plane that has separated them last
+  ContactTime first_before(double until, Vector3d& guess) const {
     constexpr int most_steps = 500;
+    const AxisState start(motion_, 0.0);
+    if (SeparatingPlane<Solid>(solid_, start, guess, limit_ + error_).separates_for() >= until) {
+      return {};
+    }
     double time = 0.0;
     for (int step = 0; step < most_steps; ++step) {
       const AxisState axis(motion_, time);
       const AxisDistance near = distance_of_axis(solid_, axis.ends[0], axis.ends[1]);
-      const double next = time + free_for(axis, near, until - time);
+      const double next = time + free_for(axis, near, until - time, guess);
       if (next >= until) {
         return {};
       }
@@ -174,7 +200,8 @@ class SolidAdvance {
   }
 
   /// How long there is certainly no contact from now on, or at least `enough`.
-  double free_for(const AxisState& axis, const AxisDistance& near, double enough) const {
+  double free_for(const AxisState& axis, const AxisDistance& near, double enough,
+                  Vector3d& guess) const {
     const double apart = limit_ + error_;
     const double gap = near.lower - apart;
     double time = gap > 0.0 ? gap / speed_ : 0.0;
@@ -185,6 +212,7 @@ class SolidAdvance {
       const SeparatingPlane<Solid> plane(solid_, axis, normal, apart);
       if (time < enough) {
         time = std::max(time, plane.separates_for());
+        guess = time < enough ? guess : normal;
       }
       if (time < enough) {
         time = std::max(time, plane.turning_separates_for(enough, std::max(time, least_turning)));
@@ -198,7 +226,8 @@ class SolidAdvance {
   ContactTime found_from(double lower, AxisDistance near) const {
     ContactTime found{true, lower, never, false};
     double step = std::max({near.distance - limit_, tolerance_, error_}) / speed_;
-    for (double time = lower;; step *= 2.0) {
+    double time = lower;
+    while (true) {
       if (is_within(near, 0.0)) {
         found.upper = time;
         found.certain = true;
@@ -213,6 +242,7 @@ class SolidAdvance {
         return found;
       }
       time = std::min(time + step, 1.0);
+      step *= 2.0;
       const AxisState axis(motion_, time);
       near = distance_of_axis(solid_, axis.ends[0], axis.ends[1]);
     }
@@ -290,7 +320,8 @@ class MovingAxis {
  private:
   template <class Solid>
   ContactTime advance(const Solid& solid, const AxisMotion& motion, double until) const {
-    return SolidAdvance<Solid>(solid, motion, limit_, error_, tolerance_).first_before(until);
+    return SolidAdvance<Solid>(solid, motion, limit_, error_, tolerance_)
+        .first_before(until, guess_);
   }
 
   static double until(const ContactTime& first) {
@@ -303,6 +334,8 @@ class MovingAxis {
   const double tolerance_;  // [m]
   double error_ = 0.0;      // [m]
   WorldBox box_;            // around the way of the axis [m]
+  // What separates the axis from one triangle often does so from the next ones.
+  mutable Vector3d guess_ = Vector3d::Zero();
 };
 
 }  // namespace

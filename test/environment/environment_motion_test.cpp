@@ -201,6 +201,36 @@ TEST(EnvironmentMotion, ACableThatSlidesAlongAThingIsFree) {
   EXPECT_GT(looks, 100U);
 }
 
+/// Across the upper edge of a box at x = 0.1 m, z = 0.05 m, this far from it and so steep.
+std::vector<Vector3d> across_edge(double gap, double angle, double skew) {
+  const Vector3d away(std::sin(angle), 0.0, std::cos(angle));
+  const Vector3d along(std::cos(angle), skew, -std::sin(angle));
+  const Vector3d middle = Vector3d(0.1, 0.0, 0.05) + gap * away;
+  return {middle - 0.02 * along, middle + 0.03 * along};
+}
+
+TEST(EnvironmentMotion, ACableThatSeesawsOnAnEdgeIsFree) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  const Vector3d size(0.2, 0.2, 0.1);
+  const std::vector<Shape> shapes{BoxShape{size}, box_mesh(size, 4), CylinderShape{0.1, 0.1}};
+  for (const double gap : {1e-3, 1e-5, 1e-7}) {
+    for (const Shape& shape : shapes) {
+      const Isometry3d pose = random_pose(random, 1.0);
+      const double angle = random.uniform(0.3, 1.1);
+      const double skew = random.uniform(-0.5, 0.5);
+      const FiberAssembly before = placed_cable(pose, across_edge(gap, angle, skew), 0.0);
+      const FiberAssembly after = placed_cable(pose, across_edge(gap, angle + 0.1, skew), 0.0);
+      MotionOptions options;
+      options.tolerance = 1e-9;
+      EXPECT_TRUE(ask({{"thing", pose, {{shape}}}}, before, after, options).contacts.empty())
+          << gap << " " << shape.index();
+      options.margin = 1.01 * gap;
+      EXPECT_FALSE(ask({{"thing", pose, {{shape}}}}, before, after, options).touching.empty());
+    }
+  }
+}
+
 TEST(EnvironmentMotion, ABladeThatTurnsThroughACableIsCaught) {
   // A plate 1 µm thick in the x-z plane, that turns about y by 170 degrees past a cable along y.
   const EnvironmentObject blade{"blade", identity, {{BoxShape{{1.0, 1.0, 1e-6}}}}};
