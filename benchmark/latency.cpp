@@ -1,7 +1,10 @@
 #include <fiber_proximity/ContactArray.h>
+#include <fiber_proximity/ContactEvent.h>
 #include <fiber_proximity/FiberArray.h>
+#include <fiber_proximity/TimeToContact.h>
 #include <ros/ros.h>
 
+#include <atomic>
 #include <cmath>
 #include <iostream>
 #include <map>
@@ -29,6 +32,9 @@ struct LatencyRequest {
   double timeout = 10.0;  // to wait for the node [s]
   std::string topic = "fibers";
   std::string contacts = "proximity/contacts";
+  std::string events = "proximity/contact_events";
+  std::string times = "proximity/time_to_contact";
+  bool continuous = false;  // whether to listen to these two as well
   std::string frame = "world";
   bool json = false;
 };
@@ -123,6 +129,17 @@ class LatencyRun {
         publisher_(node_.advertise<FiberArray>(request.topic, 1)),
         subscriber_(node_.subscribe(request.contacts, 100, &LatencyRun::on_contacts, this,
                                     ros::TransportHints().tcpNoDelay())) {
+    if (request.continuous) {
+      using fiber_proximity::ContactEvent;
+      using fiber_proximity::TimeToContact;
+      others_ = {node_.subscribe<ContactEvent>(
+                     request.events, 10000,
+                     [this](const ContactEvent::ConstPtr& /*event*/) { ++events_; }),
+                 node_.subscribe<TimeToContact>(request.times, 100,
+                                                [this](const TimeToContact::ConstPtr& times) {
+                                                  predictions_ += times->problem.empty() ? 1 : 0;
+                                                })};
+    }
     spinner_.start();
   }
 
@@ -141,12 +158,16 @@ class LatencyRun {
     }
     log_.clear();
     published_ = 0;
+    events_ = 0;
+    predictions_ = 0;
     publish(request_.seconds, [] { return false; });
     wait_until(1.0, [this] { return log_.pending() == 0; });
   }
 
   std::size_t published() const { return published_; }
   const LatencyLog& log() const { return log_; }
+  std::size_t events() const { return events_; }
+  std::size_t predictions() const { return predictions_; }
 
  private:
   void on_contacts(const ContactArray& contacts) { log_.answered(contacts); }
@@ -174,22 +195,29 @@ class LatencyRun {
   std::size_t published_ = 0;
   ros::NodeHandle node_;
   ros::Publisher publisher_;
+  std::atomic<std::size_t> events_{0};
+  std::atomic<std::size_t> predictions_{0};
   ros::Subscriber subscriber_;
+  std::vector<ros::Subscriber> others_;
   ros::AsyncSpinner spinner_{1};  // last: stops before what its callbacks use
 };
 
 void print(const LatencyRequest& request, const LatencyRun& run) {
   const std::vector<double> latencies = run.log().latencies_ms();
-  const nlohmann::ordered_json result{{"cables", request.cables},
-                                      {"points", request.points},
-                                      {"rate", request.rate},
-                                      {"published", run.published()},
-                                      {"answered", latencies.size()},
-                                      {"contacts", run.log().contacts()},
-                                      {"median_ms", quantile(latencies, 0.5)},
-                                      {"p90_ms", quantile(latencies, 0.9)},
-                                      {"p99_ms", quantile(latencies, 0.99)},
-                                      {"max_ms", quantile(latencies, 1.0)}};
+  nlohmann::ordered_json result{{"cables", request.cables},
+                                {"points", request.points},
+                                {"rate", request.rate},
+                                {"published", run.published()},
+                                {"answered", latencies.size()},
+                                {"contacts", run.log().contacts()},
+                                {"median_ms", quantile(latencies, 0.5)},
+                                {"p90_ms", quantile(latencies, 0.9)},
+                                {"p99_ms", quantile(latencies, 0.99)},
+                                {"max_ms", quantile(latencies, 1.0)}};
+  if (request.continuous) {
+    result["events"] = run.events();
+    result["predictions"] = run.predictions();
+  }
   if (request.json) {
     std::cout << result.dump() << '\n';
     return;
@@ -240,6 +268,12 @@ void add_latency_command(CLI::App& app, Command& command) {
   latency->add_option("--topic", request->topic, "the node's FiberArray input")
       ->capture_default_str();
   latency->add_option("--contacts", request->contacts, "the node's ContactArray output")
+      ->capture_default_str();
+  latency->add_flag("--continuous", request->continuous,
+                    "listen to the node's ~contact_events and ~time_to_contact, too");
+  latency->add_option("--events", request->events, "the node's ContactEvent output")
+      ->capture_default_str();
+  latency->add_option("--times", request->times, "the node's TimeToContact output")
       ->capture_default_str();
   latency->add_option("--frame", request->frame, "of the cables")->capture_default_str();
   latency->add_flag("--json", request->json, "a JSON object instead of lines");

@@ -113,6 +113,6 @@ install(DIRECTORY include/${PROJECT_NAME}/
 )
 install(DIRECTORY config launch meshes rviz urdf DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 catkin_install_python(PROGRAMS
-  scripts/play_cell.py scripts/play_tracker.py scripts/print_contacts.py
+  scripts/play_cell.py scripts/play_passing.py scripts/play_tracker.py scripts/print_contacts.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION}
 )

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Sets up, builds and shows the demo: simulated cables, their contacts, in rviz.
-#   scripts/demo.sh [--cell] [--headless] [--seconds N] [--screenshot FILE] [--verbose]
+#   scripts/demo.sh [--cell] [--continuous] [--headless] [--seconds N] [--screenshot FILE] [--verbose]
 #     --cell             instead an arm that moves a cable about a table, and its distances to both
+#     --continuous       finds contacts that come and go between two messages, too
 #     --headless         no window: prints contacts as they come; so it does without a display
 #     --seconds N        ends after N seconds; default: with Ctrl-C
 #     --screenshot FILE  headless: saves what rviz shows, at the end of the N seconds (default: as
@@ -14,7 +15,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 # shellcheck source=scripts/processes.sh
 source "$(dirname "${BASH_SOURCE[0]}")/processes.sh"
 
-usage="usage: scripts/demo.sh [--cell] [--headless] [--seconds N] [--screenshot FILE] [--verbose]"
+usage="usage: scripts/demo.sh [--cell] [--continuous] [--headless] [--seconds N] [--screenshot FILE] [--verbose]"
 refuse() {
   echo "demo.sh: $1; $usage" >&2
   exit 2
@@ -22,6 +23,7 @@ refuse() {
 
 launch_file=demo.launch
 contacts=/proximity/contacts
+continuous=false
 headless=false
 seconds=
 screenshot=
@@ -31,6 +33,7 @@ while [ $# -gt 0 ]; do
       launch_file=cell.launch
       contacts=/proximity/environment_contacts
       ;;
+    --continuous) continuous=true ;;
     --headless) headless=true ;;
     --verbose) be_verbose ;;
     --seconds)
@@ -67,6 +70,9 @@ if [ -n "$screenshot" ]; then
   launch_arguments+=(rviz_args:=--fullscreen)
 elif $headless; then
   launch_arguments=(rviz:=false)
+fi
+if $continuous; then
+  launch_arguments+=(continuous:=true)
 fi
 start_launch_file "$root/launch/$launch_file" "${launch_arguments[@]}"
 "$root/scripts/print_contacts.py" "$contacts" &

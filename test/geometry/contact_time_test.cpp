@@ -127,22 +127,6 @@ TEST(ContactTime, RefusesAToleranceThatIsNone) {
   }
 }
 
-// What fails elsewhere: bodies that start far apart and meet in the middle of a long way, for which
-// fcl 0.6 answered differently from run to run or not at all (python-fcl#11 and #38, of boxes), and
-// valid input on which fcl::continuousCollide ends the process (fcl#637).
-TEST(ContactTime, TwentyMetresThroughAnotherAlwaysAnswerTheSame) {
-  HardMotion motion = falling(0.5);
-  motion.a_before[0].z() = motion.a_before[1].z() = 10.0;
-  motion.a_after[0].z() = motion.a_after[1].z() = -10.0;
-  const ContactTime first = time_of(motion, 1e-6);
-  EXPECT_TRUE(first.hit && first.certain);
-  EXPECT_LE(first.lower, 0.45);
-  EXPECT_GE(first.upper, 0.45);
-  for (int i = 0; i < 100; ++i) {
-    EXPECT_TRUE(same(time_of(motion, 1e-6), first));
-  }
-}
-
 // Found by scripts/bench.sh continuous: bounds on the time wider than 20 T/L, where segments came
 // nearer ever more slowly between reaching the tolerance and contact.
 TEST(ContactTime, BoundsAreNarrowWhereSegmentsSlowDown) {
