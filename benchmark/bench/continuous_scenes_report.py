@@ -39,7 +39,7 @@ def draw_scenes(motions, path):
     """Contacts missed against time, a panel per scene and a mark per way."""
     scenes = list(dict.fromkeys(scene for scene, _ in motions))
     ways = list(dict.fromkeys(way for _, way in motions))
-    figure, axes = panels(len(scenes), 3.0 * len(scenes), 3.6)
+    figure, axes = panels(len(scenes), 2.8 * len(scenes) + 1.5, 3.0)
     for scene, axis in zip(scenes, axes):
         for method in DISCRETE + MOTION[:1]:
             for marker, way in zip(MARKERS, ways):
@@ -49,6 +49,6 @@ def draw_scenes(motions, path):
                              label=f"{method}, {way:g} radii")
         axis.set(xscale="log", yscale="log", ylim=(LEAST_SHARE / 2, 1.5), title=scene,
                  xlabel="time of a motion, one look = 1")
-    axes[0].set_ylabel("contacts missed, a part; none at the lower edge")
-    axes[0].legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=1)
+    axes[0].set_ylabel("contacts missed, a part; none: 1e-4")
+    axes[-1].legend(loc="center left", bbox_to_anchor=(1.02, 0.5))
     save(figure, path)
