@@ -14,9 +14,8 @@ struct KnownMotion {
   HardMotion motion;  ///< without thickness
 };
 
-/// Reads a file of lines `set,truth` and 24 numbers in hexadecimal: the ends of a and those of b,
-/// before and then after.
-/// @throws std::runtime_error that names file and line
+/// Reads a file of segment motions (io/segment_motions.hpp) whose truth is 0 or 1.
+/// @throws FileError as read_segment_motions(), std::runtime_error naming the motion for its truth
 std::vector<KnownMotion> read_known_motions(const std::string& path);
 
 /// The 24 numbers of a motion, as in such a file.

@@ -40,6 +40,11 @@ class CoordinateRows {
   /// @throws FileError naming line, column, value and what is allowed
   bool next();
 
+  /// What is in a column of names; empty where the row has none.
+  std::string_view name(std::size_t index) const {
+    return index < name_count_ ? fields_[index] : std::string_view();
+  }
+
   Eigen::Vector3d point(std::size_t index) const {
     return Eigen::Vector3d(&coordinates_[3 * index]);
   }

@@ -30,7 +30,9 @@ std::vector<MovingSegmentPair> read_segment_motions(std::istream& stream, const 
   CoordinateRows rows(stream, name, motion_format());
   std::vector<MovingSegmentPair> motions;
   while (rows.next()) {
-    motions.push_back({{rows.point(0), rows.point(1)},
+    motions.push_back({std::string(rows.name(0)),
+                       std::string(rows.name(1)),
+                       {rows.point(0), rows.point(1)},
                        {rows.point(2), rows.point(3)},
                        {rows.point(4), rows.point(5)},
                        {rows.point(6), rows.point(7)}});

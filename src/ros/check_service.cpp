@@ -72,14 +72,8 @@ void append(const fiber::FiberCheck& check, const PresentFibers& present,
   response.offsets.push_back(static_cast<std::uint32_t>(response.contacts.size()));
 }
 
-}  // namespace
-
-void answer(const CheckFibers::Request& request, const QueryTarget& target,
-            const FindAllowed& find_allowed, CheckFibers::Response& response) {
-  if (!request.waypoint_offsets.empty()) {
-    answer_motions(request, target, find_allowed, response);
-    return;
-  }
+void answer_candidates(const CheckFibers::Request& request, const QueryTarget& target,
+                       const FindAllowed& find_allowed, CheckFibers::Response& response) {
   fiber::QueryOptions options = validated_options(request, target.defaults);
   const PresentFibers present(target, request);
   fiber::Surroundings surroundings = present.surroundings();
@@ -99,6 +93,20 @@ void answer(const CheckFibers::Request& request, const QueryTarget& target,
     }
   }
   leave_unread(count, response);
+}
+
+}  // namespace
+
+void answer(const CheckFibers::Request& request, const QueryTarget& target,
+            const FindAllowed& find_allowed, CheckFibers::Response& response) {
+  if (request.waypoint_offsets.empty()) {
+    answer_candidates(request, target, find_allowed, response);
+  } else {
+    answer_motions(request, target, find_allowed, response);
+  }
+  if (request.gradients) {
+    std::for_each(response.contacts.begin(), response.contacts.end(), add_gradients);
+  }
 }
 
 }  // namespace fiber_proximity_ros

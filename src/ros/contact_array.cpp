@@ -23,6 +23,14 @@ void add_details(const StepContact& contact, const fiber::Touch& touch, nanoseco
   message.gone = contact.state != StepContact::State::THERE;
 }
 
+/// Derivatives, or none, whatever the message had before.
+void set_gradients(bool are_wanted, fiber_proximity::Contact& message) {
+  message.gradients.clear();
+  if (are_wanted) {
+    add_gradients(message);
+  }
+}
+
 }  // namespace
 
 void to_message(const Detection& detection, const TrackedContacts& tracked,
@@ -39,7 +47,7 @@ void to_message(const Detection& detection, const TrackedContacts& tracked,
       fiber_proximity::Contact& of_message = message.contacts[count++];
       to_message(contact.contact, fiber_proximity::Contact::FIBER, body_b, of_message);
       add_details(contact, tracked.touches.touch_of(i), tracked.since, now, of_message);
-      add_gradients(contact.contact, tracked.has_gradients, of_message);
+      set_gradients(tracked.has_gradients, of_message);
     }
   }
   message.contacts.resize(count);
@@ -51,7 +59,7 @@ void to_message(const Detection& detection, const TrackedContacts& tracked,
   if (message.has_minimum) {
     message.minimum_distance = detection.minimum()->distance;
     to_message(*detection.minimum(), fiber_proximity::Contact::FIBER, body_b, message.minimum);
-    add_gradients(*detection.minimum(), tracked.has_gradients, message.minimum);
+    set_gradients(tracked.has_gradients, message.minimum);
   }
   message.minimum_lower = detection.minimum_lower();
   message.minimum_upper = detection.minimum_upper();

@@ -51,14 +51,15 @@ void to_message(const fiber::Contact& contact, std::uint8_t body_a, std::uint8_t
   message.normal = to_vector_message(contact.normal);
 }
 
-void add_gradients(const fiber::Contact& contact, bool are_wanted,
-                   fiber_proximity::Contact& message) {
+void add_gradients(fiber_proximity::Contact& message) {
+  fiber::Contact contact;
+  contact.s = message.s;
+  contact.t = message.t;
+  contact.normal = to_vector(message.normal);
+  const fiber::GapGradient gradient = fiber::gradient_of(contact);
   message.gradients.clear();
-  if (are_wanted) {
-    const fiber::GapGradient gradient = fiber::gradient_of(contact);
-    for (const Eigen::Vector3d& by_point : {gradient.a0, gradient.a1, gradient.b0, gradient.b1}) {
-      message.gradients.push_back(to_vector_message(by_point));
-    }
+  for (const Eigen::Vector3d& by_point : {gradient.a0, gradient.a1, gradient.b0, gradient.b1}) {
+    message.gradients.push_back(to_vector_message(by_point));
   }
 }
 

@@ -1,5 +1,6 @@
 #include "fiber_proximity/ros/shape_query.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -125,6 +126,9 @@ void answer(const QueryProximity::Request& request, const QueryTarget& target,
   response.complete = response.complete && response.minimum_lower.size() == count;
   response.offsets.resize(count + 1, response.offsets.back());
   response.minimum_lower.resize(count, -std::numeric_limits<double>::infinity());
+  if (request.gradients) {
+    std::for_each(response.contacts.begin(), response.contacts.end(), add_gradients);
+  }
 }
 
 }  // namespace fiber_proximity_ros

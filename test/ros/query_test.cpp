@@ -321,4 +321,21 @@ TEST_F(QueryTest, BadRequestsAreAnsweredWithTheReason) {
                "shape 1: no transform from frame 'nowhere' to 'world': unknown frame: ");
 }
 
+TEST_F(QueryTest, GradientsComeWhereTheyAreAskedFor) {
+  send_fibers();
+  QueryProximity::Request request;
+  request.type = QueryProximity::Request::CLOSEST;
+  request.margin = std::numeric_limits<double>::infinity();
+  request.shapes = {shape("", {{0.1, 0.2, 0.3}, {0.4, 0.1, 0.2}}, 0.01)};
+  ASSERT_EQ(call(request).contacts.size(), 1U);
+  EXPECT_TRUE(call(request).contacts[0].gradients.empty());
+  request.gradients = true;
+  const fiber_proximity::Contact contact = call(request).contacts.at(0);
+  ASSERT_EQ(contact.gradients.size(), 4U);
+  EXPECT_EQ(contact.gradients[0].x, (contact.s - 1.0) * contact.normal.x);
+  EXPECT_EQ(contact.gradients[1].y, -contact.s * contact.normal.y);
+  EXPECT_EQ(contact.gradients[2].z, (1.0 - contact.t) * contact.normal.z);
+  EXPECT_EQ(contact.gradients[3].x, contact.t * contact.normal.x);
+}
+
 }  // namespace

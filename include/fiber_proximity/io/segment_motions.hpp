@@ -12,6 +12,8 @@ namespace fiber {
 /// Two segments whose ends each move linearly, from where they are before, at t = 0, to where they
 /// are after, at t = 1 [m].
 struct MovingSegmentPair {
+  std::string set;    ///< what it is one of
+  std::string truth;  ///< whether they meet, as somebody knows it
   Eigen::Vector3d a_before[2];
   Eigen::Vector3d b_before[2];
   Eigen::Vector3d a_after[2];
@@ -20,7 +22,7 @@ struct MovingSegmentPair {
 
 /// Reads a file of pairs of segments that move, one a line: the name of a set, the truth as
 /// somebody knows it, and the 24 coordinates of a0, a1, b0 and b1 at t = 0, then of the same at t =
-/// 1 [m], decimal or C hexadecimal. Set and truth may be any text, also none; they are not kept.
+/// 1 [m], decimal or C hexadecimal. Set and truth may be any text, also none.
 /// Separators, blank lines and a first line of column names are as in segment_pairs.hpp; further
 /// columns are refused.
 /// @throws FileError naming line, column, value and what is allowed

@@ -35,9 +35,8 @@ void to_message(const fiber::FiberAssembly& fibers, const std::vector<std::strin
 void to_message(const fiber::Contact& contact, std::uint8_t body_a, std::uint8_t body_b,
                 fiber_proximity::Contact& message);
 
-/// The derivatives of a contact's distance, or none.
-void add_gradients(const fiber::Contact& contact, bool are_wanted,
-                   fiber_proximity::Contact& message);
+/// Adds the derivatives of a contact's distance, see fiber::gradient_of().
+void add_gradients(fiber_proximity::Contact& message);
 
 void to_message(const fiber::Crossing& crossing, fiber_proximity::Crossing& message);
 
