@@ -25,12 +25,17 @@ TIME = {"seed": 1, "motions": 100, "repeats": 3, "kernel": "own", "tolerance": 1
         "hit_ns": 500.0}
 WRONG = {"motion": "0x0p+0,0x1p+0", "radius_a": 0.1, "radius_b": 0.2, "tolerance": 1e-7,
          "hit": False, "lower": 1.0, "upper": None, "certain": True}
+LOOKS = ["discrete_1", "discrete_10", "discrete_100"]
+METHODS = {**dict(zip(LOOKS, (1.0, 9.0, 90.0))), "motion_all": 1.5, "motion_first": 1.25}
+SCENE = {"scene": "soup", "segments": 20000, "frames": 2, "contacts": 60, "candidates": 90,
+         "time_ms": 4.0}
 # fcl_advancement misses contacts, ends itself once, and knows no motion but translations.
 TOOL = f"""#!/usr/bin/python3
 import json, os, sys
 with open(__file__ + ".calls", "a") as calls:
     calls.write(" ".join(sys.argv[1:]) + "\\n")
 SCORE, TIME, WRONG = {SCORE}, {TIME}, {WRONG}
+LOOKS, METHODS, SCENE = {LOOKS}, {METHODS}, {SCENE}
 part = sys.argv[3]
 def row(**fields):
     print(json.dumps({{"part": part, **fields}}))
@@ -55,6 +60,11 @@ if part == "times":
     row(**{{**TIME, "family": "random", "kernel": "fcl_advancement", "translations": 0,
            "answerable": 0, "answered": 0, "rejected": 0, "rejected_ns": None, "hits": 0,
            "hit_ns": None}})
+if part == "scenes":
+    for way, missed in ((1, (0, 0, 0)), (10, (30, 2, 0))):
+        for method, times in METHODS.items():
+            row(**{{**SCENE, "way": way, "method": method, "times_discrete": times,
+                   "missed": missed[LOOKS.index(method)] if method in LOOKS else 0}})
 """
 
 
@@ -83,16 +93,17 @@ class ContinuousTest(BenchTestCase):
     def test_each_part_runs_once_in_a_process_of_its_own(self):
         self.printed_by(run, quick=True)
         self.printed_by(run, quick=True)
-        times, accuracy, known = self.calls()
+        times, accuracy, known, scenes = self.calls()
         self.assertEqual(times, "motions --parts times --timed 100 --repeats 3 --json")
         self.assertEqual(accuracy, "motions --parts accuracy --count 500 --threads 2 --json")
         self.assertEqual(known, "motions --parts known --json --known "
                          f"{self.folder}/shared/data/edge_motions_public.csv")
+        self.assertEqual(scenes, "motions --parts scenes --scale 0.02 --repeats 3 --json")
 
-    def test_without_the_public_motions_there_are_two_parts(self):
+    def test_without_the_public_motions_that_part_is_left_out(self):
         (self.folder / "shared" / "data" / "edge_motions_public.csv").unlink()
         self.printed_by(run, quick=False)
-        self.assertEqual([call.split()[2] for call in self.calls()], ["times", "accuracy"])
+        self.assertEqual([call.split()[2] for call in self.calls()], ["times", "accuracy", "scenes"])
         self.assertEqual(self.calls()[1], "motions --parts accuracy --threads 2 --json")
 
     def test_the_table_of_accuracy_adds_up_families(self):
@@ -117,6 +128,14 @@ class ContinuousTest(BenchTestCase):
         self.assertNotIn("| other motions | `fcl_advancement` |", table)
         rows = list(csv.DictReader(io.StringIO(self.out("times.csv"))))
         self.assertEqual((rows[-1]["answerable"], rows[-1]["hit_ns"]), ("0", ""))
+
+    def test_whole_scenes_are_beside_looks_at_states(self):
+        table = self.out_of_quick("scenes.md")
+        self.assertIn("| `soup` | 20000 | 10 | 30 | 45 | 50 % | 3.3 % | 0 | 4 | 9.0× | 90.0× "
+                      "| 1.5× | 1.2× |", table)
+        figure = self.out("scenes.svg")
+        for label in ("discrete_100, 1 radii", "motion_all, 10 radii"):
+            self.assertIn(f"<!-- {label} -->", figure)
 
     def test_the_figure_names_tolerances_and_misses(self):
         self.quick()

@@ -378,7 +378,7 @@ TEST_F(FiberBench, HoldsContactTimesAgainstAFileOfKnownMotions) {
   EXPECT_EQ(row.at("contacts_invented"), 0);
   EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 3) << result.out;
   // One whose truth is wrong.
-  const std::string wrong = write("wrong.csv", "walls,1," + start + start);
+  const std::string wrong = write("wrong.csv", "walls,1," + start + still + "0x1p-1,-0x1p0,0x1p-1,0x1p-1,0x1p0,0x1p-1\n");
   EXPECT_EQ(json_lines(bench("motions --json --parts known --known " + wrong).out)
                 .at(0)
                 .at("contacts_missed"),
