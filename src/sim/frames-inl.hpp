@@ -1,5 +1,5 @@
 // Frames of edges side by side, as effects/twist.hpp has them of one. Included once per instruction
-// set, as lanes-inl.hpp is.
+// set, as simd-inl.hpp is.
 #if defined(FIBER_SIM_FRAMES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef FIBER_SIM_FRAMES_INL
 #undef FIBER_SIM_FRAMES_INL
@@ -12,7 +12,7 @@
 #include <cmath>
 #include <limits>
 
-#include "src/sim/lanes-inl.hpp"
+#include "src/sim/simd-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace fiber {
@@ -80,11 +80,11 @@ HWY_INLINE Real nearest_turn(Real angle, Real to) {
   return angle - turn * Real{hn::Round(((angle - to) / turn).value)};
 }
 
-HWY_INLINE Real angle_at(const RodLanes& rods, std::size_t edge, std::size_t lane) {
+HWY_INLINE Real angle_at(const RodPack& rods, std::size_t edge, std::size_t lane) {
   return load(rods.positions[4 * edge + 3], lane);
 }
 
-HWY_INLINE Vector director_turn(const RodLanes& rods, std::size_t edge, std::size_t lane) {
+HWY_INLINE Vector director_turn(const RodPack& rods, std::size_t edge, std::size_t lane) {
   const Vector start = load_vector(&rods.start_tangents[3 * edge], lane);
   return real(-0.5) * load(rods.inverse_lengths[edge], lane) *
          curvature_binormal(start, tangent_at(rods, edge, lane));

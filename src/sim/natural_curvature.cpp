@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "effects/natural_bend.hpp"
-#include "fiber_proximity/sim/edge_pair.hpp"
+#include "fiber_proximity/sim/edge_turn.hpp"
+#include "fiber_proximity/sim/effects/twist.hpp"
 #include "require.hpp"
 
 namespace fiber {
@@ -21,7 +22,7 @@ struct Turn {
 };
 
 Turn turn_at(const Rods& rods, std::uint32_t node) {
-  const EdgePair pair(rods, node);
+  const EdgeTurn pair(rods, node);
   const Vector3d& a = pair.before().tangent;
   const Vector3d& b = pair.after().tangent;
   const double cosine = a.dot(b);
@@ -30,6 +31,10 @@ Turn turn_at(const Rods& rods, std::uint32_t node) {
   // A fold is there whatever its side.
   const Vector3d any = cosine < 0.0 ? a.unitOrthogonal() : Vector3d::Zero();
   return {std::atan2(across.norm(), cosine), has_side ? across.normalized() : any};
+}
+
+CrossSection cross_section(const Rods& rods, std::uint32_t edge) {
+  return {edge_direction(rods, edge).tangent, current_director(rods, edge), rods.angles[edge]};
 }
 
 Vector2d by_material(const CrossSection& section, const Vector3d& v) {

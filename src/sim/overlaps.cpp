@@ -1,23 +1,25 @@
 #include "fiber_proximity/sim/overlaps.hpp"
 
 #include <algorithm>
+#include <limits>
 
-#include "fiber_proximity/sim/contact_limits.hpp"
+#include "contact/neighbours.hpp"
 
 namespace fiber {
 namespace {
 
-/// [m] What lies between two places of a rod is now at least this, if it is the given length at
-/// rest.
-double least_length_now(const Rods& rods, double at_rest) {
-  double ratio = 1.0 - 1e-12;  // for rounding
+/// [m] What lies between two edges of a rod that may touch is now at least this.
+double least_length_now(const Rods& rods) {
+  double least = std::numeric_limits<double>::infinity();
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    double ratio = 1.0 - 1e-12;  // for rounding
     for (std::uint32_t i = rods.first(rod); i + 1 < rods.end(rod); ++i) {
       const double now = (rods.positions[i + 1] - rods.positions[i]).norm();
       ratio = std::min(ratio, now / rods.rest_lengths[i]);
     }
+    least = std::min(least, ratio * contact_neighbour_length(rods, rod));
   }
-  return ratio * at_rest;
+  return least;
 }
 
 }  // namespace
@@ -49,14 +51,16 @@ std::vector<Overlap> OverlapFinder::find(const Rods& rods, double share, std::ui
 void OverlapFinder::find_between_rods(const Rods& rods, double share, std::vector<Overlap>& found) {
   query_.neighbour_skip = contact_neighbour_skip;
   // Not all that the rule of lengths leaves out is to use up the most.
-  query_.neighbour_skip_length = least_length_now(rods, contact_neighbour_length(rods));
+  query_.neighbour_skip_length = least_length_now(rods);
   engine_->update(fibers_);
   engine_->query(query_, result_);
+  const std::vector<double> arcs = contact_arcs(rods);
   for (const Contact& contact : result_.contacts) {
     const double touching = rods.radii[contact.fiber_a] + rods.radii[contact.fiber_b];
     const bool are_neighbours =
         contact.fiber_a == contact.fiber_b &&
-        are_contact_neighbours(rods, rods.first(contact.fiber_a) + contact.segment_a,
+        are_contact_neighbours(rods, arcs, contact.fiber_a,
+                               rods.first(contact.fiber_a) + contact.segment_a,
                                rods.first(contact.fiber_b) + contact.segment_b);
     if (-contact.distance > share * touching && !are_neighbours) {
       found.push_back({contact, false});

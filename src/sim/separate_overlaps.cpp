@@ -6,7 +6,7 @@
 #include <map>
 #include <tuple>
 
-#include "fiber_proximity/sim/edge_pair.hpp"
+#include "fiber_proximity/sim/edge_turn.hpp"
 #include "fiber_proximity/sim/overlaps.hpp"
 #include "fiber_proximity/sim/reach.hpp"
 

@@ -40,7 +40,7 @@ class BandSolver : public testing::TestWithParam<std::size_t> {
     return values;
   }
 
-  void fill(LaneSystem& system, std::size_t lane, const MatrixXd& matrix) const {
+  void fill(PackSystem& system, std::size_t lane, const MatrixXd& matrix) const {
     RodSystem of_lane(system, lane);
     const auto size = static_cast<std::size_t>(matrix.rows());
     for (std::size_t c = 0; c < size; ++c) {
@@ -52,9 +52,9 @@ class BandSolver : public testing::TestWithParam<std::size_t> {
   }
 
   /// One solution a lane.
-  std::vector<VectorXd> solve(const LaneSystem& system,
+  std::vector<VectorXd> solve(const PackSystem& system,
                               const std::vector<VectorXd>& right_hand_sides) const {
-    std::vector<Lanes> values(system.size() + width());
+    std::vector<SimdBatch> values(system.size() + width());
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       for (std::size_t i = 0; i < system.size(); ++i) {
         values[i][lane] = right_hand_sides[lane][static_cast<Eigen::Index>(i)];
@@ -76,7 +76,7 @@ TEST_P(BandSolver, SolvesInEachLaneAsEigenDoes) {
   Random random(GetParam());
   for (int round = 0; round < 200; ++round) {
     const auto nodes = static_cast<std::size_t>(random.integer(1, 20));
-    LaneSystem system(nodes, unknowns());
+    PackSystem system(nodes, unknowns());
     std::vector<MatrixXd> matrices;
     std::vector<VectorXd> right_hand_sides;
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
@@ -102,7 +102,7 @@ TEST_P(BandSolver, SolvesForTheRestWhereNodesAreHeld) {
     const auto lane = static_cast<std::size_t>(random.integer(0, lane_count - 1));
     MatrixXd matrix = random_matrix(random, size_of(nodes));
     VectorXd right_hand_side = random_vector(random, size_of(nodes));
-    LaneSystem system(nodes, unknowns());
+    PackSystem system(nodes, unknowns());
     for (std::size_t other = 0; other < lane_count; ++other) {
       fill(system, other, matrix);
     }
@@ -133,7 +133,7 @@ TEST_P(BandSolver, HasPositiveDefiniteFactorsOfWhatIsNot) {
   for (const Eigen::Index at : {0, 5, 23}) {
     MatrixXd matrix = random_matrix(random, size_of(nodes));
     matrix(at, at) = -1e-3;
-    LaneSystem system(nodes, unknowns());
+    PackSystem system(nodes, unknowns());
     fill(system, 1, matrix);  // beside matrices of zeros
     factorise_band(system);
     const VectorXd right_hand_side = random_vector(random, size_of(nodes));
@@ -152,7 +152,7 @@ TEST_P(BandSolver, CanBeFilledAgain) {
   constexpr std::size_t nodes = 7;
   const MatrixXd matrix = random_matrix(random, size_of(nodes));
   const VectorXd right_hand_side = random_vector(random, size_of(nodes));
-  LaneSystem system(nodes, unknowns());
+  PackSystem system(nodes, unknowns());
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     fill(system, lane, matrix);
   }

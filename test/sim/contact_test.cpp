@@ -47,7 +47,7 @@ struct FullSystem {
 
 FullSystem full_system(Contacts& contacts, const Rods& rods) {
   const auto size = static_cast<Eigen::Index>(3 * rods.positions.size());
-  std::vector<LaneSystem> lanes;
+  std::vector<PackSystem> lanes;
   std::vector<RodSystem> systems;
   std::vector<RodSystem*> pointers;
   lanes.reserve(rods.count());

@@ -41,7 +41,7 @@ inline Derivatives derivatives_in(const RodSystem& system, std::uint32_t node_co
 }
 
 inline Derivatives derivatives_of(const Effect& effect, const Rods& rods, std::uint32_t rod) {
-  LaneSystem lanes(rods.node_count(rod), unknowns_of(rods));
+  PackSystem lanes(rods.node_count(rod), unknowns_of(rods));
   RodSystem system(lanes, 1);
   effect.add_derivatives(rods, rod, system);
   return derivatives_in(system, rods.node_count(rod));

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <vector>
 
-#include "fiber_proximity/sim/rod_lanes.hpp"
-#include "fiber_proximity/sim/rod_system.hpp"
+#include "fiber_proximity/sim/pack_system.hpp"
 #include "fiber_proximity/sim/rods.hpp"
 
 namespace fiber {
+
+struct RodForces;
 
 /// When a step begins, and how long it is [s].
 struct TimeStep {
@@ -21,49 +24,54 @@ struct TimeStep {
 ///
 /// A step finds the minimum of the sum of all energies and of the kinetic one, the incremental
 /// potential of implicit Euler. What has no potential, like drag, is brought into this form for the
-/// duration of one step.
+/// duration of one step. Energies are those of rods side by side, a rod in each lane of a pack.
 class Effect {
  public:
   virtual ~Effect() = default;
 
-  /// Called once before each step, by one thread. With implicit midpoint the step is the half to
-  /// the middle: that is what is solved for.
+  /// Called once before each solve, by one thread, with the rods where rates of the step are
+  /// measured from: where it began, or for the second stage of a scheme of two where the first one
+  /// points to.
   virtual void begin_step(Rods& /*rods*/, const TimeStep& /*step*/) {}
 
-  /// Energy of a rod where it is now [J], up to a constant of the step.
-  virtual double energy(const Rods& rods, std::uint32_t rod) const = 0;
+  /// How many numbers the energy needs of each node that begin_step() has found, and where they
+  /// are.
+  virtual std::uint32_t values_per_node() const { return 0; }
+  virtual const double* values_of(std::uint32_t /*node*/) const { return nullptr; }
 
-  /// What of that is there again when the rod moves back [J]; what only holds it in place is not.
-  virtual double stored_energy(const Rods& rods, std::uint32_t rod) const {
-    return energy(rods, rod);
+  /// Energy of the rods where they are now [J], up to a constant of the step.
+  /// @param values those numbers, node by node
+  /// @param energy by lane, overwritten
+  virtual void energy(const RodPack& /*rods*/, const std::vector<SimdBatch>& /*values*/,
+                      SimdBatch& energy) const {
+    energy = SimdBatch{};
   }
 
   /// Adds the gradient of the energy by what is unknown, and a positive semidefinite matrix near
   /// its Hessian.
-  virtual void add_derivatives(const Rods& rods, std::uint32_t rod, RodSystem& system) const = 0;
+  virtual void add_derivatives(const RodPack& /*rods*/, const std::vector<SimdBatch>& /*values*/,
+                               PackSystem& /*system*/) const {}
 
-  /// True if the two following functions do for rods side by side what the two above do for each;
-  /// they are called with no others then.
-  virtual bool works_in_lanes(const Rods& /*rods*/) const { return false; }
+  /// Whether the energy is there again when the rods move back; if not, it only resists motion.
+  virtual bool is_stored() const { return true; }
 
-  /// How many numbers these need of each node that begin_step() has found, and where they are.
-  virtual std::uint32_t values_per_node() const { return 0; }
-  virtual const double* values_of(std::uint32_t /*node*/) const { return nullptr; }
+  /// Whether the effect holds a condition by forces that it has to learn.
+  virtual bool has_multipliers() const { return false; }
 
-  /// @param values those numbers, node by node
-  /// @param energy by lane, overwritten
-  virtual void energy_in_lanes(const RodLanes& /*rods*/, const std::vector<Lanes>& /*values*/,
-                               Lanes& /*energy*/) const {}
-  virtual void add_derivatives_in_lanes(const RodLanes& /*rods*/,
-                                        const std::vector<Lanes>& /*values*/,
-                                        LaneSystem& /*system*/) const {}
+  /// Called where a rod's energy is at a minimum. What holds a condition by a force that it has to
+  /// learn (a Lagrange multiplier) learns it here.
+  /// @returns whether the condition holds as well as it should; the minimum is looked for again
+  ///          until it does
+  virtual bool update_multipliers(const Rods& /*rods*/, std::uint32_t /*rod*/) { return true; }
 
-  /// Called for each rod that has been solved for, where the solution is: with implicit midpoint,
-  /// in the middle of the step. A rod may be solved for again in a step: the last one counts.
-  virtual void end_solve(const Rods& /*rods*/, std::uint32_t /*rod*/) {}
-
-  /// Called once after each step, by one thread: with implicit midpoint, after the whole step.
+  /// Called once after each step, by one thread.
   virtual void end_step(Rods& /*rods*/, const TimeStep& /*step*/) {}
+
+  /// Adds what acts inside of the rods and on them where they are now.
+  virtual void add_forces(const RodPack& /*rods*/, const std::vector<SimdBatch>& /*values*/,
+                          RodForces& /*forces*/) const {}
 };
+
+using Effects = std::vector<std::unique_ptr<Effect>>;
 
 }  // namespace fiber

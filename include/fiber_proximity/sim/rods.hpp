@@ -8,12 +8,6 @@
 
 namespace fiber {
 
-/// A node that something outside of the simulation holds.
-struct HeldNode {
-  std::uint32_t node;
-  Eigen::Vector3d position;  ///< where it is to be at the end of the step [m]
-};
-
 /// Rods as a simulation moves them: chains of nodes with masses, straight edges between them.
 ///
 /// Rod r owns the nodes offsets[r] .. offsets[r+1]-1 of all arrays, as in FiberAssembly; an edge
@@ -28,8 +22,6 @@ struct Rods {
   std::vector<Eigen::Vector3d> velocities;  ///< [m/s]
   std::vector<double> masses;               ///< [kg]
   std::vector<double> rest_lengths;         ///< of edges, 0 at each rod's last node [m]
-
-  std::vector<HeldNode> held;  ///< by rising node
 
   std::vector<double> natural_curvatures;  ///< of nodes [1/m]; empty: all are 0
 

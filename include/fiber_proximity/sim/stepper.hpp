@@ -5,6 +5,7 @@
 
 #include "fiber_proximity/sim/contacts.hpp"
 #include "fiber_proximity/sim/effect.hpp"
+#include "fiber_proximity/sim/forces.hpp"
 
 namespace fiber {
 
@@ -12,46 +13,58 @@ namespace fiber {
 ///         spin that is not finite
 void require_finite(const Rods& rods);
 
-class EnergyGuard;
-enum class Gains;
-
-/// Rods of equal sizes, by batch: as many as are moved side by side.
-using Batches = std::vector<std::vector<std::uint32_t>>;
+class StageSolver;
 
 enum class Integrator {
-  IMPLICIT_EULER,  ///< damps what it does not resolve; for everything that should settle
+  IMPLICIT_EULER,  ///< of first order; damps what it does not resolve, for what should settle
 
-  /// Keeps the energy of undamped motion, and its order in time is two. A rod that is too stiff for
-  /// it, and so gains energy in a step, takes this one by implicit Euler. Not for contacts: what
-  /// they stop, it would throw on.
-  IMPLICIT_MIDPOINT
+  /// Of second order: two solves a step, each like a step of implicit Euler of 0.29 of its length,
+  /// L-stable (Alexander 1977, Eq. 3.1). Keeps swings and spins.
+  SDIRK2
 };
 
 struct StepperOptions {
   Integrator integrator = Integrator::IMPLICIT_EULER;
 
-  /// Newton iterations a step, at least 1; as many again, from the shape that the rod had, where
-  /// the first ones end higher than that.
-  std::uint32_t iterations = 2;
+  /// Newton's method goes on until no force would change the speed of its node in a step by more
+  /// than this [m/s]; > 0.
+  double residual = 1e-3;
 
-  /// [m] A rod whose Newton step is smaller everywhere needs no further one; >= 0.
-  double tolerance = 1e-9;
+  /// Most iterations of Newton's method in a solve, at least 1. A step that ends by this is not yet
+  /// balanced: StepReport says how far it is from that.
+  std::uint32_t max_iterations = 100;
 
   /// Most threads to use, 0 for as many as there are cores.
   std::uint32_t threads = 0;
 };
 
+/// How the search of an island, rods that may touch each other in a step, has ended.
+struct IslandReport {
+  std::uint32_t iterations = 0;  ///< of Newton's method
+  double residual = 0.0;         ///< largest change of speed that is left [m/s]
+  std::uint32_t rod = 0;         ///< whose residual that is
+  std::uint32_t node = 0;        ///< counted from the rod's first one
+};
+
+/// How well a step is balanced.
+struct StepReport {
+  std::uint32_t iterations = 0;    ///< the most of an island, all solves of the step together
+  std::uint32_t unbalanced = 0;    ///< islands whose residual is above that of the options
+  IslandReport worst;              ///< the island with the largest residual
+  std::uint32_t coupled_rods = 0;  ///< that have been solved together with others
+};
+
 /// Moves rods by the effects a scene calls for: discrete elastic rods in implicit time steps
-/// (Bergou et al. 2008, 2010), each the minimum of kinetic and potential energy near where the rods
-/// were (Martin et al. 2011, Eq. 4), found by Newton's method with a line search. One banded
-/// factorisation per rod and iteration; where contacts join rods, conjugate gradients with these
-/// factors as preconditioner. The result does not depend on the threads.
+/// (Bergou et al. 2008, 2010), each a minimum of the incremental potential near where the rods were
+/// (Martin et al. 2011, Eq. 4): of kinetic, potential and contact energy. Newton's method finds it
+/// to a stated residual, so that where nothing moves, forces balance. No step goes further than a
+/// proven part of the way to the first contact. The result does not depend on the threads.
 class Stepper {
  public:
   /// @param contacts null for none; nothing is computed for them then
   /// @throws std::invalid_argument for options that are not allowed
-  Stepper(Rods rods, std::vector<std::unique_ptr<Effect>> effects,
-          const StepperOptions& options = {}, std::unique_ptr<Contacts> contacts = nullptr);
+  Stepper(Rods rods, Effects effects, const StepperOptions& options = {},
+          std::unique_ptr<Contacts> contacts = nullptr);
   ~Stepper();
   Stepper(const Stepper&) = delete;
   Stepper& operator=(const Stepper&) = delete;
@@ -68,20 +81,26 @@ class Stepper {
   /// [s] since the beginning
   double time() const { return time_; }
 
- private:
-  struct Workers;
+  /// Of the last step.
+  const StepReport& report() const { return report_; }
 
-  void step_by_midpoint(double length);
-  void begin(const TimeStep& step);
-  void solve(const std::vector<Batches>& parts, double length, Gains gains);
+  /// What acts on and in the rods as the last step has found it; before the first one nothing.
+  RodForces forces() const;
+
+  /// Kinetic and stored energy [J], also of contacts, where the rods are; before the first step
+  /// the kinetic one alone.
+  double energy();
+
+ private:
+  void step_by_sdirk2(double length);
 
   Rods rods_;
-  std::vector<std::unique_ptr<Effect>> effects_;
+  Effects effects_;
   StepperOptions options_;
   double time_ = 0.0;
+  StepReport report_;
   std::unique_ptr<Contacts> contacts_;
-  std::unique_ptr<Workers> workers_;
-  std::unique_ptr<EnergyGuard> guard_;  // of implicit midpoint
+  std::unique_ptr<StageSolver> solver_;
 };
 
 }  // namespace fiber

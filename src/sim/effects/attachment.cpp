@@ -6,6 +6,7 @@
 #include <string>
 
 #include "clamped_end.hpp"
+#include "fiber_proximity/sim/forces.hpp"
 #include "natural_bend.hpp"
 
 namespace fiber {
@@ -35,6 +36,10 @@ void validate(const Rods& rods, const Attachment::Hold& hold) {
   if (!hold.placement) {
     refuse(hold, "it has no placement");
   }
+  if (!(std::isfinite(hold.max_force) && hold.max_force >= 0.0)) {
+    refuse(hold, "its greatest force is " + std::to_string(hold.max_force) +
+                     " N, it must be at least 0 and finite");
+  }
 }
 
 void validate(const Rods& rods, const Attachment::Hold& hold, const Placement& placement) {
@@ -53,19 +58,23 @@ void validate(const Rods& rods, const Attachment::Hold& hold, const Placement& p
   }
 }
 
-/// How a rod with natural curvature is bent against the clamp that holds it.
-NaturalBend natural_bend(const Rods& rods, const Attachment::Hold& hold,
-                         const Placement& placement) {
-  return NaturalBend::at_clamp(
-      rods, hold.rod, hold.node,
-      {placement.tangent, placement.director, placement.tangent.cross(placement.director)});
+CrossSection section_of(const Placement& placement) {
+  return {placement.tangent, placement.director, 0.0};
 }
 
 }  // namespace
 
+/// Force on the node.
+Vector3d Attachment::Held::pull_at(const Vector3d& position) const {
+  const Vector3d way = placement.position - position;
+  const double distance = way.norm();
+  return stiffness * distance > max_force ? Vector3d(max_force / distance * way)
+                                          : Vector3d(stiffness * way);
+}
+
 std::uint32_t Attachment::add(const Rods& rods, const Hold& hold) {
   validate(rods, hold);
-  Held held{next_id_, hold, hold.placement(0.0)};
+  Held held{next_id_, hold, hold.max_force, 0.0, hold.placement(0.0)};
   validate(rods, hold, held.placement);
   const auto is_before = [](const Held& a, const Hold& b) {
     return std::make_pair(a.hold.rod, a.hold.node) < std::make_pair(b.rod, b.node);
@@ -74,7 +83,10 @@ std::uint32_t Attachment::add(const Rods& rods, const Hold& hold) {
   if (place != held_.end() && place->hold.rod == hold.rod && place->hold.node == hold.node) {
     refuse(hold, "it is held already");
   }
-  if (hold.kind == Kind::CLAMP && !rods.directors.empty()) {
+  if (hold.max_force == 0.0) {
+    held.max_force = default_strain * rods.sections[hold.rod].stretching_stiffness;
+  }
+  if (held.is_clamp() && !rods.directors.empty()) {
     held.twist = ClampedEnd(rods, hold, held.placement).twist(0.0);
   }
   held_.insert(place, held);
@@ -108,30 +120,20 @@ void Attachment::remove(std::uint32_t id) {
 }
 
 void Attachment::begin_step(Rods& rods, const TimeStep& step) {
-  rods.held.clear();
-  solving_for_ = step.end();
+  constexpr double ratio = 1000.0;  // to the rod's edges and the node's inertia
   for (Held& held : held_) {
     held.placement = held.hold.placement(step.end());
     validate(rods, held.hold, held.placement);
-    rods.held.push_back({rods.first(held.hold.rod) + held.hold.node, held.placement.position});
+    const std::uint32_t node = rods.first(held.hold.rod) + held.hold.node;
+    const std::uint32_t edge = std::min(node, rods.end(held.hold.rod) - 2);
+    const double of_edge =
+        rods.sections[held.hold.rod].stretching_stiffness / rods.rest_lengths[edge];
+    held.stiffness = ratio * (of_edge + rods.masses[node] / (step.length * step.length));
+    held.has_natural_bend = held.is_clamp() && !rods.natural_curvature_vectors.empty();
+    if (held.has_natural_bend) {
+      held.natural_bend = rods.natural_curvature_vectors[node];
+    }
   }
-}
-
-void Attachment::end_solve(const Rods& /*rods*/, std::uint32_t rod) {
-  const auto first = held_.begin() + (first_of(rod) - held_.cbegin());
-  for (auto held = first; held != held_.end() && held->hold.rod == rod; ++held) {
-    held->solved_at = solving_for_;
-    held->solved_position = held->placement.position;
-  }
-}
-
-void Attachment::place_at_end(Rods& rods, Held& held, const TimeStep& step) const {
-  held.placement = held.hold.placement(step.end());
-  validate(rods, held.hold, held.placement);
-  const std::uint32_t node = rods.first(held.hold.rod) + held.hold.node;
-  rods.positions[node] = held.placement.position;
-  rods.velocities[node] =
-      (held.placement.position - held.solved_position) / (step.end() - held.solved_at);
 }
 
 std::vector<Attachment::Held>::const_iterator Attachment::first_of(std::uint32_t rod) const {
@@ -139,66 +141,87 @@ std::vector<Attachment::Held>::const_iterator Attachment::first_of(std::uint32_t
                           [](const Held& held, std::uint32_t r) { return held.hold.rod < r; });
 }
 
+/// Few nodes are held: one after the other.
 template <class Visit>
-void Attachment::for_each_clamp(std::uint32_t rod, const Visit& visit) const {
-  for (auto held = first_of(rod); held != held_.end() && held->hold.rod == rod; ++held) {
-    if (held->hold.kind == Kind::CLAMP) {
-      visit(*held);
+void Attachment::for_each_held(const RodPack& rods, const Visit& visit) const {
+  for (std::size_t lane = 0; lane < rods.used; ++lane) {
+    const std::uint32_t rod = rods.rods[lane];
+    for (auto held = first_of(rod); held != held_.end() && held->hold.rod == rod; ++held) {
+      visit(*held, lane);
     }
   }
 }
 
-double Attachment::energy(const Rods& rods, std::uint32_t rod) const {
-  double energy = 0.0;
-  for_each_clamp(rod, [&](const Held& held) {
-    energy += ClampedEnd(rods, held.hold, held.placement).energy(held.twist);
-    if (!rods.natural_curvature_vectors.empty()) {
-      energy += natural_bend(rods, held.hold, held.placement).energy();
+void Attachment::energy(const RodPack& rods, const std::vector<SimdBatch>& /*values*/,
+                        SimdBatch& energy) const {
+  energy = SimdBatch{};
+  for_each_held(rods, [&](const Held& held, std::size_t lane) {
+    const PackLane rod(rods, lane);
+    const std::uint32_t node = held.hold.node;
+    const double distance = (held.placement.position - rod.position(node)).norm();
+    const double within = std::min(distance, held.max_force / held.stiffness);
+    energy[lane] += held.stiffness * within * (distance - 0.5 * within);
+    if (held.is_clamp()) {
+      energy[lane] +=
+          ClampedEnd(rod, node, held.placement).energy(held.twist, !held.has_natural_bend);
+    }
+    if (held.has_natural_bend) {
+      energy[lane] +=
+          NaturalBend::at_clamp(rod, node, held.natural_bend, section_of(held.placement)).energy();
     }
   });
-  return energy;
 }
 
-void Attachment::add_derivatives(const Rods& rods, std::uint32_t rod, RodSystem& system) const {
-  for_each_clamp(rod, [&](const Held& held) {
-    ClampedEnd(rods, held.hold, held.placement).add_derivatives(held.twist, system);
-    if (!rods.natural_curvature_vectors.empty()) {
-      natural_bend(rods, held.hold, held.placement).add_derivatives(system);
+void Attachment::add_derivatives(const RodPack& rods, const std::vector<SimdBatch>& /*values*/,
+                                 PackSystem& system) const {
+  for_each_held(rods, [&](const Held& held, std::size_t lane) {
+    const PackLane rod(rods, lane);
+    RodSystem of_rod(system, lane);
+    const std::uint32_t node = held.hold.node;
+    const Vector3d pull = held.pull_at(rod.position(node));
+    const double distance = (held.placement.position - rod.position(node)).norm();
+    // Of a constant force the Hessian has nothing along it. With this, Newton's step leads to the
+    // hold, not far beyond it.
+    const double stiffness = std::min(held.stiffness, held.max_force / distance);
+    of_rod.add_gradient(node, -pull);
+    of_rod.add_hessian(node, stiffness * Eigen::Matrix3d::Identity());
+    if (held.is_clamp()) {
+      ClampedEnd(rod, node, held.placement)
+          .add_derivatives(held.twist, !held.has_natural_bend, of_rod);
+    }
+    if (held.has_natural_bend) {
+      NaturalBend::at_clamp(rod, node, held.natural_bend, section_of(held.placement))
+          .add_derivatives(of_rod);
     }
   });
 }
 
-void Attachment::energy_in_lanes(const RodLanes& rods, const std::vector<Lanes>& /*values*/,
-                                 Lanes& energy) const {
-  energy = Lanes{};
-  for (std::size_t lane = 0; lane < rods.used; ++lane) {
-    for_each_clamp(rods.rods[lane], [&](const Held& held) {
-      energy[lane] += ClampedEnd(rods, lane, held.hold, held.placement).energy(held.twist);
-    });
-  }
-}
-
-void Attachment::add_derivatives_in_lanes(const RodLanes& rods,
-                                          const std::vector<Lanes>& /*values*/,
-                                          LaneSystem& system) const {
-  for (std::size_t lane = 0; lane < rods.used; ++lane) {
-    RodSystem of_lane(system, lane);
-    for_each_clamp(rods.rods[lane], [&](const Held& held) {
-      ClampedEnd(rods, lane, held.hold, held.placement).add_derivatives(held.twist, of_lane);
-    });
-  }
-}
-
-void Attachment::end_step(Rods& rods, const TimeStep& step) {
-  const bool has_twist = !rods.directors.empty();
+void Attachment::end_step(Rods& rods, const TimeStep& /*step*/) {
   for (Held& held : held_) {
-    if (step.end() != held.solved_at) {
-      place_at_end(rods, held, step);
-    }
-    if (has_twist && held.hold.kind == Kind::CLAMP) {
+    if (held.is_clamp() && !rods.directors.empty()) {
       held.twist = ClampedEnd(rods, held.hold, held.placement).twist(held.twist);
     }
   }
+}
+
+void Attachment::add_forces(const RodPack& rods, const std::vector<SimdBatch>& /*values*/,
+                            RodForces& forces) const {
+  for_each_held(rods, [&](const Held& held, std::size_t lane) {
+    const PackLane rod(rods, lane);
+    const std::uint32_t node = held.hold.node;
+    const Vector3d point = rod.position(node);
+    Vector3d moment = Vector3d::Zero();
+    if (held.is_clamp()) {
+      moment = ClampedEnd(rod, node, held.placement).moment(held.twist, !held.has_natural_bend);
+    }
+    if (held.has_natural_bend) {
+      const Vector3d of_bend =
+          NaturalBend::at_clamp(rod, node, held.natural_bend, section_of(held.placement)).moment();
+      moment += node == 0 ? Vector3d(-of_bend) : of_bend;
+    }
+    forces.holds.push_back({held.id, held.hold.rod, node, point, held.pull_at(point), moment,
+                            (held.placement.position - point).norm(), held.max_force});
+  });
 }
 
 }  // namespace fiber

@@ -8,39 +8,35 @@ using Eigen::Vector3d;
 
 namespace {
 
-Vector3d vector_of(const std::vector<Lanes>& vectors, std::uint32_t edge, std::size_t lane) {
-  const Lanes* const first = &vectors[std::size_t{3} * edge];
-  return {first[0][lane], first[1][lane], first[2][lane]};
-}
+std::uint32_t edge_at(std::uint32_t node) { return node == 0 ? 0 : node - 1; }
 
 }  // namespace
 
+ClampedEnd::ClampedEnd(const PackLane& rod, std::uint32_t node, const Placement& placement)
+    : placement_(placement),
+      edge_(edge_at(node)),
+      direction_(rod.direction(edge_)),
+      has_twist_(rod.has_twist()) {
+  set_stiffnesses(rod.bending_stiffness(), rod.twisting_stiffness(), rod.rest_length(edge_));
+  if (has_twist_) {
+    angle_ = rod.angle(edge_);
+    director_ = rod.director(edge_);
+    start_tangent_ = rod.start_tangent(edge_);
+  }
+}
+
 ClampedEnd::ClampedEnd(const Rods& rods, const Attachment::Hold& hold, const Placement& placement)
-    : ClampedEnd(hold, placement) {
+    : placement_(placement),
+      edge_(edge_at(hold.node)),
+      direction_(edge_direction(rods, rods.first(hold.rod) + edge_)),
+      has_twist_(!rods.directors.empty()) {
   const std::uint32_t edge = rods.first(hold.rod) + edge_;
   const RodSection& section = rods.sections[hold.rod];
-  direction_ = edge_direction(rods, edge);
-  const double bending = rods.natural_curvature_vectors.empty() ? section.bending_stiffness : 0.0;
-  set_stiffnesses(bending, section.twisting_stiffness, rods.rest_lengths[edge]);
-  has_twist_ = !rods.directors.empty();
+  set_stiffnesses(section.bending_stiffness, section.twisting_stiffness, rods.rest_lengths[edge]);
   if (has_twist_) {
     angle_ = rods.angles[edge];
     director_ = current_director(rods, edge);
     start_tangent_ = rods.start_tangents[edge];
-  }
-}
-
-ClampedEnd::ClampedEnd(const RodLanes& rods, std::size_t lane, const Attachment::Hold& hold,
-                       const Placement& placement)
-    : ClampedEnd(hold, placement) {
-  direction_ = {rods.lengths[edge_][lane], vector_of(rods.tangents, edge_, lane)};
-  set_stiffnesses(rods.bending_stiffness[lane], rods.twisting_stiffness[lane],
-                  rods.rest_lengths[edge_][lane]);
-  has_twist_ = rods.unknowns == 4;
-  if (has_twist_) {
-    angle_ = rods.positions[std::size_t{4} * edge_ + 3][lane];
-    director_ = vector_of(rods.directors, edge_, lane);
-    start_tangent_ = vector_of(rods.start_tangents, edge_, lane);
   }
 }
 
@@ -55,8 +51,8 @@ double ClampedEnd::twist(double near) const {
   return nearest_turn(angle_ + signed_angle(carried, director_, direction_.tangent), near);
 }
 
-double ClampedEnd::energy(double near) const {
-  const double bend_energy = 0.5 * bending_ * bend().squaredNorm();
+double ClampedEnd::energy(double near, bool has_bend) const {
+  const double bend_energy = has_bend ? 0.5 * bending_ * bend().squaredNorm() : 0.0;
   if (!has_twist_) {
     return bend_energy;
   }
@@ -64,11 +60,24 @@ double ClampedEnd::energy(double near) const {
   return bend_energy + 0.5 * twisting_ * turned * turned;
 }
 
-void ClampedEnd::add_derivatives(double near, RodSystem& system) const {
-  add_bending(system);
+void ClampedEnd::add_derivatives(double near, bool has_bend, RodSystem& system) const {
+  if (has_bend) {
+    add_bending(system);
+  }
   if (has_twist_) {
     add_twisting(twist(near), system);
   }
+}
+
+Vector3d ClampedEnd::moment(double near, bool has_bend) const {
+  Vector3d moment = Vector3d::Zero();
+  if (has_bend) {
+    moment += bending_ * direction_.tangent.cross(placement_.tangent);
+  }
+  if (has_twist_) {
+    moment -= twisting_ * twist(near) * direction_.tangent;
+  }
+  return moment;
 }
 
 void ClampedEnd::add_bending(RodSystem& system) const {

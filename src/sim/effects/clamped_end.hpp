@@ -1,7 +1,8 @@
 #pragma once
 
-#include "fiber_proximity/sim/edge_pair.hpp"
 #include "fiber_proximity/sim/effects/attachment.hpp"
+#include "fiber_proximity/sim/pack_system.hpp"
+#include "src/sim/pack_lane.hpp"
 
 namespace fiber {
 
@@ -10,25 +11,23 @@ namespace fiber {
 class ClampedEnd {
  public:
   /// @param placement must outlive this
+  ClampedEnd(const PackLane& rod, std::uint32_t node, const Placement& placement);
   ClampedEnd(const Rods& rods, const Attachment::Hold& hold, const Placement& placement);
-
-  /// The same of a rod in a lane.
-  ClampedEnd(const RodLanes& rods, std::size_t lane, const Attachment::Hold& hold,
-             const Placement& placement);
 
   /// With twist only: from the clamp to the cross-section of the edge [rad], by whole turns near
   /// another.
   double twist(double near) const;
 
   /// [J]
-  /// @param near what twist() takes
-  double energy(double near) const;
-  void add_derivatives(double near, RodSystem& system) const;
+  /// @param near     what twist() takes
+  /// @param has_bend false for rods whose natural curvature has a direction: NaturalBend is theirs
+  double energy(double near, bool has_bend) const;
+  void add_derivatives(double near, bool has_bend, RodSystem& system) const;
+
+  /// With which the clamp turns the end of the rod [N m].
+  Eigen::Vector3d moment(double near, bool has_bend) const;
 
  private:
-  ClampedEnd(const Attachment::Hold& hold, const Placement& placement)
-      : placement_(placement), edge_(hold.node == 0 ? 0 : hold.node - 1) {}
-
   void set_stiffnesses(double bending, double twisting, double rest_length);
   Eigen::Vector3d bend() const { return direction_.tangent - placement_.tangent; }
   void add_bending(RodSystem& system) const;

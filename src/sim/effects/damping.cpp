@@ -1,43 +1,141 @@
+// Compiled once per instruction set; Highway chooses among them at run time.
 #include "fiber_proximity/sim/effects/damping.hpp"
 
-#include <algorithm>
+#include "fiber_proximity/sim/edge_turn.hpp"
+#include "fiber_proximity/sim/forces.hpp"
+#include "src/sim/pack_lane.hpp"
+#include "src/sim/require.hpp"
 
-#include "../require.hpp"
-#include "fiber_proximity/sim/edge_pair.hpp"
-#include "fiber_proximity/sim/effects/twist.hpp"
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "src/sim/effects/damping.cpp"
+#include <hwy/foreach_target.h>  // must come before highway.h
+#include <hwy/highway.h>
 
+#include <limits>
+
+#include "src/sim/edge_turn-inl.hpp"
+#include "src/sim/frames-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
 namespace fiber {
-
-using Eigen::Matrix3d;
-using Eigen::Vector3d;
-
+namespace HWY_NAMESPACE {
 namespace {
 
-/// Below this length of the sum of two tangents a rod is folded, and has no frame to compare its
-/// turns in.
-constexpr double folded = 1e-3;
-
-Vector3d middle_of(const EdgePair& pair) { return pair.before().tangent + pair.after().tangent; }
-
-/// What has changed of the turn, apart from rigid rotation.
-Vector3d turn_change(const EdgePair& pair, const Vector3d& old_turn, const Vector3d& old_middle) {
-  return pair.turn() - transport(old_turn, old_middle, middle_of(pair).normalized());
+/// How much longer an edge is than when the step began.
+HWY_INLINE Real lengthening(const RodPack& rods, const std::vector<SimdBatch>& starts,
+                            std::size_t edge, std::size_t lane) {
+  return load(rods.lengths[edge], lane) - load(starts[7 * edge + 6], lane);
 }
 
-/// Half the gradient of the change's square by the middle, which takes the old turn along: around
-/// that the old turn rotates as Twist's directors do around their edges.
-Vector3d by_middle(const EdgePair& pair, const Vector3d& change, const Vector3d& old_middle) {
-  const Vector3d middle = middle_of(pair);
-  const Vector3d axis = middle.normalized();
-  const Vector3d binormal = curvature_binormal(old_middle, axis);
-  return -0.5 * axis.dot(change.cross(pair.turn())) / std::max(folded, middle.norm()) * binormal;
+/// What has changed of a node's turn since then, apart from rigid rotation.
+struct TurnChange {
+  TwoEdges edges;
+  Vector turn;
+  Vector change;
+  Vector old_middle;
+  Vector middle;       // of the tangents, of unit length
+  Real middle_length;  // before that
+  Real stiffness;      // 0 where it was folded and had no middle
+};
+
+/// @param total stiffness of the rod against bending, and this much of it resists the change
+HWY_INLINE TurnChange turn_change(const RodPack& rods, const std::vector<SimdBatch>& starts,
+                                  Real total, std::size_t node, std::size_t lane) {
+  const SimdBatch* const start = &starts[7 * node];
+  const Real least = real(std::numeric_limits<double>::min());
+  TurnChange result;
+  result.edges = edges_beside(rods, node, lane);
+  result.turn = result.edges.after - result.edges.before;
+  const Vector sum = result.edges.before + result.edges.after;
+  result.middle_length = square_root(dot(sum, sum));
+  result.middle = real(1.0) / larger(result.middle_length, least) * sum;
+  result.old_middle = load_vector(start + 3, lane);
+  result.change =
+      result.turn - transport(load_vector(start, lane), result.old_middle, result.middle);
+  const auto had_middle = hn::Gt(dot(result.old_middle, result.old_middle).value, real(0.0).value);
+  const Real stiffness = total * load(rods.inverse_node_lengths[node], lane);
+  result.stiffness = {hn::IfThenElseZero(had_middle, stiffness.value)};
+  return result;
+}
+
+/// The gradient of the change's energy by either tangent, as far as they turn the middle, which
+/// takes the old turn along.
+HWY_INLINE Vector by_middle(const TurnChange& turn) {
+  constexpr double folded = 1e-3;  // as in Damping
+  const Real rotated = dot(turn.middle, cross(turn.change, turn.turn));
+  const Real factor =
+      real(-0.5) * turn.stiffness * rotated / larger(real(folded), turn.middle_length);
+  return factor * curvature_binormal(turn.old_middle, turn.middle);
+}
+
+void energy(const RodPack& rods, const std::vector<SimdBatch>& starts, double share,
+            SimdBatch& energy) {
+  const Real one = real(1.0);
+  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+    Real stretch = real(0.0);
+    Real bend = real(0.0);
+    for (std::size_t i = 0; i + 1 < rods.node_count; ++i) {
+      const Real longer = lengthening(rods, starts, i, lane);
+      stretch = stretch + longer * longer * load(rods.inverse_rest_lengths[i], lane);
+      if (i > 0) {
+        const TurnChange turn = turn_change(rods, starts, one, i, lane);
+        bend = bend + turn.stiffness * dot(turn.change, turn.change);
+      }
+    }
+    const Real sum =
+        load(rods.stretching_stiffness, lane) * stretch + load(rods.bending_stiffness, lane) * bend;
+    store(real(0.5 * share) * sum, energy, lane);
+  }
+}
+
+template <std::size_t U>
+void add_derivatives_of(const RodPack& rods, const std::vector<SimdBatch>& starts, double share,
+                        PackSystem& system) {
+  const Real zero = real(0.0);
+  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+    const Real stretching = real(share) * load(rods.stretching_stiffness, lane);
+    const Real bending = real(share) * load(rods.bending_stiffness, lane);
+    for (std::size_t i = 0; i + 1 < rods.node_count; ++i) {
+      const Vector tangent = tangent_at(rods, i, lane);
+      const Vector along = stretching * load(rods.inverse_rest_lengths[i], lane) * tangent;
+      const Vector force = lengthening(rods, starts, i, lane) * along;
+      add_edge<U>(force, block_of(zero, along, tangent), i, lane, system);
+      if (i > 0) {
+        const TurnChange turn = turn_change(rods, starts, bending, i, lane);
+        const Vector by_turn = turn.stiffness * turn.change;
+        const Vector by_both = by_middle(turn);
+        add_gradient<U>(turn.edges, by_both - by_turn, by_both + by_turn, i, lane, system);
+        add_hessian<U>(isotropic_blocks(turn.edges, turn.stiffness), i, lane, system);
+      }
+    }
+  }
+}
+
+void add_derivatives(const RodPack& rods, const std::vector<SimdBatch>& starts, double share,
+                     PackSystem& system) {
+  with_unknowns(system, [&](auto u) { add_derivatives_of<u>(rods, starts, share, system); });
 }
 
 }  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace fiber
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace fiber {
+
+HWY_EXPORT(energy);
+HWY_EXPORT(add_derivatives);
+
+using Eigen::Vector3d;
 
 Damping::Damping(double relaxation_time) : relaxation_time_(relaxation_time) {
   require_not_negative("damping: the relaxation time", relaxation_time, " s");
 }
+
+/// Below this length of the sum of two tangents a rod is folded, and has no frame to compare its
+/// turns in.
+constexpr double least_middle = 1e-3;
 
 void Damping::begin_step(Rods& rods, const TimeStep& step) {
   share_ = relaxation_time_ / step.length;
@@ -46,11 +144,12 @@ void Damping::begin_step(Rods& rods, const TimeStep& step) {
     EdgeDirection before = edge_direction(rods, rods.first(rod));
     starts_[rods.first(rod)].length = before.length;
     for (std::uint32_t i = rods.first(rod) + 1; i + 1 < rods.end(rod); ++i) {
-      const EdgePair pair(before, edge_direction(rods, i));
-      const EdgeDirection middle = direction_of(middle_of(pair));
+      const EdgeTurn pair(before, edge_direction(rods, i));
+      const EdgeDirection middle = direction_of(pair.before().tangent + pair.after().tangent);
       starts_[i].length = pair.after().length;
       starts_[i].turn = pair.turn();
-      starts_[i].middle = middle.length > folded ? middle.tangent : Vector3d(Vector3d::Zero());
+      starts_[i].middle =
+          middle.length > least_middle ? middle.tangent : Vector3d(Vector3d::Zero());
       before = pair.after();
     }
   }
@@ -61,40 +160,39 @@ const double* Damping::values_of(std::uint32_t node) const {
   return starts_[node].turn.data();
 }
 
-double Damping::energy(const Rods& rods, std::uint32_t rod) const {
-  double stretch = 0.0;
-  double bend = 0.0;
-  for (std::uint32_t i = rods.first(rod); i + 1 < rods.end(rod); ++i) {
-    const double change = edge_direction(rods, i).length - starts_[i].length;
-    stretch += change * change / rods.rest_lengths[i];
-    if (i > rods.first(rod) && !starts_[i].middle.isZero(0.0)) {
-      bend += turn_change(EdgePair(rods, i), starts_[i].turn, starts_[i].middle).squaredNorm() /
-              rods.rest_length_at(i);
-    }
-  }
-  const RodSection& section = rods.sections[rod];
-  return 0.5 * share_ * (section.stretching_stiffness * stretch + section.bending_stiffness * bend);
+void Damping::energy(const RodPack& rods, const std::vector<SimdBatch>& values,
+                     SimdBatch& energy) const {
+  HWY_DYNAMIC_DISPATCH(energy)(rods, values, share_, energy);
 }
 
-void Damping::add_derivatives(const Rods& rods, std::uint32_t rod, RodSystem& system) const {
-  const RodSection& section = rods.sections[rod];
-  const std::uint32_t first = rods.first(rod);
-  for (std::uint32_t i = first; i + 1 < rods.end(rod); ++i) {
-    const std::uint32_t node = i - first;
-    const EdgeDirection edge = edge_direction(rods, i);
-    const double stretching = share_ * section.stretching_stiffness / rods.rest_lengths[i];
-    const Vector3d force = stretching * (edge.length - starts_[i].length) * edge.tangent;
-    const Matrix3d block = stretching * edge.tangent * edge.tangent.transpose();
-    system.add_edge(node, force, block);
-    if (node > 0 && !starts_[i].middle.isZero(0.0)) {
-      const EdgePair pair(rods, i);
-      const double bending = share_ * section.bending_stiffness / rods.rest_length_at(i);
-      const Vector3d change = turn_change(pair, starts_[i].turn, starts_[i].middle);
-      pair.add_derivatives(node, bending * change, bending, 0.0, Vector3d::Zero(), system);
-      const Vector3d gradient = bending * by_middle(pair, change, starts_[i].middle);
-      pair.add_gradient(node, gradient, gradient, system);
+void Damping::add_derivatives(const RodPack& rods, const std::vector<SimdBatch>& values,
+                              PackSystem& system) const {
+  HWY_DYNAMIC_DISPATCH(add_derivatives)(rods, values, share_, system);
+}
+
+void Damping::add_forces(const RodPack& rods, const std::vector<SimdBatch>& values,
+                         RodForces& forces) const {
+  for_each_edge(rods, [&](const PackLane& rod, std::uint32_t edge, std::uint32_t index) {
+    const EdgeDirection after = rod.direction(edge);
+    const SimdBatch* const start = &values[std::size_t{7} * edge];
+    const auto vector = [&](std::size_t first) {
+      return Vector3d(start[first][rod.lane()], start[first + 1][rod.lane()],
+                      start[first + 2][rod.lane()]);
+    };
+    forces.tensions[index] += share_ * rod.stretching_stiffness() *
+                              (after.length - start[6][rod.lane()]) / rod.rest_length(edge);
+    const Vector3d old_middle = vector(3);
+    if (edge > 0 && !old_middle.isZero(0.0)) {
+      const EdgeDirection before = rod.direction(edge - 1);
+      const Vector3d middle = direction_of(before.tangent + after.tangent).tangent;
+      const Vector3d change =
+          after.tangent - before.tangent - transport(vector(0), old_middle, middle);
+      const double length = 0.5 * (rod.rest_length(edge - 1) + rod.rest_length(edge));
+      forces.bending_moments[index] +=
+          share_ * rod.bending_stiffness() / length * middle.cross(change);
     }
-  }
+  });
 }
 
 }  // namespace fiber
+#endif

@@ -1,3 +1,4 @@
+// Compiled once per instruction set; Highway chooses among them at run time.
 #include "fiber_proximity/sim/effects/drag.hpp"
 
 #include <tbb/parallel_for.h>
@@ -6,12 +7,78 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "../require.hpp"
-#include "fiber_proximity/sim/edge_pair.hpp"
+#include "fiber_proximity/sim/edge_turn.hpp"
+#include "src/sim/require.hpp"
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "src/sim/effects/drag.cpp"
+#include <hwy/foreach_target.h>  // must come before highway.h
+#include <hwy/highway.h>
+
+#include "src/sim/simd-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace fiber {
+namespace HWY_NAMESPACE {
+namespace {
+
+/// Drag::Node, and how far it is from where the wind alone would bring it.
+struct Node {
+  Vector tangent;
+  Vector lag;
+  Real across;
+  Real along;
+};
+
+HWY_INLINE Node node_at(const RodPack& rods, const std::vector<SimdBatch>& values,
+                        std::size_t index, std::size_t lane) {
+  const SimdBatch* const first = &values[8 * index];
+  return {load_vector(first, lane), position_at(rods, index, lane) - load_vector(first + 3, lane),
+          load(first[6], lane), load(first[7], lane)};
+}
+
+void energy(const RodPack& rods, const std::vector<SimdBatch>& values, SimdBatch& energy) {
+  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+    Real sum = real(0.0);
+    for (std::size_t i = 0; i < rods.node_count; ++i) {
+      const Node node = node_at(rods, values, i, lane);
+      const Real along = dot(node.tangent, node.lag);
+      sum =
+          sum + node.across * dot(node.lag, node.lag) + (node.along - node.across) * along * along;
+    }
+    store(real(0.5) * sum, energy, lane);
+  }
+}
+
+template <std::size_t U>
+void add_derivatives_of(const RodPack& rods, const std::vector<SimdBatch>& values,
+                        PackSystem& system) {
+  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+    for (std::size_t i = 0; i < rods.node_count; ++i) {
+      const Node node = node_at(rods, values, i, lane);
+      const Vector more = (node.along - node.across) * node.tangent;
+      add_gradient<U>(node.across * node.lag + dot(node.tangent, node.lag) * more, i, lane, system);
+      add_diagonal<U>(block_of(node.across, more, node.tangent), i, lane, system);
+    }
+  }
+}
+
+void add_derivatives(const RodPack& rods, const std::vector<SimdBatch>& values,
+                     PackSystem& system) {
+  with_unknowns(system, [&](auto u) { add_derivatives_of<u>(rods, values, system); });
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace fiber
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace fiber {
 
-using Eigen::Matrix3d;
+HWY_EXPORT(energy);
+HWY_EXPORT(add_derivatives);
+
 using Eigen::Vector3d;
 
 Vector3d WindField::at(const Vector3d& point, double time) const {
@@ -63,32 +130,20 @@ void Drag::begin_step(Rods& rods, const TimeStep& step) {
   });
 }
 
-double Drag::energy(const Rods& rods, std::uint32_t rod) const {
-  double energy = 0.0;
-  for (std::uint32_t i = rods.first(rod); i < rods.end(rod); ++i) {
-    const Node& node = nodes_[i];
-    const Vector3d lag = rods.positions[i] - node.carried;
-    const double along = node.tangent.dot(lag);
-    energy += node.across * lag.squaredNorm() + (node.along - node.across) * along * along;
-  }
-  return 0.5 * energy;
-}
-
-void Drag::add_derivatives(const Rods& rods, std::uint32_t rod, RodSystem& system) const {
-  const std::uint32_t first = rods.first(rod);
-  for (std::uint32_t i = first; i < rods.end(rod); ++i) {
-    const Node& node = nodes_[i];
-    const Matrix3d resistance = node.across * Matrix3d::Identity() + (node.along - node.across) *
-                                                                         node.tangent *
-                                                                         node.tangent.transpose();
-    system.add_gradient(i - first, resistance * (rods.positions[i] - node.carried));
-    system.add_hessian(i - first, resistance);
-  }
-}
-
 const double* Drag::values_of(std::uint32_t node) const {
   static_assert(sizeof(Node) == 8 * sizeof(double));
   return nodes_[node].tangent.data();
 }
 
+void Drag::energy(const RodPack& rods, const std::vector<SimdBatch>& values,
+                  SimdBatch& energy) const {
+  HWY_DYNAMIC_DISPATCH(energy)(rods, values, energy);
+}
+
+void Drag::add_derivatives(const RodPack& rods, const std::vector<SimdBatch>& values,
+                           PackSystem& system) const {
+  HWY_DYNAMIC_DISPATCH(add_derivatives)(rods, values, system);
+}
+
 }  // namespace fiber
+#endif

@@ -1,12 +1,12 @@
 #include "fiber_proximity/sim/effects/environment_contact.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <tuple>
 
-#include "fiber_proximity/sim/contact_limits.hpp"
-#include "fiber_proximity/sim/contact_stiffness.hpp"
+#include "../contact/contact_set.hpp"
+#include "../contact/neighbours.hpp"
+#include "../contact/obstacle_planes.hpp"
+#include "../solver/step_bound.hpp"
 
 namespace fiber {
 
@@ -32,9 +32,23 @@ AllowedPair doubled(const AllowedPair& pair) {
   return doubled;
 }
 
-bool is_convex(const Shape& shape) {
-  return !std::holds_alternative<std::shared_ptr<const TriangleMesh>>(shape) &&
-         !std::holds_alternative<std::shared_ptr<const OccupancyOctree>>(shape);
+/// 0 where an end of an edge is as near to an obstacle as the edge is, 1 where both are so much
+/// further away that they have no barrier of their own.
+double share_of_edge(const TangentPlane& plane, double width) {
+  const double nearer_end = std::min(plane.end_distances[0], plane.end_distances[1]);
+  const double x = std::clamp((nearer_end - plane.distance) / width, 0.0, 1.0);
+  return x * x * (3.0 - 2.0 * x);
+}
+
+/// The distance of a segment of a fibre from the shape of another contact; infinite if that is too
+/// far away.
+/// @param contacts in the order of their keys
+double distance_of(const std::vector<Contact>& contacts, Contact key) {
+  const auto is_before = [](const Contact& a, const Contact& b) { return a.key() < b.key(); };
+  const auto place = std::lower_bound(contacts.begin(), contacts.end(), key, is_before);
+  return place != contacts.end() && place->key() == key.key()
+             ? place->distance
+             : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
@@ -52,38 +66,6 @@ void EnvironmentContact::set_environment(std::shared_ptr<const Environment> envi
   environment_ = std::move(environment);
 }
 
-void EnvironmentContact::begin_step(const Rods& rods, const TimeStep& step) {
-  step_ = step.length;
-  material_contact_stiffnesses(rods, material_stiffness_);
-  const double fastest = std::sqrt(largest_square(rods.velocities));
-  longest_move_ = longest_move(rods, step.length * fastest);
-  place_fibers(rods);
-  look(rods, *std::max_element(rods.radii.begin(), rods.radii.end()) + 2.0 * step.length * fastest);
-  measure(rods);
-}
-
-void EnvironmentContact::look(const Rods& rods, double margin) {
-  margin_ = margin;
-  QueryOptions query;
-  query.margin = margin;
-  environment_->query(fibers_, query, allowed_, result_);
-  planes_.clear();
-  for (const Contact& contact : result_.contacts) {
-    const bool is_edge = contact.segment_a % 2 == 1;
-    // The last node is the end of the last edge.
-    const std::uint32_t node = rods.first(contact.fiber_a) + contact.segment_a / 2;
-    const bool is_last = !is_edge && node + 1 == rods.end(contact.fiber_a);
-    const double s = is_edge ? contact.s : is_last ? 1.0 : 0.0;
-    const EnvironmentObject& object = environment_->objects()[contact.fiber_b];
-    const std::uint32_t edge = is_last ? node - 1 : node;
-    planes_.push_back({contact.fiber_a, edge, s, is_edge,
-                       is_convex(object.shapes[contact.segment_b].shape), is_edge ? 0.0 : 1.0,
-                       stiffness_of(rods, contact.fiber_a, edge), contact.point_b,
-                       -contact.normal});
-  }
-  share_contacts(rods);
-}
-
 void EnvironmentContact::place_fibers(const Rods& rods) {
   if (fibers_.point_count() == 2 * rods.positions.size()) {
     fibers_.update_points(doubled(rods.positions));
@@ -96,152 +78,74 @@ void EnvironmentContact::place_fibers(const Rods& rods) {
   fibers_ = FiberAssembly(doubled(rods.positions), offsets, rods.radii);
 }
 
-double EnvironmentContact::stiffness_of(const Rods& rods, std::uint32_t rod,
-                                        std::uint32_t edge) const {
-  if (options_.stiffness > 0.0) {
-    return options_.stiffness;
+void EnvironmentContact::find(const Rods& rods, const Room& room, ContactSet& found) {
+  place_fibers(rods);
+  double reach = 0.0;
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    double longest = 0.0;
+    for (std::uint32_t i = rods.first(rod); i < rods.end(rod); ++i) {
+      longest = std::max(longest, room.expected[i].squaredNorm());
+    }
+    reach = std::max(reach, std::sqrt(longest) + room.by_rod[rod]);
   }
-  const double mass = std::min(rods.masses[edge], rods.masses[edge + 1]);
-  return std::min(material_stiffness_[rod], largest_contact_stiffness(mass, step_));
-}
-
-void EnvironmentContact::share_contacts(const Rods& rods) {
-  for (std::size_t i = 0; i < planes_.size(); ++i) {
-    const Contact& contact = result_.contacts[i];
-    if (!planes_[i].is_edge) {
-      continue;
-    }
-    const std::size_t before = find_plane(i, contact.segment_a - 1);
-    const std::size_t after = find_plane(i, contact.segment_a + 1);
-    const auto gap_of = [this](std::size_t plane) {
-      return plane < planes_.size() ? result_.contacts[plane].distance
-                                    : std::numeric_limits<double>::infinity();
-    };
-    // Parallel to a flat side, an edge is no nearer than its ends but for rounding.
-    constexpr double same = 1e-6;
-    const double nearer = same * rods.radii[contact.fiber_a];
-    if (contact.distance > std::min(gap_of(before), gap_of(after)) - nearer) {
-      continue;
-    }
-    planes_[i].share = 1.0;
-    if (before < planes_.size()) {
-      planes_[before].share -= 1.0 - contact.s;
-    }
-    if (after < planes_.size()) {
-      planes_[after].share -= contact.s;
-    }
+  const double largest = *std::max_element(rods.radii.begin(), rods.radii.end());
+  QueryOptions query;
+  query.margin = reach + Barrier::half_width * largest;
+  environment_->query(fibers_, query, allowed_, result_);
+  for (const Contact& contact : result_.contacts) {
+    add(rods, contact, query.margin + largest, found);
   }
 }
 
-/// The plane of the segment before or after that of another plane, and the same shape; or how many
-/// there are if there is none. Contacts are in the order of their keys: it is not far.
-std::size_t EnvironmentContact::find_plane(std::size_t near, std::uint32_t segment) const {
-  const std::vector<Contact>& contacts = result_.contacts;
-  const auto key = std::make_tuple(contacts[near].fiber_a, segment, contacts[near].fiber_b,
-                                   contacts[near].segment_b);
-  std::size_t found = near;
-  while (found > 0 && contacts[found].key() > key) {
-    --found;
-  }
-  while (found + 1 < contacts.size() && contacts[found].key() < key) {
-    ++found;
-  }
-  return contacts[found].key() == key ? found : planes_.size();
-}
+/// @param within [m] of axes
+void EnvironmentContact::add(const Rods& rods, const Contact& contact, double within,
+                             ContactSet& found) const {
+  const EnvironmentObject& object = environment_->objects()[contact.fiber_b];
+  const PlacedShape& placed = object.shapes[contact.segment_b];
+  const Eigen::Isometry3d pose = object.pose * placed.pose;
+  const std::uint32_t rod = contact.fiber_a;
+  const double radius = rods.radii[rod];
+  const bool is_edge = contact.segment_a % 2 == 1;
+  const std::uint32_t node = rods.first(rod) + contact.segment_a / 2;
+  // The last node is the end of the last edge.
+  const bool is_last = !is_edge && node + 1 == rods.end(rod);
+  const std::uint32_t edge = is_last ? node - 1 : node;
 
-void EnvironmentContact::measure(const Rods& rods) {
-  heights_.clear();
-  for (const Plane& plane : planes_) {
-    const auto height = [&](std::uint32_t node) {
-      return plane.normal.dot(rods.positions[node] - plane.point);
-    };
-    if (plane.is_edge) {
-      const double first = height(plane.edge);
-      const double last = height(plane.edge + 1);
-      heights_.push_back({(1.0 - plane.s) * first + plane.s * last, std::min(first, last)});
-    } else {
-      const double at_node = height(plane.edge + (plane.s == 1.0 ? 1 : 0));
-      heights_.push_back({at_node, at_node});
+  std::vector<TangentPlane> planes;
+  if (is_convex(placed.shape)) {
+    TangentPlane plane{contact.s, contact.distance + radius, contact.point_b, -contact.normal, {}};
+    for (const std::uint32_t end : {0U, 1U}) {
+      Contact of_end = contact;
+      of_end.segment_a = contact.segment_a + 2 * end - 1;
+      plane.end_distances[end] =
+          is_edge ? distance_of(result_.contacts, of_end) + radius : plane.distance;
+    }
+    planes.push_back(plane);
+  } else {
+    const Vector3d& p0 = rods.positions[node];
+    planes =
+        tangent_planes(placed.shape, pose, p0, is_edge ? rods.positions[node + 1] : p0, within);
+  }
+  if (is_edge) {
+    found.obstacle_edges.push_back({rod,
+                                    edge,
+                                    &placed.shape,
+                                    pose,
+                                    contact.distance + radius,
+                                    contact.point_b,
+                                    -contact.normal,
+                                    {rods.positions[edge], rods.positions[edge + 1]}});
+  }
+  const Barrier barrier = Barrier::around(
+      radius, options_.stiffness > 0.0 ? options_.stiffness
+                                       : material_contact_stiffness(rods.sections[rod], radius));
+  for (const TangentPlane& plane : planes) {
+    const double s = is_edge ? plane.s : is_last ? 1.0 : 0.0;
+    const double share = is_edge ? share_of_edge(plane, barrier.width()) : 1.0;
+    if (share > 0.0) {
+      found.planes.push_back({rod, edge, s, barrier, share, plane.point, plane.normal});
     }
   }
-}
-
-void EnvironmentContact::find(const Rods& rods, std::vector<ContactPoint>& points) const {
-  for (std::size_t i = 0; i < planes_.size(); ++i) {
-    const Plane& plane = planes_[i];
-    const double depth = rods.radii[plane.rod] - heights_[i].nearest;
-    if (depth > 0.0 && plane.share > 0.0) {
-      points.push_back({plane.rod, plane.edge, plane.s, 0, ContactPoint::obstacle, 0.0, plane.point,
-                        plane.normal, depth, plane.share * plane.stiffness});
-    }
-  }
-}
-
-/// How far the ends of the plane's edge, or its node, may still go without meeting what is not
-/// convex [m].
-double EnvironmentContact::free_distance(const Rods& rods, const Plane& plane) const {
-  const auto was = [this](std::uint32_t node) { return fibers_.points()[std::size_t{2} * node]; };
-  const Vector3d point = (1.0 - plane.s) * was(plane.edge) + plane.s * was(plane.edge + 1);
-  double moved = 0.0;
-  for (std::uint32_t node = plane.edge; node < plane.edge + 2; ++node) {
-    moved = std::max(moved, (rods.positions[node] - was(node)).norm());
-  }
-  const double height = plane.normal.dot(point - plane.point);
-  return height - least_distance * rods.radii[plane.rod] - moved;
-}
-
-void EnvironmentContact::limit(const Rods& rods, std::vector<Vector3d>& displacements, Way /*way*/,
-                               int /*round*/) {
-  limit_to_known(rods, displacements);
-  const double longest = std::sqrt(largest_square(displacements));
-  for (std::size_t i = 0; i < planes_.size(); ++i) {
-    const Plane& plane = planes_[i];
-    const bool is_inside = !(heights_[i].nearest > 0.0);  // the axis, already
-    const double room = heights_[i].lowest - least_distance * rods.radii[plane.rod];
-    if (is_inside || (plane.is_convex && room >= longest)) {
-      continue;
-    }
-    const std::uint32_t last = plane.edge + (plane.is_edge || plane.s == 1.0 ? 1 : 0);
-    for (std::uint32_t node = last - (plane.is_edge ? 1 : 0); node <= last; ++node) {
-      limit_to_side(rods, plane, node, displacements[node]);
-    }
-  }
-}
-
-/// Shortens displacements to within the margin; it grows first as far as it may.
-void EnvironmentContact::limit_to_known(const Rods& rods, std::vector<Vector3d>& displacements) {
-  const auto was = [this](std::size_t node) { return fibers_.points()[2 * node]; };
-  double farthest_square = 0.0;
-  double longest_square = 0.0;  // at least that of any way there and on
-  for (std::size_t i = 0; i < displacements.size(); ++i) {
-    const Vector3d moved = rods.positions[i] - was(i);
-    farthest_square = std::max(farthest_square, (moved + displacements[i]).squaredNorm());
-    longest_square =
-        std::max(longest_square, 2.0 * (moved.squaredNorm() + displacements[i].squaredNorm()));
-  }
-  if (longest_square <= margin_ * margin_) {
-    return;
-  }
-  const double farthest = std::sqrt(farthest_square);
-  if (farthest > margin_ && margin_ < longest_move_) {
-    constexpr double rounding = 1.0 + 1e-9;
-    look(rods, std::min(rounding * farthest, longest_move_));
-    measure(rods);
-  }
-  for (std::size_t i = 0; i < displacements.size(); ++i) {
-    limit_length(margin_ - (rods.positions[i] - was(i)).norm(), displacements[i]);
-  }
-}
-
-/// Shortens the displacement of a node to one that stays on its side of what a plane stands for.
-void EnvironmentContact::limit_to_side(const Rods& rods, const Plane& plane, std::uint32_t node,
-                                       Vector3d& displacement) const {
-  if (!plane.is_convex) {
-    limit_length(free_distance(rods, plane), displacement);
-    return;
-  }
-  const double height = plane.normal.dot(rods.positions[node] - plane.point);
-  limit_approach(-plane.normal, height - least_distance * rods.radii[plane.rod], displacement);
 }
 
 }  // namespace fiber

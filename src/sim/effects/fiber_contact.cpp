@@ -4,141 +4,144 @@
 #include <array>
 #include <cmath>
 
-#include "fiber_proximity/sim/contact_limits.hpp"
-#include "fiber_proximity/sim/contact_stiffness.hpp"
-#include "fiber_proximity/sim/edge_pair.hpp"
-#include "fiber_proximity/sim/edge_share.hpp"
+#include "../contact/contact_set.hpp"
+#include "../contact/neighbours.hpp"
+#include "../solver/step_bound.hpp"
 
 namespace fiber {
 
 using Eigen::Vector3d;
 
-FiberContact::FiberContact(const Options& options) : options_(options) {
+namespace {
+
+/// The most by which vectors differ from their mean.
+double spread_of(const std::vector<Vector3d>& vectors) {
+  Vector3d mean = Vector3d::Zero();
+  for (const Vector3d& vector : vectors) {
+    mean += vector;
+  }
+  mean /= static_cast<double>(vectors.size());
+  double largest = 0.0;
+  for (const Vector3d& vector : vectors) {
+    largest = std::max(largest, (vector - mean).squaredNorm());
+  }
+  return std::sqrt(largest);
+}
+
+double largest_of(const std::vector<double>& values) {
+  return *std::max_element(values.begin(), values.end());
+}
+
+/// How much further two edges may come towards each other than their nodes' room allows [m].
+double expected_approach(const Room& room, const EdgePair& pair) {
+  double square = 0.0;
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    for (std::uint32_t j = 0; j < 2; ++j) {
+      const Vector3d way = room.expected[pair.edge_a + i] - room.expected[pair.edge_b + j];
+      square = std::max(square, way.squaredNorm());
+    }
+  }
+  return std::sqrt(square) + room.by_rod[pair.rod_a] + room.by_rod[pair.rod_b];
+}
+
+}  // namespace
+
+FiberContact::FiberContact(const Options& options)
+    : options_(options), engine_(make_engine("run_tree")) {
   validate_contact_stiffness("contact", options.stiffness);
-  engine_ = make_engine("run_tree");
 }
 
-void FiberContact::begin_step(const Rods& rods, const TimeStep& step) {
-  step_ = step.length;
-  beginning_ = rods.positions;
-  material_contact_stiffnesses(rods, material_stiffness_);
-  longest_move_ = longest_move(rods, step.length * std::sqrt(largest_square(rods.velocities)));
-  // What a node has moved since, and will in this step if nothing happens, must leave half of the
-  // reach for what does happen. Where all move together, nothing comes nearer.
-  displacements_.resize(rods.positions.size());
-  for (std::size_t i = 0; i < rods.positions.size(); ++i) {
-    displacements_[i] = step.length * rods.velocities[i];
+FiberContact::~FiberContact() = default;
+
+void FiberContact::find(const Rods& rods, const Room& room, ContactSet& found) {
+  const double expected = spread_of(room.expected);
+  const double largest = largest_of(rods.radii);
+  const double needed = 2.0 * (Barrier::half_width * largest + expected + largest_of(room.by_rod));
+  double moved = 0.0;  // by rods beside each other since candidates were looked for
+  if (fibers_.point_count() == rods.positions.size()) {
+    std::vector<Vector3d> ways(rods.positions.size());
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+      ways[i] = rods.positions[i] - fibers_.points()[i];
+    }
+    moved = spread_of(ways);
   }
-  const bool is_first = fibers_.point_count() != rods.positions.size();
-  const auto farthest_from = [&](const std::vector<Vector3d>& from) {
-    return farthest_move(from, beginning_, displacements_,
-                         mean_move(from, beginning_, displacements_));
-  };
-  if (is_first || farthest_from(fibers_.points()) > 0.25 * reach_) {
-    constexpr double steps = 2.5;
-    const double largest = *std::max_element(rods.radii.begin(), rods.radii.end());
-    reach_ = 2.0 * largest + steps * farthest_from(beginning_);
-    find_candidates(rods);
+  if (!(needed + 2.0 * moved <= reach_)) {
+    find_candidates(rods, needed + largest + 4.0 * expected);
   }
-  measure(rods);
-  part_candidates(rods);
+  constexpr std::size_t batch = 64;
+  std::array<const Vector3d*, batch> a{};
+  std::array<const Vector3d*, batch> b{};
+  std::array<SegmentDistance, batch> distances;
+  for (std::size_t begin = 0; begin < candidates_.size(); begin += batch) {
+    const std::size_t count = std::min(batch, candidates_.size() - begin);
+    for (std::size_t i = 0; i < count; ++i) {
+      a[i] = &rods.positions[candidates_[begin + i].edge_a];
+      b[i] = &rods.positions[candidates_[begin + i].edge_b];
+    }
+    segment_distances(a.data(), b.data(), count, distances.data());
+    for (std::size_t i = 0; i < count; ++i) {
+      const EdgePair& pair = candidates_[begin + i];
+      if (distances[i].distance <= pair.barrier.outer + expected_approach(room, pair)) {
+        found.pairs.push_back(pair);
+      }
+    }
+  }
 }
 
-void FiberContact::find_candidates(const Rods& rods) {
-  if (fibers_.point_count() != beginning_.size()) {
-    fibers_ = FiberAssembly(beginning_, rods.offsets, rods.radii);
+void FiberContact::find_candidates(const Rods& rods, double reach) {
+  if (fibers_.point_count() != rods.positions.size()) {
+    fibers_ = FiberAssembly(rods.positions, rods.offsets, rods.radii);
+    arcs_ = contact_arcs(rods);
   } else {
-    fibers_.update_points(beginning_);
+    fibers_.update_points(rods.positions);
   }
+  reach_ = reach;
   engine_->update(fibers_);
   QueryOptions query;
-  query.margin = reach_;
+  query.margin = reach;
   query.pairing = options_.pairing;
   query.neighbour_skip = contact_neighbour_skip;
   engine_->query(query, result_);
   candidates_.clear();
   for (const Contact& contact : result_.contacts) {
-    const Candidate candidate{contact.fiber_a, rods.first(contact.fiber_a) + contact.segment_a,
-                              contact.fiber_b, rods.first(contact.fiber_b) + contact.segment_b};
-    if (candidate.rod_a != candidate.rod_b ||
-        !are_contact_neighbours(rods, candidate.edge_a, candidate.edge_b)) {
-      candidates_.push_back(candidate);
+    const EdgePair pair = candidate(rods, contact);
+    if (pair.rod_a != pair.rod_b ||
+        !are_contact_neighbours(rods, arcs_, pair.rod_a, pair.edge_a, pair.edge_b)) {
+      candidates_.push_back(pair);
     }
   }
 }
 
-double FiberContact::stiffness_of(const Rods& rods, const Candidate& candidate) const {
-  if (options_.stiffness > 0.0) {
-    return options_.stiffness;
+EdgePair FiberContact::candidate(const Rods& rods, const Contact& contact) const {
+  EdgePair pair;
+  pair.rod_a = contact.fiber_a;
+  pair.edge_a = rods.first(pair.rod_a) + contact.segment_a;
+  pair.rod_b = contact.fiber_b;
+  pair.edge_b = rods.first(pair.rod_b) + contact.segment_b;
+  const double touching = rods.radii[pair.rod_a] + rods.radii[pair.rod_b];
+  const double stiffness =
+      options_.stiffness > 0.0
+          ? options_.stiffness
+          : std::sqrt(material_contact_stiffness(rods.sections[pair.rod_a], touching) *
+                      material_contact_stiffness(rods.sections[pair.rod_b], touching));
+  pair.barrier = Barrier::around(touching, stiffness);
+  // Of the pairs that a node's two edges make with another edge, the one further along the rod owns
+  // the node's contact: it is there if the other one is.
+  pair.owns = {pair.edge_a == rods.first(pair.rod_a), true, true,
+               pair.edge_b + 2 == rods.end(pair.rod_b)};
+  const auto may_touch = [&](std::uint32_t edge_a, std::uint32_t edge_b) {
+    return pair.rod_a != pair.rod_b ||
+           !are_contact_neighbours(rods, arcs_, pair.rod_a, edge_a, edge_b);
+  };
+  for (std::uint32_t end = 0; end < 4; ++end) {
+    const bool is_of_a = end < 2;
+    const std::uint32_t other_rod = is_of_a ? pair.rod_b : pair.rod_a;
+    const std::uint32_t other = is_of_a ? pair.edge_b : pair.edge_a;
+    const std::uint32_t own = is_of_a ? pair.edge_a : pair.edge_b;
+    pair.has_neighbour[end] = {other > rods.first(other_rod) && may_touch(own, other - 1),
+                               other + 2 < rods.end(other_rod) && may_touch(own, other + 1)};
   }
-  const double mass = std::min({rods.masses[candidate.edge_a], rods.masses[candidate.edge_a + 1],
-                                rods.masses[candidate.edge_b], rods.masses[candidate.edge_b + 1]});
-  const double softer =
-      std::min(material_stiffness_[candidate.rod_a], material_stiffness_[candidate.rod_b]);
-  return std::min(softer, largest_contact_stiffness(mass, step_));
-}
-
-void FiberContact::measure(const Rods& rods) { measure_at(rods.positions); }
-
-void FiberContact::measure_at(const std::vector<Vector3d>& positions) {
-  constexpr std::size_t batch = 64;
-  std::array<const Vector3d*, batch> a{};
-  std::array<const Vector3d*, batch> b{};
-  distances_.resize(candidates_.size());
-  for (std::size_t begin = 0; begin < candidates_.size(); begin += batch) {
-    const std::size_t count = std::min(batch, candidates_.size() - begin);
-    for (std::size_t i = 0; i < count; ++i) {
-      a[i] = &positions[candidates_[begin + i].edge_a];
-      b[i] = &positions[candidates_[begin + i].edge_b];
-    }
-    segment_distances(a.data(), b.data(), count, &distances_[begin]);
-  }
-}
-
-void FiberContact::find(const Rods& rods, std::vector<ContactPoint>& points) const {
-  for (std::size_t i = 0; i < candidates_.size(); ++i) {
-    const Candidate& candidate = candidates_[i];
-    const SegmentDistance& nearest = distances_[i];
-    const double depth =
-        rods.radii[candidate.rod_a] + rods.radii[candidate.rod_b] - nearest.distance;
-    if (!(depth > 0.0) || nearest.distance == 0.0) {
-      continue;
-    }
-    const auto point_at = [&rods](std::uint32_t edge, double parameter) -> Vector3d {
-      return (1.0 - parameter) * rods.positions[edge] + parameter * rods.positions[edge + 1];
-    };
-    const Vector3d point_a = point_at(candidate.edge_a, nearest.s);
-    const Vector3d point_b = point_at(candidate.edge_b, nearest.t);
-    const auto slide = [&rods](std::uint32_t edge, double parameter) -> Vector3d {
-      const bool is_inner = parameter > 0.0 && parameter < 1.0;
-      return is_inner ? edge_direction(rods, edge).tangent : Vector3d::Zero();
-    };
-    const double share = edge_share(rods, candidate.rod_a, candidate.edge_a, nearest.s, point_b,
-                                    slide(candidate.edge_b, nearest.t)) *
-                         edge_share(rods, candidate.rod_b, candidate.edge_b, nearest.t, point_a,
-                                    slide(candidate.edge_a, nearest.s));
-    if (share > 0.0) {
-      points.push_back({candidate.rod_a, candidate.edge_a, nearest.s, candidate.rod_b,
-                        candidate.edge_b, nearest.t, point_b, -nearest.delta / nearest.distance,
-                        depth, share * stiffness_of(rods, candidate)});
-    }
-  }
-}
-
-void FiberContact::part_candidates(const Rods& rods) {
-  partings_.resize(candidates_.size());
-  for (std::size_t i = 0; i < candidates_.size(); ++i) {
-    const SegmentDistance& nearest = distances_[i];
-    if (nearest.distance == 0.0) {
-      // They cross where the simulation began: there is no side to stay on.
-      partings_[i] = {Vector3d::Zero(), 0.0};
-      continue;
-    }
-    constexpr double share = 0.1;
-    const double touching = rods.radii[candidates_[i].rod_a] + rods.radii[candidates_[i].rod_b];
-    partings_[i] = {nearest.delta / nearest.distance,
-                    std::max(share * nearest.distance, least_distance * touching)};
-  }
+  return pair;
 }
 
 }  // namespace fiber

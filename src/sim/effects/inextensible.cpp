@@ -1,29 +1,95 @@
+// Compiled once per instruction set; Highway chooses among them at run time.
 #include "fiber_proximity/sim/effects/inextensible.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "fiber_proximity/sim/edge_pair.hpp"
+#include "fiber_proximity/sim/edge_turn.hpp"
+#include "fiber_proximity/sim/forces.hpp"
+#include "src/sim/pack_lane.hpp"
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "src/sim/effects/inextensible.cpp"
+#include <hwy/foreach_target.h>  // must come before highway.h
+#include <hwy/highway.h>
+
+#include "src/sim/simd-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
 namespace fiber {
+namespace HWY_NAMESPACE {
+namespace {
 
-using Eigen::Matrix3d;
-using Eigen::Vector3d;
+/// Inextensible::Spring, and by how much it is too long.
+struct Spring {
+  Real tension;
+  Real stiffness;
+  Real excess;
+};
 
-Inextensible::Inextensible(const Rods& rods)
-    : springs_(rods.positions.size()), found_(rods.positions.size()) {}
+HWY_INLINE Spring spring_at(const RodPack& rods, const std::vector<SimdBatch>& values,
+                            std::size_t edge, std::size_t lane) {
+  return {load(values[2 * edge], lane), load(values[2 * edge + 1], lane),
+          load(rods.lengths[edge], lane) - load(rods.rest_lengths[edge], lane)};
+}
 
-void Inextensible::begin_step(Rods& rods, const TimeStep& step) {
-  // Far stiffer than inertia, and yet of a magnitude that rounding errors can bear.
-  constexpr double ratio = 1e4;
-  for (std::size_t i = 0; i < springs_.size(); ++i) {
-    springs_[i].stiffness = ratio * rods.masses[i] / (step.length * step.length);
+void energy(const RodPack& rods, const std::vector<SimdBatch>& values, SimdBatch& energy) {
+  const Real half = real(0.5);
+  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+    Real sum = real(0.0);
+    for (std::size_t i = 0; i + 1 < rods.node_count; ++i) {
+      const Spring spring = spring_at(rods, values, i, lane);
+      sum = sum + (spring.tension + half * spring.stiffness * spring.excess) * spring.excess;
+    }
+    store(sum, energy, lane);
   }
 }
 
-double Inextensible::force(const Rods& rods, std::uint32_t edge, double length) const {
-  const Spring& spring = springs_[edge];
-  return spring.tension + spring.stiffness * (length - rods.rest_lengths[edge]);
+template <std::size_t U>
+void add_derivatives_of(const RodPack& rods, const std::vector<SimdBatch>& values,
+                        PackSystem& system) {
+  const Real zero = real(0.0);
+  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+    for (std::size_t i = 0; i + 1 < rods.node_count; ++i) {
+      const Spring spring = spring_at(rods, values, i, lane);
+      const Vector tangent = tangent_at(rods, i, lane);
+      const Real force = spring.tension + spring.stiffness * spring.excess;
+      // As in Stretch, without what gives way under pressure.
+      const Real sideways = larger(zero, force) * load(rods.inverse_lengths[i], lane);
+      const Vector along = (spring.stiffness - sideways) * tangent;
+      add_edge<U>(force * tangent, block_of(sideways, along, tangent), i, lane, system);
+    }
+  }
+}
+
+void add_derivatives(const RodPack& rods, const std::vector<SimdBatch>& values,
+                     PackSystem& system) {
+  with_unknowns(system, [&](auto u) { add_derivatives_of<u>(rods, values, system); });
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace fiber
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace fiber {
+
+HWY_EXPORT(energy);
+HWY_EXPORT(add_derivatives);
+
+Inextensible::Inextensible(const Rods& rods) : springs_(rods.positions.size()) {}
+
+void Inextensible::begin_step(Rods& rods, const TimeStep& step) {
+  constexpr double least = 1e4;
+  constexpr double by_edges = 100.0;
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    const double edges = rods.node_count(rod) - 1;
+    const double ratio = std::max(least, by_edges * edges * edges);
+    for (std::uint32_t i = rods.first(rod); i < rods.end(rod); ++i) {
+      springs_[i].stiffness = ratio * rods.masses[i] / (step.length * step.length);
+    }
+  }
 }
 
 const double* Inextensible::values_of(std::uint32_t node) const {
@@ -31,43 +97,40 @@ const double* Inextensible::values_of(std::uint32_t node) const {
   return &springs_[node].tension;
 }
 
-double Inextensible::energy(const Rods& rods, std::uint32_t rod) const {
-  double energy = 0.0;
+double Inextensible::force(const Rods& rods, std::uint32_t edge) const {
+  const double excess = edge_direction(rods, edge).length - rods.rest_lengths[edge];
+  return springs_[edge].tension + springs_[edge].stiffness * excess;
+}
+
+bool Inextensible::update_multipliers(const Rods& rods, std::uint32_t rod) {
+  constexpr double allowed_strain = 1e-6;
+  bool is_kept = true;
   for (std::uint32_t i = rods.first(rod); i + 1 < rods.end(rod); ++i) {
-    const double excess = edge_direction(rods, i).length - rods.rest_lengths[i];
-    energy += (springs_[i].tension + 0.5 * springs_[i].stiffness * excess) * excess;
+    const double force = this->force(rods, i);
+    const double excess = (force - springs_[i].tension) / springs_[i].stiffness;
+    is_kept &= std::abs(excess) <= allowed_strain * rods.rest_lengths[i];
+    springs_[i].tension = force;
   }
-  return energy;
+  return is_kept;
 }
 
-void Inextensible::add_derivatives(const Rods& rods, std::uint32_t rod, RodSystem& system) const {
-  const std::uint32_t first = rods.first(rod);
-  for (std::uint32_t i = first; i + 1 < rods.end(rod); ++i) {
-    const EdgeDirection edge = edge_direction(rods, i);
-    const double force = this->force(rods, i, edge.length);
-    const Matrix3d along = edge.tangent * edge.tangent.transpose();
-    // As in Stretch, without what gives way under pressure.
-    const Matrix3d block = springs_[i].stiffness * along +
-                           std::max(0.0, force) / edge.length * (Matrix3d::Identity() - along);
-    system.add_edge(i - first, force * edge.tangent, block);
-  }
+void Inextensible::add_forces(const RodPack& rods, const std::vector<SimdBatch>& /*values*/,
+                              RodForces& forces) const {
+  for_each_edge(rods, [&](const PackLane& rod, std::uint32_t edge, std::uint32_t index) {
+    const double excess = rod.direction(edge).length - rod.rest_length(edge);
+    forces.tensions[index] += springs_[index].tension + springs_[index].stiffness * excess;
+  });
 }
 
-void Inextensible::end_solve(const Rods& rods, std::uint32_t rod) {
-  constexpr double learnt_from = 0.01;  // largest strain
-  for (std::uint32_t i = rods.first(rod); i + 1 < rods.end(rod); ++i) {
-    const double length = edge_direction(rods, i).length;
-    // What a contact has kept from its length says nothing about tension.
-    const bool is_kept =
-        std::abs(length - rods.rest_lengths[i]) < learnt_from * rods.rest_lengths[i];
-    found_[i] = is_kept ? force(rods, i, length) : springs_[i].tension;
-  }
+void Inextensible::energy(const RodPack& rods, const std::vector<SimdBatch>& values,
+                          SimdBatch& energy) const {
+  HWY_DYNAMIC_DISPATCH(energy)(rods, values, energy);
 }
 
-void Inextensible::end_step(Rods& /*rods*/, const TimeStep& /*step*/) {
-  for (std::size_t i = 0; i < springs_.size(); ++i) {
-    springs_[i].tension = found_[i];
-  }
+void Inextensible::add_derivatives(const RodPack& rods, const std::vector<SimdBatch>& values,
+                                   PackSystem& system) const {
+  HWY_DYNAMIC_DISPATCH(add_derivatives)(rods, values, system);
 }
 
 }  // namespace fiber
+#endif

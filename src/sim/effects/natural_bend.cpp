@@ -1,9 +1,9 @@
 #include "natural_bend.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
-#include "fiber_proximity/sim/edge_pair.hpp"
 #include "fiber_proximity/sim/effects/twist.hpp"
 
 namespace fiber {
@@ -24,20 +24,23 @@ Matrix3d cross_matrix(const Vector3d& v) {
   return matrix;
 }
 
+CrossSection cross_section(const PackLane& rod, std::uint32_t edge) {
+  return {rod.direction(edge).tangent, rod.director(edge), rod.angle(edge)};
+}
+
 /// How the cross-section of an edge rotates by what is unknown of the edge.
-RotationByEdge rotation_by_edge(const Rods& rods, std::uint32_t edge) {
-  const EdgeDirection direction = edge_direction(rods, edge);
+RotationByEdge rotation_by_edge(const PackLane& rod, std::uint32_t edge) {
+  const EdgeDirection direction = rod.direction(edge);
   const Matrix3d by_second =
       cross_matrix(direction.tangent) / direction.length +
-      direction.tangent * director_turn(rods.start_tangents[edge], direction).transpose();
+      direction.tangent * director_turn(rod.start_tangent(edge), direction).transpose();
   RotationByEdge rotation;
   rotation << -by_second, direction.tangent, by_second;
   return rotation;
 }
 
 /// Adds the derivatives of half the square of a residual.
-/// @param first_node counted from the rod's first
-/// @param by_all     of the residual by all unknowns from there on
+/// @param by_all of the residual by all unknowns from the first node on
 template <class Residual, class ByAll>
 void add_square(std::uint32_t first_node, double stiffness, const Residual& residual,
                 const ByAll& by_all, RodSystem& system) {
@@ -60,24 +63,22 @@ void add_square(std::uint32_t first_node, double stiffness, const Residual& resi
 
 }  // namespace
 
-CrossSection cross_section(const Rods& rods, std::uint32_t edge) {
-  const Vector3d tangent = edge_direction(rods, edge).tangent;
-  const Vector3d director = current_director(rods, edge);
+CrossSection::CrossSection(const Vector3d& tangent_there, const Vector3d& director, double angle)
+    : tangent(tangent_there) {
   const Vector3d across = tangent.cross(director);
-  const double cosine = std::cos(rods.angles[edge]);
-  const double sine = std::sin(rods.angles[edge]);
-  return {tangent, cosine * director + sine * across, cosine * across - sine * director};
+  const double cosine = std::cos(angle);
+  const double sine = std::sin(angle);
+  first = cosine * director + sine * across;
+  second = cosine * across - sine * director;
 }
 
-NaturalBend::NaturalBend(const Rods& rods, std::uint32_t rod, std::uint32_t node, double length,
-                         const CrossSection& before, const CrossSection& after)
-    : rods_(rods),
-      rod_(rod),
+NaturalBend::NaturalBend(const PackLane& rod, std::uint32_t node, const Vector2d& curvature,
+                         double length, const CrossSection& before, const CrossSection& after)
+    : rod_(rod),
       node_(node),
-      stiffness_(rods.sections[rod].bending_stiffness / length),
+      stiffness_(rod.bending_stiffness() / length),
       before_(before.tangent),
       after_(after.tangent) {
-  const Vector2d& curvature = rods.natural_curvature_vectors[rods.first(rod) + node];
   const double size = curvature.norm();
   const double angle = std::min(size * length, M_PI);
   const Vector2d side =
@@ -90,34 +91,39 @@ NaturalBend::NaturalBend(const Rods& rods, std::uint32_t rod, std::uint32_t node
   residual_ = weight_ * (after_ - natural_after_ + natural_before_ - before_);
 }
 
-NaturalBend NaturalBend::at_node(const Rods& rods, std::uint32_t rod, std::uint32_t node) {
-  const std::uint32_t i = rods.first(rod) + node;
-  return {
-      rods, rod, node, rods.rest_length_at(i), cross_section(rods, i - 1), cross_section(rods, i)};
+NaturalBend NaturalBend::at_node(const PackLane& rod, std::uint32_t node,
+                                 const Vector2d& curvature) {
+  const double length = 0.5 * (rod.rest_length(node - 1) + rod.rest_length(node));
+  return {rod, node, curvature, length, cross_section(rod, node - 1), cross_section(rod, node)};
 }
 
-NaturalBend NaturalBend::at_clamp(const Rods& rods, std::uint32_t rod, std::uint32_t node,
-                                  const CrossSection& clamp) {
-  const std::uint32_t edge = rods.first(rod) + (node == 0 ? 0 : node - 1);
-  const double length = 0.5 * rods.rest_lengths[edge];
-  const CrossSection end = cross_section(rods, edge);
-  return {rods, rod, node, length, node == 0 ? clamp : end, node == 0 ? end : clamp};
+NaturalBend NaturalBend::at_clamp(const PackLane& rod, std::uint32_t node,
+                                  const Vector2d& curvature, const CrossSection& clamp) {
+  const std::uint32_t edge = node == 0 ? 0 : node - 1;
+  const double length = 0.5 * rod.rest_length(edge);
+  const CrossSection end = cross_section(rod, edge);
+  return {rod, node, curvature, length, node == 0 ? clamp : end, node == 0 ? end : clamp};
+}
+
+Vector3d NaturalBend::moment() const {
+  return stiffness_ * weight_ * 0.5 *
+         ((before_ + natural_after_).cross(residual_) +
+          (after_ + natural_before_).cross(residual_));
 }
 
 void NaturalBend::add_derivatives(RodSystem& system) const {
-  const std::uint32_t first = rods_.first(rod_);
   const bool has_before = node_ > 0;
-  const bool has_after = first + node_ + 1 < rods_.end(rod_);
+  const bool has_after = node_ + 1 < rod_.node_count();
   // Of the residual by what is unknown, from the first to the last node of the one or two edges.
   Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 11> by_all;
   by_all.setZero(3, has_before && has_after ? 11 : 7);
   if (has_before) {
-    by_all.leftCols<7>() += weight_ * cross_matrix(before_ + natural_after_) *
-                            rotation_by_edge(rods_, first + node_ - 1);
+    by_all.leftCols<7>() +=
+        weight_ * cross_matrix(before_ + natural_after_) * rotation_by_edge(rod_, node_ - 1);
   }
   if (has_after) {
     by_all.rightCols<7>() -=
-        weight_ * cross_matrix(after_ + natural_before_) * rotation_by_edge(rods_, first + node_);
+        weight_ * cross_matrix(after_ + natural_before_) * rotation_by_edge(rod_, node_);
   }
   add_square(has_before ? node_ - 1 : node_, stiffness_, residual_, by_all, system);
 }

@@ -1,19 +1,20 @@
 #pragma once
 
-#include "fiber_proximity/sim/rod_system.hpp"
-#include "fiber_proximity/sim/rods.hpp"
+#include "fiber_proximity/sim/pack_system.hpp"
+#include "src/sim/pack_lane.hpp"
 
 namespace fiber {
 
 /// What is across a rod or a clamp: the tangent there, and the material directions.
 struct CrossSection {
+  /// @param director across the tangent, of unit length
+  /// @param angle    of the first material direction against it [rad]
+  CrossSection(const Eigen::Vector3d& tangent, const Eigen::Vector3d& director, double angle);
+
   Eigen::Vector3d tangent;
   Eigen::Vector3d first;
   Eigen::Vector3d second;  ///< tangent x first
 };
-
-/// That of an edge of a rod with twist, where it is now.
-CrossSection cross_section(const Rods& rods, std::uint32_t edge);
 
 /// Bending of a rod with Rods::natural_curvature_vectors between two cross-sections a length l
 /// apart: ½ EI/l |r|², r = (t₂ − t̂₂ − t₁ + t̂₁) / 2 cos(φ₀/2), with their tangents t, the tangents t̂
@@ -24,27 +25,31 @@ CrossSection cross_section(const Rods& rods, std::uint32_t edge);
 /// curvature it is that of Bend.
 class NaturalBend {
  public:
-  /// @param node an inner one, counted from the rod's first
-  static NaturalBend at_node(const Rods& rods, std::uint32_t rod, std::uint32_t node);
+  /// @param node      an inner one
+  /// @param curvature natural, along the material directions [1/m]
+  static NaturalBend at_node(const PackLane& rod, std::uint32_t node,
+                             const Eigen::Vector2d& curvature);
 
   /// At a clamp, which is an edge before the first or after the last one, half an edge's length of
   /// rod away.
-  /// @param node an end of the rod, counted from its first node
-  static NaturalBend at_clamp(const Rods& rods, std::uint32_t rod, std::uint32_t node,
-                              const CrossSection& clamp);
+  /// @param node an end of the rod
+  static NaturalBend at_clamp(const PackLane& rod, std::uint32_t node,
+                              const Eigen::Vector2d& curvature, const CrossSection& clamp);
 
   double energy() const { return 0.5 * stiffness_ * residual_.squaredNorm(); }
+
+  /// The moment about which the cross-section after the place turns that before it [N m].
+  Eigen::Vector3d moment() const;
 
   /// Adds the gradient of the energy, and what is left of its Hessian without second derivatives of
   /// what is squared (Gauss-Newton).
   void add_derivatives(RodSystem& system) const;
 
  private:
-  NaturalBend(const Rods& rods, std::uint32_t rod, std::uint32_t node, double length,
-              const CrossSection& before, const CrossSection& after);
+  NaturalBend(const PackLane& rod, std::uint32_t node, const Eigen::Vector2d& curvature,
+              double length, const CrossSection& before, const CrossSection& after);
 
-  const Rods& rods_;
-  std::uint32_t rod_;
+  PackLane rod_;
   std::uint32_t node_;
   double stiffness_;  // EI/l
   Eigen::Vector3d before_;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "../require.hpp"
-#include "fiber_proximity/sim/edge_pair.hpp"
+#include "fiber_proximity/sim/edge_turn.hpp"
 
 namespace fiber {
 
@@ -23,7 +23,7 @@ void Plasticity::end_step(Rods& rods, const TimeStep& /*step*/) {
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
     const double yield = options_.yield_strain / rods.radii[rod];
     for (std::uint32_t i = rods.first(rod) + 1; i + 1 < rods.end(rod); ++i) {
-      const double half_turn = std::min(1.0, 0.5 * EdgePair(rods, i).turn().norm());
+      const double half_turn = std::min(1.0, 0.5 * EdgeTurn(rods, i).turn().norm());
       const double curvature = 2.0 * std::asin(half_turn) / rods.rest_length_at(i);
       const double elastic = curvature - rods.natural_curvatures[i];
       const double excess = std::abs(elastic) - yield;

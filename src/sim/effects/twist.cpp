@@ -1,13 +1,106 @@
+// Compiled once per instruction set; Highway chooses among them at run time.
 #include "fiber_proximity/sim/effects/twist.hpp"
 
 #include <Eigen/Geometry>
+#include <cassert>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
-#include "fiber_proximity/sim/edge_pair.hpp"
+#include "fiber_proximity/sim/edge_turn.hpp"
+#include "fiber_proximity/sim/forces.hpp"
+#include "src/sim/pack_lane.hpp"
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "src/sim/effects/twist.cpp"
+#include <hwy/foreach_target.h>  // must come before highway.h
+#include <hwy/highway.h>
+
+#include "src/sim/frames-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
 namespace fiber {
+namespace HWY_NAMESPACE {
+namespace {
+
+constexpr std::size_t unknowns = 4;
+
+/// @param references what Twist keeps of the nodes
+HWY_INLINE Real twist_at(const RodPack& rods, const std::vector<SimdBatch>& references,
+                         std::size_t node, std::size_t lane) {
+  return angle_at(rods, node, lane) - angle_at(rods, node - 1, lane) +
+         nearest_turn(load(rods.director_twists[node], lane), load(references[node], lane));
+}
+
+void energy(const RodPack& rods, const std::vector<SimdBatch>& references, SimdBatch& energy) {
+  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+    Real sum = real(0.0);
+    for (std::size_t i = 1; i + 1 < rods.node_count; ++i) {
+      const Real twist = twist_at(rods, references, i, lane);
+      sum = sum + twist * twist * load(rods.inverse_node_lengths[i], lane);
+    }
+    store(real(0.5) * load(rods.twisting_stiffness, lane) * sum, energy, lane);
+  }
+}
+
+/// The derivative of the twist at a node by all unknowns from the previous node to the next one.
+struct TwistDerivative {
+  static constexpr std::size_t size = 2 * unknowns + 3;
+  Real of[size];
+};
+
+HWY_INLINE TwistDerivative derivative_at(const RodPack& rods, std::size_t node, std::size_t lane) {
+  const Vector binormal =
+      curvature_binormal(tangent_at(rods, node - 1, lane), tangent_at(rods, node, lane));
+  const Real half = real(0.5);
+  const Vector by_previous = director_turn(rods, node - 1, lane) -
+                             half * load(rods.inverse_lengths[node - 1], lane) * binormal;
+  const Vector by_next =
+      director_turn(rods, node, lane) + half * load(rods.inverse_lengths[node], lane) * binormal;
+  TwistDerivative derivative;
+  for (std::size_t k = 0; k < 3; ++k) {
+    derivative.of[k] = by_previous.of[k];
+    derivative.of[unknowns + k] = negative(by_previous.of[k] + by_next.of[k]);
+    derivative.of[2 * unknowns + k] = by_next.of[k];
+  }
+  derivative.of[3] = real(-1.0);
+  derivative.of[unknowns + 3] = real(1.0);
+  return derivative;
+}
+
+void add_derivatives(const RodPack& rods, const std::vector<SimdBatch>& references,
+                     PackSystem& system) {
+  assert(system.unknowns == unknowns);
+  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+    const Real total = load(rods.twisting_stiffness, lane);
+    for (std::size_t i = 1; i + 1 < rods.node_count; ++i) {
+      const Real stiffness = total * load(rods.inverse_node_lengths[i], lane);
+      const Real moment = stiffness * twist_at(rods, references, i, lane);
+      const TwistDerivative derivative = derivative_at(rods, i, lane);
+      const std::size_t start = unknowns * (i - 1);
+      SimdBatch* const gradient = &system.gradient[start];
+      SimdBatch* const hessian = &system.hessian[start * column_height<unknowns>];
+      for (std::size_t c = 0; c < TwistDerivative::size; ++c) {
+        add(moment * derivative.of[c], gradient[c], lane);
+        const Real scaled = stiffness * derivative.of[c];
+        for (std::size_t r = c; r < TwistDerivative::size; ++r) {
+          add(scaled * derivative.of[r], hessian[c * column_height<unknowns> + r - c], lane);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace fiber
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace fiber {
+
+HWY_EXPORT(energy);
+HWY_EXPORT(add_derivatives);
 
 using Eigen::Vector3d;
 
@@ -74,44 +167,27 @@ double Twist::twist_at(const Rods& rods, std::uint32_t node) const {
          nearest_turn(reference, reference_twists_[node]);
 }
 
-double Twist::energy(const Rods& rods, std::uint32_t rod) const {
-  double energy = 0.0;
-  for (std::uint32_t i = rods.first(rod) + 1; i + 1 < rods.end(rod); ++i) {
-    const double twist = twist_at(rods, i);
-    energy += twist * twist / rods.rest_length_at(i);
-  }
-  return 0.5 * rods.sections[rod].twisting_stiffness * energy;
+void Twist::energy(const RodPack& rods, const std::vector<SimdBatch>& values,
+                   SimdBatch& energy) const {
+  HWY_DYNAMIC_DISPATCH(energy)(rods, values, energy);
 }
 
-void Twist::add_derivatives(const Rods& rods, std::uint32_t rod, RodSystem& system) const {
-  const std::uint32_t first = rods.first(rod);
-  for (std::uint32_t i = first + 1; i + 1 < rods.end(rod); ++i) {
-    const EdgeDirection before = edge_direction(rods, i - 1);
-    const EdgeDirection after = edge_direction(rods, i);
-    const Vector3d binormal = curvature_binormal(before.tangent, after.tangent);
-    const Vector3d by_previous =
-        director_turn(rods.start_tangents[i - 1], before) - binormal / (2.0 * before.length);
-    const Vector3d by_next =
-        director_turn(rods.start_tangents[i], after) + binormal / (2.0 * after.length);
-    const double stiffness = rods.sections[rod].twisting_stiffness / rods.rest_length_at(i);
-    const double moment = stiffness * twist_at(rods, i);
-    const std::uint32_t node = i - first;
-    system.add_gradient(node - 1, moment * by_previous);
-    system.add_gradient(node, -moment * (by_previous + by_next));
-    system.add_gradient(node + 1, moment * by_next);
-    system.add_angle_gradient(node - 1, -moment);
-    system.add_angle_gradient(node, moment);
+void Twist::add_derivatives(const RodPack& rods, const std::vector<SimdBatch>& values,
+                            PackSystem& system) const {
+  HWY_DYNAMIC_DISPATCH(add_derivatives)(rods, values, system);
+}
 
-    // The derivative of the twist by all unknowns from the previous node to the next one.
-    Eigen::Matrix<double, 11, 1> by_all;
-    by_all << by_previous, -1.0, -(by_previous + by_next), 1.0, by_next;
-    const std::size_t start = std::size_t{node - 1} * system.unknowns();
-    for (Eigen::Index c = 0; c < by_all.size(); ++c) {
-      for (Eigen::Index r = c; r < by_all.size(); ++r) {
-        system.add_hessian_entry(start + r, start + c, stiffness * by_all[r] * by_all[c]);
-      }
+void Twist::add_forces(const RodPack& rods, const std::vector<SimdBatch>& values,
+                       RodForces& forces) const {
+  for_each_edge(rods, [&](const PackLane& rod, std::uint32_t edge, std::uint32_t index) {
+    if (edge > 0) {
+      const double directors = rods.director_twists[edge][rod.lane()];
+      const double twist =
+          rod.angle(edge) - rod.angle(edge - 1) + nearest_turn(directors, values[edge][rod.lane()]);
+      const double length = 0.5 * (rod.rest_length(edge - 1) + rod.rest_length(edge));
+      forces.twisting_moments[index] += rod.twisting_stiffness() / length * twist;
     }
-  }
+  });
 }
 
 void Twist::end_step(Rods& rods, const TimeStep& /*step*/) {
@@ -135,3 +211,4 @@ void Twist::end_step(Rods& rods, const TimeStep& /*step*/) {
 }
 
 }  // namespace fiber
+#endif

@@ -13,23 +13,21 @@ namespace fiber {
 /// that of the turn away from the natural one.
 class Bend : public Effect {
  public:
-  double energy(const Rods& rods, std::uint32_t rod) const override;
-  void add_derivatives(const Rods& rods, std::uint32_t rod, RodSystem& system) const override;
-
   void begin_step(Rods& rods, const TimeStep& step) override;
+  void add_forces(const RodPack& rods, const std::vector<SimdBatch>& values,
+                  RodForces& forces) const override;
 
-  bool works_in_lanes(const Rods& rods) const override {
-    return rods.natural_curvature_vectors.empty();
-  }
-  std::uint32_t values_per_node() const override { return natural_turns_.empty() ? 0 : 1; }
-  const double* values_of(std::uint32_t node) const override { return &natural_turns_[node]; }
-  void energy_in_lanes(const RodLanes& rods, const std::vector<Lanes>& values,
-                       Lanes& energy) const override;
-  void add_derivatives_in_lanes(const RodLanes& rods, const std::vector<Lanes>& values,
-                                LaneSystem& system) const override;
+  std::uint32_t values_per_node() const override;
+  const double* values_of(std::uint32_t node) const override;
+  void energy(const RodPack& rods, const std::vector<SimdBatch>& values,
+              SimdBatch& energy) const override;
+  void add_derivatives(const RodPack& rods, const std::vector<SimdBatch>& values,
+                       PackSystem& system) const override;
 
  private:
-  std::vector<double> natural_turns_;  // k₀ of inner nodes in this step; empty: all are 0
+  // Of inner nodes in this step; of the two at most one is not empty.
+  std::vector<double> natural_turns_;                // k₀
+  std::vector<Eigen::Vector2d> natural_curvatures_;  // with a direction [1/m]
 };
 
 }  // namespace fiber

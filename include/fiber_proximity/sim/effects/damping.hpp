@@ -15,19 +15,18 @@ class Damping : public Effect {
   explicit Damping(double relaxation_time);
 
   void begin_step(Rods& rods, const TimeStep& step) override;
-  double energy(const Rods& rods, std::uint32_t rod) const override;
-  void add_derivatives(const Rods& rods, std::uint32_t rod, RodSystem& system) const override;
-
-  bool works_in_lanes(const Rods& /*rods*/) const override { return true; }
+  bool is_stored() const override { return false; }
   std::uint32_t values_per_node() const override { return 7; }
   const double* values_of(std::uint32_t node) const override;
-  void energy_in_lanes(const RodLanes& rods, const std::vector<Lanes>& values,
-                       Lanes& energy) const override;
-  void add_derivatives_in_lanes(const RodLanes& rods, const std::vector<Lanes>& values,
-                                LaneSystem& system) const override;
+  void energy(const RodPack& rods, const std::vector<SimdBatch>& values,
+              SimdBatch& energy) const override;
+  void add_derivatives(const RodPack& rods, const std::vector<SimdBatch>& values,
+                       PackSystem& system) const override;
+  void add_forces(const RodPack& rods, const std::vector<SimdBatch>& values,
+                  RodForces& forces) const override;
 
  private:
-  /// An edge and its first node when the step began, as functions in lanes read it.
+  /// An edge and its first node when the step began, as the energy reads it.
   struct Start {
     Eigen::Vector3d turn = Eigen::Vector3d::Zero();
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // of the tangents; zero where it is folded

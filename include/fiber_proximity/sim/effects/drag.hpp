@@ -32,19 +32,16 @@ class Drag : public Effect {
   explicit Drag(const Options& options);
 
   void begin_step(Rods& rods, const TimeStep& step) override;
-  double energy(const Rods& rods, std::uint32_t rod) const override;
-  void add_derivatives(const Rods& rods, std::uint32_t rod, RodSystem& system) const override;
-
-  bool works_in_lanes(const Rods& /*rods*/) const override { return true; }
+  bool is_stored() const override { return false; }
   std::uint32_t values_per_node() const override { return 8; }
   const double* values_of(std::uint32_t node) const override;
-  void energy_in_lanes(const RodLanes& rods, const std::vector<Lanes>& values,
-                       Lanes& energy) const override;
-  void add_derivatives_in_lanes(const RodLanes& rods, const std::vector<Lanes>& values,
-                                LaneSystem& system) const override;
+  void energy(const RodPack& rods, const std::vector<SimdBatch>& values,
+              SimdBatch& energy) const override;
+  void add_derivatives(const RodPack& rods, const std::vector<SimdBatch>& values,
+                       PackSystem& system) const override;
 
  private:
-  /// What resists the motion of a node in a step, as functions in lanes read it.
+  /// What resists the motion of a node in a step, as the energy reads it.
   struct Node {
     Eigen::Vector3d tangent;
     Eigen::Vector3d carried;  // where the wind alone would bring it [m]

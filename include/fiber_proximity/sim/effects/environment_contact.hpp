@@ -3,20 +3,20 @@
 #include <memory>
 
 #include "fiber_proximity/environment/environment.hpp"
-#include "fiber_proximity/sim/contact_source.hpp"
+#include "fiber_proximity/sim/contacts.hpp"
 
 namespace fiber {
 
-/// Contacts of rods with the objects around them, as springs like those of FiberContact.
+/// Contacts of rods with the objects around them, by the barrier of the distance of axes from
+/// objects: from 1.05 radii on, and never nearer than 0.95 of them.
 ///
 /// Once a step the environment says which points of which objects are nearest; for that step, each
 /// is a plane there. Nodes have contacts of their own, so that a rod lying flat rests on all of
-/// them, and edges where they are nearer than their ends. Such an edge takes over from the nodes
-/// beside it what its point takes of them: the force is that of one contact wherever along the rod
-/// an obstacle touches it.
+/// them; an edge has one where it is nearer than its ends are, weighted by how much nearer. A mesh
+/// or an octree has a plane for each of its triangles or cells that is not behind another one's.
 ///
-/// No axis passes through a plane. Meshes and octrees may be on both sides of it: near them,
-/// nothing moves further in a step than they are away.
+/// How far a step may go does not rest on planes: where they do not tell that an edge keeps away,
+/// the certified time of contact with the shape does.
 class EnvironmentContact : public ContactSource {
  public:
   struct Options {
@@ -30,56 +30,18 @@ class EnvironmentContact : public ContactSource {
   /// From the next step on.
   void set_environment(std::shared_ptr<const Environment> environment);
 
-  void begin_step(const Rods& rods, const TimeStep& step) override;
-  void measure(const Rods& rods) override;
-  void find(const Rods& rods, std::vector<ContactPoint>& points) const override;
-  void limit(const Rods& rods, std::vector<Eigen::Vector3d>& displacements, Way way,
-             int round) override;
-  void join(const Rods& /*rods*/, const std::vector<Eigen::Vector3d>& /*displacements*/,
-            Islands& /*islands*/) override {}
+  void find(const Rods& rods, const Room& room, ContactSet& found) override;
 
  private:
-  /// What is near a node or an edge, as a plane.
-  struct Plane {
-    std::uint32_t rod;
-    std::uint32_t edge;
-    double s;
-    bool is_edge;            // or the node at this end
-    bool is_convex;          // the object is all behind the plane
-    double share;            // of a contact; 0 where others do better
-    double stiffness;        // of a whole contact [N/m]
-    Eigen::Vector3d point;   // of the object's surface [m]
-    Eigen::Vector3d normal;  // out of the object
-  };
-
-  void look(const Rods& rods, double margin);
   void place_fibers(const Rods& rods);
-  void share_contacts(const Rods& rods);
-  std::size_t find_plane(std::size_t near, std::uint32_t segment) const;
-  double stiffness_of(const Rods& rods, std::uint32_t rod, std::uint32_t edge) const;
-  double free_distance(const Rods& rods, const Plane& plane) const;
-  void limit_to_known(const Rods& rods, std::vector<Eigen::Vector3d>& displacements);
-  void limit_to_side(const Rods& rods, const Plane& plane, std::uint32_t node,
-                     Eigen::Vector3d& displacement) const;
+  void add(const Rods& rods, const Contact& contact, double within, ContactSet& found) const;
 
   std::shared_ptr<const Environment> environment_;
   Options options_;
-  double step_ = 0.0;          // [s]
-  double longest_move_ = 0.0;  // [m] in this step
-  double margin_ = 0.0;        // [m] surfaces that were further apart are not known
   // The rods with each node twice: segments of even index are nodes, the others edges.
   FiberAssembly fibers_;
   AllowedPairs allowed_;  // in segments of these
   QueryResult result_;
-  std::vector<Plane> planes_;  // by contact of the result
-
-  /// How far above a plane an axis is [m].
-  struct Height {
-    double nearest;  // where the plane is about
-    double lowest;   // of the nodes it is about
-  };
-  std::vector<Height> heights_;             // by plane
-  std::vector<double> material_stiffness_;  // of contacts, by rod [N/m]
 };
 
 }  // namespace fiber

@@ -1,39 +1,39 @@
 #pragma once
 
-#include "fiber_proximity/sim/contact_source.hpp"
+#include <Eigen/Core>
 
 namespace fiber {
 
-/// Coulomb's friction in every contact: against the sliding of the surfaces, up to the coefficient
-/// times the normal force. What sticks creeps at less than a set speed, which makes it a potential
-/// of the step (Li et al. 2020, Sect. 5); normal forces, directions and places are those of the
-/// last iteration.
+/// Coulomb friction in contacts, as a potential of one step (Li et al. 2020, Sect. 5): with normal
+/// forces and contact planes as they are when the step begins, and smooth about sticking. With the
+/// largest force f and the slip y that the stick speed brings in a step, the force is
+/// f (2 y/e − y²/e²) for slips y below e, and f above.
 class Friction {
  public:
   struct Options {
-    double coefficient = 0.3;
-    double stick_speed = 1e-3;  ///< [m/s]
+    double coefficient = 0.3;    ///< of friction; >= 0
+    double stick_speed = 0.001;  ///< [m/s] what sticks creeps more slowly; > 0
   };
 
-  /// @throws std::invalid_argument naming the value, for a coefficient that is negative or not
-  ///         finite, or a speed that is not positive and finite
+  /// @throws std::invalid_argument naming the value that is out of its range
   explicit Friction(const Options& options);
 
-  void begin_step(const Rods& rods, const TimeStep& step);
+  double coefficient() const { return options_.coefficient; }
 
-  /// How far a touches has slid along b in this step [m].
-  Eigen::Vector3d slip(const Rods& rods, const ContactPoint& point) const;
+  /// @param step [s]
+  /// @returns the slip below which a contact sticks [m]
+  double stick_length(double step) const { return options_.stick_speed * step; }
 
-  /// Energy of a contact's friction [J].
-  double energy(const ContactPoint& point, const Eigen::Vector3d& slip) const;
-
-  /// Its gradient by the slip is this times the slip, and its Hessian at most this [N/m].
-  double resistance(const ContactPoint& point, const Eigen::Vector3d& slip) const;
+  /// Of a slip y, per newton of the largest force, with the stick length e; all lengths in [m].
+  struct Law {
+    double energy;      ///< [m]
+    double resistance;  ///< force divided by the slip [1/m]
+    double curvature;   ///< of the energy along the slip, never below 0 [1/m]
+  };
+  static Law law(double slip, double stick_length);
 
  private:
   Options options_;
-  double stick_length_ = 0.0;               // [m] what creeps in a step sticks
-  std::vector<Eigen::Vector3d> beginning_;  // positions of the nodes
 };
 
 }  // namespace fiber

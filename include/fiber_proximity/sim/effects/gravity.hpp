@@ -11,14 +11,10 @@ class Gravity : public Effect {
   /// @throws std::invalid_argument if it is not finite
   explicit Gravity(const Eigen::Vector3d& acceleration);
 
-  double energy(const Rods& rods, std::uint32_t rod) const override;
-  void add_derivatives(const Rods& rods, std::uint32_t rod, RodSystem& system) const override;
-
-  bool works_in_lanes(const Rods& /*rods*/) const override { return true; }
-  void energy_in_lanes(const RodLanes& rods, const std::vector<Lanes>& values,
-                       Lanes& energy) const override;
-  void add_derivatives_in_lanes(const RodLanes& rods, const std::vector<Lanes>& values,
-                                LaneSystem& system) const override;
+  void energy(const RodPack& rods, const std::vector<SimdBatch>& values,
+              SimdBatch& energy) const override;
+  void add_derivatives(const RodPack& rods, const std::vector<SimdBatch>& values,
+                       PackSystem& system) const override;
 
  private:
   Eigen::Vector3d acceleration_;

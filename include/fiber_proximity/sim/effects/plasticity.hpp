@@ -19,10 +19,6 @@ class Plasticity : public Effect {
   ///         natural curvature vectors
   Plasticity(Rods& rods, const Options& options);
 
-  double energy(const Rods& /*rods*/, std::uint32_t /*rod*/) const override { return 0.0; }
-  void add_derivatives(const Rods& /*rods*/, std::uint32_t /*rod*/,
-                       RodSystem& /*system*/) const override {}
-  bool works_in_lanes(const Rods& /*rods*/) const override { return true; }  // by doing nothing
   void end_step(Rods& rods, const TimeStep& step) override;
 
  private:

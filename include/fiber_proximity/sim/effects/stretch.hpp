@@ -8,14 +8,13 @@ namespace fiber {
 /// length l at rest (Bergou et al. 2010, Sect. 4.1).
 class Stretch : public Effect {
  public:
-  double energy(const Rods& rods, std::uint32_t rod) const override;
-  void add_derivatives(const Rods& rods, std::uint32_t rod, RodSystem& system) const override;
+  void energy(const RodPack& rods, const std::vector<SimdBatch>& values,
+              SimdBatch& energy) const override;
+  void add_derivatives(const RodPack& rods, const std::vector<SimdBatch>& values,
+                       PackSystem& system) const override;
 
-  bool works_in_lanes(const Rods& /*rods*/) const override { return true; }
-  void energy_in_lanes(const RodLanes& rods, const std::vector<Lanes>& values,
-                       Lanes& energy) const override;
-  void add_derivatives_in_lanes(const RodLanes& rods, const std::vector<Lanes>& values,
-                                LaneSystem& system) const override;
+  void add_forces(const RodPack& rods, const std::vector<SimdBatch>& values,
+                  RodForces& forces) const override;
 };
 
 }  // namespace fiber

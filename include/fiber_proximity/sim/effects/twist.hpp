@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fiber_proximity/sim/edge_pair.hpp"
+#include "fiber_proximity/sim/edge_turn.hpp"
 #include "fiber_proximity/sim/effect.hpp"
 
 namespace fiber {
@@ -17,16 +17,14 @@ class Twist : public Effect {
   ///         inertia
   explicit Twist(Rods& rods);
 
-  double energy(const Rods& rods, std::uint32_t rod) const override;
-  void add_derivatives(const Rods& rods, std::uint32_t rod, RodSystem& system) const override;
-
-  bool works_in_lanes(const Rods& /*rods*/) const override { return true; }
   std::uint32_t values_per_node() const override { return 1; }
   const double* values_of(std::uint32_t node) const override { return &reference_twists_[node]; }
-  void energy_in_lanes(const RodLanes& rods, const std::vector<Lanes>& values,
-                       Lanes& energy) const override;
-  void add_derivatives_in_lanes(const RodLanes& rods, const std::vector<Lanes>& values,
-                                LaneSystem& system) const override;
+  void energy(const RodPack& rods, const std::vector<SimdBatch>& values,
+              SimdBatch& energy) const override;
+  void add_derivatives(const RodPack& rods, const std::vector<SimdBatch>& values,
+                       PackSystem& system) const override;
+  void add_forces(const RodPack& rods, const std::vector<SimdBatch>& values,
+                  RodForces& forces) const override;
 
   void end_step(Rods& rods, const TimeStep& step) override;
 

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+namespace fiber {
+
+/// What acts inside of rods and on them at the end of a step.
+struct RodForces {
+  /// Where a rod touches something: the force on its point.
+  struct ContactForce {
+    static constexpr std::uint32_t obstacle = 0xffffffff;
+
+    std::uint32_t rod;
+    std::uint32_t edge;              ///< from the rod's first one
+    std::uint32_t other_rod;         ///< that it touches, or `obstacle`
+    std::uint32_t other_edge;        ///< from that rod's first one; of obstacles 0
+    Eigen::Vector3d point;           ///< between the surfaces [m]
+    Eigen::Vector3d normal_force;    ///< on `rod`; on the other minus this [N]
+    Eigen::Vector3d friction_force;  ///< on `rod` [N]
+  };
+
+  /// What a hold exerts on its rod.
+  struct HoldForce {
+    std::uint32_t hold;  ///< as Attachment::add() calls it
+    std::uint32_t rod;
+    std::uint32_t node;      ///< from the rod's first one
+    Eigen::Vector3d point;   ///< of the rod's node [m]
+    Eigen::Vector3d force;   ///< [N]
+    Eigen::Vector3d moment;  ///< about the node [N m]
+    double lag;              ///< of the node from where the hold pulls it [m]
+    double most;             ///< force that the hold pulls with at most [N]
+  };
+
+  /// By edge: the force with which the part of the rod after the edge pulls at the part before it,
+  /// along the edge: negative under pressure [N].
+  std::vector<double> tensions;
+
+  /// By node: the moment with which the part of the rod after it bends the part before it [N m].
+  std::vector<Eigen::Vector3d> bending_moments;
+
+  /// By edge: the moment with which the part of the rod after its first node twists that edge,
+  /// about the tangent [N m].
+  std::vector<double> twisting_moments;
+
+  std::vector<ContactForce> contacts;
+  std::vector<HoldForce> holds;
+};
+
+}  // namespace fiber

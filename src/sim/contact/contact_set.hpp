@@ -1,0 +1,140 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "edge_contact.hpp"
+#include "fiber_proximity/environment/environment.hpp"
+#include "fiber_proximity/sim/effects/friction.hpp"
+#include "fiber_proximity/sim/forces.hpp"
+#include "fiber_proximity/sim/pack_system.hpp"
+#include "src/sim/solver/energy_sum.hpp"
+
+namespace fiber {
+
+/// What a point of a rod may touch of an obstacle, which a plane stands for in a step.
+struct ObstaclePlane {
+  std::uint32_t rod;
+  std::uint32_t edge;      ///< as Rods counts edges
+  double s;                ///< curve parameter of the point on it, in [0, 1]
+  Barrier barrier;         ///< of the point's height above the plane
+  double share;            ///< of a contact, in [0, 1]
+  Eigen::Vector3d point;   ///< of the obstacle's surface [m]
+  Eigen::Vector3d normal;  ///< out of the obstacle
+};
+
+/// An edge and an obstacle that it may come to.
+struct ObstacleEdge {
+  std::uint32_t rod;
+  std::uint32_t edge;                     ///< as Rods counts edges
+  const Shape* shape;                     ///< in its own frame
+  Eigen::Isometry3d pose;                 ///< of that in the world
+  double distance;                        ///< of the edge's axis when the step began [m]
+  Eigen::Vector3d point;                  ///< of the obstacle, nearest to the edge then [m]
+  Eigen::Vector3d normal;                 ///< from there to the edge, a unit vector
+  std::array<Eigen::Vector3d, 2> starts;  ///< where the ends of the edge were then [m]
+};
+
+/// Everything that some rods may touch in a step: the potential of their contacts and of friction
+/// in them.
+class ContactSet {
+ public:
+  std::vector<EdgePair> pairs;
+  std::vector<ObstaclePlane> planes;
+  std::vector<ObstacleEdge> obstacle_edges;
+
+  void clear();
+
+  /// Begins a step where the rods are: what touches there has friction in the step.
+  /// @param friction   null for none
+  /// @param references of nodes: slips are measured from there [m]
+  /// @param step       [s]
+  void begin(const Rods& rods, const Friction* friction,
+             const std::vector<Eigen::Vector3d>& references, double step);
+
+  /// Measures where the rods are now; the following functions are about that.
+  void measure(const Rods& rods);
+
+  /// Adds the energy of each contact to that of the island of its rod.
+  /// @param islands by rod
+  void add_energies(const Rods& rods, const std::vector<std::uint32_t>& islands,
+                    std::vector<EnergySum>& energies) const;
+
+  /// Without friction, where the rods are now [J].
+  double stored_energy(const Rods& rods);
+
+  /// Finds the derivatives, and adds gradients and what of the Hessian is within the nodes of one
+  /// edge.
+  /// @param systems by rod
+  void add_derivatives(const Rods& rods, const std::vector<RodSystem*>& systems);
+
+  /// Whether there is anything else of the Hessian.
+  bool has_coupling() const { return coupling_begin_ != terms_.size(); }
+
+  /// Adds what else there is of the Hessian's product with displacements.
+  /// @param places        of each node's x in these arrays; y and z are lane_count further each
+  /// @param displacements of all that is unknown
+  void add_coupling(const std::vector<std::size_t>& places, const double* displacements,
+                    double* product) const;
+
+  /// Shortens each island's share of a step: no distance may lose more than four fifths of what it
+  /// has beyond the inner one, anywhere on the way. Proven, by the kernel of continuous detection.
+  /// @param displacements of nodes by the whole step [m]
+  /// @param islands       by rod
+  /// @param shares        by island
+  /// @param ends          room for a position of each node
+  void bound_step(const Rods& rods, const std::vector<Eigen::Vector3d>& displacements,
+                  const std::vector<std::uint32_t>& islands, std::vector<double>& shares,
+                  std::vector<Eigen::Vector3d>& ends) const;
+
+  /// Appends what the contacts exert where the rods are measured.
+  void add_forces(const Rods& rods, std::vector<RodForces::ContactForce>& forces) const;
+
+ private:
+  static constexpr std::uint32_t no_edge = RodForces::ContactForce::obstacle;
+
+  /// Points of two edges, or of one and an obstacle.
+  struct PointPair {
+    std::uint32_t rod_a;
+    std::uint32_t edge_a;
+    double s;
+    std::uint32_t rod_b;
+    std::uint32_t edge_b;  // no_edge for an obstacle
+    double t;
+  };
+
+  /// A contact that had a normal force when the step began.
+  struct FrictionPoint {
+    PointPair points;
+    Eigen::Vector3d normal;
+    double most;                // force [N]
+    Eigen::Vector3d reference;  // from the point of b to that of a, where slips begin [m]
+  };
+
+  /// Part of the gradient and Hessian: by the difference of two points.
+  struct Term {
+    PointPair points;
+    Eigen::Vector3d gradient;
+    Eigen::Matrix3d hessian;
+  };
+
+  void bound_pairs(const Rods& rods, const std::vector<Eigen::Vector3d>& displacements,
+                   const std::vector<std::uint32_t>& islands, std::vector<double>& shares,
+                   std::vector<Eigen::Vector3d>& ends) const;
+  static double bounded_share(const Rods& rods, const ObstacleEdge& edge,
+                              const std::vector<Eigen::Vector3d>& displacements, double share);
+
+  template <class Function>
+  void for_each_distance(const Rods& rods, const Function& function) const;
+  static double height_of(const Rods& rods, const ObstaclePlane& plane);
+  Eigen::Vector3d slip_of(const Rods& rods, const FrictionPoint& point) const;
+  void find_terms(const Rods& rods);
+
+  std::vector<SegmentDistance> distances_;  // by pair
+  std::vector<FrictionPoint> frictions_;
+  double stick_length_ = 0.0;  // [m]
+  std::vector<Term> terms_;    // those with obstacles first
+  std::size_t coupling_begin_ = 0;
+};
+
+}  // namespace fiber

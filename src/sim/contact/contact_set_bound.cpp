@@ -1,0 +1,111 @@
+// How far a step may go before something touches.
+
+#include <algorithm>
+
+#include "contact_set.hpp"
+#include "fiber_proximity/environment/axis_distance.hpp"
+#include "fiber_proximity/environment/shape_contact_time.hpp"
+#include "fiber_proximity/geometry/contact_time.hpp"
+#include "obstacle_planes.hpp"
+
+namespace fiber {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// What a distance may lose in a step of what it has beyond the inner one, and how well the time is
+/// to be known at which it has lost that, in parts of what is left.
+constexpr double most_lost = 0.8;
+constexpr double tolerance = 0.1;
+
+/// The square of the most by which two edges' nodes approach each other.
+double largest_approach(const Vector3d* a, const Vector3d* b) {
+  return std::max(std::max((a[0] - b[0]).squaredNorm(), (a[0] - b[1]).squaredNorm()),
+                  std::max((a[1] - b[0]).squaredNorm(), (a[1] - b[1]).squaredNorm()));
+}
+
+}  // namespace
+
+void ContactSet::bound_step(const Rods& rods, const std::vector<Vector3d>& displacements,
+                            const std::vector<std::uint32_t>& islands, std::vector<double>& shares,
+                            std::vector<Vector3d>& ends) const {
+  for (const ObstaclePlane& plane : planes) {
+    const double approach = -plane.normal.dot((1.0 - plane.s) * displacements[plane.edge] +
+                                              plane.s * displacements[plane.edge + 1]);
+    const double room = most_lost * (height_of(rods, plane) - plane.barrier.inner);
+    double& share = shares[islands[plane.rod]];
+    if (approach * share > room) {
+      share = std::max(0.0, room / approach);
+    }
+  }
+  for (const ObstacleEdge& edge : obstacle_edges) {
+    double& share = shares[islands[edge.rod]];
+    share = bounded_share(rods, edge, displacements, share);
+  }
+  bound_pairs(rods, displacements, islands, shares, ends);
+}
+
+/// How far an edge may go for an obstacle: as far as it is away; else, with a convex one, as long
+/// as it stays in front of the plane that parted them when the step began; else until it comes to
+/// it.
+double ContactSet::bounded_share(const Rods& rods, const ObstacleEdge& edge,
+                                 const std::vector<Vector3d>& displacements, double share) {
+  const Vector3d* const now = &rods.positions[edge.edge];
+  const Vector3d* const ways = &displacements[edge.edge];
+  double farthest = 0.0;  // from where the ends were
+  double lowest = edge.distance;
+  for (std::size_t i = 0; i < 2; ++i) {
+    farthest = std::max({farthest, (now[i] - edge.starts[i]).norm(),
+                         (now[i] + share * ways[i] - edge.starts[i]).norm()});
+    lowest = std::min(lowest, edge.normal.dot(now[i] + share * ways[i] - edge.point));
+  }
+  const double left = (1.0 - most_lost) * edge.distance;
+  if (farthest <= most_lost * edge.distance || (is_convex(*edge.shape) && lowest >= left)) {
+    return share;
+  }
+  const Eigen::Isometry3d to_shape = edge.pose.inverse(Eigen::Isometry);
+  AxisMotion motion;
+  for (std::size_t i = 0; i < 2; ++i) {
+    motion.before[i] = to_shape * now[i];
+    motion.after[i] = to_shape * (now[i] + share * ways[i]);
+  }
+  const AxisDistance nearest = axis_distance(*edge.shape, motion.before[0], motion.before[1],
+                                             2.0 * (edge.distance + farthest));
+  const double gap = std::max(0.0, nearest.lower);
+  const double error = 0x1p-48 * (reach(*edge.shape) + edge.pose.translation().norm() +
+                                  now[0].norm() + now[1].norm());
+  const ContactTime time = contact_time(*edge.shape, motion, {(1.0 - most_lost) * gap, error},
+                                        tolerance * (1.0 - most_lost) * gap);
+  return time.hit ? share * time.lower : share;
+}
+
+void ContactSet::bound_pairs(const Rods& rods, const std::vector<Vector3d>& displacements,
+                             const std::vector<std::uint32_t>& islands, std::vector<double>& shares,
+                             std::vector<Vector3d>& ends) const {
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const EdgePair& pair = pairs[i];
+    double& share = shares[islands[pair.rod_a]];
+    const double gap = distances_[i].distance - pair.barrier.inner;
+    const double square =
+        largest_approach(&displacements[pair.edge_a], &displacements[pair.edge_b]);
+    if (gap > 0.0 && square * share * share < most_lost * most_lost * gap * gap) {
+      continue;
+    }
+    for (const std::uint32_t node : {pair.edge_a, pair.edge_a + 1, pair.edge_b, pair.edge_b + 1}) {
+      ends[node] = rods.positions[node] + displacements[node];
+    }
+    const double left = (1.0 - most_lost) * std::max(0.0, gap);
+    const ContactTime time = contact_time({&rods.positions[pair.edge_a],
+                                           &ends[pair.edge_a],
+                                           &rods.positions[pair.edge_b],
+                                           &ends[pair.edge_b],
+                                           {0.0, 0.0, pair.barrier.inner + left}},
+                                          tolerance * left);
+    if (time.hit) {
+      share = std::min(share, time.lower);
+    }
+  }
+}
+
+}  // namespace fiber

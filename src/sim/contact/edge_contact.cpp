@@ -1,0 +1,184 @@
+#include "edge_contact.hpp"
+
+#include <algorithm>
+
+namespace fiber {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// Where an end of one edge is nearest to the other edge.
+struct EndDistance {
+  double parameter;  // on the other edge
+  Vector3d delta;    // from there to the end [m]
+  double distance;   // [m]
+
+  bool is_clamped() const { return parameter <= 0.0 || parameter >= 1.0; }
+};
+
+EndDistance end_distance(const Vector3d& point, const Vector3d& first, const Vector3d& last) {
+  const Vector3d edge = last - first;
+  const double square = edge.squaredNorm();
+  const double along = (point - first).dot(edge);
+  const double parameter = square > 0.0 ? std::clamp(along / square, 0.0, 1.0) : 0.0;
+  const Vector3d delta = point - (first + parameter * edge);
+  return {parameter, delta, delta.norm()};
+}
+
+/// Rises from 0 to 1 while x does, level at both ends.
+struct Ramp {
+  explicit Ramp(double x)
+      : value(x >= 1.0 ? 1.0 : x * x * (3.0 - 2.0 * x)),
+        slope(x >= 1.0 ? 0.0 : 6.0 * x * (1.0 - x)) {}
+  double value;
+  double slope;
+};
+
+/// One pair of edges where it is now.
+class EdgeContact {
+ public:
+  EdgeContact(const EdgePair& pair, const std::vector<Vector3d>& positions,
+              const SegmentDistance& nearest)
+      : pair_(pair), barrier_(pair.barrier), x_(positions), nearest_(nearest) {
+    for (std::uint32_t end = 0; end < 4; ++end) {
+      ends_[end] = end_distance(x_[node_of(end)], x_[other_edge(end)], x_[other_edge(end) + 1]);
+    }
+  }
+
+  double energy(std::vector<DistanceTerm>* terms) {
+    double energy = add_crossing(terms);
+    for (std::uint32_t end = 0; end < 4; ++end) {
+      energy += add_node(end, terms);
+      if (terms != nullptr && slopes_[end] != 0.0) {
+        terms->push_back(term(end, ends_[end], slopes_[end], curvatures_[end]));
+      }
+    }
+    return energy;
+  }
+
+ private:
+  /// Ends 0 and 1 are those of a, 2 and 3 those of b.
+  std::uint32_t node_of(std::uint32_t end) const {
+    return end < 2 ? pair_.edge_a + end : pair_.edge_b + end - 2;
+  }
+  std::uint32_t other_edge(std::uint32_t end) const {
+    return end < 2 ? pair_.edge_b : pair_.edge_a;
+  }
+
+  static DistanceTerm term(std::uint32_t end, const EndDistance& of_end, double slope,
+                           double curvature) {
+    const Vector3d normal = of_end.delta / of_end.distance;
+    const double own = end % 2 == 0 ? 0.0 : 1.0;
+    return end < 2 ? DistanceTerm{own, of_end.parameter, normal, slope, curvature}
+                   : DistanceTerm{of_end.parameter, own, -normal, slope, curvature};
+  }
+
+  /// Of the edges' distance, with its weight.
+  double add_crossing(std::vector<DistanceTerm>* terms) {
+    const double distance = nearest_.distance;
+    const auto is_inner = [](double parameter) { return parameter > 0.0 && parameter < 1.0; };
+    if (!is_inner(nearest_.s) || !is_inner(nearest_.t)) {
+      return 0.0;
+    }
+    double weight = 1.0;
+    std::array<Ramp, 4> ramps{Ramp(1.0), Ramp(1.0), Ramp(1.0), Ramp(1.0)};
+    for (std::uint32_t end = 0; end < 4; ++end) {
+      const double further = std::max(0.0, ends_[end].distance - distance);
+      ramps[end] = Ramp(further / barrier_.width());
+      weight *= ramps[end].value;
+    }
+    if (weight == 0.0) {
+      return 0.0;
+    }
+    const double energy = barrier_.energy(distance);
+    if (terms == nullptr || !(energy < std::numeric_limits<double>::infinity())) {
+      return weight * energy;
+    }
+    double slope = weight * barrier_.slope(distance);
+    for (std::uint32_t end = 0; end < 4; ++end) {
+      if (ramps[end].slope > 0.0) {
+        const double by_end =
+            energy * weight / ramps[end].value * ramps[end].slope / barrier_.width();
+        slope -= by_end;
+        slopes_[end] += by_end;
+      }
+    }
+    terms->push_back({nearest_.s, nearest_.t, -nearest_.delta / distance, slope,
+                      weight * barrier_.curvature(distance)});
+    return weight * energy;
+  }
+
+  /// Of the distance of an end from the other edge.
+  double add_node(std::uint32_t end, std::vector<DistanceTerm>* terms) {
+    const EndDistance& of_end = ends_[end];
+    if (!pair_.owns[end] || of_end.distance >= barrier_.outer) {
+      return 0.0;
+    }
+    double share = 1.0;
+    double shared = 0.0;  // energy
+    for (std::uint32_t last = 0; last < 2; ++last) {
+      const double corner_parameter = last;
+      const bool is_corner = of_end.parameter == corner_parameter;
+      if (!pair_.has_neighbour[end][last]) {
+        continue;
+      }
+      const bool is_neighbour_clamped = neighbour_is_clamped(end, last);
+      if (is_corner) {
+        // Both edges are nearest at the node between them, or the other one is nearer.
+        share = is_neighbour_clamped ? 0.5 : 0.0;
+      } else if (!of_end.is_clamped() && !is_neighbour_clamped) {
+        shared += add_corner(end, last, terms);
+      }
+    }
+    if (share == 0.0) {
+      return shared;
+    }
+    if (terms != nullptr && of_end.distance > barrier_.inner) {
+      slopes_[end] += share * barrier_.slope(of_end.distance);
+      curvatures_[end] += share * barrier_.curvature(of_end.distance);
+    }
+    return share * barrier_.energy(of_end.distance) + shared;
+  }
+
+  /// Whether the edge before or after the other one is nearest to the end at their common node.
+  bool neighbour_is_clamped(std::uint32_t end, std::uint32_t last) const {
+    const std::uint32_t corner = other_edge(end) + last;
+    const std::uint32_t beyond = last == 0 ? corner - 1 : corner + 1;
+    return (x_[node_of(end)] - x_[corner]).dot(x_[beyond] - x_[corner]) <= 0.0;
+  }
+
+  /// In the hollow of a bend both edges have a nearest point of their own, and the node between
+  /// them counts half for each, taken away.
+  double add_corner(std::uint32_t end, std::uint32_t last, std::vector<DistanceTerm>* terms) const {
+    const Vector3d delta = x_[node_of(end)] - x_[other_edge(end) + last];
+    const EndDistance corner{static_cast<double>(last), delta, delta.norm()};
+    if (corner.distance >= barrier_.outer || !(corner.distance > barrier_.inner)) {
+      return 0.0;
+    }
+    if (terms != nullptr) {
+      terms->push_back(term(end, corner, -0.5 * barrier_.slope(corner.distance), 0.0));
+    }
+    return -0.5 * barrier_.energy(corner.distance);
+  }
+
+  const EdgePair& pair_;
+  const Barrier& barrier_;
+  const std::vector<Vector3d>& x_;
+  const SegmentDistance& nearest_;
+  std::array<EndDistance, 4> ends_;
+  std::array<double, 4> slopes_{};
+  std::array<double, 4> curvatures_{};
+};
+
+}  // namespace
+
+double edge_contact(const EdgePair& pair, const std::vector<Vector3d>& positions,
+                    const SegmentDistance& nearest, std::vector<DistanceTerm>* terms) {
+  if (nearest.distance >= pair.barrier.outer) {
+    return 0.0;
+  }
+  return EdgeContact(pair, positions, nearest).energy(terms);
+}
+
+}  // namespace fiber

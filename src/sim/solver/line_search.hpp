@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "energy_sum.hpp"
+
+namespace fiber {
+
+/// Backtracking on the energy, for each island by itself: half the share of a step until it brings
+/// what its slope promises (Armijo 1966; Nocedal and Wright 2006, Alg. 3.1).
+class LineSearch {
+ public:
+  struct Island {
+    EnergySum accepted;        ///< where the step begins
+    double decrease = 0.0;     ///< that the slope promises for a whole step [J]
+    double share = 1.0;        ///< of the step that is tried
+    bool is_searching = true;  ///< if not, `share` is what was found; 0 if none was
+    bool has_failed = false;
+  };
+
+  static constexpr int most_halvings = 40;
+
+  /// @param islands  what is to be searched for, with the first shares to try
+  /// @param halvings the most
+  LineSearch(std::vector<Island> islands, int halvings)
+      : islands_(std::move(islands)), halvings_left_(halvings) {}
+
+  const Island& island(std::size_t index) const { return islands_[index]; }
+
+  /// @param tried energies where the shares lead, by island
+  /// @returns whether there are islands for which other shares are to be tried
+  bool judge(const std::vector<EnergySum>& tried);
+
+ private:
+  std::vector<Island> islands_;
+  int halvings_left_;
+};
+
+}  // namespace fiber

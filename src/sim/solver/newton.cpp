@@ -1,0 +1,318 @@
+#include "newton.hpp"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "pack_sums.hpp"
+
+namespace fiber {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// An island that has come to rest stays where it is if its residual is within this part of what is
+/// asked for; any other has at least one iteration, so that small forces set it in motion.
+constexpr double rest_share = 1e-3;
+
+}  // namespace
+
+/// In parallel, but little work only if there is more of it: one pack is done before another thread
+/// has heard of it.
+template <typename Function>
+void NewtonSolver::for_each_pack(Work work, const Function& function) {
+  const std::size_t together = work == Work::MUCH ? 1 : 16;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, packs_.size(), together),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t pack = range.begin(); pack < range.end(); ++pack) {
+                        function(pack);
+                      }
+                    });
+}
+
+/// Calls function(pack, lane, island), one after the other.
+template <typename Function>
+void NewtonSolver::for_each_rod(const Function& function) {
+  for (std::size_t pack = 0; pack < packs_.size(); ++pack) {
+    for (std::size_t lane = 0; lane < packs_[pack].used(); ++lane) {
+      function(pack, lane, islands_[pack][lane]);
+    }
+  }
+}
+
+void NewtonSolver::assign(const Rods& rods, const std::vector<std::vector<std::uint32_t>>& packs,
+                          std::uint32_t islands, SolverScratch& scratch) {
+  scratch_ = &scratch;
+  packs_.resize(packs.size());
+  islands_.resize(packs.size());
+  offsets_.clear();
+  members_.clear();
+  std::size_t size = 0;
+  const std::size_t unknowns = rods.angles.empty() ? 3 : 4;
+  for (std::size_t pack = 0; pack < packs.size(); ++pack) {
+    packs_[pack].assign(rods, packs[pack]);
+    offsets_.push_back(size);
+    for (std::size_t lane = 0; lane < packs[pack].size(); ++lane) {
+      const std::uint32_t rod = packs[pack][lane];
+      islands_[pack][lane] = scratch.islands[rod];
+      scratch.systems[rod] = &packs_[pack].system(lane);
+      members_.push_back(rod);
+      for (std::uint32_t i = 0; i < rods.node_count(rod); ++i) {
+        scratch.places[rods.first(rod) + i] = (size + i * unknowns) * lane_count + lane;
+      }
+    }
+    size += packs_[pack].step_size();
+  }
+  step_.assign(size, SimdBatch{});
+  searches_.assign(islands, Search{});
+  reports_.assign(islands, IslandReport{});
+}
+
+void NewtonSolver::begin(const Rods& rods, const Effects& effects, double step) {
+  for_each_pack(Work::LITTLE, [&](std::size_t pack) { packs_[pack].begin(rods, effects, step); });
+}
+
+bool NewtonSolver::solve(Rods& rods, const Problem& problem) {
+  for_each_pack(Work::LITTLE, [&](std::size_t pack) { packs_[pack].load(rods); });
+  if (problem.contacts != nullptr) {
+    problem.contacts->begin(rods, problem.friction, problem.references, problem.step);
+    bound_.begin(problem.room, static_cast<std::uint32_t>(searches_.size()));
+  }
+  measure(rods, problem);
+  for (std::size_t i = 0; i < searches_.size(); ++i) {
+    searches_[i].energy = energies_[i];
+  }
+  if (!predict(rods, problem)) {
+    return false;
+  }
+  for (std::uint32_t iteration = 0;; ++iteration) {
+    assemble(rods, problem);
+    judge_balance(rods, problem, iteration);
+    const bool is_any_active = std::any_of(searches_.begin(), searches_.end(),
+                                           [](const Search& search) { return search.is_active; });
+    if (!is_any_active || iteration == problem.options.max_iterations) {
+      break;
+    }
+    find_step(problem);
+    if (!bound_step(rods, problem)) {
+      return false;
+    }
+    // Where no share helps, rounding errors are all that is left.
+    const std::vector<bool> has_failed = search_line(rods, problem, LineSearch::most_halvings);
+    for (std::size_t i = 0; i < searches_.size(); ++i) {
+      searches_[i].is_active = searches_[i].is_active && !has_failed[i];
+    }
+  }
+  for_each_pack(Work::LITTLE, [&](std::size_t pack) { packs_[pack].finish(rods); });
+  return problem.contacts == nullptr || problem.room->is_last || bound_.is_within(rods, members_);
+}
+
+/// Energies where the rods are, by island.
+void NewtonSolver::measure(Rods& rods, const Problem& problem) {
+  for_each_pack(Work::MUCH, [&](std::size_t pack) {
+    packs_[pack].measure(problem.effects);
+    if (problem.contacts != nullptr) {
+      packs_[pack].store(rods);
+    }
+  });
+  energies_.assign(searches_.size(), EnergySum{});
+  for_each_rod([&](std::size_t pack, std::size_t lane, std::uint32_t island) {
+    energies_[island].add(packs_[pack].energy(lane));
+  });
+  if (problem.contacts != nullptr) {
+    problem.contacts->measure(rods);
+    problem.contacts->add_energies(rods, scratch_->islands, energies_);
+  }
+}
+
+/// Goes where inertia leads, as far as it may, if the energy is lower there.
+bool NewtonSolver::predict(Rods& rods, const Problem& problem) {
+  for (std::size_t pack = 0; pack < packs_.size(); ++pack) {
+    packs_[pack].predict(part(pack));
+  }
+  for (Search& search : searches_) {
+    search.is_active = true;
+    search.decrease = 0.0;
+  }
+  if (!bound_step(rods, problem)) {
+    return false;
+  }
+  search_line(rods, problem, 0);
+  return true;
+}
+
+void NewtonSolver::assemble(Rods& rods, const Problem& problem) {
+  for_each_pack(Work::MUCH, [&](std::size_t pack) { packs_[pack].assemble(problem.effects); });
+  if (problem.contacts != nullptr) {
+    problem.contacts->add_derivatives(rods, scratch_->systems);
+  }
+  for_each_pack(Work::LITTLE, [&](std::size_t pack) { packs_[pack].measure_residuals(); });
+}
+
+/// Ends the searches of islands whose forces balance.
+void NewtonSolver::judge_balance(Rods& rods, const Problem& problem, std::uint32_t iteration) {
+  for (IslandReport& report : reports_) {
+    report.residual = -1.0;
+  }
+  for_each_rod([&](std::size_t pack, std::size_t lane, std::uint32_t island) {
+    const PackStep::Residual residual = packs_[pack].residual(lane);
+    IslandReport& report = reports_[island];
+    if (!(residual.speed <= report.residual)) {
+      report.residual = residual.speed;
+      report.rod = packs_[pack].rod(lane);
+      report.node = residual.node;
+    }
+  });
+  const double allowed = (iteration == 0 ? rest_share : 1.0) * problem.options.residual;
+  std::vector<bool> is_balanced(searches_.size());
+  for (std::size_t i = 0; i < searches_.size(); ++i) {
+    is_balanced[i] = searches_[i].is_active && reports_[i].residual <= allowed;
+  }
+  learn_multipliers(rods, problem, is_balanced);
+  for (std::size_t i = 0; i < searches_.size(); ++i) {
+    if (searches_[i].is_active) {
+      reports_[i].iterations = iteration;
+      searches_[i].is_active = !is_balanced[i];
+    }
+  }
+}
+
+/// Where effects hold conditions, an island is only balanced if these hold.
+void NewtonSolver::learn_multipliers(Rods& rods, const Problem& problem,
+                                     std::vector<bool>& is_balanced) {
+  bool is_any_learning = false;
+  for_each_rod([&](std::size_t pack, std::size_t lane, std::uint32_t island) {
+    if (!is_balanced[island]) {
+      return;
+    }
+    for (const std::unique_ptr<Effect>& effect : problem.effects) {
+      if (!effect->has_multipliers()) {
+        continue;
+      }
+      packs_[pack].store(rods);
+      if (!effect->update_multipliers(rods, packs_[pack].rod(lane))) {
+        is_balanced[island] = false;
+        is_any_learning = true;
+      }
+    }
+  });
+  if (is_any_learning) {
+    for (PackStep& pack : packs_) {
+      pack.load_values(problem.effects);
+    }
+    measure(rods, problem);
+    for (std::size_t i = 0; i < searches_.size(); ++i) {
+      searches_[i].energy = energies_[i];
+    }
+    assemble(rods, problem);
+  }
+}
+
+void NewtonSolver::find_step(const Problem& problem) {
+  for_each_pack(Work::MUCH, [&](std::size_t pack) { packs_[pack].find_step(part(pack)); });
+  // What does not search has no step, so that nothing makes room for it.
+  for_each_rod([&](std::size_t pack, std::size_t lane, std::uint32_t island) {
+    if (!searches_[island].is_active) {
+      for (std::size_t i = 0; i < packs_[pack].step_size(); ++i) {
+        part(pack)[i][lane] = 0.0;
+      }
+    }
+  });
+  weigh_step();
+  if (problem.contacts != nullptr && problem.contacts->has_coupling()) {
+    decreases_.clear();
+    for (const Search& search : searches_) {
+      decreases_.push_back(search.decrease);
+    }
+    coupling_.correct({packs_, offsets_, islands_, decreases_, *problem.contacts, scratch_->places},
+                      step_);
+    weigh_step();
+  }
+}
+
+/// What the slope of the step promises.
+void NewtonSolver::weigh_step() {
+  for (Search& search : searches_) {
+    search.decrease = 0.0;
+  }
+  for (std::size_t pack = 0; pack < packs_.size(); ++pack) {
+    const std::vector<SimdBatch>& gradient = packs_[pack].gradient();
+    const SimdBatch slopes = products(gradient.size(), gradient.data(), part(pack));
+    for (std::size_t lane = 0; lane < packs_[pack].used(); ++lane) {
+      searches_[islands_[pack][lane]].decrease -= slopes[lane];
+    }
+  }
+}
+
+/// @returns false if a rod needs more room
+bool NewtonSolver::bound_step(const Rods& rods, const Problem& problem) {
+  shares_.assign(searches_.size(), 1.0);
+  if (problem.contacts == nullptr) {
+    return true;
+  }
+  using Stride = Eigen::InnerStride<lane_count>;
+  const double* const step = step_.data()->of.data();
+  for (const std::uint32_t rod : members_) {
+    for (std::uint32_t i = rods.first(rod); i < rods.end(rod); ++i) {
+      scratch_->displacements[i] =
+          Eigen::Map<const Vector3d, 0, Stride>(step + scratch_->places[i]);
+    }
+  }
+  return bound_.bound(rods, scratch_->displacements, members_, scratch_->islands, *problem.contacts,
+                      shares_, scratch_->ends);
+}
+
+/// Moves rods by shares of the step that bring them lower.
+/// @returns by island: whether there was none
+std::vector<bool> NewtonSolver::search_line(Rods& rods, const Problem& problem, int halvings) {
+  for (PackStep& pack : packs_) {
+    pack.remember();
+  }
+  std::vector<LineSearch::Island> islands;
+  for (std::size_t i = 0; i < searches_.size(); ++i) {
+    islands.push_back({searches_[i].energy, searches_[i].decrease,
+                       searches_[i].is_active ? shares_[i] : 0.0, searches_[i].is_active, false});
+  }
+  LineSearch search(std::move(islands), halvings);
+  do {
+    move(search);
+    measure(rods, problem);
+  } while (search.judge(energies_));
+  std::vector<bool> has_failed(searches_.size());
+  for (std::size_t i = 0; i < searches_.size(); ++i) {
+    has_failed[i] = search.island(i).has_failed;
+    shares_[i] = search.island(i).share;
+  }
+  if (std::find(has_failed.begin(), has_failed.end(), true) != has_failed.end()) {
+    move(search);
+    measure(rods, problem);
+  }
+  for (std::size_t i = 0; i < searches_.size(); ++i) {
+    searches_[i].energy = energies_[i];
+  }
+  if (problem.contacts != nullptr) {
+    bound_.advance(shares_);
+  }
+  return has_failed;
+}
+
+void NewtonSolver::move(const LineSearch& search) {
+  for_each_pack(Work::LITTLE, [&](std::size_t pack) {
+    SimdBatch shares;
+    for (std::size_t lane = 0; lane < packs_[pack].used(); ++lane) {
+      shares[lane] = search.island(islands_[pack][lane]).share;
+    }
+    packs_[pack].move(part(pack), shares);
+  });
+}
+
+void NewtonSolver::add_forces(const Effects& effects, RodForces& forces) const {
+  for (const PackStep& pack : packs_) {
+    pack.add_forces(effects, forces);
+  }
+}
+
+}  // namespace fiber

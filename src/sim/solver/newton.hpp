@@ -1,0 +1,107 @@
+#pragma once
+
+#include <vector>
+
+#include "coupling.hpp"
+#include "fiber_proximity/sim/stepper.hpp"
+#include "line_search.hpp"
+#include "pack_step.hpp"
+#include "step_bound.hpp"
+
+namespace fiber {
+
+/// By node or by rod, of all rods: what solvers of different rods write side by side.
+struct SolverScratch {
+  void resize(const Rods& rods) {
+    islands.resize(rods.count());
+    systems.resize(rods.count());
+    places.resize(rods.positions.size());
+    displacements.resize(rods.positions.size());
+    ends.resize(rods.positions.size());
+  }
+
+  std::vector<std::uint32_t> islands;  ///< by rod: which of its solver's islands
+  std::vector<RodSystem*> systems;     ///< by rod
+  std::vector<std::size_t> places;     ///< by node, in the step
+  std::vector<Eigen::Vector3d> displacements;
+  std::vector<Eigen::Vector3d> ends;
+};
+
+/// Newton's method for one or more islands, rods that may touch each other in a step: finds the
+/// minimum of the incremental potential near where the rods are, each step bounded and then
+/// shortened until the energy falls.
+class NewtonSolver {
+ public:
+  /// What is to be solved.
+  struct Problem {
+    const Effects& effects;
+    const StepperOptions& options;
+    double step;                                     ///< [s]
+    ContactSet* contacts;                            ///< null for none
+    const Room* room;                                ///< null without contacts
+    const Friction* friction;                        ///< null for none
+    const std::vector<Eigen::Vector3d>& references;  ///< where rates are measured from, by node [m]
+  };
+
+  /// Makes it about these rods; of what it was about before, it only keeps the memory.
+  /// @param packs   rods with the same number of nodes each, at most lane_count
+  /// @param islands how many
+  /// @param scratch with islands; must outlive this
+  void assign(const Rods& rods, const std::vector<std::vector<std::uint32_t>>& packs,
+              std::uint32_t islands, SolverScratch& scratch);
+
+  /// Loads the rods where rates are measured from, and what effects have found there.
+  void begin(const Rods& rods, const Effects& effects, double step);
+
+  /// Moves the rods from where they are to the end of the step.
+  /// @returns false if rods need more room: they are anywhere then
+  bool solve(Rods& rods, const Problem& problem);
+
+  /// Of the last solve, by island.
+  const std::vector<IslandReport>& reports() const { return reports_; }
+  const StepBound& step_bound() const { return bound_; }
+
+  void add_forces(const Effects& effects, RodForces& forces) const;
+
+ private:
+  /// An island in the course of a solve.
+  struct Search {
+    EnergySum energy;       ///< where its rods are
+    double decrease = 0.0;  ///< that the slope of a whole step promises [J]
+    bool is_active = true;  ///< goes on
+  };
+
+  enum class Work { LITTLE, MUCH };
+  template <typename Function>
+  void for_each_pack(Work work, const Function& function);
+  template <typename Function>
+  void for_each_rod(const Function& function);
+  SimdBatch* part(std::size_t pack) { return step_.data() + offsets_[pack]; }
+
+  void measure(Rods& rods, const Problem& problem);
+  bool predict(Rods& rods, const Problem& problem);
+  void assemble(Rods& rods, const Problem& problem);
+  void judge_balance(Rods& rods, const Problem& problem, std::uint32_t iteration);
+  void learn_multipliers(Rods& rods, const Problem& problem, std::vector<bool>& is_balanced);
+  void find_step(const Problem& problem);
+  void weigh_step();
+  bool bound_step(const Rods& rods, const Problem& problem);
+  std::vector<bool> search_line(Rods& rods, const Problem& problem, int halvings);
+  void move(const LineSearch& search);
+
+  std::vector<PackStep> packs_;
+  std::vector<std::uint32_t> members_;  // rods
+  std::vector<std::size_t> offsets_;    // of the packs in the step
+  std::vector<LaneIslands> islands_;    // by pack
+  SolverScratch* scratch_ = nullptr;
+  std::vector<Search> searches_;       // by island
+  std::vector<IslandReport> reports_;  // by island
+  std::vector<EnergySum> energies_;    // by island, as measured
+  std::vector<double> decreases_;      // by island
+  std::vector<double> shares_;         // by island: the most of a step
+  std::vector<SimdBatch> step_;
+  Coupling coupling_;
+  StepBound bound_;
+};
+
+}  // namespace fiber

@@ -1,0 +1,330 @@
+#include "stage_solver.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <map>
+
+#include "fiber_proximity/query/threads.hpp"
+
+namespace fiber {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// Room that a rod has at the least, in parts of its radius, and in parts of what it has needed in
+/// the step before.
+constexpr double least_room = 0.25;
+constexpr double spare_room = 2.0;
+/// Room that is not needed any more is given up little by little.
+constexpr double kept_room = 0.7;
+
+double longest_of(const std::vector<Vector3d>& vectors) {
+  double square = 0.0;
+  for (const Vector3d& vector : vectors) {
+    square = std::max(square, vector.squaredNorm());
+  }
+  return std::sqrt(square);
+}
+
+}  // namespace
+
+RodState state_of(const Rods& rods) {
+  return {rods.positions, rods.velocities, rods.angles, rods.spins};
+}
+
+StageSolver::StageSolver(const Rods& rods, const StepperOptions& options, Contacts* contacts)
+    : options_(options), contacts_(contacts), arena_(arena_concurrency(options.threads)) {
+  scratch_.resize(rods);
+  group_of_.resize(rods.count());
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    room_.by_rod.push_back(least_room * rods.radii[rod]);
+  }
+  islands_.reset(rods.count());
+  make_groups(rods);
+}
+
+void StageSolver::solve(Rods& rods, const Effects& effects, const TimeStep& stage,
+                        const RodState* reference) {
+  last_step_ = stage.length;
+  start_ = state_of(rods);
+  reference_ = reference != nullptr ? *reference : start_;
+  rods.positions = reference_.positions;
+  rods.velocities = reference_.velocities;
+  rods.angles = reference_.angles;
+  rods.spins = reference_.spins;
+  arena_.execute([&] {
+    for (const std::unique_ptr<Effect>& effect : effects) {
+      effect->begin_step(rods, stage);
+    }
+    for (Group& group : groups_) {
+      group.is_solved = false;
+    }
+    room_.is_last = false;
+    if (contacts_ != nullptr) {
+      expect(reference_, stage.length);
+    }
+    bool is_solved = false;
+    while (!is_solved) {
+      if (contacts_ != nullptr) {
+        find_contacts(rods);
+        make_groups(rods);
+        split_contacts();
+      }
+      tbb::parallel_for(std::size_t{0}, groups_.size(), [&](std::size_t index) {
+        if (!groups_[index].is_solved) {
+          solve_group(rods, effects, stage.length, groups_[index]);
+        }
+      });
+      is_solved = std::all_of(groups_.begin(), groups_.end(),
+                              [](const Group& group) { return group.is_solved; });
+      if (!is_solved) {
+        widen_room(rods);
+      }
+    }
+    if (contacts_ != nullptr) {
+      adapt_room(rods);
+    }
+  });
+}
+
+/// Where nodes are expected to go.
+void StageSolver::expect(const RodState& reference, double step) {
+  room_.start = start_.positions;
+  room_.expected.resize(room_.start.size());
+  for (std::size_t i = 0; i < room_.start.size(); ++i) {
+    room_.expected[i] = reference.positions[i] + step * reference.velocities[i] - room_.start[i];
+  }
+}
+
+/// What rods may touch from where the solve starts.
+void StageSolver::find_contacts(Rods& rods) {
+  rods.positions.swap(start_.positions);
+  found_.clear();
+  for (const std::unique_ptr<ContactSource>& source : contacts_->sources()) {
+    source->find(rods, room_, found_);
+  }
+  rods.positions.swap(start_.positions);
+  islands_.reset(rods.count());
+  for (const EdgePair& pair : found_.pairs) {
+    islands_.join(pair.rod_a, pair.rod_b);
+  }
+  for (std::uint32_t rod = 1; room_.is_last && rod < rods.count(); ++rod) {
+    islands_.join(0, rod);
+  }
+}
+
+/// Rods that are islands of their own are solved for side by side, as many as a pack has lanes;
+/// others with their island. A group that has the same rods as before stays as it is.
+void StageSolver::make_groups(const Rods& rods) {
+  std::vector<std::vector<std::uint32_t>> members(rods.count());
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    members[islands_.of(rod)].push_back(rod);
+  }
+  std::vector<Group> groups;
+  std::map<std::uint32_t, std::size_t> open;  // groups of single rods, by node count
+  for (std::uint32_t root = 0; root < rods.count(); ++root) {
+    if (members[root].size() == 1) {
+      const auto [found, is_new] = open.try_emplace(rods.node_count(root), groups.size());
+      if (is_new || groups[found->second].islands == lane_count) {
+        found->second = groups.size();
+        groups.emplace_back();
+        groups.back().packs.emplace_back();
+      }
+      Group& group = groups[found->second];
+      scratch_.islands[root] = group.islands++;
+      group.packs.front().push_back(root);
+    } else if (!members[root].empty()) {
+      Group group;
+      group.islands = 1;
+      std::map<std::uint32_t, std::size_t> packs;  // by node count
+      for (const std::uint32_t rod : members[root]) {
+        scratch_.islands[rod] = 0;
+        const auto [found, is_new] = packs.try_emplace(rods.node_count(rod), group.packs.size());
+        if (is_new || group.packs[found->second].size() == lane_count) {
+          found->second = group.packs.size();
+          group.packs.emplace_back();
+        }
+        group.packs[found->second].push_back(rod);
+      }
+      groups.push_back(std::move(group));
+    }
+  }
+  for (Group& group : groups) {
+    const std::uint32_t first = group.packs.front().front();
+    Group* const before = groups_.empty() ? nullptr : &groups_[group_of_[first]];
+    if (before != nullptr && before->is_solved && before->packs == group.packs && !room_.is_last) {
+      group = std::move(*before);
+    }
+  }
+  groups_ = std::move(groups);
+  for (std::uint32_t index = 0; index < groups_.size(); ++index) {
+    for (const std::vector<std::uint32_t>& pack : groups_[index].packs) {
+      for (const std::uint32_t rod : pack) {
+        group_of_[rod] = index;
+      }
+    }
+  }
+}
+
+/// Gives each group that is to be solved its contacts.
+void StageSolver::split_contacts() {
+  const auto group_of = [this](std::uint32_t rod) -> Group& { return groups_[group_of_[rod]]; };
+  for (Group& group : groups_) {
+    if (!group.is_solved) {
+      group.contacts.clear();
+    }
+  }
+  const auto give = [&](const auto& all, auto ContactSet::*part, auto rod_of) {
+    for (const auto& each : all) {
+      Group& group = group_of(rod_of(each));
+      if (!group.is_solved) {
+        (group.contacts.*part).push_back(each);
+      }
+    }
+  };
+  give(found_.pairs, &ContactSet::pairs, [](const EdgePair& pair) { return pair.rod_a; });
+  give(found_.planes, &ContactSet::planes, [](const ObstaclePlane& plane) { return plane.rod; });
+  give(found_.obstacle_edges, &ContactSet::obstacle_edges,
+       [](const ObstacleEdge& edge) { return edge.rod; });
+}
+
+void StageSolver::solve_group(Rods& rods, const Effects& effects, double step, Group& group) {
+  std::unique_ptr<NewtonSolver> solver = take_solver();
+  bring(reference_, group, rods, true);
+  solver->assign(rods, group.packs, group.islands, scratch_);
+  solver->begin(rods, effects, step);
+  bring(start_, group, rods, false);
+  const bool has_contacts = contacts_ != nullptr;
+  group.is_solved =
+      solver->solve(rods, {effects, options_, step, has_contacts ? &group.contacts : nullptr,
+                           has_contacts ? &room_ : nullptr,
+                           has_contacts ? contacts_->friction() : nullptr, reference_.positions});
+  group.reports = solver->reports();
+  group.needed_room = solver->step_bound().needed();
+  give_back(std::move(solver));
+}
+
+/// Moves the rods of a group.
+void StageSolver::bring(const RodState& state, const Group& group, Rods& rods,
+                        bool has_rates) const {
+  for (const std::vector<std::uint32_t>& pack : group.packs) {
+    for (const std::uint32_t rod : pack) {
+      const auto copy = [&](const auto& from, auto& to) {
+        if (!to.empty()) {
+          std::copy(from.begin() + rods.first(rod), from.begin() + rods.end(rod),
+                    to.begin() + rods.first(rod));
+        }
+      };
+      copy(state.positions, rods.positions);
+      copy(state.angles, rods.angles);
+      if (has_rates) {
+        copy(state.velocities, rods.velocities);
+        copy(state.spins, rods.spins);
+      }
+    }
+  }
+}
+
+/// Rods that went too far get more room, up to a length that makes everything near everything: then
+/// all rods are one island, and no step goes further.
+void StageSolver::widen_room(const Rods& rods) {
+  constexpr double edges = 8.0;
+  constexpr double ways = 4.0;
+  const double most =
+      edges * *std::max_element(rods.rest_lengths.begin(), rods.rest_lengths.end()) +
+      ways * longest_of(room_.expected);
+  for (Group& group : groups_) {
+    for (const auto& [rod, needed] : group.needed_room) {
+      room_.by_rod[rod] = std::max(room_.by_rod[rod], needed);
+      room_.is_last |= needed > most;
+    }
+    group.needed_room.clear();
+  }
+  if (room_.is_last) {
+    std::fill(room_.by_rod.begin(), room_.by_rod.end(), most);
+    for (Group& group : groups_) {
+      group.is_solved = false;
+    }
+  }
+}
+
+void StageSolver::adapt_room(const Rods& rods) {
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    double square = 0.0;
+    for (std::uint32_t i = rods.first(rod); i < rods.end(rod); ++i) {
+      const Vector3d off = rods.positions[i] - room_.start[i] - room_.expected[i];
+      square = std::max(square, off.squaredNorm());
+    }
+    room_.by_rod[rod] = std::max({least_room * rods.radii[rod], spare_room * std::sqrt(square),
+                                  room_.is_last ? 0.0 : kept_room * room_.by_rod[rod]});
+  }
+}
+
+std::unique_ptr<NewtonSolver> StageSolver::take_solver() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (solvers_.empty()) {
+    return std::make_unique<NewtonSolver>();
+  }
+  std::unique_ptr<NewtonSolver> solver = std::move(solvers_.back());
+  solvers_.pop_back();
+  return solver;
+}
+
+void StageSolver::give_back(std::unique_ptr<NewtonSolver> solver) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  solvers_.push_back(std::move(solver));
+}
+
+void StageSolver::add_to(StepReport& report) const {
+  std::uint32_t iterations = 0;
+  for (const Group& group : groups_) {
+    for (const IslandReport& island : group.reports) {
+      iterations = std::max(iterations, island.iterations);
+      report.unbalanced += island.residual > options_.residual ? 1 : 0;
+      if (!(island.residual <= report.worst.residual)) {
+        report.worst = island;
+      }
+    }
+    if (group.islands == 1 && (group.packs.size() > 1 || group.packs.front().size() > 1)) {
+      for (const std::vector<std::uint32_t>& pack : group.packs) {
+        report.coupled_rods += static_cast<std::uint32_t>(pack.size());
+      }
+    }
+  }
+  report.iterations += iterations;
+}
+
+/// Calls function(pack) for the packs of all groups, one after the other, where the rods are now.
+template <class Function>
+void StageSolver::for_each_pack(const Rods& rods, const Effects& effects,
+                                const Function& function) {
+  PackStep step;
+  for (const Group& group : groups_) {
+    for (const std::vector<std::uint32_t>& pack : group.packs) {
+      step.assign(rods, pack);
+      step.begin(rods, effects, last_step_);
+      function(step);
+    }
+  }
+}
+
+void StageSolver::add_forces(const Rods& rods, const Effects& effects, RodForces& forces) {
+  for_each_pack(rods, effects, [&](const PackStep& pack) { pack.add_forces(effects, forces); });
+  for (const Group& group : groups_) {
+    group.contacts.add_forces(rods, forces.contacts);
+  }
+}
+
+double StageSolver::stored_energy(Rods& rods, const Effects& effects) {
+  double energy = 0.0;
+  for_each_pack(rods, effects,
+                [&](const PackStep& pack) { energy += pack.stored_energy(effects); });
+  for (Group& group : groups_) {
+    energy += group.contacts.stored_energy(rods);
+  }
+  return energy;
+}
+
+}  // namespace fiber
