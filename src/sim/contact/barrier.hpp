@@ -22,6 +22,18 @@ struct Barrier {
             stiffness / curvature_in_middle};
   }
 
+  /// The same for what begins a step at a distance: nearer than the inner one, as scenes may make
+  /// it, it can only part. Otherwise as it is.
+  Barrier for_start_at(double distance) const {
+    constexpr double most_share = 0.9;
+    Barrier barrier = *this;
+    if (!(distance > inner)) {
+      barrier.inner =
+          distance > 0.0 ? most_share * distance : distance - (1.0 - most_share) * inner;
+    }
+    return barrier;
+  }
+
   double inner = 0.0;  ///< [m]
   double outer = 0.0;  ///< [m]
   double scale = 0.0;  ///< k [N/m]

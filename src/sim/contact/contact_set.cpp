@@ -35,25 +35,22 @@ void add_side(std::uint32_t node, double parameter, const Vector3d& gradient,
 
 void ContactSet::clear() {
   pairs.clear();
-  planes.clear();
+  obstacle_points.clear();
   obstacle_edges.clear();
   frictions_.clear();
-}
-
-double ContactSet::height_of(const Rods& rods, const ObstaclePlane& plane) {
-  return plane.normal.dot(point_at(rods.positions, plane.edge, plane.s) - plane.point);
 }
 
 /// Calls function(points, normal, slope, curvature) for all distances that have a part in the
 /// energy, those from obstacles first.
 template <class Function>
 void ContactSet::for_each_distance(const Rods& rods, const Function& function) const {
-  for (const ObstaclePlane& plane : planes) {
-    const double height = height_of(rods, plane);
-    if (height < plane.barrier.outer && plane.share > 0.0) {
-      function(PointPair{plane.rod, plane.edge, plane.s, 0, no_edge, 0.0}, plane.normal,
-               plane.share * plane.barrier.slope(height),
-               plane.share * plane.barrier.curvature(height));
+  for (std::size_t i = 0; i < obstacle_points.size(); ++i) {
+    const ObstaclePoint& point = obstacle_points[i];
+    const auto& [distance, normal] = obstacle_distances_[i];
+    if (distance < point.barrier.outer) {
+      function(PointPair{point.rod, point.edge, point.s, 0, no_edge, 0.0}, normal,
+               point.share * point.barrier.slope(distance),
+               point.share * point.barrier.curvature(distance));
     }
   }
   std::vector<DistanceTerm> found;
@@ -94,6 +91,12 @@ void ContactSet::begin(const Rods& rods, const Friction* friction,
 void ContactSet::measure(const Rods& rods) {
   constexpr std::size_t batch = 64;
   constexpr std::size_t batches_at_once = 16;
+  obstacle_distances_.resize(obstacle_points.size());
+  for (std::size_t i = 0; i < obstacle_points.size(); ++i) {
+    const ObstaclePoint& point = obstacle_points[i];
+    obstacle_distances_[i] =
+        point.piece.distance_from(point_at(rods.positions, point.edge, point.s));
+  }
   distances_.resize(pairs.size());
   const std::size_t batches = (pairs.size() + batch - 1) / batch;
   const auto measure_batch = [&](std::size_t index) {
@@ -125,10 +128,10 @@ Vector3d ContactSet::slip_of(const Rods& rods, const FrictionPoint& point) const
 
 void ContactSet::add_energies(const Rods& rods, const std::vector<std::uint32_t>& islands,
                               std::vector<EnergySum>& energies) const {
-  for (const ObstaclePlane& plane : planes) {
-    if (plane.share > 0.0) {
-      energies[islands[plane.rod]].add(plane.share * plane.barrier.energy(height_of(rods, plane)));
-    }
+  for (std::size_t i = 0; i < obstacle_points.size(); ++i) {
+    const ObstaclePoint& point = obstacle_points[i];
+    energies[islands[point.rod]].add(point.share *
+                                     point.barrier.energy(obstacle_distances_[i].distance));
   }
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (distances_[i].distance < pairs[i].barrier.outer) {
@@ -145,8 +148,9 @@ void ContactSet::add_energies(const Rods& rods, const std::vector<std::uint32_t>
 double ContactSet::stored_energy(const Rods& rods) {
   measure(rods);
   double energy = 0.0;
-  for (const ObstaclePlane& plane : planes) {
-    energy += plane.share * plane.barrier.energy(height_of(rods, plane));
+  for (std::size_t i = 0; i < obstacle_points.size(); ++i) {
+    const ObstaclePoint& point = obstacle_points[i];
+    energy += point.share * point.barrier.energy(obstacle_distances_[i].distance);
   }
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     energy += edge_contact(pairs[i], rods.positions, distances_[i], nullptr);

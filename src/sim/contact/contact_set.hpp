@@ -4,31 +4,29 @@
 #include <vector>
 
 #include "edge_contact.hpp"
-#include "fiber_proximity/environment/environment.hpp"
 #include "fiber_proximity/sim/effects/friction.hpp"
 #include "fiber_proximity/sim/forces.hpp"
 #include "fiber_proximity/sim/pack_system.hpp"
+#include "obstacle_piece.hpp"
 #include "src/sim/solver/energy_sum.hpp"
 
 namespace fiber {
 
-/// What a point of a rod may touch of an obstacle, which a plane stands for in a step.
-struct ObstaclePlane {
+/// A point of a rod, and a part of an obstacle that it may touch.
+struct ObstaclePoint {
   std::uint32_t rod;
-  std::uint32_t edge;      ///< as Rods counts edges
-  double s;                ///< curve parameter of the point on it, in [0, 1]
-  Barrier barrier;         ///< of the point's height above the plane
-  double share;            ///< of a contact, in [0, 1]
-  Eigen::Vector3d point;   ///< of the obstacle's surface [m]
-  Eigen::Vector3d normal;  ///< out of the obstacle
+  std::uint32_t edge;  ///< as Rods counts edges
+  double s;            ///< curve parameter of the point on it, in [0, 1]
+  Barrier barrier;
+  double share;  ///< of a contact, in [0, 1]
+  ObstaclePiece piece;
 };
 
 /// An edge and an obstacle that it may come to.
 struct ObstacleEdge {
   std::uint32_t rod;
-  std::uint32_t edge;                     ///< as Rods counts edges
-  const Shape* shape;                     ///< in its own frame
-  Eigen::Isometry3d pose;                 ///< of that in the world
+  std::uint32_t edge;  ///< as Rods counts edges
+  const ObstacleShape* shape;
   double distance;                        ///< of the edge's axis when the step began [m]
   Eigen::Vector3d point;                  ///< of the obstacle, nearest to the edge then [m]
   Eigen::Vector3d normal;                 ///< from there to the edge, a unit vector
@@ -40,7 +38,7 @@ struct ObstacleEdge {
 class ContactSet {
  public:
   std::vector<EdgePair> pairs;
-  std::vector<ObstaclePlane> planes;
+  std::vector<ObstaclePoint> obstacle_points;
   std::vector<ObstacleEdge> obstacle_edges;
 
   void clear();
@@ -126,11 +124,11 @@ class ContactSet {
 
   template <class Function>
   void for_each_distance(const Rods& rods, const Function& function) const;
-  static double height_of(const Rods& rods, const ObstaclePlane& plane);
   Eigen::Vector3d slip_of(const Rods& rods, const FrictionPoint& point) const;
   void find_terms(const Rods& rods);
 
-  std::vector<SegmentDistance> distances_;  // by pair
+  std::vector<SegmentDistance> distances_;         // by pair
+  std::vector<PointDistance> obstacle_distances_;  // by point
   std::vector<FrictionPoint> frictions_;
   double stick_length_ = 0.0;  // [m]
   std::vector<Term> terms_;    // those with obstacles first

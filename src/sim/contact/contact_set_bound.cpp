@@ -6,7 +6,6 @@
 #include "fiber_proximity/environment/axis_distance.hpp"
 #include "fiber_proximity/environment/shape_contact_time.hpp"
 #include "fiber_proximity/geometry/contact_time.hpp"
-#include "obstacle_planes.hpp"
 
 namespace fiber {
 
@@ -30,11 +29,14 @@ double largest_approach(const Vector3d* a, const Vector3d* b) {
 void ContactSet::bound_step(const Rods& rods, const std::vector<Vector3d>& displacements,
                             const std::vector<std::uint32_t>& islands, std::vector<double>& shares,
                             std::vector<Vector3d>& ends) const {
-  for (const ObstaclePlane& plane : planes) {
-    const double approach = -plane.normal.dot((1.0 - plane.s) * displacements[plane.edge] +
-                                              plane.s * displacements[plane.edge + 1]);
-    const double room = most_lost * (height_of(rods, plane) - plane.barrier.inner);
-    double& share = shares[islands[plane.rod]];
+  // Distances from convex pieces never fall below what their gradients promise.
+  for (std::size_t i = 0; i < obstacle_points.size(); ++i) {
+    const ObstaclePoint& point = obstacle_points[i];
+    const Vector3d way =
+        (1.0 - point.s) * displacements[point.edge] + point.s * displacements[point.edge + 1];
+    const double approach = -obstacle_distances_[i].gradient.dot(way);
+    const double room = most_lost * (obstacle_distances_[i].distance - point.barrier.inner);
+    double& share = shares[islands[point.rod]];
     if (approach * share > room) {
       share = std::max(0.0, room / approach);
     }
@@ -61,21 +63,21 @@ double ContactSet::bounded_share(const Rods& rods, const ObstacleEdge& edge,
     lowest = std::min(lowest, edge.normal.dot(now[i] + share * ways[i] - edge.point));
   }
   const double left = (1.0 - most_lost) * edge.distance;
-  if (farthest <= most_lost * edge.distance || (is_convex(*edge.shape) && lowest >= left)) {
+  if (farthest <= most_lost * edge.distance || (edge.shape->is_convex() && lowest >= left)) {
     return share;
   }
-  const Eigen::Isometry3d to_shape = edge.pose.inverse(Eigen::Isometry);
+  const Shape& shape = *edge.shape->shape;
   AxisMotion motion;
   for (std::size_t i = 0; i < 2; ++i) {
-    motion.before[i] = to_shape * now[i];
-    motion.after[i] = to_shape * (now[i] + share * ways[i]);
+    motion.before[i] = edge.shape->to_shape * now[i];
+    motion.after[i] = edge.shape->to_shape * (now[i] + share * ways[i]);
   }
-  const AxisDistance nearest = axis_distance(*edge.shape, motion.before[0], motion.before[1],
-                                             2.0 * (edge.distance + farthest));
+  const AxisDistance nearest =
+      axis_distance(shape, motion.before[0], motion.before[1], 2.0 * (edge.distance + farthest));
   const double gap = std::max(0.0, nearest.lower);
-  const double error = 0x1p-48 * (reach(*edge.shape) + edge.pose.translation().norm() +
+  const double error = 0x1p-48 * (reach(shape) + edge.shape->pose.translation().norm() +
                                   now[0].norm() + now[1].norm());
-  const ContactTime time = contact_time(*edge.shape, motion, {(1.0 - most_lost) * gap, error},
+  const ContactTime time = contact_time(shape, motion, {(1.0 - most_lost) * gap, error},
                                         tolerance * (1.0 - most_lost) * gap);
   return time.hit ? share * time.lower : share;
 }

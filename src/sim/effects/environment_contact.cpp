@@ -5,7 +5,6 @@
 
 #include "../contact/contact_set.hpp"
 #include "../contact/neighbours.hpp"
-#include "../contact/obstacle_planes.hpp"
 #include "../solver/step_bound.hpp"
 
 namespace fiber {
@@ -34,36 +33,35 @@ AllowedPair doubled(const AllowedPair& pair) {
 
 /// 0 where an end of an edge is as near to an obstacle as the edge is, 1 where both are so much
 /// further away that they have no barrier of their own.
-double share_of_edge(const TangentPlane& plane, double width) {
-  const double nearer_end = std::min(plane.end_distances[0], plane.end_distances[1]);
-  const double x = std::clamp((nearer_end - plane.distance) / width, 0.0, 1.0);
+double share_of_edge(const NearPiece& near, double width) {
+  const double nearer_end = std::min(near.end_distances[0], near.end_distances[1]);
+  const double x = std::clamp((nearer_end - near.distance) / width, 0.0, 1.0);
   return x * x * (3.0 - 2.0 * x);
-}
-
-/// The distance of a segment of a fibre from the shape of another contact; infinite if that is too
-/// far away.
-/// @param contacts in the order of their keys
-double distance_of(const std::vector<Contact>& contacts, Contact key) {
-  const auto is_before = [](const Contact& a, const Contact& b) { return a.key() < b.key(); };
-  const auto place = std::lower_bound(contacts.begin(), contacts.end(), key, is_before);
-  return place != contacts.end() && place->key() == key.key()
-             ? place->distance
-             : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
 
 EnvironmentContact::EnvironmentContact(std::shared_ptr<const Environment> environment,
                                        const Options& options)
-    : environment_(std::move(environment)), options_(options) {
+    : options_(options) {
   validate_contact_stiffness("environment_contact", options.stiffness);
   for (const AllowedPair& pair : options.allowed) {
     allowed_.push_back(doubled(pair));
   }
+  set_environment(std::move(environment));
 }
+
+EnvironmentContact::~EnvironmentContact() = default;
 
 void EnvironmentContact::set_environment(std::shared_ptr<const Environment> environment) {
   environment_ = std::move(environment);
+  shapes_.clear();
+  for (const EnvironmentObject& object : environment_->objects()) {
+    shapes_.emplace_back();
+    for (const PlacedShape& placed : object.shapes) {
+      shapes_.back().emplace_back(placed.shape, object.pose * placed.pose);
+    }
+  }
 }
 
 void EnvironmentContact::place_fibers(const Rods& rods) {
@@ -100,9 +98,7 @@ void EnvironmentContact::find(const Rods& rods, const Room& room, ContactSet& fo
 /// @param within [m] of axes
 void EnvironmentContact::add(const Rods& rods, const Contact& contact, double within,
                              ContactSet& found) const {
-  const EnvironmentObject& object = environment_->objects()[contact.fiber_b];
-  const PlacedShape& placed = object.shapes[contact.segment_b];
-  const Eigen::Isometry3d pose = object.pose * placed.pose;
+  const ObstacleShape& shape = shapes_[contact.fiber_b][contact.segment_b];
   const std::uint32_t rod = contact.fiber_a;
   const double radius = rods.radii[rod];
   const bool is_edge = contact.segment_a % 2 == 1;
@@ -110,27 +106,10 @@ void EnvironmentContact::add(const Rods& rods, const Contact& contact, double wi
   // The last node is the end of the last edge.
   const bool is_last = !is_edge && node + 1 == rods.end(rod);
   const std::uint32_t edge = is_last ? node - 1 : node;
-
-  std::vector<TangentPlane> planes;
-  if (is_convex(placed.shape)) {
-    TangentPlane plane{contact.s, contact.distance + radius, contact.point_b, -contact.normal, {}};
-    for (const std::uint32_t end : {0U, 1U}) {
-      Contact of_end = contact;
-      of_end.segment_a = contact.segment_a + 2 * end - 1;
-      plane.end_distances[end] =
-          is_edge ? distance_of(result_.contacts, of_end) + radius : plane.distance;
-    }
-    planes.push_back(plane);
-  } else {
-    const Vector3d& p0 = rods.positions[node];
-    planes =
-        tangent_planes(placed.shape, pose, p0, is_edge ? rods.positions[node + 1] : p0, within);
-  }
   if (is_edge) {
     found.obstacle_edges.push_back({rod,
                                     edge,
-                                    &placed.shape,
-                                    pose,
+                                    &shape,
                                     contact.distance + radius,
                                     contact.point_b,
                                     -contact.normal,
@@ -139,11 +118,14 @@ void EnvironmentContact::add(const Rods& rods, const Contact& contact, double wi
   const Barrier barrier = Barrier::around(
       radius, options_.stiffness > 0.0 ? options_.stiffness
                                        : material_contact_stiffness(rods.sections[rod], radius));
-  for (const TangentPlane& plane : planes) {
-    const double s = is_edge ? plane.s : is_last ? 1.0 : 0.0;
-    const double share = is_edge ? share_of_edge(plane, barrier.width()) : 1.0;
+  const Vector3d& p0 = rods.positions[node];
+  const Vector3d& p1 = is_edge ? rods.positions[node + 1] : p0;
+  for (const NearPiece& near : near_pieces(shape, p0, p1, within)) {
+    const double s = is_edge ? near.s : is_last ? 1.0 : 0.0;
+    const double share = is_edge ? share_of_edge(near, barrier.width()) : 1.0;
     if (share > 0.0) {
-      found.planes.push_back({rod, edge, s, barrier, share, plane.point, plane.normal});
+      found.obstacle_points.push_back(
+          {rod, edge, s, barrier.for_start_at(near.distance), share, near.piece});
     }
   }
 }

@@ -83,6 +83,7 @@ void FiberContact::find(const Rods& rods, const Room& room, ContactSet& found) {
       const EdgePair& pair = candidates_[begin + i];
       if (distances[i].distance <= pair.barrier.outer + expected_approach(room, pair)) {
         found.pairs.push_back(pair);
+        found.pairs.back().barrier = pair.barrier.for_start_at(distances[i].distance);
       }
     }
   }

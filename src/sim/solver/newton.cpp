@@ -152,8 +152,27 @@ void NewtonSolver::assemble(Rods& rods, const Problem& problem) {
   for_each_pack(Work::LITTLE, [&](std::size_t pack) { packs_[pack].measure_residuals(); });
 }
 
-/// Ends the searches of islands whose forces balance.
+/// Ends the searches of islands whose forces balance. What has learnt from that may unbalance them
+/// again.
 void NewtonSolver::judge_balance(Rods& rods, const Problem& problem, std::uint32_t iteration) {
+  find_residuals();
+  const double allowed = (iteration == 0 ? rest_share : 1.0) * problem.options.residual;
+  std::vector<bool> is_balanced(searches_.size());
+  for (std::size_t i = 0; i < searches_.size(); ++i) {
+    is_balanced[i] = searches_[i].is_active && reports_[i].residual <= allowed;
+  }
+  if (learn_multipliers(rods, problem, is_balanced)) {
+    measure_again(rods, problem);
+  }
+  for (std::size_t i = 0; i < searches_.size(); ++i) {
+    if (searches_[i].is_active) {
+      reports_[i].iterations = iteration;
+      searches_[i].is_active = !is_balanced[i];
+    }
+  }
+}
+
+void NewtonSolver::find_residuals() {
   for (IslandReport& report : reports_) {
     report.residual = -1.0;
   }
@@ -166,49 +185,42 @@ void NewtonSolver::judge_balance(Rods& rods, const Problem& problem, std::uint32
       report.node = residual.node;
     }
   });
-  const double allowed = (iteration == 0 ? rest_share : 1.0) * problem.options.residual;
-  std::vector<bool> is_balanced(searches_.size());
-  for (std::size_t i = 0; i < searches_.size(); ++i) {
-    is_balanced[i] = searches_[i].is_active && reports_[i].residual <= allowed;
-  }
-  learn_multipliers(rods, problem, is_balanced);
-  for (std::size_t i = 0; i < searches_.size(); ++i) {
-    if (searches_[i].is_active) {
-      reports_[i].iterations = iteration;
-      searches_[i].is_active = !is_balanced[i];
-    }
-  }
 }
 
 /// Where effects hold conditions, an island is only balanced if these hold.
-void NewtonSolver::learn_multipliers(Rods& rods, const Problem& problem,
+/// @returns whether anything is to be solved again
+bool NewtonSolver::learn_multipliers(Rods& rods, const Problem& problem,
                                      std::vector<bool>& is_balanced) {
-  bool is_any_learning = false;
-  for_each_rod([&](std::size_t pack, std::size_t lane, std::uint32_t island) {
-    if (!is_balanced[island]) {
-      return;
+  const std::vector<bool> was_balanced = is_balanced;
+  bool has_learnt = false;
+  for (const std::unique_ptr<Effect>& effect : problem.effects) {
+    if (!effect->has_multipliers()) {
+      continue;
     }
-    for (const std::unique_ptr<Effect>& effect : problem.effects) {
-      if (!effect->has_multipliers()) {
-        continue;
+    for_each_rod([&](std::size_t pack, std::size_t lane, std::uint32_t island) {
+      if (was_balanced[island]) {
+        packs_[pack].store(rods);
+        if (!effect->update_multipliers(rods, packs_[pack].rod(lane))) {
+          is_balanced[island] = false;
+          has_learnt = true;
+        }
       }
-      packs_[pack].store(rods);
-      if (!effect->update_multipliers(rods, packs_[pack].rod(lane))) {
-        is_balanced[island] = false;
-        is_any_learning = true;
-      }
-    }
-  });
-  if (is_any_learning) {
-    for (PackStep& pack : packs_) {
-      pack.load_values(problem.effects);
-    }
-    measure(rods, problem);
-    for (std::size_t i = 0; i < searches_.size(); ++i) {
-      searches_[i].energy = energies_[i];
-    }
-    assemble(rods, problem);
+    });
   }
+  return has_learnt;
+}
+
+/// Energies and derivatives where the rods are, after something has learnt from them.
+void NewtonSolver::measure_again(Rods& rods, const Problem& problem) {
+  for (PackStep& pack : packs_) {
+    pack.load_values(problem.effects);
+  }
+  measure(rods, problem);
+  for (std::size_t i = 0; i < searches_.size(); ++i) {
+    searches_[i].energy = energies_[i];
+  }
+  assemble(rods, problem);
+  find_residuals();
 }
 
 void NewtonSolver::find_step(const Problem& problem) {

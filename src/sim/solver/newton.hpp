@@ -82,7 +82,9 @@ class NewtonSolver {
   bool predict(Rods& rods, const Problem& problem);
   void assemble(Rods& rods, const Problem& problem);
   void judge_balance(Rods& rods, const Problem& problem, std::uint32_t iteration);
-  void learn_multipliers(Rods& rods, const Problem& problem, std::vector<bool>& is_balanced);
+  bool learn_multipliers(Rods& rods, const Problem& problem, std::vector<bool>& is_balanced);
+  void measure_again(Rods& rods, const Problem& problem);
+  void find_residuals();
   void find_step(const Problem& problem);
   void weigh_step();
   bool bound_step(const Rods& rods, const Problem& problem);

@@ -185,7 +185,8 @@ void StageSolver::split_contacts() {
     }
   };
   give(found_.pairs, &ContactSet::pairs, [](const EdgePair& pair) { return pair.rod_a; });
-  give(found_.planes, &ContactSet::planes, [](const ObstaclePlane& plane) { return plane.rod; });
+  give(found_.obstacle_points, &ContactSet::obstacle_points,
+       [](const ObstaclePoint& point) { return point.rod; });
   give(found_.obstacle_edges, &ContactSet::obstacle_edges,
        [](const ObstacleEdge& edge) { return edge.rod; });
 }

@@ -7,16 +7,17 @@
 
 namespace fiber {
 
+struct ObstacleShape;
+
 /// Contacts of rods with the objects around them, by the barrier of the distance of axes from
 /// objects: from 1.05 radii on, and never nearer than 0.95 of them.
 ///
-/// Once a step the environment says which points of which objects are nearest; for that step, each
-/// is a plane there. Nodes have contacts of their own, so that a rod lying flat rests on all of
-/// them; an edge has one where it is nearer than its ends are, weighted by how much nearer. A mesh
-/// or an octree has a plane for each of its triangles or cells that is not behind another one's.
+/// Nodes have contacts of their own, so that a rod lying flat rests on all of them; an edge has one
+/// where it is nearer than its ends are, weighted by how much nearer: which point of it, is found
+/// once a step. Of meshes and octrees each triangle or cell counts that is not behind another one.
 ///
-/// How far a step may go does not rest on planes: where they do not tell that an edge keeps away,
-/// the certified time of contact with the shape does.
+/// How far a step may go rests on the convexity of distances for these points, and for edges where
+/// that does not tell on the certified time of contact with the shape.
 class EnvironmentContact : public ContactSource {
  public:
   struct Options {
@@ -26,6 +27,7 @@ class EnvironmentContact : public ContactSource {
 
   /// @throws std::invalid_argument for a stiffness that is negative or not finite
   EnvironmentContact(std::shared_ptr<const Environment> environment, const Options& options);
+  ~EnvironmentContact() override;
 
   /// From the next step on.
   void set_environment(std::shared_ptr<const Environment> environment);
@@ -37,6 +39,7 @@ class EnvironmentContact : public ContactSource {
   void add(const Rods& rods, const Contact& contact, double within, ContactSet& found) const;
 
   std::shared_ptr<const Environment> environment_;
+  std::vector<std::vector<ObstacleShape>> shapes_;  // by object
   Options options_;
   // The rods with each node twice: segments of even index are nodes, the others edges.
   FiberAssembly fibers_;

@@ -1,0 +1,136 @@
+#include "obstacle_piece.hpp"
+
+#include <algorithm>
+
+#include "fiber_proximity/environment/axis_distance.hpp"
+#include "fiber_proximity/environment/occupancy_octree.hpp"
+#include "fiber_proximity/environment/triangle_mesh.hpp"
+
+namespace fiber {
+
+using Eigen::Vector3d;
+
+namespace {
+
+using MeshPointer = std::shared_ptr<const TriangleMesh>;
+using OctreePointer = std::shared_ptr<const OccupancyOctree>;
+
+PointDistance distance_of(const TriangleCorners& triangle, const Vector3d& point) {
+  const Vector3d way = point - nearest_on_triangle(point, triangle).nearest;
+  const double distance = way.norm();
+  return {distance, distance > 0.0 ? Vector3d(way / distance) : Vector3d::UnitZ()};
+}
+
+PointDistance distance_of(const ObstaclePiece::Cell& cell, const Vector3d& point) {
+  return point_distance(BoxShape{Vector3d::Constant(cell.size)}, point - cell.center);
+}
+
+PointDistance distance_of(const Shape& shape, const Vector3d& point) {
+  return std::visit(
+      [&](const auto& solid) -> PointDistance {
+        using Solid = std::decay_t<decltype(solid)>;
+        if constexpr (std::is_same_v<Solid, MeshPointer> || std::is_same_v<Solid, OctreePointer>) {
+          assert(false);  // these are in parts
+          return {};
+        } else {
+          return point_distance(solid, point);
+        }
+      },
+      shape);
+}
+
+/// All pieces within a distance of a segment, in a shape's frame.
+std::vector<ObstaclePiece::Part> parts_near(const Shape& shape, const Vector3d& p0,
+                                            const Vector3d& p1, double within) {
+  WorldBox box(p0);
+  box.extend(p1);
+  std::vector<ObstaclePiece::Part> parts;
+  if (const auto* const mesh = std::get_if<MeshPointer>(&shape)) {
+    (*mesh)->visit_near(box, within,
+                        [&](const TriangleCorners& triangle) { parts.emplace_back(triangle); });
+  } else if (const auto* const octree = std::get_if<OctreePointer>(&shape)) {
+    (*octree)->visit_near(box, within, [&](const Vector3d& center) {
+      parts.emplace_back(ObstaclePiece::Cell{center, (*octree)->resolution()});
+    });
+  } else {
+    parts.emplace_back();
+  }
+  return parts;
+}
+
+/// Where on a segment a part is nearest.
+double nearest_parameter(const Shape& shape, const ObstaclePiece::Part& part, const Vector3d& p0,
+                         const Vector3d& p1, double within) {
+  if (const auto* const triangle = std::get_if<TriangleCorners>(&part)) {
+    return segment_triangle(p0, p1, *triangle).s;
+  }
+  if (const auto* const cell = std::get_if<ObstaclePiece::Cell>(&part)) {
+    return axis_distance(BoxShape{Vector3d::Constant(cell->size)}, p0 - cell->center,
+                         p1 - cell->center)
+        .s;
+  }
+  return axis_distance(shape, p0, p1, within).s;
+}
+
+}  // namespace
+
+bool ObstacleShape::is_convex() const {
+  return !std::holds_alternative<MeshPointer>(*shape) &&
+         !std::holds_alternative<OctreePointer>(*shape);
+}
+
+PointDistance ObstaclePiece::distance_from(const Vector3d& point) const {
+  const Vector3d local = shape_->to_shape * point;
+  PointDistance found;
+  if (const auto* const triangle = std::get_if<TriangleCorners>(&part_)) {
+    found = distance_of(*triangle, local);
+  } else if (const auto* const cell = std::get_if<Cell>(&part_)) {
+    found = distance_of(*cell, local);
+  } else {
+    found = distance_of(*shape_->shape, local);
+  }
+  found.gradient = shape_->pose.linear() * found.gradient;
+  return found;
+}
+
+std::vector<NearPiece> near_pieces(const ObstacleShape& shape, const Vector3d& p0,
+                                   const Vector3d& p1, double within) {
+  const Vector3d q0 = shape.to_shape * p0;
+  const Vector3d q1 = shape.to_shape * p1;
+  std::vector<NearPiece> pieces;
+  for (const ObstaclePiece::Part& part : parts_near(*shape.shape, q0, q1, within)) {
+    const ObstaclePiece piece(shape, part);
+    const double s = p0 == p1 ? 0.0 : nearest_parameter(*shape.shape, part, q0, q1, within);
+    const double distance = piece.distance_from((1.0 - s) * p0 + s * p1).distance;
+    if (distance <= within) {
+      pieces.push_back({piece,
+                        s,
+                        distance,
+                        {piece.distance_from(p0).distance, piece.distance_from(p1).distance}});
+    }
+  }
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const NearPiece& a, const NearPiece& b) { return a.distance < b.distance; });
+  struct TangentPlane {
+    Vector3d point;
+    Vector3d normal;
+  };
+  constexpr double rounding = 1e-6;  // of the distance within
+  std::vector<NearPiece> kept;
+  std::vector<TangentPlane> planes;
+  for (const NearPiece& near : pieces) {
+    const Vector3d place = (1.0 - near.s) * p0 + near.s * p1;
+    const PointDistance found = near.piece.distance_from(place);
+    const Vector3d point = place - found.distance * found.gradient;
+    const bool is_in_front = std::all_of(planes.begin(), planes.end(), [&](const auto& plane) {
+      return plane.normal.dot(point - plane.point) > rounding * within;
+    });
+    if (is_in_front) {
+      kept.push_back(near);
+      planes.push_back({point, found.gradient});
+    }
+  }
+  return kept;
+}
+
+}  // namespace fiber

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <variant>
+#include <vector>
+
+#include "fiber_proximity/environment/point_distance.hpp"
+#include "fiber_proximity/environment/shapes.hpp"
+#include "fiber_proximity/environment/triangle_distance.hpp"
+
+namespace fiber {
+
+/// A shape of an object of the environment, where it is in the world.
+struct ObstacleShape {
+  ObstacleShape(const Shape& own, const Eigen::Isometry3d& in_world)
+      : shape(&own), pose(in_world), to_shape(in_world.inverse(Eigen::Isometry)) {}
+
+  /// Whether it is one convex piece; meshes and octrees are many.
+  bool is_convex() const;
+
+  const Shape* shape;
+  Eigen::Isometry3d pose;
+  Eigen::Isometry3d to_shape;
+};
+
+/// A convex part of a shape: all of it, a triangle of a mesh, or a cell of an octree.
+class ObstaclePiece {
+ public:
+  struct Cell {
+    Eigen::Vector3d center;  ///< [m]
+    double size;             ///< [m]
+  };
+  using Part = std::variant<std::monostate, TriangleCorners, Cell>;
+
+  /// @param shape must outlive this
+  /// @param part  in the shape's frame
+  ObstaclePiece(const ObstacleShape& shape, const Part& part) : shape_(&shape), part_(part) {}
+
+  /// How far a point is, in the world. As the piece is convex, so is the distance: it never falls
+  /// below what its gradient promises.
+  PointDistance distance_from(const Eigen::Vector3d& point) const;
+
+ private:
+  const ObstacleShape* shape_;
+  Part part_;
+};
+
+/// The pieces of a shape near a segment [m]: those within a distance [m], without those whose
+/// nearest point is not in front of the tangent plane of a nearer one, as triangles beside each
+/// other in one plane, or around an edge that points outwards.
+struct NearPiece {
+  ObstaclePiece piece;
+  double s;                 ///< parameter on the segment where it is nearest
+  double distance;          ///< there [m]
+  double end_distances[2];  ///< from the ends of the segment [m]
+};
+std::vector<NearPiece> near_pieces(const ObstacleShape& shape, const Eigen::Vector3d& p0,
+                                   const Eigen::Vector3d& p1, double within);
+
+}  // namespace fiber
