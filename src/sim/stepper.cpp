@@ -31,21 +31,34 @@ void validate(const StepperOptions& options) {
   throw std::runtime_error(error.str());
 }
 
-/// Where the second stage of SDIRK2 measures rates from: where a part of the step leads with what
-/// the first stage, of the rest, has found there.
-template <class Value>
-void extrapolate(const std::vector<Value>& begun, const std::vector<Value>& begun_rates,
-                 const std::vector<Value>& rates, double part, double rest,
-                 std::vector<Value>& values, std::vector<Value>& new_rates) {
-  values.resize(begun.size());
-  new_rates.resize(begun.size());
-  for (std::size_t i = 0; i < begun.size(); ++i) {
-    values[i] = begun[i] + part * rates[i];
-    new_rates[i] = begun_rates[i] + part / rest * (rates[i] - begun_rates[i]);
-  }
+/// a · from + b · other, of all that a state has.
+RodState combine(double a, const RodState& from, double b, const RodState& other) {
+  RodState sum = from;
+  const auto add = [&](auto& values, const auto& others) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      values[i] = a * values[i] + b * others[i];
+    }
+  };
+  add(sum.positions, other.positions);
+  add(sum.velocities, other.velocities);
+  add(sum.angles, other.angles);
+  add(sum.spins, other.spins);
+  return sum;
+}
+
+bool is_at(const Rods& rods, const RodState& state) {
+  return rods.positions == state.positions && rods.velocities == state.velocities &&
+         rods.angles == state.angles && rods.spins == state.spins;
 }
 
 }  // namespace
+
+/// The two states before a step.
+struct Stepper::History {
+  RodState before;
+  RodState last;
+  double length;  // of the step between them [s]
+};
 
 void require_finite(const Rods& rods) {
   for (std::size_t i = 0; i < rods.positions.size(); ++i) {
@@ -86,7 +99,7 @@ void Stepper::step(double length) {
     solver_->solve(rods_, effects_, {time_, length}, nullptr);
     solver_->add_to(report_);
   } else {
-    step_by_sdirk2(length);
+    step_by_bdf2(length);
   }
   for (const std::unique_ptr<Effect>& effect : effects_) {
     effect->end_step(rods_, {time_, length});
@@ -95,19 +108,34 @@ void Stepper::step(double length) {
   time_ += length;
 }
 
-/// Alexander 1977, Eq. 3.1: of two stages of γ = 1 − 1/√2 of the step each, the first ends at γ,
-/// the second at the end of the step.
+/// With the ratio w of this step to the last one, x' = ((1 + w)² x₁ − w² x₀) / (1 + 2w) and v'
+/// alike, it is a step of implicit Euler of (1 + w) / (1 + 2w) of its length from there.
+void Stepper::step_by_bdf2(double length) {
+  RodState begun = state_of(rods_);
+  if (history_ == nullptr || !is_at(rods_, history_->last)) {
+    step_by_sdirk2(length);
+  } else {
+    const double ratio = length / history_->length;
+    const double share = 1.0 / (1.0 + 2.0 * ratio);
+    const double stage = (1.0 + ratio) * share * length;
+    const RodState reference = combine((1.0 + ratio) * (1.0 + ratio) * share, begun,
+                                       -ratio * ratio * share, history_->before);
+    solver_->solve(rods_, effects_, {time_ + length - stage, stage}, &reference);
+    solver_->add_to(report_);
+  }
+  history_ = std::make_unique<History>(History{std::move(begun), state_of(rods_), length});
+}
+
+/// Of two stages of γ = 1 − 1/√2 of the step each, the first ends at γ, the second at the end of
+/// the step: from where the rest of it leads with what the first one has found.
 void Stepper::step_by_sdirk2(double length) {
   const double stage = (1.0 - std::sqrt(0.5)) * length;
   const double rest = length - stage;
   const RodState begun = state_of(rods_);
   solver_->solve(rods_, effects_, {time_, stage}, nullptr);
   solver_->add_to(report_);
-  RodState reference;
-  extrapolate(begun.positions, begun.velocities, rods_.velocities, rest, stage, reference.positions,
-              reference.velocities);
-  extrapolate(begun.angles, begun.spins, rods_.spins, rest, stage, reference.angles,
-              reference.spins);
+  const double part = rest / stage;
+  RodState reference = combine(1.0 - part, begun, part, state_of(rods_));
   solver_->solve(rods_, effects_, {time_ + rest, stage}, &reference);
   solver_->add_to(report_);
 }

@@ -18,9 +18,11 @@ class StageSolver;
 enum class Integrator {
   IMPLICIT_EULER,  ///< of first order; damps what it does not resolve, for what should settle
 
-  /// Of second order: two solves a step, each like a step of implicit Euler of 0.29 of its length,
-  /// L-stable (Alexander 1977, Eq. 3.1). Keeps swings and spins.
-  SDIRK2
+  /// The backward differentiation formula of second order (Hairer and Wanner 1996, Sect. III.1 and
+  /// V.1): like implicit Euler as stiff as may be, and keeps swings and spins. Its first step, and
+  /// the first after rods have been changed from outside, is one of SDIRK2 (Alexander 1977,
+  /// Eq. 3.1).
+  BDF2
 };
 
 struct StepperOptions {
@@ -92,13 +94,17 @@ class Stepper {
   double energy();
 
  private:
+  struct History;
+
   void step_by_sdirk2(double length);
+  void step_by_bdf2(double length);
 
   Rods rods_;
   Effects effects_;
   StepperOptions options_;
   double time_ = 0.0;
   StepReport report_;
+  std::unique_ptr<History> history_;  // of BDF2
   std::unique_ptr<Contacts> contacts_;
   std::unique_ptr<StageSolver> solver_;
 };
