@@ -18,7 +18,7 @@ namespace {
 void measure(RodPack& rods) {
   const Real least = real(std::numeric_limits<double>::min());
   const Real one = real(1.0);
-  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+  for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
     Vector point = position_at(rods, 0, lane);
     for (std::size_t i = 0; i + 1 < rods.node_count; ++i) {
       const Vector next = position_at(rods, i + 1, lane);
@@ -46,7 +46,7 @@ HWY_INLINE Real twist_at(const RodPack& rods, std::size_t node, std::size_t lane
 }
 
 void measure_directors(RodPack& rods) {
-  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+  for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
     for (std::size_t i = 0; i + 1 < rods.node_count; ++i) {
       const Vector start = load_vector(&rods.start_tangents[3 * i], lane);
       const Vector director = load_vector(&rods.start_directors[3 * i], lane);

@@ -31,19 +31,18 @@ void validate(const StepperOptions& options) {
   throw std::runtime_error(error.str());
 }
 
-/// a · from + b · other, of all that a state has.
-RodState combine(double a, const RodState& from, double b, const RodState& other) {
-  RodState sum = from;
-  const auto add = [&](auto& values, const auto& others) {
+/// sum = a · from + b · other, of all that a state has.
+void combine(double a, const RodState& from, double b, const RodState& other, RodState& sum) {
+  const auto add = [&](const auto& values, const auto& others, auto& sums) {
+    sums.resize(values.size());
     for (std::size_t i = 0; i < values.size(); ++i) {
-      values[i] = a * values[i] + b * others[i];
+      sums[i] = a * values[i] + b * others[i];
     }
   };
-  add(sum.positions, other.positions);
-  add(sum.velocities, other.velocities);
-  add(sum.angles, other.angles);
-  add(sum.spins, other.spins);
-  return sum;
+  add(from.positions, other.positions, sum.positions);
+  add(from.velocities, other.velocities, sum.velocities);
+  add(from.angles, other.angles, sum.angles);
+  add(from.spins, other.spins, sum.spins);
 }
 
 bool is_at(const Rods& rods, const RodState& state) {
@@ -53,11 +52,13 @@ bool is_at(const Rods& rods, const RodState& state) {
 
 }  // namespace
 
-/// The two states before a step.
+/// What BDF2 remembers of the rods.
 struct Stepper::History {
-  RodState before;
-  RodState last;
-  double length;  // of the step between them [s]
+  RodState before;      // the last step
+  RodState after;       // it
+  double length = 0.0;  // of that [s]; 0 where there was none
+  RodState begun;       // room for one of now
+  RodState reference;
 };
 
 void require_finite(const Rods& rods) {
@@ -85,6 +86,7 @@ Stepper::Stepper(Rods rods, Effects effects, const StepperOptions& options,
       contacts_(std::move(contacts)) {
   validate(options);
   solver_ = std::make_unique<StageSolver>(rods_, options, contacts_.get());
+  history_ = std::make_unique<History>();
 }
 
 Stepper::~Stepper() = default;
@@ -111,19 +113,22 @@ void Stepper::step(double length) {
 /// With the ratio w of this step to the last one, x' = ((1 + w)² x₁ − w² x₀) / (1 + 2w) and v'
 /// alike, it is a step of implicit Euler of (1 + w) / (1 + 2w) of its length from there.
 void Stepper::step_by_bdf2(double length) {
-  RodState begun = state_of(rods_);
-  if (history_ == nullptr || !is_at(rods_, history_->last)) {
+  History& history = *history_;
+  copy_state(rods_, history.begun);
+  if (history.length == 0.0 || !is_at(rods_, history.after)) {
     step_by_sdirk2(length);
   } else {
-    const double ratio = length / history_->length;
+    const double ratio = length / history.length;
     const double share = 1.0 / (1.0 + 2.0 * ratio);
     const double stage = (1.0 + ratio) * share * length;
-    const RodState reference = combine((1.0 + ratio) * (1.0 + ratio) * share, begun,
-                                       -ratio * ratio * share, history_->before);
-    solver_->solve(rods_, effects_, {time_ + length - stage, stage}, &reference);
+    combine((1.0 + ratio) * (1.0 + ratio) * share, history.begun, -ratio * ratio * share,
+            history.before, history.reference);
+    solver_->solve(rods_, effects_, {time_ + length - stage, stage}, &history.reference);
     solver_->add_to(report_);
   }
-  history_ = std::make_unique<History>(History{std::move(begun), state_of(rods_), length});
+  std::swap(history.before, history.begun);
+  copy_state(rods_, history.after);
+  history.length = length;
 }
 
 /// Of two stages of γ = 1 − 1/√2 of the step each, the first ends at γ, the second at the end of
@@ -131,12 +136,12 @@ void Stepper::step_by_bdf2(double length) {
 void Stepper::step_by_sdirk2(double length) {
   const double stage = (1.0 - std::sqrt(0.5)) * length;
   const double rest = length - stage;
-  const RodState begun = state_of(rods_);
   solver_->solve(rods_, effects_, {time_, stage}, nullptr);
   solver_->add_to(report_);
   const double part = rest / stage;
-  RodState reference = combine(1.0 - part, begun, part, state_of(rods_));
-  solver_->solve(rods_, effects_, {time_ + rest, stage}, &reference);
+  copy_state(rods_, history_->after);
+  combine(1.0 - part, history_->begun, part, history_->after, history_->reference);
+  solver_->solve(rods_, effects_, {time_ + rest, stage}, &history_->reference);
   solver_->add_to(report_);
 }
 

@@ -21,9 +21,12 @@ constexpr std::size_t half_bandwidth(std::size_t unknowns) { return 2 * unknowns
 struct PackSystem {
   /// What it holds then is not said.
   /// @param unknowns_per_node 3, or 4 with twist
-  void resize(std::size_t node_count, std::size_t unknowns_per_node) {
+  /// @param lanes_used        the first ones
+  void resize(std::size_t node_count, std::size_t unknowns_per_node,
+              std::size_t lanes_used = lane_count) {
     assert(unknowns_per_node == 3 || unknowns_per_node == 4);
     unknowns = unknowns_per_node;
+    used = lanes_used;
     const std::size_t width = half_bandwidth(unknowns);
     gradient.resize(node_count * unknowns);
     hessian.resize((gradient.size() + width) * (width + 1));
@@ -37,6 +40,7 @@ struct PackSystem {
   std::size_t size() const { return gradient.size(); }
 
   std::size_t unknowns = 3;  ///< of each node
+  std::size_t used = lane_count;
   std::vector<SimdBatch> gradient;
   std::vector<SimdBatch> hessian;
 };

@@ -22,7 +22,7 @@ namespace HWY_NAMESPACE {
 namespace {
 
 void energy(const RodPack& rods, SimdBatch& energy) {
-  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+  for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
     Real sum = real(0.0);
     Vector before = tangent_at(rods, 0, lane);
     for (std::size_t i = 1; i + 1 < rods.node_count; ++i) {
@@ -37,7 +37,7 @@ void energy(const RodPack& rods, SimdBatch& energy) {
 
 template <std::size_t U>
 void add_derivatives_of(const RodPack& rods, PackSystem& system) {
-  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+  for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
     const Real total = load(rods.bending_stiffness, lane);
     for (std::size_t i = 1; i + 1 < rods.node_count; ++i) {
       const Real stiffness = total * load(rods.inverse_node_lengths[i], lane);
@@ -69,7 +69,7 @@ HWY_INLINE CurvedTurn curved_turn(const TwoEdges& edges, const SimdBatch& natura
 }
 
 void curved_energy(const RodPack& rods, const std::vector<SimdBatch>& natural, SimdBatch& energy) {
-  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+  for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
     Real sum = real(0.0);
     for (std::size_t i = 1; i + 1 < rods.node_count; ++i) {
       const Real excess = curved_turn(edges_beside(rods, i, lane), natural[i], lane).excess;
@@ -108,7 +108,7 @@ void add_curved_derivatives_of(const RodPack& rods, const std::vector<SimdBatch>
                                PackSystem& system) {
   const Real zero = real(0.0);
   const Real one = real(1.0);
-  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+  for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
     const Real total = load(rods.bending_stiffness, lane);
     for (std::size_t i = 1; i + 1 < rods.node_count; ++i) {
       const Real stiffness = total * load(rods.inverse_node_lengths[i], lane);

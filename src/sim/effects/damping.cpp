@@ -71,7 +71,7 @@ HWY_INLINE Vector by_middle(const TurnChange& turn) {
 void energy(const RodPack& rods, const std::vector<SimdBatch>& starts, double share,
             SimdBatch& energy) {
   const Real one = real(1.0);
-  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+  for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
     Real stretch = real(0.0);
     Real bend = real(0.0);
     for (std::size_t i = 0; i + 1 < rods.node_count; ++i) {
@@ -92,7 +92,7 @@ template <std::size_t U>
 void add_derivatives_of(const RodPack& rods, const std::vector<SimdBatch>& starts, double share,
                         PackSystem& system) {
   const Real zero = real(0.0);
-  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+  for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
     const Real stretching = real(share) * load(rods.stretching_stiffness, lane);
     const Real bending = real(share) * load(rods.bending_stiffness, lane);
     for (std::size_t i = 0; i + 1 < rods.node_count; ++i) {

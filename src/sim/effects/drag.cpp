@@ -38,7 +38,7 @@ HWY_INLINE Node node_at(const RodPack& rods, const std::vector<SimdBatch>& value
 }
 
 void energy(const RodPack& rods, const std::vector<SimdBatch>& values, SimdBatch& energy) {
-  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+  for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
     Real sum = real(0.0);
     for (std::size_t i = 0; i < rods.node_count; ++i) {
       const Node node = node_at(rods, values, i, lane);
@@ -53,7 +53,7 @@ void energy(const RodPack& rods, const std::vector<SimdBatch>& values, SimdBatch
 template <std::size_t U>
 void add_derivatives_of(const RodPack& rods, const std::vector<SimdBatch>& values,
                         PackSystem& system) {
-  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+  for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
     for (std::size_t i = 0; i < rods.node_count; ++i) {
       const Node node = node_at(rods, values, i, lane);
       const Vector more = (node.along - node.across) * node.tangent;

@@ -18,7 +18,7 @@ namespace {
 Vector vector(const Eigen::Vector3d& v) { return {{real(v.x()), real(v.y()), real(v.z())}}; }
 
 void energy(const RodPack& rods, const Eigen::Vector3d& acceleration, SimdBatch& energy) {
-  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+  for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
     const Vector a = vector(acceleration);
     Real sum = real(0.0);
     for (std::size_t i = 0; i < rods.node_count; ++i) {
@@ -31,7 +31,7 @@ void energy(const RodPack& rods, const Eigen::Vector3d& acceleration, SimdBatch&
 template <std::size_t U>
 void add_derivatives_of(const RodPack& rods, const Eigen::Vector3d& acceleration,
                         PackSystem& system) {
-  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+  for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
     const Vector upward = negative(vector(acceleration));
     for (std::size_t i = 0; i < rods.node_count; ++i) {
       add_gradient<U>(load(rods.masses[i], lane) * upward, i, lane, system);

@@ -35,7 +35,7 @@ HWY_INLINE Spring spring_at(const RodPack& rods, const std::vector<SimdBatch>& v
 
 void energy(const RodPack& rods, const std::vector<SimdBatch>& values, SimdBatch& energy) {
   const Real half = real(0.5);
-  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+  for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
     Real sum = real(0.0);
     for (std::size_t i = 0; i + 1 < rods.node_count; ++i) {
       const Spring spring = spring_at(rods, values, i, lane);
@@ -49,7 +49,7 @@ template <std::size_t U>
 void add_derivatives_of(const RodPack& rods, const std::vector<SimdBatch>& values,
                         PackSystem& system) {
   const Real zero = real(0.0);
-  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+  for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
     for (std::size_t i = 0; i + 1 < rods.node_count; ++i) {
       const Spring spring = spring_at(rods, values, i, lane);
       const Vector tangent = tangent_at(rods, i, lane);

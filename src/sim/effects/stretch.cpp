@@ -17,7 +17,7 @@ namespace HWY_NAMESPACE {
 namespace {
 
 void energy(const RodPack& rods, SimdBatch& energy) {
-  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+  for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
     Real sum = real(0.0);
     for (std::size_t i = 0; i + 1 < rods.node_count; ++i) {
       const Real excess = load(rods.lengths[i], lane) - load(rods.rest_lengths[i], lane);
@@ -30,7 +30,7 @@ void energy(const RodPack& rods, SimdBatch& energy) {
 template <std::size_t U>
 void add_derivatives_of(const RodPack& rods, PackSystem& system) {
   const Real zero = real(0.0);
-  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+  for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
     const Real total = load(rods.stretching_stiffness, lane);
     for (std::size_t i = 0; i + 1 < rods.node_count; ++i) {
       const Real stiffness = total * load(rods.inverse_rest_lengths[i], lane);

@@ -33,7 +33,7 @@ HWY_INLINE Real twist_at(const RodPack& rods, const std::vector<SimdBatch>& refe
 }
 
 void energy(const RodPack& rods, const std::vector<SimdBatch>& references, SimdBatch& energy) {
-  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+  for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
     Real sum = real(0.0);
     for (std::size_t i = 1; i + 1 < rods.node_count; ++i) {
       const Real twist = twist_at(rods, references, i, lane);
@@ -71,7 +71,7 @@ HWY_INLINE TwistDerivative derivative_at(const RodPack& rods, std::size_t node, 
 void add_derivatives(const RodPack& rods, const std::vector<SimdBatch>& references,
                      PackSystem& system) {
   assert(system.unknowns == unknowns);
-  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+  for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
     const Real total = load(rods.twisting_stiffness, lane);
     for (std::size_t i = 1; i + 1 < rods.node_count; ++i) {
       const Real stiffness = total * load(rods.inverse_node_lengths[i], lane);

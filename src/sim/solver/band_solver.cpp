@@ -18,11 +18,11 @@ namespace {
 // The half-bandwidth W is known when compiling, so that the loops over it unroll.
 
 template <std::size_t W>
-void factorise_width(std::size_t size, SimdBatch* hessian) {
+void factorise_width(std::size_t used, std::size_t size, SimdBatch* hessian) {
   const Real zero = real(0.0);
   const Real one = real(1.0);
   const Real most = real(std::numeric_limits<double>::max());
-  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+  for (std::size_t lane = 0; lane < used; lane += lanes_at_once()) {
     SimdBatch* column = hessian;
     for (std::size_t c = 0; c < size; ++c, column += W + 1) {
       const Real pivot = load(column[0], lane);
@@ -46,8 +46,8 @@ void factorise_width(std::size_t size, SimdBatch* hessian) {
 }
 
 template <std::size_t W>
-void solve_width(std::size_t size, const SimdBatch* hessian, SimdBatch* values) {
-  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+void solve_width(std::size_t used, std::size_t size, const SimdBatch* hessian, SimdBatch* values) {
+  for (std::size_t lane = 0; lane < used; lane += lanes_at_once()) {
     const SimdBatch* column = hessian;
     Real next[W + 1];  // the values of this row and the ones after it, as far as known
     for (std::size_t j = 0; j < W; ++j) {
@@ -80,14 +80,15 @@ void solve_width(std::size_t size, const SimdBatch* hessian, SimdBatch* values) 
 }
 
 void factorise(PackSystem& system) {
-  system.unknowns == 3 ? factorise_width<half_bandwidth(3)>(system.size(), system.hessian.data())
-                       : factorise_width<half_bandwidth(4)>(system.size(), system.hessian.data());
+  system.unknowns == 3
+      ? factorise_width<half_bandwidth(3)>(system.used, system.size(), system.hessian.data())
+      : factorise_width<half_bandwidth(4)>(system.used, system.size(), system.hessian.data());
 }
 
 void solve(const PackSystem& system, SimdBatch* values) {
   system.unknowns == 3
-      ? solve_width<half_bandwidth(3)>(system.size(), system.hessian.data(), values)
-      : solve_width<half_bandwidth(4)>(system.size(), system.hessian.data(), values);
+      ? solve_width<half_bandwidth(3)>(system.used, system.size(), system.hessian.data(), values)
+      : solve_width<half_bandwidth(4)>(system.used, system.size(), system.hessian.data(), values);
 }
 
 }  // namespace

@@ -94,7 +94,8 @@ void Coupling::sum_products(const Problem& problem, const std::vector<SimdBatch>
   }
   for (std::size_t pack = 0; pack < problem.packs.size(); ++pack) {
     const std::size_t first = problem.offsets[pack];
-    const SimdBatch sums = products(problem.packs[pack].step_size(), &a[first], &b[first]);
+    const SimdBatch sums = products({problem.packs[pack].step_size(), problem.packs[pack].used()},
+                                    &a[first], &b[first]);
     for (std::size_t lane = 0; lane < problem.packs[pack].used(); ++lane) {
       numbers_[problem.islands[pack][lane]].*sum += sums[lane];
     }
@@ -111,7 +112,8 @@ void Coupling::add_shares(const Problem& problem, const std::vector<SimdBatch>& 
       shares[lane] = numbers_[problem.islands[pack][lane]].*share;
     }
     const std::size_t first = problem.offsets[pack];
-    move_by(problem.packs[pack].step_size(), &a[first], &b[first], shares, &sum[first]);
+    move_by({problem.packs[pack].step_size(), problem.packs[pack].used()}, &a[first], &b[first],
+            shares, &sum[first]);
   }
 }
 

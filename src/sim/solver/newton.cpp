@@ -75,8 +75,11 @@ void NewtonSolver::begin(const Rods& rods, const Effects& effects, double step) 
   for_each_pack(Work::LITTLE, [&](std::size_t pack) { packs_[pack].begin(rods, effects, step); });
 }
 
-bool NewtonSolver::solve(Rods& rods, const Problem& problem) {
+void NewtonSolver::load(const Rods& rods) {
   for_each_pack(Work::LITTLE, [&](std::size_t pack) { packs_[pack].load(rods); });
+}
+
+bool NewtonSolver::solve(Rods& rods, const Problem& problem) {
   if (problem.contacts != nullptr) {
     problem.contacts->begin(rods, problem.friction, problem.references, problem.step);
     bound_.begin(problem.room, static_cast<std::uint32_t>(searches_.size()));
@@ -252,7 +255,8 @@ void NewtonSolver::weigh_step() {
   }
   for (std::size_t pack = 0; pack < packs_.size(); ++pack) {
     const std::vector<SimdBatch>& gradient = packs_[pack].gradient();
-    const SimdBatch slopes = products(gradient.size(), gradient.data(), part(pack));
+    const SimdBatch slopes =
+        products({gradient.size(), packs_[pack].used()}, gradient.data(), part(pack));
     for (std::size_t lane = 0; lane < packs_[pack].used(); ++lane) {
       searches_[islands_[pack][lane]].decrease -= slopes[lane];
     }

@@ -53,7 +53,10 @@ class NewtonSolver {
   /// Loads the rods where rates are measured from, and what effects have found there.
   void begin(const Rods& rods, const Effects& effects, double step);
 
-  /// Moves the rods from where they are to the end of the step.
+  /// Loads where the solve starts, if that is elsewhere.
+  void load(const Rods& rods);
+
+  /// Moves the rods from there to the end of the step.
   /// @returns false if rods need more room: they are anywhere then
   bool solve(Rods& rods, const Problem& problem);
 

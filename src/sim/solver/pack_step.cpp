@@ -15,7 +15,7 @@ void PackStep::assign(const Rods& rods, const std::vector<std::uint32_t>& member
     pack_.first_nodes[lane] = rods.first(pack_.rods[lane]);
   }
   pack_.unknowns = rods.angles.empty() ? 3 : 4;
-  system_.resize(pack_.node_count, pack_.unknowns);
+  system_.resize(pack_.node_count, pack_.unknowns, pack_.used);
   const std::size_t nodes = pack_.node_count;
   for (auto* array :
        {&pack_.masses, &pack_.rest_lengths, &pack_.inverse_rest_lengths,
@@ -161,13 +161,13 @@ void PackStep::predict(SimdBatch* step) const {
 }
 
 void PackStep::move(const SimdBatch* step, const SimdBatch& shares) {
-  move_by(system_.size(), remembered_.data(), step, shares, pack_.positions.data());
+  move_by({system_.size(), pack_.used}, remembered_.data(), step, shares, pack_.positions.data());
   measure_edges(pack_);
 }
 
 void PackStep::measure(const Effects& effects) {
-  const SimdBatch kinetic =
-      weighted_squares(system_.size(), inertias_.data(), pack_.positions.data(), predicted_.data());
+  const SimdBatch kinetic = weighted_squares({system_.size(), pack_.used}, inertias_.data(),
+                                             pack_.positions.data(), predicted_.data());
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     energies_[lane] = EnergySum{};
     energies_[lane].add(0.5 * kinetic[lane] / (step_length_ * step_length_));
@@ -199,16 +199,17 @@ void PackStep::assemble(const Effects& effects) {
   const double inverse_square = 1.0 / (step_length_ * step_length_);
   const std::size_t height = half_bandwidth(system_.unknowns) + 1;
   system_.set_zero();
-  set_inertia(system_.size(), inverse_square, inertias_.data(), pack_.positions.data(),
-              predicted_.data(), system_.gradient.data(), system_.hessian.data(), height);
+  set_inertia({system_.size(), pack_.used}, inverse_square, inertias_.data(),
+              pack_.positions.data(), predicted_.data(), system_.gradient.data(),
+              system_.hessian.data(), height);
   for (std::size_t e = 0; e < effects.size(); ++e) {
     effects[e]->add_derivatives(pack_, values_[e], system_);
   }
 }
 
 void PackStep::measure_residuals() {
-  squared_residuals(pack_.node_count, system_.unknowns, system_.gradient.data(), scales_.data(),
-                    residuals_.data());
+  squared_residuals({pack_.node_count, pack_.used}, system_.unknowns, system_.gradient.data(),
+                    scales_.data(), residuals_.data());
 }
 
 PackStep::Residual PackStep::residual(std::size_t lane) const {

@@ -13,11 +13,11 @@ namespace fiber {
 namespace HWY_NAMESPACE {
 namespace {
 
-void sum_squares(std::size_t count, const SimdBatch* inertias, const SimdBatch* positions,
+void sum_squares(SumSize size, const SimdBatch* inertias, const SimdBatch* positions,
                  const SimdBatch* predicted, SimdBatch& sum) {
-  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+  for (std::size_t lane = 0; lane < size.used; lane += lanes_at_once()) {
     Real squares = real(0.0);
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < size.count; ++i) {
       const Real change = load(positions[i], lane) - load(predicted[i], lane);
       squares = squares + load(inertias[i], lane) * change * change;
     }
@@ -25,11 +25,11 @@ void sum_squares(std::size_t count, const SimdBatch* inertias, const SimdBatch* 
   }
 }
 
-void inertia(std::size_t count, double factor, const SimdBatch* inertias,
-             const SimdBatch* positions, const SimdBatch* predicted, SimdBatch* gradient,
-             SimdBatch* hessian, std::size_t height) {
-  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
-    for (std::size_t i = 0; i < count; ++i) {
+void inertia(SumSize size, double factor, const SimdBatch* inertias, const SimdBatch* positions,
+             const SimdBatch* predicted, SimdBatch* gradient, SimdBatch* hessian,
+             std::size_t height) {
+  for (std::size_t lane = 0; lane < size.used; lane += lanes_at_once()) {
+    for (std::size_t i = 0; i < size.count; ++i) {
       const Real scaled = load(inertias[i], lane) * real(factor);
       const Real change = load(positions[i], lane) - load(predicted[i], lane);
       store(scaled * change, gradient[i], lane);
@@ -38,22 +38,22 @@ void inertia(std::size_t count, double factor, const SimdBatch* inertias,
   }
 }
 
-void sum_products(std::size_t count, const SimdBatch* a, const SimdBatch* b, SimdBatch& sum) {
-  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+void sum_products(SumSize size, const SimdBatch* a, const SimdBatch* b, SimdBatch& sum) {
+  for (std::size_t lane = 0; lane < size.used; lane += lanes_at_once()) {
     Real products = real(0.0);
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < size.count; ++i) {
       products = products + load(a[i], lane) * load(b[i], lane);
     }
     store(products, sum, lane);
   }
 }
 
-void move(std::size_t count, const SimdBatch* from, const SimdBatch* step, const SimdBatch& shares,
+void move(SumSize size, const SimdBatch* from, const SimdBatch* step, const SimdBatch& shares,
           SimdBatch* positions) {
-  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
+  for (std::size_t lane = 0; lane < size.used; lane += lanes_at_once()) {
     const Real share = load(shares, lane);
     const auto is_moving = hn::Ne(share.value, real(0.0).value);
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < size.count; ++i) {
       const Real way = share * load(step[i], lane);
       const Real moved = {hn::IfThenElseZero(is_moving, way.value)};
       store(load(from[i], lane) + moved, positions[i], lane);
@@ -61,10 +61,10 @@ void move(std::size_t count, const SimdBatch* from, const SimdBatch* step, const
   }
 }
 
-void residual_squares(std::size_t nodes, std::size_t unknowns, const SimdBatch* gradient,
+void residual_squares(SumSize size, std::size_t unknowns, const SimdBatch* gradient,
                       const SimdBatch* scales, SimdBatch* squares) {
-  for (std::size_t lane = 0; lane < lane_count; lane += lanes_at_once()) {
-    for (std::size_t node = 0; node < nodes; ++node) {
+  for (std::size_t lane = 0; lane < size.used; lane += lanes_at_once()) {
+    for (std::size_t node = 0; node < size.count; ++node) {
       const std::size_t first = node * unknowns;
       Real sum = real(0.0);
       for (std::size_t k = 0; k < 3; ++k) {
@@ -94,34 +94,34 @@ HWY_EXPORT(sum_products);
 HWY_EXPORT(move);
 HWY_EXPORT(residual_squares);
 
-SimdBatch weighted_squares(std::size_t count, const SimdBatch* inertias, const SimdBatch* positions,
+SimdBatch weighted_squares(SumSize size, const SimdBatch* inertias, const SimdBatch* positions,
                            const SimdBatch* predicted) {
   SimdBatch sum;
-  HWY_DYNAMIC_DISPATCH(sum_squares)(count, inertias, positions, predicted, sum);
+  HWY_DYNAMIC_DISPATCH(sum_squares)(size, inertias, positions, predicted, sum);
   return sum;
 }
 
-void set_inertia(std::size_t count, double factor, const SimdBatch* inertias,
-                 const SimdBatch* positions, const SimdBatch* predicted, SimdBatch* gradient,
-                 SimdBatch* hessian, std::size_t height) {
+void set_inertia(SumSize size, double factor, const SimdBatch* inertias, const SimdBatch* positions,
+                 const SimdBatch* predicted, SimdBatch* gradient, SimdBatch* hessian,
+                 std::size_t height) {
   HWY_DYNAMIC_DISPATCH(inertia)
-  (count, factor, inertias, positions, predicted, gradient, hessian, height);
+  (size, factor, inertias, positions, predicted, gradient, hessian, height);
 }
 
-SimdBatch products(std::size_t count, const SimdBatch* a, const SimdBatch* b) {
+SimdBatch products(SumSize size, const SimdBatch* a, const SimdBatch* b) {
   SimdBatch sum;
-  HWY_DYNAMIC_DISPATCH(sum_products)(count, a, b, sum);
+  HWY_DYNAMIC_DISPATCH(sum_products)(size, a, b, sum);
   return sum;
 }
 
-void move_by(std::size_t count, const SimdBatch* from, const SimdBatch* step,
-             const SimdBatch& shares, SimdBatch* positions) {
-  HWY_DYNAMIC_DISPATCH(move)(count, from, step, shares, positions);
+void move_by(SumSize size, const SimdBatch* from, const SimdBatch* step, const SimdBatch& shares,
+             SimdBatch* positions) {
+  HWY_DYNAMIC_DISPATCH(move)(size, from, step, shares, positions);
 }
 
-void squared_residuals(std::size_t nodes, std::size_t unknowns, const SimdBatch* gradient,
+void squared_residuals(SumSize size, std::size_t unknowns, const SimdBatch* gradient,
                        const SimdBatch* scales, SimdBatch* squares) {
-  HWY_DYNAMIC_DISPATCH(residual_squares)(nodes, unknowns, gradient, scales, squares);
+  HWY_DYNAMIC_DISPATCH(residual_squares)(size, unknowns, gradient, scales, squares);
 }
 
 }  // namespace fiber

@@ -4,29 +4,35 @@
 
 namespace fiber {
 
-// What a step does with all that is unknown of rods side by side; arrays of `count` SimdBatch.
+// What a step does with all that is unknown of rods side by side.
+
+/// Of arrays: how many SimdBatches, and the lanes in use.
+struct SumSize {
+  std::size_t count;
+  std::size_t used;
+};
 
 /// Σ inertia · (position − predicted)², by lane.
-SimdBatch weighted_squares(std::size_t count, const SimdBatch* inertias, const SimdBatch* positions,
+SimdBatch weighted_squares(SumSize size, const SimdBatch* inertias, const SimdBatch* positions,
                            const SimdBatch* predicted);
 
 /// Writes factor · inertia · (position − predicted) as gradient, and factor · inertia on the
 /// diagonal of a Hessian, whose columns are so high.
-void set_inertia(std::size_t count, double factor, const SimdBatch* inertias,
-                 const SimdBatch* positions, const SimdBatch* predicted, SimdBatch* gradient,
-                 SimdBatch* hessian, std::size_t height);
+void set_inertia(SumSize size, double factor, const SimdBatch* inertias, const SimdBatch* positions,
+                 const SimdBatch* predicted, SimdBatch* gradient, SimdBatch* hessian,
+                 std::size_t height);
 
 /// Σ a · b, by lane.
-SimdBatch products(std::size_t count, const SimdBatch* a, const SimdBatch* b);
+SimdBatch products(SumSize size, const SimdBatch* a, const SimdBatch* b);
 
 /// positions = from + share · step; where the share of a lane is 0, whatever the step is, from. All
 /// of them may be the same.
-void move_by(std::size_t count, const SimdBatch* from, const SimdBatch* step,
-             const SimdBatch& shares, SimdBatch* positions);
+void move_by(SumSize size, const SimdBatch* from, const SimdBatch* step, const SimdBatch& shares,
+             SimdBatch* positions);
 
 /// Of each node: the square of the gradient by its position, or with a fourth unknown of that by
 /// its angle if it is larger, each times a scale of its own.
-void squared_residuals(std::size_t nodes, std::size_t unknowns, const SimdBatch* gradient,
+void squared_residuals(SumSize size, std::size_t unknowns, const SimdBatch* gradient,
                        const SimdBatch* scales, SimdBatch* squares);
 
 }  // namespace fiber

@@ -30,8 +30,18 @@ double longest_of(const std::vector<Vector3d>& vectors) {
 
 }  // namespace
 
-RodState state_of(const Rods& rods) {
-  return {rods.positions, rods.velocities, rods.angles, rods.spins};
+void copy_state(const Rods& rods, RodState& state) {
+  state.positions = rods.positions;
+  state.velocities = rods.velocities;
+  state.angles = rods.angles;
+  state.spins = rods.spins;
+}
+
+void copy_state(const RodState& state, Rods& rods) {
+  rods.positions = state.positions;
+  rods.velocities = state.velocities;
+  rods.angles = state.angles;
+  rods.spins = state.spins;
 }
 
 StageSolver::StageSolver(const Rods& rods, const StepperOptions& options, Contacts* contacts)
@@ -48,12 +58,14 @@ StageSolver::StageSolver(const Rods& rods, const StepperOptions& options, Contac
 void StageSolver::solve(Rods& rods, const Effects& effects, const TimeStep& stage,
                         const RodState* reference) {
   last_step_ = stage.length;
-  start_ = state_of(rods);
-  reference_ = reference != nullptr ? *reference : start_;
-  rods.positions = reference_.positions;
-  rods.velocities = reference_.velocities;
-  rods.angles = reference_.angles;
-  rods.spins = reference_.spins;
+  is_copied_ = contacts_ != nullptr || reference != nullptr;
+  if (is_copied_) {
+    copy_state(rods, start_);
+    if (reference != nullptr) {
+      copy_state(*reference, rods);
+    }
+    copy_state(rods, reference_);
+  }
   arena_.execute([&] {
     for (const std::unique_ptr<Effect>& effect : effects) {
       effect->begin_step(rods, stage);
@@ -193,10 +205,15 @@ void StageSolver::split_contacts() {
 
 void StageSolver::solve_group(Rods& rods, const Effects& effects, double step, Group& group) {
   std::unique_ptr<NewtonSolver> solver = take_solver();
-  bring(reference_, group, rods, true);
   solver->assign(rods, group.packs, group.islands, scratch_);
-  solver->begin(rods, effects, step);
-  bring(start_, group, rods, false);
+  if (is_copied_) {
+    bring(reference_, group, rods, true);
+    solver->begin(rods, effects, step);
+    bring(start_, group, rods, false);
+    solver->load(rods);
+  } else {
+    solver->begin(rods, effects, step);
+  }
   const bool has_contacts = contacts_ != nullptr;
   group.is_solved =
       solver->solve(rods, {effects, options_, step, has_contacts ? &group.contacts : nullptr,

@@ -18,7 +18,10 @@ struct RodState {
   std::vector<double> angles;
   std::vector<double> spins;
 };
-RodState state_of(const Rods& rods);
+
+/// Copies it, into memory that is there already.
+void copy_state(const Rods& rods, RodState& state);
+void copy_state(const RodState& state, Rods& rods);
 
 /// One solve of a step: finds which rods may touch each other in it, and solves for each island, or
 /// some rods that touch none, on its own.
@@ -72,6 +75,7 @@ class StageSolver {
   SolverScratch scratch_;
   ContactSet found_;
   Room room_;
+  bool is_copied_ = false;  // whether the two following ones are in use
   RodState start_;
   RodState reference_;
   double last_step_ = 0.0;  // [s]
