@@ -40,17 +40,20 @@ void ContactSet::clear() {
   frictions_.clear();
 }
 
-/// Calls function(points, normal, slope, curvature) for all distances that have a part in the
-/// energy, those from obstacles first.
+/// Calls function(points, normal, slope, curvature, barrier) for all distances that have a part in
+/// the energy, those from obstacles first.
 template <class Function>
 void ContactSet::for_each_distance(const Rods& rods, const Function& function) const {
   for (std::size_t i = 0; i < obstacle_points.size(); ++i) {
     const ObstaclePoint& point = obstacle_points[i];
-    const auto& [distance, normal] = obstacle_distances_[i];
+    const double distance = point.felt(obstacle_distances_[i].distance);
+    const double depth_share = Barrier::depth_share(point.share);
     if (distance < point.barrier.outer) {
-      function(PointPair{point.rod, point.edge, point.s, 0, no_edge, 0.0}, normal,
-               point.share * point.barrier.slope(distance),
-               point.share * point.barrier.curvature(distance));
+      function(PointPair{point.rod, point.edge, point.s, 0, no_edge, 0.0},
+               obstacle_distances_[i].gradient,
+               point.share * depth_share * point.barrier.slope(distance),
+               point.share * depth_share * depth_share * point.barrier.curvature(distance),
+               point.barrier);
     }
   }
   std::vector<DistanceTerm> found;
@@ -63,7 +66,7 @@ void ContactSet::for_each_distance(const Rods& rods, const Function& function) c
     for (const DistanceTerm& term : found) {
       function(PointPair{pairs[i].rod_a, pairs[i].edge_a, term.s, pairs[i].rod_b, pairs[i].edge_b,
                          term.t},
-               term.normal, term.slope, term.curvature);
+               term.normal, term.slope, term.curvature, pairs[i].barrier);
     }
   }
 }
@@ -77,7 +80,7 @@ void ContactSet::begin(const Rods& rods, const Friction* friction,
   }
   stick_length_ = friction->stick_length(step);
   for_each_distance(rods, [&](const PointPair& points, const Vector3d& normal, double slope,
-                              double /*curvature*/) {
+                              double /*curvature*/, const Barrier& /*barrier*/) {
     if (slope < 0.0) {
       Vector3d reference = point_at(references, points.edge_a, points.s);
       if (points.edge_b != no_edge) {
@@ -130,8 +133,8 @@ void ContactSet::add_energies(const Rods& rods, const std::vector<std::uint32_t>
                               std::vector<EnergySum>& energies) const {
   for (std::size_t i = 0; i < obstacle_points.size(); ++i) {
     const ObstaclePoint& point = obstacle_points[i];
-    energies[islands[point.rod]].add(point.share *
-                                     point.barrier.energy(obstacle_distances_[i].distance));
+    energies[islands[point.rod]].add(
+        point.share * point.barrier.energy(point.felt(obstacle_distances_[i].distance)));
   }
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (distances_[i].distance < pairs[i].barrier.outer) {
@@ -150,7 +153,7 @@ double ContactSet::stored_energy(const Rods& rods) {
   double energy = 0.0;
   for (std::size_t i = 0; i < obstacle_points.size(); ++i) {
     const ObstaclePoint& point = obstacle_points[i];
-    energy += point.share * point.barrier.energy(obstacle_distances_[i].distance);
+    energy += point.share * point.barrier.energy(point.felt(obstacle_distances_[i].distance));
   }
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     energy += edge_contact(pairs[i], rods.positions, distances_[i], nullptr);
@@ -160,10 +163,10 @@ double ContactSet::stored_energy(const Rods& rods) {
 
 void ContactSet::find_terms(const Rods& rods) {
   terms_.clear();
-  for_each_distance(
-      rods, [&](const PointPair& points, const Vector3d& normal, double slope, double curvature) {
-        terms_.push_back({points, slope * normal, curvature * normal * normal.transpose()});
-      });
+  for_each_distance(rods, [&](const PointPair& points, const Vector3d& normal, double slope,
+                              double curvature, const Barrier& /*barrier*/) {
+    terms_.push_back({points, slope * normal, curvature * normal * normal.transpose()});
+  });
   for (const FrictionPoint& point : frictions_) {
     const Vector3d slip = slip_of(rods, point);
     const double length = slip.norm();
@@ -217,6 +220,17 @@ void ContactSet::add_coupling(const std::vector<std::size_t>& places, const doub
   }
 }
 
+void ContactSet::add_loads(const Rods& rods, std::vector<double>& loads) const {
+  for_each_distance(rods, [&](const PointPair& points, const Vector3d& /*normal*/, double slope,
+                              double /*curvature*/, const Barrier& barrier) {
+    const double load = barrier.load_of(std::abs(slope));
+    loads[points.rod_a] = std::max(loads[points.rod_a], load);
+    if (points.edge_b != no_edge) {
+      loads[points.rod_b] = std::max(loads[points.rod_b], load);
+    }
+  });
+}
+
 void ContactSet::add_forces(const Rods& rods, std::vector<RodForces::ContactForce>& forces) const {
   using Key = std::array<std::uint32_t, 4>;
   std::map<Key, std::size_t> places;
@@ -234,7 +248,7 @@ void ContactSet::add_forces(const Rods& rods, std::vector<RodForces::ContactForc
   };
   std::map<std::size_t, double> weights;
   for_each_distance(rods, [&](const PointPair& points, const Vector3d& normal, double slope,
-                              double /*curvature*/) {
+                              double /*curvature*/, const Barrier& /*barrier*/) {
     RodForces::ContactForce& force = force_of(points);
     const Vector3d on_a = point_at(rods.positions, points.edge_a, points.s);
     Vector3d between = on_a - rods.radii[points.rod_a] * normal;

@@ -20,6 +20,8 @@ struct ObstaclePoint {
   Barrier barrier;
   double share;  ///< of a contact, in [0, 1]
   ObstaclePiece piece;
+
+  double felt(double distance) const { return barrier.felt(distance, share); }
 };
 
 /// An edge and an obstacle that it may come to.
@@ -84,6 +86,11 @@ class ContactSet {
   void bound_step(const Rods& rods, const std::vector<Eigen::Vector3d>& displacements,
                   const std::vector<std::uint32_t>& islands, std::vector<double>& shares,
                   std::vector<Eigen::Vector3d>& ends) const;
+
+  /// Of each rod, the largest load of its contacts where the rods are measured: the force in parts
+  /// of what its barrier holds well.
+  /// @param loads by rod: raised
+  void add_loads(const Rods& rods, std::vector<double>& loads) const;
 
   /// Appends what the contacts exert where the rods are measured.
   void add_forces(const Rods& rods, std::vector<RodForces::ContactForce>& forces) const;

@@ -58,7 +58,7 @@ void Coupling::begin(const Problem& problem, const std::vector<SimdBatch>& step)
 
 /// Whether there are islands whose step is not yet what it is to be.
 bool Coupling::is_any_solving(const std::vector<double>& decreases) {
-  constexpr double tolerance = 1e-2;  // of the residual, as the preconditioner sees it
+  constexpr double tolerance = 1e-3;  // of the residual, as the preconditioner sees it
   bool is_any = false;
   for (std::size_t i = 0; i < numbers_.size(); ++i) {
     const double small = tolerance * tolerance * std::max(0.0, decreases[i]);

@@ -51,6 +51,7 @@ StageSolver::StageSolver(const Rods& rods, const StepperOptions& options, Contac
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
     room_.by_rod.push_back(least_room * rods.radii[rod]);
   }
+  stiffening_.assign(rods.count(), 1.0);
   islands_.reset(rods.count());
   make_groups(rods);
 }
@@ -97,6 +98,7 @@ void StageSolver::solve(Rods& rods, const Effects& effects, const TimeStep& stag
     }
     if (contacts_ != nullptr) {
       adapt_room(rods);
+      adapt_stiffening(rods);
     }
   });
 }
@@ -118,6 +120,7 @@ void StageSolver::find_contacts(Rods& rods) {
     source->find(rods, room_, found_);
   }
   rods.positions.swap(start_.positions);
+  stiffen_contacts();
   islands_.reset(rods.count());
   for (const EdgePair& pair : found_.pairs) {
     islands_.join(pair.rod_a, pair.rod_b);
@@ -277,6 +280,36 @@ void StageSolver::adapt_room(const Rods& rods) {
     }
     room_.by_rod[rod] = std::max({least_room * rods.radii[rod], spare_room * std::sqrt(square),
                                   room_.is_last ? 0.0 : kept_room * room_.by_rod[rod]});
+  }
+}
+
+/// Barriers are as stiff as the material makes natural; where holds pull far harder, they would
+/// hold only right at their inner distance, where equations are hard to solve.
+void StageSolver::stiffen_contacts() {
+  for (EdgePair& pair : found_.pairs) {
+    pair.barrier.scale *= std::max(stiffening_[pair.rod_a], stiffening_[pair.rod_b]);
+  }
+  for (ObstaclePoint& point : found_.obstacle_points) {
+    point.barrier.scale *= stiffening_[point.rod];
+  }
+}
+
+/// To what the largest contact force of a rod was in this step, if that is known; back to the
+/// material's little by little.
+void StageSolver::adapt_stiffening(const Rods& rods) {
+  constexpr double kept = 0.95;
+  constexpr double most_growth = 10.0;
+  loads_.assign(rods.count(), 0.0);
+  for (const Group& group : groups_) {
+    const bool is_balanced = std::all_of(
+        group.reports.begin(), group.reports.end(),
+        [this](const IslandReport& report) { return report.residual <= options_.residual; });
+    if (is_balanced) {
+      group.contacts.add_loads(rods, loads_);
+    }
+  }
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    stiffening_[rod] = std::max(1.0, stiffening_[rod] * std::clamp(loads_[rod], kept, most_growth));
   }
 }
 
