@@ -294,19 +294,14 @@ void StageSolver::stiffen_contacts() {
   }
 }
 
-/// To what the largest contact force of a rod was in this step, if that is known; back to the
-/// material's little by little.
+/// To what the largest contact force of a rod was in this step; back to the material's little by
+/// little.
 void StageSolver::adapt_stiffening(const Rods& rods) {
   constexpr double kept = 0.95;
-  constexpr double most_growth = 10.0;
+  constexpr double most_growth = 4.0;
   loads_.assign(rods.count(), 0.0);
   for (const Group& group : groups_) {
-    const bool is_balanced = std::all_of(
-        group.reports.begin(), group.reports.end(),
-        [this](const IslandReport& report) { return report.residual <= options_.residual; });
-    if (is_balanced) {
-      group.contacts.add_loads(rods, loads_);
-    }
+    group.contacts.add_loads(rods, loads_);
   }
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
     stiffening_[rod] = std::max(1.0, stiffening_[rod] * std::clamp(loads_[rod], kept, most_growth));
