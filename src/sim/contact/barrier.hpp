@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "natural_log.hpp"
+
 namespace fiber {
 
 /// The potential of a contact by the distance of axes (Li et al. 2020, Eq. 6): none from the outer
@@ -69,7 +71,7 @@ struct Barrier {
       return std::numeric_limits<double>::infinity();
     }
     const double below = distance - outer;
-    return -scale * below * below * std::log((distance - inner) / width());
+    return -scale * below * below * natural_log((distance - inner) / width());
   }
 
   /// Its derivatives by the distance, of distances within (inner, outer): never above 0 [N], and
@@ -78,11 +80,11 @@ struct Barrier {
     assert(distance > inner && distance < outer);
     const double below = distance - outer;
     const double gap = distance - inner;
-    return scale * below * (-2.0 * std::log(gap / width()) - below / gap);
+    return scale * below * (-2.0 * natural_log(gap / width()) - below / gap);
   }
   double curvature(double distance) const {
     const double ratio = (distance - outer) / (distance - inner);
-    return scale * (-2.0 * std::log((distance - inner) / width()) - 4.0 * ratio + ratio * ratio);
+    return scale * (-2.0 * natural_log((distance - inner) / width()) - 4.0 * ratio + ratio * ratio);
   }
 };
 
