@@ -55,6 +55,7 @@ EnvironmentContact::~EnvironmentContact() = default;
 
 void EnvironmentContact::set_environment(std::shared_ptr<const Environment> environment) {
   environment_ = std::move(environment);
+  clear_within_ = 0.0;
   shapes_.clear();
   for (const EnvironmentObject& object : environment_->objects()) {
     shapes_.emplace_back();
@@ -77,19 +78,31 @@ void EnvironmentContact::place_fibers(const Rods& rods) {
 }
 
 void EnvironmentContact::find(const Rods& rods, const Room& room, ContactSet& found) {
-  place_fibers(rods);
-  double reach = 0.0;
+  double approach = 0.0;  // that the step may bring
+  double moved = 0.0;     // since the environment was asked
+  const bool was_asked = fibers_.point_count() == 2 * rods.positions.size();
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
     double longest = 0.0;
     for (std::uint32_t i = rods.first(rod); i < rods.end(rod); ++i) {
       longest = std::max(longest, room.expected[i].squaredNorm());
+      if (was_asked) {
+        const Vector3d way = rods.positions[i] - fibers_.points()[std::size_t{2} * i];
+        moved = std::max(moved, way.squaredNorm());
+      }
     }
-    reach = std::max(reach, std::sqrt(longest) + room.by_rod[rod]);
+    approach = std::max(approach, std::sqrt(longest) + room.by_rod[rod]);
   }
   const double largest = *std::max_element(rods.radii.begin(), rods.radii.end());
+  const double needed = approach + Barrier::half_width * largest;
+  if (was_asked && needed + std::sqrt(moved) <= clear_within_) {
+    return;
+  }
+  place_fibers(rods);
   QueryOptions query;
-  query.margin = reach + Barrier::half_width * largest;
+  // Far from everything, an answer serves for some steps.
+  query.margin = clear_within_ > 0.0 ? needed + largest + 4.0 * approach : needed;
   environment_->query(fibers_, query, allowed_, result_);
+  clear_within_ = result_.contacts.empty() ? query.margin : 0.0;
   for (const Contact& contact : result_.contacts) {
     add(rods, contact, query.margin + largest, found);
   }

@@ -70,8 +70,8 @@ StageSolver::StageSolver(const Rods& rods, const StepperOptions& options, Contac
 void StageSolver::solve(Rods& rods, const Effects& effects, const TimeStep& stage,
                         const RodState* reference) {
   last_step_ = stage.length;
-  is_copied_ = contacts_ != nullptr || reference != nullptr;
-  if (is_copied_) {
+  is_at_start_ = reference == nullptr;
+  if (contacts_ != nullptr || reference != nullptr) {
     copy_state(rods, start_);
     if (reference != nullptr) {
       copy_state(*reference, rods);
@@ -105,6 +105,7 @@ void StageSolver::solve(Rods& rods, const Effects& effects, const TimeStep& stag
                               [](const Group& group) { return group.is_solved; });
       if (!is_solved) {
         widen_room(rods);
+        is_at_start_ = false;
       }
     }
     if (contacts_ != nullptr) {
@@ -223,7 +224,7 @@ void StageSolver::split_contacts() {
 void StageSolver::solve_group(Rods& rods, const Effects& effects, double step, Group& group) {
   std::unique_ptr<NewtonSolver> solver = take_solver();
   solver->assign(rods, group.packs, group.islands, scratch_);
-  if (is_copied_) {
+  if (!is_at_start_) {
     bring(reference_, group, rods, true);
     solver->begin(rods, effects, step);
     bring(start_, group, rods, false);

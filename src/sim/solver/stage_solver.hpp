@@ -80,7 +80,7 @@ class StageSolver {
   Room room_;
   std::vector<double> stiffening_;  // of contacts that have much to hold, by rod
   std::vector<double> loads_;       // of contacts, by rod
-  bool is_copied_ = false;          // whether the two following ones are in use
+  bool is_at_start_ = true;  // whether rods are where the solve starts, and rates are measured from
   RodState start_;
   RodState reference_;
   double last_step_ = 0.0;  // [s]

@@ -43,7 +43,8 @@ class EnvironmentContact : public ContactSource {
   Options options_;
   // The rods with each node twice: segments of even index are nodes, the others edges.
   FiberAssembly fibers_;
-  AllowedPairs allowed_;  // in segments of these
+  AllowedPairs allowed_;       // in segments of these
+  double clear_within_ = 0.0;  // [m] nothing was so near when these were asked about
   QueryResult result_;
 };
 
