@@ -1,0 +1,172 @@
+#include "fiber_proximity/sim/scene/report.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <sstream>
+
+#include "fiber_proximity/sim/contact_stiffness.hpp"
+
+namespace fiber {
+namespace {
+
+constexpr std::uint32_t most_trial_frames = 20;
+constexpr double longest_trial = 0.3;  // [s]
+constexpr std::uint32_t more_iterations = 4;
+
+/// Runs one step.
+/// @returns the wall time it took [s]
+double run_step(SimScene& scene) {
+  const auto begin = std::chrono::steady_clock::now();
+  scene.stepper->step(scene.step_length());
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+double furthest(const Rods& a, const Rods& b) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < a.positions.size(); ++i) {
+    most = std::max(most, (a.positions[i] - b.positions[i]).norm());
+  }
+  return most;
+}
+
+double thinnest(const Rods& rods) {
+  return *std::min_element(rods.radii.begin(), rods.radii.end());
+}
+
+/// A sentence of numbers and words, with three digits each.
+template <class... Parts>
+std::string sentence(const Parts&... parts) {
+  std::ostringstream text;
+  text.precision(3);
+  (text << ... << parts);
+  return text.str();
+}
+
+/// Bending waves shorter than this go faster than steps [m]: those of ω h = 1, ω = k² √(EI/ρA).
+double shortest_wave(const RodSection& section, double step) {
+  return 2.0 * M_PI *
+         std::pow(step * step * section.bending_stiffness / section.mass_per_length, 0.25);
+}
+
+void judge_steps(const SimScene& scene, SimReport& report) {
+  const double step = scene.step_length();
+  double longest = 0.0;
+  for (const RodSection& section : scene.stepper->rods().sections) {
+    longest = std::max(longest, shortest_wave(section, step));
+  }
+  if (scene.options.integrator == Integrator::IMPLICIT_MIDPOINT) {
+    report.facts.push_back(sentence("stable: implicit midpoint in steps of ", 1e3 * step,
+                                    " ms keeps energy; bending waves below about ", 1e3 * longest,
+                                    " mm are not resolved and ring"));
+    return;
+  }
+  // ω² h / 2 is the rate at which implicit Euler damps a swing of ω.
+  const double lost = 1.0 - std::exp(-0.5 * std::pow(2.0 * M_PI, 2) * step);
+  report.facts.push_back(sentence("stable: implicit Euler in steps of ", 1e3 * step,
+                                  " ms; expect bending waves below about ", 1e3 * longest,
+                                  " mm to be damped at once, and a swing of 1 Hz to lose ",
+                                  100.0 * lost, " % of its height a second"));
+}
+
+void judge_grippers(const SimScene& scene, SimReport& report) {
+  const double way = scene.fastest_hold * scene.step_length();
+  const double radius = thinnest(scene.stepper->rods());
+  if (way > radius) {
+    report.warnings.push_back(sentence(
+        "a gripper moves ", 1e3 * way, " mm a step, more than the thinnest radius, ", 1e3 * radius,
+        " mm: nothing passes through anything, but expect jerks in contacts; ",
+        std::ceil(way / radius) * scene.substeps, " substeps would be enough"));
+  } else if (way > 0.0) {
+    report.facts.push_back(sentence("grippers move up to ", 1e3 * way, " mm a step, ", way / radius,
+                                    " of the thinnest radius"));
+  }
+}
+
+void judge_contacts(const SimScene& scene, SimReport& report) {
+  if (!scene.has_contacts) {
+    return;
+  }
+  const Rods& rods = scene.stepper->rods();
+  const double step = scene.step_length();
+  double softest = 1.0;
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    const double mass = *std::min_element(rods.masses.begin() + rods.first(rod),
+                                          rods.masses.begin() + rods.end(rod));
+    softest =
+        std::min(softest, largest_contact_stiffness(mass, step) /
+                              material_contact_stiffness(rods.sections[rod], rods.radii[rod]));
+  }
+  report.facts.push_back(
+      softest < 1.0
+          ? sentence(
+                "contacts are stable: springs are softened to ", softest,
+                " of the material's stiffness, as much as a node's mass bears in a step; expect "
+                "surfaces to give way accordingly, more substeps make them harder")
+          : std::string("contacts are stable: springs are as stiff as the material"));
+}
+
+void judge_trial(const SimScene& scene, const SimTrial& trial, SimReport& report) {
+  if (!trial.failure.empty()) {
+    report.warnings.push_back(
+        sentence("expect it to stop after ", trial.steps, " step(s): ", trial.failure));
+    return;
+  }
+  const double radius = thinnest(scene.stepper->rods());
+  const std::string solved = sentence(
+      scene.options.iterations, " iteration(s) were within ", 1e3 * trial.iteration_error,
+      " mm of ", more_iterations * scene.options.iterations, " after ", trial.steps, " step(s)");
+  if (trial.iteration_error > 0.5 * radius) {
+    report.warnings.push_back(solved +
+                              sentence(", more than half of the thinnest radius, ", 1e3 * radius,
+                                       " mm: expect lag; more iterations or substeps mend it"));
+  } else {
+    report.facts.push_back(solved + ", and suffice there");
+  }
+  const std::string speed = sentence("expected real-time factor ", trial.real_time_factor,
+                                     ", by the first ", trial.steps, " step(s)");
+  if (trial.real_time_factor < 1.0) {
+    report.warnings.push_back(speed +
+                              ": expect it to fall behind; fewer segments or substeps, or "
+                              "real_time: true, mend it");
+  } else {
+    report.facts.push_back(speed);
+  }
+}
+
+}  // namespace
+
+SimTrial try_scene(SimDescription description, std::uint32_t threads) {
+  SimScene scene = make_sim_scene(description, threads);
+  description.options.iterations *= more_iterations;
+  SimScene better = make_sim_scene(description, threads);
+  SimTrial trial;
+  double taken = 0.0;
+  double both = 0.0;
+  try {
+    while (trial.steps < most_trial_frames * scene.substeps && both < longest_trial) {
+      const double time = run_step(scene);
+      taken += time;
+      both += time + run_step(better);
+      ++trial.steps;
+    }
+  } catch (const std::exception& error) {
+    trial.failure = error.what();
+    return trial;
+  }
+  trial.real_time_factor = trial.steps * scene.step_length() / taken;
+  trial.iteration_error = furthest(scene.stepper->rods(), better.stepper->rods());
+  return trial;
+}
+
+SimReport report(const SimScene& scene, const SimTrial& trial) {
+  SimReport report;
+  judge_steps(scene, report);
+  judge_grippers(scene, report);
+  judge_contacts(scene, report);
+  judge_trial(scene, trial, report);
+  return report;
+}
+
+}  // namespace fiber
