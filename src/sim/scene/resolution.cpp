@@ -83,12 +83,6 @@ void read_resolution(const YamlField& document, double gravity, SimDescription& 
   };
   if (accuracy) {
     choose(read_accuracy(*accuracy));
-    if (scene.substeps > most_substeps) {
-      accuracy->refuse("coarser: it takes " + std::to_string(scene.substeps) +
-                       " substeps a frame, " + std::to_string(most_substeps) +
-                       " are the most; implicit_midpoint takes fewer, and `substeps` in the scene "
-                       "are not chosen");
-    }
   } else if (is_real_time) {
     for (const double candidate : accuracies) {
       choose(candidate);
@@ -99,6 +93,12 @@ void read_resolution(const YamlField& document, double gravity, SimDescription& 
     }
   }
   cut(fibers, scene.accuracy, scene);
+  if (scene.substeps > most_substeps) {
+    accuracy->refuse("coarser: it takes " + std::to_string(scene.substeps) + " substeps a frame, " +
+                     std::to_string(most_substeps) +
+                     " are the most; implicit_midpoint takes fewer, and `substeps` in the scene "
+                     "are not chosen");
+  }
 }
 
 }  // namespace fiber
