@@ -5,6 +5,7 @@
 #include "fiber_proximity/ros/cloud_options.hpp"
 #include "fiber_proximity/ros/parameters.hpp"
 #include "fiber_proximity/ros/yaml_parameter.hpp"
+#include "fiber_proximity/text/with_context.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -43,11 +44,8 @@ std::vector<RobotLink> read_robot(const ros::NodeHandle& node, const ros::NodeHa
                                 " is true, but parameter " + node.resolveName(name) +
                                 " is not set, it must be the URDF of the robot");
   }
-  try {
-    return read_robot(description, meshes);
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument("parameter " + node.resolveName(name) + ": " + error.what());
-  }
+  return fiber::with_context("parameter " + node.resolveName(name),
+                             [&] { return read_robot(description, meshes); });
 }
 
 /// @returns false if this is not what an entry must be

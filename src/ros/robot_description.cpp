@@ -49,12 +49,9 @@ RobotLink read_link(const urdf::Link& link, const MeshLoader& meshes) {
   read.frame = link.name;
   read.object.name = fiber::robot_prefix + link.name;
   for (std::size_t i = 0; i < link.collision_array.size(); ++i) {
-    try {
+    fiber::with_context("link '" + link.name + "', collision " + std::to_string(i), [&] {
       read.object.shapes.push_back(to_placed_shape(*link.collision_array[i], meshes));
-    } catch (const std::invalid_argument& error) {
-      throw std::invalid_argument("link '" + link.name + "', collision " + std::to_string(i) +
-                                  ": " + error.what());
-    }
+    });
   }
   fiber::validate(read.object);
   return read;

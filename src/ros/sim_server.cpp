@@ -71,7 +71,7 @@ SimServer::SimServer(const ros::NodeHandle& private_node, const SimOptions& opti
   }
   obstacles_ = node_.advertise<fiber_proximity::ObstacleArray>("obstacles", 1, true);
   publish();
-  publish_obstacles(nullptr);
+  publish_obstacles({});
   make_markers();
   advertise_services();
   timer_ = node_.createSteadyTimer(ros::WallDuration(scene_.time_step),
@@ -204,15 +204,11 @@ void SimServer::publish() {
   fibers_.publish(message_);
 }
 
-/// @param before of the scene before, of which what is no longer there goes; null for none
-void SimServer::publish_obstacles(const fiber::Environment* before) {
-  using Objects = std::vector<fiber::EnvironmentObject>;
-  const auto objects_of = [](const fiber::Environment* environment) {
-    return environment == nullptr ? Objects() : environment->objects();
-  };
-  const Objects objects = objects_of(scene_.environment.get());
+/// @param before of the scene before, of which what is no longer there goes
+void SimServer::publish_obstacles(const std::vector<fiber::EnvironmentObject>& before) {
+  const std::vector<fiber::EnvironmentObject>& objects = scene_.environment->objects();
   fiber_proximity::ObstacleArray message;
-  for (const fiber::EnvironmentObject& old : objects_of(before)) {
+  for (const fiber::EnvironmentObject& old : before) {
     const auto is_same = [&old](const auto& object) { return object.name == old.name; };
     if (std::none_of(objects.begin(), objects.end(), is_same)) {
       message.obstacles.emplace_back();

@@ -79,7 +79,7 @@ void SimServer::begin_again() {
   failure_.clear();
   interruption_ = "~reset began the scene again";
   publish();
-  publish_obstacles(scene.environment.get());
+  publish_obstacles(scene.environment->objects());
   make_markers();
 }
 

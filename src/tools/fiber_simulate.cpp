@@ -2,14 +2,12 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 
 #include "command_line.hpp"
 #include "fiber_proximity/io/fiber_file.hpp"
-#include "fiber_proximity/io/pvd.hpp"
 #include "fiber_proximity/sim/scene/scene.hpp"
 #include "fiber_proximity/text/quote.hpp"
 #include "progress.hpp"
@@ -24,36 +22,6 @@ struct Request {
   double seconds = 0.0;
   std::string out;
   std::uint32_t threads = 0;
-};
-
-/// Frames on the way to a file, of the format that its name tells.
-class FrameWriter {
- public:
-  explicit FrameWriter(const std::string& path) {
-    if (std::filesystem::path(path).extension() == ".pvd") {
-      pvd_.emplace(path);
-    } else {
-      fibers_.emplace(path, true);
-    }
-  }
-
-  void write(const FiberFrame& frame, double time) {
-    if (pvd_) {
-      pvd_->write(frame, time);
-    } else {
-      fibers_->write(frame);
-    }
-  }
-
-  void finish() {
-    if (fibers_) {
-      fibers_->finish();
-    }
-  }
-
- private:
-  std::optional<PvdWriter> pvd_;
-  std::optional<FiberWriter> fibers_;
 };
 
 /// A bar on a terminal, renewed some times a second.
@@ -125,7 +93,7 @@ ExitCode run(const Request& request) {
   const std::int64_t frames = frames_in(request.seconds, scene.time_step);
   const Rods& rods = scene.stepper->rods();
   FiberFrame frame{0, FiberAssembly(rods.positions, rods.offsets, rods.radii)};
-  FrameWriter writer(request.out);
+  FiberWriter writer(request.out, true);
   writer.write(frame, 0.0);
   Bar bar;
   while (frame.frame < frames) {

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <iterator>
 #include <sstream>
 
+#include "fiber_proximity/io/fiber_file.hpp"
 #include "support/process.hpp"
 #include "support/temporary_directory.hpp"
 
@@ -77,6 +79,15 @@ TEST(Pvd, CanBeOpenedAfterEachFrame) {
   writer.write({1, two_fibers(1.0)}, 1.0 / 60.0);
   EXPECT_EQ(files_named_in(file), first + "0.016666666666666666 a<b>&\"c_000001.vtp\n");
   EXPECT_EQ(files_named_in(folder.path("a<b>&\"c_000001.vtp")), "");
+}
+
+TEST(Pvd, AFiberWriterWritesItByItsName) {
+  const test::TemporaryDirectory folder;
+  FiberWriter writer(folder.path("run.PVD"), true);
+  writer.write({7, two_fibers(0.0)});
+  writer.write({8, two_fibers(0.0)}, 0.25);
+  writer.finish();
+  EXPECT_EQ(files_named_in(folder.path("run.PVD")), "7 run_000007.vtp\n0.25 run_000008.vtp\n");
 }
 
 TEST(Pvd, WhatCannotBeWrittenIsNamed) {

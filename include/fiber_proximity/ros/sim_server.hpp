@@ -75,7 +75,7 @@ class SimServer {
   void warn_of_strain() const;
   void make_markers();
   void publish();
-  void publish_obstacles(const fiber::Environment* before);
+  void publish_obstacles(const std::vector<fiber::EnvironmentObject>& before);
   fiber::NodeOfRod find_node(const std::string& fiber, std::int32_t node) const;
 
   void step_frames(std::uint32_t count);

@@ -1,6 +1,7 @@
 #include "fiber_proximity/environment/scene/environment_scene.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <map>
 #include <set>
@@ -14,35 +15,22 @@
 namespace fiber {
 namespace {
 
-// What the document says of an obstacle, before it is known to make sense.
+// An obstacle is read in two steps: what is no pose, box and so on is refused with its field, while
+// reading; what makes no sense as one is refused with the obstacle, when all of it is read.
+using MakePose = std::function<Eigen::Isometry3d()>;
+using MakeShape = std::function<Shape()>;
 
-struct PoseEntry {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
-};
-
-struct PrimitiveEntry {
-  Primitive type = Primitive::BOX;
-  std::vector<double> dimensions;
-};
-
-struct MeshEntry {
-  std::shared_ptr<const TriangleMesh> loaded;  // null: the following
-  std::vector<Eigen::Vector3d> vertices;
-  std::vector<TriangleMesh::Triangle> triangles;
-};
-
-PoseEntry read_pose(const YamlField& field) {
+MakePose read_pose(const YamlField& field) {
   field.require_map({"position", "orientation"});
-  PoseEntry pose;
-  field.read("position", pose.position);
-  if (const auto orientation = field.find("orientation")) {
-    pose.orientation = Eigen::Quaterniond(orientation->numbers(4).data());
-  }
-  return pose;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  field.read("position", position);
+  const auto given = field.find("orientation");
+  const Eigen::Quaterniond orientation =
+      given ? Eigen::Quaterniond(given->numbers(4).data()) : Eigen::Quaterniond::Identity();
+  return [position, orientation] { return make_pose(position, orientation); };
 }
 
-PrimitiveEntry read_primitive(const YamlField& field) {
+MakeShape read_primitive(const YamlField& field) {
   static const std::map<std::string, Primitive> types{{"box", Primitive::BOX},
                                                       {"sphere", Primitive::SPHERE},
                                                       {"cylinder", Primitive::CYLINDER},
@@ -52,17 +40,28 @@ PrimitiveEntry read_primitive(const YamlField& field) {
   if (type == types.end()) {
     field.get("type").refuse("box, sphere, cylinder or cone");
   }
-  return {type->second, field.get("dimensions").numbers()};
+  return [type = type->second, dimensions = field.get("dimensions").numbers()] {
+    return make_primitive(type, dimensions);
+  };
 }
 
-CapsuleShape read_capsule(const YamlField& field) {
+MakeShape read_capsule(const YamlField& field) {
   field.require_map({"radius", "length"});
-  return {field.get("radius").number(), field.get("length").number()};
+  const CapsuleShape capsule{field.get("radius").number(), field.get("length").number()};
+  return [capsule] { return capsule; };
 }
 
-Eigen::Vector4d read_plane(const YamlField& field) {
+Eigen::Vector4d read_coefficients(const YamlField& field) {
   field.require_map({"coef"});
   return Eigen::Vector4d(field.get("coef").numbers(4).data());
+}
+
+MakeShape read_plane(const YamlField& field) {
+  return [coefficients = read_coefficients(field)] { return make_plane(coefficients); };
+}
+
+MakeShape read_half_space(const YamlField& field) {
+  return [coefficients = read_coefficients(field)] { return make_half_space(coefficients); };
 }
 
 TriangleMesh::Triangle read_triangle(const YamlField& field) {
@@ -77,26 +76,6 @@ TriangleMesh::Triangle read_triangle(const YamlField& field) {
   return triangle;
 }
 
-MeshEntry read_mesh(const YamlField& field, const MeshSource& meshes) {
-  field.require_map({"resource", "scale", "vertices", "triangles"});
-  MeshEntry mesh;
-  if (const auto resource = field.find("resource")) {
-    field.require_map({"resource", "scale"});
-    Eigen::Vector3d scale = Eigen::Vector3d::Ones();
-    field.read("scale", scale);
-    mesh.loaded = with_context(resource->place(), [&] { return meshes(resource->text(), scale); });
-    return mesh;
-  }
-  field.require_map({"vertices", "triangles"});
-  for (const YamlField& vertex : field.get("vertices").items()) {
-    mesh.vertices.push_back(vertex.vector());
-  }
-  for (const YamlField& triangle : field.get("triangles").items()) {
-    mesh.triangles.push_back(read_triangle(triangle));
-  }
-  return mesh;
-}
-
 /// What a function reads of each item of the list of a key; nothing if there is no such key.
 template <class Read>
 auto read_list(const YamlField& entry, const std::string& key, const Read& read) {
@@ -109,55 +88,60 @@ auto read_list(const YamlField& entry, const std::string& key, const Read& read)
   return values;
 }
 
-Shape shape_of(const PrimitiveEntry& primitive) {
-  return make_primitive(primitive.type, primitive.dimensions);
-}
-
-Shape shape_of(const MeshEntry& mesh) {
-  return mesh.loaded != nullptr
-             ? mesh.loaded
-             : std::make_shared<const TriangleMesh>(mesh.vertices, mesh.triangles);
+MakeShape read_mesh(const YamlField& field, const MeshSource& meshes) {
+  field.require_map({"resource", "scale", "vertices", "triangles"});
+  if (const auto resource = field.find("resource")) {
+    field.require_map({"resource", "scale"});
+    Eigen::Vector3d scale = Eigen::Vector3d::Ones();
+    field.read("scale", scale);
+    const auto mesh =
+        with_context(resource->place(), [&] { return meshes(resource->text(), scale); });
+    return [mesh] { return mesh; };
+  }
+  field.require_map({"vertices", "triangles"});
+  field.get("vertices");
+  field.get("triangles");
+  return [vertices = read_list(field, "vertices", std::mem_fn(&YamlField::vector)),
+          triangles = read_list(field, "triangles", read_triangle)] {
+    return std::make_shared<const TriangleMesh>(vertices, triangles);
+  };
 }
 
 /// @param entry of which errors name the obstacle
 /// @param place where it stands, for errors about what it means
 EnvironmentObject read_object(const YamlField& entry, const std::string& name,
                               const std::string& place, const MeshSource& meshes) {
+  struct List {
+    std::string kind;
+    std::vector<MakeShape> shapes;
+    std::vector<MakePose> poses;
+  };
+  const auto read_shapes = [&entry](const std::string& kind, const char* shapes, const char* poses,
+                                    const auto& read) {
+    return List{kind, read_list(entry, shapes, read), read_list(entry, poses, read_pose)};
+  };
   const auto pose = entry.find("pose");
-  const PoseEntry object_pose = pose ? read_pose(*pose) : PoseEntry();
-  const auto read_poses = [&entry](const char* key) { return read_list(entry, key, read_pose); };
-  const auto primitives = read_list(entry, "primitives", read_primitive);
-  const auto primitive_poses = read_poses("primitive_poses");
-  const auto capsules = read_list(entry, "capsules", read_capsule);
-  const auto capsule_poses = read_poses("capsule_poses");
-  const auto mesh_entries = read_list(
-      entry, "meshes", [&meshes](const YamlField& mesh) { return read_mesh(mesh, meshes); });
-  const auto mesh_poses = read_poses("mesh_poses");
-  const auto planes = read_list(entry, "planes", read_plane);
-  const auto plane_poses = read_poses("plane_poses");
-  const auto half_spaces = read_list(entry, "half_spaces", read_plane);
-  const auto half_space_poses = read_poses("half_space_poses");
+  const MakePose object_pose = pose ? read_pose(*pose) : &Eigen::Isometry3d::Identity;
+  const auto read_one = [&meshes](const YamlField& field) { return read_mesh(field, meshes); };
+  const List lists[] = {
+      read_shapes("primitive", "primitives", "primitive_poses", read_primitive),
+      read_shapes("capsule", "capsules", "capsule_poses", read_capsule),
+      read_shapes("mesh", "meshes", "mesh_poses", read_one),
+      read_shapes("plane", "planes", "plane_poses", read_plane),
+      read_shapes("half-space", "half_spaces", "half_space_poses", read_half_space)};
   return with_context(place, [&] {
     ObjectChange change;
-    EnvironmentObject& object = change.object;
+    change.object.name = name;
     with_context("obstacle " + quote(name), [&] {
       validate_obstacle_name(name);
-      object.name = name;
-      const auto pose_of = [](const PoseEntry& given) {
-        return make_pose(given.position, given.orientation);
-      };
-      object.pose = with_context("pose", [&] { return pose_of(object_pose); });
-      const auto make = [](const auto& given) { return shape_of(given); };
-      const auto keep = [](const CapsuleShape& capsule) { return capsule; };
-      append_shapes("primitive", primitives, primitive_poses, make, pose_of, object.shapes);
-      append_shapes("capsule", capsules, capsule_poses, keep, pose_of, object.shapes);
-      append_shapes("mesh", mesh_entries, mesh_poses, make, pose_of, object.shapes);
-      append_shapes("plane", planes, plane_poses, make_plane, pose_of, object.shapes);
-      append_shapes("half-space", half_spaces, half_space_poses, make_half_space, pose_of,
-                    object.shapes);
+      change.object.pose = with_context("pose", object_pose);
+      const auto call = [](const auto& make) { return make(); };
+      for (const List& list : lists) {
+        append_shapes(list.kind, list.shapes, list.poses, call, call, change.object.shapes);
+      }
     });
     validate(change);
-    return object;
+    return change.object;
   });
 }
 

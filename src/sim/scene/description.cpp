@@ -61,12 +61,13 @@ bool read_separates_overlaps(const std::optional<YamlField>& field) {
 }
 
 /// Reads the obstacles of a scene, which are all in its frame: nothing moves them.
-void read_environment(const YamlField& field, const MeshSource& meshes, SimDescription& scene) {
-  const EnvironmentScene read = read_environment_scene(field, meshes);
+void read_environment(const std::optional<YamlField>& field, const MeshSource& meshes,
+                      SimDescription& scene) {
+  const EnvironmentScene read = field ? read_environment_scene(*field, meshes) : EnvironmentScene();
   std::vector<EnvironmentObject> objects;
   for (const SceneObstacle& obstacle : read.obstacles) {
     if (!obstacle.frame_id.empty() && obstacle.frame_id != scene.frame_id) {
-      throw std::invalid_argument(field.place() + ": obstacle " + quote(obstacle.object.name) +
+      throw std::invalid_argument(field->place() + ": obstacle " + quote(obstacle.object.name) +
                                   " is in frame " + quote(obstacle.frame_id) +
                                   ", it must be in the scene's, " + quote(scene.frame_id));
     }
@@ -101,9 +102,7 @@ SimDescription read_sim_scene(const YamlField& document, const MeshSource& meshe
   const auto holds = read_effects(document.get("effects"), scene);
   read_stepper_options(document, scene.has_contacts, scene.options);
   read_resolution(document, gravity_of(scene), scene);
-  if (const auto environment = document.find("environment")) {
-    read_environment(*environment, meshes, scene);
-  }
+  read_environment(document.find("environment"), meshes, scene);
   if (holds) {
     read_holds(*holds, scene);
   }

@@ -208,7 +208,7 @@ class EffectMaker {
     add(make<FiberContact>("fiber_contact", FiberContact::Options{Pairing::DIFFERENT_FIBERS,
                                                                   stiffness("fiber_contact")}));
     const SimEffect* outside = description_.find_effect("environment_contact");
-    if (outside != nullptr && description_.environment == nullptr) {
+    if (outside != nullptr && description_.environment->objects().empty()) {
       throw std::invalid_argument(outside->place + ": the scene has no environment to touch");
     }
     add(make<EnvironmentContact>(

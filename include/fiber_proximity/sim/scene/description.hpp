@@ -30,7 +30,7 @@ struct SimSettings {
   /// itself how it moves: ~attach, handles and frames of tf.
   double max_strain = 0.1;
 
-  std::shared_ptr<const Environment> environment;  ///< null if the scene has none
+  std::shared_ptr<const Environment> environment;  ///< never null
 
   bool has_effect(const std::string& name) const;
   double step_length() const { return time_step / substeps; }  ///< [s]
@@ -88,7 +88,7 @@ struct SimDescription : SimSettings {
   std::vector<SimEffect> effects;  ///< in the order of the scene
   SimCurvature natural_curvature;
   std::vector<SimHold> holds;
-  AllowedPairs allowed;            ///< fibres and objects that may touch
+  AllowedPairs allowed;             ///< fibres and objects that may touch
   bool separates_overlaps = false;  ///< moves fibres apart that begin inside of something
 
   /// Null if the scene does not name it.
