@@ -5,7 +5,6 @@
 #include <set>
 #include <stdexcept>
 #include <string_view>
-#include <tuple>
 #include <utility>
 
 #include "fiber_proximity/text/quote.hpp"
@@ -24,11 +23,6 @@ std::string label(const NamedPair& pair) {
          ", segments [" + shortened(segments) + "]";
 }
 
-/// What makes two pairs the same.
-using Key = std::tuple<std::string, std::string, std::vector<std::int32_t>>;
-
-Key key_of(const NamedPair& pair) { return {pair.object, pair.fiber, pair.segments}; }
-
 }  // namespace
 
 void validate(const NamedPair& pair) {
@@ -46,26 +40,19 @@ void validate(const NamedPair& pair) {
   }
 }
 
-void AllowedContacts::apply(const Change& change) {
-  Pairs pairs = change.reset ? Pairs() : pairs_;
-  std::set<Key> keys;
-  for (const NamedPair& pair : pairs) {
-    keys.insert(key_of(pair));
-  }
-  for (const NamedPair& pair : change.forbid) {
-    if (keys.erase(key_of(pair)) == 0) {
+void AllowedContacts::apply(bool reset, const Pairs& forbid, const Pairs& allow) {
+  Pairs pairs = reset ? Pairs() : pairs_;
+  std::set<NamedPair> known(pairs.begin(), pairs.end());
+  for (const NamedPair& pair : forbid) {
+    if (known.erase(pair) == 0) {
       throw std::invalid_argument(label(pair) + ": it is not allowed, so it cannot be taken back");
     }
   }
-  if (!change.forbid.empty()) {
-    const auto is_forbidden = [&keys](const NamedPair& pair) {
-      return keys.count(key_of(pair)) == 0;
-    };
-    pairs.erase(std::remove_if(pairs.begin(), pairs.end(), is_forbidden), pairs.end());
-  }
-  for (const NamedPair& pair : change.allow) {
+  const auto is_forbidden = [&known](const NamedPair& pair) { return known.count(pair) == 0; };
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), is_forbidden), pairs.end());
+  for (const NamedPair& pair : allow) {
     validate(pair);
-    if (keys.insert(key_of(pair)).second) {
+    if (known.insert(pair).second) {
       pairs.push_back(pair);
     }
   }

@@ -70,7 +70,7 @@ EnvironmentInputs::EnvironmentInputs(const ros::NodeHandle& node,
       obstacle_topic_("obstacles", "fiber_proximity/ObstacleArray"),
       changes_(frame),
       is_configured_(is_configured(options)) {
-  allowed_.apply({false, {}, options.scene.allowed});
+  allowed_.apply(false, {}, options.scene.allowed);
   scene_.update(obstacles_, frame_);
   ros::NodeHandle own(private_node);
   if (options.cloud) {
@@ -188,7 +188,7 @@ void EnvironmentInputs::apply(std::shared_ptr<const ObstacleService::Obstacles> 
 bool EnvironmentInputs::allow(fiber_proximity::AllowPairs::Request& request,
                               fiber_proximity::AllowPairs::Response& response) {
   try {
-    allowed_.apply({request.reset != 0, to_pairs(request.forbid), to_pairs(request.allow)});
+    allowed_.apply(request.reset != 0, to_pairs(request.forbid), to_pairs(request.allow));
     response.success = true;
     was_changed_ = true;
     on_message_();

@@ -8,19 +8,20 @@ namespace fiber {
 namespace {
 
 using test::error_of;
-using Change = AllowedContacts::Change;
+using Pairs = std::vector<NamedPair>;
 
 NamedPair pair(const std::string& object, const std::string& fiber,
                const std::vector<std::int32_t>& segments = {}) {
   return {object, fiber, segments};
 }
 
-Change allow(const std::vector<NamedPair>& pairs) { return {false, {}, pairs}; }
+void allow(const Pairs& pairs, AllowedContacts& contacts) { contacts.apply(false, {}, pairs); }
 
 TEST(AllowedContacts, NamesBecomeTheIndicesOfTheFibresThereAre) {
   AllowedContacts contacts;
-  contacts.apply(allow({pair("gripper", "left", {-3, -1}), pair("", "right"), pair("table", ""),
-                        pair("cloud", "absent")}));
+  allow({pair("gripper", "left", {-3, -1}), pair("", "right"), pair("table", ""),
+         pair("cloud", "absent")},
+        contacts);
   const AllowedPairs pairs = resolve(contacts.pairs(), {"right", "left", "other", "left"});
   ASSERT_EQ(pairs.size(), 4U);
   EXPECT_EQ(pairs[0].object, "gripper");
@@ -39,35 +40,28 @@ TEST(AllowedContacts, NamesBecomeTheIndicesOfTheFibresThereAre) {
 
 TEST(AllowedContacts, WhatIsAllowedTwiceIsAllowedOnce) {
   AllowedContacts contacts;
-  contacts.apply(allow({pair("gripper", "left"), pair("gripper", "left")}));
-  contacts.apply(allow({pair("gripper", "left")}));
+  allow({pair("gripper", "left"), pair("gripper", "left")}, contacts);
+  allow({pair("gripper", "left")}, contacts);
   EXPECT_EQ(contacts.pairs().size(), 1U);
 }
 
 TEST(AllowedContacts, AResetComesFirstAndThenWhatIsTakenBack) {
   AllowedContacts contacts;
-  contacts.apply(allow({pair("gripper", "left"), pair("gripper", "left", {0, 4})}));
-  Change change;
-  change.forbid = {pair("gripper", "left")};
-  change.allow = {pair("table", "left")};
-  contacts.apply(change);
+  allow({pair("gripper", "left"), pair("gripper", "left", {0, 4})}, contacts);
+  contacts.apply(false, {pair("gripper", "left")}, {pair("table", "left")});
   ASSERT_EQ(contacts.pairs().size(), 2U);
   EXPECT_EQ(contacts.pairs()[0].segments, (std::vector<std::int32_t>{0, 4}));
   EXPECT_EQ(contacts.pairs()[1].object, "table");
-  change = allow({pair("gripper", "right")});
-  change.reset = true;
-  contacts.apply(change);
+  contacts.apply(true, {}, {pair("gripper", "right")});
   ASSERT_EQ(contacts.pairs().size(), 1U);
   EXPECT_EQ(contacts.pairs()[0].fiber, "right");
 }
 
 TEST(AllowedContacts, ABadPairChangesNothing) {
   AllowedContacts contacts;
-  contacts.apply(allow({pair("gripper", "left")}));
+  allow({pair("gripper", "left")}, contacts);
   const auto error_with = [&contacts](const NamedPair& bad) {
-    Change change = allow({pair("table", "left"), bad});
-    change.reset = true;
-    return error_of([&] { contacts.apply(change); });
+    return error_of([&] { contacts.apply(true, {}, {pair("table", "left"), bad}); });
   };
   EXPECT_EQ(error_with(pair("table", "right", {1})),
             "pair of object 'table' and fiber 'right', segments [1]: segments must be the first "
@@ -82,11 +76,10 @@ TEST(AllowedContacts, ABadPairChangesNothing) {
   EXPECT_EQ(contacts.pairs()[0].object, "gripper");
   EXPECT_EQ(error_with(pair("table", "right", {2, -1})), "no error");
   contacts = AllowedContacts();
-  contacts.apply(allow({pair("gripper", "left")}));
-  Change change;
-  change.allow = {pair("table", "left")};
-  change.forbid = {pair("gripper", "left", {0, -1})};
-  EXPECT_EQ(error_of([&] { contacts.apply(change); }),
+  allow({pair("gripper", "left")}, contacts);
+  EXPECT_EQ(error_of([&] {
+              contacts.apply(false, {pair("gripper", "left", {0, -1})}, {pair("table", "left")});
+            }),
             "pair of object 'gripper' and fiber 'left', segments [0, -1]: it is not allowed, so it "
             "cannot be taken back");
   ASSERT_EQ(contacts.pairs().size(), 1U);

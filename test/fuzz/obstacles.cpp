@@ -20,7 +20,7 @@ void try_scene(const std::string& text) {
     test::finding("obstacles that are not in the environment");
   }
   AllowedContacts allowed;
-  allowed.apply({false, {}, scene.allowed});
+  allowed.apply(false, {}, scene.allowed);
   resolve(allowed.pairs(), {"cable", "rope"});
 }
 

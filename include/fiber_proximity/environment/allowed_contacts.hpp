@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "fiber_proximity/environment/allowed_pairs.hpp"
@@ -14,6 +15,10 @@ struct NamedPair {
 
   /// First and last segment of a part of the fibre, as AllowedPair has them; empty for all of it.
   std::vector<std::int32_t> segments;
+
+  bool operator<(const NamedPair& other) const {
+    return std::tie(object, fiber, segments) < std::tie(other.object, other.fiber, other.segments);
+  }
 };
 
 /// @throws std::invalid_argument naming object and fibre, for segments that are not the first and
@@ -27,16 +32,11 @@ AllowedPairs resolve(const std::vector<NamedPair>& pairs,
 /// Which objects may touch which parts of fibres, each pair once.
 class AllowedContacts {
  public:
-  struct Change {
-    bool reset = false;             ///< forget all pairs first
-    std::vector<NamedPair> forbid;  ///< take back
-    std::vector<NamedPair> allow;
-  };
-
-  /// Does all of a change, or nothing.
+  /// Takes back pairs and allows others, or does nothing.
+  /// @param reset forgets all pairs first
   /// @throws std::invalid_argument naming the pair, as validate(), or to take back one that is not
   ///         allowed
-  void apply(const Change& change);
+  void apply(bool reset, const std::vector<NamedPair>& forbid, const std::vector<NamedPair>& allow);
 
   const std::vector<NamedPair>& pairs() const { return pairs_; }
 

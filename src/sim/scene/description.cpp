@@ -63,6 +63,10 @@ bool read_separates_overlaps(const std::optional<YamlField>& field) {
 /// Reads the obstacles of a scene, which are all in its frame: nothing moves them.
 void read_environment(const std::optional<YamlField>& field, const MeshSource& meshes,
                       SimDescription& scene) {
+  const SimEffect* contact = scene.find_effect("environment_contact");
+  if (!field && contact != nullptr) {
+    throw std::invalid_argument(contact->place + ": the scene has no environment to touch");
+  }
   const EnvironmentScene read = field ? read_environment_scene(*field, meshes) : EnvironmentScene();
   std::vector<EnvironmentObject> objects;
   for (const SceneObstacle& obstacle : read.obstacles) {

@@ -207,10 +207,6 @@ class EffectMaker {
                            FiberContact::Options{Pairing::SAME_FIBER, stiffness("self_contact")}));
     add(make<FiberContact>("fiber_contact", FiberContact::Options{Pairing::DIFFERENT_FIBERS,
                                                                   stiffness("fiber_contact")}));
-    const SimEffect* outside = description_.find_effect("environment_contact");
-    if (outside != nullptr && description_.environment->objects().empty()) {
-      throw std::invalid_argument(outside->place + ": the scene has no environment to touch");
-    }
     add(make<EnvironmentContact>(
         "environment_contact", description_.environment,
         EnvironmentContact::Options{stiffness("environment_contact"), description_.allowed}));
