@@ -13,7 +13,7 @@ fiber_proximity_tool(fiber_bench src/tools/fiber_bench.cpp
   benchmark/environment/own_checker.cpp benchmark/kernels.cpp
   benchmark/continuous/fiber_ways.cpp benchmark/continuous/measure_accuracy.cpp benchmark/continuous/measure_scenes.cpp
   benchmark/continuous/measure_times.cpp benchmark/continuous/scene_motions.cpp
-  benchmark/measurement.cpp benchmark/motions.cpp benchmark/progress.cpp benchmark/scene_commands.cpp
+  benchmark/measurement.cpp benchmark/motions.cpp benchmark/scene_commands.cpp
   benchmark/scene_options.cpp benchmark/sim/effect_costs.cpp benchmark/sim/effect_scene.cpp
   benchmark/sim/hose.cpp benchmark/sim/loads.cpp
   benchmark/sim/measurements.cpp benchmark/sim/validation.cpp benchmark/sim/xpbd_rod.cpp

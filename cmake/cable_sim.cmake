@@ -1,24 +1,13 @@
-# Scenes of the simulation from YAML, and the node that runs them.
+# The node that runs scenes of the simulation.
 
 add_library(fiber_proximity_cable_sim SHARED
-  src/ros/sim_effects.cpp
-  src/ros/sim_fibers.cpp
   src/ros/sim_frames.cpp
-  src/ros/sim_holds.cpp
   src/ros/sim_markers.cpp
-  src/ros/sim_natural_curvature.cpp
-  src/ros/sim_overlap.cpp
-  src/ros/sim_parameters.cpp
-  src/ros/sim_reach.cpp
-  src/ros/sim_report.cpp
-  src/ros/sim_resolution.cpp
-  src/ros/sim_scene.cpp
   src/ros/sim_server.cpp
   src/ros/sim_services.cpp
-  src/ros/sim_shapes.cpp
 )
 target_link_libraries(fiber_proximity_cable_sim
-  PUBLIC fiber_proximity_ros fiber_proximity_sim PRIVATE yaml-cpp fiber_proximity_options)
+  PUBLIC fiber_proximity_ros fiber_proximity_sim_scene PRIVATE fiber_proximity_options)
 fiber_proximity_parse_once(fiber_proximity_cable_sim ${ros_headers})
 
 add_executable(cable_sim src/nodes/cable_sim.cpp)
@@ -29,7 +18,8 @@ target_link_libraries(fiber_proximity_nodelets
   PUBLIC fiber_proximity_cable_sim PRIVATE fiber_proximity_options)
 fiber_proximity_compile_fast(fiber_proximity_cable_sim cable_sim fiber_proximity_nodelets)
 
-install(TARGETS fiber_proximity_sim fiber_proximity_cable_sim fiber_proximity_nodelets
+install(TARGETS fiber_proximity_sim fiber_proximity_sim_scene fiber_proximity_cable_sim
+    fiber_proximity_nodelets
   ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION}

@@ -1,6 +1,7 @@
 # What is around the fibres, over FCL: a library of its own, so that the core does not need it.
 
 add_library(fiber_proximity_environment SHARED
+  src/environment/allowed_contacts.cpp
   src/environment/allowed_parts.cpp
   src/environment/axis_distance.cpp
   src/environment/check_fibers.cpp
@@ -10,6 +11,7 @@ add_library(fiber_proximity_environment SHARED
   src/environment/environment_query.cpp
   src/environment/mesh_topology.cpp
   src/environment/object_path.cpp
+  src/environment/obstacle_parts.cpp
   src/environment/occupancy_octree.cpp
   src/environment/path_collector.cpp
   src/environment/point_distance.cpp

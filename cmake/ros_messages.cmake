@@ -6,7 +6,6 @@ set(ros_dependencies
   diagnostic_msgs
   diagnostic_updater
   dynamic_reconfigure
-  geometric_shapes
   geometry_msgs
   interactive_markers
   nav_msgs
@@ -25,7 +24,6 @@ set(ros_dependencies
   visualization_msgs
 )
 find_package(catkin REQUIRED COMPONENTS message_generation ${ros_dependencies})
-find_package(yaml-cpp REQUIRED)
 
 add_message_files(FILES
   AllowedPair.msg

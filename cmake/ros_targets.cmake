@@ -1,7 +1,6 @@
 # Node, nodelets, launch files, and what a catkin workspace installs.
 
 add_library(fiber_proximity_ros SHARED
-  src/ros/allowed_contacts.cpp
   src/ros/candidates.cpp
   src/ros/chain_set.cpp
   src/ros/change_topic.cpp
@@ -25,7 +24,6 @@ add_library(fiber_proximity_ros SHARED
   src/ros/environment_motion_detector.cpp
   src/ros/environment_options.cpp
   src/ros/environment_output.cpp
-  src/ros/environment_scene.cpp
   src/ros/fiber_formats.cpp
   src/ros/fiber_player.cpp
   src/ros/fiber_step.cpp
@@ -35,7 +33,6 @@ add_library(fiber_proximity_ros SHARED
   src/ros/input_set.cpp
   src/ros/input_types.cpp
   src/ros/legend.cpp
-  src/ros/load_yaml.cpp
   src/ros/marker_input.cpp
   src/ros/marker_obstacles.cpp
   src/ros/marker_scale.cpp
@@ -45,12 +42,9 @@ add_library(fiber_proximity_ros SHARED
   src/ros/motion_check.cpp
   src/ros/motion_detector.cpp
   src/ros/obstacle_change.cpp
-  src/ros/obstacle_pose.cpp
   src/ros/obstacle_service.cpp
   src/ros/obstacle_set.cpp
-  src/ros/obstacle_shapes.cpp
   src/ros/parameters.cpp
-  src/ros/parse_mesh.cpp
   src/ros/point_cloud_input.cpp
   src/ros/pose_input.cpp
   src/ros/prediction_output.cpp
@@ -74,8 +68,7 @@ add_library(fiber_proximity_ros SHARED
   src/ros/tube_sweep.cpp
   src/ros/waiting_changes.cpp
   src/ros/worker.cpp
-  src/ros/yaml_field.cpp
-  src/ros/yaml_obstacle.cpp
+  src/ros/yaml_parameter.cpp
 )
 # The generated messages' headers, as the system's: our warnings are not meant for them.
 #catkin_lint: ignore_once external_directory
@@ -83,8 +76,8 @@ add_library(fiber_proximity_ros SHARED
 target_include_directories(fiber_proximity_ros SYSTEM PUBLIC
   ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION} ${catkin_INCLUDE_DIRS})
 target_link_libraries(fiber_proximity_ros
-  PUBLIC fiber_proximity_environment fiber_proximity_fcl ${catkin_LIBRARIES}
-  PRIVATE yaml-cpp fiber_proximity_options)
+  PUBLIC fiber_proximity_environment_scene fiber_proximity_fcl ${catkin_LIBRARIES}
+  PRIVATE fiber_proximity_options)
 fiber_proximity_parse_once(fiber_proximity_ros ${ros_headers})
 # Not all exported targets: messages in other languages need not be there first.
 add_dependencies(fiber_proximity_ros
@@ -98,8 +91,8 @@ target_link_libraries(proximity_node fiber_proximity_ros fiber_proximity_options
 
 fiber_proximity_compile_fast(fiber_proximity_ros fiber_player proximity_node)
 
-install(TARGETS fiber_proximity fiber_proximity_environment fiber_proximity_fcl
-    fiber_proximity_ros
+install(TARGETS fiber_proximity fiber_proximity_environment fiber_proximity_environment_scene
+    fiber_proximity_fcl fiber_proximity_ros
   ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   RUNTIME DESTINATION ${CATKIN_GLOBAL_BIN_DESTINATION}

@@ -12,6 +12,7 @@
 #include "fiber_proximity/geometry/swept_fibers.hpp"
 #include "fiber_proximity/query/contact_in_motion.hpp"
 #include "fiber_proximity/query/deadline.hpp"
+#include "fiber_proximity/text/with_context.hpp"
 #include "path_collector.hpp"
 
 namespace fiber {
@@ -24,12 +25,8 @@ void check_path(const FiberPath& path, std::size_t index) {
                                 " states, it needs at least 2");
   }
   for (std::size_t state = 1; state < path.size(); ++state) {
-    try {
-      require_same_topology(path.front(), path[state]);
-    } catch (const std::invalid_argument& error) {
-      throw std::invalid_argument(motion + ", state " + std::to_string(state) + ": " +
-                                  error.what());
-    }
+    with_context(motion + ", state " + std::to_string(state),
+                 [&] { require_same_topology(path.front(), path[state]); });
   }
 }
 

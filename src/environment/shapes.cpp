@@ -7,6 +7,7 @@
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/text/quote.hpp"
+#include "fiber_proximity/text/with_context.hpp"
 
 namespace fiber {
 namespace {
@@ -121,16 +122,13 @@ void validate(const EnvironmentObject& object) {
   if (object.name.empty()) {
     throw std::invalid_argument("an object has no name");
   }
-  std::string where = "object " + quote(object.name);
-  try {
-    validate(object.pose);
-    for (std::size_t i = 0; i < object.shapes.size(); ++i) {
-      where = "object " + quote(object.name) + ", shape " + std::to_string(i);
+  const std::string name = "object " + quote(object.name);
+  with_context(name, [&] { validate(object.pose); });
+  for (std::size_t i = 0; i < object.shapes.size(); ++i) {
+    with_context(name + ", shape " + std::to_string(i), [&] {
       validate(object.shapes[i].shape);
       validate(object.shapes[i].pose);
-    }
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(where + ": " + error.what());
+    });
   }
 }
 

@@ -13,7 +13,22 @@ using Operation = ObjectChange::Operation;
   throw std::invalid_argument("object " + quote(object.name) + ": " + why);
 }
 
+bool adds(const ObjectChange& change) {
+  return change.operation == Operation::ADD || change.operation == Operation::APPEND;
+}
+
 }  // namespace
+
+void validate(const ObjectChange& change) {
+  const EnvironmentObject& object = change.object;
+  validate(object);
+  if (adds(change) && object.shapes.empty()) {
+    refuse(object, "an object to add or to append to needs at least 1 shape, it has none");
+  }
+  if (change.operation == Operation::MOVE && !object.shapes.empty()) {
+    refuse(object, "it is to be moved, but comes with shapes; to replace these, add it");
+  }
+}
 
 void World::apply(const std::vector<ObjectChange>& changes) {
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -29,14 +44,10 @@ void World::apply(const std::vector<ObjectChange>& changes) {
 
 void World::apply(const ObjectChange& change, Objects& objects) {
   const EnvironmentObject& object = change.object;
-  const bool adds = change.operation == Operation::ADD || change.operation == Operation::APPEND;
   const auto place = objects.find(object.name);
   const bool exists = place != objects.end();
-  validate(object);
-  if (adds && object.shapes.empty()) {
-    refuse(object, "an object to add or to append to needs at least 1 shape, it has none");
-  }
-  if (!adds && !exists) {
+  validate(change);
+  if (!adds(change) && !exists) {
     refuse(object, "there is no object of this name to move or to remove");
   }
   switch (change.operation) {
@@ -55,9 +66,6 @@ void World::apply(const ObjectChange& change, Objects& objects) {
       }
       break;
     case Operation::MOVE:
-      if (!object.shapes.empty()) {
-        refuse(object, "it is to be moved, but comes with shapes; to replace these, add it");
-      }
       place->second.pose = object.pose;
       break;
   }

@@ -6,6 +6,7 @@
 
 #include "fiber_proximity/geometry/exact_distance.hpp"
 #include "fiber_proximity/geometry/segment_distance.hpp"
+#include "fiber_proximity/text/listed.hpp"
 #include "fiber_proximity/text/quote.hpp"
 
 namespace fiber {
@@ -19,11 +20,7 @@ Kernel kernel_from_name(const std::string& name) {
   const std::vector<std::string>& names = kernel_names();
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) {
-    std::string known;
-    for (const std::string& each : names) {
-      known += (known.empty() ? "" : ", ") + each;
-    }
-    throw std::invalid_argument("unknown kernel " + quote(name) + ", known are: " + known);
+    throw std::invalid_argument("unknown kernel " + quote(name) + ", known are: " + listed(names));
   }
   return static_cast<Kernel>(found - names.begin());
 }

@@ -53,7 +53,9 @@ void CsvWriter::write(const FiberFrame& frame) {
   }
   rows_.clear();
   append_rows(rows_, frame, has_frames_);
-  stream_ << rows_;
+  if (!(stream_ << rows_)) {
+    throw FileError::from_system(path_, "cannot be written");
+  }
 }
 
 void CsvWriter::finish() {

@@ -10,7 +10,7 @@ namespace fiber {
 namespace {
 
 // Motions are judged in rounds, so that their times take little memory.
-constexpr std::size_t slices_per_round = 32;
+constexpr std::size_t motion_slices_per_round = 32;
 
 /// Which motions are asked about, and what of each is reported.
 class MotionTest {
@@ -75,9 +75,10 @@ void MotionJudge::judge(const MotionCandidates& candidates, const FiberMotion& a
   const MotionTest motions(a, b, test, options);
   const std::size_t count = (keys.size() + motions_per_slice - 1) / motions_per_slice;
   slices_.resize(std::max(slices_.size(), count));
-  times_.resize(std::max(times_.size(), std::min(count, slices_per_round) * motions_per_slice));
-  for (std::size_t round = 0; round < count; round += slices_per_round) {
-    for_each_of(std::min(slices_per_round, count - round), [&](std::size_t index) {
+  times_.resize(
+      std::max(times_.size(), std::min(count, motion_slices_per_round) * motions_per_slice));
+  for (std::size_t round = 0; round < count; round += motion_slices_per_round) {
+    for_each_of(std::min(motion_slices_per_round, count - round), [&](std::size_t index) {
       MotionSlice& slice = slices_[round + index];
       slice.contacts.clear();
       slice.touching.clear();

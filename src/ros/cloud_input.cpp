@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "fiber_proximity/ros/obstacle_change.hpp"
+#include "fiber_proximity/environment/obstacle_parts.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -15,12 +15,12 @@ const char* const type_name = "sensor_msgs/PointCloud2";
 constexpr double unused_warning_period = 5.0;
 
 bool remove_cloud(fiber::World& world) {
-  if (!world.has(cloud_name)) {
+  if (!world.has(fiber::cloud_name)) {
     return false;
   }
   fiber::ObjectChange change;
   change.operation = fiber::ObjectChange::Operation::REMOVE;
-  change.object.name = cloud_name;
+  change.object.name = fiber::cloud_name;
   world.apply({change});
   return true;
 }
@@ -112,7 +112,7 @@ bool CloudInput::put_into_world(CloudResult result, fiber::World& world) {
   }
   fiber::ObjectChange change;
   change.operation = fiber::ObjectChange::Operation::ADD;
-  change.object.name = cloud_name;
+  change.object.name = fiber::cloud_name;
   change.object.shapes.push_back({newest_.octree, Eigen::Isometry3d::Identity()});
   world.apply({change});
   return true;

@@ -22,6 +22,17 @@ geometry_msgs::Vector3 to_vector_message(const Eigen::Vector3d& vector) {
   return message;
 }
 
+geometry_msgs::Pose to_message(const Eigen::Isometry3d& pose) {
+  const Eigen::Quaterniond rotation(pose.linear());
+  geometry_msgs::Pose message;
+  message.position = to_message(Eigen::Vector3d(pose.translation()));
+  message.orientation.x = rotation.x();
+  message.orientation.y = rotation.y();
+  message.orientation.z = rotation.z();
+  message.orientation.w = rotation.w();
+  return message;
+}
+
 void to_message(const fiber::FiberAssembly& fibers, const std::vector<std::string>& names,
                 fiber_proximity::FiberArray& message) {
   message.names = names;

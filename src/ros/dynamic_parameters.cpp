@@ -5,9 +5,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "fiber_proximity/ros/listed.hpp"
 #include "fiber_proximity/ros/parameters.hpp"
 #include "fiber_proximity/ros/query_settings.hpp"
+#include "fiber_proximity/text/listed.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -64,7 +64,7 @@ std::string what_is_allowed(const Description& parameter) {
   if (parameter.type == "double") {
     return allowed_number<double>("a number", parameter);
   }
-  return "one of " + listed(values_of_enumeration(parameter));
+  return "one of " + fiber::listed(values_of_enumeration(parameter));
 }
 
 template <class Number>

@@ -29,11 +29,22 @@ std::shared_ptr<const Part> part_of(const boost::shared_ptr<const Message>& mess
   return std::shared_ptr<const Part>(&part, [message](const Part* /*part*/) {});
 }
 
-fiber_proximity::AllowPairs::Request allow_all(
-    const std::vector<fiber_proximity::AllowedPair>& pairs) {
-  fiber_proximity::AllowPairs::Request request;
-  request.allow = pairs;
-  return request;
+std::vector<fiber::NamedPair> to_pairs(const std::vector<fiber_proximity::AllowedPair>& messages) {
+  std::vector<fiber::NamedPair> pairs;
+  for (const fiber_proximity::AllowedPair& message : messages) {
+    pairs.push_back({message.object, message.fiber, message.segments});
+  }
+  return pairs;
+}
+
+std::vector<fiber_proximity::AllowedPair> to_messages(const std::vector<fiber::NamedPair>& pairs) {
+  std::vector<fiber_proximity::AllowedPair> messages(pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    messages[i].object = pairs[i].object;
+    messages[i].fiber = pairs[i].fiber;
+    messages[i].segments = pairs[i].segments;
+  }
+  return messages;
 }
 
 }  // namespace
@@ -59,7 +70,7 @@ EnvironmentInputs::EnvironmentInputs(const ros::NodeHandle& node,
       obstacle_topic_("obstacles", "fiber_proximity/ObstacleArray"),
       changes_(frame),
       is_configured_(is_configured(options)) {
-  allowed_.apply(allow_all(options.scene.allowed));
+  allowed_.apply(false, {}, options.scene.allowed);
   scene_.update(obstacles_, frame_);
   ros::NodeHandle own(private_node);
   if (options.cloud) {
@@ -177,14 +188,14 @@ void EnvironmentInputs::apply(std::shared_ptr<const ObstacleService::Obstacles> 
 bool EnvironmentInputs::allow(fiber_proximity::AllowPairs::Request& request,
                               fiber_proximity::AllowPairs::Response& response) {
   try {
-    allowed_.apply(request);
+    allowed_.apply(request.reset != 0, to_pairs(request.forbid), to_pairs(request.allow));
     response.success = true;
     was_changed_ = true;
     on_message_();
   } catch (const std::exception& error) {
     response.message = error.what();
   }
-  response.allowed = allowed_.pairs();
+  response.allowed = to_messages(allowed_.pairs());
   return true;
 }
 

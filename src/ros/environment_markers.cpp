@@ -4,10 +4,10 @@
 #include <cassert>
 #include <vector>
 
+#include "fiber_proximity/environment/obstacle_parts.hpp"
 #include "fiber_proximity/environment/shape_box.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
 #include "fiber_proximity/ros/markers.hpp"
-#include "fiber_proximity/ros/obstacle_change.hpp"
 #include "fiber_proximity/ros/shape_marker.hpp"
 
 namespace fiber_proximity_ros {
@@ -18,7 +18,7 @@ using fiber::WorldBox;
 using visualization_msgs::Marker;
 
 bool is_link(const fiber::EnvironmentObject& object) {
-  return object.name.rfind(robot_prefix, 0) == 0;
+  return object.name.rfind(fiber::robot_prefix, 0) == 0;
 }
 
 /// What is near the fibres. Each is looked at only if its box is near.

@@ -4,26 +4,29 @@
 
 #include "fiber_proximity/ros/cloud_options.hpp"
 #include "fiber_proximity/ros/parameters.hpp"
+#include "fiber_proximity/ros/yaml_parameter.hpp"
+#include "fiber_proximity/text/with_context.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
 
 using XmlRpc::XmlRpcValue;
 
-EnvironmentScene read_scene(const ros::NodeHandle& node, const MeshLoader& meshes) {
+fiber::EnvironmentScene read_scene(const ros::NodeHandle& node, const MeshLoader& meshes) {
   XmlRpcValue value;
   if (!node.getParam("scene", value)) {
     return {};
   }
   if (value.getType() == XmlRpcValue::TypeStruct) {
-    return read_scene(node.resolveName("scene"), value, meshes);
+    return fiber::read_environment_scene(to_yaml(node.resolveName("scene"), value), meshes);
   }
   if (value.getType() != XmlRpcValue::TypeString) {
     refuse_parameter(node, "scene",
                      "the path of a YAML file or a map of the keys obstacles and allowed");
   }
   const auto& file = static_cast<const std::string&>(value);
-  return file.empty() ? EnvironmentScene() : read_scene(file, meshes);
+  return file.empty() ? fiber::EnvironmentScene()
+                      : fiber::read_environment_scene(fiber::load_yaml(file), meshes);
 }
 
 std::vector<RobotLink> read_robot(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
@@ -41,11 +44,8 @@ std::vector<RobotLink> read_robot(const ros::NodeHandle& node, const ros::NodeHa
                                 " is true, but parameter " + node.resolveName(name) +
                                 " is not set, it must be the URDF of the robot");
   }
-  try {
-    return read_robot(description, meshes);
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument("parameter " + node.resolveName(name) + ": " + error.what());
-  }
+  return fiber::with_context("parameter " + node.resolveName(name),
+                             [&] { return read_robot(description, meshes); });
 }
 
 /// @returns false if this is not what an entry must be

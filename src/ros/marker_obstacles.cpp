@@ -5,13 +5,12 @@
 #include <memory>
 #include <stdexcept>
 
+#include "fiber_proximity/environment/obstacle_parts.hpp"
 #include "fiber_proximity/environment/triangle_mesh.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
-#include "fiber_proximity/ros/naming.hpp"
 #include "fiber_proximity/ros/obstacle_change.hpp"
-#include "fiber_proximity/ros/obstacle_pose.hpp"
-#include "fiber_proximity/ros/obstacle_shapes.hpp"
 #include "fiber_proximity/text/quote.hpp"
+#include "fiber_proximity/text/with_context.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -148,7 +147,7 @@ std::vector<MarkerObstacles::Step> MarkerObstacles::read(const Markers& markers,
                                                          const ros::Time& now) {
   std::vector<Step> steps;
   for (std::size_t i = 0; i < markers.size(); ++i) {
-    naming("marker " + fiber::quote(marker_name(markers[i])), [&] {
+    fiber::with_context("marker " + fiber::quote(marker_name(markers[i])), [&] {
       if (auto step = read(markers[i], now)) {
         step->marker = i;
         steps.push_back(std::move(*step));
@@ -181,10 +180,10 @@ std::optional<MarkerObstacles::Step> MarkerObstacles::read(const Marker& marker,
     }
     return std::nullopt;
   }
-  validate_obstacle_name(marker_name(marker));
+  fiber::validate_obstacle_name(marker_name(marker));
   fiber::EnvironmentObject object{marker_name(marker), marker_pose(marker), shapes_of(marker)};
   step.change = {Operation::ADD, std::move(object)};
-  fiber::World().apply({step.change});  // what is refused is refused here
+  fiber::validate(step.change);
   step.expiry = marker.lifetime.isZero() ? ros::Time() : now + marker.lifetime;
   return step;
 }
@@ -233,7 +232,7 @@ fiber::Shape MarkerObstacles::mesh_of(const Marker& marker) {
   if (auto known = find_mesh(marker)) {
     return std::move(*known);
   }
-  fiber::Shape mesh = to_shape(meshes_.load(marker.mesh_resource, to_vector(marker.scale)));
+  fiber::Shape mesh = meshes_(marker.mesh_resource, to_vector(marker.scale));
   const std::lock_guard<std::mutex> lock(mutex_);
   read_meshes_.emplace(key_of(marker), mesh);
   return mesh;

@@ -3,13 +3,11 @@
 #include <ros/package.h>
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 
-#include "fiber_proximity/ros/conversions.hpp"
-#include "fiber_proximity/ros/parse_mesh.hpp"
+#include "fiber_proximity/environment/scene/mesh_files.hpp"
 #include "fiber_proximity/text/quote.hpp"
+#include "fiber_proximity/text/with_context.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -54,53 +52,6 @@ path resolve_in_package(const std::string& resource) {
   return file;
 }
 
-std::string read(const path& file) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) {
-    throw std::invalid_argument("there is no file " + fiber::quote(file.string()));
-  }
-  const std::uintmax_t size = std::filesystem::file_size(file);
-  if (size > MeshLoader::largest_file) {
-    throw std::invalid_argument("the file has " + std::to_string(size) +
-                                " bytes, it may have at most " +
-                                std::to_string(MeshLoader::largest_file));
-  }
-  std::string bytes(size, '\0');
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream.read(bytes.data(), static_cast<std::streamsize>(size))) {
-    throw std::invalid_argument("the file " + fiber::quote(file.string()) + " cannot be read");
-  }
-  return bytes;
-}
-
-shape_msgs::Mesh to_mesh(const ParsedMesh& mesh, const Eigen::Vector3d& scale) {
-  shape_msgs::Mesh message;
-  message.vertices.reserve(mesh.coordinates.size() / 3);
-  for (std::size_t i = 0; i < mesh.coordinates.size(); i += 3) {
-    const Eigen::Map<const Eigen::Vector3d> vertex(mesh.coordinates.data() + i);
-    message.vertices.push_back(to_message(Eigen::Vector3d(scale.cwiseProduct(vertex))));
-  }
-  const bool mirrored = (scale.array() < 0.0).count() % 2 == 1;
-  message.triangles.resize(mesh.corners.size() / 3);
-  for (std::size_t i = 0; i < message.triangles.size(); ++i) {
-    auto& triangle = message.triangles[i].vertex_indices;
-    std::copy_n(mesh.corners.begin() + static_cast<std::ptrdiff_t>(3 * i), 3, triangle.begin());
-    if (mirrored) {
-      std::swap(triangle[1], triangle[2]);
-    }
-  }
-  return message;
-}
-
-void check_scale(const Eigen::Vector3d& scale) {
-  if (!(scale.allFinite() && (scale.array() != 0.0).all())) {
-    std::ostringstream message;
-    message << "scale is (" << scale.x() << ", " << scale.y() << ", " << scale.z()
-            << "), its numbers must be finite and not 0";
-    throw std::invalid_argument(message.str());
-  }
-}
-
 }  // namespace
 
 MeshLoader::MeshLoader(const std::vector<std::string>& folders) {
@@ -113,14 +64,10 @@ MeshLoader::MeshLoader(const std::vector<std::string>& folders) {
   }
 }
 
-shape_msgs::Mesh MeshLoader::load(const std::string& resource, const Eigen::Vector3d& scale) const {
-  try {
-    check_scale(scale);
-    const path file = resolve(resource);
-    return to_mesh(parse_mesh(read(file), file.filename().string()), scale);
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument("mesh " + fiber::quote(resource) + ": " + error.what());
-  }
+std::shared_ptr<const fiber::TriangleMesh> MeshLoader::operator()(
+    const std::string& resource, const Eigen::Vector3d& scale) const {
+  return fiber::with_context("mesh " + fiber::quote(resource),
+                             [&] { return fiber::read_mesh_file(resolve(resource), scale); });
 }
 
 path MeshLoader::resolve(const std::string& resource) const {

@@ -1,20 +1,25 @@
 #include "fiber_proximity/ros/obstacle_change.hpp"
 
+#include <cassert>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
-#include "fiber_proximity/ros/naming.hpp"
-#include "fiber_proximity/ros/obstacle_pose.hpp"
-#include "fiber_proximity/ros/obstacle_shapes.hpp"
+#include "fiber_proximity/environment/obstacle_parts.hpp"
+#include "fiber_proximity/environment/triangle_mesh.hpp"
+#include "fiber_proximity/ros/conversions.hpp"
 #include "fiber_proximity/text/quote.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
 
 using fiber_proximity::Obstacle;
-using Poses = std::vector<geometry_msgs::Pose>;
+using shape_msgs::SolidPrimitive;
 
 using Operation = fiber::ObjectChange::Operation;
+using Mesh = std::shared_ptr<const fiber::TriangleMesh>;
+
+// ---- from messages -----------------------------------------------------------------------------
 
 Operation to_operation(const Obstacle& obstacle) {
   switch (obstacle.operation) {
@@ -32,64 +37,167 @@ Operation to_operation(const Obstacle& obstacle) {
   }
 }
 
-/// Appends the shapes of one list of the message.
-template <class Shapes, class ToShape>
-void append(const std::string& kind, const Shapes& shapes, const Poses& poses,
-            const ToShape& convert, std::vector<fiber::PlacedShape>& placed) {
-  if (!poses.empty() && poses.size() != shapes.size()) {
-    throw std::invalid_argument(std::to_string(poses.size()) + " pose(s) of " +
-                                std::to_string(shapes.size()) + " " + kind +
-                                "(s); give one for each or none");
+fiber::Primitive to_type(std::uint8_t type) {
+  switch (type) {
+    case SolidPrimitive::BOX:
+      return fiber::Primitive::BOX;
+    case SolidPrimitive::SPHERE:
+      return fiber::Primitive::SPHERE;
+    case SolidPrimitive::CYLINDER:
+      return fiber::Primitive::CYLINDER;
+    case SolidPrimitive::CONE:
+      return fiber::Primitive::CONE;
+    default:
+      throw std::invalid_argument("type is " + std::to_string(type) +
+                                  ", it must be 1 (BOX), 2 (SPHERE), 3 (CYLINDER) or 4 (CONE)");
   }
-  for (std::size_t i = 0; i < shapes.size(); ++i) {
-    placed.push_back(naming(kind + " " + std::to_string(i), [&] {
-      fiber::PlacedShape shape;
-      shape.shape = convert(shapes[i]);
-      if (!poses.empty()) {
-        shape.pose = to_pose(poses[i]);
-      }
-      return shape;
-    }));
+}
+
+fiber::Shape to_primitive(const SolidPrimitive& primitive) {
+  return fiber::make_primitive(to_type(primitive.type), primitive.dimensions);
+}
+
+fiber::Shape to_capsule(const fiber_proximity::Capsule& capsule) {
+  return fiber::CapsuleShape{capsule.radius, capsule.length};
+}
+
+fiber::Shape to_mesh(const shape_msgs::Mesh& mesh) {
+  std::vector<Eigen::Vector3d> vertices;
+  vertices.reserve(mesh.vertices.size());
+  for (const geometry_msgs::Point& vertex : mesh.vertices) {
+    vertices.push_back(to_vector(vertex));
   }
+  std::vector<fiber::TriangleMesh::Triangle> triangles;
+  triangles.reserve(mesh.triangles.size());
+  for (const shape_msgs::MeshTriangle& triangle : mesh.triangles) {
+    triangles.push_back(
+        {triangle.vertex_indices[0], triangle.vertex_indices[1], triangle.vertex_indices[2]});
+  }
+  return std::make_shared<const fiber::TriangleMesh>(std::move(vertices), std::move(triangles));
+}
+
+fiber::Shape to_plane(const shape_msgs::Plane& plane) {
+  return fiber::make_plane(Eigen::Vector4d(plane.coef.data()));
+}
+
+fiber::Shape to_half_space(const shape_msgs::Plane& plane) {
+  return fiber::make_half_space(Eigen::Vector4d(plane.coef.data()));
 }
 
 fiber::ObjectChange to_unnamed_change(const Obstacle& obstacle) {
   fiber::ObjectChange change;
   change.operation = to_operation(obstacle);
-  if (!obstacle.id.empty() || change.operation != fiber::ObjectChange::Operation::REMOVE) {
-    validate_obstacle_name(obstacle.id);
+  if (!obstacle.id.empty() || change.operation != Operation::REMOVE) {
+    fiber::validate_obstacle_name(obstacle.id);
   }
   change.object.name = obstacle.id;
-  change.object.pose = naming("pose", [&] { return to_pose(obstacle.pose); });
-  std::vector<fiber::PlacedShape>& shapes = change.object.shapes;
-  const auto convert = [](const auto& shape) { return to_shape(shape); };
-  append("primitive", obstacle.primitives, obstacle.primitive_poses, convert, shapes);
-  append("capsule", obstacle.capsules, obstacle.capsule_poses, convert, shapes);
-  append("mesh", obstacle.meshes, obstacle.mesh_poses, convert, shapes);
-  append("plane", obstacle.planes, obstacle.plane_poses, to_plane, shapes);
-  append("half-space", obstacle.half_spaces, obstacle.half_space_poses, to_half_space, shapes);
+  change.object.pose = fiber::with_context("pose", [&] { return to_pose(obstacle.pose); });
+  const auto append = [&change](const auto& kind, const auto& shapes, const auto& poses,
+                                const auto& to_shape) {
+    fiber::append_shapes(kind, shapes, poses, to_shape, to_pose, change.object.shapes);
+  };
+  append("primitive", obstacle.primitives, obstacle.primitive_poses, to_primitive);
+  append("capsule", obstacle.capsules, obstacle.capsule_poses, to_capsule);
+  append("mesh", obstacle.meshes, obstacle.mesh_poses, to_mesh);
+  append("plane", obstacle.planes, obstacle.plane_poses, to_plane);
+  append("half-space", obstacle.half_spaces, obstacle.half_space_poses, to_half_space);
   return change;
 }
 
+// ---- to messages -------------------------------------------------------------------------------
+
+shape_msgs::Plane plane_message(const Eigen::Vector3d& normal, double offset) {
+  shape_msgs::Plane message;
+  message.coef = {normal.x(), normal.y(), normal.z(), -offset};
+  return message;
+}
+
+/// Adds a shape to the lists of its kind.
+struct ShapeAdder {
+  Obstacle& obstacle;
+  geometry_msgs::Pose pose;
+
+  void operator()(const fiber::BoxShape& box) const {
+    add_primitive(SolidPrimitive::BOX, {box.size.x(), box.size.y(), box.size.z()});
+  }
+  void operator()(const fiber::SphereShape& sphere) const {
+    add_primitive(SolidPrimitive::SPHERE, {sphere.radius});
+  }
+  void operator()(const fiber::CylinderShape& cylinder) const {
+    add_primitive(SolidPrimitive::CYLINDER, {cylinder.height, cylinder.radius});
+  }
+  void operator()(const fiber::ConeShape& cone) const {
+    add_primitive(SolidPrimitive::CONE, {cone.height, cone.radius});
+  }
+  void operator()(const fiber::CapsuleShape& capsule) const {
+    fiber_proximity::Capsule message;
+    message.radius = capsule.radius;
+    message.length = capsule.length;
+    add(message, obstacle.capsules, obstacle.capsule_poses);
+  }
+  void operator()(const fiber::HalfSpaceShape& half_space) const {
+    add(plane_message(half_space.normal, half_space.offset), obstacle.half_spaces,
+        obstacle.half_space_poses);
+  }
+  void operator()(const fiber::PlaneShape& plane) const {
+    add(plane_message(plane.normal, plane.offset), obstacle.planes, obstacle.plane_poses);
+  }
+  void operator()(const Mesh& mesh) const {
+    shape_msgs::Mesh message;
+    for (const Eigen::Vector3d& vertex : mesh->vertices()) {
+      message.vertices.push_back(to_message(vertex));
+    }
+    for (const fiber::TriangleMesh::Triangle& triangle : mesh->triangles()) {
+      message.triangles.emplace_back();
+      message.triangles.back().vertex_indices = {triangle[0], triangle[1], triangle[2]};
+    }
+    add(message, obstacle.meshes, obstacle.mesh_poses);
+  }
+  void operator()(const std::shared_ptr<const fiber::OccupancyOctree>& /*octree*/) const {
+    assert(false && "octrees have no message");
+  }
+
+ private:
+  template <class Message>
+  void add(const Message& message, std::vector<Message>& list,
+           std::vector<geometry_msgs::Pose>& poses) const {
+    list.push_back(message);
+    poses.push_back(pose);
+  }
+  void add_primitive(std::uint8_t type, const std::vector<double>& dimensions) const {
+    SolidPrimitive message;
+    message.type = type;
+    message.dimensions = dimensions;
+    add(message, obstacle.primitives, obstacle.primitive_poses);
+  }
+};
+
 }  // namespace
 
-void validate_obstacle_name(const std::string& name) {
-  if (name.empty()) {
-    throw std::invalid_argument("id is empty, it must name the object");
-  }
-  if (name == cloud_name || name.rfind(robot_prefix, 0) == 0) {
-    throw std::invalid_argument("'" + cloud_name + "' and names that begin with '" + robot_prefix +
-                                "' are those of the point cloud and the links of the robot");
-  }
+Eigen::Isometry3d to_pose(const geometry_msgs::Pose& message) {
+  const geometry_msgs::Quaternion& q = message.orientation;
+  return fiber::make_pose(to_vector(message.position), Eigen::Quaterniond(q.w, q.x, q.y, q.z));
 }
 
 fiber::ObjectChange to_change(const Obstacle& obstacle) {
-  fiber::ObjectChange change =
-      naming("obstacle " + fiber::quote(obstacle.id), [&] { return to_unnamed_change(obstacle); });
+  fiber::ObjectChange change = fiber::with_context("obstacle " + fiber::quote(obstacle.id),
+                                                   [&] { return to_unnamed_change(obstacle); });
   if (!change.object.name.empty()) {
     fiber::validate(change.object);
   }
   return change;
+}
+
+Obstacle to_obstacle(const fiber::EnvironmentObject& object, const std::string& frame_id) {
+  Obstacle obstacle;
+  obstacle.header.frame_id = frame_id;
+  obstacle.id = object.name;
+  obstacle.operation = Obstacle::ADD;
+  obstacle.pose = to_message(object.pose);
+  for (const fiber::PlacedShape& placed : object.shapes) {
+    std::visit(ShapeAdder{obstacle, to_message(placed.pose)}, placed.shape);
+  }
+  return obstacle;
 }
 
 }  // namespace fiber_proximity_ros

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "fiber_proximity/ros/obstacle_change.hpp"
-#include "fiber_proximity/ros/obstacle_shapes.hpp"
 #include "fiber_proximity/text/quote.hpp"
 
 namespace fiber_proximity_ros {

@@ -4,8 +4,7 @@
 
 #include <stdexcept>
 
-#include "fiber_proximity/ros/obstacle_change.hpp"
-#include "fiber_proximity/ros/obstacle_shapes.hpp"
+#include "fiber_proximity/environment/obstacle_parts.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -31,7 +30,7 @@ fiber::Shape shape_of(const urdf::Geometry& geometry, const MeshLoader& meshes) 
     }
     case urdf::Geometry::MESH: {
       const auto& mesh = dynamic_cast<const urdf::Mesh&>(geometry);
-      return to_shape(meshes.load(mesh.filename, to_eigen(mesh.scale)));
+      return meshes(mesh.filename, to_eigen(mesh.scale));
     }
     default:
       throw std::invalid_argument("its geometry must be a box, sphere, cylinder or mesh");
@@ -48,14 +47,11 @@ fiber::PlacedShape to_placed_shape(const urdf::Collision& collision, const MeshL
 RobotLink read_link(const urdf::Link& link, const MeshLoader& meshes) {
   RobotLink read;
   read.frame = link.name;
-  read.object.name = robot_prefix + link.name;
+  read.object.name = fiber::robot_prefix + link.name;
   for (std::size_t i = 0; i < link.collision_array.size(); ++i) {
-    try {
+    fiber::with_context("link '" + link.name + "', collision " + std::to_string(i), [&] {
       read.object.shapes.push_back(to_placed_shape(*link.collision_array[i], meshes));
-    } catch (const std::invalid_argument& error) {
-      throw std::invalid_argument("link '" + link.name + "', collision " + std::to_string(i) +
-                                  ": " + error.what());
-    }
+    });
   }
   fiber::validate(read.object);
   return read;

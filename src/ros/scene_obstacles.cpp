@@ -7,9 +7,12 @@
 
 namespace fiber_proximity_ros {
 
-SceneObstacles::SceneObstacles(const std::vector<FramedChange>& obstacles) {
-  for (const FramedChange& obstacle : obstacles) {
-    waiting_.push_back({obstacle, "not looked for yet"});
+SceneObstacles::SceneObstacles(const std::vector<fiber::SceneObstacle>& obstacles) {
+  for (const fiber::SceneObstacle& obstacle : obstacles) {
+    FramedChange change;
+    change.header.frame_id = obstacle.frame_id;
+    change.change.object = obstacle.object;
+    waiting_.push_back({change, "not looked for yet"});
   }
 }
 

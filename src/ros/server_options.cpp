@@ -6,8 +6,8 @@
 
 #include "fiber_proximity/ros/dynamic_parameters.hpp"
 #include "fiber_proximity/ros/environment_options.hpp"
-#include "fiber_proximity/ros/naming.hpp"
 #include "fiber_proximity/ros/parameters.hpp"
+#include "fiber_proximity/text/with_context.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -73,7 +73,7 @@ std::vector<InputOptions> read_inputs(const ros::NodeHandle& public_node,
 /// What an engine refuses is the value of a parameter.
 void check_engine(const ros::NodeHandle& private_node, const ServerOptions& options) {
   const std::string prefix = "parameter " + private_node.getNamespace() + "/";
-  naming(prefix + "engine", [&] { fiber::make_engine(options.engine); });
+  fiber::with_context(prefix + "engine", [&] { fiber::make_engine(options.engine); });
   try {
     fiber::make_engine(options.engine, options.engine_options);
   } catch (const std::invalid_argument& error) {

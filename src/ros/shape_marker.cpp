@@ -137,19 +137,10 @@ class ShapeDrawer {
   }
 
  private:
-  void set_pose(const Isometry3d& pose) {
-    const Eigen::Quaterniond rotation(pose.linear());
-    marker_.pose.position = to_message(pose.translation());
-    marker_.pose.orientation.x = rotation.x();
-    marker_.pose.orientation.y = rotation.y();
-    marker_.pose.orientation.z = rotation.z();
-    marker_.pose.orientation.w = rotation.w();
-  }
-
   void draw_solid(int type, const Vector3d& size, const Isometry3d& pose) {
     marker_.type = type;
     marker_.scale = to_vector_message(size.unaryExpr(&visible));
-    set_pose(pose);
+    marker_.pose = to_message(pose);
   }
 
   void begin_triangles() { draw_solid(Marker::TRIANGLE_LIST, Vector3d::Ones(), pose_); }

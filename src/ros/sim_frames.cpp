@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-#include "fiber_proximity/ros/sim_reach.hpp"
+#include "fiber_proximity/sim/scene/lead.hpp"
 #include "fiber_proximity/text/quote.hpp"
 
 namespace fiber_proximity_ros {
@@ -15,7 +15,7 @@ constexpr double fastest_frame = 5.0;  // [m/s]
 
 }  // namespace
 
-void SimFrames::watch(const FollowedFrame& followed, Watch& watch,
+void SimFrames::watch(const fiber::FollowedFrame& followed, Watch& watch,
                       const std::string& problem) const {
   const ros::SteadyTime now = ros::SteadyTime::now();
   if (problem.empty() || watch.since.isZero()) {
@@ -30,9 +30,9 @@ void SimFrames::watch(const FollowedFrame& followed, Watch& watch,
   watch.is_frozen = is_frozen;
 }
 
-void SimFrames::wait_for(const std::vector<FollowedFrame>& frames, double timeout) const {
+void SimFrames::wait_for(const std::vector<fiber::FollowedFrame>& frames, double timeout) const {
   const ros::SteadyTime begin = ros::SteadyTime::now();
-  for (const FollowedFrame& followed : frames) {
+  for (const fiber::FollowedFrame& followed : frames) {
     for (bool is_known = false; !is_known && ros::ok();) {
       try {
         world_.latest_pose(followed.frame, ros::Time(0));
@@ -50,12 +50,13 @@ void SimFrames::wait_for(const std::vector<FollowedFrame>& frames, double timeou
 }
 
 /// Where something in a frame is in the world, or as far on the way there as a step leads.
-fiber::Placement SimFrames::next_placement(const SimScene& scene, const FollowedFrame& followed,
+fiber::Placement SimFrames::next_placement(const fiber::SimScene& scene,
+                                           const fiber::FollowedFrame& followed,
                                            const Eigen::Isometry3d& frame, Watch& watch) const {
   const fiber::Placement& last = followed.path->back().second;
   const fiber::Placement& in_frame = followed.in_frame;
-  const Lead lead = fiber_proximity_ros::lead(scene, {followed.rod, followed.node}, last.position,
-                                              frame * in_frame.position, fastest_frame);
+  const fiber::Lead lead = fiber::lead(scene, {followed.rod, followed.node}, last.position,
+                                       frame * in_frame.position, fastest_frame);
   const bool is_held_back = !lead.problem.empty();
   if (is_held_back && !watch.is_held_back) {
     ROS_WARN_STREAM(followed.what << " does not follow frame " << fiber::quote(followed.frame)
@@ -67,9 +68,9 @@ fiber::Placement SimFrames::next_placement(const SimScene& scene, const Followed
   return {lead.position, frame.linear() * in_frame.tangent, frame.linear() * in_frame.director};
 }
 
-void SimFrames::follow(const SimScene& scene) {
+void SimFrames::follow(const fiber::SimScene& scene) {
   const double start = scene.stepper->time();
-  for (const FollowedFrame& followed : scene.frames) {
+  for (const fiber::FollowedFrame& followed : scene.frames) {
     const fiber::Placement last = followed.path->back().second;
     fiber::Placement next = last;
     Watch& watch = watches_[followed.what];

@@ -47,7 +47,7 @@ InteractiveMarker handle(const std::string& name, const std::string& frame, doub
 SimMarkers::SimMarkers(const std::string& topic, const FixedFrame& world)
     : world_(world), server_(topic) {}
 
-void SimMarkers::begin(const SimScene& scene) {
+void SimMarkers::begin(const fiber::SimScene& scene) {
   server_.clear();
   ends_.clear();
   grabs_.clear();
@@ -79,7 +79,7 @@ void SimMarkers::receive(const InteractiveMarkerFeedback& feedback) {
   received_.push_back(feedback);
 }
 
-void SimMarkers::take_hold(SimScene& scene, const NodeOfRod& end, Grab& grab) const {
+void SimMarkers::take_hold(fiber::SimScene& scene, const fiber::NodeOfRod& end, Grab& grab) const {
   const fiber::Rods& rods = scene.stepper->rods();
   const Vector3d& here = rods.positions[rods.first(end.rod) + end.node];
   grab.way = std::make_shared<Way>(Way{here, here, 0.0, 0.0});
@@ -100,7 +100,7 @@ void SimMarkers::take_hold(SimScene& scene, const NodeOfRod& end, Grab& grab) co
   scene.attachment->add(rods, hold);
 }
 
-void SimMarkers::apply(SimScene& scene) {
+void SimMarkers::apply(fiber::SimScene& scene) {
   std::vector<InteractiveMarkerFeedback> received;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -128,7 +128,7 @@ void SimMarkers::apply(SimScene& scene) {
   }
   for (auto grabbed = grabs_.begin(); grabbed != grabs_.end();) {
     const Grab& grab = grabbed->second;
-    const NodeOfRod& end = ends_.at(grabbed->first);
+    const fiber::NodeOfRod& end = ends_.at(grabbed->first);
     Way& way = *grab.way;
     way.from = way.to;
     way.start = scene.stepper->time();
@@ -141,7 +141,7 @@ void SimMarkers::apply(SimScene& scene) {
       grabbed = grabs_.erase(grabbed);
       continue;
     }
-    const Lead lead = fiber_proximity_ros::lead(scene, end, way.from, grab.target, fastest_hand);
+    const fiber::Lead lead = fiber::lead(scene, end, way.from, grab.target, fastest_hand);
     if (!lead.problem.empty()) {
       ROS_WARN_STREAM_THROTTLE(warning_period, "the handle "
                                                    << grabbed->first
@@ -152,7 +152,7 @@ void SimMarkers::apply(SimScene& scene) {
   }
 }
 
-void SimMarkers::update(const SimScene& scene) {
+void SimMarkers::update(const fiber::SimScene& scene) {
   const fiber::Rods& rods = scene.stepper->rods();
   for (const auto& [name, end] : ends_) {
     geometry_msgs::Pose pose;

@@ -11,10 +11,11 @@
 #include "fiber_proximity/ObstacleArray.h"
 #include "fiber_proximity/ros/conversions.hpp"
 #include "fiber_proximity/ros/environment_options.hpp"
-#include "fiber_proximity/ros/listed.hpp"
+#include "fiber_proximity/ros/obstacle_change.hpp"
 #include "fiber_proximity/ros/parameters.hpp"
-#include "fiber_proximity/ros/sim_report.hpp"
 #include "fiber_proximity/sim/reach.hpp"
+#include "fiber_proximity/sim/scene/report.hpp"
+#include "fiber_proximity/text/listed.hpp"
 #include "fiber_proximity/text/quote.hpp"
 
 namespace fiber_proximity_ros {
@@ -46,16 +47,24 @@ SimOptions read_sim_options(const ros::NodeHandle& private_node) {
   return options;
 }
 
+fiber::SimDescription read_scene(const SimOptions& options) {
+  return fiber::read_sim_scene(fiber::load_yaml(options.scene), options.meshes);
+}
+
 SimServer::SimServer(const ros::NodeHandle& private_node, const SimOptions& options)
+    : SimServer(private_node, options, read_scene(options)) {}
+
+SimServer::SimServer(const ros::NodeHandle& private_node, const SimOptions& options,
+                     const fiber::SimDescription& description)
     : node_(private_node),
       options_(options),
-      scene_(read_sim_scene(options.scene, options.meshes, options.threads)),
+      scene_(fiber::make_sim_scene(description, options.threads)),
       world_(scene_.frame_id, private_node),
       frames_(world_, options.frame_timeout),
       is_paused_(options.paused),
       next_frame_(ros::SteadyTime::now()) {
   frames_.wait_for(scene_.frames, options.frame_wait);
-  log_scene();
+  log_scene(description);
   fibers_ = node_.advertise<fiber_proximity::FiberArray>("fibers", 1, true);
   if (options_.clock) {
     clock_ = node_.advertise<rosgraph_msgs::Clock>("/clock", 1);
@@ -74,12 +83,12 @@ SimServer::SimServer(const ros::NodeHandle& private_node, const SimOptions& opti
 
 SimServer::~SimServer() { is_ending_ = true; }
 
-void SimServer::log_scene() const {
+void SimServer::log_scene(const fiber::SimDescription& description) const {
   const fiber::Rods& rods = scene_.stepper->rods();
   ROS_INFO_STREAM(options_.scene << ": " << rods.count() << " fibre(s), " << rods.positions.size()
-                                 << " nodes, effects " << listed(scene_.effect_names) << ", "
-                                 << scene_.substeps << " steps of "
-                                 << scene_.time_step / scene_.substeps << " s");
+                                 << " nodes, effects " << fiber::listed(scene_.effect_names) << ", "
+                                 << scene_.substeps << " steps of " << scene_.step_length()
+                                 << " s");
   constexpr std::uint32_t most = 10;
   for (std::uint32_t rod = 0; rod < std::min(most, rods.count()); ++rod) {
     const fiber::RodSection& section = rods.sections[rod];
@@ -96,8 +105,8 @@ void SimServer::log_scene() const {
   if (!scene_.overlap_note.empty()) {
     ROS_INFO_STREAM(scene_.overlap_note);
   }
-  const SimReport expected =
-      report(scene_, try_scene(options_.scene, options_.meshes, options_.threads));
+  const fiber::SimReport expected =
+      fiber::report(scene_, fiber::try_scene(description, options_.threads));
   for (const std::string& fact : expected.facts) {
     ROS_INFO_STREAM(fact);
   }
@@ -161,19 +170,16 @@ void SimServer::run_frame() {
   if (markers_ != nullptr) {
     markers_->apply(scene_);
   }
-  for (std::uint32_t i = 0; i < scene_.substeps; ++i) {
-    scene_.stepper->step(scene_.time_step / scene_.substeps);
-  }
+  scene_.advance();
   publish();
   warn_of_strain();
 }
 
 /// Where something keeps edges from being stretched, and what holds a fibre does it all the same.
 void SimServer::warn_of_strain() const {
-  const std::vector<std::string>& effects = scene_.effect_names;
   const fiber::LargestStrain largest = fiber::largest_strain(scene_.stepper->rods());
   if (largest.strain > scene_.max_strain &&
-      (has_effect(effects, "stretch") || has_effect(effects, "inextensible"))) {
+      (scene_.has_effect("stretch") || scene_.has_effect("inextensible"))) {
     ROS_WARN_STREAM_THROTTLE(speed_warning_period,
                              "edge " << largest.edge << " of fibre "
                                      << fiber::quote(scene_.fiber_names[largest.rod])
@@ -198,19 +204,21 @@ void SimServer::publish() {
   fibers_.publish(message_);
 }
 
-/// @param before what was published of the scene before, of which what is no longer there goes
-void SimServer::publish_obstacles(const std::vector<fiber_proximity::Obstacle>& before) {
+/// @param before of the scene before, of which what is no longer there goes
+void SimServer::publish_obstacles(const std::vector<fiber::EnvironmentObject>& before) {
+  const std::vector<fiber::EnvironmentObject>& objects = scene_.environment->objects();
   fiber_proximity::ObstacleArray message;
-  for (const fiber_proximity::Obstacle& old : before) {
-    const auto is_same = [&old](const auto& obstacle) { return obstacle.id == old.id; };
-    if (std::none_of(scene_.obstacles.begin(), scene_.obstacles.end(), is_same)) {
+  for (const fiber::EnvironmentObject& old : before) {
+    const auto is_same = [&old](const auto& object) { return object.name == old.name; };
+    if (std::none_of(objects.begin(), objects.end(), is_same)) {
       message.obstacles.emplace_back();
-      message.obstacles.back().id = old.id;
+      message.obstacles.back().id = old.name;
       message.obstacles.back().operation = fiber_proximity::Obstacle::REMOVE;
     }
   }
-  message.obstacles.insert(message.obstacles.end(), scene_.obstacles.begin(),
-                           scene_.obstacles.end());
+  for (const fiber::EnvironmentObject& object : objects) {
+    message.obstacles.push_back(to_obstacle(object, scene_.frame_id));
+  }
   obstacles_.publish(message);
 }
 

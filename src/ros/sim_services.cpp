@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "fiber_proximity/ros/conversions.hpp"
-#include "fiber_proximity/ros/sim_reach.hpp"
 #include "fiber_proximity/ros/sim_server.hpp"
+#include "fiber_proximity/sim/scene/lead.hpp"
 #include "fiber_proximity/text/quote.hpp"
 
 namespace fiber_proximity_ros {
@@ -51,7 +51,7 @@ void SimServer::advertise_services() {
   servers_.push_back(own_thread.advertiseService("step", &SimServer::step, this));
 }
 
-NodeOfRod SimServer::find_node(const std::string& fiber, std::int32_t node) const {
+fiber::NodeOfRod SimServer::find_node(const std::string& fiber, std::int32_t node) const {
   const auto& names = scene_.fiber_names;
   const auto found = std::find(names.begin(), names.end(), fiber);
   if (found == names.end()) {
@@ -72,14 +72,14 @@ NodeOfRod SimServer::find_node(const std::string& fiber, std::int32_t node) cons
 
 /// The file is read without the mutex: that may take long.
 void SimServer::begin_again() {
-  SimScene scene = read_sim_scene(options_.scene, options_.meshes, options_.threads);
+  fiber::SimScene scene = fiber::make_sim_scene(read_scene(options_), options_.threads);
   frames_.wait_for(scene.frames, 0.0);
   const std::lock_guard<FairMutex> lock(mutex_);
   std::swap(scene_, scene);
   failure_.clear();
   interruption_ = "~reset began the scene again";
   publish();
-  publish_obstacles(scene.obstacles);
+  publish_obstacles(scene.environment->objects());
   make_markers();
 }
 
@@ -132,12 +132,12 @@ bool SimServer::step(fiber_proximity::StepSimulation::Request& request,
 
 void SimServer::hold(const fiber_proximity::AttachFiber::Request& request) {
   require_running();
-  const NodeOfRod held = find_node(request.fiber, request.node);
+  const fiber::NodeOfRod held = find_node(request.fiber, request.node);
   const Vector3d target = to_vector(request.position);
   if (!target.allFinite() || !(request.speed >= 0.0)) {
     throw std::invalid_argument("position must be finite and speed at least 0");
   }
-  require_reach(scene_, held, target, request.speed);
+  fiber::require_reach(scene_, held, target, request.speed);
   const fiber::Rods& rods = scene_.stepper->rods();
   const Vector3d from = rods.positions[rods.first(held.rod) + held.node];
   const double start = scene_.stepper->time();
@@ -170,7 +170,7 @@ bool SimServer::detach(fiber_proximity::DetachFiber::Request& request,
   return answer(response, [&] {
     const std::lock_guard<FairMutex> lock(mutex_);
     require_running();
-    const NodeOfRod held = find_node(request.fiber, request.node);
+    const fiber::NodeOfRod held = find_node(request.fiber, request.node);
     const auto id = scene_.attachment->find(held.rod, held.node);
     if (!id) {
       throw std::invalid_argument("nothing holds node " + std::to_string(request.node) +
@@ -185,9 +185,17 @@ bool SimServer::set_parameters(fiber_proximity::SetSimulationParameters::Request
   const std::lock_guard<FairMutex> lock(mutex_);
   answer(response, [&] {
     require_running();
-    scene_.parameters.set(request.parameters);
+    std::vector<fiber::SimParameter> parameters;
+    for (const fiber_proximity::SimulationParameter& parameter : request.parameters) {
+      parameters.push_back({parameter.name, parameter.value});
+    }
+    scene_.parameters.set(parameters);
   });
-  response.parameters = scene_.parameters.all();
+  for (const fiber::SimParameter& parameter : scene_.parameters.all()) {
+    response.parameters.emplace_back();
+    response.parameters.back().name = parameter.name;
+    response.parameters.back().value = parameter.value;
+  }
   return true;
 }
 

@@ -2,6 +2,7 @@
 #include <stdexcept>
 
 #include "fiber_proximity/sim/material.hpp"
+#include "fiber_proximity/text/listed.hpp"
 #include "fiber_proximity/text/quote.hpp"
 
 namespace fiber {
@@ -28,11 +29,8 @@ RodMaterial material_preset(const std::string& name) {
   if (found != presets().end()) {
     return found->second;
   }
-  std::string names;
-  for (const std::string& known : material_names()) {
-    names += (names.empty() ? "" : ", ") + known;
-  }
-  throw std::invalid_argument("there is no material " + quote(name) + ", known are: " + names);
+  throw std::invalid_argument("there is no material " + quote(name) +
+                              ", known are: " + listed(material_names()));
 }
 
 std::vector<std::string> material_names() {

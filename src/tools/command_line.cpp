@@ -160,12 +160,4 @@ Eigen::Vector3d parse_vector(const std::string& option, const std::string& text)
   return vector;
 }
 
-std::string listed(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) {
-    list += (list.empty() ? "" : ", ") + name;
-  }
-  return list;
-}
-
 }  // namespace fiber

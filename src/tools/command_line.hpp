@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "fiber_proximity/text/listed.hpp"
+
 namespace fiber {
 
 /// Exit codes of all tools.
@@ -39,8 +41,5 @@ CLI::Validator length_or_infinity();
 /// The vector of an option's text X,Y,Z.
 /// @throws CLI::ValidationError naming the option, the text and what is allowed
 Eigen::Vector3d parse_vector(const std::string& option, const std::string& text);
-
-/// The names with commas between them.
-std::string listed(const std::vector<std::string>& names);
 
 }  // namespace fiber

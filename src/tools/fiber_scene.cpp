@@ -41,7 +41,8 @@ void setup(CLI::App& app, Command& command) {
       ->check(whole_number(0))
       ->capture_default_str();
   app.add_flag("--shuffle", request->options.shuffle, "put the fibres into random order");
-  app.add_option("--out", request->out, "file to write; .hair holds one frame, without a number")
+  app.add_option("--out", request->out,
+                 "file to write; .hair holds one frame, without a number; .pvd is for ParaView")
       ->required();
 }
 
@@ -49,6 +50,7 @@ void setup(CLI::App& app, Command& command) {
 }  // namespace fiber
 
 int main(int argc, char** argv) {
-  return fiber::run_tool("fiber_scene", "Writes a scene as a fibre file (.csv or .hair)",
+  return fiber::run_tool("fiber_scene",
+                         "Writes a scene as a fibre file (.csv or .hair), or for ParaView (.pvd)",
                          fiber::setup, argc, argv);
 }

@@ -8,16 +8,12 @@
 #include <filesystem>
 #include <fstream>
 
-#include "fiber_proximity/environment/triangle_mesh.hpp"
-#include "fiber_proximity/ros/mesh_loader.hpp"
-#include "fiber_proximity/ros/obstacle_shapes.hpp"
+#include "fiber_proximity/environment/scene/mesh_files.hpp"
 #include "fuzz_target.hpp"
 #include "seeds.hpp"
 #include "test/support/temporary_directory.hpp"
 
 namespace {
-
-using namespace fiber_proximity_ros;
 
 const char* const formats[] = {"stl", "dae", "obj", "ply"};
 
@@ -27,16 +23,14 @@ const fiber::test::TemporaryDirectory& folder() {
 }
 
 void try_mesh(const std::string& file) {
-  static const MeshLoader loader({folder().path("")});
-  const shape_msgs::Mesh mesh = loader.load("file://" + file, Eigen::Vector3d(1.0, -2.0, 0.5));
-  for (const shape_msgs::MeshTriangle& triangle : mesh.triangles) {
-    for (const std::uint32_t vertex : triangle.vertex_indices) {
-      if (vertex >= mesh.vertices.size()) {
+  const auto mesh = fiber::read_mesh_file(file, Eigen::Vector3d(1.0, -2.0, 0.5));
+  for (const fiber::TriangleMesh::Triangle& triangle : mesh->triangles()) {
+    for (const std::uint32_t vertex : triangle) {
+      if (vertex >= mesh->vertices().size()) {
         fiber::test::finding("a triangle of vertices that are not there");
       }
     }
   }
-  to_shape(mesh);
 }
 
 }  // namespace

@@ -2,14 +2,13 @@
 // ready to move.
 #include <yaml-cpp/yaml.h>
 
-#include "fiber_proximity/ros/load_yaml.hpp"
-#include "fiber_proximity/ros/sim_resolution.hpp"
-#include "fiber_proximity/ros/sim_scene.hpp"
+#include "fiber_proximity/sim/scene/scene.hpp"
 #include "fuzz_target.hpp"
+#include "no_mesh.hpp"
 
 namespace {
 
-using namespace fiber_proximity_ros;
+using namespace fiber;
 
 /// A scene may have a million segments, which is no longer to write than one. Those of the fuzzer
 /// have few, so that what they cost is what there is of them to read.
@@ -39,6 +38,8 @@ bool writes_few_segments(const YAML::Node& fibers) {
   return segments <= most_segments;
 }
 
+SimDescription read(const YamlField& document) { return read_sim_scene(document, test::no_mesh); }
+
 /// Few segments of those that the scene's accuracy takes, too.
 bool has_few_segments(const std::string& text, const YamlField& document) {
   const YAML::Node node = YAML::Load(text);
@@ -51,11 +52,7 @@ bool has_few_segments(const std::string& text, const YamlField& document) {
   if (!node["accuracy"].IsDefined() && !node["real_time"].IsDefined()) {
     return true;
   }
-  std::size_t points = 0;
-  for (const SimFiber& fiber : read_sim_resolution(document, {}).fibers) {
-    points += fiber.points.size();
-  }
-  return points <= std::size_t{2} * most_segments;
+  return read(document).rods.positions.size() <= std::size_t{2} * most_segments;
 }
 
 void try_scene(const std::string& text, double seconds = 1.0) {
@@ -63,10 +60,11 @@ void try_scene(const std::string& text, double seconds = 1.0) {
   if (!has_few_segments(text, document)) {
     return;
   }
-  const fiber::test::Bounds bounds(fiber::test::times(2000, text.size()), seconds);
-  const SimScene scene = read_sim_scene(document, MeshLoader(), 1);
+  const test::Bounds bounds(test::times(2000, text.size()), seconds);
+  const SimDescription description = read(document);
+  const SimScene scene = make_sim_scene(description, 1);
   if (scene.stepper->rods().count() != scene.fiber_names.size()) {
-    fiber::test::finding("rods that are not the scene's fibres");
+    test::finding("rods that are not the scene's fibres");
   }
 }
 
@@ -83,9 +81,6 @@ extern "C" int LLVMFuzzerInitialize(int* /*argc*/, char*** /*argv*/) {
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text = fiber::test::text_of(data, size);
-  if (text.find("package://") != std::string::npos) {
-    return 0;  // ROS would look for it in all packages there are
-  }
   try {
     try_scene(text);
   } catch (const std::invalid_argument& error) {

@@ -1,22 +1,12 @@
 #pragma once
 
-#include <filesystem>
-#include <fstream>
+#include <cstdlib>
 #include <string>
 
+#include "support/mesh_files.hpp"
 #include "support/temporary_directory.hpp"
 
-/// Files for tests about meshes.
 namespace test_meshes {
-
-/// A tetrahedron at the origin with legs of 1 m, as OBJ.
-inline const char* const tetrahedron =
-    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
-
-inline void write(const std::string& file, const std::string& content) {
-  std::filesystem::create_directories(std::filesystem::path(file).parent_path());
-  std::ofstream(file, std::ios::binary) << content;
-}
 
 /// A folder with the ROS package `test_meshes`, which has meshes/tetrahedron.obj; ROS finds it as
 /// long as this lives.

@@ -249,5 +249,58 @@ TEST(ObstacleChange, BadPlanesAreRefused) {
             "first three not all 0: ax + by + cz + d = 0");
 }
 
+/// Objects become messages, and these the same objects.
+TEST(ObstacleChange, ObjectsBecomeMessagesThatMakeThemAgain) {
+  SCOPED_TRACE(fiber::test::seed_message());
+  fiber::test::Random random;
+  const auto random_pose = [&random] {
+    return Eigen::Isometry3d(Eigen::Translation3d(random.in_cube()) *
+                             Eigen::AngleAxisd(random.uniform(0.0, 6.0), random.direction()));
+  };
+  fiber::EnvironmentObject object;
+  object.name = "table";
+  object.pose = random_pose();
+  const auto mesh = std::make_shared<const fiber::TriangleMesh>(
+      std::vector<Eigen::Vector3d>{{0, 0, 0}, {1, 0, 0}, {0, 1, 1e-9}},
+      std::vector<fiber::TriangleMesh::Triangle>{{0, 1, 2}, {2, 1, 0}});
+  for (const fiber::Shape& shape : std::vector<fiber::Shape>{
+           fiber::BoxShape{{1, 2, 3}}, fiber::SphereShape{4}, fiber::CylinderShape{5, 6},
+           fiber::ConeShape{7, 8}, fiber::CapsuleShape{9, 10}, mesh,
+           fiber::PlaneShape{random.direction(), 11},
+           fiber::HalfSpaceShape{random.direction(), -12}}) {
+    object.shapes.push_back({shape, random_pose()});
+  }
+  const Obstacle message = to_obstacle(object, "arm");
+  EXPECT_EQ(message.header.frame_id, "arm");
+  EXPECT_EQ(message.id, "table");
+  const ObjectChange change = to_change(message);
+  EXPECT_EQ(change.operation, ObjectChange::Operation::ADD);
+  EXPECT_TRUE(change.object.pose.isApprox(object.pose, 1e-14));
+  const auto& shapes = change.object.shapes;
+  ASSERT_EQ(shapes.size(), object.shapes.size());
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    EXPECT_EQ(shapes[i].shape.index(), object.shapes[i].shape.index());
+    EXPECT_TRUE(shapes[i].pose.isApprox(object.shapes[i].pose, 1e-14));
+  }
+  EXPECT_EQ(std::get<fiber::BoxShape>(shapes[0].shape).size, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(std::get<fiber::SphereShape>(shapes[1].shape).radius, 4);
+  EXPECT_EQ(std::get<fiber::CylinderShape>(shapes[2].shape).radius, 5);
+  EXPECT_EQ(std::get<fiber::CylinderShape>(shapes[2].shape).height, 6);
+  EXPECT_EQ(std::get<fiber::ConeShape>(shapes[3].shape).radius, 7);
+  EXPECT_EQ(std::get<fiber::ConeShape>(shapes[3].shape).height, 8);
+  EXPECT_EQ(std::get<fiber::CapsuleShape>(shapes[4].shape).radius, 9);
+  EXPECT_EQ(std::get<fiber::CapsuleShape>(shapes[4].shape).length, 10);
+  const auto& read = *std::get<std::shared_ptr<const fiber::TriangleMesh>>(shapes[5].shape);
+  EXPECT_EQ(read.vertices(), mesh->vertices());
+  EXPECT_EQ(read.triangles(), mesh->triangles());
+  const auto expect_sheet = [&](const auto& sheet, std::size_t i) {
+    const auto& expected = std::get<std::decay_t<decltype(sheet)>>(object.shapes[i].shape);
+    EXPECT_TRUE(sheet.normal.isApprox(expected.normal, 1e-14));
+    EXPECT_NEAR(sheet.offset, expected.offset, 1e-12);
+  };
+  expect_sheet(std::get<fiber::PlaneShape>(shapes[6].shape), 6);
+  expect_sheet(std::get<fiber::HalfSpaceShape>(shapes[7].shape), 7);
+}
+
 }  // namespace
 }  // namespace fiber_proximity_ros

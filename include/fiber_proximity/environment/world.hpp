@@ -22,13 +22,19 @@ struct ObjectChange {
   EnvironmentObject object;
 };
 
+/// Looks at a change without the world that it is for.
+/// @throws std::invalid_argument naming the object: as validate(EnvironmentObject), for no shapes
+///         to ADD or APPEND, and shapes with a MOVE
+void validate(const ObjectChange& change);
+
 /// Objects by name, and how they change. All functions may be called from any thread at any time:
 /// queries go to the environment of a moment, which does not change any more.
 class World {
  public:
   /// Applies all changes, one after the other, or none.
-  /// @throws std::invalid_argument naming the object: as validate(EnvironmentObject), for a REMOVE
-  ///         or MOVE of an object that is not there, shapes with a MOVE, no shapes to ADD or APPEND
+  /// @throws std::invalid_argument naming the object: as validate(ObjectChange), and for a REMOVE
+  /// or
+  ///         MOVE of an object that is not there
   void apply(const std::vector<ObjectChange>& changes);
 
   bool has(const std::string& name) const;

@@ -36,6 +36,7 @@ class CsvWriter {
 
   /// @throws std::invalid_argument for a frame that the file cannot hold: without numbers any but
   ///         the first; with them one without fibres, or with the number of an earlier one
+  /// @throws FileError
   void write(const FiberFrame& frame);
 
   /// Call once, after the last frame: only then is all of it in the file.

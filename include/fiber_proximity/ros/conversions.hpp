@@ -1,9 +1,10 @@
 #pragma once
 
 #include <geometry_msgs/Point.h>
+#include <geometry_msgs/Pose.h>
 #include <geometry_msgs/Vector3.h>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -25,6 +26,7 @@ Eigen::Vector3d to_vector(const Point& point) {
 
 geometry_msgs::Point to_message(const Eigen::Vector3d& point);
 geometry_msgs::Vector3 to_vector_message(const Eigen::Vector3d& vector);
+geometry_msgs::Pose to_message(const Eigen::Isometry3d& pose);
 
 /// Everything but the header. Memory of the message is reused.
 /// @param names one per fibre, or none

@@ -13,8 +13,8 @@
 #include "fiber_proximity/AllowPairs.h"
 #include "fiber_proximity/InputStatistics.h"
 #include "fiber_proximity/ObstacleArray.h"
+#include "fiber_proximity/environment/allowed_contacts.hpp"
 #include "fiber_proximity/environment/world.hpp"
-#include "fiber_proximity/ros/allowed_contacts.hpp"
 #include "fiber_proximity/ros/change_topic.hpp"
 #include "fiber_proximity/ros/cloud_input.hpp"
 #include "fiber_proximity/ros/environment_options.hpp"
@@ -63,7 +63,7 @@ class EnvironmentInputs {
   std::shared_ptr<const fiber::Environment> environment() const { return world_.environment(); }
 
   fiber::AllowedPairs allowed(const std::vector<std::string>& fiber_names) const {
-    return allowed_.resolve(fiber_names);
+    return fiber::resolve(allowed_.pairs(), fiber_names);
   }
 
   /// Links of the robot and obstacles of the scene that are left out as their transforms are not
@@ -104,7 +104,7 @@ class EnvironmentInputs {
   std::function<void()> on_message_;
   fiber::World world_;
   ObstacleSet obstacles_;
-  AllowedContacts allowed_;
+  fiber::AllowedContacts allowed_;
   SceneObstacles scene_;
   RobotLinks robot_;
   double obstacle_timeout_;  // [s]

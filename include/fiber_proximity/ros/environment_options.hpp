@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "fiber_proximity/environment/scene/environment_scene.hpp"
 #include "fiber_proximity/ros/cloud_cells.hpp"
-#include "fiber_proximity/ros/environment_scene.hpp"
 #include "fiber_proximity/ros/mesh_loader.hpp"
 #include "fiber_proximity/ros/robot_description.hpp"
 
@@ -22,7 +22,7 @@ struct MarkerTopic {
 /// Where the environment comes from, as the private parameters have it.
 struct EnvironmentOptions {
   MeshLoader meshes;
-  EnvironmentScene scene;
+  fiber::EnvironmentScene scene;
   std::vector<RobotLink> robot;
   std::optional<CloudOptions> cloud;
   std::vector<MarkerTopic> marker_topics;

@@ -1,34 +1,29 @@
 #pragma once
 
-#include <shape_msgs/Mesh.h>
-
 #include <Eigen/Core>
-#include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "fiber_proximity/environment/triangle_mesh.hpp"
+
 namespace fiber_proximity_ros {
 
-/// Reads meshes from files, in any format that assimp knows, and only from where they may lie: in
-/// ROS packages, package://NAME/PATH, and in the folders that are configured, file:///PATH.
-/// Symbolic links do not lead out of these. Files that assimp crashes on or hangs with are refused.
+/// Reads meshes (fiber::read_mesh_file) only from where they may lie: in ROS packages,
+/// package://NAME/PATH, and in the folders that are configured, file:///PATH. Symbolic links do not
+/// lead out of these. A fiber::MeshSource.
 class MeshLoader {
  public:
-  /// [byte] Larger files are refused unread: twice a binary STL of as many triangles as
-  /// fiber::TriangleMesh takes.
-  static constexpr std::uintmax_t largest_file = 100'000'000;
-
   MeshLoader() = default;
 
   /// @throws std::invalid_argument for a folder that is not there
   explicit MeshLoader(const std::vector<std::string>& folders);
 
-  /// @param scale of each axis; a mirrored mesh has its triangles turned round, so that they are
-  ///        still counter-clockwise from outside
   /// @throws std::invalid_argument naming the resource and what is wrong: where it lies, its size,
   ///         its content, or the scale
-  shape_msgs::Mesh load(const std::string& resource, const Eigen::Vector3d& scale) const;
+  std::shared_ptr<const fiber::TriangleMesh> operator()(const std::string& resource,
+                                                        const Eigen::Vector3d& scale) const;
 
  private:
   std::filesystem::path resolve(const std::string& resource) const;

@@ -1,19 +1,17 @@
 #pragma once
 
-#include <stdexcept>
 #include <string>
 
 #include "fiber_proximity/ros/fixed_frame.hpp"
+#include "fiber_proximity/text/with_context.hpp"
 
 namespace fiber_proximity_ros {
 
-/// Runs a function; an error of its names what it was about, too.
+/// fiber::with_context(), for functions that may miss a transform, too.
 template <class Function>
 auto naming(const std::string& what, const Function& function) {
   try {
-    return function();
-  } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(what + ": " + error.what());
+    return fiber::with_context(what, function);
   } catch (const TransformUnavailable& error) {
     throw TransformUnavailable(what + ": " + error.what());
   }

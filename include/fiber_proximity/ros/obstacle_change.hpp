@@ -1,5 +1,8 @@
 #pragma once
 
+#include <geometry_msgs/Pose.h>
+
+#include <cstddef>
 #include <string>
 
 #include "fiber_proximity/Obstacle.h"
@@ -7,16 +10,26 @@
 
 namespace fiber_proximity_ros {
 
-/// Names that obstacles may not have, as the node itself uses them.
-inline const std::string cloud_name = "cloud";
-inline const std::string robot_prefix = "robot/";  ///< followed by the name of a link
-
-/// @throws std::invalid_argument for an empty name, or one of those above
-void validate_obstacle_name(const std::string& name);
+/// @throws std::invalid_argument as fiber::make_pose
+Eigen::Isometry3d to_pose(const geometry_msgs::Pose& message);
 
 /// What a message asks for, as a change of the world, but in the message's frame. A REMOVE of an
 /// empty id, which means all obstacles, is left to those who know them.
 /// @throws std::invalid_argument naming the obstacle, what is wrong with it and what is allowed
 fiber::ObjectChange to_change(const fiber_proximity::Obstacle& obstacle);
+
+/// The message that adds an object: to_change() makes it the same object again, with its shapes by
+/// kind.
+/// @param object   without octrees, which have no message
+/// @param frame_id in which the object's pose is
+fiber_proximity::Obstacle to_obstacle(const fiber::EnvironmentObject& object,
+                                      const std::string& frame_id);
+
+/// Whether building meshes of so many triangles would keep the node from answering for longer than
+/// a small query takes; then it is left to a Worker.
+inline bool is_large_mesh(std::size_t triangles) {
+  constexpr std::size_t most_at_once = 500;  // about 2 ms
+  return triangles > most_at_once;
+}
 
 }  // namespace fiber_proximity_ros

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "fiber_proximity/environment/scene/environment_scene.hpp"
 #include "fiber_proximity/ros/obstacle_set.hpp"
 
 namespace fiber_proximity_ros {
@@ -11,7 +12,7 @@ namespace fiber_proximity_ros {
 /// takes.
 class SceneObstacles {
  public:
-  explicit SceneObstacles(const std::vector<FramedChange>& obstacles);
+  explicit SceneObstacles(const std::vector<fiber::SceneObstacle>& obstacles);
 
   /// Adds those whose frames are known by now; one whose name is taken by now is left out, with a
   /// warning.

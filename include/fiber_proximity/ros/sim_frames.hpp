@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fiber_proximity/ros/fixed_frame.hpp"
-#include "fiber_proximity/ros/sim_scene.hpp"
+#include "fiber_proximity/sim/scene/scene.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -24,11 +24,11 @@ class SimFrames {
   /// @param timeout [s] of wall time
   /// @throws std::invalid_argument naming the scene's line, the fibre and the frame that did not
   /// come
-  void wait_for(const std::vector<FollowedFrame>& frames, double timeout) const;
+  void wait_for(const std::vector<fiber::FollowedFrame>& frames, double timeout) const;
 
   /// Leads all that is held from where it is to where the frames are, during the next frame of the
   /// scene; no faster than 5 m/s, as after a gap it may be far away.
-  void follow(const SimScene& scene);
+  void follow(const fiber::SimScene& scene);
 
  private:
   struct Watch {
@@ -39,8 +39,9 @@ class SimFrames {
   };
 
   /// @param problem why nothing new is known; empty if there is something new
-  void watch(const FollowedFrame& followed, Watch& watch, const std::string& problem) const;
-  fiber::Placement next_placement(const SimScene& scene, const FollowedFrame& followed,
+  void watch(const fiber::FollowedFrame& followed, Watch& watch, const std::string& problem) const;
+  fiber::Placement next_placement(const fiber::SimScene& scene,
+                                  const fiber::FollowedFrame& followed,
                                   const Eigen::Isometry3d& frame, Watch& watch) const;
 
   const FixedFrame& world_;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "fiber_proximity/ros/fixed_frame.hpp"
-#include "fiber_proximity/ros/sim_reach.hpp"
+#include "fiber_proximity/sim/scene/lead.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -24,14 +24,14 @@ class SimMarkers {
 
   /// Makes handles for a scene, which must have the effect attachment, in place of those before:
   /// for its first fibres if it has very many.
-  void begin(const SimScene& scene);
+  void begin(const fiber::SimScene& scene);
 
   /// Takes over what users have done since the last frame; dragged ends move towards where they are
   /// wanted in the next frame, no faster than a hand.
-  void apply(SimScene& scene);
+  void apply(fiber::SimScene& scene);
 
   /// Brings the handles to where the ends are.
-  void update(const SimScene& scene);
+  void update(const fiber::SimScene& scene);
 
  private:
   /// Where a dragged end is from one frame to the next.
@@ -50,10 +50,10 @@ class SimMarkers {
   };
 
   void receive(const visualization_msgs::InteractiveMarkerFeedback& feedback);
-  void take_hold(SimScene& scene, const NodeOfRod& end, Grab& grab) const;
+  void take_hold(fiber::SimScene& scene, const fiber::NodeOfRod& end, Grab& grab) const;
 
   const FixedFrame& world_;
-  std::map<std::string, NodeOfRod> ends_;
+  std::map<std::string, fiber::NodeOfRod> ends_;
   std::map<std::string, Grab> grabs_;
 
   // The server's callbacks may run in another thread than all else, in a nodelet.

@@ -16,9 +16,10 @@
 #include "fiber_proximity/StepSimulation.h"
 #include "fiber_proximity/ros/fair_mutex.hpp"
 #include "fiber_proximity/ros/fixed_frame.hpp"
+#include "fiber_proximity/ros/mesh_loader.hpp"
 #include "fiber_proximity/ros/sim_frames.hpp"
 #include "fiber_proximity/ros/sim_markers.hpp"
-#include "fiber_proximity/ros/sim_scene.hpp"
+#include "fiber_proximity/sim/scene/scene.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -37,6 +38,10 @@ struct SimOptions {
 /// @throws std::invalid_argument naming the parameter, its value and what is allowed
 SimOptions read_sim_options(const ros::NodeHandle& private_node);
 
+/// Reads the file of the scene.
+/// @throws std::invalid_argument as fiber::load_yaml and fiber::read_sim_scene
+fiber::SimDescription read_scene(const SimOptions& options);
+
 /// Stands in for a tracker: moves the fibres of a scene in real time, and publishes ~fibers; and
 /// ~obstacles, the scene's environment, once.
 ///
@@ -46,15 +51,19 @@ SimOptions read_sim_options(const ros::NodeHandle& private_node);
 /// ~step has a thread of its own, so that the other callbacks are served between its frames.
 class SimServer {
  public:
-  /// @throws std::invalid_argument as read_sim_scene, and for a frame of tf that does not come
+  /// @throws std::invalid_argument as read_scene and fiber::make_sim_scene, and for a frame of tf
+  ///         that does not come
   SimServer(const ros::NodeHandle& private_node, const SimOptions& options);
   ~SimServer();
   SimServer(const SimServer&) = delete;
   SimServer& operator=(const SimServer&) = delete;
 
  private:
+  SimServer(const ros::NodeHandle& private_node, const SimOptions& options,
+            const fiber::SimDescription& description);
+
   void advertise_services();
-  void log_scene() const;
+  void log_scene(const fiber::SimDescription& description) const;
   void keep_pace();
   void update_markers();
 
@@ -66,8 +75,8 @@ class SimServer {
   void warn_of_strain() const;
   void make_markers();
   void publish();
-  void publish_obstacles(const std::vector<fiber_proximity::Obstacle>& before);
-  NodeOfRod find_node(const std::string& fiber, std::int32_t node) const;
+  void publish_obstacles(const std::vector<fiber::EnvironmentObject>& before);
+  fiber::NodeOfRod find_node(const std::string& fiber, std::int32_t node) const;
 
   void step_frames(std::uint32_t count);
   void begin_again();
@@ -86,7 +95,7 @@ class SimServer {
   ros::NodeHandle node_;
   SimOptions options_;
   FairMutex mutex_;  // of all that follows
-  SimScene scene_;
+  fiber::SimScene scene_;
   FixedFrame world_;
   SimFrames frames_;
   bool is_paused_;

@@ -1,0 +1,90 @@
+#include "fiber_proximity/environment/allowed_contacts.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "fiber_proximity/text/quote.hpp"
+
+namespace fiber {
+namespace {
+
+using Pairs = std::vector<NamedPair>;
+
+std::string label(const NamedPair& pair) {
+  std::string segments;
+  for (const std::int32_t segment : pair.segments) {
+    segments += (segments.empty() ? "" : ", ") + std::to_string(segment);
+  }
+  return "pair of object " + quote(pair.object) + " and fiber " + quote(pair.fiber) +
+         ", segments [" + shortened(segments) + "]";
+}
+
+}  // namespace
+
+void validate(const NamedPair& pair) {
+  const auto& segments = pair.segments;
+  if (segments.empty()) {
+    return;
+  }
+  if (segments.size() != 2) {
+    throw std::invalid_argument(label(pair) +
+                                ": segments must be the first and the last one, or empty");
+  }
+  // Of different signs, the order depends on the fibre's length.
+  if ((segments[0] < 0) == (segments[1] < 0) && segments[0] > segments[1]) {
+    throw std::invalid_argument(label(pair) + ": the first segment comes after the last");
+  }
+}
+
+void AllowedContacts::apply(bool reset, const Pairs& forbid, const Pairs& allow) {
+  Pairs pairs = reset ? Pairs() : pairs_;
+  std::set<NamedPair> known(pairs.begin(), pairs.end());
+  for (const NamedPair& pair : forbid) {
+    if (known.erase(pair) == 0) {
+      throw std::invalid_argument(label(pair) + ": it is not allowed, so it cannot be taken back");
+    }
+  }
+  const auto is_forbidden = [&known](const NamedPair& pair) { return known.count(pair) == 0; };
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), is_forbidden), pairs.end());
+  for (const NamedPair& pair : allow) {
+    validate(pair);
+    if (known.insert(pair).second) {
+      pairs.push_back(pair);
+    }
+  }
+  pairs_ = std::move(pairs);
+}
+
+AllowedPairs resolve(const Pairs& pairs, const std::vector<std::string>& fiber_names) {
+  std::multimap<std::string_view, std::uint32_t> fibers;  // those of one name in their order
+  if (!pairs.empty()) {
+    for (std::size_t i = 0; i < fiber_names.size(); ++i) {
+      fibers.emplace(fiber_names[i], static_cast<std::uint32_t>(i));
+    }
+  }
+  AllowedPairs resolved;
+  for (const NamedPair& pair : pairs) {
+    AllowedPair allowed;
+    allowed.object = pair.object;
+    if (!pair.segments.empty()) {
+      allowed.first_segment = pair.segments[0];
+      allowed.last_segment = pair.segments[1];
+    }
+    if (pair.fiber.empty()) {
+      resolved.push_back(allowed);
+      continue;
+    }
+    const auto [begin, end] = fibers.equal_range(pair.fiber);
+    for (auto fiber = begin; fiber != end; ++fiber) {
+      allowed.fiber = fiber->second;
+      resolved.push_back(allowed);
+    }
+  }
+  return resolved;
+}
+
+}  // namespace fiber

@@ -1,0 +1,160 @@
+#include "fibers.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <set>
+
+#include "fiber_proximity/sim/resolution.hpp"
+#include "fiber_proximity/text/with_context.hpp"
+#include "shapes.hpp"
+
+namespace fiber {
+namespace {
+
+constexpr std::int64_t most_segments = 1000000;  // of all fibres together, too
+constexpr std::int64_t most_repeats = 100000;
+
+/// Into so many segments a curve is cut to measure how much it turns.
+constexpr std::int64_t fine_segments = 1000;
+
+/// A preset's name, or the moduli and so on; with both, these replace the preset's.
+RodMaterial read_material(const YamlField& field, bool is_name) {
+  if (is_name) {
+    return with_context(field.place(), [&] { return material_preset(field.text()); });
+  }
+  field.require_map({"preset", "youngs_modulus", "shear_modulus", "density", "bending_share"});
+  RodMaterial material;
+  if (const auto preset = field.find("preset")) {
+    material = read_material(*preset, true);
+  }
+  field.read("youngs_modulus", material.youngs_modulus);
+  field.read("shear_modulus", material.shear_modulus);
+  field.read("density", material.density);
+  field.read("bending_share", material.bending_share);
+  return material;
+}
+
+double length_of(const std::vector<Eigen::Vector3d>& points) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    length += (points[i] - points[i - 1]).norm();
+  }
+  return length;
+}
+
+/// By how much a curve turns in all [rad].
+double turning_of(const std::vector<Eigen::Vector3d>& points) {
+  double turning = 0.0;
+  for (std::size_t i = 2; i < points.size(); ++i) {
+    const Eigen::Vector3d before = points[i - 1] - points[i - 2];
+    const Eigen::Vector3d after = points[i] - points[i - 1];
+    turning += std::atan2(before.cross(after).norm(), before.dot(after));
+  }
+  return turning;
+}
+
+void read_body(const YamlField& entry, bool chooses_segments, FiberEntry& fiber) {
+  if (!chooses_segments || entry.find("segments")) {
+    fiber.segments = entry.get("segments").integer(1, most_segments);
+  }
+  fiber.curve = read_shape(entry.get("shape"));
+  if (chooses_segments) {
+    fiber.length = length_of(fiber.curve);
+    fiber.turning = turning_of(resample(fiber.curve, fine_segments));
+  }
+  fiber.radius = entry.get("radius").number();
+  const YamlField given = entry.get("material");
+  const RodMaterial material = read_material(given, given.is_text());
+  fiber.section =
+      with_context(given.place(), [&] { return solid_round_section(material, fiber.radius); });
+}
+
+FiberEntry read_fiber(const YamlField& entry, bool chooses_segments) {
+  entry.require_map({"name", "shape", "segments", "radius", "material", "repeat"});
+  FiberEntry fiber;
+  fiber.name = entry.get("name").text();
+  fiber.place = entry.place();
+  naming_fiber(fiber.name, [&] { read_body(entry, chooses_segments, fiber); });
+  if (const auto repeat = entry.find("repeat")) {
+    repeat->require_map({"count", "offset"});
+    fiber.repeat_place = repeat->place();
+    fiber.count = repeat->get("count").integer(1, most_repeats);
+    fiber.offset = repeat->get("offset").vector();
+  }
+  return fiber;
+}
+
+/// Adds the rods of an entry, each moved by the offset from the one before.
+void add(const FiberEntry& entry, std::int64_t segments, SimDescription& scene) {
+  const std::vector<Eigen::Vector3d> points = resample(entry.curve, segments);
+  for (std::int64_t i = 0; i < entry.count.value_or(1); ++i) {
+    const std::string name = entry.count ? entry.name + "_" + std::to_string(i) : entry.name;
+    std::vector<Eigen::Vector3d> moved = points;
+    for (Eigen::Vector3d& point : moved) {
+      point += static_cast<double>(i) * entry.offset;
+    }
+    naming_fiber(entry.name, [&] {
+      with_context(entry.place, [&] { scene.rods.add(moved, entry.radius, entry.section); });
+    });
+    scene.fibers.push_back({name, entry.name, entry.place});
+    scene.fiber_names.push_back(name);
+  }
+}
+
+}  // namespace
+
+std::int64_t FiberEntry::segments_for(std::optional<double> accuracy) const {
+  if (segments) {
+    return *segments;
+  }
+  return naming_fiber(name, [&] {
+    const std::int64_t chosen = fiber::segments_for(accuracy.value(), turning);
+    if (chosen > most_segments) {
+      throw std::invalid_argument(place + ": the scene's accuracy takes " + std::to_string(chosen) +
+                                  " segments, " + std::to_string(most_segments) + " are the most");
+    }
+    return chosen;
+  });
+}
+
+std::vector<FiberEntry> read_fibers(const YamlField& list, bool chooses_segments) {
+  std::vector<FiberEntry> entries;
+  for (const YamlField& entry : list.items()) {
+    entries.push_back(read_fiber(entry, chooses_segments));
+  }
+  if (entries.empty()) {
+    list.refuse("a list of at least one fibre");
+  }
+  return entries;
+}
+
+void cut(const std::vector<FiberEntry>& entries, std::optional<double> accuracy,
+         SimDescription& scene) {
+  std::int64_t total = 0;
+  for (const FiberEntry& entry : entries) {
+    const std::int64_t segments = entry.segments_for(accuracy);
+    const std::int64_t count = entry.count.value_or(1);
+    if (count > most_segments / segments) {
+      throw std::invalid_argument(entry.repeat_place + ": " + std::to_string(count) +
+                                  " fibres of " + std::to_string(segments) +
+                                  " segments are too many, a scene has at most " +
+                                  std::to_string(most_segments) + " segments");
+    }
+    total += count * segments;
+    if (total > most_segments) {
+      throw std::invalid_argument(entry.place + ": with this fibre the scene has " +
+                                  std::to_string(total) + " segments, " +
+                                  std::to_string(most_segments) + " are the most");
+    }
+    add(entry, segments, scene);
+  }
+  std::set<std::string> names;
+  for (const SimFiber& fiber : scene.fibers) {
+    if (!names.insert(fiber.name).second) {
+      throw std::invalid_argument(fiber.place + " has the name " + quote(fiber.name) +
+                                  " of another fibre of the scene");
+    }
+  }
+}
+
+}  // namespace fiber

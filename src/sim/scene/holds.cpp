@@ -1,0 +1,270 @@
+#include "holds.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "fiber_proximity/geometry/smallest_rotation.hpp"
+#include "fiber_proximity/text/listed.hpp"
+#include "fiber_proximity/text/quote.hpp"
+#include "fibers.hpp"
+
+namespace fiber {
+namespace {
+
+using Eigen::Vector3d;
+using Waypoints = std::vector<SimWaypoint>;
+
+/// What is held, by rod and node, and where the scene says so.
+using HeldPlaces = std::map<std::pair<std::uint32_t, std::uint32_t>, std::string>;
+
+/// Indices of the fibres of this name, or of the entry of this name.
+std::vector<std::uint32_t> find_fibers(const YamlField& name, const std::vector<SimFiber>& fibers) {
+  const std::string wanted = name.text();
+  std::vector<std::uint32_t> found;
+  std::set<std::string> names;
+  for (std::uint32_t i = 0; i < fibers.size(); ++i) {
+    if (fibers[i].name == wanted || fibers[i].group == wanted) {
+      found.push_back(i);
+    }
+    names.insert(fibers[i].group);
+  }
+  if (found.empty()) {
+    name.refuse("the name of a fibre of the scene: " + shortened(listed(names)));
+  }
+  return found;
+}
+
+std::uint32_t read_node(const std::optional<YamlField>& node, std::uint32_t count) {
+  const std::uint32_t last = count - 1;
+  if (!node || node->text() == "first") {
+    return 0;
+  }
+  return node->text() == "last" ? last : static_cast<std::uint32_t>(node->integer(0, last));
+}
+
+bool read_is_clamp(const std::optional<YamlField>& kind) {
+  if (!kind || kind->text() == "pin") {
+    return false;
+  }
+  if (kind->text() != "clamp") {
+    kind->refuse("pin or clamp");
+  }
+  return true;
+}
+
+/// The edge at a node that a hold there takes its direction from.
+std::uint32_t edge_at(const Rods& rods, std::uint32_t rod, std::uint32_t node) {
+  return std::min(rods.first(rod) + node, rods.end(rod) - 2);
+}
+
+Vector3d tangent_at(const Rods& rods, std::uint32_t edge) {
+  return (rods.positions[edge + 1] - rods.positions[edge]).normalized();
+}
+
+Vector3d unit(const YamlField& field) {
+  const Vector3d vector = field.vector();
+  if (!vector.allFinite() || !(vector.norm() > 1e-9)) {
+    field.refuse("a direction");
+  }
+  return vector.normalized();
+}
+
+bool is_across(const Vector3d& director, const Vector3d& tangent) {
+  return (director - tangent * tangent.dot(director)).norm() > 0.5;
+}
+
+/// A director made exactly across the tangent, so that people may write round numbers.
+Vector3d straightened(const Vector3d& director, const Vector3d& tangent) {
+  return is_across(director, tangent) ? (director - tangent * tangent.dot(director)).normalized()
+                                      : tangent.unitOrthogonal();
+}
+
+/// What the entry says of a waypoint; the rest stays.
+void read_waypoint(const YamlField& entry, SimWaypoint& waypoint) {
+  entry.read("position", waypoint.position);
+  if (const auto tangent = entry.find("tangent")) {
+    waypoint.tangent = unit(*tangent);
+  }
+  if (const auto director = entry.find("director")) {
+    waypoint.director = unit(*director);
+    if (!is_across(*waypoint.director, waypoint.tangent)) {
+      director->refuse("across the tangent");
+    }
+  }
+  if (waypoint.director) {
+    waypoint.director = straightened(*waypoint.director, waypoint.tangent);
+  }
+}
+
+Waypoints read_path(const YamlField& list, SimWaypoint waypoint) {
+  Waypoints path;
+  for (const YamlField& entry : list.items()) {
+    entry.require_map({"time", "position", "tangent", "director"});
+    const YamlField time = entry.get("time");
+    waypoint.time = time.number();
+    if (!std::isfinite(waypoint.time)) {
+      time.refuse("finite");
+    }
+    if (!path.empty() && !(waypoint.time > path.back().time)) {
+      time.refuse("later than the time before, " + std::to_string(path.back().time) + " s");
+    }
+    if (path.empty() && waypoint.time != 0.0) {
+      time.refuse("0, where the path begins");
+    }
+    read_waypoint(entry, waypoint);
+    path.push_back(waypoint);
+  }
+  if (path.empty()) {
+    list.refuse("a list of at least one entry");
+  }
+  return path;
+}
+
+/// Leads a path back to where it begins, after which it begins again.
+void close_path(const YamlField& period, Waypoints& path) {
+  const double length = period.number();
+  if (!(std::isfinite(length) && length > path.back().time)) {
+    period.refuse("longer than the path, " + std::to_string(path.back().time) +
+                  " s: it leads back to its beginning");
+  }
+  path.push_back(path.front());
+  path.back().time = length;
+}
+
+double fastest_speed(const Waypoints& path) {
+  double fastest = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    fastest = std::max(fastest, (path[i].position - path[i - 1].position).norm() /
+                                    (path[i].time - path[i - 1].time));
+  }
+  return fastest;
+}
+
+/// Before the first entry and after the last one these hold.
+Placement at(const PlacementPath& path, double time) {
+  const auto later = std::find_if(path.begin(), path.end(),
+                                  [time](const auto& entry) { return entry.first > time; });
+  if (later == path.begin() || later == path.end()) {
+    return later == path.end() ? path.back().second : later->second;
+  }
+  const auto& [start, from] = *std::prev(later);
+  const double share = (time - start) / (later->first - start);
+  const Placement& to = later->second;
+  Placement placement;
+  placement.position = from.position + share * (to.position - from.position);
+  // Directions turn at equal rates; opposite ones turn about any axis.
+  const auto turn = smallest_rotation(from.tangent, to.tangent);
+  const auto part = Eigen::Quaterniond::Identity().slerp(share, turn);
+  placement.tangent = part * from.tangent;
+  const Vector3d carried = turn * from.director;
+  const double twist =
+      std::atan2(to.tangent.dot(carried.cross(to.director)), carried.dot(to.director));
+  placement.director = Eigen::AngleAxisd(share * twist, placement.tangent) * (part * from.director);
+  return placement;
+}
+
+/// Where the fibre would be torn in the first step: a hold begins where it is, within an edge.
+void require_near(const SimHold& hold, const Rods& rods) {
+  const double length = rods.rest_lengths[edge_at(rods, hold.rod, hold.node)];
+  const double away =
+      (hold.path.front().position - rods.positions[rods.first(hold.rod) + hold.node]).norm();
+  if (!(away <= length)) {
+    throw std::invalid_argument(hold.place + " begins " + std::to_string(away) +
+                                " m from where node " + std::to_string(hold.node) +
+                                " is, it must begin within " + std::to_string(length) +
+                                " m, an edge's length");
+  }
+}
+
+SimHold read_hold(const YamlField& entry, std::uint32_t rod, const Rods& rods) {
+  SimHold hold;
+  hold.place = entry.place();
+  hold.rod = rod;
+  hold.node = read_node(entry.find("node"), rods.node_count(rod));
+  hold.is_clamp = read_is_clamp(entry.find("kind"));
+  const auto path = entry.find("path");
+  const auto period = entry.find("period");
+  const auto frame = entry.find("frame");
+  if (path && frame) {
+    frame->refuse("absent where there is a path");
+  }
+  if (period && !path) {
+    period->refuse("absent where there is no path");
+  }
+  if (frame) {
+    hold.frame = frame->text();
+  }
+  if (const auto force = entry.find("max_force")) {
+    hold.max_force = force->number();
+    if (!(std::isfinite(hold.max_force) && hold.max_force > 0.0)) {
+      force->refuse("above 0 and finite");
+    }
+  }
+  const Vector3d beginning = rods.positions[rods.first(rod) + hold.node];
+  SimWaypoint waypoint{0.0, frame ? Vector3d::Zero() : beginning,
+                       tangent_at(rods, edge_at(rods, rod, hold.node)), std::nullopt};
+  read_waypoint(entry, waypoint);
+  hold.path = path ? read_path(*path, waypoint) : Waypoints{waypoint};
+  hold.is_periodic = period.has_value();
+  if (period) {
+    close_path(*period, hold.path);
+  }
+  if (!frame) {
+    require_near(hold, rods);
+  }
+  return hold;
+}
+
+}  // namespace
+
+void read_holds(const YamlField& list, SimDescription& scene) {
+  HeldPlaces places;
+  for (const YamlField& entry : list.items()) {
+    entry.require_map({"fiber", "node", "kind", "position", "tangent", "director", "path", "period",
+                       "frame", "max_force"});
+    for (const std::uint32_t rod : find_fibers(entry.get("fiber"), scene.fibers)) {
+      naming_fiber(scene.fibers[rod].name, [&] {
+        SimHold hold = read_hold(entry, rod, scene.rods);
+        const auto [other, is_new] = places.insert({{rod, hold.node}, hold.place});
+        if (!is_new) {
+          throw std::invalid_argument(hold.place + " holds node " + std::to_string(hold.node) +
+                                      ", which is held already: " + other->second);
+        }
+        scene.fastest_hold = std::max(scene.fastest_hold, fastest_speed(hold.path));
+        scene.holds.push_back(std::move(hold));
+      });
+    }
+  }
+}
+
+std::function<Placement(double)> placement_of(const SimHold& hold, const SimDescription& scene,
+                                              const Rods& rods,
+                                              std::vector<FollowedFrame>& frames) {
+  const std::uint32_t edge = edge_at(rods, hold.rod, hold.node);
+  const Vector3d tangent = tangent_at(rods, edge);
+  const Placement beginning{
+      rods.positions[rods.first(hold.rod) + hold.node], tangent,
+      rods.directors.empty() ? Vector3d(tangent.unitOrthogonal()) : rods.directors[edge]};
+  const auto path = std::make_shared<PlacementPath>();
+  Vector3d director = beginning.director;
+  for (const SimWaypoint& waypoint : hold.path) {
+    director = waypoint.director.value_or(straightened(director, waypoint.tangent));
+    path->emplace_back(waypoint.time, Placement{waypoint.position, waypoint.tangent, director});
+  }
+  if (hold.frame) {
+    frames.push_back({*hold.frame, hold.rod, hold.node,
+                      hold.place + ": node " + std::to_string(hold.node) + " of fibre " +
+                          quote(scene.fiber_names[hold.rod]),
+                      path->front().second, path});
+    *path = {{0.0, beginning}};
+  }
+  const double period = hold.is_periodic ? hold.path.back().time : 0.0;
+  return [path, period](double time) {
+    return at(*path, period > 0.0 ? std::fmod(time, period) : time);
+  };
+}
+
+}  // namespace fiber

@@ -1,0 +1,134 @@
+#include "fiber_proximity/sim/scene/report.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <sstream>
+
+namespace fiber {
+namespace {
+
+constexpr std::uint32_t most_trial_frames = 20;
+constexpr double longest_trial = 0.3;  // [s]
+
+/// Runs one step.
+/// @returns the wall time it took [s]
+double run_step(SimScene& scene) {
+  const auto begin = std::chrono::steady_clock::now();
+  scene.stepper->step(scene.step_length());
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+double thinnest(const Rods& rods) {
+  return *std::min_element(rods.radii.begin(), rods.radii.end());
+}
+
+/// A sentence of numbers and words, with three digits each.
+template <class... Parts>
+std::string sentence(const Parts&... parts) {
+  std::ostringstream text;
+  text.precision(3);
+  (text << ... << parts);
+  return text.str();
+}
+
+/// Bending waves shorter than this go faster than steps [m]: those of ω h = 1, ω = k² √(EI/ρA).
+double shortest_wave(const RodSection& section, double step) {
+  return 2.0 * M_PI *
+         std::pow(step * step * section.bending_stiffness / section.mass_per_length, 0.25);
+}
+
+void judge_steps(const SimScene& scene, SimReport& report) {
+  const double step = scene.step_length();
+  double longest = 0.0;
+  for (const RodSection& section : scene.stepper->rods().sections) {
+    longest = std::max(longest, shortest_wave(section, step));
+  }
+  if (scene.options.integrator == Integrator::BDF2) {
+    report.facts.push_back(sentence("stable: BDF2 in steps of ", 1e3 * step,
+                                    " ms keeps swings; bending waves below about ", 1e3 * longest,
+                                    " mm are not resolved and damped"));
+    return;
+  }
+  // ω² h / 2 is the rate at which implicit Euler damps a swing of ω.
+  const double lost = 1.0 - std::exp(-0.5 * std::pow(2.0 * M_PI, 2) * step);
+  report.facts.push_back(sentence("stable: implicit Euler in steps of ", 1e3 * step,
+                                  " ms; expect bending waves below about ", 1e3 * longest,
+                                  " mm to be damped at once, and a swing of 1 Hz to lose ",
+                                  100.0 * lost, " % of its height a second"));
+}
+
+void judge_grippers(const SimScene& scene, SimReport& report) {
+  const double way = scene.fastest_hold * scene.step_length();
+  const double radius = thinnest(scene.stepper->rods());
+  if (way > radius) {
+    report.warnings.push_back(sentence(
+        "a gripper moves ", 1e3 * way, " mm a step, more than the thinnest radius, ", 1e3 * radius,
+        " mm: nothing passes through anything, but expect jerks in contacts; ",
+        std::ceil(way / radius) * scene.substeps, " substeps would be enough"));
+  } else if (way > 0.0) {
+    report.facts.push_back(sentence("grippers move up to ", 1e3 * way, " mm a step, ", way / radius,
+                                    " of the thinnest radius"));
+  }
+}
+
+void judge_trial(const SimScene& scene, const SimTrial& trial, SimReport& report) {
+  if (!trial.failure.empty()) {
+    report.warnings.push_back(
+        sentence("expect it to stop after ", trial.steps, " step(s): ", trial.failure));
+    return;
+  }
+  const std::string within =
+      sentence(" within ", trial.iterations, " iteration(s) in ", trial.steps, " step(s)");
+  if (trial.residual > scene.options.residual) {
+    report.warnings.push_back(sentence("forces do not balance", within,
+                                       ": they would change speeds by up to ", trial.residual,
+                                       " m/s a step, `residual` is ", scene.options.residual,
+                                       " m/s; expect lag; more iterations or substeps mend it"));
+  } else {
+    report.facts.push_back(
+        sentence("forces balance to ", scene.options.residual, " m/s a step", within));
+  }
+  const std::string speed = sentence("expected real-time factor ", trial.real_time_factor,
+                                     ", by the first ", trial.steps, " step(s)");
+  if (trial.real_time_factor < 1.0) {
+    report.warnings.push_back(speed +
+                              ": expect it to fall behind; fewer segments or substeps, or "
+                              "real_time: true, mend it");
+  } else {
+    report.facts.push_back(speed);
+  }
+}
+
+}  // namespace
+
+SimTrial try_scene(const SimDescription& description, std::uint32_t threads) {
+  SimScene scene = make_sim_scene(description, threads);
+  SimTrial trial;
+  double taken = 0.0;
+  try {
+    while (trial.steps < most_trial_frames * scene.substeps && taken < longest_trial) {
+      taken += run_step(scene);
+      ++trial.steps;
+      const StepReport& step = scene.stepper->report();
+      trial.iterations = std::max(trial.iterations, step.iterations);
+      trial.residual = std::max(trial.residual, step.worst.residual);
+    }
+  } catch (const std::exception& error) {
+    trial.failure = error.what();
+    return trial;
+  }
+  trial.real_time_factor = trial.steps * scene.step_length() / taken;
+  return trial;
+}
+
+SimReport report(const SimScene& scene, const SimTrial& trial) {
+  SimReport report;
+  judge_steps(scene, report);
+  judge_grippers(scene, report);
+  judge_trial(scene, trial, report);
+  return report;
+}
+
+}  // namespace fiber

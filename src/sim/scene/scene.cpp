@@ -1,0 +1,28 @@
+#include "fiber_proximity/sim/scene/scene.hpp"
+
+#include <utility>
+
+#include "effects.hpp"
+#include "overlap.hpp"
+
+namespace fiber {
+
+void SimScene::advance() {
+  for (std::uint32_t i = 0; i < substeps; ++i) {
+    stepper->step(step_length());
+  }
+}
+
+SimScene make_sim_scene(const SimDescription& description, std::uint32_t threads) {
+  SimScene scene;
+  static_cast<SimSettings&>(scene) = description;
+  scene.options.threads = threads;
+  Rods rods = description.rods;
+  MadeEffects effects = make_effects(description, rods, scene);
+  scene.overlap_note = settle_overlaps(description, scene.attachment, rods);
+  scene.stepper = std::make_unique<Stepper>(std::move(rods), std::move(effects.effects),
+                                            scene.options, std::move(effects.contacts));
+  return scene;
+}
+
+}  // namespace fiber

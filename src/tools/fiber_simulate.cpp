@@ -1,0 +1,133 @@
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include "command_line.hpp"
+#include "fiber_proximity/io/fiber_file.hpp"
+#include "fiber_proximity/sim/scene/scene.hpp"
+#include "fiber_proximity/text/quote.hpp"
+#include "progress.hpp"
+
+namespace fiber {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct Request {
+  std::string scene;
+  double seconds = 0.0;
+  std::string out;
+  std::uint32_t threads = 0;
+};
+
+/// A bar on a terminal, renewed some times a second.
+class Bar {
+ public:
+  void show(std::int64_t frame, std::int64_t frames, double time) {
+    constexpr std::chrono::milliseconds period(100);
+    constexpr std::size_t width = 30;
+    const Clock::time_point now = Clock::now();
+    if (now - shown_ < period) {
+      return;
+    }
+    shown_ = now;
+    const double share = static_cast<double>(frame) / static_cast<double>(frames);
+    const double taken = std::chrono::duration<double>(now - begin_).count();
+    std::string bar(static_cast<std::size_t>(share * static_cast<double>(width)), '#');
+    bar.resize(width, ' ');
+    std::ostringstream text;
+    text.precision(3);
+    text << '[' << bar << "] " << time << " s of the scene, " << time / taken
+         << " times as fast as the clock, " << std::round(taken / share - taken) << " s left";
+    progress_.show(text.str());
+  }
+
+ private:
+  Progress progress_;
+  Clock::time_point begin_ = Clock::now();
+  Clock::time_point shown_;
+};
+
+SimScene make_scene(const Request& request) {
+  const MeshSource meshes = mesh_files(std::filesystem::path(request.scene).parent_path());
+  SimScene scene =
+      make_sim_scene(read_sim_scene(load_yaml(request.scene), meshes), request.threads);
+  if (!scene.frames.empty()) {
+    const FollowedFrame& frame = scene.frames.front();
+    throw std::invalid_argument(frame.what + " follows frame " + quote(frame.frame) +
+                                " of tf: that is for cable_sim, here it must be held by a path");
+  }
+  return scene;
+}
+
+/// As many frames as it takes to come so far; a time step is mostly written with few digits.
+std::int64_t frames_in(double seconds, double time_step) {
+  constexpr double most = 1e9;
+  const double frames = std::ceil(seconds / time_step * (1.0 - 1e-9));
+  if (!(frames <= most)) {
+    std::ostringstream error;
+    error << "--seconds is " << seconds << ": that is more than " << most << " frames of "
+          << time_step << " s";
+    throw std::invalid_argument(error.str());
+  }
+  return static_cast<std::int64_t>(frames);
+}
+
+void advance(SimScene& scene) {
+  const double begin = scene.stepper->time();
+  try {
+    scene.advance();
+  } catch (const std::runtime_error& error) {
+    std::ostringstream text;
+    text << "after " << begin << " s of the scene: " << error.what();
+    throw std::runtime_error(text.str());
+  }
+}
+
+ExitCode run(const Request& request) {
+  SimScene scene = make_scene(request);  // what cannot be made leaves no file behind
+  const std::int64_t frames = frames_in(request.seconds, scene.time_step);
+  const Rods& rods = scene.stepper->rods();
+  FiberFrame frame{0, FiberAssembly(rods.positions, rods.offsets, rods.radii)};
+  FiberWriter writer(request.out, true);
+  writer.write(frame, 0.0);
+  Bar bar;
+  while (frame.frame < frames) {
+    advance(scene);
+    ++frame.frame;
+    frame.fibers.update_points(rods.positions);
+    writer.write(frame, scene.stepper->time());
+    bar.show(frame.frame, frames, scene.stepper->time());
+  }
+  writer.finish();
+  return SUCCEEDED;
+}
+
+void setup(CLI::App& app, Command& command) {
+  const auto request = std::make_shared<Request>();
+  command = [request] { return run(*request); };
+  app.add_option("SCENE", request->scene, "YAML file of a scene (docs/simulation.md)")->required();
+  app.add_option("--seconds", request->seconds, "how far to simulate [s]")
+      ->check(finite_number(0.0))
+      ->required();
+  app.add_option("--out", request->out,
+                 "file to write: .pvd for ParaView, with a .vtp file for each frame beside it; any "
+                 "other name: CSV")
+      ->required();
+  app.add_option("--threads", request->threads,
+                 "most threads to use, 0: as many as there are cores; the frames are the same")
+      ->capture_default_str();
+}
+
+}  // namespace
+}  // namespace fiber
+
+int main(int argc, char** argv) {
+  return fiber::run_tool(
+      "fiber_simulate", "Simulates the fibres of a scene and writes where they are, frame by frame",
+      fiber::setup, argc, argv);
+}

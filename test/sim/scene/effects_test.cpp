@@ -1,0 +1,105 @@
+#include "fiber_proximity/sim/effects/bend.hpp"
+#include "sim/scene/scene_fixture.hpp"
+
+namespace fiber {
+namespace {
+
+TEST_F(SimSceneTest, ShapesHaveEqualEdgesAndTheirEnds) {
+  const SimScene arc = read(scene_text(
+      "{arc: {from: [0, 0, 0], to: [1, 0, 0], length: 1.5, towards: [0, 1, 0]}}", "[stretch]"));
+  const Rods& rods = arc.stepper->rods();
+  EXPECT_EQ(rods.positions.front(), Eigen::Vector3d::Zero());
+  EXPECT_NEAR((rods.positions.back() - Eigen::Vector3d::UnitX()).norm(), 0.0, 1e-9);
+  EXPECT_GT(rods.positions[2].y(), 0.4);
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(rods.rest_lengths[i], rods.rest_lengths[0], 1e-3);
+  }
+}
+
+TEST_F(SimSceneTest, OnlyNamedEffectsAreMade) {
+  const SimScene bare = read(scene_text(line, "[stretch, bend]"));
+  EXPECT_TRUE(bare.stepper->rods().angles.empty());
+  EXPECT_TRUE(bare.stepper->rods().natural_curvatures.empty());
+  EXPECT_TRUE(bare.stepper->rods().natural_curvature_vectors.empty());
+  EXPECT_EQ(bare.attachment, nullptr);
+  EXPECT_EQ(bare.effect_names, (std::vector<std::string>{"stretch", "bend"}));
+  const SimScene twisted =
+      read(scene_text(line, "[stretch, {bend: {natural_curvature: 2}}, twist, attachment]"));
+  EXPECT_EQ(twisted.stepper->rods().angles.size(), 5U);
+  EXPECT_EQ(twisted.stepper->rods().natural_curvatures, std::vector<double>(5, 2.0));
+  EXPECT_TRUE(twisted.stepper->rods().natural_curvature_vectors.empty());
+  EXPECT_NE(twisted.attachment, nullptr);
+}
+
+TEST_F(SimSceneTest, NaturalCurvatureHasASideWhereTheSceneSaysSo) {
+  const auto rods_of = [this](const std::string& shape, const std::string& effects) {
+    return read(scene_text(shape, effects)).stepper->rods();
+  };
+  const Rods rods =
+      rods_of(line, "[stretch, {bend: {natural_curvature: 2, towards: [1, 0, -3]}}, twist]");
+  EXPECT_TRUE(rods.natural_curvatures.empty());
+  ASSERT_EQ(rods.natural_curvature_vectors.size(), 5U);
+  for (const Eigen::Vector2d& curvature : rods.natural_curvature_vectors) {
+    const Eigen::Vector3d& first = rods.directors[0];
+    const Eigen::Vector3d bent =
+        curvature.x() * first + curvature.y() * Eigen::Vector3d::UnitX().cross(first);
+    EXPECT_NEAR((bent - Eigen::Vector3d(0, 0, -2)).norm(), 0.0, 1e-12);
+  }
+
+  const char* const helix = "{helix: {center: [0, 0, 0], radius: 1, pitch: 1, turns: 1}}";
+  const Rods curled = rods_of(helix, "[stretch, twist, {bend: {natural_curvature: from_shape}}]");
+  ASSERT_EQ(curled.natural_curvature_vectors.size(), 5U);
+  EXPECT_GT(curled.natural_curvature_vectors[2].norm(), 0.5);
+  EXPECT_LT(Bend().energy(curled, 0), 1e-20);
+  const Rods untwisted = rods_of(helix, "[stretch, {bend: {natural_curvature: from_shape}}]");
+  EXPECT_TRUE(untwisted.natural_curvature_vectors.empty());
+  ASSERT_EQ(untwisted.natural_curvatures.size(), 5U);
+  EXPECT_NEAR(untwisted.natural_curvatures[2], curled.natural_curvature_vectors[2].norm(), 1e-12);
+}
+
+TEST_F(SimSceneTest, OptionsOfEffectsAreReadAndHaveDefaults) {
+  const SimDescription scene = describe(scene_text(
+      line,
+      "[{gravity: {acceleration: [1, 2, 3]}}, {damping: {relaxation_time: 0.5}}, {drag: {across: "
+      "2, "
+      "wind: {mean: [4, 5, 6], gust_period: 7}}}, {plasticity: {hardening: 0.25}}, {self_contact: "
+      "{stiffness: 8}}, {friction: {coefficient: 0.75}}, stretch]"));
+  const auto options = [&scene](const char* effect) { return scene.find_effect(effect)->options; };
+  using Options = EffectOptions;
+  EXPECT_EQ(options("gravity"), (Options{{"acceleration", {1, 2, 3}}}));
+  EXPECT_EQ(options("damping"), (Options{{"relaxation_time", {0.5}}}));
+  EXPECT_EQ(options("drag"), (Options{{"fluid_density", {1.2}},
+                                      {"across", {2}},
+                                      {"along", {0.02}},
+                                      {"wind.mean", {4, 5, 6}},
+                                      {"wind.gust", {0, 0, 0}},
+                                      {"wind.gust_period", {7}},
+                                      {"wind.gust_length", {1}}}));
+  EXPECT_EQ(options("plasticity"), (Options{{"yield_strain", {0.02}}, {"hardening", {0.25}}}));
+  EXPECT_EQ(options("self_contact"), (Options{{"stiffness", {8}}}));
+  EXPECT_EQ(options("friction"), (Options{{"coefficient", {0.75}}, {"stick_speed", {1e-3}}}));
+  EXPECT_EQ(options("stretch"), Options());
+  EXPECT_EQ(scene.find_effect("twist"), nullptr);
+}
+
+TEST_F(SimSceneTest, OneDescriptionMakesAnyNumberOfScenes) {
+  const SimDescription description = describe(
+      scene_text(line,
+                 "[gravity, stretch, bend, twist, {attachment: [{fiber: cable, kind: clamp, "
+                 "path: [{time: 0}, {time: 1, position: [0, 0, 1]}]}]}]"));
+  SimScene first = make_sim_scene(description, 1);
+  for (int i = 0; i < 20; ++i) {
+    first.advance();
+  }
+  EXPECT_GT((first.stepper->rods().positions[4] - description.rods.positions[4]).norm(), 0.1);
+  EXPECT_EQ(description.rods.positions[0], Eigen::Vector3d::Zero());
+  SimScene second = make_sim_scene(description, 1);
+  for (int i = 0; i < 20; ++i) {
+    second.advance();
+  }
+  EXPECT_EQ(first.stepper->rods().positions, second.stepper->rods().positions);
+  EXPECT_NEAR(second.stepper->time(), 20.0 / 60.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace fiber
