@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "fiber_proximity/environment/obstacle_parts.hpp"
 #include "fiber_proximity/environment/triangle_mesh.hpp"
