@@ -1,6 +1,5 @@
 # Scenes from YAML files: what is around the fibres, and what the simulation moves; no ROS.
 
-#catkin_lint: ignore_once missing_cmake_modules
 find_package(yaml-cpp REQUIRED)
 # Its CMake package differs from version to version.
 find_path(ASSIMP_INCLUDE_FOLDER assimp/scene.h)

@@ -53,6 +53,10 @@ class Bar {
 };
 
 SimScene make_scene(const Request& request) {
+  std::error_code none;
+  if (std::filesystem::equivalent(request.scene, request.out, none)) {
+    throw std::invalid_argument("--out is the scene itself, " + quote(request.out));
+  }
   const MeshSource meshes = mesh_files(std::filesystem::path(request.scene).parent_path());
   SimScene scene =
       make_sim_scene(read_sim_scene(load_yaml(request.scene), meshes), request.threads);

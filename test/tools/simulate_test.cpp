@@ -162,6 +162,9 @@ TEST_F(Simulate, RefusesBadCommandLines) {
                       "--seconds is 1e+300: that is more than 1e+09 frames of 0.0166667 s"));
   EXPECT_TRUE(refused(simulate(file + out + " --seconds 1 --threads 1025"), "at most 1024"));
   EXPECT_FALSE(std::filesystem::exists(path("out.csv")));
+  EXPECT_TRUE(refused(simulate(file + " --seconds 1 --out " + path("./scene.yaml")),
+                      "--out is the scene itself"));
+  EXPECT_EQ(read_file(file), ropes);
 }
 
 TEST_F(Simulate, RefusesBadScenesWithFileAndLine) {

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "fiber_proximity/environment/obstacle_parts.hpp"
 #include "fiber_proximity/environment/triangle_mesh.hpp"
@@ -94,9 +95,8 @@ MakeShape read_mesh(const YamlField& field, const MeshSource& meshes) {
     field.require_map({"resource", "scale"});
     Eigen::Vector3d scale = Eigen::Vector3d::Ones();
     field.read("scale", scale);
-    const auto mesh =
-        with_context(resource->place(), [&] { return meshes(resource->text(), scale); });
-    return [mesh] { return mesh; };
+    auto mesh = with_context(resource->place(), [&] { return meshes(resource->text(), scale); });
+    return [mesh = std::move(mesh)]() -> Shape { return mesh; };
   }
   field.require_map({"vertices", "triangles"});
   field.get("vertices");

@@ -150,7 +150,10 @@ class EffectMaker {
   template <class Made, class... Arguments>
   std::unique_ptr<Made> make(const char* name, Arguments&&... arguments) const {
     const SimEffect* effect = description_.find_effect(name);
-    return effect == nullptr ? nullptr : with_context(effect->place, [&] {
+    if (effect == nullptr) {
+      return nullptr;
+    }
+    return with_context(effect->place, [&] {
       return std::make_unique<Made>(std::forward<Arguments>(arguments)...);
     });
   }

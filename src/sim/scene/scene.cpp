@@ -15,7 +15,7 @@ void SimScene::advance() {
 
 SimScene make_sim_scene(const SimDescription& description, std::uint32_t threads) {
   SimScene scene;
-  static_cast<SimSettings&>(scene) = description;
+  static_cast<SimSettings&>(scene) = static_cast<const SimSettings&>(description);
   scene.options.threads = threads;
   Rods rods = description.rods;
   MadeEffects effects = make_effects(description, rods, scene);
