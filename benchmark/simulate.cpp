@@ -21,10 +21,9 @@ struct Part {
 };
 
 const std::vector<Part>& parts() {
-  const std::vector<std::string> hose_columns{"method",         "motion",     "segments",
-                                              "substeps",       "residual",   "max_iterations",
-                                              "iterations",     "error",      "ms_per_step",
-                                              "ms_per_second"};
+  const std::vector<std::string> hose_columns{
+      "method",         "motion",     "segments", "substeps",    "residual",
+      "max_iterations", "iterations", "error",    "ms_per_step", "ms_per_second"};
   const std::vector<std::string> xpbd_columns{"method",   "motion", "segments",    "inertia",
                                               "substeps", "error",  "ms_per_step", "ms_per_second"};
   static const std::vector<Part> all{

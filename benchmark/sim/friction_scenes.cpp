@@ -43,7 +43,8 @@ std::vector<Vector3d> around_post(const Capstan& capstan, double axis_radius, do
 }  // namespace
 
 Incline::Incline(double angle, double friction)
-    : down_(std::cos(angle), 0.0, -std::sin(angle)), normal_(std::sin(angle), 0.0, std::cos(angle)) {
+    : down_(std::cos(angle), 0.0, -std::sin(angle)),
+      normal_(std::sin(angle), 0.0, std::cos(angle)) {
   constexpr double radius = 0.005;
   const Vector3d start = radius * normal_;
   Rods rods;

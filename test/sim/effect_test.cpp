@@ -233,7 +233,8 @@ TEST_P(EffectTest, DoesTheSameToRodsSideBySide) {
   Random random(5);
   for (int round = 0; round < 50 && !HasFailure(); ++round) {
     SCOPED_TRACE("round " + std::to_string(round));
-    make(random, rods_of_equal_sizes(random, random.integer(2, lane_count), random.integer(2, 9), edge_length));
+    make(random, rods_of_equal_sizes(random, random.integer(2, lane_count), random.integer(2, 9),
+                                     edge_length));
     begin_random_step(random);
     expect_same_side_by_side(*effect_, rods_);
   }
@@ -347,8 +348,7 @@ INSTANTIATE_TEST_SUITE_P(
                     EffectCase{"damping", false, make_damping},
                     EffectCase{"damping_beside_twist", true, make_damping},
                     EffectCase{"inextensible", false, make_inextensible},
-                    EffectCase{"clamps", false, make_clamps},
-                    EffectCase{"pins", false, make_pins},
+                    EffectCase{"clamps", false, make_clamps}, EffectCase{"pins", false, make_pins},
                     EffectCase{"bend_to_natural_sides", true, make_naturally_curved_bend},
                     EffectCase{"clamps_of_twisted_rods", true, make_clamps},
                     EffectCase{"clamps_of_curved_rods", true, make_clamps_of_curved}),

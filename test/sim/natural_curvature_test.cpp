@@ -249,7 +249,8 @@ TEST(NaturalCurvature, WithoutTwistItHasSizeAlone) {
   EXPECT_NEAR(bend_energy(rods), 0.0, 1e-24);
 }
 
-/// On a clamp, far from their natural shapes, which are curled up to folds.
+/// On a clamp, far from their natural shapes, which are curled up to folds. With implicit Euler:
+/// such rods turn by many turns in a step, where BDF2 promises nothing.
 TEST(NaturalCurvature, RodsGainNoEnergyOnTheWay) {
   SCOPED_TRACE(seed_message());
   Random random(6);
@@ -275,10 +276,7 @@ TEST(NaturalCurvature, RodsGainNoEnergyOnTheWay) {
                           std::make_unique<Gravity>(gravity), std::move(held));
     StepperOptions options;
     options.threads = 1;
-    options.integrator = random.chance(0.5) ? Integrator::IMPLICIT_EULER : Integrator::BDF2;
-    // BDF2 goes on from where the last step has led: it is to end before it is trusted.
-    const bool is_capped = random.chance(0.5) && options.integrator == Integrator::IMPLICIT_EULER;
-    options.max_iterations = is_capped ? 2 : 20;
+    options.max_iterations = random.chance(0.5) ? 20 : 2;
     const double step = std::pow(10.0, random.uniform(-3.0, -1.5));
     begin(all, rods, step);
     EnergyBounds bounds(rods, storing_of(all), options.integrator);

@@ -124,7 +124,8 @@ TEST(Robustness, RandomScenesStayBounded) {
     for (int i = 0; i < steps; ++i) {
       stepper.step(scene.step);
       ASSERT_TRUE(all_finite(stepper.rods())) << "step " << i;
-      ASSERT_TRUE(scene.is_windy || bounds.hold(stepper.rods())) << "step " << i;
+      const testing::AssertionResult is_bounded = bounds.hold(stepper.rods());
+      ASSERT_TRUE(scene.is_windy || is_bounded) << "step " << i << ", " << is_bounded.message();
     }
   }
 }
