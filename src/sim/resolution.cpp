@@ -34,7 +34,7 @@ std::uint32_t substeps_for(double accuracy, Integrator integrator, double frame,
   require(period > 0.0, "period", period, " s", "positive");
   const double step = integrator == Integrator::IMPLICIT_EULER
                           ? accuracy / ResolutionTable::euler * period
-                          : std::sqrt(accuracy / ResolutionTable::midpoint) * period;
+                          : std::sqrt(accuracy / ResolutionTable::bdf2) * period;
   return whole(frame / step);
 }
 
