@@ -141,11 +141,12 @@ class EdgeContact {
     return share * barrier_.energy(of_end.distance) + shared;
   }
 
-  /// Whether the edge before or after the other one is nearest to the end at their common node.
+  /// Whether the edge before or after the other one is nearest to the end at their common node: as
+  /// the pair with that edge finds it, to the last digit, so that each contact is one's.
   bool neighbour_is_clamped(std::uint32_t end, std::uint32_t last) const {
-    const std::uint32_t corner = other_edge(end) + last;
-    const std::uint32_t beyond = last == 0 ? corner - 1 : corner + 1;
-    return (x_[node_of(end)] - x_[corner]).dot(x_[beyond] - x_[corner]) <= 0.0;
+    const std::uint32_t first = last == 0 ? other_edge(end) - 1 : other_edge(end) + 1;
+    const double common = last == 0 ? 1.0 : 0.0;
+    return end_distance(x_[node_of(end)], x_[first], x_[first + 1]).parameter == common;
   }
 
   /// In the hollow of a bend both edges have a nearest point of their own, and the node between
