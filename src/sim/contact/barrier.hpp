@@ -1,7 +1,11 @@
 #pragma once
 
+#include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
+
+#include "natural_log.hpp"
 
 namespace fiber {
 
@@ -22,16 +26,20 @@ struct Barrier {
             stiffness / curvature_in_middle};
   }
 
-  /// The same for what begins a step at a distance: nearer than the inner one, as scenes may make
+  /// The same for what begins a step at a distance: nearer than the least one, as scenes may make
   /// it, it can only part. Otherwise as it is.
   Barrier for_start_at(double distance) const {
-    constexpr double most_share = 0.9;
+    constexpr double spare = 1e-3;
     Barrier barrier = *this;
-    if (!(distance > inner)) {
-      barrier.inner =
-          distance > 0.0 ? most_share * distance : distance - (1.0 - most_share) * inner;
-    }
+    barrier.inner -= std::max(0.0, least() + spare * width() - distance);
     return barrier;
+  }
+
+  /// A force in parts of what holds surfaces a third of the way from the inner distance to the
+  /// outer one.
+  double load_of(double force) const {
+    constexpr double unit_force = 2.7981;  // of a barrier of 1 N/m and 1 m width there
+    return force / (unit_force * scale * width());
   }
 
   double inner = 0.0;  ///< [m]
@@ -39,6 +47,20 @@ struct Barrier {
   double scale = 0.0;  ///< k [N/m]
 
   double width() const { return outer - inner; }
+
+  /// A contact with a part of its weight gives way to those that have the rest: it feels only this
+  /// share of how far a distance is below the outer one.
+  /// @param weight in [0, 1]
+  static double depth_share(double weight) { return 1.0 - most_relief * (1.0 - weight); }
+  static constexpr double most_relief = 0.28;
+
+  /// The distance that it feels [m].
+  double felt(double distance, double weight) const {
+    return outer - depth_share(weight) * (outer - distance);
+  }
+
+  /// No contact lets a distance fall to this [m].
+  double least() const { return outer - width() / (1.0 - most_relief); }
 
   /// [J]
   double energy(double distance) const {
@@ -49,19 +71,20 @@ struct Barrier {
       return std::numeric_limits<double>::infinity();
     }
     const double below = distance - outer;
-    return -scale * below * below * std::log((distance - inner) / width());
+    return -scale * below * below * natural_log((distance - inner) / width());
   }
 
   /// Its derivatives by the distance, of distances within (inner, outer): never above 0 [N], and
   /// never below 0 [N/m].
   double slope(double distance) const {
+    assert(distance > inner && distance < outer);
     const double below = distance - outer;
     const double gap = distance - inner;
-    return scale * below * (-2.0 * std::log(gap / width()) - below / gap);
+    return scale * below * (-2.0 * natural_log(gap / width()) - below / gap);
   }
   double curvature(double distance) const {
     const double ratio = (distance - outer) / (distance - inner);
-    return scale * (-2.0 * std::log((distance - inner) / width()) - 4.0 * ratio + ratio * ratio);
+    return scale * (-2.0 * natural_log((distance - inner) / width()) - 4.0 * ratio + ratio * ratio);
   }
 };
 

@@ -1,6 +1,5 @@
 #include "contact_set.hpp"
 
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -40,31 +39,73 @@ void ContactSet::clear() {
   frictions_.clear();
 }
 
-/// Calls function(points, normal, slope, curvature) for all distances that have a part in the
-/// energy, those from obstacles first.
+void ContactSet::append(const ContactSet& other) {
+  pairs.insert(pairs.end(), other.pairs.begin(), other.pairs.end());
+  obstacle_points.insert(obstacle_points.end(), other.obstacle_points.begin(),
+                         other.obstacle_points.end());
+  obstacle_edges.insert(obstacle_edges.end(), other.obstacle_edges.begin(),
+                        other.obstacle_edges.end());
+}
+
+// Contacts are numbered: those with obstacles, those of pairs, those that have friction. Threads
+// take them in chunks, which do not depend on how many threads there are.
+namespace {
+
+constexpr std::size_t chunk = 64;
+
+std::size_t chunks_of(std::size_t count) { return (count + chunk - 1) / chunk; }
+
+/// Calls function(chunk, begin, end) in parallel.
+template <class Function>
+void for_each_chunk(std::size_t count, const Function& function) {
+  tbb::parallel_for(std::size_t{0}, chunks_of(count), [&](std::size_t index) {
+    function(index, index * chunk, std::min(count, (index + 1) * chunk));
+  });
+}
+
+}  // namespace
+
+/// Calls function(points, normal, slope, curvature, barrier) if the contact has a part in the
+/// energy.
+template <class Function>
+void ContactSet::visit_obstacle(std::size_t index, const Function& function) const {
+  const ObstaclePoint& point = obstacle_points[index];
+  const double distance = point.felt(obstacle_distances_[index].distance);
+  const double depth_share = Barrier::depth_share(point.share);
+  if (distance < point.barrier.outer) {
+    function(PointPair{point.rod, point.edge, point.s, 0, no_edge, 0.0},
+             obstacle_distances_[index].gradient,
+             point.share * depth_share * point.barrier.slope(distance),
+             point.share * depth_share * depth_share * point.barrier.curvature(distance),
+             point.barrier);
+  }
+}
+
+/// The same for each distance of a pair.
+/// @param found room for these
+template <class Function>
+void ContactSet::visit_pair(const Rods& rods, std::size_t index, std::vector<DistanceTerm>& found,
+                            const Function& function) const {
+  const EdgePair& pair = pairs[index];
+  if (distances_[index].distance >= pair.barrier.outer) {
+    return;
+  }
+  found.clear();
+  edge_contact(pair, rods.positions, distances_[index], &found);
+  for (const DistanceTerm& term : found) {
+    function(PointPair{pair.rod_a, pair.edge_a, term.s, pair.rod_b, pair.edge_b, term.t},
+             term.normal, term.slope, term.curvature, pair.barrier);
+  }
+}
+
 template <class Function>
 void ContactSet::for_each_distance(const Rods& rods, const Function& function) const {
   for (std::size_t i = 0; i < obstacle_points.size(); ++i) {
-    const ObstaclePoint& point = obstacle_points[i];
-    const auto& [distance, normal] = obstacle_distances_[i];
-    if (distance < point.barrier.outer) {
-      function(PointPair{point.rod, point.edge, point.s, 0, no_edge, 0.0}, normal,
-               point.share * point.barrier.slope(distance),
-               point.share * point.barrier.curvature(distance));
-    }
+    visit_obstacle(i, function);
   }
   std::vector<DistanceTerm> found;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (distances_[i].distance >= pairs[i].barrier.outer) {
-      continue;
-    }
-    found.clear();
-    edge_contact(pairs[i], rods.positions, distances_[i], &found);
-    for (const DistanceTerm& term : found) {
-      function(PointPair{pairs[i].rod_a, pairs[i].edge_a, term.s, pairs[i].rod_b, pairs[i].edge_b,
-                         term.t},
-               term.normal, term.slope, term.curvature);
-    }
+    visit_pair(rods, i, found, function);
   }
 }
 
@@ -77,7 +118,7 @@ void ContactSet::begin(const Rods& rods, const Friction* friction,
   }
   stick_length_ = friction->stick_length(step);
   for_each_distance(rods, [&](const PointPair& points, const Vector3d& normal, double slope,
-                              double /*curvature*/) {
+                              double /*curvature*/, const Barrier& /*barrier*/) {
     if (slope < 0.0) {
       Vector3d reference = point_at(references, points.edge_a, points.s);
       if (points.edge_b != no_edge) {
@@ -89,33 +130,25 @@ void ContactSet::begin(const Rods& rods, const Friction* friction,
 }
 
 void ContactSet::measure(const Rods& rods) {
-  constexpr std::size_t batch = 64;
-  constexpr std::size_t batches_at_once = 16;
   obstacle_distances_.resize(obstacle_points.size());
-  for (std::size_t i = 0; i < obstacle_points.size(); ++i) {
-    const ObstaclePoint& point = obstacle_points[i];
-    obstacle_distances_[i] =
-        point.piece.distance_from(point_at(rods.positions, point.edge, point.s));
-  }
+  for_each_chunk(obstacle_points.size(),
+                 [&](std::size_t /*index*/, std::size_t begin, std::size_t end) {
+                   for (std::size_t i = begin; i < end; ++i) {
+                     const ObstaclePoint& point = obstacle_points[i];
+                     obstacle_distances_[i] =
+                         point.piece.distance_from(point_at(rods.positions, point.edge, point.s));
+                   }
+                 });
   distances_.resize(pairs.size());
-  const std::size_t batches = (pairs.size() + batch - 1) / batch;
-  const auto measure_batch = [&](std::size_t index) {
-    std::array<const Vector3d*, batch> a{};
-    std::array<const Vector3d*, batch> b{};
-    const std::size_t begin = index * batch;
-    const std::size_t count = std::min(batch, pairs.size() - begin);
-    for (std::size_t i = 0; i < count; ++i) {
-      a[i] = &rods.positions[pairs[begin + i].edge_a];
-      b[i] = &rods.positions[pairs[begin + i].edge_b];
+  for_each_chunk(pairs.size(), [&](std::size_t /*index*/, std::size_t begin, std::size_t end) {
+    std::array<const Vector3d*, chunk> a{};
+    std::array<const Vector3d*, chunk> b{};
+    for (std::size_t i = begin; i < end; ++i) {
+      a[i - begin] = &rods.positions[pairs[i].edge_a];
+      b[i - begin] = &rods.positions[pairs[i].edge_b];
     }
-    segment_distances(a.data(), b.data(), count, &distances_[begin]);
-  };
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, batches, batches_at_once),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                        measure_batch(i);
-                      }
-                    });
+    segment_distances(a.data(), b.data(), end - begin, &distances_[begin]);
+  });
 }
 
 Vector3d ContactSet::slip_of(const Rods& rods, const FrictionPoint& point) const {
@@ -126,70 +159,104 @@ Vector3d ContactSet::slip_of(const Rods& rods, const FrictionPoint& point) const
   return moved - point.normal * point.normal.dot(moved);
 }
 
-void ContactSet::add_energies(const Rods& rods, const std::vector<std::uint32_t>& islands,
-                              std::vector<EnergySum>& energies) const {
-  for (std::size_t i = 0; i < obstacle_points.size(); ++i) {
-    const ObstaclePoint& point = obstacle_points[i];
-    energies[islands[point.rod]].add(point.share *
-                                     point.barrier.energy(obstacle_distances_[i].distance));
+double ContactSet::energy_of(const Rods& rods, std::size_t contact) const {
+  if (contact < obstacle_points.size()) {
+    const ObstaclePoint& point = obstacle_points[contact];
+    return point.share * point.barrier.energy(point.felt(obstacle_distances_[contact].distance));
   }
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (distances_[i].distance < pairs[i].barrier.outer) {
-      energies[islands[pairs[i].rod_a]].add(
-          edge_contact(pairs[i], rods.positions, distances_[i], nullptr));
+  contact -= obstacle_points.size();
+  if (contact < pairs.size()) {
+    return edge_contact(pairs[contact], rods.positions, distances_[contact], nullptr);
+  }
+  const FrictionPoint& point = frictions_[contact - pairs.size()];
+  return point.most * Friction::law(slip_of(rods, point).norm(), stick_length_).energy;
+}
+
+void ContactSet::add_energies(const Rods& rods, const std::vector<std::uint32_t>& islands,
+                              std::vector<EnergySum>& energies) {
+  energies_.resize(contact_count());
+  for_each_chunk(energies_.size(), [&](std::size_t /*index*/, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      energies_[i] = energy_of(rods, i);
     }
+  });
+  std::size_t contact = 0;
+  for (const ObstaclePoint& point : obstacle_points) {
+    energies[islands[point.rod]].add(energies_[contact++]);
+  }
+  for (const EdgePair& pair : pairs) {
+    energies[islands[pair.rod_a]].add(energies_[contact++]);
   }
   for (const FrictionPoint& point : frictions_) {
-    energies[islands[point.points.rod_a]].add(
-        point.most * Friction::law(slip_of(rods, point).norm(), stick_length_).energy);
+    energies[islands[point.points.rod_a]].add(energies_[contact++]);
   }
 }
 
 double ContactSet::stored_energy(const Rods& rods) {
   measure(rods);
   double energy = 0.0;
-  for (std::size_t i = 0; i < obstacle_points.size(); ++i) {
-    const ObstaclePoint& point = obstacle_points[i];
-    energy += point.share * point.barrier.energy(obstacle_distances_[i].distance);
-  }
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    energy += edge_contact(pairs[i], rods.positions, distances_[i], nullptr);
+  for (std::size_t i = 0; i < obstacle_points.size() + pairs.size(); ++i) {
+    energy += energy_of(rods, i);
   }
   return energy;
 }
 
-void ContactSet::find_terms(const Rods& rods) {
-  terms_.clear();
-  for_each_distance(
-      rods, [&](const PointPair& points, const Vector3d& normal, double slope, double curvature) {
-        terms_.push_back({points, slope * normal, curvature * normal * normal.transpose()});
-      });
-  for (const FrictionPoint& point : frictions_) {
-    const Vector3d slip = slip_of(rods, point);
-    const double length = slip.norm();
-    const Friction::Law law = Friction::law(length, stick_length_);
-    Matrix3d hessian =
-        law.resistance * (Matrix3d::Identity() - point.normal * point.normal.transpose());
-    if (length > 0.0) {
-      const Vector3d along = slip / length;
-      hessian += (law.curvature - law.resistance) * along * along.transpose();
-    }
-    terms_.push_back({point.points, point.most * law.resistance * slip, point.most * hessian});
+void ContactSet::find_terms(const Rods& rods, std::size_t contact, std::vector<Term>& terms) const {
+  const auto add = [&](const PointPair& points, const Vector3d& normal, double slope,
+                       double curvature, const Barrier& /*barrier*/) {
+    terms.push_back({points, slope * normal, curvature * normal * normal.transpose()});
+  };
+  if (contact < obstacle_points.size()) {
+    visit_obstacle(contact, add);
+    return;
   }
-  const auto with_rods = std::stable_partition(
-      terms_.begin(), terms_.end(), [](const Term& term) { return term.points.edge_b == no_edge; });
-  coupling_begin_ = static_cast<std::size_t>(with_rods - terms_.begin());
+  contact -= obstacle_points.size();
+  if (contact < pairs.size()) {
+    std::vector<DistanceTerm> found;
+    visit_pair(rods, contact, found, add);
+    return;
+  }
+  const FrictionPoint& point = frictions_[contact - pairs.size()];
+  const Vector3d slip = slip_of(rods, point);
+  const double length = slip.norm();
+  const Friction::Law law = Friction::law(length, stick_length_);
+  Matrix3d hessian =
+      law.resistance * (Matrix3d::Identity() - point.normal * point.normal.transpose());
+  if (length > 0.0) {
+    const Vector3d along = slip / length;
+    hessian += (law.curvature - law.resistance) * along * along.transpose();
+  }
+  terms.push_back({point.points, point.most * law.resistance * slip, point.most * hessian});
 }
 
-void ContactSet::add_derivatives(const Rods& rods, const std::vector<RodSystem*>& systems) {
-  find_terms(rods);
-  for (const Term& term : terms_) {
-    const PointPair& points = term.points;
-    add_side(points.edge_a - rods.first(points.rod_a), points.s, term.gradient, term.hessian,
-             *systems[points.rod_a]);
-    if (points.edge_b != no_edge) {
-      add_side(points.edge_b - rods.first(points.rod_b), points.t, -term.gradient, term.hessian,
-               *systems[points.rod_b]);
+void ContactSet::find_derivatives(const Rods& rods) {
+  terms_.resize(chunks_of(contact_count()));
+  for_each_chunk(contact_count(), [&](std::size_t index, std::size_t begin, std::size_t end) {
+    terms_[index].clear();
+    for (std::size_t i = begin; i < end; ++i) {
+      find_terms(rods, i, terms_[index]);
+    }
+  });
+  has_coupling_ = std::any_of(terms_.begin(), terms_.end(), [](const std::vector<Term>& terms) {
+    return std::any_of(terms.begin(), terms.end(),
+                       [](const Term& term) { return term.points.edge_b != no_edge; });
+  });
+}
+
+void ContactSet::add_derivatives(const Rods& rods, const std::vector<RodSystem*>& systems,
+                                 const std::vector<std::uint32_t>& packs,
+                                 std::uint32_t which) const {
+  for (const std::vector<Term>& terms : terms_) {
+    for (const Term& term : terms) {
+      const PointPair& points = term.points;
+      if (packs[points.rod_a] == which) {
+        add_side(points.edge_a - rods.first(points.rod_a), points.s, term.gradient, term.hessian,
+                 *systems[points.rod_a]);
+      }
+      if (points.edge_b != no_edge && packs[points.rod_b] == which) {
+        add_side(points.edge_b - rods.first(points.rod_b), points.t, -term.gradient, term.hessian,
+                 *systems[points.rod_b]);
+      }
     }
   }
 }
@@ -207,14 +274,28 @@ void ContactSet::add_coupling(const std::vector<std::size_t>& places, const doub
     Eigen::Map<Vector3d, 0, Stride>(product + places[edge]) -= (1.0 - parameter) * v;
     Eigen::Map<Vector3d, 0, Stride>(product + places[edge + 1]) -= parameter * v;
   };
-  for (std::size_t i = coupling_begin_; i < terms_.size(); ++i) {
-    const Term& term = terms_[i];
-    const PointPair& points = term.points;
-    const Vector3d from_a = term.hessian * combine(points.edge_a, points.s);
-    const Vector3d from_b = term.hessian * combine(points.edge_b, points.t);
-    spread(points.edge_a, points.s, from_b);
-    spread(points.edge_b, points.t, from_a);
+  for (const std::vector<Term>& terms : terms_) {
+    for (const Term& term : terms) {
+      const PointPair& points = term.points;
+      if (points.edge_b != no_edge) {
+        const Vector3d from_a = term.hessian * combine(points.edge_a, points.s);
+        const Vector3d from_b = term.hessian * combine(points.edge_b, points.t);
+        spread(points.edge_a, points.s, from_b);
+        spread(points.edge_b, points.t, from_a);
+      }
+    }
   }
+}
+
+void ContactSet::add_loads(const Rods& rods, std::vector<double>& loads) const {
+  for_each_distance(rods, [&](const PointPair& points, const Vector3d& /*normal*/, double slope,
+                              double /*curvature*/, const Barrier& barrier) {
+    const double load = barrier.load_of(std::abs(slope));
+    loads[points.rod_a] = std::max(loads[points.rod_a], load);
+    if (points.edge_b != no_edge) {
+      loads[points.rod_b] = std::max(loads[points.rod_b], load);
+    }
+  });
 }
 
 void ContactSet::add_forces(const Rods& rods, std::vector<RodForces::ContactForce>& forces) const {
@@ -234,7 +315,7 @@ void ContactSet::add_forces(const Rods& rods, std::vector<RodForces::ContactForc
   };
   std::map<std::size_t, double> weights;
   for_each_distance(rods, [&](const PointPair& points, const Vector3d& normal, double slope,
-                              double /*curvature*/) {
+                              double /*curvature*/, const Barrier& /*barrier*/) {
     RodForces::ContactForce& force = force_of(points);
     const Vector3d on_a = point_at(rods.positions, points.edge_a, points.s);
     Vector3d between = on_a - rods.radii[points.rod_a] * normal;

@@ -20,6 +20,8 @@ struct ObstaclePoint {
   Barrier barrier;
   double share;  ///< of a contact, in [0, 1]
   ObstaclePiece piece;
+
+  double felt(double distance) const { return barrier.felt(distance, share); }
 };
 
 /// An edge and an obstacle that it may come to.
@@ -43,6 +45,9 @@ class ContactSet {
 
   void clear();
 
+  /// Adds what another one's rods may touch.
+  void append(const ContactSet& other);
+
   /// Begins a step where the rods are: what touches there has friction in the step.
   /// @param friction   null for none
   /// @param references of nodes: slips are measured from there [m]
@@ -56,18 +61,23 @@ class ContactSet {
   /// Adds the energy of each contact to that of the island of its rod.
   /// @param islands by rod
   void add_energies(const Rods& rods, const std::vector<std::uint32_t>& islands,
-                    std::vector<EnergySum>& energies) const;
+                    std::vector<EnergySum>& energies);
 
   /// Without friction, where the rods are now [J].
   double stored_energy(const Rods& rods);
 
-  /// Finds the derivatives, and adds gradients and what of the Hessian is within the nodes of one
-  /// edge.
-  /// @param systems by rod
-  void add_derivatives(const Rods& rods, const std::vector<RodSystem*>& systems);
+  /// Finds the derivatives where the rods are measured.
+  void find_derivatives(const Rods& rods);
+
+  /// Adds gradients to some rods, and what of the Hessian is within the nodes of one edge.
+  /// @param systems  by rod
+  /// @param packs    by rod
+  /// @param which    pack the rods are of
+  void add_derivatives(const Rods& rods, const std::vector<RodSystem*>& systems,
+                       const std::vector<std::uint32_t>& packs, std::uint32_t which) const;
 
   /// Whether there is anything else of the Hessian.
-  bool has_coupling() const { return coupling_begin_ != terms_.size(); }
+  bool has_coupling() const { return has_coupling_; }
 
   /// Adds what else there is of the Hessian's product with displacements.
   /// @param places        of each node's x in these arrays; y and z are lane_count further each
@@ -84,6 +94,11 @@ class ContactSet {
   void bound_step(const Rods& rods, const std::vector<Eigen::Vector3d>& displacements,
                   const std::vector<std::uint32_t>& islands, std::vector<double>& shares,
                   std::vector<Eigen::Vector3d>& ends) const;
+
+  /// Of each rod, the largest load of its contacts where the rods are measured: the force in parts
+  /// of what its barrier holds well.
+  /// @param loads by rod: raised
+  void add_loads(const Rods& rods, std::vector<double>& loads) const;
 
   /// Appends what the contacts exert where the rods are measured.
   void add_forces(const Rods& rods, std::vector<RodForces::ContactForce>& forces) const;
@@ -123,16 +138,26 @@ class ContactSet {
                               const std::vector<Eigen::Vector3d>& displacements, double share);
 
   template <class Function>
+  void visit_obstacle(std::size_t index, const Function& function) const;
+  template <class Function>
+  void visit_pair(const Rods& rods, std::size_t index, std::vector<DistanceTerm>& found,
+                  const Function& function) const;
+  template <class Function>
   void for_each_distance(const Rods& rods, const Function& function) const;
   Eigen::Vector3d slip_of(const Rods& rods, const FrictionPoint& point) const;
-  void find_terms(const Rods& rods);
+  double energy_of(const Rods& rods, std::size_t contact) const;
+  void find_terms(const Rods& rods, std::size_t contact, std::vector<Term>& terms) const;
+  std::size_t contact_count() const {
+    return obstacle_points.size() + pairs.size() + frictions_.size();
+  }
 
   std::vector<SegmentDistance> distances_;         // by pair
   std::vector<PointDistance> obstacle_distances_;  // by point
   std::vector<FrictionPoint> frictions_;
-  double stick_length_ = 0.0;  // [m]
-  std::vector<Term> terms_;    // those with obstacles first
-  std::size_t coupling_begin_ = 0;
+  double stick_length_ = 0.0;             // [m]
+  std::vector<std::vector<Term>> terms_;  // by chunk of contacts
+  bool has_coupling_ = false;
+  std::vector<double> energies_;  // by contact [J]
 };
 
 }  // namespace fiber

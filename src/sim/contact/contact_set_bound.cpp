@@ -35,7 +35,9 @@ void ContactSet::bound_step(const Rods& rods, const std::vector<Vector3d>& displ
     const Vector3d way =
         (1.0 - point.s) * displacements[point.edge] + point.s * displacements[point.edge + 1];
     const double approach = -obstacle_distances_[i].gradient.dot(way);
-    const double room = most_lost * (obstacle_distances_[i].distance - point.barrier.inner);
+    const double room = most_lost *
+                        (point.felt(obstacle_distances_[i].distance) - point.barrier.inner) /
+                        Barrier::depth_share(point.share);
     double& share = shares[islands[point.rod]];
     if (approach * share > room) {
       share = std::max(0.0, room / approach);
@@ -88,7 +90,7 @@ void ContactSet::bound_pairs(const Rods& rods, const std::vector<Vector3d>& disp
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const EdgePair& pair = pairs[i];
     double& share = shares[islands[pair.rod_a]];
-    const double gap = distances_[i].distance - pair.barrier.inner;
+    const double gap = distances_[i].distance - pair.barrier.least();
     const double square =
         largest_approach(&displacements[pair.edge_a], &displacements[pair.edge_b]);
     if (gap > 0.0 && square * share * share < most_lost * most_lost * gap * gap) {
@@ -102,7 +104,7 @@ void ContactSet::bound_pairs(const Rods& rods, const std::vector<Vector3d>& disp
                                            &ends[pair.edge_a],
                                            &rods.positions[pair.edge_b],
                                            &ends[pair.edge_b],
-                                           {0.0, 0.0, pair.barrier.inner + left}},
+                                           {0.0, 0.0, pair.barrier.least() + left}},
                                           tolerance * left);
     if (time.hit) {
       share = std::min(share, time.lower);

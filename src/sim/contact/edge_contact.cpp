@@ -91,21 +91,25 @@ class EdgeContact {
     if (weight == 0.0) {
       return 0.0;
     }
-    const double energy = barrier_.energy(distance);
+    const double felt = barrier_.felt(distance, weight);
+    const double energy = barrier_.energy(felt);
     if (terms == nullptr || !(energy < std::numeric_limits<double>::infinity())) {
       return weight * energy;
     }
-    double slope = weight * barrier_.slope(distance);
+    const double by_felt = weight * barrier_.slope(felt);
+    const double depth_share = Barrier::depth_share(weight);
+    const double by_weight = energy - by_felt * Barrier::most_relief * (barrier_.outer - distance);
+    double slope = by_felt * depth_share;
     for (std::uint32_t end = 0; end < 4; ++end) {
       if (ramps[end].slope > 0.0) {
         const double by_end =
-            energy * weight / ramps[end].value * ramps[end].slope / barrier_.width();
+            by_weight * weight / ramps[end].value * ramps[end].slope / barrier_.width();
         slope -= by_end;
         slopes_[end] += by_end;
       }
     }
     terms->push_back({nearest_.s, nearest_.t, -nearest_.delta / distance, slope,
-                      weight * barrier_.curvature(distance)});
+                      weight * barrier_.curvature(felt) * depth_share * depth_share});
     return weight * energy;
   }
 

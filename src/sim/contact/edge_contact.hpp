@@ -43,12 +43,14 @@ struct DistanceTerm {
 /// - Two edges that cross have the barrier of their distance times a weight: 0 where one of their
 ///   ends is as near to the other edge as they are to each other, as where they lie side by side or
 ///   meet at a node, and 1 where all ends are too far away to have a barrier of their own. The
-///   nearest points of parallel edges jump along them, this energy does not.
+///   nearest points of parallel edges jump along them, this energy does not. With less weight the
+///   barrier begins nearer, so that ends hold what is pressed before a barrier that is hardly
+///   there.
 ///
 /// Gradients are exact, in terms of distances.
 /// @param nearest of the two edges, where `positions` has them
 /// @param terms   appended to; null if only the energy is asked for
-/// @returns energy [J], infinite where an inner distance is reached
+/// @returns energy [J], infinite where a distance is reached below which nothing can get
 double edge_contact(const EdgePair& pair, const std::vector<Eigen::Vector3d>& positions,
                     const SegmentDistance& nearest, std::vector<DistanceTerm>* terms);
 

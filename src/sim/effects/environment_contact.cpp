@@ -118,15 +118,27 @@ void EnvironmentContact::add(const Rods& rods, const Contact& contact, double wi
   const Barrier barrier = Barrier::around(
       radius, options_.stiffness > 0.0 ? options_.stiffness
                                        : material_contact_stiffness(rods.sections[rod], radius));
-  const Vector3d& p0 = rods.positions[node];
-  const Vector3d& p1 = is_edge ? rods.positions[node + 1] : p0;
-  for (const NearPiece& near : near_pieces(shape, p0, p1, within)) {
+  const auto add_piece = [&](const NearPiece& near) {
     const double s = is_edge ? near.s : is_last ? 1.0 : 0.0;
     const double share = is_edge ? share_of_edge(near, barrier.width()) : 1.0;
     if (share > 0.0) {
       found.obstacle_points.push_back(
           {rod, edge, s, barrier.for_start_at(near.distance), share, near.piece});
     }
+  };
+  const Vector3d& p0 = rods.positions[node];
+  const Vector3d& p1 = is_edge ? rods.positions[node + 1] : p0;
+  if (shape.is_convex()) {
+    NearPiece near{ObstaclePiece(shape, {}), contact.s, contact.distance + radius, {}};
+    if (is_edge) {
+      near.end_distances[0] = near.piece.distance_from(p0).distance;
+      near.end_distances[1] = near.piece.distance_from(p1).distance;
+    }
+    add_piece(near);
+    return;
+  }
+  for (const NearPiece& near : near_pieces(shape, p0, p1, within)) {
+    add_piece(near);
   }
 }
 

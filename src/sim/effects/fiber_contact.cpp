@@ -65,28 +65,53 @@ void FiberContact::find(const Rods& rods, const Room& room, ContactSet& found) {
     }
     moved = spread_of(ways);
   }
-  if (!(needed + 2.0 * moved <= reach_)) {
-    find_candidates(rods, needed + largest + 4.0 * expected);
+  // A reach that serves for some steps; one that was for faster motion finds too much.
+  const double wanted = needed + largest + 4.0 * expected;
+  constexpr double too_far = 3.0;
+  if (!(needed + 2.0 * moved <= reach_) || reach_ > too_far * wanted) {
+    find_candidates(rods, wanted);
+    moved = 0.0;
   }
+  add_near(rods, room, 2.0 * moved, found);
+}
+
+/// Adds candidates that are near enough for the step.
+/// @param approach by which any may have come nearer since they were found [m]
+void FiberContact::add_near(const Rods& rods, const Room& room, double approach,
+                            ContactSet& found) {
   constexpr std::size_t batch = 64;
   std::array<const Vector3d*, batch> a{};
   std::array<const Vector3d*, batch> b{};
+  std::array<std::size_t, batch> which{};
+  std::array<double, batch> limits{};
   std::array<SegmentDistance, batch> distances;
-  for (std::size_t begin = 0; begin < candidates_.size(); begin += batch) {
-    const std::size_t count = std::min(batch, candidates_.size() - begin);
-    for (std::size_t i = 0; i < count; ++i) {
-      a[i] = &rods.positions[candidates_[begin + i].edge_a];
-      b[i] = &rods.positions[candidates_[begin + i].edge_b];
-    }
+  std::size_t count = 0;
+  const auto measure = [&] {
     segment_distances(a.data(), b.data(), count, distances.data());
     for (std::size_t i = 0; i < count; ++i) {
-      const EdgePair& pair = candidates_[begin + i];
-      if (distances[i].distance <= pair.barrier.outer + expected_approach(room, pair)) {
+      if (distances[i].distance <= limits[i]) {
+        const EdgePair& pair = candidates_[which[i]];
         found.pairs.push_back(pair);
         found.pairs.back().barrier = pair.barrier.for_start_at(distances[i].distance);
       }
     }
+    count = 0;
+  };
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    const EdgePair& pair = candidates_[i];
+    const double limit = pair.barrier.outer + expected_approach(room, pair);
+    if (candidate_distances_[i] - approach > limit) {
+      continue;
+    }
+    a[count] = &rods.positions[pair.edge_a];
+    b[count] = &rods.positions[pair.edge_b];
+    which[count] = i;
+    limits[count] = limit;
+    if (++count == batch) {
+      measure();
+    }
   }
+  measure();
 }
 
 void FiberContact::find_candidates(const Rods& rods, double reach) {
@@ -104,11 +129,14 @@ void FiberContact::find_candidates(const Rods& rods, double reach) {
   query.neighbour_skip = contact_neighbour_skip;
   engine_->query(query, result_);
   candidates_.clear();
+  candidate_distances_.clear();
   for (const Contact& contact : result_.contacts) {
     const EdgePair pair = candidate(rods, contact);
     if (pair.rod_a != pair.rod_b ||
         !are_contact_neighbours(rods, arcs_, pair.rod_a, pair.edge_a, pair.edge_b)) {
       candidates_.push_back(pair);
+      candidate_distances_.push_back(contact.distance + rods.radii[pair.rod_a] +
+                                     rods.radii[pair.rod_b]);
     }
   }
 }

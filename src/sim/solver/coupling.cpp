@@ -1,5 +1,7 @@
 #include "coupling.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -15,50 +17,77 @@ void add_coupling(const Coupling::Problem& problem, const std::vector<SimdBatch>
                                 product.data()->of.data());
 }
 
+/// By lane of a pack, what holds for its islands.
+template <class Value>
+SimdBatch by_lane(const PackStep& pack, const LaneIslands& islands, const Value& value) {
+  SimdBatch values;
+  for (std::size_t lane = 0; lane < pack.used(); ++lane) {
+    values[lane] = value(islands[lane]);
+  }
+  return values;
+}
+
 }  // namespace
 
-/// The Hessian's product with a direction p needs no Hessian: with the preconditioner M, M p
-/// follows from the residuals p is made of.
+/// Calls function(pack, first, size): the pack's values begin at the first of all, and are so many.
+template <class Function>
+void Coupling::for_each_pack(const Problem& problem, const Function& function) {
+  tbb::parallel_for(std::size_t{0}, problem.packs.size(), [&](std::size_t pack) {
+    function(pack, problem.offsets[pack],
+             SumSize{problem.packs[pack].step_size(), problem.packs[pack].used()});
+  });
+}
+
+/// Of the packs' partial sums, by island.
+std::vector<double> Coupling::sums(const Problem& problem) const {
+  std::vector<double> sums(numbers_.size(), 0.0);
+  for (std::size_t pack = 0; pack < problem.packs.size(); ++pack) {
+    for (std::size_t lane = 0; lane < problem.packs[pack].used(); ++lane) {
+      sums[problem.islands[pack][lane]] += partial_sums_[pack][lane];
+    }
+  }
+  return sums;
+}
+
 void Coupling::correct(const Problem& problem, std::vector<SimdBatch>& step) {
   constexpr int most_iterations = 200;
   begin(problem, step);
   for (int i = 0; i < most_iterations && is_any_solving(problem.decreases); ++i) {
-    image_ = product_;
-    add_coupling(problem, direction_, image_);
-    sum_products(problem, direction_, image_, &Numbers::curvature);
-    choose_shares();
-    add_shares(problem, step, direction_, &Numbers::forward, step);
-    add_shares(problem, residual_, image_, &Numbers::back, residual_);
-    precondition(problem, residual_, preconditioned_);
-    sum_products(problem, residual_, preconditioned_, &Numbers::norm);
-    for (Numbers& numbers : numbers_) {
-      numbers.growth *= numbers.norm;
-    }
-    add_shares(problem, preconditioned_, direction_, &Numbers::growth, direction_);
-    add_shares(problem, residual_, product_, &Numbers::growth, product_);
+    find_image(problem);
+    advance(problem, step);
+    turn(problem);
   }
 }
 
 /// From the step without contacts between rods: these are its residual.
 void Coupling::begin(const Problem& problem, const std::vector<SimdBatch>& step) {
   numbers_.assign(problem.decreases.size(), Numbers{});
-  image_.resize(step.size());
-  residual_.resize(step.size());
+  partial_sums_.resize(problem.packs.size());
+  for (auto* values : {&residual_, &preconditioned_, &direction_, &product_, &image_}) {
+    values->resize(step.size());
+  }
   for (std::size_t i = 0; i < step.size(); ++i) {
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       image_[i][lane] = -step[i][lane];
-      residual_[i][lane] = 0.0;
     }
+    residual_[i] = SimdBatch{};
   }
   add_coupling(problem, image_, residual_);
-  precondition(problem, residual_, direction_);
-  product_ = residual_;
-  sum_products(problem, residual_, direction_, &Numbers::norm);
+  for_each_pack(problem, [&](std::size_t pack, std::size_t first, SumSize size) {
+    std::copy_n(&residual_[first], size.count, &direction_[first]);
+    problem.packs[pack].solve(&direction_[first]);
+    std::copy_n(&residual_[first], size.count, &product_[first]);
+    partial_sums_[pack] = products(size, &residual_[first], &direction_[first]);
+  });
+  const std::vector<double> norms = sums(problem);
+  for (std::size_t i = 0; i < numbers_.size(); ++i) {
+    numbers_[i].norm = norms[i];
+  }
 }
 
 /// Whether there are islands whose step is not yet what it is to be.
 bool Coupling::is_any_solving(const std::vector<double>& decreases) {
-  constexpr double tolerance = 1e-2;  // of the residual, as the preconditioner sees it
+  constexpr double tolerance = 1e-3;  // of the residual, as the preconditioner sees it
   bool is_any = false;
   for (std::size_t i = 0; i < numbers_.size(); ++i) {
     const double small = tolerance * tolerance * std::max(0.0, decreases[i]);
@@ -68,53 +97,50 @@ bool Coupling::is_any_solving(const std::vector<double>& decreases) {
   return is_any;
 }
 
-void Coupling::choose_shares() {
-  for (Numbers& numbers : numbers_) {
-    numbers.is_solving &= numbers.curvature > 0.0 && std::isfinite(numbers.curvature);
-    numbers.forward = numbers.is_solving ? numbers.norm / numbers.curvature : 0.0;
-    numbers.back = -numbers.forward;
+/// And how far to go along the direction.
+void Coupling::find_image(const Problem& problem) {
+  image_ = product_;
+  add_coupling(problem, direction_, image_);
+  for_each_pack(problem, [&](std::size_t pack, std::size_t first, SumSize size) {
+    partial_sums_[pack] = products(size, &direction_[first], &image_[first]);
+  });
+  const std::vector<double> curvatures = sums(problem);
+  for (std::size_t i = 0; i < numbers_.size(); ++i) {
+    Numbers& numbers = numbers_[i];
+    numbers.is_solving &= curvatures[i] > 0.0 && std::isfinite(curvatures[i]);
+    numbers.forward = numbers.is_solving ? numbers.norm / curvatures[i] : 0.0;
     numbers.growth = numbers.is_solving ? 1.0 / numbers.norm : 0.0;
   }
 }
 
-/// Few rods are solved for sooner than threads are told to.
-void Coupling::precondition(const Problem& problem, const std::vector<SimdBatch>& values,
-                            std::vector<SimdBatch>& preconditioned) {
-  preconditioned = values;
-  for (std::size_t pack = 0; pack < problem.packs.size(); ++pack) {
-    problem.packs[pack].solve(&preconditioned[problem.offsets[pack]]);
+void Coupling::advance(const Problem& problem, std::vector<SimdBatch>& step) {
+  for_each_pack(problem, [&](std::size_t pack, std::size_t first, SumSize size) {
+    const PackStep& of_pack = problem.packs[pack];
+    const auto forward = [&](double sign) {
+      return by_lane(of_pack, problem.islands[pack],
+                     [&](std::uint32_t island) { return sign * numbers_[island].forward; });
+    };
+    move_by(size, &step[first], &direction_[first], forward(1.0), &step[first]);
+    move_by(size, &residual_[first], &image_[first], forward(-1.0), &residual_[first]);
+    std::copy_n(&residual_[first], size.count, &preconditioned_[first]);
+    of_pack.solve(&preconditioned_[first]);
+    partial_sums_[pack] = products(size, &residual_[first], &preconditioned_[first]);
+  });
+  const std::vector<double> norms = sums(problem);
+  for (std::size_t i = 0; i < numbers_.size(); ++i) {
+    numbers_[i].norm = norms[i];
+    numbers_[i].growth *= norms[i];
   }
 }
 
-/// Σ a · b over each island.
-void Coupling::sum_products(const Problem& problem, const std::vector<SimdBatch>& a,
-                            const std::vector<SimdBatch>& b, double Numbers::*sum) {
-  for (Numbers& numbers : numbers_) {
-    numbers.*sum = 0.0;
-  }
-  for (std::size_t pack = 0; pack < problem.packs.size(); ++pack) {
-    const std::size_t first = problem.offsets[pack];
-    const SimdBatch sums = products({problem.packs[pack].step_size(), problem.packs[pack].used()},
-                                    &a[first], &b[first]);
-    for (std::size_t lane = 0; lane < problem.packs[pack].used(); ++lane) {
-      numbers_[problem.islands[pack][lane]].*sum += sums[lane];
-    }
-  }
-}
-
-/// sum = a + share · b, with each island's share.
-void Coupling::add_shares(const Problem& problem, const std::vector<SimdBatch>& a,
-                          const std::vector<SimdBatch>& b, double Numbers::*share,
-                          std::vector<SimdBatch>& sum) const {
-  for (std::size_t pack = 0; pack < problem.packs.size(); ++pack) {
-    SimdBatch shares;
-    for (std::size_t lane = 0; lane < problem.packs[pack].used(); ++lane) {
-      shares[lane] = numbers_[problem.islands[pack][lane]].*share;
-    }
-    const std::size_t first = problem.offsets[pack];
-    move_by({problem.packs[pack].step_size(), problem.packs[pack].used()}, &a[first], &b[first],
-            shares, &sum[first]);
-  }
+/// Into the next direction.
+void Coupling::turn(const Problem& problem) {
+  for_each_pack(problem, [&](std::size_t pack, std::size_t first, SumSize size) {
+    const SimdBatch growth = by_lane(problem.packs[pack], problem.islands[pack],
+                                     [&](std::uint32_t island) { return numbers_[island].growth; });
+    move_by(size, &preconditioned_[first], &direction_[first], growth, &direction_[first]);
+    move_by(size, &residual_[first], &product_[first], growth, &product_[first]);
+  });
 }
 
 }  // namespace fiber

@@ -14,6 +14,9 @@ using LaneIslands = std::array<std::uint32_t, lane_count>;
 /// Newton's step of rods whose contacts reach beyond the bands of their Hessians, by conjugate
 /// gradients with the bands' factors as preconditioner (Nocedal and Wright 2006, Alg. 5.3); for
 /// each island its own ones.
+///
+/// The Hessian's product with a direction p needs no Hessian: with the preconditioner M, M p
+/// follows from the residuals p is made of.
 class Coupling {
  public:
   /// What is solved for.
@@ -34,26 +37,23 @@ class Coupling {
  private:
   /// Of conjugate gradients, for an island.
   struct Numbers {
-    double norm = 0.0;       // squared: of the residual, as the preconditioner sees it
-    double curvature = 0.0;  // along the direction
-    double forward = 0.0;    // share of the direction that is gone
-    double back = 0.0;       // the same, negative
-    double growth = 0.0;     // of the norm
+    double norm = 0.0;     // squared: of the residual, as the preconditioner sees it
+    double forward = 0.0;  // share of the direction that is gone
+    double growth = 0.0;   // of the norm
     bool is_solving = true;
   };
 
+  template <class Function>
+  void for_each_pack(const Problem& problem, const Function& function);
+  std::vector<double> sums(const Problem& problem) const;
   void begin(const Problem& problem, const std::vector<SimdBatch>& step);
   bool is_any_solving(const std::vector<double>& decreases);
-  void choose_shares();
-  static void precondition(const Problem& problem, const std::vector<SimdBatch>& values,
-                           std::vector<SimdBatch>& preconditioned);
-  void sum_products(const Problem& problem, const std::vector<SimdBatch>& a,
-                    const std::vector<SimdBatch>& b, double Numbers::*sum);
-  void add_shares(const Problem& problem, const std::vector<SimdBatch>& a,
-                  const std::vector<SimdBatch>& b, double Numbers::*share,
-                  std::vector<SimdBatch>& sum) const;
+  void find_image(const Problem& problem);
+  void advance(const Problem& problem, std::vector<SimdBatch>& step);
+  void turn(const Problem& problem);
 
-  std::vector<Numbers> numbers_;  // by island
+  std::vector<Numbers> numbers_;         // by island
+  std::vector<SimdBatch> partial_sums_;  // by pack
   std::vector<SimdBatch> residual_;
   std::vector<SimdBatch> preconditioned_;
   std::vector<SimdBatch> direction_;

@@ -59,6 +59,7 @@ void NewtonSolver::assign(const Rods& rods, const std::vector<std::vector<std::u
       const std::uint32_t rod = packs[pack][lane];
       islands_[pack][lane] = scratch.islands[rod];
       scratch.systems[rod] = &packs_[pack].system(lane);
+      scratch.packs[rod] = static_cast<std::uint32_t>(pack);
       members_.push_back(rod);
       for (std::uint32_t i = 0; i < rods.node_count(rod); ++i) {
         scratch.places[rods.first(rod) + i] = (size + i * unknowns) * lane_count + lane;
@@ -148,11 +149,17 @@ bool NewtonSolver::predict(Rods& rods, const Problem& problem) {
 }
 
 void NewtonSolver::assemble(Rods& rods, const Problem& problem) {
-  for_each_pack(Work::MUCH, [&](std::size_t pack) { packs_[pack].assemble(problem.effects); });
   if (problem.contacts != nullptr) {
-    problem.contacts->add_derivatives(rods, scratch_->systems);
+    problem.contacts->find_derivatives(rods);
   }
-  for_each_pack(Work::LITTLE, [&](std::size_t pack) { packs_[pack].measure_residuals(); });
+  for_each_pack(Work::MUCH, [&](std::size_t pack) {
+    packs_[pack].assemble(problem.effects);
+    if (problem.contacts != nullptr) {
+      problem.contacts->add_derivatives(rods, scratch_->systems, scratch_->packs,
+                                        static_cast<std::uint32_t>(pack));
+    }
+    packs_[pack].measure_residuals();
+  });
 }
 
 /// Ends the searches of islands whose forces balance. What has learnt from that may unbalance them

@@ -15,6 +15,7 @@ struct SolverScratch {
   void resize(const Rods& rods) {
     islands.resize(rods.count());
     systems.resize(rods.count());
+    packs.resize(rods.count());
     places.resize(rods.positions.size());
     displacements.resize(rods.positions.size());
     ends.resize(rods.positions.size());
@@ -22,6 +23,7 @@ struct SolverScratch {
 
   std::vector<std::uint32_t> islands;  ///< by rod: which of its solver's islands
   std::vector<RodSystem*> systems;     ///< by rod
+  std::vector<std::uint32_t> packs;    ///< by rod: which of its solver's packs
   std::vector<std::size_t> places;     ///< by node, in the step
   std::vector<Eigen::Vector3d> displacements;
   std::vector<Eigen::Vector3d> ends;

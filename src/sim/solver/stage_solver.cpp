@@ -28,6 +28,17 @@ double longest_of(const std::vector<Vector3d>& vectors) {
   return std::sqrt(square);
 }
 
+/// Makes as few packs as there must be, of about the same size, which threads share.
+void add_packs(const std::vector<std::uint32_t>& rods,
+               std::vector<std::vector<std::uint32_t>>& packs) {
+  const std::size_t count = (rods.size() + lane_count - 1) / lane_count;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto begin = static_cast<std::ptrdiff_t>(i * rods.size() / count);
+    const auto end = static_cast<std::ptrdiff_t>((i + 1) * rods.size() / count);
+    packs.emplace_back(rods.begin() + begin, rods.begin() + end);
+  }
+}
+
 }  // namespace
 
 void copy_state(const Rods& rods, RodState& state) {
@@ -51,6 +62,7 @@ StageSolver::StageSolver(const Rods& rods, const StepperOptions& options, Contac
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
     room_.by_rod.push_back(least_room * rods.radii[rod]);
   }
+  stiffening_.assign(rods.count(), 1.0);
   islands_.reset(rods.count());
   make_groups(rods);
 }
@@ -97,6 +109,7 @@ void StageSolver::solve(Rods& rods, const Effects& effects, const TimeStep& stag
     }
     if (contacts_ != nullptr) {
       adapt_room(rods);
+      adapt_stiffening(rods);
     }
   });
 }
@@ -114,10 +127,16 @@ void StageSolver::expect(const RodState& reference, double step) {
 void StageSolver::find_contacts(Rods& rods) {
   rods.positions.swap(start_.positions);
   found_.clear();
-  for (const std::unique_ptr<ContactSource>& source : contacts_->sources()) {
-    source->find(rods, room_, found_);
+  found_by_.resize(contacts_->sources().size());
+  tbb::parallel_for(std::size_t{0}, found_by_.size(), [&](std::size_t source) {
+    found_by_[source].clear();
+    contacts_->sources()[source]->find(rods, room_, found_by_[source]);
+  });
+  for (const ContactSet& found : found_by_) {
+    found_.append(found);
   }
   rods.positions.swap(start_.positions);
+  stiffen_contacts();
   islands_.reset(rods.count());
   for (const EdgePair& pair : found_.pairs) {
     islands_.join(pair.rod_a, pair.rod_b);
@@ -150,15 +169,13 @@ void StageSolver::make_groups(const Rods& rods) {
     } else if (!members[root].empty()) {
       Group group;
       group.islands = 1;
-      std::map<std::uint32_t, std::size_t> packs;  // by node count
+      std::map<std::uint32_t, std::vector<std::uint32_t>> alike;  // by node count
       for (const std::uint32_t rod : members[root]) {
         scratch_.islands[rod] = 0;
-        const auto [found, is_new] = packs.try_emplace(rods.node_count(rod), group.packs.size());
-        if (is_new || group.packs[found->second].size() == lane_count) {
-          found->second = group.packs.size();
-          group.packs.emplace_back();
-        }
-        group.packs[found->second].push_back(rod);
+        alike[rods.node_count(rod)].push_back(rod);
+      }
+      for (const auto& [node_count, all] : alike) {
+        add_packs(all, group.packs);
       }
       groups.push_back(std::move(group));
     }
@@ -277,6 +294,31 @@ void StageSolver::adapt_room(const Rods& rods) {
     }
     room_.by_rod[rod] = std::max({least_room * rods.radii[rod], spare_room * std::sqrt(square),
                                   room_.is_last ? 0.0 : kept_room * room_.by_rod[rod]});
+  }
+}
+
+/// Barriers are as stiff as the material makes natural; where holds pull far harder, they would
+/// hold only right at their inner distance, where equations are hard to solve.
+void StageSolver::stiffen_contacts() {
+  for (EdgePair& pair : found_.pairs) {
+    pair.barrier.scale *= std::max(stiffening_[pair.rod_a], stiffening_[pair.rod_b]);
+  }
+  for (ObstaclePoint& point : found_.obstacle_points) {
+    point.barrier.scale *= stiffening_[point.rod];
+  }
+}
+
+/// To what the largest contact force of a rod was in this step; back to the material's little by
+/// little.
+void StageSolver::adapt_stiffening(const Rods& rods) {
+  constexpr double kept = 0.95;
+  constexpr double most_growth = 4.0;
+  loads_.assign(rods.count(), 0.0);
+  for (const Group& group : groups_) {
+    group.contacts.add_loads(rods, loads_);
+  }
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    stiffening_[rod] = std::max(1.0, stiffening_[rod] * std::clamp(loads_[rod], kept, most_growth));
   }
 }
 

@@ -59,6 +59,8 @@ class StageSolver {
   void expect(const RodState& reference, double step);
   void widen_room(const Rods& rods);
   void adapt_room(const Rods& rods);
+  void stiffen_contacts();
+  void adapt_stiffening(const Rods& rods);
   void solve_group(Rods& rods, const Effects& effects, double step, Group& group);
   void bring(const RodState& state, const Group& group, Rods& rods, bool has_rates) const;
   std::unique_ptr<NewtonSolver> take_solver();
@@ -73,9 +75,12 @@ class StageSolver {
   std::vector<Group> groups_;
   std::vector<std::uint32_t> group_of_;  // by rod
   SolverScratch scratch_;
+  std::vector<ContactSet> found_by_;  // by source
   ContactSet found_;
   Room room_;
-  bool is_copied_ = false;  // whether the two following ones are in use
+  std::vector<double> stiffening_;  // of contacts that have much to hold, by rod
+  std::vector<double> loads_;       // of contacts, by rod
+  bool is_copied_ = false;          // whether the two following ones are in use
   RodState start_;
   RodState reference_;
   double last_step_ = 0.0;  // [s]

@@ -32,6 +32,7 @@ class FiberContact : public ContactSource {
 
  private:
   void find_candidates(const Rods& rods, double reach);
+  void add_near(const Rods& rods, const Room& room, double approach, ContactSet& found);
   EdgePair candidate(const Rods& rods, const Contact& contact) const;
 
   Options options_;
@@ -40,6 +41,7 @@ class FiberContact : public ContactSource {
   double reach_ = -1.0;       // [m] surfaces further apart then are no candidates
   std::vector<double> arcs_;  // along each rod at rest, by node [m]
   std::vector<EdgePair> candidates_;
+  std::vector<double> candidate_distances_;  // of axes, where they were looked for [m]
   QueryResult result_;
 };
 
