@@ -198,8 +198,9 @@ double ContactSet::stored_energy(const Rods& rods) {
 void ContactSet::find_terms(const Rods& rods, std::size_t contact, std::vector<Term>& terms) const {
   const auto add = [&](const PointPair& points, const DistanceTerm& term,
                        const Barrier& /*barrier*/) {
-    terms.push_back(
-        {points, term.slope * term.normal, term.curvature * term.normal * term.normal.transpose()});
+    terms.push_back({points, term.slope * term.normal,
+                     term.curvature * term.normal * term.normal.transpose(),
+                     term.turning > 0.0 ? term.turning / (term.slope * term.slope) : 0.0});
   };
   std::vector<DistanceTerm> found;
   if (contact < obstacle_contacts.size()) {
@@ -221,7 +222,7 @@ void ContactSet::find_terms(const Rods& rods, std::size_t contact, std::vector<T
     const Vector3d along = slip / length;
     hessian += (law.curvature - law.resistance) * along * along.transpose();
   }
-  terms.push_back({point.points, point.most * law.resistance * slip, point.most * hessian});
+  terms.push_back({point.points, point.most * law.resistance * slip, point.most * hessian, 0.0});
 }
 
 void ContactSet::find_derivatives(const Rods& rods) {
@@ -245,8 +246,12 @@ void ContactSet::add_derivatives(const Rods& rods, const std::vector<RodSystem*>
     for (const Term& term : terms) {
       const PointPair& points = term.points;
       if (packs[points.rod_a] == which) {
-        add_side(points.edge_a - rods.first(points.rod_a), points.s, term.gradient, term.hessian,
-                 *systems[points.rod_a]);
+        const std::uint32_t edge = points.edge_a - rods.first(points.rod_a);
+        add_side(edge, points.s, term.gradient, term.hessian, *systems[points.rod_a]);
+        if (term.turning > 0.0) {
+          systems[points.rod_a]->add_edge(edge, Vector3d::Zero(),
+                                          term.turning * term.gradient * term.gradient.transpose());
+        }
       }
       if (points.edge_b != no_edge && packs[points.rod_b] == which) {
         add_side(points.edge_b - rods.first(points.rod_b), points.t, -term.gradient, term.hessian,

@@ -117,6 +117,7 @@ class ContactSet {
     PointPair points;
     Eigen::Vector3d gradient;
     Eigen::Matrix3d hessian;
+    double turning;  // times g gᵀ, part of the Hessian by the difference of a's ends [1/(N m)]
   };
 
   void bound_pairs(const Rods& rods, const std::vector<Eigen::Vector3d>& displacements,

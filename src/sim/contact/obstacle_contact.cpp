@@ -69,6 +69,21 @@ Ramp ramp_of(const ObstacleContact& contact, const ObstacleDistance& distance, s
   return Ramp(std::max(0.0, further) / contact.barrier.width());
 }
 
+/// The nearest point of an edge that turns about it moves along the edge, by the less the more the
+/// distance grows there: like that of a parabola through what the farther end's is.
+double turning_of(const ObstacleContact& contact, const ObstacleDistance& distance,
+                  double pressure) {
+  if (contact.part != ObstacleContact::Part::EDGE) {
+    return 0.0;
+  }
+  const auto bend = [&](std::size_t end) {
+    const double way = distance.s - static_cast<double>(end);
+    return 2.0 * (distance.ends[end].distance - distance.nearest.distance) / (way * way);
+  };
+  const double most = std::max(bend(0), bend(1));
+  return most > 0.0 ? pressure / most : 0.0;
+}
+
 }  // namespace
 
 ObstacleDistance obstacle_distance(const ObstacleContact& contact,
@@ -131,7 +146,8 @@ double obstacle_contact(const ObstacleContact& contact, const ObstacleDistance& 
       }
     }
   }
-  terms->push_back({s, 0.0, distance.nearest.gradient, slope, curvature, pressure});
+  terms->push_back({s, 0.0, distance.nearest.gradient, slope, curvature, pressure,
+                    turning_of(contact, distance, pressure)});
   return weight * energy;
 }
 
