@@ -75,20 +75,65 @@ TEST(Barrier, HasItsStiffnessWhereSurfacesMeet) {
   EXPECT_NEAR(barrier.curvature(0.02), 1234.0, 1e-9);
 }
 
-TEST(Barrier, WhatBeginsNearerThanTheInnerDistanceMayStayOrPart) {
+TEST(Barrier, WithLessWeightItBeginsNearerAndNeverLetsNearerThanTheLeastDistance) {
   const Barrier barrier = Barrier::around(0.02, 100.0);
-  for (const double distance : {0.0191, 0.02, 0.0209, 0.03}) {
+  EXPECT_GE(barrier.least(), 0.9 * 0.02);
+  EXPECT_EQ(barrier.felt(0.0201, 1.0), 0.0201);
+  double last = 0.0201;
+  for (const double weight : {0.9, 0.5, 0.1, 0.0}) {
+    const double felt = barrier.felt(0.0201, weight);
+    EXPECT_GT(felt, last) << weight;
+    EXPECT_EQ(barrier.energy(barrier.felt(barrier.outer, weight)), 0.0);
+    EXPECT_NEAR(barrier.felt(0.0201 + 1e-6, weight) - felt, 1e-6 * Barrier::depth_share(weight),
+                1e-15);
+    last = felt;
+  }
+  EXPECT_NEAR(barrier.felt(barrier.least(), 0.0), barrier.inner, 1e-15);
+}
+
+TEST(Barrier, ItsLogarithmIsThatOfTheStandardLibrary) {
+  SCOPED_TRACE(seed_message());
+  Random random(3);
+  for (int round = 0; round < 10000; ++round) {
+    const double x = std::pow(10.0, random.uniform(-300.0, 300.0)) * random.uniform(0.5, 2.0);
+    EXPECT_NEAR(natural_log(x), std::log(x), 4e-16 * std::max(1.0, std::abs(std::log(x)))) << x;
+    const double near_one = 1.0 + random.uniform(-1e-3, 1e-3);
+    EXPECT_NEAR(natural_log(near_one), std::log(near_one),
+                1e-18 + 4e-16 * std::abs(near_one - 1.0));
+  }
+}
+
+TEST(Barrier, ALoadIsAForceInPartsOfWhatItHoldsWell) {
+  SCOPED_TRACE(seed_message());
+  Random random(4);
+  for (int round = 0; round < 100; ++round) {
+    const Barrier barrier = random_barrier(random);
+    const double force = -barrier.slope(barrier.inner + barrier.width() / 3.0);
+    EXPECT_NEAR(barrier.load_of(force), 1.0, 1e-4);
+    EXPECT_NEAR(barrier.load_of(2.0 * force), 2.0, 2e-4);
+  }
+}
+
+TEST(Barrier, WhatBeginsNearerThanTheLeastDistanceMayStayOrPart) {
+  const Barrier barrier = Barrier::around(0.02, 100.0);
+  for (const double distance : {0.0186, 0.0191, 0.02, 0.0209, 0.03}) {
     const Barrier same = barrier.for_start_at(distance);
     EXPECT_EQ(same.inner, barrier.inner) << distance;
     EXPECT_EQ(same.outer, barrier.outer) << distance;
   }
-  for (const double distance : {barrier.inner, 0.018, 0.001, 1e-9, 0.0, -0.001, -1.0}) {
+  for (const double distance : {barrier.least(), 0.018, 0.001, 1e-9, 0.0, -0.001, -1.0}) {
     const Barrier moved = barrier.for_start_at(distance);
-    EXPECT_LT(moved.inner, distance);
+    EXPECT_LT(moved.inner, barrier.inner);
     EXPECT_EQ(moved.outer, barrier.outer);
-    EXPECT_TRUE(std::isfinite(moved.energy(distance))) << distance;
-    EXPECT_LT(moved.slope(distance), 0.0) << distance;
-    EXPECT_TRUE(std::isfinite(moved.curvature(distance))) << distance;
+    for (const double weight : {0.001, 0.5, 1.0}) {
+      const double felt = moved.felt(distance, weight);
+      EXPECT_TRUE(std::isfinite(moved.energy(felt))) << distance << ", weight " << weight;
+      EXPECT_LT(moved.slope(felt), 0.0) << distance << ", weight " << weight;
+      EXPECT_TRUE(std::isfinite(moved.curvature(felt))) << distance << ", weight " << weight;
+    }
+    // A little farther away, a little less: no step begins with another potential for that.
+    const double farther = barrier.for_start_at(distance + 1e-9).inner;
+    EXPECT_NEAR(farther, moved.inner, 2e-9);
   }
 }
 

@@ -50,7 +50,8 @@ inline FullSystem full_system(ContactSet& contacts, const Rods& rods) {
     pointers.push_back(&systems.back());
   }
   contacts.measure(rods);
-  contacts.add_derivatives(rods, pointers);
+  contacts.find_derivatives(rods);
+  contacts.add_derivatives(rods, pointers, std::vector<std::uint32_t>(rods.count(), 0), 0);
   FullSystem full{Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size)};
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
     const std::size_t first = std::size_t{3} * rods.first(rod);
