@@ -21,15 +21,17 @@ struct Part {
 };
 
 const std::vector<Part>& parts() {
-  const std::vector<std::string> hose_columns{"method",      "motion",       "segments",
-                                              "substeps",    "iterations",   "error",
-                                              "ms_per_step", "ms_per_second"};
+  const std::vector<std::string> hose_columns{
+      "method",         "motion",     "segments", "substeps",    "residual",
+      "max_iterations", "iterations", "error",    "ms_per_step", "ms_per_second"};
+  const std::vector<std::string> xpbd_columns{"method",   "motion", "segments",    "inertia",
+                                              "substeps", "error",  "ms_per_step", "ms_per_second"};
   static const std::vector<Part> all{
       {"validation",
        measure_validation,
        {"test", "scene", "quantity", "segments", "theory", "simulated", "error"}},
       {"convergence", measure_convergence, hose_columns},
-      {"xpbd", measure_xpbd, hose_columns},
+      {"xpbd", measure_xpbd, xpbd_columns},
       {"effects",
        measure_effect_costs,
        {"added", "ms_per_step", "us_per_node_step", "bytes_per_node", "unknowns_per_node"}},
@@ -139,7 +141,13 @@ void add_simulate_command(CLI::App& app, Command& command) {
       ->default_str("all");
   add_counts(*simulate, "--segments", what.segments, "of the hose");
   add_counts(*simulate, "--substeps", what.substeps, "of a frame");
-  add_counts(*simulate, "--iterations", what.iterations, "of a step");
+  simulate
+      ->add_option("--residuals", what.residuals,
+                   "that a step may leave [m/s], with commas between them")
+      ->delimiter(',')
+      ->check(finite_number(1e-12))
+      ->capture_default_str();
+  add_counts(*simulate, "--max-iterations", what.max_iterations, "the most of a step");
   add_counts(*simulate, "--xpbd-segments", what.xpbd_segments, "of the XPBD hose");
   add_counts(*simulate, "--xpbd-substeps", what.xpbd_substeps, "of its frames");
   add_counts(*simulate, "--xpbd-inertias", what.xpbd_inertias,

@@ -21,8 +21,8 @@ constexpr double standard_gravity = 9.81;  // [m/s²]
 inline RodSection rubber(double radius) { return solid_round_section({1e7, 4e6, 1200.0}, radius); }
 
 /// Stretch, bend, and gravity along -z [m/s²] unless it is 0.
-inline std::vector<std::unique_ptr<Effect>> elastic(double gravity = 0.0) {
-  std::vector<std::unique_ptr<Effect>> effects;
+inline Effects elastic(double gravity = 0.0) {
+  Effects effects;
   effects.push_back(std::make_unique<Stretch>());
   effects.push_back(std::make_unique<Bend>());
   if (gravity != 0.0) {
@@ -64,14 +64,6 @@ inline Eigen::Vector3d momentum_of(const Rods& rods) {
     momentum += rods.masses[i] * rods.velocities[i];
   }
   return momentum;
-}
-
-inline double elastic_energy_of(const Rods& rods) {
-  double energy = 0.0;
-  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
-    energy += Stretch().energy(rods, rod) + Bend().energy(rods, rod);
-  }
-  return energy;
 }
 
 inline bool all_finite(const Rods& rods) {

@@ -47,7 +47,7 @@ EffectSimulation::EffectSimulation(const EffectScene& scene,
                                    const std::vector<std::string>& effects)
     : names_(effects), substeps_(scene.substeps) {
   Rods rods = make_cables(scene);
-  std::vector<std::unique_ptr<Effect>> made = make_effects(rods);
+  Effects made = make_effects(rods);
   StepperOptions options;
   options.threads = scene.threads;
   stepper_ = std::make_unique<Stepper>(std::move(rods), std::move(made), options, make_contacts());
@@ -63,8 +63,8 @@ bool EffectSimulation::has(const std::string& name) const {
   return std::find(names_.begin(), names_.end(), name) != names_.end();
 }
 
-std::vector<std::unique_ptr<Effect>> EffectSimulation::make_effects(Rods& rods) const {
-  std::vector<std::unique_ptr<Effect>> effects;
+Effects EffectSimulation::make_effects(Rods& rods) const {
+  Effects effects;
   const auto add = [&](const char* name, const auto& make) {
     if (has(name)) {
       effects.push_back(make());

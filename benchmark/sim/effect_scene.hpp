@@ -30,7 +30,7 @@ class EffectSimulation {
 
  private:
   bool has(const std::string& name) const;
-  std::vector<std::unique_ptr<Effect>> make_effects(Rods& rods) const;
+  Effects make_effects(Rods& rods) const;
   std::unique_ptr<Contacts> make_contacts() const;
 
   std::vector<std::string> names_;

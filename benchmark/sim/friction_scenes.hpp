@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "fiber_proximity/sim/stepper.hpp"
 
@@ -19,19 +20,32 @@ class Incline {
   /// Of the whole rod, downwards [m/s].
   double speed() const;
 
+  /// Of friction on the whole rod, upwards, and of what presses it to the plane [N].
+  double friction_force() const;
+  double normal_force() const;
+
+  double weight() const;  ///< [N]
+
  private:
+  double mass() const;
+
   Eigen::Vector3d down_;
+  Eigen::Vector3d normal_;
   std::unique_ptr<Stepper> stepper_;
 };
 
-/// A rope without bending stiffness around a post along z: which part of a turn, in how many edges.
+/// A rope around a post along z: which part of a turn, in how many edges, and what it is made of,
+/// one of material_names(). A constant force pulls at one end, and is as large as it takes for the
+/// rope's stiffness not to matter: EI/TR² is 1e-3. The rope is as thin as that allows without much
+/// strain.
 struct Capstan {
   double turns;
   int edges_per_turn;
+  std::string material = "rope";
 };
 
-/// Ratio of the tensions beyond and before a post over which a rope is pulled, with its first node
-/// loaded.
+/// Ratio of the tensions beyond and before a post over which a rope is drawn, on the mean of the
+/// time in which it moves by an edge.
 double tension_ratio(const Capstan& capstan, double friction);
 
 }  // namespace fiber

@@ -30,14 +30,18 @@ enum class HoseMotion {
 struct HoseSetting {
   int segments = 50;
   int substeps = 4;  ///< steps per frame
-  int iterations = 2;
+  double residual = StepperOptions{}.residual;
+  int max_iterations = static_cast<int>(StepperOptions{}.max_iterations);
   Integrator integrator = Integrator::IMPLICIT_EULER;
 };
 
-/// The tip at the end of each frame [m], and the time the simulation took [ms] of one processor.
+/// The tip at the end of each frame [m], the time the simulation took [ms] of one processor, and
+/// how far it went.
 struct HoseRun {
   std::vector<Eigen::Vector3d> tips;
   double ms = 0.0;
+  double iterations = 0.0;      ///< of a step, on the mean
+  double worst_residual = 0.0;  ///< that a step has left [m/s]
 };
 
 /// By which a speed is multiplied after a step [s] of this motion.

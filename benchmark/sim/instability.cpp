@@ -74,14 +74,25 @@ class EndMoments : public Effect {
  public:
   explicit EndMoments(double moment) : moment_(moment) {}
 
-  double energy(const Rods& rods, std::uint32_t /*rod*/) const override {
-    return moment_ * (rods.angles.front() - rods.angles[rod_segments - 1]);
+  void energy(const RodPack& rods, const std::vector<SimdBatch>& /*values*/,
+              SimdBatch& energy) const override {
+    constexpr std::size_t unknowns = 4;
+    energy = SimdBatch{};
+    for (std::size_t lane = 0; lane < rods.used; ++lane) {
+      const auto angle = [&](std::size_t edge) {
+        return rods.positions[edge * unknowns + 3][lane];
+      };
+      energy[lane] = moment_ * (angle(0) - angle(rod_segments - 1));
+    }
   }
 
-  void add_derivatives(const Rods& /*rods*/, std::uint32_t /*rod*/,
-                       RodSystem& system) const override {
-    system.add_angle_gradient(0, moment_);
-    system.add_angle_gradient(rod_segments - 1, -moment_);
+  void add_derivatives(const RodPack& rods, const std::vector<SimdBatch>& /*values*/,
+                       PackSystem& system) const override {
+    for (std::size_t lane = 0; lane < rods.used; ++lane) {
+      RodSystem of_rod(system, lane);
+      of_rod.add_angle_gradient(0, moment_);
+      of_rod.add_angle_gradient(rod_segments - 1, -moment_);
+    }
   }
 
  private:

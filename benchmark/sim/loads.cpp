@@ -36,7 +36,7 @@ Stepper swinging_rods(const LoadSizes& sizes, std::uint32_t threads) {
     holds.push_back(pin(0, points.front()));
     holds.back().rod = rod;
   }
-  std::vector<std::unique_ptr<Effect>> effects = elastic(standard_gravity);
+  Effects effects = elastic(standard_gravity);
   effects.push_back(hold(rods, holds));
   StepperOptions options;
   options.threads = threads;

@@ -18,7 +18,7 @@ const char* name_of(HoseMotion motion) {
 }
 
 const char* name_of(Integrator integrator) {
-  return integrator == Integrator::IMPLICIT_EULER ? "implicit_euler" : "implicit_midpoint";
+  return integrator == Integrator::IMPLICIT_EULER ? "implicit_euler" : "bdf2";
 }
 
 /// A motion, for how long, and how it should go.
@@ -54,7 +54,10 @@ SimulationRow row_of(const char* method, const char* varied, const HoseTask& tas
           {"varied", varied},
           {"segments", setting.segments},
           {"substeps", setting.substeps},
-          {"iterations", setting.iterations},
+          {"residual", setting.residual},
+          {"max_iterations", setting.max_iterations},
+          {"iterations", run.iterations},
+          {"worst_residual", run.worst_residual},
           {"frames", task.frames},
           {"error", hose_error(task.motion, run.tips, task.reference)},
           {"ms_per_step", ms_per_step},
@@ -74,10 +77,11 @@ HoseRun simulate_xpbd(const HoseTask& task, const HoseSetting& setting, int iner
   const double step = Hose::frame / setting.substeps;
   const double damping = hose_damping(task.motion, step);
   HoseRun run;
+  run.iterations = 1.0;  // passes of Gauss–Seidel
   run.ms = processor_time_of([&] {
     for (int frame = 0; frame < task.frames; ++frame) {
       for (int i = 0; i < setting.substeps; ++i) {
-        rod.step(step, Vector3d(0.0, 0.0, -Hose::gravity), setting.iterations);
+        rod.step(step, Vector3d(0.0, 0.0, -Hose::gravity));
         rod.damp(damping);
       }
       run.tips.push_back(rod.positions().back());
@@ -103,7 +107,7 @@ void measure_validation(const SimulationMeasurement& /*what*/, const ReportRow& 
 
 void measure_convergence(const SimulationMeasurement& what, const ReportRow& report) {
   const HoseTask swinging(what, HoseMotion::SWINGING);
-  for (const Integrator integrator : {Integrator::IMPLICIT_EULER, Integrator::IMPLICIT_MIDPOINT}) {
+  for (const Integrator integrator : {Integrator::IMPLICIT_EULER, Integrator::BDF2}) {
     HoseSetting setting;
     setting.integrator = integrator;
     for (const int segments : what.segments) {
@@ -115,18 +119,20 @@ void measure_convergence(const SimulationMeasurement& what, const ReportRow& rep
     }
   }
   const HoseTask settling(what, HoseMotion::SETTLING);
-  const auto measure_line = [&](const HoseTask& task, const char* name, int HoseSetting::*of,
-                                const std::vector<int>& values) {
+  const auto measure_line = [&](const HoseTask& task, const char* name, auto HoseSetting::*of,
+                                const auto& values) {
     HoseSetting setting;
-    for (const int value : values) {
+    for (const auto value : values) {
       setting.*of = value;
       measure_hose(what, task, setting, name, report);
     }
   };
   measure_line(settling, "segments", &HoseSetting::segments, what.segments);
   measure_line(settling, "substeps", &HoseSetting::substeps, what.substeps);
-  measure_line(settling, "iterations", &HoseSetting::iterations, what.iterations);
-  measure_line(swinging, "iterations", &HoseSetting::iterations, what.iterations);
+  for (const HoseTask* const task : {&settling, &swinging}) {
+    measure_line(*task, "residual", &HoseSetting::residual, what.residuals);
+    measure_line(*task, "max_iterations", &HoseSetting::max_iterations, what.max_iterations);
+  }
 }
 
 void measure_xpbd(const SimulationMeasurement& what, const ReportRow& report) {
@@ -136,7 +142,6 @@ void measure_xpbd(const SimulationMeasurement& what, const ReportRow& report) {
       HoseSetting setting;
       setting.segments = segments;
       setting.substeps = substeps;
-      setting.iterations = 1;
       const HoseRun run =
           repeated(what.least_ms, [&] { return simulate_xpbd(task, setting, inertia); });
       SimulationRow row = row_of("xpbd", "grid", task, setting, run);

@@ -63,7 +63,7 @@ double simulated_frequency(int segments, double root) {
   auto clamped = hold(rods, {clamp(0, {Vector3d::Zero(), Vector3d::UnitX(), Vector3d::UnitY()})});
   Stepper stepper(
       rods, effects(std::make_unique<Stretch>(), std::make_unique<Bend>(), std::move(clamped)),
-      precise(Integrator::IMPLICIT_MIDPOINT));
+      precise(Integrator::BDF2));
   Zeros zeros;
   for (int i = 0; i < 400; ++i) {
     stepper.step(0.01 / exact);
@@ -86,7 +86,7 @@ double simulated_torsion(int segments, double inertia) {
   Stepper stepper(rods,
                   effects(std::make_unique<Stretch>(), std::make_unique<Bend>(), std::move(twist),
                           std::move(clamped)),
-                  precise(Integrator::IMPLICIT_MIDPOINT));
+                  precise(Integrator::BDF2));
   Zeros zeros;
   for (int i = 0; i < 400; ++i) {
     stepper.step(0.01 / exact_torsion(inertia));
@@ -111,7 +111,7 @@ double simulated_pendulum_period(int segments, double angle, double step) {
   Stepper stepper(rods,
                   effects(std::make_unique<Gravity>(gravity), std::make_unique<Stretch>(),
                           std::make_unique<Bend>(), std::move(pinned)),
-                  precise(Integrator::IMPLICIT_MIDPOINT));
+                  precise(Integrator::BDF2));
   Zeros zeros;
   while (zeros.count() < 5) {
     stepper.step(step);

@@ -25,7 +25,7 @@ double exact_pendulum_ratio(double amplitude);
 double point_pendulum_period();
 double rod_pendulum_period();
 
-/// Of a rod of length 1 m that is let go at an angle from the vertical, with implicit midpoint [s].
+/// Of a rod of length 1 m that is let go at an angle from the vertical, with BDF2 [s].
 /// One segment has its mass at its ends, many have it all along.
 /// @param step [s]
 double simulated_pendulum_period(int segments, double angle, double step);
@@ -33,7 +33,7 @@ double simulated_pendulum_period(int segments, double angle, double step);
 /// A rod that falls freely from rest, from a height of 0.
 Rods fallen_rod(Integrator integrator, double step, int steps);
 
-/// Where it is then [m]. Implicit Euler is ahead by ½ g t h, implicit midpoint is exact.
+/// Where it is then [m]. Implicit Euler is ahead by ½ g t h, BDF2 is exact.
 double exact_fall(Integrator integrator, double step, int steps);
 
 }  // namespace fiber

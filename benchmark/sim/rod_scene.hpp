@@ -14,8 +14,6 @@
 
 namespace fiber {
 
-using Effects = std::vector<std::unique_ptr<Effect>>;
-
 /// Effects in a list, which cannot be made from what cannot be copied.
 template <class... E>
 Effects effects(std::unique_ptr<E>... each) {
@@ -69,12 +67,12 @@ inline void settle(Stepper& stepper) {
   }
 }
 
-/// Newton's method to its end, for what is compared with closed forms.
+/// Newton's method as far as rounding errors let it go, for what is compared with closed forms.
 inline StepperOptions precise(Integrator integrator = Integrator::IMPLICIT_EULER) {
   StepperOptions options;
   options.integrator = integrator;
-  options.iterations = 50;
-  options.tolerance = 1e-12;
+  options.residual = 1e-11;
+  options.max_iterations = 30;
   options.threads = 1;
   return options;
 }

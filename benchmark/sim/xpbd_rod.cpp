@@ -39,15 +39,13 @@ XpbdRod::XpbdRod(const std::vector<Vector3d>& points, const RodSection& section,
   turn_weight_ = 0.25 / (inertia * section.inertia_per_length * edge_length_);
 }
 
-void XpbdRod::step(double length, const Vector3d& acceleration, int passes) {
+void XpbdRod::step(double length, const Vector3d& acceleration) {
   predict(length, acceleration);
   std::fill(stretch_multipliers_.begin(), stretch_multipliers_.end(), Vector3d::Zero());
   std::fill(bend_multipliers_.begin(), bend_multipliers_.end(), Vector3d::Zero());
-  for (int pass = 0; pass < passes; ++pass) {
-    for (std::size_t i = 0; i + 1 < positions_.size(); ++i) {
-      project_bend(i, length);
-      project_stretch(i, length);
-    }
+  for (std::size_t i = 0; i + 1 < positions_.size(); ++i) {
+    project_bend(i, length);
+    project_stretch(i, length);
   }
   find_velocities(length);
 }

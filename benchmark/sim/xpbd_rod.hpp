@@ -10,7 +10,7 @@ namespace fiber {
 /// A rod as textbooks of position based dynamics have it, to compare with: a Cosserat rod of nodes
 /// and of quaternions for its edges (Kugelstadt and Schömer 2016), whose constraints have the
 /// compliances that the material gives them (XPBD, Macklin et al. 2016), in small steps (Macklin et
-/// al. 2019) with one or several passes of Gauss–Seidel from the clamp to the tip.
+/// al. 2019) with one pass of Gauss–Seidel from the clamp to the tip.
 ///
 /// Its first node is clamped: held, and joined to a quaternion that is held, too, over half an
 /// edge.
@@ -24,8 +24,7 @@ class XpbdRod {
 
   /// @param length       [s]
   /// @param acceleration [m/s²]
-  /// @param passes       of Gauss–Seidel
-  void step(double length, const Eigen::Vector3d& acceleration, int passes = 1);
+  void step(double length, const Eigen::Vector3d& acceleration);
 
   /// Multiplies all velocities.
   void damp(double factor);

@@ -96,6 +96,7 @@ void Stepper::step(double length) {
     throw std::invalid_argument("the length of a step is " + std::to_string(length) +
                                 " s, it must be positive and finite");
   }
+  require_finite(rods_);
   report_ = StepReport{};
   if (options_.integrator == Integrator::IMPLICIT_EULER) {
     solver_->solve(rods_, effects_, {time_, length}, nullptr);

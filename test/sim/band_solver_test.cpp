@@ -1,10 +1,9 @@
-#include "fiber_proximity/sim/band_solver.hpp"
+#include "src/sim/solver/band_solver.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 
-#include "fiber_proximity/sim/rod_system.hpp"
 #include "support/random.hpp"
 
 namespace fiber::test {
@@ -38,6 +37,13 @@ class BandSolver : public testing::TestWithParam<std::size_t> {
       x = random.uniform(-1.0, 1.0);
     }
     return values;
+  }
+
+  PackSystem zeros(std::size_t nodes) const {
+    PackSystem system;
+    system.resize(nodes, unknowns());
+    system.set_zero();
+    return system;
   }
 
   void fill(PackSystem& system, std::size_t lane, const MatrixXd& matrix) const {
@@ -76,7 +82,7 @@ TEST_P(BandSolver, SolvesInEachLaneAsEigenDoes) {
   Random random(GetParam());
   for (int round = 0; round < 200; ++round) {
     const auto nodes = static_cast<std::size_t>(random.integer(1, 20));
-    PackSystem system(nodes, unknowns());
+    PackSystem system = zeros(nodes);
     std::vector<MatrixXd> matrices;
     std::vector<VectorXd> right_hand_sides;
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
@@ -94,38 +100,6 @@ TEST_P(BandSolver, SolvesInEachLaneAsEigenDoes) {
   }
 }
 
-TEST_P(BandSolver, SolvesForTheRestWhereNodesAreHeld) {
-  SCOPED_TRACE(seed_message());
-  Random random(10 + GetParam());
-  for (int round = 0; round < 200; ++round) {
-    const auto nodes = static_cast<std::size_t>(random.integer(1, 20));
-    const auto lane = static_cast<std::size_t>(random.integer(0, lane_count - 1));
-    MatrixXd matrix = random_matrix(random, size_of(nodes));
-    VectorXd right_hand_side = random_vector(random, size_of(nodes));
-    PackSystem system(nodes, unknowns());
-    for (std::size_t other = 0; other < lane_count; ++other) {
-      fill(system, other, matrix);
-    }
-    RodSystem held(system, lane);
-    for (auto node = static_cast<std::size_t>(random.integer(0, 3)); node < nodes;
-         node += static_cast<std::size_t>(random.integer(1, 8))) {
-      held.add_gradient(static_cast<std::uint32_t>(node), Eigen::Vector3d::Ones());
-      held.hold(static_cast<std::uint32_t>(node));
-      for (Eigen::Index i = size_of(node); i < size_of(node) + 3; ++i) {
-        EXPECT_EQ(held.gradient(static_cast<std::size_t>(i)), 0.0);
-        right_hand_side[i] = 0.0;
-        matrix.row(i).setZero();
-        matrix.col(i).setZero();
-        matrix(i, i) = 1.0;
-      }
-    }
-    factorise_band(system);
-    const std::vector<VectorXd> right_hand_sides(lane_count, right_hand_side);
-    const VectorXd expected = matrix.ldlt().solve(right_hand_side);
-    ASSERT_LE((solve(system, right_hand_sides)[lane] - expected).norm(), 1e-10 * expected.norm());
-  }
-}
-
 TEST_P(BandSolver, HasPositiveDefiniteFactorsOfWhatIsNot) {
   SCOPED_TRACE(seed_message());
   Random random(20 + GetParam());
@@ -133,7 +107,7 @@ TEST_P(BandSolver, HasPositiveDefiniteFactorsOfWhatIsNot) {
   for (const Eigen::Index at : {0, 5, 23}) {
     MatrixXd matrix = random_matrix(random, size_of(nodes));
     matrix(at, at) = -1e-3;
-    PackSystem system(nodes, unknowns());
+    PackSystem system = zeros(nodes);
     fill(system, 1, matrix);  // beside matrices of zeros
     factorise_band(system);
     const VectorXd right_hand_side = random_vector(random, size_of(nodes));
@@ -152,7 +126,7 @@ TEST_P(BandSolver, CanBeFilledAgain) {
   constexpr std::size_t nodes = 7;
   const MatrixXd matrix = random_matrix(random, size_of(nodes));
   const VectorXd right_hand_side = random_vector(random, size_of(nodes));
-  PackSystem system(nodes, unknowns());
+  PackSystem system = zeros(nodes);
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     fill(system, lane, matrix);
   }

@@ -1,14 +1,14 @@
-// Energies, forces and matrices of contacts, against differences and dense algebra.
+// Energies, forces and matrices of contacts with obstacles and of friction, against differences and
+// dense algebra.
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <limits>
 
+#include "environment/random_shapes.hpp"
 #include "sim/contact_scenes.hpp"
-#include "sim/found_contacts.hpp"
-#include "sim/random_rods.hpp"
+#include "sim/contact_system.hpp"
 #include "sim/tunnelling.hpp"
 #include "support/error_of.hpp"
 #include "support/random.hpp"
@@ -16,368 +16,288 @@
 namespace fiber::test {
 namespace {
 
-using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr double step_length = 0.01;  // [s]
+constexpr double radius = 0.03;
+constexpr double width = 2.0 * Barrier::half_width * radius;  // of the barrier of an obstacle
 
-Eigen::Index index_of(std::uint32_t node) { return Eigen::Index{3} * node; }
+/// A chain of a few edges.
+std::vector<Vector3d> chain(Random& random, double bend) {
+  std::vector<Vector3d> points{random.in_cube(0.1)};
+  Vector3d direction = random.direction();
+  for (int edge = 0; edge < 4; ++edge) {
+    points.push_back(points.back() + random.uniform(0.1, 0.2) * direction);
+    direction = (direction + bend * random.direction()).normalized();
+  }
+  return points;
+}
 
-/// Rods that lie across each other in a heap of the size of an edge or two.
-Rods heap(Random& random, int rod_count, double bend = 0.5) {
-  Rods rods;
-  for (int rod = 0; rod < rod_count; ++rod) {
-    std::vector<Vector3d> points{random.in_cube(0.3)};
-    Vector3d direction = (random.in_cube(0.03) - points[0]).normalized();
-    for (int edge = 0; edge < 4; ++edge) {
-      points.push_back(points.back() + random.uniform(0.1, 0.2) * direction);
-      direction = (direction + bend * random.direction()).normalized();
+/// How far all edges are from an environment's only object, as the detector says: less the radius.
+double distance_from(const Environment& environment, const Rods& rods) {
+  const FiberAssembly fibers(rods.positions, rods.offsets, rods.radii);
+  QueryOptions query;
+  query.type = QueryType::CLOSEST;
+  query.margin = 10.0;
+  QueryResult result;
+  environment.query(fibers, query, {}, result);
+  return result.contacts.empty() ? std::numeric_limits<double>::infinity()
+                                 : result.contacts.front().distance;
+}
+
+/// Convex ones, and meshes and octrees, which are of many parts.
+std::vector<Shape> shapes() {
+  return {SphereShape{0.2},
+          BoxShape{Vector3d(0.3, 0.2, 0.1)},
+          CylinderShape{0.1, 0.5},
+          CylinderShape{0.005, 2.0},
+          CapsuleShape{0.02, 0.4},
+          ConeShape{0.2, 0.3},
+          HalfSpaceShape{},
+          PlaneShape{},
+          box_mesh({0.3, 0.2, 0.1}, 2)};
+}
+
+/// A rod that touches this shape: where its surface is so far from the shape's [m].
+Rods rod_at(Random& random, const std::shared_ptr<const Environment>& environment,
+            double distance) {
+  for (;;) {
+    Rods rods;
+    rods.add(chain(random, random.chance(0.5) ? 0.0 : 0.4), radius, rubber(radius));
+    const Vector3d away = random.direction() + Vector3d(0.0, 0.0, 1.0);
+    for (Vector3d& position : rods.positions) {
+      position += 2.0 * away;
     }
-    rods.add(points, 0.03, rubber(0.03));
+    for (int i = 0; i < 200; ++i) {
+      const double left = distance_from(*environment, rods) - distance;
+      if (std::isinf(left) || left < -1e-6) {
+        break;
+      }
+      if (left < 1e-10) {
+        return rods;
+      }
+      for (Vector3d& position : rods.positions) {
+        position -= left * away.normalized();
+      }
+    }
+  }
+}
+
+class OfShape : public testing::TestWithParam<std::size_t> {
+ protected:
+  std::shared_ptr<const Environment> environment_ = environment_of(shapes()[GetParam()]);
+};
+
+TEST_P(OfShape, TheGradientIsThatOfTheEnergy) {
+  SCOPED_TRACE(seed_message());
+  Random random(GetParam());
+  for (int round = 0; round < 20; ++round) {
+    const Rods rods = rod_at(random, environment_, random.uniform(-0.4, 0.4) * width);
+    const auto contacts = contacts_with(environment_);
+    ContactSet found = contacts_of(*contacts, rods, radius);
+    const double energy = energy_in(found, rods);
+    ASSERT_GT(energy, 0.0);
+    const VectorXd gradient = full_system(found, rods).gradient;
+    const VectorXd expected = gradient_by_differences(
+        rods, [&](const Rods& r) { return energy_in(found, r); }, 5e-9);
+    ASSERT_LE((gradient - expected).norm(), 1e-5 * (gradient.norm() + energy / width))
+        << "round " << round << "\nfound\n"
+        << gradient.transpose() << "\nexpected\n"
+        << expected.transpose();
+  }
+}
+
+TEST_P(OfShape, TheHessianIsPositiveSemidefinite) {
+  SCOPED_TRACE(seed_message());
+  Random random(20 + GetParam());
+  for (int round = 0; round < 20; ++round) {
+    const Rods rods = rod_at(random, environment_, random.uniform(-0.4, 0.4) * width);
+    const auto contacts = contacts_with(environment_);
+    ContactSet found = contacts_of(*contacts, rods, radius);
+    const Eigen::MatrixXd hessian = full_system(found, rods).hessian;
+    const VectorXd eigenvalues =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(hessian).eigenvalues();
+    EXPECT_GT(eigenvalues.maxCoeff(), 0.0);
+    EXPECT_GE(eigenvalues.minCoeff(), -1e-10 * eigenvalues.maxCoeff());
+    EXPECT_FALSE(found.has_coupling());
+  }
+}
+
+/// Wherever a rod is in a step, and however it has turned since contacts were looked for.
+TEST_P(OfShape, TheEnergyIsInfiniteFromTheLeastDistanceDownAndNowhereAboveTheInnerOne) {
+  SCOPED_TRACE(seed_message());
+  Random random(40 + GetParam());
+  const Barrier barrier = Barrier::around(radius, 1.0);
+  int infinite = 0;
+  for (int round = 0; round < 100; ++round) {
+    Rods rods = rod_at(random, environment_, 0.0);
+    const auto contacts = contacts_with(environment_);
+    ContactSet found = contacts_of(*contacts, rods, 2.0 * radius);
+    const Vector3d together = random.in_cube(2.0 * width);
+    for (Vector3d& position : rods.positions) {
+      position += together + random.in_cube(0.3 * radius);
+    }
+    const double distance = distance_from(*environment_, rods) + radius;
+    const double energy = energy_in(found, rods);
+    infinite += std::isinf(energy) ? 1 : 0;
+    EXPECT_TRUE(std::isfinite(energy) || distance <= barrier.inner) << distance / radius;
+    EXPECT_TRUE(std::isinf(energy) || distance > barrier.least()) << distance / radius;
+    EXPECT_EQ(energy == 0.0, distance >= barrier.outer) << distance / radius;
+  }
+  expect_enough(infinite, 10);
+}
+
+/// No share that is allowed leads a distance to lose more than four fifths of what it has.
+TEST_P(OfShape, StepsKeepAFifthOfEachDistance) {
+  SCOPED_TRACE(seed_message());
+  Random random(60 + GetParam());
+  const Barrier barrier = Barrier::around(radius, 1.0);
+  int shortened = 0;
+  for (int round = 0; round < 50; ++round) {
+    const Rods rods = rod_at(random, environment_, random.uniform(-0.3, 1.0) * width);
+    const auto contacts = contacts_with(environment_);
+    ContactSet found = contacts_of(*contacts, rods, 10.0 * radius);
+    found.measure(rods);
+    std::vector<Vector3d> displacements;
+    const Vector3d together = random.in_cube(5.0 * radius);
+    for (std::size_t i = 0; i < rods.positions.size(); ++i) {
+      displacements.push_back(together + random.in_cube(random.chance(0.5) ? radius : width));
+    }
+    std::vector<double> shares{1.0};
+    std::vector<Vector3d> ends(rods.positions.size());
+    found.bound_step(rods, displacements, {0}, shares, ends);
+    shortened += shares[0] < 1.0 ? 1 : 0;
+    const double gap = distance_from(*environment_, rods) + radius - barrier.least();
+    for (int i = 1; i <= 20; ++i) {
+      Rods moved = rods;
+      for (std::size_t node = 0; node < moved.positions.size(); ++node) {
+        moved.positions[node] += shares[0] * i / 20.0 * displacements[node];
+      }
+      const double left = distance_from(*environment_, moved) + radius - barrier.least();
+      ASSERT_GE(left, 0.2 * gap * (1.0 - 1e-6)) << "share " << shares[0] * i / 20.0;
+    }
+  }
+  expect_enough(shortened, 10);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, OfShape, testing::Range(std::size_t{0}, shapes().size()));
+
+/// Rods across each other, as near as touching is about.
+Rods crossed_rods(Random& random, int count) {
+  Rods rods;
+  for (int rod = 0; rod < count; ++rod) {
+    const double turn = (rod % 2) * M_PI / 2 + random.uniform(-0.3, 0.3);
+    const Vector3d along(0.2 * std::cos(turn), 0.2 * std::sin(turn), 0.0);
+    const Vector3d middle(random.uniform(-0.02, 0.02), random.uniform(-0.02, 0.02),
+                          2.0 * radius * rod * random.uniform(0.995, 1.0));
+    rods.add(straight(middle - along, middle + along, 7), radius, rubber(radius));
   }
   return rods;
 }
 
-/// What contacts add to the equations of all rods, as full vectors and matrices.
-struct FullSystem {
-  VectorXd gradient;
-  MatrixXd hessian;
-};
-
-FullSystem full_system(Contacts& contacts, const Rods& rods) {
-  const auto size = static_cast<Eigen::Index>(3 * rods.positions.size());
-  std::vector<PackSystem> lanes;
-  std::vector<RodSystem> systems;
-  std::vector<RodSystem*> pointers;
-  lanes.reserve(rods.count());
-  systems.reserve(rods.count());
-  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
-    lanes.emplace_back(rods.node_count(rod), 3);
-    systems.emplace_back(lanes.back(), rod % lane_count);
-    pointers.push_back(&systems.back());
-  }
-  contacts.add_derivatives(rods, pointers);
-  FullSystem full{VectorXd::Zero(size), MatrixXd::Zero(size, size)};
-  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
-    const Eigen::Index first = index_of(rods.first(rod));
-    const std::size_t count = lanes[rod].size();
-    for (std::size_t c = 0; c < count; ++c) {
-      const Eigen::Index column = first + static_cast<Eigen::Index>(c);
-      full.gradient[column] = systems[rod].gradient(c);
-      for (std::size_t r = c; r < std::min(count, c + half_bandwidth(3) + 1); ++r) {
-        const Eigen::Index row = first + static_cast<Eigen::Index>(r);
-        full.hessian(row, column) = full.hessian(column, row) = systems[rod].hessian(r, c);
-      }
-    }
-  }
-  // Unknowns in lanes of their own, node by node.
-  std::vector<std::size_t> places;
-  for (std::size_t node = 0; node < rods.positions.size(); ++node) {
-    places.push_back(3 * node * lane_count);
-  }
-  using Spread = Eigen::Map<VectorXd, 0, Eigen::InnerStride<lane_count>>;
-  for (Eigen::Index c = 0; c < size; ++c) {
-    VectorXd unit = VectorXd::Unit(size * lane_count, c * lane_count);
-    VectorXd column = VectorXd::Zero(size * lane_count);
-    contacts.add_coupling(places, unit.data(), column.data());
-    full.hessian.col(c) += Spread(column.data(), size);
-  }
-  return full;
-}
-
-/// By central differences of a function of the rods.
-template <class Function>
-VectorXd differences(Rods rods, const Function& energy) {
-  constexpr double difference = 1e-7;
-  VectorXd gradient(3 * rods.positions.size());
-  for (Eigen::Index i = 0; i < gradient.size(); ++i) {
-    double& x = rods.positions[static_cast<std::size_t>(i / 3)][i % 3];
-    const double middle = x;
-    x = middle + difference;
-    const double after = energy(rods);
-    x = middle - difference;
-    gradient[i] = (after - energy(rods)) / (2.0 * difference);
-    x = middle;
-  }
-  return gradient;
-}
-
-struct Found {
-  std::unique_ptr<Contacts> contacts;
-  std::unique_ptr<Contacts> without_friction;
-};
-
-/// Contacts of rods that have moved a little in the step.
-Found found(Rods& rods, const std::shared_ptr<const Environment>& environment, Random& random) {
-  Found found{contacts_with(environment, 0.4), contacts_with(environment)};
-  found.contacts->begin_step(rods, {0.0, step_length});
-  found.without_friction->begin_step(rods, {0.0, step_length});
-  for (Vector3d& position : rods.positions) {
-    position += random.in_cube(2e-5);  // some stick, some slide
-  }
-  for (Contacts* contacts : {found.contacts.get(), found.without_friction.get()}) {
-    find_and_accept(*contacts, rods);
-  }
-  return found;
-}
-
-std::shared_ptr<const Environment> random_obstacle(Random& random) {
-  switch (random.integer(0, 3)) {
-    case 0:
-      return environment_of(SphereShape{0.2});
-    case 1:
-      return environment_of(BoxShape{Vector3d(0.3, 0.2, 0.1)});
-    case 2:
-      return environment_of(CylinderShape{0.1, 0.5});
-    default:
-      return environment_of(HalfSpaceShape{});
-  }
-}
-
-TEST(Contacts, GradientIsThatOfTheEnergy) {
+/// Slips of a micrometre and of millimetres; some stick, some slide.
+TEST(FrictionContacts, TheGradientIsThatOfTheEnergy) {
   SCOPED_TRACE(seed_message());
   Random random(1);
-  std::size_t contact_count = 0;
-  for (int repeat = 0; repeat < 40; ++repeat) {
-    // Where rods are bent, how edges share a contact is not part of the gradient.
-    Rods rods = heap(random, 3, 0.0);
-    const Found both = found(rods, repeat % 2 == 0 ? nullptr : random_obstacle(random), random);
-    contact_count += both.contacts->points().size();
-    // Normal forces follow the rods; friction holds those, and directions, of the last iteration.
-    const VectorXd expected =
-        differences(rods,
-                    [&](const Rods& r) { return measured_energy(*both.without_friction, r); }) +
-        differences(rods, [&](const Rods& r) { return accepted_energy(*both.contacts, r); });
-    measured_energy(*both.without_friction, rods);
-    const VectorXd gradient = full_system(*both.contacts, rods).gradient;
-    EXPECT_LE((gradient - expected).norm(), 1e-4 * (gradient.norm() + 1.0)) << "repeat " << repeat;
-  }
-  expect_enough(contact_count, std::size_t{41});
-}
-
-TEST(Contacts, BlocksAndCouplingAreTheWholeHessian) {
-  SCOPED_TRACE(seed_message());
-  Random random(2);
-  for (int repeat = 0; repeat < 20; ++repeat) {
-    Rods rods = heap(random, 3);
-    if (repeat % 2 == 1) {
-      for (const std::uint32_t node : {0U, 2U, 7U}) {
-        rods.held.push_back({node, rods.positions[node]});
-      }
+  for (int round = 0; round < 20; ++round) {
+    const Rods start = crossed_rods(random, 3);
+    const auto table = environment_of(HalfSpaceShape{Vector3d::UnitZ(), -radius});
+    const auto contacts = contacts_with(round % 2 == 0 ? nullptr : table, 0.4);
+    ContactSet found = contacts_of(*contacts, start);
+    found.begin(start, contacts->friction(), start.positions, step_length);
+    Rods rods = start;
+    const double slip = std::pow(10.0, random.uniform(-6.0, -4.0));
+    for (Vector3d& position : rods.positions) {
+      position += random.in_cube(slip);
     }
-    const Found both = found(rods, repeat < 10 ? nullptr : random_obstacle(random), random);
-    const FullSystem full = full_system(*both.without_friction, rods);
-    MatrixXd expected = MatrixXd::Zero(full.hessian.rows(), full.hessian.cols());
-    for (const ContactPoint& point : both.without_friction->points()) {
-      MatrixXd jacobian = MatrixXd::Zero(3, expected.cols());
-      const auto add = [&](std::uint32_t node, double weight) {
-        const bool held = repeat % 2 == 1 && (node == 0 || node == 2 || node == 7);
-        jacobian.middleCols<3>(index_of(node)) +=
-            (held ? 0.0 : weight) * Eigen::Matrix3d::Identity();
-      };
-      add(point.edge_a, 1.0 - point.s);
-      add(point.edge_a + 1, point.s);
-      if (!point.is_obstacle()) {
-        add(point.edge_b, point.t - 1.0);
-        add(point.edge_b + 1, -point.t);
+    ContactSet smooth = contacts_of(*contacts, start);
+    EXPECT_GT(energy_in(found, rods), energy_in(smooth, rods)) << "friction has energy";
+    const VectorXd gradient = full_system(found, rods).gradient;
+    const VectorXd expected = gradient_by_differences(
+        rods, [&](const Rods& r) { return energy_in(found, r); }, 1e-8);
+    ASSERT_LE((gradient - expected).norm(), 1e-4 * gradient.norm()) << "round " << round;
+    const VectorXd eigenvalues =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(full_system(found, rods).hessian)
+            .eigenvalues();
+    EXPECT_GE(eigenvalues.minCoeff(), -1e-10 * eigenvalues.maxCoeff());
+  }
+}
+
+/// However edges share a contact between them, friction is the coefficient times what presses.
+TEST(FrictionContacts, ARodThatSlidesAcrossAnotherHasItsCoefficient) {
+  for (const double length : {0.5 * radius, 2.0 * radius, 10.0 * radius}) {
+    for (const double place : {0.0, 0.1, 0.3, 0.5}) {
+      Rods start;
+      const Vector3d x(10.0 * length, 0, 0);
+      const Vector3d y(0, 10.0 * length, 0);
+      const Vector3d shift(place * length, 0.7 * place * length, 1.98 * radius);
+      start.add(straight(-x, x, 20), radius, rubber(radius));
+      start.add(straight(shift - y, shift + y, 20), radius, rubber(radius));
+      const auto contacts = contacts_with(nullptr, 0.4);
+      ContactSet found = contacts_of(*contacts, start);
+      found.begin(start, contacts->friction(), start.positions, step_length);
+      Rods rods = start;
+      for (std::uint32_t i = rods.first(1); i < rods.end(1); ++i) {
+        rods.positions[i].y() += 1e-4;  // along itself: what presses stays as it is
       }
-      expected += jacobian.transpose() *
-                  (point.stiffness * point.normal * point.normal.transpose()) * jacobian;
+      found.measure(rods);
+      std::vector<RodForces::ContactForce> forces;
+      found.add_forces(rods, forces);
+      Vector3d normal = Vector3d::Zero();
+      Vector3d friction = Vector3d::Zero();
+      for (const RodForces::ContactForce& force : forces) {
+        normal += force.normal_force;
+        friction += force.friction_force;
+      }
+      EXPECT_GT(normal.norm(), 0.0);
+      EXPECT_NEAR(friction.y(), 0.4 * normal.norm(), 0.02 * normal.norm())
+          << "edges of " << length / radius << " radii, at " << place;
+      EXPECT_LE(std::hypot(friction.x(), friction.z()), 0.02 * normal.norm());
     }
-    EXPECT_LE((full.hessian - expected).norm(), 1e-8 * (1e4 + expected.norm()));
-    EXPECT_EQ(both.contacts->has_coupling(), false) << "before derivatives were added";
   }
 }
 
-TEST(Contacts, HeldNodesHaveNoGradient) {
-  SCOPED_TRACE(seed_message());
-  Random random(3);
-  Rods rods = heap(random, 3);
-  for (std::uint32_t node = 0; node < rods.positions.size(); ++node) {
-    rods.held.push_back({node, rods.positions[node]});
-  }
-  const Found both = found(rods, nullptr, random);
-  const FullSystem full = full_system(*both.contacts, rods);
-  EXPECT_EQ(full.gradient.norm(), 0.0);
-  EXPECT_LE(full.hessian.norm(), 1e-8 * 1e4);
-}
-
-TEST(Contacts, ForcesOfFibersBalance) {
-  SCOPED_TRACE(seed_message());
-  Random random(4);
-  for (int repeat = 0; repeat < 20; ++repeat) {
-    Rods rods = heap(random, 4);
-    const Found both = found(rods, nullptr, random);
-    const auto totals = [&rods](const VectorXd& gradient) {
-      std::pair<Vector3d, Vector3d> total(Vector3d::Zero(), Vector3d::Zero());
-      for (std::uint32_t node = 0; node < rods.positions.size(); ++node) {
-        const Vector3d force = gradient.segment<3>(index_of(node));
-        total.first += force;
-        total.second += rods.positions[node].cross(force);
-      }
-      return total;
-    };
-    // Friction is between the axes, so that it has a moment about them: normal forces have none.
-    const VectorXd with = full_system(*both.contacts, rods).gradient;
-    EXPECT_LE(totals(with).first.norm(), 1e-11 * with.norm());
-    const VectorXd without = full_system(*both.without_friction, rods).gradient;
-    EXPECT_LE(totals(without).first.norm(), 1e-11 * without.norm());
-    EXPECT_LE(totals(without).second.norm(), 1e-11 * without.norm());
-  }
-}
-
-TEST(Contacts, ConjugateGradientsSolveAsDenseAlgebraDoes) {
+/// A Newton step of a stepper with one iteration, beside one by dense algebra.
+TEST(Coupling, ConjugateGradientsSolveAsDenseAlgebraDoes) {
   SCOPED_TRACE(seed_message());
   Random random(5);
-  for (int repeat = 0; repeat < 10; ++repeat) {
-    // Crossed rods that touch by little, so that a Newton step is neither shortened nor halved.
-    Rods rods;
-    const double radius = 0.01;
-    for (int rod = 0; rod < 4; ++rod) {
-      const double turn = (rod % 2) * M_PI / 2 + random.uniform(-0.3, 0.3);
-      const Vector3d along(0.2 * std::cos(turn), 0.2 * std::sin(turn), 0.0);
-      const Vector3d middle(0.02 * random.uniform(-1.0, 1.0), 0.02 * random.uniform(-1.0, 1.0),
-                            rod * 1.99 * radius);
-      rods.add(straight(middle - along, middle + along, 7), radius, rubber(radius));
-    }
+  for (int round = 0; round < 10; ++round) {
+    const Rods rods = crossed_rods(random, 4);
     const auto contacts = contacts_with(nullptr);
-    contacts->begin_step(rods, {0.0, step_length});
-    find_and_accept(*contacts, rods);
-    ASSERT_GE(contacts->points().size(), 3U);
-    FullSystem full = full_system(*contacts, rods);
+    ContactSet found = contacts_of(*contacts, rods);
+    ASSERT_GT(energy_in(found, rods), 0.0);
+    FullSystem full = full_system(found, rods);
+    EXPECT_TRUE(found.has_coupling());
     for (std::uint32_t node = 0; node < rods.positions.size(); ++node) {
-      full.hessian.diagonal().segment<3>(index_of(node)).array() +=
+      full.hessian.diagonal().segment<3>(3 * Eigen::Index{node}).array() +=
           rods.masses[node] / (step_length * step_length);
     }
     const VectorXd expected = -full.hessian.llt().solve(full.gradient);
     StepperOptions options;
-    options.iterations = 1;
+    options.max_iterations = 1;
     Stepper stepper(rods, {}, options, contacts_with(nullptr));
     stepper.step(step_length);
     VectorXd moved(expected.size());
     for (std::uint32_t node = 0; node < rods.positions.size(); ++node) {
-      moved.segment<3>(index_of(node)) = stepper.rods().positions[node] - rods.positions[node];
+      moved.segment<3>(3 * Eigen::Index{node}) =
+          stepper.rods().positions[node] - rods.positions[node];
     }
     const VectorXd error = moved - expected;
     EXPECT_LE(error.dot(full.hessian * error), 4e-4 * expected.dot(full.hessian * expected));
   }
 }
 
-/// Sum of the forces on the rods before an index [N], and of how many contacts.
-struct Force {
-  Vector3d total = Vector3d::Zero();
-  std::size_t count = 0;
-};
-
-Force force_on(const Rods& rods, std::uint32_t edges,
-               const std::shared_ptr<const Environment>& environment) {
-  const auto contacts = contacts_with(environment);
-  contacts->begin_step(rods, {0.0, step_length});
-  find_and_accept(*contacts, rods);
-  Force force;
-  for (const ContactPoint& point : contacts->points()) {
-    if (point.edge_a < edges) {
-      force.total += point.stiffness * point.depth * point.normal;
-      ++force.count;
-    }
-  }
-  return force;
-}
-
-/// A rod along x whose middle node is lifted by some height, and another across it at x.
-Rods crossed(double bend, double x, double depth) {
-  constexpr double radius = 0.01;
-  Rods rods;
-  std::vector<Vector3d> points = straight({-0.2, 0.0, 0.0}, {0.2, 0.0, 0.0}, 8);
-  for (Vector3d& point : points) {
-    point.z() = -bend * std::abs(point.x());
-  }
-  rods.add(points, radius, rubber(radius));
-  const double z = -bend * std::abs(x) + (2.0 * radius - depth) * std::sqrt(1.0 + bend * bend);
-  rods.add(straight({x, -0.1, z}, {x, 0.1, z}, 3), radius, rubber(radius));
-  return rods;
-}
-
-/// How deep the last rod, of three edges, is in the first, of eight, by all pairs of edges.
-double depth_at(const Rods& rods) {
-  double nearest = std::numeric_limits<double>::infinity();
-  const std::vector<Vector3d>& x = rods.positions;
-  for (std::size_t a = 0; a < 8; ++a) {
-    for (std::size_t b = 9; b < 12; ++b) {
-      nearest = std::min(nearest, edge_distance(x[a], x[a + 1], x[b], x[b + 1]));
-    }
-  }
-  return rods.radii[0] + rods.radii[1] - nearest;
-}
-
-class Sliding : public testing::TestWithParam<double> {};
-
-TEST_P(Sliding, FromEdgeToEdgeTheForceIsThatOfOneContact) {
-  const double depth = 0.001;
-  const double whole = force_on(crossed(GetParam(), 0.025, depth), 9, nullptr).total.norm();
-  Force last;
-  for (double x = -0.08; x <= 0.08; x += 2e-5) {
-    const Force force = force_on(crossed(GetParam(), x, depth), 9, nullptr);
-    EXPECT_LE(force.count, 2U) << x;
-    // In a hollow two edges share it, whose normals differ.
-    const double expected = whole / depth * depth_at(crossed(GetParam(), x, depth));
-    EXPECT_NEAR(force.total.norm(), expected, (GetParam() < 0.0 ? 0.3 : 1e-6) * whole) << x;
-    if (x > -0.08) {
-      // The normal turns at a node of the hollow side.
-      EXPECT_LE(std::abs(force.total.norm() - last.total.norm()), 0.01 * last.total.norm()) << x;
-      EXPECT_LE((force.total - last.total).norm(),
-                (0.01 + 2.1 * std::max(0.0, -GetParam())) * last.total.norm())
-          << x;
-    }
-    last = force;
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(Bends, Sliding, testing::Values(0.0, 0.05, 0.2, -0.05, -0.2));
-
-TEST(FiberContact, RodsSideBySideAreHeldApartAllAlong) {
-  constexpr double radius = 0.01;
-  const double edge = 0.05;
-  for (const double offset : {0.0, 0.1, 0.5, 0.9, 1.0, 2.25}) {
-    Rods rods;
-    rods.add(straight({0.0, 0.0, 0.0}, {10 * edge, 0.0, 0.0}, 10), radius, rubber(radius));
-    const Vector3d shift(offset * edge, 0.0, 1.9 * radius);
-    rods.add(straight(shift, shift + Vector3d(10 * edge, 0.0, 0.0), 10), radius, rubber(radius));
-    const Force force = force_on(rods, 11, nullptr);
-    EXPECT_GE(force.count, 8U) << "offset " << offset;
-    EXPECT_LE(force.count, 22U) << "offset " << offset;
-  }
-}
-
-TEST(EnvironmentContact, OverAPostTheForceIsThatOfOneContact) {
-  constexpr double radius = 0.01;
-  constexpr double post = 0.002;
-  const double depth = 0.001;
-  const Eigen::Isometry3d across(Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitX()));
-  const auto environment = environment_of(CylinderShape{post, 1.0}, across);
-  double last = 0.0;
-  double whole = 0.0;
-  for (double x = 0.0; x <= 0.15; x += 5e-5) {
-    Rods rods;
-    const double z = radius + post - depth;
-    rods.add(straight({x - 0.2, 0.0, z}, {x + 0.2, 0.0, z}, 8), radius, rubber(radius));
-    const double force = force_on(rods, 9, environment).total.norm();
-    whole = whole == 0.0 ? force : whole;
-    EXPECT_NEAR(force, whole, 0.3 * whole) << x;
-    if (x > 0.0) {
-      EXPECT_NEAR(force, last, 0.01 * whole) << x;
-    }
-    last = force;
-  }
-}
-
 TEST(EnvironmentContact, ARodThatLiesFlatRestsOnItsNodes) {
-  constexpr double radius = 0.01;
   Rods rods;
-  const double z = 0.9 * radius;
-  rods.add(straight({0.0, 0.0, z}, {0.5, 0.0, z}, 10), radius, rubber(radius));
-  EXPECT_EQ(force_on(rods, 11, environment_of(HalfSpaceShape{})).count, 11U);
+  rods.add(straight({0.0, 0.0, radius}, {0.5, 0.0, radius}, 10), radius, rubber(radius));
+  const auto contacts = contacts_with(environment_of(HalfSpaceShape{}));
+  ContactSet found = contacts_of(*contacts, rods);
+  const VectorXd gradient = full_system(found, rods).gradient;
+  for (Eigen::Index node = 0; node < 11; ++node) {
+    EXPECT_LT(gradient[3 * node + 2], 0.0);
+    EXPECT_NEAR(gradient[3 * node + 2], gradient[2], 1e-9 * std::abs(gradient[2]));
+  }
 }
 
 TEST(ContactOptions, AreChecked) {

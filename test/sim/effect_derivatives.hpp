@@ -2,11 +2,10 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <numeric>
 #include <vector>
 
 #include "fiber_proximity/sim/effect.hpp"
-#include "sim/rod_batch.hpp"
+#include "src/sim/solver/pack_step.hpp"
 
 namespace fiber::test {
 
@@ -25,52 +24,83 @@ inline double& unknown(Rods& rods, std::uint32_t rod, std::uint32_t index) {
   return part == 3 ? rods.angles[node] : rods.positions[node][part];
 }
 
-/// What was added to the system of a rod with so many nodes.
-inline Derivatives derivatives_in(const RodSystem& system, std::uint32_t node_count) {
-  const auto size = static_cast<Eigen::Index>(node_count * system.unknowns());
-  Derivatives derivatives{Eigen::VectorXd(size), Eigen::MatrixXd::Zero(size, size)};
-  const auto width = static_cast<Eigen::Index>(half_bandwidth(system.unknowns()));
-  for (Eigen::Index c = 0; c < size; ++c) {
-    derivatives.gradient[c] = system.gradient(static_cast<std::size_t>(c));
-    for (Eigen::Index r = c; r < std::min(size, c + width + 1); ++r) {
-      derivatives.hessian(r, c) = derivatives.hessian(c, r) =
-          system.hessian(static_cast<std::size_t>(r), static_cast<std::size_t>(c));
+/// What an effect has found of rods side by side, as their energy reads it.
+inline std::vector<SimdBatch> values_of(const Effect& effect, const RodPack& rods) {
+  const std::size_t count = effect.values_per_node();
+  std::vector<SimdBatch> values(count * rods.node_count);
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    for (std::uint32_t i = 0; i < rods.node_count && count > 0; ++i) {
+      const double* const of_node = effect.values_of(rods.first_nodes[lane] + i);
+      for (std::size_t k = 0; k < count; ++k) {
+        values[count * i + k][lane] = of_node[k];
+      }
     }
   }
-  return derivatives;
+  return values;
+}
+
+/// [J]
+inline double energy_in(const Effect& effect, const RodPack& rods, std::size_t lane = 0) {
+  SimdBatch energy;
+  effect.energy(rods, values_of(effect, rods), energy);
+  return energy[lane];
+}
+
+/// Rods side by side where they are now, under an effect.
+class PackedRods {
+ public:
+  /// @param members of equal sizes, at most lane_count of them
+  PackedRods(const Effect& effect, const Rods& rods, const std::vector<std::uint32_t>& members)
+      : effect_(effect) {
+    step_.assign(rods, members);
+    step_.begin(rods, {}, 1.0);
+  }
+
+  /// [J]
+  double energy(std::size_t lane = 0) const { return energy_in(effect_, step_.rods(), lane); }
+
+  Derivatives derivatives(std::size_t lane = 0) const {
+    PackSystem system;
+    system.resize(step_.rods().node_count, step_.rods().unknowns, step_.used());
+    system.set_zero();
+    effect_.add_derivatives(step_.rods(), values_of(effect_, step_.rods()), system);
+    return derivatives_in(RodSystem(system, lane), static_cast<Eigen::Index>(system.size()));
+  }
+
+ private:
+  static Derivatives derivatives_in(const RodSystem& system, Eigen::Index size) {
+    Derivatives derivatives{Eigen::VectorXd(size), Eigen::MatrixXd::Zero(size, size)};
+    const auto width = static_cast<Eigen::Index>(half_bandwidth(system.unknowns()));
+    for (Eigen::Index c = 0; c < size; ++c) {
+      derivatives.gradient[c] = system.gradient(static_cast<std::size_t>(c));
+      for (Eigen::Index r = c; r < std::min(size, c + width + 1); ++r) {
+        derivatives.hessian(r, c) = derivatives.hessian(c, r) =
+            system.hessian(static_cast<std::size_t>(r), static_cast<std::size_t>(c));
+      }
+    }
+    return derivatives;
+  }
+
+  const Effect& effect_;
+  PackStep step_;
+};
+
+/// [J]
+inline double energy_of(const Effect& effect, const Rods& rods, std::uint32_t rod) {
+  return PackedRods(effect, rods, {rod}).energy();
+}
+
+/// Sum over all rods [J].
+inline double energy_of(const Effect& effect, const Rods& rods) {
+  double energy = 0.0;
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    energy += energy_of(effect, rods, rod);
+  }
+  return energy;
 }
 
 inline Derivatives derivatives_of(const Effect& effect, const Rods& rods, std::uint32_t rod) {
-  PackSystem lanes(rods.node_count(rod), unknowns_of(rods));
-  RodSystem system(lanes, 1);
-  effect.add_derivatives(rods, rod, system);
-  return derivatives_in(system, rods.node_count(rod));
-}
-
-/// As the stepper moves all of them, which have equal sizes, side by side.
-struct SideBySide {
-  std::vector<double> energies;
-  std::vector<Derivatives> derivatives;
-};
-inline SideBySide side_by_side(const Effects& effects, Rods rods) {
-  // In so long a step nothing has inertia, and it ends where the rods are now.
-  constexpr double step = 1e100;
-  std::fill(rods.velocities.begin(), rods.velocities.end(), Eigen::Vector3d::Zero());
-  std::fill(rods.spins.begin(), rods.spins.end(), 0.0);
-  rods.held.clear();
-  std::vector<std::uint32_t> all(rods.count());
-  std::iota(all.begin(), all.end(), 0U);
-  RodBatch batch;
-  batch.assign(rods, all);
-  batch.begin(rods, effects, step);
-  batch.measure(rods, effects);
-  batch.assemble(rods, effects);
-  SideBySide found;
-  for (const std::uint32_t rod : all) {
-    found.energies.push_back(batch.merit(rod).energy);
-    found.derivatives.push_back(derivatives_in(batch.system(rod), rods.node_count(rod)));
-  }
-  return found;
+  return PackedRods(effect, rods, {rod}).derivatives();
 }
 
 /// By central differences of the energy.
@@ -81,9 +111,9 @@ inline Eigen::VectorXd gradient_by_differences(const Effect& effect, Rods rods, 
     double& x = unknown(rods, rod, i);
     const double middle = x;
     x = middle + difference;
-    const double after = effect.energy(rods, rod);
+    const double after = energy_of(effect, rods, rod);
     x = middle - difference;
-    gradient[i] = (after - effect.energy(rods, rod)) / (2.0 * difference);
+    gradient[i] = (after - energy_of(effect, rods, rod)) / (2.0 * difference);
     x = middle;
   }
   return gradient;

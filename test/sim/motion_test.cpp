@@ -49,11 +49,11 @@ TEST(Motion, ARigidPendulumSwingsWithTheEllipticIntegral) {
 }
 
 /// Half the step, a quarter of the error.
-TEST(Motion, ImplicitMidpointIsOfSecondOrderInTheStep) {
+TEST(Motion, BDF2IsOfSecondOrderInTheStep) {
   // So short a step that its own error is far below.
   const double exact = simulated_pendulum_period(1, 1.0, 0.0005);
-  double coarse = std::abs(simulated_pendulum_period(1, 1.0, 0.04) - exact);
-  for (const double step : {0.02, 0.01}) {
+  double coarse = std::abs(simulated_pendulum_period(1, 1.0, 0.02) - exact);
+  for (const double step : {0.01, 0.005}) {
     const double fine = std::abs(simulated_pendulum_period(1, 1.0, step) - exact);
     EXPECT_NEAR(coarse / fine, 4.0, 0.4) << "step " << step << ", error " << fine;
     coarse = fine;
@@ -78,7 +78,8 @@ double damped_amplitude(double step) {
 TEST(Motion, ImplicitEulerDampsInTheFirstOrderOfTheStep) {
   for (const double step : {0.1, 0.05, 0.01}) {
     const double exact = 0.1 * std::pow(1.0 + step * step, -0.5 / step);
-    EXPECT_NEAR(damped_amplitude(step), exact, 1e-9) << step;
+    // The pin gives by 1e-6 of a stretch of 0.1.
+    EXPECT_NEAR(damped_amplitude(step), exact, 1e-6) << step;
   }
   EXPECT_NEAR((0.1 - damped_amplitude(0.02)) / (0.1 - damped_amplitude(0.01)), 2.0, 0.05);
 }
@@ -86,8 +87,7 @@ TEST(Motion, ImplicitEulerDampsInTheFirstOrderOfTheStep) {
 /// To the last digits.
 TEST(Motion, AFreeFallHasTheBiasOfItsIntegrator) {
   for (const double step : {0.1, 0.01}) {
-    for (const Integrator integrator :
-         {Integrator::IMPLICIT_EULER, Integrator::IMPLICIT_MIDPOINT}) {
+    for (const Integrator integrator : {Integrator::IMPLICIT_EULER, Integrator::BDF2}) {
       const double exact = exact_fall(integrator, step, 50);
       for (const Vector3d& position : fallen_rod(integrator, step, 50).positions) {
         EXPECT_NEAR(position.z(), exact, 1e-11 * std::abs(exact));
@@ -96,23 +96,26 @@ TEST(Motion, AFreeFallHasTheBiasOfItsIntegrator) {
   }
 }
 
-/// A hold is where its path says at the end of each step, however it gets there.
+/// A hold is where its path says at the end of each step, however it gets there: but for what a
+/// spring gives that is a thousand times as stiff as the rod.
 TEST(Motion, AHeldNodeKeepsToItsPath) {
-  for (const Integrator integrator : {Integrator::IMPLICIT_EULER, Integrator::IMPLICIT_MIDPOINT}) {
+  for (const Integrator integrator : {Integrator::IMPLICIT_EULER, Integrator::BDF2}) {
     Rods rods;
     rods.add(straight({0, 0, 0}, {1, 0, 0}, 10), 0.01, {1e3, 0.1, 0.1, 1.0, 1e-4});
     const auto path = [](double time) {
-      return Vector3d(0.1 * std::sin(5.0 * time), 0.1 * std::cos(7.0 * time), 0.1 + time * time);
+      return Vector3d(0.1 * std::sin(5.0 * time), 0.1 - 0.1 * std::cos(7.0 * time), time * time);
     };
-    auto held = hold(rods, {{0, 0, Attachment::Kind::PIN, [&](double time) {
-                               return Placement{path(time), Vector3d::Zero(), Vector3d::Zero()};
-                             }}});
+    Attachment::Hold follow = pin(0, Vector3d::Zero());
+    follow.placement = [&](double time) {
+      return Placement{path(time), Vector3d::Zero(), Vector3d::Zero()};
+    };
+    auto held = hold(rods, {follow});
     Stepper stepper(rods,
                     effects(std::make_unique<Stretch>(), std::make_unique<Bend>(), std::move(held)),
                     precise(integrator));
     for (int i = 0; i < 100; ++i) {
       stepper.step(0.02);
-      ASSERT_EQ(stepper.rods().positions[0], path(stepper.time())) << "step " << i;
+      ASSERT_LE((stepper.rods().positions[0] - path(stepper.time())).norm(), 1e-5) << "step " << i;
     }
   }
 }

@@ -58,6 +58,18 @@ struct NaturalRod {
   }
 };
 
+/// As a step that begins with the rods finds them.
+Bend bend_of(const Rods& rods) {
+  Bend bend;
+  Rods same = rods;
+  bend.begin_step(same, {0.0, 1.0});
+  return bend;
+}
+
+double bend_energy(const Rods& rods) { return energy_of(bend_of(rods), rods, 0); }
+
+Derivatives bend_derivatives(const Rods& rods) { return derivatives_of(bend_of(rods), rods, 0); }
+
 double largest_distance(const Points& a, const Points& b) {
   double largest = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -166,9 +178,9 @@ TEST(NaturalCurvature, ItsEnergyIsTheSameWhereverARodIsTurned) {
         v = rotation * v;
       }
     }
-    const double energy = Bend().energy(rod.rods, 0);
+    const double energy = bend_energy(rod.rods);
     EXPECT_GT(energy, 1e-6);
-    EXPECT_NEAR(Bend().energy(turned, 0), energy, 1e-12 * (1.0 + energy));
+    EXPECT_NEAR(bend_energy(turned), energy, 1e-12 * (1.0 + energy));
   }
 }
 
@@ -180,11 +192,11 @@ TEST(NaturalCurvature, NoneIsThatOfAStraightRod) {
   rods.add(random_chain(random, 8, 0.3), 0.01, section);
   const Twist twist(rods);
   displace(rods, random, 0.1, 1.0);
-  const double energy = Bend().energy(rods, 0);
-  const Derivatives derivatives = derivatives_of(Bend(), rods, 0);
+  const double energy = bend_energy(rods);
+  const Derivatives derivatives = bend_derivatives(rods);
   rods.natural_curvature_vectors.assign(rods.positions.size(), Vector2d::Zero());
-  EXPECT_NEAR(Bend().energy(rods, 0), energy, 1e-14 * energy);
-  const Derivatives found = derivatives_of(Bend(), rods, 0);
+  EXPECT_NEAR(bend_energy(rods), energy, 1e-14 * energy);
+  const Derivatives found = bend_derivatives(rods);
   EXPECT_LT((found.gradient - derivatives.gradient).norm(), 1e-12 * derivatives.gradient.norm());
   EXPECT_LT((found.hessian - derivatives.hessian).norm(), 1e-12 * derivatives.hessian.norm());
 }
@@ -198,7 +210,7 @@ TEST(NaturalCurvature, BendingInItsPlaneIsThatOfTheExcess) {
       const Vector3d before = rods.positions[1] - rods.positions[0];
       rods.positions[2] = rods.positions[1] + Eigen::AngleAxisd(angle, Vector3d::UnitZ()) * before;
       const double excess = 2.0 * std::sin(0.5 * (angle - natural));
-      EXPECT_NEAR(Bend().energy(rods, 0), 0.5 * excess * excess / before.norm(), 1e-12);
+      EXPECT_NEAR(bend_energy(rods), 0.5 * excess * excess / before.norm(), 1e-12);
     }
   }
 }
@@ -210,8 +222,8 @@ TEST(NaturalCurvature, AFoldIsTheMost) {
     rods.add({{0, 0, 0}, {1, 0, 0}, {1.5, 0.9, 0}}, 0.01, section);
     const Twist twist(rods);
     set_natural_arc(rods, 0, natural / rods.rest_length_at(1), Vector3d::UnitZ());
-    EXPECT_NEAR(Bend().energy(rods, 0), 0.0, 1e-15);
-    EXPECT_NEAR(derivatives_of(Bend(), rods, 0).gradient.norm(), 0.0, 1e-8);
+    EXPECT_NEAR(bend_energy(rods), 0.0, 1e-15);
+    EXPECT_NEAR(bend_derivatives(rods).gradient.norm(), 0.0, 1e-8);
   }
 }
 
@@ -220,8 +232,8 @@ TEST(NaturalCurvature, ItsHessianIsExactInTheNaturalShape) {
   SCOPED_TRACE(seed_message());
   Random random(5);
   const NaturalRod rod(random_chain(random, 6, 0.3));
-  const Eigen::MatrixXd found = derivatives_of(Bend(), rod.rods, 0).hessian;
-  const Eigen::MatrixXd expected = hessian_by_differences(Bend(), rod.rods, 0, 1e-5);
+  const Eigen::MatrixXd found = bend_derivatives(rod.rods).hessian;
+  const Eigen::MatrixXd expected = hessian_by_differences(bend_of(rod.rods), rod.rods, 0, 1e-5);
   EXPECT_LE((found - expected).cwiseAbs().maxCoeff(), 1e-7 * expected.cwiseAbs().maxCoeff());
 }
 
@@ -234,10 +246,11 @@ TEST(NaturalCurvature, WithoutTwistItHasSizeAlone) {
   for (std::uint32_t i = 1; i < 10; ++i) {
     EXPECT_NEAR(rods.natural_curvatures[i], 0.2 / (2.0 * std::sin(0.1)), 1e-12);
   }
-  EXPECT_NEAR(Bend().energy(rods, 0), 0.0, 1e-24);
+  EXPECT_NEAR(bend_energy(rods), 0.0, 1e-24);
 }
 
-/// On a clamp, far from their natural shapes, which are curled up to folds.
+/// On a clamp, far from their natural shapes, which are curled up to folds. With implicit Euler:
+/// such rods turn by many turns in a step, where BDF2 promises nothing.
 TEST(NaturalCurvature, RodsGainNoEnergyOnTheWay) {
   SCOPED_TRACE(seed_message());
   Random random(6);
@@ -251,26 +264,22 @@ TEST(NaturalCurvature, RodsGainNoEnergyOnTheWay) {
     Rods rods;
     rods.add(random_chain(random, nodes, edge), radius, solid_round_section(material, radius));
     auto twist = std::make_unique<Twist>(rods);
+    const double most = random.chance(0.3) ? 3.0 : 2.0;
     for (int node = 0; node < nodes; ++node) {
-      rods.natural_curvature_vectors.emplace_back(random.uniform(-3.0, 3.0) / edge,
-                                                  random.uniform(-3.0, 3.0) / edge);
+      rods.natural_curvature_vectors.emplace_back(random.uniform(-most, most) / edge,
+                                                  random.uniform(-most, most) / edge);
     }
     displace(rods, random, 0.0, 3.0);
     const Vector3d tangent = random.direction();
     auto held = hold(rods, {clamp(0, {rods.positions[0], tangent, tangent.unitOrthogonal()})});
     Effects all = effects(std::make_unique<Stretch>(), std::make_unique<Bend>(), std::move(twist),
                           std::make_unique<Gravity>(gravity), std::move(held));
-    Storing storing;
-    for (const std::unique_ptr<Effect>& effect : all) {
-      storing.push_back(effect.get());
-    }
     StepperOptions options;
     options.threads = 1;
-    options.iterations = static_cast<std::uint32_t>(random.integer(1, 3));
-    options.integrator =
-        random.chance(0.5) ? Integrator::IMPLICIT_EULER : Integrator::IMPLICIT_MIDPOINT;
-    EnergyBounds bounds(rods, storing, options.integrator);
+    options.max_iterations = random.chance(0.5) ? 20 : 2;
     const double step = std::pow(10.0, random.uniform(-3.0, -1.5));
+    begin(all, rods, step);
+    EnergyBounds bounds(rods, storing_of(all), options.integrator);
     Stepper stepper(rods, std::move(all), options);
     for (int i = 0; i < 150; ++i) {
       stepper.step(step);

@@ -4,7 +4,6 @@
 #include <memory>
 #include <vector>
 
-#include "fiber_proximity/sim/effect.hpp"
 #include "fiber_proximity/sim/rods.hpp"
 #include "support/random.hpp"
 
@@ -61,15 +60,6 @@ inline void give_velocities(Rods& rods, Random& random, double speed) {
   for (Eigen::Vector3d& velocity : rods.velocities) {
     velocity = random.in_cube(speed);
   }
-}
-
-/// Sum over all rods [J].
-inline double energy_of(const Effect& effect, const Rods& rods) {
-  double energy = 0.0;
-  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
-    energy += effect.energy(rods, rod);
-  }
-  return energy;
 }
 
 /// Of a rod's nodes and of its edges' spins [J].

@@ -82,6 +82,7 @@ TEST(Reach, APulledRodIsStretchedBySpeedOverThatOfSound) {
   EXPECT_NEAR(sound, std::sqrt(1e7 / 1200.0), 1e-9 * sound);
   auto attachment = std::make_unique<Attachment>();
   Attachment::Hold pulled = pin(segments, Vector3d::Zero());
+  pulled.max_force = rods.sections[0].stretching_stiffness;
   pulled.placement = [=](double time) {
     return Placement{Vector3d(length + speed * time, 0, 0), Vector3d::Zero(), Vector3d::Zero()};
   };

@@ -43,7 +43,6 @@ std::vector<Vector3d> folded_chain(Random& random, int nodes, double edge_length
 struct RandomScene {
   Rods rods;
   Effects effects;
-  Storing storing;
   bool is_windy = false;
   StepperOptions options;
   double step;
@@ -68,30 +67,27 @@ RandomScene random_scene(Random& random) {
     text << nodes << " nodes, length " << length << ", radius " << radius << ", E "
          << material.youngs_modulus << (is_folded ? ", folded; " : "; ");
   }
-  const auto maybe = [&](const char* name, bool is_storing, auto make) {
+  const auto maybe = [&](const char* name, auto make) {
     if (random.chance(0.7)) {
       text << name << ' ';
       scene.effects.push_back(make());
-      if (is_storing) {
-        scene.storing.push_back(scene.effects.back().get());
-      }
     }
   };
-  maybe("twist", true, [&] { return std::make_unique<Twist>(scene.rods); });
+  maybe("twist", [&] { return std::make_unique<Twist>(scene.rods); });
   displace(scene.rods, random, 0.0, 3.0);
-  maybe("gravity", true, [&] { return std::make_unique<Gravity>(gravity); });
-  maybe("stretch", true, [&] { return std::make_unique<Stretch>(); });
-  maybe("bend", true, [&] { return std::make_unique<Bend>(); });
-  maybe("damping", false,
+  maybe("gravity", [&] { return std::make_unique<Gravity>(gravity); });
+  maybe("stretch", [&] { return std::make_unique<Stretch>(); });
+  maybe("bend", [&] { return std::make_unique<Bend>(); });
+  maybe("damping",
         [&] { return std::make_unique<Damping>(std::pow(10.0, random.uniform(-4.0, 1.0))); });
-  maybe("drag", false, [&] {
+  maybe("drag", [&] {
     scene.is_windy = true;
     Drag::Options options;
     options.fluid_density = std::pow(10.0, random.uniform(0.0, 3.0));
     options.wind = {random.in_cube(5.0), random.in_cube(5.0), 0.3, 1.0};
     return std::make_unique<Drag>(options);
   });
-  maybe("holds", true, [&] {
+  maybe("holds", [&] {
     auto held = std::make_unique<Attachment>();
     for (std::uint32_t rod = 0; rod < scene.rods.count(); ++rod) {
       const Vector3d tangent = random.direction();
@@ -103,14 +99,14 @@ RandomScene random_scene(Random& random) {
     }
     return held;
   });
-  scene.options.iterations = static_cast<std::uint32_t>(random.integer(1, 3));
+  scene.options.max_iterations = random.chance(0.5) ? 20 : random.integer(1, 3);
   scene.options.threads = 1;
   if (random.chance(0.5)) {
-    scene.options.integrator = Integrator::IMPLICIT_MIDPOINT;
-    text << ", midpoint";
+    scene.options.integrator = Integrator::BDF2;
+    text << ", BDF2";
   }
   scene.step = std::pow(10.0, random.uniform(-3.0, -1.5));
-  text << ", " << scene.options.iterations << " iterations, step " << scene.step;
+  text << ", " << scene.options.max_iterations << " iterations, step " << scene.step;
   scene.description = text.str();
   return scene;
 }
@@ -121,13 +117,15 @@ TEST(Robustness, RandomScenesStayBounded) {
   for (int round = 0; round < rounds(30); ++round) {
     RandomScene scene = random_scene(random);
     SCOPED_TRACE("round " + std::to_string(round) + ": " + scene.description);
-    EnergyBounds bounds(scene.rods, scene.storing, scene.options.integrator);
+    begin(scene.effects, scene.rods, scene.step);
+    EnergyBounds bounds(scene.rods, storing_of(scene.effects), scene.options.integrator);
     Stepper stepper(std::move(scene.rods), std::move(scene.effects), scene.options);
-    const int steps = round == 0 ? 10000 : 150;
+    const int steps = round == 0 ? 5000 : 100;
     for (int i = 0; i < steps; ++i) {
       stepper.step(scene.step);
       ASSERT_TRUE(all_finite(stepper.rods())) << "step " << i;
-      ASSERT_TRUE(scene.is_windy || bounds.hold(stepper.rods())) << "step " << i;
+      const testing::AssertionResult is_bounded = bounds.hold(stepper.rods());
+      ASSERT_TRUE(scene.is_windy || is_bounded) << "step " << i << ", " << is_bounded.message();
     }
   }
 }
@@ -140,7 +138,7 @@ TEST(Robustness, StiffAndFoldedRodsGainNoEnergy) {
     const double length = std::pow(10.0, random.uniform(-2.0, 1.0));
     const double radius = length * std::pow(10.0, random.uniform(-3.0, -1.5));
     const RodMaterial material{1e10, 4e9, std::pow(10.0, random.uniform(2.0, 4.0))};
-    const int nodes = round == 0 ? 1001 : random.integer(2, 30);
+    const int nodes = round == 0 ? 301 : random.integer(2, 30);
     Rods rods;
     rods.add(round % 2 == 0 ? folded_chain(random, nodes, length / nodes)
                             : random_chain(random, nodes, length / nodes),
@@ -152,13 +150,13 @@ TEST(Robustness, StiffAndFoldedRodsGainNoEnergy) {
     auto held = hold(rods, {pin(0, rods.positions[0])});
     Effects all = effects(std::make_unique<Stretch>(), std::make_unique<Bend>(),
                           std::make_unique<Gravity>(gravity));
-    EnergyBounds bounds(rods, {all[0].get(), all[1].get(), all[2].get()},
-                        Integrator::IMPLICIT_EULER);
     all.push_back(std::move(held));
+    begin(all, rods, step);
+    EnergyBounds bounds(rods, storing_of(all), Integrator::IMPLICIT_EULER);
     StepperOptions options;
     options.threads = 1;
     Stepper stepper(rods, std::move(all), options);
-    const int steps = round == 1 ? 10000 : 150;
+    const int steps = round == 1 ? 5000 : 100;
     for (int i = 0; i < steps; ++i) {
       stepper.step(step);
       ASSERT_TRUE(all_finite(stepper.rods())) << "step " << i;
@@ -172,7 +170,7 @@ TEST(Robustness, StiffAndFoldedRodsGainNoEnergy) {
 TEST(Robustness, EdgesThatTurnThroughTheirClampsGainNoEnergy) {
   SCOPED_TRACE(seed_message());
   Random random(3);
-  for (int round = 0; round < 100; ++round) {
+  for (int round = 0; round < 30; ++round) {
     Rods rods;
     rods.add(random_chain(random, random.integer(2, 5), 0.1), 0.01, random_section(random));
     Effects all = effects(std::make_unique<Gravity>(gravity));
@@ -181,18 +179,13 @@ TEST(Robustness, EdgesThatTurnThroughTheirClampsGainNoEnergy) {
     }
     const Vector3d tangent = random.direction();
     all.push_back(hold(rods, {clamp(0, {rods.positions[0], tangent, tangent.unitOrthogonal()})}));
-    Storing storing;
-    for (const std::unique_ptr<Effect>& effect : all) {
-      storing.push_back(effect.get());
-    }
+    constexpr double step = 0.02;
+    begin(all, rods, step);
+    EnergyBounds bounds(rods, storing_of(all), Integrator::IMPLICIT_EULER);
     Stepper stepper(rods, std::move(all));
-    double before = mechanical_energy(rods, 0, storing);
     for (int i = 0; i < 100; ++i) {
-      stepper.step(0.02);
-      const double after = mechanical_energy(stepper.rods(), 0, storing);
-      ASSERT_LE(after, before + 1e-9 * magnitude(stepper.rods(), 0, storing))
-          << "round " << round << ", step " << i;
-      before = after;
+      stepper.step(step);
+      ASSERT_TRUE(bounds.hold(stepper.rods())) << "round " << round << ", step " << i;
     }
   }
 }
@@ -227,7 +220,7 @@ TEST(Robustness, AFastGripperDragsARodAlong) {
         }
         ASSERT_LT(length, 1.5) << "step " << i;
       }
-      EXPECT_NEAR(stepper.rods().positions[0].y(), 1.0, 1e-12);
+      EXPECT_NEAR(stepper.rods().positions[0].y(), 1.0, 1e-7);
     }
   }
 }

@@ -174,6 +174,12 @@ TEST_F(AttachmentTest, RefusesBadHolds) {
             "attachment: hold on node 1 of rod 0: it has no placement");
   EXPECT_EQ(error(pin(1, {0, not_a_number, 0})),
             "attachment: hold on node 1 of rod 0: its position must be finite");
+  for (const double bad : {-1.0, infinity, not_a_number}) {
+    Attachment::Hold hold = pin(1, Vector3d::Zero());
+    hold.max_force = bad;
+    EXPECT_EQ(error(hold), "attachment: hold on node 1 of rod 0: its greatest force is " +
+                               std::to_string(bad) + " N, it must be at least 0 and finite");
+  }
   EXPECT_EQ(error(clamp(1, good_)),
             "attachment: hold on node 1 of rod 0: a clamp must be at an end of the rod");
   good_.tangent *= 1.1;
@@ -218,13 +224,13 @@ TEST_F(AttachmentTest, RefusesAPlacementThatGoesAstrayLater) {
 
 TEST(StepperOptions, AreChecked) {
   StepperOptions options;
-  options.iterations = 0;
-  expect_error([&] { Stepper({}, {}, options); }, "iterations is 0, it must be at least 1");
-  for (const double bad : {-1.0, infinity, not_a_number}) {
+  options.max_iterations = 0;
+  expect_error([&] { Stepper({}, {}, options); }, "max_iterations is 0, it must be at least 1");
+  for (const double bad : {0.0, -1.0, infinity, not_a_number}) {
     options = {};
-    options.tolerance = bad;
+    options.residual = bad;
     expect_error([&] { Stepper({}, {}, options); },
-                 "tolerance is " + std::to_string(bad) + " m, it must be at least 0 and finite");
+                 "residual is " + std::to_string(bad) + " m/s, it must be positive and finite");
   }
   Stepper stepper({}, {});
   for (const double bad : {0.0, -1.0, infinity, not_a_number}) {

@@ -7,7 +7,6 @@
 
 #include "fiber_proximity/sim/effects/twist.hpp"
 #include "fiber_proximity/sim/natural_curvature.hpp"
-#include "sim/random_rods.hpp"
 #include "sim/rod_scene.hpp"
 
 namespace fiber::test {
@@ -58,17 +57,9 @@ double simulated_stiffness(const Spring& spring) {
       hold(rods, {clamp_at(0, 0, Vector3d::Zero()), clamp_at(segments, segments - 1, {0, 0, way})});
   Effects all = effects(std::make_unique<Stretch>(), std::make_unique<Bend>(), std::move(twist),
                         std::move(held));
-  std::vector<const Effect*> storing;
-  for (const auto& effect : all) {
-    storing.push_back(effect.get());
-  }
   Stepper stepper(rods, std::move(all), precise());
   settle(stepper);
-  double energy = 0.0;
-  for (const Effect* effect : storing) {
-    energy += energy_of(*effect, stepper.rods());
-  }
-  return 2.0 * energy / (way * way);
+  return 2.0 * stepper.energy() / (way * way);
 }
 
 class SpringTest : public testing::TestWithParam<Spring> {};

@@ -88,4 +88,13 @@ struct Barrier {
   }
 };
 
+/// Rises from 0 to 1 while x does, level at both ends: weights of contacts.
+struct Ramp {
+  explicit Ramp(double x)
+      : value(x >= 1.0 ? 1.0 : x * x * (3.0 - 2.0 * x)),
+        slope(x >= 1.0 ? 0.0 : 6.0 * x * (1.0 - x)) {}
+  double value;
+  double slope;
+};
+
 }  // namespace fiber

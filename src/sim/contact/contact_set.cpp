@@ -34,15 +34,15 @@ void add_side(std::uint32_t node, double parameter, const Vector3d& gradient,
 
 void ContactSet::clear() {
   pairs.clear();
-  obstacle_points.clear();
+  obstacle_contacts.clear();
   obstacle_edges.clear();
   frictions_.clear();
 }
 
 void ContactSet::append(const ContactSet& other) {
   pairs.insert(pairs.end(), other.pairs.begin(), other.pairs.end());
-  obstacle_points.insert(obstacle_points.end(), other.obstacle_points.begin(),
-                         other.obstacle_points.end());
+  obstacle_contacts.insert(obstacle_contacts.end(), other.obstacle_contacts.begin(),
+                           other.obstacle_contacts.end());
   obstacle_edges.insert(obstacle_edges.end(), other.obstacle_edges.begin(),
                         other.obstacle_edges.end());
 }
@@ -65,24 +65,20 @@ void for_each_chunk(std::size_t count, const Function& function) {
 
 }  // namespace
 
-/// Calls function(points, normal, slope, curvature, barrier) if the contact has a part in the
-/// energy.
+/// Calls function(points, term, barrier) for what the contact has of the energy.
+/// @param found room for these terms
 template <class Function>
-void ContactSet::visit_obstacle(std::size_t index, const Function& function) const {
-  const ObstaclePoint& point = obstacle_points[index];
-  const double distance = point.felt(obstacle_distances_[index].distance);
-  const double depth_share = Barrier::depth_share(point.share);
-  if (distance < point.barrier.outer) {
-    function(PointPair{point.rod, point.edge, point.s, 0, no_edge, 0.0},
-             obstacle_distances_[index].gradient,
-             point.share * depth_share * point.barrier.slope(distance),
-             point.share * depth_share * depth_share * point.barrier.curvature(distance),
-             point.barrier);
+void ContactSet::visit_obstacle(std::size_t index, std::vector<DistanceTerm>& found,
+                                const Function& function) const {
+  const ObstacleContact& contact = obstacle_contacts[index];
+  found.clear();
+  obstacle_contact(contact, obstacle_distances_[index], &found);
+  for (const DistanceTerm& term : found) {
+    function(PointPair{contact.rod, contact.edge, term.s, 0, no_edge, 0.0}, term, contact.barrier);
   }
 }
 
-/// The same for each distance of a pair.
-/// @param found room for these
+/// The same of a pair.
 template <class Function>
 void ContactSet::visit_pair(const Rods& rods, std::size_t index, std::vector<DistanceTerm>& found,
                             const Function& function) const {
@@ -93,17 +89,17 @@ void ContactSet::visit_pair(const Rods& rods, std::size_t index, std::vector<Dis
   found.clear();
   edge_contact(pair, rods.positions, distances_[index], &found);
   for (const DistanceTerm& term : found) {
-    function(PointPair{pair.rod_a, pair.edge_a, term.s, pair.rod_b, pair.edge_b, term.t},
-             term.normal, term.slope, term.curvature, pair.barrier);
+    function(PointPair{pair.rod_a, pair.edge_a, term.s, pair.rod_b, pair.edge_b, term.t}, term,
+             pair.barrier);
   }
 }
 
 template <class Function>
 void ContactSet::for_each_distance(const Rods& rods, const Function& function) const {
-  for (std::size_t i = 0; i < obstacle_points.size(); ++i) {
-    visit_obstacle(i, function);
-  }
   std::vector<DistanceTerm> found;
+  for (std::size_t i = 0; i < obstacle_contacts.size(); ++i) {
+    visit_obstacle(i, found, function);
+  }
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     visit_pair(rods, i, found, function);
   }
@@ -117,28 +113,27 @@ void ContactSet::begin(const Rods& rods, const Friction* friction,
     return;
   }
   stick_length_ = friction->stick_length(step);
-  for_each_distance(rods, [&](const PointPair& points, const Vector3d& normal, double slope,
-                              double /*curvature*/, const Barrier& /*barrier*/) {
-    if (slope < 0.0) {
-      Vector3d reference = point_at(references, points.edge_a, points.s);
-      if (points.edge_b != no_edge) {
-        reference -= point_at(references, points.edge_b, points.t);
-      }
-      frictions_.push_back({points, normal, -friction->coefficient() * slope, reference});
-    }
-  });
+  for_each_distance(
+      rods, [&](const PointPair& points, const DistanceTerm& term, const Barrier& /*barrier*/) {
+        if (term.pressure > 0.0) {
+          Vector3d reference = point_at(references, points.edge_a, points.s);
+          if (points.edge_b != no_edge) {
+            reference -= point_at(references, points.edge_b, points.t);
+          }
+          frictions_.push_back(
+              {points, term.normal, friction->coefficient() * term.pressure, reference});
+        }
+      });
 }
 
 void ContactSet::measure(const Rods& rods) {
-  obstacle_distances_.resize(obstacle_points.size());
-  for_each_chunk(obstacle_points.size(),
-                 [&](std::size_t /*index*/, std::size_t begin, std::size_t end) {
-                   for (std::size_t i = begin; i < end; ++i) {
-                     const ObstaclePoint& point = obstacle_points[i];
-                     obstacle_distances_[i] =
-                         point.piece.distance_from(point_at(rods.positions, point.edge, point.s));
-                   }
-                 });
+  obstacle_distances_.resize(obstacle_contacts.size());
+  for_each_chunk(
+      obstacle_contacts.size(), [&](std::size_t /*index*/, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          obstacle_distances_[i] = obstacle_distance(obstacle_contacts[i], rods.positions);
+        }
+      });
   distances_.resize(pairs.size());
   for_each_chunk(pairs.size(), [&](std::size_t /*index*/, std::size_t begin, std::size_t end) {
     std::array<const Vector3d*, chunk> a{};
@@ -160,11 +155,10 @@ Vector3d ContactSet::slip_of(const Rods& rods, const FrictionPoint& point) const
 }
 
 double ContactSet::energy_of(const Rods& rods, std::size_t contact) const {
-  if (contact < obstacle_points.size()) {
-    const ObstaclePoint& point = obstacle_points[contact];
-    return point.share * point.barrier.energy(point.felt(obstacle_distances_[contact].distance));
+  if (contact < obstacle_contacts.size()) {
+    return obstacle_contact(obstacle_contacts[contact], obstacle_distances_[contact], nullptr);
   }
-  contact -= obstacle_points.size();
+  contact -= obstacle_contacts.size();
   if (contact < pairs.size()) {
     return edge_contact(pairs[contact], rods.positions, distances_[contact], nullptr);
   }
@@ -181,8 +175,8 @@ void ContactSet::add_energies(const Rods& rods, const std::vector<std::uint32_t>
     }
   });
   std::size_t contact = 0;
-  for (const ObstaclePoint& point : obstacle_points) {
-    energies[islands[point.rod]].add(energies_[contact++]);
+  for (const ObstacleContact& of_obstacle : obstacle_contacts) {
+    energies[islands[of_obstacle.rod]].add(energies_[contact++]);
   }
   for (const EdgePair& pair : pairs) {
     energies[islands[pair.rod_a]].add(energies_[contact++]);
@@ -195,24 +189,26 @@ void ContactSet::add_energies(const Rods& rods, const std::vector<std::uint32_t>
 double ContactSet::stored_energy(const Rods& rods) {
   measure(rods);
   double energy = 0.0;
-  for (std::size_t i = 0; i < obstacle_points.size() + pairs.size(); ++i) {
+  for (std::size_t i = 0; i < obstacle_contacts.size() + pairs.size(); ++i) {
     energy += energy_of(rods, i);
   }
   return energy;
 }
 
 void ContactSet::find_terms(const Rods& rods, std::size_t contact, std::vector<Term>& terms) const {
-  const auto add = [&](const PointPair& points, const Vector3d& normal, double slope,
-                       double curvature, const Barrier& /*barrier*/) {
-    terms.push_back({points, slope * normal, curvature * normal * normal.transpose()});
+  const auto add = [&](const PointPair& points, const DistanceTerm& term,
+                       const Barrier& /*barrier*/) {
+    terms.push_back({points, term.slope * term.normal,
+                     term.curvature * term.normal * term.normal.transpose(),
+                     term.turning > 0.0 ? term.turning / (term.slope * term.slope) : 0.0});
   };
-  if (contact < obstacle_points.size()) {
-    visit_obstacle(contact, add);
+  std::vector<DistanceTerm> found;
+  if (contact < obstacle_contacts.size()) {
+    visit_obstacle(contact, found, add);
     return;
   }
-  contact -= obstacle_points.size();
+  contact -= obstacle_contacts.size();
   if (contact < pairs.size()) {
-    std::vector<DistanceTerm> found;
     visit_pair(rods, contact, found, add);
     return;
   }
@@ -226,7 +222,7 @@ void ContactSet::find_terms(const Rods& rods, std::size_t contact, std::vector<T
     const Vector3d along = slip / length;
     hessian += (law.curvature - law.resistance) * along * along.transpose();
   }
-  terms.push_back({point.points, point.most * law.resistance * slip, point.most * hessian});
+  terms.push_back({point.points, point.most * law.resistance * slip, point.most * hessian, 0.0});
 }
 
 void ContactSet::find_derivatives(const Rods& rods) {
@@ -250,8 +246,12 @@ void ContactSet::add_derivatives(const Rods& rods, const std::vector<RodSystem*>
     for (const Term& term : terms) {
       const PointPair& points = term.points;
       if (packs[points.rod_a] == which) {
-        add_side(points.edge_a - rods.first(points.rod_a), points.s, term.gradient, term.hessian,
-                 *systems[points.rod_a]);
+        const std::uint32_t edge = points.edge_a - rods.first(points.rod_a);
+        add_side(edge, points.s, term.gradient, term.hessian, *systems[points.rod_a]);
+        if (term.turning > 0.0) {
+          systems[points.rod_a]->add_edge(edge, Vector3d::Zero(),
+                                          term.turning * term.gradient * term.gradient.transpose());
+        }
       }
       if (points.edge_b != no_edge && packs[points.rod_b] == which) {
         add_side(points.edge_b - rods.first(points.rod_b), points.t, -term.gradient, term.hessian,
@@ -288,14 +288,14 @@ void ContactSet::add_coupling(const std::vector<std::size_t>& places, const doub
 }
 
 void ContactSet::add_loads(const Rods& rods, std::vector<double>& loads) const {
-  for_each_distance(rods, [&](const PointPair& points, const Vector3d& /*normal*/, double slope,
-                              double /*curvature*/, const Barrier& barrier) {
-    const double load = barrier.load_of(std::abs(slope));
-    loads[points.rod_a] = std::max(loads[points.rod_a], load);
-    if (points.edge_b != no_edge) {
-      loads[points.rod_b] = std::max(loads[points.rod_b], load);
-    }
-  });
+  for_each_distance(rods,
+                    [&](const PointPair& points, const DistanceTerm& term, const Barrier& barrier) {
+                      const double load = barrier.load_of(std::abs(term.slope));
+                      loads[points.rod_a] = std::max(loads[points.rod_a], load);
+                      if (points.edge_b != no_edge) {
+                        loads[points.rod_b] = std::max(loads[points.rod_b], load);
+                      }
+                    });
 }
 
 void ContactSet::add_forces(const Rods& rods, std::vector<RodForces::ContactForce>& forces) const {
@@ -314,21 +314,21 @@ void ContactSet::add_forces(const Rods& rods, std::vector<RodForces::ContactForc
     return forces[place->second];
   };
   std::map<std::size_t, double> weights;
-  for_each_distance(rods, [&](const PointPair& points, const Vector3d& normal, double slope,
-                              double /*curvature*/, const Barrier& /*barrier*/) {
-    RodForces::ContactForce& force = force_of(points);
-    const Vector3d on_a = point_at(rods.positions, points.edge_a, points.s);
-    Vector3d between = on_a - rods.radii[points.rod_a] * normal;
-    if (points.edge_b != no_edge) {
-      const Vector3d on_b = point_at(rods.positions, points.edge_b, points.t);
-      const double share =
-          rods.radii[points.rod_a] / (rods.radii[points.rod_a] + rods.radii[points.rod_b]);
-      between = on_a + share * (on_b - on_a);
-    }
-    force.normal_force -= slope * normal;
-    force.point += std::abs(slope) * between;
-    weights[static_cast<std::size_t>(&force - forces.data())] += std::abs(slope);
-  });
+  for_each_distance(
+      rods, [&](const PointPair& points, const DistanceTerm& term, const Barrier& /*barrier*/) {
+        RodForces::ContactForce& force = force_of(points);
+        const Vector3d on_a = point_at(rods.positions, points.edge_a, points.s);
+        Vector3d between = on_a - rods.radii[points.rod_a] * term.normal;
+        if (points.edge_b != no_edge) {
+          const Vector3d on_b = point_at(rods.positions, points.edge_b, points.t);
+          const double share =
+              rods.radii[points.rod_a] / (rods.radii[points.rod_a] + rods.radii[points.rod_b]);
+          between = on_a + share * (on_b - on_a);
+        }
+        force.normal_force -= term.slope * term.normal;
+        force.point += std::abs(term.slope) * between;
+        weights[static_cast<std::size_t>(&force - forces.data())] += std::abs(term.slope);
+      });
   for (const auto& [place, weight] : weights) {
     forces[place].point /= weight;
   }

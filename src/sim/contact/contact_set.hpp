@@ -7,22 +7,10 @@
 #include "fiber_proximity/sim/effects/friction.hpp"
 #include "fiber_proximity/sim/forces.hpp"
 #include "fiber_proximity/sim/pack_system.hpp"
-#include "obstacle_piece.hpp"
+#include "obstacle_contact.hpp"
 #include "src/sim/solver/energy_sum.hpp"
 
 namespace fiber {
-
-/// A point of a rod, and a part of an obstacle that it may touch.
-struct ObstaclePoint {
-  std::uint32_t rod;
-  std::uint32_t edge;  ///< as Rods counts edges
-  double s;            ///< curve parameter of the point on it, in [0, 1]
-  Barrier barrier;
-  double share;  ///< of a contact, in [0, 1]
-  ObstaclePiece piece;
-
-  double felt(double distance) const { return barrier.felt(distance, share); }
-};
 
 /// An edge and an obstacle that it may come to.
 struct ObstacleEdge {
@@ -40,7 +28,7 @@ struct ObstacleEdge {
 class ContactSet {
  public:
   std::vector<EdgePair> pairs;
-  std::vector<ObstaclePoint> obstacle_points;
+  std::vector<ObstacleContact> obstacle_contacts;
   std::vector<ObstacleEdge> obstacle_edges;
 
   void clear();
@@ -129,6 +117,7 @@ class ContactSet {
     PointPair points;
     Eigen::Vector3d gradient;
     Eigen::Matrix3d hessian;
+    double turning;  // times g gᵀ, part of the Hessian by the difference of a's ends [1/(N m)]
   };
 
   void bound_pairs(const Rods& rods, const std::vector<Eigen::Vector3d>& displacements,
@@ -138,7 +127,8 @@ class ContactSet {
                               const std::vector<Eigen::Vector3d>& displacements, double share);
 
   template <class Function>
-  void visit_obstacle(std::size_t index, const Function& function) const;
+  void visit_obstacle(std::size_t index, std::vector<DistanceTerm>& found,
+                      const Function& function) const;
   template <class Function>
   void visit_pair(const Rods& rods, std::size_t index, std::vector<DistanceTerm>& found,
                   const Function& function) const;
@@ -148,11 +138,11 @@ class ContactSet {
   double energy_of(const Rods& rods, std::size_t contact) const;
   void find_terms(const Rods& rods, std::size_t contact, std::vector<Term>& terms) const;
   std::size_t contact_count() const {
-    return obstacle_points.size() + pairs.size() + frictions_.size();
+    return obstacle_contacts.size() + pairs.size() + frictions_.size();
   }
 
-  std::vector<SegmentDistance> distances_;         // by pair
-  std::vector<PointDistance> obstacle_distances_;  // by point
+  std::vector<SegmentDistance> distances_;            // by pair
+  std::vector<ObstacleDistance> obstacle_distances_;  // by contact
   std::vector<FrictionPoint> frictions_;
   double stick_length_ = 0.0;             // [m]
   std::vector<std::vector<Term>> terms_;  // by chunk of contacts

@@ -29,19 +29,10 @@ double largest_approach(const Vector3d* a, const Vector3d* b) {
 void ContactSet::bound_step(const Rods& rods, const std::vector<Vector3d>& displacements,
                             const std::vector<std::uint32_t>& islands, std::vector<double>& shares,
                             std::vector<Vector3d>& ends) const {
-  // Distances from convex pieces never fall below what their gradients promise.
-  for (std::size_t i = 0; i < obstacle_points.size(); ++i) {
-    const ObstaclePoint& point = obstacle_points[i];
-    const Vector3d way =
-        (1.0 - point.s) * displacements[point.edge] + point.s * displacements[point.edge + 1];
-    const double approach = -obstacle_distances_[i].gradient.dot(way);
-    const double room = most_lost *
-                        (point.felt(obstacle_distances_[i].distance) - point.barrier.inner) /
-                        Barrier::depth_share(point.share);
-    double& share = shares[islands[point.rod]];
-    if (approach * share > room) {
-      share = std::max(0.0, room / approach);
-    }
+  for (std::size_t i = 0; i < obstacle_contacts.size(); ++i) {
+    double& share = shares[islands[obstacle_contacts[i].rod]];
+    share = fiber::bounded_share(obstacle_contacts[i], obstacle_distances_[i], rods.positions,
+                                 displacements, most_lost, share);
   }
   for (const ObstacleEdge& edge : obstacle_edges) {
     double& share = shares[islands[edge.rod]];

@@ -26,15 +26,6 @@ EndDistance end_distance(const Vector3d& point, const Vector3d& first, const Vec
   return {parameter, delta, delta.norm()};
 }
 
-/// Rises from 0 to 1 while x does, level at both ends.
-struct Ramp {
-  explicit Ramp(double x)
-      : value(x >= 1.0 ? 1.0 : x * x * (3.0 - 2.0 * x)),
-        slope(x >= 1.0 ? 0.0 : 6.0 * x * (1.0 - x)) {}
-  double value;
-  double slope;
-};
-
 /// One pair of edges where it is now.
 class EdgeContact {
  public:
@@ -51,7 +42,7 @@ class EdgeContact {
     for (std::uint32_t end = 0; end < 4; ++end) {
       energy += add_node(end, terms);
       if (terms != nullptr && slopes_[end] != 0.0) {
-        terms->push_back(term(end, ends_[end], slopes_[end], curvatures_[end]));
+        terms->push_back(term(end, ends_[end], slopes_[end], curvatures_[end], pressures_[end]));
       }
     }
     return energy;
@@ -67,11 +58,11 @@ class EdgeContact {
   }
 
   static DistanceTerm term(std::uint32_t end, const EndDistance& of_end, double slope,
-                           double curvature) {
+                           double curvature, double pressure) {
     const Vector3d normal = of_end.delta / of_end.distance;
     const double own = end % 2 == 0 ? 0.0 : 1.0;
-    return end < 2 ? DistanceTerm{own, of_end.parameter, normal, slope, curvature}
-                   : DistanceTerm{of_end.parameter, own, -normal, slope, curvature};
+    return end < 2 ? DistanceTerm{own, of_end.parameter, normal, slope, curvature, pressure}
+                   : DistanceTerm{of_end.parameter, own, -normal, slope, curvature, pressure};
   }
 
   /// Of the edges' distance, with its weight.
@@ -99,7 +90,8 @@ class EdgeContact {
     const double by_felt = weight * barrier_.slope(felt);
     const double depth_share = Barrier::depth_share(weight);
     const double by_weight = energy - by_felt * Barrier::most_relief * (barrier_.outer - distance);
-    double slope = by_felt * depth_share;
+    const double pressure = -by_felt * depth_share;
+    double slope = -pressure;
     for (std::uint32_t end = 0; end < 4; ++end) {
       if (ramps[end].slope > 0.0) {
         const double by_end =
@@ -109,7 +101,7 @@ class EdgeContact {
       }
     }
     terms->push_back({nearest_.s, nearest_.t, -nearest_.delta / distance, slope,
-                      weight * barrier_.curvature(felt) * depth_share * depth_share});
+                      weight * barrier_.curvature(felt) * depth_share * depth_share, pressure});
     return weight * energy;
   }
 
@@ -140,28 +132,32 @@ class EdgeContact {
     }
     if (terms != nullptr && of_end.distance > barrier_.inner) {
       slopes_[end] += share * barrier_.slope(of_end.distance);
+      pressures_[end] -= share * barrier_.slope(of_end.distance);
       curvatures_[end] += share * barrier_.curvature(of_end.distance);
     }
     return share * barrier_.energy(of_end.distance) + shared;
   }
 
-  /// Whether the edge before or after the other one is nearest to the end at their common node.
+  /// Whether the edge before or after the other one is nearest to the end at their common node: as
+  /// the pair with that edge finds it, to the last digit, so that each contact is one's.
   bool neighbour_is_clamped(std::uint32_t end, std::uint32_t last) const {
-    const std::uint32_t corner = other_edge(end) + last;
-    const std::uint32_t beyond = last == 0 ? corner - 1 : corner + 1;
-    return (x_[node_of(end)] - x_[corner]).dot(x_[beyond] - x_[corner]) <= 0.0;
+    const std::uint32_t first = last == 0 ? other_edge(end) - 1 : other_edge(end) + 1;
+    const double common = last == 0 ? 1.0 : 0.0;
+    return end_distance(x_[node_of(end)], x_[first], x_[first + 1]).parameter == common;
   }
 
   /// In the hollow of a bend both edges have a nearest point of their own, and the node between
   /// them counts half for each, taken away.
-  double add_corner(std::uint32_t end, std::uint32_t last, std::vector<DistanceTerm>* terms) const {
+  double add_corner(std::uint32_t end, std::uint32_t last, std::vector<DistanceTerm>* terms) {
     const Vector3d delta = x_[node_of(end)] - x_[other_edge(end) + last];
     const EndDistance corner{static_cast<double>(last), delta, delta.norm()};
     if (corner.distance >= barrier_.outer || !(corner.distance > barrier_.inner)) {
       return 0.0;
     }
     if (terms != nullptr) {
-      terms->push_back(term(end, corner, -0.5 * barrier_.slope(corner.distance), 0.0));
+      const double away = -0.5 * barrier_.slope(corner.distance);
+      terms->push_back(term(end, corner, away, 0.0, 0.0));
+      pressures_[end] -= away;
     }
     return -0.5 * barrier_.energy(corner.distance);
   }
@@ -173,6 +169,7 @@ class EdgeContact {
   std::array<EndDistance, 4> ends_;
   std::array<double, 4> slopes_{};
   std::array<double, 4> curvatures_{};
+  std::array<double, 4> pressures_{};
 };
 
 }  // namespace

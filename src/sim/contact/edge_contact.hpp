@@ -33,6 +33,14 @@ struct DistanceTerm {
   Eigen::Vector3d normal;  ///< unit vector from b to a
   double slope;            ///< of the energy by the distance [N]
   double curvature;        ///< a positive part of the second derivative [N/m]
+
+  /// What presses the two together, at least 0 [N]: not all of the slope, part of which takes
+  /// weight from one contact of two edges and gives it to another.
+  double pressure;
+
+  /// What resists that one end of edge a comes nearer than the other: as that moves the nearest
+  /// point along the edge [N/m].
+  double turning = 0.0;
 };
 
 /// The potential of two polylines near each other, edge by edge:

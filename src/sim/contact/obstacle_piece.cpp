@@ -1,6 +1,7 @@
 #include "obstacle_piece.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "fiber_proximity/environment/axis_distance.hpp"
 #include "fiber_proximity/environment/occupancy_octree.hpp"
@@ -58,25 +59,26 @@ std::vector<ObstaclePiece::Part> parts_near(const Shape& shape, const Vector3d& 
   return parts;
 }
 
-/// Where on a segment a part is nearest.
-double nearest_parameter(const Shape& shape, const ObstaclePiece::Part& part, const Vector3d& p0,
-                         const Vector3d& p1, double within) {
-  if (const auto* const triangle = std::get_if<TriangleCorners>(&part)) {
-    return segment_triangle(p0, p1, *triangle).s;
-  }
-  if (const auto* const cell = std::get_if<ObstaclePiece::Cell>(&part)) {
-    return axis_distance(BoxShape{Vector3d::Constant(cell->size)}, p0 - cell->center,
-                         p1 - cell->center)
-        .s;
-  }
-  return axis_distance(shape, p0, p1, within).s;
-}
-
 }  // namespace
 
 bool ObstacleShape::is_convex() const {
   return !std::holds_alternative<MeshPointer>(*shape) &&
          !std::holds_alternative<OctreePointer>(*shape);
+}
+
+double ObstaclePiece::nearest_parameter(const Vector3d& p0, const Vector3d& p1) const {
+  const Vector3d q0 = shape_->to_shape * p0;
+  const Vector3d q1 = shape_->to_shape * p1;
+  if (const auto* const triangle = std::get_if<TriangleCorners>(&part_)) {
+    return segment_triangle(q0, q1, *triangle).s;
+  }
+  if (const auto* const cell = std::get_if<Cell>(&part_)) {
+    return axis_distance(BoxShape{Vector3d::Constant(cell->size)}, q0 - cell->center,
+                         q1 - cell->center)
+        .s;
+  }
+  constexpr double far = std::numeric_limits<double>::infinity();
+  return axis_distance(*shape_->shape, q0, q1, far).s;
 }
 
 PointDistance ObstaclePiece::distance_from(const Vector3d& point) const {
@@ -100,13 +102,11 @@ std::vector<NearPiece> near_pieces(const ObstacleShape& shape, const Vector3d& p
   std::vector<NearPiece> pieces;
   for (const ObstaclePiece::Part& part : parts_near(*shape.shape, q0, q1, within)) {
     const ObstaclePiece piece(shape, part);
-    const double s = p0 == p1 ? 0.0 : nearest_parameter(*shape.shape, part, q0, q1, within);
-    const double distance = piece.distance_from((1.0 - s) * p0 + s * p1).distance;
+    const double s = p0 == p1 ? 0.0 : piece.nearest_parameter(p0, p1);
+    const Vector3d place = (1.0 - s) * p0 + s * p1;
+    const double distance = piece.distance_from(place).distance;
     if (distance <= within) {
-      pieces.push_back({piece,
-                        s,
-                        distance,
-                        {piece.distance_from(p0).distance, piece.distance_from(p1).distance}});
+      pieces.push_back({piece, distance, place});
     }
   }
   std::stable_sort(pieces.begin(), pieces.end(),
@@ -119,9 +119,8 @@ std::vector<NearPiece> near_pieces(const ObstacleShape& shape, const Vector3d& p
   std::vector<NearPiece> kept;
   std::vector<TangentPlane> planes;
   for (const NearPiece& near : pieces) {
-    const Vector3d place = (1.0 - near.s) * p0 + near.s * p1;
-    const PointDistance found = near.piece.distance_from(place);
-    const Vector3d point = place - found.distance * found.gradient;
+    const PointDistance found = near.piece.distance_from(near.place);
+    const Vector3d point = near.place - found.distance * found.gradient;
     const bool is_in_front = std::all_of(planes.begin(), planes.end(), [&](const auto& plane) {
       return plane.normal.dot(point - plane.point) > rounding * within;
     });

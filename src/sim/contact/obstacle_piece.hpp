@@ -36,6 +36,9 @@ class ObstaclePiece {
   /// @param part  in the shape's frame
   ObstaclePiece(const ObstacleShape& shape, const Part& part) : shape_(&shape), part_(part) {}
 
+  /// Where on a segment it is nearest, in [0, 1].
+  double nearest_parameter(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1) const;
+
   /// How far a point is, in the world. As the piece is convex, so is the distance: it never falls
   /// below what its gradient promises.
   PointDistance distance_from(const Eigen::Vector3d& point) const;
@@ -50,9 +53,8 @@ class ObstaclePiece {
 /// other in one plane, or around an edge that points outwards.
 struct NearPiece {
   ObstaclePiece piece;
-  double s;                 ///< parameter on the segment where it is nearest
-  double distance;          ///< there [m]
-  double end_distances[2];  ///< from the ends of the segment [m]
+  double distance;        ///< [m]
+  Eigen::Vector3d place;  ///< where on the segment it is so near [m]
 };
 std::vector<NearPiece> near_pieces(const ObstacleShape& shape, const Eigen::Vector3d& p0,
                                    const Eigen::Vector3d& p1, double within);

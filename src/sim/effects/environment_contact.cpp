@@ -31,14 +31,6 @@ AllowedPair doubled(const AllowedPair& pair) {
   return doubled;
 }
 
-/// 0 where an end of an edge is as near to an obstacle as the edge is, 1 where both are so much
-/// further away that they have no barrier of their own.
-double share_of_edge(const NearPiece& near, double width) {
-  const double nearer_end = std::min(near.end_distances[0], near.end_distances[1]);
-  const double x = std::clamp((nearer_end - near.distance) / width, 0.0, 1.0);
-  return x * x * (3.0 - 2.0 * x);
-}
-
 }  // namespace
 
 EnvironmentContact::EnvironmentContact(std::shared_ptr<const Environment> environment,
@@ -131,25 +123,18 @@ void EnvironmentContact::add(const Rods& rods, const Contact& contact, double wi
   const Barrier barrier = Barrier::around(
       radius, options_.stiffness > 0.0 ? options_.stiffness
                                        : material_contact_stiffness(rods.sections[rod], radius));
+  using Part = ObstacleContact::Part;
+  const Part part = is_edge ? Part::EDGE : is_last ? Part::LAST_NODE : Part::FIRST_NODE;
   const auto add_piece = [&](const NearPiece& near) {
-    const double s = is_edge ? near.s : is_last ? 1.0 : 0.0;
-    const double share = is_edge ? share_of_edge(near, barrier.width()) : 1.0;
-    if (share > 0.0) {
-      found.obstacle_points.push_back(
-          {rod, edge, s, barrier.for_start_at(near.distance), share, near.piece});
-    }
+    found.obstacle_contacts.push_back(
+        {rod, edge, part, barrier.for_start_at(near.distance), near.piece});
   };
-  const Vector3d& p0 = rods.positions[node];
-  const Vector3d& p1 = is_edge ? rods.positions[node + 1] : p0;
   if (shape.is_convex()) {
-    NearPiece near{ObstaclePiece(shape, {}), contact.s, contact.distance + radius, {}};
-    if (is_edge) {
-      near.end_distances[0] = near.piece.distance_from(p0).distance;
-      near.end_distances[1] = near.piece.distance_from(p1).distance;
-    }
-    add_piece(near);
+    add_piece({ObstaclePiece(shape, {}), contact.distance + radius, contact.point_a});
     return;
   }
+  const Vector3d& p0 = rods.positions[node];
+  const Vector3d& p1 = is_edge ? rods.positions[node + 1] : p0;
   for (const NearPiece& near : near_pieces(shape, p0, p1, within)) {
     add_piece(near);
   }

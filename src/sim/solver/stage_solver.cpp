@@ -215,8 +215,8 @@ void StageSolver::split_contacts() {
     }
   };
   give(found_.pairs, &ContactSet::pairs, [](const EdgePair& pair) { return pair.rod_a; });
-  give(found_.obstacle_points, &ContactSet::obstacle_points,
-       [](const ObstaclePoint& point) { return point.rod; });
+  give(found_.obstacle_contacts, &ContactSet::obstacle_contacts,
+       [](const ObstacleContact& contact) { return contact.rod; });
   give(found_.obstacle_edges, &ContactSet::obstacle_edges,
        [](const ObstacleEdge& edge) { return edge.rod; });
 }
@@ -304,8 +304,8 @@ void StageSolver::stiffen_contacts() {
   for (EdgePair& pair : found_.pairs) {
     pair.barrier.scale *= std::max(stiffening_[pair.rod_a], stiffening_[pair.rod_b]);
   }
-  for (ObstaclePoint& point : found_.obstacle_points) {
-    point.barrier.scale *= stiffening_[point.rod];
+  for (ObstacleContact& contact : found_.obstacle_contacts) {
+    contact.barrier.scale *= stiffening_[contact.rod];
   }
 }
 

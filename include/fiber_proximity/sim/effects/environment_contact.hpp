@@ -13,11 +13,12 @@ struct ObstacleShape;
 /// objects: from 1.05 radii on, and never nearer than 0.95 of them.
 ///
 /// Nodes have contacts of their own, so that a rod lying flat rests on all of them; an edge has one
-/// where it is nearer than its ends are, weighted by how much nearer: which point of it, is found
-/// once a step. Of meshes and octrees each triangle or cell counts that is not behind another one.
+/// where it is nearer than its ends are, weighted by how much nearer
+/// (src/sim/contact/obstacle_contact.hpp). Of meshes and octrees each triangle or cell counts that
+/// is not behind another one.
 ///
-/// How far a step may go rests on the convexity of distances for these points, and for edges where
-/// that does not tell on the certified time of contact with the shape.
+/// How far a step may go rests on the convexity of distances, and for edges that come from farther
+/// away on the certified time of contact with the shape.
 class EnvironmentContact : public ContactSource {
  public:
   struct Options {

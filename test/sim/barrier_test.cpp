@@ -1,0 +1,150 @@
+#include "src/sim/contact/barrier.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "src/sim/contact/neighbours.hpp"
+#include "support/random.hpp"
+
+namespace fiber::test {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Barrier random_barrier(Random& random) {
+  return Barrier::around(std::pow(10.0, random.uniform(-5.0, 0.0)),
+                         std::pow(10.0, random.uniform(-3.0, 8.0)));
+}
+
+/// A distance between the inner and the outer one, often near one of them.
+double random_distance(Random& random, const Barrier& barrier) {
+  const double part = random.uniform(0.0, 1.0);
+  const double power = random.chance(0.5) ? 1.0 : 6.0;
+  const double share = random.chance(0.5) ? std::pow(part, power) : 1.0 - std::pow(part, power);
+  return barrier.inner + (0.002 + 0.996 * share) * barrier.width();
+}
+
+TEST(Barrier, HasTheDerivativesOfItsEnergy) {
+  SCOPED_TRACE(seed_message());
+  Random random(1);
+  for (int round = 0; round < 1000; ++round) {
+    const Barrier barrier = random_barrier(random);
+    const double distance = random_distance(random, barrier);
+    const double step = 1e-4 * (distance - barrier.inner);
+    const double slope =
+        (barrier.energy(distance + step) - barrier.energy(distance - step)) / (2.0 * step);
+    const double curvature =
+        (barrier.slope(distance + step) - barrier.slope(distance - step)) / (2.0 * step);
+    const double force = barrier.scale * barrier.width();
+    EXPECT_NEAR(barrier.slope(distance), slope, 1e-6 * (force + std::abs(slope)));
+    EXPECT_NEAR(barrier.curvature(distance), curvature, 1e-6 * (barrier.scale + curvature));
+    EXPECT_GT(barrier.energy(distance), 0.0);
+    EXPECT_LT(barrier.slope(distance), 0.0);
+    EXPECT_GT(barrier.curvature(distance), 0.0);
+  }
+}
+
+TEST(Barrier, IsNoneFromTheOuterDistanceOnAndInfiniteFromTheInnerOneDown) {
+  SCOPED_TRACE(seed_message());
+  Random random(2);
+  for (int round = 0; round < 100; ++round) {
+    const double touching = std::pow(10.0, random.uniform(-5.0, 0.0));
+    const Barrier barrier = Barrier::around(touching, 100.0);
+    EXPECT_NEAR(barrier.inner, 0.95 * touching, 1e-12 * touching);
+    EXPECT_NEAR(barrier.outer, 1.05 * touching, 1e-12 * touching);
+    for (const double distance : {barrier.outer, 1.1 * touching, 1e3 * touching, infinity}) {
+      EXPECT_EQ(barrier.energy(distance), 0.0);
+    }
+    for (const double distance : {barrier.inner, 0.5 * touching, 0.0, -touching}) {
+      EXPECT_EQ(barrier.energy(distance), infinity);
+    }
+    // It begins without a step in energy, slope or curvature, and ends in no finite force.
+    const double before = barrier.outer - 1e-6 * barrier.width();
+    EXPECT_LE(barrier.energy(before), 1e-16 * barrier.scale * touching * touching);
+    EXPECT_LE(std::abs(barrier.slope(before)), 1e-11 * barrier.scale * touching);
+    EXPECT_LE(barrier.curvature(before), 1e-5 * barrier.scale);
+    const double force = barrier.scale * barrier.width();
+    EXPECT_GE(-barrier.slope(barrier.inner + 1e-9 * barrier.width()), 1e8 * force);
+  }
+}
+
+TEST(Barrier, HasItsStiffnessWhereSurfacesMeet) {
+  const Barrier barrier = Barrier::around(0.02, 1234.0);
+  EXPECT_NEAR(barrier.curvature(0.02), 1234.0, 1e-9);
+}
+
+TEST(Barrier, WithLessWeightItBeginsNearerAndNeverLetsNearerThanTheLeastDistance) {
+  const Barrier barrier = Barrier::around(0.02, 100.0);
+  EXPECT_GE(barrier.least(), 0.9 * 0.02);
+  EXPECT_EQ(barrier.felt(0.0201, 1.0), 0.0201);
+  double last = 0.0201;
+  for (const double weight : {0.9, 0.5, 0.1, 0.0}) {
+    const double felt = barrier.felt(0.0201, weight);
+    EXPECT_GT(felt, last) << weight;
+    EXPECT_EQ(barrier.energy(barrier.felt(barrier.outer, weight)), 0.0);
+    EXPECT_NEAR(barrier.felt(0.0201 + 1e-6, weight) - felt, 1e-6 * Barrier::depth_share(weight),
+                1e-15);
+    last = felt;
+  }
+  EXPECT_NEAR(barrier.felt(barrier.least(), 0.0), barrier.inner, 1e-15);
+}
+
+TEST(Barrier, ItsLogarithmIsThatOfTheStandardLibrary) {
+  SCOPED_TRACE(seed_message());
+  Random random(3);
+  for (int round = 0; round < 10000; ++round) {
+    const double x = std::pow(10.0, random.uniform(-300.0, 300.0)) * random.uniform(0.5, 2.0);
+    EXPECT_NEAR(natural_log(x), std::log(x), 4e-16 * std::max(1.0, std::abs(std::log(x)))) << x;
+    const double near_one = 1.0 + random.uniform(-1e-3, 1e-3);
+    EXPECT_NEAR(natural_log(near_one), std::log(near_one),
+                1e-18 + 4e-16 * std::abs(near_one - 1.0));
+  }
+}
+
+TEST(Barrier, ALoadIsAForceInPartsOfWhatItHoldsWell) {
+  SCOPED_TRACE(seed_message());
+  Random random(4);
+  for (int round = 0; round < 100; ++round) {
+    const Barrier barrier = random_barrier(random);
+    const double force = -barrier.slope(barrier.inner + barrier.width() / 3.0);
+    EXPECT_NEAR(barrier.load_of(force), 1.0, 1e-4);
+    EXPECT_NEAR(barrier.load_of(2.0 * force), 2.0, 2e-4);
+  }
+}
+
+TEST(Barrier, WhatBeginsNearerThanTheLeastDistanceMayStayOrPart) {
+  const Barrier barrier = Barrier::around(0.02, 100.0);
+  for (const double distance : {0.0186, 0.0191, 0.02, 0.0209, 0.03}) {
+    const Barrier same = barrier.for_start_at(distance);
+    EXPECT_EQ(same.inner, barrier.inner) << distance;
+    EXPECT_EQ(same.outer, barrier.outer) << distance;
+  }
+  for (const double distance : {barrier.least(), 0.018, 0.001, 1e-9, 0.0, -0.001, -1.0}) {
+    const Barrier moved = barrier.for_start_at(distance);
+    EXPECT_LT(moved.inner, barrier.inner);
+    EXPECT_EQ(moved.outer, barrier.outer);
+    for (const double weight : {0.001, 0.5, 1.0}) {
+      const double felt = moved.felt(distance, weight);
+      EXPECT_TRUE(std::isfinite(moved.energy(felt))) << distance << ", weight " << weight;
+      EXPECT_LT(moved.slope(felt), 0.0) << distance << ", weight " << weight;
+      EXPECT_TRUE(std::isfinite(moved.curvature(felt))) << distance << ", weight " << weight;
+    }
+    // A little farther away, a little less: no step begins with another potential for that.
+    const double farther = barrier.for_start_at(distance + 1e-9).inner;
+    EXPECT_NEAR(farther, moved.inner, 2e-9);
+  }
+}
+
+TEST(ContactStiffness, HoldsAThousandthOfWhatWouldDoubleTheRod) {
+  const RodSection section = solid_round_section({1e9, 4e8, 1000.0}, 0.005);
+  for (const double touching : {0.005, 0.01}) {
+    const double stiffness = material_contact_stiffness(section, touching);
+    const double force = -Barrier::around(touching, stiffness).slope(touching);
+    EXPECT_NEAR(force, 1e-3 * section.stretching_stiffness, 1e-12 * section.stretching_stiffness);
+  }
+}
+
+}  // namespace
+}  // namespace fiber::test

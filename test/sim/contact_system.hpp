@@ -1,0 +1,99 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+#include "fiber_proximity/sim/contacts.hpp"
+#include "src/sim/contact/contact_set.hpp"
+#include "src/sim/solver/step_bound.hpp"
+
+namespace fiber::test {
+
+/// What rods may touch from where they are, if none goes further than some room [m].
+inline ContactSet contacts_of(Contacts& contacts, const Rods& rods, double room = 0.0) {
+  Room around;
+  around.start = rods.positions;
+  around.expected.assign(rods.positions.size(), Eigen::Vector3d::Zero());
+  around.by_rod.assign(rods.count(), room);
+  ContactSet found;
+  for (const std::unique_ptr<ContactSource>& source : contacts.sources()) {
+    source->find(rods, around, found);
+  }
+  return found;
+}
+
+/// Of contacts, and of friction if they have begun with it [J].
+inline double energy_in(ContactSet& contacts, const Rods& rods) {
+  std::vector<EnergySum> energies(1);
+  contacts.measure(rods);
+  contacts.add_energies(rods, std::vector<std::uint32_t>(rods.count(), 0), energies);
+  return energies[0].energy;
+}
+
+/// What contacts add to the equations of all rods, as full vectors and matrices: x, y and z node by
+/// node.
+struct FullSystem {
+  Eigen::VectorXd gradient;
+  Eigen::MatrixXd hessian;
+};
+
+inline FullSystem full_system(ContactSet& contacts, const Rods& rods) {
+  const auto size = static_cast<Eigen::Index>(3 * rods.positions.size());
+  std::vector<PackSystem> packs(rods.count());
+  std::vector<RodSystem> systems;
+  systems.reserve(rods.count());
+  std::vector<RodSystem*> pointers;
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    packs[rod].resize(rods.node_count(rod), 3);
+    packs[rod].set_zero();
+    systems.emplace_back(packs[rod], rod % lane_count);
+    pointers.push_back(&systems.back());
+  }
+  contacts.measure(rods);
+  contacts.find_derivatives(rods);
+  contacts.add_derivatives(rods, pointers, std::vector<std::uint32_t>(rods.count(), 0), 0);
+  FullSystem full{Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size)};
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    const std::size_t first = std::size_t{3} * rods.first(rod);
+    const std::size_t count = packs[rod].size();
+    for (std::size_t c = 0; c < count; ++c) {
+      const auto column = static_cast<Eigen::Index>(first + c);
+      full.gradient[column] = systems[rod].gradient(c);
+      for (std::size_t r = c; r < std::min(count, c + half_bandwidth(3) + 1); ++r) {
+        const auto row = static_cast<Eigen::Index>(first + r);
+        full.hessian(row, column) = full.hessian(column, row) = systems[rod].hessian(r, c);
+      }
+    }
+  }
+  // Unknowns in lanes of their own, node by node.
+  std::vector<std::size_t> places;
+  for (std::size_t node = 0; node < rods.positions.size(); ++node) {
+    places.push_back(3 * node * lane_count);
+  }
+  using Spread = Eigen::Map<Eigen::VectorXd, 0, Eigen::InnerStride<lane_count>>;
+  for (Eigen::Index c = 0; c < size; ++c) {
+    Eigen::VectorXd unit = Eigen::VectorXd::Unit(size * lane_count, c * lane_count);
+    Eigen::VectorXd column = Eigen::VectorXd::Zero(size * lane_count);
+    contacts.add_coupling(places, unit.data(), column.data());
+    full.hessian.col(c) += Spread(column.data(), size);
+  }
+  return full;
+}
+
+/// The gradient of an energy by the positions of rods, by central differences [m].
+template <class Energy>
+Eigen::VectorXd gradient_by_differences(Rods rods, const Energy& energy, double difference) {
+  Eigen::VectorXd gradient(3 * static_cast<Eigen::Index>(rods.positions.size()));
+  for (Eigen::Index i = 0; i < gradient.size(); ++i) {
+    double& x = rods.positions[static_cast<std::size_t>(i / 3)][i % 3];
+    const double middle = x;
+    x = middle + difference;
+    const double after = energy(rods);
+    x = middle - difference;
+    gradient[i] = (after - energy(rods)) / (2.0 * difference);
+    x = middle;
+  }
+  return gradient;
+}
+
+}  // namespace fiber::test
