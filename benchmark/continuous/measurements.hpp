@@ -18,7 +18,7 @@ struct MotionMeasurement {
 
   /// To judge, per family and tolerance; of motions without thickness, whose truth is in rationals,
   /// a hundredth.
-  std::uint32_t count = 120'000;
+  std::uint32_t count = 440'000;
   std::uint32_t threads = 1;  ///< to judge with
 
   std::vector<std::string> kernels = motion_kernel_names();
