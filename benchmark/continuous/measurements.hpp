@@ -43,7 +43,7 @@ void measure_motion_accuracy(const MotionMeasurement& what, const ReportMotionRo
 /// Our answers to the known motions, judged and compared with the truth in the file.
 void measure_known_motions(const MotionMeasurement& what, const ReportMotionRow& report);
 
-/// Decisions and times of all kernels.
+/// Decisions and times of all kernels, on the known motions as well.
 void measure_motion_times(const MotionMeasurement& what, const ReportMotionRow& report);
 
 /// Whole scenes, one state after the other against the motion between them.
