@@ -159,6 +159,22 @@ TEST_P(MotionQueries, ACableThatPassesThroughAnotherBetweenFramesIsCaught) {
   EXPECT_TRUE(result.touching.empty());
 }
 
+TEST_P(MotionQueries, FibersHaveTheLargerOfTheirRadii) {
+  const FiberAssembly thin = crossed_cables(0.1);
+  const FiberAssembly thick(thin.points(), thin.offsets(), {0.04});
+  std::vector<Vector3d> points = thin.points();
+  for (std::size_t i = points.size() / 2; i < points.size(); ++i) {
+    points[i].z() = 0.075;
+  }
+  const FiberAssembly thin_after = with_points(thin, points);
+  const FiberAssembly thick_after = with_points(thick, points);
+  EXPECT_TRUE(ask_motion(thin, thin_after, {}).contacts.empty());
+  const MotionResult grows = ask_motion(thin, thick_after, {});
+  EXPECT_FALSE(grows.contacts.empty());
+  EXPECT_TRUE(same(grows.contacts, ask_motion(thick, thin_after, {}).contacts));
+  EXPECT_TRUE(same(grows.contacts, ask_motion(thick, thick_after, {}).contacts));
+}
+
 TEST_P(MotionQueries, BadInputIsRefused) {
   const FiberAssembly before = crossed_cables(0.1);
   const std::unique_ptr<ProximityEngine> engine = make_engine(GetParam());
