@@ -47,6 +47,7 @@ TEST(EnvironmentMotionRounding, WhatOnlyJustTouchesIsFound) {
     const WideVector end = (1.0L - time) * wide(before[1]) + time * wide(after[1]);
     const long double distance = ((1.0L - s) * start + s * end - center).norm();
     MotionOptions options;
+    options.tolerance = 0.0;
     options.margin = std::nextafter(static_cast<double>(distance - ball_radius - radius), 2.0);
     const MotionResult result = ask({object}, cable(before, radius), cable(after, radius), options);
     ASSERT_EQ(result.contacts.size(), 1U) << round;

@@ -187,7 +187,7 @@ TEST(RigidContactTime, WhatOnlyJustTouchesFarAwayIsFound) {
     const long double distance = std::abs(offset.dot(normal)) / normal.norm();
     const double reach =
         std::nextafter(static_cast<double>(distance), 2.0 * static_cast<double>(distance));
-    const ContactTime time = contact_time(rod, ball, {reach, 0.0, 0.0}, 1e-4);
+    const ContactTime time = contact_time(rod, ball, {reach, 0.0, 0.0}, 1e-12);
     ASSERT_TRUE(time.hit) << round;
   }
 }
