@@ -167,8 +167,9 @@ void add_motions_command(CLI::App& app, Command& command) {
       ->delimiter(',')
       ->check(finite_number(0.0))
       ->capture_default_str();
-  motions->add_option("--known", what.known,
-                      "file of motions that somebody else knows: set,truth and 24 numbers a line");
+  motions->add_option(
+      "--known", what.known,
+      "file of motions that somebody else knows, for two parts: set,truth and 24 numbers a line");
   motions->add_flag("--json", request->json, "JSON Lines instead of tables");
 }
 

@@ -4,7 +4,10 @@ add_library(fiber_bench_motions STATIC
   benchmark/continuous/decision_score.cpp
   benchmark/continuous/known_motions.cpp
   benchmark/continuous/motion_accuracy.cpp
+  benchmark/continuous/motion_oracle.cpp
   benchmark/continuous/motion_score.cpp
+  benchmark/continuous/motion_separation.cpp
+  benchmark/continuous/time_polynomial.cpp
 )
 target_include_directories(fiber_bench_motions PUBLIC benchmark)
 target_link_libraries(fiber_bench_motions

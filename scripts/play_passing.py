@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Plays a cable that swings through another one, four frames a second: no frame shows them touch.
+"""Plays a cable that jumps through another one with every message: none shows them touch.
 
 Publishes both as a FiberArray on ~topic (/passing/fibers), and where they were in the frame before on
 /passing/before, for the picture.
@@ -11,8 +11,8 @@ from geometry_msgs.msg import Point
 
 POINTS = 40
 RADIUS = 0.004  # [m]
-RATE = 4.0  # [Hz]
-FRAMES = 12  # of a swing
+RATE = 2.0  # [Hz]
+HEIGHT = 0.09  # [m] of the jumping cable above and below the other one
 
 
 def still_cable():
@@ -21,16 +21,16 @@ def still_cable():
     return numpy.stack([0.4 * t, 0.05 * numpy.sin(3.0 * t), 0.06 * t ** 2], axis=-1)
 
 
-def swinging_cable(frame):
-    """Points of a cable across it, which swings up and down [m]."""
+def jumping_cable(frame):
+    """Points of a cable across it, which is above it and below it in turns [m]."""
     t = numpy.linspace(-1.0, 1.0, POINTS)
-    height = 0.16 * numpy.cos(2.0 * numpy.pi * (frame + 0.5) / FRAMES)
+    height = HEIGHT if frame % 2 == 0 else -HEIGHT
     return numpy.stack([0.08 + 0.05 * numpy.sin(2.0 * t), 0.35 * t, height * (1.0 - t ** 2) + 0.02],
                        axis=-1)
 
 
 def message_of(cables, stamp):
-    message = FiberArray(offsets=[0], radii=[RADIUS], names=["still", "swinging"])
+    message = FiberArray(offsets=[0], radii=[RADIUS], names=["still", "jumping"])
     message.header.frame_id = "world"
     message.header.stamp = stamp
     for points in cables:
@@ -47,8 +47,8 @@ def main():
     frame = 0
     while not rospy.is_shutdown():
         stamp = rospy.Time.now()
-        before.publish(message_of([still_cable(), swinging_cable(frame - 1)], stamp))
-        publisher.publish(message_of([still_cable(), swinging_cable(frame)], stamp))
+        before.publish(message_of([still_cable(), jumping_cable(frame - 1)], stamp))
+        publisher.publish(message_of([still_cable(), jumping_cable(frame)], stamp))
         frame += 1
         try:
             rate.sleep()

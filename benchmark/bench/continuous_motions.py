@@ -42,7 +42,7 @@ class MotionsRun:
 
 
 # The parts about pairs.
-FULL = {"times": "--timed 1000 --repeats 11", "accuracy": "--threads 2", "known": ""}
+FULL = {"times": "--timed 4000 --repeats 11", "accuracy": "--threads 2", "known": ""}
 QUICK = {"times": "--timed 100 --repeats 3", "accuracy": "--count 500 --threads 2", "known": ""}
 
 
@@ -57,7 +57,8 @@ def plan(quick):
     """Without the public motions where they are not."""
     known = public_motions()
     options = QUICK if quick else FULL
-    return [MotionsRun(part, options[part], str(known) if part == "known" else "")
+    path = str(known) if known.exists() else ""
+    return [MotionsRun(part, options[part], path if part != "accuracy" else "")
             for part in options if part != "known" or known.exists()]
 
 
@@ -104,8 +105,10 @@ def by_tolerance(rows):
 
 
 def with_group(row):
-    """Adds `group`: translations, which other libraries can answer, and others; of each those
-    apart that only just touch."""
+    """Adds `group`: the known motions; translations, which other libraries can answer, and others;
+    of each those apart that only just touch."""
+    if row["family"] == "known":
+        return {"group": "known motions", **row}
     kind = "translations" if row["translations"] == row["motions"] else "other motions"
     is_hard = any(fnmatch.fnmatchcase(row["family"], pattern) for pattern in HARD)
     return {"group": f"grazing {kind}" if is_hard else kind, **row}

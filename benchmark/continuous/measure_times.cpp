@@ -1,3 +1,4 @@
+#include "continuous/known_motions.hpp"
 #include "continuous/measurements.hpp"
 #include "continuous/motion_times.hpp"
 #include "pairs/chosen_families.hpp"
@@ -11,6 +12,27 @@ struct Question {
   std::string kernel;
   double tolerance;
 };
+
+/// Motions that all are asked about together.
+struct NamedMotions {
+  std::string name;
+  std::vector<HardMotion> motions;
+};
+
+/// Those of the file first, if there is one.
+void for_each_group(const MotionMeasurement& what,
+                    const std::function<void(const NamedMotions&)>& use) {
+  if (!what.known.empty()) {
+    NamedMotions known{"known", {}};
+    for (const KnownMotion& each : read_known_motions(what.known)) {
+      known.motions.push_back(each.motion);
+    }
+    use(known);
+  }
+  for (const MotionFamily& family : chosen_families(motion_families(), what.families)) {
+    use({family.name, hard_motions(family, what.timed, what.seed)});
+  }
+}
 
 /// Each kernel with the one tolerance, and the first of those that keep any with all others, too.
 std::vector<Question> questions_of(const MotionMeasurement& what) {
@@ -43,12 +65,12 @@ MotionRow time_or_null(const std::optional<double>& time) {
   return time ? MotionRow(*time) : MotionRow();
 }
 
-MotionRow row_of(const MotionMeasurement& what, const std::string& family, const Question& question,
+MotionRow row_of(const MotionMeasurement& what, const NamedMotions& group, const Question& question,
                  const MotionResult& result) {
   const DecisionScore& score = result.score;
-  return {{"family", family},
+  return {{"family", group.name},
           {"seed", what.seed},
-          {"motions", what.timed},
+          {"motions", group.motions.size()},
           {"repeats", what.repeats},
           {"kernel", question.kernel},
           {"tolerance", question.tolerance},
@@ -75,19 +97,19 @@ MotionRow row_of(const MotionMeasurement& what, const std::string& family, const
 
 void measure_motion_times(const MotionMeasurement& what, const ReportMotionRow& report) {
   const std::vector<Question> questions = questions_of(what);
-  for (const MotionFamily& family : chosen_families(motion_families(), what.families)) {
-    const std::vector<HardMotion> motions = hard_motions(family, what.timed, what.seed);
-    const double extent = median_extent(motions);
+  for_each_group(what, [&](const NamedMotions& group) {
+    const double extent = median_extent(group.motions);
     std::vector<MotionContestant> contestants;
     for (const Question& question : questions) {
       contestants.push_back({[question] { return make_motion_kernel(question.kernel); },
                              question.tolerance * extent});
     }
-    const std::vector<MotionResult> results = motion_results(motions, contestants, what.repeats);
+    const std::vector<MotionResult> results =
+        motion_results(group.motions, contestants, what.repeats);
     for (std::size_t i = 0; i < results.size(); ++i) {
-      report(row_of(what, family.name, questions[i], results[i]));
+      report(row_of(what, group, questions[i], results[i]));
     }
-  }
+  });
 }
 
 }  // namespace fiber::bench

@@ -23,10 +23,7 @@ struct MotionScore {
   MotionScore& operator+=(const MotionScore& more);
 };
 
-/// Judges the answer to one motion. The truth shares no formula with the kernel: distances of the
-/// textbook's normal equations in 64 bits, on smaller and smaller pieces of the motion until the
-/// speed of the ends or a plane that stands still rules a contact out, and exact rationals where
-/// these are not enough.
+/// Judges the answer to one motion by MotionOracle.
 MotionScore judge(const HardMotion& motion, double tolerance, const ContactTime& answer);
 
 /// The largest difference of coordinates between points of the two capsules [m].

@@ -15,6 +15,7 @@
 #include "fiber_proximity/environment/environment.hpp"
 #include "fiber_proximity/geometry/swept_fibers.hpp"
 #include "fiber_proximity/query/contact_judge.hpp"
+#include "fiber_proximity/query/narrow_contact_time.hpp"
 #include "fiber_proximity/text/quote.hpp"
 #include "shape_motion.hpp"
 
@@ -162,7 +163,9 @@ void EnvironmentMotion::judge(std::uint64_t key, MotionSlice& slice) const {
     slice.touching.push_back(contact);
     return;
   }
-  const ContactTime time = contact_time(moving, limit, options_.tolerance);
+  const auto ask = [&](double tolerance) { return contact_time(moving, limit, tolerance); };
+  ContactTime time = ask(options_.tolerance);
+  narrow(time, options_, ask);
   if (time.hit) {
     contact.lower = time.lower;
     contact.upper = time.upper;

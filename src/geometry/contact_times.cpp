@@ -8,7 +8,8 @@
 #include <string>
 
 #include "fiber_proximity/geometry/contact_time.hpp"
-#include "src/geometry/segment_distance-inl.hpp"
+#include "src/geometry/first_look-inl.hpp"
+#include "src/geometry/motion_lanes-inl.hpp"
 #include "src/geometry/segment_motion-inl.hpp"
 #include "src/geometry/wide_contact_time.hpp"
 
@@ -17,173 +18,8 @@ namespace fiber {
 namespace HWY_NAMESPACE {
 namespace {
 
-using Doubles = LaneNumber::Tag;
-using Nearest = LaneDistance<Doubles>;
 using Motion = SegmentMotion<double>;
 using State = Advancement<double>::State;
-
-constexpr std::size_t most_lanes = hn::MaxLanes(Doubles());
-
-/// Of coordinates and limit (docs/numerics.md).
-constexpr double roundings = 0x1p-46;
-
-Parallelogram<LaneNumber> load(const double (&values)[12][most_lanes]) {
-  const Doubles d;
-  Parallelogram<LaneNumber> result;
-  for (std::size_t corner = 0; corner < 4; ++corner) {
-    result.corners[corner / 2][corner % 2] = {LaneNumber(hn::Load(d, values[3 * corner])),
-                                              LaneNumber(hn::Load(d, values[3 * corner + 1])),
-                                              LaneNumber(hn::Load(d, values[3 * corner + 2]))};
-  }
-  return result;
-}
-
-Nearest::Vector lanes_of(const NumberVector<LaneNumber>& vector) {
-  return {vector.x.lanes, vector.y.lanes, vector.z.lanes};
-}
-
-HWY_INLINE MotionLook<LaneNumber> look_in_lanes(const Parallelogram<LaneNumber>& now,
-                                                const Parallelogram<LaneNumber>& rate,
-                                                LaneNumber limit, LaneNumber error) {
-  const Nearest nearest({lanes_of(now.along_a()), lanes_of(now.along_b()),
-                         lanes_of(now.corners[0][0]), lanes_of(now.corners[1][0]),
-                         lanes_of(now.corners[0][1])});
-  return look_at(now, rate, LaneNumber(nearest.s), LaneNumber(nearest.t), limit, error);
-}
-
-/// The look at time 0, which shows for most pairs that they never come into contact.
-class FirstLook {
- public:
-  /// @param count from 1 to the number of lanes
-  FirstLook(const SegmentMotions* motions, std::size_t count) {
-    for (std::size_t lane = 0; lane < hn::Lanes(Doubles()); ++lane) {
-      const SegmentMotions& pair = motions[std::min(lane, count - 1)];
-      read(pair.a_before, lane, a_before_);
-      read(pair.a_after, lane, a_after_);
-      read(pair.b_before, lane, b_before_);
-      read(pair.b_after, lane, b_after_);
-      limit_[lane] = pair.limit.radius_a + pair.limit.radius_b + pair.limit.margin;
-    }
-  }
-
-  /// Bits of the pairs that are to be looked at more closely.
-  std::uint64_t open_bits() const {
-    const Doubles d;
-    const LaneNumber limit(hn::Load(d, limit_));
-    const Parallelogram<LaneNumber> start = differences(a_before_, b_before_);
-    const Parallelogram<LaneNumber> end = differences(a_after_, b_after_);
-    NumberVector<LaneNumber> least = start.corners[0][0];
-    NumberVector<LaneNumber> most = least;
-    Parallelogram<LaneNumber> rate;
-    for (int i = 0; i < 2; ++i) {
-      for (int j = 0; j < 2; ++j) {
-        rate.corners[i][j] = end.corners[i][j] - start.corners[i][j];
-        least = smaller(smaller(least, start.corners[i][j]), end.corners[i][j]);
-        most = larger(larger(most, start.corners[i][j]), end.corners[i][j]);
-      }
-    }
-    const LaneNumber largest = larger(larger(larger(-least.x, most.x), larger(-least.y, most.y)),
-                                      larger(-least.z, most.z));
-    const LaneNumber error = LaneNumber(roundings) * (largest + limit);
-    const LaneNumber reach = limit + error;
-    const LaneNumber gap = larger(larger(larger(least.x, -most.x), larger(least.y, -most.y)),
-                                  larger(least.z, -most.z));
-    const auto is_in_range = hn::And(LaneNumber(least_distance_scale) < largest,
-                                     largest < LaneNumber(largest_distance_scale));
-    const auto is_apart = hn::And(is_in_range, reach < gap);
-    if (hn::AllTrue(d, is_apart)) {
-      return 0;
-    }
-    const MotionLook<LaneNumber> look = look_in_lanes(start, rate, limit, error);
-    const auto is_free = hn::And(is_in_range, LaneNumber(1.0) < look.free);
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(d, hn::Not(hn::Or(is_apart, is_free)), bits);
-    return bits[0];
-  }
-
- private:
-  using Ends = double[6][most_lanes];
-
-  static void read(const Eigen::Vector3d* ends, std::size_t lane, Ends& values) {
-    const double* const coordinates = ends->data();
-    for (std::size_t i = 0; i < 6; ++i) {
-      values[i][lane] = coordinates[i];
-    }
-  }
-
-  static NumberVector<LaneNumber> end(const Ends& values, int which) {
-    const Doubles d;
-    return {LaneNumber(hn::Load(d, values[3 * which])),
-            LaneNumber(hn::Load(d, values[3 * which + 1])),
-            LaneNumber(hn::Load(d, values[3 * which + 2]))};
-  }
-
-  static Parallelogram<LaneNumber> differences(const Ends& a, const Ends& b) {
-    Parallelogram<LaneNumber> result;
-    for (int i = 0; i < 2; ++i) {
-      for (int j = 0; j < 2; ++j) {
-        result.corners[i][j] = end(a, i) - end(b, j);
-      }
-    }
-    return result;
-  }
-
-  alignas(64) Ends a_before_;
-  alignas(64) Ends a_after_;
-  alignas(64) Ends b_before_;
-  alignas(64) Ends b_after_;
-  alignas(64) double limit_[most_lanes];
-};
-
-/// What is looked at more closely, a pair a lane: coordinate by coordinate, then lane.
-class alignas(64) LaneMotions {
- public:
-  void set(std::size_t lane, const Motion& motion) {
-    for (std::size_t corner = 0; corner < 4; ++corner) {
-      store(motion.start.corners[corner / 2][corner % 2], 3 * corner, lane, start_);
-      store(motion.rate.corners[corner / 2][corner % 2], 3 * corner, lane, rate_);
-    }
-    limit_[lane] = motion.limit;
-    error_[lane] = motion.error;
-  }
-
-  void set_time(std::size_t lane, double time) { time_[lane] = time; }
-
-  /// Looks at all lanes.
-  void look() {
-    const Doubles d;
-    const Parallelogram<LaneNumber> rate = load(rate_);
-    const auto now = moved(load(start_), rate, LaneNumber(hn::Load(d, time_)));
-    const MotionLook<LaneNumber> look =
-        look_in_lanes(now, rate, LaneNumber(hn::Load(d, limit_)), LaneNumber(hn::Load(d, error_)));
-    hn::Store(look.distance.lanes, d, distance_);
-    hn::Store(look.closing.lanes, d, closing_);
-    hn::Store(look.free.lanes, d, free_);
-  }
-
-  MotionLook<double> look_of(std::size_t lane) const {
-    return {distance_[lane], closing_[lane], free_[lane]};
-  }
-
- private:
-  using Values = double[12][most_lanes];
-
-  static void store(const NumberVector<double>& vector, std::size_t row, std::size_t lane,
-                    Values& values) {
-    values[row][lane] = vector.x;
-    values[row + 1][lane] = vector.y;
-    values[row + 2][lane] = vector.z;
-  }
-
-  Values start_ = {};
-  Values rate_ = {};
-  double limit_[most_lanes] = {};
-  double error_[most_lanes] = {};
-  double time_[most_lanes] = {};
-  double distance_[most_lanes] = {};
-  double closing_[most_lanes] = {};
-  double free_[most_lanes] = {};
-};
 
 bool touch_before(const SegmentMotions& pair) {
   return gap_at_most(pair.a_before[0], pair.a_before[1], pair.b_before[0], pair.b_before[1],
@@ -199,19 +35,23 @@ class ContactTimes {
   ContactTimes(const SegmentMotions* motions, double tolerance, ContactTime* times)
       : motions_(motions), tolerance_(tolerance), times_(times) {}
 
-  void add(std::size_t pair) { pairs_[count_++] = pair; }
+  /// @param look at time 0
+  void add(std::size_t pair, const MotionLook<double>& look) { open_[count_++] = {pair, look}; }
 
   void find() {
-    const std::size_t lanes = hn::Lanes(Doubles());
+    const std::size_t lanes = hn::Lanes(MotionTag());
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       begin(lane);
     }
     while (busy_count_ > 0) {
       lanes_.look();
       for (std::size_t lane = 0; lane < lanes; ++lane) {
-        if (ways_[lane].is_busy && !go_on(lane)) {
+        Way& way = ways_[lane];
+        if (way.is_busy && !go_on(way, lanes_.look_of(lane))) {
           --busy_count_;
           begin(lane);
+        } else {
+          lanes_.set_time(lane, way.advancement.time());
         }
       }
     }
@@ -226,25 +66,32 @@ class ContactTimes {
     bool is_busy = false;
   };
 
-  /// Puts the next pair into a lane, if there is one.
+  struct OpenPair {
+    std::size_t pair;
+    MotionLook<double> look;  // at time 0
+  };
+
+  /// Puts the next pair into a lane that wants another look, if there is one.
   void begin(std::size_t lane) {
     Way& way = ways_[lane];
-    way.is_busy = next_ < count_;
-    if (way.is_busy) {
-      way.pair = pairs_[next_++];
-      way.motion = Motion(motions_[way.pair], tolerance_, roundings);
+    way.is_busy = false;
+    while (!way.is_busy && next_ < count_) {
+      const OpenPair& open = open_[next_++];
+      way.pair = open.pair;
+      way.motion = Motion(motions_[way.pair], tolerance_, motion_roundings);
       way.advancement = Advancement<double>(0.0, false);
+      way.is_busy = go_on(way, open.look);
+    }
+    if (way.is_busy) {
       lanes_.set(lane, way.motion);
-      lanes_.set_time(lane, 0.0);
+      lanes_.set_time(lane, way.advancement.time());
       ++busy_count_;
     }
   }
 
-  /// Takes what has been seen in a lane; whether it wants another look.
-  bool go_on(std::size_t lane) {
-    Way& way = ways_[lane];
+  /// Takes what has been seen of a pair; whether it wants another look.
+  bool go_on(Way& way, const MotionLook<double>& look) {
     ContactTime& result = times_[way.pair];
-    const MotionLook<double> look = lanes_.look_of(lane);
     if (way.advancement.time() == 0.0 && !(look.free > 0.0) && touch_before(motions_[way.pair])) {
       result = {true, 0.0, 0.0, true};
       return false;
@@ -258,7 +105,6 @@ class ContactTimes {
         result = wide_contact_time(motions_[way.pair], tolerance_, way.advancement.time());
         return false;
       default:
-        lanes_.set_time(lane, way.advancement.time());
         return true;
     }
   }
@@ -267,8 +113,8 @@ class ContactTimes {
   const SegmentMotions* const motions_;
   const double tolerance_;  // [m]
   ContactTime* const times_;
-  Way ways_[most_lanes];
-  std::size_t pairs_[pairs_at_a_time];
+  Way ways_[most_motion_lanes];
+  OpenPair open_[pairs_at_a_time];
   std::size_t count_ = 0;
   std::size_t next_ = 0;
   std::size_t busy_count_ = 0;
@@ -276,17 +122,18 @@ class ContactTimes {
 
 void contact_times_lanes(const SegmentMotions* motions, std::size_t count, double tolerance,
                          ContactTime* times) {
-  const std::size_t lanes = hn::Lanes(Doubles());
+  const std::size_t lanes = hn::Lanes(MotionTag());
   for (std::size_t begin = 0; begin < count; begin += pairs_at_a_time) {
     const std::size_t end = std::min(count, begin + pairs_at_a_time);
     ContactTimes open(motions, tolerance, times);
     for (std::size_t first = begin; first < end; first += lanes) {
       const std::size_t size = std::min(lanes, end - first);
-      std::uint64_t bits = FirstLook(motions + first, size).open_bits();
+      FirstLook look(motions + first, size);
+      std::uint64_t bits = look.look();
       for (std::size_t lane = 0; lane < size; ++lane, bits >>= 1U) {
         times[first + lane] = ContactTime();
         if ((bits & 1U) != 0) {
-          open.add(first + lane);
+          open.add(first + lane, look.look_of(lane));
         }
       }
     }

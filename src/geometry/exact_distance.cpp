@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "src/geometry/exact_numbers.hpp"
+#include "src/geometry/wide_gap.hpp"
 
 namespace fiber {
 namespace {
@@ -142,7 +143,8 @@ bool gap_at_most(const SegmentDistance& robust, const Vector3d& p0, const Vector
   if (std::abs(gap) > error + 0x1p-51 * robust.distance) {
     return gap < 0.0;
   }
-  return exact_gap_at_most(p0, p1, q0, q1, limit);
+  const std::optional<bool> wide = wide_gap_at_most(robust, p0, p1, q0, q1, limit);
+  return wide ? *wide : exact_gap_at_most(p0, p1, q0, q1, limit);
 }
 
 bool gap_at_most(const Vector3d& p0, const Vector3d& p1, const Vector3d& q0, const Vector3d& q1,

@@ -21,6 +21,19 @@ HWY_BEFORE_NAMESPACE();
 namespace fiber {
 namespace HWY_NAMESPACE {
 
+/// Than all corners in the units that they are computed in, and no infinity.
+constexpr double longest_limit = 0x1p1000;
+
+/// What lengths are multiplied with, a power of two: 1 where fourth powers of the largest
+/// coordinate stay in the range of double.
+inline double scale_of(double largest) {
+  if (largest == 0.0 || (largest > least_distance_scale && largest < largest_distance_scale)) {
+    return 1.0;
+  }
+  constexpr int largest_exponent = 1000;
+  return std::ldexp(1.0, std::min(-std::ilogb(largest), largest_exponent));
+}
+
 /// What contact_time() is asked, in numbers of this kind. Lengths are in metres, or where fourth
 /// powers of these leave the range of double, in a power of two of them.
 template <class Number>
@@ -50,10 +63,8 @@ class SegmentMotion {
         enclose(end);
       }
     }
-    const auto extent = static_cast<double>(largest());
-    if (extent > 0.0 && !(extent > least_distance_scale && extent < largest_distance_scale)) {
-      constexpr int largest_exponent = 1000;
-      scale(std::ldexp(1.0, std::min(-std::ilogb(extent), largest_exponent)));
+    if (const double factor = scale_of(static_cast<double>(largest())); factor != 1.0) {
+      scale(factor);
     }
     error = Number(roundings) * (largest() + limit);
   }
@@ -81,7 +92,7 @@ class SegmentMotion {
       }
     }
     for (Number* length : {&limit, &tolerance}) {
-      *length = smaller(unit * *length, Number(longest));
+      *length = smaller(unit * *length, Number(longest_limit));
     }
     least_ = unit * least_;
     most_ = unit * most_;
@@ -91,7 +102,6 @@ class SegmentMotion {
     return Vector{Number(a.x()), Number(a.y()), Number(a.z())} -
            Vector{Number(b.x()), Number(b.y()), Number(b.z())};
   }
-  static constexpr double longest = 0x1p1000;  // than all corners, and no infinity
 
   Vector least_;  // of all corners, before and after
   Vector most_;

@@ -42,6 +42,10 @@ void validate(const MotionOptions& options) {
   QueryOptions pairs = pairs_of(options);
   pairs.tolerance = options.tolerance;
   validate(pairs);
+  if (!(options.time_tolerance >= 0.0)) {
+    throw std::invalid_argument("time_tolerance is " + std::to_string(options.time_tolerance) +
+                                ", it must be at least 0 (infinity for none)");
+  }
   if (options.type == MotionType::LIMITED && options.max_contacts == 0) {
     throw std::invalid_argument("max_contacts is 0, a limited query needs at least 1");
   }

@@ -4,6 +4,7 @@
 
 #include "fiber_proximity/geometry/contact_time.hpp"
 #include "fiber_proximity/query/contact_judge.hpp"
+#include "fiber_proximity/query/narrow_contact_time.hpp"
 #include "src/query/for_each_of.hpp"
 
 namespace fiber {
@@ -30,6 +31,8 @@ class MotionTest {
     contact_times(motions, count, options_.tolerance, times);
     for (std::size_t i = 0; i < count; ++i) {
       const PointPair pair = pair_of(keys[i]);
+      narrow(times[i], options_,
+             [&](double tolerance) { return contact_time(motions[i], tolerance); });
       // Few come so far: whether a fibre makes a loop costs more than when it has contact.
       if (times[i].hit && !test_.lacks_loop(pair)) {
         (is_there_before(times[i]) ? slice.touching : slice.contacts)

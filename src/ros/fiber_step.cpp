@@ -22,19 +22,23 @@ ros::Time to_stamp(std::chrono::nanoseconds time) {
   return ros::Time().fromNSec(static_cast<std::uint64_t>(std::max<std::int64_t>(time.count(), 0)));
 }
 
-void FiberStep::advance(InputSet& inputs, bool keeps_fibers) {
-  std::swap(before_, after_);
-  after_.has_fibers = keeps_fibers && inputs.is_fresh();
-  after_.stamps.clear();
+void read_state(InputSet& inputs, bool keeps_fibers, FiberState& state) {
+  state.has_fibers = keeps_fibers && inputs.is_fresh();
+  state.stamps.clear();
   for (const std::unique_ptr<Input>& input : inputs.inputs()) {
-    after_.stamps.push_back(input->is_fresh() ? std::optional(input->stamp()) : std::nullopt);
+    state.stamps.push_back(input->is_fresh() ? std::optional(input->stamp()) : std::nullopt);
   }
-  stamp_ = to_time(inputs.header().stamp);
-  time_ = {stamp_, stamp_};
-  if (after_.has_fibers) {
-    after_.fibers = inputs.fibers();
-    after_.names = inputs.names();
+  state.stamp = inputs.header().stamp;
+  if (state.has_fibers) {
+    state.fibers = inputs.fibers();
+    state.names = inputs.names();
   }
+}
+
+void FiberStep::advance(FiberState& newest) {
+  std::swap(before_, after_);
+  std::swap(after_, newest);
+  stand_still();
   is_motion_ = false;
   problem_.clear();
   if (before_.has_fibers && after_.has_fibers) {
@@ -49,7 +53,12 @@ void FiberStep::refuse(const std::string& problem) {
   is_motion_ = false;
   problem_ = problem;
   ++problem_count_;
-  time_ = {stamp_, stamp_};
+  stand_still();
+}
+
+void FiberStep::stand_still() {
+  const std::chrono::nanoseconds stamp = to_time(after_.stamp);
+  time_ = {stamp, stamp};
 }
 
 /// Finds when what happened.
@@ -64,7 +73,8 @@ std::string FiberStep::find_motion() {
   auto begin = ros::Time(ros::TIME_MAX);
   ros::Time end;
   for (std::size_t i = 0; i < after_.stamps.size(); ++i) {
-    if (after_.stamps[i] && after_.stamps[i] != before_.stamps[i]) {
+    // One that was not there before has no fibres: with any, they would be others.
+    if (before_.stamps[i] && after_.stamps[i] && after_.stamps[i] != before_.stamps[i]) {
       begin = std::min(begin, *before_.stamps[i]);
       end = std::max(end, *after_.stamps[i]);
     }

@@ -37,6 +37,7 @@ void PredictionOutput::publish(const fiber::QueryOptions& options,
   try {
     predict(options, environment);
   } catch (const std::invalid_argument& error) {
+    message_.same_fiber = message_.different_fibers = message_.environment = PredictedContact();
     message_.problem = error.what();
     ROS_WARN_STREAM_THROTTLE(1.0, "time_to_contact: " << message_.problem);
   }

@@ -97,7 +97,8 @@ void ProximityServer::tick() {
 
 void ProximityServer::publish() {
   detector_.set_fibers(inputs_.fibers());
-  step_.advance(inputs_, config_.continuous);
+  read_state(inputs_, config_.continuous, newest_state_);
+  step_.advance(newest_state_);
   crossings_.forget();
   statistics_.begin();
   statistics_.add_part("merge", inputs_.take_work_time());

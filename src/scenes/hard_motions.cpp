@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "fiber_proximity/geometry/segment_distance.hpp"
@@ -166,6 +167,35 @@ MotionFamily crossing_family(const std::string& name, bool at_end) {
           }};
 }
 
+/// Two segments without thickness of which one passes below the other, nearest where it meets it
+/// but for 2⁻²⁰ to 2⁻⁶⁰ m: they do not cross, though by how little goes under in roundings.
+MotionFamily nearly_crossing_family(const std::string& name) {
+  return {name, [](Random& random) {
+            const Vector3d x = random.direction();
+            const Vector3d any = random.direction();
+            const Vector3d y = any.cross(x) / std::sqrt(Random::squared_length(any.cross(x)));
+            const Vector3d z = x.cross(y);
+            const double meeting = random.uniform(0.2, 0.8);
+            const double part_a = random.uniform(0.2, 0.8);
+            const double part_b = random.uniform(0.3, 0.7);
+            const double speed = random.uniform(0.05, 0.2);
+            const double tilt = random.uniform(0.1, 1.0);
+            const double below =
+                std::ldexp(-1.0, -20 - static_cast<int>(random.uniform(0.0, 41.0)));
+            // One along x that goes along y, and one along y that tilts: at y it is y² above it.
+            HardMotion motion;
+            for (const auto& [time, a, b] :
+                 {std::tuple(-meeting, motion.a_before.data(), motion.b_before.data()),
+                  std::tuple(1.0 - meeting, motion.a_after.data(), motion.b_after.data())}) {
+              a[0] = -part_a * x + speed * time * y + below * z;
+              a[1] = a[0] + x;
+              b[0] = -part_b * (y + tilt * time * z);
+              b[1] = b[0] + (y + tilt * time * z);
+            }
+            return motion;
+          }};
+}
+
 void stay(MovingPart& part) { part.turn = Vector3d::Zero(); }
 
 void make_parallel(MovingParts& parts, Random& random) {
@@ -265,6 +295,7 @@ void append_grazing(std::vector<MotionFamily>& all) {
   all.push_back(touching_family("touching after", 1.0));
   all.push_back(crossing_family("crossing", false));
   all.push_back(crossing_family("crossing at an end", true));
+  all.push_back(nearly_crossing_family("crossing, but for a rounding"));
 }
 
 }  // namespace

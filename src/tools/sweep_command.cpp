@@ -98,6 +98,11 @@ void add_sweep(CLI::App& app, Command& command) {
                    "pairs that come within the margin and this may be reported [m]")
       ->capture_default_str();
   sweep
+      ->add_option("--time-tolerance", request->motion.time_tolerance,
+                   "bounds on times that are further apart than this part of a step are brought "
+                   "nearer; inf: as the tolerance makes them")
+      ->capture_default_str();
+  sweep
       ->add_option_function<std::string>(
           "--type",
           [request](const std::string& type) {

@@ -56,6 +56,7 @@ if part == "times":
         row(**{{**TIME, "family": family, "tolerance": 1e-9, "hit_ns": 700.0}})
         row(**{{**TIME, "family": family, "kernel": "fcl_advancement", "answered": 99, "ended": 1,
                "misses": 4, "rejected_ns": 5000.0, "hit_ns": 3000.0}})
+    row(**{{**TIME, "family": "known", "translations": 0, "rejected_ns": 20.0}})
     row(**{{**TIME, "family": "random", "translations": 0, "rejected_ns": 60.0}})
     row(**{{**TIME, "family": "random", "kernel": "fcl_advancement", "translations": 0,
            "answerable": 0, "answered": 0, "rejected": 0, "rejected_ns": None, "hits": 0,
@@ -94,16 +95,17 @@ class ContinuousTest(BenchTestCase):
         self.printed_by(run, quick=True)
         self.printed_by(run, quick=True)
         times, accuracy, known, scenes = self.calls()
-        self.assertEqual(times, "motions --parts times --timed 100 --repeats 3 --json")
+        path = f"{self.folder}/shared/data/edge_motions_public.csv"
+        self.assertEqual(times, f"motions --parts times --timed 100 --repeats 3 --json --known {path}")
         self.assertEqual(accuracy, "motions --parts accuracy --count 500 --threads 2 --json")
-        self.assertEqual(known, "motions --parts known --json --known "
-                         f"{self.folder}/shared/data/edge_motions_public.csv")
+        self.assertEqual(known, f"motions --parts known --json --known {path}")
         self.assertEqual(scenes, "motions --parts scenes --scale 0.02 --repeats 3 --json")
 
     def test_without_the_public_motions_that_part_is_left_out(self):
         (self.folder / "shared" / "data" / "edge_motions_public.csv").unlink()
         self.printed_by(run, quick=False)
         self.assertEqual([call.split()[2] for call in self.calls()], ["times", "accuracy", "scenes"])
+        self.assertEqual(self.calls()[0], "motions --parts times --timed 4000 --repeats 11 --json")
         self.assertEqual(self.calls()[1], "motions --parts accuracy --threads 2 --json")
 
     def test_the_table_of_accuracy_adds_up_families(self):
@@ -124,10 +126,15 @@ class ContinuousTest(BenchTestCase):
 
     def test_who_knows_no_such_motion_has_no_row(self):
         table = self.out_of_quick("times.md")
-        self.assertIn("| other motions | `own` |", table)
+        self.assertIn("| other motions | `own` | 1e-06 | 100 | 20 | 0 | 0 | 0 | 0 | 0 | 0 | 0 | 60 |",
+                      table)
         self.assertNotIn("| other motions | `fcl_advancement` |", table)
         rows = list(csv.DictReader(io.StringIO(self.out("times.csv"))))
         self.assertEqual((rows[-1]["answerable"], rows[-1]["hit_ns"]), ("0", ""))
+
+    def test_known_motions_stand_on_their_own(self):
+        self.assertIn("| known motions | `own` | 1e-06 | 100 | 20 | 0 | 0 | 0 | 0 | 0 | 0 | 0 | 20 |",
+                      self.out_of_quick("times.md"))
 
     def test_whole_scenes_are_beside_looks_at_states(self):
         table = self.out_of_quick("scenes.md")

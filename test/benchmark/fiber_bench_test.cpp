@@ -377,8 +377,21 @@ TEST_F(FiberBench, HoldsContactTimesAgainstAFileOfKnownMotions) {
   EXPECT_EQ(row.at("contacts_missed"), 0);
   EXPECT_EQ(row.at("contacts_invented"), 0);
   EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 3) << result.out;
+  const nlohmann::json timed =
+      json_lines(bench("motions --json --parts times --kernels own,discrete_1 --families random "
+                       "--timed 5 --repeats 1 --tolerances 1e-6 --known " +
+                       file)
+                     .out);
+  ASSERT_EQ(timed.size(), 4U) << timed;
+  EXPECT_EQ(timed[0].at("family"), "known");
+  EXPECT_EQ(timed[0].at("motions"), 2);
+  EXPECT_EQ(timed[0].at("contacts"), 1);
+  EXPECT_EQ(timed[0].at("misses"), 0);
+  EXPECT_EQ(timed[1].at("misses"), 1) << "one look at the end";
+  EXPECT_EQ(timed[2].at("family"), "random");
   // One whose truth is wrong.
-  const std::string wrong = write("wrong.csv", "walls,1," + start + still + "0x1p-1,-0x1p0,0x1p-1,0x1p-1,0x1p0,0x1p-1\n");
+  const std::string wrong =
+      write("wrong.csv", "walls,1," + start + still + "0x1p-1,-0x1p0,0x1p-1,0x1p-1,0x1p0,0x1p-1\n");
   EXPECT_EQ(json_lines(bench("motions --json --parts known --known " + wrong).out)
                 .at(0)
                 .at("contacts_missed"),

@@ -172,6 +172,27 @@ TEST_P(HardPairs, ContactsAreDecidedExactly) {
   expect_enough(in_contact, 1);
 }
 
+/// Limits as near the distance as numbers of twice the digits tell, and nearer.
+TEST_P(HardPairs, ContactsAreDecidedExactlyWithinARoundingOfTheLimit) {
+  SCOPED_TRACE(seed_message());
+  for (const HardPair& pair : pairs()) {
+    const auto& [p0, p1, q0, q1, radius_a, radius_b] = pair;
+    const Rational truth = truth_squared(pair);
+    const Wide distance = sqrt(Wide(numerator(truth)) / Wide(denominator(truth)));
+    const double high = std::nextafter(distance.convert_to<double>(), 0.0);
+    const double low = std::max(0.0, Wide(distance - high).convert_to<double>());
+    for (int exponent = -120; exponent <= -60; exponent += 6) {
+      for (const double sign : {-1.0, 1.0}) {
+        const ContactLimit limit{high, low, sign * std::ldexp(high, exponent)};
+        const Rational sum =
+            Rational(limit.radius_a) + Rational(limit.radius_b) + Rational(limit.margin);
+        const bool expected = sum >= 0 && truth <= sum * sum;
+        ASSERT_EQ(gap_at_most(p0, p1, q0, q1, limit), expected) << exponent;
+      }
+    }
+  }
+}
+
 TEST_P(HardPairs, ParametersDeltaAndDistanceAgree) {
   SCOPED_TRACE(seed_message());
   for (const HardPair& pair : pairs()) {

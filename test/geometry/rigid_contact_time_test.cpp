@@ -18,6 +18,7 @@ namespace {
 using Eigen::AngleAxisd;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
+using WideVector = Eigen::Matrix<long double, 3, 1>;
 
 constexpr double pi = 3.141592653589793;
 
@@ -145,6 +146,50 @@ TEST(RigidContactTime, TurnsTheShorterWayRound) {
       contact_time(turning_rod(1.5 * pi), still_post(0.3, -0.3), {0.01, 0.01, 0.0}, 1e-6).hit);
   EXPECT_FALSE(
       contact_time(turning_rod(1.5 * pi), still_post(0.3, 0.3), {0.01, 0.01, 0.0}, 1e-6).hit);
+}
+
+/// Bodies far away whose ends go through no doubles: a rod that passes a ball and touches it by
+/// less than a rounding.
+TEST(RigidContactTime, WhatOnlyJustTouchesFarAwayIsFound) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  for (int round = 0; round < rounds(1000); ++round) {
+    // Half a turn about an axis of small numbers, so that what is turned is known exactly.
+    const Vector3d axis(random.integer(-3, 3), random.integer(-3, 3), 4.0);
+    const Vector3d place = 1e8 * random.direction();
+    const Vector3d way = random.in_cube();
+    RigidSegment rod;
+    rod.ends[0] = random.in_cube();
+    rod.ends[1] = random.in_cube();
+    rod.before.rotation = rod.after.rotation = Quaterniond(0.0, axis.x(), axis.y(), axis.z());
+    rod.before.rotation.normalize();
+    rod.after.rotation.normalize();
+    rod.before.position = place;
+    rod.after.position = place + way;
+    const auto turned = [&](const Vector3d& x) -> WideVector {
+      const auto a = axis.cast<long double>();
+      const auto wide = x.cast<long double>();
+      return 2.0L * a.dot(wide) / a.dot(a) * a - wide;
+    };
+    RigidSegment ball;  // above the middle of what the rod sweeps
+    const Vector3d along = (turned(rod.ends[1]) - turned(rod.ends[0])).cast<double>();
+    const Vector3d up = along.cross(way).normalized();
+    const Vector3d middle =
+        (0.5L * (turned(rod.ends[0]) + turned(rod.ends[1]))).cast<double>() + 0.5 * way;
+    ball.before.position = ball.after.position = place + middle + random.uniform(0.1, 1.0) * up;
+    ball.ends[0] = ball.ends[1] = Vector3d::Zero();
+    // Relative to the place, where doubles are exact.
+    const Vector3d real_way = rod.after.position - rod.before.position;
+    const WideVector offset =
+        (ball.before.position - rod.before.position).cast<long double>() - turned(rod.ends[0]);
+    const WideVector normal =
+        (turned(rod.ends[1]) - turned(rod.ends[0])).cross(real_way.cast<long double>());
+    const long double distance = std::abs(offset.dot(normal)) / normal.norm();
+    const double reach =
+        std::nextafter(static_cast<double>(distance), 2.0 * static_cast<double>(distance));
+    const ContactTime time = contact_time(rod, ball, {reach, 0.0, 0.0}, 1e-12);
+    ASSERT_TRUE(time.hit) << round;
+  }
 }
 
 TEST(RigidContactTime, RefusesWhatIsNoMotion) {

@@ -12,9 +12,8 @@
 #include "fiber_proximity/geometry/contact_time.hpp"
 #include "fiber_proximity/query/contact_judge.hpp"
 #include "fiber_proximity/query/pair_test.hpp"
-#include "support/engines_test.hpp"
+#include "query/motion_queries.hpp"
 #include "support/error_of.hpp"
-#include "support/motions.hpp"
 
 namespace fiber::test {
 namespace {
@@ -42,25 +41,6 @@ FiberAssembly moved(const FiberAssembly& fibers, double way, Random& random) {
   }
   return with_points(fibers, points);
 }
-
-std::vector<MotionContact> by_time(std::vector<MotionContact> contacts) {
-  std::sort(contacts.begin(), contacts.end(),
-            [](const MotionContact& x, const MotionContact& y) { return x.earlier_than(y); });
-  return contacts;
-}
-
-class MotionQueries : public EnginesTest {
- protected:
-  MotionResult ask_motion(const FiberAssembly& before, const FiberAssembly& after,
-                          const MotionOptions& options, std::uint32_t threads = 0) const {
-    const std::unique_ptr<ProximityEngine> engine = make_engine(GetParam(), {threads});
-    MotionResult result;
-    engine->update_motion(before, after);
-    engine->query_motion(options, result);
-    EXPECT_TRUE(result.complete);
-    return result;
-  }
-};
 
 TEST_P(MotionQueries, FindWhatAllPairsFind) {
   std::size_t began = 0;
@@ -159,23 +139,6 @@ TEST_P(MotionQueries, AfterAMotionAnUpdateAnswersAsEver) {
   });
 }
 
-/// One straight fibre above another, which comes down through it.
-std::vector<Vector3d> straight(double z, bool along_x) {
-  std::vector<Vector3d> points;
-  for (int i = 0; i <= 20; ++i) {
-    const double x = -0.5 + 0.05 * i;
-    points.push_back(along_x ? Vector3d(x, 0.01, z) : Vector3d(0.01, x, z));
-  }
-  return points;
-}
-
-FiberAssembly crossed_cables(double z) {
-  AssemblyBuilder builder;
-  builder.add_fiber(straight(0.0, true));
-  builder.add_fiber(straight(z, false));
-  return builder.build({0.002});
-}
-
 TEST_P(MotionQueries, ACableThatPassesThroughAnotherBetweenFramesIsCaught) {
   const FiberAssembly before = crossed_cables(0.1);
   const FiberAssembly after = crossed_cables(-0.1);
@@ -196,53 +159,20 @@ TEST_P(MotionQueries, ACableThatPassesThroughAnotherBetweenFramesIsCaught) {
   EXPECT_TRUE(result.touching.empty());
 }
 
-TEST_P(MotionQueries, TheEarliestAreThoseOfAll) {
-  const FiberAssembly before = crossed_cables(0.1);
-  const FiberAssembly after = crossed_cables(-0.1);
-  MotionOptions options;
-  options.margin = 0.06;
-  const MotionResult all = ask_motion(before, after, options);
-  EXPECT_EQ(all.others_lower, 1.0);
-  const std::vector<MotionContact> ordered = by_time(all.contacts);
-  ASSERT_GT(ordered.size(), 3U);
-  ASSERT_NE(all.earliest(), nullptr);
-  EXPECT_TRUE(same({*all.earliest()}, {ordered.front()}));
-
-  options.type = MotionType::FIRST;
-  const MotionResult first = ask_motion(before, after, options);
-  ASSERT_EQ(first.contacts.size(), 1U);
-  EXPECT_TRUE(same(first.contacts, {ordered.front()}));
-  EXPECT_EQ(first.others_lower, ordered[1].lower);
-  EXPECT_FALSE(first.limit_reached);
-  EXPECT_TRUE(same(first.touching, all.touching));
-
-  options.type = MotionType::LIMITED;
-  options.max_contacts = 3;
-  const MotionResult three = ask_motion(before, after, options);
-  EXPECT_TRUE(same(by_time(three.contacts), {ordered.begin(), ordered.begin() + 3}));
-  EXPECT_EQ(three.others_lower, ordered[3].lower);
-  EXPECT_TRUE(three.limit_reached);
-}
-
-TEST_P(MotionQueries, LimitsAreKeptAndTold) {
-  const FiberAssembly before = crossed_cables(0.1);
-  const FiberAssembly after = crossed_cables(-0.1);
-  MotionOptions options;
-  options.margin = 0.06;
-  const std::vector<MotionContact> all = by_time(ask_motion(before, after, options).contacts);
-  ASSERT_GT(all.size(), 2U);
-  options.contact_limit = 2;
-  const MotionResult two = ask_motion(before, after, options);
-  EXPECT_TRUE(same(by_time(two.contacts), {all.begin(), all.begin() + 2}));
-  EXPECT_TRUE(two.limit_reached);
-  options.contact_limit = 0;
-  options.pair_limit = 1;
-  const std::unique_ptr<ProximityEngine> engine = make_engine(GetParam());
-  MotionResult none;
-  engine->update_motion(before, after);
-  engine->query_motion(options, none);
-  EXPECT_TRUE(none.contacts.empty() && none.limit_reached && !none.complete);
-  EXPECT_EQ(none.others_lower, 0.0);
+TEST_P(MotionQueries, FibersHaveTheLargerOfTheirRadii) {
+  const FiberAssembly thin = crossed_cables(0.1);
+  const FiberAssembly thick(thin.points(), thin.offsets(), {0.04});
+  std::vector<Vector3d> points = thin.points();
+  for (std::size_t i = points.size() / 2; i < points.size(); ++i) {
+    points[i].z() = 0.075;
+  }
+  const FiberAssembly thin_after = with_points(thin, points);
+  const FiberAssembly thick_after = with_points(thick, points);
+  EXPECT_TRUE(ask_motion(thin, thin_after, {}).contacts.empty());
+  const MotionResult grows = ask_motion(thin, thick_after, {});
+  EXPECT_FALSE(grows.contacts.empty());
+  EXPECT_TRUE(same(grows.contacts, ask_motion(thick, thin_after, {}).contacts));
+  EXPECT_TRUE(same(grows.contacts, ask_motion(thick, thick_after, {}).contacts));
 }
 
 TEST_P(MotionQueries, BadInputIsRefused) {
@@ -264,6 +194,13 @@ TEST_P(MotionQueries, BadInputIsRefused) {
     MotionOptions options;
     options.tolerance = tolerance;
     EXPECT_THROW(engine->query_motion(options, result), std::invalid_argument) << tolerance;
+  }
+  for (const double tolerance : {-1e-9, std::nan("")}) {
+    MotionOptions options;
+    options.time_tolerance = tolerance;
+    EXPECT_NE(error_of([&] { engine->query_motion(options, result); }).find("time_tolerance is "),
+              std::string::npos)
+        << tolerance;
   }
   MotionOptions options;
   options.type = MotionType::LIMITED;

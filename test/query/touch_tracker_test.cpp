@@ -81,7 +81,11 @@ TEST_F(TouchTrackerTest, ATouchThatSlidesAlongStaysTheSame) {
     EXPECT_EQ(ids_, (std::vector<std::uint64_t>{1, 1}));
     EXPECT_TRUE(step({{i, i / 2}}).empty());
   }
-  EXPECT_EQ(step({{52, 25}}).size(), 2U) << "three segments on, it is another one";
+  for (std::uint32_t i = 49; i > 0; --i) {
+    EXPECT_TRUE(step({{i - 1, (i - 1) / 2}}).empty()) << "and back";
+    EXPECT_EQ(ids_, std::vector<std::uint64_t>{1});
+  }
+  EXPECT_EQ(step({{3, 0}}).size(), 2U) << "three segments on, it is another one";
 }
 
 TEST_F(TouchTrackerTest, TouchesFarFromEachOtherAreTwo) {

@@ -1,121 +1,13 @@
 // The running node with ~continuous: what happens between two messages.
-#include <dynamic_reconfigure/Reconfigure.h>
-
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include "fiber_proximity/ApplyObstacles.h"
-#include "fiber_proximity/ContactEvent.h"
-#include "fiber_proximity/TimeToContact.h"
-#include "fiber_proximity/query/gap_gradient.hpp"
-#include "ros/messages.hpp"
-#include "ros/node_test.hpp"
+#include "ros/continuous_fixture.hpp"
 
 namespace {
 
-using Eigen::Vector3d;
-using fiber_proximity::Contact;
-using fiber_proximity::ContactArray;
-using fiber_proximity::ContactEvent;
-using fiber_proximity::FiberArray;
-using fiber_proximity::TimeToContact;
-
-constexpr double radius = 0.001;  // [m] as in continuous.test
-const ros::Duration frame_time(0.1);
-
-/// A cable along x, and one across it at (x, 0, z).
-FiberArray crossed(double x, double z) {
-  FiberArray message = test_messages::fiber_array(test_messages::header("world"), {{-0.5, 0, 0},
-                                                                                   {-0.25, 0, 0},
-                                                                                   {0, 0, 0},
-                                                                                   {0.25, 0, 0},
-                                                                                   {0.5, 0, 0},
-                                                                                   {x, -0.3, z},
-                                                                                   {x, 0.3, z}});
-  message.offsets = {0, 5, 7};
-  message.names = {"along", "across"};
-  return message;
-}
-
-/// 2 cm wide, 1 mm thick.
-fiber_proximity::Obstacle plate(const Vector3d& center) {
-  fiber_proximity::Obstacle obstacle;
-  obstacle.header.frame_id = "world";
-  obstacle.id = "plate";
-  obstacle.operation = fiber_proximity::Obstacle::ADD;
-  obstacle.pose.orientation.w = 1.0;
-  obstacle.pose.position = fiber_proximity_ros::to_message(center);
-  obstacle.primitives.resize(1);
-  obstacle.primitives[0].type = shape_msgs::SolidPrimitive::BOX;
-  obstacle.primitives[0].dimensions = {0.02, 0.02, 0.001};
-  obstacle.primitive_poses.resize(1);
-  obstacle.primitive_poses[0].orientation.w = 1.0;
-  return obstacle;
-}
-
-/// Stamps are a tenth of a second apart, whenever messages are sent.
-class ContinuousTest : public node_test::NodeTest {
- protected:
-  void SetUp() override {
-    cables_ = advertise<FiberArray>("/cables");
-    double z = 0.1;
-    ASSERT_TRUE(node_test::wait_for([&] {
-      publish(crossed(0.1, z = -z));
-      ros::WallDuration(0.02).sleep();
-      return !contacts.messages.empty() && !statistics.messages.empty() &&
-             !events_.messages.empty() && !times_.messages.empty();
-    })) << "the node does not answer";
-    z_ = z;
-    ASSERT_NE(answer_to(crossed(0.1, z)), nullptr);  // and it stands still
-    ASSERT_NE(answer_to(crossed(0.1, z)), nullptr);
-    events_.messages.clear();
-  }
-
-  ros::Time publish(FiberArray message) {
-    static ros::Time last = ros::Time::now() - ros::Duration(10000);
-    last += frame_time;
-    message.header.stamp = last;
-    cables_.publish(message);
-    return last;
-  }
-
-  const ContactArray* answer_to(const FiberArray& message) {
-    return contacts.wait_for(publish(message));
-  }
-
-  /// All events up to an answer have come.
-  std::vector<ContactEvent> events_until(const ros::Time& stamp, std::size_t count) {
-    std::vector<ContactEvent> found;
-    node_test::wait_for([&] { return events_.messages.size() >= count; });
-    for (const auto& event : events_.messages) {
-      if (event->header.stamp == stamp) {
-        found.push_back(*event);
-      }
-    }
-    events_.messages.clear();
-    return found;
-  }
-
-  /// [s] of a time after the frame before an answer.
-  static double after(const ros::Time& time, const ContactArray& answer) {
-    return (time - (answer.header.stamp - frame_time)).toSec();
-  }
-
-  void set(const std::string& name, bool value) {
-    dynamic_reconfigure::Reconfigure request;
-    dynamic_reconfigure::BoolParameter parameter;
-    parameter.name = name;
-    parameter.value = value;
-    request.request.config.bools.push_back(parameter);
-    ASSERT_TRUE(ros::service::call("/proximity/set_parameters", request));
-  }
-
-  ros::Publisher cables_;
-  double z_ = 0.0;  // [m] of the cable across, at first
-  node_test::Recorder<ContactEvent> events_{node, "/proximity/contact_events"};
-  node_test::Recorder<TimeToContact> times_{node, "/proximity/time_to_contact"};
-};
+using namespace continuous_test;  // NOLINT(google-build-using-namespace)
 
 TEST_F(ContinuousTest, ACableThatPassesThroughAnotherBetweenMessagesIsTold) {
   const ContactArray* const answer = answer_to(crossed(0.1, -z_));
@@ -212,81 +104,6 @@ TEST_F(ContinuousTest, AContactKeepsItsIdAsItSlidesAlong) {
   EXPECT_NEAR(ended[0].duration, 1.7, 0.11);
 }
 
-TEST_F(ContinuousTest, OtherFibersAreAnsweredAtTheirStampAlone) {
-  FiberArray other = crossed(0.1, -z_);
-  other.points.insert(other.points.begin() + 1,
-                      fiber_proximity_ros::to_message(Vector3d(-0.4, 0, 0)));
-  other.offsets = {0, 6, 8};
-  const ContactArray* const answer = answer_to(other);
-  ASSERT_NE(answer, nullptr);
-  EXPECT_FALSE(answer->continuous);
-  EXPECT_EQ(answer->since, answer->header.stamp);
-  EXPECT_TRUE(answer->contacts.empty());
-  const fiber_proximity::Statistics* const told = statistics.wait_for(answer->header.stamp);
-  ASSERT_NE(told, nullptr);
-  EXPECT_GT(told->discrete_answers, 0U);
-  EXPECT_EQ(told->discrete_reason,
-            "the fibres are no longer the same: 2 of 7 points before, 2 of 8 points now");
-  const ContactArray* const next = answer_to(other);
-  ASSERT_NE(next, nullptr);
-  EXPECT_TRUE(next->continuous);
-  EXPECT_EQ(statistics.wait_for(next->header.stamp)->discrete_reason, "");
-}
-
-TEST_F(ContinuousTest, TimeToContactIsThatOfConstantVelocity) {
-  // 5 cm per frame towards the cable: half a metre per second.
-  for (double z = 0.4; z > 0.21; z -= 0.05) {
-    ASSERT_NE(answer_to(crossed(0.1, z)), nullptr);
-  }
-  const ros::Time stamp = publish(crossed(0.1, 0.2));
-  const TimeToContact* const told = times_.wait_for(stamp);
-  ASSERT_NE(told, nullptr);
-  EXPECT_EQ(told->problem, "");
-  EXPECT_EQ(told->horizon, 1.0);
-  EXPECT_EQ(told->frames, 3U);
-  EXPECT_NEAR(told->frame_time, 0.2, 1e-6);
-  EXPECT_FALSE(told->same_fiber.expected);
-  EXPECT_EQ(told->same_fiber.time_lower, 1.0);
-  const fiber_proximity::PredictedContact& contact = told->different_fibers;
-  ASSERT_TRUE(contact.expected);
-  EXPECT_TRUE(contact.certain);
-  EXPECT_TRUE(contact.complete);
-  EXPECT_EQ(contact.touching, 0U);
-  EXPECT_EQ(contact.fiber_b, 1U);
-  EXPECT_EQ(contact.segment_a, 2U);
-  const double expected = (0.2 - 2 * radius) / 0.5;
-  EXPECT_LE(contact.time_lower, expected + 1e-7);
-  EXPECT_GE(contact.time_upper, expected - 1e-7);
-  EXPECT_LT(contact.time_upper - contact.time_lower, 1e-5);
-
-  // Away from it, nothing will be touched.
-  ASSERT_NE(answer_to(crossed(0.1, 0.25)), nullptr);
-  ASSERT_NE(answer_to(crossed(0.1, 0.3)), nullptr);
-  const TimeToContact* const away = times_.wait_for(publish(crossed(0.1, 0.35)));
-  ASSERT_NE(away, nullptr);
-  EXPECT_FALSE(away->different_fibers.expected);
-  EXPECT_EQ(away->different_fibers.time_lower, 1.0);
-  EXPECT_EQ(away->different_fibers.time_upper, std::numeric_limits<double>::infinity());
-
-  // What touches already is not predicted.
-  ASSERT_NE(answer_to(crossed(0.1, 0.0)), nullptr);
-  ASSERT_NE(answer_to(crossed(0.1, 0.0)), nullptr);
-  const TimeToContact* const touching = times_.wait_for(publish(crossed(0.1, 0.0)));
-  ASSERT_NE(touching, nullptr);
-  EXPECT_EQ(touching->different_fibers.touching, 1U);
-  EXPECT_FALSE(touching->different_fibers.expected);
-}
-
-TEST_F(ContinuousTest, TooFewFramesPredictNothing) {
-  FiberArray other = crossed(0.1, z_);
-  other.names = {"new", "cables"};
-  const TimeToContact* const told = times_.wait_for(publish(other));
-  ASSERT_NE(told, nullptr);
-  EXPECT_EQ(told->problem, "no input has sent more than one message: there are no velocities yet");
-  EXPECT_FALSE(told->different_fibers.expected);
-  EXPECT_EQ(times_.wait_for(publish(other))->problem, "");
-}
-
 TEST_F(ContinuousTest, GradientsAreThoseOfTheContact) {
   const ContactArray* const answer = answer_to(crossed(0.1, 1e-3));
   ASSERT_NE(answer, nullptr);
@@ -372,8 +189,10 @@ TEST_F(ContinuousTest, WhatIsAroundIsMetBetweenMessages) {
   }));
 }
 
-// The last one: the other input stays, ahead of the cables.
-TEST_F(ContinuousTest, TheOtherInputStandsStill) {
+/// The other input stays, ahead of the cables: in a process of its own after the others.
+class ContinuousInputsTest : public ContinuousTest {};
+
+TEST_F(ContinuousInputsTest, TheOtherInputStandsStill) {
   const ros::Publisher others = advertise<FiberArray>("/other");
   FiberArray still =
       test_messages::fiber_array(test_messages::header("world"), {{0, 0, 0.3}, {0.4, 0.4, 0.3}});

@@ -53,6 +53,18 @@ TEST_F(Sweep, FindsWhatPassesThroughBetweenFrames) {
   EXPECT_LE(found[0][6] - found[0][5], 1e-8);
 }
 
+TEST_F(Sweep, BoundsAreAsNearAsIsAsked) {
+  const std::string command = file(frame(0, 0.6) + frame(1, 0.09)) + " --tolerance 1e-2";
+  const auto wide = rows(command);
+  const auto narrow = rows(command + " --time-tolerance 1e-9");
+  ASSERT_EQ(wide.size(), 1U);
+  ASSERT_EQ(narrow.size(), 1U);
+  EXPECT_GT(wide[0][6] - wide[0][5], 1e-3);
+  EXPECT_LE(narrow[0][6] - narrow[0][5], 1e-9);
+  EXPECT_GE(narrow[0][5], wide[0][5]);
+  EXPECT_LE(narrow[0][6], wide[0][6]);
+}
+
 TEST_F(Sweep, TheMarginCounts) {
   const auto found = rows(file(frame(0, 1.1) + frame(1, 0.6)) + " --margin 0.75");
   ASSERT_EQ(found.size(), 1U);
@@ -118,6 +130,8 @@ TEST_F(Sweep, RefusesWhatItCannotAnswer) {
   EXPECT_TRUE(refused(query("sweep " + two + " --margin nan"), "margin is nan"));
   EXPECT_TRUE(refused(query("sweep " + two + " --tolerance -1e-9"), "tolerance"));
   EXPECT_TRUE(refused(query("sweep " + two + " --tolerance inf"), "tolerance"));
+  EXPECT_TRUE(refused(query("sweep " + two + " --time-tolerance -1"), "time_tolerance is -1"));
+  EXPECT_TRUE(refused(query("sweep " + two + " --time-tolerance nan"), "time_tolerance is nan"));
   EXPECT_TRUE(refused(query("sweep " + two + " --type last"), "last"));
   EXPECT_TRUE(
       refused(query("sweep " + write("one.csv", "frame,fiber,x,y,z\n0,a,0,0,0\n0,a,1,0,0\n")),

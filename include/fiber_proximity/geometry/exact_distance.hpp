@@ -34,8 +34,8 @@ bool exact_gap_at_most(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1,
                        const Eigen::Vector3d& q0, const Eigen::Vector3d& q1,
                        const ContactLimit& limit);
 
-/// The same answer, mostly from the robust distance and what is proven of its error; integers only
-/// decide what that leaves open.
+/// The same answer, mostly from the robust distance and what is proven of its error. What that
+/// leaves open is decided by numbers of twice the digits, and what these leave open by integers.
 bool gap_at_most(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1, const Eigen::Vector3d& q0,
                  const Eigen::Vector3d& q1, const ContactLimit& limit);
 

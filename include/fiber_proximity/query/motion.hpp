@@ -30,6 +30,11 @@ struct MotionOptions {
   /// MotionContact::certain false; finite, >= 0. Larger is faster. See contact_time().
   double tolerance = 1e-6;
 
+  /// [1] Bounds on the time of a certain contact that are further apart than this part of the
+  /// motion are brought nearer, as near as doubles allow; >= 0, infinity to leave them as the
+  /// tolerance makes them. Smaller is slower, for contacts that come slowly.
+  double time_tolerance = std::numeric_limits<double>::infinity();
+
   /// LIMITED only: the most contacts to report, at least 1.
   std::uint32_t max_contacts = 100;
 

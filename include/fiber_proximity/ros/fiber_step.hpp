@@ -18,15 +18,26 @@ namespace fiber_proximity_ros {
 std::chrono::nanoseconds to_time(const ros::Time& stamp);
 ros::Time to_stamp(std::chrono::nanoseconds time);
 
+/// The fibres of an answer, and when they were there.
+struct FiberState {
+  bool has_fibers = false;  ///< false: there are none, or they are not to be kept
+  fiber::FiberAssembly fibers;
+  std::vector<std::string> names;
+  std::vector<std::optional<ros::Time>> stamps;  ///< by input, of those that are fresh
+  ros::Time stamp;                               ///< the newest
+};
+
+/// @param keeps_fibers whether they are to be kept for the motion to the next ones
+void read_state(InputSet& inputs, bool keeps_fibers, FiberState& state);
+
 /// The step from the fibres of one answer to those of the next: what moved meanwhile, and when.
 class FiberStep {
  public:
   /// @param longest_motion [s] more time than this between two states is a jump, not a motion
   explicit FiberStep(double longest_motion) : longest_motion_(longest_motion) {}
 
-  /// Takes the fibres of a new answer.
-  /// @param keeps_fibers whether they are to be kept for the motion to the next ones
-  void advance(InputSet& inputs, bool keeps_fibers);
+  /// Takes the fibres of a new answer, and gives old ones for their memory.
+  void advance(FiberState& newest);
 
   /// It is no motion that can be looked at.
   void refuse(const std::string& problem);
@@ -48,19 +59,12 @@ class FiberStep {
   const fiber::TimeBounds& time() const { return time_; }
 
  private:
-  struct State {
-    bool has_fibers = false;
-    fiber::FiberAssembly fibers;
-    std::vector<std::string> names;
-    std::vector<std::optional<ros::Time>> stamps;  // by input, of those that are fresh
-  };
-
   std::string find_motion();
+  void stand_still();
 
   double longest_motion_;  // [s]
-  State before_;
-  State after_;
-  std::chrono::nanoseconds stamp_{};  // of the newest fibres
+  FiberState before_;
+  FiberState after_;
   fiber::TimeBounds time_;
   bool is_motion_ = false;
   std::string problem_;

@@ -74,6 +74,7 @@ class ProximityServer {
   Detector detector_;
   MotionDetector motion_detector_;
   FiberStep step_;
+  FiberState newest_state_;  // for its memory
 
   ros::Publisher contacts_publisher_;
   ContactEvents touches_;

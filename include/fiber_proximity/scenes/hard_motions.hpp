@@ -41,7 +41,7 @@ struct MotionFamily {
 /// segments and such that stay so, nearly parallel and coincident ones, segments without length,
 /// without motion, with ends that change places; motions of 10⁶ lengths; segments that only graze
 /// each other, touch at the beginning or at the end, slide along each other at the distance of
-/// contact; crossing ones without thickness.
+/// contact; ones without thickness that cross, or do so but for a rounding.
 const std::vector<MotionFamily>& motion_families();
 
 /// Motions of a family: the same bits on every machine.

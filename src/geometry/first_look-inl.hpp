@@ -1,0 +1,136 @@
+// The look at the beginning of motions, which rules most of them out. Included once per instruction
+// set, so it has the guard that Highway asks for instead of #pragma once.
+#if defined(FIBER_FIRST_LOOK_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef FIBER_FIRST_LOOK_INL
+#undef FIBER_FIRST_LOOK_INL
+#else
+#define FIBER_FIRST_LOOK_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cstdint>
+
+#include "src/geometry/motion_lanes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace fiber {
+namespace HWY_NAMESPACE {
+
+/// The look at time 0, which shows for most pairs that they never come into contact.
+class FirstLook {
+ public:
+  /// @param count from 1 to the number of lanes
+  FirstLook(const SegmentMotions* motions, std::size_t count) {
+    for (std::size_t lane = 0; lane < hn::Lanes(MotionTag()); ++lane) {
+      const SegmentMotions& pair = motions[std::min(lane, count - 1)];
+      read(pair.a_before, lane, a_before_);
+      read(pair.a_after, lane, a_after_);
+      read(pair.b_before, lane, b_before_);
+      read(pair.b_after, lane, b_after_);
+      limit_[lane] = pair.limit.radius_a + pair.limit.radius_b + pair.limit.margin;
+    }
+  }
+
+  /// Bits of the pairs that are to be looked at more closely.
+  std::uint64_t look() {
+    const MotionTag d;
+    LaneNumber limit(hn::Load(d, limit_));
+    Parallelogram<LaneNumber> start = differences(a_before_, b_before_);
+    Parallelogram<LaneNumber> rate;
+    NumberVector<LaneNumber> least = start.corners[0][0];
+    NumberVector<LaneNumber> most = least;
+    const Parallelogram<LaneNumber> end = differences(a_after_, b_after_);
+    for (int i = 0; i < 2; ++i) {
+      for (int j = 0; j < 2; ++j) {
+        rate.corners[i][j] = end.corners[i][j] - start.corners[i][j];
+        least = smaller(smaller(least, start.corners[i][j]), end.corners[i][j]);
+        most = larger(larger(most, start.corners[i][j]), end.corners[i][j]);
+      }
+    }
+    LaneNumber largest = larger(larger(larger(-least.x, most.x), larger(-least.y, most.y)),
+                                larger(-least.z, most.z));
+    if (!hn::AllTrue(d, hn::And(LaneNumber(least_distance_scale) < largest,
+                                largest < LaneNumber(largest_distance_scale)))) {
+      const LaneNumber factor = factors_of(largest);
+      start = scaled(factor, start);
+      rate = scaled(factor, rate);
+      limit = smaller(factor * limit, LaneNumber(longest_limit));
+      largest = factor * largest;
+      least = factor * least;
+      most = factor * most;
+    }
+    const LaneNumber error = LaneNumber(motion_roundings) * (largest + limit);
+    const LaneNumber reach = limit + error;
+    const LaneNumber gap = larger(larger(larger(least.x, -most.x), larger(least.y, -most.y)),
+                                  larger(least.z, -most.z));
+    const auto is_apart = reach < gap;
+    if (hn::AllTrue(d, is_apart)) {
+      return 0;
+    }
+    const MotionLook<LaneNumber> look = look_in_lanes(start, rate, limit, error);
+    hn::Store(look.distance.lanes, d, distance_);
+    hn::Store(look.closing.lanes, d, closing_);
+    hn::Store(look.free.lanes, d, free_);
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(d, hn::Not(hn::Or(is_apart, LaneNumber(1.0) < look.free)), bits);
+    return bits[0];
+  }
+
+  /// What has been seen of a pair that is to be looked at more closely.
+  MotionLook<double> look_of(std::size_t lane) const {
+    return {distance_[lane], closing_[lane], free_[lane]};
+  }
+
+ private:
+  using Ends = double[6][most_motion_lanes];
+
+  static void read(const Eigen::Vector3d* ends, std::size_t lane, Ends& values) {
+    const double* const coordinates = ends->data();
+    for (std::size_t i = 0; i < 6; ++i) {
+      values[i][lane] = coordinates[i];
+    }
+  }
+
+  static NumberVector<LaneNumber> end(const Ends& values, int which) {
+    const MotionTag d;
+    return {LaneNumber(hn::Load(d, values[3 * which])),
+            LaneNumber(hn::Load(d, values[3 * which + 1])),
+            LaneNumber(hn::Load(d, values[3 * which + 2]))};
+  }
+
+  static Parallelogram<LaneNumber> differences(const Ends& a, const Ends& b) {
+    Parallelogram<LaneNumber> result;
+    for (int i = 0; i < 2; ++i) {
+      for (int j = 0; j < 2; ++j) {
+        result.corners[i][j] = end(a, i) - end(b, j);
+      }
+    }
+    return result;
+  }
+
+  static LaneNumber factors_of(LaneNumber largest) {
+    const MotionTag d;
+    alignas(64) double factors[most_motion_lanes];
+    hn::Store(largest.lanes, d, factors);
+    for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
+      factors[lane] = scale_of(factors[lane]);
+    }
+    return LaneNumber(hn::Load(d, factors));
+  }
+
+  alignas(64) Ends a_before_;
+  alignas(64) Ends a_after_;
+  alignas(64) Ends b_before_;
+  alignas(64) Ends b_after_;
+  alignas(64) double limit_[most_motion_lanes];
+  alignas(64) double distance_[most_motion_lanes];
+  alignas(64) double closing_[most_motion_lanes];
+  alignas(64) double free_[most_motion_lanes];
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace fiber
+HWY_AFTER_NAMESPACE();
+#endif

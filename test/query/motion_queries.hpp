@@ -1,0 +1,42 @@
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "support/engines_test.hpp"
+#include "support/motions.hpp"
+
+namespace fiber::test {
+
+class MotionQueries : public EnginesTest {
+ protected:
+  MotionResult ask_motion(const FiberAssembly& before, const FiberAssembly& after,
+                          const MotionOptions& options, std::uint32_t threads = 0) const {
+    const std::unique_ptr<ProximityEngine> engine = make_engine(GetParam(), {threads});
+    MotionResult result;
+    engine->update_motion(before, after);
+    engine->query_motion(options, result);
+    EXPECT_TRUE(result.complete);
+    return result;
+  }
+};
+
+/// One straight fibre above another, which comes down through it.
+inline std::vector<Eigen::Vector3d> straight(double z, bool along_x) {
+  std::vector<Eigen::Vector3d> points;
+  for (int i = 0; i <= 20; ++i) {
+    const double x = -0.5 + 0.05 * i;
+    points.push_back(along_x ? Eigen::Vector3d(x, 0.01, z) : Eigen::Vector3d(0.01, x, z));
+  }
+  return points;
+}
+
+inline FiberAssembly crossed_cables(double z) {
+  AssemblyBuilder builder;
+  builder.add_fiber(straight(0.0, true));
+  builder.add_fiber(straight(z, false));
+  return builder.build({0.002});
+}
+
+}  // namespace fiber::test
