@@ -58,7 +58,7 @@ TEST_F(CloudPointsTest, ACloudOfWhichNoneIsUsedIsAWarning) {
   // In millimetres, beyond all numbers of cells, without a point.
   const InputStatistics told = told_about({{0, 900, 1}, {1e30, 0, 1}, {nan, nan, nan}});
   EXPECT_EQ(told.points_used, 0U);
-  EXPECT_TRUE(node_test::wait_for([this] { return !logs_of("none of its").empty(); }));
+  ASSERT_TRUE(node_test::wait_for([this] { return !logs_of("none of its").empty(); }));
   EXPECT_EQ(logs_of("none of its").front(),
             "'cloud': none of its 3 point(s) is used: 1 is not finite, 2 are further than 655.36 m "
             "from the origin of the fixed frame along an axis (is the unit metres?)");
