@@ -85,9 +85,11 @@ struct Refusal {
   int exit_code = 0;
 };
 
+/// One that starts all the same is ended, and returns what `timeout` does.
 Refusal run_node(const std::string& arguments) {
   Refusal refusal;
-  const std::string command = PROXIMITY_NODE " __name:=refused " + arguments + " 2>&1";
+  const std::string command = "timeout " + std::to_string(node_test::patience) +
+                              " " PROXIMITY_NODE " __name:=refused " + arguments + " 2>&1";
   FILE* const pipe = popen(command.c_str(), "r");  // NOLINT(bugprone-command-processor)
   for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) {
     refusal.output.push_back(static_cast<char>(c));

@@ -244,8 +244,9 @@ class OwnSceneTest : public ::testing::Test {
     return {CABLE_SIM, "__name:=own_sim", "_scene:=" + file_, "_paused:=true"};
   }
 
+  /// Of a node that does not start; one that does, or takes for ever, is ended.
   ProcessResult run() const {
-    std::string text;
+    std::string text = "timeout " + std::to_string(node_test::patience) + " ";
     for (const std::string& part : command()) {
       text += part + " ";
     }

@@ -8,6 +8,7 @@
 #include "fiber_proximity/environment/occupancy_octree.hpp"
 #include "fiber_proximity/environment/triangle_mesh.hpp"
 #include "ros/environment_fixture.hpp"
+#include "ros/gate.hpp"
 #include "ros/mesh_files.hpp"
 
 namespace environment_test {
@@ -254,6 +255,37 @@ TEST_F(ObstacleMarkersTest, EveryTypeOfBodyIsItself) {
   EXPECT_EQ(std::get<std::shared_ptr<const fiber::TriangleMesh>>(
                 inputs->environment()->objects()[6].shapes[0].shape),
             before);
+}
+
+TEST_F(ObstacleMarkersTest, WhileAMeshIsBuiltEverythingElseGoesOn) {
+  const test_meshes::Package package;
+  start_with_topic();
+  Marker triangles = marker(Marker::TRIANGLE_LIST, 0, 1.0);
+  for (int i = 0; i < 600; ++i) {
+    for (const auto& [y, z] : {std::pair{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}}) {
+      triangles.points.emplace_back();
+      triangles.points.back().x = 0.01 * i;
+      triangles.points.back().y = y;
+      triangles.points.back().z = z;
+    }
+  }
+  Marker file = marker(Marker::MESH_RESOURCE, 1, 2.0);
+  file.mesh_resource = "package://test_meshes/meshes/tetrahedron.obj";
+  Gate gate(inputs->mesh_builder());
+  const auto send = [this](const Marker& marker) {
+    MarkerArray message;
+    message.markers = {marker};
+    publisher_.publish(message);
+  };
+  send(triangles);
+  send(file);
+  send(marker(Marker::CUBE, 2, 3.0));
+  ASSERT_TRUE(wait_for([&] { return places() == Places{{"bodies/2", 3.0}}; }));
+  EXPECT_TRUE(inputs->is_waiting());
+  gate.open();
+  ASSERT_TRUE(wait_for([&] { return !inputs->is_waiting(); }));
+  EXPECT_EQ(places(), (Places{{"bodies/0", 1.0}, {"bodies/1", 2.0}, {"bodies/2", 3.0}}));
+  EXPECT_EQ(statistics().refused, 0U) << statistics().last_error;
 }
 
 TEST_F(ObstacleMarkersTest, MarkersAreDeletedAsInRviz) {

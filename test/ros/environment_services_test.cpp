@@ -184,6 +184,35 @@ TEST_F(EnvironmentServicesTest, ADeadlineIsThatOfTheWholeBatch) {
   }
 }
 
+TEST_F(EnvironmentServicesTest, ShapesTheDeadlineComesBeforeAreNotRead) {
+  apply({ball("ball", 0.0, 0.25)});
+  QueryProximity::Request request;
+  request.against = QueryProximity::Request::ENVIRONMENT;
+  request.type = QueryProximity::Request::CLOSEST;
+  request.margin = infinity;
+  // No machine reads a million points in a millisecond, and the one after it cannot be read.
+  request.shapes = {shape({1, 0, 0}, "world"), shape({1, 0, 0}, "world")};
+  request.shapes[0].points.resize(1'000'000);
+  request.shapes[1].points.clear();
+  const QueryProximity::Response refusal = query(request);
+  EXPECT_FALSE(refusal.success);
+  EXPECT_NE(refusal.message.find("shape 1: has no points"), std::string::npos) << refusal.message;
+
+  request.deadline = 1e-3;
+  const QueryProximity::Response answer = query(request);
+  ASSERT_TRUE(answer.success) << answer.message;
+  EXPECT_FALSE(answer.complete);
+  EXPECT_EQ(answer.offsets.back(), answer.contacts.size());
+  ASSERT_EQ(answer.minimum_lower.size(), 2U);
+  EXPECT_EQ(answer.minimum_lower[1], -infinity);
+
+  // Nor is there time to look for what is near the first one, once that is read.
+  request.shapes.pop_back();
+  EXPECT_FALSE(query(request).complete);
+  request.deadline = 0.0;
+  EXPECT_TRUE(query(request).complete);
+}
+
 TEST_F(EnvironmentServicesTest, ADeadlineIsThatOfAllCandidates) {
   const ros::Publisher publisher = advertise<FiberArray>("fibers");
   connect(publisher, fiber(0.4, -1, 1));

@@ -72,6 +72,26 @@ TEST_F(LimitsTest, ATangleIsAnsweredAndTheNextMessageToo) {
   EXPECT_TRUE(next->complete);
 }
 
+TEST_F(LimitsTest, OfTooManyContactsTheClosestAreReported) {
+  const ContactArray* answer = answer_about(tangle(200));
+  ASSERT_NE(answer, nullptr);
+  const fiber_proximity::FiberArray* sent = fibers.wait_for(answer->header.stamp);
+  ASSERT_NE(sent, nullptr);
+  fiber::QueryResult all;
+  fiber::brute_force(node_test::to_assembly(*sent), {}, all);
+  std::vector<fiber::Contact> expected = all.contacts;
+  ASSERT_GT(expected.size(), 2 * contact_limit);
+  fiber::sort_by_distance(expected);
+  expected.resize(contact_limit);
+  fiber::sort_by_key(expected);
+  ASSERT_EQ(answer->contacts.size(), contact_limit);
+  for (std::size_t i = 0; i < contact_limit; ++i) {
+    node_test::expect_same(answer->contacts[i], expected[i]);
+  }
+  EXPECT_TRUE(answer->limit_reached);
+  EXPECT_TRUE(answer->complete);
+}
+
 // In two blocks, of which the first is full and leaves little to the second.
 TEST_F(LimitsTest, ManyCandidatesShareTheLimitOfContacts) {
   constexpr std::size_t count = 260;

@@ -2,7 +2,6 @@
 // only where they make a loop.
 #include "ros/messages.hpp"
 #include "ros/node_test.hpp"
-#include "support/random.hpp"
 
 namespace {
 
@@ -11,6 +10,27 @@ using Points = std::vector<Vector3d>;
 
 constexpr int count = 45;
 
+Points line(int points, double length, const Vector3d& from) {
+  Points line;
+  for (int i = 0; i < points; ++i) {
+    line.push_back(from + length * i / (points - 1) * Vector3d(0.6, 0.8, 0.0));
+  }
+  return line;
+}
+
+/// Strands of ten radii each, which touch.
+Points hairpin(double radius, const Vector3d& from) {
+  Points points;
+  for (int i = 0; i <= 20; ++i) {
+    points.push_back(from + radius * Vector3d(0.5 * i, 0.0, 0.0));
+  }
+  for (int i = 20; i >= 0; --i) {
+    points.push_back(from + radius * Vector3d(0.5 * i, 1.999, 0.0));
+  }
+  return points;
+}
+
+/// With config/trackdlo.yaml.
 class SelfContactTest : public node_test::NodeTest {
  protected:
   /// Of an answer about both clouds.
@@ -25,26 +45,6 @@ class SelfContactTest : public node_test::NodeTest {
           });
       return merged != nullptr;
     });
-  }
-
-  static Points line(double length, const Vector3d& from) {
-    Points points;
-    for (int i = 0; i < count; ++i) {
-      points.push_back(from + length * i / (count - 1) * Vector3d(0.6, 0.8, 0.0));
-    }
-    return points;
-  }
-
-  /// Strands of ten radii each, which touch.
-  static Points hairpin(double radius, const Vector3d& from) {
-    Points points;
-    for (int i = 0; i <= 20; ++i) {
-      points.push_back(from + radius * Vector3d(0.5 * i, 0.0, 0.0));
-    }
-    for (int i = 20; i >= 0; --i) {
-      points.push_back(from + radius * Vector3d(0.5 * i, 1.999, 0.0));
-    }
-    return points;
   }
 
   ros::Publisher left_ = advertise<sensor_msgs::PointCloud2>("/cable_left/results_pc");
@@ -71,20 +71,52 @@ TEST_F(SelfContactTest, StraightCablesHaveNoneAndHairpinsDo) {
   for (const double length : {0.4, 0.5, 0.6, 0.7, 0.8}) {
     SCOPED_TRACE(length);
     height += 0.1;  // tells the answers apart
-    const fiber_proximity::ContactArray* answer = answer_about(
-        line(length, Vector3d(0.0, 0.0, height)), line(length, Vector3d(0.5, 0.0, height)));
+    const fiber_proximity::ContactArray* answer =
+        answer_about(line(count, length, Vector3d(0.0, 0.0, height)),
+                     line(count, length, Vector3d(0.5, 0.0, height)));
     ASSERT_NE(answer, nullptr);
     EXPECT_EQ(answer->contacts.size(), 0U);
     ASSERT_TRUE(answer->has_minimum);
     EXPECT_NE(answer->minimum.fiber_a, answer->minimum.fiber_b);
   }
-  const fiber_proximity::ContactArray* answer =
-      answer_about(hairpin(0.004, Vector3d(0.0, 0.0, 1.0)), line(0.6, Vector3d(0.5, 0.0, 1.0)));
+  const fiber_proximity::ContactArray* answer = answer_about(
+      hairpin(0.004, Vector3d(0.0, 0.0, 1.0)), line(count, 0.6, Vector3d(0.5, 0.0, 1.0)));
   ASSERT_NE(answer, nullptr);
   ASSERT_FALSE(answer->contacts.empty());
   for (const fiber_proximity::Contact& contact : answer->contacts) {
     EXPECT_EQ(contact.fiber_a, contact.fiber_b);
   }
+  EXPECT_LT(answer->minimum_distance, 0.0);
+}
+
+/// With config/cdcpd.yaml.
+class SelfContactOfOneTest : public node_test::NodeTest {
+ protected:
+  const fiber_proximity::ContactArray* answer_about(const Points& points) {
+    const ros::Time stamp = new_stamp();
+    rope_.publish(test_messages::point_cloud2(test_messages::header("world", stamp), points));
+    return contacts.wait_for(stamp);
+  }
+
+  ros::Publisher rope_ = advertise<sensor_msgs::PointCloud2>("/cdcpd/output");
+};
+
+TEST_F(SelfContactOfOneTest, AStraightCableHasNoneAndAHairpinDoes) {
+  connect(rope_, test_messages::point_cloud2(test_messages::header("world"),
+                                             line(11, 0.5, Vector3d::Zero())));
+  for (const int points : {11, 18, 25, count}) {
+    for (const double length : {0.2, 0.4, 0.8}) {
+      SCOPED_TRACE(testing::Message() << points << " points, " << length << " m");
+      const fiber_proximity::ContactArray* answer =
+          answer_about(line(points, length, Vector3d::Zero()));
+      ASSERT_NE(answer, nullptr);
+      EXPECT_EQ(answer->contacts.size(), 0U);
+      EXPECT_FALSE(answer->has_minimum);
+    }
+  }
+  const fiber_proximity::ContactArray* answer = answer_about(hairpin(0.01, Vector3d::Zero()));
+  ASSERT_NE(answer, nullptr);
+  EXPECT_FALSE(answer->contacts.empty());
   EXPECT_LT(answer->minimum_distance, 0.0);
 }
 
