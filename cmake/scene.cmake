@@ -25,6 +25,7 @@ add_library(fiber_proximity_sim_scene SHARED
   src/sim/scene/description.cpp
   src/sim/scene/effects.cpp
   src/sim/scene/fibers.cpp
+  src/sim/scene/force_file.cpp
   src/sim/scene/holds.cpp
   src/sim/scene/lead.cpp
   src/sim/scene/natural_curvature.cpp
@@ -34,6 +35,7 @@ add_library(fiber_proximity_sim_scene SHARED
   src/sim/scene/resolution.cpp
   src/sim/scene/scene.cpp
   src/sim/scene/shapes.cpp
+  src/sim/scene/warnings.cpp
 )
 target_link_libraries(fiber_proximity_sim_scene
   PUBLIC fiber_proximity_environment_scene fiber_proximity_sim PRIVATE fiber_proximity_options)

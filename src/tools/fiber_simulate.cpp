@@ -1,14 +1,19 @@
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <iostream>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 
 #include "command_line.hpp"
 #include "fiber_proximity/io/fiber_file.hpp"
+#include "fiber_proximity/sim/scene/force_file.hpp"
 #include "fiber_proximity/sim/scene/scene.hpp"
+#include "fiber_proximity/sim/scene/warnings.hpp"
 #include "fiber_proximity/text/quote.hpp"
 #include "progress.hpp"
 
@@ -21,12 +26,15 @@ struct Request {
   std::string scene;
   double seconds = 0.0;
   std::string out;
+  std::string forces;  // empty for none
   std::uint32_t threads = 0;
 };
 
 /// A bar on a terminal, renewed some times a second.
 class Bar {
  public:
+  explicit Bar(Progress& progress) : progress_(progress) {}
+
   void show(std::int64_t frame, std::int64_t frames, double time) {
     constexpr std::chrono::milliseconds period(100);
     constexpr std::size_t width = 30;
@@ -47,15 +55,57 @@ class Bar {
   }
 
  private:
-  Progress progress_;
+  Progress& progress_;
   Clock::time_point begin_ = Clock::now();
   Clock::time_point shown_;
 };
 
-SimScene make_scene(const Request& request) {
+void require_different(const std::string& option, const std::string& file, const std::string& what,
+                       const std::string& other) {
   std::error_code none;
-  if (std::filesystem::equivalent(request.scene, request.out, none)) {
-    throw std::invalid_argument("--out is the scene itself, " + quote(request.out));
+  if (file == other || std::filesystem::equivalent(file, other, none)) {
+    throw std::invalid_argument(option + " is " + what + " itself, " + quote(file));
+  }
+}
+
+/// Tells what goes wrong when it does so first, and how often it has in the end.
+class Warnings {
+ public:
+  explicit Warnings(Progress& progress) : progress_(progress) {}
+
+  void tell(const SimScene& scene) {
+    for (const SimWarning& warning : frame_warnings(scene)) {
+      const auto kind = static_cast<std::size_t>(warning.kind);
+      if (frames_[kind]++ == 0) {
+        std::ostringstream text;
+        text << "after " << scene.stepper->time() << " s: " << warning.text;
+        firsts_[kind] = text.str();
+        progress_.show("");
+        std::cerr << "warning: " << text.str() << '\n';
+      }
+    }
+  }
+
+  void sum_up(std::int64_t frames) const {
+    for (std::size_t kind = 0; kind < frames_.size(); ++kind) {
+      if (frames_[kind] > 1) {
+        std::cerr << "warning: so in " << frames_[kind] << " of " << frames << " frames, first "
+                  << firsts_[kind] << '\n';
+      }
+    }
+  }
+
+ private:
+  Progress& progress_;
+  std::array<std::int64_t, SimWarning::kinds> frames_{};
+  std::array<std::string, SimWarning::kinds> firsts_;
+};
+
+SimScene make_scene(const Request& request) {
+  require_different("--out", request.out, "the scene", request.scene);
+  if (!request.forces.empty()) {
+    require_different("--forces", request.forces, "the scene", request.scene);
+    require_different("--forces", request.forces, "--out", request.out);
   }
   const MeshSource meshes = mesh_files(std::filesystem::path(request.scene).parent_path());
   SimScene scene =
@@ -99,15 +149,30 @@ ExitCode run(const Request& request) {
   FiberFrame frame{0, FiberAssembly(rods.positions, rods.offsets, rods.radii)};
   FiberWriter writer(request.out, true);
   writer.write(frame, 0.0);
-  Bar bar;
+  std::optional<ForceWriter> forces;
+  if (!request.forces.empty()) {
+    forces.emplace(request.forces);
+  }
+  Progress progress;
+  Bar bar(progress);
+  Warnings warnings(progress);
   while (frame.frame < frames) {
     advance(scene);
     ++frame.frame;
     frame.fibers.update_points(rods.positions);
     writer.write(frame, scene.stepper->time());
+    if (forces) {
+      forces->write(frame.frame, rods, scene.stepper->forces());
+    }
+    warnings.tell(scene);
     bar.show(frame.frame, frames, scene.stepper->time());
   }
   writer.finish();
+  if (forces) {
+    forces->finish();
+  }
+  progress.show("");
+  warnings.sum_up(frames);
   return SUCCEEDED;
 }
 
@@ -122,6 +187,8 @@ void setup(CLI::App& app, Command& command) {
                  "file to write: .pvd for ParaView, with a .vtp file for each frame beside it; any "
                  "other name: CSV")
       ->required();
+  app.add_option("--forces", request->forces,
+                 "CSV file to write: what acts in the fibres and on them, frame by frame");
   app.add_option("--threads", request->threads,
                  "most threads to use, 0: as many as there are cores; the frames are the same")
       ->capture_default_str();

@@ -14,8 +14,9 @@ struct RodForces {
 
     std::uint32_t rod;
     std::uint32_t edge;              ///< from the rod's first one
-    std::uint32_t other_rod;         ///< that it touches, or `obstacle`
+    std::uint32_t other_rod;         ///< that it touches, or `obstacle`: an object
     std::uint32_t other_edge;        ///< from that rod's first one; of obstacles 0
+    std::uint32_t object;            ///< of the environment, where it touches one; else 0
     Eigen::Vector3d point;           ///< between the surfaces [m]
     Eigen::Vector3d normal_force;    ///< on `rod`; on the other minus this [N]
     Eigen::Vector3d friction_force;  ///< on `rod` [N]

@@ -74,7 +74,8 @@ void ContactSet::visit_obstacle(std::size_t index, std::vector<DistanceTerm>& fo
   found.clear();
   obstacle_contact(contact, obstacle_distances_[index], &found);
   for (const DistanceTerm& term : found) {
-    function(PointPair{contact.rod, contact.edge, term.s, 0, no_edge, 0.0}, term, contact.barrier);
+    function(PointPair{contact.rod, contact.edge, term.s, contact.piece.object(), no_edge, 0.0},
+             term, contact.barrier);
   }
 }
 
@@ -299,17 +300,20 @@ void ContactSet::add_loads(const Rods& rods, std::vector<double>& loads) const {
 }
 
 void ContactSet::add_forces(const Rods& rods, std::vector<RodForces::ContactForce>& forces) const {
-  using Key = std::array<std::uint32_t, 4>;
+  using Key = std::array<std::uint32_t, 3>;
   std::map<Key, std::size_t> places;
   const auto force_of = [&](const PointPair& points) -> RodForces::ContactForce& {
-    const bool is_obstacle = points.edge_b == no_edge;
-    const std::uint32_t rod_b = is_obstacle ? no_edge : points.rod_b;
-    const std::uint32_t edge_b = is_obstacle ? 0 : points.edge_b - rods.first(points.rod_b);
-    const Key key{points.rod_a, points.edge_a - rods.first(points.rod_a), rod_b, edge_b};
-    const auto [place, is_new] = places.emplace(key, forces.size());
+    const auto [place, is_new] =
+        places.emplace(Key{points.edge_a, points.rod_b, points.edge_b}, forces.size());
     if (is_new) {
-      forces.push_back(
-          {key[0], key[1], key[2], key[3], Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()});
+      const bool is_obstacle = points.edge_b == no_edge;
+      RodForces::ContactForce& force = forces.emplace_back();
+      force.rod = points.rod_a;
+      force.edge = points.edge_a - rods.first(points.rod_a);
+      force.other_rod = is_obstacle ? RodForces::ContactForce::obstacle : points.rod_b;
+      force.other_edge = is_obstacle ? 0 : points.edge_b - rods.first(points.rod_b);
+      force.object = is_obstacle ? points.rod_b : 0;
+      force.point = force.normal_force = force.friction_force = Vector3d::Zero();
     }
     return forces[place->second];
   };

@@ -99,7 +99,7 @@ class ContactSet {
     std::uint32_t rod_a;
     std::uint32_t edge_a;
     double s;
-    std::uint32_t rod_b;
+    std::uint32_t rod_b;   // the object's index, for an obstacle
     std::uint32_t edge_b;  // no_edge for an obstacle
     double t;
   };

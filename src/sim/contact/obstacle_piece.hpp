@@ -12,8 +12,11 @@ namespace fiber {
 
 /// A shape of an object of the environment, where it is in the world.
 struct ObstacleShape {
-  ObstacleShape(const Shape& own, const Eigen::Isometry3d& in_world)
-      : shape(&own), pose(in_world), to_shape(in_world.inverse(Eigen::Isometry)) {}
+  ObstacleShape(const Shape& own, const Eigen::Isometry3d& in_world, std::uint32_t its_object = 0)
+      : shape(&own),
+        pose(in_world),
+        to_shape(in_world.inverse(Eigen::Isometry)),
+        object(its_object) {}
 
   /// Whether it is one convex piece; meshes and octrees are many.
   bool is_convex() const;
@@ -21,6 +24,7 @@ struct ObstacleShape {
   const Shape* shape;
   Eigen::Isometry3d pose;
   Eigen::Isometry3d to_shape;
+  std::uint32_t object;  ///< index in the environment
 };
 
 /// A convex part of a shape: all of it, a triangle of a mesh, or a cell of an octree.
@@ -35,6 +39,9 @@ class ObstaclePiece {
   /// @param shape must outlive this
   /// @param part  in the shape's frame
   ObstaclePiece(const ObstacleShape& shape, const Part& part) : shape_(&shape), part_(part) {}
+
+  /// The object that it is a part of.
+  std::uint32_t object() const { return shape_->object; }
 
   /// Where on a segment it is nearest, in [0, 1].
   double nearest_parameter(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1) const;

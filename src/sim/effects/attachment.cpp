@@ -102,6 +102,18 @@ std::optional<std::uint32_t> Attachment::find(std::uint32_t rod, std::uint32_t n
   return std::nullopt;
 }
 
+std::optional<HoldLag> Attachment::longest_lag(const Rods& rods) const {
+  std::optional<HoldLag> longest;
+  for (const Held& held : held_) {
+    const Vector3d& node = rods.positions[rods.first(held.hold.rod) + held.hold.node];
+    const double distance = (held.placement.position - node).norm();
+    if (held.stiffness * distance > held.max_force && (!longest || distance > longest->distance)) {
+      longest = HoldLag{held.hold.rod, held.hold.node, distance, held.max_force};
+    }
+  }
+  return longest;
+}
+
 std::vector<HeldNode> Attachment::held_at(std::uint32_t rod, double time) const {
   std::vector<HeldNode> nodes;
   for (auto held = first_of(rod); held != held_.end() && held->hold.rod == rod; ++held) {

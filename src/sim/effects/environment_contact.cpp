@@ -49,11 +49,13 @@ void EnvironmentContact::set_environment(std::shared_ptr<const Environment> envi
   environment_ = std::move(environment);
   clear_within_ = 0.0;
   shapes_.clear();
+  std::uint32_t index = 0;
   for (const EnvironmentObject& object : environment_->objects()) {
     shapes_.emplace_back();
     for (const PlacedShape& placed : object.shapes) {
-      shapes_.back().emplace_back(placed.shape, object.pose * placed.pose);
+      shapes_.back().emplace_back(placed.shape, object.pose * placed.pose, index);
     }
+    ++index;
   }
 }
 

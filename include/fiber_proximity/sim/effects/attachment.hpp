@@ -20,6 +20,14 @@ struct HeldNode {
   Eigen::Vector3d position;  ///< [m]
 };
 
+/// A hold that pulls with its greatest force and does not bring its node to where it should be.
+struct HoldLag {
+  std::uint32_t rod;
+  std::uint32_t node;  ///< from the rod's first one
+  double distance;     ///< of the node from there [m]
+  double force;        ///< [N]
+};
+
 /// Holds on rods: pins, which pull a node to a place; clamps, which at an end of a rod also turn it
 /// into a direction, and with twist turn the cross-section.
 ///
@@ -57,6 +65,9 @@ class Attachment : public Effect {
 
   /// The nodes of a rod that are held, rising, and where they are to be at a time [s].
   std::vector<HeldNode> held_at(std::uint32_t rod, double time) const;
+
+  /// The hold that lags furthest behind, of those that cannot pull any harder; none if none does.
+  std::optional<HoldLag> longest_lag(const Rods& rods) const;
 
   /// @throws std::invalid_argument if there is no such hold
   void remove(std::uint32_t id);

@@ -1,0 +1,80 @@
+#include "fiber_proximity/sim/scene/force_file.hpp"
+
+#include <cerrno>
+#include <utility>
+
+#include "fiber_proximity/io/file_error.hpp"
+#include "fiber_proximity/io/number.hpp"
+
+namespace fiber {
+
+using Eigen::Vector3d;
+
+ForceWriter::ForceWriter(const std::string& path) : path_(path) {
+  errno = 0;
+  stream_.open(path, std::ios::binary);
+  if (!stream_) {
+    throw FileError::from_system(path, "cannot be opened for writing");
+  }
+  stream_ << "frame,kind,fiber,index,fx,fy,fz,mx,my,mz\n";
+}
+
+void ForceWriter::add_row(const char* kind, std::uint32_t rod, std::uint32_t index,
+                          const Vector3d& force, const Vector3d& moment) {
+  append_number(rows_, frame_);
+  rows_ += ',';
+  rows_ += kind;
+  for (const std::uint32_t number : {rod, index}) {
+    rows_ += ',';
+    append_number(rows_, number);
+  }
+  for (const Vector3d& vector : {force, moment}) {
+    for (const double component : vector) {
+      rows_ += ',';
+      append_number(rows_, component);
+    }
+  }
+  rows_ += '\n';
+}
+
+void ForceWriter::write(std::int64_t frame, const Rods& rods, const RodForces& forces) {
+  frame_ = frame;
+  rows_.clear();
+  const Vector3d zero = Vector3d::Zero();
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    const std::uint32_t first = rods.first(rod);
+    for (std::uint32_t i = first; i + 1 < rods.end(rod); ++i) {
+      const Vector3d tangent = (rods.positions[i + 1] - rods.positions[i]).stableNormalized();
+      add_row("tension", rod, i - first, forces.tensions[i] * tangent, zero);
+      add_row("twisting", rod, i - first, zero, forces.twisting_moments[i] * tangent);
+    }
+    for (std::uint32_t i = first; i < rods.end(rod); ++i) {
+      add_row("bending", rod, i - first, zero, forces.bending_moments[i]);
+    }
+  }
+  for (const RodForces::ContactForce& contact : forces.contacts) {
+    for (const auto& [kind, force] : {std::make_pair("normal", &contact.normal_force),
+                                      std::make_pair("friction", &contact.friction_force)}) {
+      add_row(kind, contact.rod, contact.edge, *force, zero);
+      if (contact.other_rod != RodForces::ContactForce::obstacle) {
+        add_row(kind, contact.other_rod, contact.other_edge, -*force, zero);
+      }
+    }
+  }
+  for (const RodForces::HoldForce& hold : forces.holds) {
+    add_row("hold", hold.rod, hold.node, hold.force, hold.moment);
+  }
+  errno = 0;
+  if (!(stream_ << rows_)) {
+    throw FileError::from_system(path_, "cannot be written");
+  }
+}
+
+void ForceWriter::finish() {
+  stream_.close();
+  if (!stream_) {
+    throw FileError::from_system(path_, "cannot be written");
+  }
+}
+
+}  // namespace fiber
