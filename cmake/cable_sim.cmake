@@ -1,6 +1,8 @@
 # The node that runs scenes of the simulation.
 
 add_library(fiber_proximity_cable_sim SHARED
+  src/ros/force_markers.cpp
+  src/ros/sim_forces.cpp
   src/ros/sim_frames.cpp
   src/ros/sim_markers.cpp
   src/ros/sim_server.cpp

@@ -32,11 +32,14 @@ add_message_files(FILES
   Contact.msg
   ContactArray.msg
   ContactEvent.msg
+  ContactForce.msg
   Crossing.msg
   CrossingArray.msg
   Disagreement.msg
   FclComparison.msg
   FiberArray.msg
+  ForceArray.msg
+  HoldForce.msg
   InputStatistics.msg
   Obstacle.msg
   ObstacleArray.msg

@@ -183,20 +183,6 @@ void MarkerBuilder::draw_names(const fiber::FiberAssembly& fibers,
   }
 }
 
-/// Each line is a marker of its own, for its colour; all are at one place, where empty lines above
-/// and below move each to its own, from wherever one looks.
-void MarkerBuilder::draw_legend(const std::vector<LegendLine>& legend, const MarkerScale& scale,
-                                Canvas& canvas) {
-  for (std::size_t line = 0; line < legend.size(); ++line) {
-    Marker& text = canvas.add(LEGEND, Marker::TEXT_VIEW_FACING);
-    text.scale.z = 0.03 * scale.extent;
-    text.pose.position = to_message(scale.bottom() - 0.15 * scale.extent * scale.up);
-    text.color = color(legend[line].color);
-    text.text =
-        std::string(line, '\n') + legend[line].text + std::string(legend.size() - 1 - line, '\n');
-  }
-}
-
 /// x red, y green, z blue, as everywhere in rviz; between the legend and the names of the ends.
 void MarkerBuilder::draw_axes(const MarkerScale& scale, Canvas& canvas) {
   const double length = 0.12 * scale.extent;
@@ -251,7 +237,7 @@ void MarkerBuilder::build(const std_msgs::Header& header, const Drawing& drawing
     draw_names(fibers, *names, scale, canvas);
   }
   if (options.show_legend && legend != nullptr && fibers.fiber_count() > 0) {
-    draw_legend(*legend, scale, canvas);
+    draw_legend(*legend, scale, LEGEND, canvas);
     draw_axes(scale, canvas);
   }
   canvas.finish(drawn_);

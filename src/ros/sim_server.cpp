@@ -13,10 +13,8 @@
 #include "fiber_proximity/ros/environment_options.hpp"
 #include "fiber_proximity/ros/obstacle_change.hpp"
 #include "fiber_proximity/ros/parameters.hpp"
-#include "fiber_proximity/sim/reach.hpp"
 #include "fiber_proximity/sim/scene/report.hpp"
 #include "fiber_proximity/text/listed.hpp"
-#include "fiber_proximity/text/quote.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -24,7 +22,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// [s] How often a warning is repeated.
-constexpr double speed_warning_period = 5.0;
+constexpr double warning_pause = 5.0;
 
 /// How often handles are moved: rviz takes far longer for them than for fibres.
 const ros::WallDuration marker_period(1.0 / 30.0);
@@ -62,7 +60,8 @@ SimServer::SimServer(const ros::NodeHandle& private_node, const SimOptions& opti
       world_(scene_.frame_id, private_node),
       frames_(world_, options.frame_timeout),
       is_paused_(options.paused),
-      next_frame_(ros::SteadyTime::now()) {
+      next_frame_(ros::SteadyTime::now()),
+      forces_(private_node) {
   frames_.wait_for(scene_.frames, options.frame_wait);
   log_scene(description);
   fibers_ = node_.advertise<fiber_proximity::FiberArray>("fibers", 1, true);
@@ -132,10 +131,9 @@ void SimServer::keep_pace() {
   if (late > scene_.time_step) {
     behind_ += late;
     next_frame_ = ros::SteadyTime::now();
-    ROS_WARN_STREAM_THROTTLE(speed_warning_period, "the simulation is slower than real time: "
-                                                       << behind_ << " s behind after "
-                                                       << scene_.stepper->time()
-                                                       << " s of the scene");
+    ROS_WARN_STREAM_THROTTLE(warning_pause, "the simulation is slower than real time: "
+                                                 << behind_ << " s behind after "
+                                                 << scene_.stepper->time() << " s of the scene");
   }
 }
 
@@ -172,20 +170,19 @@ void SimServer::run_frame() {
   }
   scene_.advance();
   publish();
-  warn_of_strain();
+  forces_.publish(scene_, message_.header);
+  warn();
 }
 
-/// Where something keeps edges from being stretched, and what holds a fibre does it all the same.
-void SimServer::warn_of_strain() const {
-  const fiber::LargestStrain largest = fiber::largest_strain(scene_.stepper->rods());
-  if (largest.strain > scene_.max_strain &&
-      (scene_.has_effect("stretch") || scene_.has_effect("inextensible"))) {
-    ROS_WARN_STREAM_THROTTLE(speed_warning_period,
-                             "edge " << largest.edge << " of fibre "
-                                     << fiber::quote(scene_.fiber_names[largest.rod])
-                                     << " is stretched by " << 100.0 * largest.strain
-                                     << " %, more than " << 100.0 * scene_.max_strain
-                                     << " % (max_strain): what moves it goes too far or too fast");
+/// Of each kind of warning not too often.
+void SimServer::warn() {
+  const ros::SteadyTime now = ros::SteadyTime::now();
+  for (const fiber::SimWarning& warning : fiber::frame_warnings(scene_)) {
+    ros::SteadyTime& last = warned_[static_cast<std::size_t>(warning.kind)];
+    if (last.isZero() || (now - last).toSec() >= warning_pause) {
+      last = now;
+      ROS_WARN_STREAM(warning.text);
+    }
   }
 }
 

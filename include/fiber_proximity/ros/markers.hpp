@@ -11,6 +11,7 @@
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/ros/crossing_markers.hpp"
+#include "fiber_proximity/ros/draw_legend.hpp"
 #include "fiber_proximity/ros/marker_canvas.hpp"
 #include "fiber_proximity/ros/marker_scale.hpp"
 
@@ -29,13 +30,6 @@ struct MarkerOptions {
   bool show_legend = false;
   bool show_passed = false;  ///< contacts that came and went, if there are any to show
 };
-
-/// What a colour means.
-struct LegendLine {
-  Rgb color;
-  std::string text;
-};
-
 /// An answer to draw. Holds references: only for the call.
 struct Drawing {
   const fiber::FiberAssembly& fibers;
@@ -130,8 +124,6 @@ class MarkerBuilder {
   static void draw_boxes(const std::vector<fiber::NodeBox>& boxes, double extent, Canvas& canvas);
   static void draw_names(const fiber::FiberAssembly& fibers, const std::vector<std::string>& names,
                          const MarkerScale& scale, Canvas& canvas);
-  static void draw_legend(const std::vector<LegendLine>& legend, const MarkerScale& scale,
-                          Canvas& canvas);
   static void draw_axes(const MarkerScale& scale, Canvas& canvas);
 
   // By namespace: ids 0 .. count−1 are on the screen.

@@ -14,7 +14,7 @@ inline Rgb mix(const Rgb& a, const Rgb& b, double part) {
   return {a[0] + u * (b[0] - a[0]), a[1] + u * (b[1] - a[1]), a[2] + u * (b[2] - a[2])};
 }
 
-/// What distances look like, and crossings, everywhere.
+/// What distances look like, crossings and forces, everywhere.
 namespace palette {
 constexpr Rgb penetrating{0.95F, 0.15F, 0.12F};
 constexpr Rgb within_margin{1.0F, 0.70F, 0.10F};
@@ -25,6 +25,11 @@ constexpr Rgb nearest{1.0F, 1.0F, 1.0F};
 constexpr Rgb boxes{0.75F, 0.85F, 1.0F};
 constexpr Rgb positive_crossing{0.25F, 0.90F, 0.35F};
 constexpr Rgb negative_crossing{0.90F, 0.25F, 0.85F};
+constexpr Rgb pulled{0.95F, 0.20F, 0.12F};
+constexpr Rgb unloaded{0.95F, 0.95F, 0.95F};
+constexpr Rgb pressed{0.15F, 0.35F, 1.00F};
+constexpr Rgb contact_force{1.0F, 0.85F, 0.10F};
+constexpr Rgb hold_force{0.25F, 0.85F, 0.35F};
 }  // namespace palette
 
 /// Colours that tell fibres apart: cool and pale ones, for red and amber belong to contacts.

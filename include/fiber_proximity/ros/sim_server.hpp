@@ -6,6 +6,7 @@
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 
+#include <array>
 #include <atomic>
 #include <string>
 
@@ -17,9 +18,11 @@
 #include "fiber_proximity/ros/fair_mutex.hpp"
 #include "fiber_proximity/ros/fixed_frame.hpp"
 #include "fiber_proximity/ros/mesh_loader.hpp"
+#include "fiber_proximity/ros/sim_forces.hpp"
 #include "fiber_proximity/ros/sim_frames.hpp"
 #include "fiber_proximity/ros/sim_markers.hpp"
 #include "fiber_proximity/sim/scene/scene.hpp"
+#include "fiber_proximity/sim/scene/warnings.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -42,8 +45,8 @@ SimOptions read_sim_options(const ros::NodeHandle& private_node);
 /// @throws std::invalid_argument as fiber::load_yaml and fiber::read_sim_scene
 fiber::SimDescription read_scene(const SimOptions& options);
 
-/// Stands in for a tracker: moves the fibres of a scene in real time, and publishes ~fibers; and
-/// ~obstacles, the scene's environment, once.
+/// Stands in for a tracker: moves the fibres of a scene in real time, and publishes ~fibers;
+/// ~obstacles, the scene's environment, once; and forces, see SimForces.
 ///
 /// A frame that fails, because a step diverges or for whatever else it throws, stops the simulation
 /// for good: what was published last stays, services answer with the reason, ~reset begins again.
@@ -72,7 +75,7 @@ class SimServer {
   void advance();
   void run_frame();
   void require_running() const;
-  void warn_of_strain() const;
+  void warn();
   void make_markers();
   void publish();
   void publish_obstacles(const std::vector<fiber::EnvironmentObject>& before);
@@ -108,6 +111,8 @@ class SimServer {
   ros::Publisher fibers_;
   ros::Publisher obstacles_;
   ros::Publisher clock_;
+  SimForces forces_;
+  std::array<ros::SteadyTime, fiber::SimWarning::kinds> warned_;  // of each kind the last time
 
   std::unique_ptr<SimMarkers> markers_;  // null without
 
