@@ -3,6 +3,7 @@
 add_library(fiber_proximity_sim SHARED
   src/sim/contact/contact_set.cpp
   src/sim/contact/contact_set_bound.cpp
+  src/sim/contact/contact_set_forces.cpp
   src/sim/contact/edge_contact.cpp
   src/sim/contact/obstacle_contact.cpp
   src/sim/contact/obstacle_piece.cpp

@@ -92,7 +92,8 @@ TEST_F(CableSimLimitsTest, AttachRefusesWhatTheFibreDoesNotReach) {
   EXPECT_LT(strain_of(points_after(120)), 0.11);
   // Nothing has happened to what held it before a refusal.
   const Vector3d end = points_after(1)[60];
-  EXPECT_NEAR((end - Vector3d(0.91, 0, 1)).norm(), 0.0, 1e-9);
+  // A hold is a spring, a thousand times as stiff as the fibre's edges, which are stretched by 9 %.
+  EXPECT_NEAR((end - Vector3d(0.91, 0, 1)).norm(), 0.0, 2e-4 * 0.02);
   expect_refused(attach(-1, {100, 0, 1}, 1.0), "is 100 m from where node 0");
   EXPECT_EQ(points_after(1)[60], end);
 }

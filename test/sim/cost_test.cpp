@@ -199,14 +199,15 @@ class Probe : public Effect {
   explicit Probe(Calls& calls) : calls_(&calls) {}
 
   void begin_step(Rods& /*rods*/, const TimeStep& /*step*/) override { ++calls_->begin_step; }
-  double energy(const Rods& /*rods*/, std::uint32_t /*rod*/) const override {
+  void energy(const RodPack& /*rods*/, const std::vector<SimdBatch>& /*values*/,
+              SimdBatch& energy) const override {
     ++calls_->energy;
-    return 0.0;
+    energy = SimdBatch{};
   }
-  void add_derivatives(const Rods& /*rods*/, std::uint32_t /*rod*/,
-                       RodSystem& system) const override {
-    ++calls_->derivatives;
-    calls_->unknowns = static_cast<std::uint32_t>(system.unknowns());
+  void add_derivatives(const RodPack& rods, const std::vector<SimdBatch>& /*values*/,
+                       PackSystem& system) const override {
+    calls_->derivatives += static_cast<int>(rods.used);
+    calls_->unknowns = static_cast<std::uint32_t>(system.unknowns);
   }
   void end_step(Rods& /*rods*/, const TimeStep& /*step*/) override { ++calls_->end_step; }
 

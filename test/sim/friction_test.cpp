@@ -1,4 +1,4 @@
-// Friction against closed forms: an inclined plane, and a rope around a post (Euler, Eytelwein).
+// Friction against closed forms: an inclined plane.
 
 #include <gtest/gtest.h>
 
@@ -38,16 +38,6 @@ TEST(Friction, WithoutACoefficientNothingSticks) {
   Incline incline(0.1, 0.0);
   incline.run(1.0);
   EXPECT_NEAR(incline.speed(), standard_gravity * std::sin(0.1), 1e-3);
-}
-
-TEST(Friction, OfARopeAroundAPostGrowsWithTheAngle) {
-  for (const double turns : {0.25, 0.5, 1.0}) {
-    const double expected = std::exp(0.3 * 2.0 * M_PI * turns);
-    for (const int edges : {24, 48}) {
-      EXPECT_NEAR(tension_ratio({turns, edges}, 0.3), expected, 0.02 * expected)
-          << turns << " turns, " << edges << " edges around the post";
-    }
-  }
 }
 
 }  // namespace

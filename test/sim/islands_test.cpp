@@ -1,6 +1,6 @@
 // Rods that may touch are moved together, and others do not matter to them.
 
-#include "fiber_proximity/sim/islands.hpp"
+#include "src/sim/solver/islands.hpp"
 
 #include <gtest/gtest.h>
 
@@ -69,7 +69,7 @@ TEST(Islands, WhatFallsAloneFallsFreelyWhateverBecomesOfOthers) {
     const std::uint32_t first = rods.first(rods.count());
     const Vector3d start(0.0, 20.0, 3.0);  // as far as no step goes
     rods.add({start, start + Vector3d(0.3, 0.0, 0.0)}, 0.005, rubber(0.005));
-    std::vector<std::unique_ptr<Effect>> effects = elastic(standard_gravity);
+    Effects effects = elastic(standard_gravity);
     effects.erase(effects.begin());
     Stepper stepper(rods, std::move(effects), StepperOptions{},
                     contacts_with(environment_of(HalfSpaceShape{}), 0.3));

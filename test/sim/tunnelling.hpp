@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fiber_proximity/sim/rods.hpp"
+#include "sim/solver_path.hpp"
 
 namespace fiber::test {
 
@@ -87,42 +88,88 @@ class TunnellingChecker {
  public:
   explicit TunnellingChecker(const Rods& rods) : before_(rods.positions) {}
 
-  /// @returns the first pair of edges that met since the last call; empty if none did
+  /// On the straight way since the last call.
+  /// @returns the first pair of edges that met; empty if none did
   std::string check(const Rods& rods) {
-    std::string met;
-    const auto edge = [&](std::uint32_t i) {
-      return MovingEdge{{before_[i], before_[i + 1]}, {rods.positions[i], rods.positions[i + 1]}};
-    };
-    for (std::uint32_t i = 0; i < rods.positions.size() && met.empty(); ++i) {
-      if (rods.rest_lengths[i] == 0.0) {
-        continue;
-      }
-      const MovingEdge a = edge(i);
-      // Neighbours share a node, and those of one rod two edges away may touch by folding.
-      for (std::uint32_t j = i + 1; j < rods.positions.size() && met.empty(); ++j) {
-        if (rods.rest_lengths[j] > 0.0 && !are_near(rods, i, j) && meet(a, edge(j))) {
-          met = "edges " + std::to_string(i) + " and " + std::to_string(j);
-        }
-      }
-    }
+    const std::string met = find(rods, [&](std::uint32_t i, std::uint32_t j) {
+      const auto edge = [&](std::uint32_t first) {
+        return MovingEdge{{before_[first], before_[first + 1]},
+                          {rods.positions[first], rods.positions[first + 1]}};
+      };
+      return meet(edge(i), edge(j));
+    });
     before_ = rods.positions;
     return met;
   }
 
+  /// On the way that the solver went in the last step: with long steps, things come, go and slide
+  /// within one.
+  static std::string check(const Rods& rods, const SolverPath& path) {
+    return find(rods, [&](std::uint32_t i, std::uint32_t j) {
+      const std::uint32_t rod_i = rod_of(rods, i);
+      const std::uint32_t rod_j = rod_of(rods, j);
+      const std::size_t pieces = path.pieces(rod_i, rod_j);
+      for (std::size_t piece = 0; piece < pieces; ++piece) {
+        if (meet(moving(path, rod_i, i, piece, pieces), moving(path, rod_j, j, piece, pieces))) {
+          return true;
+        }
+      }
+      return false;
+    });
+  }
+
   /// The same with an edge that does not move.
-  static bool passes(const std::vector<Eigen::Vector3d>& before, const Rods& rods,
-                     const Eigen::Vector3d& b0, const Eigen::Vector3d& b1) {
+  static bool passes(const Rods& rods, const SolverPath& path, const Eigen::Vector3d& b0,
+                     const Eigen::Vector3d& b1) {
     for (std::uint32_t i = 0; i < rods.positions.size(); ++i) {
-      if (rods.rest_lengths[i] > 0.0 &&
-          meet({{before[i], before[i + 1]}, {rods.positions[i], rods.positions[i + 1]}},
-               {{b0, b1}, {b0, b1}})) {
-        return true;
+      if (rods.rest_lengths[i] == 0.0) {
+        continue;
+      }
+      const std::uint32_t rod = rod_of(rods, i);
+      const std::size_t pieces = path.pieces(rod, rod);
+      for (std::size_t piece = 0; piece < pieces; ++piece) {
+        if (meet(moving(path, rod, i, piece, pieces), {{b0, b1}, {b0, b1}})) {
+          return true;
+        }
       }
     }
     return false;
   }
 
  private:
+  /// The first pair of edges of which something is true.
+  template <class Pair>
+  static std::string find(const Rods& rods, const Pair& is_true) {
+    for (std::uint32_t i = 0; i < rods.positions.size(); ++i) {
+      if (rods.rest_lengths[i] == 0.0) {
+        continue;
+      }
+      // Neighbours share a node, and those of one rod two edges away may touch by folding.
+      for (std::uint32_t j = i + 1; j < rods.positions.size(); ++j) {
+        if (rods.rest_lengths[j] > 0.0 && !are_near(rods, i, j) && is_true(i, j)) {
+          return "edges " + std::to_string(i) + " and " + std::to_string(j);
+        }
+      }
+    }
+    return "";
+  }
+
+  static std::uint32_t rod_of(const Rods& rods, std::uint32_t node) {
+    std::uint32_t rod = 0;
+    while (node >= rods.end(rod)) {
+      ++rod;
+    }
+    return rod;
+  }
+
+  static MovingEdge moving(const SolverPath& path, std::uint32_t rod, std::uint32_t edge,
+                           std::size_t piece, std::size_t pieces) {
+    const auto at = [&](std::uint32_t node, std::size_t when) {
+      return path.position(rod, node, when, pieces);
+    };
+    return {{at(edge, piece), at(edge + 1, piece)}, {at(edge, piece + 1), at(edge + 1, piece + 1)}};
+  }
+
   /// On one rod and within what self-contact leaves out.
   static bool are_near(const Rods& rods, std::uint32_t i, std::uint32_t j) {
     double between = 0.0;

@@ -70,7 +70,8 @@ TEST_F(Simulate, ThingsMoveAsTheyShould) {
   ASSERT_EQ(written.size(), 16U);
   const std::vector<Eigen::Vector3d>& begin = written.front().fibers.points();
   const std::vector<Eigen::Vector3d>& end = written.back().fibers.points();
-  EXPECT_NEAR(end[0].z(), 0.02 + 0.125, 1e-9) << "the gripper rises by half a metre a second";
+  // The hold is a spring, a thousand times as stiff as the edges.
+  EXPECT_NEAR(end[0].z(), 0.02 + 0.125, 1e-6) << "the gripper rises by half a metre a second";
   EXPECT_NEAR(end[20].z(), 0.01, 2e-3) << "the other end falls on the table";
   for (std::size_t i = 21; i < end.size(); ++i) {
     // Implicit Euler falls a little further: g t (t + step) / 2.

@@ -26,12 +26,12 @@ struct Barrier {
             stiffness / curvature_in_middle};
   }
 
-  /// The same for what begins a step at a distance: nearer than the least one, as scenes may make
-  /// it, it can only part. Otherwise as it is.
+  /// The same for what begins a step at a distance where the energy would be infinite, as scenes
+  /// may make it: it can only part.
   Barrier for_start_at(double distance) const {
     constexpr double spare = 1e-3;
     Barrier barrier = *this;
-    barrier.inner -= std::max(0.0, least() + spare * width() - distance);
+    barrier.inner = std::min(inner, distance - spare * width());
     return barrier;
   }
 

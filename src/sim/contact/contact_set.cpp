@@ -1,10 +1,11 @@
-#include "contact_set.hpp"
-
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
-#include <map>
+#include <cmath>
+#include <limits>
+
+#include "contact_set-inl.hpp"
 
 namespace fiber {
 
@@ -13,10 +14,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 namespace {
-
-Vector3d point_at(const std::vector<Vector3d>& of_nodes, std::uint32_t edge, double parameter) {
-  return (1.0 - parameter) * of_nodes[edge] + parameter * of_nodes[edge + 1];
-}
 
 /// Adds one side of a term to the rod it is on.
 /// @param node of the rod, where the edge begins
@@ -65,51 +62,13 @@ void for_each_chunk(std::size_t count, const Function& function) {
 
 }  // namespace
 
-/// Calls function(points, term, barrier) for what the contact has of the energy.
-/// @param found room for these terms
-template <class Function>
-void ContactSet::visit_obstacle(std::size_t index, std::vector<DistanceTerm>& found,
-                                const Function& function) const {
-  const ObstacleContact& contact = obstacle_contacts[index];
-  found.clear();
-  obstacle_contact(contact, obstacle_distances_[index], &found);
-  for (const DistanceTerm& term : found) {
-    function(PointPair{contact.rod, contact.edge, term.s, contact.piece.object(), no_edge, 0.0},
-             term, contact.barrier);
-  }
-}
-
-/// The same of a pair.
-template <class Function>
-void ContactSet::visit_pair(const Rods& rods, std::size_t index, std::vector<DistanceTerm>& found,
-                            const Function& function) const {
-  const EdgePair& pair = pairs[index];
-  if (distances_[index].distance >= pair.barrier.outer) {
-    return;
-  }
-  found.clear();
-  edge_contact(pair, rods.positions, distances_[index], &found);
-  for (const DistanceTerm& term : found) {
-    function(PointPair{pair.rod_a, pair.edge_a, term.s, pair.rod_b, pair.edge_b, term.t}, term,
-             pair.barrier);
-  }
-}
-
-template <class Function>
-void ContactSet::for_each_distance(const Rods& rods, const Function& function) const {
-  std::vector<DistanceTerm> found;
-  for (std::size_t i = 0; i < obstacle_contacts.size(); ++i) {
-    visit_obstacle(i, found, function);
-  }
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    visit_pair(rods, i, found, function);
-  }
-}
-
 void ContactSet::begin(const Rods& rods, const Friction* friction,
                        const std::vector<Vector3d>& references, double step) {
   frictions_.clear();
   measure(rods);
+  gaps_.assign(obstacle_contacts.size() + pairs.size(), 0.0);
+  tried_gaps_ = gaps_;
+  let_part(rods);
   if (friction == nullptr) {
     return;
   }
@@ -127,6 +86,28 @@ void ContactSet::begin(const Rods& rods, const Friction* friction,
       });
 }
 
+/// What begins where its energy is infinite gets a barrier that begins nearer.
+void ContactSet::let_part(const Rods& rods) {
+  for (std::size_t i = 0; i < obstacle_contacts.size() + pairs.size(); ++i) {
+    if (std::isfinite(energy_of(rods, i))) {
+      continue;
+    }
+    const bool is_pair = i >= obstacle_contacts.size();
+    const std::size_t pair = i - obstacle_contacts.size();
+    Barrier& barrier = is_pair ? pairs[pair].barrier : obstacle_contacts[i].barrier;
+    barrier = barrier.for_start_at(is_pair ? distances_[pair].distance
+                                           : obstacle_distances_[i].nearest.distance);
+    energy_of(rods, i);
+  }
+  accept_gaps();
+}
+
+void ContactSet::accept_gaps() {
+  for (std::size_t i = 0; i < gaps_.size(); ++i) {
+    gaps_[i] = std::isfinite(tried_gaps_[i]) ? tried_gaps_[i] : 0.0;
+  }
+}
+
 void ContactSet::measure(const Rods& rods) {
   obstacle_distances_.resize(obstacle_contacts.size());
   for_each_chunk(
@@ -136,6 +117,8 @@ void ContactSet::measure(const Rods& rods) {
         }
       });
   distances_.resize(pairs.size());
+  gaps_.resize(obstacle_contacts.size() + pairs.size(), 0.0);
+  tried_gaps_.resize(gaps_.size(), 0.0);
   for_each_chunk(pairs.size(), [&](std::size_t /*index*/, std::size_t begin, std::size_t end) {
     std::array<const Vector3d*, chunk> a{};
     std::array<const Vector3d*, chunk> b{};
@@ -155,15 +138,19 @@ Vector3d ContactSet::slip_of(const Rods& rods, const FrictionPoint& point) const
   return moved - point.normal * point.normal.dot(moved);
 }
 
-double ContactSet::energy_of(const Rods& rods, std::size_t contact) const {
-  if (contact < obstacle_contacts.size()) {
-    return obstacle_contact(obstacle_contacts[contact], obstacle_distances_[contact], nullptr);
+double ContactSet::energy_of(const Rods& rods, std::size_t contact) {
+  const std::size_t obstacles = obstacle_contacts.size();
+  if (contact < obstacles + pairs.size()) {
+    const std::size_t pair = contact - obstacles;
+    const ContactEnergy found =
+        contact < obstacles
+            ? obstacle_contact(obstacle_contacts[contact], obstacle_distances_[contact], nullptr)
+            : edge_contact(pairs[pair], rods.positions, distances_[pair], nullptr);
+    tried_gaps_[contact] = found.gap;
+    const bool is_too_near = found.gap < (1.0 - most_lost) * gaps_[contact];
+    return is_too_near ? std::numeric_limits<double>::infinity() : found.energy;
   }
-  contact -= obstacle_contacts.size();
-  if (contact < pairs.size()) {
-    return edge_contact(pairs[contact], rods.positions, distances_[contact], nullptr);
-  }
-  const FrictionPoint& point = frictions_[contact - pairs.size()];
+  const FrictionPoint& point = frictions_[contact - obstacles - pairs.size()];
   return point.most * Friction::law(slip_of(rods, point).norm(), stick_length_).energy;
 }
 
@@ -189,6 +176,7 @@ void ContactSet::add_energies(const Rods& rods, const std::vector<std::uint32_t>
 
 double ContactSet::stored_energy(const Rods& rods) {
   measure(rods);
+  gaps_.assign(gaps_.size(), 0.0);
   double energy = 0.0;
   for (std::size_t i = 0; i < obstacle_contacts.size() + pairs.size(); ++i) {
     energy += energy_of(rods, i);
@@ -227,6 +215,7 @@ void ContactSet::find_terms(const Rods& rods, std::size_t contact, std::vector<T
 }
 
 void ContactSet::find_derivatives(const Rods& rods) {
+  accept_gaps();
   terms_.resize(chunks_of(contact_count()));
   for_each_chunk(contact_count(), [&](std::size_t index, std::size_t begin, std::size_t end) {
     terms_[index].clear();
@@ -285,65 +274,6 @@ void ContactSet::add_coupling(const std::vector<std::size_t>& places, const doub
         spread(points.edge_b, points.t, from_a);
       }
     }
-  }
-}
-
-void ContactSet::add_loads(const Rods& rods, std::vector<double>& loads) const {
-  for_each_distance(rods,
-                    [&](const PointPair& points, const DistanceTerm& term, const Barrier& barrier) {
-                      const double load = barrier.load_of(std::abs(term.slope));
-                      loads[points.rod_a] = std::max(loads[points.rod_a], load);
-                      if (points.edge_b != no_edge) {
-                        loads[points.rod_b] = std::max(loads[points.rod_b], load);
-                      }
-                    });
-}
-
-void ContactSet::add_forces(const Rods& rods, std::vector<RodForces::ContactForce>& forces) const {
-  using Key = std::array<std::uint32_t, 3>;
-  std::map<Key, std::size_t> places;
-  const auto force_of = [&](const PointPair& points) -> RodForces::ContactForce& {
-    const auto [place, is_new] =
-        places.emplace(Key{points.edge_a, points.rod_b, points.edge_b}, forces.size());
-    if (is_new) {
-      const bool is_obstacle = points.edge_b == no_edge;
-      RodForces::ContactForce& force = forces.emplace_back();
-      force.rod = points.rod_a;
-      force.edge = points.edge_a - rods.first(points.rod_a);
-      force.other_rod = is_obstacle ? RodForces::ContactForce::obstacle : points.rod_b;
-      force.other_edge = is_obstacle ? 0 : points.edge_b - rods.first(points.rod_b);
-      force.object = is_obstacle ? points.rod_b : 0;
-      force.point = force.normal_force = force.friction_force = Vector3d::Zero();
-    }
-    return forces[place->second];
-  };
-  std::map<std::size_t, double> weights;
-  for_each_distance(
-      rods, [&](const PointPair& points, const DistanceTerm& term, const Barrier& /*barrier*/) {
-        RodForces::ContactForce& force = force_of(points);
-        const Vector3d on_a = point_at(rods.positions, points.edge_a, points.s);
-        Vector3d between = on_a - rods.radii[points.rod_a] * term.normal;
-        if (points.edge_b != no_edge) {
-          const Vector3d on_b = point_at(rods.positions, points.edge_b, points.t);
-          const double share =
-              rods.radii[points.rod_a] / (rods.radii[points.rod_a] + rods.radii[points.rod_b]);
-          between = on_a + share * (on_b - on_a);
-        }
-        force.normal_force -= term.slope * term.normal;
-        force.point += std::abs(term.slope) * between;
-        weights[static_cast<std::size_t>(&force - forces.data())] += std::abs(term.slope);
-      });
-  for (const auto& [place, weight] : weights) {
-    forces[place].point /= weight;
-  }
-  for (const FrictionPoint& point : frictions_) {
-    const Vector3d slip = slip_of(rods, point);
-    RodForces::ContactForce& force = force_of(point.points);
-    if (force.point.isZero(0.0)) {
-      force.point = point_at(rods.positions, point.points.edge_a, point.points.s);
-    }
-    force.friction_force -=
-        point.most * Friction::law(slip.norm(), stick_length_).resistance * slip;
   }
 }
 

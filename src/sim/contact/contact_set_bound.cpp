@@ -13,9 +13,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// What a distance may lose in a step of what it has beyond the inner one, and how well the time is
-/// to be known at which it has lost that, in parts of what is left.
-constexpr double most_lost = 0.8;
+/// How well the time is to be known at which a distance has lost what it may, in parts of what is
+/// left.
 constexpr double tolerance = 0.1;
 
 /// The square of the most by which two edges' nodes approach each other.

@@ -37,7 +37,7 @@ class EdgeContact {
     }
   }
 
-  double energy(std::vector<DistanceTerm>* terms) {
+  ContactEnergy energy(std::vector<DistanceTerm>* terms) {
     double energy = add_crossing(terms);
     for (std::uint32_t end = 0; end < 4; ++end) {
       energy += add_node(end, terms);
@@ -45,10 +45,19 @@ class EdgeContact {
         terms->push_back(term(end, ends_[end], slopes_[end], curvatures_[end], pressures_[end]));
       }
     }
-    return energy;
+    return {energy, gap()};
   }
 
  private:
+  /// Of all there are, so that it does not jump where one pair takes over from another.
+  double gap() const {
+    double felt = barrier_.felt(nearest_.distance, weight_);
+    for (const EndDistance& end : ends_) {
+      felt = std::min(felt, end.distance);
+    }
+    return std::max(0.0, felt - barrier_.inner);
+  }
+
   /// Ends 0 and 1 are those of a, 2 and 3 those of b.
   std::uint32_t node_of(std::uint32_t end) const {
     return end < 2 ? pair_.edge_a + end : pair_.edge_b + end - 2;
@@ -72,13 +81,14 @@ class EdgeContact {
     if (!is_inner(nearest_.s) || !is_inner(nearest_.t)) {
       return 0.0;
     }
-    double weight = 1.0;
+    weight_ = 1.0;
     std::array<Ramp, 4> ramps{Ramp(1.0), Ramp(1.0), Ramp(1.0), Ramp(1.0)};
     for (std::uint32_t end = 0; end < 4; ++end) {
       const double further = std::max(0.0, ends_[end].distance - distance);
       ramps[end] = Ramp(further / barrier_.width());
-      weight *= ramps[end].value;
+      weight_ *= ramps[end].value;
     }
+    const double weight = weight_;
     if (weight == 0.0) {
       return 0.0;
     }
@@ -88,20 +98,38 @@ class EdgeContact {
       return weight * energy;
     }
     const double by_felt = weight * barrier_.slope(felt);
+    const double by_felt_twice = weight * barrier_.curvature(felt);
     const double depth_share = Barrier::depth_share(weight);
     const double by_weight = energy - by_felt * Barrier::most_relief * (barrier_.outer - distance);
-    const double pressure = -by_felt * depth_share;
-    double slope = -pressure;
+    double slope = by_felt * depth_share;
+    double pressure = -slope;
+    const Vector3d normal = -nearest_.delta / distance;
+    // How what is felt changes with the distance, and with those of the ends, by the weight.
+    const double relief = Barrier::most_relief * (barrier_.outer - distance);
+    std::array<double, 4> felt_by_end{};
+    double felt_by_ends = 0.0;
     for (std::uint32_t end = 0; end < 4; ++end) {
       if (ramps[end].slope > 0.0) {
-        const double by_end =
-            by_weight * weight / ramps[end].value * ramps[end].slope / barrier_.width();
+        const double weight_by_end =
+            weight / ramps[end].value * ramps[end].slope / barrier_.width();
+        const double by_end = by_weight * weight_by_end;
+        felt_by_end[end] = relief * weight_by_end;
+        felt_by_ends += felt_by_end[end];
         slope -= by_end;
         slopes_[end] += by_end;
+        // What an end takes back is not along the same normal.
+        const Vector3d of_end = (end < 2 ? 1.0 : -1.0) / ends_[end].distance * ends_[end].delta;
+        pressure += by_end * (1.0 - of_end.dot(normal));
       }
     }
-    terms->push_back({nearest_.s, nearest_.t, -nearest_.delta / distance, slope,
-                      weight * barrier_.curvature(felt) * depth_share * depth_share, pressure});
+    // The square of the sum of these is no more than this sum of squares.
+    const double of_distance = depth_share + felt_by_ends;
+    const double all = of_distance + felt_by_ends;
+    for (std::uint32_t end = 0; end < 4; ++end) {
+      curvatures_[end] += by_felt_twice * felt_by_end[end] * all;
+    }
+    terms->push_back(
+        {nearest_.s, nearest_.t, normal, slope, by_felt_twice * of_distance * all, pressure});
     return weight * energy;
   }
 
@@ -166,6 +194,7 @@ class EdgeContact {
   const Barrier& barrier_;
   const std::vector<Vector3d>& x_;
   const SegmentDistance& nearest_;
+  double weight_ = 0.0;  // of the crossing
   std::array<EndDistance, 4> ends_;
   std::array<double, 4> slopes_{};
   std::array<double, 4> curvatures_{};
@@ -174,10 +203,10 @@ class EdgeContact {
 
 }  // namespace
 
-double edge_contact(const EdgePair& pair, const std::vector<Vector3d>& positions,
-                    const SegmentDistance& nearest, std::vector<DistanceTerm>* terms) {
+ContactEnergy edge_contact(const EdgePair& pair, const std::vector<Vector3d>& positions,
+                           const SegmentDistance& nearest, std::vector<DistanceTerm>* terms) {
   if (nearest.distance >= pair.barrier.outer) {
-    return 0.0;
+    return {0.0, pair.barrier.width()};
   }
   return EdgeContact(pair, positions, nearest).energy(terms);
 }

@@ -114,41 +114,61 @@ ObstacleDistance obstacle_distance(const ObstacleContact& contact,
   return distance;
 }
 
-double obstacle_contact(const ObstacleContact& contact, const ObstacleDistance& distance,
-                        std::vector<DistanceTerm>* terms) {
+ContactEnergy obstacle_contact(const ObstacleContact& contact, const ObstacleDistance& distance,
+                               std::vector<DistanceTerm>* terms) {
   const Barrier& barrier = contact.barrier;
   const double weight = distance.weight;
-  if (weight == 0.0 || distance.nearest.distance >= barrier.outer) {
-    return 0.0;
+  if (distance.nearest.distance >= barrier.outer) {
+    return {0.0, barrier.width()};
+  }
+  if (weight == 0.0) {
+    return {0.0, std::numeric_limits<double>::infinity()};
   }
   const double felt = barrier.felt(distance.nearest.distance, weight);
   const double energy = barrier.energy(felt);
+  const ContactEnergy found{weight * energy, std::max(0.0, felt - barrier.inner)};
   if (terms == nullptr || !(energy < std::numeric_limits<double>::infinity())) {
-    return weight * energy;
+    return found;
   }
   const double depth_share = Barrier::depth_share(weight);
   const double by_felt = weight * barrier.slope(felt);
-  const double curvature = weight * barrier.curvature(felt) * depth_share * depth_share;
-  const double pressure = -by_felt * depth_share;
+  const double by_felt_twice = weight * barrier.curvature(felt);
   double slope = by_felt * depth_share;
+  double pressure = -slope;
   double s = contact.part == ObstacleContact::Part::LAST_NODE ? 1.0 : 0.0;
+  // How what is felt changes with the distance, and with those of the ends, by the weight.
+  double of_distance = depth_share;
+  double all = depth_share;
   if (contact.part == ObstacleContact::Part::EDGE) {
     s = distance.s;
-    const double by_weight =
-        energy - by_felt * Barrier::most_relief * (barrier.outer - distance.nearest.distance);
+    const double relief = Barrier::most_relief * (barrier.outer - distance.nearest.distance);
+    const double by_weight = energy - by_felt * relief;
+    std::array<double, 2> weight_by_end{};
     for (std::size_t end = 0; end < 2; ++end) {
       const Ramp ramp = ramp_of(contact, distance, end);
       if (ramp.slope > 0.0) {
-        const double by_end = by_weight * weight / ramp.value * ramp.slope / barrier.width();
+        weight_by_end[end] = weight / ramp.value * ramp.slope / barrier.width();
+      }
+    }
+    const double felt_by_ends = relief * (weight_by_end[0] + weight_by_end[1]);
+    of_distance += felt_by_ends;
+    all = of_distance + felt_by_ends;
+    for (std::size_t end = 0; end < 2; ++end) {
+      if (weight_by_end[end] > 0.0) {
+        const double by_end = by_weight * weight_by_end[end];
         slope -= by_end;
-        terms->push_back(
-            {static_cast<double>(end), 0.0, distance.ends[end].gradient, by_end, 0.0, 0.0});
+        // What an end takes back is not along the same normal.
+        const Vector3d& of_end = distance.ends[end].gradient;
+        pressure += by_end * (1.0 - of_end.dot(distance.nearest.gradient));
+        // The square of the sum of these is no more than this sum of squares.
+        terms->push_back({static_cast<double>(end), 0.0, of_end, by_end,
+                          by_felt_twice * relief * weight_by_end[end] * all, 0.0});
       }
     }
   }
-  terms->push_back({s, 0.0, distance.nearest.gradient, slope, curvature, pressure,
-                    turning_of(contact, distance, pressure)});
-  return weight * energy;
+  terms->push_back({s, 0.0, distance.nearest.gradient, slope, by_felt_twice * of_distance * all,
+                    pressure, turning_of(contact, distance, pressure)});
+  return found;
 }
 
 double bounded_share(const ObstacleContact& contact, const ObstacleDistance& distance,

@@ -1,6 +1,5 @@
 #include "obstacle_piece.hpp"
 
-#include <algorithm>
 #include <limits>
 
 #include "fiber_proximity/environment/axis_distance.hpp"
@@ -95,41 +94,19 @@ PointDistance ObstaclePiece::distance_from(const Vector3d& point) const {
   return found;
 }
 
-std::vector<NearPiece> near_pieces(const ObstacleShape& shape, const Vector3d& p0,
-                                   const Vector3d& p1, double within) {
+std::vector<ObstaclePiece> near_pieces(const ObstacleShape& shape, const Vector3d& p0,
+                                       const Vector3d& p1, double within) {
   const Vector3d q0 = shape.to_shape * p0;
   const Vector3d q1 = shape.to_shape * p1;
-  std::vector<NearPiece> pieces;
+  std::vector<ObstaclePiece> pieces;
   for (const ObstaclePiece::Part& part : parts_near(*shape.shape, q0, q1, within)) {
     const ObstaclePiece piece(shape, part);
     const double s = p0 == p1 ? 0.0 : piece.nearest_parameter(p0, p1);
-    const Vector3d place = (1.0 - s) * p0 + s * p1;
-    const double distance = piece.distance_from(place).distance;
-    if (distance <= within) {
-      pieces.push_back({piece, distance, place});
+    if (piece.distance_from((1.0 - s) * p0 + s * p1).distance <= within) {
+      pieces.push_back(piece);
     }
   }
-  std::stable_sort(pieces.begin(), pieces.end(),
-                   [](const NearPiece& a, const NearPiece& b) { return a.distance < b.distance; });
-  struct TangentPlane {
-    Vector3d point;
-    Vector3d normal;
-  };
-  constexpr double rounding = 1e-6;  // of the distance within
-  std::vector<NearPiece> kept;
-  std::vector<TangentPlane> planes;
-  for (const NearPiece& near : pieces) {
-    const PointDistance found = near.piece.distance_from(near.place);
-    const Vector3d point = near.place - found.distance * found.gradient;
-    const bool is_in_front = std::all_of(planes.begin(), planes.end(), [&](const auto& plane) {
-      return plane.normal.dot(point - plane.point) > rounding * within;
-    });
-    if (is_in_front) {
-      kept.push_back(near);
-      planes.push_back({point, found.gradient});
-    }
-  }
-  return kept;
+  return pieces;
 }
 
 }  // namespace fiber

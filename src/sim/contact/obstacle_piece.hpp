@@ -55,15 +55,9 @@ class ObstaclePiece {
   Part part_;
 };
 
-/// The pieces of a shape near a segment [m]: those within a distance [m], without those whose
-/// nearest point is not in front of the tangent plane of a nearer one, as triangles beside each
-/// other in one plane, or around an edge that points outwards.
-struct NearPiece {
-  ObstaclePiece piece;
-  double distance;        ///< [m]
-  Eigen::Vector3d place;  ///< where on the segment it is so near [m]
-};
-std::vector<NearPiece> near_pieces(const ObstacleShape& shape, const Eigen::Vector3d& p0,
-                                   const Eigen::Vector3d& p1, double within);
+/// The pieces of a shape within a distance of a segment [m]. Each of them counts: where a rod has
+/// come round a corner, it is another one that holds it.
+std::vector<ObstaclePiece> near_pieces(const ObstacleShape& shape, const Eigen::Vector3d& p0,
+                                       const Eigen::Vector3d& p1, double within);
 
 }  // namespace fiber

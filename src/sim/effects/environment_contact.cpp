@@ -127,18 +127,17 @@ void EnvironmentContact::add(const Rods& rods, const Contact& contact, double wi
                                        : material_contact_stiffness(rods.sections[rod], radius));
   using Part = ObstacleContact::Part;
   const Part part = is_edge ? Part::EDGE : is_last ? Part::LAST_NODE : Part::FIRST_NODE;
-  const auto add_piece = [&](const NearPiece& near) {
-    found.obstacle_contacts.push_back(
-        {rod, edge, part, barrier.for_start_at(near.distance), near.piece});
+  const auto add_piece = [&](const ObstaclePiece& piece) {
+    found.obstacle_contacts.push_back({rod, edge, part, barrier, piece});
   };
   if (shape.is_convex()) {
-    add_piece({ObstaclePiece(shape, {}), contact.distance + radius, contact.point_a});
+    add_piece(ObstaclePiece(shape, {}));
     return;
   }
   const Vector3d& p0 = rods.positions[node];
   const Vector3d& p1 = is_edge ? rods.positions[node + 1] : p0;
-  for (const NearPiece& near : near_pieces(shape, p0, p1, within)) {
-    add_piece(near);
+  for (const ObstaclePiece& piece : near_pieces(shape, p0, p1, within)) {
+    add_piece(piece);
   }
 }
 

@@ -90,9 +90,7 @@ void FiberContact::add_near(const Rods& rods, const Room& room, double approach,
     segment_distances(a.data(), b.data(), count, distances.data());
     for (std::size_t i = 0; i < count; ++i) {
       if (distances[i].distance <= limits[i]) {
-        const EdgePair& pair = candidates_[which[i]];
-        found.pairs.push_back(pair);
-        found.pairs.back().barrier = pair.barrier.for_start_at(distances[i].distance);
+        found.pairs.push_back(candidates_[which[i]]);
       }
     }
     count = 0;

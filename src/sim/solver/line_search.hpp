@@ -21,11 +21,15 @@ class LineSearch {
 
   static constexpr int most_halvings = 40;
 
-  /// @param islands  what is to be searched for, with the first shares to try
+  /// Begins a search; its islands are to be told what to search for, and the first shares to try.
+  /// @param islands  how many
   /// @param halvings the most
-  LineSearch(std::vector<Island> islands, int halvings)
-      : islands_(std::move(islands)), halvings_left_(halvings) {}
+  void begin(std::size_t islands, int halvings) {
+    islands_.assign(islands, Island{});
+    halvings_left_ = halvings;
+  }
 
+  Island& island(std::size_t index) { return islands_[index]; }
   const Island& island(std::size_t index) const { return islands_[index]; }
 
   /// @param tried energies where the shares lead, by island
@@ -34,7 +38,7 @@ class LineSearch {
 
  private:
   std::vector<Island> islands_;
-  int halvings_left_;
+  int halvings_left_ = 0;
 };
 
 }  // namespace fiber

@@ -105,9 +105,9 @@ bool NewtonSolver::solve(Rods& rods, const Problem& problem) {
       return false;
     }
     // Where no share helps, rounding errors are all that is left.
-    const std::vector<bool> has_failed = search_line(rods, problem, LineSearch::most_halvings);
+    search_line(rods, problem, LineSearch::most_halvings);
     for (std::size_t i = 0; i < searches_.size(); ++i) {
-      searches_[i].is_active = searches_[i].is_active && !has_failed[i];
+      searches_[i].is_active = searches_[i].is_active && !line_.island(i).has_failed;
     }
   }
   for_each_pack(Work::LITTLE, [&](std::size_t pack) { packs_[pack].finish(rods); });
@@ -167,17 +167,17 @@ void NewtonSolver::assemble(Rods& rods, const Problem& problem) {
 void NewtonSolver::judge_balance(Rods& rods, const Problem& problem, std::uint32_t iteration) {
   find_residuals();
   const double allowed = (iteration == 0 ? rest_share : 1.0) * problem.options.residual;
-  std::vector<bool> is_balanced(searches_.size());
+  is_balanced_.resize(searches_.size());
   for (std::size_t i = 0; i < searches_.size(); ++i) {
-    is_balanced[i] = searches_[i].is_active && reports_[i].residual <= allowed;
+    is_balanced_[i] = searches_[i].is_active && reports_[i].residual <= allowed;
   }
-  if (learn_multipliers(rods, problem, is_balanced)) {
+  if (learn_multipliers(rods, problem)) {
     measure_again(rods, problem);
   }
   for (std::size_t i = 0; i < searches_.size(); ++i) {
     if (searches_[i].is_active) {
       reports_[i].iterations = iteration;
-      searches_[i].is_active = !is_balanced[i];
+      searches_[i].is_active = !is_balanced_[i];
     }
   }
 }
@@ -199,19 +199,20 @@ void NewtonSolver::find_residuals() {
 
 /// Where effects hold conditions, an island is only balanced if these hold.
 /// @returns whether anything is to be solved again
-bool NewtonSolver::learn_multipliers(Rods& rods, const Problem& problem,
-                                     std::vector<bool>& is_balanced) {
-  const std::vector<bool> was_balanced = is_balanced;
+bool NewtonSolver::learn_multipliers(Rods& rods, const Problem& problem) {
+  for (std::size_t i = 0; i < searches_.size(); ++i) {
+    searches_[i].is_learning = is_balanced_[i];
+  }
   bool has_learnt = false;
   for (const std::unique_ptr<Effect>& effect : problem.effects) {
     if (!effect->has_multipliers()) {
       continue;
     }
     for_each_rod([&](std::size_t pack, std::size_t lane, std::uint32_t island) {
-      if (was_balanced[island]) {
+      if (searches_[island].is_learning) {
         packs_[pack].store(rods);
         if (!effect->update_multipliers(rods, packs_[pack].rod(lane))) {
-          is_balanced[island] = false;
+          is_balanced_[island] = false;
           has_learnt = true;
         }
       }
@@ -288,29 +289,27 @@ bool NewtonSolver::bound_step(const Rods& rods, const Problem& problem) {
                       shares_, scratch_->ends);
 }
 
-/// Moves rods by shares of the step that bring them lower.
-/// @returns by island: whether there was none
-std::vector<bool> NewtonSolver::search_line(Rods& rods, const Problem& problem, int halvings) {
+/// Moves rods by shares of the step that bring them lower, if there are any.
+void NewtonSolver::search_line(Rods& rods, const Problem& problem, int halvings) {
   for (PackStep& pack : packs_) {
     pack.remember();
   }
-  std::vector<LineSearch::Island> islands;
+  line_.begin(searches_.size(), halvings);
   for (std::size_t i = 0; i < searches_.size(); ++i) {
-    islands.push_back({searches_[i].energy, searches_[i].decrease,
-                       searches_[i].is_active ? shares_[i] : 0.0, searches_[i].is_active, false});
+    line_.island(i) = {searches_[i].energy, searches_[i].decrease,
+                       searches_[i].is_active ? shares_[i] : 0.0, searches_[i].is_active, false};
   }
-  LineSearch search(std::move(islands), halvings);
   do {
-    move(search);
+    move();
     measure(rods, problem);
-  } while (search.judge(energies_));
-  std::vector<bool> has_failed(searches_.size());
+  } while (line_.judge(energies_));
+  bool has_any_failed = false;
   for (std::size_t i = 0; i < searches_.size(); ++i) {
-    has_failed[i] = search.island(i).has_failed;
-    shares_[i] = search.island(i).share;
+    has_any_failed |= line_.island(i).has_failed;
+    shares_[i] = line_.island(i).share;
   }
-  if (std::find(has_failed.begin(), has_failed.end(), true) != has_failed.end()) {
-    move(search);
+  if (has_any_failed) {
+    move();
     measure(rods, problem);
   }
   for (std::size_t i = 0; i < searches_.size(); ++i) {
@@ -319,14 +318,13 @@ std::vector<bool> NewtonSolver::search_line(Rods& rods, const Problem& problem, 
   if (problem.contacts != nullptr) {
     bound_.advance(shares_);
   }
-  return has_failed;
 }
 
-void NewtonSolver::move(const LineSearch& search) {
+void NewtonSolver::move() {
   for_each_pack(Work::LITTLE, [&](std::size_t pack) {
     SimdBatch shares;
     for (std::size_t lane = 0; lane < packs_[pack].used(); ++lane) {
-      shares[lane] = search.island(islands_[pack][lane]).share;
+      shares[lane] = line_.island(islands_[pack][lane]).share;
     }
     packs_[pack].move(part(pack), shares);
   });

@@ -71,9 +71,10 @@ class NewtonSolver {
  private:
   /// An island in the course of a solve.
   struct Search {
-    EnergySum energy;       ///< where its rods are
-    double decrease = 0.0;  ///< that the slope of a whole step promises [J]
-    bool is_active = true;  ///< goes on
+    EnergySum energy;          ///< where its rods are
+    double decrease = 0.0;     ///< that the slope of a whole step promises [J]
+    bool is_active = true;     ///< goes on
+    bool is_learning = false;  ///< was balanced before what multipliers have learnt
   };
 
   enum class Work { LITTLE, MUCH };
@@ -87,14 +88,14 @@ class NewtonSolver {
   bool predict(Rods& rods, const Problem& problem);
   void assemble(Rods& rods, const Problem& problem);
   void judge_balance(Rods& rods, const Problem& problem, std::uint32_t iteration);
-  bool learn_multipliers(Rods& rods, const Problem& problem, std::vector<bool>& is_balanced);
+  bool learn_multipliers(Rods& rods, const Problem& problem);
   void measure_again(Rods& rods, const Problem& problem);
   void find_residuals();
   void find_step(const Problem& problem);
   void weigh_step();
   bool bound_step(const Rods& rods, const Problem& problem);
-  std::vector<bool> search_line(Rods& rods, const Problem& problem, int halvings);
-  void move(const LineSearch& search);
+  void search_line(Rods& rods, const Problem& problem, int halvings);
+  void move();
 
   std::vector<PackStep> packs_;
   std::vector<std::uint32_t> members_;  // rods
@@ -107,6 +108,8 @@ class NewtonSolver {
   std::vector<double> decreases_;      // by island
   std::vector<double> shares_;         // by island: the most of a step
   std::vector<SimdBatch> step_;
+  LineSearch line_;
+  std::vector<bool> is_balanced_;  // by island
   Coupling coupling_;
   StepBound bound_;
 };

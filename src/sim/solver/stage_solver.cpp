@@ -109,6 +109,7 @@ void StageSolver::solve(Rods& rods, const Effects& effects, const TimeStep& stag
       }
     }
     if (contacts_ != nullptr) {
+      expect(reference_, stage.length);
       adapt_room(rods);
       adapt_stiffening(rods);
     }
@@ -141,9 +142,6 @@ void StageSolver::find_contacts(Rods& rods) {
   islands_.reset(rods.count());
   for (const EdgePair& pair : found_.pairs) {
     islands_.join(pair.rod_a, pair.rod_b);
-  }
-  for (std::uint32_t rod = 1; room_.is_last && rod < rods.count(); ++rod) {
-    islands_.join(0, rod);
   }
 }
 
@@ -263,8 +261,8 @@ void StageSolver::bring(const RodState& state, const Group& group, Rods& rods,
   }
 }
 
-/// Rods that went too far get more room, up to a length that makes everything near everything: then
-/// all rods are one island, and no step goes further.
+/// Rods that went too far get more room, up to a length beyond which no step goes. Then no ways are
+/// expected: rooms hold whatever parts of these rods go.
 void StageSolver::widen_room(const Rods& rods) {
   constexpr double edges = 8.0;
   constexpr double ways = 4.0;
@@ -280,6 +278,7 @@ void StageSolver::widen_room(const Rods& rods) {
   }
   if (room_.is_last) {
     std::fill(room_.by_rod.begin(), room_.by_rod.end(), most);
+    std::fill(room_.expected.begin(), room_.expected.end(), Vector3d::Zero());
     for (Group& group : groups_) {
       group.is_solved = false;
     }

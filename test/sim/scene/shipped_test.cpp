@@ -7,10 +7,16 @@
 namespace fiber {
 namespace {
 
-class ShippedScene : public ::testing::TestWithParam<const char*> {};
+/// A scene, and by how much its edges stretch or shrink at most in its first two seconds.
+struct Shipped {
+  const char* name;
+  double strain;
+};
+
+class ShippedScene : public ::testing::TestWithParam<Shipped> {};
 
 TEST_P(ShippedScene, RunsAndKeepsItsFibresWhole) {
-  const auto file = test::source_folder() / "config/sim" / (std::string(GetParam()) + ".yaml");
+  const auto file = test::source_folder() / "config/sim" / (std::string(GetParam().name) + ".yaml");
   SimScene scene =
       make_sim_scene(read_sim_scene(load_yaml(file), mesh_files(file.parent_path())), 2);
   while (scene.stepper->time() < 2.0) {
@@ -19,17 +25,22 @@ TEST_P(ShippedScene, RunsAndKeepsItsFibresWhole) {
     for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
       for (std::uint32_t i = rods.first(rod); i + 1 < rods.end(rod); ++i) {
         const double length = (rods.positions[i + 1] - rods.positions[i]).norm();
-        ASSERT_NEAR(length / rods.rest_lengths[i], 1.0, 0.03)
+        ASSERT_NEAR(length / rods.rest_lengths[i], 1.0, GetParam().strain)
             << scene.fiber_names[rod] << " edge " << i << " at " << scene.stepper->time() << " s";
       }
     }
   }
 }
 
+// The harness is of silicone and pulled between clips with friction: as much with Newton's method
+// to its full residual.
 INSTANTIATE_TEST_SUITE_P(Scenes, ShippedScene,
-                         ::testing::Values("capstan", "demo", "hanging_cable", "harness", "hose",
-                                           "knot", "pile", "wind"),
-                         [](const auto& scene) { return std::string(scene.param); });
+                         ::testing::Values(Shipped{"capstan", 0.03}, Shipped{"demo", 0.03},
+                                           Shipped{"hanging_cable", 0.03},
+                                           Shipped{"harness", 0.035}, Shipped{"hose", 0.03},
+                                           Shipped{"knot", 0.03}, Shipped{"pile", 0.03},
+                                           Shipped{"wind", 0.03}),
+                         [](const auto& scene) { return std::string(scene.param.name); });
 
 }  // namespace
 }  // namespace fiber

@@ -14,8 +14,7 @@ struct ObstacleShape;
 ///
 /// Nodes have contacts of their own, so that a rod lying flat rests on all of them; an edge has one
 /// where it is nearer than its ends are, weighted by how much nearer
-/// (src/sim/contact/obstacle_contact.hpp). Of meshes and octrees each triangle or cell counts that
-/// is not behind another one.
+/// (src/sim/contact/obstacle_contact.hpp). Of meshes and octrees each triangle or cell counts.
 ///
 /// How far a step may go rests on the convexity of distances, and for edges that come from farther
 /// away on the certified time of contact with the shape.

@@ -1,0 +1,57 @@
+// A rope that is drawn around a post, against Euler and Eytelwein: its tension grows with the angle
+// as e^(mu theta).
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <ostream>
+
+#include "sim/friction_scenes.hpp"
+#include "support/random.hpp"
+
+namespace fiber::test {
+namespace {
+
+struct Drawn {
+  const char* material;
+  int degrees;
+  double friction;
+
+  double turns() const { return degrees / 360.0; }
+  double exact() const { return std::exp(friction * 2.0 * M_PI * turns()); }
+};
+
+std::ostream& operator<<(std::ostream& out, const Drawn& drawn) {
+  return out << drawn.material << ' ' << drawn.degrees << " degrees, coefficient "
+             << drawn.friction;
+}
+
+class CapstanOf : public testing::TestWithParam<Drawn> {};
+
+TEST_P(CapstanOf, HasItsRatioTo1PercentWith64EdgesATurn) {
+  const Drawn& drawn = GetParam();
+  const double found = tension_ratio({drawn.turns(), 64, drawn.material}, drawn.friction);
+  EXPECT_NEAR(found, drawn.exact(), 0.01 * drawn.exact());
+}
+
+/// Each angle, coefficient and preset, not each of their products.
+INSTANTIATE_TEST_SUITE_P(Ropes, CapstanOf,
+                         testing::Values(Drawn{"rope", 90, 0.1}, Drawn{"rope", 180, 0.3},
+                                         Drawn{"rope", 360, 0.3}, Drawn{"rope", 180, 0.6},
+                                         Drawn{"silicone_tube", 360, 0.1},
+                                         Drawn{"silicone_tube", 90, 0.6}));
+
+/// Half the edges' length, a quarter of the error.
+TEST(Capstan, ErrsInTheSecondOrderOfTheEdges) {
+  const Drawn drawn{"rope", 360, 0.3};
+  const auto error = [&](int edges) {
+    return tension_ratio({drawn.turns(), edges}, drawn.friction) / drawn.exact() - 1.0;
+  };
+  const double coarse = error(24);
+  const double fine = error(48);
+  EXPECT_LT(std::abs(fine), 0.01);
+  EXPECT_GT(std::abs(coarse / fine), 3.0);
+}
+
+}  // namespace
+}  // namespace fiber::test
