@@ -1,5 +1,9 @@
 // fiber_simulate
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <map>
+#include <sstream>
 
 #include "fiber_proximity/io/csv.hpp"
 #include "fiber_proximity/sim/scene/scene.hpp"
@@ -203,6 +207,120 @@ TEST_F(Simulate, MeshesLieBesideTheScene) {
   EXPECT_GT(written.back().fibers.points()[26].z(), 0.29) << "what falls is caught by the mesh";
 }
 
+/// A row of a file of forces.
+struct ForceRow {
+  std::int64_t frame;
+  std::string kind;
+  std::uint32_t fiber;
+  std::uint32_t index;
+  Eigen::Vector3d force;
+  Eigen::Vector3d moment;
+};
+
+std::vector<ForceRow> force_rows(const std::string& text) {
+  std::istringstream lines(text);
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "frame,kind,fiber,index,fx,fy,fz,mx,my,mz");
+  std::vector<ForceRow> rows;
+  while (std::getline(lines, line)) {
+    std::replace(line.begin(), line.end(), ',', ' ');
+    std::istringstream fields(line);
+    ForceRow& row = rows.emplace_back();
+    fields >> row.frame >> row.kind >> row.fiber >> row.index;
+    for (Eigen::Vector3d* const vector : {&row.force, &row.moment}) {
+      fields >> vector->x() >> vector->y() >> vector->z();
+    }
+    EXPECT_TRUE(fields && fields.peek() == std::istringstream::traits_type::eof()) << line;
+  }
+  return rows;
+}
+
+TEST_F(Simulate, ForcesAreAFileOfTheirOwn) {
+  // One hangs, one lies on a table and on nothing else.
+  const std::string scene = write(
+      "scene.yaml",
+      "residual: 1.0e-7\n"
+      "fibers:\n"
+      "  - {name: hangs, shape: {line: {from: [0, 0, 1], to: [0, 0, 0.5]}}, segments: 10, radius: "
+      "0.005, material: silicone_tube}\n"
+      "  - {name: lies, shape: {line: {from: [1, 0, 0.005], to: [1.5, 0, 0.005]}}, segments: 10, "
+      "radius: 0.005, material: silicone_tube}\n"
+      "effects:\n"
+      "  - gravity\n"
+      "  - stretch\n"
+      "  - bend\n"
+      "  - damping\n"
+      "  - environment_contact\n"
+      "  - friction\n"
+      "  - attachment: [{fiber: hangs}]\n"
+      "environment: {obstacles: [{id: table, half_spaces: [{coef: [0, 0, 1, 0]}]}]}\n");
+  frames(scene, "--seconds 5 --forces " + path("forces.csv"));
+  // Of half a metre of silicone tube [N].
+  const double weight = 9.81 * 1150.0 * M_PI * 0.005 * 0.005 * 0.5;
+  std::map<std::string, std::size_t> counts;
+  Eigen::Vector3d hold = Eigen::Vector3d::Zero();
+  Eigen::Vector3d contacts = Eigen::Vector3d::Zero();
+  std::int64_t frame = 1;
+  for (const ForceRow& row : force_rows(read_file(path("forces.csv")))) {
+    EXPECT_TRUE(row.frame == frame || row.frame == frame + 1);
+    frame = row.frame;
+    if (frame < 300) {
+      continue;
+    }
+    ++counts[row.kind];
+    if (row.kind == "hold") {
+      EXPECT_EQ(std::make_pair(row.fiber, row.index), std::make_pair(0U, 0U));
+      hold += row.force;
+    } else if (row.kind == "normal" || row.kind == "friction") {
+      EXPECT_EQ(row.fiber, 1U);
+      contacts += row.force;
+    } else if (row.kind == "tension" && row.fiber == 0) {
+      // What is below the middle of the edge pulls it down.
+      const Eigen::Vector3d below(0, 0, -weight * (0.95 - 0.1 * row.index));
+      EXPECT_LT((row.force - below).norm(), 1e-3 * weight) << row.index;
+    } else if (row.kind == "bending" || row.kind == "twisting") {
+      EXPECT_TRUE(row.force.isZero(0.0));
+    }
+  }
+  EXPECT_EQ(frame, 300);
+  EXPECT_EQ(counts["tension"], 20U);
+  EXPECT_EQ(counts["twisting"], 20U);
+  EXPECT_EQ(counts["bending"], 22U);
+  EXPECT_EQ(counts["hold"], 1U);
+  EXPECT_GE(counts["normal"], 10U);
+  EXPECT_LT((hold - Eigen::Vector3d(0, 0, weight)).norm(), 1e-3 * weight) << hold.transpose();
+  EXPECT_LT((contacts - Eigen::Vector3d(0, 0, weight)).norm(), 1e-3 * weight)
+      << contacts.transpose();
+}
+
+TEST_F(Simulate, WhatGoesWrongInAFrameIsAWarning) {
+  std::string text = ropes;
+  text.replace(text.find("{fiber: lifted, "), 16, "{fiber: lifted, max_force: 0.1, ");
+  const ProcessResult result =
+      simulate(write("scene.yaml", text) + " --seconds 1 --out " + path("out.csv"));
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err.find("warning: after 0.0"), 0U) << result.err;
+  EXPECT_NE(
+      result.err.find(" s: what holds node 0 of fibre 'lifted' pulls with 0.1 N, its greatest "
+                      "force (max_force), and the node is "),
+      std::string::npos)
+      << result.err;
+  EXPECT_NE(result.err.find("warning: so in "), std::string::npos) << result.err;
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 2) << result.err;
+  EXPECT_EQ(read_csv(path("out.csv")).frames.size(), 61U) << "the scene lives on";
+
+  // What no number of steps reaches.
+  const ProcessResult unbalanced =
+      simulate(write("scene.yaml", std::string(ropes) + "residual: 1.0e-30\n") +
+               " --seconds 0.1 --out " + path("out.csv"));
+  EXPECT_EQ(unbalanced.exit_code, 0);
+  EXPECT_NE(
+      unbalanced.err.find("forces do not balance within 100 iterations: what is left at node "),
+      std::string::npos)
+      << unbalanced.err;
+}
+
 TEST_F(Simulate, RefusesOutputThatCannotBeWritten) {
   const std::string run = write("scene.yaml", ropes) + " --seconds 1 --out ";
   EXPECT_TRUE(refused(simulate(run + path("none/out.csv")),
@@ -210,6 +328,12 @@ TEST_F(Simulate, RefusesOutputThatCannotBeWritten) {
   EXPECT_TRUE(refused(simulate(run + path("none/run.pvd")),
                       path("none/run.pvd") + ": cannot be opened for writing: No such file"));
   EXPECT_TRUE(refused(simulate(run + "/dev/full"), "/dev/full: cannot be written: No space left"));
+  const std::string forces = run + path("out.csv") + " --forces ";
+  EXPECT_TRUE(refused(simulate(forces + path("none/forces.csv")),
+                      path("none/forces.csv") + ": cannot be opened for writing: No such file"));
+  EXPECT_TRUE(refused(simulate(forces + "/dev/full"), "/dev/full: cannot be written: No space"));
+  EXPECT_TRUE(refused(simulate(forces + path("./out.csv")), "--forces is --out itself"));
+  EXPECT_TRUE(refused(simulate(forces + path("scene.yaml")), "--forces is the scene itself"));
   std::filesystem::create_symlink("/dev/full", path("run_000003.vtp"));
   EXPECT_TRUE(refused(simulate(run + path("run.pvd")),
                       path("run_000003.vtp") + ": cannot be written: No space left"));
