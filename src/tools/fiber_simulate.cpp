@@ -62,8 +62,10 @@ class Bar {
 
 void require_different(const std::string& option, const std::string& file, const std::string& what,
                        const std::string& other) {
+  namespace fs = std::filesystem;
   std::error_code none;
-  if (file == other || std::filesystem::equivalent(file, other, none)) {
+  const auto place = [](const std::string& name) { return fs::absolute(name).lexically_normal(); };
+  if (place(file) == place(other) || fs::equivalent(file, other, none)) {
     throw std::invalid_argument(option + " is " + what + " itself, " + quote(file));
   }
 }
