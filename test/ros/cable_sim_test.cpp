@@ -196,9 +196,13 @@ class SimFramesTest : public CableSimTest {
     return points_after(1)[0];
   }
 
+  /// [m] A hold is a spring a thousand times as stiff as an edge, which the fibre's weight
+  /// stretches.
+  static constexpr double sag = 1e-6;
+
   /// Until the fibre's first node is there.
   bool reaches(const Vector3d& gripper, const Vector3d& wanted) {
-    return node_test::wait_for([&] { return (step_with(gripper) - wanted).norm() < 1e-9; });
+    return node_test::wait_for([&] { return (step_with(gripper) - wanted).norm() < sag; });
   }
 
   bool is_logged(const std::string& text) {
@@ -221,7 +225,7 @@ TEST_F(SimFramesTest, AGripperFollowsItsFrameAndFreezesWhereThatIsLost) {
   // Nothing more is heard of the frame: it stays, and that is said, with where it stands.
   const ros::SteadyTime start = ros::SteadyTime::now();
   while ((ros::SteadyTime::now() - start).toSec() < 1.0) {
-    EXPECT_EQ(step_with(std::nullopt), last + offset);
+    EXPECT_LT((step_with(std::nullopt) - last - offset).norm(), sag);
   }
   EXPECT_TRUE(
       is_logged("sim_frames.yaml:15: effects[4].attachment[0]: node 0 of fibre 'cable' stays "
