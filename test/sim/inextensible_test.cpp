@@ -35,8 +35,8 @@ TEST_P(HangingRod, KeepsItsLengthAndKnowsItsTension) {
   for (int i = 0; i < 10; ++i) {
     stepper.step(1.0 / 60.0);
     EXPECT_EQ(stepper.report().unbalanced, 0U);
-    EXPECT_LT(largest_strain(stepper.rods()), 1e-5);
-    EXPECT_NEAR(stepper.rods().positions.back().z(), -1.0, 1e-5);
+    EXPECT_LE(largest_strain(stepper.rods()), 1e-6);
+    EXPECT_NEAR(stepper.rods().positions.back().z(), -1.0, 2e-6);
   }
   const RodForces forces = stepper.forces();
   double weight_below = 0.0;

@@ -1,0 +1,126 @@
+// What energy and angular momentum do without input.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/contact_scenes.hpp"
+#include "sim/random_rods.hpp"
+
+namespace fiber::test {
+namespace {
+
+using Eigen::Vector3d;
+
+double weight_times_length_of(const Rods& rods) {
+  double sum = 0.0;
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    double mass = 0.0;
+    double length = 0.0;
+    for (std::uint32_t i = rods.first(rod); i < rods.end(rod); ++i) {
+      mass += rods.masses[i];
+      length += rods.rest_lengths[i];
+    }
+    sum += mass * standard_gravity * length;
+  }
+  return sum;
+}
+
+/// Rods that fall on a table and on each other.
+Rods falling() {
+  constexpr double radius = 0.004;
+  Rods rods;
+  for (int rod = 0; rod < 5; ++rod) {
+    const double turn = 1.3 * rod;
+    const Vector3d along(0.12 * std::cos(turn), 0.12 * std::sin(turn), 0.01 * rod);
+    const Vector3d middle(0.01 * rod, 0.0, 0.03 + 0.03 * rod);
+    rods.add(straight(middle - along, middle + along, 16), radius,
+             solid_round_section(material_preset("silicone_tube"), radius));
+  }
+  return rods;
+}
+
+TEST(Energy, ImplicitEulerGainsNoneInAnyStepWithContacts) {
+  const Rods rods = falling();
+  const double scale = weight_times_length_of(rods);
+  StepperOptions options;
+  options.threads = 1;
+  Stepper stepper(rods, elastic(standard_gravity), options,
+                  contacts_with(environment_of(HalfSpaceShape{}), 0.3));
+  stepper.step(1.0 / 240.0);
+  const double first = stepper.energy();
+  std::size_t contacts = 0;
+  for (int i = 0; i < 480; ++i) {
+    const double before = stepper.energy();
+    const double kinetic = kinetic_energy(stepper.rods());
+    stepper.step(1.0 / 240.0);
+    ASSERT_EQ(stepper.report().unbalanced, 0U) << "step " << i;
+    ASSERT_LE(stepper.energy(), before + 1e-6 * (kinetic + scale)) << "step " << i;
+    contacts = std::max(contacts, stepper.forces().contacts.size());
+  }
+  EXPECT_GT(contacts, 20U);
+  EXPECT_LT(stepper.energy(), 0.5 * first) << "they have fallen";
+}
+
+/// A soft cable that swings from one end.
+TEST(Energy, BDF2LosesAtMostOnePercentOfAPendulumIn60Seconds) {
+  constexpr double radius = 0.005;
+  Rods rods;
+  rods.add(straight(Vector3d::Zero(), {0.35, 0.0, -0.35}, 10), radius,
+           solid_round_section({1e9, 4e8, 1000.0}, radius));
+  Effects all = elastic(standard_gravity);
+  all.push_back(hold(rods, {pin(0, Vector3d::Zero())}));
+  StepperOptions options = precise(Integrator::BDF2);
+  options.residual = 1e-7;
+  Stepper stepper(rods, std::move(all), options);
+  constexpr double step = 1.0 / 500.0;
+  stepper.step(step);
+  const auto height = [&] { return stepper.rods().positions[5].z(); };
+  const double first = stepper.energy();
+  const double lowest = -weight_times_length_of(rods) * 0.5 * std::sqrt(0.5) * std::sqrt(2.0);
+  double fastest = 0.0;
+  while (stepper.time() < 60.0) {
+    stepper.step(step);
+    fastest = std::max(fastest, std::abs(stepper.rods().velocities[10].norm()));
+    ASSERT_LE(height(), 0.0);
+  }
+  EXPECT_NEAR(stepper.energy(), first, 0.01 * (first - lowest));
+  EXPECT_GT(fastest, 1.5);
+}
+
+/// Across its axis at 10 rad/s: so fast that centrifugal forces stretch it a little.
+TEST(Energy, BDF2KeepsTheAngularMomentumOfASpinningRod) {
+  constexpr double radius = 0.005;
+  constexpr double spin = 10.0;
+  for (const bool has_contacts : {false, true}) {
+    Rods rods;
+    rods.add(straight({-0.5, 0.0, 0.0}, {0.5, 0.0, 0.0}, 20), radius, rubber(radius));
+    for (std::size_t i = 0; i < rods.positions.size(); ++i) {
+      rods.velocities[i] = spin * Vector3d::UnitZ().cross(rods.positions[i]);
+    }
+    const auto momentum = [](const Rods& r) {
+      Vector3d sum = Vector3d::Zero();
+      for (std::size_t i = 0; i < r.positions.size(); ++i) {
+        sum += r.masses[i] * r.positions[i].cross(r.velocities[i]);
+      }
+      return sum.z();
+    };
+    StepperOptions options;
+    options.integrator = Integrator::BDF2;
+    options.threads = 1;
+    Stepper stepper(rods, elastic(), options, has_contacts ? contacts_with(nullptr, 0.3) : nullptr);
+    double turned = 0.0;  // [rad]
+    while (stepper.time() < 10.0) {
+      const Vector3d before = stepper.rods().positions[20] - stepper.rods().positions[0];
+      stepper.step(1.0 / 240.0);
+      const Vector3d after = stepper.rods().positions[20] - stepper.rods().positions[0];
+      turned += std::atan2(before.cross(after).z(), before.dot(after));
+    }
+    EXPECT_NEAR(momentum(stepper.rods()), momentum(rods), 0.01 * momentum(rods));
+    EXPECT_NEAR(turned, 100.0, 5.0);
+  }
+}
+
+}  // namespace
+}  // namespace fiber::test

@@ -1,0 +1,131 @@
+// What the simulation says of its forces: that their sum is how momentum changes, and that they are
+// those of statics.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "sim/contact_scenes.hpp"
+
+namespace fiber::test {
+namespace {
+
+using Eigen::Vector3d;
+
+double mass_of(const Rods& rods) {
+  double mass = 0.0;
+  for (const double m : rods.masses) {
+    mass += m;
+  }
+  return mass;
+}
+
+/// Of gravity, holds and obstacles [N].
+Vector3d outer_forces(const Stepper& stepper) {
+  const RodForces forces = stepper.forces();
+  Vector3d sum(0.0, 0.0, -standard_gravity * mass_of(stepper.rods()));
+  for (const RodForces::ContactForce& contact : forces.contacts) {
+    if (contact.other_rod == RodForces::ContactForce::obstacle) {
+      sum += contact.normal_force + contact.friction_force;
+    }
+  }
+  for (const RodForces::HoldForce& held : forces.holds) {
+    sum += held.force;
+  }
+  return sum;
+}
+
+/// Two cables, one of them held at one end and drawn sideways by a hold, fall on a table and on
+/// each other.
+TEST(Forces, SumUpToHowMomentumChanges) {
+  constexpr double radius = 0.004;
+  constexpr double step = 1.0 / 240.0;
+  Rods rods;
+  rods.add(straight({-0.2, 0.0, 0.02}, {0.2, 0.0, 0.02}, 20), radius, rubber(radius));
+  rods.add(straight({0.0, -0.2, 0.04}, {0.05, 0.2, 0.04}, 20), radius, rubber(radius));
+  Effects all = elastic(standard_gravity);
+  Attachment::Hold drawn = pin(20, rods.positions[41]);
+  drawn.rod = 1;
+  drawn.placement = [start = rods.positions[41]](double time) {
+    return Placement{start + Vector3d(0.3 * time, 0.0, 0.0), Vector3d::Zero(), Vector3d::Zero()};
+  };
+  all.push_back(hold(rods, {pin(0, rods.positions[0]), drawn}));
+  StepperOptions options = precise();
+  options.max_iterations = 200;
+  options.residual = 1e-8;
+  Stepper stepper(rods, std::move(all), options,
+                  contacts_with(environment_of(HalfSpaceShape{}), 0.3));
+  const double weight = standard_gravity * mass_of(rods);
+  double largest_change = 0.0;
+  int with_fiber_contacts = 0;
+  int with_friction = 0;
+  for (int i = 0; i < 120; ++i) {
+    const Vector3d before = momentum_of(stepper.rods());
+    stepper.step(step);
+    const Vector3d change = (momentum_of(stepper.rods()) - before) / step;
+    ASSERT_LE((change - outer_forces(stepper)).norm(), 1e-4 * weight) << "step " << i;
+    largest_change = std::max(largest_change, change.norm());
+    bool has_friction = false;
+    for (const RodForces::ContactForce& contact : stepper.forces().contacts) {
+      with_fiber_contacts += contact.other_rod != RodForces::ContactForce::obstacle ? 1 : 0;
+      has_friction |= contact.friction_force.norm() > 1e-3 * weight;
+    }
+    with_friction += has_friction ? 1 : 0;
+  }
+  EXPECT_GT(largest_change, 0.5 * weight);
+  EXPECT_GT(with_fiber_contacts, 20);
+  EXPECT_GT(with_friction, 20);
+}
+
+TEST(Forces, OfAHangingCableAreTheWeightBelow) {
+  constexpr double radius = 0.003;
+  constexpr int segments = 40;
+  Rods rods;
+  rods.add(straight(Vector3d::Zero(), {0.0, 0.0, -1.0}, segments), radius, rubber(radius));
+  Effects all = elastic(standard_gravity);
+  all.push_back(hold(rods, {pin(0, Vector3d::Zero())}));
+  Stepper stepper(rods, std::move(all), precise());
+  settle(stepper);
+  const RodForces forces = stepper.forces();
+  const double weight = standard_gravity * mass_of(rods);
+  double below = 0.0;
+  for (int edge = segments - 1; edge >= 0; --edge) {
+    below += standard_gravity * rods.masses[static_cast<std::size_t>(edge) + 1];
+    EXPECT_NEAR(forces.tensions[static_cast<std::size_t>(edge)], below, 1e-6 * weight) << edge;
+  }
+  ASSERT_EQ(forces.holds.size(), 1U);
+  EXPECT_LE((forces.holds[0].force - Vector3d(0.0, 0.0, weight)).norm(), 1e-6 * weight);
+  EXPECT_EQ(forces.holds[0].node, 0U);
+}
+
+/// A cantilever: its clamp bears the weight, and the moment of the weight about it.
+TEST(Forces, OfAClampAreThoseOfStatics) {
+  constexpr double radius = 0.005;
+  constexpr int segments = 40;
+  Rods rods;
+  rods.add(straight(Vector3d::Zero(), {0.4, 0.0, 0.0}, segments), radius,
+           solid_round_section({1e9, 4e8, 1000.0}, radius));
+  Effects all = elastic(standard_gravity);
+  all.push_back(hold(rods, {clamp(0, {Vector3d::Zero(), Vector3d::UnitX(), Vector3d::UnitY()})}));
+  Stepper stepper(rods, std::move(all), precise());
+  settle(stepper);
+  const RodForces forces = stepper.forces();
+  const double weight = standard_gravity * mass_of(rods);
+  Vector3d moment = Vector3d::Zero();  // of the weight about the clamped end
+  for (std::size_t i = 0; i < rods.positions.size(); ++i) {
+    moment +=
+        stepper.rods().positions[i].cross(Vector3d(0.0, 0.0, -standard_gravity * rods.masses[i]));
+  }
+  ASSERT_EQ(forces.holds.size(), 1U);
+  const RodForces::HoldForce& held = forces.holds[0];
+  EXPECT_LE((held.force - Vector3d(0.0, 0.0, weight)).norm(), 1e-6 * weight);
+  EXPECT_GT(moment.norm(), 0.1 * weight * 0.4);
+  EXPECT_LE((held.moment + moment).norm(), 1e-4 * moment.norm())
+      << held.moment.transpose() << " and " << moment.transpose();
+  // Inside, the moment falls to nothing at the free end.
+  EXPECT_NEAR(forces.bending_moments[segments / 2].norm(), 0.25 * moment.norm(),
+              0.02 * moment.norm());
+}
+
+}  // namespace
+}  // namespace fiber::test
