@@ -205,8 +205,9 @@ TEST_F(FiberBench, HoldsTheSimulationAgainstTheory) {
 
 TEST_F(FiberBench, SaysWhatTheSimulationCostsAndHowItErrs) {
   const ProcessResult result = bench(
-      "simulate --parts convergence,xpbd,effects --segments 10,20 --substeps 1,8 --iterations 1 "
-      "--xpbd-segments 10 --xpbd-substeps 10,400 --xpbd-inertias 1 --frames 20 "
+      "simulate --parts convergence,xpbd,effects --segments 10,20 --substeps 1,8 "
+      "--residuals 1e-1,1e-6 --max-iterations 1 --xpbd-segments 10 --xpbd-substeps 10,400 "
+      "--xpbd-inertias 1 --frames 20 "
       "--reference-segments 20 --reference-substeps 16 --least-ms 0 --cables 2 --cable-segments 8 "
       "--cable-frames 2 --json");
   EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -216,10 +217,18 @@ TEST_F(FiberBench, SaysWhatTheSimulationCostsAndHowItErrs) {
     parts[row.at("part")].push_back(row);
   }
   const std::vector<nlohmann::json>& hose = parts["convergence"];
-  ASSERT_EQ(hose.size(), 2U * 2U * 2U + 2U + 2U + 1U + 1U);
+  ASSERT_EQ(hose.size(), 2U * 2U * 2U + 2U + 2U + 2U * (2U + 1U));
   EXPECT_EQ(hose[0].at("method"), "implicit_euler");
   EXPECT_GT(hose[2].at("error"), 2.0 * hose[3].at("error").get<double>()) << "by substeps";
   EXPECT_EQ(hose[8].at("motion"), "settling");
+  for (const nlohmann::json& row : hose) {
+    if (row.at("varied") == "residual") {
+      EXPECT_LE(row.at("worst_residual"), row.at("residual").get<double>()) << row.dump();
+    }
+    if (row.at("varied") == "max_iterations") {
+      EXPECT_EQ(row.at("iterations"), 1.0) << row.dump();
+    }
+  }
   const std::vector<nlohmann::json>& xpbd = parts["xpbd"];
   ASSERT_EQ(xpbd.size(), 2U * 2U);
   EXPECT_GT(xpbd[0].at("error"), 2.0 * xpbd[1].at("error").get<double>())
