@@ -47,6 +47,7 @@ TEST_F(ContinuousTest, AStateWithoutNumbersIsLeftOut) {
   FiberArray bad = crossed(0.1, 0.0);
   bad.points[2].z = std::numeric_limits<double>::quiet_NaN();
   const ros::Time stamp = publish(bad);
+  await_refusal("point 2: z is nan");
   const ContactArray* const answer = answer_to(crossed(0.1, -z_));
   ASSERT_NE(answer, nullptr);
   EXPECT_TRUE(answer->continuous);
@@ -60,6 +61,7 @@ TEST_F(ContinuousTest, AStateWithoutNumbersIsLeftOut) {
 
 TEST_F(ContinuousTest, AnOlderStampIsRefused) {
   const ros::Time stamp = publish(crossed(0.1, -z_), ros::Duration(-1));
+  await_refusal("is older than");
   const ContactArray* const answer = answer_to(crossed(0.1, z_), ros::Duration(1.1));
   ASSERT_NE(answer, nullptr);
   EXPECT_NE(refusal_before(*answer).find("is older than"), std::string::npos);

@@ -104,6 +104,12 @@ class ContinuousTest : public node_test::NodeTest {
     EXPECT_EQ(statistics.wait_for(next->header.stamp)->discrete_reason, "");
   }
 
+  /// Until the node has logged why it refuses a message: sent before, the next one might take its
+  /// place.
+  void await_refusal(const std::string& reason) const {
+    ASSERT_TRUE(node_test::wait_for([&] { return !logs_of(reason).empty(); })) << reason;
+  }
+
   /// Why the latest message was refused, as the statistics of an answer tell it.
   std::string refusal_before(const ContactArray& answer) const {
     const fiber_proximity::Statistics* const told = statistics.wait_for(answer.header.stamp);
