@@ -90,7 +90,13 @@ void StageSolver::adapt_stiffening(const Rods& rods) {
   constexpr double most_growth = 4.0;
   loads_.assign(rods.count(), 0.0);
   for (const Group& group : groups_) {
-    group.contacts.add_loads(rods, loads_);
+    // Forces that do not balance tell nothing of what contacts have to hold.
+    const bool is_balanced = std::all_of(
+        group.reports.begin(), group.reports.end(),
+        [this](const IslandReport& report) { return report.residual <= options_.residual; });
+    if (is_balanced) {
+      group.contacts.add_loads(rods, loads_);
+    }
   }
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
     stiffening_[rod] = std::max(1.0, stiffening_[rod] * std::clamp(loads_[rod], kept, most_growth));
