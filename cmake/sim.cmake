@@ -38,6 +38,7 @@ add_library(fiber_proximity_sim SHARED
   src/sim/solver/newton.cpp
   src/sim/solver/pack_step.cpp
   src/sim/solver/pack_sums.cpp
+  src/sim/solver/stage_adaption.cpp
   src/sim/solver/stage_solver.cpp
   src/sim/solver/step_bound.cpp
   src/sim/stepper.cpp

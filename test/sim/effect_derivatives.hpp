@@ -1,7 +1,11 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
+#include <numeric>
+#include <string>
 #include <vector>
 
 #include "fiber_proximity/sim/effect.hpp"
@@ -134,6 +138,21 @@ inline Eigen::MatrixXd hessian_by_differences(const Effect& effect, Rods rods, s
     x = middle;
   }
   return hessian;
+}
+
+/// To the last bit, whatever is in the other lanes.
+inline void expect_same_side_by_side(const Effect& effect, const Rods& rods) {
+  std::vector<std::uint32_t> all(rods.count());
+  std::iota(all.begin(), all.end(), 0U);
+  const PackedRods together(effect, rods, all);
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    SCOPED_TRACE("rod " + std::to_string(rod));
+    ASSERT_EQ(together.energy(rod), energy_of(effect, rods, rod));
+    const Derivatives found = together.derivatives(rod);
+    const Derivatives expected = derivatives_of(effect, rods, rod);
+    ASSERT_EQ(found.gradient, expected.gradient);
+    ASSERT_EQ(found.hessian, expected.hessian);
+  }
 }
 
 }  // namespace fiber::test

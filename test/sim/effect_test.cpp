@@ -213,21 +213,6 @@ TEST_P(EffectTest, HasAPositiveSemidefiniteMatrix) {
   }
 }
 
-/// To the last bit, whatever is in the other lanes.
-void expect_same_side_by_side(const Effect& effect, const Rods& rods) {
-  std::vector<std::uint32_t> all(rods.count());
-  std::iota(all.begin(), all.end(), 0U);
-  const PackedRods together(effect, rods, all);
-  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
-    SCOPED_TRACE("rod " + std::to_string(rod));
-    ASSERT_EQ(together.energy(rod), energy_of(effect, rods, rod));
-    const Derivatives found = together.derivatives(rod);
-    const Derivatives expected = derivatives_of(effect, rods, rod);
-    ASSERT_EQ(found.gradient, expected.gradient);
-    ASSERT_EQ(found.hessian, expected.hessian);
-  }
-}
-
 TEST_P(EffectTest, DoesTheSameToRodsSideBySide) {
   SCOPED_TRACE(seed_message());
   Random random(5);
@@ -289,54 +274,6 @@ const std::vector<EffectCase> exact_cases = {
 };
 INSTANTIATE_TEST_SUITE_P(Exact, EffectTest, testing::ValuesIn(exact_cases), name_of);
 INSTANTIATE_TEST_SUITE_P(Exact, ExactEffectTest, testing::ValuesIn(exact_cases), name_of);
-
-/// What bends a straight rod a little meets all of the Hessian, to either side.
-TEST(Bend, HasItsHessianWhereARodIsStraight) {
-  Rods rods;
-  rods.add({{0, 0, 0}, {0.3, 0, 0}, {0.5, 0, 0}, {0.9, 0, 0}}, 0.01, {1.0, 0.7, 0.0, 1.0, 0.0});
-  const MatrixXd found = derivatives_of(Bend(), rods, 0).hessian;
-  const MatrixXd expected = hessian_by_differences(Bend(), rods, 0, 1e-6);
-  EXPECT_LE((found - expected).cwiseAbs().maxCoeff(), 1e-7 * expected.cwiseAbs().maxCoeff());
-}
-
-/// Three rods of four nodes: bent, straight, and folded at a node.
-Rods bent_straight_and_folded() {
-  Rods rods;
-  const RodSection section{1.0, 0.7, 0.0, 1.0, 0.0};
-  rods.add({{0, 0, 0}, {0.3, 0, 0}, {0.5, 0.1, 0}, {0.9, 0, 0.1}}, 0.01, section);
-  rods.add({{0, 0, 0}, {0.2, 0.4, 0.4}, {0.3, 0.6, 0.6}, {0.5, 1.0, 1.0}}, 0.01, section);
-  rods.add({{0, 0, 0}, {0, 0, 0.25}, {0, 0, 0}, {0, 0.5, 0}}, 0.01, section);
-  return rods;
-}
-
-TEST(Bend, OfRodsThatAreStraightIsTheSameSideBySide) {
-  Rods rods = bent_straight_and_folded();
-  for (const double curvature : {0.0, 2.0}) {
-    rods.natural_curvatures.assign(rods.positions.size(), curvature);
-    Bend bend;
-    bend.begin_step(rods, a_step);
-    expect_same_side_by_side(bend, rods);
-  }
-}
-
-TEST(Damping, OfRodsThatAreFoldedIsTheSameSideBySide) {
-  SCOPED_TRACE(seed_message());
-  Random random(6);
-  for (const bool is_folded_first : {false, true}) {
-    Rods rods = bent_straight_and_folded();
-    if (!is_folded_first) {
-      displace(rods, random, 0.1);
-    }
-    Damping damping(0.01);
-    damping.begin_step(rods, a_step);
-    if (is_folded_first) {
-      displace(rods, random, 0.1);
-    } else {
-      rods.positions = bent_straight_and_folded().positions;
-    }
-    expect_same_side_by_side(damping, rods);
-  }
-}
 
 INSTANTIATE_TEST_SUITE_P(
     Approximate, EffectTest,

@@ -147,7 +147,7 @@ class RandomHeap {
   std::ostringstream text_;
 };
 
-/// With Newton's method to the full residual, or to a few iterations as shipped scenes have.
+/// Settled to the full residual, or in few iterations as shipped scenes have.
 TEST(Reversal, RandomHeapsRiseFreely) {
   SCOPED_TRACE(seed_message());
   Random random(1);
@@ -161,7 +161,8 @@ TEST(Reversal, RandomHeapsRiseFreely) {
     options.threads = 1;
     options.max_iterations = random.chance(0.5) ? options.max_iterations : 4;
     const double step = random.chance(0.5) ? 1.0 / 240.0 : 1.0 / 120.0;
-    Reversal reversal(heap.settled(options, step), contacts_with(heap.environment()), options);
+    Reversal reversal(heap.settled(options, step), contacts_with(heap.environment()),
+                      StepperOptions{});
     reversal.run(rising, step);
     EXPECT_TRUE(reversal.has_risen()) << options.max_iterations << " iterations, step " << step;
     with_fiber_contacts += reversal.fiber_contacts() > 0 ? 1 : 0;

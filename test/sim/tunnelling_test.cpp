@@ -6,9 +6,9 @@
 
 #include <cmath>
 
-#include "environment/random_shapes.hpp"
 #include "sim/contact_scenes.hpp"
 #include "sim/random_rods.hpp"
+#include "sim/throw.hpp"
 #include "sim/trefoil.hpp"
 #include "support/random.hpp"
 
@@ -16,39 +16,6 @@ namespace fiber::test {
 namespace {
 
 using Eigen::Vector3d;
-
-std::vector<Vector3d> chain(Random& random, const Vector3d& middle, int edges, double length) {
-  std::vector<Vector3d> points{middle};
-  Vector3d direction = random.direction();
-  for (int i = 0; i < edges; ++i) {
-    points.push_back(points.back() + length / edges * direction);
-    direction = (direction + 0.4 * random.direction()).normalized();
-  }
-  return points;
-}
-
-/// What becomes of rods that are thrown at each other in steps so long that things come, go and
-/// slide within one.
-struct Throw {
-  Throw(Rods rods, Effects effects, std::unique_ptr<Contacts> contacts) {
-    effects.push_back(path.watcher());
-    StepperOptions options;
-    options.threads = 1;
-    stepper = std::make_unique<Stepper>(std::move(rods), std::move(effects), options,
-                                        std::move(contacts));
-  }
-
-  void run(int steps, double length) const {
-    for (int i = 0; i < steps; ++i) {
-      stepper->step(length);
-      ASSERT_TRUE(all_finite(stepper->rods())) << "step " << i;
-      ASSERT_EQ(TunnellingChecker::check(stepper->rods(), path), "") << "step " << i;
-    }
-  }
-
-  SolverPath path;
-  std::unique_ptr<Stepper> stepper;
-};
 
 /// Steps, and looks each time whether axes have met.
 void run(Stepper& stepper, int steps, double length) {
@@ -248,113 +215,6 @@ TEST(Crossing, AtTheBeginningDoesNotBlowUp) {
     EXPECT_LT(most, 50.0);
     EXPECT_LT(kinetic_energy(stepper.rods()), 1.0);
   }
-}
-
-class Obstacle : public testing::TestWithParam<double> {};
-
-TEST_P(Obstacle, ThinPlatesKeepNodesOnTheirSide) {
-  SCOPED_TRACE(seed_message());
-  Random random(4);
-  const double thickness = 1e-4;
-  for (const Shape& plate : {Shape(BoxShape{Vector3d(2.0, 2.0, thickness)}), Shape(PlaneShape{}),
-                             Shape(box_mesh({2.0, 2.0, thickness}, 3))}) {
-    Rods rods;
-    for (int rod = 0; rod < 3; ++rod) {
-      rods.add(chain(random, {0.0, 0.1 * rod, 0.5}, 8, 0.3), 0.001, rubber(0.001));
-      for (std::uint32_t node = rods.first(rod); node < rods.end(rod); ++node) {
-        rods.velocities[node] = Vector3d(random.uniform(-1.0, 1.0), 0.0, -GetParam());
-      }
-    }
-    Stepper stepper(rods, elastic(standard_gravity), StepperOptions{},
-                    contacts_with(environment_of(plate), 0.3));
-    for (int i = 0; i < 60; ++i) {
-      stepper.step(1.0 / 60.0);
-      ASSERT_TRUE(all_finite(stepper.rods())) << "step " << i;
-      for (const Vector3d& position : stepper.rods().positions) {
-        // Off the rim of the plate they may fall.
-        ASSERT_TRUE(position.z() > 0.0 || position.head<2>().cwiseAbs().maxCoeff() > 1.0)
-            << "step " << i << ": " << position.transpose();
-      }
-    }
-  }
-}
-
-TEST_P(Obstacle, AThinPostStopsEdges) {
-  SCOPED_TRACE(seed_message());
-  Random random(5);
-  const Eigen::Isometry3d along_x(Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitY()));
-  for (int repeat = 0; repeat < 10; ++repeat) {
-    Rods rods;
-    const double slant = random.uniform(-1.0, 1.0);
-    const double shift = random.uniform(-0.02, 0.02);
-    const double height = repeat % 2 == 0 ? 0.3 : 0.005;
-    const double slope = 0.1 * height * slant;
-    rods.add(straight({0.0, -0.2 + shift, height + slope}, {0.0, 0.2 + shift, height - slope}, 7),
-             0.001, rubber(0.001));
-    for (Vector3d& velocity : rods.velocities) {
-      velocity = Vector3d(0.0, random.uniform(-0.5, 0.5), -GetParam());
-    }
-    const Throw thrown(rods, elastic(),
-                       contacts_with(environment_of(CylinderShape{1e-3, 2.0}, along_x), 0.3));
-    for (int i = 0; i < 60; ++i) {
-      thrown.run(1, 1.0 / 60.0);
-      ASSERT_FALSE(TunnellingChecker::passes(thrown.stepper->rods(), thrown.path,
-                                             -Vector3d::UnitX(), Vector3d::UnitX()))
-          << "step " << i;
-    }
-  }
-}
-
-TEST_P(Obstacle, MeshesAreOnBothSides) {
-  // The lower of two sheets is nearer, the upper is what the rod flies to.
-  constexpr double upper = 0.03;
-  std::vector<Vector3d> vertices;
-  for (const double z : {0.0, upper}) {
-    for (const double x : {-1.0, 1.0}) {
-      vertices.emplace_back(x, -1.0, z);
-      vertices.emplace_back(x, 1.0, z);
-    }
-  }
-  const auto mesh = std::make_shared<const TriangleMesh>(
-      vertices, std::vector<TriangleMesh::Triangle>{{0, 1, 2}, {1, 2, 3}, {4, 5, 6}, {5, 6, 7}});
-  Rods rods;
-  rods.add(straight({-0.1, 0.0, 0.01}, {0.1, 0.02, 0.012}, 8), 0.001, rubber(0.001));
-  for (Vector3d& velocity : rods.velocities) {
-    velocity.z() = GetParam();
-  }
-  Stepper stepper(rods, elastic(), StepperOptions{}, contacts_with(environment_of(mesh), 0.3));
-  for (int i = 0; i < 60; ++i) {
-    stepper.step(1.0 / 60.0);
-    ASSERT_TRUE(all_finite(stepper.rods())) << "step " << i;
-    for (const Vector3d& position : stepper.rods().positions) {
-      ASSERT_GT(position.z(), 0.0) << "step " << i;
-      ASSERT_LT(position.z(), upper) << "step " << i;
-    }
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(AtSpeeds, Obstacle, testing::Values(0.5, 5.0, 50.0));
-
-TEST(Energy, OfAPileIsBoundedForTenThousandSteps) {
-  Rods rods;
-  for (int rod = 0; rod < 3; ++rod) {
-    const double turn = rod * M_PI / 3.0;
-    const Vector3d along(0.1 * std::cos(turn), 0.1 * std::sin(turn), 0.0);
-    const Vector3d middle(0.0, 0.0, 0.01 + 0.012 * rod);
-    rods.add(straight(middle - along, middle + along, 6), 0.005, rubber(0.005));
-  }
-  Stepper stepper(rods, elastic(standard_gravity), StepperOptions{},
-                  contacts_with(environment_of(HalfSpaceShape{}), 0.3));
-  double highest = 0.0;
-  for (int i = 0; i < 10000; ++i) {
-    stepper.step(1.0 / 240.0);
-    ASSERT_TRUE(all_finite(stepper.rods())) << "step " << i;
-    if (i >= 1000) {
-      highest = std::max(highest, kinetic_energy(stepper.rods()));
-    }
-  }
-  // Friction lets creep what sticks, by less than a millimetre a second: about 3e-8 J of all.
-  EXPECT_LT(highest, 1e-6);
 }
 
 }  // namespace

@@ -188,7 +188,8 @@ void ContactSet::find_terms(const Rods& rods, std::size_t contact, std::vector<T
   const auto add = [&](const PointPair& points, const DistanceTerm& term,
                        const Barrier& /*barrier*/) {
     terms.push_back({points, term.slope * term.normal,
-                     term.curvature * term.normal * term.normal.transpose(),
+                     (term.curvature - term.across) * term.normal * term.normal.transpose() +
+                         term.across * Matrix3d::Identity(),
                      term.turning > 0.0 ? term.turning / (term.slope * term.slope) : 0.0});
   };
   std::vector<DistanceTerm> found;

@@ -70,8 +70,11 @@ class EdgeContact {
                            double curvature, double pressure) {
     const Vector3d normal = of_end.delta / of_end.distance;
     const double own = end % 2 == 0 ? 0.0 : 1.0;
-    return end < 2 ? DistanceTerm{own, of_end.parameter, normal, slope, curvature, pressure}
-                   : DistanceTerm{of_end.parameter, own, -normal, slope, curvature, pressure};
+    const double across = std::max(0.0, slope) / of_end.distance;
+    return end < 2 ? DistanceTerm{own,       of_end.parameter, normal, slope,
+                                  curvature, pressure,         0.0,    across}
+                   : DistanceTerm{of_end.parameter, own,      -normal, slope,
+                                  curvature,        pressure, 0.0,     across};
   }
 
   /// Of the edges' distance, with its weight.

@@ -41,6 +41,9 @@ struct DistanceTerm {
   /// What resists that one end of edge a comes nearer than the other: as that moves the nearest
   /// point along the edge [N/m].
   double turning = 0.0;
+
+  /// What resists a displacement across the normal, where the two attract each other [N/m].
+  double across = 0.0;
 };
 
 /// What a contact has of energy, and how far it is from being infinite: the least of what the

@@ -23,6 +23,9 @@ struct Room {
 /// fifth of what it has, and no rod leaves its room.
 class StepBound {
  public:
+  /// Room that a rod should have at the least, in parts of its radius.
+  static constexpr double least_room = 0.25;
+
   /// @param room null for none
   void begin(const Room* room, std::uint32_t islands);
 
