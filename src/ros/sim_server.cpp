@@ -132,8 +132,8 @@ void SimServer::keep_pace() {
     behind_ += late;
     next_frame_ = ros::SteadyTime::now();
     ROS_WARN_STREAM_THROTTLE(warning_pause, "the simulation is slower than real time: "
-                                                 << behind_ << " s behind after "
-                                                 << scene_.stepper->time() << " s of the scene");
+                                                << behind_ << " s behind after "
+                                                << scene_.stepper->time() << " s of the scene");
   }
 }
 

@@ -7,8 +7,8 @@
 
 namespace fiber {
 
-/// How many rods are moved side by side, each in a lane of its own of wide registers: as many as the
-/// widest have. Narrower ones take them in turns, and only as many as there are.
+/// How many rods are moved side by side, each in a lane of its own of wide registers: as many as
+/// the widest have. Narrower ones take them in turns, and only as many as there are.
 constexpr std::size_t lane_count = 8;
 
 /// The same number of each of them.
