@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "contact_set-inl.hpp"
 
@@ -66,8 +65,6 @@ void ContactSet::begin(const Rods& rods, const Friction* friction,
                        const std::vector<Vector3d>& references, double step) {
   frictions_.clear();
   measure(rods);
-  gaps_.assign(obstacle_contacts.size() + pairs.size(), 0.0);
-  tried_gaps_ = gaps_;
   let_part(rods);
   if (friction == nullptr) {
     return;
@@ -97,14 +94,6 @@ void ContactSet::let_part(const Rods& rods) {
     Barrier& barrier = is_pair ? pairs[pair].barrier : obstacle_contacts[i].barrier;
     barrier = barrier.for_start_at(is_pair ? distances_[pair].distance
                                            : obstacle_distances_[i].nearest.distance);
-    energy_of(rods, i);
-  }
-  accept_gaps();
-}
-
-void ContactSet::accept_gaps() {
-  for (std::size_t i = 0; i < gaps_.size(); ++i) {
-    gaps_[i] = std::isfinite(tried_gaps_[i]) ? tried_gaps_[i] : 0.0;
   }
 }
 
@@ -117,8 +106,6 @@ void ContactSet::measure(const Rods& rods) {
         }
       });
   distances_.resize(pairs.size());
-  gaps_.resize(obstacle_contacts.size() + pairs.size(), 0.0);
-  tried_gaps_.resize(gaps_.size(), 0.0);
   for_each_chunk(pairs.size(), [&](std::size_t /*index*/, std::size_t begin, std::size_t end) {
     std::array<const Vector3d*, chunk> a{};
     std::array<const Vector3d*, chunk> b{};
@@ -138,19 +125,15 @@ Vector3d ContactSet::slip_of(const Rods& rods, const FrictionPoint& point) const
   return moved - point.normal * point.normal.dot(moved);
 }
 
-double ContactSet::energy_of(const Rods& rods, std::size_t contact) {
-  const std::size_t obstacles = obstacle_contacts.size();
-  if (contact < obstacles + pairs.size()) {
-    const std::size_t pair = contact - obstacles;
-    const ContactEnergy found =
-        contact < obstacles
-            ? obstacle_contact(obstacle_contacts[contact], obstacle_distances_[contact], nullptr)
-            : edge_contact(pairs[pair], rods.positions, distances_[pair], nullptr);
-    tried_gaps_[contact] = found.gap;
-    const bool is_too_near = found.gap < (1.0 - most_lost) * gaps_[contact];
-    return is_too_near ? std::numeric_limits<double>::infinity() : found.energy;
+double ContactSet::energy_of(const Rods& rods, std::size_t contact) const {
+  if (contact < obstacle_contacts.size()) {
+    return obstacle_contact(obstacle_contacts[contact], obstacle_distances_[contact], nullptr);
   }
-  const FrictionPoint& point = frictions_[contact - obstacles - pairs.size()];
+  contact -= obstacle_contacts.size();
+  if (contact < pairs.size()) {
+    return edge_contact(pairs[contact], rods.positions, distances_[contact], nullptr);
+  }
+  const FrictionPoint& point = frictions_[contact - pairs.size()];
   return point.most * Friction::law(slip_of(rods, point).norm(), stick_length_).energy;
 }
 
@@ -176,7 +159,6 @@ void ContactSet::add_energies(const Rods& rods, const std::vector<std::uint32_t>
 
 double ContactSet::stored_energy(const Rods& rods) {
   measure(rods);
-  gaps_.assign(gaps_.size(), 0.0);
   double energy = 0.0;
   for (std::size_t i = 0; i < obstacle_contacts.size() + pairs.size(); ++i) {
     energy += energy_of(rods, i);
@@ -216,7 +198,6 @@ void ContactSet::find_terms(const Rods& rods, std::size_t contact, std::vector<T
 }
 
 void ContactSet::find_derivatives(const Rods& rods) {
-  accept_gaps();
   terms_.resize(chunks_of(contact_count()));
   for_each_chunk(contact_count(), [&](std::size_t index, std::size_t begin, std::size_t end) {
     terms_[index].clear();

@@ -46,9 +46,7 @@ class ContactSet {
   /// Measures where the rods are now; the following functions are about that.
   void measure(const Rods& rods);
 
-  /// Adds the energy of each contact to that of the island of its rod: infinite also where a
-  /// contact has lost more than four fifths of its gap since derivatives were found. However hard
-  /// something is thrown, they change by not too much from one of Newton's steps to the next.
+  /// Adds the energy of each contact to that of the island of its rod.
   /// @param islands by rod
   void add_energies(const Rods& rods, const std::vector<std::uint32_t>& islands,
                     std::vector<EnergySum>& energies);
@@ -94,9 +92,6 @@ class ContactSet {
   void add_forces(const Rods& rods, std::vector<RodForces::ContactForce>& forces) const;
 
  private:
-  /// What a distance may lose in a step of what it has beyond the inner one.
-  static constexpr double most_lost = 0.8;
-
   static constexpr std::uint32_t no_edge = RodForces::ContactForce::obstacle;
 
   /// Points of two edges, or of one and an obstacle.
@@ -132,7 +127,6 @@ class ContactSet {
                               const std::vector<Eigen::Vector3d>& displacements, double share);
 
   void let_part(const Rods& rods);
-  void accept_gaps();
 
   template <class Function>
   void visit_obstacle(std::size_t index, std::vector<DistanceTerm>& found,
@@ -143,7 +137,7 @@ class ContactSet {
   template <class Function>
   void for_each_distance(const Rods& rods, const Function& function) const;
   Eigen::Vector3d slip_of(const Rods& rods, const FrictionPoint& point) const;
-  double energy_of(const Rods& rods, std::size_t contact);
+  double energy_of(const Rods& rods, std::size_t contact) const;
   void find_terms(const Rods& rods, std::size_t contact, std::vector<Term>& terms) const;
   std::size_t contact_count() const {
     return obstacle_contacts.size() + pairs.size() + frictions_.size();
@@ -156,11 +150,6 @@ class ContactSet {
   std::vector<std::vector<Term>> terms_;  // by chunk of contacts
   bool has_coupling_ = false;
   std::vector<double> energies_;  // by contact [J]
-
-  // How far contacts are from where their energy is infinite, by contact [m]: where derivatives
-  // were found last, and where energies were.
-  std::vector<double> gaps_;
-  std::vector<double> tried_gaps_;
 };
 
 }  // namespace fiber

@@ -13,8 +13,9 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// How well the time is to be known at which a distance has lost what it may, in parts of what is
-/// left.
+/// What a distance may lose in a step of what it has beyond the least one, and how well the time is
+/// to be known at which it has lost that, in parts of what is left.
+constexpr double most_lost = 0.8;
 constexpr double tolerance = 0.1;
 
 /// The square of the most by which two edges' nodes approach each other.

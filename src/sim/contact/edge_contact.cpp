@@ -1,6 +1,7 @@
 #include "edge_contact.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace fiber {
 
@@ -37,7 +38,7 @@ class EdgeContact {
     }
   }
 
-  ContactEnergy energy(std::vector<DistanceTerm>* terms) {
+  double energy(std::vector<DistanceTerm>* terms) {
     double energy = add_crossing(terms);
     for (std::uint32_t end = 0; end < 4; ++end) {
       energy += add_node(end, terms);
@@ -45,19 +46,10 @@ class EdgeContact {
         terms->push_back(term(end, ends_[end], slopes_[end], curvatures_[end], pressures_[end]));
       }
     }
-    return {energy, gap()};
+    return energy;
   }
 
  private:
-  /// Of all there are, so that it does not jump where one pair takes over from another.
-  double gap() const {
-    double felt = barrier_.felt(nearest_.distance, weight_);
-    for (const EndDistance& end : ends_) {
-      felt = std::min(felt, end.distance);
-    }
-    return std::max(0.0, felt - barrier_.inner);
-  }
-
   /// Ends 0 and 1 are those of a, 2 and 3 those of b.
   std::uint32_t node_of(std::uint32_t end) const {
     return end < 2 ? pair_.edge_a + end : pair_.edge_b + end - 2;
@@ -84,14 +76,13 @@ class EdgeContact {
     if (!is_inner(nearest_.s) || !is_inner(nearest_.t)) {
       return 0.0;
     }
-    weight_ = 1.0;
+    double weight = 1.0;
     std::array<Ramp, 4> ramps{Ramp(1.0), Ramp(1.0), Ramp(1.0), Ramp(1.0)};
     for (std::uint32_t end = 0; end < 4; ++end) {
       const double further = std::max(0.0, ends_[end].distance - distance);
       ramps[end] = Ramp(further / barrier_.width());
-      weight_ *= ramps[end].value;
+      weight *= ramps[end].value;
     }
-    const double weight = weight_;
     if (weight == 0.0) {
       return 0.0;
     }
@@ -197,7 +188,6 @@ class EdgeContact {
   const Barrier& barrier_;
   const std::vector<Vector3d>& x_;
   const SegmentDistance& nearest_;
-  double weight_ = 0.0;  // of the crossing
   std::array<EndDistance, 4> ends_;
   std::array<double, 4> slopes_{};
   std::array<double, 4> curvatures_{};
@@ -206,10 +196,10 @@ class EdgeContact {
 
 }  // namespace
 
-ContactEnergy edge_contact(const EdgePair& pair, const std::vector<Vector3d>& positions,
-                           const SegmentDistance& nearest, std::vector<DistanceTerm>* terms) {
+double edge_contact(const EdgePair& pair, const std::vector<Vector3d>& positions,
+                    const SegmentDistance& nearest, std::vector<DistanceTerm>* terms) {
   if (nearest.distance >= pair.barrier.outer) {
-    return {0.0, pair.barrier.width()};
+    return 0.0;
   }
   return EdgeContact(pair, positions, nearest).energy(terms);
 }

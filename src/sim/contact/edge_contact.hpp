@@ -46,13 +46,6 @@ struct DistanceTerm {
   double across = 0.0;
 };
 
-/// What a contact has of energy, and how far it is from being infinite: the least of what the
-/// distances that its barriers feel have beyond the inner one; infinite where it is not known.
-struct ContactEnergy {
-  double energy;  ///< [J]
-  double gap;     ///< [m] at least 0
-};
-
 /// The potential of two polylines near each other, edge by edge:
 ///
 /// - Each node has the barrier of its distance from the other polyline: of those from each of its
@@ -68,8 +61,8 @@ struct ContactEnergy {
 /// Gradients are exact, in terms of distances.
 /// @param nearest of the two edges, where `positions` has them
 /// @param terms   appended to; null if only the energy is asked for
-/// @returns energy infinite where a distance is reached below which nothing can get
-ContactEnergy edge_contact(const EdgePair& pair, const std::vector<Eigen::Vector3d>& positions,
-                           const SegmentDistance& nearest, std::vector<DistanceTerm>* terms);
+/// @returns energy [J], infinite where a distance is reached below which nothing can get
+double edge_contact(const EdgePair& pair, const std::vector<Eigen::Vector3d>& positions,
+                    const SegmentDistance& nearest, std::vector<DistanceTerm>* terms);
 
 }  // namespace fiber

@@ -114,21 +114,17 @@ ObstacleDistance obstacle_distance(const ObstacleContact& contact,
   return distance;
 }
 
-ContactEnergy obstacle_contact(const ObstacleContact& contact, const ObstacleDistance& distance,
-                               std::vector<DistanceTerm>* terms) {
+double obstacle_contact(const ObstacleContact& contact, const ObstacleDistance& distance,
+                        std::vector<DistanceTerm>* terms) {
   const Barrier& barrier = contact.barrier;
   const double weight = distance.weight;
-  if (distance.nearest.distance >= barrier.outer) {
-    return {0.0, barrier.width()};
-  }
-  if (weight == 0.0) {
-    return {0.0, std::numeric_limits<double>::infinity()};
+  if (weight == 0.0 || distance.nearest.distance >= barrier.outer) {
+    return 0.0;
   }
   const double felt = barrier.felt(distance.nearest.distance, weight);
   const double energy = barrier.energy(felt);
-  const ContactEnergy found{weight * energy, std::max(0.0, felt - barrier.inner)};
   if (terms == nullptr || !(energy < std::numeric_limits<double>::infinity())) {
-    return found;
+    return weight * energy;
   }
   const double depth_share = Barrier::depth_share(weight);
   const double by_felt = weight * barrier.slope(felt);
@@ -168,7 +164,7 @@ ContactEnergy obstacle_contact(const ObstacleContact& contact, const ObstacleDis
   }
   terms->push_back({s, 0.0, distance.nearest.gradient, slope, by_felt_twice * of_distance * all,
                     pressure, turning_of(contact, distance, pressure)});
-  return found;
+  return weight * energy;
 }
 
 double bounded_share(const ObstacleContact& contact, const ObstacleDistance& distance,

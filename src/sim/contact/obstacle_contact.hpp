@@ -37,9 +37,9 @@ ObstacleDistance obstacle_distance(const ObstacleContact& contact,
                                    const std::vector<Eigen::Vector3d>& positions);
 
 /// @param terms appended to, t being 0; null if only the energy is asked for
-/// @returns energy infinite where a distance is reached below which nothing can get
-ContactEnergy obstacle_contact(const ObstacleContact& contact, const ObstacleDistance& distance,
-                               std::vector<DistanceTerm>* terms);
+/// @returns energy [J], infinite where a distance is reached below which nothing can get
+double obstacle_contact(const ObstacleContact& contact, const ObstacleDistance& distance,
+                        std::vector<DistanceTerm>* terms);
 
 /// Shortens a share of a step so that the distance loses no more than a part of what it has beyond
 /// the least one. Proven: distances from convex pieces never fall below what their gradients, where
