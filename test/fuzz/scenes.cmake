@@ -46,6 +46,7 @@ unwatched_library(fiber_queries
   src/geometry/smallest_rotation.cpp
   src/geometry/swept_fibers.cpp
   src/geometry/wide_contact_time.cpp
+  src/geometry/wide_gap.cpp
   src/bounds/bounding_volume.cpp
   src/hierarchy/fiber_order.cpp
   src/hierarchy/run_tree_find.cpp
