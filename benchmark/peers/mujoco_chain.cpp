@@ -26,7 +26,8 @@ struct MujocoSetting {
 ///
 /// A ball joint between two capsules of length l has the stiffness EI/l, the one at a clamp twice
 /// as much, as it stands for half an edge. MuJoCo integrates springs explicitly, and damping
-/// implicitly: a damping of one step times the stiffness keeps stiff joints stable.
+/// implicitly but for RK4: there, a damping of one step times the stiffness keeps stiff joints
+/// stable.
 std::string model_of(const CableScene& scene, int segments, const MujocoSetting& setting) {
   const RodSection section = scene.section();
   const double edge = scene.length() / segments;
@@ -36,9 +37,10 @@ std::string model_of(const CableScene& scene, int segments, const MujocoSetting&
   const int contacts = 200 + 8 * segments * static_cast<int>(scene.cables.size());
   std::ostringstream xml;
   xml.precision(17);
+  const double damping_time = std::strcmp(setting.integrator, "RK4") == 0 ? 0.0 : step;
   const auto joint = [&](double stiffness) {
-    xml << "<joint type='ball' stiffness='" << stiffness << "' damping='" << step * stiffness
-        << "'/>";
+    xml << "<joint type='ball' stiffness='" << stiffness << "' damping='"
+        << damping_time * stiffness << "'/>";
   };
   xml << "<mujoco><size nconmax='" << contacts << "' njmax='" << 4 * contacts << "'/>"
       << "<option timestep='" << step << "' integrator='" << setting.integrator << "' solver='"

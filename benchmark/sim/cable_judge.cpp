@@ -95,10 +95,10 @@ CableVerdict judge_cables(const CableScene& scene, const CableRun& run) {
     if (i > 0) {
       add_passed(scene, run.positions[i - 1], nodes, *engine, passed);
     }
-    for (std::size_t node = 0; node < nodes.size(); ++node) {
-      if (nodes[node].z() < 0.0) {
-        below.insert(node / nodes_per_cable);
-      }
+  }
+  for (std::size_t node = 0; node < last.size(); ++node) {
+    if (last[node].z() < 0.0) {
+      below.insert(node / nodes_per_cable);
     }
   }
   verdict.passed = static_cast<int>(passed.size() + below.size());

@@ -12,7 +12,7 @@ struct CableVerdict {
   // Of cables that touch; surfaces in each other or in the floor, in radii.
   double depth = 0.0;    ///< deepest in the last quarter of a second
   double deepest = 0.0;  ///< of all states
-  int passed = 0;        ///< pairs of cables whose axes met, and cables whose axes met the floor
+  int passed = 0;        ///< pairs of cables whose axes met, and cables that end below the floor
 };
 
 /// @param run one that is DONE

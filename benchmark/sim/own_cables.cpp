@@ -70,12 +70,11 @@ std::unique_ptr<CableSimulation> make_own_cables(const CableScene& scene, int se
 }
 
 std::vector<CableMethod> own_cables(const CableScene& scene, const std::vector<int>& segments) {
-  std::vector<StepperOptions> settings(4);
+  std::vector<StepperOptions> settings(3);
   settings[1].residual = 1e-2;
   settings[2].residual = 1e-4;
-  settings[3].residual = 1e-5;
   if (scene.fading == 0.0 && !scene.touches) {  // what swings
-    for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t i = 0; i < 3; ++i) {
       settings.push_back(settings[i]);
       settings.back().integrator = Integrator::BDF2;
     }
