@@ -25,9 +25,9 @@ struct MujocoSetting {
 /// The model as its users write it.
 ///
 /// A ball joint between two capsules of length l has the stiffness EI/l, the one at a clamp twice
-/// as much, as it stands for half an edge. MuJoCo integrates springs explicitly, and damping
-/// implicitly but for RK4: there, a damping of one step times the stiffness keeps stiff joints
-/// stable.
+/// as much, as it stands for half an edge. MuJoCo integrates springs explicitly. It integrates
+/// damping implicitly, so that a damping of one step times the stiffness keeps stiff joints stable;
+/// not so with RK4, where joints have none.
 std::string model_of(const CableScene& scene, int segments, const MujocoSetting& setting) {
   const RodSection section = scene.section();
   const double edge = scene.length() / segments;

@@ -1,7 +1,9 @@
 #include "sim/cable_run.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
+#include <cstring>
 #include <stdexcept>
 
 #include "pairs/child_process.hpp"
@@ -17,6 +19,7 @@ namespace {
 struct Told {
   CableEnding ending;
   double ms;
+  std::array<char, 200> reason;  // ends with a zero
 };
 static_assert(static_cast<int>(CableEnding::ENDED) == 0, "what shared memory has at first");
 
@@ -53,11 +56,12 @@ CableRun run_cables(const CableScene& scene, const CableMethod& method) {
   survives([&] {
     try {
       simulate(scene, method, begin, told[0]);
-    } catch (const std::exception&) {
+    } catch (const std::exception& error) {
       told[0].ending = CableEnding::DIVERGED;
+      std::strncpy(told[0].reason.data(), error.what(), told[0].reason.size() - 1);
     }
   });
-  CableRun run{told[0].ending, told[0].ms, {}};
+  CableRun run{told[0].ending, told[0].reason.data(), told[0].ms, {}};
   if (run.ending == CableEnding::DONE) {
     for (std::size_t i = 0; i < states; ++i) {
       run.positions.emplace_back(begin + i * nodes, begin + (i + 1) * nodes);

@@ -12,7 +12,8 @@ enum class CableEnding { ENDED, DIVERGED, DONE };
 
 struct CableRun {
   CableEnding ending = CableEnding::ENDED;
-  double ms = 0.0;  ///< of the processor, for all steps
+  std::string reason;  ///< what the simulator says of a run that is DIVERGED
+  double ms = 0.0;     ///< of the processor, for all steps
 
   /// At the beginning, and after each step [m]; only of a run that is DONE.
   std::vector<std::vector<Eigen::Vector3d>> positions;

@@ -32,7 +32,7 @@ struct Measured {
   double ms_per_second = unknown;
 };
 
-constexpr double longest_ms = 1e4;
+constexpr double longest_ms = 1e4;  // of a run that is repeated
 
 /// In turns, so that a machine that is slower for a while is so for all. What takes very long is
 /// not repeated.
@@ -81,6 +81,7 @@ SimulationRow row_of(const CableScene& scene, const Measured& one,
           {"cables", scene.cables.size()},
           {"seconds", scene.seconds},
           {"ending", name_of(one.run.ending)},
+          {"reason", one.run.reason},
           {"ms_per_second", one.ms_per_second},
           {"times_own", one.ms_per_second / own_time(all, one.method.segments)}};
 }
