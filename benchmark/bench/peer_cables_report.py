@@ -8,7 +8,7 @@ STYLES = {"own": ("#000000", "o"), "bullet": ("#fd8d3c", "s"), "mujoco": ("#1f77
 TITLES = {"hanging": "swinging rope: error of the tip [% of the length]",
           "cantilever": "cantilever at rest: error of the tip [% of the length]",
           "falling": "ropes that fall: deepest on the way [radii]"}
-LEAST_DEPTH = 1e-3  # none at all stands at the lower edge of a figure
+LEAST_DEPTH, MOST_DEPTH = 1e-2, 1e1  # what is beyond stands at the edge of a figure
 NO_VALUE = "–"
 
 
@@ -18,30 +18,30 @@ def of_scene(rows, scene):
 
 def shown_value(row):
     """What the figure has of a row."""
-    return max(row["deepest"], LEAST_DEPTH) if row["scene"] == "falling" else 100 * row["error"]
+    if row["scene"] == "falling":
+        return min(max(row["deepest"], LEAST_DEPTH), MOST_DEPTH)
+    return 100 * row["error"]
 
 
 def draw_peers(rows, path):
-    """Error against time, a panel per scene, each method with markers that grow with the segments.
+    """Error against time, a panel per scene, each method with marks that grow with the segments.
 
     Hollow ones are of cables that passed through each other.
     """
     figure, axes = panels(len(TITLES), 12.0, 4.2)
     for axis, (scene, title) in zip(axes, TITLES.items()):
         done = [row for row in of_scene(rows, scene) if row["ending"] == "done"]
-        for method, name in NAMES.items():
+        for method, segments in sorted({(row["method"], row["segments"]) for row in done}):
+            line = [row for row in done if (row["method"], row["segments"]) == (method, segments)]
             color, marker = STYLES[method]
-            of_method = [row for row in done if row["method"] == method]
-            for segments in sorted({row["segments"] for row in of_method}):
-                line = [row for row in of_method if row["segments"] == segments]
-                axis.scatter([row["ms_per_second"] for row in line],
-                             [shown_value(row) for row in line], s=10 + 1.5 * segments,
-                             marker=marker, edgecolors=color,
-                             facecolors=["none" if row["passed"] else color for row in line],
-                             alpha=0.7, label=f"{name}, {segments} segments")
+            axis.scatter([row["ms_per_second"] for row in line],
+                         [shown_value(row) for row in line], s=10 + 1.5 * segments, marker=marker,
+                         edgecolors=color,
+                         facecolors=["#ffffff" if row["passed"] else color for row in line],
+                         alpha=0.7, label=f"{NAMES[method]}, {segments} segments")
         axis.set(xscale="log", yscale="log", title=title,
                  xlabel="time [ms per second of the scene]")
-        axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=3)
+    axes[1].legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=3)
     save(figure, path)
 
 
