@@ -32,6 +32,10 @@ const std::vector<Part>& parts() {
        {"test", "scene", "quantity", "segments", "theory", "simulated", "error"}},
       {"convergence", measure_convergence, hose_columns},
       {"xpbd", measure_xpbd, xpbd_columns},
+      {"peers",
+       measure_peers,
+       {"scene", "method", "setting", "segments", "ending", "error", "deepest", "passed",
+        "ms_per_second", "times_own"}},
       {"effects",
        measure_effect_costs,
        {"added", "ms_per_step", "us_per_node_step", "bytes_per_node", "unknowns_per_node"}},
@@ -130,8 +134,8 @@ void add_simulate_command(CLI::App& app, Command& command) {
   CLI::App* simulate = app.add_subcommand(
       "simulate",
       "the simulation: what theory says, error and time by segments and steps, beside a "
-      "textbook's XPBD rod, what each effect costs, on one thread, in processor time; and how many "
-      "times faster than the clock large scenes are");
+      "textbook's XPBD rod and beside Bullet and MuJoCo, what each effect costs, on one thread, in "
+      "processor time; and how many times faster than the clock large scenes are");
   simulate->callback([&command, request] { command = [request] { return run(*request); }; });
   simulate
       ->add_option("--parts", request->parts,
@@ -160,6 +164,12 @@ void add_simulate_command(CLI::App& app, Command& command) {
   simulate->add_option("--least-ms", what.least_ms, "what is faster is measured again and again")
       ->check(finite_number(0.0))
       ->capture_default_str();
+  add_counts(*simulate, "--peer-segments", what.peer_segments,
+             "of a cable beside Bullet and MuJoCo");
+  add_counts(*simulate, "--peer-cable-segments", what.peer_cable_segments,
+             "of cables that touch, beside these");
+  add_count(*simulate, "--peer-cables", what.peer_cables, "that touch, beside these");
+  add_count(*simulate, "--peer-repeats", what.peer_repeats, "of each time of these");
   add_count(*simulate, "--cables", what.effects.cables, "on which effects are weighed");
   add_count(*simulate, "--cable-segments", what.effects.segments, "of each of these");
   add_count(*simulate, "--cable-frames", what.effects.frames, "to measure of these");

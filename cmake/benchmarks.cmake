@@ -14,9 +14,11 @@ fiber_proximity_tool(fiber_bench src/tools/fiber_bench.cpp
   benchmark/continuous/fiber_ways.cpp benchmark/continuous/measure_accuracy.cpp benchmark/continuous/measure_scenes.cpp
   benchmark/continuous/measure_times.cpp benchmark/continuous/scene_motions.cpp
   benchmark/measurement.cpp benchmark/motions.cpp benchmark/scene_commands.cpp
-  benchmark/scene_options.cpp benchmark/sim/effect_costs.cpp benchmark/sim/effect_scene.cpp
+  benchmark/scene_options.cpp benchmark/sim/cable_judge.cpp benchmark/sim/cable_run.cpp
+  benchmark/sim/cable_scene.cpp benchmark/sim/effect_costs.cpp benchmark/sim/effect_scene.cpp
   benchmark/sim/hose.cpp benchmark/sim/loads.cpp
-  benchmark/sim/measurements.cpp benchmark/sim/validation.cpp benchmark/sim/xpbd_rod.cpp
+  benchmark/sim/measurements.cpp benchmark/sim/own_cables.cpp benchmark/sim/peers.cpp
+  benchmark/sim/tip_truth.cpp benchmark/sim/validation.cpp benchmark/sim/xpbd_rod.cpp
   benchmark/simulate.cpp benchmark/stages.cpp benchmark/swapped_places.cpp
   benchmark/swaying.cpp)
 target_link_libraries(fiber_bench fiber_bench_motions fiber_bench_peers fiber_bench_sim fiber_proximity_environment fcl)

@@ -4,6 +4,7 @@
 option(FIBER_PROXIMITY_PEERS "Build fiber_bench with the peers installed here" ON)
 
 add_library(fiber_bench_peers STATIC
+  benchmark/peers/cable_peers.cpp
   benchmark/peers/peer.cpp
   benchmark/peers/peer_engine.cpp
   benchmark/continuous/discrete_motions.cpp
@@ -42,6 +43,23 @@ if(FIBER_PROXIMITY_PEERS)
     fiber_bench_peer(BULLET benchmark/peers/bullet.cpp
       LIBRARIES ${BULLET_COLLISION_LIBRARY} ${BULLET_MATH_LIBRARY}
       INCLUDES ${BULLET_INCLUDE_FOLDER})
+  endif()
+
+  find_library(BULLET_DYNAMICS_LIBRARY BulletDynamics)
+  find_library(BULLET_SOFT_BODY_LIBRARY BulletSoftBody)
+  if(BULLET_INCLUDE_FOLDER AND BULLET_COLLISION_LIBRARY AND BULLET_MATH_LIBRARY
+      AND BULLET_DYNAMICS_LIBRARY AND BULLET_SOFT_BODY_LIBRARY)
+    fiber_bench_peer(BULLET_ROPE benchmark/peers/bullet_rope.cpp
+      LIBRARIES ${BULLET_SOFT_BODY_LIBRARY} ${BULLET_DYNAMICS_LIBRARY}
+        ${BULLET_COLLISION_LIBRARY} ${BULLET_MATH_LIBRARY}
+      INCLUDES ${BULLET_INCLUDE_FOLDER})
+  endif()
+
+  find_path(MUJOCO_INCLUDE_FOLDER mujoco/mujoco.h)
+  find_library(MUJOCO_LIBRARY mujoco)
+  if(MUJOCO_INCLUDE_FOLDER AND MUJOCO_LIBRARY)
+    fiber_bench_peer(MUJOCO benchmark/peers/mujoco_chain.cpp
+      LIBRARIES ${MUJOCO_LIBRARY} INCLUDES ${MUJOCO_INCLUDE_FOLDER})
   endif()
 
   # In double Bullet has the same symbols: a module with its own libraries, loaded when asked for, in

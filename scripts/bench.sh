@@ -7,7 +7,8 @@
 #     coherence  what a skin is worth where points move a little in every frame
 #     accuracy   time against error: kernels and other libraries on hard pairs, queries on scenes
 #     continuous whether moving capsules touch, and when: right or wrong, and how fast
-#     simulation whether rods move as theory says, time against error, what each effect costs
+#     simulation whether rods move as theory says, time against error, beside Bullet and MuJoCo, too,
+#                what each effect costs
 #     --quick    small scenes: minutes at most
 #     --verbose  all that installing and building write
 #     --out DIR  where CSV and SVG go (default: build/bench/EXPERIMENT, -quick with --quick);

@@ -49,7 +49,7 @@ if $lint; then
   packages+=(catkin-lint clang-format clang-tidy)
 fi
 if $bench; then
-  packages+=(libembree-dev libcgal-dev libbullet-dev)
+  packages+=(libembree-dev libcgal-dev libbullet-dev libmujoco-dev)
   packages+=(python3-matplotlib python3-tqdm)
 fi
 if $fuzz; then

@@ -1,9 +1,10 @@
-"""Whether the simulation is right, how its error and its time depend on what it is told, and what
-each effect costs."""
+"""Whether the simulation is right, how its error and its time depend on what it is told, beside other
+simulators, too, and what each effect costs."""
 
 import pathlib
 
 from .machine import describe_machine
+from .peer_cables_report import draw_peers, peers_table
 from .runs import Limits, measure_all
 from .simulation_report import (draw_convergence, draw_effects, draw_xpbd, effect_table,
                                 real_time_table, resolution_table, validation_summary,
@@ -11,18 +12,20 @@ from .simulation_report import (draw_convergence, draw_effects, draw_xpbd, effec
 from .simulation_run import SimulationRun
 from .tables import write_csv
 
-PARTS = ("validation", "convergence", "xpbd", "effects", "real_time")
+PARTS = ("validation", "convergence", "xpbd", "peers", "effects", "real_time")
 FULL = {part: "" for part in PARTS}
 QUICK = {
     "validation": "",
-    "convergence": "--segments 10,20,50 --substeps 1,4,16 --iterations 1,2,4 "
+    "convergence": "--segments 10,20,50 --substeps 1,4,16 --residuals 1e-2,1e-4 --max-iterations 1,2,4 "
                    "--reference-segments 100 --reference-substeps 32 --least-ms 5",
     "xpbd": "--xpbd-segments 20,50 --xpbd-substeps 10,50,200 --xpbd-inertias 1,10 "
             "--reference-segments 100 --reference-substeps 32 --least-ms 5",
+    "peers": "--peer-segments 10,20 --peer-cable-segments 10 --peer-cables 4 --peer-repeats 1 "
+             "--reference-segments 100 --reference-substeps 32",
     "effects": "--cables 10 --cable-segments 30 --cable-frames 20",
     "real_time": "--load-frames 20",
 }
-ROW_LIMIT_S = 300.0  # the first row of a part waits for what the others are compared with
+ROW_LIMIT_S = 1200.0  # the first row of a scene waits for what the others are compared with
 BEGIN = "<!-- begin: scripts/bench.sh simulation -->\n"
 END = "<!-- end -->\n"
 
@@ -38,6 +41,7 @@ def run(tool, folder, quick):
         write_csv([plain(row) for row in rows[part]], out / f"{part}.csv")
     draw_convergence(rows["convergence"], out / "convergence.svg")
     draw_xpbd(rows["convergence"] + rows["xpbd"], out / "xpbd.svg")
+    draw_peers(rows["peers"], out / "peers.svg")
     draw_effects(rows["effects"], out / "effects.svg")
     machine = describe_machine()
     command = f"`scripts/bench.sh simulation{' --quick' if quick else ''}`, {machine}"
@@ -45,6 +49,7 @@ def run(tool, folder, quick):
     tables = {"validation": validation_table(rows["validation"]),
               "resolution": resolution_table(rows["convergence"]),
               "xpbd": xpbd_table(rows["convergence"] + rows["xpbd"]),
+              "peers": peers_table(rows["peers"]),
               "effects": effect_table(rows["effects"]),
               "real_time": real_time_table(rows["real_time"])}
     for name, table in tables.items():

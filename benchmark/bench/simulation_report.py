@@ -3,9 +3,10 @@
 from .plot import grid, panels, save
 from .tables import markdown, significant
 
-DEFAULT = {"segments": 50, "substeps": 4, "iterations": 2}
-NAMES = {"implicit_euler": "implicit Euler", "implicit_midpoint": "implicit midpoint",
-         "xpbd": "XPBD"}
+DEFAULT_SEGMENTS = 50
+NAMES = {"implicit_euler": "implicit Euler", "bdf2": "BDF2", "xpbd": "XPBD"}
+TITLES = {"segments": "segments", "substeps": "substeps", "residual": "residual [m/s]",
+          "max_iterations": "most iterations"}
 LEAST_ERROR = 1e-12  # one of 0 stands at the lower edge of a figure
 
 
@@ -48,19 +49,20 @@ def finest(rows, key):
 
 
 def draw_convergence(rows, path):
-    """Error above, time below, by segments, substeps and iterations."""
+    """Error above, time below, by segments, substeps, residual and most iterations."""
     of_grid = select(rows, varied="grid")
     most_segments, most_substeps = finest(of_grid, "segments"), finest(of_grid, "substeps")
     lines = {"segments": [("settling", select(rows, varied="segments"))],
              "substeps": [("settling", select(rows, varied="substeps"))],
-             "iterations": [(f"{motion}", select(rows, varied="iterations", motion=motion))
-                            for motion in ("settling", "swinging")]}
-    for method in ("implicit_euler", "implicit_midpoint"):
+             **{key: [(motion, select(rows, varied=key, motion=motion))
+                      for motion in ("settling", "swinging")]
+                for key in ("residual", "max_iterations")}}
+    for method in ("implicit_euler", "bdf2"):
         lines["segments"].append((f"swinging, {NAMES[method]}, {most_substeps} substeps",
                                   select(of_grid, method=method, substeps=most_substeps)))
         lines["substeps"].append((f"swinging, {NAMES[method]}, {most_segments} segments",
                                   select(of_grid, method=method, segments=most_segments)))
-    figure, axes = grid(2, len(lines), 12.0, 7.0)
+    figure, axes = grid(2, len(lines), 15.0, 7.0)
     for column, (key, shown) in enumerate(lines.items()):
         upper, lower = axes[0][column], axes[1][column]
         for label, of_line in shown:
@@ -68,9 +70,9 @@ def draw_convergence(rows, path):
             upper.plot(values, [100 * max(row["error"], LEAST_ERROR) for row in of_line],
                        marker=".", label=label)
             lower.plot(values, [row["ms_per_step"] for row in of_line], marker=".", label=label)
-        upper.set(xscale="log", yscale="log", title=f"by {key}")
+        upper.set(xscale="log", yscale="log", title=f"by {TITLES[key]}")
         upper.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1))
-        lower.set(xscale="log", yscale="log", xlabel=key)
+        lower.set(xscale="log", yscale="log", xlabel=TITLES[key])
     axes[0][0].set_ylabel("error [% of the length]")
     axes[1][0].set_ylabel("time of a step [ms]")
     save(figure, path)
@@ -101,7 +103,7 @@ def lines_of(rows, motion):
         for segments, inertia in kinds:
             line = [row for row in select(of_method, segments=segments, varied=varied)
                     if row.get("inertia", 1) == inertia]
-            if line and (method == "xpbd" or segments == DEFAULT["segments"]):
+            if line and (method == "xpbd" or segments == DEFAULT_SEGMENTS):
                 more = f", inertia ×{inertia}" if inertia > 1 else ""
                 found.append((f"{NAMES[method]}, {segments} segments{more}", line))
     return found
@@ -123,7 +125,7 @@ def xpbd_table(rows):
 def resolution_table(rows):
     """The swinging hose: a row per number of segments, a column per substeps; error and time."""
     parts = []
-    for method in ("implicit_euler", "implicit_midpoint"):
+    for method in ("implicit_euler", "bdf2"):
         of_method = select(rows, varied="grid", method=method)
         substeps = sorted({row["substeps"] for row in of_method})
         lines = []

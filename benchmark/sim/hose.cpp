@@ -43,7 +43,9 @@ Vector3d tip_at_rest(int segments) {
 
 }  // namespace
 
-RodSection Hose::section() { return solid_round_section({1e8, 4e7, 1200.0}, radius); }
+RodMaterial Hose::material() { return {1e8, 4e7, 1200.0}; }
+
+RodSection Hose::section() { return solid_round_section(material(), radius); }
 
 std::vector<Vector3d> Hose::points(int segments) {
   return straight(Vector3d::Zero(), {length, 0.0, 0.0}, segments);

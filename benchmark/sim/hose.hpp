@@ -15,6 +15,7 @@ struct Hose {
   static constexpr double gravity = 9.81;      ///< [m/s²]
   static constexpr double frame = 1.0 / 60.0;  ///< [s]
 
+  static RodMaterial material();
   static RodSection section();
 
   /// Where it is in the beginning.

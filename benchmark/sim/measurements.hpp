@@ -23,6 +23,10 @@ struct SimulationMeasurement {
   int reference_segments = 400;  ///< of what the hose is compared with, and half as many
   int reference_substeps = 128;  ///< likewise
   double least_ms = 50.0;        ///< what is faster is measured again and again
+  std::vector<int> peer_segments{10, 20, 50};  ///< of a cable beside Bullet and MuJoCo
+  std::vector<int> peer_cable_segments{20};    ///< where cables touch
+  std::uint32_t peer_cables = 10;              ///< that touch
+  std::uint32_t peer_repeats = 3;              ///< of each time
   EffectScene effects;
   LoadSizes loads;
 };
@@ -39,6 +43,10 @@ void measure_convergence(const SimulationMeasurement& what, const ReportRow& rep
 
 /// The same hose as a textbook's XPBD rod; rows as of the above.
 void measure_xpbd(const SimulationMeasurement& what, const ReportRow& report);
+
+/// Cables by Bullet and MuJoCo, where they are installed, beside ours; those that are not, a line
+/// each on stderr.
+void measure_peers(const SimulationMeasurement& what, const ReportRow& report);
 
 /// Time and memory of each effect on one scene.
 void measure_effect_costs(const SimulationMeasurement& what, const ReportRow& report);

@@ -1,30 +1,13 @@
+#include "benchmark/fiber_bench.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <vector>
-
-#include "tools/tools_test.hpp"
 
 namespace fiber::test {
 namespace {
-
-class FiberBench : public ToolsTest {
- protected:
-  static ProcessResult bench(const std::string& arguments) {
-    return run_process(FIBER_BENCH " " + arguments);
-  }
-};
-
-std::vector<nlohmann::json> json_lines(const std::string& text) {
-  std::vector<nlohmann::json> result;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) {
-    result.push_back(nlohmann::json::parse(line));
-  }
-  return result;
-}
 
 TEST_F(FiberBench, EnginesAgreeOnEverySubcommand) {
   // Of this seed, two fibres touch in frame 2.
@@ -190,75 +173,6 @@ TEST_F(FiberBench, SaysWhatAccuracyCostsAndBrings) {
   EXPECT_NE(
       bench("accuracy --scene tress_a --scale 0.01 --repeats 1").out.find("tolerance of 0.10"),
       std::string::npos);
-}
-
-TEST_F(FiberBench, HoldsTheSimulationAgainstTheory) {
-  const ProcessResult result = bench("simulate --parts validation --json");
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  const std::vector<nlohmann::json> rows = json_lines(result.out);
-  ASSERT_GT(rows.size(), 40U);
-  for (const nlohmann::json& row : rows) {
-    EXPECT_LE(std::abs(row.at("error").get<double>()), row.at("allowed").get<double>())
-        << row.dump();
-  }
-}
-
-TEST_F(FiberBench, SaysWhatTheSimulationCostsAndHowItErrs) {
-  const ProcessResult result = bench(
-      "simulate --parts convergence,xpbd,effects --segments 10,20 --substeps 1,8 "
-      "--residuals 1e-1,1e-6 --max-iterations 1 --xpbd-segments 10 --xpbd-substeps 10,400 "
-      "--xpbd-inertias 1 --frames 20 "
-      "--reference-segments 20 --reference-substeps 16 --least-ms 0 --cables 2 --cable-segments 8 "
-      "--cable-frames 2 --json");
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(result.err, "") << "progress is for terminals";
-  std::map<std::string, std::vector<nlohmann::json>> parts;
-  for (const nlohmann::json& row : json_lines(result.out)) {
-    parts[row.at("part")].push_back(row);
-  }
-  const std::vector<nlohmann::json>& hose = parts["convergence"];
-  ASSERT_EQ(hose.size(), 2U * 2U * 2U + 2U + 2U + 2U * (2U + 1U));
-  EXPECT_EQ(hose[0].at("method"), "implicit_euler");
-  EXPECT_GT(hose[2].at("error"), 2.0 * hose[3].at("error").get<double>()) << "by substeps";
-  EXPECT_EQ(hose[8].at("motion"), "settling");
-  for (const nlohmann::json& row : hose) {
-    if (row.at("varied") == "residual") {
-      EXPECT_LE(row.at("worst_residual"), row.at("residual").get<double>()) << row.dump();
-    }
-    if (row.at("varied") == "max_iterations") {
-      EXPECT_EQ(row.at("iterations"), 1.0) << row.dump();
-    }
-  }
-  const std::vector<nlohmann::json>& xpbd = parts["xpbd"];
-  ASSERT_EQ(xpbd.size(), 2U * 2U);
-  EXPECT_GT(xpbd[0].at("error"), 2.0 * xpbd[1].at("error").get<double>())
-      << "it converges to the same";
-  for (const nlohmann::json& row : parts["effects"]) {
-    const bool has_twist = row.at("added") == "twist" || row.at("added") == "all";
-    EXPECT_EQ(row.at("unknowns_per_node"), has_twist ? 4 : 3) << row.dump();
-    EXPECT_EQ(row.at("nodes"), 18);
-    EXPECT_GT(row.at("bytes"), 0);
-  }
-  EXPECT_EQ(parts["effects"].size(), 12U);
-}
-
-TEST_F(FiberBench, SaysHowFastLargeScenesAreBesideTheClock) {
-  const ProcessResult result = bench(
-      "simulate --parts real_time --load-cables 2 --load-rods 5 --load-frames 4 "
-      "--load-substeps 2 --load-threads 1,0 --json");
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  const std::vector<nlohmann::json> rows = json_lines(result.out);
-  ASSERT_EQ(rows.size(), 2U * 2U);
-  EXPECT_EQ(rows[0].at("scene"), "cables in contact");
-  EXPECT_EQ(rows[1].at("rods"), 5);
-  EXPECT_EQ(rows[1].at("threads"), 1);
-  for (const nlohmann::json& row : rows) {
-    EXPECT_GE(row.at("threads"), 1);
-    const double steps_per_second = 60.0 * row.at("substeps").get<double>();
-    EXPECT_NEAR(row.at("real_time_factor").get<double>() * row.at("ms_per_step").get<double>(),
-                1e3 / steps_per_second, 1e-6)
-        << row.dump();
-  }
 }
 
 TEST_F(FiberBench, JudgesKernelsOnHardPairs) {

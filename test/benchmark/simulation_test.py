@@ -23,9 +23,10 @@ with open(__file__ + ".calls", "a") as calls:
     calls.write(" ".join(sys.argv[1:]) + "\\n")
 def row(**fields):
     print(json.dumps({"part": part, **fields}))
-def hose(method, motion, varied, segments=50, substeps=4, iterations=2, error=None, **more):
+def hose(method, motion, varied, segments=50, substeps=4, residual=1e-3, max_iterations=100,
+         error=None, **more):
     row(method=method, motion=motion, varied=varied, segments=segments, substeps=substeps,
-        iterations=iterations, frames=60, ms_per_step=1e-4 * segments, us_per_node_step=0.1,
+        residual=residual, max_iterations=max_iterations, iterations=1.5, frames=60, ms_per_step=1e-4 * segments, us_per_node_step=0.1,
         error=1 / segments ** 2 + 1 / substeps ** 2 if error is None else error,
         ms_per_second=6e-3 * segments * substeps, **more)
 part = sys.argv[3]
@@ -36,7 +37,7 @@ if part == "validation":
     row(test="free fall", scene="implicit midpoint", quantity="height", segments=10, theory=-1.0,
         simulated=-1.0, error=0.0, allowed=1e-11)
 if part == "convergence":
-    for method in ("implicit_euler", "implicit_midpoint"):
+    for method in ("implicit_euler", "bdf2"):
         for segments in (10, 50):
             for substeps in (1, 16):
                 hose(method, "swinging", "grid", segments, substeps)
@@ -45,13 +46,22 @@ if part == "convergence":
     for substeps in (1, 16):
         hose("implicit_euler", "settling", "substeps", substeps=substeps)
     for motion in ("settling", "swinging"):
-        for iterations in (1, 2):
-            hose("implicit_euler", motion, "iterations", iterations=iterations)
+        for residual in (1e-2, 1e-3):
+            hose("implicit_euler", motion, "residual", residual=residual)
+        for most in (1, 2):
+            hose("implicit_euler", motion, "max_iterations", max_iterations=most)
 if part == "xpbd":
     for motion in ("settling", "swinging"):
         for segments in (20, 50):
             for inertia in (1, 10):
-                hose("xpbd", motion, "grid", segments, 200, 1, error=0.25, inertia=inertia)
+                hose("xpbd", motion, "grid", segments, 200, error=0.25, inertia=inertia)
+if part == "peers":
+    for scene in ("hanging", "cantilever", "falling"):
+        for method, ms, error, ending in (("own", 2.0, 1e-3, "done"), ("mujoco", 30.0, 0.02, "done"),
+                                          ("bullet", None, None, "diverged")):
+            row(scene=scene, method=method, setting="a setting", segments=20, cables=1, seconds=2.0,
+                ending=ending, error=error, moved=0.5, speed=0.0, deepest=0.5, passed=2,
+                ms_per_second=ms, times_own=ms and ms / 2.0)
 if part == "effects":
     for added, ms, unknowns in (("base", 0.2, 3), ("twist", 0.3, 4), ("all", 0.8, 4)):
         row(added=added, effects=["gravity", added], cables=10, segments=30, substeps=4, frames=20,
@@ -82,7 +92,7 @@ class SimulationTest(BenchTestCase):
         self.run_quick()
         calls = self.calls()
         self.assertEqual([call.split()[2] for call in calls],
-                         ["validation", "convergence", "xpbd", "effects", "real_time"])
+                         ["validation", "convergence", "xpbd", "peers", "effects", "real_time"])
         for call in calls:
             self.assertTrue(call.startswith("simulate --parts ") and call.endswith(" --json"), call)
         self.assertIn("--segments 10,20,50", calls[1])
@@ -125,7 +135,7 @@ class SimulationTest(BenchTestCase):
     def test_rows_are_kept_as_csv(self):
         self.quick()
         rows = list(csv.DictReader(io.StringIO(self.out("convergence.csv"))))
-        self.assertEqual(len(rows), 8 + 2 + 2 + 4)
+        self.assertEqual(len(rows), 8 + 2 + 2 + 2 * (2 + 2))
         self.assertEqual(rows[0]["method"], "implicit_euler")
         effects = list(csv.DictReader(io.StringIO(self.out("effects.csv"))))
         self.assertEqual(effects[1]["effects"], "gravity twist")
@@ -137,10 +147,10 @@ class SimulationTest(BenchTestCase):
 
     def test_the_figures_name_all_methods(self):
         self.quick()
-        for label in ("implicit Euler, 50 segments", "implicit midpoint, 50 segments",
+        for label in ("implicit Euler, 50 segments", "BDF2, 50 segments",
                       "XPBD, 20 segments", "XPBD, 50 segments, inertia ×10"):
             self.assertIn(f"<!-- {label} -->", self.out("xpbd.svg"))
-        for label in ("settling", "swinging, implicit midpoint, 16 substeps"):
+        for label in ("settling", "swinging, BDF2, 16 substeps"):
             self.assertIn(f"<!-- {label} -->", self.out("convergence.svg"))
         for label in ("twist", "added", "all"):
             self.assertIn(f"<!-- {label} -->", self.out("effects.svg"))
@@ -156,6 +166,18 @@ class SimulationTest(BenchTestCase):
         table = self.out_of_quick("xpbd.md")
         self.assertIn("| swinging | XPBD, 20 segments | 200 | 25.00 % | 24 | 0.100 |", table)
         self.assertIn("| settling | implicit Euler, 50 segments | 16 | 0.43 % | 4.8 | 0.100 |", table)
+
+    def test_other_simulators_stand_beside_ours(self):
+        table = self.out_of_quick("peers.md")
+        self.assertIn("| hanging | ours | a setting | 20 | 0.10 % | 2 | 1.0 |", table)
+        self.assertIn("| cantilever | MuJoCo | a setting | 20 | 2.00 % | 30 | 15 |", table)
+        self.assertIn("| falling | MuJoCo | a setting | 20 | 0.02 r | 0.5 r | 2 | 30 | 15 |", table)
+
+    def test_a_simulator_without_an_answer_is_named_and_not_drawn(self):
+        self.assertIn("| hanging | Bullet | a setting | 20 | diverged | – | – |",
+                      self.out_of_quick("peers.md"))
+        self.assertIn("<!-- MuJoCo, 20 segments -->", self.out("peers.svg"))
+        self.assertNotIn("<!-- Bullet, 20 segments -->", self.out("peers.svg"))
 
     def test_small_errors_are_not_none(self):
         self.assertEqual([percent(part) for part in (0.0, 1e-12, 3e-7, 0.0123, -0.5)],

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "sim/cable_run.hpp"
+
+namespace fiber {
+
+/// The same by whatever has simulated it: positions of nodes, joined by straight edges.
+struct CableVerdict {
+  double moved = 0.0;  ///< farthest of a node from where it began [m]
+  double speed = 0.0;  ///< of the fastest node in the last step [m/s]
+
+  // Of cables that touch; surfaces in each other or in the floor, in radii.
+  double depth = 0.0;    ///< deepest in the last quarter of a second
+  double deepest = 0.0;  ///< of all states
+  int passed = 0;        ///< pairs of cables whose axes met, and cables that end below the floor
+};
+
+/// @param run one that is DONE
+CableVerdict judge_cables(const CableScene& scene, const CableRun& run);
+
+}  // namespace fiber

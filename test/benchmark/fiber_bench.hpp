@@ -1,0 +1,28 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tools/tools_test.hpp"
+
+namespace fiber::test {
+
+class FiberBench : public ToolsTest {
+ protected:
+  static ProcessResult bench(const std::string& arguments) {
+    return run_process(FIBER_BENCH " " + arguments);
+  }
+};
+
+inline std::vector<nlohmann::json> json_lines(const std::string& text) {
+  std::vector<nlohmann::json> result;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) {
+    result.push_back(nlohmann::json::parse(line));
+  }
+  return result;
+}
+
+}  // namespace fiber::test
