@@ -33,15 +33,15 @@ DoubleDouble parameter(DoubleDouble numerator, DoubleDouble denominator) {
 }
 
 /// The vectors from one segment to the other: of two of their points, and across a plane between.
-struct Nearest {
+struct WideNearest {
   Vector between;
   Vector normal;
 };
 
 /// Of the points that are nearest if the robust ones are of the right kind: ends, or insides.
 /// @param corners [i][j] from end j of q to end i of p
-Nearest nearest_of(const SegmentDistance& robust, const Vector (&corners)[2][2], const Vector& u,
-                   const Vector& v) {
+WideNearest wide_nearest_of(const SegmentDistance& robust, const Vector (&corners)[2][2],
+                            const Vector& u, const Vector& v) {
   const bool on_p = robust.s > 0.0 && robust.s < 1.0;
   const bool on_q = robust.t > 0.0 && robust.t < 1.0;
   const std::size_t i = robust.s == 1.0 ? 1 : 0;
@@ -80,8 +80,8 @@ std::optional<bool> wide_gap_at_most(const SegmentDistance& robust, const Vector
   }
   const Vector corners[2][2] = {{exact_difference(p0, q0), exact_difference(p0, q1)},
                                 {exact_difference(p1, q0), exact_difference(p1, q1)}};
-  const Nearest nearest =
-      nearest_of(robust, corners, exact_difference(p1, p0), exact_difference(q1, q0));
+  const WideNearest nearest =
+      wide_nearest_of(robust, corners, exact_difference(p1, p0), exact_difference(q1, q0));
   const DoubleDouble sum =
       DoubleDouble(limit.radius_a) + DoubleDouble(limit.radius_b) + DoubleDouble(limit.margin);
   const DoubleDouble error(roundings * (extent + parts));
