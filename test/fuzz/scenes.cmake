@@ -34,6 +34,7 @@ unwatched_library(fiber_queries
   src/environment/environment_query.cpp
   src/environment/object_path.cpp
   src/environment/point_distance.cpp
+  src/environment/shape_contact_time.cpp
   src/environment/triangle_distance.cpp
   src/geometry/contact_times.cpp
   src/geometry/exact_distance.cpp
@@ -97,7 +98,8 @@ fuzz_target(obstacles fuzzed_yaml)
 fuzz_target(meshes fuzzed_yaml)
 
 file(GLOB simulation RELATIVE ${root} CONFIGURE_DEPENDS
-  ${root}/src/sim/*.cpp ${root}/src/sim/effects/*.cpp)
+  ${root}/src/sim/*.cpp ${root}/src/sim/contact/*.cpp ${root}/src/sim/effects/*.cpp
+  ${root}/src/sim/solver/*.cpp)
 unwatched_library(simulation ${simulation})
 target_link_libraries(simulation PUBLIC fiber_queries)
 target_sources(simulation PRIVATE engine.cpp)

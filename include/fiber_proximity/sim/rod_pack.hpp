@@ -22,12 +22,6 @@ struct alignas(lane_count * sizeof(double)) SimdBatch {
 /// Rods with the same number of nodes. Arrays of vectors go node by node, and coordinate by
 /// coordinate; an edge has the index of its first node, as in Rods.
 struct RodPack {
-  std::array<std::uint32_t, lane_count> rods{};         ///< which rod is in which lane
-  std::array<std::uint32_t, lane_count> first_nodes{};  ///< of these, as Rods counts nodes
-  std::size_t used = 0;                                 ///< lanes; the others repeat the first one
-  std::uint32_t node_count = 0;
-  std::size_t unknowns = 3;  ///< of each node: 3, or 4 with twist
-
   SimdBatch stretching_stiffness;
   SimdBatch bending_stiffness;
   SimdBatch twisting_stiffness;
@@ -51,6 +45,12 @@ struct RodPack {
   /// With twist only, of inner nodes, by measure_edges(): the angle from the director of one edge
   /// to that of the next, in (-pi, pi] [rad].
   std::vector<SimdBatch> director_twists;
+
+  std::array<std::uint32_t, lane_count> rods{};         ///< which rod is in which lane
+  std::array<std::uint32_t, lane_count> first_nodes{};  ///< of these, as Rods counts nodes
+  std::size_t used = 0;                                 ///< lanes; the others repeat the first one
+  std::size_t unknowns = 3;                             ///< of each node: 3, or 4 with twist
+  std::uint32_t node_count = 0;
 };
 
 /// What rods have of edges where they are now.
