@@ -169,9 +169,9 @@ double obstacle_contact(const ObstacleContact& contact, const ObstacleDistance& 
 
 double bounded_share(const ObstacleContact& contact, const ObstacleDistance& distance,
                      const std::vector<Vector3d>& positions,
-                     const std::vector<Vector3d>& displacements, double most_lost, double share) {
+                     const std::vector<Vector3d>& displacements, double part, double share) {
   const double least = contact.barrier.least();
-  const double room = most_lost * (distance.nearest.distance - least);
+  const double room = part * (distance.nearest.distance - least);
   if (contact.part != ObstacleContact::Part::EDGE) {
     const double approach = -distance.nearest.gradient.dot(displacements[node_of(contact)]);
     return approach * share > room ? std::max(0.0, room / approach) : share;

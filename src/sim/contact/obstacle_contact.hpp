@@ -47,7 +47,6 @@ double obstacle_contact(const ObstacleContact& contact, const ObstacleDistance& 
 /// @param displacements of nodes by the whole step [m]
 double bounded_share(const ObstacleContact& contact, const ObstacleDistance& distance,
                      const std::vector<Eigen::Vector3d>& positions,
-                     const std::vector<Eigen::Vector3d>& displacements, double most_lost,
-                     double share);
+                     const std::vector<Eigen::Vector3d>& displacements, double part, double share);
 
 }  // namespace fiber
