@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <utility>
 
 #include "fiber_proximity/Contact.h"
 #include "fiber_proximity/ros/fiber_step.hpp"
@@ -53,10 +52,8 @@ ros::Publisher advertise_contact_events(ros::NodeHandle& private_node) {
   return private_node.advertise<fiber_proximity::ContactEvent>("contact_events", most_waiting);
 }
 
-ContactEvents::ContactEvents(std::uint8_t type_b, ros::Publisher publisher)
-    : type_b_(type_b),
-      publisher_(std::move(publisher)),
-      tracker_(type_b == Contact::OBJECT ? 2 : 1, 2) {}
+ContactEvents::ContactEvents(std::uint8_t type_b, const ros::Publisher& publisher)
+    : type_b_(type_b), publisher_(publisher), tracker_(type_b == Contact::OBJECT ? 2 : 1, 2) {}
 
 fiber::TimeBounds ContactEvents::step_to(nanoseconds now) const {
   return {has_answer_ ? std::min(last_answer_, now) : nanoseconds(0), now};

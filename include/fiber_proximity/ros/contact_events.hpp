@@ -26,7 +26,7 @@ class ContactEvents {
  public:
   /// @param type_b    what the second bodies are, fiber_proximity::Contact::FIBER or OBJECT
   /// @param publisher of ContactEvent
-  ContactEvents(std::uint8_t type_b, ros::Publisher publisher);
+  ContactEvents(std::uint8_t type_b, const ros::Publisher& publisher);
 
   bool has_listeners() const { return publisher_.getNumSubscribers() > 0; }
 
