@@ -7,6 +7,7 @@
 
 #include "fiber_proximity/ros/conversions.hpp"
 #include "fiber_proximity/ros/draw_legend.hpp"
+#include "fiber_proximity/ros/marker_scale.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -70,27 +71,27 @@ std::vector<Arrow> arrows_of(const fiber::RodForces& forces) {
   return arrows;
 }
 
-}  // namespace
+using Canvas = ForceMarkers::Canvas;
 
-void ForceMarkers::draw_tensions(const fiber::Rods& rods, const fiber::RodForces& forces,
-                                 Canvas& canvas) const {
-  const double full = round_up(most_tension_);
+/// @param full [N] what full red or blue is
+void draw_tensions(const fiber::Rods& rods, const std::vector<double>& tensions, double full,
+                   Canvas& canvas) {
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
     Marker& marker = canvas.add(TENSIONS, Marker::LINE_LIST);
     marker.scale.x = 2.2 * rods.radii[rod];
     for (std::uint32_t i = rods.first(rod); i + 1 < rods.end(rod); ++i) {
       marker.points.push_back(to_message(rods.positions[i]));
       marker.points.push_back(to_message(rods.positions[i + 1]));
-      marker.colors.insert(marker.colors.end(), 2, color(tension_color(forces.tensions[i] / full)));
+      marker.colors.insert(marker.colors.end(), 2, color(tension_color(tensions[i] / full)));
     }
   }
 }
 
-void ForceMarkers::draw_arrows(const fiber::RodForces& forces, const MarkerScale& scale,
-                               Canvas& canvas) const {
-  const double full = round_up(most_force_);
+/// @param full [N] of the longest arrow
+void draw_arrows(const std::vector<Arrow>& arrows, double full, const MarkerScale& scale,
+                 Canvas& canvas) {
   const double thickness = std::max(0.5 * scale.thickest, 0.004 * scale.extent);
-  for (const Arrow& arrow : arrows_of(forces)) {
+  for (const Arrow& arrow : arrows) {
     const Vector3d way = longest_arrow * scale.extent / full * arrow.force;
     if (way.norm() < 0.5 * thickness) {
       continue;  // it would be a dot
@@ -104,16 +105,7 @@ void ForceMarkers::draw_arrows(const fiber::RodForces& forces, const MarkerScale
   }
 }
 
-void ForceMarkers::draw_legend(const MarkerScale& scale, Canvas& canvas) const {
-  const std::string tension = newton(round_up(most_tension_));
-  const std::string force = newton(round_up(most_force_));
-  fiber_proximity_ros::draw_legend(
-      {{palette::pulled, "red: tension, up to " + tension},
-       {palette::pressed, "blue: pressure, up to " + tension},
-       {palette::contact_force, "yellow: contacts; an arrow of full length is " + force},
-       {palette::hold_force, "green: holds; an arrow of full length is " + force}},
-      scale, LEGEND, canvas);
-}
+}  // namespace
 
 void ForceMarkers::draw(const fiber::SimScene& scene, const fiber::RodForces& forces,
                         const std_msgs::Header& header, visualization_msgs::MarkerArray& markers) {
@@ -128,10 +120,18 @@ void ForceMarkers::draw(const fiber::SimScene& scene, const fiber::RodForces& fo
   const std::vector<Arrow> arrows = arrows_of(forces);
   most_tension_ = full_scale(tension, most_tension_);
   most_force_ = full_scale(arrows.empty() ? 0.0 : arrows.front().force.norm(), most_force_);
+  const double full_tension = round_up(most_tension_);
+  const double full_force = round_up(most_force_);
   Canvas canvas(header, namespaces, markers);
-  draw_tensions(rods, forces, canvas);
-  draw_arrows(forces, scale, canvas);
-  draw_legend(scale, canvas);
+  draw_tensions(rods, forces.tensions, full_tension, canvas);
+  draw_arrows(arrows, full_force, scale, canvas);
+  draw_legend(
+      {{palette::pulled, "red: tension, up to " + newton(full_tension)},
+       {palette::pressed, "blue: pressure, up to " + newton(full_tension)},
+       {palette::contact_force,
+        "yellow: contacts; an arrow of full length is " + newton(full_force)},
+       {palette::hold_force, "green: holds; an arrow of full length is " + newton(full_force)}},
+      scale, LEGEND, canvas);
   canvas.finish(drawn_);
 }
 
