@@ -102,8 +102,7 @@ void to_message(const fiber::SimScene& scene, const fiber::RodForces& forces,
   message.residual = worst.residual;
   message.residual_fiber = worst.rod;
   message.residual_node = worst.node;
-  message.residual_force =
-      worst.residual * rods.masses[rods.first(worst.rod) + worst.node] / scene.step_length();
+  message.residual_force = scene.residual_force();
 }
 
 SimForces::SimForces(const ros::NodeHandle& node) : node_(node) {

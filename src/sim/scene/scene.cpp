@@ -13,6 +13,12 @@ void SimScene::advance() {
   }
 }
 
+double SimScene::residual_force() const {
+  const IslandReport& worst = stepper->report().worst;
+  const Rods& rods = stepper->rods();
+  return worst.residual * rods.masses[rods.first(worst.rod) + worst.node] / step_length();
+}
+
 SimScene make_sim_scene(const SimDescription& description, std::uint32_t threads) {
   SimScene scene;
   static_cast<SimSettings&>(scene) = static_cast<const SimSettings&>(description);

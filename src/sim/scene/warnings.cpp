@@ -51,13 +51,11 @@ void warn_of_balance(const SimScene& scene, std::vector<SimWarning>& warnings) {
     return;
   }
   const IslandReport& worst = report.worst;
-  const Rods& rods = scene.stepper->rods();
-  const double mass = rods.masses[rods.first(worst.rod) + worst.node];
   std::ostringstream text = with_three_digits();
   text << "forces do not balance within " << scene.options.max_iterations
        << " iterations: what is left at node " << worst.node << " of fibre "
        << quote(scene.fiber_names[worst.rod]) << " would change its speed by " << worst.residual
-       << " m/s a step, " << worst.residual * mass / scene.step_length() << " N; `residual` is "
+       << " m/s a step, " << scene.residual_force() << " N; `residual` is "
        << scene.options.residual << " m/s";
   warnings.push_back({SimWarning::Kind::BALANCE, text.str()});
 }

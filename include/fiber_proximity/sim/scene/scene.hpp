@@ -33,6 +33,9 @@ struct SimScene : SimSettings {
   SimParameters parameters;           ///< of its effects
   std::string overlap_note;           ///< what was moved before the beginning; empty if nothing was
 
+  /// What the last step has left unbalanced, at StepReport::worst [N].
+  double residual_force() const;
+
   /// Moves on by a frame.
   /// @throws std::runtime_error as Stepper::step()
   void advance();
