@@ -115,10 +115,8 @@ void SimForces::advertise_wrenches(const fiber::SimScene& scene) {
   if (scene.attachment == nullptr) {
     return;
   }
-  for (std::uint32_t rod = 0; rod < scene.stepper->rods().count(); ++rod) {
-    for (const fiber::HeldNode& held : scene.attachment->held_at(rod, scene.stepper->time())) {
-      wrench_topic(scene, {rod, held.node});
-    }
+  for (const Hold& hold : scene.attachment->held_nodes()) {
+    wrench_topic(scene, hold);
   }
 }
 

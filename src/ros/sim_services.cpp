@@ -76,6 +76,7 @@ void SimServer::begin_again() {
   frames_.wait_for(scene.frames, 0.0);
   const std::lock_guard<FairMutex> lock(mutex_);
   std::swap(scene_, scene);
+  forces_.begin();
   failure_.clear();
   interruption_ = "~reset began the scene again";
   publish();

@@ -1,4 +1,5 @@
 // What nobody should ask of the simulation's node, through the real graph.
+#include <geometry_msgs/WrenchStamped.h>
 #include <tf2_ros/transform_broadcaster.h>
 #include <visualization_msgs/InteractiveMarkerFeedback.h>
 
@@ -340,6 +341,28 @@ TEST_F(OwnSceneTest, ASimulationThatFailsStopsAndBeginsAgain) {
   const std::size_t first = output.find("[ERROR]");
   EXPECT_NE(first, std::string::npos);
   EXPECT_EQ(output.find("[ERROR]", first + 1), std::string::npos) << output;
+}
+
+TEST_F(OwnSceneTest, AnotherSceneHasWrenchesOfItsOwn) {
+  const auto held = [](const std::string& name) {
+    return scene(fiber(name, "[0, 0, 0]", "[1, 0, 0]"),
+                 "  - gravity\n  - stretch\n  - attachment: [{fiber: " + name + "}]\n");
+  };
+  write(held("before"));
+  node_test::RunningNode own_sim(command());
+  const node_test::Recorder<geometry_msgs::WrenchStamped> before{node,
+                                                                 "/own_sim/wrenches/before/0"};
+  const node_test::Recorder<geometry_msgs::WrenchStamped> after{node, "/own_sim/wrenches/after/0"};
+  const auto come = [](const auto& wrenches) {
+    return node_test::wait_for([&] {
+      step(1);
+      return !wrenches.messages.empty();
+    });
+  };
+  ASSERT_TRUE(come(before));
+  write(held("after"));
+  ASSERT_TRUE(call<std_srvs::Trigger>("reset").success);
+  EXPECT_TRUE(come(after));
 }
 
 TEST_F(OwnSceneTest, AnAccuracyThatTakesForEverIsRefused) {

@@ -24,6 +24,9 @@ class SimForces {
  public:
   explicit SimForces(const ros::NodeHandle& node);
 
+  /// Begins with another scene, whose fibres may have other names.
+  void begin() { wrenches_.clear(); }
+
   /// @param header of the frame
   void publish(const fiber::SimScene& scene, const std_msgs::Header& header);
 

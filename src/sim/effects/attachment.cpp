@@ -102,6 +102,14 @@ std::optional<std::uint32_t> Attachment::find(std::uint32_t rod, std::uint32_t n
   return std::nullopt;
 }
 
+std::vector<std::pair<std::uint32_t, std::uint32_t>> Attachment::held_nodes() const {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> nodes;
+  for (const Held& held : held_) {
+    nodes.emplace_back(held.hold.rod, held.hold.node);
+  }
+  return nodes;
+}
+
 std::optional<HoldLag> Attachment::longest_lag(const Rods& rods) const {
   std::optional<HoldLag> longest;
   for (const Held& held : held_) {

@@ -2,6 +2,8 @@
 
 #include <functional>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "fiber_proximity/sim/effect.hpp"
 
@@ -62,6 +64,9 @@ class Attachment : public Effect {
 
   /// What holds this node, counted from the rod's first one.
   std::optional<std::uint32_t> find(std::uint32_t rod, std::uint32_t node) const;
+
+  /// Rods and their nodes that are held, counted from the rod's first one; rising.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> held_nodes() const;
 
   /// The nodes of a rod that are held, rising, and where they are to be at a time [s].
   std::vector<HeldNode> held_at(std::uint32_t rod, double time) const;
