@@ -1,4 +1,3 @@
-#include <cerrno>
 #include <stdexcept>
 
 #include "fiber_proximity/io/csv.hpp"
@@ -31,13 +30,8 @@ void append_rows(std::string& text, const FiberFrame& frame, bool has_frames) {
 }  // namespace
 
 CsvWriter::CsvWriter(const std::string& path, bool has_frames)
-    : path_(path), has_frames_(has_frames) {
-  errno = 0;
-  stream_.open(path, std::ios::binary);
-  if (!stream_) {
-    throw FileError::from_system(path, "cannot be opened for writing");
-  }
-  stream_ << (has_frames ? "frame,fiber,x,y,z,radius\n" : "fiber,x,y,z,radius\n");
+    : has_frames_(has_frames), file_(path) {
+  file_.write(has_frames ? "frame,fiber,x,y,z,radius\n" : "fiber,x,y,z,radius\n");
 }
 
 void CsvWriter::write(const FiberFrame& frame) {
@@ -53,17 +47,10 @@ void CsvWriter::write(const FiberFrame& frame) {
   }
   rows_.clear();
   append_rows(rows_, frame, has_frames_);
-  if (!(stream_ << rows_)) {
-    throw FileError::from_system(path_, "cannot be written");
-  }
+  file_.write(rows_);
 }
 
-void CsvWriter::finish() {
-  stream_.close();
-  if (!stream_) {
-    throw FileError::from_system(path_, "cannot be written");
-  }
-}
+void CsvWriter::finish() { file_.close(); }
 
 void write_csv(const std::string& path, const FiberFile& file) {
   CsvWriter writer(path, file.has_frames);

@@ -1,12 +1,11 @@
-#include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <limits>
 #include <stdexcept>
 
 #include "fiber_proximity/io/hair_file.hpp"
 #include "fiber_proximity/io/number.hpp"
+#include "fiber_proximity/io/output_file.hpp"
 #include "fiber_proximity/io/radii.hpp"
 #include "hair_format.hpp"
 
@@ -137,16 +136,9 @@ std::string encoded(const FiberFile& file) {
 
 void write_hair(const std::string& path, const FiberFile& file) {
   const std::string bytes = encoded(file);  // a file that cannot be made is not left behind half
-  errno = 0;
-  std::ofstream stream(path, std::ios::binary);
-  if (!stream) {
-    throw FileError::from_system(path, "cannot be opened for writing");
-  }
-  stream << bytes;
-  stream.close();
-  if (!stream) {
-    throw FileError::from_system(path, "cannot be written");
-  }
+  OutputFile output(path);
+  output.write(bytes);
+  output.close();
 }
 
 void write_hair(std::ostream& stream, const FiberFile& file) { stream << encoded(file); }

@@ -1,7 +1,5 @@
-#include <cerrno>
 #include <cstdio>
 #include <filesystem>
-#include <ostream>
 
 #include "fiber_proximity/io/number.hpp"
 #include "fiber_proximity/io/pvd.hpp"
@@ -37,15 +35,6 @@ void write_array(std::ostream& stream, const std::string& attributes, std::size_
     }
   }
   stream << text << "</DataArray>\n";
-}
-
-std::ofstream open(const std::string& path) {
-  errno = 0;
-  std::ofstream stream(path, std::ios::binary);
-  if (!stream) {
-    throw FileError::from_system(path, "cannot be opened for writing");
-  }
-  return stream;
 }
 
 /// The file of a frame, beside the one that names it.
@@ -95,7 +84,7 @@ void write_vtp(std::ostream& stream, const FiberAssembly& fibers) {
   stream << "</Lines>\n</Piece>\n</PolyData>\n</VTKFile>\n";
 }
 
-PvdWriter::PvdWriter(const std::string& path) : path_(path), stream_(open(path)) {
+PvdWriter::PvdWriter(const std::string& path) : path_(path), file_(path) {
   append(
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
@@ -104,12 +93,9 @@ PvdWriter::PvdWriter(const std::string& path) : path_(path), stream_(open(path))
 
 void PvdWriter::write(const FiberFrame& frame, double time) {
   const std::filesystem::path file = frame_path(path_, frame.frame);
-  std::ofstream stream = open(file.string());
-  write_vtp(stream, frame.fibers);
-  stream.close();
-  if (!stream) {
-    throw FileError::from_system(file.string(), "cannot be written");
-  }
+  OutputFile output(file.string());
+  write_vtp(output.stream(), frame.fibers);
+  output.close();
   std::string entry = "<DataSet timestep=\"";
   append_number(entry, time);
   append(entry + "\" part=\"0\" file=\"" + in_xml(file.filename().string()) + "\"/>\n");
@@ -117,13 +103,12 @@ void PvdWriter::write(const FiberFrame& frame, double time) {
 
 /// Writes in place of the last tags, and these again.
 void PvdWriter::append(const std::string& text) {
-  stream_.seekp(end_);
-  stream_ << text;
-  end_ = stream_.tellp();
-  stream_ << "</Collection>\n</VTKFile>\n" << std::flush;
-  if (!stream_) {
-    throw FileError::from_system(path_, "cannot be written");
-  }
+  std::ostream& stream = file_.stream();
+  stream.seekp(end_);
+  stream << text;
+  end_ = stream.tellp();
+  stream << "</Collection>\n</VTKFile>\n" << std::flush;
+  file_.check();
 }
 
 }  // namespace fiber

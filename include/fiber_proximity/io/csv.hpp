@@ -1,14 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <fstream>
 #include <iosfwd>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "fiber_proximity/io/fiber_frame.hpp"
-#include "fiber_proximity/io/file_error.hpp"
+#include "fiber_proximity/io/output_file.hpp"
 
 namespace fiber {
 
@@ -44,9 +43,8 @@ class CsvWriter {
   void finish();
 
  private:
-  const std::string path_;
   const bool has_frames_;
-  std::ofstream stream_;
+  OutputFile file_;
   std::set<std::int64_t> frames_written_;
   std::string rows_;
 };

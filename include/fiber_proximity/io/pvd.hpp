@@ -1,11 +1,10 @@
 #pragma once
 
-#include <fstream>
-#include <iosfwd>
+#include <ostream>
 #include <string>
 
 #include "fiber_proximity/io/fiber_frame.hpp"
-#include "fiber_proximity/io/file_error.hpp"
+#include "fiber_proximity/io/output_file.hpp"
 
 namespace fiber {
 
@@ -27,7 +26,7 @@ class PvdWriter {
   void append(const std::string& text);
 
   const std::string path_;
-  std::ofstream stream_;
+  OutputFile file_;
   std::streampos end_;  // of the frames in the file, where the last tags begin
 };
 

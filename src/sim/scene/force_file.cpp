@@ -1,22 +1,15 @@
 #include "fiber_proximity/sim/scene/force_file.hpp"
 
-#include <cerrno>
 #include <utility>
 
-#include "fiber_proximity/io/file_error.hpp"
 #include "fiber_proximity/io/number.hpp"
 
 namespace fiber {
 
 using Eigen::Vector3d;
 
-ForceWriter::ForceWriter(const std::string& path) : path_(path) {
-  errno = 0;
-  stream_.open(path, std::ios::binary);
-  if (!stream_) {
-    throw FileError::from_system(path, "cannot be opened for writing");
-  }
-  stream_ << "frame,kind,fiber,index,fx,fy,fz,mx,my,mz\n";
+ForceWriter::ForceWriter(const std::string& path) : file_(path) {
+  file_.write("frame,kind,fiber,index,fx,fy,fz,mx,my,mz\n");
 }
 
 void ForceWriter::add_row(const char* kind, std::uint32_t rod, std::uint32_t index,
@@ -64,17 +57,9 @@ void ForceWriter::write(std::int64_t frame, const Rods& rods, const RodForces& f
   for (const RodForces::HoldForce& hold : forces.holds) {
     add_row("hold", hold.rod, hold.node, hold.force, hold.moment);
   }
-  errno = 0;
-  if (!(stream_ << rows_)) {
-    throw FileError::from_system(path_, "cannot be written");
-  }
+  file_.write(rows_);
 }
 
-void ForceWriter::finish() {
-  stream_.close();
-  if (!stream_) {
-    throw FileError::from_system(path_, "cannot be written");
-  }
-}
+void ForceWriter::finish() { file_.close(); }
 
 }  // namespace fiber

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstdint>
-#include <fstream>
 #include <string>
 
+#include "fiber_proximity/io/output_file.hpp"
 #include "fiber_proximity/sim/forces.hpp"
 #include "fiber_proximity/sim/rods.hpp"
 
@@ -36,8 +36,7 @@ class ForceWriter {
   void add_row(const char* kind, std::uint32_t rod, std::uint32_t index,
                const Eigen::Vector3d& force, const Eigen::Vector3d& moment);
 
-  const std::string path_;
-  std::ofstream stream_;
+  OutputFile file_;
   std::int64_t frame_ = 0;
   std::string rows_;
 };
