@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "weighted_barrier.hpp"
+
 namespace fiber {
 
 using Eigen::Vector3d;
@@ -86,45 +88,23 @@ class EdgeContact {
     if (weight == 0.0) {
       return 0.0;
     }
-    const double felt = barrier_.felt(distance, weight);
-    const double energy = barrier_.energy(felt);
+    const double energy = weighted_energy(barrier_, distance, weight);
     if (terms == nullptr || !(energy < std::numeric_limits<double>::infinity())) {
-      return weight * energy;
+      return energy;
     }
-    const double by_felt = weight * barrier_.slope(felt);
-    const double by_felt_twice = weight * barrier_.curvature(felt);
-    const double depth_share = Barrier::depth_share(weight);
-    const double by_weight = energy - by_felt * Barrier::most_relief * (barrier_.outer - distance);
-    double slope = by_felt * depth_share;
-    double pressure = -slope;
     const Vector3d normal = -nearest_.delta / distance;
-    // How what is felt changes with the distance, and with those of the ends, by the weight.
-    const double relief = Barrier::most_relief * (barrier_.outer - distance);
-    std::array<double, 4> felt_by_end{};
-    double felt_by_ends = 0.0;
+    std::array<double, 4> cosines{};
     for (std::uint32_t end = 0; end < 4; ++end) {
-      if (ramps[end].slope > 0.0) {
-        const double weight_by_end =
-            weight / ramps[end].value * ramps[end].slope / barrier_.width();
-        const double by_end = by_weight * weight_by_end;
-        felt_by_end[end] = relief * weight_by_end;
-        felt_by_ends += felt_by_end[end];
-        slope -= by_end;
-        slopes_[end] += by_end;
-        // What an end takes back is not along the same normal.
-        const Vector3d of_end = (end < 2 ? 1.0 : -1.0) / ends_[end].distance * ends_[end].delta;
-        pressure += by_end * (1.0 - of_end.dot(normal));
-      }
+      const Vector3d of_end = (end < 2 ? 1.0 : -1.0) / ends_[end].distance * ends_[end].delta;
+      cosines[end] = of_end.dot(normal);
     }
-    // The square of the sum of these is no more than this sum of squares.
-    const double of_distance = depth_share + felt_by_ends;
-    const double all = of_distance + felt_by_ends;
+    const WeightedSlopes<4> by(barrier_, distance, weight, ramps, cosines);
     for (std::uint32_t end = 0; end < 4; ++end) {
-      curvatures_[end] += by_felt_twice * felt_by_end[end] * all;
+      slopes_[end] += by.end_slopes[end];
+      curvatures_[end] += by.end_curvatures[end];
     }
-    terms->push_back(
-        {nearest_.s, nearest_.t, normal, slope, by_felt_twice * of_distance * all, pressure});
-    return weight * energy;
+    terms->push_back({nearest_.s, nearest_.t, normal, by.slope, by.curvature, by.pressure});
+    return energy;
   }
 
   /// Of the distance of an end from the other edge.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "weighted_barrier.hpp"
+
 namespace fiber {
 
 using Eigen::Vector3d;
@@ -121,50 +123,28 @@ double obstacle_contact(const ObstacleContact& contact, const ObstacleDistance& 
   if (weight == 0.0 || distance.nearest.distance >= barrier.outer) {
     return 0.0;
   }
-  const double felt = barrier.felt(distance.nearest.distance, weight);
-  const double energy = barrier.energy(felt);
+  const double energy = weighted_energy(barrier, distance.nearest.distance, weight);
   if (terms == nullptr || !(energy < std::numeric_limits<double>::infinity())) {
-    return weight * energy;
+    return energy;
   }
-  const double depth_share = Barrier::depth_share(weight);
-  const double by_felt = weight * barrier.slope(felt);
-  const double by_felt_twice = weight * barrier.curvature(felt);
-  double slope = by_felt * depth_share;
-  double pressure = -slope;
-  double s = contact.part == ObstacleContact::Part::LAST_NODE ? 1.0 : 0.0;
-  // How what is felt changes with the distance, and with those of the ends, by the weight.
-  double of_distance = depth_share;
-  double all = depth_share;
-  if (contact.part == ObstacleContact::Part::EDGE) {
-    s = distance.s;
-    const double relief = Barrier::most_relief * (barrier.outer - distance.nearest.distance);
-    const double by_weight = energy - by_felt * relief;
-    std::array<double, 2> weight_by_end{};
-    for (std::size_t end = 0; end < 2; ++end) {
-      const Ramp ramp = ramp_of(contact, distance, end);
-      if (ramp.slope > 0.0) {
-        weight_by_end[end] = weight / ramp.value * ramp.slope / barrier.width();
-      }
-    }
-    const double felt_by_ends = relief * (weight_by_end[0] + weight_by_end[1]);
-    of_distance += felt_by_ends;
-    all = of_distance + felt_by_ends;
-    for (std::size_t end = 0; end < 2; ++end) {
-      if (weight_by_end[end] > 0.0) {
-        const double by_end = by_weight * weight_by_end[end];
-        slope -= by_end;
-        // What an end takes back is not along the same normal.
-        const Vector3d& of_end = distance.ends[end].gradient;
-        pressure += by_end * (1.0 - of_end.dot(distance.nearest.gradient));
-        // The square of the sum of these is no more than this sum of squares.
-        terms->push_back({static_cast<double>(end), 0.0, of_end, by_end,
-                          by_felt_twice * relief * weight_by_end[end] * all, 0.0});
-      }
+  const bool is_edge = contact.part == ObstacleContact::Part::EDGE;
+  std::array<Ramp, 2> ramps{Ramp(1.0), Ramp(1.0)};
+  std::array<double, 2> cosines{};
+  for (std::size_t end = 0; is_edge && end < 2; ++end) {
+    ramps[end] = ramp_of(contact, distance, end);
+    cosines[end] = distance.ends[end].gradient.dot(distance.nearest.gradient);
+  }
+  const WeightedSlopes<2> by(barrier, distance.nearest.distance, weight, ramps, cosines);
+  for (std::size_t end = 0; end < 2; ++end) {
+    if (ramps[end].slope > 0.0) {
+      terms->push_back({static_cast<double>(end), 0.0, distance.ends[end].gradient,
+                        by.end_slopes[end], by.end_curvatures[end], 0.0});
     }
   }
-  terms->push_back({s, 0.0, distance.nearest.gradient, slope, by_felt_twice * of_distance * all,
-                    pressure, turning_of(contact, distance, pressure)});
-  return weight * energy;
+  const double at_node = contact.part == ObstacleContact::Part::LAST_NODE ? 1.0 : 0.0;
+  terms->push_back({is_edge ? distance.s : at_node, 0.0, distance.nearest.gradient, by.slope,
+                    by.curvature, by.pressure, turning_of(contact, distance, by.pressure)});
+  return energy;
 }
 
 double bounded_share(const ObstacleContact& contact, const ObstacleDistance& distance,
