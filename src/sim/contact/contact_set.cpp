@@ -85,15 +85,19 @@ void ContactSet::begin(const Rods& rods, const Friction* friction,
 
 /// What begins where its energy is infinite gets a barrier that begins nearer.
 void ContactSet::let_part(const Rods& rods) {
-  for (std::size_t i = 0; i < obstacle_contacts.size() + pairs.size(); ++i) {
-    if (std::isfinite(energy_of(rods, i))) {
-      continue;
+  const auto judge = [&](std::size_t contact, double distance, Barrier& barrier) {
+    // No part of a contact feels less than its distance, but for rounding.
+    const double rounding = 1e-6 * barrier.width();
+    if (!(distance > barrier.inner + rounding) && !std::isfinite(energy_of(rods, contact))) {
+      barrier = barrier.for_start_at(distance);
     }
-    const bool is_pair = i >= obstacle_contacts.size();
-    const std::size_t pair = i - obstacle_contacts.size();
-    Barrier& barrier = is_pair ? pairs[pair].barrier : obstacle_contacts[i].barrier;
-    barrier = barrier.for_start_at(is_pair ? distances_[pair].distance
-                                           : obstacle_distances_[i].nearest.distance);
+  };
+  std::size_t contact = 0;
+  for (std::size_t i = 0; i < obstacle_contacts.size(); ++i) {
+    judge(contact++, obstacle_distances_[i].nearest.distance, obstacle_contacts[i].barrier);
+  }
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    judge(contact++, distances_[i].distance, pairs[i].barrier);
   }
 }
 
