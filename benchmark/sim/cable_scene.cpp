@@ -48,7 +48,8 @@ CableScene falling_cables(int count) {
   const int rows = (count + 1) / 2;
   for (int cable = 0; cable < count; ++cable) {
     const bool is_upper = cable % 2 != 0;
-    const double across = between * (cable / 2 - 0.5 * (rows - 1));
+    const int row = cable / 2;
+    const double across = between * (row - 0.5 * (rows - 1));
     const double turn = 0.01 * (cable * 7 % 5 - 2);  // hardly two are parallel
     const Vector3d along(std::cos(turn), std::sin(turn), 0.0);
     const Vector3d centre(0.0, across, is_upper ? height + between : height);
