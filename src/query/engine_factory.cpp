@@ -12,7 +12,6 @@
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/query/hierarchy_engine.hpp"
 #include "fiber_proximity/query/run_tree_engine.hpp"
-#include "fiber_proximity/query/simplified_engine.hpp"
 #include "fiber_proximity/query/threads.hpp"
 #include "fiber_proximity/text/quote.hpp"
 #include "kdop_engines.hpp"
@@ -87,8 +86,10 @@ EnginePointer make_kdop_engine(const std::string& name) {
                        : make_spatial_kdop_engine(directions);
 }
 
-/// An engine over the fibres as they are.
-EnginePointer make_plain_engine(const std::string& name, const EngineOptions& options) {
+}  // namespace
+
+EnginePointer make_engine(const std::string& name, const EngineOptions& options) {
+  validate_threads(options.threads);  // also where the engine has one thread
   std::string known;
   for (const auto& [engine_name, maker] : makers()) {
     if (name == engine_name) {
@@ -107,21 +108,6 @@ EnginePointer make_plain_engine(const std::string& name, const EngineOptions& op
   throw std::invalid_argument("unknown engine " + quote(name) + reason + ", known are: " + known +
                               "; DL-k and DS-k for even k from 6 to 200; DL-k-classic and "
                               "DS-k-classic for k of 6, 14, 18, 26");
-}
-
-}  // namespace
-
-EnginePointer make_engine(const std::string& name, const EngineOptions& options) {
-  validate_threads(options.threads);  // also where the engine has one thread
-  EnginePointer engine = make_plain_engine(name, options);
-  if (options.simplification == 0.0) {
-    return engine;
-  }
-  if (name == "AL-threaded") {
-    throw std::invalid_argument(
-        "AL-threaded needs fibres of equal segment counts, which a simplification does not leave");
-  }
-  return std::make_unique<SimplifiedEngine>(std::move(engine), options.simplification);
 }
 
 std::vector<std::string> engine_names() {

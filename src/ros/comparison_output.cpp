@@ -96,11 +96,6 @@ bool ComparisonOutput::answer(fiber_proximity::CompareWithFcl::Request& /*reques
 }
 
 void ComparisonOutput::compare(fiber_proximity::Comparison& message) {
-  if (subject_.options.engine_options.simplification > 0.0) {
-    throw std::invalid_argument(
-        "simplification is " + std::to_string(subject_.options.engine_options.simplification) +
-        " m, it must be 0 to compare with FCL: a contact then stands for many pairs of segments");
-  }
   const fiber::Comparison found =
       comparer_.compare(subject_.inputs.fibers(), subject_.detector.engine(), subject_.query);
   message.header = subject_.inputs.header();

@@ -92,7 +92,6 @@ std::vector<std::string> known_parameters() {
                                  "marker_rate",
                                  "tf_timeout",
                                  "diagnostic_period",
-                                 "simplification",
                                  "crossings",
                                  "max_stamp_ahead",
                                  "synchronize",
@@ -115,7 +114,6 @@ ServerOptions read_server_options(const ros::NodeHandle& node,
   read_parameter(private_node, "engine", "a string", options.engine);
   read_parameter(private_node, "threads", options.engine_options.threads);
   read_parameter(private_node, "skin", 0.0, options.engine_options.skin);
-  read_parameter(private_node, "simplification", 0.0, options.engine_options.simplification);
   read_parameter(private_node, "fixed_frame", "a string", options.fixed_frame);
   read_parameter(private_node, "radius", Limits{0.0, fiber::FiberAssembly::max_coordinate}, radius);
   read_parameter(private_node, "tf_timeout", 0.0, options.timing.tf_timeout);

@@ -58,10 +58,6 @@ void add_accuracy_options(CLI::App& app, Request& request) {
   app.add_option("--relative-tolerance", request.query.relative_tolerance,
                  "the same as a part of the distance")
       ->capture_default_str();
-  app.add_option("--simplification", request.engine_options.simplification,
-                 "runs of segments that deviate from one by at most this count as one [m]: bounds "
-                 "are up to 4 times as far apart, no contact is missed")
-      ->capture_default_str();
   app.add_option("--deadline", request.query.deadline,
                  "time to answer a frame [s]; what is found by then is the answer; 0 for none")
       ->capture_default_str();

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "fiber_proximity/geometry/segment_distance.hpp"
-#include "support/simplifiable.hpp"
+#include "support/dense_fibers.hpp"
 
 namespace fiber_proximity_rviz {
 namespace {

@@ -124,7 +124,6 @@ TEST_F(Compare, RefusesBadInput) {
   EXPECT_TRUE(refused(query("compare " + file + " --engine octree"), "unknown engine 'octree'"));
   EXPECT_TRUE(refused(query("compare " + file + " --format xml"), "--format"));
   EXPECT_TRUE(refused(query("compare " + file + " --kernel double"), "unknown kernel 'double'"));
-  EXPECT_TRUE(refused(query("compare " + file + " --simplification 1"), "--simplification"));
 }
 
 }  // namespace

@@ -241,26 +241,6 @@ TEST_F(FiberQuery, NeighbourSkips) {
   EXPECT_EQ(count("--neighbour-skip 1 --radius 0.25"), 1U);
 }
 
-TEST_F(FiberQuery, ASimplificationMakesOneContactOfThoseOfARun) {
-  const std::string file = write("dense.csv",
-                                 "fiber,x,y,z,radius\n"
-                                 "a,-2,0,0,0.2\na,-1,0,0,0.2\na,0,0,0,0.2\na,1,0,0,0.2\n"
-                                 "a,2,0,0,0.2\nb,0,-1,0.5,0.2\nb,0,1,0.5,0.2\n");
-  const std::string contacts = "contacts " + file + " --margin 0.2 --format json";
-  const auto found = [&](const std::string& options) {
-    return nlohmann::json::parse(query(contacts + options).out).at("contacts");
-  };
-  EXPECT_EQ(found("").size(), 2U);
-  const nlohmann::json simplified = found(" --simplification 0.01");
-  ASSERT_EQ(simplified.size(), 1U);
-  EXPECT_EQ(simplified[0].at("segment_a"), 1);
-  EXPECT_NEAR(simplified[0].at("s").get<double>(), 1.0, 1e-12);
-  EXPECT_LE(simplified[0].at("lower").get<double>(), 0.1);
-  EXPECT_GE(simplified[0].at("upper").get<double>(), 0.1);
-  EXPECT_TRUE(refused(query(contacts + " --simplification -1"), "simplification is -1"));
-  EXPECT_TRUE(refused(query(contacts + " --simplification nan"), "simplification is nan"));
-}
-
 TEST_F(FiberQuery, RadiusIsForFilesWithoutOne) {
   const std::string path = write("bare.csv", "fiber,x,y,z\n0,-1,0,0\n0,1,0,0\n1,0,-1,1\n1,0,1,1\n");
   EXPECT_EQ(query("contacts " + path).out, columns);

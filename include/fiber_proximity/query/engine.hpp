@@ -19,8 +19,7 @@ struct NodeBox {
   Eigen::Vector3d upper;
 };
 
-/// What changes the cost of answers, and with a simplification their accuracy. Threads and skin are
-/// heeded by run_tree only.
+/// What changes the cost of answers, and not what they are. Only run_tree heeds it.
 struct EngineOptions {
   /// Most threads to use, 0 for as many as there are cores.
   std::uint32_t threads = 0;
@@ -29,15 +28,6 @@ struct EngineOptions {
   /// no two points have moved by more than this together; 0 looks for them in every query. Pays for
   /// slow motion: several times what points move from frame to frame.
   double skin = 0.0;
-
-  /// [m] finite, >= 0. Before each update, runs of consecutive segments are replaced by one piece
-  /// each that deviates from them by at most this (SimplifiedFibers); 0 leaves all as they are.
-  /// One contact then stands for all pairs of segments of two runs: its bounds hold the smallest
-  /// gap of these, no further than 4 times this apart, and its segments and parameters are where
-  /// about that is. No pair within the margin is left without such a contact, and no contact is
-  /// further apart than the margin and 4 times this. LIMITED counts contacts as ever, so several
-  /// segments of a run are one of them. Pairs near neighbours along a fibre are exact.
-  double simplification = 0.0;
 };
 
 /// Answers proximity queries over one assembly at a time. All engines give the same contacts; they

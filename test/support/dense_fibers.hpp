@@ -104,22 +104,4 @@ inline std::vector<AssemblyFamily> dense_families() {
   };
 }
 
-/// These, and all others.
-inline std::vector<AssemblyFamily> simplifiable_families() {
-  std::vector<AssemblyFamily> all = dense_families();
-  for (AssemblyFamily& family : assembly_families()) {
-    all.push_back(family);
-  }
-  return all;
-}
-
-/// The largest extent along an axis.
-inline double size_of(const FiberAssembly& fibers) {
-  double size = 0.0;
-  for (const Eigen::Vector3d& point : fibers.points()) {
-    size = std::max(size, (point - fibers.points().front()).cwiseAbs().maxCoeff());
-  }
-  return size;
-}
-
 }  // namespace fiber::test
