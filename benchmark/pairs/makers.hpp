@@ -9,8 +9,6 @@ namespace fiber {
 /// Makes a kernel; null where this build is without it.
 using PairKernelMaker = std::unique_ptr<PairKernel> (*)();
 
-std::unique_ptr<PairKernel> make_fast_pairs();
-std::unique_ptr<PairKernel> make_fast_batch_pairs();
 std::unique_ptr<PairKernel> make_robust_pairs();
 std::unique_ptr<PairKernel> make_robust_batch_pairs();
 std::unique_ptr<PairKernel> make_exact_pairs();

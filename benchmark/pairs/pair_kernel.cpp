@@ -7,8 +7,6 @@ namespace fiber {
 namespace {
 
 constexpr KernelEntry<PairKernel> pair_kernels[] = {
-    {"fast", "", make_fast_pairs},
-    {"fast_batch", "", make_fast_batch_pairs},
     {"robust", "", make_robust_pairs},
     {"robust_batch", "", make_robust_batch_pairs},
     {"exact", "", make_exact_pairs},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <regex>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "fiber_proximity/ros/parameters.hpp"
@@ -125,7 +126,22 @@ std::string not_of_type(const std::string& type, const Entries& entries) {
 
 }  // namespace
 
+void replace_old_names(const ros::NodeHandle& private_node, ProximityConfig& config) {
+  for (const auto& [name, value] :
+       {std::pair("kernel", &config.kernel), std::pair("accuracy", &config.accuracy)}) {
+    *value = current_kernel_name("parameter " + private_node.resolveName(name), *value);
+  }
+}
+
 ProximityConfig read_dynamic_parameters(const ros::NodeHandle& private_node) {
+  for (const char* const name : {"kernel", "accuracy"}) {
+    // On the server, where dynamic_reconfigure will read it, too.
+    std::string value;
+    if (private_node.getParam(name, value) && value == "fast") {
+      private_node.setParam(
+          name, current_kernel_name("parameter " + private_node.resolveName(name), value));
+    }
+  }
   for (const auto& parameter : ProximityConfig::__getParamDescriptions__()) {
     XmlRpcValue value;
     if (private_node.getParam(parameter->name, value)) {

@@ -311,6 +311,7 @@ void ProximityServer::reconfigure(AskedConfig& config) {
     if (!config.problem().empty()) {
       throw std::invalid_argument(config.problem());
     }
+    replace_old_names(private_node_, config);
     check(private_node_, config);
   } catch (const std::invalid_argument& error) {
     ROS_ERROR_STREAM("parameters stay as they were: " << error.what());

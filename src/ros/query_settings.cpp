@@ -1,5 +1,7 @@
 #include "fiber_proximity/ros/query_settings.hpp"
 
+#include <ros/console.h>
+
 #include <stdexcept>
 
 #include "fiber_proximity/text/quote.hpp"
@@ -26,7 +28,7 @@ void apply_accuracy(const std::string& accuracy, fiber::QueryOptions& options) {
     options.kernel = fiber::kernel_from_name(accuracy);
   } catch (const std::invalid_argument&) {
     throw std::invalid_argument("unknown accuracy " + fiber::quote(accuracy) +
-                                ", known are: custom, fast, robust, exact, deadline");
+                                ", known are: custom, robust, exact, deadline");
   }
 }
 
@@ -53,6 +55,14 @@ fiber::QueryOptions to_query_options(const fiber_proximity::ProximityConfig& con
   fiber::validate(options);
   apply_accuracy(config.accuracy, options);
   return options;
+}
+
+std::string current_kernel_name(const std::string& place, const std::string& name) {
+  if (name != "fast") {
+    return name;
+  }
+  ROS_WARN_STREAM(place << " is fast, which saved no time and is gone: robust is used");
+  return "robust";
 }
 
 }  // namespace fiber_proximity_ros

@@ -19,6 +19,10 @@ struct FiberRequest {
 
 void add_fiber_options(CLI::App& app, FiberRequest& request);
 
+/// How distances are computed. `fast`, of versions before this one, is taken as robust, with a
+/// warning.
+void add_kernel_option(CLI::App& app, Kernel& kernel);
+
 /// Which segments of one fibre are pairs.
 void add_neighbour_options(CLI::App& app, std::optional<std::uint32_t>& skip,
                            std::optional<double>& skip_length);

@@ -47,11 +47,7 @@ void add_file_options(CLI::App& app, Request& request) {
 }
 
 void add_accuracy_options(CLI::App& app, Request& request) {
-  app.add_option_function<std::string>(
-         "--kernel",
-         [&request](const std::string& name) { request.query.kernel = kernel_from_name(name); },
-         "one of " + listed(kernel_names()))
-      ->default_str("robust");
+  add_kernel_option(app, request.query.kernel);
   app.add_option("--tolerance", request.query.tolerance,
                  "the closest pairs may be missed by less than this [m]")
       ->capture_default_str();

@@ -48,12 +48,7 @@ void add_segments(CLI::App& app, Command& command) {
       ->add_option("FILE", request->file,
                    "a pair per line: [name,] and the coordinates of p0, p1, q0 and q1 [m]")
       ->required();
-  segments
-      ->add_option_function<std::string>(
-          "--kernel",
-          [request](const std::string& name) { request->kernel = kernel_from_name(name); },
-          "one of " + listed(kernel_names()))
-      ->default_str("robust");
+  add_kernel_option(*segments, request->kernel);
   segments->callback([&command, request] { command = [request] { return run(*request); }; });
 }
 

@@ -73,9 +73,5 @@ void expect_same_bits(Kernel kernel, Batch batch) {
 
 TEST(SegmentDistances, EqualOnePairAlone) { expect_same_bits(Kernel::ROBUST, segment_distances); }
 
-TEST(FastSegmentDistances, EqualOnePairAlone) {
-  expect_same_bits(Kernel::FAST, fast_segment_distances);
-}
-
 }  // namespace
 }  // namespace fiber::test

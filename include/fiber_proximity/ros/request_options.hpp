@@ -8,6 +8,7 @@
 
 #include "fiber_proximity/QueryProximity.h"
 #include "fiber_proximity/query/options.hpp"
+#include "fiber_proximity/ros/query_settings.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -42,7 +43,9 @@ fiber::QueryOptions to_options(const Request& request, const fiber::QueryOptions
   options.margin = request.margin;
   options.max_contacts = request.max_contacts;
   options.kernel =
-      request.kernel.empty() ? defaults.kernel : fiber::kernel_from_name(request.kernel);
+      request.kernel.empty()
+          ? defaults.kernel
+          : fiber::kernel_from_name(current_kernel_name("kernel of a request", request.kernel));
   options.deadline = request.deadline;
   options.contact_limit = defaults.contact_limit;
   options.pair_limit = defaults.pair_limit;
