@@ -42,12 +42,6 @@ class StaleTest : public node_test::SimulatedTimeTest {
     });
   }
 
-  static bool answers_queries() {
-    fiber_proximity::QueryProximity query;
-    EXPECT_TRUE(ros::service::call("/proximity/query", query));
-    return query.response.success;
-  }
-
   ros::Publisher a_ = advertise<FiberArray>("a");
   ros::Publisher b_ = advertise<FiberArray>("b");
 };
@@ -107,13 +101,13 @@ TEST_F(StaleTest, WhenAllStopTheLastAnswerIsEmptyAndNoneFollows) {
   EXPECT_EQ(last.header.frame_id, "world");
   for (int i = 0; i < 20; ++i) {
     b_.publish(message(frozen));
-    EXPECT_FALSE(answers_queries());
+    EXPECT_FALSE(ask().success);
   }
   const ros::Time stamp = now();
   a_.publish(message(stamp));
   ASSERT_NE(contacts.wait_for(stamp), nullptr);
   EXPECT_EQ(contacts.messages.size(), answers + 1) << "an old answer was published as new";
-  EXPECT_TRUE(answers_queries());
+  EXPECT_TRUE(ask().success);
 }
 
 TEST_F(StaleTest, MessagesWithoutStampAreNewEachTime) {
