@@ -1,4 +1,4 @@
-#include "accuracy_settings.hpp"
+#include "benchmark/accuracy_settings.hpp"
 
 #include <limits>
 

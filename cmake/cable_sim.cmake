@@ -1,12 +1,12 @@
 # The node that runs scenes of the simulation.
 
 add_library(fiber_proximity_cable_sim SHARED
-  src/ros/force_markers.cpp
-  src/ros/sim_forces.cpp
-  src/ros/sim_frames.cpp
-  src/ros/sim_markers.cpp
-  src/ros/sim_server.cpp
-  src/ros/sim_services.cpp
+  src/ros/sim/force_markers.cpp
+  src/ros/sim/sim_forces.cpp
+  src/ros/sim/sim_frames.cpp
+  src/ros/sim/sim_markers.cpp
+  src/ros/sim/sim_server.cpp
+  src/ros/sim/sim_services.cpp
 )
 target_link_libraries(fiber_proximity_cable_sim
   PUBLIC fiber_proximity_ros fiber_proximity_sim_scene PRIVATE fiber_proximity_options)

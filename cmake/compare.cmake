@@ -7,7 +7,6 @@ add_library(fiber_proximity_fcl SHARED
   src/compare/fcl_capsules.cpp
   src/compare/fcl_comparer.cpp
 )
-target_include_directories(fiber_proximity_fcl PRIVATE ${PROJECT_SOURCE_DIR})
 target_link_libraries(fiber_proximity_fcl
   PUBLIC fiber_proximity PRIVATE fcl fiber_proximity_options)
 fiber_proximity_parse_once(fiber_proximity_fcl ${fcl_headers})

@@ -45,5 +45,4 @@ add_library(fiber_proximity_sim SHARED
 )
 target_link_libraries(fiber_proximity_sim
   PUBLIC fiber_proximity_environment PRIVATE TBB::tbb hwy::hwy fiber_proximity_options)
-target_include_directories(fiber_proximity_sim PRIVATE ${PROJECT_SOURCE_DIR})
 fiber_proximity_parse_once(fiber_proximity_sim ${core_headers})

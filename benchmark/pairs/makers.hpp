@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "pairs/pair_kernel.hpp"
+#include "benchmark/pairs/pair_kernel.hpp"
 
 namespace fiber {
 

@@ -1,8 +1,8 @@
 #include <cmath>
 
+#include "benchmark/pairs/makers.hpp"
 #include "fiber_proximity/geometry/exact_distance.hpp"
 #include "fiber_proximity/geometry/segment_distance.hpp"
-#include "pairs/makers.hpp"
 
 namespace fiber {
 namespace {

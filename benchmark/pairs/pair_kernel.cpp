@@ -1,7 +1,7 @@
-#include "pairs/pair_kernel.hpp"
+#include "benchmark/pairs/pair_kernel.hpp"
 
-#include "pairs/kernel_list.hpp"
-#include "pairs/makers.hpp"
+#include "benchmark/pairs/kernel_list.hpp"
+#include "benchmark/pairs/makers.hpp"
 
 namespace fiber {
 namespace {

@@ -1,4 +1,4 @@
-#include "fiber_proximity/bounds/kdop.hpp"
+#include "src/bounds/kdop.hpp"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>

@@ -1,4 +1,4 @@
-#include "fiber_proximity/bounds/minimal_sphere.hpp"
+#include "src/bounds/minimal_sphere.hpp"
 
 #include <Eigen/QR>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "fiber_proximity/bounds/obb.hpp"
+#include "src/bounds/obb.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>

@@ -1,11 +1,11 @@
-#include "fiber_proximity/bounds/sphere.hpp"
+#include "src/bounds/sphere.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
-#include "fiber_proximity/bounds/minimal_sphere.hpp"
+#include "src/bounds/minimal_sphere.hpp"
 
 namespace fiber {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "fiber_proximity/geometry/exact_distance.hpp"
 #include "fiber_proximity/geometry/segment_distance.hpp"
-#include "fiber_proximity/text/listed.hpp"
-#include "fiber_proximity/text/quote.hpp"
+#include "src/text/listed.hpp"
+#include "src/text/quote.hpp"
 
 namespace fiber {
 

@@ -1,9 +1,9 @@
-#include "fiber_proximity/hierarchy/cascaded_hierarchy.hpp"
+#include "src/hierarchy/cascaded_hierarchy.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "fiber_proximity/hierarchy/fiber_order.hpp"
+#include "src/hierarchy/fiber_order.hpp"
 
 namespace fiber {
 namespace {

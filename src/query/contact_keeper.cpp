@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fiber_proximity/bounds/bounding_volume.hpp"
+#include "src/bounds/bounding_volume.hpp"
 
 namespace fiber {
 namespace {

@@ -6,9 +6,9 @@
 #include <limits>
 #include <stdexcept>
 
-#include "fiber_proximity/geometry/swept_fibers.hpp"
-#include "fiber_proximity/query/contact_judge.hpp"
-#include "fiber_proximity/query/idle_memory.hpp"
+#include "src/geometry/swept_fibers.hpp"
+#include "src/query/contact_judge.hpp"
+#include "src/query/idle_memory.hpp"
 
 namespace fiber {
 namespace {

@@ -2,19 +2,19 @@
 #include <stdexcept>
 #include <utility>
 
-#include "fiber_proximity/bounds/direction_set.hpp"
-#include "fiber_proximity/bounds/obb.hpp"
-#include "fiber_proximity/bounds/sphere.hpp"
-#include "fiber_proximity/hierarchy/cascaded_hierarchy.hpp"
-#include "fiber_proximity/hierarchy/spatial_hierarchy.hpp"
-#include "fiber_proximity/hierarchy/wrapped_hierarchy.hpp"
-#include "fiber_proximity/query/brute_force.hpp"
 #include "fiber_proximity/query/engine.hpp"
-#include "fiber_proximity/query/hierarchy_engine.hpp"
-#include "fiber_proximity/query/run_tree_engine.hpp"
-#include "fiber_proximity/query/threads.hpp"
-#include "fiber_proximity/text/quote.hpp"
-#include "kdop_engines.hpp"
+#include "src/bounds/direction_set.hpp"
+#include "src/bounds/obb.hpp"
+#include "src/bounds/sphere.hpp"
+#include "src/hierarchy/cascaded_hierarchy.hpp"
+#include "src/hierarchy/spatial_hierarchy.hpp"
+#include "src/hierarchy/wrapped_hierarchy.hpp"
+#include "src/query/brute_force.hpp"
+#include "src/query/hierarchy_engine.hpp"
+#include "src/query/kdop_engines.hpp"
+#include "src/query/run_tree_engine.hpp"
+#include "src/query/threads.hpp"
+#include "src/text/quote.hpp"
 
 namespace fiber {
 namespace {

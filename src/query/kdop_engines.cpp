@@ -1,11 +1,11 @@
-#include "kdop_engines.hpp"
+#include "src/query/kdop_engines.hpp"
 
 #include <cassert>
 #include <utility>
 
-#include "fiber_proximity/bounds/kdop.hpp"
-#include "fiber_proximity/hierarchy/spatial_hierarchy.hpp"
-#include "fiber_proximity/query/hierarchy_engine.hpp"
+#include "src/bounds/kdop.hpp"
+#include "src/hierarchy/spatial_hierarchy.hpp"
+#include "src/query/hierarchy_engine.hpp"
 
 namespace fiber {
 namespace {

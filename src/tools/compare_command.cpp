@@ -1,13 +1,13 @@
-#include "compare_command.hpp"
+#include "src/tools/compare_command.hpp"
 
 #include <chrono>
 #include <iostream>
 #include <memory>
 #include <string>
 
-#include "comparison_format.hpp"
 #include "fiber_proximity/compare/fcl_comparer.hpp"
 #include "fiber_proximity/io/fiber_file.hpp"
+#include "src/tools/comparison_format.hpp"
 
 namespace fiber {
 namespace {

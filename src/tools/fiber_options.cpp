@@ -1,4 +1,4 @@
-#include "fiber_options.hpp"
+#include "src/tools/fiber_options.hpp"
 
 #include <iostream>
 

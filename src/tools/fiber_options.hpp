@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "command_line.hpp"
 #include "fiber_proximity/query/engine.hpp"
+#include "src/tools/command_line.hpp"
 
 namespace fiber {
 

@@ -12,10 +12,10 @@
 #include <thread>
 #include <vector>
 
-#include "direction_search.hpp"
-#include "fiber_proximity/bounds/direction_set.hpp"
-#include "fiber_proximity/io/number.hpp"
-#include "packing_starts.hpp"
+#include "src/bounds/direction_set.hpp"
+#include "src/io/number.hpp"
+#include "src/tools/direction_search.hpp"
+#include "src/tools/packing_starts.hpp"
 
 namespace fiber {
 namespace {

@@ -1,13 +1,13 @@
-#include "segments_command.hpp"
+#include "src/tools/segments_command.hpp"
 
 #include <iostream>
 #include <memory>
 #include <string>
 
 #include "fiber_proximity/geometry/segment_distance.hpp"
-#include "fiber_proximity/io/number.hpp"
-#include "fiber_proximity/io/segment_pairs.hpp"
-#include "text_output.hpp"
+#include "src/io/number.hpp"
+#include "src/io/segment_pairs.hpp"
+#include "src/tools/text_output.hpp"
 
 namespace fiber {
 namespace {

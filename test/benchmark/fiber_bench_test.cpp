@@ -1,4 +1,4 @@
-#include "benchmark/fiber_bench.hpp"
+#include "test/benchmark/fiber_bench.hpp"
 
 #include <algorithm>
 #include <cmath>

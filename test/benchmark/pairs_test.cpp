@@ -6,10 +6,10 @@
 #include <limits>
 #include <stdexcept>
 
-#include "pairs/pair_kernel.hpp"
-#include "pairs/pair_score.hpp"
-#include "pairs/pair_times.hpp"
-#include "pairs/textbook.hpp"
+#include "benchmark/pairs/pair_kernel.hpp"
+#include "benchmark/pairs/pair_score.hpp"
+#include "benchmark/pairs/pair_times.hpp"
+#include "benchmark/pairs/textbook.hpp"
 
 namespace fiber::test {
 namespace {

@@ -6,10 +6,10 @@
 #include <limits>
 #include <stdexcept>
 
-#include "fiber_proximity/query/brute_force.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
-#include "support/hard_scenes.hpp"
-#include "support/small_scene.hpp"
+#include "src/query/brute_force.hpp"
+#include "test/support/hard_scenes.hpp"
+#include "test/support/small_scene.hpp"
 
 namespace fiber::test {
 namespace {

@@ -1,5 +1,5 @@
 // Every kernel on every family of hard pairs, judged in exact rationals.
-#include "fiber_proximity/scenes/hard_pairs.hpp"
+#include "src/scenes/hard_pairs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <limits>
 
 #include "fiber_proximity/geometry/exact_distance.hpp"
-#include "support/exact_distance.hpp"
-#include "support/hash.hpp"
-#include "support/public_edge_pairs.hpp"
-#include "support/random.hpp"
+#include "test/support/exact_distance.hpp"
+#include "test/support/hash.hpp"
+#include "test/support/public_edge_pairs.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber::test {
 namespace {

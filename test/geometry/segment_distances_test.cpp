@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "fiber_proximity/geometry/segment_distance.hpp"
-#include "support/random.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber::test {
 namespace {

@@ -6,11 +6,11 @@
 #include <limits>
 #include <stdexcept>
 
-#include "fiber_proximity/query/brute_force.hpp"
-#include "fiber_proximity/scenes/hard_pairs.hpp"
-#include "support/contacts.hpp"
-#include "support/engines_test.hpp"
-#include "support/exact_pairs.hpp"
+#include "src/query/brute_force.hpp"
+#include "src/scenes/hard_pairs.hpp"
+#include "test/support/contacts.hpp"
+#include "test/support/engines_test.hpp"
+#include "test/support/exact_pairs.hpp"
 
 namespace fiber::test {
 namespace {

@@ -4,10 +4,10 @@
 #include <cstdio>
 #include <limits>
 
-#include "ros/messages.hpp"
-#include "ros/node_test.hpp"
-#include "ros/running_node.hpp"
-#include "support/process.hpp"
+#include "test/ros/messages.hpp"
+#include "test/ros/node_test.hpp"
+#include "test/ros/running_node.hpp"
+#include "test/support/process.hpp"
 
 namespace {
 

@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "fiber_proximity/ProximityConfig.h"
-#include "ros/messages.hpp"
-#include "ros/node_test.hpp"
+#include "test/ros/messages.hpp"
+#include "test/ros/node_test.hpp"
 
 namespace {
 

@@ -6,11 +6,11 @@
 #include <type_traits>
 #include <vector>
 
-#include "fiber_proximity/bounds/aabb.hpp"
-#include "fiber_proximity/bounds/direction_set.hpp"
-#include "fiber_proximity/bounds/kdop.hpp"
-#include "fiber_proximity/bounds/obb.hpp"
-#include "fiber_proximity/bounds/sphere.hpp"
+#include "src/bounds/aabb.hpp"
+#include "src/bounds/direction_set.hpp"
+#include "src/bounds/kdop.hpp"
+#include "src/bounds/obb.hpp"
+#include "src/bounds/sphere.hpp"
 
 namespace fiber::test {
 

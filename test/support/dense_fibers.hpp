@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "support/assemblies.hpp"
+#include "test/support/assemblies.hpp"
 
 namespace fiber::test {
 

@@ -3,10 +3,10 @@
 #include <vector>
 
 #include "fiber_proximity/io/csv.hpp"
-#include "fiber_proximity/query/brute_force.hpp"
 #include "fiber_proximity/query/engine.hpp"
-#include "support/shared_data.hpp"
-#include "tools/tools_test.hpp"
+#include "src/query/brute_force.hpp"
+#include "test/support/shared_data.hpp"
+#include "test/tools/tools_test.hpp"
 
 namespace fiber::test {
 namespace {

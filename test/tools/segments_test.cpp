@@ -3,10 +3,10 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/segment_distance.hpp"
-#include "fiber_proximity/io/number.hpp"
-#include "fiber_proximity/scenes/hard_pairs.hpp"
-#include "support/public_edge_pairs.hpp"
-#include "tools/tools_test.hpp"
+#include "src/io/number.hpp"
+#include "src/scenes/hard_pairs.hpp"
+#include "test/support/public_edge_pairs.hpp"
+#include "test/tools/tools_test.hpp"
 
 namespace fiber::test {
 namespace {

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/geometry/point_pair.hpp"
 #include "fiber_proximity/geometry/segment_distance.hpp"
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/loop_test.hpp"
 #include "fiber_proximity/query/options.hpp"
-#include "fiber_proximity/query/point_pair.hpp"
 
 namespace fiber {
 

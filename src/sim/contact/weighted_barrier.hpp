@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "barrier.hpp"
+#include "src/sim/contact/barrier.hpp"
 
 namespace fiber {
 
