@@ -10,4 +10,4 @@ add_library(fiber_bench_motions STATIC
   benchmark/continuous/time_polynomial.cpp
 )
 target_link_libraries(fiber_bench_motions
-  PUBLIC fiber_proximity PRIVATE Boost::headers Threads::Threads fiber_proximity_options)
+  PUBLIC fiber_proximity_paper PRIVATE Boost::headers Threads::Threads fiber_proximity_options)

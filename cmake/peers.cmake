@@ -104,5 +104,5 @@ if(FIBER_PROXIMITY_PEERS)
 
   fiber_bench_peer(FCL benchmark/peers/fcl.cpp benchmark/peers/fcl_motions.cpp
     benchmark/peers/fcl_pairs.cpp
-    LIBRARIES fiber_proximity_fcl fcl)
+    LIBRARIES fiber_proximity_compare fcl)
 endif()

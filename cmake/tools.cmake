@@ -3,7 +3,7 @@
 add_library(fiber_proximity_command_line OBJECT
   src/tools/command_line.cpp src/tools/progress.cpp src/tools/text_output.cpp)
 target_link_libraries(fiber_proximity_command_line PUBLIC
-  fiber_proximity CLI11::CLI11 fiber_proximity_options)
+  fiber_proximity_paper CLI11::CLI11 fiber_proximity_options)
 fiber_proximity_parse_once(fiber_proximity_command_line ${tool_headers})
 fiber_proximity_compile_fast(fiber_proximity_command_line)
 
@@ -11,11 +11,7 @@ fiber_proximity_compile_fast(fiber_proximity_command_line)
 function(fiber_proximity_tool name)
   add_executable(${name} ${ARGN})
   target_link_libraries(${name} fiber_proximity_command_line nlohmann_json::nlohmann_json)
-  if(FIBER_PROXIMITY_BUILD_ROS)
-    set_target_properties(${name} PROPERTIES INSTALL_RPATH "$ORIGIN/..")
-    install(TARGETS ${name} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
-  else()
-    set_target_properties(${name} PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
-    install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-  endif()
+  file(RELATIVE_PATH libraries /${program_folder} /${library_folder})
+  set_target_properties(${name} PROPERTIES INSTALL_RPATH "$ORIGIN/${libraries}")
+  install(TARGETS ${name} RUNTIME DESTINATION ${program_folder})
 endfunction()

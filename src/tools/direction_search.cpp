@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "src/bounds/direction_set.hpp"
+#include "src/paper/bounds/direction_set.hpp"
 #include "src/tools/line_packing.hpp"
 #include "src/tools/packing_starts.hpp"
 

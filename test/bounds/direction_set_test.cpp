@@ -1,4 +1,4 @@
-#include "src/bounds/direction_set.hpp"
+#include "src/paper/bounds/direction_set.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "src/hierarchy/binary_tree.hpp"
+#include "src/paper/hierarchy/binary_tree.hpp"
 
 #include <gtest/gtest.h>
 

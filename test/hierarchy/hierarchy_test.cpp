@@ -1,4 +1,4 @@
-#include "src/hierarchy/hierarchy.hpp"
+#include "src/paper/hierarchy/hierarchy.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "src/bounds/aabb.hpp"
-#include "src/bounds/direction_set.hpp"
-#include "src/bounds/kdop.hpp"
-#include "src/bounds/obb.hpp"
-#include "src/bounds/sphere.hpp"
-#include "src/hierarchy/cascaded_hierarchy.hpp"
-#include "src/hierarchy/layered_hierarchy.hpp"
-#include "src/hierarchy/spatial_hierarchy.hpp"
-#include "src/hierarchy/wrapped_hierarchy.hpp"
+#include "src/paper/bounds/direction_set.hpp"
+#include "src/paper/bounds/kdop.hpp"
+#include "src/paper/bounds/obb.hpp"
+#include "src/paper/bounds/sphere.hpp"
+#include "src/paper/hierarchy/cascaded_hierarchy.hpp"
+#include "src/paper/hierarchy/layered_hierarchy.hpp"
+#include "src/paper/hierarchy/spatial_hierarchy.hpp"
+#include "src/paper/hierarchy/wrapped_hierarchy.hpp"
 #include "test/support/assemblies.hpp"
 
 namespace fiber::test {

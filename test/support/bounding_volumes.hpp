@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "src/bounds/aabb.hpp"
-#include "src/bounds/direction_set.hpp"
-#include "src/bounds/kdop.hpp"
-#include "src/bounds/obb.hpp"
-#include "src/bounds/sphere.hpp"
+#include "src/paper/bounds/direction_set.hpp"
+#include "src/paper/bounds/kdop.hpp"
+#include "src/paper/bounds/obb.hpp"
+#include "src/paper/bounds/sphere.hpp"
 
 namespace fiber::test {
 

@@ -1,4 +1,4 @@
-#include "src/hierarchy/cascaded_hierarchy.hpp"
+#include "src/paper/hierarchy/cascaded_hierarchy.hpp"
 
 #include <algorithm>
 #include <cmath>

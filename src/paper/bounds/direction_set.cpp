@@ -1,4 +1,4 @@
-#include "src/bounds/direction_set.hpp"
+#include "src/paper/bounds/direction_set.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -15,7 +15,7 @@ constexpr int largest_k = 200;
 constexpr int set_count = (largest_k - smallest_k) / 2 + 1;
 
 constexpr double table[][3] = {
-#include "src/bounds/direction_table.inc"
+#include "src/paper/bounds/direction_table.inc"
 };
 constexpr int line_count = (smallest_k / 2 + largest_k / 2) * set_count / 2;
 static_assert(sizeof(table) / sizeof(table[0]) == line_count);

@@ -1,11 +1,11 @@
-#include "src/bounds/sphere.hpp"
+#include "src/paper/bounds/sphere.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
-#include "src/bounds/minimal_sphere.hpp"
+#include "src/paper/bounds/minimal_sphere.hpp"
 
 namespace fiber {
 namespace {

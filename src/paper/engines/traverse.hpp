@@ -6,7 +6,7 @@
 
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/pair_collector.hpp"
-#include "src/hierarchy/hierarchy.hpp"
+#include "src/paper/hierarchy/hierarchy.hpp"
 
 namespace fiber {
 

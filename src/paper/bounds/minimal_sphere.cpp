@@ -1,4 +1,4 @@
-#include "src/bounds/minimal_sphere.hpp"
+#include "src/paper/bounds/minimal_sphere.hpp"
 
 #include <Eigen/QR>
 #include <algorithm>

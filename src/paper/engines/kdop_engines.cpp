@@ -1,11 +1,11 @@
-#include "src/query/kdop_engines.hpp"
+#include "src/paper/engines/kdop_engines.hpp"
 
 #include <cassert>
 #include <utility>
 
-#include "src/bounds/kdop.hpp"
-#include "src/hierarchy/spatial_hierarchy.hpp"
-#include "src/query/hierarchy_engine.hpp"
+#include "src/paper/bounds/kdop.hpp"
+#include "src/paper/hierarchy/spatial_hierarchy.hpp"
+#include "src/paper/engines/hierarchy_engine.hpp"
 
 namespace fiber {
 namespace {

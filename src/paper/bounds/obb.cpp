@@ -1,4 +1,4 @@
-#include "src/bounds/obb.hpp"
+#include "src/paper/bounds/obb.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>

@@ -6,7 +6,7 @@
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "src/bounds/bounding_volume.hpp"
-#include "src/hierarchy/binary_tree.hpp"
+#include "src/paper/hierarchy/binary_tree.hpp"
 
 namespace fiber {
 

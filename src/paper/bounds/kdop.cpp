@@ -1,4 +1,4 @@
-#include "src/bounds/kdop.hpp"
+#include "src/paper/bounds/kdop.hpp"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>

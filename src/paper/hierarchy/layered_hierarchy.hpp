@@ -1,7 +1,7 @@
 #pragma once
 
 #include "src/hierarchy/fiber_order.hpp"
-#include "src/hierarchy/hierarchy.hpp"
+#include "src/paper/hierarchy/hierarchy.hpp"
 
 namespace fiber {
 

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "src/bounds/minimal_sphere.hpp"
-#include "src/bounds/sphere.hpp"
-#include "src/hierarchy/hierarchy.hpp"
+#include "src/paper/bounds/minimal_sphere.hpp"
+#include "src/paper/bounds/sphere.hpp"
+#include "src/paper/hierarchy/hierarchy.hpp"
 
 namespace fiber {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "src/hierarchy/hierarchy.hpp"
+#include "src/paper/hierarchy/hierarchy.hpp"
 
 namespace fiber {
 

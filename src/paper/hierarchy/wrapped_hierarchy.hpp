@@ -1,7 +1,7 @@
 #pragma once
 
 #include "src/hierarchy/fiber_order.hpp"
-#include "src/hierarchy/run_hierarchy.hpp"
+#include "src/paper/hierarchy/run_hierarchy.hpp"
 
 namespace fiber {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "src/hierarchy/fiber_order.hpp"
-#include "src/hierarchy/run_hierarchy.hpp"
+#include "src/paper/hierarchy/run_hierarchy.hpp"
 
 namespace fiber {
 
