@@ -8,6 +8,7 @@
 #include "fiber_proximity/compare/fcl_comparer.hpp"
 #include "fiber_proximity/io/fiber_file.hpp"
 #include "src/tools/comparison_format.hpp"
+#include "src/tools/fiber_options.hpp"
 
 namespace fiber {
 namespace {

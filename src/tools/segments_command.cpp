@@ -7,6 +7,7 @@
 #include "fiber_proximity/geometry/segment_distance.hpp"
 #include "src/io/number.hpp"
 #include "src/io/segment_pairs.hpp"
+#include "src/tools/fiber_options.hpp"
 #include "src/tools/text_output.hpp"
 
 namespace fiber {

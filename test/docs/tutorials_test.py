@@ -5,7 +5,7 @@ Usage: tutorials_test.py TUTORIAL.md
 
 The ```sh blocks run in one bash, in an empty folder, beside a roscore of their own. The lines of a ```text
 block must come in this order in the output of the sh block before, leading blanks aside; `...` stands for
-anything.
+anything. `rosrun` is one that also looks into a build within the package, which ROS's own does not.
 """
 import os
 import re
@@ -18,6 +18,12 @@ import time
 
 BLOCK = re.compile(r'^```(sh|text)\n(.*?)^```$', re.MULTILINE | re.DOTALL)
 MARK = '--- end of block'
+END = '--- end of the shell'
+ROSRUN = """#!/bin/sh
+program=$(catkin_find --first-only --libexec "$1")/$2
+shift 2
+exec "$program" "$@"
+"""
 
 
 def free_port():
@@ -75,16 +81,18 @@ def run(path, environment, folder):
     shell = start(['bash', '-e'], environment, folder, stdin=subprocess.PIPE,
                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     try:
+        # What still runs in the background keeps the pipe open.
+        shell.stdin.write(f'trap \'echo; echo "{END}"\' EXIT\n')
         for commands, expected in blocks:
             shell.stdin.write(f'{commands}\necho; echo "{MARK}"\n')
             shell.stdin.flush()
             output = ''
             for line in shell.stdout:
                 print(line, end='', flush=True)
-                if line.strip() == MARK:
+                if line.strip() in (MARK, END):
                     break
                 output += line
-            else:
+            if line.strip() != MARK:
                 return f'the shell ended in:\n{commands}'
             lacking = missing(output, expected)
             if lacking is not None:
@@ -100,6 +108,12 @@ def main():
     environment = dict(os.environ, ROS_MASTER_URI=f'http://127.0.0.1:{port}', ROS_IP='127.0.0.1')
     with tempfile.TemporaryDirectory() as folder:
         environment['ROS_LOG_DIR'] = os.path.join(folder, 'log')
+        programs = os.path.join(folder, 'bin')
+        os.mkdir(programs)
+        with open(os.path.join(programs, 'rosrun'), 'w', encoding='utf-8') as program:
+            program.write(ROSRUN)
+        os.chmod(program.name, 0o755)
+        environment['PATH'] = programs + ':' + environment['PATH']
         core = start(['roscore', '-p', str(port)], environment, folder,
                      stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         try:
