@@ -23,7 +23,8 @@ expect_refused() {
   mkdir -p "$work/refused"
   printf 'cmake_minimum_required(VERSION 3.16)\nproject(refused CXX)\nfind_package(fiber_proximity %s)\n' "$*" \
     >"$work/refused/CMakeLists.txt"
-  if cmake -S "$work/refused" -B "$work/refused-build" -DCMAKE_PREFIX_PATH="$prefix" >"$work/refused.log" 2>&1; then
+  if cmake -S "$work/refused" -B "$work/refused-build" -DCMAKE_PREFIX_PATH="$prefix" \
+    -DPYTHON_EXECUTABLE=/usr/bin/python3 >"$work/refused.log" 2>&1; then
     fail "find_package(fiber_proximity $*) was not refused"
   fi
   # CMake breaks lines.
@@ -37,6 +38,7 @@ if [ -n "$(find "$prefix" -path '*include*' -name '*-inl.hpp')" ]; then
 fi
 
 cmake -S "$source/examples" -B "$work/examples" -DCMAKE_PREFIX_PATH="$prefix" \
+  -DPYTHON_EXECUTABLE=/usr/bin/python3 \
   -DCMAKE_CXX_FLAGS="$flags" >"$work/configure.log" || { cat "$work/configure.log"; exit 1; }
 cmake --build "$work/examples" >"$work/build.log" || { cat "$work/build.log"; exit 1; }
 "$work/examples/first_query" | tee "$work/first_query.txt"
