@@ -26,7 +26,7 @@ class MotionsRun:
 
     part: str
     options: str  # beyond the part, as on a command line
-    known: str = ""  # a file of motions
+    known: str = ""  # a file in shared_data()
 
     def title(self):
         return f"motions: {self.part}"
@@ -34,10 +34,13 @@ class MotionsRun:
     def measure(self, tool, limits):
         """`rows`, a dict per line."""
         command = [tool, "motions", "--parts", self.part, *self.options.split(), "--json"]
-        command += ["--known", self.known] if self.known else []
+        command += ["--known", str(shared_data() / self.known)] if self.known else []
         rows, peak_mib = read_lines(command, [limits.stage] * MOST_ROWS)
         if not rows:
             raise SystemExit(f"bench: {self.title()}: nothing within {limits.stage:g} s")
+        for row in rows:
+            if "file" in row:
+                row["file"] = self.known
         return {**dataclasses.asdict(self), "rows": rows, "peak_mib": peak_mib}
 
 
@@ -46,20 +49,23 @@ FULL = {"times": "--timed 4000 --repeats 11", "accuracy": "--threads 2", "known"
 QUICK = {"times": "--timed 100 --repeats 3", "accuracy": "--count 500 --threads 2", "known": ""}
 
 
-def public_motions():
-    """Where the file of public edge motions would be."""
+PUBLIC_MOTIONS = "edge_motions_public.csv"
+
+
+def shared_data():
+    """The folder where the file of public edge motions would be: another one on each machine, so that it
+    stays out of what is written."""
     tree = pathlib.Path(__file__).resolve().parents[2]
     shared = pathlib.Path(os.environ.get("FIBER_PROXIMITY_SHARED") or tree.parent / "shared")
-    return shared / "data" / "edge_motions_public.csv"
+    return shared / "data"
 
 
 def plan(quick):
     """Without the public motions where they are not."""
-    known = public_motions()
     options = QUICK if quick else FULL
-    path = str(known) if known.exists() else ""
-    return [MotionsRun(part, options[part], path if part != "accuracy" else "")
-            for part in options if part != "known" or known.exists()]
+    known = PUBLIC_MOTIONS if (shared_data() / PUBLIC_MOTIONS).exists() else ""
+    return [MotionsRun(part, options[part], known if part != "accuracy" else "")
+            for part in options if part != "known" or known]
 
 
 def measure_motions(tool, out, quick):

@@ -160,7 +160,7 @@ TEST(RunTreeMotion, FindsWhatIsReportedForTheToleranceAlone) {
     expect_same(ask_run_tree(before, after, options), expected);
     reported += expected.contacts.size();
   }
-  expect_enough(reported, std::size_t{1000});
+  expect_enough(reported, static_cast<std::size_t>(rounds(1000)));
 }
 
 TEST(RunTreeMotion, AnswersTheSameWithEveryInstructionSet) {

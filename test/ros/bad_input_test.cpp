@@ -259,7 +259,7 @@ TEST_F(BadInputTest, MessagesWithoutATransformAreRefused) {
   query.request.shapes[0].header.frame_id = "moving";
   query.request.shapes[0].points.resize(1);
   ASSERT_TRUE(node_test::wait_for([&] {
-    return ros::service::call("/proximity/query", query) && query.response.success;
+    return node_test::call_service("/proximity/query", query) && query.response.success;
   })) << query.response.message;
   FiberArray message = array("moving");
   message.header.stamp = transform.header.stamp + ros::Duration(100.0);

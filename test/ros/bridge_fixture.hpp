@@ -40,9 +40,7 @@ class BridgeTest : public node_test::NodeTest {
     query.request.margin = std::numeric_limits<double>::infinity();
     query.request.shapes.resize(1);
     query.request.shapes[0].points.resize(1);
-    EXPECT_TRUE(
-        ros::service::waitForService("/proximity/query", ros::Duration(node_test::patience)));
-    EXPECT_TRUE(ros::service::call("/proximity/query", query));
+    EXPECT_TRUE(node_test::call_service("/proximity/query", query));
     EXPECT_TRUE(query.response.success) << query.response.message;
     Distances found;
     for (const fiber_proximity::Contact& contact : query.response.contacts) {

@@ -20,9 +20,7 @@ class CableSimTest : public ::testing::Test {
                                   const typename Service::Request& request = {}) {
     Service service;
     service.request = request;
-    EXPECT_TRUE(
-        ros::service::waitForService("/cable_sim/" + name, ros::Duration(node_test::patience)));
-    EXPECT_TRUE(ros::service::call("/cable_sim/" + name, service)) << name;
+    EXPECT_TRUE(node_test::call_service("/cable_sim/" + name, service)) << name;
     return service.response;
   }
 

@@ -17,9 +17,7 @@ class CompareTest : public node_test::NodeTest {
  protected:
   static CompareWithFcl::Response call() {
     CompareWithFcl call;
-    EXPECT_TRUE(
-        ros::service::waitForService("/proximity/compare", ros::Duration(node_test::patience)));
-    EXPECT_TRUE(ros::service::call("/proximity/compare", call));
+    EXPECT_TRUE(node_test::call_service("/proximity/compare", call));
     return call.response;
   }
 
@@ -28,9 +26,7 @@ class CompareTest : public node_test::NodeTest {
     call.request.config.bools.resize(1);
     call.request.config.bools[0].name = "compare";
     call.request.config.bools[0].value = on;
-    EXPECT_TRUE(ros::service::waitForService("/proximity/set_parameters",
-                                             ros::Duration(node_test::patience)));
-    EXPECT_TRUE(ros::service::call("/proximity/set_parameters", call));
+    EXPECT_TRUE(node_test::call_service("/proximity/set_parameters", call));
   }
 
   static void set_query(const std::string& type, double margin) {
@@ -41,7 +37,7 @@ class CompareTest : public node_test::NodeTest {
     call.request.config.doubles.resize(1);
     call.request.config.doubles[0].name = "margin";
     call.request.config.doubles[0].value = margin;
-    EXPECT_TRUE(ros::service::call("/proximity/set_parameters", call));
+    EXPECT_TRUE(node_test::call_service("/proximity/set_parameters", call));
   }
 
   static void expect_agreement(const Comparison& found) {

@@ -142,7 +142,7 @@ class ContinuousTest : public node_test::NodeTest {
     parameter.name = name;
     parameter.value = value;
     request.request.config.bools.push_back(parameter);
-    ASSERT_TRUE(ros::service::call("/proximity/set_parameters", request));
+    ASSERT_TRUE(node_test::call_service("/proximity/set_parameters", request));
   }
 
   ros::Publisher cables_;

@@ -130,7 +130,7 @@ TEST_F(ContinuousTest, WhatIsAroundIsMetBetweenMessages) {
   const auto apply = [](const fiber_proximity::Obstacle& obstacle) {
     fiber_proximity::ApplyObstacles service;
     service.request.obstacles = {obstacle};
-    ASSERT_TRUE(ros::service::call("/proximity/apply_obstacles", service));
+    ASSERT_TRUE(node_test::call_service("/proximity/apply_obstacles", service));
     ASSERT_TRUE(service.response.success) << service.response.message;
   };
   apply(plate({0.1, 0.2, 0.05 * z_ / 0.1}));

@@ -79,9 +79,7 @@ class DrawTest : public node_test::NodeTest {
       parameter.value = static_cast<unsigned char>(on);
       call.request.config.bools.push_back(parameter);
     }
-    ASSERT_TRUE(ros::service::waitForService("/proximity/set_parameters",
-                                             ros::Duration(node_test::patience)));
-    ASSERT_TRUE(ros::service::call("/proximity/set_parameters", call));
+    ASSERT_TRUE(node_test::call_service("/proximity/set_parameters", call));
   }
 
   Screen screen;

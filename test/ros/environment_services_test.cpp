@@ -49,12 +49,11 @@ fiber_proximity::QueryShape shape(const Eigen::Vector3d& point, const std::strin
 }
 
 template <class Service>
-typename Service::Response call(const std::string& name, typename Service::Request request) {
-  typename Service::Response response;
-  EXPECT_TRUE(
-      ros::service::waitForService("/proximity/" + name, ros::Duration(node_test::patience)));
-  EXPECT_TRUE(ros::service::call("/proximity/" + name, request, response));
-  return response;
+typename Service::Response call(const std::string& name, const typename Service::Request& request) {
+  Service service;
+  service.request = request;
+  EXPECT_TRUE(node_test::call_service("/proximity/" + name, service));
+  return service.response;
 }
 
 class EnvironmentServicesTest : public node_test::NodeTest {

@@ -28,11 +28,11 @@ FiberArray upright(double x) {
 }
 
 template <class Service>
-typename Service::Response call(const std::string& name, typename Service::Request request) {
-  typename Service::Response response;
-  EXPECT_TRUE(ros::service::waitForService(name, ros::Duration(node_test::patience)));
-  EXPECT_TRUE(ros::service::call(name, request, response));
-  return response;
+typename Service::Response call(const std::string& name, const typename Service::Request& request) {
+  Service service;
+  service.request = request;
+  EXPECT_TRUE(node_test::call_service(name, service));
+  return service.response;
 }
 
 class EnvironmentTest : public node_test::NodeTest {

@@ -60,7 +60,7 @@ TEST_F(LimitsTest, ATangleIsAnsweredAndTheNextMessageToo) {
     shape.points.resize(1);
     shape.radius = 1.0;
   }
-  ASSERT_TRUE(ros::service::call("/proximity/query", query));
+  ASSERT_TRUE(node_test::call_service("/proximity/query", query));
   ASSERT_TRUE(query.response.success) << query.response.message;
   EXPECT_TRUE(query.response.limit_reached);
   EXPECT_EQ(query.response.contacts.size(), contact_limit + 1);  // and the second shape's closest
@@ -104,7 +104,7 @@ TEST_F(LimitsTest, ManyCandidatesShareTheLimitOfContacts) {
   for (fiber_proximity::FiberArray& candidate : check.request.candidates) {
     candidate.radii = {0.01};
   }
-  ASSERT_TRUE(ros::service::call("/proximity/check_fibers", check));
+  ASSERT_TRUE(node_test::call_service("/proximity/check_fibers", check));
   ASSERT_TRUE(check.response.success) << check.response.message;
   EXPECT_EQ(check.response.free, std::vector<std::uint8_t>(count, 0));
   EXPECT_TRUE(check.response.limit_reached);

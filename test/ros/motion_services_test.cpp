@@ -39,9 +39,7 @@ class MotionServices : public node_test::NodeTest {
   static CheckFibers::Response check(const CheckFibers::Request& request) {
     CheckFibers check;
     check.request = request;
-    EXPECT_TRUE(ros::service::waitForService("/proximity/check_fibers",
-                                             ros::Duration(node_test::patience)));
-    EXPECT_TRUE(ros::service::call("/proximity/check_fibers", check));
+    EXPECT_TRUE(node_test::call_service("/proximity/check_fibers", check));
     return check.response;
   }
 
@@ -72,9 +70,7 @@ class MotionServices : public node_test::NodeTest {
     plate.primitive_poses.resize(1);
     plate.primitive_poses[0].position.z = 1.0;
     plate.primitive_poses[0].orientation.w = 1.0;
-    ASSERT_TRUE(ros::service::waitForService("/proximity/apply_obstacles",
-                                             ros::Duration(node_test::patience)));
-    ASSERT_TRUE(ros::service::call("/proximity/apply_obstacles", apply));
+    ASSERT_TRUE(node_test::call_service("/proximity/apply_obstacles", apply));
     ASSERT_TRUE(apply.response.success) << apply.response.message;
   }
 

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -34,6 +36,29 @@ inline bool wait_for(const std::function<bool()>& condition) {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01));
   }
   return true;
+}
+
+/// Calls a service as soon as there is one. All calls of a program to a service that goes on share
+/// a connection: ros::service::call() makes a new one for each, as does waitForService(), and on a
+/// busy machine one of thousands of these is lost without a word.
+template <class Service>
+bool call_service(const std::string& name, Service& service) {
+  static std::mutex mutex;
+  // Never taken apart: ROS has ended by then.
+  static auto& clients = *new std::map<std::string, ros::ServiceClient>;
+  ros::ServiceClient client;
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    ros::ServiceClient& known = clients[name];
+    if (!known.isValid()) {
+      if (!ros::service::waitForService(name, ros::Duration(patience))) {
+        return false;
+      }
+      known = ros::service::createClient<Service>(name, true);
+    }
+    client = known;
+  }
+  return client.call(service);
 }
 
 /// Keeps all messages of a topic.

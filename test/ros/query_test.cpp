@@ -27,12 +27,10 @@ class QueryTest : public node_test::NodeTest {
   }
 
   static QueryProximity::Response call(const QueryProximity::Request& request) {
-    QueryProximity::Response response;
-    EXPECT_TRUE(
-        ros::service::waitForService("/proximity/query", ros::Duration(node_test::patience)));
-    EXPECT_TRUE(ros::service::call("/proximity/query",
-                                   const_cast<QueryProximity::Request&>(request), response));
-    return response;
+    QueryProximity query;
+    query.request = request;
+    EXPECT_TRUE(node_test::call_service("/proximity/query", query));
+    return query.response;
   }
 
   /// Sends random fibres and keeps what the node made of them.

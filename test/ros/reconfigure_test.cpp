@@ -36,9 +36,7 @@ class ReconfigureTest : public node_test::NodeTest {
   static ProximityConfig set(ProximityConfig config) {
     dynamic_reconfigure::Reconfigure call;
     config.__toMessage__(call.request.config);
-    EXPECT_TRUE(ros::service::waitForService("/proximity/set_parameters",
-                                             ros::Duration(node_test::patience)));
-    EXPECT_TRUE(ros::service::call("/proximity/set_parameters", call));
+    EXPECT_TRUE(node_test::call_service("/proximity/set_parameters", call));
     ProximityConfig in_use;
     EXPECT_TRUE(in_use.__fromMessage__(call.response.config));
     return in_use;
@@ -225,7 +223,7 @@ TEST_F(ReconfigureTest, ValuesOfAnotherTypeOrNameChangeNothing) {
   call.request.config.doubles.resize(1);
   call.request.config.doubles[0].name = "margin";
   call.request.config.doubles[0].value = 0.1;
-  ASSERT_TRUE(ros::service::call("/proximity/set_parameters", call));
+  ASSERT_TRUE(node_test::call_service("/proximity/set_parameters", call));
   ProximityConfig in_use;
   ASSERT_TRUE(in_use.__fromMessage__(call.response.config));
   EXPECT_EQ(in_use.margin, 0.0) << "all of a request, or nothing";
@@ -238,7 +236,7 @@ TEST_F(ReconfigureTest, ValuesOfAnotherTypeOrNameChangeNothing) {
   call.request.config = {};
   call.request.config.doubles.resize(1);
   call.request.config.doubles[0].name = "margn";
-  ASSERT_TRUE(ros::service::call("/proximity/set_parameters", call));
+  ASSERT_TRUE(node_test::call_service("/proximity/set_parameters", call));
   EXPECT_TRUE(node_test::wait_for([this] {
     return !logs_of("parameters stay as they were: there is no parameter margn").empty();
   }));

@@ -23,15 +23,9 @@ class SimulatedTimeTest : public NodeTest {
 
   /// What the node answers to a query without shapes, once it has dealt with what it was sent
   /// before.
-  fiber_proximity::QueryProximity::Response ask() {
-    // One connection for all calls: a new one for each, twice in every 50 ms, is lost now and then
-    // on a busy machine.
-    if (!queries_) {
-      EXPECT_TRUE(ros::service::waitForService("/proximity/query", ros::Duration(patience)));
-      queries_ = node.serviceClient<fiber_proximity::QueryProximity>("/proximity/query", true);
-    }
+  static fiber_proximity::QueryProximity::Response ask() {
     fiber_proximity::QueryProximity query;
-    EXPECT_TRUE(queries_.call(query));
+    EXPECT_TRUE(call_service("/proximity/query", query));
     return query.response;
   }
 
@@ -42,7 +36,6 @@ class SimulatedTimeTest : public NodeTest {
   }
 
  private:
-  ros::ServiceClient queries_;
   ros::Publisher clock_ = node.advertise<rosgraph_msgs::Clock>("/clock", 1000, true);
 };
 

@@ -176,7 +176,7 @@ class SoakTest : public node_test::NodeTest {
   /// Whatever the node says to it, the call itself must succeed.
   template <class Service>
   void call(const std::string& name, Service& service) {
-    ASSERT_TRUE(ros::service::call("/proximity/" + name, service)) << name;
+    ASSERT_TRUE(node_test::call_service("/proximity/" + name, service)) << name;
     EXPECT_EQ(service.response.success, service.response.message.empty())
         << name << ": " << service.response.message;
   }

@@ -88,7 +88,8 @@ class EdgeContact {
     if (weight == 0.0) {
       return 0.0;
     }
-    const double energy = weighted_energy(barrier_, distance, weight);
+    const WeightedBarrier weighted(barrier_, distance, weight);
+    const double energy = weighted.energy();
     if (terms == nullptr || !(energy < std::numeric_limits<double>::infinity())) {
       return energy;
     }
@@ -98,7 +99,7 @@ class EdgeContact {
       const Vector3d of_end = (end < 2 ? 1.0 : -1.0) / ends_[end].distance * ends_[end].delta;
       cosines[end] = of_end.dot(normal);
     }
-    const WeightedSlopes<4> by(barrier_, distance, weight, ramps, cosines);
+    const WeightedSlopes<4> by = weighted.slopes(ramps, cosines);
     for (std::uint32_t end = 0; end < 4; ++end) {
       slopes_[end] += by.end_slopes[end];
       curvatures_[end] += by.end_curvatures[end];

@@ -123,7 +123,8 @@ double obstacle_contact(const ObstacleContact& contact, const ObstacleDistance& 
   if (weight == 0.0 || distance.nearest.distance >= barrier.outer) {
     return 0.0;
   }
-  const double energy = weighted_energy(barrier, distance.nearest.distance, weight);
+  const WeightedBarrier weighted(barrier, distance.nearest.distance, weight);
+  const double energy = weighted.energy();
   if (terms == nullptr || !(energy < std::numeric_limits<double>::infinity())) {
     return energy;
   }
@@ -134,7 +135,7 @@ double obstacle_contact(const ObstacleContact& contact, const ObstacleDistance& 
     ramps[end] = ramp_of(contact, distance, end);
     cosines[end] = distance.ends[end].gradient.dot(distance.nearest.gradient);
   }
-  const WeightedSlopes<2> by(barrier, distance.nearest.distance, weight, ramps, cosines);
+  const WeightedSlopes<2> by = weighted.slopes(ramps, cosines);
   for (std::size_t end = 0; end < 2; ++end) {
     if (ramps[end].slope > 0.0) {
       terms->push_back({static_cast<double>(end), 0.0, distance.ends[end].gradient,

@@ -94,7 +94,7 @@ void StageSolver::solve(Rods& rods, const Effects& effects, const TimeStep& stag
       }
     }
     if (contacts_ != nullptr) {
-      if (room_.is_last) {  // which expects nothing
+      if (room_.is_last) {  // widen_room() has forgotten the ways that adapt_room() compares with
         expect(reference_, stage.length);
       }
       adapt_room(rods);
