@@ -12,8 +12,8 @@
 #include <thread>
 #include <vector>
 
-#include "src/paper/bounds/direction_set.hpp"
 #include "src/io/number.hpp"
+#include "src/paper/bounds/direction_set.hpp"
 #include "src/tools/direction_search.hpp"
 #include "src/tools/packing_starts.hpp"
 
@@ -86,7 +86,8 @@ std::string command_line(const Arguments& arguments) {
   return command_prefix + ("--seed " + std::to_string(arguments.seed)) + " --starts " +
          std::to_string(arguments.starts) +
          (arguments.up_to < most_lines ? " --up-to " + std::to_string(arguments.up_to) : "") +
-         (arguments.from_scratch ? " --from-scratch" : "") + " src/paper/bounds/direction_table.inc\n";
+         (arguments.from_scratch ? " --from-scratch" : "") +
+         " src/paper/bounds/direction_table.inc\n";
 }
 
 /// The commands that made the table this one improves on, as it states them.

@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "src/bounds/aabb.hpp"
+#include "src/paper/engines/hierarchy_engine.hpp"
 #include "src/paper/hierarchy/wrapped_hierarchy.hpp"
 #include "src/query/brute_force.hpp"
-#include "src/paper/engines/hierarchy_engine.hpp"
 #include "test/support/contacts.hpp"
 #include "test/support/rounds.hpp"
 #include "test/support/small_scene.hpp"

@@ -140,15 +140,15 @@ class ProximityEngine {
   std::unique_ptr<Motion> motion_;      // none until there is one
 };
 
-/// The engine of this name: one of engine_names(). Where the library fiber_proximity_paper is linked,
-/// also DL-k and DS-k for any even k in [6, 200], and with the standard directions DL-k-classic and
-/// DS-k-classic for k of 6, 14, 18 and 26.
+/// The engine of this name: one of engine_names(). Where the library fiber_proximity_paper is
+/// linked, also DL-k and DS-k for any even k in [6, 200], and with the standard directions
+/// DL-k-classic and DS-k-classic for k of 6, 14, 18 and 26.
 /// @throws std::invalid_argument listing the names, or for options that are not allowed
 std::unique_ptr<ProximityEngine> make_engine(const std::string& name,
                                              const EngineOptions& options = {});
 
-/// Names of all engines there are: run_tree, brute_force and those of the libraries that are linked.
-/// k-DOPs are listed with the paper's best k for hair, 20.
+/// Names of all engines there are: run_tree, brute_force and those of the libraries that are
+/// linked. k-DOPs are listed with the paper's best k for hair, 20.
 std::vector<std::string> engine_names();
 
 }  // namespace fiber

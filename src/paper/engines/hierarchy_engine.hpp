@@ -7,9 +7,9 @@
 
 #include "fiber_proximity/query/engine.hpp"
 #include "src/bounds/aabb.hpp"
-#include "src/paper/hierarchy/layered_hierarchy.hpp"
 #include "src/hierarchy/origin.hpp"
 #include "src/paper/engines/traverse.hpp"
+#include "src/paper/hierarchy/layered_hierarchy.hpp"
 
 namespace fiber {
 

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "src/paper/bounds/kdop.hpp"
-#include "src/paper/hierarchy/spatial_hierarchy.hpp"
 #include "src/paper/engines/hierarchy_engine.hpp"
+#include "src/paper/hierarchy/spatial_hierarchy.hpp"
 
 namespace fiber {
 namespace {

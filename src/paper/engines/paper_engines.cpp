@@ -88,7 +88,8 @@ EngineFamily paper_engines() {
   }
   family.make = make_paper_engine;
   family.other_names =
-      "DL-k and DS-k for even k from 6 to 200; DL-k-classic and DS-k-classic for k of 6, 14, 18, 26";
+      "DL-k and DS-k for even k from 6 to 200; DL-k-classic and DS-k-classic for k of 6, 14, 18, "
+      "26";
   return family;
 }
 
