@@ -63,14 +63,26 @@ def start(command, environment, folder, **pipes):
     return subprocess.Popen(command, cwd=folder, env=environment, start_new_session=True, **pipes)
 
 
+def is_group_alive(process):
+    process.poll()  # as a zombie it would count
+    try:
+        os.killpg(process.pid, 0)
+    except ProcessLookupError:
+        return False
+    return True
+
+
 def end(process):
-    """Ends a process and all it has started."""
-    for number in (signal.SIGINT, signal.SIGKILL):
-        try:
-            os.killpg(process.pid, number)
-            process.wait(timeout=20)
-        except (ProcessLookupError, subprocess.TimeoutExpired):
-            pass
+    """Ends a process and all it has started. Not by SIGINT, which a shell hides from what it starts in the
+    background; a roslaunch that is killed leaves its nodes alone."""
+    for number in (signal.SIGTERM, signal.SIGKILL):
+        if not is_group_alive(process):
+            break
+        os.killpg(process.pid, number)
+        deadline = time.monotonic() + 20.0
+        while is_group_alive(process) and time.monotonic() < deadline:
+            time.sleep(0.1)
+    process.wait()
 
 
 def run(path, environment, folder):
