@@ -1,9 +1,10 @@
 """The figure and the tables of contact times of two moving capsules."""
 
-from .plot import COLORS, panels, save
+from .plot import COLORS, grid, save
 from .tables import markdown, significant
 
 OWN = "own"
+COLUMNS = 3  # of the figure
 LEAST_SHARE = 1e-4  # no miss at all stands at the lower edge
 TIMES = (("rejected_ns", "rejected"), ("hit_ns", "hit"))
 
@@ -59,11 +60,14 @@ def draw_motions(groups, path):
     """What a tolerance costs ours; then, for each group, misses against time, filled marks for
     motions that hit."""
     names = list(dict.fromkeys(group for group, _, _ in groups))
-    figure, axes = panels(1 + len(names), 4.0 * (1 + len(names)), 4.6)
-    draw_tolerances(groups, names, axes[0])
-    for name, axis in zip(names, axes[1:]):
+    rows = -(-(1 + len(names)) // COLUMNS)
+    figure, axes = grid(rows, COLUMNS, 4.0 * COLUMNS, 4.9 * rows)
+    draw_tolerances(groups, names, axes.flat[0])
+    for name, axis in zip(names, axes.flat[1:]):
         draw_misses(groups, name, axis)
-    axes[1].set_ylabel("contacts missed, a part; none at the lower edge")
+        axis.set_ylabel("contacts missed, a part; none at the lower edge")
+    for axis in axes.flat[1 + len(names):]:
+        axis.set_visible(False)
     save(figure, path)
 
 
