@@ -6,14 +6,14 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "accuracy_settings.hpp"
-#include "answer_errors.hpp"
-#include "commands.hpp"
+#include "benchmark/accuracy_settings.hpp"
+#include "benchmark/answer_errors.hpp"
+#include "benchmark/commands.hpp"
+#include "benchmark/scene_options.hpp"
+#include "benchmark/statistics.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
-#include "progress.hpp"
-#include "scene_options.hpp"
-#include "statistics.hpp"
+#include "src/tools/progress.hpp"
 
 namespace fiber {
 namespace {

@@ -1,4 +1,4 @@
-#include "accuracy_settings.hpp"
+#include "benchmark/accuracy_settings.hpp"
 
 #include <limits>
 
@@ -21,14 +21,9 @@ std::vector<AccuracySetting> accuracy_settings(double radius) {
     settings.push_back(reference);
     AccuracySetting setting = reference;
     setting.is_reference = false;
-    for (const Kernel kernel : {Kernel::FAST, Kernel::EXACT}) {
-      if (kernel == Kernel::FAST && query.type != QueryType::ALL) {
-        continue;  // the same as robust
-      }
-      setting.name = name_of(kernel);
-      setting.options.kernel = kernel;
-      settings.push_back(setting);
-    }
+    setting.name = name_of(Kernel::EXACT);
+    setting.options.kernel = Kernel::EXACT;
+    settings.push_back(setting);
     setting.options.kernel = Kernel::ROBUST;
     for (const double part : {0.01, 0.1, 1.0}) {
       if (query.type == QueryType::ALL) {

@@ -1,4 +1,4 @@
-#include "answer_errors.hpp"
+#include "benchmark/answer_errors.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "agreement.hpp"
-#include "commands.hpp"
-#include "fiber_proximity/query/run_tree_engine.hpp"
+#include "benchmark/agreement.hpp"
+#include "benchmark/commands.hpp"
+#include "benchmark/scene_options.hpp"
+#include "benchmark/statistics.hpp"
+#include "benchmark/swaying.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
-#include "progress.hpp"
-#include "scene_options.hpp"
-#include "statistics.hpp"
-#include "swaying.hpp"
+#include "src/query/run_tree_engine.hpp"
+#include "src/tools/progress.hpp"
 
 namespace fiber {
 namespace {

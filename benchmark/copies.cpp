@@ -1,4 +1,4 @@
-#include "copies.hpp"
+#include "benchmark/copies.hpp"
 
 #include <algorithm>
 #include <cassert>

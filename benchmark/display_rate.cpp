@@ -20,9 +20,9 @@
 
 #include "fiber_proximity/FiberArray.h"
 #include "fiber_proximity/ros/conversions.hpp"
-#include "fiber_proximity/ros/stopwatch.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
-#include "rviz/rviz_window.hpp"
+#include "src/ros/support/stopwatch.hpp"
+#include "test/rviz/rviz_window.hpp"
 
 namespace {
 

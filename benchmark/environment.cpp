@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "commands.hpp"
-#include "environment/measurements.hpp"
+#include "benchmark/commands.hpp"
+#include "benchmark/environment/measurements.hpp"
 
 namespace fiber {
 namespace {

@@ -4,12 +4,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "commands.hpp"
-#include "pairs/chosen_families.hpp"
-#include "pairs/pair_score.hpp"
-#include "pairs/pair_times.hpp"
-#include "progress.hpp"
-#include "statistics.hpp"
+#include "benchmark/commands.hpp"
+#include "benchmark/pairs/chosen_families.hpp"
+#include "benchmark/pairs/pair_score.hpp"
+#include "benchmark/pairs/pair_times.hpp"
+#include "benchmark/statistics.hpp"
+#include "src/tools/progress.hpp"
 
 namespace fiber {
 namespace {

@@ -13,9 +13,9 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "commands.hpp"
-#include "progress.hpp"
-#include "statistics.hpp"
+#include "benchmark/commands.hpp"
+#include "benchmark/statistics.hpp"
+#include "src/tools/progress.hpp"
 
 namespace fiber {
 namespace {

@@ -1,4 +1,4 @@
-#include "measurement.hpp"
+#include "benchmark/measurement.hpp"
 
 #include <cassert>
 #include <cstring>
@@ -6,13 +6,13 @@
 #include <memory>
 #include <stdexcept>
 
-#include "agreement.hpp"
-#include "copies.hpp"
+#include "benchmark/agreement.hpp"
+#include "benchmark/copies.hpp"
+#include "benchmark/peers/peer.hpp"
+#include "benchmark/statistics.hpp"
+#include "benchmark/swapped_places.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
-#include "peers/peer.hpp"
-#include "progress.hpp"
-#include "statistics.hpp"
-#include "swapped_places.hpp"
+#include "src/tools/progress.hpp"
 
 namespace fiber {
 namespace {

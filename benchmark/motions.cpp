@@ -4,10 +4,10 @@
 #include <iostream>
 #include <memory>
 
-#include "commands.hpp"
-#include "continuous/measurements.hpp"
+#include "benchmark/commands.hpp"
+#include "benchmark/continuous/measurements.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
-#include "progress.hpp"
+#include "src/tools/progress.hpp"
 
 namespace fiber {
 namespace {

@@ -14,9 +14,9 @@
 #include <random>
 #include <stdexcept>
 
-#include "commands.hpp"
-#include "progress.hpp"
-#include "statistics.hpp"
+#include "benchmark/commands.hpp"
+#include "benchmark/statistics.hpp"
+#include "src/tools/progress.hpp"
 
 namespace fiber {
 namespace {

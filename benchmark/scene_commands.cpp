@@ -3,11 +3,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "commands.hpp"
+#include "benchmark/commands.hpp"
+#include "benchmark/measurement.hpp"
+#include "benchmark/peers/peer.hpp"
+#include "benchmark/scene_options.hpp"
 #include "fiber_proximity/query/engine.hpp"
-#include "measurement.hpp"
-#include "peers/peer.hpp"
-#include "scene_options.hpp"
 
 namespace fiber {
 namespace {

@@ -1,4 +1,4 @@
-#include "scene_options.hpp"
+#include "benchmark/scene_options.hpp"
 
 #include "fiber_proximity/scenes/scene.hpp"
 

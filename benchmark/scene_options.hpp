@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "command_line.hpp"
 #include "fiber_proximity/scenes/options.hpp"
+#include "src/tools/command_line.hpp"
 
 namespace fiber {
 

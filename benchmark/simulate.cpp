@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "commands.hpp"
-#include "progress.hpp"
-#include "sim/measurements.hpp"
+#include "benchmark/commands.hpp"
+#include "benchmark/sim/measurements.hpp"
+#include "src/tools/progress.hpp"
 
 namespace fiber {
 namespace {

@@ -3,11 +3,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "commands.hpp"
+#include "benchmark/commands.hpp"
+#include "benchmark/scene_options.hpp"
+#include "benchmark/statistics.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
-#include "scene_options.hpp"
-#include "statistics.hpp"
 
 namespace fiber {
 namespace {

@@ -1,10 +1,10 @@
-#include "swaying.hpp"
+#include "benchmark/swaying.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "fiber_proximity/scenes/portable_math.hpp"
-#include "fiber_proximity/scenes/random.hpp"
+#include "src/scenes/portable_math.hpp"
+#include "src/scenes/random.hpp"
 
 namespace fiber {
 namespace {

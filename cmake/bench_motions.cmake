@@ -9,6 +9,5 @@ add_library(fiber_bench_motions STATIC
   benchmark/continuous/motion_separation.cpp
   benchmark/continuous/time_polynomial.cpp
 )
-target_include_directories(fiber_bench_motions PUBLIC benchmark)
 target_link_libraries(fiber_bench_motions
-  PUBLIC fiber_proximity PRIVATE Boost::headers Threads::Threads fiber_proximity_options)
+  PUBLIC fiber_proximity_paper PRIVATE Boost::headers Threads::Threads fiber_proximity_options)

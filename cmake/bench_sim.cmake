@@ -7,7 +7,6 @@ add_library(fiber_bench_sim STATIC
   benchmark/sim/motion.cpp
   benchmark/sim/statics.cpp
 )
-target_include_directories(fiber_bench_sim PUBLIC benchmark)
 target_link_libraries(fiber_bench_sim
   PUBLIC fiber_proximity_sim PRIVATE Boost::headers fiber_proximity_options)
 fiber_proximity_parse_once(fiber_bench_sim)

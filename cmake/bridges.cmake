@@ -5,9 +5,9 @@ find_package(octomap_msgs QUIET)
 if(octomap_msgs_FOUND)
   message(STATUS "octomap_msgs is installed: octomap_bridge is built")
   add_library(fiber_proximity_octomap STATIC
-    src/ros/octomap_bridge.cpp
-    src/ros/octomap_cloud.cpp
-    src/ros/octomap_leaves.cpp
+    src/ros/bridges/octomap_bridge.cpp
+    src/ros/bridges/octomap_cloud.cpp
+    src/ros/bridges/octomap_leaves.cpp
   )
   #catkin_lint: ignore_once external_interface_path
   target_include_directories(fiber_proximity_octomap SYSTEM PUBLIC ${octomap_msgs_INCLUDE_DIRS})
@@ -24,9 +24,9 @@ find_package(moveit_msgs 0.11 QUIET)  # in older ones objects have no pose
 if(moveit_msgs_FOUND)
   message(STATUS "moveit_msgs is installed: moveit_bridge is built")
   add_library(fiber_proximity_moveit STATIC
-    src/ros/collision_object.cpp
-    src/ros/moveit_bridge.cpp
-    src/ros/planning_scene.cpp
+    src/ros/bridges/collision_object.cpp
+    src/ros/bridges/moveit_bridge.cpp
+    src/ros/bridges/planning_scene.cpp
   )
   #catkin_lint: ignore_once external_interface_path
   target_include_directories(fiber_proximity_moveit SYSTEM PUBLIC ${moveit_msgs_INCLUDE_DIRS})

@@ -1,13 +1,13 @@
 # FCL run beside our engines.
 
-add_library(fiber_proximity_fcl SHARED
+add_library(fiber_proximity_compare SHARED
   src/compare/comparison.cpp
   src/compare/disagreement.cpp
   src/compare/fcl_boxes.cpp
   src/compare/fcl_capsules.cpp
   src/compare/fcl_comparer.cpp
 )
-target_include_directories(fiber_proximity_fcl PRIVATE ${PROJECT_SOURCE_DIR})
-target_link_libraries(fiber_proximity_fcl
+target_link_libraries(fiber_proximity_compare
   PUBLIC fiber_proximity PRIVATE fcl fiber_proximity_options)
-fiber_proximity_parse_once(fiber_proximity_fcl ${fcl_headers})
+fiber_proximity_parse_once(fiber_proximity_compare ${fcl_headers})
+fiber_proximity_component(compare fiber_proximity_compare)

@@ -21,7 +21,6 @@ add_library(fiber_bench_peers STATIC
   benchmark/pairs/textbook_pairs.cpp
   benchmark/pairs/turn_times.cpp
 )
-target_include_directories(fiber_bench_peers PUBLIC benchmark)
 target_link_libraries(fiber_bench_peers
   PUBLIC fiber_bench_motions fiber_proximity PRIVATE fiber_proximity_options)
 
@@ -71,7 +70,6 @@ if(FIBER_PROXIMITY_PEERS)
     add_library(fiber_bench_bullet_pairs MODULE
       benchmark/peers/bullet_motions.cpp benchmark/peers/bullet_pairs.cpp)
     target_compile_definitions(fiber_bench_bullet_pairs PRIVATE BT_USE_DOUBLE_PRECISION)
-    target_include_directories(fiber_bench_bullet_pairs PRIVATE benchmark)
     target_include_directories(fiber_bench_bullet_pairs SYSTEM PRIVATE ${BULLET_INCLUDE_FOLDER})
     set_target_properties(fiber_bench_bullet_pairs PROPERTIES CXX_VISIBILITY_PRESET hidden)
     target_link_libraries(fiber_bench_bullet_pairs PRIVATE
@@ -106,5 +104,5 @@ if(FIBER_PROXIMITY_PEERS)
 
   fiber_bench_peer(FCL benchmark/peers/fcl.cpp benchmark/peers/fcl_motions.cpp
     benchmark/peers/fcl_pairs.cpp
-    LIBRARIES fiber_proximity_fcl fcl)
+    LIBRARIES fiber_proximity_compare fcl)
 endif()

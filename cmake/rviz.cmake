@@ -47,5 +47,4 @@ install(FILES rviz_plugins.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 
 # Uses the window that the display is tested in.
 add_executable(display_rate EXCLUDE_FROM_ALL benchmark/display_rate.cpp)
-target_include_directories(display_rate PRIVATE ${PROJECT_SOURCE_DIR}/test)
 target_link_libraries(display_rate fiber_proximity_rviz fiber_proximity_options)

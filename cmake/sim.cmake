@@ -1,4 +1,4 @@
-# Rods that move by the effects a scene calls for; no ROS.
+# Rods that move by the effects a scene calls for, and the YAML files of scenes; no ROS.
 
 add_library(fiber_proximity_sim SHARED
   src/sim/contact/contact_set.cpp
@@ -45,5 +45,28 @@ add_library(fiber_proximity_sim SHARED
 )
 target_link_libraries(fiber_proximity_sim
   PUBLIC fiber_proximity_environment PRIVATE TBB::tbb hwy::hwy fiber_proximity_options)
-target_include_directories(fiber_proximity_sim PRIVATE ${PROJECT_SOURCE_DIR})
 fiber_proximity_parse_once(fiber_proximity_sim ${core_headers})
+fiber_proximity_component(sim fiber_proximity_sim)
+
+# The files of scenes: compiled apart, as nothing in them takes time.
+add_library(sim_scene OBJECT
+  src/sim/scene/description.cpp
+  src/sim/scene/effects.cpp
+  src/sim/scene/fibers.cpp
+  src/sim/scene/force_file.cpp
+  src/sim/scene/holds.cpp
+  src/sim/scene/lead.cpp
+  src/sim/scene/natural_curvature.cpp
+  src/sim/scene/overlap.cpp
+  src/sim/scene/parameters.cpp
+  src/sim/scene/report.cpp
+  src/sim/scene/resolution.cpp
+  src/sim/scene/scene.cpp
+  src/sim/scene/shapes.cpp
+  src/sim/scene/warnings.cpp
+)
+set_target_properties(sim_scene PROPERTIES POSITION_INDEPENDENT_CODE ON)
+target_link_libraries(sim_scene PRIVATE Eigen3::Eigen yaml-cpp fiber_proximity_options)
+fiber_proximity_parse_once(sim_scene ${yaml_headers})
+fiber_proximity_compile_fast(sim_scene)
+target_sources(fiber_proximity_sim PRIVATE $<TARGET_OBJECTS:sim_scene>)

@@ -24,7 +24,6 @@ fiber_proximity_test_headers(test_headers Eigen3::Eigen ${core_headers})
 # The one source that knows where the package is: what else the compiler reads is the same in every checkout,
 # so that ccache knows it again.
 add_library(test_support STATIC ${PROJECT_SOURCE_DIR}/test/support/source_folder.cpp)
-target_include_directories(test_support PRIVATE ${PROJECT_SOURCE_DIR}/test)
 target_compile_definitions(test_support PRIVATE FIBER_PROXIMITY_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 target_link_libraries(test_support PRIVATE fiber_proximity_options)
 
@@ -45,10 +44,7 @@ function(fiber_proximity_gtest name)
       add_dependencies(threaded_tests ${name})
     endif()
   endif()
-  # Some scenes are those of benchmarks, too.
-  target_include_directories(${name} PRIVATE
-    ${PROJECT_SOURCE_DIR}/test ${PROJECT_SOURCE_DIR}/benchmark)
-  target_link_libraries(${name} fiber_proximity fiber_proximity_options test_support ${ARG_LIBRARIES})
+  target_link_libraries(${name} fiber_proximity_paper fiber_proximity_options test_support ${ARG_LIBRARIES})
   add_dependencies(unit_tests ${name})
   set_property(TARGET unit_tests APPEND PROPERTY PROGRAMS $<TARGET_FILE:${name}>)
   if(FIBER_PROXIMITY_PRECOMPILE_HEADERS)

@@ -36,8 +36,7 @@ changed_files() {
   base=$(cat .ci/linted)
   # Work may be taken up again as one commit, without those it was made of: that one is meant then.
   git cat-file -e "$base^{commit}" 2>/dev/null || base=$(git log -1 --format=%H -- .ci/linted)
-  if $all || ! changed=$(git diff --name-only "$base" -- '*.cpp' '*.hpp' '*.inc' .clang-tidy 2>/dev/null) ||
-    grep -qxF .clang-tidy <<<"$changed"; then
+  if $all || ! git diff --quiet "$base" -- .clang-tidy 2>/dev/null || ! changed=$(scripts/changed_sources.py "$base"); then
     echo all
   else
     echo "$changed"

@@ -8,7 +8,7 @@ from .tables import markdown
 
 LEAST_UNITS = 0.05  # an error of 0 stands at the lower edge
 MOST_UNITS = 1e18  # one beyond double at the upper
-KIND_KERNELS = ("fast", "robust", "exact", "textbook", "fcl_capsule", "fcl_gjk", "bullet", "cgal")
+KIND_KERNELS = ("robust", "exact", "textbook", "fcl_capsule", "fcl_gjk", "bullet", "cgal")
 
 
 def unanswered(found):

@@ -13,7 +13,7 @@ COLORS = {
     "run_tree": "#000000", "embree_low": "#00441b", "embree_medium": "#41ab5d",
     "embree_refit": "#a1d99b", "cgal": "#8c510a", "fcl": "#54278f", "fcl_naive": "#bcbddc",
     "bullet": "#fd8d3c",
-    "fast": "#1f77b4", "fast_batch": "#9ecae1", "robust": "#000000", "robust_batch": "#969696",
+    "robust": "#000000", "robust_batch": "#969696",
     "exact": "#d62728", "textbook": "#238b45", "fcl_capsule": "#54278f", "fcl_gjk": "#bcbddc",
     "own": "#000000", "own_single": "#969696", "discrete_1": "#c7e9c0", "discrete_10": "#74c476",
     "discrete_100": "#238b45", "fcl_advancement": "#54278f", "fcl_naive": "#bcbddc",

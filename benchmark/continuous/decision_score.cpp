@@ -1,4 +1,4 @@
-#include "continuous/decision_score.hpp"
+#include "benchmark/continuous/decision_score.hpp"
 
 namespace fiber::bench {
 

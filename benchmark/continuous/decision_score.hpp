@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-#include "continuous/motion_score.hpp"
-#include "pairs/outcome.hpp"
+#include "benchmark/continuous/motion_score.hpp"
+#include "benchmark/pairs/outcome.hpp"
 
 namespace fiber::bench {
 

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "continuous/makers.hpp"
+#include "benchmark/continuous/makers.hpp"
 
 namespace fiber::bench {
 namespace {

@@ -1,7 +1,7 @@
-#include "continuous/fiber_ways.hpp"
+#include "benchmark/continuous/fiber_ways.hpp"
 
-#include "fiber_proximity/scenes/portable_math.hpp"
-#include "fiber_proximity/scenes/random.hpp"
+#include "src/scenes/portable_math.hpp"
+#include "src/scenes/random.hpp"
 
 namespace fiber::bench {
 

@@ -1,12 +1,12 @@
-#include "continuous/known_motions.hpp"
+#include "benchmark/continuous/known_motions.hpp"
 
 #include <algorithm>
 #include <ios>
 #include <sstream>
 #include <stdexcept>
 
-#include "fiber_proximity/io/segment_motions.hpp"
-#include "fiber_proximity/text/quote.hpp"
+#include "src/io/segment_motions.hpp"
+#include "src/text/quote.hpp"
 
 namespace fiber::bench {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "continuous/motion_kernel.hpp"
+#include "benchmark/continuous/motion_kernel.hpp"
 
 namespace fiber::bench {
 

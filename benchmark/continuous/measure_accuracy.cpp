@@ -1,7 +1,7 @@
-#include "continuous/known_motions.hpp"
-#include "continuous/measurements.hpp"
-#include "continuous/motion_accuracy.hpp"
-#include "pairs/chosen_families.hpp"
+#include "benchmark/continuous/known_motions.hpp"
+#include "benchmark/continuous/measurements.hpp"
+#include "benchmark/continuous/motion_accuracy.hpp"
+#include "benchmark/pairs/chosen_families.hpp"
 
 namespace fiber::bench {
 namespace {

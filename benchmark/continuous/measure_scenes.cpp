@@ -1,5 +1,5 @@
-#include "continuous/measurements.hpp"
-#include "continuous/scene_motions.hpp"
+#include "benchmark/continuous/measurements.hpp"
+#include "benchmark/continuous/scene_motions.hpp"
 
 namespace fiber::bench {
 

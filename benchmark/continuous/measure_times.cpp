@@ -1,8 +1,8 @@
-#include "continuous/known_motions.hpp"
-#include "continuous/measurements.hpp"
-#include "continuous/motion_times.hpp"
-#include "pairs/chosen_families.hpp"
-#include "statistics.hpp"
+#include "benchmark/continuous/known_motions.hpp"
+#include "benchmark/continuous/measurements.hpp"
+#include "benchmark/continuous/motion_times.hpp"
+#include "benchmark/pairs/chosen_families.hpp"
+#include "benchmark/statistics.hpp"
 
 namespace fiber::bench {
 namespace {

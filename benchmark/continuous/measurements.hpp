@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "continuous/motion_kernel.hpp"
+#include "benchmark/continuous/motion_kernel.hpp"
 
 namespace fiber::bench {
 

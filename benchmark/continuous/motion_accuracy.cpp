@@ -1,4 +1,4 @@
-#include "continuous/motion_accuracy.hpp"
+#include "benchmark/continuous/motion_accuracy.hpp"
 
 #include <algorithm>
 #include <atomic>

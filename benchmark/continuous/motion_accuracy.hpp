@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "continuous/motion_score.hpp"
+#include "benchmark/continuous/motion_score.hpp"
 
 namespace fiber::bench {
 

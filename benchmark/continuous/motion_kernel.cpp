@@ -1,7 +1,7 @@
-#include "continuous/motion_kernel.hpp"
+#include "benchmark/continuous/motion_kernel.hpp"
 
-#include "continuous/makers.hpp"
-#include "pairs/kernel_list.hpp"
+#include "benchmark/continuous/makers.hpp"
+#include "benchmark/pairs/kernel_list.hpp"
 
 namespace fiber::bench {
 namespace {

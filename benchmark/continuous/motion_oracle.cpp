@@ -1,11 +1,11 @@
-#include "continuous/motion_oracle.hpp"
+#include "benchmark/continuous/motion_oracle.hpp"
 
 #include <algorithm>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <vector>
 
-#include "continuous/motion_score.hpp"
+#include "benchmark/continuous/motion_score.hpp"
 
 namespace fiber::bench {
 namespace {

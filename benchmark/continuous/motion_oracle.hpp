@@ -2,9 +2,9 @@
 
 #include <optional>
 
-#include "continuous/motion_separation.hpp"
-#include "continuous/moving_pair.hpp"
-#include "fiber_proximity/scenes/hard_motions.hpp"
+#include "benchmark/continuous/motion_separation.hpp"
+#include "benchmark/continuous/moving_pair.hpp"
+#include "src/scenes/hard_motions.hpp"
 
 namespace fiber::bench {
 

@@ -1,10 +1,10 @@
-#include "continuous/motion_score.hpp"
+#include "benchmark/continuous/motion_score.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "continuous/motion_oracle.hpp"
+#include "benchmark/continuous/motion_oracle.hpp"
 
 namespace fiber::bench {
 

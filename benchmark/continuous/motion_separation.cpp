@@ -1,4 +1,4 @@
-#include "continuous/motion_separation.hpp"
+#include "benchmark/continuous/motion_separation.hpp"
 
 #include <algorithm>
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "continuous/time_polynomial.hpp"
-#include "fiber_proximity/scenes/hard_motions.hpp"
+#include "benchmark/continuous/time_polynomial.hpp"
+#include "src/scenes/hard_motions.hpp"
 
 namespace fiber::bench {
 

@@ -1,4 +1,4 @@
-#include "continuous/motion_times.hpp"
+#include "benchmark/continuous/motion_times.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +6,10 @@
 #include <tuple>
 #include <utility>
 
-#include "pairs/child_process.hpp"
-#include "pairs/guarded_calls.hpp"
-#include "pairs/turn_times.hpp"
-#include "peers/translation.hpp"
+#include "benchmark/pairs/child_process.hpp"
+#include "benchmark/pairs/guarded_calls.hpp"
+#include "benchmark/pairs/turn_times.hpp"
+#include "benchmark/peers/translation.hpp"
 
 namespace fiber::bench {
 namespace {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "continuous/decision_score.hpp"
-#include "continuous/motion_kernel.hpp"
+#include "benchmark/continuous/decision_score.hpp"
+#include "benchmark/continuous/motion_kernel.hpp"
 
 namespace fiber::bench {
 

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "continuous/reference_vector.hpp"
-#include "fiber_proximity/scenes/hard_motions.hpp"
+#include "benchmark/continuous/reference_vector.hpp"
+#include "src/scenes/hard_motions.hpp"
 
 /// Two segments that move, as the truth about them is found, in any kind of number: by formulas
 /// that the kernel does not use.

@@ -1,4 +1,4 @@
-#include "continuous/makers.hpp"
+#include "benchmark/continuous/makers.hpp"
 
 namespace fiber::bench {
 namespace {

@@ -1,15 +1,15 @@
-#include "continuous/scene_motions.hpp"
+#include "benchmark/continuous/scene_motions.hpp"
 
 #include <algorithm>
 #include <memory>
 #include <utility>
 
-#include "continuous/fiber_ways.hpp"
-#include "fiber_proximity/query/contact_judge.hpp"
+#include "benchmark/continuous/fiber_ways.hpp"
+#include "benchmark/processor_time.hpp"
+#include "benchmark/statistics.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
-#include "processor_time.hpp"
-#include "statistics.hpp"
+#include "src/query/contact_judge.hpp"
 
 namespace fiber::bench {
 namespace {

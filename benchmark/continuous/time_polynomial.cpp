@@ -1,4 +1,4 @@
-#include "continuous/time_polynomial.hpp"
+#include "benchmark/continuous/time_polynomial.hpp"
 
 #include <algorithm>
 

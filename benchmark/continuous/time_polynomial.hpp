@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "continuous/reference_vector.hpp"
+#include "benchmark/continuous/reference_vector.hpp"
 
 namespace fiber::bench {
 

@@ -1,6 +1,6 @@
-#include "environment/arm.hpp"
+#include "benchmark/environment/arm.hpp"
 
-#include "fiber_proximity/scenes/portable_math.hpp"
+#include "src/scenes/portable_math.hpp"
 
 namespace fiber {
 namespace {

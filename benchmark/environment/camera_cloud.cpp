@@ -1,11 +1,11 @@
-#include "environment/camera_cloud.hpp"
+#include "benchmark/environment/camera_cloud.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "fiber_proximity/scenes/portable_math.hpp"
-#include "fiber_proximity/scenes/random.hpp"
+#include "src/scenes/portable_math.hpp"
+#include "src/scenes/random.hpp"
 
 namespace fiber {
 namespace {

@@ -1,11 +1,11 @@
-#include "environment/capsule_mesh.hpp"
+#include "benchmark/environment/capsule_mesh.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
 
-#include "fiber_proximity/scenes/portable_math.hpp"
+#include "src/scenes/portable_math.hpp"
 
 namespace fiber {
 namespace {

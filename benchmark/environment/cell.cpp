@@ -1,12 +1,12 @@
-#include "environment/cell.hpp"
+#include "benchmark/environment/cell.hpp"
 
 #include <string>
 #include <utility>
 
-#include "environment/arm.hpp"
-#include "environment/capsule_mesh.hpp"
-#include "fiber_proximity/scenes/portable_math.hpp"
-#include "fiber_proximity/scenes/random.hpp"
+#include "benchmark/environment/arm.hpp"
+#include "benchmark/environment/capsule_mesh.hpp"
+#include "src/scenes/portable_math.hpp"
+#include "src/scenes/random.hpp"
 
 namespace fiber {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "environment/cell.hpp"
+#include "benchmark/environment/cell.hpp"
 
 namespace fiber {
 

@@ -1,4 +1,4 @@
-#include "environment/cell_difference.hpp"
+#include "benchmark/environment/cell_difference.hpp"
 
 #include <algorithm>
 #include <cmath>

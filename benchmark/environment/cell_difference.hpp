@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "environment/cell_checker.hpp"
+#include "benchmark/environment/cell_checker.hpp"
 
 namespace fiber {
 

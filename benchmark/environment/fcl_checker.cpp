@@ -10,9 +10,9 @@
 #include <map>
 #include <string>
 
-#include "environment/cell_checker.hpp"
-#include "environment/fcl_shapes.hpp"
-#include "fiber_proximity/geometry/smallest_rotation.hpp"
+#include "benchmark/environment/cell_checker.hpp"
+#include "benchmark/environment/fcl_shapes.hpp"
+#include "src/geometry/smallest_rotation.hpp"
 
 namespace fiber {
 namespace {

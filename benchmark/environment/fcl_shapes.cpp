@@ -1,4 +1,4 @@
-#include "environment/fcl_shapes.hpp"
+#include "benchmark/environment/fcl_shapes.hpp"
 
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/shape/box.h>

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "environment/measurements.hpp"
+#include "benchmark/environment/measurements.hpp"
+#include "benchmark/statistics.hpp"
 #include "fiber_proximity/environment/check_fibers.hpp"
-#include "fiber_proximity/query/threads.hpp"
-#include "progress.hpp"
-#include "statistics.hpp"
+#include "src/query/threads.hpp"
+#include "src/tools/progress.hpp"
 
 namespace fiber {
 namespace {

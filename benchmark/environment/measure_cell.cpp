@@ -2,10 +2,10 @@
 #include <memory>
 #include <string>
 
-#include "environment/cell_difference.hpp"
-#include "environment/measurements.hpp"
-#include "progress.hpp"
-#include "statistics.hpp"
+#include "benchmark/environment/cell_difference.hpp"
+#include "benchmark/environment/measurements.hpp"
+#include "benchmark/statistics.hpp"
+#include "src/tools/progress.hpp"
 
 namespace fiber {
 namespace {

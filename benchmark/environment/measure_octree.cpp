@@ -1,10 +1,10 @@
 #include <array>
 
-#include "environment/camera_cloud.hpp"
-#include "environment/measurements.hpp"
-#include "fiber_proximity/environment/occupancy_octree.hpp"
-#include "progress.hpp"
-#include "statistics.hpp"
+#include "benchmark/environment/camera_cloud.hpp"
+#include "benchmark/environment/measurements.hpp"
+#include "benchmark/statistics.hpp"
+#include "src/environment/occupancy_octree.hpp"
+#include "src/tools/progress.hpp"
 
 namespace fiber {
 namespace {

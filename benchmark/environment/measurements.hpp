@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "environment/cell_checker.hpp"
+#include "benchmark/environment/cell_checker.hpp"
 
 namespace fiber {
 

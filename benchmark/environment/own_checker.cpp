@@ -2,8 +2,8 @@
 #include <map>
 #include <string>
 
-#include "environment/cell_checker.hpp"
-#include "fiber_proximity/query/run_tree_engine.hpp"
+#include "benchmark/environment/cell_checker.hpp"
+#include "src/query/run_tree_engine.hpp"
 
 namespace fiber {
 namespace {

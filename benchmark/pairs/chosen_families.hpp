@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "command_line.hpp"
+#include "src/tools/command_line.hpp"
 
 namespace fiber {
 

@@ -1,10 +1,10 @@
-#include "pairs/guarded_answers.hpp"
+#include "benchmark/pairs/guarded_answers.hpp"
 
 #include <cmath>
 #include <stdexcept>
 
-#include "pairs/child_process.hpp"
-#include "pairs/guarded_calls.hpp"
+#include "benchmark/pairs/child_process.hpp"
+#include "benchmark/pairs/guarded_calls.hpp"
 
 namespace fiber {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "pairs/outcome.hpp"
-#include "pairs/pair_kernel.hpp"
+#include "benchmark/pairs/outcome.hpp"
+#include "benchmark/pairs/pair_kernel.hpp"
 
 namespace fiber {
 

@@ -1,10 +1,10 @@
-#include "pairs/guarded_calls.hpp"
+#include "benchmark/pairs/guarded_calls.hpp"
 
 #include <sys/time.h>
 
 #include <stdexcept>
 
-#include "pairs/child_process.hpp"
+#include "benchmark/pairs/child_process.hpp"
 
 namespace fiber {
 namespace {

@@ -2,15 +2,13 @@
 
 #include <memory>
 
-#include "pairs/pair_kernel.hpp"
+#include "benchmark/pairs/pair_kernel.hpp"
 
 namespace fiber {
 
 /// Makes a kernel; null where this build is without it.
 using PairKernelMaker = std::unique_ptr<PairKernel> (*)();
 
-std::unique_ptr<PairKernel> make_fast_pairs();
-std::unique_ptr<PairKernel> make_fast_batch_pairs();
 std::unique_ptr<PairKernel> make_robust_pairs();
 std::unique_ptr<PairKernel> make_robust_batch_pairs();
 std::unique_ptr<PairKernel> make_exact_pairs();

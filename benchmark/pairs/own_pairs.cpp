@@ -1,8 +1,8 @@
 #include <cmath>
 
+#include "benchmark/pairs/makers.hpp"
 #include "fiber_proximity/geometry/exact_distance.hpp"
 #include "fiber_proximity/geometry/segment_distance.hpp"
-#include "pairs/makers.hpp"
 
 namespace fiber {
 namespace {
@@ -40,9 +40,6 @@ class OwnPairs : public PairKernel {
     const auto& [p0, p1, q0, q1, radius_a, radius_b] = pair;
     const ContactLimit limit{radius_a, radius_b, 0.0};
     switch (kernel_) {
-      case Kernel::FAST:  // a filter: what it leaves out must be no contact, the sum rounded or not
-        return found.lower() <=
-               std::nextafter(radius_a + radius_b, std::numeric_limits<double>::infinity());
       case Kernel::ROBUST:
         return gap_at_most(found, p0, p1, q0, q1, limit);
       case Kernel::EXACT:
@@ -100,12 +97,6 @@ class OwnBatchPairs final : public OwnPairs {
 };
 
 }  // namespace
-
-std::unique_ptr<PairKernel> make_fast_pairs() { return std::make_unique<OwnPairs>(Kernel::FAST); }
-
-std::unique_ptr<PairKernel> make_fast_batch_pairs() {
-  return std::make_unique<OwnBatchPairs>(Kernel::FAST, fast_segment_distances);
-}
 
 std::unique_ptr<PairKernel> make_robust_pairs() {
   return std::make_unique<OwnPairs>(Kernel::ROBUST);

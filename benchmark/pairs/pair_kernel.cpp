@@ -1,14 +1,12 @@
-#include "pairs/pair_kernel.hpp"
+#include "benchmark/pairs/pair_kernel.hpp"
 
-#include "pairs/kernel_list.hpp"
-#include "pairs/makers.hpp"
+#include "benchmark/pairs/kernel_list.hpp"
+#include "benchmark/pairs/makers.hpp"
 
 namespace fiber {
 namespace {
 
 constexpr KernelEntry<PairKernel> pair_kernels[] = {
-    {"fast", "", make_fast_pairs},
-    {"fast_batch", "", make_fast_batch_pairs},
     {"robust", "", make_robust_pairs},
     {"robust_batch", "", make_robust_batch_pairs},
     {"exact", "", make_exact_pairs},

@@ -1,4 +1,4 @@
-#include "pairs/pair_score.hpp"
+#include "benchmark/pairs/pair_score.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "pairs/guarded_answers.hpp"
+#include "benchmark/pairs/guarded_answers.hpp"
 
 namespace fiber {
 

@@ -1,8 +1,8 @@
-#include "pairs/pair_times.hpp"
+#include "benchmark/pairs/pair_times.hpp"
 
 #include <memory>
 
-#include "pairs/turn_times.hpp"
+#include "benchmark/pairs/turn_times.hpp"
 
 namespace fiber {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "pairs/pair_kernel.hpp"
+#include "benchmark/pairs/pair_kernel.hpp"
 
 namespace fiber {
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pairs/makers.hpp"
-#include "pairs/textbook.hpp"
+#include "benchmark/pairs/makers.hpp"
+#include "benchmark/pairs/textbook.hpp"
 
 namespace fiber {
 

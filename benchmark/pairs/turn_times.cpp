@@ -1,10 +1,10 @@
-#include "pairs/turn_times.hpp"
+#include "benchmark/pairs/turn_times.hpp"
 
 #include <algorithm>
 #include <stdexcept>
 
-#include "pairs/child_process.hpp"
-#include "statistics.hpp"
+#include "benchmark/pairs/child_process.hpp"
+#include "benchmark/statistics.hpp"
 
 namespace fiber {
 namespace {

@@ -1,9 +1,9 @@
 #include <BulletCollision/BroadphaseCollision/btDbvt.h>
 
-#include "fiber_proximity/hierarchy/segment_boxes.hpp"
+#include "benchmark/peers/makers.hpp"
+#include "benchmark/peers/peer_engine.hpp"
 #include "fiber_proximity/query/pair_collector.hpp"
-#include "peers/makers.hpp"
-#include "peers/peer_engine.hpp"
+#include "src/hierarchy/segment_boxes.hpp"
 
 namespace fiber {
 namespace {

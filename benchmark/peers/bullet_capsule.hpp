@@ -2,7 +2,7 @@
 
 #include <BulletCollision/CollisionShapes/btCapsuleShape.h>
 
-#include "peers/capsule_pose.hpp"
+#include "benchmark/peers/capsule_pose.hpp"
 
 namespace fiber {
 

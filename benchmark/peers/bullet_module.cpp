@@ -1,11 +1,11 @@
-#include "peers/bullet_module.hpp"
+#include "benchmark/peers/bullet_module.hpp"
 
 #include <dlfcn.h>
 
 #include <stdexcept>
 
-#include "continuous/makers.hpp"
-#include "pairs/makers.hpp"
+#include "benchmark/continuous/makers.hpp"
+#include "benchmark/pairs/makers.hpp"
 
 namespace fiber {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "continuous/motion_kernel.hpp"
-#include "pairs/pair_kernel.hpp"
+#include "benchmark/continuous/motion_kernel.hpp"
+#include "benchmark/pairs/pair_kernel.hpp"
 
 namespace fiber::bench {
 

@@ -4,9 +4,9 @@
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
 
-#include "peers/bullet_capsule.hpp"
-#include "peers/bullet_module.hpp"
-#include "peers/translation.hpp"
+#include "benchmark/peers/bullet_capsule.hpp"
+#include "benchmark/peers/bullet_module.hpp"
+#include "benchmark/peers/translation.hpp"
 
 namespace fiber::bench {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <stdexcept>
 
-#include "peers/bullet_capsule.hpp"
-#include "peers/bullet_module.hpp"
+#include "benchmark/peers/bullet_capsule.hpp"
+#include "benchmark/peers/bullet_module.hpp"
 
 namespace fiber {
 namespace {

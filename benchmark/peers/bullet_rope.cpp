@@ -3,7 +3,7 @@
 #include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
 #include <btBulletDynamicsCommon.h>
 
-#include "peers/cable_peers.hpp"
+#include "benchmark/peers/cable_peers.hpp"
 
 namespace fiber {
 

@@ -1,4 +1,4 @@
-#include "peers/cable_peers.hpp"
+#include "benchmark/peers/cable_peers.hpp"
 
 namespace fiber {
 namespace {

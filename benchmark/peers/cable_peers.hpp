@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/cable_scene.hpp"
+#include "benchmark/sim/cable_scene.hpp"
 
 namespace fiber {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pairs/makers.hpp"
+#include "benchmark/pairs/makers.hpp"
 
 namespace fiber {
 namespace {

@@ -7,11 +7,11 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "fiber_proximity/hierarchy/segment_boxes.hpp"
-#include "peers/makers.hpp"
-#include "peers/parallel_collector.hpp"
-#include "peers/peer_engine.hpp"
-#include "peers/peer_threads.hpp"
+#include "benchmark/peers/makers.hpp"
+#include "benchmark/peers/parallel_collector.hpp"
+#include "benchmark/peers/peer_engine.hpp"
+#include "benchmark/peers/peer_threads.hpp"
+#include "src/hierarchy/segment_boxes.hpp"
 
 namespace fiber {
 namespace {

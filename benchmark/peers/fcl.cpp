@@ -1,7 +1,7 @@
+#include "benchmark/peers/makers.hpp"
+#include "benchmark/peers/peer_engine.hpp"
 #include "fiber_proximity/compare/fcl_broad_phase.hpp"
 #include "fiber_proximity/query/pair_collector.hpp"
-#include "peers/makers.hpp"
-#include "peers/peer_engine.hpp"
 
 namespace fiber {
 namespace {

@@ -1,8 +1,8 @@
 #include <fcl/narrowphase/continuous_collision.h>
 
-#include "continuous/makers.hpp"
-#include "peers/fcl_capsule.hpp"
-#include "peers/translation.hpp"
+#include "benchmark/continuous/makers.hpp"
+#include "benchmark/peers/fcl_capsule.hpp"
+#include "benchmark/peers/translation.hpp"
 
 namespace fiber::bench {
 namespace {

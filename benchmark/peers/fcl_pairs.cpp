@@ -1,7 +1,7 @@
 #include <fcl/narrowphase/distance.h>
 
-#include "pairs/makers.hpp"
-#include "peers/fcl_capsule.hpp"
+#include "benchmark/pairs/makers.hpp"
+#include "benchmark/peers/fcl_capsule.hpp"
 
 namespace fiber {
 namespace {

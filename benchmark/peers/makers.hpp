@@ -2,8 +2,8 @@
 
 #include <memory>
 
+#include "benchmark/peers/peer.hpp"
 #include "fiber_proximity/query/engine.hpp"
-#include "peers/peer.hpp"
 
 namespace fiber {
 

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "peers/cable_peers.hpp"
+#include "benchmark/peers/cable_peers.hpp"
 
 namespace fiber {
 

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "fiber_proximity/hierarchy/sort_keys.hpp"
-#include "fiber_proximity/query/contact_judge.hpp"
 #include "fiber_proximity/query/query_limits.hpp"
+#include "src/hierarchy/sort_keys.hpp"
+#include "src/query/contact_judge.hpp"
 
 namespace fiber {
 

@@ -1,11 +1,11 @@
-#include "peers/peer.hpp"
+#include "benchmark/peers/peer.hpp"
 
 #include <cassert>
 #include <cmath>
 #include <stdexcept>
 
-#include "fiber_proximity/query/threads.hpp"
-#include "peers/makers.hpp"
+#include "benchmark/peers/makers.hpp"
+#include "src/query/threads.hpp"
 
 namespace fiber {
 namespace {

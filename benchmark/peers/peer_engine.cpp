@@ -1,4 +1,4 @@
-#include "peers/peer_engine.hpp"
+#include "benchmark/peers/peer_engine.hpp"
 
 #include <stdexcept>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "peers/peer.hpp"
+#include "benchmark/peers/peer.hpp"
 
 namespace fiber {
 

@@ -4,8 +4,8 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include "fiber_proximity/hierarchy/segment_boxes.hpp"
-#include "fiber_proximity/query/threads.hpp"
+#include "src/hierarchy/segment_boxes.hpp"
+#include "src/query/threads.hpp"
 
 namespace fiber {
 

@@ -1,4 +1,4 @@
-#include "sim/cable_judge.hpp"
+#include "benchmark/sim/cable_judge.hpp"
 
 #include <algorithm>
 #include <cassert>

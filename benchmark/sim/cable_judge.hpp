@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/cable_run.hpp"
+#include "benchmark/sim/cable_run.hpp"
 
 namespace fiber {
 

@@ -1,4 +1,4 @@
-#include "sim/cable_run.hpp"
+#include "benchmark/sim/cable_run.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,8 +6,8 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "pairs/child_process.hpp"
-#include "processor_time.hpp"
+#include "benchmark/pairs/child_process.hpp"
+#include "benchmark/processor_time.hpp"
 
 namespace fiber {
 

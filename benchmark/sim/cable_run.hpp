@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "sim/cable_scene.hpp"
+#include "benchmark/sim/cable_scene.hpp"
 
 namespace fiber {
 

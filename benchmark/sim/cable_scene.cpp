@@ -1,8 +1,8 @@
-#include "sim/cable_scene.hpp"
+#include "benchmark/sim/cable_scene.hpp"
 
 #include <cmath>
 
-#include "sim/hose.hpp"
+#include "benchmark/sim/hose.hpp"
 
 namespace fiber {
 

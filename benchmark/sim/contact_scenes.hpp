@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "benchmark/sim/rod_scene.hpp"
 #include "fiber_proximity/environment/environment.hpp"
 #include "fiber_proximity/sim/effects/bend.hpp"
 #include "fiber_proximity/sim/effects/environment_contact.hpp"
@@ -12,7 +13,6 @@
 #include "fiber_proximity/sim/effects/gravity.hpp"
 #include "fiber_proximity/sim/effects/stretch.hpp"
 #include "fiber_proximity/sim/stepper.hpp"
-#include "sim/rod_scene.hpp"
 
 namespace fiber {
 

@@ -1,10 +1,10 @@
-#include "sim/effect_costs.hpp"
+#include "benchmark/sim/effect_costs.hpp"
 
 #include <malloc.h>
 
 #include <algorithm>
 
-#include "processor_time.hpp"
+#include "benchmark/processor_time.hpp"
 
 namespace fiber {
 

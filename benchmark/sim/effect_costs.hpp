@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/effect_scene.hpp"
+#include "benchmark/sim/effect_scene.hpp"
 
 namespace fiber {
 

@@ -1,14 +1,14 @@
-#include "sim/effect_scene.hpp"
+#include "benchmark/sim/effect_scene.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "benchmark/sim/contact_scenes.hpp"
 #include "fiber_proximity/sim/effects/damping.hpp"
 #include "fiber_proximity/sim/effects/drag.hpp"
 #include "fiber_proximity/sim/effects/inextensible.hpp"
 #include "fiber_proximity/sim/effects/plasticity.hpp"
 #include "fiber_proximity/sim/effects/twist.hpp"
-#include "sim/contact_scenes.hpp"
 
 namespace fiber {
 

@@ -1,10 +1,10 @@
-#include "sim/elastica.hpp"
+#include "benchmark/sim/elastica.hpp"
 
 #include <array>
 #include <boost/numeric/odeint/stepper/runge_kutta4.hpp>
 #include <cmath>
 
-#include "sim/root.hpp"
+#include "benchmark/sim/root.hpp"
 
 namespace fiber {
 namespace {

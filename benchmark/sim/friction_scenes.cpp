@@ -1,9 +1,9 @@
-#include "sim/friction_scenes.hpp"
+#include "benchmark/sim/friction_scenes.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "sim/contact_scenes.hpp"
+#include "benchmark/sim/contact_scenes.hpp"
 
 namespace fiber {
 

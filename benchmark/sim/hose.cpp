@@ -1,11 +1,11 @@
-#include "sim/hose.hpp"
+#include "benchmark/sim/hose.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
-#include "processor_time.hpp"
-#include "sim/rod_scene.hpp"
+#include "benchmark/processor_time.hpp"
+#include "benchmark/sim/rod_scene.hpp"
 
 namespace fiber {
 

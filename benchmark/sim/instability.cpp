@@ -1,12 +1,12 @@
-#include "sim/instability.hpp"
+#include "benchmark/sim/instability.hpp"
 
 #include <cmath>
 #include <iterator>
 
-#include "fiber_proximity/geometry/smallest_rotation.hpp"
+#include "benchmark/sim/rod_scene.hpp"
+#include "benchmark/sim/root.hpp"
 #include "fiber_proximity/sim/effects/twist.hpp"
-#include "sim/rod_scene.hpp"
-#include "sim/root.hpp"
+#include "src/geometry/smallest_rotation.hpp"
 
 namespace fiber {
 

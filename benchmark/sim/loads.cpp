@@ -1,13 +1,13 @@
-#include "sim/loads.hpp"
+#include "benchmark/sim/loads.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <thread>
 
+#include "benchmark/sim/contact_scenes.hpp"
+#include "benchmark/sim/effect_scene.hpp"
+#include "benchmark/statistics.hpp"
 #include "fiber_proximity/sim/effects/attachment.hpp"
-#include "sim/contact_scenes.hpp"
-#include "sim/effect_scene.hpp"
-#include "statistics.hpp"
 
 namespace fiber {
 

@@ -1,11 +1,11 @@
-#include "sim/measurements.hpp"
+#include "benchmark/sim/measurements.hpp"
 
 #include <algorithm>
 
-#include "processor_time.hpp"
-#include "sim/hose.hpp"
-#include "sim/validation.hpp"
-#include "sim/xpbd_rod.hpp"
+#include "benchmark/processor_time.hpp"
+#include "benchmark/sim/hose.hpp"
+#include "benchmark/sim/validation.hpp"
+#include "benchmark/sim/xpbd_rod.hpp"
 
 namespace fiber {
 

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "sim/effect_costs.hpp"
-#include "sim/loads.hpp"
+#include "benchmark/sim/effect_costs.hpp"
+#include "benchmark/sim/loads.hpp"
 
 namespace fiber {
 

@@ -1,10 +1,10 @@
-#include "sim/motion.hpp"
+#include "benchmark/sim/motion.hpp"
 
 #include <cmath>
 
+#include "benchmark/sim/rod_scene.hpp"
+#include "benchmark/sim/root.hpp"
 #include "fiber_proximity/sim/effects/twist.hpp"
-#include "sim/rod_scene.hpp"
-#include "sim/root.hpp"
 
 namespace fiber {
 

@@ -1,8 +1,8 @@
-#include "sim/own_cables.hpp"
+#include "benchmark/sim/own_cables.hpp"
 
 #include <sstream>
 
-#include "sim/contact_scenes.hpp"
+#include "benchmark/sim/contact_scenes.hpp"
 
 namespace fiber {
 

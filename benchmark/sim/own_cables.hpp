@@ -1,7 +1,7 @@
 #pragma once
 
+#include "benchmark/sim/cable_scene.hpp"
 #include "fiber_proximity/sim/stepper.hpp"
-#include "sim/cable_scene.hpp"
 
 namespace fiber {
 

@@ -1,12 +1,12 @@
 #include <iostream>
 #include <limits>
 
-#include "peers/cable_peers.hpp"
-#include "sim/cable_judge.hpp"
-#include "sim/measurements.hpp"
-#include "sim/own_cables.hpp"
-#include "sim/tip_truth.hpp"
-#include "statistics.hpp"
+#include "benchmark/peers/cable_peers.hpp"
+#include "benchmark/sim/cable_judge.hpp"
+#include "benchmark/sim/measurements.hpp"
+#include "benchmark/sim/own_cables.hpp"
+#include "benchmark/sim/tip_truth.hpp"
+#include "benchmark/statistics.hpp"
 
 namespace fiber {
 namespace {

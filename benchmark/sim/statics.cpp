@@ -1,9 +1,9 @@
-#include "sim/statics.hpp"
+#include "benchmark/sim/statics.hpp"
 
 #include <cmath>
 
-#include "sim/rod_scene.hpp"
-#include "sim/root.hpp"
+#include "benchmark/sim/rod_scene.hpp"
+#include "benchmark/sim/root.hpp"
 
 namespace fiber {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/elastica.hpp"
+#include "benchmark/sim/elastica.hpp"
 
 namespace fiber {
 

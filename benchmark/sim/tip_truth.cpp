@@ -1,10 +1,10 @@
-#include "sim/tip_truth.hpp"
+#include "benchmark/sim/tip_truth.hpp"
 
 #include <cassert>
 #include <cmath>
 
-#include "sim/elastica.hpp"
-#include "sim/own_cables.hpp"
+#include "benchmark/sim/elastica.hpp"
+#include "benchmark/sim/own_cables.hpp"
 
 namespace fiber {
 

@@ -1,12 +1,12 @@
-#include "sim/validation.hpp"
+#include "benchmark/sim/validation.hpp"
 
 #include <cmath>
 #include <sstream>
 
-#include "sim/friction_scenes.hpp"
-#include "sim/instability.hpp"
-#include "sim/motion.hpp"
-#include "sim/statics.hpp"
+#include "benchmark/sim/friction_scenes.hpp"
+#include "benchmark/sim/instability.hpp"
+#include "benchmark/sim/motion.hpp"
+#include "benchmark/sim/statics.hpp"
 
 namespace fiber {
 namespace {

@@ -1,8 +1,8 @@
-#include "sim/xpbd_rod.hpp"
+#include "benchmark/sim/xpbd_rod.hpp"
 
 #include <algorithm>
 
-#include "fiber_proximity/geometry/smallest_rotation.hpp"
+#include "src/geometry/smallest_rotation.hpp"
 
 namespace fiber {
 

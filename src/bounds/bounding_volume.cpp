@@ -1,4 +1,4 @@
-#include "fiber_proximity/bounds/bounding_volume.hpp"
+#include "src/bounds/bounding_volume.hpp"
 
 #include <cmath>
 #include <limits>

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "fiber_proximity/query/contact_judge.hpp"
+#include "src/query/contact_judge.hpp"
 
 namespace fiber {
 namespace {

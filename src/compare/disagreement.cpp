@@ -49,7 +49,7 @@ Disagreement PairOracle::judge(PointPair pair, const std::optional<PairClaim>& o
   return found;
 }
 
-/// The kernels fast and exact decide without error; robust goes by the distance that it computes.
+/// The kernel exact decides without error; robust goes by the distance that it computes.
 bool PairOracle::ours_is_right(PointPair pair, const Disagreement& found) const {
   const bool decides_exactly = options_.kernel != Kernel::ROBUST;
   if (found.ours) {

@@ -1,8 +1,8 @@
 #include <fcl/geometry/shape/sphere.h>
 
 #include "fiber_proximity/compare/fcl_broad_phase.hpp"
-#include "fiber_proximity/hierarchy/segment_boxes.hpp"
 #include "src/compare/fcl_manager.hpp"
+#include "src/hierarchy/segment_boxes.hpp"
 
 namespace fiber {
 namespace {

@@ -7,9 +7,9 @@
 #include <limits>
 
 #include "fiber_proximity/compare/fcl_broad_phase.hpp"
-#include "fiber_proximity/geometry/smallest_rotation.hpp"
-#include "fiber_proximity/hierarchy/fiber_order.hpp"
 #include "src/compare/fcl_manager.hpp"
+#include "src/geometry/smallest_rotation.hpp"
+#include "src/hierarchy/fiber_order.hpp"
 
 namespace fiber {
 namespace {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "fiber_proximity/query/contact_judge.hpp"
+#include "src/query/contact_judge.hpp"
 
 namespace fiber {
 namespace {

@@ -1,4 +1,4 @@
-#include "fiber_proximity/environment/allowed_contacts.hpp"
+#include "src/environment/allowed_contacts.hpp"
 
 #include <algorithm>
 #include <map>
@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "fiber_proximity/text/quote.hpp"
+#include "src/text/quote.hpp"
 
 namespace fiber {
 namespace {

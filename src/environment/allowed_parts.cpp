@@ -1,4 +1,4 @@
-#include "allowed_parts.hpp"
+#include "src/environment/allowed_parts.hpp"
 
 #include <algorithm>
 #include <map>

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "fiber_proximity/environment/environment.hpp"
-#include "world_shape.hpp"
+#include "src/environment/world_shape.hpp"
 
 namespace fiber {
 

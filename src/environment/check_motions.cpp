@@ -9,11 +9,11 @@
 #include <stdexcept>
 #include <string>
 
-#include "fiber_proximity/geometry/swept_fibers.hpp"
-#include "fiber_proximity/query/contact_in_motion.hpp"
 #include "fiber_proximity/query/deadline.hpp"
-#include "fiber_proximity/text/with_context.hpp"
-#include "path_collector.hpp"
+#include "src/environment/path_collector.hpp"
+#include "src/geometry/swept_fibers.hpp"
+#include "src/query/contact_in_motion.hpp"
+#include "src/text/with_context.hpp"
 
 namespace fiber {
 namespace {

@@ -7,11 +7,11 @@
 #include <string>
 #include <utility>
 
-#include "broad_phase.hpp"
-#include "environment_query.hpp"
-#include "fiber_proximity/query/contact_in_motion.hpp"
-#include "fiber_proximity/text/quote.hpp"
-#include "object_path.hpp"
+#include "src/environment/broad_phase.hpp"
+#include "src/environment/environment_query.hpp"
+#include "src/environment/object_path.hpp"
+#include "src/query/contact_in_motion.hpp"
+#include "src/text/quote.hpp"
 
 namespace fiber {
 namespace {

@@ -1,4 +1,4 @@
-#include "environment_motion.hpp"
+#include "src/environment/environment_motion.hpp"
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -11,13 +11,13 @@
 #include <string>
 #include <string_view>
 
-#include "broad_phase.hpp"
 #include "fiber_proximity/environment/environment.hpp"
-#include "fiber_proximity/geometry/swept_fibers.hpp"
-#include "fiber_proximity/query/contact_judge.hpp"
-#include "fiber_proximity/query/narrow_contact_time.hpp"
-#include "fiber_proximity/text/quote.hpp"
-#include "shape_motion.hpp"
+#include "src/environment/broad_phase.hpp"
+#include "src/environment/shape_motion.hpp"
+#include "src/geometry/swept_fibers.hpp"
+#include "src/query/contact_judge.hpp"
+#include "src/query/narrow_contact_time.hpp"
+#include "src/text/quote.hpp"
 
 namespace fiber {
 namespace {

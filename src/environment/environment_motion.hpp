@@ -3,11 +3,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "allowed_parts.hpp"
 #include "fiber_proximity/query/motion_judge.hpp"
 #include "fiber_proximity/query/motion_slices.hpp"
 #include "fiber_proximity/query/query_limits.hpp"
-#include "world_shape.hpp"
+#include "src/environment/allowed_parts.hpp"
+#include "src/environment/world_shape.hpp"
 
 namespace fiber {
 

@@ -1,9 +1,9 @@
-#include "environment_query.hpp"
+#include "src/environment/environment_query.hpp"
 
 #include <algorithm>
 #include <limits>
 
-#include "broad_phase.hpp"
+#include "src/environment/broad_phase.hpp"
 
 namespace fiber {
 SegmentRun::SegmentRun(const FiberAssembly& fibers, std::uint32_t owner, std::uint32_t first_point,

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "allowed_parts.hpp"
 #include "fiber_proximity/environment/allowed_pairs.hpp"
 #include "fiber_proximity/environment/axis_distance.hpp"
 #include "fiber_proximity/environment/shape_box.hpp"
@@ -11,6 +10,7 @@
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/contact_keeper.hpp"
+#include "src/environment/allowed_parts.hpp"
 
 namespace fiber {
 

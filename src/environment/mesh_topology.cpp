@@ -1,4 +1,4 @@
-#include "mesh_topology.hpp"
+#include "src/environment/mesh_topology.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "object_path.hpp"
+#include "src/environment/object_path.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "fiber_proximity/environment/obstacle_parts.hpp"
+#include "src/environment/obstacle_parts.hpp"
 
 #include <cmath>
 #include <sstream>

@@ -1,4 +1,4 @@
-#include "fiber_proximity/environment/occupancy_octree.hpp"
+#include "src/environment/occupancy_octree.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,9 +7,9 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "fiber_proximity/environment/point_distance.hpp"
-#include "fiber_proximity/hierarchy/sort_keys.hpp"
-#include "morton_code.hpp"
+#include "src/environment/morton_code.hpp"
+#include "src/environment/point_distance.hpp"
+#include "src/hierarchy/sort_keys.hpp"
 
 namespace fiber {
 namespace {

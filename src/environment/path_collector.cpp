@@ -1,4 +1,4 @@
-#include "path_collector.hpp"
+#include "src/environment/path_collector.hpp"
 
 #include <algorithm>
 #include <limits>

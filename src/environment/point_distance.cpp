@@ -1,4 +1,4 @@
-#include "fiber_proximity/environment/point_distance.hpp"
+#include "src/environment/point_distance.hpp"
 
 #include <algorithm>
 #include <cmath>

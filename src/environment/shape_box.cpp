@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "fiber_proximity/environment/occupancy_octree.hpp"
 #include "fiber_proximity/environment/triangle_mesh.hpp"
+#include "src/environment/occupancy_octree.hpp"
 
 namespace fiber {
 namespace {

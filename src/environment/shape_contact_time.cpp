@@ -1,4 +1,4 @@
-#include "fiber_proximity/environment/shape_contact_time.hpp"
+#include "src/environment/shape_contact_time.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +6,10 @@
 #include <memory>
 
 #include "fiber_proximity/environment/axis_distance.hpp"
-#include "fiber_proximity/environment/occupancy_octree.hpp"
 #include "fiber_proximity/environment/triangle_mesh.hpp"
-#include "fiber_proximity/geometry/norm.hpp"
-#include "support.hpp"
+#include "src/environment/occupancy_octree.hpp"
+#include "src/environment/support.hpp"
+#include "src/geometry/norm.hpp"
 
 namespace fiber {
 namespace {

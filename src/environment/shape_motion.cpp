@@ -1,10 +1,10 @@
-#include "shape_motion.hpp"
+#include "src/environment/shape_motion.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "fiber_proximity/geometry/norm.hpp"
+#include "src/geometry/norm.hpp"
 
 namespace fiber {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "fiber_proximity/environment/shape_contact_time.hpp"
 #include "fiber_proximity/geometry/capsule.hpp"
-#include "world_shape.hpp"
+#include "src/environment/shape_contact_time.hpp"
+#include "src/environment/world_shape.hpp"
 
 namespace fiber {
 

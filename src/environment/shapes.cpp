@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
-#include "fiber_proximity/text/quote.hpp"
-#include "fiber_proximity/text/with_context.hpp"
+#include "src/text/quote.hpp"
+#include "src/text/with_context.hpp"
 
 namespace fiber {
 namespace {

@@ -10,8 +10,8 @@
 
 #include "fiber_proximity/environment/triangle_distance.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
-#include "lipschitz_minimum.hpp"
-#include "mesh_topology.hpp"
+#include "src/environment/lipschitz_minimum.hpp"
+#include "src/environment/mesh_topology.hpp"
 
 namespace fiber {
 namespace {

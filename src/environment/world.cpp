@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "fiber_proximity/text/quote.hpp"
+#include "src/text/quote.hpp"
 
 namespace fiber {
 namespace {

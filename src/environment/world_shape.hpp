@@ -7,7 +7,7 @@
 #include "fiber_proximity/environment/axis_distance.hpp"
 #include "fiber_proximity/environment/shape_box.hpp"
 #include "fiber_proximity/environment/shapes.hpp"
-#include "object_path.hpp"
+#include "src/environment/object_path.hpp"
 
 namespace fiber {
 

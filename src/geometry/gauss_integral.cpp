@@ -1,4 +1,4 @@
-#include "fiber_proximity/geometry/gauss_integral.hpp"
+#include "src/geometry/gauss_integral.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>

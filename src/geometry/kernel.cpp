@@ -6,13 +6,13 @@
 
 #include "fiber_proximity/geometry/exact_distance.hpp"
 #include "fiber_proximity/geometry/segment_distance.hpp"
-#include "fiber_proximity/text/listed.hpp"
-#include "fiber_proximity/text/quote.hpp"
+#include "src/text/listed.hpp"
+#include "src/text/quote.hpp"
 
 namespace fiber {
 
 const std::vector<std::string>& kernel_names() {
-  static const std::vector<std::string> names{"fast", "robust", "exact"};
+  static const std::vector<std::string> names{"robust", "exact"};
   return names;
 }
 
@@ -29,14 +29,6 @@ SegmentDistance segment_distance(Kernel kernel, const Eigen::Vector3d& p0,
                                  const Eigen::Vector3d& p1, const Eigen::Vector3d& q0,
                                  const Eigen::Vector3d& q1) {
   switch (kernel) {
-    case Kernel::FAST: {
-      const Eigen::Vector3d ends[] = {p0, p1, q0, q1};
-      const Eigen::Vector3d* const a = &ends[0];
-      const Eigen::Vector3d* const b = &ends[2];
-      SegmentDistance distance;
-      fast_segment_distances(&a, &b, 1, &distance);
-      return distance;
-    }
     case Kernel::ROBUST:
       return segment_distance(p0, p1, q0, q1);
     case Kernel::EXACT:

@@ -1,4 +1,4 @@
-#include "fiber_proximity/geometry/point_velocities.hpp"
+#include "src/geometry/point_velocities.hpp"
 
 #include <numeric>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "fiber_proximity/geometry/rigid_contact_time.hpp"
+#include "src/geometry/rigid_contact_time.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "fiber_proximity/geometry/norm.hpp"
+#include "src/geometry/norm.hpp"
 
 namespace fiber {
 namespace {

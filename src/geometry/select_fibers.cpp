@@ -1,4 +1,4 @@
-#include "fiber_proximity/geometry/select_fibers.hpp"
+#include "src/geometry/select_fibers.hpp"
 
 #include <cassert>
 #include <utility>

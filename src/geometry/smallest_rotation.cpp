@@ -1,9 +1,9 @@
-#include "fiber_proximity/geometry/smallest_rotation.hpp"
+#include "src/geometry/smallest_rotation.hpp"
 
 #include <cassert>
 #include <cmath>
 
-#include "fiber_proximity/geometry/norm.hpp"
+#include "src/geometry/norm.hpp"
 
 namespace fiber {
 

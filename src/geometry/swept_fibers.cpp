@@ -1,11 +1,11 @@
-#include "fiber_proximity/geometry/swept_fibers.hpp"
+#include "src/geometry/swept_fibers.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
 
-#include "fiber_proximity/geometry/norm.hpp"
+#include "src/geometry/norm.hpp"
 
 namespace fiber {
 

@@ -12,8 +12,8 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "fiber_proximity/hierarchy/run_tree_kernels.hpp"
 #include "src/hierarchy/moving_lanes-inl.hpp"
+#include "src/hierarchy/run_tree_kernels.hpp"
 #include "src/hierarchy/segment_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();

@@ -1,4 +1,4 @@
-#include "fiber_proximity/hierarchy/motion_bound.hpp"
+#include "src/hierarchy/motion_bound.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>

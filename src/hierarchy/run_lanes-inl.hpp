@@ -9,7 +9,7 @@
 
 #include <hwy/highway.h>
 
-#include "fiber_proximity/query/point_pair.hpp"
+#include "fiber_proximity/geometry/point_pair.hpp"
 #include "src/hierarchy/moving_lanes-inl.hpp"
 #include "src/hierarchy/segment_lanes-inl.hpp"
 

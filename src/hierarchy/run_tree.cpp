@@ -1,4 +1,4 @@
-#include "fiber_proximity/hierarchy/run_tree.hpp"
+#include "src/hierarchy/run_tree.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -8,9 +8,9 @@
 #include <limits>
 #include <numeric>
 
-#include "fiber_proximity/hierarchy/run_tree_kernels.hpp"
-#include "fiber_proximity/hierarchy/sort_keys.hpp"
-#include "fiber_proximity/hierarchy/space_curve.hpp"
+#include "src/hierarchy/run_tree_kernels.hpp"
+#include "src/hierarchy/sort_keys.hpp"
+#include "src/hierarchy/space_curve.hpp"
 
 namespace fiber {
 namespace {

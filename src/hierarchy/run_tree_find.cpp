@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fiber_proximity/hierarchy/run_tree_kernels.hpp"
 #include "src/hierarchy/candidates-inl.hpp"
 #include "src/hierarchy/run_lanes-inl.hpp"
+#include "src/hierarchy/run_tree_kernels.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace fiber {

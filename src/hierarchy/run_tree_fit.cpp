@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "fiber_proximity/hierarchy/run_tree_kernels.hpp"
+#include "src/hierarchy/run_tree_kernels.hpp"
 #include "src/hierarchy/segment_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();

@@ -1,6 +1,6 @@
-#include "fiber_proximity/hierarchy/segment_boxes.hpp"
+#include "src/hierarchy/segment_boxes.hpp"
 
-#include "fiber_proximity/hierarchy/fiber_order.hpp"
+#include "src/hierarchy/fiber_order.hpp"
 
 namespace fiber {
 

@@ -11,7 +11,7 @@
 
 #include <limits>
 
-#include "fiber_proximity/hierarchy/run_blocks.hpp"
+#include "src/hierarchy/run_blocks.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace fiber {

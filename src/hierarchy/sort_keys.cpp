@@ -1,4 +1,4 @@
-#include "fiber_proximity/hierarchy/sort_keys.hpp"
+#include "src/hierarchy/sort_keys.hpp"
 
 #include <hwy/contrib/sort/vqsort.h>
 #include <tbb/blocked_range.h>

@@ -1,7 +1,7 @@
 // Compiled once per instruction set; Highway chooses among them at run time.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "src/hierarchy/space_curve.cpp"
-#include "fiber_proximity/hierarchy/space_curve.hpp"
+#include "src/hierarchy/space_curve.hpp"
 
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>

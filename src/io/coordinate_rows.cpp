@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
-#include "fiber_proximity/io/number.hpp"
-#include "fiber_proximity/text/quote.hpp"
+#include "src/io/number.hpp"
 #include "src/io/text.hpp"
+#include "src/text/quote.hpp"
 
 namespace fiber {
 namespace {

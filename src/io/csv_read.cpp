@@ -4,11 +4,11 @@
 #include <utility>
 
 #include "fiber_proximity/io/csv.hpp"
-#include "fiber_proximity/io/number.hpp"
-#include "fiber_proximity/io/radii.hpp"
-#include "fiber_proximity/text/quote.hpp"
 #include "src/io/input_file.hpp"
+#include "src/io/number.hpp"
+#include "src/io/radii.hpp"
 #include "src/io/text.hpp"
+#include "src/text/quote.hpp"
 
 namespace fiber {
 namespace {

@@ -1,8 +1,8 @@
 #include <stdexcept>
 
 #include "fiber_proximity/io/csv.hpp"
-#include "fiber_proximity/io/number.hpp"
-#include "fiber_proximity/io/radii.hpp"
+#include "src/io/number.hpp"
+#include "src/io/radii.hpp"
 
 namespace fiber {
 namespace {

@@ -3,7 +3,7 @@
 #include <cerrno>
 #include <system_error>
 
-#include "fiber_proximity/text/quote.hpp"
+#include "src/text/quote.hpp"
 
 namespace fiber {
 namespace {

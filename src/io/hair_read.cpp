@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "fiber_proximity/io/hair_file.hpp"
-#include "fiber_proximity/io/number.hpp"
-#include "fiber_proximity/io/radii.hpp"
-#include "hair_format.hpp"
+#include "src/io/hair_format.hpp"
 #include "src/io/input_file.hpp"
+#include "src/io/number.hpp"
+#include "src/io/radii.hpp"
 
 namespace fiber {
 namespace {

@@ -4,10 +4,10 @@
 #include <stdexcept>
 
 #include "fiber_proximity/io/hair_file.hpp"
-#include "fiber_proximity/io/number.hpp"
 #include "fiber_proximity/io/output_file.hpp"
-#include "fiber_proximity/io/radii.hpp"
-#include "hair_format.hpp"
+#include "src/io/hair_format.hpp"
+#include "src/io/number.hpp"
+#include "src/io/radii.hpp"
 
 namespace fiber {
 namespace {

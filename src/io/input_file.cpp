@@ -3,7 +3,7 @@
 #include <cerrno>
 #include <utility>
 
-#include "fiber_proximity/text/quote.hpp"
+#include "src/text/quote.hpp"
 
 namespace fiber {
 

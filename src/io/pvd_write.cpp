@@ -1,9 +1,9 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "fiber_proximity/io/number.hpp"
 #include "fiber_proximity/io/pvd.hpp"
-#include "fiber_proximity/io/radii.hpp"
+#include "src/io/number.hpp"
+#include "src/io/radii.hpp"
 
 namespace fiber {
 namespace {

@@ -1,9 +1,9 @@
-#include "fiber_proximity/io/radii.hpp"
+#include "src/io/radii.hpp"
 
 #include <stdexcept>
 #include <string>
 
-#include "fiber_proximity/io/number.hpp"
+#include "src/io/number.hpp"
 
 namespace fiber {
 

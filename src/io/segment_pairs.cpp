@@ -1,4 +1,4 @@
-#include "fiber_proximity/io/segment_pairs.hpp"
+#include "src/io/segment_pairs.hpp"
 
 #include "src/io/coordinate_rows.hpp"
 #include "src/io/input_file.hpp"

@@ -3,7 +3,7 @@
 #include <exception>
 #include <iostream>
 
-#include "fiber_proximity/ros/sim_server.hpp"
+#include "src/ros/sim/sim_server.hpp"
 
 int main(int argc, char** argv) {
   try {

@@ -1,4 +1,4 @@
-#include "fiber_proximity/ros/fiber_player.hpp"
+#include "src/ros/player/fiber_player.hpp"
 
 #include <ros/ros.h>
 

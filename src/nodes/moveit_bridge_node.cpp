@@ -1,6 +1,6 @@
 #include <ros/init.h>
 
-#include "fiber_proximity/ros/moveit_bridge.hpp"
+#include "src/ros/bridges/moveit_bridge.hpp"
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "moveit_bridge");

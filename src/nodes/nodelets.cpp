@@ -6,8 +6,8 @@
 #include <pluginlib/class_list_macros.hpp>
 #include <string>
 
-#include "fiber_proximity/ros/proximity_server.hpp"
-#include "fiber_proximity/ros/sim_server.hpp"
+#include "src/ros/server/proximity_server.hpp"
+#include "src/ros/sim/sim_server.hpp"
 
 namespace fiber_proximity_ros {
 namespace {

@@ -1,6 +1,6 @@
 #include <ros/init.h>
 
-#include "fiber_proximity/ros/octomap_bridge.hpp"
+#include "src/ros/bridges/octomap_bridge.hpp"
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "octomap_bridge");

@@ -2,7 +2,7 @@
 
 #include <exception>
 
-#include "fiber_proximity/ros/proximity_server.hpp"
+#include "src/ros/server/proximity_server.hpp"
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "proximity");

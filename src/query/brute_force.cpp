@@ -1,7 +1,7 @@
-#include "fiber_proximity/query/brute_force.hpp"
+#include "src/query/brute_force.hpp"
 
-#include "fiber_proximity/hierarchy/fiber_order.hpp"
 #include "fiber_proximity/query/pair_collector.hpp"
+#include "src/hierarchy/fiber_order.hpp"
 
 namespace fiber {
 

@@ -28,13 +28,6 @@ bool keep_closest(std::size_t count, QueryResult& result) {
   return true;
 }
 
-QueryCounts& QueryCounts::operator+=(const QueryCounts& more) {
-  node_tests += more.node_tests;
-  node_overlaps += more.node_overlaps;
-  primitive_tests += more.primitive_tests;
-  return *this;
-}
-
 const Contact* QueryResult::closest() const {
   const auto closest =
       std::min_element(contacts.begin(), contacts.end(),

@@ -1,11 +1,11 @@
-#include "fiber_proximity/query/contact_batch.hpp"
+#include "src/query/contact_batch.hpp"
 
 #include <algorithm>
 #include <atomic>
 
-#include "fiber_proximity/bounds/bounding_volume.hpp"
-#include "fiber_proximity/hierarchy/run_tree_kernels.hpp"
-#include "fiber_proximity/hierarchy/sort_keys.hpp"
+#include "src/bounds/bounding_volume.hpp"
+#include "src/hierarchy/run_tree_kernels.hpp"
+#include "src/hierarchy/sort_keys.hpp"
 #include "src/query/for_each_of.hpp"
 
 namespace fiber {

@@ -1,4 +1,4 @@
-#include "fiber_proximity/query/contact_in_motion.hpp"
+#include "src/query/contact_in_motion.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "fiber_proximity/query/contact_judge.hpp"
+#include "src/query/contact_judge.hpp"
 
 #include <algorithm>
 #include <limits>

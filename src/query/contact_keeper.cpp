@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fiber_proximity/bounds/bounding_volume.hpp"
+#include "src/bounds/bounding_volume.hpp"
 
 namespace fiber {
 namespace {
@@ -79,10 +79,7 @@ void ContactKeeper::stay_within_limit() {
   if (options_.type == QueryType::FIBER_PAIRS) {
     minima_.contacts_have_moved();
   }
-  // In single precision a pair can be reported as closer than it is: a bound would leave it out.
-  if (options_.kernel != Kernel::FAST || options_.type != QueryType::ALL) {
-    set_bound(std::min(bound_, contacts.back().distance));
-  }
+  set_bound(std::min(bound_, contacts.back().distance));
 }
 
 /// The contacts are a heap with the farthest of the k closest on top.

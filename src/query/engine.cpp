@@ -6,9 +6,9 @@
 #include <limits>
 #include <stdexcept>
 
-#include "fiber_proximity/geometry/swept_fibers.hpp"
-#include "fiber_proximity/query/contact_judge.hpp"
-#include "fiber_proximity/query/idle_memory.hpp"
+#include "src/geometry/swept_fibers.hpp"
+#include "src/query/contact_judge.hpp"
+#include "src/query/idle_memory.hpp"
 
 namespace fiber {
 namespace {
@@ -43,7 +43,7 @@ QueryOptions candidates_of(const MotionOptions& options) {
 QueryOptions candidate_options(const PairTest& test, const QueryLimits& limits) {
   QueryOptions options;
   options.margin = test.margin();
-  options.kernel = Kernel::FAST;  // decides without any error
+  options.kernel = Kernel::EXACT;  // decides without any error
   options.deadline = limits.deadline.left();
   options.pair_limit = limits.pairs == std::numeric_limits<std::uint64_t>::max() ? 0 : limits.pairs;
   return options;

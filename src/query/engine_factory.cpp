@@ -1,134 +1,80 @@
-#include <charconv>
+#include <mutex>
 #include <stdexcept>
 #include <utility>
 
-#include "fiber_proximity/bounds/direction_set.hpp"
-#include "fiber_proximity/bounds/obb.hpp"
-#include "fiber_proximity/bounds/sphere.hpp"
-#include "fiber_proximity/hierarchy/cascaded_hierarchy.hpp"
-#include "fiber_proximity/hierarchy/spatial_hierarchy.hpp"
-#include "fiber_proximity/hierarchy/wrapped_hierarchy.hpp"
-#include "fiber_proximity/query/brute_force.hpp"
-#include "fiber_proximity/query/engine.hpp"
-#include "fiber_proximity/query/hierarchy_engine.hpp"
-#include "fiber_proximity/query/run_tree_engine.hpp"
-#include "fiber_proximity/query/simplified_engine.hpp"
-#include "fiber_proximity/query/threads.hpp"
-#include "fiber_proximity/text/quote.hpp"
-#include "kdop_engines.hpp"
+#include "fiber_proximity/query/engine_registry.hpp"
+#include "src/query/brute_force.hpp"
+#include "src/query/run_tree_engine.hpp"
+#include "src/query/threads.hpp"
+#include "src/text/listed.hpp"
+#include "src/text/quote.hpp"
 
 namespace fiber {
 namespace {
 
 using EnginePointer = std::unique_ptr<ProximityEngine>;
 
-template <class Kind>
-EnginePointer make(const EngineOptions& /*options*/) {
-  return std::make_unique<HierarchyEngine<Kind>>(Kind());
-}
-
-EnginePointer make_threaded(const EngineOptions& /*options*/) {
-  using Kind = LayeredHierarchy<Aabb>;
-  return std::make_unique<HierarchyEngine<Kind>>(Kind({}, threading_order));
-}
-
-EnginePointer make_run_tree(const EngineOptions& options) {
-  return std::make_unique<RunTreeEngine>(options);
-}
-
-EnginePointer make_brute_force(const EngineOptions& /*options*/) {
-  return std::make_unique<BruteForceEngine>();
-}
-
-/// The paper's best k for hair (Sect. 5).
-template <EnginePointer (*MakeKdop)(const std::vector<Eigen::Vector3d>&)>
-EnginePointer make_kdop_20(const EngineOptions& /*options*/) {
-  return MakeKdop(grassmannian_directions(20));
-}
-
-using Maker = EnginePointer (*)(const EngineOptions& threads);
-
-const std::vector<std::pair<std::string, Maker>>& makers() {
-  static const std::vector<std::pair<std::string, Maker>> all{
-      {"run_tree", make_run_tree},
-      {"AL", make<LayeredHierarchy<Aabb>>},
-      {"AL-threaded", make_threaded},
-      {"AS", make<SpatialHierarchy<Aabb>>},
-      {"DL-20", make_kdop_20<make_layered_kdop_engine>},
-      {"DS-20", make_kdop_20<make_spatial_kdop_engine>},
-      {"SL", make<LayeredHierarchy<Sphere>>},
-      {"SW", make<CascadedHierarchy>},
-      {"SS", make<SpatialHierarchy<Sphere>>},
-      {"OL", make<LayeredHierarchy<Obb>>},
-      {"OW", make<WrappedHierarchy<Obb>>},
-      {"OS", make<SpatialHierarchy<Obb>>},
-      {"brute_force", make_brute_force},
-  };
-  return all;
-}
-
-/// The engine of a name DL-k, DS-k, DL-k-classic or DS-k-classic; null for any other name.
-/// @throws std::invalid_argument for a k that cannot be had
-EnginePointer make_kdop_engine(const std::string& name) {
-  const std::string kind = name.substr(0, 3);
-  if (kind != "DL-" && kind != "DS-") {
-    return nullptr;
+/// Families in the order in which they were registered. Never taken apart: libraries that are
+/// unloaded late may still ask.
+class Registry {
+ public:
+  static Registry& instance() {
+    static auto* const registry = new Registry;  // NOLINT(cppcoreguidelines-owning-memory)
+    return *registry;
   }
-  int k = 0;
-  const char* const end = name.data() + name.size();
-  const std::from_chars_result number = std::from_chars(name.data() + kind.size(), end, k);
-  const std::string suffix(number.ptr, end);
-  if (number.ec != std::errc() || (!suffix.empty() && suffix != "-classic")) {
-    return nullptr;
-  }
-  const std::vector<Eigen::Vector3d>& directions =
-      suffix.empty() ? grassmannian_directions(k) : classic_directions(k);
-  return kind == "DL-" ? make_layered_kdop_engine(directions)
-                       : make_spatial_kdop_engine(directions);
-}
 
-/// An engine over the fibres as they are.
-EnginePointer make_plain_engine(const std::string& name, const EngineOptions& options) {
-  std::string known;
-  for (const auto& [engine_name, maker] : makers()) {
-    if (name == engine_name) {
-      return maker(options);
-    }
-    known += (known.empty() ? "" : ", ") + engine_name;
+  void add(EngineFamily family) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    families_.push_back(std::move(family));
   }
-  std::string reason;
-  try {
-    if (EnginePointer kdop = make_kdop_engine(name)) {
-      return kdop;
-    }
-  } catch (const std::invalid_argument& error) {
-    reason = std::string(" (") + error.what() + ")";
+
+  std::vector<EngineFamily> families() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return families_;
   }
-  throw std::invalid_argument("unknown engine " + quote(name) + reason + ", known are: " + known +
-                              "; DL-k and DS-k for even k from 6 to 200; DL-k-classic and "
-                              "DS-k-classic for k of 6, 14, 18, 26");
-}
+
+ private:
+  mutable std::mutex mutex_;
+  std::vector<EngineFamily> families_;
+};
 
 }  // namespace
 
+bool register_engines(EngineFamily family) {
+  Registry::instance().add(std::move(family));
+  return true;
+}
+
 EnginePointer make_engine(const std::string& name, const EngineOptions& options) {
   validate_threads(options.threads);  // also where the engine has one thread
-  EnginePointer engine = make_plain_engine(name, options);
-  if (options.simplification == 0.0) {
-    return engine;
+  if (name == "run_tree") {
+    return std::make_unique<RunTreeEngine>(options);
   }
-  if (name == "AL-threaded") {
-    throw std::invalid_argument(
-        "AL-threaded needs fibres of equal segment counts, which a simplification does not leave");
+  if (name == "brute_force") {
+    return std::make_unique<BruteForceEngine>();
   }
-  return std::make_unique<SimplifiedEngine>(std::move(engine), options.simplification);
+  std::string reason;
+  std::string others;
+  for (const EngineFamily& family : Registry::instance().families()) {
+    try {
+      if (EnginePointer engine = family.make(name, options)) {
+        return engine;
+      }
+    } catch (const std::invalid_argument& error) {
+      reason = std::string(" (") + error.what() + ")";
+    }
+    others += family.other_names.empty() ? "" : "; " + family.other_names;
+  }
+  throw std::invalid_argument("unknown engine " + quote(name) + reason +
+                              ", known are: " + listed(engine_names()) + others);
 }
 
 std::vector<std::string> engine_names() {
-  std::vector<std::string> names;
-  for (const auto& entry : makers()) {
-    names.push_back(entry.first);
+  std::vector<std::string> names{"run_tree"};
+  for (const EngineFamily& family : Registry::instance().families()) {
+    names.insert(names.end(), family.names.begin(), family.names.end());
   }
+  names.emplace_back("brute_force");
   return names;
 }
 

@@ -1,4 +1,4 @@
-#include "fiber_proximity/query/fiber_snapshots.hpp"
+#include "src/query/fiber_snapshots.hpp"
 
 #include <utility>
 

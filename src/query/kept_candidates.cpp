@@ -1,4 +1,4 @@
-#include "fiber_proximity/query/kept_candidates.hpp"
+#include "src/query/kept_candidates.hpp"
 
 #include <algorithm>
 

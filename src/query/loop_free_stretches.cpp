@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "fiber_proximity/geometry/norm.hpp"
+#include "src/geometry/norm.hpp"
 
 namespace fiber {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
-#include "fiber_proximity/query/point_pair.hpp"
+#include "fiber_proximity/geometry/point_pair.hpp"
 
 namespace fiber {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <memory>
 
-#include "fiber_proximity/geometry/norm.hpp"
+#include "src/geometry/norm.hpp"
 #include "src/query/loop_free_stretches.hpp"
 #include "src/query/point_boxes.hpp"
 

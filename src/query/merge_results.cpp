@@ -1,4 +1,4 @@
-#include "fiber_proximity/query/merge_results.hpp"
+#include "src/query/merge_results.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "fiber_proximity/geometry/contact_time.hpp"
-#include "fiber_proximity/query/contact_judge.hpp"
-#include "fiber_proximity/query/narrow_contact_time.hpp"
+#include "src/query/contact_judge.hpp"
 #include "src/query/for_each_of.hpp"
+#include "src/query/narrow_contact_time.hpp"
 
 namespace fiber {
 namespace {

@@ -1,4 +1,4 @@
-#include "fiber_proximity/query/outdated_segments.hpp"
+#include "src/query/outdated_segments.hpp"
 
 namespace fiber {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "fiber_proximity/geometry/exact_distance.hpp"
-#include "fiber_proximity/geometry/norm.hpp"
+#include "src/geometry/norm.hpp"
 
 namespace fiber {
 namespace {
@@ -39,12 +39,6 @@ Vector3d direction(const SegmentDistance& nearest, const Capsule& a, const Capsu
   return nearest.delta.isZero(0.0) ? normal_of_crossing(a, b) : unit_of(nearest.delta);
 }
 
-/// Single precision pays for many pairs at once only.
-Kernel kernel_of(const QueryOptions& options) {
-  return options.kernel == Kernel::FAST && options.type == QueryType::ALL ? Kernel::FAST
-                                                                          : Kernel::ROBUST;
-}
-
 }  // namespace
 
 PairTest::PairTest(const FiberAssembly& fibers, const QueryOptions& options, const LoopTest* loops)
@@ -52,7 +46,6 @@ PairTest::PairTest(const FiberAssembly& fibers, const QueryOptions& options, con
       b_(fibers),
       options_(options),
       self_(true),
-      kernel_(kernel_of(options)),
       neighbour_skip_(options.neighbour_skip.value_or(1)),
       neighbour_skip_length_(options.neighbour_skip_length.value_or(0.0)) {
   if (options.needs_loops()) {
@@ -69,16 +62,8 @@ PairTest::PairTest(const FiberAssembly& shape, const FiberAssembly& fibers,
       b_(fibers),
       options_(options),
       self_(false),
-      kernel_(kernel_of(options)),
       neighbour_skip_(0),
       neighbour_skip_length_(0.0) {}
-
-/// Decided by robust distances, so that all kernels have the same pairs.
-bool PairTest::makes_loop(PointPair pair, std::uint64_t& looks) const {
-  const Capsule a = a_.capsule(pair.a);
-  const Capsule b = a_.capsule(pair.b);
-  return loops_->makes_loop(pair, segment_distance(a.p0, a.p1, b.p0, b.p1), looks);
-}
 
 bool PairTest::is_neighbour_of_same_fiber(PointPair pair) const {
   const bool near_by_index = pair.b - pair.a <= neighbour_skip_;
@@ -98,7 +83,7 @@ bool PairTest::is_of_other_pairing(PointPair pair) const {
 PairDistance PairTest::distance(PointPair pair) const {
   const Capsule a = a_.capsule(pair.a);
   const Capsule b = b_.capsule(pair.b);
-  const SegmentDistance nearest = segment_distance(kernel_, a.p0, a.p1, b.p0, b.p1);
+  const SegmentDistance nearest = segment_distance(a.p0, a.p1, b.p0, b.p1);
   return {nearest, nearest.distance - radii(pair)};
 }
 
@@ -113,11 +98,7 @@ void PairTest::distances(const PointPair* pairs, std::size_t count, PairDistance
       starts_a[i] = &a_.points()[pairs[begin + i].a];
       starts_b[i] = &b_.points()[pairs[begin + i].b];
     }
-    if (kernel_ == Kernel::FAST) {
-      fast_segment_distances(starts_a, starts_b, size, nearest);
-    } else {
-      segment_distances(starts_a, starts_b, size, nearest);
-    }
+    segment_distances(starts_a, starts_b, size, nearest);
     for (std::size_t i = 0; i < size; ++i) {
       const PointPair pair = pairs[begin + i];
       distances[begin + i] = {nearest[i], nearest[i].distance - radii(pair)};
@@ -129,17 +110,10 @@ bool PairTest::is_within_margin(PointPair pair, const PairDistance& distance) co
   if (options_.kernel == Kernel::ROBUST) {
     return distance.gap <= options_.margin;
   }
-  if (kernel_ == Kernel::FAST) {
-    const double error = gap_error(pair, distance);
-    if (distance.gap - error > options_.margin || distance.gap + error <= options_.margin) {
-      return distance.gap <= options_.margin;
-    }
-  }
   const Capsule a = a_.capsule(pair.a);
   const Capsule b = b_.capsule(pair.b);
-  const ContactLimit limit{a.radius, b.radius, options_.margin};
-  return kernel_ == Kernel::FAST ? gap_at_most(a.p0, a.p1, b.p0, b.p1, limit)
-                                 : gap_at_most(distance.nearest, a.p0, a.p1, b.p0, b.p1, limit);
+  return gap_at_most(distance.nearest, a.p0, a.p1, b.p0, b.p1,
+                     {a.radius, b.radius, options_.margin});
 }
 
 /// The distance, rounded correctly.

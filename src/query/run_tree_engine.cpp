@@ -1,15 +1,15 @@
-#include "fiber_proximity/query/run_tree_engine.hpp"
+#include "src/query/run_tree_engine.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "fiber_proximity/bounds/bounding_volume.hpp"
-#include "fiber_proximity/geometry/swept_fibers.hpp"
-#include "fiber_proximity/hierarchy/origin.hpp"
-#include "fiber_proximity/hierarchy/run_tree_kernels.hpp"
 #include "fiber_proximity/query/pair_collector.hpp"
-#include "fiber_proximity/query/threads.hpp"
+#include "src/bounds/bounding_volume.hpp"
+#include "src/geometry/swept_fibers.hpp"
+#include "src/hierarchy/origin.hpp"
+#include "src/hierarchy/run_tree_kernels.hpp"
 #include "src/query/checked_length.hpp"
+#include "src/query/threads.hpp"
 
 namespace fiber {
 namespace {

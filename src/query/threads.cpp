@@ -1,4 +1,4 @@
-#include "fiber_proximity/query/threads.hpp"
+#include "src/query/threads.hpp"
 
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>

@@ -1,4 +1,4 @@
-#include "fiber_proximity/query/touch_tracker.hpp"
+#include "src/query/touch_tracker.hpp"
 
 #include <algorithm>
 #include <limits>

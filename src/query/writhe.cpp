@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "fiber_proximity/geometry/gauss_integral.hpp"
+#include "src/geometry/gauss_integral.hpp"
 #include "src/query/for_each_of.hpp"
 
 namespace fiber {

@@ -1,4 +1,4 @@
-#include "fiber_proximity/rviz/display_properties.hpp"
+#include "src/rviz/display_properties.hpp"
 
 #include <ros/message_traits.h>
 #include <rviz/properties/bool_property.h>

@@ -1,4 +1,4 @@
-#include "fiber_proximity/rviz/fiber_array_display.hpp"
+#include "src/rviz/fiber_array_display.hpp"
 
 #include <OgreSceneManager.h>
 #include <OgreSceneNode.h>
@@ -14,9 +14,9 @@
 #include <string>
 
 #include "fiber_proximity/ros/conversions.hpp"
-#include "fiber_proximity/ros/stopwatch.hpp"
-#include "fiber_proximity/rviz/fiber_materials.hpp"
-#include "fiber_proximity/rviz/fiber_renderable.hpp"
+#include "src/ros/support/stopwatch.hpp"
+#include "src/rviz/fiber_materials.hpp"
+#include "src/rviz/fiber_renderable.hpp"
 
 namespace fiber_proximity_rviz {
 namespace {

@@ -1,4 +1,4 @@
-#include "fiber_proximity/rviz/fiber_chunks.hpp"
+#include "src/rviz/fiber_chunks.hpp"
 
 #include <tbb/parallel_for.h>
 

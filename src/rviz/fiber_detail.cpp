@@ -1,11 +1,11 @@
-#include "fiber_proximity/rviz/fiber_detail.hpp"
+#include "src/rviz/fiber_detail.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
 
-#include "fiber_proximity/geometry/chain_runs.hpp"
+#include "src/geometry/chain_runs.hpp"
 
 namespace fiber_proximity_rviz {
 namespace {

@@ -1,4 +1,4 @@
-#include "fiber_proximity/rviz/fiber_materials.hpp"
+#include "src/rviz/fiber_materials.hpp"
 
 #include <OgreGpuProgramManager.h>
 #include <OgreHighLevelGpuProgram.h>

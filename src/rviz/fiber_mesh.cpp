@@ -1,4 +1,4 @@
-#include "fiber_proximity/rviz/fiber_mesh.hpp"
+#include "src/rviz/fiber_mesh.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>

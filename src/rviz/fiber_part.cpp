@@ -1,11 +1,11 @@
-#include "fiber_proximity/rviz/fiber_part.hpp"
+#include "src/rviz/fiber_part.hpp"
 
 #include <OgreCamera.h>
 #include <OgreHardwareBufferManager.h>
 
 #include <utility>
 
-#include "fiber_proximity/rviz/fiber_materials.hpp"
+#include "src/rviz/fiber_materials.hpp"
 
 namespace fiber_proximity_rviz {
 namespace {

@@ -1,4 +1,4 @@
-#include "fiber_proximity/rviz/fiber_renderable.hpp"
+#include "src/rviz/fiber_renderable.hpp"
 
 #include <OgreCamera.h>
 #include <OgreHardwareBufferManager.h>

@@ -1,4 +1,4 @@
-#include "fiber_proximity/rviz/view_fit.hpp"
+#include "src/rviz/view_fit.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,12 +1,12 @@
-#include "fiber_proximity/rviz/view_fitter.hpp"
+#include "src/rviz/view_fitter.hpp"
 
 #include <OgreCamera.h>
 #include <rviz/view_controller.h>
 
 #include <cmath>
 
-#include "fiber_proximity/ros/optical_frame.hpp"
-#include "fiber_proximity/rviz/view_fit.hpp"
+#include "src/ros/inputs/optical_frame.hpp"
+#include "src/rviz/view_fit.hpp"
 
 namespace fiber_proximity_rviz {
 namespace {

@@ -1,4 +1,4 @@
-#include "fiber_proximity/scenes/cables.hpp"
+#include "src/scenes/cables.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "fiber_proximity/geometry/select_fibers.hpp"
-#include "fiber_proximity/scenes/portable_math.hpp"
+#include "src/geometry/select_fibers.hpp"
+#include "src/scenes/portable_math.hpp"
 
 namespace fiber {
 namespace {

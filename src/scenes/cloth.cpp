@@ -1,10 +1,10 @@
-#include "fiber_proximity/scenes/cloth.hpp"
+#include "src/scenes/cloth.hpp"
 
 #include <utility>
 #include <vector>
 
-#include "fiber_proximity/scenes/hair.hpp"
-#include "fiber_proximity/scenes/portable_math.hpp"
+#include "src/scenes/hair.hpp"
+#include "src/scenes/portable_math.hpp"
 
 namespace fiber {
 namespace {

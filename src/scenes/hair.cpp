@@ -1,12 +1,12 @@
-#include "fiber_proximity/scenes/hair.hpp"
+#include "src/scenes/hair.hpp"
 
 #include <limits>
 #include <utility>
 #include <vector>
 
-#include "fiber_proximity/scenes/head.hpp"
-#include "fiber_proximity/scenes/portable_math.hpp"
-#include "fiber_proximity/scenes/roots.hpp"
+#include "src/scenes/head.hpp"
+#include "src/scenes/portable_math.hpp"
+#include "src/scenes/roots.hpp"
 
 namespace fiber {
 namespace {

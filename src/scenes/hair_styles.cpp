@@ -1,4 +1,4 @@
-#include "fiber_proximity/scenes/hair_styles.hpp"
+#include "src/scenes/hair_styles.hpp"
 
 namespace fiber {
 namespace {

@@ -1,4 +1,4 @@
-#include "fiber_proximity/scenes/hard_motions.hpp"
+#include "src/scenes/hard_motions.hpp"
 
 #include <algorithm>
 #include <cmath>

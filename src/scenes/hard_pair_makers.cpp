@@ -3,7 +3,7 @@
 #include <charconv>
 #include <string>
 
-#include "fiber_proximity/scenes/portable_math.hpp"
+#include "src/scenes/portable_math.hpp"
 
 namespace fiber {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fiber_proximity/scenes/hard_pairs.hpp"
+#include "src/scenes/hard_pairs.hpp"
 
 namespace fiber {
 

@@ -1,4 +1,4 @@
-#include "fiber_proximity/scenes/hard_pairs.hpp"
+#include "src/scenes/hard_pairs.hpp"
 
 #include <algorithm>
 #include <cmath>

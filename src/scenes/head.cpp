@@ -1,6 +1,6 @@
-#include "fiber_proximity/scenes/head.hpp"
+#include "src/scenes/head.hpp"
 
-#include "fiber_proximity/scenes/portable_math.hpp"
+#include "src/scenes/portable_math.hpp"
 
 namespace fiber {
 

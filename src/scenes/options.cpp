@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "fiber_proximity/io/number.hpp"
+#include "src/io/number.hpp"
 
 namespace fiber {
 

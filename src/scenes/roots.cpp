@@ -1,11 +1,11 @@
-#include "fiber_proximity/scenes/roots.hpp"
+#include "src/scenes/roots.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "fiber_proximity/scenes/head.hpp"
-#include "fiber_proximity/scenes/portable_math.hpp"
+#include "src/scenes/head.hpp"
+#include "src/scenes/portable_math.hpp"
 
 namespace fiber {
 namespace {

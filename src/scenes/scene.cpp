@@ -3,13 +3,13 @@
 #include <stdexcept>
 #include <utility>
 
-#include "fiber_proximity/geometry/select_fibers.hpp"
-#include "fiber_proximity/scenes/cables.hpp"
-#include "fiber_proximity/scenes/cloth.hpp"
-#include "fiber_proximity/scenes/hair_styles.hpp"
-#include "fiber_proximity/scenes/shuffle.hpp"
-#include "fiber_proximity/scenes/soup.hpp"
-#include "fiber_proximity/text/quote.hpp"
+#include "src/geometry/select_fibers.hpp"
+#include "src/scenes/cables.hpp"
+#include "src/scenes/cloth.hpp"
+#include "src/scenes/hair_styles.hpp"
+#include "src/scenes/shuffle.hpp"
+#include "src/scenes/soup.hpp"
+#include "src/text/quote.hpp"
 
 namespace fiber {
 namespace {

@@ -1,10 +1,10 @@
-#include "fiber_proximity/scenes/shuffle.hpp"
+#include "src/scenes/shuffle.hpp"
 
 #include <algorithm>
 #include <numeric>
 #include <utility>
 
-#include "fiber_proximity/scenes/random.hpp"
+#include "src/scenes/random.hpp"
 
 namespace fiber {
 

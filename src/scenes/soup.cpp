@@ -1,10 +1,10 @@
-#include "fiber_proximity/scenes/soup.hpp"
+#include "src/scenes/soup.hpp"
 
 #include <cmath>
 #include <utility>
 #include <vector>
 
-#include "fiber_proximity/scenes/random.hpp"
+#include "src/scenes/random.hpp"
 
 namespace fiber {
 namespace {

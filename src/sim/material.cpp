@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "require.hpp"
+#include "src/sim/require.hpp"
 
 namespace fiber {
 RodSection solid_round_section(const RodMaterial& material, double radius) {

@@ -2,8 +2,8 @@
 #include <stdexcept>
 
 #include "fiber_proximity/sim/material.hpp"
-#include "fiber_proximity/text/listed.hpp"
-#include "fiber_proximity/text/quote.hpp"
+#include "src/text/listed.hpp"
+#include "src/text/quote.hpp"
 
 namespace fiber {
 namespace {

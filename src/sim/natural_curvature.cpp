@@ -1,12 +1,12 @@
-#include "fiber_proximity/sim/natural_curvature.hpp"
+#include "src/sim/natural_curvature.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "effects/natural_bend.hpp"
 #include "fiber_proximity/sim/edge_turn.hpp"
 #include "fiber_proximity/sim/effects/twist.hpp"
-#include "require.hpp"
+#include "src/sim/effects/natural_bend.hpp"
+#include "src/sim/require.hpp"
 
 namespace fiber {
 

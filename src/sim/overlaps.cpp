@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "contact/neighbours.hpp"
+#include "src/sim/contact/neighbours.hpp"
 
 namespace fiber {
 namespace {

@@ -1,4 +1,4 @@
-#include "fiber_proximity/sim/reach.hpp"
+#include "src/sim/reach.hpp"
 
 #include <algorithm>
 #include <cmath>

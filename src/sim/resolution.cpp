@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "require.hpp"
+#include "src/sim/require.hpp"
 
 namespace fiber {
 namespace {

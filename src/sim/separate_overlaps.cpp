@@ -8,7 +8,7 @@
 
 #include "fiber_proximity/sim/edge_turn.hpp"
 #include "fiber_proximity/sim/overlaps.hpp"
-#include "fiber_proximity/sim/reach.hpp"
+#include "src/sim/reach.hpp"
 
 namespace fiber {
 

@@ -5,8 +5,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "require.hpp"
-#include "solver/stage_solver.hpp"
+#include "src/sim/require.hpp"
+#include "src/sim/solver/stage_solver.hpp"
 
 namespace fiber {
 

@@ -1,4 +1,4 @@
-#include "fiber_proximity/text/quote.hpp"
+#include "src/text/quote.hpp"
 
 namespace fiber {
 namespace {

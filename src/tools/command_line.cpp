@@ -1,4 +1,4 @@
-#include "command_line.hpp"
+#include "src/tools/command_line.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +10,8 @@
 #include <stdexcept>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
-#include "fiber_proximity/io/number.hpp"
-#include "fiber_proximity/text/quote.hpp"
+#include "src/io/number.hpp"
+#include "src/text/quote.hpp"
 
 namespace fiber {
 namespace {

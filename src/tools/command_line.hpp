@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "fiber_proximity/text/listed.hpp"
+#include "src/text/listed.hpp"
 
 namespace fiber {
 

@@ -1,13 +1,14 @@
-#include "compare_command.hpp"
+#include "src/tools/compare_command.hpp"
 
 #include <chrono>
 #include <iostream>
 #include <memory>
 #include <string>
 
-#include "comparison_format.hpp"
 #include "fiber_proximity/compare/fcl_comparer.hpp"
 #include "fiber_proximity/io/fiber_file.hpp"
+#include "src/tools/comparison_format.hpp"
+#include "src/tools/fiber_options.hpp"
 
 namespace fiber {
 namespace {
@@ -107,11 +108,7 @@ void add_options(CLI::App& app, CompareRequest& request) {
                  "segments of a fibre with less than this between them are no pair [m]; with one "
                  "of the two given, the other is 1 or 0 m, and no loop is needed")
       ->check(finite_number(0.0));
-  app.add_option_function<std::string>(
-         "--kernel",
-         [&request](const std::string& name) { request.query.kernel = kernel_from_name(name); },
-         "one of " + listed(kernel_names()))
-      ->default_str("robust");
+  add_kernel_option(app, request.query.kernel);
   app.add_option("--format", request.format,
                  "of the output; csv: a line per frame and method, disagreements only counted; "
                  "json: one object per frame; times in seconds")

@@ -1,11 +1,11 @@
-#include "comparison_format.hpp"
+#include "src/tools/comparison_format.hpp"
 
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "fiber_proximity/io/number.hpp"
+#include "src/io/number.hpp"
 
 namespace fiber {
 namespace {

@@ -1,10 +1,10 @@
-#include "contact_format.hpp"
+#include "src/tools/contact_format.hpp"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "fiber_proximity/io/number.hpp"
-#include "json_list.hpp"
+#include "src/io/number.hpp"
+#include "src/tools/json_list.hpp"
 
 namespace fiber {
 namespace {

@@ -1,9 +1,9 @@
-#include "crossing_format.hpp"
+#include "src/tools/crossing_format.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include "fiber_proximity/io/number.hpp"
-#include "json_list.hpp"
+#include "src/io/number.hpp"
+#include "src/tools/json_list.hpp"
 
 namespace fiber {
 namespace {

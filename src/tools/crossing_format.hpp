@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fiber_proximity/query/crossing.hpp"
-#include "text_output.hpp"
+#include "src/tools/text_output.hpp"
 
 namespace fiber {
 

@@ -1,13 +1,13 @@
-#include "direction_search.hpp"
+#include "src/tools/direction_search.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "fiber_proximity/bounds/direction_set.hpp"
-#include "line_packing.hpp"
-#include "packing_starts.hpp"
+#include "src/paper/bounds/direction_set.hpp"
+#include "src/tools/line_packing.hpp"
+#include "src/tools/packing_starts.hpp"
 
 namespace fiber {
 namespace {

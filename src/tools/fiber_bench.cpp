@@ -1,5 +1,5 @@
-#include "command_line.hpp"
-#include "commands.hpp"
+#include "benchmark/commands.hpp"
+#include "src/tools/command_line.hpp"
 
 namespace fiber {
 namespace {

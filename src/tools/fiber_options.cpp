@@ -1,4 +1,6 @@
-#include "fiber_options.hpp"
+#include "src/tools/fiber_options.hpp"
+
+#include <iostream>
 
 namespace fiber {
 
@@ -12,6 +14,19 @@ void add_fiber_options(CLI::App& app, FiberRequest& request) {
                  "most threads to use, 0 for as many as there are cores")
       ->check(whole_number(0))
       ->capture_default_str();
+}
+
+void add_kernel_option(CLI::App& app, Kernel& kernel) {
+  app.add_option_function<std::string>(
+         "--kernel",
+         [&kernel](const std::string& name) {
+           if (name == "fast") {
+             std::cerr << "warning: --kernel fast saved no time and is gone: robust is used\n";
+           }
+           kernel = name == "fast" ? Kernel::ROBUST : kernel_from_name(name);
+         },
+         "one of " + listed(kernel_names()))
+      ->default_str("robust");
 }
 
 void add_neighbour_options(CLI::App& app, std::optional<std::uint32_t>& skip,

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "command_line.hpp"
 #include "fiber_proximity/query/engine.hpp"
+#include "src/tools/command_line.hpp"
 
 namespace fiber {
 
@@ -18,6 +18,10 @@ struct FiberRequest {
 };
 
 void add_fiber_options(CLI::App& app, FiberRequest& request);
+
+/// How distances are computed. `fast`, of versions before this one, is taken as robust, with a
+/// warning.
+void add_kernel_option(CLI::App& app, Kernel& kernel);
 
 /// Which segments of one fibre are pairs.
 void add_neighbour_options(CLI::App& app, std::optional<std::uint32_t>& skip,

@@ -5,18 +5,18 @@
 #include <optional>
 #include <string>
 
-#include "command_line.hpp"
-#include "compare_command.hpp"
-#include "contact_format.hpp"
-#include "fiber_options.hpp"
 #include "fiber_proximity/geometry/kernel.hpp"
 #include "fiber_proximity/io/fiber_file.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/query/nearest_segments.hpp"
-#include "motions_command.hpp"
-#include "segments_command.hpp"
-#include "sweep_command.hpp"
-#include "topology_commands.hpp"
+#include "src/tools/command_line.hpp"
+#include "src/tools/compare_command.hpp"
+#include "src/tools/contact_format.hpp"
+#include "src/tools/fiber_options.hpp"
+#include "src/tools/motions_command.hpp"
+#include "src/tools/segments_command.hpp"
+#include "src/tools/sweep_command.hpp"
+#include "src/tools/topology_commands.hpp"
 
 namespace fiber {
 namespace {
@@ -47,20 +47,12 @@ void add_file_options(CLI::App& app, Request& request) {
 }
 
 void add_accuracy_options(CLI::App& app, Request& request) {
-  app.add_option_function<std::string>(
-         "--kernel",
-         [&request](const std::string& name) { request.query.kernel = kernel_from_name(name); },
-         "one of " + listed(kernel_names()))
-      ->default_str("robust");
+  add_kernel_option(app, request.query.kernel);
   app.add_option("--tolerance", request.query.tolerance,
                  "the closest pairs may be missed by less than this [m]")
       ->capture_default_str();
   app.add_option("--relative-tolerance", request.query.relative_tolerance,
                  "the same as a part of the distance")
-      ->capture_default_str();
-  app.add_option("--simplification", request.engine_options.simplification,
-                 "runs of segments that deviate from one by at most this count as one [m]: bounds "
-                 "are up to 4 times as far apart, no contact is missed")
       ->capture_default_str();
   app.add_option("--deadline", request.query.deadline,
                  "time to answer a frame [s]; what is found by then is the answer; 0 for none")

@@ -2,9 +2,9 @@
 #include <optional>
 #include <string>
 
-#include "command_line.hpp"
 #include "fiber_proximity/io/fiber_file.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
+#include "src/tools/command_line.hpp"
 
 namespace fiber {
 namespace {

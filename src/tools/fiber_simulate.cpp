@@ -9,13 +9,13 @@
 #include <stdexcept>
 #include <string>
 
-#include "command_line.hpp"
 #include "fiber_proximity/io/fiber_file.hpp"
 #include "fiber_proximity/sim/scene/force_file.hpp"
 #include "fiber_proximity/sim/scene/scene.hpp"
-#include "fiber_proximity/sim/scene/warnings.hpp"
-#include "fiber_proximity/text/quote.hpp"
-#include "progress.hpp"
+#include "src/sim/scene/warnings.hpp"
+#include "src/text/quote.hpp"
+#include "src/tools/command_line.hpp"
+#include "src/tools/progress.hpp"
 
 namespace fiber {
 namespace {

@@ -1,4 +1,4 @@
-// Makes src/bounds/direction_table.inc, the direction sets of the k-DOPs.
+// Makes src/paper/bounds/direction_table.inc, the direction sets of the k-DOPs.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -12,10 +12,10 @@
 #include <thread>
 #include <vector>
 
-#include "direction_search.hpp"
-#include "fiber_proximity/bounds/direction_set.hpp"
-#include "fiber_proximity/io/number.hpp"
-#include "packing_starts.hpp"
+#include "src/io/number.hpp"
+#include "src/paper/bounds/direction_set.hpp"
+#include "src/tools/direction_search.hpp"
+#include "src/tools/packing_starts.hpp"
 
 namespace fiber {
 namespace {
@@ -86,7 +86,8 @@ std::string command_line(const Arguments& arguments) {
   return command_prefix + ("--seed " + std::to_string(arguments.seed)) + " --starts " +
          std::to_string(arguments.starts) +
          (arguments.up_to < most_lines ? " --up-to " + std::to_string(arguments.up_to) : "") +
-         (arguments.from_scratch ? " --from-scratch" : "") + " src/bounds/direction_table.inc\n";
+         (arguments.from_scratch ? " --from-scratch" : "") +
+         " src/paper/bounds/direction_table.inc\n";
 }
 
 /// The commands that made the table this one improves on, as it states them.
@@ -143,7 +144,7 @@ int run(int argc, char** argv) {
       "Packs 3 to 100 lines through the origin of R^3 so that the smallest angle between "
       "two is as large as possible, and writes the table of the k-DOPs' directions. "
       "Starts from the sets it was built with and keeps the better ones.");
-  app.add_option("FILE", arguments.file, "table to write, src/bounds/direction_table.inc")
+  app.add_option("FILE", arguments.file, "table to write, src/paper/bounds/direction_table.inc")
       ->required();
   app.add_option("--seed", arguments.seed, "of the random starts")->capture_default_str();
   app.add_option("--starts", arguments.starts, "for each number of lines")

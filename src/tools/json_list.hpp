@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "text_output.hpp"
+#include "src/tools/text_output.hpp"
 
 namespace fiber {
 

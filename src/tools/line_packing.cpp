@@ -1,4 +1,4 @@
-#include "line_packing.hpp"
+#include "src/tools/line_packing.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>

@@ -1,4 +1,4 @@
-#include "motions_command.hpp"
+#include "src/tools/motions_command.hpp"
 
 #include <iostream>
 #include <memory>
@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/contact_time.hpp"
-#include "fiber_proximity/io/number.hpp"
-#include "fiber_proximity/io/segment_motions.hpp"
-#include "text_output.hpp"
+#include "src/io/number.hpp"
+#include "src/io/segment_motions.hpp"
+#include "src/tools/text_output.hpp"
 
 namespace fiber {
 namespace {

@@ -1,4 +1,4 @@
-#include "packing_starts.hpp"
+#include "src/tools/packing_starts.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "fiber_proximity/scenes/random.hpp"
+#include "src/scenes/random.hpp"
 
 namespace fiber {
 

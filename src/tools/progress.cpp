@@ -1,4 +1,4 @@
-#include "progress.hpp"
+#include "src/tools/progress.hpp"
 
 #include <unistd.h>
 

@@ -1,13 +1,14 @@
-#include "segments_command.hpp"
+#include "src/tools/segments_command.hpp"
 
 #include <iostream>
 #include <memory>
 #include <string>
 
 #include "fiber_proximity/geometry/segment_distance.hpp"
-#include "fiber_proximity/io/number.hpp"
-#include "fiber_proximity/io/segment_pairs.hpp"
-#include "text_output.hpp"
+#include "src/io/number.hpp"
+#include "src/io/segment_pairs.hpp"
+#include "src/tools/fiber_options.hpp"
+#include "src/tools/text_output.hpp"
 
 namespace fiber {
 namespace {
@@ -48,12 +49,7 @@ void add_segments(CLI::App& app, Command& command) {
       ->add_option("FILE", request->file,
                    "a pair per line: [name,] and the coordinates of p0, p1, q0 and q1 [m]")
       ->required();
-  segments
-      ->add_option_function<std::string>(
-          "--kernel",
-          [request](const std::string& name) { request->kernel = kernel_from_name(name); },
-          "one of " + listed(kernel_names()))
-      ->default_str("robust");
+  add_kernel_option(*segments, request->kernel);
   segments->callback([&command, request] { command = [request] { return run(*request); }; });
 }
 

@@ -1,4 +1,4 @@
-#include "sweep_command.hpp"
+#include "src/tools/sweep_command.hpp"
 
 #include <algorithm>
 #include <iostream>
@@ -6,12 +6,12 @@
 #include <stdexcept>
 #include <string>
 
-#include "fiber_options.hpp"
 #include "fiber_proximity/io/fiber_file.hpp"
-#include "fiber_proximity/io/number.hpp"
 #include "fiber_proximity/query/motion.hpp"
-#include "fiber_proximity/text/quote.hpp"
-#include "text_output.hpp"
+#include "src/io/number.hpp"
+#include "src/text/quote.hpp"
+#include "src/tools/fiber_options.hpp"
+#include "src/tools/text_output.hpp"
 
 namespace fiber {
 namespace {

@@ -1,4 +1,4 @@
-#include "text_output.hpp"
+#include "src/tools/text_output.hpp"
 
 #include <ostream>
 #include <stdexcept>

@@ -1,4 +1,4 @@
-#include "topology_commands.hpp"
+#include "src/tools/topology_commands.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "crossing_format.hpp"
 #include "fiber_proximity/io/fiber_file.hpp"
-#include "fiber_proximity/io/number.hpp"
 #include "fiber_proximity/query/crossings.hpp"
 #include "fiber_proximity/query/linking_number.hpp"
 #include "fiber_proximity/query/writhe.hpp"
-#include "text_output.hpp"
+#include "src/io/number.hpp"
+#include "src/tools/crossing_format.hpp"
+#include "src/tools/text_output.hpp"
 
 namespace fiber {
 namespace {

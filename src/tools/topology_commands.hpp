@@ -1,6 +1,6 @@
 #pragma once
 
-#include "command_line.hpp"
+#include "src/tools/command_line.hpp"
 
 namespace fiber {
 

@@ -7,8 +7,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "fiber_proximity/text/quote.hpp"
 #include "fiber_proximity/yaml/yaml_field.hpp"
+#include "src/text/quote.hpp"
 
 namespace fiber {
 namespace {

@@ -1,4 +1,4 @@
-#include "agreement.hpp"
+#include "benchmark/agreement.hpp"
 
 #include <gtest/gtest.h>
 

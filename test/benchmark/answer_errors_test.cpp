@@ -1,11 +1,11 @@
-#include "answer_errors.hpp"
+#include "benchmark/answer_errors.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "accuracy_settings.hpp"
-#include "fiber_proximity/query/brute_force.hpp"
+#include "benchmark/accuracy_settings.hpp"
+#include "src/query/brute_force.hpp"
 
 namespace fiber::test {
 namespace {

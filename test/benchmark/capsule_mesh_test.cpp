@@ -1,10 +1,10 @@
-#include "environment/capsule_mesh.hpp"
+#include "benchmark/environment/capsule_mesh.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "fiber_proximity/environment/point_distance.hpp"
+#include "src/environment/point_distance.hpp"
 
 namespace fiber::test {
 namespace {

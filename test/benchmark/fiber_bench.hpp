@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/tools_test.hpp"
+#include "test/tools/tools_test.hpp"
 
 namespace fiber::test {
 

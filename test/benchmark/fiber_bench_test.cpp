@@ -1,4 +1,4 @@
-#include "benchmark/fiber_bench.hpp"
+#include "test/benchmark/fiber_bench.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -176,12 +176,11 @@ TEST_F(FiberBench, SaysWhatAccuracyCostsAndBrings) {
 }
 
 TEST_F(FiberBench, JudgesKernelsOnHardPairs) {
-  const ProcessResult result =
-      bench("kernels --json --pairs 3 --repeats 1 --kernels fast,robust,exact");
+  const ProcessResult result = bench("kernels --json --pairs 3 --repeats 1 --kernels robust,exact");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.err, "") << "progress is for terminals";
   const std::vector<nlohmann::json> rows = json_lines(result.out);
-  const std::vector<std::string> kernels{"fast", "robust", "exact"};
+  const std::vector<std::string> kernels{"robust", "exact"};
   ASSERT_GT(rows.size(), 3U * 50U);
   ASSERT_EQ(rows.size() % kernels.size(), 0U);
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -193,10 +192,8 @@ TEST_F(FiberBench, JudgesKernelsOnHardPairs) {
          {"missed", "outside_bounds", "not_finite", "no_answer", "ended"}) {
       EXPECT_EQ(rows[i].at(field), 0) << field;
     }
-    if (rows[i].at("kernel") != "fast") {
-      EXPECT_EQ(rows[i].at("false"), 0);
-      EXPECT_LT(rows[i].at("error_units"), 4.0);
-    }
+    EXPECT_EQ(rows[i].at("false"), 0);
+    EXPECT_LT(rows[i].at("error_units"), 4.0);
     EXPECT_GT(rows[i].at("p99_ns"), 0.0);
     EXPECT_GE(rows[i].at("p99_ns"), rows[i].at("p50_ns"));
   }
@@ -407,16 +404,16 @@ TEST_F(FiberBench, RefusesBadCommandLines) {
   EXPECT_TRUE(refused(bench("simulate --segments 10,0"), "--segments: '0'"));
   EXPECT_TRUE(refused(bench("simulate --reference-segments 1"), "--reference-segments: '1'"));
   EXPECT_TRUE(refused(bench("update --threads none"), "--threads: 'none'"));
-  EXPECT_TRUE(refused(bench("kernels --kernels fast,quick"),
-                      "unknown kernel 'quick', known are: fast, fast_batch, robust, "));
+  EXPECT_TRUE(refused(bench("kernels --kernels robust,quick"),
+                      "unknown kernel 'quick', known are: robust, robust_batch, "));
   EXPECT_TRUE(refused(bench("kernels --families easy"),
                       "unknown family 'easy', known are: generic, scale_1e-300, "));
   EXPECT_TRUE(refused(bench("kernels --pairs 0"), "--pairs: '0'"));
   EXPECT_TRUE(refused(bench("kernels --repeats 0"), "--repeats: '0'"));
   EXPECT_TRUE(refused(bench("kernels --kernels"), "--kernels"));
   EXPECT_TRUE(refused(bench("motions --parts times,truth"), "truth"));
-  EXPECT_TRUE(refused(bench("motions --parts times --kernels own,fast"),
-                      "unknown kernel 'fast', known are: own, own_single, "));
+  EXPECT_TRUE(refused(bench("motions --parts times --kernels own,quick"),
+                      "unknown kernel 'quick', known are: own, own_single, "));
   EXPECT_TRUE(refused(bench("motions --parts accuracy --families easy"),
                       "unknown family 'easy', known are: random, translating, "));
   EXPECT_TRUE(refused(bench("motions --count 0"), "--count: '0'"));

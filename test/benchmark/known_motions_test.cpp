@@ -1,11 +1,11 @@
-#include "continuous/known_motions.hpp"
+#include "benchmark/continuous/known_motions.hpp"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <stdexcept>
 
-#include "support/temporary_directory.hpp"
+#include "test/support/temporary_directory.hpp"
 
 namespace fiber::test {
 namespace {

@@ -1,14 +1,14 @@
 // What answers about motions are judged by.
-#include "continuous/motion_oracle.hpp"
+#include "benchmark/continuous/motion_oracle.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "continuous/motion_separation.hpp"
-#include "continuous/time_polynomial.hpp"
-#include "support/random.hpp"
-#include "support/rounds.hpp"
+#include "benchmark/continuous/motion_separation.hpp"
+#include "benchmark/continuous/time_polynomial.hpp"
+#include "test/support/random.hpp"
+#include "test/support/rounds.hpp"
 
 namespace fiber::test {
 namespace {

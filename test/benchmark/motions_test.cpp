@@ -5,10 +5,10 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "continuous/decision_score.hpp"
-#include "continuous/motion_accuracy.hpp"
-#include "continuous/motion_kernel.hpp"
-#include "continuous/motion_times.hpp"
+#include "benchmark/continuous/decision_score.hpp"
+#include "benchmark/continuous/motion_accuracy.hpp"
+#include "benchmark/continuous/motion_kernel.hpp"
+#include "benchmark/continuous/motion_times.hpp"
 
 namespace fiber::test {
 namespace {

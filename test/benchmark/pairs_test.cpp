@@ -6,10 +6,10 @@
 #include <limits>
 #include <stdexcept>
 
-#include "pairs/pair_kernel.hpp"
-#include "pairs/pair_score.hpp"
-#include "pairs/pair_times.hpp"
-#include "pairs/textbook.hpp"
+#include "benchmark/pairs/pair_kernel.hpp"
+#include "benchmark/pairs/pair_score.hpp"
+#include "benchmark/pairs/pair_times.hpp"
+#include "benchmark/pairs/textbook.hpp"
 
 namespace fiber::test {
 namespace {
@@ -230,7 +230,7 @@ TEST(PairKernels, AgreeOnEasyPairs) {
 }
 
 TEST(PairKernels, OfOursKeepTheirBoundsAndMissNoContact) {
-  for (const std::string name : {"fast", "fast_batch", "robust", "robust_batch", "exact"}) {
+  for (const std::string name : {"robust", "robust_batch", "exact"}) {
     SCOPED_TRACE(name);
     const std::unique_ptr<PairKernel> kernel = make_pair_kernel(name);
     PairScore score;
@@ -243,7 +243,7 @@ TEST(PairKernels, OfOursKeepTheirBoundsAndMissNoContact) {
     }
     EXPECT_EQ(score.missed_contacts(), 0U);
     EXPECT_EQ(score.outside_bounds(), 0U);
-    EXPECT_EQ(score.false_contacts() > 0, name.rfind("fast", 0) == 0) << "fast is a filter";
+    EXPECT_EQ(score.false_contacts(), 0U);
   }
 }
 

@@ -1,12 +1,12 @@
-#include "peers/parallel_collector.hpp"
+#include "benchmark/peers/parallel_collector.hpp"
 
 #include <gtest/gtest.h>
 
 #include <thread>
 
-#include "fiber_proximity/query/brute_force.hpp"
-#include "support/assemblies.hpp"
-#include "support/contacts.hpp"
+#include "src/query/brute_force.hpp"
+#include "test/support/assemblies.hpp"
+#include "test/support/contacts.hpp"
 
 namespace fiber::test {
 namespace {

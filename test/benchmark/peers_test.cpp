@@ -6,12 +6,12 @@
 #include <stdexcept>
 #include <thread>
 
-#include "fiber_proximity/hierarchy/segment_boxes.hpp"
-#include "fiber_proximity/query/brute_force.hpp"
-#include "peers/peer.hpp"
-#include "support/assemblies.hpp"
-#include "support/contacts.hpp"
-#include "support/process.hpp"
+#include "benchmark/peers/peer.hpp"
+#include "src/hierarchy/segment_boxes.hpp"
+#include "src/query/brute_force.hpp"
+#include "test/support/assemblies.hpp"
+#include "test/support/contacts.hpp"
+#include "test/support/process.hpp"
 
 namespace fiber::test {
 namespace {

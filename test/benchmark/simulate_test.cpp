@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/fiber_bench.hpp"
+#include "test/benchmark/fiber_bench.hpp"
 
 namespace fiber::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "swapped_places.hpp"
+#include "benchmark/swapped_places.hpp"
 
 #include <gtest/gtest.h>
 

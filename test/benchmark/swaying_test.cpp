@@ -1,4 +1,4 @@
-#include "swaying.hpp"
+#include "benchmark/swaying.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <string>
 
 #include "fiber_proximity/scenes/scene.hpp"
-#include "support/random.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber::test {
 namespace {

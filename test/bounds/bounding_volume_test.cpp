@@ -1,4 +1,4 @@
-#include "fiber_proximity/bounds/bounding_volume.hpp"
+#include "src/bounds/bounding_volume.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/segment_distance.hpp"
-#include "support/bounding_volumes.hpp"
-#include "support/random.hpp"
+#include "test/support/bounding_volumes.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber::test {
 namespace {

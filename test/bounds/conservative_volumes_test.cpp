@@ -5,12 +5,12 @@
 #include <limits>
 #include <numeric>
 
-#include "fiber_proximity/bounds/minimal_sphere.hpp"
 #include "fiber_proximity/geometry/exact_distance.hpp"
-#include "support/bounding_volumes.hpp"
-#include "support/hard_runs.hpp"
-#include "support/rounds.hpp"
-#include "support/seeded_test.hpp"
+#include "src/paper/bounds/minimal_sphere.hpp"
+#include "test/support/bounding_volumes.hpp"
+#include "test/support/hard_runs.hpp"
+#include "test/support/rounds.hpp"
+#include "test/support/seeded_test.hpp"
 
 namespace fiber::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "fiber_proximity/bounds/direction_set.hpp"
+#include "src/paper/bounds/direction_set.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "../src/tools/direction_search.hpp"
-#include "support/random.hpp"
+#include "src/tools/direction_search.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber::test {
 namespace {

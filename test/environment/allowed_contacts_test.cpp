@@ -1,8 +1,8 @@
-#include "fiber_proximity/environment/allowed_contacts.hpp"
+#include "src/environment/allowed_contacts.hpp"
 
 #include <gtest/gtest.h>
 
-#include "support/error_of.hpp"
+#include "test/support/error_of.hpp"
 
 namespace fiber {
 namespace {

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <limits>
 
-#include "environment/random_shapes.hpp"
-#include "fiber_proximity/environment/point_distance.hpp"
 #include "fiber_proximity/environment/triangle_distance.hpp"
 #include "fiber_proximity/geometry/segment_distance.hpp"
+#include "src/environment/point_distance.hpp"
+#include "test/environment/random_shapes.hpp"
 
 namespace fiber::test {
 namespace {

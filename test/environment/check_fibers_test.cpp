@@ -5,9 +5,9 @@
 #include <limits>
 #include <stdexcept>
 
-#include "environment/random_shapes.hpp"
-#include "fiber_proximity/query/fiber_snapshots.hpp"
-#include "support/seeded_test.hpp"
+#include "src/query/fiber_snapshots.hpp"
+#include "test/environment/random_shapes.hpp"
+#include "test/support/seeded_test.hpp"
 
 namespace fiber::test {
 namespace {

@@ -11,10 +11,10 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "environment/motion_scene.hpp"
-#include "fiber_proximity/query/fiber_snapshots.hpp"
-#include "support/error_of.hpp"
-#include "support/rounds.hpp"
+#include "src/query/fiber_snapshots.hpp"
+#include "test/environment/motion_scene.hpp"
+#include "test/support/error_of.hpp"
+#include "test/support/rounds.hpp"
 
 namespace fiber::test {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "environment/motion_scene.hpp"
-#include "support/error_of.hpp"
-#include "support/rounds.hpp"
+#include "test/environment/motion_scene.hpp"
+#include "test/support/error_of.hpp"
+#include "test/support/rounds.hpp"
 
 namespace fiber::test {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "environment/motion_scene.hpp"
-#include "support/rounds.hpp"
+#include "test/environment/motion_scene.hpp"
+#include "test/support/rounds.hpp"
 
 namespace fiber::test {
 namespace {

@@ -7,8 +7,8 @@
 #include <map>
 #include <tuple>
 
-#include "environment/motion_scene.hpp"
-#include "support/rounds.hpp"
+#include "test/environment/motion_scene.hpp"
+#include "test/support/rounds.hpp"
 
 namespace fiber::test {
 namespace {

@@ -11,8 +11,8 @@
 #include <tuple>
 #include <vector>
 
-#include "environment/random_shapes.hpp"
 #include "fiber_proximity/environment/axis_distance.hpp"
+#include "test/environment/random_shapes.hpp"
 
 namespace fiber::test {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "environment/random_shapes.hpp"
 #include "fiber_proximity/environment/axis_distance.hpp"
 #include "fiber_proximity/environment/environment.hpp"
+#include "test/environment/random_shapes.hpp"
 
 namespace fiber::test {
 

@@ -1,10 +1,10 @@
-#include "fiber_proximity/environment/point_distance.hpp"
+#include "src/environment/point_distance.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "environment/random_shapes.hpp"
+#include "test/environment/random_shapes.hpp"
 
 namespace fiber::test {
 namespace {

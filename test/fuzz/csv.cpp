@@ -3,7 +3,7 @@
 
 #include <sstream>
 
-#include "fuzz_target.hpp"
+#include "test/fuzz/fuzz_target.hpp"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const fiber::test::Bounds bounds(fiber::test::times(200, size));

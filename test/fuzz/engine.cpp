@@ -1,5 +1,5 @@
 // One engine in place of all: scenes of the fuzzer are small, and the others take long to compile.
-#include "fiber_proximity/query/brute_force.hpp"
+#include "src/query/brute_force.hpp"
 
 namespace fiber {
 

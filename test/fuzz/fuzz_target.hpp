@@ -11,7 +11,7 @@
 #include <exception>
 #include <string>
 
-#include "fiber_proximity/text/quote.hpp"
+#include "src/text/quote.hpp"
 
 /// libFuzzer calls this with each input; whatever is thrown out of it is a finding.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);

@@ -2,7 +2,7 @@
 #include <sstream>
 
 #include "fiber_proximity/io/hair_file.hpp"
-#include "fuzz_target.hpp"
+#include "test/fuzz/fuzz_target.hpp"
 
 namespace {
 

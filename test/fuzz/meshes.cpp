@@ -9,8 +9,8 @@
 #include <fstream>
 
 #include "fiber_proximity/environment/scene/mesh_files.hpp"
-#include "fuzz_target.hpp"
-#include "seeds.hpp"
+#include "test/fuzz/fuzz_target.hpp"
+#include "test/fuzz/seeds.hpp"
 #include "test/support/temporary_directory.hpp"
 
 namespace {

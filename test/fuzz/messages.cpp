@@ -6,16 +6,16 @@
 #include <functional>
 
 #include "fiber_proximity/ObstacleArray.h"
-#include "fiber_proximity/ros/cloud_cells.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
-#include "fiber_proximity/ros/marker_input.hpp"
-#include "fiber_proximity/ros/missing_points.hpp"
-#include "fiber_proximity/ros/obstacle_change.hpp"
-#include "fiber_proximity/ros/point_cloud_input.hpp"
-#include "fiber_proximity/ros/pose_input.hpp"
-#include "fuzz_target.hpp"
-#include "message_stream.hpp"
-#include "seeds.hpp"
+#include "src/ros/environment/cloud_cells.hpp"
+#include "src/ros/environment/obstacle_change.hpp"
+#include "src/ros/inputs/marker_input.hpp"
+#include "src/ros/inputs/missing_points.hpp"
+#include "src/ros/inputs/point_cloud_input.hpp"
+#include "src/ros/inputs/pose_input.hpp"
+#include "test/fuzz/fuzz_target.hpp"
+#include "test/fuzz/message_stream.hpp"
+#include "test/fuzz/seeds.hpp"
 
 namespace {
 

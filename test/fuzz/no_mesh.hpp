@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "fiber_proximity/environment/scene/mesh_files.hpp"
-#include "fiber_proximity/text/quote.hpp"
+#include "src/text/quote.hpp"
 
 namespace fiber::test {
 

@@ -3,8 +3,8 @@
 #include <yaml-cpp/yaml.h>
 
 #include "fiber_proximity/sim/scene/scene.hpp"
-#include "fuzz_target.hpp"
-#include "no_mesh.hpp"
+#include "test/fuzz/fuzz_target.hpp"
+#include "test/fuzz/no_mesh.hpp"
 
 namespace {
 

@@ -1,9 +1,9 @@
 // Files of pairs of segments.
-#include "fiber_proximity/io/segment_pairs.hpp"
+#include "src/io/segment_pairs.hpp"
 
 #include <sstream>
 
-#include "fuzz_target.hpp"
+#include "test/fuzz/fuzz_target.hpp"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const fiber::test::Bounds bounds(fiber::test::times(200, size));

@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
-#include "continuous/motion_score.hpp"
-#include "fiber_proximity/scenes/hard_motions.hpp"
-#include "support/public_edge_motions.hpp"
-#include "support/random.hpp"
-#include "support/rounds.hpp"
+#include "benchmark/continuous/motion_score.hpp"
+#include "src/scenes/hard_motions.hpp"
+#include "test/support/public_edge_motions.hpp"
+#include "test/support/random.hpp"
+#include "test/support/rounds.hpp"
 
 namespace fiber::test {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "continuous/motion_score.hpp"
+#include "benchmark/continuous/motion_score.hpp"
 #include "fiber_proximity/geometry/contact_time.hpp"
-#include "fiber_proximity/scenes/hard_motions.hpp"
+#include "src/scenes/hard_motions.hpp"
 
 namespace fiber::test {
 namespace {

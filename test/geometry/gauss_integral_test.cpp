@@ -1,10 +1,10 @@
-#include "fiber_proximity/geometry/gauss_integral.hpp"
+#include "src/geometry/gauss_integral.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "support/curves.hpp"
+#include "test/support/curves.hpp"
 
 namespace fiber::test {
 namespace {

@@ -1,11 +1,11 @@
-#include "fiber_proximity/geometry/point_velocities.hpp"
+#include "src/geometry/point_velocities.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 
-#include "support/random.hpp"
-#include "support/rounds.hpp"
+#include "test/support/random.hpp"
+#include "test/support/rounds.hpp"
 
 namespace fiber::test {
 namespace {

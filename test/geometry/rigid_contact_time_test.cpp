@@ -1,4 +1,4 @@
-#include "fiber_proximity/geometry/rigid_contact_time.hpp"
+#include "src/geometry/rigid_contact_time.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/segment_distance.hpp"
-#include "support/random.hpp"
-#include "support/rounds.hpp"
+#include "test/support/random.hpp"
+#include "test/support/rounds.hpp"
 
 namespace fiber::test {
 namespace {

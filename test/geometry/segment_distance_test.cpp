@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "support/exact_distance.hpp"
-#include "support/random.hpp"
+#include "test/support/exact_distance.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "fiber_proximity/geometry/segment_distance.hpp"
-#include "support/random.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber::test {
 namespace {
@@ -72,10 +72,6 @@ void expect_same_bits(Kernel kernel, Batch batch) {
 }
 
 TEST(SegmentDistances, EqualOnePairAlone) { expect_same_bits(Kernel::ROBUST, segment_distances); }
-
-TEST(FastSegmentDistances, EqualOnePairAlone) {
-  expect_same_bits(Kernel::FAST, fast_segment_distances);
-}
 
 }  // namespace
 }  // namespace fiber::test

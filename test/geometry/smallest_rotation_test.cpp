@@ -1,11 +1,11 @@
-#include "fiber_proximity/geometry/smallest_rotation.hpp"
+#include "src/geometry/smallest_rotation.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "support/random.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber::test {
 namespace {

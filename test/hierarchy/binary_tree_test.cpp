@@ -1,4 +1,4 @@
-#include "fiber_proximity/hierarchy/binary_tree.hpp"
+#include "src/paper/hierarchy/binary_tree.hpp"
 
 #include <gtest/gtest.h>
 

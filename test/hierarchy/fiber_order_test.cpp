@@ -1,4 +1,4 @@
-#include "fiber_proximity/hierarchy/fiber_order.hpp"
+#include "src/hierarchy/fiber_order.hpp"
 
 #include <gtest/gtest.h>
 

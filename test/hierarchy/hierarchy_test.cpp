@@ -1,4 +1,4 @@
-#include "fiber_proximity/hierarchy/hierarchy.hpp"
+#include "src/paper/hierarchy/hierarchy.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,16 +7,16 @@
 #include <type_traits>
 #include <vector>
 
-#include "fiber_proximity/bounds/aabb.hpp"
-#include "fiber_proximity/bounds/direction_set.hpp"
-#include "fiber_proximity/bounds/kdop.hpp"
-#include "fiber_proximity/bounds/obb.hpp"
-#include "fiber_proximity/bounds/sphere.hpp"
-#include "fiber_proximity/hierarchy/cascaded_hierarchy.hpp"
-#include "fiber_proximity/hierarchy/layered_hierarchy.hpp"
-#include "fiber_proximity/hierarchy/spatial_hierarchy.hpp"
-#include "fiber_proximity/hierarchy/wrapped_hierarchy.hpp"
-#include "support/assemblies.hpp"
+#include "src/bounds/aabb.hpp"
+#include "src/paper/bounds/direction_set.hpp"
+#include "src/paper/bounds/kdop.hpp"
+#include "src/paper/bounds/obb.hpp"
+#include "src/paper/bounds/sphere.hpp"
+#include "src/paper/hierarchy/cascaded_hierarchy.hpp"
+#include "src/paper/hierarchy/layered_hierarchy.hpp"
+#include "src/paper/hierarchy/spatial_hierarchy.hpp"
+#include "src/paper/hierarchy/wrapped_hierarchy.hpp"
+#include "test/support/assemblies.hpp"
 
 namespace fiber::test {
 namespace {

@@ -1,4 +1,4 @@
-#include "fiber_proximity/hierarchy/run_tree.hpp"
+#include "src/hierarchy/run_tree.hpp"
 
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
@@ -8,11 +8,11 @@
 #include <cmath>
 #include <vector>
 
-#include "fiber_proximity/query/brute_force.hpp"
-#include "fiber_proximity/query/run_tree_engine.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
-#include "support/assemblies.hpp"
-#include "support/contacts.hpp"
+#include "src/query/brute_force.hpp"
+#include "src/query/run_tree_engine.hpp"
+#include "test/support/assemblies.hpp"
+#include "test/support/contacts.hpp"
 
 namespace fiber::test {
 namespace {

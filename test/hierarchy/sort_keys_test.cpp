@@ -1,4 +1,4 @@
-#include "fiber_proximity/hierarchy/sort_keys.hpp"
+#include "src/hierarchy/sort_keys.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "support/random.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber::test {
 namespace {

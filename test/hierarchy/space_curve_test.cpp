@@ -1,11 +1,11 @@
-#include "fiber_proximity/hierarchy/space_curve.hpp"
+#include "src/hierarchy/space_curve.hpp"
 
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
 #include <algorithm>
 
-#include "support/assemblies.hpp"
+#include "test/support/assemblies.hpp"
 
 namespace fiber::test {
 namespace {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "support/temporary_directory.hpp"
+#include "test/support/temporary_directory.hpp"
 
 namespace fiber {
 namespace {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "support/temporary_directory.hpp"
+#include "test/support/temporary_directory.hpp"
 
 namespace fiber {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "support/random.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber {
 namespace {

@@ -1,4 +1,4 @@
-#include "fiber_proximity/io/number.hpp"
+#include "src/io/number.hpp"
 
 #include <gtest/gtest.h>
 

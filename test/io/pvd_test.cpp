@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "fiber_proximity/io/fiber_file.hpp"
-#include "support/process.hpp"
-#include "support/temporary_directory.hpp"
+#include "test/support/process.hpp"
+#include "test/support/temporary_directory.hpp"
 
 namespace fiber {
 namespace {

@@ -6,10 +6,10 @@
 #include <new>
 
 #include "fiber_proximity/query/engine.hpp"
-#include "fiber_proximity/query/run_tree_engine.hpp"
-#include "support/assemblies.hpp"
-#include "support/contacts.hpp"
-#include "support/seeded_test.hpp"
+#include "src/query/run_tree_engine.hpp"
+#include "test/support/assemblies.hpp"
+#include "test/support/contacts.hpp"
+#include "test/support/seeded_test.hpp"
 
 namespace {
 std::atomic<std::size_t> allocations{0};

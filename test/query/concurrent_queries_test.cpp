@@ -4,8 +4,8 @@
 #include <thread>
 
 #include "fiber_proximity/query/engine.hpp"
-#include "support/assemblies.hpp"
-#include "support/contacts.hpp"
+#include "test/support/assemblies.hpp"
+#include "test/support/contacts.hpp"
 
 namespace fiber::test {
 namespace {

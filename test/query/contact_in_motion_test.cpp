@@ -1,11 +1,11 @@
-#include "fiber_proximity/query/contact_in_motion.hpp"
+#include "src/query/contact_in_motion.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "query/motion_queries.hpp"
+#include "test/query/motion_queries.hpp"
 
 namespace fiber::test {
 namespace {

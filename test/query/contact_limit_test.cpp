@@ -5,10 +5,10 @@
 #include <limits>
 #include <memory>
 
-#include "fiber_proximity/query/brute_force.hpp"
-#include "support/contacts.hpp"
-#include "support/engines_test.hpp"
-#include "support/tangle.hpp"
+#include "src/query/brute_force.hpp"
+#include "test/support/contacts.hpp"
+#include "test/support/engines_test.hpp"
+#include "test/support/tangle.hpp"
 
 namespace fiber::test {
 namespace {
@@ -36,7 +36,7 @@ void expect_closest(const QueryResult& found, const QueryResult& all, std::uint3
 
 TEST_P(ContactLimitTest, TheClosestAreReportedOnEveryFamily) {
   for_each_assembly(1, [&](const FiberAssembly& fibers, Random& random) {
-    for (const Kernel kernel : {Kernel::FAST, Kernel::ROBUST, Kernel::EXACT}) {
+    for (const Kernel kernel : {Kernel::ROBUST, Kernel::EXACT}) {
       QueryOptions options = within(random.uniform(0.0, 1.0));
       options.kernel = kernel;
       QueryResult all;
@@ -58,7 +58,7 @@ TEST_P(ContactLimitTest, TheClosestOfVeryManyAreReported) {
   Random random;
   const FiberAssembly fibers = tangle(random, 60);
   std::vector<QueryOptions> queries;
-  for (const Kernel kernel : {Kernel::FAST, Kernel::ROBUST, Kernel::EXACT}) {
+  for (const Kernel kernel : {Kernel::ROBUST, Kernel::EXACT}) {
     for (const double margin : {0.6, infinity}) {
       queries.push_back(within(margin));
       queries.back().kernel = kernel;

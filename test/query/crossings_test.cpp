@@ -6,9 +6,9 @@
 #include <limits>
 #include <stdexcept>
 
-#include "support/assemblies.hpp"
-#include "support/curves.hpp"
-#include "support/exact_crossings.hpp"
+#include "test/support/assemblies.hpp"
+#include "test/support/curves.hpp"
+#include "test/support/exact_crossings.hpp"
 
 namespace fiber::test {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <memory>
 
-#include "fiber_proximity/query/brute_force.hpp"
-#include "support/contacts.hpp"
-#include "support/engines_test.hpp"
+#include "src/query/brute_force.hpp"
+#include "test/support/contacts.hpp"
+#include "test/support/engines_test.hpp"
 
 namespace fiber::test {
 namespace {

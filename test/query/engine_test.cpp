@@ -7,12 +7,12 @@
 #include <limits>
 #include <stdexcept>
 
-#include "fiber_proximity/query/brute_force.hpp"
-#include "fiber_proximity/scenes/hard_pairs.hpp"
-#include "support/assemblies.hpp"
-#include "support/contacts.hpp"
-#include "support/neighbour_skips.hpp"
-#include "support/rounds.hpp"
+#include "src/query/brute_force.hpp"
+#include "src/scenes/hard_pairs.hpp"
+#include "test/support/assemblies.hpp"
+#include "test/support/contacts.hpp"
+#include "test/support/neighbour_skips.hpp"
+#include "test/support/rounds.hpp"
 
 namespace fiber::test {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "fiber_proximity/query/brute_force.hpp"
-#include "support/assemblies.hpp"
-#include "support/contacts.hpp"
+#include "src/query/brute_force.hpp"
+#include "test/support/assemblies.hpp"
+#include "test/support/contacts.hpp"
 
 namespace fiber::test {
 namespace {

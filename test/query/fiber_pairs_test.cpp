@@ -5,11 +5,11 @@
 #include <map>
 #include <utility>
 
-#include "fiber_proximity/query/brute_force.hpp"
-#include "support/assemblies.hpp"
-#include "support/contacts.hpp"
-#include "support/neighbour_skips.hpp"
-#include "support/rounds.hpp"
+#include "src/query/brute_force.hpp"
+#include "test/support/assemblies.hpp"
+#include "test/support/contacts.hpp"
+#include "test/support/neighbour_skips.hpp"
+#include "test/support/rounds.hpp"
 
 namespace fiber::test {
 namespace {

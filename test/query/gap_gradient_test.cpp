@@ -5,10 +5,10 @@
 #include <Eigen/Geometry>
 #include <limits>
 
-#include "fiber_proximity/query/brute_force.hpp"
-#include "support/exact_distance.hpp"
-#include "support/random.hpp"
-#include "support/rounds.hpp"
+#include "src/query/brute_force.hpp"
+#include "test/support/exact_distance.hpp"
+#include "test/support/random.hpp"
+#include "test/support/rounds.hpp"
 
 namespace fiber::test {
 namespace {

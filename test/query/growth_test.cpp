@@ -6,9 +6,9 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "fiber_proximity/geometry/smallest_rotation.hpp"
 #include "fiber_proximity/query/engine.hpp"
-#include "support/assemblies.hpp"
+#include "src/geometry/smallest_rotation.hpp"
+#include "test/support/assemblies.hpp"
 
 namespace fiber::test {
 namespace {

@@ -1,6 +1,6 @@
 // Whole scenes that are hard on arithmetic: all engines agree with brute force to the bit, and
 // brute force with exact arithmetic to what its kernel may err by.
-#include "support/hard_scenes.hpp"
+#include "test/support/hard_scenes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,9 @@
 #include <tuple>
 
 #include "fiber_proximity/geometry/exact_distance.hpp"
-#include "fiber_proximity/query/brute_force.hpp"
-#include "support/contacts.hpp"
-#include "support/rounds.hpp"
+#include "src/query/brute_force.hpp"
+#include "test/support/contacts.hpp"
+#include "test/support/rounds.hpp"
 
 namespace fiber::test {
 namespace {

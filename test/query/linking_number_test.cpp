@@ -4,8 +4,8 @@
 
 #include <stdexcept>
 
-#include "fiber_proximity/geometry/gauss_integral.hpp"
-#include "support/curves.hpp"
+#include "src/geometry/gauss_integral.hpp"
+#include "test/support/curves.hpp"
 
 namespace fiber::test {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "support/cables.hpp"
-#include "support/rounds.hpp"
+#include "test/support/cables.hpp"
+#include "test/support/rounds.hpp"
 
 namespace fiber::test {
 namespace {

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "fiber_proximity/query/motion.hpp"
-#include "query/motion_queries.hpp"
+#include "test/query/motion_queries.hpp"
 
 namespace fiber::test {
 namespace {

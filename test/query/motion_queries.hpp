@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "support/engines_test.hpp"
-#include "support/motions.hpp"
+#include "test/support/engines_test.hpp"
+#include "test/support/motions.hpp"
 
 namespace fiber::test {
 

@@ -10,10 +10,10 @@
 #include <stdexcept>
 
 #include "fiber_proximity/geometry/contact_time.hpp"
-#include "fiber_proximity/query/contact_judge.hpp"
 #include "fiber_proximity/query/pair_test.hpp"
-#include "query/motion_queries.hpp"
-#include "support/error_of.hpp"
+#include "src/query/contact_judge.hpp"
+#include "test/query/motion_queries.hpp"
+#include "test/support/error_of.hpp"
 
 namespace fiber::test {
 namespace {

@@ -5,9 +5,9 @@
 #include <limits>
 #include <stdexcept>
 
-#include "fiber_proximity/query/brute_force.hpp"
-#include "support/assemblies.hpp"
-#include "support/exact_distance.hpp"
+#include "src/query/brute_force.hpp"
+#include "test/support/assemblies.hpp"
+#include "test/support/exact_distance.hpp"
 
 namespace fiber::test {
 namespace {

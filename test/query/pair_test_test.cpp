@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "support/assemblies.hpp"
+#include "test/support/assemblies.hpp"
 
 namespace fiber::test {
 namespace {

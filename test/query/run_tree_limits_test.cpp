@@ -4,9 +4,9 @@
 #include <limits>
 #include <memory>
 
-#include "fiber_proximity/query/brute_force.hpp"
-#include "support/contacts.hpp"
-#include "support/tangle.hpp"
+#include "src/query/brute_force.hpp"
+#include "test/support/contacts.hpp"
+#include "test/support/tangle.hpp"
 
 namespace fiber::test {
 namespace {

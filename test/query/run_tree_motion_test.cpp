@@ -7,11 +7,11 @@
 #include <limits>
 
 #include "fiber_proximity/geometry/segment_distance.hpp"
-#include "fiber_proximity/query/run_tree_engine.hpp"
-#include "support/assemblies.hpp"
-#include "support/contacts.hpp"
-#include "support/motions.hpp"
-#include "support/rounds.hpp"
+#include "src/query/run_tree_engine.hpp"
+#include "test/support/assemblies.hpp"
+#include "test/support/contacts.hpp"
+#include "test/support/motions.hpp"
+#include "test/support/rounds.hpp"
 
 namespace fiber::test {
 namespace {

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 
-#include "fiber_proximity/bounds/aabb.hpp"
-#include "fiber_proximity/hierarchy/wrapped_hierarchy.hpp"
-#include "fiber_proximity/query/brute_force.hpp"
-#include "fiber_proximity/query/hierarchy_engine.hpp"
-#include "support/contacts.hpp"
-#include "support/rounds.hpp"
-#include "support/small_scene.hpp"
+#include "src/bounds/aabb.hpp"
+#include "src/paper/engines/hierarchy_engine.hpp"
+#include "src/paper/hierarchy/wrapped_hierarchy.hpp"
+#include "src/query/brute_force.hpp"
+#include "test/support/contacts.hpp"
+#include "test/support/rounds.hpp"
+#include "test/support/small_scene.hpp"
 
 namespace fiber::test {
 namespace {

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <limits>
 
-#include "fiber_proximity/query/brute_force.hpp"
-#include "support/cables.hpp"
-#include "support/contacts.hpp"
-#include "support/engines_test.hpp"
+#include "src/query/brute_force.hpp"
+#include "test/support/cables.hpp"
+#include "test/support/contacts.hpp"
+#include "test/support/engines_test.hpp"
 
 namespace fiber::test {
 namespace {

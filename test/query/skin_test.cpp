@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <limits>
 
-#include "fiber_proximity/query/brute_force.hpp"
-#include "fiber_proximity/query/run_tree_engine.hpp"
-#include "support/assemblies.hpp"
-#include "support/contacts.hpp"
-#include "support/neighbour_skips.hpp"
-#include "support/rounds.hpp"
+#include "src/query/brute_force.hpp"
+#include "src/query/run_tree_engine.hpp"
+#include "test/support/assemblies.hpp"
+#include "test/support/contacts.hpp"
+#include "test/support/neighbour_skips.hpp"
+#include "test/support/rounds.hpp"
 
 namespace fiber::test {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "fiber_proximity/query/brute_force.hpp"
-#include "support/engines_test.hpp"
+#include "src/query/brute_force.hpp"
+#include "test/support/engines_test.hpp"
 
 namespace fiber::test {
 namespace {

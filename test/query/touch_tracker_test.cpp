@@ -1,4 +1,4 @@
-#include "fiber_proximity/query/touch_tracker.hpp"
+#include "src/query/touch_tracker.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <map>
 #include <set>
 
-#include "support/random.hpp"
-#include "support/rounds.hpp"
+#include "test/support/random.hpp"
+#include "test/support/rounds.hpp"
 
 namespace fiber::test {
 namespace {

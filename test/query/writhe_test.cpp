@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fiber_proximity/query/crossings.hpp"
-#include "support/curves.hpp"
+#include "test/support/curves.hpp"
 
 namespace fiber::test {
 namespace {

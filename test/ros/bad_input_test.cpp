@@ -4,10 +4,10 @@
 #include <cstdio>
 #include <limits>
 
-#include "ros/messages.hpp"
-#include "ros/node_test.hpp"
-#include "ros/running_node.hpp"
-#include "support/process.hpp"
+#include "test/ros/messages.hpp"
+#include "test/ros/node_test.hpp"
+#include "test/ros/running_node.hpp"
+#include "test/support/process.hpp"
 
 namespace {
 
@@ -395,8 +395,8 @@ TEST_F(BadInputTest, ABadParameterIsAClearErrorAndExitCode2) {
            {"box_level", "-1", "a whole number of at least 0"},
            {"query_type", "nearest", "one of first, closest, limited, all, fiber_pairs"},
            {"query_type", "3", "one of first, closest, limited, all, fiber_pairs"},
-           {"kernel", "double", "one of fast, robust, exact"},
-           {"accuracy", "sloppy", "one of custom, fast, robust, exact, deadline"},
+           {"kernel", "double", "one of robust, exact"},
+           {"accuracy", "sloppy", "one of custom, robust, exact, deadline"},
            {"pairing", "none", "one of all, same_fiber, different_fibers"},
            {"show_boxes", "yes", "true or false"},
            {"compare", "1", "true or false"},
@@ -426,11 +426,9 @@ TEST_F(BadInputTest, ABadParameterIsAClearErrorAndExitCode2) {
               "unknown engine 'DL-7' (k-DOP with k = 7: k must be even, from 6 to ");
   expect_exit("_threads:=-1", "parameter /refused/threads is -1, it must be a whole number of ");
   expect_exit("_threads:=100000", "threads is 100000, it must be at most 1024 (0 for as many as ");
-  for (const std::string name : {"skin", "simplification"}) {
-    for (const std::string value : {"-0.001", "nan", "inf", "thin"}) {
-      expect_exit("_" + name + ":=" + value, "parameter /refused/" + name + " is " + value +
-                                                 ", it must be a number of at least 0");
-    }
+  for (const std::string value : {"-0.001", "nan", "inf", "thin"}) {
+    expect_exit("_skin:=" + value,
+                "parameter /refused/skin is " + value + ", it must be a number of at least 0");
   }
   expect_exit("_tf_timeout:=-1", "parameter /refused/tf_timeout is -1, it must be a number of ");
   expect_exit("_radius:=thick",

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "ros/messages.hpp"
-#include "ros/node_test.hpp"
+#include "test/ros/messages.hpp"
+#include "test/ros/node_test.hpp"
 
 namespace bridge_test {
 

@@ -10,7 +10,7 @@
 #include "fiber_proximity/DetachFiber.h"
 #include "fiber_proximity/SetSimulationParameters.h"
 #include "fiber_proximity/StepSimulation.h"
-#include "ros/node_test.hpp"
+#include "test/ros/node_test.hpp"
 
 /// Asks a running simulation's node, /cable_sim.
 class CableSimTest : public ::testing::Test {

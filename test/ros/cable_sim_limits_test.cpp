@@ -7,10 +7,10 @@
 #include <future>
 #include <limits>
 
-#include "ros/cable_sim_fixture.hpp"
-#include "ros/mesh_files.hpp"
-#include "ros/running_node.hpp"
-#include "support/process.hpp"
+#include "test/ros/cable_sim_fixture.hpp"
+#include "test/ros/mesh_files.hpp"
+#include "test/ros/running_node.hpp"
+#include "test/support/process.hpp"
 
 namespace {
 

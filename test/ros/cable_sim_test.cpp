@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "fiber_proximity/ObstacleArray.h"
-#include "fiber_proximity/ros/sim_server.hpp"
-#include "ros/cable_sim_fixture.hpp"
+#include "src/ros/sim/sim_server.hpp"
+#include "test/ros/cable_sim_fixture.hpp"
 
 namespace {
 

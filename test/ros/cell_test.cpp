@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "ros/node_test.hpp"
+#include "test/ros/node_test.hpp"
 
 namespace {
 

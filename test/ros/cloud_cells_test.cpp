@@ -1,4 +1,4 @@
-#include "fiber_proximity/ros/cloud_cells.hpp"
+#include "src/ros/environment/cloud_cells.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <set>
 #include <tuple>
 
-#include "support/error_of.hpp"
-#include "support/random.hpp"
+#include "test/support/error_of.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber_proximity_ros {
 namespace {

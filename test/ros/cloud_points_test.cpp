@@ -1,8 +1,8 @@
 // What the running node says about the points of clouds of which few or none are of use.
 #include <limits>
 
-#include "ros/messages.hpp"
-#include "ros/node_test.hpp"
+#include "test/ros/messages.hpp"
+#include "test/ros/node_test.hpp"
 
 namespace {
 

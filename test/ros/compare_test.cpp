@@ -5,7 +5,7 @@
 
 #include "fiber_proximity/CompareWithFcl.h"
 #include "fiber_proximity/Comparison.h"
-#include "ros/node_test.hpp"
+#include "test/ros/node_test.hpp"
 
 namespace {
 

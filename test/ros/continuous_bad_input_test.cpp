@@ -1,5 +1,5 @@
 // The running node with ~continuous: messages between which there is no motion to look at.
-#include "ros/continuous_fixture.hpp"
+#include "test/ros/continuous_fixture.hpp"
 
 namespace {
 

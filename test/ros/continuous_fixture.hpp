@@ -8,8 +8,8 @@
 #include "fiber_proximity/ContactEvent.h"
 #include "fiber_proximity/Obstacle.h"
 #include "fiber_proximity/TimeToContact.h"
-#include "ros/messages.hpp"
-#include "ros/node_test.hpp"
+#include "test/ros/messages.hpp"
+#include "test/ros/node_test.hpp"
 
 /// The running node with ~continuous, as in continuous.test.
 namespace continuous_test {

@@ -3,7 +3,7 @@
 #include <set>
 
 #include "fiber_proximity/ApplyObstacles.h"
-#include "ros/continuous_fixture.hpp"
+#include "test/ros/continuous_fixture.hpp"
 
 namespace {
 

@@ -5,9 +5,9 @@
 #include <cstring>
 #include <functional>
 
-#include "fiber_proximity/ros/point_cloud_input.hpp"
-#include "fiber_proximity/ros/pose_input.hpp"
-#include "ros/messages.hpp"
+#include "src/ros/inputs/point_cloud_input.hpp"
+#include "src/ros/inputs/pose_input.hpp"
+#include "test/ros/messages.hpp"
 
 namespace fiber_proximity_ros {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstdlib>
 
 #include "fiber_proximity/CrossingArray.h"
-#include "ros/messages.hpp"
-#include "ros/node_test.hpp"
+#include "test/ros/messages.hpp"
+#include "test/ros/node_test.hpp"
 
 namespace {
 

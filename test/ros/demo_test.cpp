@@ -1,5 +1,5 @@
 // The demo's launch file: player and node find each other, and the cables touch.
-#include "ros/node_test.hpp"
+#include "test/ros/node_test.hpp"
 
 namespace {
 

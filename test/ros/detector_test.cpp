@@ -1,4 +1,4 @@
-#include "fiber_proximity/ros/detector.hpp"
+#include "src/ros/outputs/detector.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "fiber_proximity/query/brute_force.hpp"
-#include "support/random.hpp"
+#include "src/query/brute_force.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber_proximity_ros {
 namespace {

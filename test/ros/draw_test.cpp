@@ -5,8 +5,8 @@
 #include <map>
 #include <utility>
 
-#include "ros/messages.hpp"
-#include "ros/node_test.hpp"
+#include "test/ros/messages.hpp"
+#include "test/ros/node_test.hpp"
 
 namespace {
 

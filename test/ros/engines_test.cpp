@@ -1,9 +1,9 @@
 // The running node with every engine by its parameter.
-#include "fiber_proximity/ros/detector.hpp"
-#include "ros/messages.hpp"
-#include "ros/node_test.hpp"
-#include "ros/running_node.hpp"
-#include "support/assemblies.hpp"
+#include "src/ros/outputs/detector.hpp"
+#include "test/ros/messages.hpp"
+#include "test/ros/node_test.hpp"
+#include "test/ros/running_node.hpp"
+#include "test/support/assemblies.hpp"
 
 namespace {
 

@@ -5,11 +5,11 @@
 
 #include <limits>
 
-#include "fiber_proximity/environment/occupancy_octree.hpp"
 #include "fiber_proximity/environment/triangle_mesh.hpp"
-#include "ros/environment_fixture.hpp"
-#include "ros/gate.hpp"
-#include "ros/mesh_files.hpp"
+#include "src/environment/occupancy_octree.hpp"
+#include "test/ros/environment_fixture.hpp"
+#include "test/ros/gate.hpp"
+#include "test/ros/mesh_files.hpp"
 
 namespace environment_test {
 namespace {

@@ -9,10 +9,10 @@
 #include <memory>
 #include <string>
 
-#include "fiber_proximity/ros/environment_inputs.hpp"
-#include "ros/messages.hpp"
-#include "ros/node_test.hpp"
-#include "support/error_of.hpp"
+#include "src/ros/environment/environment_inputs.hpp"
+#include "test/ros/messages.hpp"
+#include "test/ros/node_test.hpp"
+#include "test/support/error_of.hpp"
 
 namespace environment_test {
 

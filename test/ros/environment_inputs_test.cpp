@@ -1,5 +1,5 @@
 // EnvironmentInputs through the real graph: obstacles, allowed pairs, scene, robot.
-#include "fiber_proximity/ros/environment_inputs.hpp"
+#include "src/ros/environment/environment_inputs.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -10,8 +10,8 @@
 
 #include "fiber_proximity/environment/triangle_mesh.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
-#include "ros/environment_fixture.hpp"
-#include "ros/gate.hpp"
+#include "test/ros/environment_fixture.hpp"
+#include "test/ros/gate.hpp"
 
 namespace environment_test {
 namespace {

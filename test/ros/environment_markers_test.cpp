@@ -1,4 +1,4 @@
-#include "fiber_proximity/ros/environment_markers.hpp"
+#include "src/ros/outputs/environment_markers.hpp"
 
 #include <gtest/gtest.h>
 

@@ -13,8 +13,8 @@
 #include "fiber_proximity/CheckFibers.h"
 #include "fiber_proximity/ObstacleArray.h"
 #include "fiber_proximity/QueryProximity.h"
-#include "ros/messages.hpp"
-#include "ros/node_test.hpp"
+#include "test/ros/messages.hpp"
+#include "test/ros/node_test.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "fiber_proximity/ros/fiber_player.hpp"
+#include "src/ros/player/fiber_player.hpp"
 
 #include <geometry_msgs/PoseArray.h>
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@
 
 #include "fiber_proximity/FiberArray.h"
 #include "fiber_proximity/io/csv.hpp"
-#include "fiber_proximity/scenes/cables.hpp"
+#include "src/scenes/cables.hpp"
 
 namespace fiber_proximity_ros {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <future>
 
-#include "fiber_proximity/ros/worker.hpp"
+#include "src/ros/support/worker.hpp"
 
 namespace environment_test {
 

@@ -1,4 +1,4 @@
-#include "fiber_proximity/ros/input_options.hpp"
+#include "src/ros/inputs/input_options.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "fiber_proximity/ProximityConfig.h"
 #include "fiber_proximity/query/options.hpp"
-#include "fiber_proximity/ros/markers.hpp"
+#include "src/ros/outputs/markers.hpp"
 
 namespace fiber_proximity_ros {
 namespace {

@@ -1,8 +1,8 @@
 // Every type of input through the running node.
 #include <algorithm>
 
-#include "ros/messages.hpp"
-#include "ros/node_test.hpp"
+#include "test/ros/messages.hpp"
+#include "test/ros/node_test.hpp"
 
 namespace {
 

@@ -1,9 +1,9 @@
 // Messages in which nearly all is in contact: the node answers within its limits, says so, and goes
 // on.
 #include "fiber_proximity/CheckFibers.h"
-#include "ros/messages.hpp"
-#include "ros/node_test.hpp"
-#include "support/random.hpp"
+#include "test/ros/messages.hpp"
+#include "test/ros/node_test.hpp"
+#include "test/support/random.hpp"
 
 namespace {
 

@@ -1,11 +1,11 @@
-#include "fiber_proximity/ros/marker_input.hpp"
+#include "src/ros/inputs/marker_input.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <limits>
 
-#include "ros/messages.hpp"
+#include "test/ros/messages.hpp"
 
 namespace fiber_proximity_ros {
 namespace {

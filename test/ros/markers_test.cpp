@@ -1,4 +1,4 @@
-#include "fiber_proximity/ros/markers.hpp"
+#include "src/ros/outputs/markers.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "fiber_proximity/query/crossings.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
-#include "fiber_proximity/ros/legend.hpp"
+#include "src/ros/outputs/legend.hpp"
 
 namespace fiber_proximity_ros {
 namespace {

@@ -3,8 +3,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "support/mesh_files.hpp"
-#include "support/temporary_directory.hpp"
+#include "test/support/mesh_files.hpp"
+#include "test/support/temporary_directory.hpp"
 
 namespace test_meshes {
 

@@ -1,9 +1,9 @@
-#include "fiber_proximity/ros/mesh_loader.hpp"
+#include "src/ros/environment/mesh_loader.hpp"
 
 #include <gtest/gtest.h>
 
-#include "ros/mesh_files.hpp"
-#include "support/error_of.hpp"
+#include "test/ros/mesh_files.hpp"
+#include "test/support/error_of.hpp"
 
 namespace fiber_proximity_ros {
 namespace {

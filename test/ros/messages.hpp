@@ -14,7 +14,7 @@
 #include "fiber_proximity/FiberArray.h"
 #include "fiber_proximity/Obstacle.h"
 #include "fiber_proximity/ros/conversions.hpp"
-#include "support/assemblies.hpp"
+#include "test/support/assemblies.hpp"
 
 /// Messages of every input type, as trackers make them.
 namespace test_messages {

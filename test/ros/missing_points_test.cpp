@@ -1,4 +1,4 @@
-#include "fiber_proximity/ros/missing_points.hpp"
+#include "src/ros/inputs/missing_points.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 
 #include "fiber_proximity/ApplyObstacles.h"
 #include "fiber_proximity/CheckFibers.h"
-#include "ros/messages.hpp"
-#include "ros/node_test.hpp"
+#include "test/ros/messages.hpp"
+#include "test/ros/node_test.hpp"
 
 namespace {
 

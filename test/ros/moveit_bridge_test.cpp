@@ -1,11 +1,11 @@
 // MoveIt's messages, through moveit_bridge, in the running node's environment.
-#include "fiber_proximity/ros/moveit_bridge.hpp"
+#include "src/ros/bridges/moveit_bridge.hpp"
 
 #include <ros/spinner.h>
 
 #include <mutex>
 
-#include "ros/bridge_fixture.hpp"
+#include "test/ros/bridge_fixture.hpp"
 
 namespace {
 

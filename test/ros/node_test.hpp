@@ -16,8 +16,8 @@
 #include "fiber_proximity/FiberArray.h"
 #include "fiber_proximity/QueryProximity.h"
 #include "fiber_proximity/Statistics.h"
-#include "fiber_proximity/query/brute_force.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
+#include "src/query/brute_force.hpp"
 
 /// What tests of the running node share. The node under test is /proximity.
 namespace node_test {

@@ -1,8 +1,8 @@
 // The nodelet in a manager, by the name that the README has.
 #include <nodelet/NodeletLoad.h>
 
-#include "ros/messages.hpp"
-#include "ros/node_test.hpp"
+#include "test/ros/messages.hpp"
+#include "test/ros/node_test.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "fiber_proximity/ros/obstacle_change.hpp"
+#include "src/ros/environment/obstacle_change.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <memory>
 
 #include "fiber_proximity/environment/triangle_mesh.hpp"
-#include "support/error_of.hpp"
-#include "support/random.hpp"
+#include "test/support/error_of.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber_proximity_ros {
 namespace {

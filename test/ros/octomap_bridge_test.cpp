@@ -1,7 +1,7 @@
 // Octomaps, through octomap_bridge, in the running node's environment.
 #include <octomap_msgs/conversions.h>
 
-#include "ros/bridge_fixture.hpp"
+#include "test/ros/bridge_fixture.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "fiber_proximity/ros/octomap_cloud.hpp"
+#include "src/ros/bridges/octomap_cloud.hpp"
 
 #include <gtest/gtest.h>
 #include <octomap_msgs/conversions.h>
@@ -9,8 +9,8 @@
 #include <limits>
 #include <vector>
 
-#include "support/error_of.hpp"
-#include "support/random.hpp"
+#include "test/support/error_of.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber_proximity_ros {
 namespace {

@@ -1,10 +1,10 @@
-#include "fiber_proximity/ros/planning_scene.hpp"
+#include "src/ros/bridges/planning_scene.hpp"
 
 #include <gtest/gtest.h>
 
 #include <utility>
 
-#include "fiber_proximity/ros/collision_object.hpp"
+#include "src/ros/bridges/collision_object.hpp"
 
 namespace fiber_proximity_ros {
 namespace {

@@ -1,7 +1,7 @@
 // The running node with ~prediction: when fibres will touch if they go on as they do.
 #include <limits>
 
-#include "ros/continuous_fixture.hpp"
+#include "test/ros/continuous_fixture.hpp"
 
 namespace {
 

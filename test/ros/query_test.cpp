@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "ros/messages.hpp"
-#include "ros/node_test.hpp"
+#include "test/ros/messages.hpp"
+#include "test/ros/node_test.hpp"
 
 namespace {
 
@@ -247,10 +247,25 @@ TEST_F(QueryTest, AccuracyIsChosenByCall) {
   request.kernel = "exact";
   // The surfaces' distance, but for its last digits: the kernels know better than brute force.
   EXPECT_NEAR(call(request).contacts.front().distance, minimum, 1e-15);
-  request.kernel = "fast";
+}
+
+TEST_F(QueryTest, TheKernelOfTheVersionBeforeIsRobust) {
+  std::string kernel;
+  EXPECT_TRUE(ros::param::get("/proximity/kernel", kernel));
+  EXPECT_EQ(kernel, "robust") << "the launch file says fast";
+  send_fibers();
+  QueryProximity::Request request;
   request.type = QueryProximity::Request::ALL;
+  request.margin = std::numeric_limits<double>::infinity();
+  request.shapes = {shape("world", {{-1, 0, 0}, {1, 0, 0}}, 0.1)};
+  request.kernel = "robust";
+  const QueryProximity::Response robust = call(request);
+  request.kernel = "fast";
   const QueryProximity::Response fast = call(request);
-  EXPECT_GT(fast.contacts.front().upper - fast.contacts.front().lower, 1e-8);
+  ASSERT_FALSE(robust.contacts.empty());
+  ASSERT_EQ(fast.contacts.size(), robust.contacts.size());
+  EXPECT_EQ(fast.contacts.front().lower, robust.contacts.front().lower);
+  EXPECT_EQ(fast.contacts.front().upper, robust.contacts.front().upper);
 }
 
 TEST_F(QueryTest, ADeadlineCutsTheAnswerOffAndSaysSo) {
@@ -302,7 +317,7 @@ TEST_F(QueryTest, BadRequestsAreAnsweredWithTheReason) {
   expect_error([](auto& request) { request.type = QueryProximity::Request::LIMITED; },
                "max_contacts is 0");
   expect_error([](auto& request) { request.kernel = "double"; },
-               "unknown kernel 'double', known are: fast, robust, exact");
+               "unknown kernel 'double', known are: robust, exact");
   expect_error([](auto& request) { request.tolerance = -1.0; },
                "tolerance is -1.000000, it must be finite and at least 0 m");
   expect_error([](auto& request) { request.relative_tolerance = nan; },

@@ -1,4 +1,4 @@
-#include "fiber_proximity/ros/robot_links.hpp"
+#include "src/ros/environment/robot_links.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <memory>
 
 #include "fiber_proximity/environment/triangle_mesh.hpp"
-#include "ros/mesh_files.hpp"
-#include "support/error_of.hpp"
+#include "test/ros/mesh_files.hpp"
+#include "test/support/error_of.hpp"
 
 namespace fiber_proximity_ros {
 namespace {

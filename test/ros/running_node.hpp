@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "support/process.hpp"
+#include "test/support/process.hpp"
 
 namespace node_test {
 

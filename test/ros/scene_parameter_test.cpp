@@ -1,11 +1,11 @@
 // What of scenes is ROS: parameters, and meshes of packages.
 #include <gtest/gtest.h>
 
-#include "fiber_proximity/environment/scene/environment_scene.hpp"
-#include "fiber_proximity/ros/mesh_loader.hpp"
-#include "fiber_proximity/ros/yaml_parameter.hpp"
-#include "ros/mesh_files.hpp"
-#include "support/error_of.hpp"
+#include "src/environment/scene/environment_scene.hpp"
+#include "src/ros/environment/mesh_loader.hpp"
+#include "src/ros/support/yaml_parameter.hpp"
+#include "test/ros/mesh_files.hpp"
+#include "test/support/error_of.hpp"
 
 namespace fiber_proximity_ros {
 namespace {

@@ -1,7 +1,7 @@
 // The shipped settings for trackers, with nothing set about neighbours: cables touch themselves
 // only where they make a loop.
-#include "ros/messages.hpp"
-#include "ros/node_test.hpp"
+#include "test/ros/messages.hpp"
+#include "test/ros/node_test.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "fiber_proximity/ros/sequence_gaps.hpp"
+#include "src/ros/inputs/sequence_gaps.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "fiber_proximity/ros/shape_marker.hpp"
+#include "src/ros/outputs/shape_marker.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,11 +8,11 @@
 #include <map>
 #include <tuple>
 
-#include "environment/random_shapes.hpp"
-#include "fiber_proximity/environment/point_distance.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
-#include "fiber_proximity/ros/tube_mesh.hpp"
-#include "support/random.hpp"
+#include "src/environment/point_distance.hpp"
+#include "src/ros/outputs/tube_mesh.hpp"
+#include "test/environment/random_shapes.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber_proximity_ros {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "fiber_proximity/ForceArray.h"
 #include "fiber_proximity/ros/conversions.hpp"
-#include "ros/cable_sim_fixture.hpp"
+#include "test/ros/cable_sim_fixture.hpp"
 
 namespace {
 

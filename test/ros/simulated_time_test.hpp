@@ -2,7 +2,7 @@
 
 #include <rosgraph_msgs/Clock.h>
 
-#include "ros/node_test.hpp"
+#include "test/ros/node_test.hpp"
 
 namespace node_test {
 

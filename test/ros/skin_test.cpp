@@ -1,7 +1,7 @@
 // The running node with ~skin: candidates serve several messages, answers stay exact.
-#include "ros/messages.hpp"
-#include "ros/node_test.hpp"
-#include "support/random.hpp"
+#include "test/ros/messages.hpp"
+#include "test/ros/node_test.hpp"
+#include "test/support/random.hpp"
 
 namespace {
 

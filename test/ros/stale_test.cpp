@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "ros/messages.hpp"
-#include "ros/simulated_time_test.hpp"
+#include "test/ros/messages.hpp"
+#include "test/ros/simulated_time_test.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "fiber_proximity/ros/stamp_matcher.hpp"
+#include "src/ros/inputs/stamp_matcher.hpp"
 
 #include <geometry_msgs/PointStamped.h>
 #include <gtest/gtest.h>

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <sstream>
 
-#include "ros/messages.hpp"
-#include "ros/node_test.hpp"
+#include "test/ros/messages.hpp"
+#include "test/ros/node_test.hpp"
 
 namespace {
 

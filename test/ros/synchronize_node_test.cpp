@@ -2,8 +2,8 @@
 #include <array>
 #include <cmath>
 
-#include "ros/messages.hpp"
-#include "ros/simulated_time_test.hpp"
+#include "test/ros/messages.hpp"
+#include "test/ros/simulated_time_test.hpp"
 
 namespace {
 

@@ -1,8 +1,8 @@
 // Messages that come faster than transforms, or than the node can answer.
 #include <tf2_msgs/TFMessage.h>
 
-#include "ros/messages.hpp"
-#include "ros/node_test.hpp"
+#include "test/ros/messages.hpp"
+#include "test/ros/node_test.hpp"
 
 namespace {
 

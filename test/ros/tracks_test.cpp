@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "fiber_proximity/io/csv.hpp"
-#include "ros/node_test.hpp"
+#include "test/ros/node_test.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "fiber_proximity/ros/tube_mesh.hpp"
+#include "src/ros/outputs/tube_mesh.hpp"
 
 #include <gtest/gtest.h>
 

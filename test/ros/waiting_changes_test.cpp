@@ -1,14 +1,14 @@
 // In which order changes of the environment are made that wait for transforms, for their
 // preparation, and for each other.
-#include "fiber_proximity/ros/waiting_changes.hpp"
+#include "src/ros/environment/waiting_changes.hpp"
 
 #include <algorithm>
 #include <memory>
 #include <mutex>
 #include <random>
 
-#include "ros/environment_fixture.hpp"
-#include "ros/gate.hpp"
+#include "test/ros/environment_fixture.hpp"
+#include "test/ros/gate.hpp"
 
 namespace environment_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "fiber_proximity/rviz/contact_pairing.hpp"
+#include "src/rviz/contact_pairing.hpp"
 
 #include <gtest/gtest.h>
 

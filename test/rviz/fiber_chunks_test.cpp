@@ -1,11 +1,11 @@
-#include "fiber_proximity/rviz/fiber_chunks.hpp"
+#include "src/rviz/fiber_chunks.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
 
-#include "support/assemblies.hpp"
+#include "test/support/assemblies.hpp"
 
 namespace fiber_proximity_rviz {
 namespace {

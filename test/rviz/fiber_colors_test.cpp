@@ -1,4 +1,4 @@
-#include "fiber_proximity/rviz/fiber_colors.hpp"
+#include "src/rviz/fiber_colors.hpp"
 
 #include <gtest/gtest.h>
 

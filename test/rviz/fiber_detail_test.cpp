@@ -1,4 +1,4 @@
-#include "fiber_proximity/rviz/fiber_detail.hpp"
+#include "src/rviz/fiber_detail.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 
 #include "fiber_proximity/geometry/segment_distance.hpp"
-#include "support/simplifiable.hpp"
+#include "test/support/dense_fibers.hpp"
 
 namespace fiber_proximity_rviz {
 namespace {

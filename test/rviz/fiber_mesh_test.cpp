@@ -1,4 +1,4 @@
-#include "fiber_proximity/rviz/fiber_mesh.hpp"
+#include "src/rviz/fiber_mesh.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/segment_distance.hpp"
-#include "fiber_proximity/rviz/fiber_detail.hpp"
-#include "support/assemblies.hpp"
-#include "support/random.hpp"
+#include "src/rviz/fiber_detail.hpp"
+#include "test/support/assemblies.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber_proximity_rviz {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "fiber_proximity/FiberArray.h"
-#include "ros/messages.hpp"
-#include "rviz/rviz_window.hpp"
+#include "test/ros/messages.hpp"
+#include "test/rviz/rviz_window.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "fiber_proximity/rviz/view_fit.hpp"
+#include "src/rviz/view_fit.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "support/random.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber_proximity_rviz {
 namespace {

@@ -1,4 +1,4 @@
-#include "fiber_proximity/scenes/cables.hpp"
+#include "src/scenes/cables.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "fiber_proximity/scenes/cloth.hpp"
+#include "src/scenes/cloth.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "fiber_proximity/query/engine.hpp"
-#include "support/hash.hpp"
+#include "test/support/hash.hpp"
 
 namespace fiber {
 namespace {

@@ -1,4 +1,4 @@
-#include "fiber_proximity/scenes/hair.hpp"
+#include "src/scenes/hair.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "fiber_proximity/query/engine.hpp"
-#include "fiber_proximity/scenes/hair_styles.hpp"
-#include "fiber_proximity/scenes/head.hpp"
-#include "fiber_proximity/scenes/portable_math.hpp"
-#include "fiber_proximity/scenes/roots.hpp"
-#include "support/hash.hpp"
+#include "src/scenes/hair_styles.hpp"
+#include "src/scenes/head.hpp"
+#include "src/scenes/portable_math.hpp"
+#include "src/scenes/roots.hpp"
+#include "test/support/hash.hpp"
 
 namespace fiber {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "fiber_proximity/geometry/select_fibers.hpp"
-#include "fiber_proximity/scenes/shuffle.hpp"
-#include "support/hash.hpp"
+#include "src/geometry/select_fibers.hpp"
+#include "src/scenes/shuffle.hpp"
+#include "test/support/hash.hpp"
 
 namespace fiber {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <Eigen/Dense>
 
-#include "support/random.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "src/sim/contact/neighbours.hpp"
-#include "support/random.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber::test {
 namespace {

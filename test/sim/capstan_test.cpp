@@ -7,8 +7,8 @@
 #include <ostream>
 #include <vector>
 
-#include "sim/friction_scenes.hpp"
-#include "support/random.hpp"
+#include "benchmark/sim/friction_scenes.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber::test {
 namespace {

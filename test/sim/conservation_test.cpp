@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include "benchmark/sim/rod_scene.hpp"
 #include "fiber_proximity/sim/effects/damping.hpp"
 #include "fiber_proximity/sim/effects/twist.hpp"
-#include "sim/effect_derivatives.hpp"
-#include "sim/random_rods.hpp"
-#include "sim/rod_scene.hpp"
+#include "test/sim/effect_derivatives.hpp"
+#include "test/sim/random_rods.hpp"
 
 namespace fiber::test {
 namespace {

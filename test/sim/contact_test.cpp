@@ -6,12 +6,12 @@
 #include <cmath>
 #include <limits>
 
-#include "environment/random_shapes.hpp"
-#include "sim/contact_scenes.hpp"
-#include "sim/contact_system.hpp"
-#include "sim/tunnelling.hpp"
-#include "support/error_of.hpp"
-#include "support/random.hpp"
+#include "benchmark/sim/contact_scenes.hpp"
+#include "test/environment/random_shapes.hpp"
+#include "test/sim/contact_system.hpp"
+#include "test/sim/tunnelling.hpp"
+#include "test/support/error_of.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber::test {
 namespace {

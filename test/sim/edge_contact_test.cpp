@@ -10,11 +10,11 @@
 #include <limits>
 #include <ostream>
 
-#include "sim/contact_scenes.hpp"
-#include "sim/contact_system.hpp"
-#include "sim/tunnelling.hpp"
+#include "benchmark/sim/contact_scenes.hpp"
 #include "src/sim/contact/neighbours.hpp"
-#include "support/random.hpp"
+#include "test/sim/contact_system.hpp"
+#include "test/sim/tunnelling.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber::test {
 namespace {

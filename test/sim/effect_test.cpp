@@ -16,8 +16,8 @@
 #include "fiber_proximity/sim/effects/inextensible.hpp"
 #include "fiber_proximity/sim/effects/stretch.hpp"
 #include "fiber_proximity/sim/effects/twist.hpp"
-#include "sim/effect_derivatives.hpp"
-#include "sim/random_rods.hpp"
+#include "test/sim/effect_derivatives.hpp"
+#include "test/sim/random_rods.hpp"
 
 namespace fiber::test {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "fiber_proximity/sim/stepper.hpp"
-#include "sim/effect_derivatives.hpp"
-#include "sim/random_rods.hpp"
+#include "test/sim/effect_derivatives.hpp"
+#include "test/sim/random_rods.hpp"
 
 namespace fiber::test {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/contact_scenes.hpp"
-#include "sim/random_rods.hpp"
+#include "benchmark/sim/contact_scenes.hpp"
+#include "test/sim/random_rods.hpp"
 
 namespace fiber::test {
 namespace {

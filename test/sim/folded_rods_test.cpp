@@ -4,8 +4,8 @@
 
 #include "fiber_proximity/sim/effects/bend.hpp"
 #include "fiber_proximity/sim/effects/damping.hpp"
-#include "sim/effect_derivatives.hpp"
-#include "sim/random_rods.hpp"
+#include "test/sim/effect_derivatives.hpp"
+#include "test/sim/random_rods.hpp"
 
 namespace fiber::test {
 namespace {

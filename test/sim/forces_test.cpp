@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "sim/contact_scenes.hpp"
+#include "benchmark/sim/contact_scenes.hpp"
 
 namespace fiber::test {
 namespace {

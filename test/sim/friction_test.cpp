@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "sim/contact_scenes.hpp"
-#include "sim/friction_scenes.hpp"
+#include "benchmark/sim/contact_scenes.hpp"
+#include "benchmark/sim/friction_scenes.hpp"
 
 namespace fiber::test {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/rod_scene.hpp"
+#include "benchmark/sim/rod_scene.hpp"
 
 namespace fiber::test {
 namespace {

@@ -6,9 +6,9 @@
 
 #include <algorithm>
 
-#include "sim/contact_scenes.hpp"
-#include "sim/random_rods.hpp"
-#include "support/rounds.hpp"
+#include "benchmark/sim/contact_scenes.hpp"
+#include "test/sim/random_rods.hpp"
+#include "test/support/rounds.hpp"
 
 namespace fiber::test {
 namespace {

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <limits>
 
+#include "benchmark/sim/contact_scenes.hpp"
 #include "fiber_proximity/sim/effects/damping.hpp"
-#include "sim/contact_scenes.hpp"
-#include "sim/trefoil.hpp"
-#include "sim/tunnelling.hpp"
+#include "test/sim/trefoil.hpp"
+#include "test/sim/tunnelling.hpp"
 
 namespace fiber::test {
 namespace {

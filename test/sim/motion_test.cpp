@@ -1,10 +1,10 @@
 // Motion against closed forms: frequencies, periods, and what the steps' length adds to them.
 
-#include "sim/motion.hpp"
+#include "benchmark/sim/motion.hpp"
 
 #include <gtest/gtest.h>
 
-#include "sim/rod_scene.hpp"
+#include "benchmark/sim/rod_scene.hpp"
 
 namespace fiber::test {
 namespace {

@@ -1,21 +1,21 @@
 // Rods that are bent by nature, to a side that their cross-sections carry along.
 
-#include "fiber_proximity/sim/natural_curvature.hpp"
+#include "src/sim/natural_curvature.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "fiber_proximity/geometry/smallest_rotation.hpp"
+#include "benchmark/sim/rod_scene.hpp"
 #include "fiber_proximity/sim/effects/damping.hpp"
 #include "fiber_proximity/sim/effects/plasticity.hpp"
 #include "fiber_proximity/sim/effects/twist.hpp"
-#include "sim/effect_derivatives.hpp"
-#include "sim/energy_bounds.hpp"
-#include "sim/random_rods.hpp"
-#include "sim/rod_scene.hpp"
-#include "support/error_of.hpp"
-#include "support/rounds.hpp"
+#include "src/geometry/smallest_rotation.hpp"
+#include "test/sim/effect_derivatives.hpp"
+#include "test/sim/energy_bounds.hpp"
+#include "test/sim/random_rods.hpp"
+#include "test/support/error_of.hpp"
+#include "test/support/rounds.hpp"
 
 namespace fiber::test {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "environment/random_shapes.hpp"
-#include "sim/contact_scenes.hpp"
-#include "sim/throw.hpp"
+#include "benchmark/sim/contact_scenes.hpp"
+#include "test/environment/random_shapes.hpp"
+#include "test/sim/throw.hpp"
 
 namespace fiber::test {
 namespace {

@@ -9,11 +9,11 @@
 #include <set>
 #include <tuple>
 
-#include "fiber_proximity/sim/reach.hpp"
-#include "sim/contact_scenes.hpp"
-#include "sim/random_rods.hpp"
-#include "sim/tunnelling.hpp"
-#include "support/random.hpp"
+#include "benchmark/sim/contact_scenes.hpp"
+#include "src/sim/reach.hpp"
+#include "test/sim/random_rods.hpp"
+#include "test/sim/tunnelling.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber::test {
 namespace {

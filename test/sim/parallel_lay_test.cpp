@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "benchmark/sim/contact_scenes.hpp"
 #include "fiber_proximity/sim/effects/damping.hpp"
-#include "sim/contact_scenes.hpp"
-#include "sim/random_rods.hpp"
+#include "test/sim/random_rods.hpp"
 
 namespace fiber::test {
 namespace {

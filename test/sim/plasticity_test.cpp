@@ -4,8 +4,8 @@
 
 #include <limits>
 
-#include "sim/rod_scene.hpp"
-#include "support/error_of.hpp"
+#include "benchmark/sim/rod_scene.hpp"
+#include "test/support/error_of.hpp"
 
 namespace fiber::test {
 namespace {

@@ -7,17 +7,17 @@
 #include <cmath>
 #include <sstream>
 
+#include "benchmark/sim/contact_scenes.hpp"
 #include "fiber_proximity/sim/effects/damping.hpp"
 #include "fiber_proximity/sim/effects/drag.hpp"
 #include "fiber_proximity/sim/effects/inextensible.hpp"
 #include "fiber_proximity/sim/effects/plasticity.hpp"
 #include "fiber_proximity/sim/effects/twist.hpp"
-#include "sim/contact_scenes.hpp"
-#include "sim/energy_bounds.hpp"
-#include "sim/random_rods.hpp"
-#include "sim/tunnelling.hpp"
-#include "support/random.hpp"
-#include "support/rounds.hpp"
+#include "test/sim/energy_bounds.hpp"
+#include "test/sim/random_rods.hpp"
+#include "test/sim/tunnelling.hpp"
+#include "test/support/random.hpp"
+#include "test/support/rounds.hpp"
 
 namespace fiber::test {
 namespace {

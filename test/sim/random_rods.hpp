@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fiber_proximity/sim/rods.hpp"
-#include "support/random.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber::test {
 

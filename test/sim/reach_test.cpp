@@ -1,15 +1,15 @@
 // What holds may ask of a rod.
 
-#include "fiber_proximity/sim/reach.hpp"
+#include "src/sim/reach.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "sim/contact_scenes.hpp"
-#include "support/error_of.hpp"
-#include "support/random.hpp"
+#include "benchmark/sim/contact_scenes.hpp"
+#include "test/support/error_of.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber::test {
 namespace {

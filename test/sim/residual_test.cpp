@@ -6,12 +6,12 @@
 
 #include <cmath>
 
+#include "benchmark/sim/contact_scenes.hpp"
 #include "fiber_proximity/sim/effects/damping.hpp"
-#include "sim/contact_scenes.hpp"
-#include "sim/contact_system.hpp"
-#include "sim/effect_derivatives.hpp"
-#include "sim/energy_bounds.hpp"
-#include "sim/random_rods.hpp"
+#include "test/sim/contact_system.hpp"
+#include "test/sim/effect_derivatives.hpp"
+#include "test/sim/energy_bounds.hpp"
+#include "test/sim/random_rods.hpp"
 
 namespace fiber::test {
 namespace {

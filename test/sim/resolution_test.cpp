@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/elastica.hpp"
-#include "sim/rod_scene.hpp"
-#include "support/error_of.hpp"
+#include "benchmark/sim/elastica.hpp"
+#include "benchmark/sim/rod_scene.hpp"
+#include "test/support/error_of.hpp"
 
 namespace fiber::test {
 namespace {

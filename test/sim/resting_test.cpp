@@ -5,11 +5,11 @@
 
 #include <cmath>
 
-#include "sim/contact_scenes.hpp"
-#include "sim/random_rods.hpp"
+#include "benchmark/sim/contact_scenes.hpp"
 #include "src/sim/contact/barrier.hpp"
 #include "src/sim/contact/neighbours.hpp"
-#include "support/random.hpp"
+#include "test/sim/random_rods.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber::test {
 namespace {

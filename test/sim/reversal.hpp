@@ -5,9 +5,9 @@
 #include <memory>
 #include <utility>
 
+#include "benchmark/sim/contact_scenes.hpp"
 #include "fiber_proximity/sim/effects/damping.hpp"
 #include "fiber_proximity/sim/effects/twist.hpp"
-#include "sim/contact_scenes.hpp"
 
 namespace fiber::test {
 

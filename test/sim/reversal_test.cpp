@@ -1,16 +1,16 @@
 // What lies somewhere rises freely where gravity is turned round: a simulation whose contacts lock
 // would stay, and look as if it were at rest.
 
-#include "sim/reversal.hpp"
+#include "test/sim/reversal.hpp"
 
 #include <cmath>
 #include <ostream>
 #include <sstream>
 
 #include "fiber_proximity/sim/scene/scene.hpp"
-#include "support/random.hpp"
-#include "support/rounds.hpp"
-#include "support/source_folder.hpp"
+#include "test/support/random.hpp"
+#include "test/support/rounds.hpp"
+#include "test/support/source_folder.hpp"
 
 namespace fiber::test {
 namespace {

@@ -5,13 +5,13 @@
 
 #include <sstream>
 
+#include "benchmark/sim/rod_scene.hpp"
 #include "fiber_proximity/sim/effects/damping.hpp"
 #include "fiber_proximity/sim/effects/drag.hpp"
 #include "fiber_proximity/sim/effects/twist.hpp"
-#include "sim/energy_bounds.hpp"
-#include "sim/random_rods.hpp"
-#include "sim/rod_scene.hpp"
-#include "support/rounds.hpp"
+#include "test/sim/energy_bounds.hpp"
+#include "test/sim/random_rods.hpp"
+#include "test/support/rounds.hpp"
 
 namespace fiber::test {
 namespace {

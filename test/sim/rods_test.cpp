@@ -6,11 +6,11 @@
 
 #include <limits>
 
+#include "benchmark/sim/rod_scene.hpp"
 #include "fiber_proximity/sim/effects/damping.hpp"
 #include "fiber_proximity/sim/effects/drag.hpp"
 #include "fiber_proximity/sim/effects/twist.hpp"
-#include "sim/rod_scene.hpp"
-#include "support/error_of.hpp"
+#include "test/support/error_of.hpp"
 
 namespace fiber::test {
 namespace {

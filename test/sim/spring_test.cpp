@@ -5,9 +5,9 @@
 #include <cmath>
 #include <ostream>
 
+#include "benchmark/sim/rod_scene.hpp"
 #include "fiber_proximity/sim/effects/twist.hpp"
-#include "fiber_proximity/sim/natural_curvature.hpp"
-#include "sim/rod_scene.hpp"
+#include "src/sim/natural_curvature.hpp"
 
 namespace fiber::test {
 namespace {

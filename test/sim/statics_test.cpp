@@ -1,12 +1,12 @@
 // Shapes at rest against the theory of rods; the quoted digits are those that textbooks print.
 
-#include "sim/statics.hpp"
+#include "benchmark/sim/statics.hpp"
 
 #include <gtest/gtest.h>
 
 #include <ostream>
 
-#include "sim/rod_scene.hpp"
+#include "benchmark/sim/rod_scene.hpp"
 
 namespace fiber::test {
 namespace {

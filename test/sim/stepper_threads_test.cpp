@@ -1,13 +1,13 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "fiber_proximity/query/threads.hpp"
+#include "benchmark/sim/rod_scene.hpp"
 #include "fiber_proximity/sim/effects/damping.hpp"
 #include "fiber_proximity/sim/effects/drag.hpp"
 #include "fiber_proximity/sim/effects/twist.hpp"
-#include "sim/random_rods.hpp"
-#include "sim/rod_scene.hpp"
-#include "support/error_of.hpp"
+#include "src/query/threads.hpp"
+#include "test/sim/random_rods.hpp"
+#include "test/support/error_of.hpp"
 
 namespace fiber::test {
 namespace {

@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "sim/contact_scenes.hpp"
-#include "sim/solver_path.hpp"
-#include "sim/tunnelling.hpp"
-#include "support/random.hpp"
+#include "benchmark/sim/contact_scenes.hpp"
+#include "test/sim/solver_path.hpp"
+#include "test/sim/tunnelling.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber::test {
 

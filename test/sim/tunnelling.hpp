@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fiber_proximity/sim/rods.hpp"
-#include "sim/solver_path.hpp"
+#include "test/sim/solver_path.hpp"
 
 namespace fiber::test {
 

@@ -1,16 +1,16 @@
 // Nothing passes through anything, whatever is thrown, pulled or tied; and nothing blows up.
 
-#include "sim/tunnelling.hpp"
+#include "test/sim/tunnelling.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "sim/contact_scenes.hpp"
-#include "sim/random_rods.hpp"
-#include "sim/throw.hpp"
-#include "sim/trefoil.hpp"
-#include "support/random.hpp"
+#include "benchmark/sim/contact_scenes.hpp"
+#include "test/sim/random_rods.hpp"
+#include "test/sim/throw.hpp"
+#include "test/sim/trefoil.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber::test {
 namespace {

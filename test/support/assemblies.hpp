@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
-#include "support/random.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber::test {
 

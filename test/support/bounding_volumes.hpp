@@ -6,11 +6,11 @@
 #include <type_traits>
 #include <vector>
 
-#include "fiber_proximity/bounds/aabb.hpp"
-#include "fiber_proximity/bounds/direction_set.hpp"
-#include "fiber_proximity/bounds/kdop.hpp"
-#include "fiber_proximity/bounds/obb.hpp"
-#include "fiber_proximity/bounds/sphere.hpp"
+#include "src/bounds/aabb.hpp"
+#include "src/paper/bounds/direction_set.hpp"
+#include "src/paper/bounds/kdop.hpp"
+#include "src/paper/bounds/obb.hpp"
+#include "src/paper/bounds/sphere.hpp"
 
 namespace fiber::test {
 

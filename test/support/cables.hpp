@@ -8,8 +8,8 @@
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/geometry/segment_distance.hpp"
-#include "support/curves.hpp"
-#include "support/random.hpp"
+#include "test/support/curves.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber::test {
 

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "fiber_proximity/query/engine.hpp"
-#include "support/assemblies.hpp"
-#include "support/rounds.hpp"
+#include "test/support/assemblies.hpp"
+#include "test/support/rounds.hpp"
 
 namespace fiber::test {
 

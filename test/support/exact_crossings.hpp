@@ -5,8 +5,8 @@
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/query/view.hpp"
-#include "support/exact_distance.hpp"
-#include "support/exact_pairs.hpp"
+#include "test/support/exact_distance.hpp"
+#include "test/support/exact_pairs.hpp"
 
 namespace fiber::test {
 

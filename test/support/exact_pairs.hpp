@@ -7,7 +7,7 @@
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/query/contact.hpp"
-#include "support/exact_gap.hpp"
+#include "test/support/exact_gap.hpp"
 
 namespace fiber::test {
 

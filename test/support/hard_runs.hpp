@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/capsule.hpp"
-#include "support/random.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber::test {
 

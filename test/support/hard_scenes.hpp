@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/segment_distance.hpp"
-#include "support/assemblies.hpp"
+#include "test/support/assemblies.hpp"
 
 namespace fiber::test {
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "fiber_proximity/query/options.hpp"
-#include "support/random.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber::test {
 

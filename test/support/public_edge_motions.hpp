@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "continuous/known_motions.hpp"
-#include "support/shared_data.hpp"
+#include "benchmark/continuous/known_motions.hpp"
+#include "test/support/shared_data.hpp"
 
 namespace fiber::test {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "support/shared_data.hpp"
+#include "test/support/shared_data.hpp"
 
 namespace fiber::test {
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "support/random.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber::test {
 

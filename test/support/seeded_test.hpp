@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "support/random.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber::test {
 

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "support/source_folder.hpp"
+#include "test/support/source_folder.hpp"
 
 namespace fiber::test {
 

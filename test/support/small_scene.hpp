@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fiber_proximity/scenes/scene.hpp"
-#include "support/random.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber::test {
 

@@ -1,4 +1,4 @@
-#include "support/source_folder.hpp"
+#include "test/support/source_folder.hpp"
 
 namespace fiber::test {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "support/assemblies.hpp"
+#include "test/support/assemblies.hpp"
 
 namespace fiber::test {
 

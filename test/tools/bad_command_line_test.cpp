@@ -1,5 +1,5 @@
 // What a user mistypes, and files that are none: one short line on stderr, exit 2.
-#include "tools/tools_test.hpp"
+#include "test/tools/tools_test.hpp"
 
 namespace fiber::test {
 namespace {

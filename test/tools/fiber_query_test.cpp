@@ -3,10 +3,10 @@
 #include <vector>
 
 #include "fiber_proximity/io/csv.hpp"
-#include "fiber_proximity/query/brute_force.hpp"
 #include "fiber_proximity/query/engine.hpp"
-#include "support/shared_data.hpp"
-#include "tools/tools_test.hpp"
+#include "src/query/brute_force.hpp"
+#include "test/support/shared_data.hpp"
+#include "test/tools/tools_test.hpp"
 
 namespace fiber::test {
 namespace {
@@ -192,7 +192,7 @@ TEST_F(FiberQuery, NearestRefusesBadPointsAndCounts) {
 
 TEST_F(FiberQuery, AccuracyIsChosenOnTheCommandLine) {
   const double gap = 0.5 - (0.2 + 0.2);
-  for (const std::string kernel : {"fast", "robust", "exact"}) {
+  for (const std::string kernel : {"robust", "exact"}) {
     const ProcessResult result =
         query("contacts " + crossing() + " --margin 0.2 --format json --kernel " + kernel);
     ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -204,8 +204,13 @@ TEST_F(FiberQuery, AccuracyIsChosenOnTheCommandLine) {
     EXPECT_GE(contact.at("upper"), gap);
     EXPECT_LE(answer.at("minimum_lower"), contact.at("lower"));
     const double width = contact.at("upper").get<double>() - contact.at("lower").get<double>();
-    EXPECT_EQ(width > 1e-9, kernel == "fast") << width;
+    EXPECT_LT(width, 1e-9);
   }
+  const ProcessResult robust = query("contacts " + crossing() + " --margin 0.2");
+  const ProcessResult fast = query("contacts " + crossing() + " --margin 0.2 --kernel fast");
+  EXPECT_EQ(fast.out, robust.out);
+  EXPECT_EQ(fast.err, "warning: --kernel fast saved no time and is gone: robust is used\n");
+
   const ProcessResult loose = query("closest " + crossing() + " --tolerance 5");
   EXPECT_EQ(lines(loose.out).size(), 2U);
   EXPECT_GE(numbers_in(lines(loose.out)[1])[6], gap);
@@ -217,7 +222,7 @@ TEST_F(FiberQuery, AccuracyIsChosenOnTheCommandLine) {
   EXPECT_EQ(query("contacts " + crossing() + " --deadline 1000").err, "");
 
   for (const auto& [arguments, reason] :
-       {std::pair{"--kernel double", "unknown kernel 'double', known are: fast, robust, exact"},
+       {std::pair{"--kernel double", "unknown kernel 'double', known are: robust, exact"},
         std::pair{"--tolerance -1", "tolerance is -1.000000, it must be finite and at least 0 m"},
         std::pair{"--relative-tolerance inf", "relative_tolerance is inf"},
         std::pair{"--deadline nan", "deadline is nan"}}) {
@@ -239,26 +244,6 @@ TEST_F(FiberQuery, NeighbourSkips) {
   EXPECT_EQ(count("--neighbour-skip 2"), 0U);
   EXPECT_EQ(count("--neighbour-skip-length 1.5"), 0U);
   EXPECT_EQ(count("--neighbour-skip 1 --radius 0.25"), 1U);
-}
-
-TEST_F(FiberQuery, ASimplificationMakesOneContactOfThoseOfARun) {
-  const std::string file = write("dense.csv",
-                                 "fiber,x,y,z,radius\n"
-                                 "a,-2,0,0,0.2\na,-1,0,0,0.2\na,0,0,0,0.2\na,1,0,0,0.2\n"
-                                 "a,2,0,0,0.2\nb,0,-1,0.5,0.2\nb,0,1,0.5,0.2\n");
-  const std::string contacts = "contacts " + file + " --margin 0.2 --format json";
-  const auto found = [&](const std::string& options) {
-    return nlohmann::json::parse(query(contacts + options).out).at("contacts");
-  };
-  EXPECT_EQ(found("").size(), 2U);
-  const nlohmann::json simplified = found(" --simplification 0.01");
-  ASSERT_EQ(simplified.size(), 1U);
-  EXPECT_EQ(simplified[0].at("segment_a"), 1);
-  EXPECT_NEAR(simplified[0].at("s").get<double>(), 1.0, 1e-12);
-  EXPECT_LE(simplified[0].at("lower").get<double>(), 0.1);
-  EXPECT_GE(simplified[0].at("upper").get<double>(), 0.1);
-  EXPECT_TRUE(refused(query(contacts + " --simplification -1"), "simplification is -1"));
-  EXPECT_TRUE(refused(query(contacts + " --simplification nan"), "simplification is nan"));
 }
 
 TEST_F(FiberQuery, RadiusIsForFilesWithoutOne) {

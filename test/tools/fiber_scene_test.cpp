@@ -1,7 +1,7 @@
 #include "fiber_proximity/io/csv.hpp"
 #include "fiber_proximity/io/hair_file.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
-#include "tools/tools_test.hpp"
+#include "test/tools/tools_test.hpp"
 
 namespace fiber::test {
 namespace {

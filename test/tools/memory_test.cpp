@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "fiber_proximity/query/contact.hpp"
-#include "tools/tools_test.hpp"
+#include "test/tools/tools_test.hpp"
 
 namespace fiber::test {
 namespace {

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/contact_time.hpp"
-#include "fiber_proximity/io/number.hpp"
-#include "fiber_proximity/scenes/hard_motions.hpp"
-#include "support/public_edge_motions.hpp"
-#include "tools/tools_test.hpp"
+#include "src/io/number.hpp"
+#include "src/scenes/hard_motions.hpp"
+#include "test/support/public_edge_motions.hpp"
+#include "test/tools/tools_test.hpp"
 
 namespace fiber::test {
 namespace {

@@ -3,10 +3,10 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/segment_distance.hpp"
-#include "fiber_proximity/io/number.hpp"
-#include "fiber_proximity/scenes/hard_pairs.hpp"
-#include "support/public_edge_pairs.hpp"
-#include "tools/tools_test.hpp"
+#include "src/io/number.hpp"
+#include "src/scenes/hard_pairs.hpp"
+#include "test/support/public_edge_pairs.hpp"
+#include "test/tools/tools_test.hpp"
 
 namespace fiber::test {
 namespace {
@@ -32,7 +32,7 @@ std::vector<double> numbers(const SegmentDistance& d) {
 
 TEST_F(Segments, PrintsDistanceBoundsAndParameters) {
   const std::string file = write("pairs.csv", crossing + "\n");
-  for (const std::string kernel : {"fast", "robust", "exact"}) {
+  for (const std::string kernel : {"robust", "exact"}) {
     const ProcessResult result = query("segments " + file + " --kernel " + kernel);
     EXPECT_EQ(result.exit_code, 0);
     ASSERT_EQ(result.out.substr(0, header.size()), header);
@@ -122,7 +122,7 @@ TEST_F(Segments, RefusesBadCommandLines) {
   const std::string file = write("pairs.csv", crossing);
   EXPECT_TRUE(refused(query("segments"), "FILE"));
   EXPECT_TRUE(refused(query("segments " + file + " --kernel double"),
-                      "unknown kernel 'double', known are: fast, robust, exact"));
+                      "unknown kernel 'double', known are: robust, exact"));
   EXPECT_TRUE(refused(query("segments " + file + " --margin 0"), "--margin"));
 }
 

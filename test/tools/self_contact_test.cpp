@@ -5,8 +5,8 @@
 #include <tuple>
 
 #include "fiber_proximity/io/csv.hpp"
-#include "support/cables.hpp"
-#include "tools/tools_test.hpp"
+#include "test/support/cables.hpp"
+#include "test/tools/tools_test.hpp"
 
 namespace fiber::test {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "fiber_proximity/io/csv.hpp"
 #include "fiber_proximity/sim/scene/scene.hpp"
-#include "support/source_folder.hpp"
-#include "tools/tools_test.hpp"
+#include "test/support/source_folder.hpp"
+#include "test/tools/tools_test.hpp"
 
 namespace fiber::test {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/tools_test.hpp"
+#include "test/tools/tools_test.hpp"
 
 namespace fiber::test {
 namespace {

@@ -1,7 +1,7 @@
 // fiber_query about fibres so small that squares of their lengths are no numbers.
 #include <sstream>
 
-#include "tools/tools_test.hpp"
+#include "test/tools/tools_test.hpp"
 
 namespace fiber::test {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "fiber_proximity/io/number.hpp"
-#include "support/process.hpp"
-#include "support/temporary_directory.hpp"
+#include "src/io/number.hpp"
+#include "test/support/process.hpp"
+#include "test/support/temporary_directory.hpp"
 
 namespace fiber::test {
 

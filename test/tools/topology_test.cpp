@@ -3,10 +3,10 @@
 #include <string>
 
 #include "fiber_proximity/io/csv.hpp"
-#include "fiber_proximity/io/number.hpp"
 #include "fiber_proximity/query/writhe.hpp"
-#include "support/curves.hpp"
-#include "tools/tools_test.hpp"
+#include "src/io/number.hpp"
+#include "test/support/curves.hpp"
+#include "test/tools/tools_test.hpp"
 
 namespace fiber::test {
 namespace {

@@ -15,8 +15,7 @@ namespace fiber {
 class FclComparer {
  public:
   /// All pairs within the margin by the engine and by FCL in both styles, the user's first.
-  /// @param engine updated to these fibres; without a simplification, as its contacts must be pairs
-  ///        of the segments themselves
+  /// @param engine updated to these fibres
   /// @param options type, tolerances and deadline do not count: all pairs are asked for
   /// @throws std::invalid_argument for options that do not validate or an infinite margin
   Comparison compare(const FiberAssembly& fibers, const ProximityEngine& engine,

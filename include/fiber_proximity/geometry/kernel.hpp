@@ -8,12 +8,11 @@ namespace fiber {
 
 /// How the distance of two segments is computed; docs/numerics.md has the bounds of each.
 enum class Kernel {
-  FAST,    ///< in single precision, on differences taken in double
   ROBUST,  ///< in double precision
   EXACT    ///< in integers as long as it takes, rounded once at the end
 };
 
-/// The kernel of this name: fast, robust or exact.
+/// The kernel of this name: robust or exact.
 /// @throws std::invalid_argument listing the names
 Kernel kernel_from_name(const std::string& name);
 

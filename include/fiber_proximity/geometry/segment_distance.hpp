@@ -16,8 +16,8 @@ struct SegmentDistance {
   double t = 0.0;         ///< parameter on the second segment, 0 at q0 and 1 at q1
   Eigen::Vector3d delta;  ///< from the point on the first to the point on the second [m]
   double distance = 0.0;  ///< |delta| [m]
-  double error = 0.0;     ///< |distance − true distance| is at most this [m]: proven for fast and
-                          ///< exact, measured for robust (docs/numerics.md)
+  double error = 0.0;     ///< |distance − true distance| is at most this [m]: proven for exact,
+                          ///< measured for robust (docs/numerics.md)
 
   /// [m] The true distance is at least this; never below 0.
   double lower() const {
@@ -56,22 +56,10 @@ SegmentDistance segment_distance(const Eigen::Vector3d& p0, const Eigen::Vector3
 void segment_distances(const Eigen::Vector3d* const* a, const Eigen::Vector3d* const* b,
                        std::size_t count, SegmentDistance* distances);
 
-/// Nearest points in single precision, of many pairs at once: the same algorithm on differences
-/// that are taken in double and scaled by a power of two before they are rounded, so neither a
-/// position far from the origin nor a tiny or huge scene costs accuracy. The error is fast_error
-/// times the largest difference of coordinates, and proven: what upper() and lower() rule out is
-/// ruled out. The same bits on every instruction set and in any batch.
-void fast_segment_distances(const Eigen::Vector3d* const* a, const Eigen::Vector3d* const* b,
-                            std::size_t count, SegmentDistance* distances);
-
 /// Of one pair, by the kernel of choice.
 SegmentDistance segment_distance(Kernel kernel, const Eigen::Vector3d& p0,
                                  const Eigen::Vector3d& p1, const Eigen::Vector3d& q0,
                                  const Eigen::Vector3d& q1);
-
-/// Error of fast_segment_distances() in units of the largest difference of coordinates: 48
-/// roundings of float.
-constexpr double fast_error = 48 * 0x1p-23;
 
 /// Error of segment_distance() in units of the largest difference of coordinates: four roundings.
 /// Measured, not proven: see docs/numerics.md. Proven is proven_robust_error_per_error times as

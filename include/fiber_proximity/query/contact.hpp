@@ -7,6 +7,8 @@
 #include <tuple>
 #include <vector>
 
+#include "fiber_proximity/hierarchy/query_counts.hpp"
+
 namespace fiber {
 
 /// A pair of segments and where they are nearest.
@@ -48,15 +50,6 @@ struct QueryResult;
 /// that go count in others_lower.
 /// @return whether any go
 bool keep_closest(std::size_t count, QueryResult& result);
-
-/// Work a query did. The paper's "cage tests", "cage intersections" and "primitive tests".
-struct QueryCounts {
-  std::uint64_t node_tests = 0;
-  std::uint64_t node_overlaps = 0;
-  std::uint64_t primitive_tests = 0;
-
-  QueryCounts& operator+=(const QueryCounts& more);
-};
 
 /// Answer to a query; kept by the caller and reused, so that its memory is.
 struct QueryResult {

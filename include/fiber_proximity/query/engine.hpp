@@ -19,8 +19,7 @@ struct NodeBox {
   Eigen::Vector3d upper;
 };
 
-/// What changes the cost of answers, and with a simplification their accuracy. Threads and skin are
-/// heeded by run_tree only.
+/// What changes the cost of answers, and not what they are. Only run_tree heeds it.
 struct EngineOptions {
   /// Most threads to use, 0 for as many as there are cores.
   std::uint32_t threads = 0;
@@ -29,15 +28,6 @@ struct EngineOptions {
   /// no two points have moved by more than this together; 0 looks for them in every query. Pays for
   /// slow motion: several times what points move from frame to frame.
   double skin = 0.0;
-
-  /// [m] finite, >= 0. Before each update, runs of consecutive segments are replaced by one piece
-  /// each that deviates from them by at most this (SimplifiedFibers); 0 leaves all as they are.
-  /// One contact then stands for all pairs of segments of two runs: its bounds hold the smallest
-  /// gap of these, no further than 4 times this apart, and its segments and parameters are where
-  /// about that is. No pair within the margin is left without such a contact, and no contact is
-  /// further apart than the margin and 4 times this. LIMITED counts contacts as ever, so several
-  /// segments of a run are one of them. Pairs near neighbours along a fibre are exact.
-  double simplification = 0.0;
 };
 
 /// Answers proximity queries over one assembly at a time. All engines give the same contacts; they
@@ -150,13 +140,15 @@ class ProximityEngine {
   std::unique_ptr<Motion> motion_;      // none until there is one
 };
 
-/// The engine of this name: one of engine_names(), or DL-k and DS-k for any even k in [6, 200], or
-/// with the standard directions DL-k-classic and DS-k-classic for k of 6, 14, 18 and 26.
+/// The engine of this name: one of engine_names(). Where the library fiber_proximity_paper is
+/// linked, also DL-k and DS-k for any even k in [6, 200], and with the standard directions
+/// DL-k-classic and DS-k-classic for k of 6, 14, 18 and 26.
 /// @throws std::invalid_argument listing the names, or for options that are not allowed
 std::unique_ptr<ProximityEngine> make_engine(const std::string& name,
                                              const EngineOptions& options = {});
 
-/// Names of all engines; k-DOPs with the paper's best k for hair, 20.
+/// Names of all engines there are: run_tree, brute_force and those of the libraries that are
+/// linked. k-DOPs are listed with the paper's best k for hair, 20.
 std::vector<std::string> engine_names();
 
 }  // namespace fiber

@@ -52,8 +52,7 @@ struct QueryOptions {
   bool needs_loops() const { return !neighbour_skip && !neighbour_skip_length; }
 
   /// How distances are computed, and which pairs are within the margin. ROBUST goes by the distance
-  /// it computes. FAST and EXACT decide without any error. FAST reports distances in single
-  /// precision, of ALL only: the others have robust ones. EXACT reports distances that are rounded
+  /// it computes. EXACT decides without any error, and reports distances that are rounded
   /// correctly, before the radii are subtracted.
   Kernel kernel = Kernel::ROBUST;
 

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/geometry/point_pair.hpp"
 #include "fiber_proximity/geometry/segment_distance.hpp"
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/loop_test.hpp"
 #include "fiber_proximity/query/options.hpp"
-#include "fiber_proximity/query/point_pair.hpp"
 
 namespace fiber {
 
@@ -52,12 +52,13 @@ class PairTest {
   /// @param looks at points of the fibre that it took are added to these
   bool lacks_loop(PointPair pair, const PairDistance& distance, std::uint64_t& looks) const {
     return loops_ != nullptr && loops_->are_of_one_fiber(pair) &&
-           !makes_loop(pair, distance, looks);
+           !loops_->makes_loop(pair, distance.nearest, looks);
   }
   /// The same where the distance is not there.
   bool lacks_loop(PointPair pair) const {
     std::uint64_t looks = 0;
-    return loops_ != nullptr && loops_->are_of_one_fiber(pair) && !makes_loop(pair, looks);
+    return loops_ != nullptr && loops_->are_of_one_fiber(pair) &&
+           !loops_->makes_loop(pair, distance(pair).nearest, looks);
   }
 
   /// What is certain to lack a loop; see LoopTest.
@@ -68,7 +69,7 @@ class PairTest {
     return loops_ != nullptr ? loops_->ruled_out_with(point) : PointRange{};
   }
 
-  /// In single precision for FAST and ALL, otherwise robust.
+  /// By the kernel ROBUST.
   PairDistance distance(PointPair pair) const;
   /// The same of many pairs, faster.
   void distances(const PointPair* pairs, std::size_t count, PairDistance* distances) const;
@@ -93,11 +94,6 @@ class PairTest {
   Contact contact(PointPair pair, const PairDistance& distance) const;
 
  private:
-  bool makes_loop(PointPair pair, std::uint64_t& looks) const;
-  bool makes_loop(PointPair pair, const PairDistance& distance, std::uint64_t& looks) const {
-    return kernel_ == Kernel::ROBUST ? loops_->makes_loop(pair, distance.nearest, looks)
-                                     : makes_loop(pair, looks);
-  }
   bool is_neighbour_of_same_fiber(PointPair pair) const;
   bool is_of_other_pairing(PointPair pair) const;
   bool is_of_one_fiber(PointPair pair) const {
@@ -113,7 +109,6 @@ class PairTest {
   const FiberAssembly& b_;
   const QueryOptions& options_;
   const bool self_;
-  const Kernel kernel_;  // of distance()
   const std::uint32_t neighbour_skip_;
   const double neighbour_skip_length_;  // [m]
   std::optional<LoopTest> own_loops_;

@@ -1,4 +1,4 @@
-#include "fiber_proximity/environment/scene/environment_scene.hpp"
+#include "src/environment/scene/environment_scene.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -8,10 +8,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "fiber_proximity/environment/obstacle_parts.hpp"
 #include "fiber_proximity/environment/triangle_mesh.hpp"
 #include "fiber_proximity/environment/world.hpp"
-#include "fiber_proximity/text/quote.hpp"
+#include "src/environment/obstacle_parts.hpp"
+#include "src/text/quote.hpp"
 
 namespace fiber {
 namespace {

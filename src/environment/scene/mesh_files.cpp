@@ -4,9 +4,9 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "fiber_proximity/text/quote.hpp"
-#include "fiber_proximity/text/with_context.hpp"
-#include "parse_mesh.hpp"
+#include "src/environment/scene/parse_mesh.hpp"
+#include "src/text/quote.hpp"
+#include "src/text/with_context.hpp"
 
 namespace fiber {
 namespace {

@@ -1,4 +1,4 @@
-#include "parse_mesh.hpp"
+#include "src/environment/scene/parse_mesh.hpp"
 
 #include <assimp/config.h>
 #include <assimp/postprocess.h>

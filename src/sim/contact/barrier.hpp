@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "natural_log.hpp"
+#include "src/sim/contact/natural_log.hpp"
 
 namespace fiber {
 

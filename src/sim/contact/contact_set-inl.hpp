@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "contact_set.hpp"
+#include "src/sim/contact/contact_set.hpp"
 
 namespace fiber {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "contact_set-inl.hpp"
+#include "src/sim/contact/contact_set-inl.hpp"
 
 namespace fiber {
 

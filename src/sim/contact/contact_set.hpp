@@ -3,11 +3,11 @@
 #include <array>
 #include <vector>
 
-#include "edge_contact.hpp"
 #include "fiber_proximity/sim/effects/friction.hpp"
 #include "fiber_proximity/sim/forces.hpp"
 #include "fiber_proximity/sim/pack_system.hpp"
-#include "obstacle_contact.hpp"
+#include "src/sim/contact/edge_contact.hpp"
+#include "src/sim/contact/obstacle_contact.hpp"
 #include "src/sim/solver/energy_sum.hpp"
 
 namespace fiber {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "contact_set.hpp"
 #include "fiber_proximity/environment/axis_distance.hpp"
-#include "fiber_proximity/environment/shape_contact_time.hpp"
 #include "fiber_proximity/geometry/contact_time.hpp"
+#include "src/environment/shape_contact_time.hpp"
+#include "src/sim/contact/contact_set.hpp"
 
 namespace fiber {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "contact_set-inl.hpp"
+#include "src/sim/contact/contact_set-inl.hpp"
 
 namespace fiber {
 

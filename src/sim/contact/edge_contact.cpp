@@ -1,9 +1,9 @@
-#include "edge_contact.hpp"
+#include "src/sim/contact/edge_contact.hpp"
 
 #include <algorithm>
 #include <limits>
 
-#include "weighted_barrier.hpp"
+#include "src/sim/contact/weighted_barrier.hpp"
 
 namespace fiber {
 

@@ -3,9 +3,9 @@
 #include <array>
 #include <vector>
 
-#include "barrier.hpp"
 #include "fiber_proximity/geometry/segment_distance.hpp"
 #include "fiber_proximity/sim/rods.hpp"
+#include "src/sim/contact/barrier.hpp"
 
 namespace fiber {
 

@@ -1,9 +1,9 @@
-#include "obstacle_contact.hpp"
+#include "src/sim/contact/obstacle_contact.hpp"
 
 #include <algorithm>
 #include <limits>
 
-#include "weighted_barrier.hpp"
+#include "src/sim/contact/weighted_barrier.hpp"
 
 namespace fiber {
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "edge_contact.hpp"
-#include "obstacle_piece.hpp"
+#include "src/sim/contact/edge_contact.hpp"
+#include "src/sim/contact/obstacle_piece.hpp"
 
 namespace fiber {
 

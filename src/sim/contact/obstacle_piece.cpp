@@ -1,10 +1,10 @@
-#include "obstacle_piece.hpp"
+#include "src/sim/contact/obstacle_piece.hpp"
 
 #include <limits>
 
 #include "fiber_proximity/environment/axis_distance.hpp"
-#include "fiber_proximity/environment/occupancy_octree.hpp"
 #include "fiber_proximity/environment/triangle_mesh.hpp"
+#include "src/environment/occupancy_octree.hpp"
 
 namespace fiber {
 

@@ -4,9 +4,9 @@
 #include <variant>
 #include <vector>
 
-#include "fiber_proximity/environment/point_distance.hpp"
 #include "fiber_proximity/environment/shapes.hpp"
 #include "fiber_proximity/environment/triangle_distance.hpp"
+#include "src/environment/point_distance.hpp"
 
 namespace fiber {
 

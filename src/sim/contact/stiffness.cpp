@@ -1,9 +1,9 @@
 #include <cmath>
 #include <string>
 
-#include "../require.hpp"
-#include "barrier.hpp"
-#include "neighbours.hpp"
+#include "src/sim/contact/barrier.hpp"
+#include "src/sim/contact/neighbours.hpp"
+#include "src/sim/require.hpp"
 
 namespace fiber {
 

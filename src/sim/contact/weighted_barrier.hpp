@@ -3,7 +3,7 @@
 #include <array>
 #include <cstddef>
 
-#include "barrier.hpp"
+#include "src/sim/contact/barrier.hpp"
 
 namespace fiber {
 

@@ -5,9 +5,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "clamped_end.hpp"
 #include "fiber_proximity/sim/forces.hpp"
-#include "natural_bend.hpp"
+#include "src/sim/effects/clamped_end.hpp"
+#include "src/sim/effects/natural_bend.hpp"
 
 namespace fiber {
 

@@ -1,4 +1,4 @@
-#include "clamped_end.hpp"
+#include "src/sim/effects/clamped_end.hpp"
 
 #include "fiber_proximity/sim/effects/twist.hpp"
 

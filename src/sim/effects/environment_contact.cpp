@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "../contact/contact_set.hpp"
-#include "../contact/neighbours.hpp"
-#include "../solver/step_bound.hpp"
+#include "src/sim/contact/contact_set.hpp"
+#include "src/sim/contact/neighbours.hpp"
+#include "src/sim/solver/step_bound.hpp"
 
 namespace fiber {
 

@@ -1,6 +1,6 @@
 #include "fiber_proximity/sim/effects/friction.hpp"
 
-#include "../require.hpp"
+#include "src/sim/require.hpp"
 
 namespace fiber {
 

@@ -1,4 +1,4 @@
-#include "natural_bend.hpp"
+#include "src/sim/effects/natural_bend.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

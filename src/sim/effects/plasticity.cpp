@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../require.hpp"
 #include "fiber_proximity/sim/edge_turn.hpp"
+#include "src/sim/require.hpp"
 
 namespace fiber {
 

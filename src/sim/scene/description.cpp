@@ -4,11 +4,11 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "effects.hpp"
-#include "fiber_proximity/environment/scene/environment_scene.hpp"
-#include "fiber_proximity/text/quote.hpp"
-#include "holds.hpp"
-#include "resolution.hpp"
+#include "src/environment/scene/environment_scene.hpp"
+#include "src/sim/scene/effects.hpp"
+#include "src/sim/scene/holds.hpp"
+#include "src/sim/scene/resolution.hpp"
+#include "src/text/quote.hpp"
 
 namespace fiber {
 namespace {

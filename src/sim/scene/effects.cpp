@@ -1,5 +1,5 @@
 // The one place that knows which effects there are, their options, and how they are made.
-#include "effects.hpp"
+#include "src/sim/scene/effects.hpp"
 
 #include <algorithm>
 #include <set>
@@ -17,11 +17,11 @@
 #include "fiber_proximity/sim/effects/plasticity.hpp"
 #include "fiber_proximity/sim/effects/stretch.hpp"
 #include "fiber_proximity/sim/effects/twist.hpp"
-#include "fiber_proximity/text/listed.hpp"
-#include "fiber_proximity/text/quote.hpp"
-#include "fiber_proximity/text/with_context.hpp"
-#include "holds.hpp"
-#include "natural_curvature.hpp"
+#include "src/sim/scene/holds.hpp"
+#include "src/sim/scene/natural_curvature.hpp"
+#include "src/text/listed.hpp"
+#include "src/text/quote.hpp"
+#include "src/text/with_context.hpp"
 
 namespace fiber {
 namespace {

@@ -1,12 +1,12 @@
-#include "fibers.hpp"
+#include "src/sim/scene/fibers.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <set>
 
 #include "fiber_proximity/sim/resolution.hpp"
-#include "fiber_proximity/text/with_context.hpp"
-#include "shapes.hpp"
+#include "src/sim/scene/shapes.hpp"
+#include "src/text/with_context.hpp"
 
 namespace fiber {
 namespace {

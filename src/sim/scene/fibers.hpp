@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fiber_proximity/sim/scene/description.hpp"
-#include "fiber_proximity/text/quote.hpp"
+#include "src/text/quote.hpp"
 
 namespace fiber {
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "fiber_proximity/io/number.hpp"
+#include "src/io/number.hpp"
 
 namespace fiber {
 

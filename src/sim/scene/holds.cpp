@@ -1,4 +1,4 @@
-#include "holds.hpp"
+#include "src/sim/scene/holds.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -6,10 +6,10 @@
 #include <map>
 #include <set>
 
-#include "fiber_proximity/geometry/smallest_rotation.hpp"
-#include "fiber_proximity/text/listed.hpp"
-#include "fiber_proximity/text/quote.hpp"
-#include "fibers.hpp"
+#include "src/geometry/smallest_rotation.hpp"
+#include "src/sim/scene/fibers.hpp"
+#include "src/text/listed.hpp"
+#include "src/text/quote.hpp"
 
 namespace fiber {
 namespace {

@@ -1,11 +1,11 @@
-#include "fiber_proximity/sim/scene/lead.hpp"
+#include "src/sim/scene/lead.hpp"
 
 #include <algorithm>
 #include <sstream>
 #include <stdexcept>
 
-#include "fiber_proximity/sim/reach.hpp"
-#include "fiber_proximity/text/quote.hpp"
+#include "src/sim/reach.hpp"
+#include "src/text/quote.hpp"
 
 namespace fiber {
 namespace {

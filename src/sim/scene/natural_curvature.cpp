@@ -1,9 +1,9 @@
-#include "natural_curvature.hpp"
+#include "src/sim/scene/natural_curvature.hpp"
 
 #include <cmath>
 
-#include "fiber_proximity/sim/natural_curvature.hpp"
-#include "fibers.hpp"
+#include "src/sim/natural_curvature.hpp"
+#include "src/sim/scene/fibers.hpp"
 
 namespace fiber {
 namespace {

@@ -1,12 +1,12 @@
-#include "overlap.hpp"
+#include "src/sim/scene/overlap.hpp"
 
 #include <algorithm>
 #include <sstream>
 #include <stdexcept>
 
 #include "fiber_proximity/sim/overlaps.hpp"
-#include "fiber_proximity/sim/reach.hpp"
-#include "fiber_proximity/text/quote.hpp"
+#include "src/sim/reach.hpp"
+#include "src/text/quote.hpp"
 
 namespace fiber {
 namespace {

@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "fiber_proximity/text/listed.hpp"
-#include "fiber_proximity/text/quote.hpp"
+#include "src/text/listed.hpp"
+#include "src/text/quote.hpp"
 
 namespace fiber {
 namespace {

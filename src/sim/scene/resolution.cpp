@@ -1,4 +1,4 @@
-#include "resolution.hpp"
+#include "src/sim/scene/resolution.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "fiber_proximity/sim/resolution.hpp"
-#include "fibers.hpp"
+#include "src/sim/scene/fibers.hpp"
 
 namespace fiber {
 namespace {

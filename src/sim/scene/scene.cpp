@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "effects.hpp"
-#include "overlap.hpp"
+#include "src/sim/scene/effects.hpp"
+#include "src/sim/scene/overlap.hpp"
 
 namespace fiber {
 

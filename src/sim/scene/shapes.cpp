@@ -1,4 +1,4 @@
-#include "shapes.hpp"
+#include "src/sim/scene/shapes.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,10 +1,10 @@
-#include "fiber_proximity/sim/scene/warnings.hpp"
+#include "src/sim/scene/warnings.hpp"
 
 #include <optional>
 #include <sstream>
 
-#include "fiber_proximity/sim/reach.hpp"
-#include "fiber_proximity/text/quote.hpp"
+#include "src/sim/reach.hpp"
+#include "src/text/quote.hpp"
 
 namespace fiber {
 namespace {

@@ -1,5 +1,5 @@
 // Compiled once per instruction set; Highway chooses among them at run time.
-#include "band_solver.hpp"
+#include "src/sim/solver/band_solver.hpp"
 
 #include <limits>
 

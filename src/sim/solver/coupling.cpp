@@ -1,11 +1,11 @@
-#include "coupling.hpp"
+#include "src/sim/solver/coupling.hpp"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "pack_sums.hpp"
+#include "src/sim/solver/pack_sums.hpp"
 
 namespace fiber {
 namespace {

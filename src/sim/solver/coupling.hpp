@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
-#include "pack_step.hpp"
 #include "src/sim/contact/contact_set.hpp"
+#include "src/sim/solver/pack_step.hpp"
 
 namespace fiber {
 

@@ -1,4 +1,4 @@
-#include "islands.hpp"
+#include "src/sim/solver/islands.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,4 +1,4 @@
-#include "line_search.hpp"
+#include "src/sim/solver/line_search.hpp"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "energy_sum.hpp"
+#include "src/sim/solver/energy_sum.hpp"
 
 namespace fiber {
 

@@ -1,4 +1,4 @@
-#include "newton.hpp"
+#include "src/sim/solver/newton.hpp"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pack_sums.hpp"
+#include "src/sim/solver/pack_sums.hpp"
 
 namespace fiber {
 

@@ -2,11 +2,11 @@
 
 #include <vector>
 
-#include "coupling.hpp"
 #include "fiber_proximity/sim/stepper.hpp"
-#include "line_search.hpp"
-#include "pack_step.hpp"
-#include "step_bound.hpp"
+#include "src/sim/solver/coupling.hpp"
+#include "src/sim/solver/line_search.hpp"
+#include "src/sim/solver/pack_step.hpp"
+#include "src/sim/solver/step_bound.hpp"
 
 namespace fiber {
 

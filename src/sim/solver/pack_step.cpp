@@ -1,9 +1,9 @@
-#include "pack_step.hpp"
+#include "src/sim/solver/pack_step.hpp"
 
 #include <algorithm>
 
-#include "band_solver.hpp"
-#include "pack_sums.hpp"
+#include "src/sim/solver/band_solver.hpp"
+#include "src/sim/solver/pack_sums.hpp"
 
 namespace fiber {
 

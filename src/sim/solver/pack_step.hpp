@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "energy_sum.hpp"
 #include "fiber_proximity/sim/effect.hpp"
+#include "src/sim/solver/energy_sum.hpp"
 
 namespace fiber {
 

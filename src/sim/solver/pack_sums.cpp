@@ -1,5 +1,5 @@
 // Compiled once per instruction set; Highway chooses among them at run time.
-#include "pack_sums.hpp"
+#include "src/sim/solver/pack_sums.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "src/sim/solver/pack_sums.cpp"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stage_solver.hpp"
+#include "src/sim/solver/stage_solver.hpp"
 
 namespace fiber {
 

@@ -1,11 +1,11 @@
-#include "stage_solver.hpp"
+#include "src/sim/solver/stage_solver.hpp"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <map>
 
-#include "fiber_proximity/query/threads.hpp"
+#include "src/query/threads.hpp"
 
 namespace fiber {
 

@@ -6,8 +6,8 @@
 #include <mutex>
 #include <vector>
 
-#include "islands.hpp"
-#include "newton.hpp"
+#include "src/sim/solver/islands.hpp"
+#include "src/sim/solver/newton.hpp"
 
 namespace fiber {
 

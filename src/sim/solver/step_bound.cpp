@@ -1,4 +1,4 @@
-#include "step_bound.hpp"
+#include "src/sim/solver/step_bound.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,13 @@
-#include "fiber_proximity/environment/scene/environment_scene.hpp"
+#include "src/environment/scene/environment_scene.hpp"
 
 #include <gtest/gtest.h>
 
 #include <memory>
 
 #include "fiber_proximity/environment/triangle_mesh.hpp"
-#include "support/error_of.hpp"
-#include "support/mesh_files.hpp"
-#include "support/temporary_directory.hpp"
+#include "test/support/error_of.hpp"
+#include "test/support/mesh_files.hpp"
+#include "test/support/temporary_directory.hpp"
 
 namespace fiber {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <limits>
 
-#include "support/error_of.hpp"
-#include "support/mesh_files.hpp"
-#include "support/temporary_directory.hpp"
+#include "test/support/error_of.hpp"
+#include "test/support/mesh_files.hpp"
+#include "test/support/temporary_directory.hpp"
 
 namespace fiber {
 namespace {

@@ -1,6 +1,6 @@
 #include "fiber_proximity/sim/scene/report.hpp"
 
-#include "sim/scene/scene_fixture.hpp"
+#include "test/sim/scene/scene_fixture.hpp"
 
 namespace fiber {
 namespace {

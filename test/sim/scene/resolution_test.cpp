@@ -1,4 +1,4 @@
-#include "sim/scene/scene_fixture.hpp"
+#include "test/sim/scene/scene_fixture.hpp"
 
 namespace fiber {
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "fiber_proximity/sim/scene/scene.hpp"
-#include "support/error_of.hpp"
-#include "support/mesh_files.hpp"
-#include "support/temporary_directory.hpp"
+#include "test/support/error_of.hpp"
+#include "test/support/mesh_files.hpp"
+#include "test/support/temporary_directory.hpp"
 
 namespace fiber {
 

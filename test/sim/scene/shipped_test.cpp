@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "fiber_proximity/sim/scene/scene.hpp"
-#include "support/source_folder.hpp"
+#include "test/support/source_folder.hpp"
 
 namespace fiber {
 namespace {

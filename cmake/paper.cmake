@@ -1,0 +1,34 @@
+# The volumes, hierarchies and engines of the paper, and its scenes beside ours. Whoever links this library finds
+# the engines in the factory: a static variable registers them, so it must be loaded though nothing in it is
+# called, and stay.
+
+add_library(fiber_proximity_paper SHARED
+  src/paper/bounds/direction_set.cpp
+  src/paper/bounds/kdop.cpp
+  src/paper/bounds/minimal_sphere.cpp
+  src/paper/bounds/obb.cpp
+  src/paper/bounds/sphere.cpp
+  src/paper/engines/kdop_engines.cpp
+  src/paper/engines/paper_engines.cpp
+  src/paper/hierarchy/cascaded_hierarchy.cpp
+  src/scenes/cables.cpp
+  src/scenes/cloth.cpp
+  src/scenes/hair.cpp
+  src/scenes/hair_styles.cpp
+  src/scenes/hard_motions.cpp
+  src/scenes/hard_pair_families.cpp
+  src/scenes/hard_pair_makers.cpp
+  src/scenes/hard_pairs.cpp
+  src/scenes/head.cpp
+  src/scenes/options.cpp
+  src/scenes/roots.cpp
+  src/scenes/scene.cpp
+  src/scenes/shuffle.cpp
+  src/scenes/soup.cpp
+)
+target_link_libraries(fiber_proximity_paper PUBLIC fiber_proximity PRIVATE fiber_proximity_options)
+target_link_options(fiber_proximity_paper PRIVATE LINKER:-z,nodelete INTERFACE LINKER:--no-as-needed)
+# Takes a minute: alone, beside the others.
+set_source_files_properties(src/paper/engines/kdop_engines.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+fiber_proximity_parse_once(fiber_proximity_paper ${core_headers})
+fiber_proximity_component(paper fiber_proximity_paper)

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <tbb/task_arena.h>
+
+#include "fiber_proximity/query/engine.hpp"
+#include "fiber_proximity/query/loop_test.hpp"
+#include "src/hierarchy/motion_bound.hpp"
+#include "src/hierarchy/run_tree.hpp"
+#include "src/query/contact_batch.hpp"
+#include "src/query/idle_memory.hpp"
+#include "src/query/kept_candidates.hpp"
+#include "src/query/outdated_segments.hpp"
+
+namespace fiber {
+
+/// `run_tree`, the fast engine. With a skin, the tree stays where it is while points move by at
+/// most half of it: all bounds are larger by what they have moved, and the candidates of one query
+/// serve the next ones. When few fibres have moved further, only their candidates are looked for
+/// anew.
+class RunTreeEngine final : public ProximityEngine {
+ public:
+  /// @throws std::invalid_argument for a skin that is negative or not finite
+  explicit RunTreeEngine(const EngineOptions& options);
+
+  std::uint32_t thread_count() const override;
+  std::uint32_t level_count() const override;
+  void level_boxes(std::uint32_t level, std::vector<NodeBox>& boxes) const override;
+  double mean_level_volume(std::uint32_t level) const override;
+  std::size_t memory_bytes() const override;
+
+  /// How often updates have moved the tree.
+  std::uint64_t refit_count() const { return refit_count_; }
+
+  /// How often of these most candidates could be kept.
+  std::uint64_t partial_count() const { return partial_count_; }
+
+ protected:
+  void do_update(const FiberAssembly& fibers, bool same_topology) override;
+  void do_query(const FiberAssembly& fibers, const QueryOptions& options,
+                QueryResult& result) const override;
+  void do_query_shape(const FiberAssembly& shape, const FiberAssembly& fibers,
+                      const QueryOptions& options, QueryResult& result) const override;
+  void do_update_motion(const FiberAssembly& before, const FiberAssembly& after,
+                        bool same_topology) override;
+  void do_find_candidates(const PairTest& test, const QueryLimits& limits,
+                          MotionCandidates& candidates) const override;
+  void do_find_shape_candidates(const FiberMotion& shape, const PairTest& test,
+                                const QueryLimits& limits,
+                                MotionCandidates& candidates) const override;
+  const LoopTest* loops_before() const override { return &loops_; }
+  void on_threads(const std::function<void()>& work) const override { arena_.execute(work); }
+
+ private:
+  bool tree_still_serves(const FiberAssembly& fibers);
+  bool most_still_serve(const FiberAssembly& fibers);
+  void start_anew(const FiberAssembly& fibers);
+  double moved_since_fit() const { return moved_ + moved_before_fit_; }
+
+  struct Candidates {
+    KeptCandidates::Keys keys;
+    ContactBatch::Found found;
+  };
+  Candidates current_candidates(const PairTest& test, const QueryOptions& options,
+                                const QueryLimits& limits, ContactBatch& batch,
+                                QueryCounts& counts) const;
+  bool find_own(const PairTest& test, const QueryOptions& options, const QueryLimits& limits,
+                QueryResult& result) const;
+
+  void find_candidates(const RunTreeView& a, const PairTest& test, const QueryLimits& limits,
+                       MotionCandidates& candidates) const;
+
+  /// Calls with memory that queries which run at the same time do not share.
+  template <class Call>
+  void with_batch(const Call& call) const;
+
+  mutable tbb::task_arena arena_;
+  const double skin_;  // [m]
+  RunTree tree_;
+  MotionBound motion_;
+  double moved_ = 0.0;             // [m] at most, since motion is measured
+  double moved_before_fit_ = 0.0;  // [m] of that when the tree was fitted
+  std::uint64_t refit_count_ = 0;
+  std::uint64_t partial_count_ = 0;
+  bool has_served_ = false;  // the tree, an update after the one that fitted it
+  bool skin_pays_ = true;    // the tree has served so, or the one before it had
+  mutable KeptCandidates kept_;
+  OutdatedSegments outdated_;  // what makes the kept candidates OUTDATED
+  LoopTest loops_;
+  mutable IdleMemory<ContactBatch> batches_;
+};
+
+}  // namespace fiber

@@ -1,0 +1,149 @@
+#include "src/ros/bridges/octomap_leaves.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "src/text/quote.hpp"
+
+namespace fiber_proximity_ros {
+namespace {
+
+/// Cells along an edge of the root: octomap's trees have 16 levels below it.
+constexpr std::int32_t root_cells = 65536;
+
+/// [m] Single precision has room for all coordinates in between, and for half a cell.
+constexpr double least_resolution = 1e-30;
+constexpr double greatest_resolution = 1e30;
+
+OctomapLeaf child_of(const OctomapLeaf& cube, unsigned child) {
+  OctomapLeaf octant{cube.first, cube.cells / 2};
+  for (unsigned axis = 0; axis < 3; ++axis) {
+    octant.first[axis] += (child >> axis & 1U) != 0 ? octant.cells : 0;
+  }
+  return octant;
+}
+
+/// Walks through the bytes of one octree.
+class LeafReader {
+ public:
+  explicit LeafReader(const octomap_msgs::Octomap& map)
+      : data_(map.data), color_size_(map.id == "ColorOcTree" ? 3 : 0) {}
+
+  std::vector<OctomapLeaf> read(bool is_binary) {
+    constexpr OctomapLeaf root{{-root_cells / 2, -root_cells / 2, -root_cells / 2}, root_cells};
+    if (is_binary) {
+      read_binary(root);
+    } else {
+      read_full(root);
+    }
+    if (position_ != data_.size()) {
+      throw std::invalid_argument("the octree ends after " + std::to_string(position_) + " of " +
+                                  std::to_string(data_.size()) + " bytes of data");
+    }
+    return std::move(leaves_);
+  }
+
+ private:
+  /// An inner node: two bits for each child.
+  void read_binary(const OctomapLeaf& cube) {
+    enum State : unsigned { UNKNOWN, FREE, OCCUPIED, INNER };
+    require_depth(cube);
+    unsigned states = read_byte();
+    states |= read_byte() << 8U;
+    if (states == 0) {
+      // octomap writes this for a root without children, be it free or occupied.
+      throw std::invalid_argument("the inner node at byte " + std::to_string(position_ - 2) +
+                                  " of data has no children");
+    }
+    for (unsigned child = 0; child < 8; ++child) {
+      const unsigned state = states >> (2 * child) & 3U;
+      if (state == OCCUPIED) {
+        leaves_.push_back(child_of(cube, child));
+      } else if (state == INNER) {
+        read_binary(child_of(cube, child));
+      }
+    }
+  }
+
+  /// Any node: the logarithm of its odds, its colour, a bit for each child.
+  void read_full(const OctomapLeaf& cube) {
+    const float log_odds = read_float();
+    skip(color_size_);
+    const unsigned children = read_byte();
+    if (std::isnan(log_odds)) {
+      throw std::invalid_argument("the node that ends at byte " + std::to_string(position_) +
+                                  " of data has log-odds of nan");
+    }
+    if (children == 0) {
+      if (log_odds >= 0.0F) {  // octomap's threshold, a probability of one half
+        leaves_.push_back(cube);
+      }
+      return;
+    }
+    require_depth(cube);
+    for (unsigned child = 0; child < 8; ++child) {
+      if ((children >> child & 1U) != 0) {
+        read_full(child_of(cube, child));
+      }
+    }
+  }
+
+  void require_depth(const OctomapLeaf& cube) const {
+    if (cube.cells == 1) {
+      throw std::invalid_argument("the octree is deeper than 16 levels at byte " +
+                                  std::to_string(position_) + " of data");
+    }
+  }
+
+  unsigned read_byte() {
+    const std::size_t place = position_;
+    skip(1);
+    return static_cast<std::uint8_t>(data_[place]);
+  }
+
+  float read_float() {
+    float value = 0.0F;
+    const std::size_t place = position_;
+    skip(sizeof value);
+    std::memcpy(&value, data_.data() + place, sizeof value);
+    return value;
+  }
+
+  void skip(std::size_t count) {
+    if (data_.size() - position_ < count) {
+      throw std::invalid_argument("data end after " + std::to_string(data_.size()) +
+                                  " bytes, in the middle of the octree");
+    }
+    position_ += count;
+  }
+
+  const std::vector<std::int8_t>& data_;
+  std::size_t color_size_;  // [bytes]
+  std::size_t position_ = 0;
+  std::vector<OctomapLeaf> leaves_;
+};
+
+}  // namespace
+
+std::vector<OctomapLeaf> read_occupied_leaves(const octomap_msgs::Octomap& map) {
+  if (map.id != "OcTree" && map.id != "ColorOcTree" && map.id != "OcTreeStamped") {
+    throw std::invalid_argument("id is " + fiber::quote(map.id) +
+                                ", it must be OcTree, ColorOcTree or OcTreeStamped");
+  }
+  if (!(map.resolution >= least_resolution && map.resolution <= greatest_resolution)) {
+    std::ostringstream message;
+    message << "resolution is " << map.resolution << ", it must be the edge of a cell in metres, "
+            << least_resolution << " to " << greatest_resolution;
+    throw std::invalid_argument(message.str());
+  }
+  if (map.data.empty()) {  // an octree that was never filled
+    return {};
+  }
+  return LeafReader(map).read(map.binary != 0);
+}
+
+}  // namespace fiber_proximity_ros

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/environment/scene/environment_scene.hpp"
+#include "src/ros/environment/cloud_cells.hpp"
+#include "src/ros/environment/mesh_loader.hpp"
+#include "src/ros/environment/robot_description.hpp"
+
+namespace fiber_proximity_ros {
+
+/// A topic of markers that are obstacles.
+struct MarkerTopic {
+  std::string topic;
+  bool is_array = true;  ///< visualization_msgs/MarkerArray, or Marker
+};
+
+/// Where the environment comes from, as the private parameters have it.
+struct EnvironmentOptions {
+  MeshLoader meshes;
+  fiber::EnvironmentScene scene;
+  std::vector<RobotLink> robot;
+  std::optional<CloudOptions> cloud;
+  std::vector<MarkerTopic> marker_topics;
+
+  double robot_timeout = 1.0;  ///< [s] links are unknown whose transforms are older
+
+  /// [s] of wall time an obstacle may wait for its transform; longer than tf takes to arrive after
+  /// the start, as nobody sends obstacles twice
+  double obstacle_timeout = 5.0;
+};
+
+/// Reads the parameters, and with them scene and robot.
+/// @throws std::invalid_argument for a bad one, naming it and what is allowed: a part of an
+///         environment is none to rely on
+EnvironmentOptions read_environment_options(const ros::NodeHandle& node,
+                                            const ros::NodeHandle& private_node);
+
+/// Names of these parameters.
+const std::vector<std::string>& environment_parameters();
+
+/// Reads ~mesh_folders.
+/// @throws std::invalid_argument naming the parameter, or for a folder that is not there
+MeshLoader read_mesh_folders(const ros::NodeHandle& private_node);
+
+}  // namespace fiber_proximity_ros

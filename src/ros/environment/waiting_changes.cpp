@@ -1,0 +1,160 @@
+#include "src/ros/environment/waiting_changes.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <iterator>
+#include <utility>
+
+namespace fiber_proximity_ros {
+
+Eigen::Isometry3d locate(const FramedName& thing, FixedFrame& frame) {
+  std_msgs::Header header = thing.header;
+  header.frame_id = tf2_name(header.frame_id);
+  frame.adopt(header.frame_id);
+  try {
+    return frame.transform_from(header);
+  } catch (const TransformUnavailable& error) {
+    throw TransformUnavailable(thing.name + ": " + error.what());
+  }
+}
+
+WaitingChanges::Waiting::Waiting(Change received, FixedFrame& frame) : change(std::move(received)) {
+  poses.reserve(change.frames.size());
+  find_poses(frame);
+}
+
+void WaitingChanges::Waiting::find_poses(FixedFrame& frame) {
+  while (!is_placed()) {
+    const FramedName& next = change.frames[poses.size()];
+    if (!missing.empty() && !frame.knows(next.header)) {
+      return;  // the same as before, without the cost of an exception
+    }
+    try {
+      poses.push_back(locate(next, frame));
+      missing.clear();
+    } catch (const TransformUnavailable& error) {
+      missing = error.what();
+      return;
+    }
+  }
+}
+
+const std::string* WaitingChanges::Blocked::find(const TouchedObjects& touched) const {
+  if (everything) {
+    return &*everything;
+  }
+  if (touched.is_everything() && !names.empty()) {
+    return &any;
+  }
+  const std::string* found = nullptr;
+  for (const std::string& name : touched.names()) {
+    const auto blocked = names.find(name);
+    if (blocked != names.end() && (found == nullptr || found->empty())) {
+      found = &blocked->second;
+    }
+  }
+  return found;
+}
+
+void WaitingChanges::Blocked::add(const TouchedObjects& touched, const std::string& missing) {
+  const auto note = [&missing](std::string& why) { why = why.empty() ? missing : why; };
+  note(any);
+  for (const std::string& name : touched.names()) {
+    note(names[name]);
+  }
+  if (touched.is_everything()) {
+    everything = everything.value_or("");
+    note(*everything);
+  }
+}
+
+void WaitingChanges::receive(Change change) {
+  waiting_.emplace_back(std::move(change), frame_);
+  if (waiting_.size() > most_waiting) {
+    refuse(waiting_.back(), std::to_string(most_waiting) + " changes are waiting already");
+    waiting_.pop_back();
+  }
+}
+
+bool WaitingChanges::update() {
+  bool applied = false;
+  Blocked blocked;
+  for (auto place = waiting_.begin(); place != waiting_.end();) {
+    const std::string* before = blocked.find(place->change.touched);
+    const std::size_t count = waiting_.size();
+    const bool has_ended = advance(place, before, applied);
+    const bool has_overtaken = waiting_.size() != count;
+    if (has_ended) {
+      place = waiting_.erase(place);
+    }
+    if (has_overtaken) {  // others no longer wait for what it has undone
+      blocked = {};
+      place = waiting_.begin();
+    } else if (!has_ended) {
+      const bool is_before_missing = place->missing.empty() && before != nullptr;
+      blocked.add(place->change.touched, is_before_missing ? *before : place->missing);
+      ++place;
+    }
+  }
+  return applied;
+}
+
+bool WaitingChanges::advance(Queue::iterator place, const std::string* blocked, bool& applied) {
+  Waiting& waiting = *place;
+  waiting.find_poses(frame_);
+  if (!waiting.apply && waiting.change.apply.is_ready()) {
+    try {
+      waiting.apply = waiting.change.apply.get();
+    } catch (const std::exception& error) {
+      return refuse(waiting, error.what());
+    }
+  }
+  if (waiting.is_placed() && waiting.apply) {
+    try {
+      if (make(place, blocked == nullptr)) {
+        applied = true;
+        waiting.change.on_end(Change::End::APPLIED, "");
+        return true;
+      }
+    } catch (const std::exception& error) {
+      return refuse(waiting, error.what());
+    }
+  }
+  const std::string& missing =
+      waiting.missing.empty() && blocked != nullptr ? *blocked : waiting.missing;
+  const double waited = (ros::SteadyTime::now() - waiting.arrival).toSec();
+  return !missing.empty() && waited >= waiting.change.patience && refuse(waiting, missing);
+}
+
+/// Makes a change that is ready if it is its turn, or if it undoes all that it would wait for.
+bool WaitingChanges::make(Queue::iterator place, bool is_first) {
+  const TouchedObjects& touched = place->change.touched;
+  if (!is_first && !touched.begins_with_removal()) {
+    return false;
+  }
+  std::vector<Queue::iterator> undone;
+  Change::Names cancelled;
+  for (auto earlier = is_first ? place : waiting_.begin(); earlier != place; ++earlier) {
+    const TouchedObjects& other = earlier->change.touched;
+    if (touched.overlaps(other)) {
+      if (!other.is_undone_by(touched)) {
+        return false;
+      }
+      undone.push_back(earlier);
+      cancelled.insert(other.names().begin(), other.names().end());
+    }
+  }
+  (*place->apply)(place->poses, cancelled);
+  for (const Queue::iterator change : undone) {
+    change->change.on_end(Change::End::OVERTAKEN, "");
+    waiting_.erase(change);
+  }
+  return true;
+}
+
+bool WaitingChanges::refuse(const Waiting& waiting, const std::string& reason) const {
+  waiting.change.on_end(Change::End::REFUSED, reason);
+  return true;
+}
+
+}  // namespace fiber_proximity_ros

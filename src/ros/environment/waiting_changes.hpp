@@ -1,0 +1,119 @@
+#pragma once
+
+#include <ros/time.h>
+#include <std_msgs/Header.h>
+
+#include <Eigen/Geometry>
+#include <functional>
+#include <list>
+#include <optional>
+#include <set>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "src/ros/environment/touched_objects.hpp"
+#include "src/ros/inputs/fixed_frame.hpp"
+#include "src/ros/inputs/prepared.hpp"
+
+namespace fiber_proximity_ros {
+
+/// Something in the frame of a message.
+struct FramedName {
+  std::string name;  ///< what an error calls it
+  std_msgs::Header header;
+};
+
+/// Pose of the thing's frame in the fixed frame, which is that of the first thing if there is none.
+/// @throws TransformUnavailable naming the thing
+Eigen::Isometry3d locate(const FramedName& thing, FixedFrame& frame);
+
+/// What one message or request asks for: all of it, or nothing.
+struct Change {
+  using Poses = std::vector<Eigen::Isometry3d>;
+  using Names = std::set<std::string>;
+
+  /// Makes the change, or throws std::invalid_argument.
+  /// @param poses     of the frames
+  /// @param cancelled names of objects that may never have been added, because of this change
+  using Apply = std::function<void(const Poses& poses, const Names& cancelled)>;
+
+  enum class End {
+    APPLIED,
+    REFUSED,   ///< malformed, impossible, or no transform in time
+    OVERTAKEN  ///< by a change that removes all it touches
+  };
+
+  TouchedObjects touched;
+  std::vector<FramedName> frames;  ///< whose poses apply() needs; an empty one is the fixed frame
+  Prepared<Apply> apply;
+  double patience = 0.0;  ///< [s] of wall time that transforms may take, 0: they must be there
+
+  /// Called once, at the end, with the reason if the change was refused.
+  std::function<void(End, const std::string& reason)> on_end;
+};
+
+/// Changes of the environment on their way. Each waits for three things: the transforms of its
+/// frames, the preparation of its meshes, and its turn, which comes when no earlier change that
+/// touches the same object is waiting. So the changes of one object keep their order, and those of
+/// different objects do not wait for each other.
+///
+/// A change that waits for a transform, its own or one of a change before it, for longer than it
+/// has patience is refused. One whose objects are all removed by a later change that is ready
+/// itself is overtaken: it is never made.
+class WaitingChanges {
+ public:
+  /// [change] More than these do not wait: what is beyond is refused.
+  static constexpr std::size_t most_waiting = 1000;
+
+  /// @param frame must outlive this
+  explicit WaitingChanges(FixedFrame& frame) : frame_(frame) {}
+
+  void receive(Change change);
+
+  /// Makes the changes whose time has come.
+  /// @returns true if there were any
+  bool update();
+
+  bool is_waiting() const { return !waiting_.empty(); }
+
+  /// Drops all, as this ends.
+  void clear() { waiting_.clear(); }
+
+ private:
+  struct Waiting {
+    Waiting(Change received, FixedFrame& frame);
+
+    void find_poses(FixedFrame& frame);
+    bool is_placed() const { return poses.size() == change.frames.size(); }
+
+    Change change;
+    Change::Poses poses;                 // of the first frames
+    std::string missing;                 // why the next one has none
+    std::optional<Change::Apply> apply;  // once it is prepared
+    ros::SteadyTime arrival = ros::SteadyTime::now();
+  };
+  using Queue = std::list<Waiting>;
+
+  /// The objects that changes which go on waiting touch, and why a change of one of them would wait
+  /// for a transform; empty: it would not.
+  struct Blocked {
+    std::unordered_map<std::string, std::string> names;
+    std::optional<std::string> everything;
+    std::string any;  // why a change of everything would
+
+    /// Null if the change need not wait for others.
+    const std::string* find(const TouchedObjects& touched) const;
+    void add(const TouchedObjects& touched, const std::string& missing);
+  };
+
+  /// @returns whether it has ended
+  bool advance(Queue::iterator place, const std::string* blocked, bool& applied);
+  bool make(Queue::iterator place, bool is_first);
+  bool refuse(const Waiting& waiting, const std::string& reason) const;
+
+  FixedFrame& frame_;
+  Queue waiting_;
+};
+
+}  // namespace fiber_proximity_ros

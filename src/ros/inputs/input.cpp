@@ -1,0 +1,255 @@
+#include "src/ros/inputs/input.hpp"
+
+#include <ros/console.h>
+
+#include <algorithm>
+#include <cassert>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+namespace fiber_proximity_ros {
+
+Input::Input(InputOptions options, const InputTiming& timing)
+    : options_(std::move(options)), timing_(timing), refusals_(label()) {}
+
+void Input::receive(const ReceivedMessage& message, FixedFrame& frame) {
+  ++received_;
+  if (message.sequence) {
+    gaps_.add(message.publisher, *message.sequence);
+  }
+  try {
+    store(message.read, frame);
+  } catch (const std::invalid_argument& error) {
+    refusals_.refuse(error.what());
+  }
+}
+
+void Input::store(const ReadMessage& read, FixedFrame& frame) {
+  if (!read(chains_)) {
+    return;
+  }
+  std_msgs::Header header = chains_.header;
+  header.frame_id = tf2_name(header.frame_id);
+  if (header.frame_id.empty()) {
+    throw std::invalid_argument("header.frame_id is empty, it must name the frame of the points");
+  }
+  const ros::Time now = ros::Time::now();
+  const ros::Time stamp = header.stamp.isZero() ? now : header.stamp;
+  check_stamp(stamp, now);
+  repeats_stamp_ = !header.stamp.isZero() && header.stamp == newest_header_stamp_;
+  if (repeats_stamp_) {
+    return;  // a tracker that has frozen sends its last answer again and again
+  }
+  name_fibers();
+  handle_missing_points(options_.missing_points, chains_, missing_);
+  if (chains_.radii.empty()) {
+    chains_.radii.assign(1, options_.radius);
+  }
+  MessagePtr message = take_spare();
+  assign(chains_, message->fibers);
+  message->names.swap(chains_.names);
+  message->header = header;
+  message->stamp = stamp;
+  message->arrival = now;
+  message->steady_arrival = ros::SteadyTime::now();
+  last_stamp_ = stamp;
+  last_arrival_ = now;
+  frame.adopt(header.frame_id);
+  if (waiting_.size() == timing_.queue_size()) {
+    overtake(waiting_.back());
+    waiting_.pop_back();
+  }
+  waiting_.push_back(std::move(message));
+}
+
+/// The past is unlimited, as a recording has stamps of the past, and starts again at its end; but
+/// a stamp of the future would be that of all answers until then.
+void Input::check_stamp(const ros::Time& stamp, const ros::Time& now) const {
+  std::ostringstream error;
+  if (constexpr std::uint32_t second = 1'000'000'000; stamp.nsec >= second) {
+    error << "its stamp has " << stamp.nsec << " nanoseconds, it must have fewer than " << second;
+    throw std::invalid_argument(error.str());
+  }
+  const double ahead = stamp.toSec() - now.toSec();
+  if (ros::Time::isValid() && ahead > timing_.max_stamp_ahead) {
+    error << "its stamp " << stamp << " is " << ahead << " s ahead of the node's time " << now
+          << ", it may be " << timing_.max_stamp_ahead << " s ahead (max_stamp_ahead)";
+    throw std::invalid_argument(error.str());
+  }
+  const bool starts_anew = !last_arrival_ || (now - *last_arrival_).toSec() > timing_.input_timeout;
+  if (!starts_anew && stamp < *last_stamp_) {
+    error << "its stamp " << stamp << " is older than " << *last_stamp_
+          << ", that of the message before it";
+    throw std::invalid_argument(error.str());
+  }
+}
+
+std::vector<ros::Time> Input::place_waiting(const FixedFrame& frame) {
+  for (; placed_.size() > timing_.queue_size(); placed_.pop_front()) {
+    overtake(placed_.front());
+  }
+  // From the newest to the oldest: what comes before one that is placed has lost its turn, unless
+  // it can be placed, too, and may be the one that those of the other inputs belong to.
+  std::vector<MessagePtr> placed;
+  for (auto message = waiting_.rbegin(); message != waiting_.rend(); ++message) {
+    if ((placed.empty() || timing_.synchronize) && place(*message, frame)) {
+      placed.push_back(std::move(*message));
+    } else if (!placed.empty() && *message != nullptr) {
+      overtake(*message);
+    }
+  }
+  waiting_.erase(std::remove(waiting_.begin(), waiting_.end(), nullptr), waiting_.end());
+  const auto waited = [this] {
+    return (ros::SteadyTime::now() - waiting_.front()->steady_arrival).toSec();
+  };
+  if (!waiting_.empty() && waited() > timing_.tf_timeout) {
+    recycle(waiting_.front());
+    waiting_.pop_front();
+    refusals_.refuse(transform_error_);
+  }
+  std::vector<ros::Time> stamps;
+  for (; !placed.empty(); placed.pop_back()) {
+    Message& message = *placed.back();
+    stamps.push_back(message.stamp);
+    newest_header_stamp_ = message.header.stamp;
+    newest_arrival_ = message.arrival;
+    placed_.push_back(std::move(placed.back()));
+  }
+  return stamps;
+}
+
+void Input::accept(const ros::Time& stamp) {
+  for (; placed_.front()->stamp < stamp; placed_.pop_front()) {
+    overtake(placed_.front());
+    assert(placed_.size() > 1);
+  }
+  assert(placed_.front()->stamp == stamp);
+  recycle(current_);
+  current_ = std::move(placed_.front());
+  placed_.pop_front();
+  has_fibers_ = true;
+  if (staleness_ != Staleness::NONE) {
+    staleness_ = Staleness::NONE;
+    stale_reason_.clear();
+    ROS_INFO_STREAM(label() << ": new messages again");
+  }
+}
+
+bool Input::is_silent(const ros::Time& now) const {
+  return !newest_arrival_ || (now - *newest_arrival_).toSec() > timing_.input_timeout;
+}
+
+bool Input::expire(const ros::Time& now, bool is_stranger) {
+  const bool has_stopped = newest_arrival_ && is_silent(now);
+  const Staleness staleness = has_stopped   ? Staleness::SILENT
+                              : is_stranger ? Staleness::STRANGER
+                                            : Staleness::NONE;
+  if (staleness == Staleness::NONE || staleness == staleness_) {
+    return false;
+  }
+  const bool was_fresh = is_fresh();
+  std::ostringstream reason;
+  if (has_stopped) {
+    reason << "no new message for " << timing_.input_timeout << " s"
+           << (repeats_stamp_ ? ", its messages repeat their stamp" : "");
+    for (; !placed_.empty(); placed_.pop_front()) {
+      overtake(placed_.front());
+    }
+  } else {
+    reason << "no stamp within " << timing_.synchronize_slop
+           << " s (synchronize_slop) of those of the other inputs for " << timing_.input_timeout
+           << " s, the newest is " << *last_stamp_;
+  }
+  staleness_ = staleness;
+  stale_reason_ = reason.str();
+  ROS_WARN_STREAM(label() << ": " << stale_reason_ << "; its " << fibers().fiber_count()
+                          << " fibre(s) are left out");
+  return was_fresh;
+}
+
+void Input::reset() {
+  for (MessagePtr& message : waiting_) {
+    recycle(message);
+  }
+  for (MessagePtr& message : placed_) {
+    recycle(message);
+  }
+  waiting_.clear();
+  placed_.clear();
+  has_fibers_ = false;
+  staleness_ = Staleness::NONE;
+  stale_reason_.clear();
+  repeats_stamp_ = false;
+  last_stamp_.reset();
+  last_arrival_.reset();
+  newest_header_stamp_.reset();
+  newest_arrival_.reset();
+}
+
+fiber_proximity::InputStatistics Input::statistics(const ros::Time& now) const {
+  fiber_proximity::InputStatistics statistics;
+  statistics.topic = options_.topic;
+  statistics.type = options_.type;
+  statistics.received = received_;
+  statistics.refused = refusals_.count();
+  statistics.overtaken = overtaken_;
+  statistics.dropped = gaps_.count();
+  statistics.missing_points = missing_.points;
+  statistics.missing_fibers = missing_.fibers;
+  statistics.lone_points = missing_.lone_points;
+  statistics.fibers = is_fresh() ? static_cast<std::uint32_t>(fibers().fiber_count()) : 0;
+  statistics.age = has_fibers_ ? (now - current_->arrival).toSec() : -1.0;
+  statistics.stale = staleness_ != Staleness::NONE;
+  statistics.last_error = refusals_.last_error();
+  return statistics;
+}
+
+/// @returns true if the message is now in the fixed frame; one that cannot be is gone then
+bool Input::place(MessagePtr& message, const FixedFrame& frame) {
+  try {
+    frame.place(message->header, message->fibers, buffer_);
+    return true;
+  } catch (const TransformUnavailable& error) {
+    transform_error_ = error.what();
+  } catch (const std::invalid_argument& error) {
+    recycle(message);
+    refusals_.refuse(error.what());
+  }
+  return false;
+}
+
+/// By the input, where the message does not; before any are left out or cut, so that the others
+/// keep their names.
+void Input::name_fibers() {
+  if (!chains_.names.empty()) {
+    return;
+  }
+  chains_.names.assign(chains_.fiber_count(), options_.name);
+  for (std::size_t i = 0; chains_.names.size() > 1 && i < chains_.names.size(); ++i) {
+    chains_.names[i] += "/" + std::to_string(i);
+  }
+}
+
+std::string Input::label() const {
+  return "input '" + options_.topic + "' (" + options_.type + ")";
+}
+
+/// A message whose memory can be used again.
+Input::MessagePtr Input::take_spare() {
+  if (spare_.empty()) {
+    return std::make_unique<Message>();
+  }
+  MessagePtr message = std::move(spare_.back());
+  spare_.pop_back();
+  return message;
+}
+
+void Input::recycle(MessagePtr& message) { spare_.push_back(std::move(message)); }
+
+void Input::overtake(MessagePtr& message) {
+  ++overtaken_;
+  recycle(message);
+}
+
+}  // namespace fiber_proximity_ros

@@ -1,0 +1,124 @@
+#pragma once
+
+#include <ros/time.h>
+
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fiber_proximity/InputStatistics.h"
+#include "fiber_proximity/ros/chain_set.hpp"
+#include "src/ros/inputs/fixed_frame.hpp"
+#include "src/ros/inputs/input_timing.hpp"
+#include "src/ros/inputs/input_types.hpp"
+#include "src/ros/inputs/refusal_log.hpp"
+#include "src/ros/inputs/sequence_gaps.hpp"
+
+namespace fiber_proximity_ros {
+
+/// One source of fibres: reads and checks its messages, has them wait for their transforms and, if
+/// inputs are synchronised, for those of the others, and knows how old its fibres are.
+///
+/// Few messages wait: the first keeps its turn until its transform arrives or `tf_timeout` is over,
+/// so that a slow tf delays fibres but never starves them; where there is no more room, the newest
+/// one replaces the one before it.
+class Input {
+ public:
+  Input(InputOptions options, const InputTiming& timing);
+
+  /// Takes the newest message. A malformed one is refused and changes nothing.
+  void receive(const ReceivedMessage& message, FixedFrame& frame);
+
+  /// Brings what waits into the fixed frame where tf has the transform by now: the newest only, or
+  /// all of them if inputs are synchronised.
+  /// @returns the stamps of those that may be accepted now, too; they do not decrease
+  std::vector<ros::Time> place_waiting(const FixedFrame& frame);
+
+  /// Makes the fibres those of the message with this stamp, which place_waiting() has returned;
+  /// those before it are overtaken.
+  void accept(const ros::Time& stamp);
+
+  /// Marks the fibres stale when they were not renewed for `input_timeout`, or when the messages
+  /// belong to none of the other inputs.
+  /// @returns true if they have just become so
+  bool expire(const ros::Time& now, bool is_stranger);
+
+  /// Forgets all fibres, as when time starts again.
+  void reset();
+
+  bool is_waiting() const { return !waiting_.empty(); }
+
+  /// True if there are fibres and they are not stale: these may be used.
+  bool is_fresh() const { return has_fibers_ && staleness_ == Staleness::NONE; }
+
+  /// True if no usable message has come for `input_timeout`.
+  bool is_silent(const ros::Time& now) const;
+
+  const fiber::FiberAssembly& fibers() const { return current_->fibers; }  ///< in the fixed frame
+  const std::vector<std::string>& names() const { return current_->names; }
+
+  /// Of the fibres; the time of their arrival where the message has none.
+  const ros::Time& stamp() const { return current_->stamp; }
+
+  const InputOptions& options() const { return options_; }
+  fiber_proximity::InputStatistics statistics(const ros::Time& now) const;
+
+  /// Why the fibres are stale; empty if they are not.
+  const std::string& stale_reason() const { return stale_reason_; }
+
+ private:
+  struct Message {
+    std_msgs::Header header;
+    ros::Time stamp;  // the time of arrival where the header has none
+    ros::Time arrival;
+    ros::SteadyTime steady_arrival;
+    fiber::FiberAssembly fibers;
+    std::vector<std::string> names;
+  };
+  using MessagePtr = std::unique_ptr<Message>;
+
+  /// Why the fibres are stale: no message comes, or those that come match no other input's.
+  enum class Staleness { NONE, SILENT, STRANGER };
+
+  void store(const ReadMessage& read, FixedFrame& frame);
+  void check_stamp(const ros::Time& stamp, const ros::Time& now) const;
+  bool place(MessagePtr& message, const FixedFrame& frame);
+  void name_fibers();
+  std::string label() const;
+
+  MessagePtr take_spare();
+  void recycle(MessagePtr& message);
+  void overtake(MessagePtr& message);
+
+  InputOptions options_;
+  InputTiming timing_;
+  RefusalLog refusals_;
+  SequenceGaps gaps_;
+  MissingPointCounts missing_;
+
+  ChainSet chains_;                      // what is being read; a member for its memory
+  std::vector<Eigen::Vector3d> buffer_;  // the same
+  std::vector<MessagePtr> spare_;        // the same
+
+  std::deque<MessagePtr> waiting_;  // for their transforms
+  std::deque<MessagePtr> placed_;   // in the fixed frame, to be accepted
+  MessagePtr current_ = std::make_unique<Message>();
+  bool has_fibers_ = false;
+  Staleness staleness_ = Staleness::NONE;
+  std::string stale_reason_;
+  bool repeats_stamp_ = false;
+
+  // Of the last message stored, and of the last one placed; empty if there was none.
+  std::optional<ros::Time> last_stamp_;
+  std::optional<ros::Time> last_arrival_;
+  std::optional<ros::Time> newest_header_stamp_;
+  std::optional<ros::Time> newest_arrival_;
+
+  std::string transform_error_;
+  std::uint64_t received_ = 0;
+  std::uint64_t overtaken_ = 0;
+};
+
+}  // namespace fiber_proximity_ros

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/ros/inputs/fixed_frame.hpp"
+#include "src/ros/inputs/input.hpp"
+#include "src/ros/inputs/stamp_matcher.hpp"
+
+namespace fiber_proximity_ros {
+
+/// All inputs together: one assembly, in one frame, of the fibres of every input that is fresh, in
+/// the order of the inputs. If they are synchronised, all fibres change together; inputs that have
+/// fallen silent, or whose stamps never match, are left out then, as they would stop the others.
+class InputSet {
+ public:
+  /// @param on_message called for each message that arrives; it should see to it that update() is
+  ///        called once the others that have arrived are in as well
+  InputSet(ros::NodeHandle node, const std::vector<InputOptions>& inputs, const InputTiming& timing,
+           const std::string& fixed_frame, std::function<void()> on_message);
+
+  /// Takes over what has arrived and leaves out what has expired.
+  /// @returns true if that changed the fibres
+  bool update();
+
+  /// True if a message waits for its transform: update() should be called again soon.
+  bool is_waiting() const;
+
+  /// True if at least one input is fresh, so that there is something to answer about.
+  bool is_fresh() const;
+
+  /// @throws std::invalid_argument saying so unless it is
+  void require_fresh() const;
+
+  /// The fibres of all fresh inputs, merged at the first call after a change.
+  const fiber::FiberAssembly& fibers();
+  const std::vector<std::string>& names() const { return merged_.names; }
+
+  /// Fixed frame, and the newest stamp among the fibres.
+  const std_msgs::Header& header() const { return merged_.header; }
+
+  const FixedFrame& frame() const { return frame_; }
+  FixedFrame& frame() { return frame_; }
+  const std::vector<std::unique_ptr<Input>>& inputs() const { return inputs_; }
+
+  /// [s] Time spent on reading, transforming and merging since this was last asked.
+  double take_work_time();
+
+ private:
+  void receive(Input& input, const ReceivedMessage& message);
+  void watch_time();
+  bool accept_placed();
+  bool accept_matches();
+  void merge();
+
+  FixedFrame frame_;
+  std::function<void()> on_message_;
+  std::vector<std::unique_ptr<Input>> inputs_;
+  double input_timeout_;                 // [s]
+  std::optional<StampMatcher> matcher_;  // if the inputs are synchronised
+  ros::Time last_match_;                 // when a set was found, or none was waited for
+  ros::Time last_time_;
+  bool was_reset_ = false;
+  bool merged_is_old_ = false;
+  ChainSet merged_;
+  fiber::FiberAssembly fibers_;
+  double work_time_ = 0.0;
+  std::vector<ros::Subscriber> subscribers_;  // last: their callbacks use all of the above
+};
+
+}  // namespace fiber_proximity_ros

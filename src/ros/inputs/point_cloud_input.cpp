@@ -1,0 +1,104 @@
+#include "src/ros/inputs/point_cloud_input.hpp"
+
+#include <array>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+
+#include "fiber_proximity/ros/conversions.hpp"
+
+namespace fiber_proximity_ros {
+namespace {
+
+using sensor_msgs::PointCloud2;
+using sensor_msgs::PointField;
+
+/// Where a coordinate stands in a point's bytes.
+struct CoordinateField {
+  std::uint32_t offset = 0;
+  bool is_double = false;
+
+  std::uint64_t end() const { return std::uint64_t{offset} + (is_double ? 8 : 4); }
+
+  double read(const std::uint8_t* point) const {
+    if (is_double) {
+      double value = 0.0;
+      std::memcpy(&value, point + offset, sizeof value);
+      return value;
+    }
+    float value = 0.0F;
+    std::memcpy(&value, point + offset, sizeof value);
+    return static_cast<double>(value);
+  }
+};
+
+CoordinateField find_coordinate(const PointCloud2& cloud, const std::string& name) {
+  for (const PointField& field : cloud.fields) {
+    if (field.name != name) {
+      continue;
+    }
+    if (field.datatype != PointField::FLOAT32 && field.datatype != PointField::FLOAT64) {
+      throw std::invalid_argument("field '" + name + "' has datatype " +
+                                  std::to_string(field.datatype) +
+                                  ", it must be 7 (FLOAT32) or 8 (FLOAT64)");
+    }
+    const CoordinateField coordinate{field.offset, field.datatype == PointField::FLOAT64};
+    if (coordinate.end() > cloud.point_step) {
+      throw std::invalid_argument("field '" + name + "' ends at byte " +
+                                  std::to_string(coordinate.end()) + ", beyond point_step " +
+                                  std::to_string(cloud.point_step));
+    }
+    return coordinate;
+  }
+  throw std::invalid_argument("the cloud has no field '" + name + "', it needs x, y and z");
+}
+
+void check_layout(const PointCloud2& cloud) {
+  if (cloud.is_bigendian != 0) {
+    throw std::invalid_argument("the cloud is big-endian, only little-endian is supported");
+  }
+  const std::uint64_t row = std::uint64_t{cloud.width} * cloud.point_step;
+  if (cloud.row_step < row) {
+    throw std::invalid_argument("row_step is " + std::to_string(cloud.row_step) + ", but " +
+                                std::to_string(cloud.width) + " points of point_step " +
+                                std::to_string(cloud.point_step) + " need " + std::to_string(row));
+  }
+  const std::uint64_t size = std::uint64_t{cloud.height} * cloud.row_step;
+  if (cloud.data.size() != size) {
+    throw std::invalid_argument("data has " + std::to_string(cloud.data.size()) + " bytes, but " +
+                                std::to_string(cloud.height) + " row(s) of row_step " +
+                                std::to_string(cloud.row_step) + " make " + std::to_string(size));
+  }
+}
+
+}  // namespace
+
+void to_chains(const PointCloud2& message, ChainSet& chains) {
+  chains.clear();
+  chains.header = message.header;
+  const std::array<CoordinateField, 3> fields{
+      find_coordinate(message, "x"), find_coordinate(message, "y"), find_coordinate(message, "z")};
+  check_layout(message);
+  chains.points.reserve(std::size_t{message.width} * message.height);
+  const std::size_t rows = message.width == 0 ? 0 : message.height;
+  for (std::size_t row = 0; row < rows; ++row) {
+    const std::uint8_t* point = message.data.data() + row * message.row_step;
+    for (std::size_t column = 0; column < message.width; ++column, point += message.point_step) {
+      chains.points.emplace_back(fields[0].read(point), fields[1].read(point),
+                                 fields[2].read(point));
+    }
+  }
+  chains.end_chain();
+}
+
+void to_chains(const sensor_msgs::PointCloud& message, ChainSet& chains) {
+  chains.clear();
+  chains.header = message.header;
+  chains.points.reserve(message.points.size());
+  for (const geometry_msgs::Point32& point : message.points) {
+    chains.points.push_back(to_vector(point));
+  }
+  chains.end_chain();
+}
+
+}  // namespace fiber_proximity_ros

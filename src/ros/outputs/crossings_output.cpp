@@ -1,0 +1,91 @@
+#include "src/ros/outputs/crossings_output.hpp"
+
+#include <ros/console.h>
+
+#include <stdexcept>
+
+#include "fiber_proximity/ros/conversions.hpp"
+#include "src/ros/support/parameters.hpp"
+
+namespace fiber_proximity_ros {
+
+CrossingsOutput::CrossingsOutput(const ros::NodeHandle& private_node, const FixedFrame& frame)
+    : frame_(frame) {
+  read_parameters(private_node);
+  ros::NodeHandle node = private_node;
+  publisher_ = node.advertise<fiber_proximity::CrossingArray>("crossings", 1);
+}
+
+void CrossingsOutput::read_parameters(const ros::NodeHandle& private_node) {
+  const std::string allowed =
+      "a map of 'direction', three numbers that are not all 0, or 'camera_frame', a name";
+  XmlRpc::XmlRpcValue map;
+  if (!private_node.getParam("crossings", map)) {
+    return;
+  }
+  if (map.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
+    refuse_parameter(private_node, "crossings", allowed);
+  }
+  for (const auto& [key, value] : map) {
+    if (key != "direction" && key != "camera_frame") {
+      ROS_WARN_STREAM("parameter " << private_node.resolveName("crossings/" + key)
+                                   << " is unknown and not used");
+    }
+  }
+  if (map.hasMember("direction") && map.hasMember("camera_frame")) {
+    refuse_parameter(private_node, "crossings", allowed + ", not both");
+  }
+  read_parameter(private_node, "crossings/camera_frame", "a name", camera_frame_);
+  const std::string allowed_direction = "three finite numbers that are not all 0";
+  std::vector<double> direction{view_.direction.x(), view_.direction.y(), view_.direction.z()};
+  read_parameter(private_node, "crossings/direction", allowed_direction, direction);
+  if (direction.size() != 3) {
+    refuse_parameter(private_node, "crossings/direction", allowed_direction);
+  }
+  view_.direction = {direction[0], direction[1], direction[2]};
+  view_.is_perspective = !camera_frame_.empty();
+  try {
+    validate(view_);
+  } catch (const std::invalid_argument&) {
+    refuse_parameter(private_node, "crossings/direction", allowed_direction);
+  }
+}
+
+bool CrossingsOutput::find(const fiber::FiberAssembly& fibers, const std_msgs::Header& header) {
+  if (is_found_) {
+    return true;
+  }
+  crossings_.clear();
+  if (view_.is_perspective) {
+    try {
+      const Eigen::Isometry3d camera = frame_.latest_pose(camera_frame_, header.stamp).pose;
+      view_.eye = camera.translation();
+      view_.direction = camera.linear().col(2);
+    } catch (const TransformUnavailable& error) {
+      ROS_WARN_STREAM_THROTTLE(1.0, "no crossings: " << error.what());
+      return false;
+    }
+  }
+  finder_.find(fibers, view_, crossings_);
+  is_found_ = true;
+  return true;
+}
+
+void CrossingsOutput::publish(const fiber::FiberAssembly& fibers, const std_msgs::Header& header,
+                              const std::vector<std::string>& names) {
+  if (!find(fibers, header)) {
+    return;
+  }
+  message_.header = header;
+  message_.fiber_names = names;
+  message_.direction = to_vector_message(view_.direction);
+  message_.is_perspective = view_.is_perspective;
+  message_.eye = to_message(view_.eye);
+  message_.crossings.resize(crossings_.size());
+  for (std::size_t i = 0; i < crossings_.size(); ++i) {
+    to_message(crossings_[i], message_.crossings[i]);
+  }
+  publisher_.publish(message_);
+}
+
+}  // namespace fiber_proximity_ros

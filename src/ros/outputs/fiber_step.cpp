@@ -1,0 +1,93 @@
+#include "src/ros/outputs/fiber_step.hpp"
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+namespace fiber_proximity_ros {
+namespace {
+
+std::string extent_of(const fiber::FiberAssembly& fibers) {
+  return std::to_string(fibers.fiber_count()) + " of " + std::to_string(fibers.point_count()) +
+         " points";
+}
+
+}  // namespace
+
+std::chrono::nanoseconds to_time(const ros::Time& stamp) {
+  return std::chrono::nanoseconds(static_cast<std::int64_t>(stamp.toNSec()));
+}
+
+ros::Time to_stamp(std::chrono::nanoseconds time) {
+  return ros::Time().fromNSec(static_cast<std::uint64_t>(std::max<std::int64_t>(time.count(), 0)));
+}
+
+void read_state(InputSet& inputs, bool keeps_fibers, FiberState& state) {
+  state.has_fibers = keeps_fibers && inputs.is_fresh();
+  state.stamps.clear();
+  for (const std::unique_ptr<Input>& input : inputs.inputs()) {
+    state.stamps.push_back(input->is_fresh() ? std::optional(input->stamp()) : std::nullopt);
+  }
+  state.stamp = inputs.header().stamp;
+  if (state.has_fibers) {
+    state.fibers = inputs.fibers();
+    state.names = inputs.names();
+  }
+}
+
+void FiberStep::advance(FiberState& newest) {
+  std::swap(before_, after_);
+  std::swap(after_, newest);
+  stand_still();
+  is_motion_ = false;
+  problem_.clear();
+  if (before_.has_fibers && after_.has_fibers) {
+    is_motion_ = true;
+    if (const std::string problem = find_motion(); !problem.empty()) {
+      refuse(problem);
+    }
+  }
+}
+
+void FiberStep::refuse(const std::string& problem) {
+  is_motion_ = false;
+  problem_ = problem;
+  ++problem_count_;
+  stand_still();
+}
+
+void FiberStep::stand_still() {
+  const std::chrono::nanoseconds stamp = to_time(after_.stamp);
+  time_ = {stamp, stamp};
+}
+
+/// Finds when what happened.
+/// @returns why this is no motion; empty if it is
+std::string FiberStep::find_motion() {
+  std::ostringstream problem;
+  if (before_.names != after_.names || before_.fibers.offsets() != after_.fibers.offsets()) {
+    problem << "the fibres are no longer the same: " << extent_of(before_.fibers) << " before, "
+            << extent_of(after_.fibers) << " now";
+    return problem.str();
+  }
+  auto begin = ros::Time(ros::TIME_MAX);
+  ros::Time end;
+  for (std::size_t i = 0; i < after_.stamps.size(); ++i) {
+    // One that was not there before has no fibres: with any, they would be others.
+    if (before_.stamps[i] && after_.stamps[i] && after_.stamps[i] != before_.stamps[i]) {
+      begin = std::min(begin, *before_.stamps[i]);
+      end = std::max(end, *after_.stamps[i]);
+    }
+  }
+  if (end <= begin) {
+    problem << "their stamps do not rise";
+  } else if (const double seconds = (end - begin).toSec(); seconds > longest_motion_) {
+    problem << "their stamps jump by " << seconds << " s, a motion may take " << longest_motion_
+            << " s (input_timeout)";
+  } else {
+    time_ = {to_time(begin), to_time(end)};
+  }
+  return problem.str();
+}
+
+}  // namespace fiber_proximity_ros

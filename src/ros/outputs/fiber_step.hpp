@@ -1,0 +1,74 @@
+#pragma once
+
+#include <ros/time.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/query/motion_judge.hpp"
+#include "src/query/touch_tracker.hpp"
+#include "src/ros/inputs/input_set.hpp"
+
+namespace fiber_proximity_ros {
+
+/// A stamp as time since the epoch, and back.
+std::chrono::nanoseconds to_time(const ros::Time& stamp);
+ros::Time to_stamp(std::chrono::nanoseconds time);
+
+/// The fibres of an answer, and when they were there.
+struct FiberState {
+  bool has_fibers = false;  ///< false: there are none, or they are not to be kept
+  fiber::FiberAssembly fibers;
+  std::vector<std::string> names;
+  std::vector<std::optional<ros::Time>> stamps;  ///< by input, of those that are fresh
+  ros::Time stamp;                               ///< the newest
+};
+
+/// @param keeps_fibers whether they are to be kept for the motion to the next ones
+void read_state(InputSet& inputs, bool keeps_fibers, FiberState& state);
+
+/// The step from the fibres of one answer to those of the next: what moved meanwhile, and when.
+class FiberStep {
+ public:
+  /// @param longest_motion [s] more time than this between two states is a jump, not a motion
+  explicit FiberStep(double longest_motion) : longest_motion_(longest_motion) {}
+
+  /// Takes the fibres of a new answer, and gives old ones for their memory.
+  void advance(FiberState& newest);
+
+  /// It is no motion that can be looked at.
+  void refuse(const std::string& problem);
+
+  /// Whether both states are known and of one topology, and time went on.
+  bool is_motion() const { return is_motion_; }
+
+  /// Why the states before and after were kept and yet there is no motion; empty otherwise.
+  const std::string& problem() const { return problem_; }
+
+  /// How many such steps there were.
+  std::uint64_t problem_count() const { return problem_count_; }
+
+  // Of a motion. What has not moved stands still.
+  fiber::FiberMotion motion() const { return {before_.fibers, after_.fibers}; }
+
+  /// From the oldest stamp before to the newest one after of the inputs that have moved; of no
+  /// motion that after, which then is the newest of all.
+  const fiber::TimeBounds& time() const { return time_; }
+
+ private:
+  std::string find_motion();
+  void stand_still();
+
+  double longest_motion_;  // [s]
+  FiberState before_;
+  FiberState after_;
+  fiber::TimeBounds time_;
+  bool is_motion_ = false;
+  std::string problem_;
+  std::uint64_t problem_count_ = 0;
+};
+
+}  // namespace fiber_proximity_ros

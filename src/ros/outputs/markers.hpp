@@ -1,0 +1,133 @@
+#pragma once
+
+#include <std_msgs/Header.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/query/contact.hpp"
+#include "fiber_proximity/query/engine.hpp"
+#include "src/ros/outputs/crossing_markers.hpp"
+#include "src/ros/outputs/draw_legend.hpp"
+#include "src/ros/outputs/marker_canvas.hpp"
+#include "src/ros/outputs/marker_scale.hpp"
+
+namespace fiber_proximity_ros {
+
+/// What to draw.
+struct MarkerOptions {
+  bool show_fibers = true;
+  bool show_contacts = true;
+  bool show_nearest = true;
+  bool show_cost = false;
+  bool show_boxes = false;
+  bool show_crossings = false;
+  std::uint32_t level = 4;  ///< of the hierarchy, whose boxes the caller hands in; 0 is the root
+  bool show_names = false;
+  bool show_legend = false;
+  bool show_passed = false;  ///< contacts that came and went, if there are any to show
+};
+/// An answer to draw. Holds references: only for the call.
+struct Drawing {
+  const fiber::FiberAssembly& fibers;
+  const std::vector<fiber::Contact>& contacts;
+  const fiber::Contact* minimum;                    ///< the closest pair, nullptr if there is none
+  const std::vector<fiber::NodeBox>& boxes;         ///< of the level to show, if boxes are shown
+  const std::string& cost;                          ///< see cost_text(), if the cost is shown
+  const CrossingDrawing* crossings = nullptr;       ///< nullptr if there are none to show
+  const std::vector<std::string>* names = nullptr;  ///< of the fibres, if they are shown
+  const std::vector<LegendLine>* legend = nullptr;  ///< if it is shown
+  const std::vector<fiber::Contact>* passed = nullptr;  ///< contacts that came and went
+};
+
+/// A distance [m] as texts have it, in mm.
+std::string distance_text(double distance);
+
+/// Diameter [m] of the disc that shows a contact: where fibres touch, or nearly do, the largest
+/// one, to look out between them; elsewhere less than the thinner one is thick, to cover neither.
+/// @param largest [m] thicker than any fibre
+double disc_size(const fiber::FiberAssembly& fibers, const fiber::Contact& contact, double largest);
+
+/// What an answer cost and how accurate it is, in one line.
+/// @param seconds of update and detection
+/// @param error   [m] of a contact's distance, at most
+std::string cost_text(const std::string& kernel, double seconds, double error, bool is_complete);
+
+/// Draws fibres, contacts and boxes for rviz.
+///
+/// | ns             | id          | what                                                         |
+/// |----------------|-------------|--------------------------------------------------------------|
+/// | `fibers`       | fibre index | tubes of the exact radius (TRIANGLE_LIST); above             |
+/// |                |             | `most_tube_segments` in all one LINE_LIST of id 0            |
+/// | `contacts`     | n           | SPHERE_LIST midway between the surfaces; red in penetration, |
+/// |                |             | amber within the margin; one of each size, see disc_size()   |
+/// | `normals`      | 0           | LINE_LIST from there along the normal a→b                    |
+/// | `passed`       | 0           | SPHERE_LIST where contacts came and went, of late; cyan      |
+/// | `nearest`      | 0           | LINE_LIST between the nearest points of the closest pair     |
+/// | `nearest_text` | 0           | its distance in mm                                           |
+/// | `cost`         | 0           | TEXT_VIEW_FACING above all fibres: kernel, ms, error in m    |
+/// | `boxes`        | 0           | LINE_LIST of the edges of the boxes                          |
+/// | `crossings`    | 0           | LINE_LIST: bars over, stubs under; green +1, magenta −1      |
+/// | `names`        | fibre index | TEXT_VIEW_FACING at each fibre's first point, unless there   |
+/// |                |             | are more than `most_names`                                   |
+/// | `legend`       | line        | TEXT_VIEW_FACING below all fibres, one line below another    |
+/// | `axes`         | 0           | LINE_LIST beside the fibres, with the legend: x red, y       |
+/// |                |             | green, z blue, as the frame has them                         |
+///
+/// Above is z, or −y in a camera's optical frame.
+class MarkerBuilder {
+ public:
+  /// More segments than this would make messages of many megabytes: 1.2 kB each.
+  static constexpr std::size_t most_tube_segments = 5000;
+
+  /// More names than this cannot be read.
+  static constexpr std::size_t most_names = 20;
+
+  /// Markers of one update; ends with DELETE for what the previous call drew and this one does not.
+  /// @param markers overwritten; memory of an earlier call is reused
+  void build(const std_msgs::Header& header, const Drawing& drawing, const MarkerOptions& options,
+             visualization_msgs::MarkerArray& markers);
+
+ private:
+  enum Namespace : std::uint8_t {
+    FIBERS,
+    CONTACTS,
+    NORMALS,
+    PASSED,
+    NEAREST,
+    NEAREST_TEXT,
+    COST,
+    BOXES,
+    CROSSINGS,
+    NAMES,
+    LEGEND,
+    AXES,
+    COUNT
+  };
+  using Canvas = MarkerCanvas<COUNT>;
+
+  static void draw_tubes(const fiber::FiberAssembly& fibers, Canvas& canvas);
+  static void draw_lines(const fiber::FiberAssembly& fibers, double width, Canvas& canvas);
+  static void draw_contacts(const fiber::FiberAssembly& fibers,
+                            const std::vector<fiber::Contact>& contacts, double largest,
+                            Canvas& canvas);
+  static void draw_normals(const fiber::FiberAssembly& fibers,
+                           const std::vector<fiber::Contact>& contacts, double largest,
+                           Canvas& canvas);
+  static void draw_passed(const std::vector<fiber::Contact>& contacts, double largest,
+                          Canvas& canvas);
+  static void draw_nearest(const fiber::Contact& minimum, const MarkerScale& scale, Canvas& canvas);
+  static void draw_cost(const std::string& cost, const MarkerScale& scale, Canvas& canvas);
+  static void draw_boxes(const std::vector<fiber::NodeBox>& boxes, double extent, Canvas& canvas);
+  static void draw_names(const fiber::FiberAssembly& fibers, const std::vector<std::string>& names,
+                         const MarkerScale& scale, Canvas& canvas);
+  static void draw_axes(const MarkerScale& scale, Canvas& canvas);
+
+  // By namespace: ids 0 .. count−1 are on the screen.
+  Canvas::Counts drawn_{};
+};
+
+}  // namespace fiber_proximity_ros

@@ -1,0 +1,165 @@
+#include "src/ros/outputs/prediction_output.hpp"
+
+#include <ros/console.h>
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+namespace fiber_proximity_ros {
+
+using fiber_proximity::PredictedContact;
+
+PredictionOutput::PredictionOutput(ros::NodeHandle& private_node, InputSet& inputs,
+                                   const std::string& engine, const fiber::EngineOptions& options)
+    : inputs_(inputs),
+      publisher_(private_node.advertise<fiber_proximity::TimeToContact>("time_to_contact", 1)),
+      engine_(fiber::make_engine(engine, options)) {}
+
+void PredictionOutput::configure(const PredictionOptions& options) {
+  if (options.frames != options_.frames) {
+    inputs_frames_.clear();
+  }
+  options_ = options;
+}
+
+void PredictionOutput::publish(const fiber::QueryOptions& options,
+                               const EnvironmentOutput& environment) {
+  take_frames();
+  message_ = {};
+  message_.header = inputs_.header();
+  message_.fiber_names = inputs_.names();
+  message_.margin = options.margin;
+  message_.horizon = options_.horizon;
+  message_.assumption =
+      "each point keeps the velocity of the line of least squares through its places in the last "
+      "messages of its input";
+  try {
+    predict(options, environment);
+  } catch (const std::invalid_argument& error) {
+    message_.same_fiber = message_.different_fibers = message_.environment = PredictedContact();
+    message_.problem = error.what();
+    ROS_WARN_STREAM_THROTTLE(1.0, "time_to_contact: " << message_.problem);
+  }
+  publisher_.publish(message_);
+}
+
+/// Of each input its newest message, if it is new.
+void PredictionOutput::take_frames() {
+  const std::vector<std::unique_ptr<Input>>& inputs = inputs_.inputs();
+  while (inputs_frames_.size() < inputs.size()) {
+    inputs_frames_.push_back({fiber::PointVelocities(options_.frames), {}, {}, {}});
+  }
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const Input& input = *inputs[i];
+    InputFrames& frames = inputs_frames_[i];
+    if (!input.is_fresh() || input.names() != frames.names ||
+        input.fibers().offsets() != frames.offsets) {
+      frames.velocities.forget();
+      frames.stamp.reset();
+    }
+    if (input.is_fresh() && frames.stamp != input.stamp()) {
+      frames.stamp = input.stamp();
+      frames.names = input.names();
+      frames.offsets = input.fibers().offsets();
+      frames.velocities.add(frames.stamp->toSec(), input.fibers().points());
+    }
+  }
+}
+
+/// Where the points will be at the horizon. Who has sent one message only stands still.
+/// @returns false if that are all of them
+bool PredictionOutput::predict_places() {
+  const std::vector<std::unique_ptr<Input>>& inputs = inputs_.inputs();
+  points_.clear();
+  message_.frames = std::numeric_limits<std::uint32_t>::max();
+  message_.frame_time = std::numeric_limits<double>::infinity();
+  bool one_moves = false;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    if (!inputs[i]->is_fresh()) {
+      continue;
+    }
+    const fiber::PointVelocities& frames = inputs_frames_[i].velocities;
+    if (frames.frame_count() < 2) {
+      message_.assumption += "; " + inputs[i]->options().topic + ", with one message, stands still";
+    } else {
+      one_moves = true;
+      message_.frames = std::min(message_.frames, static_cast<std::uint32_t>(frames.frame_count()));
+      message_.frame_time = std::min(message_.frame_time, frames.duration());
+    }
+    frames.find(velocities_);
+    const std::vector<Eigen::Vector3d>& points = inputs[i]->fibers().points();
+    for (std::size_t point = 0; point < points.size(); ++point) {
+      points_.push_back(points[point] + options_.horizon * velocities_[point]);
+    }
+  }
+  return one_moves;
+}
+
+void PredictionOutput::predict(const fiber::QueryOptions& options,
+                               const EnvironmentOutput& environment) {
+  if (!inputs_.is_fresh()) {
+    message_.problem = "there are no fibres";
+    return;
+  }
+  if (!predict_places()) {
+    message_.frames = 1;
+    message_.frame_time = 0.0;
+    message_.problem = "no input has sent more than one message: there are no velocities yet";
+    return;
+  }
+  before_ = inputs_.fibers();  // its own: the engine refers to it until the next time
+  after_ = before_;
+  after_.update_points(points_);
+  engine_->update_motion(before_, after_);
+  fiber::MotionOptions motion = fiber::motion_options(options, options_.tolerance);
+  motion.type = fiber::MotionType::FIRST;
+  message_.same_fiber = earliest_of(fiber::Pairing::SAME_FIBER, motion);
+  message_.different_fibers = earliest_of(fiber::Pairing::DIFFERENT_FIBERS, motion);
+  if (environment.is_used()) {
+    const std::shared_ptr<const fiber::Environment> around = environment.inputs().environment();
+    around->query_motion(before_, after_, motion, environment.inputs().allowed(inputs_.names()),
+                         result_);
+    message_.object_names = object_names(*around);
+  } else {
+    result_ = fiber::MotionResult();
+    result_.others_lower = 1.0;
+  }
+  message_.environment = to_message(result_);
+}
+
+PredictedContact PredictionOutput::earliest_of(fiber::Pairing pairing,
+                                               const fiber::MotionOptions& options) {
+  if (options.pairing != fiber::Pairing::ALL && options.pairing != pairing) {
+    fiber::MotionResult nothing;
+    nothing.others_lower = 1.0;
+    return to_message(nothing);
+  }
+  fiber::MotionOptions of_pairing = options;
+  of_pairing.pairing = pairing;
+  engine_->query_motion(of_pairing, result_);
+  return to_message(result_);
+}
+
+PredictedContact PredictionOutput::to_message(const fiber::MotionResult& result) const {
+  PredictedContact message;
+  message.touching = static_cast<std::uint32_t>(result.touching.size());
+  message.complete = result.complete;
+  message.time_upper = std::numeric_limits<double>::infinity();
+  const fiber::MotionContact* const earliest = result.earliest();
+  message.expected = earliest != nullptr;
+  if (earliest == nullptr) {
+    message.time_lower = result.others_lower * options_.horizon;
+    return message;
+  }
+  message.time_lower = std::min(earliest->lower, result.others_lower) * options_.horizon;
+  message.time_upper = earliest->upper * options_.horizon;
+  message.certain = earliest->certain;
+  message.fiber_a = earliest->fiber_a;
+  message.segment_a = earliest->segment_a;
+  message.fiber_b = earliest->fiber_b;
+  message.segment_b = earliest->segment_b;
+  return message;
+}
+
+}  // namespace fiber_proximity_ros

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <cstdint>
+#include <string>
+
+#include "fiber_proximity/scenes/scene.hpp"
+#include "src/ros/inputs/fiber_formats.hpp"
+
+namespace fiber_proximity_ros {
+
+/// What the player plays, and how; the node's private parameters of the same names.
+struct PlayerOptions {
+  std::string file;              ///< fibre file to play; empty: the scene
+  std::string scene = "cables";  ///< one of fiber::scene_names()
+  int fiber = -1;                ///< index of the one fibre to play; -1: all
+
+  std::string topic = "fibers";
+  std::string format = "fiber_array";  ///< name of one of fiber_formats()
+  std::string frame_id = "world";
+
+  double rate = 30.0;        ///< [Hz] frames per second
+  bool loop = true;          ///< begin again after a file's last frame
+  double start_delay = 0.0;  ///< [s] before the first frame
+  double radius = 0.005;     ///< [m] of fibres in a file without radii
+};
+
+/// @throws std::invalid_argument naming the parameter, its value and what is allowed
+PlayerOptions read_player_options(const ros::NodeHandle& private_node);
+
+/// Stands in for a tracker: publishes the frames of a fibre file or a scene at a rate, stamped with
+/// the time of publishing. A file without frames is published again and again.
+class FiberPlayer {
+ public:
+  /// @throws fiber::FileError for a file that is missing or malformed
+  /// @throws std::invalid_argument for an unknown scene or format, a fibre that is not there, or
+  ///         several fibres in a format that carries one
+  FiberPlayer(const ros::NodeHandle& node, const PlayerOptions& options);
+
+ private:
+  void publish_next();
+
+  ros::NodeHandle node_;
+  PlayerOptions options_;
+  fiber::Scene frames_;
+  std::uint32_t frame_count_ = 0;  // 0: endless
+  std::uint32_t next_frame_ = 0;
+  FiberFormat::Publish publish_;
+  ros::Timer timer_;
+  ros::Timer start_timer_;
+};
+
+}  // namespace fiber_proximity_ros

@@ -1,0 +1,338 @@
+#include "src/ros/server/proximity_server.hpp"
+
+#include <ros/console.h>
+
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "fiber_proximity/ros/conversions.hpp"
+#include "src/ros/outputs/contact_array.hpp"
+#include "src/ros/outputs/legend.hpp"
+#include "src/ros/server/query_settings.hpp"
+#include "src/ros/support/callback_task.hpp"
+#include "src/ros/support/stopwatch.hpp"
+
+namespace fiber_proximity_ros {
+namespace {
+
+/// [s] How often what needs no message is looked after: expired inputs, diagnostics, late markers.
+constexpr double tick_interval = 0.1;
+
+/// [s] How often a message that waits for its transform is tried again.
+constexpr double retry_interval = 0.005;
+
+}  // namespace
+
+ProximityServer::ProximityServer(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
+    : node_(node),
+      private_node_(private_node),
+      options_(read_server_options(node, private_node)),
+      config_(options_.config),
+      detector_(options_.engine, options_.engine_options),
+      motion_detector_(options_.engine, options_.engine_options),
+      step_(options_.timing.input_timeout),
+      contacts_publisher_(private_node_.advertise<fiber_proximity::ContactArray>("contacts", 1)),
+      touches_(fiber_proximity::Contact::FIBER, advertise_contact_events(private_node_)),
+      fibers_publisher_(private_node_.advertise<fiber_proximity::FiberArray>("fibers", 1)),
+      markers_publisher_(private_node_.advertise<visualization_msgs::MarkerArray>("markers", 1)),
+      inputs_(node_, options_.inputs, options_.timing, options_.fixed_frame,
+              [this] { schedule(); }),
+      crossings_(private_node_, inputs_.frame()),
+      diagnostics_(node_, private_node_, inputs_, detector_),
+      environment_(node_, private_node_, inputs_, options_.timing.tf_timeout,
+                   [this] { schedule(); }),
+      statistics_(private_node_, {options_.engine, inputs_, detector_, environment_, step_}),
+      prediction_(private_node_, inputs_, options_.engine, options_.engine_options),
+      comparison_(private_node_, {inputs_, detector_, query_options_, options_.engine},
+                  [this] { process(); }),
+      queries_(private_node_, {inputs_, detector_, environment_.inputs(), query_options_},
+               [this] { process(); }),
+      reconfigure_server_(private_node_) {
+  reconfigure_server_.setCallback(
+      [this](AskedConfig& config, std::uint32_t /*level*/) { reconfigure(config); });
+  tick_timer_ = node_.createSteadyTimer(ros::WallDuration(tick_interval),
+                                        [this](const ros::SteadyTimerEvent&) { tick(); });
+  retry_timer_ = node_.createSteadyTimer(
+      ros::WallDuration(retry_interval), [this](const ros::SteadyTimerEvent&) { process(); }, false,
+      false);
+}
+
+ProximityServer::~ProximityServer() { remove_tasks(queue_of(node_), this); }
+
+void ProximityServer::schedule() {
+  if (!std::exchange(is_scheduled_, true)) {
+    add_task(queue_of(node_), this, [this] {
+      is_scheduled_ = false;
+      process();
+    });
+  }
+}
+
+void ProximityServer::process() {
+  const bool fibers_changed = inputs_.update();
+  const bool environment_changed = environment_.update();
+  if (fibers_changed) {
+    publish();
+  } else if (environment_changed && inputs_.is_fresh() && environment_.has_listeners()) {
+    statistics_.begin();
+    const std::chrono::nanoseconds now = to_time(inputs_.header().stamp);
+    const ContinuousStep step{
+        {inputs_.fibers(), inputs_.fibers()}, {now, now}, config_.motion_tolerance};
+    detect_in_environment(config_.continuous ? &step : nullptr);
+  }
+  if (inputs_.is_waiting() || environment_.inputs().is_waiting()) {
+    retry_timer_.start();
+  } else {
+    retry_timer_.stop();
+  }
+}
+
+void ProximityServer::tick() {
+  process();
+  publish_markers_if_due();
+  diagnostics_.update();
+}
+
+void ProximityServer::publish() {
+  detector_.set_fibers(inputs_.fibers());
+  read_state(inputs_, config_.continuous, newest_state_);
+  step_.advance(newest_state_);
+  crossings_.forget();
+  statistics_.begin();
+  statistics_.add_part("merge", inputs_.take_work_time());
+  if (fibers_publisher_.getNumSubscribers() > 0) {
+    publish_fibers();
+  }
+  if (crossings_.is_wanted()) {
+    const Stopwatch crossings_time;
+    crossings_.publish(inputs_.fibers(), inputs_.header(), inputs_.names());
+    statistics_.add_part("crossings", crossings_time.seconds());
+  }
+  const bool statistics = statistics_.has_listeners();
+  drawing_is_due_ = markers_publisher_.getNumSubscribers() > 0;
+  const bool everything = statistics || drawing_is_due_;
+  const bool contacts = contacts_publisher_.getNumSubscribers() > 0 || touches_.has_listeners();
+  const Stopwatch stopwatch;
+  if ((everything || contacts) && !detect()) {
+    return;
+  }
+  if (everything || contacts) {
+    track_contacts();
+  } else {
+    touches_.skip();
+  }
+  if (environment_.is_used() && (everything || environment_.has_listeners())) {
+    const ContinuousStep step{step_.motion(), step_.time(), config_.motion_tolerance};
+    detect_in_environment(step_.is_motion() ? &step : nullptr);
+  } else {
+    environment_.skip();
+  }
+  if (prediction_.is_wanted()) {
+    predict();
+  } else {
+    prediction_.skip();
+  }
+  publish_markers_if_due();
+  const Stopwatch comparison_time;
+  if (comparison_.publish_if_wanted()) {
+    statistics_.add_part("comparison", comparison_time.seconds());
+  }
+  if (statistics) {
+    statistics_.publish(query_options_.kernel, stopwatch.seconds());
+  }
+}
+
+/// Finds contacts and closest pair of the fibres, and publishes them.
+/// @returns false if the engine cannot
+bool ProximityServer::detect() {
+  try {
+    detector_.detect(query_options_, config_.minimum_distance);
+  } catch (const std::invalid_argument& error) {
+    ROS_ERROR_STREAM_THROTTLE(1.0, "engine " << options_.engine << ": " << error.what());
+    drawing_is_due_ = false;
+    return false;
+  }
+  if (const std::string problem = detector_.detection().limit_problem(query_options_);
+      !problem.empty()) {
+    ROS_WARN_STREAM_THROTTLE(1.0, "fibres (engine " << options_.engine << "): " << problem);
+  }
+  statistics_.add_part("update", detector_.update_time());
+  statistics_.add_part("contacts", detector_.detection().contact_time());
+  if (config_.minimum_distance) {
+    statistics_.add_part("minimum", detector_.detection().minimum_time());
+  }
+  return true;
+}
+
+/// What came into contact since the fibres before. Where that cannot be told, the answer is of its
+/// stamp alone.
+void ProximityServer::detect_motion() {
+  if (step_.is_motion()) {
+    try {
+      motion_detector_.detect(step_, query_options_, config_.motion_tolerance);
+      statistics_.add_part("motion", motion_detector_.time());
+    } catch (const std::invalid_argument& error) {
+      step_.refuse(error.what());
+    }
+  }
+  if (!step_.problem().empty()) {
+    ROS_WARN_STREAM_THROTTLE(
+        1.0, "continuous: " << step_.problem() << "; this answer is of its stamp alone");
+  }
+}
+
+/// Recognises the contacts that were found, and publishes them.
+void ProximityServer::track_contacts() {
+  detect_motion();
+  const Detection& found = detector_.detection();
+  const fiber::TimeBounds step = touches_.step_to(to_time(inputs_.header().stamp));
+  std::optional<KnownMotion> motion;
+  if (step_.is_motion()) {
+    motion.emplace(motion_detector_.known_motion(found.has_all_of(query_options_)));
+  }
+  contacts_.assign(found.contacts().contacts, step, motion ? &*motion : nullptr);
+  touches_.track(contacts_.contacts(), {inputs_.names(), {}}, inputs_.header());
+  passed_.add(contacts_.contacts());
+  if (contacts_publisher_.getNumSubscribers() > 0) {
+    publish_contacts();
+  }
+}
+
+void ProximityServer::predict() {
+  const Stopwatch stopwatch;
+  prediction_.publish(query_options_, environment_);
+  statistics_.add_part("prediction", stopwatch.seconds());
+}
+
+/// @param step see EnvironmentOutput
+void ProximityServer::detect_in_environment(const ContinuousStep* step) {
+  try {
+    environment_.detect(query_options_, config_.minimum_distance, step);
+  } catch (const std::invalid_argument& error) {
+    ROS_WARN_STREAM_THROTTLE(
+        1.0, "environment, continuous: " << error.what() << "; this answer is of its stamp alone");
+    environment_.detect(query_options_, config_.minimum_distance, nullptr);
+  }
+  if (const std::string problem = environment_.detection().limit_problem(query_options_);
+      !problem.empty()) {
+    ROS_WARN_STREAM_THROTTLE(1.0, "environment: " << problem);
+  }
+  statistics_.add_part("environment_update", environment_.update_time());
+  statistics_.add_part("environment_contacts", environment_.detection().contact_time());
+  if (config_.minimum_distance) {
+    statistics_.add_part("environment_minimum", environment_.detection().minimum_time());
+  }
+  if (environment_.motion_time() > 0.0) {
+    statistics_.add_part("environment_motion", environment_.motion_time());
+  }
+  environment_.publish(query_options_, config_.gradients);
+}
+
+void ProximityServer::publish_fibers() {
+  to_message(inputs_.fibers(), inputs_.names(), fibers_message_);
+  fibers_message_.header = inputs_.header();
+  fibers_publisher_.publish(fibers_message_);
+}
+
+void ProximityServer::publish_contacts() {
+  to_message(detector_.detection(),
+             {contacts_.contacts(), touches_, step_.time().lower, config_.gradients},
+             query_options_, fiber_proximity::Contact::FIBER, inputs_.header(), contacts_message_);
+  contacts_message_.fiber_names = inputs_.names();
+  contacts_message_.continuous = step_.is_motion();
+  if (step_.is_motion()) {
+    const fiber::MotionResult& motion = motion_detector_.result();
+    contacts_message_.complete = contacts_message_.complete && motion.complete;
+    contacts_message_.limit_reached = contacts_message_.limit_reached || motion.limit_reached;
+  }
+  contacts_message_.update_time = detector_.update_time();
+  contacts_publisher_.publish(contacts_message_);
+}
+
+void ProximityServer::publish_markers_if_due() {
+  const ros::SteadyTime now = ros::SteadyTime::now();
+  if (!drawing_is_due_ || (now - last_drawing_).toSec() * options_.marker_rate < 1.0) {
+    return;
+  }
+  drawing_is_due_ = false;
+  last_drawing_ = now;
+  boxes_.clear();
+  if (marker_options_.show_boxes) {
+    detector_.engine().level_boxes(marker_options_.level, boxes_);
+  }
+  std::string cost;
+  if (marker_options_.show_cost) {
+    cost =
+        cost_text(name_of(query_options_.kernel), detector_.update_time() + detector_.detect_time(),
+                  detector_.detection().contact_error(), detector_.detection().is_complete());
+  }
+  if (marker_options_.show_crossings) {
+    crossings_.find(inputs_.fibers(), inputs_.header());
+  }
+  std::vector<LegendLine> legend;
+  if (marker_options_.show_legend) {
+    legend = legend_lines(marker_options_, environment_marker_options(), query_options_.margin);
+  }
+  passed_.forget_old();
+  const CrossingDrawing crossings{crossings_.crossings(), crossings_.view()};
+  const Drawing drawing{inputs_.fibers(),
+                        detector_.detection().contacts().contacts,
+                        detector_.detection().minimum(),
+                        boxes_,
+                        cost,
+                        &crossings,
+                        &inputs_.names(),
+                        &legend,
+                        &passed_.contacts()};
+  marker_builder_.build(inputs_.header(), drawing, marker_options_, markers_message_);
+  const Detection& around = environment_.detection();
+  environment_markers_.append(inputs_.header(),
+                              {inputs_.fibers(), environment_.environment().objects(),
+                               around.contacts().contacts, around.minimum()},
+                              environment_marker_options(), markers_message_);
+  markers_publisher_.publish(markers_message_);
+}
+
+EnvironmentMarkerOptions ProximityServer::environment_marker_options() const {
+  // What was detected while there was something around is not to be seen any more when there is
+  // not.
+  const bool is_used = environment_.is_used();
+  EnvironmentMarkerOptions options;
+  options.show_objects = is_used && config_.show_objects;
+  options.show_distances = is_used && config_.show_contacts;
+  options.show_nearest = is_used && config_.show_nearest;
+  return options;
+}
+
+void ProximityServer::reconfigure(AskedConfig& config) {
+  try {
+    if (!config.problem().empty()) {
+      throw std::invalid_argument(config.problem());
+    }
+    replace_old_names(private_node_, config);
+    check(private_node_, config);
+  } catch (const std::invalid_argument& error) {
+    ROS_ERROR_STREAM("parameters stay as they were: " << error.what());
+    config = config_;  // the server announces what is really in use
+    return;
+  }
+  config_ = static_cast<const fiber_proximity::ProximityConfig&>(config);
+  query_options_ = to_query_options(config);
+  comparison_.switch_on(config.compare);
+  prediction_.configure({config.prediction, static_cast<std::size_t>(config.prediction_frames),
+                         config.motion_tolerance});
+  marker_options_.show_fibers = config.show_fibers;
+  marker_options_.show_contacts = config.show_contacts;
+  marker_options_.show_passed = config.continuous && config.show_contacts;
+  marker_options_.show_nearest = config.show_nearest;
+  marker_options_.show_cost = config.show_cost;
+  marker_options_.show_boxes = config.show_boxes;
+  marker_options_.show_crossings = config.show_crossings;
+  marker_options_.show_names = config.show_names;
+  marker_options_.show_legend = config.show_legend;
+  marker_options_.level = static_cast<std::uint32_t>(config.box_level);
+}
+
+}  // namespace fiber_proximity_ros

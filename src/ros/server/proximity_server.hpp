@@ -1,0 +1,112 @@
+#pragma once
+
+#include <dynamic_reconfigure/server.h>
+#include <ros/node_handle.h>
+
+#include <string>
+#include <vector>
+
+#include "fiber_proximity/ContactArray.h"
+#include "fiber_proximity/FiberArray.h"
+#include "fiber_proximity/ProximityConfig.h"
+#include "src/ros/inputs/input_set.hpp"
+#include "src/ros/outputs/comparison_output.hpp"
+#include "src/ros/outputs/contact_events.hpp"
+#include "src/ros/outputs/crossings_output.hpp"
+#include "src/ros/outputs/detector.hpp"
+#include "src/ros/outputs/diagnostics.hpp"
+#include "src/ros/outputs/environment_markers.hpp"
+#include "src/ros/outputs/environment_output.hpp"
+#include "src/ros/outputs/fiber_step.hpp"
+#include "src/ros/outputs/markers.hpp"
+#include "src/ros/outputs/motion_detector.hpp"
+#include "src/ros/outputs/prediction_output.hpp"
+#include "src/ros/outputs/statistics_output.hpp"
+#include "src/ros/outputs/step_contacts.hpp"
+#include "src/ros/server/dynamic_parameters.hpp"
+#include "src/ros/server/query_services.hpp"
+#include "src/ros/server/server_options.hpp"
+
+namespace fiber_proximity_ros {
+
+/// The proximity node: fibres in, contacts, markers and answers to queries out. One class behind
+/// node and nodelet; all its callbacks must come from one thread at a time.
+///
+/// Publishes ~contacts, ~environment_contacts, ~contact_events, ~time_to_contact, ~crossings (see
+/// CrossingsOutput), ~fibers, ~markers, ~statistics, ~comparison and /diagnostics; serves ~compare,
+/// and what QueryServices and EnvironmentInputs serve. Each set of messages that have arrived gives
+/// one answer, each answer is published once, and what nobody subscribes to is not computed.
+class ProximityServer {
+ public:
+  /// @throws std::invalid_argument for a bad parameter (see read_server_options) or an unknown
+  ///         engine: there is nothing sensible to run then
+  ProximityServer(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
+  ~ProximityServer();
+  ProximityServer(const ProximityServer&) = delete;
+  ProximityServer& operator=(const ProximityServer&) = delete;
+
+ private:
+  /// Has process() called after the callbacks that are in the queue already, so that messages that
+  /// have arrived together are answered together.
+  void schedule();
+  void process();
+  void tick();
+
+  void publish();
+  bool detect();
+  void detect_motion();
+  void detect_in_environment(const ContinuousStep* step);
+  void predict();
+  void publish_fibers();
+  void track_contacts();
+  void publish_contacts();
+  void publish_markers_if_due();
+  EnvironmentMarkerOptions environment_marker_options() const;
+
+  void reconfigure(AskedConfig& config);
+
+  ros::NodeHandle node_;
+  ros::NodeHandle private_node_;
+  ServerOptions options_;
+  fiber_proximity::ProximityConfig config_;
+  fiber::QueryOptions query_options_;
+  MarkerOptions marker_options_;
+  Detector detector_;
+  MotionDetector motion_detector_;
+  FiberStep step_;
+  FiberState newest_state_;  // for its memory
+
+  ros::Publisher contacts_publisher_;
+  ContactEvents touches_;
+  ros::Publisher fibers_publisher_;
+  ros::Publisher markers_publisher_;
+
+  // Members for their memory.
+  StepContacts contacts_;
+  fiber_proximity::FiberArray fibers_message_;
+  fiber_proximity::ContactArray contacts_message_;
+  visualization_msgs::MarkerArray markers_message_;
+  std::vector<fiber::NodeBox> boxes_;
+
+  MarkerBuilder marker_builder_;
+  EnvironmentMarkers environment_markers_;
+  PassedContacts passed_;
+  ros::SteadyTime last_drawing_;
+  bool drawing_is_due_ = false;
+  bool is_scheduled_ = false;
+
+  // Last, so that they go first: callbacks come from here.
+  InputSet inputs_;
+  CrossingsOutput crossings_;
+  Diagnostics diagnostics_;
+  EnvironmentOutput environment_;
+  StatisticsOutput statistics_;
+  PredictionOutput prediction_;
+  ComparisonOutput comparison_;
+  QueryServices queries_;
+  dynamic_reconfigure::Server<AskedConfig> reconfigure_server_;
+  ros::SteadyTimer tick_timer_;
+  ros::SteadyTimer retry_timer_;
+};
+
+}  // namespace fiber_proximity_ros

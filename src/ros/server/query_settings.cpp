@@ -1,0 +1,68 @@
+#include "src/ros/server/query_settings.hpp"
+
+#include <ros/console.h>
+
+#include <stdexcept>
+
+#include "src/text/quote.hpp"
+
+namespace fiber_proximity_ros {
+namespace {
+
+/// The parameter `accuracy` stands for some of the others.
+void apply_accuracy(const std::string& accuracy, fiber::QueryOptions& options) {
+  if (accuracy == "custom") {
+    return;
+  }
+  options.tolerance = 0.0;
+  options.relative_tolerance = 0.0;
+  if (accuracy == "deadline") {
+    if (options.deadline == 0.0) {
+      throw std::invalid_argument("accuracy is 'deadline' and deadline is 0 s, it must be above 0");
+    }
+    options.kernel = fiber::Kernel::ROBUST;
+    return;
+  }
+  options.deadline = 0.0;
+  try {
+    options.kernel = fiber::kernel_from_name(accuracy);
+  } catch (const std::invalid_argument&) {
+    throw std::invalid_argument("unknown accuracy " + fiber::quote(accuracy) +
+                                ", known are: custom, robust, exact, deadline");
+  }
+}
+
+}  // namespace
+
+fiber::QueryOptions to_query_options(const fiber_proximity::ProximityConfig& config) {
+  fiber::QueryOptions options;
+  options.type = fiber::query_type_from_name(config.query_type);
+  options.margin = config.margin;
+  options.max_contacts = static_cast<std::uint32_t>(config.max_contacts);
+  options.pairing = fiber::pairing_from_name(config.pairing);
+  if (config.neighbour_skip >= 0) {
+    options.neighbour_skip = static_cast<std::uint32_t>(config.neighbour_skip);
+  }
+  if (config.neighbour_skip_length >= 0.0) {
+    options.neighbour_skip_length = config.neighbour_skip_length;
+  }
+  options.kernel = fiber::kernel_from_name(config.kernel);
+  options.tolerance = config.tolerance;
+  options.relative_tolerance = config.relative_tolerance;
+  options.deadline = config.deadline;
+  options.contact_limit = static_cast<std::uint32_t>(config.contact_limit);
+  options.pair_limit = static_cast<std::uint64_t>(config.pair_limit);
+  fiber::validate(options);
+  apply_accuracy(config.accuracy, options);
+  return options;
+}
+
+std::string current_kernel_name(const std::string& place, const std::string& name) {
+  if (name != "fast") {
+    return name;
+  }
+  ROS_WARN_STREAM(place << " is fast, which saved no time and is gone: robust is used");
+  return "robust";
+}
+
+}  // namespace fiber_proximity_ros

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fiber_proximity/environment/environment.hpp"
+#include "fiber_proximity/query/deadline.hpp"
+#include "fiber_proximity/query/engine.hpp"
+#include "src/ros/inputs/fixed_frame.hpp"
+
+namespace fiber_proximity_ros {
+
+/// What services ask about. Holds references: only for the call.
+struct QueryTarget {
+  const fiber::FiberAssembly& fibers;
+  const std::vector<std::string>& fiber_names;
+  const fiber::ProximityEngine*
+      engine;  ///< updated to the fibres; null if they are not asked about
+  const fiber::Environment& environment;
+  const FixedFrame& frame;
+  const fiber::QueryOptions& defaults;  ///< what a request leaves open
+  fiber::Deadline deadline;             ///< of the whole call, from its arrival
+
+  /// Part of the time after which nothing more is examined: the rest is for the answer.
+  static constexpr double examining_part = 0.8;
+
+  bool is_time_up() const { return deadline.has_passed(examining_part); }
+
+  /// [s] For the query that comes next, 0 if there is no deadline.
+  double time_for_query() const { return examining_part * deadline.left(); }
+};
+
+}  // namespace fiber_proximity_ros

@@ -1,0 +1,94 @@
+#include "src/ros/sim/sim_frames.hpp"
+
+#include <ros/console.h>
+#include <ros/init.h>
+
+#include <stdexcept>
+
+#include "src/sim/scene/lead.hpp"
+#include "src/text/quote.hpp"
+
+namespace fiber_proximity_ros {
+namespace {
+
+constexpr double fastest_frame = 5.0;  // [m/s]
+
+}  // namespace
+
+void SimFrames::watch(const fiber::FollowedFrame& followed, Watch& watch,
+                      const std::string& problem) const {
+  const ros::SteadyTime now = ros::SteadyTime::now();
+  if (problem.empty() || watch.since.isZero()) {
+    watch.since = now;
+  }
+  const bool is_frozen = (now - watch.since).toSec() > timeout_;
+  if (is_frozen && !watch.is_frozen) {
+    ROS_WARN_STREAM(followed.what << " stays where it is: " << problem);
+  } else if (!is_frozen && watch.is_frozen) {
+    ROS_INFO_STREAM(followed.what << " follows frame " << fiber::quote(followed.frame) << " again");
+  }
+  watch.is_frozen = is_frozen;
+}
+
+void SimFrames::wait_for(const std::vector<fiber::FollowedFrame>& frames, double timeout) const {
+  const ros::SteadyTime begin = ros::SteadyTime::now();
+  for (const fiber::FollowedFrame& followed : frames) {
+    for (bool is_known = false; !is_known && ros::ok();) {
+      try {
+        world_.latest_pose(followed.frame, ros::Time(0));
+        is_known = true;
+      } catch (const TransformUnavailable& error) {
+        if ((ros::SteadyTime::now() - begin).toSec() >= timeout) {
+          throw std::invalid_argument(followed.what + ": nothing of frame " +
+                                      fiber::quote(followed.frame) + " in " +
+                                      std::to_string(timeout) + " s: " + error.what());
+        }
+        ros::WallDuration(0.05).sleep();
+      }
+    }
+  }
+}
+
+/// Where something in a frame is in the world, or as far on the way there as a step leads.
+fiber::Placement SimFrames::next_placement(const fiber::SimScene& scene,
+                                           const fiber::FollowedFrame& followed,
+                                           const Eigen::Isometry3d& frame, Watch& watch) const {
+  const fiber::Placement& last = followed.path->back().second;
+  const fiber::Placement& in_frame = followed.in_frame;
+  const fiber::Lead lead = fiber::lead(scene, {followed.rod, followed.node}, last.position,
+                                       frame * in_frame.position, fastest_frame);
+  const bool is_held_back = !lead.problem.empty();
+  if (is_held_back && !watch.is_held_back) {
+    ROS_WARN_STREAM(followed.what << " does not follow frame " << fiber::quote(followed.frame)
+                                  << ": " << lead.problem);
+  } else if (!is_held_back && watch.is_held_back) {
+    ROS_INFO_STREAM(followed.what << " follows frame " << fiber::quote(followed.frame) << " again");
+  }
+  watch.is_held_back = is_held_back;
+  return {lead.position, frame.linear() * in_frame.tangent, frame.linear() * in_frame.director};
+}
+
+void SimFrames::follow(const fiber::SimScene& scene) {
+  const double start = scene.stepper->time();
+  for (const fiber::FollowedFrame& followed : scene.frames) {
+    const fiber::Placement last = followed.path->back().second;
+    fiber::Placement next = last;
+    Watch& watch = watches_[followed.what];
+    try {
+      const FramePose frame = world_.latest_pose(followed.frame, ros::Time(0));
+      // A static frame has no stamp, and is there for ever.
+      const bool is_new = frame.stamp.isZero() || frame.stamp != watch.stamp;
+      watch.stamp = frame.stamp;
+      this->watch(followed, watch,
+                  is_new ? ""
+                         : "nothing new of frame " + fiber::quote(followed.frame) +
+                               " for more than " + std::to_string(timeout_) + " s");
+      next = next_placement(scene, followed, frame.pose, watch);
+    } catch (const TransformUnavailable& error) {
+      this->watch(followed, watch, error.what());
+    }
+    *followed.path = {{start, last}, {start + scene.time_step, next}};
+  }
+}
+
+}  // namespace fiber_proximity_ros

@@ -1,0 +1,233 @@
+#include "src/ros/sim/sim_server.hpp"
+
+#include <ros/console.h>
+#include <rosgraph_msgs/Clock.h>
+
+#include <algorithm>
+#include <exception>
+#include <sstream>
+#include <stdexcept>
+
+#include "fiber_proximity/ObstacleArray.h"
+#include "fiber_proximity/ros/conversions.hpp"
+#include "fiber_proximity/sim/scene/report.hpp"
+#include "src/ros/environment/environment_options.hpp"
+#include "src/ros/environment/obstacle_change.hpp"
+#include "src/ros/support/parameters.hpp"
+#include "src/text/listed.hpp"
+
+namespace fiber_proximity_ros {
+namespace {
+
+using Eigen::Vector3d;
+
+/// [s] How often a warning is repeated.
+constexpr double warning_pause = 5.0;
+
+/// How often handles are moved: rviz takes far longer for them than for fibres.
+const ros::WallDuration marker_period(1.0 / 30.0);
+
+}  // namespace
+
+SimOptions read_sim_options(const ros::NodeHandle& private_node) {
+  SimOptions options;
+  read_parameter(private_node, "scene", "the name of a YAML file", options.scene);
+  if (options.scene.empty()) {
+    refuse_parameter(private_node, "scene", "the name of a YAML file");
+  }
+  read_parameter(private_node, "threads", options.threads);
+  read_parameter(private_node, "clock", "true or false", options.clock);
+  read_parameter(private_node, "paused", "true or false", options.paused);
+  read_parameter(private_node, "interactive", "true or false", options.interactive);
+  read_parameter(private_node, "frame_timeout", 0.0, options.frame_timeout);
+  read_parameter(private_node, "frame_wait", 0.0, options.frame_wait);
+  options.meshes = read_mesh_folders(private_node);
+  return options;
+}
+
+fiber::SimDescription read_scene(const SimOptions& options) {
+  return fiber::read_sim_scene(fiber::load_yaml(options.scene), options.meshes);
+}
+
+SimServer::SimServer(const ros::NodeHandle& private_node, const SimOptions& options)
+    : SimServer(private_node, options, read_scene(options)) {}
+
+SimServer::SimServer(const ros::NodeHandle& private_node, const SimOptions& options,
+                     const fiber::SimDescription& description)
+    : node_(private_node),
+      options_(options),
+      scene_(fiber::make_sim_scene(description, options.threads)),
+      world_(scene_.frame_id, private_node),
+      frames_(world_, options.frame_timeout),
+      is_paused_(options.paused),
+      next_frame_(ros::SteadyTime::now()),
+      forces_(private_node) {
+  frames_.wait_for(scene_.frames, options.frame_wait);
+  log_scene(description);
+  fibers_ = node_.advertise<fiber_proximity::FiberArray>("fibers", 1, true);
+  if (options_.clock) {
+    clock_ = node_.advertise<rosgraph_msgs::Clock>("/clock", 1);
+  }
+  obstacles_ = node_.advertise<fiber_proximity::ObstacleArray>("obstacles", 1, true);
+  publish();
+  publish_obstacles({});
+  make_markers();
+  advertise_services();
+  timer_ = node_.createSteadyTimer(ros::WallDuration(scene_.time_step),
+                                   [this](const ros::SteadyTimerEvent&) { keep_pace(); });
+  marker_timer_ = node_.createSteadyTimer(
+      marker_period, [this](const ros::SteadyTimerEvent&) { update_markers(); });
+  step_spinner_.start();
+}
+
+SimServer::~SimServer() { is_ending_ = true; }
+
+void SimServer::log_scene(const fiber::SimDescription& description) const {
+  const fiber::Rods& rods = scene_.stepper->rods();
+  ROS_INFO_STREAM(options_.scene << ": " << rods.count() << " fibre(s), " << rods.positions.size()
+                                 << " nodes, effects " << fiber::listed(scene_.effect_names) << ", "
+                                 << scene_.substeps << " steps of " << scene_.step_length()
+                                 << " s");
+  constexpr std::uint32_t most = 10;
+  for (std::uint32_t rod = 0; rod < std::min(most, rods.count()); ++rod) {
+    const fiber::RodSection& section = rods.sections[rod];
+    ROS_INFO_STREAM("fibre '" << scene_.fiber_names[rod] << "': EA " << section.stretching_stiffness
+                              << " N, EI " << section.bending_stiffness << " N m^2, GJ "
+                              << section.twisting_stiffness << " N m^2, " << section.mass_per_length
+                              << " kg/m");
+  }
+  if (scene_.accuracy) {
+    ROS_INFO_STREAM(
+        "segments and substeps that the scene leaves open are chosen for an accuracy of "
+        << 100.0 * *scene_.accuracy << " %");
+  }
+  if (!scene_.overlap_note.empty()) {
+    ROS_INFO_STREAM(scene_.overlap_note);
+  }
+  const fiber::SimReport expected =
+      fiber::report(scene_, fiber::try_scene(description, options_.threads));
+  for (const std::string& fact : expected.facts) {
+    ROS_INFO_STREAM(fact);
+  }
+  for (const std::string& warning : expected.warnings) {
+    ROS_WARN_STREAM(options_.scene << ": " << warning);
+  }
+}
+
+void SimServer::keep_pace() {
+  const std::lock_guard<FairMutex> lock(mutex_);
+  if (is_paused_ || is_stepping_ || !failure_.empty()) {
+    next_frame_ = ros::SteadyTime::now();
+    return;
+  }
+  try {
+    advance();
+  } catch (const std::runtime_error&) {
+    return;  // it was logged, and services say so
+  }
+  next_frame_ += ros::WallDuration(scene_.time_step);
+  const double late = (ros::SteadyTime::now() - next_frame_).toSec();
+  // The timer makes up for frames that came a little late.
+  if (late > scene_.time_step) {
+    behind_ += late;
+    next_frame_ = ros::SteadyTime::now();
+    ROS_WARN_STREAM_THROTTLE(warning_pause, "the simulation is slower than real time: "
+                                                << behind_ << " s behind after "
+                                                << scene_.stepper->time() << " s of the scene");
+  }
+}
+
+void SimServer::update_markers() {
+  const std::lock_guard<FairMutex> lock(mutex_);
+  if (markers_ != nullptr && failure_.empty()) {
+    markers_->update(scene_);
+  }
+}
+
+void SimServer::require_running() const {
+  if (!failure_.empty()) {
+    throw std::runtime_error("the simulation has stopped " + failure_ + "; ~reset begins again");
+  }
+}
+
+void SimServer::advance() {
+  require_running();
+  std::ostringstream failure;
+  failure << "after " << scene_.stepper->time() << " s of the scene: ";
+  try {
+    run_frame();
+  } catch (const std::exception& error) {
+    failure_ = failure.str() + error.what();
+    ROS_ERROR_STREAM("the simulation has stopped " << failure_ << "; ~reset begins again");
+    require_running();
+  }
+}
+
+void SimServer::run_frame() {
+  frames_.follow(scene_);
+  if (markers_ != nullptr) {
+    markers_->apply(scene_);
+  }
+  scene_.advance();
+  publish();
+  forces_.publish(scene_, message_.header);
+  warn();
+}
+
+/// Of each kind of warning not too often.
+void SimServer::warn() {
+  const ros::SteadyTime now = ros::SteadyTime::now();
+  for (const fiber::SimWarning& warning : fiber::frame_warnings(scene_)) {
+    ros::SteadyTime& last = warned_[static_cast<std::size_t>(warning.kind)];
+    if (last.isZero() || (now - last).toSec() >= warning_pause) {
+      last = now;
+      ROS_WARN_STREAM(warning.text);
+    }
+  }
+}
+
+void SimServer::publish() {
+  const fiber::Rods& rods = scene_.stepper->rods();
+  to_message(fiber::FiberAssembly(rods.positions, rods.offsets, rods.radii), scene_.fiber_names,
+             message_);
+  message_.header.frame_id = scene_.frame_id;
+  message_.header.stamp = ros::Time::now();
+  if (options_.clock) {
+    rosgraph_msgs::Clock clock;
+    clock.clock = ros::Time(scene_.stepper->time());
+    message_.header.stamp = clock.clock;
+    clock_.publish(clock);
+  }
+  fibers_.publish(message_);
+}
+
+/// @param before of the scene before, of which what is no longer there goes
+void SimServer::publish_obstacles(const std::vector<fiber::EnvironmentObject>& before) {
+  const std::vector<fiber::EnvironmentObject>& objects = scene_.environment->objects();
+  fiber_proximity::ObstacleArray message;
+  for (const fiber::EnvironmentObject& old : before) {
+    const auto is_same = [&old](const auto& object) { return object.name == old.name; };
+    if (std::none_of(objects.begin(), objects.end(), is_same)) {
+      message.obstacles.emplace_back();
+      message.obstacles.back().id = old.name;
+      message.obstacles.back().operation = fiber_proximity::Obstacle::REMOVE;
+    }
+  }
+  for (const fiber::EnvironmentObject& object : objects) {
+    message.obstacles.push_back(to_obstacle(object, scene_.frame_id));
+  }
+  obstacles_.publish(message);
+}
+
+void SimServer::make_markers() {
+  if (!options_.interactive || scene_.attachment == nullptr) {
+    markers_.reset();
+    return;
+  }
+  if (markers_ == nullptr) {
+    markers_ = std::make_unique<SimMarkers>(node_.resolveName("interactive_markers"), world_);
+  }
+  markers_->begin(scene_);
+}
+
+}  // namespace fiber_proximity_ros

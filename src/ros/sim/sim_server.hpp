@@ -1,0 +1,128 @@
+#pragma once
+
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <ros/spinner.h>
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
+
+#include <array>
+#include <atomic>
+#include <string>
+
+#include "fiber_proximity/AttachFiber.h"
+#include "fiber_proximity/DetachFiber.h"
+#include "fiber_proximity/FiberArray.h"
+#include "fiber_proximity/SetSimulationParameters.h"
+#include "fiber_proximity/StepSimulation.h"
+#include "fiber_proximity/sim/scene/scene.hpp"
+#include "src/ros/environment/mesh_loader.hpp"
+#include "src/ros/inputs/fixed_frame.hpp"
+#include "src/ros/sim/sim_forces.hpp"
+#include "src/ros/sim/sim_frames.hpp"
+#include "src/ros/sim/sim_markers.hpp"
+#include "src/ros/support/fair_mutex.hpp"
+#include "src/sim/scene/warnings.hpp"
+
+namespace fiber_proximity_ros {
+
+/// What the simulation runs, and how; the node's private parameters of the same names.
+struct SimOptions {
+  std::string scene;           ///< YAML file
+  std::uint32_t threads = 0;   ///< most to use, 0 for as many as there are cores
+  bool clock = false;          ///< publish /clock, and stamp fibres with the scene's time
+  bool paused = false;         ///< wait for ~step or ~pause
+  bool interactive = false;    ///< handles for rviz, if the scene has the effect attachment
+  double frame_timeout = 1.0;  ///< [s] of wall time without news of a frame that holds something
+  double frame_wait = 10.0;  ///< [s] of wall time for such frames to come when the scene is loaded
+  MeshLoader meshes;         ///< of the environment, from the folders of ~mesh_folders
+};
+
+/// @throws std::invalid_argument naming the parameter, its value and what is allowed
+SimOptions read_sim_options(const ros::NodeHandle& private_node);
+
+/// Reads the file of the scene.
+/// @throws std::invalid_argument as fiber::load_yaml and fiber::read_sim_scene
+fiber::SimDescription read_scene(const SimOptions& options);
+
+/// Stands in for a tracker: moves the fibres of a scene in real time, and publishes ~fibers;
+/// ~obstacles, the scene's environment, once; and forces, see SimForces.
+///
+/// A frame that fails, because a step diverges or for whatever else it throws, stops the simulation
+/// for good: what was published last stays, services answer with the reason, ~reset begins again.
+///
+/// ~step has a thread of its own, so that the other callbacks are served between its frames.
+class SimServer {
+ public:
+  /// @throws std::invalid_argument as read_scene and fiber::make_sim_scene, and for a frame of tf
+  ///         that does not come
+  SimServer(const ros::NodeHandle& private_node, const SimOptions& options);
+  ~SimServer();
+  SimServer(const SimServer&) = delete;
+  SimServer& operator=(const SimServer&) = delete;
+
+ private:
+  SimServer(const ros::NodeHandle& private_node, const SimOptions& options,
+            const fiber::SimDescription& description);
+
+  void advertise_services();
+  void log_scene(const fiber::SimDescription& description) const;
+  void keep_pace();
+  void update_markers();
+
+  /// Moves the scene on by a frame. All of these are called with the mutex.
+  /// @throws std::runtime_error why the simulation has stopped, in this frame or before
+  void advance();
+  void run_frame();
+  void require_running() const;
+  void warn();
+  void make_markers();
+  void publish();
+  void publish_obstacles(const std::vector<fiber::EnvironmentObject>& before);
+  fiber::NodeOfRod find_node(const std::string& fiber, std::int32_t node) const;
+
+  void step_frames(std::uint32_t count);
+  void begin_again();
+  void hold(const fiber_proximity::AttachFiber::Request& request);
+  bool reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  bool pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
+  bool step(fiber_proximity::StepSimulation::Request& request,
+            fiber_proximity::StepSimulation::Response& response);
+  bool attach(fiber_proximity::AttachFiber::Request& request,
+              fiber_proximity::AttachFiber::Response& response);
+  bool detach(fiber_proximity::DetachFiber::Request& request,
+              fiber_proximity::DetachFiber::Response& response);
+  bool set_parameters(fiber_proximity::SetSimulationParameters::Request& request,
+                      fiber_proximity::SetSimulationParameters::Response& response);
+
+  ros::NodeHandle node_;
+  SimOptions options_;
+  FairMutex mutex_;  // of all that follows
+  fiber::SimScene scene_;
+  FixedFrame world_;
+  SimFrames frames_;
+  bool is_paused_;
+  std::string failure_;         // why the simulation has stopped; empty if it has not
+  bool is_stepping_ = false;    // ~step runs
+  std::string interruption_;    // why ~step is to end; empty if it is not
+  ros::SteadyTime next_frame_;  // when it is due
+  double behind_ = 0.0;         // [s] given up so far because steps took too long
+  fiber_proximity::FiberArray message_;
+  ros::Publisher fibers_;
+  ros::Publisher obstacles_;
+  ros::Publisher clock_;
+  SimForces forces_;
+  std::array<ros::SteadyTime, fiber::SimWarning::kinds> warned_;  // of each kind the last time
+
+  std::unique_ptr<SimMarkers> markers_;  // null without
+
+  // Last: their callbacks use all of the above.
+  std::atomic<bool> is_ending_{false};
+  ros::CallbackQueue step_queue_;
+  std::vector<ros::ServiceServer> servers_;
+  ros::SteadyTimer timer_;
+  ros::SteadyTimer marker_timer_;
+  ros::AsyncSpinner step_spinner_{1, &step_queue_};
+};
+
+}  // namespace fiber_proximity_ros

@@ -1,0 +1,203 @@
+// What the simulation's services do.
+#include <ros/init.h>
+
+#include <algorithm>
+#include <exception>
+#include <mutex>
+#include <stdexcept>
+
+#include "fiber_proximity/ros/conversions.hpp"
+#include "src/ros/sim/sim_server.hpp"
+#include "src/sim/scene/lead.hpp"
+#include "src/text/quote.hpp"
+
+namespace fiber_proximity_ros {
+namespace {
+
+using Eigen::Vector3d;
+
+/// More than four hours of a scene of 60 Hz: beyond that, a number is rather a mistake.
+constexpr std::uint32_t most_frames_of_a_call = 1000000;
+
+/// Errors name what they refuse, which may be of any length.
+std::string shortened(const std::string& text) {
+  constexpr std::size_t longest = 500;
+  return text.size() <= longest ? text : text.substr(0, longest) + "...";
+}
+
+/// Runs what a service was asked for; its error is the answer.
+template <class Response, class Function>
+bool answer(Response& response, const Function& function) {
+  try {
+    function();
+    response.success = true;
+  } catch (const std::exception& error) {
+    response.success = false;
+    response.message = shortened(error.what());
+  }
+  return true;
+}
+
+}  // namespace
+
+void SimServer::advertise_services() {
+  servers_.push_back(node_.advertiseService("reset", &SimServer::reset, this));
+  servers_.push_back(node_.advertiseService("pause", &SimServer::pause, this));
+  servers_.push_back(node_.advertiseService("attach", &SimServer::attach, this));
+  servers_.push_back(node_.advertiseService("detach", &SimServer::detach, this));
+  servers_.push_back(node_.advertiseService("set_parameters", &SimServer::set_parameters, this));
+  ros::NodeHandle own_thread(node_);
+  own_thread.setCallbackQueue(&step_queue_);
+  servers_.push_back(own_thread.advertiseService("step", &SimServer::step, this));
+}
+
+fiber::NodeOfRod SimServer::find_node(const std::string& fiber, std::int32_t node) const {
+  const auto& names = scene_.fiber_names;
+  const auto found = std::find(names.begin(), names.end(), fiber);
+  if (found == names.end()) {
+    throw std::invalid_argument("there is no fibre " + fiber::quote(fiber));
+  }
+  const auto rod = static_cast<std::uint32_t>(found - names.begin());
+  const auto count = static_cast<std::int64_t>(scene_.stepper->rods().node_count(rod));
+  const std::int64_t index = node < 0 ? count + node : node;
+  if (index < 0 || index >= count) {
+    throw std::invalid_argument("fibre " + fiber::quote(fiber) + " has " + std::to_string(count) +
+                                " nodes, there is no node " + std::to_string(node));
+  }
+  if (scene_.attachment == nullptr) {
+    throw std::invalid_argument("the scene does not name the effect attachment");
+  }
+  return {rod, static_cast<std::uint32_t>(index)};
+}
+
+/// The file is read without the mutex: that may take long.
+void SimServer::begin_again() {
+  fiber::SimScene scene = fiber::make_sim_scene(read_scene(options_), options_.threads);
+  frames_.wait_for(scene.frames, 0.0);
+  const std::lock_guard<FairMutex> lock(mutex_);
+  std::swap(scene_, scene);
+  forces_.begin();
+  failure_.clear();
+  interruption_ = "~reset began the scene again";
+  publish();
+  publish_obstacles(scene.environment->objects());
+  make_markers();
+}
+
+bool SimServer::reset(std_srvs::Trigger::Request& /*request*/,
+                      std_srvs::Trigger::Response& response) {
+  return answer(response, [this] { begin_again(); });
+}
+
+bool SimServer::pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
+  return answer(response, [&] {
+    const std::lock_guard<FairMutex> lock(mutex_);
+    is_paused_ = request.data != 0;
+    if (is_paused_) {
+      interruption_ = "~pause ended it";
+    }
+    require_running();
+  });
+}
+
+void SimServer::step_frames(std::uint32_t count) {
+  if (count > most_frames_of_a_call) {
+    throw std::invalid_argument("frames is " + std::to_string(count) + ", it must be at most " +
+                                std::to_string(most_frames_of_a_call));
+  }
+  interruption_.clear();
+  for (std::uint32_t i = 0; i < count; ++i) {
+    advance();
+    mutex_.unlock();  // whoever waits has a turn
+    mutex_.lock();
+    if (is_ending_ || !ros::ok()) {
+      interruption_ = "the node ends";
+    }
+    if (!interruption_.empty() && i + 1 < count) {
+      throw std::runtime_error(interruption_ + " after " + std::to_string(i + 1) + " of " +
+                               std::to_string(count) + " frames");
+    }
+  }
+  require_running();
+}
+
+bool SimServer::step(fiber_proximity::StepSimulation::Request& request,
+                     fiber_proximity::StepSimulation::Response& response) {
+  const std::lock_guard<FairMutex> lock(mutex_);
+  is_stepping_ = true;
+  answer(response, [&] { step_frames(request.frames); });
+  is_stepping_ = false;
+  response.time = scene_.stepper->time();
+  return true;
+}
+
+void SimServer::hold(const fiber_proximity::AttachFiber::Request& request) {
+  require_running();
+  const fiber::NodeOfRod held = find_node(request.fiber, request.node);
+  const Vector3d target = to_vector(request.position);
+  if (!target.allFinite() || !(request.speed >= 0.0)) {
+    throw std::invalid_argument("position must be finite and speed at least 0");
+  }
+  fiber::require_reach(scene_, held, target, request.speed);
+  const fiber::Rods& rods = scene_.stepper->rods();
+  const Vector3d from = rods.positions[rods.first(held.rod) + held.node];
+  const double start = scene_.stepper->time();
+  const double way = (target - from).norm();
+  const double speed = request.speed;
+  fiber::Attachment::Hold hold;
+  hold.rod = held.rod;
+  hold.node = held.node;
+  hold.placement = [=](double time) {
+    const double share =
+        speed > 0.0 && way > 0.0 ? std::min(1.0, std::max(0.0, speed * (time - start) / way)) : 1.0;
+    return fiber::Placement{from + share * (target - from), Vector3d::UnitX(), Vector3d::UnitY()};
+  };
+  if (const auto id = scene_.attachment->find(held.rod, held.node)) {
+    scene_.attachment->remove(*id);
+  }
+  scene_.attachment->add(rods, hold);
+}
+
+bool SimServer::attach(fiber_proximity::AttachFiber::Request& request,
+                       fiber_proximity::AttachFiber::Response& response) {
+  return answer(response, [&] {
+    const std::lock_guard<FairMutex> lock(mutex_);
+    hold(request);
+  });
+}
+
+bool SimServer::detach(fiber_proximity::DetachFiber::Request& request,
+                       fiber_proximity::DetachFiber::Response& response) {
+  return answer(response, [&] {
+    const std::lock_guard<FairMutex> lock(mutex_);
+    require_running();
+    const fiber::NodeOfRod held = find_node(request.fiber, request.node);
+    const auto id = scene_.attachment->find(held.rod, held.node);
+    if (!id) {
+      throw std::invalid_argument("nothing holds node " + std::to_string(request.node) +
+                                  " of fibre " + fiber::quote(request.fiber));
+    }
+    scene_.attachment->remove(*id);
+  });
+}
+
+bool SimServer::set_parameters(fiber_proximity::SetSimulationParameters::Request& request,
+                               fiber_proximity::SetSimulationParameters::Response& response) {
+  const std::lock_guard<FairMutex> lock(mutex_);
+  answer(response, [&] {
+    require_running();
+    std::vector<fiber::SimParameter> parameters;
+    for (const fiber_proximity::SimulationParameter& parameter : request.parameters) {
+      parameters.push_back({parameter.name, parameter.value});
+    }
+    scene_.parameters.set(parameters);
+  });
+  for (const fiber::SimParameter& parameter : scene_.parameters.all()) {
+    response.parameters.emplace_back();
+    response.parameters.back().name = parameter.name;
+    response.parameters.back().value = parameter.value;
+  }
+  return true;
+}
+
+}  // namespace fiber_proximity_ros

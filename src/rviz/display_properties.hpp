@@ -1,0 +1,68 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "src/rviz/fiber_colors.hpp"
+#include "src/rviz/fiber_detail.hpp"
+
+namespace rviz {
+class BoolProperty;
+class ColorProperty;
+class EnumProperty;
+class FloatProperty;
+class IntProperty;
+class Property;
+class RosTopicProperty;
+}  // namespace rviz
+
+namespace fiber_proximity_rviz {
+
+/// What the user chooses, as rviz shows and saves it below the display.
+class DisplayProperties {
+ public:
+  enum class Style { automatic, tubes, ribbons };
+  enum class ColorBy { fiber, radius, distance, nothing };
+
+  /// @param look   called when fibres look different from now on
+  /// @param source called when contacts come from elsewhere from now on
+  /// @param view   called when the view is to be fitted, or no longer
+  DisplayProperties(rviz::Property& display, const std::function<void()>& look,
+                    const std::function<void()>& source, const std::function<void()>& view);
+
+  Style style() const;
+  int sides() const;
+  DetailOptions detail() const;
+  ColorBy color_by() const;
+  /// Of all fibres, or of those points that have no value to be coloured by; with the opacity.
+  Color color() const;
+  float opacity() const;
+  bool is_transparent() const { return opacity() < 1.0F; }
+  /// Ends that the user has set; nothing if they follow the values.
+  std::optional<ValueRange> range() const;
+  double default_radius() const;  ///< [m] of messages without radii
+  /// Topic of the contacts whose distances colour fibres.
+  std::string contact_topic() const;
+  bool fits_view() const;  ///< rviz's view is moved to where the fibres are
+
+ private:
+  /// Hides what has no effect.
+  void update_visibility();
+
+  // rviz owns properties through their parents.
+  rviz::EnumProperty* style_;
+  rviz::IntProperty* sides_;
+  rviz::BoolProperty* reduce_detail_;
+  rviz::FloatProperty* pixel_error_;
+  rviz::EnumProperty* color_by_;
+  rviz::ColorProperty* color_;
+  rviz::RosTopicProperty* contact_topic_;
+  rviz::BoolProperty* follow_values_;
+  rviz::FloatProperty* least_;
+  rviz::FloatProperty* greatest_;
+  rviz::FloatProperty* opacity_;
+  rviz::FloatProperty* default_radius_;
+  rviz::BoolProperty* fit_view_;
+};
+
+}  // namespace fiber_proximity_rviz

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "src/rviz/fiber_chunks.hpp"
+#include "src/rviz/fiber_mesh.hpp"
+
+namespace fiber_proximity_rviz {
+
+/// How finely the user wants fibres drawn.
+struct DetailOptions {
+  bool is_reduced = true;    ///< else all points are drawn
+  float pixel_error = 0.5F;  ///< [pixels] that a fibre may be drawn beside where it is; above 0
+};
+
+/// How a chunk is drawn, where a pixel covers so much of the world.
+struct Detail {
+  enum class Kind { ribbons, lines };
+
+  Kind kind = Kind::ribbons;
+  int level = finest;  ///< the tolerance's power of two
+
+  static constexpr int finest = -60;  ///< all points
+
+  /// [m] that what is drawn may be beside what is there: 2 to the power of the level, 0 of the
+  /// finest.
+  double tolerance() const;
+
+  bool operator<(const Detail& other) const {
+    return kind != other.kind ? kind < other.kind : level < other.level;
+  }
+};
+
+/// Lines, which are a pixel wide, where no fibre of the chunk is wider; the coarsest level whose
+/// tolerance is within the pixel error. Levels differ by a factor of two, so that few are needed
+/// while the view comes nearer.
+/// @param pixel [m] at the nearest of the chunk, above 0
+Detail choose_detail(const FiberChunk& chunk, double pixel, const DetailOptions& options);
+
+/// Points that a stretch is drawn through: its ends, and of those between as few as a quick search
+/// finds. What is left out is within the tolerance of the line that is drawn, and has the colour
+/// and the width of its ends.
+/// @param points    [m] of the fibres
+/// @param vertices  two per point, those of FiberMesher::make_ribbons()
+/// @param tolerance [m] at least 0; at 0 all points are kept
+/// @param kept      gets them in order, after what it has
+void keep_points(const std::vector<Eigen::Vector3d>& points,
+                 const std::vector<MeshVertex>& vertices, const Stretch& stretch, double tolerance,
+                 std::vector<std::uint32_t>& kept);
+
+/// What of these vertices is drawn: three per triangle of ribbons, two per line.
+std::vector<std::uint32_t> make_indices(const std::vector<Eigen::Vector3d>& points,
+                                        const std::vector<MeshVertex>& vertices,
+                                        const FiberChunk& chunk, const Detail& detail);
+
+}  // namespace fiber_proximity_rviz

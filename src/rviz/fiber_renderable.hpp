@@ -1,0 +1,55 @@
+#pragma once
+
+#include <OgreMovableObject.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "src/rviz/fiber_detail.hpp"
+#include "src/rviz/fiber_mesh.hpp"
+#include "src/rviz/fiber_part.hpp"
+
+namespace fiber_proximity_rviz {
+
+/// Fibres in the graphics card's memory: vertices once, and for each chunk that has been in view
+/// which of them are drawn, as finely as was to be seen.
+class FiberRenderable : public Ogre::MovableObject {
+ public:
+  /// @param materials must outlive it
+  explicit FiberRenderable(const FiberMaterials& materials);
+
+  /// Replaces what is drawn.
+  /// @throws Ogre::Exception if the card has no memory for it
+  void show_tubes(const FiberMesh& mesh);
+  /// Mesh and points must stay as they are until it shows something else.
+  void show_ribbons(const FiberMesh& mesh, const std::vector<Eigen::Vector3d>& points,
+                    const std::vector<FiberChunk>& chunks, const DetailOptions& options);
+  void show_nothing();
+
+  /// Why the last picture lacks fibres; empty if it does not.
+  const std::string& failure() const { return failure_; }
+
+  const Ogre::AxisAlignedBox& getBoundingBox() const override { return box_; }
+  Ogre::Real getBoundingRadius() const override;
+  const Ogre::String& getMovableType() const override;
+  /// Chooses what of the chunks this camera sees is drawn.
+  void _notifyCurrentCamera(Ogre::Camera* camera) override;
+  void _updateRenderQueue(Ogre::RenderQueue* queue) override;
+  void visitRenderables(Ogre::Renderable::Visitor* visitor, bool debug) override;
+
+ private:
+  void set_vertices(const FiberMesh& mesh);
+  void choose_parts(const Ogre::Camera& camera);
+
+  const FiberMaterials& materials_;
+  std::unique_ptr<Ogre::VertexData> vertices_;
+  Ogre::AxisAlignedBox box_;
+  std::vector<std::unique_ptr<FiberPart>> parts_;
+  const std::vector<Eigen::Vector3d>* points_ = nullptr;  // of ribbons
+  DetailOptions options_;
+  std::vector<FiberPart*> in_view_;
+  std::string failure_;
+};
+
+}  // namespace fiber_proximity_rviz

@@ -1,0 +1,51 @@
+#!/usr/bin/python3
+"""Every link of the documentation leads somewhere: to a file of the repository, and to a heading in it.
+
+Usage: links_test.py ROOT
+"""
+import os
+import re
+import subprocess
+import sys
+
+LINK = re.compile(r'\[[^\]]*\]\(([^)\s]+)\)|<img src="([^"]+)"')
+FENCE = re.compile(r'^```.*?^```', re.MULTILINE | re.DOTALL)
+
+
+def anchors(text):
+    """As GitHub makes them of headings."""
+    found = set()
+    for heading in re.findall(r'^#+ (.*)$', FENCE.sub('', text), re.MULTILINE):
+        plain = re.sub(r'\[([^\]]*)\]\([^)]*\)', r'\1', heading).replace('`', '')
+        found.add(re.sub(r'[^\w\- ]', '', plain.lower()).replace(' ', '-'))
+    return found
+
+
+def main():
+    root = os.path.abspath(sys.argv[1])
+    listed = subprocess.run(['git', 'ls-files', '*.md'], cwd=root, check=True, text=True,
+                            capture_output=True).stdout.split()
+    links = 0
+    broken = []
+    for name in listed:
+        with open(os.path.join(root, name), encoding='utf-8') as file:
+            text = file.read()
+        for groups in LINK.findall(FENCE.sub('', text)):
+            link = groups[0] or groups[1]
+            if re.match(r'[a-z]+:', link):
+                continue
+            links += 1
+            target, _, anchor = link.partition('#')
+            path = os.path.join(root, os.path.dirname(name), target) if target else os.path.join(root, name)
+            if not os.path.exists(path):
+                broken.append(f'{name}: {link}: there is no such file')
+            elif anchor and os.path.isfile(path):
+                with open(path, encoding='utf-8') as file:
+                    if anchor not in anchors(file.read()):
+                        broken.append(f'{name}: {link}: there is no such heading')
+    if broken or links < 50:
+        sys.exit('\n'.join(broken) or f'only {links} links were found')
+
+
+if __name__ == '__main__':
+    main()

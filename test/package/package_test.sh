@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# Installs a build into an empty folder and uses it from outside, as plain CMake and, where it is one, as a
+# catkin package: the examples must build, run, and answer.
+#   package_test.sh BUILD SOURCE [FLAGS]
+#     FLAGS   for the compiler
+set -euo pipefail
+build=$1
+source=$2
+flags=${3:-}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+prefix=$work/prefix
+
+fail() {
+  echo "package_test: $*" >&2
+  exit 1
+}
+
+# expect_refused TEXT ARGUMENT...: configuring a project that asks for these fails, and says this.
+expect_refused() {
+  local text=$1
+  shift
+  mkdir -p "$work/refused"
+  printf 'cmake_minimum_required(VERSION 3.16)\nproject(refused CXX)\nfind_package(fiber_proximity %s)\n' "$*" \
+    >"$work/refused/CMakeLists.txt"
+  if cmake -S "$work/refused" -B "$work/refused-build" -DCMAKE_PREFIX_PATH="$prefix" \
+    -DPYTHON_EXECUTABLE=/usr/bin/python3 >"$work/refused.log" 2>&1; then
+    fail "find_package(fiber_proximity $*) was not refused"
+  fi
+  # CMake breaks lines.
+  grep -qF "$text" <<<"$(tr -s ' \n' ' ' <"$work/refused.log")" || { cat "$work/refused.log"; fail "no word of: $text"; }
+  rm -rf "$work/refused-build"
+}
+
+cmake --install "$build" --prefix "$prefix" >"$work/install.log"
+if [ -n "$(find "$prefix" -path '*include*' -name '*-inl.hpp')" ]; then
+  fail "a private header is installed"
+fi
+
+cmake -S "$source/examples" -B "$work/examples" -DCMAKE_PREFIX_PATH="$prefix" \
+  -DPYTHON_EXECUTABLE=/usr/bin/python3 \
+  -DCMAKE_CXX_FLAGS="$flags" >"$work/configure.log" || { cat "$work/configure.log"; exit 1; }
+cmake --build "$work/examples" >"$work/build.log" || { cat "$work/build.log"; exit 1; }
+"$work/examples/first_query" | tee "$work/first_query.txt"
+grep -q "^fibre 0 segment 1 and fibre 1 segment 0: 0.0020 m apart" "$work/first_query.txt" ||
+  fail "first_query has another answer"
+"$work/examples/engine_loop" | tee "$work/engine_loop.txt"
+grep -q "the first after" "$work/engine_loop.txt" || fail "engine_loop finds no contact"
+"$work/examples/simulate_scene" "$source/config/sim/hanging_cable.yaml" >"$work/simulate.txt"
+first=$(head -n 1 "$work/simulate.txt")
+[ "${first#*: }" != "$(tail -n 1 "$work/simulate.txt" | sed 's/^[^:]*: //')" ] || fail "the simulation stands still"
+if "$work/examples/simulate_scene" "$work/none.yaml" 2>"$work/error.txt"; then
+  fail "a scene that is not there is no error"
+fi
+grep -q "none.yaml" "$work/error.txt" || fail "the error does not name the file"
+
+expect_refused "has no component 'gui'" "REQUIRED COMPONENTS gui"
+expect_refused "99.0" "99.0 REQUIRED"
+find "$prefix" -name fiber_proximity-sim.cmake -delete
+expect_refused "'sim' of fiber_proximity is not installed" "REQUIRED COMPONENTS core sim"
+
+config=$(find "$prefix" -name fiber_proximityConfig.cmake)
+if grep -q catkin "$config"; then
+  cmake -S "$source/test/package/catkin_user" -B "$work/catkin" -DEXAMPLES="$source/examples" \
+    -DCMAKE_PREFIX_PATH="$prefix;/usr" -DPYTHON_EXECUTABLE=/usr/bin/python3 >"$work/configure.log" 2>&1 ||
+    { cat "$work/configure.log"; exit 1; }
+  cmake --build "$work/catkin" >"$work/build.log" || { cat "$work/build.log"; exit 1; }
+  "$(find "$work/catkin/devel" -name first_query -type f)" | diff - "$work/first_query.txt" ||
+    fail "first_query of the catkin package has another answer"
+  # Not through a pipe: grep ends it early, and ldd then fails now and then.
+  linked=$(ldd "$(find "$work/catkin/devel" -name contact_node -type f)")
+  [[ $linked == *libfiber_proximity_ros* ]] || fail "contact_node does not link the library"
+fi
