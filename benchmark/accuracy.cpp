@@ -220,7 +220,7 @@ void add_accuracy_command(CLI::App& app, Command& command) {
       "accuracy", "what kernels, tolerances and deadlines cost and bring on a moving scene");
   accuracy->callback([&command, request] { command = [request] { return run(*request); }; });
   add_scene_options(*accuracy, request->scene, request->scene_options);
-  accuracy->add_option("--engine", request->engine, "one of " + listed(engine_names()))
+  accuracy->add_option("--engine", request->engine, "one of " + join(engine_names()))
       ->capture_default_str();
   accuracy->add_option("--threads", request->threads, "most threads to use")
       ->check(whole_number(1))

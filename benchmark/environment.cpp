@@ -101,8 +101,7 @@ void add_environment_command(CLI::App& app, Command& command) {
       "octrees of a depth camera's cloud; candidate cables, and their motions, checked in a batch");
   environment->callback([&command, request] { command = [request] { return run(*request); }; });
   environment
-      ->add_option("--parts", request->parts,
-                   "with commas between them, of " + listed(part_names()))
+      ->add_option("--parts", request->parts, "with commas between them, of " + join(part_names()))
       ->delimiter(',')
       ->check(CLI::IsMember(part_names()))
       ->default_str("all");

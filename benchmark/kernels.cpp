@@ -168,7 +168,7 @@ void add_kernels_command(CLI::App& app, Command& command) {
   kernels->callback([&command, request] { command = [request] { return run(*request); }; });
   kernels
       ->add_option("--kernels", request->kernels,
-                   "with commas between them, of " + listed(pair_kernel_names()))
+                   "with commas between them, of " + join(pair_kernel_names()))
       ->delimiter(',')
       ->default_str("all");
   kernels->add_option("--families", request->families, "of pairs, with commas between them")

@@ -130,11 +130,10 @@ void add_motions_command(CLI::App& app, Command& command) {
                                    const std::string& meaning) {
     motions->add_option(name, value, meaning)->check(whole_number(1))->capture_default_str();
   };
-  add_names("--parts", request->parts,
-            "with commas between them, of " + listed(motion_part_names()))
+  add_names("--parts", request->parts, "with commas between them, of " + join(motion_part_names()))
       ->check(CLI::IsMember(motion_part_names()));
   add_names("--kernels", what.kernels,
-            "with commas between them, of " + listed(bench::motion_kernel_names()));
+            "with commas between them, of " + join(bench::motion_kernel_names()));
   motions->add_option("--families", what.families, "of motions, one after the other")
       ->default_str("all");
   motions->add_option("--seed", what.seed, "of the motions")->capture_default_str();
@@ -155,7 +154,7 @@ void add_motions_command(CLI::App& app, Command& command) {
   add_count("--timed", what.timed, "motions per family that all kernels are asked about");
   add_count("--repeats", what.repeats, "of each time, of which the median counts");
   motions
-      ->add_option("--scenes", what.scenes, "with commas between them, of " + listed(scene_names()))
+      ->add_option("--scenes", what.scenes, "with commas between them, of " + join(scene_names()))
       ->delimiter(',')
       ->capture_default_str();
   motions->add_option("--scale", what.scale, "of the scenes' numbers of fibres")

@@ -97,8 +97,8 @@ void add(CLI::App& app, Command& command, const std::string& name, const std::st
       ->capture_default_str();
   subcommand
       ->add_option("--engines", options.engines,
-                   "with commas between them, of " + listed(engine_names()) +
-                       "; peers: " + listed(all_peer_names()))
+                   "with commas between them, of " + join(engine_names()) +
+                       "; peers: " + join(all_peer_names()))
       ->delimiter(',')
       ->capture_default_str();
   subcommand

@@ -138,8 +138,7 @@ void add_simulate_command(CLI::App& app, Command& command) {
       "processor time; and how many times faster than the clock large scenes are");
   simulate->callback([&command, request] { command = [request] { return run(*request); }; });
   simulate
-      ->add_option("--parts", request->parts,
-                   "with commas between them, of " + listed(part_names()))
+      ->add_option("--parts", request->parts, "with commas between them, of " + join(part_names()))
       ->delimiter(',')
       ->check(CLI::IsMember(part_names()))
       ->default_str("all");

@@ -152,7 +152,7 @@ void add_stages_command(CLI::App& app, Command& command) {
       "soon as each is measured");
   stages->callback([&command, request] { command = [request] { return run(*request); }; });
   add_scene_options(*stages, request->scene, request->scene_options);
-  stages->add_option("--engine", request->engine, "one of " + listed(engine_names()))
+  stages->add_option("--engine", request->engine, "one of " + join(engine_names()))
       ->capture_default_str();
   stages->add_option("--repeats", request->repeats, "of updates and of detections, at most")
       ->check(whole_number(1))

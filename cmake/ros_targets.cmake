@@ -70,7 +70,7 @@ add_library(fiber_proximity_ros SHARED
   src/ros/sim/sim_markers.cpp
   src/ros/sim/sim_server.cpp
   src/ros/sim/sim_services.cpp
-  src/ros/support/chain_set.cpp
+  src/ros/support/fiber_buffer.cpp
   src/ros/support/conversions.cpp
   src/ros/support/parameters.cpp
   src/ros/support/worker.cpp

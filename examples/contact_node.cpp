@@ -20,7 +20,7 @@ class ContactNode {
  private:
   void receive(const fiber_proximity::FiberArray& message) {
     try {
-      fiber_proximity_ros::ChainSet chains;
+      fiber_proximity_ros::FiberBuffer chains;
       fiber_proximity_ros::to_chains(message, chains);
       assign(chains, fibers_);
     } catch (const std::invalid_argument& error) {

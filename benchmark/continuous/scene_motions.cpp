@@ -9,7 +9,7 @@
 #include "benchmark/statistics.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
-#include "src/query/contact_judge.hpp"
+#include "src/query/contact_evaluator.hpp"
 
 namespace fiber::bench {
 namespace {

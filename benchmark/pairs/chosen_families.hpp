@@ -26,7 +26,7 @@ std::vector<Family> chosen_families(const std::vector<Family>& all,
       for (const Family& family : all) {
         known.push_back(family.name);
       }
-      throw std::invalid_argument("unknown family '" + name + "', known are: " + listed(known));
+      throw std::invalid_argument("unknown family '" + name + "', known are: " + join(known));
     }
     chosen.push_back(*found);
   }

@@ -9,7 +9,7 @@
 
 #include "fiber_proximity/query/query_limits.hpp"
 #include "src/hierarchy/sort_keys.hpp"
-#include "src/query/contact_judge.hpp"
+#include "src/query/contact_evaluator.hpp"
 
 namespace fiber {
 
@@ -36,7 +36,7 @@ class ParallelCollector {
    private:
     friend ParallelCollector;
 
-    void begin(const PairTest& test) {
+    void begin(const NarrowPhase& test) {
       test_ = &test;
       keys_.clear();
       tests_ = 0;
@@ -56,7 +56,7 @@ class ParallelCollector {
 
     static constexpr std::size_t most_waiting = 256;
 
-    const PairTest* test_ = nullptr;
+    const NarrowPhase* test_ = nullptr;
     std::array<PointPair, most_waiting> waiting_{};
     std::size_t size_ = 0;
     std::vector<std::uint64_t> keys_;
@@ -68,7 +68,7 @@ class ParallelCollector {
   template <class Collide>
   void collect(const FiberAssembly& fibers, const QueryOptions& options, QueryResult& result,
                const Collide& collide) {
-    const PairTest test(fibers, options);
+    const NarrowPhase test(fibers, options);
     test_ = &test;
     for (Part& part : parts_) {
       part.begin(test);
@@ -81,7 +81,7 @@ class ParallelCollector {
       result.counts.primitive_tests += part.tests_;
     }
     sort_keys(keys_, scratch_);
-    judge_.judge(keys_, test, QueryLimits(QueryOptions()), result);
+    evaluator_.evaluate(keys_, test, QueryLimits(QueryOptions()), result);
   }
 
   /// The calling thread's own.
@@ -95,11 +95,11 @@ class ParallelCollector {
   }
 
  private:
-  const PairTest* test_ = nullptr;
+  const NarrowPhase* test_ = nullptr;
   tbb::enumerable_thread_specific<Part> parts_;
   std::vector<std::uint64_t> keys_;
   std::vector<std::uint64_t> scratch_;
-  ContactJudge judge_;
+  ContactEvaluator evaluator_;
 };
 
 }  // namespace fiber

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "src/query/contact_judge.hpp"
+#include "src/query/contact_evaluator.hpp"
 
 namespace fiber {
 namespace {

@@ -95,7 +95,7 @@ class Capsules final : public FclCapsules {
 
   void collide(PairCollector& collector) const override { manager_.offer(collector); }
 
-  std::uint64_t measure(const PairTest& test, std::vector<FclDistance>& found) const override {
+  std::uint64_t measure(const NarrowPhase& test, std::vector<FclDistance>& found) const override {
     std::uint64_t measured = 0;
     found.clear();
     auto call = [&](const FclSegment& a, const FclSegment& b) {

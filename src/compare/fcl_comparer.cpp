@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "src/query/contact_judge.hpp"
+#include "src/query/contact_evaluator.hpp"
 
 namespace fiber {
 namespace {
@@ -106,7 +106,7 @@ void FclComparer::ask_user_style(const FiberAssembly& fibers, const QueryOptions
   style.style = FclStyle::USER;
   style.update_time = time_of([&] { capsules_->update(fibers, same_topology_); });
   style.detect_time = time_of([&] {
-    const PairTest test(fibers, options);
+    const NarrowPhase test(fibers, options);
     style.pair_tests = capsules_->measure(test, distances_);
   });
   to_answers(fibers, distances_, fcl_);

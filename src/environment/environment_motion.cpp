@@ -15,7 +15,7 @@
 #include "src/environment/broad_phase.hpp"
 #include "src/environment/shape_motion.hpp"
 #include "src/geometry/swept_fibers.hpp"
-#include "src/query/contact_judge.hpp"
+#include "src/query/contact_evaluator.hpp"
 #include "src/query/narrow_contact_time.hpp"
 #include "src/text/quote.hpp"
 
@@ -112,7 +112,7 @@ double EnvironmentMotion::offer(const SweptRun& run, const WorldShape& shape) {
   return within(run.radius);
 }
 
-void EnvironmentMotion::judge(MotionResult& result) {
+void EnvironmentMotion::evaluate(MotionResult& result) {
   std::vector<std::uint64_t>& keys = candidates_.keys;
   if (candidates_.are_too_many) {
     keys.clear();
@@ -121,29 +121,29 @@ void EnvironmentMotion::judge(MotionResult& result) {
   // A pair takes longer here than one of two segments.
   constexpr std::size_t pairs_per_slice = motions_per_slice / 16;
   std::vector<MotionSlice> slices((keys.size() + pairs_per_slice - 1) / pairs_per_slice);
-  const auto judge_slice = [&](std::size_t index) {
+  const auto evaluate_slice = [&](std::size_t index) {
     const std::size_t begin = index * pairs_per_slice;
-    judge(keys.data() + begin, std::min(pairs_per_slice, keys.size() - begin), slices[index]);
+    evaluate(keys.data() + begin, std::min(pairs_per_slice, keys.size() - begin), slices[index]);
   };
   if (slices.size() == 1) {
-    judge_slice(0);
+    evaluate_slice(0);
   } else {
     // While it waits, a thread must not begin with another query of whoever asked this one.
     tbb::this_task_arena::isolate(
-        [&] { tbb::parallel_for(std::size_t{0}, slices.size(), judge_slice); });
+        [&] { tbb::parallel_for(std::size_t{0}, slices.size(), evaluate_slice); });
   }
   merge_slices(slices.data(), slices.size(), candidates_, options_, result);
 }
 
-void EnvironmentMotion::judge(const std::uint64_t* keys, std::size_t count,
-                              MotionSlice& slice) const {
+void EnvironmentMotion::evaluate(const std::uint64_t* keys, std::size_t count,
+                                 MotionSlice& slice) const {
   slice.complete = !limits_.deadline.has_passed();
   if (slice.complete) {
-    std::for_each(keys, keys + count, [&](std::uint64_t key) { judge(key, slice); });
+    std::for_each(keys, keys + count, [&](std::uint64_t key) { evaluate(key, slice); });
   }
 }
 
-void EnvironmentMotion::judge(std::uint64_t key, MotionSlice& slice) const {
+void EnvironmentMotion::evaluate(std::uint64_t key, MotionSlice& slice) const {
   const PointPair pair = pair_of(key);
   const WorldShape& shape = shapes_[pair.b];
   const SegmentAndShape moving{motion_.before.capsule(pair.a), motion_.after.capsule(pair.a),
@@ -210,7 +210,7 @@ void Environment::query_motion(const BroadPhase& broad_phase, const FiberMotion&
                              [&](const WorldShape& shape) { return query.offer(run, shape); });
     }
   }
-  query.judge(result);
+  query.evaluate(result);
 }
 
 }  // namespace fiber

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "fiber_proximity/query/motion_judge.hpp"
+#include "fiber_proximity/query/motion_evaluator.hpp"
 #include "fiber_proximity/query/motion_slices.hpp"
 #include "fiber_proximity/query/query_limits.hpp"
 #include "src/environment/allowed_parts.hpp"
@@ -42,12 +42,12 @@ class EnvironmentMotion {
   bool done();
 
   /// When the pairs meet, on several threads; the same for any number of them.
-  void judge(MotionResult& result);
+  void evaluate(MotionResult& result);
 
  private:
   double within(double radius) const;
-  void judge(const std::uint64_t* keys, std::size_t count, MotionSlice& slice) const;
-  void judge(std::uint64_t key, MotionSlice& slice) const;
+  void evaluate(const std::uint64_t* keys, std::size_t count, MotionSlice& slice) const;
+  void evaluate(std::uint64_t key, MotionSlice& slice) const;
 
   const FiberMotion& motion_;
   const std::vector<WorldShape>& shapes_;

@@ -9,7 +9,7 @@
 #include "fiber_proximity/environment/shapes.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/query/contact.hpp"
-#include "fiber_proximity/query/contact_keeper.hpp"
+#include "fiber_proximity/query/contact_accumulator.hpp"
 #include "src/environment/allowed_parts.hpp"
 
 namespace fiber {
@@ -43,14 +43,14 @@ class EnvironmentQuery {
   ///         infinity when the query is done
   double offer(const SegmentRun& run, const WorldShape& shape);
 
-  bool done() { return keeper_.done(); }
+  bool done() { return accumulator_.done(); }
   void finish();
 
  private:
-  double reach_of(const SegmentRun& run) const { return keeper_.bound() + run.radius; }
+  double reach_of(const SegmentRun& run) const { return accumulator_.bound() + run.radius; }
   void offer_segment(const SegmentRun& run, std::uint32_t point, const WorldShape& shape);
 
-  ContactKeeper keeper_;
+  ContactAccumulator accumulator_;
   const FiberAssembly& fibers_;
   AllowedParts allowed_;
   QueryCounts& counts_;

@@ -6,7 +6,7 @@
 
 #include "fiber_proximity/geometry/exact_distance.hpp"
 #include "fiber_proximity/geometry/segment_distance.hpp"
-#include "src/text/listed.hpp"
+#include "src/text/join.hpp"
 #include "src/text/quote.hpp"
 
 namespace fiber {
@@ -20,9 +20,13 @@ Kernel kernel_from_name(const std::string& name) {
   const std::vector<std::string>& names = kernel_names();
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) {
-    throw std::invalid_argument("unknown kernel " + quote(name) + ", known are: " + listed(names));
+    throw std::invalid_argument("unknown kernel " + quote(name) + ", known are: " + join(names));
   }
   return static_cast<Kernel>(found - names.begin());
+}
+
+std::string current_kernel_name(const std::string& name) {
+  return name == "fast" ? name_of(Kernel::ROBUST) : name;
 }
 
 SegmentDistance segment_distance(Kernel kernel, const Eigen::Vector3d& p0,

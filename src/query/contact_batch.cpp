@@ -35,7 +35,7 @@ class CandidateCount {
 class CandidateSink final : public PairSink {
  public:
   /// @param prunes leave out what lacks a loop as the fibres are now
-  CandidateSink(const PairTest& test, float bound, bool prunes, CandidateCount& count,
+  CandidateSink(const NarrowPhase& test, float bound, bool prunes, CandidateCount& count,
                 std::vector<std::uint64_t>& keys)
       : test_(test), bound_(bound), prunes_(prunes), count_(count), keys_(keys) {}
   CandidateSink(const CandidateSink&) = delete;
@@ -65,7 +65,7 @@ class CandidateSink final : public PairSink {
     return !count_.is_too_much();
   }
 
-  const PairTest& test_;
+  const NarrowPhase& test_;
   const float bound_;
   const bool prunes_;
   CandidateCount& count_;
@@ -76,7 +76,7 @@ class CandidateSink final : public PairSink {
 }  // namespace
 
 ContactBatch::Found ContactBatch::collect(const RunTreeView& a, const RunTreeView& b,
-                                          const PairTest& test, double bound,
+                                          const NarrowPhase& test, double bound,
                                           const QueryLimits& limits, bool prunes,
                                           std::vector<std::uint64_t>& keys, QueryCounts& counts) {
   const float rounded_bound = round_up(bound);
@@ -118,8 +118,8 @@ ContactBatch::Found ContactBatch::collect(const RunTreeView& a, const RunTreeVie
 }
 
 ContactBatch::Found ContactBatch::replace(const std::vector<std::uint64_t>& old_keys,
-                                          const OutdatedSegments& outdated, const RunTreeView& tree,
-                                          const PairTest& test, double bound,
+                                          const DirtySegments& outdated, const RunTreeView& tree,
+                                          const NarrowPhase& test, double bound,
                                           const QueryLimits& limits,
                                           std::vector<std::uint64_t>& keys, QueryCounts& counts) {
   const Found found = collect(outdated.tree(), tree, test, bound, limits, keys_, counts);
@@ -144,21 +144,22 @@ ContactBatch::Found ContactBatch::replace(const std::vector<std::uint64_t>& old_
   return keys.size() > limits.pairs ? Found::TOO_MANY : found;
 }
 
-void ContactBatch::judge(const std::vector<std::uint64_t>& keys, bool are_all, const PairTest& test,
-                         const QueryLimits& limits, QueryResult& result) {
+void ContactBatch::evaluate(const std::vector<std::uint64_t>& keys, bool are_all,
+                            const NarrowPhase& test, const QueryLimits& limits,
+                            QueryResult& result) {
   result.counts.primitive_tests += keys.size();
   result.complete = are_all;
-  judge_.judge(keys, test, limits, result);
+  evaluator_.evaluate(keys, test, limits, result);
 }
 
-bool ContactBatch::find(const RunTreeView& a, const RunTreeView& b, const PairTest& test,
+bool ContactBatch::find(const RunTreeView& a, const RunTreeView& b, const NarrowPhase& test,
                         double moved, const QueryLimits& limits, QueryResult& result) {
   const Found found =
       collect(a, b, test, test.margin() + moved, limits, true, keys_, result.counts);
   if (found == Found::TOO_MANY) {
     return false;
   }
-  judge(keys_, found == Found::ALL, test, limits, result);
+  evaluate(keys_, found == Found::ALL, test, limits, result);
   return true;
 }
 

@@ -4,17 +4,17 @@
 #include <vector>
 
 #include "fiber_proximity/query/contact.hpp"
-#include "fiber_proximity/query/pair_test.hpp"
+#include "fiber_proximity/query/narrow_phase.hpp"
 #include "fiber_proximity/query/query_limits.hpp"
 #include "src/hierarchy/run_blocks.hpp"
-#include "src/query/contact_judge.hpp"
-#include "src/query/outdated_segments.hpp"
+#include "src/query/contact_evaluator.hpp"
+#include "src/query/dirty_segments.hpp"
 
 namespace fiber {
 
 /// Finds all contacts of two run trees, or of one with itself, on several threads: candidates job
-/// by job, which a ContactJudge then decides about. Gives the same for any number of threads. Keeps
-/// its memory from query to query.
+/// by job, which a ContactEvaluator then decides about. Gives the same for any number of threads.
+/// Keeps its memory from query to query.
 class ContactBatch {
  public:
   /// Which candidates have been found.
@@ -27,37 +27,37 @@ class ContactBatch {
   /// Candidates in the order of the contacts: all pairs that may come within the bound [m], and
   /// others; they may serve other queries, too, when points have moved. Takes two thirds of the
   /// time until the deadline, if need be: the rest is for judging.
-  Found collect(const RunTreeView& a, const RunTreeView& b, const PairTest& test, double bound,
+  Found collect(const RunTreeView& a, const RunTreeView& b, const NarrowPhase& test, double bound,
                 const QueryLimits& limits, std::vector<std::uint64_t>& keys, QueryCounts& counts) {
     return collect(a, b, test, bound, limits, false, keys, counts);
   }
 
   /// The same of all pairs within the margin, as the fibres of the test are now: without those that
   /// lack a loop.
-  Found collect(const RunTreeView& a, const RunTreeView& b, const PairTest& test,
+  Found collect(const RunTreeView& a, const RunTreeView& b, const NarrowPhase& test,
                 const QueryLimits& limits, std::vector<std::uint64_t>& keys, QueryCounts& counts) {
     return collect(a, b, test, test.margin(), limits, true, keys, counts);
   }
 
   /// The same from candidates of a tree with itself that were collected before: those of outdated
   /// segments are left out and looked for anew.
-  Found replace(const std::vector<std::uint64_t>& old_keys, const OutdatedSegments& outdated,
-                const RunTreeView& tree, const PairTest& test, double bound,
+  Found replace(const std::vector<std::uint64_t>& old_keys, const DirtySegments& outdated,
+                const RunTreeView& tree, const NarrowPhase& test, double bound,
                 const QueryLimits& limits, std::vector<std::uint64_t>& keys, QueryCounts& counts);
 
   /// The contacts among such candidates.
   /// @param are_all whether no candidates are missing
-  void judge(const std::vector<std::uint64_t>& keys, bool are_all, const PairTest& test,
-             const QueryLimits& limits, QueryResult& result);
+  void evaluate(const std::vector<std::uint64_t>& keys, bool are_all, const NarrowPhase& test,
+                const QueryLimits& limits, QueryResult& result);
 
   /// Both, for candidates that serve this query alone.
   /// @param moved [m] by how much pairs may be nearer than the trees have them
   /// @return false, with no answer, if there are more candidates than may be examined
-  bool find(const RunTreeView& a, const RunTreeView& b, const PairTest& test, double moved,
+  bool find(const RunTreeView& a, const RunTreeView& b, const NarrowPhase& test, double moved,
             const QueryLimits& limits, QueryResult& result);
 
  private:
-  Found collect(const RunTreeView& a, const RunTreeView& b, const PairTest& test, double bound,
+  Found collect(const RunTreeView& a, const RunTreeView& b, const NarrowPhase& test, double bound,
                 const QueryLimits& limits, bool prunes, std::vector<std::uint64_t>& keys,
                 QueryCounts& counts);
 
@@ -70,7 +70,7 @@ class ContactBatch {
   std::vector<Job> jobs_;
   std::vector<std::uint64_t> keys_;
   std::vector<std::uint64_t> scratch_;
-  ContactJudge judge_;
+  ContactEvaluator evaluator_;
 };
 
 }  // namespace fiber

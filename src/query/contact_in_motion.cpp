@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "fiber_proximity/geometry/contact_time.hpp"
-#include "fiber_proximity/query/pair_test.hpp"
+#include "fiber_proximity/query/narrow_phase.hpp"
 
 namespace fiber {
 namespace {
@@ -42,7 +42,7 @@ Contact first_contact(const FiberMotion& a, const FiberMotion& b, const MotionCo
   const FiberAssembly segment_b =
       fiber_of(capsule_at(b, point_of(b, contact.fiber_b, contact.segment_b), time));
   const QueryOptions options;
-  const PairTest test(segment_a, segment_b, options);
+  const NarrowPhase test(segment_a, segment_b, options);
   constexpr PointPair only_pair{0, 0};
   Contact found = test.contact(only_pair, test.distance(only_pair));
   found.fiber_a = contact.fiber_a;

@@ -2,7 +2,7 @@
 
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/motion.hpp"
-#include "fiber_proximity/query/motion_judge.hpp"
+#include "fiber_proximity/query/motion_evaluator.hpp"
 
 namespace fiber {
 

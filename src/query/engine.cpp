@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "src/geometry/swept_fibers.hpp"
-#include "src/query/contact_judge.hpp"
+#include "src/query/contact_evaluator.hpp"
 #include "src/query/idle_memory.hpp"
 
 namespace fiber {
@@ -40,7 +40,7 @@ QueryOptions candidates_of(const MotionOptions& options) {
 }
 
 /// For an engine that finds candidates as contacts.
-QueryOptions candidate_options(const PairTest& test, const QueryLimits& limits) {
+QueryOptions candidate_options(const NarrowPhase& test, const QueryLimits& limits) {
   QueryOptions options;
   options.margin = test.margin();
   options.kernel = Kernel::EXACT;  // decides without any error
@@ -51,7 +51,7 @@ QueryOptions candidate_options(const PairTest& test, const QueryLimits& limits) 
 
 /// Makes candidates of contacts of swept segments.
 void take(const QueryResult& result, const FiberAssembly& a, const FiberAssembly& b,
-          const PairTest& test, const QueryLimits& limits, MotionCandidates& candidates) {
+          const NarrowPhase& test, const QueryLimits& limits, MotionCandidates& candidates) {
   for (const Contact& contact : result.contacts) {
     const PointPair pair = test.ordered({a.offsets()[contact.fiber_a] + contact.segment_a,
                                          b.offsets()[contact.fiber_b] + contact.segment_b});
@@ -82,7 +82,7 @@ const FiberAssembly& require_fibers(const FiberAssembly* fibers) {
 struct ProximityEngine::Motion {
   struct Memory {
     MotionCandidates candidates;
-    MotionJudge judge;
+    MotionEvaluator evaluator;
   };
 
   const FiberAssembly* before = nullptr;
@@ -171,12 +171,12 @@ void ProximityEngine::do_query_motion(const MotionOptions& options, MotionResult
   const QueryOptions pairs = candidates_of(options);
   const auto work = [&] {
     const QueryLimits limits(pairs);
-    const PairTest test(*motion.before, pairs, loops_before());
+    const NarrowPhase test(*motion.before, pairs, loops_before());
     const FiberMotion fibers{*motion.before, *motion.after};
     motion.memory.lend([&](Motion::Memory& memory) {
       reset(memory.candidates);
       do_find_candidates(test, limits, memory.candidates);
-      memory.judge.judge(memory.candidates, fibers, fibers, test, options, limits, result);
+      memory.evaluator.evaluate(memory.candidates, fibers, fibers, test, options, limits, result);
     });
   };
   on_threads(std::cref(work));  // a function of its own would be allocated
@@ -191,12 +191,12 @@ void ProximityEngine::do_query_motion_shape(const FiberAssembly& shape_before,
   const QueryOptions pairs = candidates_of(options);
   const auto work = [&] {
     const QueryLimits limits(pairs);
-    const PairTest test(shape_before, *motion.before, pairs);
+    const NarrowPhase test(shape_before, *motion.before, pairs);
     const FiberMotion fibers{*motion.before, *motion.after};
     motion.memory.lend([&](Motion::Memory& memory) {
       reset(memory.candidates);
       do_find_shape_candidates(shape, test, limits, memory.candidates);
-      memory.judge.judge(memory.candidates, shape, fibers, test, options, limits, result);
+      memory.evaluator.evaluate(memory.candidates, shape, fibers, test, options, limits, result);
     });
   };
   on_threads(std::cref(work));  // a function of its own would be allocated
@@ -208,18 +208,18 @@ void ProximityEngine::do_update_motion(const FiberAssembly& before, const FiberA
   do_update(motion_->swept.fibers(), same_topology);
 }
 
-void ProximityEngine::do_find_candidates(const PairTest& test, const QueryLimits& limits,
+void ProximityEngine::do_find_candidates(const NarrowPhase& test, const QueryLimits& limits,
                                          MotionCandidates& candidates) const {
   const FiberAssembly& swept = motion_->swept.fibers();
   QueryOptions options = candidate_options(test, limits);
-  // What is left out by where the fibres are is judged by where they were before the motion.
+  // What is left out by where the fibres are is evaluated by where they were before the motion.
   options.neighbour_skip = test.wants_adjacent() ? 0 : 1;
   QueryResult result;
   do_query(swept, options, result);
   take(result, swept, swept, test, limits, candidates);
 }
 
-void ProximityEngine::do_find_shape_candidates(const FiberMotion& shape, const PairTest& test,
+void ProximityEngine::do_find_shape_candidates(const FiberMotion& shape, const NarrowPhase& test,
                                                const QueryLimits& limits,
                                                MotionCandidates& candidates) const {
   const FiberAssembly& swept = motion_->swept.fibers();

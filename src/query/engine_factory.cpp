@@ -6,7 +6,7 @@
 #include "src/query/brute_force.hpp"
 #include "src/query/run_tree_engine.hpp"
 #include "src/query/threads.hpp"
-#include "src/text/listed.hpp"
+#include "src/text/join.hpp"
 #include "src/text/quote.hpp"
 
 namespace fiber {
@@ -66,7 +66,7 @@ EnginePointer make_engine(const std::string& name, const EngineOptions& options)
     others += family.other_names.empty() ? "" : "; " + family.other_names;
   }
   throw std::invalid_argument("unknown engine " + quote(name) + reason +
-                              ", known are: " + listed(engine_names()) + others);
+                              ", known are: " + join(engine_names()) + others);
 }
 
 std::vector<std::string> engine_names() {

@@ -77,8 +77,8 @@ std::uint32_t RunTreeEngine::thread_count() const {
 }
 
 std::size_t RunTreeEngine::memory_bytes() const {
-  return tree_.memory_bytes() + motion_.memory_bytes() + kept_.memory_bytes() +
-         outdated_.memory_bytes() + loops_.memory_bytes();
+  return tree_.memory_bytes() + motion_.memory_bytes() + cache_.memory_bytes() +
+         dirty_.memory_bytes() + loops_.memory_bytes();
 }
 
 void RunTreeEngine::do_update(const FiberAssembly& fibers, bool same_topology) {
@@ -107,7 +107,7 @@ void RunTreeEngine::start_anew(const FiberAssembly& fibers) {
   moved_ = 0.0;
   moved_before_fit_ = 0.0;
   has_served_ = false;
-  kept_.become(KeptCandidates::State::NONE);
+  cache_.become(CandidateCache::State::NONE);
   if (skin_ > 0.0) {
     motion_.start(fibers);
   }
@@ -129,8 +129,8 @@ bool RunTreeEngine::most_still_serve(const FiberAssembly& fibers) {
   if (!std::isfinite(moved_)) {
     return false;
   }
-  if (kept_.state() != KeptCandidates::State::OUTDATED) {
-    outdated_.clear();
+  if (cache_.state() != CandidateCache::State::STALE) {
+    dirty_.clear();
   }
   // Those that are far from the limit are left where they are; the others would follow soon.
   const double limit = skin_ / 4.0;
@@ -138,14 +138,14 @@ bool RunTreeEngine::most_still_serve(const FiberAssembly& fibers) {
   const std::vector<double>& moved = motion_.by_fiber();
   for (std::uint32_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
     if (moved[fiber] > limit) {
-      outdated_.add(fibers, fiber);
+      dirty_.add(fibers, fiber);
     } else {
       of_others = std::max(of_others, moved[fiber]);
     }
   }
-  if (static_cast<double>(outdated_.size()) >
+  if (static_cast<double>(dirty_.size()) >
       most_outdated * static_cast<double>(fibers.segment_count())) {
-    outdated_.clear();
+    dirty_.clear();
     return false;
   }
   for (std::uint32_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
@@ -153,8 +153,8 @@ bool RunTreeEngine::most_still_serve(const FiberAssembly& fibers) {
       motion_.restart(fibers, fiber);
     }
   }
-  outdated_.fit(fibers, tree_.origin());
-  kept_.become(KeptCandidates::State::OUTDATED);
+  dirty_.fit(fibers, tree_.origin());
+  cache_.become(CandidateCache::State::STALE);
   moved_ = of_others;
   moved_before_fit_ = of_others;
   skin_pays_ = true;
@@ -169,7 +169,7 @@ void RunTreeEngine::do_query(const FiberAssembly& fibers, const QueryOptions& op
   QueryOptions left = options;
   if (options.type == QueryType::ALL) {
     const QueryLimits limits(options);
-    if (find_own(PairTest(fibers, options, &loops_), options, limits, result)) {
+    if (find_own(NarrowPhase(fibers, options, &loops_), options, limits, result)) {
       return;
     }
     left.deadline = limits.deadline.left();
@@ -185,7 +185,7 @@ void RunTreeEngine::do_query_shape(const FiberAssembly& shape, const FiberAssemb
   QueryOptions left = options;
   if (options.type == QueryType::ALL) {
     const QueryLimits limits(options);
-    const PairTest test(shape, fibers, options);
+    const NarrowPhase test(shape, fibers, options);
     bool is_found = false;
     with_batch([&](ContactBatch& batch) {
       is_found =
@@ -202,7 +202,7 @@ void RunTreeEngine::do_query_shape(const FiberAssembly& shape, const FiberAssemb
 
 /// All contacts of the fibres with each other: from candidates that are kept, if there are such.
 /// @return false, with no answer, if more pairs would have to be examined than may be
-bool RunTreeEngine::find_own(const PairTest& test, const QueryOptions& options,
+bool RunTreeEngine::find_own(const NarrowPhase& test, const QueryOptions& options,
                              const QueryLimits& limits, QueryResult& result) const {
   // Which pairs a length leaves out changes as fibres stretch: such candidates cannot be kept.
   const bool keeps =
@@ -212,8 +212,8 @@ bool RunTreeEngine::find_own(const PairTest& test, const QueryOptions& options,
     if (keeps) {
       const Candidates candidates = current_candidates(test, options, limits, batch, result.counts);
       if (candidates.found != ContactBatch::Found::TOO_MANY) {
-        batch.judge(*candidates.keys, candidates.found == ContactBatch::Found::ALL, test, limits,
-                    result);
+        batch.evaluate(*candidates.keys, candidates.found == ContactBatch::Found::ALL, test, limits,
+                       result);
         is_found = true;
         return;
       }
@@ -225,25 +225,25 @@ bool RunTreeEngine::find_own(const PairTest& test, const QueryOptions& options,
 }
 
 /// Candidates that serve until motion exceeds the skin: kept ones, as far as there are such.
-RunTreeEngine::Candidates RunTreeEngine::current_candidates(const PairTest& test,
+RunTreeEngine::Candidates RunTreeEngine::current_candidates(const NarrowPhase& test,
                                                             const QueryOptions& options,
                                                             const QueryLimits& limits,
                                                             ContactBatch& batch,
                                                             QueryCounts& counts) const {
   using Found = ContactBatch::Found;
-  if (const KeptCandidates::Keys keys = kept_.find(options, KeptCandidates::State::CURRENT)) {
+  if (const CandidateCache::Keys keys = cache_.find(options, CandidateCache::State::CURRENT)) {
     return {keys, keys->size() > limits.pairs ? Found::TOO_MANY : Found::ALL};
   }
   // Since the tree was fitted, two segments can each have come back by what they had moved before.
   const double reach = options.margin + skin_ + 2.0 * moved_before_fit_;
-  const KeptCandidates::Keys old = kept_.find(options, KeptCandidates::State::OUTDATED);
-  const KeptCandidates::Keys keys = kept_.make();
+  const CandidateCache::Keys old = cache_.find(options, CandidateCache::State::STALE);
+  const CandidateCache::Keys keys = cache_.make();
   const Found found =
       old != nullptr
-          ? batch.replace(*old, outdated_, tree_.view(), test, reach, limits, *keys, counts)
+          ? batch.replace(*old, dirty_, tree_.view(), test, reach, limits, *keys, counts)
           : batch.collect(tree_.view(), tree_.view(), test, reach, limits, *keys, counts);
   if (found == Found::ALL) {
-    kept_.keep(options, keys);
+    cache_.keep(options, keys);
   }
   return {keys, found};
 }
@@ -266,12 +266,12 @@ void RunTreeEngine::do_update_motion(const FiberAssembly& before, const FiberAss
   check_ways(tree_, before, after);
 }
 
-void RunTreeEngine::do_find_candidates(const PairTest& test, const QueryLimits& limits,
+void RunTreeEngine::do_find_candidates(const NarrowPhase& test, const QueryLimits& limits,
                                        MotionCandidates& candidates) const {
   find_candidates(tree_.view(), test, limits, candidates);
 }
 
-void RunTreeEngine::do_find_shape_candidates(const FiberMotion& shape, const PairTest& test,
+void RunTreeEngine::do_find_shape_candidates(const FiberMotion& shape, const NarrowPhase& test,
                                              const QueryLimits& limits,
                                              MotionCandidates& candidates) const {
   require_same_topology(shape.before, shape.after);
@@ -281,7 +281,7 @@ void RunTreeEngine::do_find_shape_candidates(const FiberMotion& shape, const Pai
   find_candidates(shape_tree.view(), test, limits, candidates);
 }
 
-void RunTreeEngine::find_candidates(const RunTreeView& a, const PairTest& test,
+void RunTreeEngine::find_candidates(const RunTreeView& a, const NarrowPhase& test,
                                     const QueryLimits& limits, MotionCandidates& candidates) const {
   with_batch([&](ContactBatch& batch) {
     const ContactBatch::Found found =

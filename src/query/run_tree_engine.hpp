@@ -6,10 +6,10 @@
 #include "fiber_proximity/query/loop_test.hpp"
 #include "src/hierarchy/motion_bound.hpp"
 #include "src/hierarchy/run_tree.hpp"
+#include "src/query/candidate_cache.hpp"
 #include "src/query/contact_batch.hpp"
+#include "src/query/dirty_segments.hpp"
 #include "src/query/idle_memory.hpp"
-#include "src/query/kept_candidates.hpp"
-#include "src/query/outdated_segments.hpp"
 
 namespace fiber {
 
@@ -42,9 +42,9 @@ class RunTreeEngine final : public ProximityEngine {
                       const QueryOptions& options, QueryResult& result) const override;
   void do_update_motion(const FiberAssembly& before, const FiberAssembly& after,
                         bool same_topology) override;
-  void do_find_candidates(const PairTest& test, const QueryLimits& limits,
+  void do_find_candidates(const NarrowPhase& test, const QueryLimits& limits,
                           MotionCandidates& candidates) const override;
-  void do_find_shape_candidates(const FiberMotion& shape, const PairTest& test,
+  void do_find_shape_candidates(const FiberMotion& shape, const NarrowPhase& test,
                                 const QueryLimits& limits,
                                 MotionCandidates& candidates) const override;
   const LoopTest* loops_before() const override { return &loops_; }
@@ -57,16 +57,16 @@ class RunTreeEngine final : public ProximityEngine {
   double moved_since_fit() const { return moved_ + moved_before_fit_; }
 
   struct Candidates {
-    KeptCandidates::Keys keys;
+    CandidateCache::Keys keys;
     ContactBatch::Found found;
   };
-  Candidates current_candidates(const PairTest& test, const QueryOptions& options,
+  Candidates current_candidates(const NarrowPhase& test, const QueryOptions& options,
                                 const QueryLimits& limits, ContactBatch& batch,
                                 QueryCounts& counts) const;
-  bool find_own(const PairTest& test, const QueryOptions& options, const QueryLimits& limits,
+  bool find_own(const NarrowPhase& test, const QueryOptions& options, const QueryLimits& limits,
                 QueryResult& result) const;
 
-  void find_candidates(const RunTreeView& a, const PairTest& test, const QueryLimits& limits,
+  void find_candidates(const RunTreeView& a, const NarrowPhase& test, const QueryLimits& limits,
                        MotionCandidates& candidates) const;
 
   /// Calls with memory that queries which run at the same time do not share.
@@ -83,8 +83,8 @@ class RunTreeEngine final : public ProximityEngine {
   std::uint64_t partial_count_ = 0;
   bool has_served_ = false;  // the tree, an update after the one that fitted it
   bool skin_pays_ = true;    // the tree has served so, or the one before it had
-  mutable KeptCandidates kept_;
-  OutdatedSegments outdated_;  // what makes the kept candidates OUTDATED
+  mutable CandidateCache cache_;
+  DirtySegments dirty_;  // what makes the kept candidates STALE
   LoopTest loops_;
   mutable IdleMemory<ContactBatch> batches_;
 };

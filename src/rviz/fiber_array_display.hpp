@@ -10,7 +10,7 @@
 #include "fiber_proximity/ContactArray.h"
 #include "fiber_proximity/FiberArray.h"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
-#include "fiber_proximity/ros/chain_set.hpp"
+#include "fiber_proximity/ros/fiber_buffer.hpp"
 #include "src/rviz/contact_pairing.hpp"
 #include "src/rviz/display_properties.hpp"
 #include "src/rviz/fiber_mesh.hpp"
@@ -66,7 +66,7 @@ class FiberArrayDisplay : public rviz::MessageFilterDisplay<fiber_proximity::Fib
   bool is_new_ = false;      // `shown_` has not been placed
   bool is_changed_ = false;  // nor drawn as the properties say
 
-  fiber_proximity_ros::ChainSet chains_;
+  fiber_proximity_ros::FiberBuffer chains_;
   fiber::FiberAssembly fibers_;
   std::vector<Color> colors_;
   FiberMesher mesher_;

@@ -2,7 +2,7 @@
 #include <stdexcept>
 
 #include "fiber_proximity/sim/material.hpp"
-#include "src/text/listed.hpp"
+#include "src/text/join.hpp"
 #include "src/text/quote.hpp"
 
 namespace fiber {
@@ -30,7 +30,7 @@ RodMaterial material_preset(const std::string& name) {
     return found->second;
   }
   throw std::invalid_argument("there is no material " + quote(name) +
-                              ", known are: " + listed(material_names()));
+                              ", known are: " + join(material_names()));
 }
 
 std::vector<std::string> material_names() {

@@ -89,7 +89,7 @@ ExitCode parse_and_run(CLI::App& app, const Setup& setup, int argc, const char* 
   const std::vector<std::string> known = subcommands(app);
   if (const std::optional<std::string> unknown = unknown_subcommand(known, argc, argv)) {
     throw std::invalid_argument("unknown subcommand " + quote(*unknown) +
-                                ", known are: " + listed(known));
+                                ", known are: " + join(known));
   }
   try {
     app.parse(argc, argv);
@@ -101,7 +101,7 @@ ExitCode parse_and_run(CLI::App& app, const Setup& setup, int argc, const char* 
     return SUCCEEDED;
   }
   if (!command) {
-    throw std::invalid_argument("a subcommand is needed: " + listed(known));
+    throw std::invalid_argument("a subcommand is needed: " + join(known));
   }
   return command();
 }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "src/text/listed.hpp"
+#include "src/text/join.hpp"
 
 namespace fiber {
 

@@ -89,7 +89,7 @@ ExitCode run(const CompareRequest& request) {
 
 void add_options(CLI::App& app, CompareRequest& request) {
   app.add_option("FILE", request.file, "fibre file (.csv or .hair)")->required();
-  app.add_option("--engine", request.engine, "one of " + listed(engine_names()))
+  app.add_option("--engine", request.engine, "one of " + join(engine_names()))
       ->capture_default_str();
   app.add_option("--radius", request.radius, "of all fibres, if the file has no radii [m]")
       ->capture_default_str();

@@ -6,7 +6,7 @@ namespace fiber {
 
 void add_fiber_options(CLI::App& app, FiberRequest& request) {
   app.add_option("FILE", request.file, "fibre file (.csv or .hair)")->required();
-  app.add_option("--engine", request.engine, "one of " + listed(engine_names()))
+  app.add_option("--engine", request.engine, "one of " + join(engine_names()))
       ->capture_default_str();
   app.add_option("--radius", request.radius, "of all fibres, if the file has no radii [m]")
       ->capture_default_str();
@@ -20,12 +20,14 @@ void add_kernel_option(CLI::App& app, Kernel& kernel) {
   app.add_option_function<std::string>(
          "--kernel",
          [&kernel](const std::string& name) {
-           if (name == "fast") {
-             std::cerr << "warning: --kernel fast saved no time and is gone: robust is used\n";
+           const std::string current = current_kernel_name(name);
+           if (current != name) {
+             std::cerr << "warning: --kernel " << name << " saved no time and is gone: " << current
+                       << " is used\n";
            }
-           kernel = name == "fast" ? Kernel::ROBUST : kernel_from_name(name);
+           kernel = kernel_from_name(current);
          },
-         "one of " + listed(kernel_names()))
+         "one of " + join(kernel_names()))
       ->default_str("robust");
 }
 

@@ -31,7 +31,7 @@ ExitCode run(const Request& request) {
 void setup(CLI::App& app, Command& command) {
   const auto request = std::make_shared<Request>();
   command = [request] { return run(*request); };
-  app.add_option("NAME", request->name, "one of " + listed(scene_names()))->required();
+  app.add_option("NAME", request->name, "one of " + join(scene_names()))->required();
   app.add_option("--scale", request->options.scale, "of the number of fibres")
       ->capture_default_str();
   app.add_option("--frames", request->frames,

@@ -4,7 +4,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "src/text/listed.hpp"
+#include "src/text/join.hpp"
 #include "src/text/quote.hpp"
 
 namespace fiber {
@@ -20,7 +20,7 @@ std::string value_of(const YAML::Node& node) {
 
 void YamlField::require_map(const std::vector<std::string>& keys) const {
   if (!node_.IsMap()) {
-    refuse("a map of the keys " + listed(keys));
+    refuse("a map of the keys " + join(keys));
   }
   std::set<std::string> seen;
   for (const auto& entry : node_) {
@@ -28,7 +28,7 @@ void YamlField::require_map(const std::vector<std::string>& keys) const {
     const std::string text = name.text();
     if (std::find(keys.begin(), keys.end(), text) == keys.end()) {
       throw std::invalid_argument(name.place() + " has the unknown key " + quote(text) +
-                                  ", known are: " + listed(keys));
+                                  ", known are: " + join(keys));
     }
     if (!seen.insert(text).second) {
       throw std::invalid_argument(name.place() + " has the key " + quote(text) + " twice");

@@ -5,7 +5,6 @@ Usage: links_test.py ROOT
 """
 import os
 import re
-import subprocess
 import sys
 
 LINK = re.compile(r'\[[^\]]*\]\(([^)\s]+)\)|<img src="([^"]+)"')
@@ -21,13 +20,21 @@ def anchors(text):
     return found
 
 
+def pages(root):
+    """The Markdown files below, by their paths from there; not those of builds and hidden folders."""
+    for folder, below, names in os.walk(root):
+        below[:] = sorted(name for name in below if not name.startswith('.') and
+                          not os.path.exists(os.path.join(folder, name, 'CMakeCache.txt')))
+        for name in sorted(names):
+            if name.endswith('.md'):
+                yield os.path.relpath(os.path.join(folder, name), root)
+
+
 def main():
     root = os.path.abspath(sys.argv[1])
-    listed = subprocess.run(['git', 'ls-files', '*.md'], cwd=root, check=True, text=True,
-                            capture_output=True).stdout.split()
     links = 0
     broken = []
-    for name in listed:
+    for name in pages(root):
         with open(os.path.join(root, name), encoding='utf-8') as file:
             text = file.read()
         for groups in LINK.findall(FENCE.sub('', text)):

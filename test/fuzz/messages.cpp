@@ -37,15 +37,15 @@ Options options_of(std::uint8_t bits) {
   return options;
 }
 
-bool read(const visualization_msgs::Marker& message, const Options& options, ChainSet& chains) {
+bool read(const visualization_msgs::Marker& message, const Options& options, FiberBuffer& chains) {
   return to_chains(message, options.marker, chains);
 }
 bool read(const visualization_msgs::MarkerArray& message, const Options& options,
-          ChainSet& chains) {
+          FiberBuffer& chains) {
   return to_chains(message, options.marker, chains);
 }
 template <class Message>
-bool read(const Message& message, const Options& /*options*/, ChainSet& chains) {
+bool read(const Message& message, const Options& /*options*/, FiberBuffer& chains) {
   to_chains(message, chains);
   return true;
 }
@@ -54,7 +54,7 @@ bool read(const Message& message, const Options& /*options*/, ChainSet& chains) 
 template <class Message>
 void try_fibers(MessageStream& stream, const Options& options) {
   const auto message = stream.read<Message>();
-  ChainSet chains;
+  FiberBuffer chains;
   if (!read(message, options, chains)) {
     return;
   }
@@ -72,7 +72,7 @@ void try_fibers(MessageStream& stream, const Options& options) {
 
 void try_cloud(MessageStream& stream, const Options& /*options*/) {
   const auto message = stream.read<sensor_msgs::PointCloud2>();
-  ChainSet chains;
+  FiberBuffer chains;
   to_chains(message, chains);
   CloudCells cells{CloudOptions{}};
   const CloudCounts counts =

@@ -33,7 +33,7 @@ add_custom_target(message_headers DEPENDS ${headers})
 include_directories(SYSTEM ${generated})
 
 fuzzed_library(fuzzed_messages UNITY 4
-  src/ros/support/chain_set.cpp
+  src/ros/support/fiber_buffer.cpp
   src/ros/environment/cloud_cells.cpp
   src/ros/support/conversions.cpp
   src/ros/inputs/marker_input.cpp

@@ -130,7 +130,7 @@ TEST_P(ContactLimitTest, FewMoreThanTheLimitAreInMemory) {
   const FiberAssembly fibers = tangle(random, 60);
   QueryOptions options = within(infinity);
   options.contact_limit = 100;
-  constexpr std::size_t of_one_round = 16'384;  // ContactJudge's
+  constexpr std::size_t of_one_round = 16'384;  // ContactEvaluator's
   const QueryResult found = ask(fibers, options);
   ASSERT_EQ(found.contacts.size(), 100U);
   EXPECT_LT(found.contacts.capacity(), 2 * (2 * options.contact_limit + of_one_round + 2000));

@@ -19,7 +19,7 @@ Contact contact(std::uint32_t fiber_a, std::uint32_t segment_a, std::uint32_t fi
 }
 
 /// Segments of a and distances of contacts, in their order.
-std::vector<std::pair<std::uint32_t, double>> listed(const QueryResult& result) {
+std::vector<std::pair<std::uint32_t, double>> join(const QueryResult& result) {
   std::vector<std::pair<std::uint32_t, double>> all;
   for (const Contact& each : result.contacts) {
     all.emplace_back(each.segment_a, each.distance);
@@ -52,22 +52,22 @@ QueryResult merged(QueryType type) {
 
 TEST(MergeResults, KeepsAllInTheOrderOfTheirSegments) {
   const QueryResult result = merged(QueryType::ALL);
-  EXPECT_EQ(listed(result), (Listed{{2, 3.0}, {3, 1.0}, {4, 1.5}, {5, 2.0}}));
+  EXPECT_EQ(join(result), (Listed{{2, 3.0}, {3, 1.0}, {4, 1.5}, {5, 2.0}}));
   EXPECT_EQ(result.others_lower, 8.0);
 }
 
 TEST(MergeResults, KeepsTheClosestAndNotesWhatItLeavesOut) {
   const QueryResult closest = merged(QueryType::CLOSEST);
-  EXPECT_EQ(listed(closest), (Listed{{3, 1.0}}));
+  EXPECT_EQ(join(closest), (Listed{{3, 1.0}}));
   EXPECT_EQ(closest.others_lower, 1.5 - 0.1);
   const QueryResult limited = merged(QueryType::LIMITED);
-  EXPECT_EQ(listed(limited), (Listed{{3, 1.0}, {4, 1.5}}));
+  EXPECT_EQ(join(limited), (Listed{{3, 1.0}, {4, 1.5}}));
   EXPECT_EQ(limited.others_lower, 2.0 - 0.1);
 }
 
 TEST(MergeResults, KeepsTheClosestOfEachPairOfFibersAndNotesWhatItLeavesOut) {
   const QueryResult result = merged(QueryType::FIBER_PAIRS);
-  EXPECT_EQ(listed(result), (Listed{{2, 3.0}, {3, 1.0}}));
+  EXPECT_EQ(join(result), (Listed{{2, 3.0}, {3, 1.0}}));
   EXPECT_EQ(result.others_lower, 1.5 - 0.1);
 }
 

@@ -10,8 +10,8 @@
 #include <stdexcept>
 
 #include "fiber_proximity/geometry/contact_time.hpp"
-#include "fiber_proximity/query/pair_test.hpp"
-#include "src/query/contact_judge.hpp"
+#include "fiber_proximity/query/narrow_phase.hpp"
+#include "src/query/contact_evaluator.hpp"
 #include "test/query/motion_queries.hpp"
 #include "test/support/error_of.hpp"
 

@@ -29,7 +29,7 @@ std::string error_of(const std::function<void()>& function) {
   return "no error";
 }
 
-void expect_one_chain(const ChainSet& chains) {
+void expect_one_chain(const FiberBuffer& chains) {
   EXPECT_EQ(chains.header.frame_id, "camera");
   EXPECT_EQ(chains.header.stamp, ros::Time(3, 4));
   EXPECT_EQ(chains.points, chain());
@@ -43,7 +43,7 @@ TEST(Conversions, AnAssemblyComesBackFromItsMessage) {
                                     {0.5, 0.25});
   fiber_proximity::FiberArray message;
   to_message(fibers, {"left", "right"}, message);
-  ChainSet chains;
+  FiberBuffer chains;
   to_chains(message, chains);
   EXPECT_EQ(chains.points, fibers.points());
   EXPECT_EQ(chains.offsets, fibers.offsets());
@@ -54,7 +54,7 @@ TEST(Conversions, AnAssemblyComesBackFromItsMessage) {
 TEST(Conversions, NamesMustBeOnePerFibre) {
   fiber_proximity::FiberArray message = test_messages::fiber_array(header("map"), chain());
   message.names = {"one", "two"};
-  ChainSet chains;
+  FiberBuffer chains;
   EXPECT_EQ(error_of([&] { to_chains(message, chains); }),
             "2 names for 1 fibre(s); give one per fibre or none");
 }
@@ -91,7 +91,7 @@ TEST(Conversions, ContactKeepsEveryField) {
 
 TEST(Conversions, EveryTypeOfOneChainGivesTheSame) {
   const std_msgs::Header camera = header("camera", ros::Time(3, 4));
-  ChainSet chains;
+  FiberBuffer chains;
   to_chains(test_messages::fiber_array(camera, chain()), chains);
   expect_one_chain(chains);
   to_chains(test_messages::point_cloud2(camera, chain()), chains);
@@ -107,7 +107,7 @@ TEST(Conversions, EveryTypeOfOneChainGivesTheSame) {
 TEST(Conversions, APoseOfAPathMustBeInThePathsFrame) {
   nav_msgs::Path message = test_messages::path(header("map"), chain());
   message.poses[1].header.frame_id = "map";
-  ChainSet chains;
+  FiberBuffer chains;
   EXPECT_NO_THROW(to_chains(message, chains));
   message.poses[2].header.frame_id = "gripper";
   EXPECT_EQ(error_of([&] { to_chains(message, chains); }),
@@ -150,7 +150,7 @@ sensor_msgs::PointCloud2 unusual_cloud() {
 }
 
 TEST(PointCloud2, AnyLayoutIsReadRowByRow) {
-  ChainSet chains;
+  FiberBuffer chains;
   to_chains(unusual_cloud(), chains);
   EXPECT_EQ(chains.points,
             (Points{{20, 10, 0.0}, {21, 11, 0.1}, {22, 12, 0.2}, {23, 13, 0.1 * 3}}));
@@ -160,13 +160,13 @@ TEST(PointCloud2, AnyLayoutIsReadRowByRow) {
 TEST(PointCloud2, AnEmptyCloudIsAFibreOfNoPoints) {
   sensor_msgs::PointCloud2 cloud = test_messages::point_cloud2(header("map"), {});
   cloud.height = 0xFFFF'FFFFU;
-  ChainSet chains;
+  FiberBuffer chains;
   to_chains(cloud, chains);
   EXPECT_EQ(chains.offsets, (std::vector<std::uint32_t>{0, 0}));
 }
 
 TEST(PointCloud2, MalformedCloudsAreRefused) {
-  ChainSet chains;
+  FiberBuffer chains;
   const auto error_after = [&chains](const std::function<void(sensor_msgs::PointCloud2&)>& change) {
     sensor_msgs::PointCloud2 cloud = unusual_cloud();
     change(cloud);
@@ -190,8 +190,8 @@ TEST(PointCloud2, MalformedCloudsAreRefused) {
             "data has 85 bytes, but 2 row(s) of row_step 43 make 86");
 }
 
-TEST(ChainSet, AssignRefusesWhatAnAssemblyRefuses) {
-  ChainSet chains;
+TEST(FiberBuffer, AssignRefusesWhatAnAssemblyRefuses) {
+  FiberBuffer chains;
   chains.points = chain();
   chains.end_chain();
   chains.radii = {0.5};

@@ -34,14 +34,14 @@ MarkerArray array(std::vector<Marker> markers) {
   return message;
 }
 
-ChainSet read(const MarkerArray& message, const MarkerInputOptions& options = {}) {
-  ChainSet chains;
+FiberBuffer read(const MarkerArray& message, const MarkerInputOptions& options = {}) {
+  FiberBuffer chains;
   EXPECT_TRUE(to_chains(message, options, chains));
   return chains;
 }
 
 std::string error_of(const MarkerArray& message) {
-  ChainSet chains;
+  FiberBuffer chains;
   try {
     to_chains(message, {}, chains);
   } catch (const std::invalid_argument& error) {
@@ -53,7 +53,7 @@ std::string error_of(const MarkerArray& message) {
 TEST(MarkerInput, AListOfPointsIsAFibre) {
   for (const int type :
        {Marker::LINE_STRIP, Marker::POINTS, Marker::SPHERE_LIST, Marker::CUBE_LIST}) {
-    const ChainSet chains =
+    const FiberBuffer chains =
         read(array({marker(header("map"), type, chain(0)), marker(header("map"), type, chain(5))}));
     EXPECT_EQ(chains.offsets, (std::vector<std::uint32_t>{0, 4, 8})) << type;
     EXPECT_EQ(Points(chains.points.begin(), chains.points.begin() + 4), chain(0)) << type;
@@ -63,7 +63,7 @@ TEST(MarkerInput, AListOfPointsIsAFibre) {
 }
 
 TEST(MarkerInput, ASingleMarkerIsReadAsAnArrayOfOne) {
-  ChainSet chains;
+  FiberBuffer chains;
   EXPECT_TRUE(to_chains(marker(header("map"), Marker::LINE_STRIP, chain(0)), {}, chains));
   EXPECT_EQ(chains.points, chain(0));
   EXPECT_EQ(chains.header.frame_id, "map");
@@ -79,7 +79,7 @@ TEST(MarkerInput, TheMarkersPoseIsApplied) {
   strip.pose.orientation.x = 2.0 * q.x();
   strip.pose.orientation.y = 2.0 * q.y();
   strip.pose.orientation.z = 2.0 * q.z();
-  const ChainSet chains = read(array({strip}));
+  const FiberBuffer chains = read(array({strip}));
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_LT((chains.points[i] - pose * chain(0)[i]).norm(), 1e-14);
   }
@@ -92,7 +92,7 @@ TEST(MarkerInput, LineListsAreWeldedWithATolerance) {
   pairs[2] += Eigen::Vector3d(0.1, 0, 0);  // a gap at the first joint
   std::swap(pairs[0], pairs[1]);           // segments turned round
   std::swap(pairs[4], pairs[5]);
-  const ChainSet chains = read(array({marker(header("map"), Marker::LINE_LIST, pairs)}));
+  const FiberBuffer chains = read(array({marker(header("map"), Marker::LINE_LIST, pairs)}));
   Points expected = chain(0);
   expected[1] += Eigen::Vector3d(0.05, 0, 0);
   EXPECT_EQ(chains.points, expected);
@@ -106,7 +106,7 @@ TEST(MarkerInput, LineListsAreWeldedWithATolerance) {
 
 TEST(MarkerInput, LineListsOfTwoMarkersAreTwoFibres) {
   const Points all = chain(0);
-  const ChainSet chains =
+  const FiberBuffer chains =
       read(array({marker(header("map"), Marker::LINE_LIST, segments({all[0], all[1], all[2]})),
                   marker(header("map"), Marker::LINE_LIST, segments({all[2], all[3]}))}));
   EXPECT_EQ(chains.offsets, (std::vector<std::uint32_t>{0, 3, 5}));
@@ -119,13 +119,13 @@ TEST(MarkerInput, StripsOfTwoPointsAreWelded) {
     message.markers.push_back(marker(header("map"), Marker::LINE_STRIP, {pairs[i], pairs[i + 1]}));
   }
   message.markers.emplace_back();  // a planner that sizes its array one too large
-  const ChainSet chains = read(message);
+  const FiberBuffer chains = read(message);
   EXPECT_EQ(chains.points, chain(0));
   EXPECT_EQ(chains.offsets, (std::vector<std::uint32_t>{0, 4}));
 }
 
 TEST(MarkerInput, LinesWinOverPointsOfTheSameCable) {
-  const ChainSet chains =
+  const FiberBuffer chains =
       read(array({marker(header("map"), Marker::POINTS, {{9, 9, 9}, {8, 8, 8}}),
                   marker(header("map"), Marker::LINE_LIST, segments(chain(0)))}));
   EXPECT_EQ(chains.points, chain(0));
@@ -157,7 +157,7 @@ TEST(MarkerInput, CylindersAreWeldedAlongTheirAxes) {
   }
   MarkerInputOptions options;
   options.radius_from_marker = true;
-  const ChainSet chains = read(message, options);
+  const FiberBuffer chains = read(message, options);
   ASSERT_EQ(chains.offsets, (std::vector<std::uint32_t>{0, 4}));
   EXPECT_EQ(chains.radii, std::vector<double>{0.01});
   for (int i = 0; i < 4; ++i) {
@@ -171,7 +171,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 const Eigen::Vector3d missing(nan, nan, nan);
 
 /// A character per point: k known, m missing, a bar between fibres.
-std::string pattern_of(const ChainSet& chains) {
+std::string pattern_of(const FiberBuffer& chains) {
   std::string pattern;
   for (std::size_t i = 0; i < chains.points.size(); ++i) {
     const auto begin = std::find(chains.offsets.begin(), chains.offsets.end(), i);
@@ -190,10 +190,10 @@ TEST(MarkerInput, AMissingPointOfALineListIsInItsChainWhateverElseIsMissing) {
       points.push_back(is_lost ? missing : Eigen::Vector3d(i, i % 2, 0));
       expected += is_lost ? "m" : "k";
     }
-    const ChainSet lines =
+    const FiberBuffer lines =
         read(array({marker(header("map"), Marker::LINE_LIST, segments(points))}));
     EXPECT_EQ(pattern_of(lines), expected);
-    const ChainSet strip = read(array({marker(header("map"), Marker::LINE_STRIP, points)}));
+    const FiberBuffer strip = read(array({marker(header("map"), Marker::LINE_STRIP, points)}));
     for (std::size_t i = 0; i < std::min(points.size(), lines.points.size()); ++i) {
       EXPECT_EQ(lines.points[i].allFinite() ? lines.points[i] : Eigen::Vector3d::Zero(),
                 strip.points[i].allFinite() ? strip.points[i] : Eigen::Vector3d::Zero());
@@ -219,7 +219,7 @@ TEST(MarkerInput, AMissingCylinderIsAGapOfItsFibre) {
   }
   MarkerInputOptions options;
   options.radius_from_marker = true;
-  const ChainSet chains = read(message, options);
+  const FiberBuffer chains = read(message, options);
   EXPECT_EQ(pattern_of(chains), "kkkmkkk");
   EXPECT_EQ(chains.radii, std::vector<double>{0.01});
 }
@@ -241,7 +241,7 @@ TEST(MarkerInput, OnlyTheChosenNamespaceIsRead) {
   options.marker_namespace = "other";
   EXPECT_EQ(read(message, options).points, chain(3));
   options.marker_namespace = "nobody";
-  ChainSet chains;
+  FiberBuffer chains;
   EXPECT_FALSE(to_chains(message, options, chains));
 }
 
@@ -251,7 +251,7 @@ TEST(MarkerInput, DeletionsAreNoFibres) {
   message.markers[0].action = Marker::DELETEALL;
   EXPECT_EQ(read(message).points, chain(3));
   message.markers[1].action = Marker::DELETE;
-  ChainSet chains;
+  FiberBuffer chains;
   EXPECT_FALSE(to_chains(message, {}, chains));
 }
 

@@ -19,8 +19,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Fibres as strings: a point per character, `.` known and `x` missing. The x of a point tells its
 /// place among all.
-ChainSet chains_of(const std::vector<std::string>& fibers) {
-  ChainSet chains;
+FiberBuffer chains_of(const std::vector<std::string>& fibers) {
+  FiberBuffer chains;
   chains.header.frame_id = "camera";
   const std::vector<Eigen::Vector3d> missing{{nan, 0, 0}, {0, infinity, 0}, {0, 0, -infinity}};
   for (const std::string& fiber : fibers) {
@@ -38,7 +38,7 @@ ChainSet chains_of(const std::vector<std::string>& fibers) {
 }
 
 /// Fibres as lists of the places their points had.
-std::vector<std::vector<int>> places(const ChainSet& chains) {
+std::vector<std::vector<int>> places(const FiberBuffer& chains) {
   std::vector<std::vector<int>> fibers(chains.fiber_count());
   for (std::size_t fiber = 0; fiber < fibers.size(); ++fiber) {
     for (std::uint32_t i = chains.offsets[fiber]; i < chains.offsets[fiber + 1]; ++i) {
@@ -51,11 +51,11 @@ std::vector<std::vector<int>> places(const ChainSet& chains) {
 using Places = std::vector<std::vector<int>>;
 
 struct Handled {
-  ChainSet chains;
+  FiberBuffer chains;
   MissingPointCounts counts;
 };
 
-Handled handle(MissingPoints policy, const ChainSet& chains) {
+Handled handle(MissingPoints policy, const FiberBuffer& chains) {
   Handled handled{chains, {}};
   handle_missing_points(policy, handled.chains, handled.counts);
   EXPECT_EQ(handled.chains.header.frame_id, "camera");
@@ -99,9 +99,9 @@ TEST(MissingPoints, AFibreOfWhichTooLittleIsKnownIsAbsent) {
 
 TEST(MissingPoints, NothingLeftIsAnAssemblyOfNoFibres) {
   for (const Radii& radii : {Radii{}, Radii{0.5}, Radii{0.5, 0.25}, Radii{1, 2, 3, 4, 5}}) {
-    ChainSet chains = chains_of({"xxx", "xx"});
+    FiberBuffer chains = chains_of({"xxx", "xx"});
     chains.radii = radii;
-    ChainSet left = handle(MissingPoints::SPLIT, chains).chains;
+    FiberBuffer left = handle(MissingPoints::SPLIT, chains).chains;
     EXPECT_EQ(left.fiber_count(), 0U);
     left.radii.resize(1);  // as the input does
     fiber::FiberAssembly fibers;
@@ -111,10 +111,10 @@ TEST(MissingPoints, NothingLeftIsAnAssemblyOfNoFibres) {
 }
 
 TEST(MissingPoints, RadiiGoWithTheirPointsOrFibres) {
-  ChainSet chains = chains_of({"..x..", ".x.", "xx"});
+  FiberBuffer chains = chains_of({"..x..", ".x.", "xx"});
   const auto radii_after = [&chains](MissingPoints policy, const Radii& radii) {
     chains.radii = radii;
-    const ChainSet left = handle(policy, chains).chains;
+    const FiberBuffer left = handle(policy, chains).chains;
     fiber::FiberAssembly fibers;
     EXPECT_NO_THROW(assign(left, fibers));
     return left.radii;
@@ -129,7 +129,7 @@ TEST(MissingPoints, RadiiGoWithTheirPointsOrFibres) {
 }
 
 TEST(MissingPoints, NamesStayUniqueWhateverTheTrackerCallsItsFibres) {
-  ChainSet chains = chains_of({"..x..x..", "..", "..x.."});
+  FiberBuffer chains = chains_of({"..x..x..", "..", "..x.."});
   chains.names = {"f", "f[3]", "f[3][3]"};
   const Names names = handle(MissingPoints::SPLIT, chains).chains.names;
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), 6U);
@@ -146,7 +146,7 @@ TEST(MissingPoints, ThePieceOfTheSamePointsHasTheSameNameWhateverElseIsMissing) 
 }
 
 TEST(MissingPoints, RefusedIsTheFirstByNameAndAllAreCounted) {
-  ChainSet chains = chains_of({"...", "..x.x"});
+  FiberBuffer chains = chains_of({"...", "..x.x"});
   MissingPointCounts counts;
   try {
     handle_missing_points(MissingPoints::REFUSE, chains, counts);
@@ -160,8 +160,8 @@ TEST(MissingPoints, RefusedIsTheFirstByNameAndAllAreCounted) {
 }
 
 TEST(MissingPoints, WhatLiesAboutItsLayoutStaysForTheAssemblyToRefuse) {
-  const auto expect_untouched = [](const std::function<void(ChainSet&)>& spoil) {
-    ChainSet chains = chains_of({"..x..", "..."});
+  const auto expect_untouched = [](const std::function<void(FiberBuffer&)>& spoil) {
+    FiberBuffer chains = chains_of({"..x..", "..."});
     spoil(chains);
     const Offsets offsets = chains.offsets;
     MissingPointCounts counts;
@@ -175,15 +175,15 @@ TEST(MissingPoints, WhatLiesAboutItsLayoutStaysForTheAssemblyToRefuse) {
     }
     expect_counts(counts, 0, 0, 0);
   };
-  expect_untouched([](ChainSet& chains) { chains.offsets.clear(); });
-  expect_untouched([](ChainSet& chains) { chains.offsets = {0, 6, 5, 8}; });
-  expect_untouched([](ChainSet& chains) { chains.offsets = {0, 5, 9}; });
-  expect_untouched([](ChainSet& chains) { chains.offsets = {1, 5, 8}; });
-  expect_untouched([](ChainSet& chains) { chains.offsets = {0, 5, 7}; });
-  expect_untouched([](ChainSet& chains) { chains.offsets = {0, 5, 7, 8}; });
-  expect_untouched([](ChainSet& chains) { chains.offsets = {0, 5, 0xFFFF'FFFFU, 8}; });
+  expect_untouched([](FiberBuffer& chains) { chains.offsets.clear(); });
+  expect_untouched([](FiberBuffer& chains) { chains.offsets = {0, 6, 5, 8}; });
+  expect_untouched([](FiberBuffer& chains) { chains.offsets = {0, 5, 9}; });
+  expect_untouched([](FiberBuffer& chains) { chains.offsets = {1, 5, 8}; });
+  expect_untouched([](FiberBuffer& chains) { chains.offsets = {0, 5, 7}; });
+  expect_untouched([](FiberBuffer& chains) { chains.offsets = {0, 5, 7, 8}; });
+  expect_untouched([](FiberBuffer& chains) { chains.offsets = {0, 5, 0xFFFF'FFFFU, 8}; });
   // Two pieces and another fibre would have three radii.
-  expect_untouched([](ChainSet& chains) { chains.radii = {1, 2, 3}; });
+  expect_untouched([](FiberBuffer& chains) { chains.radii = {1, 2, 3}; });
 }
 
 TEST(MissingPoints, OfRandomFibresEveryKnownPointIsInOrderOrCounted) {
@@ -196,7 +196,7 @@ TEST(MissingPoints, OfRandomFibresEveryKnownPointIsInOrderOrCounted) {
         point = random() % 3 == 0 ? 'x' : '.';
       }
     }
-    const ChainSet chains = chains_of(fibers);
+    const FiberBuffer chains = chains_of(fibers);
     for (const MissingPoints policy : {MissingPoints::BRIDGE, MissingPoints::SPLIT}) {
       const Handled handled = handle(policy, chains);
       std::size_t known = 0;

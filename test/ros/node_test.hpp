@@ -167,7 +167,7 @@ class NodeTest : public ::testing::Test {
 };
 
 inline fiber::FiberAssembly to_assembly(const fiber_proximity::FiberArray& message) {
-  fiber_proximity_ros::ChainSet chains;
+  fiber_proximity_ros::FiberBuffer chains;
   fiber_proximity_ros::to_chains(message, chains);
   return {chains.points, chains.offsets, chains.radii};
 }

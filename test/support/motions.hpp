@@ -5,7 +5,7 @@
 
 #include "fiber_proximity/geometry/contact_time.hpp"
 #include "fiber_proximity/query/motion.hpp"
-#include "fiber_proximity/query/pair_test.hpp"
+#include "fiber_proximity/query/narrow_phase.hpp"
 
 namespace fiber::test {
 
@@ -49,7 +49,7 @@ inline std::vector<std::uint32_t> first_points(const FiberAssembly& fibers) {
 inline MotionResult expected_of(const FiberAssembly& before, const FiberAssembly& after,
                                 const MotionOptions& options) {
   const QueryOptions pairs = pairs_of(options);
-  const PairTest test(before, pairs);
+  const NarrowPhase test(before, pairs);
   const std::vector<std::uint32_t> segments = first_points(before);
   MotionResult result;
   for (const std::uint32_t a : segments) {

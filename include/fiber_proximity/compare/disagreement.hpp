@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/query/narrow_phase.hpp"
 #include "fiber_proximity/query/options.hpp"
-#include "fiber_proximity/query/pair_test.hpp"
 
 namespace fiber {
 
@@ -68,7 +68,7 @@ class PairOracle {
 
   const FiberAssembly& fibers_;
   const QueryOptions& options_;
-  const PairTest test_;
+  const NarrowPhase test_;
 };
 
 }  // namespace fiber

@@ -42,7 +42,7 @@ class FclCapsules : public FclBroadPhase {
   /// capsules that are one point, and now and then elsewhere (docs/numerics.md).
   /// @param found the pairs within the test's margin and those without an answer, in no order
   /// @return number of pairs that were measured
-  virtual std::uint64_t measure(const PairTest& test, std::vector<FclDistance>& found) const = 0;
+  virtual std::uint64_t measure(const NarrowPhase& test, std::vector<FclDistance>& found) const = 0;
 };
 
 /// FCL's tree over our own boxes: FCL offers no other way to give a rotated object a tight one.

@@ -8,7 +8,7 @@
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/motion.hpp"
-#include "fiber_proximity/query/motion_judge.hpp"
+#include "fiber_proximity/query/motion_evaluator.hpp"
 #include "fiber_proximity/query/options.hpp"
 
 namespace fiber {
@@ -116,10 +116,10 @@ class ProximityEngine {
 
   /// Pairs of segments whose gap comes down to the test's margin, but for those that the test
   /// leaves out; others may be among them.
-  virtual void do_find_candidates(const PairTest& test, const QueryLimits& limits,
+  virtual void do_find_candidates(const NarrowPhase& test, const QueryLimits& limits,
                                   MotionCandidates& candidates) const;
   /// The same of a shape that moves (a) and the fibres (b).
-  virtual void do_find_shape_candidates(const FiberMotion& shape, const PairTest& test,
+  virtual void do_find_shape_candidates(const FiberMotion& shape, const NarrowPhase& test,
                                         const QueryLimits& limits,
                                         MotionCandidates& candidates) const;
   /// What is known of the loops of the fibres before the motion, nullptr if nothing is.

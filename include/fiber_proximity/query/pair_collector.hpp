@@ -5,9 +5,9 @@
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/query/contact.hpp"
-#include "fiber_proximity/query/contact_keeper.hpp"
+#include "fiber_proximity/query/contact_accumulator.hpp"
+#include "fiber_proximity/query/narrow_phase.hpp"
 #include "fiber_proximity/query/options.hpp"
-#include "fiber_proximity/query/pair_test.hpp"
 
 namespace fiber {
 
@@ -18,7 +18,7 @@ namespace fiber {
 class PairCollector {
  public:
   /// Pairs within one assembly.
-  /// @param loops as PairTest takes them
+  /// @param loops as NarrowPhase takes them
   PairCollector(const FiberAssembly& fibers, const QueryOptions& options, QueryResult& result,
                 const LoopTest* loops = nullptr);
   /// Pairs of a shape and the fibres.
@@ -31,17 +31,17 @@ class PairCollector {
 
   /// [m] Pairs further apart than this do not matter any more; rounded up to single precision, as
   /// the bounding volumes take it.
-  float bound() const { return keeper_.rounded_bound(); }
+  float bound() const { return accumulator_.rounded_bound(); }
 
   bool wants_adjacent() const { return test_.wants_adjacent(); }
   PointRange ruled_out_with(std::uint32_t point) const { return test_.ruled_out_with(point); }
 
-  /// See ContactKeeper.
-  bool done() { return keeper_.done(); }
-  bool wants_near_first() const { return keeper_.wants_near_first(); }
+  /// See ContactAccumulator.
+  bool done() { return accumulator_.done(); }
+  bool wants_near_first() const { return accumulator_.wants_near_first(); }
 
   /// Sorts the contacts; call once, after the last offer.
-  void finish() { keeper_.finish(test_.least_gap()); }
+  void finish() { accumulator_.finish(test_.least_gap()); }
 
  private:
   /// Finds the fibre of a point; at once if it is that of the point before.
@@ -60,8 +60,8 @@ class PairCollector {
   void offer_of_fibers(PointPair pair);
   std::optional<Contact> contact_within(PointPair pair, double bound);
 
-  ContactKeeper keeper_;  // first: its time begins, and the test takes time to make
-  const PairTest test_;
+  ContactAccumulator accumulator_;  // first: its time begins, and the test takes time to make
+  const NarrowPhase test_;
   FiberFinder fibers_a_;
   FiberFinder fibers_b_;
   const QueryOptions& options_;

@@ -15,7 +15,7 @@
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/crossing.hpp"
-#include "fiber_proximity/ros/chain_set.hpp"
+#include "fiber_proximity/ros/fiber_buffer.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -43,6 +43,6 @@ void add_gradients(fiber_proximity::Contact& message);
 void to_message(const fiber::Crossing& crossing, fiber_proximity::Crossing& message);
 
 /// @throws std::invalid_argument if there are names, but not one per fibre
-void to_chains(const fiber_proximity::FiberArray& message, ChainSet& chains);
+void to_chains(const fiber_proximity::FiberArray& message, FiberBuffer& chains);
 
 }  // namespace fiber_proximity_ros

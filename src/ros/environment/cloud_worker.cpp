@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "fiber_proximity/ros/chain_set.hpp"
+#include "fiber_proximity/ros/fiber_buffer.hpp"
 #include "src/ros/inputs/point_cloud_input.hpp"
 #include "src/ros/support/stopwatch.hpp"
 
@@ -65,7 +65,7 @@ CloudResult CloudWorker::work(const PlacedCloud& cloud) {
   CloudResult result;
   result.stamp = cloud.stamp;
   try {
-    ChainSet chain;
+    FiberBuffer chain;
     to_chains(*cloud.message, chain);
     result.counts = cells_.add(chain.points, cloud.pose, cloud.stamp.toSec());
     result.octree = cells_.octree();

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "fiber_proximity/InputStatistics.h"
-#include "fiber_proximity/ros/chain_set.hpp"
+#include "fiber_proximity/ros/fiber_buffer.hpp"
 #include "src/ros/inputs/fixed_frame.hpp"
 #include "src/ros/inputs/input_timing.hpp"
 #include "src/ros/inputs/input_types.hpp"
@@ -98,7 +98,7 @@ class Input {
   SequenceGaps gaps_;
   MissingPointCounts missing_;
 
-  ChainSet chains_;                      // what is being read; a member for its memory
+  FiberBuffer chains_;                   // what is being read; a member for its memory
   std::vector<Eigen::Vector3d> buffer_;  // the same
   std::vector<MessagePtr> spare_;        // the same
 

@@ -25,7 +25,7 @@ class ScopeTimer {
   Stopwatch stopwatch_;
 };
 
-void append(const Input& input, ChainSet& merged) {
+void append(const Input& input, FiberBuffer& merged) {
   const fiber::FiberAssembly& fibers = input.fibers();
   const auto begin = static_cast<std::uint32_t>(merged.points.size());
   merged.points.insert(merged.points.end(), fibers.points().begin(), fibers.points().end());

@@ -67,7 +67,7 @@ class InputSet {
   ros::Time last_time_;
   bool was_reset_ = false;
   bool merged_is_old_ = false;
-  ChainSet merged_;
+  FiberBuffer merged_;
   fiber::FiberAssembly fibers_;
   double work_time_ = 0.0;
   std::vector<ros::Subscriber> subscribers_;  // last: their callbacks use all of the above

@@ -19,7 +19,7 @@ constexpr bool is_marker = std::is_same_v<Message, visualization_msgs::Marker> |
                            std::is_same_v<Message, visualization_msgs::MarkerArray>;
 
 template <class Message>
-bool read(const Message& message, const MarkerInputOptions& marker, ChainSet& chains) {
+bool read(const Message& message, const MarkerInputOptions& marker, FiberBuffer& chains) {
   if constexpr (is_marker<Message>) {
     return to_chains(message, marker, chains);
   } else {
@@ -45,7 +45,7 @@ ros::Subscriber subscribe_to(ros::NodeHandle& node, const InputOptions& options,
   const boost::function<void(const Event&)> callback =
       [receiver, marker = options.marker](const Event& event) {
         const Message& message = *event.getConstMessage();
-        receiver({[&](ChainSet& chains) { return read(message, marker, chains); },
+        receiver({[&](FiberBuffer& chains) { return read(message, marker, chains); },
                   event.getPublisherName(), sequence_of(message)});
       };
   return node.subscribe<Message, const Event&>(options.topic, 1, callback, ros::VoidConstPtr(),

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "fiber_proximity/ros/chain_set.hpp"
+#include "fiber_proximity/ros/fiber_buffer.hpp"
 #include "src/ros/inputs/input_options.hpp"
 
 namespace fiber_proximity_ros {
@@ -19,7 +19,7 @@ bool is_marker_type(const std::string& type);
 /// Reads the fibres of one message, in the message's frame.
 /// Returns false if the message holds none for this input; throws std::invalid_argument if it is
 /// malformed.
-using ReadMessage = std::function<bool(ChainSet& chains)>;
+using ReadMessage = std::function<bool(FiberBuffer& chains)>;
 
 /// A message as it arrives.
 struct ReceivedMessage {

@@ -52,7 +52,7 @@ Eigen::Isometry3d pose_of(const Marker& marker) {
 /// Reads markers of one kind into chains.
 class MarkerReader {
  public:
-  MarkerReader(const MarkerInputOptions& options, ChainSet& chains)
+  MarkerReader(const MarkerInputOptions& options, FiberBuffer& chains)
       : options_(options), chains_(chains), welder_(options.weld_tolerance, chains) {}
 
   void read_lines(const Markers& markers) {
@@ -130,7 +130,7 @@ class MarkerReader {
   }
 
   const MarkerInputOptions& options_;
-  ChainSet& chains_;
+  FiberBuffer& chains_;
   SegmentWelder welder_;
 };
 
@@ -160,7 +160,7 @@ void check_frames(const Markers& markers) {
   }
 }
 
-bool read(const Markers& added, const MarkerInputOptions& options, ChainSet& chains) {
+bool read(const Markers& added, const MarkerInputOptions& options, FiberBuffer& chains) {
   chains.clear();
   if (added.empty()) {
     return false;
@@ -207,7 +207,7 @@ bool is_read(const Marker& marker, const MarkerInputOptions& options) {
 }  // namespace
 
 bool to_chains(const visualization_msgs::MarkerArray& message, const MarkerInputOptions& options,
-               ChainSet& chains) {
+               FiberBuffer& chains) {
   Markers added;
   for (const Marker& marker : message.markers) {
     if (is_read(marker, options)) {
@@ -217,7 +217,7 @@ bool to_chains(const visualization_msgs::MarkerArray& message, const MarkerInput
   return read(added, options, chains);
 }
 
-bool to_chains(const Marker& message, const MarkerInputOptions& options, ChainSet& chains) {
+bool to_chains(const Marker& message, const MarkerInputOptions& options, FiberBuffer& chains) {
   return read(is_read(message, options) ? Markers{&message} : Markers{}, options, chains);
 }
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "fiber_proximity/ros/chain_set.hpp"
+#include "fiber_proximity/ros/fiber_buffer.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -32,8 +32,8 @@ struct MarkerInputOptions {
 /// @returns false if there is nothing in it to read: only other namespaces or deletions
 /// @throws std::invalid_argument for markers of other types only, and for malformed ones
 bool to_chains(const visualization_msgs::MarkerArray& message, const MarkerInputOptions& options,
-               ChainSet& chains);
+               FiberBuffer& chains);
 bool to_chains(const visualization_msgs::Marker& message, const MarkerInputOptions& options,
-               ChainSet& chains);
+               FiberBuffer& chains);
 
 }  // namespace fiber_proximity_ros

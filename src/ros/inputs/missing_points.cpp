@@ -13,7 +13,7 @@ namespace {
 bool is_missing(const Eigen::Vector3d& point) { return !point.allFinite(); }
 
 /// True if every point belongs to a fibre of two at least, and radii can be told whose they are.
-bool has_sound_layout(const ChainSet& chains) {
+bool has_sound_layout(const FiberBuffer& chains) {
   const std::vector<std::uint32_t>& offsets = chains.offsets;
   const auto is_too_short = [](std::uint32_t begin, std::uint32_t end) {
     return std::uint64_t{end} < std::uint64_t{begin} + 2;
@@ -24,7 +24,7 @@ bool has_sound_layout(const ChainSet& chains) {
          (radii <= 1 || radii == chains.fiber_count() || radii == chains.points.size());
 }
 
-[[noreturn]] void refuse_first(const ChainSet& chains) {
+[[noreturn]] void refuse_first(const FiberBuffer& chains) {
   const auto missing = std::find_if(chains.points.begin(), chains.points.end(), is_missing);
   const auto index = static_cast<std::uint32_t>(missing - chains.points.begin());
   const auto next = std::upper_bound(chains.offsets.begin(), chains.offsets.end(), index);
@@ -44,7 +44,7 @@ bool has_sound_layout(const ChainSet& chains) {
 /// Copies the known parts of chains, with their names and radii.
 class KnownChains {
  public:
-  KnownChains(const ChainSet& chains, MissingPointCounts& counts)
+  KnownChains(const FiberBuffer& chains, MissingPointCounts& counts)
       : chains_(chains),
         counts_(counts),
         has_radius_per_point_(chains.radii.size() > 1 &&
@@ -70,7 +70,7 @@ class KnownChains {
     counts_.fibers += known_.fiber_count() == fibers_before ? 1 : 0;
   }
 
-  ChainSet take() { return std::move(known_); }
+  FiberBuffer take() { return std::move(known_); }
 
  private:
   std::size_t piece_size() const { return known_.points.size() - known_.offsets.back(); }
@@ -120,11 +120,11 @@ class KnownChains {
     return piece;
   }
 
-  const ChainSet& chains_;
+  const FiberBuffer& chains_;
   MissingPointCounts& counts_;
   bool has_radius_per_point_;
   bool has_radius_per_fiber_;
-  ChainSet known_;
+  FiberBuffer known_;
   std::uint32_t first_index_ = 0;  // of the piece's first point
   std::unordered_set<std::string> taken_names_;
 };
@@ -144,7 +144,7 @@ std::optional<MissingPoints> missing_points_from_name(const std::string& name) {
   return std::nullopt;
 }
 
-void handle_missing_points(MissingPoints policy, ChainSet& chains, MissingPointCounts& counts) {
+void handle_missing_points(MissingPoints policy, FiberBuffer& chains, MissingPointCounts& counts) {
   const auto missing = std::count_if(chains.points.begin(), chains.points.end(), is_missing);
   if (missing == 0 || !has_sound_layout(chains)) {
     return;

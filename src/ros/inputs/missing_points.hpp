@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "fiber_proximity/ros/chain_set.hpp"
+#include "fiber_proximity/ros/fiber_buffer.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -33,6 +33,6 @@ struct MissingPointCounts {
 /// unique and the same piece has the same name whatever else is missing. A radius goes with its
 /// point, or with the pieces of its fibre.
 /// @throws std::invalid_argument naming the first of the missing points if they are to be refused
-void handle_missing_points(MissingPoints policy, ChainSet& chains, MissingPointCounts& counts);
+void handle_missing_points(MissingPoints policy, FiberBuffer& chains, MissingPointCounts& counts);
 
 }  // namespace fiber_proximity_ros

@@ -73,7 +73,7 @@ void check_layout(const PointCloud2& cloud) {
 
 }  // namespace
 
-void to_chains(const PointCloud2& message, ChainSet& chains) {
+void to_chains(const PointCloud2& message, FiberBuffer& chains) {
   chains.clear();
   chains.header = message.header;
   const std::array<CoordinateField, 3> fields{
@@ -91,7 +91,7 @@ void to_chains(const PointCloud2& message, ChainSet& chains) {
   chains.end_chain();
 }
 
-void to_chains(const sensor_msgs::PointCloud& message, ChainSet& chains) {
+void to_chains(const sensor_msgs::PointCloud& message, FiberBuffer& chains) {
   chains.clear();
   chains.header = message.header;
   chains.points.reserve(message.points.size());

@@ -3,7 +3,7 @@
 #include <sensor_msgs/PointCloud.h>
 #include <sensor_msgs/PointCloud2.h>
 
-#include "fiber_proximity/ros/chain_set.hpp"
+#include "fiber_proximity/ros/fiber_buffer.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -11,9 +11,9 @@ namespace fiber_proximity_ros {
 /// float32 or float64 at any offset; all others are ignored.
 /// @throws std::invalid_argument for a cloud without x, y, z of these types, in big-endian order,
 ///         or with steps that do not fit its size
-void to_chains(const sensor_msgs::PointCloud2& message, ChainSet& chains);
+void to_chains(const sensor_msgs::PointCloud2& message, FiberBuffer& chains);
 
 /// The points of the cloud, in their order, as one fibre.
-void to_chains(const sensor_msgs::PointCloud& message, ChainSet& chains);
+void to_chains(const sensor_msgs::PointCloud& message, FiberBuffer& chains);
 
 }  // namespace fiber_proximity_ros

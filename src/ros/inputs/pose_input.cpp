@@ -8,7 +8,7 @@
 
 namespace fiber_proximity_ros {
 
-void to_chains(const geometry_msgs::PoseArray& message, ChainSet& chains) {
+void to_chains(const geometry_msgs::PoseArray& message, FiberBuffer& chains) {
   chains.clear();
   chains.header = message.header;
   chains.points.reserve(message.poses.size());
@@ -18,7 +18,7 @@ void to_chains(const geometry_msgs::PoseArray& message, ChainSet& chains) {
   chains.end_chain();
 }
 
-void to_chains(const nav_msgs::Path& message, ChainSet& chains) {
+void to_chains(const nav_msgs::Path& message, FiberBuffer& chains) {
   chains.clear();
   chains.header = message.header;
   chains.points.reserve(message.poses.size());

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "fiber_proximity/ros/chain_set.hpp"
+#include "fiber_proximity/ros/fiber_buffer.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -13,7 +13,7 @@ class SegmentWelder {
  public:
   /// @param tolerance largest gap between ends that are joined, as a fraction of the shorter
   ///        segment's length
-  SegmentWelder(double tolerance, ChainSet& chains) : tolerance_(tolerance), chains_(chains) {}
+  SegmentWelder(double tolerance, FiberBuffer& chains) : tolerance_(tolerance), chains_(chains) {}
 
   /// Continues the chain with this segment, turned round if need be, and meets the one before it
   /// halfway; or begins a new chain if it is too far from its end.
@@ -31,7 +31,7 @@ class SegmentWelder {
                                   double tolerance);
 
   double tolerance_;
-  ChainSet& chains_;
+  FiberBuffer& chains_;
   double last_length_ = 0.0;  // nan of a segment with a missing end
   double longest_ = 0.0;      // of the chain's segments
 };

@@ -11,7 +11,7 @@ namespace fiber_proximity_ros {
 
 fiber::FiberAssembly to_candidate(const fiber_proximity::FiberArray& message,
                                   const FixedFrame& frame) {
-  ChainSet chains;
+  FiberBuffer chains;
   to_chains(message, chains);
   if (chains.radii.empty()) {
     throw std::invalid_argument("has no radii, it needs one, one per fibre or one per point");

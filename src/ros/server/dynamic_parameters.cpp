@@ -8,7 +8,7 @@
 
 #include "src/ros/server/query_settings.hpp"
 #include "src/ros/support/parameters.hpp"
-#include "src/text/listed.hpp"
+#include "src/text/join.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -16,6 +16,10 @@ namespace {
 using fiber_proximity::ProximityConfig;
 using XmlRpc::XmlRpcValue;
 using Description = ProximityConfig::AbstractParamDescription;
+
+/// The parameters whose values are names of kernels.
+constexpr std::pair<const char*, std::string ProximityConfig::*> kernel_parameters[] = {
+    {"kernel", &ProximityConfig::kernel}, {"accuracy", &ProximityConfig::accuracy}};
 
 template <class Value>
 Value config_value(const Description& parameter, const ProximityConfig& config) {
@@ -65,7 +69,7 @@ std::string what_is_allowed(const Description& parameter) {
   if (parameter.type == "double") {
     return allowed_number<double>("a number", parameter);
   }
-  return "one of " + fiber::listed(values_of_enumeration(parameter));
+  return "one of " + fiber::join(values_of_enumeration(parameter));
 }
 
 template <class Number>
@@ -127,17 +131,17 @@ std::string not_of_type(const std::string& type, const Entries& entries) {
 }  // namespace
 
 void replace_old_names(const ros::NodeHandle& private_node, ProximityConfig& config) {
-  for (const auto& [name, value] :
-       {std::pair("kernel", &config.kernel), std::pair("accuracy", &config.accuracy)}) {
-    *value = current_kernel_name("parameter " + private_node.resolveName(name), *value);
+  for (const auto& [name, member] : kernel_parameters) {
+    std::string& value = config.*member;
+    value = current_kernel_name("parameter " + private_node.resolveName(name), value);
   }
 }
 
 ProximityConfig read_dynamic_parameters(const ros::NodeHandle& private_node) {
-  for (const char* const name : {"kernel", "accuracy"}) {
-    // On the server, where dynamic_reconfigure will read it, too.
+  for (const auto& [name, member] : kernel_parameters) {
     std::string value;
-    if (private_node.getParam(name, value) && value == "fast") {
+    if (private_node.getParam(name, value)) {
+      // On the server, where dynamic_reconfigure will read it, too.
       private_node.setParam(
           name, current_kernel_name("parameter " + private_node.resolveName(name), value));
     }

@@ -58,11 +58,12 @@ fiber::QueryOptions to_query_options(const fiber_proximity::ProximityConfig& con
 }
 
 std::string current_kernel_name(const std::string& place, const std::string& name) {
-  if (name != "fast") {
-    return name;
+  std::string current = fiber::current_kernel_name(name);
+  if (current != name) {
+    ROS_WARN_STREAM(place << " is " << name << ", which saved no time and is gone: " << current
+                          << " is used");
   }
-  ROS_WARN_STREAM(place << " is fast, which saved no time and is gone: robust is used");
-  return "robust";
+  return current;
 }
 
 }  // namespace fiber_proximity_ros

@@ -11,8 +11,7 @@ namespace fiber_proximity_ros {
 /// @throws std::invalid_argument naming the parameter, its value and what is allowed
 fiber::QueryOptions to_query_options(const fiber_proximity::ProximityConfig& config);
 
-/// The name of a kernel, but robust for `fast`, which was one in the version before this: with a
-/// warning.
+/// As fiber::current_kernel_name(), with a warning where that is another name.
 /// @param place where the name stands, for the warning
 std::string current_kernel_name(const std::string& place, const std::string& name);
 

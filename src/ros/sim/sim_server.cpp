@@ -14,7 +14,7 @@
 #include "src/ros/environment/environment_options.hpp"
 #include "src/ros/environment/obstacle_change.hpp"
 #include "src/ros/support/parameters.hpp"
-#include "src/text/listed.hpp"
+#include "src/text/join.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -85,7 +85,7 @@ SimServer::~SimServer() { is_ending_ = true; }
 void SimServer::log_scene(const fiber::SimDescription& description) const {
   const fiber::Rods& rods = scene_.stepper->rods();
   ROS_INFO_STREAM(options_.scene << ": " << rods.count() << " fibre(s), " << rods.positions.size()
-                                 << " nodes, effects " << fiber::listed(scene_.effect_names) << ", "
+                                 << " nodes, effects " << fiber::join(scene_.effect_names) << ", "
                                  << scene_.substeps << " steps of " << scene_.step_length()
                                  << " s");
   constexpr std::uint32_t most = 10;

@@ -89,7 +89,7 @@ void to_message(const fiber::Crossing& crossing, fiber_proximity::Crossing& mess
   message.point_b = to_message(crossing.point_b);
 }
 
-void to_chains(const fiber_proximity::FiberArray& message, ChainSet& chains) {
+void to_chains(const fiber_proximity::FiberArray& message, FiberBuffer& chains) {
   chains.clear();
   chains.header = message.header;
   chains.offsets = message.offsets;

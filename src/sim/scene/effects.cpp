@@ -19,7 +19,7 @@
 #include "fiber_proximity/sim/effects/twist.hpp"
 #include "src/sim/scene/holds.hpp"
 #include "src/sim/scene/natural_curvature.hpp"
-#include "src/text/listed.hpp"
+#include "src/text/join.hpp"
 #include "src/text/quote.hpp"
 #include "src/text/with_context.hpp"
 
@@ -100,7 +100,7 @@ Entry read_entry(const YamlField& entry) {
       names.push_back(each);
     }
     throw std::invalid_argument(keys.front().place() + ": there is no effect " + quote(name) +
-                                ", known are: " + listed(names));
+                                ", known are: " + join(names));
   }
   return {{name, keys.front().place(), known->second},
           entry.is_map() ? entry.find(name) : std::nullopt};

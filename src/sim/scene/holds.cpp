@@ -8,7 +8,7 @@
 
 #include "src/geometry/smallest_rotation.hpp"
 #include "src/sim/scene/fibers.hpp"
-#include "src/text/listed.hpp"
+#include "src/text/join.hpp"
 #include "src/text/quote.hpp"
 
 namespace fiber {
@@ -32,7 +32,7 @@ std::vector<std::uint32_t> find_fibers(const YamlField& name, const std::vector<
     names.insert(fibers[i].group);
   }
   if (found.empty()) {
-    name.refuse("the name of a fibre of the scene: " + shortened(listed(names)));
+    name.refuse("the name of a fibre of the scene: " + shortened(join(names)));
   }
   return found;
 }

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "src/text/listed.hpp"
+#include "src/text/join.hpp"
 #include "src/text/quote.hpp"
 
 namespace fiber {
@@ -50,7 +50,7 @@ void SimParameters::set_one(const SimParameter& parameter) {
       names.push_back(known.name);
     }
     refuse(parameter, names.empty() ? "the scene names no effect that has parameters"
-                                    : "there is no such parameter, known are: " + listed(names));
+                                    : "there is no such parameter, known are: " + join(names));
   }
   std::vector<double>& value = effect->second.options.at(option);
   if (parameter.value.size() != value.size()) {

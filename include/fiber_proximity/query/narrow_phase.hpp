@@ -21,15 +21,15 @@ struct PairDistance {
 
 /// The one narrow phase: which pairs of segments count, how far apart they are, what is reported of
 /// them. Holds references: assemblies and options must outlive it.
-class PairTest {
+class NarrowPhase {
  public:
   /// Pairs within one assembly.
   /// @param loops of these fibres, if somebody keeps them; otherwise what is known of their loops
   ///              is found anew
-  PairTest(const FiberAssembly& fibers, const QueryOptions& options,
-           const LoopTest* loops = nullptr);
+  NarrowPhase(const FiberAssembly& fibers, const QueryOptions& options,
+              const LoopTest* loops = nullptr);
   /// Pairs of a shape and the fibres.
-  PairTest(const FiberAssembly& shape, const FiberAssembly& fibers, const QueryOptions& options);
+  NarrowPhase(const FiberAssembly& shape, const FiberAssembly& fibers, const QueryOptions& options);
 
   /// The pair with its smaller index first, within one assembly.
   PointPair ordered(PointPair pair) const {

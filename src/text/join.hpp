@@ -6,7 +6,7 @@ namespace fiber {
 
 /// Words with commas between them.
 template <class Words>
-std::string listed(const Words& words) {
+std::string join(const Words& words) {
   std::string list;
   for (const std::string& word : words) {
     list += (list.empty() ? "" : ", ") + word;

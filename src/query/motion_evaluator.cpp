@@ -1,9 +1,9 @@
-#include "fiber_proximity/query/motion_judge.hpp"
+#include "fiber_proximity/query/motion_evaluator.hpp"
 
 #include <algorithm>
 
 #include "fiber_proximity/geometry/contact_time.hpp"
-#include "src/query/contact_judge.hpp"
+#include "src/query/contact_evaluator.hpp"
 #include "src/query/for_each_of.hpp"
 #include "src/query/narrow_contact_time.hpp"
 
@@ -16,7 +16,7 @@ constexpr std::size_t motion_slices_per_round = 32;
 /// Which motions are asked about, and what of each is reported.
 class MotionTest {
  public:
-  MotionTest(const FiberMotion& a, const FiberMotion& b, const PairTest& test,
+  MotionTest(const FiberMotion& a, const FiberMotion& b, const NarrowPhase& test,
              const MotionOptions& options)
       : a_(a), b_(b), test_(test), options_(options) {}
 
@@ -65,15 +65,16 @@ class MotionTest {
 
   const FiberMotion& a_;
   const FiberMotion& b_;
-  const PairTest& test_;
+  const NarrowPhase& test_;
   const MotionOptions& options_;
 };
 
 }  // namespace
 
-void MotionJudge::judge(const MotionCandidates& candidates, const FiberMotion& a,
-                        const FiberMotion& b, const PairTest& test, const MotionOptions& options,
-                        const QueryLimits& limits, MotionResult& result) {
+void MotionEvaluator::evaluate(const MotionCandidates& candidates, const FiberMotion& a,
+                               const FiberMotion& b, const NarrowPhase& test,
+                               const MotionOptions& options, const QueryLimits& limits,
+                               MotionResult& result) {
   const std::vector<std::uint64_t>& keys = candidates.keys;
   const MotionTest motions(a, b, test, options);
   const std::size_t count = (keys.size() + motions_per_slice - 1) / motions_per_slice;

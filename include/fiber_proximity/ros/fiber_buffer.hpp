@@ -13,7 +13,7 @@ namespace fiber_proximity_ros {
 
 /// Fibres on their way into an assembly: what every type of message is read into and what the
 /// inputs are merged in. Flat as FiberAssembly, but not validated. Kept and reused by its owner.
-struct ChainSet {
+struct FiberBuffer {
   std_msgs::Header header;
   std::vector<Eigen::Vector3d> points;    ///< [m] in header.frame_id
   std::vector<std::uint32_t> offsets{0};  ///< as FiberAssembly
@@ -30,6 +30,6 @@ struct ChainSet {
 
 /// Makes the assembly that of the chains, without allocating where only the points differ.
 /// @throws std::invalid_argument as FiberAssembly; the assembly is unchanged then
-void assign(const ChainSet& chains, fiber::FiberAssembly& fibers);
+void assign(const FiberBuffer& chains, fiber::FiberAssembly& fibers);
 
 }  // namespace fiber_proximity_ros

@@ -1,4 +1,4 @@
-#include "fiber_proximity/query/contact_keeper.hpp"
+#include "fiber_proximity/query/contact_accumulator.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ std::size_t capacity_of(const QueryOptions& options, const QueryLimits& limits) 
 
 }  // namespace
 
-ContactKeeper::ContactKeeper(const QueryOptions& options, QueryResult& result)
+ContactAccumulator::ContactAccumulator(const QueryOptions& options, QueryResult& result)
     : limits_(options),
       pairs_left_(limits_.pairs),
       minima_(result),
@@ -38,7 +38,7 @@ ContactKeeper::ContactKeeper(const QueryOptions& options, QueryResult& result)
   set_bound(options.margin);
 }
 
-double ContactKeeper::bound_of(std::uint32_t fiber_a, std::uint32_t fiber_b) {
+double ContactAccumulator::bound_of(std::uint32_t fiber_a, std::uint32_t fiber_b) {
   if (options_.type != QueryType::FIBER_PAIRS) {
     return bound_;
   }
@@ -46,7 +46,7 @@ double ContactKeeper::bound_of(std::uint32_t fiber_a, std::uint32_t fiber_b) {
   return best == nullptr ? bound_ : best->distance - slack(best->distance);
 }
 
-void ContactKeeper::keep(const Contact& contact) {
+void ContactAccumulator::keep(const Contact& contact) {
   if (options_.type == QueryType::FIBER_PAIRS) {
     keep_of_fibers(contact);
   } else if (capacity_ != 0) {
@@ -58,7 +58,7 @@ void ContactKeeper::keep(const Contact& contact) {
   }
 }
 
-void ContactKeeper::keep_of_fibers(const Contact& contact) {
+void ContactAccumulator::keep_of_fibers(const Contact& contact) {
   const Contact* best = minima_.find(contact.fiber_a, contact.fiber_b);
   if (best != nullptr) {
     leave_out(contact.closer_than(*best) ? best->lower : contact.lower);
@@ -69,7 +69,7 @@ void ContactKeeper::keep_of_fibers(const Contact& contact) {
 
 /// Contacts beyond the limit of them go, but not one by one; what is farther than those that stay
 /// does not matter any more.
-void ContactKeeper::stay_within_limit() {
+void ContactAccumulator::stay_within_limit() {
   std::vector<Contact>& contacts = result_.contacts;
   if (contacts.size() < limits_.most_kept) {
     return;
@@ -83,7 +83,7 @@ void ContactKeeper::stay_within_limit() {
 }
 
 /// The contacts are a heap with the farthest of the k closest on top.
-void ContactKeeper::keep_if_closest(const Contact& contact) {
+void ContactAccumulator::keep_if_closest(const Contact& contact) {
   std::vector<Contact>& contacts = result_.contacts;
   if (contacts.size() == capacity_) {
     if (!contact.closer_than(contacts.front())) {
@@ -103,17 +103,17 @@ void ContactKeeper::keep_if_closest(const Contact& contact) {
 
 /// [m] By how much less than this distance a pair must be closer to be looked for: the same for
 /// distances and depths.
-double ContactKeeper::slack(double distance) const {
+double ContactAccumulator::slack(double distance) const {
   const double relative = options_.relative_tolerance;
   return std::max(options_.tolerance, std::abs(distance) * (relative / (1.0 + relative)));
 }
 
-void ContactKeeper::leave_out(double lower) {
+void ContactAccumulator::leave_out(double lower) {
   result_.others_lower = std::min(result_.others_lower, lower);
 }
 
 /// What is found is sorted at the end, which must be over by then.
-void ContactKeeper::look_at_deadline() {
+void ContactAccumulator::look_at_deadline() {
   constexpr double seconds_to_sort_one = 4e-7;
   const double needed = seconds_to_sort_one * static_cast<double>(result_.contacts.size());
   if (!done_ && limits_.deadline.has_passed(1.0, needed)) {
@@ -121,17 +121,17 @@ void ContactKeeper::look_at_deadline() {
   }
 }
 
-void ContactKeeper::end_early() {
+void ContactAccumulator::end_early() {
   done_ = true;
   result_.complete = false;
 }
 
-void ContactKeeper::reach_pair_limit() {
+void ContactAccumulator::reach_pair_limit() {
   end_early();
   result_.limit_reached = true;
 }
 
-void ContactKeeper::finish(double least_gap) {
+void ContactAccumulator::finish(double least_gap) {
   std::vector<Contact>& contacts = result_.contacts;
   // Pairs that were not found are beyond the bound, unless it ended early.
   leave_out(done_ ? least_gap : bound_);
@@ -142,7 +142,7 @@ void ContactKeeper::finish(double least_gap) {
   sort_by_key(contacts);
 }
 
-void ContactKeeper::set_bound(double bound) {
+void ContactAccumulator::set_bound(double bound) {
   bound_ = bound;
   // Capsules that penetrate have volumes that overlap: those know no negative margin.
   rounded_bound_ = round_up(std::max(bound, 0.0));

@@ -11,20 +11,20 @@
 namespace fiber {
 
 /// Candidates of a query, kept for those after it; several threads may ask at the same time.
-class KeptCandidates {
+class CandidateCache {
  public:
   using Keys = std::shared_ptr<std::vector<std::uint64_t>>;
 
   enum class State {
-    NONE,      ///< nobody is to have them any more; their memory is kept
-    OUTDATED,  ///< those of some segments are to be replaced
+    NONE,   ///< nobody is to have them any more; their memory is kept
+    STALE,  ///< those of some segments are to be replaced
     CURRENT
   };
 
   /// Of the ones that are kept.
   State state() const;
 
-  /// Makes them worse: CURRENT ones OUTDATED or NONE, OUTDATED ones NONE.
+  /// Makes them worse: CURRENT ones STALE or NONE, STALE ones NONE.
   void become(State worse);
 
   /// Those in this state of a query of the same margin, neighbour skip and pairing; null if there

@@ -19,10 +19,10 @@ namespace fiber {
 /// the one for all stays the margin. A tolerance makes these bounds smaller than what has been
 /// found. Where ALL and FIBER_PAIRS find more contacts than may be reported, they become such
 /// queries too.
-class ContactKeeper {
+class ContactAccumulator {
  public:
   /// Holds references: options and result must outlive it. Forgets what is in the result.
-  ContactKeeper(const QueryOptions& options, QueryResult& result);
+  ContactAccumulator(const QueryOptions& options, QueryResult& result);
 
   /// [m] Pairs further apart than this do not matter any more.
   double bound() const { return bound_; }

@@ -1,4 +1,4 @@
-#include "fiber_proximity/query/pair_test.hpp"
+#include "fiber_proximity/query/narrow_phase.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-TEST(PairTest, BoundsEveryGapFromBelow) {
+TEST(NarrowPhase, BoundsEveryGapFromBelow) {
   SCOPED_TRACE(seed_message());
   Random random;
   const QueryOptions options;
@@ -21,7 +21,7 @@ TEST(PairTest, BoundsEveryGapFromBelow) {
     SCOPED_TRACE(family.name);
     const FiberAssembly fibers = family.make(random);
     const FiberAssembly shape = family.make(random);
-    const PairTest test(shape, fibers, options);
+    const NarrowPhase test(shape, fibers, options);
     for (std::uint32_t a = 0; a + 1 < shape.point_count(); ++a) {
       for (std::uint32_t b = 0; b + 1 < fibers.point_count(); ++b) {
         ASSERT_LE(test.gap_lower_bound({a, b}), test.distance({a, b}).gap);
@@ -50,7 +50,7 @@ Quadruple in_line(Random& random) {
 }
 
 // Where the bound is as large as the gap but for roundings, these must be allowed for.
-TEST(PairTest, BoundsTheGapClosely) {
+TEST(NarrowPhase, BoundsTheGapClosely) {
   SCOPED_TRACE(seed_message());
   Random random;
   const QueryOptions options;
@@ -62,7 +62,7 @@ TEST(PairTest, BoundsTheGapClosely) {
       points.emplace_back(scale * point);
     }
     const FiberAssembly fibers(points, {0, 2, 4}, {scale * radius});
-    const PairTest test(fibers, options);
+    const NarrowPhase test(fibers, options);
     for (const PointPair pair : {PointPair{0, 2}, PointPair{2, 0}}) {
       const double gap = test.distance(pair).gap;
       const double bound = test.gap_lower_bound(pair);

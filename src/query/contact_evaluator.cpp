@@ -1,4 +1,4 @@
-#include "src/query/contact_judge.hpp"
+#include "src/query/contact_evaluator.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -9,12 +9,12 @@ namespace fiber {
 namespace {
 
 constexpr std::size_t pairs_per_slice = 512;
-// Pairs are judged in rounds, so that their distances stay in the cache until they are reported.
+// Pairs are evaluated in rounds, so that their distances stay in the cache until they are reported.
 constexpr std::size_t slices_per_round = 32;
 constexpr std::size_t pairs_per_round = slices_per_round * pairs_per_slice;
 
 // Contacts are written down after that.
-constexpr double part_to_judge = 0.9;
+constexpr double part_to_evaluate = 0.9;
 
 /// Along fibres, of all candidates together.
 std::uint64_t most_looks(const QueryLimits& limits) {
@@ -25,8 +25,8 @@ std::uint64_t most_looks(const QueryLimits& limits) {
 
 }  // namespace
 
-void ContactJudge::judge(const std::vector<std::uint64_t>& keys, const PairTest& test,
-                         const QueryLimits& limits, QueryResult& result) {
+void ContactEvaluator::evaluate(const std::vector<std::uint64_t>& keys, const NarrowPhase& test,
+                                const QueryLimits& limits, QueryResult& result) {
   const std::size_t most = std::max(distances_.size(), std::min(pairs_per_round, keys.size()));
   distances_.resize(most);
   is_contact_.resize(most);
@@ -37,7 +37,7 @@ void ContactJudge::judge(const std::vector<std::uint64_t>& keys, const PairTest&
   result.others_lower = test.margin();  // of pairs that are no candidates
   for (std::size_t begin = 0; begin < keys.size() && !took_too_long_; begin += pairs_per_round) {
     const std::size_t end = std::min(keys.size(), begin + pairs_per_round);
-    judge_round(keys.data() + begin, end - begin, test, limits, result);
+    evaluate_round(keys.data() + begin, end - begin, test, limits, result);
     make_room(end, keys.size(), limits, result.contacts);
     report(keys.data() + begin, test, result.contacts);
     if (contact_count_ >= limits.most_kept) {
@@ -59,23 +59,24 @@ void ContactJudge::judge(const std::vector<std::uint64_t>& keys, const PairTest&
 }
 
 /// Of the contacts so far, which are more.
-void ContactJudge::leave_closest(std::uint64_t count, QueryResult& result) {
+void ContactEvaluator::leave_closest(std::uint64_t count, QueryResult& result) {
   result.contacts.resize(contact_count_);
   result.limit_reached = keep_closest(count, result) || result.limit_reached;
   contact_count_ = result.contacts.size();
   bound_ = result.contacts.back().upper;
 }
 
-void ContactJudge::judge_round(const std::uint64_t* keys, std::size_t count, const PairTest& test,
-                               const QueryLimits& limits, QueryResult& result) {
+void ContactEvaluator::evaluate_round(const std::uint64_t* keys, std::size_t count,
+                                      const NarrowPhase& test, const QueryLimits& limits,
+                                      QueryResult& result) {
   slices_.assign((count + pairs_per_slice - 1) / pairs_per_slice, Slice());
   for_each_of(slices_.size(), [&](std::size_t index) {
     Slice& slice = slices_[index];
     slice.begin = index * pairs_per_slice;
     slice.end = std::min(count, slice.begin + pairs_per_slice);
-    slice.complete = !limits.deadline.has_passed(part_to_judge);
+    slice.complete = !limits.deadline.has_passed(part_to_evaluate);
     if (slice.complete) {
-      judge_slice(keys, test, most_looks(limits) / slices_per_round, slice);
+      evaluate_slice(keys, test, most_looks(limits) / slices_per_round, slice);
     }
   });
   for (Slice& slice : slices_) {
@@ -89,14 +90,14 @@ void ContactJudge::judge_round(const std::uint64_t* keys, std::size_t count, con
   took_too_long_ = took_too_long_ || looks_ > most_looks(limits);
 }
 
-/// For all contacts there will be if the candidates that are left have as many as those judged, and
-/// some more. A list that grows to twice its size is there twice while it does.
-void ContactJudge::make_room(std::size_t judged, std::size_t candidates, const QueryLimits& limits,
-                             std::vector<Contact>& contacts) const {
+/// For all contacts there will be if the candidates that are left have as many as those evaluated,
+/// and some more. A list that grows to twice its size is there twice while it does.
+void ContactEvaluator::make_room(std::size_t evaluated, std::size_t candidates,
+                                 const QueryLimits& limits, std::vector<Contact>& contacts) const {
   if (contact_count_ > contacts.capacity()) {
     constexpr double more = 1.1;
     constexpr double a_few = 512.0;
-    const double rest = static_cast<double>(candidates) / static_cast<double>(judged);
+    const double rest = static_cast<double>(candidates) / static_cast<double>(evaluated);
     const double expected = a_few + more * rest * static_cast<double>(contact_count_);
     contacts.reserve(
         std::min(static_cast<std::uint64_t>(expected), limits.most_kept + pairs_per_round));
@@ -106,8 +107,8 @@ void ContactJudge::make_room(std::size_t judged, std::size_t candidates, const Q
 }
 
 /// The contacts of a round.
-void ContactJudge::report(const std::uint64_t* keys, const PairTest& test,
-                          std::vector<Contact>& contacts) const {
+void ContactEvaluator::report(const std::uint64_t* keys, const NarrowPhase& test,
+                              std::vector<Contact>& contacts) const {
   for_each_of(slices_.size(), [&](std::size_t index) {
     const Slice& slice = slices_[index];
     std::size_t place = slice.place;
@@ -120,8 +121,8 @@ void ContactJudge::report(const std::uint64_t* keys, const PairTest& test,
 }
 
 /// @param looks_left along fibres; where they are used up the rest of the slice is left out
-void ContactJudge::judge_slice(const std::uint64_t* keys, const PairTest& test,
-                               std::uint64_t looks_left, Slice& slice) {
+void ContactEvaluator::evaluate_slice(const std::uint64_t* keys, const NarrowPhase& test,
+                                      std::uint64_t looks_left, Slice& slice) {
   PointPair pairs[pairs_per_slice];
   PairDistance* const distances = distances_.data() + slice.begin;
   const std::size_t size = slice.end - slice.begin;

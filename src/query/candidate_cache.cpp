@@ -1,27 +1,27 @@
-#include "src/query/kept_candidates.hpp"
+#include "src/query/candidate_cache.hpp"
 
 #include <algorithm>
 
 namespace fiber {
 
-KeptCandidates::State KeptCandidates::state() const {
+CandidateCache::State CandidateCache::state() const {
   const std::lock_guard lock(mutex_);
   return state_;
 }
 
-void KeptCandidates::become(State worse) {
+void CandidateCache::become(State worse) {
   const std::lock_guard lock(mutex_);
   state_ = std::min(state_, worse);
 }
 
-KeptCandidates::Keys KeptCandidates::find(const QueryOptions& options, State state) const {
+CandidateCache::Keys CandidateCache::find(const QueryOptions& options, State state) const {
   const std::lock_guard lock(mutex_);
   const bool same = state_ == state && options.margin == margin_ &&
                     options.neighbour_skip == neighbour_skip_ && options.pairing == pairing_;
   return same ? keys_ : nullptr;
 }
 
-KeptCandidates::Keys KeptCandidates::make() {
+CandidateCache::Keys CandidateCache::make() {
   const std::lock_guard lock(mutex_);
   Keys& unused = state_ == State::NONE && keys_ != nullptr ? keys_ : spare_;
   if (unused == nullptr || unused.use_count() > 1) {
@@ -30,7 +30,7 @@ KeptCandidates::Keys KeptCandidates::make() {
   return std::move(unused);
 }
 
-void KeptCandidates::keep(const QueryOptions& options, const Keys& keys) {
+void CandidateCache::keep(const QueryOptions& options, const Keys& keys) {
   const std::lock_guard lock(mutex_);
   state_ = State::CURRENT;
   margin_ = options.margin;
@@ -42,7 +42,7 @@ void KeptCandidates::keep(const QueryOptions& options, const Keys& keys) {
   keys_ = keys;
 }
 
-std::size_t KeptCandidates::memory_bytes() const {
+std::size_t CandidateCache::memory_bytes() const {
   const std::lock_guard lock(mutex_);
   const auto bytes = [](const Keys& keys) {
     return keys == nullptr ? 0 : keys->capacity() * sizeof(std::uint64_t);

@@ -11,7 +11,7 @@ namespace fiber {
 
 /// The segments of fibres that have moved so far that the candidates kept of them no longer serve,
 /// with a run tree of their own to look for others. Keeps its memory.
-class OutdatedSegments {
+class DirtySegments {
  public:
   void clear();
 

@@ -1,4 +1,4 @@
-#include "fiber_proximity/query/pair_test.hpp"
+#include "fiber_proximity/query/narrow_phase.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -41,7 +41,8 @@ Vector3d direction(const SegmentDistance& nearest, const Capsule& a, const Capsu
 
 }  // namespace
 
-PairTest::PairTest(const FiberAssembly& fibers, const QueryOptions& options, const LoopTest* loops)
+NarrowPhase::NarrowPhase(const FiberAssembly& fibers, const QueryOptions& options,
+                         const LoopTest* loops)
     : a_(fibers),
       b_(fibers),
       options_(options),
@@ -56,8 +57,8 @@ PairTest::PairTest(const FiberAssembly& fibers, const QueryOptions& options, con
   }
 }
 
-PairTest::PairTest(const FiberAssembly& shape, const FiberAssembly& fibers,
-                   const QueryOptions& options)
+NarrowPhase::NarrowPhase(const FiberAssembly& shape, const FiberAssembly& fibers,
+                         const QueryOptions& options)
     : a_(shape),
       b_(fibers),
       options_(options),
@@ -65,7 +66,7 @@ PairTest::PairTest(const FiberAssembly& shape, const FiberAssembly& fibers,
       neighbour_skip_(0),
       neighbour_skip_length_(0.0) {}
 
-bool PairTest::is_neighbour_of_same_fiber(PointPair pair) const {
+bool NarrowPhase::is_neighbour_of_same_fiber(PointPair pair) const {
   const bool near_by_index = pair.b - pair.a <= neighbour_skip_;
   const bool near_by_length =
       !arc_length_.empty() &&
@@ -76,18 +77,19 @@ bool PairTest::is_neighbour_of_same_fiber(PointPair pair) const {
   return is_of_one_fiber(pair);
 }
 
-bool PairTest::is_of_other_pairing(PointPair pair) const {
+bool NarrowPhase::is_of_other_pairing(PointPair pair) const {
   return is_of_one_fiber(pair) != (options_.pairing == Pairing::SAME_FIBER);
 }
 
-PairDistance PairTest::distance(PointPair pair) const {
+PairDistance NarrowPhase::distance(PointPair pair) const {
   const Capsule a = a_.capsule(pair.a);
   const Capsule b = b_.capsule(pair.b);
   const SegmentDistance nearest = segment_distance(a.p0, a.p1, b.p0, b.p1);
   return {nearest, nearest.distance - radii(pair)};
 }
 
-void PairTest::distances(const PointPair* pairs, std::size_t count, PairDistance* distances) const {
+void NarrowPhase::distances(const PointPair* pairs, std::size_t count,
+                            PairDistance* distances) const {
   constexpr std::size_t block = 32;
   const Vector3d* starts_a[block];
   const Vector3d* starts_b[block];
@@ -106,7 +108,7 @@ void PairTest::distances(const PointPair* pairs, std::size_t count, PairDistance
   }
 }
 
-bool PairTest::is_within_margin(PointPair pair, const PairDistance& distance) const {
+bool NarrowPhase::is_within_margin(PointPair pair, const PairDistance& distance) const {
   if (options_.kernel == Kernel::ROBUST) {
     return distance.gap <= options_.margin;
   }
@@ -117,7 +119,7 @@ bool PairTest::is_within_margin(PointPair pair, const PairDistance& distance) co
 }
 
 /// The distance, rounded correctly.
-PairDistance PairTest::rounded(PointPair pair, const PairDistance& distance) const {
+PairDistance NarrowPhase::rounded(PointPair pair, const PairDistance& distance) const {
   const Capsule a = a_.capsule(pair.a);
   const Capsule b = b_.capsule(pair.b);
   const SegmentDistance nearest =
@@ -127,16 +129,16 @@ PairDistance PairTest::rounded(PointPair pair, const PairDistance& distance) con
 
 /// The error of the distance, and what the sum of the radii, the gap and its bounds are rounded by:
 /// half an ε each. Where they are subnormal sums are exact.
-double PairTest::gap_error(PointPair pair, const PairDistance& distance) const {
+double NarrowPhase::gap_error(PointPair pair, const PairDistance& distance) const {
   const SegmentDistance& nearest = distance.nearest;
   return (1.0 + 0x1p-50) * nearest.error + 0x1p-51 * (radii(pair) + nearest.distance);
 }
 
-double PairTest::least_gap() const {
+double NarrowPhase::least_gap() const {
   return -(1.0 + 0x1p-51) * (a_.largest_radius() + b_.largest_radius());
 }
 
-double PairTest::gap_lower_bound(PointPair pair) const {
+double NarrowPhase::gap_lower_bound(PointPair pair) const {
   const Capsule a = a_.capsule(pair.a);
   const Capsule b = b_.capsule(pair.b);
   const Vector3d lower_a = a.p0.cwiseMin(a.p1);
@@ -154,7 +156,7 @@ double PairTest::gap_lower_bound(PointPair pair) const {
   return apart - radii - error;
 }
 
-Contact PairTest::contact(PointPair pair, const PairDistance& computed) const {
+Contact NarrowPhase::contact(PointPair pair, const PairDistance& computed) const {
   const PairDistance distance =
       options_.kernel == Kernel::EXACT ? rounded(pair, computed) : computed;
   const Capsule a = a_.capsule(pair.a);

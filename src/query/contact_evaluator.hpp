@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "fiber_proximity/query/contact.hpp"
-#include "fiber_proximity/query/pair_test.hpp"
+#include "fiber_proximity/query/narrow_phase.hpp"
 #include "fiber_proximity/query/query_limits.hpp"
 
 namespace fiber {
@@ -17,18 +17,18 @@ inline PointPair pair_of(std::uint64_t key) {
 
 /// Makes contacts of candidates, slice by slice on several threads. Gives the same for any number
 /// of threads. Keeps its memory from query to query.
-class ContactJudge {
+class ContactEvaluator {
  public:
-  /// @param keys of the candidates, as PairTest orders pairs, in ascending order
+  /// @param keys of the candidates, as NarrowPhase orders pairs, in ascending order
   /// @param result its contacts and others_lower are replaced; complete becomes false if the
-  /// deadline has passed before all were judged, and is to be false if some candidates are missing;
-  /// limit_reached becomes true if there are more contacts than may be reported. Both do if
-  /// candidates take so many looks along fibres that they count as too many pairs
-  void judge(const std::vector<std::uint64_t>& keys, const PairTest& test,
-             const QueryLimits& limits, QueryResult& result);
+  /// deadline has passed before all were evaluated, and is to be false if some candidates are
+  /// missing; limit_reached becomes true if there are more contacts than may be reported. Both do
+  /// if candidates take so many looks along fibres that they count as too many pairs
+  void evaluate(const std::vector<std::uint64_t>& keys, const NarrowPhase& test,
+                const QueryLimits& limits, QueryResult& result);
 
  private:
-  /// 512 candidates: what one thread judges at a time.
+  /// 512 candidates: what one thread evaluates at a time.
   struct Slice {
     std::size_t begin = 0;  // of its candidates in the round
     std::size_t end = 0;
@@ -40,15 +40,15 @@ class ContactJudge {
     bool complete = true;
   };
 
-  void judge_round(const std::uint64_t* keys, std::size_t count, const PairTest& test,
-                   const QueryLimits& limits, QueryResult& result);
-  void make_room(std::size_t judged, std::size_t candidates, const QueryLimits& limits,
+  void evaluate_round(const std::uint64_t* keys, std::size_t count, const NarrowPhase& test,
+                      const QueryLimits& limits, QueryResult& result);
+  void make_room(std::size_t evaluated, std::size_t candidates, const QueryLimits& limits,
                  std::vector<Contact>& contacts) const;
-  void report(const std::uint64_t* keys, const PairTest& test,
+  void report(const std::uint64_t* keys, const NarrowPhase& test,
               std::vector<Contact>& contacts) const;
   void leave_closest(std::uint64_t count, QueryResult& result);
-  void judge_slice(const std::uint64_t* keys, const PairTest& test, std::uint64_t looks_left,
-                   Slice& slice);
+  void evaluate_slice(const std::uint64_t* keys, const NarrowPhase& test, std::uint64_t looks_left,
+                      Slice& slice);
 
   // Of a round:
   std::vector<Slice> slices_;

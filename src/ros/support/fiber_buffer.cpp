@@ -1,8 +1,8 @@
-#include "fiber_proximity/ros/chain_set.hpp"
+#include "fiber_proximity/ros/fiber_buffer.hpp"
 
 namespace fiber_proximity_ros {
 
-void ChainSet::clear() {
+void FiberBuffer::clear() {
   header = std_msgs::Header();
   points.clear();
   offsets.assign(1, 0);
@@ -10,7 +10,7 @@ void ChainSet::clear() {
   names.clear();
 }
 
-void assign(const ChainSet& chains, fiber::FiberAssembly& fibers) {
+void assign(const FiberBuffer& chains, fiber::FiberAssembly& fibers) {
   if (chains.offsets == fibers.offsets() && chains.radii == fibers.radii()) {
     fibers.update_points(chains.points);
   } else {
