@@ -8,27 +8,46 @@ namespace fiber {
 namespace {
 
 constexpr std::uint32_t no_touch = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t no_patch = std::numeric_limits<std::uint32_t>::max();
 
-/// Calls for the index of each pair of [begin, end), sorted by key, whose segments are the same as
-/// those of another pair, or next to them.
-template <class Pair, class Other, class Use>
-void for_neighbours(const std::vector<Pair>& pairs, std::size_t end, const Other& other,
-                    const Use& use) {
-  const std::uint32_t least_a = other.segment_a == 0 ? 0 : other.segment_a - 1;
-  const std::uint32_t least_b = other.segment_b == 0 ? 0 : other.segment_b - 1;
-  auto found = pairs.begin();
-  const auto last = pairs.begin() + static_cast<std::ptrdiff_t>(end);
-  for (std::uint32_t segment_a = least_a; segment_a <= other.segment_a + 1; ++segment_a) {
-    const auto row = std::tie(other.fiber_a, segment_a, other.fiber_b, least_b);
-    found = std::lower_bound(found, last, row,
-                             [](const Pair& pair, const auto& key) { return pair.key() < key; });
-    for (; found != last && found->fiber_a == other.fiber_a && found->segment_a == segment_a &&
-           found->fiber_b == other.fiber_b && found->segment_b <= other.segment_b + 1;
-         ++found) {
-      use(static_cast<std::size_t>(found - pairs.begin()));
+/// Finds, among pairs sorted by key, the neighbours of one pair after the other: those whose
+/// segments are the same, or next to them. As those that are asked about are sorted, too, each
+/// place is passed once only.
+template <class Pair>
+class Neighbours {
+ public:
+  /// @param pairs must outlive this
+  explicit Neighbours(const std::vector<Pair>& pairs) : pairs_(pairs) {}
+
+  /// Calls for the index of each neighbour before `end`.
+  /// @param other,end neither less than in the call before
+  template <class Other, class Use>
+  void for_each(const Other& other, std::size_t end, const Use& use) {
+    const std::uint32_t least_b = other.segment_b == 0 ? 0 : other.segment_b - 1;
+    // Of each segment next to the first one, and of itself, its own place.
+    for (std::uint32_t row = other.segment_a == 0 ? 1 : 0; row < 3; ++row) {
+      const std::uint32_t segment_a = other.segment_a + row - 1;
+      const auto first = std::tie(other.fiber_a, segment_a, other.fiber_b, least_b);
+      std::size_t& begin = begins_[row];
+      while (begin < end && pairs_[begin].key() < first) {
+        ++begin;
+      }
+      for (std::size_t i = begin; i < end && is_in_row(pairs_[i], other, segment_a); ++i) {
+        use(i);
+      }
     }
   }
-}
+
+ private:
+  template <class Other>
+  static bool is_in_row(const Pair& pair, const Other& other, std::uint32_t segment_a) {
+    return pair.fiber_a == other.fiber_a && pair.segment_a == segment_a &&
+           pair.fiber_b == other.fiber_b && pair.segment_b <= other.segment_b + 1;
+  }
+
+  const std::vector<Pair>& pairs_;
+  std::size_t begins_[3] = {};
+};
 
 /// The first pair of a patch; makes the way there shorter.
 std::uint32_t first_of(std::vector<std::uint32_t>& patches, std::uint32_t pair) {
@@ -84,9 +103,10 @@ void TouchTracker::advance(const std::vector<TouchingPair>& pairs, const TimeBou
 /// Of all pairs: patches_ is the first pair of each.
 void TouchTracker::find_patches(const std::vector<TouchingPair>& pairs) {
   patches_.resize(pairs.size());
+  Neighbours<TouchingPair> earlier_pairs(pairs);
   for (std::uint32_t i = 0; i < pairs.size(); ++i) {
     patches_[i] = i;
-    for_neighbours(pairs, i, pairs[i], [&](std::size_t neighbour) {
+    earlier_pairs.for_each(pairs[i], i, [&](std::size_t neighbour) {
       const std::uint32_t x = first_of(patches_, static_cast<std::uint32_t>(neighbour));
       const std::uint32_t y = first_of(patches_, i);
       patches_[std::max(x, y)] = std::min(x, y);
@@ -99,9 +119,14 @@ void TouchTracker::find_patches(const std::vector<TouchingPair>& pairs) {
 
 void TouchTracker::find_claims(const std::vector<TouchingPair>& pairs) {
   claims_.clear();
+  claimed_last_.assign(touches_.size(), no_patch);
+  Neighbours<Standing> before(standing_);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    for_neighbours(standing_, standing_.size(), pairs[i], [&](std::size_t neighbour) {
-      claims_.push_back({standing_[neighbour].touch, patches_[i]});
+    before.for_each(pairs[i], standing_.size(), [&](std::size_t neighbour) {
+      const std::uint32_t touch = standing_[neighbour].touch;
+      if (std::exchange(claimed_last_[touch], patches_[i]) != patches_[i]) {
+        claims_.push_back({touch, patches_[i]});
+      }
     });
   }
   std::sort(claims_.begin(), claims_.end(),

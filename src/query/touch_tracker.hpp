@@ -134,6 +134,7 @@ class TouchTracker {
   std::vector<std::uint32_t> patches_;  // by pair: an earlier pair of its patch, or itself
   std::vector<std::uint32_t> touch_of_patch_;
   std::vector<Claim> claims_;
+  std::vector<std::uint32_t> claimed_last_;  // by touch: the patch of its last claim
   std::vector<TouchStep> last_touches_;
 };
 

@@ -118,15 +118,16 @@ TEST_F(EnvironmentTest, ContactsNameObjectShapeAndSegment) {
 TEST_F(EnvironmentTest, IsNotLookedAtWhereThereIsNone) {
   const fiber_proximity::Statistics* cost = statistics.wait_for(send(0.0));
   ASSERT_NE(cost, nullptr);
-  EXPECT_EQ(cost->parts, (std::vector<std::string>{"merge", "update", "contacts", "minimum"}));
-  ASSERT_EQ(cost->part_times.size(), 4U);
+  EXPECT_EQ(cost->parts,
+            (std::vector<std::string>{"merge", "update", "contacts", "minimum", "touches"}));
+  ASSERT_EQ(cost->part_times.size(), 5U);
   EXPECT_EQ(cost->objects, 0U);
   apply({ball("ball", 0.0, 0.3)});
   cost = statistics.wait_for(send(0.0));
   ASSERT_NE(cost, nullptr);
   EXPECT_EQ(cost->parts, (std::vector<std::string>{"merge", "update", "contacts", "minimum",
-                                                   "environment_update", "environment_contacts",
-                                                   "environment_minimum"}));
+                                                   "touches", "environment_update",
+                                                   "environment_contacts", "environment_minimum"}));
   EXPECT_EQ(cost->objects, 1U);
   EXPECT_EQ(cost->environment_contacts, 1U);
 }

@@ -8,6 +8,7 @@
 
 namespace fiber_proximity_ros {
 
+using fiber::MotionContact;
 using fiber_proximity::PredictedContact;
 
 PredictionOutput::PredictionOutput(ros::NodeHandle& private_node, InputSet& inputs,
@@ -113,10 +114,17 @@ void PredictionOutput::predict(const fiber::QueryOptions& options,
   after_.update_points(points_);
   engine_->update_motion(before_, after_);
   fiber::MotionOptions motion = fiber::motion_options(options, options_.tolerance);
-  motion.type = fiber::MotionType::FIRST;
-  message_.same_fiber = earliest_of(fiber::Pairing::SAME_FIBER, motion);
-  message_.different_fibers = earliest_of(fiber::Pairing::DIFFERENT_FIBERS, motion);
+  // Takes as long as for the first one, is asked once for both, and is not reported.
+  motion.type = fiber::MotionType::ALL;
+  motion.contact_limit = 0;
+  engine_->query_motion(motion, result_);
+  message_.same_fiber = to_message(
+      result_, [](const MotionContact& contact) { return contact.fiber_a == contact.fiber_b; });
+  message_.different_fibers = to_message(
+      result_, [](const MotionContact& contact) { return contact.fiber_a != contact.fiber_b; });
   if (environment.is_used()) {
+    motion.type = fiber::MotionType::FIRST;
+    motion.contact_limit = options.contact_limit;
     const std::shared_ptr<const fiber::Environment> around = environment.inputs().environment();
     around->query_motion(before_, after_, motion, environment.inputs().allowed(inputs_.names()),
                          result_);
@@ -125,28 +133,24 @@ void PredictionOutput::predict(const fiber::QueryOptions& options,
     result_ = fiber::MotionResult();
     result_.others_lower = 1.0;
   }
-  message_.environment = to_message(result_);
+  message_.environment = to_message(result_, [](const MotionContact&) { return true; });
 }
 
-PredictedContact PredictionOutput::earliest_of(fiber::Pairing pairing,
-                                               const fiber::MotionOptions& options) {
-  if (options.pairing != fiber::Pairing::ALL && options.pairing != pairing) {
-    fiber::MotionResult nothing;
-    nothing.others_lower = 1.0;
-    return to_message(nothing);
-  }
-  fiber::MotionOptions of_pairing = options;
-  of_pairing.pairing = pairing;
-  engine_->query_motion(of_pairing, result_);
-  return to_message(result_);
-}
-
-PredictedContact PredictionOutput::to_message(const fiber::MotionResult& result) const {
+/// The earliest of the contacts that are asked for.
+template <class IsAsked>
+PredictedContact PredictionOutput::to_message(const fiber::MotionResult& result,
+                                              const IsAsked& is_asked) const {
   PredictedContact message;
-  message.touching = static_cast<std::uint32_t>(result.touching.size());
+  message.touching = static_cast<std::uint32_t>(
+      std::count_if(result.touching.begin(), result.touching.end(), is_asked));
   message.complete = result.complete;
   message.time_upper = std::numeric_limits<double>::infinity();
-  const fiber::MotionContact* const earliest = result.earliest();
+  const MotionContact* earliest = nullptr;
+  for (const MotionContact& contact : result.contacts) {
+    if (is_asked(contact) && (earliest == nullptr || contact.earlier_than(*earliest))) {
+      earliest = &contact;
+    }
+  }
   message.expected = earliest != nullptr;
   if (earliest == nullptr) {
     message.time_lower = result.others_lower * options_.horizon;

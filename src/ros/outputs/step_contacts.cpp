@@ -10,8 +10,6 @@ using fiber::MotionContact;
 using fiber::TimeBounds;
 using std::chrono::nanoseconds;
 
-constexpr auto by_key = [](const auto& x, const auto& y) { return x.key() < y.key(); };
-
 /// The times of parts of a motion, rounded outwards.
 TimeBounds times_of(double lower, double upper, const TimeBounds& motion) {
   const auto length = static_cast<double>((motion.upper - motion.lower).count());
@@ -22,11 +20,25 @@ TimeBounds times_of(double lower, double upper, const TimeBounds& motion) {
           after_begin(std::ceil(std::min(upper, 1.0) * length))};
 }
 
-const MotionContact* find(const std::vector<MotionContact>& contacts,
-                          const fiber::Contact& contact) {
-  const auto found = std::lower_bound(contacts.begin(), contacts.end(), contact, by_key);
-  return found != contacts.end() && found->key() == contact.key() ? &*found : nullptr;
-}
+/// Finds one pair after the other, in their order, in a list that is sorted by key.
+template <class Item>
+class SortedList {
+ public:
+  /// @param items must outlive this
+  explicit SortedList(const std::vector<Item>& items) : next_(items.begin()), end_(items.end()) {}
+
+  /// @param key not less than in the call before
+  /// @returns nullptr if it is not there
+  template <class Key>
+  const Item* find(const Key& key) {
+    next_ = std::find_if(next_, end_, [&key](const Item& item) { return !(item.key() < key); });
+    return next_ != end_ && next_->key() == key ? &*next_ : nullptr;
+  }
+
+ private:
+  typename std::vector<Item>::const_iterator next_;
+  typename std::vector<Item>::const_iterator end_;
+};
 
 }  // namespace
 
@@ -39,29 +51,27 @@ void StepContacts::assign(const std::vector<fiber::Contact>& now, const TimeBoun
   if (motion == nullptr) {
     return;
   }
+  SortedList began_in_step(motion->result.contacts);
+  SortedList there_before(motion->result.touching);
   for (StepContact& there : contacts_) {
-    if (const MotionContact* const began = find(motion->result.contacts, there.contact)) {
+    if (const MotionContact* const began = began_in_step.find(there.key())) {
       there.first = times_of(began->lower, began->upper, motion->time);
-    } else if (find(motion->result.touching, there.contact) != nullptr) {
+    } else if (there_before.find(there.key()) != nullptr) {
       there.first = {motion->time.lower, motion->time.lower};
     }
   }
-  gone_.clear();
-  add_what_is_gone(motion->result.contacts, StepContact::State::PASSED, *motion);
-  add_what_is_gone(motion->result.touching, StepContact::State::LEFT, *motion);
-  contacts_.insert(contacts_.end(), gone_.begin(), gone_.end());
-  std::sort(contacts_.begin(), contacts_.end(), [](const StepContact& x, const StepContact& y) {
-    return by_key(x.contact, y.contact);
-  });
+  find_what_is_gone(now, motion->result.contacts, StepContact::State::PASSED, *motion);
+  merge_gone();
+  find_what_is_gone(now, motion->result.touching, StepContact::State::LEFT, *motion);
+  merge_gone();
 }
 
-void StepContacts::add_what_is_gone(const std::vector<MotionContact>& found,
-                                    StepContact::State state, const KnownMotion& motion) {
+void StepContacts::find_what_is_gone(const std::vector<fiber::Contact>& now,
+                                     const std::vector<MotionContact>& found,
+                                     StepContact::State state, const KnownMotion& motion) {
+  SortedList there_now(now);
   for (const MotionContact& contact : found) {
-    const auto there = std::lower_bound(
-        contacts_.begin(), contacts_.end(), contact,
-        [](const StepContact& x, const MotionContact& y) { return x.contact.key() < y.key(); });
-    if (there != contacts_.end() && there->contact.key() == contact.key()) {
+    if (there_now.find(contact.key()) != nullptr) {
       continue;
     }
     const fiber::LastContact last = motion.last_contact(contact);
@@ -71,6 +81,15 @@ void StepContacts::add_what_is_gone(const std::vector<MotionContact>& found,
                        times_of(last.lower, last.upper, motion.time)});
     }
   }
+}
+
+/// Moves what is gone to its places among the contacts.
+void StepContacts::merge_gone() {
+  const auto middle = static_cast<std::ptrdiff_t>(contacts_.size());
+  contacts_.insert(contacts_.end(), gone_.begin(), gone_.end());
+  std::inplace_merge(contacts_.begin(), contacts_.begin() + middle, contacts_.end(),
+                     [](const StepContact& x, const StepContact& y) { return x.key() < y.key(); });
+  gone_.clear();
 }
 
 void PassedContacts::add(const std::vector<StepContact>& contacts) {

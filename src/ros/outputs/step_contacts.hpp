@@ -22,6 +22,8 @@ struct StepContact {
   fiber::Contact contact;
   fiber::TimeBounds first;  ///< when in the step it first was there
   fiber::TimeBounds last;   ///< unless it is there now: when it was for the last time
+
+  auto key() const { return contact.key(); }
 };
 
 /// What is known of a motion.
@@ -47,8 +49,10 @@ class StepContacts {
   const std::vector<StepContact>& contacts() const { return contacts_; }
 
  private:
-  void add_what_is_gone(const std::vector<fiber::MotionContact>& found, StepContact::State state,
-                        const KnownMotion& motion);
+  void find_what_is_gone(const std::vector<fiber::Contact>& now,
+                         const std::vector<fiber::MotionContact>& found, StepContact::State state,
+                         const KnownMotion& motion);
+  void merge_gone();
 
   std::vector<StepContact> contacts_;
   std::vector<StepContact> gone_;  // a member for its memory

@@ -186,6 +186,7 @@ void ProximityServer::detect_motion() {
 /// Recognises the contacts that were found, and publishes them.
 void ProximityServer::track_contacts() {
   detect_motion();
+  const Stopwatch stopwatch;
   const Detection& found = detector_.detection();
   const fiber::TimeBounds step = touches_.step_to(to_time(inputs_.header().stamp));
   std::optional<KnownMotion> motion;
@@ -195,6 +196,7 @@ void ProximityServer::track_contacts() {
   contacts_.assign(found.contacts().contacts, step, motion ? &*motion : nullptr);
   touches_.track(contacts_.contacts(), {inputs_.names(), {}}, inputs_.header());
   passed_.add(contacts_.contacts());
+  statistics_.add_part("touches", stopwatch.seconds());
   if (contacts_publisher_.getNumSubscribers() > 0) {
     publish_contacts();
   }
