@@ -38,21 +38,21 @@ EnvironmentQuery::EnvironmentQuery(const FiberAssembly& fibers,
                                    const std::vector<EnvironmentObject>& objects,
                                    const QueryOptions& options, const AllowedPairs& allowed,
                                    QueryResult& result)
-    : keeper_(options, result),
+    : accumulator_(options, result),
       fibers_(fibers),
       allowed_(allowed, objects),
       counts_(result.counts) {}
 
 double EnvironmentQuery::offer(const SegmentRun& run, const WorldShape& shape) {
   ++counts_.node_tests;
-  const double bound = keeper_.bound_of(run.fiber, shape.object);
+  const double bound = accumulator_.bound_of(run.fiber, shape.object);
   if (run.box.exteriorDistance(shape.box) > std::max(bound + run.radius, 0.0)) {
-    keeper_.leave_out(bound);
+    accumulator_.leave_out(bound);
     return reach_of(run);
   }
   ++counts_.node_overlaps;
   for (std::uint32_t point = run.begin; point < run.end; ++point) {
-    if (keeper_.done()) {
+    if (accumulator_.done()) {
       return -std::numeric_limits<double>::infinity();
     }
     offer_segment(run, point, shape);
@@ -67,33 +67,33 @@ void EnvironmentQuery::offer_segment(const SegmentRun& run, std::uint32_t point,
     return;
   }
   const Capsule capsule = fibers_.capsule(point);
-  const double bound = keeper_.bound_of(run.fiber, shape.object);
+  const double bound = accumulator_.bound_of(run.fiber, shape.object);
   const double within = bound + capsule.radius;
   const WorldBox box(capsule.p0.cwiseMin(capsule.p1), capsule.p0.cwiseMax(capsule.p1));
   if (box.exteriorDistance(shape.box) > std::max(within, 0.0)) {
-    keeper_.leave_out(bound);
+    accumulator_.leave_out(bound);
     return;
   }
-  if (!keeper_.takes_pair()) {
+  if (!accumulator_.takes_pair()) {
     return;
   }
   ++counts_.primitive_tests;
   const AxisDistance axis =
       axis_distance(shape.shape, shape.to_shape * capsule.p0, shape.to_shape * capsule.p1, within);
   if (axis.distance == std::numeric_limits<double>::infinity()) {
-    keeper_.leave_out(bound);
+    accumulator_.leave_out(bound);
     return;
   }
   Contact found = contact_of(capsule, shape, axis);
   found.fiber_a = run.fiber;
   found.segment_a = point - first;
   if (found.distance <= bound) {
-    keeper_.keep(found);
+    accumulator_.keep(found);
   } else {
-    keeper_.leave_out(found.lower);
+    accumulator_.leave_out(found.lower);
   }
 }
 
-void EnvironmentQuery::finish() { keeper_.finish(-std::numeric_limits<double>::infinity()); }
+void EnvironmentQuery::finish() { accumulator_.finish(-std::numeric_limits<double>::infinity()); }
 
 }  // namespace fiber

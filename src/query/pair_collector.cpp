@@ -13,7 +13,7 @@ std::uint32_t PairCollector::FiberFinder::fiber_of(std::uint32_t point) {
 
 PairCollector::PairCollector(const FiberAssembly& fibers, const QueryOptions& options,
                              QueryResult& result, const LoopTest* loops)
-    : keeper_(options, result),
+    : accumulator_(options, result),
       test_(fibers, options, loops),
       fibers_a_(fibers),
       fibers_b_(fibers),
@@ -22,7 +22,7 @@ PairCollector::PairCollector(const FiberAssembly& fibers, const QueryOptions& op
 
 PairCollector::PairCollector(const FiberAssembly& shape, const FiberAssembly& fibers,
                              const QueryOptions& options, QueryResult& result)
-    : keeper_(options, result),
+    : accumulator_(options, result),
       test_(shape, fibers, options),
       fibers_a_(shape),
       fibers_b_(fibers),
@@ -30,7 +30,7 @@ PairCollector::PairCollector(const FiberAssembly& shape, const FiberAssembly& fi
       counts_(result.counts) {}
 
 void PairCollector::offer(std::uint32_t point_a, std::uint32_t point_b) {
-  if (!keeper_.takes_pair()) {
+  if (!accumulator_.takes_pair()) {
     return;
   }
   const PointPair pair = test_.ordered({point_a, point_b});
@@ -42,22 +42,23 @@ void PairCollector::offer(std::uint32_t point_a, std::uint32_t point_b) {
     return;
   }
   // Near pairs that make no loop would be measured in vain, as they do not lower the bound.
-  if (keeper_.lowers_bound() && test_.rules_out(pair.a, pair.b)) {
+  if (accumulator_.lowers_bound() && test_.rules_out(pair.a, pair.b)) {
     return;
   }
-  if (const std::optional<Contact> contact = contact_within(pair, keeper_.bound())) {
-    keeper_.keep(*contact);
+  if (const std::optional<Contact> contact = contact_within(pair, accumulator_.bound())) {
+    accumulator_.keep(*contact);
   }
 }
 
 void PairCollector::offer_of_fibers(PointPair pair) {
-  const double bound = keeper_.bound_of(fibers_a_.fiber_of(pair.a), fibers_b_.fiber_of(pair.b));
+  const double bound =
+      accumulator_.bound_of(fibers_a_.fiber_of(pair.a), fibers_b_.fiber_of(pair.b));
   if (test_.gap_lower_bound(pair) > bound) {
-    keeper_.leave_out(bound);
+    accumulator_.leave_out(bound);
     return;
   }
   if (const std::optional<Contact> contact = contact_within(pair, bound)) {
-    keeper_.keep(*contact);
+    accumulator_.keep(*contact);
   }
 }
 
@@ -70,7 +71,7 @@ std::optional<Contact> PairCollector::contact_within(PointPair pair, double boun
   if (lower <= bound && test_.is_within_margin(pair, distance)) {
     std::uint64_t looks = 0;
     const bool lacks_loop = test_.lacks_loop(pair, distance, looks);
-    keeper_.count_looks(looks);
+    accumulator_.count_looks(looks);
     if (lacks_loop) {
       return std::nullopt;
     }
@@ -79,7 +80,7 @@ std::optional<Contact> PairCollector::contact_within(PointPair pair, double boun
       return contact;
     }
   }
-  keeper_.leave_out(lower);
+  accumulator_.leave_out(lower);
   return std::nullopt;
 }
 
