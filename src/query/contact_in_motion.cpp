@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fiber_proximity/geometry/contact_time.hpp"
+#include "fiber_proximity/geometry/segment_distance.hpp"
 #include "fiber_proximity/query/narrow_phase.hpp"
 
 namespace fiber {
@@ -15,11 +16,6 @@ std::uint32_t point_of(const FiberMotion& motion, std::uint32_t fiber, std::uint
 
 double radius_in(const FiberMotion& motion, std::uint32_t point) {
   return std::max(motion.before.segment_radius(point), motion.after.segment_radius(point));
-}
-
-/// As a fibre of its own.
-FiberAssembly fiber_of(const Capsule& segment) {
-  return FiberAssembly({segment.p0, segment.p1}, {0, 2}, {segment.radius});
 }
 
 }  // namespace
@@ -37,14 +33,9 @@ double time_of(const MotionContact& contact) {
 
 Contact first_contact(const FiberMotion& a, const FiberMotion& b, const MotionContact& contact) {
   const double time = time_of(contact);
-  const FiberAssembly segment_a =
-      fiber_of(capsule_at(a, point_of(a, contact.fiber_a, contact.segment_a), time));
-  const FiberAssembly segment_b =
-      fiber_of(capsule_at(b, point_of(b, contact.fiber_b, contact.segment_b), time));
-  const QueryOptions options;
-  const NarrowPhase test(segment_a, segment_b, options);
-  constexpr PointPair only_pair{0, 0};
-  Contact found = test.contact(only_pair, test.distance(only_pair));
+  const Capsule of_a = capsule_at(a, point_of(a, contact.fiber_a, contact.segment_a), time);
+  const Capsule of_b = capsule_at(b, point_of(b, contact.fiber_b, contact.segment_b), time);
+  Contact found = contact_of(of_a, of_b, segment_distance(of_a.p0, of_a.p1, of_b.p0, of_b.p1));
   found.fiber_a = contact.fiber_a;
   found.segment_a = contact.segment_a;
   found.fiber_b = contact.fiber_b;
@@ -52,20 +43,32 @@ Contact first_contact(const FiberMotion& a, const FiberMotion& b, const MotionCo
   return found;
 }
 
-LastContact last_contact(const FiberMotion& a, const FiberMotion& b, const MotionContact& contact,
-                         const MotionOptions& options) {
-  const std::uint32_t point_a = point_of(a, contact.fiber_a, contact.segment_a);
-  const std::uint32_t point_b = point_of(b, contact.fiber_b, contact.segment_b);
-  const SegmentMotions backward{&a.after.points()[point_a],
-                                &a.before.points()[point_a],
-                                &b.after.points()[point_b],
-                                &b.before.points()[point_b],
-                                {radius_in(a, point_a), radius_in(b, point_b), options.margin}};
-  const ContactTime time = contact_time(backward, options.tolerance);
-  // Near 0 doubles tell more than near 1: outwards to the next one.
-  return {std::isfinite(time.upper) ? std::max(std::nextafter(1.0 - time.upper, 0.0), 0.0) : 0.0,
-          std::min(std::nextafter(1.0 - time.lower, 2.0), 1.0),
-          time.hit && time.certain && time.upper == 0.0};
+std::vector<LastContact> last_contacts(const FiberMotion& a, const FiberMotion& b,
+                                       const std::vector<MotionContact>& contacts,
+                                       const MotionOptions& options) {
+  std::vector<SegmentMotions> backward;
+  backward.reserve(contacts.size());
+  for (const MotionContact& contact : contacts) {
+    const std::uint32_t point_a = point_of(a, contact.fiber_a, contact.segment_a);
+    const std::uint32_t point_b = point_of(b, contact.fiber_b, contact.segment_b);
+    backward.push_back({&a.after.points()[point_a],
+                        &a.before.points()[point_a],
+                        &b.after.points()[point_b],
+                        &b.before.points()[point_b],
+                        {radius_in(a, point_a), radius_in(b, point_b), options.margin}});
+  }
+  std::vector<ContactTime> times(contacts.size());
+  contact_times(backward.data(), backward.size(), options.tolerance, times.data());
+  std::vector<LastContact> last;
+  last.reserve(times.size());
+  for (const ContactTime& time : times) {
+    // Near 0 doubles tell more than near 1: outwards to the next one.
+    last.push_back(
+        {std::isfinite(time.upper) ? std::max(std::nextafter(1.0 - time.upper, 0.0), 0.0) : 0.0,
+         std::min(std::nextafter(1.0 - time.lower, 2.0), 1.0),
+         time.hit && time.certain && time.upper == 0.0});
+  }
+  return last;
 }
 
 }  // namespace fiber

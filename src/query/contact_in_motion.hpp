@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/motion.hpp"
 #include "fiber_proximity/query/motion_evaluator.hpp"
@@ -25,9 +27,11 @@ struct LastContact {
   bool lasts = true;   ///< they are in contact at the end of the motion, decided exactly
 };
 
-/// Looks at a motion from its end for a pair that comes into contact in it.
+/// Looks at a motion from its end for pairs that come into contact in it.
 /// @param options margin and tolerance count
-LastContact last_contact(const FiberMotion& a, const FiberMotion& b, const MotionContact& contact,
-                         const MotionOptions& options);
+/// @returns one for each contact
+std::vector<LastContact> last_contacts(const FiberMotion& a, const FiberMotion& b,
+                                       const std::vector<MotionContact>& contacts,
+                                       const MotionOptions& options);
 
 }  // namespace fiber

@@ -39,7 +39,32 @@ Vector3d direction(const SegmentDistance& nearest, const Capsule& a, const Capsu
   return nearest.delta.isZero(0.0) ? normal_of_crossing(a, b) : unit_of(nearest.delta);
 }
 
+/// The error of the distance, and what the sum of the radii, the gap and its bounds are rounded by:
+/// half an ε each. Where they are subnormal sums are exact.
+double gap_error(const SegmentDistance& nearest, double radii) {
+  return (1.0 + 0x1p-50) * nearest.error + 0x1p-51 * (radii + nearest.distance);
+}
+
 }  // namespace
+
+Contact contact_of(const Capsule& a, const Capsule& b, const SegmentDistance& nearest) {
+  const double radii = a.radius + b.radius;
+  const double error = gap_error(nearest, radii);
+  Contact contact;
+  contact.s = nearest.s;
+  contact.t = nearest.t;
+  contact.distance = nearest.distance - radii;
+  contact.lower = contact.distance - error;
+  contact.upper = contact.distance + error;
+  contact.normal = direction(nearest, a, b);
+  contact.point_a = (1.0 - nearest.s) * a.p0 + nearest.s * a.p1 + a.radius * contact.normal;
+  contact.point_b = (1.0 - nearest.t) * b.p0 + nearest.t * b.p1 - b.radius * contact.normal;
+  return contact;
+}
+
+double NarrowPhase::gap_lower(PointPair pair, const PairDistance& distance) const {
+  return distance.gap - gap_error(distance.nearest, radii(pair));
+}
 
 NarrowPhase::NarrowPhase(const FiberAssembly& fibers, const QueryOptions& options,
                          const LoopTest* loops)
@@ -127,13 +152,6 @@ PairDistance NarrowPhase::rounded(PointPair pair, const PairDistance& distance) 
   return {nearest, nearest.distance - radii(pair)};
 }
 
-/// The error of the distance, and what the sum of the radii, the gap and its bounds are rounded by:
-/// half an ε each. Where they are subnormal sums are exact.
-double NarrowPhase::gap_error(PointPair pair, const PairDistance& distance) const {
-  const SegmentDistance& nearest = distance.nearest;
-  return (1.0 + 0x1p-50) * nearest.error + 0x1p-51 * (radii(pair) + nearest.distance);
-}
-
 double NarrowPhase::least_gap() const {
   return -(1.0 + 0x1p-51) * (a_.largest_radius() + b_.largest_radius());
 }
@@ -159,25 +177,13 @@ double NarrowPhase::gap_lower_bound(PointPair pair) const {
 Contact NarrowPhase::contact(PointPair pair, const PairDistance& computed) const {
   const PairDistance distance =
       options_.kernel == Kernel::EXACT ? rounded(pair, computed) : computed;
-  const Capsule a = a_.capsule(pair.a);
-  const Capsule b = b_.capsule(pair.b);
-  const SegmentDistance& nearest = distance.nearest;
   const SegmentId id_a = a_.segment_id(pair.a);
   const SegmentId id_b = b_.segment_id(pair.b);
-  Contact contact;
+  Contact contact = contact_of(a_.capsule(pair.a), b_.capsule(pair.b), distance.nearest);
   contact.fiber_a = id_a.fiber;
   contact.segment_a = id_a.segment;
   contact.fiber_b = id_b.fiber;
   contact.segment_b = id_b.segment;
-  contact.s = nearest.s;
-  contact.t = nearest.t;
-  contact.distance = distance.gap;
-  const double error = gap_error(pair, distance);
-  contact.lower = distance.gap - error;
-  contact.upper = distance.gap + error;
-  contact.normal = direction(nearest, a, b);
-  contact.point_a = (1.0 - nearest.s) * a.p0 + nearest.s * a.p1 + a.radius * contact.normal;
-  contact.point_b = (1.0 - nearest.t) * b.p0 + nearest.t * b.p1 - b.radius * contact.normal;
   return contact;
 }
 

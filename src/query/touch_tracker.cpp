@@ -10,6 +10,11 @@ namespace {
 constexpr std::uint32_t no_touch = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint32_t no_patch = std::numeric_limits<std::uint32_t>::max();
 
+/// A segment as one number, in the order of fibre and index.
+std::uint64_t number_of(std::uint32_t fiber, std::uint32_t segment) {
+  return std::uint64_t{fiber} << 32 | segment;
+}
+
 /// Finds, among pairs sorted by key, the neighbours of one pair after the other: those whose
 /// segments are the same, or next to them. As those that are asked about are sorted, too, each
 /// place is passed once only.
@@ -23,26 +28,25 @@ class Neighbours {
   /// @param other,end neither less than in the call before
   template <class Other, class Use>
   void for_each(const Other& other, std::size_t end, const Use& use) {
-    const std::uint32_t least_b = other.segment_b == 0 ? 0 : other.segment_b - 1;
+    const std::uint64_t b = number_of(other.fiber_b, other.segment_b);
+    const std::uint64_t least_b = other.segment_b == 0 ? b : b - 1;
     // Of each segment next to the first one, and of itself, its own place.
     for (std::uint32_t row = other.segment_a == 0 ? 1 : 0; row < 3; ++row) {
-      const std::uint32_t segment_a = other.segment_a + row - 1;
-      const auto first = std::tie(other.fiber_a, segment_a, other.fiber_b, least_b);
+      const std::uint64_t a = number_of(other.fiber_a, other.segment_a) + row - 1;
       std::size_t& begin = begins_[row];
-      while (begin < end && pairs_[begin].key() < first) {
+      while (begin < end && is_before(pairs_[begin], a, least_b)) {
         ++begin;
       }
-      for (std::size_t i = begin; i < end && is_in_row(pairs_[i], other, segment_a); ++i) {
+      for (std::size_t i = begin; i < end && is_before(pairs_[i], a, b + 2); ++i) {
         use(i);
       }
     }
   }
 
  private:
-  template <class Other>
-  static bool is_in_row(const Pair& pair, const Other& other, std::uint32_t segment_a) {
-    return pair.fiber_a == other.fiber_a && pair.segment_a == segment_a &&
-           pair.fiber_b == other.fiber_b && pair.segment_b <= other.segment_b + 1;
+  static bool is_before(const Pair& pair, std::uint64_t a, std::uint64_t b) {
+    const std::uint64_t pair_a = number_of(pair.fiber_a, pair.segment_a);
+    return pair_a < a || (pair_a == a && number_of(pair.fiber_b, pair.segment_b) < b);
   }
 
   const std::vector<Pair>& pairs_;

@@ -55,7 +55,8 @@ TEST(ContactInMotion, IsKnownToEnd) {
     MotionOptions options;
     options.margin = margin;
     options.tolerance = 1e-9;
-    const LastContact last = last_contact(motion, motion, only_contact(motion, options), options);
+    const LastContact last =
+        last_contacts(motion, motion, {only_contact(motion, options)}, options).at(0);
     const double truth = (0.1 + 2 * radius + margin) / 0.4;
     EXPECT_FALSE(last.lasts);
     EXPECT_LE(last.lower, truth);
@@ -69,7 +70,7 @@ TEST(ContactInMotion, MayLast) {
   const FiberAssembly after = crossed_cables(0.001);
   const FiberMotion motion{before, after};
   const MotionContact contact = only_contact(motion, {});
-  const LastContact last = last_contact(motion, motion, contact, {});
+  const LastContact last = last_contacts(motion, motion, {contact}, {}).at(0);
   EXPECT_TRUE(last.lasts);
   EXPECT_GE(last.upper, 1.0);
   EXPECT_LE(last.lower, 1.0);

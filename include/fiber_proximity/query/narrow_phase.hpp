@@ -19,6 +19,9 @@ struct PairDistance {
   double gap = 0.0;
 };
 
+/// What is reported of two segments that are so far apart, but for the names of their fibres.
+Contact contact_of(const Capsule& a, const Capsule& b, const SegmentDistance& nearest);
+
 /// The one narrow phase: which pairs of segments count, how far apart they are, what is reported of
 /// them. Holds references: assemblies and options must outlive it.
 class NarrowPhase {
@@ -78,9 +81,7 @@ class NarrowPhase {
   bool is_within_margin(PointPair pair, const PairDistance& distance) const;
 
   /// [m] The true gap is at least this.
-  double gap_lower(PointPair pair, const PairDistance& distance) const {
-    return distance.gap - gap_error(pair, distance);
-  }
+  double gap_lower(PointPair pair, const PairDistance& distance) const;
 
   double margin() const { return options_.margin; }  ///< [m]
 
@@ -100,7 +101,6 @@ class NarrowPhase {
     return a_.segment_id(pair.a).fiber == a_.segment_id(pair.b).fiber;
   }
   PairDistance rounded(PointPair pair, const PairDistance& distance) const;
-  double gap_error(PointPair pair, const PairDistance& distance) const;
   double radii(PointPair pair) const {
     return a_.segment_radius(pair.a) + b_.segment_radius(pair.b);
   }

@@ -58,13 +58,17 @@ KnownMotion EnvironmentMotionDetector::known_motion(const ContinuousStep& step,
     return before_->first_contact(step.motion, *now_, contact);
   };
   // Nothing is known of when it parted but whether it has.
-  const auto last_contact = [this, &step](const MotionContact& contact) {
-    const std::uint32_t point = step.motion.before.offsets()[contact.fiber_a] + contact.segment_a;
-    const fiber::Contact last = now_->contact(fiber::capsule_at(step.motion, point, 1.0),
-                                              contact.fiber_b, contact.segment_b);
-    return fiber::LastContact{fiber::time_of(contact), 1.0, last.distance <= margin_};
+  const auto last_contacts = [this, &step](const std::vector<MotionContact>& contacts) {
+    std::vector<fiber::LastContact> last;
+    for (const MotionContact& contact : contacts) {
+      const std::uint32_t point = step.motion.before.offsets()[contact.fiber_a] + contact.segment_a;
+      const fiber::Contact at_end = now_->contact(fiber::capsule_at(step.motion, point, 1.0),
+                                                  contact.fiber_b, contact.segment_b);
+      last.push_back({fiber::time_of(contact), 1.0, at_end.distance <= margin_});
+    }
+    return last;
   };
-  return {result_, first_contact, last_contact, step.time, reports_all};
+  return {result_, first_contact, last_contacts, step.time, reports_all};
 }
 
 }  // namespace fiber_proximity_ros

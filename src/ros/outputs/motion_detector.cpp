@@ -46,8 +46,8 @@ KnownMotion MotionDetector::known_motion(bool reports_all) const {
           [motion](const MotionContact& contact) {
             return fiber::first_contact(motion, motion, contact);
           },
-          [motion, this](const MotionContact& contact) {
-            return fiber::last_contact(motion, motion, contact, options_);
+          [motion, this](const std::vector<MotionContact>& contacts) {
+            return fiber::last_contacts(motion, motion, contacts, options_);
           },
           step_->time(), reports_all};
 }

@@ -70,15 +70,18 @@ void StepContacts::find_what_is_gone(const std::vector<fiber::Contact>& now,
                                      const std::vector<MotionContact>& found,
                                      StepContact::State state, const KnownMotion& motion) {
   SortedList there_now(now);
+  not_there_.clear();
   for (const MotionContact& contact : found) {
-    if (there_now.find(contact.key()) != nullptr) {
-      continue;
+    if (there_now.find(contact.key()) == nullptr) {
+      not_there_.push_back(contact);
     }
-    const fiber::LastContact last = motion.last_contact(contact);
-    if (motion.reports_all || !last.lasts) {
-      gone_.push_back({state, motion.first_contact(contact),
-                       times_of(contact.lower, contact.upper, motion.time),
-                       times_of(last.lower, last.upper, motion.time)});
+  }
+  const std::vector<fiber::LastContact> last = motion.last_contacts(not_there_);
+  for (std::size_t i = 0; i < not_there_.size(); ++i) {
+    if (motion.reports_all || !last[i].lasts) {
+      gone_.push_back({state, motion.first_contact(not_there_[i]),
+                       times_of(not_there_[i].lower, not_there_[i].upper, motion.time),
+                       times_of(last[i].lower, last[i].upper, motion.time)});
     }
   }
 }

@@ -30,7 +30,8 @@ struct StepContact {
 struct KnownMotion {
   const fiber::MotionResult& result;
   std::function<fiber::Contact(const fiber::MotionContact&)> first_contact;
-  std::function<fiber::LastContact(const fiber::MotionContact&)> last_contact;
+  std::function<std::vector<fiber::LastContact>(const std::vector<fiber::MotionContact>&)>
+      last_contacts;
   fiber::TimeBounds time;  ///< from its begin to its end
   /// Whether all contacts there are now were asked for and found, so that others are gone. If not,
   /// only those are that have parted.
@@ -55,7 +56,9 @@ class StepContacts {
   void merge_gone();
 
   std::vector<StepContact> contacts_;
-  std::vector<StepContact> gone_;  // a member for its memory
+  // Members for their memory.
+  std::vector<fiber::MotionContact> not_there_;  // of the motion, but not at its end
+  std::vector<StepContact> gone_;
 };
 
 /// Contacts that came and went, kept for a moment so that somebody can see them.
