@@ -119,4 +119,31 @@ class EnvironmentFixture : public ::testing::Test {
   std::unique_ptr<EnvironmentInputs> inputs;
 };
 
+/// The same, with its topic of obstacles.
+class EnvironmentInputsTest : public EnvironmentFixture {
+ protected:
+  void start_with_topic() {
+    start();
+    publisher_ = advertise<fiber_proximity::ObstacleArray>("obstacles");
+  }
+
+  void publish(const std::vector<Obstacle>& obstacles) {
+    fiber_proximity::ObstacleArray message;
+    message.obstacles = obstacles;
+    publisher_.publish(message);
+  }
+
+  /// Calls the service while this thread goes on.
+  std::future<std::string> apply_meanwhile(const std::vector<Obstacle>& obstacles) const {
+    return std::async(std::launch::async, [this, obstacles] {
+      fiber_proximity::ApplyObstacles service;
+      service.request.obstacles = obstacles;
+      EXPECT_TRUE(ros::service::call(own.resolveName("apply_obstacles"), service));
+      return service.response.message;
+    });
+  }
+
+  ros::Publisher publisher_;
+};
+
 }  // namespace environment_test
