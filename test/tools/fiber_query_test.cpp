@@ -1,28 +1,13 @@
+#include "test/tools/fiber_query.hpp"
+
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <vector>
 
 #include "fiber_proximity/io/csv.hpp"
-#include "fiber_proximity/query/engine.hpp"
 #include "src/query/brute_force.hpp"
-#include "test/support/shared_data.hpp"
-#include "test/tools/tools_test.hpp"
 
 namespace fiber::test {
 namespace {
-
-const std::string columns =
-    "fiber_a,segment_a,s,fiber_b,segment_b,t,distance,point_a_x,point_a_y,point_a_z,"
-    "point_b_x,point_b_y,point_b_z,normal_x,normal_y,normal_z,lower,upper\n";
-
-std::vector<std::string> lines(const std::string& text) {
-  std::vector<std::string> result;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) {
-    result.push_back(line);
-  }
-  return result;
-}
 
 /// The numbers of a contact in the order of the columns.
 std::vector<double> numbers(const Contact& c) {
@@ -63,24 +48,6 @@ std::vector<double> without_bounds(std::vector<double> numbers) {
   numbers.resize(16);
   return numbers;
 }
-
-class FiberQuery : public ToolsTest {
- protected:
-  /// Three fibres: two cross at a gap of 0.1 in their second and first segment, the third is 1
-  /// away.
-  std::string crossing() const {
-    return write("crossing.csv",
-                 "fiber,x,y,z,radius\n"
-                 "a,-2,0,0,0.2\na,-1,0,0,0.2\na,1,0,0,0.2\n"
-                 "b,0,-1,0.5,0.2\nb,0,1,0.5,0.2\n"
-                 "c,-2,0,1.5,0.2\nc,2,0,1.5,0.2\n");
-  }
-  std::string soup(const std::string& arguments) const {
-    const ProcessResult made = scene("soup " + arguments + " --out " + path("soup.csv"));
-    EXPECT_EQ(made.exit_code, 0) << made.err;
-    return path("soup.csv");
-  }
-};
 
 TEST_F(FiberQuery, ContactsOfACrossing) {
   const ProcessResult result = query("contacts " + crossing() + " --margin 0.2");
@@ -159,37 +126,6 @@ TEST_F(FiberQuery, NearestAreTheSegmentsNearestToAPoint) {
   EXPECT_EQ(numbers(contacts[1]), numbers_in(found[2]));
 }
 
-TEST_F(FiberQuery, NearestAnswersEveryFrameWithEveryEngine) {
-  const std::string path = soup("--scale 0.005 --frames 3 --seed 4");
-  const std::string arguments = "nearest " + path + " --point 0.1,-0.05,0.2 --k 7 --engine ";
-  const ProcessResult expected = query(arguments + "brute_force");
-  EXPECT_EQ(lines(expected.out).size(), 1U + 3 * 7);
-  EXPECT_EQ(lines(expected.out)[0] + "\n", "frame," + columns);
-  for (const std::string& engine : engine_names()) {
-    EXPECT_EQ(query(arguments + engine).out, expected.out) << engine;
-  }
-}
-
-TEST_F(FiberQuery, NearestRefusesBadPointsAndCounts) {
-  const std::string nearest = "nearest " + crossing();
-  EXPECT_TRUE(refused(query(nearest), "--point is required"));
-  for (const std::string point :
-       {"1,2", "1,2,3,4", "1,2,3,", "1;2;3", "a,b,c", "1,,3", "1,2,", ",,", "0,nan,0", "inf,0,0",
-        "0,0,-1e200", "1,2,3x", "\"1, 2, 3\""}) {
-    EXPECT_TRUE(refused(query(nearest + " --point " + (point == "1;2;3" ? "'1;2;3'" : point)),
-                        "must be three numbers X,Y,Z; coordinates must be finite and at most 1e150 "
-                        "m in magnitude"))
-        << point;
-  }
-  for (const std::string k : {"0", "-1", "two", "1.5"}) {
-    EXPECT_TRUE(refused(query(nearest + " --point 0,0,0 --k " + k),
-                        "--k: '" + k + "' must be a whole number from 1"));
-  }
-  EXPECT_TRUE(refused(query(nearest + " --point 0,0,0 --k 4294967296"), "--k"));
-  EXPECT_TRUE(refused(query(nearest + " --point 0,0,0 --margin 1"), "--margin"));
-  EXPECT_TRUE(refused(query("contacts " + crossing() + " --point 0,0,0"), "--point"));
-}
-
 TEST_F(FiberQuery, AccuracyIsChosenOnTheCommandLine) {
   const double gap = 0.5 - (0.2 + 0.2);
   for (const std::string kernel : {"robust", "exact"}) {
@@ -253,57 +189,6 @@ TEST_F(FiberQuery, RadiusIsForFilesWithoutOne) {
   EXPECT_EQ(query("contacts " + crossing() + " --radius 10").out, columns);
 }
 
-TEST_F(FiberQuery, AgreesWithBruteForceInEveryFrame) {
-  const std::string path = soup("--scale 0.002 --frames 3 --seed 4");
-  for (const std::string command : {"contacts", "closest", "fiber_pairs"}) {
-    const std::string arguments = " " + path + " --margin 0.005 --threads 2";
-    const ProcessResult tree = query(command + arguments + " --engine AL");
-    EXPECT_EQ(tree.exit_code, 0) << tree.err;
-    EXPECT_GT(lines(tree.out).size(), 3U) << "frames with contacts make the comparison worth it";
-    EXPECT_EQ(tree.out, query(command + arguments + " --engine brute_force").out);
-  }
-}
-
-TEST_F(FiberQuery, EveryEnginePrintsTheSameBytes) {
-  std::vector<std::string> engines = engine_names();
-  engines.insert(engines.end(), {"DL-6", "DS-200", "DL-26-classic"});
-  const std::string tress = "tress_a --scale 0.004 --seed 3";
-  ASSERT_EQ(scene(tress + " --frames 2 --out " + path("moving.csv")).exit_code, 0);
-  ASSERT_EQ(scene(tress + " --shuffle --out " + path("still.hair")).exit_code, 0);
-  for (const std::string file : {"moving.csv", "still.hair"}) {
-    for (const std::string command : {"contacts ", "closest ", "fiber_pairs "}) {
-      const std::string arguments = command + path(file) + " --margin 0.0002 --engine ";
-      const ProcessResult expected = query(arguments + "brute_force");
-      EXPECT_GE(lines(expected.out).size(), command == "closest " ? 2U : 10U);
-      for (const std::string& engine : engines) {
-        const ProcessResult result = query(arguments + engine);
-        EXPECT_EQ(result.exit_code, 0) << engine << ": " << result.err;
-        EXPECT_EQ(result.out, expected.out) << command << file << " with " << engine;
-      }
-    }
-  }
-}
-
-TEST_F(FiberQuery, AnEngineThatIsNoneIsRefusedWithAllThereAre) {
-  const std::string file = crossing();
-  std::string known;
-  for (const std::string& name : engine_names()) {
-    known += (known.empty() ? "known are: " : ", ") + name;
-  }
-  known += "; DL-k and DS-k for even k from 6 to 200";
-  for (const std::string engine : {"DL-7", "DL-4", "DL-202", "XX", "DS-", "DL-20x", "\"\""}) {
-    EXPECT_TRUE(refused(query("contacts " + file + " --engine " + engine), known));
-  }
-  EXPECT_TRUE(
-      refused(query("contacts " + file + " --engine DL-7"),
-              "'DL-7' (k-DOP with k = 7: k must be even, from 6 to 200), known are: run_tree, AL"));
-}
-
-TEST_F(FiberQuery, ThreadingRefusesFibresOfDifferentLength) {
-  EXPECT_TRUE(refused(query("contacts " + crossing() + " --engine AL-threaded"),
-                      "fibre 1 has 1 segment(s), fibre 0 has 2; threading needs the same number"));
-}
-
 TEST_F(FiberQuery, PrintsTheLibrarysNumbersBitForBit) {
   const std::string path = soup("--scale 0.003 --frames 2");
   QueryOptions options;
@@ -361,69 +246,6 @@ TEST_F(FiberQuery, HelpIsNoError) {
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_NE(result.out.find("contacts"), std::string::npos);
     EXPECT_EQ(result.err, "");
-  }
-}
-
-TEST_F(FiberQuery, RefusesBadCommandLines) {
-  const std::string file = crossing();
-  EXPECT_TRUE(
-      refused(query(""),
-              "a subcommand is needed: contacts, closest, first, fiber_pairs, nearest, segments"));
-  EXPECT_TRUE(refused(query("touches " + file), "touches"));
-  EXPECT_TRUE(refused(query("contacts"), "FILE"));
-  EXPECT_TRUE(refused(query("contacts " + file + " --frobnicate"), "--frobnicate"));
-  EXPECT_TRUE(refused(query("contacts " + file + " more.csv"), "more.csv"));
-  EXPECT_TRUE(refused(query("contacts " + file + " --engine XL"), "'XL', known are: run_tree, AL"));
-  EXPECT_TRUE(refused(query("contacts " + file + " --format xml"), "--format: xml"));
-  EXPECT_TRUE(refused(query("contacts " + file + " --threads x"), "--threads: 'x'"));
-  EXPECT_TRUE(
-      refused(query("contacts " + file + " --margin wide"), "--margin: 'wide' must be a number"));
-  EXPECT_TRUE(refused(query("contacts " + file + " --margin -1"), "margin is -1"));
-  EXPECT_TRUE(refused(query("contacts " + file + " --margin nan"), "margin is nan"));
-  EXPECT_TRUE(refused(query("contacts " + file + " --margin"), "--margin"));
-  EXPECT_TRUE(refused(query("contacts " + file + " --neighbour-skip -1"), "--neighbour-skip = -1"));
-  EXPECT_TRUE(refused(query("contacts " + file + " --neighbour-skip-length -1"),
-                      "neighbour_skip_length is -1"));
-  EXPECT_TRUE(refused(query("contacts " + file + " --radius -1"), "radius is -1"));
-}
-
-TEST_F(FiberQuery, RefusesBadFilesNamingFileLineAndReason) {
-  EXPECT_TRUE(refused(query("contacts " + path("none.csv")),
-                      path("none.csv") + ": cannot be opened: No such file or directory"));
-  EXPECT_TRUE(refused(query("contacts /"), "/: cannot be read: Is a directory"));
-  const std::string head = "fiber,x,y,z\n0,0,0,0\n";
-  const auto refusal = [this](const std::string& content, const std::string& reason) {
-    return refused(query("contacts " + write("bad.csv", content)), path("bad.csv") + reason);
-  };
-  EXPECT_TRUE(refusal("", ": is empty"));
-  EXPECT_TRUE(refusal("x,y,z\n0,0,0\n", ":1: the header is 'x,y,z'"));
-  EXPECT_TRUE(refusal(head + "0,abc,0,0\n", ":3: x is 'abc', expected a number"));
-  EXPECT_TRUE(refusal(head + "0,0,nan,0\n", ":3: y is 'nan'"));
-  EXPECT_TRUE(refusal(head + "0,0,0,inf\n", ":3: z is 'inf'"));
-  EXPECT_TRUE(refusal(head + "0,0,0\n", ":3: has 3 values, expected 4"));
-  EXPECT_TRUE(refusal(head, ":2: fibre '0' has only this point"));
-  EXPECT_TRUE(
-      refusal(head + "0,1,0,0\n1,0,0,0\n1,1,0,0\n0,2,0,0\n", ":6: fibre '0' appears again"));
-  EXPECT_TRUE(refusal("fiber,x,y,z,radius\n0,0,0,0,-1\n", ":2: radius is '-1'"));
-}
-
-TEST_F(FiberQuery, OutputThatCannotBeWrittenIsAnError) {
-  const ProcessResult result =
-      run_process("(" FIBER_QUERY " contacts " + crossing() + " >/dev/full)");
-  EXPECT_TRUE(refused(result, "cannot be written"));
-}
-
-TEST_F(FiberQuery, AnswersTheRecordedCables) {
-  const std::filesystem::path data = shared_data();
-  if (!std::filesystem::exists(data / "cable_track_a.csv")) {
-    GTEST_SKIP() << "no recorded cables in " << data;
-  }
-  for (const std::string name : {"a", "b", "c"}) {
-    const std::string arguments =
-        "contacts " + (data / ("cable_track_" + name + ".csv")).string() + " --margin 0.08";
-    const ProcessResult tree = query(arguments);
-    EXPECT_EQ(tree.exit_code, 0) << tree.err;
-    EXPECT_EQ(tree.out, query(arguments + " --engine brute_force").out);
   }
 }
 
