@@ -1,85 +1,16 @@
-// The service ~query of the running node.
+// The service ~query of the running node: what it answers. The first test runs before there are
+// fibres.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
 
-#include "test/ros/messages.hpp"
-#include "test/ros/node_test.hpp"
+#include "test/ros/query_fixture.hpp"
 
 namespace {
 
-using fiber_proximity::FiberArray;
 using fiber_proximity::QueryProximity;
-using fiber_proximity::QueryShape;
-using test_messages::header;
+using node_test::QueryTest;
 using test_messages::Points;
-
-class QueryTest : public node_test::NodeTest {
- protected:
-  static QueryShape shape(const std::string& frame, const Points& points, double radius) {
-    QueryShape shape;
-    shape.header.frame_id = frame;
-    shape.radius = radius;
-    for (const Eigen::Vector3d& point : points) {
-      shape.points.push_back(fiber_proximity_ros::to_message(point));
-    }
-    return shape;
-  }
-
-  static QueryProximity::Response call(const QueryProximity::Request& request) {
-    QueryProximity query;
-    query.request = request;
-    EXPECT_TRUE(node_test::call_service("/proximity/query", query));
-    return query.response;
-  }
-
-  /// Sends random fibres and keeps what the node made of them.
-  void send_fibers() {
-    std::cout << fiber::test::seed_message() << '\n';
-    fiber::test::Random random;
-    Points points(40);
-    for (Eigen::Vector3d& point : points) {
-      point = random.in_cube();
-    }
-    FiberArray message = test_messages::fiber_array(header("world"), points);
-    message.offsets = {0, 10, 25, 40};
-    publisher_ = advertise<FiberArray>("fibers");
-    connect(publisher_, message);
-    stamp_ = new_stamp();
-    message.header.stamp = stamp_;
-    publisher_.publish(message);
-    const FiberArray* merged = fibers.wait_for(stamp_);
-    ASSERT_NE(merged, nullptr);
-    assembly_ = node_test::to_assembly(*merged);
-  }
-
-  /// Compares the answer about one shape with brute force.
-  void expect_brute_force(const QueryProximity::Response& response, std::uint32_t index,
-                          const Points& points, double radius,
-                          const fiber::QueryOptions& options) const {
-    const fiber::FiberAssembly shape(points, {0, static_cast<std::uint32_t>(points.size())},
-                                     {radius});
-    fiber::QueryResult expected;
-    fiber::brute_force_shape(shape, assembly_, options, expected);
-    const std::uint32_t begin = response.offsets[index];
-    ASSERT_EQ(response.offsets[index + 1] - begin, expected.contacts.size());
-    for (std::size_t i = 0; i < expected.contacts.size(); ++i) {
-      const fiber_proximity::Contact& contact = response.contacts[begin + i];
-      const fiber::Contact& wanted = expected.contacts[i];
-      EXPECT_EQ(contact.type_a, fiber_proximity::Contact::SHAPE);
-      EXPECT_EQ(contact.fiber_a, index);
-      EXPECT_EQ(contact.segment_a, wanted.segment_a);
-      EXPECT_EQ(contact.fiber_b, wanted.fiber_b);
-      EXPECT_EQ(contact.segment_b, wanted.segment_b);
-      EXPECT_NEAR(contact.distance, wanted.distance, 1e-12);
-      EXPECT_LT((fiber_proximity_ros::to_vector(contact.point_b) - wanted.point_b).norm(), 1e-9);
-    }
-  }
-
-  ros::Publisher publisher_;
-  ros::Time stamp_;
-  fiber::FiberAssembly assembly_;
-};
 
 TEST_F(QueryTest, AnswersOnlyOnceThereAreFibres) {
   QueryProximity::Request request;
@@ -210,128 +141,6 @@ TEST_F(QueryTest, ALimitedQueryAboutAPointGivesItsNearestSegments) {
       EXPECT_NEAR(found[i], distances[i], 1e-12) << "rank " << i;
     }
   }
-}
-
-TEST_F(QueryTest, AccuracyIsChosenByCall) {
-  send_fibers();
-  const Points line{{-1, 0, 0}, {0, 0, 0}, {1, 0, 0}};
-  const fiber::FiberAssembly asked(line, {0, 3}, {0.1});
-  fiber::QueryOptions options;
-  options.type = fiber::QueryType::CLOSEST;
-  options.margin = std::numeric_limits<double>::infinity();
-  fiber::QueryResult truth;
-  fiber::brute_force_shape(asked, assembly_, options, truth);
-  const double minimum = truth.contacts.front().distance;
-  QueryProximity::Request request;
-  request.margin = options.margin;
-  request.shapes = {shape("world", line, 0.1)};
-  request.type = QueryProximity::Request::CLOSEST;
-  for (const char* kernel : {"", "fast", "robust", "exact"}) {
-    for (const double tolerance : {0.0, 0.05, 10.0}) {
-      request.kernel = kernel;
-      request.tolerance = tolerance;
-      const QueryProximity::Response response = call(request);
-      ASSERT_TRUE(response.success) << response.message;
-      EXPECT_TRUE(response.complete);
-      ASSERT_EQ(response.contacts.size(), 1U);
-      const fiber_proximity::Contact& contact = response.contacts.front();
-      EXPECT_LE(contact.lower, contact.distance);
-      EXPECT_LE(contact.distance, contact.upper);
-      EXPECT_LE(contact.distance, minimum + tolerance + 1e-12);
-      ASSERT_EQ(response.minimum_lower.size(), 1U);
-      EXPECT_LE(response.minimum_lower.front(), minimum + 1e-15);
-      EXPECT_GE(response.minimum_lower.front(), contact.distance - tolerance - 1e-12);
-    }
-  }
-  request.tolerance = 0.0;
-  request.kernel = "exact";
-  // The surfaces' distance, but for its last digits: the kernels know better than brute force.
-  EXPECT_NEAR(call(request).contacts.front().distance, minimum, 1e-15);
-}
-
-TEST_F(QueryTest, TheKernelOfTheVersionBeforeIsRobust) {
-  std::string kernel;
-  EXPECT_TRUE(ros::param::get("/proximity/kernel", kernel));
-  EXPECT_EQ(kernel, "robust") << "the launch file says fast";
-  send_fibers();
-  QueryProximity::Request request;
-  request.type = QueryProximity::Request::ALL;
-  request.margin = std::numeric_limits<double>::infinity();
-  request.shapes = {shape("world", {{-1, 0, 0}, {1, 0, 0}}, 0.1)};
-  request.kernel = "robust";
-  const QueryProximity::Response robust = call(request);
-  request.kernel = "fast";
-  const QueryProximity::Response fast = call(request);
-  ASSERT_FALSE(robust.contacts.empty());
-  ASSERT_EQ(fast.contacts.size(), robust.contacts.size());
-  EXPECT_EQ(fast.contacts.front().lower, robust.contacts.front().lower);
-  EXPECT_EQ(fast.contacts.front().upper, robust.contacts.front().upper);
-}
-
-TEST_F(QueryTest, ADeadlineCutsTheAnswerOffAndSaysSo) {
-  send_fibers();
-  QueryProximity::Request request;
-  request.type = QueryProximity::Request::ALL;
-  request.margin = std::numeric_limits<double>::infinity();
-  request.shapes = {shape("world", {{-1, 0, 0}, {1, 0, 0}}, 0.1),
-                    shape("world", {{0, -1, 0}, {0, 1, 0}}, 0.1)};
-  request.deadline = 1e-9;
-  const QueryProximity::Response cut = call(request);
-  ASSERT_TRUE(cut.success) << cut.message;
-  EXPECT_FALSE(cut.complete);
-  EXPECT_EQ(cut.offsets.size(), 3U);
-  EXPECT_EQ(cut.minimum_lower.size(), 2U);
-  for (const double lower : cut.minimum_lower) {
-    EXPECT_LT(lower, 0.0) << "no more is known than how thick they are";
-  }
-  request.deadline = 1000.0;
-  const QueryProximity::Response whole = call(request);
-  EXPECT_TRUE(whole.complete);
-  EXPECT_EQ(whole.contacts.size(), 2U * assembly_.segment_count());
-}
-
-TEST_F(QueryTest, BadRequestsAreAnsweredWithTheReason) {
-  send_fibers();
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  QueryProximity::Request good;
-  good.type = QueryProximity::Request::ALL;
-  good.margin = 0.5;
-  good.shapes = {shape("world", {{0, 0, 0}}, 0.1), shape("world", {{0, 0, 0}, {1, 0, 0}}, 0.1)};
-  const auto expect_error = [&](const std::function<void(QueryProximity::Request&)>& change,
-                                const std::string& message) {
-    QueryProximity::Request request = good;
-    change(request);
-    const QueryProximity::Response response = call(request);
-    EXPECT_FALSE(response.success);
-    EXPECT_EQ(response.message.substr(0, message.size()), message);
-    EXPECT_TRUE(response.contacts.empty());
-    EXPECT_TRUE(response.offsets.empty());
-    EXPECT_TRUE(call(good).success) << "the node does not live on";
-  };
-  expect_error(
-      [](auto& request) { request.type = 7; },
-      "type is 7, it must be 0 (FIRST), 1 (CLOSEST), 2 (LIMITED), 3 (ALL) or 4 (FIBER_PAIRS)");
-  expect_error([](auto& request) { request.type = 5; }, "type is 5, it must be 0 (FIRST)");
-  expect_error([](auto& request) { request.margin = -0.25; }, "margin is -0.25");
-  expect_error([](auto& request) { request.margin = nan; }, "margin is nan");
-  expect_error([](auto& request) { request.type = QueryProximity::Request::LIMITED; },
-               "max_contacts is 0");
-  expect_error([](auto& request) { request.kernel = "double"; },
-               "unknown kernel 'double', known are: robust, exact");
-  expect_error([](auto& request) { request.tolerance = -1.0; },
-               "tolerance is -1.000000, it must be finite and at least 0 m");
-  expect_error([](auto& request) { request.relative_tolerance = nan; },
-               "relative_tolerance is nan, it must be finite and at least 0");
-  expect_error([](auto& request) { request.deadline = -1.0; },
-               "deadline is -1.000000, it must be finite and at least 0 s (0 for none)");
-  expect_error([](auto& request) { request.shapes[1].points.clear(); },
-               "shape 1: has no points, it needs at least 1");
-  expect_error([](auto& request) { request.shapes[1].points[1].z = nan; },
-               "shape 1: fibre 0, point 1: z is nan");
-  expect_error([](auto& request) { request.shapes[0].radius = -1.0; }, "shape 0: the radius is -1");
-  expect_error([](auto& request) { request.shapes[1].radius = nan; }, "shape 1: the radius is nan");
-  expect_error([](auto& request) { request.shapes[1].header.frame_id = "nowhere"; },
-               "shape 1: no transform from frame 'nowhere' to 'world': unknown frame: ");
 }
 
 TEST_F(QueryTest, GradientsComeWhereTheyAreAskedFor) {
