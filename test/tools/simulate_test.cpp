@@ -1,14 +1,12 @@
 // fiber_simulate
+#include "test/tools/simulate.hpp"
+
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <map>
 #include <sstream>
 
-#include "fiber_proximity/io/csv.hpp"
 #include "fiber_proximity/sim/scene/scene.hpp"
 #include "test/support/source_folder.hpp"
-#include "test/tools/tools_test.hpp"
 
 namespace fiber::test {
 namespace {
@@ -31,22 +29,6 @@ const char* const ropes =
     "  - friction\n"
     "  - attachment: [{fiber: lifted, path: [{time: 0}, {time: 1, position: [0, 0, 0.52]}]}]\n"
     "environment: {obstacles: [{id: table, half_spaces: [{coef: [0, 0, 1, 0]}]}]}\n";
-
-class Simulate : public ToolsTest {
- protected:
-  static ProcessResult simulate(const std::string& arguments) {
-    return run_process(FIBER_SIMULATE " " + arguments);
-  }
-
-  /// The frames that the tool writes of a scene, and nothing else.
-  std::vector<FiberFrame> frames(const std::string& scene, const std::string& options) const {
-    const ProcessResult result = simulate(scene + " " + options + " --out " + path("out.csv"));
-    EXPECT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_EQ(result.out, "");
-    EXPECT_EQ(result.err, "");
-    return read_csv(path("out.csv")).frames;
-  }
-};
 
 TEST_F(Simulate, FramesAreThoseOfTheStepper) {
   const std::string file = write("scene.yaml", ropes);
@@ -205,93 +187,6 @@ TEST_F(Simulate, MeshesLieBesideTheScene) {
   text.replace(text.find("half_spaces"), 11, "meshes: [{resource: corner.obj}], half_spaces");
   const auto written = frames(write("scene.yaml", text), "--seconds 1");
   EXPECT_GT(written.back().fibers.points()[26].z(), 0.29) << "what falls is caught by the mesh";
-}
-
-/// A row of a file of forces.
-struct ForceRow {
-  std::int64_t frame;
-  std::string kind;
-  std::uint32_t fiber;
-  std::uint32_t index;
-  Eigen::Vector3d force;
-  Eigen::Vector3d moment;
-};
-
-std::vector<ForceRow> force_rows(const std::string& text) {
-  std::istringstream lines(text);
-  std::string line;
-  std::getline(lines, line);
-  EXPECT_EQ(line, "frame,kind,fiber,index,fx,fy,fz,mx,my,mz");
-  std::vector<ForceRow> rows;
-  while (std::getline(lines, line)) {
-    std::replace(line.begin(), line.end(), ',', ' ');
-    std::istringstream fields(line);
-    ForceRow& row = rows.emplace_back();
-    fields >> row.frame >> row.kind >> row.fiber >> row.index;
-    for (Eigen::Vector3d* const vector : {&row.force, &row.moment}) {
-      fields >> vector->x() >> vector->y() >> vector->z();
-    }
-    EXPECT_TRUE(fields && fields.peek() == std::istringstream::traits_type::eof()) << line;
-  }
-  return rows;
-}
-
-TEST_F(Simulate, ForcesAreAFileOfTheirOwn) {
-  // One hangs, one lies on a table and on nothing else.
-  const std::string scene = write(
-      "scene.yaml",
-      "residual: 1.0e-7\n"
-      "fibers:\n"
-      "  - {name: hangs, shape: {line: {from: [0, 0, 1], to: [0, 0, 0.5]}}, segments: 10, radius: "
-      "0.005, material: silicone_tube}\n"
-      "  - {name: lies, shape: {line: {from: [1, 0, 0.005], to: [1.5, 0, 0.005]}}, segments: 10, "
-      "radius: 0.005, material: silicone_tube}\n"
-      "effects:\n"
-      "  - gravity\n"
-      "  - stretch\n"
-      "  - bend\n"
-      "  - damping\n"
-      "  - environment_contact\n"
-      "  - friction\n"
-      "  - attachment: [{fiber: hangs}]\n"
-      "environment: {obstacles: [{id: table, half_spaces: [{coef: [0, 0, 1, 0]}]}]}\n");
-  frames(scene, "--seconds 5 --forces " + path("forces.csv"));
-  // Of half a metre of silicone tube [N].
-  const double weight = 9.81 * 1150.0 * M_PI * 0.005 * 0.005 * 0.5;
-  std::map<std::string, std::size_t> counts;
-  Eigen::Vector3d hold = Eigen::Vector3d::Zero();
-  Eigen::Vector3d contacts = Eigen::Vector3d::Zero();
-  std::int64_t frame = 1;
-  for (const ForceRow& row : force_rows(read_file(path("forces.csv")))) {
-    EXPECT_TRUE(row.frame == frame || row.frame == frame + 1);
-    frame = row.frame;
-    if (frame < 300) {
-      continue;
-    }
-    ++counts[row.kind];
-    if (row.kind == "hold") {
-      EXPECT_EQ(std::make_pair(row.fiber, row.index), std::make_pair(0U, 0U));
-      hold += row.force;
-    } else if (row.kind == "normal" || row.kind == "friction") {
-      EXPECT_EQ(row.fiber, 1U);
-      contacts += row.force;
-    } else if (row.kind == "tension" && row.fiber == 0) {
-      // What is below the middle of the edge pulls it down.
-      const Eigen::Vector3d below(0, 0, -weight * (0.95 - 0.1 * row.index));
-      EXPECT_LT((row.force - below).norm(), 1e-3 * weight) << row.index;
-    } else if (row.kind == "bending" || row.kind == "twisting") {
-      EXPECT_TRUE(row.force.isZero(0.0));
-    }
-  }
-  EXPECT_EQ(frame, 300);
-  EXPECT_EQ(counts["tension"], 20U);
-  EXPECT_EQ(counts["twisting"], 20U);
-  EXPECT_EQ(counts["bending"], 22U);
-  EXPECT_EQ(counts["hold"], 1U);
-  EXPECT_GE(counts["normal"], 10U);
-  EXPECT_LT((hold - Eigen::Vector3d(0, 0, weight)).norm(), 1e-3 * weight) << hold.transpose();
-  EXPECT_LT((contacts - Eigen::Vector3d(0, 0, weight)).norm(), 1e-3 * weight)
-      << contacts.transpose();
 }
 
 TEST_F(Simulate, WhatGoesWrongInAFrameIsAWarning) {
