@@ -1,0 +1,230 @@
+# Nodes and displays, with a ROS master or without; included from test/, where paths begin.
+
+fiber_proximity_gtest(tube_mesh_test ros/tube_mesh_test.cpp LIBRARIES fiber_proximity_ros)
+fiber_proximity_gtest(markers_test
+  ros/crossing_markers_test.cpp
+  ros/environment_markers_test.cpp
+  ros/marker_texts_test.cpp
+  ros/markers_test.cpp
+  ros/shape_marker_test.cpp
+  LIBRARIES fiber_proximity_ros
+)
+fiber_proximity_gtest(conversions_test
+  ros/conversions_test.cpp
+  ros/marker_input_test.cpp
+  ros/missing_points_test.cpp
+  LIBRARIES fiber_proximity_ros
+)
+fiber_proximity_gtest(stamps_test
+  ros/sequence_gaps_test.cpp
+  ros/stamp_matcher_test.cpp
+  LIBRARIES fiber_proximity_ros
+)
+fiber_proximity_gtest(detector_test
+  ros/detector_test.cpp
+  ros/fiber_step_test.cpp
+  LIBRARIES fiber_proximity_ros
+)
+fiber_proximity_gtest(environment_inputs_test
+  ros/cloud_cells_test.cpp
+  ros/mesh_loader_test.cpp
+  ros/obstacle_change_test.cpp
+  ros/robot_links_test.cpp
+  ros/scene_parameter_test.cpp
+  LIBRARIES fiber_proximity_ros
+)
+find_package(octomap QUIET)  # of which the tests make maps
+if(TARGET fiber_proximity_octomap AND octomap_FOUND)
+  fiber_proximity_gtest(octomap_cloud_test
+    ros/octomap_cloud_test.cpp
+    LIBRARIES fiber_proximity_octomap ${OCTOMAP_LIBRARIES}
+  )
+endif()
+if(TARGET fiber_proximity_moveit)
+  fiber_proximity_gtest(planning_scene_test
+    ros/planning_scene_test.cpp
+    LIBRARIES fiber_proximity_moveit
+  )
+endif()
+fiber_proximity_gtest(input_options_test
+  ros/input_options_test.cpp
+  LIBRARIES fiber_proximity_ros
+)
+fiber_proximity_gtest(fiber_mesh_test
+  rviz/contact_pairing_test.cpp
+  rviz/fiber_chunks_test.cpp
+  rviz/fiber_colors_test.cpp
+  rviz/fiber_detail_test.cpp
+  rviz/fiber_mesh_test.cpp
+  rviz/view_fit_test.cpp
+  LIBRARIES fiber_proximity_mesh
+)
+
+# The running node, through the real graph.
+find_package(rostest REQUIRED)
+add_executable(node_test EXCLUDE_FROM_ALL
+  ros/bad_input_test.cpp
+  ros/bad_parameters_test.cpp
+  ros/cell_test.cpp
+  ros/cloud_points_test.cpp
+  ros/compare_test.cpp
+  ros/continuous_bad_input_test.cpp
+  ros/continuous_test.cpp
+  ros/crossings_test.cpp
+  ros/demo_test.cpp
+  ros/draw_test.cpp
+  ros/engines_test.cpp
+  ros/environment_test.cpp
+  ros/inputs_test.cpp
+  ros/limits_test.cpp
+  ros/main.cpp
+  ros/nodelet_test.cpp
+  ros/prediction_test.cpp
+  ros/query_test.cpp  # first of its suite: asks before there are fibres
+  ros/query_options_test.cpp
+  ros/reconfigure_test.cpp
+  ros/self_contact_test.cpp
+  ros/sim_time_test.cpp
+  ros/skin_test.cpp
+  ros/soak_test.cpp
+  ros/stale_test.cpp
+  ros/timing_test.cpp
+  ros/tracks_test.cpp
+)
+target_compile_definitions(node_test PRIVATE PROXIMITY_NODE="$<TARGET_FILE:proximity_node>")
+target_link_libraries(node_test fiber_proximity_ros fiber_proximity_options ${GTEST_LIBRARIES})
+add_dependencies(tests node_test)
+add_custom_target(soak DEPENDS node_test proximity_node)  # for scripts/campaign.sh
+foreach(name crossings draw environment inputs query)
+  add_rostest(ros/${name}.test DEPENDENCIES node_test proximity_node fiber_player)
+  add_rostest(ros/${name}.test
+    ARGS nodelet:=true DEPENDENCIES node_test fiber_proximity_nodelets fiber_player)
+endforeach()
+add_rostest(ros/nodelet.test DEPENDENCIES node_test fiber_proximity_nodelets)
+foreach(name bad_input cell cloud_points compare continuous crossings_camera engines limits reconfigure
+    self_contact shared_tracks sim_time skin soak stale timing tracks)
+  add_rostest(ros/${name}.test DEPENDENCIES node_test proximity_node fiber_player)
+endforeach()
+
+add_rostest(ros/self_contact.test
+  ARGS config:=cdcpd tests:=SelfContactOfOneTest DEPENDENCIES node_test proximity_node)
+
+add_rostest(ros/relaunch.test DEPENDENCIES proximity_node)
+
+add_rostest_gtest(fiber_player_test ros/fiber_player.test ros/fiber_player_test.cpp)
+target_link_libraries(fiber_player_test fiber_proximity_ros fiber_proximity_options)
+target_compile_definitions(fiber_player_test PRIVATE
+  FIBER_PLAYER="$<TARGET_FILE:fiber_player>")
+add_dependencies(fiber_player_test fiber_player)
+
+add_executable(cable_sim_test EXCLUDE_FROM_ALL
+  ros/cable_sim_limits_test.cpp
+  ros/cable_sim_scenes_test.cpp
+  ros/cable_sim_test.cpp
+  ros/main.cpp
+  ros/sim_forces_test.cpp
+)
+target_compile_definitions(cable_sim_test PRIVATE CABLE_SIM="$<TARGET_FILE:cable_sim>")
+target_link_libraries(cable_sim_test
+  fiber_proximity_ros fiber_proximity_options ${GTEST_LIBRARIES})
+add_dependencies(tests cable_sim_test)
+add_rostest(ros/cable_sim.test DEPENDENCIES cable_sim_test cable_sim)
+add_rostest(ros/demo.test DEPENDENCIES node_test proximity_node cable_sim)
+add_rostest(ros/sim_forces.test DEPENDENCIES cable_sim_test cable_sim)
+add_rostest(ros/sim_frames.test DEPENDENCIES cable_sim_test cable_sim)
+add_rostest(ros/cable_sim.test
+  ARGS nodelet:=true DEPENDENCIES cable_sim_test cable_sim fiber_proximity_nodelets)
+
+add_executable(input_node_test EXCLUDE_FROM_ALL
+  ros/main.cpp
+  ros/missing_points_node_test.cpp
+  ros/reversed_test.cpp
+  ros/stamps_node_test.cpp
+  ros/synchronize_node_test.cpp
+)
+target_link_libraries(input_node_test
+  fiber_proximity_ros fiber_proximity_options ${GTEST_LIBRARIES})
+add_dependencies(tests input_node_test)
+foreach(name missing_points reversed stamps synchronize)
+  add_rostest(ros/${name}.test DEPENDENCIES input_node_test proximity_node)
+endforeach()
+
+add_rostest_gtest(environment_node_test
+  ros/environment_inputs.test
+  ros/environment_clouds_test.cpp
+  ros/environment_inputs_test.cpp
+  ros/environment_obstacles_test.cpp
+  ros/main.cpp
+  ros/waiting_changes_test.cpp
+)
+target_link_libraries(environment_node_test fiber_proximity_ros fiber_proximity_options)
+
+# The running node without and with fibres: what it is asked about its environment.
+add_rostest_gtest(environment_services_test
+  ros/environment_services.test
+  ros/environment_services_test.cpp  # first of its suite: asks before there are fibres
+  ros/environment_updates_test.cpp
+  ros/main.cpp
+  ros/motion_services_test.cpp
+)
+target_link_libraries(environment_services_test fiber_proximity_ros fiber_proximity_options)
+add_dependencies(environment_services_test proximity_node)
+
+if(TARGET octomap_cloud_test)
+  add_rostest_gtest(octomap_bridge_test
+    ros/octomap_bridge.test
+    ros/octomap_bridge_test.cpp
+    ros/main.cpp
+  )
+  target_link_libraries(octomap_bridge_test
+    fiber_proximity_octomap fiber_proximity_options ${OCTOMAP_LIBRARIES})
+  add_dependencies(octomap_bridge_test octomap_bridge proximity_node)
+endif()
+if(TARGET fiber_proximity_moveit)
+  add_rostest_gtest(moveit_bridge_test
+    ros/moveit_bridge.test
+    ros/moveit_bridge_test.cpp
+    ros/main.cpp
+  )
+  target_link_libraries(moveit_bridge_test fiber_proximity_moveit fiber_proximity_options)
+  add_dependencies(moveit_bridge_test moveit_bridge proximity_node)
+endif()
+
+if(TARGET fiber_proximity_rviz)
+  add_executable(display_test EXCLUDE_FROM_ALL rviz/display_test.cpp)
+  target_link_libraries(display_test
+    fiber_proximity_rviz fiber_proximity_options ${GTEST_LIBRARIES})
+  add_dependencies(tests display_test)
+  add_rostest(rviz/display.test DEPENDENCIES display_test)
+  add_executable(tracker_view_test EXCLUDE_FROM_ALL rviz/tracker_view_test.cpp)
+  target_compile_definitions(tracker_view_test PRIVATE
+    TRACKER_VIEW="${PROJECT_SOURCE_DIR}/rviz/tracker.rviz")
+  target_link_libraries(tracker_view_test
+    fiber_proximity_rviz fiber_proximity_options ${GTEST_LIBRARIES})
+  add_dependencies(tests tracker_view_test)
+  add_rostest(rviz/tracker_view.test DEPENDENCIES tracker_view_test)
+endif()
+
+# In the environment of the devel space, as its readers.
+foreach(name ask_before_you_move attach_a_tracker measure_your_own_scene simulate_a_cable)
+  add_test(NAME tutorial_${name} COMMAND ${CATKIN_ENV} /usr/bin/python3 -B
+    ${CMAKE_CURRENT_SOURCE_DIR}/docs/tutorials_test.py ${PROJECT_SOURCE_DIR}/docs/tutorials/${name}.md)
+endforeach()
+
+find_package(roslaunch REQUIRED)
+roslaunch_add_file_check(../launch/cable_sim.launch)
+roslaunch_add_file_check(../launch/cell.launch)
+roslaunch_add_file_check(../launch/demo.launch)
+roslaunch_add_file_check(../launch/hair.launch)
+roslaunch_add_file_check(../launch/hose.launch)
+roslaunch_add_file_check(../launch/passing.launch)
+roslaunch_add_file_check(../launch/tracker_example.launch)
+roslaunch_add_file_check(../launch/with_tracker.launch
+  frame:=world topic:=points radius:=0.01 margin:=0.02)
+roslaunch_add_file_check(../launch/with_tracker.launch frame:=world
+  config:=${PROJECT_SOURCE_DIR}/config/cdcpd.yaml)
+roslaunch_add_file_check(../launch/bag.launch bag:=/tmp/any.bag frame:=world
+  config:=${PROJECT_SOURCE_DIR}/config/trackdlo.yaml)
+
+fiber_proximity_graph_tests(node_test fiber_player_test cable_sim_test input_node_test
+  environment_node_test environment_services_test)

@@ -1,0 +1,30 @@
+# Command line tools and benchmarks; included from test/, where paths begin.
+
+fiber_proximity_gtest(tools_test
+  tools/bad_command_line_test.cpp
+  tools/compare_test.cpp
+  tools/fiber_query_engines_test.cpp
+  tools/fiber_query_refusals_test.cpp
+  tools/fiber_query_test.cpp
+  tools/fiber_scene_test.cpp
+  tools/memory_test.cpp
+  tools/motions_test.cpp
+  tools/segments_test.cpp
+  tools/self_contact_test.cpp
+  tools/simulate_forces_test.cpp
+  tools/simulate_test.cpp
+  tools/sweep_test.cpp
+  tools/tiny_fibers_test.cpp
+  tools/topology_test.cpp
+  LIBRARIES fiber_bench_motions fiber_proximity_compare fiber_proximity_sim nlohmann_json::nlohmann_json
+)
+add_dependencies(tools_test fiber_query fiber_scene fiber_simulate)
+target_compile_definitions(tools_test PRIVATE
+  FIBER_QUERY="$<TARGET_FILE:fiber_query>"
+  FIBER_SCENE="$<TARGET_FILE:fiber_scene>"
+  FIBER_SIMULATE="$<TARGET_FILE:fiber_simulate>"
+)
+
+if(FIBER_PROXIMITY_BUILD_BENCHMARKS)
+  add_subdirectory(benchmark)
+endif()
