@@ -129,10 +129,11 @@ void contact_times_lanes(const SegmentMotions* motions, std::size_t count, doubl
     for (std::size_t first = begin; first < end; first += lanes) {
       const std::size_t size = std::min(lanes, end - first);
       FirstLook look(motions + first, size);
-      std::uint64_t bits = look.look();
-      for (std::size_t lane = 0; lane < size; ++lane, bits >>= 1U) {
-        times[first + lane] = ContactTime();
-        if ((bits & 1U) != 0) {
+      const FirstLook::Seen seen = look.look();
+      for (std::size_t lane = 0; lane < size; ++lane) {
+        const bool is_touching = (seen.touching >> lane & 1U) != 0;
+        times[first + lane] = is_touching ? ContactTime{true, 0.0, 0.0, true} : ContactTime();
+        if ((seen.open >> lane & 1U) != 0) {
           open.add(first + lane, look.look_of(lane));
         }
       }

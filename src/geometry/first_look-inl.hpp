@@ -18,9 +18,16 @@ HWY_BEFORE_NAMESPACE();
 namespace fiber {
 namespace HWY_NAMESPACE {
 
-/// The look at time 0, which shows for most pairs that they never come into contact.
+/// The look at time 0, which shows for most pairs that they never come into contact, or that they
+/// are in contact already.
 class FirstLook {
  public:
+  /// A bit for each pair.
+  struct Seen {
+    std::uint64_t touching = 0;  ///< in contact, proven
+    std::uint64_t open = 0;      ///< to be looked at more closely
+  };
+
   /// @param count from 1 to the number of lanes
   FirstLook(const SegmentMotions* motions, std::size_t count) {
     for (std::size_t lane = 0; lane < hn::Lanes(MotionTag()); ++lane) {
@@ -30,13 +37,15 @@ class FirstLook {
       read(pair.b_before, lane, b_before_);
       read(pair.b_after, lane, b_after_);
       limit_[lane] = pair.limit.radius_a + pair.limit.radius_b + pair.limit.margin;
+      // Where a margin below 0 cancels, the sum is not as good as its size tells.
+      touching_limit_[lane] = pair.limit.margin < 0.0 ? -1.0 : limit_[lane];
     }
   }
 
-  /// Bits of the pairs that are to be looked at more closely.
-  std::uint64_t look() {
+  Seen look() {
     const MotionTag d;
     LaneNumber limit(hn::Load(d, limit_));
+    LaneNumber touching_limit(hn::Load(d, touching_limit_));
     Parallelogram<LaneNumber> start = differences(a_before_, b_before_);
     Parallelogram<LaneNumber> rate;
     NumberVector<LaneNumber> least = start.corners[0][0];
@@ -57,6 +66,7 @@ class FirstLook {
       start = scaled(factor, start);
       rate = scaled(factor, rate);
       limit = smaller(factor * limit, LaneNumber(longest_limit));
+      touching_limit = smaller(factor * touching_limit, LaneNumber(longest_limit));
       largest = factor * largest;
       least = factor * least;
       most = factor * most;
@@ -67,15 +77,16 @@ class FirstLook {
                                   larger(least.z, -most.z));
     const auto is_apart = reach < gap;
     if (hn::AllTrue(d, is_apart)) {
-      return 0;
+      return {};
     }
     const MotionLook<LaneNumber> look = look_in_lanes(start, rate, limit, error);
     hn::Store(look.distance.lanes, d, distance_);
     hn::Store(look.closing.lanes, d, closing_);
     hn::Store(look.free.lanes, d, free_);
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(d, hn::Not(hn::Or(is_apart, LaneNumber(1.0) < look.free)), bits);
-    return bits[0];
+    // Of two points of the segments, whichever they are: their distance is hardly rounded.
+    const auto is_touching = look.distance + error < touching_limit - error;
+    const auto never_touches = hn::Or(is_apart, LaneNumber(1.0) < look.free);
+    return {bits_of(is_touching), bits_of(hn::Not(hn::Or(never_touches, is_touching)))};
   }
 
   /// What has been seen of a pair that is to be looked at more closely.
@@ -110,6 +121,13 @@ class FirstLook {
     return result;
   }
 
+  template <class Mask>
+  static std::uint64_t bits_of(const Mask& mask) {
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(MotionTag(), mask, bits);
+    return bits[0];
+  }
+
   static LaneNumber factors_of(LaneNumber largest) {
     const MotionTag d;
     alignas(64) double factors[most_motion_lanes];
@@ -124,7 +142,8 @@ class FirstLook {
   alignas(64) Ends a_after_;
   alignas(64) Ends b_before_;
   alignas(64) Ends b_after_;
-  alignas(64) double limit_[most_motion_lanes];
+  alignas(64) double limit_[most_motion_lanes];           // [m]
+  alignas(64) double touching_limit_[most_motion_lanes];  // [m] -1: nothing is to be told
   alignas(64) double distance_[most_motion_lanes];
   alignas(64) double closing_[most_motion_lanes];
   alignas(64) double free_[most_motion_lanes];
