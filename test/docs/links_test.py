@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Every link of the documentation leads somewhere: to a file of the repository, and to a heading in it.
+"""Every link of the documentation leads somewhere: to a file of the repository, and to a heading in it. What a
+tutorial shows of C++ is in a source that a test compiles.
 
 Usage: links_test.py ROOT
 """
@@ -8,6 +9,7 @@ import re
 import sys
 
 LINK = re.compile(r'\[[^\]]*\]\(([^)\s]+)\)|<img src="([^"]+)"')
+CPP = re.compile(r'^```cpp\n(.*?)^```$', re.MULTILINE | re.DOTALL)
 FENCE = re.compile(r'^```.*?^```', re.MULTILINE | re.DOTALL)
 
 
@@ -30,13 +32,30 @@ def pages(root):
                 yield os.path.relpath(os.path.join(folder, name), root)
 
 
+def compiled_sources(root):
+    """The text of all sources that tutorials may show."""
+    text = ''
+    for folder in ('examples', 'test/docs'):
+        for name in sorted(os.listdir(os.path.join(root, folder))):
+            if name.endswith(('.cpp', '.hpp')):
+                with open(os.path.join(root, folder, name), encoding='utf-8') as file:
+                    text += file.read()
+    return text
+
+
 def main():
     root = os.path.abspath(sys.argv[1])
     links = 0
     broken = []
+    compiled = compiled_sources(root)
     for name in pages(root):
         with open(os.path.join(root, name), encoding='utf-8') as file:
             text = file.read()
+        if os.path.dirname(name) == 'docs/tutorials':
+            for block in CPP.findall(text):
+                for part in block.split('\n\n'):
+                    if part.strip() not in compiled:
+                        broken.append(f'{name}: no source in examples or test/docs has:\n{part.strip()}')
         for groups in LINK.findall(FENCE.sub('', text)):
             link = groups[0] or groups[1]
             if re.match(r'[a-z]+:', link):

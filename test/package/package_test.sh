@@ -49,6 +49,11 @@ grep -q "the first after" "$work/engine_loop.txt" || fail "engine_loop finds no 
 "$work/examples/simulate_scene" "$source/config/sim/hanging_cable.yaml" >"$work/simulate.txt"
 first=$(head -n 1 "$work/simulate.txt")
 [ "${first#*: }" != "$(tail -n 1 "$work/simulate.txt" | sed 's/^[^:]*: //')" ] || fail "the simulation stands still"
+"$work/examples/own_effect" | tee "$work/own_effect.txt"
+grep -q "^0.0 s: the middle is at 1.000 0.000 0.000" "$work/own_effect.txt" || fail "own_effect begins elsewhere"
+# A rod of 2.5 g between three springs of 0.01 N/m turns back after 0.9 s.
+awk '$7 >= last && NR > 1 { exit 1 } { last = $7 } END { exit !(last < 0.7) }' "$work/own_effect.txt" ||
+  fail "the trap of own_effect does not pull"
 if "$work/examples/simulate_scene" "$work/none.yaml" 2>"$work/error.txt"; then
   fail "a scene that is not there is no error"
 fi

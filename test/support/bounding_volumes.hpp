@@ -11,11 +11,12 @@
 #include "src/paper/bounds/kdop.hpp"
 #include "src/paper/bounds/obb.hpp"
 #include "src/paper/bounds/sphere.hpp"
+#include "test/docs/cube.hpp"
 
 namespace fiber::test {
 
 /// The volumes that every typed suite is about: one line here adds one.
-using VolumeTypes = testing::Types<Aabb, Kdop<1>, Kdop<3>, Kdop<25>, Obb, Sphere>;
+using VolumeTypes = testing::Types<Aabb, Kdop<1>, Kdop<3>, Kdop<25>, Obb, Sphere, Cube>;
 
 /// Parameters to test a volume with: for k-DOPs the fewest directions their groups take.
 template <class Volume>

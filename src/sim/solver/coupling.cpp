@@ -1,7 +1,5 @@
 #include "src/sim/solver/coupling.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -31,8 +29,8 @@ SimdBatch by_lane(const PackStep& pack, const LaneIslands& islands, const Value&
 
 /// Calls function(pack, first, size): the pack's values begin at the first of all, and are so many.
 template <class Function>
-void Coupling::for_each_pack(const Problem& problem, const Function& function) {
-  tbb::parallel_for(std::size_t{0}, problem.packs.size(), [&](std::size_t pack) {
+void Coupling::for_each_part(const Problem& problem, Work work, const Function& function) {
+  for_each_pack(problem.packs.size(), work, [&](std::size_t pack) {
     function(pack, problem.offsets[pack],
              SumSize{problem.packs[pack].step_size(), problem.packs[pack].used()});
   });
@@ -73,7 +71,7 @@ void Coupling::begin(const Problem& problem, const std::vector<SimdBatch>& step)
     residual_[i] = SimdBatch{};
   }
   add_coupling(problem, image_, residual_);
-  for_each_pack(problem, [&](std::size_t pack, std::size_t first, SumSize size) {
+  for_each_part(problem, Work::MUCH, [&](std::size_t pack, std::size_t first, SumSize size) {
     std::copy_n(&residual_[first], size.count, &direction_[first]);
     problem.packs[pack].solve(&direction_[first]);
     std::copy_n(&residual_[first], size.count, &product_[first]);
@@ -101,7 +99,7 @@ bool Coupling::is_any_solving(const std::vector<double>& decreases) {
 void Coupling::find_image(const Problem& problem) {
   image_ = product_;
   add_coupling(problem, direction_, image_);
-  for_each_pack(problem, [&](std::size_t pack, std::size_t first, SumSize size) {
+  for_each_part(problem, Work::LITTLE, [&](std::size_t pack, std::size_t first, SumSize size) {
     partial_sums_[pack] = products(size, &direction_[first], &image_[first]);
   });
   const std::vector<double> curvatures = sums(problem);
@@ -114,7 +112,7 @@ void Coupling::find_image(const Problem& problem) {
 }
 
 void Coupling::advance(const Problem& problem, std::vector<SimdBatch>& step) {
-  for_each_pack(problem, [&](std::size_t pack, std::size_t first, SumSize size) {
+  for_each_part(problem, Work::MUCH, [&](std::size_t pack, std::size_t first, SumSize size) {
     const PackStep& of_pack = problem.packs[pack];
     const auto forward = [&](double sign) {
       return by_lane(of_pack, problem.islands[pack],
@@ -135,7 +133,7 @@ void Coupling::advance(const Problem& problem, std::vector<SimdBatch>& step) {
 
 /// Into the next direction.
 void Coupling::turn(const Problem& problem) {
-  for_each_pack(problem, [&](std::size_t pack, std::size_t first, SumSize size) {
+  for_each_part(problem, Work::LITTLE, [&](std::size_t pack, std::size_t first, SumSize size) {
     const SimdBatch growth = by_lane(problem.packs[pack], problem.islands[pack],
                                      [&](std::uint32_t island) { return numbers_[island].growth; });
     move_by(size, &preconditioned_[first], &direction_[first], growth, &direction_[first]);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "src/sim/contact/contact_set.hpp"
+#include "src/sim/solver/for_each_pack.hpp"
 #include "src/sim/solver/pack_step.hpp"
 
 namespace fiber {
@@ -44,7 +45,7 @@ class Coupling {
   };
 
   template <class Function>
-  void for_each_pack(const Problem& problem, const Function& function);
+  void for_each_part(const Problem& problem, Work work, const Function& function);
   std::vector<double> sums(const Problem& problem) const;
   void begin(const Problem& problem, const std::vector<SimdBatch>& step);
   bool is_any_solving(const std::vector<double>& decreases);

@@ -1,11 +1,9 @@
 #include "src/sim/solver/newton.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "src/sim/solver/for_each_pack.hpp"
 #include "src/sim/solver/pack_sums.hpp"
 
 namespace fiber {
@@ -19,19 +17,6 @@ namespace {
 constexpr double rest_share = 1e-3;
 
 }  // namespace
-
-/// In parallel, but little work only if there is more of it: one pack is done before another thread
-/// has heard of it.
-template <typename Function>
-void NewtonSolver::for_each_pack(Work work, const Function& function) {
-  const std::size_t together = work == Work::MUCH ? 1 : 16;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, packs_.size(), together),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      for (std::size_t pack = range.begin(); pack < range.end(); ++pack) {
-                        function(pack);
-                      }
-                    });
-}
 
 /// Calls function(pack, lane, island), one after the other.
 template <typename Function>
@@ -73,11 +58,12 @@ void NewtonSolver::assign(const Rods& rods, const std::vector<std::vector<std::u
 }
 
 void NewtonSolver::begin(const Rods& rods, const Effects& effects, double step) {
-  for_each_pack(Work::LITTLE, [&](std::size_t pack) { packs_[pack].begin(rods, effects, step); });
+  for_each_pack(packs_.size(), Work::LITTLE,
+                [&](std::size_t pack) { packs_[pack].begin(rods, effects, step); });
 }
 
 void NewtonSolver::load(const Rods& rods) {
-  for_each_pack(Work::LITTLE, [&](std::size_t pack) { packs_[pack].load(rods); });
+  for_each_pack(packs_.size(), Work::LITTLE, [&](std::size_t pack) { packs_[pack].load(rods); });
 }
 
 bool NewtonSolver::solve(Rods& rods, const Problem& problem) {
@@ -110,13 +96,13 @@ bool NewtonSolver::solve(Rods& rods, const Problem& problem) {
       searches_[i].is_active = searches_[i].is_active && !line_.island(i).has_failed;
     }
   }
-  for_each_pack(Work::LITTLE, [&](std::size_t pack) { packs_[pack].finish(rods); });
+  for_each_pack(packs_.size(), Work::LITTLE, [&](std::size_t pack) { packs_[pack].finish(rods); });
   return problem.contacts == nullptr || problem.room->is_last || bound_.is_within(rods, members_);
 }
 
 /// Energies where the rods are, by island.
 void NewtonSolver::measure(Rods& rods, const Problem& problem) {
-  for_each_pack(Work::MUCH, [&](std::size_t pack) {
+  for_each_pack(packs_.size(), Work::MUCH, [&](std::size_t pack) {
     packs_[pack].measure(problem.effects);
     if (problem.contacts != nullptr) {
       packs_[pack].store(rods);
@@ -152,7 +138,7 @@ void NewtonSolver::assemble(Rods& rods, const Problem& problem) {
   if (problem.contacts != nullptr) {
     problem.contacts->find_derivatives(rods);
   }
-  for_each_pack(Work::MUCH, [&](std::size_t pack) {
+  for_each_pack(packs_.size(), Work::MUCH, [&](std::size_t pack) {
     packs_[pack].assemble(problem.effects);
     if (problem.contacts != nullptr) {
       problem.contacts->add_derivatives(rods, scratch_->systems, scratch_->packs,
@@ -235,7 +221,8 @@ void NewtonSolver::measure_again(Rods& rods, const Problem& problem) {
 }
 
 void NewtonSolver::find_step(const Problem& problem) {
-  for_each_pack(Work::MUCH, [&](std::size_t pack) { packs_[pack].find_step(part(pack)); });
+  for_each_pack(packs_.size(), Work::MUCH,
+                [&](std::size_t pack) { packs_[pack].find_step(part(pack)); });
   // What does not search has no step, so that nothing makes room for it.
   for_each_rod([&](std::size_t pack, std::size_t lane, std::uint32_t island) {
     if (!searches_[island].is_active) {
@@ -321,7 +308,7 @@ void NewtonSolver::search_line(Rods& rods, const Problem& problem, int halvings)
 }
 
 void NewtonSolver::move() {
-  for_each_pack(Work::LITTLE, [&](std::size_t pack) {
+  for_each_pack(packs_.size(), Work::LITTLE, [&](std::size_t pack) {
     SimdBatch shares;
     for (std::size_t lane = 0; lane < packs_[pack].used(); ++lane) {
       shares[lane] = line_.island(islands_[pack][lane]).share;

@@ -77,9 +77,6 @@ class NewtonSolver {
     bool is_learning = false;  ///< was balanced before what multipliers have learnt
   };
 
-  enum class Work { LITTLE, MUCH };
-  template <typename Function>
-  void for_each_pack(Work work, const Function& function);
   template <typename Function>
   void for_each_rod(const Function& function);
   SimdBatch* part(std::size_t pack) { return step_.data() + offsets_[pack]; }

@@ -1,0 +1,161 @@
+#!/usr/bin/env bash
+# Makes Debian packages for the machine's own distribution, with dpkg's tools:
+#   libfiber-proximity       the libraries that need no ROS, and the command-line tools
+#   libfiber-proximity-dev   headers, and what find_package and pkg-config read
+#   ros-fiber-proximity      nodes, messages, launch files and rviz's displays
+#   scripts/package.sh [--build BUILD] [--out DIR] [--verbose]
+#     --build BUILD  packages this build, which has ROS, as it is; without, builds first, in build/
+#     --out DIR      where to; without, build/packages
+#     --verbose      all that building and packaging write
+# Install all three with `apt-get install ./DIR/*.deb`, which brings what they need.
+set -euo pipefail
+# shellcheck source=scripts/environment.sh
+source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
+
+usage="usage: scripts/package.sh [--build BUILD] [--out DIR] [--verbose]"
+out=
+builds=true
+while [ $# -gt 0 ]; do
+  case "$1" in
+    --build | --out)
+      [ $# -ge 2 ] || { echo "package.sh: $1 needs a folder; $usage" >&2; exit 2; }
+      if [ "$1" = --out ]; then
+        out=$2
+      else
+        build=$2
+        builds=false
+      fi
+      shift
+      ;;
+    --verbose) be_verbose ;;
+    -h | --help) echo "$usage"; exit 0 ;;
+    *) echo "package.sh: unknown option '$1'; $usage" >&2; exit 2 ;;
+  esac
+  shift
+done
+out=${out:-$build/packages}
+
+if [ -d /opt/ros ] || ! command -v dpkg-deb dpkg-shlibdeps >/dev/null; then
+  echo "package.sh: makes packages for Debian with ROS from Debian's own packages (dpkg-dev)" >&2
+  exit 1
+fi
+if $builds; then
+  "$root/scripts/setup.sh"
+  build_package all
+fi
+if [ ! -f "$build/devel/share/fiber_proximity/package.xml" ] && [ ! -d "$build/catkin_generated" ]; then
+  echo "package.sh: '$build' is no build with ROS" >&2
+  exit 1
+fi
+
+version=$(sed -n 's/.*<version>\(.*\)<.*/\1/p' "$root/package.xml")-1
+architecture=$(dpkg --print-architecture)
+maintainer=$(sed -n 's/.*<maintainer email="\(.*\)">\(.*\)<.*/\2 <\1>/p' "$root/package.xml")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+whole=$work/whole
+library=$work/libfiber-proximity
+development=$work/libfiber-proximity-dev
+ros=$work/ros-fiber-proximity
+
+install_whole() {
+  cmake --install "$build" --prefix "$whole/usr" --strip
+  # How to use a workspace; the system's own folders need no such thing.
+  rm -f "$whole"/usr/{.catkin,.rosinstall,_setup_util.py,env.sh,{,local_}setup.{bash,sh,zsh}}
+  # pkg-config is told where the files will be.
+  sed -i 's#^prefix=.*#prefix=/usr#' "$whole"/usr/lib/pkgconfig/*.pc
+  find "$whole" -name __pycache__ -prune -exec rm -rf {} +
+}
+
+# take PACKAGE PATH...: moves these from the whole to a package; each must be there.
+take() {
+  local to=$1 path
+  shift
+  for path in "$@"; do
+    [ -e "$whole/usr/$path" ] || { echo "package.sh: '$path' is not in the build" >&2; return 1; }
+    mkdir -p "$to/usr/$(dirname "$path")"
+    mv "$whole/usr/$path" "$to/usr/$path"
+  done
+}
+
+sort_out() {
+  local name
+  cd "$whole/usr"
+  take "$library" lib/libfiber_proximity{,_compare,_environment,_paper,_sim}.so \
+    lib/fiber_proximity/fiber_{query,scene,simulate}
+  mkdir -p "$library/usr/bin"
+  for name in fiber_query fiber_scene fiber_simulate; do
+    ln -s "../lib/fiber_proximity/$name" "$library/usr/bin/$name"
+  done
+  take "$development" include lib/pkgconfig share/fiber_proximity/cmake
+  # What is left is of ROS: catkin's and rosbag's own names for it.
+  take "$ros" ./*
+  cd - >/dev/null
+}
+
+# dependencies PACKAGE: what its programs and libraries load, by the packages that bring it.
+dependencies() {
+  local files
+  mapfile -t files < <(find "$1" -type f -exec sh -c 'head -c 4 "$1" | grep -q ELF' sh {} \; -print)
+  mkdir -p "$work/debian"
+  printf 'Source: fiber-proximity\n\nPackage: any\n' >"$work/debian/control"
+  # Our own libraries belong to no package yet: what needs them says so below.
+  (cd "$work" && dpkg-shlibdeps -O --ignore-missing-info -l"$library/usr/lib" -l"$ros/usr/lib" \
+    "${files[@]}" 2>>"$work/shlibdeps.log") | sed 's/^shlibs:Depends=//'
+}
+
+# pack FOLDER DEPENDS SUMMARY
+pack() {
+  local folder=$1 package
+  package=$(basename "$1")
+  mkdir -p "$folder/DEBIAN" "$folder/usr/share/doc/$package"
+  cp "$root/LICENSE" "$folder/usr/share/doc/$package/copyright"
+  cat >"$folder/DEBIAN/control" <<EOF
+Package: $package
+Version: $version
+Architecture: $architecture
+Maintainer: $maintainer
+Section: science
+Priority: optional
+Depends: $2
+Description: $3
+ Contacts, distances and markers from tracked point chains, over chain-aligned
+ bounding volume hierarchies.
+EOF
+  find "$folder" -type d -exec chmod 755 {} +
+  dpkg-deb --root-owner-group --build "$folder" "$out/${package}_${version}_$architecture.deb"
+}
+
+# What nodes, launch files and tools ask for by name, which no library tells.
+ros_needs=(
+  libnodeletlib-tools python3-dynamic-reconfigure python3-numpy python3-rosbag python3-roslaunch
+  python3-rospy rosbash ros-robot-state-publisher rviz
+  python3-{std,geometry,sensor,shape,nav,visualization,diagnostic,rosgraph}-msgs python3-std-srvs
+)
+# What the exported targets find, and the headers include.
+development_needs=(libeigen3-dev libtbb-dev libfcl-dev libassimp-dev libyaml-cpp-dev libroscpp-dev
+  libhwy-dev libsensor-msgs-dev libvisualization-msgs-dev libnav-msgs-dev)
+
+comma_joined() {
+  local list
+  printf -v list ', %s' "$@"
+  echo "${list:2}"
+}
+
+make_packages() {
+  install_whole
+  sort_out
+  mkdir -p "$out"
+  rm -f "$out"/*fiber-proximity*.deb
+  local of_library of_ros
+  of_library=$(dependencies "$library")
+  of_ros=$(dependencies "$ros")
+  pack "$library" "$of_library" "proximity queries for cables, ropes, hair and other fibres"
+  pack "$development" "libfiber-proximity (= $version), $(comma_joined "${development_needs[@]}")" \
+    "proximity queries for fibres: headers"
+  pack "$ros" "libfiber-proximity (= $version), $of_ros, $(comma_joined "${ros_needs[@]}")" \
+    "proximity queries for fibres: ROS nodes"
+}
+
+run_step "packaging $version" "$work/package.log" make_packages
+ls "$out"/*fiber-proximity*.deb

@@ -1,0 +1,55 @@
+#!/usr/bin/env bash
+# Makes Debian packages of a build and unpacks them into an empty folder: each file is in one of them, each
+# has the files that its name promises, and the tools and the node run from there.
+#   deb_test.sh BUILD SOURCE
+set -euo pipefail
+build=$1
+source=$2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+fail() {
+  echo "deb_test: $*" >&2
+  exit 1
+}
+
+"$source/scripts/package.sh" --build "$build" --out "$work/packages"
+version=$(sed -n 's/.*<version>\(.*\)<.*/\1/p' "$source/package.xml")
+for name in libfiber-proximity libfiber-proximity-dev ros-fiber-proximity; do
+  package=$(echo "$work"/packages/"${name}"_*.deb)
+  [ "$(dpkg-deb -f "$package" Version)" = "$version-1" ] || fail "$name has another version than package.xml"
+  dpkg-deb -f "$package" Depends >"$work/$name.depends"
+  dpkg-deb -c "$package" | awk '!/^d/ { print $6 }' | sort >"$work/$name.files"
+  dpkg-deb -x "$package" "$work/root"
+done
+[ -z "$(sort "$work"/*.files | uniq -d)" ] || fail "in two packages: $(sort "$work"/*.files | uniq -d)"
+
+expect() {
+  grep -q "$2" "$work/$1" || fail "$1 lacks $2"
+}
+expect libfiber-proximity.files '/usr/lib/libfiber_proximity.so$'
+expect libfiber-proximity.files '/usr/bin/fiber_query$'
+expect libfiber-proximity.depends libtbb
+expect libfiber-proximity-dev.files '/query/engine.hpp$'
+expect libfiber-proximity-dev.files '/fiber_proximity-core.cmake$'
+expect libfiber-proximity-dev.depends 'libfiber-proximity (= '
+expect ros-fiber-proximity.files '/lib/fiber_proximity/proximity_node$'
+expect ros-fiber-proximity.files '/share/fiber_proximity/launch/demo.launch$'
+expect ros-fiber-proximity.files '/dist-packages/fiber_proximity/msg/_Contact.py$'
+expect ros-fiber-proximity.files '/share/fiber_proximity/msg/Contact.msg$'
+expect ros-fiber-proximity.depends 'libfiber-proximity (= '
+expect ros-fiber-proximity.depends libroscpp
+expect ros-fiber-proximity.depends rviz
+if grep -qE 'libros|rviz|librviz' "$work/libfiber-proximity.depends"; then
+  fail "the library needs ROS: $(cat "$work/libfiber-proximity.depends")"
+fi
+
+# From there alone: what is loaded is what was unpacked.
+unset CMAKE_PREFIX_PATH ROS_PACKAGE_PATH PYTHONPATH
+export LD_LIBRARY_PATH=$work/root/usr/lib
+printf 'fiber,x,y,z\na,0,0,0\na,1,0,0\nb,0,1,0\nb,1,1,0\n' >"$work/two.csv"
+"$work/root/usr/bin/fiber_query" contacts "$work/two.csv" --radius 0.1 --margin 1 >"$work/contacts.csv"
+[ "$(wc -l <"$work/contacts.csv")" -eq 2 ] || fail "fiber_query finds not one contact: $(cat "$work/contacts.csv")"
+linked=$(ldd "$work/root/usr/lib/fiber_proximity/proximity_node")
+[[ $linked == *"$work/root/usr/lib/libfiber_proximity_ros.so"* ]] || fail "the node loads another library: $linked"
+[[ $linked != *"not found"* ]] || fail "the node lacks a library: $linked"
