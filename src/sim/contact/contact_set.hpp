@@ -33,6 +33,10 @@ class ContactSet {
 
   void clear();
 
+  bool is_empty() const {
+    return pairs.empty() && obstacle_contacts.empty() && obstacle_edges.empty();
+  }
+
   /// Adds what another one's rods may touch.
   void append(const ContactSet& other);
 

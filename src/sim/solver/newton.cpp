@@ -67,9 +67,11 @@ void NewtonSolver::load(const Rods& rods) {
 }
 
 bool NewtonSolver::solve(Rods& rods, const Problem& problem) {
+  if (problem.room != nullptr) {
+    bound_.begin(problem.room, static_cast<std::uint32_t>(searches_.size()));
+  }
   if (problem.contacts != nullptr) {
     problem.contacts->begin(rods, problem.friction, problem.references, problem.step);
-    bound_.begin(problem.room, static_cast<std::uint32_t>(searches_.size()));
   }
   measure(rods, problem);
   for (std::size_t i = 0; i < searches_.size(); ++i) {
@@ -97,7 +99,7 @@ bool NewtonSolver::solve(Rods& rods, const Problem& problem) {
     }
   }
   for_each_pack(packs_.size(), Work::LITTLE, [&](std::size_t pack) { packs_[pack].finish(rods); });
-  return problem.contacts == nullptr || problem.room->is_last || bound_.is_within(rods, members_);
+  return problem.room == nullptr || problem.room->is_last || bound_.is_within(rods, members_);
 }
 
 /// Energies where the rods are, by island.

@@ -40,7 +40,7 @@ class NewtonSolver {
     const StepperOptions& options;
     double step;                                     ///< [s]
     ContactSet* contacts;                            ///< null for none
-    const Room* room;                                ///< null without contacts
+    const Room* room;                                ///< null for none: rods may go anywhere
     const Friction* friction;                        ///< null for none
     const std::vector<Eigen::Vector3d>& references;  ///< where rates are measured from, by node [m]
   };

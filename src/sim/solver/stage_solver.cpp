@@ -208,11 +208,13 @@ void StageSolver::solve_group(Rods& rods, const Effects& effects, double step, G
   } else {
     solver->begin(rods, effects, step);
   }
-  const bool has_contacts = contacts_ != nullptr;
+  const Room* const room = contacts_ != nullptr ? &room_ : nullptr;
+  // Where nothing is in reach, all that counts is that the rods end within their rooms.
+  const bool bounds = room != nullptr && (!group.contacts.is_empty() || room->is_last);
+  const Friction* const friction = bounds ? contacts_->friction() : nullptr;
   group.is_solved =
-      solver->solve(rods, {effects, options_, step, has_contacts ? &group.contacts : nullptr,
-                           has_contacts ? &room_ : nullptr,
-                           has_contacts ? contacts_->friction() : nullptr, reference_.positions});
+      solver->solve(rods, {effects, options_, step, bounds ? &group.contacts : nullptr, room,
+                           friction, reference_.positions});
   group.reports = solver->reports();
   group.needed_room = solver->step_bound().needed();
   give_back(std::move(solver));
