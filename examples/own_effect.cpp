@@ -52,7 +52,7 @@ class Trap : public fiber::Effect {
 
 int main() {
   fiber::Rods rods;
-  const fiber::RodMaterial material = fiber::material_preset("silicone");
+  const fiber::RodMaterial material = fiber::material_preset("silicone_tube");
   rods.add({{0.9, 0, 0}, {1.0, 0, 0}, {1.1, 0, 0}}, 0.002,
            fiber::solid_round_section(material, 0.002));
   fiber::Effects effects;

@@ -98,10 +98,10 @@ dependencies() {
   local files
   mapfile -t files < <(find "$1" -type f -exec sh -c 'head -c 4 "$1" | grep -q ELF' sh {} \; -print)
   mkdir -p "$work/debian"
-  printf 'Source: fiber-proximity\n\nPackage: any\n' >"$work/debian/control"
+  printf 'Source: fiber-proximity\n\nPackage: any\nArchitecture: any\n' >"$work/debian/control"
   # Our own libraries belong to no package yet: what needs them says so below.
   (cd "$work" && dpkg-shlibdeps -O --ignore-missing-info -l"$library/usr/lib" -l"$ros/usr/lib" \
-    "${files[@]}" 2>>"$work/shlibdeps.log") | sed 's/^shlibs:Depends=//'
+    "${files[@]}") | sed 's/^shlibs:Depends=//'
 }
 
 # pack FOLDER DEPENDS SUMMARY
@@ -148,8 +148,8 @@ make_packages() {
   mkdir -p "$out"
   rm -f "$out"/*fiber-proximity*.deb
   local of_library of_ros
-  of_library=$(dependencies "$library")
-  of_ros=$(dependencies "$ros")
+  of_library=$(dependencies "$library") || return 1
+  of_ros=$(dependencies "$ros") || return 1
   pack "$library" "$of_library" "proximity queries for cables, ropes, hair and other fibres"
   pack "$development" "libfiber-proximity (= $version), $(comma_joined "${development_needs[@]}")" \
     "proximity queries for fibres: headers"

@@ -196,6 +196,31 @@ TEST_P(MotionFamilies, NoContactIsMissedAndNoneIsInvented) {
   }
 }
 
+TEST_P(MotionFamilies, AContactAtTheBeginningIsDecidedExactly) {
+  SCOPED_TRACE(seed_message());
+  std::size_t touching = 0;
+  std::size_t apart = 0;
+  for (const HardMotion& motion : motions(rounds(100))) {
+    SegmentMotions pair = motion.motions();
+    const auto& a = pair.a_before;
+    const auto& b = pair.b_before;
+    const double distance = segment_distance(a[0], a[1], b[0], b[1]).distance;
+    // By more than rounding, by about that, and by a margin that takes most of the radii back.
+    for (const double part : {0.5, 1.0 - 1e-13, 1.0 - 1e-15, 1.0, 1.0 + 1e-15, 1.0 + 1e-13, 2.0}) {
+      for (const double margin : {0.0, -1e3 * distance}) {
+        pair.limit = {part * distance - margin, 0.0, margin};
+        const ContactTime time = contact_time(pair, 1e-6 * bench::extent_of(motion));
+        const bool is_touching = exact_gap_at_most(a[0], a[1], b[0], b[1], pair.limit);
+        EXPECT_EQ(time.hit && time.certain && time.upper == 0.0, is_touching)
+            << described(time) << ", " << part << " of the distance " << distance;
+        ++(is_touching ? touching : apart);
+      }
+    }
+  }
+  EXPECT_GT(touching, 0U);
+  EXPECT_GT(apart, 0U);
+}
+
 TEST_P(MotionFamilies, OneAnswerInAnyBatchAndOnAnyInstructionSet) {
   SCOPED_TRACE(seed_message());
   const std::vector<HardMotion> all = motions(rounds(100));

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 
@@ -173,16 +174,20 @@ TEST_F(TouchTrackerTest, PatchesAreThoseOfAllPairs) {
   std::map<std::uint64_t, bool> open;
   std::size_t ended = 0;
   for (int round = 0; round < rounds(300); ++round) {
-    std::set<std::pair<std::uint32_t, std::uint32_t>> drawn;
-    const auto count = random.integer(0, 30);
+    // Of a few fibres: the last segment of one is no neighbour of the first of the next.
+    std::set<std::array<std::uint32_t, 4>> drawn;
+    const auto count = random.integer(0, 60);
     for (std::int64_t i = 0; i < count; ++i) {
-      drawn.emplace(random.integer(0, 11), random.integer(0, 11));
+      drawn.insert({static_cast<std::uint32_t>(random.integer(0, 1)),
+                    static_cast<std::uint32_t>(random.integer(0, 11)),
+                    static_cast<std::uint32_t>(random.integer(1, 2)),
+                    static_cast<std::uint32_t>(random.integer(0, 11))});
     }
-    std::vector<Segments> segments;
-    for (const auto& [a, b] : drawn) {
-      segments.push_back({a, b});
+    std::vector<TouchingPair> pairs;
+    for (const auto& [fiber_a, a, fiber_b, b] : drawn) {
+      pairs.push_back({fiber_a, a, fiber_b, b, -1e-3, false, step_, {}});
     }
-    for (const TouchEvent& event : step(segments)) {
+    for (const TouchEvent& event : step_with(pairs)) {
       if (event.kind == TouchEvent::Kind::BEGAN) {
         EXPECT_TRUE(open.emplace(event.touch.id, true).second);
       } else {
@@ -190,23 +195,24 @@ TEST_F(TouchTrackerTest, PatchesAreThoseOfAllPairs) {
         ++ended;
       }
     }
-    std::vector<std::size_t> patch(segments.size());
+    std::vector<std::size_t> patch(pairs.size());
     for (std::size_t i = 0; i < patch.size(); ++i) {
       patch[i] = i;
     }
     const auto apart = [](std::uint32_t x, std::uint32_t y) { return x < y ? y - x : x - y; };
-    for (std::size_t again = 0; again < segments.size(); ++again) {
-      for (std::size_t i = 0; i < segments.size(); ++i) {
-        for (std::size_t j = 0; j < segments.size(); ++j) {
-          if (apart(segments[i].a, segments[j].a) <= 1 &&
-              apart(segments[i].b, segments[j].b) <= 1) {
+    for (std::size_t again = 0; again < pairs.size(); ++again) {
+      for (std::size_t i = 0; i < pairs.size(); ++i) {
+        for (std::size_t j = 0; j < pairs.size(); ++j) {
+          if (pairs[i].fiber_a == pairs[j].fiber_a && pairs[i].fiber_b == pairs[j].fiber_b &&
+              apart(pairs[i].segment_a, pairs[j].segment_a) <= 1 &&
+              apart(pairs[i].segment_b, pairs[j].segment_b) <= 1) {
             patch[i] = std::min(patch[i], patch[j]);
           }
         }
       }
     }
     std::set<std::uint64_t> there;
-    for (std::size_t i = 0; i < segments.size(); ++i) {
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
       there.insert(ids_[i]);
       for (std::size_t j = 0; j < i; ++j) {
         ASSERT_EQ(ids_[i] == ids_[j], patch[i] == patch[j]);

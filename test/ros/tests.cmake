@@ -83,6 +83,7 @@ add_executable(node_test EXCLUDE_FROM_ALL
   ros/query_test.cpp  # first of its suite: asks before there are fibres
   ros/query_options_test.cpp
   ros/reconfigure_test.cpp
+  ros/reference_test.cpp
   ros/self_contact_test.cpp
   ros/sim_time_test.cpp
   ros/skin_test.cpp
@@ -92,7 +93,8 @@ add_executable(node_test EXCLUDE_FROM_ALL
   ros/tracks_test.cpp
 )
 target_compile_definitions(node_test PRIVATE PROXIMITY_NODE="$<TARGET_FILE:proximity_node>")
-target_link_libraries(node_test fiber_proximity_ros fiber_proximity_options ${GTEST_LIBRARIES})
+target_link_libraries(node_test
+  fiber_proximity_ros fiber_proximity_options test_support ${GTEST_LIBRARIES})
 add_dependencies(tests node_test)
 add_custom_target(soak DEPENDS node_test proximity_node)  # for scripts/campaign.sh
 foreach(name crossings draw environment inputs query)
@@ -101,7 +103,7 @@ foreach(name crossings draw environment inputs query)
     ARGS nodelet:=true DEPENDENCIES node_test fiber_proximity_nodelets fiber_player)
 endforeach()
 add_rostest(ros/nodelet.test DEPENDENCIES node_test fiber_proximity_nodelets)
-foreach(name bad_input cell cloud_points compare continuous crossings_camera engines limits reconfigure
+foreach(name bad_input cell cloud_points compare continuous crossings_camera engines limits reconfigure reference
     self_contact shared_tracks sim_time skin soak stale timing tracks)
   add_rostest(ros/${name}.test DEPENDENCIES node_test proximity_node fiber_player)
 endforeach()

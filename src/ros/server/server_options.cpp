@@ -81,6 +81,8 @@ void check_engine(const ros::NodeHandle& private_node, const ServerOptions& opti
   }
 }
 
+}  // namespace
+
 std::vector<std::string> known_parameters() {
   std::vector<std::string> known{
       "engine",    "threads",         "skin",        "fixed_frame",     "inputs",
@@ -92,8 +94,6 @@ std::vector<std::string> known_parameters() {
   }
   return known;
 }
-
-}  // namespace
 
 ServerOptions read_server_options(const ros::NodeHandle& node,
                                   const ros::NodeHandle& private_node) {

@@ -36,4 +36,7 @@ struct ServerOptions {
 ///         allowed
 ServerOptions read_server_options(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
 
+/// Names of all private parameters that the node reads.
+std::vector<std::string> known_parameters();
+
 }  // namespace fiber_proximity_ros
