@@ -207,8 +207,9 @@ TEST_P(MotionFamilies, AContactAtTheBeginningIsDecidedExactly) {
     const double distance = segment_distance(a[0], a[1], b[0], b[1]).distance;
     // By more than rounding, by about that, and by a margin that takes most of the radii back.
     for (const double part : {0.5, 1.0 - 1e-13, 1.0 - 1e-15, 1.0, 1.0 + 1e-15, 1.0 + 1e-13, 2.0}) {
-      for (const double margin : {0.0, -1e3 * distance}) {
-        pair.limit = {part * distance - margin, 0.0, margin};
+      for (const double margin : {0.0, -1e6 * distance}) {
+        const double radius = (part * distance - margin) / 3.0;
+        pair.limit = {radius, part * distance - margin - radius, margin};
         const ContactTime time = contact_time(pair, 1e-6 * bench::extent_of(motion));
         const bool is_touching = exact_gap_at_most(a[0], a[1], b[0], b[1], pair.limit);
         EXPECT_EQ(time.hit && time.certain && time.upper == 0.0, is_touching)
