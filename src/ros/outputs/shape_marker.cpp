@@ -19,8 +19,8 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using visualization_msgs::Marker;
 
-constexpr int sides = 32;     // of what is round
-constexpr int arc_steps = 8;  // from pole to rim of a half sphere
+constexpr int circle_sides = 32;  // of what is round
+constexpr int arc_steps = 8;      // from pole to rim of a half sphere
 
 /// Distance from the z axis, and height [m].
 using ProfilePoint = std::pair<double, double>;
@@ -30,13 +30,13 @@ using ProfilePoint = std::pair<double, double>;
 void append_revolved(const std::vector<ProfilePoint>& profile,
                      std::vector<geometry_msgs::Point>& triangles) {
   const auto at = [](const ProfilePoint& point, int side) {
-    const double angle = 2.0 * M_PI * side / sides;
+    const double angle = 2.0 * M_PI * side / circle_sides;
     return to_message(
         Vector3d(point.first * std::cos(angle), point.first * std::sin(angle), point.second));
   };
   for (std::size_t i = 0; i + 1 < profile.size(); ++i) {
-    for (int side = 0; side < sides; ++side) {
-      const int next = (side + 1) % sides;
+    for (int side = 0; side < circle_sides; ++side) {
+      const int next = (side + 1) % circle_sides;
       if (profile[i].first > 0.0) {
         triangles.insert(triangles.end(),
                          {at(profile[i], side), at(profile[i], next), at(profile[i + 1], next)});
