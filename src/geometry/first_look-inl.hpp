@@ -10,6 +10,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "src/geometry/motion_lanes-inl.hpp"
@@ -38,14 +39,14 @@ class FirstLook {
       read(pair.b_after, lane, b_after_);
       limit_[lane] = pair.limit.radius_a + pair.limit.radius_b + pair.limit.margin;
       // Where a margin below 0 cancels, the sum is not as good as its size tells.
-      touching_limit_[lane] = pair.limit.margin < 0.0 ? -1.0 : limit_[lane];
+      parts_[lane] = pair.limit.radius_a + pair.limit.radius_b + std::abs(pair.limit.margin);
     }
   }
 
   Seen look() {
     const MotionTag d;
     LaneNumber limit(hn::Load(d, limit_));
-    LaneNumber touching_limit(hn::Load(d, touching_limit_));
+    LaneNumber parts(hn::Load(d, parts_));
     Parallelogram<LaneNumber> start = differences(a_before_, b_before_);
     Parallelogram<LaneNumber> rate;
     NumberVector<LaneNumber> least = start.corners[0][0];
@@ -66,12 +67,12 @@ class FirstLook {
       start = scaled(factor, start);
       rate = scaled(factor, rate);
       limit = smaller(factor * limit, LaneNumber(longest_limit));
-      touching_limit = smaller(factor * touching_limit, LaneNumber(longest_limit));
+      parts = smaller(factor * parts, LaneNumber(longest_limit));
       largest = factor * largest;
       least = factor * least;
       most = factor * most;
     }
-    const LaneNumber error = LaneNumber(motion_roundings) * (largest + limit);
+    const LaneNumber error = LaneNumber(motion_roundings) * (largest + parts);
     const LaneNumber reach = limit + error;
     const LaneNumber gap = larger(larger(larger(least.x, -most.x), larger(least.y, -most.y)),
                                   larger(least.z, -most.z));
@@ -84,7 +85,7 @@ class FirstLook {
     hn::Store(look.closing.lanes, d, closing_);
     hn::Store(look.free.lanes, d, free_);
     // Of two points of the segments, whichever they are: their distance is hardly rounded.
-    const auto is_touching = look.distance + error < touching_limit - error;
+    const auto is_touching = look.distance + error < limit - error;
     const auto never_touches = hn::Or(is_apart, LaneNumber(1.0) < look.free);
     return {bits_of(is_touching), bits_of(hn::Not(hn::Or(never_touches, is_touching)))};
   }
@@ -142,8 +143,8 @@ class FirstLook {
   alignas(64) Ends a_after_;
   alignas(64) Ends b_before_;
   alignas(64) Ends b_after_;
-  alignas(64) double limit_[most_motion_lanes];           // [m]
-  alignas(64) double touching_limit_[most_motion_lanes];  // [m] -1: nothing is to be told
+  alignas(64) double limit_[most_motion_lanes];  // [m]
+  alignas(64) double parts_[most_motion_lanes];  // [m] of the limit, all counted positive
   alignas(64) double distance_[most_motion_lanes];
   alignas(64) double closing_[most_motion_lanes];
   alignas(64) double free_[most_motion_lanes];

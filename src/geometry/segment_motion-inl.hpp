@@ -47,11 +47,13 @@ class SegmentMotion {
 
   SegmentMotion() = default;
 
-  /// @param roundings the error, as a part of the largest coordinate and the limit
+  /// @param roundings the error, as a part of the largest coordinate and what the limit is made of
   SegmentMotion(const SegmentMotions& motions, double tolerance_in_metres, double roundings)
       : limit(Number(motions.limit.radius_a) + Number(motions.limit.radius_b) +
               Number(motions.limit.margin)),
-        tolerance(tolerance_in_metres) {
+        tolerance(tolerance_in_metres),
+        parts_(Number(motions.limit.radius_a) + Number(motions.limit.radius_b) +
+               Number(std::abs(motions.limit.margin))) {
     least_ = difference(motions.a_before[0], motions.b_before[0]);
     most_ = least_;
     for (int i = 0; i < 2; ++i) {
@@ -66,7 +68,7 @@ class SegmentMotion {
     if (const double factor = scale_of(static_cast<double>(largest())); factor != 1.0) {
       scale(factor);
     }
-    error = Number(roundings) * (largest() + limit);
+    error = Number(roundings) * (largest() + parts_);
   }
 
  private:
@@ -91,7 +93,7 @@ class SegmentMotion {
         row[1] = unit * row[1];
       }
     }
-    for (Number* length : {&limit, &tolerance}) {
+    for (Number* length : {&limit, &tolerance, &parts_}) {
       *length = smaller(unit * *length, Number(longest_limit));
     }
     least_ = unit * least_;
@@ -103,6 +105,7 @@ class SegmentMotion {
            Vector{Number(b.x()), Number(b.y()), Number(b.z())};
   }
 
+  Number parts_;  // of the limit, all counted positive: it is rounded by a part of them
   Vector least_;  // of all corners, before and after
   Vector most_;
 };
