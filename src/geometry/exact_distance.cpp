@@ -135,11 +135,9 @@ bool exact_gap_at_most(const Vector3d& p0, const Vector3d& p1, const Vector3d& q
 bool gap_at_most(const SegmentDistance& robust, const Vector3d& p0, const Vector3d& p1,
                  const Vector3d& q0, const Vector3d& q1, const ContactLimit& limit) {
   // What is proven of the robust distance, and the rounding of sum and difference here.
-  const double sum = limit.radius_a + limit.radius_b + limit.margin;
-  const double parts = limit.radius_a + limit.radius_b + std::abs(limit.margin);
-  const double error = proven_robust_error_per_error * robust.error + 0x1p-50 * parts +
+  const double error = proven_robust_error_per_error * robust.error + 0x1p-50 * limit.parts() +
                        std::numeric_limits<double>::min();
-  const double gap = robust.distance - sum;
+  const double gap = robust.distance - limit.sum();
   if (std::abs(gap) > error + 0x1p-51 * robust.distance) {
     return gap < 0.0;
   }

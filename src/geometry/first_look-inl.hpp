@@ -10,7 +10,6 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 
 #include "src/geometry/motion_lanes-inl.hpp"
@@ -37,9 +36,8 @@ class FirstLook {
       read(pair.a_after, lane, a_after_);
       read(pair.b_before, lane, b_before_);
       read(pair.b_after, lane, b_after_);
-      limit_[lane] = pair.limit.radius_a + pair.limit.radius_b + pair.limit.margin;
-      // Where a margin below 0 cancels, the sum is not as good as its size tells.
-      parts_[lane] = pair.limit.radius_a + pair.limit.radius_b + std::abs(pair.limit.margin);
+      limit_[lane] = pair.limit.sum();
+      parts_[lane] = pair.limit.parts();
     }
   }
 
@@ -144,7 +142,7 @@ class FirstLook {
   alignas(64) Ends b_before_;
   alignas(64) Ends b_after_;
   alignas(64) double limit_[most_motion_lanes];  // [m]
-  alignas(64) double parts_[most_motion_lanes];  // [m] of the limit, all counted positive
+  alignas(64) double parts_[most_motion_lanes];  // [m] which the limit is rounded by a part of
   alignas(64) double distance_[most_motion_lanes];
   alignas(64) double closing_[most_motion_lanes];
   alignas(64) double free_[most_motion_lanes];

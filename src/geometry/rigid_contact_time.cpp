@@ -124,7 +124,7 @@ ContactTime contact_in(const MotionPiece& piece, const ContactLimit& limit, doub
   }
   // Only what is nearer than the limit by as much is in contact for certain.
   time.certain = false;
-  if (limit.radius_a + limit.radius_b + limit.margin >= 2.0 * deviation) {
+  if (limit.sum() >= 2.0 * deviation) {
     ContactLimit narrower = limit;
     narrower.margin -= deviation * (1.0 + 0x1p-40);
     const SegmentMotions nearer{piece.a.before(), piece.a.after(), piece.b.before(),

@@ -49,11 +49,9 @@ class SegmentMotion {
 
   /// @param roundings the error, as a part of the largest coordinate and what the limit is made of
   SegmentMotion(const SegmentMotions& motions, double tolerance_in_metres, double roundings)
-      : limit(Number(motions.limit.radius_a) + Number(motions.limit.radius_b) +
-              Number(motions.limit.margin)),
+      : limit(motions.limit.sum<Number>()),
         tolerance(tolerance_in_metres),
-        parts_(Number(motions.limit.radius_a) + Number(motions.limit.radius_b) +
-               Number(std::abs(motions.limit.margin))) {
+        parts_(motions.limit.parts<Number>()) {
     least_ = difference(motions.a_before[0], motions.b_before[0]);
     most_ = least_;
     for (int i = 0; i < 2; ++i) {
@@ -105,7 +103,7 @@ class SegmentMotion {
            Vector{Number(b.x()), Number(b.y()), Number(b.z())};
   }
 
-  Number parts_;  // of the limit, all counted positive: it is rounded by a part of them
+  Number parts_;  // which the limit is rounded by a part of
   Vector least_;  // of all corners, before and after
   Vector most_;
 };

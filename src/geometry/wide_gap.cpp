@@ -74,7 +74,7 @@ std::optional<bool> wide_gap_at_most(const SegmentDistance& robust, const Vector
                                      const Vector3d& p1, const Vector3d& q0, const Vector3d& q1,
                                      const ContactLimit& limit) {
   const double extent = robust.error / robust_error;
-  const double parts = limit.radius_a + limit.radius_b + std::abs(limit.margin);
+  const double parts = limit.parts();
   if (!is_in_range(extent) || !std::isfinite(parts)) {
     return std::nullopt;
   }
@@ -82,8 +82,7 @@ std::optional<bool> wide_gap_at_most(const SegmentDistance& robust, const Vector
                                 {exact_difference(p1, q0), exact_difference(p1, q1)}};
   const WideNearest nearest =
       wide_nearest_of(robust, corners, exact_difference(p1, p0), exact_difference(q1, q0));
-  const DoubleDouble sum =
-      DoubleDouble(limit.radius_a) + DoubleDouble(limit.radius_b) + DoubleDouble(limit.margin);
+  const auto sum = limit.sum<DoubleDouble>();
   const DoubleDouble error(roundings * (extent + parts));
   const DoubleDouble squared = dot(nearest.between, nearest.between);
   if (squared.high > 0.0 ? root(squared) < sum - error : zero < sum - error) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 
 #include "fiber_proximity/geometry/segment_distance.hpp"
 
@@ -21,12 +22,25 @@ SegmentDistance rounded_segment_distance(const SegmentDistance& robust, const Ei
                                          const Eigen::Vector3d& p1, const Eigen::Vector3d& q0,
                                          const Eigen::Vector3d& q1);
 
-/// What makes two capsules a contact: their axes are at most the sum of these three apart. The sum
-/// is never rounded.
+/// What makes two capsules a contact: their axes are at most the sum of these three apart. Answers
+/// are about the sum itself, not about what it is rounded to.
 struct ContactLimit {
   double radius_a = 0.0;  ///< [m] >= 0
   double radius_b = 0.0;  ///< [m] >= 0
   double margin = 0.0;    ///< [m] finite; infinity for no limit
+
+  /// [m] The sum in numbers of this kind, rounded by less than 2⁻⁵² of parts(), or what is as much
+  /// for them.
+  template <class Number = double>
+  Number sum() const {
+    return Number(radius_a) + Number(radius_b) + Number(margin);
+  }
+
+  /// [m] The same, all counted positive: where a margin below 0 cancels, the sum is less.
+  template <class Number = double>
+  Number parts() const {
+    return Number(radius_a) + Number(radius_b) + Number(std::abs(margin));
+  }
 };
 
 /// Whether the segments' exact distance is at most the exact limit; no rounding anywhere.
