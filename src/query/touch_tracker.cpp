@@ -7,8 +7,7 @@
 namespace fiber {
 namespace {
 
-constexpr std::uint32_t no_touch = std::numeric_limits<std::uint32_t>::max();
-constexpr std::uint32_t no_patch = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 /// A segment as one number, in the order of fibre and index.
 std::uint64_t number_of(std::uint32_t fiber, std::uint32_t segment) {
@@ -123,7 +122,7 @@ void TouchTracker::find_patches(const std::vector<TouchingPair>& pairs) {
 
 void TouchTracker::find_claims(const std::vector<TouchingPair>& pairs) {
   claims_.clear();
-  claimed_last_.assign(touches_.size(), no_patch);
+  claimed_last_.assign(touches_.size(), none);
   Neighbours<Standing> before(standing_);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     before.for_each(pairs[i], standing_.size(), [&](std::size_t neighbour) {
@@ -139,10 +138,10 @@ void TouchTracker::find_claims(const std::vector<TouchingPair>& pairs) {
 
 /// Touches go on, the oldest first, in the first patch that is left for them.
 void TouchTracker::go_on() {
-  touch_of_patch_.assign(patches_.size(), no_touch);
+  touch_of_patch_.assign(patches_.size(), none);
   for (const Claim& claim : claims_) {
     TouchStep& before = last_touches_[claim.touch];
-    if (before.lasts && touch_of_patch_[claim.patch] == no_touch) {
+    if (before.lasts && touch_of_patch_[claim.patch] == none) {
       touch_of_patch_[claim.patch] = static_cast<std::uint32_t>(touches_.size());
       touches_.push_back({before.touch, false, false, {}});
       touches_.back().touch.pair.distance = std::numeric_limits<double>::infinity();
@@ -155,7 +154,7 @@ void TouchTracker::go_on() {
 void TouchTracker::begin_others(std::size_t pair_count) {
   constexpr auto never = std::chrono::nanoseconds::max();
   for (std::size_t i = 0; i < pair_count; ++i) {
-    if (patches_[i] == i && touch_of_patch_[i] == no_touch) {
+    if (patches_[i] == i && touch_of_patch_[i] == none) {
       touch_of_patch_[i] = static_cast<std::uint32_t>(touches_.size());
       TouchStep touch{{}, true, false, {}};
       touch.touch.id = next_id_;

@@ -111,6 +111,18 @@ struct MotionResult {
 
   /// The contact that begins first during the motion, nullptr if there is none.
   const MotionContact* earliest() const;
+
+  /// The same of those that this holds for.
+  template <class IsAsked>
+  const MotionContact* earliest(const IsAsked& is_asked) const {
+    const MotionContact* first = nullptr;
+    for (const MotionContact& contact : contacts) {
+      if (is_asked(contact) && (first == nullptr || contact.earlier_than(*first))) {
+        first = &contact;
+      }
+    }
+    return first;
+  }
 };
 
 }  // namespace fiber

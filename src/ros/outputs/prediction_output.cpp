@@ -145,12 +145,7 @@ PredictedContact PredictionOutput::to_message(const fiber::MotionResult& result,
       std::count_if(result.touching.begin(), result.touching.end(), is_asked));
   message.complete = result.complete;
   message.time_upper = std::numeric_limits<double>::infinity();
-  const MotionContact* earliest = nullptr;
-  for (const MotionContact& contact : result.contacts) {
-    if (is_asked(contact) && (earliest == nullptr || contact.earlier_than(*earliest))) {
-      earliest = &contact;
-    }
-  }
+  const MotionContact* const earliest = result.earliest(is_asked);
   message.expected = earliest != nullptr;
   if (earliest == nullptr) {
     message.time_lower = result.others_lower * options_.horizon;
