@@ -43,7 +43,7 @@ if $builds; then
   "$root/scripts/setup.sh"
   build_package all
 fi
-if [ ! -f "$build/devel/share/fiber_proximity/package.xml" ] && [ ! -d "$build/catkin_generated" ]; then
+if [ ! -d "$build/catkin_generated" ]; then
   echo "package.sh: '$build' is no build with ROS" >&2
   exit 1
 fi

@@ -140,10 +140,13 @@ void replace_old_names(const ros::NodeHandle& private_node, ProximityConfig& con
 ProximityConfig read_dynamic_parameters(const ros::NodeHandle& private_node) {
   for (const auto& [name, member] : kernel_parameters) {
     std::string value;
-    if (private_node.getParam(name, value)) {
-      // On the server, where dynamic_reconfigure will read it, too.
-      private_node.setParam(
-          name, current_kernel_name("parameter " + private_node.resolveName(name), value));
+    if (!private_node.getParam(name, value)) {
+      continue;
+    }
+    const std::string current =
+        current_kernel_name("parameter " + private_node.resolveName(name), value);
+    if (current != value) {
+      private_node.setParam(name, current);  // where dynamic_reconfigure will read it, too
     }
   }
   for (const auto& parameter : ProximityConfig::__getParamDescriptions__()) {

@@ -14,19 +14,18 @@ enum class Work { LITTLE, MUCH };
 /// it: one pack is done before another thread has heard of it.
 template <class Function>
 void for_each_pack(std::size_t count, Work work, const Function& function) {
-  const std::size_t together = work == Work::MUCH ? 1 : 16;
-  if (count <= together) {
-    for (std::size_t pack = 0; pack < count; ++pack) {
+  using Range = tbb::blocked_range<std::size_t>;
+  const Range all(0, count, work == Work::MUCH ? 1 : 16);
+  const auto run = [&](const Range& range) {
+    for (std::size_t pack = range.begin(); pack < range.end(); ++pack) {
       function(pack);
     }
-    return;
+  };
+  if (all.is_divisible()) {
+    tbb::parallel_for(all, run);
+  } else {
+    run(all);
   }
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, together),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      for (std::size_t pack = range.begin(); pack < range.end(); ++pack) {
-                        function(pack);
-                      }
-                    });
 }
 
 }  // namespace fiber
