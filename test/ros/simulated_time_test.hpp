@@ -17,7 +17,7 @@ class SimulatedTimeTest : public NodeTest {
     now() += ros::Duration(seconds);
     rosgraph_msgs::Clock clock;
     clock.clock = now();
-    clock_.publish(clock);
+    clock_publisher().publish(clock);
     ask();
   }
 
@@ -36,7 +36,13 @@ class SimulatedTimeTest : public NodeTest {
   }
 
  private:
-  ros::Publisher clock_ = node.advertise<rosgraph_msgs::Clock>("/clock", 1000, true);
+  /// One for all tests: until a node has heard of a new one, time would go on without it. Never
+  /// taken apart: ROS has ended by then.
+  static ros::Publisher& clock_publisher() {
+    static auto& publisher = *new ros::Publisher(
+        ros::NodeHandle().advertise<rosgraph_msgs::Clock>("/clock", 1000, true));
+    return publisher;
+  }
 };
 
 }  // namespace node_test

@@ -111,14 +111,12 @@ TEST_F(StaleTest, WhenAllStopTheLastAnswerIsEmptyAndNoneFollows) {
 }
 
 TEST_F(StaleTest, MessagesWithoutStampAreNewEachTime) {
+  const std::size_t logged = logs_of("input 'b'").size();
   const ros::Time begin = now();
   while ((now() - begin).toSec() < 2.5) {
     ASSERT_TRUE(wait_for_answer(Names{"a", "b"}, &a_, &b_, ros::Time()));
   }
-  // It may be left out all the same: on a busy machine the node's clock can jump by the timeout.
-  for (const std::string& line : logs_of("input 'b'")) {
-    EXPECT_EQ(line.find("its messages repeat their stamp"), std::string::npos) << line;
-  }
+  EXPECT_EQ(logs_of("input 'b'").size(), logged);
 }
 
 }  // namespace

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <sstream>
 #include <string>
-#include <vector>
 
 #include "test/tools/tools_test.hpp"
 
@@ -11,15 +9,6 @@ namespace fiber::test {
 inline const std::string columns =
     "fiber_a,segment_a,s,fiber_b,segment_b,t,distance,point_a_x,point_a_y,point_a_z,"
     "point_b_x,point_b_y,point_b_z,normal_x,normal_y,normal_z,lower,upper\n";
-
-inline std::vector<std::string> lines(const std::string& text) {
-  std::vector<std::string> result;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) {
-    result.push_back(line);
-  }
-  return result;
-}
 
 class FiberQuery : public ToolsTest {
  protected:

@@ -25,6 +25,16 @@ inline testing::AssertionResult refused(const ProcessResult& result, const std::
   return testing::AssertionSuccess();
 }
 
+/// Without their ends.
+inline std::vector<std::string> lines(const std::string& text) {
+  std::vector<std::string> result;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) {
+    result.push_back(line);
+  }
+  return result;
+}
+
 /// The numbers of a line, between commas.
 inline std::vector<double> numbers_in(const std::string& line) {
   std::vector<double> result;
