@@ -12,6 +12,7 @@
 #include "test/sim/tunnelling.hpp"
 #include "test/support/error_of.hpp"
 #include "test/support/random.hpp"
+#include "test/support/rounds.hpp"
 
 namespace fiber::test {
 namespace {
@@ -154,7 +155,7 @@ TEST_P(OfShape, StepsKeepAFifthOfEachDistance) {
   Random random(60 + GetParam());
   const Barrier barrier = Barrier::around(radius, 1.0);
   int shortened = 0;
-  for (int round = 0; round < 50; ++round) {
+  for (int round = 0; round < rounds(500); ++round) {
     const Rods rods = rod_at(random, environment_, random.uniform(-0.3, 1.0) * width);
     const auto contacts = contacts_with(environment_);
     ContactSet found = contacts_of(*contacts, rods, 10.0 * radius);

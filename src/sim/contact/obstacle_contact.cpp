@@ -1,6 +1,7 @@
 #include "src/sim/contact/obstacle_contact.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "src/sim/contact/weighted_barrier.hpp"
@@ -11,55 +12,75 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// What is known of distances along an edge: at a place, and how it grows from there.
-struct Tangent {
-  double s;
-  PointDistance found;
+/// A lower bound of the distance along an edge, linear from one end to the other.
+struct Line {
+  double first;
+  double last;
 
-  /// At another place, when the ends of the edge have moved.
-  double at(double t, const Vector3d& edge, const Vector3d& moved) const {
-    return found.distance + found.gradient.dot((t - s) * edge + moved);
+  double at(double s) const { return first + s * (last - first); }
+};
+
+/// What the distance at a place on an edge, and how it grows from there, promise for the whole edge.
+/// @param moved by which its ends have moved [m]
+Line tangent(double s, const PointDistance& found, const Vector3d& edge,
+             const std::array<Vector3d, 2>& moved = {Vector3d::Zero(), Vector3d::Zero()}) {
+  return {found.distance + found.gradient.dot(moved[0] - s * edge),
+          found.distance + found.gradient.dot(moved[1] + (1.0 - s) * edge)};
+}
+
+/// The least distance that two tangents promise along an edge, of which the greater holds at each
+/// place.
+double least_promise(const Line& a, const Line& b) {
+  const double least = std::min(std::max(a.first, b.first), std::max(a.last, b.last));
+  const double at_first = a.first - b.first;
+  const double at_last = a.last - b.last;
+  return at_first * at_last < 0.0 ? std::min(least, a.at(at_first / (at_first - at_last))) : least;
+}
+
+/// A part of an edge.
+struct EdgePart {
+  double first = 0.0;
+  double last = 1.0;
+
+  /// Keeps of it where a line is not below a floor.
+  void keep(const Line& line, double floor) {
+    const double at_first = line.first - floor;
+    const double at_last = line.last - floor;
+    if (at_first < 0.0 && at_last < 0.0) {
+      last = -1.0;
+    } else if (at_first < 0.0) {
+      first = std::max(first, at_first / (at_first - at_last));
+    } else if (at_last < 0.0) {
+      last = std::min(last, at_first / (at_first - at_last));
+    }
   }
 };
 
-/// The least distance that tangents promise along an edge from p0 to p1, and where it is.
-struct Promise {
-  double distance = std::numeric_limits<double>::infinity();
-  double s = 0.0;
-};
-
-/// @param moved of the ends [m]
-Promise least_promise(const Tangent* tangents, std::size_t count, const Vector3d& edge,
-                      const std::array<Vector3d, 2>& moved) {
-  const auto promise = [&](double t) {
-    const Vector3d way = (1.0 - t) * moved[0] + t * moved[1];
-    double most = -std::numeric_limits<double>::infinity();
+/// Whether tangents prove that the distance does not fall below a floor while the ends of an edge
+/// move. A tangent's promise for a place is linear in time: where it holds before and after, it
+/// holds all the way. So each place needs one tangent that is above the floor at both times.
+bool stays_above(double floor, const ObstacleDistance& distance, const Vector3d& edge,
+                 const std::array<Vector3d, 2>& ways) {
+  std::array<EdgePart, 3> safe;
+  const std::size_t count = distance.weight > 0.0 ? 3 : 2;
+  const auto keep = [&](EdgePart& part, double s, const PointDistance& found) {
+    part.keep(tangent(s, found, edge), floor);
+    part.keep(tangent(s, found, edge, ways), floor);
+  };
+  keep(safe[0], 0.0, distance.ends[0]);
+  keep(safe[1], 1.0, distance.ends[1]);
+  if (count == 3) {
+    keep(safe[2], distance.s, distance.nearest);
+  }
+  double reached = 0.0;
+  for (std::size_t round = 0; round < count; ++round) {
     for (std::size_t i = 0; i < count; ++i) {
-      most = std::max(most, tangents[i].at(t, edge, way));
-    }
-    return most;
-  };
-  Promise least;
-  const auto try_at = [&](double t) {
-    if (t >= 0.0 && t <= 1.0 && promise(t) < least.distance) {
-      least = {promise(t), t};
-    }
-  };
-  try_at(0.0);
-  try_at(1.0);
-  // Where two of these linear functions meet.
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t j = i + 1; j < count; ++j) {
-      const double at_first =
-          tangents[i].at(0.0, edge, moved[0]) - tangents[j].at(0.0, edge, moved[0]);
-      const double at_last =
-          tangents[i].at(1.0, edge, moved[1]) - tangents[j].at(1.0, edge, moved[1]);
-      if (at_first * at_last < 0.0) {
-        try_at(at_first / (at_first - at_last));
+      if (safe[i].first <= reached) {
+        reached = std::max(reached, safe[i].last);
       }
     }
   }
-  return least;
+  return reached >= 1.0;
 }
 
 std::uint32_t node_of(const ObstacleContact& contact) {
@@ -99,14 +120,14 @@ ObstacleDistance obstacle_distance(const ObstacleContact& contact,
   const Vector3d& p1 = positions[contact.edge + 1];
   distance.ends = {contact.piece.distance_from(p0), contact.piece.distance_from(p1)};
   // Mostly the ends tell that the edge has no part of its own.
-  const std::array<Tangent, 2> tangents{{{0.0, distance.ends[0]}, {1.0, distance.ends[1]}}};
-  const Promise promise = least_promise(tangents.data(), tangents.size(), p1 - p0,
-                                        {Vector3d::Zero(), Vector3d::Zero()});
+  const Line from_first = tangent(0.0, distance.ends[0], p1 - p0);
+  const Line from_last = tangent(1.0, distance.ends[1], p1 - p0);
+  const double promise = least_promise(from_first, from_last);
   const double nearer_end = std::min(distance.ends[0].distance, distance.ends[1].distance);
   constexpr double rounding = 1e-7;
-  if (promise.distance >= contact.barrier.outer ||
-      promise.distance >= nearer_end - rounding * contact.barrier.width()) {
-    distance.nearest.distance = promise.distance;
+  if (promise >= contact.barrier.outer ||
+      promise >= nearer_end - rounding * contact.barrier.width()) {
+    distance.nearest.distance = promise;
     distance.weight = 0.0;
     return distance;
   }
@@ -163,16 +184,11 @@ double bounded_share(const ObstacleContact& contact, const ObstacleDistance& dis
   if (longest * share <= room) {
     return share;
   }
-  const std::array<Tangent, 3> tangents{
-      {{0.0, distance.ends[0]}, {1.0, distance.ends[1]}, {distance.s, distance.nearest}}};
-  const std::size_t count = distance.weight > 0.0 ? 3 : 2;
   const double floor = distance.nearest.distance - room;
   constexpr int most_halvings = 20;
   for (int i = 0; i < most_halvings; ++i) {
-    const Promise promise =
-        least_promise(tangents.data(), count, positions[edge + 1] - positions[edge],
-                      {share * ways[0], share * ways[1]});
-    if (promise.distance >= floor) {
+    if (stays_above(floor, distance, positions[edge + 1] - positions[edge],
+                    {share * ways[0], share * ways[1]})) {
       return share;
     }
     share *= 0.5;
