@@ -45,6 +45,21 @@ void combine(double a, const RodState& from, double b, const RodState& other, Ro
   add(from.spins, other.spins, sum.spins);
 }
 
+/// [J]
+double kinetic_energy(const Rods& rods) {
+  double energy = 0.0;
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    for (std::uint32_t i = rods.first(rod); i < rods.end(rod); ++i) {
+      energy += 0.5 * rods.masses[i] * rods.velocities[i].squaredNorm();
+      if (!rods.spins.empty()) {
+        const double inertia = rods.sections[rod].inertia_per_length * rods.rest_lengths[i];
+        energy += 0.5 * inertia * rods.spins[i] * rods.spins[i];
+      }
+    }
+  }
+  return energy;
+}
+
 bool is_at(const Rods& rods, const RodState& state) {
   return rods.positions == state.positions && rods.velocities == state.velocities &&
          rods.angles == state.angles && rods.spins == state.spins;
@@ -98,6 +113,7 @@ void Stepper::step(double length) {
   }
   require_finite(rods_);
   report_ = StepReport{};
+  const double kinetic = kinetic_energy(rods_);
   if (options_.integrator == Integrator::IMPLICIT_EULER) {
     solver_->solve(rods_, effects_, {time_, length}, nullptr);
     solver_->add_to(report_);
@@ -108,6 +124,7 @@ void Stepper::step(double length) {
     effect->end_step(rods_, {time_, length});
   }
   require_finite(rods_);
+  report_.energy_gain += kinetic_energy(rods_) - kinetic;
   time_ += length;
 }
 
@@ -158,17 +175,7 @@ RodForces Stepper::forces() const {
 }
 
 double Stepper::energy() {
-  double energy = time_ > 0.0 ? solver_->stored_energy(rods_, effects_) : 0.0;
-  for (std::uint32_t rod = 0; rod < rods_.count(); ++rod) {
-    for (std::uint32_t i = rods_.first(rod); i < rods_.end(rod); ++i) {
-      energy += 0.5 * rods_.masses[i] * rods_.velocities[i].squaredNorm();
-      if (!rods_.spins.empty()) {
-        const double inertia = rods_.sections[rod].inertia_per_length * rods_.rest_lengths[i];
-        energy += 0.5 * inertia * rods_.spins[i] * rods_.spins[i];
-      }
-    }
-  }
-  return energy;
+  return kinetic_energy(rods_) + (time_ > 0.0 ? solver_->stored_energy(rods_, effects_) : 0.0);
 }
 
 }  // namespace fiber

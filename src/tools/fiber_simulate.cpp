@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -103,6 +104,41 @@ class Warnings {
   std::array<std::string, SimWarning::kinds> firsts_;
 };
 
+/// How far from balance frames end of a scene that asks for few iterations: it knows that they may.
+class Balance {
+ public:
+  void look_at(const SimScene& scene) {
+    const StepReport& report = scene.stepper->report();
+    const IslandReport& worst = report.worst;
+    unbalanced_ += report.unbalanced > 0 ? 1 : 0;
+    most_gained_ = std::max(most_gained_, report.energy_gain);
+    if (worst.residual > residual_) {
+      residual_ = worst.residual;
+      std::ostringstream text;
+      text << worst.residual << " m/s a step (" << scene.residual_force() << " N at node "
+           << worst.node << " of fibre " << quote(scene.fiber_names[worst.rod]) << ", after "
+           << scene.stepper->time() << " s)";
+      where_ = text.str();
+    }
+  }
+
+  void sum_up(const SimScene& scene, std::int64_t frames) const {
+    if (unbalanced_ > 0 && scene.asks_for_few_iterations()) {
+      std::cerr << "note: " << unbalanced_ << " of " << frames << " frames end after "
+                << scene.options.max_iterations
+                << " iterations, as the scene asks, before forces balance: what is left would "
+                   "change a speed by up to "
+                << where_ << "; the most energy that a step gained is " << most_gained_ << " J\n";
+    }
+  }
+
+ private:
+  std::int64_t unbalanced_ = 0;
+  double most_gained_ = 0.0;  // [J]
+  double residual_ = 0.0;     // [m/s]
+  std::string where_;
+};
+
 SimScene make_scene(const Request& request) {
   require_different("--out", request.out, "the scene", request.scene);
   if (!request.forces.empty()) {
@@ -158,6 +194,7 @@ ExitCode run(const Request& request) {
   Progress progress;
   Bar bar(progress);
   Warnings warnings(progress);
+  Balance balance;
   while (frame.frame < frames) {
     advance(scene);
     ++frame.frame;
@@ -167,6 +204,7 @@ ExitCode run(const Request& request) {
       forces->write(frame.frame, rods, scene.stepper->forces());
     }
     warnings.tell(scene);
+    balance.look_at(scene);
     bar.show(frame.frame, frames, scene.stepper->time());
   }
   writer.finish();
@@ -175,6 +213,7 @@ ExitCode run(const Request& request) {
   }
   progress.show("");
   warnings.sum_up(frames);
+  balance.sum_up(scene, frames);
   return SUCCEEDED;
 }
 

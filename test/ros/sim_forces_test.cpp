@@ -87,6 +87,7 @@ TEST_F(SimForcesTest, TensionsAndHoldsCarryWhatHangs) {
   is_near(to_vector(message.holds[0].point), {0, 0, 1}, 1e-5);
   is_near(to_vector(message.holds[0].force), {0, 0, weight}, 1e-3 * weight);
   EXPECT_LE(message.residual, 1e-6);
+  EXPECT_LE(message.energy_gain, 1e-9);
 }
 
 TEST_F(SimForcesTest, AWrenchIsWhatASensorInTheGripperMeasures) {

@@ -57,6 +57,7 @@ TEST(Energy, ImplicitEulerGainsNoneInAnyStepWithContacts) {
     stepper.step(1.0 / 240.0);
     ASSERT_EQ(stepper.report().unbalanced, 0U) << "step " << i;
     ASSERT_LE(stepper.energy(), before + 1e-6 * (kinetic + scale)) << "step " << i;
+    ASSERT_LE(stepper.report().energy_gain, 1e-6 * (kinetic + scale)) << "step " << i;
     contacts = std::max(contacts, stepper.forces().contacts.size());
   }
   EXPECT_GT(contacts, 20U);

@@ -106,6 +106,20 @@ TEST_F(Simulate, ParaViewGetsTheSameFrames) {
   EXPECT_FALSE(std::filesystem::exists(path("run_000007.vtp")));
 }
 
+TEST_F(Simulate, ASceneThatAsksForFewIterationsHearsHowFarFromBalanceItWas) {
+  const std::string run = " --seconds 0.5 --out " + path("out.csv");
+  const auto said = [&](const std::string& more) {
+    return simulate(write("scene.yaml", ropes + more) + run).err;
+  };
+  EXPECT_EQ(said(""), "") << "forces balance";
+  const std::string few = said("iterations: 1\n");
+  for (const char* const part :
+       {" of 30 frames end after 1 iterations", "before forces balance", " m/s a step (",
+        " N at node ", " of fibre '", "energy that a step gained is "}) {
+    EXPECT_NE(few.find(part), std::string::npos) << part << "\n" << few;
+  }
+}
+
 TEST_F(Simulate, FramesAreAsManyAsTheSecondsTake) {
   const auto count = [this](const std::string& time_step, const std::string& seconds) {
     const std::string scene =

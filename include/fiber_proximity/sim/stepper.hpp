@@ -54,6 +54,13 @@ struct StepReport {
   std::uint32_t unbalanced = 0;    ///< islands whose residual is above that of the options
   IslandReport worst;              ///< the island with the largest residual
   std::uint32_t coupled_rods = 0;  ///< that have been solved together with others
+
+  /// What more kinetic and stored energy there is by the step, without what its input has brought
+  /// [J]. A balanced step of implicit Euler gains none; one that its iterations cut short may.
+  double energy_gain = 0.0;
+
+  /// What more contacts store that become stiffer for the next step, to hold what presses them [J].
+  double stiffening_energy = 0.0;
 };
 
 /// Moves rods by the effects a scene calls for: discrete elastic rods in implicit time steps

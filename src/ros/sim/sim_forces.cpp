@@ -103,6 +103,7 @@ void to_message(const fiber::SimScene& scene, const fiber::RodForces& forces,
   message.residual_fiber = worst.rod;
   message.residual_node = worst.node;
   message.residual_force = scene.residual_force();
+  message.energy_gain = scene.stepper->report().energy_gain;
 }
 
 SimForces::SimForces(const ros::NodeHandle& node) : node_(node) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "src/sim/contact/contact_set-inl.hpp"
 
@@ -161,11 +162,26 @@ void ContactSet::add_energies(const Rods& rods, const std::vector<std::uint32_t>
   }
 }
 
-double ContactSet::stored_energy(const Rods& rods) {
-  measure(rods);
+double ContactSet::stored_energy() const {
+  const auto end = energies_.begin() +
+                   static_cast<std::ptrdiff_t>(obstacle_contacts.size() + pairs.size());
+  return std::accumulate(energies_.begin(), end, 0.0);
+}
+
+double ContactSet::stiffening_energy(const std::vector<double>& before,
+                                     const std::vector<double>& after) const {
   double energy = 0.0;
-  for (std::size_t i = 0; i < obstacle_contacts.size() + pairs.size(); ++i) {
-    energy += energy_of(rods, i);
+  std::size_t contact = 0;
+  const auto add = [&](std::uint32_t rod_a, std::uint32_t rod_b) {
+    const double growth =
+        std::max(after[rod_a], after[rod_b]) / std::max(before[rod_a], before[rod_b]);
+    energy += (growth - 1.0) * energies_[contact++];
+  };
+  for (const ObstacleContact& of_obstacle : obstacle_contacts) {
+    add(of_obstacle.rod, of_obstacle.rod);
+  }
+  for (const EdgePair& pair : pairs) {
+    add(pair.rod_a, pair.rod_b);
   }
   return energy;
 }

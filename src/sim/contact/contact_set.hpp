@@ -55,8 +55,14 @@ class ContactSet {
   void add_energies(const Rods& rods, const std::vector<std::uint32_t>& islands,
                     std::vector<EnergySum>& energies);
 
-  /// Without friction, where the rods are now [J].
-  double stored_energy(const Rods& rods);
+  /// What has been added of them, without friction [J].
+  double stored_energy() const;
+
+  /// What more that would be if rods stiffened contacts by other factors [J].
+  /// @param before factors that they have, by rod
+  /// @param after  others
+  double stiffening_energy(const std::vector<double>& before,
+                           const std::vector<double>& after) const;
 
   /// Finds the derivatives where the rods are measured.
   void find_derivatives(const Rods& rods);

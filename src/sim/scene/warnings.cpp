@@ -46,8 +46,7 @@ void warn_of_lag(const SimScene& scene, std::vector<SimWarning>& warnings) {
 
 void warn_of_balance(const SimScene& scene, std::vector<SimWarning>& warnings) {
   const StepReport& report = scene.stepper->report();
-  const bool is_capped = scene.options.max_iterations < StepperOptions().max_iterations;
-  if (report.unbalanced == 0 || is_capped) {
+  if (report.unbalanced == 0 || scene.asks_for_few_iterations()) {
     return;
   }
   const IslandReport& worst = report.worst;

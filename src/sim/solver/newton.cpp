@@ -74,6 +74,7 @@ bool NewtonSolver::solve(Rods& rods, const Problem& problem) {
     problem.contacts->begin(rods, problem.friction, problem.references, problem.step);
   }
   measure(rods, problem);
+  const double stored_before = stored_energy(problem);
   for (std::size_t i = 0; i < searches_.size(); ++i) {
     searches_[i].energy = energies_[i];
   }
@@ -98,6 +99,7 @@ bool NewtonSolver::solve(Rods& rods, const Problem& problem) {
       searches_[i].is_active = searches_[i].is_active && !line_.island(i).has_failed;
     }
   }
+  stored_gain_ = stored_energy(problem) - stored_before;
   for_each_pack(packs_.size(), Work::LITTLE, [&](std::size_t pack) { packs_[pack].finish(rods); });
   return problem.room == nullptr || problem.room->is_last || bound_.is_within(rods, members_);
 }
@@ -118,6 +120,15 @@ void NewtonSolver::measure(Rods& rods, const Problem& problem) {
     problem.contacts->measure(rods);
     problem.contacts->add_energies(rods, scratch_->islands, energies_);
   }
+}
+
+/// Where the rods are measured.
+double NewtonSolver::stored_energy(const Problem& problem) const {
+  double stored = problem.contacts != nullptr ? problem.contacts->stored_energy() : 0.0;
+  for (const PackStep& pack : packs_) {
+    stored += pack.stored_energy();
+  }
+  return stored;
 }
 
 /// Goes where inertia leads, as far as it may, if the energy is lower there.

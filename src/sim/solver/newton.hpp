@@ -66,6 +66,9 @@ class NewtonSolver {
   const std::vector<IslandReport>& reports() const { return reports_; }
   const StepBound& step_bound() const { return bound_; }
 
+  /// What more energy rods and contacts store since its start, all islands together [J].
+  double stored_gain() const { return stored_gain_; }
+
   void add_forces(const Effects& effects, RodForces& forces) const;
 
  private:
@@ -82,6 +85,7 @@ class NewtonSolver {
   SimdBatch* part(std::size_t pack) { return step_.data() + offsets_[pack]; }
 
   void measure(Rods& rods, const Problem& problem);
+  double stored_energy(const Problem& problem) const;
   bool predict(Rods& rods, const Problem& problem);
   void assemble(Rods& rods, const Problem& problem);
   void judge_balance(Rods& rods, const Problem& problem, std::uint32_t iteration);
@@ -105,6 +109,7 @@ class NewtonSolver {
   std::vector<double> decreases_;      // by island
   std::vector<double> shares_;         // by island: the most of a step
   std::vector<SimdBatch> step_;
+  double stored_gain_ = 0.0;
   LineSearch line_;
   std::vector<bool> is_balanced_;  // by island
   Coupling coupling_;

@@ -172,27 +172,16 @@ void PackStep::measure(const Effects& effects) {
     energies_[lane] = EnergySum{};
     energies_[lane].add(0.5 * kinetic[lane] / (step_length_ * step_length_));
   }
+  stored_ = 0.0;
   for (std::size_t e = 0; e < effects.size(); ++e) {
     SimdBatch energy;
     effects[e]->energy(pack_, values_[e], energy);
+    const bool is_stored = effects[e]->is_stored();
     for (std::size_t lane = 0; lane < pack_.used; ++lane) {
       energies_[lane].add(energy[lane]);
+      stored_ += is_stored ? energy[lane] : 0.0;
     }
   }
-}
-
-double PackStep::stored_energy(const Effects& effects) const {
-  double stored = 0.0;
-  for (std::size_t e = 0; e < effects.size(); ++e) {
-    SimdBatch energy;
-    if (effects[e]->is_stored()) {
-      effects[e]->energy(pack_, values_[e], energy);
-      for (std::size_t lane = 0; lane < pack_.used; ++lane) {
-        stored += energy[lane];
-      }
-    }
-  }
-  return stored;
 }
 
 void PackStep::assemble(const Effects& effects) {

@@ -49,8 +49,8 @@ class PackStep {
   void measure(const Effects& effects);
   const EnergySum& energy(std::size_t lane) const { return energies_[lane]; }
 
-  /// Of that what is there again when the rods move back: without inertia [J].
-  double stored_energy(const Effects& effects) const;
+  /// Of that, over all rods, what is there again when they move back: without inertia [J].
+  double stored_energy() const { return stored_; }
 
   /// Makes gradient and Hessian those of the energies where the rods are now.
   void assemble(const Effects& effects);
@@ -96,6 +96,7 @@ class PackStep {
   std::vector<SimdBatch> remembered_;
   std::vector<SimdBatch> residuals_;  // squared, by node
   std::array<EnergySum, lane_count> energies_;
+  double stored_ = 0.0;
   std::vector<std::vector<SimdBatch>> values_;  // by effect: what it needs of the nodes
   double step_length_ = 0.0;                    // [s]
 };

@@ -98,8 +98,12 @@ void StageSolver::adapt_stiffening(const Rods& rods) {
       group.contacts.add_loads(rods, loads_);
     }
   }
+  const std::vector<double> before = stiffening_;
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
     stiffening_[rod] = std::max(1.0, stiffening_[rod] * std::clamp(loads_[rod], kept, most_growth));
+  }
+  for (Group& group : groups_) {
+    group.stiffening_energy = group.contacts.stiffening_energy(before, stiffening_);
   }
 }
 

@@ -216,6 +216,7 @@ void StageSolver::solve_group(Rods& rods, const Effects& effects, double step, G
       solver->solve(rods, {effects, options_, step, bounds ? &group.contacts : nullptr, room,
                            friction, reference_.positions});
   group.reports = solver->reports();
+  group.stored_gain = solver->stored_gain();
   group.needed_room = solver->step_bound().needed();
   give_back(std::move(solver));
 }
@@ -259,6 +260,8 @@ void StageSolver::give_back(std::unique_ptr<NewtonSolver> solver) {
 void StageSolver::add_to(StepReport& report) const {
   std::uint32_t iterations = 0;
   for (const Group& group : groups_) {
+    report.energy_gain += group.stored_gain;
+    report.stiffening_energy += group.stiffening_energy;
     for (const IslandReport& island : group.reports) {
       iterations = std::max(iterations, island.iterations);
       report.unbalanced += island.residual > options_.residual ? 1 : 0;
@@ -299,9 +302,15 @@ void StageSolver::add_forces(const Rods& rods, const Effects& effects, RodForces
 double StageSolver::stored_energy(Rods& rods, const Effects& effects) {
   double energy = 0.0;
   for_each_pack(rods, effects,
-                [&](const PackStep& pack) { energy += pack.stored_energy(effects); });
+                [&](PackStep& pack) {
+                  pack.measure(effects);
+                  energy += pack.stored_energy();
+                });
   for (Group& group : groups_) {
-    energy += group.contacts.stored_energy(rods);
+    std::vector<EnergySum> by_island(group.islands);
+    group.contacts.measure(rods);
+    group.contacts.add_energies(rods, scratch_.islands, by_island);
+    energy += group.contacts.stored_energy();
   }
   return energy;
 }

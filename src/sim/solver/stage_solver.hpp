@@ -49,6 +49,8 @@ class StageSolver {
     std::uint32_t islands = 0;
     ContactSet contacts;
     std::vector<IslandReport> reports;
+    double stored_gain = 0.0;  // of energy in the solve [J]
+    double stiffening_energy = 0.0;
     std::vector<std::pair<std::uint32_t, double>> needed_room;
     bool is_solved = false;
   };

@@ -36,6 +36,12 @@ struct SimScene : SimSettings {
   /// What the last step has left unbalanced, at StepReport::worst [N].
   double residual_force() const;
 
+  /// Whether steps may end before forces balance, as the scene asks: it wants fewer iterations than
+  /// are usual.
+  bool asks_for_few_iterations() const {
+    return options.max_iterations < StepperOptions().max_iterations;
+  }
+
   /// Moves on by a frame.
   /// @throws std::runtime_error as Stepper::step()
   void advance();
