@@ -95,7 +95,7 @@ TEST(Barrier, ItsLogarithmIsThatOfTheStandardLibrary) {
   SCOPED_TRACE(seed_message());
   Random random(3);
   for (int round = 0; round < 10000; ++round) {
-    const double x = std::pow(10.0, random.uniform(-300.0, 300.0)) * random.uniform(0.5, 2.0);
+    const double x = std::pow(10.0, random.uniform(-320.0, 300.0)) * random.uniform(0.5, 2.0);
     EXPECT_NEAR(natural_log(x), std::log(x), 4e-16 * std::max(1.0, std::abs(std::log(x)))) << x;
     const double near_one = 1.0 + random.uniform(-1e-3, 1e-3);
     EXPECT_NEAR(natural_log(near_one), std::log(near_one),

@@ -186,7 +186,8 @@ double ContactSet::stiffening_energy(const std::vector<double>& before,
   return energy;
 }
 
-void ContactSet::find_terms(const Rods& rods, std::size_t contact, std::vector<Term>& terms) const {
+void ContactSet::find_terms(const Rods& rods, std::size_t contact,
+                            std::vector<DistanceTerm>& found, std::vector<Term>& terms) const {
   const auto add = [&](const PointPair& points, const DistanceTerm& term,
                        const Barrier& /*barrier*/) {
     terms.push_back({points, term.slope * term.normal,
@@ -194,7 +195,6 @@ void ContactSet::find_terms(const Rods& rods, std::size_t contact, std::vector<T
                          term.across * Matrix3d::Identity(),
                      term.turning > 0.0 ? term.turning / (term.slope * term.slope) : 0.0});
   };
-  std::vector<DistanceTerm> found;
   if (contact < obstacle_contacts.size()) {
     visit_obstacle(contact, found, add);
     return;
@@ -220,9 +220,10 @@ void ContactSet::find_terms(const Rods& rods, std::size_t contact, std::vector<T
 void ContactSet::find_derivatives(const Rods& rods) {
   terms_.resize(chunks_of(contact_count()));
   for_each_chunk(contact_count(), [&](std::size_t index, std::size_t begin, std::size_t end) {
+    std::vector<DistanceTerm> found;
     terms_[index].clear();
     for (std::size_t i = begin; i < end; ++i) {
-      find_terms(rods, i, terms_[index]);
+      find_terms(rods, i, found, terms_[index]);
     }
   });
   has_coupling_ = std::any_of(terms_.begin(), terms_.end(), [](const std::vector<Term>& terms) {

@@ -148,7 +148,8 @@ class ContactSet {
   void for_each_distance(const Rods& rods, const Function& function) const;
   Eigen::Vector3d slip_of(const Rods& rods, const FrictionPoint& point) const;
   double energy_of(const Rods& rods, std::size_t contact) const;
-  void find_terms(const Rods& rods, std::size_t contact, std::vector<Term>& terms) const;
+  void find_terms(const Rods& rods, std::size_t contact, std::vector<DistanceTerm>& found,
+                  std::vector<Term>& terms) const;
   std::size_t contact_count() const {
     return obstacle_contacts.size() + pairs.size() + frictions_.size();
   }

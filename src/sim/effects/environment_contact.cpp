@@ -109,6 +109,10 @@ void EnvironmentContact::add(const Rods& rods, const Contact& contact, double wi
   const std::uint32_t rod = contact.fiber_a;
   const double radius = rods.radii[rod];
   const bool is_edge = contact.segment_a % 2 == 1;
+  // The distance from a half-space is linear along an edge: its nodes say all.
+  if (is_edge && std::holds_alternative<HalfSpaceShape>(*shape.shape)) {
+    return;
+  }
   const std::uint32_t node = rods.first(rod) + contact.segment_a / 2;
   // The last node is the end of the last edge.
   const bool is_last = !is_edge && node + 1 == rods.end(rod);

@@ -16,6 +16,14 @@ namespace {
 /// asked for; any other has at least one iteration, so that small forces set it in motion.
 constexpr double rest_share = 1e-3;
 
+/// By what the step after this one is to be longer than Newton's.
+double scale_after(double scale, const LineSearch::Island& found) {
+  constexpr double too_short = 1.6;
+  constexpr double most = 16.0;
+  const double expected = scale * found.expected_share;
+  return found.share == 1.0 && expected > too_short ? std::min(expected, most) : 1.0;
+}
+
 }  // namespace
 
 /// Calls function(pack, lane, island), one after the other.
@@ -96,7 +104,9 @@ bool NewtonSolver::solve(Rods& rods, const Problem& problem) {
     // Where no share helps, rounding errors are all that is left.
     search_line(rods, problem, LineSearch::most_halvings);
     for (std::size_t i = 0; i < searches_.size(); ++i) {
-      searches_[i].is_active = searches_[i].is_active && !line_.island(i).has_failed;
+      const LineSearch::Island& found = line_.island(i);
+      searches_[i].scale = scale_after(searches_[i].scale, found);
+      searches_[i].is_active = searches_[i].is_active && !found.has_failed;
     }
   }
   stored_gain_ = stored_energy(problem) - stored_before;
@@ -254,6 +264,21 @@ void NewtonSolver::find_step(const Problem& problem) {
                       step_);
     weigh_step();
   }
+  scale_step();
+}
+
+/// Where the Hessian is stiffer than the energy, steps are too short, each by the same factor: the
+/// next one is made longer by what the last one has told.
+void NewtonSolver::scale_step() {
+  for_each_rod([&](std::size_t pack, std::size_t lane, std::uint32_t island) {
+    const double scale = searches_[island].scale;
+    for (std::size_t i = 0; scale != 1.0 && i < packs_[pack].step_size(); ++i) {
+      part(pack)[i][lane] *= scale;
+    }
+  });
+  for (Search& search : searches_) {
+    search.decrease *= search.scale;
+  }
 }
 
 /// What the slope of the step promises.
@@ -303,16 +328,21 @@ void NewtonSolver::search_line(Rods& rods, const Problem& problem, int halvings)
     move();
     measure(rods, problem);
   } while (line_.judge(energies_));
-  bool has_any_failed = false;
+  bool has_to_return = false;
   for (std::size_t i = 0; i < searches_.size(); ++i) {
-    has_any_failed |= line_.island(i).has_failed;
-    shares_[i] = line_.island(i).share;
+    has_to_return |= line_.island(i).has_failed;
   }
-  if (has_any_failed) {
+  if (line_.refine(energies_)) {
+    move();
+    measure(rods, problem);
+    has_to_return = line_.settle(energies_);
+  }
+  if (has_to_return) {
     move();
     measure(rods, problem);
   }
   for (std::size_t i = 0; i < searches_.size(); ++i) {
+    shares_[i] = line_.island(i).share;
     searches_[i].energy = energies_[i];
   }
   if (problem.contacts != nullptr) {

@@ -76,6 +76,7 @@ class NewtonSolver {
   struct Search {
     EnergySum energy;          ///< where its rods are
     double decrease = 0.0;     ///< that the slope of a whole step promises [J]
+    double scale = 1.0;        ///< of the next step, for the last one was so much too short
     bool is_active = true;     ///< goes on
     bool is_learning = false;  ///< was balanced before what multipliers have learnt
   };
@@ -94,6 +95,7 @@ class NewtonSolver {
   void find_residuals();
   void find_step(const Problem& problem);
   void weigh_step();
+  void scale_step();
   bool bound_step(const Rods& rods, const Problem& problem);
   void search_line(Rods& rods, const Problem& problem, int halvings);
   void move();
