@@ -17,7 +17,7 @@ struct ObstacleEdge {
   std::uint32_t rod;
   std::uint32_t edge;  ///< as Rods counts edges
   const ObstacleShape* shape;
-  double distance;                        ///< of the edge's axis when the step began [m]
+  double distance;                        ///< of the edge's axis when it was looked for [m]
   Eigen::Vector3d point;                  ///< of the obstacle, nearest to the edge then [m]
   Eigen::Vector3d normal;                 ///< from there to the edge, a unit vector
   std::array<Eigen::Vector3d, 2> starts;  ///< where the ends of the edge were then [m]

@@ -47,7 +47,7 @@ EnvironmentContact::~EnvironmentContact() = default;
 
 void EnvironmentContact::set_environment(std::shared_ptr<const Environment> environment) {
   environment_ = std::move(environment);
-  clear_within_ = 0.0;
+  reach_ = -1.0;
   shapes_.clear();
   std::uint32_t index = 0;
   for (const EnvironmentObject& object : environment_->objects()) {
@@ -72,37 +72,46 @@ void EnvironmentContact::place_fibers(const Rods& rods) {
 }
 
 void EnvironmentContact::find(const Rods& rods, const Room& room, ContactSet& found) {
-  double approach = 0.0;  // that the step may bring
-  double moved = 0.0;     // since the environment was asked
-  const bool was_asked = fibers_.point_count() == 2 * rods.positions.size();
+  const double largest = *std::max_element(rods.radii.begin(), rods.radii.end());
+  const bool was_asked = reach_ >= 0.0 && fibers_.point_count() == 2 * rods.positions.size();
+  double most_needed = 0.0;
+  double reached = 0.0;  // from where the environment was asked
+  needed_.resize(rods.count());
+  moved_.resize(rods.count());
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
-    double longest = 0.0;
+    double expected = 0.0;
+    double moved = 0.0;
     for (std::uint32_t i = rods.first(rod); i < rods.end(rod); ++i) {
-      longest = std::max(longest, room.expected[i].squaredNorm());
+      expected = std::max(expected, room.expected[i].squaredNorm());
       if (was_asked) {
         const Vector3d way = rods.positions[i] - fibers_.points()[std::size_t{2} * i];
         moved = std::max(moved, way.squaredNorm());
       }
     }
-    approach = std::max(approach, std::sqrt(longest) + room.by_rod[rod]);
+    needed_[rod] = std::sqrt(expected) + room.by_rod[rod] + Barrier::half_width * largest;
+    moved_[rod] = std::sqrt(moved);
+    most_needed = std::max(most_needed, needed_[rod]);
+    reached = std::max(reached, needed_[rod] + moved_[rod]);
   }
-  const double largest = *std::max_element(rods.radii.begin(), rods.radii.end());
-  const double needed = approach + Barrier::half_width * largest;
-  if (was_asked && needed + std::sqrt(moved) <= clear_within_) {
-    return;
+  // An answer that serves for some steps; one that was for faster motion finds too much.
+  const double wanted = largest + 4.0 * most_needed;
+  constexpr double too_far = 3.0;
+  if (!was_asked || !(reached <= reach_) || reach_ > too_far * wanted) {
+    place_fibers(rods);
+    QueryOptions query;
+    query.margin = reach_ = wanted;
+    environment_->query(fibers_, query, allowed_, result_);
+    std::fill(moved_.begin(), moved_.end(), 0.0);
   }
-  place_fibers(rods);
-  QueryOptions query;
-  // Far from everything, an answer serves for some steps.
-  query.margin = clear_within_ > 0.0 ? needed + largest + 4.0 * approach : needed;
-  environment_->query(fibers_, query, allowed_, result_);
-  clear_within_ = result_.contacts.empty() ? query.margin : 0.0;
   for (const Contact& contact : result_.contacts) {
-    add(rods, contact, query.margin + largest, found);
+    if (contact.distance <= needed_[contact.fiber_a] + moved_[contact.fiber_a]) {
+      add(rods, contact, needed_[contact.fiber_a] + largest, found);
+    }
   }
 }
 
-/// @param within [m] of axes
+/// @param contact when the environment was asked
+/// @param within  [m] of axes now
 void EnvironmentContact::add(const Rods& rods, const Contact& contact, double within,
                              ContactSet& found) const {
   const ObstacleShape& shape = shapes_[contact.fiber_b][contact.segment_b];
@@ -124,7 +133,8 @@ void EnvironmentContact::add(const Rods& rods, const Contact& contact, double wi
                                     contact.distance + radius,
                                     contact.point_b,
                                     -contact.normal,
-                                    {rods.positions[edge], rods.positions[edge + 1]}});
+                                    {fibers_.points()[std::size_t{2} * edge],
+                                     fibers_.points()[std::size_t{2} * edge + 2]}});
   }
   const Barrier barrier = Barrier::around(
       radius, options_.stiffness > 0.0 ? options_.stiffness

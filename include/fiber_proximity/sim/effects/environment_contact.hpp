@@ -43,9 +43,11 @@ class EnvironmentContact : public ContactSource {
   Options options_;
   // The rods with each node twice: segments of even index are nodes, the others edges.
   FiberAssembly fibers_;
-  AllowedPairs allowed_;       // in segments of these
-  double clear_within_ = 0.0;  // [m] nothing was so near when these were asked about
-  QueryResult result_;
+  AllowedPairs allowed_;        // in segments of these
+  double reach_ = -1.0;         // [m] within which the answer has everything; below 0 for none
+  QueryResult result_;          // for these
+  std::vector<double> needed_;  // by rod: how far what it may touch in a step is at the most [m]
+  std::vector<double> moved_;   // by rod: since the answer [m]
 };
 
 }  // namespace fiber
