@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Formatting and catkin_lint over the whole tree, clang-tidy over sources and benchmarks; it reads the
+# Formatting, doxygen and catkin_lint over the whole tree, clang-tidy over sources and benchmarks; it reads the
 # compile commands and the messages' headers in build/, which scripts/test.sh makes.
 #   scripts/lint.sh [--all] [--verbose]
 #     --verbose   what the tools write as it comes
@@ -45,6 +45,8 @@ changed_files() {
 
 echo "clang-format: ${#sources[@]} files"
 clang-format --dry-run --Werror "${sources[@]}"
+# Every comment that is wrong about its parameters is a warning.
+run_step "doxygen" "$lint/doxygen.log" doxygen docs/Doxyfile
 echo "catkin_lint"
 ROS_PACKAGE_PATH=$root:/usr/share catkin_lint --quiet --strict "$root" 2>&1 |
   { grep -v "rosdep database\|unknown dependencies" || true; }

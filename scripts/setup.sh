@@ -46,7 +46,7 @@ packages=(
   libcli11-dev nlohmann-json3-dev libyaml-cpp-dev libboost-dev libgmp-dev libgtest-dev
 )
 if $lint; then
-  packages+=(catkin-lint clang-format clang-tidy)
+  packages+=(catkin-lint clang-format clang-tidy doxygen)
 fi
 if $bench; then
   packages+=(libembree-dev libcgal-dev libbullet-dev libmujoco-dev)

@@ -258,6 +258,33 @@ TEST(EdgeContact, ANodeThatSlidesAlongAStraightRodFeelsNoNodes) {
   }
 }
 
+/// Seed 22 of the campaign: a node in the hollow of two edges that slides past the free end of the
+/// shorter one. The node between the edges counted half less then.
+TEST(EdgeContact, ANodeThatSlidesFromAHollowPastAnEndFeelsNoJump) {
+  constexpr double slope = 0.2;
+  constexpr double length = 0.2 * touching;  // of the shorter edge
+  const Vector3d up(0, std::sin(slope), 0);
+  const Vector3d along(std::cos(slope), 0, 0);
+  Rods rods;
+  rods.add({20.0 * length * (up - along), Vector3d::Zero(), length * (up + along)}, radius,
+           rubber(radius));
+  const Vector3d node(0, 1.017 * touching, 0);
+  const Vector3d end(0, 0, 10.0 * touching);
+  rods.add({node - end, node, node + end}, radius, rubber(radius));
+  const auto contacts = contacts_with(nullptr);
+  ContactSet found = contacts_of(*contacts, rods, room);
+  constexpr int places = 1000;
+  const Vector3d way(0.1 * length, 0, 0);
+  move_second(rods, -0.5 * way);
+  double last = energy_in(found, rods);
+  for (int i = 0; i < places; ++i) {
+    move_second(rods, way / places);
+    const double energy = energy_in(found, rods);
+    EXPECT_NEAR(energy, last, 1e-3 * last) << "place " << i;
+    last = energy;
+  }
+}
+
 /// Side by side each node has a contact, wherever it is between those of the other rod.
 TEST(EdgeContact, RodsSideBySideAreHeldApartAllAlong) {
   const double edge = 5.0 * radius;

@@ -1,6 +1,6 @@
 // Random subsets of all effects with random parameters, contacts among them, for ten thousand
-// steps of few iterations: nothing passes through anything, nothing blows up, and what energy a step
-// may have gained is told.
+// steps of few iterations: nothing passes through anything, nothing blows up, and what energy a
+// step may have gained is told.
 
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ constexpr int scenes = 40;
 constexpr int steps_of_first = 10000;
 constexpr int steps_of_others = 250;
 constexpr double most_gained = 1.0;  // by steps of one to three iterations, of what there was
-constexpr double top = 1.5;  // [m] rods begin below, above a table at 0
+constexpr double top = 1.5;          // [m] rods begin below, above a table at 0
 
 /// Rods and effects of which each is there by chance, and what it takes to judge them.
 struct Scene {
@@ -212,8 +212,7 @@ TEST(RandomContacts, NothingPassesThroughAnythingOrBlowsUp) {
       ASSERT_EQ(checker.check(stepper.rods()), "") << "step " << i;
       if (!scene.is_windy) {
         ASSERT_TRUE(gains_no_more_than_it_may(stepper, last, slack)) << "step " << i;
-        ASSERT_LE(stepper.energy(),
-                  before + most_gained * (scale + kinetic_energy(stepper.rods())))
+        ASSERT_LE(stepper.energy(), before + most_gained * (scale + kinetic_energy(stepper.rods())))
             << "step " << i;
       }
     }

@@ -17,10 +17,12 @@ struct BoxShape {
   Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< edge to edge
 };
 
+/// Around the origin.
 struct SphereShape {
   double radius = 0.0;
 };
 
+/// From z = −height/2 to height/2.
 struct CylinderShape {
   double radius = 0.0;
   double height = 0.0;

@@ -24,6 +24,7 @@ enum class Pairing {
   DIFFERENT_FIBERS  ///< no self-contacts
 };
 
+/// What a query asks for.
 struct QueryOptions {
   QueryType type = QueryType::ALL;
 

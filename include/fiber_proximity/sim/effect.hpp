@@ -39,8 +39,8 @@ class Effect {
   virtual std::uint32_t values_per_node() const { return 0; }
   virtual const double* values_of(std::uint32_t /*node*/) const { return nullptr; }
 
-  /// Energy of the rods where they are now [J], up to a constant of the step.
-  /// @param values those numbers, node by node
+  /// Energy of the rods where they are now [J], up to a constant of the step; of the values the
+  /// effect has those numbers, node by node.
   /// @param energy by lane, overwritten
   virtual void energy(const RodPack& /*rods*/, const std::vector<SimdBatch>& /*values*/,
                       SimdBatch& energy) const {

@@ -25,6 +25,7 @@ enum class Integrator {
   BDF2
 };
 
+/// How steps are made, and how well they are solved.
 struct StepperOptions {
   Integrator integrator = Integrator::IMPLICIT_EULER;
 

@@ -163,8 +163,8 @@ void ContactSet::add_energies(const Rods& rods, const std::vector<std::uint32_t>
 }
 
 double ContactSet::stored_energy() const {
-  const auto end = energies_.begin() +
-                   static_cast<std::ptrdiff_t>(obstacle_contacts.size() + pairs.size());
+  const auto end =
+      energies_.begin() + static_cast<std::ptrdiff_t>(obstacle_contacts.size() + pairs.size());
   return std::accumulate(energies_.begin(), end, 0.0);
 }
 
@@ -186,8 +186,8 @@ double ContactSet::stiffening_energy(const std::vector<double>& before,
   return energy;
 }
 
-void ContactSet::find_terms(const Rods& rods, std::size_t contact,
-                            std::vector<DistanceTerm>& found, std::vector<Term>& terms) const {
+void ContactSet::find_terms(const Rods& rods, std::size_t contact, std::vector<DistanceTerm>& found,
+                            std::vector<Term>& terms) const {
   const auto add = [&](const PointPair& points, const DistanceTerm& term,
                        const Barrier& /*barrier*/) {
     terms.push_back({points, term.slope * term.normal,

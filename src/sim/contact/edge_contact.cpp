@@ -16,8 +16,6 @@ struct EndDistance {
   double parameter;  // on the other edge
   Vector3d delta;    // from there to the end [m]
   double distance;   // [m]
-
-  bool is_clamped() const { return parameter <= 0.0 || parameter >= 1.0; }
 };
 
 EndDistance end_distance(const Vector3d& point, const Vector3d& first, const Vector3d& last) {
@@ -126,7 +124,7 @@ class EdgeContact {
       if (is_corner) {
         // Both edges are nearest at the node between them, or the other one is nearer.
         share = is_neighbour_clamped ? 0.5 : 0.0;
-      } else if (!of_end.is_clamped() && !is_neighbour_clamped) {
+      } else if (!is_neighbour_clamped) {
         shared += add_corner(end, last, terms);
       }
     }
@@ -149,8 +147,8 @@ class EdgeContact {
     return end_distance(x_[node_of(end)], x_[first], x_[first + 1]).parameter == common;
   }
 
-  /// In the hollow of a bend both edges have a nearest point of their own, and the node between
-  /// them counts half for each, taken away.
+  /// In the hollow of a bend neither edge is nearest at the node between them, and that counts half
+  /// for each, taken away: all edges less all nodes between them is the potential of a polyline.
   double add_corner(std::uint32_t end, std::uint32_t last, std::vector<DistanceTerm>* terms) {
     const Vector3d delta = x_[node_of(end)] - x_[other_edge(end) + last];
     const EndDistance corner{static_cast<double>(last), delta, delta.norm()};

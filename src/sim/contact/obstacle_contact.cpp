@@ -20,7 +20,8 @@ struct Line {
   double at(double s) const { return first + s * (last - first); }
 };
 
-/// What the distance at a place on an edge, and how it grows from there, promise for the whole edge.
+/// What the distance at a place on an edge, and how it grows from there, promise for the whole
+/// edge.
 /// @param moved by which its ends have moved [m]
 Line tangent(double s, const PointDistance& found, const Vector3d& edge,
              const std::array<Vector3d, 2>& moved = {Vector3d::Zero(), Vector3d::Zero()}) {

@@ -127,14 +127,14 @@ void EnvironmentContact::add(const Rods& rods, const Contact& contact, double wi
   const bool is_last = !is_edge && node + 1 == rods.end(rod);
   const std::uint32_t edge = is_last ? node - 1 : node;
   if (is_edge) {
-    found.obstacle_edges.push_back({rod,
-                                    edge,
-                                    &shape,
-                                    contact.distance + radius,
-                                    contact.point_b,
-                                    -contact.normal,
-                                    {fibers_.points()[std::size_t{2} * edge],
-                                     fibers_.points()[std::size_t{2} * edge + 2]}});
+    found.obstacle_edges.push_back(
+        {rod,
+         edge,
+         &shape,
+         contact.distance + radius,
+         contact.point_b,
+         -contact.normal,
+         {fibers_.points()[std::size_t{2} * edge], fibers_.points()[std::size_t{2} * edge + 2]}});
   }
   const Barrier barrier = Barrier::around(
       radius, options_.stiffness > 0.0 ? options_.stiffness

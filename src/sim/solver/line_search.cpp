@@ -41,10 +41,9 @@ bool LineSearch::refine(const std::vector<EnergySum>& found) {
     }
     // What curvature has taken of it.
     const double taken = promised - (island.accepted.energy - found[i].energy);
-    island.expected_share =
-        taken > island.accepted.roundoff()
-            ? std::min(most, 0.5 * island.share * promised / taken)
-            : 1.0;
+    island.expected_share = taken > island.accepted.roundoff()
+                                ? std::min(most, 0.5 * island.share * promised / taken)
+                                : 1.0;
     if (island.expected_share < far_too_far * island.share) {
       found_shares_[i] = island.share;
       island.share = island.expected_share;

@@ -7,10 +7,10 @@
 
 namespace fiber {
 
-/// A search along a step, for each island by itself: half the share of the step until it brings what
-/// its slope promises (Armijo 1966; Nocedal and Wright 2006, Alg. 3.1), then less where the parabola
-/// through what is known has its minimum far before that: what swings to and fro between two walls
-/// would do so time and again otherwise.
+/// A search along a step, for each island by itself: half the share of the step until it brings
+/// what its slope promises (Armijo 1966; Nocedal and Wright 2006, Alg. 3.1), then less where the
+/// parabola through what is known has its minimum far before that: what swings to and fro between
+/// two walls would do so time and again otherwise.
 class LineSearch {
  public:
   struct Island {

@@ -301,11 +301,10 @@ void StageSolver::add_forces(const Rods& rods, const Effects& effects, RodForces
 
 double StageSolver::stored_energy(Rods& rods, const Effects& effects) {
   double energy = 0.0;
-  for_each_pack(rods, effects,
-                [&](PackStep& pack) {
-                  pack.measure(effects);
-                  energy += pack.stored_energy();
-                });
+  for_each_pack(rods, effects, [&](PackStep& pack) {
+    pack.measure(effects);
+    energy += pack.stored_energy();
+  });
   for (Group& group : groups_) {
     std::vector<EnergySum> by_island(group.islands);
     group.contacts.measure(rods);

@@ -43,6 +43,7 @@ class Attachment : public Effect {
  public:
   enum class Kind { PIN, CLAMP };
 
+  /// What holds a node, and where.
   struct Hold {
     std::uint32_t rod = 0;
     std::uint32_t node = 0;  ///< from the rod's first one

@@ -20,6 +20,7 @@ struct WindField {
 /// (Taylor 1952). The coefficients' product with |w| is that of the step's beginning.
 class Drag : public Effect {
  public:
+  /// What flows past the rods, and how much they resist it.
   struct Options {
     double fluid_density = 1.2;  ///< [kg/m³]
     double across = 1.2;         ///< coefficient of a cylinder in cross flow

@@ -20,6 +20,7 @@ struct ObstacleShape;
 /// away on the certified time of contact with the shape.
 class EnvironmentContact : public ContactSource {
  public:
+  /// How stiff contacts are, and which are none.
   struct Options {
     double stiffness = 0.0;  ///< [N/m] >= 0; 0 derives it from the rod as FiberContact does
     AllowedPairs allowed;    ///< what may touch, and then is not kept apart; fibres are rods

@@ -16,6 +16,7 @@ struct EdgePair;
 /// Candidates come from run_tree, with a reach that serves for some steps.
 class FiberContact : public ContactSource {
  public:
+  /// How stiff contacts are, and of which rods.
   struct Options {
     Pairing pairing = Pairing::ALL;
 

@@ -10,6 +10,7 @@ namespace fiber {
 /// f (2 y/e − y²/e²) for slips y below e, and f above.
 class Friction {
  public:
+  /// The law of Coulomb, smoothed.
   struct Options {
     double coefficient = 0.3;    ///< of friction; >= 0
     double stick_speed = 0.001;  ///< [m/s] what sticks creeps more slowly; > 0

@@ -9,6 +9,7 @@ namespace fiber {
 /// in one dimension). Like the natural curvatures of Bend, what stays has no direction.
 class Plasticity : public Effect {
  public:
+  /// When bending lasts.
   struct Options {
     double yield_strain = 0.02;  ///< of the outermost fibre, where yielding begins; > 0
     double hardening = 0.0;      ///< share of what exceeds that and stays elastic, in [0, 1)
