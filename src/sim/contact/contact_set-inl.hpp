@@ -41,14 +41,22 @@ void ContactSet::visit_pair(const Rods& rods, std::size_t index, std::vector<Dis
   }
 }
 
+/// The same of either, obstacles first.
+template <class Function>
+void ContactSet::visit(const Rods& rods, std::size_t index, std::vector<DistanceTerm>& found,
+                       const Function& function) const {
+  if (index < obstacle_contacts.size()) {
+    visit_obstacle(index, found, function);
+  } else {
+    visit_pair(rods, index - obstacle_contacts.size(), found, function);
+  }
+}
+
 template <class Function>
 void ContactSet::for_each_distance(const Rods& rods, const Function& function) const {
   std::vector<DistanceTerm> found;
-  for (std::size_t i = 0; i < obstacle_contacts.size(); ++i) {
-    visit_obstacle(i, found, function);
-  }
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    visit_pair(rods, i, found, function);
+  for (std::size_t i = 0; i < distance_count(); ++i) {
+    visit(rods, i, found, function);
   }
 }
 

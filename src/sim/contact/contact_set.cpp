@@ -34,6 +34,9 @@ void ContactSet::clear() {
   obstacle_contacts.clear();
   obstacle_edges.clear();
   frictions_.clear();
+  for (std::vector<Term>& terms : terms_) {
+    terms.clear();
+  }
 }
 
 void ContactSet::append(const ContactSet& other) {
@@ -71,17 +74,27 @@ void ContactSet::begin(const Rods& rods, const Friction* friction,
     return;
   }
   stick_length_ = friction->stick_length(step);
-  for_each_distance(
-      rods, [&](const PointPair& points, const DistanceTerm& term, const Barrier& /*barrier*/) {
-        if (term.pressure > 0.0) {
-          Vector3d reference = point_at(references, points.edge_a, points.s);
-          if (points.edge_b != no_edge) {
-            reference -= point_at(references, points.edge_b, points.t);
-          }
-          frictions_.push_back(
-              {points, term.normal, friction->coefficient() * term.pressure, reference});
+  std::vector<std::vector<FrictionPoint>> by_chunk(chunks_of(distance_count()));
+  for_each_chunk(distance_count(), [&](std::size_t index, std::size_t begin, std::size_t end) {
+    std::vector<DistanceTerm> room;
+    const auto add = [&](const PointPair& points, const DistanceTerm& term,
+                         const Barrier& /*barrier*/) {
+      if (term.pressure > 0.0) {
+        Vector3d reference = point_at(references, points.edge_a, points.s);
+        if (points.edge_b != no_edge) {
+          reference -= point_at(references, points.edge_b, points.t);
         }
-      });
+        by_chunk[index].push_back(
+            {points, term.normal, friction->coefficient() * term.pressure, reference});
+      }
+    };
+    for (std::size_t i = begin; i < end; ++i) {
+      visit(rods, i, room, add);
+    }
+  });
+  for (const std::vector<FrictionPoint>& points : by_chunk) {
+    frictions_.insert(frictions_.end(), points.begin(), points.end());
+  }
 }
 
 /// What begins where its energy is infinite gets a barrier that begins nearer.
@@ -163,8 +176,7 @@ void ContactSet::add_energies(const Rods& rods, const std::vector<std::uint32_t>
 }
 
 double ContactSet::stored_energy() const {
-  const auto end =
-      energies_.begin() + static_cast<std::ptrdiff_t>(obstacle_contacts.size() + pairs.size());
+  const auto end = energies_.begin() + static_cast<std::ptrdiff_t>(distance_count());
   return std::accumulate(energies_.begin(), end, 0.0);
 }
 
@@ -188,23 +200,18 @@ double ContactSet::stiffening_energy(const std::vector<double>& before,
 
 void ContactSet::find_terms(const Rods& rods, std::size_t contact, std::vector<DistanceTerm>& found,
                             std::vector<Term>& terms) const {
-  const auto add = [&](const PointPair& points, const DistanceTerm& term,
-                       const Barrier& /*barrier*/) {
+  const auto add = [&](const PointPair& points, const DistanceTerm& term, const Barrier& barrier) {
     terms.push_back({points, term.slope * term.normal,
                      (term.curvature - term.across) * term.normal * term.normal.transpose() +
                          term.across * Matrix3d::Identity(),
-                     term.turning > 0.0 ? term.turning / (term.slope * term.slope) : 0.0});
+                     term.turning > 0.0 ? term.turning / (term.slope * term.slope) : 0.0,
+                     barrier.load_of(std::abs(term.slope))});
   };
-  if (contact < obstacle_contacts.size()) {
-    visit_obstacle(contact, found, add);
+  if (contact < distance_count()) {
+    visit(rods, contact, found, add);
     return;
   }
-  contact -= obstacle_contacts.size();
-  if (contact < pairs.size()) {
-    visit_pair(rods, contact, found, add);
-    return;
-  }
-  const FrictionPoint& point = frictions_[contact - pairs.size()];
+  const FrictionPoint& point = frictions_[contact - distance_count()];
   const Vector3d slip = slip_of(rods, point);
   const double length = slip.norm();
   const Friction::Law law = Friction::law(length, stick_length_);
@@ -214,7 +221,8 @@ void ContactSet::find_terms(const Rods& rods, std::size_t contact, std::vector<D
     const Vector3d along = slip / length;
     hessian += (law.curvature - law.resistance) * along * along.transpose();
   }
-  terms.push_back({point.points, point.most * law.resistance * slip, point.most * hessian, 0.0});
+  terms.push_back(
+      {point.points, point.most * law.resistance * slip, point.most * hessian, 0.0, 0.0});
 }
 
 void ContactSet::find_derivatives(const Rods& rods) {

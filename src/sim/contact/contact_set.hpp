@@ -93,10 +93,10 @@ class ContactSet {
                   const std::vector<std::uint32_t>& islands, std::vector<double>& shares,
                   std::vector<Eigen::Vector3d>& ends) const;
 
-  /// Of each rod, the largest load of its contacts where the rods are measured: the force in parts
+  /// Of each rod, the largest load of its contacts where derivatives were found: the force in parts
   /// of what its barrier holds well.
   /// @param loads by rod: raised
-  void add_loads(const Rods& rods, std::vector<double>& loads) const;
+  void add_loads(std::vector<double>& loads) const;
 
   /// Appends what the contacts exert where the rods are measured.
   void add_forces(const Rods& rods, std::vector<RodForces::ContactForce>& forces) const;
@@ -128,6 +128,7 @@ class ContactSet {
     Eigen::Vector3d gradient;
     Eigen::Matrix3d hessian;
     double turning;  // times g gᵀ, part of the Hessian by the difference of a's ends [1/(N m)]
+    double load;     // see add_loads(); 0 of friction
   };
 
   void bound_pairs(const Rods& rods, const std::vector<Eigen::Vector3d>& displacements,
@@ -137,6 +138,9 @@ class ContactSet {
                               const std::vector<Eigen::Vector3d>& displacements, double share);
 
   void let_part(const Rods& rods);
+  template <class Function>
+  void visit(const Rods& rods, std::size_t index, std::vector<DistanceTerm>& found,
+             const Function& function) const;
 
   template <class Function>
   void visit_obstacle(std::size_t index, std::vector<DistanceTerm>& found,
@@ -150,9 +154,8 @@ class ContactSet {
   double energy_of(const Rods& rods, std::size_t contact) const;
   void find_terms(const Rods& rods, std::size_t contact, std::vector<DistanceTerm>& found,
                   std::vector<Term>& terms) const;
-  std::size_t contact_count() const {
-    return obstacle_contacts.size() + pairs.size() + frictions_.size();
-  }
+  std::size_t distance_count() const { return obstacle_contacts.size() + pairs.size(); }
+  std::size_t contact_count() const { return distance_count() + frictions_.size(); }
 
   std::vector<SegmentDistance> distances_;            // by pair
   std::vector<ObstacleDistance> obstacle_distances_;  // by contact

@@ -11,15 +11,16 @@ namespace fiber {
 
 using Eigen::Vector3d;
 
-void ContactSet::add_loads(const Rods& rods, std::vector<double>& loads) const {
-  for_each_distance(rods,
-                    [&](const PointPair& points, const DistanceTerm& term, const Barrier& barrier) {
-                      const double load = barrier.load_of(std::abs(term.slope));
-                      loads[points.rod_a] = std::max(loads[points.rod_a], load);
-                      if (points.edge_b != no_edge) {
-                        loads[points.rod_b] = std::max(loads[points.rod_b], load);
-                      }
-                    });
+void ContactSet::add_loads(std::vector<double>& loads) const {
+  for (const std::vector<Term>& terms : terms_) {
+    for (const Term& term : terms) {
+      const PointPair& points = term.points;
+      loads[points.rod_a] = std::max(loads[points.rod_a], term.load);
+      if (points.edge_b != no_edge) {
+        loads[points.rod_b] = std::max(loads[points.rod_b], term.load);
+      }
+    }
+  }
 }
 
 void ContactSet::add_forces(const Rods& rods, std::vector<RodForces::ContactForce>& forces) const {

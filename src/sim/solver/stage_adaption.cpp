@@ -95,7 +95,7 @@ void StageSolver::adapt_stiffening(const Rods& rods) {
         group.reports.begin(), group.reports.end(),
         [this](const IslandReport& report) { return report.residual <= options_.residual; });
     if (is_balanced) {
-      group.contacts.add_loads(rods, loads_);
+      group.contacts.add_loads(loads_);
     }
   }
   const std::vector<double> before = stiffening_;
