@@ -99,8 +99,8 @@ install_with_apt() {
 install_with_rosdep() {
   # shellcheck disable=SC1091
   source /opt/ros/noetic/setup.bash
-  # Ubuntu 20.04 has no package of Highway: see the README's limits.
-  local keys=(--from-paths . --ignore-src --skip-keys libhwy-dev)
+  # Ubuntu 20.04 has no packages of these: see docs/platforms.md.
+  local keys=(--from-paths . --ignore-src --skip-keys "libhwy-dev cli11")
   rosdep check "${keys[@]}" >/dev/null 2>&1 && return
   log=$(mktemp)
   run_step "asking for packages" "$log" rosdep update

@@ -46,7 +46,7 @@ std::string coordinates_of(const HardMotion& motion) {
   for (const Eigen::Vector3d* ends : {motion.a_before.data(), motion.b_before.data(),
                                       motion.a_after.data(), motion.b_after.data()}) {
     for (int end = 0; end < 2; ++end) {
-      for (const double coordinate : ends[end]) {
+      for (const double coordinate : {ends[end].x(), ends[end].y(), ends[end].z()}) {
         text << separator << coordinate;
         separator = ",";
       }

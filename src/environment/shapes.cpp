@@ -106,7 +106,8 @@ struct IsSameSolid {
 void validate(const Shape& shape) { std::visit(Check(), shape); }
 
 void validate(const Eigen::Isometry3d& pose) {
-  for (const double coordinate : pose.translation()) {
+  const Eigen::Vector3d position = pose.translation();
+  for (const double coordinate : {position.x(), position.y(), position.z()}) {
     if (!FiberAssembly::is_valid_coordinate(coordinate)) {
       refuse("a coordinate of the pose", coordinate, "finite and at most 1e150 m in magnitude");
     }

@@ -63,7 +63,7 @@ Integer scaled_integer(double value, int exponent) {
 int last_bit(std::initializer_list<Eigen::Vector3d> vectors) {
   int exponent = std::numeric_limits<int>::max();
   for (const Eigen::Vector3d& vector : vectors) {
-    for (const double coordinate : vector) {
+    for (const double coordinate : {vector.x(), vector.y(), vector.z()}) {
       exponent = std::min(exponent, last_bit(coordinate));
     }
   }

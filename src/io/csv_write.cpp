@@ -16,7 +16,8 @@ void append_rows(std::string& text, const FiberFrame& frame, bool has_frames) {
         text += ',';
       }
       append_number(text, fiber);
-      for (const double coordinate : frame.fibers.points()[point]) {
+      const Eigen::Vector3d& position = frame.fibers.points()[point];
+      for (const double coordinate : {position.x(), position.y(), position.z()}) {
         text += ',';
         append_number(text, coordinate);
       }

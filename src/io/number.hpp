@@ -5,15 +5,23 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <type_traits>
+
+#include "src/io/double_text.hpp"
 
 namespace fiber {
 
 /// Appends a number as the shortest decimal that reads back as the same value, in any locale.
 template <class Number>
 void append_number(std::string& text, Number value) {
-  char buffer[32];  // the longest double takes 24 characters
-  const std::to_chars_result end = std::to_chars(buffer, buffer + sizeof(buffer), value);
-  text.append(buffer, end.ptr);
+  if constexpr (std::is_same_v<Number, double>) {
+    append_double(text, value);
+  } else {
+    static_assert(std::is_integral_v<Number>);
+    char buffer[24];  // the longest integer takes 20 characters
+    const std::to_chars_result end = std::to_chars(buffer, buffer + sizeof(buffer), value);
+    text.append(buffer, end.ptr);
+  }
 }
 
 /// The number a whole text stands for, in any locale; a leading plus is allowed. Nothing if it is
@@ -23,13 +31,18 @@ std::optional<Number> parse_number(std::string_view text) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') {
     text.remove_prefix(1);
   }
-  Number value{};
-  const char* end = text.data() + text.size();
-  const std::from_chars_result result = std::from_chars(text.data(), end, value);
-  if (result.ec != std::errc() || result.ptr != end) {
-    return std::nullopt;
+  if constexpr (std::is_same_v<Number, double>) {
+    return parse_double(text, false);
+  } else {
+    static_assert(std::is_integral_v<Number>);
+    Number value{};
+    const char* end = text.data() + text.size();
+    const std::from_chars_result result = std::from_chars(text.data(), end, value);
+    if (result.ec != std::errc() || result.ptr != end) {
+      return std::nullopt;
+    }
+    return value;
   }
-  return value;
 }
 
 /// The same of a decimal number or a C hexadecimal one, such as -0x1.8p-3.
@@ -43,14 +56,8 @@ inline std::optional<double> parse_decimal_or_hex(std::string_view text) {
   if (digits.find_first_not_of("0123456789abcdefABCDEF.") == 0) {
     return std::nullopt;  // neither another sign nor a name like nan
   }
-  double value = 0.0;
-  const char* end = digits.data() + digits.size();
-  const std::from_chars_result result =
-      std::from_chars(digits.data(), end, value, std::chars_format::hex);
-  if (result.ec != std::errc() || result.ptr != end) {
-    return std::nullopt;
-  }
-  return text[0] == '-' ? -value : value;
+  const std::optional<double> value = parse_double(digits, true);
+  return value && text[0] == '-' ? -*value : value;
 }
 
 }  // namespace fiber

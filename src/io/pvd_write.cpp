@@ -70,7 +70,8 @@ void write_vtp(std::ostream& stream, const FiberAssembly& fibers) {
   stream << "</PointData>\n<Points>\n";
   write_array(stream, "type=\"Float64\" NumberOfComponents=\"3\"", points,
               [&](std::string& text, std::size_t i) {
-                for (const double coordinate : fibers.points()[i]) {
+                const Eigen::Vector3d& point = fibers.points()[i];
+                for (const double coordinate : {point.x(), point.y(), point.z()}) {
                   append_number(text, coordinate);
                   text += ' ';
                 }

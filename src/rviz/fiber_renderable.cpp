@@ -26,8 +26,9 @@ Ogre::AxisAlignedBox to_ogre(const Eigen::AlignedBox3f& box) {
 /// How much of the world a pixel covers, as the shader of ribbons computes it.
 class PixelSize {
  public:
-  /// @param world where boxes are
-  PixelSize(const Ogre::Camera& camera, const Ogre::Affine3& world) {
+  /// @param world where boxes are: as Ogre's own, of 1.9 or 1.12
+  template <class Transform>
+  PixelSize(const Ogre::Camera& camera, const Transform& world) {
     const Ogre::Matrix4& projection = camera.getProjectionMatrix();
     const Ogre::Matrix4 clip = projection * Ogre::Matrix4(camera.getViewMatrix() * world);
     for (int i = 0; i < 4; ++i) {
@@ -132,7 +133,7 @@ void FiberRenderable::_notifyCurrentCamera(Ogre::Camera* camera) {
 }
 
 void FiberRenderable::choose_parts(const Ogre::Camera& camera) {
-  const Ogre::Affine3& world = _getParentNodeFullTransform();
+  const auto& world = _getParentNodeFullTransform();
   for (const std::unique_ptr<FiberPart>& part : parts_) {
     Ogre::AxisAlignedBox box = to_ogre(part->chunk().box);
     box.transform(world);

@@ -1,8 +1,8 @@
 #include "src/scenes/hard_pair_makers.hpp"
 
-#include <charconv>
 #include <string>
 
+#include "src/io/number.hpp"
 #include "src/scenes/portable_math.hpp"
 
 namespace fiber {
@@ -50,10 +50,7 @@ HardPair shifted(const HardPair& pair, const Vector3d& shift) {
 }
 
 double power_of_ten(int exponent) {
-  const std::string text = "1e" + std::to_string(exponent);
-  double value = 0.0;
-  std::from_chars(text.data(), text.data() + text.size(), value);
-  return value;
+  return parse_number<double>("1e" + std::to_string(exponent)).value_or(0.0);
 }
 
 }  // namespace fiber

@@ -148,9 +148,9 @@ Eigen::Vector3d parse_vector(const std::string& option, const std::string& text)
   Eigen::Vector3d vector;
   std::istringstream stream(text);
   std::string coordinate;
-  for (double& value : vector) {
+  for (Eigen::Index i = 0; i < 3; ++i) {
     std::getline(stream, coordinate, ',');
-    value = parse_number<double>(coordinate).value_or(std::nan(""));
+    vector[i] = parse_number<double>(coordinate).value_or(std::nan(""));
     coordinate.clear();
   }
   if (!stream.eof() || !vector.unaryExpr(&FiberAssembly::is_valid_coordinate).all()) {

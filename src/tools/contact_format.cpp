@@ -27,7 +27,7 @@ nlohmann::ordered_json to_json(const Contact& contact) {
 }
 
 void append_vector(std::string& text, const Eigen::Vector3d& vector) {
-  for (const double coordinate : vector) {
+  for (const double coordinate : {vector.x(), vector.y(), vector.z()}) {
     text += ',';
     append_number(text, coordinate);
   }

@@ -58,7 +58,7 @@ void write_csv(TextOutput& output, std::optional<std::int64_t> frame,
     append_field(text, crossing.separation);
     append_field(text, crossing.gap);
     for (const Eigen::Vector3d& point : {crossing.point_a, crossing.point_b}) {
-      for (const double coordinate : point) {
+      for (const double coordinate : {point.x(), point.y(), point.z()}) {
         append_field(text, coordinate);
       }
     }

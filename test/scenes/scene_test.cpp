@@ -72,7 +72,8 @@ std::vector<std::vector<double>> sorted_fibers(const FiberAssembly& fibers) {
   for (std::size_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
     std::vector<double>& coordinates = all.emplace_back();
     for (std::size_t i = fibers.offsets()[fiber]; i < fibers.offsets()[fiber + 1]; ++i) {
-      for (const double coordinate : fibers.points()[i]) {
+      const Eigen::Vector3d& point = fibers.points()[i];
+      for (const double coordinate : {point.x(), point.y(), point.z()}) {
         coordinates.push_back(coordinate);
       }
     }

@@ -33,8 +33,8 @@ class BandSolver : public testing::TestWithParam<std::size_t> {
 
   static VectorXd random_vector(Random& random, Eigen::Index size) {
     VectorXd values(size);
-    for (double& x : values) {
-      x = random.uniform(-1.0, 1.0);
+    for (Eigen::Index i = 0; i < size; ++i) {
+      values[i] = random.uniform(-1.0, 1.0);
     }
     return values;
   }

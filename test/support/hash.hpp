@@ -27,7 +27,7 @@ class Hash {
 inline std::uint64_t hash(const FiberAssembly& fibers) {
   Hash result;
   for (const Eigen::Vector3d& point : fibers.points()) {
-    for (const double coordinate : point) {
+    for (const double coordinate : {point.x(), point.y(), point.z()}) {
       result.add(coordinate);
     }
   }

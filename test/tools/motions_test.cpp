@@ -56,7 +56,7 @@ std::string row_of(const HardMotion& motion) {
   for (const Eigen::Vector3d* ends : {motion.a_before.data(), motion.b_before.data(),
                                       motion.a_after.data(), motion.b_after.data()}) {
     for (int i = 0; i < 2; ++i) {
-      for (const double coordinate : ends[i]) {
+      for (const double coordinate : {ends[i].x(), ends[i].y(), ends[i].z()}) {
         row += ',';
         append_number(row, coordinate);
       }

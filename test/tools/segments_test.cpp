@@ -57,7 +57,7 @@ TEST_F(Segments, PrintsTheLibrarysNumbersBitForBit) {
       pairs.push_back(pair);
       content += family.name;
       for (const Eigen::Vector3d& point : {pair.p0, pair.p1, pair.q0, pair.q1}) {
-        for (const double coordinate : point) {
+        for (const double coordinate : {point.x(), point.y(), point.z()}) {
           content += ',';
           append_number(content, coordinate);
         }

@@ -32,7 +32,7 @@ class Topology : public ToolsTest {
         for (Eigen::Vector3d point : torus_link(60, 2, second)) {
           point.x() += second && frame == 9 ? 10.0 : 0.0;
           text += std::to_string(frame) + (second ? ",b" : ",a");
-          for (const double coordinate : point) {
+          for (const double coordinate : {point.x(), point.y(), point.z()}) {
             text += ',';
             append_number(text, coordinate);
           }

@@ -22,7 +22,7 @@ void ForceWriter::add_row(const char* kind, std::uint32_t rod, std::uint32_t ind
     append_number(rows_, number);
   }
   for (const Vector3d& vector : {force, moment}) {
-    for (const double component : vector) {
+    for (const double component : {vector.x(), vector.y(), vector.z()}) {
       rows_ += ',';
       append_number(rows_, component);
     }
