@@ -48,7 +48,7 @@ fi
 build=$root/build-fuzz
 mkdir -p "$build/findings"
 run_step "configuring build-fuzz" "$build/configure.log" \
-  cmake -S "$root/test/fuzz" -B "$build" -DCMAKE_CXX_COMPILER=clang++-14
+  cmake -S "$root/test/fuzz" -B "$build" -DCMAKE_CXX_COMPILER=clang++-13
 run_step "building fuzzers" "$build/make.log" cmake --build "$build" --parallel "$(nproc)"
 
 # run TARGET LIMIT NUMBER: one line with the number; the log of a finding names the input that made it.

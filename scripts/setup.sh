@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
 # Installs what building, testing and the demo need, and is quick when nothing is missing.
-#   scripts/setup.sh [--lint] [--bench] [--fuzz] [--verbose]
+#   scripts/setup.sh [--lint] [--bench] [--fuzz] [--sanitize] [--verbose]
 #     --lint    also what scripts/lint.sh needs
 #     --bench   also the libraries fiber_bench compares with (benchmark/README.md), on Debian, and
 #               what draws its plots
-#     --fuzz    also what scripts/fuzz.sh needs, on Debian
+#     --fuzz    also what scripts/fuzz.sh needs, on Debian: clang 13, the oldest there is, so that the
+#               sources are known to build with it
+#     --sanitize  also what scripts/sanitize.sh needs, on Debian: g++ 11, for the same reason
 #     --verbose all that installing writes
 # Debian 12: ROS 1 from Debian's own packages, with apt, as root or through sudo.
 # Ubuntu with ROS Noetic: through rosdep.
@@ -13,15 +15,17 @@ cd "$(dirname "$0")/.."
 # shellcheck source=scripts/progress.sh
 source scripts/progress.sh
 
-usage="usage: scripts/setup.sh [--lint] [--bench] [--fuzz] [--verbose]"
+usage="usage: scripts/setup.sh [--lint] [--bench] [--fuzz] [--sanitize] [--verbose]"
 lint=false
 bench=false
 fuzz=false
+sanitize=false
 for argument in "$@"; do
   case "$argument" in
     --lint) lint=true ;;
     --bench) bench=true ;;
     --fuzz) fuzz=true ;;
+    --sanitize) sanitize=true ;;
     --verbose) be_verbose ;;
     -h | --help) echo "$usage"; exit 0 ;;
     *) echo "setup.sh: unknown option '$argument'; $usage" >&2; exit 2 ;;
@@ -53,7 +57,11 @@ if $bench; then
   packages+=(python3-matplotlib python3-tqdm)
 fi
 if $fuzz; then
-  packages+=(clang-14 libclang-rt-14-dev)
+  packages+=(clang-13 libclang-common-13-dev)
+fi
+
+if $sanitize; then
+  packages+=(g++-11)
 fi
 
 missing_packages() {
