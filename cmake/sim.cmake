@@ -36,6 +36,7 @@ add_library(fiber_proximity_sim SHARED
   src/sim/solver/islands.cpp
   src/sim/solver/line_search.cpp
   src/sim/solver/newton.cpp
+  src/sim/solver/newton_balance.cpp
   src/sim/solver/pack_step.cpp
   src/sim/solver/pack_sums.cpp
   src/sim/solver/stage_adaption.cpp

@@ -34,8 +34,8 @@ class NumbersOfC {
 
 std::string formatted(const char* format, int digits, double value) {
   std::string text(400, '\0');  // 1e308 has 309 digits
-  text.resize(static_cast<std::size_t>(
-      std::snprintf(text.data(), text.size(), format, digits, value)));
+  text.resize(
+      static_cast<std::size_t>(std::snprintf(text.data(), text.size(), format, digits, value)));
   return text;
 }
 
@@ -91,9 +91,8 @@ void append_double(std::string& text, double value) {
 std::optional<double> parse_double(std::string_view text, bool is_hex) {
   double value = 0.0;
   const char* end = text.data() + text.size();
-  const std::from_chars_result result =
-      std::from_chars(text.data(), end, value,
-                      is_hex ? std::chars_format::hex : std::chars_format::general);
+  const std::from_chars_result result = std::from_chars(
+      text.data(), end, value, is_hex ? std::chars_format::hex : std::chars_format::general);
   if (result.ec != std::errc() || result.ptr != end) {
     return std::nullopt;
   }

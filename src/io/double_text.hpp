@@ -10,8 +10,8 @@ namespace fiber {
 /// takes no more characters than scientific notation.
 void append_double(std::string& text, double value);
 
-/// The double that a whole text stands for, in any locale: decimal, or of hexadecimal digits without
-/// 0x. Without a plus sign or blanks. Nothing if it is no number or lies outside the range.
+/// The double that a whole text stands for, in any locale: decimal, or of hexadecimal digits
+/// without 0x. Without a plus sign or blanks. Nothing if it is no number or lies outside the range.
 std::optional<double> parse_double(std::string_view text, bool is_hex);
 
 /// The same two by the C library: for a standard library that has them for integers only, as that

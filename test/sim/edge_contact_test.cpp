@@ -11,8 +11,8 @@
 #include <ostream>
 
 #include "benchmark/sim/contact_scenes.hpp"
-#include "src/sim/contact/neighbours.hpp"
 #include "test/sim/contact_system.hpp"
+#include "test/sim/polyline.hpp"
 #include "test/sim/tunnelling.hpp"
 #include "test/support/random.hpp"
 
@@ -26,18 +26,6 @@ constexpr double radius = 0.01;
 constexpr double touching = 2.0 * radius;
 constexpr double width = 2.0 * Barrier::half_width * touching;
 constexpr double room = 4.0 * radius;  // that polylines are moved by after contacts are looked for
-
-/// A polyline that turns by random angles of up to about `bend` at its nodes.
-std::vector<Vector3d> polyline(Random& random, const Vector3d& direction, int edges, double length,
-                               double bend) {
-  std::vector<Vector3d> points{Vector3d::Zero()};
-  Vector3d along = direction;
-  for (int i = 0; i < edges; ++i) {
-    points.push_back(points.back() + length * along);
-    along = (along + bend * random.direction()).normalized();
-  }
-  return points;
-}
 
 double nearest_distance(const Rods& rods) {
   double nearest = std::numeric_limits<double>::infinity();
@@ -307,62 +295,6 @@ TEST(EdgeContact, RodsSideBySideAreHeldApartAllAlong) {
     const bool is_aligned = offset == 0.0 || offset == 1.0;
     EXPECT_NEAR(force_at(offset), (is_aligned ? 12.0 : 11.0) * of_node, 1e-9 * of_node) << offset;
   }
-}
-
-/// A rod of short edges, whose neighbours along it are nearer than they could touch.
-TEST(ContactNeighbours, AreNoPairs) {
-  for (const double edge : {0.2 * radius, radius, 5.0 * radius}) {
-    Rods rods;
-    Random random(5);
-    rods.add(polyline(random, Vector3d::UnitX(), 40, edge, 0.1), radius, rubber(radius));
-    const auto contacts = contacts_with(nullptr);
-    const ContactSet found = contacts_of(*contacts, rods);
-    const std::vector<double> arcs = contact_arcs(rods);
-    for (const EdgePair& pair : found.pairs) {
-      EXPECT_FALSE(are_contact_neighbours(rods, arcs, 0, pair.edge_a, pair.edge_b));
-    }
-    ContactSet measured = found;
-    EXPECT_EQ(energy_in(measured, rods), 0.0) << "edges of " << edge / radius << " radii";
-  }
-}
-
-TEST(ContactNeighbours, AreTwoEdgesOrFourRadiiOfRod) {
-  Rods rods;
-  rods.add(straight({0, 0, 0}, {0.3, 0, 0}, 30), radius, rubber(radius));
-  rods.add(straight({0, 1, 0}, {3.0, 1, 0}, 30), radius, rubber(radius));
-  const std::vector<double> arcs = contact_arcs(rods);
-  // Edges of a radius: between the first and that there are less than four.
-  EXPECT_TRUE(are_contact_neighbours(rods, arcs, 0, 3, 6));
-  EXPECT_TRUE(are_contact_neighbours(rods, arcs, 0, 7, 3));
-  EXPECT_FALSE(are_contact_neighbours(rods, arcs, 0, 3, 9));
-  // Long ones.
-  const std::uint32_t first = rods.first(1);
-  EXPECT_TRUE(are_contact_neighbours(rods, arcs, 1, first + 3, first + 5));
-  EXPECT_FALSE(are_contact_neighbours(rods, arcs, 1, first + 3, first + 6));
-}
-
-/// A hairpin whose arms touch: they are held apart as those of two rods are.
-TEST(ContactNeighbours, ArmsOfAHairpinAreHeldApart) {
-  constexpr double edge = 2.0 * radius;
-  std::vector<Vector3d> points = straight({20 * edge, 0, 0}, {0, 0, 0}, 20);
-  points.emplace_back(-edge, 0.5 * touching, 0.0);
-  const std::vector<Vector3d> back =
-      straight({0, 0.99 * touching, 0}, {20 * edge, 0.99 * touching, 0}, 20);
-  points.insert(points.end(), back.begin(), back.end());
-  Rods hairpin;
-  hairpin.add(points, radius, rubber(radius));
-  Rods both;
-  both.add(std::vector<Vector3d>(points.begin(), points.begin() + 21), radius, rubber(radius));
-  both.add(back, radius, rubber(radius));
-  const auto gradient_of = [](const Rods& rods) {
-    const auto contacts = contacts_with(nullptr);
-    ContactSet found = contacts_of(*contacts, rods);
-    return full_system(found, rods).gradient;
-  };
-  const VectorXd of_hairpin = gradient_of(hairpin);
-  const VectorXd of_both = gradient_of(both);
-  EXPECT_GT(of_both.head(30).norm(), 0.0);
-  EXPECT_EQ(of_hairpin.head(30), of_both.head(30)) << "ten nodes, far from the bend";
 }
 
 }  // namespace

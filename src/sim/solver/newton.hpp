@@ -81,8 +81,15 @@ class NewtonSolver {
     bool is_learning = false;  ///< was balanced before what multipliers have learnt
   };
 
-  template <typename Function>
-  void for_each_rod(const Function& function);
+  /// Calls function(pack, lane, island), one after the other.
+  template <class Function>
+  void for_each_rod(const Function& function) {
+    for (std::size_t pack = 0; pack < packs_.size(); ++pack) {
+      for (std::size_t lane = 0; lane < packs_[pack].used(); ++lane) {
+        function(pack, lane, islands_[pack][lane]);
+      }
+    }
+  }
   SimdBatch* part(std::size_t pack) { return step_.data() + offsets_[pack]; }
 
   void measure(Rods& rods, const Problem& problem);
