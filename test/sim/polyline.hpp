@@ -7,8 +7,8 @@
 namespace fiber::test {
 
 /// A polyline that turns by random angles of up to about `bend` at its nodes.
-inline std::vector<Eigen::Vector3d> polyline(Random& random, const Eigen::Vector3d& direction, int edges, double length,
-                               double bend) {
+inline std::vector<Eigen::Vector3d> polyline(Random& random, const Eigen::Vector3d& direction,
+                                             int edges, double length, double bend) {
   std::vector<Eigen::Vector3d> points{Eigen::Vector3d::Zero()};
   Eigen::Vector3d along = direction;
   for (int i = 0; i < edges; ++i) {
