@@ -33,9 +33,10 @@ if ! dpkg-query -W libtbb12 >/dev/null 2>&1; then
   echo "sanitize.sh: ThreadSanitizer needs Debian 12's TBB: left out" >&2
   exit
 fi
-"$root/scripts/build_tbb.sh" "$build/tbb"
 # By the oldest compiler there is: so CI knows that it takes the sources.
-cmake_arguments=("${core_arguments[@]}" -DFIBER_PROXIMITY_SANITIZE=thread -DCMAKE_CXX_COMPILER=g++-11
+compiler=g++-11
+"$root/scripts/build_tbb.sh" "$build/tbb" "$compiler"
+cmake_arguments=("${core_arguments[@]}" -DFIBER_PROXIMITY_SANITIZE=thread "-DCMAKE_CXX_COMPILER=$compiler"
   -DTBB_DIR="$build/tbb/install/lib/cmake/TBB")
 build_package threaded_tests
 # One after the other: the threads of one test are to run at the same time. No test goes on after a
