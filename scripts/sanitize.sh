@@ -24,7 +24,9 @@ core_arguments=(-DFIBER_PROXIMITY_BUILD_ROS=OFF -DFIBER_PROXIMITY_BUILD_BENCHMAR
   -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1\ -g1)
 
 build=$root/build-sanitize
-cmake_arguments=("${core_arguments[@]}" "-DFIBER_PROXIMITY_SANITIZE=address,undefined")
+# By the oldest compiler there is: so CI knows that it takes the sources.
+cmake_arguments=("${core_arguments[@]}" "-DFIBER_PROXIMITY_SANITIZE=address,undefined"
+  -DCMAKE_CXX_COMPILER=g++-11)
 build_package all
 run_tests --parallel "$(nproc)"
 
@@ -33,10 +35,8 @@ if ! dpkg-query -W libtbb12 >/dev/null 2>&1; then
   echo "sanitize.sh: ThreadSanitizer needs Debian 12's TBB: left out" >&2
   exit
 fi
-# By the oldest compiler there is: so CI knows that it takes the sources.
-compiler=g++-11
-"$root/scripts/build_tbb.sh" "$build/tbb" "$compiler"
-cmake_arguments=("${core_arguments[@]}" -DFIBER_PROXIMITY_SANITIZE=thread "-DCMAKE_CXX_COMPILER=$compiler"
+"$root/scripts/build_tbb.sh" "$build/tbb"
+cmake_arguments=("${core_arguments[@]}" -DFIBER_PROXIMITY_SANITIZE=thread
   -DTBB_DIR="$build/tbb/install/lib/cmake/TBB")
 build_package threaded_tests
 # One after the other: the threads of one test are to run at the same time. No test goes on after a
