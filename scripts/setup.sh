@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what building, testing and the demo need, and is quick when nothing is missing.
-#   scripts/setup.sh [--lint] [--bench] [--fuzz] [--sanitize] [--verbose]
+#   scripts/setup.sh [--lint] [--bench] [--fuzz] [--sanitize] [--tarballs FOLDER] [--verbose]
 #     --lint    also what scripts/lint.sh needs
 #     --bench   also the libraries fiber_bench compares with (benchmark/README.md), on Debian, and
 #               what draws its plots
@@ -15,21 +15,28 @@ cd "$(dirname "$0")/.."
 # shellcheck source=scripts/progress.sh
 source scripts/progress.sh
 
-usage="usage: scripts/setup.sh [--lint] [--bench] [--fuzz] [--sanitize] [--verbose]"
+usage="usage: scripts/setup.sh [--lint] [--bench] [--fuzz] [--sanitize] [--tarballs FOLDER] [--verbose]"
 lint=false
 bench=false
 fuzz=false
 sanitize=false
-for argument in "$@"; do
-  case "$argument" in
+bring=()
+while [ $# -gt 0 ]; do
+  case "$1" in
     --lint) lint=true ;;
     --bench) bench=true ;;
     --fuzz) fuzz=true ;;
     --sanitize) sanitize=true ;;
+    --tarballs)
+      [ $# -ge 2 ] || { echo "setup.sh: --tarballs needs a folder; $usage" >&2; exit 2; }
+      bring=(--tarballs "$2")
+      shift
+      ;;
     --verbose) be_verbose ;;
     -h | --help) echo "$usage"; exit 0 ;;
-    *) echo "setup.sh: unknown option '$argument'; $usage" >&2; exit 2 ;;
+    *) echo "setup.sh: unknown option '$1'; $usage" >&2; exit 2 ;;
   esac
+  shift
 done
 
 # Message definitions (ros-*) and Python modules come beside the headers: Debian only recommends them.
@@ -107,8 +114,8 @@ install_with_apt() {
 install_with_rosdep() {
   # shellcheck disable=SC1091
   source /opt/ros/noetic/setup.bash
-  # Ubuntu 20.04 has no packages of these: see docs/platforms.md.
-  local keys=(--from-paths . --ignore-src --skip-keys "libhwy-dev cli11")
+  # Ubuntu 20.04 has these too old or not at all: scripts/bring_libraries.sh builds them.
+  local keys=(--from-paths . --ignore-src --skip-keys "libhwy-dev cli11 nlohmann-json-dev")
   rosdep check "${keys[@]}" >/dev/null 2>&1 && return
   log=$(mktemp)
   run_step "asking for packages" "$log" rosdep update
@@ -119,8 +126,10 @@ install_with_rosdep() {
 
 if [ -f /opt/ros/noetic/setup.bash ]; then
   install_with_rosdep
+  scripts/bring_libraries.sh "${bring[@]}"
 elif command -v dpkg-query >/dev/null && command -v apt-get >/dev/null; then
   install_with_apt
+  [ "${#bring[@]}" -eq 0 ] || scripts/bring_libraries.sh "${bring[@]}"
 else
   echo "setup.sh: neither /opt/ros/noetic nor apt-get here; supported are Debian 12 and Ubuntu with ROS Noetic" >&2
   exit 1
