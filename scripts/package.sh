@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Makes Debian packages for the machine's own distribution, with dpkg's tools:
 #   libfiber-proximity       the libraries that need no ROS, and the command-line tools
-#   libfiber-proximity-dev   headers, and what find_package and pkg-config read
+#   libfiber-proximity-dev   headers, and what find_package and pkg-config read: catkin's, so it needs the next, too
 #   ros-fiber-proximity      nodes, messages, launch files and rviz's displays
 #   scripts/package.sh [--build BUILD] [--out DIR] [--verbose]
 #     --build BUILD  packages this build, which has ROS, as it is; without, builds first, in build/
@@ -133,8 +133,15 @@ ros_needs=(
   python3-{std,geometry,sensor,shape,nav,visualization,diagnostic,rosgraph}-msgs python3-std-srvs
 )
 # What the exported targets find, and the headers include.
-development_needs=(libeigen3-dev libtbb-dev libfcl-dev libassimp-dev libyaml-cpp-dev libroscpp-dev
-  libhwy-dev libsensor-msgs-dev libvisualization-msgs-dev libnav-msgs-dev)
+development_needs=(libeigen3-dev libtbb-dev libfcl-dev libassimp-dev libyaml-cpp-dev libhwy-dev)
+
+# catkin_needs CONFIG: the packages with the other configurations that this one of catkin's asks for.
+catkin_needs() {
+  local name
+  for name in $(sed -n 's/^set(depends "\(.*\)")$/\1/p' "$1" | tr ';' ' '); do
+    dpkg -S "*/${name}Config.cmake" | sed 's/:.*//'
+  done | sort -u
+}
 
 comma_joined() {
   local list
@@ -148,11 +155,13 @@ make_packages() {
   mkdir -p "$out"
   rm -f "$out"/*fiber-proximity*.deb
   local of_library of_ros
+  mapfile -t catkin_found < <(catkin_needs "$development/usr/share/fiber_proximity/cmake/fiber_proximityConfig.cmake")
+  [ "${#catkin_found[@]}" -gt 0 ] || { echo "package.sh: catkin's configuration tells no dependencies" >&2; return 1; }
   of_library=$(dependencies "$library") || return 1
   of_ros=$(dependencies "$ros") || return 1
   pack "$library" "$of_library" "proximity queries for cables, ropes, hair and other fibres"
-  pack "$development" "libfiber-proximity (= $version), $(comma_joined "${development_needs[@]}")" \
-    "proximity queries for fibres: headers"
+  pack "$development" "libfiber-proximity (= $version), ros-fiber-proximity (= $version), $(comma_joined \
+    "${development_needs[@]}" "${catkin_found[@]}")" "proximity queries for fibres: headers"
   pack "$ros" "libfiber-proximity (= $version), $of_ros, $(comma_joined "${ros_needs[@]}")" \
     "proximity queries for fibres: ROS nodes"
 }

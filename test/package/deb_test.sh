@@ -32,7 +32,11 @@ expect libfiber-proximity.files '/usr/bin/fiber_query$'
 expect libfiber-proximity.depends libtbb
 expect libfiber-proximity-dev.files '/query/engine.hpp$'
 expect libfiber-proximity-dev.files '/fiber_proximity-core.cmake$'
-expect libfiber-proximity-dev.depends 'libfiber-proximity (= '
+expect libfiber-proximity-dev.depends '^libfiber-proximity (= '
+# catkin's configuration looks for the library of ROS and for the packages whose messages it knows.
+expect libfiber-proximity-dev.depends ' ros-fiber-proximity (= '
+expect libfiber-proximity-dev.depends ' libroscpp-dev'
+expect libfiber-proximity-dev.depends ' libsensor-msgs-dev'
 expect ros-fiber-proximity.files '/lib/fiber_proximity/proximity_node$'
 expect ros-fiber-proximity.files '/share/fiber_proximity/launch/demo.launch$'
 expect ros-fiber-proximity.files '/dist-packages/fiber_proximity/msg/_Contact.py$'
