@@ -1,5 +1,3 @@
-#include "src/sim/scene/holds.hpp"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -7,7 +5,7 @@
 #include <set>
 
 #include "src/geometry/smallest_rotation.hpp"
-#include "src/sim/scene/fibers.hpp"
+#include "src/sim/scene/parts.hpp"
 #include "src/text/join.hpp"
 #include "src/text/quote.hpp"
 
