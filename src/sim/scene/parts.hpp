@@ -31,6 +31,16 @@ auto naming_fiber(const std::string& name, const Function& function) {
   }
 }
 
+/// Whether a field says the second of two words; without a field it is the first one.
+/// @throws std::invalid_argument for any other
+inline bool is_second(const std::optional<YamlField>& field, const std::string& first,
+                      const std::string& second) {
+  if (field && field->text() != first && field->text() != second) {
+    field->refuse(first + " or " + second);
+  }
+  return field && field->text() == second;
+}
+
 /// Reads a `shape`:
 ///   line:     {from, to}
 ///   arc:      {from, to, length, towards}     a circular arc, longer than it spans, that sags

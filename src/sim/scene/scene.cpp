@@ -159,9 +159,9 @@ std::string describe_move(const std::vector<Eigen::Vector3d>& before, const Rods
 
 std::vector<bool> held_nodes(const Attachment* attachment, const Rods& rods) {
   std::vector<bool> is_held(rods.positions.size(), false);
-  for (std::uint32_t rod = 0; rod < rods.count() && attachment != nullptr; ++rod) {
-    for (const HeldNode& held : attachment->held_at(rod, 0.0)) {
-      is_held[rods.first(rod) + held.node] = true;
+  if (attachment != nullptr) {
+    for (const auto& [rod, node] : attachment->held_nodes()) {
+      is_held[rods.first(rod) + node] = true;
     }
   }
   return is_held;
@@ -221,23 +221,9 @@ void read_stepper_options(const YamlField& document, StepperOptions& options) {
     options.max_iterations = static_cast<std::uint32_t>(iterations->integer(1, most_iterations));
   }
   read_within(document, "residual", least_residual, most_residual, options.residual);
-  if (const auto integrator = document.find("integrator")) {
-    if (integrator->text() == "bdf2") {
-      options.integrator = Integrator::BDF2;
-    } else if (integrator->text() != "implicit_euler") {
-      integrator->refuse("implicit_euler or bdf2");
-    }
+  if (is_second(document.find("integrator"), "implicit_euler", "bdf2")) {
+    options.integrator = Integrator::BDF2;
   }
-}
-
-bool read_separates_overlaps(const std::optional<YamlField>& field) {
-  if (!field || field->text() == "refuse") {
-    return false;
-  }
-  if (field->text() != "separate") {
-    field->refuse("refuse or separate");
-  }
-  return true;
 }
 
 /// Reads the obstacles of a scene, which are all in its frame: nothing moves them.
@@ -290,7 +276,7 @@ SimDescription read_sim_scene(const YamlField& document, const MeshSource& meshe
   if (holds) {
     read_holds(*holds, scene);
   }
-  scene.separates_overlaps = read_separates_overlaps(document.find("initial_overlap"));
+  scene.separates_overlaps = is_second(document.find("initial_overlap"), "refuse", "separate");
   return scene;
 }
 
