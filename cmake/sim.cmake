@@ -2,46 +2,24 @@
 
 add_library(fiber_proximity_sim SHARED
   src/sim/contact/contact_set.cpp
-  src/sim/contact/contact_set_bound.cpp
-  src/sim/contact/contact_set_forces.cpp
+  src/sim/contact/contact_set_step.cpp
   src/sim/contact/edge_contact.cpp
   src/sim/contact/obstacle_contact.cpp
-  src/sim/contact/obstacle_piece.cpp
-  src/sim/contact/stiffness.cpp
   src/sim/effects/attachment.cpp
   src/sim/effects/bend.cpp
-  src/sim/effects/clamped_end.cpp
+  src/sim/effects/contacts.cpp
   src/sim/effects/damping.cpp
-  src/sim/effects/drag.cpp
-  src/sim/effects/environment_contact.cpp
-  src/sim/effects/fiber_contact.cpp
-  src/sim/effects/friction.cpp
-  src/sim/effects/gravity.cpp
-  src/sim/effects/inextensible.cpp
+  src/sim/effects/loads.cpp
   src/sim/effects/natural_bend.cpp
-  src/sim/effects/plasticity.cpp
   src/sim/effects/stretch.cpp
   src/sim/effects/twist.cpp
-  src/sim/material.cpp
-  src/sim/material_presets.cpp
-  src/sim/natural_curvature.cpp
   src/sim/overlaps.cpp
-  src/sim/reach.cpp
   src/sim/resolution.cpp
-  src/sim/rod_pack.cpp
   src/sim/rods.cpp
-  src/sim/separate_overlaps.cpp
-  src/sim/solver/band_solver.cpp
-  src/sim/solver/coupling.cpp
-  src/sim/solver/islands.cpp
-  src/sim/solver/line_search.cpp
   src/sim/solver/newton.cpp
-  src/sim/solver/newton_balance.cpp
-  src/sim/solver/pack_step.cpp
-  src/sim/solver/pack_sums.cpp
+  src/sim/solver/pack_kernels.cpp
   src/sim/solver/stage_adaption.cpp
   src/sim/solver/stage_solver.cpp
-  src/sim/solver/step_bound.cpp
   src/sim/stepper.cpp
 )
 target_link_libraries(fiber_proximity_sim
@@ -51,20 +29,14 @@ fiber_proximity_component(sim fiber_proximity_sim)
 
 # The files of scenes: compiled apart, as nothing in them takes time.
 add_library(sim_scene OBJECT
-  src/sim/scene/description.cpp
   src/sim/scene/effects.cpp
   src/sim/scene/fibers.cpp
   src/sim/scene/force_file.cpp
   src/sim/scene/holds.cpp
-  src/sim/scene/lead.cpp
-  src/sim/scene/natural_curvature.cpp
-  src/sim/scene/overlap.cpp
-  src/sim/scene/parameters.cpp
+  src/sim/scene/reach.cpp
   src/sim/scene/report.cpp
-  src/sim/scene/resolution.cpp
   src/sim/scene/scene.cpp
   src/sim/scene/shapes.cpp
-  src/sim/scene/warnings.cpp
 )
 set_target_properties(sim_scene PROPERTIES POSITION_INDEPENDENT_CODE ON)
 target_link_libraries(sim_scene PRIVATE Eigen3::Eigen yaml-cpp fiber_proximity_options)

@@ -2,7 +2,7 @@
 // tweezers do.
 #include <cstdio>
 #include <fiber_proximity/sim/effect.hpp>
-#include <fiber_proximity/sim/material.hpp>
+#include <fiber_proximity/sim/rods.hpp>
 #include <fiber_proximity/sim/stepper.hpp>
 #include <memory>
 #include <utility>

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "fiber_proximity/sim/material.hpp"
+#include "fiber_proximity/sim/rods.hpp"
 
 namespace fiber {
 

@@ -7,11 +7,8 @@
 
 #include "benchmark/sim/rod_scene.hpp"
 #include "fiber_proximity/environment/environment.hpp"
-#include "fiber_proximity/sim/effects/bend.hpp"
-#include "fiber_proximity/sim/effects/environment_contact.hpp"
-#include "fiber_proximity/sim/effects/fiber_contact.hpp"
-#include "fiber_proximity/sim/effects/gravity.hpp"
-#include "fiber_proximity/sim/effects/stretch.hpp"
+#include "fiber_proximity/sim/contacts.hpp"
+#include "fiber_proximity/sim/effects.hpp"
 #include "fiber_proximity/sim/stepper.hpp"
 
 namespace fiber {

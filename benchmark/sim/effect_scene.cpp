@@ -4,11 +4,7 @@
 #include <cmath>
 
 #include "benchmark/sim/contact_scenes.hpp"
-#include "fiber_proximity/sim/effects/damping.hpp"
-#include "fiber_proximity/sim/effects/drag.hpp"
-#include "fiber_proximity/sim/effects/inextensible.hpp"
-#include "fiber_proximity/sim/effects/plasticity.hpp"
-#include "fiber_proximity/sim/effects/twist.hpp"
+#include "fiber_proximity/sim/effects.hpp"
 
 namespace fiber {
 

@@ -5,7 +5,7 @@
 
 #include "benchmark/sim/rod_scene.hpp"
 #include "benchmark/sim/root.hpp"
-#include "fiber_proximity/sim/effects/twist.hpp"
+#include "fiber_proximity/sim/effects.hpp"
 #include "src/geometry/smallest_rotation.hpp"
 
 namespace fiber {

@@ -7,7 +7,7 @@
 #include "benchmark/sim/contact_scenes.hpp"
 #include "benchmark/sim/effect_scene.hpp"
 #include "benchmark/statistics.hpp"
-#include "fiber_proximity/sim/effects/attachment.hpp"
+#include "fiber_proximity/sim/attachment.hpp"
 
 namespace fiber {
 

@@ -6,10 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "fiber_proximity/sim/effects/attachment.hpp"
-#include "fiber_proximity/sim/effects/bend.hpp"
-#include "fiber_proximity/sim/effects/gravity.hpp"
-#include "fiber_proximity/sim/effects/stretch.hpp"
+#include "fiber_proximity/sim/attachment.hpp"
+#include "fiber_proximity/sim/effects.hpp"
 #include "fiber_proximity/sim/stepper.hpp"
 
 namespace fiber {

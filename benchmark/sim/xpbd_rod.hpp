@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "fiber_proximity/sim/material.hpp"
+#include "fiber_proximity/sim/rods.hpp"
 
 namespace fiber {
 

@@ -1,11 +1,78 @@
 #include "fiber_proximity/sim/rods.hpp"
 
 #include <cmath>
+#include <map>
 #include <stdexcept>
 #include <string>
 
+#include "src/sim/require.hpp"
+#include "src/text/join.hpp"
+#include "src/text/quote.hpp"
+
 namespace fiber {
+
 namespace {
+
+const std::map<std::string, RodMaterial>& presets() {
+  static const std::map<std::string, RodMaterial> presets{
+      // Keratin.
+      {"hair", {3.9e9, 1.5e9, 1320.0, 1.0}},
+      // Stranded copper in PVC, 3 x 1.5 mm² in 8 mm: the strands carry the tension.
+      {"power_cable", {1.0e10, 4.0e7, 2200.0, 0.01}},
+      // Braided polyamide.
+      {"rope", {9.0e8, 2.0e6, 800.0, 0.001}},
+      // Shore A 50, taken as solid.
+      {"silicone_tube", {2.5e6, 8.4e5, 1150.0, 1.0}},
+  };
+  return presets;
+}
+
+}  // namespace
+
+RodMaterial material_preset(const std::string& name) {
+  const auto found = presets().find(name);
+  if (found != presets().end()) {
+    return found->second;
+  }
+  throw std::invalid_argument("there is no material " + quote(name) +
+                              ", known are: " + join(material_names()));
+}
+
+std::vector<std::string> material_names() {
+  std::vector<std::string> names;
+  for (const auto& [name, material] : presets()) {
+    names.push_back(name);
+  }
+  return names;
+}
+
+RodSection solid_round_section(const RodMaterial& material, double radius) {
+  require_positive("youngs_modulus", material.youngs_modulus);
+  require_positive("shear_modulus", material.shear_modulus);
+  require_positive("density", material.density);
+  require(material.bending_share > 0.0 && material.bending_share <= 1.0, "bending_share",
+          material.bending_share, "", "above 0 and at most 1");
+  require_positive("radius", radius);
+  const double area = M_PI * radius * radius;
+  const double second_moment = area * radius * radius / 4.0;
+  const double polar_moment = 2.0 * second_moment;
+  return {material.youngs_modulus * area,
+          material.bending_share * material.youngs_modulus * second_moment,
+          material.shear_modulus * polar_moment, material.density * area,
+          material.density * polar_moment};
+}
+
+namespace {
+
+/// Of the first value that is not finite, or not positive where it must be: stretching stiffness
+/// and mass; the others may be 0.
+void validate(const RodSection& section) {
+  require_positive("stretching_stiffness", section.stretching_stiffness);
+  require_not_negative("bending_stiffness", section.bending_stiffness);
+  require_not_negative("twisting_stiffness", section.twisting_stiffness);
+  require_positive("mass_per_length", section.mass_per_length);
+  require_not_negative("inertia_per_length", section.inertia_per_length);
+}
 
 /// [m] Beyond this, squares of squares of lengths are no longer finite.
 constexpr double largest_coordinate = 1e60;

@@ -1,5 +1,5 @@
-// Numbers and vectors of rods side by side, in registers. Included once per instruction set, so it
-// has the guard that Highway asks for instead of #pragma once.
+// Numbers, vectors and edges of rods side by side, in registers. Included once per instruction set,
+// so it has the guard that Highway asks for instead of #pragma once.
 #if defined(FIBER_SIM_SIMD_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef FIBER_SIM_SIMD_INL
 #undef FIBER_SIM_SIMD_INL
@@ -9,9 +9,11 @@
 
 #include <hwy/highway.h>
 
+#include <cmath>
+#include <limits>
 #include <type_traits>
 
-#include "fiber_proximity/sim/pack_system.hpp"
+#include "fiber_proximity/sim/effect.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace fiber {
@@ -164,6 +166,177 @@ HWY_INLINE void add_edge(const Vector& gradient, const Block& block, std::size_t
   add_diagonal<U>(block, edge, lane, system);
   add_diagonal<U>(block, edge + 1, lane, system);
   add_below<U>(minus, edge, 1, lane, system);
+}
+
+// Edges, as edges.hpp has them of one rod: how energies of the turn between two of them act on the
+// nodes, and their frames.
+
+/// The edges beside a node.
+struct TwoEdges {
+  Vector before;  // tangents
+  Vector after;
+  Real inverse_before;  // of lengths
+  Real inverse_after;
+};
+
+HWY_INLINE TwoEdges edges_beside(const RodPack& rods, std::size_t node, std::size_t lane) {
+  return {tangent_at(rods, node - 1, lane), tangent_at(rods, node, lane),
+          load(rods.inverse_lengths[node - 1], lane), load(rods.inverse_lengths[node], lane)};
+}
+
+/// From a gradient by a tangent to that by the edge.
+HWY_INLINE Vector by_edge(const Vector& tangent, Real inverse_length, const Vector& gradient) {
+  return inverse_length * (gradient - dot(tangent, gradient) * tangent);
+}
+
+/// Adds the gradient of an energy whose gradients by the two tangents are known.
+template <std::size_t U>
+HWY_INLINE void add_gradient(const TwoEdges& edges, const Vector& by_before, const Vector& by_after,
+                             std::size_t node, std::size_t lane, PackSystem& system) {
+  const Vector on_before = by_edge(edges.before, edges.inverse_before, by_before);
+  const Vector on_after = by_edge(edges.after, edges.inverse_after, by_after);
+  add_gradient<U>(negative(on_before), node - 1, lane, system);
+  add_gradient<U>(on_before - on_after, node, lane, system);
+  add_gradient<U>(on_after, node + 1, lane, system);
+}
+
+/// The part of a Hessian that is of the two edges.
+struct EdgeBlocks {
+  Block first;  // of the edge before
+  Block last;   // of the one after
+  Block cross;  // its rows are those of the edge after
+};
+
+/// Jᵀ J with the derivative J of the turn, times a factor.
+HWY_INLINE EdgeBlocks isotropic_blocks(const TwoEdges& edges, Real factor) {
+  const Real one = real(1.0);
+  const Vector& a = edges.before;
+  const Vector& b = edges.after;
+  const Real cosine = dot(a, b);
+  const Real of_first = factor * edges.inverse_before * edges.inverse_before;
+  const Real of_last = factor * edges.inverse_after * edges.inverse_after;
+  const Real of_cross = factor * edges.inverse_before * edges.inverse_after;
+  EdgeBlocks blocks;
+  for (std::size_t r = 0; r < 3; ++r) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Real aa = r == c ? one - a.of[r] * a.of[c] : negative(a.of[r] * a.of[c]);
+      const Real bb = b.of[r] * b.of[c];
+      blocks.first.of[r][c] = of_first * aa;
+      blocks.last.of[r][c] = of_last * (r == c ? one - bb : negative(bb));
+      blocks.cross.of[r][c] = of_cross * (aa - bb + b.of[r] * (cosine * a.of[c]));
+    }
+  }
+  return blocks;
+}
+
+/// Adds Jᵀ u uᵀ J, times a factor.
+HWY_INLINE void add_along(const TwoEdges& edges, Real factor, const Vector& u, EdgeBlocks& blocks) {
+  const Vector before = by_edge(edges.before, edges.inverse_before, u);
+  const Vector after = by_edge(edges.after, edges.inverse_after, u);
+  for (std::size_t r = 0; r < 3; ++r) {
+    const Real of_before = factor * before.of[r];
+    const Real of_after = factor * after.of[r];
+    for (std::size_t c = 0; c < 3; ++c) {
+      blocks.first.of[r][c] = blocks.first.of[r][c] + of_before * before.of[c];
+      blocks.last.of[r][c] = blocks.last.of[r][c] + of_after * after.of[c];
+      blocks.cross.of[r][c] = blocks.cross.of[r][c] + of_after * before.of[c];
+    }
+  }
+}
+
+/// @param node between the edges
+template <std::size_t U>
+HWY_INLINE void add_hessian(const EdgeBlocks& blocks, std::size_t node, std::size_t lane,
+                            PackSystem& system) {
+  const auto& [first, last, cross] = blocks;
+  Block middle;
+  Block below_first;
+  Block above_last;
+  for (std::size_t r = 0; r < 3; ++r) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      below_first.of[r][c] = negative(first.of[r][c] + cross.of[r][c]);
+      above_last.of[r][c] = negative(last.of[r][c] + cross.of[r][c]);
+      middle.of[r][c] = first.of[r][c] + last.of[r][c] + cross.of[r][c] + cross.of[c][r];
+    }
+  }
+  add_diagonal<U>(first, node - 1, lane, system);
+  add_below<U>(below_first, node - 1, 1, lane, system);
+  add_below<U>(cross, node - 1, 2, lane, system);
+  add_diagonal<U>(middle, node, lane, system);
+  add_below<U>(above_last, node, 1, lane, system);
+  add_diagonal<U>(last, node + 1, lane, system);
+}
+
+HWY_INLINE Vector cross(const Vector& a, const Vector& b) {
+  return {{a.of[1] * b.of[2] - a.of[2] * b.of[1], a.of[2] * b.of[0] - a.of[0] * b.of[2],
+           a.of[0] * b.of[1] - a.of[1] * b.of[0]}};
+}
+
+HWY_INLINE Vector transport(const Vector& v, const Vector& from, const Vector& to) {
+  const Real cosine = dot(from, to);
+  const Vector sum = from + to;
+  const Real beside_opposite = real(0.5) * dot(sum, sum);
+  const Vector axis = cross(from, to);
+  const Vector turned = cosine * v + cross(axis, v) + dot(axis, v) / beside_opposite * axis;
+  const auto stays = hn::Or(hn::Lt(beside_opposite.value, real(1e-12).value),
+                            hn::Eq((dot(from, from) * dot(to, to)).value, real(0.0).value));
+  Vector result;
+  for (std::size_t k = 0; k < 3; ++k) {
+    result.of[k] = {hn::IfThenElse(stays, v.of[k].value, turned.of[k].value)};
+  }
+  return result;
+}
+
+HWY_INLINE Vector curvature_binormal(const Vector& before, const Vector& after) {
+  constexpr double folded = 1e-3;
+  const Real factor = real(2.0) / larger(real(folded), real(1.0) + dot(before, after));
+  return factor * cross(before, after);
+}
+
+/// In [-pi, pi]. Neither Highway nor the standard library has an arctangent that is the same on all
+/// processors; this one is wrong by some units of the last digit.
+HWY_INLINE Real angle_of(Real cosine, Real sine) {
+  const Real one = real(1.0);
+  const Real least = real(std::numeric_limits<double>::min());
+  const Real across = {hn::Abs(sine.value)};
+  const Real along = {hn::Abs(cosine.value)};
+  // The tangent of an angle of up to pi/4, and of a quarter of it, whose series is short.
+  Real tangent = smaller(across, along) / larger(larger(across, along), least);
+  for (int i = 0; i < 2; ++i) {
+    tangent = tangent / (one + square_root(one + tangent * tangent));
+  }
+  const Real square = tangent * tangent;
+  Real series = real(0.0);
+  for (int power = 21; power > 0; power -= 2) {
+    series = real(1.0 / power) - square * series;
+  }
+  const Real angle = real(4.0) * tangent * series;
+  const auto is_steep = hn::Gt(across.value, along.value);
+  const Real in_quadrant = {
+      hn::IfThenElse(is_steep, (real(0.5 * M_PI) - angle).value, angle.value)};
+  const auto is_behind = hn::Lt(cosine.value, real(0.0).value);
+  const Real in_half = {
+      hn::IfThenElse(is_behind, (real(M_PI) - in_quadrant).value, in_quadrant.value)};
+  return {hn::CopySignToAbs(in_half.value, sine.value)};
+}
+
+HWY_INLINE Real signed_angle(const Vector& from, const Vector& to, const Vector& about) {
+  return angle_of(dot(from, to), dot(about, cross(from, to)));
+}
+
+HWY_INLINE Real nearest_turn(Real angle, Real to) {
+  const Real turn = real(2.0 * M_PI);
+  return angle - turn * Real{hn::Round(((angle - to) / turn).value)};
+}
+
+HWY_INLINE Real angle_at(const RodPack& rods, std::size_t edge, std::size_t lane) {
+  return load(rods.positions[4 * edge + 3], lane);
+}
+
+HWY_INLINE Vector director_turn(const RodPack& rods, std::size_t edge, std::size_t lane) {
+  const Vector start = load_vector(&rods.start_tangents[3 * edge], lane);
+  return real(-0.5) * load(rods.inverse_lengths[edge], lane) *
+         curvature_binormal(start, tangent_at(rods, edge, lane));
 }
 
 }  // namespace HWY_NAMESPACE

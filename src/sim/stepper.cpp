@@ -60,21 +60,12 @@ double kinetic_energy(const Rods& rods) {
   return energy;
 }
 
-bool is_at(const Rods& rods, const RodState& state) {
+bool is_at(const RodState& rods, const RodState& state) {
   return rods.positions == state.positions && rods.velocities == state.velocities &&
          rods.angles == state.angles && rods.spins == state.spins;
 }
 
 }  // namespace
-
-/// What BDF2 remembers of the rods.
-struct Stepper::History {
-  RodState before;      // the last step
-  RodState after;       // it
-  double length = 0.0;  // of that [s]; 0 where there was none
-  RodState begun;       // room for one of now
-  RodState reference;
-};
 
 void require_finite(const Rods& rods) {
   for (std::size_t i = 0; i < rods.positions.size(); ++i) {
@@ -101,7 +92,6 @@ Stepper::Stepper(Rods rods, Effects effects, const StepperOptions& options,
       contacts_(std::move(contacts)) {
   validate(options);
   solver_ = std::make_unique<StageSolver>(rods_, options, contacts_.get());
-  history_ = std::make_unique<History>();
 }
 
 Stepper::~Stepper() = default;
@@ -131,22 +121,21 @@ void Stepper::step(double length) {
 /// With the ratio w of this step to the last one, x' = ((1 + w)² x₁ − w² x₀) / (1 + 2w) and v'
 /// alike, it is a step of implicit Euler of (1 + w) / (1 + 2w) of its length from there.
 void Stepper::step_by_bdf2(double length) {
-  History& history = *history_;
-  copy_state(rods_, history.begun);
-  if (history.length == 0.0 || !is_at(rods_, history.after)) {
+  history_.begun = rods_;
+  if (history_.length == 0.0 || !is_at(rods_, history_.after)) {
     step_by_sdirk2(length);
   } else {
-    const double ratio = length / history.length;
+    const double ratio = length / history_.length;
     const double share = 1.0 / (1.0 + 2.0 * ratio);
     const double stage = (1.0 + ratio) * share * length;
-    combine((1.0 + ratio) * (1.0 + ratio) * share, history.begun, -ratio * ratio * share,
-            history.before, history.reference);
-    solver_->solve(rods_, effects_, {time_ + length - stage, stage}, &history.reference);
+    combine((1.0 + ratio) * (1.0 + ratio) * share, history_.begun, -ratio * ratio * share,
+            history_.before, history_.reference);
+    solver_->solve(rods_, effects_, {time_ + length - stage, stage}, &history_.reference);
     solver_->add_to(report_);
   }
-  std::swap(history.before, history.begun);
-  copy_state(rods_, history.after);
-  history.length = length;
+  std::swap(history_.before, history_.begun);
+  history_.after = rods_;
+  history_.length = length;
 }
 
 /// Of two stages of γ = 1 − 1/√2 of the step each, the first ends at γ, the second at the end of
@@ -157,9 +146,9 @@ void Stepper::step_by_sdirk2(double length) {
   solver_->solve(rods_, effects_, {time_, stage}, nullptr);
   solver_->add_to(report_);
   const double part = rest / stage;
-  copy_state(rods_, history_->after);
-  combine(1.0 - part, history_->begun, part, history_->after, history_->reference);
-  solver_->solve(rods_, effects_, {time_ + rest, stage}, &history_->reference);
+  history_.after = rods_;
+  combine(1.0 - part, history_.begun, part, history_.after, history_.reference);
+  solver_->solve(rods_, effects_, {time_ + rest, stage}, &history_.reference);
   solver_->add_to(report_);
 }
 

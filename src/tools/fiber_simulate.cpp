@@ -11,9 +11,9 @@
 #include <string>
 
 #include "fiber_proximity/io/fiber_file.hpp"
-#include "fiber_proximity/sim/scene/force_file.hpp"
 #include "fiber_proximity/sim/scene/scene.hpp"
-#include "src/sim/scene/warnings.hpp"
+#include "src/sim/scene/force_file.hpp"
+#include "src/sim/scene/report.hpp"
 #include "src/text/quote.hpp"
 #include "src/tools/command_line.hpp"
 #include "src/tools/progress.hpp"

@@ -1,9 +1,8 @@
-#include "src/sim/solver/band_solver.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 
+#include "src/sim/solver/pack_kernels.hpp"
 #include "test/support/random.hpp"
 
 namespace fiber::test {

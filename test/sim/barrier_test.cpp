@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "src/sim/contact/neighbours.hpp"
+#include "src/sim/contact/edge_contact.hpp"
 #include "test/support/random.hpp"
 
 namespace fiber::test {

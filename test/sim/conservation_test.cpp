@@ -4,8 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "benchmark/sim/rod_scene.hpp"
-#include "fiber_proximity/sim/effects/damping.hpp"
-#include "fiber_proximity/sim/effects/twist.hpp"
+#include "fiber_proximity/sim/effects.hpp"
 #include "test/sim/effect_derivatives.hpp"
 #include "test/sim/random_rods.hpp"
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "benchmark/sim/contact_scenes.hpp"
-#include "src/sim/contact/neighbours.hpp"
+#include "src/sim/contact/edge_contact.hpp"
 #include "test/sim/contact_system.hpp"
 #include "test/sim/polyline.hpp"
 

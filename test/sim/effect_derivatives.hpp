@@ -30,13 +30,13 @@ inline double& unknown(Rods& rods, std::uint32_t rod, std::uint32_t index) {
 
 /// What an effect has found of rods side by side, as their energy reads it.
 inline std::vector<SimdBatch> values_of(const Effect& effect, const RodPack& rods) {
-  const std::size_t count = effect.values_per_node();
+  const auto [first, per_node] = effect.numbers();
+  const std::size_t count = per_node;
   std::vector<SimdBatch> values(count * rods.node_count);
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    for (std::uint32_t i = 0; i < rods.node_count && count > 0; ++i) {
-      const double* const of_node = effect.values_of(rods.first_nodes[lane] + i);
+    for (std::uint32_t i = 0; i < rods.node_count; ++i) {
       for (std::size_t k = 0; k < count; ++k) {
-        values[count * i + k][lane] = of_node[k];
+        values[count * i + k][lane] = first[count * (rods.first_nodes[lane] + i) + k];
       }
     }
   }

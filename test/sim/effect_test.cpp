@@ -8,14 +8,8 @@
 #include <ostream>
 #include <vector>
 
-#include "fiber_proximity/sim/effects/attachment.hpp"
-#include "fiber_proximity/sim/effects/bend.hpp"
-#include "fiber_proximity/sim/effects/damping.hpp"
-#include "fiber_proximity/sim/effects/drag.hpp"
-#include "fiber_proximity/sim/effects/gravity.hpp"
-#include "fiber_proximity/sim/effects/inextensible.hpp"
-#include "fiber_proximity/sim/effects/stretch.hpp"
-#include "fiber_proximity/sim/effects/twist.hpp"
+#include "fiber_proximity/sim/attachment.hpp"
+#include "fiber_proximity/sim/effects.hpp"
 #include "test/sim/effect_derivatives.hpp"
 #include "test/sim/random_rods.hpp"
 

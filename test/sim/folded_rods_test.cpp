@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fiber_proximity/sim/effects/bend.hpp"
-#include "fiber_proximity/sim/effects/damping.hpp"
+#include "fiber_proximity/sim/effects.hpp"
 #include "test/sim/effect_derivatives.hpp"
 #include "test/sim/random_rods.hpp"
 

@@ -1,8 +1,7 @@
-#include "fiber_proximity/sim/effects/inextensible.hpp"
-
 #include <gtest/gtest.h>
 
 #include "benchmark/sim/rod_scene.hpp"
+#include "fiber_proximity/sim/effects.hpp"
 
 namespace fiber::test {
 namespace {

@@ -1,6 +1,6 @@
 // Rods that may touch are moved together, and others do not matter to them.
 
-#include "src/sim/solver/islands.hpp"
+#include "src/sim/solver/stage_solver.hpp"
 
 #include <gtest/gtest.h>
 

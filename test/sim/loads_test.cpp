@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "benchmark/sim/contact_scenes.hpp"
-#include "fiber_proximity/sim/effects/damping.hpp"
+#include "fiber_proximity/sim/effects.hpp"
 #include "test/sim/trefoil.hpp"
 #include "test/sim/tunnelling.hpp"
 

@@ -1,16 +1,13 @@
 // Rods that are bent by nature, to a side that their cross-sections carry along.
 
-#include "src/sim/natural_curvature.hpp"
-
 #include <gtest/gtest.h>
 
 #include <limits>
 
 #include "benchmark/sim/rod_scene.hpp"
-#include "fiber_proximity/sim/effects/damping.hpp"
-#include "fiber_proximity/sim/effects/plasticity.hpp"
-#include "fiber_proximity/sim/effects/twist.hpp"
+#include "fiber_proximity/sim/effects.hpp"
 #include "src/geometry/smallest_rotation.hpp"
+#include "src/sim/effects/natural_bend.hpp"
 #include "test/sim/effect_derivatives.hpp"
 #include "test/sim/energy_bounds.hpp"
 #include "test/sim/random_rods.hpp"

@@ -1,6 +1,6 @@
 // Rods that begin inside of each other: found as brute force finds them, and moved apart.
 
-#include "fiber_proximity/sim/overlaps.hpp"
+#include "src/sim/overlaps.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <tuple>
 
 #include "benchmark/sim/contact_scenes.hpp"
-#include "src/sim/reach.hpp"
+#include "src/sim/scene/reach.hpp"
 #include "test/sim/random_rods.hpp"
 #include "test/sim/tunnelling.hpp"
 #include "test/support/random.hpp"

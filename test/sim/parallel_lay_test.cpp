@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "benchmark/sim/contact_scenes.hpp"
-#include "fiber_proximity/sim/effects/damping.hpp"
+#include "fiber_proximity/sim/effects.hpp"
 #include "test/sim/random_rods.hpp"
 
 namespace fiber::test {

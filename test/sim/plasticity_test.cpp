@@ -1,10 +1,9 @@
-#include "fiber_proximity/sim/effects/plasticity.hpp"
-
 #include <gtest/gtest.h>
 
 #include <limits>
 
 #include "benchmark/sim/rod_scene.hpp"
+#include "fiber_proximity/sim/effects.hpp"
 #include "test/support/error_of.hpp"
 
 namespace fiber::test {

@@ -9,11 +9,7 @@
 #include <sstream>
 
 #include "benchmark/sim/contact_scenes.hpp"
-#include "fiber_proximity/sim/effects/damping.hpp"
-#include "fiber_proximity/sim/effects/drag.hpp"
-#include "fiber_proximity/sim/effects/inextensible.hpp"
-#include "fiber_proximity/sim/effects/plasticity.hpp"
-#include "fiber_proximity/sim/effects/twist.hpp"
+#include "fiber_proximity/sim/effects.hpp"
 #include "test/sim/energy_bounds.hpp"
 #include "test/sim/random_rods.hpp"
 #include "test/sim/tunnelling.hpp"

@@ -1,6 +1,6 @@
 // What holds may ask of a rod.
 
-#include "src/sim/reach.hpp"
+#include "src/sim/scene/reach.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "benchmark/sim/contact_scenes.hpp"
-#include "fiber_proximity/sim/effects/damping.hpp"
+#include "fiber_proximity/sim/effects.hpp"
 #include "test/sim/contact_system.hpp"
 #include "test/sim/effect_derivatives.hpp"
 #include "test/sim/energy_bounds.hpp"

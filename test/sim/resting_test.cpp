@@ -7,7 +7,7 @@
 
 #include "benchmark/sim/contact_scenes.hpp"
 #include "src/sim/contact/barrier.hpp"
-#include "src/sim/contact/neighbours.hpp"
+#include "src/sim/contact/edge_contact.hpp"
 #include "test/sim/random_rods.hpp"
 #include "test/support/random.hpp"
 

@@ -7,9 +7,7 @@
 #include <limits>
 
 #include "benchmark/sim/rod_scene.hpp"
-#include "fiber_proximity/sim/effects/damping.hpp"
-#include "fiber_proximity/sim/effects/drag.hpp"
-#include "fiber_proximity/sim/effects/twist.hpp"
+#include "fiber_proximity/sim/effects.hpp"
 #include "test/support/error_of.hpp"
 
 namespace fiber::test {

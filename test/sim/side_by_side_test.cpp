@@ -4,11 +4,7 @@
 #include <hwy/targets.h>
 
 #include "benchmark/sim/rod_scene.hpp"
-#include "fiber_proximity/sim/effects/damping.hpp"
-#include "fiber_proximity/sim/effects/drag.hpp"
-#include "fiber_proximity/sim/effects/inextensible.hpp"
-#include "fiber_proximity/sim/effects/plasticity.hpp"
-#include "fiber_proximity/sim/effects/twist.hpp"
+#include "fiber_proximity/sim/effects.hpp"
 #include "test/sim/random_rods.hpp"
 
 namespace fiber::test {

@@ -6,8 +6,8 @@
 #include <ostream>
 
 #include "benchmark/sim/rod_scene.hpp"
-#include "fiber_proximity/sim/effects/twist.hpp"
-#include "src/sim/natural_curvature.hpp"
+#include "fiber_proximity/sim/effects.hpp"
+#include "src/sim/effects/natural_bend.hpp"
 
 namespace fiber::test {
 namespace {

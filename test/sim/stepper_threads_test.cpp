@@ -2,9 +2,7 @@
 #include <tbb/global_control.h>
 
 #include "benchmark/sim/rod_scene.hpp"
-#include "fiber_proximity/sim/effects/damping.hpp"
-#include "fiber_proximity/sim/effects/drag.hpp"
-#include "fiber_proximity/sim/effects/twist.hpp"
+#include "fiber_proximity/sim/effects.hpp"
 #include "src/query/threads.hpp"
 #include "test/sim/random_rods.hpp"
 #include "test/support/error_of.hpp"

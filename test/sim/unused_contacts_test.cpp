@@ -3,10 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "benchmark/sim/contact_scenes.hpp"
-#include "fiber_proximity/sim/effects/damping.hpp"
-#include "fiber_proximity/sim/effects/drag.hpp"
-#include "fiber_proximity/sim/effects/inextensible.hpp"
-#include "fiber_proximity/sim/effects/twist.hpp"
+#include "fiber_proximity/sim/effects.hpp"
 #include "test/sim/random_rods.hpp"
 
 namespace fiber::test {

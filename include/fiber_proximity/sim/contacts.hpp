@@ -3,10 +3,44 @@
 #include <memory>
 #include <vector>
 
-#include "fiber_proximity/sim/effects/friction.hpp"
+#include "fiber_proximity/environment/environment.hpp"
+#include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/sim/rods.hpp"
 
 namespace fiber {
+
+/// Coulomb friction in contacts, as a potential of one step (Li et al. 2020, Sect. 5): with normal
+/// forces and contact planes as they are when the step begins, and smooth about sticking. With the
+/// largest force f and the slip y that the stick speed brings in a step, the force is
+/// f (2 y/e − y²/e²) for slips y below e, and f above.
+class Friction {
+ public:
+  /// The law of Coulomb, smoothed.
+  struct Options {
+    double coefficient = 0.3;    ///< of friction; >= 0
+    double stick_speed = 0.001;  ///< [m/s] what sticks creeps more slowly; > 0
+  };
+
+  /// @throws std::invalid_argument naming the value that is out of its range
+  explicit Friction(const Options& options);
+
+  double coefficient() const { return options_.coefficient; }
+
+  /// @param step [s]
+  /// @returns the slip below which a contact sticks [m]
+  double stick_length(double step) const { return options_.stick_speed * step; }
+
+  /// Of a slip y, per newton of the largest force, with the stick length e; all lengths in [m].
+  struct Law {
+    double energy;      ///< [m]
+    double resistance;  ///< force divided by the slip [1/m]
+    double curvature;   ///< of the energy along the slip, never below 0 [1/m]
+  };
+  static Law law(double slip, double stick_length);
+
+ private:
+  Options options_;
+};
 
 class ContactSet;
 struct Room;
@@ -36,6 +70,89 @@ class Contacts {
  private:
   std::vector<std::unique_ptr<ContactSource>> sources_;
   std::unique_ptr<Friction> friction_;
+};
+
+struct EdgePair;
+
+/// Contacts of rods with themselves, with each other, or both, by the potential of
+/// src/sim/contact/edge_contact.hpp: from 1.05 of the sum of radii between axes on, and never
+/// nearer than 0.95 of it.
+///
+/// Candidates come from run_tree, with a reach that serves for some steps.
+class FiberContact : public ContactSource {
+ public:
+  /// How stiff contacts are, and of which rods.
+  struct Options {
+    Pairing pairing = Pairing::ALL;
+
+    /// Force by distance where surfaces meet [N/m] >= 0; 0 derives it from how the rods resist
+    /// stretch.
+    double stiffness = 0.0;
+  };
+
+  /// @throws std::invalid_argument for a stiffness that is negative or not finite
+  explicit FiberContact(const Options& options);
+  ~FiberContact() override;
+
+  void find(const Rods& rods, const Room& room, ContactSet& found) override;
+
+ private:
+  void find_candidates(const Rods& rods, double reach);
+  void add_near(const Rods& rods, const Room& room, double approach, ContactSet& found);
+  EdgePair candidate(const Rods& rods, const Contact& contact) const;
+
+  Options options_;
+  std::unique_ptr<ProximityEngine> engine_;
+  FiberAssembly fibers_;      // where the rods were when candidates were looked for
+  double reach_ = -1.0;       // [m] surfaces further apart then are no candidates
+  std::vector<double> arcs_;  // along each rod at rest, by node [m]
+  std::vector<EdgePair> candidates_;
+  std::vector<double> candidate_distances_;  // of axes, where they were looked for [m]
+  QueryResult result_;
+};
+
+struct ObstacleShape;
+
+/// Contacts of rods with the objects around them, by the barrier of the distance of axes from
+/// objects: from 1.05 radii on, and never nearer than 0.95 of them.
+///
+/// Nodes have contacts of their own, so that a rod lying flat rests on all of them; an edge has one
+/// where it is nearer than its ends are, weighted by how much nearer
+/// (src/sim/contact/obstacle_contact.hpp). Of meshes and octrees each triangle or cell counts.
+///
+/// How far a step may go rests on the convexity of distances, and for edges that come from farther
+/// away on the certified time of contact with the shape.
+class EnvironmentContact : public ContactSource {
+ public:
+  /// How stiff contacts are, and which are none.
+  struct Options {
+    double stiffness = 0.0;  ///< [N/m] >= 0; 0 derives it from the rod as FiberContact does
+    AllowedPairs allowed;    ///< what may touch, and then is not kept apart; fibres are rods
+  };
+
+  /// @throws std::invalid_argument for a stiffness that is negative or not finite
+  EnvironmentContact(std::shared_ptr<const Environment> environment, const Options& options);
+  ~EnvironmentContact() override;
+
+  /// From the next step on.
+  void set_environment(std::shared_ptr<const Environment> environment);
+
+  void find(const Rods& rods, const Room& room, ContactSet& found) override;
+
+ private:
+  void place_fibers(const Rods& rods);
+  void add(const Rods& rods, const Contact& contact, double within, ContactSet& found) const;
+
+  std::shared_ptr<const Environment> environment_;
+  std::vector<std::vector<ObstacleShape>> shapes_;  // by object
+  Options options_;
+  // The rods with each node twice: segments of even index are nodes, the others edges.
+  FiberAssembly fibers_;
+  AllowedPairs allowed_;        // in segments of these
+  double reach_ = -1.0;         // [m] within which the answer has everything; below 0 for none
+  QueryResult result_;          // for these
+  std::vector<double> needed_;  // by rod: how far what it may touch in a step is at the most [m]
+  std::vector<double> moved_;   // by rod: since the answer [m]
 };
 
 }  // namespace fiber

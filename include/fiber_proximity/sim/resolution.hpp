@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "fiber_proximity/sim/material.hpp"
+#include "fiber_proximity/sim/rods.hpp"
 #include "fiber_proximity/sim/stepper.hpp"
 
 namespace fiber {

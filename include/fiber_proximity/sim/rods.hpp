@@ -2,40 +2,79 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <string>
 #include <vector>
 
-#include "fiber_proximity/sim/material.hpp"
-
 namespace fiber {
+
+/// What a rod is made of.
+struct RodMaterial {
+  double youngs_modulus = 1e7;  ///< E [Pa]
+  double shear_modulus = 4e6;   ///< G [Pa]
+  double density = 1000.0;      ///< [kg/m³]
+
+  /// Of the bending stiffness that a solid rod would have, in (0, 1]: strands that slide along each
+  /// other bend far more easily than they stretch.
+  double bending_share = 1.0;
+};
+
+/// The material of this name: one of material_names(). Orders of magnitude, in want of a
+/// measurement of the cable at hand.
+/// @throws std::invalid_argument listing the names
+RodMaterial material_preset(const std::string& name);
+
+std::vector<std::string> material_names();
+
+/// How the cross-section of a rod resists.
+struct RodSection {
+  double stretching_stiffness = 0.0;  ///< EA [N]
+  double bending_stiffness = 0.0;     ///< EI [N m²], the same about all axes
+  double twisting_stiffness = 0.0;    ///< GJ [N m²]
+  double mass_per_length = 0.0;       ///< ρA [kg/m]
+  double inertia_per_length = 0.0;    ///< ρJ about the tangent [kg m]
+};
+
+/// The section of a solid, round rod.
+/// @param radius [m]
+/// @throws std::invalid_argument naming the value for moduli, density or radius that are not
+///         positive and finite, or a bending share out of its range
+RodSection solid_round_section(const RodMaterial& material, double radius);
+
+/// Where rods are, and how they move.
+struct RodState {
+  std::vector<Eigen::Vector3d> positions;   ///< of nodes [m]
+  std::vector<Eigen::Vector3d> velocities;  ///< [m/s]
+
+  /// With twist only, by edge.
+  std::vector<double> angles;  ///< of the cross-section against the director [rad]
+  std::vector<double> spins;   ///< their rates [rad/s]
+};
 
 /// Rods as a simulation moves them: chains of nodes with masses, straight edges between them.
 ///
 /// Rod r owns the nodes offsets[r] .. offsets[r+1]-1 of all arrays, as in FiberAssembly; an edge
 /// has the index of its first node. Arrays that only one effect needs are empty without that
 /// effect.
-struct Rods {
+struct Rods : RodState {
   std::vector<std::uint32_t> offsets{0};
   std::vector<double> radii;         ///< by rod [m]
   std::vector<RodSection> sections;  ///< by rod
 
-  std::vector<Eigen::Vector3d> positions;   ///< [m]
-  std::vector<Eigen::Vector3d> velocities;  ///< [m/s]
-  std::vector<double> masses;               ///< [kg]
-  std::vector<double> rest_lengths;         ///< of edges, 0 at each rod's last node [m]
+  std::vector<double> masses;        ///< [kg]
+  std::vector<double> rest_lengths;  ///< of edges, 0 at each rod's last node [m]
 
   std::vector<double> natural_curvatures;  ///< of nodes [1/m]; empty: all are 0
 
   /// With twist only, and in place of these if not empty: how the rod bends at rest, along the
   /// material directions of its cross-sections (material curvatures of Bergou et al. 2008, Sect.
-  /// 4.2), of nodes [1/m]. At an end it is against a clamp. natural_curvature.hpp makes them.
+  /// 4.2), of nodes [1/m]. At an end it is against a clamp. set_natural_shape() and
+  /// set_natural_arc() make them.
   std::vector<Eigen::Vector2d> natural_curvature_vectors;
 
   /// With twist only, by edge: a unit vector across the edge that follows it without turning about
   /// it, as it was when the step began, and the tangent then.
   std::vector<Eigen::Vector3d> directors;
   std::vector<Eigen::Vector3d> start_tangents;
-  std::vector<double> angles;  ///< of the cross-section against the director [rad]
-  std::vector<double> spins;   ///< their rates [rad/s]
 
   std::uint32_t count() const { return static_cast<std::uint32_t>(radii.size()); }
   std::uint32_t first(std::uint32_t rod) const { return offsets[rod]; }

@@ -102,7 +102,14 @@ class Stepper {
   double energy();
 
  private:
-  struct History;
+  /// What BDF2 remembers of the rods.
+  struct History {
+    RodState before;      // the last step
+    RodState after;       // it
+    double length = 0.0;  // of that [s]; 0 where there was none
+    RodState begun;       // room for one of now
+    RodState reference;
+  };
 
   void step_by_sdirk2(double length);
   void step_by_bdf2(double length);
@@ -112,7 +119,7 @@ class Stepper {
   StepperOptions options_;
   double time_ = 0.0;
   StepReport report_;
-  std::unique_ptr<History> history_;  // of BDF2
+  History history_;
   std::unique_ptr<Contacts> contacts_;
   std::unique_ptr<StageSolver> solver_;
 };

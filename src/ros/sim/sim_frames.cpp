@@ -5,7 +5,7 @@
 
 #include <stdexcept>
 
-#include "src/sim/scene/lead.hpp"
+#include "src/sim/scene/reach.hpp"
 #include "src/text/quote.hpp"
 
 namespace fiber_proximity_ros {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "src/ros/inputs/fixed_frame.hpp"
-#include "src/sim/scene/lead.hpp"
+#include "src/sim/scene/reach.hpp"
 
 namespace fiber_proximity_ros {
 

@@ -10,10 +10,10 @@
 
 #include "fiber_proximity/ObstacleArray.h"
 #include "fiber_proximity/ros/conversions.hpp"
-#include "fiber_proximity/sim/scene/report.hpp"
 #include "src/ros/environment/environment_options.hpp"
 #include "src/ros/environment/obstacle_change.hpp"
 #include "src/ros/support/parameters.hpp"
+#include "src/sim/scene/report.hpp"
 #include "src/text/join.hpp"
 
 namespace fiber_proximity_ros {

@@ -22,7 +22,7 @@
 #include "src/ros/sim/sim_frames.hpp"
 #include "src/ros/sim/sim_markers.hpp"
 #include "src/ros/support/fair_mutex.hpp"
-#include "src/sim/scene/warnings.hpp"
+#include "src/sim/scene/report.hpp"
 
 namespace fiber_proximity_ros {
 

@@ -8,7 +8,7 @@
 
 #include "fiber_proximity/ros/conversions.hpp"
 #include "src/ros/sim/sim_server.hpp"
-#include "src/sim/scene/lead.hpp"
+#include "src/sim/scene/reach.hpp"
 #include "src/text/quote.hpp"
 
 namespace fiber_proximity_ros {

@@ -1,30 +1,37 @@
+
+#include "src/sim/contact/contact_set.hpp"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
-
-#include "src/sim/contact/contact_set-inl.hpp"
 
 namespace fiber {
 
 using Eigen::Matrix3d;
-using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 namespace {
 
-/// Adds one side of a term to the rod it is on.
-/// @param node of the rod, where the edge begins
-void add_side(std::uint32_t node, double parameter, const Vector3d& gradient,
-              const Matrix3d& hessian, RodSystem& system) {
-  const Vector2d weights(1.0 - parameter, parameter);
-  system.add_gradient(node, weights[0] * gradient);
-  system.add_gradient(node + 1, weights[1] * gradient);
-  system.add_hessian(node, weights[0] * weights[0] * hessian);
-  system.add_hessian(node + 1, weights[1] * weights[1] * hessian);
-  system.add_hessian(node + 1, node, weights[0] * weights[1] * hessian);
+Vector3d point_at(const std::vector<Vector3d>& of_nodes, std::uint32_t edge, double parameter) {
+  return (1.0 - parameter) * of_nodes[edge] + parameter * of_nodes[edge + 1];
+}
+
+// Contacts are numbered: those with obstacles, those of pairs, those that have friction. Threads
+// take them in chunks, which do not depend on how many threads there are.
+constexpr std::size_t chunk = 64;
+
+std::size_t chunks_of(std::size_t count) { return (count + chunk - 1) / chunk; }
+
+/// Calls function(chunk, begin, end) in parallel.
+template <class Function>
+void for_each_chunk(std::size_t count, const Function& function) {
+  tbb::parallel_for(std::size_t{0}, chunks_of(count), [&](std::size_t index) {
+    function(index, index * chunk, std::min(count, (index + 1) * chunk));
+  });
 }
 
 }  // namespace
@@ -47,23 +54,28 @@ void ContactSet::append(const ContactSet& other) {
                         other.obstacle_edges.end());
 }
 
-// Contacts are numbered: those with obstacles, those of pairs, those that have friction. Threads
-// take them in chunks, which do not depend on how many threads there are.
-namespace {
-
-constexpr std::size_t chunk = 64;
-
-std::size_t chunks_of(std::size_t count) { return (count + chunk - 1) / chunk; }
-
-/// Calls function(chunk, begin, end) in parallel.
+/// Calls function(points, term, barrier) for what a contact has of the energy.
+/// @param found room for its terms
 template <class Function>
-void for_each_chunk(std::size_t count, const Function& function) {
-  tbb::parallel_for(std::size_t{0}, chunks_of(count), [&](std::size_t index) {
-    function(index, index * chunk, std::min(count, (index + 1) * chunk));
-  });
+void ContactSet::visit(const Rods& rods, std::size_t index, std::vector<DistanceTerm>& found,
+                       const Function& function) const {
+  found.clear();
+  if (index < obstacle_contacts.size()) {
+    const ObstacleContact& contact = obstacle_contacts[index];
+    obstacle_contact(contact, obstacle_distances_[index], &found);
+    for (const DistanceTerm& term : found) {
+      function(PointPair{contact.rod, contact.edge, term.s, contact.piece.object(), no_edge, 0.0},
+               term, contact.barrier);
+    }
+    return;
+  }
+  const EdgePair& pair = pairs[index - obstacle_contacts.size()];
+  edge_contact(pair, rods.positions, distances_[index - obstacle_contacts.size()], &found);
+  for (const DistanceTerm& term : found) {
+    function(PointPair{pair.rod_a, pair.edge_a, term.s, pair.rod_b, pair.edge_b, term.t}, term,
+             pair.barrier);
+  }
 }
-
-}  // namespace
 
 void ContactSet::begin(const Rods& rods, const Friction* friction,
                        const std::vector<Vector3d>& references, double step) {
@@ -163,16 +175,22 @@ void ContactSet::add_energies(const Rods& rods, const std::vector<std::uint32_t>
       energies_[i] = energy_of(rods, i);
     }
   });
-  std::size_t contact = 0;
-  for (const ObstacleContact& of_obstacle : obstacle_contacts) {
-    energies[islands[of_obstacle.rod]].add(energies_[contact++]);
+  for (std::size_t i = 0; i < energies_.size(); ++i) {
+    energies[islands[rods_of(i).first]].add(energies_[i]);
   }
-  for (const EdgePair& pair : pairs) {
-    energies[islands[pair.rod_a]].add(energies_[contact++]);
+}
+
+/// Of a contact; with an obstacle twice the same.
+std::pair<std::uint32_t, std::uint32_t> ContactSet::rods_of(std::size_t contact) const {
+  if (contact < obstacle_contacts.size()) {
+    return {obstacle_contacts[contact].rod, obstacle_contacts[contact].rod};
   }
-  for (const FrictionPoint& point : frictions_) {
-    energies[islands[point.points.rod_a]].add(energies_[contact++]);
+  if (contact < distance_count()) {
+    const EdgePair& pair = pairs[contact - obstacle_contacts.size()];
+    return {pair.rod_a, pair.rod_b};
   }
+  const PointPair& points = frictions_[contact - distance_count()].points;
+  return {points.rod_a, points.edge_b == no_edge ? points.rod_a : points.rod_b};
 }
 
 double ContactSet::stored_energy() const {
@@ -183,17 +201,10 @@ double ContactSet::stored_energy() const {
 double ContactSet::stiffening_energy(const std::vector<double>& before,
                                      const std::vector<double>& after) const {
   double energy = 0.0;
-  std::size_t contact = 0;
-  const auto add = [&](std::uint32_t rod_a, std::uint32_t rod_b) {
-    const double growth =
-        std::max(after[rod_a], after[rod_b]) / std::max(before[rod_a], before[rod_b]);
-    energy += (growth - 1.0) * energies_[contact++];
-  };
-  for (const ObstacleContact& of_obstacle : obstacle_contacts) {
-    add(of_obstacle.rod, of_obstacle.rod);
-  }
-  for (const EdgePair& pair : pairs) {
-    add(pair.rod_a, pair.rod_b);
+  for (std::size_t i = 0; i < distance_count(); ++i) {
+    const auto [a, b] = rods_of(i);
+    const double growth = std::max(after[a], after[b]) / std::max(before[a], before[b]);
+    energy += (growth - 1.0) * energies_[i];
   }
   return energy;
 }
@@ -240,51 +251,55 @@ void ContactSet::find_derivatives(const Rods& rods) {
   });
 }
 
-void ContactSet::add_derivatives(const Rods& rods, const std::vector<RodSystem*>& systems,
-                                 const std::vector<std::uint32_t>& packs,
-                                 std::uint32_t which) const {
-  for (const std::vector<Term>& terms : terms_) {
-    for (const Term& term : terms) {
-      const PointPair& points = term.points;
-      if (packs[points.rod_a] == which) {
-        const std::uint32_t edge = points.edge_a - rods.first(points.rod_a);
-        add_side(edge, points.s, term.gradient, term.hessian, *systems[points.rod_a]);
-        if (term.turning > 0.0) {
-          systems[points.rod_a]->add_edge(edge, Vector3d::Zero(),
-                                          term.turning * term.gradient * term.gradient.transpose());
-        }
-      }
-      if (points.edge_b != no_edge && packs[points.rod_b] == which) {
-        add_side(points.edge_b - rods.first(points.rod_b), points.t, -term.gradient, term.hessian,
-                 *systems[points.rod_b]);
-      }
+void ContactSet::add_forces(const Rods& rods, std::vector<RodForces::ContactForce>& forces) const {
+  using Key = std::array<std::uint32_t, 3>;
+  std::map<Key, std::size_t> places;
+  const auto force_of = [&](const PointPair& points) -> RodForces::ContactForce& {
+    const auto [place, is_new] =
+        places.emplace(Key{points.edge_a, points.rod_b, points.edge_b}, forces.size());
+    if (is_new) {
+      const bool is_obstacle = points.edge_b == no_edge;
+      RodForces::ContactForce& force = forces.emplace_back();
+      force.rod = points.rod_a;
+      force.edge = points.edge_a - rods.first(points.rod_a);
+      force.other_rod = is_obstacle ? RodForces::ContactForce::obstacle : points.rod_b;
+      force.other_edge = is_obstacle ? 0 : points.edge_b - rods.first(points.rod_b);
+      force.object = is_obstacle ? points.rod_b : 0;
+      force.point = force.normal_force = force.friction_force = Vector3d::Zero();
     }
+    return forces[place->second];
+  };
+  std::map<std::size_t, double> weights;
+  const auto press = [&](const PointPair& points, const DistanceTerm& term,
+                         const Barrier& /*barrier*/) {
+    RodForces::ContactForce& force = force_of(points);
+    const Vector3d on_a = point_at(rods.positions, points.edge_a, points.s);
+    Vector3d between = on_a - rods.radii[points.rod_a] * term.normal;
+    if (points.edge_b != no_edge) {
+      const Vector3d on_b = point_at(rods.positions, points.edge_b, points.t);
+      const double share =
+          rods.radii[points.rod_a] / (rods.radii[points.rod_a] + rods.radii[points.rod_b]);
+      between = on_a + share * (on_b - on_a);
+    }
+    force.normal_force -= term.slope * term.normal;
+    force.point += std::abs(term.slope) * between;
+    weights[static_cast<std::size_t>(&force - forces.data())] += std::abs(term.slope);
+  };
+  std::vector<DistanceTerm> room;
+  for (std::size_t i = 0; i < distance_count(); ++i) {
+    visit(rods, i, room, press);
   }
-}
-
-void ContactSet::add_coupling(const std::vector<std::size_t>& places, const double* displacements,
-                              double* product) const {
-  using Stride = Eigen::InnerStride<lane_count>;
-  const auto displacement = [&](std::uint32_t node) {
-    return Eigen::Map<const Vector3d, 0, Stride>(displacements + places[node]);
-  };
-  const auto combine = [&](std::uint32_t edge, double parameter) -> Vector3d {
-    return (1.0 - parameter) * displacement(edge) + parameter * displacement(edge + 1);
-  };
-  const auto spread = [&](std::uint32_t edge, double parameter, const Vector3d& v) {
-    Eigen::Map<Vector3d, 0, Stride>(product + places[edge]) -= (1.0 - parameter) * v;
-    Eigen::Map<Vector3d, 0, Stride>(product + places[edge + 1]) -= parameter * v;
-  };
-  for (const std::vector<Term>& terms : terms_) {
-    for (const Term& term : terms) {
-      const PointPair& points = term.points;
-      if (points.edge_b != no_edge) {
-        const Vector3d from_a = term.hessian * combine(points.edge_a, points.s);
-        const Vector3d from_b = term.hessian * combine(points.edge_b, points.t);
-        spread(points.edge_a, points.s, from_b);
-        spread(points.edge_b, points.t, from_a);
-      }
+  for (const auto& [place, weight] : weights) {
+    forces[place].point /= weight;
+  }
+  for (const FrictionPoint& point : frictions_) {
+    const Vector3d slip = slip_of(rods, point);
+    RodForces::ContactForce& force = force_of(point.points);
+    if (force.point.isZero(0.0)) {
+      force.point = point_at(rods.positions, point.points.edge_a, point.points.s);
     }
+    force.friction_force -=
+        point.most * Friction::law(slip.norm(), stick_length_).resistance * slip;
   }
 }
 

@@ -1,14 +1,15 @@
 #pragma once
 
 #include <array>
+#include <utility>
 #include <vector>
 
-#include "fiber_proximity/sim/effects/friction.hpp"
+#include "fiber_proximity/sim/contacts.hpp"
+#include "fiber_proximity/sim/effect.hpp"
 #include "fiber_proximity/sim/forces.hpp"
-#include "fiber_proximity/sim/pack_system.hpp"
 #include "src/sim/contact/edge_contact.hpp"
 #include "src/sim/contact/obstacle_contact.hpp"
-#include "src/sim/solver/energy_sum.hpp"
+#include "src/sim/solver/line_search.hpp"
 
 namespace fiber {
 
@@ -141,19 +142,11 @@ class ContactSet {
   template <class Function>
   void visit(const Rods& rods, std::size_t index, std::vector<DistanceTerm>& found,
              const Function& function) const;
-
-  template <class Function>
-  void visit_obstacle(std::size_t index, std::vector<DistanceTerm>& found,
-                      const Function& function) const;
-  template <class Function>
-  void visit_pair(const Rods& rods, std::size_t index, std::vector<DistanceTerm>& found,
-                  const Function& function) const;
-  template <class Function>
-  void for_each_distance(const Rods& rods, const Function& function) const;
   Eigen::Vector3d slip_of(const Rods& rods, const FrictionPoint& point) const;
   double energy_of(const Rods& rods, std::size_t contact) const;
   void find_terms(const Rods& rods, std::size_t contact, std::vector<DistanceTerm>& found,
                   std::vector<Term>& terms) const;
+  std::pair<std::uint32_t, std::uint32_t> rods_of(std::size_t contact) const;
   std::size_t distance_count() const { return obstacle_contacts.size() + pairs.size(); }
   std::size_t contact_count() const { return distance_count() + frictions_.size(); }
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "src/sim/contact/weighted_barrier.hpp"
-
 namespace fiber {
 
 using Eigen::Vector3d;

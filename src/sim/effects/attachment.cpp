@@ -1,4 +1,4 @@
-#include "fiber_proximity/sim/effects/attachment.hpp"
+#include "fiber_proximity/sim/attachment.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,6 @@
 #include <string>
 
 #include "fiber_proximity/sim/forces.hpp"
-#include "src/sim/effects/clamped_end.hpp"
 #include "src/sim/effects/natural_bend.hpp"
 
 namespace fiber {
@@ -58,9 +57,124 @@ void validate(const Rods& rods, const Attachment::Hold& hold, const Placement& p
   }
 }
 
-CrossSection section_of(const Placement& placement) {
-  return {placement.tangent, placement.director, 0.0};
+/// With twist: from a clamp to the cross-section of the edge that it holds [rad], by whole turns
+/// near another.
+double twist_of(const Placement& clamp, const Vector3d& tangent, const Vector3d& director,
+                double angle, double near) {
+  const Vector3d carried = transport(clamp.director, clamp.tangent, tangent);
+  return nearest_turn(angle + signed_angle(carried, director, tangent), near);
 }
+
+std::uint32_t clamped_edge(std::uint32_t node) { return node == 0 ? 0 : node - 1; }
+
+double twist_of(const Rods& rods, const Attachment::Hold& hold, const Placement& clamp,
+                double near) {
+  const std::uint32_t edge = rods.first(hold.rod) + clamped_edge(hold.node);
+  return twist_of(clamp, edge_direction(rods, edge).tangent, current_director(rods, edge),
+                  rods.angles[edge], near);
+}
+
+/// The end of a rod that a clamp holds: how the edge there is bent against the clamp, and with
+/// twist how its cross-section is turned, over half an edge's length of rod.
+class ClampedEnd {
+ public:
+  /// @param placement    must outlive this
+  /// @param near         by whole turns near which the twist is [rad]
+  /// @param natural_bend with a direction; none: the rod is straight at rest
+  ClampedEnd(const PackLane& rod, std::uint32_t node, const Placement& placement, double near,
+             const std::optional<Eigen::Vector2d>& natural_bend)
+      : placement_(placement),
+        rod_(rod),
+        node_(node),
+        edge_(clamped_edge(node)),
+        direction_(rod.direction(edge_)),
+        bending_(rod.bending_stiffness() / (0.5 * rod.rest_length(edge_))),
+        twisting_(rod.twisting_stiffness() / (0.5 * rod.rest_length(edge_))) {
+    if (rod.has_twist()) {
+      twist_ = twist_of(placement, direction_.tangent, rod.director(edge_), rod.angle(edge_), near);
+    }
+    if (natural_bend) {
+      bend_.emplace(NaturalBend::at_clamp(rod, node, *natural_bend,
+                                          {placement.tangent, placement.director, 0.0}));
+    }
+  }
+
+  /// [J]
+  void add_energy(double& energy) const {
+    const double bending = bend_ ? 0.0 : 0.5 * bending_ * bend().squaredNorm();
+    energy += rod_.has_twist() ? bending + 0.5 * twisting_ * twist_ * twist_ : bending;
+    if (bend_) {
+      energy += bend_->energy();
+    }
+  }
+
+  void add_derivatives(RodSystem& system) const {
+    if (!bend_) {
+      add_bending(system);
+    }
+    if (rod_.has_twist()) {
+      add_twisting(system);
+    }
+    if (bend_) {
+      bend_->add_derivatives(system);
+    }
+  }
+
+  /// With which the clamp turns the end of the rod [N m].
+  Vector3d moment() const {
+    Vector3d moment = Vector3d::Zero();
+    if (!bend_) {
+      moment += bending_ * direction_.tangent.cross(placement_.tangent);
+    }
+    if (rod_.has_twist()) {
+      moment -= twisting_ * twist_ * direction_.tangent;
+    }
+    if (bend_) {
+      moment += node_ == 0 ? Vector3d(-bend_->moment()) : bend_->moment();
+    }
+    return moment;
+  }
+
+ private:
+  Vector3d bend() const { return direction_.tangent - placement_.tangent; }
+
+  void add_bending(RodSystem& system) const {
+    const Vector3d& tangent = direction_.tangent;
+    const Eigen::Matrix3d across =
+        (Eigen::Matrix3d::Identity() - tangent * tangent.transpose()) / direction_.length;
+    const Vector3d gradient = bending_ * (across * bend());
+    const Eigen::Matrix3d block = bending_ / direction_.length * across;
+    system.add_edge(edge_, gradient, block);
+  }
+
+  void add_twisting(RodSystem& system) const {
+    // The derivative of the twist by the edge's second node; by the first it is minus this.
+    const Vector3d derivative =
+        director_turn(rod_.start_tangent(edge_), direction_) +
+        curvature_binormal(placement_.tangent, direction_.tangent) / (2.0 * direction_.length);
+    system.add_gradient(edge_, -twisting_ * twist_ * derivative);
+    system.add_gradient(edge_ + 1, twisting_ * twist_ * derivative);
+    system.add_angle_gradient(edge_, twisting_ * twist_);
+    Eigen::Matrix<double, 7, 1> by_all;
+    by_all << -derivative, 1.0, derivative;
+    const std::size_t start = std::size_t{edge_} * system.unknowns();
+    for (Eigen::Index c = 0; c < by_all.size(); ++c) {
+      for (Eigen::Index r = c; r < by_all.size(); ++r) {
+        system.add_hessian_entry(start + r, start + c, twisting_ * by_all[r] * by_all[c]);
+      }
+    }
+  }
+
+  const Placement& placement_;
+  PackLane rod_;
+  std::uint32_t node_;
+  std::uint32_t edge_;  // from the rod's first one
+  EdgeDirection direction_;
+  double bending_;      // stiffness [J]
+  double twisting_;     // the same
+  double twist_ = 0.0;  // [rad]
+  std::optional<NaturalBend> bend_;
+};
 
 }  // namespace
 
@@ -87,7 +201,7 @@ std::uint32_t Attachment::add(const Rods& rods, const Hold& hold) {
     held.max_force = default_strain * rods.sections[hold.rod].stretching_stiffness;
   }
   if (held.is_clamp() && !rods.directors.empty()) {
-    held.twist = ClampedEnd(rods, hold, held.placement).twist(0.0);
+    held.twist = twist_of(rods, hold, held.placement, 0.0);
   }
   held_.insert(place, held);
   return next_id_++;
@@ -149,8 +263,8 @@ void Attachment::begin_step(Rods& rods, const TimeStep& step) {
     const double of_edge =
         rods.sections[held.hold.rod].stretching_stiffness / rods.rest_lengths[edge];
     held.stiffness = ratio * (of_edge + rods.masses[node] / (step.length * step.length));
-    held.has_natural_bend = held.is_clamp() && !rods.natural_curvature_vectors.empty();
-    if (held.has_natural_bend) {
+    held.natural_bend.reset();
+    if (held.is_clamp() && !rods.natural_curvature_vectors.empty()) {
       held.natural_bend = rods.natural_curvature_vectors[node];
     }
   }
@@ -167,36 +281,30 @@ void Attachment::for_each_held(const RodPack& rods, const Visit& visit) const {
   for (std::size_t lane = 0; lane < rods.used; ++lane) {
     const std::uint32_t rod = rods.rods[lane];
     for (auto held = first_of(rod); held != held_.end() && held->hold.rod == rod; ++held) {
-      visit(*held, lane);
+      visit(*held, PackLane(rods, lane));
     }
   }
 }
 
-void Attachment::energy(const RodPack& rods, const std::vector<SimdBatch>& /*values*/,
+void Attachment::energy(const RodPack& rods, const NodeValues& /*values*/,
                         SimdBatch& energy) const {
   energy = SimdBatch{};
-  for_each_held(rods, [&](const Held& held, std::size_t lane) {
-    const PackLane rod(rods, lane);
+  for_each_held(rods, [&](const Held& held, const PackLane& rod) {
     const std::uint32_t node = held.hold.node;
     const double distance = (held.placement.position - rod.position(node)).norm();
     const double within = std::min(distance, held.max_force / held.stiffness);
-    energy[lane] += held.stiffness * within * (distance - 0.5 * within);
+    energy[rod.lane()] += held.stiffness * within * (distance - 0.5 * within);
     if (held.is_clamp()) {
-      energy[lane] +=
-          ClampedEnd(rod, node, held.placement).energy(held.twist, !held.has_natural_bend);
-    }
-    if (held.has_natural_bend) {
-      energy[lane] +=
-          NaturalBend::at_clamp(rod, node, held.natural_bend, section_of(held.placement)).energy();
+      ClampedEnd(rod, node, held.placement, held.twist, held.natural_bend)
+          .add_energy(energy[rod.lane()]);
     }
   });
 }
 
-void Attachment::add_derivatives(const RodPack& rods, const std::vector<SimdBatch>& /*values*/,
+void Attachment::add_derivatives(const RodPack& rods, const NodeValues& /*values*/,
                                  PackSystem& system) const {
-  for_each_held(rods, [&](const Held& held, std::size_t lane) {
-    const PackLane rod(rods, lane);
-    RodSystem of_rod(system, lane);
+  for_each_held(rods, [&](const Held& held, const PackLane& rod) {
+    RodSystem of_rod(system, rod.lane());
     const std::uint32_t node = held.hold.node;
     const Vector3d pull = held.pull_at(rod.position(node));
     const double distance = (held.placement.position - rod.position(node)).norm();
@@ -206,12 +314,7 @@ void Attachment::add_derivatives(const RodPack& rods, const std::vector<SimdBatc
     of_rod.add_gradient(node, -pull);
     of_rod.add_hessian(node, stiffness * Eigen::Matrix3d::Identity());
     if (held.is_clamp()) {
-      ClampedEnd(rod, node, held.placement)
-          .add_derivatives(held.twist, !held.has_natural_bend, of_rod);
-    }
-    if (held.has_natural_bend) {
-      NaturalBend::at_clamp(rod, node, held.natural_bend, section_of(held.placement))
-          .add_derivatives(of_rod);
+      ClampedEnd(rod, node, held.placement, held.twist, held.natural_bend).add_derivatives(of_rod);
     }
   });
 }
@@ -219,26 +322,20 @@ void Attachment::add_derivatives(const RodPack& rods, const std::vector<SimdBatc
 void Attachment::end_step(Rods& rods, const TimeStep& /*step*/) {
   for (Held& held : held_) {
     if (held.is_clamp() && !rods.directors.empty()) {
-      held.twist = ClampedEnd(rods, held.hold, held.placement).twist(held.twist);
+      held.twist = twist_of(rods, held.hold, held.placement, held.twist);
     }
   }
 }
 
-void Attachment::add_forces(const RodPack& rods, const std::vector<SimdBatch>& /*values*/,
+void Attachment::add_forces(const RodPack& rods, const NodeValues& /*values*/,
                             RodForces& forces) const {
-  for_each_held(rods, [&](const Held& held, std::size_t lane) {
-    const PackLane rod(rods, lane);
+  for_each_held(rods, [&](const Held& held, const PackLane& rod) {
     const std::uint32_t node = held.hold.node;
     const Vector3d point = rod.position(node);
-    Vector3d moment = Vector3d::Zero();
-    if (held.is_clamp()) {
-      moment = ClampedEnd(rod, node, held.placement).moment(held.twist, !held.has_natural_bend);
-    }
-    if (held.has_natural_bend) {
-      const Vector3d of_bend =
-          NaturalBend::at_clamp(rod, node, held.natural_bend, section_of(held.placement)).moment();
-      moment += node == 0 ? Vector3d(-of_bend) : of_bend;
-    }
+    const Vector3d moment =
+        held.is_clamp()
+            ? ClampedEnd(rod, node, held.placement, held.twist, held.natural_bend).moment()
+            : Vector3d(Vector3d::Zero());
     forces.holds.push_back({held.id, held.hold.rod, node, point, held.pull_at(point), moment,
                             (held.placement.position - point).norm(), held.max_force});
   });

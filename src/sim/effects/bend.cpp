@@ -1,27 +1,26 @@
 // Compiled once per instruction set; Highway chooses among them at run time.
-#include "fiber_proximity/sim/effects/bend.hpp"
-
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
-#include "fiber_proximity/sim/edge_turn.hpp"
+#include "fiber_proximity/sim/effects.hpp"
 #include "fiber_proximity/sim/forces.hpp"
 #include "src/sim/effects/natural_bend.hpp"
+#include "src/sim/require.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "src/sim/effects/bend.cpp"
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
-#include "src/sim/edge_turn-inl.hpp"
+#include "src/sim/simd-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace fiber {
 namespace HWY_NAMESPACE {
 namespace {
 
-void energy(const RodPack& rods, SimdBatch& energy) {
+void energy(const RodPack& rods, const NodeValues& /*values*/, const double* /*constants*/,
+            SimdBatch& energy) {
   for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
     Real sum = real(0.0);
     Vector before = tangent_at(rods, 0, lane);
@@ -49,7 +48,8 @@ void add_derivatives_of(const RodPack& rods, PackSystem& system) {
   }
 }
 
-void add_derivatives(const RodPack& rods, PackSystem& system) {
+void add_derivatives(const RodPack& rods, const NodeValues& /*values*/, const double* /*constants*/,
+                     PackSystem& system) {
   with_unknowns(system, [&](auto u) { add_derivatives_of<u>(rods, system); });
 }
 
@@ -68,7 +68,8 @@ HWY_INLINE CurvedTurn curved_turn(const TwoEdges& edges, const SimdBatch& natura
   return {turn, size, size - load(natural, lane)};
 }
 
-void curved_energy(const RodPack& rods, const std::vector<SimdBatch>& natural, SimdBatch& energy) {
+void curved_energy(const RodPack& rods, const NodeValues& natural, const double* /*constants*/,
+                   SimdBatch& energy) {
   for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
     Real sum = real(0.0);
     for (std::size_t i = 1; i + 1 < rods.node_count; ++i) {
@@ -104,8 +105,7 @@ HWY_INLINE Vector direction_of(const CurvedTurn& turn, const Vector& tangent) {
 }
 
 template <std::size_t U>
-void add_curved_derivatives_of(const RodPack& rods, const std::vector<SimdBatch>& natural,
-                               PackSystem& system) {
+void add_curved_derivatives_of(const RodPack& rods, const NodeValues& natural, PackSystem& system) {
   const Real zero = real(0.0);
   const Real one = real(1.0);
   for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
@@ -129,8 +129,8 @@ void add_curved_derivatives_of(const RodPack& rods, const std::vector<SimdBatch>
   }
 }
 
-void add_curved_derivatives(const RodPack& rods, const std::vector<SimdBatch>& natural,
-                            PackSystem& system) {
+void add_curved_derivatives(const RodPack& rods, const NodeValues& natural,
+                            const double* /*constants*/, PackSystem& system) {
   with_unknowns(system, [&](auto u) { add_curved_derivatives_of<u>(rods, natural, system); });
 }
 
@@ -161,17 +161,35 @@ double natural_turn(const Rods& rods, std::uint32_t node) {
 }
 
 /// Bending with a direction is rare: one rod after the other.
+/// @param function takes lane, node and bend
 template <class Function>
-void for_each_natural_bend(const RodPack& rods, const std::vector<SimdBatch>& values,
+void for_each_natural_bend(const RodPack& rods, const NodeValues& values,
                            const Function& function) {
   for (std::size_t lane = 0; lane < rods.used; ++lane) {
     for (std::uint32_t node = 1; node + 1 < rods.node_count; ++node) {
       const Eigen::Vector2d curvature(values[std::size_t{2} * node][lane],
                                       values[std::size_t{2} * node + 1][lane]);
-      const PackLane rod(rods, lane);
-      function(rod, node, NaturalBend::at_node(rod, node, curvature));
+      function(lane, node, NaturalBend::at_node(PackLane(rods, lane), node, curvature));
     }
   }
+}
+
+void natural_energy(const RodPack& rods, const NodeValues& values, const double* /*constants*/,
+                    SimdBatch& energy) {
+  energy = SimdBatch{};
+  for_each_natural_bend(rods, values,
+                        [&](std::size_t lane, std::uint32_t /*node*/, const NaturalBend& bend) {
+                          energy[lane] += bend.energy();
+                        });
+}
+
+void add_natural_derivatives(const RodPack& rods, const NodeValues& values,
+                             const double* /*constants*/, PackSystem& system) {
+  for_each_natural_bend(rods, values,
+                        [&](std::size_t lane, std::uint32_t /*node*/, const NaturalBend& bend) {
+                          RodSystem of_rod(system, lane);
+                          bend.add_derivatives(of_rod);
+                        });
 }
 
 }  // namespace
@@ -186,64 +204,70 @@ void Bend::begin_step(Rods& rods, const TimeStep& /*step*/) {
   }
 }
 
-std::uint32_t Bend::values_per_node() const {
-  return !natural_curvatures_.empty() ? 2 : natural_turns_.empty() ? 0 : 1;
-}
-
-const double* Bend::values_of(std::uint32_t node) const {
-  return natural_curvatures_.empty() ? &natural_turns_[node] : natural_curvatures_[node].data();
-}
-
-void Bend::energy(const RodPack& rods, const std::vector<SimdBatch>& values,
-                  SimdBatch& energy) const {
+NodeNumbers Bend::numbers() const {
   if (!natural_curvatures_.empty()) {
-    energy = SimdBatch{};
-    for_each_natural_bend(
-        rods, values, [&](const PackLane& rod, std::uint32_t /*node*/, const NaturalBend& bend) {
-          energy[rod.lane()] += bend.energy();
-        });
-  } else if (natural_turns_.empty()) {
-    HWY_DYNAMIC_DISPATCH(energy)(rods, energy);
-  } else {
-    HWY_DYNAMIC_DISPATCH(curved_energy)(rods, values, energy);
+    return {natural_curvatures_.front().data(), 2};
   }
+  return {natural_turns_.data(), natural_turns_.empty() ? 0U : 1U};
 }
 
-void Bend::add_derivatives(const RodPack& rods, const std::vector<SimdBatch>& values,
-                           PackSystem& system) const {
+LaneEffect::Kernels Bend::kernels() const {
   if (!natural_curvatures_.empty()) {
-    for_each_natural_bend(
-        rods, values, [&](const PackLane& rod, std::uint32_t /*node*/, const NaturalBend& bend) {
-          RodSystem of_rod(system, rod.lane());
-          bend.add_derivatives(of_rod);
-        });
-  } else if (natural_turns_.empty()) {
-    HWY_DYNAMIC_DISPATCH(add_derivatives)(rods, system);
-  } else {
-    HWY_DYNAMIC_DISPATCH(add_curved_derivatives)(rods, values, system);
+    return {&natural_energy, &add_natural_derivatives};
   }
+  if (natural_turns_.empty()) {
+    return {&HWY_DYNAMIC_DISPATCH(energy), &HWY_DYNAMIC_DISPATCH(add_derivatives)};
+  }
+  return {&HWY_DYNAMIC_DISPATCH(curved_energy), &HWY_DYNAMIC_DISPATCH(add_curved_derivatives)};
 }
 
-void Bend::add_forces(const RodPack& rods, const std::vector<SimdBatch>& values,
-                      RodForces& forces) const {
+void Bend::add_forces(const RodPack& rods, const NodeValues& values, RodForces& forces) const {
   if (!natural_curvatures_.empty()) {
-    for_each_natural_bend(
-        rods, values, [&](const PackLane& rod, std::uint32_t node, const NaturalBend& bend) {
-          forces.bending_moments[rods.first_nodes[rod.lane()] + node] += bend.moment();
-        });
+    for_each_natural_bend(rods, values,
+                          [&](std::size_t lane, std::uint32_t node, const NaturalBend& bend) {
+                            forces.bending_moments[rods.first_nodes[lane] + node] += bend.moment();
+                          });
     return;
   }
   for_each_edge(rods, [&](const PackLane& rod, std::uint32_t edge, std::uint32_t index) {
     if (edge > 0) {
-      const EdgeTurn pair(rod.direction(edge - 1), rod.direction(edge));
+      const Vector3d before = rod.direction(edge - 1).tangent;
+      const Vector3d after = rod.direction(edge).tangent;
       const double natural = natural_turns_.empty() ? 0.0 : natural_turns_[index];
-      const double turn = pair.turn().norm();
+      const double turn = (after - before).norm();
       const double length = 0.5 * (rod.rest_length(edge - 1) + rod.rest_length(edge));
-      const Vector3d about = pair.before().tangent.cross(pair.after().tangent);
       const double share = turn > 0.0 ? 1.0 - natural / turn : 0.0;
-      forces.bending_moments[index] += rod.bending_stiffness() / length * share * about;
+      forces.bending_moments[index] +=
+          rod.bending_stiffness() / length * share * before.cross(after);
     }
   });
+}
+
+Plasticity::Plasticity(Rods& rods, const Options& options) : options_(options) {
+  require_positive("plasticity: the yield strain", options.yield_strain);
+  require(options.hardening >= 0.0 && options.hardening < 1.0, "plasticity: the hardening",
+          options.hardening, "", "at least 0 and less than 1");
+  if (!rods.natural_curvature_vectors.empty()) {
+    throw std::invalid_argument(
+        "plasticity: what stays has no direction, natural curvature must have none, too");
+  }
+  rods.natural_curvatures.resize(rods.positions.size(), 0.0);
+}
+
+void Plasticity::end_step(Rods& rods, const TimeStep& /*step*/) {
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    const double yield = options_.yield_strain / rods.radii[rod];
+    for (std::uint32_t i = rods.first(rod) + 1; i + 1 < rods.end(rod); ++i) {
+      const Vector3d turn = edge_direction(rods, i).tangent - edge_direction(rods, i - 1).tangent;
+      const double half_turn = std::min(1.0, 0.5 * turn.norm());
+      const double curvature = 2.0 * std::asin(half_turn) / rods.rest_length_at(i);
+      const double elastic = curvature - rods.natural_curvatures[i];
+      const double excess = std::abs(elastic) - yield;
+      if (excess > 0.0) {
+        rods.natural_curvatures[i] += std::copysign((1.0 - options_.hardening) * excess, elastic);
+      }
+    }
+  }
 }
 
 }  // namespace fiber

@@ -1,9 +1,7 @@
 // Compiled once per instruction set; Highway chooses among them at run time.
-#include "fiber_proximity/sim/effects/damping.hpp"
-
-#include "fiber_proximity/sim/edge_turn.hpp"
+#include "fiber_proximity/sim/effects.hpp"
 #include "fiber_proximity/sim/forces.hpp"
-#include "src/sim/pack_lane.hpp"
+#include "src/sim/edges.hpp"
 #include "src/sim/require.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -13,8 +11,7 @@
 
 #include <limits>
 
-#include "src/sim/edge_turn-inl.hpp"
-#include "src/sim/frames-inl.hpp"
+#include "src/sim/simd-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace fiber {
@@ -22,8 +19,8 @@ namespace HWY_NAMESPACE {
 namespace {
 
 /// How much longer an edge is than when the step began.
-HWY_INLINE Real lengthening(const RodPack& rods, const std::vector<SimdBatch>& starts,
-                            std::size_t edge, std::size_t lane) {
+HWY_INLINE Real lengthening(const RodPack& rods, const NodeValues& starts, std::size_t edge,
+                            std::size_t lane) {
   return load(rods.lengths[edge], lane) - load(starts[7 * edge + 6], lane);
 }
 
@@ -39,8 +36,8 @@ struct TurnChange {
 };
 
 /// @param total stiffness of the rod against bending, and this much of it resists the change
-HWY_INLINE TurnChange turn_change(const RodPack& rods, const std::vector<SimdBatch>& starts,
-                                  Real total, std::size_t node, std::size_t lane) {
+HWY_INLINE TurnChange turn_change(const RodPack& rods, const NodeValues& starts, Real total,
+                                  std::size_t node, std::size_t lane) {
   const SimdBatch* const start = &starts[7 * node];
   const Real least = real(std::numeric_limits<double>::min());
   TurnChange result;
@@ -68,8 +65,7 @@ HWY_INLINE Vector by_middle(const TurnChange& turn) {
   return factor * curvature_binormal(turn.old_middle, turn.middle);
 }
 
-void energy(const RodPack& rods, const std::vector<SimdBatch>& starts, double share,
-            SimdBatch& energy) {
+void energy(const RodPack& rods, const NodeValues& starts, const double* share, SimdBatch& energy) {
   const Real one = real(1.0);
   for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
     Real stretch = real(0.0);
@@ -84,12 +80,12 @@ void energy(const RodPack& rods, const std::vector<SimdBatch>& starts, double sh
     }
     const Real sum =
         load(rods.stretching_stiffness, lane) * stretch + load(rods.bending_stiffness, lane) * bend;
-    store(real(0.5 * share) * sum, energy, lane);
+    store(real(0.5 * *share) * sum, energy, lane);
   }
 }
 
 template <std::size_t U>
-void add_derivatives_of(const RodPack& rods, const std::vector<SimdBatch>& starts, double share,
+void add_derivatives_of(const RodPack& rods, const NodeValues& starts, double share,
                         PackSystem& system) {
   const Real zero = real(0.0);
   for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
@@ -111,9 +107,9 @@ void add_derivatives_of(const RodPack& rods, const std::vector<SimdBatch>& start
   }
 }
 
-void add_derivatives(const RodPack& rods, const std::vector<SimdBatch>& starts, double share,
+void add_derivatives(const RodPack& rods, const NodeValues& starts, const double* share,
                      PackSystem& system) {
-  with_unknowns(system, [&](auto u) { add_derivatives_of<u>(rods, starts, share, system); });
+  with_unknowns(system, [&](auto u) { add_derivatives_of<u>(rods, starts, *share, system); });
 }
 
 }  // namespace
@@ -138,40 +134,29 @@ Damping::Damping(double relaxation_time) : relaxation_time_(relaxation_time) {
 constexpr double least_middle = 1e-3;
 
 void Damping::begin_step(Rods& rods, const TimeStep& step) {
+  static_assert(sizeof(Start) == 7 * sizeof(double), "as numbers() has them");
   share_ = relaxation_time_ / step.length;
   starts_.resize(rods.positions.size());
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
     EdgeDirection before = edge_direction(rods, rods.first(rod));
     starts_[rods.first(rod)].length = before.length;
     for (std::uint32_t i = rods.first(rod) + 1; i + 1 < rods.end(rod); ++i) {
-      const EdgeTurn pair(before, edge_direction(rods, i));
-      const EdgeDirection middle = direction_of(pair.before().tangent + pair.after().tangent);
-      starts_[i].length = pair.after().length;
-      starts_[i].turn = pair.turn();
+      const EdgeDirection after = edge_direction(rods, i);
+      const EdgeDirection middle = direction_of(before.tangent + after.tangent);
+      starts_[i].length = after.length;
+      starts_[i].turn = after.tangent - before.tangent;
       starts_[i].middle =
           middle.length > least_middle ? middle.tangent : Vector3d(Vector3d::Zero());
-      before = pair.after();
+      before = after;
     }
   }
 }
 
-const double* Damping::values_of(std::uint32_t node) const {
-  static_assert(sizeof(Start) == 7 * sizeof(double));
-  return starts_[node].turn.data();
+LaneEffect::Kernels Damping::kernels() const {
+  return {&HWY_DYNAMIC_DISPATCH(energy), &HWY_DYNAMIC_DISPATCH(add_derivatives), &share_};
 }
 
-void Damping::energy(const RodPack& rods, const std::vector<SimdBatch>& values,
-                     SimdBatch& energy) const {
-  HWY_DYNAMIC_DISPATCH(energy)(rods, values, share_, energy);
-}
-
-void Damping::add_derivatives(const RodPack& rods, const std::vector<SimdBatch>& values,
-                              PackSystem& system) const {
-  HWY_DYNAMIC_DISPATCH(add_derivatives)(rods, values, share_, system);
-}
-
-void Damping::add_forces(const RodPack& rods, const std::vector<SimdBatch>& values,
-                         RodForces& forces) const {
+void Damping::add_forces(const RodPack& rods, const NodeValues& values, RodForces& forces) const {
   for_each_edge(rods, [&](const PackLane& rod, std::uint32_t edge, std::uint32_t index) {
     const EdgeDirection after = rod.direction(edge);
     const SimdBatch* const start = &values[std::size_t{7} * edge];

@@ -1,22 +1,18 @@
 // Compiled once per instruction set; Highway chooses among them at run time.
-#include "fiber_proximity/sim/effects/twist.hpp"
-
-#include <Eigen/Geometry>
 #include <cassert>
-#include <cmath>
 #include <stdexcept>
 #include <string>
 
-#include "fiber_proximity/sim/edge_turn.hpp"
+#include "fiber_proximity/sim/effects.hpp"
 #include "fiber_proximity/sim/forces.hpp"
-#include "src/sim/pack_lane.hpp"
+#include "src/sim/edges.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "src/sim/effects/twist.cpp"
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
-#include "src/sim/frames-inl.hpp"
+#include "src/sim/simd-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace fiber {
@@ -26,13 +22,14 @@ namespace {
 constexpr std::size_t unknowns = 4;
 
 /// @param references what Twist keeps of the nodes
-HWY_INLINE Real twist_at(const RodPack& rods, const std::vector<SimdBatch>& references,
-                         std::size_t node, std::size_t lane) {
+HWY_INLINE Real twist_at(const RodPack& rods, const NodeValues& references, std::size_t node,
+                         std::size_t lane) {
   return angle_at(rods, node, lane) - angle_at(rods, node - 1, lane) +
          nearest_turn(load(rods.director_twists[node], lane), load(references[node], lane));
 }
 
-void energy(const RodPack& rods, const std::vector<SimdBatch>& references, SimdBatch& energy) {
+void energy(const RodPack& rods, const NodeValues& references, const double* /*constants*/,
+            SimdBatch& energy) {
   for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
     Real sum = real(0.0);
     for (std::size_t i = 1; i + 1 < rods.node_count; ++i) {
@@ -68,7 +65,7 @@ HWY_INLINE TwistDerivative derivative_at(const RodPack& rods, std::size_t node, 
   return derivative;
 }
 
-void add_derivatives(const RodPack& rods, const std::vector<SimdBatch>& references,
+void add_derivatives(const RodPack& rods, const NodeValues& references, const double* /*constants*/,
                      PackSystem& system) {
   assert(system.unknowns == unknowns);
   for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
@@ -115,30 +112,6 @@ void validate(const RodSection& section, std::uint32_t rod) {
 
 }  // namespace
 
-Vector3d current_director(const Rods& rods, std::uint32_t edge) {
-  return transport(rods.directors[edge], rods.start_tangents[edge],
-                   edge_direction(rods, edge).tangent);
-}
-
-double signed_angle(const Vector3d& from, const Vector3d& to, const Vector3d& about) {
-  return std::atan2(about.dot(from.cross(to)), from.dot(to));
-}
-
-double nearest_turn(double angle, double to) {
-  const double turn = 2.0 * M_PI;
-  return angle - turn * std::round((angle - to) / turn);
-}
-
-Vector3d curvature_binormal(const Vector3d& tangent_before, const Vector3d& tangent_after) {
-  constexpr double folded = 1e-3;
-  return 2.0 * tangent_before.cross(tangent_after) /
-         std::max(folded, 1.0 + tangent_before.dot(tangent_after));
-}
-
-Vector3d director_turn(const Vector3d& start_tangent, const EdgeDirection& edge) {
-  return curvature_binormal(start_tangent, edge.tangent) / (-2.0 * edge.length);
-}
-
 Twist::Twist(Rods& rods) : reference_twists_(rods.positions.size()) {
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
     validate(rods.sections[rod], rod);
@@ -158,27 +131,11 @@ Twist::Twist(Rods& rods) : reference_twists_(rods.positions.size()) {
   }
 }
 
-double Twist::twist_at(const Rods& rods, std::uint32_t node) const {
-  const Vector3d before = edge_direction(rods, node - 1).tangent;
-  const Vector3d after = edge_direction(rods, node).tangent;
-  const Vector3d carried = transport(current_director(rods, node - 1), before, after);
-  const double reference = signed_angle(carried, current_director(rods, node), after);
-  return rods.angles[node] - rods.angles[node - 1] +
-         nearest_turn(reference, reference_twists_[node]);
+LaneEffect::Kernels Twist::kernels() const {
+  return {&HWY_DYNAMIC_DISPATCH(energy), &HWY_DYNAMIC_DISPATCH(add_derivatives)};
 }
 
-void Twist::energy(const RodPack& rods, const std::vector<SimdBatch>& values,
-                   SimdBatch& energy) const {
-  HWY_DYNAMIC_DISPATCH(energy)(rods, values, energy);
-}
-
-void Twist::add_derivatives(const RodPack& rods, const std::vector<SimdBatch>& values,
-                            PackSystem& system) const {
-  HWY_DYNAMIC_DISPATCH(add_derivatives)(rods, values, system);
-}
-
-void Twist::add_forces(const RodPack& rods, const std::vector<SimdBatch>& values,
-                       RodForces& forces) const {
+void Twist::add_forces(const RodPack& rods, const NodeValues& values, RodForces& forces) const {
   for_each_edge(rods, [&](const PackLane& rod, std::uint32_t edge, std::uint32_t index) {
     if (edge > 0) {
       const double directors = rods.director_twists[edge][rod.lane()];

@@ -1,24 +1,15 @@
 // The one place that knows which effects there are, their options, and how they are made.
-#include "src/sim/scene/effects.hpp"
+
+#include "fiber_proximity/sim/effects.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <stdexcept>
 
 #include "fiber_proximity/sim/contacts.hpp"
-#include "fiber_proximity/sim/effects/bend.hpp"
-#include "fiber_proximity/sim/effects/damping.hpp"
-#include "fiber_proximity/sim/effects/drag.hpp"
-#include "fiber_proximity/sim/effects/environment_contact.hpp"
-#include "fiber_proximity/sim/effects/fiber_contact.hpp"
-#include "fiber_proximity/sim/effects/friction.hpp"
-#include "fiber_proximity/sim/effects/gravity.hpp"
-#include "fiber_proximity/sim/effects/inextensible.hpp"
-#include "fiber_proximity/sim/effects/plasticity.hpp"
-#include "fiber_proximity/sim/effects/stretch.hpp"
-#include "fiber_proximity/sim/effects/twist.hpp"
-#include "src/sim/scene/holds.hpp"
-#include "src/sim/scene/natural_curvature.hpp"
+#include "src/sim/effects/natural_bend.hpp"
+#include "src/sim/scene/parts.hpp"
 #include "src/text/join.hpp"
 #include "src/text/quote.hpp"
 #include "src/text/with_context.hpp"
@@ -140,95 +131,132 @@ Friction make_friction(const EffectOptions& options) {
   return Friction({number_of(options, "coefficient"), number_of(options, "stick_speed")});
 }
 
-/// Makes the effects of a description one by one; errors name where they stand.
-class EffectMaker {
- public:
-  EffectMaker(const SimDescription& description, Rods& rods, SimScene& scene)
-      : description_(description), rods_(rods), scene_(scene) {}
+/// Makes an effect of its options, null if the scene does not name it; errors name where it stands.
+template <class Make>
+auto make(const SimDescription& scene, const char* name, const Make& make_of) {
+  const SimEffect* effect = scene.find_effect(name);
+  using Made = decltype(make_of(effect->options));
+  return effect == nullptr ? Made()
+                           : with_context(effect->place, [&] { return make_of(effect->options); });
+}
 
-  /// Null if the scene does not name the effect.
-  template <class Made, class... Arguments>
-  std::unique_ptr<Made> make(const char* name, Arguments&&... arguments) const {
-    const SimEffect* effect = description_.find_effect(name);
-    if (effect == nullptr) {
-      return nullptr;
-    }
-    return with_context(effect->place, [&] {
-      return std::make_unique<Made>(std::forward<Arguments>(arguments)...);
+/// The same of an effect whose numbers may change later: with other numbers it is another effect,
+/// as its state is that of one step, which begins anew.
+template <class Made>
+std::unique_ptr<Made> make_adjustable(const SimDescription& description, const char* name,
+                                      Made (*made_by)(const EffectOptions&), SimScene& scene) {
+  return make(description, name, [&](const EffectOptions& options) {
+    auto made = std::make_unique<Made>(made_by(options));
+    scene.parameters.add(name, options, [&made = *made, made_by](const EffectOptions& changed) {
+      made = made_by(changed);
+    });
+    return made;
+  });
+}
+
+std::unique_ptr<Attachment> make_attachment(const SimDescription& description, const Rods& rods,
+                                            SimScene& scene) {
+  auto attachment =
+      make(description, "attachment", [](const auto&) { return std::make_unique<Attachment>(); });
+  for (const SimHold& hold : description.holds) {
+    with_context(hold.place, [&] {
+      const auto kind = hold.is_clamp ? Attachment::Kind::CLAMP : Attachment::Kind::PIN;
+      return attachment->add(
+          rods, {hold.rod, hold.node, kind, placement_of(hold, description, rods, scene.frames),
+                 hold.max_force});
     });
   }
+  scene.attachment = attachment.get();
+  return attachment;
+}
 
-  /// The same of an effect whose numbers may change later: with other numbers it is another effect,
-  /// as its state is that of one step, which begins anew.
-  template <class Made>
-  std::unique_ptr<Made> make_adjustable(const char* name,
-                                        Made (*made_by)(const EffectOptions&)) const {
-    const SimEffect* effect = description_.find_effect(name);
-    if (effect == nullptr) {
-      return nullptr;
+/// Null if the scene names no contact effect.
+std::unique_ptr<Contacts> make_contacts(const SimDescription& description, SimScene& scene) {
+  std::vector<std::unique_ptr<ContactSource>> sources;
+  const auto add = [&](const char* name, const auto& source) {
+    auto made = make(description, name,
+                     [&](const EffectOptions& options) -> std::unique_ptr<ContactSource> {
+                       return source(number_of(options, "stiffness"));
+                     });
+    if (made != nullptr) {
+      sources.push_back(std::move(made));
     }
-    auto made = with_context(effect->place,
-                             [&] { return std::make_unique<Made>(made_by(effect->options)); });
-    scene_.parameters.add(
-        name, effect->options,
-        [&made = *made, made_by](const EffectOptions& options) { made = made_by(options); });
-    return made;
-  }
+  };
+  add("self_contact", [](double stiffness) {
+    return std::make_unique<FiberContact>(FiberContact::Options{Pairing::SAME_FIBER, stiffness});
+  });
+  add("fiber_contact", [](double stiffness) {
+    return std::make_unique<FiberContact>(
+        FiberContact::Options{Pairing::DIFFERENT_FIBERS, stiffness});
+  });
+  add("environment_contact", [&](double stiffness) {
+    return std::make_unique<EnvironmentContact>(
+        description.environment, EnvironmentContact::Options{stiffness, description.allowed});
+  });
+  auto friction = make_adjustable(description, "friction", make_friction, scene);
+  return sources.empty() ? nullptr
+                         : std::make_unique<Contacts>(std::move(sources), std::move(friction));
+}
 
-  std::unique_ptr<Effect> make_plasticity() const {
-    const SimEffect* effect = description_.find_effect("plasticity");
-    Plasticity::Options options;
-    if (effect != nullptr) {
-      options = {number_of(effect->options, "yield_strain"),
-                 number_of(effect->options, "hardening")};
+double read_curvature(const YamlField& field) {
+  constexpr const char* allowed = "at least 0 and finite, or from_shape";
+  double curvature = 0.0;
+  try {
+    curvature = field.number();
+  } catch (const std::invalid_argument&) {
+    field.refuse(allowed);
+  }
+  if (!(std::isfinite(curvature) && curvature >= 0.0)) {
+    field.refuse(allowed);
+  }
+  return curvature;
+}
+
+SimCurvature read_natural_curvature(const YamlField& bend, bool has_twist) {
+  bend.require_map({"natural_curvature", "towards"});
+  const auto given = bend.find("natural_curvature");
+  const auto towards = bend.find("towards");
+  SimCurvature read;
+  read.is_from_shape = given && given->is_text() && given->text() == "from_shape";
+  if (given && !read.is_from_shape) {
+    read.curvature = read_curvature(*given);
+  }
+  if (towards) {
+    if (!has_twist) {
+      towards->refuse(
+          "absent where there is no twist: cross-sections that turn freely have no side");
     }
-    return make<Plasticity>("plasticity", rods_, options);
-  }
-
-  std::unique_ptr<Effect> make_attachment() const {
-    auto attachment = make<Attachment>("attachment");
-    for (const SimHold& hold : description_.holds) {
-      with_context(hold.place, [&] {
-        const auto kind = hold.is_clamp ? Attachment::Kind::CLAMP : Attachment::Kind::PIN;
-        return attachment->add(
-            rods_, {hold.rod, hold.node, kind,
-                    placement_of(hold, description_, rods_, scene_.frames), hold.max_force});
-      });
+    if (read.is_from_shape) {
+      towards->refuse("absent where the natural curvature is from_shape");
     }
-    scene_.attachment = attachment.get();
-    return attachment;
+    if (!given) {
+      towards->refuse("absent where there is no natural_curvature");
+    }
+    read.towards = towards->vector();
+    read.towards_statement = towards->statement();
   }
+  return read;
+}
 
-  /// Null if the scene names no contact effect.
-  std::unique_ptr<Contacts> make_contacts() const {
-    std::vector<std::unique_ptr<ContactSource>> sources;
-    const auto add = [&sources](std::unique_ptr<ContactSource> source) {
-      if (source != nullptr) {
-        sources.push_back(std::move(source));
+void set_natural_curvature(const SimDescription& scene, Rods& rods) {
+  const SimCurvature& natural = scene.natural_curvature;
+  if (natural.is_from_shape) {
+    set_natural_shape(rods);
+  } else if (natural.towards) {
+    for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+      try {
+        set_natural_arc(rods, rod, natural.curvature, *natural.towards);
+      } catch (const std::invalid_argument&) {
+        throw std::invalid_argument(natural.towards_statement +
+                                    ", it must be finite and a direction across the fibre's first "
+                                    "edge (fibre " +
+                                    quote(scene.fiber_names[rod]) + ")");
       }
-    };
-    add(make<FiberContact>("self_contact",
-                           FiberContact::Options{Pairing::SAME_FIBER, stiffness("self_contact")}));
-    add(make<FiberContact>("fiber_contact", FiberContact::Options{Pairing::DIFFERENT_FIBERS,
-                                                                  stiffness("fiber_contact")}));
-    add(make<EnvironmentContact>(
-        "environment_contact", description_.environment,
-        EnvironmentContact::Options{stiffness("environment_contact"), description_.allowed}));
-    auto friction = make_adjustable("friction", make_friction);
-    return sources.empty() ? nullptr
-                           : std::make_unique<Contacts>(std::move(sources), std::move(friction));
+    }
+  } else if (natural.curvature > 0.0) {
+    rods.natural_curvatures.assign(rods.positions.size(), natural.curvature);
   }
-
- private:
-  double stiffness(const char* name) const {
-    const SimEffect* effect = description_.find_effect(name);
-    return effect == nullptr ? 0.0 : number_of(effect->options, "stiffness");
-  }
-
-  const SimDescription& description_;
-  Rods& rods_;
-  SimScene& scene_;
-};
+}
 
 }  // namespace
 
@@ -272,24 +300,31 @@ double gravity_of(const SimDescription& scene) {
 }
 
 MadeEffects make_effects(const SimDescription& description, Rods& rods, SimScene& scene) {
-  const EffectMaker maker(description, rods, scene);
   MadeEffects made;
   const auto add = [&made](std::unique_ptr<Effect> effect) {
     if (effect != nullptr) {
       made.effects.push_back(std::move(effect));
     }
   };
-  add(maker.make_adjustable("gravity", make_gravity));
-  add(maker.make<Stretch>("stretch"));
-  add(maker.make<Inextensible>("inextensible", rods));
-  add(maker.make<Bend>("bend"));
-  add(maker.make<Twist>("twist", rods));
+  const auto add_fixed = [&](const char* name, const auto& make_of) {
+    add(make(description, name, make_of));
+  };
+  add(make_adjustable(description, "gravity", make_gravity, scene));
+  add_fixed("stretch", [](const auto&) { return std::make_unique<Stretch>(); });
+  add_fixed("inextensible", [&](const auto&) { return std::make_unique<Inextensible>(rods); });
+  add_fixed("bend", [](const auto&) { return std::make_unique<Bend>(); });
+  add_fixed("twist", [&](const auto&) { return std::make_unique<Twist>(rods); });
   set_natural_curvature(description, rods);  // after twist, which gives rods their frames
-  add(maker.make_adjustable("damping", make_damping));
-  add(maker.make_adjustable("drag", make_drag));
-  add(maker.make_plasticity());
-  add(maker.make_attachment());  // after twist, which gives rods the directors that clamps hold
-  made.contacts = maker.make_contacts();
+  add(make_adjustable(description, "damping", make_damping, scene));
+  add(make_adjustable(description, "drag", make_drag, scene));
+  add_fixed("plasticity", [&](const EffectOptions& options) {
+    return std::make_unique<Plasticity>(
+        rods,
+        Plasticity::Options{number_of(options, "yield_strain"), number_of(options, "hardening")});
+  });
+  // After twist, which gives rods the directors that clamps hold.
+  add(make_attachment(description, rods, scene));
+  made.contacts = make_contacts(description, scene);
   return made;
 }
 

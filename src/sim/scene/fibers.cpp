@@ -1,11 +1,12 @@
-#include "src/sim/scene/fibers.hpp"
-
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "fiber_proximity/sim/resolution.hpp"
-#include "src/sim/scene/shapes.hpp"
+#include "src/sim/scene/parts.hpp"
 #include "src/text/with_context.hpp"
 
 namespace fiber {
@@ -13,9 +14,49 @@ namespace {
 
 constexpr std::int64_t most_segments = 1000000;  // of all fibres together, too
 constexpr std::int64_t most_repeats = 100000;
+constexpr std::uint32_t most_substeps = 1000;
 
 /// Into so many segments a curve is cut to measure how much it turns.
 constexpr std::int64_t fine_segments = 1000;
+
+/// What real_time chooses from, the finest first.
+constexpr std::array<double, 8> accuracies{0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2};
+
+/// Of the time there is: the rest is for messages, and for whatever else runs.
+constexpr double share_of_time = 0.5;
+
+/// A fibre of a scene before it is cut into segments, or several that are alike.
+struct FiberEntry {
+  std::string name;
+  std::string place;                   ///< where it stands, for errors
+  std::vector<Eigen::Vector3d> curve;  ///< a polyline [m]
+  std::optional<std::int64_t> segments;
+  double radius = 0.0;  ///< [m]
+  RodSection section;
+  std::optional<std::int64_t> count;  ///< none: it is not repeated
+  std::string repeat_place;
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< of each from the one before [m]
+
+  // Of the curve, where segments are chosen.
+  double length = 0.0;   ///< [m]
+  double turning = 0.0;  ///< in all [rad]
+
+  /// Those given, or as many as an accuracy takes.
+  std::int64_t segments_for(std::optional<double> accuracy) const {
+    if (segments) {
+      return *segments;
+    }
+    return naming_fiber(name, [&] {
+      const std::int64_t chosen = fiber::segments_for(accuracy.value(), turning);
+      if (chosen > most_segments) {
+        throw std::invalid_argument(place + ": the scene's accuracy takes " +
+                                    std::to_string(chosen) + " segments, " +
+                                    std::to_string(most_segments) + " are the most");
+      }
+      return chosen;
+    });
+  }
+};
 
 /// A preset's name, or the moduli and so on; with both, these replace the preset's.
 RodMaterial read_material(const YamlField& field, bool is_name) {
@@ -34,23 +75,16 @@ RodMaterial read_material(const YamlField& field, bool is_name) {
   return material;
 }
 
-double length_of(const std::vector<Eigen::Vector3d>& points) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    length += (points[i] - points[i - 1]).norm();
+void measure(FiberEntry& fiber) {
+  for (std::size_t i = 1; i < fiber.curve.size(); ++i) {
+    fiber.length += (fiber.curve[i] - fiber.curve[i - 1]).norm();
   }
-  return length;
-}
-
-/// By how much a curve turns in all [rad].
-double turning_of(const std::vector<Eigen::Vector3d>& points) {
-  double turning = 0.0;
+  const std::vector<Eigen::Vector3d> points = resample(fiber.curve, fine_segments);
   for (std::size_t i = 2; i < points.size(); ++i) {
     const Eigen::Vector3d before = points[i - 1] - points[i - 2];
     const Eigen::Vector3d after = points[i] - points[i - 1];
-    turning += std::atan2(before.cross(after).norm(), before.dot(after));
+    fiber.turning += std::atan2(before.cross(after).norm(), before.dot(after));
   }
-  return turning;
 }
 
 void read_body(const YamlField& entry, bool chooses_segments, FiberEntry& fiber) {
@@ -59,8 +93,7 @@ void read_body(const YamlField& entry, bool chooses_segments, FiberEntry& fiber)
   }
   fiber.curve = read_shape(entry.get("shape"));
   if (chooses_segments) {
-    fiber.length = length_of(fiber.curve);
-    fiber.turning = turning_of(resample(fiber.curve, fine_segments));
+    measure(fiber);
   }
   fiber.radius = entry.get("radius").number();
   const YamlField given = entry.get("material");
@@ -101,38 +134,11 @@ void add(const FiberEntry& entry, std::int64_t segments, SimDescription& scene) 
   }
 }
 
-}  // namespace
-
-std::int64_t FiberEntry::segments_for(std::optional<double> accuracy) const {
-  if (segments) {
-    return *segments;
-  }
-  return naming_fiber(name, [&] {
-    const std::int64_t chosen = fiber::segments_for(accuracy.value(), turning);
-    if (chosen > most_segments) {
-      throw std::invalid_argument(place + ": the scene's accuracy takes " + std::to_string(chosen) +
-                                  " segments, " + std::to_string(most_segments) + " are the most");
-    }
-    return chosen;
-  });
-}
-
-std::vector<FiberEntry> read_fibers(const YamlField& list, bool chooses_segments) {
-  std::vector<FiberEntry> entries;
-  for (const YamlField& entry : list.items()) {
-    entries.push_back(read_fiber(entry, chooses_segments));
-  }
-  if (entries.empty()) {
-    list.refuse("a list of at least one fibre");
-  }
-  return entries;
-}
-
-void cut(const std::vector<FiberEntry>& entries, std::optional<double> accuracy,
-         SimDescription& scene) {
+/// Cuts the fibres into segments: the rods of a scene, and what they are called.
+void cut(const std::vector<FiberEntry>& entries, SimDescription& scene) {
   std::int64_t total = 0;
   for (const FiberEntry& entry : entries) {
-    const std::int64_t segments = entry.segments_for(accuracy);
+    const std::int64_t segments = entry.segments_for(scene.accuracy);
     const std::int64_t count = entry.count.value_or(1);
     if (count > most_segments / segments) {
       throw std::invalid_argument(entry.repeat_place + ": " + std::to_string(count) +
@@ -154,6 +160,96 @@ void cut(const std::vector<FiberEntry>& entries, std::optional<double> accuracy,
       throw std::invalid_argument(fiber.place + " has the name " + quote(fiber.name) +
                                   " of another fibre of the scene");
     }
+  }
+}
+
+double read_accuracy(const YamlField& field) {
+  constexpr const char* allowed = "above 0 and at most 0.5, or 50 %";
+  std::string text = field.text();
+  const bool is_percent = !text.empty() && text.back() == '%';
+  if (is_percent) {
+    text.pop_back();
+  }
+  std::size_t used = 0;
+  double value = 0.0;
+  try {
+    value = std::stod(text, &used);
+  } catch (const std::exception&) {
+    field.refuse(allowed);
+  }
+  used = std::min(text.size(), text.find_first_not_of(' ', used));
+  value *= is_percent ? 0.01 : 1.0;
+  if (used != text.size() || !(value > 0.0 && value <= 0.5)) {
+    field.refuse(allowed);
+  }
+  return value;
+}
+
+std::uint32_t chosen_substeps(const std::vector<FiberEntry>& fibers, double gravity,
+                              const SimSettings& scene) {
+  double period = std::numeric_limits<double>::infinity();
+  for (const FiberEntry& fiber : fibers) {
+    if (fiber.length > 0.0) {  // or it is refused when it is cut
+      period = std::min(period, swing_period(fiber.section, fiber.length, gravity));
+    }
+  }
+  return substeps_for(*scene.accuracy, scene.options.integrator, scene.time_step, period);
+}
+
+bool is_fast(const std::vector<FiberEntry>& fibers, const SimSettings& scene) {
+  std::uint64_t nodes = 0;
+  for (const FiberEntry& fiber : fibers) {
+    nodes += (fiber.segments_for(scene.accuracy) + 1) * fiber.count.value_or(1);
+  }
+  // Most steps take so many iterations; a scene that says how many they may take knows better.
+  constexpr std::uint32_t usual_iterations = 2;
+  const std::uint32_t iterations = std::min(usual_iterations, scene.options.max_iterations);
+  return frame_time(nodes, scene.substeps, iterations, scene.has_contacts) <=
+         share_of_time * scene.time_step;
+}
+
+}  // namespace
+
+void read_fibers(const YamlField& document, double gravity, SimDescription& scene) {
+  const auto accuracy = document.find("accuracy");
+  const auto real_time = document.find("real_time");
+  const auto given = document.find("substeps");
+  const bool is_real_time = real_time && real_time->flag();
+  if (accuracy && is_real_time) {
+    real_time->refuse("absent or false where there is an accuracy");
+  }
+  if (given) {
+    scene.substeps = static_cast<std::uint32_t>(given->integer(1, most_substeps));
+  }
+  const YamlField list = document.get("fibers");
+  std::vector<FiberEntry> fibers;
+  for (const YamlField& entry : list.items()) {
+    fibers.push_back(read_fiber(entry, accuracy || is_real_time));
+  }
+  if (fibers.empty()) {
+    list.refuse("a list of at least one fibre");
+  }
+  const auto choose = [&](double chosen) {
+    scene.accuracy = chosen;
+    scene.substeps = given ? scene.substeps : chosen_substeps(fibers, gravity, scene);
+  };
+  if (accuracy) {
+    choose(read_accuracy(*accuracy));
+  } else if (is_real_time) {
+    for (const double candidate : accuracies) {
+      choose(candidate);
+      scene.substeps = std::min(scene.substeps, most_substeps);
+      if (is_fast(fibers, scene)) {
+        break;
+      }
+    }
+  }
+  cut(fibers, scene);
+  if (scene.substeps > most_substeps) {
+    accuracy->refuse("coarser: it takes " + std::to_string(scene.substeps) + " substeps a frame, " +
+                     std::to_string(most_substeps) +
+                     " are the most; bdf2 takes fewer, and `substeps` in the scene "
+                     "are not chosen");
   }
 }
 

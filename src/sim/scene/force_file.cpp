@@ -1,4 +1,4 @@
-#include "fiber_proximity/sim/scene/force_file.hpp"
+#include "src/sim/scene/force_file.hpp"
 
 #include <utility>
 
@@ -12,27 +12,25 @@ ForceWriter::ForceWriter(const std::string& path) : file_(path) {
   file_.write("frame,kind,fiber,index,fx,fy,fz,mx,my,mz\n");
 }
 
-void ForceWriter::add_row(const char* kind, std::uint32_t rod, std::uint32_t index,
-                          const Vector3d& force, const Vector3d& moment) {
-  append_number(rows_, frame_);
-  rows_ += ',';
-  rows_ += kind;
-  for (const std::uint32_t number : {rod, index}) {
-    rows_ += ',';
-    append_number(rows_, number);
-  }
-  for (const Vector3d& vector : {force, moment}) {
-    for (const double component : {vector.x(), vector.y(), vector.z()}) {
-      rows_ += ',';
-      append_number(rows_, component);
-    }
-  }
-  rows_ += '\n';
-}
-
 void ForceWriter::write(std::int64_t frame, const Rods& rods, const RodForces& forces) {
-  frame_ = frame;
-  rows_.clear();
+  std::string rows;
+  const auto add_row = [&](const char* kind, std::uint32_t rod, std::uint32_t index,
+                           const Vector3d& force, const Vector3d& moment) {
+    append_number(rows, frame);
+    rows += ',';
+    rows += kind;
+    for (const std::uint32_t number : {rod, index}) {
+      rows += ',';
+      append_number(rows, number);
+    }
+    for (const Vector3d& vector : {force, moment}) {
+      for (const double component : {vector.x(), vector.y(), vector.z()}) {
+        rows += ',';
+        append_number(rows, component);
+      }
+    }
+    rows += '\n';
+  };
   const Vector3d zero = Vector3d::Zero();
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
     const std::uint32_t first = rods.first(rod);
@@ -57,7 +55,7 @@ void ForceWriter::write(std::int64_t frame, const Rods& rods, const RodForces& f
   for (const RodForces::HoldForce& hold : forces.holds) {
     add_row("hold", hold.rod, hold.node, hold.force, hold.moment);
   }
-  file_.write(rows_);
+  file_.write(rows);
 }
 
 void ForceWriter::finish() { file_.close(); }

@@ -1,5 +1,3 @@
-#include "src/sim/scene/holds.hpp"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -7,7 +5,7 @@
 #include <set>
 
 #include "src/geometry/smallest_rotation.hpp"
-#include "src/sim/scene/fibers.hpp"
+#include "src/sim/scene/parts.hpp"
 #include "src/text/join.hpp"
 #include "src/text/quote.hpp"
 
@@ -43,16 +41,6 @@ std::uint32_t read_node(const std::optional<YamlField>& node, std::uint32_t coun
     return 0;
   }
   return node->text() == "last" ? last : static_cast<std::uint32_t>(node->integer(0, last));
-}
-
-bool read_is_clamp(const std::optional<YamlField>& kind) {
-  if (!kind || kind->text() == "pin") {
-    return false;
-  }
-  if (kind->text() != "clamp") {
-    kind->refuse("pin or clamp");
-  }
-  return true;
 }
 
 /// The edge at a node that a hold there takes its direction from.
@@ -184,7 +172,7 @@ SimHold read_hold(const YamlField& entry, std::uint32_t rod, const Rods& rods) {
   hold.place = entry.place();
   hold.rod = rod;
   hold.node = read_node(entry.find("node"), rods.node_count(rod));
-  hold.is_clamp = read_is_clamp(entry.find("kind"));
+  hold.is_clamp = is_second(entry.find("kind"), "pin", "clamp");
   const auto path = entry.find("path");
   const auto period = entry.find("period");
   const auto frame = entry.find("frame");

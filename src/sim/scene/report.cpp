@@ -1,12 +1,17 @@
-#include "fiber_proximity/sim/scene/report.hpp"
+#include "src/sim/scene/report.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <exception>
-#include <sstream>
+#include <optional>
+
+#include "src/sim/scene/parts.hpp"
+#include "src/sim/scene/reach.hpp"
+#include "src/text/quote.hpp"
 
 namespace fiber {
+
 namespace {
 
 constexpr std::uint32_t most_trial_frames = 20;
@@ -22,15 +27,6 @@ double run_step(SimScene& scene) {
 
 double thinnest(const Rods& rods) {
   return *std::min_element(rods.radii.begin(), rods.radii.end());
-}
-
-/// A sentence of numbers and words, with three digits each.
-template <class... Parts>
-std::string sentence(const Parts&... parts) {
-  std::ostringstream text;
-  text.precision(3);
-  (text << ... << parts);
-  return text.str();
 }
 
 /// Bending waves shorter than this go faster than steps [m]: those of ω h = 1, ω = k² √(EI/ρA).
@@ -129,6 +125,61 @@ SimReport report(const SimScene& scene, const SimTrial& trial) {
   judge_grippers(scene, report);
   judge_trial(scene, trial, report);
   return report;
+}
+
+namespace {
+
+/// Where something keeps edges from being stretched, and what holds a fibre does it all the same.
+void warn_of_strain(const SimScene& scene, std::vector<SimWarning>& warnings) {
+  const LargestStrain largest = largest_strain(scene.stepper->rods());
+  if (largest.strain <= scene.max_strain ||
+      !(scene.has_effect("stretch") || scene.has_effect("inextensible"))) {
+    return;
+  }
+  warnings.push_back({SimWarning::Kind::STRAIN,
+                      sentence("edge ", largest.edge, " of fibre ",
+                               quote(scene.fiber_names[largest.rod]), " is stretched by ",
+                               100.0 * largest.strain, " %, more than ", 100.0 * scene.max_strain,
+                               " % (max_strain): what moves it goes too far or too fast")});
+}
+
+void warn_of_lag(const SimScene& scene, std::vector<SimWarning>& warnings) {
+  if (scene.attachment == nullptr) {
+    return;
+  }
+  const std::optional<HoldLag> lag = scene.attachment->longest_lag(scene.stepper->rods());
+  if (!lag) {
+    return;
+  }
+  warnings.push_back(
+      {SimWarning::Kind::LAG,
+       sentence("what holds node ", lag->node, " of fibre ", quote(scene.fiber_names[lag->rod]),
+                " pulls with ", lag->force, " N, its greatest force (max_force), and the node is ",
+                lag->distance, " m behind: something keeps it, or it moves too fast")});
+}
+
+void warn_of_balance(const SimScene& scene, std::vector<SimWarning>& warnings) {
+  const StepReport& report = scene.stepper->report();
+  if (report.unbalanced == 0 || scene.asks_for_few_iterations()) {
+    return;
+  }
+  const IslandReport& worst = report.worst;
+  warnings.push_back({SimWarning::Kind::BALANCE,
+                      sentence("forces do not balance within ", scene.options.max_iterations,
+                               " iterations: what is left at node ", worst.node, " of fibre ",
+                               quote(scene.fiber_names[worst.rod]), " would change its speed by ",
+                               worst.residual, " m/s a step, ", scene.residual_force(),
+                               " N; `residual` is ", scene.options.residual, " m/s")});
+}
+
+}  // namespace
+
+std::vector<SimWarning> frame_warnings(const SimScene& scene) {
+  std::vector<SimWarning> warnings;
+  warn_of_strain(scene, warnings);
+  warn_of_lag(scene, warnings);
+  warn_of_balance(scene, warnings);
+  return warnings;
 }
 
 }  // namespace fiber

@@ -1,11 +1,284 @@
 #include "fiber_proximity/sim/scene/scene.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
 #include <utility>
 
-#include "src/sim/scene/effects.hpp"
-#include "src/sim/scene/overlap.hpp"
+#include "src/environment/scene/environment_scene.hpp"
+#include "src/sim/overlaps.hpp"
+#include "src/sim/scene/parts.hpp"
+#include "src/sim/scene/reach.hpp"
+#include "src/text/join.hpp"
+#include "src/text/quote.hpp"
 
 namespace fiber {
+
+namespace {
+
+/// In SI units: far beyond all that fibres are in, and far from where numbers end.
+constexpr double largest = 1e6;
+
+/// [character] Values that are longer are cut off in errors.
+constexpr std::size_t longest_text = 80;
+
+std::string text_of(const std::vector<double>& value) {
+  std::string text;
+  for (const double number : value) {
+    text += (text.empty() ? "" : ", ") + std::to_string(number);
+    if (text.size() > longest_text) {
+      text = text.substr(0, longest_text) + "...";
+      break;
+    }
+  }
+  return "[" + text + "]";
+}
+
+[[noreturn]] void refuse(const SimParameter& parameter, const std::string& problem) {
+  throw std::invalid_argument("parameter " + quote(parameter.name) + " is " +
+                              text_of(parameter.value) + ": " + problem);
+}
+
+}  // namespace
+
+void SimParameters::add(const std::string& effect, const EffectOptions& options,
+                        std::function<void(const EffectOptions&)> apply) {
+  effects_[effect] = {options, std::move(apply)};
+}
+
+void SimParameters::set_one(const SimParameter& parameter) {
+  const std::size_t dot = parameter.name.find('.');
+  const auto effect = effects_.find(parameter.name.substr(0, dot));
+  const std::string option = dot == std::string::npos ? "" : parameter.name.substr(dot + 1);
+  if (effect == effects_.end() || effect->second.options.count(option) == 0) {
+    std::vector<std::string> names;
+    for (const SimParameter& known : all()) {
+      names.push_back(known.name);
+    }
+    refuse(parameter, names.empty() ? "the scene names no effect that has parameters"
+                                    : "there is no such parameter, known are: " + join(names));
+  }
+  std::vector<double>& value = effect->second.options.at(option);
+  if (parameter.value.size() != value.size()) {
+    refuse(parameter, "it must be a list of " + std::to_string(value.size()) + " number(s)");
+  }
+  for (const double number : parameter.value) {
+    if (!(std::abs(number) <= largest)) {
+      refuse(parameter, "its numbers must be finite and at most 1e6 in magnitude");
+    }
+  }
+  value = parameter.value;
+  try {
+    effect->second.apply(effect->second.options);
+  } catch (const std::invalid_argument& error) {
+    refuse(parameter, error.what());
+  }
+}
+
+void SimParameters::set(const std::vector<SimParameter>& parameters) {
+  const std::map<std::string, Entry> before = effects_;
+  try {
+    for (const SimParameter& parameter : parameters) {
+      set_one(parameter);
+    }
+  } catch (const std::invalid_argument&) {
+    effects_ = before;
+    for (const auto& [name, effect] : effects_) {
+      effect.apply(effect.options);
+    }
+    throw;
+  }
+}
+
+std::vector<SimParameter> SimParameters::all() const {
+  std::vector<SimParameter> parameters;
+  for (const auto& [effect, entry] : effects_) {
+    for (const auto& [option, value] : entry.options) {
+      parameters.push_back({std::string(effect).append(".").append(option), value});
+    }
+  }
+  return parameters;
+}
+
+namespace {
+
+/// So many pairs of segments are looked for to tell how many there are.
+constexpr std::uint32_t most_counted = 1000;
+
+OverlapFinder make_finder(const SimDescription& scene) {
+  OverlapFinder::Options options;
+  options.same_fiber = scene.has_effect("self_contact");
+  options.different_fibers = scene.has_effect("fiber_contact");
+  if (scene.has_effect("environment_contact")) {
+    options.environment = scene.environment;
+    options.allowed = scene.allowed;
+  }
+  return OverlapFinder(options);
+}
+
+std::string describe(const std::vector<Overlap>& overlaps, const SimDescription& scene,
+                     const Rods& rods) {
+  const Overlap& deepest = overlaps.front();
+  const Contact& contact = deepest.contact;
+  const SimFiber& a = scene.fibers[contact.fiber_a];
+  const std::string segment_a =
+      sentence("segment ", contact.segment_a, " of fibre ", quote(a.name));
+  double touching = rods.radii[contact.fiber_a];
+  std::string other;
+  if (deepest.is_object) {
+    other = sentence("obstacle ", quote(scene.environment->objects()[contact.fiber_b].name), ": ",
+                     segment_a, " is ");
+  } else {
+    const SimFiber& b = scene.fibers[contact.fiber_b];
+    touching += rods.radii[contact.fiber_b];
+    other = sentence(contact.fiber_a == contact.fiber_b ? "itself" : b.place, ": ", segment_a,
+                     " and segment ", contact.segment_b, " of fibre ", quote(b.name), " are ");
+  }
+  const std::string more =
+      overlaps.size() == 1
+          ? ""
+          : sentence("; so are ", overlaps.size() < most_counted ? "" : "at least ",
+                     overlaps.size() - 1, " more pairs");
+  return sentence(a.place, " begins inside of ", other, 1e3 * deepest.depth(), " mm deep in it, ",
+                  1e3 * touching_share * touching, " mm is the most", more);
+}
+
+/// How far nodes are at most from where they were, and edges stretched, for the log.
+std::string describe_move(const std::vector<Eigen::Vector3d>& before, const Rods& rods,
+                          std::size_t count) {
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    farthest = std::max(farthest, (rods.positions[i] - before[i]).norm());
+  }
+  return sentence("initial_overlap: ", count,
+                  " pair(s) of segments began inside of each other; nodes were moved by up to ",
+                  1e3 * farthest, " mm, which stretches edges by up to ",
+                  100.0 * largest_strain(rods).strain, " %");
+}
+
+std::vector<bool> held_nodes(const Attachment* attachment, const Rods& rods) {
+  std::vector<bool> is_held(rods.positions.size(), false);
+  if (attachment != nullptr) {
+    for (const auto& [rod, node] : attachment->held_nodes()) {
+      is_held[rods.first(rod) + node] = true;
+    }
+  }
+  return is_held;
+}
+
+}  // namespace
+
+std::string settle_overlaps(const SimDescription& scene, const Attachment* attachment, Rods& rods) {
+  OverlapFinder finder = make_finder(scene);
+  const std::vector<Overlap> overlaps = finder.find(rods, touching_share, most_counted);
+  if (overlaps.empty()) {
+    return "";
+  }
+  if (!scene.separates_overlaps) {
+    throw std::invalid_argument(describe(overlaps, scene, rods) +
+                                "; move them apart, or have `initial_overlap: separate`");
+  }
+  const std::vector<Eigen::Vector3d> before = rods.positions;
+  const std::vector<Overlap> left = separate_overlaps(rods, finder, held_nodes(attachment, rods));
+  if (!left.empty()) {
+    throw std::invalid_argument(describe(left, scene, rods) +
+                                ", where `initial_overlap: separate` has moved them: there may be "
+                                "no room, or what holds them is in the way");
+  }
+  return describe_move(before, rods, overlaps.size());
+}
+
+namespace {
+
+/// [s] A timer calls for frames, which needs some time itself.
+constexpr double shortest_frame = 1e-6;
+constexpr double longest_frame = 1000.0;
+
+constexpr std::int64_t most_iterations = 1000;
+
+/// [m/s] Smaller ones are rounding errors, with larger ones nothing would ever move.
+constexpr double least_residual = 1e-9;
+constexpr double most_residual = 1.0;
+
+/// Reads a number above 0, and from the least to the most, if there is one.
+void read_within(const YamlField& document, const char* key, double least, double most,
+                 double& value) {
+  const auto field = document.find(key);
+  if (!field) {
+    return;
+  }
+  value = field->number();
+  if (!(value > 0.0 && value >= least && value <= most)) {
+    std::ostringstream allowed;
+    allowed << (least > 0.0 ? "at least " : "above ") << least << " and at most " << most;
+    field->refuse(allowed.str());
+  }
+}
+
+void read_stepper_options(const YamlField& document, StepperOptions& options) {
+  if (const auto iterations = document.find("iterations")) {
+    options.max_iterations = static_cast<std::uint32_t>(iterations->integer(1, most_iterations));
+  }
+  read_within(document, "residual", least_residual, most_residual, options.residual);
+  if (is_second(document.find("integrator"), "implicit_euler", "bdf2")) {
+    options.integrator = Integrator::BDF2;
+  }
+}
+
+/// Reads the obstacles of a scene, which are all in its frame: nothing moves them.
+void read_environment(const std::optional<YamlField>& field, const MeshSource& meshes,
+                      SimDescription& scene) {
+  const SimEffect* contact = scene.find_effect("environment_contact");
+  if (!field && contact != nullptr) {
+    throw std::invalid_argument(contact->place + ": the scene has no environment to touch");
+  }
+  const EnvironmentScene read = field ? read_environment_scene(*field, meshes) : EnvironmentScene();
+  std::vector<EnvironmentObject> objects;
+  for (const SceneObstacle& obstacle : read.obstacles) {
+    if (!obstacle.frame_id.empty() && obstacle.frame_id != scene.frame_id) {
+      throw std::invalid_argument(field->place() + ": obstacle " + quote(obstacle.object.name) +
+                                  " is in frame " + quote(obstacle.frame_id) +
+                                  ", it must be in the scene's, " + quote(scene.frame_id));
+    }
+    objects.push_back(obstacle.object);
+  }
+  scene.environment = std::make_shared<const Environment>(std::move(objects));
+  scene.allowed = resolve(read.allowed, scene.fiber_names);
+}
+
+}  // namespace
+
+bool SimSettings::has_effect(const std::string& name) const {
+  return std::find(effect_names.begin(), effect_names.end(), name) != effect_names.end();
+}
+
+const SimEffect* SimDescription::find_effect(const std::string& name) const {
+  const auto found = std::find_if(effects.begin(), effects.end(),
+                                  [&name](const SimEffect& effect) { return effect.name == name; });
+  return found == effects.end() ? nullptr : &*found;
+}
+
+SimDescription read_sim_scene(const YamlField& document, const MeshSource& meshes) {
+  document.require_map({"frame_id", "time_step", "substeps", "iterations", "residual", "integrator",
+                        "accuracy", "real_time", "fibers", "effects", "environment",
+                        "initial_overlap", "max_strain"});
+  SimDescription scene;
+  if (const auto frame_id = document.find("frame_id")) {
+    scene.frame_id = frame_id->text();
+  }
+  read_within(document, "time_step", shortest_frame, longest_frame, scene.time_step);
+  read_within(document, "max_strain", 0.0, 10.0, scene.max_strain);
+  const auto holds = read_effects(document.get("effects"), scene);
+  read_stepper_options(document, scene.options);
+  read_fibers(document, gravity_of(scene), scene);
+  read_environment(document.find("environment"), meshes, scene);
+  if (holds) {
+    read_holds(*holds, scene);
+  }
+  scene.separates_overlaps = is_second(document.find("initial_overlap"), "refuse", "separate");
+  return scene;
+}
 
 void SimScene::advance() {
   for (std::uint32_t i = 0; i < substeps; ++i) {

@@ -1,10 +1,10 @@
-#include "src/sim/scene/shapes.hpp"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
+
+#include "src/sim/scene/parts.hpp"
 
 namespace fiber {
 namespace {

@@ -3,14 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/sim/solver/for_each_pack.hpp"
-#include "src/sim/solver/pack_sums.hpp"
+#include "src/sim/solver/coupling.hpp"
+#include "src/sim/solver/pack_kernels.hpp"
 
 namespace fiber {
 
 using Eigen::Vector3d;
 
 namespace {
+
+/// An island that has come to rest stays where it is if its residual is within this part of what is
+/// asked for; any other has at least one iteration, so that small forces set it in motion.
+constexpr double rest_share = 1e-3;
 
 /// By what the step after this one is to be longer than Newton's.
 double scale_after(double scale, const LineSearch::Island& found) {
@@ -69,9 +73,6 @@ bool NewtonSolver::solve(Rods& rods, const Problem& problem) {
   }
   measure(rods, problem);
   const double stored_before = stored_energy(problem);
-  for (std::size_t i = 0; i < searches_.size(); ++i) {
-    searches_[i].energy = energies_[i];
-  }
   if (!predict(rods, problem)) {
     return false;
   }
@@ -157,6 +158,74 @@ void NewtonSolver::assemble(Rods& rods, const Problem& problem) {
   });
 }
 
+/// Ends the searches of islands whose forces balance. What has learnt from that may unbalance them
+/// again.
+void NewtonSolver::judge_balance(Rods& rods, const Problem& problem, std::uint32_t iteration) {
+  find_residuals();
+  const double allowed = (iteration == 0 ? rest_share : 1.0) * problem.options.residual;
+  for (std::size_t i = 0; i < searches_.size(); ++i) {
+    searches_[i].is_balanced = searches_[i].is_active && reports_[i].residual <= allowed;
+  }
+  if (learn_multipliers(rods, problem)) {
+    measure_again(rods, problem);
+  }
+  for (std::size_t i = 0; i < searches_.size(); ++i) {
+    if (searches_[i].is_active) {
+      reports_[i].iterations = iteration;
+      searches_[i].is_active = !searches_[i].is_balanced;
+    }
+  }
+}
+
+void NewtonSolver::find_residuals() {
+  for (IslandReport& report : reports_) {
+    report.residual = -1.0;
+  }
+  for_each_rod([&](std::size_t pack, std::size_t lane, std::uint32_t island) {
+    const PackStep::Residual residual = packs_[pack].residual(lane);
+    IslandReport& report = reports_[island];
+    if (!(residual.speed <= report.residual)) {
+      report.residual = residual.speed;
+      report.rod = packs_[pack].rod(lane);
+      report.node = residual.node;
+    }
+  });
+}
+
+/// Where effects hold conditions, an island is only balanced if these hold.
+/// @returns whether anything is to be solved again
+bool NewtonSolver::learn_multipliers(Rods& rods, const Problem& problem) {
+  for (Search& search : searches_) {
+    search.is_learning = search.is_balanced;
+  }
+  bool has_learnt = false;
+  for (const std::unique_ptr<Effect>& effect : problem.effects) {
+    if (!effect->has_multipliers()) {
+      continue;
+    }
+    for_each_rod([&](std::size_t pack, std::size_t lane, std::uint32_t island) {
+      if (searches_[island].is_learning) {
+        packs_[pack].store(rods);
+        if (!effect->update_multipliers(rods, packs_[pack].rod(lane))) {
+          searches_[island].is_balanced = false;
+          has_learnt = true;
+        }
+      }
+    });
+  }
+  return has_learnt;
+}
+
+/// Energies and derivatives where the rods are, after something has learnt from them.
+void NewtonSolver::measure_again(Rods& rods, const Problem& problem) {
+  for (PackStep& pack : packs_) {
+    pack.load_values(problem.effects);
+  }
+  measure(rods, problem);
+  assemble(rods, problem);
+  find_residuals();
+}
+
 void NewtonSolver::find_step(const Problem& problem) {
   for_each_pack(packs_.size(), Work::MUCH,
                 [&](std::size_t pack) { packs_[pack].find_step(part(pack)); });
@@ -235,7 +304,7 @@ void NewtonSolver::search_line(Rods& rods, const Problem& problem, int halvings)
   }
   line_.begin(searches_.size(), halvings);
   for (std::size_t i = 0; i < searches_.size(); ++i) {
-    line_.island(i) = {searches_[i].energy, searches_[i].decrease,
+    line_.island(i) = {energies_[i], searches_[i].decrease,
                        searches_[i].is_active ? shares_[i] : 0.0, searches_[i].is_active, false};
   }
   do {
@@ -257,7 +326,6 @@ void NewtonSolver::search_line(Rods& rods, const Problem& problem, int halvings)
   }
   for (std::size_t i = 0; i < searches_.size(); ++i) {
     shares_[i] = line_.island(i).share;
-    searches_[i].energy = energies_[i];
   }
   if (problem.contacts != nullptr) {
     bound_.advance(shares_);
@@ -272,12 +340,6 @@ void NewtonSolver::move() {
     }
     packs_[pack].move(part(pack), shares);
   });
-}
-
-void NewtonSolver::add_forces(const Effects& effects, RodForces& forces) const {
-  for (const PackStep& pack : packs_) {
-    pack.add_forces(effects, forces);
-  }
 }
 
 }  // namespace fiber

@@ -69,15 +69,13 @@ class NewtonSolver {
   /// What more energy rods and contacts store since its start, all islands together [J].
   double stored_gain() const { return stored_gain_; }
 
-  void add_forces(const Effects& effects, RodForces& forces) const;
-
  private:
   /// An island in the course of a solve.
   struct Search {
-    EnergySum energy;          ///< where its rods are
-    double decrease = 0.0;     ///< that the slope of a whole step promises [J]
-    double scale = 1.0;        ///< of the next step, for the last one was so much too short
-    bool is_active = true;     ///< goes on
+    double decrease = 0.0;  ///< that the slope of a whole step promises [J]
+    double scale = 1.0;     ///< of the next step, for the last one was so much too short
+    bool is_active = true;  ///< goes on
+    bool is_balanced = false;
     bool is_learning = false;  ///< was balanced before what multipliers have learnt
   };
 
@@ -114,13 +112,12 @@ class NewtonSolver {
   SolverScratch* scratch_ = nullptr;
   std::vector<Search> searches_;       // by island
   std::vector<IslandReport> reports_;  // by island
-  std::vector<EnergySum> energies_;    // by island, as measured
+  std::vector<EnergySum> energies_;    // by island, where its rods are
   std::vector<double> decreases_;      // by island
   std::vector<double> shares_;         // by island: the most of a step
   std::vector<SimdBatch> step_;
   double stored_gain_ = 0.0;
   LineSearch line_;
-  std::vector<bool> is_balanced_;  // by island
   Coupling coupling_;
   StepBound bound_;
 };

@@ -1,9 +1,13 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <vector>
 
 #include "fiber_proximity/sim/effect.hpp"
-#include "src/sim/solver/energy_sum.hpp"
+#include "src/sim/solver/line_search.hpp"
+#include "src/sim/solver/pack_kernels.hpp"
 
 namespace fiber {
 
@@ -14,7 +18,37 @@ class PackStep {
  public:
   /// Makes it about these rods; what it was about before does not matter but for the memory it has.
   /// @param members from 1 to lane_count rods
-  void assign(const Rods& rods, const std::vector<std::uint32_t>& members);
+  void assign(const Rods& rods, const std::vector<std::uint32_t>& members) {
+    pack_.used = members.size();
+    pack_.node_count = rods.node_count(members.front());
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      pack_.rods[lane] = members[lane < members.size() ? lane : 0];
+      pack_.first_nodes[lane] = rods.first(pack_.rods[lane]);
+    }
+    pack_.unknowns = rods.angles.empty() ? 3 : 4;
+    system_.resize(pack_.node_count, pack_.unknowns, pack_.used);
+    const std::size_t nodes = pack_.node_count;
+    for (auto* array :
+         {&pack_.masses, &pack_.rest_lengths, &pack_.inverse_rest_lengths,
+          &pack_.inverse_node_lengths, &pack_.lengths, &pack_.inverse_lengths, &residuals_}) {
+      array->resize(nodes);
+    }
+    pack_.tangents.resize(3 * nodes);
+    if (system_.unknowns == 4) {
+      for (auto* array : {&pack_.start_directors, &pack_.start_tangents, &pack_.directors}) {
+        array->resize(3 * nodes);
+      }
+      pack_.director_twists.resize(nodes);
+    }
+    for (auto* array :
+         {&pack_.positions, &inertias_, &scales_, &beginning_, &predicted_, &remembered_}) {
+      array->resize(system_.size());
+    }
+    views_.clear();
+    for (std::size_t lane = 0; lane < pack_.used; ++lane) {
+      views_.emplace_back(system_, lane);
+    }
+  }
 
   const RodPack& rods() const { return pack_; }
   std::size_t used() const { return pack_.used; }
@@ -26,34 +60,129 @@ class PackStep {
 
   /// Begins a step: rates are measured from where the rods are.
   /// @param step [s]
-  void begin(const Rods& rods, const Effects& effects, double step);
+  void begin(const Rods& rods, const Effects& effects, double step) {
+    step_length_ = step;
+    const std::size_t unknowns = system_.unknowns;
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      load_constants(rods, lane);
+    }
+    for_each_node(lane_count, [&](std::size_t lane, std::size_t place, std::uint32_t node) {
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        predicted_[place + k][lane] =
+            rods.positions[node][k] + step_length_ * rods.velocities[node][k];
+      }
+      if (unknowns == 4) {
+        predicted_[place + 3][lane] = rods.angles[node] + step_length_ * rods.spins[node];
+        const std::uint32_t edge = node - pack_.first_nodes[lane];
+        for (std::uint32_t k = 0; k < 3; ++k) {
+          pack_.start_directors[3 * edge + k][lane] = rods.directors[node][k];
+          pack_.start_tangents[3 * edge + k][lane] = rods.start_tangents[node][k];
+        }
+      }
+    });
+    load_values(effects);
+    load(rods);
+    beginning_ = pack_.positions;
+  }
 
   /// Loads what effects have found of the rods, again where they have learnt.
-  void load_values(const Effects& effects);
+  void load_values(const Effects& effects) {
+    values_.resize(effects.size());
+    for (std::size_t e = 0; e < effects.size(); ++e) {
+      const auto [numbers, count] = effects[e]->numbers();
+      values_[e].resize(std::size_t{count} * pack_.node_count);
+      for (std::size_t lane = 0; lane < lane_count; ++lane) {
+        const std::uint32_t first = pack_.first_nodes[lane];
+        for (std::uint32_t i = 0; i < pack_.node_count; ++i) {
+          for (std::size_t k = 0; k < count; ++k) {
+            values_[e][count * i + k][lane] = numbers[std::size_t{count} * (first + i) + k];
+          }
+        }
+      }
+    }
+  }
 
   /// Moves the rods to where they are in Rods, and back.
-  void load(const Rods& rods);
-  void store(Rods& rods) const;
+  void load(const Rods& rods) {
+    for_each_node(lane_count, [&](std::size_t lane, std::size_t place, std::uint32_t node) {
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        pack_.positions[place + k][lane] = rods.positions[node][k];
+      }
+      if (system_.unknowns == 4) {
+        pack_.positions[place + 3][lane] = rods.angles[node];
+      }
+    });
+    measure_edges(pack_);
+  }
+
+  void store(Rods& rods) const {
+    for_each_node(pack_.used, [&](std::size_t lane, std::size_t place, std::uint32_t node) {
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        rods.positions[node][k] = pack_.positions[place + k][lane];
+      }
+      if (system_.unknowns == 4) {
+        rods.angles[node] = pack_.positions[place + 3][lane];
+      }
+    });
+  }
 
   /// The step from where the rods are to where inertia alone would bring them.
   /// @param step step_size() of them, overwritten
-  void predict(SimdBatch* step) const;
+  void predict(SimdBatch* step) const {
+    for (std::size_t i = 0; i < system_.size(); ++i) {
+      for (std::size_t lane = 0; lane < lane_count; ++lane) {
+        step[i][lane] = predicted_[i][lane] - pack_.positions[i][lane];
+      }
+    }
+    std::fill(step + system_.size(), step + step_size(), SimdBatch{});
+  }
 
   /// Remembers where the rods are as where move() starts.
   void remember() { remembered_ = pack_.positions; }
 
   /// Brings each rod a share of a step away from there.
-  void move(const SimdBatch* step, const SimdBatch& shares);
+  void move(const SimdBatch* step, const SimdBatch& shares) {
+    move_by({system_.size(), pack_.used}, remembered_.data(), step, shares, pack_.positions.data());
+    measure_edges(pack_);
+  }
 
   /// Kinetic and potential energy of the incremental potential where the rods are now [J].
-  void measure(const Effects& effects);
+  void measure(const Effects& effects) {
+    const SimdBatch kinetic = weighted_squares({system_.size(), pack_.used}, inertias_.data(),
+                                               pack_.positions.data(), predicted_.data());
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      energies_[lane] = EnergySum{};
+      energies_[lane].add(0.5 * kinetic[lane] / (step_length_ * step_length_));
+    }
+    stored_ = 0.0;
+    for (std::size_t e = 0; e < effects.size(); ++e) {
+      SimdBatch energy;
+      effects[e]->energy(pack_, values_[e], energy);
+      const bool is_stored = effects[e]->is_stored();
+      for (std::size_t lane = 0; lane < pack_.used; ++lane) {
+        energies_[lane].add(energy[lane]);
+        stored_ += is_stored ? energy[lane] : 0.0;
+      }
+    }
+  }
+
   const EnergySum& energy(std::size_t lane) const { return energies_[lane]; }
 
   /// Of that, over all rods, what is there again when they move back: without inertia [J].
   double stored_energy() const { return stored_; }
 
   /// Makes gradient and Hessian those of the energies where the rods are now.
-  void assemble(const Effects& effects);
+  void assemble(const Effects& effects) {
+    const double inverse_square = 1.0 / (step_length_ * step_length_);
+    const std::size_t height = half_bandwidth(system_.unknowns) + 1;
+    system_.set_zero();
+    set_inertia({system_.size(), pack_.used}, inverse_square, inertias_.data(),
+                pack_.positions.data(), predicted_.data(), system_.gradient.data(),
+                system_.hessian.data(), height);
+    for (std::size_t e = 0; e < effects.size(); ++e) {
+      effects[e]->add_derivatives(pack_, values_[e], system_);
+    }
+  }
 
   /// To add what else acts on a rod to what was assembled.
   RodSystem& system(std::size_t lane) { return views_[lane]; }
@@ -64,27 +193,122 @@ class PackStep {
     double speed;
     std::uint32_t node;  ///< from the rod's first one
   };
-  Residual residual(std::size_t lane) const;
-  void measure_residuals();
+  Residual residual(std::size_t lane) const {
+    std::uint32_t worst = 0;
+    for (std::uint32_t i = 1; i < pack_.node_count; ++i) {
+      worst = residuals_[i][lane] > residuals_[worst][lane] ? i : worst;
+    }
+    return {std::sqrt(residuals_[worst][lane]), worst};
+  }
+
+  void measure_residuals() {
+    squared_residuals({pack_.node_count, pack_.used}, system_.unknowns, system_.gradient.data(),
+                      scales_.data(), residuals_.data());
+  }
 
   /// Factorises the Hessian, and solves for minus the gradient.
   /// @param step step_size() of them, overwritten
-  void find_step(SimdBatch* step);
+  void find_step(SimdBatch* step) {
+    // All effects add positive semidefinite blocks, and masses are positive: only rounding errors
+    // can make it indefinite, and what it solves for then still lets the energy fall.
+    factorise_band(system_);
+    for (std::size_t i = 0; i < system_.size(); ++i) {
+      for (std::size_t lane = 0; lane < lane_count; ++lane) {
+        step[i][lane] = -system_.gradient[i][lane];
+      }
+    }
+    std::fill(step + system_.size(), step + step_size(), SimdBatch{});
+    solve(step);
+    keep_finite(step);
+  }
 
   /// Solves for other right-hand sides.
   /// @param values step_size() of them, zeros where nothing is unknown
-  void solve(SimdBatch* values) const;
+  void solve(SimdBatch* values) const { solve_band(system_, values); }
 
   const std::vector<SimdBatch>& gradient() const { return system_.gradient; }
 
   /// Stores where the rods are, and the velocities that bring them there from where it began.
-  void finish(Rods& rods) const;
+  void finish(Rods& rods) const {
+    store(rods);
+    for_each_node(pack_.used, [&](std::size_t lane, std::size_t place, std::uint32_t node) {
+      const auto rate = [&](std::size_t k) {
+        return (pack_.positions[place + k][lane] - beginning_[place + k][lane]) / step_length_;
+      };
+      rods.velocities[node] = {rate(0), rate(1), rate(2)};
+      if (system_.unknowns == 4) {
+        rods.spins[node] = rate(3);
+      }
+    });
+  }
 
-  void add_forces(const Effects& effects, RodForces& forces) const;
+  void add_forces(const Effects& effects, RodForces& forces) const {
+    for (std::size_t e = 0; e < effects.size(); ++e) {
+      effects[e]->add_forces(pack_, values_[e], forces);
+    }
+  }
 
  private:
-  void load_constants(const Rods& rods, std::size_t lane);
-  void keep_finite(SimdBatch* step) const;
+  /// Calls function(lane, place, node) for the nodes of the first lanes: where what is unknown of
+  /// one begins, and which one Rods has it as.
+  template <class Function>
+  void for_each_node(std::size_t lanes, const Function& function) const {
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      for (std::uint32_t i = 0; i < pack_.node_count; ++i) {
+        function(lane, i * system_.unknowns, pack_.first_nodes[lane] + i);
+      }
+    }
+  }
+
+  void load_constants(const Rods& rods, std::size_t lane) {
+    const std::size_t unknowns = system_.unknowns;
+    const std::uint32_t first = pack_.first_nodes[lane];
+    const std::uint32_t rod = pack_.rods[lane];
+    const RodSection& section = rods.sections[rod];
+    pack_.stretching_stiffness[lane] = section.stretching_stiffness;
+    pack_.bending_stiffness[lane] = section.bending_stiffness;
+    pack_.twisting_stiffness[lane] = section.twisting_stiffness;
+    for (std::uint32_t i = 0; i < pack_.node_count; ++i) {
+      const double length = rods.rest_lengths[first + i];
+      pack_.masses[i][lane] = rods.masses[first + i];
+      pack_.rest_lengths[i][lane] = length;
+      for (std::size_t k = 0; k < 3; ++k) {
+        inertias_[i * unknowns + k][lane] = rods.masses[first + i];
+        scales_[i * unknowns + k][lane] = step_length_ / rods.masses[first + i];
+      }
+      const bool has_edge = i + 1 < pack_.node_count;
+      if (unknowns == 4) {
+        // After the last node there is no edge: its angle stays as it is.
+        const double inertia = section.inertia_per_length * (has_edge ? length : 1.0);
+        inertias_[i * unknowns + 3][lane] = inertia;
+        scales_[i * unknowns + 3][lane] = rods.radii[rod] * step_length_ / inertia;
+      }
+      if (has_edge) {
+        const double before = i > 0 ? rods.rest_lengths[first + i - 1] : length;
+        pack_.inverse_rest_lengths[i][lane] = 1.0 / length;
+        pack_.inverse_node_lengths[i][lane] = 2.0 / (before + length);
+      }
+    }
+  }
+
+  /// Where edges have shrunk to nothing, as without stretch they may, stiffnesses are beyond what
+  /// numbers can hold: such a rod has no step.
+  void keep_finite(SimdBatch* step) const {
+    SimdBatch zero;
+    for (std::size_t i = 0; i < system_.size(); ++i) {
+      for (std::size_t lane = 0; lane < lane_count; ++lane) {
+        zero[lane] += 0.0 * step[i][lane];
+      }
+    }
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      if (zero[lane] == 0.0) {
+        continue;
+      }
+      for (std::size_t i = 0; i < system_.size(); ++i) {
+        step[i][lane] = 0.0;
+      }
+    }
+  }
 
   RodPack pack_;
   PackSystem system_;

@@ -26,20 +26,6 @@ void add_packs(const std::vector<std::uint32_t>& rods,
 
 }  // namespace
 
-void copy_state(const Rods& rods, RodState& state) {
-  state.positions = rods.positions;
-  state.velocities = rods.velocities;
-  state.angles = rods.angles;
-  state.spins = rods.spins;
-}
-
-void copy_state(const RodState& state, Rods& rods) {
-  rods.positions = state.positions;
-  rods.velocities = state.velocities;
-  rods.angles = state.angles;
-  rods.spins = state.spins;
-}
-
 StageSolver::StageSolver(const Rods& rods, const StepperOptions& options, Contacts* contacts)
     : options_(options), contacts_(contacts), arena_(arena_concurrency(options.threads)) {
   scratch_.resize(rods);
@@ -57,11 +43,11 @@ void StageSolver::solve(Rods& rods, const Effects& effects, const TimeStep& stag
   last_step_ = stage.length;
   is_at_start_ = reference == nullptr;
   if (contacts_ != nullptr || reference != nullptr) {
-    copy_state(rods, start_);
+    start_ = rods;
     if (reference != nullptr) {
-      copy_state(*reference, rods);
+      static_cast<RodState&>(rods) = *reference;
     }
-    copy_state(rods, reference_);
+    reference_ = rods;
   }
   arena_.execute([&] {
     for (const std::unique_ptr<Effect>& effect : effects) {
@@ -176,29 +162,29 @@ void StageSolver::make_groups(const Rods& rods) {
 
 /// Gives each group that is to be solved its contacts.
 void StageSolver::split_contacts() {
-  const auto group_of = [this](std::uint32_t rod) -> Group& { return groups_[group_of_[rod]]; };
   for (Group& group : groups_) {
     if (!group.is_solved) {
       group.contacts.clear();
     }
   }
-  const auto give = [&](const auto& all, auto ContactSet::*part, auto rod_of) {
+  const auto give = [&](const auto& all, auto ContactSet::*part, auto rod) {
     for (const auto& each : all) {
-      Group& group = group_of(rod_of(each));
+      Group& group = groups_[group_of_[each.*rod]];
       if (!group.is_solved) {
         (group.contacts.*part).push_back(each);
       }
     }
   };
-  give(found_.pairs, &ContactSet::pairs, [](const EdgePair& pair) { return pair.rod_a; });
-  give(found_.obstacle_contacts, &ContactSet::obstacle_contacts,
-       [](const ObstacleContact& contact) { return contact.rod; });
-  give(found_.obstacle_edges, &ContactSet::obstacle_edges,
-       [](const ObstacleEdge& edge) { return edge.rod; });
+  give(found_.pairs, &ContactSet::pairs, &EdgePair::rod_a);
+  give(found_.obstacle_contacts, &ContactSet::obstacle_contacts, &ObstacleContact::rod);
+  give(found_.obstacle_edges, &ContactSet::obstacle_edges, &ObstacleEdge::rod);
 }
 
 void StageSolver::solve_group(Rods& rods, const Effects& effects, double step, Group& group) {
-  std::unique_ptr<NewtonSolver> solver = take_solver();
+  std::unique_ptr<NewtonSolver> solver;
+  if (!solvers_.try_pop(solver)) {
+    solver = std::make_unique<NewtonSolver>();
+  }
   solver->assign(rods, group.packs, group.islands, scratch_);
   if (!is_at_start_) {
     bring(reference_, group, rods, true);
@@ -218,7 +204,7 @@ void StageSolver::solve_group(Rods& rods, const Effects& effects, double step, G
   group.reports = solver->reports();
   group.stored_gain = solver->stored_gain();
   group.needed_room = solver->step_bound().needed();
-  give_back(std::move(solver));
+  solvers_.push(std::move(solver));
 }
 
 /// Moves the rods of a group.
@@ -240,21 +226,6 @@ void StageSolver::bring(const RodState& state, const Group& group, Rods& rods,
       }
     }
   }
-}
-
-std::unique_ptr<NewtonSolver> StageSolver::take_solver() {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (solvers_.empty()) {
-    return std::make_unique<NewtonSolver>();
-  }
-  std::unique_ptr<NewtonSolver> solver = std::move(solvers_.back());
-  solvers_.pop_back();
-  return solver;
-}
-
-void StageSolver::give_back(std::unique_ptr<NewtonSolver> solver) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  solvers_.push_back(std::move(solver));
 }
 
 void StageSolver::add_to(StepReport& report) const {

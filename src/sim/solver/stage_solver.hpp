@@ -1,27 +1,45 @@
 #pragma once
 
+#include <tbb/concurrent_queue.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <memory>
-#include <mutex>
+#include <numeric>
 #include <vector>
 
-#include "src/sim/solver/islands.hpp"
 #include "src/sim/solver/newton.hpp"
 
 namespace fiber {
 
-/// Where all rods are, and how they move.
-struct RodState {
-  std::vector<Eigen::Vector3d> positions;
-  std::vector<Eigen::Vector3d> velocities;
-  std::vector<double> angles;
-  std::vector<double> spins;
-};
+/// Which rods may touch each other in a step, directly or through others: disjoint sets of them, as
+/// a forest whose roots are the least rods of their trees.
+class Islands {
+ public:
+  /// Each rod is alone.
+  void reset(std::uint32_t rods) {
+    parents_.resize(rods);
+    std::iota(parents_.begin(), parents_.end(), 0U);
+  }
 
-/// Copies it, into memory that is there already.
-void copy_state(const Rods& rods, RodState& state);
-void copy_state(const RodState& state, Rods& rods);
+  /// Makes the islands of two rods one.
+  void join(std::uint32_t a, std::uint32_t b) {
+    const auto [root, other] = std::minmax({of(a), of(b)});
+    // Ways to the root stay short.
+    parents_[other] = parents_[a] = parents_[b] = root;
+  }
+
+  /// The least rod of a rod's island.
+  std::uint32_t of(std::uint32_t rod) const {
+    while (parents_[rod] != rod) {
+      rod = parents_[rod];
+    }
+    return rod;
+  }
+
+ private:
+  std::vector<std::uint32_t> parents_;  // by rod, never greater
+};
 
 /// One solve of a step: finds which rods may touch each other in it, and solves for each island, or
 /// some rods that touch none, on its own.
@@ -65,8 +83,6 @@ class StageSolver {
   void adapt_stiffening(const Rods& rods);
   void solve_group(Rods& rods, const Effects& effects, double step, Group& group);
   void bring(const RodState& state, const Group& group, Rods& rods, bool has_rates) const;
-  std::unique_ptr<NewtonSolver> take_solver();
-  void give_back(std::unique_ptr<NewtonSolver> solver);
   template <class Function>
   void for_each_pack(const Rods& rods, const Effects& effects, const Function& function);
 
@@ -85,9 +101,8 @@ class StageSolver {
   bool is_at_start_ = true;  // whether rods are where the solve starts, and rates are measured from
   RodState start_;
   RodState reference_;
-  double last_step_ = 0.0;  // [s]
-  std::mutex mutex_;        // of the solvers
-  std::vector<std::unique_ptr<NewtonSolver>> solvers_;
+  double last_step_ = 0.0;                                        // [s]
+  tbb::concurrent_queue<std::unique_ptr<NewtonSolver>> solvers_;  // that are not at work
 };
 
 }  // namespace fiber

@@ -1,4 +1,4 @@
-#include "fiber_proximity/sim/scene/report.hpp"
+#include "src/sim/scene/report.hpp"
 
 #include "test/sim/scene/scene_fixture.hpp"
 

@@ -1,0 +1,114 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "fiber_proximity/sim/effect.hpp"
+
+namespace fiber {
+
+/// Where something that holds a rod is.
+struct Placement {
+  Eigen::Vector3d position;  ///< [m]
+  Eigen::Vector3d tangent;   ///< of clamps: the rod's direction there, a unit vector
+  Eigen::Vector3d director;  ///< of clamps of rods with twist: across the tangent, a unit vector
+};
+
+/// A node that is held, and where it is to be.
+struct HeldNode {
+  std::uint32_t node;        ///< from the rod's first one
+  Eigen::Vector3d position;  ///< [m]
+};
+
+/// A hold that pulls with its greatest force and does not bring its node to where it should be.
+struct HoldLag {
+  std::uint32_t rod;
+  std::uint32_t node;  ///< from the rod's first one
+  double distance;     ///< of the node from there [m]
+  double force;        ///< [N]
+};
+
+/// Holds on rods: pins, which pull a node to a place; clamps, which at an end of a rod also turn it
+/// into a direction, and with twist turn the cross-section.
+///
+/// A hold pulls like a spring that is far stiffer than the rod's edges, and with no more than a
+/// greatest force: a node that something stronger keeps lags behind, and what it pulls on is not
+/// torn. The potential is the Huber loss of the distance.
+///
+/// A clamp is an edge before the first or after the last one that meets it at the end node, half an
+/// edge's length of rod away: fixing two nodes instead would move the clamp by half an edge.
+class Attachment : public Effect {
+ public:
+  enum class Kind { PIN, CLAMP };
+
+  /// What holds a node, and where.
+  struct Hold {
+    std::uint32_t rod = 0;
+    std::uint32_t node = 0;  ///< from the rod's first one
+    Kind kind = Kind::PIN;
+    std::function<Placement(double time)> placement;  ///< by time [s]
+    double max_force = 0.0;  ///< [N] >= 0; 0: what stretches the rod by `default_strain`
+  };
+  static constexpr double default_strain = 0.1;
+
+  /// Nothing is held.
+  Attachment() = default;
+
+  /// @returns what to remove it by
+  /// @throws std::invalid_argument naming the hold, for a rod or node that there is not, a clamp
+  ///         that is not at an end, a node that is held already, a force that is negative or not
+  ///         finite, or a first placement that is not finite or whose vectors are not of unit
+  ///         length
+  std::uint32_t add(const Rods& rods, const Hold& hold);
+
+  /// What holds this node, counted from the rod's first one.
+  std::optional<std::uint32_t> find(std::uint32_t rod, std::uint32_t node) const;
+
+  /// Rods and their nodes that are held, counted from the rod's first one; rising.
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> held_nodes() const;
+
+  /// The nodes of a rod that are held, rising, and where they are to be at a time [s].
+  std::vector<HeldNode> held_at(std::uint32_t rod, double time) const;
+
+  /// The hold that lags furthest behind, of those that cannot pull any harder; none if none does.
+  std::optional<HoldLag> longest_lag(const Rods& rods) const;
+
+  /// @throws std::invalid_argument if there is no such hold
+  void remove(std::uint32_t id);
+
+  /// @throws std::invalid_argument naming the hold, for a placement that add() would not take
+  void begin_step(Rods& rods, const TimeStep& step) override;
+  void energy(const RodPack& rods, const NodeValues& values, SimdBatch& energy) const override;
+  void add_derivatives(const RodPack& rods, const NodeValues& values,
+                       PackSystem& system) const override;
+  void end_step(Rods& rods, const TimeStep& step) override;
+  void add_forces(const RodPack& rods, const NodeValues& values, RodForces& forces) const override;
+
+ private:
+  struct Held {
+    std::uint32_t id;
+    Hold hold;
+    double max_force;        // [N]
+    double stiffness = 0.0;  // [N/m]
+    Placement placement;     // at the end of this step
+    double twist = 0.0;      // between clamp and edge when the step began, may exceed a
+                             // turn [rad]
+    std::optional<Eigen::Vector2d> natural_bend{};  // of clamps, if it has a direction [1/m]
+
+    bool is_clamp() const { return hold.kind == Kind::CLAMP; }
+    Eigen::Vector3d pull_at(const Eigen::Vector3d& position) const;
+  };
+
+  /// The first hold of a rod, or of one after it.
+  std::vector<Held>::const_iterator first_of(std::uint32_t rod) const;
+
+  template <class Visit>
+  void for_each_held(const RodPack& rods, const Visit& visit) const;
+
+  std::vector<Held> held_;  // by rod and node
+  std::uint32_t next_id_ = 0;
+};
+
+}  // namespace fiber

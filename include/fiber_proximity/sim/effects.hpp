@@ -1,0 +1,239 @@
+#pragma once
+
+#include <vector>
+
+#include "fiber_proximity/sim/effect.hpp"
+
+namespace fiber {
+
+/// An effect that is computed in all lanes of a pack at once, by functions that are compiled for
+/// each instruction set.
+class LaneEffect : public Effect {
+ public:
+  void energy(const RodPack& rods, const NodeValues& values, SimdBatch& energy) const override {
+    const Kernels chosen = kernels();
+    chosen.energy(rods, values, chosen.constants, energy);
+  }
+  void add_derivatives(const RodPack& rods, const NodeValues& values,
+                       PackSystem& system) const override {
+    const Kernels chosen = kernels();
+    chosen.add_derivatives(rods, values, chosen.constants, system);
+  }
+
+ protected:
+  /// Those of this machine, as Effect has them.
+  struct Kernels {
+    void (*energy)(const RodPack&, const NodeValues&, const double* constants, SimdBatch&);
+    void (*add_derivatives)(const RodPack&, const NodeValues&, const double* constants,
+                            PackSystem&);
+    const double* constants = nullptr;  ///< that all nodes have in common
+  };
+
+ private:
+  virtual Kernels kernels() const = 0;
+};
+
+/// Resistance of edges to change their lengths: ½ EA l (|e|/l − 1)² each, with the edge e and its
+/// length l at rest (Bergou et al. 2010, Sect. 4.1).
+class Stretch : public LaneEffect {
+ public:
+  void add_forces(const RodPack& rods, const NodeValues& values, RodForces& forces) const override;
+
+ private:
+  Kernels kernels() const override;
+};
+
+/// Edges that keep their lengths, in place of stretch. An augmented Lagrangian (Nocedal and Wright
+/// 2006, Sect. 17.3): a stiff spring holds an edge, and where the energy is at a minimum, the force
+/// it holds is remembered as the edge's tension, until no edge of the rod is longer or shorter by
+/// more than a part of 1e-6.
+///
+/// Forces add up along a hanging rod: of n edges, springs n² as stiff as the inertia of a node
+/// leave a part of the lengths' error that does not depend on n.
+class Inextensible : public LaneEffect {
+ public:
+  explicit Inextensible(const Rods& rods);
+
+  void begin_step(Rods& rods, const TimeStep& step) override;
+  bool is_stored() const override { return false; }
+
+  NodeNumbers numbers() const override { return {&springs_.front().tension, 2}; }
+
+  bool has_multipliers() const override { return true; }
+  bool update_multipliers(const Rods& rods, std::uint32_t rod) override;
+  void add_forces(const RodPack& rods, const NodeValues& values, RodForces& forces) const override;
+
+ private:
+  /// As the energy reads it.
+  struct Spring {
+    double tension = 0.0;    // [N]
+    double stiffness = 0.0;  // in this step [N/m]
+  };
+
+  Kernels kernels() const override;
+  double force(const Rods& rods, std::uint32_t edge) const;
+
+  std::vector<Spring> springs_;  // of edges
+};
+
+/// Resistance of a round rod to bending: ½ EI/l (|k| − k₀)² at each inner node, with the length l
+/// that belongs to the node (Bergou et al. 2008, Sect. 4.2) and the turn k = b − a from one edge's
+/// tangent a to that of the next, b. |k| = 2 sin(φ/2) for the angle φ between them: unlike the
+/// 2 tan(φ/2) of Bergou et al. (2008, Eq. 1) it is finite when the rod folds, and to fourth order
+/// it is nearer to φ.
+///
+/// Rods::natural_curvatures, if there are any, give k₀. Without twist they have no direction: a
+/// cross-section that may turn about the tangent without effort lets the rod bend to any side.
+/// Rods::natural_curvature_vectors have one, which cross-sections carry along: the energy is then
+/// that of the turn away from the natural one.
+class Bend : public LaneEffect {
+ public:
+  void begin_step(Rods& rods, const TimeStep& step) override;
+  void add_forces(const RodPack& rods, const NodeValues& values, RodForces& forces) const override;
+  NodeNumbers numbers() const override;
+
+ private:
+  Kernels kernels() const override;
+
+  // Of inner nodes in this step; of the two at most one is not empty.
+  std::vector<double> natural_turns_;                // k₀
+  std::vector<Eigen::Vector2d> natural_curvatures_;  // with a direction [1/m]
+};
+
+/// Rods that stay bent: where the curvature differs from the natural one by more than the material
+/// bears, the natural one follows after each step (return mapping, Simo and Hughes 1998, Sect. 1.4,
+/// in one dimension). Like the natural curvatures of Bend, what stays has no direction.
+class Plasticity : public Effect {
+ public:
+  /// When bending lasts.
+  struct Options {
+    double yield_strain = 0.02;  ///< of the outermost fibre, where yielding begins; > 0
+    double hardening = 0.0;      ///< share of what exceeds that and stays elastic, in [0, 1)
+  };
+
+  /// Adds Rods::natural_curvatures if there are none.
+  /// @throws std::invalid_argument naming the value that is out of its range, or for rods with
+  ///         natural curvature vectors
+  Plasticity(Rods& rods, const Options& options);
+
+  void end_step(Rods& rods, const TimeStep& step) override;
+
+ private:
+  Options options_;
+};
+
+/// Resistance to twist: ½ GJ/l m² at each inner node, with the twist m between the cross-sections
+/// of its edges (Bergou et al. 2008, Sect. 4.2; with the time-parallel frames of Bergou et al.
+/// 2010, Sect. 5). Adds an unknown angle to each edge; it keeps Rods::angles, directors and the
+/// like.
+class Twist : public LaneEffect {
+ public:
+  /// Gives the rods their frames: untwisted, and where a rod is bent, as the shortest rotations
+  /// from edge to edge carry the first director.
+  /// @throws std::invalid_argument naming the rod whose section does not resist twist or has no
+  ///         inertia
+  explicit Twist(Rods& rods);
+
+  NodeNumbers numbers() const override { return {reference_twists_.data(), 1}; }
+  void add_forces(const RodPack& rods, const NodeValues& values, RodForces& forces) const override;
+
+  void end_step(Rods& rods, const TimeStep& step) override;
+
+ private:
+  Kernels kernels() const override;
+
+  std::vector<double> reference_twists_;  // of the directors, at nodes; may exceed a turn [rad]
+};
+
+/// Internal friction of a Kelvin–Voigt material: each stiffness resists the rate of its strain as
+/// well, with a relaxation time. Rigid motion is not damped, but for a bent rod's turning about its
+/// own tangents: cross-sections are taken not to turn about them. Nor is a fold, which has no
+/// direction.
+class Damping : public LaneEffect {
+ public:
+  /// @param relaxation_time of stretch and bend [s]
+  /// @throws std::invalid_argument if it is negative or not finite
+  explicit Damping(double relaxation_time);
+
+  void begin_step(Rods& rods, const TimeStep& step) override;
+  bool is_stored() const override { return false; }
+  NodeNumbers numbers() const override { return {starts_.front().turn.data(), 7}; }
+  void add_forces(const RodPack& rods, const NodeValues& values, RodForces& forces) const override;
+
+ private:
+  /// An edge and its first node when the step began, as the energy reads it.
+  struct Start {
+    Eigen::Vector3d turn = Eigen::Vector3d::Zero();
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // of the tangents; zero where it is folded
+    double length = 0.0;                               // [m]
+  };
+
+  Kernels kernels() const override;
+
+  double relaxation_time_;
+  double share_ = 0.0;  // of a stiffness that resists what a step changes
+  std::vector<Start> starts_;
+};
+
+/// The same acceleration everywhere.
+class Gravity : public LaneEffect {
+ public:
+  /// @param acceleration [m/s²]
+  /// @throws std::invalid_argument if it is not finite
+  explicit Gravity(const Eigen::Vector3d& acceleration);
+
+ private:
+  Kernels kernels() const override;
+
+  Eigen::Vector3d acceleration_;
+};
+
+/// Wind: a mean velocity and a gust that swells and ebbs as it passes. No random numbers, so that
+/// the same scene gives the same motion.
+struct WindField {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();  ///< [m/s]
+  Eigen::Vector3d gust = Eigen::Vector3d::Zero();  ///< amplitude [m/s]
+  double gust_period = 1.0;                        ///< [s]
+  double gust_length = 1.0;                        ///< along the mean velocity [m]
+
+  Eigen::Vector3d at(const Eigen::Vector3d& point, double time) const;
+};
+
+/// Resistance of a fluid to slender rods: ½ ρ d c |w| w per length, with the diameter d and the
+/// velocity w of the fluid against the rod, across and along the rod with coefficients of their own
+/// (Taylor 1952). The coefficients' product with |w| is that of the step's beginning.
+class Drag : public LaneEffect {
+ public:
+  /// What flows past the rods, and how much they resist it.
+  struct Options {
+    double fluid_density = 1.2;  ///< [kg/m³]
+    double across = 1.2;         ///< coefficient of a cylinder in cross flow
+    double along = 0.02;         ///< and along its axis
+    WindField wind;
+  };
+
+  /// @throws std::invalid_argument naming the value for negative or infinite ones, or a gust whose
+  ///         period or length is not positive
+  explicit Drag(const Options& options);
+
+  void begin_step(Rods& rods, const TimeStep& step) override;
+  bool is_stored() const override { return false; }
+  NodeNumbers numbers() const override { return {nodes_.front().tangent.data(), 8}; }
+
+ private:
+  /// What resists the motion of a node in a step, as the energy reads it.
+  struct Node {
+    Eigen::Vector3d tangent;
+    Eigen::Vector3d carried;  // where the wind alone would bring it [m]
+    double across;            // force by distance from there [N/m]
+    double along;
+  };
+
+  Kernels kernels() const override;
+  Node node_at(const Rods& rods, std::uint32_t rod, std::uint32_t node, const TimeStep& step) const;
+
+  Options options_;
+  std::vector<Node> nodes_;
+};
+
+}  // namespace fiber

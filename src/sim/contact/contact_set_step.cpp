@@ -1,0 +1,181 @@
+// What contacts have to do with a step of Newton's method: their part of its equations, and how far
+// it may go.
+
+#include <algorithm>
+
+#include "fiber_proximity/environment/axis_distance.hpp"
+#include "fiber_proximity/geometry/contact_time.hpp"
+#include "src/environment/shape_contact_time.hpp"
+#include "src/sim/contact/contact_set.hpp"
+
+namespace fiber {
+
+using Eigen::Matrix3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+namespace {
+
+/// What a distance may lose in a step of what it has beyond the least one, and how well the time is
+/// to be known at which it has lost that, in parts of what is left.
+constexpr double most_lost = 0.8;
+constexpr double tolerance = 0.1;
+
+/// The square of the most by which two edges' nodes approach each other.
+double largest_approach(const Vector3d* a, const Vector3d* b) {
+  return std::max(std::max((a[0] - b[0]).squaredNorm(), (a[0] - b[1]).squaredNorm()),
+                  std::max((a[1] - b[0]).squaredNorm(), (a[1] - b[1]).squaredNorm()));
+}
+
+/// Adds one side of a term to the rod it is on.
+/// @param node of the rod, where the edge begins
+void add_side(std::uint32_t node, double parameter, const Vector3d& gradient,
+              const Matrix3d& hessian, RodSystem& system) {
+  const Vector2d weights(1.0 - parameter, parameter);
+  system.add_gradient(node, weights[0] * gradient);
+  system.add_gradient(node + 1, weights[1] * gradient);
+  system.add_hessian(node, weights[0] * weights[0] * hessian);
+  system.add_hessian(node + 1, weights[1] * weights[1] * hessian);
+  system.add_hessian(node + 1, node, weights[0] * weights[1] * hessian);
+}
+
+}  // namespace
+
+void ContactSet::add_derivatives(const Rods& rods, const std::vector<RodSystem*>& systems,
+                                 const std::vector<std::uint32_t>& packs,
+                                 std::uint32_t which) const {
+  for (const std::vector<Term>& terms : terms_) {
+    for (const Term& term : terms) {
+      const PointPair& points = term.points;
+      if (packs[points.rod_a] == which) {
+        const std::uint32_t edge = points.edge_a - rods.first(points.rod_a);
+        add_side(edge, points.s, term.gradient, term.hessian, *systems[points.rod_a]);
+        if (term.turning > 0.0) {
+          systems[points.rod_a]->add_edge(edge, Vector3d::Zero(),
+                                          term.turning * term.gradient * term.gradient.transpose());
+        }
+      }
+      if (points.edge_b != no_edge && packs[points.rod_b] == which) {
+        add_side(points.edge_b - rods.first(points.rod_b), points.t, -term.gradient, term.hessian,
+                 *systems[points.rod_b]);
+      }
+    }
+  }
+}
+
+void ContactSet::add_coupling(const std::vector<std::size_t>& places, const double* displacements,
+                              double* product) const {
+  using Stride = Eigen::InnerStride<lane_count>;
+  const auto displacement = [&](std::uint32_t node) {
+    return Eigen::Map<const Vector3d, 0, Stride>(displacements + places[node]);
+  };
+  const auto combine = [&](std::uint32_t edge, double parameter) -> Vector3d {
+    return (1.0 - parameter) * displacement(edge) + parameter * displacement(edge + 1);
+  };
+  const auto spread = [&](std::uint32_t edge, double parameter, const Vector3d& v) {
+    Eigen::Map<Vector3d, 0, Stride>(product + places[edge]) -= (1.0 - parameter) * v;
+    Eigen::Map<Vector3d, 0, Stride>(product + places[edge + 1]) -= parameter * v;
+  };
+  for (const std::vector<Term>& terms : terms_) {
+    for (const Term& term : terms) {
+      const PointPair& points = term.points;
+      if (points.edge_b != no_edge) {
+        const Vector3d from_a = term.hessian * combine(points.edge_a, points.s);
+        const Vector3d from_b = term.hessian * combine(points.edge_b, points.t);
+        spread(points.edge_a, points.s, from_b);
+        spread(points.edge_b, points.t, from_a);
+      }
+    }
+  }
+}
+
+void ContactSet::add_loads(std::vector<double>& loads) const {
+  for (const std::vector<Term>& terms : terms_) {
+    for (const Term& term : terms) {
+      const PointPair& points = term.points;
+      loads[points.rod_a] = std::max(loads[points.rod_a], term.load);
+      if (points.edge_b != no_edge) {
+        loads[points.rod_b] = std::max(loads[points.rod_b], term.load);
+      }
+    }
+  }
+}
+
+void ContactSet::bound_step(const Rods& rods, const std::vector<Vector3d>& displacements,
+                            const std::vector<std::uint32_t>& islands, std::vector<double>& shares,
+                            std::vector<Vector3d>& ends) const {
+  for (std::size_t i = 0; i < obstacle_contacts.size(); ++i) {
+    double& share = shares[islands[obstacle_contacts[i].rod]];
+    share = fiber::bounded_share(obstacle_contacts[i], obstacle_distances_[i], rods.positions,
+                                 displacements, most_lost, share);
+  }
+  for (const ObstacleEdge& edge : obstacle_edges) {
+    double& share = shares[islands[edge.rod]];
+    share = bounded_share(rods, edge, displacements, share);
+  }
+  bound_pairs(rods, displacements, islands, shares, ends);
+}
+
+/// How far an edge may go for an obstacle: as far as it is away; else, with a convex one, as long
+/// as it stays in front of the plane that parted them when the step began; else until it comes to
+/// it.
+double ContactSet::bounded_share(const Rods& rods, const ObstacleEdge& edge,
+                                 const std::vector<Vector3d>& displacements, double share) {
+  const Vector3d* const now = &rods.positions[edge.edge];
+  const Vector3d* const ways = &displacements[edge.edge];
+  double farthest = 0.0;  // from where the ends were
+  double lowest = edge.distance;
+  for (std::size_t i = 0; i < 2; ++i) {
+    farthest = std::max({farthest, (now[i] - edge.starts[i]).norm(),
+                         (now[i] + share * ways[i] - edge.starts[i]).norm()});
+    lowest = std::min(lowest, edge.normal.dot(now[i] + share * ways[i] - edge.point));
+  }
+  const double left = (1.0 - most_lost) * edge.distance;
+  if (farthest <= most_lost * edge.distance || (edge.shape->is_convex() && lowest >= left)) {
+    return share;
+  }
+  const Shape& shape = *edge.shape->shape;
+  AxisMotion motion;
+  for (std::size_t i = 0; i < 2; ++i) {
+    motion.before[i] = edge.shape->to_shape * now[i];
+    motion.after[i] = edge.shape->to_shape * (now[i] + share * ways[i]);
+  }
+  const AxisDistance nearest =
+      axis_distance(shape, motion.before[0], motion.before[1], 2.0 * (edge.distance + farthest));
+  const double gap = std::max(0.0, nearest.lower);
+  const double error = 0x1p-48 * (reach(shape) + edge.shape->pose.translation().norm() +
+                                  now[0].norm() + now[1].norm());
+  const ContactTime time = contact_time(shape, motion, {(1.0 - most_lost) * gap, error},
+                                        tolerance * (1.0 - most_lost) * gap);
+  return time.hit ? share * time.lower : share;
+}
+
+void ContactSet::bound_pairs(const Rods& rods, const std::vector<Vector3d>& displacements,
+                             const std::vector<std::uint32_t>& islands, std::vector<double>& shares,
+                             std::vector<Vector3d>& ends) const {
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const EdgePair& pair = pairs[i];
+    double& share = shares[islands[pair.rod_a]];
+    const double gap = distances_[i].distance - pair.barrier.least();
+    const double square =
+        largest_approach(&displacements[pair.edge_a], &displacements[pair.edge_b]);
+    if (gap > 0.0 && square * share * share < most_lost * most_lost * gap * gap) {
+      continue;
+    }
+    for (const std::uint32_t node : {pair.edge_a, pair.edge_a + 1, pair.edge_b, pair.edge_b + 1}) {
+      ends[node] = rods.positions[node] + displacements[node];
+    }
+    const double left = (1.0 - most_lost) * std::max(0.0, gap);
+    const ContactTime time = contact_time({&rods.positions[pair.edge_a],
+                                           &ends[pair.edge_a],
+                                           &rods.positions[pair.edge_b],
+                                           &ends[pair.edge_b],
+                                           {0.0, 0.0, pair.barrier.least() + left}},
+                                          tolerance * left);
+    if (time.hit) {
+      share = std::min(share, time.lower);
+    }
+  }
+}
+
+}  // namespace fiber

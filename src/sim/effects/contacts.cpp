@@ -1,0 +1,332 @@
+#include "fiber_proximity/sim/contacts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "src/sim/contact/contact_set.hpp"
+#include "src/sim/require.hpp"
+#include "src/sim/solver/step_bound.hpp"
+
+namespace fiber {
+
+using Eigen::Vector3d;
+
+Friction::Friction(const Options& options) : options_(options) {
+  require_not_negative("friction: the coefficient", options.coefficient);
+  require_positive("friction: the stick speed", options.stick_speed, " m/s");
+}
+
+Friction::Law Friction::law(double slip, double stick_length) {
+  const double share = slip / stick_length;
+  if (share < 1.0) {
+    return {stick_length * share * share * (1.0 - share / 3.0), (2.0 - share) / stick_length,
+            2.0 * (1.0 - share) / stick_length};
+  }
+  return {slip - stick_length / 3.0, 1.0 / slip, 0.0};
+}
+
+namespace {
+
+/// The most by which vectors differ from their mean.
+double spread_of(const std::vector<Vector3d>& vectors) {
+  Vector3d mean = Vector3d::Zero();
+  for (const Vector3d& vector : vectors) {
+    mean += vector;
+  }
+  mean /= static_cast<double>(vectors.size());
+  double largest = 0.0;
+  for (const Vector3d& vector : vectors) {
+    largest = std::max(largest, (vector - mean).squaredNorm());
+  }
+  return std::sqrt(largest);
+}
+
+double largest_of(const std::vector<double>& values) {
+  return *std::max_element(values.begin(), values.end());
+}
+
+/// How much further two edges may come towards each other than their nodes' room allows [m].
+double expected_approach(const Room& room, const EdgePair& pair) {
+  double square = 0.0;
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    for (std::uint32_t j = 0; j < 2; ++j) {
+      const Vector3d way = room.expected[pair.edge_a + i] - room.expected[pair.edge_b + j];
+      square = std::max(square, way.squaredNorm());
+    }
+  }
+  return std::sqrt(square) + room.by_rod[pair.rod_a] + room.by_rod[pair.rod_b];
+}
+
+}  // namespace
+
+FiberContact::FiberContact(const Options& options)
+    : options_(options), engine_(make_engine("run_tree")) {
+  require_not_negative("contact: the stiffness", options.stiffness, " N/m");
+}
+
+FiberContact::~FiberContact() = default;
+
+void FiberContact::find(const Rods& rods, const Room& room, ContactSet& found) {
+  const double expected = spread_of(room.expected);
+  const double largest = largest_of(rods.radii);
+  const double needed = 2.0 * (Barrier::half_width * largest + expected + largest_of(room.by_rod));
+  double moved = 0.0;  // by rods beside each other since candidates were looked for
+  if (fibers_.point_count() == rods.positions.size()) {
+    std::vector<Vector3d> ways(rods.positions.size());
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+      ways[i] = rods.positions[i] - fibers_.points()[i];
+    }
+    moved = spread_of(ways);
+  }
+  // A reach that serves for some steps; one that was for faster motion finds too much.
+  const double wanted = needed + largest + 4.0 * expected;
+  constexpr double too_far = 3.0;
+  if (!(needed + 2.0 * moved <= reach_) || reach_ > too_far * wanted) {
+    find_candidates(rods, wanted);
+    moved = 0.0;
+  }
+  add_near(rods, room, 2.0 * moved, found);
+}
+
+/// Adds candidates that are near enough for the step.
+/// @param approach by which any may have come nearer since they were found [m]
+void FiberContact::add_near(const Rods& rods, const Room& room, double approach,
+                            ContactSet& found) {
+  constexpr std::size_t batch = 64;
+  std::array<const Vector3d*, batch> a{};
+  std::array<const Vector3d*, batch> b{};
+  std::array<std::size_t, batch> which{};
+  std::array<double, batch> limits{};
+  std::array<SegmentDistance, batch> distances;
+  std::size_t count = 0;
+  const auto measure = [&] {
+    segment_distances(a.data(), b.data(), count, distances.data());
+    for (std::size_t i = 0; i < count; ++i) {
+      if (distances[i].distance <= limits[i]) {
+        found.pairs.push_back(candidates_[which[i]]);
+      }
+    }
+    count = 0;
+  };
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    const EdgePair& pair = candidates_[i];
+    const double limit = pair.barrier.outer + expected_approach(room, pair);
+    if (candidate_distances_[i] - approach > limit) {
+      continue;
+    }
+    a[count] = &rods.positions[pair.edge_a];
+    b[count] = &rods.positions[pair.edge_b];
+    which[count] = i;
+    limits[count] = limit;
+    if (++count == batch) {
+      measure();
+    }
+  }
+  measure();
+}
+
+void FiberContact::find_candidates(const Rods& rods, double reach) {
+  if (fibers_.point_count() != rods.positions.size()) {
+    fibers_ = FiberAssembly(rods.positions, rods.offsets, rods.radii);
+    arcs_ = contact_arcs(rods);
+  } else {
+    fibers_.update_points(rods.positions);
+  }
+  reach_ = reach;
+  engine_->update(fibers_);
+  QueryOptions query;
+  query.margin = reach;
+  query.pairing = options_.pairing;
+  query.neighbour_skip = contact_neighbour_skip;
+  engine_->query(query, result_);
+  candidates_.clear();
+  candidate_distances_.clear();
+  for (const Contact& contact : result_.contacts) {
+    const EdgePair pair = candidate(rods, contact);
+    if (pair.rod_a != pair.rod_b ||
+        !are_contact_neighbours(rods, arcs_, pair.rod_a, pair.edge_a, pair.edge_b)) {
+      candidates_.push_back(pair);
+      candidate_distances_.push_back(contact.distance + rods.radii[pair.rod_a] +
+                                     rods.radii[pair.rod_b]);
+    }
+  }
+}
+
+EdgePair FiberContact::candidate(const Rods& rods, const Contact& contact) const {
+  EdgePair pair;
+  pair.rod_a = contact.fiber_a;
+  pair.edge_a = rods.first(pair.rod_a) + contact.segment_a;
+  pair.rod_b = contact.fiber_b;
+  pair.edge_b = rods.first(pair.rod_b) + contact.segment_b;
+  const double touching = rods.radii[pair.rod_a] + rods.radii[pair.rod_b];
+  const double stiffness =
+      options_.stiffness > 0.0
+          ? options_.stiffness
+          : std::sqrt(material_contact_stiffness(rods.sections[pair.rod_a], touching) *
+                      material_contact_stiffness(rods.sections[pair.rod_b], touching));
+  pair.barrier = Barrier::around(touching, stiffness);
+  // Of the pairs that a node's two edges make with another edge, the one further along the rod owns
+  // the node's contact: it is there if the other one is.
+  pair.owns = {pair.edge_a == rods.first(pair.rod_a), true, true,
+               pair.edge_b + 2 == rods.end(pair.rod_b)};
+  const auto may_touch = [&](std::uint32_t edge_a, std::uint32_t edge_b) {
+    return pair.rod_a != pair.rod_b ||
+           !are_contact_neighbours(rods, arcs_, pair.rod_a, edge_a, edge_b);
+  };
+  for (std::uint32_t end = 0; end < 4; ++end) {
+    const bool is_of_a = end < 2;
+    const std::uint32_t other_rod = is_of_a ? pair.rod_b : pair.rod_a;
+    const std::uint32_t other = is_of_a ? pair.edge_b : pair.edge_a;
+    const std::uint32_t own = is_of_a ? pair.edge_a : pair.edge_b;
+    pair.has_neighbour[end] = {other > rods.first(other_rod) && may_touch(own, other - 1),
+                               other + 2 < rods.end(other_rod) && may_touch(own, other + 1)};
+  }
+  return pair;
+}
+
+namespace {
+
+std::vector<Vector3d> doubled(const std::vector<Vector3d>& points) {
+  std::vector<Vector3d> doubled;
+  doubled.reserve(2 * points.size());
+  for (const Vector3d& point : points) {
+    doubled.push_back(point);
+    doubled.push_back(point);
+  }
+  return doubled;
+}
+
+/// Edges first to last, and the nodes at their ends, as segments of the doubled fibres.
+AllowedPair doubled(const AllowedPair& pair) {
+  AllowedPair doubled = pair;
+  doubled.first_segment = 2 * pair.first_segment + (pair.first_segment < 0 ? -1 : 0);
+  doubled.last_segment = 2 * pair.last_segment + (pair.last_segment < 0 ? 1 : 2);
+  return doubled;
+}
+
+}  // namespace
+
+EnvironmentContact::EnvironmentContact(std::shared_ptr<const Environment> environment,
+                                       const Options& options)
+    : options_(options) {
+  require_not_negative("environment_contact: the stiffness", options.stiffness, " N/m");
+  for (const AllowedPair& pair : options.allowed) {
+    allowed_.push_back(doubled(pair));
+  }
+  set_environment(std::move(environment));
+}
+
+EnvironmentContact::~EnvironmentContact() = default;
+
+void EnvironmentContact::set_environment(std::shared_ptr<const Environment> environment) {
+  environment_ = std::move(environment);
+  reach_ = -1.0;
+  shapes_.clear();
+  std::uint32_t index = 0;
+  for (const EnvironmentObject& object : environment_->objects()) {
+    shapes_.emplace_back();
+    for (const PlacedShape& placed : object.shapes) {
+      shapes_.back().emplace_back(placed.shape, object.pose * placed.pose, index);
+    }
+    ++index;
+  }
+}
+
+void EnvironmentContact::place_fibers(const Rods& rods) {
+  if (fibers_.point_count() == 2 * rods.positions.size()) {
+    fibers_.update_points(doubled(rods.positions));
+    return;
+  }
+  std::vector<std::uint32_t> offsets = rods.offsets;
+  for (std::uint32_t& offset : offsets) {
+    offset *= 2;
+  }
+  fibers_ = FiberAssembly(doubled(rods.positions), offsets, rods.radii);
+}
+
+void EnvironmentContact::find(const Rods& rods, const Room& room, ContactSet& found) {
+  const double largest = *std::max_element(rods.radii.begin(), rods.radii.end());
+  const bool was_asked = reach_ >= 0.0 && fibers_.point_count() == 2 * rods.positions.size();
+  double most_needed = 0.0;
+  double reached = 0.0;  // from where the environment was asked
+  needed_.resize(rods.count());
+  moved_.resize(rods.count());
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    double expected = 0.0;
+    double moved = 0.0;
+    for (std::uint32_t i = rods.first(rod); i < rods.end(rod); ++i) {
+      expected = std::max(expected, room.expected[i].squaredNorm());
+      if (was_asked) {
+        const Vector3d way = rods.positions[i] - fibers_.points()[std::size_t{2} * i];
+        moved = std::max(moved, way.squaredNorm());
+      }
+    }
+    needed_[rod] = std::sqrt(expected) + room.by_rod[rod] + Barrier::half_width * largest;
+    moved_[rod] = std::sqrt(moved);
+    most_needed = std::max(most_needed, needed_[rod]);
+    reached = std::max(reached, needed_[rod] + moved_[rod]);
+  }
+  // An answer that serves for some steps; one that was for faster motion finds too much.
+  const double wanted = largest + 4.0 * most_needed;
+  constexpr double too_far = 3.0;
+  if (!was_asked || !(reached <= reach_) || reach_ > too_far * wanted) {
+    place_fibers(rods);
+    QueryOptions query;
+    query.margin = reach_ = wanted;
+    environment_->query(fibers_, query, allowed_, result_);
+    std::fill(moved_.begin(), moved_.end(), 0.0);
+  }
+  for (const Contact& contact : result_.contacts) {
+    if (contact.distance <= needed_[contact.fiber_a] + moved_[contact.fiber_a]) {
+      add(rods, contact, needed_[contact.fiber_a] + largest, found);
+    }
+  }
+}
+
+/// @param contact when the environment was asked
+/// @param within  [m] of axes now
+void EnvironmentContact::add(const Rods& rods, const Contact& contact, double within,
+                             ContactSet& found) const {
+  const ObstacleShape& shape = shapes_[contact.fiber_b][contact.segment_b];
+  const std::uint32_t rod = contact.fiber_a;
+  const double radius = rods.radii[rod];
+  const bool is_edge = contact.segment_a % 2 == 1;
+  // The distance from a half-space is linear along an edge: its nodes say all.
+  if (is_edge && std::holds_alternative<HalfSpaceShape>(*shape.shape)) {
+    return;
+  }
+  const std::uint32_t node = rods.first(rod) + contact.segment_a / 2;
+  // The last node is the end of the last edge.
+  const bool is_last = !is_edge && node + 1 == rods.end(rod);
+  const std::uint32_t edge = is_last ? node - 1 : node;
+  if (is_edge) {
+    found.obstacle_edges.push_back(
+        {rod,
+         edge,
+         &shape,
+         contact.distance + radius,
+         contact.point_b,
+         -contact.normal,
+         {fibers_.points()[std::size_t{2} * edge], fibers_.points()[std::size_t{2} * edge + 2]}});
+  }
+  const Barrier barrier = Barrier::around(
+      radius, options_.stiffness > 0.0 ? options_.stiffness
+                                       : material_contact_stiffness(rods.sections[rod], radius));
+  using Part = ObstacleContact::Part;
+  const Part part = is_edge ? Part::EDGE : is_last ? Part::LAST_NODE : Part::FIRST_NODE;
+  const auto add_piece = [&](const ObstaclePiece& piece) {
+    found.obstacle_contacts.push_back({rod, edge, part, barrier, piece});
+  };
+  if (shape.is_convex()) {
+    add_piece(ObstaclePiece(shape, {}));
+    return;
+  }
+  const Vector3d& p0 = rods.positions[node];
+  const Vector3d& p1 = is_edge ? rods.positions[node + 1] : p0;
+  for (const ObstaclePiece& piece : near_pieces(shape, p0, p1, within)) {
+    add_piece(piece);
+  }
+}
+
+}  // namespace fiber

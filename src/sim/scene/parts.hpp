@@ -1,0 +1,131 @@
+// How the parts of a scene are read and made.
+#pragma once
+
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "fiber_proximity/sim/scene/scene.hpp"
+#include "src/text/quote.hpp"
+
+namespace fiber {
+
+/// Numbers and words as one text, with three digits each.
+template <class... Parts>
+std::string sentence(const Parts&... parts) {
+  std::ostringstream text;
+  text.precision(3);
+  (text << ... << parts);
+  return text.str();
+}
+
+/// Runs a function; an error of its names the fibre, too, after what it says.
+template <class Function>
+auto naming_fiber(const std::string& name, const Function& function) {
+  try {
+    return function();
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(std::string(error.what()) + " (fibre " + quote(name) + ")");
+  }
+}
+
+/// Whether a field says the second of two words; without a field it is the first one.
+/// @throws std::invalid_argument for any other
+inline bool is_second(const std::optional<YamlField>& field, const std::string& first,
+                      const std::string& second) {
+  if (field && field->text() != first && field->text() != second) {
+    field->refuse(first + " or " + second);
+  }
+  return field && field->text() == second;
+}
+
+/// Reads a `shape`:
+///   line:     {from, to}
+///   arc:      {from, to, length, towards}     a circular arc, longer than it spans, that sags
+///                                             towards a direction
+///   helix:    {center, radius, pitch, turns}  about z, from the center up
+///   polyline: [point, ...]
+///   trefoil:  {center, size}                  an overhand knot about so wide, its ends up and
+///                                             apart along x
+/// @returns a polyline that is the curve, or as fine as to be measured for it [m]
+/// @throws std::invalid_argument naming file, line, field and value, and what is allowed
+std::vector<Eigen::Vector3d> read_shape(const YamlField& shape);
+
+/// Points along a polyline at equal arc lengths, its ends among them; all at its beginning if it
+/// has no length.
+/// @param segments at least 1
+/// @returns segments + 1 points [m]
+std::vector<Eigen::Vector3d> resample(const std::vector<Eigen::Vector3d>& line,
+                                      std::int64_t segments);
+
+/// Reads the fibres of a scene, `substeps`, `accuracy` (a number, or one with %) and `real_time`
+/// (true): with one of these two, segments of fibres and substeps that the scene does not give are
+/// chosen by ResolutionTable: as few as are that accurate, or the most accurate that are estimated
+/// to take at most half of the time there is.
+/// @param gravity [m/s²]
+/// @param scene   with its time step, options and whether it has contacts; gets the fibres and
+///                rods, substeps and accuracy
+/// @throws std::invalid_argument naming file, line, field and value, and what is allowed; for an
+///         accuracy that takes more substeps or segments than there may be, too
+void read_fibers(const YamlField& document, double gravity, SimDescription& scene);
+
+/// Reads the options of the effect `attachment`: a list of holds, each of
+///   fiber:    name; that of a repeated fibre means each of them
+///   node:     first, last, or an index; first if there is none
+///   kind:     pin or clamp; pin if there is none
+///   position, tangent, director: where and how it is held; where and how the fibre is if there are
+///             none
+///   path:     a list of {time, position, tangent, director}, in between straight lines; what is
+///             not given stays as it was
+///   period:   [s] after which the path begins again, to where it leads back from its last entry
+///   frame:    of tf, that carries it: position, the frame's origin if there is none, tangent and
+///             director are in this frame. As long as tf does not know it, the fibre stays where it
+///             is
+/// @param scene with its fibres and rods; gets the holds, and the speed of the fastest
+/// @throws std::invalid_argument naming file, line, field and value, and what is allowed
+void read_holds(const YamlField& list, SimDescription& scene);
+
+/// How something is held, as a function of time [s].
+/// @param rods   as the simulation begins; with twist, they have their frames already
+/// @param frames gets the frame that is to be followed, if there is one
+std::function<Placement(double)> placement_of(const SimHold& hold, const SimDescription& scene,
+                                              const Rods& rods, std::vector<FollowedFrame>& frames);
+
+/// Reads the list `effects` of a scene but for its holds: each entry is a name, or a map of a name
+/// to the options that are not to be as they are by default.
+/// Of `bend` these are
+///   natural_curvature: [1/m], or from_shape: that which each fibre begins with; 0 if there is none
+///   towards:           a direction, to which side the first edge of each fibre bends; to any side
+///                      if there is none
+/// @returns the list of holds, options of the effect attachment; none if there is none
+/// @throws std::invalid_argument naming file, line, effect and value, and what is allowed
+std::optional<YamlField> read_effects(const YamlField& list, SimDescription& scene);
+
+/// The size of the gravity that a scene names [m/s²]; 0 without.
+double gravity_of(const SimDescription& scene);
+
+/// Effects made for the rods of a scene.
+struct MadeEffects {
+  Effects effects;
+  std::unique_ptr<Contacts> contacts;  ///< null without a contact effect
+};
+
+/// Makes the effects that a scene names, and nothing for those it does not name.
+/// @param rods   get what the effects need to be with them
+/// @param scene  gets attachment, frames and parameters
+/// @throws std::invalid_argument naming file and line, for effects that refuse their options; for
+///         a fibre that does not have the side to which it is to bend, too
+MadeEffects make_effects(const SimDescription& description, Rods& rods, SimScene& scene);
+
+/// Sees to it that no fibre begins inside of itself, of another or of an obstacle, as far as the
+/// scene names the effects that are contacts of these.
+/// @param attachment that holds nodes which do not move; null for none
+/// @param rods       are moved apart if the scene says so (separate_overlaps())
+/// @returns what was moved, for the log; empty if nothing was
+/// @throws std::invalid_argument naming file and line of both fibres, their names, segments and how
+///         deep they are in each other
+std::string settle_overlaps(const SimDescription& scene, const Attachment* attachment, Rods& rods);
+
+}  // namespace fiber

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fiber_proximity/sim/scene/scene.hpp"
+
+namespace fiber {
+
+/// Where the rest of a rod lets one of its nodes be: another node is held at a center, and the rod
+/// between the two reaches so far.
+struct ReachLimit {
+  std::uint32_t node;      ///< that is held, from the rod's first one
+  Eigen::Vector3d center;  ///< where it is held [m]
+  double rest_length;      ///< of the rod between [m]
+  double radius;           ///< rest_length · (1 + strain) [m]
+
+  bool allows(const Eigen::Vector3d& position) const {
+    return (position - center).norm() <= radius;
+  }
+};
+
+/// Length at rest of a rod between two of its nodes, which are counted from its first one [m].
+double rest_length_between(const Rods& rods, std::uint32_t rod, std::uint32_t node,
+                           std::uint32_t other);
+
+/// Length at rest of a whole rod [m].
+double rest_length(const Rods& rods, std::uint32_t rod);
+
+/// What other holds of its rod ask of a node, by rising node.
+/// @param node   from the rod's first one
+/// @param time   when they hold [s]
+/// @param strain the most by which they may stretch the rod together
+std::vector<ReachLimit> reach_limits(const Rods& rods, const Attachment& attachment,
+                                     std::uint32_t rod, std::uint32_t node, double time,
+                                     double strain);
+
+/// The largest share of the straight way from one place to another that the limits allow, in
+/// [0, 1]. From a place out of reach, what leads no further out is allowed.
+double reachable_share(const std::vector<ReachLimit>& limits, const Eigen::Vector3d& from,
+                       const Eigen::Vector3d& to);
+
+/// A node that is suddenly moved along the rod at a speed v stretches it by v / c, c being the
+/// speed of sound in it (Kolsky, Stress Waves in Solids, 1963, ch. 3): the speed that brings it to
+/// a strain [m/s].
+double pull_speed(const RodSection& section, double strain);
+
+/// The largest stretch of an edge, in parts of its length at rest; 0 where none is stretched.
+struct LargestStrain {
+  double strain = 0.0;
+  std::uint32_t rod = 0;
+  std::uint32_t edge = 0;  ///< from the rod's first one
+};
+LargestStrain largest_strain(const Rods& rods);
+
+/// A node of a scene's rods, counted from the rod's first one.
+struct NodeOfRod {
+  std::uint32_t rod;
+  std::uint32_t node;
+};
+
+/// Where something may lead a node that it holds in the next frame.
+struct Lead {
+  Eigen::Vector3d position;  ///< at the end of the frame [m]
+
+  /// Why that is not on the straight way to where the node is wanted, as far as it comes in a
+  /// frame; empty if it is. It is not where the fibre, held elsewhere, would be stretched by more
+  /// than SimScene::max_strain, and where the place is none or too far away for numbers.
+  std::string problem;
+};
+
+/// @param held    the node, which is at `from`
+/// @param wanted  where it is to go in the end [m]
+/// @param fastest [m/s], no faster than what stretches the fibre by max_strain
+Lead lead(const SimScene& scene, const NodeOfRod& held, const Eigen::Vector3d& from,
+          const Eigen::Vector3d& wanted, double fastest);
+
+/// Looks whether a hold may bring a node from where it is to a target.
+/// @param speed [m/s]; 0: within the next step
+/// @throws std::invalid_argument naming the value and what is allowed, for a target that is too far
+///         away for numbers, or out of the fibre's reach because of another hold, and for a speed
+///         that stretches the fibre by more than max_strain
+void require_reach(const SimScene& scene, const NodeOfRod& held, const Eigen::Vector3d& target,
+                   double speed);
+
+}  // namespace fiber

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fiber_proximity/sim/scene/scene.hpp"
+
+namespace fiber {
+
+/// What the first steps of a scene took and how far they are solved, measured on a copy of it.
+struct SimTrial {
+  std::uint32_t steps = 0;
+  double real_time_factor = 0.0;  ///< time of the scene by wall time
+  std::uint32_t iterations = 0;   ///< of Newton's method, the most in a step
+  double residual = 0.0;          ///< the largest of a step [m/s]
+  std::string failure;  ///< why the scene does not get further than that; empty if it does
+};
+
+/// Steps a scene made of a description for some frames or some tenths of a second, whichever is
+/// less; one step at least.
+/// @throws std::invalid_argument as make_sim_scene
+SimTrial try_scene(const SimDescription& description, std::uint32_t threads);
+
+/// What is to be expected of a scene, in sentences.
+struct SimReport {
+  std::vector<std::string> facts;     ///< stability, what steps damp, balance, speed
+  std::vector<std::string> warnings;  ///< what goes wrong, and what mends it
+};
+
+/// Judges steps against the waves that they resolve, grippers against the radius, balance and speed
+/// by the trial.
+SimReport report(const SimScene& scene, const SimTrial& trial);
+
+/// What is not as the scene wants it after a frame.
+struct SimWarning {
+  enum class Kind {
+    STRAIN,  ///< an edge is stretched by more than `max_strain`
+    LAG,     ///< a hold pulls with its greatest force and is not followed
+    BALANCE  ///< forces do not balance to `residual`; not of scenes that ask for few iterations
+  };
+  static constexpr std::size_t kinds = 3;
+
+  Kind kind;
+  std::string text;  ///< names fibre and place, how far it is, and what is allowed
+};
+
+/// At most one of each kind: the worst.
+std::vector<SimWarning> frame_warnings(const SimScene& scene);
+
+}  // namespace fiber

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "fiber_proximity/sim/effect.hpp"
+
+namespace fiber {
+
+// What a step does with rods side by side, in all lanes at once.
+
+/// What rods have of edges where they are now.
+void measure_edges(RodPack& rods);
+
+/// Of arrays: how many SimdBatches, and the lanes in use.
+struct SumSize {
+  std::size_t count;
+  std::size_t used;
+};
+
+/// Σ inertia · (position − predicted)², by lane.
+SimdBatch weighted_squares(SumSize size, const SimdBatch* inertias, const SimdBatch* positions,
+                           const SimdBatch* predicted);
+
+/// Writes factor · inertia · (position − predicted) as gradient, and factor · inertia on the
+/// diagonal of a Hessian, whose columns are so high.
+void set_inertia(SumSize size, double factor, const SimdBatch* inertias, const SimdBatch* positions,
+                 const SimdBatch* predicted, SimdBatch* gradient, SimdBatch* hessian,
+                 std::size_t height);
+
+/// Σ a · b, by lane.
+SimdBatch products(SumSize size, const SimdBatch* a, const SimdBatch* b);
+
+/// positions = from + share · step; where the share of a lane is 0, whatever the step is, from. All
+/// of them may be the same.
+void move_by(SumSize size, const SimdBatch* from, const SimdBatch* step, const SimdBatch& shares,
+             SimdBatch* positions);
+
+/// Of each node: the square of the gradient by its position, or with a fourth unknown of that by
+/// its angle if it is larger, each times a scale of its own.
+void squared_residuals(SumSize size, std::size_t unknowns, const SimdBatch* gradient,
+                       const SimdBatch* scales, SimdBatch* squares);
+
+/// Replaces positive definite Hessians by factors L D Lᵀ, with the inverse of D on the diagonal.
+/// Needs no pivoting. LAPACK's pbtrf does the same for one matrix, but works in calls per column,
+/// each of which takes longer than a column of this width.
+///
+/// An unknown whose pivot is not positive, as rounding errors may leave it where stiffnesses differ
+/// by more digits than numbers have, becomes as stiff as can be: its solution is about 0, and the
+/// factors are those of a positive definite matrix.
+void factorise_band(PackSystem& system);
+
+/// Solves equations with the factors.
+/// @param values as many as the gradient has, right-hand sides and then the solutions; at least
+///               half_bandwidth() zeros follow them
+void solve_band(const PackSystem& system, SimdBatch* values);
+
+}  // namespace fiber
