@@ -2,8 +2,8 @@
 
 #include <limits>
 
-#include "fiber_proximity/environment/axis_distance.hpp"
 #include "fiber_proximity/environment/triangle_mesh.hpp"
+#include "src/environment/convex_solids.hpp"
 #include "src/environment/occupancy_octree.hpp"
 
 namespace fiber {
