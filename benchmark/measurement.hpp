@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fiber_proximity/query/contact.hpp"
-#include "fiber_proximity/scenes/options.hpp"
+#include "fiber_proximity/scenes/scene.hpp"
 
 namespace fiber {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "fiber_proximity/scenes/options.hpp"
+#include "fiber_proximity/scenes/scene.hpp"
 #include "src/tools/command_line.hpp"
 
 namespace fiber {

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "src/scenes/portable_math.hpp"
-#include "src/scenes/random.hpp"
 
 namespace fiber {
 namespace {

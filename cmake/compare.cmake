@@ -1,11 +1,9 @@
 # FCL run beside our engines.
 
 add_library(fiber_proximity_compare SHARED
-  src/compare/comparison.cpp
-  src/compare/disagreement.cpp
-  src/compare/fcl_boxes.cpp
-  src/compare/fcl_capsules.cpp
+  src/compare/fcl_broad_phase.cpp
   src/compare/fcl_comparer.cpp
+  src/compare/pair_oracle.cpp
 )
 target_link_libraries(fiber_proximity_compare
   PUBLIC fiber_proximity PRIVATE fcl fiber_proximity_options)

@@ -12,20 +12,13 @@ set(yaml_headers ${core_headers} <yaml-cpp/yaml.h>)
 
 add_library(fiber_proximity_environment SHARED
   src/environment/allowed_contacts.cpp
-  src/environment/allowed_parts.cpp
-  src/environment/axis_distance.cpp
   src/environment/check_fibers.cpp
-  src/environment/check_motions.cpp
+  src/environment/convex_solids.cpp
   src/environment/environment.cpp
   src/environment/environment_motion.cpp
-  src/environment/environment_query.cpp
   src/environment/mesh_topology.cpp
-  src/environment/object_path.cpp
   src/environment/obstacle_parts.cpp
   src/environment/occupancy_octree.cpp
-  src/environment/path_collector.cpp
-  src/environment/point_distance.cpp
-  src/environment/shape_box.cpp
   src/environment/shape_contact_time.cpp
   src/environment/shape_motion.cpp
   src/environment/shapes.cpp
@@ -42,8 +35,6 @@ fiber_proximity_component(environment fiber_proximity_environment)
 add_library(environment_scene OBJECT
   src/environment/scene/environment_scene.cpp
   src/environment/scene/mesh_files.cpp
-  src/environment/scene/parse_mesh.cpp
-  src/yaml/load_yaml.cpp
   src/yaml/yaml_field.cpp
 )
 set_target_properties(environment_scene PROPERTIES POSITION_INDEPENDENT_CODE ON)

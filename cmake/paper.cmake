@@ -5,7 +5,6 @@
 add_library(fiber_proximity_paper SHARED
   src/paper/bounds/direction_set.cpp
   src/paper/bounds/kdop.cpp
-  src/paper/bounds/minimal_sphere.cpp
   src/paper/bounds/obb.cpp
   src/paper/bounds/sphere.cpp
   src/paper/engines/kdop_engines.cpp
@@ -14,16 +13,10 @@ add_library(fiber_proximity_paper SHARED
   src/scenes/cables.cpp
   src/scenes/cloth.cpp
   src/scenes/hair.cpp
-  src/scenes/hair_styles.cpp
   src/scenes/hard_motions.cpp
-  src/scenes/hard_pair_families.cpp
-  src/scenes/hard_pair_makers.cpp
   src/scenes/hard_pairs.cpp
-  src/scenes/head.cpp
-  src/scenes/options.cpp
-  src/scenes/roots.cpp
+  src/scenes/scalp.cpp
   src/scenes/scene.cpp
-  src/scenes/shuffle.cpp
   src/scenes/soup.cpp
 )
 target_link_libraries(fiber_proximity_paper PUBLIC fiber_proximity PRIVATE fiber_proximity_options)

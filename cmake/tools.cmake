@@ -1,7 +1,6 @@
 # Command line tools; installed where rosrun finds them, or in bin without ROS.
 
-add_library(fiber_proximity_command_line OBJECT
-  src/tools/command_line.cpp src/tools/progress.cpp src/tools/text_output.cpp)
+add_library(fiber_proximity_command_line OBJECT src/tools/command_line.cpp)
 target_link_libraries(fiber_proximity_command_line PUBLIC
   fiber_proximity_paper CLI11::CLI11 fiber_proximity_options)
 fiber_proximity_parse_once(fiber_proximity_command_line ${tool_headers})

@@ -1,7 +1,6 @@
 #include "benchmark/continuous/fiber_ways.hpp"
 
 #include "src/scenes/portable_math.hpp"
-#include "src/scenes/random.hpp"
 
 namespace fiber::bench {
 

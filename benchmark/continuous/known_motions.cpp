@@ -5,7 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "src/io/segment_motions.hpp"
+#include "src/io/segment_file.hpp"
 #include "src/text/quote.hpp"
 
 namespace fiber::bench {

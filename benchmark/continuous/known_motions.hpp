@@ -14,7 +14,7 @@ struct KnownMotion {
   HardMotion motion;  ///< without thickness
 };
 
-/// Reads a file of segment motions (io/segment_motions.hpp) whose truth is 0 or 1.
+/// Reads a file of segment motions (io/segment_file.hpp) whose truth is 0 or 1.
 /// @throws FileError as read_segment_motions(), std::runtime_error naming the motion for its truth
 std::vector<KnownMotion> read_known_motions(const std::string& path);
 

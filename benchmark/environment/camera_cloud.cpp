@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "src/scenes/portable_math.hpp"
-#include "src/scenes/random.hpp"
 
 namespace fiber {
 namespace {

@@ -6,7 +6,6 @@
 #include "benchmark/environment/arm.hpp"
 #include "benchmark/environment/capsule_mesh.hpp"
 #include "src/scenes/portable_math.hpp"
-#include "src/scenes/random.hpp"
 
 namespace fiber {
 namespace {

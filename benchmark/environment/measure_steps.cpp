@@ -4,7 +4,7 @@
 
 #include "benchmark/environment/measurements.hpp"
 #include "benchmark/statistics.hpp"
-#include "fiber_proximity/environment/check_motions.hpp"
+#include "fiber_proximity/environment/check_fibers.hpp"
 #include "src/query/threads.hpp"
 #include "src/tools/progress.hpp"
 

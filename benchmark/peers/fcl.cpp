@@ -1,7 +1,7 @@
 #include "benchmark/peers/makers.hpp"
 #include "benchmark/peers/peer_engine.hpp"
-#include "fiber_proximity/compare/fcl_broad_phase.hpp"
 #include "fiber_proximity/query/pair_collector.hpp"
+#include "src/compare/fcl_broad_phase.hpp"
 
 namespace fiber {
 namespace {

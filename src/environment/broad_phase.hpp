@@ -16,6 +16,15 @@
 
 namespace fiber {
 
+/// Consecutive segments of one fibre, whose box is looked up at once.
+struct SegmentRun {
+  std::uint32_t fiber;
+  std::uint32_t begin;  // first points of the segments
+  std::uint32_t end;
+  WorldBox box;         // around their axes, wherever these are [m]
+  double radius = 0.0;  // the largest [m]
+};
+
 /// Finds the shapes near a box: those that end somewhere in FCL's dynamic AABB tree, the others are
 /// near everything.
 class Environment::BroadPhase {
@@ -47,6 +56,26 @@ class Environment::BroadPhase {
   /// By object, then by their index in it.
   const std::vector<WorldShape>& shapes() const { return shapes_; }
 
+  /// Offers a query the shapes near each run of the fibres' segments, until it is done().
+  /// @tparam Query says how many segments a run has, what box the axes from a point to another are
+  ///               in and how thick a segment is; its offer(run, shape) is a visit as below
+  template <class Query>
+  void offer_near(const FiberAssembly& fibers, Query& query) const {
+    for (std::uint32_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
+      const std::uint32_t last = fibers.offsets()[fiber + 1] - 1;
+      for (std::uint32_t first = fibers.offsets()[fiber]; first < last && !query.done();
+           first += Query::segments_per_run) {
+        SegmentRun run{fiber, first, std::min(first + Query::segments_per_run, last), {}};
+        run.box = query.box_of(run.begin, run.end);
+        for (std::uint32_t point = run.begin; point < run.end; ++point) {
+          run.radius = std::max(run.radius, query.radius_of(point));
+        }
+        visit_near(run.box, [&](const WorldShape& shape) { return query.offer(run, shape); });
+      }
+    }
+  }
+
+ private:
   /// Calls visit(shape) for the shapes near the box, nearer ones first, roughly. visit() returns
   /// how far they may be from then on [m]; boxes that overlap are never too far, unless it returns
   /// minus infinity: that ends the search.
@@ -59,7 +88,6 @@ class Environment::BroadPhase {
     tree_.distance(&query, &visit, &look<Visit>);
   }
 
- private:
   /// An object whose box is set, not computed from a geometry: FCL offers no other way to give a
   /// rotated object a tight one.
   class BoxObject final : public fcl::CollisionObjectd {

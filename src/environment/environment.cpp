@@ -7,17 +7,118 @@
 #include <string>
 #include <utility>
 
+#include "fiber_proximity/query/contact_accumulator.hpp"
+#include "src/environment/allowed_contacts.hpp"
 #include "src/environment/broad_phase.hpp"
-#include "src/environment/environment_query.hpp"
-#include "src/environment/object_path.hpp"
 #include "src/query/contact_in_motion.hpp"
 #include "src/text/quote.hpp"
 
 namespace fiber {
 namespace {
 
-/// Segments whose box is looked up at once.
-constexpr std::uint32_t segments_per_run = 8;
+/// What is reported of a segment (a) and a shape (b); which segment it is is left open.
+Contact contact_of(const Capsule& capsule, const WorldShape& shape, const AxisDistance& axis) {
+  const Eigen::Vector3d nearest = capsule.p0 + axis.s * (capsule.p1 - capsule.p0);
+  const Eigen::Vector3d away = shape.pose.linear() * axis.gradient;
+  const double error = shape.error(capsule);
+  Contact contact;
+  contact.s = axis.s;
+  contact.fiber_b = shape.object;
+  contact.segment_b = shape.index;
+  contact.distance = axis.distance - capsule.radius;
+  contact.lower = axis.lower - error - capsule.radius;
+  contact.upper = axis.distance + error - capsule.radius;
+  contact.normal = -away;
+  contact.point_a = nearest - capsule.radius * away;
+  contact.point_b = nearest - axis.distance * away;
+  return contact;
+}
+
+/// One query of an environment: decides which pairs of segments and shapes are contacts.
+class EnvironmentQuery {
+ public:
+  /// Holds references: they must outlive it.
+  EnvironmentQuery(const FiberAssembly& fibers, const std::vector<EnvironmentObject>& objects,
+                   const QueryOptions& options, const AllowedPairs& allowed, QueryResult& result)
+      : accumulator_(options, result),
+        fibers_(fibers),
+        allowed_(allowed, objects),
+        counts_(result.counts) {}
+
+  /// Considers the pairs of a run and a shape.
+  /// @return [m] shapes further than this from the axes of the run do not matter from now on; minus
+  ///         infinity when the query is done
+  double offer(const SegmentRun& run, const WorldShape& shape) {
+    ++counts_.node_tests;
+    const double bound = accumulator_.bound_of(run.fiber, shape.object);
+    if (run.box.exteriorDistance(shape.box) > std::max(bound + run.radius, 0.0)) {
+      accumulator_.leave_out(bound);
+      return reach_of(run);
+    }
+    ++counts_.node_overlaps;
+    for (std::uint32_t point = run.begin; point < run.end; ++point) {
+      if (accumulator_.done()) {
+        return -std::numeric_limits<double>::infinity();
+      }
+      offer_segment(run, point, shape);
+    }
+    return reach_of(run);
+  }
+
+  static constexpr std::uint32_t segments_per_run = 8;
+
+  WorldBox box_of(std::uint32_t begin, std::uint32_t end) const {
+    WorldBox box;
+    for (std::uint32_t point = begin; point <= end; ++point) {
+      box.extend(fibers_.points()[point]);
+    }
+    return box;
+  }
+  double radius_of(std::uint32_t point) const { return fibers_.segment_radius(point); }
+
+  bool done() { return accumulator_.done(); }
+  void finish() { accumulator_.finish(-std::numeric_limits<double>::infinity()); }
+
+ private:
+  double reach_of(const SegmentRun& run) const { return accumulator_.bound() + run.radius; }
+  void offer_segment(const SegmentRun& run, std::uint32_t point, const WorldShape& shape) {
+    const std::uint32_t first = fibers_.offsets()[run.fiber];
+    if (allowed_.holds(fibers_, {run.fiber, point - first}, shape.object)) {
+      return;
+    }
+    const Capsule capsule = fibers_.capsule(point);
+    const double bound = accumulator_.bound_of(run.fiber, shape.object);
+    const double within = bound + capsule.radius;
+    const WorldBox box(capsule.p0.cwiseMin(capsule.p1), capsule.p0.cwiseMax(capsule.p1));
+    if (box.exteriorDistance(shape.box) > std::max(within, 0.0)) {
+      accumulator_.leave_out(bound);
+      return;
+    }
+    if (!accumulator_.takes_pair()) {
+      return;
+    }
+    ++counts_.primitive_tests;
+    const AxisDistance axis = axis_distance(shape.shape, shape.to_shape * capsule.p0,
+                                            shape.to_shape * capsule.p1, within);
+    if (axis.distance == std::numeric_limits<double>::infinity()) {
+      accumulator_.leave_out(bound);
+      return;
+    }
+    Contact found = contact_of(capsule, shape, axis);
+    found.fiber_a = run.fiber;
+    found.segment_a = point - first;
+    if (found.distance <= bound) {
+      accumulator_.keep(found);
+    } else {
+      accumulator_.leave_out(found.lower);
+    }
+  }
+
+  ContactAccumulator accumulator_;
+  const FiberAssembly& fibers_;
+  AllowedParts allowed_;
+  QueryCounts& counts_;
+};
 
 /// A segment and a shape of this object, of which the index is that of the contact.
 Contact contact_with(const EnvironmentObject& owner, std::uint32_t object, std::uint32_t shape,
@@ -51,15 +152,7 @@ void Environment::query(const FiberAssembly& fibers, const QueryOptions& options
   result.counts = QueryCounts();
   result.complete = true;
   EnvironmentQuery query(fibers, objects_, options, allowed, result);
-  for (std::uint32_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
-    const std::uint32_t last = fibers.offsets()[fiber + 1] - 1;
-    for (std::uint32_t first = fibers.offsets()[fiber]; first < last && !query.done();
-         first += segments_per_run) {
-      const SegmentRun run(fibers, fiber, first, std::min(first + segments_per_run, last));
-      broad_phase_->visit_near(run.box,
-                               [&](const WorldShape& shape) { return query.offer(run, shape); });
-    }
-  }
+  broad_phase_->offer_near(fibers, query);
   query.finish();
 }
 

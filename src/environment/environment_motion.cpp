@@ -1,5 +1,3 @@
-#include "src/environment/environment_motion.hpp"
-
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -10,10 +8,15 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "fiber_proximity/environment/environment.hpp"
+#include "fiber_proximity/query/motion_evaluator.hpp"
+#include "fiber_proximity/query/motion_slices.hpp"
+#include "fiber_proximity/query/query_limits.hpp"
+#include "src/environment/allowed_contacts.hpp"
 #include "src/environment/broad_phase.hpp"
-#include "src/environment/shape_motion.hpp"
+#include "src/environment/shape_contact_time.hpp"
 #include "src/geometry/swept_fibers.hpp"
 #include "src/query/contact_evaluator.hpp"
 #include "src/query/narrow_contact_time.hpp"
@@ -21,9 +24,6 @@
 
 namespace fiber {
 namespace {
-
-/// Segments whose box is looked up at once: those of a motion sweep more than those that stand.
-constexpr std::uint32_t segments_per_swept_run = 4;
 
 double larger_radius(const FiberMotion& motion, std::uint32_t point) {
   return std::max(motion.before.segment_radius(point), motion.after.segment_radius(point));
@@ -56,123 +56,132 @@ std::vector<ObjectPath> paths_between(const std::vector<EnvironmentObject>& befo
   return paths;
 }
 
-}  // namespace
+/// One query of an environment about a motion: first the pairs of segments and shapes that may
+/// meet, then when these do.
+class EnvironmentMotion {
+ public:
+  /// Holds references: they must outlive it.
+  /// @param shapes by object, as WorldShape counts them
+  EnvironmentMotion(const FiberMotion& motion, const std::vector<WorldShape>& shapes,
+                    const std::vector<EnvironmentObject>& objects, const MotionOptions& options,
+                    const AllowedPairs& allowed)
+      : motion_(motion),
+        shapes_(shapes),
+        options_(options),
+        allowed_(allowed, objects),
+        limits_(pairs_of(options)) {}
 
-SweptRun::SweptRun(const FiberMotion& motion, std::uint32_t owner, std::uint32_t first_point,
-                   std::uint32_t last_point)
-    : fiber(owner),
-      begin(first_point),
-      end(last_point),
-      box(box_of_ways(motion, first_point, last_point)) {
-  for (std::uint32_t point = begin; point < end; ++point) {
-    radius = std::max(radius, larger_radius(motion, point));
+  static constexpr std::uint32_t segments_per_run = 4;  // they sweep more than those that stand
+
+  WorldBox box_of(std::uint32_t begin, std::uint32_t end) const {
+    return box_of_ways(motion_, begin, end);
   }
-}
+  double radius_of(std::uint32_t point) const { return larger_radius(motion_, point); }
 
-EnvironmentMotion::EnvironmentMotion(const FiberMotion& motion,
-                                     const std::vector<WorldShape>& shapes,
-                                     const std::vector<EnvironmentObject>& objects,
-                                     const MotionOptions& options, const AllowedPairs& allowed)
-    : motion_(motion),
-      shapes_(shapes),
-      options_(options),
-      allowed_(allowed, objects),
-      limits_(pairs_of(options)) {}
-
-/// [m] So far boxes may be apart that there is contact, with the rounding of their distance.
-double EnvironmentMotion::within(double radius) const {
-  return (options_.margin + radius) * (1.0 + 0x1p-40);
-}
-
-bool EnvironmentMotion::done() {
-  candidates_.are_all = candidates_.are_all && !limits_.deadline.has_passed();
-  return !candidates_.are_all || candidates_.are_too_many;
-}
-
-double EnvironmentMotion::offer(const SweptRun& run, const WorldShape& shape) {
-  ++candidates_.counts.node_tests;
-  if (run.box.exteriorDistance(shape.box) > within(run.radius)) {
+  /// Considers the pairs of a run and a shape.
+  /// @return [m] shapes further than this from the run's box do not matter; minus infinity when no
+  ///         more are looked for
+  double offer(const SegmentRun& run, const WorldShape& shape) {
+    ++candidates_.counts.node_tests;
+    if (run.box.exteriorDistance(shape.box) > within(run.radius)) {
+      return within(run.radius);
+    }
+    ++candidates_.counts.node_overlaps;
+    const auto index = static_cast<std::uint32_t>(&shape - shapes_.data());
+    const std::uint32_t first = motion_.before.offsets()[run.fiber];
+    for (std::uint32_t point = run.begin; point < run.end; ++point) {
+      const WorldBox box = box_of_ways(motion_, point, point + 1);
+      if (box.exteriorDistance(shape.box) > within(larger_radius(motion_, point)) ||
+          allowed_.holds(motion_.before, {run.fiber, point - first}, shape.object)) {
+        continue;
+      }
+      if (candidates_.keys.size() >= limits_.pairs) {
+        candidates_.are_too_many = true;
+        return -std::numeric_limits<double>::infinity();
+      }
+      candidates_.keys.push_back(key_of({point, index}));
+    }
     return within(run.radius);
   }
-  ++candidates_.counts.node_overlaps;
-  const auto index = static_cast<std::uint32_t>(&shape - shapes_.data());
-  const std::uint32_t first = motion_.before.offsets()[run.fiber];
-  for (std::uint32_t point = run.begin; point < run.end; ++point) {
-    const WorldBox box = box_of_ways(motion_, point, point + 1);
-    if (box.exteriorDistance(shape.box) > within(larger_radius(motion_, point)) ||
-        allowed_.holds(motion_.before, {run.fiber, point - first}, shape.object)) {
-      continue;
+
+  /// Whether the deadline has passed, or there are too many pairs.
+  bool done() {
+    candidates_.are_all = candidates_.are_all && !limits_.deadline.has_passed();
+    return !candidates_.are_all || candidates_.are_too_many;
+  }
+
+  /// When the pairs meet, on several threads; the same for any number of them.
+  void evaluate(MotionResult& result) {
+    std::vector<std::uint64_t>& keys = candidates_.keys;
+    if (candidates_.are_too_many) {
+      keys.clear();
     }
-    if (candidates_.keys.size() >= limits_.pairs) {
-      candidates_.are_too_many = true;
-      return -std::numeric_limits<double>::infinity();
+    std::sort(keys.begin(), keys.end());
+    // A pair takes longer here than one of two segments.
+    constexpr std::size_t pairs_per_slice = motions_per_slice / 16;
+    std::vector<MotionSlice> slices((keys.size() + pairs_per_slice - 1) / pairs_per_slice);
+    const auto evaluate_slice = [&](std::size_t index) {
+      const std::size_t begin = index * pairs_per_slice;
+      evaluate(keys.data() + begin, std::min(pairs_per_slice, keys.size() - begin), slices[index]);
+    };
+    if (slices.size() == 1) {
+      evaluate_slice(0);
+    } else {
+      // While it waits, a thread must not begin with another query of whoever asked this one.
+      tbb::this_task_arena::isolate(
+          [&] { tbb::parallel_for(std::size_t{0}, slices.size(), evaluate_slice); });
     }
-    candidates_.keys.push_back(key_of({point, index}));
+    merge_slices(slices.data(), slices.size(), candidates_, options_, result);
   }
-  return within(run.radius);
-}
 
-void EnvironmentMotion::evaluate(MotionResult& result) {
-  std::vector<std::uint64_t>& keys = candidates_.keys;
-  if (candidates_.are_too_many) {
-    keys.clear();
-  }
-  std::sort(keys.begin(), keys.end());
-  // A pair takes longer here than one of two segments.
-  constexpr std::size_t pairs_per_slice = motions_per_slice / 16;
-  std::vector<MotionSlice> slices((keys.size() + pairs_per_slice - 1) / pairs_per_slice);
-  const auto evaluate_slice = [&](std::size_t index) {
-    const std::size_t begin = index * pairs_per_slice;
-    evaluate(keys.data() + begin, std::min(pairs_per_slice, keys.size() - begin), slices[index]);
-  };
-  if (slices.size() == 1) {
-    evaluate_slice(0);
-  } else {
-    // While it waits, a thread must not begin with another query of whoever asked this one.
-    tbb::this_task_arena::isolate(
-        [&] { tbb::parallel_for(std::size_t{0}, slices.size(), evaluate_slice); });
-  }
-  merge_slices(slices.data(), slices.size(), candidates_, options_, result);
-}
+ private:
+  /// [m] So far boxes may be apart that there is contact, with the rounding of their distance.
+  double within(double radius) const { return (options_.margin + radius) * (1.0 + 0x1p-40); }
 
-void EnvironmentMotion::evaluate(const std::uint64_t* keys, std::size_t count,
-                                 MotionSlice& slice) const {
-  slice.complete = !limits_.deadline.has_passed();
-  if (slice.complete) {
-    std::for_each(keys, keys + count, [&](std::uint64_t key) { evaluate(key, slice); });
+  void evaluate(const std::uint64_t* keys, std::size_t count, MotionSlice& slice) const {
+    slice.complete = !limits_.deadline.has_passed();
+    if (slice.complete) {
+      std::for_each(keys, keys + count, [&](std::uint64_t key) { evaluate(key, slice); });
+    }
   }
-}
 
-void EnvironmentMotion::evaluate(std::uint64_t key, MotionSlice& slice) const {
-  const PointPair pair = pair_of(key);
-  const WorldShape& shape = shapes_[pair.b];
-  const SegmentAndShape moving{motion_.before.capsule(pair.a), motion_.after.capsule(pair.a),
-                               shape};
-  const double radius = larger_radius(motion_, pair.a);
-  const double limit = options_.margin + radius;
-  const AxisDistance axis = axis_distance(shape.shape, shape.to_shape * moving.before.p0,
-                                          shape.to_shape * moving.before.p1, limit);
-  const SegmentId id = motion_.before.segment_id(pair.a);
-  MotionContact contact{id.fiber, id.segment, shape.object, shape.index, 0.0, 0.0, false};
-  const bool is_any = axis.distance < std::numeric_limits<double>::infinity();
-  if (is_any && axis.distance - radius <= options_.margin) {
-    const double error =
-        shape.rounding + 0x1p-48 * std::max(moving.before.p0.cwiseAbs().maxCoeff(),
-                                            moving.before.p1.cwiseAbs().maxCoeff());
-    contact.certain = axis.distance + error <= limit;
-    slice.touching.push_back(contact);
-    return;
+  void evaluate(std::uint64_t key, MotionSlice& slice) const {
+    const PointPair pair = pair_of(key);
+    const WorldShape& shape = shapes_[pair.b];
+    const SegmentAndShape moving{motion_.before.capsule(pair.a), motion_.after.capsule(pair.a),
+                                 shape};
+    const double radius = larger_radius(motion_, pair.a);
+    const double limit = options_.margin + radius;
+    const AxisDistance axis = axis_distance(shape.shape, shape.to_shape * moving.before.p0,
+                                            shape.to_shape * moving.before.p1, limit);
+    const SegmentId id = motion_.before.segment_id(pair.a);
+    MotionContact contact{id.fiber, id.segment, shape.object, shape.index, 0.0, 0.0, false};
+    const bool is_any = axis.distance < std::numeric_limits<double>::infinity();
+    if (is_any && axis.distance - radius <= options_.margin) {
+      contact.certain = axis.distance + shape.error(moving.before) <= limit;
+      slice.touching.push_back(contact);
+      return;
+    }
+    const auto ask = [&](double tolerance) { return contact_time(moving, limit, tolerance); };
+    ContactTime time = ask(options_.tolerance);
+    narrow(time, options_, ask);
+    if (time.hit) {
+      contact.lower = time.lower;
+      contact.upper = time.upper;
+      contact.certain = time.certain;
+      slice.contacts.push_back(contact);
+    }
   }
-  const auto ask = [&](double tolerance) { return contact_time(moving, limit, tolerance); };
-  ContactTime time = ask(options_.tolerance);
-  narrow(time, options_, ask);
-  if (time.hit) {
-    contact.lower = time.lower;
-    contact.upper = time.upper;
-    contact.certain = time.certain;
-    slice.contacts.push_back(contact);
-  }
-}
+
+  const FiberMotion& motion_;
+  const std::vector<WorldShape>& shapes_;
+  const MotionOptions& options_;
+  const AllowedParts allowed_;
+  const QueryLimits limits_;
+  MotionCandidates candidates_;  // a segment's first point and the index of a shape
+};
+
+}  // namespace
 
 void Environment::query_motion(const FiberAssembly& before, const FiberAssembly& after,
                                const MotionOptions& options, const AllowedPairs& allowed,
@@ -200,16 +209,7 @@ void Environment::query_motion(const BroadPhase& broad_phase, const FiberMotion&
   result.contacts.clear();
   result.touching.clear();
   EnvironmentMotion query(motion, broad_phase.shapes(), objects_, options, allowed);
-  const std::vector<std::uint32_t>& offsets = motion.before.offsets();
-  for (std::uint32_t fiber = 0; fiber < motion.before.fiber_count(); ++fiber) {
-    const std::uint32_t last = offsets[fiber + 1] - 1;
-    for (std::uint32_t first = offsets[fiber]; first < last && !query.done();
-         first += segments_per_swept_run) {
-      const SweptRun run(motion, fiber, first, std::min(first + segments_per_swept_run, last));
-      broad_phase.visit_near(run.box,
-                             [&](const WorldShape& shape) { return query.offer(run, shape); });
-    }
-  }
+  broad_phase.offer_near(motion.before, query);
   query.evaluate(result);
 }
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "fiber_proximity/environment/triangle_distance.hpp"
 #include "fiber_proximity/environment/triangle_mesh.hpp"
+#include "src/environment/triangle_distance.hpp"
 
 namespace fiber {
 

@@ -7,14 +7,57 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "src/environment/morton_code.hpp"
-#include "src/environment/point_distance.hpp"
+#include "src/environment/convex_solids.hpp"
 #include "src/hierarchy/sort_keys.hpp"
 
 namespace fiber {
 namespace {
 
 using Eigen::Vector3d;
+
+/// Bits of a cell's index along each axis; as many levels of an octree.
+constexpr int morton_levels = 16;
+
+/// Every third bit of these becomes one of 16 bits in a row.
+std::uint32_t every_third_bit(std::uint64_t code) {
+  std::uint64_t x = code & 0x1249249249249249U;
+  x = (x | x >> 2U) & 0x10c30c30c30c30c3U;
+  x = (x | x >> 4U) & 0x100f00f00f00f00fU;
+  x = (x | x >> 8U) & 0x001f0000ff0000ffU;
+  x = (x | x >> 16U) & 0x001f00000000ffffU;
+  return static_cast<std::uint32_t>(x & 0xffffU);
+}
+
+/// The other way round.
+std::uint64_t two_zeros_between_bits(std::uint32_t bits) {
+  std::uint64_t x = bits & 0xffffU;
+  x = (x | x << 16U) & 0x001f0000ff0000ffU;
+  x = (x | x << 8U) & 0x100f00f00f00f00fU;
+  x = (x | x << 4U) & 0x10c30c30c30c30c3U;
+  x = (x | x << 2U) & 0x1249249249249249U;
+  return x;
+}
+
+/// A cell's place on Morton's curve, from its index along each axis, 0 to 65535: three bits per
+/// level, the coarsest first, so that what is in one cube of the octree is in a row.
+std::uint64_t morton_code(const Eigen::Array3i& cell) {
+  const auto bits = [&](int axis) {
+    return two_zeros_between_bits(static_cast<std::uint32_t>(cell[axis]));
+  };
+  return bits(0) | bits(1) << 1U | bits(2) << 2U;
+}
+
+/// The index along each axis again.
+Eigen::Array3i morton_cell(std::uint64_t code) {
+  const auto index = [&](unsigned axis) { return static_cast<int>(every_third_bit(code >> axis)); };
+  return {index(0), index(1), index(2)};
+}
+
+/// Which of eight children of a cube on this level (0 for the largest) holds a cell: bit 0 where it
+/// is the upper half along x, bit 1 along y, bit 2 along z.
+unsigned morton_child(std::uint64_t code, int level) {
+  return static_cast<unsigned>(code >> (3 * (morton_levels - 1 - level))) & 7U;
+}
 
 /// Cells along an axis on either side of the origin.
 constexpr int half_of_cells = 1 << (morton_levels - 1);

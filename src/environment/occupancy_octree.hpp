@@ -6,8 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "fiber_proximity/environment/axis_distance.hpp"
-#include "fiber_proximity/environment/shape_box.hpp"
+#include "fiber_proximity/environment/shapes.hpp"
 
 namespace fiber {
 

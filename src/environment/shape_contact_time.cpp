@@ -5,10 +5,10 @@
 #include <limits>
 #include <memory>
 
-#include "fiber_proximity/environment/axis_distance.hpp"
 #include "fiber_proximity/environment/triangle_mesh.hpp"
+#include "src/environment/convex_solids.hpp"
 #include "src/environment/occupancy_octree.hpp"
-#include "src/environment/support.hpp"
+#include "src/environment/triangle_distance.hpp"
 #include "src/geometry/norm.hpp"
 
 namespace fiber {

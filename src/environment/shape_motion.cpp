@@ -1,9 +1,8 @@
-#include "src/environment/shape_motion.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "src/environment/shape_contact_time.hpp"
 #include "src/geometry/norm.hpp"
 
 namespace fiber {

@@ -2,15 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
+#include "fiber_proximity/environment/triangle_mesh.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "src/environment/occupancy_octree.hpp"
 #include "src/text/quote.hpp"
 #include "src/text/with_context.hpp"
 
 namespace fiber {
 namespace {
+
+using Eigen::Vector3d;
 
 /// How far from one the length of a unit vector and the determinant of a rotation may be.
 constexpr double unit_tolerance = 1e-6;
@@ -27,7 +32,7 @@ void check_length(const std::string& what, double length) {
   }
 }
 
-void check_sheet(const std::string& what, const Eigen::Vector3d& normal, double offset) {
+void check_sheet(const std::string& what, const Vector3d& normal, double offset) {
   if (!(std::abs(normal.norm() - 1.0) <= unit_tolerance)) {
     refuse("length of the " + what + "'s normal", normal.norm(), "1");
   }
@@ -101,12 +106,75 @@ struct IsSameSolid {
   }
 };
 
+struct Reach {
+  double operator()(const BoxShape& box) const { return box.size.norm() / 2.0; }
+  double operator()(const SphereShape& sphere) const { return sphere.radius; }
+  double operator()(const CylinderShape& cylinder) const {
+    return std::hypot(cylinder.radius, cylinder.height / 2.0);
+  }
+  double operator()(const ConeShape& cone) const {
+    return std::hypot(cone.radius, cone.height / 2.0);
+  }
+  double operator()(const CapsuleShape& capsule) const {
+    return capsule.radius + capsule.length / 2.0;
+  }
+  double operator()(const HalfSpaceShape& half_space) const { return std::abs(half_space.offset); }
+  double operator()(const PlaneShape& plane) const { return std::abs(plane.offset); }
+  template <class Shared>
+  double operator()(const std::shared_ptr<const Shared>& shared) const {
+    const WorldBox& box = shared->box();
+    return box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()).norm();
+  }
+};
+
+/// Half the extents of a disc around an axis [m].
+Vector3d disc_extents(const Vector3d& axis, double radius) {
+  return radius * (Vector3d::Ones() - axis.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
+}
+
+/// Around the shape, relative to its origin, with this rotation.
+struct RotatedBox {
+  WorldBox operator()(const BoxShape& box) const {
+    return symmetric(rotation.cwiseAbs() * box.size / 2.0);
+  }
+  WorldBox operator()(const SphereShape& sphere) const {
+    return symmetric(Vector3d::Constant(sphere.radius));
+  }
+  WorldBox operator()(const CylinderShape& cylinder) const {
+    const Vector3d axis = rotation.col(2);
+    return symmetric(axis.cwiseAbs() * cylinder.height / 2.0 + disc_extents(axis, cylinder.radius));
+  }
+  WorldBox operator()(const ConeShape& cone) const {
+    const Vector3d apex = rotation.col(2) * cone.height / 2.0;
+    const Vector3d rim = disc_extents(rotation.col(2), cone.radius);
+    return {apex.cwiseMin(-apex - rim), apex.cwiseMax(-apex + rim)};
+  }
+  WorldBox operator()(const CapsuleShape& capsule) const {
+    return symmetric((rotation.col(2).cwiseAbs() * capsule.length / 2.0).array() + capsule.radius);
+  }
+  WorldBox operator()(const HalfSpaceShape& /*half_space*/) const { return everywhere(); }
+  WorldBox operator()(const PlaneShape& /*plane*/) const { return everywhere(); }
+  template <class Shared>
+  WorldBox operator()(const std::shared_ptr<const Shared>& shared) const {
+    const Vector3d centre = rotation * shared->box().center();
+    const Vector3d half = rotation.cwiseAbs() * shared->box().sizes() / 2.0;
+    return {centre - half, centre + half};
+  }
+
+  static WorldBox symmetric(const Vector3d& half) { return {-half, half}; }
+  static WorldBox everywhere() {
+    return symmetric(Vector3d::Constant(std::numeric_limits<double>::infinity()));
+  }
+
+  Eigen::Matrix3d rotation;
+};
+
 }  // namespace
 
 void validate(const Shape& shape) { std::visit(Check(), shape); }
 
 void validate(const Eigen::Isometry3d& pose) {
-  const Eigen::Vector3d position = pose.translation();
+  const Vector3d position = pose.translation();
   for (const double coordinate : {position.x(), position.y(), position.z()}) {
     if (!FiberAssembly::is_valid_coordinate(coordinate)) {
       refuse("a coordinate of the pose", coordinate, "finite and at most 1e150 m in magnitude");
@@ -140,5 +208,23 @@ bool have_same_shapes(const EnvironmentObject& x, const EnvironmentObject& y) {
                              std::visit(IsSameSolid(), one.shape, other.shape);
                     });
 }
+
+WorldBox world_box(const Shape& shape, const Eigen::Isometry3d& pose) {
+  // A few roundings of the largest number that has taken part.
+  constexpr double error = 16.0 * std::numeric_limits<double>::epsilon();
+  WorldBox box = std::visit(RotatedBox{pose.linear()}, shape);
+  const double largest = reach(shape) + pose.translation().cwiseAbs().maxCoeff();
+  const Vector3d padding = Vector3d::Constant(error * largest);
+  box.min() += pose.translation() - padding;
+  box.max() += pose.translation() + padding;
+  return box;
+}
+
+bool is_bounded(const Shape& shape) {
+  return !std::holds_alternative<HalfSpaceShape>(shape) &&
+         !std::holds_alternative<PlaneShape>(shape);
+}
+
+double reach(const Shape& shape) { return std::visit(Reach(), shape); }
 
 }  // namespace fiber

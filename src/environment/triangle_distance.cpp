@@ -1,4 +1,4 @@
-#include "fiber_proximity/environment/triangle_distance.hpp"
+#include "src/environment/triangle_distance.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

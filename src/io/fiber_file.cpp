@@ -1,9 +1,11 @@
 #include "fiber_proximity/io/fiber_file.hpp"
 
+#include <cstdio>
 #include <filesystem>
 #include <stdexcept>
 
-#include "fiber_proximity/io/hair_file.hpp"
+#include "src/io/number.hpp"
+#include "src/io/radii.hpp"
 
 namespace fiber {
 namespace {
@@ -19,7 +21,118 @@ bool has_format(const std::string& path, const char* format) {
   return extension == format;
 }
 
+template <class Writer>
+void write_all(const std::string& path, const FiberFile& file) {
+  Writer writer(path, file.has_frames);
+  for (const FiberFrame& frame : file.frames) {
+    writer.write(frame);
+  }
+  writer.finish();
+}
+
+std::string in_xml(const std::string& text) {
+  std::string escaped;
+  for (const char letter : text) {
+    escaped += letter == '&'   ? "&amp;"
+               : letter == '<' ? "&lt;"
+               : letter == '"' ? "&quot;"
+                               : std::string(1, letter);
+  }
+  return escaped;
+}
+
+/// An array of a VTK file: whatever write() appends to a text for each index, a line each.
+template <class Write>
+void write_array(std::ostream& stream, const std::string& attributes, std::size_t count,
+                 const Write& write) {
+  constexpr std::size_t long_text = 65'536;  // [byte]
+  stream << "<DataArray " << attributes << " format=\"ascii\">\n";
+  std::string text;
+  for (std::size_t i = 0; i < count; ++i) {
+    write(text, i);
+    text += '\n';
+    if (text.size() > long_text) {
+      stream << text;
+      text.clear();
+    }
+  }
+  stream << text << "</DataArray>\n";
+}
+
+/// The file of a frame, beside the one that names it.
+std::filesystem::path frame_path(const std::string& path, std::int64_t frame) {
+  char number[32];
+  std::snprintf(number, sizeof number, "_%06lld.vtp", static_cast<long long>(frame));
+  const std::filesystem::path pvd(path);
+  return pvd.parent_path() / (pvd.stem().string() + number);
+}
+
 }  // namespace
+
+void write_vtp(std::ostream& stream, const FiberAssembly& fibers) {
+  const std::size_t points = fibers.point_count();
+  const std::size_t lines = fibers.fiber_count();
+  std::vector<std::size_t> fiber_of(points);
+  for (std::size_t fiber = 0; fiber < lines; ++fiber) {
+    for (std::size_t i = fibers.offsets()[fiber]; i < fibers.offsets()[fiber + 1]; ++i) {
+      fiber_of[i] = fiber;
+    }
+  }
+  stream << "<?xml version=\"1.0\"?>\n"
+            "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+            "<PolyData>\n<Piece NumberOfPoints=\""
+         << points << "\" NumberOfVerts=\"0\" NumberOfLines=\"" << lines
+         << "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<PointData Scalars=\"radius\">\n";
+  write_array(stream, "type=\"Float64\" Name=\"radius\"", points,
+              [&](std::string& text, std::size_t i) {
+                append_number(text, point_radius(fibers, fiber_of[i], i));
+              });
+  write_array(stream, "type=\"Int64\" Name=\"fiber\"", points,
+              [&](std::string& text, std::size_t i) { append_number(text, fiber_of[i]); });
+  stream << "</PointData>\n<Points>\n";
+  write_array(stream, "type=\"Float64\" NumberOfComponents=\"3\"", points,
+              [&](std::string& text, std::size_t i) {
+                const Eigen::Vector3d& point = fibers.points()[i];
+                for (const double coordinate : {point.x(), point.y(), point.z()}) {
+                  append_number(text, coordinate);
+                  text += ' ';
+                }
+              });
+  stream << "</Points>\n<Lines>\n";
+  write_array(stream, "type=\"Int64\" Name=\"connectivity\"", points,
+              [](std::string& text, std::size_t i) { append_number(text, i); });
+  write_array(
+      stream, "type=\"Int64\" Name=\"offsets\"", lines,
+      [&](std::string& text, std::size_t i) { append_number(text, fibers.offsets()[i + 1]); });
+  stream << "</Lines>\n</Piece>\n</PolyData>\n</VTKFile>\n";
+}
+
+PvdWriter::PvdWriter(const std::string& path) : path_(path), file_(path) {
+  append(
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+      "<Collection>\n");
+}
+
+void PvdWriter::write(const FiberFrame& frame, double time) {
+  const std::filesystem::path file = frame_path(path_, frame.frame);
+  OutputFile output(file.string());
+  write_vtp(output.stream(), frame.fibers);
+  output.close();
+  std::string entry = "<DataSet timestep=\"";
+  append_number(entry, time);
+  append(entry + "\" part=\"0\" file=\"" + in_xml(file.filename().string()) + "\"/>\n");
+}
+
+/// Writes in place of the last tags, and these again.
+void PvdWriter::append(const std::string& text) {
+  std::ostream& stream = file_.stream();
+  stream.seekp(end_);
+  stream << text;
+  end_ = stream.tellp();
+  stream << "</Collection>\n</VTKFile>\n" << std::flush;
+  file_.check();
+}
 
 FiberFile read_fibers(const std::string& path, double default_radius) {
   return has_format(path, ".hair") ? read_hair(path, default_radius)
@@ -59,12 +172,10 @@ void FiberWriter::finish() {
   }
 }
 
+void write_csv(const std::string& path, const FiberFile& file) { write_all<CsvWriter>(path, file); }
+
 void write_fibers(const std::string& path, const FiberFile& file) {
-  FiberWriter writer(path, file.has_frames);
-  for (const FiberFrame& frame : file.frames) {
-    writer.write(frame);
-  }
-  writer.finish();
+  write_all<FiberWriter>(path, file);
 }
 
 }  // namespace fiber

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "fiber_proximity/io/hair_file.hpp"
+#include "fiber_proximity/io/fiber_file.hpp"
 #include "src/io/hair_format.hpp"
 #include "src/io/input_file.hpp"
 #include "src/io/number.hpp"

@@ -3,8 +3,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "fiber_proximity/io/hair_file.hpp"
-#include "fiber_proximity/io/output_file.hpp"
+#include "fiber_proximity/io/fiber_file.hpp"
 #include "src/io/hair_format.hpp"
 #include "src/io/number.hpp"
 #include "src/io/radii.hpp"

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "fiber_proximity/io/file_error.hpp"
+#include "fiber_proximity/io/file.hpp"
 
 namespace fiber {
 
@@ -42,6 +42,29 @@ void for_each_line(std::istream& stream, const std::string& name, const Take& ta
   for (std::string_view line; reader.next(line);) {
     take(line);
   }
+}
+
+constexpr std::string_view blanks = " \t\r";
+
+/// Without the blanks around it.
+inline std::string_view trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(blanks);
+  if (begin == std::string_view::npos) {
+    return {};
+  }
+  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
+}
+
+/// The fields of a line between commas, trimmed.
+inline void split(std::string_view line, std::vector<std::string_view>& fields) {
+  fields.clear();
+  std::size_t comma = line.find(',');
+  while (comma != std::string_view::npos) {
+    fields.push_back(trimmed(line.substr(0, comma)));
+    line.remove_prefix(comma + 1);
+    comma = line.find(',');
+  }
+  fields.push_back(trimmed(line));
 }
 
 /// @throws FileError for a field that is longer than longest_field

@@ -1,20 +1,44 @@
 #pragma once
 
 #include <cstddef>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "src/io/number.hpp"
 
 namespace fiber {
 
 /// A default radius that a caller gives for files without radii.
 /// @throws std::invalid_argument naming the value and what is allowed
-void check_default_radius(double radius);
+inline void check_default_radius(double radius) {
+  if (!FiberAssembly::is_valid_radius(radius)) {
+    std::string value;
+    append_number(value, radius);
+    throw std::invalid_argument("the default radius is " + value + ", " +
+                                FiberAssembly::radius_rule);
+  }
+}
 
 /// One radius where it serves all points: the cheap form of an assembly.
-std::vector<double> shared_if_equal(std::vector<double> radii);
+inline std::vector<double> shared_if_equal(std::vector<double> radii) {
+  for (const double radius : radii) {
+    if (radius != radii.front()) {
+      return radii;
+    }
+  }
+  radii.resize(1);
+  return radii;
+}
 
 /// Radius at a point: its own if there is one per point, else that of its fibre [m].
-double point_radius(const FiberAssembly& fibers, std::size_t fiber, std::size_t point);
+inline double point_radius(const FiberAssembly& fibers, std::size_t fiber, std::size_t point) {
+  const std::vector<double>& radii = fibers.radii();
+  if (radii.size() == 1) {
+    return radii.front();
+  }
+  return radii.size() == fibers.fiber_count() ? radii[fiber] : radii[point];
+}
 
 }  // namespace fiber

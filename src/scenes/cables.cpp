@@ -1,5 +1,3 @@
-#include "src/scenes/cables.hpp"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -9,6 +7,7 @@
 
 #include "src/geometry/select_fibers.hpp"
 #include "src/scenes/portable_math.hpp"
+#include "src/scenes/scenes.hpp"
 
 namespace fiber {
 namespace {

@@ -1,10 +1,9 @@
-#include "src/scenes/cloth.hpp"
-
 #include <utility>
 #include <vector>
 
 #include "src/scenes/hair.hpp"
 #include "src/scenes/portable_math.hpp"
+#include "src/scenes/scenes.hpp"
 
 namespace fiber {
 namespace {
@@ -74,12 +73,7 @@ FiberAssembly cloth(const SceneOptions& options, std::uint32_t frame) {
         return Vector3d(x, y, drape(x, y, time) + height);
       },
       points);
-  std::vector<std::uint32_t> offsets{0};
-  offsets.reserve(count + 1);
-  for (std::uint32_t yarn = 0; yarn < count; ++yarn) {
-    offsets.push_back(offsets.back() + segments_per_yarn + 1);
-  }
-  return {std::move(points), std::move(offsets), {hair_radius}};
+  return equal_fibers(std::move(points), segments_per_yarn + 1, hair_radius);
 }
 
 }  // namespace fiber

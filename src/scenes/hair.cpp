@@ -4,9 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "src/scenes/head.hpp"
-#include "src/scenes/portable_math.hpp"
-#include "src/scenes/roots.hpp"
+#include "src/scenes/scalp.hpp"
+#include "src/scenes/scenes.hpp"
 
 namespace fiber {
 namespace {
@@ -58,7 +57,7 @@ class HairGrower {
   }
 
   std::vector<Vector3d> grow() {
-    for (const Lock& lock : order_in_locks(roots_, style_.lock_size)) {
+    for (const Lock& lock : order_in_locks(roots_, style_.locks.size)) {
       shape_lock(lock);
       for (std::uint32_t root = lock.begin; root < lock.end; ++root) {
         append_hair(roots_[root]);
@@ -91,10 +90,11 @@ class HairGrower {
     // Hair from near the crown lies over the hair that grows farther down.
     const double depth = 1.0 - smooth_step(root.polar / 0.2);
     lock_.layer = 0.5 * depth + random_.uniform(0.0, 0.5);
-    lock_.length = style_.length * (1.0 - random_.uniform(0.0, style_.length_variation));
+    lock_.length = style_.path.length * (1.0 - random_.uniform(0.0, style_.path.length_variation));
     lock_.curl_phase = random_.uniform(0.0, 1.0);
     const double handedness = random_.uniform(-1.0, 1.0) < 0.0 ? -1.0 : 1.0;
-    lock_.curl_turns = handedness * style_.length / style_.curl_pitch * random_.uniform(0.9, 1.1);
+    lock_.curl_turns =
+        handedness * style_.path.length / style_.curl.pitch * random_.uniform(0.9, 1.1);
     lock_.eddies = root.point + random_.point_in_cube(-0.01, 0.01);
     lock_.sway = random_.direction();
     lock_.sway_phase = random_.uniform(0.0, 0.2) + 2.0 * root.point.x() + 3.0 * root.point.y();
@@ -121,17 +121,18 @@ class HairGrower {
 
   /// Where a hair at this point turns to.
   Vector3d wanted_direction(const Vector3d& point) const {
-    Vector3d wanted = style_.pull;
+    Vector3d wanted = style_.path.pull;
     if (style_.on_head) {
       // A comb reaches what lies on the head, not what hangs down.
       const double weight = 1.0 - smooth_step((Head::level(point) - 1.0) / comb_reach);
       const double parting = point.y() / std::sqrt(point.y() * point.y() + 1e-4);
-      wanted += weight * Vector3d(style_.comb.x(), parting * style_.comb.y(), style_.comb.z());
+      wanted += weight * Vector3d(style_.path.comb.x(), parting * style_.path.comb.y(),
+                                  style_.path.comb.z());
     } else {
-      wanted -= style_.gather * Vector3d(point.x(), point.y(), 0.0);
+      wanted -= style_.path.gather * Vector3d(point.x(), point.y(), 0.0);
     }
-    if (style_.eddies > 0.0) {
-      wanted += style_.eddies * eddy(point + lock_.eddies);
+    if (style_.path.eddies > 0.0) {
+      wanted += style_.path.eddies * eddy(point + lock_.eddies);
     }
     return unit(wanted);
   }
@@ -146,13 +147,13 @@ class HairGrower {
   /// The path of a hair from its root on, before it curls.
   void comb(const Root& root, double layer, double length, std::vector<Vector3d>& path) const {
     const double step = length / style_.segments;
-    const double pile = (style_.curl_radius + layer * style_.coat) / Head::semi_axes[0];
+    const double pile = (style_.curl.radius + layer * style_.path.coat) / Head::semi_axes[0];
     path.assign(1, root.point);
     Vector3d direction = unit(root.normal + 0.5 * wanted_direction(root.point));
     for (std::uint32_t i = 1; i <= style_.segments; ++i) {
       const Vector3d& point = path.back();
       const Vector3d turn = wanted_direction(point) - direction;
-      direction = unit(direction + step / (step + style_.stiffness) * turn);
+      direction = unit(direction + step / (step + style_.path.stiffness) * turn);
       Vector3d next = point + step * direction;
       if (style_.on_head) {
         // Lie on the layers below, and let the hair turn along them.
@@ -165,10 +166,10 @@ class HairGrower {
   }
 
   void append_hair(const Root& root) {
-    const double variation = style_.curl_variation;
+    const double variation = style_.curl.variation;
     const double layer = lock_.layer + random_.uniform(-0.1, 0.1);
-    const double length = lock_.length * (1.0 - random_.uniform(0.0, style_.length_variation));
-    const double radius = style_.curl_radius * (1.0 + random_.uniform(-variation, variation));
+    const double length = lock_.length * (1.0 - random_.uniform(0.0, style_.path.length_variation));
+    const double radius = style_.curl.radius * (1.0 + random_.uniform(-variation, variation));
     const double turns = lock_.curl_turns * (1.0 + 0.2 * random_.uniform(-variation, variation));
     const double phase = lock_.curl_phase + 0.2 * random_.uniform(-variation, variation);
     const Wander wander(random_);
@@ -176,13 +177,13 @@ class HairGrower {
     points_.push_back(root.point);
     for (std::uint32_t i = 1; i <= style_.segments; ++i) {
       const double t = static_cast<double>(i) / style_.segments;
-      const double curl = radius * smooth_step(length * t / style_.curl_start);
+      const double curl = radius * smooth_step(length * t / style_.curl.start);
       const double turn = phase + turns * t;
       const Vector3d point =
-          path_[i] + style_.clump * smooth_step(t) * (lock_.path[i] - path_[i]) +
+          path_[i] + style_.locks.clump * smooth_step(t) * (lock_.path[i] - path_[i]) +
           curl * (cosine_of_turns(turn) * lock_.side[i] +
-                  (1.0 - style_.curl_flatness) * sine_of_turns(turn) * lock_.rise[i]) +
-          style_.wander * t * wander.at(t) + sway_at(t);
+                  (1.0 - style_.curl.flatness) * sine_of_turns(turn) * lock_.rise[i]) +
+          style_.locks.wander * t * wander.at(t) + sway_at(t);
       points_.push_back(style_.on_head ? Head::lifted(point, 1.0 + hair_clearance) : point);
     }
   }
@@ -200,7 +201,64 @@ class HairGrower {
   std::vector<Vector3d> points_;
 };
 
+using Path = HairStyle::Path;
+using Locks = HairStyle::Locks;
+using Curl = HairStyle::Curl;
+
+const Vector3d down(0.0, 0.0, -1.0);
+const Vector3d nowhere(0.0, 0.0, 0.0);
+const Vector3d to_shoulders(-0.9, 0.8, 0.0);
+
+HairStyle with_hairs(HairStyle style, std::uint32_t hair_count) {
+  style.hair_count = hair_count;
+  return style;
+}
+
 }  // namespace
+
+const HairStyle tress_a{2'500,
+                        98,
+                        false,
+                        Path{0.25, 0.04, down, nowhere, 8.0, 0.0, 0.02, 0.0},
+                        Locks{0.006, 0.5, 0.004},
+                        Curl{0.006, 0.7, 0.06, 0.08, 0.15},
+                        0.01};
+const HairStyle tress_b{500,
+                        2'000,
+                        false,
+                        Path{0.36, 0.03, down, nowhere, 15.0, 0.0, 0.02, 0.0},
+                        Locks{0.005, 0.6, 0.003},
+                        Curl{0.009, 0.0, 0.036, 0.1, 0.1},
+                        0.01};
+const HairStyle tress_c = with_hairs(tress_b, 1'000);
+const HairStyle charming{49'000,
+                         49,
+                         true,
+                         Path{0.30, 0.08, down, to_shoulders, 0.0, 0.0, 0.02, 0.025},
+                         Locks{0.006, 0.35, 0.004},
+                         Curl{0.005, 0.7, 0.07, 0.12, 0.15},
+                         0.01};
+const HairStyle curly{47'000,
+                      100,
+                      true,
+                      Path{0.16, 0.1, down, {-0.3, 0.5, 0.3}, 0.0, 0.0, 0.03, 0.03},
+                      Locks{0.005, 0.4, 0.003},
+                      Curl{0.0045, 0.0, 0.016, 0.03, 0.15},
+                      0.006};
+const HairStyle windy{60'000,
+                      50,
+                      true,
+                      Path{0.25, 0.12, {-1.0, -0.7, 0.05}, nowhere, 0.0, 0.25, 0.03, 0.02},
+                      Locks{0.006, 0.5, 0.01},
+                      Curl{0.003, 0.8, 0.09, 0.1, 0.2},
+                      0.02};
+const HairStyle longish{39'000,
+                        54,
+                        true,
+                        Path{0.45, 0.04, down, to_shoulders, 0.0, 0.0, 0.02, 0.012},
+                        Locks{0.006, 0.4, 0.004},
+                        Curl{0.002, 0.8, 0.2, 0.2, 0.2},
+                        0.01};
 
 FiberAssembly hair(const HairStyle& style, const SceneOptions& options, std::uint32_t frame) {
   const std::uint32_t most_hairs =
@@ -209,12 +267,8 @@ FiberAssembly hair(const HairStyle& style, const SceneOptions& options, std::uin
   const std::uint32_t hairs =
       scaled_fiber_count(options, style.hair_count, points_per_hair, most_hairs);
   const double time = static_cast<double>(frame % sway_period) / sway_period;
-  std::vector<std::uint32_t> offsets{0};
-  offsets.reserve(hairs + 1);
-  for (std::uint32_t i = 0; i < hairs; ++i) {
-    offsets.push_back(offsets.back() + points_per_hair);
-  }
-  return {HairGrower(style, options.seed, time, hairs).grow(), std::move(offsets), {hair_radius}};
+  return equal_fibers(HairGrower(style, options.seed, time, hairs).grow(), points_per_hair,
+                      hair_radius);
 }
 
 double max_hair_step(const HairStyle& style) {

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
-#include "fiber_proximity/scenes/options.hpp"
+#include "fiber_proximity/scenes/scene.hpp"
 
 namespace fiber {
 
@@ -15,30 +15,49 @@ struct HairStyle {
   std::uint32_t segments = 0;    ///< of every hair
   bool on_head = true;           ///< else a tress that hangs from a disc
 
-  double length = 0.0;            ///< [m] of a path, without the curl around it
-  double length_variation = 0.0;  ///< fraction by which hairs are at most shorter
+  /// Where a hair turns to from its root on.
+  struct Path {
+    double length = 0.0;            ///< [m] without the curl around it
+    double length_variation = 0.0;  ///< fraction by which hairs are at most shorter
+    Eigen::Vector3d pull;           ///< gravity, or the wind
+    Eigen::Vector3d comb;           ///< added near the head; y to either side of a parting
+    double gather = 0.0;            ///< of a tress: pull towards its axis, per m of distance
+    double eddies = 0.0;            ///< added to the pull: how unsteady the wind is
+    double stiffness = 0.0;         ///< [m] along the hair in which it turns to the pull
+    double coat = 0.0;              ///< [m] to which layers of hair pile up on the head
+  } path;
 
-  // The path: where a hair turns to from its root on.
-  Eigen::Vector3d pull{0.0, 0.0, -1.0};  ///< gravity, or the wind
-  Eigen::Vector3d comb{0.0, 0.0, 0.0};   ///< added near the head; y to either side of a parting
-  double gather = 0.0;                   ///< of a tress: pull towards its axis, per m of distance
-  double eddies = 0.0;                   ///< added to the pull: how unsteady the wind is
-  double stiffness = 0.02;               ///< [m] along the hair in which it turns to the pull
-  double coat = 0.0;                     ///< [m] to which layers of hair pile up on the head
+  struct Locks {
+    double size = 0.0;    ///< [m] edge of a lock on the scalp
+    double clump = 0.0;   ///< part of the way to the lock's path that its hairs go, at the tip
+    double wander = 0.0;  ///< [m] by which a hair strays from its lock, at the tip
+  } locks;
 
-  double lock_size = 0.0;  ///< [m] edge of a lock on the scalp
-  double clump = 0.0;      ///< part of the way to the lock's path that its hairs go, at the tip
-
-  // The curl around the path.
-  double curl_radius = 0.0;     ///< [m]
-  double curl_flatness = 0.0;   ///< 0: helix; 1: wave in a plane
-  double curl_pitch = 1.0;      ///< [m] of path per turn
-  double curl_start = 0.0;      ///< [m] of path in which the curl grows to its radius
-  double curl_variation = 0.0;  ///< of the radius, and of the turns, within a lock; fraction
-  double wander = 0.0;          ///< [m] by which a hair strays from its lock, at the tip
+  /// Around the path.
+  struct Curl {
+    double radius = 0.0;     ///< [m]
+    double flatness = 0.0;   ///< 0: helix; 1: wave in a plane
+    double pitch = 0.0;      ///< [m] of path per turn
+    double start = 0.0;      ///< [m] of path in which the curl grows to its radius
+    double variation = 0.0;  ///< of the radius, and of the turns, within a lock; fraction
+  } curl;
 
   double sway = 0.0;  ///< [m] amplitude of the tips over the frames
 };
+
+// The paper's hair (Fig. 1), with its numbers of hairs and segments, its density and its diameter.
+// Shape, length and locks are our own: the paper shows a picture of each and says no more. Hairs
+// lie beside each other at distances around their diameter and, as interpolated styles do, partly
+// in each other. Contacts are per segment, at scale 1, seed 1, frame 0 and margin 0, neighbours in
+// a hair left out; a smaller scale has fewer, because fewer hairs fall on the same place.
+
+extern const HairStyle tress_a;   ///< 2 500 × 98: a wavy strand; 0.75 contacts
+extern const HairStyle tress_b;   ///< 500 × 2 000: long curls; 0.12 contacts
+extern const HairStyle tress_c;   ///< 1 000 × 2 000: tress B with twice the hairs; 0.20 contacts
+extern const HairStyle charming;  ///< 49 000 × 49: waves to the shoulders; 1.75 contacts
+extern const HairStyle curly;     ///< 47 000 × 100: tight helices; 1.43 contacts
+extern const HairStyle windy;     ///< 60 000 × 50: blown back and to one side; 0.50 contacts
+extern const HairStyle longish;   ///< 39 000 × 54: long and nearly straight; 0.85 contacts
 
 /// Radius of a hair: half of the paper's 0.007 cm [m].
 constexpr double hair_radius = 3.5e-5;

@@ -62,16 +62,6 @@ HardMotion with_radii(HardMotion motion, double sum, Random& random) {
   return motion;
 }
 
-/// A change of the parts, and radii to go with it.
-using Change = std::function<void(MovingParts&, Random&)>;
-MotionFamily family(const std::string& name, const Change& change) {
-  return {name, [change](Random& random) {
-            MovingParts parts = random_parts(random);
-            change(parts, random);
-            return with_radii(motion_of(parts), random.uniform(0.01, 0.3), random);
-          }};
-}
-
 MotionFamily scaled_family(const std::string& name, double scale, double offset) {
   return {name, [=](Random& random) {
             HardMotion motion =
@@ -132,22 +122,33 @@ double about(double distance, Random& random) {
   return distance * (1.0 + change);
 }
 
-/// The radii are the smallest distance of the motion, give or take a little.
-MotionFamily grazing_family(const std::string& name, const Change& change) {
-  return {name, [change](Random& random) {
+/// A change of the parts, and the sum of the radii [m] of what comes of it.
+using Change = std::function<void(MovingParts&, Random&)>;
+using Radii = std::function<double(const HardMotion&, Random&)>;
+
+double any_radii(const HardMotion& /*motion*/, Random& random) { return random.uniform(0.01, 0.3); }
+
+/// The smallest distance of the motion, give or take a little.
+double grazing_radii(const HardMotion& motion, Random& random) {
+  return about(smallest_distance(motion), random);
+}
+
+MotionFamily family(const std::string& name, const Change& change, const Radii& radii = any_radii) {
+  return {name, [change, radii](Random& random) {
             MovingParts parts = random_parts(random);
             change(parts, random);
             const HardMotion motion = motion_of(parts);
-            return with_radii(motion, about(smallest_distance(motion), random), random);
+            return with_radii(motion, radii(motion, random), random);
           }};
 }
 
+void leave(MovingParts& /*parts*/, Random& /*random*/) {}
+
 /// The radii are the distance at this time, give or take a little.
 MotionFamily touching_family(const std::string& name, double time) {
-  return {name, [time](Random& random) {
-            const HardMotion motion = motion_of(random_parts(random));
-            return with_radii(motion, about(distance_at(motion, time), random), random);
-          }};
+  return family(name, leave, [time](const HardMotion& motion, Random& random) {
+    return about(distance_at(motion, time), random);
+  });
 }
 
 /// Two segments without thickness that meet at one time, inside both or at an end.
@@ -173,7 +174,7 @@ MotionFamily nearly_crossing_family(const std::string& name) {
   return {name, [](Random& random) {
             const Vector3d x = random.direction();
             const Vector3d any = random.direction();
-            const Vector3d y = any.cross(x) / std::sqrt(Random::squared_length(any.cross(x)));
+            const Vector3d y = unit(any.cross(x));
             const Vector3d z = x.cross(y);
             const double meeting = random.uniform(0.2, 0.8);
             const double part_a = random.uniform(0.2, 0.8);
@@ -198,21 +199,28 @@ MotionFamily nearly_crossing_family(const std::string& name) {
 
 void stay(MovingPart& part) { part.turn = Vector3d::Zero(); }
 
+void translate(MovingParts& parts, Random& /*random*/) {
+  stay(parts.a);
+  stay(parts.b);
+}
+
+void make_points(MovingParts& parts, Random& random) {
+  parts.a.direction = Vector3d::Zero();
+  parts.b.direction = Vector3d::Zero();
+  translate(parts, random);
+}
+
 void make_parallel(MovingParts& parts, Random& random) {
   parts.b.direction = random.uniform(0.3, 2.0) * parts.a.direction;
 }
 
 void append_general(std::vector<MotionFamily>& all) {
-  all.push_back(family("random", [](MovingParts&, Random&) {}));
-  all.push_back(family("translating", [](MovingParts& parts, Random&) {
-    stay(parts.a);
-    stay(parts.b);
-  }));
-  all.push_back(family("without motion", [](MovingParts& parts, Random&) {
-    for (MovingPart* part : {&parts.a, &parts.b}) {
-      stay(*part);
-      part->way = Vector3d::Zero();
-    }
+  all.push_back(family("random", leave));
+  all.push_back(family("translating", translate));
+  all.push_back(family("without motion", [](MovingParts& parts, Random& random) {
+    translate(parts, random);
+    parts.a.way = Vector3d::Zero();
+    parts.b.way = Vector3d::Zero();
   }));
   all.push_back(family("ends change places", [](MovingParts& parts, Random& random) {
     for (MovingPart* part : {&parts.a, &parts.b}) {
@@ -233,8 +241,7 @@ void append_general(std::vector<MotionFamily>& all) {
 }
 
 void append_degenerate(std::vector<MotionFamily>& all) {
-  all.push_back(
-      family("parallel", [](MovingParts& parts, Random& random) { make_parallel(parts, random); }));
+  all.push_back(family("parallel", make_parallel));
   all.push_back(family("staying parallel", [](MovingParts& parts, Random& random) {
     make_parallel(parts, random);
     parts.a.turn = random.uniform(-0.5, 0.5) * parts.a.direction;
@@ -257,40 +264,26 @@ void append_degenerate(std::vector<MotionFamily>& all) {
     parts.a.direction = Vector3d::Zero();
     stay(parts.a);
   }));
-  all.push_back(family("two points", [](MovingParts& parts, Random&) {
-    for (MovingPart* part : {&parts.a, &parts.b}) {
-      part->direction = Vector3d::Zero();
-      stay(*part);
-    }
-  }));
+  all.push_back(family("two points", make_points));
   all.push_back(family("a point at some time", [](MovingParts& parts, Random& random) {
     parts.a.turn = -random.uniform(1.0, 3.0) * parts.a.direction;
   }));
 }
 
 void append_grazing(std::vector<MotionFamily>& all) {
-  all.push_back(grazing_family("grazing", [](MovingParts&, Random&) {}));
-  all.push_back(grazing_family("grazing, translating", [](MovingParts& parts, Random&) {
-    stay(parts.a);
-    stay(parts.b);
-  }));
-  all.push_back(grazing_family("grazing, parallel", [](MovingParts& parts, Random& random) {
+  const auto translate_parallel = [](MovingParts& parts, Random& random) {
     make_parallel(parts, random);
-    stay(parts.a);
-    stay(parts.b);
-  }));
-  all.push_back(grazing_family("grazing points", [](MovingParts& parts, Random&) {
-    for (MovingPart* part : {&parts.a, &parts.b}) {
-      part->direction = Vector3d::Zero();
-      stay(*part);
-    }
-  }));
-  all.push_back(grazing_family("sliding", [](MovingParts& parts, Random& random) {
-    make_parallel(parts, random);
-    stay(parts.a);
-    stay(parts.b);
+    translate(parts, random);
+  };
+  const auto slide = [=](MovingParts& parts, Random& random) {
+    translate_parallel(parts, random);
     parts.b.way = parts.a.way + random.uniform(-1.0, 1.0) * parts.a.direction;
-  }));
+  };
+  all.push_back(family("grazing", leave, grazing_radii));
+  all.push_back(family("grazing, translating", translate, grazing_radii));
+  all.push_back(family("grazing, parallel", translate_parallel, grazing_radii));
+  all.push_back(family("grazing points", make_points, grazing_radii));
+  all.push_back(family("sliding", slide, grazing_radii));
   all.push_back(touching_family("touching before", 0.0));
   all.push_back(touching_family("touching after", 1.0));
   all.push_back(crossing_family("crossing", false));

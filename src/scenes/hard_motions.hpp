@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/contact_time.hpp"
-#include "src/scenes/random.hpp"
+#include "src/scenes/portable_math.hpp"
 
 namespace fiber {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "src/scenes/random.hpp"
+#include "src/scenes/portable_math.hpp"
 
 namespace fiber {
 

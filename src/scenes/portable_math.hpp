@@ -2,11 +2,14 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <cstdint>
+#include <random>
 
 namespace fiber {
 
-// The arithmetic of the scenes, the same bits on every machine: from + − · / √ and floor alone, in
-// an order that is written down, where libm's functions and Eigen's reductions fix neither.
+// The arithmetic and the random numbers of the scenes, the same bits on every machine: from + − · /
+// √ and floor alone, which IEEE 754 fixes, in an order that is written down, where libm's functions
+// and Eigen's reductions fix neither.
 
 /// A full turn [rad].
 inline constexpr double tau = 6.283185307179586;
@@ -46,5 +49,40 @@ inline Eigen::Vector3d unit(const Eigen::Vector3d& v) { return v / std::sqrt(dot
 inline Eigen::Vector3d perpendicular_unit(const Eigen::Vector3d& v, const Eigen::Vector3d& axis) {
   return unit(v - dot(v, axis) * axis);
 }
+
+/// Random numbers; the standard fixes std::mt19937_64, but not its distributions.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : generator_(seed) {}
+
+  /// In [lower, upper).
+  double uniform(double lower, double upper) {
+    const double unit = static_cast<double>(generator_() >> 11U) * 0x1p-53;
+    return lower + unit * (upper - lower);
+  }
+
+  /// Each coordinate in [lower, upper).
+  Eigen::Vector3d point_in_cube(double lower, double upper) {
+    // One statement each: the order in which a function's arguments are evaluated is not fixed.
+    const double x = uniform(lower, upper);
+    const double y = uniform(lower, upper);
+    const double z = uniform(lower, upper);
+    return {x, y, z};
+  }
+
+  /// Uniform on the unit sphere.
+  Eigen::Vector3d direction() {
+    for (;;) {
+      const Eigen::Vector3d point = point_in_cube(-1.0, 1.0);
+      const double squared = dot(point, point);
+      if (squared > 0x1p-20 && squared <= 1.0) {
+        return point / std::sqrt(squared);
+      }
+    }
+  }
+
+ private:
+  std::mt19937_64 generator_;
+};
 
 }  // namespace fiber

@@ -1,14 +1,16 @@
 #include "fiber_proximity/scenes/scene.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
 #include "src/geometry/select_fibers.hpp"
-#include "src/scenes/cables.hpp"
-#include "src/scenes/cloth.hpp"
-#include "src/scenes/hair_styles.hpp"
-#include "src/scenes/shuffle.hpp"
-#include "src/scenes/soup.hpp"
+#include "src/io/number.hpp"
+#include "src/scenes/hair.hpp"
+#include "src/scenes/portable_math.hpp"
+#include "src/scenes/scenes.hpp"
 #include "src/text/quote.hpp"
 
 namespace fiber {
@@ -63,6 +65,43 @@ std::vector<std::string> scene_names() {
     names.push_back(entry.first);
   }
   return names;
+}
+
+std::uint32_t scaled_fiber_count(const SceneOptions& options, std::uint32_t full_count,
+                                 std::uint32_t points_per_fiber, std::uint32_t most_fibers) {
+  constexpr double most_points = 0x1p31 - 1.0;
+  const double limit = std::min<double>(std::floor(most_points / points_per_fiber), most_fibers);
+  const double fibers = std::floor(options.scale * full_count + 0.5);
+  if (!(options.scale > 0.0) || fibers > limit) {
+    std::string message = "scale is ";
+    append_number(message, options.scale);
+    message += ", it must be above 0 and at most ";
+    append_number(message, std::floor(100.0 * limit / full_count) / 100.0);
+    throw std::invalid_argument(message);
+  }
+  return fibers < 1.0 ? 1U : static_cast<std::uint32_t>(fibers);
+}
+
+FiberAssembly equal_fibers(std::vector<Eigen::Vector3d> points, std::uint32_t points_per_fiber,
+                           double radius) {
+  std::vector<std::uint32_t> offsets(points.size() / points_per_fiber + 1);
+  for (std::size_t i = 1; i < offsets.size(); ++i) {
+    offsets[i] = offsets[i - 1] + points_per_fiber;
+  }
+  return {std::move(points), std::move(offsets), {radius}};
+}
+
+std::vector<std::uint32_t> random_order(std::uint32_t count, std::uint64_t seed) {
+  // Apart from the scene's own numbers, which begin with the seed itself.
+  Random random(~seed);
+  std::vector<std::uint32_t> order(count);
+  std::iota(order.begin(), order.end(), 0U);
+  for (std::uint32_t left = count; left > 1; --left) {
+    // Rounding may reach the upper limit.
+    const auto chosen = static_cast<std::uint32_t>(random.uniform(0.0, left));
+    std::swap(order[left - 1], order[std::min(chosen, left - 1)]);
+  }
+  return order;
 }
 
 }  // namespace fiber

@@ -1,10 +1,9 @@
-#include "src/scenes/soup.hpp"
-
 #include <cmath>
 #include <utility>
 #include <vector>
 
-#include "src/scenes/random.hpp"
+#include "src/scenes/portable_math.hpp"
+#include "src/scenes/scenes.hpp"
 
 namespace fiber {
 namespace {
@@ -29,8 +28,7 @@ double wave(double x) {
 
 /// Gently turned from where it points.
 Vector3d bent(const Vector3d& direction, Random& random) {
-  const Vector3d turned = direction + bend * random.direction();
-  return turned / std::sqrt(Random::squared_length(turned));
+  return unit(direction + bend * random.direction());
 }
 
 void append_walk(std::vector<Vector3d>& points, Random& random) {
@@ -59,21 +57,18 @@ FiberAssembly soup(const SceneOptions& options, std::uint32_t frame) {
   const std::uint32_t fibers = scaled_fiber_count(options, fiber_count, segments_per_fiber + 1);
   std::vector<Vector3d> points;
   points.reserve(std::size_t{fibers} * (segments_per_fiber + 1));
-  std::vector<std::uint32_t> offsets{0};
-  offsets.reserve(fibers + 1);
   Random random(options.seed);
   const double time = static_cast<double>(frame % soup_period) / soup_period;
   for (std::uint32_t fiber = 0; fiber < fibers; ++fiber) {
+    const std::size_t first = points.size();
     append_walk(points, random);
     const Vector3d sway = amplitude * random.direction();
     const double phase = random.uniform(0.0, 1.0) + time;
     for (std::uint32_t i = 0; i <= segments_per_fiber; ++i) {
-      points[offsets.back() + i] +=
-          wave(phase + static_cast<double>(i) / segments_per_fiber) * sway;
+      points[first + i] += wave(phase + static_cast<double>(i) / segments_per_fiber) * sway;
     }
-    offsets.push_back(static_cast<std::uint32_t>(points.size()));
   }
-  return {std::move(points), std::move(offsets), {radius}};
+  return equal_fibers(std::move(points), segments_per_fiber + 1, radius);
 }
 
 }  // namespace fiber

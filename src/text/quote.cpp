@@ -32,18 +32,11 @@ std::size_t printable_length(std::string_view text) {
 }
 
 void append_escaped(std::string& line, char byte) {
-  switch (byte) {
-    case '\n':
-      line += "\\n";
-      return;
-    case '\r':
-      line += "\\r";
-      return;
-    case '\t':
-      line += "\\t";
-      return;
-    default:
-      break;
+  const std::size_t named = std::string_view("\n\r\t").find(byte);
+  if (named != std::string_view::npos) {
+    line += '\\';
+    line += "nrt"[named];
+    return;
   }
   constexpr char digits[] = "0123456789ABCDEF";
   const auto value = static_cast<unsigned char>(byte);

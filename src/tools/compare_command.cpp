@@ -1,35 +1,178 @@
-#include "src/tools/compare_command.hpp"
-
+#include <array>
 #include <chrono>
+#include <cmath>
+#include <cstdio>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "fiber_proximity/compare/fcl_comparer.hpp"
 #include "fiber_proximity/io/fiber_file.hpp"
-#include "src/tools/comparison_format.hpp"
-#include "src/tools/fiber_options.hpp"
+#include "src/tools/fiber_query.hpp"
+#include "src/tools/text_output.hpp"
 
 namespace fiber {
 namespace {
 
-struct CompareRequest {
-  std::string file;
-  std::string engine = "run_tree";
+constexpr Verdict verdicts[] = {Verdict::BOTH, Verdict::OURS, Verdict::FCL, Verdict::NEITHER};
+
+struct CompareRequest : FiberRequest {
   QueryOptions query;
-  EngineOptions engine_options;
-  double radius = 0.0;  // [m]
   std::string format = "text";
 };
 
-void append(std::string& text, const std::string& format, const FrameComparison& frame) {
-  if (format == "json") {
-    append_json(text, frame);
-  } else if (format == "csv") {
-    append_csv(text, frame);
-  } else {
-    append_text(text, frame);
+/// One frame of a file, compared.
+struct FrameComparison {
+  FrameNumber frame;
+  double update_time = 0.0;  // [s] of our engine
+  Comparison comparison;
+};
+
+/// [ms] with four digits: a time is not known any better.
+std::string milliseconds(double seconds) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.4g ms", 1e3 * seconds);
+  return text.data();
+}
+
+std::string number(double value) {
+  std::string text;
+  append_number(text, value);
+  return text;
+}
+
+std::string segment(const SegmentId& id) {
+  return std::to_string(id.fiber) + "/" + std::to_string(id.segment);
+}
+
+std::string described(const std::optional<PairClaim>& claim) {
+  return claim ? number(claim->gap) + " m" : "no contact";
+}
+
+const char* described(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::BOTH:
+      return "within what both are rounded by";
+    case Verdict::OURS:
+      return "ours is right";
+    case Verdict::FCL:
+      return "FCL is right, ours is wrong";
+    case Verdict::NEITHER:
+      break;
   }
+  return "both are wrong";
+}
+
+std::string described(const Disagreement& pair) {
+  return segment(pair.a) + " - " + segment(pair.b) + ": ours " + described(pair.ours) + ", FCL " +
+         (pair.fcl_has_answer ? described(pair.fcl) : "no answer") + ", true gap " +
+         number(pair.gap) + " m" + (pair.is_contact ? " (contact)" : " (no contact)") + ": " +
+         described(pair.verdict);
+}
+
+nlohmann::ordered_json json_of(const std::optional<PairClaim>& claim) {
+  if (!claim || !std::isfinite(claim->gap)) {
+    return nullptr;
+  }
+  return claim->gap;
+}
+
+nlohmann::ordered_json json_of(const Disagreement& pair) {
+  return {{"fiber_a", pair.a.fiber},
+          {"segment_a", pair.a.segment},
+          {"fiber_b", pair.b.fiber},
+          {"segment_b", pair.b.segment},
+          {"ours", json_of(pair.ours)},
+          {"fcl", json_of(pair.fcl)},
+          {"fcl_has_answer", pair.fcl_has_answer},
+          {"gap", pair.gap},
+          {"is_contact", pair.is_contact},
+          {"verdict", name_of(pair.verdict)}};
+}
+
+nlohmann::ordered_json json_of(const StyleComparison& style) {
+  nlohmann::ordered_json object = {
+      {"style", name_of(style.style)},    {"update_time", style.update_time},
+      {"detect_time", style.detect_time}, {"pair_tests", style.pair_tests},
+      {"contacts", style.contacts},       {"only_ours", style.only_ours},
+      {"only_fcl", style.only_fcl},       {"in_both", style.in_both},
+      {"no_answer", style.no_answer},     {"largest_difference", style.largest_difference}};
+  object["disagreements"] = nlohmann::ordered_json::array();
+  for (const Disagreement& pair : style.disagreements) {
+    object["disagreements"].push_back(json_of(pair));
+  }
+  return object;
+}
+
+std::string csv_columns(bool has_frames) {
+  std::string text = has_frames ? "frame," : "";
+  text +=
+      "method,update_time,detect_time,pair_tests,contacts,only_ours,only_fcl,in_both,no_answer,"
+      "largest_difference";
+  for (const Verdict verdict : verdicts) {
+    text += std::string(",right_") + name_of(verdict);
+  }
+  return text + '\n';
+}
+
+/// A line for our engine and one for each style of FCL; disagreements are counted, not listed.
+void write_csv(TextOutput& output, const FrameComparison& frame) {
+  const Comparison& ours = frame.comparison;
+  const std::string none;
+  output.write_row(frame.frame, std::string("ours"), frame.update_time, ours.detect_time,
+                   ours.pair_tests, ours.contacts, none, none, none, none, none, none, none, none,
+                   none);
+  for (const StyleComparison& style : ours.styles) {
+    output.write_row(frame.frame, std::string("fcl_") + name_of(style.style), style.update_time,
+                     style.detect_time, style.pair_tests, style.contacts, style.only_ours,
+                     style.only_fcl, style.in_both, style.no_answer, style.largest_difference,
+                     style.count(verdicts[0]), style.count(verdicts[1]), style.count(verdicts[2]),
+                     style.count(verdicts[3]));
+  }
+}
+
+/// A line with one JSON object.
+void write_json(TextOutput& output, const FrameComparison& frame) {
+  const Comparison& comparison = frame.comparison;
+  nlohmann::ordered_json object = object_of(frame.frame);
+  object["ours"] = {{"update_time", frame.update_time},
+                    {"detect_time", comparison.detect_time},
+                    {"pair_tests", comparison.pair_tests},
+                    {"contacts", comparison.contacts}};
+  object["fcl"] = nlohmann::ordered_json::array();
+  for (const StyleComparison& style : comparison.styles) {
+    object["fcl"].push_back(json_of(style));
+  }
+  object["ours_is_right"] = comparison.ours_is_right();
+  output.write(object.dump() + '\n');
+}
+
+/// Lines to read: one for our engine, one for each style and for each disagreement.
+void write_text(TextOutput& output, const FrameComparison& frame) {
+  const Comparison& comparison = frame.comparison;
+  std::string text =
+      frame.frame.is_given ? "frame " + std::to_string(frame.frame.number) + "\n" : "";
+  text += "  ours: " + std::to_string(comparison.contacts) + " contacts, update " +
+          milliseconds(frame.update_time) + ", detection " + milliseconds(comparison.detect_time) +
+          "\n";
+  for (const StyleComparison& style : comparison.styles) {
+    text += std::string("  FCL, ") + name_of(style.style) +
+            " style: " + std::to_string(style.contacts) + " contacts, update " +
+            milliseconds(style.update_time) + ", detection " + milliseconds(style.detect_time) +
+            "; only ours " + std::to_string(style.only_ours) + ", only FCL " +
+            std::to_string(style.only_fcl) + ", in both " + std::to_string(style.in_both) +
+            ", no answer " + std::to_string(style.no_answer);
+    if (style.largest_difference > 0.0) {
+      text += "; distances differ by up to " + number(style.largest_difference) + " m (" +
+              segment(style.largest_a) + " - " + segment(style.largest_b) + ")";
+    }
+    text += '\n';
+    for (const Disagreement& pair : style.disagreements) {
+      text += "    " + described(pair) + '\n';
+    }
+  }
+  output.write(text);
 }
 
 /// All disagreements of a file, for its last line.
@@ -42,13 +185,13 @@ class Totals {
     }
   }
 
-  void append_to(std::string& text) const {
+  std::string text() const {
     const auto& [both, ours, fcl, neither] = counts_;
-    text += std::to_string(frames_) + (frames_ == 1 ? " frame, " : " frames, ") +
-            std::to_string(both + ours + fcl + neither) + " disagreements: ours is right in " +
-            std::to_string(ours) + ", FCL in " + std::to_string(fcl) + ", none in " +
-            std::to_string(neither) + ", within what both are rounded by " + std::to_string(both) +
-            '\n';
+    return std::to_string(frames_) + (frames_ == 1 ? " frame, " : " frames, ") +
+           std::to_string(both + ours + fcl + neither) + " disagreements: ours is right in " +
+           std::to_string(ours) + ", FCL in " + std::to_string(fcl) + ", none in " +
+           std::to_string(neither) + ", within what both are rounded by " + std::to_string(both) +
+           '\n';
   }
 
   ExitCode exit_code() const {
@@ -65,49 +208,37 @@ ExitCode run(const CompareRequest& request) {
   const std::unique_ptr<ProximityEngine> engine =
       make_engine(request.engine, request.engine_options);
   const FiberFile file = read_fibers(request.file, request.radius);
+  const bool csv = request.format == "csv";
+  const auto write = csv ? write_csv : request.format == "json" ? write_json : write_text;
   FclComparer comparer;
   Totals totals;
-  std::string text = request.format == "csv" ? comparison_csv_header(file.has_frames) : "";
+  TextOutput output(std::cout);
+  output.write(csv ? csv_columns(file.has_frames) : "");
   for (const FiberFrame& frame : file.frames) {
     const auto begin = std::chrono::steady_clock::now();
     engine->update(frame.fibers);
     const std::chrono::duration<double> update = std::chrono::steady_clock::now() - begin;
-    const FrameComparison found{file.has_frames ? std::optional(frame.frame) : std::nullopt,
+    const FrameComparison found{{file.has_frames, frame.frame},
                                 update.count(),
                                 comparer.compare(frame.fibers, *engine, request.query)};
     totals.add(found.comparison);
-    append(text, request.format, found);
-    std::cout << text;
-    text.clear();
+    write(output, found);
+    output.flush();
   }
-  if (request.format == "text") {
-    totals.append_to(text);
-  }
-  std::cout << text;
+  output.write(request.format == "text" ? totals.text() : "");
+  output.flush();
   return totals.exit_code();
 }
 
 void add_options(CLI::App& app, CompareRequest& request) {
-  app.add_option("FILE", request.file, "fibre file (.csv or .hair)")->required();
-  app.add_option("--engine", request.engine, "one of " + join(engine_names()))
-      ->capture_default_str();
-  app.add_option("--radius", request.radius, "of all fibres, if the file has no radii [m]")
-      ->capture_default_str();
-  app.add_option("--threads", request.engine_options.threads,
-                 "most threads for the engine, 0 for as many as there are cores; FCL has one")
-      ->check(whole_number(0))
-      ->capture_default_str();
+  add_fiber_options(app, request,
+                    "most threads for the engine, 0 for as many as there are cores; FCL has one");
   app.add_option("--margin", request.query.margin, "pairs with a gap of at most this; finite [m]")
       ->check(finite_number(0.0))
       ->capture_default_str();
-  app.add_option("--neighbour-skip", request.query.neighbour_skip,
-                 "segments of a fibre whose indices differ by at most this are no pair; without "
-                 "this and the next option, those are that the fibre makes a loop between")
-      ->check(whole_number(0));
-  app.add_option("--neighbour-skip-length", request.query.neighbour_skip_length,
-                 "segments of a fibre with less than this between them are no pair [m]; with one "
-                 "of the two given, the other is 1 or 0 m, and no loop is needed")
-      ->check(finite_number(0.0));
+  add_neighbour_options(app, request.query.neighbour_skip, request.query.neighbour_skip_length);
+  app.get_option("--neighbour-skip")->check(whole_number(0));
+  app.get_option("--neighbour-skip-length")->check(finite_number(0.0));
   add_kernel_option(app, request.query.kernel);
   app.add_option("--format", request.format,
                  "of the output; csv: a line per frame and method, disagreements only counted; "

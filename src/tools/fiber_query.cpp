@@ -1,3 +1,6 @@
+#include "src/tools/fiber_query.hpp"
+
+#include <cmath>
 #include <functional>
 #include <iostream>
 #include <limits>
@@ -7,16 +10,8 @@
 
 #include "fiber_proximity/geometry/kernel.hpp"
 #include "fiber_proximity/io/fiber_file.hpp"
-#include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/query/nearest_segments.hpp"
-#include "src/tools/command_line.hpp"
-#include "src/tools/compare_command.hpp"
-#include "src/tools/contact_format.hpp"
-#include "src/tools/fiber_options.hpp"
-#include "src/tools/motions_command.hpp"
-#include "src/tools/segments_command.hpp"
-#include "src/tools/sweep_command.hpp"
-#include "src/tools/topology_commands.hpp"
+#include "src/tools/text_output.hpp"
 
 namespace fiber {
 namespace {
@@ -66,6 +61,43 @@ void add_pair_options(CLI::App& app, const Query& query, Request& request) {
   add_neighbour_options(app, request.query.neighbour_skip, request.query.neighbour_skip_length);
 }
 
+nlohmann::ordered_json json_of_contact(const Contact& contact) {
+  return {{"fiber_a", contact.fiber_a},
+          {"segment_a", contact.segment_a},
+          {"s", contact.s},
+          {"fiber_b", contact.fiber_b},
+          {"segment_b", contact.segment_b},
+          {"t", contact.t},
+          {"distance", contact.distance},
+          {"lower", contact.lower},
+          {"upper", contact.upper},
+          {"point_a", list_of(contact.point_a)},
+          {"point_b", list_of(contact.point_b)},
+          {"normal", list_of(contact.normal)}};
+}
+
+/// A line with one JSON object: the frame's number, if it has one, whether the answer is complete,
+/// what no pair is closer than (null without a pair), and the contacts.
+void write_json_contacts(TextOutput& output, const FrameNumber& frame, const QueryResult& result) {
+  nlohmann::ordered_json object = object_of(frame);
+  object["complete"] = result.complete;
+  const double lower = result.minimum_lower();
+  object["minimum_lower"] = std::isfinite(lower) ? nlohmann::ordered_json(lower) : nullptr;
+  output.write_object(std::move(object), "contacts", result.contacts, json_of_contact);
+}
+
+constexpr const char* contact_columns =
+    "fiber_a,segment_a,s,fiber_b,segment_b,t,distance,point_a_x,point_a_y,point_a_z,"
+    "point_b_x,point_b_y,point_b_z,normal_x,normal_y,normal_z,lower,upper\n";
+
+void write_csv_contacts(TextOutput& output, const FrameNumber& frame, const QueryResult& result) {
+  for (const Contact& contact : result.contacts) {
+    output.write_row(frame, contact.fiber_a, contact.segment_a, contact.s, contact.fiber_b,
+                     contact.segment_b, contact.t, contact.distance, contact.point_a,
+                     contact.point_b, contact.normal, contact.lower, contact.upper);
+  }
+}
+
 ExitCode run(const Request& request, const Ask& ask) {
   const std::unique_ptr<ProximityEngine> engine =
       make_engine(request.engine, request.engine_options);
@@ -73,21 +105,18 @@ ExitCode run(const Request& request, const Ask& ask) {
   const bool json = request.format == "json";
   QueryResult result;
   TextOutput output(std::cout);
-  output.text() = json ? "" : csv_header(file.has_frames);
+  if (!json) {
+    output.write((file.has_frames ? "frame," : "") + std::string(contact_columns));
+  }
   for (const FiberFrame& frame : file.frames) {
     engine->update(frame.fibers);
     ask(*engine, result);
-    const std::optional<std::int64_t> number =
-        file.has_frames ? std::optional(frame.frame) : std::nullopt;
-    if (json) {
-      write_json(output, number, result);
-    } else {
-      write_csv(output, number, result.contacts);
-    }
+    const FrameNumber number{file.has_frames, frame.frame};
+    (json ? write_json_contacts : write_csv_contacts)(output, number, result);
     output.flush();
     if (!result.complete) {
       std::cerr << "fiber_query: the deadline has passed"
-                << (number ? " in frame " + std::to_string(*number) : "")
+                << (number.is_given ? " in frame " + std::to_string(number.number) : "")
                 << ": pairs may be missing\n";
     }
   }
@@ -156,6 +185,43 @@ void setup(CLI::App& app, Command& command) {
 }
 
 }  // namespace
+
+void add_fiber_options(CLI::App& app, FiberRequest& request, const std::string& threads) {
+  app.add_option("FILE", request.file, "fibre file (.csv or .hair)")->required();
+  app.add_option("--engine", request.engine, "one of " + join(engine_names()))
+      ->capture_default_str();
+  app.add_option("--radius", request.radius, "of all fibres, if the file has no radii [m]")
+      ->capture_default_str();
+  app.add_option("--threads", request.engine_options.threads, threads)
+      ->check(whole_number(0))
+      ->capture_default_str();
+}
+
+void add_kernel_option(CLI::App& app, Kernel& kernel) {
+  app.add_option_function<std::string>(
+         "--kernel",
+         [&kernel](const std::string& name) {
+           const std::string current = current_kernel_name(name);
+           if (current != name) {
+             std::cerr << "warning: --kernel " << name << " saved no time and is gone: " << current
+                       << " is used\n";
+           }
+           kernel = kernel_from_name(current);
+         },
+         "one of " + join(kernel_names()))
+      ->default_str("robust");
+}
+
+void add_neighbour_options(CLI::App& app, std::optional<std::uint32_t>& skip,
+                           std::optional<double>& skip_length) {
+  app.add_option("--neighbour-skip", skip,
+                 "segments of a fibre whose indices differ by at most this are no pair; without "
+                 "this and the next option, those are that the fibre makes a loop between");
+  app.add_option("--neighbour-skip-length", skip_length,
+                 "segments of a fibre with less than this between them are no pair [m]; with one "
+                 "of the two given, the other is 1 or 0 m, and no loop is needed");
+}
+
 }  // namespace fiber
 
 int main(int argc, char** argv) {

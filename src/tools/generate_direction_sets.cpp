@@ -15,7 +15,6 @@
 #include "src/io/number.hpp"
 #include "src/paper/bounds/direction_set.hpp"
 #include "src/tools/direction_search.hpp"
-#include "src/tools/packing_starts.hpp"
 
 namespace fiber {
 namespace {

@@ -1,5 +1,3 @@
-#include "src/tools/line_packing.hpp"
-
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -7,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include "src/tools/direction_search.hpp"
 
 namespace fiber {
 namespace {

@@ -1,5 +1,3 @@
-#include "src/tools/sweep_command.hpp"
-
 #include <algorithm>
 #include <iostream>
 #include <memory>
@@ -8,9 +6,8 @@
 
 #include "fiber_proximity/io/fiber_file.hpp"
 #include "fiber_proximity/query/motion.hpp"
-#include "src/io/number.hpp"
 #include "src/text/quote.hpp"
-#include "src/tools/fiber_options.hpp"
+#include "src/tools/fiber_query.hpp"
 #include "src/tools/text_output.hpp"
 
 namespace fiber {
@@ -20,22 +17,6 @@ struct SweepRequest : FiberRequest {
   MotionOptions motion;
   bool new_only = false;
 };
-
-void append_row(TextOutput& output, std::int64_t frame, const MotionContact& contact) {
-  std::string& text = output.text();
-  append_number(text, frame);
-  for (const std::uint32_t index :
-       {contact.fiber_a, contact.segment_a, contact.fiber_b, contact.segment_b}) {
-    text += ',';
-    append_number(text, index);
-  }
-  for (const double time : {contact.lower, contact.upper}) {
-    text += ',';
-    append_number(text, time);
-  }
-  text += '\n';
-  output.flush_if_long();
-}
 
 /// What to report of a step, sorted by pair; what is in contact before it is earliest.
 std::vector<MotionContact> reported(const SweepRequest& request, const MotionResult& result) {
@@ -63,7 +44,7 @@ ExitCode run(const SweepRequest& request) {
                                 ", a motion needs at least two");
   }
   TextOutput output(std::cout);
-  output.text() = "frame,fiber_a,segment_a,fiber_b,segment_b,time_lower,time_upper\n";
+  output.write("frame,fiber_a,segment_a,fiber_b,segment_b,time_lower,time_upper\n");
   MotionResult result;
   for (std::size_t i = 0; i + 1 < file.frames.size(); ++i) {
     const FiberFrame& from = file.frames[i];
@@ -77,7 +58,8 @@ ExitCode run(const SweepRequest& request) {
     engine->update_motion(from.fibers, moves ? to.fibers : from.fibers);
     engine->query_motion(request.motion, result);
     for (const MotionContact& contact : reported(request, result)) {
-      append_row(output, from.frame, contact);
+      output.write_row(from.frame, contact.fiber_a, contact.segment_a, contact.fiber_b,
+                       contact.segment_b, contact.lower, contact.upper);
     }
     output.flush();
   }

@@ -1,34 +1,105 @@
 #pragma once
 
-#include <iosfwd>
+#include <Eigen/Core>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
+
+#include "src/io/number.hpp"
 
 namespace fiber {
 
-/// Text on its way to a stream, written piece by piece: a frame may have millions of lines.
+/// The number of a frame, if its file has numbers.
+struct FrameNumber {
+  bool is_given;
+  std::int64_t number;
+};
+
+/// Lines on their way to a stream, written piece by piece: a frame may have millions of them. What
+/// writes throws std::runtime_error if it cannot.
 class TextOutput {
  public:
   explicit TextOutput(std::ostream& stream) : stream_(stream) {}
 
-  /// What is to be written next; append to it.
-  std::string& text() { return text_; }
-
-  /// Writes the text if it has become long. Call after each line or so.
-  /// @throws std::runtime_error if it cannot be written
-  void flush_if_long() {
+  void write(std::string_view text) {
+    text_ += text;
     if (text_.size() >= long_text) {
       flush();
     }
   }
 
-  /// @throws std::runtime_error as flush_if_long
-  void flush();
+  /// A line of CSV. A vector is three fields, a flag 1 or 0, no number of a frame no field; numbers
+  /// are the shortest decimals that read back as the same.
+  template <class... Fields>
+  void write_row(const Fields&... fields) {
+    (append(fields), ...);
+    text_.back() = '\n';
+    write("");
+  }
+
+  /// A line with one JSON object that ends with a list, which is never in memory as text.
+  /// @param object  what stands before the list
+  /// @param to_json makes JSON of an item
+  template <class Items, class ToJson>
+  void write_object(nlohmann::ordered_json object, const char* list, const Items& items,
+                    const ToJson& to_json) {
+    object[list] = nlohmann::ordered_json::array();
+    constexpr std::string_view end = "]}\n";
+    const std::string empty = object.dump() + '\n';
+    write(std::string_view(empty).substr(0, empty.size() - end.size()));
+    bool is_first = true;
+    for (const auto& item : items) {
+      write((std::exchange(is_first, false) ? "" : ",") + to_json(item).dump());
+    }
+    write(end);
+  }
+
+  void flush() {
+    stream_ << text_;
+    text_.clear();
+    if (!stream_) {
+      throw std::runtime_error("the output cannot be written");
+    }
+  }
 
  private:
   static constexpr std::size_t long_text = 65'536;  // [byte]
 
+  template <class Number>
+  void append(const Number& number) {
+    append_number(text_, number);
+    text_ += ',';
+  }
+  void append(bool flag) { text_ += flag ? "1," : "0,"; }
+  void append(const std::string& word) { text_ += word + ','; }
+  void append(const Eigen::Vector3d& vector) {
+    for (const double coordinate : {vector.x(), vector.y(), vector.z()}) {
+      append(coordinate);
+    }
+  }
+  void append(const FrameNumber& frame) {
+    if (frame.is_given) {
+      append(frame.number);
+    }
+  }
+
   std::ostream& stream_;
   std::string text_;
 };
+
+/// A JSON object that begins with the frame's number, if it has one.
+inline nlohmann::ordered_json object_of(const FrameNumber& frame) {
+  nlohmann::ordered_json object;
+  if (frame.is_given) {
+    object["frame"] = frame.number;
+  }
+  return object;
+}
+
+inline nlohmann::ordered_json list_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 }  // namespace fiber

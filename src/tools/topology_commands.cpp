@@ -1,11 +1,6 @@
-#include "src/tools/topology_commands.hpp"
-
 #include <cstdint>
-#include <functional>
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,14 +8,11 @@
 #include "fiber_proximity/query/crossings.hpp"
 #include "fiber_proximity/query/linking_number.hpp"
 #include "fiber_proximity/query/writhe.hpp"
-#include "src/io/number.hpp"
-#include "src/tools/crossing_format.hpp"
+#include "src/tools/fiber_query.hpp"
 #include "src/tools/text_output.hpp"
 
 namespace fiber {
 namespace {
-
-using Frame = std::optional<std::int64_t>;
 
 struct TopologyRequest {
   std::string file;
@@ -33,96 +25,100 @@ struct TopologyRequest {
   bool json() const { return format == "json"; }
 };
 
-/// Writes the answer for the fibres of a frame.
-using Answer = std::function<void(const FiberAssembly& fibers, Frame frame, TextOutput& output)>;
-
-ExitCode run(const TopologyRequest& request, const std::string& columns, const Answer& answer) {
+/// Asks of the fibres of each frame, and writes the items of the answers.
+/// @param ask      of fibres
+/// @param name     of the items of a frame, in JSON
+/// @param to_json  makes JSON of an item
+/// @param to_row   calls row(fields...) for an item, with the fields of its line of CSV
+template <class Ask, class ToJson, class ToRow>
+ExitCode run(const TopologyRequest& request, const std::string& columns, const char* name,
+             const Ask& ask, const ToJson& to_json, const ToRow& to_row) {
   const FiberFile file = read_fibers(request.file, request.radius);
   TextOutput output(std::cout);
-  output.text() = request.json() ? "" : (file.has_frames ? "frame," : "") + columns;
+  if (!request.json()) {
+    output.write((file.has_frames ? "frame," : "") + columns);
+  }
   for (const FiberFrame& frame : file.frames) {
-    answer(frame.fibers, file.has_frames ? Frame(frame.frame) : std::nullopt, output);
+    const FrameNumber number{file.has_frames, frame.frame};
+    const auto& items = ask(frame.fibers);
+    if (request.json()) {
+      output.write_object(object_of(number), name, items, to_json);
+    } else {
+      for (const auto& item : items) {
+        to_row(item, [&](const auto&... fields) { output.write_row(number, fields...); });
+      }
+    }
     output.flush();
   }
   output.flush();  // the header of a file without frames
   return SUCCEEDED;
 }
 
+nlohmann::ordered_json json_of_crossing(const Crossing& crossing) {
+  return {{"fiber_a", crossing.fiber_a},
+          {"segment_a", crossing.segment_a},
+          {"s", crossing.s},
+          {"fiber_b", crossing.fiber_b},
+          {"segment_b", crossing.segment_b},
+          {"t", crossing.t},
+          {"over", crossing.a_is_over ? "a" : "b"},
+          {"sign", crossing.sign},
+          {"separation", crossing.separation},
+          {"gap", crossing.gap},
+          {"point_a", list_of(crossing.point_a)},
+          {"point_b", list_of(crossing.point_b)}};
+}
+
 ExitCode run_crossings(const TopologyRequest& request) {
   CrossingFinder finder(request.threads);
   std::vector<Crossing> crossings;
-  return run(request, crossings_csv_header(),
-             [&](const FiberAssembly& fibers, Frame frame, TextOutput& output) {
-               finder.find(fibers, request.view, crossings);
-               request.json() ? write_json(output, frame, crossings)
-                              : write_csv(output, frame, crossings);
-             });
-}
-
-/// Writes fields, with commas between them, as a line.
-template <class... Fields>
-void write_line(TextOutput& output, Frame frame, const Fields&... fields) {
-  std::string& text = output.text();
-  if (frame) {
-    append_number(text, *frame);
-    text += ',';
-  }
-  (
-      [&text](const auto& field) {
-        append_number(text, field);
-        text += ',';
-      }(fields),
-      ...);
-  text.back() = '\n';
-  output.flush_if_long();
-}
-
-void write_object(TextOutput& output, Frame frame, const char* name, nlohmann::ordered_json list) {
-  nlohmann::ordered_json object;
-  if (frame) {
-    object["frame"] = *frame;
-  }
-  object[name] = std::move(list);
-  output.text() += object.dump();
-  output.text() += '\n';
+  return run(
+      request,
+      "fiber_a,segment_a,s,fiber_b,segment_b,t,over,sign,separation,gap,"
+      "point_a_x,point_a_y,point_a_z,point_b_x,point_b_y,point_b_z\n",
+      "crossings",
+      [&](const FiberAssembly& fibers) -> const std::vector<Crossing>& {
+        finder.find(fibers, request.view, crossings);
+        return crossings;
+      },
+      json_of_crossing,
+      [](const Crossing& crossing, const auto& row) {
+        row(crossing.fiber_a, crossing.segment_a, crossing.s, crossing.fiber_b, crossing.segment_b,
+            crossing.t, std::string(crossing.a_is_over ? "a" : "b"), crossing.sign,
+            crossing.separation, crossing.gap, crossing.point_a, crossing.point_b);
+      });
 }
 
 ExitCode run_linking(const TopologyRequest& request) {
   return run(
-      request, "fiber_a,fiber_b,linking_number\n",
-      [&](const FiberAssembly& fibers, Frame frame, TextOutput& output) {
-        auto list = nlohmann::ordered_json::array();
-        for (const auto& [fiber_a, fiber_b, value] : linking_numbers(fibers)) {
-          if (request.json()) {
-            list.push_back({{"fiber_a", fiber_a}, {"fiber_b", fiber_b}, {"linking_number", value}});
-          } else {
-            write_line(output, frame, fiber_a, fiber_b, value);
-          }
-        }
-        if (request.json()) {
-          write_object(output, frame, "linking_numbers", std::move(list));
-        }
+      request, "fiber_a,fiber_b,linking_number\n", "linking_numbers", linking_numbers,
+      [](const auto& pair) -> nlohmann::ordered_json {
+        const auto& [fiber_a, fiber_b, value] = pair;
+        return {{"fiber_a", fiber_a}, {"fiber_b", fiber_b}, {"linking_number", value}};
+      },
+      [](const auto& pair, const auto& row) {
+        const auto& [fiber_a, fiber_b, value] = pair;
+        row(fiber_a, fiber_b, value);
       });
 }
 
 ExitCode run_writhe(const TopologyRequest& request) {
   return run(
-      request, "fiber,writhe\n", [&](const FiberAssembly& fibers, Frame frame, TextOutput& output) {
-        auto list = nlohmann::ordered_json::array();
+      request, "fiber,writhe\n", "writhes",
+      [&](const FiberAssembly& fibers) {
+        std::vector<std::pair<std::size_t, double>> writhes;
         for (std::size_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
           const auto begin = fibers.points().begin();
-          const double value = writhe(
-              {begin + fibers.offsets()[fiber], begin + fibers.offsets()[fiber + 1]}, request.ends);
-          if (request.json()) {
-            list.push_back({{"fiber", fiber}, {"writhe", value}});
-          } else {
-            write_line(output, frame, fiber, value);
-          }
+          writhes.emplace_back(
+              fiber, writhe({begin + fibers.offsets()[fiber], begin + fibers.offsets()[fiber + 1]},
+                            request.ends));
         }
-        if (request.json()) {
-          write_object(output, frame, "writhes", std::move(list));
-        }
-      });
+        return writhes;
+      },
+      [](const auto& each) -> nlohmann::ordered_json {
+        return {{"fiber", each.first}, {"writhe", each.second}};
+      },
+      [](const auto& each, const auto& row) { row(each.first, each.second); });
 }
 
 /// A subcommand with the options all of these have.

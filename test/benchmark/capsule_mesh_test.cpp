@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "src/environment/point_distance.hpp"
+#include "src/environment/convex_solids.hpp"
 
 namespace fiber::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "fiber_proximity/geometry/exact_distance.hpp"
-#include "src/paper/bounds/minimal_sphere.hpp"
+#include "src/paper/bounds/sphere.hpp"
 #include "test/support/bounding_volumes.hpp"
 #include "test/support/hard_runs.hpp"
 #include "test/support/rounds.hpp"

@@ -1,8 +1,8 @@
-#include "fiber_proximity/compare/disagreement.hpp"
-
 #include <gtest/gtest.h>
 
 #include <limits>
+
+#include "src/compare/pair_oracle.hpp"
 
 namespace fiber::test {
 namespace {

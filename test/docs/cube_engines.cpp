@@ -1,6 +1,6 @@
 #include "fiber_proximity/query/engine_registry.hpp"
 #include "src/paper/engines/hierarchy_engine.hpp"
-#include "src/paper/hierarchy/spatial_hierarchy.hpp"
+#include "src/paper/hierarchy/hierarchy.hpp"
 #include "test/docs/cube.hpp"
 
 namespace fiber {

@@ -1,14 +1,12 @@
-#include "fiber_proximity/environment/axis_distance.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <limits>
 
-#include "fiber_proximity/environment/triangle_distance.hpp"
 #include "fiber_proximity/geometry/segment_distance.hpp"
-#include "src/environment/point_distance.hpp"
+#include "src/environment/convex_solids.hpp"
+#include "src/environment/triangle_distance.hpp"
 #include "test/environment/random_shapes.hpp"
 
 namespace fiber::test {

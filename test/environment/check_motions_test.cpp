@@ -1,7 +1,5 @@
 // Motions of candidates: what a check of all their steps finds is what each step finds, asked
 // alone.
-#include "fiber_proximity/environment/check_motions.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "fiber_proximity/environment/check_fibers.hpp"
 #include "src/query/fiber_snapshots.hpp"
 #include "test/environment/motion_scene.hpp"
 #include "test/support/error_of.hpp"

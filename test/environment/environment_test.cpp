@@ -11,7 +11,7 @@
 #include <tuple>
 #include <vector>
 
-#include "fiber_proximity/environment/axis_distance.hpp"
+#include "src/environment/convex_solids.hpp"
 #include "test/environment/random_shapes.hpp"
 
 namespace fiber::test {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "fiber_proximity/environment/axis_distance.hpp"
 #include "fiber_proximity/environment/environment.hpp"
+#include "src/environment/convex_solids.hpp"
 #include "test/environment/random_shapes.hpp"
 
 namespace fiber::test {

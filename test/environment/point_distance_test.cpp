@@ -1,9 +1,8 @@
-#include "src/environment/point_distance.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "src/environment/convex_solids.hpp"
 #include "test/environment/random_shapes.hpp"
 
 namespace fiber::test {

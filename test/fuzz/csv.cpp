@@ -1,8 +1,7 @@
 // Fibre files as CSV.
-#include "fiber_proximity/io/csv.hpp"
-
 #include <sstream>
 
+#include "fiber_proximity/io/fiber_file.hpp"
 #include "test/fuzz/fuzz_target.hpp"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

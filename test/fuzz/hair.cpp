@@ -1,7 +1,7 @@
 // Fibre files in the HAIR format; what is read is written and read again as the same.
 #include <sstream>
 
-#include "fiber_proximity/io/hair_file.hpp"
+#include "fiber_proximity/io/fiber_file.hpp"
 #include "test/fuzz/fuzz_target.hpp"
 
 namespace {

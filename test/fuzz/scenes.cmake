@@ -35,7 +35,6 @@ set(shapes
   src/environment/mesh_topology.cpp
   src/environment/obstacle_parts.cpp
   src/environment/occupancy_octree.cpp
-  src/environment/shape_box.cpp
   src/environment/shapes.cpp
   src/environment/triangle_mesh.cpp
   src/environment/world.cpp

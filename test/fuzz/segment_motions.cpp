@@ -1,8 +1,7 @@
 // Files of pairs of segments that move.
-#include "src/io/segment_motions.hpp"
-
 #include <sstream>
 
+#include "src/io/segment_file.hpp"
 #include "test/fuzz/fuzz_target.hpp"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,8 +1,7 @@
 // Files of pairs of segments.
-#include "src/io/segment_pairs.hpp"
-
 #include <sstream>
 
+#include "src/io/segment_file.hpp"
 #include "test/fuzz/fuzz_target.hpp"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

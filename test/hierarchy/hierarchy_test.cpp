@@ -12,10 +12,6 @@
 #include "src/paper/bounds/kdop.hpp"
 #include "src/paper/bounds/obb.hpp"
 #include "src/paper/bounds/sphere.hpp"
-#include "src/paper/hierarchy/cascaded_hierarchy.hpp"
-#include "src/paper/hierarchy/layered_hierarchy.hpp"
-#include "src/paper/hierarchy/spatial_hierarchy.hpp"
-#include "src/paper/hierarchy/wrapped_hierarchy.hpp"
 #include "test/support/assemblies.hpp"
 
 namespace fiber::test {

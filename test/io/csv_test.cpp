@@ -1,5 +1,3 @@
-#include "fiber_proximity/io/csv.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "fiber_proximity/io/fiber_file.hpp"
 #include "test/support/temporary_directory.hpp"
 
 namespace fiber {

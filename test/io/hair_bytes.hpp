@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "fiber_proximity/io/hair_file.hpp"
+#include "fiber_proximity/io/fiber_file.hpp"
 
 namespace fiber::test {
 

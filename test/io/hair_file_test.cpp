@@ -1,12 +1,11 @@
 // Reading .hair files.
-#include "fiber_proximity/io/hair_file.hpp"
-
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "fiber_proximity/io/fiber_file.hpp"
 #include "test/io/hair_bytes.hpp"
 #include "test/support/random.hpp"
 

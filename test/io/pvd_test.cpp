@@ -1,5 +1,3 @@
-#include "fiber_proximity/io/pvd.hpp"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -5,7 +5,7 @@
 
 #include "src/bounds/aabb.hpp"
 #include "src/paper/engines/hierarchy_engine.hpp"
-#include "src/paper/hierarchy/wrapped_hierarchy.hpp"
+#include "src/paper/hierarchy/hierarchy.hpp"
 #include "src/query/brute_force.hpp"
 #include "test/support/contacts.hpp"
 #include "test/support/rounds.hpp"

@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "fiber_proximity/FiberArray.h"
-#include "fiber_proximity/io/csv.hpp"
-#include "src/scenes/cables.hpp"
+#include "fiber_proximity/io/fiber_file.hpp"
+#include "src/scenes/scenes.hpp"
 
 namespace fiber_proximity_ros {
 namespace {

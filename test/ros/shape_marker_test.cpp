@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "fiber_proximity/ros/conversions.hpp"
-#include "src/environment/point_distance.hpp"
+#include "src/environment/convex_solids.hpp"
 #include "src/ros/outputs/tube_mesh.hpp"
 #include "test/environment/random_shapes.hpp"
 #include "test/support/random.hpp"

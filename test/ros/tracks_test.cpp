@@ -6,7 +6,7 @@
 #include <set>
 #include <sstream>
 
-#include "fiber_proximity/io/csv.hpp"
+#include "fiber_proximity/io/fiber_file.hpp"
 #include "test/ros/node_test.hpp"
 
 namespace {

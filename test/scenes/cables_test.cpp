@@ -1,5 +1,3 @@
-#include "src/scenes/cables.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
+#include "src/scenes/scenes.hpp"
 
 namespace fiber {
 namespace {

@@ -1,5 +1,3 @@
-#include "src/scenes/cloth.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <utility>
 
 #include "fiber_proximity/query/engine.hpp"
+#include "src/scenes/scenes.hpp"
 #include "test/support/hash.hpp"
 
 namespace fiber {

@@ -10,10 +10,8 @@
 #include <vector>
 
 #include "fiber_proximity/query/engine.hpp"
-#include "src/scenes/hair_styles.hpp"
-#include "src/scenes/head.hpp"
 #include "src/scenes/portable_math.hpp"
-#include "src/scenes/roots.hpp"
+#include "src/scenes/scalp.hpp"
 #include "test/support/hash.hpp"
 
 namespace fiber {

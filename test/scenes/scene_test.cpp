@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "src/geometry/select_fibers.hpp"
-#include "src/scenes/shuffle.hpp"
+#include "src/scenes/scenes.hpp"
 #include "test/support/hash.hpp"
 
 namespace fiber {

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "fiber_proximity/io/csv.hpp"
+#include "fiber_proximity/io/fiber_file.hpp"
 #include "src/query/brute_force.hpp"
 
 namespace fiber::test {

@@ -1,5 +1,4 @@
-#include "fiber_proximity/io/csv.hpp"
-#include "fiber_proximity/io/hair_file.hpp"
+#include "fiber_proximity/io/fiber_file.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
 #include "test/tools/tools_test.hpp"
 

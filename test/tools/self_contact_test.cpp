@@ -4,7 +4,7 @@
 #include <sstream>
 #include <tuple>
 
-#include "fiber_proximity/io/csv.hpp"
+#include "fiber_proximity/io/fiber_file.hpp"
 #include "test/support/cables.hpp"
 #include "test/tools/tools_test.hpp"
 

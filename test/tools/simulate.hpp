@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "fiber_proximity/io/csv.hpp"
+#include "fiber_proximity/io/fiber_file.hpp"
 #include "test/tools/tools_test.hpp"
 
 namespace fiber::test {

@@ -4,6 +4,7 @@
 
 #include "fiber_proximity/environment/environment.hpp"
 #include "fiber_proximity/query/engine.hpp"
+#include "fiber_proximity/query/motion.hpp"
 
 namespace fiber {
 
@@ -15,12 +16,13 @@ struct Surroundings {
   bool self = true;                          ///< contacts among the candidate's own fibres count
 };
 
-/// What a candidate touches, each answer sorted by its key. What is not asked for, or needs no look
-/// any more, has no contacts.
-struct FiberCheck {
-  QueryResult self;         ///< among the fibres of the candidate
-  QueryResult fibers;       ///< of the candidate (a) with the fibres there are (b)
-  QueryResult environment;  ///< of the candidate (a) with an object (fiber_b) and its shape
+/// What a candidate touches: one answer each. What is not asked for, or needs no look any more, has
+/// no contacts.
+template <class Answer>
+struct CandidateCheck {
+  Answer self;         ///< among the fibres of the candidate
+  Answer fibers;       ///< of the candidate (a) with the fibres there are (b)
+  Answer environment;  ///< of the candidate (a) with an object (fiber_b) and its shape
 
   bool is_free() const {
     return self.contacts.empty() && fibers.contacts.empty() && environment.contacts.empty();
@@ -33,6 +35,8 @@ struct FiberCheck {
   }
 };
 
+using FiberCheck = CandidateCheck<QueryResult>;  ///< each answer sorted by its key
+
 /// Whether fibres could be there: candidates for where a planner might put a cable, each an
 /// assembly of its own, checked at the same time on all cores. The answers do not depend on how
 /// many there are.
@@ -43,5 +47,42 @@ struct FiberCheck {
 /// @throws std::invalid_argument for options that do not validate
 void check_fibers(const std::vector<FiberAssembly>& candidates, const Surroundings& surroundings,
                   const QueryOptions& options, std::vector<FiberCheck>& checks);
+
+/// A contact that a candidate has on its way.
+struct PathContact {
+  /// Times are in states: at 1.25 the candidate is a quarter of the way from state 1 to state 2.
+  MotionContact when;
+  /// Nearest points and distance at when.upper; where that is infinite, at when.lower.
+  Contact where;
+};
+
+/// The contacts of a candidate on its way with itself, or with fibres or objects.
+struct PathContacts {
+  std::vector<PathContact> contacts;  ///< of each pair the first one; sorted by their keys
+  bool limit_reached = false;         ///< there may be more
+  bool complete = true;               ///< whether all pairs have been looked at
+};
+
+using MotionCheck = CandidateCheck<PathContacts>;  ///< of a candidate on its way
+
+/// The states a candidate goes through: from one to the next each of its points moves linearly.
+using FiberPath = std::vector<FiberAssembly>;
+
+/// Whether fibres could move like this among fibres and objects that stand still: the edges of a
+/// planner's graph, for example, checked at the same time on all cores. No contact is missed
+/// between two states; those that there are at the first one count, at time 0. Of each segment the
+/// larger radius of the two states counts.
+/// @param options FIRST: the earliest contact of the whole motion, with whatever it is. LIMITED and
+///                ALL: of each of the three on its own, the first contact of each pair. The pairing
+///                and the neighbour skips are for contacts of the candidate with itself. The
+///                deadline is one for all motions together: those it does not reach are not
+///                complete. contact_limit and max_contacts are of each of the three answers of each
+///                motion, pair_limit is of each step
+/// @param checks  by motion; memory of an earlier call is reused
+/// @throws std::invalid_argument for options that do not validate; for a motion of less than two
+///         states, or one that changes its topology, naming both. Nothing has been checked then
+/// @throws std::logic_error if the engine of surroundings.fibers has no fibres
+void check_motions(const std::vector<FiberPath>& motions, const Surroundings& surroundings,
+                   const MotionOptions& options, std::vector<MotionCheck>& checks);
 
 }  // namespace fiber

@@ -84,4 +84,32 @@ void validate(const Eigen::Isometry3d& pose);
 /// @throws std::invalid_argument naming the object and the shape, too
 void validate(const EnvironmentObject& object);
 
+/// Axis-aligned box in double precision [m].
+using WorldBox = Eigen::AlignedBox3d;
+
+/// Smallest box around a solid with this pose, rounded outwards; around a mesh or octree one that
+/// need not be the smallest. Infinite along all axes for planes and half-spaces.
+WorldBox world_box(const Shape& shape, const Eigen::Isometry3d& pose);
+
+/// Whether the shape ends somewhere: planes and half-spaces do not.
+bool is_bounded(const Shape& shape);
+
+/// Where the axis of a fibre's segment is nearest to a shape, or deepest in it, in the shape's
+/// frame.
+struct AxisDistance {
+  double s = 0.0;         ///< parameter on the segment, 0 at its first point and 1 at its second
+  double distance = 0.0;  ///< [m] signed distance of that point, negative inside
+  double lower = 0.0;     ///< [m] no point of the segment has a smaller one, rounding apart
+  Eigen::Vector3d gradient = Eigen::Vector3d::UnitX();  ///< away from the shape, of unit length
+};
+
+/// Least signed distance of the points of a segment [m] from a shape. Of meshes and octrees nothing
+/// further away than the bound [m] is looked for: their distance is infinite then.
+AxisDistance axis_distance(const Shape& shape, const Eigen::Vector3d& p0, const Eigen::Vector3d& p1,
+                           double bound);
+
+/// Largest distance of a shape's points from its frame's origin [m], 0 of an unbounded one; what
+/// rounding errors are measured in.
+double reach(const Shape& shape);
+
 }  // namespace fiber

@@ -8,11 +8,12 @@
 #include <memory>
 #include <vector>
 
-#include "fiber_proximity/environment/axis_distance.hpp"
-#include "fiber_proximity/environment/shape_box.hpp"
-#include "fiber_proximity/environment/triangle_distance.hpp"
+#include "fiber_proximity/environment/shapes.hpp"
 
 namespace fiber {
+
+/// Corners [m], counter-clockwise seen from outside.
+using TriangleCorners = std::array<Eigen::Vector3d, 3>;
 
 /// Triangles in their own frame, with a tree over them; never changes once it is made, so that any
 /// number of threads may ask at once.

@@ -1,17 +1,136 @@
 #pragma once
 
+#include <cstdint>
+#include <iosfwd>
 #include <optional>
+#include <ostream>
+#include <set>
 #include <string>
+#include <vector>
 
-#include "fiber_proximity/io/csv.hpp"
-#include "fiber_proximity/io/fiber_frame.hpp"
-#include "fiber_proximity/io/pvd.hpp"
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/io/file.hpp"
 
 namespace fiber {
 
-// The name decides the format: one that ends in .hair, in capitals or not, is a HAIR file (see
-// hair_file.hpp), one that is written and ends in .pvd is for ParaView (see pvd.hpp), every other
-// one CSV (see csv.hpp).
+/// The fibres at one moment of a recording.
+struct FiberFrame {
+  std::int64_t frame = 0;  ///< the frame's number in the file
+  FiberAssembly fibers;
+};
+
+/// What a fibre file holds: one frame without a number, or any number of numbered ones.
+struct FiberFile {
+  bool has_frames = false;
+  std::vector<FiberFrame> frames;  ///< in the file's order; exactly one without numbers
+};
+
+// ---- CSV
+
+/// Reads a fibre file: a header `fiber,x,y,z` with an optional leading `frame` and an optional
+/// trailing `radius`, then a row per point [m]. Rows of a frame, and within it rows of a fibre,
+/// stand one after another. A fibre's label is any text; its index is its place in the order of
+/// appearance. Spaces around values, blank lines and CRLF line ends are allowed. A line has at most
+/// 65 536 bytes, a value 4 096.
+/// @param default_radius [m] of all fibres if the file has no radius column
+/// @throws FileError
+/// @throws std::invalid_argument for a bad default_radius
+FiberFile read_csv(const std::string& path, double default_radius = 0.0);
+
+/// The same from a stream; errors call it by `name`.
+FiberFile read_csv(std::istream& stream, const std::string& name, double default_radius = 0.0);
+
+/// Writes a fibre file frame by frame, so that a long one never is in memory. Fibres are labelled
+/// by their index; the radius column is that of the point if there is one per point, else that of
+/// its fibre. All numbers read back as the same.
+class CsvWriter {
+ public:
+  /// @param has_frames whether frames have numbers; without them the file holds exactly one
+  /// @throws FileError
+  CsvWriter(const std::string& path, bool has_frames);
+
+  /// @throws std::invalid_argument for a frame that the file cannot hold: without numbers any but
+  ///         the first; with them one without fibres, or with the number of an earlier one
+  /// @throws FileError
+  void write(const FiberFrame& frame);
+
+  /// Call once, after the last frame: only then is all of it in the file.
+  /// @throws FileError
+  void finish();
+
+ private:
+  const bool has_frames_;
+  OutputFile file_;
+  std::set<std::int64_t> frames_written_;
+  std::string rows_;
+};
+
+/// Writes all of a fibre file; see CsvWriter.
+void write_csv(const std::string& path, const FiberFile& file);
+
+// ---- the HAIR format of Cem Yuksel (www.cemyuksel.com/research/hairmodels). All numbers are
+// little-endian. A header of 128 bytes: "HAIR", then at these bytes
+//    4 number of strands, 8 number of points, 12 flags, 16 default segments (uint32),
+//   20 default thickness, 24 default transparency, 28 default colour (1, 1 and 3 float32),
+//   40 information for people (88 bytes);
+// then the arrays that the flags announce, in this order:
+//   bit 0 segments of each strand (uint16), bit 1 points (3 float32), bit 2 thickness,
+//   bit 3 transparency (float32 each), bit 4 colour (3 float32), all of them per point.
+// The format states no unit of length: numbers are taken as metres.
+
+/// Reads a .hair file as one frame without a number. The strands become fibres in the file's order;
+/// half of a thickness is a radius. Transparency and colour have no place in an assembly.
+/// @param default_radius [m] of all fibres if the file has neither a thickness array nor a default
+///        thickness other than 0
+/// @throws FileError naming the field and its byte; also for a strand of 0 segments, which would be
+///         a fibre of one point, and for bytes that the header does not account for. The header is
+///         compared with the size of the file before anything is allocated by it.
+/// @throws std::invalid_argument for a bad default_radius
+FiberFile read_hair(const std::string& path, double default_radius = 0.0);
+
+/// The same from a stream, which must be able to seek; errors call it by `name`.
+FiberFile read_hair(std::istream& stream, const std::string& name, double default_radius = 0.0);
+
+/// Writes a .hair file. Coordinates and radii are rounded to single precision, all that the format
+/// has. The arrays of segments and thickness are written only if one value does not serve all.
+/// @throws FileError
+/// @throws std::invalid_argument if a file cannot hold this: anything but one frame without a
+///         number, fibres that differ in segments and have more than 65 535 of them, or numbers
+///         beyond single precision
+void write_hair(const std::string& path, const FiberFile& file);
+
+/// The same to a stream, which is not checked for errors.
+void write_hair(std::ostream& stream, const FiberFile& file);
+
+// ---- for ParaView
+
+/// Writes fibres over time for ParaView: NAME.pvd names a file for each frame beside it,
+/// NAME_000000.vtp and so on, with the fibres as poly lines and `radius` [m] and `fiber`, the
+/// index, at their points. All numbers read back as the same. What is written can be opened after
+/// each frame.
+class PvdWriter {
+ public:
+  /// @param path of the .pvd file
+  /// @throws FileError
+  explicit PvdWriter(const std::string& path);
+
+  /// @param time of the frame [s]
+  /// @throws FileError
+  void write(const FiberFrame& frame, double time);
+
+ private:
+  void append(const std::string& text);
+
+  const std::string path_;
+  OutputFile file_;
+  std::streampos end_;  // of the frames in the file, where the last tags begin
+};
+
+/// Writes fibres as a VTK file of poly data, in XML, to a stream, which is not checked for errors.
+void write_vtp(std::ostream& stream, const FiberAssembly& fibers);
+
+// ---- any format: the name decides. One that ends in .hair, in capitals or not, is a HAIR file,
+// one that is written and ends in .pvd is for ParaView, every other one CSV.
 
 /// Reads a fibre file of either format.
 /// @param default_radius [m] of all fibres if the file has no radii

@@ -6,9 +6,15 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
-#include "fiber_proximity/scenes/options.hpp"
 
 namespace fiber {
+
+/// What every scene takes.
+struct SceneOptions {
+  double scale = 1.0;      ///< of the number of fibres; above 0. At least one fibre remains.
+  std::uint64_t seed = 1;  ///< of all that is random
+  bool shuffle = false;    ///< put the fibres into random order
+};
 
 /// A scene gives its fibres at any frame; the topology is the same at all of them.
 using Scene = std::function<FiberAssembly(std::uint32_t frame)>;

@@ -1,15 +1,286 @@
 #include "fiber_proximity/environment/scene/mesh_files.hpp"
 
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <assimp/Importer.hpp>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
 #include <fstream>
+#include <memory>
 #include <sstream>
 #include <stdexcept>
+#include <system_error>
 
-#include "src/environment/scene/parse_mesh.hpp"
 #include "src/text/quote.hpp"
 #include "src/text/with_context.hpp"
 
 namespace fiber {
 namespace {
+
+/// How much the bytes of a file may cost: several times what large valid ones do.
+struct ParseLimits {
+  explicit ParseLimits(std::size_t bytes)
+      : seconds(1 + bytes / 250'000), memory((std::size_t{256} << 20U) + 100 * bytes) {}
+
+  std::size_t seconds;  // of the processor
+  std::size_t memory;   // [byte]
+};
+
+/// What a file of a mesh holds.
+struct ParsedMesh {
+  std::vector<Eigen::Vector3d> vertices;  ///< [m]
+  std::vector<TriangleMesh::Triangle> triangles;
+};
+
+/// What comes through the pipe first.
+struct MeshCounts {
+  std::uint64_t vertices = 0;
+  std::uint64_t triangles = 0;
+};
+
+class FileDescriptor {
+ public:
+  explicit FileDescriptor(int number) : number_(number) {}
+  ~FileDescriptor() { close(); }
+  FileDescriptor(const FileDescriptor&) = delete;
+  FileDescriptor& operator=(const FileDescriptor&) = delete;
+
+  int number() const { return number_; }
+  void close() {
+    if (number_ >= 0) {
+      ::close(number_);
+    }
+    number_ = -1;
+  }
+
+ private:
+  int number_;
+};
+
+[[noreturn]] void refuse_for_system(const char* what) {
+  throw std::invalid_argument(std::string(what) + ": " + std::generic_category().message(errno));
+}
+
+// ---- in the child: nothing is thrown, and no destructor of the parent's is called ---------------
+
+void set_limit(int resource, std::size_t most) {
+  const rlimit limits{most, most};
+  setrlimit(static_cast<__rlimit_resource>(resource), &limits);
+}
+
+/// @param used address space that the parent has [byte]; 0 if that is not known
+void enter_limits(const ParseLimits& limits, std::size_t used) {
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU, SIGTERM, SIGINT}) {
+    std::signal(signal, SIG_DFL);
+  }
+  set_limit(RLIMIT_CORE, 0);
+  set_limit(RLIMIT_CPU, limits.seconds);
+  if (used > 0) {
+    set_limit(RLIMIT_AS, used + limits.memory);
+  }
+  const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
+  dup2(nowhere, STDOUT_FILENO);
+  dup2(nowhere, STDERR_FILENO);
+}
+
+bool send_all(int pipe, const void* data, std::size_t size) {
+  const auto* next = static_cast<const char*>(data);
+  while (size > 0) {
+    const ssize_t sent = ::write(pipe, next, size);
+    if (sent < 0 && errno != EINTR) {
+      return false;
+    }
+    next += std::max<ssize_t>(sent, 0);
+    size -= static_cast<std::size_t>(std::max<ssize_t>(sent, 0));
+  }
+  return true;
+}
+
+/// Appends the triangles of a node and of those below it.
+/// @param pose of what the node is in
+void add_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& pose, ParsedMesh& mesh) {
+  for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+    const aiMesh& part = *scene.mMeshes[node.mMeshes[i]];
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (unsigned vertex = 0; vertex < part.mNumVertices; ++vertex) {
+      const aiVector3D placed = pose * part.mVertices[vertex];
+      mesh.vertices.emplace_back(placed.x, placed.y, placed.z);
+    }
+    for (unsigned face = 0; face < part.mNumFaces; ++face) {
+      const aiFace& corners = part.mFaces[face];
+      if (corners.mNumIndices == 3) {  // or it is a point or a line
+        mesh.triangles.push_back({first + corners.mIndices[0], first + corners.mIndices[1],
+                                  first + corners.mIndices[2]});
+      }
+    }
+  }
+  for (unsigned i = 0; i < node.mNumChildren; ++i) {
+    add_node(scene, *node.mChildren[i], pose * node.mChildren[i]->mTransformation, mesh);
+  }
+}
+
+/// What assimp makes of the bytes. The root's transformation is left out, as rviz does it: assimp
+/// turns files there so that y is up, and in ROS z is.
+ParsedMesh parse(const std::string& bytes, const std::string& name) {
+  Assimp::Importer importer;
+  // Vertices that differ in nothing but what is removed are one.
+  importer.SetPropertyInteger(
+      AI_CONFIG_PP_RVC_FLAGS,
+      aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
+          aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS |
+          aiComponent_TEXTURES | aiComponent_LIGHTS | aiComponent_CAMERAS | aiComponent_MATERIALS);
+  std::string format = name.substr(name.rfind('.') + 1);  // all of it without a dot
+  std::transform(format.begin(), format.end(), format.begin(),
+                 [](unsigned char letter) { return std::tolower(letter); });
+  const aiScene* scene = importer.ReadFileFromMemory(
+      bytes.data(), bytes.size(),
+      aiProcess_RemoveComponent | aiProcess_JoinIdenticalVertices | aiProcess_Triangulate,
+      format.c_str());
+  ParsedMesh mesh;
+  if (scene != nullptr && scene->mRootNode != nullptr) {
+    add_node(*scene, *scene->mRootNode, aiMatrix4x4(), mesh);
+  }
+  return mesh;
+}
+
+void parse_and_send(const std::string& bytes, const std::string& name, int pipe) {
+  const ParsedMesh mesh = parse(bytes, name);
+  const MeshCounts counts{mesh.vertices.size(), mesh.triangles.size()};
+  if (send_all(pipe, &counts, sizeof counts) && counts.triangles <= TriangleMesh::most_triangles) {
+    send_all(pipe, mesh.vertices.data(), sizeof(Eigen::Vector3d) * counts.vertices) &&
+        send_all(pipe, mesh.triangles.data(), sizeof(TriangleMesh::Triangle) * counts.triangles);
+  }
+}
+
+[[noreturn]] void run_child(const std::string& bytes, const std::string& name, int pipe,
+                            std::size_t used) {
+  enter_limits(ParseLimits(bytes.size()), used);
+  try {
+    parse_and_send(bytes, name, pipe);
+  } catch (...) {  // what is missing in the pipe tells
+  }
+  _exit(0);
+}
+
+// ---- in the parent -----------------------------------------------------------------------------
+
+std::size_t used_address_space() {
+  std::size_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+/// The process that reads a mesh; ends with this.
+class ParsingProcess {
+ public:
+  ParsingProcess(const std::string& bytes, const std::string& name) {
+    const std::size_t used = used_address_space();
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) {
+      refuse_for_system("no pipe for the process that reads it");
+    }
+    from_ = std::make_unique<FileDescriptor>(ends[0]);
+    FileDescriptor to(ends[1]);
+    process_ = fork();
+    if (process_ < 0) {
+      refuse_for_system("no process to read it");
+    }
+    if (process_ == 0) {
+      run_child(bytes, name, to.number(), used);
+    }
+  }
+  ~ParsingProcess() {
+    kill(process_, SIGKILL);
+    while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
+    }
+  }
+  ParsingProcess(const ParsingProcess&) = delete;
+  ParsingProcess& operator=(const ParsingProcess&) = delete;
+
+  /// @returns false if it has ended, or the time is over, before so much came
+  bool receive(void* data, std::size_t size, std::chrono::steady_clock::time_point end) const {
+    auto* next = static_cast<char*>(data);
+    while (size > 0) {
+      const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
+          end - std::chrono::steady_clock::now());
+      pollfd waiting{from_->number(), POLLIN, 0};
+      const int ready =
+          poll(&waiting, 1, static_cast<int>(std::max<std::int64_t>(left.count(), 0)));
+      if (ready < 0 && errno == EINTR) {
+        continue;
+      }
+      const ssize_t received = ready > 0 ? ::read(from_->number(), next, size) : 0;
+      if (received < 0 && errno == EINTR) {
+        continue;
+      }
+      if (received <= 0) {
+        return false;
+      }
+      next += received;
+      size -= static_cast<std::size_t>(received);
+    }
+    return true;
+  }
+
+ private:
+  std::unique_ptr<FileDescriptor> from_;
+  pid_t process_ = -1;
+};
+
+void check_counts(const MeshCounts& counts) {
+  if (counts.triangles == 0) {
+    throw std::invalid_argument("it holds no mesh in a format that assimp reads");
+  }
+  constexpr std::uint64_t most = TriangleMesh::most_triangles;
+  if (counts.triangles > most) {
+    throw std::invalid_argument("the mesh has " + std::to_string(counts.triangles) +
+                                " triangles, it may have at most " + std::to_string(most));
+  }
+}
+
+/// Lets assimp take a file's bytes apart, in a process of its own that ends with it: there are
+/// files it crashes on, does not come back from, or takes all memory for, and these are to cost
+/// only themselves.
+/// @param name of the file, which tells the format
+/// @throws std::invalid_argument if there is no mesh in it or too large a one, or assimp fails
+ParsedMesh parse_mesh(const std::string& bytes, const std::string& name) {
+  const ParseLimits limits(bytes.size());
+  // It may have to wait for the processor, and for a lock that another thread held when it began.
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10 * limits.seconds);
+  const ParsingProcess child(bytes, name);
+  MeshCounts counts;
+  ParsedMesh mesh;
+  const auto receive = [&](auto& values, std::uint64_t count) {
+    values.resize(count);
+    return child.receive(values.data(), count * sizeof values.front(), end);
+  };
+  bool is_whole = child.receive(&counts, sizeof counts, end);
+  if (is_whole) {
+    check_counts(counts);
+    constexpr std::uint64_t most_vertices = 3 * TriangleMesh::most_triangles;
+    is_whole = counts.vertices <= most_vertices && receive(mesh.vertices, counts.vertices) &&
+               receive(mesh.triangles, counts.triangles);
+  }
+  if (!is_whole) {
+    throw std::invalid_argument("assimp fails on it: it crashes, takes more than " +
+                                std::to_string(limits.seconds) + " s or more than " +
+                                std::to_string(limits.memory >> 20U) + " MB");
+  }
+  return mesh;
+}
+
+// ---- files
 
 using std::filesystem::path;
 

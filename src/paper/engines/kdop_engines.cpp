@@ -1,11 +1,8 @@
-#include "src/paper/engines/kdop_engines.hpp"
-
 #include <cassert>
 #include <utility>
 
 #include "src/paper/bounds/kdop.hpp"
 #include "src/paper/engines/hierarchy_engine.hpp"
-#include "src/paper/hierarchy/spatial_hierarchy.hpp"
 
 namespace fiber {
 namespace {

@@ -8,10 +8,7 @@
 #include "src/paper/bounds/obb.hpp"
 #include "src/paper/bounds/sphere.hpp"
 #include "src/paper/engines/hierarchy_engine.hpp"
-#include "src/paper/engines/kdop_engines.hpp"
-#include "src/paper/hierarchy/cascaded_hierarchy.hpp"
-#include "src/paper/hierarchy/spatial_hierarchy.hpp"
-#include "src/paper/hierarchy/wrapped_hierarchy.hpp"
+#include "src/paper/hierarchy/hierarchy.hpp"
 
 namespace fiber {
 namespace {

@@ -1,9 +1,8 @@
-#include "src/paper/hierarchy/cascaded_hierarchy.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "src/hierarchy/fiber_order.hpp"
+#include "src/paper/hierarchy/hierarchy.hpp"
 
 namespace fiber {
 namespace {

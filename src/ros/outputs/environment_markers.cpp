@@ -4,7 +4,7 @@
 #include <cassert>
 #include <vector>
 
-#include "fiber_proximity/environment/shape_box.hpp"
+#include "fiber_proximity/environment/shapes.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
 #include "src/environment/obstacle_parts.hpp"
 #include "src/ros/outputs/markers.hpp"

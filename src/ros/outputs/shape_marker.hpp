@@ -2,7 +2,6 @@
 
 #include <visualization_msgs/Marker.h>
 
-#include "fiber_proximity/environment/shape_box.hpp"
 #include "fiber_proximity/environment/shapes.hpp"
 
 namespace fiber_proximity_ros {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fiber_proximity/environment/check_motions.hpp"
+#include "fiber_proximity/environment/check_fibers.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
 #include "src/geometry/swept_fibers.hpp"
 #include "src/ros/inputs/naming.hpp"

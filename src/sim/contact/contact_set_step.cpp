@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "fiber_proximity/environment/axis_distance.hpp"
 #include "fiber_proximity/geometry/contact_time.hpp"
+#include "src/environment/convex_solids.hpp"
 #include "src/environment/shape_contact_time.hpp"
 #include "src/sim/contact/contact_set.hpp"
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "fiber_proximity/io/output_file.hpp"
+#include "fiber_proximity/io/file.hpp"
 #include "fiber_proximity/sim/forces.hpp"
 #include "fiber_proximity/sim/rods.hpp"
 

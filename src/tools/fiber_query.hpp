@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "fiber_proximity/query/engine.hpp"
+#include "src/tools/command_line.hpp"
+
+namespace fiber {
+
+// The subcommands of fiber_query that have a source of their own, and the options that several
+// have.
+
+/// `segments FILE [--kernel K]`: the distance of each pair of segments in a file, with bounds.
+void add_segments(CLI::App& app, Command& command);
+
+/// `motions FILE [--radius R] [--margin M] [--tolerance T]`: when each pair of moving capsules in a
+/// file first touches, with bounds.
+void add_motions(CLI::App& app, Command& command);
+
+/// `sweep FILE --margin M [--type all|first]`: contacts between the frames of a file, with the time
+/// at which each begins.
+void add_sweep(CLI::App& app, Command& command);
+
+/// `compare FILE`: our engine beside FCL on each frame; DISAGREED if ours is wrong anywhere.
+void add_compare(CLI::App& app, Command& command);
+
+/// How fibres lie over, around and within each other:
+/// `crossings FILE [--direction X,Y,Z] [--eye X,Y,Z]`, `linking FILE` and `writhe FILE [--closed]`.
+void add_topology(CLI::App& app, Command& command);
+
+/// A file of fibres, and who answers questions about them.
+struct FiberRequest {
+  std::string file;
+  double radius = 0.0;  // [m]
+  std::string engine = "run_tree";
+  EngineOptions engine_options;
+};
+
+/// @param threads what is said of the number of threads
+void add_fiber_options(
+    CLI::App& app, FiberRequest& request,
+    const std::string& threads = "most threads to use, 0 for as many as there are cores");
+
+/// How distances are computed. `fast`, of versions before this one, is taken as robust, with a
+/// warning.
+void add_kernel_option(CLI::App& app, Kernel& kernel);
+
+/// Which segments of one fibre are pairs.
+void add_neighbour_options(CLI::App& app, std::optional<std::uint32_t>& skip,
+                           std::optional<double>& skip_length);
+
+}  // namespace fiber
