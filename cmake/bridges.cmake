@@ -6,8 +6,6 @@ if(octomap_msgs_FOUND)
   message(STATUS "octomap_msgs is installed: octomap_bridge is built")
   add_library(fiber_proximity_octomap STATIC
     src/ros/bridges/octomap_bridge.cpp
-    src/ros/bridges/octomap_cloud.cpp
-    src/ros/bridges/octomap_leaves.cpp
   )
   #catkin_lint: ignore_once external_interface_path
   target_include_directories(fiber_proximity_octomap SYSTEM PUBLIC ${octomap_msgs_INCLUDE_DIRS})
@@ -24,9 +22,7 @@ find_package(moveit_msgs 0.11 QUIET)  # in older ones objects have no pose
 if(moveit_msgs_FOUND)
   message(STATUS "moveit_msgs is installed: moveit_bridge is built")
   add_library(fiber_proximity_moveit STATIC
-    src/ros/bridges/collision_object.cpp
     src/ros/bridges/moveit_bridge.cpp
-    src/ros/bridges/planning_scene.cpp
   )
   #catkin_lint: ignore_once external_interface_path
   target_include_directories(fiber_proximity_moveit SYSTEM PUBLIC ${moveit_msgs_INCLUDE_DIRS})

@@ -1,36 +1,24 @@
 # Nodes, nodelets, launch files, and what a catkin workspace installs.
 
 add_library(fiber_proximity_ros SHARED
-  src/ros/environment/change_topic.cpp
   src/ros/environment/cloud_cells.cpp
   src/ros/environment/cloud_input.cpp
-  src/ros/environment/cloud_options.cpp
-  src/ros/environment/cloud_worker.cpp
   src/ros/environment/environment_inputs.cpp
   src/ros/environment/environment_options.cpp
   src/ros/environment/marker_obstacles.cpp
   src/ros/environment/mesh_loader.cpp
   src/ros/environment/obstacle_change.cpp
-  src/ros/environment/obstacle_service.cpp
   src/ros/environment/obstacle_set.cpp
-  src/ros/environment/robot_description.cpp
   src/ros/environment/robot_links.cpp
-  src/ros/environment/scene_obstacles.cpp
-  src/ros/environment/touched_objects.cpp
   src/ros/environment/waiting_changes.cpp
-  src/ros/inputs/fiber_formats.cpp
   src/ros/inputs/fixed_frame.cpp
   src/ros/inputs/input.cpp
-  src/ros/inputs/input_options.cpp
   src/ros/inputs/input_set.cpp
-  src/ros/inputs/input_types.cpp
+  src/ros/inputs/input_source.cpp
   src/ros/inputs/marker_input.cpp
+  src/ros/inputs/message_log.cpp
   src/ros/inputs/missing_points.cpp
-  src/ros/inputs/point_cloud_input.cpp
-  src/ros/inputs/pose_input.cpp
-  src/ros/inputs/refusal_log.cpp
-  src/ros/inputs/segment_welder.cpp
-  src/ros/inputs/sequence_gaps.cpp
+  src/ros/inputs/point_messages.cpp
   src/ros/inputs/stamp_matcher.cpp
   src/ros/outputs/comparison_output.cpp
   src/ros/outputs/contact_array.cpp
@@ -70,11 +58,9 @@ add_library(fiber_proximity_ros SHARED
   src/ros/sim/sim_markers.cpp
   src/ros/sim/sim_server.cpp
   src/ros/sim/sim_services.cpp
-  src/ros/support/fiber_buffer.cpp
   src/ros/support/conversions.cpp
   src/ros/support/parameters.cpp
   src/ros/support/worker.cpp
-  src/ros/support/yaml_parameter.cpp
 )
 # The generated messages' headers, as the system's: our warnings are not meant for them.
 #catkin_lint: ignore_once external_directory

@@ -10,42 +10,36 @@
 #include "src/ros/sim/sim_server.hpp"
 
 namespace fiber_proximity_ros {
-namespace {
 
-/// Makes what a nodelet runs; why it cannot is in the manager's log, which says only that.
-template <class Make>
-auto make_or_log(const std::string& name, const Make& make) {
-  try {
-    return make();
-  } catch (const std::exception& error) {
-    ROS_FATAL_STREAM("nodelet " << name << ": " << error.what());
-    throw;
-  }
-}
-
-}  // namespace
-
-class ProximityNodelet : public nodelet::Nodelet {
+/// A nodelet that runs a server. Why it cannot is in the log: the manager's says only that.
+template <class Server>
+class ServerNodelet : public nodelet::Nodelet {
  private:
-  void onInit() override {
-    server_ = make_or_log(getName(), [this] {
-      return std::make_unique<ProximityServer>(getNodeHandle(), getPrivateNodeHandle());
-    });
+  virtual std::unique_ptr<Server> make() = 0;
+
+  void onInit() final {
+    try {
+      server_ = make();
+    } catch (const std::exception& error) {
+      ROS_FATAL_STREAM("nodelet " << getName() << ": " << error.what());
+      throw;
+    }
   }
 
-  std::unique_ptr<ProximityServer> server_;
+  std::unique_ptr<Server> server_;
 };
 
-class CableSimNodelet : public nodelet::Nodelet {
- private:
-  void onInit() override {
-    server_ = make_or_log(getName(), [this] {
-      return std::make_unique<SimServer>(getPrivateNodeHandle(),
-                                         read_sim_options(getPrivateNodeHandle()));
-    });
+class ProximityNodelet : public ServerNodelet<ProximityServer> {
+  std::unique_ptr<ProximityServer> make() override {
+    return std::make_unique<ProximityServer>(getNodeHandle(), getPrivateNodeHandle());
   }
+};
 
-  std::unique_ptr<SimServer> server_;
+class CableSimNodelet : public ServerNodelet<SimServer> {
+  std::unique_ptr<SimServer> make() override {
+    return std::make_unique<SimServer>(getPrivateNodeHandle(),
+                                       read_sim_options(getPrivateNodeHandle()));
+  }
 };
 
 }  // namespace fiber_proximity_ros

@@ -10,7 +10,7 @@
 #include "fiber_proximity/ContactArray.h"
 #include "fiber_proximity/FiberArray.h"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
-#include "fiber_proximity/ros/fiber_buffer.hpp"
+#include "fiber_proximity/ros/conversions.hpp"
 #include "src/rviz/contact_pairing.hpp"
 #include "src/rviz/display_properties.hpp"
 #include "src/rviz/fiber_mesh.hpp"

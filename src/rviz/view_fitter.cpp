@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "src/ros/inputs/optical_frame.hpp"
+#include "src/ros/inputs/fixed_frame.hpp"
 #include "src/rviz/view_fit.hpp"
 
 namespace fiber_proximity_rviz {

@@ -33,15 +33,12 @@ add_custom_target(message_headers DEPENDS ${headers})
 include_directories(SYSTEM ${generated})
 
 fuzzed_library(fuzzed_messages UNITY 4
-  src/ros/support/fiber_buffer.cpp
   src/ros/environment/cloud_cells.cpp
   src/ros/support/conversions.cpp
   src/ros/inputs/marker_input.cpp
   src/ros/inputs/missing_points.cpp
   src/ros/environment/obstacle_change.cpp
-  src/ros/inputs/point_cloud_input.cpp
-  src/ros/inputs/pose_input.cpp
-  src/ros/inputs/segment_welder.cpp
+  src/ros/inputs/point_messages.cpp
 )
 add_dependencies(fuzzed_messages message_headers)
 target_link_libraries(fuzzed_messages PUBLIC fuzzed_shapes ${roscpp_LIBRARIES})

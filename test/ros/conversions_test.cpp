@@ -5,8 +5,7 @@
 #include <cstring>
 #include <functional>
 
-#include "src/ros/inputs/point_cloud_input.hpp"
-#include "src/ros/inputs/pose_input.hpp"
+#include "src/ros/inputs/point_messages.hpp"
 #include "test/ros/messages.hpp"
 
 namespace fiber_proximity_ros {

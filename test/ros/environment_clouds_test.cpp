@@ -57,9 +57,9 @@ TEST_F(CloudTest, TheNewestCloudIsThere) {
   publish({{0.25, 0, 0}, {0.75, 0, 0}, {nan, nan, nan}, {0, 0, 30}}, "camera");
   ASSERT_TRUE(wait_for([&] { return !cells().empty(); }));
   EXPECT_EQ(cells(), (Points{{10.5, 0.5, 0.5}}));
-  EXPECT_EQ(inputs->cloud()->newest().counts.points, 4U);
-  EXPECT_EQ(inputs->cloud()->newest().counts.not_finite, 1U);
-  EXPECT_EQ(inputs->cloud()->newest().counts.outside_box, 1U);
+  EXPECT_EQ(statistics_of("cloud").points_received, 4U);
+  EXPECT_EQ(statistics_of("cloud").points_not_finite, 1U);
+  EXPECT_EQ(statistics_of("cloud").points_outside_box, 1U);
   publish({{5.25, 0, 0}});
   ASSERT_TRUE(wait_for([&] { return cells() == Points{{5.5, 0.5, 0.5}}; }));
   publish({});
@@ -73,7 +73,7 @@ TEST_F(CloudTest, AllCellsGoWhenNoCloudComesForAsLongAsTheDecay) {
   own.setParam("cloud/decay", 0.2);
   start_with_topic();
   publish({{0.5, 0.5, 0.5}});
-  ASSERT_TRUE(wait_for([&] { return inputs->cloud()->newest().counts.points == 1; }));
+  ASSERT_TRUE(wait_for([&] { return statistics_of("cloud").points_received == 1; }));
   ASSERT_TRUE(wait_for([&] { return cells().empty(); }));
 }
 

@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 
+#include "fiber_proximity/ApplyObstacles.h"
 #include "src/ros/environment/environment_inputs.hpp"
 #include "test/ros/messages.hpp"
 #include "test/ros/node_test.hpp"

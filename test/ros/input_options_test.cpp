@@ -1,5 +1,3 @@
-#include "src/ros/inputs/input_options.hpp"
-
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -7,6 +5,7 @@
 
 #include "fiber_proximity/ProximityConfig.h"
 #include "fiber_proximity/query/options.hpp"
+#include "src/ros/inputs/input_source.hpp"
 #include "src/ros/outputs/markers.hpp"
 
 namespace fiber_proximity_ros {

@@ -1,5 +1,3 @@
-#include "src/ros/bridges/octomap_cloud.hpp"
-
 #include <gtest/gtest.h>
 #include <octomap_msgs/conversions.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
@@ -9,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "src/ros/bridges/octomap_bridge.hpp"
 #include "test/support/error_of.hpp"
 #include "test/support/random.hpp"
 

@@ -1,10 +1,8 @@
-#include "src/ros/bridges/planning_scene.hpp"
-
 #include <gtest/gtest.h>
 
 #include <utility>
 
-#include "src/ros/bridges/collision_object.hpp"
+#include "src/ros/bridges/moveit_bridge.hpp"
 
 namespace fiber_proximity_ros {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "src/environment/scene/environment_scene.hpp"
 #include "src/ros/environment/mesh_loader.hpp"
-#include "src/ros/support/yaml_parameter.hpp"
+#include "src/ros/support/parameters.hpp"
 #include "test/ros/mesh_files.hpp"
 #include "test/support/error_of.hpp"
 

@@ -1,8 +1,8 @@
-#include "src/ros/inputs/sequence_gaps.hpp"
-
 #include <gtest/gtest.h>
 
 #include <limits>
+
+#include "src/ros/inputs/message_log.hpp"
 
 namespace fiber_proximity_ros {
 namespace {

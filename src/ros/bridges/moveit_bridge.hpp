@@ -12,8 +12,26 @@
 #include <vector>
 
 #include "fiber_proximity/ApplyObstacles.h"
+#include "fiber_proximity/Obstacle.h"
 
 namespace fiber_proximity_ros {
+
+/// The obstacle with the same name, shapes and poses, and the same operation. What it holds is
+/// validated where it is applied. The stamp is left out: MoveIt, too, places objects by where their
+/// frames are when the message comes. Subframes and the type have no counterpart.
+fiber_proximity::Obstacle to_obstacle(const moveit_msgs::CollisionObject& object);
+
+/// The objects of the scene's world, in their order. One that is not a difference from another
+/// scene is all there is: the removal of all obstacles comes first.
+std::vector<fiber_proximity::Obstacle> to_obstacles(const moveit_msgs::PlanningScene& scene);
+
+/// The octomap of the scene's world, in the frame of the scene's; none if it has no data or its
+/// origin is displaced, for which Octomap has no field.
+std::optional<octomap_msgs::Octomap> octomap_of(const moveit_msgs::PlanningScene& scene);
+
+/// What an object, or a scene and its objects, ask for that has no counterpart in the environment.
+std::vector<std::string> without_counterpart(const moveit_msgs::CollisionObject& object);
+std::vector<std::string> without_counterpart(const moveit_msgs::PlanningScene& scene);
 
 /// MoveIt's objects as obstacles of a proximity_node: subscribes to `collision_object` and
 /// `planning_scene` and calls `proximity/apply_obstacles` once for each message, in the order of

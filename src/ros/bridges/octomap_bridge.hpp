@@ -2,10 +2,23 @@
 
 #include <octomap_msgs/Octomap.h>
 #include <ros/node_handle.h>
+#include <sensor_msgs/PointCloud2.h>
 
-#include "src/ros/inputs/refusal_log.hpp"
+#include <cstddef>
+
+#include "src/ros/inputs/message_log.hpp"
 
 namespace fiber_proximity_ros {
+
+/// Cells that a map may occupy: 48 MB of points.
+inline constexpr std::size_t most_occupied_cells = 4'000'000;
+
+/// The centres of all cells of the finest resolution that are occupied, with the map's header.
+/// Reads OcTree, ColorOcTree and OcTreeStamped, binary or full.
+/// @throws std::invalid_argument for another type of octree, a resolution or data that are none,
+/// and
+///         for more cells than the above
+sensor_msgs::PointCloud2 to_cloud(const octomap_msgs::Octomap& map);
 
 /// Octomaps as clouds that proximity_node takes: subscribes to `octomap`, publishes the centres of
 /// the occupied cells on `cloud`, latched. A map that cannot be read is an error in the log.
@@ -19,7 +32,7 @@ class OctomapBridge {
   void receive(const octomap_msgs::Octomap& map);
 
   ros::Publisher publisher_;
-  RefusalLog refusals_;
+  MessageLog log_;
   ros::Subscriber subscriber_;  // last: its callback uses the above
 };
 

@@ -2,14 +2,16 @@
 
 #include <ros/console.h>
 
+#include <stdexcept>
 #include <utility>
 
+#include "fiber_proximity/ros/conversions.hpp"
 #include "src/environment/obstacle_parts.hpp"
+#include "src/ros/environment/obstacle_change.hpp"
+#include "src/ros/inputs/point_messages.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
-
-const char* const type_name = "sensor_msgs/PointCloud2";
 
 /// [s] How often a cloud of which nothing is used is logged.
 constexpr double unused_warning_period = 5.0;
@@ -18,10 +20,7 @@ bool remove_cloud(fiber::World& world) {
   if (!world.has(fiber::cloud_name)) {
     return false;
   }
-  fiber::ObjectChange change;
-  change.operation = fiber::ObjectChange::Operation::REMOVE;
-  change.object.name = fiber::cloud_name;
-  world.apply({change});
+  world.apply({removal_of(fiber::cloud_name)});
   return true;
 }
 
@@ -33,31 +32,30 @@ CloudInput::CloudInput(ros::NodeHandle private_node, const CloudOptions& options
       decay_(options.decay),
       tf_timeout_(tf_timeout),
       on_message_(std::move(on_message)),
-      refusals_(std::string("'cloud' (") + type_name + ")"),
-      worker_(options),
+      log_("cloud", "sensor_msgs/PointCloud2"),
+      cells_(options),
       subscriber_(private_node.subscribe("cloud", 1, &CloudInput::receive, this)) {}
 
 bool CloudInput::update(const ros::Time& now, FixedFrame& frame, fiber::World& world) {
   while (waiting_ && place_waiting(frame)) {
     waiting_ = std::exchange(next_, std::nullopt);
   }
+  std::vector<Result> results;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    results.swap(results_);
+  }
+  in_work_ -= results.size();
   bool changed = false;
-  for (CloudResult& result : worker_.take()) {
+  for (Result& result : results) {
     changed = put_into_world(std::move(result), world) || changed;
   }
   return remove_decayed(now, world) || changed;
 }
 
 fiber_proximity::InputStatistics CloudInput::statistics(const ros::Time& now) const {
-  fiber_proximity::InputStatistics statistics;
-  statistics.topic = "cloud";
-  statistics.type = type_name;
-  statistics.received = received_;
-  statistics.refused = refusals_.count();
-  statistics.overtaken = overtaken_;
-  statistics.dropped = -1;  // not counted
+  fiber_proximity::InputStatistics statistics = log_.statistics();
   statistics.age = newest_.stamp.isZero() ? -1.0 : (now - newest_.stamp).toSec();
-  statistics.last_error = refusals_.last_error();
   statistics.points_received = newest_.counts.points;
   statistics.points_used = newest_.counts.used();
   statistics.points_not_finite = newest_.counts.not_finite;
@@ -67,14 +65,11 @@ fiber_proximity::InputStatistics CloudInput::statistics(const ros::Time& now) co
 }
 
 void CloudInput::receive(const sensor_msgs::PointCloud2::ConstPtr& message) {
-  ++received_;
-  const Cloud cloud{message, ros::SteadyTime::now()};
-  if (waiting_) {
-    overtaken_ += next_ ? 1 : 0;
-    next_ = cloud;
-  } else {
-    waiting_ = cloud;
+  log_.receive();
+  if (next_) {
+    log_.overtake();
   }
+  (waiting_ ? next_ : waiting_) = Cloud{message, ros::SteadyTime::now()};
   on_message_();
 }
 
@@ -82,27 +77,55 @@ bool CloudInput::place_waiting(FixedFrame& frame) {
   std_msgs::Header header = waiting_->message->header;
   header.frame_id = tf2_name(header.frame_id);
   if (header.frame_id.empty()) {
-    refusals_.refuse("header.frame_id is empty, it must name the frame of the points");
+    log_.refuse("header.frame_id is empty, it must name the frame of the points");
     return true;
   }
   frame.adopt(header.frame_id);
   try {
     const ros::Time stamp = header.stamp.isZero() ? ros::Time::now() : header.stamp;
-    const bool overtakes = worker_.submit({waiting_->message, frame.transform_from(header), stamp});
-    overtaken_ += overtakes ? 1 : 0;
+    submit({waiting_->message, frame.transform_from(header), stamp});
     return true;
   } catch (const TransformUnavailable& error) {
     if ((ros::SteadyTime::now() - waiting_->arrival).toSec() <= tf_timeout_) {
       return false;
     }
-    refusals_.refuse(error.what());
+    log_.refuse(error.what());
     return true;
   }
 }
 
-bool CloudInput::put_into_world(CloudResult result, fiber::World& world) {
+/// Gives a cloud to the worker, in place of one that it has not begun.
+void CloudInput::submit(PlacedCloud cloud) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (std::exchange(placed_, std::move(cloud))) {
+    log_.overtake();
+  } else {
+    ++in_work_;
+    worker_.submit([this] { work(); });
+  }
+}
+
+void CloudInput::work() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  const PlacedCloud cloud = *std::exchange(placed_, std::nullopt);
+  lock.unlock();
+  Result result;
+  result.stamp = cloud.stamp;
+  try {
+    FiberBuffer chain;
+    to_chains(*cloud.message, chain);
+    result.counts = cells_.add(chain.points, cloud.pose, cloud.stamp.toSec());
+    result.octree = cells_.octree();
+  } catch (const std::exception& error) {
+    result.error = error.what();
+  }
+  lock.lock();
+  results_.push_back(std::move(result));
+}
+
+bool CloudInput::put_into_world(Result result, fiber::World& world) {
   if (!result.error.empty()) {
-    refusals_.refuse(result.error);
+    log_.refuse(result.error);
     return false;
   }
   newest_ = std::move(result);
@@ -111,7 +134,6 @@ bool CloudInput::put_into_world(CloudResult result, fiber::World& world) {
     return remove_cloud(world);
   }
   fiber::ObjectChange change;
-  change.operation = fiber::ObjectChange::Operation::ADD;
   change.object.name = fiber::cloud_name;
   change.object.shapes.push_back({newest_.octree, Eigen::Isometry3d::Identity()});
   world.apply({change});

@@ -4,19 +4,25 @@
 #include <ros/subscriber.h>
 #include <sensor_msgs/PointCloud2.h>
 
+#include <Eigen/Geometry>
 #include <functional>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "fiber_proximity/InputStatistics.h"
 #include "fiber_proximity/environment/world.hpp"
-#include "src/ros/environment/cloud_worker.hpp"
+#include "src/ros/environment/cloud_cells.hpp"
 #include "src/ros/inputs/fixed_frame.hpp"
-#include "src/ros/inputs/refusal_log.hpp"
+#include "src/ros/inputs/message_log.hpp"
+#include "src/ros/support/worker.hpp"
 
 namespace fiber_proximity_ros {
 
-/// The point cloud of the topic ~cloud as an object of the world.
+/// The point cloud of the topic ~cloud as an object of the world. Its octree is made in a thread of
+/// its own, so that fibres need not wait for it.
 ///
 /// At most two clouds wait for their transforms: one that keeps its turn until its transform
 /// arrives or the timeout is over, and the newest one behind it.
@@ -24,6 +30,7 @@ class CloudInput {
  public:
   /// @param tf_timeout [s] of wall time a cloud may wait for its transform
   /// @param on_message called for each cloud that arrives
+  /// @throws std::invalid_argument as CloudCells
   CloudInput(ros::NodeHandle private_node, const CloudOptions& options, double tf_timeout,
              std::function<void()> on_message);
 
@@ -33,12 +40,10 @@ class CloudInput {
   bool update(const ros::Time& now, FixedFrame& frame, fiber::World& world);
 
   /// True if update() should be called again soon.
-  bool is_waiting() const { return waiting_ || worker_.is_busy(); }
+  bool is_waiting() const { return waiting_ || in_work_ > 0; }
 
+  /// With what became of the points of the newest cloud.
   fiber_proximity::InputStatistics statistics(const ros::Time& now) const;
-
-  /// What became of the points of the newest cloud, and how long that took.
-  const CloudResult& newest() const { return newest_; }
 
  private:
   struct Cloud {
@@ -46,11 +51,28 @@ class CloudInput {
     ros::SteadyTime arrival;
   };
 
+  /// A cloud, and where it was seen from.
+  struct PlacedCloud {
+    sensor_msgs::PointCloud2::ConstPtr message;
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  // of its frame in the fixed frame
+    ros::Time stamp;
+  };
+
+  /// What a cloud has become.
+  struct Result {
+    std::shared_ptr<const fiber::OccupancyOctree> octree;  // null if no cell is occupied
+    CloudCounts counts;
+    ros::Time stamp;
+    std::string error;  // why the cloud was refused; empty if it was not
+  };
+
   void receive(const sensor_msgs::PointCloud2::ConstPtr& message);
 
   /// @returns false if the waiting cloud goes on waiting
   bool place_waiting(FixedFrame& frame);
-  bool put_into_world(CloudResult result, fiber::World& world);
+  void submit(PlacedCloud cloud);
+  void work();
+  bool put_into_world(Result result, fiber::World& world);
   void warn_if_unused() const;
   bool remove_decayed(const ros::Time& now, fiber::World& world);
 
@@ -58,14 +80,20 @@ class CloudInput {
   double decay_;
   double tf_timeout_;
   std::function<void()> on_message_;
-  RefusalLog refusals_;
-  std::uint64_t received_ = 0;
-  std::uint64_t overtaken_ = 0;
+  MessageLog log_;
   std::optional<Cloud> waiting_;
   std::optional<Cloud> next_;
-  CloudResult newest_;
-  CloudWorker worker_;
-  ros::Subscriber subscriber_;  // last: its callback uses all of the above
+  std::size_t in_work_ = 0;  // clouds whose results are still to come or to be taken
+  Result newest_;
+
+  CloudCells cells_;  // the worker's alone
+  std::mutex mutex_;  // of what follows
+  std::optional<PlacedCloud> placed_;
+  std::vector<Result> results_;
+
+  // Last: its job and its callback use all of the above.
+  Worker worker_;
+  ros::Subscriber subscriber_;
 };
 
 }  // namespace fiber_proximity_ros

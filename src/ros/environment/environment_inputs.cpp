@@ -1,18 +1,27 @@
 #include "src/ros/environment/environment_inputs.hpp"
 
+#include <ros/callback_queue.h>
 #include <ros/console.h>
+#include <ros/spinner.h>
 
 #include <algorithm>
 #include <exception>
+#include <future>
+#include <mutex>
 #include <utility>
 
-#include "src/ros/inputs/subscribing.hpp"
+#include "fiber_proximity/ApplyObstacles.h"
+#include "src/ros/inputs/input_source.hpp"
+#include "src/ros/support/callback_task.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
 
 /// [message] Obstacles are sent once each, so that none should be dropped.
 constexpr std::uint32_t queue_size = 1000;
+
+/// Requests that may wait at the same time, as those of different clients do for large meshes.
+constexpr std::uint32_t waiting_request_count = 4;
 
 /// [s] How often what is unknown is logged, and how long it may be so without.
 constexpr double warning_period = 5.0;
@@ -49,13 +58,79 @@ std::vector<fiber_proximity::AllowedPair> to_messages(const std::vector<fiber::N
 
 }  // namespace
 
-EnvironmentInputs::MarkerSource::MarkerSource(const MarkerTopic& marker_topic,
-                                              const MeshLoader& meshes, ObstacleSet& set,
-                                              FixedFrame& frame)
-    : obstacles(marker_topic.topic, meshes, set),
-      topic(marker_topic.topic,
-            marker_topic.is_array ? "visualization_msgs/MarkerArray" : "visualization_msgs/Marker"),
-      changes(frame) {}
+/// Serves ~apply_obstacles. roscpp answers a service when its callback returns, so callbacks come
+/// from threads of their own and wait there until the node has made the change: meanwhile the
+/// node's thread goes on.
+class EnvironmentInputs::ObstacleService {
+ public:
+  ObstacleService(const ros::NodeHandle& private_node, EnvironmentInputs& inputs)
+      : inputs_(inputs),
+        queue_(queue_of(private_node)),
+        spinner_(waiting_request_count, &own_queue_) {
+    ros::NodeHandle node(private_node);
+    node.setCallbackQueue(&own_queue_);
+    server_ = node.advertiseService("apply_obstacles", &ObstacleService::apply, this);
+    spinner_.start();
+  }
+
+  /// All answers must have been called or dropped.
+  ~ObstacleService() {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      stops_ = true;
+    }
+    remove_tasks(queue_, this);
+    spinner_.stop();
+    server_.shutdown();
+  }
+  ObstacleService(const ObstacleService&) = delete;
+  ObstacleService& operator=(const ObstacleService&) = delete;
+
+ private:
+  bool apply(fiber_proximity::ApplyObstacles::Request& request,
+             fiber_proximity::ApplyObstacles::Response& response) {
+    auto promise = std::make_shared<std::promise<std::string>>();
+    std::future<std::string> reason = promise->get_future();
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (!stops_) {
+        auto obstacles = std::make_shared<const Obstacles>(std::move(request.obstacles));
+        add_task(queue_, this, [this, obstacles, promise = std::move(promise)] {
+          inputs_.apply(obstacles, [promise](const std::string& why) { promise->set_value(why); });
+        });
+      }
+    }
+    promise.reset();  // the task's is the last: once that is gone nobody will answer
+    try {
+      response.message = reason.get();
+      response.success = response.message.empty();
+    } catch (const std::future_error&) {
+      response.message = "the node ends";
+    }
+    return true;
+  }
+
+  EnvironmentInputs& inputs_;
+  ros::CallbackQueueInterface& queue_;  // of the node
+  ros::CallbackQueue own_queue_;
+  std::mutex mutex_;
+  bool stops_ = false;
+  ros::ServiceServer server_;
+  ros::AsyncSpinner spinner_;
+};
+
+struct EnvironmentInputs::MarkerSource {
+  MarkerSource(const MarkerTopic& from, const MeshLoader& meshes, ObstacleSet& set,
+               FixedFrame& frame)
+      : obstacles(from.topic, meshes, set),
+        topic(from.topic,
+              from.is_array ? "visualization_msgs/MarkerArray" : "visualization_msgs/Marker"),
+        changes(frame) {}
+
+  MarkerObstacles obstacles;
+  ChangeTopic topic;
+  WaitingChanges changes;
+};
 
 EnvironmentInputs::EnvironmentInputs(const ros::NodeHandle& node,
                                      const ros::NodeHandle& private_node,
@@ -79,9 +154,7 @@ EnvironmentInputs::EnvironmentInputs(const ros::NodeHandle& node,
   subscribers_.push_back(
       own.subscribe("obstacles", queue_size, &EnvironmentInputs::receive_obstacles, this));
   subscribe_to_markers(node, options);  // after the node's own topics, which come first
-  obstacle_service_ = std::make_unique<ObstacleService>(
-      own, [this](std::shared_ptr<const ObstacleService::Obstacles> obstacles,
-                  const ObstacleService::Answer& answer) { apply(std::move(obstacles), answer); });
+  obstacle_service_ = std::make_unique<ObstacleService>(own, *this);
   servers_.push_back(own.advertiseService("allow_pairs", &EnvironmentInputs::allow, this));
 }
 
@@ -174,8 +247,7 @@ void EnvironmentInputs::receive_markers(std::shared_ptr<const MarkerObstacles::M
   on_message_();
 }
 
-void EnvironmentInputs::apply(std::shared_ptr<const ObstacleService::Obstacles> obstacles,
-                              const ObstacleService::Answer& answer) {
+void EnvironmentInputs::apply(std::shared_ptr<const Obstacles> obstacles, const Answer& answer) {
   Change change = obstacles_.change_of(std::move(obstacles), 0.0, mesh_builder_);
   change.on_end = [answer](Change::End end, const std::string& reason) {
     answer(end == Change::End::OVERTAKEN ? "all its objects were removed meanwhile" : reason);

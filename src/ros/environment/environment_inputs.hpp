@@ -15,14 +15,11 @@
 #include "fiber_proximity/ObstacleArray.h"
 #include "fiber_proximity/environment/world.hpp"
 #include "src/environment/allowed_contacts.hpp"
-#include "src/ros/environment/change_topic.hpp"
 #include "src/ros/environment/cloud_input.hpp"
 #include "src/ros/environment/environment_options.hpp"
 #include "src/ros/environment/marker_obstacles.hpp"
-#include "src/ros/environment/obstacle_service.hpp"
 #include "src/ros/environment/obstacle_set.hpp"
 #include "src/ros/environment/robot_links.hpp"
-#include "src/ros/environment/scene_obstacles.hpp"
 #include "src/ros/environment/waiting_changes.hpp"
 #include "src/ros/support/worker.hpp"
 
@@ -73,29 +70,23 @@ class EnvironmentInputs {
   /// State of each topic there is.
   std::vector<fiber_proximity::InputStatistics> statistics(const ros::Time& now) const;
 
-  /// Null if no cloud is configured.
-  const CloudInput* cloud() const { return cloud_.get(); }
-
   /// What builds the meshes, one after the other.
   Worker& mesh_builder() { return mesh_builder_; }
 
  private:
-  /// A topic of markers.
-  struct MarkerSource {
-    MarkerSource(const MarkerTopic& marker_topic, const MeshLoader& meshes, ObstacleSet& set,
-                 FixedFrame& frame);
+  class ObstacleService;
+  struct MarkerSource;  // a topic of markers
+  using Obstacles = std::vector<fiber_proximity::Obstacle>;
 
-    MarkerObstacles obstacles;
-    ChangeTopic topic;
-    WaitingChanges changes;
-  };
+  /// To be called at the end, with the reason if the request is refused. Dropped uncalled, it tells
+  /// that the node ends.
+  using Answer = std::function<void(const std::string& reason)>;
 
   void subscribe_to_markers(ros::NodeHandle node, const EnvironmentOptions& options);
   void receive_obstacles(const fiber_proximity::ObstacleArray::ConstPtr& message);
   void receive_markers(std::shared_ptr<const MarkerObstacles::Markers> markers,
                        MarkerSource& source);
-  void apply(std::shared_ptr<const ObstacleService::Obstacles> obstacles,
-             const ObstacleService::Answer& answer);
+  void apply(std::shared_ptr<const Obstacles> obstacles, const Answer& answer);
   bool allow(fiber_proximity::AllowPairs::Request& request,
              fiber_proximity::AllowPairs::Response& response);
   void warn_of_unknown() const;

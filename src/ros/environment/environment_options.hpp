@@ -9,7 +9,7 @@
 #include "src/environment/scene/environment_scene.hpp"
 #include "src/ros/environment/cloud_cells.hpp"
 #include "src/ros/environment/mesh_loader.hpp"
-#include "src/ros/environment/robot_description.hpp"
+#include "src/ros/environment/robot_links.hpp"
 
 namespace fiber_proximity_ros {
 

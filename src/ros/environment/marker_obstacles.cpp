@@ -32,13 +32,6 @@ Eigen::Isometry3d marker_pose(const Marker& marker) {
   return to_pose(pose);
 }
 
-fiber::ObjectChange removal(const std::string& name) {
-  fiber::ObjectChange removal;
-  removal.operation = Operation::REMOVE;
-  removal.object.name = name;
-  return removal;
-}
-
 void require_equal(double a, double b, const std::string& what) {
   if (!(a == b)) {
     throw std::invalid_argument("scale has the diameters " + std::to_string(a) + " and " +
@@ -90,18 +83,10 @@ Shapes at_points(const Marker& marker, const fiber::Shape& shape) {
 Shapes one(const fiber::Shape& shape) { return {{shape, Eigen::Isometry3d::Identity()}}; }
 
 bool is_body(const Marker& marker) {
-  switch (marker.type) {
-    case Marker::CUBE:
-    case Marker::SPHERE:
-    case Marker::CYLINDER:
-    case Marker::CUBE_LIST:
-    case Marker::SPHERE_LIST:
-    case Marker::TRIANGLE_LIST:
-    case Marker::MESH_RESOURCE:
-      return true;
-    default:
-      return false;
-  }
+  static const std::set<std::int32_t> types{
+      Marker::CUBE,        Marker::SPHERE,        Marker::CYLINDER,     Marker::CUBE_LIST,
+      Marker::SPHERE_LIST, Marker::TRIANGLE_LIST, Marker::MESH_RESOURCE};
+  return types.count(marker.type) > 0;
 }
 
 }  // namespace
@@ -136,7 +121,7 @@ bool MarkerObstacles::expire(const ros::Time& now) {
   std::vector<fiber::ObjectChange> removals;
   for (const auto& [name, expiry] : present()) {
     if (!expiry.isZero() && expiry <= now) {
-      removals.push_back(removal(name));
+      removals.push_back(removal_of(name));
     }
   }
   obstacles_.apply(removals);
@@ -165,7 +150,7 @@ std::optional<MarkerObstacles::Step> MarkerObstacles::read(const Marker& marker,
     return step;
   }
   if (marker.action == Marker::DELETE) {
-    step.change = removal(marker_name(marker));
+    step.change = removal_of(marker_name(marker));
     return step;
   }
   if (marker.action != Marker::ADD) {
@@ -249,7 +234,7 @@ void MarkerObstacles::apply(const std::vector<Step>& steps, const Change::Poses&
       names[name] = step.expiry;
     } else if (step.action == Marker::DELETEALL) {
       for (const auto& [present, expiry] : std::exchange(names, {})) {
-        changes.push_back(removal(present));
+        changes.push_back(removal_of(present));
       }
     } else if (names.erase(name) > 0) {
       changes.push_back(step.change);

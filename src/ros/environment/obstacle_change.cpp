@@ -1,5 +1,6 @@
 #include "src/ros/environment/obstacle_change.hpp"
 
+#include <array>
 #include <cassert>
 #include <stdexcept>
 #include <utility>
@@ -22,39 +23,26 @@ using Mesh = std::shared_ptr<const fiber::TriangleMesh>;
 // ---- from messages -----------------------------------------------------------------------------
 
 Operation to_operation(const Obstacle& obstacle) {
-  switch (obstacle.operation) {
-    case Obstacle::ADD:
-      return Operation::ADD;
-    case Obstacle::REMOVE:
-      return Operation::REMOVE;
-    case Obstacle::APPEND:
-      return Operation::APPEND;
-    case Obstacle::MOVE:
-      return Operation::MOVE;
-    default:
-      throw std::invalid_argument("operation is " + std::to_string(obstacle.operation) +
-                                  ", it must be 0 (ADD), 1 (REMOVE), 2 (APPEND) or 3 (MOVE)");
+  constexpr std::array by_number{Operation::ADD, Operation::REMOVE, Operation::APPEND,
+                                 Operation::MOVE};
+  const auto number = static_cast<std::size_t>(obstacle.operation);
+  if (number >= by_number.size()) {
+    throw std::invalid_argument("operation is " + std::to_string(obstacle.operation) +
+                                ", it must be 0 (ADD), 1 (REMOVE), 2 (APPEND) or 3 (MOVE)");
   }
-}
-
-fiber::Primitive to_type(std::uint8_t type) {
-  switch (type) {
-    case SolidPrimitive::BOX:
-      return fiber::Primitive::BOX;
-    case SolidPrimitive::SPHERE:
-      return fiber::Primitive::SPHERE;
-    case SolidPrimitive::CYLINDER:
-      return fiber::Primitive::CYLINDER;
-    case SolidPrimitive::CONE:
-      return fiber::Primitive::CONE;
-    default:
-      throw std::invalid_argument("type is " + std::to_string(type) +
-                                  ", it must be 1 (BOX), 2 (SPHERE), 3 (CYLINDER) or 4 (CONE)");
-  }
+  return by_number[number];
 }
 
 fiber::Shape to_primitive(const SolidPrimitive& primitive) {
-  return fiber::make_primitive(to_type(primitive.type), primitive.dimensions);
+  using fiber::Primitive;
+  constexpr std::array by_number{Primitive::BOX, Primitive::SPHERE, Primitive::CYLINDER,
+                                 Primitive::CONE};
+  const std::size_t number = std::size_t{primitive.type} - 1;
+  if (number >= by_number.size()) {
+    throw std::invalid_argument("type is " + std::to_string(primitive.type) +
+                                ", it must be 1 (BOX), 2 (SPHERE), 3 (CYLINDER) or 4 (CONE)");
+  }
+  return fiber::make_primitive(by_number[number], primitive.dimensions);
 }
 
 fiber::Shape to_capsule(const fiber_proximity::Capsule& capsule) {
@@ -186,6 +174,13 @@ fiber::ObjectChange to_change(const Obstacle& obstacle) {
     fiber::validate(change.object);
   }
   return change;
+}
+
+fiber::ObjectChange removal_of(const std::string& name) {
+  fiber::ObjectChange removal;
+  removal.operation = Operation::REMOVE;
+  removal.object.name = name;
+  return removal;
 }
 
 Obstacle to_obstacle(const fiber::EnvironmentObject& object, const std::string& frame_id) {

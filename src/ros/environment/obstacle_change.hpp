@@ -18,6 +18,9 @@ Eigen::Isometry3d to_pose(const geometry_msgs::Pose& message);
 /// @throws std::invalid_argument naming the obstacle, what is wrong with it and what is allowed
 fiber::ObjectChange to_change(const fiber_proximity::Obstacle& obstacle);
 
+/// The removal of an object.
+fiber::ObjectChange removal_of(const std::string& name);
+
 /// The message that adds an object: to_change() makes it the same object again, with its shapes by
 /// kind.
 /// @param object   without octrees, which have no message

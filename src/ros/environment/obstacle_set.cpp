@@ -1,5 +1,8 @@
 #include "src/ros/environment/obstacle_set.hpp"
 
+#include <ros/console.h>
+
+#include <exception>
 #include <utility>
 
 #include "src/ros/environment/obstacle_change.hpp"
@@ -11,15 +14,6 @@ namespace {
 using Changes = std::vector<fiber::ObjectChange>;
 using Obstacles = std::vector<fiber_proximity::Obstacle>;
 using Operation = fiber::ObjectChange::Operation;
-
-void remove_all(std::set<std::string>& names, Changes& changes) {
-  for (const std::string& name : std::exchange(names, {})) {
-    fiber::ObjectChange change;
-    change.operation = Operation::REMOVE;
-    change.object.name = name;
-    changes.push_back(std::move(change));
-  }
-}
 
 std::size_t triangle_count(const Obstacles& obstacles) {
   std::size_t count = 0;
@@ -33,24 +27,6 @@ std::size_t triangle_count(const Obstacles& obstacles) {
 
 }  // namespace
 
-std::vector<FramedChange> to_changes(const std::vector<fiber_proximity::Obstacle>& obstacles) {
-  std::vector<FramedChange> changes;
-  for (const fiber_proximity::Obstacle& obstacle : obstacles) {
-    changes.push_back({obstacle.header, to_change(obstacle)});
-  }
-  return changes;
-}
-
-FramedName framed_name(const FramedChange& framed) {
-  return {"obstacle " + fiber::quote(framed.change.object.name), framed.header};
-}
-
-fiber::ObjectChange placed(const FramedChange& framed, const Eigen::Isometry3d& pose) {
-  fiber::ObjectChange change = framed.change;
-  change.object.pose = pose * change.object.pose;
-  return change;
-}
-
 void ObstacleSet::apply(const Changes& changes, const std::set<std::string>& cancelled) {
   std::set<std::string> names = names_;
   Changes steps;
@@ -60,7 +36,9 @@ void ObstacleSet::apply(const Changes& changes, const std::set<std::string>& can
       steps.push_back(change);
       names.insert(name);
     } else if (name.empty()) {
-      remove_all(names, steps);
+      for (const std::string& present : std::exchange(names, {})) {
+        steps.push_back(removal_of(present));
+      }
     } else if (names.erase(name) > 0 || cancelled.count(name) == 0) {
       steps.push_back(change);
     }
@@ -87,17 +65,59 @@ Change ObstacleSet::change_of(std::shared_ptr<const Obstacles> obstacles, double
   }
   const bool is_large = is_large_mesh(triangle_count(*obstacles));
   const auto prepare = [this, obstacles = std::move(obstacles)]() -> Change::Apply {
-    return [this, changes = to_changes(*obstacles)](const Change::Poses& poses,
-                                                    const Change::Names& cancelled) {
-      Changes steps;
-      for (std::size_t i = 0; i < changes.size(); ++i) {
-        steps.push_back(placed(changes[i], poses[i]));
+    Changes changes;
+    for (const fiber_proximity::Obstacle& obstacle : *obstacles) {
+      changes.push_back(to_change(obstacle));
+    }
+    return [this, changes](const Change::Poses& poses, const Change::Names& cancelled) {
+      Changes placed = changes;
+      for (std::size_t i = 0; i < placed.size(); ++i) {
+        placed[i].object.pose = poses[i] * placed[i].object.pose;
       }
-      apply(steps, cancelled);
+      apply(placed, cancelled);
     };
   };
   auto apply = Prepared<Change::Apply>::of(prepare, worker, is_large);
   return {std::move(touched), std::move(frames), std::move(apply), patience, {}};
+}
+
+SceneObstacles::SceneObstacles(const std::vector<fiber::SceneObstacle>& obstacles) {
+  for (const fiber::SceneObstacle& obstacle : obstacles) {
+    waiting_.push_back({obstacle, "not looked for yet"});
+  }
+}
+
+bool SceneObstacles::update(ObstacleSet& obstacles, FixedFrame& frame) {
+  const std::size_t before = waiting_.size();
+  std::vector<Waiting> waiting;
+  for (Waiting& next : waiting_) {
+    fiber::ObjectChange addition{Operation::ADD, next.obstacle.object};
+    const std::string& name = addition.object.name;
+    if (obstacles.has(name)) {
+      ROS_WARN_STREAM("obstacle '" << name << "' of the scene is left out: another of this name "
+                                   << "was added before its transform was known");
+      continue;
+    }
+    try {
+      FramedName framed{"obstacle " + fiber::quote(name), {}};
+      framed.header.frame_id = next.obstacle.frame_id;
+      addition.object.pose = locate(framed, frame) * addition.object.pose;
+      obstacles.apply({addition});
+    } catch (const std::exception& error) {  // above all TransformUnavailable
+      next.error = error.what();
+      waiting.push_back(std::move(next));
+    }
+  }
+  waiting_ = std::move(waiting);
+  return waiting_.size() != before;
+}
+
+std::vector<std::string> SceneObstacles::unknown() const {
+  std::vector<std::string> unknown;
+  for (const Waiting& obstacle : waiting_) {
+    unknown.push_back(obstacle.error);
+  }
+  return unknown;
 }
 
 }  // namespace fiber_proximity_ros

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <std_msgs/Header.h>
-
 #include <memory>
 #include <set>
 #include <string>
@@ -9,26 +7,11 @@
 
 #include "fiber_proximity/Obstacle.h"
 #include "fiber_proximity/environment/world.hpp"
+#include "src/environment/scene/environment_scene.hpp"
 #include "src/ros/environment/waiting_changes.hpp"
 #include "src/ros/support/worker.hpp"
 
 namespace fiber_proximity_ros {
-
-/// A change that is still in the frame of its message.
-struct FramedChange {
-  std_msgs::Header header;
-  fiber::ObjectChange change;
-};
-
-/// @throws std::invalid_argument as to_change
-std::vector<FramedChange> to_changes(const std::vector<fiber_proximity::Obstacle>& obstacles);
-
-/// What the frame of the change is to be located for.
-FramedName framed_name(const FramedChange& framed);
-
-/// The change with its object where it is in the fixed frame.
-/// @param pose of the change's frame there
-fiber::ObjectChange placed(const FramedChange& framed, const Eigen::Isometry3d& pose);
 
 /// The objects of the world that came as obstacles, and so not those of robot and cloud.
 class ObstacleSet {
@@ -52,6 +35,29 @@ class ObstacleSet {
  private:
   fiber::World& world_;
   std::set<std::string> names_;
+};
+
+/// Obstacles of the scene, each of which is unknown until tf knows its frame, however long that
+/// takes.
+class SceneObstacles {
+ public:
+  explicit SceneObstacles(const std::vector<fiber::SceneObstacle>& obstacles);
+
+  /// Adds those whose frames are known by now; one whose name is taken by now is left out, with a
+  /// warning.
+  /// @returns true if there are any
+  bool update(ObstacleSet& obstacles, FixedFrame& frame);
+
+  /// Names of those that are not in the world yet, and why.
+  std::vector<std::string> unknown() const;
+
+ private:
+  struct Waiting {
+    fiber::SceneObstacle obstacle;
+    std::string error;
+  };
+
+  std::vector<Waiting> waiting_;
 };
 
 }  // namespace fiber_proximity_ros

@@ -7,15 +7,35 @@
 
 namespace fiber_proximity_ros {
 
+void TouchedObjects::remove(const std::string& name) {
+  if (names_.insert(name).second) {
+    removed_first_.insert(name);
+  }
+}
+
+void TouchedObjects::remove_all() {
+  removes_everything_first_ = removes_everything_first_ || (names_.empty() && !is_everything_);
+  is_everything_ = true;
+}
+
+bool TouchedObjects::overlaps(const TouchedObjects& other) const {
+  return is_everything_ || other.is_everything_ ||
+         std::any_of(names_.begin(), names_.end(),
+                     [&other](const std::string& name) { return other.names_.count(name) > 0; });
+}
+
+bool TouchedObjects::is_undone_by(const TouchedObjects& later) const {
+  const auto& removed = later.removed_first_;
+  return later.removes_everything_first_ ||
+         (!is_everything_ &&
+          std::includes(removed.begin(), removed.end(), names_.begin(), names_.end()));
+}
+
 Eigen::Isometry3d locate(const FramedName& thing, FixedFrame& frame) {
   std_msgs::Header header = thing.header;
   header.frame_id = tf2_name(header.frame_id);
   frame.adopt(header.frame_id);
-  try {
-    return frame.transform_from(header);
-  } catch (const TransformUnavailable& error) {
-    throw TransformUnavailable(thing.name + ": " + error.what());
-  }
+  return naming(thing.name, [&] { return frame.transform_from(header); });
 }
 
 WaitingChanges::Waiting::Waiting(Change received, FixedFrame& frame) : change(std::move(received)) {
@@ -102,23 +122,17 @@ bool WaitingChanges::update() {
 bool WaitingChanges::advance(Queue::iterator place, const std::string* blocked, bool& applied) {
   Waiting& waiting = *place;
   waiting.find_poses(frame_);
-  if (!waiting.apply && waiting.change.apply.is_ready()) {
-    try {
+  try {
+    if (!waiting.apply && waiting.change.apply.is_ready()) {
       waiting.apply = waiting.change.apply.get();
-    } catch (const std::exception& error) {
-      return refuse(waiting, error.what());
     }
-  }
-  if (waiting.is_placed() && waiting.apply) {
-    try {
-      if (make(place, blocked == nullptr)) {
-        applied = true;
-        waiting.change.on_end(Change::End::APPLIED, "");
-        return true;
-      }
-    } catch (const std::exception& error) {
-      return refuse(waiting, error.what());
+    if (waiting.is_placed() && waiting.apply && make(place, blocked == nullptr)) {
+      applied = true;
+      waiting.change.on_end(Change::End::APPLIED, "");
+      return true;
     }
+  } catch (const std::exception& error) {
+    return refuse(waiting, error.what());
   }
   const std::string& missing =
       waiting.missing.empty() && blocked != nullptr ? *blocked : waiting.missing;
@@ -155,6 +169,28 @@ bool WaitingChanges::make(Queue::iterator place, bool is_first) {
 bool WaitingChanges::refuse(const Waiting& waiting, const std::string& reason) const {
   waiting.change.on_end(Change::End::REFUSED, reason);
   return true;
+}
+
+Change ChangeTopic::received(Change change) {
+  log_.receive();
+  change.on_end = [this](Change::End end, const std::string& reason) {
+    if (end == Change::End::APPLIED) {
+      last_applied_ = ros::Time::now();
+    } else if (end == Change::End::REFUSED) {
+      log_.refuse(reason);
+    } else {
+      log_.overtake();
+    }
+  };
+  return change;
+}
+
+fiber_proximity::InputStatistics ChangeTopic::statistics(const ros::Time& now) const {
+  fiber_proximity::InputStatistics statistics = log_.statistics();
+  if (last_applied_) {
+    statistics.age = (now - *last_applied_).toSec();
+  }
+  return statistics;
 }
 
 }  // namespace fiber_proximity_ros

@@ -12,11 +12,39 @@
 #include <unordered_map>
 #include <vector>
 
-#include "src/ros/environment/touched_objects.hpp"
+#include "fiber_proximity/InputStatistics.h"
 #include "src/ros/inputs/fixed_frame.hpp"
-#include "src/ros/inputs/prepared.hpp"
+#include "src/ros/inputs/message_log.hpp"
+#include "src/ros/support/worker.hpp"
 
 namespace fiber_proximity_ros {
+
+/// Which objects a change touches, and which of them it removes before anything else.
+class TouchedObjects {
+ public:
+  /// Notes the next step of the change.
+  void add(const std::string& name) { names_.insert(name); }
+  void remove(const std::string& name);
+  void remove_all();
+
+  const std::set<std::string>& names() const { return names_; }
+  bool is_everything() const { return is_everything_; }
+
+  /// Whether it could undo another change.
+  bool begins_with_removal() const { return removes_everything_first_ || !removed_first_.empty(); }
+
+  /// Whether the order of the two changes matters.
+  bool overlaps(const TouchedObjects& other) const;
+
+  /// Whether nothing is left of this change once the later one has been made.
+  bool is_undone_by(const TouchedObjects& later) const;
+
+ private:
+  std::set<std::string> names_;
+  std::set<std::string> removed_first_;  // of these names
+  bool is_everything_ = false;
+  bool removes_everything_first_ = false;
+};
 
 /// Something in the frame of a message.
 struct FramedName {
@@ -114,6 +142,22 @@ class WaitingChanges {
 
   FixedFrame& frame_;
   Queue waiting_;
+};
+
+/// A topic whose messages change the environment: counts what becomes of them.
+class ChangeTopic {
+ public:
+  ChangeTopic(const std::string& topic, const std::string& type) : log_(topic, type) {}
+
+  /// Counts a message.
+  /// @returns the change with what counts its end, too; this must outlive it
+  Change received(Change change);
+
+  fiber_proximity::InputStatistics statistics(const ros::Time& now) const;
+
+ private:
+  MessageLog log_;
+  std::optional<ros::Time> last_applied_;
 };
 
 }  // namespace fiber_proximity_ros

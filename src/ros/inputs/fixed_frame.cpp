@@ -39,8 +39,7 @@ void FixedFrame::adopt(const std::string& frame) {
   if (name_.empty() && !frame.empty()) {
     name_ = tf2_name(frame);
     ROS_INFO_STREAM("fixed_frame is not set: using " << fiber::quote(name_)
-                                                     << ", the frame of the first "
-                                                     << "message");
+                                                     << ", the frame of the first message");
   }
 }
 

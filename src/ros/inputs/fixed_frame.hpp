@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "src/text/with_context.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -69,5 +70,21 @@ class FixedFrame {
   tf2_ros::Buffer buffer_;
   tf2_ros::TransformListener listener_;
 };
+
+/// fiber::with_context(), for functions that may miss a transform, too.
+template <class Function>
+auto naming(const std::string& what, const Function& function) {
+  try {
+    return fiber::with_context(what, function);
+  } catch (const TransformUnavailable& error) {
+    throw TransformUnavailable(what + ": " + error.what());
+  }
+}
+
+/// Whether a frame is a camera's optical one (REP 103: x to the right, y down, z forwards), which
+/// its name says.
+inline bool is_optical_frame(const std::string& frame) {
+  return frame.find("optical") != std::string::npos;
+}
 
 }  // namespace fiber_proximity_ros

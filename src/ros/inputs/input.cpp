@@ -11,17 +11,19 @@
 namespace fiber_proximity_ros {
 
 Input::Input(InputOptions options, const InputTiming& timing)
-    : options_(std::move(options)), timing_(timing), refusals_(label()) {}
+    : options_(std::move(options)),
+      timing_(timing),
+      log_(options_.topic, options_.type, "input ") {}
 
 void Input::receive(const ReceivedMessage& message, FixedFrame& frame) {
-  ++received_;
+  log_.receive();
   if (message.sequence) {
     gaps_.add(message.publisher, *message.sequence);
   }
   try {
     store(message.read, frame);
   } catch (const std::invalid_argument& error) {
-    refusals_.refuse(error.what());
+    log_.refuse(error.what());
   }
 }
 
@@ -106,7 +108,7 @@ std::vector<ros::Time> Input::place_waiting(const FixedFrame& frame) {
   if (!waiting_.empty() && waited() > timing_.tf_timeout) {
     recycle(waiting_.front());
     waiting_.pop_front();
-    refusals_.refuse(transform_error_);
+    log_.refuse(transform_error_);
   }
   std::vector<ros::Time> stamps;
   for (; !placed.empty(); placed.pop_back()) {
@@ -132,7 +134,7 @@ void Input::accept(const ros::Time& stamp) {
   if (staleness_ != Staleness::NONE) {
     staleness_ = Staleness::NONE;
     stale_reason_.clear();
-    ROS_INFO_STREAM(label() << ": new messages again");
+    ROS_INFO_STREAM(log_.label() << ": new messages again");
   }
 }
 
@@ -163,18 +165,12 @@ bool Input::expire(const ros::Time& now, bool is_stranger) {
   }
   staleness_ = staleness;
   stale_reason_ = reason.str();
-  ROS_WARN_STREAM(label() << ": " << stale_reason_ << "; its " << fibers().fiber_count()
-                          << " fibre(s) are left out");
+  ROS_WARN_STREAM(log_.label() << ": " << stale_reason_ << "; its " << fibers().fiber_count()
+                               << " fibre(s) are left out");
   return was_fresh;
 }
 
 void Input::reset() {
-  for (MessagePtr& message : waiting_) {
-    recycle(message);
-  }
-  for (MessagePtr& message : placed_) {
-    recycle(message);
-  }
   waiting_.clear();
   placed_.clear();
   has_fibers_ = false;
@@ -188,12 +184,7 @@ void Input::reset() {
 }
 
 fiber_proximity::InputStatistics Input::statistics(const ros::Time& now) const {
-  fiber_proximity::InputStatistics statistics;
-  statistics.topic = options_.topic;
-  statistics.type = options_.type;
-  statistics.received = received_;
-  statistics.refused = refusals_.count();
-  statistics.overtaken = overtaken_;
+  fiber_proximity::InputStatistics statistics = log_.statistics();
   statistics.dropped = gaps_.count();
   statistics.missing_points = missing_.points;
   statistics.missing_fibers = missing_.fibers;
@@ -201,7 +192,6 @@ fiber_proximity::InputStatistics Input::statistics(const ros::Time& now) const {
   statistics.fibers = is_fresh() ? static_cast<std::uint32_t>(fibers().fiber_count()) : 0;
   statistics.age = has_fibers_ ? (now - current_->arrival).toSec() : -1.0;
   statistics.stale = staleness_ != Staleness::NONE;
-  statistics.last_error = refusals_.last_error();
   return statistics;
 }
 
@@ -214,7 +204,7 @@ bool Input::place(MessagePtr& message, const FixedFrame& frame) {
     transform_error_ = error.what();
   } catch (const std::invalid_argument& error) {
     recycle(message);
-    refusals_.refuse(error.what());
+    log_.refuse(error.what());
   }
   return false;
 }
@@ -231,10 +221,6 @@ void Input::name_fibers() {
   }
 }
 
-std::string Input::label() const {
-  return "input '" + options_.topic + "' (" + options_.type + ")";
-}
-
 /// A message whose memory can be used again.
 Input::MessagePtr Input::take_spare() {
   if (spare_.empty()) {
@@ -248,7 +234,7 @@ Input::MessagePtr Input::take_spare() {
 void Input::recycle(MessagePtr& message) { spare_.push_back(std::move(message)); }
 
 void Input::overtake(MessagePtr& message) {
-  ++overtaken_;
+  log_.overtake();
   recycle(message);
 }
 

@@ -2,6 +2,7 @@
 
 #include <ros/time.h>
 
+#include <cstddef>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -9,14 +10,36 @@
 #include <vector>
 
 #include "fiber_proximity/InputStatistics.h"
-#include "fiber_proximity/ros/fiber_buffer.hpp"
+#include "fiber_proximity/ros/conversions.hpp"
 #include "src/ros/inputs/fixed_frame.hpp"
-#include "src/ros/inputs/input_timing.hpp"
-#include "src/ros/inputs/input_types.hpp"
-#include "src/ros/inputs/refusal_log.hpp"
-#include "src/ros/inputs/sequence_gaps.hpp"
+#include "src/ros/inputs/input_source.hpp"
+#include "src/ros/inputs/message_log.hpp"
 
 namespace fiber_proximity_ros {
+
+/// When an input's messages and fibres expire, which stamps they may have, and whose belong
+/// together.
+struct InputTiming {
+  /// [s] of wall time a message may wait for its transform; longer than tf takes to arrive
+  double tf_timeout = 0.1;
+
+  /// [s] of ROS time after which fibres that were not renewed are left out; several periods of any
+  /// camera
+  double input_timeout = 1.0;
+
+  /// [s] a stamp may be ahead of the node's time; more than the clocks of one robot differ
+  double max_stamp_ahead = 1.0;
+
+  /// True: the fibres of all inputs change together, to those whose stamps belong together.
+  bool synchronize = false;
+
+  /// [s] most by which stamps that belong together differ; more than a period of a usual camera
+  double synchronize_slop = 0.05;
+
+  /// Messages of one input that wait, for their transforms or for those of the other inputs.
+  /// Without synchronisation one keeps its turn, and the newest stands behind it.
+  std::size_t queue_size() const { return synchronize ? 10 : 2; }
+};
 
 /// One source of fibres: reads and checks its messages, has them wait for their transforms and, if
 /// inputs are synchronised, for those of the others, and knows how old its fibres are.
@@ -86,7 +109,6 @@ class Input {
   void check_stamp(const ros::Time& stamp, const ros::Time& now) const;
   bool place(MessagePtr& message, const FixedFrame& frame);
   void name_fibers();
-  std::string label() const;
 
   MessagePtr take_spare();
   void recycle(MessagePtr& message);
@@ -94,7 +116,7 @@ class Input {
 
   InputOptions options_;
   InputTiming timing_;
-  RefusalLog refusals_;
+  MessageLog log_;
   SequenceGaps gaps_;
   MissingPointCounts missing_;
 
@@ -117,8 +139,6 @@ class Input {
   std::optional<ros::Time> newest_arrival_;
 
   std::string transform_error_;
-  std::uint64_t received_ = 0;
-  std::uint64_t overtaken_ = 0;
 };
 
 }  // namespace fiber_proximity_ros

@@ -6,24 +6,11 @@
 #include <stdexcept>
 #include <utility>
 
-#include "src/ros/inputs/subscribing.hpp"
+#include "src/ros/inputs/input_source.hpp"
 #include "src/ros/support/stopwatch.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
-
-/// Adds the time of a scope to a sum of seconds.
-class ScopeTimer {
- public:
-  explicit ScopeTimer(double& sum) : sum_(sum) {}
-  ScopeTimer(const ScopeTimer&) = delete;
-  ScopeTimer& operator=(const ScopeTimer&) = delete;
-  ~ScopeTimer() { sum_ += stopwatch_.seconds(); }
-
- private:
-  double& sum_;
-  Stopwatch stopwatch_;
-};
 
 void append(const Input& input, FiberBuffer& merged) {
   const fiber::FiberAssembly& fibers = input.fibers();
@@ -56,10 +43,9 @@ void append_radii(const fiber::FiberAssembly& fibers, bool per_point, std::vecto
 /// The shortest form that holds the radii of all: one, one per fibre, or one per point.
 void merge_radii(const std::vector<const Input*>& inputs, std::vector<double>& radii) {
   const auto& first = inputs.front()->fibers().radii();
-  const bool one = std::all_of(inputs.begin(), inputs.end(), [&first](const Input* input) {
-    return input->fibers().radii().size() == 1 && input->fibers().radii() == first;
-  });
-  if (one) {
+  if (first.size() == 1 && std::all_of(inputs.begin(), inputs.end(), [&first](const Input* input) {
+        return input->fibers().radii() == first;
+      })) {
     radii = first;
     return;
   }
@@ -98,7 +84,7 @@ InputSet::InputSet(ros::NodeHandle node, const std::vector<InputOptions>& inputs
 }
 
 bool InputSet::update() {
-  const ScopeTimer timer(work_time_);
+  const Stopwatch stopwatch;
   watch_time();
   bool changed = std::exchange(was_reset_, false);
   changed = (matcher_ ? accept_matches() : accept_placed()) || changed;
@@ -106,6 +92,7 @@ bool InputSet::update() {
     changed = inputs_[i]->expire(last_time_, matcher_ && matcher_->is_stranger(i)) || changed;
   }
   merged_is_old_ = merged_is_old_ || changed;
+  work_time_ += stopwatch.seconds();
   return changed;
 }
 
@@ -132,14 +119,11 @@ const fiber::FiberAssembly& InputSet::fibers() {
   return fibers_;
 }
 
-double InputSet::take_work_time() { return std::exchange(work_time_, 0.0); }
-
 void InputSet::receive(Input& input, const ReceivedMessage& message) {
-  {
-    const ScopeTimer timer(work_time_);
-    watch_time();
-    input.receive(message, frame_);
-  }
+  const Stopwatch stopwatch;
+  watch_time();
+  input.receive(message, frame_);
+  work_time_ += stopwatch.seconds();
   on_message_();
 }
 
@@ -208,7 +192,7 @@ bool InputSet::accept_matches() {
 }
 
 void InputSet::merge() {
-  const ScopeTimer timer(work_time_);
+  const Stopwatch stopwatch;
   merged_.clear();
   merged_.header.frame_id = frame_.name();
   std::vector<const Input*> fresh;
@@ -224,6 +208,7 @@ void InputSet::merge() {
     merge_radii(fresh, merged_.radii);
   }
   assign(merged_, fibers_);
+  work_time_ += stopwatch.seconds();
 }
 
 }  // namespace fiber_proximity_ros

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "src/ros/inputs/fixed_frame.hpp"
@@ -49,7 +50,7 @@ class InputSet {
   const std::vector<std::unique_ptr<Input>>& inputs() const { return inputs_; }
 
   /// [s] Time spent on reading, transforming and merging since this was last asked.
-  double take_work_time();
+  double take_work_time() { return std::exchange(work_time_, 0.0); }
 
  private:
   void receive(Input& input, const ReceivedMessage& message);

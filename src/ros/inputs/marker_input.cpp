@@ -2,10 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
+#include <utility>
 
-#include "fiber_proximity/ros/conversions.hpp"
-#include "src/ros/inputs/segment_welder.hpp"
 #include "src/text/quote.hpp"
 
 namespace fiber_proximity_ros {
@@ -13,6 +14,111 @@ namespace {
 
 using visualization_msgs::Marker;
 using Markers = std::vector<const Marker*>;
+
+bool is_known(const Eigen::Vector3d& point) { return point.allFinite(); }
+
+/// Infinite where one of the points is missing.
+double distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return is_known(a) && is_known(b) ? (a - b).norm() : std::numeric_limits<double>::infinity();
+}
+
+double nearer_end(const Eigen::Vector3d& point, const Eigen::Vector3d& from,
+                  const Eigen::Vector3d& to) {
+  return std::min(distance(point, from), distance(point, to));
+}
+
+/// Joins segments that come one after another into chains. Ends with a coordinate that is not
+/// finite are missing: a chain goes on across them, with the missing points in it, unless the
+/// points known on both sides are farther apart than the segments between them can reach.
+class SegmentWelder {
+ public:
+  /// @param tolerance largest gap between ends that are joined, as a fraction of the shorter
+  ///        segment's length
+  SegmentWelder(double tolerance, FiberBuffer& chains) : tolerance_(tolerance), chains_(chains) {}
+
+  /// Continues the chain with this segment, turned round if need be, and meets the one before it
+  /// halfway; or begins a new chain if it is too far from its end.
+  /// @returns true if a new chain began
+  bool add(Eigen::Vector3d from, Eigen::Vector3d to) {
+    const double length = is_known(from) && is_known(to) ? (to - from).norm()
+                                                         : std::numeric_limits<double>::quiet_NaN();
+    const double tolerance = std::fmax(0.0, tolerance_ * std::fmin(length, last_length_));
+    if (chain_size() > 0) {
+      turn_first_segment_towards(from, to, tolerance);
+      Eigen::Vector3d& end = chains_.points.back();
+      if (distance(to, end) < distance(from, end) &&
+          (is_known(from) || distance(to, end) <= tolerance)) {
+        std::swap(from, to);
+      }
+      if (is_known(end) && is_known(from)) {
+        if (distance(from, end) <= tolerance) {
+          end = 0.5 * (end + from);
+          push(to, length);
+          return false;
+        }
+      } else if (reaches(from, to, length)) {
+        if (is_known(from) || (is_known(end) && is_known(to))) {
+          push(from, length);  // else it is the same missing point as the end, or as `to`
+        }
+        push(to, length);
+        return false;
+      }
+      end_chain();
+    }
+    longest_ = 0.0;
+    push(from, length);
+    push(to, length);
+    return true;
+  }
+
+  /// Ends the chain; what follows begins a new one.
+  void end_chain() {
+    if (chain_size() > 0) {
+      chains_.end_chain();
+    }
+  }
+
+ private:
+  std::size_t chain_size() const { return chains_.points.size() - chains_.offsets.back(); }
+
+  void push(const Eigen::Vector3d& point, double length) {
+    chains_.points.push_back(point);
+    last_length_ = length;
+    longest_ = std::fmax(longest_, length);
+  }
+
+  /// True if the chain may go on across missing points: if what is known on both sides is no
+  /// farther apart than the segments between them would reach, or nothing is known.
+  bool reaches(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double length) const {
+    const auto known =
+        std::find_if(chains_.points.rbegin(),
+                     chains_.points.rbegin() + static_cast<std::ptrdiff_t>(chain_size()), is_known);
+    const auto missing = static_cast<double>(known - chains_.points.rbegin());
+    const double longest = std::fmax(longest_, length);
+    const bool is_compared = static_cast<std::size_t>(missing) < chain_size() &&
+                             (is_known(from) || is_known(to)) && longest > 0.0;
+    const double segments = missing + (is_known(from) ? 1.0 : 2.0) + tolerance_;
+    return !is_compared || distance(*known, is_known(from) ? from : to) <= segments * longest;
+  }
+
+  void turn_first_segment_towards(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                                  double tolerance) {
+    if (chain_size() != 2) {
+      return;  // later ones have an end that is joined already
+    }
+    Eigen::Vector3d& head = *(chains_.points.end() - 2);
+    Eigen::Vector3d& tail = chains_.points.back();
+    const double gap = nearer_end(head, from, to);
+    if (gap < nearer_end(tail, from, to) && (is_known(tail) || gap <= tolerance)) {
+      head.swap(tail);
+    }
+  }
+
+  double tolerance_;
+  FiberBuffer& chains_;
+  double last_length_ = 0.0;  // nan of a segment with a missing end
+  double longest_ = 0.0;      // of the chain's segments
+};
 
 /// What a marker can be read as, best first.
 enum class Kind { LINES, POINT_LIST, POINT, CYLINDER, NONE };
@@ -60,8 +166,7 @@ class MarkerReader {
       if (marker->type == Marker::LINE_LIST) {
         read_line_list(*marker);
       } else if (marker->points.size() == 2) {
-        const Eigen::Isometry3d pose = pose_of(*marker);
-        weld(*marker, pose * to_vector(marker->points[0]), pose * to_vector(marker->points[1]));
+        weld_pairs(*marker);
       } else {
         read_point_list(*marker);
       }
@@ -105,6 +210,13 @@ class MarkerReader {
     }
   }
 
+  void weld_pairs(const Marker& marker) {
+    const Eigen::Isometry3d pose = pose_of(marker);
+    for (std::size_t i = 0; i < marker.points.size(); i += 2) {
+      weld(marker, pose * to_vector(marker.points[i]), pose * to_vector(marker.points[i + 1]));
+    }
+  }
+
   void read_point_list(const Marker& marker) {
     welder_.end_chain();
     const Eigen::Isometry3d pose = pose_of(marker);
@@ -122,10 +234,7 @@ class MarkerReader {
                                   " points, it must have two per segment and not be empty");
     }
     welder_.end_chain();
-    const Eigen::Isometry3d pose = pose_of(marker);
-    for (std::size_t i = 0; i < marker.points.size(); i += 2) {
-      weld(marker, pose * to_vector(marker.points[i]), pose * to_vector(marker.points[i + 1]));
-    }
+    weld_pairs(marker);
     welder_.end_chain();
   }
 

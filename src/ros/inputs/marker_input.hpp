@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "fiber_proximity/ros/fiber_buffer.hpp"
+#include "fiber_proximity/ros/conversions.hpp"
 
 namespace fiber_proximity_ros {
 

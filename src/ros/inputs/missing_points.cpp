@@ -61,7 +61,7 @@ class KnownChains {
     const std::size_t fibers_before = known_.fiber_count();
     for (std::uint32_t i = chains_.offsets[fiber]; i < chains_.offsets[fiber + 1]; ++i) {
       if (!is_missing(chains_.points[i])) {
-        copy_point(i);
+        piece_.push_back(i);
       } else if (policy == MissingPoints::SPLIT) {
         end_piece(fiber, fibers_before);
       }
@@ -73,34 +73,25 @@ class KnownChains {
   FiberBuffer take() { return std::move(known_); }
 
  private:
-  std::size_t piece_size() const { return known_.points.size() - known_.offsets.back(); }
-
-  void copy_point(std::uint32_t index) {
-    if (piece_size() == 0) {
-      first_index_ = index;
+  void end_piece(std::size_t fiber, std::size_t fibers_before) {
+    if (piece_.size() > 1) {
+      copy_piece(fiber, known_.fiber_count() == fibers_before);
     }
-    known_.points.push_back(chains_.points[index]);
-    if (has_radius_per_point_) {
-      known_.radii.push_back(chains_.radii[index]);
-    }
+    counts_.lone_points += piece_.size() == 1 ? 1 : 0;
+    piece_.clear();
   }
 
-  void end_piece(std::size_t fiber, std::size_t fibers_before) {
-    if (piece_size() == 1) {
-      ++counts_.lone_points;
-      known_.points.pop_back();
+  void copy_piece(std::size_t fiber, bool is_first) {
+    for (const std::uint32_t i : piece_) {
+      known_.points.push_back(chains_.points[i]);
       if (has_radius_per_point_) {
-        known_.radii.pop_back();
+        known_.radii.push_back(chains_.radii[i]);
       }
-    }
-    if (piece_size() == 0) {
-      return;
     }
     if (!chains_.names.empty()) {
       const std::string& name = chains_.names[fiber];
-      known_.names.push_back(known_.fiber_count() == fibers_before
-                                 ? name
-                                 : piece_name(name, first_index_ - chains_.offsets[fiber]));
+      known_.names.push_back(is_first ? name
+                                      : piece_name(name, piece_.front() - chains_.offsets[fiber]));
     }
     if (has_radius_per_fiber_) {
       known_.radii.push_back(chains_.radii[fiber]);
@@ -125,24 +116,11 @@ class KnownChains {
   bool has_radius_per_point_;
   bool has_radius_per_fiber_;
   FiberBuffer known_;
-  std::uint32_t first_index_ = 0;  // of the piece's first point
+  std::vector<std::uint32_t> piece_;  // indices of its points
   std::unordered_set<std::string> taken_names_;
 };
 
 }  // namespace
-
-std::optional<MissingPoints> missing_points_from_name(const std::string& name) {
-  if (name == "refuse") {
-    return MissingPoints::REFUSE;
-  }
-  if (name == "bridge") {
-    return MissingPoints::BRIDGE;
-  }
-  if (name == "split") {
-    return MissingPoints::SPLIT;
-  }
-  return std::nullopt;
-}
 
 void handle_missing_points(MissingPoints policy, FiberBuffer& chains, MissingPointCounts& counts) {
   const auto missing = std::count_if(chains.points.begin(), chains.points.end(), is_missing);

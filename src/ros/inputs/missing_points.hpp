@@ -1,10 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
-#include <string>
 
-#include "fiber_proximity/ros/fiber_buffer.hpp"
+#include "fiber_proximity/ros/conversions.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -14,9 +12,6 @@ enum class MissingPoints {
   BRIDGE,  ///< the neighbours of missing points are joined, missing ends are left off
   SPLIT    ///< the fibre is cut into the pieces that are known
 };
-
-/// Of the names refuse, bridge and split; none of any other.
-std::optional<MissingPoints> missing_points_from_name(const std::string& name);
 
 /// What was missing, in all messages so far.
 struct MissingPointCounts {

@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 #include <cstdlib>
-#include <utility>
 
 namespace fiber_proximity_ros {
 namespace {
@@ -85,8 +84,6 @@ void StampMatcher::reset() {
   found_.clear();
 }
 
-std::vector<StampSet> StampMatcher::take() { return std::exchange(found_, {}); }
-
 void StampMatcher::readmit_strangers() {
   for (Queue& queue : queues_) {
     if (queue.is_stranger && std::any_of(queue.stamps.begin(), queue.stamps.end(),
@@ -111,9 +108,8 @@ bool StampMatcher::is_near(Stamp stamp) const {
 /// Tries the sets of neighbouring stamps in their order, as far as all inputs have been heard.
 void StampMatcher::search() {
   while (has_all_heads()) {
-    const auto head = [this](std::size_t i) { return queues_[i].stamps[queues_[i].head]; };
-    const Boundary start = first(head);
-    const Boundary end = last(head);
+    const auto [start, end] =
+        boundaries([this](std::size_t i) { return queues_[i].stamps[queues_[i].head]; });
     for (std::size_t i = 0; i < queues_.size(); ++i) {
       queues_[i].has_dropped = queues_[i].has_dropped && i == end.input;
     }
@@ -148,12 +144,11 @@ bool StampMatcher::is_optimal_whatever_comes() const {
                                     : std::max(stamps.back(), candidate_->pivot_stamp);
   };
   while (true) {
-    const Boundary start = first(best_stamp);
-    const Stamp end = last(best_stamp).stamp;
-    if (is_worth_no_more(end, candidate_->pivot_stamp)) {
+    const auto [start, end] = boundaries(best_stamp);
+    if (is_worth_no_more(end.stamp, candidate_->pivot_stamp)) {
       return true;
     }
-    if (!is_worth_no_more(end, start.stamp)) {
+    if (!is_worth_no_more(end.stamp, start.stamp)) {
       return false;
     }
     assert(start.stamp < candidate_->pivot_stamp);  // else one of the two is true
@@ -209,28 +204,22 @@ void StampMatcher::emit() {
   begin_again();
 }
 
-/// The input with the earliest stamp; of equal ones the first.
+/// The input with the earliest stamp, of equal ones the first; and that with the latest, of equal
+/// ones the last.
 template <class StampOf>
-StampMatcher::Boundary StampMatcher::first(const StampOf& stamp_of) const {
-  std::optional<Boundary> found;
+std::pair<StampMatcher::Boundary, StampMatcher::Boundary> StampMatcher::boundaries(
+    const StampOf& stamp_of) const {
+  std::optional<Boundary> first;
+  std::optional<Boundary> last;
   for (std::size_t i = 0; i < queues_.size(); ++i) {
-    if (queues_[i].takes_part && (!found || stamp_of(i) < found->stamp)) {
-      found = Boundary{i, stamp_of(i)};
+    if (!queues_[i].takes_part) {
+      continue;
     }
+    const Boundary here{i, stamp_of(i)};
+    first = !first || here.stamp < first->stamp ? here : first;
+    last = !last || here.stamp >= last->stamp ? here : last;
   }
-  return *found;
-}
-
-/// The input with the latest stamp; of equal ones the last.
-template <class StampOf>
-StampMatcher::Boundary StampMatcher::last(const StampOf& stamp_of) const {
-  std::optional<Boundary> found;
-  for (std::size_t i = 0; i < queues_.size(); ++i) {
-    if (queues_[i].takes_part && (!found || stamp_of(i) >= found->stamp)) {
-      found = Boundary{i, stamp_of(i)};
-    }
-  }
-  return *found;
+  return {*first, *last};
 }
 
 }  // namespace fiber_proximity_ros

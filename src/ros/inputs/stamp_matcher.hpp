@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace fiber_proximity_ros {
@@ -48,7 +49,7 @@ class StampMatcher {
   void reset();
 
   /// The sets found since this was last called, in the order they were found.
-  std::vector<StampSet> take();
+  std::vector<StampSet> take() { return std::exchange(found_, {}); }
 
  private:
   using Stamp = std::int64_t;  // [ns], as differences of ros::Time end at 68 years
@@ -87,9 +88,7 @@ class StampMatcher {
   void make_candidate(const Boundary& start, const Boundary& end);
   void emit();
   template <class StampOf>
-  Boundary first(const StampOf& stamp_of) const;
-  template <class StampOf>
-  Boundary last(const StampOf& stamp_of) const;
+  std::pair<Boundary, Boundary> boundaries(const StampOf& stamp_of) const;
 
   Stamp slop_;
   std::size_t queue_size_;

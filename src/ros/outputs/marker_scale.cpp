@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/ros/inputs/optical_frame.hpp"
+#include "src/ros/inputs/fixed_frame.hpp"
 #include "src/ros/outputs/tube_mesh.hpp"
 
 namespace fiber_proximity_ros {

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <ros/node_handle.h>
+#include <std_msgs/Header.h>
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
-#include "src/ros/inputs/fiber_formats.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -17,7 +19,11 @@ struct PlayerOptions {
   int fiber = -1;                ///< index of the one fibre to play; -1: all
 
   std::string topic = "fibers";
-  std::string format = "fiber_array";  ///< name of one of fiber_formats()
+
+  /// `fiber_array`, `marker_array` or, for one fibre, `marker`, `point_cloud2`, `point_cloud`,
+  /// `pose_array` or `path`. Only `fiber_array` tells the radius; a marker's width is the diameter
+  /// of the fibre's first segment.
+  std::string format = "fiber_array";
   std::string frame_id = "world";
 
   double rate = 30.0;        ///< [Hz] frames per second
@@ -46,7 +52,7 @@ class FiberPlayer {
   fiber::Scene frames_;
   std::uint32_t frame_count_ = 0;  // 0: endless
   std::uint32_t next_frame_ = 0;
-  FiberFormat::Publish publish_;
+  std::function<void(const std_msgs::Header&, const fiber::FiberAssembly&)> publish_;
   ros::Timer timer_;
   ros::Timer start_timer_;
 };

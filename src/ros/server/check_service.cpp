@@ -4,7 +4,7 @@
 
 #include "fiber_proximity/environment/check_fibers.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
-#include "src/ros/inputs/naming.hpp"
+#include "src/ros/inputs/fixed_frame.hpp"
 #include "src/ros/server/motion_check.hpp"
 #include "src/ros/server/request_options.hpp"
 

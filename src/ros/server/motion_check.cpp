@@ -8,7 +8,7 @@
 #include "fiber_proximity/environment/check_fibers.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
 #include "src/geometry/swept_fibers.hpp"
-#include "src/ros/inputs/naming.hpp"
+#include "src/ros/inputs/fixed_frame.hpp"
 #include "src/ros/server/request_options.hpp"
 
 namespace fiber_proximity_ros {

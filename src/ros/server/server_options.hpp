@@ -8,7 +8,7 @@
 #include "fiber_proximity/ProximityConfig.h"
 #include "fiber_proximity/query/engine.hpp"
 #include "src/ros/inputs/input.hpp"
-#include "src/ros/inputs/input_options.hpp"
+#include "src/ros/inputs/input_source.hpp"
 
 namespace fiber_proximity_ros {
 

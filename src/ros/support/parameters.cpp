@@ -4,9 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
-#include <sstream>
+#include <set>
 #include <stdexcept>
 
 #include "src/text/quote.hpp"
@@ -46,6 +45,35 @@ std::string suggested_parameter(const std::string& name, const std::vector<std::
   return nearest == nullptr ? "" : "; is " + *nearest + " meant?";
 }
 
+YAML::Node to_yaml(const XmlRpcValue& value) {
+  YAML::Node node;
+  switch (value.getType()) {
+    case XmlRpcValue::TypeBoolean:
+      return YAML::Node(static_cast<const bool&>(value));
+    case XmlRpcValue::TypeInt:
+      return YAML::Node(static_cast<const int&>(value));
+    case XmlRpcValue::TypeDouble:
+      return YAML::Node(static_cast<const double&>(value));
+    case XmlRpcValue::TypeString:
+      return YAML::Node(static_cast<const std::string&>(value));
+    case XmlRpcValue::TypeArray:
+      node = YAML::Node(YAML::NodeType::Sequence);
+      // NOLINTNEXTLINE(modernize-loop-convert): its iterators are those of maps
+      for (int i = 0; i < value.size(); ++i) {
+        node.push_back(to_yaml(value[i]));
+      }
+      return node;
+    case XmlRpcValue::TypeStruct:
+      node = YAML::Node(YAML::NodeType::Map);
+      for (const auto& [key, child] : value) {
+        node[key] = to_yaml(child);
+      }
+      return node;
+    default:
+      return node;
+  }
+}
+
 }  // namespace
 
 std::string text_of(const XmlRpcValue& value) {
@@ -71,11 +99,6 @@ void read_parameter(const ros::NodeHandle& node, const std::string& name, const 
   }
 }
 
-void read_parameter(const ros::NodeHandle& node, const std::string& name, double least,
-                    double& value) {
-  read_parameter(node, name, Limits{least, std::numeric_limits<double>::infinity()}, value);
-}
-
 void read_parameter(const ros::NodeHandle& node, const std::string& name, int least, int& value) {
   XmlRpcValue number;
   if (!node.getParam(name, number)) {
@@ -99,7 +122,7 @@ void warn_of_unknown_parameters(const ros::NodeHandle& private_node,
   std::vector<std::string> names;
   private_node.getParamNames(names);
   const std::string prefix = private_node.getNamespace() + "/";
-  std::vector<std::string> unknown;
+  std::set<std::string> unknown;
   for (const std::string& name : names) {
     if (name.rfind(prefix, 0) != 0) {
       continue;
@@ -107,15 +130,17 @@ void warn_of_unknown_parameters(const ros::NodeHandle& private_node,
     const std::string own =
         name.substr(prefix.size(), name.find('/', prefix.size()) - prefix.size());
     if (std::find(known.begin(), known.end(), own) == known.end()) {
-      unknown.push_back(own);
+      unknown.insert(own);
     }
   }
-  std::sort(unknown.begin(), unknown.end());
-  unknown.erase(std::unique(unknown.begin(), unknown.end()), unknown.end());
   for (const std::string& name : unknown) {
     ROS_WARN_STREAM("parameter " << prefix << name << " is unknown and not used"
                                  << suggested_parameter(name, known));
   }
+}
+
+fiber::YamlField to_yaml(const std::string& name, const XmlRpcValue& value) {
+  return {to_yaml(value), "parameter " + name};
 }
 
 }  // namespace fiber_proximity_ros

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <ros/node_handle.h>
+#include <xmlrpcpp/XmlRpcValue.h>
 
 #include <cstdint>
 #include <limits>
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include "fiber_proximity/yaml/yaml_field.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -40,8 +43,11 @@ std::string allowed_range(const std::string& kind, Number least, Number most) {
   return text.str();
 }
 
-/// What a number may be.
+/// What a number may be; without an upper limit at least this.
 struct Limits {
+  Limits(double from, double to = std::numeric_limits<double>::infinity())
+      : least(from), most(to) {}
+
   double least;
   double most;
 };
@@ -49,11 +55,6 @@ struct Limits {
 /// Reads a finite number within these limits; a whole number is one, too.
 /// @throws std::invalid_argument if it is anything else
 void read_parameter(const ros::NodeHandle& node, const std::string& name, const Limits& limits,
-                    double& value);
-
-/// Reads a finite number of at least this limit.
-/// @throws std::invalid_argument if it is anything else
-void read_parameter(const ros::NodeHandle& node, const std::string& name, double least,
                     double& value);
 
 /// Reads a whole number of at least this limit; roscpp alone would round others.
@@ -68,5 +69,9 @@ void read_parameter(const ros::NodeHandle& node, const std::string& name, std::u
 /// been meant to be.
 void warn_of_unknown_parameters(const ros::NodeHandle& private_node,
                                 const std::vector<std::string>& known);
+
+/// A parameter as the YAML document that it may have come from.
+/// @param name for errors
+fiber::YamlField to_yaml(const std::string& name, const XmlRpc::XmlRpcValue& value);
 
 }  // namespace fiber_proximity_ros

@@ -1,7 +1,5 @@
 #include "src/ros/support/worker.hpp"
 
-#include <utility>
-
 namespace fiber_proximity_ros {
 
 Worker::Worker() : thread_([this] { run(); }) {}

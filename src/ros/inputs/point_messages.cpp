@@ -1,11 +1,11 @@
-#include "src/ros/inputs/point_cloud_input.hpp"
+#include "src/ros/inputs/point_messages.hpp"
 
 #include <array>
 #include <cstring>
 #include <stdexcept>
 #include <string>
 
-#include "fiber_proximity/ros/conversions.hpp"
+#include "src/text/quote.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -71,6 +71,19 @@ void check_layout(const PointCloud2& cloud) {
   }
 }
 
+/// The items of a message's list as the points of one fibre.
+template <class Message, class Items, class PositionOf>
+void read_points(const Message& message, const Items& items, FiberBuffer& chains,
+                 const PositionOf& position_of) {
+  chains.clear();
+  chains.header = message.header;
+  chains.points.reserve(items.size());
+  for (const auto& item : items) {
+    chains.points.push_back(to_vector(position_of(item)));
+  }
+  chains.end_chain();
+}
+
 }  // namespace
 
 void to_chains(const PointCloud2& message, FiberBuffer& chains) {
@@ -92,13 +105,24 @@ void to_chains(const PointCloud2& message, FiberBuffer& chains) {
 }
 
 void to_chains(const sensor_msgs::PointCloud& message, FiberBuffer& chains) {
-  chains.clear();
-  chains.header = message.header;
-  chains.points.reserve(message.points.size());
-  for (const geometry_msgs::Point32& point : message.points) {
-    chains.points.push_back(to_vector(point));
+  read_points(message, message.points, chains, [](const auto& point) { return point; });
+}
+
+void to_chains(const geometry_msgs::PoseArray& message, FiberBuffer& chains) {
+  read_points(message, message.poses, chains, [](const auto& pose) { return pose.position; });
+}
+
+void to_chains(const nav_msgs::Path& message, FiberBuffer& chains) {
+  for (std::size_t i = 0; i < message.poses.size(); ++i) {
+    const std::string& frame = message.poses[i].header.frame_id;
+    // Many publishers fill in the path's frame only.
+    if (!frame.empty() && frame != message.header.frame_id) {
+      throw std::invalid_argument(
+          "pose " + std::to_string(i) + " is in frame " + fiber::quote(frame) + ", the path in " +
+          fiber::quote(message.header.frame_id) + "; they must be the same");
+    }
   }
-  chains.end_chain();
+  read_points(message, message.poses, chains, [](const auto& pose) { return pose.pose.position; });
 }
 
 }  // namespace fiber_proximity_ros

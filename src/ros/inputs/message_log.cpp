@@ -1,4 +1,4 @@
-#include "src/ros/inputs/refusal_log.hpp"
+#include "src/ros/inputs/message_log.hpp"
 
 #include <ros/console.h>
 
@@ -32,11 +32,22 @@ std::string and_more(std::uint64_t count, const std::string& what) {
   return count == 0 ? "" : " (and " + std::to_string(count) + " more refused " + what + ")";
 }
 
+/// Publishers remembered at most: tools with names of their own for each run come and go.
+constexpr std::size_t most_publishers = 64;
+
 }  // namespace
 
-void RefusalLog::refuse(const std::string& reason) {
-  ++count_;
-  last_error_ = reason;
+MessageLog::MessageLog(const std::string& topic, const std::string& type, const std::string& source)
+    : label_(source + "'" + topic + "' (" + type + ")") {
+  statistics_.topic = topic;
+  statistics_.type = type;
+  statistics_.dropped = -1;
+  statistics_.age = -1.0;
+}
+
+void MessageLog::refuse(const std::string& reason) {
+  ++statistics_.refused;
+  statistics_.last_error = reason;
   const ros::SteadyTime now = ros::SteadyTime::now();
   Reason* const place = place_of(reason_kind(reason), now);
   if (place == nullptr) {
@@ -47,15 +58,15 @@ void RefusalLog::refuse(const std::string& reason) {
     ++place->unlogged;
     return;
   }
-  ROS_ERROR_STREAM(source_ << ": message refused: " << reason << and_more(place->unlogged, "since")
-                           << and_more(unlogged_, "for other reasons"));
+  ROS_ERROR_STREAM(label_ << ": message refused: " << reason << and_more(place->unlogged, "since")
+                          << and_more(unlogged_, "for other reasons"));
   place->logged = now;
   place->unlogged = 0;
   unlogged_ = 0;
 }
 
 /// The entry of a reason, a new one if need be; nullptr if all are taken by reasons of this second.
-RefusalLog::Reason* RefusalLog::place_of(const std::string& kind, const ros::SteadyTime& now) {
+MessageLog::Reason* MessageLog::place_of(const std::string& kind, const ros::SteadyTime& now) {
   for (Reason& reason : reasons_) {
     if (reason.kind == kind) {
       return &reason;
@@ -74,6 +85,25 @@ RefusalLog::Reason* RefusalLog::place_of(const std::string& kind, const ros::Ste
   unlogged_ += oldest.unlogged;
   oldest = {kind, {}};
   return &oldest;
+}
+
+void SequenceGaps::add(const std::string& publisher, std::uint32_t sequence) {
+  is_numbered_ = is_numbered_ || sequence != 0;
+  const auto found =
+      std::find_if(publishers_.begin(), publishers_.end(),
+                   [&publisher](const Publisher& other) { return other.name == publisher; });
+  if (found == publishers_.end()) {
+    if (publishers_.size() == most_publishers) {
+      publishers_.pop_back();
+    }
+    publishers_.insert(publishers_.begin(), {publisher, sequence});
+    return;
+  }
+  if (sequence > found->last) {
+    count_ += sequence - found->last - 1;
+  }
+  found->last = sequence;
+  std::rotate(publishers_.begin(), found, found + 1);
 }
 
 }  // namespace fiber_proximity_ros

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <ros/console.h>
+#include <ros/exceptions.h>
+#include <ros/node_handle.h>
+#include <xmlrpcpp/XmlRpcValue.h>
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "fiber_proximity/ros/conversions.hpp"
+#include "src/ros/inputs/marker_input.hpp"
+#include "src/ros/inputs/missing_points.hpp"
+
+namespace fiber_proximity_ros {
+
+/// One source of fibres: an entry of the parameter `~inputs`.
+struct InputOptions {
+  std::string topic;
+  std::string type = "fiber_proximity/FiberArray";  ///< of its messages, one that subscribe() knows
+
+  /// Of the fibre, where the message does not name it; of several: name/0, name/1, ...
+  /// Empty: the topic.
+  std::string name;
+
+  double radius = 0.005;  ///< [m] where the message has none; 5 mm, a common cable
+
+  MissingPoints missing_points = MissingPoints::REFUSE;
+
+  MarkerInputOptions marker;  ///< used by the marker types
+
+  std::string where;  ///< what the log calls the entry
+};
+
+/// Reads one entry of the list; keys that are absent keep their defaults.
+/// @throws std::invalid_argument naming key, value and what is allowed
+InputOptions read_input_options(const XmlRpc::XmlRpcValue& entry, double default_radius);
+
+/// Reads the fibres of one message, in the message's frame.
+/// Returns false if the message holds none for this input; throws std::invalid_argument if it is
+/// malformed.
+using ReadMessage = std::function<bool(FiberBuffer& chains)>;
+
+/// A message as it arrives.
+struct ReceivedMessage {
+  ReadMessage read;
+  std::string publisher;                  ///< name of the node that has sent it
+  std::optional<std::uint32_t> sequence;  ///< its header.seq; none where roscpp numbers none
+};
+
+using Receiver = std::function<void(const ReceivedMessage&)>;
+
+/// Subscribes to the input's topic; the receiver is called once per message, of which the newest is
+/// kept while it is busy.
+/// @throws std::invalid_argument for an unknown type
+ros::Subscriber subscribe(ros::NodeHandle& node, const InputOptions& options,
+                          const Receiver& receiver);
+
+/// Calls a function that subscribes to a topic that somebody has configured. A topic has one type
+/// in a process: where another part of it, or another nodelet, has subscribed with another type,
+/// this one is left out, and the log says so.
+/// @param where what the log calls what is left out
+/// @returns false if it is left out
+template <class Subscribe>
+bool subscribes(const std::string& where, const Subscribe& subscribe) {
+  try {
+    subscribe();
+    return true;
+  } catch (const ros::ConflictingSubscriptionException& error) {
+    ROS_ERROR_STREAM(where << " is left out: its topic is subscribed to with another type already: "
+                           << error.what());
+    return false;
+  }
+}
+
+}  // namespace fiber_proximity_ros
