@@ -2,8 +2,6 @@
 
 # What it draws, free of rviz: tested without.
 add_library(fiber_proximity_mesh STATIC
-  src/rviz/contact_pairing.cpp
-  src/rviz/fiber_chunks.cpp
   src/rviz/fiber_colors.cpp
   src/rviz/fiber_detail.cpp
   src/rviz/fiber_mesh.cpp
@@ -25,7 +23,6 @@ add_library(fiber_proximity_rviz SHARED
   src/rviz/display_properties.cpp
   src/rviz/fiber_array_display.cpp
   src/rviz/fiber_materials.cpp
-  src/rviz/fiber_part.cpp
   src/rviz/fiber_renderable.cpp
   src/rviz/view_fitter.cpp
 )

@@ -1,6 +1,5 @@
 #include "src/rviz/view_fit.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cassert>
 #include <cmath>

@@ -1,5 +1,4 @@
-#include "src/rviz/view_fitter.hpp"
-
+// Where rviz looks: apart from view_fit.cpp, which is free of rviz.
 #include <OgreCamera.h>
 #include <rviz/view_controller.h>
 
@@ -45,8 +44,6 @@ OrbitView orbit_view(rviz::ViewController& view, const std::string& frame) {
 }
 
 }  // namespace
-
-void ViewFitter::forget() { fiber_count_ = 0; }
 
 void ViewFitter::fit(rviz::ViewController& view, const std::string& frame,
                      const fiber::FiberAssembly& fibers, const Eigen::Isometry3d& pose) {

@@ -2,15 +2,11 @@
 
 #include <ros/console.h>
 
-#include <limits>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "fiber_proximity/ros/conversions.hpp"
-#include "src/ros/outputs/contact_array.hpp"
-#include "src/ros/outputs/legend.hpp"
-#include "src/ros/server/query_settings.hpp"
+#include "src/ros/server/query_options.hpp"
 #include "src/ros/support/callback_task.hpp"
 #include "src/ros/support/stopwatch.hpp"
 
@@ -33,8 +29,7 @@ ProximityServer::ProximityServer(const ros::NodeHandle& node, const ros::NodeHan
       detector_(options_.engine, options_.engine_options),
       motion_detector_(options_.engine, options_.engine_options),
       step_(options_.timing.input_timeout),
-      contacts_publisher_(private_node_.advertise<fiber_proximity::ContactArray>("contacts", 1)),
-      touches_(fiber_proximity::Contact::FIBER, advertise_contact_events(private_node_)),
+      contacts_(private_node_, "contacts", fiber_proximity::Contact::FIBER),
       fibers_publisher_(private_node_.advertise<fiber_proximity::FiberArray>("fibers", 1)),
       markers_publisher_(private_node_.advertise<visualization_msgs::MarkerArray>("markers", 1)),
       inputs_(node_, options_.inputs, options_.timing, options_.fixed_frame,
@@ -103,7 +98,9 @@ void ProximityServer::publish() {
   statistics_.begin();
   statistics_.add_part("merge", inputs_.take_work_time());
   if (fibers_publisher_.getNumSubscribers() > 0) {
-    publish_fibers();
+    to_message(inputs_.fibers(), inputs_.names(), fibers_message_);
+    fibers_message_.header = inputs_.header();
+    fibers_publisher_.publish(fibers_message_);
   }
   if (crossings_.is_wanted()) {
     const Stopwatch crossings_time;
@@ -113,15 +110,14 @@ void ProximityServer::publish() {
   const bool statistics = statistics_.has_listeners();
   drawing_is_due_ = markers_publisher_.getNumSubscribers() > 0;
   const bool everything = statistics || drawing_is_due_;
-  const bool contacts = contacts_publisher_.getNumSubscribers() > 0 || touches_.has_listeners();
   const Stopwatch stopwatch;
-  if ((everything || contacts) && !detect()) {
-    return;
-  }
-  if (everything || contacts) {
-    track_contacts();
+  if (everything || contacts_.has_listeners()) {
+    if (!detect()) {
+      return;
+    }
+    publish_contacts();
   } else {
-    touches_.skip();
+    contacts_.skip();
   }
   if (environment_.is_used() && (everything || environment_.has_listeners())) {
     const ContinuousStep step{step_.motion(), step_.time(), config_.motion_tolerance};
@@ -130,7 +126,9 @@ void ProximityServer::publish() {
     environment_.skip();
   }
   if (prediction_.is_wanted()) {
-    predict();
+    const Stopwatch prediction_time;
+    prediction_.publish(query_options_, environment_);
+    statistics_.add_part("prediction", prediction_time.seconds());
   } else {
     prediction_.skip();
   }
@@ -144,7 +142,7 @@ void ProximityServer::publish() {
   }
 }
 
-/// Finds contacts and closest pair of the fibres, and publishes them.
+/// Finds contacts and closest pair of the fibres.
 /// @returns false if the engine cannot
 bool ProximityServer::detect() {
   try {
@@ -166,13 +164,17 @@ bool ProximityServer::detect() {
   return true;
 }
 
-/// What came into contact since the fibres before. Where that cannot be told, the answer is of its
-/// stamp alone.
-void ProximityServer::detect_motion() {
+/// What came into contact since the fibres before; nothing where that cannot be told, and the
+/// answer is of its stamp alone.
+std::optional<KnownMotion> ProximityServer::detect_motion() {
+  std::optional<KnownMotion> motion;
   if (step_.is_motion()) {
     try {
-      motion_detector_.detect(step_, query_options_, config_.motion_tolerance);
-      statistics_.add_part("motion", motion_detector_.time());
+      const Stopwatch stopwatch;
+      motion.emplace(motion_detector_.detect(
+          {step_.motion(), step_.time(), config_.motion_tolerance}, query_options_,
+          detector_.detection().has_all_of(query_options_)));
+      statistics_.add_part("motion", stopwatch.seconds());
     } catch (const std::invalid_argument& error) {
       step_.refuse(error.what());
     }
@@ -181,31 +183,20 @@ void ProximityServer::detect_motion() {
     ROS_WARN_STREAM_THROTTLE(
         1.0, "continuous: " << step_.problem() << "; this answer is of its stamp alone");
   }
+  return motion;
 }
 
 /// Recognises the contacts that were found, and publishes them.
-void ProximityServer::track_contacts() {
-  detect_motion();
+void ProximityServer::publish_contacts() {
+  const std::optional<KnownMotion> motion = detect_motion();
   const Stopwatch stopwatch;
-  const Detection& found = detector_.detection();
-  const fiber::TimeBounds step = touches_.step_to(to_time(inputs_.header().stamp));
-  std::optional<KnownMotion> motion;
-  if (step_.is_motion()) {
-    motion.emplace(motion_detector_.known_motion(found.has_all_of(query_options_)));
-  }
-  contacts_.assign(found.contacts().contacts, step, motion ? &*motion : nullptr);
-  touches_.track(contacts_.contacts(), {inputs_.names(), {}}, inputs_.header());
+  const BodyNames names{inputs_.names(), {}};
+  const ContactAnswer answer{detector_.detection(), query_options_, motion ? &*motion : nullptr,
+                             names, inputs_.header()};
+  contacts_.track(answer);
   passed_.add(contacts_.contacts());
   statistics_.add_part("touches", stopwatch.seconds());
-  if (contacts_publisher_.getNumSubscribers() > 0) {
-    publish_contacts();
-  }
-}
-
-void ProximityServer::predict() {
-  const Stopwatch stopwatch;
-  prediction_.publish(query_options_, environment_);
-  statistics_.add_part("prediction", stopwatch.seconds());
+  contacts_.publish(answer, config_.gradients, detector_.update_time());
 }
 
 /// @param step see EnvironmentOutput
@@ -230,27 +221,6 @@ void ProximityServer::detect_in_environment(const ContinuousStep* step) {
     statistics_.add_part("environment_motion", environment_.motion_time());
   }
   environment_.publish(query_options_, config_.gradients);
-}
-
-void ProximityServer::publish_fibers() {
-  to_message(inputs_.fibers(), inputs_.names(), fibers_message_);
-  fibers_message_.header = inputs_.header();
-  fibers_publisher_.publish(fibers_message_);
-}
-
-void ProximityServer::publish_contacts() {
-  to_message(detector_.detection(),
-             {contacts_.contacts(), touches_, step_.time().lower, config_.gradients},
-             query_options_, fiber_proximity::Contact::FIBER, inputs_.header(), contacts_message_);
-  contacts_message_.fiber_names = inputs_.names();
-  contacts_message_.continuous = step_.is_motion();
-  if (step_.is_motion()) {
-    const fiber::MotionResult& motion = motion_detector_.result();
-    contacts_message_.complete = contacts_message_.complete && motion.complete;
-    contacts_message_.limit_reached = contacts_message_.limit_reached || motion.limit_reached;
-  }
-  contacts_message_.update_time = detector_.update_time();
-  contacts_publisher_.publish(contacts_message_);
 }
 
 void ProximityServer::publish_markers_if_due() {
