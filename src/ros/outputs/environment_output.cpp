@@ -40,8 +40,8 @@ void EnvironmentOutput::detect(const fiber::QueryOptions& options, bool wants_mi
   motion_time_ = 0.0;
   if (step != nullptr && before != nullptr && has_listeners()) {
     const Stopwatch motion_time;
-    motion_.emplace(detect_motion(*step, {before, environment_}, options, allowed,
-                                  detection_.has_all_of(options), motion_result_));
+    motion_.emplace(detect_motion_contacts({before, environment_}, allowed, *step, options,
+                                           detection_.has_all_of(options), motion_result_));
     motion_time_ = motion_time.seconds();
   }
 }

@@ -94,16 +94,17 @@ void add_what_is_gone(const std::vector<fiber::Contact>& now,
 
 }  // namespace
 
-KnownMotion MotionDetector::detect(const ContinuousStep& step, const fiber::QueryOptions& options,
-                                   bool reports_all) {
+KnownMotion detect_motion_contacts(fiber::ProximityEngine& engine, const ContinuousStep& step,
+                                   const fiber::QueryOptions& options, bool reports_all,
+                                   fiber::MotionResult& result) {
   const fiber::FiberMotion motion = step.motion;
   const fiber::MotionOptions asked = fiber::motion_options(options, step.tolerance);
-  engine_->update_motion(motion.before, motion.after);
-  engine_->query_motion(asked, result_);
+  engine.update_motion(motion.before, motion.after);
+  engine.query_motion(asked, result);
   if (options.type == fiber::QueryType::FIBER_PAIRS) {
-    keep_earliest_of_fiber_pairs(result_.contacts);
+    keep_earliest_of_fiber_pairs(result.contacts);
   }
-  return {result_,
+  return {result,
           [motion](const MotionContact& contact) {
             return fiber::first_contact(motion, motion, contact);
           },
@@ -113,9 +114,10 @@ KnownMotion MotionDetector::detect(const ContinuousStep& step, const fiber::Quer
           step.time, reports_all};
 }
 
-KnownMotion detect_motion(const ContinuousStep& step, const MovingEnvironment& environment,
-                          const fiber::QueryOptions& options, const fiber::AllowedPairs& allowed,
-                          bool reports_all, fiber::MotionResult& result) {
+KnownMotion detect_motion_contacts(const MovingEnvironment& environment,
+                                   const fiber::AllowedPairs& allowed, const ContinuousStep& step,
+                                   const fiber::QueryOptions& options, bool reports_all,
+                                   fiber::MotionResult& result) {
   const fiber::FiberMotion motion = step.motion;
   const fiber::MotionOptions asked = fiber::motion_options(options, step.tolerance);
   const std::shared_ptr<const Environment> before = as_before(environment);

@@ -3,7 +3,6 @@
 #include <chrono>
 #include <functional>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "fiber_proximity/environment/environment.hpp"
@@ -33,25 +32,16 @@ struct KnownMotion {
   bool reports_all = true;
 };
 
-/// Contacts of the fibres with each other in a step, from an engine that is there for motions.
-class MotionDetector {
- public:
-  /// @throws std::invalid_argument as fiber::make_engine()
-  explicit MotionDetector(const std::string& engine, const fiber::EngineOptions& options = {})
-      : engine_(fiber::make_engine(engine, options)) {}
-
-  /// Finds what came into contact. The fibres must live, unchanged, as long as what is found is
-  /// used: until the next call, at most.
-  /// @param options     of the query whose contacts there are now
-  /// @param reports_all see KnownMotion
-  /// @throws std::invalid_argument for fibres that move too far, or that the engine cannot take
-  KnownMotion detect(const ContinuousStep& step, const fiber::QueryOptions& options,
-                     bool reports_all);
-
- private:
-  std::unique_ptr<fiber::ProximityEngine> engine_;
-  fiber::MotionResult result_;
-};
+/// Finds what of the fibres came into contact with each other in a step. They must live, unchanged,
+/// as long as what is found is used.
+/// @param engine      that is there for motions
+/// @param options     of the query whose contacts there are now
+/// @param reports_all see KnownMotion
+/// @param result      what is found refers to it
+/// @throws std::invalid_argument for fibres that move too far, or that the engine cannot take
+KnownMotion detect_motion_contacts(fiber::ProximityEngine& engine, const ContinuousStep& step,
+                                   const fiber::QueryOptions& options, bool reports_all,
+                                   fiber::MotionResult& result);
 
 /// What is around the fibres before a step and after it.
 struct MovingEnvironment {
@@ -59,16 +49,14 @@ struct MovingEnvironment {
   std::shared_ptr<const fiber::Environment> now;
 };
 
-/// Finds what of the fibres came into contact with what is around them. Objects move from where
-/// they were to where they are; those that were not there before, or had other shapes, as a point
-/// cloud does, count as standing still. The fibres must live as for MotionDetector.
-/// @param options     of the query whose contacts there are now
-/// @param reports_all see KnownMotion
-/// @param result      what is found refers to it
+/// The same for contacts with what is around them. Objects move from where they were to where they
+/// are; those that were not there before, or had other shapes, as a point cloud does, count as
+/// standing still.
 /// @throws std::invalid_argument as fiber::Environment::query_motion()
-KnownMotion detect_motion(const ContinuousStep& step, const MovingEnvironment& environment,
-                          const fiber::QueryOptions& options, const fiber::AllowedPairs& allowed,
-                          bool reports_all, fiber::MotionResult& result);
+KnownMotion detect_motion_contacts(const MovingEnvironment& environment,
+                                   const fiber::AllowedPairs& allowed, const ContinuousStep& step,
+                                   const fiber::QueryOptions& options, bool reports_all,
+                                   fiber::MotionResult& result);
 
 /// A contact during the step from the answer before to this one.
 struct StepContact {

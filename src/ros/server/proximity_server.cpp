@@ -27,7 +27,7 @@ ProximityServer::ProximityServer(const ros::NodeHandle& node, const ros::NodeHan
       options_(read_server_options(node, private_node)),
       config_(options_.config),
       detector_(options_.engine, options_.engine_options),
-      motion_detector_(options_.engine, options_.engine_options),
+      motion_engine_(fiber::make_engine(options_.engine, options_.engine_options)),
       step_(options_.timing.input_timeout),
       contacts_(private_node_, "contacts", fiber_proximity::Contact::FIBER),
       fibers_publisher_(private_node_.advertise<fiber_proximity::FiberArray>("fibers", 1)),
@@ -42,8 +42,9 @@ ProximityServer::ProximityServer(const ros::NodeHandle& node, const ros::NodeHan
       prediction_(private_node_, inputs_, options_.engine, options_.engine_options),
       comparison_(private_node_, {inputs_, detector_, query_options_, options_.engine},
                   [this] { process(); }),
-      queries_(private_node_, {inputs_, detector_, environment_.inputs(), query_options_},
-               [this] { process(); }),
+      queries_(serve_queries(private_node_,
+                             {inputs_, detector_, environment_.inputs(), query_options_},
+                             [this] { process(); })),
       reconfigure_server_(private_node_) {
   reconfigure_server_.setCallback(
       [this](AskedConfig& config, std::uint32_t /*level*/) { reconfigure(config); });
@@ -171,9 +172,9 @@ std::optional<KnownMotion> ProximityServer::detect_motion() {
   if (step_.is_motion()) {
     try {
       const Stopwatch stopwatch;
-      motion.emplace(motion_detector_.detect(
-          {step_.motion(), step_.time(), config_.motion_tolerance}, query_options_,
-          detector_.detection().has_all_of(query_options_)));
+      motion.emplace(detect_motion_contacts(
+          *motion_engine_, {step_.motion(), step_.time(), config_.motion_tolerance}, query_options_,
+          detector_.detection().has_all_of(query_options_), motion_result_));
       statistics_.add_part("motion", stopwatch.seconds());
     } catch (const std::invalid_argument& error) {
       step_.refuse(error.what());
@@ -243,9 +244,16 @@ void ProximityServer::publish_markers_if_due() {
   if (marker_options_.show_crossings) {
     crossings_.find(inputs_.fibers(), inputs_.header());
   }
+  EnvironmentMarkerOptions around_options;
+  // What was detected while there was something around is not to be seen any more when there is
+  // not.
+  const bool is_used = environment_.is_used();
+  around_options.show_objects = is_used && config_.show_objects;
+  around_options.show_distances = is_used && config_.show_contacts;
+  around_options.show_nearest = is_used && config_.show_nearest;
   std::vector<LegendLine> legend;
   if (marker_options_.show_legend) {
-    legend = legend_lines(marker_options_, environment_marker_options(), query_options_.margin);
+    legend = legend_lines(marker_options_, around_options, query_options_.margin);
   }
   passed_.forget_old();
   const CrossingDrawing crossings{crossings_.crossings(), crossings_.view()};
@@ -263,19 +271,8 @@ void ProximityServer::publish_markers_if_due() {
   environment_markers_.append(inputs_.header(),
                               {inputs_.fibers(), environment_.environment().objects(),
                                around.contacts().contacts, around.minimum()},
-                              environment_marker_options(), markers_message_);
+                              around_options, markers_message_);
   markers_publisher_.publish(markers_message_);
-}
-
-EnvironmentMarkerOptions ProximityServer::environment_marker_options() const {
-  // What was detected while there was something around is not to be seen any more when there is
-  // not.
-  const bool is_used = environment_.is_used();
-  EnvironmentMarkerOptions options;
-  options.show_objects = is_used && config_.show_objects;
-  options.show_distances = is_used && config_.show_contacts;
-  options.show_nearest = is_used && config_.show_nearest;
-  return options;
 }
 
 void ProximityServer::reconfigure(AskedConfig& config) {

@@ -3,6 +3,7 @@
 #include <dynamic_reconfigure/server.h>
 #include <ros/node_handle.h>
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -29,8 +30,8 @@ namespace fiber_proximity_ros {
 ///
 /// Publishes ~contacts, ~environment_contacts, ~contact_events, ~time_to_contact, ~crossings (see
 /// CrossingsOutput), ~fibers, ~markers, ~statistics, ~comparison and /diagnostics; serves ~compare,
-/// and what QueryServices and EnvironmentInputs serve. Each set of messages that have arrived gives
-/// one answer, each answer is published once, and what nobody subscribes to is not computed.
+/// and what serve_queries() and EnvironmentInputs serve. Each set of messages that have arrived
+/// gives one answer, each answer is published once, and what nobody subscribes to is not computed.
 class ProximityServer {
  public:
   /// @throws std::invalid_argument for a bad parameter (see read_server_options) or an unknown
@@ -53,7 +54,6 @@ class ProximityServer {
   void publish_contacts();
   void detect_in_environment(const ContinuousStep* step);
   void publish_markers_if_due();
-  EnvironmentMarkerOptions environment_marker_options() const;
 
   void reconfigure(AskedConfig& config);
 
@@ -64,7 +64,8 @@ class ProximityServer {
   fiber::QueryOptions query_options_;
   MarkerOptions marker_options_;
   Detector detector_;
-  MotionDetector motion_detector_;
+  std::unique_ptr<fiber::ProximityEngine> motion_engine_;
+  fiber::MotionResult motion_result_;
   FiberStep step_;
   FiberState newest_state_;  // for its memory
 
@@ -92,7 +93,7 @@ class ProximityServer {
   StatisticsOutput statistics_;
   PredictionOutput prediction_;
   ComparisonOutput comparison_;
-  QueryServices queries_;
+  std::vector<ros::ServiceServer> queries_;
   dynamic_reconfigure::Server<AskedConfig> reconfigure_server_;
   ros::SteadyTimer tick_timer_;
   ros::SteadyTimer retry_timer_;

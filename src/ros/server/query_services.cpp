@@ -5,8 +5,8 @@
 #include <limits>
 #include <memory>
 #include <stdexcept>
-#include <utility>
 
+#include "fiber_proximity/QueryProximity.h"
 #include "fiber_proximity/ros/conversions.hpp"
 #include "src/query/merge_results.hpp"
 #include "src/ros/inputs/naming.hpp"
@@ -124,33 +124,23 @@ void answer(const QueryProximity::Request& request, const QueryTarget& target,
   }
 }
 
-}  // namespace
-
-QueryServices::QueryServices(ros::NodeHandle private_node, const Subject& subject,
-                             std::function<void()> before_answer)
-    : subject_(subject),
-      before_answer_(std::move(before_answer)),
-      query_server_(private_node.advertiseService("query", &QueryServices::query, this)),
-      check_server_(
-          private_node.advertiseService("check_fibers", &QueryServices::check_fibers, this)) {}
-
 /// Answers a request about what there is now, or says why it cannot.
 template <class Request, class Response, class Answer>
-bool QueryServices::respond(const Request& request, bool asks_about_fibers, Response& response,
-                            const Answer& answer_it) {
+bool respond(const QuerySubject& subject, const std::function<void()>& before_answer,
+             const Request& request, bool asks_about_fibers, Response& response,
+             const Answer& answer_it) {
   const fiber::Deadline deadline(request.deadline);
-  before_answer_();  // asked after a message arrived, answered with it
+  before_answer();  // asked after a message arrived, answered with it
   try {
-    InputSet& fibers = subject_.fibers;
+    InputSet& fibers = subject.fibers;
     if (asks_about_fibers) {
       fibers.require_fresh();
     }
-    const std::shared_ptr<const fiber::Environment> environment =
-        subject_.environment.environment();
+    const std::shared_ptr<const fiber::Environment> environment = subject.environment.environment();
     const fiber::FiberAssembly& merged = fibers.fibers();
     answer_it(QueryTarget{merged, fibers.names(),
-                          asks_about_fibers ? &subject_.detector.engine() : nullptr, *environment,
-                          fibers.frame(), subject_.defaults, deadline});
+                          asks_about_fibers ? &subject.detector.engine() : nullptr, *environment,
+                          fibers.frame(), subject.defaults, deadline});
     response.header = fibers.header();
     if (!fibers.is_fresh()) {
       response.header.frame_id = fibers.frame().name();
@@ -166,19 +156,27 @@ bool QueryServices::respond(const Request& request, bool asks_about_fibers, Resp
   return true;
 }
 
-bool QueryServices::query(QueryProximity::Request& request, QueryProximity::Response& response) {
-  const bool asks_about_fibers = request.against != QueryProximity::Request::ENVIRONMENT;
-  return respond(request, asks_about_fibers, response,
-                 [&](const QueryTarget& target) { answer(request, target, response); });
-}
+}  // namespace
 
-bool QueryServices::check_fibers(CheckFibers::Request& request, CheckFibers::Response& response) {
-  return respond(request, request.ignore_fibers == 0, response, [&](const QueryTarget& target) {
-    const auto allowed = [this](const std::vector<std::string>& names) {
-      return subject_.environment.allowed(names);
+std::vector<ros::ServiceServer> serve_queries(ros::NodeHandle private_node,
+                                              const QuerySubject& subject,
+                                              const std::function<void()>& before_answer) {
+  using Query = boost::function<bool(QueryProximity::Request&, QueryProximity::Response&)>;
+  const Query query = [=](const auto& request, auto& response) {
+    return respond(subject, before_answer, request,
+                   request.against != QueryProximity::Request::ENVIRONMENT, response,
+                   [&](const QueryTarget& target) { answer(request, target, response); });
+  };
+  using Check = boost::function<bool(CheckFibers::Request&, CheckFibers::Response&)>;
+  const Check check = [=](const auto& request, auto& response) {
+    const auto allowed = [&](const std::vector<std::string>& names) {
+      return subject.environment.allowed(names);
     };
-    answer(request, target, allowed, response);
-  });
+    return respond(subject, before_answer, request, request.ignore_fibers == 0, response,
+                   [&](const QueryTarget& target) { answer(request, target, allowed, response); });
+  };
+  return {private_node.advertiseService("query", query),
+          private_node.advertiseService("check_fibers", check)};
 }
 
 }  // namespace fiber_proximity_ros

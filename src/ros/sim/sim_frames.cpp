@@ -56,20 +56,6 @@ void SimFrames::wait_for(const std::vector<fiber::FollowedFrame>& frames, double
   }
 }
 
-/// Where something in a frame is in the world, or as far on the way there as a step leads.
-fiber::Placement SimFrames::next_placement(const fiber::SimScene& scene,
-                                           const fiber::FollowedFrame& followed,
-                                           const Eigen::Isometry3d& frame, Watch& watch) const {
-  const fiber::Placement& last = followed.path->back().second;
-  const fiber::Placement& in_frame = followed.in_frame;
-  const fiber::Lead lead = fiber::lead(scene, {followed.rod, followed.node}, last.position,
-                                       frame * in_frame.position, fastest_frame);
-  note(followed, !lead.problem.empty(),
-       " does not follow frame " + fiber::quote(followed.frame) + ": " + lead.problem,
-       watch.is_held_back);
-  return {lead.position, frame.linear() * in_frame.tangent, frame.linear() * in_frame.director};
-}
-
 void SimFrames::follow(const fiber::SimScene& scene) {
   const double start = scene.stepper->time();
   for (const fiber::FollowedFrame& followed : scene.frames) {
@@ -85,7 +71,15 @@ void SimFrames::follow(const fiber::SimScene& scene) {
                   is_new ? ""
                          : "nothing new of frame " + fiber::quote(followed.frame) +
                                " for more than " + std::to_string(timeout_) + " s");
-      next = next_placement(scene, followed, frame.pose, watch);
+      const fiber::Placement& in_frame = followed.in_frame;
+      // As far on the way there as a step leads.
+      const fiber::Lead lead = fiber::lead(scene, {followed.rod, followed.node}, last.position,
+                                           frame.pose * in_frame.position, fastest_frame);
+      note(followed, !lead.problem.empty(),
+           " does not follow frame " + fiber::quote(followed.frame) + ": " + lead.problem,
+           watch.is_held_back);
+      next = {lead.position, frame.pose.linear() * in_frame.tangent,
+              frame.pose.linear() * in_frame.director};
     } catch (const TransformUnavailable& error) {
       this->watch(followed, watch, error.what());
     }
