@@ -5,7 +5,6 @@ add_library(fiber_proximity_mesh STATIC
   src/rviz/fiber_colors.cpp
   src/rviz/fiber_detail.cpp
   src/rviz/fiber_mesh.cpp
-  src/rviz/view_fit.cpp
 )
 set_target_properties(fiber_proximity_mesh PROPERTIES POSITION_INDEPENDENT_CODE ON)
 target_link_libraries(fiber_proximity_mesh
@@ -24,7 +23,7 @@ add_library(fiber_proximity_rviz SHARED
   src/rviz/fiber_array_display.cpp
   src/rviz/fiber_materials.cpp
   src/rviz/fiber_renderable.cpp
-  src/rviz/view_fitter.cpp
+  src/rviz/view_fit.cpp
 )
 #catkin_lint: ignore_once external_directory
 #catkin_lint: ignore_once external_interface_path

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -33,7 +36,29 @@ struct ViewFit {
 /// them, has room beside.
 /// @param points [m] at least one
 /// @param share  above 0 and at most 1
-ViewFit fit_view(const std::vector<Eigen::Vector3d>& points, const OrbitView& view, double share);
+inline ViewFit fit_view(const std::vector<Eigen::Vector3d>& points, const OrbitView& view,
+                        double share) {
+  assert(!points.empty() && share > 0.0 && share <= 1.0);
+  const Eigen::Vector3d to_camera(std::cos(view.yaw) * std::cos(view.pitch),
+                                  std::sin(view.yaw) * std::cos(view.pitch), std::sin(view.pitch));
+  const Eigen::Vector3d right(-std::sin(view.yaw), std::cos(view.yaw), 0.0);
+  const Eigen::Vector3d up = to_camera.cross(right);
+  // As the camera has them: to the right, upwards, towards it.
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& point : points) {
+    box.extend(Eigen::Vector3d(right.dot(point), up.dot(point), to_camera.dot(point)));
+  }
+  const Eigen::Vector3d center = box.center();
+  ViewFit fit;
+  fit.focal_point = center.x() * right + center.y() * up + center.z() * to_camera;
+  for (const Eigen::Vector3d& point : points) {
+    const Eigen::Vector3d offset = point - fit.focal_point;
+    const double sideways = std::max(std::abs(right.dot(offset)) / view.tan_half_width,
+                                     std::abs(up.dot(offset)) / view.tan_half_height);
+    fit.distance = std::max(fit.distance, to_camera.dot(offset) + sideways / share);
+  }
+  return fit;
+}
 
 /// Moves rviz's view to where fibres are: once, and again when there are more of them, as long as
 /// nobody has moved it since.

@@ -70,14 +70,11 @@ bool ComparisonOutput::publish_if_wanted() {
   if (!is_on_ || publisher_.getNumSubscribers() == 0) {
     return false;
   }
-  fiber_proximity::Comparison message;
   try {
-    compare(message);
+    publisher_.publish(compare());
   } catch (const std::exception& error) {
     ROS_ERROR_STREAM_THROTTLE(1.0, "no comparison with FCL: " << error.what());
-    return true;
   }
-  publisher_.publish(message);
   return true;
 }
 
@@ -86,7 +83,7 @@ bool ComparisonOutput::answer(fiber_proximity::CompareWithFcl::Request& /*reques
   before_answer_();
   try {
     subject_.inputs.require_fresh();
-    compare(response.comparison);
+    response.comparison = compare();
     response.success = true;
   } catch (const std::exception& error) {
     response = fiber_proximity::CompareWithFcl::Response();
@@ -95,7 +92,8 @@ bool ComparisonOutput::answer(fiber_proximity::CompareWithFcl::Request& /*reques
   return true;
 }
 
-void ComparisonOutput::compare(fiber_proximity::Comparison& message) {
+fiber_proximity::Comparison ComparisonOutput::compare() {
+  fiber_proximity::Comparison message;
   const fiber::Comparison found =
       comparer_.compare(subject_.inputs.fibers(), subject_.detector.engine(), subject_.query);
   message.header = subject_.inputs.header();
@@ -111,6 +109,7 @@ void ComparisonOutput::compare(fiber_proximity::Comparison& message) {
     message.fcl.push_back(message_of(style));
   }
   message.ours_is_right = found.ours_is_right();
+  return message;
 }
 
 }  // namespace fiber_proximity_ros

@@ -1,7 +1,6 @@
 #include "src/ros/outputs/tube_mesh.hpp"
 
 #include <Eigen/Geometry>
-#include <array>
 #include <cassert>
 #include <cmath>
 
@@ -64,62 +63,6 @@ double drawn_radius(const fiber::FiberAssembly& fibers, std::uint32_t point) {
   return radius > 0.0 ? radius : hairline_radius;
 }
 
-using Corners = std::array<Vector3d, tube_sides>;
-
-Corners corners_of(const TubeRing& ring) {
-  static const std::vector<Eigen::Vector2d> directions = corner_directions(tube_sides);
-  Corners corners;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    corners[i] = ring.center + ring.radius * ring.outward(directions[i]);
-  }
-  return corners;
-}
-
-/// Spans a closed skin over rings.
-class Skin {
- public:
-  explicit Skin(std::vector<geometry_msgs::Point>& triangles) : triangles_(triangles) {}
-
-  /// Half a sphere behind the first ring.
-  void open(const TubeRing& first) {
-    last_ = corners_of(collar(first, -1.0));
-    const Vector3d pole = first.center - first.radius * first.tangent;
-    for (std::size_t i = 0; i < last_.size(); ++i) {
-      add_triangle(pole, last_[next(i)], last_[i]);
-    }
-  }
-
-  void add(const TubeRing& ring) {
-    const Corners corners = corners_of(ring);
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      add_triangle(last_[i], last_[next(i)], corners[i]);
-      add_triangle(corners[i], last_[next(i)], corners[next(i)]);
-    }
-    last_ = corners;
-  }
-
-  /// Half a sphere ahead of the last ring.
-  void close(const TubeRing& last) {
-    add(collar(last, 1.0));
-    const Vector3d pole = last.center + last.radius * last.tangent;
-    for (std::size_t i = 0; i < last_.size(); ++i) {
-      add_triangle(pole, last_[i], last_[next(i)]);
-    }
-  }
-
- private:
-  static std::size_t next(std::size_t i) { return (i + 1) % tube_sides; }
-
-  void add_triangle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
-    for (const Vector3d* corner : {&a, &b, &c}) {
-      triangles_.push_back(to_message(*corner));
-    }
-  }
-
-  std::vector<geometry_msgs::Point>& triangles_;
-  Corners last_;
-};
-
 }  // namespace
 
 TubeRing collar(const TubeRing& end, double side) {
@@ -173,14 +116,25 @@ void sweep_tube(const fiber::FiberAssembly& fibers, std::uint32_t fiber,
 
 void append_tube(const fiber::FiberAssembly& fibers, std::uint32_t fiber,
                  std::vector<geometry_msgs::Point>& triangles) {
+  static const std::vector<Eigen::Vector2d> directions = corner_directions(tube_sides);
   std::vector<TubeRing> rings;
   sweep_tube(fibers, fiber, rings);
-  Skin skin(triangles);
-  skin.open(rings.front());
+  const TubeRing first = rings.front();
+  const TubeRing last = rings.back();
+  rings.insert(rings.begin(), collar(first, -1.0));
+  rings.push_back(collar(last, 1.0));
+  std::vector<geometry_msgs::Point> corners;
+  corners.push_back(to_message(Vector3d(first.center - first.radius * first.tangent)));
   for (const TubeRing& ring : rings) {
-    skin.add(ring);
+    for (const Eigen::Vector2d& direction : directions) {
+      corners.push_back(to_message(Vector3d(ring.center + ring.radius * ring.outward(direction))));
+    }
   }
-  skin.close(rings.back());
+  corners.push_back(to_message(Vector3d(last.center + last.radius * last.tangent)));
+  for_each_triangle(static_cast<std::uint32_t>(rings.size()), tube_sides,
+                    [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+                      triangles.insert(triangles.end(), {corners[a], corners[b], corners[c]});
+                    });
 }
 
 }  // namespace fiber_proximity_ros

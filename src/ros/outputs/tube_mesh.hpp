@@ -50,6 +50,25 @@ std::vector<Eigen::Vector2d> corner_directions(int sides);
 void sweep_tube(const fiber::FiberAssembly& fibers, std::uint32_t fiber,
                 std::vector<TubeRing>& rings);
 
+/// The triangles of a tube's skin, counter-clockwise from outside. Its corners are numbered: a
+/// pole, rows along the tube, each as corner_directions() has them, and the other pole.
+/// @param rows one per ring and one on each half sphere
+/// @param add  called with the numbers of three corners
+template <class Add>
+void for_each_triangle(std::uint32_t rows, std::uint32_t sides, const Add& add) {
+  const std::uint32_t first_row = 1;
+  const std::uint32_t last_row = first_row + (rows - 1) * sides;
+  for (std::uint32_t i = 0; i < sides; ++i) {
+    const std::uint32_t beside = (i + 1) % sides;
+    add(0U, first_row + beside, first_row + i);
+    for (std::uint32_t row = first_row; row != last_row; row += sides) {
+      add(row + i, row + beside, row + sides + i);
+      add(row + sides + i, row + beside, row + sides + beside);
+    }
+    add(last_row + sides, last_row + i, last_row + beside);
+  }
+}
+
 /// Number of corners around a tube.
 constexpr int tube_sides = 8;
 

@@ -210,11 +210,12 @@ void answer_all(const CheckFibers::Request& request, const QueryTarget& target,
   while (response.free.size() < count && !target.is_time_up()) {
     const std::size_t begin = response.free.size();
     const std::vector<std::string>& names = request.candidates[offsets[begin]].names;
-    std::vector<Item> items{read(begin)};
-    for (std::size_t i = begin + 1;
-         i < count && offsets[i + 1] - offsets[begin] <= most_candidates &&
-         request.candidates[offsets[i]].names == names && !target.is_time_up();
-         ++i) {
+    const auto is_next = [&](std::size_t i) {
+      return i == begin || (offsets[i + 1] - offsets[begin] <= most_candidates &&
+                            request.candidates[offsets[i]].names == names && !target.is_time_up());
+    };
+    std::vector<Item> items;
+    for (std::size_t i = begin; i < count && is_next(i); ++i) {
       items.push_back(read(i));
     }
     surroundings.allowed = find_allowed(names);
