@@ -21,38 +21,24 @@ add_library(fiber_proximity_ros SHARED
   src/ros/inputs/point_messages.cpp
   src/ros/inputs/stamp_matcher.cpp
   src/ros/outputs/comparison_output.cpp
-  src/ros/outputs/contact_array.cpp
-  src/ros/outputs/contact_events.cpp
-  src/ros/outputs/crossing_markers.cpp
+  src/ros/outputs/contact_output.cpp
   src/ros/outputs/crossings_output.cpp
-  src/ros/outputs/detection.cpp
   src/ros/outputs/detector.cpp
-  src/ros/outputs/diagnostics.cpp
   src/ros/outputs/environment_markers.cpp
-  src/ros/outputs/environment_motion_detector.cpp
   src/ros/outputs/environment_output.cpp
   src/ros/outputs/fiber_step.cpp
-  src/ros/outputs/legend.cpp
-  src/ros/outputs/marker_scale.cpp
+  src/ros/outputs/marker_canvas.cpp
   src/ros/outputs/markers.cpp
-  src/ros/outputs/motion_detector.cpp
+  src/ros/outputs/node_reports.cpp
   src/ros/outputs/prediction_output.cpp
-  src/ros/outputs/shape_marker.cpp
-  src/ros/outputs/statistics_output.cpp
   src/ros/outputs/step_contacts.cpp
   src/ros/outputs/tube_mesh.cpp
-  src/ros/outputs/tube_sweep.cpp
   src/ros/player/fiber_player.cpp
-  src/ros/server/candidates.cpp
   src/ros/server/check_service.cpp
-  src/ros/server/dynamic_parameters.cpp
-  src/ros/server/motion_check.cpp
   src/ros/server/proximity_server.cpp
+  src/ros/server/query_options.cpp
   src/ros/server/query_services.cpp
-  src/ros/server/query_settings.cpp
   src/ros/server/server_options.cpp
-  src/ros/server/shape_query.cpp
-  src/ros/sim/force_markers.cpp
   src/ros/sim/sim_forces.cpp
   src/ros/sim/sim_frames.cpp
   src/ros/sim/sim_markers.cpp

@@ -2,12 +2,9 @@
 
 # What it draws, free of rviz: tested without.
 add_library(fiber_proximity_mesh STATIC
-  src/rviz/contact_pairing.cpp
-  src/rviz/fiber_chunks.cpp
   src/rviz/fiber_colors.cpp
   src/rviz/fiber_detail.cpp
   src/rviz/fiber_mesh.cpp
-  src/rviz/view_fit.cpp
 )
 set_target_properties(fiber_proximity_mesh PROPERTIES POSITION_INDEPENDENT_CODE ON)
 target_link_libraries(fiber_proximity_mesh
@@ -25,9 +22,8 @@ add_library(fiber_proximity_rviz SHARED
   src/rviz/display_properties.cpp
   src/rviz/fiber_array_display.cpp
   src/rviz/fiber_materials.cpp
-  src/rviz/fiber_part.cpp
   src/rviz/fiber_renderable.cpp
-  src/rviz/view_fitter.cpp
+  src/rviz/view_fit.cpp
 )
 #catkin_lint: ignore_once external_directory
 #catkin_lint: ignore_once external_interface_path

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <utility>
+
 #include "fiber_proximity/ContactArray.h"
 #include "fiber_proximity/FiberArray.h"
 
@@ -18,16 +20,41 @@ class ContactPairing {
   /// [s] that fibres are kept back at most, counted from the last ones that were not.
   static constexpr double patience = 0.5;
 
-  void add(const fiber_proximity::FiberArrayConstPtr& fibers);
-  void add(const fiber_proximity::ContactArrayConstPtr& contacts);
-  void clear();
+  void add(const fiber_proximity::FiberArrayConstPtr& fibers) {
+    newest_.fibers = fibers;
+    fibers_wait_ = true;
+    match();
+  }
+
+  void add(const fiber_proximity::ContactArrayConstPtr& contacts) {
+    newest_.contacts = contacts;
+    match();
+  }
+
+  void clear() { *this = ContactPairing(); }
 
   /// What has become ready since the last call; null fibres if nothing has.
   /// @param elapsed [s] since that call
-  FibersAndContacts take(double elapsed);
+  FibersAndContacts take(double elapsed) {
+    if (fibers_wait_) {
+      waited_ += elapsed;
+      if (waited_ > patience) {  // and stays so until contacts match: the next ones do not wait
+        ready_ = {newest_.fibers, nullptr};
+        fibers_wait_ = false;
+      }
+    }
+    return std::exchange(ready_, FibersAndContacts());
+  }
 
  private:
-  void match();
+  void match() {
+    if (newest_.fibers && newest_.contacts &&
+        newest_.fibers->header.stamp == newest_.contacts->header.stamp) {
+      ready_ = newest_;
+      fibers_wait_ = false;
+      waited_ = 0.0;
+    }
+  }
 
   FibersAndContacts newest_;  // not necessarily of one stamp
   FibersAndContacts ready_;

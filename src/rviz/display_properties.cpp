@@ -1,14 +1,10 @@
 #include "src/rviz/display_properties.hpp"
 
 #include <ros/message_traits.h>
-#include <rviz/properties/bool_property.h>
-#include <rviz/properties/color_property.h>
-#include <rviz/properties/enum_property.h>
-#include <rviz/properties/float_property.h>
-#include <rviz/properties/int_property.h>
-#include <rviz/properties/ros_topic_property.h>
 
 #include <initializer_list>
+
+#include "fiber_proximity/ContactArray.h"
 
 namespace fiber_proximity_rviz {
 namespace {
@@ -16,11 +12,6 @@ namespace {
 template <class Value>
 void add_option(rviz::EnumProperty& property, const char* name, Value value) {
   property.addOption(name, static_cast<int>(value));
-}
-
-template <class Value>
-Value chosen(rviz::EnumProperty& property) {
-  return static_cast<Value>(property.getOptionInt());
 }
 
 }  // namespace
@@ -108,26 +99,12 @@ void DisplayProperties::update_visibility() {
   greatest_->setHidden(!has_values || follow_values_->getBool());
 }
 
-DisplayProperties::Style DisplayProperties::style() const { return chosen<Style>(*style_); }
-
-int DisplayProperties::sides() const { return sides_->getInt(); }
-
-DetailOptions DisplayProperties::detail() const {
-  return {reduce_detail_->getBool(), pixel_error_->getFloat()};
-}
-
-DisplayProperties::ColorBy DisplayProperties::color_by() const {
-  return chosen<ColorBy>(*color_by_);
-}
-
 Color DisplayProperties::color() const {
   const QColor color = color_->getColor();
   return to_color({static_cast<float>(color.redF()), static_cast<float>(color.greenF()),
                    static_cast<float>(color.blueF())},
                   opacity());
 }
-
-float DisplayProperties::opacity() const { return opacity_->getFloat(); }
 
 std::optional<ValueRange> DisplayProperties::range() const {
   if (follow_values_->getBool()) {
@@ -139,11 +116,5 @@ std::optional<ValueRange> DisplayProperties::range() const {
   return color_by() == ColorBy::distance ? ValueRange{greatest, least}
                                          : ValueRange{least, greatest};
 }
-
-double DisplayProperties::default_radius() const { return default_radius_->getFloat(); }
-
-bool DisplayProperties::fits_view() const { return fit_view_->getBool(); }
-
-std::string DisplayProperties::contact_topic() const { return contact_topic_->getTopicStd(); }
 
 }  // namespace fiber_proximity_rviz

@@ -1,20 +1,18 @@
 #pragma once
 
+#include <rviz/properties/bool_property.h>
+#include <rviz/properties/color_property.h>
+#include <rviz/properties/enum_property.h>
+#include <rviz/properties/float_property.h>
+#include <rviz/properties/int_property.h>
+#include <rviz/properties/ros_topic_property.h>
+
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "src/rviz/fiber_colors.hpp"
 #include "src/rviz/fiber_detail.hpp"
-
-namespace rviz {
-class BoolProperty;
-class ColorProperty;
-class EnumProperty;
-class FloatProperty;
-class IntProperty;
-class Property;
-class RosTopicProperty;
-}  // namespace rviz
 
 namespace fiber_proximity_rviz {
 
@@ -30,20 +28,22 @@ class DisplayProperties {
   DisplayProperties(rviz::Property& display, const std::function<void()>& look,
                     const std::function<void()>& source, const std::function<void()>& view);
 
-  Style style() const;
-  int sides() const;
-  DetailOptions detail() const;
-  ColorBy color_by() const;
+  Style style() const { return static_cast<Style>(style_->getOptionInt()); }
+  int sides() const { return sides_->getInt(); }
+  DetailOptions detail() const { return {reduce_detail_->getBool(), pixel_error_->getFloat()}; }
+  ColorBy color_by() const { return static_cast<ColorBy>(color_by_->getOptionInt()); }
   /// Of all fibres, or of those points that have no value to be coloured by; with the opacity.
   Color color() const;
-  float opacity() const;
+  float opacity() const { return opacity_->getFloat(); }
   bool is_transparent() const { return opacity() < 1.0F; }
   /// Ends that the user has set; nothing if they follow the values.
   std::optional<ValueRange> range() const;
-  double default_radius() const;  ///< [m] of messages without radii
+  /// [m] Of messages without radii.
+  double default_radius() const { return default_radius_->getFloat(); }
   /// Topic of the contacts whose distances colour fibres.
-  std::string contact_topic() const;
-  bool fits_view() const;  ///< rviz's view is moved to where the fibres are
+  std::string contact_topic() const { return contact_topic_->getTopicStd(); }
+  /// rviz's view is moved to where the fibres are.
+  bool fits_view() const { return fit_view_->getBool(); }
 
  private:
   /// Hides what has no effect.

@@ -15,7 +15,6 @@
 
 #include "fiber_proximity/ros/conversions.hpp"
 #include "src/ros/support/stopwatch.hpp"
-#include "src/rviz/fiber_materials.hpp"
 #include "src/rviz/fiber_renderable.hpp"
 
 namespace fiber_proximity_rviz {
@@ -56,8 +55,7 @@ FiberArrayDisplay::~FiberArrayDisplay() {
 
 void FiberArrayDisplay::onInitialize() {
   MFDClass::onInitialize();
-  materials_ = std::make_unique<FiberMaterials>();
-  renderable_ = std::make_unique<FiberRenderable>(*materials_);
+  renderable_ = std::make_unique<FiberRenderable>();
   mesh_node_ = scene_node_->createChildSceneNode();
   mesh_node_->attachObject(renderable_.get());
 }
@@ -148,7 +146,7 @@ void FiberArrayDisplay::draw() {
     }
     choose_colors();
     const FiberMesh& mesh = make_mesh();
-    materials_->set_transparent(properties_.is_transparent());
+    renderable_->set_transparent(properties_.is_transparent());
     if (mesh.kind == FiberMesh::Kind::tubes) {
       renderable_->show_tubes(mesh);
     } else {

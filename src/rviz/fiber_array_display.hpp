@@ -14,11 +14,10 @@
 #include "src/rviz/contact_pairing.hpp"
 #include "src/rviz/display_properties.hpp"
 #include "src/rviz/fiber_mesh.hpp"
-#include "src/rviz/view_fitter.hpp"
+#include "src/rviz/view_fit.hpp"
 
 namespace fiber_proximity_rviz {
 
-class FiberMaterials;
 class FiberRenderable;
 
 /// Shows a FiberArray in rviz: the newest one whenever rviz draws, as finely as is to be seen.
@@ -71,7 +70,6 @@ class FiberArrayDisplay : public rviz::MessageFilterDisplay<fiber_proximity::Fib
   std::vector<Color> colors_;
   FiberMesher mesher_;
   ViewFitter view_fitter_;
-  std::unique_ptr<FiberMaterials> materials_;
   std::unique_ptr<FiberRenderable> renderable_;
   Ogre::SceneNode* mesh_node_ = nullptr;  // at the mesh's origin, in the fibres' frame
 };

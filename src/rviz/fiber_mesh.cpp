@@ -116,24 +116,13 @@ class TubeSkin {
 
   /// @param vertex number of the tube's first one
   void write_indices(std::size_t rings, std::uint32_t vertex, std::uint32_t* next) const {
-    const auto sides = static_cast<std::uint32_t>(corners_.size());
-    const auto row_count = static_cast<std::uint32_t>(rows(rings));
-    const auto write = [&next](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-      *next++ = a;
-      *next++ = b;
-      *next++ = c;
-    };
-    const std::uint32_t first_row = vertex + 1;
-    const std::uint32_t last_row = first_row + (row_count - 1) * sides;
-    for (std::uint32_t i = 0; i < sides; ++i) {
-      const std::uint32_t beside = (i + 1) % sides;
-      write(vertex, first_row + beside, first_row + i);
-      for (std::uint32_t row = first_row; row != last_row; row += sides) {
-        write(row + i, row + beside, row + sides + i);
-        write(row + sides + i, row + beside, row + sides + beside);
-      }
-      write(last_row + sides, last_row + i, last_row + beside);
-    }
+    fiber_proximity_ros::for_each_triangle(
+        static_cast<std::uint32_t>(rows(rings)), static_cast<std::uint32_t>(corners_.size()),
+        [&next, vertex](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+          *next++ = vertex + a;
+          *next++ = vertex + b;
+          *next++ = vertex + c;
+        });
   }
 
  private:

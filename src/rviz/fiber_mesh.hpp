@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
-#include "src/ros/outputs/tube_sweep.hpp"
+#include "src/ros/outputs/tube_mesh.hpp"
 #include "src/rviz/fiber_colors.hpp"
 
 namespace fiber_proximity_rviz {

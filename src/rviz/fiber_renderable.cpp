@@ -4,6 +4,8 @@
 #include <OgreHardwareBufferManager.h>
 #include <OgreMath.h>
 #include <OgreRenderQueue.h>
+#include <OgreRenderable.h>
+#include <OgreVertexIndexData.h>
 #include <OgreViewport.h>
 #include <tbb/parallel_for.h>
 
@@ -12,9 +14,24 @@
 #include <cstddef>
 #include <exception>
 #include <limits>
+#include <map>
+#include <utility>
 
 namespace fiber_proximity_rviz {
 namespace {
+
+using Kind = Detail::Kind;
+using Operation = Ogre::RenderOperation;
+
+std::unique_ptr<Ogre::IndexData> upload(const std::vector<std::uint32_t>& indices) {
+  auto data = std::make_unique<Ogre::IndexData>();
+  data->indexBuffer = Ogre::HardwareBufferManager::getSingleton().createIndexBuffer(
+      Ogre::HardwareIndexBuffer::IT_32BIT, indices.size(),
+      Ogre::HardwareBuffer::HBU_STATIC_WRITE_ONLY);
+  data->indexBuffer->writeData(0, sizeof(std::uint32_t) * indices.size(), indices.data(), true);
+  data->indexCount = indices.size();
+  return data;
+}
 
 /// Capacity for what is needed now and a little more.
 std::size_t with_reserve(std::size_t count) { return count + count / 8; }
@@ -58,8 +75,97 @@ class PixelSize {
 
 }  // namespace
 
-FiberRenderable::FiberRenderable(const FiberMaterials& materials)
-    : materials_(materials), vertices_(std::make_unique<Ogre::VertexData>()) {
+/// What one call draws of the vertices that all parts share. A chunk of ribbons keeps what it has
+/// been drawn as, for the next time it is seen from as far.
+class FiberPart : public Ogre::Renderable {
+ public:
+  /// All must outlive it.
+  FiberPart(const Ogre::MovableObject& owner, Ogre::VertexData& vertices,
+            const FiberMaterials& materials)
+      : owner_(owner), materials_(materials), material_(&materials.tubes()) {
+    operation_.vertexData = &vertices;
+    operation_.useIndexes = true;
+  }
+
+  /// @throws Ogre::Exception if the card has no memory for it
+  void show_tubes(const FiberMesh& mesh) {
+    std::unique_ptr<Ogre::IndexData>& all = levels_[Detail()];
+    all = upload(mesh.indices);
+    operation_.indexData = all.get();
+    operation_.operationType = Operation::OT_TRIANGLE_LIST;
+    chunk_.box = mesh.box;
+  }
+
+  /// Sets what show() is about; draws nothing yet.
+  void set_chunk(const FiberMesh& mesh, FiberChunk chunk) {
+    mesh_ = &mesh;
+    chunk_ = std::move(chunk);
+  }
+  const FiberChunk& chunk() const { return chunk_; }
+
+  /// Has to be asked for before show() by this detail; any number of parts at once may be.
+  void prepare(const std::vector<Eigen::Vector3d>& points, const Detail& detail) {
+    detail_ = detail;
+    indices_.clear();
+    const auto all_points = all_points_.find(detail.kind);
+    if (all_points != all_points_.end() && detail.level <= all_points->second) {
+      detail_.level = Detail::finest;
+    }
+    if (levels_.count(detail_) > 0) {
+      return;
+    }
+    indices_ = make_indices(points, mesh_->vertices, chunk_, detail_);
+    const std::size_t indices_of_segment = detail.kind == Kind::lines ? 2 : 6;
+    if (detail_.level > Detail::finest &&
+        4 * indices_.size() > 3 * indices_of_segment * chunk_.segment_count) {
+      all_points_[detail.kind] = detail.level;
+      prepare(points, detail);
+    }
+  }
+
+  /// Draws the chunk by the detail of the last prepare().
+  /// @throws Ogre::Exception if the card has no memory for it
+  void show() {
+    std::unique_ptr<Ogre::IndexData>& shown = levels_[detail_];
+    if (!shown) {
+      shown = upload(indices_);
+      indices_ = {};
+    }
+    const bool as_lines = detail_.kind == Kind::lines;
+    material_ = as_lines ? &materials_.lines() : &materials_.ribbons();
+    operation_.indexData = shown.get();
+    operation_.operationType = as_lines ? Operation::OT_LINE_LIST : Operation::OT_TRIANGLE_LIST;
+  }
+
+  const Ogre::MaterialPtr& getMaterial() const override { return *material_; }
+  void getRenderOperation(Ogre::RenderOperation& operation) override { operation = operation_; }
+  void getWorldTransforms(Ogre::Matrix4* transform) const override {
+    *transform = owner_._getParentNodeFullTransform();
+  }
+  Ogre::Real getSquaredViewDepth(const Ogre::Camera* camera) const override {
+    // Only orders what is transparent.
+    const Eigen::Vector3f center = chunk_.box.center();
+    return (owner_._getParentNodeFullTransform() *
+            Ogre::Vector3(center.x(), center.y(), center.z()))
+        .squaredDistance(camera->getDerivedPosition());
+  }
+  const Ogre::LightList& getLights() const override { return owner_.queryLights(); }
+
+ private:
+  const Ogre::MovableObject& owner_;
+  const FiberMaterials& materials_;
+  Ogre::RenderOperation operation_;
+  const Ogre::MaterialPtr* material_;
+
+  const FiberMesh* mesh_ = nullptr;
+  FiberChunk chunk_;
+  std::map<Detail, std::unique_ptr<Ogre::IndexData>> levels_;
+  std::map<Detail::Kind, int> all_points_;  // up to this level, where few could be left out
+  Detail detail_;
+  std::vector<std::uint32_t> indices_;  // of it, if they are not among levels_
+};
+
+FiberRenderable::FiberRenderable() : vertices_(std::make_unique<Ogre::VertexData>()) {
   Ogre::VertexDeclaration& layout = *vertices_->vertexDeclaration;
   layout.addElement(0, offsetof(MeshVertex, position), Ogre::VET_FLOAT3, Ogre::VES_POSITION);
   layout.addElement(0, offsetof(MeshVertex, direction), Ogre::VET_FLOAT3, Ogre::VES_NORMAL);
@@ -67,6 +173,8 @@ FiberRenderable::FiberRenderable(const FiberMaterials& materials)
   layout.addElement(0, offsetof(MeshVertex, offset), Ogre::VET_FLOAT1,
                     Ogre::VES_TEXTURE_COORDINATES);
 }
+
+FiberRenderable::~FiberRenderable() = default;
 
 void FiberRenderable::show_nothing() {
   parts_.clear();

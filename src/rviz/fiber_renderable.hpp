@@ -7,17 +7,24 @@
 #include <vector>
 
 #include "src/rviz/fiber_detail.hpp"
+#include "src/rviz/fiber_materials.hpp"
 #include "src/rviz/fiber_mesh.hpp"
-#include "src/rviz/fiber_part.hpp"
 
 namespace fiber_proximity_rviz {
+
+class FiberPart;
 
 /// Fibres in the graphics card's memory: vertices once, and for each chunk that has been in view
 /// which of them are drawn, as finely as was to be seen.
 class FiberRenderable : public Ogre::MovableObject {
  public:
-  /// @param materials must outlive it
-  explicit FiberRenderable(const FiberMaterials& materials);
+  FiberRenderable();
+  ~FiberRenderable() override;
+  FiberRenderable(const FiberRenderable&) = delete;
+  FiberRenderable& operator=(const FiberRenderable&) = delete;
+
+  /// Fibres blend with what is behind, or hide it.
+  void set_transparent(bool transparent) { materials_.set_transparent(transparent); }
 
   /// Replaces what is drawn.
   /// @throws Ogre::Exception if the card has no memory for it
@@ -42,7 +49,7 @@ class FiberRenderable : public Ogre::MovableObject {
   void set_vertices(const FiberMesh& mesh);
   void choose_parts(const Ogre::Camera& camera);
 
-  const FiberMaterials& materials_;
+  FiberMaterials materials_;
   std::unique_ptr<Ogre::VertexData> vertices_;
   Ogre::AxisAlignedBox box_;
   std::vector<std::unique_ptr<FiberPart>> parts_;

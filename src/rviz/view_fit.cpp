@@ -1,35 +1,72 @@
 #include "src/rviz/view_fit.hpp"
 
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cassert>
+#include <OgreCamera.h>
+#include <rviz/view_controller.h>
+
 #include <cmath>
 
+#include "src/ros/inputs/optical_frame.hpp"
+
 namespace fiber_proximity_rviz {
+namespace {
 
-using Eigen::Vector3d;
+constexpr double share_of_picture = 0.65;  // names and legend have the rest
 
-ViewFit fit_view(const std::vector<Vector3d>& points, const OrbitView& view, double share) {
-  assert(!points.empty() && share > 0.0 && share <= 1.0);
-  const Vector3d to_camera(std::cos(view.yaw) * std::cos(view.pitch),
-                           std::sin(view.yaw) * std::cos(view.pitch), std::sin(view.pitch));
-  const Vector3d right(-std::sin(view.yaw), std::cos(view.yaw), 0.0);
-  const Vector3d up = to_camera.cross(right);
-  // As the camera has them: to the right, upwards, towards it.
-  Eigen::AlignedBox3d box;
-  for (const Vector3d& point : points) {
-    box.extend(Vector3d(right.dot(point), up.dot(point), to_camera.dot(point)));
+bool is_orbit(const rviz::ViewController& view) { return view.getClassId() == "rviz/Orbit"; }
+
+/// What the user changes by moving the view.
+std::vector<float> numbers_of(rviz::ViewController& view) {
+  std::vector<float> numbers;
+  if (is_orbit(view)) {
+    for (const char* name : {"Distance", "Pitch", "Yaw"}) {
+      numbers.push_back(view.subProp(name)->getValue().toFloat());
+    }
+    for (const char* name : {"X", "Y", "Z"}) {
+      numbers.push_back(view.subProp("Focal Point")->subProp(name)->getValue().toFloat());
+    }
   }
-  const Vector3d center = box.center();
-  ViewFit fit;
-  fit.focal_point = center.x() * right + center.y() * up + center.z() * to_camera;
-  for (const Vector3d& point : points) {
-    const Vector3d offset = point - fit.focal_point;
-    const double sideways = std::max(std::abs(right.dot(offset)) / view.tan_half_width,
-                                     std::abs(up.dot(offset)) / view.tan_half_height);
-    fit.distance = std::max(fit.distance, to_camera.dot(offset) + sideways / share);
+  return numbers;
+}
+
+OrbitView orbit_view(rviz::ViewController& view, const std::string& frame) {
+  OrbitView orbit;
+  if (fiber_proximity_ros::is_optical_frame(frame)) {
+    orbit.yaw = -M_PI_2;
+    orbit.pitch = -0.9;
+  } else {
+    orbit.yaw = view.subProp("Yaw")->getValue().toDouble();
+    orbit.pitch = view.subProp("Pitch")->getValue().toDouble();
   }
-  return fit;
+  const Ogre::Camera& camera = *view.getCamera();
+  orbit.tan_half_height = std::tan(0.5 * camera.getFOVy().valueRadians());
+  orbit.tan_half_width = orbit.tan_half_height * camera.getAspectRatio();
+  return orbit;
+}
+
+}  // namespace
+
+void ViewFitter::fit(rviz::ViewController& view, const std::string& frame,
+                     const fiber::FiberAssembly& fibers, const Eigen::Isometry3d& pose) {
+  const bool is_untouched = is_orbit(view) && numbers_of(view) == as_left_;
+  if (fibers.fiber_count() <= fiber_count_ || (fiber_count_ > 0 && !is_untouched)) {
+    return;
+  }
+  fiber_count_ = fibers.fiber_count();
+  std::vector<Eigen::Vector3d> points;
+  points.reserve(fibers.point_count());
+  for (const Eigen::Vector3d& point : fibers.points()) {
+    points.push_back(pose * point);
+  }
+  const OrbitView orbit = is_orbit(view) ? orbit_view(view, frame) : OrbitView();
+  const ViewFit fit = fit_view(points, orbit, share_of_picture);
+  view.lookAt(static_cast<float>(fit.focal_point.x()), static_cast<float>(fit.focal_point.y()),
+              static_cast<float>(fit.focal_point.z()));
+  if (is_orbit(view)) {
+    view.subProp("Distance")->setValue(fit.distance);
+    view.subProp("Pitch")->setValue(orbit.pitch);
+    view.subProp("Yaw")->setValue(orbit.yaw);
+  }
+  as_left_ = numbers_of(view);
 }
 
 }  // namespace fiber_proximity_rviz

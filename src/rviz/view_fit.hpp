@@ -1,7 +1,18 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <string>
 #include <vector>
+
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
+
+namespace rviz {
+class ViewController;
+}  // namespace rviz
 
 namespace fiber_proximity_rviz {
 
@@ -25,6 +36,48 @@ struct ViewFit {
 /// them, has room beside.
 /// @param points [m] at least one
 /// @param share  above 0 and at most 1
-ViewFit fit_view(const std::vector<Eigen::Vector3d>& points, const OrbitView& view, double share);
+inline ViewFit fit_view(const std::vector<Eigen::Vector3d>& points, const OrbitView& view,
+                        double share) {
+  assert(!points.empty() && share > 0.0 && share <= 1.0);
+  const Eigen::Vector3d to_camera(std::cos(view.yaw) * std::cos(view.pitch),
+                                  std::sin(view.yaw) * std::cos(view.pitch), std::sin(view.pitch));
+  const Eigen::Vector3d right(-std::sin(view.yaw), std::cos(view.yaw), 0.0);
+  const Eigen::Vector3d up = to_camera.cross(right);
+  // As the camera has them: to the right, upwards, towards it.
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& point : points) {
+    box.extend(Eigen::Vector3d(right.dot(point), up.dot(point), to_camera.dot(point)));
+  }
+  const Eigen::Vector3d center = box.center();
+  ViewFit fit;
+  fit.focal_point = center.x() * right + center.y() * up + center.z() * to_camera;
+  for (const Eigen::Vector3d& point : points) {
+    const Eigen::Vector3d offset = point - fit.focal_point;
+    const double sideways = std::max(std::abs(right.dot(offset)) / view.tan_half_width,
+                                     std::abs(up.dot(offset)) / view.tan_half_height);
+    fit.distance = std::max(fit.distance, to_camera.dot(offset) + sideways / share);
+  }
+  return fit;
+}
+
+/// Moves rviz's view to where fibres are: once, and again when there are more of them, as long as
+/// nobody has moved it since.
+class ViewFitter {
+ public:
+  /// The next fibres are the first ones again.
+  void forget() { fiber_count_ = 0; }
+
+  /// Shows fibres, if that is due. rviz's orbit view is fitted to them. In an optical frame (by its
+  /// name; z forwards, y downwards: REP 103) it looks from above the camera forwards, in any other
+  /// from where it looks already. Other kinds of views look at their middle.
+  /// @param frame the fixed frame
+  /// @param pose  of the fibres' frame in it
+  void fit(rviz::ViewController& view, const std::string& frame, const fiber::FiberAssembly& fibers,
+           const Eigen::Isometry3d& pose);
+
+ private:
+  std::size_t fiber_count_ = 0;  // of those last fitted to
+  std::vector<float> as_left_;   // the view's numbers after that
+};
 
 }  // namespace fiber_proximity_rviz

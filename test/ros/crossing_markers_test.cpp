@@ -1,8 +1,7 @@
-#include "src/ros/outputs/crossing_markers.hpp"
-
 #include <gtest/gtest.h>
 
 #include "fiber_proximity/query/crossings.hpp"
+#include "src/ros/outputs/markers.hpp"
 
 namespace fiber_proximity_ros {
 namespace {

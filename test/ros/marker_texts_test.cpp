@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "fiber_proximity/ros/conversions.hpp"
-#include "src/ros/outputs/legend.hpp"
+#include "src/ros/outputs/markers.hpp"
 #include "test/ros/markers_fixture.hpp"
 
 namespace fiber_proximity_ros {

@@ -1,5 +1,3 @@
-#include "src/ros/outputs/shape_marker.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,6 +8,8 @@
 
 #include "fiber_proximity/ros/conversions.hpp"
 #include "src/environment/convex_solids.hpp"
+#include "src/environment/point_distance.hpp"
+#include "src/ros/outputs/environment_markers.hpp"
 #include "src/ros/outputs/tube_mesh.hpp"
 #include "test/environment/random_shapes.hpp"
 #include "test/support/random.hpp"

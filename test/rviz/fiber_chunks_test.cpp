@@ -1,10 +1,9 @@
-#include "src/rviz/fiber_chunks.hpp"
-
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
 
+#include "src/rviz/fiber_detail.hpp"
 #include "test/support/assemblies.hpp"
 
 namespace fiber_proximity_rviz {

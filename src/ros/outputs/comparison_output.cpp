@@ -20,7 +20,7 @@ double gap_of(const std::optional<fiber::PairClaim>& claim) {
   return claim ? claim->gap : std::numeric_limits<double>::quiet_NaN();
 }
 
-fiber_proximity::Disagreement to_message(const fiber::Disagreement& pair) {
+fiber_proximity::Disagreement message_of(const fiber::Disagreement& pair) {
   fiber_proximity::Disagreement message;
   message.verdict = static_cast<std::uint8_t>(pair.verdict);
   message.fiber_a = pair.a.fiber;
@@ -35,7 +35,7 @@ fiber_proximity::Disagreement to_message(const fiber::Disagreement& pair) {
   return message;
 }
 
-fiber_proximity::FclComparison to_message(const fiber::StyleComparison& style) {
+fiber_proximity::FclComparison message_of(const fiber::StyleComparison& style) {
   fiber_proximity::FclComparison message;
   message.style = name_of(style.style);
   message.update_time = style.update_time;
@@ -52,7 +52,7 @@ fiber_proximity::FclComparison to_message(const fiber::StyleComparison& style) {
   message.largest_fiber_b = style.largest_b.fiber;
   message.largest_segment_b = style.largest_b.segment;
   for (const fiber::Disagreement& pair : style.disagreements) {
-    message.disagreements.push_back(to_message(pair));
+    message.disagreements.push_back(message_of(pair));
   }
   return message;
 }
@@ -70,14 +70,11 @@ bool ComparisonOutput::publish_if_wanted() {
   if (!is_on_ || publisher_.getNumSubscribers() == 0) {
     return false;
   }
-  fiber_proximity::Comparison message;
   try {
-    compare(message);
+    publisher_.publish(compare());
   } catch (const std::exception& error) {
     ROS_ERROR_STREAM_THROTTLE(1.0, "no comparison with FCL: " << error.what());
-    return true;
   }
-  publisher_.publish(message);
   return true;
 }
 
@@ -86,7 +83,7 @@ bool ComparisonOutput::answer(fiber_proximity::CompareWithFcl::Request& /*reques
   before_answer_();
   try {
     subject_.inputs.require_fresh();
-    compare(response.comparison);
+    response.comparison = compare();
     response.success = true;
   } catch (const std::exception& error) {
     response = fiber_proximity::CompareWithFcl::Response();
@@ -95,7 +92,8 @@ bool ComparisonOutput::answer(fiber_proximity::CompareWithFcl::Request& /*reques
   return true;
 }
 
-void ComparisonOutput::compare(fiber_proximity::Comparison& message) {
+fiber_proximity::Comparison ComparisonOutput::compare() {
+  fiber_proximity::Comparison message;
   const fiber::Comparison found =
       comparer_.compare(subject_.inputs.fibers(), subject_.detector.engine(), subject_.query);
   message.header = subject_.inputs.header();
@@ -108,9 +106,10 @@ void ComparisonOutput::compare(fiber_proximity::Comparison& message) {
   message.pair_tests = found.pair_tests;
   message.contacts = found.contacts;
   for (const fiber::StyleComparison& style : found.styles) {
-    message.fcl.push_back(to_message(style));
+    message.fcl.push_back(message_of(style));
   }
   message.ours_is_right = found.ours_is_right();
+  return message;
 }
 
 }  // namespace fiber_proximity_ros

@@ -41,7 +41,7 @@ class ComparisonOutput {
               fiber_proximity::CompareWithFcl::Response& response);
 
   /// @throws std::exception saying why not
-  void compare(fiber_proximity::Comparison& message);
+  fiber_proximity::Comparison compare();
 
   Subject subject_;
   std::function<void()> before_answer_;

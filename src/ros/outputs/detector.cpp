@@ -1,10 +1,73 @@
 #include "src/ros/outputs/detector.hpp"
 
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+#include "fiber_proximity/query/deadline.hpp"
 #include "src/ros/support/stopwatch.hpp"
 
 namespace fiber_proximity_ros {
 
-void Detector::set_fibers(const fiber::FiberAssembly& fibers) { new_fibers_ = &fibers; }
+void Detection::detect(const fiber::QueryOptions& options, bool wants_minimum, const Ask& ask) {
+  const Stopwatch stopwatch;
+  const fiber::Deadline deadline(options.deadline);
+  ask(options, contacts_);
+  counts_ = contacts_.counts;
+  complete_ = contacts_.complete;
+  limit_reached_ = contacts_.limit_reached;
+  // The first contact found need not be the closest.
+  minimum_ = options.type == fiber::QueryType::FIRST ? nullptr : contacts_.closest();
+  minimum_lower_ = contacts_.minimum_lower();
+  contact_time_ = stopwatch.seconds();
+  if (minimum_ == nullptr && wants_minimum) {
+    fiber::QueryOptions closest = options;
+    closest.type = fiber::QueryType::CLOSEST;
+    closest.margin = std::numeric_limits<double>::infinity();
+    closest.deadline = deadline.left();
+    ask(closest, closest_);
+    complete_ = complete_ && closest_.complete;
+    limit_reached_ = limit_reached_ || closest_.limit_reached;
+    minimum_ = closest_.closest();
+    minimum_lower_ = closest_.minimum_lower();
+    counts_ += closest_.counts;
+  }
+  minimum_time_ = stopwatch.seconds() - contact_time_;
+}
+
+std::string Detection::limit_problem(const fiber::QueryOptions& options) const {
+  const std::size_t count = contacts_.contacts.size();
+  const bool all_contacts = options.contact_limit > 0 && count == options.contact_limit;
+  const bool of_limited =
+      options.type == fiber::QueryType::LIMITED && complete_ && count == options.max_contacts;
+  if (!limit_reached_ || of_limited) {
+    return "";
+  }
+  std::ostringstream text;
+  text << "of the pairs within the margin of " << options.margin << " m ";
+  if (all_contacts) {
+    text << "the closest " << count << " are reported, as contact_limit says";
+  }
+  if (!complete_ && (options.deadline == 0.0 || !all_contacts)) {
+    text << (all_contacts ? ", and only those among" : "only those are reported that are among")
+         << " the first " << options.pair_limit << " that came up, as pair_limit says";
+  }
+  text << "; a smaller margin or radius leaves fewer pairs, query_type limited or fiber_pairs "
+          "reports fewer of them; higher limits cost time and memory";
+  return text.str();
+}
+
+double Detection::contact_error() const {
+  double error = 0.0;
+  for (const fiber::Contact& contact : contacts_.contacts) {
+    error = std::max(error, contact.upper - contact.distance);
+  }
+  return error;
+}
+
+double Detection::minimum_upper() const {
+  return minimum_ == nullptr ? std::numeric_limits<double>::infinity() : minimum_->upper;
+}
 
 const fiber::ProximityEngine& Detector::engine() {
   if (new_fibers_ != nullptr) {

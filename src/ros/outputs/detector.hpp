@@ -1,12 +1,59 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
+#include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/engine.hpp"
-#include "src/ros/outputs/detection.hpp"
+#include "fiber_proximity/query/options.hpp"
 
 namespace fiber_proximity_ros {
+
+/// Contacts and closest pair of whatever can be queried: the fibres among themselves, or the fibres
+/// and the environment.
+class Detection {
+ public:
+  using Ask = std::function<void(const fiber::QueryOptions&, fiber::QueryResult&)>;
+
+  /// Asks for the contacts and, where these do not tell, for the closest pair whatever the margin.
+  /// A deadline is one for both.
+  /// @param wants_minimum whether to ask for the closest pair
+  /// @throws std::invalid_argument for options that do not validate
+  void detect(const fiber::QueryOptions& options, bool wants_minimum, const Ask& ask);
+
+  // What the last detect() found:
+  const fiber::QueryResult& contacts() const { return contacts_; }
+  const fiber::Contact* minimum() const { return minimum_; }  ///< nullptr if there is no pair
+  bool is_complete() const { return complete_; }  ///< no deadline or limit came before its end
+  bool is_limit_reached() const { return limit_reached_; }
+  /// Whether these options asked for all contacts, and there are no others.
+  bool has_all_of(const fiber::QueryOptions& options) const {
+    return options.type == fiber::QueryType::ALL && contacts_.complete && !contacts_.limit_reached;
+  }
+  /// What a user is told who has not asked for so few contacts or pairs; empty if no limit of the
+  /// options but that of LIMITED is reached.
+  std::string limit_problem(const fiber::QueryOptions& options) const;
+  /// [m] Bounds of the true distance of the closest pair; infinite where there is no pair.
+  double minimum_lower() const { return minimum_lower_; }
+  double minimum_upper() const;
+  double contact_error() const;  ///< [m] by which a contact's distance is wrong at most
+  const fiber::QueryCounts& counts() const { return counts_; }
+
+  double contact_time() const { return contact_time_; }  ///< [s] to find the contacts
+  double minimum_time() const { return minimum_time_; }  ///< [s] to find the closest pair, apart
+
+ private:
+  fiber::QueryResult contacts_;
+  fiber::QueryResult closest_;
+  const fiber::Contact* minimum_ = nullptr;
+  bool complete_ = true;
+  bool limit_reached_ = false;
+  double minimum_lower_ = 0.0;
+  fiber::QueryCounts counts_;
+  double contact_time_ = 0.0;
+  double minimum_time_ = 0.0;
+};
 
 /// Contacts and closest pair of the newest fibres, from one engine whose update waits until it is
 /// asked something.
@@ -17,7 +64,7 @@ class Detector {
       : engine_(fiber::make_engine(engine, options)) {}
 
   /// The fibres to ask about from now on; they must live, unchanged, until the next call.
-  void set_fibers(const fiber::FiberAssembly& fibers);
+  void set_fibers(const fiber::FiberAssembly& fibers) { new_fibers_ = &fibers; }
 
   /// The engine, updated to the fibres.
   /// @throws std::invalid_argument for fibres the engine cannot take (AL-threaded: unequal ones)

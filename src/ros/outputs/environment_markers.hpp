@@ -3,14 +3,13 @@
 #include <std_msgs/Header.h>
 #include <visualization_msgs/MarkerArray.h>
 
-#include <cstdint>
 #include <vector>
 
+#include "fiber_proximity/environment/shape_box.hpp"
 #include "fiber_proximity/environment/shapes.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/query/contact.hpp"
 #include "src/ros/outputs/marker_canvas.hpp"
-#include "src/ros/outputs/marker_scale.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -30,6 +29,24 @@ struct EnvironmentDrawing {
   const std::vector<fiber::Contact>& contacts;  ///< fiber_b is the index of the object
   const fiber::Contact* minimum;                ///< the closest pair, nullptr if there is none
 };
+
+/// A mesh of more triangles than this, of those near what is looked at, is drawn as its box: the
+/// message would be of megabytes.
+constexpr std::size_t most_mesh_triangles = 20'000;
+
+/// Whether a shape reaches into a box [m], which must not be empty; bounded ones by their own
+/// boxes.
+bool reaches_into(const fiber::WorldBox& box, const fiber::Shape& shape,
+                  const Eigen::Isometry3d& pose);
+
+/// Sets type, pose, scale and points of a marker, which has no points yet, to those of a shape:
+/// CUBE, SPHERE or CYLINDER; a TRIANGLE_LIST for cones, capsules and meshes; a CUBE_LIST of the
+/// cells of an octree. A plane or half-space is a thin CUBE as wide as what is looked at. What has
+/// no extent is drawn with `hairline_radius`, to be seen at all.
+/// @param around of what is looked at [m], not empty: triangles of meshes and cells of octrees that
+///               do not reach into it are left out
+void draw_shape(const fiber::Shape& shape, const Eigen::Isometry3d& pose,
+                const fiber::WorldBox& around, visualization_msgs::Marker& marker);
 
 /// Red at contact and in penetration, over yellow, to green from `free_distance` [m] on.
 std_msgs::ColorRGBA distance_color(double distance, double free_distance);
@@ -52,17 +69,7 @@ class EnvironmentMarkers {
               const EnvironmentMarkerOptions& options, visualization_msgs::MarkerArray& markers);
 
  private:
-  enum Namespace : std::uint8_t { OBSTACLES, ROBOT, DISTANCES, POINTS, NEAREST, TEXT, COUNT };
-  using Canvas = MarkerCanvas<COUNT>;
-
-  static void draw_objects(const EnvironmentDrawing& drawing, double reach, Canvas& canvas);
-  static void draw_distances(const std::vector<fiber::Contact>& contacts, double free_distance,
-                             double thickness, Canvas& canvas);
-  static void draw_nearest(const EnvironmentDrawing& drawing, double free_distance,
-                           const MarkerScale& scale, Canvas& canvas);
-
-  // By namespace: ids 0 .. count−1 are on the screen.
-  Canvas::Counts drawn_{};
+  MarkerCanvas::Counts drawn_;  // what is on the screen
 };
 
 }  // namespace fiber_proximity_ros

@@ -4,15 +4,14 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "fiber_proximity/ContactArray.h"
 #include "src/ros/environment/environment_inputs.hpp"
 #include "src/ros/inputs/input_set.hpp"
-#include "src/ros/outputs/contact_events.hpp"
-#include "src/ros/outputs/detection.hpp"
-#include "src/ros/outputs/environment_motion_detector.hpp"
+#include "src/ros/outputs/contact_output.hpp"
+#include "src/ros/outputs/detector.hpp"
 #include "src/ros/outputs/step_contacts.hpp"
 
 namespace fiber_proximity_ros {
@@ -35,9 +34,7 @@ class EnvironmentOutput {
   bool update();
 
   /// Whether somebody listens, and there is or may be something around.
-  bool has_listeners() const {
-    return publisher_.getNumSubscribers() > 0 || touches_.has_listeners();
-  }
+  bool has_listeners() const { return contacts_.has_listeners(); }
   bool is_used() const { return inputs_.is_used(); }
 
   /// Finds contacts and, if wanted, the closest pair. Once at most after each update().
@@ -63,17 +60,13 @@ class EnvironmentOutput {
   InputSet& fibers_;
   EnvironmentInputs inputs_;
   std::shared_ptr<const fiber::Environment> environment_;
-  std::shared_ptr<const fiber::Environment> environment_before_;  // null if it was not looked at
   Detection detection_;
-  EnvironmentMotionDetector motion_;
-  bool is_tracked_ = false;               // the answer before was looked at
-  const ContinuousStep* step_ = nullptr;  // null if the answer is of its stamp alone
+  fiber::MotionResult motion_result_;
+  std::optional<KnownMotion> motion_;  // nothing if the answer is of its stamp alone
+  bool is_tracked_ = false;            // the answer before was looked at
   double update_time_ = 0.0;
   double motion_time_ = 0.0;
-  ros::Publisher publisher_;
-  ContactEvents touches_;
-  StepContacts contacts_;                  // for its memory
-  fiber_proximity::ContactArray message_;  // the same
+  ContactOutput contacts_;
 };
 
 /// By index.

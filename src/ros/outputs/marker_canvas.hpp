@@ -4,86 +4,83 @@
 #include <std_msgs/Header.h>
 #include <visualization_msgs/MarkerArray.h>
 
-#include <array>
-#include <cstddef>
+#include <Eigen/Geometry>
+#include <cmath>
 #include <cstdint>
+#include <limits>
+#include <map>
+#include <string>
 #include <vector>
 
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "src/ros/outputs/palette.hpp"
 
 namespace fiber_proximity_ros {
 
-inline std_msgs::ColorRGBA color(float r, float g, float b, float a = 1.0F) {
-  std_msgs::ColorRGBA result;
-  result.r = r;
-  result.g = g;
-  result.b = b;
-  result.a = a;
-  return result;
-}
+std_msgs::ColorRGBA color(const Rgb& rgb, float a = 1.0F);
 
-inline std_msgs::ColorRGBA color(const Rgb& rgb, float a = 1.0F) {
-  return color(rgb[0], rgb[1], rgb[2], a);
-}
+/// A distance [m] as texts have it, in mm.
+std::string distance_text(double distance);
 
-/// Hands out the markers of one update and keeps count of them: those of each of `count` namespaces
-/// have the ids 0, 1, …
-template <std::size_t count>
+/// Lengths that annotations are measured in [m].
+struct MarkerScale {
+  /// @param frame of the fibres, which tells what is up
+  MarkerScale(const fiber::FiberAssembly& fibers, const std::string& frame);
+
+  /// Middle of the box's lower side.
+  Eigen::Vector3d bottom() const { return top - std::abs(up.dot(box.sizes())) * up; }
+
+  double thickest = 0.0;                                      ///< largest radius
+  double thinnest = std::numeric_limits<double>::infinity();  ///< smallest radius
+  double extent = 0.0;                                        ///< longest side of the box
+  Eigen::Vector3d up;                             ///< unit vector: z, or −y in an optical frame
+  Eigen::Vector3d top = Eigen::Vector3d::Zero();  ///< middle of the box's upper side
+  Eigen::AlignedBox3d box;                        ///< around the points
+};
+
+/// What a colour means.
+struct LegendLine {
+  Rgb color;
+  std::string text;
+};
+
+/// Hands out the markers of one update and keeps count of them: those of each namespace have the
+/// ids 0, 1, …
 class MarkerCanvas {
  public:
-  using Names = std::array<const char*, count>;
-  using Counts = std::array<std::int32_t, count>;
+  using Counts = std::map<std::string, std::int32_t>;  ///< of markers, by namespace
 
   /// Holds references: they must outlive it.
   /// @param markers those from `first` on are overwritten, and their memory is reused
-  MarkerCanvas(const std_msgs::Header& header, const Names& names,
-               visualization_msgs::MarkerArray& markers, std::size_t first = 0)
-      : header_(header), names_(names), markers_(markers.markers), used_(first) {}
+  MarkerCanvas(const std_msgs::Header& header, visualization_msgs::MarkerArray& markers,
+               std::size_t first = 0)
+      : header_(header), markers_(markers.markers), used_(first) {}
 
-  /// The next marker of this namespace, an index of the names, without points.
-  visualization_msgs::Marker& add(std::size_t ns, int type) {
-    visualization_msgs::Marker& marker = take(ns, counts_[ns]++, visualization_msgs::Marker::ADD);
-    marker.type = type;
-    return marker;
-  }
+  /// The next marker of this namespace, white, without points.
+  visualization_msgs::Marker& add(const std::string& ns, int type);
+
+  /// A text that faces the viewer.
+  /// @param height [m] of its letters
+  visualization_msgs::Marker& add_text(const std::string& ns, double height,
+                                       const Eigen::Vector3d& position, const std::string& text);
+
+  /// Lines of text below what is drawn, of the namespace `legend`.
+  void add_legend(const std::vector<LegendLine>& legend, const MarkerScale& scale);
 
   /// Deletes what was drawn and has not been drawn again; remembers what has.
-  void finish(Counts& drawn) {
-    for (std::size_t ns = 0; ns < count; ++ns) {
-      for (std::int32_t id = counts_[ns]; id < drawn[ns]; ++id) {
-        take(ns, id, visualization_msgs::Marker::DELETE);
-      }
-    }
-    drawn = counts_;
-    markers_.resize(used_);
-  }
+  void finish(Counts& drawn);
 
  private:
-  visualization_msgs::Marker& take(std::size_t ns, std::int32_t id, int action) {
-    if (used_ == markers_.size()) {
-      markers_.emplace_back();
-    }
-    visualization_msgs::Marker& marker = markers_[used_++];
-    marker.header = header_;
-    marker.ns = names_[ns];
-    marker.id = id;
-    marker.action = action;
-    marker.type = 0;
-    marker.pose = geometry_msgs::Pose();
-    marker.pose.orientation.w = 1.0;
-    marker.scale = geometry_msgs::Vector3();
-    marker.color = color(1.0F, 1.0F, 1.0F);
-    marker.points.clear();
-    marker.colors.clear();
-    marker.text.clear();
-    return marker;
-  }
+  visualization_msgs::Marker& take(const std::string& ns, std::int32_t id, int action);
 
   const std_msgs::Header& header_;
-  const Names& names_;
   std::vector<visualization_msgs::Marker>& markers_;
   std::size_t used_;
-  Counts counts_{};
+  Counts counts_;
 };
+
+/// Appends a line to a LINE_LIST that has a colour for each point.
+void append_line(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                 const std_msgs::ColorRGBA& color, visualization_msgs::Marker& lines);
 
 }  // namespace fiber_proximity_ros

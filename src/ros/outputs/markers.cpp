@@ -1,14 +1,13 @@
 #include "src/ros/outputs/markers.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <cstdio>
 #include <map>
-#include <string>
 
 #include "fiber_proximity/ros/conversions.hpp"
-#include "src/ros/outputs/palette.hpp"
 #include "src/ros/outputs/tube_mesh.hpp"
 
 namespace fiber_proximity_ros {
@@ -16,6 +15,8 @@ namespace {
 
 using Eigen::Vector3d;
 using visualization_msgs::Marker;
+
+constexpr double text_height = 0.035;  // of the scene
 
 std_msgs::ColorRGBA color_of(std::uint32_t fiber) { return color(fiber_color(fiber)); }
 
@@ -27,8 +28,9 @@ Vector3d middle_of(const fiber::Contact& contact) {
   return 0.5 * contact.point_a + 0.5 * contact.point_b;
 }
 
-double radius_of(const fiber::FiberAssembly& fibers, std::uint32_t fiber, std::uint32_t segment) {
-  return fibers.capsule(fibers.offsets()[fiber] + segment).radius;
+fiber::Capsule segment_of(const fiber::FiberAssembly& fibers, std::uint32_t fiber,
+                          std::uint32_t segment) {
+  return fibers.capsule(fibers.offsets()[fiber] + segment);
 }
 
 void append_box(const fiber::NodeBox& box, std::vector<geometry_msgs::Point>& lines) {
@@ -47,54 +49,39 @@ void append_box(const fiber::NodeBox& box, std::vector<geometry_msgs::Point>& li
   }
 }
 
-}  // namespace
-
-std::string distance_text(double distance) {
-  std::array<char, 48> text{};
-  std::snprintf(text.data(), text.size(), "%.1f mm", 1e3 * distance);
-  return text.data();
-}
-
+/// Diameter [m] of the disc that shows a contact: where fibres touch, or nearly do, the largest
+/// one, to look out between them; elsewhere less than the thinner one is thick, to cover neither.
+/// @param largest [m] thicker than any fibre
 double disc_size(const fiber::FiberAssembly& fibers, const fiber::Contact& contact,
                  double largest) {
-  const double thinner =
-      std::max(hairline_radius, std::min(radius_of(fibers, contact.fiber_a, contact.segment_a),
-                                         radius_of(fibers, contact.fiber_b, contact.segment_b)));
+  const double thinner = std::max(
+      hairline_radius, std::min(segment_of(fibers, contact.fiber_a, contact.segment_a).radius,
+                                segment_of(fibers, contact.fiber_b, contact.segment_b).radius));
   return contact.distance <= thinner ? largest : 1.5 * thinner;
 }
 
-std::string cost_text(const std::string& kernel, double seconds, double error, bool is_complete) {
-  std::array<char, 128> text{};
-  std::snprintf(text.data(), text.size(), "%s: %.2f ms, error <= %.1e m%s", kernel.c_str(),
-                1e3 * seconds, error, is_complete ? "" : ", cut off");
-  return text.data();
-}
-
-void MarkerBuilder::draw_tubes(const fiber::FiberAssembly& fibers, Canvas& canvas) {
+void draw_tubes(const fiber::FiberAssembly& fibers, MarkerCanvas& canvas) {
   for (std::uint32_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
-    Marker& marker = canvas.add(FIBERS, Marker::TRIANGLE_LIST);
+    Marker& marker = canvas.add("fibers", Marker::TRIANGLE_LIST);
     marker.scale.x = marker.scale.y = marker.scale.z = 1.0;
     marker.color = color_of(fiber);
     append_tube(fibers, fiber, marker.points);
   }
 }
 
-void MarkerBuilder::draw_lines(const fiber::FiberAssembly& fibers, double width, Canvas& canvas) {
-  Marker& marker = canvas.add(FIBERS, Marker::LINE_LIST);
+void draw_lines(const fiber::FiberAssembly& fibers, double width, MarkerCanvas& canvas) {
+  Marker& marker = canvas.add("fibers", Marker::LINE_LIST);
   marker.scale.x = width;
   for (std::uint32_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
     for (std::size_t i = fibers.offsets()[fiber]; i + 1 < fibers.offsets()[fiber + 1]; ++i) {
-      marker.points.push_back(to_message(fibers.points()[i]));
-      marker.points.push_back(to_message(fibers.points()[i + 1]));
-      marker.colors.insert(marker.colors.end(), 2, color_of(fiber));
+      append_line(fibers.points()[i], fibers.points()[i + 1], color_of(fiber), marker);
     }
   }
 }
 
 /// A SPHERE_LIST has one size for all: sizes are rounded down, by a sixth at most.
-void MarkerBuilder::draw_contacts(const fiber::FiberAssembly& fibers,
-                                  const std::vector<fiber::Contact>& contacts, double largest,
-                                  Canvas& canvas) {
+void draw_contacts(const fiber::FiberAssembly& fibers, const std::vector<fiber::Contact>& contacts,
+                   double largest, MarkerCanvas& canvas) {
   constexpr double steps_per_halving = 4.0;
   std::map<int, std::vector<const fiber::Contact*>> by_size;
   for (const fiber::Contact& contact : contacts) {
@@ -102,7 +89,7 @@ void MarkerBuilder::draw_contacts(const fiber::FiberAssembly& fibers,
     by_size[static_cast<int>(std::ceil(steps_per_halving * halvings - 1e-9))].push_back(&contact);
   }
   for (const auto& [steps, alike] : by_size) {
-    Marker& marker = canvas.add(CONTACTS, Marker::SPHERE_LIST);
+    Marker& marker = canvas.add("contacts", Marker::SPHERE_LIST);
     marker.scale.x = marker.scale.y = marker.scale.z =
         largest * std::exp2(-steps / steps_per_halving);
     for (const fiber::Contact* contact : alike) {
@@ -112,23 +99,20 @@ void MarkerBuilder::draw_contacts(const fiber::FiberAssembly& fibers,
   }
 }
 
-void MarkerBuilder::draw_normals(const fiber::FiberAssembly& fibers,
-                                 const std::vector<fiber::Contact>& contacts, double largest,
-                                 Canvas& canvas) {
-  Marker& marker = canvas.add(NORMALS, Marker::LINE_LIST);
+void draw_normals(const fiber::FiberAssembly& fibers, const std::vector<fiber::Contact>& contacts,
+                  double largest, MarkerCanvas& canvas) {
+  Marker& marker = canvas.add("normals", Marker::LINE_LIST);
   marker.scale.x = 0.08 * largest;
   for (const fiber::Contact& contact : contacts) {
     const Vector3d start = middle_of(contact);
     const double length = 1.2 * disc_size(fibers, contact, largest);
-    marker.points.push_back(to_message(start));
-    marker.points.push_back(to_message(start + length * contact.normal));
-    marker.colors.insert(marker.colors.end(), 2, contact_color(contact));
+    append_line(start, start + length * contact.normal, contact_color(contact), marker);
   }
 }
 
-void MarkerBuilder::draw_passed(const std::vector<fiber::Contact>& contacts, double largest,
-                                Canvas& canvas) {
-  Marker& marker = canvas.add(PASSED, Marker::SPHERE_LIST);
+void draw_passed(const std::vector<fiber::Contact>& contacts, double largest,
+                 MarkerCanvas& canvas) {
+  Marker& marker = canvas.add("passed", Marker::SPHERE_LIST);
   marker.scale.x = marker.scale.y = marker.scale.z = largest;
   marker.color = color(palette::passed);
   for (const fiber::Contact& contact : contacts) {
@@ -136,22 +120,18 @@ void MarkerBuilder::draw_passed(const std::vector<fiber::Contact>& contacts, dou
   }
 }
 
-void MarkerBuilder::draw_nearest(const fiber::Contact& minimum, const MarkerScale& scale,
-                                 Canvas& canvas) {
-  Marker& line = canvas.add(NEAREST, Marker::LINE_LIST);
+void draw_nearest(const fiber::Contact& minimum, const MarkerScale& scale, MarkerCanvas& canvas) {
+  Marker& line = canvas.add("nearest", Marker::LINE_LIST);
   line.scale.x = 0.004 * scale.extent;
   line.color = color(palette::nearest);
   line.points = {to_message(minimum.point_a), to_message(minimum.point_b)};
-
-  Marker& text = canvas.add(NEAREST_TEXT, Marker::TEXT_VIEW_FACING);
-  text.scale.z = 0.035 * scale.extent;
-  text.pose.position = to_message(middle_of(minimum) + 0.07 * scale.extent * scale.up);
-  text.text = distance_text(minimum.distance);
+  canvas.add_text("nearest_text", text_height * scale.extent,
+                  middle_of(minimum) + 0.07 * scale.extent * scale.up,
+                  distance_text(minimum.distance));
 }
 
-void MarkerBuilder::draw_boxes(const std::vector<fiber::NodeBox>& boxes, double extent,
-                               Canvas& canvas) {
-  Marker& marker = canvas.add(BOXES, Marker::LINE_LIST);
+void draw_boxes(const std::vector<fiber::NodeBox>& boxes, double extent, MarkerCanvas& canvas) {
+  Marker& marker = canvas.add("boxes", Marker::LINE_LIST);
   marker.scale.x = 0.001 * extent;
   marker.color = color(palette::boxes, 0.35F);
   for (const fiber::NodeBox& box : boxes) {
@@ -159,43 +139,107 @@ void MarkerBuilder::draw_boxes(const std::vector<fiber::NodeBox>& boxes, double 
   }
 }
 
-void MarkerBuilder::draw_cost(const std::string& cost, const MarkerScale& scale, Canvas& canvas) {
-  Marker& text = canvas.add(COST, Marker::TEXT_VIEW_FACING);
-  text.scale.z = 0.035 * scale.extent;
-  text.pose.position = to_message(scale.top + 0.15 * scale.extent * scale.up);
-  text.text = cost;
-}
-
-void MarkerBuilder::draw_names(const fiber::FiberAssembly& fibers,
-                               const std::vector<std::string>& names, const MarkerScale& scale,
-                               Canvas& canvas) {
+void draw_names(const fiber::FiberAssembly& fibers, const std::vector<std::string>& names,
+                const MarkerScale& scale, MarkerCanvas& canvas) {
   assert(names.size() == fibers.fiber_count());
   for (std::uint32_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
-    Marker& text = canvas.add(NAMES, Marker::TEXT_VIEW_FACING);
-    text.scale.z = 0.035 * scale.extent;
     const std::uint32_t first = fibers.offsets()[fiber];
     const Vector3d& end = fibers.points()[first];
     const Vector3d& middle = fibers.points()[(first + fibers.offsets()[fiber + 1]) / 2];
     const Vector3d outward = (end - middle).stableNormalized();
-    text.pose.position = to_message(end + scale.extent * (0.1 * outward + 0.05 * scale.up));
-    text.color = color(mix({1.0F, 1.0F, 1.0F}, fiber_color(fiber), 0.5));
-    text.text = names[fiber];
+    const Vector3d position = end + scale.extent * (0.1 * outward + 0.05 * scale.up);
+    canvas.add_text("names", text_height * scale.extent, position, names[fiber]).color =
+        color(mix({1.0F, 1.0F, 1.0F}, fiber_color(fiber), 0.5));
   }
 }
 
 /// x red, y green, z blue, as everywhere in rviz; between the legend and the names of the ends.
-void MarkerBuilder::draw_axes(const MarkerScale& scale, Canvas& canvas) {
+void draw_axes(const MarkerScale& scale, MarkerCanvas& canvas) {
   const double length = 0.12 * scale.extent;
-  Marker& marker = canvas.add(AXES, Marker::LINE_LIST);
+  Marker& marker = canvas.add("axes", Marker::LINE_LIST);
   marker.scale.x = 0.06 * length;
   const Vector3d origin = scale.bottom() - 0.12 * scale.extent * scale.up -
                           0.35 * scale.box.sizes().x() * Vector3d::UnitX();
   for (int axis = 0; axis < 3; ++axis) {
     Rgb rgb{0.2F, 0.2F, 0.2F};
     rgb[static_cast<std::size_t>(axis)] = 1.0F;
-    marker.points.push_back(to_message(origin));
-    marker.points.push_back(to_message(origin + length * Vector3d::Unit(axis)));
-    marker.colors.insert(marker.colors.end(), 2, color(rgb));
+    append_line(origin, origin + length * Vector3d::Unit(axis), color(rgb), marker);
+  }
+}
+
+/// One of the two strands of a crossing.
+struct Strand {
+  Vector3d at;     // [m] the crossing, moved out of the fibre towards the viewer
+  Vector3d along;  // unit vector
+
+  Strand(const fiber::Capsule& segment, const Vector3d& point, const fiber::View& view)
+      : along((segment.p1 - segment.p0).stableNormalized()) {
+    const Vector3d ray = view.is_perspective ? Vector3d(point - view.eye) : view.direction;
+    at = point - 1.1 * segment.radius * ray.stableNormalized();
+  }
+};
+
+}  // namespace
+
+std::string cost_text(const std::string& kernel, double seconds, double error, bool is_complete) {
+  std::array<char, 128> text{};
+  std::snprintf(text.data(), text.size(), "%s: %.2f ms, error <= %.1e m%s", kernel.c_str(),
+                1e3 * seconds, error, is_complete ? "" : ", cut off");
+  return text.data();
+}
+
+std::vector<LegendLine> legend_lines(const MarkerOptions& options,
+                                     const EnvironmentMarkerOptions& environment, double margin) {
+  std::vector<LegendLine> lines;
+  if (options.show_contacts) {
+    lines.push_back({palette::penetrating, "red: penetrating"});
+    if (margin > 0.0) {
+      lines.push_back({palette::within_margin, std::isfinite(margin)
+                                                   ? "amber: within " + distance_text(margin)
+                                                   : "amber: apart"});
+    }
+  }
+  if (options.show_passed) {
+    lines.push_back({palette::passed, "cyan: came and went between two messages"});
+  }
+  if (environment.show_distances) {
+    lines.push_back({palette::distant, "red to green: from objects, 0 to " +
+                                           distance_text(environment.free_distance)});
+  }
+  if (options.show_crossings) {
+    lines.push_back({palette::positive_crossing, "green: crossing of sign +1"});
+    lines.push_back({palette::negative_crossing, "magenta: crossing of sign -1"});
+  }
+  if (options.show_boxes) {
+    lines.push_back({palette::boxes, "boxes: level " + std::to_string(options.level)});
+  }
+  if (options.show_nearest) {
+    lines.push_back({palette::nearest, "white: nearest pair"});
+  }
+  return lines;
+}
+
+void draw_crossings(const fiber::FiberAssembly& fibers, const CrossingDrawing& drawing,
+                    double thickness, visualization_msgs::Marker& marker) {
+  // From the crossing, in thicknesses.
+  constexpr double bar_end = 2.5;
+  constexpr double gap_end = 1.0;
+  marker.scale.x = thickness;
+  for (const fiber::Crossing& crossing : drawing.crossings) {
+    const Strand a(segment_of(fibers, crossing.fiber_a, crossing.segment_a), crossing.point_a,
+                   drawing.view);
+    const Strand b(segment_of(fibers, crossing.fiber_b, crossing.segment_b), crossing.point_b,
+                   drawing.view);
+    const auto add_line = [&](const Strand& strand, double from, double to) {
+      append_line(
+          strand.at + from * thickness * strand.along, strand.at + to * thickness * strand.along,
+          color(crossing.sign > 0 ? palette::positive_crossing : palette::negative_crossing),
+          marker);
+    };
+    const Strand& under = crossing.a_is_over ? b : a;
+    add_line(crossing.a_is_over ? a : b, -bar_end, bar_end);
+    add_line(under, -bar_end, -gap_end);
+    add_line(under, gap_end, bar_end);
   }
 }
 
@@ -205,10 +249,7 @@ void MarkerBuilder::build(const std_msgs::Header& header, const Drawing& drawing
   const MarkerScale scale(fibers, header.frame_id);
   // Thicker than the fibres, to be seen where two of them hide the point of contact.
   const double thickness = 3.0 * scale.thickest;
-  static const Canvas::Names namespaces{"fibers",    "contacts",     "normals", "passed",
-                                        "nearest",   "nearest_text", "cost",    "boxes",
-                                        "crossings", "names",        "legend",  "axes"};
-  Canvas canvas(header, namespaces, markers);
+  MarkerCanvas canvas(header, markers);
   if (options.show_fibers && fibers.segment_count() > most_tube_segments) {
     draw_lines(fibers, 2.0 * scale.thinnest, canvas);
   } else if (options.show_fibers) {
@@ -225,19 +266,20 @@ void MarkerBuilder::build(const std_msgs::Header& header, const Drawing& drawing
     draw_nearest(*minimum, scale, canvas);
   }
   if (options.show_cost) {
-    draw_cost(cost, scale, canvas);
+    canvas.add_text("cost", text_height * scale.extent, scale.top + 0.15 * scale.extent * scale.up,
+                    cost);
   }
   if (options.show_boxes && !boxes.empty()) {
     draw_boxes(boxes, scale.extent, canvas);
   }
   if (options.show_crossings && crossings != nullptr && !crossings->crossings.empty()) {
-    draw_crossings(fibers, *crossings, thickness, canvas.add(CROSSINGS, Marker::LINE_LIST));
+    draw_crossings(fibers, *crossings, thickness, canvas.add("crossings", Marker::LINE_LIST));
   }
   if (options.show_names && names != nullptr && names->size() <= most_names) {
     draw_names(fibers, *names, scale, canvas);
   }
   if (options.show_legend && legend != nullptr && fibers.fiber_count() > 0) {
-    draw_legend(*legend, scale, LEGEND, canvas);
+    canvas.add_legend(*legend, scale);
     draw_axes(scale, canvas);
   }
   canvas.finish(drawn_);

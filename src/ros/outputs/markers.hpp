@@ -9,11 +9,11 @@
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/query/contact.hpp"
+#include "fiber_proximity/query/crossing.hpp"
 #include "fiber_proximity/query/engine.hpp"
-#include "src/ros/outputs/crossing_markers.hpp"
-#include "src/ros/outputs/draw_legend.hpp"
+#include "fiber_proximity/query/view.hpp"
+#include "src/ros/outputs/environment_markers.hpp"
 #include "src/ros/outputs/marker_canvas.hpp"
-#include "src/ros/outputs/marker_scale.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -30,6 +30,13 @@ struct MarkerOptions {
   bool show_legend = false;
   bool show_passed = false;  ///< contacts that came and went, if there are any to show
 };
+
+/// Crossings to draw, and how they are looked at. Holds references: only for the call.
+struct CrossingDrawing {
+  const std::vector<fiber::Crossing>& crossings;
+  const fiber::View& view;
+};
+
 /// An answer to draw. Holds references: only for the call.
 struct Drawing {
   const fiber::FiberAssembly& fibers;
@@ -43,18 +50,23 @@ struct Drawing {
   const std::vector<fiber::Contact>* passed = nullptr;  ///< contacts that came and went
 };
 
-/// A distance [m] as texts have it, in mm.
-std::string distance_text(double distance);
-
-/// Diameter [m] of the disc that shows a contact: where fibres touch, or nearly do, the largest
-/// one, to look out between them; elsewhere less than the thinner one is thick, to cover neither.
-/// @param largest [m] thicker than any fibre
-double disc_size(const fiber::FiberAssembly& fibers, const fiber::Contact& contact, double largest);
-
 /// What an answer cost and how accurate it is, in one line.
 /// @param seconds of update and detection
 /// @param error   [m] of a contact's distance, at most
 std::string cost_text(const std::string& kernel, double seconds, double error, bool is_complete);
+
+/// What the colours of the markers mean that these options show: a line for each.
+/// @param margin [m] of the contacts; may be infinite
+std::vector<LegendLine> legend_lines(const MarkerOptions& options,
+                                     const EnvironmentMarkerOptions& environment, double margin);
+
+/// Draws each crossing as diagrams of knots do, into a LINE_LIST marker: a bar along the strand
+/// above, and of the strand below two stubs with a gap between them. In front of the fibres as the
+/// view has it; green for the sign +1, magenta for −1.
+/// @param thickness [m] of the lines
+/// @param marker    gets its width, points and colours
+void draw_crossings(const fiber::FiberAssembly& fibers, const CrossingDrawing& drawing,
+                    double thickness, visualization_msgs::Marker& marker);
 
 /// Draws fibres, contacts and boxes for rviz.
 ///
@@ -63,7 +75,7 @@ std::string cost_text(const std::string& kernel, double seconds, double error, b
 /// | `fibers`       | fibre index | tubes of the exact radius (TRIANGLE_LIST); above             |
 /// |                |             | `most_tube_segments` in all one LINE_LIST of id 0            |
 /// | `contacts`     | n           | SPHERE_LIST midway between the surfaces; red in penetration, |
-/// |                |             | amber within the margin; one of each size, see disc_size()   |
+/// |                |             | amber within the margin; one of each size                    |
 /// | `normals`      | 0           | LINE_LIST from there along the normal a→b                    |
 /// | `passed`       | 0           | SPHERE_LIST where contacts came and went, of late; cyan      |
 /// | `nearest`      | 0           | LINE_LIST between the nearest points of the closest pair     |
@@ -92,42 +104,7 @@ class MarkerBuilder {
              visualization_msgs::MarkerArray& markers);
 
  private:
-  enum Namespace : std::uint8_t {
-    FIBERS,
-    CONTACTS,
-    NORMALS,
-    PASSED,
-    NEAREST,
-    NEAREST_TEXT,
-    COST,
-    BOXES,
-    CROSSINGS,
-    NAMES,
-    LEGEND,
-    AXES,
-    COUNT
-  };
-  using Canvas = MarkerCanvas<COUNT>;
-
-  static void draw_tubes(const fiber::FiberAssembly& fibers, Canvas& canvas);
-  static void draw_lines(const fiber::FiberAssembly& fibers, double width, Canvas& canvas);
-  static void draw_contacts(const fiber::FiberAssembly& fibers,
-                            const std::vector<fiber::Contact>& contacts, double largest,
-                            Canvas& canvas);
-  static void draw_normals(const fiber::FiberAssembly& fibers,
-                           const std::vector<fiber::Contact>& contacts, double largest,
-                           Canvas& canvas);
-  static void draw_passed(const std::vector<fiber::Contact>& contacts, double largest,
-                          Canvas& canvas);
-  static void draw_nearest(const fiber::Contact& minimum, const MarkerScale& scale, Canvas& canvas);
-  static void draw_cost(const std::string& cost, const MarkerScale& scale, Canvas& canvas);
-  static void draw_boxes(const std::vector<fiber::NodeBox>& boxes, double extent, Canvas& canvas);
-  static void draw_names(const fiber::FiberAssembly& fibers, const std::vector<std::string>& names,
-                         const MarkerScale& scale, Canvas& canvas);
-  static void draw_axes(const MarkerScale& scale, Canvas& canvas);
-
-  // By namespace: ids 0 .. count−1 are on the screen.
-  Canvas::Counts drawn_{};
+  MarkerCanvas::Counts drawn_;  // what is on the screen
 };
 
 }  // namespace fiber_proximity_ros

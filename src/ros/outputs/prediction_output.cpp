@@ -7,9 +7,38 @@
 #include <stdexcept>
 
 namespace fiber_proximity_ros {
+namespace {
 
 using fiber::MotionContact;
 using fiber_proximity::PredictedContact;
+
+/// The earliest of the contacts that are asked for.
+/// @param horizon [s]
+template <class IsAsked>
+PredictedContact earliest_of(const fiber::MotionResult& result, double horizon,
+                             const IsAsked& is_asked) {
+  PredictedContact message;
+  message.touching = static_cast<std::uint32_t>(
+      std::count_if(result.touching.begin(), result.touching.end(), is_asked));
+  message.complete = result.complete;
+  message.time_upper = std::numeric_limits<double>::infinity();
+  const MotionContact* const earliest = result.earliest(is_asked);
+  message.expected = earliest != nullptr;
+  if (earliest == nullptr) {
+    message.time_lower = result.others_lower * horizon;
+    return message;
+  }
+  message.time_lower = std::min(earliest->lower, result.others_lower) * horizon;
+  message.time_upper = earliest->upper * horizon;
+  message.certain = earliest->certain;
+  message.fiber_a = earliest->fiber_a;
+  message.segment_a = earliest->segment_a;
+  message.fiber_b = earliest->fiber_b;
+  message.segment_b = earliest->segment_b;
+  return message;
+}
+
+}  // namespace
 
 PredictionOutput::PredictionOutput(ros::NodeHandle& private_node, InputSet& inputs,
                                    const std::string& engine, const fiber::EngineOptions& options)
@@ -118,10 +147,12 @@ void PredictionOutput::predict(const fiber::QueryOptions& options,
   motion.type = fiber::MotionType::ALL;
   motion.contact_limit = 0;
   engine_->query_motion(motion, result_);
-  message_.same_fiber = to_message(
-      result_, [](const MotionContact& contact) { return contact.fiber_a == contact.fiber_b; });
-  message_.different_fibers = to_message(
-      result_, [](const MotionContact& contact) { return contact.fiber_a != contact.fiber_b; });
+  message_.same_fiber = earliest_of(result_, options_.horizon, [](const MotionContact& contact) {
+    return contact.fiber_a == contact.fiber_b;
+  });
+  message_.different_fibers =
+      earliest_of(result_, options_.horizon,
+                  [](const MotionContact& contact) { return contact.fiber_a != contact.fiber_b; });
   if (environment.is_used()) {
     motion.type = fiber::MotionType::FIRST;
     motion.contact_limit = options.contact_limit;
@@ -133,32 +164,8 @@ void PredictionOutput::predict(const fiber::QueryOptions& options,
     result_ = fiber::MotionResult();
     result_.others_lower = 1.0;
   }
-  message_.environment = to_message(result_, [](const MotionContact&) { return true; });
-}
-
-/// The earliest of the contacts that are asked for.
-template <class IsAsked>
-PredictedContact PredictionOutput::to_message(const fiber::MotionResult& result,
-                                              const IsAsked& is_asked) const {
-  PredictedContact message;
-  message.touching = static_cast<std::uint32_t>(
-      std::count_if(result.touching.begin(), result.touching.end(), is_asked));
-  message.complete = result.complete;
-  message.time_upper = std::numeric_limits<double>::infinity();
-  const MotionContact* const earliest = result.earliest(is_asked);
-  message.expected = earliest != nullptr;
-  if (earliest == nullptr) {
-    message.time_lower = result.others_lower * options_.horizon;
-    return message;
-  }
-  message.time_lower = std::min(earliest->lower, result.others_lower) * options_.horizon;
-  message.time_upper = earliest->upper * options_.horizon;
-  message.certain = earliest->certain;
-  message.fiber_a = earliest->fiber_a;
-  message.segment_a = earliest->segment_a;
-  message.fiber_b = earliest->fiber_b;
-  message.segment_b = earliest->segment_b;
-  return message;
+  message_.environment =
+      earliest_of(result_, options_.horizon, [](const MotionContact&) { return true; });
 }
 
 }  // namespace fiber_proximity_ros

@@ -56,9 +56,6 @@ class PredictionOutput {
   void take_frames();
   bool predict_places();
   void predict(const fiber::QueryOptions& options, const EnvironmentOutput& environment);
-  template <class IsAsked>
-  fiber_proximity::PredictedContact to_message(const fiber::MotionResult& result,
-                                               const IsAsked& is_asked) const;
 
   InputSet& inputs_;
   ros::Publisher publisher_;

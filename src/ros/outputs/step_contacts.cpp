@@ -2,13 +2,55 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
+#include <string_view>
+#include <utility>
 
 namespace fiber_proximity_ros {
 namespace {
 
+using fiber::Environment;
+using fiber::EnvironmentObject;
 using fiber::MotionContact;
 using fiber::TimeBounds;
 using std::chrono::nanoseconds;
+
+/// One contact for each pair of fibres, as the query has it.
+void keep_earliest_of_fiber_pairs(std::vector<MotionContact>& contacts) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, MotionContact> earliest;
+  for (const MotionContact& contact : contacts) {
+    MotionContact& first =
+        earliest.try_emplace({contact.fiber_a, contact.fiber_b}, contact).first->second;
+    if (contact.earlier_than(first)) {
+      first = contact;
+    }
+  }
+  contacts.clear();
+  for (const auto& [fibers, contact] : earliest) {
+    contacts.push_back(contact);
+  }
+}
+
+/// The objects there are now where they were before; those that cannot have moved from there, where
+/// they are.
+std::shared_ptr<const Environment> as_before(const MovingEnvironment& environment) {
+  if (environment.before == environment.now) {
+    return environment.now;
+  }
+  std::map<std::string_view, const EnvironmentObject*> by_name;
+  for (const EnvironmentObject& object : environment.before->objects()) {
+    by_name.emplace(object.name, &object);
+  }
+  std::vector<EnvironmentObject> objects = environment.now->objects();
+  for (EnvironmentObject& object : objects) {
+    const auto found = by_name.find(object.name);
+    if (found != by_name.end() && fiber::have_same_shapes(*found->second, object)) {
+      object.pose = found->second->pose;
+    }
+  }
+  return std::make_shared<const Environment>(std::move(objects));
+}
 
 /// The times of parts of a motion, rounded outwards.
 TimeBounds times_of(double lower, double upper, const TimeBounds& motion) {
@@ -20,79 +62,109 @@ TimeBounds times_of(double lower, double upper, const TimeBounds& motion) {
           after_begin(std::ceil(std::min(upper, 1.0) * length))};
 }
 
-/// Finds one pair after the other, in their order, in a list that is sorted by key.
-template <class Item>
-class SortedList {
- public:
-  /// @param items must outlive this
-  explicit SortedList(const std::vector<Item>& items) : next_(items.begin()), end_(items.end()) {}
+/// @param sorted by key
+/// @returns nullptr if the pair is not among them
+template <class Item, class Key>
+const Item* find_pair(const std::vector<Item>& sorted, const Key& key) {
+  const auto found =
+      std::lower_bound(sorted.begin(), sorted.end(), key,
+                       [](const Item& item, const Key& other) { return item.key() < other; });
+  return found != sorted.end() && found->key() == key ? &*found : nullptr;
+}
 
-  /// @param key not less than in the call before
-  /// @returns nullptr if it is not there
-  template <class Key>
-  const Item* find(const Key& key) {
-    next_ = std::find_if(next_, end_, [&key](const Item& item) { return !(item.key() < key); });
-    return next_ != end_ && next_->key() == key ? &*next_ : nullptr;
+/// Adds what was found in a motion and is gone by now, in its places.
+void add_what_is_gone(const std::vector<fiber::Contact>& now,
+                      const std::vector<MotionContact>& found, StepContact::State state,
+                      const KnownMotion& motion, std::vector<StepContact>& contacts) {
+  std::vector<MotionContact> gone;
+  std::copy_if(found.begin(), found.end(), std::back_inserter(gone),
+               [&now](const MotionContact& each) { return find_pair(now, each.key()) == nullptr; });
+  const std::vector<fiber::LastContact> last = motion.last_contacts(gone);
+  const auto middle = static_cast<std::ptrdiff_t>(contacts.size());
+  for (std::size_t i = 0; i < gone.size(); ++i) {
+    if (motion.reports_all || !last[i].lasts) {
+      contacts.push_back({state, motion.first_contact(gone[i]),
+                          times_of(gone[i].lower, gone[i].upper, motion.time),
+                          times_of(last[i].lower, last[i].upper, motion.time)});
+    }
   }
-
- private:
-  typename std::vector<Item>::const_iterator next_;
-  typename std::vector<Item>::const_iterator end_;
-};
+  std::inplace_merge(contacts.begin(), contacts.begin() + middle, contacts.end(),
+                     [](const StepContact& x, const StepContact& y) { return x.key() < y.key(); });
+}
 
 }  // namespace
 
-void StepContacts::assign(const std::vector<fiber::Contact>& now, const TimeBounds& step,
-                          const KnownMotion* motion) {
-  contacts_.clear();
+KnownMotion detect_motion_contacts(fiber::ProximityEngine& engine, const ContinuousStep& step,
+                                   const fiber::QueryOptions& options, bool reports_all,
+                                   fiber::MotionResult& result) {
+  const fiber::FiberMotion motion = step.motion;
+  const fiber::MotionOptions asked = fiber::motion_options(options, step.tolerance);
+  engine.update_motion(motion.before, motion.after);
+  engine.query_motion(asked, result);
+  if (options.type == fiber::QueryType::FIBER_PAIRS) {
+    keep_earliest_of_fiber_pairs(result.contacts);
+  }
+  return {result,
+          [motion](const MotionContact& contact) {
+            return fiber::first_contact(motion, motion, contact);
+          },
+          [motion, asked](const std::vector<MotionContact>& contacts) {
+            return fiber::last_contacts(motion, motion, contacts, asked);
+          },
+          step.time, reports_all};
+}
+
+KnownMotion detect_motion_contacts(const MovingEnvironment& environment,
+                                   const fiber::AllowedPairs& allowed, const ContinuousStep& step,
+                                   const fiber::QueryOptions& options, bool reports_all,
+                                   fiber::MotionResult& result) {
+  const fiber::FiberMotion motion = step.motion;
+  const fiber::MotionOptions asked = fiber::motion_options(options, step.tolerance);
+  const std::shared_ptr<const Environment> before = as_before(environment);
+  const std::shared_ptr<const Environment> now = environment.now;
+  if (before == now) {
+    now->query_motion(motion.before, motion.after, asked, allowed, result);
+  } else {
+    before->query_motion(motion.before, motion.after, *now, asked, allowed, result);
+  }
+  const auto first_contact = [=](const MotionContact& contact) {
+    return before->first_contact(motion, *now, contact);
+  };
+  // Nothing is known of when it parted but whether it has.
+  const auto last_contacts = [=](const std::vector<MotionContact>& contacts) {
+    std::vector<fiber::LastContact> last;
+    for (const MotionContact& contact : contacts) {
+      const std::uint32_t point = motion.before.offsets()[contact.fiber_a] + contact.segment_a;
+      const fiber::Contact at_end =
+          now->contact(fiber::capsule_at(motion, point, 1.0), contact.fiber_b, contact.segment_b);
+      last.push_back({fiber::time_of(contact), 1.0, at_end.distance <= asked.margin});
+    }
+    return last;
+  };
+  return {result, first_contact, last_contacts, step.time, reports_all};
+}
+
+std::vector<StepContact> step_contacts(const std::vector<fiber::Contact>& now,
+                                       const TimeBounds& step, const KnownMotion* motion) {
+  std::vector<StepContact> contacts;
   for (const fiber::Contact& contact : now) {
-    contacts_.push_back({StepContact::State::THERE, contact, step, {}});
+    contacts.push_back({StepContact::State::THERE, contact, step, {}});
   }
   if (motion == nullptr) {
-    return;
+    return contacts;
   }
-  SortedList began_in_step(motion->result.contacts);
-  SortedList there_before(motion->result.touching);
-  for (StepContact& there : contacts_) {
-    if (const MotionContact* const began = began_in_step.find(there.key())) {
-      there.first = times_of(began->lower, began->upper, motion->time);
-    } else if (there_before.find(there.key()) != nullptr) {
+  const std::vector<MotionContact>& began = motion->result.contacts;
+  const std::vector<MotionContact>& touching = motion->result.touching;
+  for (StepContact& there : contacts) {
+    if (const MotionContact* const contact = find_pair(began, there.key())) {
+      there.first = times_of(contact->lower, contact->upper, motion->time);
+    } else if (find_pair(touching, there.key()) != nullptr) {
       there.first = {motion->time.lower, motion->time.lower};
     }
   }
-  find_what_is_gone(now, motion->result.contacts, StepContact::State::PASSED, *motion);
-  merge_gone();
-  find_what_is_gone(now, motion->result.touching, StepContact::State::LEFT, *motion);
-  merge_gone();
-}
-
-void StepContacts::find_what_is_gone(const std::vector<fiber::Contact>& now,
-                                     const std::vector<MotionContact>& found,
-                                     StepContact::State state, const KnownMotion& motion) {
-  SortedList there_now(now);
-  not_there_.clear();
-  for (const MotionContact& contact : found) {
-    if (there_now.find(contact.key()) == nullptr) {
-      not_there_.push_back(contact);
-    }
-  }
-  const std::vector<fiber::LastContact> last = motion.last_contacts(not_there_);
-  for (std::size_t i = 0; i < not_there_.size(); ++i) {
-    if (motion.reports_all || !last[i].lasts) {
-      gone_.push_back({state, motion.first_contact(not_there_[i]),
-                       times_of(not_there_[i].lower, not_there_[i].upper, motion.time),
-                       times_of(last[i].lower, last[i].upper, motion.time)});
-    }
-  }
-}
-
-/// Moves what is gone to its places among the contacts.
-void StepContacts::merge_gone() {
-  const auto middle = static_cast<std::ptrdiff_t>(contacts_.size());
-  contacts_.insert(contacts_.end(), gone_.begin(), gone_.end());
-  std::inplace_merge(contacts_.begin(), contacts_.begin() + middle, contacts_.end(),
-                     [](const StepContact& x, const StepContact& y) { return x.key() < y.key(); });
-  gone_.clear();
+  add_what_is_gone(now, began, StepContact::State::PASSED, *motion, contacts);
+  add_what_is_gone(now, touching, StepContact::State::LEFT, *motion, contacts);
+  return contacts;
 }
 
 void PassedContacts::add(const std::vector<StepContact>& contacts) {

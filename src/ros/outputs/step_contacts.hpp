@@ -2,14 +2,61 @@
 
 #include <chrono>
 #include <functional>
+#include <memory>
 #include <vector>
 
+#include "fiber_proximity/environment/environment.hpp"
 #include "fiber_proximity/query/contact.hpp"
-#include "fiber_proximity/query/motion.hpp"
+#include "fiber_proximity/query/engine.hpp"
 #include "src/query/contact_in_motion.hpp"
 #include "src/query/touch_tracker.hpp"
 
 namespace fiber_proximity_ros {
+
+/// A step of the fibres, from one answer to the next, that is to be looked at as a motion.
+struct ContinuousStep {
+  fiber::FiberMotion motion;
+  fiber::TimeBounds time;
+  double tolerance;  ///< [m] see fiber::MotionOptions
+};
+
+/// What is known of a motion.
+struct KnownMotion {
+  const fiber::MotionResult& result;
+  std::function<fiber::Contact(const fiber::MotionContact&)> first_contact;
+  std::function<std::vector<fiber::LastContact>(const std::vector<fiber::MotionContact>&)>
+      last_contacts;
+  fiber::TimeBounds time;  ///< from its begin to its end
+  /// Whether all contacts there are now were asked for and found, so that others are gone. If not,
+  /// only those are that have parted.
+  bool reports_all = true;
+};
+
+/// Finds what of the fibres came into contact with each other in a step. They must live, unchanged,
+/// as long as what is found is used.
+/// @param engine      that is there for motions
+/// @param options     of the query whose contacts there are now
+/// @param reports_all see KnownMotion
+/// @param result      what is found refers to it
+/// @throws std::invalid_argument for fibres that move too far, or that the engine cannot take
+KnownMotion detect_motion_contacts(fiber::ProximityEngine& engine, const ContinuousStep& step,
+                                   const fiber::QueryOptions& options, bool reports_all,
+                                   fiber::MotionResult& result);
+
+/// What is around the fibres before a step and after it.
+struct MovingEnvironment {
+  std::shared_ptr<const fiber::Environment> before;
+  std::shared_ptr<const fiber::Environment> now;
+};
+
+/// The same for contacts with what is around them. Objects move from where they were to where they
+/// are; those that were not there before, or had other shapes, as a point cloud does, count as
+/// standing still.
+/// @throws std::invalid_argument as fiber::Environment::query_motion()
+KnownMotion detect_motion_contacts(const MovingEnvironment& environment,
+                                   const fiber::AllowedPairs& allowed, const ContinuousStep& step,
+                                   const fiber::QueryOptions& options, bool reports_all,
+                                   fiber::MotionResult& result);
 
 /// A contact during the step from the answer before to this one.
 struct StepContact {
@@ -26,40 +73,12 @@ struct StepContact {
   auto key() const { return contact.key(); }
 };
 
-/// What is known of a motion.
-struct KnownMotion {
-  const fiber::MotionResult& result;
-  std::function<fiber::Contact(const fiber::MotionContact&)> first_contact;
-  std::function<std::vector<fiber::LastContact>(const std::vector<fiber::MotionContact>&)>
-      last_contacts;
-  fiber::TimeBounds time;  ///< from its begin to its end
-  /// Whether all contacts there are now were asked for and found, so that others are gone. If not,
-  /// only those are that have parted.
-  bool reports_all = true;
-};
-
 /// All contacts of a step, in the order of Contact::key().
-class StepContacts {
- public:
-  /// @param now  contacts after the step
-  /// @param step from the answer before to this one, within which a contact came
-  /// @param motion of the step, if it is known: it tells when, and what was gone again by now
-  void assign(const std::vector<fiber::Contact>& now, const fiber::TimeBounds& step,
-              const KnownMotion* motion);
-
-  const std::vector<StepContact>& contacts() const { return contacts_; }
-
- private:
-  void find_what_is_gone(const std::vector<fiber::Contact>& now,
-                         const std::vector<fiber::MotionContact>& found, StepContact::State state,
-                         const KnownMotion& motion);
-  void merge_gone();
-
-  std::vector<StepContact> contacts_;
-  // Members for their memory.
-  std::vector<fiber::MotionContact> not_there_;  // of the motion, but not at its end
-  std::vector<StepContact> gone_;
-};
+/// @param now  contacts after the step
+/// @param step from the answer before to this one, within which a contact came
+/// @param motion of the step, if it is known: it tells when, and what was gone again by now
+std::vector<StepContact> step_contacts(const std::vector<fiber::Contact>& now,
+                                       const fiber::TimeBounds& step, const KnownMotion* motion);
 
 /// Contacts that came and went, kept for a moment so that somebody can see them.
 class PassedContacts {

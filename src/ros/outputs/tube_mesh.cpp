@@ -1,82 +1,140 @@
 #include "src/ros/outputs/tube_mesh.hpp"
 
-#include <array>
+#include <Eigen/Geometry>
+#include <cassert>
 #include <cmath>
 
 #include "fiber_proximity/ros/conversions.hpp"
+#include "src/geometry/smallest_rotation.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
 
 using Eigen::Vector3d;
-using Corners = std::array<Vector3d, tube_sides>;
 
-Corners corners_of(const TubeRing& ring) {
-  static const std::vector<Eigen::Vector2d> directions = corner_directions(tube_sides);
-  Corners corners;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    corners[i] = ring.center + ring.radius * ring.outward(directions[i]);
+/// Above this bend (its cosine, 25°) one ring between two segments would visibly pinch the tube.
+constexpr double cosine_of_sharp_bend = 0.9;
+
+/// A direction along the tube and one across it, from which the corners are counted.
+struct Frame {
+  Vector3d tangent;
+  Vector3d normal;
+
+  explicit Frame(const Vector3d& direction)
+      : tangent(direction), normal(direction.unitOrthogonal()) {}
+
+  /// Turns into the new direction by the smallest rotation that does.
+  void turn(const Vector3d& direction) {
+    normal = fiber::smallest_rotation(tangent, direction) * normal;
+    tangent = direction;
+    normal = (normal - normal.dot(tangent) * tangent).normalized();  // rounding does not add up
   }
-  return corners;
+
+  TubeRing ring(const Vector3d& center, double radius, std::uint32_t point) const {
+    return {center, tangent, normal, tangent.cross(normal), radius, point};
+  }
+};
+
+/// Unit vectors along the segments of a fibre; a segment of no length has its neighbour's.
+std::vector<Vector3d> directions_of(const fiber::FiberAssembly& fibers, std::uint32_t begin,
+                                    std::uint32_t end) {
+  std::vector<Vector3d> directions;
+  directions.reserve(end - begin - 1);
+  Vector3d last = Vector3d::Zero();
+  for (std::uint32_t point = begin; point + 1 < end; ++point) {
+    const Vector3d direction =
+        (fibers.points()[point + 1] - fibers.points()[point]).stableNormalized();
+    if (!direction.isZero(0.0)) {
+      if (last.isZero(0.0)) {
+        directions.assign(directions.size(), direction);
+      }
+      last = direction;
+    }
+    directions.push_back(last);
+  }
+  if (last.isZero(0.0)) {
+    directions.assign(directions.size(), Vector3d::UnitX());
+  }
+  return directions;
 }
 
-/// Spans a closed skin over rings.
-class Skin {
- public:
-  explicit Skin(std::vector<geometry_msgs::Point>& triangles) : triangles_(triangles) {}
-
-  /// Half a sphere behind the first ring.
-  void open(const TubeRing& first) {
-    last_ = corners_of(collar(first, -1.0));
-    const Vector3d pole = first.center - first.radius * first.tangent;
-    for (std::size_t i = 0; i < last_.size(); ++i) {
-      add_triangle(pole, last_[next(i)], last_[i]);
-    }
-  }
-
-  void add(const TubeRing& ring) {
-    const Corners corners = corners_of(ring);
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      add_triangle(last_[i], last_[next(i)], corners[i]);
-      add_triangle(corners[i], last_[next(i)], corners[next(i)]);
-    }
-    last_ = corners;
-  }
-
-  /// Half a sphere ahead of the last ring.
-  void close(const TubeRing& last) {
-    add(collar(last, 1.0));
-    const Vector3d pole = last.center + last.radius * last.tangent;
-    for (std::size_t i = 0; i < last_.size(); ++i) {
-      add_triangle(pole, last_[i], last_[next(i)]);
-    }
-  }
-
- private:
-  static std::size_t next(std::size_t i) { return (i + 1) % tube_sides; }
-
-  void add_triangle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
-    for (const Vector3d* corner : {&a, &b, &c}) {
-      triangles_.push_back(to_message(*corner));
-    }
-  }
-
-  std::vector<geometry_msgs::Point>& triangles_;
-  Corners last_;
-};
+double drawn_radius(const fiber::FiberAssembly& fibers, std::uint32_t point) {
+  const double radius = fibers.segment_radius(point);
+  return radius > 0.0 ? radius : hairline_radius;
+}
 
 }  // namespace
 
+TubeRing collar(const TubeRing& end, double side) {
+  TubeRing ring = end;
+  ring.radius = end.radius * std::sqrt(0.5);
+  ring.center += side * ring.radius * end.tangent;
+  return ring;
+}
+
+std::vector<Eigen::Vector2d> corner_directions(int sides) {
+  assert(sides >= 3);
+  std::vector<Eigen::Vector2d> directions;
+  directions.reserve(static_cast<std::size_t>(sides));
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 2.0 * M_PI * i / sides;
+    directions.emplace_back(std::cos(angle), std::sin(angle));
+  }
+  return directions;
+}
+
+void sweep_tube(const fiber::FiberAssembly& fibers, std::uint32_t fiber,
+                std::vector<TubeRing>& rings) {
+  assert(fiber < fibers.fiber_count());
+  rings.clear();
+  const std::uint32_t begin = fibers.offsets()[fiber];
+  const std::uint32_t end = fibers.offsets()[fiber + 1];
+  const std::vector<Vector3d> directions = directions_of(fibers, begin, end);
+
+  Frame frame(directions.front());
+  double radius = drawn_radius(fibers, begin);
+  rings.push_back(frame.ring(fibers.points()[begin], radius, begin));
+  for (std::uint32_t point = begin + 1; point + 1 < end; ++point) {
+    const Vector3d& center = fibers.points()[point];
+    const Vector3d& before = directions[point - begin - 1];
+    const Vector3d& after = directions[point - begin];
+    const double next_radius = drawn_radius(fibers, point);
+    if (before.dot(after) > cosine_of_sharp_bend && next_radius == radius) {
+      frame.turn((before + after).normalized());
+      rings.push_back(frame.ring(center, radius, point));
+    } else {
+      frame.turn(before);
+      rings.push_back(frame.ring(center, radius, point));
+      frame.turn(after);
+      rings.push_back(frame.ring(center, next_radius, point));
+    }
+    radius = next_radius;
+  }
+  frame.turn(directions.back());
+  rings.push_back(frame.ring(fibers.points()[end - 1], radius, end - 1));
+}
+
 void append_tube(const fiber::FiberAssembly& fibers, std::uint32_t fiber,
                  std::vector<geometry_msgs::Point>& triangles) {
+  static const std::vector<Eigen::Vector2d> directions = corner_directions(tube_sides);
   std::vector<TubeRing> rings;
   sweep_tube(fibers, fiber, rings);
-  Skin skin(triangles);
-  skin.open(rings.front());
+  const TubeRing first = rings.front();
+  const TubeRing last = rings.back();
+  rings.insert(rings.begin(), collar(first, -1.0));
+  rings.push_back(collar(last, 1.0));
+  std::vector<geometry_msgs::Point> corners;
+  corners.push_back(to_message(Vector3d(first.center - first.radius * first.tangent)));
   for (const TubeRing& ring : rings) {
-    skin.add(ring);
+    for (const Eigen::Vector2d& direction : directions) {
+      corners.push_back(to_message(Vector3d(ring.center + ring.radius * ring.outward(direction))));
+    }
   }
-  skin.close(rings.back());
+  corners.push_back(to_message(Vector3d(last.center + last.radius * last.tangent)));
+  for_each_triangle(static_cast<std::uint32_t>(rings.size()), tube_sides,
+                    [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+                      triangles.insert(triangles.end(), {corners[a], corners[b], corners[c]});
+                    });
 }
 
 }  // namespace fiber_proximity_ros

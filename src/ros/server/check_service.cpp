@@ -1,12 +1,22 @@
 #include "src/ros/server/check_service.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numeric>
+#include <stdexcept>
 
 #include "fiber_proximity/environment/check_fibers.hpp"
+#include "fiber_proximity/environment/check_motions.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
+#include "src/geometry/select_fibers.hpp"
+#include "src/geometry/swept_fibers.hpp"
 #include "src/ros/inputs/fixed_frame.hpp"
+#include "src/ros/inputs/naming.hpp"
 #include "src/ros/server/motion_check.hpp"
+#include "src/ros/server/query_options.hpp"
 #include "src/ros/server/request_options.hpp"
+#include "src/text/quote.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -14,85 +24,217 @@ namespace {
 using fiber_proximity::CheckFibers;
 using fiber_proximity::Contact;
 
-/// Candidates of a request that are checked at once: those of the same names in a row, which may
-/// touch the same, and not so many that it takes long to see that a deadline has come.
-class Block {
- public:
-  static constexpr std::size_t most_candidates = 256;
+/// A candidate is held against itself, fibres and objects.
+constexpr std::size_t queries_per_candidate = 3;
 
-  /// Reads the block that begins at this candidate.
-  Block(const CheckFibers::Request& request, std::size_t begin, const QueryTarget& target)
-      : names_(request.candidates[begin].names) {
-    const std::size_t end = std::min(request.candidates.size(), begin + most_candidates);
-    for (std::size_t i = begin;
-         i < end && request.candidates[i].names == names_ && !(i > begin && target.is_time_up());
-         ++i) {
-      candidates_.push_back(naming("candidate " + std::to_string(i), [&] {
-        return to_candidate(request.candidates[i], target.frame);
-      }));
-    }
-  }
+/// So many are checked at once, that it does not take long to see that a deadline has come.
+constexpr std::size_t most_candidates = 256;
 
-  const std::vector<std::string>& names() const { return names_; }
-  const std::vector<fiber::FiberAssembly>& candidates() const { return candidates_; }
-
- private:
-  const std::vector<std::string>& names_;
-  std::vector<fiber::FiberAssembly> candidates_;
-};
-
-fiber::QueryOptions validated_options(const CheckFibers::Request& request,
-                                      const fiber::QueryOptions& defaults) {
+/// Must be validated yet.
+fiber::QueryOptions options_of_candidates(const CheckFibers::Request& request,
+                                          const fiber::QueryOptions& defaults) {
   fiber::QueryOptions options = to_options(request, defaults);
   options.neighbour_skip = defaults.neighbour_skip;
   options.neighbour_skip_length = defaults.neighbour_skip_length;
-  fiber::validate(options);
   return options;
 }
 
-void append(const fiber::QueryResult& result, std::uint8_t body_b,
-            CheckFibers::Response& response) {
-  for (const fiber::Contact& contact : result.contacts) {
-    Contact message;
-    to_message(contact, Contact::CANDIDATE, body_b, message);
-    response.contacts.push_back(message);
+fiber::MotionOptions options_of_motions(const CheckFibers::Request& request,
+                                        const fiber::QueryOptions& defaults) {
+  constexpr double usual_tolerance = 1e-6;  // [m]
+  const fiber::QueryOptions options = options_of_candidates(request, defaults);
+  if (options.type == fiber::QueryType::CLOSEST || options.type == fiber::QueryType::FIBER_PAIRS) {
+    throw std::invalid_argument("type is " + std::to_string(request.type) +
+                                ", of motions it must be 0 (FIRST), 2 (LIMITED) or 3 (ALL)");
+  }
+  const double tolerance = request.motion_tolerance;
+  if (!(tolerance >= 0.0 && std::isfinite(tolerance))) {
+    throw std::invalid_argument("motion_tolerance is " + std::to_string(tolerance) +
+                                " m, it must be finite and at least 0");
+  }
+  fiber::validate(options);
+  return fiber::motion_options(options, tolerance > 0.0 ? tolerance : usual_tolerance);
+}
+
+/// @throws std::invalid_argument unless they say which candidates are the states of which motion
+void validate_waypoints(const CheckFibers::Request& request) {
+  const auto refuse = [](const std::string& what) {
+    throw std::invalid_argument("waypoint_offsets " + what);
+  };
+  const std::vector<std::uint32_t>& offsets = request.waypoint_offsets;
+  if (offsets.front() != 0) {
+    refuse("begins with " + std::to_string(offsets.front()) + ", it must begin with 0");
+  }
+  for (std::size_t i = 0; i + 1 < offsets.size(); ++i) {
+    if (offsets[i + 1] < offsets[i] + std::uint64_t{2}) {
+      refuse("has " + std::to_string(offsets[i + 1]) + " behind " + std::to_string(offsets[i]) +
+             ": motion " + std::to_string(i) + " needs at least 2 states");
+    }
+  }
+  if (offsets.back() != request.candidates.size()) {
+    refuse("ends with " + std::to_string(offsets.back()) +
+           ", it must end with the number of candidates, " +
+           std::to_string(request.candidates.size()));
   }
 }
 
-void append(const fiber::FiberCheck& check, const PresentFibers& present,
+/// Hypothetical fibres of a request in the fixed frame.
+/// @throws std::invalid_argument for fibres that are none, or have no radii
+/// @throws TransformUnavailable
+fiber::FiberAssembly to_candidate(const fiber_proximity::FiberArray& message,
+                                  const FixedFrame& frame) {
+  FiberBuffer chains;
+  to_chains(message, chains);
+  if (chains.radii.empty()) {
+    throw std::invalid_argument("has no radii, it needs one, one per fibre or one per point");
+  }
+  fiber::FiberAssembly fibers;
+  assign(chains, fibers);
+  if (chains.header.frame_id.empty()) {
+    chains.header.frame_id = frame.name();
+  }
+  frame.place(chains.header, fibers, chains.points);
+  return fibers;
+}
+
+fiber::FiberPath read_motion(const CheckFibers::Request& request, std::size_t motion,
+                             const FixedFrame& frame) {
+  fiber::FiberPath path;
+  const std::size_t begin = request.waypoint_offsets[motion];
+  for (std::size_t i = begin; i < request.waypoint_offsets[motion + 1]; ++i) {
+    const std::string where = "motion " + std::to_string(motion) + ", state " +
+                              std::to_string(i - begin) + " (candidate " + std::to_string(i) + ")";
+    naming(where, [&] {
+      path.push_back(to_candidate(request.candidates[i], frame));
+      fiber::require_same_topology(path.front(), path.back());
+      if (request.candidates[i].names != request.candidates[begin].names) {
+        throw std::invalid_argument("has other names than the motion's first state");
+      }
+    });
+  }
+  return path;
+}
+
+/// The fibres that candidates are checked against: all, or all but those that they stand in for.
+class PresentFibers {
+ public:
+  /// Refers to the target. With ignore_fibers there are none, and none are to be replaced.
+  /// @throws std::invalid_argument for a fibre to be replaced that there is not
+  PresentFibers(const QueryTarget& target, const CheckFibers::Request& request) {
+    surroundings_.environment = request.ignore_environment != 0 ? nullptr : &target.environment;
+    surroundings_.self = request.ignore_self == 0;
+    if (request.ignore_fibers == 0) {
+      leave_out(target, request.replaced_fibers);
+    }
+  }
+
+  /// What candidates of the request are to be checked against, but for what may touch.
+  const fiber::Surroundings& surroundings() const { return surroundings_; }
+
+  /// What all fibres of the node count one of these as.
+  std::uint32_t number_among_all(std::uint32_t fiber) const { return kept_[fiber]; }
+
+ private:
+  void leave_out(const QueryTarget& target, const std::vector<std::string>& replaced) {
+    const std::vector<std::string>& names = target.fiber_names;
+    for (const std::string& name : replaced) {
+      if (std::find(names.begin(), names.end(), name) == names.end()) {
+        throw std::invalid_argument("there is no fibre " + fiber::quote(name) + " to be replaced");
+      }
+    }
+    for (std::uint32_t i = 0; i < target.fibers.fiber_count(); ++i) {
+      if (std::find(replaced.begin(), replaced.end(), names[i]) == replaced.end()) {
+        kept_.push_back(i);
+      }
+    }
+    surroundings_.fibers = target.engine;
+    if (!replaced.empty()) {
+      others_ = fiber::select_fibers(target.fibers, kept_);
+      engine_of_others_ = fiber::make_engine("run_tree");
+      engine_of_others_->update(others_);
+      surroundings_.fibers = engine_of_others_.get();
+    }
+  }
+
+  std::vector<std::uint32_t> kept_;
+  fiber::FiberAssembly others_;
+  std::unique_ptr<fiber::ProximityEngine> engine_of_others_;
+  fiber::Surroundings surroundings_;
+};
+
+void append(const fiber::QueryResult& found, std::uint8_t body_b, CheckFibers::Response& response) {
+  for (const fiber::Contact& contact : found.contacts) {
+    to_message(contact, Contact::CANDIDATE, body_b, response.contacts.emplace_back());
+  }
+}
+
+void append(const fiber::PathContacts& found, std::uint8_t body_b,
             CheckFibers::Response& response) {
+  for (const fiber::PathContact& contact : found.contacts) {
+    to_message(contact.where, Contact::CANDIDATE, body_b, response.contacts.emplace_back());
+    response.time_lower.push_back(contact.when.lower);
+    response.time_upper.push_back(contact.when.upper);
+  }
+}
+
+/// @param check a fiber::FiberCheck or fiber::MotionCheck
+template <class Check>
+void append(const Check& check, const PresentFibers& present, CheckFibers::Response& response) {
   response.free.push_back(check.is_free());
   response.complete.push_back(check.is_complete());
   response.limit_reached = response.limit_reached || check.is_limit_reached();
   append(check.self, Contact::CANDIDATE, response);
   const std::size_t first = response.contacts.size();
   append(check.fibers, Contact::FIBER, response);
-  present.number_as_all(first, response);
+  for (std::size_t i = first; i < response.contacts.size(); ++i) {
+    response.contacts[i].fiber_b = present.number_among_all(response.contacts[i].fiber_b);
+  }
   append(check.environment, Contact::OBJECT, response);
   response.offsets.push_back(static_cast<std::uint32_t>(response.contacts.size()));
 }
 
-void answer_candidates(const CheckFibers::Request& request, const QueryTarget& target,
-                       const FindAllowed& find_allowed, CheckFibers::Response& response) {
-  fiber::QueryOptions options = validated_options(request, target.defaults);
+/// Answers for candidates or motions. At once those of the same names in a row are checked, which
+/// may touch the same.
+/// @param offsets of each one's states among the candidates of the request
+/// @param read    reads the one of an index
+/// @param check   fiber::check_fibers or fiber::check_motions
+template <class Item, class Options, class Check, class Read>
+void answer_all(const CheckFibers::Request& request, const QueryTarget& target,
+                const FindAllowed& find_allowed, const std::vector<std::uint32_t>& offsets,
+                Options options, const Read& read,
+                void (*check)(const std::vector<Item>&, const fiber::Surroundings&, const Options&,
+                              std::vector<Check>&),
+                CheckFibers::Response& response) {
   const PresentFibers present(target, request);
   fiber::Surroundings surroundings = present.surroundings();
-  const std::size_t count = request.candidates.size();
+  const std::size_t count = offsets.size() - 1;
   response.offsets.push_back(0);
-  std::vector<fiber::FiberCheck> checks;
+  std::vector<Check> checks;
   while (response.free.size() < count && !target.is_time_up()) {
-    const Block block(request, response.free.size(), target);
-    surroundings.allowed = find_allowed(block.names());
+    const std::size_t begin = response.free.size();
+    const std::vector<std::string>& names = request.candidates[offsets[begin]].names;
+    const auto is_next = [&](std::size_t i) {
+      return i == begin || (offsets[i + 1] - offsets[begin] <= most_candidates &&
+                            request.candidates[offsets[i]].names == names && !target.is_time_up());
+    };
+    std::vector<Item> items;
+    for (std::size_t i = begin; i < count && is_next(i); ++i) {
+      items.push_back(read(i));
+    }
+    surroundings.allowed = find_allowed(names);
     options.deadline = target.time_for_query();
     options.contact_limit =
         share_of_contacts(target.defaults.contact_limit, response.contacts.size(),
-                          queries_per_candidate * block.candidates().size());
-    check_fibers(block.candidates(), surroundings, options, checks);
-    for (const fiber::FiberCheck& check : checks) {
-      append(check, present, response);
+                          queries_per_candidate * items.size());
+    check(items, surroundings, options, checks);
+    for (const Check& each : checks) {
+      append(each, present, response);
     }
   }
-  leave_unread(count, response);
+  // Nothing is known to touch those that the deadline came before.
+  response.free.resize(count, 1);
+  response.complete.resize(count, 0);
+  response.offsets.resize(count + 1, response.offsets.back());
 }
 
 }  // namespace
@@ -100,9 +242,22 @@ void answer_candidates(const CheckFibers::Request& request, const QueryTarget& t
 void answer(const CheckFibers::Request& request, const QueryTarget& target,
             const FindAllowed& find_allowed, CheckFibers::Response& response) {
   if (request.waypoint_offsets.empty()) {
-    answer_candidates(request, target, find_allowed, response);
+    const fiber::QueryOptions options = options_of_candidates(request, target.defaults);
+    fiber::validate(options);
+    std::vector<std::uint32_t> offsets(request.candidates.size() + 1);
+    std::iota(offsets.begin(), offsets.end(), 0);
+    const auto read = [&](std::size_t i) {
+      return naming("candidate " + std::to_string(i),
+                    [&] { return to_candidate(request.candidates[i], target.frame); });
+    };
+    answer_all(request, target, find_allowed, offsets, options, read, &fiber::check_fibers,
+               response);
   } else {
-    answer_motions(request, target, find_allowed, response);
+    const fiber::MotionOptions options = options_of_motions(request, target.defaults);
+    validate_waypoints(request);
+    const auto read = [&](std::size_t i) { return read_motion(request, i, target.frame); };
+    answer_all(request, target, find_allowed, request.waypoint_offsets, options, read,
+               &fiber::check_motions, response);
   }
   if (request.gradients) {
     std::for_each(response.contacts.begin(), response.contacts.end(), add_gradients);

@@ -1,15 +1,46 @@
 #pragma once
 
+#include <functional>
+#include <string>
+#include <vector>
+
 #include "fiber_proximity/CheckFibers.h"
-#include "src/ros/server/candidates.hpp"
-#include "src/ros/server/query_target.hpp"
+#include "fiber_proximity/environment/environment.hpp"
+#include "fiber_proximity/query/deadline.hpp"
+#include "fiber_proximity/query/engine.hpp"
+#include "src/ros/inputs/fixed_frame.hpp"
 
 namespace fiber_proximity_ros {
 
-/// Checks the candidates of a request, or their motions; fills in all of the response but header,
-/// names and success. Candidates that the deadline comes before are not read.
-/// @throws std::invalid_argument naming the candidate, the value and what is allowed
-/// @throws TransformUnavailable naming the candidate and its frame
+/// What services ask about. Holds references: only for the call.
+struct QueryTarget {
+  const fiber::FiberAssembly& fibers;
+  const std::vector<std::string>& fiber_names;
+  const fiber::ProximityEngine*
+      engine;  ///< updated to the fibres; null if they are not asked about
+  const fiber::Environment& environment;
+  const FixedFrame& frame;
+  const fiber::QueryOptions& defaults;  ///< what a request leaves open
+  fiber::Deadline deadline;             ///< of the whole call, from its arrival
+
+  /// Part of the time after which nothing more is examined: the rest is for the answer.
+  static constexpr double examining_part = 0.8;
+
+  bool is_time_up() const { return deadline.has_passed(examining_part); }
+
+  /// [s] For the query that comes next, 0 if there is no deadline.
+  double time_for_query() const { return examining_part * deadline.left(); }
+};
+
+/// What may touch fibres of these names.
+using FindAllowed = std::function<fiber::AllowedPairs(const std::vector<std::string>&)>;
+
+/// Checks the candidates of a request or, with waypoint_offsets, their motions; fills in all of the
+/// response but header, names and success. Candidates or motions that the deadline comes before are
+/// not read.
+/// @throws std::invalid_argument naming the candidate, or the motion and its state, the value and
+///         what is allowed
+/// @throws TransformUnavailable naming the same and the frame
 void answer(const fiber_proximity::CheckFibers::Request& request, const QueryTarget& target,
             const FindAllowed& find_allowed, fiber_proximity::CheckFibers::Response& response);
 

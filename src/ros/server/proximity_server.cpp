@@ -2,15 +2,11 @@
 
 #include <ros/console.h>
 
-#include <limits>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "fiber_proximity/ros/conversions.hpp"
-#include "src/ros/outputs/contact_array.hpp"
-#include "src/ros/outputs/legend.hpp"
-#include "src/ros/server/query_settings.hpp"
+#include "src/ros/server/query_options.hpp"
 #include "src/ros/support/callback_task.hpp"
 #include "src/ros/support/stopwatch.hpp"
 
@@ -31,10 +27,9 @@ ProximityServer::ProximityServer(const ros::NodeHandle& node, const ros::NodeHan
       options_(read_server_options(node, private_node)),
       config_(options_.config),
       detector_(options_.engine, options_.engine_options),
-      motion_detector_(options_.engine, options_.engine_options),
+      motion_engine_(fiber::make_engine(options_.engine, options_.engine_options)),
       step_(options_.timing.input_timeout),
-      contacts_publisher_(private_node_.advertise<fiber_proximity::ContactArray>("contacts", 1)),
-      touches_(fiber_proximity::Contact::FIBER, advertise_contact_events(private_node_)),
+      contacts_(private_node_, "contacts", fiber_proximity::Contact::FIBER),
       fibers_publisher_(private_node_.advertise<fiber_proximity::FiberArray>("fibers", 1)),
       markers_publisher_(private_node_.advertise<visualization_msgs::MarkerArray>("markers", 1)),
       inputs_(node_, options_.inputs, options_.timing, options_.fixed_frame,
@@ -47,8 +42,9 @@ ProximityServer::ProximityServer(const ros::NodeHandle& node, const ros::NodeHan
       prediction_(private_node_, inputs_, options_.engine, options_.engine_options),
       comparison_(private_node_, {inputs_, detector_, query_options_, options_.engine},
                   [this] { process(); }),
-      queries_(private_node_, {inputs_, detector_, environment_.inputs(), query_options_},
-               [this] { process(); }),
+      queries_(serve_queries(private_node_,
+                             {inputs_, detector_, environment_.inputs(), query_options_},
+                             [this] { process(); })),
       reconfigure_server_(private_node_) {
   reconfigure_server_.setCallback(
       [this](AskedConfig& config, std::uint32_t /*level*/) { reconfigure(config); });
@@ -103,7 +99,9 @@ void ProximityServer::publish() {
   statistics_.begin();
   statistics_.add_part("merge", inputs_.take_work_time());
   if (fibers_publisher_.getNumSubscribers() > 0) {
-    publish_fibers();
+    to_message(inputs_.fibers(), inputs_.names(), fibers_message_);
+    fibers_message_.header = inputs_.header();
+    fibers_publisher_.publish(fibers_message_);
   }
   if (crossings_.is_wanted()) {
     const Stopwatch crossings_time;
@@ -113,15 +111,14 @@ void ProximityServer::publish() {
   const bool statistics = statistics_.has_listeners();
   drawing_is_due_ = markers_publisher_.getNumSubscribers() > 0;
   const bool everything = statistics || drawing_is_due_;
-  const bool contacts = contacts_publisher_.getNumSubscribers() > 0 || touches_.has_listeners();
   const Stopwatch stopwatch;
-  if ((everything || contacts) && !detect()) {
-    return;
-  }
-  if (everything || contacts) {
-    track_contacts();
+  if (everything || contacts_.has_listeners()) {
+    if (!detect()) {
+      return;
+    }
+    publish_contacts();
   } else {
-    touches_.skip();
+    contacts_.skip();
   }
   if (environment_.is_used() && (everything || environment_.has_listeners())) {
     const ContinuousStep step{step_.motion(), step_.time(), config_.motion_tolerance};
@@ -130,7 +127,9 @@ void ProximityServer::publish() {
     environment_.skip();
   }
   if (prediction_.is_wanted()) {
-    predict();
+    const Stopwatch prediction_time;
+    prediction_.publish(query_options_, environment_);
+    statistics_.add_part("prediction", prediction_time.seconds());
   } else {
     prediction_.skip();
   }
@@ -144,7 +143,7 @@ void ProximityServer::publish() {
   }
 }
 
-/// Finds contacts and closest pair of the fibres, and publishes them.
+/// Finds contacts and closest pair of the fibres.
 /// @returns false if the engine cannot
 bool ProximityServer::detect() {
   try {
@@ -166,13 +165,17 @@ bool ProximityServer::detect() {
   return true;
 }
 
-/// What came into contact since the fibres before. Where that cannot be told, the answer is of its
-/// stamp alone.
-void ProximityServer::detect_motion() {
+/// What came into contact since the fibres before; nothing where that cannot be told, and the
+/// answer is of its stamp alone.
+std::optional<KnownMotion> ProximityServer::detect_motion() {
+  std::optional<KnownMotion> motion;
   if (step_.is_motion()) {
     try {
-      motion_detector_.detect(step_, query_options_, config_.motion_tolerance);
-      statistics_.add_part("motion", motion_detector_.time());
+      const Stopwatch stopwatch;
+      motion.emplace(detect_motion_contacts(
+          *motion_engine_, {step_.motion(), step_.time(), config_.motion_tolerance}, query_options_,
+          detector_.detection().has_all_of(query_options_), motion_result_));
+      statistics_.add_part("motion", stopwatch.seconds());
     } catch (const std::invalid_argument& error) {
       step_.refuse(error.what());
     }
@@ -181,31 +184,20 @@ void ProximityServer::detect_motion() {
     ROS_WARN_STREAM_THROTTLE(
         1.0, "continuous: " << step_.problem() << "; this answer is of its stamp alone");
   }
+  return motion;
 }
 
 /// Recognises the contacts that were found, and publishes them.
-void ProximityServer::track_contacts() {
-  detect_motion();
+void ProximityServer::publish_contacts() {
+  const std::optional<KnownMotion> motion = detect_motion();
   const Stopwatch stopwatch;
-  const Detection& found = detector_.detection();
-  const fiber::TimeBounds step = touches_.step_to(to_time(inputs_.header().stamp));
-  std::optional<KnownMotion> motion;
-  if (step_.is_motion()) {
-    motion.emplace(motion_detector_.known_motion(found.has_all_of(query_options_)));
-  }
-  contacts_.assign(found.contacts().contacts, step, motion ? &*motion : nullptr);
-  touches_.track(contacts_.contacts(), {inputs_.names(), {}}, inputs_.header());
+  const BodyNames names{inputs_.names(), {}};
+  const ContactAnswer answer{detector_.detection(), query_options_, motion ? &*motion : nullptr,
+                             names, inputs_.header()};
+  contacts_.track(answer);
   passed_.add(contacts_.contacts());
   statistics_.add_part("touches", stopwatch.seconds());
-  if (contacts_publisher_.getNumSubscribers() > 0) {
-    publish_contacts();
-  }
-}
-
-void ProximityServer::predict() {
-  const Stopwatch stopwatch;
-  prediction_.publish(query_options_, environment_);
-  statistics_.add_part("prediction", stopwatch.seconds());
+  contacts_.publish(answer, config_.gradients, detector_.update_time());
 }
 
 /// @param step see EnvironmentOutput
@@ -232,27 +224,6 @@ void ProximityServer::detect_in_environment(const ContinuousStep* step) {
   environment_.publish(query_options_, config_.gradients);
 }
 
-void ProximityServer::publish_fibers() {
-  to_message(inputs_.fibers(), inputs_.names(), fibers_message_);
-  fibers_message_.header = inputs_.header();
-  fibers_publisher_.publish(fibers_message_);
-}
-
-void ProximityServer::publish_contacts() {
-  to_message(detector_.detection(),
-             {contacts_.contacts(), touches_, step_.time().lower, config_.gradients},
-             query_options_, fiber_proximity::Contact::FIBER, inputs_.header(), contacts_message_);
-  contacts_message_.fiber_names = inputs_.names();
-  contacts_message_.continuous = step_.is_motion();
-  if (step_.is_motion()) {
-    const fiber::MotionResult& motion = motion_detector_.result();
-    contacts_message_.complete = contacts_message_.complete && motion.complete;
-    contacts_message_.limit_reached = contacts_message_.limit_reached || motion.limit_reached;
-  }
-  contacts_message_.update_time = detector_.update_time();
-  contacts_publisher_.publish(contacts_message_);
-}
-
 void ProximityServer::publish_markers_if_due() {
   const ros::SteadyTime now = ros::SteadyTime::now();
   if (!drawing_is_due_ || (now - last_drawing_).toSec() * options_.marker_rate < 1.0) {
@@ -273,9 +244,16 @@ void ProximityServer::publish_markers_if_due() {
   if (marker_options_.show_crossings) {
     crossings_.find(inputs_.fibers(), inputs_.header());
   }
+  EnvironmentMarkerOptions around_options;
+  // What was detected while there was something around is not to be seen any more when there is
+  // not.
+  const bool is_used = environment_.is_used();
+  around_options.show_objects = is_used && config_.show_objects;
+  around_options.show_distances = is_used && config_.show_contacts;
+  around_options.show_nearest = is_used && config_.show_nearest;
   std::vector<LegendLine> legend;
   if (marker_options_.show_legend) {
-    legend = legend_lines(marker_options_, environment_marker_options(), query_options_.margin);
+    legend = legend_lines(marker_options_, around_options, query_options_.margin);
   }
   passed_.forget_old();
   const CrossingDrawing crossings{crossings_.crossings(), crossings_.view()};
@@ -293,19 +271,8 @@ void ProximityServer::publish_markers_if_due() {
   environment_markers_.append(inputs_.header(),
                               {inputs_.fibers(), environment_.environment().objects(),
                                around.contacts().contacts, around.minimum()},
-                              environment_marker_options(), markers_message_);
+                              around_options, markers_message_);
   markers_publisher_.publish(markers_message_);
-}
-
-EnvironmentMarkerOptions ProximityServer::environment_marker_options() const {
-  // What was detected while there was something around is not to be seen any more when there is
-  // not.
-  const bool is_used = environment_.is_used();
-  EnvironmentMarkerOptions options;
-  options.show_objects = is_used && config_.show_objects;
-  options.show_distances = is_used && config_.show_contacts;
-  options.show_nearest = is_used && config_.show_nearest;
-  return options;
 }
 
 void ProximityServer::reconfigure(AskedConfig& config) {

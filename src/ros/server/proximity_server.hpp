@@ -3,27 +3,23 @@
 #include <dynamic_reconfigure/server.h>
 #include <ros/node_handle.h>
 
-#include <string>
+#include <memory>
+#include <optional>
 #include <vector>
 
-#include "fiber_proximity/ContactArray.h"
 #include "fiber_proximity/FiberArray.h"
 #include "fiber_proximity/ProximityConfig.h"
 #include "src/ros/inputs/input_set.hpp"
 #include "src/ros/outputs/comparison_output.hpp"
-#include "src/ros/outputs/contact_events.hpp"
+#include "src/ros/outputs/contact_output.hpp"
 #include "src/ros/outputs/crossings_output.hpp"
 #include "src/ros/outputs/detector.hpp"
-#include "src/ros/outputs/diagnostics.hpp"
-#include "src/ros/outputs/environment_markers.hpp"
 #include "src/ros/outputs/environment_output.hpp"
 #include "src/ros/outputs/fiber_step.hpp"
 #include "src/ros/outputs/markers.hpp"
-#include "src/ros/outputs/motion_detector.hpp"
+#include "src/ros/outputs/node_reports.hpp"
 #include "src/ros/outputs/prediction_output.hpp"
-#include "src/ros/outputs/statistics_output.hpp"
 #include "src/ros/outputs/step_contacts.hpp"
-#include "src/ros/server/dynamic_parameters.hpp"
 #include "src/ros/server/query_services.hpp"
 #include "src/ros/server/server_options.hpp"
 
@@ -34,8 +30,8 @@ namespace fiber_proximity_ros {
 ///
 /// Publishes ~contacts, ~environment_contacts, ~contact_events, ~time_to_contact, ~crossings (see
 /// CrossingsOutput), ~fibers, ~markers, ~statistics, ~comparison and /diagnostics; serves ~compare,
-/// and what QueryServices and EnvironmentInputs serve. Each set of messages that have arrived gives
-/// one answer, each answer is published once, and what nobody subscribes to is not computed.
+/// and what serve_queries() and EnvironmentInputs serve. Each set of messages that have arrived
+/// gives one answer, each answer is published once, and what nobody subscribes to is not computed.
 class ProximityServer {
  public:
   /// @throws std::invalid_argument for a bad parameter (see read_server_options) or an unknown
@@ -54,14 +50,10 @@ class ProximityServer {
 
   void publish();
   bool detect();
-  void detect_motion();
-  void detect_in_environment(const ContinuousStep* step);
-  void predict();
-  void publish_fibers();
-  void track_contacts();
+  std::optional<KnownMotion> detect_motion();
   void publish_contacts();
+  void detect_in_environment(const ContinuousStep* step);
   void publish_markers_if_due();
-  EnvironmentMarkerOptions environment_marker_options() const;
 
   void reconfigure(AskedConfig& config);
 
@@ -72,19 +64,17 @@ class ProximityServer {
   fiber::QueryOptions query_options_;
   MarkerOptions marker_options_;
   Detector detector_;
-  MotionDetector motion_detector_;
+  std::unique_ptr<fiber::ProximityEngine> motion_engine_;
+  fiber::MotionResult motion_result_;
   FiberStep step_;
   FiberState newest_state_;  // for its memory
 
-  ros::Publisher contacts_publisher_;
-  ContactEvents touches_;
+  ContactOutput contacts_;
   ros::Publisher fibers_publisher_;
   ros::Publisher markers_publisher_;
 
   // Members for their memory.
-  StepContacts contacts_;
   fiber_proximity::FiberArray fibers_message_;
-  fiber_proximity::ContactArray contacts_message_;
   visualization_msgs::MarkerArray markers_message_;
   std::vector<fiber::NodeBox> boxes_;
 
@@ -103,7 +93,7 @@ class ProximityServer {
   StatisticsOutput statistics_;
   PredictionOutput prediction_;
   ComparisonOutput comparison_;
-  QueryServices queries_;
+  std::vector<ros::ServiceServer> queries_;
   dynamic_reconfigure::Server<AskedConfig> reconfigure_server_;
   ros::SteadyTimer tick_timer_;
   ros::SteadyTimer retry_timer_;

@@ -1,43 +1,146 @@
 #include "src/ros/server/query_services.hpp"
 
+#include <algorithm>
 #include <exception>
+#include <limits>
 #include <memory>
-#include <utility>
+#include <stdexcept>
 
+#include "fiber_proximity/QueryProximity.h"
+#include "fiber_proximity/ros/conversions.hpp"
+#include "src/query/merge_results.hpp"
+#include "src/ros/inputs/naming.hpp"
 #include "src/ros/outputs/environment_output.hpp"
 #include "src/ros/server/check_service.hpp"
-#include "src/ros/server/shape_query.hpp"
+#include "src/ros/server/query_options.hpp"
 
 namespace fiber_proximity_ros {
+namespace {
 
 using fiber_proximity::CheckFibers;
 using fiber_proximity::QueryProximity;
+using fiber_proximity::QueryShape;
 
-QueryServices::QueryServices(ros::NodeHandle private_node, const Subject& subject,
-                             std::function<void()> before_answer)
-    : subject_(subject),
-      before_answer_(std::move(before_answer)),
-      query_server_(private_node.advertiseService("query", &QueryServices::query, this)),
-      check_server_(
-          private_node.advertiseService("check_fibers", &QueryServices::check_fibers, this)) {}
+fiber::QueryOptions validated_options(const QueryProximity::Request& request,
+                                      const fiber::QueryOptions& defaults) {
+  fiber::QueryOptions options = to_options(request, defaults);
+  options.tolerance = request.tolerance;
+  options.relative_tolerance = request.relative_tolerance;
+  fiber::validate(options);
+  if (request.against > QueryProximity::Request::EVERYTHING) {
+    throw std::invalid_argument("against is " + std::to_string(request.against) +
+                                ", it must be 0 (FIBERS), 1 (ENVIRONMENT) or 2 (EVERYTHING)");
+  }
+  return options;
+}
+
+fiber::FiberAssembly to_assembly(const QueryShape& shape, const FixedFrame& frame) {
+  if (shape.points.empty()) {
+    throw std::invalid_argument("has no points, it needs at least 1");
+  }
+  std::vector<Eigen::Vector3d> points;
+  for (const geometry_msgs::Point& point : shape.points) {
+    points.push_back(to_vector(point));
+  }
+  if (points.size() == 1) {
+    points.push_back(points.front());  // a sphere is a capsule of no length
+  }
+  fiber::FiberAssembly assembly(points, {0, static_cast<std::uint32_t>(points.size())},
+                                {shape.radius});
+  std_msgs::Header header = shape.header;
+  if (header.frame_id.empty()) {
+    header.frame_id = frame.name();
+  }
+  frame.place(header, assembly, points);
+  return assembly;
+}
+
+/// Asks about one shape. Objects are numbered after the fibres.
+/// @param of_fibers for its memory
+void query_shape(const QueryTarget& target, std::uint8_t against, const fiber::FiberAssembly& shape,
+                 const fiber::QueryOptions& options, fiber::QueryResult& of_fibers,
+                 fiber::QueryResult& result) {
+  if (against == QueryProximity::Request::FIBERS) {
+    target.engine->query_shape(shape, options, result);
+    return;
+  }
+  target.environment.query(shape, options, {}, result);
+  for (fiber::Contact& contact : result.contacts) {
+    contact.fiber_b += static_cast<std::uint32_t>(target.fibers.fiber_count());
+  }
+  if (against == QueryProximity::Request::EVERYTHING) {
+    target.engine->query_shape(shape, options, of_fibers);
+    fiber::merge_results(options, of_fibers, result);
+  }
+}
+
+void append_contacts(const fiber::QueryResult& result, std::uint32_t shape,
+                     std::uint32_t fiber_count, QueryProximity::Response& response) {
+  for (const fiber::Contact& contact : result.contacts) {
+    const bool is_object = contact.fiber_b >= fiber_count;
+    fiber_proximity::Contact& message = response.contacts.emplace_back();
+    to_message(contact, fiber_proximity::Contact::SHAPE,
+               is_object ? fiber_proximity::Contact::OBJECT : fiber_proximity::Contact::FIBER,
+               message);
+    message.fiber_a = shape;
+    message.fiber_b -= is_object ? fiber_count : 0;
+  }
+  response.offsets.push_back(static_cast<std::uint32_t>(response.contacts.size()));
+}
+
+/// Contacts of each shape of the request with the fibres, the environment or both; fills in all of
+/// the response but header, names and success. Shapes that the deadline comes before are not read.
+/// @throws std::invalid_argument naming the shape, the value and what is allowed
+/// @throws TransformUnavailable naming the shape and its frame
+void answer(const QueryProximity::Request& request, const QueryTarget& target,
+            QueryProximity::Response& response) {
+  fiber::QueryOptions options = validated_options(request, target.defaults);
+  fiber::QueryResult of_fibers;
+  fiber::QueryResult result;
+  const std::size_t count = request.shapes.size();
+  response.complete = true;
+  response.offsets.reserve(count + 1);
+  response.minimum_lower.reserve(count);
+  response.offsets.push_back(0);
+  for (std::uint32_t i = 0; i < count && !target.is_time_up(); ++i) {
+    options.deadline = target.time_for_query();
+    options.contact_limit =
+        share_of_contacts(target.defaults.contact_limit, response.contacts.size(), 1);
+    naming("shape " + std::to_string(i), [&] {
+      query_shape(target, request.against, to_assembly(request.shapes[i], target.frame), options,
+                  of_fibers, result);
+    });
+    append_contacts(result, i, static_cast<std::uint32_t>(target.fibers.fiber_count()), response);
+    response.minimum_lower.push_back(result.minimum_lower());
+    response.complete = response.complete && result.complete;
+    response.limit_reached = response.limit_reached || result.limit_reached;
+  }
+  // Of the shapes that the deadline came before nothing is known.
+  response.complete = response.complete && response.minimum_lower.size() == count;
+  response.offsets.resize(count + 1, response.offsets.back());
+  response.minimum_lower.resize(count, -std::numeric_limits<double>::infinity());
+  if (request.gradients) {
+    std::for_each(response.contacts.begin(), response.contacts.end(), add_gradients);
+  }
+}
 
 /// Answers a request about what there is now, or says why it cannot.
 template <class Request, class Response, class Answer>
-bool QueryServices::respond(const Request& request, bool asks_about_fibers, Response& response,
-                            const Answer& answer_it) {
+bool respond(const QuerySubject& subject, const std::function<void()>& before_answer,
+             const Request& request, bool asks_about_fibers, Response& response,
+             const Answer& answer_it) {
   const fiber::Deadline deadline(request.deadline);
-  before_answer_();  // asked after a message arrived, answered with it
+  before_answer();  // asked after a message arrived, answered with it
   try {
-    InputSet& fibers = subject_.fibers;
+    InputSet& fibers = subject.fibers;
     if (asks_about_fibers) {
       fibers.require_fresh();
     }
-    const std::shared_ptr<const fiber::Environment> environment =
-        subject_.environment.environment();
+    const std::shared_ptr<const fiber::Environment> environment = subject.environment.environment();
     const fiber::FiberAssembly& merged = fibers.fibers();
     answer_it(QueryTarget{merged, fibers.names(),
-                          asks_about_fibers ? &subject_.detector.engine() : nullptr, *environment,
-                          fibers.frame(), subject_.defaults, deadline});
+                          asks_about_fibers ? &subject.detector.engine() : nullptr, *environment,
+                          fibers.frame(), subject.defaults, deadline});
     response.header = fibers.header();
     if (!fibers.is_fresh()) {
       response.header.frame_id = fibers.frame().name();
@@ -53,19 +156,27 @@ bool QueryServices::respond(const Request& request, bool asks_about_fibers, Resp
   return true;
 }
 
-bool QueryServices::query(QueryProximity::Request& request, QueryProximity::Response& response) {
-  const bool asks_about_fibers = request.against != QueryProximity::Request::ENVIRONMENT;
-  return respond(request, asks_about_fibers, response,
-                 [&](const QueryTarget& target) { answer(request, target, response); });
-}
+}  // namespace
 
-bool QueryServices::check_fibers(CheckFibers::Request& request, CheckFibers::Response& response) {
-  return respond(request, request.ignore_fibers == 0, response, [&](const QueryTarget& target) {
-    const auto allowed = [this](const std::vector<std::string>& names) {
-      return subject_.environment.allowed(names);
+std::vector<ros::ServiceServer> serve_queries(ros::NodeHandle private_node,
+                                              const QuerySubject& subject,
+                                              const std::function<void()>& before_answer) {
+  using Query = boost::function<bool(QueryProximity::Request&, QueryProximity::Response&)>;
+  const Query query = [=](const auto& request, auto& response) {
+    return respond(subject, before_answer, request,
+                   request.against != QueryProximity::Request::ENVIRONMENT, response,
+                   [&](const QueryTarget& target) { answer(request, target, response); });
+  };
+  using Check = boost::function<bool(CheckFibers::Request&, CheckFibers::Response&)>;
+  const Check check = [=](const auto& request, auto& response) {
+    const auto allowed = [&](const std::vector<std::string>& names) {
+      return subject.environment.allowed(names);
     };
-    answer(request, target, allowed, response);
-  });
+    return respond(subject, before_answer, request, request.ignore_fibers == 0, response,
+                   [&](const QueryTarget& target) { answer(request, target, allowed, response); });
+  };
+  return {private_node.advertiseService("query", query),
+          private_node.advertiseService("check_fibers", check)};
 }
 
 }  // namespace fiber_proximity_ros

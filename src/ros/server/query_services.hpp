@@ -3,46 +3,27 @@
 #include <ros/node_handle.h>
 
 #include <functional>
+#include <vector>
 
-#include "fiber_proximity/CheckFibers.h"
-#include "fiber_proximity/QueryProximity.h"
 #include "src/ros/environment/environment_inputs.hpp"
 #include "src/ros/inputs/input_set.hpp"
 #include "src/ros/outputs/detector.hpp"
 
 namespace fiber_proximity_ros {
 
-/// Serves ~query and ~check_fibers. What asks about the environment alone is answered without any
-/// fibres, too.
-class QueryServices {
- public:
-  /// What is asked about, which must outlive this.
-  struct Subject {
-    InputSet& fibers;
-    Detector& detector;  ///< knows the fibres of the inputs
-    const EnvironmentInputs& environment;
-    const fiber::QueryOptions& defaults;
-  };
-
-  /// @param before_answer called before a request is answered, to take in what has arrived
-  QueryServices(ros::NodeHandle private_node, const Subject& subject,
-                std::function<void()> before_answer);
-  QueryServices(const QueryServices&) = delete;
-  QueryServices& operator=(const QueryServices&) = delete;
-
- private:
-  template <class Request, class Response, class Answer>
-  bool respond(const Request& request, bool asks_about_fibers, Response& response,
-               const Answer& answer_it);
-  bool query(fiber_proximity::QueryProximity::Request& request,
-             fiber_proximity::QueryProximity::Response& response);
-  bool check_fibers(fiber_proximity::CheckFibers::Request& request,
-                    fiber_proximity::CheckFibers::Response& response);
-
-  Subject subject_;
-  std::function<void()> before_answer_;
-  ros::ServiceServer query_server_;
-  ros::ServiceServer check_server_;
+/// What services are asked about, which must outlive them.
+struct QuerySubject {
+  InputSet& fibers;
+  Detector& detector;  ///< knows the fibres of the inputs
+  const EnvironmentInputs& environment;
+  const fiber::QueryOptions& defaults;
 };
+
+/// Serves ~query and ~check_fibers, as long as what it returns lives. What asks about the
+/// environment alone is answered without any fibres, too.
+/// @param before_answer called before a request is answered, to take in what has arrived
+std::vector<ros::ServiceServer> serve_queries(ros::NodeHandle private_node,
+                                              const QuerySubject& subject,
+                                              const std::function<void()>& before_answer);
 
 }  // namespace fiber_proximity_ros

@@ -39,4 +39,39 @@ ServerOptions read_server_options(const ros::NodeHandle& node, const ros::NodeHa
 /// Names of all private parameters that the node reads.
 std::vector<std::string> known_parameters();
 
+/// Reads the parameters that can change while the node runs; those that are absent keep their
+/// defaults. Their types and ranges are those of cfg/Proximity.cfg.
+/// @throws std::invalid_argument naming the parameter, its value and what is allowed:
+///         dynamic_reconfigure alone would keep silent, and take the default or the nearest value
+fiber_proximity::ProximityConfig read_dynamic_parameters(const ros::NodeHandle& private_node);
+
+/// Gives values that were allowed in the version before this their new names, with a warning.
+void replace_old_names(const ros::NodeHandle& private_node,
+                       fiber_proximity::ProximityConfig& config);
+
+/// @throws std::invalid_argument as read_dynamic_parameters()
+void check(const ros::NodeHandle& private_node, const fiber_proximity::ProximityConfig& config);
+
+/// The configuration as it is asked for: dynamic_reconfigure::Server would bend a value that is out
+/// of range to the nearest that is not, and drop one of another type, before the node sees it.
+class AskedConfig : public fiber_proximity::ProximityConfig {
+ public:
+  AskedConfig() : AskedConfig(__getDefault__()) {}
+  // The server makes one of the class's limits, too.
+  // NOLINTNEXTLINE(google-explicit-constructor, hicpp-explicit-conversions)
+  AskedConfig(const fiber_proximity::ProximityConfig& config) : ProximityConfig(config) {}
+
+  // What the server calls; these hide those of the base class.
+  // NOLINTBEGIN(bugprone-reserved-identifier, cert-dcl37-c, cert-dcl51-cpp)
+  void __clamp__() {}
+  bool __fromMessage__(dynamic_reconfigure::Config& message);
+  // NOLINTEND(bugprone-reserved-identifier, cert-dcl37-c, cert-dcl51-cpp)
+
+  /// What of the message that was read last is no parameter of this name and type; empty: nothing.
+  const std::string& problem() const { return problem_; }
+
+ private:
+  std::string problem_;
+};
+
 }  // namespace fiber_proximity_ros

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <sstream>
+#include <vector>
 
 #include "fiber_proximity/ros/conversions.hpp"
 
@@ -10,6 +13,11 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+using visualization_msgs::Marker;
+
+constexpr std::size_t most_arrows = 200;  // rviz takes long for more; the largest
+constexpr double longest_arrow = 0.25;    // of the scene
+constexpr double fading = 0.97;           // of a scale, from drawing to drawing
 
 /// Two fibres whose names differ by what is not allowed in a topic's name have different indices.
 std::string topic_name(const fiber::SimScene& scene, std::uint32_t rod, std::uint32_t node) {
@@ -36,8 +44,8 @@ Matrix3d axes_of(const fiber::Placement& placement) {
   return axes;
 }
 
-}  // namespace
-
+/// What the fibre exerts on a hold; see SimForces.
+/// @param header of what is in the scene's frame
 geometry_msgs::WrenchStamped wrench_of(const fiber::SimScene& scene,
                                        const fiber::RodForces::HoldForce& hold,
                                        const std_msgs::Header& header) {
@@ -61,8 +69,9 @@ geometry_msgs::WrenchStamped wrench_of(const fiber::SimScene& scene,
   return message;
 }
 
-void to_message(const fiber::SimScene& scene, const fiber::RodForces& forces,
-                fiber_proximity::ForceArray& message) {
+/// Memory of the message is reused.
+void fill_in(const fiber::SimScene& scene, const fiber::RodForces& forces,
+             fiber_proximity::ForceArray& message) {
   const fiber::Rods& rods = scene.stepper->rods();
   message.names = scene.fiber_names;
   message.offsets = rods.offsets;
@@ -106,19 +115,92 @@ void to_message(const fiber::SimScene& scene, const fiber::RodForces& forces,
   message.energy_gain = scene.stepper->report().energy_gain;
 }
 
+struct Arrow {
+  Vector3d at;
+  Vector3d force;
+  bool is_hold;  // or of a contact
+};
+
+/// The next of 1, 2, 5, 10, … that is not below.
+double round_up(double value) {
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  for (const double step : {1.0, 2.0, 5.0}) {
+    if (value <= step * power) {
+      return step * power;
+    }
+  }
+  return 10.0 * power;
+}
+
+/// What is drawn as full, for a largest value now and what it was before.
+double full_scale(double largest, double before) {
+  constexpr double least = 1e-9;
+  return std::max({largest, fading * before, least});
+}
+
+Rgb tension_color(double part) {
+  return mix(palette::unloaded, part < 0.0 ? palette::pressed : palette::pulled,
+             std::min(1.0, std::abs(part)));
+}
+
+std::string newton(double force) {
+  std::ostringstream text;
+  text << force << " N";
+  return text.str();
+}
+
+std::vector<Arrow> arrows_of(const fiber::RodForces& forces) {
+  std::vector<Arrow> arrows;
+  for (const fiber::RodForces::ContactForce& contact : forces.contacts) {
+    arrows.push_back({contact.point, contact.normal_force + contact.friction_force, false});
+  }
+  for (const fiber::RodForces::HoldForce& hold : forces.holds) {
+    arrows.push_back({hold.point, hold.force, true});
+  }
+  const auto is_larger = [](const Arrow& a, const Arrow& b) {
+    return a.force.squaredNorm() > b.force.squaredNorm();
+  };
+  std::stable_sort(arrows.begin(), arrows.end(), is_larger);
+  arrows.resize(std::min(arrows.size(), most_arrows));
+  return arrows;
+}
+
+/// @param full [N] what full red or blue is
+void draw_tensions(const fiber::Rods& rods, const std::vector<double>& tensions, double full,
+                   MarkerCanvas& canvas) {
+  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
+    Marker& marker = canvas.add("tensions", Marker::LINE_LIST);
+    marker.scale.x = 2.2 * rods.radii[rod];
+    for (std::uint32_t i = rods.first(rod); i + 1 < rods.end(rod); ++i) {
+      append_line(rods.positions[i], rods.positions[i + 1],
+                  color(tension_color(tensions[i] / full)), marker);
+    }
+  }
+}
+
+/// @param full [N] of the longest arrow
+void draw_arrows(const std::vector<Arrow>& arrows, double full, const MarkerScale& scale,
+                 MarkerCanvas& canvas) {
+  const double thickness = std::max(0.5 * scale.thickest, 0.004 * scale.extent);
+  for (const Arrow& arrow : arrows) {
+    const Vector3d way = longest_arrow * scale.extent / full * arrow.force;
+    if (way.norm() < 0.5 * thickness) {
+      continue;  // it would be a dot
+    }
+    Marker& marker = canvas.add(arrow.is_hold ? "holds" : "contacts", Marker::ARROW);
+    marker.scale.x = thickness;
+    marker.scale.y = 2.5 * thickness;
+    marker.scale.z = std::min(4.0 * thickness, 0.5 * way.norm());
+    marker.color = color(arrow.is_hold ? palette::hold_force : palette::contact_force);
+    marker.points = {to_message(arrow.at), to_message(arrow.at + way)};
+  }
+}
+
+}  // namespace
+
 SimForces::SimForces(const ros::NodeHandle& node) : node_(node) {
   forces_ = node_.advertise<fiber_proximity::ForceArray>("forces", 1);
   drawing_ = node_.advertise<visualization_msgs::MarkerArray>("force_markers", 1);
-}
-
-/// Holds come and go by ~attach and ~detach; the topic of one that has gone is silent.
-void SimForces::advertise_wrenches(const fiber::SimScene& scene) {
-  if (scene.attachment == nullptr) {
-    return;
-  }
-  for (const Hold& hold : scene.attachment->held_nodes()) {
-    wrench_topic(scene, hold);
-  }
 }
 
 ros::Publisher& SimForces::wrench_topic(const fiber::SimScene& scene, const Hold& hold) {
@@ -137,23 +219,55 @@ bool SimForces::has_listeners() const {
 }
 
 void SimForces::publish(const fiber::SimScene& scene, const std_msgs::Header& header) {
-  advertise_wrenches(scene);
+  // They come and go by ~attach and ~detach; the topic of one that has gone is silent.
+  if (scene.attachment != nullptr) {
+    for (const Hold& hold : scene.attachment->held_nodes()) {
+      wrench_topic(scene, hold);
+    }
+  }
   if (!has_listeners()) {
     return;
   }
   const fiber::RodForces forces = scene.stepper->forces();
   if (forces_.getNumSubscribers() > 0) {
     message_.header = header;
-    to_message(scene, forces, message_);
+    fill_in(scene, forces, message_);
     forces_.publish(message_);
   }
   for (const fiber::RodForces::HoldForce& hold : forces.holds) {
     wrench_topic(scene, {hold.rod, hold.node}).publish(wrench_of(scene, hold, header));
   }
   if (drawing_.getNumSubscribers() > 0) {
-    markers_.draw(scene, forces, header, drawn_);
-    drawing_.publish(drawn_);
+    draw(scene, forces, header);
+    drawing_.publish(markers_);
   }
+}
+
+void SimForces::draw(const fiber::SimScene& scene, const fiber::RodForces& forces,
+                     const std_msgs::Header& header) {
+  const fiber::Rods& rods = scene.stepper->rods();
+  const MarkerScale scale(fiber::FiberAssembly(rods.positions, rods.offsets, rods.radii),
+                          header.frame_id);
+  double tension = 0.0;
+  for (const double each : forces.tensions) {
+    tension = std::max(tension, std::abs(each));
+  }
+  const std::vector<Arrow> arrows = arrows_of(forces);
+  most_tension_ = full_scale(tension, most_tension_);
+  most_force_ = full_scale(arrows.empty() ? 0.0 : arrows.front().force.norm(), most_force_);
+  const double full_tension = round_up(most_tension_);
+  const double full_force = round_up(most_force_);
+  MarkerCanvas canvas(header, markers_);
+  draw_tensions(rods, forces.tensions, full_tension, canvas);
+  draw_arrows(arrows, full_force, scale, canvas);
+  canvas.add_legend(
+      {{palette::pulled, "red: tension, up to " + newton(full_tension)},
+       {palette::pressed, "blue: pressure, up to " + newton(full_tension)},
+       {palette::contact_force,
+        "yellow: contacts; an arrow of full length is " + newton(full_force)},
+       {palette::hold_force, "green: holds; an arrow of full length is " + newton(full_force)}},
+      scale);
+  canvas.finish(drawn_);
 }
 
 }  // namespace fiber_proximity_ros

@@ -9,7 +9,7 @@
 
 #include "fiber_proximity/ForceArray.h"
 #include "fiber_proximity/sim/scene/scene.hpp"
-#include "src/ros/sim/force_markers.hpp"
+#include "src/ros/outputs/marker_canvas.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -19,7 +19,14 @@ namespace fiber_proximity_ros {
 /// - ~wrenches/FIBRE/NODE: for each hold what the fibre exerts on it, as a sensor of force and
 ///   torque in a gripper measures it. Of what a frame of tf holds, in that frame and about its
 ///   origin; of other holds in the scene's frame and about the node.
-/// - ~force_markers: drawn for rviz, see ForceMarkers
+/// - ~force_markers: drawn for rviz
+///
+/// | ns       | what                                                                            |
+/// |----------|---------------------------------------------------------------------------------|
+/// | tensions | each edge's: from blue, pressure, over white, none, to red, tension             |
+/// | contacts | arrows of contact forces with friction, on the fibre that comes first           |
+/// | holds    | arrows of what holds exert on fibres                                            |
+/// | legend   | what is how much: it changes by steps, as forces grow and fall                  |
 class SimForces {
  public:
   explicit SimForces(const ros::NodeHandle& node);
@@ -35,25 +42,19 @@ class SimForces {
 
   bool has_listeners() const;
   ros::Publisher& wrench_topic(const fiber::SimScene& scene, const Hold& hold);
-  void advertise_wrenches(const fiber::SimScene& scene);
+  void draw(const fiber::SimScene& scene, const fiber::RodForces& forces,
+            const std_msgs::Header& header);
 
   ros::NodeHandle node_;
   ros::Publisher forces_;
   ros::Publisher drawing_;
   std::map<Hold, ros::Publisher> wrenches_;
-  ForceMarkers markers_;
   fiber_proximity::ForceArray message_;
-  visualization_msgs::MarkerArray drawn_;
+  visualization_msgs::MarkerArray markers_;
+  MarkerCanvas::Counts drawn_;
+  // Scales of what is drawn, which fall by little and little [N].
+  double most_tension_ = 0.0;
+  double most_force_ = 0.0;
 };
-
-/// Memory of the message is reused.
-void to_message(const fiber::SimScene& scene, const fiber::RodForces& forces,
-                fiber_proximity::ForceArray& message);
-
-/// What the fibre exerts on a hold; see SimForces.
-/// @param header of what is in the scene's frame
-geometry_msgs::WrenchStamped wrench_of(const fiber::SimScene& scene,
-                                       const fiber::RodForces::HoldForce& hold,
-                                       const std_msgs::Header& header);
 
 }  // namespace fiber_proximity_ros

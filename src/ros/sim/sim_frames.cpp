@@ -13,6 +13,18 @@ namespace {
 
 constexpr double fastest_frame = 5.0;  // [m/s]
 
+/// Tells when something has stopped to follow its frame, and when it follows again.
+/// @param how it stopped, and why
+void note(const fiber::FollowedFrame& followed, bool is_stopped, const std::string& how,
+          bool& was_stopped) {
+  if (is_stopped && !was_stopped) {
+    ROS_WARN_STREAM(followed.what << how);
+  } else if (!is_stopped && was_stopped) {
+    ROS_INFO_STREAM(followed.what << " follows frame " << fiber::quote(followed.frame) << " again");
+  }
+  was_stopped = is_stopped;
+}
+
 }  // namespace
 
 void SimFrames::watch(const fiber::FollowedFrame& followed, Watch& watch,
@@ -21,13 +33,8 @@ void SimFrames::watch(const fiber::FollowedFrame& followed, Watch& watch,
   if (problem.empty() || watch.since.isZero()) {
     watch.since = now;
   }
-  const bool is_frozen = (now - watch.since).toSec() > timeout_;
-  if (is_frozen && !watch.is_frozen) {
-    ROS_WARN_STREAM(followed.what << " stays where it is: " << problem);
-  } else if (!is_frozen && watch.is_frozen) {
-    ROS_INFO_STREAM(followed.what << " follows frame " << fiber::quote(followed.frame) << " again");
-  }
-  watch.is_frozen = is_frozen;
+  note(followed, (now - watch.since).toSec() > timeout_, " stays where it is: " + problem,
+       watch.is_frozen);
 }
 
 void SimFrames::wait_for(const std::vector<fiber::FollowedFrame>& frames, double timeout) const {
@@ -49,25 +56,6 @@ void SimFrames::wait_for(const std::vector<fiber::FollowedFrame>& frames, double
   }
 }
 
-/// Where something in a frame is in the world, or as far on the way there as a step leads.
-fiber::Placement SimFrames::next_placement(const fiber::SimScene& scene,
-                                           const fiber::FollowedFrame& followed,
-                                           const Eigen::Isometry3d& frame, Watch& watch) const {
-  const fiber::Placement& last = followed.path->back().second;
-  const fiber::Placement& in_frame = followed.in_frame;
-  const fiber::Lead lead = fiber::lead(scene, {followed.rod, followed.node}, last.position,
-                                       frame * in_frame.position, fastest_frame);
-  const bool is_held_back = !lead.problem.empty();
-  if (is_held_back && !watch.is_held_back) {
-    ROS_WARN_STREAM(followed.what << " does not follow frame " << fiber::quote(followed.frame)
-                                  << ": " << lead.problem);
-  } else if (!is_held_back && watch.is_held_back) {
-    ROS_INFO_STREAM(followed.what << " follows frame " << fiber::quote(followed.frame) << " again");
-  }
-  watch.is_held_back = is_held_back;
-  return {lead.position, frame.linear() * in_frame.tangent, frame.linear() * in_frame.director};
-}
-
 void SimFrames::follow(const fiber::SimScene& scene) {
   const double start = scene.stepper->time();
   for (const fiber::FollowedFrame& followed : scene.frames) {
@@ -83,7 +71,15 @@ void SimFrames::follow(const fiber::SimScene& scene) {
                   is_new ? ""
                          : "nothing new of frame " + fiber::quote(followed.frame) +
                                " for more than " + std::to_string(timeout_) + " s");
-      next = next_placement(scene, followed, frame.pose, watch);
+      const fiber::Placement& in_frame = followed.in_frame;
+      // As far on the way there as a step leads.
+      const fiber::Lead lead = fiber::lead(scene, {followed.rod, followed.node}, last.position,
+                                           frame.pose * in_frame.position, fastest_frame);
+      note(followed, !lead.problem.empty(),
+           " does not follow frame " + fiber::quote(followed.frame) + ": " + lead.problem,
+           watch.is_held_back);
+      next = {lead.position, frame.pose.linear() * in_frame.tangent,
+              frame.pose.linear() * in_frame.director};
     } catch (const TransformUnavailable& error) {
       this->watch(followed, watch, error.what());
     }

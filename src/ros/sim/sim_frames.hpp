@@ -40,9 +40,6 @@ class SimFrames {
 
   /// @param problem why nothing new is known; empty if there is something new
   void watch(const fiber::FollowedFrame& followed, Watch& watch, const std::string& problem) const;
-  fiber::Placement next_placement(const fiber::SimScene& scene,
-                                  const fiber::FollowedFrame& followed,
-                                  const Eigen::Isometry3d& frame, Watch& watch) const;
 
   const FixedFrame& world_;
   double timeout_;

@@ -1,38 +1,25 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <stdexcept>
 #include <string>
 
-#include "fiber_proximity/QueryProximity.h"
+#include "fiber_proximity/ProximityConfig.h"
 #include "fiber_proximity/query/options.hpp"
-#include "src/ros/server/query_settings.hpp"
 
 namespace fiber_proximity_ros {
 
+/// The query that the node's dynamic parameters ask for.
+/// @throws std::invalid_argument naming the parameter, its value and what is allowed
+fiber::QueryOptions to_query_options(const fiber_proximity::ProximityConfig& config);
+
+/// As fiber::current_kernel_name(), with a warning where that is another name.
+/// @param place where the name stands, for the warning
+std::string current_kernel_name(const std::string& place, const std::string& name);
+
 /// The type of this number, as the requests have them.
 /// @throws std::invalid_argument listing the numbers
-inline fiber::QueryType to_query_type(std::uint8_t type) {
-  using Request = fiber_proximity::QueryProximity::Request;
-  switch (type) {
-    case Request::FIRST:
-      return fiber::QueryType::FIRST;
-    case Request::CLOSEST:
-      return fiber::QueryType::CLOSEST;
-    case Request::LIMITED:
-      return fiber::QueryType::LIMITED;
-    case Request::ALL:
-      return fiber::QueryType::ALL;
-    case Request::FIBER_PAIRS:
-      return fiber::QueryType::FIBER_PAIRS;
-    default:
-      throw std::invalid_argument("type is " + std::to_string(type) +
-                                  ", it must be 0 (FIRST), 1 (CLOSEST), 2 (LIMITED), 3 (ALL) or 4 "
-                                  "(FIBER_PAIRS)");
-  }
-}
+fiber::QueryType to_query_type(std::uint8_t type);
 
 /// What requests of all services have in common; they must be validated yet.
 /// @throws std::invalid_argument for an unknown type or kernel
@@ -55,13 +42,6 @@ fiber::QueryOptions to_options(const Request& request, const fiber::QueryOptions
 /// How many contacts each of the next queries of a request may report where the response may have
 /// so many; at least one.
 /// @param limit of the response, 0 for none
-inline std::uint32_t share_of_contacts(std::uint32_t limit, std::size_t reported,
-                                       std::size_t queries) {
-  if (limit == 0) {
-    return 0;
-  }
-  const std::size_t left = limit - std::min<std::size_t>(reported, limit);
-  return static_cast<std::uint32_t>(std::max<std::size_t>(left / queries, 1));
-}
+std::uint32_t share_of_contacts(std::uint32_t limit, std::size_t reported, std::size_t queries);
 
 }  // namespace fiber_proximity_ros

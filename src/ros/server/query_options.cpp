@@ -1,7 +1,9 @@
-#include "src/ros/server/query_settings.hpp"
+#include "src/ros/server/query_options.hpp"
 
 #include <ros/console.h>
 
+#include <algorithm>
+#include <array>
 #include <stdexcept>
 
 #include "src/text/quote.hpp"
@@ -64,6 +66,27 @@ std::string current_kernel_name(const std::string& place, const std::string& nam
                           << " is used");
   }
   return current;
+}
+
+fiber::QueryType to_query_type(std::uint8_t type) {
+  // As QueryProximity numbers them.
+  constexpr std::array types{fiber::QueryType::FIRST, fiber::QueryType::CLOSEST,
+                             fiber::QueryType::LIMITED, fiber::QueryType::ALL,
+                             fiber::QueryType::FIBER_PAIRS};
+  if (type >= types.size()) {
+    throw std::invalid_argument("type is " + std::to_string(type) +
+                                ", it must be 0 (FIRST), 1 (CLOSEST), 2 (LIMITED), 3 (ALL) or 4 "
+                                "(FIBER_PAIRS)");
+  }
+  return types[type];
+}
+
+std::uint32_t share_of_contacts(std::uint32_t limit, std::size_t reported, std::size_t queries) {
+  if (limit == 0) {
+    return 0;
+  }
+  const std::size_t left = limit - std::min<std::size_t>(reported, limit);
+  return static_cast<std::uint32_t>(std::max<std::size_t>(left / queries, 1));
 }
 
 }  // namespace fiber_proximity_ros

@@ -1,0 +1,196 @@
+#include "src/ros/outputs/contact_output.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string_view>
+
+#include "fiber_proximity/ContactEvent.h"
+#include "fiber_proximity/ros/conversions.hpp"
+#include "src/ros/outputs/fiber_step.hpp"
+
+namespace fiber_proximity_ros {
+namespace {
+
+using fiber_proximity::Contact;
+using std::chrono::nanoseconds;
+
+/// ~contact_events: each event counts, and an answer may have many of them.
+constexpr std::uint32_t most_waiting_events = 100000;
+
+/// Where the bodies of these names are among others; of names that are there twice, the first.
+fiber::TouchTracker::FiberIndices indices_among(const std::vector<std::string>& names,
+                                                const std::vector<std::string>& others) {
+  std::map<std::string_view, std::uint32_t> indices;
+  for (std::uint32_t i = 0; i < others.size(); ++i) {
+    indices.emplace(others[i], i);
+  }
+  fiber::TouchTracker::FiberIndices found;
+  for (const std::string& name : names) {
+    const auto index = indices.find(name);
+    found.push_back(index == indices.end() ? std::nullopt : std::optional(index->second));
+  }
+  return found;
+}
+
+fiber::TouchingPair pair_of(const StepContact& contact, bool is_of_object) {
+  const fiber::Contact& pair = contact.contact;
+  // The shapes of an object are one body.
+  return {pair.fiber_a,  pair.segment_a,
+          pair.fiber_b,  is_of_object ? 0 : pair.segment_b,
+          pair.distance, contact.state != StepContact::State::THERE,
+          contact.first, contact.last};
+}
+
+/// [s] Of what was there before anybody looked, since then.
+double duration_of(const fiber::TouchEvent& event) {
+  const fiber::TimeBounds& began = event.touch.began;
+  const bool is_known = began.lower != nanoseconds(0);
+  return std::chrono::duration<double>(event.time.upper - (is_known ? began.lower : began.upper))
+      .count();
+}
+
+/// Adds what is known of it over time.
+void add_details(const StepContact& contact, const fiber::Touch& touch, nanoseconds since,
+                 nanoseconds now, Contact& message) {
+  message.id = touch.id;
+  message.age =
+      std::chrono::duration<double>(std::max(now - touch.began.upper, nanoseconds(0))).count();
+  message.time_lower = to_stamp(std::max(contact.first.lower, since));
+  message.time_upper = to_stamp(contact.first.upper);
+  message.gone = contact.state != StepContact::State::THERE;
+}
+
+}  // namespace
+
+ContactOutput::ContactOutput(ros::NodeHandle& private_node, const std::string& topic,
+                             std::uint8_t type_b)
+    : type_b_(type_b),
+      publisher_(private_node.advertise<fiber_proximity::ContactArray>(topic, 1)),
+      event_publisher_(private_node.advertise<fiber_proximity::ContactEvent>("contact_events",
+                                                                             most_waiting_events)),
+      tracker_(type_b == Contact::OBJECT ? 2 : 1, 2) {}
+
+void ContactOutput::track(const ContactAnswer& answer) {
+  const nanoseconds now = to_time(answer.header.stamp);
+  // From the answer before, or this one if there is none, or time went back.
+  const fiber::TimeBounds step{has_answer_ ? std::min(last_answer_, now) : nanoseconds(0), now};
+  contacts_ = step_contacts(answer.detection.contacts().contacts, step, answer.motion);
+  events_.clear();
+  rename(answer.names, step);
+  publish_events(names_, answer.header);
+  names_ = answer.names;
+  pairs_.clear();
+  for (const StepContact& contact : contacts_) {
+    pairs_.push_back(pair_of(contact, type_b_ == Contact::OBJECT));
+  }
+  events_.clear();
+  tracker_.advance(pairs_, step, events_);
+  publish_events(names_, answer.header);
+  has_answer_ = true;
+  last_answer_ = now;
+}
+
+void ContactOutput::publish(const ContactAnswer& answer, bool has_gradients, double update_time) {
+  if (publisher_.getNumSubscribers() == 0) {
+    return;
+  }
+  const auto& [detection, options, motion, names, header] = answer;
+  const nanoseconds now = to_time(header.stamp);
+  const nanoseconds since = motion != nullptr ? motion->time.lower : now;
+  const auto fill_in = [&, type_b = type_b_](const fiber::Contact& contact, Contact& message) {
+    to_message(contact, Contact::FIBER, type_b, message);
+    message.gradients.clear();  // of an earlier message
+    if (has_gradients) {
+      add_gradients(message);
+    }
+  };
+  message_.header = header;
+  message_.fiber_names = names.a;
+  message_.object_names = names.b;
+  message_.continuous = motion != nullptr;
+  message_.since = to_stamp(since);
+  message_.contacts.resize(contacts_.size());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    if (contacts_[i].state != StepContact::State::LEFT) {
+      Contact& message = message_.contacts[count++];
+      fill_in(contacts_[i].contact, message);
+      add_details(contacts_[i], tracker_.touch_of(i), since, now, message);
+    }
+  }
+  message_.contacts.resize(count);
+  message_.margin = options.margin;
+  message_.has_minimum = detection.minimum() != nullptr;
+  message_.minimum_distance = std::numeric_limits<double>::infinity();
+  message_.minimum = Contact();
+  if (message_.has_minimum) {
+    message_.minimum_distance = detection.minimum()->distance;
+    fill_in(*detection.minimum(), message_.minimum);
+  }
+  message_.minimum_lower = detection.minimum_lower();
+  message_.minimum_upper = detection.minimum_upper();
+  message_.kernel = name_of(options.kernel);
+  message_.tolerance = options.tolerance;
+  message_.complete = detection.is_complete() && (motion == nullptr || motion->result.complete);
+  message_.limit_reached =
+      detection.is_limit_reached() || (motion != nullptr && motion->result.limit_reached);
+  message_.node_tests = detection.counts().node_tests;
+  message_.node_overlaps = detection.counts().node_overlaps;
+  message_.primitive_tests = detection.counts().primitive_tests;
+  message_.update_time = update_time;
+  message_.detect_time = detection.contact_time() + detection.minimum_time();
+  publisher_.publish(message_);
+}
+
+void ContactOutput::skip() {
+  tracker_.forget();
+  has_answer_ = false;
+}
+
+/// Bodies may have other indices, or be gone.
+void ContactOutput::rename(const BodyNames& names, const fiber::TimeBounds& step) {
+  if (names.a == names_.a && names.b == names_.b) {
+    return;
+  }
+  const auto indices_a = indices_among(names_.a, names.a);
+  if (type_b_ == Contact::OBJECT) {
+    tracker_.renumber(indices_a, indices_among(names_.b, names.b), step, events_);
+  } else {
+    tracker_.renumber(indices_a, step, events_);
+  }
+}
+
+void ContactOutput::publish_events(const BodyNames& names, const std_msgs::Header& header) {
+  if (event_publisher_.getNumSubscribers() == 0) {
+    return;
+  }
+  const std::vector<std::string>& names_b = type_b_ == Contact::OBJECT ? names.b : names.a;
+  for (const fiber::TouchEvent& event : events_) {
+    fiber_proximity::ContactEvent message;
+    const fiber::TouchingPair& pair = event.touch.pair;
+    message.header = header;
+    message.kind = event.kind == fiber::TouchEvent::Kind::BEGAN
+                       ? fiber_proximity::ContactEvent::BEGAN
+                       : fiber_proximity::ContactEvent::ENDED;
+    message.id = event.touch.id;
+    message.type_a = Contact::FIBER;
+    message.body_a = names.a[pair.fiber_a];
+    message.fiber_a = pair.fiber_a;
+    message.segment_a = pair.segment_a;
+    message.type_b = type_b_;
+    message.body_b = names_b[pair.fiber_b];
+    message.fiber_b = pair.fiber_b;
+    message.segment_b = pair.segment_b;
+    message.time_lower = to_stamp(event.time.lower);
+    message.time_upper = to_stamp(event.time.upper);
+    if (event.kind == fiber::TouchEvent::Kind::ENDED) {
+      message.duration = duration_of(event);
+    }
+    message.deepest_gap = event.touch.deepest;
+    event_publisher_.publish(message);
+  }
+}
+
+}  // namespace fiber_proximity_ros
