@@ -6,7 +6,7 @@
 #include <limits>
 #include <memory>
 
-#include "fiber_proximity/query/deadline.hpp"
+#include "fiber_proximity/query/options.hpp"
 
 namespace fiber {
 namespace {

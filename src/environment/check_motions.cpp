@@ -9,10 +9,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "fiber_proximity/query/deadline.hpp"
+#include "fiber_proximity/query/motion.hpp"
+#include "fiber_proximity/query/options.hpp"
 #include "src/environment/path_collector.hpp"
 #include "src/geometry/swept_fibers.hpp"
-#include "src/query/contact_in_motion.hpp"
 #include "src/text/with_context.hpp"
 
 namespace fiber {

@@ -16,7 +16,7 @@
 #include "src/environment/shape_motion.hpp"
 #include "src/geometry/swept_fibers.hpp"
 #include "src/query/contact_evaluator.hpp"
-#include "src/query/narrow_contact_time.hpp"
+#include "src/query/motion_evaluator.hpp"
 #include "src/text/quote.hpp"
 
 namespace fiber {
@@ -153,7 +153,7 @@ void EnvironmentMotion::evaluate(std::uint64_t key, MotionSlice& slice) const {
   const AxisDistance axis = axis_distance(shape.shape, shape.to_shape * moving.before.p0,
                                           shape.to_shape * moving.before.p1, limit);
   const SegmentId id = motion_.before.segment_id(pair.a);
-  MotionContact contact{id.fiber, id.segment, shape.object, shape.index, 0.0, 0.0, false};
+  MotionContact contact{{id.fiber, id.segment, shape.object, shape.index}, 0.0, 0.0, false};
   const bool is_any = axis.distance < std::numeric_limits<double>::infinity();
   if (is_any && axis.distance - radius <= options_.margin) {
     const double error =

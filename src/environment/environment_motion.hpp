@@ -3,11 +3,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "fiber_proximity/query/motion_evaluator.hpp"
-#include "fiber_proximity/query/motion_slices.hpp"
-#include "fiber_proximity/query/query_limits.hpp"
+#include "fiber_proximity/query/options.hpp"
 #include "src/environment/allowed_parts.hpp"
 #include "src/environment/world_shape.hpp"
+#include "src/query/motion_evaluator.hpp"
 
 namespace fiber {
 

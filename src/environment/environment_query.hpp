@@ -9,7 +9,7 @@
 #include "fiber_proximity/environment/shapes.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/query/contact.hpp"
-#include "fiber_proximity/query/contact_accumulator.hpp"
+#include "fiber_proximity/query/pair_collector.hpp"
 #include "src/environment/allowed_parts.hpp"
 
 namespace fiber {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fiber_proximity/geometry/capsule.hpp"
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "src/environment/shape_contact_time.hpp"
 #include "src/environment/world_shape.hpp"
 

@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "src/geometry/select_fibers.hpp"
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "src/scenes/cables.hpp"
 #include "src/scenes/cloth.hpp"
 #include "src/scenes/hair_styles.hpp"

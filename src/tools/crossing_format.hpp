@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fiber_proximity/query/crossing.hpp"
+#include "fiber_proximity/query/crossings.hpp"
 #include "src/tools/text_output.hpp"
 
 namespace fiber {

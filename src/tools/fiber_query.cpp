@@ -5,10 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "fiber_proximity/geometry/kernel.hpp"
+#include "fiber_proximity/geometry/segment_distance.hpp"
 #include "fiber_proximity/io/fiber_file.hpp"
 #include "fiber_proximity/query/engine.hpp"
-#include "fiber_proximity/query/nearest_segments.hpp"
 #include "src/tools/command_line.hpp"
 #include "src/tools/compare_command.hpp"
 #include "src/tools/contact_format.hpp"

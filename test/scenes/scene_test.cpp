@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "src/geometry/select_fibers.hpp"
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "src/scenes/shuffle.hpp"
 #include "test/support/hash.hpp"
 

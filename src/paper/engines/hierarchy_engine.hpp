@@ -7,7 +7,7 @@
 
 #include "fiber_proximity/query/engine.hpp"
 #include "src/bounds/aabb.hpp"
-#include "src/hierarchy/origin.hpp"
+#include "src/bounds/bounding_volume.hpp"
 #include "src/paper/engines/traverse.hpp"
 #include "src/paper/hierarchy/layered_hierarchy.hpp"
 

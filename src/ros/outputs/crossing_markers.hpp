@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
-#include "fiber_proximity/query/crossing.hpp"
-#include "fiber_proximity/query/view.hpp"
+#include "fiber_proximity/query/crossings.hpp"
 
 namespace fiber_proximity_ros {
 

@@ -6,8 +6,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/io/fiber_file.hpp"
-#include "src/geometry/select_fibers.hpp"
 #include "src/ros/support/parameters.hpp"
 
 namespace fiber_proximity_ros {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
-#include "src/geometry/select_fibers.hpp"
 #include "src/text/quote.hpp"
 
 namespace fiber_proximity_ros {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
-#include "src/query/merge_results.hpp"
 #include "src/ros/inputs/naming.hpp"
 #include "src/ros/server/request_options.hpp"
 
