@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "fiber_proximity/query/query_limits.hpp"
+#include "fiber_proximity/query/options.hpp"
 #include "src/hierarchy/sort_keys.hpp"
 #include "src/query/contact_evaluator.hpp"
 

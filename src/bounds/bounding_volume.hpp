@@ -1,13 +1,64 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "fiber_proximity/geometry/capsule.hpp"
-#include "src/bounds/rounded_capsule.hpp"
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
 
 namespace fiber {
+
+/// A run of consecutive capsules in memory: what a wrapped or spatial node encloses.
+struct CapsuleRun {
+  const Capsule* first = nullptr;
+  std::size_t size = 0;
+
+  const Capsule* begin() const { return first; }
+  const Capsule* end() const { return first + size; }
+};
+
+/// A capsule in single precision, and by how much a volume around it must be padded so that its
+/// tests err on the safe side only.
+///
+/// With u = 2⁻²⁴, rounding an end point, projecting it onto a rounded unit direction, adding the
+/// radius and subtracting two such numbers err by less than 12 u of the largest magnitude involved;
+/// the padding is 16 u of it: a micrometre in a scene of a metre. It covers the rounding of the
+/// narrow phase in double precision many times over. The smallest normal float keeps it alive where
+/// the product would underflow.
+struct RoundedCapsule {
+  /// Magnitudes up to here have squares and sums of squares in float's range [m].
+  static constexpr double largest_magnitude = 1e18;
+
+  Eigen::Vector3f p0;
+  Eigen::Vector3f p1;
+  float radius = 0.0F;   ///< [m]
+  float padding = 0.0F;  ///< [m]
+
+  /// False beyond largest_magnitude: a volume must then enclose everything.
+  bool representable = false;
+
+  explicit RoundedCapsule(const Capsule& capsule)
+      : p0(Eigen::Vector3f::Zero()), p1(Eigen::Vector3f::Zero()) {
+    const double magnitude =
+        std::max(capsule.p0.cwiseAbs().maxCoeff(), capsule.p1.cwiseAbs().maxCoeff()) +
+        capsule.radius;
+    representable = magnitude <= largest_magnitude;
+    if (!representable) {
+      return;
+    }
+    p0 = capsule.p0.cast<float>();
+    p1 = capsule.p1.cast<float>();
+    radius = static_cast<float>(capsule.radius);
+    padding = static_cast<float>(magnitude) * 0x1p-20F + std::numeric_limits<float>::min();
+  }
+};
+
+/// What squares below the normal range of float may err by, as their digits run out [m²].
+constexpr float squared_underflow = std::numeric_limits<float>::min();
 
 /// Parameters of a volume that has none.
 struct NoParameters {};
@@ -65,7 +116,15 @@ struct SplitAxis {
 };
 
 /// A margin [m] as the volumes take it: rounded up to single precision.
-float round_up(double margin);
+inline float round_up(double margin) {
+  if (margin > std::numeric_limits<float>::max()) {
+    return std::numeric_limits<float>::infinity();
+  }
+  const auto nearest = static_cast<float>(margin);
+  return static_cast<double>(nearest) < margin
+             ? std::nextafter(nearest, std::numeric_limits<float>::infinity())
+             : nearest;
+}
 
 /// The volume of two neighbouring leaves in a layered hierarchy. Most volumes merge the leaves';
 /// the oriented box overloads this to look at the segments themselves.
@@ -73,6 +132,12 @@ template <class Volume>
 Volume merge_leaves(const Volume& a, const Volume& b, const Capsule& /*capsule_a*/,
                     const Capsule& /*capsule_b*/) {
   return merge(a, b);
+}
+
+/// The origin that a hierarchy of these fibres is relative to [m]: the first point, near all others
+/// in any scene single precision can serve, and the same for the same input.
+inline Eigen::Vector3d hierarchy_origin(const FiberAssembly& fibers) {
+  return fibers.points().empty() ? Eigen::Vector3d::Zero() : fibers.points().front();
 }
 
 }  // namespace fiber

@@ -13,6 +13,7 @@
 #include <tuple>
 
 #include "fiber_proximity/query/deadline.hpp"
+#include "fiber_proximity/query/options.hpp"
 #include "src/geometry/swept_fibers.hpp"
 #include "src/query/contact_in_motion.hpp"
 #include "src/text/with_context.hpp"

@@ -19,7 +19,7 @@
 #include "src/environment/shape_contact_time.hpp"
 #include "src/geometry/swept_fibers.hpp"
 #include "src/query/contact_evaluator.hpp"
-#include "src/query/narrow_contact_time.hpp"
+#include "src/query/motion_evaluator.hpp"
 #include "src/text/quote.hpp"
 
 namespace fiber {
@@ -155,7 +155,7 @@ class EnvironmentMotion {
     const AxisDistance axis = axis_distance(shape.shape, shape.to_shape * moving.before.p0,
                                             shape.to_shape * moving.before.p1, limit);
     const SegmentId id = motion_.before.segment_id(pair.a);
-    MotionContact contact{id.fiber, id.segment, shape.object, shape.index, 0.0, 0.0, false};
+    MotionContact contact{{id.fiber, id.segment, shape.object, shape.index}, 0.0, 0.0, false};
     const bool is_any = axis.distance < std::numeric_limits<double>::infinity();
     if (is_any && axis.distance - radius <= options_.margin) {
       contact.certain = axis.distance + shape.error(moving.before) <= limit;

@@ -8,10 +8,8 @@
 #include <string>
 
 #include "fiber_proximity/geometry/contact_time.hpp"
-#include "src/geometry/first_look-inl.hpp"
 #include "src/geometry/motion_lanes-inl.hpp"
 #include "src/geometry/segment_motion-inl.hpp"
-#include "src/geometry/wide_contact_time.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace fiber {

@@ -91,6 +91,14 @@ inline DoubleDoubleVector cross(const DoubleDoubleVector& a, const DoubleDoubleV
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
+inline DoubleDoubleVector operator+(const DoubleDoubleVector& a, const DoubleDoubleVector& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+inline DoubleDoubleVector operator*(DoubleDouble factor, const DoubleDoubleVector& a) {
+  return {factor * a[0], factor * a[1], factor * a[2]};
+}
+inline DoubleDoubleVector operator-(const DoubleDoubleVector& a) { return {-a[0], -a[1], -a[2]}; }
+
 /// Rounded to double.
 inline Eigen::Vector3d rounded(const DoubleDoubleVector& a) {
   return {a[0].high, a[1].high, a[2].high};

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "src/geometry/exact_numbers.hpp"
-#include "src/geometry/wide_gap.hpp"
 
 namespace fiber {
 namespace {
@@ -130,24 +129,6 @@ bool exact_gap_at_most(const Vector3d& p0, const Vector3d& p1, const Vector3d& q
   const Nearest nearest = nearest_points(pair);
   const Integer reach = sum * nearest.denominator;
   return nearest.squared <= reach * reach;
-}
-
-bool gap_at_most(const SegmentDistance& robust, const Vector3d& p0, const Vector3d& p1,
-                 const Vector3d& q0, const Vector3d& q1, const ContactLimit& limit) {
-  // What is proven of the robust distance, and the rounding of sum and difference here.
-  const double error = proven_robust_error_per_error * robust.error + 0x1p-50 * limit.parts() +
-                       std::numeric_limits<double>::min();
-  const double gap = robust.distance - limit.sum();
-  if (std::abs(gap) > error + 0x1p-51 * robust.distance) {
-    return gap < 0.0;
-  }
-  const std::optional<bool> wide = wide_gap_at_most(robust, p0, p1, q0, q1, limit);
-  return wide ? *wide : exact_gap_at_most(p0, p1, q0, q1, limit);
-}
-
-bool gap_at_most(const Vector3d& p0, const Vector3d& p1, const Vector3d& q0, const Vector3d& q1,
-                 const ContactLimit& limit) {
-  return gap_at_most(segment_distance(p0, p1, q0, q1), p0, p1, q0, q1, limit);
 }
 
 }  // namespace fiber

@@ -57,16 +57,12 @@ class TurningSegment {
     return (1.0 + 0x1p-40) * reach * angle * angle / 8.0 + 0x1p-46 * (reach + largest);
   }
 
-  TurningSegment first_half() const {
+  /// Of the motion: the first half, or the second.
+  TurningSegment half(bool second) const {
     TurningSegment half = *this;
-    half.after_ = middle();
-    half.place(half.after_, half.after_points_);
-    return half;
-  }
-  TurningSegment second_half() const {
-    TurningSegment half = *this;
-    half.before_ = middle();
+    (second ? half.before_ : half.after_) = middle();
     half.place(half.before_, half.before_points_);
+    half.place(half.after_, half.after_points_);
     return half;
   }
 
@@ -96,9 +92,8 @@ struct MotionPiece {
   double begin;
   double size;
 
-  MotionPiece first_half() const { return {a.first_half(), b.first_half(), begin, 0.5 * size}; }
-  MotionPiece second_half() const {
-    return {a.second_half(), b.second_half(), begin + 0.5 * size, 0.5 * size};
+  MotionPiece half(bool second) const {
+    return {a.half(second), b.half(second), second ? begin + 0.5 * size : begin, 0.5 * size};
   }
 };
 
@@ -117,8 +112,8 @@ ContactTime contact_in(const MotionPiece& piece, const ContactLimit& limit, doub
   }
   if (deviation > 0.25 * tolerance) {
     if (piece.size > least_piece) {
-      const ContactTime first = contact_in(piece.first_half(), limit, tolerance);
-      return first.hit ? first : contact_in(piece.second_half(), limit, tolerance);
+      const ContactTime first = contact_in(piece.half(false), limit, tolerance);
+      return first.hit ? first : contact_in(piece.half(true), limit, tolerance);
     }
     return {true, piece.begin, std::numeric_limits<double>::infinity(), false};
   }

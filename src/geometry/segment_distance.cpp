@@ -3,6 +3,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+
+#include "fiber_proximity/geometry/exact_distance.hpp"
+#include "src/text/join.hpp"
+#include "src/text/quote.hpp"
 
 namespace fiber {
 namespace {
@@ -135,6 +140,30 @@ SegmentDistance segment_distance(const Vector3d& p0, const Vector3d& p1, const V
     return scaled_segment_distance(p0, p1, q0, q1, extent);
   }
   return Candidates(p0, p1, q0, q1).nearest(robust_error * extent);
+}
+
+const std::vector<std::string>& kernel_names() {
+  static const std::vector<std::string> names{"robust", "exact"};
+  return names;
+}
+
+Kernel kernel_from_name(const std::string& name) {
+  const std::vector<std::string>& names = kernel_names();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    throw std::invalid_argument("unknown kernel " + quote(name) + ", known are: " + join(names));
+  }
+  return static_cast<Kernel>(found - names.begin());
+}
+
+std::string current_kernel_name(const std::string& name) {
+  return name == "fast" ? name_of(Kernel::ROBUST) : name;
+}
+
+SegmentDistance segment_distance(Kernel kernel, const Vector3d& p0, const Vector3d& p1,
+                                 const Vector3d& q0, const Vector3d& q1) {
+  return kernel == Kernel::EXACT ? exact_segment_distance(p0, p1, q0, q1)
+                                 : segment_distance(p0, p1, q0, q1);
 }
 
 }  // namespace fiber

@@ -71,10 +71,4 @@ void SweptFibers::update(const FiberAssembly& before, const FiberAssembly& after
   fibers_.assign_segments(points_, before.offsets(), segment_radii_);
 }
 
-std::size_t SweptFibers::memory_bytes() const {
-  // Points, radii as given and by segment, of the fibres and of what they are made from.
-  return points_.capacity() * 2 * sizeof(Eigen::Vector3d) +
-         segment_radii_.capacity() * 3 * sizeof(double) + half_ways_.capacity() * sizeof(double);
-}
-
 }  // namespace fiber

@@ -34,7 +34,6 @@ class SweptFibers {
 
   const FiberAssembly& fibers() const { return fibers_; }
   const Eigen::Vector3d& drift() const { return drift_; }
-  std::size_t memory_bytes() const;
 
  private:
   Eigen::Vector3d drift_ = Eigen::Vector3d::Zero();  // [m]

@@ -1,5 +1,3 @@
-#include "src/geometry/wide_contact_time.hpp"
-
 #include "src/geometry/double_double.hpp"
 #include "src/geometry/segment_motion-inl.hpp"
 

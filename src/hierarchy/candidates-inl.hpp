@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "src/hierarchy/moving_lanes-inl.hpp"
+#include "src/hierarchy/run_lanes-inl.hpp"
 #include "src/hierarchy/run_tree_kernels.hpp"
 #include "src/hierarchy/segment_lanes-inl.hpp"
 

@@ -1,5 +1,6 @@
-// A segment, or its box, against the eight of a run.
-// Included once per instruction set, so it has the guard that Highway asks for.
+// A segment, or its box, against the eight of a run; and segments that move, in the lanes of a
+// register, with a test of the least distance that they come to, which never misses. Included once
+// per instruction set, so it has the guard that Highway asks for instead of #pragma once.
 #if defined(FIBER_RUN_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef FIBER_RUN_LANES_INL
 #undef FIBER_RUN_LANES_INL
@@ -9,13 +10,107 @@
 
 #include <hwy/highway.h>
 
-#include "fiber_proximity/geometry/point_pair.hpp"
-#include "src/hierarchy/moving_lanes-inl.hpp"
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "src/hierarchy/segment_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace fiber {
 namespace HWY_NAMESPACE {
+
+// The vectors from segment b to segment a while both move are w + s·u − t·v + r·m, with w from
+// start to start halfway, s and t in [0, 1], and r in [−1, 1] for half of the way of a relative to
+// b: a parallelepiped. The segments stay apart if a plane has it further from the origin than their
+// reach. Any plane proves it; which one is tried, by its normal, is a guess.
+
+/// Pairs of segments that move.
+class MovingPairs {
+ public:
+  /// @param way half of that of a relative to b [m]
+  MovingPairs(const LaneSegments& a, const LaneSegments& b, const LaneVector& way, Lanes reach)
+      : u_(a.direction), v_(b.direction), w_(subtract(a.start, b.start)), way_(way) {
+    const Floats d;
+    // Each dot product rounds by less than 8 u of the lengths of its factors.
+    const auto extent = hn::Add(hn::Add(length_bound(u_), length_bound(v_)),
+                                hn::Add(length_bound(w_), length_bound(way_)));
+    limit_ = hn::MulAdd(extent, hn::Set(d, rounding_of_products), reach);
+    squared_u_inverse_ = a.inverse_squared_length;
+    squared_v_inverse_ = b.inverse_squared_length;
+  }
+
+  /// Tries planes along each segment's way, and that through the shortest vector about when the
+  /// middles are nearest. That along both segments has been tried: moving_lines_near().
+  LaneMask are_near() const {
+    const Floats d;
+    const auto one = hn::Set(d, 1.0F);
+    const auto half_of_one = hn::Set(d, 0.5F);
+    const auto squared_way =
+        hn::Max(dot(way_, way_), hn::Set(d, std::numeric_limits<float>::min()));
+    const LaneVector middles = along(along(w_, half_of_one, u_), hn::Neg(half_of_one), v_);
+    const auto nearest_time = hn::Neg(hn::Div(dot(middles, way_), squared_way));
+    const auto time = hn::Min(hn::Max(nearest_time, hn::Neg(one)), one);
+    return hn::Not(hn::Or(hn::Or(are_beyond(cross(u_, way_)), are_beyond(cross(v_, way_))),
+                          are_beyond(shortest(along(w_, time, way_)))));
+  }
+
+ private:
+  /// Whether a plane at right angles to this has all further from the origin than the limit.
+  HWY_INLINE LaneMask are_beyond(const LaneVector& normal) const {
+    const Floats d;
+    const auto zero = hn::Zero(d);
+    const auto squared = dot(normal, normal);
+    const auto start = dot(normal, w_);
+    const auto along_u = dot(normal, u_);
+    const auto along_v = dot(normal, v_);
+    const auto along_way = hn::Abs(dot(normal, way_));
+    const auto least = hn::Sub(hn::Add(start, hn::Min(along_u, zero)), hn::Max(along_v, zero));
+    const auto most = hn::Sub(hn::Add(start, hn::Max(along_u, zero)), hn::Min(along_v, zero));
+    const auto gap = hn::Sub(hn::Max(least, hn::Neg(most)), along_way);
+    // Below, squares are rounded to few digits.
+    const auto smallest = hn::Set(d, 0x1p24F * std::numeric_limits<float>::min());
+    return hn::And(hn::Gt(squared, smallest), hn::Gt(gap, hn::Mul(limit_, hn::Sqrt(squared))));
+  }
+
+  /// About the shortest of the vectors at one time.
+  HWY_INLINE LaneVector shortest(const LaneVector& start) const {
+    const Floats d;
+    const auto zero = hn::Zero(d);
+    const auto one = hn::Set(d, 1.0F);
+    const auto clamp = [&](Lanes value) { return hn::Min(hn::Max(value, zero), one); };
+    const auto uv = dot(u_, v_);
+    const auto start_u = dot(start, u_);
+    const auto start_v = dot(start, v_);
+    const auto part_u = hn::Mul(uv, squared_u_inverse_);
+    const auto part_v = hn::Mul(uv, squared_v_inverse_);
+    // 1 − cos²: of nearly parallel ones any place serves.
+    const auto least = hn::Set(d, 1e-4F);
+    const auto sine = hn::Max(hn::NegMulAdd(part_u, part_v, one), least);
+    auto s =
+        clamp(hn::Div(hn::Mul(hn::MulSub(start_v, part_v, start_u), squared_u_inverse_), sine));
+    const auto t = clamp(hn::Mul(hn::MulAdd(s, uv, start_v), squared_v_inverse_));
+    s = clamp(hn::Mul(hn::MulSub(t, uv, start_u), squared_u_inverse_));
+    return along(along(start, s, u_), hn::Neg(t), v_);
+  }
+
+  LaneVector u_;
+  LaneVector v_;
+  LaneVector w_;
+  LaneVector way_;
+  Lanes limit_;
+  Lanes squared_u_inverse_;
+  Lanes squared_v_inverse_;
+};
+
+/// lines_near() of segments that move, by `way` from halfway to either side, of a relative to b.
+HWY_INLINE LaneMask moving_lines_near(const LaneVector& u, const LaneVector& v, const LaneVector& w,
+                                      const LaneVector& way, Lanes reach) {
+  const Floats d;
+  const LaneVector n = cross(u, v);
+  const auto rounding =
+      hn::Mul(hn::Set(d, rounding_of_products), hn::Mul(hn::Add(length_bound(w), length_bound(way)),
+                                                        hn::Mul(length_bound(u), length_bound(v))));
+  const auto across = hn::Sub(hn::Abs(dot(w, n)), hn::Abs(dot(way, n)));
+  return within_reach(hn::Sub(across, rounding), reach, n);
+}
 
 /// Bits of the block's lanes whose boxes overlap the box in one lane of another. Infinite boxes
 /// overlap everything.

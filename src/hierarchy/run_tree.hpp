@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
-#include "src/hierarchy/run_blocks.hpp"
-#include "src/hierarchy/tree_fibers.hpp"
+#include "src/hierarchy/run_tree_kernels.hpp"
 
 namespace fiber {
 
@@ -29,24 +28,14 @@ class RunTree {
   static constexpr double most_decay = 1.5;
 
   void build(const TreeFibers& fibers);
-  /// @param origin [m] the point all boxes are relative to
-  void build(const FiberAssembly& fibers, const Eigen::Vector3d& origin) {
-    build(TreeFibers(fibers, origin));
-  }
 
   /// The same of some segments only.
   /// @param first_points of the segments, all different
-  void build(const FiberAssembly& fibers, const std::vector<std::uint32_t>& first_points,
-             const Eigen::Vector3d& origin) {
-    build(TreeFibers(fibers, origin), first_points);
-  }
+  void build(const TreeFibers& fibers, const std::vector<std::uint32_t>& first_points);
 
   /// Refits a tree of all segments to moved points of the same topology; sorts anew first if the
   /// order has decayed.
   void update(const TreeFibers& fibers);
-  void update(const FiberAssembly& fibers, const Eigen::Vector3d& origin) {
-    update(TreeFibers(fibers, origin));
-  }
 
   const RunTreeView& view() const { return view_; }
   const Eigen::Vector3d& origin() const { return origin_; }              ///< before a motion
@@ -63,7 +52,6 @@ class RunTree {
   std::size_t memory_bytes() const;
 
  private:
-  void build(const TreeFibers& fibers, const std::vector<std::uint32_t>& first_points);
   void sort(const FiberAssembly& fibers);
   void refit(const TreeFibers& fibers);
   double looseness(const FiberAssembly& fibers);

@@ -54,11 +54,13 @@ class Probe {
 template <bool moves>
 class Finder {
  public:
-  Finder(const RunTreeView& a, const RunTreeView& b, PairSink& sink, QueryCounts& counts)
+  Finder(const RunTreeView& a, const RunTreeView& b, PairSink& sink, std::uint64_t& tests,
+         std::uint64_t& overlaps)
       : a_(a),
         b_(b),
         sink_(sink),
-        counts_(counts),
+        tests_(tests),
+        overlaps_(overlaps),
         candidates_(a, b, sink),
         self_(a.runs == b.runs),
         skip_adjacent_(self_ && !sink.wants_adjacent()) {}
@@ -263,15 +265,16 @@ class Finder {
   }
 
   void count(std::uint32_t bits) {
-    counts_.node_tests += run_width;
-    counts_.node_overlaps += hwy::PopCount(bits);
+    tests_ += run_width;
+    overlaps_ += hwy::PopCount(bits);
   }
 
   Probe<moves> probe_;
   const RunTreeView& a_;
   const RunTreeView& b_;
   PairSink& sink_;
-  QueryCounts& counts_;
+  std::uint64_t& tests_;
+  std::uint64_t& overlaps_;
   Candidates candidates_;
   std::uint32_t group_ = 0;
   float bound_ = 0.0F;  // [m]
@@ -287,8 +290,8 @@ class Finder {
 
 template <bool moves>
 bool find_near(const RunTreeView& a, std::uint32_t begin, std::uint32_t end, const RunTreeView& b,
-               PairSink& sink, QueryCounts& counts) {
-  Finder<moves> finder(a, b, sink, counts);
+               PairSink& sink, std::uint64_t& tests, std::uint64_t& overlaps) {
+  Finder<moves> finder(a, b, sink, tests, overlaps);
   for (std::uint32_t group = begin; group < end; ++group) {
     if (!finder.find(group)) {
       return false;
@@ -298,9 +301,10 @@ bool find_near(const RunTreeView& a, std::uint32_t begin, std::uint32_t end, con
 }
 
 bool find_near_segments_lanes(const RunTreeView& a, std::uint32_t begin, std::uint32_t end,
-                              const RunTreeView& b, PairSink& sink, QueryCounts& counts) {
-  return a.ways == nullptr ? find_near<false>(a, begin, end, b, sink, counts)
-                           : find_near<true>(a, begin, end, b, sink, counts);
+                              const RunTreeView& b, PairSink& sink, std::uint64_t& tests,
+                              std::uint64_t& overlaps) {
+  return a.ways == nullptr ? find_near<false>(a, begin, end, b, sink, tests, overlaps)
+                           : find_near<true>(a, begin, end, b, sink, tests, overlaps);
 }
 
 }  // namespace
@@ -314,8 +318,9 @@ namespace fiber {
 HWY_EXPORT(find_near_segments_lanes);
 
 bool find_near_segments(const RunTreeView& a, std::uint32_t begin, std::uint32_t end,
-                        const RunTreeView& b, PairSink& sink, QueryCounts& counts) {
-  return HWY_DYNAMIC_DISPATCH(find_near_segments_lanes)(a, begin, end, b, sink, counts);
+                        const RunTreeView& b, PairSink& sink, std::uint64_t& tests,
+                        std::uint64_t& overlaps) {
+  return HWY_DYNAMIC_DISPATCH(find_near_segments_lanes)(a, begin, end, b, sink, tests, overlaps);
 }
 
 }  // namespace fiber

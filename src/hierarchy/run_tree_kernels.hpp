@@ -4,12 +4,74 @@
 #include <cstdint>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
-#include "fiber_proximity/geometry/point_pair.hpp"
-#include "fiber_proximity/hierarchy/query_counts.hpp"
-#include "src/hierarchy/run_blocks.hpp"
-#include "src/hierarchy/tree_fibers.hpp"
 
 namespace fiber {
+
+/// Segments in a run, and children of a node: the lanes of one AVX register of floats.
+constexpr std::uint32_t run_width = 8;
+
+/// Eight segments that follow each other along the space-filling curve [m], relative to the tree's
+/// origin; by axis, then lane. Lanes without a segment repeat the last one.
+struct alignas(32) Run {
+  float start[3][run_width];
+  float end[3][run_width];
+  /// Padded so that every test on these segments errs on the safe side; infinite for a segment
+  /// beyond the range of float, which is near everything.
+  float radius[run_width];
+};
+
+/// How far the eight segments of a run move [m]: from that much before where the run has them to as
+/// much beyond, all points of a segment alike; by how much they do not, its radius is larger.
+struct alignas(32) RunWays {
+  float half[3][run_width];
+};
+
+/// Boxes of eight segments, runs or nodes [m]; by axis, then lane. Lanes without a child repeat the
+/// last one.
+struct alignas(32) BoxBlock {
+  float lower[3][run_width];
+  float upper[3][run_width];
+};
+
+/// Nodes of one level. Level 0 are groups, whose children are runs; the children of node n are
+/// 8n … 8n + 7 one level down, as far as there are so many.
+struct RunTreeLevel {
+  const BoxBlock* boxes;  ///< of the children, by node
+  std::uint32_t node_count;
+  std::uint32_t child_count;  ///< of all nodes of the level
+};
+
+/// What the kernels see of a tree.
+struct RunTreeView {
+  static constexpr std::uint32_t most_levels = 11;  // 8^11 runs are more than there can be
+
+  const Run* runs = nullptr;
+  const RunWays* ways = nullptr;  ///< of the runs; none where nothing moves
+  /// Of the segments, along the curve; lanes without a segment repeat the last.
+  const std::uint32_t* first_points = nullptr;
+  std::uint32_t segment_count = 0;
+  RunTreeLevel levels[most_levels] = {};
+  std::uint32_t level_count = 0;
+
+  std::uint32_t group_count() const { return level_count == 0 ? 0 : levels[0].node_count; }
+};
+
+/// What a tree is fitted to: fibres where they are, or with each point moving linearly from there
+/// to where it is after. All is relative to an origin [m], which may move as well: what moves along
+/// with it stands still.
+struct TreeFibers {
+  TreeFibers(const FiberAssembly& fibers, const Eigen::Vector3d& origin)
+      : before(fibers), after(fibers), origin_before(origin), origin_after(origin) {}
+  TreeFibers(const FiberAssembly& from, const FiberAssembly& to, const Eigen::Vector3d& origin_from,
+             const Eigen::Vector3d& origin_to)
+      : before(from), after(to), origin_before(origin_from), origin_after(origin_to), moves(true) {}
+
+  const FiberAssembly& before;
+  const FiberAssembly& after;
+  Eigen::Vector3d origin_before;
+  Eigen::Vector3d origin_after;
+  bool moves = false;
+};
 
 /// What receives the candidates of a traversal.
 class PairSink {
@@ -49,8 +111,11 @@ void fit_nodes(const BoxBlock* boxes_below, std::uint32_t child_count, std::uint
 /// within the sink's bound; of one tree with itself, every pair of segments once. Which pairs are
 /// offered beyond those that do come within it depends on the instruction set; their order does
 /// not.
+/// @param tests, overlaps boxes of nodes that were tested, and those that were near, are added to
+/// these
 /// @return whether the sink wanted to go on
 bool find_near_segments(const RunTreeView& a, std::uint32_t begin, std::uint32_t end,
-                        const RunTreeView& b, PairSink& sink, QueryCounts& counts);
+                        const RunTreeView& b, PairSink& sink, std::uint64_t& tests,
+                        std::uint64_t& overlaps);
 
 }  // namespace fiber

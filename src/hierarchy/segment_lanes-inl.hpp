@@ -11,7 +11,7 @@
 
 #include <limits>
 
-#include "src/hierarchy/run_blocks.hpp"
+#include "src/hierarchy/run_tree_kernels.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace fiber {

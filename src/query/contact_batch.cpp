@@ -6,7 +6,7 @@
 #include "src/bounds/bounding_volume.hpp"
 #include "src/hierarchy/run_tree_kernels.hpp"
 #include "src/hierarchy/sort_keys.hpp"
-#include "src/query/for_each_of.hpp"
+#include "src/query/threads.hpp"
 
 namespace fiber {
 namespace {
@@ -98,7 +98,8 @@ ContactBatch::Found ContactBatch::collect(const RunTreeView& a, const RunTreeVie
          group += step) {
       job.complete = !limits.deadline.has_passed(part_to_collect);
       if (job.complete) {
-        find_near_segments(a, group, std::min(end, group + step), b, sink, job.counts);
+        find_near_segments(a, group, std::min(end, group + step), b, sink, job.counts.node_tests,
+                           job.counts.node_overlaps);
       }
     }
   });
@@ -122,7 +123,7 @@ ContactBatch::Found ContactBatch::replace(const std::vector<std::uint64_t>& old_
                                           const NarrowPhase& test, double bound,
                                           const QueryLimits& limits,
                                           std::vector<std::uint64_t>& keys, QueryCounts& counts) {
-  const Found found = collect(outdated.tree(), tree, test, bound, limits, keys_, counts);
+  const Found found = collect(outdated.tree(), tree, test, bound, limits, false, keys_, counts);
   if (found == Found::TOO_MANY) {
     return found;
   }

@@ -5,10 +5,10 @@
 
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/narrow_phase.hpp"
-#include "fiber_proximity/query/query_limits.hpp"
-#include "src/hierarchy/run_blocks.hpp"
+#include "fiber_proximity/query/options.hpp"
+#include "src/hierarchy/run_tree_kernels.hpp"
 #include "src/query/contact_evaluator.hpp"
-#include "src/query/dirty_segments.hpp"
+#include "src/query/kept_candidates.hpp"
 
 namespace fiber {
 
@@ -27,17 +27,10 @@ class ContactBatch {
   /// Candidates in the order of the contacts: all pairs that may come within the bound [m], and
   /// others; they may serve other queries, too, when points have moved. Takes two thirds of the
   /// time until the deadline, if need be: the rest is for judging.
+  /// @param prunes leave out what lacks a loop as the fibres of the test are now
   Found collect(const RunTreeView& a, const RunTreeView& b, const NarrowPhase& test, double bound,
-                const QueryLimits& limits, std::vector<std::uint64_t>& keys, QueryCounts& counts) {
-    return collect(a, b, test, bound, limits, false, keys, counts);
-  }
-
-  /// The same of all pairs within the margin, as the fibres of the test are now: without those that
-  /// lack a loop.
-  Found collect(const RunTreeView& a, const RunTreeView& b, const NarrowPhase& test,
-                const QueryLimits& limits, std::vector<std::uint64_t>& keys, QueryCounts& counts) {
-    return collect(a, b, test, test.margin(), limits, true, keys, counts);
-  }
+                const QueryLimits& limits, bool prunes, std::vector<std::uint64_t>& keys,
+                QueryCounts& counts);
 
   /// The same from candidates of a tree with itself that were collected before: those of outdated
   /// segments are left out and looked for anew.
@@ -57,10 +50,6 @@ class ContactBatch {
             const QueryLimits& limits, QueryResult& result);
 
  private:
-  Found collect(const RunTreeView& a, const RunTreeView& b, const NarrowPhase& test, double bound,
-                const QueryLimits& limits, bool prunes, std::vector<std::uint64_t>& keys,
-                QueryCounts& counts);
-
   struct Job {
     bool complete = true;
     std::vector<std::uint64_t> keys;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "src/query/for_each_of.hpp"
+#include "src/query/threads.hpp"
 
 namespace fiber {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/narrow_phase.hpp"
-#include "fiber_proximity/query/query_limits.hpp"
+#include "fiber_proximity/query/options.hpp"
 
 namespace fiber {
 

@@ -249,11 +249,8 @@ Crossing CrossingTest::crossing_at(const Ends& ends, const Place& place) const {
   const Vector3d along_a = place.s * (a.p1 - a.p0);
   const Vector3d along_b = place.t * (b.p1 - b.p0);
   Crossing crossing;
-  crossing.fiber_a = id_a.fiber;
-  crossing.segment_a = id_a.segment;
+  static_cast<SegmentIdPair&>(crossing) = {id_a.fiber, id_a.segment, id_b.fiber, id_b.segment};
   crossing.s = place.s;
-  crossing.fiber_b = id_b.fiber;
-  crossing.segment_b = id_b.segment;
   crossing.t = place.t;
   crossing.a_is_over = place.a_is_over;
   crossing.sign = place.sign;

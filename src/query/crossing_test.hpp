@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
-#include "fiber_proximity/query/crossing.hpp"
-#include "fiber_proximity/query/view.hpp"
+#include "fiber_proximity/query/crossings.hpp"
 #include "src/geometry/perturbed_orientation.hpp"
 
 namespace fiber {

@@ -9,6 +9,7 @@
 #include "src/geometry/swept_fibers.hpp"
 #include "src/query/contact_evaluator.hpp"
 #include "src/query/idle_memory.hpp"
+#include "src/query/motion_evaluator.hpp"
 
 namespace fiber {
 namespace {
@@ -234,8 +235,19 @@ void ProximityEngine::on_threads(const std::function<void()>& work) const {
   tbb::task_arena(1).execute(work);
 }
 
-void ProximityEngine::level_boxes(std::uint32_t /*level*/, std::vector<NodeBox>& boxes) const {
-  boxes.clear();
+void nearest_segments(const ProximityEngine& engine, const Eigen::Vector3d& point, std::uint32_t k,
+                      QueryResult& result) {
+  require_coordinates("point", point);
+  if (k == 0) {
+    throw std::invalid_argument("k is 0, it must be at least 1");
+  }
+  QueryOptions options;
+  options.type = QueryType::LIMITED;
+  options.max_contacts = k;
+  options.margin = std::numeric_limits<double>::infinity();
+  // A point is a capsule of no length and no radius.
+  engine.query_shape(FiberAssembly({point, point}, {0, 2}, {0.0}), options, result);
+  sort_by_distance(result.contacts);
 }
 
 }  // namespace fiber

@@ -2,7 +2,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "fiber_proximity/query/engine_registry.hpp"
 #include "src/query/brute_force.hpp"
 #include "src/query/run_tree_engine.hpp"
 #include "src/query/threads.hpp"
@@ -12,40 +11,33 @@
 namespace fiber {
 namespace {
 
-using EnginePointer = std::unique_ptr<ProximityEngine>;
-
-/// Families in the order in which they were registered. Never taken apart: libraries that are
-/// unloaded late may still ask.
-class Registry {
- public:
-  static Registry& instance() {
-    static auto* const registry = new Registry;  // NOLINT(cppcoreguidelines-owning-memory)
-    return *registry;
-  }
-
-  void add(EngineFamily family) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    families_.push_back(std::move(family));
-  }
-
-  std::vector<EngineFamily> families() const {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return families_;
-  }
-
- private:
-  mutable std::mutex mutex_;
-  std::vector<EngineFamily> families_;
+/// Families in the order in which they were registered.
+struct Registry {
+  std::mutex mutex;
+  std::vector<EngineFamily> families;
 };
+
+/// Never taken apart: libraries that are unloaded late may still ask.
+Registry& registry() {
+  static auto* const all = new Registry;  // NOLINT(cppcoreguidelines-owning-memory)
+  return *all;
+}
+
+std::vector<EngineFamily> families() {
+  const std::lock_guard<std::mutex> lock(registry().mutex);
+  return registry().families;
+}
 
 }  // namespace
 
 bool register_engines(EngineFamily family) {
-  Registry::instance().add(std::move(family));
+  const std::lock_guard<std::mutex> lock(registry().mutex);
+  registry().families.push_back(std::move(family));
   return true;
 }
 
-EnginePointer make_engine(const std::string& name, const EngineOptions& options) {
+std::unique_ptr<ProximityEngine> make_engine(const std::string& name,
+                                             const EngineOptions& options) {
   validate_threads(options.threads);  // also where the engine has one thread
   if (name == "run_tree") {
     return std::make_unique<RunTreeEngine>(options);
@@ -55,9 +47,9 @@ EnginePointer make_engine(const std::string& name, const EngineOptions& options)
   }
   std::string reason;
   std::string others;
-  for (const EngineFamily& family : Registry::instance().families()) {
+  for (const EngineFamily& family : families()) {
     try {
-      if (EnginePointer engine = family.make(name, options)) {
+      if (std::unique_ptr<ProximityEngine> engine = family.make(name, options)) {
         return engine;
       }
     } catch (const std::invalid_argument& error) {
@@ -71,7 +63,7 @@ EnginePointer make_engine(const std::string& name, const EngineOptions& options)
 
 std::vector<std::string> engine_names() {
   std::vector<std::string> names{"run_tree"};
-  for (const EngineFamily& family : Registry::instance().families()) {
+  for (const EngineFamily& family : families()) {
     names.insert(names.end(), family.names.begin(), family.names.end());
   }
   names.emplace_back("brute_force");

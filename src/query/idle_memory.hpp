@@ -14,23 +14,23 @@ class IdleMemory {
  public:
   template <class Call>
   void lend(const Call& call) {
-    std::unique_ptr<Memory> memory = take();
+    std::unique_ptr<Memory> memory;
+    {
+      const std::lock_guard lock(mutex_);
+      if (!idle_.empty()) {
+        memory = std::move(idle_.back());
+        idle_.pop_back();
+      }
+    }
+    if (memory == nullptr) {
+      memory = std::make_unique<Memory>();
+    }
     call(*memory);
     const std::lock_guard lock(mutex_);
     idle_.push_back(std::move(memory));
   }
 
  private:
-  std::unique_ptr<Memory> take() {
-    const std::lock_guard lock(mutex_);
-    if (idle_.empty()) {
-      return std::make_unique<Memory>();
-    }
-    std::unique_ptr<Memory> memory = std::move(idle_.back());
-    idle_.pop_back();
-    return memory;
-  }
-
   std::mutex mutex_;
   std::vector<std::unique_ptr<Memory>> idle_;
 };

@@ -6,8 +6,7 @@
 #include <memory>
 
 #include "src/geometry/norm.hpp"
-#include "src/query/loop_free_stretches.hpp"
-#include "src/query/point_boxes.hpp"
+#include "src/query/loop_chain.hpp"
 
 namespace fiber {
 namespace {

@@ -1,14 +1,39 @@
-#include "fiber_proximity/query/motion_evaluator.hpp"
+#include "src/query/motion_evaluator.hpp"
 
 #include <algorithm>
 
 #include "fiber_proximity/geometry/contact_time.hpp"
 #include "src/query/contact_evaluator.hpp"
-#include "src/query/for_each_of.hpp"
-#include "src/query/narrow_contact_time.hpp"
+#include "src/query/threads.hpp"
 
 namespace fiber {
 namespace {
+
+/// The most contacts to report that begin during the motion, 0 for no limit.
+std::size_t most_contacts(const MotionOptions& options) {
+  std::size_t most = options.contact_limit;
+  if (options.type != MotionType::ALL) {
+    const std::size_t asked = options.type == MotionType::FIRST ? 1 : options.max_contacts;
+    most = most == 0 ? asked : std::min(most, asked);
+  }
+  return most;
+}
+
+/// Leaves the earliest ones, sorted by key.
+/// @return whether there were more
+bool keep_earliest(std::size_t most, MotionResult& result) {
+  std::vector<MotionContact>& contacts = result.contacts;
+  if (most == 0 || contacts.size() <= most) {
+    return false;
+  }
+  std::nth_element(
+      contacts.begin(), contacts.begin() + static_cast<std::ptrdiff_t>(most), contacts.end(),
+      [](const MotionContact& x, const MotionContact& y) { return x.earlier_than(y); });
+  result.others_lower = std::min(result.others_lower, contacts[most].lower);
+  contacts.resize(most);
+  std::sort(contacts.begin(), contacts.end(), by_key);
+  return true;
+}
 
 // Motions are judged in rounds, so that their times take little memory.
 constexpr std::size_t motion_slices_per_round = 32;
@@ -26,7 +51,7 @@ class MotionTest {
               MotionSlice& slice) const {
     SegmentMotions motions[motions_per_slice];
     for (std::size_t i = 0; i < count; ++i) {
-      motions[i] = motions_of(pair_of(keys[i]));
+      motions[i] = motions_of(a_, b_, pair_of(keys[i]), options_.margin);
     }
     contact_times(motions, count, options_.tolerance, times);
     for (std::size_t i = 0; i < count; ++i) {
@@ -44,23 +69,11 @@ class MotionTest {
  private:
   static bool is_there_before(const ContactTime& time) { return time.certain && time.upper == 0.0; }
 
-  static double larger_radius(const FiberMotion& motion, std::uint32_t point) {
-    return std::max(motion.before.segment_radius(point), motion.after.segment_radius(point));
-  }
-
-  SegmentMotions motions_of(PointPair pair) const {
-    return {&a_.before.points()[pair.a],
-            &a_.after.points()[pair.a],
-            &b_.before.points()[pair.b],
-            &b_.after.points()[pair.b],
-            {larger_radius(a_, pair.a), larger_radius(b_, pair.b), options_.margin}};
-  }
-
   MotionContact contact(PointPair pair, const ContactTime& time) const {
     const SegmentId id_a = a_.before.segment_id(pair.a);
     const SegmentId id_b = b_.before.segment_id(pair.b);
-    return {id_a.fiber, id_a.segment, id_b.fiber,  id_b.segment,
-            time.lower, time.upper,   time.certain};
+    return {
+        {id_a.fiber, id_a.segment, id_b.fiber, id_b.segment}, time.lower, time.upper, time.certain};
   }
 
   const FiberMotion& a_;
@@ -70,6 +83,28 @@ class MotionTest {
 };
 
 }  // namespace
+
+void merge_slices(const MotionSlice* slices, std::size_t count, const MotionCandidates& candidates,
+                  const MotionOptions& options, MotionResult& result) {
+  result.counts = candidates.counts;
+  result.counts.primitive_tests += candidates.keys.size();
+  result.complete = candidates.are_all && !candidates.are_too_many;
+  for (std::size_t i = 0; i < count; ++i) {
+    const MotionSlice& slice = slices[i];
+    result.contacts.insert(result.contacts.end(), slice.contacts.begin(), slice.contacts.end());
+    result.touching.insert(result.touching.end(), slice.touching.begin(), slice.touching.end());
+    result.complete = result.complete && slice.complete;
+  }
+  result.others_lower = result.complete ? 1.0 : 0.0;
+  result.limit_reached = candidates.are_too_many;
+  if (options.contact_limit > 0 && result.touching.size() > options.contact_limit) {
+    result.touching.resize(options.contact_limit);
+    result.others_lower = 0.0;
+    result.limit_reached = true;
+  }
+  const bool are_more = keep_earliest(most_contacts(options), result);
+  result.limit_reached = result.limit_reached || (are_more && options.type != MotionType::FIRST);
+}
 
 void MotionEvaluator::evaluate(const MotionCandidates& candidates, const FiberMotion& a,
                                const FiberMotion& b, const NarrowPhase& test,

@@ -180,10 +180,7 @@ Contact NarrowPhase::contact(PointPair pair, const PairDistance& computed) const
   const SegmentId id_a = a_.segment_id(pair.a);
   const SegmentId id_b = b_.segment_id(pair.b);
   Contact contact = contact_of(a_.capsule(pair.a), b_.capsule(pair.b), distance.nearest);
-  contact.fiber_a = id_a.fiber;
-  contact.segment_a = id_a.segment;
-  contact.fiber_b = id_b.fiber;
-  contact.segment_b = id_b.segment;
+  static_cast<SegmentIdPair&>(contact) = {id_a.fiber, id_a.segment, id_b.fiber, id_b.segment};
   return contact;
 }
 

@@ -1,9 +1,11 @@
 #include "fiber_proximity/query/options.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <utility>
+#include <vector>
+
+#include "src/text/join.hpp"
 
 namespace fiber {
 
@@ -14,6 +16,17 @@ void check_finite(const char* name, double value, const char* unit) {
     throw std::invalid_argument(std::string(name) + " is " + std::to_string(value) +
                                 ", it must be finite and at least 0" + unit);
   }
+}
+
+/// @param names in the order of the enumerators
+template <class Enum>
+Enum from_name(const char* what, const std::string& name, const std::vector<std::string>& names) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    throw std::invalid_argument(std::string("unknown ") + what + " '" + name +
+                                "', known are: " + join(names));
+  }
+  return static_cast<Enum>(found - names.begin());
 }
 
 }  // namespace
@@ -37,33 +50,12 @@ void validate(const QueryOptions& options) {
 }
 
 QueryType query_type_from_name(const std::string& name) {
-  static const std::array<std::pair<const char*, QueryType>, 5> types{
-      {{"first", QueryType::FIRST},
-       {"closest", QueryType::CLOSEST},
-       {"limited", QueryType::LIMITED},
-       {"all", QueryType::ALL},
-       {"fiber_pairs", QueryType::FIBER_PAIRS}}};
-  for (const auto& [type_name, type] : types) {
-    if (name == type_name) {
-      return type;
-    }
-  }
-  throw std::invalid_argument("unknown query type '" + name +
-                              "', known are: first, closest, limited, all, fiber_pairs");
+  return from_name<QueryType>("query type", name,
+                              {"first", "closest", "limited", "all", "fiber_pairs"});
 }
 
 Pairing pairing_from_name(const std::string& name) {
-  if (name == "all") {
-    return Pairing::ALL;
-  }
-  if (name == "same_fiber") {
-    return Pairing::SAME_FIBER;
-  }
-  if (name == "different_fibers") {
-    return Pairing::DIFFERENT_FIBERS;
-  }
-  throw std::invalid_argument("unknown pairing '" + name +
-                              "', known are: all, same_fiber, different_fibers");
+  return from_name<Pairing>("pairing", name, {"all", "same_fiber", "different_fibers"});
 }
 
 }  // namespace fiber

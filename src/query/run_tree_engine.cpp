@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 #include "fiber_proximity/query/pair_collector.hpp"
 #include "src/bounds/bounding_volume.hpp"
 #include "src/geometry/swept_fibers.hpp"
-#include "src/hierarchy/origin.hpp"
 #include "src/hierarchy/run_tree_kernels.hpp"
-#include "src/query/checked_length.hpp"
+#include "src/query/motion_evaluator.hpp"
 #include "src/query/threads.hpp"
 
 namespace fiber {
@@ -47,7 +48,8 @@ void find_some(const RunTreeView& a, const RunTreeView& b, const QueryOptions& o
   // Where no candidates are, nobody would look at the deadline.
   const std::uint32_t step = options.deadline > 0.0 ? 1 : std::max(groups, 1U);
   for (std::uint32_t group = 0; group < groups && !collector.done(); group += step) {
-    find_near_segments(a, group, std::min(groups, group + step), b, sink, counts);
+    find_near_segments(a, group, std::min(groups, group + step), b, sink, counts.node_tests,
+                       counts.node_overlaps);
   }
   collector.finish();
 }
@@ -58,6 +60,16 @@ void check_ways(const RunTree& tree, const FiberAssembly& before, const FiberAss
   if (tree.is_unbounded()) {
     SweptFibers().update(before, after, tree.origin_after() - tree.origin());
   }
+}
+
+/// An engine's option [m], if it is finite and not negative.
+/// @throws std::invalid_argument naming it otherwise
+double checked_length(const std::string& name, double length) {
+  if (!(length >= 0.0 && std::isfinite(length))) {
+    throw std::invalid_argument(name + " is " + std::to_string(length) +
+                                " m, it must be finite and not negative");
+  }
+  return length;
 }
 
 Eigen::Vector3d corner(const float (&by_axis)[3][run_width], std::uint32_t lane) {
@@ -85,7 +97,7 @@ void RunTreeEngine::do_update(const FiberAssembly& fibers, bool same_topology) {
   loops_.reset(fibers);
   arena_.execute([&] {
     if (!same_topology) {
-      tree_.build(fibers, hierarchy_origin(fibers));
+      tree_.build({fibers, hierarchy_origin(fibers)});
       start_anew(fibers);
       return;
     }
@@ -93,7 +105,7 @@ void RunTreeEngine::do_update(const FiberAssembly& fibers, bool same_topology) {
     if (has_skin && tree_still_serves(fibers)) {
       return;
     }
-    tree_.update(fibers, hierarchy_origin(fibers));
+    tree_.update({fibers, hierarchy_origin(fibers)});
     if (has_skin && most_still_serve(fibers)) {
       return;
     }
@@ -181,7 +193,7 @@ void RunTreeEngine::do_query(const FiberAssembly& fibers, const QueryOptions& op
 void RunTreeEngine::do_query_shape(const FiberAssembly& shape, const FiberAssembly& fibers,
                                    const QueryOptions& options, QueryResult& result) const {
   RunTree shape_tree;
-  shape_tree.build(shape, tree_.origin());
+  shape_tree.build({shape, tree_.origin()});
   QueryOptions left = options;
   if (options.type == QueryType::ALL) {
     const QueryLimits limits(options);
@@ -241,7 +253,7 @@ RunTreeEngine::Candidates RunTreeEngine::current_candidates(const NarrowPhase& t
   const Found found =
       old != nullptr
           ? batch.replace(*old, dirty_, tree_.view(), test, reach, limits, *keys, counts)
-          : batch.collect(tree_.view(), tree_.view(), test, reach, limits, *keys, counts);
+          : batch.collect(tree_.view(), tree_.view(), test, reach, limits, false, *keys, counts);
   if (found == Found::ALL) {
     cache_.keep(options, keys);
   }
@@ -284,8 +296,8 @@ void RunTreeEngine::do_find_shape_candidates(const FiberMotion& shape, const Nar
 void RunTreeEngine::find_candidates(const RunTreeView& a, const NarrowPhase& test,
                                     const QueryLimits& limits, MotionCandidates& candidates) const {
   with_batch([&](ContactBatch& batch) {
-    const ContactBatch::Found found =
-        batch.collect(a, tree_.view(), test, limits, candidates.keys, candidates.counts);
+    const ContactBatch::Found found = batch.collect(a, tree_.view(), test, test.margin(), limits,
+                                                    true, candidates.keys, candidates.counts);
     candidates.are_all = found != ContactBatch::Found::SOME;
     candidates.are_too_many = found == ContactBatch::Found::TOO_MANY;
   });

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <tbb/parallel_for.h>
+
+#include <cstddef>
 #include <cstdint>
 
 namespace fiber {
@@ -15,5 +18,18 @@ void validate_threads(std::uint32_t threads);
 /// tbb::global_control says): TBB would write a warning to stderr and use no more of them.
 /// @throws std::invalid_argument as validate_threads
 int arena_concurrency(std::uint32_t threads);
+
+/// Calls for 0 … count − 1, on several threads if that is more than one thread is woken for.
+template <class Call>
+void for_each_of(std::size_t count, const Call& call) {
+  constexpr std::size_t worth_a_thread = 3;
+  if (count < worth_a_thread) {
+    for (std::size_t i = 0; i < count; ++i) {
+      call(i);
+    }
+    return;
+  }
+  tbb::parallel_for(std::size_t{0}, count, call);
+}
 
 }  // namespace fiber

@@ -87,7 +87,7 @@ void TouchTracker::advance(const std::vector<TouchingPair>& pairs, const TimeBou
     touch_of_pair_[i] = touch;
     take(pair, touches_[touch]);
     if (!pair.is_gone) {
-      standing_.push_back({pair.fiber_a, pair.segment_a, pair.fiber_b, pair.segment_b, touch});
+      standing_.push_back({pair, touch});
     }
   }
   for (const TouchStep& touch : touches_) {
@@ -132,8 +132,7 @@ void TouchTracker::find_claims(const std::vector<TouchingPair>& pairs) {
       }
     });
   }
-  std::sort(claims_.begin(), claims_.end(),
-            [](const Claim& x, const Claim& y) { return x.key() < y.key(); });
+  std::sort(claims_.begin(), claims_.end(), by_key);
 }
 
 /// Touches go on, the oldest first, in the first patch that is left for them.
@@ -200,7 +199,7 @@ void TouchTracker::renumber(const FiberIndices& indices, const TimeBounds& step,
       std::swap(pair.segment_a, pair.segment_b);
     }
   }
-  sort_standing();
+  std::sort(standing_.begin(), standing_.end(), by_key);
 }
 
 void TouchTracker::renumber(const FiberIndices& indices_a, const FiberIndices& indices_b,
@@ -218,18 +217,13 @@ void TouchTracker::renumber(const FiberIndices& indices_a, const FiberIndices& i
     }
   }
   standing_ = std::move(standing);
-  sort_standing();
+  std::sort(standing_.begin(), standing_.end(), by_key);
   for (std::size_t i = 0; i < touches_.size(); ++i) {
     if (touches_[i].lasts && !stays[i]) {
       events.push_back({TouchEvent::Kind::ENDED, touches_[i].touch, step});
       touches_[i].lasts = false;
     }
   }
-}
-
-void TouchTracker::sort_standing() {
-  std::sort(standing_.begin(), standing_.end(),
-            [](const Standing& x, const Standing& y) { return x.key() < y.key(); });
 }
 
 void TouchTracker::forget() {

@@ -6,6 +6,8 @@
 #include <tuple>
 #include <vector>
 
+#include "fiber_proximity/query/contact.hpp"
+
 namespace fiber {
 
 /// A time that is known to be at least `lower` and at most `upper`; since any moment the caller
@@ -16,17 +18,11 @@ struct TimeBounds {
 };
 
 /// Two segments that were in contact during a step from one state to the next.
-struct TouchingPair {
-  std::uint32_t fiber_a = 0;
-  std::uint32_t segment_a = 0;
-  std::uint32_t fiber_b = 0;
-  std::uint32_t segment_b = 0;
+struct TouchingPair : SegmentIdPair {
   double distance = 0.0;  ///< [m] their gap: at the end of the step, or when it was a contact
   bool is_gone = false;   ///< they are no longer in contact at the end of the step
   TimeBounds first;       ///< when, during the step, they first were
   TimeBounds last;        ///< if they are gone: when they were for the last time
-
-  auto key() const { return std::tie(fiber_a, segment_a, fiber_b, segment_b); }
 };
 
 /// One place where two fibres touch, from its beginning to its end: all pairs in contact that are
@@ -98,14 +94,8 @@ class TouchTracker {
   };
 
   /// A pair at the end of that step.
-  struct Standing {
-    std::uint32_t fiber_a;
-    std::uint32_t segment_a;
-    std::uint32_t fiber_b;
-    std::uint32_t segment_b;
+  struct Standing : SegmentIdPair {
     std::uint32_t touch;
-
-    auto key() const { return std::tie(fiber_a, segment_a, fiber_b, segment_b); }
   };
 
   void find_patches(const std::vector<TouchingPair>& pairs);
@@ -114,7 +104,6 @@ class TouchTracker {
   void go_on();
   void begin_others(std::size_t pair_count);
   static void take(const TouchingPair& pair, TouchStep& step);
-  void sort_standing();
 
   std::uint64_t next_id_;
   std::uint64_t id_step_;

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "src/geometry/select_fibers.hpp"
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "src/scenes/portable_math.hpp"
 #include "src/scenes/scenes.hpp"
 

@@ -1,4 +1,4 @@
-#include "fiber_proximity/query/engine_registry.hpp"
+#include "fiber_proximity/query/engine.hpp"
 #include "src/paper/engines/hierarchy_engine.hpp"
 #include "src/paper/hierarchy/hierarchy.hpp"
 #include "test/docs/cube.hpp"

@@ -1,8 +1,8 @@
-#include "fiber_proximity/geometry/kernel.hpp"
-
 #include <gtest/gtest.h>
 
 #include <stdexcept>
+
+#include "fiber_proximity/geometry/segment_distance.hpp"
 
 namespace fiber::test {
 namespace {

@@ -1,6 +1,6 @@
-#include "src/geometry/select_fibers.hpp"
-
 #include <gtest/gtest.h>
+
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
 
 namespace fiber {
 namespace {

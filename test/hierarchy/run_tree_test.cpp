@@ -48,7 +48,7 @@ TEST(RunTree, HoldsEverySegmentOnce) {
   }
   const FiberAssembly fibers = builder.build({0.01});
   RunTree tree;
-  tree.build(fibers, Eigen::Vector3d::Zero());
+  tree.build({fibers, Eigen::Vector3d::Zero()});
   std::vector<int> seen(fibers.point_count(), 0);
   for (std::uint32_t place = 0; place < tree.view().segment_count; ++place) {
     const std::uint32_t point = tree.view().first_points[place];
@@ -108,21 +108,21 @@ TEST(RunTree, SortsAnewWhenTheOrderHasDecayedAndNotBefore) {
   Random random;
   FiberAssembly fibers = tangle(random, 300, 20, 1.0, 0.002);
   RunTree tree;
-  tree.build(fibers, Eigen::Vector3d::Zero());
+  tree.build({fibers, Eigen::Vector3d::Zero()});
   std::vector<Eigen::Vector3d> points = fibers.points();
   for (Eigen::Vector3d& point : points) {
     point += 1e-4 * random.in_cube();
   }
   fibers.update_points(points);
-  tree.update(fibers, Eigen::Vector3d::Zero());
+  tree.update({fibers, Eigen::Vector3d::Zero()});
   EXPECT_EQ(tree.sort_count(), 0U);
 
   // Every fibre somewhere else: the old order says nothing any more.
   const FiberAssembly elsewhere = tangle(random, 300, 20, 1.0, 0.002);
   fibers.update_points(elsewhere.points());
-  tree.update(fibers, Eigen::Vector3d::Zero());
+  tree.update({fibers, Eigen::Vector3d::Zero()});
   EXPECT_EQ(tree.sort_count(), 1U);
-  tree.update(fibers, Eigen::Vector3d::Zero());
+  tree.update({fibers, Eigen::Vector3d::Zero()});
   EXPECT_EQ(tree.sort_count(), 1U);
 }
 

@@ -170,10 +170,10 @@ INSTANTIATE_TEST_SUITE_P(Engines, AccuracyTest, all_engines(), name_of_engine);
 
 TEST(QueryOptions, RefuseWhatIsNoAccuracy) {
   const double bad[] = {-1.0, infinity, std::nan("")};
-  for (const auto& [field, name] :
-       {std::pair{&QueryOptions::tolerance, "tolerance"},
-        std::pair{&QueryOptions::relative_tolerance, "relative_tolerance"},
-        std::pair{&QueryOptions::deadline, "deadline"}}) {
+  using Field = std::pair<double QueryOptions::*, const char*>;
+  for (const auto& [field, name] : {Field{&QueryOptions::tolerance, "tolerance"},
+                                    Field{&QueryOptions::relative_tolerance, "relative_tolerance"},
+                                    Field{&QueryOptions::deadline, "deadline"}}) {
     for (const double value : bad) {
       QueryOptions options;
       options.*field = value;

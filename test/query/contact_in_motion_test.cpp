@@ -1,10 +1,9 @@
-#include "src/query/contact_in_motion.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
+#include "fiber_proximity/query/motion.hpp"
 #include "test/query/motion_queries.hpp"
 
 namespace fiber::test {

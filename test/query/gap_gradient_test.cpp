@@ -1,10 +1,9 @@
-#include "fiber_proximity/query/gap_gradient.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <limits>
 
+#include "fiber_proximity/query/contact.hpp"
 #include "src/query/brute_force.hpp"
 #include "test/support/exact_distance.hpp"
 #include "test/support/random.hpp"

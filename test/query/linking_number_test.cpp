@@ -1,9 +1,8 @@
-#include "fiber_proximity/query/linking_number.hpp"
-
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
+#include "fiber_proximity/query/topology.hpp"
 #include "src/geometry/gauss_integral.hpp"
 #include "test/support/curves.hpp"
 

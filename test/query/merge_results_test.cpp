@@ -1,6 +1,7 @@
-#include "src/query/merge_results.hpp"
-
 #include <gtest/gtest.h>
+
+#include "fiber_proximity/query/contact.hpp"
+#include "fiber_proximity/query/options.hpp"
 
 namespace fiber {
 namespace {

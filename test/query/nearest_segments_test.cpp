@@ -1,11 +1,10 @@
-#include "fiber_proximity/query/nearest_segments.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
+#include "fiber_proximity/query/engine.hpp"
 #include "src/query/brute_force.hpp"
 #include "test/support/assemblies.hpp"
 #include "test/support/contacts.hpp"

@@ -1,8 +1,7 @@
-#include "fiber_proximity/query/writhe.hpp"
-
 #include <gtest/gtest.h>
 
 #include "fiber_proximity/query/crossings.hpp"
+#include "fiber_proximity/query/topology.hpp"
 #include "test/support/curves.hpp"
 
 namespace fiber::test {

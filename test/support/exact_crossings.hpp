@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
-#include "fiber_proximity/query/view.hpp"
+#include "fiber_proximity/query/crossings.hpp"
 #include "test/support/exact_distance.hpp"
 #include "test/support/exact_pairs.hpp"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "fiber_proximity/geometry/capsule.hpp"
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "test/support/random.hpp"
 
 namespace fiber::test {

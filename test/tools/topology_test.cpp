@@ -1,7 +1,10 @@
 // fiber_query crossings, linking and writhe
+#include "fiber_proximity/query/topology.hpp"
+
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "fiber_proximity/io/csv.hpp"
 #include "fiber_proximity/io/fiber_file.hpp"
 #include "fiber_proximity/query/writhe.hpp"
 #include "src/io/number.hpp"

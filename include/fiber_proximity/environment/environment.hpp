@@ -9,7 +9,7 @@
 #include "fiber_proximity/environment/shapes.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/query/contact.hpp"
-#include "fiber_proximity/query/motion_evaluator.hpp"
+#include "fiber_proximity/query/motion.hpp"
 #include "fiber_proximity/query/options.hpp"
 
 namespace fiber {

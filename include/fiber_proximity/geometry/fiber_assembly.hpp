@@ -5,9 +5,27 @@
 #include <cstdint>
 #include <vector>
 
-#include "fiber_proximity/geometry/capsule.hpp"
-
 namespace fiber {
+
+/// A capped cylinder: all points within `radius` of the axis p0–p1. One segment of a fibre.
+struct Capsule {
+  Eigen::Vector3d p0;   ///< [m]
+  Eigen::Vector3d p1;   ///< [m]
+  double radius = 0.0;  ///< [m]
+};
+
+/// Two segments by the indices of their first points: within one assembly the smaller one first,
+/// or one of a shape and one of the fibres.
+struct PointPair {
+  std::uint32_t a;
+  std::uint32_t b;
+};
+
+/// Segments that follow each other, by the indices of their first points: begin … end - 1.
+struct PointRange {
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+};
 
 /// Where a segment is: the fibre it belongs to and its index along that fibre, both from 0.
 struct SegmentId {
@@ -95,5 +113,15 @@ class FiberAssembly {
   std::vector<double> segment_radii_;
   double largest_radius_ = 0.0;
 };
+
+/// @throws std::invalid_argument naming the vector, its first coordinate that is not valid, and
+/// what is
+///         allowed
+void require_coordinates(const char* name, const Eigen::Vector3d& vector);
+
+/// Some of the fibres, with their radii, in this order.
+/// @param selection indices below the number of fibres
+FiberAssembly select_fibers(const FiberAssembly& fibers,
+                            const std::vector<std::uint32_t>& selection);
 
 }  // namespace fiber

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -8,10 +10,13 @@
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/motion.hpp"
-#include "fiber_proximity/query/motion_evaluator.hpp"
 #include "fiber_proximity/query/options.hpp"
 
 namespace fiber {
+
+class LoopTest;
+class NarrowPhase;
+struct MotionCandidates;
 
 /// An axis-aligned box of a hierarchy, for drawing [m].
 struct NodeBox {
@@ -96,7 +101,9 @@ class ProximityEngine {
 
   /// Boxes around the nodes of a level, and around leaves above it, so that together they hold all
   /// fibres; 0 is the root, levels beyond the last give the last.
-  virtual void level_boxes(std::uint32_t level, std::vector<NodeBox>& boxes) const;
+  virtual void level_boxes(std::uint32_t /*level*/, std::vector<NodeBox>& boxes) const {
+    boxes.clear();
+  }
 
  protected:
   virtual void do_update(const FiberAssembly& fibers, bool same_topology) = 0;
@@ -150,5 +157,40 @@ std::unique_ptr<ProximityEngine> make_engine(const std::string& name,
 /// Names of all engines there are: run_tree, brute_force and those of the libraries that are
 /// linked. k-DOPs are listed with the paper's best k for hair, 20.
 std::vector<std::string> engine_names();
+
+/// Engines that make_engine() can make, beside those of this library.
+struct EngineFamily {
+  /// What engine_names() lists, in this order.
+  std::vector<std::string> names;
+
+  /// Makes the engine of a name: one of `names`, or another that the family knows.
+  /// @return nullptr for a name that is none of the family's
+  /// @throws std::invalid_argument for a name that would be one but for a number in it, saying why
+  std::function<std::unique_ptr<ProximityEngine>(const std::string& name,
+                                                 const EngineOptions& options)>
+      make;
+
+  /// The other names it knows, as an error message lists them; may be empty.
+  std::string other_names;
+};
+
+/// Adds a family, for the rest of the process. A library calls this when it is loaded, so that its
+/// engines are there for whoever links it. Safe from several threads.
+/// @return true, so that the initialiser of a static variable can call it
+bool register_engines(EngineFamily family);
+
+/// The k segments of the engine's fibres whose surfaces are nearest to a point, or all of them if
+/// there are fewer; nearest first, ties by fibre and segment.
+///
+/// In the contacts b is the segment and a the point: `fiber_a`, `segment_a` and `s` are 0,
+/// `point_a` is the point, `distance` is negative inside the segment [m]. The same as a LIMITED
+/// query about a shape that is this point, without a margin.
+/// @param point [m]
+/// @param k     at least 1
+/// @throws std::invalid_argument naming what is wrong: k of 0, a coordinate that is not finite or
+///         above FiberAssembly::max_coordinate
+/// @throws std::logic_error before the engine's first update
+void nearest_segments(const ProximityEngine& engine, const Eigen::Vector3d& point, std::uint32_t k,
+                      QueryResult& result);
 
 }  // namespace fiber

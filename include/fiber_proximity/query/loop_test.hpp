@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
-#include "fiber_proximity/geometry/point_pair.hpp"
 #include "fiber_proximity/geometry/segment_distance.hpp"
 
 namespace fiber {

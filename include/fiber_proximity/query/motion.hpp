@@ -1,11 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
-#include <optional>
-#include <tuple>
 #include <vector>
 
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/options.hpp"
 
@@ -20,11 +20,14 @@ enum class MotionType {
 
 /// What to ask about a motion from one state of the fibres to the next. Times are parts of it: 0
 /// before, 1 after.
-struct MotionOptions {
+///
+/// Whether a fibre makes a loop, and how long it is between two segments, is judged before the
+/// motion. The contact_limit is for contacts that begin in the motion, and again for those that are
+/// there before: where there are more, the earliest ones are reported, or those of the smallest
+/// indices. Where more pairs come up than the pair_limit, none is reported. MotionResult has the
+/// same flags as QueryResult.
+struct MotionOptions : PairOptions {
   MotionType type = MotionType::ALL;
-
-  /// [m] Pairs with a gap of at most this are in contact; >= 0, infinity for no limit.
-  double margin = 0.0;
 
   /// [m] Pairs whose gap comes down to the margin and this may be reported, with
   /// MotionContact::certain false; finite, >= 0. Larger is faster. See contact_time().
@@ -34,27 +37,6 @@ struct MotionOptions {
   /// motion are brought nearer, as near as doubles allow; >= 0, infinity to leave them as the
   /// tolerance makes them. Smaller is slower, for contacts that come slowly.
   double time_tolerance = std::numeric_limits<double>::infinity();
-
-  /// LIMITED only: the most contacts to report, at least 1.
-  std::uint32_t max_contacts = 100;
-
-  /// Which pairs of the fibres with each other count, as of QueryOptions. Whether a fibre makes a
-  /// loop, and how long it is between two segments, is judged before the motion.
-  Pairing pairing = Pairing::ALL;
-  std::optional<std::uint32_t> neighbour_skip;
-  std::optional<double> neighbour_skip_length;
-
-  /// [s] As of QueryOptions; 0 for none.
-  double deadline = 0.0;
-
-  /// The most contacts to report that begin in the motion, and as many that are there before; 0 for
-  /// no limit. Where there are more, the earliest ones are reported, or those of the smallest
-  /// indices, and MotionResult::limit_reached is set.
-  std::uint32_t contact_limit = 0;
-
-  /// The most pairs of segments to examine, 0 for no limit: where more come up, none is reported,
-  /// MotionResult::complete is false, and limit_reached set.
-  std::uint64_t pair_limit = 0;
 };
 
 /// @throws std::invalid_argument naming the field, its value and what is allowed
@@ -68,19 +50,11 @@ QueryOptions pairs_of(const MotionOptions& options);
 /// @param tolerance MotionOptions::tolerance [m]
 MotionOptions motion_options(const QueryOptions& options, double tolerance);
 
-/// Two segments, by fibre and index along it, and when their gap first falls to the margin: a
-/// ContactTime with a hit.
-struct MotionContact {
-  std::uint32_t fiber_a = 0;
-  std::uint32_t segment_a = 0;
-  std::uint32_t fiber_b = 0;
-  std::uint32_t segment_b = 0;
+/// Two segments, and when their gap first falls to the margin: a ContactTime with a hit.
+struct MotionContact : SegmentIdPair {
   double lower = 0.0;    ///< there is no contact before this
   double upper = 0.0;    ///< the gap is at most margin + tolerance at this time
   bool certain = false;  ///< the gap is at most the margin no later than `upper`
-
-  /// What contacts are sorted by.
-  auto key() const { return std::tie(fiber_a, segment_a, fiber_b, segment_b); }
 
   bool earlier_than(const MotionContact& other) const {
     return lower < other.lower || (lower == other.lower && key() < other.key());
@@ -89,7 +63,7 @@ struct MotionContact {
 
 /// Answer to a query about a motion; kept by the caller and reused, so that its memory is.
 struct MotionResult {
-  /// Pairs whose contact begins during the motion, sorted by MotionContact::key().
+  /// Pairs whose contact begins during the motion, sorted by SegmentIdPair::key().
   std::vector<MotionContact> contacts;
 
   /// Pairs that are in contact before it already, decided exactly; at time 0, sorted alike. All of
@@ -124,5 +98,42 @@ struct MotionResult {
     return first;
   }
 };
+
+/// Fibres before and after a motion.
+struct FiberMotion {
+  const FiberAssembly& before;
+  const FiberAssembly& after;
+
+  /// Radius of the segment that starts at this point [m]: the larger one counts.
+  double radius(std::uint32_t point) const {
+    return std::max(before.segment_radius(point), after.segment_radius(point));
+  }
+};
+
+/// A segment at a part of the motion, of the larger of its radii.
+/// @param point its first one
+Capsule capsule_at(const FiberMotion& motion, std::uint32_t point, double time);
+
+/// The time at which a MotionContact is looked at: its `upper`, or `lower` where there is none.
+double time_of(const MotionContact& contact);
+
+/// The pair of a MotionContact as it is at time_of() it: distance, nearest points and normal as a
+/// robust query about the fibres of that time has them.
+/// @param a, b of the first and of the second segment, the same for fibres with each other
+Contact first_contact(const FiberMotion& a, const FiberMotion& b, const MotionContact& contact);
+
+/// When a pair is in contact for the last time, as parts of the motion.
+struct LastContact {
+  double lower = 0.0;  ///< the gap is at most margin + tolerance at this time
+  double upper = 1.0;  ///< after this there is no contact
+  bool lasts = true;   ///< they are in contact at the end of the motion, decided exactly
+};
+
+/// Looks at a motion from its end for pairs that come into contact in it.
+/// @param options margin and tolerance count
+/// @returns one for each contact
+std::vector<LastContact> last_contacts(const FiberMotion& a, const FiberMotion& b,
+                                       const std::vector<MotionContact>& contacts,
+                                       const MotionOptions& options);
 
 }  // namespace fiber

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
-#include "fiber_proximity/geometry/point_pair.hpp"
 #include "fiber_proximity/geometry/segment_distance.hpp"
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/loop_test.hpp"
@@ -59,9 +58,8 @@ class NarrowPhase {
   }
   /// The same where the distance is not there.
   bool lacks_loop(PointPair pair) const {
-    std::uint64_t looks = 0;
     return loops_ != nullptr && loops_->are_of_one_fiber(pair) &&
-           !loops_->makes_loop(pair, distance(pair).nearest, looks);
+           !loops_->makes_loop(pair, distance(pair).nearest);
   }
 
   /// What is certain to lack a loop; see LoopTest.

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <algorithm>
+#include <chrono>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 
-#include "fiber_proximity/geometry/kernel.hpp"
+#include "fiber_proximity/geometry/segment_distance.hpp"
 
 namespace fiber {
 
@@ -24,10 +27,8 @@ enum class Pairing {
   DIFFERENT_FIBERS  ///< no self-contacts
 };
 
-/// What a query asks for.
-struct QueryOptions {
-  QueryType type = QueryType::ALL;
-
+/// Which pairs of segments a query or a question about a motion is about, and what it may cost.
+struct PairOptions {
   /// [m] Pairs with a signed distance of at most this are contacts; >= 0, infinity for no limit.
   double margin = 0.0;
 
@@ -52,21 +53,6 @@ struct QueryOptions {
   /// Whether self-contacts need a loop.
   bool needs_loops() const { return !neighbour_skip && !neighbour_skip_length; }
 
-  /// How distances are computed, and which pairs are within the margin. ROBUST goes by the distance
-  /// it computes. EXACT decides without any error, and reports distances that are rounded
-  /// correctly, before the radii are subtracted.
-  Kernel kernel = Kernel::ROBUST;
-
-  /// CLOSEST, LIMITED and FIBER_PAIRS: a pair need not be looked for that is closer than a reported
-  /// one by less than this [m]; >= 0. Which pair is reported then depends on the engine.
-  double tolerance = 0.0;
-
-  /// The same as a part of the distance; >= 0. The larger of both counts: a distance d is reported
-  /// where the closest is at least d − |d|·ρ / (1 + ρ), where ρ is this. For d ≥ 0 that is
-  /// d / (1 + ρ). In penetration a depth is reported where the greatest is at most 1 + ρ times as
-  /// much, and less than twice.
-  double relative_tolerance = 0.0;
-
   /// [s] Time from the start of the query after which it answers with what it has found; >= 0, 0
   /// for none. QueryResult::complete tells whether it was enough.
   double deadline = 0.0;
@@ -82,6 +68,26 @@ struct QueryOptions {
   /// deadline it gives the same on every run, for any number of threads. Engines differ in which
   /// pairs come up.
   std::uint64_t pair_limit = 0;
+};
+
+/// What a query asks for.
+struct QueryOptions : PairOptions {
+  QueryType type = QueryType::ALL;
+
+  /// How distances are computed, and which pairs are within the margin. ROBUST goes by the distance
+  /// it computes. EXACT decides without any error, and reports distances that are rounded
+  /// correctly, before the radii are subtracted.
+  Kernel kernel = Kernel::ROBUST;
+
+  /// CLOSEST, LIMITED and FIBER_PAIRS: a pair need not be looked for that is closer than a reported
+  /// one by less than this [m]; >= 0. Which pair is reported then depends on the engine.
+  double tolerance = 0.0;
+
+  /// The same as a part of the distance; >= 0. The larger of both counts: a distance d is reported
+  /// where the closest is at least d − |d|·ρ / (1 + ρ), where ρ is this. For d ≥ 0 that is
+  /// d / (1 + ρ). In penetration a depth is reported where the greatest is at most 1 + ρ times as
+  /// much, and less than twice.
+  double relative_tolerance = 0.0;
 
   /// Test the volumes of two leaves before the segments themselves; changes only the cost. The
   /// paper finds that it always pays (Sect. 5). run_tree always does.
@@ -98,5 +104,66 @@ QueryType query_type_from_name(const std::string& name);
 /// The pairing of this name: all, same_fiber or different_fibers.
 /// @throws std::invalid_argument listing the names
 Pairing pairing_from_name(const std::string& name);
+
+/// When to answer. May be asked from several threads at once.
+class Deadline {
+ public:
+  /// @param seconds from now; 0 for none
+  explicit Deadline(double seconds)
+      : seconds_(seconds), start_(seconds > 0.0 ? Clock::now() : Clock::time_point()) {}
+
+  bool is_set() const { return seconds_ > 0.0; }
+
+  /// Whether this part of the time has passed, but for what is needed yet [s]. Without a deadline
+  /// it costs nothing.
+  bool has_passed(double part = 1.0, double needed = 0.0) const {
+    return is_set() && elapsed() >= part * seconds_ - needed;
+  }
+
+  /// [s] For a deadline of what comes next: at least a nanosecond, 0 if there is none.
+  double left() const {
+    constexpr double shortest = 1e-9;
+    return is_set() ? std::max(seconds_ - elapsed(), shortest) : 0.0;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+  double seconds_;
+  Clock::time_point start_;
+};
+
+/// What the options of a query allow it to cost: where it stops, and how much it may report. A
+/// limit that is not set is one that nothing reaches.
+struct QueryLimits {
+  explicit QueryLimits(const QueryOptions& options)
+      : deadline(options.deadline),
+        pairs(options.pair_limit == 0 ? std::numeric_limits<std::uint64_t>::max()
+                                      : options.pair_limit),
+        contacts(most_contacts(options)),
+        most_kept(std::max(2 * contacts, contacts + least_surplus)) {}
+
+  Deadline deadline;
+  std::uint64_t pairs;     ///< to be examined
+  std::uint64_t contacts;  ///< to be reported
+
+  /// Contacts that are kept at a time: so many more than reported that it is rarely asked which of
+  /// them are the closest.
+  std::uint64_t most_kept;
+
+  /// Where a pair takes more looks along its fibre (LoopTest), each so many count as one more pair.
+  static constexpr std::uint64_t looks_per_pair = 8;
+
+  static constexpr std::uint64_t least_surplus = 1024;
+
+ private:
+  static std::uint64_t most_contacts(const QueryOptions& options) {
+    constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+    const std::uint32_t limit = options.contact_limit == 0 ? none : options.contact_limit;
+    return options.type == QueryType::LIMITED ? std::min(options.max_contacts, limit) : limit;
+  }
+};
 
 }  // namespace fiber

@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "fiber_proximity/query/engine_registry.hpp"
+#include "fiber_proximity/query/engine.hpp"
 #include "src/paper/bounds/direction_set.hpp"
 #include "src/paper/bounds/obb.hpp"
 #include "src/paper/bounds/sphere.hpp"

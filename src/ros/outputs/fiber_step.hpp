@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
-#include "fiber_proximity/query/motion_evaluator.hpp"
+#include "fiber_proximity/query/motion.hpp"
 #include "src/query/touch_tracker.hpp"
 #include "src/ros/inputs/input_set.hpp"
 

@@ -8,6 +8,7 @@
 #include "fiber_proximity/environment/environment.hpp"
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/engine.hpp"
+#include "fiber_proximity/query/motion.hpp"
 #include "src/query/contact_in_motion.hpp"
 #include "src/query/touch_tracker.hpp"
 

@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "fiber_proximity/FiberArray.h"
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/io/fiber_file.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
 #include "src/geometry/select_fibers.hpp"

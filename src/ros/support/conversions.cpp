@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "fiber_proximity/query/gap_gradient.hpp"
+#include "fiber_proximity/query/contact.hpp"
 
 namespace fiber_proximity_ros {
 

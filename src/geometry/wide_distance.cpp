@@ -1,6 +1,6 @@
-// The distance of two segments, rounded to the nearest double, mostly without integers: the robust
-// kernel tells which points are nearest, signs with bounds prove it, numbers of twice the digits
-// give the distance, and a bound on their error proves how it is rounded. docs/numerics.md has the
+// The distance of two segments, rounded to the nearest double, and whether it is within a limit,
+// mostly without integers: the robust kernel tells which points are nearest, numbers of twice the
+// digits give the distance, and bounds on their error prove the answer. docs/numerics.md has the
 // bounds.
 #include <Eigen/Geometry>
 #include <cmath>
@@ -134,6 +134,94 @@ bool is_in_range(const SegmentDistance& robust, const Vector3d& u, const Vector3
          v.squaredNorm() > least * least;
 }
 
+const DoubleDouble zero(0.0);
+const DoubleDouble one(1.0);
+
+/// Of coordinates and limit: all that is computed here errs by less (docs/numerics.md).
+constexpr double roundings = 0x1p-94;
+
+/// A parameter of a segment: from 0 to 1, also where the quotient is not a number.
+DoubleDouble parameter(DoubleDouble numerator, DoubleDouble denominator) {
+  if (!(zero < numerator)) {
+    return zero;
+  }
+  return numerator < denominator ? numerator / denominator : one;
+}
+
+/// The vectors from one segment to the other: of two of their points, and across a plane between.
+struct WideNearest {
+  DoubleDoubleVector between;
+  DoubleDoubleVector normal;
+};
+
+/// Of the points that are nearest if the robust ones are of the right kind: ends, or insides.
+/// @param corners [i][j] from end j of q to end i of p
+WideNearest wide_nearest_of(const SegmentDistance& robust,
+                            const DoubleDoubleVector (&corners)[2][2], const DoubleDoubleVector& u,
+                            const DoubleDoubleVector& v) {
+  const bool on_p = robust.s > 0.0 && robust.s < 1.0;
+  const bool on_q = robust.t > 0.0 && robust.t < 1.0;
+  const std::size_t i = robust.s == 1.0 ? 1 : 0;
+  const std::size_t j = robust.t == 1.0 ? 1 : 0;
+  if (on_p && on_q) {
+    const DoubleDoubleVector& w = corners[0][0];
+    const DoubleDoubleVector normal = cross(u, v);
+    const DoubleDouble squared = dot(normal, normal);
+    const DoubleDouble s = parameter(dot(cross(v, w), normal), squared);
+    const DoubleDouble t = parameter(dot(cross(u, w), normal), squared);
+    const DoubleDoubleVector between = w + s * u + -t * v;
+    return {between, dot(normal, between) < zero ? -normal : normal};
+  }
+  DoubleDoubleVector between = corners[i][j];
+  if (on_p) {
+    between = corners[0][j] + parameter(-dot(corners[0][j], u), dot(u, u)) * u;
+  } else if (on_q) {
+    between = corners[i][0] + -parameter(dot(corners[i][0], v), dot(v, v)) * v;
+  }
+  return {between, between};
+}
+
+/// Neither overflow nor underflow that counts.
+bool is_in_range(double extent) { return extent > 0x1p-100 && extent < 0x1p100; }
+constexpr double least_squared_normal = 0x1p-600;
+
+/// gap_at_most() in numbers of twice the digits: whether there are two points that are surely no
+/// further apart than the limit, or a plane that surely keeps the segments further apart. Nothing
+/// where these do not tell, as of distances that are within a part of about 2⁻⁹⁴ of the limit.
+/// @param robust tells where the nearest points are; what is proven does not depend on it
+std::optional<bool> wide_gap_at_most(const SegmentDistance& robust, const Vector3d& p0,
+                                     const Vector3d& p1, const Vector3d& q0, const Vector3d& q1,
+                                     const ContactLimit& limit) {
+  const double extent = robust.error / robust_error;
+  const double parts = limit.parts();
+  if (!is_in_range(extent) || !std::isfinite(parts)) {
+    return std::nullopt;
+  }
+  const DoubleDoubleVector corners[2][2] = {{exact_difference(p0, q0), exact_difference(p0, q1)},
+                                            {exact_difference(p1, q0), exact_difference(p1, q1)}};
+  const WideNearest nearest =
+      wide_nearest_of(robust, corners, exact_difference(p1, p0), exact_difference(q1, q0));
+  const auto sum = limit.sum<DoubleDouble>();
+  const DoubleDouble error(roundings * (extent + parts));
+  const DoubleDouble squared = dot(nearest.between, nearest.between);
+  if (squared.high > 0.0 ? root(squared) < sum - error : zero < sum - error) {
+    return true;
+  }
+  const DoubleDouble squared_normal = dot(nearest.normal, nearest.normal);
+  if (!(squared_normal.high > least_squared_normal)) {
+    return std::nullopt;
+  }
+  const DoubleDouble reach = root(squared_normal) * (sum + error);
+  for (const auto& row : corners) {
+    for (const DoubleDoubleVector& corner : row) {
+      if (!(reach < dot(nearest.normal, corner))) {
+        return std::nullopt;
+      }
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 SegmentDistance rounded_segment_distance(const SegmentDistance& robust, const Vector3d& p0,
@@ -152,6 +240,24 @@ SegmentDistance rounded_segment_distance(const SegmentDistance& robust, const Ve
     }
   }
   return exact_segment_distance(p0, p1, q0, q1);
+}
+
+bool gap_at_most(const SegmentDistance& robust, const Vector3d& p0, const Vector3d& p1,
+                 const Vector3d& q0, const Vector3d& q1, const ContactLimit& limit) {
+  // What is proven of the robust distance, and the rounding of sum and difference here.
+  const double error = proven_robust_error_per_error * robust.error + 0x1p-50 * limit.parts() +
+                       std::numeric_limits<double>::min();
+  const double gap = robust.distance - limit.sum();
+  if (std::abs(gap) > error + 0x1p-51 * robust.distance) {
+    return gap < 0.0;
+  }
+  const std::optional<bool> wide = wide_gap_at_most(robust, p0, p1, q0, q1, limit);
+  return wide ? *wide : exact_gap_at_most(p0, p1, q0, q1, limit);
+}
+
+bool gap_at_most(const Vector3d& p0, const Vector3d& p1, const Vector3d& q0, const Vector3d& q1,
+                 const ContactLimit& limit) {
+  return gap_at_most(segment_distance(p0, p1, q0, q1), p0, p1, q0, q1, limit);
 }
 
 }  // namespace fiber

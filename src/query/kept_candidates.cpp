@@ -1,4 +1,4 @@
-#include "src/query/candidate_cache.hpp"
+#include "src/query/kept_candidates.hpp"
 
 #include <algorithm>
 
@@ -48,6 +48,33 @@ std::size_t CandidateCache::memory_bytes() const {
     return keys == nullptr ? 0 : keys->capacity() * sizeof(std::uint64_t);
   };
   return bytes(keys_) + bytes(spare_);
+}
+
+void DirtySegments::clear() {
+  for (const std::uint32_t point : first_points_) {
+    is_outdated_[point] = 0;
+  }
+  first_points_.clear();
+}
+
+void DirtySegments::add(const FiberAssembly& fibers, std::uint32_t fiber) {
+  is_outdated_.resize(fibers.point_count());
+  for (std::uint32_t point = fibers.offsets()[fiber]; point + 1 < fibers.offsets()[fiber + 1];
+       ++point) {
+    if (is_outdated_[point] == 0) {
+      is_outdated_[point] = 1;
+      first_points_.push_back(point);
+    }
+  }
+}
+
+void DirtySegments::fit(const FiberAssembly& fibers, const Eigen::Vector3d& origin) {
+  tree_.build({fibers, origin}, first_points_);
+}
+
+std::size_t DirtySegments::memory_bytes() const {
+  return first_points_.capacity() * sizeof(std::uint32_t) + is_outdated_.capacity() +
+         tree_.memory_bytes();
 }
 
 }  // namespace fiber
