@@ -12,10 +12,9 @@
 #include <string>
 #include <tuple>
 
-#include "fiber_proximity/query/deadline.hpp"
+#include "fiber_proximity/query/motion.hpp"
 #include "fiber_proximity/query/options.hpp"
 #include "src/geometry/swept_fibers.hpp"
-#include "src/query/contact_in_motion.hpp"
 #include "src/text/with_context.hpp"
 
 namespace fiber {

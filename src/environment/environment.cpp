@@ -7,13 +7,10 @@
 #include <string>
 #include <utility>
 
-#include "fiber_proximity/query/contact_accumulator.hpp"
 #include "fiber_proximity/query/motion.hpp"
+#include "fiber_proximity/query/pair_collector.hpp"
 #include "src/environment/allowed_contacts.hpp"
 #include "src/environment/broad_phase.hpp"
-#include "src/environment/environment_query.hpp"
-#include "src/environment/object_path.hpp"
-#include "src/query/contact_in_motion.hpp"
 #include "src/text/quote.hpp"
 
 namespace fiber {

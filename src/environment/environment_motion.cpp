@@ -11,9 +11,7 @@
 #include <vector>
 
 #include "fiber_proximity/environment/environment.hpp"
-#include "fiber_proximity/query/motion_evaluator.hpp"
-#include "fiber_proximity/query/motion_slices.hpp"
-#include "fiber_proximity/query/query_limits.hpp"
+#include "fiber_proximity/query/options.hpp"
 #include "src/environment/allowed_contacts.hpp"
 #include "src/environment/broad_phase.hpp"
 #include "src/environment/shape_contact_time.hpp"

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 
 #include "fiber_proximity/environment/shapes.hpp"
-#include "fiber_proximity/geometry/capsule.hpp"
 #include "fiber_proximity/geometry/contact_time.hpp"
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "src/environment/world_shape.hpp"
 
 namespace fiber {

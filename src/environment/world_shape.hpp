@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "fiber_proximity/environment/shapes.hpp"
-#include "fiber_proximity/geometry/capsule.hpp"
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
 
 namespace fiber {
 

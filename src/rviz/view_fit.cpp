@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "src/ros/inputs/optical_frame.hpp"
+#include "src/ros/inputs/fixed_frame.hpp"
 
 namespace fiber_proximity_rviz {
 namespace {

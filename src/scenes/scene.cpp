@@ -7,16 +7,10 @@
 #include <utility>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
-#include "src/geometry/select_fibers.hpp"
 #include "src/io/number.hpp"
-#include "src/scenes/cables.hpp"
-#include "src/scenes/cloth.hpp"
 #include "src/scenes/hair.hpp"
-#include "src/scenes/hair_styles.hpp"
 #include "src/scenes/portable_math.hpp"
 #include "src/scenes/scenes.hpp"
-#include "src/scenes/shuffle.hpp"
-#include "src/scenes/soup.hpp"
 #include "src/text/quote.hpp"
 
 namespace fiber {

@@ -11,16 +11,8 @@
 #include "fiber_proximity/geometry/segment_distance.hpp"
 #include "fiber_proximity/io/fiber_file.hpp"
 #include "fiber_proximity/query/engine.hpp"
-#include "fiber_proximity/query/nearest_segments.hpp"
 #include "src/tools/command_line.hpp"
-#include "src/tools/compare_command.hpp"
-#include "src/tools/contact_format.hpp"
-#include "src/tools/fiber_options.hpp"
-#include "src/tools/motions_command.hpp"
-#include "src/tools/segments_command.hpp"
-#include "src/tools/sweep_command.hpp"
 #include "src/tools/text_output.hpp"
-#include "src/tools/topology_commands.hpp"
 
 namespace fiber {
 namespace {

@@ -6,11 +6,8 @@
 
 #include "fiber_proximity/io/fiber_file.hpp"
 #include "fiber_proximity/query/crossings.hpp"
-#include "fiber_proximity/query/linking_number.hpp"
 #include "fiber_proximity/query/topology.hpp"
-#include "fiber_proximity/query/writhe.hpp"
 #include "src/io/number.hpp"
-#include "src/tools/crossing_format.hpp"
 #include "src/tools/fiber_query.hpp"
 #include "src/tools/text_output.hpp"
 

@@ -8,7 +8,6 @@
 
 #include "fiber_proximity/ros/conversions.hpp"
 #include "src/environment/convex_solids.hpp"
-#include "src/environment/point_distance.hpp"
 #include "src/ros/outputs/environment_markers.hpp"
 #include "src/ros/outputs/tube_mesh.hpp"
 #include "test/environment/random_shapes.hpp"

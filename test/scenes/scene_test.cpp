@@ -8,9 +8,7 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
-#include "src/geometry/select_fibers.hpp"
 #include "src/scenes/scenes.hpp"
-#include "src/scenes/shuffle.hpp"
 #include "test/support/hash.hpp"
 
 namespace fiber {

@@ -4,9 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "fiber_proximity/io/csv.hpp"
 #include "fiber_proximity/io/fiber_file.hpp"
-#include "fiber_proximity/query/writhe.hpp"
 #include "src/io/number.hpp"
 #include "test/support/curves.hpp"
 #include "test/tools/tools_test.hpp"

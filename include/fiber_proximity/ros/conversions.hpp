@@ -16,9 +16,7 @@
 #include "fiber_proximity/FiberArray.h"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/query/contact.hpp"
-#include "fiber_proximity/query/crossing.hpp"
 #include "fiber_proximity/query/crossings.hpp"
-#include "fiber_proximity/ros/fiber_buffer.hpp"
 
 namespace fiber_proximity_ros {
 

@@ -11,10 +11,7 @@
 #include "fiber_proximity/query/pair_collector.hpp"
 #include "src/bounds/aabb.hpp"
 #include "src/bounds/bounding_volume.hpp"
-#include "src/hierarchy/origin.hpp"
-#include "src/paper/engines/traverse.hpp"
 #include "src/paper/hierarchy/hierarchy.hpp"
-#include "src/paper/hierarchy/layered_hierarchy.hpp"
 
 namespace fiber {
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <sstream>
 
-#include "fiber_proximity/query/deadline.hpp"
+#include "fiber_proximity/query/options.hpp"
 #include "src/ros/support/stopwatch.hpp"
 
 namespace fiber_proximity_ros {

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "fiber_proximity/ros/conversions.hpp"
-#include "src/ros/inputs/optical_frame.hpp"
+#include "src/ros/inputs/fixed_frame.hpp"
 #include "src/ros/outputs/tube_mesh.hpp"
 
 namespace fiber_proximity_ros {

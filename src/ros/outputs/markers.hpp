@@ -9,9 +9,8 @@
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/query/contact.hpp"
-#include "fiber_proximity/query/crossing.hpp"
+#include "fiber_proximity/query/crossings.hpp"
 #include "fiber_proximity/query/engine.hpp"
-#include "fiber_proximity/query/view.hpp"
 #include "src/ros/outputs/environment_markers.hpp"
 #include "src/ros/outputs/marker_canvas.hpp"
 

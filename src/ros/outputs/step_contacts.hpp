@@ -9,7 +9,6 @@
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/query/motion.hpp"
-#include "src/query/contact_in_motion.hpp"
 #include "src/query/touch_tracker.hpp"
 
 namespace fiber_proximity_ros {

@@ -16,7 +16,6 @@
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/io/fiber_file.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
-#include "src/geometry/select_fibers.hpp"
 #include "src/ros/support/parameters.hpp"
 
 namespace fiber_proximity_ros {

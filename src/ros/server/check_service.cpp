@@ -7,15 +7,11 @@
 #include <stdexcept>
 
 #include "fiber_proximity/environment/check_fibers.hpp"
-#include "fiber_proximity/environment/check_motions.hpp"
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
-#include "src/geometry/select_fibers.hpp"
 #include "src/geometry/swept_fibers.hpp"
 #include "src/ros/inputs/fixed_frame.hpp"
-#include "src/ros/inputs/naming.hpp"
-#include "src/ros/server/motion_check.hpp"
 #include "src/ros/server/query_options.hpp"
-#include "src/ros/server/request_options.hpp"
 #include "src/text/quote.hpp"
 
 namespace fiber_proximity_ros {

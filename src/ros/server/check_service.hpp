@@ -6,8 +6,8 @@
 
 #include "fiber_proximity/CheckFibers.h"
 #include "fiber_proximity/environment/environment.hpp"
-#include "fiber_proximity/query/deadline.hpp"
 #include "fiber_proximity/query/engine.hpp"
+#include "fiber_proximity/query/options.hpp"
 #include "src/ros/inputs/fixed_frame.hpp"
 
 namespace fiber_proximity_ros {

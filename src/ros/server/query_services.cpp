@@ -7,9 +7,9 @@
 #include <stdexcept>
 
 #include "fiber_proximity/QueryProximity.h"
+#include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
-#include "src/query/merge_results.hpp"
-#include "src/ros/inputs/naming.hpp"
+#include "src/ros/inputs/fixed_frame.hpp"
 #include "src/ros/outputs/environment_output.hpp"
 #include "src/ros/server/check_service.hpp"
 #include "src/ros/server/query_options.hpp"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "fiber_proximity/environment/axis_distance.hpp"
 #include "fiber_proximity/environment/triangle_mesh.hpp"
+#include "src/environment/convex_solids.hpp"
 #include "src/environment/occupancy_octree.hpp"
 
 namespace fiber {

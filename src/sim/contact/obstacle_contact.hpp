@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "fiber_proximity/environment/shapes.hpp"
-#include "fiber_proximity/environment/triangle_distance.hpp"
-#include "src/environment/point_distance.hpp"
+#include "src/environment/convex_solids.hpp"
+#include "src/environment/triangle_distance.hpp"
 #include "src/sim/contact/edge_contact.hpp"
 
 namespace fiber {
