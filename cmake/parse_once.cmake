@@ -33,16 +33,13 @@ function(fiber_proximity_precompile target)
   endif()
 endfunction()
 
-# fiber_proximity_parse_once(TARGET HEADER...)
-# Compiles the target's sources together, folder by folder, a dozen at once, which two processors can share;
-# if sources are compiled one by one, precompiles these headers. Sources that Highway compiles once for each
-# instruction set stay alone: they include themselves.
-function(fiber_proximity_parse_once target)
+# fiber_proximity_compile_together(TARGET MOST)
+# Compiles the target's sources together, folder by folder, as many at once, if sources are not compiled one by
+# one. Those that Highway compiles once for each instruction set stay alone: they include themselves.
+function(fiber_proximity_compile_together target most)
   if(NOT FIBER_PROXIMITY_UNITY_BUILD)
-    fiber_proximity_precompile(${target} ${ARGN})
     return()
   endif()
-  set(most 12)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   get_target_property(sources ${target} SOURCES)
   foreach(source IN LISTS sources)
@@ -60,4 +57,14 @@ function(fiber_proximity_parse_once target)
     math(EXPR chunk "(${count} - 1) / ${most}")
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${target}_${folder}_${chunk})
   endforeach()
+endfunction()
+
+# fiber_proximity_parse_once(TARGET HEADER...)
+# A dozen sources at once, which two processors can share; if sources are compiled one by one, precompiles these
+# headers.
+function(fiber_proximity_parse_once target)
+  fiber_proximity_compile_together(${target} 12)
+  if(NOT FIBER_PROXIMITY_UNITY_BUILD)
+    fiber_proximity_precompile(${target} ${ARGN})
+  endif()
 endfunction()

@@ -27,6 +27,14 @@ add_library(test_support STATIC ${PROJECT_SOURCE_DIR}/test/support/source_folder
 target_compile_definitions(test_support PRIVATE FIBER_PROXIMITY_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 target_link_libraries(test_support PRIVATE fiber_proximity_options)
 
+# fiber_proximity_compile_tests_together(NAME...)
+# What gtest and Eigen make of a source takes most of its time, and is the same in the next.
+function(fiber_proximity_compile_tests_together)
+  foreach(name IN LISTS ARGN)
+    fiber_proximity_compile_together(${name} 5)
+  endforeach()
+endfunction()
+
 # fiber_proximity_gtest(NAME SOURCE... [THREADED] [LIBRARIES LIB...])
 # A unit test that needs no ROS master: a catkin gtest in the package, a plain one without ROS, with
 # the label `threaded` if it is THREADED: if several threads at once are what it is about.
@@ -47,6 +55,7 @@ function(fiber_proximity_gtest name)
   target_link_libraries(${name} fiber_proximity_paper fiber_proximity_options test_support ${ARG_LIBRARIES})
   add_dependencies(unit_tests ${name})
   set_property(TARGET unit_tests APPEND PROPERTY PROGRAMS $<TARGET_FILE:${name}>)
+  fiber_proximity_compile_tests_together(${name})
   if(FIBER_PROXIMITY_PRECOMPILE_HEADERS)
     target_precompile_headers(${name} REUSE_FROM test_headers)
   endif()
@@ -56,6 +65,7 @@ endfunction()
 # For programs that ask a running node: their headers are precompiled once for all.
 function(fiber_proximity_graph_tests)
   fiber_proximity_compile_fast(${ARGN})
+  fiber_proximity_compile_tests_together(${ARGN})
   fiber_proximity_test_headers(graph_test_headers fiber_proximity_ros ${ros_headers})
   if(FIBER_PROXIMITY_PRECOMPILE_HEADERS)
     fiber_proximity_compile_fast(graph_test_headers)

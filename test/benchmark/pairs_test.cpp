@@ -10,12 +10,12 @@
 #include "benchmark/pairs/pair_score.hpp"
 #include "benchmark/pairs/pair_times.hpp"
 #include "benchmark/pairs/textbook.hpp"
+#include "test/support/not_finite.hpp"
 
 namespace fiber::test {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Parallel segments of 4 m at a distance, 3 m, and radii of 1 m and 1 m + `more`.
 HardPair parallel_pair(double more) {

@@ -2,13 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "fiber_proximity/geometry/exact_distance.hpp"
 #include "src/paper/bounds/sphere.hpp"
 #include "test/support/bounding_volumes.hpp"
 #include "test/support/hard_runs.hpp"
+#include "test/support/not_finite.hpp"
 #include "test/support/rounds.hpp"
 #include "test/support/seeded_test.hpp"
 
@@ -17,8 +17,6 @@ namespace {
 
 using Eigen::Vector3d;
 using Capsules = std::vector<Capsule>;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Where contents are.
 struct Place {

@@ -2,19 +2,17 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <limits>
 
 #include "fiber_proximity/geometry/segment_distance.hpp"
 #include "src/environment/convex_solids.hpp"
 #include "src/environment/triangle_distance.hpp"
 #include "test/environment/random_shapes.hpp"
+#include "test/support/not_finite.hpp"
 
 namespace fiber::test {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 template <class Shape>
 constexpr bool is_solid = !std::is_same_v<Shape, std::shared_ptr<const TriangleMesh>> &&

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <stdexcept>
 #include <tuple>
@@ -13,6 +12,7 @@
 #include "src/query/fiber_snapshots.hpp"
 #include "test/environment/motion_scene.hpp"
 #include "test/support/error_of.hpp"
+#include "test/support/not_finite.hpp"
 #include "test/support/rounds.hpp"
 
 namespace fiber::test {
@@ -21,8 +21,6 @@ namespace {
 using Eigen::Vector3d;
 using Key = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;
 using Firsts = std::map<Key, MotionContact>;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A cable of this many segments that goes through this many states.
 FiberPath random_path(Random& random, int segments, int states, double way) {

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "test/environment/motion_scene.hpp"
 #include "test/support/error_of.hpp"
+#include "test/support/not_finite.hpp"
 #include "test/support/rounds.hpp"
 
 namespace fiber::test {
@@ -15,9 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-const Eigen::Isometry3d identity = Eigen::Isometry3d::Identity();
+const Eigen::Isometry3d unmoved = Eigen::Isometry3d::Identity();
 
 bool same(const MotionContact& x, const MotionContact& y) {
   return x.key() == y.key() && x.lower == y.lower && x.upper == y.upper && x.certain == y.certain;
@@ -68,7 +66,7 @@ TEST(EnvironmentMotion, TheEarliestAreThoseOfAllWithinTheLimits) {
 }
 
 TEST(EnvironmentMotion, AllowedPairsMayMeet) {
-  const EnvironmentObject plate{"plate", identity, {{BoxShape{{1.0, 1.0, 1e-3}}}}};
+  const EnvironmentObject plate{"plate", unmoved, {{BoxShape{{1.0, 1.0, 1e-3}}}}};
   const FiberAssembly before = cable(straight_cable(0.1), 1e-3);
   const FiberAssembly after = cable(straight_cable(-0.1), 1e-3);
   EXPECT_EQ(ask({plate}, before, after, {}).contacts.size(), 10U);
@@ -77,7 +75,7 @@ TEST(EnvironmentMotion, AllowedPairsMayMeet) {
 }
 
 TEST(EnvironmentMotion, ObjectsAreTheSameBeforeAndAfter) {
-  const EnvironmentObject box{"box", identity, {{BoxShape{{1.0, 1.0, 1.0}}}}};
+  const EnvironmentObject box{"box", unmoved, {{BoxShape{{1.0, 1.0, 1.0}}}}};
   const FiberAssembly fiber({{2.0, 0.0, 0.0}, {2.0, 0.1, 0.0}}, {0, 2}, {1e-3});
   EnvironmentObject moved = box;
   moved.pose.translation().x() = 4.0;
@@ -98,7 +96,7 @@ TEST(EnvironmentMotion, ObjectsAreTheSameBeforeAndAfter) {
 }
 
 TEST(EnvironmentMotion, BadInputIsRefused) {
-  const EnvironmentObject box{"box", identity, {{BoxShape{{1.0, 1.0, 1.0}}}}};
+  const EnvironmentObject box{"box", unmoved, {{BoxShape{{1.0, 1.0, 1.0}}}}};
   const FiberAssembly two({{2.0, 0.0, 0.0}, {2.0, 0.1, 0.0}}, {0, 2}, {1e-3});
   const FiberAssembly three({{2.0, 0.0, 0.0}, {2.0, 0.1, 0.0}, {3.0, 0.0, 0.0}}, {0, 3}, {1e-3});
   EXPECT_NE(error_of([&] { ask({box}, two, three, {}); }).find("change their topology"),
@@ -125,7 +123,7 @@ TEST(EnvironmentMotion, BadInputIsRefused) {
 }
 
 TEST(EnvironmentMotion, ExtremeCoordinatesAreNoDanger) {
-  const EnvironmentObject box{"box", identity, {{BoxShape{{1.0, 1.0, 1.0}}}}};
+  const EnvironmentObject box{"box", unmoved, {{BoxShape{{1.0, 1.0, 1.0}}}}};
   constexpr double far = 1e150;
   const FiberAssembly before({{-far, far, 0.0}, {-far, -far, 0.0}}, {0, 2}, {1e-3});
   const FiberAssembly after({{far, far, 0.0}, {far, -far, 0.0}}, {0, 2}, {1e-3});
@@ -134,7 +132,7 @@ TEST(EnvironmentMotion, ExtremeCoordinatesAreNoDanger) {
   EXPECT_LE(result.contacts[0].lower, 0.5);
   const FiberAssembly tiny({{1e-300, 0.0, 3e-300}, {0.0, 0.0, 3e-300}}, {0, 2}, {0.0});
   const FiberAssembly tiny_after({{1e-300, 0.0, -3e-300}, {0.0, 0.0, -3e-300}}, {0, 2}, {0.0});
-  const EnvironmentObject sheet{"sheet", identity, {{PlaneShape{}}}};
+  const EnvironmentObject sheet{"sheet", unmoved, {{PlaneShape{}}}};
   EXPECT_EQ(ask({sheet}, tiny, tiny_after, {}).contacts.size(), 1U);
 }
 

@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <map>
 #include <tuple>
 
 #include "test/environment/motion_scene.hpp"
+#include "test/support/not_finite.hpp"
 #include "test/support/rounds.hpp"
 
 namespace fiber::test {
@@ -16,8 +16,6 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using Key = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// How often what was seen.
 struct Seen {

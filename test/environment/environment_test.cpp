@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <random>
 #include <set>
@@ -13,13 +12,12 @@
 
 #include "src/environment/convex_solids.hpp"
 #include "test/environment/random_shapes.hpp"
+#include "test/support/not_finite.hpp"
 
 namespace fiber::test {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::vector<EnvironmentObject> random_objects(Random& random, double extent) {
   std::vector<EnvironmentObject> objects;

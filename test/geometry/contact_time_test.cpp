@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -14,6 +13,7 @@
 
 #include "benchmark/continuous/motion_score.hpp"
 #include "src/scenes/hard_motions.hpp"
+#include "test/support/not_finite.hpp"
 #include "test/support/public_edge_motions.hpp"
 #include "test/support/random.hpp"
 #include "test/support/rounds.hpp"
@@ -22,8 +22,6 @@ namespace fiber::test {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 ContactTime time_of(const HardMotion& motion, double tolerance) {
   return contact_time(motion.motions(), tolerance);

@@ -2,17 +2,18 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <stdexcept>
 #include <string>
+
+#include "test/support/not_finite.hpp"
 
 namespace fiber {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double inf = std::numeric_limits<double>::infinity();
+using test::infinity;
+using test::nan;
 
 const std::vector<Vector3d> five_points{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}};
 
@@ -89,7 +90,7 @@ TEST(FiberAssembly, NamesFiberPointAndValueOfABadCoordinate) {
   EXPECT_EQ(
       error_of_assembly(points, {0, 3, 5}, {0.1}),
       "fibre 1, point 1: y is nan, coordinates must be finite and at most 1e150 m in magnitude");
-  points[4].y() = -inf;
+  points[4].y() = -infinity;
   EXPECT_NE(error_of_assembly(points, {0, 3, 5}, {0.1}).find("fibre 1, point 1: y is -inf"),
             std::string::npos);
   points[4].y() = 1e151;
@@ -103,7 +104,7 @@ TEST(FiberAssembly, NamesFiberPointAndValueOfABadRadius) {
   EXPECT_NE(
       error_of_assembly(five_points, {0, 3, 5}, {0.1, nan}).find("fibre 1: the radius is nan"),
       std::string::npos);
-  EXPECT_NE(error_of_assembly(five_points, {0, 3, 5}, {1, 1, 1, 1, inf})
+  EXPECT_NE(error_of_assembly(five_points, {0, 3, 5}, {1, 1, 1, 1, infinity})
                 .find("fibre 1, point 1: the radius is inf"),
             std::string::npos);
   EXPECT_EQ(error_of_assembly(five_points, {0, 3, 5}, {1, 1, 1}),

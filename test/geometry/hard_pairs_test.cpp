@@ -10,6 +10,7 @@
 #include "fiber_proximity/geometry/exact_distance.hpp"
 #include "test/support/exact_distance.hpp"
 #include "test/support/hash.hpp"
+#include "test/support/not_finite.hpp"
 #include "test/support/public_edge_pairs.hpp"
 #include "test/support/random.hpp"
 
@@ -18,7 +19,6 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double least = std::numeric_limits<double>::denorm_min();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t pairs_per_family = 200;
 
 /// Largest difference of coordinates along one axis.

@@ -49,7 +49,7 @@ std::string sample(std::uint32_t flags) {
   return bytes.text();
 }
 
-std::string refusal(const std::string& text) {
+std::string hair_refusal(const std::string& text) {
   try {
     parse(text);
   } catch (const FileError& error) {
@@ -110,58 +110,58 @@ TEST(ReadHair, AcceptsAFileOfNoStrands) {
 }
 
 TEST(ReadHair, RefusesWhatIsNotAHairFile) {
-  EXPECT_EQ(refusal(""), "a.hair: ends at byte 0");
-  EXPECT_EQ(refusal("HAI"), "a.hair: ends at byte 3");
-  EXPECT_EQ(refusal("fiber,x,y,z\n"),
+  EXPECT_EQ(hair_refusal(""), "a.hair: ends at byte 0");
+  EXPECT_EQ(hair_refusal("HAI"), "a.hair: ends at byte 3");
+  EXPECT_EQ(hair_refusal("fiber,x,y,z\n"),
             "a.hair: is not a HAIR file, which begins with the letters HAIR");
-  EXPECT_EQ(refusal(sample(points_flag).substr(0, 100)), "a.hair: ends at byte 100");
+  EXPECT_EQ(hair_refusal(sample(points_flag).substr(0, 100)), "a.hair: ends at byte 100");
 }
 
 TEST(ReadHair, RefusesFlagsItCannotFollow) {
-  EXPECT_EQ(refusal(header(2, 6, 0)),
+  EXPECT_EQ(hair_refusal(header(2, 6, 0)),
             "a.hair: the flags (byte 12) are 0, without the points (2) there are no fibres");
-  EXPECT_EQ(refusal(header(2, 6, 29)),
+  EXPECT_EQ(hair_refusal(header(2, 6, 29)),
             "a.hair: the flags (byte 12) are 29, without the points (2) there are no fibres");
-  EXPECT_EQ(refusal(header(2, 6, 34)),
+  EXPECT_EQ(hair_refusal(header(2, 6, 34)),
             "a.hair: the flags (byte 12) are 34, only those up to 31 have a meaning");
 }
 
 TEST(ReadHair, RefusesCountsThatDoNotFitTheFile) {
   const std::string text = sample(points_flag);
-  EXPECT_EQ(refusal(with(text, 8, Bytes().uint(7, 4))),
+  EXPECT_EQ(hair_refusal(with(text, 8, Bytes().uint(7, 4))),
             "a.hair: has 200 bytes, the header asks for 212: 2 strands (byte 4), 7 points (byte 8),"
             " flags 2 (byte 12)");
-  EXPECT_EQ(refusal(text + "x"),
+  EXPECT_EQ(hair_refusal(text + "x"),
             "a.hair: has 201 bytes, the header asks for 200: 2 strands (byte 4), 6 points (byte 8),"
             " flags 2 (byte 12)");
   // Counts that would need gigabytes, in fields where 32 bits would overflow.
-  EXPECT_EQ(refusal(header(0xffff'ffffU, 0x7fff'ffffU, 31)),
+  EXPECT_EQ(hair_refusal(header(0xffff'ffffU, 0x7fff'ffffU, 31)),
             "a.hair: has 128 bytes, the header asks for 77309411422: 4294967295 strands (byte 4),"
             " 2147483647 points (byte 8), flags 31 (byte 12)");
-  EXPECT_EQ(refusal(header(1, 0x8000'0000U, 2)),
+  EXPECT_EQ(hair_refusal(header(1, 0x8000'0000U, 2)),
             "a.hair: the number of points (byte 8) is 2147483648, at most 2147483647 are"
             " supported");
 }
 
 TEST(ReadHair, RefusesStrandsThatDoNotFitThePoints) {
-  EXPECT_EQ(refusal(with(sample(3), 130, Bytes().uint(4, 2))),
+  EXPECT_EQ(hair_refusal(with(sample(3), 130, Bytes().uint(4, 2))),
             "a.hair: strand 1 has 4 segments (byte 130) and would end with point 7 of 6 (byte 8)");
-  EXPECT_EQ(refusal(with(sample(3), 128, Bytes().uint(0xffff, 2))),
+  EXPECT_EQ(hair_refusal(with(sample(3), 128, Bytes().uint(0xffff, 2))),
             "a.hair: strand 0 has 65535 segments (byte 128) and would end with point 65536 of 6"
             " (byte 8)");
-  EXPECT_EQ(refusal(with(sample(3), 130, Bytes().uint(2, 2))),
+  EXPECT_EQ(hair_refusal(with(sample(3), 130, Bytes().uint(2, 2))),
             "a.hair: the strands have 5 points, the header says 6 (byte 8)");
-  EXPECT_EQ(refusal(with(sample(2), 16, Bytes().uint(0xffff'ffffU, 4))),
+  EXPECT_EQ(hair_refusal(with(sample(2), 16, Bytes().uint(0xffff'ffffU, 4))),
             "a.hair: strand 0 has 4294967295 segments (byte 16) and would end with point"
             " 4294967296 of 6 (byte 8)");
-  EXPECT_EQ(refusal(with(sample(2), 4, Bytes().uint(0xffff'ffffU, 4))),
+  EXPECT_EQ(hair_refusal(with(sample(2), 4, Bytes().uint(0xffff'ffffU, 4))),
             "a.hair: strand 2 has 2 segments (byte 16) and would end with point 9 of 6 (byte 8)");
 }
 
 TEST(ReadHair, RefusesAStrandWithoutSegments) {
-  EXPECT_EQ(refusal(with(sample(3), 130, Bytes().uint(0, 2))),
+  EXPECT_EQ(hair_refusal(with(sample(3), 130, Bytes().uint(0, 2))),
             "a.hair: strand 1 has 0 segments (byte 130), a fibre needs at least 1");
-  EXPECT_EQ(refusal(with(sample(2), 16, Bytes().uint(0, 4))),
+  EXPECT_EQ(hair_refusal(with(sample(2), 16, Bytes().uint(0, 4))),
             "a.hair: strand 0 has 0 segments (byte 16), a fibre needs at least 1");
 }
 
@@ -170,13 +170,14 @@ TEST(ReadHair, RefusesBadNumbers) {
   const float infinity = std::numeric_limits<float>::infinity();
   const std::string coordinates = FiberAssembly::coordinate_rule;
   const std::string radii = FiberAssembly::radius_rule;
-  EXPECT_EQ(refusal(with(sample(2), 128 + 12 + 4, Bytes().floats({nan}))),
+  EXPECT_EQ(hair_refusal(with(sample(2), 128 + 12 + 4, Bytes().floats({nan}))),
             "a.hair: y of point 1 (byte 144) is nan, " + coordinates);
-  EXPECT_EQ(refusal(with(sample(6), 200 + 8, Bytes().floats({-1}))),
+  EXPECT_EQ(hair_refusal(with(sample(6), 200 + 8, Bytes().floats({-1}))),
             "a.hair: the thickness of point 2 (byte 208) is -1, " + radii);
-  EXPECT_EQ(refusal(with(sample(2), 20, Bytes().floats({infinity}))),
+  EXPECT_EQ(hair_refusal(with(sample(2), 20, Bytes().floats({infinity}))),
             "a.hair: the default thickness (byte 20) is inf, " + radii);
-  EXPECT_EQ(refusal(with(sample(6), 20, Bytes().floats({nan}))), "accepted") << "it serves nobody";
+  EXPECT_EQ(hair_refusal(with(sample(6), 20, Bytes().floats({nan}))), "accepted")
+      << "it serves nobody";
 }
 
 TEST(ReadHair, ATruncatedFileIsAnErrorAtEveryLength) {
@@ -195,7 +196,7 @@ TEST(ReadHair, AWrongBitIsReadOrRefusedAndNothingElse) {
       std::string changed = text;
       changed[bit / 8] = static_cast<char>(changed[bit / 8] ^ (1 << (bit % 8)));
       SCOPED_TRACE(testing::Message() << "flags " << flags << ", bit " << bit);
-      const std::string answer = refusal(changed);  // any other exception fails the test
+      const std::string answer = hair_refusal(changed);  // any other exception fails the test
       if (bit < std::size_t{8} * 16) {
         EXPECT_NE(answer, "accepted") << "signature, counts and flags decide the size";
       }
@@ -215,7 +216,7 @@ TEST(ReadHair, RandomFieldsAreReadOrRefusedAndNothingElse) {
                                       : static_cast<std::uint32_t>(random.integer(-3, 0x7fff'ffff));
       text = with(text, 4 * word, Bytes().uint(value, 4));
     }
-    refusal(text);
+    hair_refusal(text);
   }
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "src/query/brute_force.hpp"
@@ -11,11 +10,11 @@
 #include "test/support/contacts.hpp"
 #include "test/support/engines_test.hpp"
 #include "test/support/exact_pairs.hpp"
+#include "test/support/not_finite.hpp"
 
 namespace fiber::test {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr QueryType all_types[] = {QueryType::FIRST, QueryType::CLOSEST, QueryType::LIMITED,
                                    QueryType::ALL, QueryType::FIBER_PAIRS};
 constexpr Kernel all_kernels[] = {Kernel::ROBUST, Kernel::EXACT};

@@ -2,18 +2,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <limits>
 #include <memory>
 
 #include "src/query/brute_force.hpp"
 #include "test/support/contacts.hpp"
 #include "test/support/engines_test.hpp"
+#include "test/support/not_finite.hpp"
 #include "test/support/tangle.hpp"
 
 namespace fiber::test {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 using ContactLimitTest = EnginesTest;
 using PairLimitTest = EnginesTest;

@@ -10,8 +10,8 @@
 namespace fiber::test {
 namespace {
 
-constexpr QueryType all_types[] = {QueryType::FIRST, QueryType::CLOSEST, QueryType::LIMITED,
-                                   QueryType::ALL, QueryType::FIBER_PAIRS};
+constexpr QueryType types[] = {QueryType::FIRST, QueryType::CLOSEST, QueryType::LIMITED,
+                               QueryType::ALL, QueryType::FIBER_PAIRS};
 
 using DeadlineTest = EnginesTest;
 
@@ -27,7 +27,7 @@ TEST_P(DeadlineTest, ADeadlineLeavesAnAnswerThatIsTrue) {
   SCOPED_TRACE(seed_message());
   Random random;
   const FiberAssembly fibers = many_walks(random);
-  for (const QueryType type : all_types) {
+  for (const QueryType type : types) {
     QueryOptions options;
     options.type = QueryType::ALL;
     const QueryResult all = ask(fibers, options);

@@ -1,7 +1,6 @@
 // Queries for the closest contact of each pair of fibres.
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -9,12 +8,11 @@
 #include "test/support/assemblies.hpp"
 #include "test/support/contacts.hpp"
 #include "test/support/neighbour_skips.hpp"
+#include "test/support/not_finite.hpp"
 #include "test/support/rounds.hpp"
 
 namespace fiber::test {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Of each pair of fibres the closest of these contacts, the first of equals.
 std::vector<Contact> closest_by_fibers(const std::vector<Contact>& contacts) {

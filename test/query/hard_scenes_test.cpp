@@ -12,13 +12,13 @@
 #include "fiber_proximity/geometry/exact_distance.hpp"
 #include "src/query/brute_force.hpp"
 #include "test/support/contacts.hpp"
+#include "test/support/not_finite.hpp"
 #include "test/support/rounds.hpp"
 
 namespace fiber::test {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::vector<std::string> scene_names() {
   std::vector<std::string> names;

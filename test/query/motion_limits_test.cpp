@@ -1,17 +1,15 @@
 // Queries about motions: the earliest contacts, how well their times are known, limits and
 // deadlines.
 #include <cmath>
-#include <limits>
 
 #include "fiber_proximity/query/motion.hpp"
 #include "test/query/motion_queries.hpp"
+#include "test/support/not_finite.hpp"
 
 namespace fiber::test {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::vector<MotionContact> by_time(std::vector<MotionContact> contacts) {
   std::sort(contacts.begin(), contacts.end(),

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <stdexcept>
 
@@ -14,13 +13,12 @@
 #include "src/query/contact_evaluator.hpp"
 #include "test/query/motion_queries.hpp"
 #include "test/support/error_of.hpp"
+#include "test/support/not_finite.hpp"
 
 namespace fiber::test {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// [m] About the size of a segment with its radius: what a motion is measured by.
 double size_of(const FiberAssembly& fibers) {

@@ -1,17 +1,15 @@
 // Limits of contacts and pairs where several threads share the work, and where candidates are kept.
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <memory>
 
 #include "src/query/brute_force.hpp"
 #include "test/support/contacts.hpp"
+#include "test/support/not_finite.hpp"
 #include "test/support/tangle.hpp"
 
 namespace fiber::test {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Answers of engines of one thread and of several.
 class RunTreeLimits : public testing::TestWithParam<double> {

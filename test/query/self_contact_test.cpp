@@ -2,17 +2,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "src/query/brute_force.hpp"
 #include "test/support/cables.hpp"
 #include "test/support/contacts.hpp"
 #include "test/support/engines_test.hpp"
+#include "test/support/not_finite.hpp"
 
 namespace fiber::test {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nothing = 1e-6;  // [radii] what touching strands may be apart by rounding
 
 /// Cables whose strands touch, coarsely and finely sampled.

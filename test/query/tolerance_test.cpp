@@ -3,15 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "src/query/brute_force.hpp"
 #include "test/support/engines_test.hpp"
+#include "test/support/not_finite.hpp"
 
 namespace fiber::test {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 using ToleranceTest = EnginesTest;
 

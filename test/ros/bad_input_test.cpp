@@ -1,9 +1,8 @@
 // What the running node does with messages nobody should send: one clear error, nothing else.
 #include <tf2_msgs/TFMessage.h>
 
-#include <limits>
-
 #include "test/ros/bad_input_fixture.hpp"
+#include "test/support/not_finite.hpp"
 
 namespace {
 
@@ -13,8 +12,8 @@ using test_messages::header;
 using test_messages::Points;
 using visualization_msgs::Marker;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using fiber::test::infinity;
+using fiber::test::nan;
 
 TEST_F(BadInputTest, MalformedFiberArraysAreRefused) {
   FiberArray message = array();

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "test/ros/cable_sim_fixture.hpp"
+#include "test/support/not_finite.hpp"
 
 namespace {
 
@@ -15,7 +16,7 @@ using fiber_proximity::DetachFiber;
 using fiber_proximity::SetSimulationParameters;
 using fiber_proximity::StepSimulation;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using fiber::test::infinity;
 const double nan_value = std::nan("");
 
 class CableSimLimitsTest : public CableSimTest {

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "test/support/error_of.hpp"
+#include "test/support/not_finite.hpp"
 #include "test/support/random.hpp"
 
 namespace fiber_proximity_ros {
@@ -18,7 +19,7 @@ using Eigen::Vector3d;
 using fiber::test::error_of;
 using Points = std::vector<Vector3d>;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using fiber::test::nan;
 const Isometry3d here = Isometry3d::Identity();
 
 /// Cells that hold points, by their indices.

@@ -14,7 +14,7 @@ namespace {
 using test_messages::header;
 using test_messages::Points;
 
-const Points& chain() {
+const Points& three_points() {
   static const Points points{{0.125, -1.0, 2.5}, {0.25, 0.5, 2.0}, {1.0, 0.75, -3.0}};
   return points;
 }
@@ -31,7 +31,7 @@ std::string error_of(const std::function<void()>& function) {
 void expect_one_chain(const FiberBuffer& chains) {
   EXPECT_EQ(chains.header.frame_id, "camera");
   EXPECT_EQ(chains.header.stamp, ros::Time(3, 4));
-  EXPECT_EQ(chains.points, chain());
+  EXPECT_EQ(chains.points, three_points());
   EXPECT_EQ(chains.offsets, (std::vector<std::uint32_t>{0, 3}));
   EXPECT_TRUE(chains.radii.empty());
   EXPECT_TRUE(chains.names.empty());
@@ -51,7 +51,7 @@ TEST(Conversions, AnAssemblyComesBackFromItsMessage) {
 }
 
 TEST(Conversions, NamesMustBeOnePerFibre) {
-  fiber_proximity::FiberArray message = test_messages::fiber_array(header("map"), chain());
+  fiber_proximity::FiberArray message = test_messages::fiber_array(header("map"), three_points());
   message.names = {"one", "two"};
   FiberBuffer chains;
   EXPECT_EQ(error_of([&] { to_chains(message, chains); }),
@@ -91,20 +91,20 @@ TEST(Conversions, ContactKeepsEveryField) {
 TEST(Conversions, EveryTypeOfOneChainGivesTheSame) {
   const std_msgs::Header camera = header("camera", ros::Time(3, 4));
   FiberBuffer chains;
-  to_chains(test_messages::fiber_array(camera, chain()), chains);
+  to_chains(test_messages::fiber_array(camera, three_points()), chains);
   expect_one_chain(chains);
-  to_chains(test_messages::point_cloud2(camera, chain()), chains);
+  to_chains(test_messages::point_cloud2(camera, three_points()), chains);
   expect_one_chain(chains);
-  to_chains(test_messages::point_cloud(camera, chain()), chains);
+  to_chains(test_messages::point_cloud(camera, three_points()), chains);
   expect_one_chain(chains);
-  to_chains(test_messages::pose_array(camera, chain()), chains);
+  to_chains(test_messages::pose_array(camera, three_points()), chains);
   expect_one_chain(chains);
-  to_chains(test_messages::path(camera, chain()), chains);
+  to_chains(test_messages::path(camera, three_points()), chains);
   expect_one_chain(chains);
 }
 
 TEST(Conversions, APoseOfAPathMustBeInThePathsFrame) {
-  nav_msgs::Path message = test_messages::path(header("map"), chain());
+  nav_msgs::Path message = test_messages::path(header("map"), three_points());
   message.poses[1].header.frame_id = "map";
   FiberBuffer chains;
   EXPECT_NO_THROW(to_chains(message, chains));
@@ -191,12 +191,12 @@ TEST(PointCloud2, MalformedCloudsAreRefused) {
 
 TEST(FiberBuffer, AssignRefusesWhatAnAssemblyRefuses) {
   FiberBuffer chains;
-  chains.points = chain();
+  chains.points = three_points();
   chains.end_chain();
   chains.radii = {0.5};
   fiber::FiberAssembly fibers;
   assign(chains, fibers);
-  EXPECT_EQ(fibers.points(), chain());
+  EXPECT_EQ(fibers.points(), three_points());
   chains.radii = {-1.0};
   EXPECT_THROW(assign(chains, fibers), std::invalid_argument);
   EXPECT_EQ(fibers.radii(), std::vector<double>{0.5});

@@ -1,11 +1,11 @@
 // The running node without a fixed frame: asked before there are any fibres, and with deadlines.
 // The tests run in this order, before those of environment_updates_test.cpp.
 #include <algorithm>
-#include <limits>
 #include <random>
 
 #include "fiber_proximity/CheckFibers.h"
 #include "test/ros/environment_services_fixture.hpp"
+#include "test/support/not_finite.hpp"
 
 namespace {
 
@@ -17,7 +17,7 @@ using node_test::EnvironmentServicesTest;
 using test_messages::ball;
 using test_messages::header;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using fiber::test::infinity;
 
 fiber_proximity::QueryShape shape(const Eigen::Vector3d& point, const std::string& frame) {
   fiber_proximity::QueryShape shape;

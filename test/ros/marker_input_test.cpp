@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <limits>
 
 #include "test/ros/messages.hpp"
+#include "test/support/not_finite.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -40,7 +40,7 @@ FiberBuffer read(const MarkerArray& message, const MarkerInputOptions& options =
   return chains;
 }
 
-std::string error_of(const MarkerArray& message) {
+std::string refusal_of(const MarkerArray& message) {
   FiberBuffer chains;
   try {
     to_chains(message, {}, chains);
@@ -138,7 +138,7 @@ TEST(MarkerInput, SpheresAreAFibreInTheOrderOfTheirIds) {
 
   message.markers[0].type = Marker::CUBE;  // some draw every fifth one so
   message.markers[1].type = Marker::CUBE;
-  EXPECT_EQ(error_of(message),
+  EXPECT_EQ(refusal_of(message),
             "marker line_3/3 and marker node_3/3 have the same id, so their "
             "order along the fibre is unknown; choose one fibre by its "
             "namespace");
@@ -167,7 +167,7 @@ TEST(MarkerInput, CylindersAreWeldedAlongTheirAxes) {
   }
 }
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using fiber::test::nan;
 const Eigen::Vector3d missing(nan, nan, nan);
 
 /// A character per point: k known, m missing, a bar between fibres.
@@ -258,18 +258,18 @@ TEST(MarkerInput, DeletionsAreNoFibres) {
 TEST(MarkerInput, MalformedMarkersAreRefused) {
   Points odd = segments(chain(0));
   odd.pop_back();
-  EXPECT_EQ(error_of(array({marker(header("map"), Marker::LINE_LIST, odd)})),
+  EXPECT_EQ(refusal_of(array({marker(header("map"), Marker::LINE_LIST, odd)})),
             "marker cable/0: a LINE_LIST of 5 points, it must have two per segment and not be "
             "empty");
-  EXPECT_EQ(error_of(array({marker(header("map"), Marker::TEXT_VIEW_FACING, {})})),
+  EXPECT_EQ(refusal_of(array({marker(header("map"), Marker::TEXT_VIEW_FACING, {})})),
             "marker cable/0 has type 9; fibres are read from LINE_STRIP, LINE_LIST, POINTS, "
             "SPHERE_LIST, CUBE_LIST, SPHERE, CUBE and CYLINDER");
-  EXPECT_EQ(error_of(array({marker(header("map"), Marker::LINE_STRIP, chain(0)),
-                            marker(header("camera"), Marker::LINE_STRIP, chain(0))})),
+  EXPECT_EQ(refusal_of(array({marker(header("map"), Marker::LINE_STRIP, chain(0)),
+                              marker(header("camera"), Marker::LINE_STRIP, chain(0))})),
             "marker cable/0 is in frame 'camera', marker cable/0 in 'map'; they must be the same");
   Marker unprintable = marker(header("map"), Marker::TEXT_VIEW_FACING, {});
   unprintable.ns = "ca\nble";
-  EXPECT_EQ(error_of(array({unprintable})).substr(0, 18), "marker ca\\nble/0 h");
+  EXPECT_EQ(refusal_of(array({unprintable})).substr(0, 18), "marker ca\\nble/0 h");
 }
 
 }  // namespace

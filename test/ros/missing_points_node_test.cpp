@@ -1,9 +1,9 @@
 // Points a tracker has lost sight of, in every type of input, through the running node.
-#include <limits>
 #include <utility>
 
 #include "test/ros/messages.hpp"
 #include "test/ros/node_test.hpp"
+#include "test/support/not_finite.hpp"
 
 namespace {
 
@@ -16,7 +16,7 @@ using visualization_msgs::Marker;
 
 using Names = std::vector<std::string>;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using fiber::test::nan;
 
 class MissingPointsTest : public node_test::NodeTest {
  protected:

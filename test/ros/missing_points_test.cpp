@@ -3,9 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 #include <set>
+
+#include "test/support/not_finite.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -14,8 +15,8 @@ using Names = std::vector<std::string>;
 using Offsets = std::vector<std::uint32_t>;
 using Radii = std::vector<double>;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using fiber::test::infinity;
+using fiber::test::nan;
 
 /// Fibres as strings: a point per character, `.` known and `x` missing. The x of a point tells its
 /// place among all.

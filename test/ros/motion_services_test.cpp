@@ -1,12 +1,12 @@
 // The running node without a fixed frame: motions of candidates that ~check_fibers checks.
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "fiber_proximity/ApplyObstacles.h"
 #include "fiber_proximity/CheckFibers.h"
 #include "test/ros/messages.hpp"
 #include "test/ros/node_test.hpp"
+#include "test/support/not_finite.hpp"
 
 namespace {
 
@@ -17,7 +17,7 @@ using fiber_proximity::FiberArray;
 using fiber_proximity::Obstacle;
 using test_messages::header;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using fiber::test::infinity;
 constexpr double radius = 0.001;
 
 /// A straight cable along x or y, 0.2 m long about the z axis, at a height.

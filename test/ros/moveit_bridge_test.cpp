@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "test/ros/bridge_fixture.hpp"
+#include "test/support/not_finite.hpp"
 
 namespace {
 
@@ -15,7 +16,7 @@ using fiber_proximity_ros::MoveitBridge;
 using moveit_msgs::CollisionObject;
 using moveit_msgs::PlanningScene;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using fiber::test::nan;
 
 CollisionObject change(const std::string& id, std::int8_t operation, double x = 0.0) {
   CollisionObject object;

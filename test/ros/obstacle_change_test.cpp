@@ -9,6 +9,7 @@
 
 #include "fiber_proximity/environment/triangle_mesh.hpp"
 #include "test/support/error_of.hpp"
+#include "test/support/not_finite.hpp"
 #include "test/support/random.hpp"
 
 namespace fiber_proximity_ros {
@@ -19,7 +20,7 @@ using fiber::test::error_of;
 using fiber_proximity::Obstacle;
 using shape_msgs::SolidPrimitive;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using fiber::test::nan;
 
 geometry_msgs::Pose pose(const Eigen::Vector3d& position, const Eigen::Quaterniond& rotation) {
   geometry_msgs::Pose message;

@@ -19,7 +19,7 @@
 namespace {
 
 using fiber_proximity::ProximityConfig;
-using Names = std::set<std::string>;
+using NameSet = std::set<std::string>;
 
 /// The rows of the table that begins with these cells, each its cells.
 std::vector<std::vector<std::string>> rows_of_table(const std::string& header) {
@@ -53,8 +53,8 @@ std::vector<std::string> private_names(const std::string& cell) {
   return names;
 }
 
-Names first_column(const std::string& header) {
-  Names names;
+NameSet first_column(const std::string& header) {
+  NameSet names;
   for (const std::vector<std::string>& row : rows_of_table(header)) {
     for (const std::string& name : private_names(row[0])) {
       EXPECT_TRUE(names.insert(name).second) << name << " is there twice";
@@ -99,7 +99,7 @@ std::map<std::string, std::string> dynamic_defaults() {
 
 TEST(Reference, NamesAllParameters) {
   const std::vector<std::string> known = fiber_proximity_ros::known_parameters();
-  EXPECT_EQ(first_column("parameter"), Names(known.begin(), known.end()));
+  EXPECT_EQ(first_column("parameter"), NameSet(known.begin(), known.end()));
 }
 
 TEST(Reference, HasTheDefaultsOfWhatCanChange) {
@@ -121,13 +121,13 @@ TEST(Reference, HasTheDefaultsOfWhatCanChange) {
 }
 
 /// What the master knows of the node under test: topics or services below its own name.
-Names private_names_of_node(int which) {
+NameSet private_names_of_node(int which) {
   XmlRpc::XmlRpcValue request;
   XmlRpc::XmlRpcValue response;
   XmlRpc::XmlRpcValue state;
   request[0] = ros::this_node::getName();
   EXPECT_TRUE(ros::master::execute("getSystemState", request, response, state, true));
-  Names names;
+  NameSet names;
   for (int i = 0; i < state[which].size(); ++i) {
     const std::string name = state[which][i][0];
     for (int k = 0; k < state[which][i][1].size(); ++k) {
@@ -150,13 +150,13 @@ TEST_F(ReferenceTest, NamesAllTopicsAndServices) {
   // The node has them all when it serves its last one.
   ASSERT_TRUE(ros::service::waitForService("/proximity/check_fibers", 120000));
   ASSERT_TRUE(ros::service::waitForService("/proximity/set_parameters", 120000));
-  const auto without = [](Names names, const Names& others) {
+  const auto without = [](NameSet names, const NameSet& others) {
     for (const std::string& other : others) {
       names.erase(other);
     }
     return names;
   };
-  const Names of_reconfigure{"parameter_descriptions", "parameter_updates"};
+  const NameSet of_reconfigure{"parameter_descriptions", "parameter_updates"};
   EXPECT_EQ(first_column("publishes"), without(private_names_of_node(published), of_reconfigure));
   EXPECT_EQ(without(first_column("subscribes"), {"inputs", "cloud", "obstacle_markers"}),
             private_names_of_node(subscribed));

@@ -7,7 +7,6 @@
 
 #include <fstream>
 #include <iostream>
-#include <limits>
 #include <set>
 
 #include "fiber_proximity/AllowPairs.h"
@@ -16,6 +15,7 @@
 #include "fiber_proximity/ObstacleArray.h"
 #include "test/ros/messages.hpp"
 #include "test/ros/node_test.hpp"
+#include "test/support/not_finite.hpp"
 
 namespace {
 
@@ -25,8 +25,8 @@ using test_messages::header;
 using test_messages::Points;
 using visualization_msgs::Marker;
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using fiber::test::infinity;
+using fiber::test::nan;
 
 int pid_of(const std::string& name) {
   XmlRpc::XmlRpcValue request;

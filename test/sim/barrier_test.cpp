@@ -3,15 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "src/sim/contact/edge_contact.hpp"
+#include "test/support/not_finite.hpp"
 #include "test/support/random.hpp"
 
 namespace fiber::test {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Barrier random_barrier(Random& random) {
   return Barrier::around(std::pow(10.0, random.uniform(-5.0, 0.0)),

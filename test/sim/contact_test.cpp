@@ -21,8 +21,9 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr double step_length = 0.01;  // [s]
-constexpr double radius = 0.03;
-constexpr double width = 2.0 * Barrier::half_width * radius;  // of the barrier of an obstacle
+constexpr double rod_radius = 0.03;
+constexpr double obstacle_width =
+    2.0 * Barrier::half_width * rod_radius;  // of the barrier of an obstacle
 
 /// A chain of a few edges.
 std::vector<Vector3d> chain(Random& random, double bend) {
@@ -65,7 +66,7 @@ Rods rod_at(Random& random, const std::shared_ptr<const Environment>& environmen
             double distance) {
   for (;;) {
     Rods rods;
-    rods.add(chain(random, random.chance(0.5) ? 0.0 : 0.4), radius, rubber(radius));
+    rods.add(chain(random, random.chance(0.5) ? 0.0 : 0.4), rod_radius, rubber(rod_radius));
     const Vector3d away = random.direction() + Vector3d(0.0, 0.0, 1.0);
     for (Vector3d& position : rods.positions) {
       position += 2.0 * away;
@@ -94,15 +95,15 @@ TEST_P(OfShape, TheGradientIsThatOfTheEnergy) {
   SCOPED_TRACE(seed_message());
   Random random(GetParam());
   for (int round = 0; round < 20; ++round) {
-    const Rods rods = rod_at(random, environment_, random.uniform(-0.4, 0.4) * width);
+    const Rods rods = rod_at(random, environment_, random.uniform(-0.4, 0.4) * obstacle_width);
     const auto contacts = contacts_with(environment_);
-    ContactSet found = contacts_of(*contacts, rods, radius);
+    ContactSet found = contacts_of(*contacts, rods, rod_radius);
     const double energy = energy_in(found, rods);
     ASSERT_GT(energy, 0.0);
     const VectorXd gradient = full_system(found, rods).gradient;
     const VectorXd expected = gradient_by_differences(
         rods, [&](const Rods& r) { return energy_in(found, r); }, 5e-9);
-    ASSERT_LE((gradient - expected).norm(), 1e-5 * (gradient.norm() + energy / width))
+    ASSERT_LE((gradient - expected).norm(), 1e-5 * (gradient.norm() + energy / obstacle_width))
         << "round " << round << "\nfound\n"
         << gradient.transpose() << "\nexpected\n"
         << expected.transpose();
@@ -113,9 +114,9 @@ TEST_P(OfShape, TheHessianIsPositiveSemidefinite) {
   SCOPED_TRACE(seed_message());
   Random random(20 + GetParam());
   for (int round = 0; round < 20; ++round) {
-    const Rods rods = rod_at(random, environment_, random.uniform(-0.4, 0.4) * width);
+    const Rods rods = rod_at(random, environment_, random.uniform(-0.4, 0.4) * obstacle_width);
     const auto contacts = contacts_with(environment_);
-    ContactSet found = contacts_of(*contacts, rods, radius);
+    ContactSet found = contacts_of(*contacts, rods, rod_radius);
     const Eigen::MatrixXd hessian = full_system(found, rods).hessian;
     const VectorXd eigenvalues =
         Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(hessian).eigenvalues();
@@ -129,22 +130,22 @@ TEST_P(OfShape, TheHessianIsPositiveSemidefinite) {
 TEST_P(OfShape, TheEnergyIsInfiniteFromTheLeastDistanceDownAndNowhereAboveTheInnerOne) {
   SCOPED_TRACE(seed_message());
   Random random(40 + GetParam());
-  const Barrier barrier = Barrier::around(radius, 1.0);
+  const Barrier barrier = Barrier::around(rod_radius, 1.0);
   int infinite = 0;
   for (int round = 0; round < 100; ++round) {
     Rods rods = rod_at(random, environment_, 0.0);
     const auto contacts = contacts_with(environment_);
-    ContactSet found = contacts_of(*contacts, rods, 2.0 * radius);
-    const Vector3d together = random.in_cube(2.0 * width);
+    ContactSet found = contacts_of(*contacts, rods, 2.0 * rod_radius);
+    const Vector3d together = random.in_cube(2.0 * obstacle_width);
     for (Vector3d& position : rods.positions) {
-      position += together + random.in_cube(0.3 * radius);
+      position += together + random.in_cube(0.3 * rod_radius);
     }
-    const double distance = distance_from(*environment_, rods) + radius;
+    const double distance = distance_from(*environment_, rods) + rod_radius;
     const double energy = energy_in(found, rods);
     infinite += std::isinf(energy) ? 1 : 0;
-    EXPECT_TRUE(std::isfinite(energy) || distance <= barrier.inner) << distance / radius;
-    EXPECT_TRUE(std::isinf(energy) || distance > barrier.least()) << distance / radius;
-    EXPECT_EQ(energy == 0.0, distance >= barrier.outer) << distance / radius;
+    EXPECT_TRUE(std::isfinite(energy) || distance <= barrier.inner) << distance / rod_radius;
+    EXPECT_TRUE(std::isinf(energy) || distance > barrier.least()) << distance / rod_radius;
+    EXPECT_EQ(energy == 0.0, distance >= barrier.outer) << distance / rod_radius;
   }
   expect_enough(infinite, 10);
 }
@@ -153,29 +154,30 @@ TEST_P(OfShape, TheEnergyIsInfiniteFromTheLeastDistanceDownAndNowhereAboveTheInn
 TEST_P(OfShape, StepsKeepAFifthOfEachDistance) {
   SCOPED_TRACE(seed_message());
   Random random(60 + GetParam());
-  const Barrier barrier = Barrier::around(radius, 1.0);
+  const Barrier barrier = Barrier::around(rod_radius, 1.0);
   int shortened = 0;
   for (int round = 0; round < rounds(500); ++round) {
-    const Rods rods = rod_at(random, environment_, random.uniform(-0.3, 1.0) * width);
+    const Rods rods = rod_at(random, environment_, random.uniform(-0.3, 1.0) * obstacle_width);
     const auto contacts = contacts_with(environment_);
-    ContactSet found = contacts_of(*contacts, rods, 10.0 * radius);
+    ContactSet found = contacts_of(*contacts, rods, 10.0 * rod_radius);
     found.measure(rods);
     std::vector<Vector3d> displacements;
-    const Vector3d together = random.in_cube(5.0 * radius);
+    const Vector3d together = random.in_cube(5.0 * rod_radius);
     for (std::size_t i = 0; i < rods.positions.size(); ++i) {
-      displacements.push_back(together + random.in_cube(random.chance(0.5) ? radius : width));
+      displacements.push_back(together +
+                              random.in_cube(random.chance(0.5) ? rod_radius : obstacle_width));
     }
     std::vector<double> shares{1.0};
     std::vector<Vector3d> ends(rods.positions.size());
     found.bound_step(rods, displacements, {0}, shares, ends);
     shortened += shares[0] < 1.0 ? 1 : 0;
-    const double gap = distance_from(*environment_, rods) + radius - barrier.least();
+    const double gap = distance_from(*environment_, rods) + rod_radius - barrier.least();
     for (int i = 1; i <= 20; ++i) {
       Rods moved = rods;
       for (std::size_t node = 0; node < moved.positions.size(); ++node) {
         moved.positions[node] += shares[0] * i / 20.0 * displacements[node];
       }
-      const double left = distance_from(*environment_, moved) + radius - barrier.least();
+      const double left = distance_from(*environment_, moved) + rod_radius - barrier.least();
       ASSERT_GE(left, 0.2 * gap * (1.0 - 1e-6)) << "share " << shares[0] * i / 20.0;
     }
   }
@@ -191,8 +193,8 @@ Rods crossed_rods(Random& random, int count) {
     const double turn = (rod % 2) * M_PI / 2 + random.uniform(-0.3, 0.3);
     const Vector3d along(0.2 * std::cos(turn), 0.2 * std::sin(turn), 0.0);
     const Vector3d middle(random.uniform(-0.02, 0.02), random.uniform(-0.02, 0.02),
-                          2.0 * radius * rod * random.uniform(0.995, 1.0));
-    rods.add(straight(middle - along, middle + along, 7), radius, rubber(radius));
+                          2.0 * rod_radius * rod * random.uniform(0.995, 1.0));
+    rods.add(straight(middle - along, middle + along, 7), rod_radius, rubber(rod_radius));
   }
   return rods;
 }
@@ -203,7 +205,7 @@ TEST(FrictionContacts, TheGradientIsThatOfTheEnergy) {
   Random random(1);
   for (int round = 0; round < 20; ++round) {
     const Rods start = crossed_rods(random, 3);
-    const auto table = environment_of(HalfSpaceShape{Vector3d::UnitZ(), -radius});
+    const auto table = environment_of(HalfSpaceShape{Vector3d::UnitZ(), -rod_radius});
     const auto contacts = contacts_with(round % 2 == 0 ? nullptr : table, 0.4);
     ContactSet found = contacts_of(*contacts, start);
     found.begin(start, contacts->friction(), start.positions, step_length);
@@ -227,14 +229,14 @@ TEST(FrictionContacts, TheGradientIsThatOfTheEnergy) {
 
 /// However edges share a contact between them, friction is the coefficient times what presses.
 TEST(FrictionContacts, ARodThatSlidesAcrossAnotherHasItsCoefficient) {
-  for (const double length : {0.5 * radius, 2.0 * radius, 10.0 * radius}) {
+  for (const double length : {0.5 * rod_radius, 2.0 * rod_radius, 10.0 * rod_radius}) {
     for (const double place : {0.0, 0.1, 0.3, 0.5}) {
       Rods start;
       const Vector3d x(10.0 * length, 0, 0);
       const Vector3d y(0, 10.0 * length, 0);
-      const Vector3d shift(place * length, 0.7 * place * length, 1.98 * radius);
-      start.add(straight(-x, x, 20), radius, rubber(radius));
-      start.add(straight(shift - y, shift + y, 20), radius, rubber(radius));
+      const Vector3d shift(place * length, 0.7 * place * length, 1.98 * rod_radius);
+      start.add(straight(-x, x, 20), rod_radius, rubber(rod_radius));
+      start.add(straight(shift - y, shift + y, 20), rod_radius, rubber(rod_radius));
       const auto contacts = contacts_with(nullptr, 0.4);
       ContactSet found = contacts_of(*contacts, start);
       found.begin(start, contacts->friction(), start.positions, step_length);
@@ -253,7 +255,7 @@ TEST(FrictionContacts, ARodThatSlidesAcrossAnotherHasItsCoefficient) {
       }
       EXPECT_GT(normal.norm(), 0.0);
       EXPECT_NEAR(friction.y(), 0.4 * normal.norm(), 0.02 * normal.norm())
-          << "edges of " << length / radius << " radii, at " << place;
+          << "edges of " << length / rod_radius << " radii, at " << place;
       EXPECT_LE(std::abs(friction.x()), 0.02 * normal.norm());
       // Across what presses, which short edges tilt a little.
       EXPECT_LE(std::abs(friction.z()), 0.08 * normal.norm());
@@ -293,7 +295,8 @@ TEST(Coupling, ConjugateGradientsSolveAsDenseAlgebraDoes) {
 
 TEST(EnvironmentContact, ARodThatLiesFlatRestsOnItsNodes) {
   Rods rods;
-  rods.add(straight({0.0, 0.0, radius}, {0.5, 0.0, radius}, 10), radius, rubber(radius));
+  rods.add(straight({0.0, 0.0, rod_radius}, {0.5, 0.0, rod_radius}, 10), rod_radius,
+           rubber(rod_radius));
   const auto contacts = contacts_with(environment_of(HalfSpaceShape{}));
   ContactSet found = contacts_of(*contacts, rods);
   const VectorXd gradient = full_system(found, rods).gradient;

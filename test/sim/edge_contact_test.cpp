@@ -22,10 +22,11 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double radius = 0.01;
-constexpr double touching = 2.0 * radius;
-constexpr double width = 2.0 * Barrier::half_width * touching;
-constexpr double room = 4.0 * radius;  // that polylines are moved by after contacts are looked for
+constexpr double edge_radius = 0.01;
+constexpr double edge_touching = 2.0 * edge_radius;
+constexpr double edge_width = 2.0 * Barrier::half_width * edge_touching;
+constexpr double room =
+    4.0 * edge_radius;  // that polylines are moved by after contacts are looked for
 
 double nearest_distance(const Rods& rods) {
   double nearest = std::numeric_limits<double>::infinity();
@@ -51,11 +52,11 @@ bool bring_to(Rods& rods, const Vector3d& way, double distance) {
   for (int i = 0; i < 200; ++i) {
     const double left = nearest_distance(rods) - distance;
     if (left < 1e-12) {
-      return left > -1e-6 * width;
+      return left > -1e-6 * edge_width;
     }
     move_second(rods, left * way.normalized());
   }
-  return nearest_distance(rods) - distance < 1e-6 * width;
+  return nearest_distance(rods) - distance < 1e-6 * edge_width;
 }
 
 struct Kind {
@@ -70,24 +71,24 @@ struct Kind {
 Rods random_pair(Random& random, const Kind& kind) {
   for (;;) {
     Rods rods;
-    const double length = radius * std::pow(10.0, random.uniform(-0.5, 1.0));
+    const double length = edge_radius * std::pow(10.0, random.uniform(-0.5, 1.0));
     const int edges = random.integer(3, 6);
     const Vector3d along = random.direction();
     const Vector3d across = along.unitOrthogonal();
     const Vector3d other = std::cos(kind.angle) * along + std::sin(kind.angle) * across;
-    rods.add(polyline(random, along, edges, length, kind.bend), radius, rubber(radius));
+    rods.add(polyline(random, along, edges, length, kind.bend), edge_radius, rubber(edge_radius));
     std::vector<Vector3d> points = polyline(random, other, edges, length, kind.bend);
     const double shift = kind.is_aligned ? random.integer(-1, 1) : random.uniform(-1.0, 1.0);
     const double to_middle = kind.has_ends_in_reach ? edges : shift;
     for (Vector3d& point : points) {
       point += to_middle * length * along + 0.3 * edges * length * (along - other);
     }
-    rods.add(points, radius, rubber(radius));
+    rods.add(points, edge_radius, rubber(edge_radius));
     // In a plane, bent ones come to each other in hollows.
     const Vector3d normal = along.cross(across);
     const Vector3d way =
         kind.has_ends_in_reach ? Vector3d(normal + 0.3 * random.direction()) : normal;
-    if (bring_to(rods, way, touching + (random.uniform(0.02, 0.98) - 0.5) * width)) {
+    if (bring_to(rods, way, edge_touching + (random.uniform(0.02, 0.98) - 0.5) * edge_width)) {
       return rods;
     }
   }
@@ -110,8 +111,9 @@ TEST_P(PairOfKind, HasTheGradientOfItsEnergy) {
     const VectorXd gradient = full_system(found, rods).gradient;
     const VectorXd expected = gradient_by_differences(
         rods, [&](const Rods& r) { return energy_in(found, r); }, 2e-9);
-    ASSERT_LE((gradient - expected).norm(), 2e-5 * (gradient.norm() + energy / width))
-        << "round " << round << ", nearest " << nearest_distance(rods) / touching << "\nfound\n"
+    ASSERT_LE((gradient - expected).norm(), 2e-5 * (gradient.norm() + energy / edge_width))
+        << "round " << round << ", nearest " << nearest_distance(rods) / edge_touching
+        << "\nfound\n"
         << gradient.transpose() << "\nexpected\n"
         << expected.transpose();
     // Without torque: forces are along what is between points.
@@ -168,7 +170,7 @@ TEST_P(PairOfKind, NeitherEnergyNorGradientJump) {
       for (int i = 0; i <= places; ++i) {
         Rods rods = start;
         move_second(rods, (static_cast<double>(i) / places - 0.5) * way);
-        if (nearest_distance(rods) < touching - 0.3 * width) {
+        if (nearest_distance(rods) < edge_touching - 0.3 * edge_width) {
           gradient.resize(0);  // so near that forces grow from place to place
           continue;
         }
@@ -199,14 +201,14 @@ TEST_P(PairOfKind, IsInfiniteFromTheLeastDistanceDownAndNowhereAboveTheInnerOne)
     Rods rods = random_pair(random, GetParam());
     const auto contacts = contacts_with(nullptr);
     ContactSet found = contacts_of(*contacts, rods, room);
-    move_second(rods, random.in_cube(0.1 * touching));
+    move_second(rods, random.in_cube(0.1 * edge_touching));
     const double distance = nearest_distance(rods);
-    const Barrier barrier = Barrier::around(touching, 1.0);
+    const Barrier barrier = Barrier::around(edge_touching, 1.0);
     const double energy = energy_in(found, rods);
     infinite += std::isinf(energy) ? 1 : 0;
-    EXPECT_TRUE(std::isfinite(energy) || distance <= barrier.inner) << distance / touching;
-    EXPECT_TRUE(std::isinf(energy) || distance > barrier.least()) << distance / touching;
-    EXPECT_EQ(energy == 0.0, distance >= barrier.outer) << distance / touching;
+    EXPECT_TRUE(std::isfinite(energy) || distance <= barrier.inner) << distance / edge_touching;
+    EXPECT_TRUE(std::isinf(energy) || distance > barrier.least()) << distance / edge_touching;
+    EXPECT_EQ(energy == 0.0, distance >= barrier.outer) << distance / edge_touching;
   }
   expect_enough(infinite, 20);
 }
@@ -227,12 +229,13 @@ INSTANTIATE_TEST_SUITE_P(Kinds, PairOfKind,
 
 /// The end of a rod that stands on another, straight and finely sampled one.
 TEST(EdgeContact, ANodeThatSlidesAlongAStraightRodFeelsNoNodes) {
-  for (const double edge : {0.1 * radius, 0.2 * radius}) {
+  for (const double edge : {0.1 * edge_radius, 0.2 * edge_radius}) {
     Rods rods;
-    rods.add(straight({-5.0 * radius, 0, 0}, {5.0 * radius, 0, 0},
-                      static_cast<int>(std::lround(10.0 * radius / edge))),
-             radius, rubber(radius));
-    rods.add(straight({0, 0, 0.99 * touching}, {0, 0, 10.0 * touching}, 3), radius, rubber(radius));
+    rods.add(straight({-5.0 * edge_radius, 0, 0}, {5.0 * edge_radius, 0, 0},
+                      static_cast<int>(std::lround(10.0 * edge_radius / edge))),
+             edge_radius, rubber(edge_radius));
+    rods.add(straight({0, 0, 0.99 * edge_touching}, {0, 0, 10.0 * edge_touching}, 3), edge_radius,
+             rubber(edge_radius));
     const auto contacts = contacts_with(nullptr);
     ContactSet found = contacts_of(*contacts, rods, room);
     const double energy = energy_in(found, rods);
@@ -250,15 +253,15 @@ TEST(EdgeContact, ANodeThatSlidesAlongAStraightRodFeelsNoNodes) {
 /// shorter one. The node between the edges counted half less then.
 TEST(EdgeContact, ANodeThatSlidesFromAHollowPastAnEndFeelsNoJump) {
   constexpr double slope = 0.2;
-  constexpr double length = 0.2 * touching;  // of the shorter edge
+  constexpr double length = 0.2 * edge_touching;  // of the shorter edge
   const Vector3d up(0, std::sin(slope), 0);
   const Vector3d along(std::cos(slope), 0, 0);
   Rods rods;
-  rods.add({20.0 * length * (up - along), Vector3d::Zero(), length * (up + along)}, radius,
-           rubber(radius));
-  const Vector3d node(0, 1.017 * touching, 0);
-  const Vector3d end(0, 0, 10.0 * touching);
-  rods.add({node - end, node, node + end}, radius, rubber(radius));
+  rods.add({20.0 * length * (up - along), Vector3d::Zero(), length * (up + along)}, edge_radius,
+           rubber(edge_radius));
+  const Vector3d node(0, 1.017 * edge_touching, 0);
+  const Vector3d end(0, 0, 10.0 * edge_touching);
+  rods.add({node - end, node, node + end}, edge_radius, rubber(edge_radius));
   const auto contacts = contacts_with(nullptr);
   ContactSet found = contacts_of(*contacts, rods, room);
   constexpr int places = 1000;
@@ -275,12 +278,13 @@ TEST(EdgeContact, ANodeThatSlidesFromAHollowPastAnEndFeelsNoJump) {
 
 /// Side by side each node has a contact, wherever it is between those of the other rod.
 TEST(EdgeContact, RodsSideBySideAreHeldApartAllAlong) {
-  const double edge = 5.0 * radius;
+  const double edge = 5.0 * edge_radius;
   const auto force_at = [&](double offset) {
     Rods rods;
-    rods.add(straight({0, 0, 0}, {10 * edge, 0, 0}, 10), radius, rubber(radius));
-    const Vector3d shift((offset + 2.0) * edge, 0, 0.98 * touching);
-    rods.add(straight(shift, shift + Vector3d(5 * edge, 0, 0), 5), radius, rubber(radius));
+    rods.add(straight({0, 0, 0}, {10 * edge, 0, 0}, 10), edge_radius, rubber(edge_radius));
+    const Vector3d shift((offset + 2.0) * edge, 0, 0.98 * edge_touching);
+    rods.add(straight(shift, shift + Vector3d(5 * edge, 0, 0), 5), edge_radius,
+             rubber(edge_radius));
     const auto contacts = contacts_with(nullptr);
     ContactSet found = contacts_of(*contacts, rods);
     const Eigen::VectorXd gradient = full_system(found, rods).gradient;

@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::MatrixXd;
 
-constexpr TimeStep a_step{1.5, 0.02};
+constexpr TimeStep folded_step{1.5, 0.02};
 
 /// What bends a straight rod a little meets all of the Hessian, to either side.
 TEST(Bend, HasItsHessianWhereARodIsStraight) {
@@ -37,7 +37,7 @@ TEST(Bend, OfRodsThatAreStraightIsTheSameSideBySide) {
   for (const double curvature : {0.0, 2.0}) {
     rods.natural_curvatures.assign(rods.positions.size(), curvature);
     Bend bend;
-    bend.begin_step(rods, a_step);
+    bend.begin_step(rods, folded_step);
     expect_same_side_by_side(bend, rods);
   }
 }
@@ -51,7 +51,7 @@ TEST(Damping, OfRodsThatAreFoldedIsTheSameSideBySide) {
       displace(rods, random, 0.1);
     }
     Damping damping(0.01);
-    damping.begin_step(rods, a_step);
+    damping.begin_step(rods, folded_step);
     if (is_folded_first) {
       displace(rods, random, 0.1);
     } else {

@@ -22,7 +22,7 @@ using Eigen::Vector3d;
 using Points = std::vector<Vector3d>;
 
 /// Stretching, bending and twisting stiffness, mass and inertia per length.
-const RodSection section{1e4, 1.0, 0.7, 1.0, 1e-4};
+const RodSection curved_section{1e4, 1.0, 0.7, 1.0, 1e-4};
 
 /// Nodes on a helix around z: each is this angle [rad] further about it than the one before.
 Points helix(double radius, double pitch, double angle, int segments) {
@@ -40,7 +40,7 @@ struct NaturalRod {
   Effects all;
 
   explicit NaturalRod(const Points& points) {
-    rods.add(points, 0.01, section);
+    rods.add(points, 0.01, curved_section);
     all = effects(std::make_unique<Stretch>(), std::make_unique<Bend>(),
                   std::make_unique<Twist>(rods), std::make_unique<Damping>(0.05));
     set_natural_shape(rods);
@@ -136,7 +136,7 @@ TEST(NaturalCurvature, AClampTurnsThePlaneOfAnArc) {
       Rods rods;
       rods.add(straight(is_last ? Vector3d(-along) : Vector3d::Zero(),
                         is_last ? Vector3d::Zero() : along, segments),
-               0.01, section);
+               0.01, curved_section);
       auto twist = std::make_unique<Twist>(rods);
       const Vector3d director = rods.directors[0];
       const Vector3d side = Vector3d(0.0, 0.6, 0.8);
@@ -186,7 +186,7 @@ TEST(NaturalCurvature, NoneIsThatOfAStraightRod) {
   SCOPED_TRACE(seed_message());
   Random random(4);
   Rods rods;
-  rods.add(random_chain(random, 8, 0.3), 0.01, section);
+  rods.add(random_chain(random, 8, 0.3), 0.01, curved_section);
   const Twist twist(rods);
   displace(rods, random, 0.1, 1.0);
   const double energy = bend_energy(rods);
@@ -216,7 +216,7 @@ TEST(NaturalCurvature, BendingInItsPlaneIsThatOfTheExcess) {
 TEST(NaturalCurvature, AFoldIsTheMost) {
   for (const double natural : {M_PI, 4.0, 100.0}) {
     Rods rods;
-    rods.add({{0, 0, 0}, {1, 0, 0}, {1.5, 0.9, 0}}, 0.01, section);
+    rods.add({{0, 0, 0}, {1, 0, 0}, {1.5, 0.9, 0}}, 0.01, curved_section);
     const Twist twist(rods);
     set_natural_arc(rods, 0, natural / rods.rest_length_at(1), Vector3d::UnitZ());
     EXPECT_NEAR(bend_energy(rods), 0.0, 1e-15);
@@ -236,7 +236,7 @@ TEST(NaturalCurvature, ItsHessianIsExactInTheNaturalShape) {
 
 TEST(NaturalCurvature, WithoutTwistItHasSizeAlone) {
   Rods rods;
-  rods.add(helix(1.0, 0.0, 0.2, 10), 0.01, section);
+  rods.add(helix(1.0, 0.0, 0.2, 10), 0.01, curved_section);
   set_natural_shape(rods);
   EXPECT_TRUE(rods.natural_curvature_vectors.empty());
   EXPECT_EQ(rods.natural_curvatures.front(), 0.0);
@@ -290,7 +290,7 @@ TEST(NaturalCurvature, RodsGainNoEnergyOnTheWay) {
 
 TEST(NaturalCurvature, RefusesWhatItCannotUse) {
   Rods rods;
-  rods.add(straight({0, 0, 0}, {1, 0, 0}, 4), 0.01, section);
+  rods.add(straight({0, 0, 0}, {1, 0, 0}, 4), 0.01, curved_section);
   EXPECT_EQ(error_of([&] { set_natural_arc(rods, 0, 1.0, Vector3d::UnitY()); }),
             "natural curvature: it has no side without twist");
   const Twist twist(rods);

@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double radius = 0.004;
+constexpr double laid_radius = 0.004;
 
 /// One cable lies in the hollow between two others, its nodes beside or between theirs.
 class ParallelLay : public testing::TestWithParam<double> {};
@@ -23,12 +23,13 @@ TEST_P(ParallelLay, ComesToRestInBalance) {
   constexpr int segments = 30;
   const double shift = GetParam() * length / segments;
   Rods rods;
-  const double up = radius * (1.0 + std::sqrt(3.0));
+  const double up = laid_radius * (1.0 + std::sqrt(3.0));
   for (const Vector3d& start :
-       {Vector3d(0.0, -radius, radius), Vector3d(0.0, radius, radius), Vector3d(shift, 0.0, up)}) {
+       {Vector3d(0.0, -laid_radius, laid_radius), Vector3d(0.0, laid_radius, laid_radius),
+        Vector3d(shift, 0.0, up)}) {
     rods.add(
         straight(start + Vector3d(0.0, 0.0, 1e-4), start + Vector3d(length, 0.0, 1e-4), segments),
-        radius, rubber(radius));
+        laid_radius, rubber(laid_radius));
   }
   Effects all = elastic(standard_gravity);
   all.push_back(std::make_unique<Damping>(0.01));
@@ -57,7 +58,7 @@ TEST_P(ParallelLay, ComesToRestInBalance) {
     weight += rods.masses[i] * standard_gravity;
   }
   EXPECT_NEAR(carried, weight, 0.02 * weight);
-  EXPECT_NEAR(stepper.rods().positions[rods.first(2) + segments / 2].z(), up, 0.1 * radius);
+  EXPECT_NEAR(stepper.rods().positions[rods.first(2) + segments / 2].z(), up, 0.1 * laid_radius);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shifts, ParallelLay, testing::Values(0.0, 0.25, 0.5));

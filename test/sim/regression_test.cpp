@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double step = 1.0 / 240.0;
+constexpr double regression_step = 1.0 / 240.0;
 
 double largest_difference(const std::vector<Vector3d>& a, const std::vector<Vector3d>& b) {
   double largest = 0.0;
@@ -35,13 +35,13 @@ TEST(Regression, AStiffCableAtRestGainsNothing) {
   Stepper stepper(rods, elastic(standard_gravity), options,
                   contacts_with(environment_of(HalfSpaceShape{}), 0.5));
   while (stepper.time() < 1.0) {
-    stepper.step(step);
+    stepper.step(regression_step);
   }
   const std::vector<Vector3d> settled = stepper.rods().positions;
   const double energy = stepper.energy();
   double fastest = 0.0;
   while (stepper.time() < 61.0) {
-    stepper.step(step);
+    stepper.step(regression_step);
     for (const Vector3d& velocity : stepper.rods().velocities) {
       fastest = std::max(fastest, velocity.norm());
     }

@@ -19,8 +19,8 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double step = 1.0 / 240.0;
-constexpr double radius = 0.004;
+constexpr double balance_step = 1.0 / 240.0;
+constexpr double pressed_radius = 0.004;
 constexpr double creep = 1e-3;  // [m/s] of what sticks
 
 /// Rods across each other, and one that is rolled up, above a table.
@@ -31,12 +31,12 @@ Rods scene_of(Random& random) {
     const double angle = 0.5 * i;
     coil.emplace_back(0.05 * std::cos(angle), 0.05 * std::sin(angle), 0.006 + 0.0016 * angle);
   }
-  rods.add(coil, radius, rubber(radius));
+  rods.add(coil, pressed_radius, rubber(pressed_radius));
   for (int rod = 0; rod < 3; ++rod) {
     const double turn = random.uniform(0.0, 2.0 * M_PI);
     const Vector3d along(0.1 * std::cos(turn), 0.1 * std::sin(turn), 0.0);
     const Vector3d middle(0.0, 0.0, 0.04 + 0.01 * rod);
-    rods.add(straight(middle - along, middle + along, 12), radius, rubber(radius));
+    rods.add(straight(middle - along, middle + along, 12), pressed_radius, rubber(pressed_radius));
   }
   return rods;
 }
@@ -68,11 +68,11 @@ std::vector<double> residuals(const Rods& before, const Rods& after,
                               const std::shared_ptr<const Environment>& environment) {
   Effects effects = effects_of_scene();
   Rods start = before;
-  begin(effects, start, step);
+  begin(effects, start, balance_step);
   const auto contacts = stiff_contacts(environment);
   // As far as rods have gone, and farther.
-  ContactSet found = contacts_of(*contacts, before, radius);
-  found.begin(before, contacts->friction(), before.positions, step);
+  ContactSet found = contacts_of(*contacts, before, pressed_radius);
+  found.begin(before, contacts->friction(), before.positions, balance_step);
   found.measure(after);
   found.find_derivatives(after);
   std::vector<PackSystem> packs(after.count());
@@ -99,7 +99,7 @@ std::vector<double> residuals(const Rods& before, const Rods& after,
         force[static_cast<Eigen::Index>(k)] -= systems[rod].gradient(std::size_t{3} * i + k);
       }
       const Vector3d change = after.velocities[node] - before.velocities[node];
-      left.push_back((step * force / after.masses[node] - change).norm());
+      left.push_back((balance_step * force / after.masses[node] - change).norm());
     }
   }
   return left;
@@ -120,7 +120,7 @@ TEST(Residual, IsWhatIsLeftOfEachNodesEquation) {
     std::size_t contacts = 0;
     for (int i = 0; i < 480; ++i) {
       const Rods before = stepper.rods();
-      stepper.step(step);
+      stepper.step(balance_step);
       if (stepper.report().unbalanced > 0 || i % 10 != 0) {
         continue;
       }

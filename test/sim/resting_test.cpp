@@ -16,12 +16,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double radius = 0.005;
-constexpr double step = 1.0 / 240.0;
+constexpr double resting_radius = 0.005;
+constexpr double resting_step = 1.0 / 240.0;
 
 Rods one_rod(double height, int edges = 10) {
   Rods rods;
-  rods.add(straight({-0.1, 0.0, height}, {0.1, 0.0, height}, edges), radius, rubber(radius));
+  rods.add(straight({-0.1, 0.0, height}, {0.1, 0.0, height}, edges), resting_radius,
+           rubber(resting_radius));
   return rods;
 }
 
@@ -43,7 +44,7 @@ std::unique_ptr<Stepper> simulation(Rods rods,
 
 void run(Stepper& stepper, int steps) {
   for (int i = 0; i < steps; ++i) {
-    stepper.step(step);
+    stepper.step(resting_step);
   }
 }
 
@@ -59,17 +60,17 @@ double carried(const Stepper& stepper, bool by_obstacles) {
 }
 
 TEST(Resting, ARodLiesWhereTheBarrierBearsItsWeight) {
-  const auto stepper = simulation(one_rod(1.02 * radius), environment_of(HalfSpaceShape{}));
+  const auto stepper = simulation(one_rod(1.02 * resting_radius), environment_of(HalfSpaceShape{}));
   run(*stepper, 480);
   const Rods& rods = stepper->rods();
   const double weight = weight_of(rods);
   EXPECT_NEAR(carried(*stepper, true), weight, 1e-3 * weight);
   const Barrier barrier =
-      Barrier::around(radius, material_contact_stiffness(rods.sections[0], radius));
+      Barrier::around(resting_radius, material_contact_stiffness(rods.sections[0], resting_radius));
   double borne = 0.0;
   for (const Vector3d& position : rods.positions) {
-    ASSERT_GT(position.z(), 0.95 * radius);
-    ASSERT_LT(position.z(), 1.05 * radius);
+    ASSERT_GT(position.z(), 0.95 * resting_radius);
+    ASSERT_LT(position.z(), 1.05 * resting_radius);
     borne -= barrier.slope(position.z());
   }
   EXPECT_NEAR(borne, weight, 1e-3 * weight);
@@ -79,10 +80,12 @@ TEST(Resting, ARodLiesWhereTheBarrierBearsItsWeight) {
 TEST(Resting, RodsAcrossEachOtherCarryEachOther) {
   Rods rods;
   for (const double x : {-0.05, 0.05}) {
-    rods.add(straight({x, -0.1, radius}, {x, 0.1, radius}, 10), radius, rubber(radius));
+    rods.add(straight({x, -0.1, resting_radius}, {x, 0.1, resting_radius}, 10), resting_radius,
+             rubber(resting_radius));
   }
-  const double upper = 3.0 * radius;
-  rods.add(straight({-0.1, 0.003, upper}, {0.1, 0.003, upper}, 11), radius, rubber(radius));
+  const double upper = 3.0 * resting_radius;
+  rods.add(straight({-0.1, 0.003, upper}, {0.1, 0.003, upper}, 11), resting_radius,
+           rubber(resting_radius));
   const auto stepper = simulation(rods, environment_of(HalfSpaceShape{}));
   run(*stepper, 480);
   const double weight = weight_of(rods);
@@ -97,8 +100,8 @@ TEST(Resting, ADroppedRodDoesNotBounceHigherThanItFell) {
   for (int repeat = 0; repeat < 5; ++repeat) {
     const Vector3d along = 0.1 * random.direction();
     Rods rods;
-    rods.add(straight(Vector3d(0.0, 0.0, 0.3) - along, Vector3d(0.0, 0.0, 0.3) + along, 8), radius,
-             rubber(radius));
+    rods.add(straight(Vector3d(0.0, 0.0, 0.3) - along, Vector3d(0.0, 0.0, 0.3) + along, 8),
+             resting_radius, rubber(resting_radius));
     const auto stepper = simulation(rods, environment_of(HalfSpaceShape{}));
     const double first = 0.3 * weight_of(rods);  // above the table
     run(*stepper, 1);
@@ -160,7 +163,7 @@ Rods small_pile() {
   for (int rod = 0; rod < 5; ++rod) {
     const Vector3d along(rod % 2 == 0 ? 0.1 : 0.02, rod % 2 == 0 ? -0.01 * rod : 0.1, 0.0);
     const Vector3d middle(0.0, 0.0, 0.01 + 0.011 * rod);
-    rods.add(straight(middle - along, middle + along, 12), radius, rubber(radius));
+    rods.add(straight(middle - along, middle + along, 12), resting_radius, rubber(resting_radius));
   }
   return rods;
 }
@@ -186,8 +189,9 @@ TEST(Determinism, ContactsAreTheSameBitForBitForAnyThreadCount) {
 
 TEST(Collision, OfFreeRodsKeepsTheirMomentum) {
   Rods rods;
-  rods.add(straight({-0.1, 0.0, 0.0}, {0.1, 0.0, 0.0}, 9), radius, rubber(radius));
-  rods.add(straight({0.02, -0.1, 0.02}, {0.01, 0.1, 0.02}, 9), radius, rubber(radius));
+  rods.add(straight({-0.1, 0.0, 0.0}, {0.1, 0.0, 0.0}, 9), resting_radius, rubber(resting_radius));
+  rods.add(straight({0.02, -0.1, 0.02}, {0.01, 0.1, 0.02}, 9), resting_radius,
+           rubber(resting_radius));
   for (std::uint32_t node = rods.first(1); node < rods.end(1); ++node) {
     rods.velocities[node] = Vector3d(0.2, 0.0, -1.0);
   }

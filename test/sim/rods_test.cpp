@@ -4,19 +4,16 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "benchmark/sim/rod_scene.hpp"
 #include "fiber_proximity/sim/effects.hpp"
 #include "test/support/error_of.hpp"
+#include "test/support/not_finite.hpp"
 
 namespace fiber::test {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 const RodSection section{1e3, 1.0, 1.0, 1.0, 1e-4};
 const std::vector<Vector3d> points = straight({0, 0, 0}, {1, 0, 0}, 4);
 
@@ -44,10 +41,10 @@ TEST(Rods, RefuseBadShapesAndStayAsTheyWere) {
   expect_error(add({{0, 0, 0}}, 0.01), "rod 1: has 1 point(s), it must have at least 2");
   expect_error(add(points, 0.0), "rod 1: radius is 0.000000, it must be positive and finite");
   expect_error(add(points, -1.0), "rod 1: radius is -1.000000, it must be positive and finite");
-  expect_error(add(points, not_a_number), "rod 1: radius is nan, it must be positive and finite");
+  expect_error(add(points, nan), "rod 1: radius is nan, it must be positive and finite");
   expect_error(add({{0, 0, 0}, {1, 0, 0}, {1, 0, 0}}, 0.01),
                "rod 1: edge 1 has no length: its points are the same");
-  for (const double bad : {infinity, not_a_number, 1e61}) {
+  for (const double bad : {infinity, nan, 1e61}) {
     expect_error(add({{0, 0, 0}, {0, bad, 0}}, 0.01),
                  "rod 1: point 1 must be finite and at most 1e60 m");
   }
@@ -67,7 +64,7 @@ TEST(Rods, RefuseBadSections) {
                            Case{&RodSection::twisting_stiffness, "twisting_stiffness", true},
                            Case{&RodSection::mass_per_length, "mass_per_length", false},
                            Case{&RodSection::inertia_per_length, "inertia_per_length", true}}) {
-    for (const double bad : {-1.0, not_a_number, infinity, 0.0}) {
+    for (const double bad : {-1.0, nan, infinity, 0.0}) {
       Rods rods;
       RodSection changed = section;
       changed.*each.value = bad;
@@ -100,12 +97,12 @@ TEST(Rods, SolidSectionsFollowFromTheMaterial) {
       },
       "shear_modulus is 0.000000" + rule);
   expect_error([] { solid_round_section({1.0, 1.0, infinity}, 0.1); }, "density is inf" + rule);
-  expect_error([] { solid_round_section({1.0, 1.0, 1.0}, not_a_number); }, "radius is nan" + rule);
+  expect_error([] { solid_round_section({1.0, 1.0, 1.0}, nan); }, "radius is nan" + rule);
 }
 
 TEST(Effects, RefuseBadParameters) {
   expect_error([] { Gravity({0, 0, infinity}); }, "gravity: the acceleration must be finite");
-  for (const double bad : {-1.0, infinity, not_a_number}) {
+  for (const double bad : {-1.0, infinity, nan}) {
     const std::string value = std::to_string(bad);
     expect_error([&] { Damping{bad}; }, "damping: the relaxation time is " + value +
                                             " s, it must be at least 0 and finite");
@@ -131,7 +128,7 @@ TEST(Effects, RefuseBadParameters) {
                  "drag: gust_length is " + value + ", it must be positive and finite");
   }
   Drag::Options wind;
-  wind.wind.gust.y() = not_a_number;
+  wind.wind.gust.y() = nan;
   expect_error([&] { Drag{wind}; }, "drag: the wind must be finite");
 }
 
@@ -170,9 +167,9 @@ TEST_F(AttachmentTest, RefusesBadHolds) {
             "attachment: hold on node 5 of rod 0: the rod has 5 nodes");
   EXPECT_EQ(error({0, 1, Attachment::Kind::PIN, nullptr}),
             "attachment: hold on node 1 of rod 0: it has no placement");
-  EXPECT_EQ(error(pin(1, {0, not_a_number, 0})),
+  EXPECT_EQ(error(pin(1, {0, nan, 0})),
             "attachment: hold on node 1 of rod 0: its position must be finite");
-  for (const double bad : {-1.0, infinity, not_a_number}) {
+  for (const double bad : {-1.0, infinity, nan}) {
     Attachment::Hold hold = pin(1, Vector3d::Zero());
     hold.max_force = bad;
     EXPECT_EQ(error(hold), "attachment: hold on node 1 of rod 0: its greatest force is " +
@@ -209,7 +206,7 @@ TEST_F(AttachmentTest, RefusesToHoldANodeTwiceAndToRemoveWhatIsNotThere) {
 
 TEST_F(AttachmentTest, RefusesAPlacementThatGoesAstrayLater) {
   const auto path = [](double time) {
-    return Placement{{time > 0.05 ? not_a_number : 0.0, 0, 0}, Vector3d::Zero(), Vector3d::Zero()};
+    return Placement{{time > 0.05 ? nan : 0.0, 0, 0}, Vector3d::Zero(), Vector3d::Zero()};
   };
   Stepper stepper(rods_, effects(hold(rods_, {{0, 0, Attachment::Kind::PIN, path}})), {});
   stepper.step(0.04);
@@ -224,14 +221,14 @@ TEST(StepperOptions, AreChecked) {
   StepperOptions options;
   options.max_iterations = 0;
   expect_error([&] { Stepper({}, {}, options); }, "max_iterations is 0, it must be at least 1");
-  for (const double bad : {0.0, -1.0, infinity, not_a_number}) {
+  for (const double bad : {0.0, -1.0, infinity, nan}) {
     options = {};
     options.residual = bad;
     expect_error([&] { Stepper({}, {}, options); },
                  "residual is " + std::to_string(bad) + " m/s, it must be positive and finite");
   }
   Stepper stepper({}, {});
-  for (const double bad : {0.0, -1.0, infinity, not_a_number}) {
+  for (const double bad : {0.0, -1.0, infinity, nan}) {
     expect_error([&] { stepper.step(bad); }, "the length of a step is " + std::to_string(bad) +
                                                  " s, it must be positive and finite");
   }

@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double one_percent = 0.01;
+constexpr double percent = 0.01;
 
 struct QuotedTip {
   double load;
@@ -33,8 +33,8 @@ TEST_P(CantileverTest, BendsUnderATipLoadAsBisshoppAndDruckerSay) {
   EXPECT_NEAR(exact.drop, quoted.drop, 6e-6);
   EXPECT_NEAR(exact.reach, quoted.reach, 6e-6);
   const CantileverTip tip = simulated_tip(50, quoted.load, 0.0);
-  EXPECT_NEAR(tip.drop, exact.drop, one_percent * exact.drop);
-  EXPECT_NEAR(tip.reach, exact.reach, one_percent * exact.reach);
+  EXPECT_NEAR(tip.drop, exact.drop, percent * exact.drop);
+  EXPECT_NEAR(tip.reach, exact.reach, percent * exact.reach);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -51,7 +51,7 @@ TEST(Statics, ARodBendsUnderItsOwnWeight) {
     SCOPED_TRACE(weight);
     const double exact = cantilever_tip(0.0, weight).drop;
     EXPECT_NEAR(exact, drop, 6e-6);
-    EXPECT_NEAR(simulated_tip(50, 0.0, weight).drop, exact, one_percent * exact);
+    EXPECT_NEAR(simulated_tip(50, 0.0, weight).drop, exact, percent * exact);
   }
 }
 
@@ -82,8 +82,8 @@ TEST(Statics, AChainHangsInACatenary) {
       EXPECT_NEAR(exact.pull, quoted.chain.pull, 6e-5);
     }
     const HangingChain chain = simulated_catenary(quoted.length, 50);
-    EXPECT_NEAR(chain.sag, exact.sag, one_percent * exact.sag);
-    EXPECT_NEAR(chain.pull, exact.pull, one_percent * exact.pull);
+    EXPECT_NEAR(chain.sag, exact.sag, percent * exact.sag);
+    EXPECT_NEAR(chain.pull, exact.pull, percent * exact.pull);
   }
 }
 

@@ -8,7 +8,8 @@
 namespace fiber::test {
 namespace {
 
-const std::string header = "frame,fiber_a,segment_a,fiber_b,segment_b,time_lower,time_upper\n";
+const std::string sweep_header =
+    "frame,fiber_a,segment_a,fiber_b,segment_b,time_lower,time_upper\n";
 
 /// A fibre along y that stays, and one along x at this height, in a frame.
 std::string frame(int number, double height, const std::string& middle = "") {
@@ -29,8 +30,8 @@ class Sweep : public ToolsTest {
   std::vector<std::vector<double>> rows(const std::string& arguments) const {
     const ProcessResult result = query("sweep " + arguments);
     EXPECT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_EQ(result.out.substr(0, header.size()), header);
-    std::istringstream lines(result.out.substr(std::min(header.size(), result.out.size())));
+    EXPECT_EQ(result.out.substr(0, sweep_header.size()), sweep_header);
+    std::istringstream lines(result.out.substr(std::min(sweep_header.size(), result.out.size())));
     std::vector<std::vector<double>> all;
     for (std::string line; std::getline(lines, line);) {
       all.push_back(numbers_in(line));
@@ -106,7 +107,7 @@ TEST_F(Sweep, EveryEngineAnswersTheSame) {
   const std::string cables = path("tress.csv");
   ASSERT_EQ(scene("cables --frames 3 --out " + cables).exit_code, 0);
   const std::string expected = query("sweep " + cables + " --margin 0.01").out;
-  EXPECT_GT(expected.size(), header.size());
+  EXPECT_GT(expected.size(), sweep_header.size());
   for (const std::string engine : {"AL", "DS-20", "brute_force"}) {
     EXPECT_EQ(query("sweep " + cables + " --margin 0.01 --engine " + engine).out, expected);
   }

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <limits>
+
+namespace fiber::test {
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace fiber::test
