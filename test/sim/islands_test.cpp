@@ -1,12 +1,11 @@
 // Rods that may touch are moved together, and others do not matter to them.
 
-#include "src/sim/solver/stage_solver.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "benchmark/sim/contact_scenes.hpp"
+#include "src/sim/solver/stage_solver.hpp"
 #include "test/sim/random_rods.hpp"
 #include "test/support/rounds.hpp"
 
