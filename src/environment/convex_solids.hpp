@@ -27,7 +27,7 @@ PointDistance point_distance(const CapsuleShape& capsule, const Eigen::Vector3d&
 PointDistance point_distance(const HalfSpaceShape& half_space, const Eigen::Vector3d& point);
 PointDistance point_distance(const PlaneShape& plane, const Eigen::Vector3d& point);
 
-/// Least signed distance of the points of a segment [m] from a solid, all of them convex.
+/// Least signed distance of the points of a segment [m] from a convex solid.
 ///
 /// The signed distance of a convex solid is a convex function. Two tangents of such a function of
 /// one parameter, on either side of its minimum, meet below it: that is `lower`, and where they
