@@ -17,13 +17,6 @@
 #include "fiber_proximity/geometry/contact_time.hpp"
 #include "src/geometry/moving_parallelogram-inl.hpp"
 
-namespace fiber {
-
-/// contact_time() in numbers of twice the digits, from a time until which there is no contact.
-ContactTime wide_contact_time(const SegmentMotions& motions, double tolerance, double time);
-
-}  // namespace fiber
-
 HWY_BEFORE_NAMESPACE();
 namespace fiber {
 namespace HWY_NAMESPACE {

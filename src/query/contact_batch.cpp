@@ -16,19 +16,13 @@ constexpr std::uint32_t groups_per_job = 32;
 // Judging what has been found takes a quarter of the time.
 constexpr double part_to_collect = 2.0 / 3.0;
 
-/// Counts the candidates that all threads come by.
-class CandidateCount {
- public:
-  explicit CandidateCount(std::uint64_t most) : most_(most) {}
-
-  void add(std::uint64_t count) { count_.fetch_add(count, std::memory_order_relaxed); }
+/// The candidates that all threads come by.
+struct CandidateCount {
+  const std::uint64_t most;
+  std::atomic<std::uint64_t> count{0};
 
   /// Once and for all: whether it comes to that does not depend on the threads.
-  bool is_too_much() const { return count_.load(std::memory_order_relaxed) > most_; }
-
- private:
-  const std::uint64_t most_;
-  std::atomic<std::uint64_t> count_{0};
+  bool is_too_much() const { return count.load(std::memory_order_relaxed) > most; }
 };
 
 /// Keeps all candidates but those that are no pairs.
@@ -40,7 +34,7 @@ class CandidateSink final : public PairSink {
       : test_(test), bound_(bound), prunes_(prunes), count_(count), keys_(keys) {}
   CandidateSink(const CandidateSink&) = delete;
   CandidateSink& operator=(const CandidateSink&) = delete;
-  ~CandidateSink() override { count_.add(uncounted_); }
+  ~CandidateSink() override { count_.count.fetch_add(uncounted_, std::memory_order_relaxed); }
 
   bool offer(PointPair candidate) override {
     const PointPair pair = test_.ordered(candidate);
@@ -60,7 +54,7 @@ class CandidateSink final : public PairSink {
   static constexpr std::uint32_t uncounted_at_most = 1024;  // threads wait for each other to count
 
   bool count_and_go_on() {
-    count_.add(uncounted_);
+    count_.count.fetch_add(uncounted_, std::memory_order_relaxed);
     uncounted_ = 0;
     return !count_.is_too_much();
   }
@@ -85,7 +79,7 @@ ContactBatch::Found ContactBatch::collect(const RunTreeView& a, const RunTreeVie
   const std::size_t job_count =
       b.group_count() == 0 ? 0 : (groups + groups_per_job - 1) / groups_per_job;
   jobs_.resize(std::max(jobs_.size(), job_count));
-  CandidateCount count(limits.pairs);
+  CandidateCount count{limits.pairs};
   for_each_of(job_count, [&](std::size_t index) {
     Job& job = jobs_[index];
     job.keys.clear();

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 // How far the fibre must go from two places: this part of their distance, and so many radii.
 constexpr double part_of_distance = 1.25;
-constexpr double radii = 2.5;
+constexpr double count_of_radii = 2.5;
 
 // So few points are looked at one by one: that takes no longer than the distance of the pair.
 constexpr std::uint32_t short_walk = 64;
@@ -165,7 +165,7 @@ bool LoopTest::makes_loop(PointPair pair, const SegmentDistance& nearest,
   const double length_a = norm_of(points[pair.a + 1] - points[pair.a]);
   const double length_b = norm_of(points[pair.b + 1] - points[pair.b]);
   // What places on segments are rounded by makes no loop.
-  const double allowance = radii * radius + 0x1p-48 * (length_a + length_b);
+  const double allowance = count_of_radii * radius + 0x1p-48 * (length_a + length_b);
   const auto limit = [&](double distance) { return part_of_distance * distance + allowance; };
   const auto is_left = [&](const Place& x, const Place& y, double from_either) {
     return leaves(x, pair, from_either, looks) || leaves(y, pair, from_either, looks);
