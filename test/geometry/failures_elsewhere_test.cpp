@@ -10,7 +10,7 @@
 namespace fiber::test {
 namespace {
 
-constexpr double tolerance = 1e-6;  // [m]
+constexpr double asked_tolerance = 1e-6;  // [m]
 
 /// A segment of one metre along x, turned about the vertical by an angle and tilted by another
 /// [rad], whose middle comes down from a height to as far below [m].
@@ -29,12 +29,12 @@ HardMotion descending(double turn, double tilt, double height, double radius) {
 
 /// The answer is right by our own truth, certain, and encloses this time closely.
 void expect_contact(const HardMotion& motion, double time) {
-  const ContactTime answer = contact_time(motion.motions(), tolerance);
+  const ContactTime answer = contact_time(motion.motions(), asked_tolerance);
   EXPECT_TRUE(answer.hit && answer.certain);
   EXPECT_LE(answer.lower, time * (1.0 + 1e-14));
   EXPECT_GE(answer.upper, time * (1.0 - 1e-14));
-  EXPECT_LT(answer.upper - answer.lower, 20.0 * tolerance);
-  EXPECT_FALSE(bench::judge(motion, tolerance, answer).has_wrong_answers());
+  EXPECT_LT(answer.upper - answer.lower, 20.0 * asked_tolerance);
+  EXPECT_FALSE(bench::judge(motion, asked_tolerance, answer).has_wrong_answers());
 }
 
 /// When the axes are as near as two radii, from a height of which the middle comes down twice.
@@ -50,16 +50,16 @@ TEST(FailuresElsewhere, Fcl637ValidInputIsAnswered) {
       if (radius > 0.0) {
         expect_contact(motion, time_of_fall(1.0, radius));
       } else {
-        EXPECT_TRUE(contact_time(motion.motions(), tolerance).hit);
+        EXPECT_TRUE(contact_time(motion.motions(), asked_tolerance).hit);
       }
     }
   }
   // Standing still, apart and in contact; without length.
   HardMotion still = descending(0.3, 0.0, 1.0, 0.1);
   still.a_after = still.a_before;
-  EXPECT_FALSE(contact_time(still.motions(), tolerance).hit);
+  EXPECT_FALSE(contact_time(still.motions(), asked_tolerance).hit);
   still.a_before = still.a_after = still.b_before;
-  EXPECT_EQ(contact_time(still.motions(), tolerance).upper, 0.0);
+  EXPECT_EQ(contact_time(still.motions(), asked_tolerance).upper, 0.0);
   HardMotion points = descending(0.0, 0.0, 1.0, 0.1);
   points.a_before[1] = points.a_before[0];
   points.a_after[1] = points.a_after[0];
@@ -69,9 +69,9 @@ TEST(FailuresElsewhere, Fcl637ValidInputIsAnswered) {
 // python-fcl#11: two calls with the same bodies and motions answer differently.
 TEST(FailuresElsewhere, PythonFcl11AnswersAreTheSameEveryTime) {
   const HardMotion motion = descending(0.7, 0.0, 10.0, 0.5);
-  const ContactTime first = contact_time(motion.motions(), tolerance);
+  const ContactTime first = contact_time(motion.motions(), asked_tolerance);
   for (int i = 0; i < 100; ++i) {
-    const ContactTime again = contact_time(motion.motions(), tolerance);
+    const ContactTime again = contact_time(motion.motions(), asked_tolerance);
     EXPECT_TRUE(again.hit == first.hit && again.lower == first.lower &&
                 again.upper == first.upper && again.certain == first.certain);
   }

@@ -22,11 +22,11 @@ using Eigen::Vector3d;
 using Pairs = std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>,
                        double>;  // depth by rods and edges
 
-constexpr double radius = 0.01;
+constexpr double overlap_radius = 0.01;
 constexpr std::uint32_t many = 100000;
 
 void add(Rods& rods, const std::vector<Vector3d>& points) {
-  rods.add(points, radius, rubber(radius));
+  rods.add(points, overlap_radius, rubber(overlap_radius));
 }
 
 /// All edges deeper in each other than a part of their radii's sum, by the rule for edges of one
@@ -96,10 +96,10 @@ TEST(OverlapFinder, FindsWhatBruteForceFinds) {
   for (int round = 0; round < 100; ++round) {
     SCOPED_TRACE(seed_message() + ", round " + std::to_string(round));
     Rods rods;
-    const double edge = radius * random.uniform(0.5, 4.0);
+    const double edge = overlap_radius * random.uniform(0.5, 4.0);
     for (int rod = 0; rod < 3; ++rod) {
       std::vector<Vector3d> points = random_chain(random, random.integer(5, 30), edge);
-      const Vector3d start = points.front() - random.in_cube(5.0 * radius);
+      const Vector3d start = points.front() - random.in_cube(5.0 * overlap_radius);
       for (Vector3d& point : points) {
         point -= start;
       }
@@ -146,13 +146,13 @@ TEST(OverlapFinder, LooksOnlyForWhatItIsTold) {
 TEST(OverlapFinder, RodsThatTouchDoNotOverlap) {
   Rods rods;
   add(rods, straight({0, 0, 0}, {1, 0, 0}, 7));
-  add(rods, straight({0, 0, 2.0 * radius}, {1, 0.3, 2.0 * radius}, 5));
-  add(rods, straight({0, 0.015, 1.99 * radius}, {1, 0.315, 1.99 * radius}, 5));
+  add(rods, straight({0, 0, 2.0 * overlap_radius}, {1, 0.3, 2.0 * overlap_radius}, 5));
+  add(rods, straight({0, 0.015, 1.99 * overlap_radius}, {1, 0.315, 1.99 * overlap_radius}, 5));
   OverlapFinder finder = finder_of();
   EXPECT_TRUE(finder.find(rods, touching_share, many).size() > 0);
   rods = Rods();
   add(rods, straight({0, 0, 0}, {1, 0, 0}, 7));
-  add(rods, straight({0, 0, 1.985 * radius}, {1, 0.3, 1.985 * radius}, 5));
+  add(rods, straight({0, 0, 1.985 * overlap_radius}, {1, 0.3, 1.985 * overlap_radius}, 5));
   EXPECT_TRUE(finder.find(rods, touching_share, many).empty());
 }
 
@@ -166,14 +166,15 @@ TEST(SeparateOverlaps, RodsThatCrossPartAcrossBoth) {
         const Vector3d along(std::cos(angle), std::sin(angle), 0.0);
         add(rods, straight({-0.5 + shift, 0, 0}, {0.5 + shift, 0, 0}, segments));
         add(rods, straight(-0.5 * along, 0.5 * along, segments));
-        const Rods moved = separated(rods, 3.0 * radius, 0.05);
+        const Rods moved = separated(rods, 3.0 * overlap_radius, 0.05);
         double highest = 0.0;
         for (std::size_t i = 0; i < moved.positions.size(); ++i) {
           const Vector3d way = moved.positions[i] - rods.positions[i];
           highest = std::max(highest, std::abs(way.z()));
-          EXPECT_LT(way.head<2>().norm(), 0.3 * radius) << "node " << i << " not across both";
+          EXPECT_LT(way.head<2>().norm(), 0.3 * overlap_radius)
+              << "node " << i << " not across both";
         }
-        EXPECT_GT(highest, 0.99 * radius);
+        EXPECT_GT(highest, 0.99 * overlap_radius);
       }
     }
   }
@@ -186,7 +187,7 @@ TEST(SeparateOverlaps, RodsThatAreTheSamePart) {
       Rods rods;
       add(rods, straight({0, 0, 0}, end, 10));
       add(rods, straight({0, 0, 0}, end, segments));
-      separated(rods, 3.0 * radius, 0.05);
+      separated(rods, 3.0 * overlap_radius, 0.05);
     }
   }
   Rods rods;
@@ -194,7 +195,7 @@ TEST(SeparateOverlaps, RodsThatAreTheSamePart) {
   for (int i = 0; i < 4; ++i) {
     add(rods, straight({0, 0, 0}, {1, 0, 0}, 20));
   }
-  separated(rods, 6.0 * radius, 0.1);
+  separated(rods, 6.0 * overlap_radius, 0.1);
   // An arc, sampled in two ways.
   std::vector<Vector3d> arc;
   std::vector<Vector3d> finer;
@@ -208,7 +209,7 @@ TEST(SeparateOverlaps, RodsThatAreTheSamePart) {
   Rods arcs;
   add(arcs, arc);
   add(arcs, finer);
-  separated(arcs, 3.0 * radius, 0.05);
+  separated(arcs, 3.0 * overlap_radius, 0.05);
 }
 
 /// Which edges of a rod are neighbours is told by their distance along it at rest.
@@ -216,7 +217,8 @@ TEST(OverlapFinder, FindsWhatIsPressedTogetherAlongTheRodToo) {
   std::vector<Vector3d> hexagon;
   for (int i = 0; i <= 6; ++i) {
     const double angle = M_PI * i / 3.0;
-    hexagon.emplace_back(1.1 * radius * std::cos(angle), 1.1 * radius * std::sin(angle), 0.0);
+    hexagon.emplace_back(1.1 * overlap_radius * std::cos(angle),
+                         1.1 * overlap_radius * std::sin(angle), 0.0);
   }
   Rods rods;
   add(rods, hexagon);
@@ -236,7 +238,7 @@ TEST(SeparateOverlaps, ARodThatRunsBackAlongItselfOpens) {
     const std::vector<Vector3d> back = straight({0.5, 0, 0}, {0, 0, 0}, segments);
     points.insert(points.end(), back.begin() + 1, back.end());
     add(rods, points);
-    separated(rods, 4.0 * radius, 0.6);
+    separated(rods, 4.0 * overlap_radius, 0.6);
   }
 }
 
@@ -249,7 +251,7 @@ TEST(SeparateOverlaps, SelfCrossingsPart) {
   }
   Rods rods;
   add(rods, eight);
-  separated(rods, 3.0 * radius, 0.05);
+  separated(rods, 3.0 * overlap_radius, 0.05);
 }
 
 TEST(SeparateOverlaps, HeapsPart) {
@@ -262,7 +264,7 @@ TEST(SeparateOverlaps, HeapsPart) {
       const Vector3d along = 0.3 * random.direction();
       add(rods, straight(-along, along, random.integer(3, 40)));
     }
-    separated(rods, 12.0 * radius, 1.0);
+    separated(rods, 12.0 * overlap_radius, 1.0);
   }
 }
 
@@ -271,7 +273,7 @@ TEST(SeparateOverlaps, WhatIsFarStaysWhereItIs) {
   add(rods, straight({-0.5, 0, 0}, {0.5, 0, 0}, 100));
   add(rods, straight({0, -0.5, 0}, {0, 0.5, 0}, 100));
   add(rods, straight({-0.5, 0.3, 0.1}, {0.5, 0.3, 0.1}, 100));
-  const Rods moved = separated(rods, 3.0 * radius, 0.05);
+  const Rods moved = separated(rods, 3.0 * overlap_radius, 0.05);
   for (std::uint32_t i = 0; i < rods.positions.size(); ++i) {
     const bool is_near = i < rods.first(2) && rods.positions[i].norm() < 0.22;
     if (!is_near) {
@@ -286,7 +288,7 @@ TEST(SeparateOverlaps, WhatIsHeldStays) {
   add(rods, straight({0, -0.5, 0}, {0, 0.5, 0}, 50));
   std::vector<bool> is_held(rods.positions.size(), false);
   std::fill(is_held.begin(), is_held.begin() + rods.end(0), true);
-  const Rods moved = separated(rods, 2.5 * radius, 0.1, is_held);
+  const Rods moved = separated(rods, 2.5 * overlap_radius, 0.1, is_held);
   for (std::uint32_t i = 0; i < rods.end(0); ++i) {
     EXPECT_EQ(moved.positions[i], rods.positions[i]);
   }

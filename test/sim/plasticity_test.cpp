@@ -11,9 +11,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double radius = 0.01;  // [m]
+constexpr double wire_radius = 0.01;  // [m]
 constexpr double yield_strain = 0.02;
-constexpr double yield_curvature = yield_strain / radius;
+constexpr double yield_curvature = yield_strain / wire_radius;
 
 /// Points on an arc of length 1 with this curvature [1/m].
 std::vector<Vector3d> arc(double curvature, int segments) {
@@ -29,7 +29,7 @@ std::vector<Vector3d> arc(double curvature, int segments) {
 double remaining(double curvature, double hardening) {
   constexpr int segments = 10;
   Rods rods;
-  rods.add(straight(Vector3d::Zero(), Vector3d(1.0, 0.0, 0.0), segments), radius,
+  rods.add(straight(Vector3d::Zero(), Vector3d(1.0, 0.0, 0.0), segments), wire_radius,
            {1.0, 1.0, 0.0, 1.0, 0.0});
   Plasticity plasticity(rods, {yield_strain, hardening});
   constexpr int steps = 7;
@@ -63,7 +63,7 @@ TEST(Plasticity, HardeningKeepsAShareOfThatElastic) {
 TEST(Plasticity, ABentRodSpringsBackByTheYieldCurvatureAlone) {
   constexpr int segments = 20;
   Rods rods;
-  rods.add(straight(Vector3d::Zero(), Vector3d(1.0, 0.0, 0.0), segments), radius,
+  rods.add(straight(Vector3d::Zero(), Vector3d(1.0, 0.0, 0.0), segments), wire_radius,
            {1e4, 1.0, 0.0, 1.0, 0.0});
   Plasticity plasticity(rods, {yield_strain, 0.0});
   rods.positions = arc(2.0 * yield_curvature, segments);

@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-const RodSection section{1e3, 1.0, 1.0, 1.0, 1e-4};
+const RodSection rod_section{1e3, 1.0, 1.0, 1.0, 1e-4};
 const std::vector<Vector3d> points = straight({0, 0, 0}, {1, 0, 0}, 4);
 
 void expect_error(const std::function<void()>& function, const std::string& message) {
@@ -23,8 +23,8 @@ void expect_error(const std::function<void()>& function, const std::string& mess
 
 TEST(Rods, HaveMassesAndLengths) {
   Rods rods;
-  rods.add(points, 0.01, section);
-  rods.add({{0, 0, 0}, {0, 0, 2}}, 0.01, section);
+  rods.add(points, 0.01, rod_section);
+  rods.add({{0, 0, 0}, {0, 0, 2}}, 0.01, rod_section);
   EXPECT_EQ(rods.count(), 2U);
   EXPECT_EQ(rods.offsets, (std::vector<std::uint32_t>{0, 5, 7}));
   EXPECT_EQ(rods.masses, (std::vector<double>{0.125, 0.25, 0.25, 0.25, 0.125, 1.0, 1.0}));
@@ -33,9 +33,9 @@ TEST(Rods, HaveMassesAndLengths) {
 
 TEST(Rods, RefuseBadShapesAndStayAsTheyWere) {
   Rods rods;
-  rods.add(points, 0.01, section);
+  rods.add(points, 0.01, rod_section);
   const auto add = [&](const std::vector<Vector3d>& bad, double radius) {
-    return [&rods, bad, radius] { rods.add(bad, radius, section); };
+    return [&rods, bad, radius] { rods.add(bad, radius, rod_section); };
   };
   expect_error(add({}, 0.01), "rod 1: has 0 point(s), it must have at least 2");
   expect_error(add({{0, 0, 0}}, 0.01), "rod 1: has 1 point(s), it must have at least 2");
@@ -66,7 +66,7 @@ TEST(Rods, RefuseBadSections) {
                            Case{&RodSection::inertia_per_length, "inertia_per_length", true}}) {
     for (const double bad : {-1.0, nan, infinity, 0.0}) {
       Rods rods;
-      RodSection changed = section;
+      RodSection changed = rod_section;
       changed.*each.value = bad;
       const std::string rule = each.may_be_zero ? "at least 0 and finite" : "positive and finite";
       const std::string expected =
@@ -136,10 +136,10 @@ TEST(Effects, TwistRefusesRodsThatDoNotResistIt) {
   const std::string problem = " needs a twisting stiffness and an inertia per length above 0";
   for (double RodSection::*value :
        {&RodSection::twisting_stiffness, &RodSection::inertia_per_length}) {
-    RodSection changed = section;
+    RodSection changed = rod_section;
     changed.*value = 0.0;
     Rods rods;
-    rods.add(points, 0.01, section);
+    rods.add(points, 0.01, rod_section);
     rods.add(points, 0.01, changed);
     expect_error([&] { Twist{rods}; }, "twist: rod 1" + problem);
     EXPECT_TRUE(rods.angles.empty()) << "the rods are as they were";
@@ -148,7 +148,7 @@ TEST(Effects, TwistRefusesRodsThatDoNotResistIt) {
 
 class AttachmentTest : public testing::Test {
  protected:
-  void SetUp() override { rods_.add(points, 0.01, section); }
+  void SetUp() override { rods_.add(points, 0.01, rod_section); }
 
   std::string error(const Attachment::Hold& hold) {
     return error_of([&] { attachment_.add(rods_, hold); });
