@@ -168,7 +168,7 @@ TEST(MarkerInput, CylindersAreWeldedAlongTheirAxes) {
 }
 
 using fiber::test::nan;
-const Eigen::Vector3d missing(nan, nan, nan);
+const Eigen::Vector3d missing_point(nan, nan, nan);
 
 /// A character per point: k known, m missing, a bar between fibres.
 std::string pattern_of(const FiberBuffer& chains) {
@@ -187,7 +187,7 @@ TEST(MarkerInput, AMissingPointOfALineListIsInItsChainWhateverElseIsMissing) {
     std::string expected;
     for (unsigned i = 0; i < 6; ++i) {
       const bool is_lost = ((lost >> i) & 1U) != 0;
-      points.push_back(is_lost ? missing : Eigen::Vector3d(i, i % 2, 0));
+      points.push_back(is_lost ? missing_point : Eigen::Vector3d(i, i % 2, 0));
       expected += is_lost ? "m" : "k";
     }
     const FiberBuffer lines =
@@ -202,7 +202,7 @@ TEST(MarkerInput, AMissingPointOfALineListIsInItsChainWhateverElseIsMissing) {
 }
 
 TEST(MarkerInput, AMissingEndOfALineListDoesNotJoinAnotherFibreFarAway) {
-  Points pairs = segments({{0, 0, 0}, {1, 0, 0}, missing});
+  Points pairs = segments({{0, 0, 0}, {1, 0, 0}, missing_point});
   const Points far = segments({{0, 9, 0}, {1, 9, 0}, {2, 9, 0}});
   pairs.insert(pairs.end(), far.begin(), far.end());
   EXPECT_EQ(pattern_of(read(array({marker(header("map"), Marker::LINE_LIST, pairs)}))), "kkm|kkk");
