@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "src/compare/pair_oracle.hpp"
+#include "test/support/not_finite.hpp"
 
 namespace fiber::test {
 namespace {
@@ -47,7 +48,6 @@ TEST_F(PairOracleTest, BoundsMustHoldTheirOwnDistance) {
 }
 
 TEST_F(PairOracleTest, UnboundedClaimsAreTrue) {
-  const double infinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ(verdict(PairClaim{7.0, -infinity, infinity}, exact_), Verdict::BOTH);
 }
 

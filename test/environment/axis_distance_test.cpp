@@ -223,7 +223,6 @@ TEST(AxisDistance, OfAnOctreeIsThatOfTheNearestCell) {
 }
 
 TEST(OccupancyOctree, HoldsTheCellsOfItsPoints) {
-  const double nan = std::nan("");
   const OccupancyOctree octree(
       0.1, {{0.05, 0.05, 0.05}, {0.06, 0.01, 0.09}, {0.15, 0.05, 0.05}, {nan, 0, 0}, {1e6, 0, 0}});
   EXPECT_EQ(octree.cell_count(), 2U);

@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "test/query/crossing_views.hpp"
 #include "test/support/curves.hpp"
 #include "test/support/exact_crossings.hpp"
+#include "test/support/not_finite.hpp"
 
 namespace fiber::test {
 namespace {
@@ -217,7 +217,6 @@ TEST(Crossings, RefuseViewsThatAreNone) {
     return "";
   };
   const std::string rule = ", coordinates must be finite and at most 1e150 m in magnitude";
-  const double infinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ(error_of(along({0, 0, 0})), "direction of view: is 0,0,0, it must have a length");
   EXPECT_EQ(error_of(along({0, std::nan(""), 0})), "direction of view: y is nan" + rule);
   EXPECT_EQ(error_of(from({-infinity, 0, 0}, {1, 0, 0})), "eye: x is -inf" + rule);

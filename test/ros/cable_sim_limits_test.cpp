@@ -17,7 +17,7 @@ using fiber_proximity::SetSimulationParameters;
 using fiber_proximity::StepSimulation;
 
 using fiber::test::infinity;
-const double nan_value = std::nan("");
+using fiber::test::nan;
 
 class CableSimLimitsTest : public CableSimTest {
  protected:
@@ -99,7 +99,7 @@ TEST_F(CableSimLimitsTest, AttachRefusesSpeedsThatTear) {
   expect_refused(attach(30, {0, 0, 0.9}, infinity), "may be moved at up to 213 m/s");
   expect_refused(attach(30, {0, 0, 0.9}, 1e9), "speed is 1e+09 m/s; fibre 'cable' may be moved");
   expect_refused(attach(30, {0, 0, 0.9}, -1.0), "position must be finite and speed at least 0");
-  expect_refused(attach(30, {0, 0, 0.9}, nan_value), "position must be finite and speed");
+  expect_refused(attach(30, {0, 0, 0.9}, nan), "position must be finite and speed");
   DetachFiber::Request release;
   release.fiber = "cable";
   for (const int end : {0, -1}) {
@@ -131,11 +131,11 @@ TEST_F(CableSimLimitsTest, BadRequestsAreAnswered) {
     detach.node = index;
     expect_refused(call<DetachFiber>("detach", detach), "there is no node");
   }
-  for (const double number : {nan_value, infinity, -infinity}) {
+  for (const double number : {nan, infinity, -infinity}) {
     expect_refused(attach(0, {number, 0, 1}, 1.0), "position must be finite");
     expect_refused(attach(0, {0, 0, 1}, -std::abs(number)), "");
   }
-  for (const double number : {nan_value, infinity, -infinity, 1e308, -1e7}) {
+  for (const double number : {nan, infinity, -infinity, 1e308, -1e7}) {
     expect_refused(set("gravity.acceleration", {0, 0, number}), "at most 1e6 in magnitude");
     expect_refused(set("damping.relaxation_time", {number}), "at most 1e6 in magnitude");
   }
@@ -204,7 +204,7 @@ TEST_F(CableSimLimitsTest, AHandleDoesNotTearTheFibre) {
   constexpr double reach = 1.1 * 1.2;
   double farthest = 0.0;
   std::vector<Vector3d> before = points_after(1);
-  for (const double x : {-100.0, -1e200, nan_value, -infinity}) {
+  for (const double x : {-100.0, -1e200, nan, -infinity}) {
     feedback.pose.position.x = x;
     publisher.publish(feedback);
     for (int frame = 0; frame < 100; ++frame) {

@@ -1,11 +1,12 @@
 // What the running node says about the points of clouds of which few or none are of use.
-#include <limits>
 
 #include "test/ros/messages.hpp"
 #include "test/ros/node_test.hpp"
+#include "test/support/not_finite.hpp"
 
 namespace {
 
+using fiber::test::nan;
 using fiber_proximity::FiberArray;
 using fiber_proximity::InputStatistics;
 using test_messages::header;
@@ -41,7 +42,6 @@ class CloudPointsTest : public node_test::NodeTest {
 };
 
 TEST_F(CloudPointsTest, EachIsAccountedFor) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
   const InputStatistics told = told_about(
       {{0, 0, 1}, {0, 0, 1}, {nan, 0, 1}, {0, 0, 3}, {0, 1e30, 1}, {700, 0, 1}, {0, 700, 1}});
   EXPECT_EQ(told.received, 1U);
@@ -54,7 +54,6 @@ TEST_F(CloudPointsTest, EachIsAccountedFor) {
 }
 
 TEST_F(CloudPointsTest, ACloudOfWhichNoneIsUsedIsAWarning) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
   // In millimetres, beyond all numbers of cells, without a point.
   const InputStatistics told = told_about({{0, 900, 1}, {1e30, 0, 1}, {nan, nan, nan}});
   EXPECT_EQ(told.points_used, 0U);

@@ -3,17 +3,17 @@
 #include <visualization_msgs/Marker.h>
 #include <visualization_msgs/MarkerArray.h>
 
-#include <limits>
-
 #include "fiber_proximity/environment/triangle_mesh.hpp"
 #include "src/environment/occupancy_octree.hpp"
 #include "test/ros/environment_fixture.hpp"
 #include "test/ros/gate.hpp"
 #include "test/ros/mesh_files.hpp"
+#include "test/support/not_finite.hpp"
 
 namespace environment_test {
 namespace {
 
+using fiber::test::nan;
 using sensor_msgs::PointCloud2;
 using test_messages::Points;
 using visualization_msgs::Marker;
@@ -53,7 +53,6 @@ TEST_F(CloudTest, TheNewestCloudIsThere) {
   start_with_topic();
   EXPECT_TRUE(inputs->is_used());
   EXPECT_TRUE(cells().empty());
-  const double nan = std::numeric_limits<double>::quiet_NaN();
   publish({{0.25, 0, 0}, {0.75, 0, 0}, {nan, nan, nan}, {0, 0, 30}}, "camera");
   ASSERT_TRUE(wait_for([&] { return !cells().empty(); }));
   EXPECT_EQ(cells(), (Points{{10.5, 0.5, 0.5}}));
@@ -124,7 +123,6 @@ TEST_F(CloudTest, WhatBecomesOfThePointsIsTold) {
         [&] { return statistics_of("cloud").received == received && !inputs->is_waiting(); }));
     return statistics_of("cloud");
   };
-  const double nan = std::numeric_limits<double>::quiet_NaN();
   fiber_proximity::InputStatistics told =
       send({{0, 0, 1}, {0, 0, 1}, {nan, 0, 1}, {0, 0, 3}, {0, 1e30, 1}, {700, 0, 1}});
   EXPECT_EQ(told.points_received, 6U);

@@ -3,9 +3,11 @@
 #include <limits>
 
 #include "test/ros/query_fixture.hpp"
+#include "test/support/not_finite.hpp"
 
 namespace {
 
+using fiber::test::nan;
 using fiber_proximity::QueryProximity;
 using node_test::QueryTest;
 using test_messages::Points;
@@ -90,7 +92,6 @@ TEST_F(QueryTest, ADeadlineCutsTheAnswerOffAndSaysSo) {
 
 TEST_F(QueryTest, BadRequestsAreAnsweredWithTheReason) {
   send_fibers();
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   QueryProximity::Request good;
   good.type = QueryProximity::Request::ALL;
   good.margin = 0.5;

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -14,9 +13,11 @@
 #include "fiber_proximity/FiberArray.h"
 #include "test/ros/messages.hpp"
 #include "test/rviz/rviz_window.hpp"
+#include "test/support/not_finite.hpp"
 
 namespace {
 
+using fiber::test::nan;
 using fiber_proximity::Contact;
 using fiber_proximity::ContactArray;
 using fiber_proximity::FiberArray;
@@ -201,7 +202,6 @@ TEST_F(DisplayTest, ContactsOfTheSameStampColorSegments) {
 }
 
 TEST_F(DisplayTest, MalformedMessagesDrawNothingAndSayWhy) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto expect_error = [this](const char* text,
                                    const std::function<void(FiberArray&)>& spoil) {
     SCOPED_TRACE(text);

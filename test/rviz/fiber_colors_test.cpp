@@ -3,16 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <set>
 #include <stdexcept>
 #include <vector>
 
+#include "test/support/not_finite.hpp"
+
 namespace fiber_proximity_rviz {
 namespace {
 
 using fiber::FiberAssembly;
+using fiber::test::nan;
 using Values = std::vector<std::optional<double>>;
 
 constexpr Color grey{90, 90, 90, 128};
@@ -126,7 +128,6 @@ TEST(FiberColors, DistancesAreTheLeastOfThoseThatNameAPoint) {
 
 TEST(FiberColors, ContactsThatDoNotFitAreRefused) {
   const FiberAssembly fibers = two_fibers();
-  const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const fiber_proximity::Contact& bad :
        {contact(0, 3, 1, 0, 0.1), contact(0, 0, 1, 2, 0.1), contact(2, 0, 1, 0, 0.1),
         contact(0, 0, 0xFFFFFFFF, 0, 0.1), contact(0, 0, 1, 0xFFFFFFFF, 0.1),

@@ -11,6 +11,7 @@
 #include "test/sim/contact_system.hpp"
 #include "test/sim/tunnelling.hpp"
 #include "test/support/error_of.hpp"
+#include "test/support/not_finite.hpp"
 #include "test/support/random.hpp"
 #include "test/support/rounds.hpp"
 
@@ -307,8 +308,6 @@ TEST(EnvironmentContact, ARodThatLiesFlatRestsOnItsNodes) {
 }
 
 TEST(ContactOptions, AreChecked) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const double infinity = std::numeric_limits<double>::infinity();
   for (const double stiffness : {-1.0, nan, infinity}) {
     const std::string value = std::to_string(stiffness) + " N/m, it must be at least 0 and finite";
     FiberContact::Options fiber;

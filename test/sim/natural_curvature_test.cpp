@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "benchmark/sim/rod_scene.hpp"
 #include "fiber_proximity/sim/effects.hpp"
 #include "src/geometry/smallest_rotation.hpp"
@@ -12,6 +10,7 @@
 #include "test/sim/energy_bounds.hpp"
 #include "test/sim/random_rods.hpp"
 #include "test/support/error_of.hpp"
+#include "test/support/not_finite.hpp"
 #include "test/support/rounds.hpp"
 
 namespace fiber::test {
@@ -298,7 +297,6 @@ TEST(NaturalCurvature, RefusesWhatItCannotUse) {
             "natural curvature: it is -1.000000 1/m, it must be at least 0 and finite");
   const std::string side =
       "natural curvature: the side must be finite and not along the first edge of rod 0";
-  const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const Vector3d& towards : {Vector3d(2, 0, 0), Vector3d(0, 0, 0), Vector3d(0, nan, 0)}) {
     EXPECT_EQ(error_of([&] { set_natural_arc(rods, 0, 1.0, towards); }), side);
   }

@@ -2,10 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "test/support/error_of.hpp"
 #include "test/support/mesh_files.hpp"
+#include "test/support/not_finite.hpp"
 #include "test/support/temporary_directory.hpp"
 
 namespace fiber {
@@ -13,6 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 using test::error_of;
+using test::nan;
 using test_meshes::write;
 
 const Vector3d unscaled = Vector3d::Ones();
@@ -123,7 +123,6 @@ TEST_F(MeshFiles, BadScalesAreRefused) {
     return error_of([&] { read_mesh_file(file_, scale); });
   };
   EXPECT_EQ(error_with({1, 0, 1}), "scale is (1, 0, 1), its numbers must be finite and not 0");
-  const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(error_with({1, nan, 1}), "scale is (1, nan, 1), its numbers must be finite and not 0");
 }
 
