@@ -222,7 +222,7 @@ TEST_F(DisplayTest, MalformedMessagesDrawNothingAndSayWhy) {
   expect_error("offset", [](FiberArray& m) { m.offsets = {0, 0xFFFFFFFF}; });
   expect_error("offset", [](FiberArray& m) { m.offsets.clear(); });
   expect_error("1 point(s)", [](FiberArray& m) { m.offsets = {0, 4, 5}; });
-  expect_error("coordinates", [nan](FiberArray& m) { m.points[1].y = nan; });
+  expect_error("coordinates", [](FiberArray& m) { m.points[1].y = nan; });
   expect_error("coordinates", [](FiberArray& m) { m.points[4].x = HUGE_VAL; });
   expect_error("too far", [](FiberArray& m) { m.points[4].x = 1e16; });
   expect_error("radii", [](FiberArray& m) { m.radii = {-0.1}; });
