@@ -7,8 +7,8 @@
 #include "fiber_proximity/query/narrow_phase.hpp"
 #include "fiber_proximity/query/options.hpp"
 #include "src/hierarchy/run_tree_kernels.hpp"
+#include "src/query/candidate_cache.hpp"
 #include "src/query/contact_evaluator.hpp"
-#include "src/query/kept_candidates.hpp"
 
 namespace fiber {
 

@@ -6,9 +6,9 @@
 #include "fiber_proximity/query/loop_test.hpp"
 #include "src/hierarchy/motion_bound.hpp"
 #include "src/hierarchy/run_tree.hpp"
+#include "src/query/candidate_cache.hpp"
 #include "src/query/contact_batch.hpp"
 #include "src/query/idle_memory.hpp"
-#include "src/query/kept_candidates.hpp"
 
 namespace fiber {
 

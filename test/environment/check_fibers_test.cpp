@@ -5,7 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "src/query/fiber_snapshots.hpp"
+#include "fiber_proximity/query/fiber_snapshots.hpp"
 #include "test/environment/random_shapes.hpp"
 #include "test/support/seeded_test.hpp"
 

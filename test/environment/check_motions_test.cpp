@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "fiber_proximity/environment/check_fibers.hpp"
-#include "src/query/fiber_snapshots.hpp"
+#include "fiber_proximity/query/fiber_snapshots.hpp"
 #include "test/environment/motion_scene.hpp"
 #include "test/support/error_of.hpp"
 #include "test/support/not_finite.hpp"

@@ -41,7 +41,7 @@ set(shapes
 )
 sources_in(queries environment geometry query)
 list(REMOVE_ITEM queries ${shapes} src/geometry/fiber_assembly.cpp)
-list(FILTER queries EXCLUDE REGEX "_engines?.cpp|engine_factory|kept_candidates")  # see engine.cpp
+list(FILTER queries EXCLUDE REGEX "_engines?.cpp|engine_factory|candidate_cache")  # see engine.cpp
 unwatched_library(fiber_queries ${queries}
   src/hierarchy/fiber_order.cpp
   src/hierarchy/run_tree_find.cpp

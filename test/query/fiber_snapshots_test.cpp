@@ -1,4 +1,4 @@
-#include "src/query/fiber_snapshots.hpp"
+#include "fiber_proximity/query/fiber_snapshots.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "src/query/kept_candidates.hpp"
+#include "src/query/candidate_cache.hpp"
 
 #include <algorithm>
 
