@@ -21,13 +21,13 @@ std::uint32_t point_of(const FiberMotion& motion, std::uint32_t fiber, std::uint
 
 QueryOptions pairs_of(const MotionOptions& options) {
   QueryOptions pairs;
-  static_cast<PairOptions&>(pairs) = options;
+  static_cast<PairOptions&>(pairs) = static_cast<const PairOptions&>(options);
   return pairs;
 }
 
 MotionOptions motion_options(const QueryOptions& options, double tolerance) {
   MotionOptions motion;
-  static_cast<PairOptions&>(motion) = options;
+  static_cast<PairOptions&>(motion) = static_cast<const PairOptions&>(options);
   motion.tolerance = tolerance;
   if (options.type == QueryType::FIRST || options.type == QueryType::CLOSEST) {
     motion.type = MotionType::FIRST;
@@ -70,7 +70,7 @@ Contact first_contact(const FiberMotion& a, const FiberMotion& b, const MotionCo
   const Capsule of_a = capsule_at(a, point_of(a, contact.fiber_a, contact.segment_a), time);
   const Capsule of_b = capsule_at(b, point_of(b, contact.fiber_b, contact.segment_b), time);
   Contact found = contact_of(of_a, of_b, segment_distance(of_a.p0, of_a.p1, of_b.p0, of_b.p1));
-  static_cast<SegmentIdPair&>(found) = contact;
+  static_cast<SegmentIdPair&>(found) = static_cast<const SegmentIdPair&>(contact);
   return found;
 }
 

@@ -87,7 +87,7 @@ void TouchTracker::advance(const std::vector<TouchingPair>& pairs, const TimeBou
     touch_of_pair_[i] = touch;
     take(pair, touches_[touch]);
     if (!pair.is_gone) {
-      standing_.push_back({pair, touch});
+      standing_.push_back({static_cast<const SegmentIdPair&>(pair), touch});
     }
   }
   for (const TouchStep& touch : touches_) {
