@@ -97,7 +97,7 @@ struct Side {
 };
 
 /// Surfaces part by so much more than they must, for rounding errors.
-constexpr double room = 1.0 + 1e-4;
+constexpr double clearance = 1.0 + 1e-4;
 
 /// So many radii of rod take part on both sides of where it is moved.
 constexpr double spread = 20.0;
@@ -248,7 +248,7 @@ class Separation {
     const double width = width_of(overlap);
     const Side a = side_of(contact.fiber_a, contact.segment_a, contact.s, width);
     const Side b = side_of(contact.fiber_b, contact.segment_b, contact.t, width);
-    const double wanted = room * (rods_.radii[contact.fiber_a] + rods_.radii[contact.fiber_b]);
+    const double wanted = clearance * (rods_.radii[contact.fiber_a] + rods_.radii[contact.fiber_b]);
     const Vector3d between = point_of(a) - point_of(b);
     const double missing_square = wanted * wanted - between.squaredNorm();
     const double mobility = a.mobility + b.mobility;
@@ -272,7 +272,7 @@ class Separation {
     const Side side = side_of(contact.fiber_a, contact.segment_a, contact.s, width_of(overlap));
     const Vector3d out = -contact.normal;
     const Vector3d& surface = contact.point_b;  // of the object
-    const double wanted = room * rods_.radii[contact.fiber_a];
+    const double wanted = clearance * rods_.radii[contact.fiber_a];
     const double missing = wanted - out.dot(point_of(side) - surface);
     // What is nearer to another side goes with the rest of the patch.
     constexpr double steepest = 0.5;
@@ -307,6 +307,7 @@ std::vector<Patch> patches_of(const std::vector<Overlap>& overlaps) {
       }
     };
     take(key_of(first, 0, 0));
+    // It grows meanwhile. NOLINTNEXTLINE(modernize-loop-convert)
     for (std::size_t next = 0; next < members.size(); ++next) {
       for (std::int64_t a = -1; a <= 1; ++a) {
         for (std::int64_t b = -1; b <= 1; ++b) {

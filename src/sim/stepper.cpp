@@ -121,7 +121,7 @@ void Stepper::step(double length) {
 /// With the ratio w of this step to the last one, x' = ((1 + w)² x₁ − w² x₀) / (1 + 2w) and v'
 /// alike, it is a step of implicit Euler of (1 + w) / (1 + 2w) of its length from there.
 void Stepper::step_by_bdf2(double length) {
-  history_.begun = rods_;
+  history_.begun = rods_.state();
   if (history_.length == 0.0 || !is_at(rods_, history_.after)) {
     step_by_sdirk2(length);
   } else {
@@ -134,7 +134,7 @@ void Stepper::step_by_bdf2(double length) {
     solver_->add_to(report_);
   }
   std::swap(history_.before, history_.begun);
-  history_.after = rods_;
+  history_.after = rods_.state();
   history_.length = length;
 }
 
@@ -146,7 +146,7 @@ void Stepper::step_by_sdirk2(double length) {
   solver_->solve(rods_, effects_, {time_, stage}, nullptr);
   solver_->add_to(report_);
   const double part = rest / stage;
-  history_.after = rods_;
+  history_.after = rods_.state();
   combine(1.0 - part, history_.begun, part, history_.after, history_.reference);
   solver_->solve(rods_, effects_, {time_ + rest, stage}, &history_.reference);
   solver_->add_to(report_);

@@ -22,11 +22,11 @@ class PairOracleTest : public testing::Test {
     return found.verdict;
   }
 
-  static constexpr double ulp_ = std::numeric_limits<double>::epsilon();
-  static constexpr double below_ = 1.0 - 0.5 * ulp_;
-  static constexpr PairClaim exact_{1.0, 1.0, 1.0};
-  static constexpr PairClaim too_near_{0.5, 0.5, below_};
-  static constexpr PairClaim too_far_{1.5, 1.0 + ulp_, 2.0};
+  static constexpr double ulp = std::numeric_limits<double>::epsilon();
+  static constexpr double below = 1.0 - 0.5 * ulp;
+  static constexpr PairClaim exact{1.0, 1.0, 1.0};
+  static constexpr PairClaim too_near{0.5, 0.5, below};
+  static constexpr PairClaim too_far{1.5, 1.0 + ulp, 2.0};
 
  private:
   const FiberAssembly fibers_{
@@ -34,40 +34,40 @@ class PairOracleTest : public testing::Test {
 };
 
 TEST_F(PairOracleTest, HoldsClaimsAgainstTheTruthToTheLastDigit) {
-  EXPECT_EQ(verdict(exact_, exact_), Verdict::BOTH);
-  for (const PairClaim& wrong : {too_near_, too_far_}) {
-    EXPECT_EQ(verdict(exact_, wrong), Verdict::OURS);
-    EXPECT_EQ(verdict(wrong, exact_), Verdict::FCL);
+  EXPECT_EQ(verdict(exact, exact), Verdict::BOTH);
+  for (const PairClaim& wrong : {too_near, too_far}) {
+    EXPECT_EQ(verdict(exact, wrong), Verdict::OURS);
+    EXPECT_EQ(verdict(wrong, exact), Verdict::FCL);
     EXPECT_EQ(verdict(wrong, wrong), Verdict::NEITHER);
   }
 }
 
 TEST_F(PairOracleTest, BoundsMustHoldTheirOwnDistance) {
-  EXPECT_EQ(verdict(PairClaim{2.0, 0.0, 1.0}, exact_), Verdict::FCL);
-  EXPECT_EQ(verdict(PairClaim{0.0, 1.0, 2.0}, exact_), Verdict::FCL);
+  EXPECT_EQ(verdict(PairClaim{2.0, 0.0, 1.0}, exact), Verdict::FCL);
+  EXPECT_EQ(verdict(PairClaim{0.0, 1.0, 2.0}, exact), Verdict::FCL);
 }
 
 TEST_F(PairOracleTest, UnboundedClaimsAreTrue) {
-  EXPECT_EQ(verdict(PairClaim{7.0, -infinity, infinity}, exact_), Verdict::BOTH);
+  EXPECT_EQ(verdict(PairClaim{7.0, -infinity, infinity}, exact), Verdict::BOTH);
 }
 
 TEST_F(PairOracleTest, WhoSaysNothingOfAContactIsWrong) {
-  EXPECT_EQ(verdict(std::nullopt, exact_), Verdict::FCL);
-  EXPECT_EQ(verdict(exact_, std::nullopt, 1.1), Verdict::OURS);
+  EXPECT_EQ(verdict(std::nullopt, exact), Verdict::FCL);
+  EXPECT_EQ(verdict(exact, std::nullopt, 1.1), Verdict::OURS);
   EXPECT_EQ(verdict(std::nullopt, std::nullopt, 0.9), Verdict::BOTH);
 }
 
 TEST_F(PairOracleTest, FclMayMissWhatItsRoundingHides) {
-  EXPECT_EQ(verdict(exact_, std::nullopt, 1.0), Verdict::BOTH);
-  EXPECT_EQ(verdict(exact_, std::nullopt, 1.0 + 16 * ulp_), Verdict::BOTH);
-  EXPECT_EQ(verdict(exact_, std::nullopt, 1.0 + 64 * ulp_), Verdict::OURS);
+  EXPECT_EQ(verdict(exact, std::nullopt, 1.0), Verdict::BOTH);
+  EXPECT_EQ(verdict(exact, std::nullopt, 1.0 + 16 * ulp), Verdict::BOTH);
+  EXPECT_EQ(verdict(exact, std::nullopt, 1.0 + 64 * ulp), Verdict::OURS);
 }
 
 // Robust goes by the distance it computes; the others never take a pair for a contact that is none.
 TEST_F(PairOracleTest, OnlyRobustMayReportANearMiss) {
-  const PairClaim near{below_, below_, 1.0};
-  EXPECT_EQ(verdict(near, std::nullopt, below_, Kernel::ROBUST), Verdict::BOTH);
-  EXPECT_EQ(verdict(near, std::nullopt, below_, Kernel::EXACT), Verdict::FCL);
+  const PairClaim near{below, below, 1.0};
+  EXPECT_EQ(verdict(near, std::nullopt, below, Kernel::ROBUST), Verdict::BOTH);
+  EXPECT_EQ(verdict(near, std::nullopt, below, Kernel::EXACT), Verdict::FCL);
 }
 
 TEST_F(PairOracleTest, NoAnswerIsNeverRight) {
@@ -75,8 +75,8 @@ TEST_F(PairOracleTest, NoAnswerIsNeverRight) {
   QueryOptions options;
   options.margin = 1.0;
   const PairOracle oracle(fibers, options);
-  EXPECT_EQ(oracle.judge({0, 2}, exact_, std::nullopt, false).verdict, Verdict::OURS);
-  EXPECT_EQ(oracle.judge({0, 2}, too_far_, std::nullopt, false).verdict, Verdict::NEITHER);
+  EXPECT_EQ(oracle.judge({0, 2}, exact, std::nullopt, false).verdict, Verdict::OURS);
+  EXPECT_EQ(oracle.judge({0, 2}, too_far, std::nullopt, false).verdict, Verdict::NEITHER);
 }
 
 }  // namespace

@@ -56,6 +56,9 @@ struct RodState {
 /// has the index of its first node. Arrays that only one effect needs are empty without that
 /// effect.
 struct Rods : RodState {
+  /// Themselves, without what stays as it is.
+  const RodState& state() const { return *this; }
+
   std::vector<std::uint32_t> offsets{0};
   std::vector<double> radii;         ///< by rod [m]
   std::vector<RodSection> sections;  ///< by rod

@@ -25,7 +25,7 @@ using Mesh = std::shared_ptr<const fiber::TriangleMesh>;
 Operation to_operation(const Obstacle& obstacle) {
   constexpr std::array by_number{Operation::ADD, Operation::REMOVE, Operation::APPEND,
                                  Operation::MOVE};
-  const auto number = static_cast<std::size_t>(obstacle.operation);
+  const auto number = static_cast<std::uint8_t>(obstacle.operation);
   if (number >= by_number.size()) {
     throw std::invalid_argument("operation is " + std::to_string(obstacle.operation) +
                                 ", it must be 0 (ADD), 1 (REMOVE), 2 (APPEND) or 3 (MOVE)");

@@ -37,10 +37,11 @@ fiber::TouchTracker::FiberIndices indices_among(const std::vector<std::string>& 
 fiber::TouchingPair pair_of(const StepContact& contact, bool is_of_object) {
   const fiber::Contact& pair = contact.contact;
   // The shapes of an object are one body.
-  return {pair.fiber_a,  pair.segment_a,
-          pair.fiber_b,  is_of_object ? 0 : pair.segment_b,
-          pair.distance, contact.state != StepContact::State::THERE,
-          contact.first, contact.last};
+  return {{pair.fiber_a, pair.segment_a, pair.fiber_b, is_of_object ? 0 : pair.segment_b},
+          pair.distance,
+          contact.state != StepContact::State::THERE,
+          contact.first,
+          contact.last};
 }
 
 /// [s] Of what was there before anybody looked, since then.

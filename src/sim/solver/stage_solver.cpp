@@ -43,11 +43,11 @@ void StageSolver::solve(Rods& rods, const Effects& effects, const TimeStep& stag
   last_step_ = stage.length;
   is_at_start_ = reference == nullptr;
   if (contacts_ != nullptr || reference != nullptr) {
-    start_ = rods;
+    start_ = rods.state();
     if (reference != nullptr) {
       static_cast<RodState&>(rods) = *reference;
     }
-    reference_ = rods;
+    reference_ = rods.state();
   }
   arena_.execute([&] {
     for (const std::unique_ptr<Effect>& effect : effects) {
