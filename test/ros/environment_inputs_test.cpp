@@ -145,7 +145,7 @@ TEST_F(EnvironmentInputsTest, BadParametersAreRefusedByName) {
   const auto error_with = [&](const std::string& name, const XmlRpc::XmlRpcValue& value) {
     own.deleteParam("");
     own.setParam(name, value);
-    const std::string error = error_of([&] { options(); });
+    std::string error = error_of([&] { options(); });
     EXPECT_NE(error.find(own.resolveName(name)), std::string::npos) << error;
     return error;
   };

@@ -186,7 +186,7 @@ TEST(ObstacleChange, BadPrimitivesAreRefused) {
   for (const double bad : {-1.0, nan, std::numeric_limits<double>::infinity()}) {
     const std::string error = error_with(SolidPrimitive::SPHERE, {bad});
     EXPECT_NE(error.find("'table'"), std::string::npos) << error;
-    EXPECT_NE(error.find("1"), std::string::npos) << error;
+    EXPECT_NE(error.find('1'), std::string::npos) << error;
   }
 }
 

@@ -139,9 +139,9 @@ TEST(FiberMesh, RibbonsCoverTheirSegmentsAndNothingElse) {
   const std::vector<Vector3d> edges = seen_from_above(mesh);
   double area = 0.0;
   for (std::size_t i = 0; i < indices.size(); i += 3) {
-    const Vector3d a = edges[indices[i]];
-    const Vector3d b = edges[indices[i + 1]];
-    const Vector3d c = edges[indices[i + 2]];
+    const Vector3d& a = edges[indices[i]];
+    const Vector3d& b = edges[indices[i + 1]];
+    const Vector3d& c = edges[indices[i + 2]];
     const double triangle = 0.5 * (b - a).cross(c - a).z();
     EXPECT_GT(triangle, 0.0);  // all turn the same way
     area += triangle;
