@@ -163,8 +163,7 @@ TEST_F(OwnSceneTest, AnAccuracyThatTakesForEverIsRefused) {
     std::string text =
         scene(fiber("cable", "[0, 0, 0]", "[1, 0, 0]"), "  - gravity\n  - stretch\n");
     text.replace(text.find("    segments: 20\n"), 17, "");
-    text.append("accuracy: ").append(accuracy).append("\n");
-    write(text);
+    write(text + "accuracy: " + accuracy + "\n");
     const ProcessResult result = run();
     EXPECT_EQ(result.exit_code, 2);
     EXPECT_NE(result.err.find(accuracy == "1e-300"

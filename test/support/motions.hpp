@@ -64,7 +64,9 @@ inline MotionResult expected_of(const FiberAssembly& before, const FiberAssembly
         const SegmentId id_b = before.segment_id(b);
         const bool touches = time.certain && time.upper == 0.0;
         (touches ? result.touching : result.contacts)
-            .push_back({id_a.fiber, id_a.segment, id_b.fiber, id_b.segment, time.lower, time.upper,
+            .push_back({{id_a.fiber, id_a.segment, id_b.fiber, id_b.segment},
+                        time.lower,
+                        time.upper,
                         time.certain});
       }
     }
