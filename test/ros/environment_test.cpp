@@ -142,7 +142,7 @@ TEST_F(EnvironmentTest, AnswersQueriesAboutFibresObjectsAndBoth) {
   request.shapes[0].points[0].x = 0.5;
   const auto ask = [&](std::uint8_t against) {
     request.against = against;
-    const QueryProximity::Response response = call<QueryProximity>("/proximity/query", request);
+    QueryProximity::Response response = call<QueryProximity>("/proximity/query", request);
     EXPECT_TRUE(response.success) << response.message;
     return response;
   };
@@ -176,7 +176,7 @@ TEST_F(EnvironmentTest, ChecksHypotheticalFibres) {
   loop.offsets = {0, 4};
   loop.points.resize(4);
   for (int i = 0; i < 4; ++i) {
-    loop.points[static_cast<std::size_t>(i)].x = 3.0 + 0.015 * (i / 2);
+    loop.points[static_cast<std::size_t>(i)].x = i < 2 ? 3.0 : 3.015;
     loop.points[static_cast<std::size_t>(i)].z = i == 1 || i == 2 ? 1.0 : 0.0;
   }
   const CheckFibers::Response response = check({upright(0.5), upright(0.9), upright(0.015), loop});

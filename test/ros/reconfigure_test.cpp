@@ -33,7 +33,7 @@ class ReconfigureTest : public node_test::NodeTest {
   }
 
   /// Asks for these values and returns those in use then.
-  static ProximityConfig set(ProximityConfig config) {
+  static ProximityConfig set(const ProximityConfig& config) {
     dynamic_reconfigure::Reconfigure call;
     config.__toMessage__(call.request.config);
     EXPECT_TRUE(node_test::call_service("/proximity/set_parameters", call));

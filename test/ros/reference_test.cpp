@@ -130,6 +130,7 @@ NameSet private_names_of_node(int which) {
   NameSet names;
   for (int i = 0; i < state[which].size(); ++i) {
     const std::string name = state[which][i][0];
+    // Its begin() is that of structs. NOLINTNEXTLINE(modernize-loop-convert)
     for (int k = 0; k < state[which][i][1].size(); ++k) {
       const std::string prefix = "/proximity/";
       if (static_cast<std::string>(state[which][i][1][k]) == "/proximity" &&
