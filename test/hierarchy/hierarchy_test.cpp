@@ -145,8 +145,10 @@ void expect_wrapped_equals_layered() {
     for (std::uint32_t node = 0; node < layered.tree().node_count(); ++node) {
       const Volume& one = layered.volume(node);
       const Volume& other = wrapped.volume(node);
+      // Bit for bit. NOLINTBEGIN(bugprone-suspicious-memory-comparison)
       ASSERT_EQ(std::memcmp(&one.lower, &other.lower, sizeof one.lower), 0) << family.name;
       ASSERT_EQ(std::memcmp(&one.upper, &other.upper, sizeof one.upper), 0) << family.name;
+      // NOLINTEND(bugprone-suspicious-memory-comparison)
     }
   }
 }

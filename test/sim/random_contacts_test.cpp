@@ -51,7 +51,8 @@ Rods random_rods_apart(Random& random, double cell) {
   const double speed = std::pow(10.0, random.uniform(-1.0, 1.0));
   for (int rod = 0; rod < count; ++rod) {
     const int edges = random.integer(1, 14);
-    const Vector3d middle(cell * (rod % 2), cell * (rod / 2 % 2), 0.1 + cell * (0.5 + rod / 4));
+    const int layer = rod / 4;
+    const Vector3d middle(cell * (rod % 2), cell * (rod / 2 % 2), 0.1 + cell * (0.5 + layer));
     std::vector<Vector3d> points{middle};
     Vector3d direction = random.direction();
     for (int i = 0; i < edges; ++i) {

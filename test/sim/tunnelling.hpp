@@ -91,7 +91,7 @@ class TunnellingChecker {
   /// On the straight way since the last call.
   /// @returns the first pair of edges that met; empty if none did
   std::string check(const Rods& rods) {
-    const std::string met = find(rods, [&](std::uint32_t i, std::uint32_t j) {
+    std::string met = find(rods, [&](std::uint32_t i, std::uint32_t j) {
       const auto edge = [&](std::uint32_t first) {
         return MovingEdge{{before_[first], before_[first + 1]},
                           {rods.positions[first], rods.positions[first + 1]}};
