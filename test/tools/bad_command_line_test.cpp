@@ -116,6 +116,7 @@ TEST_F(BadCommandLine, FilesWithLongLinesAreRefusedWithShortErrors) {
     return refused(result, path("long.csv") + reason);
   };
   const std::string head = "fiber,x,y,z\n0,0,0,0\n";
+  // So long on purpose. NOLINTNEXTLINE(bugprone-string-constructor)
   const std::string big(50'000'000, '1');
   EXPECT_TRUE(refusal(big, ":1: is longer than 65536 bytes and begins with '111"));
   EXPECT_TRUE(refusal(head + "0,1,0,0\n0," + big, ":4: is longer than 65536 bytes"));
