@@ -15,6 +15,7 @@
 namespace fiber {
 
 /// contact_time() in numbers of twice the digits, from a time until which there is no contact.
+// Read for each instruction set. NOLINTNEXTLINE(readability-redundant-declaration)
 ContactTime wide_contact_time(const SegmentMotions& motions, double tolerance, double time);
 
 }  // namespace fiber
