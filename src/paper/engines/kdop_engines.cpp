@@ -27,7 +27,7 @@ template <template <class> class Kind, int... Groups>
 KdopMaker maker_for(std::size_t directions, std::integer_sequence<int, Groups...> /*counts*/) {
   KdopMaker maker = nullptr;
   const auto consider = [&](int groups, KdopMaker candidate) {
-    if (maker == nullptr && directions <= static_cast<std::size_t>(groups * slabs_per_group)) {
+    if (maker == nullptr && directions <= static_cast<std::size_t>(groups) * slabs_per_group) {
       maker = candidate;
     }
   };
