@@ -135,12 +135,12 @@ ros_needs=(
 # What the exported targets find, and the headers include.
 development_needs=(libeigen3-dev libtbb-dev libfcl-dev libassimp-dev libyaml-cpp-dev libhwy-dev)
 
-# catkin_needs CONFIG: the packages with the other configurations that this one of catkin's asks for.
+# catkin_needs CONFIG: the packages with the other configurations that this one of catkin's asks for, with commas
+# between them. Fails if it asks for none, or for one that no package here has.
 catkin_needs() {
-  local name
-  for name in $(sed -n 's/^set(depends "\(.*\)")$/\1/p' "$1" | tr ';' ' '); do
-    dpkg -S "*/${name}Config.cmake" | sed 's/:.*//'
-  done | sort -u
+  local patterns
+  mapfile -t patterns < <(sed -n 's/^set(depends "\(.*\)")$/\1/p' "$1" | tr ';' '\n' | sed 's#.*#*/&Config.cmake#')
+  dpkg -S "${patterns[@]}" | sed 's/:.*//' | sort -u | paste -s -d , | sed 's/,/, /g'
 }
 
 comma_joined() {
@@ -154,14 +154,13 @@ make_packages() {
   sort_out
   mkdir -p "$out"
   rm -f "$out"/*fiber-proximity*.deb
-  local of_library of_ros
-  mapfile -t catkin_found < <(catkin_needs "$development/usr/share/fiber_proximity/cmake/fiber_proximityConfig.cmake")
-  [ "${#catkin_found[@]}" -gt 0 ] || { echo "package.sh: catkin's configuration tells no dependencies" >&2; return 1; }
+  local of_library of_ros of_catkin
+  of_catkin=$(catkin_needs "$development/usr/share/fiber_proximity/cmake/fiber_proximityConfig.cmake") || return 1
   of_library=$(dependencies "$library") || return 1
   of_ros=$(dependencies "$ros") || return 1
   pack "$library" "$of_library" "proximity queries for cables, ropes, hair and other fibres"
-  pack "$development" "libfiber-proximity (= $version), ros-fiber-proximity (= $version), $(comma_joined \
-    "${development_needs[@]}" "${catkin_found[@]}")" "proximity queries for fibres: headers"
+  pack "$development" "libfiber-proximity (= $version), ros-fiber-proximity (= $version), $of_catkin, $(comma_joined \
+    "${development_needs[@]}")" "proximity queries for fibres: headers"
   pack "$ros" "libfiber-proximity (= $version), $of_ros, $(comma_joined "${ros_needs[@]}")" \
     "proximity queries for fibres: ROS nodes"
 }
