@@ -44,6 +44,7 @@ get() {
     tarball=$tarballs/$1-$2.tar.gz
     [ -f "$tarball" ] || fail "$tarball: no such file; it is what $3 has"
   else
+    command -v curl >/dev/null || fail "curl is not installed, which fetches $3"
     tarball=$work/$1-$2.tar.gz
     run_step "fetching $1 $2" "$work/log" curl --fail --location --silent --show-error -o "$tarball" "$3" ||
       fail "$3: cannot be fetched; without a network give --tarballs FOLDER with $1-$2.tar.gz"
