@@ -15,6 +15,7 @@
 #include "fiber_proximity/query/motion.hpp"
 #include "fiber_proximity/query/options.hpp"
 #include "src/geometry/swept_fibers.hpp"
+#include "src/query/motion_evaluator.hpp"
 #include "src/text/with_context.hpp"
 
 namespace fiber {
@@ -89,15 +90,6 @@ void check_path(const FiberPath& path, std::size_t index) {
   }
 }
 
-std::size_t most_of_path(const MotionOptions& options) {
-  std::size_t most = options.contact_limit;
-  if (options.type != MotionType::ALL) {
-    const std::size_t asked = options.type == MotionType::FIRST ? 1 : options.max_contacts;
-    most = most == 0 ? asked : std::min(most, asked);
-  }
-  return most;
-}
-
 /// Puts together what the steps of a path find: of each pair the first contact, of these the
 /// earliest ones.
 class PathCollector {
@@ -107,7 +99,7 @@ class PathCollector {
 
   /// @param contacts is cleared
   PathCollector(const MotionOptions& options, PathContacts& contacts)
-      : options_(options), most_(most_of_path(options)), contacts_(contacts) {
+      : options_(options), most_(most_contacts(options)), contacts_(contacts) {
     contacts_.contacts.clear();
     contacts_.limit_reached = false;
     contacts_.complete = true;

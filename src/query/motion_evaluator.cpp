@@ -9,16 +9,6 @@
 namespace fiber {
 namespace {
 
-/// The most contacts to report that begin during the motion, 0 for no limit.
-std::size_t most_contacts(const MotionOptions& options) {
-  std::size_t most = options.contact_limit;
-  if (options.type != MotionType::ALL) {
-    const std::size_t asked = options.type == MotionType::FIRST ? 1 : options.max_contacts;
-    most = most == 0 ? asked : std::min(most, asked);
-  }
-  return most;
-}
-
 /// Leaves the earliest ones, sorted by key.
 /// @return whether there were more
 bool keep_earliest(std::size_t most, MotionResult& result) {
@@ -83,6 +73,15 @@ class MotionTest {
 };
 
 }  // namespace
+
+std::size_t most_contacts(const MotionOptions& options) {
+  std::size_t most = options.contact_limit;
+  if (options.type != MotionType::ALL) {
+    const std::size_t asked = options.type == MotionType::FIRST ? 1 : options.max_contacts;
+    most = most == 0 ? asked : std::min(most, asked);
+  }
+  return most;
+}
 
 void merge_slices(const MotionSlice* slices, std::size_t count, const MotionCandidates& candidates,
                   const MotionOptions& options, MotionResult& result) {

@@ -31,6 +31,9 @@ struct MotionCandidates {
   QueryCounts counts;
 };
 
+/// The most contacts to report that begin during the motion, 0 for no limit.
+std::size_t most_contacts(const MotionOptions& options);
+
 /// Puts together what was found of the candidates, slice by slice, and leaves what the options ask
 /// for.
 /// @param result its lists must be empty
