@@ -68,14 +68,7 @@ const InputType& find(const std::string& name) {
       make_table<fiber_proximity::FiberArray, sensor_msgs::PointCloud2, sensor_msgs::PointCloud,
                  geometry_msgs::PoseArray, nav_msgs::Path, visualization_msgs::Marker,
                  visualization_msgs::MarkerArray>();
-  std::string known;
-  for (const InputType& type : types) {
-    if (type.name == name) {
-      return type;
-    }
-    known += (known.empty() ? "" : ", ") + type.name;
-  }
-  throw std::invalid_argument("unknown input type '" + name + "', known are: " + known);
+  return find_by_name(types, "input type", name);
 }
 
 using XmlRpc::XmlRpcValue;

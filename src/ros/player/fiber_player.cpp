@@ -143,14 +143,7 @@ const FiberFormat& find_fiber_format(const std::string& name) {
       {"pose_array", true, advertise<geometry_msgs::PoseArray>},
       {"path", true, advertise<nav_msgs::Path>},
   };
-  std::string known;
-  for (const FiberFormat& format : formats) {
-    if (format.name == name) {
-      return format;
-    }
-    known += (known.empty() ? "" : ", ") + format.name;
-  }
-  throw std::invalid_argument("unknown format '" + name + "', known are: " + known);
+  return find_by_name(formats, "format", name);
 }
 
 /// The frame as it is played.

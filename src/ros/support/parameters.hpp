@@ -6,10 +6,12 @@
 #include <cstdint>
 #include <limits>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "fiber_proximity/yaml/yaml_field.hpp"
+#include "src/text/join.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -64,6 +66,23 @@ void read_parameter(const ros::NodeHandle& node, const std::string& name, int le
 /// Reads a whole number of at least 0.
 /// @throws std::invalid_argument if it is anything else
 void read_parameter(const ros::NodeHandle& node, const std::string& name, std::uint32_t& value);
+
+/// The entry of this name.
+/// @param what as "format"
+/// @throws std::invalid_argument if there is none, with the names that are known
+template <class Entry>
+const Entry& find_by_name(const std::vector<Entry>& entries, const std::string& what,
+                          const std::string& name) {
+  std::vector<std::string> known;
+  for (const Entry& entry : entries) {
+    if (entry.name == name) {
+      return entry;
+    }
+    known.push_back(entry.name);
+  }
+  throw std::invalid_argument("unknown " + what + " '" + name +
+                              "', known are: " + fiber::join(known));
+}
 
 /// Logs a warning for each private parameter that is none of these, with the known one it may have
 /// been meant to be.
