@@ -216,6 +216,11 @@ HairStyle with_hairs(HairStyle style, std::uint32_t hair_count) {
 
 }  // namespace
 
+// Each: hairs, segments, on a head or not, then
+//   Path:  length, its variation, pull, comb, gather, eddies, stiffness, coat
+//   Locks: size, clump, wander
+//   Curl:  radius, flatness, pitch, start, variation
+// and the sway at last; units in hair.hpp.
 const HairStyle tress_a{2'500,
                         98,
                         false,

@@ -11,6 +11,7 @@
 #include "src/scenes/hair.hpp"
 #include "src/scenes/portable_math.hpp"
 #include "src/scenes/scenes.hpp"
+#include "src/text/join.hpp"
 #include "src/text/quote.hpp"
 
 namespace fiber {
@@ -42,7 +43,6 @@ const std::vector<std::pair<std::string, SceneFunction>>& scenes() {
 }  // namespace
 
 Scene make_scene(const std::string& name, const SceneOptions& options) {
-  std::string known;
   for (const auto& [scene_name, scene] : scenes()) {
     if (name == scene_name) {
       return [options, function = scene](std::uint32_t frame) {
@@ -54,9 +54,9 @@ Scene make_scene(const std::string& name, const SceneOptions& options) {
         return select_fibers(fibers, random_order(count, options.seed));
       };
     }
-    known += (known.empty() ? "" : ", ") + scene_name;
   }
-  throw std::invalid_argument("unknown scene " + quote(name) + ", known are: " + known);
+  throw std::invalid_argument("unknown scene " + quote(name) +
+                              ", known are: " + join(scene_names()));
 }
 
 std::vector<std::string> scene_names() {
