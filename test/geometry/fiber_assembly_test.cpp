@@ -144,5 +144,26 @@ TEST(FiberAssembly, UpdateMovesThePointsOrLeavesAllAsItWas) {
             "update with 4 points for an assembly of 5");
 }
 
+TEST(FiberAssembly, ExchangeTakesThePointsOrLeavesBothAsTheyWere) {
+  FiberAssembly fibers(five_points, {0, 3, 5}, {0.1});
+  std::vector<Vector3d> moved = five_points;
+  moved[2].z() = 7.0;
+  const Vector3d* memory = moved.data();
+  fibers.exchange_points(moved);
+  EXPECT_EQ(fibers.points().data(), memory);
+  EXPECT_EQ(fibers.points()[2].z(), 7.0);
+  EXPECT_EQ(moved, five_points);
+
+  moved[4].x() = nan;
+  EXPECT_NE(error_of([&] { fibers.exchange_points(moved); }).find("fibre 1, point 1: x is nan"),
+            std::string::npos);
+  EXPECT_TRUE(std::isnan(moved[4].x()));
+  EXPECT_EQ(fibers.points().data(), memory);
+
+  moved.pop_back();
+  EXPECT_EQ(error_of([&] { fibers.exchange_points(moved); }),
+            "update with 4 points for an assembly of 5");
+}
+
 }  // namespace
 }  // namespace fiber

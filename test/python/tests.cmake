@@ -1,0 +1,25 @@
+if(NOT TARGET fiber_proximity_python)
+  return()
+endif()
+
+get_filename_component(python_path ${python_build_folder} DIRECTORY)
+set(python_environment PYTHONPATH=${python_path}:$ENV{PYTHONPATH})
+if(FIBER_PROXIMITY_SANITIZE)
+  # Python itself knows no sanitizer: its runtime must be there first, and what throws exceptions with it.
+  foreach(library asan stdc++)
+    execute_process(COMMAND ${CMAKE_CXX_COMPILER} -print-file-name=lib${library}.so
+      OUTPUT_VARIABLE file OUTPUT_STRIP_TRAILING_WHITESPACE)
+    list(APPEND preloaded ${file})
+  endforeach()
+  list(JOIN preloaded ":" preloaded)
+  list(APPEND python_environment LD_PRELOAD=${preloaded} ASAN_OPTIONS=detect_leaks=0)
+endif()
+
+# fiber_proximity_python_test(NAME [ARGUMENT...]): test/python/NAME.py with the module of this build.
+function(fiber_proximity_python_test name)
+  add_test(NAME python_${name}
+    COMMAND ${Python3_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/test/python/${name}.py ${ARGN})
+  set_tests_properties(python_${name} PROPERTIES ENVIRONMENT "${python_environment}")
+endfunction()
+
+fiber_proximity_python_test(doctests)
