@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "src/query/brute_force.hpp"
-#include "src/scenes/hard_pairs.hpp"
+#include "test/support/hard_pairs.hpp"
 #include "test/support/contacts.hpp"
 #include "test/support/engines_test.hpp"
 #include "test/support/exact_pairs.hpp"

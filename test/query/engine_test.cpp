@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "src/query/brute_force.hpp"
-#include "src/scenes/hard_pairs.hpp"
+#include "test/support/hard_pairs.hpp"
 #include "test/support/assemblies.hpp"
 #include "test/support/contacts.hpp"
 #include "test/support/neighbour_skips.hpp"
