@@ -2,6 +2,7 @@
 
 add_library(hard_cases STATIC test/support/hard_motions.cpp test/support/hard_pairs.cpp)
 target_link_libraries(hard_cases PUBLIC fiber_proximity_paper PRIVATE fiber_proximity_options)
+find_package(Threads REQUIRED)
 add_library(fiber_bench_motions STATIC
   benchmark/continuous/decision_score.cpp
   benchmark/continuous/known_motions.cpp

@@ -12,9 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "src/tools/direction_search.hpp"
-#include "test/support/random.hpp"
-
 namespace fiber::test {
 namespace {
 
@@ -29,7 +26,6 @@ constexpr int most_lines = 100;
 /// Sloane 1996).
 constexpr double best_known[] = {90.0,    70.5288, 63.4349, 63.4349, 54.7356, 49.6399, 47.9821,
                                  46.6746, 44.4031, 41.8820, 39.8131, 38.6824, 38.1349, 37.3774};
-constexpr double best_known_tolerance = 1e-3;
 
 /// [rad] What no 2N points on a sphere can exceed (Fejes Tóth 1943), so no N lines either.
 double upper_bound(int lines) {
@@ -51,8 +47,7 @@ std::string message_of(const Lines& (*directions)(int), int k) {
 TEST(DirectionSetTest, ReachesTheBestKnownAngles) {
   int lines = fewest_lines;
   for (const double angle : best_known) {
-    EXPECT_NEAR(in_degrees(smallest_angle(grassmannian_directions(2 * lines))), angle,
-                best_known_tolerance)
+    EXPECT_NEAR(smallest_angle(grassmannian_directions(2 * lines)) * 180.0 / pi, angle, 1e-3)
         << lines << " lines";
     ++lines;
   }
@@ -143,40 +138,6 @@ TEST(DirectionSetTest, SmallestAngleIsThatBetweenLines) {
   EXPECT_DOUBLE_EQ(smallest_angle({Vector3d::UnitX(), Vector3d::UnitY(),
                                    Vector3d(-1.0, 1e-9, 0.0).normalized()}),
                    1e-9);
-}
-
-/// The optimiser itself, from nothing.
-TEST(DirectionSearchTest, FindsKnownOptimaFromRandomStarts) {
-  SCOPED_TRACE(seed_message());
-  constexpr int starts = 60;
-  fiber::Random random(run_seed());
-  for (const int lines : {3, 4, 5, 6, 7, 8, 10, 12, 16}) {
-    const Lines found = search_directions(lines, {}, starts, random);
-    ASSERT_EQ(found.size(), static_cast<std::size_t>(lines));
-    EXPECT_NEAR(in_degrees(smallest_angle(found)), best_known[lines - fewest_lines],
-                best_known_tolerance)
-        << lines << " lines";
-  }
-}
-
-TEST(DirectionSearchTest, ConvergesToClosedForms) {
-  SCOPED_TRACE(seed_message());
-  constexpr double accuracy = 1e-9;  // [rad]
-  fiber::Random random(run_seed());
-  const std::pair<int, double> known[] = {{4, std::acos(1.0 / 3.0)},
-                                          {5, std::atan(2.0)},
-                                          {6, std::atan(2.0)},
-                                          {7, std::acos(std::sqrt(1.0 / 3.0))}};
-  for (const auto& [lines, angle] : known) {
-    EXPECT_NEAR(smallest_angle(search_directions(lines, {}, 60, random)), angle, accuracy) << lines;
-  }
-}
-
-TEST(DirectionSearchTest, KeepsAKnownPackingItCannotImprove) {
-  SCOPED_TRACE(seed_message());
-  fiber::Random random(run_seed());
-  const Lines& known = grassmannian_directions(12);
-  EXPECT_EQ(search_directions(6, known, 10, random), known);
 }
 
 }  // namespace
