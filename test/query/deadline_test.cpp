@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <vector>
 
 #include "src/query/brute_force.hpp"
 #include "test/support/contacts.hpp"
 #include "test/support/engines_test.hpp"
+#include "test/support/rounds.hpp"
 
 namespace fiber::test {
 namespace {
@@ -33,7 +35,8 @@ TEST_P(DeadlineTest, ADeadlineLeavesAnAnswerThatIsTrue) {
     const QueryResult all = ask(fibers, options);
     options.type = type;
     const QueryResult whole = ask(fibers, options);
-    for (const double deadline : {1e-9, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e3}) {
+    const std::vector<double> deadlines{1e-9, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e3};
+    for (const double deadline : sampled(deadlines, random)) {
       SCOPED_TRACE("type " + std::to_string(static_cast<int>(type)) + ", deadline " +
                    std::to_string(deadline));
       options.deadline = deadline;
