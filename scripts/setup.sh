@@ -47,7 +47,7 @@ packages=(
   libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure libdiagnostic-updater-dev
   libinteractive-markers-dev
   libnav-msgs-dev libsensor-msgs-dev libvisualization-msgs-dev libros-rosgraph-msgs-dev libstd-srvs-dev
-  libshape-msgs-dev liburdf-dev libroslib-dev ros-robot-state-publisher python3-numpy
+  libshape-msgs-dev liburdf-dev libroslib-dev ros-robot-state-publisher python3-{numpy,yaml}
   ros-{std,geometry,sensor,shape,nav,visualization,diagnostic,tf2}-msgs ros-{rosgraph-msgs,std-srvs}
   python3-{std,geometry,sensor,shape,nav,visualization,diagnostic,tf2,rosgraph}-msgs python3-std-srvs
   librostest-dev python3-rostest python3-roslaunch python3-rostopic python3-rosservice

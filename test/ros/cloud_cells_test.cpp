@@ -129,7 +129,7 @@ TEST(CloudCells, BadOptionsAreRefused) {
             "resolution of the cloud is nan m, it must be positive and finite");
   EXPECT_EQ(error_of([] { CloudCells cells(options(1.0, -1.0)); }),
             "decay of the cloud is -1 s, it must be at least 0 and finite");
-  CloudOptions inverted;
+  CloudOptions inverted = options(1.0);
   inverted.box = {Vector3d(0, 0, 1), Vector3d(1, 1, 0)};
   EXPECT_EQ(error_of([&] { CloudCells cells(inverted); }),
             "box of the cloud goes from (0 0 1) to (1 1 0), the minimum must be at most the "

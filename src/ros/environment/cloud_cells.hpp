@@ -12,15 +12,15 @@
 
 namespace fiber_proximity_ros {
 
-/// How a point cloud becomes an obstacle.
+/// How a point cloud becomes an obstacle; the defaults are in cfg/interface.yaml.
 struct CloudOptions {
-  double resolution = 0.02;  ///< [m] edge of a cell; what depth cameras see at 2 m
+  double resolution{};  ///< [m] edge of a cell; what depth cameras see at 2 m
 
   /// [m] In the fixed frame: points outside of it are left out.
   fiber::WorldBox box{Eigen::Vector3d::Constant(-std::numeric_limits<double>::infinity()),
                       Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity())};
 
-  double decay = 0.0;  ///< [s] cells seen within this time stay; 0: those of the newest cloud only
+  double decay{};  ///< [s] cells seen within this time stay; 0: those of the newest cloud only
 };
 
 /// What became of the points of a cloud.

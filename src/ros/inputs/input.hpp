@@ -18,23 +18,23 @@
 namespace fiber_proximity_ros {
 
 /// When an input's messages and fibres expire, which stamps they may have, and whose belong
-/// together.
+/// together; the defaults are in cfg/interface.yaml.
 struct InputTiming {
   /// [s] of wall time a message may wait for its transform; longer than tf takes to arrive
-  double tf_timeout = 0.1;
+  double tf_timeout{};
 
   /// [s] of ROS time after which fibres that were not renewed are left out; several periods of any
   /// camera
-  double input_timeout = 1.0;
+  double input_timeout{};
 
   /// [s] a stamp may be ahead of the node's time; more than the clocks of one robot differ
-  double max_stamp_ahead = 1.0;
+  double max_stamp_ahead{};
 
   /// True: the fibres of all inputs change together, to those whose stamps belong together.
-  bool synchronize = false;
+  bool synchronize{};
 
   /// [s] most by which stamps that belong together differ; more than a period of a usual camera
-  double synchronize_slop = 0.05;
+  double synchronize_slop{};
 
   /// Messages of one input that wait, for their transforms or for those of the other inputs.
   /// Without synchronisation one keeps its turn, and the newest stands behind it.

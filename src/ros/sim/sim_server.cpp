@@ -30,18 +30,19 @@ const ros::WallDuration marker_period(1.0 / 30.0);
 }  // namespace
 
 SimOptions read_sim_options(const ros::NodeHandle& private_node) {
+  const Parameters parameters(private_node, interface_of("cable_sim"));
   SimOptions options;
-  read_parameter(private_node, "scene", "the name of a YAML file", options.scene);
+  parameters.read("scene", options.scene);
   if (options.scene.empty()) {
-    refuse_parameter(private_node, "scene", "the name of a YAML file");
+    parameters.refuse("scene");
   }
-  read_parameter(private_node, "threads", options.threads);
-  read_parameter(private_node, "clock", "true or false", options.clock);
-  read_parameter(private_node, "paused", "true or false", options.paused);
-  read_parameter(private_node, "interactive", "true or false", options.interactive);
-  read_parameter(private_node, "frame_timeout", 0.0, options.frame_timeout);
-  read_parameter(private_node, "frame_wait", 0.0, options.frame_wait);
-  options.meshes = read_mesh_folders(private_node);
+  parameters.read("threads", options.threads);
+  parameters.read("clock", options.clock);
+  parameters.read("paused", options.paused);
+  parameters.read("interactive", options.interactive);
+  parameters.read("frame_timeout", options.frame_timeout);
+  parameters.read("frame_wait", options.frame_wait);
+  options.meshes = read_mesh_folders(parameters);
   return options;
 }
 

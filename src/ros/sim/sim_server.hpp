@@ -26,16 +26,17 @@
 
 namespace fiber_proximity_ros {
 
-/// What the simulation runs, and how; the node's private parameters of the same names.
+/// What the simulation runs, and how; the node's private parameters of the same names, whose
+/// defaults are in cfg/interface.yaml.
 struct SimOptions {
-  std::string scene;           ///< YAML file
-  std::uint32_t threads = 0;   ///< most to use, 0 for as many as there are cores
-  bool clock = false;          ///< publish /clock, and stamp fibres with the scene's time
-  bool paused = false;         ///< wait for ~step or ~pause
-  bool interactive = false;    ///< handles for rviz, if the scene has the effect attachment
-  double frame_timeout = 1.0;  ///< [s] of wall time without news of a frame that holds something
-  double frame_wait = 10.0;  ///< [s] of wall time for such frames to come when the scene is loaded
-  MeshLoader meshes;         ///< of the environment, from the folders of ~mesh_folders
+  std::string scene;        ///< YAML file
+  std::uint32_t threads{};  ///< most to use, 0 for as many as there are cores
+  bool clock{};             ///< publish /clock, and stamp fibres with the scene's time
+  bool paused{};            ///< wait for ~step or ~pause
+  bool interactive{};       ///< handles for rviz, if the scene has the effect attachment
+  double frame_timeout{};   ///< [s] of wall time without news of a frame that holds something
+  double frame_wait{};      ///< [s] of wall time for such frames to come when the scene is loaded
+  MeshLoader meshes;        ///< of the environment, from the folders of ~mesh_folders
 };
 
 /// @throws std::invalid_argument naming the parameter, its value and what is allowed
