@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "test/support/error_of.hpp"
+
 namespace fiber::test {
 namespace {
 
@@ -33,15 +35,6 @@ double upper_bound(int lines) {
   const double omega = points / (points - 2.0) * pi / 6.0;
   const double cotangent = 1.0 / std::tan(omega);
   return std::acos(0.5 * (cotangent * cotangent - 1.0));
-}
-
-std::string message_of(const Lines& (*directions)(int), int k) {
-  try {
-    directions(k);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
 }
 
 TEST(DirectionSetTest, ReachesTheBestKnownAngles) {
@@ -101,7 +94,7 @@ TEST(DirectionSetTest, RejectsOtherNumbersOfSlabs) {
                       std::numeric_limits<int>::max()}) {
     EXPECT_THROW(grassmannian_directions(k), std::invalid_argument) << k;
   }
-  EXPECT_EQ(message_of(grassmannian_directions, 7),
+  EXPECT_EQ(error_of([] { grassmannian_directions(7); }),
             "k-DOP with k = 7: k must be even, from 6 to 200");
 }
 
@@ -127,7 +120,7 @@ TEST(DirectionSetTest, RejectsOtherClassicSets) {
   for (const int k : {-14, 0, 8, 13, 16, 20, 28}) {
     EXPECT_THROW(classic_directions(k), std::invalid_argument) << k;
   }
-  EXPECT_EQ(message_of(classic_directions, 16),
+  EXPECT_EQ(error_of([] { classic_directions(16); }),
             "classic k-DOP with k = 16: k must be 6, 14, 18 or 26");
 }
 

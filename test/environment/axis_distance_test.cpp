@@ -7,6 +7,7 @@
 #include "src/environment/convex_solids.hpp"
 #include "src/environment/triangle_distance.hpp"
 #include "test/environment/random_shapes.hpp"
+#include "test/support/error_of.hpp"
 #include "test/support/not_finite.hpp"
 
 namespace fiber::test {
@@ -240,14 +241,9 @@ TEST(TriangleMesh, RefusesWhatIsNoMesh) {
   const std::vector<Vector3d> corners{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   const auto refusal = [](const std::vector<Vector3d>& vertices,
                           const std::vector<TriangleMesh::Triangle>& triangles) {
-    try {
-      const TriangleMesh mesh(vertices, triangles);
-    } catch (const std::invalid_argument& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    return error_of([&] { const TriangleMesh mesh(vertices, triangles); });
   };
-  EXPECT_EQ(refusal(corners, {{0, 1, 2}}), "");
+  EXPECT_EQ(refusal(corners, {{0, 1, 2}}), "no error");
   EXPECT_EQ(refusal(corners, {{0, 1, 2}, {0, 1, 3}}),
             "triangle 1 of the mesh has vertex 3, there are 3");
   EXPECT_NE(refusal({{0, 0, 0}, {1, 0, std::nan("")}, {0, 1, 0}}, {{0, 1, 2}})

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "test/support/error_of.hpp"
 #include "test/support/not_finite.hpp"
 
 namespace fiber {
@@ -12,20 +13,11 @@ namespace {
 
 using Eigen::Vector3d;
 
+using test::error_of;
 using test::infinity;
 using test::nan;
 
 const std::vector<Vector3d> five_points{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}};
-
-template <class Action>
-std::string error_of(const Action& action) {
-  try {
-    action();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 std::string error_of_assembly(const std::vector<Vector3d>& points,
                               const std::vector<std::uint32_t>& offsets,

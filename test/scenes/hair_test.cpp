@@ -12,6 +12,7 @@
 #include "fiber_proximity/query/engine.hpp"
 #include "src/scenes/portable_math.hpp"
 #include "src/scenes/scalp.hpp"
+#include "test/support/error_of.hpp"
 #include "test/support/hash.hpp"
 
 namespace fiber {
@@ -207,12 +208,10 @@ TEST(Hair, TouchesButNotEverywhere) {
 TEST(Hair, ScaleIsChecked) {
   EXPECT_EQ(hair(longish, {1e-9, 1}, 0).fiber_count(), 1U);
   EXPECT_EQ(hair(tress_a, {0.1, 1}, 0).fiber_count(), 250U);
-  try {
-    hair(charming, {2.7, 1}, 0);
-    FAIL() << "accepted";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "scale is 2.7, it must be above 0 and at most 2.65");
-  }
+  EXPECT_EQ(test::error_of([] {
+              hair(charming, {2.7, 1}, 0);
+            }),
+            "scale is 2.7, it must be above 0 and at most 2.65");
 }
 
 TEST(Hair, ALargeScalpStaysOnTheHead) {
