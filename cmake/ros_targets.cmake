@@ -46,7 +46,6 @@ add_library(fiber_proximity_ros SHARED
   src/ros/sim/sim_services.cpp
   src/ros/support/conversions.cpp
   src/ros/support/parameters.cpp
-  src/ros/support/worker.cpp
 )
 # The generated messages' headers, as the system's: our warnings are not meant for them.
 #catkin_lint: ignore_once external_directory
