@@ -1,7 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <cstdint>
+#include <cstddef>
 #include <limits>
 #include <memory>
 #include <string>
@@ -53,21 +53,14 @@ class CloudCells {
   CloudCounts add(const std::vector<Eigen::Vector3d>& points, const Eigen::Isometry3d& pose,
                   double time);
 
-  std::size_t count() const { return cells_.size(); }
-
   /// Made anew with each call; null if there are no cells.
   std::shared_ptr<const fiber::OccupancyOctree> octree() const;
 
  private:
-  using Cell = std::uint64_t;  // three indices of 16 bit, as octomap has them
-
-  /// @returns false if the point is too far away
-  bool find_cell(const Eigen::Vector3d& point, Cell& cell) const;
-  Eigen::Vector3d centre_of(Cell cell) const;
   void forget(double time);
 
   CloudOptions options_;
-  std::unordered_map<Cell, double> cells_;  // and when each was seen last [s]
+  std::unordered_map<fiber::OccupancyOctree::Cell, double> cells_;  // when each was seen last [s]
   double newest_ = -std::numeric_limits<double>::infinity();
 };
 
