@@ -18,10 +18,10 @@
 #include "fiber_proximity/sim/scene/scene.hpp"
 #include "src/ros/environment/mesh_loader.hpp"
 #include "src/ros/inputs/fixed_frame.hpp"
+#include "src/ros/sim/fair_mutex.hpp"
 #include "src/ros/sim/sim_forces.hpp"
 #include "src/ros/sim/sim_frames.hpp"
 #include "src/ros/sim/sim_markers.hpp"
-#include "src/ros/support/fair_mutex.hpp"
 #include "src/sim/scene/report.hpp"
 
 namespace fiber_proximity_ros {
