@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <memory>
 #include <mutex>
 #include <stdexcept>
 
@@ -139,23 +140,16 @@ void SimServer::hold(const fiber_proximity::AttachFiber::Request& request) {
     throw std::invalid_argument("position must be finite and speed at least 0");
   }
   fiber::require_reach(scene_, held, target, request.speed);
-  const fiber::Rods& rods = scene_.stepper->rods();
-  const Vector3d from = rods.positions[rods.first(held.rod) + held.node];
-  const double start = scene_.stepper->time();
-  const double way = (target - from).norm();
-  const double speed = request.speed;
-  fiber::Attachment::Hold hold;
-  hold.rod = held.rod;
-  hold.node = held.node;
-  hold.placement = [=](double time) {
-    const double share =
-        speed > 0.0 && way > 0.0 ? std::min(1.0, std::max(0.0, speed * (time - start) / way)) : 1.0;
-    return fiber::Placement{from + share * (target - from), Vector3d::UnitX(), Vector3d::UnitY()};
-  };
-  if (const auto id = scene_.attachment->find(held.rod, held.node)) {
-    scene_.attachment->remove(*id);
+  const Vector3d from = fiber::position_of(scene_.stepper->rods(), held);
+  const double time = scene_.stepper->time();
+  const auto path = std::make_shared<fiber::PlacementPath>();
+  path->emplace_back(time, fiber::Placement{target, Vector3d::UnitX(), Vector3d::UnitY()});
+  if (request.speed > 0.0) {
+    path->insert(path->begin(), path->front());
+    path->front().second.position = from;
+    path->back().first += (target - from).norm() / request.speed;
   }
-  scene_.attachment->add(rods, hold);
+  fiber::hold_on_path(scene_, held, path);
 }
 
 bool SimServer::attach(fiber_proximity::AttachFiber::Request& request,
