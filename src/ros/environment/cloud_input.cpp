@@ -42,7 +42,7 @@ bool CloudInput::update(const ros::Time& now, FixedFrame& frame, fiber::World& w
   }
   const bool changed = in_work_ && in_work_->is_ready() && take_result(world);
   if (placed_ && !in_work_) {
-    in_work_.emplace(*std::exchange(placed_, std::nullopt), worker_);
+    in_work_.emplace(*std::exchange(placed_, std::nullopt), &worker_);
   }
   return remove_decayed(now, world) || changed;
 }

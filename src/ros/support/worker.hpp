@@ -43,16 +43,14 @@ class Prepared {
  public:
   using Make = std::function<Value()>;
 
-  /// Made before this returns.
-  explicit Prepared(Make make) : Prepared(std::make_shared<Task>(std::move(make))) { (*task_)(); }
-
-  /// By a worker if it takes long, else before this returns.
-  static Prepared of(Make make, Worker& worker, bool takes_long) {
-    return takes_long ? Prepared(std::move(make), worker) : Prepared(std::move(make));
-  }
-
-  Prepared(Make make, Worker& worker) : Prepared(std::make_shared<Task>(std::move(make))) {
-    worker.submit([waiting = std::weak_ptr<Task>(task_)] {
+  /// @param worker makes the value; without one it is made before this returns
+  explicit Prepared(Make make, Worker* worker = nullptr)
+      : task_(std::make_shared<Task>(std::move(make))), value_(task_->get_future()) {
+    if (worker == nullptr) {
+      (*task_)();
+      return;
+    }
+    worker->submit([waiting = std::weak_ptr<Task>(task_)] {
       if (const std::shared_ptr<Task> task = waiting.lock()) {
         (*task)();
       }
@@ -68,9 +66,6 @@ class Prepared {
 
  private:
   using Task = std::packaged_task<Value()>;
-
-  explicit Prepared(std::shared_ptr<Task> task)
-      : task_(std::move(task)), value_(task_->get_future()) {}
 
   std::shared_ptr<Task> task_;
   std::future<Value> value_;
