@@ -35,10 +35,8 @@ void refuse_what_is_too_large(const FiberAssembly& fibers) {
   if (fibers.largest_radius() > FiberMesher::max_drawn) {
     throw std::invalid_argument("a fibre is too thick to draw; radii may be 1e15 m at most");
   }
-  const auto is_drawn = [](double value) { return std::abs(value) <= FiberMesher::max_drawn; };
   for (std::size_t i = 0; i < fibers.point_count(); ++i) {
-    const Vector3d& point = fibers.points()[i];
-    if (!is_drawn(point.x()) || !is_drawn(point.y()) || !is_drawn(point.z())) {
+    if (!(fibers.points()[i].cwiseAbs().maxCoeff() <= FiberMesher::max_drawn)) {
       throw std::invalid_argument("point " + std::to_string(i) +
                                   " is too far away to draw; coordinates may be 1e15 m at most");
     }
