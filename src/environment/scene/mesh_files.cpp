@@ -70,7 +70,7 @@ void enter_limits(const ParseLimits& limits, std::size_t used) {
        {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU, SIGALRM, SIGTERM, SIGINT}) {
     std::signal(signal, SIG_DFL);
   }
-  sigset_t none;  // of threads of ROS all signals are blocked
+  sigset_t none;  // threads of roscpp block all of them
   sigemptyset(&none);
   sigprocmask(SIG_SETMASK, &none, nullptr);
   // It may have to wait for the processor, and for a lock that another thread held when it began.

@@ -48,9 +48,8 @@ inline std::size_t skin_rows(const std::vector<TubeRing>& rings) { return rings.
 /// The corners of a tube's skin: a pole, rows along the tube, and the other pole.
 /// @param directions see corner_directions()
 /// @param origin     [m] that positions count from
-/// @param add called with a corner's position [m], the skin's normal there, of no particular
-/// length,
-///            and the ring that it belongs to
+/// @param add        called with a corner's position [m], the skin's normal, and the corner's ring;
+///                   normals have no particular length
 template <class Add>
 void for_each_corner(const std::vector<TubeRing>& rings,
                      const std::vector<Eigen::Vector2d>& directions, const Eigen::Vector3d& origin,
@@ -60,9 +59,10 @@ void for_each_corner(const std::vector<TubeRing>& rings,
     add(Eigen::Vector3d(ring.center - origin + ring.radius * out), out, ring);
   };
   const auto add_row = [&](const TubeRing& ring, double ahead) {
+    const double aside = std::sqrt(1.0 - ahead * ahead);
     for (const Eigen::Vector2d& direction : directions) {
       const Eigen::Vector3d across = direction.x() * ring.normal + direction.y() * ring.binormal;
-      add_corner(ring, ahead, std::sqrt(1.0 - ahead * ahead) * across);
+      add_corner(ring, ahead, aside * across);
     }
   };
   const double halfway = std::sqrt(0.5);
