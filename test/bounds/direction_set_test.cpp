@@ -29,6 +29,20 @@ constexpr int most_lines = 100;
 constexpr double best_known[] = {90.0,    70.5288, 63.4349, 63.4349, 54.7356, 49.6399, 47.9821,
                                  46.6746, 44.4031, 41.8820, 39.8131, 38.6824, 38.1349, 37.3774};
 
+/// [rad] the smallest angle between any two lines along these unit vectors, at most π/2; π/2 if
+/// there are fewer than two.
+double smallest_angle(const Lines& directions) {
+  double smallest = pi / 2.0;
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const double sine = directions[i].cross(directions[j]).norm();
+      const double cosine = std::abs(directions[i].dot(directions[j]));
+      smallest = std::min(smallest, std::atan2(sine, cosine));
+    }
+  }
+  return smallest;
+}
+
 /// [rad] What no 2N points on a sphere can exceed (Fejes Tóth 1943), so no N lines either.
 double upper_bound(int lines) {
   const double points = 2.0 * lines;

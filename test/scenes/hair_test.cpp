@@ -169,6 +169,13 @@ TEST(Hair, HasSegmentsLongerThanThick) {
   }
 }
 
+/// [m] Bound on the motion of a point from frame to frame: the slope of the sine, and by how much
+/// lifting off the head stretches distances at most.
+double max_hair_step(const HairStyle& style) {
+  constexpr double stretch = 2.0;
+  return stretch * tau * style.sway / sway_period;
+}
+
 TEST(Hair, MovesSmoothly) {
   for (const auto& [name, style] : styles()) {
     SCOPED_TRACE(name);
