@@ -14,7 +14,7 @@ endif()
 
 # In place of the empty __init__.py that is generated with the messages: also where the module is not built, as a
 # wheel that is installed elsewhere needs it to find them.
-set(python_sources __init__.py __init__.pyi py.typed)
+set(python_sources __init__.py __init__.pyi messages.py py.typed robot.py)
 foreach(source IN LISTS python_sources)
   configure_file(src/python/fiber_proximity/${source} ${python_build_folder}/${source} COPYONLY)
   install(FILES src/python/fiber_proximity/${source} DESTINATION ${python_folder})
@@ -46,9 +46,11 @@ add_library(fiber_proximity_python MODULE
   src/python/errors.cpp
   src/python/fibers.cpp
   src/python/files.cpp
+  src/python/forces.cpp
   src/python/module.cpp
   src/python/options.cpp
   src/python/simulation.cpp
+  src/python/simulation_bindings.cpp
   src/python/topology.cpp
 )
 target_link_libraries(fiber_proximity_python PRIVATE

@@ -28,26 +28,31 @@ __path__ = extend_path(__path__, __name__)
 del extend_path
 
 __all__ = [
-    'CANDIDATE', 'CheckResult', 'Engine', 'Environment', 'FIBER', 'Fibers', 'MotionResult', 'OBJECT',
-    'QueryResult', 'SHAPE', 'candidate_contact_dtype', 'candidate_motion_contact_dtype', 'check',
-    'check_motions', 'contact_dtype', 'crossing_dtype', 'crossings', 'engine_names', 'gradients',
-    'linking_dtype', 'linking_number', 'linking_numbers', 'motion_contact_dtype', 'read',
-    'read_frames', 'write', 'write_frames', 'writhe',
+    'CANDIDATE', 'CheckResult', 'Engine', 'Environment', 'FIBER', 'Fibers', 'Forces',
+    'MotionResult', 'OBJECT', 'QueryResult', 'Robot', 'SHAPE', 'Simulation',
+    'candidate_contact_dtype', 'candidate_motion_contact_dtype', 'check', 'check_motions',
+    'contact_dtype', 'crossing_dtype', 'crossings', 'engine_names', 'from_msg', 'gradients',
+    'linking_dtype', 'linking_number', 'linking_numbers', 'message_contact_dtype',
+    'motion_contact_dtype', 'read', 'read_frames', 'to_msg', 'write', 'write_frames', 'writhe',
 ]
+
+
+# What is not compiled, and where it is.
+_MODULES = {'Robot': 'robot', 'from_msg': 'messages', 'message_contact_dtype': 'messages', 'to_msg': 'messages'}
 
 
 # What only wants the messages does not wait for the libraries.
 def __getattr__(name):
     if name.startswith('__') or name not in __all__:
         raise AttributeError(f'module {__name__!r} has no attribute {name!r}')
+    module = f"{__name__}.{_MODULES.get(name, '_native')}"
     try:
-        native = import_module('fiber_proximity._native')
+        value = globals()[name] = getattr(import_module(module), name)
     except ModuleNotFoundError as error:
-        if error.name != 'fiber_proximity._native':
+        if error.name != f'{__name__}._native':
             raise
         raise ImportError(f'{__name__}.{name} is not here: the package was built without pybind11, '
                           'with its messages alone', name=__name__) from None
-    value = globals()[name] = getattr(native, name)
     return value
 
 
