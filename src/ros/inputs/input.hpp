@@ -105,13 +105,19 @@ class Input {
   /// Why the fibres are stale: no message comes, or those that come match no other input's.
   enum class Staleness { NONE, SILENT, STRANGER };
 
+  /// Messages whose memory can be used again.
+  class Spares {
+   public:
+    MessagePtr take();
+    void add(MessagePtr& message) { messages_.push_back(std::move(message)); }
+
+   private:
+    std::vector<MessagePtr> messages_;
+  };
+
   void store(const ReadMessage& read, FixedFrame& frame);
   void check_stamp(const ros::Time& stamp, const ros::Time& now) const;
   bool place(MessagePtr& message, const FixedFrame& frame);
-  void name_fibers();
-
-  MessagePtr take_spare();
-  void recycle(MessagePtr& message);
   void overtake(MessagePtr& message);
 
   InputOptions options_;
@@ -122,7 +128,7 @@ class Input {
 
   FiberBuffer chains_;                   // what is being read; a member for its memory
   std::vector<Eigen::Vector3d> buffer_;  // the same
-  std::vector<MessagePtr> spare_;        // the same
+  Spares spares_;                        // the same
 
   std::deque<MessagePtr> waiting_;  // for their transforms
   std::deque<MessagePtr> placed_;   // in the fixed frame, to be accepted

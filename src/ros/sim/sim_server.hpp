@@ -67,7 +67,6 @@ class SimServer {
             const fiber::SimDescription& description);
 
   void advertise_services();
-  void log_scene(const fiber::SimDescription& description) const;
   void keep_pace();
   void update_markers();
 
@@ -80,11 +79,8 @@ class SimServer {
   void make_markers();
   void publish();
   void publish_obstacles(const std::vector<fiber::EnvironmentObject>& before);
-  fiber::NodeOfRod find_node(const std::string& fiber, std::int32_t node) const;
 
   void step_frames(std::uint32_t count);
-  void begin_again();
-  void hold(const fiber_proximity::AttachFiber::Request& request);
   bool reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
   bool step(fiber_proximity::StepSimulation::Request& request,
