@@ -123,8 +123,8 @@ TEST_P(PeerTest, RefusesWhatItDoesNotAnswer) {
 
 TEST_P(PeerTest, TellsHowManyThreadsItUses) {
   const bool several = GetParam() == "cgal" || GetParam().rfind("embree", 0) == 0;
-  EXPECT_EQ(make_bench_engine(GetParam(), {1, 0.0})->thread_count(), 1U);
-  EXPECT_EQ(make_bench_engine(GetParam(), {2, 0.0})->thread_count(),
+  EXPECT_EQ(make_bench_engine(GetParam(), {1, 0.0})->facts().thread_count, 1U);
+  EXPECT_EQ(make_bench_engine(GetParam(), {2, 0.0})->facts().thread_count,
             several ? std::min(2U, std::thread::hardware_concurrency()) : 1U);
 }
 
@@ -170,7 +170,7 @@ TEST(FiberBench, RunsThePeersBesideOurEngines) {
     const nlohmann::json row = nlohmann::json::parse(line);
     const std::string name = row.at("engine");
     EXPECT_GT(row.at("pairs"), 0) << name;
-    EXPECT_EQ(row.at("threads"), make_bench_engine(name, {2, 0.0})->thread_count()) << name;
+    EXPECT_EQ(row.at("threads"), make_bench_engine(name, {2, 0.0})->facts().thread_count) << name;
   }
   EXPECT_EQ(count, 2 + peer_names().size());
 }

@@ -185,10 +185,10 @@ TEST_P(EngineTest, DrawsBoxesAroundAllItsSegments) {
   Random random;
   const FiberAssembly fibers = walks(random, 1, 50, 0.1, 0.01);
   engine_->update(fibers);
-  for (std::uint32_t level = 0; level < engine_->level_count() + 2; ++level) {
+  for (std::uint32_t level = 0; level < engine_->facts().level_count + 2; ++level) {
     std::vector<NodeBox> boxes;
     engine_->level_boxes(level, boxes);
-    if (engine_->level_count() == 0) {
+    if (engine_->facts().level_count == 0) {
       EXPECT_TRUE(boxes.empty());
       continue;
     }

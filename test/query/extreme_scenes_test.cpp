@@ -20,7 +20,7 @@ class ExtremeScenesTest : public testing::Test {
     for (const auto& engine : {one_thread_.get(), two_threads_.get()}) {
       engine->update(fibers);
       EXPECT_TRUE(same_contacts(answer(*engine, options_).contacts, contacts))
-          << engine->thread_count() << " threads";
+          << engine->facts().thread_count << " threads";
     }
     found_ += contacts.size();
   }
