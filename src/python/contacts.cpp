@@ -165,7 +165,8 @@ Returns
 >>> gradients(Engine(fibers).contacts(margin=1.0))[0, :, 2]
 array([-0.5, -0.5,  0.5,  0.5])
 )");
-  py::class_<Answer>(module, "QueryResult", "Answer to ``Engine.query()``.")
+  py::class_<Answer, std::shared_ptr<Answer>>(module, "QueryResult",
+                                              "Answer to ``Engine.query()``.")
       .def_readonly("contacts", &Answer::contacts,
                     "(m,) of ``contact_dtype``, sorted by fiber_a, segment_a, fiber_b, segment_b.")
       .def_readonly("closest", &Answer::closest,
@@ -182,7 +183,8 @@ array([-0.5, -0.5,  0.5,  0.5])
       .def_property_readonly(
           "counts", [](const Answer& answer) { return dict_of(answer.counts); },
           "Work done: node_tests, node_overlaps, primitive_tests.");
-  py::class_<MotionAnswer>(module, "MotionResult", "Answer to ``Engine.motion()``.")
+  py::class_<MotionAnswer, std::shared_ptr<MotionAnswer>>(module, "MotionResult",
+                                                          "Answer to ``Engine.motion()``.")
       .def_readonly("contacts", &MotionAnswer::contacts,
                     "(m,) of ``motion_contact_dtype``: pairs whose contact begins during the "
                     "motion, sorted by fiber_a, segment_a, fiber_b, segment_b. There is none "

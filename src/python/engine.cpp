@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "src/python/bindings.hpp"
@@ -39,8 +38,9 @@ std::shared_ptr<Fibers> Engine::fibers() const {
   return fibers_;
 }
 
-MotionAnswer Engine::motion(const Fibers::State& before, const Fibers::State& after,
-                            const MotionOptions& options) {
+std::shared_ptr<MotionAnswer> Engine::motion(const Fibers::State& before,
+                                             const Fibers::State& after,
+                                             const MotionOptions& options) {
   MotionResult result;
   {
     const py::gil_scoped_release others_may_run;
@@ -51,7 +51,7 @@ MotionAnswer Engine::motion(const Fibers::State& before, const Fibers::State& af
     motion_engine_->update_motion(*before, *after);
     motion_engine_->query_motion(options, result);
   }
-  return MotionAnswer(result, [before, after](const MotionContact& contact) {
+  return std::make_shared<MotionAnswer>(result, [before, after](const MotionContact& contact) {
     const FiberMotion motion{*before, *after};
     require_segment(*before, contact.fiber_a, contact.segment_a);
     require_segment(*before, contact.fiber_b, contact.segment_b);
@@ -242,12 +242,12 @@ Pointer make_updated(std::shared_ptr<Fibers> fibers, const std::string& name, st
   return engine;
 }
 
-Answer query(Engine& engine, const std::string& type, double margin, const py::object& shape,
-             const py::kwargs& options) {
-  std::optional<Answer> answer;
+std::shared_ptr<Answer> query(Engine& engine, const std::string& type, double margin,
+                              const py::object& shape, const py::kwargs& options) {
+  std::shared_ptr<Answer> answer;
   engine.query(query_options(type, margin, options), shape_of(shape),
-               [&](QueryResult& result) { answer.emplace(result); });
-  return *std::move(answer);
+               [&](QueryResult& result) { answer = std::make_shared<Answer>(result); });
+  return answer;
 }
 
 py::array contacts(Engine& engine, double margin, const py::object& shape,

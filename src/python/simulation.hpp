@@ -11,7 +11,7 @@
 namespace fiber::python {
 
 /// A scene that moves. One thread at a time works with it, others wait; all without Python's lock.
-class Simulation {
+class Simulation : public OnlyShared {
  public:
   /// @param threads most to use, 0 for as many as there are cores
   /// @throws std::invalid_argument as make_sim_scene(), and for what follows a frame of tf

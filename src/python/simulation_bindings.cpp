@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "fiber_proximity/environment/world.hpp"
 #include "src/python/bindings.hpp"
+#include "src/python/environment.hpp"
 #include "src/python/errors.hpp"
 #include "src/python/simulation.hpp"
 #include "src/sim/scene/report.hpp"
@@ -130,9 +130,9 @@ std::shared_ptr<Fibers> fibers_of(const Simulation& simulation) {
   }));
 }
 
-std::shared_ptr<World> environment_of(const Simulation& simulation) {
+std::shared_ptr<SharedWorld> environment_of(const Simulation& simulation) {
   const auto environment = simulation.with([](SimScene& scene) { return scene.environment; });
-  auto world = std::make_shared<World>();
+  auto world = std::make_shared<SharedWorld>();
   std::vector<ObjectChange> changes;
   for (const EnvironmentObject& object : environment->objects()) {
     changes.push_back({ObjectChange::Operation::ADD, object});
