@@ -44,13 +44,13 @@ py::dtype candidate_dtype(bool moves) {
 struct CheckAnswer : OnlyShared {
   template <class Check>
   CheckAnswer(const std::vector<Check>& checks, bool moves)
-      : free(static_cast<py::ssize_t>(checks.size())),
+      : free(static_cast<Py_ssize_t>(checks.size())),
         complete(free.size()),
         limit_reached(free.size()) {
     std::vector<CandidateContact> found;
     for (std::size_t i = 0; i < checks.size(); ++i) {
       const Check& check = checks[i];
-      const auto index = static_cast<py::ssize_t>(i);
+      const auto index = static_cast<Py_ssize_t>(i);
       free.mutable_at(index) = check.is_free();
       complete.mutable_at(index) = check.is_complete();
       limit_reached.mutable_at(index) = check.is_limit_reached();

@@ -45,11 +45,11 @@ const Value* items_of(const py::array& array) {
 py::array gradients(const py::object& contacts) {
   const py::array array = to_contacts(contacts);
   const auto* items = items_of<Contact>(array);
-  const py::ssize_t count = array.size();
-  py::array_t<double> result(std::vector<py::ssize_t>{count, 4, 3});
+  const Py_ssize_t count = array.size();
+  py::array_t<double> result(std::vector<Py_ssize_t>{count, 4, 3});
   auto* rows = reinterpret_cast<Eigen::Vector3d*>(result.mutable_data());
   const py::gil_scoped_release others_may_run;
-  for (py::ssize_t i = 0; i < count; ++i) {
+  for (Py_ssize_t i = 0; i < count; ++i) {
     const GapGradient gradient = gradient_of(items[i]);
     *rows++ = gradient.a0;
     *rows++ = gradient.a1;

@@ -67,19 +67,19 @@ py::array Engine::nearest(const py::object& points, std::int64_t k) {
   }
   const std::uint32_t count = to_index(k, "k", 1);
   const auto* rows = array.data();
-  const py::ssize_t asked = is_one ? 1 : array.shape(0);
+  const Py_ssize_t asked = is_one ? 1 : array.shape(0);
   std::vector<Contact> found;
   {
     const py::gil_scoped_release others_may_run;
     QueryResult result;
     read([&](const ProximityEngine& engine) {
-      for (py::ssize_t i = 0; i < asked; ++i) {
+      for (Py_ssize_t i = 0; i < asked; ++i) {
         nearest_segments(engine, Eigen::Vector3d(rows + 3 * i), count, result);
         found.insert(found.end(), result.contacts.begin(), result.contacts.end());
       }
     });
   }
-  const auto each = static_cast<py::ssize_t>(found.size()) / std::max<py::ssize_t>(asked, 1);
+  const auto each = static_cast<Py_ssize_t>(found.size()) / std::max<Py_ssize_t>(asked, 1);
   const py::array all = to_array(contact_dtype(), found);
   return is_one ? all : py::array(all.attr("reshape")(asked, asked == 0 ? count : each));
 }

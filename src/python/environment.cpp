@@ -63,9 +63,9 @@ py::array pose_of(const SharedWorld& world, const std::string& name) {
   const auto environment = snapshot(world);
   for (const EnvironmentObject& object : environment->objects()) {
     if (object.name == name) {
-      py::array_t<double> pose(std::vector<py::ssize_t>{4, 4});
-      for (py::ssize_t row = 0; row < 4; ++row) {
-        for (py::ssize_t column = 0; column < 4; ++column) {
+      py::array_t<double> pose(std::vector<Py_ssize_t>{4, 4});
+      for (Py_ssize_t row = 0; row < 4; ++row) {
+        for (Py_ssize_t column = 0; column < 4; ++column) {
           pose.mutable_at(row, column) = object.pose.matrix()(row, column);
         }
       }

@@ -8,8 +8,8 @@ namespace {
 
 Eigen::Isometry3d to_isometry(const Doubles& matrix, const char* name) {
   Eigen::Isometry3d pose;
-  for (py::ssize_t row = 0; row < 4; ++row) {
-    for (py::ssize_t column = 0; column < 4; ++column) {
+  for (Py_ssize_t row = 0; row < 4; ++row) {
+    for (Py_ssize_t column = 0; column < 4; ++column) {
       pose.matrix()(row, column) = matrix.at(row, column);
     }
   }
