@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "src/python/python_lock.hpp"
+
 namespace fiber::python {
 
 namespace py = pybind11;

@@ -34,7 +34,7 @@ std::vector<FiberAssembly> copy_states(const py::object& sequence, const std::st
     const std::string place = name + "[" + std::to_string(states.size()) + "]";
     states.push_back(to_state(py::reinterpret_borrow<py::object>(item), place.c_str()));
   }
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   std::vector<FiberAssembly> assemblies(states.size());
   tbb::parallel_for(std::size_t{0}, states.size(),
                     [&](std::size_t i) { assemblies[i] = *states[i]; });
@@ -56,7 +56,7 @@ std::vector<FiberAssembly> copy_rows(const Rows& rows, const std::vector<double>
     offsets.push_back(fiber * rows.points);
   }
   const std::size_t each = std::size_t{rows.fibers} * rows.points;
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   std::vector<FiberAssembly> assemblies(rows.assemblies);
   const auto copy = [&](std::size_t i) {
     std::vector<Eigen::Vector3d> points;

@@ -99,7 +99,7 @@ void check_against(const std::shared_ptr<Engine>& engine, const py::object& envi
   surroundings.environment = around.get();
   surroundings.allowed = to_allowed(allowed);
   surroundings.self = self;
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   if (engine == nullptr) {
     check(surroundings);
     return;

@@ -48,7 +48,7 @@ py::array gradients(const py::object& contacts) {
   const Py_ssize_t count = array.size();
   py::array_t<double> result(std::vector<Py_ssize_t>{count, 4, 3});
   auto* rows = reinterpret_cast<Eigen::Vector3d*>(result.mutable_data());
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   for (Py_ssize_t i = 0; i < count; ++i) {
     const GapGradient gradient = gradient_of(items[i]);
     *rows++ = gradient.a0;
@@ -135,7 +135,7 @@ py::array MotionAnswer::at(const py::object& motion_contacts) const {
   const auto count = static_cast<std::size_t>(array.size());
   std::vector<Contact> located;
   {
-    const py::gil_scoped_release others_may_run;
+    const WithoutPythonLock others_may_run;
     located.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
       located.push_back(locate(items[i]));

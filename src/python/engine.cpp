@@ -18,7 +18,7 @@ Engine::Engine(std::string name, std::int64_t threads, double skin) : name_(std:
 }
 
 void Engine::update(std::shared_ptr<Fibers> fibers) {
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   const std::lock_guard<std::shared_mutex> lock(mutex_);
   if (fibers == nullptr) {
     fibers = fibers_;
@@ -33,7 +33,7 @@ void Engine::update(std::shared_ptr<Fibers> fibers) {
 }
 
 std::shared_ptr<Fibers> Engine::fibers() const {
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   const std::shared_lock<std::shared_mutex> lock(mutex_);
   return fibers_;
 }
@@ -43,7 +43,7 @@ std::shared_ptr<MotionAnswer> Engine::motion(const Fibers::State& before,
                                              const MotionOptions& options) {
   MotionResult result;
   {
-    const py::gil_scoped_release others_may_run;
+    const WithoutPythonLock others_may_run;
     const std::lock_guard<std::mutex> lock(motion_mutex_);
     if (motion_engine_ == nullptr) {
       motion_engine_ = make_engine(name_, options_);
@@ -70,7 +70,7 @@ py::array Engine::nearest(const py::object& points, std::int64_t k) {
   const Py_ssize_t asked = is_one ? 1 : array.shape(0);
   std::vector<Contact> found;
   {
-    const py::gil_scoped_release others_may_run;
+    const WithoutPythonLock others_may_run;
     QueryResult result;
     read([&](const ProximityEngine& engine) {
       for (Py_ssize_t i = 0; i < asked; ++i) {

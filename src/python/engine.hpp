@@ -28,7 +28,7 @@ class Engine : public OnlyShared {
   void query(const QueryOptions& options, const Fibers::State& shape, const Use& use) {
     results_.lend([&](QueryResult& result) {
       {
-        const py::gil_scoped_release others_may_run;
+        const WithoutPythonLock others_may_run;
         read([&](const ProximityEngine& engine) {
           shape == nullptr ? engine.query(options, result)
                            : engine.query_shape(*shape, options, result);

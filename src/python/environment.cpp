@@ -20,7 +20,7 @@ namespace {
 
 /// What there is now; made where something has changed.
 std::shared_ptr<const Environment> snapshot(const SharedWorld& world) {
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   return world.environment();
 }
 
@@ -36,7 +36,7 @@ void append(SharedWorld& world, const std::string& name, const SharedWorld& part
       change.object.shapes.push_back({shape.shape, placed * part.pose * shape.pose});
     }
   }
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   world.apply({change});
 }
 
@@ -46,7 +46,7 @@ void change_one(SharedWorld& world, ObjectChange::Operation operation, const std
   change.operation = operation;
   change.object.name = name;
   change.object.pose = to_pose(pose);
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   world.apply({change});
 }
 
@@ -77,7 +77,7 @@ py::array pose_of(const SharedWorld& world, const std::string& name) {
 
 void read_file(SharedWorld& world, const std::string& path) {
   require_readable(path);
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   const MeshSource meshes = mesh_files(std::filesystem::path(path).parent_path());
   std::vector<ObjectChange> changes;
   for (const SceneObstacle& obstacle : read_environment_scene(load_yaml(path), meshes).obstacles) {
@@ -91,7 +91,7 @@ QueryResult query(const SharedWorld& world, const py::object& fibers, const py::
                   const QueryOptions& options) {
   const Fibers::State state = to_state(fibers, "fibers");
   const AllowedPairs pairs = to_allowed(allowed);
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   QueryResult result;
   world.environment()->query(*state, options, pairs, result);
   return result;
@@ -135,7 +135,7 @@ std::shared_ptr<MotionAnswer> motion(const SharedWorld& world, const py::object&
   const auto moved = given == nullptr ? environment : given;
   MotionResult result;
   {
-    const py::gil_scoped_release others_may_run;
+    const WithoutPythonLock others_may_run;
     environment->query_motion(*before, *after, *moved, options, pairs, result);
   }
   return std::make_shared<MotionAnswer>(result, [=](const MotionContact& contact) {

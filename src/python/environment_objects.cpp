@@ -24,7 +24,7 @@ void add(SharedWorld& world, const std::string& name, Shape shape, const py::obj
   change.object.name = name;
   change.object.pose = to_pose(pose);
   change.object.shapes.push_back({std::move(shape), Eigen::Isometry3d::Identity()});
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   world.apply({change});
 }
 
@@ -46,7 +46,7 @@ std::shared_ptr<const TriangleMesh> to_mesh(const py::object& mesh, const py::ob
   for (std::size_t i = 0; i < indices.size(); i += 3) {
     triangles.push_back({indices[i], indices[i + 1], indices[i + 2]});
   }
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   return std::make_shared<const TriangleMesh>(std::move(vertices), std::move(triangles));
 }
 
@@ -145,7 +145,7 @@ A mesh whose every edge joins two triangles is solid, any other is a sheet.
             const Eigen::Vector3d factors = to_vector(scale, "scale");
             std::shared_ptr<const TriangleMesh> mesh;
             {
-              const py::gil_scoped_release others_may_run;
+              const WithoutPythonLock others_may_run;
               mesh = read_mesh_file(path, factors);
             }
             add(world, name, mesh, pose);

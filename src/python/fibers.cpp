@@ -53,7 +53,7 @@ FiberAssembly make_fibers(const py::object& points, const py::object& offsets,
   std::vector<double> thickness = to_numbers(radii, "radii");
   const double* rows = array.data();
   const auto count = static_cast<std::size_t>(array.size() / 3);
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   std::vector<Eigen::Vector3d> copied;
   copy_points(rows, count, copied);
   return FiberAssembly(std::move(copied), std::move(begins), std::move(thickness));
@@ -110,7 +110,7 @@ void move(Fibers& fibers, const py::object& points) {
   }
   const double* rows = array.data();
   const auto count = static_cast<std::size_t>(array.size() / 3);
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   fibers.move(rows, count);
 }
 

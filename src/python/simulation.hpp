@@ -28,7 +28,7 @@ class Simulation : public OnlyShared {
   /// @throws std::runtime_error if a step has failed
   template <class Call>
   auto with(const Call& call) const {
-    const py::gil_scoped_release others_may_run;
+    const WithoutPythonLock others_may_run;
     const std::lock_guard<std::mutex> lock(mutex_);
     require_running();
     return call(scene_);

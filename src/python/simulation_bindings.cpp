@@ -31,14 +31,14 @@ SimDescription read_scene(const py::object& scene, const py::object& folder) {
                           .attr("dumps")(scene, py::arg("default") = py::cpp_function(&to_plain))
                           .cast<std::string>();
     const std::string meshes = folder.is_none() ? "." : to_path(folder);
-    const py::gil_scoped_release others_may_run;
+    const WithoutPythonLock others_may_run;
     return read_sim_scene(parse_yaml(text, "scene"), mesh_files(meshes));
   }
   const std::string path = to_path(scene);
   require_readable(path);
   const std::filesystem::path meshes = folder.is_none() ? std::filesystem::path(path).parent_path()
                                                         : std::filesystem::path(to_path(folder));
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   return read_sim_scene(load_yaml(path), mesh_files(meshes));
 }
 
@@ -46,7 +46,7 @@ std::shared_ptr<Simulation> make(const py::object& scene, const py::object& fold
                                  std::int64_t threads) {
   const std::uint32_t most = to_index(threads, "threads");
   SimDescription description = read_scene(scene, folder);
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   return std::make_shared<Simulation>(std::move(description), most);
 }
 

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """Threads of Python that use the same objects at once, and others while a call works."""
+import subprocess
 import sys
 import threading
 import unittest
@@ -192,6 +193,18 @@ class Threads(unittest.TestCase):
                     break
             self.assertEqual(seen, [True], name)
             waiting.join()
+
+    def test_python_ends_while_a_call_works(self):
+        """As it does under the threads of rospy."""
+        program = ('import threading, numpy as np, fiber_proximity as fp\n'
+                   'curve = np.random.default_rng(1).uniform(size=(200, 3))\n'
+                   'fp.writhe(curve)\n'
+                   'for _ in range(4):\n'
+                   '    threading.Thread(target=lambda: [fp.writhe(curve) for _ in range(10**9)], daemon=True).start()\n'
+                   'kept = [[i] for i in range(10**6)]  # so that it takes some time to end\n')
+        for _ in range(5):
+            run = subprocess.run([sys.executable, '-c', program], capture_output=True, text=True, check=False)
+            self.assertEqual((run.returncode, run.stderr), (0, ''))
 
 
 if __name__ == '__main__':
