@@ -14,7 +14,7 @@ if(FIBER_PROXIMITY_SANITIZE)
     list(APPEND preloaded ${file})
   endforeach()
   list(JOIN preloaded ":" preloaded)
-  list(APPEND python_environment LD_PRELOAD=${preloaded} ASAN_OPTIONS=detect_leaks=0)
+  list(APPEND python_environment LD_PRELOAD=${preloaded} ASAN_OPTIONS=detect_leaks=0 PYTHONMALLOC=malloc)
 endif()
 
 # fiber_proximity_python_test(NAME [ARGUMENT...]): test/python/NAME.py with the module of this build.
