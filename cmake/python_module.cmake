@@ -68,3 +68,8 @@ install(TARGETS fiber_proximity_python LIBRARY DESTINATION ${python_folder})
 # All that a wheel holds: setup.py installs this component.
 install(TARGETS fiber_proximity_python fiber_proximity fiber_proximity_paper fiber_proximity_environment
   fiber_proximity_sim LIBRARY DESTINATION fiber_proximity COMPONENT wheel EXCLUDE_FROM_ALL)
+if(FIBER_PROXIMITY_BUILD_BENCHMARKS)
+  # What benchmark/python/calls.py measures beside.
+  add_executable(fiber_python_calls EXCLUDE_FROM_ALL benchmark/python/calls.cpp)
+  target_link_libraries(fiber_python_calls fiber_proximity_environment fiber_proximity_options)
+endif()

@@ -54,7 +54,7 @@ packages=(
   python3-rosnode python3-rosparam python3-rosmsg python3-rosbag
   rviz librviz-dev qtbase5-dev xvfb xauth imagemagick x11-utils xdotool libgl1-mesa-dri
   libeigen3-dev libtbb-dev libhwy-dev libfcl-dev libassimp-dev
-  pybind11-dev python3-dev
+  pybind11-dev python3-dev python3-pip python3-setuptools python3-wheel
   libcli11-dev nlohmann-json3-dev libyaml-cpp-dev libboost-dev libgmp-dev libgtest-dev
 )
 if $lint; then

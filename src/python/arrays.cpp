@@ -32,7 +32,7 @@ Doubles to_doubles(const py::object& object, const char* name) {
 
 void refuse_shape(const py::array& array, const char* name, const char* allowed) {
   std::string shape = "(";
-  for (py::ssize_t i = 0; i < array.ndim(); ++i) {
+  for (Py_ssize_t i = 0; i < array.ndim(); ++i) {
     shape += (i == 0 ? "" : ", ") + std::to_string(array.shape(i));
   }
   shape += array.ndim() == 1 ? ",)" : ")";
@@ -82,7 +82,7 @@ std::vector<std::uint32_t> to_indices(const py::object& object, const char* name
   if (array.dtype().kind() == 'u' && array.itemsize() == sizeof(std::uint64_t)) {
     // Would be negative in what comes next.
     const py::array_t<std::uint64_t, py::array::forcecast> large(array);
-    for (py::ssize_t i = 0; i < large.size(); ++i) {
+    for (Py_ssize_t i = 0; i < large.size(); ++i) {
       if (large.at(i) > std::numeric_limits<std::uint32_t>::max()) {
         throw std::invalid_argument(std::string(name) + "[" + std::to_string(i) + "] is " +
                                     std::to_string(large.at(i)) + ", it must be below 2^32");
@@ -92,7 +92,7 @@ std::vector<std::uint32_t> to_indices(const py::object& object, const char* name
   const py::array_t<std::int64_t, py::array::c_style | py::array::forcecast> wide(array);
   std::vector<std::uint32_t> indices;
   indices.reserve(static_cast<std::size_t>(wide.size()));
-  for (py::ssize_t i = 0; i < wide.size(); ++i) {
+  for (Py_ssize_t i = 0; i < wide.size(); ++i) {
     const std::string item = std::string(name) + "[" + std::to_string(i) + "]";
     indices.push_back(to_index(wide.at(i), item.c_str()));
   }
@@ -117,16 +117,16 @@ py::dtype make_dtype(const std::vector<Field>& fields, std::size_t item_size) {
     formats.append(field.format);
     offsets.append(field.offset);
   }
-  return py::dtype(names, formats, offsets, static_cast<py::ssize_t>(item_size));
+  return py::dtype(names, formats, offsets, static_cast<Py_ssize_t>(item_size));
 }
 
 py::array to_array(const std::vector<Eigen::Vector3d>& points) {
-  const std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(points.size()), 3};
+  const std::vector<Py_ssize_t> shape{static_cast<Py_ssize_t>(points.size()), 3};
   return py::array_t<double>(shape, points.empty() ? nullptr : points.front().data());
 }
 
 py::array to_array(const std::vector<double>& values) {
-  return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
+  return py::array_t<double>(static_cast<Py_ssize_t>(values.size()), values.data());
 }
 
 namespace {
@@ -138,14 +138,14 @@ py::array read_only(const py::array& array) {
 
 }  // namespace
 
-py::array view(const double* values, const std::vector<py::ssize_t>& shape,
+py::array view(const double* values, const std::vector<Py_ssize_t>& shape,
                const py::object& owner) {
   return read_only(py::array_t<double>(shape, values, owner));
 }
 
 py::array view(const std::vector<std::uint32_t>& values, const py::object& owner) {
   return read_only(
-      py::array_t<std::uint32_t>(static_cast<py::ssize_t>(values.size()), values.data(), owner));
+      py::array_t<std::uint32_t>(static_cast<Py_ssize_t>(values.size()), values.data(), owner));
 }
 
 }  // namespace fiber::python

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "src/python/python_lock.hpp"
+
 namespace fiber::python {
 
 namespace py = pybind11;
@@ -66,8 +68,8 @@ std::size_t offset_of(const Object& object, Member Base::*member) {
 template <class Value>
 py::array to_array(const py::dtype& dtype, std::vector<Value>& values) {
   constexpr std::size_t most_copied = 64 * 1024 / sizeof(Value);
-  const std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(values.size())};
-  const std::vector<py::ssize_t> strides{static_cast<py::ssize_t>(sizeof(Value))};
+  const std::vector<Py_ssize_t> shape{static_cast<Py_ssize_t>(values.size())};
+  const std::vector<Py_ssize_t> strides{static_cast<Py_ssize_t>(sizeof(Value))};
   if (values.size() <= most_copied) {
     return py::array(dtype, shape, strides, values.data());
   }
@@ -81,8 +83,8 @@ py::array to_array(const py::dtype& dtype, std::vector<Value>& values) {
 /// One item of a structured array.
 template <class Value>
 py::object to_record(const py::dtype& dtype, const Value& value) {
-  const std::vector<py::ssize_t> shape{1};
-  const std::vector<py::ssize_t> strides{static_cast<py::ssize_t>(sizeof(Value))};
+  const std::vector<Py_ssize_t> shape{1};
+  const std::vector<Py_ssize_t> strides{static_cast<Py_ssize_t>(sizeof(Value))};
   return py::object(py::array(dtype, shape, strides, &value)[py::int_(0)]);
 }
 
@@ -91,8 +93,7 @@ py::array to_array(const std::vector<Eigen::Vector3d>& points);
 py::array to_array(const std::vector<double>& values);
 
 /// An array that cannot be written, of values that the owner keeps.
-py::array view(const double* values, const std::vector<py::ssize_t>& shape,
-               const py::object& owner);
+py::array view(const double* values, const std::vector<Py_ssize_t>& shape, const py::object& owner);
 py::array view(const std::vector<std::uint32_t>& values, const py::object& owner);
 
 /// Something that views keep alive.

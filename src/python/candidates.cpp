@@ -34,12 +34,10 @@ std::vector<FiberAssembly> copy_states(const py::object& sequence, const std::st
     const std::string place = name + "[" + std::to_string(states.size()) + "]";
     states.push_back(to_state(py::reinterpret_borrow<py::object>(item), place.c_str()));
   }
-  const py::gil_scoped_release others_may_run;
-  std::vector<FiberAssembly> assemblies;
-  assemblies.reserve(states.size());
-  for (const Fibers::State& state : states) {
-    assemblies.push_back(*state);
-  }
+  const WithoutPythonLock others_may_run;
+  std::vector<FiberAssembly> assemblies(states.size());
+  tbb::parallel_for(std::size_t{0}, states.size(),
+                    [&](std::size_t i) { assemblies[i] = *states[i]; });
   return assemblies;
 }
 
@@ -58,7 +56,7 @@ std::vector<FiberAssembly> copy_rows(const Rows& rows, const std::vector<double>
     offsets.push_back(fiber * rows.points);
   }
   const std::size_t each = std::size_t{rows.fibers} * rows.points;
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   std::vector<FiberAssembly> assemblies(rows.assemblies);
   const auto copy = [&](std::size_t i) {
     std::vector<Eigen::Vector3d> points;
@@ -79,14 +77,14 @@ std::vector<FiberAssembly> copy_rows(const Rows& rows, const std::vector<double>
 
 /// Reads an array whose last dimensions are ([fibres,] n, 3).
 /// @param leading dimensions before them
-Rows rows_of(const Doubles& array, py::ssize_t leading, const char* name, const char* allowed) {
-  const py::ssize_t dimensions = array.ndim();
+Rows rows_of(const Doubles& array, Py_ssize_t leading, const char* name, const char* allowed) {
+  const Py_ssize_t dimensions = array.ndim();
   const bool has_fibers = dimensions == leading + 3;
   if ((dimensions != leading + 2 && !has_fibers) || array.shape(dimensions - 1) != 3) {
     refuse_shape(array, name, allowed);
   }
   Rows rows{array.data(), 1, 1, 0};
-  for (py::ssize_t i = 0; i < leading; ++i) {
+  for (Py_ssize_t i = 0; i < leading; ++i) {
     rows.assemblies *= static_cast<std::size_t>(array.shape(i));
   }
   rows.fibers = has_fibers ? to_index(array.shape(leading), "the number of fibres") : 1;
@@ -127,8 +125,8 @@ std::vector<FiberPath> to_paths(const py::object& motions, const py::object& rad
   }
   const Rows rows = rows_of(array, 2, "motions", "(m, states, n, 3) or (m, states, fibres, n, 3)");
   std::vector<FiberAssembly> states = copy_rows(rows, to_numbers(radii, "radii"), "state");
-  const py::ssize_t length = array.shape(1);
-  for (py::ssize_t i = 0; i < array.shape(0); ++i) {
+  const Py_ssize_t length = array.shape(1);
+  for (Py_ssize_t i = 0; i < array.shape(0); ++i) {
     const auto begin = std::make_move_iterator(states.begin() + i * length);
     paths.emplace_back(begin, begin + length);
   }

@@ -41,16 +41,16 @@ py::dtype candidate_dtype(bool moves) {
 }
 
 /// Answers for all candidates, as Python has them.
-struct CheckAnswer {
+struct CheckAnswer : OnlyShared {
   template <class Check>
   CheckAnswer(const std::vector<Check>& checks, bool moves)
-      : free(static_cast<py::ssize_t>(checks.size())),
+      : free(static_cast<Py_ssize_t>(checks.size())),
         complete(free.size()),
         limit_reached(free.size()) {
     std::vector<CandidateContact> found;
     for (std::size_t i = 0; i < checks.size(); ++i) {
       const Check& check = checks[i];
-      const auto index = static_cast<py::ssize_t>(i);
+      const auto index = static_cast<Py_ssize_t>(i);
       free.mutable_at(index) = check.is_free();
       complete.mutable_at(index) = check.is_complete();
       limit_reached.mutable_at(index) = check.is_limit_reached();
@@ -99,7 +99,7 @@ void check_against(const std::shared_ptr<Engine>& engine, const py::object& envi
   surroundings.environment = around.get();
   surroundings.allowed = to_allowed(allowed);
   surroundings.self = self;
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   if (engine == nullptr) {
     check(surroundings);
     return;
@@ -110,30 +110,34 @@ void check_against(const std::shared_ptr<Engine>& engine, const py::object& envi
   });
 }
 
-CheckAnswer check(const py::object& candidates, const std::shared_ptr<Engine>& engine,
-                  const py::object& environment, double margin, const std::string& type,
-                  const py::object& radii, const py::object& allowed, bool self,
-                  const py::kwargs& keywords) {
+std::shared_ptr<CheckAnswer> check(const py::object& candidates,
+                                   const std::shared_ptr<Engine>& engine,
+                                   const py::object& environment, double margin,
+                                   const std::string& type, const py::object& radii,
+                                   const py::object& allowed, bool self,
+                                   const py::kwargs& keywords) {
   const QueryOptions options = query_options(type, margin, keywords);
   const std::vector<FiberAssembly> assemblies = to_candidates(candidates, radii);
   std::vector<FiberCheck> checks;
   check_against(engine, environment, allowed, self, [&](const Surroundings& surroundings) {
     check_fibers(assemblies, surroundings, options, checks);
   });
-  return CheckAnswer(checks, false);
+  return std::make_shared<CheckAnswer>(checks, false);
 }
 
-CheckAnswer check_motions(const py::object& motions, const std::shared_ptr<Engine>& engine,
-                          const py::object& environment, double margin, const std::string& type,
-                          const py::object& radii, const py::object& allowed, bool self,
-                          const py::kwargs& keywords) {
+std::shared_ptr<CheckAnswer> check_motions(const py::object& motions,
+                                           const std::shared_ptr<Engine>& engine,
+                                           const py::object& environment, double margin,
+                                           const std::string& type, const py::object& radii,
+                                           const py::object& allowed, bool self,
+                                           const py::kwargs& keywords) {
   const MotionOptions options = motion_options(type, margin, keywords);
   const std::vector<FiberPath> paths = to_paths(motions, radii);
   std::vector<MotionCheck> checks;
   check_against(engine, environment, allowed, self, [&](const Surroundings& surroundings) {
     fiber::check_motions(paths, surroundings, options, checks);
   });
-  return CheckAnswer(checks, true);
+  return std::make_shared<CheckAnswer>(checks, true);
 }
 
 constexpr const char* check_doc = R"(
@@ -200,7 +204,8 @@ CheckResult
 void bind_check(py::module& module) {
   module.attr("candidate_contact_dtype") = candidate_dtype(false);
   module.attr("candidate_motion_contact_dtype") = candidate_dtype(true);
-  py::class_<CheckAnswer>(module, "CheckResult", "Answer to ``check()`` and ``check_motions()``.")
+  py::class_<CheckAnswer, std::shared_ptr<CheckAnswer>>(
+      module, "CheckResult", "Answer to ``check()`` and ``check_motions()``.")
       .def_readonly("free", &CheckAnswer::free, "(m,) bool: whether the candidate touches nothing.")
       .def_readonly("complete", &CheckAnswer::complete,
                     "(m,) bool: whether all pairs have been looked at, or it is not free.")

@@ -45,11 +45,11 @@ const Value* items_of(const py::array& array) {
 py::array gradients(const py::object& contacts) {
   const py::array array = to_contacts(contacts);
   const auto* items = items_of<Contact>(array);
-  const py::ssize_t count = array.size();
-  py::array_t<double> result(std::vector<py::ssize_t>{count, 4, 3});
+  const Py_ssize_t count = array.size();
+  py::array_t<double> result(std::vector<Py_ssize_t>{count, 4, 3});
   auto* rows = reinterpret_cast<Eigen::Vector3d*>(result.mutable_data());
-  const py::gil_scoped_release others_may_run;
-  for (py::ssize_t i = 0; i < count; ++i) {
+  const WithoutPythonLock others_may_run;
+  for (Py_ssize_t i = 0; i < count; ++i) {
     const GapGradient gradient = gradient_of(items[i]);
     *rows++ = gradient.a0;
     *rows++ = gradient.a1;
@@ -135,7 +135,7 @@ py::array MotionAnswer::at(const py::object& motion_contacts) const {
   const auto count = static_cast<std::size_t>(array.size());
   std::vector<Contact> located;
   {
-    const py::gil_scoped_release others_may_run;
+    const WithoutPythonLock others_may_run;
     located.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
       located.push_back(locate(items[i]));
@@ -165,7 +165,8 @@ Returns
 >>> gradients(Engine(fibers).contacts(margin=1.0))[0, :, 2]
 array([-0.5, -0.5,  0.5,  0.5])
 )");
-  py::class_<Answer>(module, "QueryResult", "Answer to ``Engine.query()``.")
+  py::class_<Answer, std::shared_ptr<Answer>>(module, "QueryResult",
+                                              "Answer to ``Engine.query()``.")
       .def_readonly("contacts", &Answer::contacts,
                     "(m,) of ``contact_dtype``, sorted by fiber_a, segment_a, fiber_b, segment_b.")
       .def_readonly("closest", &Answer::closest,
@@ -182,7 +183,8 @@ array([-0.5, -0.5,  0.5,  0.5])
       .def_property_readonly(
           "counts", [](const Answer& answer) { return dict_of(answer.counts); },
           "Work done: node_tests, node_overlaps, primitive_tests.");
-  py::class_<MotionAnswer>(module, "MotionResult", "Answer to ``Engine.motion()``.")
+  py::class_<MotionAnswer, std::shared_ptr<MotionAnswer>>(module, "MotionResult",
+                                                          "Answer to ``Engine.motion()``.")
       .def_readonly("contacts", &MotionAnswer::contacts,
                     "(m,) of ``motion_contact_dtype``: pairs whose contact begins during the "
                     "motion, sorted by fiber_a, segment_a, fiber_b, segment_b. There is none "

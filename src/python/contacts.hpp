@@ -6,6 +6,7 @@
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/motion.hpp"
 #include "src/python/arrays.hpp"
+#include "src/python/shared.hpp"
 
 namespace fiber::python {
 
@@ -22,7 +23,7 @@ std::vector<Field> contact_fields();
 py::array to_contacts(const py::object& object);
 
 /// Answer to a query, as Python has it.
-struct Answer {
+struct Answer : OnlyShared {
   explicit Answer(QueryResult& result);
 
   py::array contacts;
@@ -35,7 +36,7 @@ struct Answer {
 };
 
 /// Answer to a question about a motion.
-struct MotionAnswer {
+struct MotionAnswer : OnlyShared {
   /// Where a pair is when it comes into contact; keeps what it asks alive.
   using Locate = std::function<Contact(const MotionContact&)>;
 

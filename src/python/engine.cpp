@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "src/python/bindings.hpp"
@@ -19,7 +18,7 @@ Engine::Engine(std::string name, std::int64_t threads, double skin) : name_(std:
 }
 
 void Engine::update(std::shared_ptr<Fibers> fibers) {
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   const std::lock_guard<std::shared_mutex> lock(mutex_);
   if (fibers == nullptr) {
     fibers = fibers_;
@@ -34,16 +33,17 @@ void Engine::update(std::shared_ptr<Fibers> fibers) {
 }
 
 std::shared_ptr<Fibers> Engine::fibers() const {
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   const std::shared_lock<std::shared_mutex> lock(mutex_);
   return fibers_;
 }
 
-MotionAnswer Engine::motion(const Fibers::State& before, const Fibers::State& after,
-                            const MotionOptions& options) {
+std::shared_ptr<MotionAnswer> Engine::motion(const Fibers::State& before,
+                                             const Fibers::State& after,
+                                             const MotionOptions& options) {
   MotionResult result;
   {
-    const py::gil_scoped_release others_may_run;
+    const WithoutPythonLock others_may_run;
     const std::lock_guard<std::mutex> lock(motion_mutex_);
     if (motion_engine_ == nullptr) {
       motion_engine_ = make_engine(name_, options_);
@@ -51,7 +51,7 @@ MotionAnswer Engine::motion(const Fibers::State& before, const Fibers::State& af
     motion_engine_->update_motion(*before, *after);
     motion_engine_->query_motion(options, result);
   }
-  return MotionAnswer(result, [before, after](const MotionContact& contact) {
+  return std::make_shared<MotionAnswer>(result, [before, after](const MotionContact& contact) {
     const FiberMotion motion{*before, *after};
     require_segment(*before, contact.fiber_a, contact.segment_a);
     require_segment(*before, contact.fiber_b, contact.segment_b);
@@ -67,19 +67,19 @@ py::array Engine::nearest(const py::object& points, std::int64_t k) {
   }
   const std::uint32_t count = to_index(k, "k", 1);
   const auto* rows = array.data();
-  const py::ssize_t asked = is_one ? 1 : array.shape(0);
+  const Py_ssize_t asked = is_one ? 1 : array.shape(0);
   std::vector<Contact> found;
   {
-    const py::gil_scoped_release others_may_run;
+    const WithoutPythonLock others_may_run;
     QueryResult result;
     read([&](const ProximityEngine& engine) {
-      for (py::ssize_t i = 0; i < asked; ++i) {
+      for (Py_ssize_t i = 0; i < asked; ++i) {
         nearest_segments(engine, Eigen::Vector3d(rows + 3 * i), count, result);
         found.insert(found.end(), result.contacts.begin(), result.contacts.end());
       }
     });
   }
-  const auto each = static_cast<py::ssize_t>(found.size()) / std::max<py::ssize_t>(asked, 1);
+  const auto each = static_cast<Py_ssize_t>(found.size()) / std::max<Py_ssize_t>(asked, 1);
   const py::array all = to_array(contact_dtype(), found);
   return is_one ? all : py::array(all.attr("reshape")(asked, asked == 0 ? count : each));
 }
@@ -242,12 +242,12 @@ Pointer make_updated(std::shared_ptr<Fibers> fibers, const std::string& name, st
   return engine;
 }
 
-Answer query(Engine& engine, const std::string& type, double margin, const py::object& shape,
-             const py::kwargs& options) {
-  std::optional<Answer> answer;
+std::shared_ptr<Answer> query(Engine& engine, const std::string& type, double margin,
+                              const py::object& shape, const py::kwargs& options) {
+  std::shared_ptr<Answer> answer;
   engine.query(query_options(type, margin, options), shape_of(shape),
-               [&](QueryResult& result) { answer.emplace(result); });
-  return *std::move(answer);
+               [&](QueryResult& result) { answer = std::make_shared<Answer>(result); });
+  return answer;
 }
 
 py::array contacts(Engine& engine, double margin, const py::object& shape,

@@ -13,7 +13,7 @@ namespace fiber::python {
 
 /// An engine that any number of Python's threads may use: queries run at the same time, an update
 /// waits for them. It keeps the fibres of its last update alive, as they were then.
-class Engine {
+class Engine : public OnlyShared {
  public:
   Engine(std::string name, std::int64_t threads, double skin);
 
@@ -28,7 +28,7 @@ class Engine {
   void query(const QueryOptions& options, const Fibers::State& shape, const Use& use) {
     results_.lend([&](QueryResult& result) {
       {
-        const py::gil_scoped_release others_may_run;
+        const WithoutPythonLock others_may_run;
         read([&](const ProximityEngine& engine) {
           shape == nullptr ? engine.query(options, result)
                            : engine.query_shape(*shape, options, result);
@@ -39,8 +39,8 @@ class Engine {
   }
 
   /// When pairs come into contact, by an engine of its own.
-  MotionAnswer motion(const Fibers::State& before, const Fibers::State& after,
-                      const MotionOptions& options);
+  std::shared_ptr<MotionAnswer> motion(const Fibers::State& before, const Fibers::State& after,
+                                       const MotionOptions& options);
 
   /// @param points (3,) or (m, 3) [m]
   py::array nearest(const py::object& points, std::int64_t k);

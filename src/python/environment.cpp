@@ -19,12 +19,13 @@ namespace fiber::python {
 namespace {
 
 /// What there is now; made where something has changed.
-std::shared_ptr<const Environment> snapshot(const World& world) {
-  const py::gil_scoped_release others_may_run;
+std::shared_ptr<const Environment> snapshot(const SharedWorld& world) {
+  const WithoutPythonLock others_may_run;
   return world.environment();
 }
 
-void append(World& world, const std::string& name, const World& parts, const py::object& pose) {
+void append(SharedWorld& world, const std::string& name, const SharedWorld& parts,
+            const py::object& pose) {
   ObjectChange change;
   change.operation = ObjectChange::Operation::APPEND;
   change.object.name = name;
@@ -35,21 +36,21 @@ void append(World& world, const std::string& name, const World& parts, const py:
       change.object.shapes.push_back({shape.shape, placed * part.pose * shape.pose});
     }
   }
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   world.apply({change});
 }
 
-void change_one(World& world, ObjectChange::Operation operation, const std::string& name,
+void change_one(SharedWorld& world, ObjectChange::Operation operation, const std::string& name,
                 const py::object& pose) {
   ObjectChange change;
   change.operation = operation;
   change.object.name = name;
   change.object.pose = to_pose(pose);
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   world.apply({change});
 }
 
-std::vector<std::string> names_of(const World& world) {
+std::vector<std::string> names_of(const SharedWorld& world) {
   std::vector<std::string> names;
   const auto environment = snapshot(world);
   for (const EnvironmentObject& object : environment->objects()) {
@@ -58,13 +59,13 @@ std::vector<std::string> names_of(const World& world) {
   return names;
 }
 
-py::array pose_of(const World& world, const std::string& name) {
+py::array pose_of(const SharedWorld& world, const std::string& name) {
   const auto environment = snapshot(world);
   for (const EnvironmentObject& object : environment->objects()) {
     if (object.name == name) {
-      py::array_t<double> pose(std::vector<py::ssize_t>{4, 4});
-      for (py::ssize_t row = 0; row < 4; ++row) {
-        for (py::ssize_t column = 0; column < 4; ++column) {
+      py::array_t<double> pose(std::vector<Py_ssize_t>{4, 4});
+      for (Py_ssize_t row = 0; row < 4; ++row) {
+        for (Py_ssize_t column = 0; column < 4; ++column) {
           pose.mutable_at(row, column) = object.pose.matrix()(row, column);
         }
       }
@@ -74,9 +75,9 @@ py::array pose_of(const World& world, const std::string& name) {
   throw py::key_error(name);
 }
 
-void read_file(World& world, const std::string& path) {
+void read_file(SharedWorld& world, const std::string& path) {
   require_readable(path);
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   const MeshSource meshes = mesh_files(std::filesystem::path(path).parent_path());
   std::vector<ObjectChange> changes;
   for (const SceneObstacle& obstacle : read_environment_scene(load_yaml(path), meshes).obstacles) {
@@ -86,23 +87,23 @@ void read_file(World& world, const std::string& path) {
   world.apply(changes);
 }
 
-QueryResult query(const World& world, const py::object& fibers, const py::object& allowed,
+QueryResult query(const SharedWorld& world, const py::object& fibers, const py::object& allowed,
                   const QueryOptions& options) {
   const Fibers::State state = to_state(fibers, "fibers");
   const AllowedPairs pairs = to_allowed(allowed);
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   QueryResult result;
   world.environment()->query(*state, options, pairs, result);
   return result;
 }
 
-py::array contacts(const World& world, const py::object& fibers, double margin,
+py::array contacts(const SharedWorld& world, const py::object& fibers, double margin,
                    const py::object& allowed, const py::kwargs& options) {
   QueryResult result = query(world, fibers, allowed, query_options("all", margin, options));
   return to_array(contact_dtype(), result.contacts);
 }
 
-py::object closest(const World& world, const py::object& fibers, double margin,
+py::object closest(const SharedWorld& world, const py::object& fibers, double margin,
                    const py::object& allowed, const py::kwargs& options) {
   const QueryResult result =
       query(world, fibers, allowed, query_options("closest", margin, options));
@@ -121,10 +122,10 @@ void require_pair(const Environment& environment, const FiberAssembly& fibers,
   }
 }
 
-MotionAnswer motion(const World& world, const py::object& fibers_before,
-                    const py::object& fibers_after, double margin, const std::string& type,
-                    const py::object& later, const py::object& allowed,
-                    const py::kwargs& keywords) {
+std::shared_ptr<MotionAnswer> motion(const SharedWorld& world, const py::object& fibers_before,
+                                     const py::object& fibers_after, double margin,
+                                     const std::string& type, const py::object& later,
+                                     const py::object& allowed, const py::kwargs& keywords) {
   const Fibers::State before = to_state(fibers_before, "before");
   const Fibers::State after = to_state(fibers_after, "after");
   const AllowedPairs pairs = to_allowed(allowed);
@@ -134,10 +135,10 @@ MotionAnswer motion(const World& world, const py::object& fibers_before,
   const auto moved = given == nullptr ? environment : given;
   MotionResult result;
   {
-    const py::gil_scoped_release others_may_run;
+    const WithoutPythonLock others_may_run;
     environment->query_motion(*before, *after, *moved, options, pairs, result);
   }
-  return MotionAnswer(result, [=](const MotionContact& contact) {
+  return std::make_shared<MotionAnswer>(result, [=](const MotionContact& contact) {
     require_pair(*environment, *before, contact);
     return environment->first_contact({*before, *after}, *moved, contact);
   });
@@ -192,18 +193,19 @@ std::shared_ptr<const Environment> to_environment(const py::object& object) {
   if (object.is_none()) {
     return nullptr;
   }
-  if (!py::isinstance<World>(object)) {
+  if (!py::isinstance<SharedWorld>(object)) {
     throw py::type_error("environment is a " + std::string(py::str(object.get_type())) +
                          ", it must be an Environment");
   }
-  return snapshot(object.cast<const World&>());
+  return snapshot(object.cast<const SharedWorld&>());
 }
 
 void bind_environment(py::module& module) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   using Operation = ObjectChange::Operation;
-  py::class_<World, std::shared_ptr<World>> environment(module, "Environment", class_doc);
-  environment.def(py::init<>());
+  py::class_<SharedWorld, std::shared_ptr<SharedWorld>> environment(module, "Environment",
+                                                                    class_doc);
+  environment.def(py::init([] { return std::make_shared<SharedWorld>(); }));
   bind_shapes(environment);
   environment
       .def("append", &append, py::arg("name"), py::arg("parts"), py::arg("pose") = py::none(),
@@ -211,26 +213,30 @@ void bind_environment(py::module& module) {
            "of several shapes.")
       .def(
           "move",
-          [](World& world, const std::string& name, const py::object& pose) {
+          [](SharedWorld& world, const std::string& name, const py::object& pose) {
             change_one(world, Operation::MOVE, name, pose);
           },
           py::arg("name"), py::arg("pose"), "Brings an object to a pose.")
       .def(
           "remove",
-          [](World& world, const std::string& name) {
+          [](SharedWorld& world, const std::string& name) {
             change_one(world, Operation::REMOVE, name, py::none());
           },
           py::arg("name"), "Takes an object away.")
       .def(
-          "read", [](World& world, const py::object& path) { read_file(world, to_path(path)); },
+          "read",
+          [](SharedWorld& world, const py::object& path) { read_file(world, to_path(path)); },
           py::arg("path"),
           "Adds the `obstacles` of a YAML file as the node's parameter ~environment has them.")
       .def_property_readonly("names", &names_of,
                              "Names of the objects, a list of str: `fiber_b` of a contact with the "
                              "environment is an index of it.")
       .def("pose", &pose_of, py::arg("name"), "(4, 4) float64: where an object is [m].")
-      .def("__len__", &World::object_count)
-      .def("__contains__", &World::has, py::arg("name"))
+      .def("__len__", [](const SharedWorld& world) { return world.object_count(); })
+      .def(
+          "__contains__",
+          [](const SharedWorld& world, const std::string& name) { return world.has(name); },
+          py::arg("name"))
       .def("contacts", &contacts, py::arg("fibers"), py::arg("margin") = 0.0,
            py::arg("allowed") = py::none(), R"(
 All pairs of a segment (a) and a shape of an object (b) no further apart than the margin.
@@ -255,7 +261,7 @@ Returns
            "Pairs of a segment and a shape that come into contact while the fibres move from where "
            "they are before to where they are after, and the objects to where they are in `later`, "
            "an Environment of the same objects; as ``Engine.motion()`` otherwise.")
-      .def("__repr__", [](const World& world) {
+      .def("__repr__", [](const SharedWorld& world) {
         return "<fiber_proximity.Environment: " + std::to_string(world.object_count()) +
                " objects>";
       });

@@ -8,8 +8,8 @@ namespace {
 
 Eigen::Isometry3d to_isometry(const Doubles& matrix, const char* name) {
   Eigen::Isometry3d pose;
-  for (py::ssize_t row = 0; row < 4; ++row) {
-    for (py::ssize_t column = 0; column < 4; ++column) {
+  for (Py_ssize_t row = 0; row < 4; ++row) {
+    for (Py_ssize_t column = 0; column < 4; ++column) {
       pose.matrix()(row, column) = matrix.at(row, column);
     }
   }
@@ -19,12 +19,12 @@ Eigen::Isometry3d to_isometry(const Doubles& matrix, const char* name) {
   return pose;
 }
 
-void add(World& world, const std::string& name, Shape shape, const py::object& pose) {
+void add(SharedWorld& world, const std::string& name, Shape shape, const py::object& pose) {
   ObjectChange change;
   change.object.name = name;
   change.object.pose = to_pose(pose);
   change.object.shapes.push_back({std::move(shape), Eigen::Isometry3d::Identity()});
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   world.apply({change});
 }
 
@@ -46,7 +46,7 @@ std::shared_ptr<const TriangleMesh> to_mesh(const py::object& mesh, const py::ob
   for (std::size_t i = 0; i < indices.size(); i += 3) {
     triangles.push_back({indices[i], indices[i + 1], indices[i + 2]});
   }
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   return std::make_shared<const TriangleMesh>(std::move(vertices), std::move(triangles));
 }
 
@@ -70,24 +70,24 @@ Eigen::Isometry3d to_pose(const py::object& object, const char* name) {
                           : Eigen::Quaterniond::Identity());
 }
 
-void bind_shapes(py::class_<World, std::shared_ptr<World>>& environment) {
+void bind_shapes(py::class_<SharedWorld, std::shared_ptr<SharedWorld>>& environment) {
   const auto none = py::none();
   environment
       .def(
           "add_box",
-          [](World& world, const std::string& name, const py::object& size,
+          [](SharedWorld& world, const std::string& name, const py::object& size,
              const py::object& pose) { add(world, name, BoxShape{to_vector(size, "size")}, pose); },
           py::arg("name"), py::arg("size"), py::arg("pose") = none,
           "A box of these edges (3,) [m] around its pose.")
       .def(
           "add_sphere",
-          [](World& world, const std::string& name, double radius, const py::object& pose) {
+          [](SharedWorld& world, const std::string& name, double radius, const py::object& pose) {
             add(world, name, SphereShape{radius}, pose);
           },
           py::arg("name"), py::arg("radius"), py::arg("pose") = none, "A sphere [m].")
       .def(
           "add_cylinder",
-          [](World& world, const std::string& name, double radius, double height,
+          [](SharedWorld& world, const std::string& name, double radius, double height,
              const py::object& pose) {
             add(world, name, CylinderShape{radius, height}, pose);
           },
@@ -95,7 +95,7 @@ void bind_shapes(py::class_<World, std::shared_ptr<World>>& environment) {
           "A cylinder along z, from -height / 2 to height / 2 [m].")
       .def(
           "add_cone",
-          [](World& world, const std::string& name, double radius, double height,
+          [](SharedWorld& world, const std::string& name, double radius, double height,
              const py::object& pose) {
             add(world, name, ConeShape{radius, height}, pose);
           },
@@ -103,7 +103,7 @@ void bind_shapes(py::class_<World, std::shared_ptr<World>>& environment) {
           "A cone: its base at z = -height / 2, its apex at z = height / 2 [m].")
       .def(
           "add_capsule",
-          [](World& world, const std::string& name, double radius, double length,
+          [](SharedWorld& world, const std::string& name, double radius, double length,
              const py::object& pose) {
             add(world, name, CapsuleShape{radius, length}, pose);
           },
@@ -111,7 +111,7 @@ void bind_shapes(py::class_<World, std::shared_ptr<World>>& environment) {
           "All points within the radius of a segment along z of this length [m].")
       .def(
           "add_plane",
-          [](World& world, const std::string& name, const py::object& normal, double offset) {
+          [](SharedWorld& world, const std::string& name, const py::object& normal, double offset) {
             const Eigen::Vector3d n = to_vector(normal, "normal");
             add(world, name, make_plane({n.x(), n.y(), n.z(), -offset}), py::none());
           },
@@ -119,7 +119,7 @@ void bind_shapes(py::class_<World, std::shared_ptr<World>>& environment) {
           "A sheet that can be touched from both sides: all points p with normal . p = offset.")
       .def(
           "add_half_space",
-          [](World& world, const std::string& name, const py::object& normal, double offset) {
+          [](SharedWorld& world, const std::string& name, const py::object& normal, double offset) {
             const Eigen::Vector3d n = to_vector(normal, "normal");
             add(world, name, make_half_space({n.x(), n.y(), n.z(), -offset}), py::none());
           },
@@ -127,7 +127,8 @@ void bind_shapes(py::class_<World, std::shared_ptr<World>>& environment) {
           "Solid where normal . p <= offset: a floor has the normal (0, 0, 1).")
       .def(
           "add_mesh",
-          [](World& world, const std::string& name, const py::object& mesh, const py::object& faces,
+          [](SharedWorld& world, const std::string& name, const py::object& mesh,
+             const py::object& faces,
              const py::object& pose) { add(world, name, to_mesh(mesh, faces), pose); },
           py::arg("name"), py::arg("mesh"), py::arg("faces") = none, py::arg("pose") = none, R"(
 Triangles: of an object with `vertices` and `faces`, as trimesh has, or vertices (n, 3) [m] with
@@ -137,14 +138,14 @@ A mesh whose every edge joins two triangles is solid, any other is a sheet.
 )")
       .def(
           "add_mesh_file",
-          [](World& world, const std::string& name, const py::object& file, const py::object& scale,
-             const py::object& pose) {
+          [](SharedWorld& world, const std::string& name, const py::object& file,
+             const py::object& scale, const py::object& pose) {
             const std::string path = to_path(file);
             require_readable(path);
             const Eigen::Vector3d factors = to_vector(scale, "scale");
             std::shared_ptr<const TriangleMesh> mesh;
             {
-              const py::gil_scoped_release others_may_run;
+              const WithoutPythonLock others_may_run;
               mesh = read_mesh_file(path, factors);
             }
             add(world, name, mesh, pose);

@@ -40,11 +40,11 @@ FiberAssembly make_fibers(const py::object& points, const py::object& offsets,
   }
   std::vector<std::uint32_t> begins;
   if (offsets.is_none()) {
-    const py::ssize_t length = is_stack ? array.shape(1) : array.shape(0);
+    const Py_ssize_t length = is_stack ? array.shape(1) : array.shape(0);
     // Of fibres without points one is enough to be refused.
-    const py::ssize_t most = length == 0 ? 1 : std::numeric_limits<py::ssize_t>::max();
-    const py::ssize_t fibers = is_stack ? std::min(array.shape(0), most) : 1;
-    for (py::ssize_t fiber = 0; fiber <= fibers; ++fiber) {
+    const Py_ssize_t most = length == 0 ? 1 : std::numeric_limits<Py_ssize_t>::max();
+    const Py_ssize_t fibers = is_stack ? std::min(array.shape(0), most) : 1;
+    for (Py_ssize_t fiber = 0; fiber <= fibers; ++fiber) {
       begins.push_back(to_index(fiber * length, "the number of points"));
     }
   } else {
@@ -53,7 +53,7 @@ FiberAssembly make_fibers(const py::object& points, const py::object& offsets,
   std::vector<double> thickness = to_numbers(radii, "radii");
   const double* rows = array.data();
   const auto count = static_cast<std::size_t>(array.size() / 3);
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   std::vector<Eigen::Vector3d> copied;
   copy_points(rows, count, copied);
   return FiberAssembly(std::move(copied), std::move(begins), std::move(thickness));
@@ -79,14 +79,14 @@ namespace {
 
 py::array points_of(const Fibers& fibers) {
   const Fibers::State state = fibers.state();
-  const auto count = static_cast<py::ssize_t>(state->point_count());
+  const auto count = static_cast<Py_ssize_t>(state->point_count());
   const double* first = count == 0 ? nullptr : state->points().front().data();
   return view(first, {count, 3}, keep(state));
 }
 
-py::array points_of_fiber(const Fibers& fibers, py::ssize_t index) {
+py::array points_of_fiber(const Fibers& fibers, Py_ssize_t index) {
   const Fibers::State state = fibers.state();
-  const auto count = static_cast<py::ssize_t>(state->fiber_count());
+  const auto count = static_cast<Py_ssize_t>(state->fiber_count());
   if (index < -count || index >= count) {
     throw py::index_error("there is no fibre " + std::to_string(index) + ", there are " +
                           std::to_string(count));
@@ -94,14 +94,13 @@ py::array points_of_fiber(const Fibers& fibers, py::ssize_t index) {
   const auto fiber = static_cast<std::size_t>(index < 0 ? index + count : index);
   const std::uint32_t begin = state->offsets()[fiber];
   const std::uint32_t end = state->offsets()[fiber + 1];
-  return view(state->points()[begin].data(), {static_cast<py::ssize_t>(end - begin), 3},
+  return view(state->points()[begin].data(), {static_cast<Py_ssize_t>(end - begin), 3},
               keep(state));
 }
 
 py::array radii_of(const Fibers& fibers) {
   const Fibers::State state = fibers.state();
-  return view(state->radii().data(), {static_cast<py::ssize_t>(state->radii().size())},
-              keep(state));
+  return view(state->radii().data(), {static_cast<Py_ssize_t>(state->radii().size())}, keep(state));
 }
 
 void move(Fibers& fibers, const py::object& points) {
@@ -111,7 +110,7 @@ void move(Fibers& fibers, const py::object& points) {
   }
   const double* rows = array.data();
   const auto count = static_cast<std::size_t>(array.size() / 3);
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   fibers.move(rows, count);
 }
 

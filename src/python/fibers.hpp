@@ -6,13 +6,14 @@
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "src/python/arrays.hpp"
+#include "src/python/shared.hpp"
 
 namespace fiber::python {
 
 /// Fibres that Python moves. Each state of them is an assembly that does not change while anybody
 /// holds it, an engine or an array that shows its points, whatever other threads do; so nothing
 /// that Python does to an array or to these fibres reaches a query that runs.
-class Fibers {
+class Fibers : public OnlyShared {
  public:
   using State = std::shared_ptr<const FiberAssembly>;
 

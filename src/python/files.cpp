@@ -13,7 +13,7 @@ namespace {
 
 FiberFile read_file(const std::string& path, double default_radius) {
   require_readable(path);
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   try {
     return read_fibers(path, default_radius);
   } catch (const FileError& error) {
@@ -45,7 +45,7 @@ std::vector<std::pair<std::int64_t, std::shared_ptr<Fibers>>> read_frames(const 
 void write(const py::object& path, const py::object& fibers) {
   const std::string name = to_path(path);
   const Fibers::State state = to_state(fibers, "fibers");
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   FiberWriter writer(name, false);
   writer.write({0, *state});
   writer.finish();
@@ -70,7 +70,7 @@ void write_frames(const py::object& path, const py::iterable& frames, const py::
       throw std::invalid_argument("there are more frames than times, " +
                                   std::to_string(seconds->size()));
     }
-    const py::gil_scoped_release others_may_run;
+    const WithoutPythonLock others_may_run;
     writer.write({number, *state}, seconds ? std::make_optional((*seconds)[count]) : std::nullopt);
     ++count;
   }

@@ -7,7 +7,7 @@ namespace fiber::python {
 namespace {
 
 /// RodForces, as Python has it.
-struct Forces {
+struct Forces : OnlyShared {
   explicit Forces(RodForces& forces);
 
   py::array tensions;
@@ -57,12 +57,12 @@ Forces::Forces(RodForces& forces)
 
 py::object forces_of(const Simulation& simulation) {
   RodForces forces = simulation.with([](SimScene& scene) { return scene.stepper->forces(); });
-  return py::cast(Forces(forces));
+  return py::cast(std::make_shared<Forces>(forces));
 }
 
 void bind_forces(py::module& module) {
-  py::class_<Forces>(module, "Forces",
-                     "What acts in fibres of a simulation and on them at the end of a frame.")
+  py::class_<Forces, std::shared_ptr<Forces>>(
+      module, "Forces", "What acts in fibres of a simulation and on them at the end of a frame.")
       .def_readonly("tensions", &Forces::tensions,
                     "(n,) float64 [N], by the first point of each segment: positive where it is "
                     "pulled; 0 at the last point of a fibre. Empty before the first step.")

@@ -28,7 +28,7 @@ void Simulation::require_running() const {
 }
 
 void Simulation::step(std::uint32_t frames) {
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   for (std::uint32_t i = 0; i < frames; ++i) {
     const std::lock_guard<std::mutex> lock(mutex_);
     require_running();
@@ -42,7 +42,7 @@ void Simulation::step(std::uint32_t frames) {
 }
 
 void Simulation::reset() {
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   SimScene scene = make_sim_scene(description_, threads_);
   const std::lock_guard<std::mutex> lock(mutex_);
   scene_ = std::move(scene);

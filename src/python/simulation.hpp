@@ -11,7 +11,7 @@
 namespace fiber::python {
 
 /// A scene that moves. One thread at a time works with it, others wait; all without Python's lock.
-class Simulation {
+class Simulation : public OnlyShared {
  public:
   /// @param threads most to use, 0 for as many as there are cores
   /// @throws std::invalid_argument as make_sim_scene(), and for what follows a frame of tf
@@ -28,7 +28,7 @@ class Simulation {
   /// @throws std::runtime_error if a step has failed
   template <class Call>
   auto with(const Call& call) const {
-    const py::gil_scoped_release others_may_run;
+    const WithoutPythonLock others_may_run;
     const std::lock_guard<std::mutex> lock(mutex_);
     require_running();
     return call(scene_);

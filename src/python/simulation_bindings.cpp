@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "fiber_proximity/environment/world.hpp"
 #include "src/python/bindings.hpp"
+#include "src/python/environment.hpp"
 #include "src/python/errors.hpp"
 #include "src/python/simulation.hpp"
 #include "src/sim/scene/report.hpp"
@@ -31,14 +31,14 @@ SimDescription read_scene(const py::object& scene, const py::object& folder) {
                           .attr("dumps")(scene, py::arg("default") = py::cpp_function(&to_plain))
                           .cast<std::string>();
     const std::string meshes = folder.is_none() ? "." : to_path(folder);
-    const py::gil_scoped_release others_may_run;
+    const WithoutPythonLock others_may_run;
     return read_sim_scene(parse_yaml(text, "scene"), mesh_files(meshes));
   }
   const std::string path = to_path(scene);
   require_readable(path);
   const std::filesystem::path meshes = folder.is_none() ? std::filesystem::path(path).parent_path()
                                                         : std::filesystem::path(to_path(folder));
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   return read_sim_scene(load_yaml(path), mesh_files(meshes));
 }
 
@@ -46,7 +46,7 @@ std::shared_ptr<Simulation> make(const py::object& scene, const py::object& fold
                                  std::int64_t threads) {
   const std::uint32_t most = to_index(threads, "threads");
   SimDescription description = read_scene(scene, folder);
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   return std::make_shared<Simulation>(std::move(description), most);
 }
 
@@ -130,9 +130,9 @@ std::shared_ptr<Fibers> fibers_of(const Simulation& simulation) {
   }));
 }
 
-std::shared_ptr<World> environment_of(const Simulation& simulation) {
+std::shared_ptr<SharedWorld> environment_of(const Simulation& simulation) {
   const auto environment = simulation.with([](SimScene& scene) { return scene.environment; });
-  auto world = std::make_shared<World>();
+  auto world = std::make_shared<SharedWorld>();
   std::vector<ObjectChange> changes;
   for (const EnvironmentObject& object : environment->objects()) {
     changes.push_back({ObjectChange::Operation::ADD, object});

@@ -45,7 +45,7 @@ py::array crossings(const py::object& fibers, const py::object& direction, const
   }
   std::vector<Crossing> found;
   {
-    const py::gil_scoped_release others_may_run;
+    const WithoutPythonLock others_may_run;
     found = find_crossings(*state, seen);
   }
   return to_array(crossing_dtype(), found);
@@ -55,7 +55,7 @@ py::array all_linking_numbers(const py::object& fibers) {
   const Fibers::State state = to_state(fibers, "fibers");
   std::vector<LinkingNumber> found;
   {
-    const py::gil_scoped_release others_may_run;
+    const WithoutPythonLock others_may_run;
     found = linking_numbers(*state);
   }
   return to_array(linking_dtype(), found);
@@ -64,7 +64,7 @@ py::array all_linking_numbers(const py::object& fibers) {
 std::int64_t linking_number_of(const py::object& curve_a, const py::object& curve_b) {
   const auto a = to_points(curve_a, "curve_a");
   const auto b = to_points(curve_b, "curve_b");
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   return linking_number(a, b);
 }
 
@@ -73,7 +73,7 @@ double writhe_of(const py::object& curve, bool closed) {
   for (const Eigen::Vector3d& point : points) {
     require_coordinates("a point", point);
   }
-  const py::gil_scoped_release others_may_run;
+  const WithoutPythonLock others_may_run;
   return writhe(points, closed ? CurveEnds::CLOSED : CurveEnds::OPEN);
 }
 

@@ -237,6 +237,10 @@ def _packed_class(message_class):
             else:
                 buffer.write(self._bytes())
 
+        def __eq__(self, other):  # genpy's takes a plain message for another class
+            return isinstance(other, message_class) and all(
+                getattr(self, name) == getattr(other, name) for name in message_class.__slots__)
+
         def __getattribute__(self, name):
             if name in unpacked and self._body is not None:
                 self._unpack()
