@@ -158,7 +158,7 @@ radii : number, or one per fibre of a candidate, or one per point [m], default 0
     Of candidates that are arrays.
 allowed : sequence, optional
     Pairs with objects that may touch, as in ``Environment.contacts()``.
-self : bool, default True
+with_itself : bool, default True
     Whether contacts of a candidate with itself count.
 **options
     As in ``Engine.query()``.
@@ -185,7 +185,7 @@ Parameters
 ----------
 motions : (m, states, n, 3) or (m, states, fibres, n, 3), or a sequence of sequences of Fibers [m]
     Each motion goes through its states, at least two; in between each point moves linearly.
-engine, environment, margin, radii, allowed, self
+engine, environment, margin, radii, allowed, with_itself
     As in ``check()``.
 type : str, default "first"
     "first": the earliest contact of a motion, with whatever it is; "limited", "all": of each pair
@@ -222,11 +222,33 @@ void bind_check(py::module& module) {
   const py::none none;
   module.def("check", &check, py::arg("candidates"), py::arg("engine") = nullptr,
              py::arg("environment") = none, py::arg("margin") = 0.0, py::arg("type") = "first",
-             py::arg("radii") = 0.0, py::arg("allowed") = none, py::arg("self") = true, check_doc);
+             py::arg("radii") = 0.0, py::arg("allowed") = none, py::arg("with_itself") = true,
+             check_doc);
   module.def("check_motions", &check_motions, py::arg("motions"), py::arg("engine") = nullptr,
              py::arg("environment") = none, py::arg("margin") = 0.0, py::arg("type") = "first",
-             py::arg("radii") = 0.0, py::arg("allowed") = none, py::arg("self") = true,
+             py::arg("radii") = 0.0, py::arg("allowed") = none, py::arg("with_itself") = true,
              motions_doc);
+  // The same, of an engine.
+  const auto of_engine = [](auto function) {
+    return [function](const std::shared_ptr<Engine>& engine, const py::object& asked,
+                      const py::object& environment, double margin, const std::string& type,
+                      const py::object& radii, const py::object& allowed, bool with_itself,
+                      const py::kwargs& options) {
+      return function(asked, engine, environment, margin, type, radii, allowed, with_itself,
+                      options);
+    };
+  };
+  auto engine = static_cast<py::class_<Engine, std::shared_ptr<Engine>>>(module.attr("Engine"));
+  engine
+      .def("check", of_engine(&check), py::arg("candidates"), py::arg("environment") = none,
+           py::arg("margin") = 0.0, py::arg("type") = "first", py::arg("radii") = 0.0,
+           py::arg("allowed") = none, py::arg("with_itself") = true,
+           "Whether hypothetical fibres could be among those of the engine: ``check()`` with it.")
+      .def("check_motions", of_engine(&check_motions), py::arg("motions"),
+           py::arg("environment") = none, py::arg("margin") = 0.0, py::arg("type") = "first",
+           py::arg("radii") = 0.0, py::arg("allowed") = none, py::arg("with_itself") = true,
+           "Whether fibres could move like this among those of the engine: ``check_motions()`` "
+           "with it.");
 }
 
 }  // namespace fiber::python

@@ -6,8 +6,8 @@ PYBIND11_MODULE(_native, module) {
   fiber::python::bind_fibers(module);
   fiber::python::bind_contacts(module);
   fiber::python::bind_environment(module);
-  fiber::python::bind_check(module);
   fiber::python::bind_engine(module);
+  fiber::python::bind_check(module);
   fiber::python::bind_topology(module);
   fiber::python::bind_simulation(module);
   fiber::python::bind_files(module);

@@ -84,10 +84,12 @@ class Motions(unittest.TestCase):
         rng = np.random.default_rng(31)
         there = fp.Engine(fp.Fibers(*support.random_fibers(rng, 5, 8)))
         paths = rng.uniform(-0.5, 0.5, (30, 1, 1, 3)) + np.cumsum(rng.normal(0, 0.1, (30, 3, 5, 3)), axis=2)
-        check = fp.check_motions(paths, there, margin=0.02, type='all', radii=0.01, self=False)
+        check = fp.check_motions(paths, there, margin=0.02, type='all', radii=0.01, with_itself=False)
         self.assertTrue(0 < check.free.sum() < 30)
+        np.testing.assert_array_equal(
+            there.check_motions(paths, margin=0.02, type='all', radii=0.01, with_itself=False).contacts, check.contacts)
         by_lists = fp.check_motions([[fp.Fibers(state, radii=0.01) for state in path] for path in paths], there,
-                                    margin=0.02, type='all', self=False)
+                                    margin=0.02, type='all', with_itself=False)
         np.testing.assert_array_equal(by_lists.contacts, check.contacts)
         for i, path in enumerate(paths):
             nearest = min(there.closest(shape=fp.Fibers(blend(path[step], path[step + 1], time), radii=0.01))['distance']

@@ -186,7 +186,8 @@ class Checks(unittest.TestCase):
                 of_kind = found[found['type_b'] == kind]
                 self.assertEqual(support.keys(of_kind), support.keys(expected))
                 np.testing.assert_array_equal(of_kind['distance'], expected['distance'])
-        alone = fp.check(candidates, radii=0.01, margin=0.02, self=False)
+        np.testing.assert_array_equal(there.check(candidates, environment, 0.02, 'all', 0.01).contacts, whole.contacts)
+        alone = fp.check(candidates, radii=0.01, margin=0.02, with_itself=False)
         self.assertTrue(alone.free.all())
 
     def test_allowed_pairs_are_left_out(self):

@@ -118,7 +118,7 @@ class Threads(unittest.TestCase):
         def ask():
             for _ in range(150):
                 self.assertAlmostEqual(environment.closest(cable)['distance'], 0.8)
-                self.assertTrue(fp.check(candidates, environment=environment, radii=0.1, self=False).free.all())
+                self.assertTrue(fp.check(candidates, environment=environment, radii=0.1, with_itself=False).free.all())
 
         run_at_once(*[lambda name=name: change(name) for name in 'abc'], ask, ask)
         self.assertEqual(environment.names, ['still'])
