@@ -63,12 +63,13 @@ grep -q "none.yaml" "$work/error.txt" || fail "the error does not name the file"
 module=$(find "$prefix" -name '_native*.so')
 if [ -n "$module" ] && [[ $flags != *fsanitize* ]]; then
   python_path=$(dirname "$(dirname "$module")")
-  answer=$(cd "$work" && PYTHONPATH=$python_path:${PYTHONPATH:-} /usr/bin/python3 -B -c \
+  # Not the libraries of the build, which catkin's setup.bash has put first.
+  answer=$(cd "$work" && PYTHONPATH=$python_path:${PYTHONPATH:-} env -u LD_LIBRARY_PATH /usr/bin/python3 -B -c \
     'import fiber_proximity as fp; print(fp.Engine(fp.Fibers([[0, 0, 0], [1, 0, 0]])).nearest([0, 1, 0])["distance"])')
   [ "$answer" = "[1.]" ] ||
     fail "the Python module does not answer from where it is installed"
   # What it loads is what is installed beside it.
-  [[ $(ldd "$module") == *"$prefix"*libfiber_proximity.so* ]] || fail "the Python module loads another library"
+  [[ $(env -u LD_LIBRARY_PATH ldd "$module") == *"$prefix"*libfiber_proximity.so* ]] || fail "the Python module loads another library"
   if [ -d "$python_path/fiber_proximity/msg" ]; then
     (cd "$work" && PYTHONPATH=$python_path:${PYTHONPATH:-} /usr/bin/python3 -B -c \
       'import fiber_proximity; fiber_proximity.Engine(); from fiber_proximity.msg import Contact; Contact()') ||
