@@ -58,14 +58,6 @@ void check_points(const std::vector<Eigen::Vector3d>& points,
   }
 }
 
-void check_new_points(const std::vector<Eigen::Vector3d>& points, std::size_t point_count,
-                      const std::vector<std::uint32_t>& offsets) {
-  if (points.size() != point_count) {
-    refuse("update with ", points.size(), " points for an assembly of ", point_count);
-  }
-  check_points(points, offsets);
-}
-
 void check_radii(const std::vector<double>& radii, const std::vector<std::uint32_t>& offsets,
                  std::size_t point_count) {
   const std::size_t fiber_count = offsets.size() - 1;
@@ -119,13 +111,11 @@ FiberAssembly::FiberAssembly(std::vector<Eigen::Vector3d> points,
 }
 
 void FiberAssembly::update_points(const std::vector<Eigen::Vector3d>& points) {
-  check_new_points(points, points_.size(), offsets_);
+  if (points.size() != points_.size()) {
+    refuse("update with ", points.size(), " points for an assembly of ", points_.size());
+  }
+  check_points(points, offsets_);
   std::copy(points.begin(), points.end(), points_.begin());
-}
-
-void FiberAssembly::exchange_points(std::vector<Eigen::Vector3d>& points) {
-  check_new_points(points, points_.size(), offsets_);
-  points_.swap(points);
 }
 
 void FiberAssembly::assign_segments(const std::vector<Eigen::Vector3d>& points,

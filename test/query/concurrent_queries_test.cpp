@@ -4,10 +4,8 @@
 #include <thread>
 
 #include "fiber_proximity/query/engine.hpp"
-#include "test/support/answers.hpp"
 #include "test/support/assemblies.hpp"
 #include "test/support/contacts.hpp"
-#include "test/support/engines_test.hpp"
 
 namespace fiber::test {
 namespace {
@@ -19,8 +17,11 @@ constexpr QueryType types[] = {QueryType::ALL, QueryType::FIRST, QueryType::CLOS
 std::vector<QueryResult> ask_everything(const ProximityEngine& engine, const FiberAssembly& shape) {
   std::vector<QueryResult> answers;
   for (const QueryType type : types) {
-    answers.push_back(answer(engine, within(0.1, type)));
-    answers.push_back(answer(engine, shape, within(0.1, type)));
+    QueryOptions options;
+    options.type = type;
+    options.margin = 0.1;
+    engine.query(options, answers.emplace_back());
+    engine.query_shape(shape, options, answers.emplace_back());
   }
   return answers;
 }
@@ -61,7 +62,8 @@ TEST_P(ConcurrentQueriesTest, AreAnsweredAsOneAfterAnother) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Engines, ConcurrentQueriesTest, all_engines(), name_of_engine);
+INSTANTIATE_TEST_SUITE_P(Engines, ConcurrentQueriesTest, testing::ValuesIn(engine_names()),
+                         [](const auto& instance) { return test_name(instance.param); });
 
 }  // namespace
 }  // namespace fiber::test

@@ -4,10 +4,9 @@
 #include <map>
 #include <utility>
 
-#include "test/support/answers.hpp"
+#include "src/query/brute_force.hpp"
 #include "test/support/assemblies.hpp"
 #include "test/support/contacts.hpp"
-#include "test/support/engines_test.hpp"
 #include "test/support/neighbour_skips.hpp"
 #include "test/support/not_finite.hpp"
 #include "test/support/rounds.hpp"
@@ -34,12 +33,17 @@ std::vector<Contact> closest_by_fibers(const std::vector<Contact>& contacts) {
 
 /// From touching to everything.
 std::vector<double> margins(const FiberAssembly& fibers) {
-  const double size = extent_of(fibers);
+  double size = 0.0;
+  for (const Eigen::Vector3d& point : fibers.points()) {
+    size = std::max(size, (point - fibers.points().front()).cwiseAbs().maxCoeff());
+  }
   return {0.0, 1e-3 * size, 0.1 * size, size, infinity};
 }
 
 QueryOptions of_all(double margin, Random& random) {
-  QueryOptions options = within(margin);
+  QueryOptions options;
+  options.type = QueryType::ALL;
+  options.margin = margin;
   set_neighbour_skips(options, random, 3, 0.0);
   return options;
 }
@@ -59,7 +63,8 @@ class FiberPairsTest : public testing::TestWithParam<std::string> {
   void expect_closest(const FiberAssembly& fibers, const QueryOptions& all) {
     engine_->update(fibers);
     engine_->query(of_fiber_pairs(all), found_);
-    const QueryResult expected = brute_force(fibers, all);
+    QueryResult expected;
+    brute_force(fibers, all, expected);
     ASSERT_TRUE(same_contacts(found_.contacts, closest_by_fibers(expected.contacts)))
         << "margin " << all.margin << ", " << skips_of(all);
     EXPECT_FALSE(found_.limit_reached);
@@ -99,7 +104,8 @@ TEST_P(FiberPairsTest, GivesTheClosestOfAllContactsOfEachFiberOfAShape) {
       for (const double margin : margins(fibers)) {
         const QueryOptions all = of_all(margin, random);
         engine_->query_shape(shape, of_fiber_pairs(all), found_);
-        const QueryResult expected = brute_force(shape, fibers, all);
+        QueryResult expected;
+        brute_force_shape(shape, fibers, all, expected);
         ASSERT_TRUE(same_contacts(found_.contacts, closest_by_fibers(expected.contacts)))
             << "margin " << margin;
       }
@@ -110,8 +116,12 @@ TEST_P(FiberPairsTest, GivesTheClosestOfAllContactsOfEachFiberOfAShape) {
 TEST_P(FiberPairsTest, RemembersThousandsOfPairs) {
   SCOPED_TRACE(seed_message());
   Random random;
+  AssemblyBuilder builder;
   constexpr std::size_t count = 120;
-  const FiberAssembly fibers = walks(random, count, 4, 0.1, 0.01);
+  for (std::size_t fiber = 0; fiber < count; ++fiber) {
+    builder.add_fiber(random_walk(random, 4, 0.1));
+  }
+  const FiberAssembly fibers = builder.build({0.01});
   ASSERT_NO_FATAL_FAILURE(expect_closest(fibers, of_all(0.1, random)));
   QueryOptions everything = of_all(infinity, random);
   everything.neighbour_skip = 4;  // more than a fibre has: no pair with itself
@@ -119,10 +129,16 @@ TEST_P(FiberPairsTest, RemembersThousandsOfPairs) {
   EXPECT_EQ(found_.contacts.size(), count * (count - 1) / 2);
 }
 
-INSTANTIATE_TEST_SUITE_P(Engines, FiberPairsTest, all_engines(), name_of_engine);
+INSTANTIATE_TEST_SUITE_P(Engines, FiberPairsTest, testing::ValuesIn(engine_names()),
+                         [](const auto& instance) { return test_name(instance.param); });
 
 QueryResult ask(const FiberAssembly& fibers, double margin) {
-  return brute_force(fibers, within(margin, QueryType::FIBER_PAIRS));
+  QueryOptions options;
+  options.type = QueryType::FIBER_PAIRS;
+  options.margin = margin;
+  QueryResult result;
+  brute_force(fibers, options, result);
+  return result;
 }
 
 // A hairpin of three segments, 1 m wide, and a fibre of two segments, 3 m beside it.
@@ -149,9 +165,12 @@ TEST(FiberPairs, TestFewerSegmentsThanThereAre) {
     }
   }
   const FiberAssembly fibers(points, {0, 101, 202}, {0.0});
-  QueryOptions options = within(infinity, QueryType::FIBER_PAIRS);
+  QueryOptions options;
+  options.type = QueryType::FIBER_PAIRS;
+  options.margin = infinity;
   options.neighbour_skip = 100;
-  const QueryResult result = brute_force(fibers, options);
+  QueryResult result;
+  brute_force(fibers, options, result);
   ASSERT_EQ(result.contacts.size(), 1U);
   EXPECT_EQ(result.contacts.front().key(), std::make_tuple(0U, 0U, 1U, 0U));
   EXPECT_LT(result.counts.primitive_tests, 1000U) << "of 10000";

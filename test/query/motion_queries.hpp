@@ -4,7 +4,6 @@
 #include <memory>
 #include <vector>
 
-#include "test/support/answers.hpp"
 #include "test/support/engines_test.hpp"
 #include "test/support/motions.hpp"
 
@@ -13,8 +12,11 @@ namespace fiber::test {
 class MotionQueries : public EnginesTest {
  protected:
   MotionResult ask_motion(const FiberAssembly& before, const FiberAssembly& after,
-                          const MotionOptions& options) const {
-    MotionResult result = answer(GetParam(), before, after, options);
+                          const MotionOptions& options, std::uint32_t threads = 0) const {
+    const std::unique_ptr<ProximityEngine> engine = make_engine(GetParam(), {threads});
+    MotionResult result;
+    engine->update_motion(before, after);
+    engine->query_motion(options, result);
     EXPECT_TRUE(result.complete);
     return result;
   }
@@ -31,7 +33,10 @@ inline std::vector<Eigen::Vector3d> straight(double z, bool along_x) {
 }
 
 inline FiberAssembly crossed_cables(double z) {
-  return as_fibers({straight(0.0, true), straight(z, false)}, 0.002);
+  AssemblyBuilder builder;
+  builder.add_fiber(straight(0.0, true));
+  builder.add_fiber(straight(z, false));
+  return builder.build({0.002});
 }
 
 }  // namespace fiber::test

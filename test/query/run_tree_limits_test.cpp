@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "test/support/answers.hpp"
+#include "src/query/brute_force.hpp"
 #include "test/support/contacts.hpp"
 #include "test/support/not_finite.hpp"
 #include "test/support/tangle.hpp"
@@ -14,15 +14,23 @@ namespace {
 /// Answers of engines of one thread and of several.
 class RunTreeLimits : public testing::TestWithParam<double> {
  protected:
+  static EngineOptions with_threads(std::uint32_t threads) {
+    EngineOptions options;
+    options.threads = threads;
+    options.skin = GetParam();
+    return options;
+  }
+
   /// Of the same motion, twice: with a skin the second query has candidates of the first.
   void expect_the_same(const FiberAssembly& fibers, const QueryOptions& options) {
-    const std::unique_ptr<ProximityEngine> one = make_engine("run_tree", {1, GetParam()});
-    const std::unique_ptr<ProximityEngine> four = make_engine("run_tree", {4, GetParam()});
+    const std::unique_ptr<ProximityEngine> one = make_engine("run_tree", with_threads(1));
+    const std::unique_ptr<ProximityEngine> four = make_engine("run_tree", with_threads(4));
+    QueryResult of_four;
     for (int round = 0; round < 2; ++round) {
       one->update(fibers);
       one->query(options, found_);
       four->update(fibers);
-      const QueryResult of_four = answer(*four, options);
+      four->query(options, of_four);
       ASSERT_TRUE(same_contacts(found_.contacts, of_four.contacts));
       ASSERT_EQ(found_.complete, of_four.complete);
       ASSERT_EQ(found_.limit_reached, of_four.limit_reached);
@@ -56,10 +64,16 @@ TEST_P(RunTreeLimits, GiveTheSameForAnyNumberOfThreads) {
 TEST_P(RunTreeLimits, TheClosestAreFoundAmongFarMorePairsThanAreExamined) {
   SCOPED_TRACE(seed_message());
   Random random;
-  const FiberAssembly fibers = walks(random, 300, 12, 0.05, 1e-6);
-  QueryOptions options = within(infinity, QueryType::LIMITED);
+  AssemblyBuilder builder;
+  for (int fiber = 0; fiber < 300; ++fiber) {
+    builder.add_fiber(random_walk(random, 12, 0.05));
+  }
+  const FiberAssembly fibers = builder.build({1e-6});
+  QueryOptions options = within(infinity);
+  options.type = QueryType::LIMITED;
   options.max_contacts = 500;
-  const QueryResult expected = brute_force(fibers, options);
+  QueryResult expected;
+  brute_force(fibers, options, expected);
   options.type = QueryType::ALL;
   options.contact_limit = 500;
   options.pair_limit = 1'000'000;
@@ -99,17 +113,21 @@ TEST(RunTreeLimitsOfSkin, CandidatesThatWereKeptDoNotServeASmallerLimit) {
   SCOPED_TRACE(seed_message());
   Random random;
   const FiberAssembly fibers = tangle(random, 60);
-  const std::unique_ptr<ProximityEngine> engine = make_engine("run_tree", {0, 0.01});
+  EngineOptions engine_options;
+  engine_options.skin = 0.01;
+  const std::unique_ptr<ProximityEngine> engine = make_engine("run_tree", engine_options);
   engine->update(fibers);
   QueryOptions options = within(0.1);
-  const QueryResult whole = answer(*engine, options);
+  QueryResult whole;
+  engine->query(options, whole);
   ASSERT_TRUE(whole.complete);
   options.pair_limit = 1000;
-  QueryResult found = answer(*engine, options);
+  QueryResult found;
+  engine->query(options, found);
   EXPECT_FALSE(found.complete);
   EXPECT_LE(found.counts.primitive_tests, 1000U);
   options.pair_limit = 0;
-  found = answer(*engine, options);
+  engine->query(options, found);
   EXPECT_TRUE(found.complete);
   EXPECT_TRUE(same_contacts(found.contacts, whole.contacts));
 }

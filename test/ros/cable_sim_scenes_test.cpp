@@ -12,7 +12,6 @@
 #include "test/ros/mesh_files.hpp"
 #include "test/ros/node_test.hpp"
 #include "test/ros/running_node.hpp"
-#include "test/support/answers.hpp"
 #include "test/support/process.hpp"
 
 namespace {
@@ -200,7 +199,8 @@ TEST_F(OwnSceneTest, FibresThatBeginInEachOtherAreRefusedOrMovedApart) {
     const fiber::FiberAssembly assembly = node_test::to_assembly(message);
     fiber::QueryOptions options;
     options.pairing = fiber::Pairing::DIFFERENT_FIBERS;
-    const fiber::QueryResult contacts = fiber::test::brute_force(assembly, options);
+    fiber::QueryResult contacts;
+    fiber::brute_force(assembly, options, contacts);
     return std::count_if(contacts.contacts.begin(), contacts.contacts.end(),
                          [&](const auto& contact) { return contact.distance < -distance; });
   };

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "test/support/answers.hpp"
+#include "src/query/brute_force.hpp"
 #include "test/support/random.hpp"
 
 namespace fiber_proximity_ros {
@@ -53,7 +53,8 @@ TEST(Detector, FindsTheMinimumAmongContactsThatAreNotTheClosest) {
     fiber::QueryOptions options;
     options.type = fiber::QueryType::CLOSEST;
     options.margin = std::numeric_limits<double>::infinity();
-    const fiber::QueryResult closest = fiber::test::brute_force(fibers, options);
+    fiber::QueryResult closest;
+    fiber::brute_force(fibers, options, closest);
     Detector detector("AL");
     detector.set_fibers(fibers);
     options.max_contacts = 3;

@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "test/ros/query_fixture.hpp"
-#include "test/support/answers.hpp"
 #include "test/support/not_finite.hpp"
 
 namespace {
@@ -20,7 +19,8 @@ TEST_F(QueryTest, AccuracyIsChosenByCall) {
   fiber::QueryOptions options;
   options.type = fiber::QueryType::CLOSEST;
   options.margin = std::numeric_limits<double>::infinity();
-  const fiber::QueryResult truth = fiber::test::brute_force(asked, assembly_, options);
+  fiber::QueryResult truth;
+  fiber::brute_force_shape(asked, assembly_, options, truth);
   const double minimum = truth.contacts.front().distance;
   QueryProximity::Request request;
   request.margin = options.margin;

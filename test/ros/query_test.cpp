@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "test/ros/query_fixture.hpp"
-#include "test/support/answers.hpp"
 
 namespace {
 
@@ -93,7 +92,8 @@ TEST_F(QueryTest, FiberPairsGiveEachShapeItsClosestSegmentOfEachFibre) {
     const Points points(begin + assembly_.offsets()[fiber], begin + assembly_.offsets()[fiber + 1]);
     const fiber::FiberAssembly only(points, {0, static_cast<std::uint32_t>(points.size())},
                                     {assembly_.segment_radius(assembly_.offsets()[fiber])});
-    const fiber::QueryResult expected = fiber::test::brute_force(shapes[i / 3], only, closest);
+    fiber::QueryResult expected;
+    fiber::brute_force_shape(shapes[i / 3], only, closest, expected);
     EXPECT_EQ(response.contacts[i].segment_b, expected.contacts.front().segment_b);
     EXPECT_NEAR(response.contacts[i].distance, expected.contacts.front().distance, 1e-12);
   }

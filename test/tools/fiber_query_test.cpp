@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "fiber_proximity/io/fiber_file.hpp"
-#include "test/support/answers.hpp"
+#include "src/query/brute_force.hpp"
 
 namespace fiber::test {
 namespace {
@@ -202,7 +202,8 @@ TEST_F(FiberQuery, PrintsTheLibrarysNumbersBitForBit) {
 
   std::size_t row = 1;
   for (const FiberFrame& frame : read_csv(path).frames) {
-    const QueryResult expected = brute_force(frame.fibers, options);
+    QueryResult expected;
+    brute_force(frame.fibers, options, expected);
     ASSERT_GT(expected.contacts.size(), 1U);
     const auto object = nlohmann::json::parse(objects[static_cast<std::size_t>(frame.frame)]);
     EXPECT_EQ(object.at("frame"), frame.frame);

@@ -16,9 +16,7 @@ namespace fiber {
 class YamlField {
  public:
   /// @param source what errors call the document
-  /// @param path   what they call the value in it; empty for all of it
-  YamlField(const YAML::Node& node, std::string source, std::string path = "")
-      : node_(node), source_(std::move(source)), path_(std::move(path)) {}
+  YamlField(const YAML::Node& node, std::string source) : node_(node), source_(std::move(source)) {}
 
   /// The same value; errors name it and its fields so.
   YamlField named(const std::string& name) const { return {node_, source_, name}; }
@@ -45,9 +43,8 @@ class YamlField {
   bool flag() const;
   double number() const;
   std::int64_t integer(std::int64_t least, std::int64_t most) const;
-
-  /// @param count none: as many as there are
-  std::vector<double> numbers(std::optional<std::size_t> count = std::nullopt) const;
+  std::vector<double> numbers() const;
+  std::vector<double> numbers(std::size_t count) const;
   Eigen::Vector3d vector() const;
 
   // The value of a key if there is one; else the variable stays as it is.
@@ -64,6 +61,9 @@ class YamlField {
   std::string statement() const;
 
  private:
+  YamlField(const YAML::Node& node, std::string source, std::string path)
+      : node_(node), source_(std::move(source)), path_(std::move(path)) {}
+
   YAML::Node node_;
   std::string source_;
   std::string path_;

@@ -42,10 +42,11 @@ class RobotLinks {
   std::vector<std::string> unknown() const;
 
  private:
-  /// Where it was last.
-  struct Link : RobotLink {
+  struct Link {
+    std::string frame;
+    fiber::EnvironmentObject object;  // where it was last
     bool is_present = false;
-    std::string error = "not looked for yet";
+    std::string error;
   };
 
   /// None where it is unknown; the link's error says why then.
