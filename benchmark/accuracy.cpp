@@ -107,7 +107,7 @@ class Accuracy {
                                         {"seed", request_.scene_options.seed},
                                         {"engine", request_.engine},
                                         {"segments", fibers_.segment_count()},
-                                        {"threads", engine_->thread_count()},
+                                        {"threads", engine_->facts().thread_count},
                                         {"query", run.setting().query},
                                         {"setting", run.setting().name},
                                         {"kernel", name_of(run.setting().options.kernel)},

@@ -59,13 +59,13 @@ class SkinRun {
 
   double skin_lengths() const { return skin_lengths_; }
   double skin() const { return skin_; }  ///< [m]
-  std::uint32_t threads() const { return engine_.thread_count(); }
+  std::uint32_t threads() const { return engine_.facts().thread_count; }
   double update_ms() const { return mean(update_ms_); }
   double detect_ms() const { return mean(detect_ms_); }
   double cycle_ms() const { return update_ms() + detect_ms(); }
   std::uint64_t refits() const { return engine_.refit_count() - refits_before_; }
   std::uint64_t partial() const { return engine_.partial_count() - partial_before_; }
-  std::size_t memory_bytes() const { return engine_.memory_bytes(); }
+  std::size_t memory_bytes() const { return engine_.facts().memory_bytes; }
   std::size_t pairs() const { return pairs_; }
 
  private:

@@ -47,11 +47,11 @@ class EngineRun {
   EngineMeasurement summary() const {
     EngineMeasurement summary;
     summary.engine = name_;
-    summary.threads = engine_->thread_count();
+    summary.threads = engine_->facts().thread_count;
     summary.update_ms = median(update_ms_);
     summary.detect_ms = median(detect_ms_);
     summary.cycle_ms = median(cycle_ms_);
-    summary.memory_bytes = engine_->memory_bytes();
+    summary.memory_bytes = engine_->facts().memory_bytes;
     summary.pairs = pairs_;
     summary.counts = counts_;
     return summary;

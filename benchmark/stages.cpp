@@ -59,18 +59,18 @@ class Stages {
     });
     constexpr double nano_per_milli = 1e6;
     const auto segments = static_cast<double>(fibers_.segment_count());
-    const auto bytes = static_cast<double>(engine_->memory_bytes());
+    const auto bytes = static_cast<double>(engine_->facts().memory_bytes);
     print("update", {{"update_ms", median(times)},
                      {"repeats", times.size()},
                      {"ns_per_segment", nano_per_milli * median(times) / segments},
                      {"bytes_per_segment", bytes / segments},
                      {"recomputed_per_segment",
-                      static_cast<double>(engine_->recomputed_count()) / segments}});
+                      static_cast<double>(engine_->facts().recomputed_count) / segments}});
   }
 
   void levels() const {
     std::vector<double> volumes;
-    for (std::uint32_t level = 0; level < engine_->level_count(); ++level) {
+    for (std::uint32_t level = 0; level < engine_->facts().level_count; ++level) {
       volumes.push_back(engine_->mean_level_volume(level));
     }
     print("levels", {{"mean_volumes", volumes}});

@@ -1,5 +1,8 @@
-# Answers about moving capsules and the truth, as tests and benchmarks compare them.
+# Pairs and motions that are hard, and answers about moving capsules beside the truth, for tests and benchmarks.
 
+add_library(hard_cases STATIC test/support/hard_motions.cpp test/support/hard_pairs.cpp)
+target_link_libraries(hard_cases PUBLIC fiber_proximity_paper PRIVATE fiber_proximity_options)
+find_package(Threads REQUIRED)
 add_library(fiber_bench_motions STATIC
   benchmark/continuous/decision_score.cpp
   benchmark/continuous/known_motions.cpp
@@ -10,4 +13,4 @@ add_library(fiber_bench_motions STATIC
   benchmark/continuous/time_polynomial.cpp
 )
 target_link_libraries(fiber_bench_motions
-  PUBLIC fiber_proximity_paper PRIVATE Boost::headers Threads::Threads fiber_proximity_options)
+  PUBLIC hard_cases PRIVATE Boost::headers Threads::Threads fiber_proximity_options)

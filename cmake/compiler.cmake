@@ -15,7 +15,12 @@ set(FIBER_PROXIMITY_SANITIZE "" CACHE STRING "Sanitizers to build with, e.g. add
 # contraction the same source gives the same bits with and without fused multiply-add.
 add_library(fiber_proximity_options INTERFACE)
 # Kernels are compiled for each instruction set: processors without SSE4 (before 2008) take the plain code.
-target_compile_definitions(fiber_proximity_options INTERFACE HWY_DISABLED_TARGETS=HWY_SSSE3)
+set(left_out_targets HWY_SSSE3)
+if(FIBER_PROXIMITY_SANITIZE)
+  # As many lanes as the plain code has; a kernel takes sanitizers four times as long to compile.
+  set(left_out_targets HWY_SSSE3|HWY_SSE4)
+endif()
+target_compile_definitions(fiber_proximity_options INTERFACE "HWY_DISABLED_TARGETS=(${left_out_targets})")
 # gtest's macros for typed suites leave out their last argument, which clang 13 calls a GNU extension.
 target_compile_options(fiber_proximity_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wconversion -Wno-sign-conversion

@@ -13,8 +13,8 @@ add_library(fiber_proximity_paper SHARED
   src/scenes/cables.cpp
   src/scenes/cloth.cpp
   src/scenes/hair.cpp
-  src/scenes/hard_motions.cpp
-  src/scenes/hard_pairs.cpp
+  test/support/hard_motions.cpp
+  test/support/hard_pairs.cpp
   src/scenes/scalp.cpp
   src/scenes/scene.cpp
   src/scenes/soup.cpp

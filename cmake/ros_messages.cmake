@@ -66,6 +66,15 @@ generate_messages(DEPENDENCIES geometry_msgs shape_msgs std_msgs)
 file(MAKE_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${PYTHON_INSTALL_DIR})
 safe_execute_process(COMMAND ${GENERATE_ENVIRONMENT_CACHE_COMMAND})
 generate_dynamic_reconfigure_options(cfg/Proximity.cfg)
+# One file tells what nodes offer: Proximity.cfg reads it, and so does what makes the nodes' table of parameters.
+set(interface ${PROJECT_SOURCE_DIR}/cfg/interface.yaml)
+set(generated_headers ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_INCLUDE_DESTINATION})
+add_custom_command(OUTPUT ${generated_headers}/ProximityConfig.h APPEND DEPENDS ${interface})
+add_custom_command(OUTPUT ${generated_headers}/interface_table.h
+  COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/scripts/make_reference.py --table ${generated_headers}/interface_table.h
+  DEPENDS ${interface} ${PROJECT_SOURCE_DIR}/scripts/make_reference.py
+  COMMENT "Making the table of parameters")
+add_custom_target(${PROJECT_NAME}_interface DEPENDS ${generated_headers}/interface_table.h)
 
 catkin_package(
   INCLUDE_DIRS include

@@ -46,7 +46,6 @@ add_library(fiber_proximity_ros SHARED
   src/ros/sim/sim_services.cpp
   src/ros/support/conversions.cpp
   src/ros/support/parameters.cpp
-  src/ros/support/worker.cpp
 )
 # The generated messages' headers, as the system's: our warnings are not meant for them.
 #catkin_lint: ignore_once external_directory
@@ -59,7 +58,7 @@ target_link_libraries(fiber_proximity_ros
 fiber_proximity_parse_once(fiber_proximity_ros ${ros_headers})
 # Not all exported targets: messages in other languages need not be there first.
 add_dependencies(fiber_proximity_ros
-  ${PROJECT_NAME}_generate_messages_cpp ${PROJECT_NAME}_gencfg)
+  ${PROJECT_NAME}_generate_messages_cpp ${PROJECT_NAME}_gencfg ${PROJECT_NAME}_interface)
 
 add_executable(fiber_player src/nodes/fiber_player.cpp)
 target_link_libraries(fiber_player fiber_proximity_ros fiber_proximity_options)

@@ -47,13 +47,14 @@ packages=(
   libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure libdiagnostic-updater-dev
   libinteractive-markers-dev
   libnav-msgs-dev libsensor-msgs-dev libvisualization-msgs-dev libros-rosgraph-msgs-dev libstd-srvs-dev
-  libshape-msgs-dev liburdf-dev libroslib-dev ros-robot-state-publisher python3-numpy
+  libshape-msgs-dev liburdf-dev libroslib-dev ros-robot-state-publisher python3-{numpy,yaml}
   ros-{std,geometry,sensor,shape,nav,visualization,diagnostic,tf2}-msgs ros-{rosgraph-msgs,std-srvs}
   python3-{std,geometry,sensor,shape,nav,visualization,diagnostic,tf2,rosgraph}-msgs python3-std-srvs
   librostest-dev python3-rostest python3-roslaunch python3-rostopic python3-rosservice
   python3-rosnode python3-rosparam python3-rosmsg python3-rosbag
   rviz librviz-dev qtbase5-dev xvfb xauth imagemagick x11-utils xdotool libgl1-mesa-dri
   libeigen3-dev libtbb-dev libhwy-dev libfcl-dev libassimp-dev
+  pybind11-dev python3-dev python3-pip python3-setuptools python3-wheel
   libcli11-dev nlohmann-json3-dev libyaml-cpp-dev libboost-dev libgmp-dev libgtest-dev
 )
 if $lint; then

@@ -26,7 +26,7 @@ const std::vector<std::vector<std::string>> layers{
     {"paper", "scenes", "environment", "compare"},
     {"environment/scene", "sim"},
     {"sim/scene"},
-    {"tools", "ros"},
+    {"tools", "python", "ros"},
     {"ros/support"},
     {"ros/inputs"},
     {"ros/environment"},

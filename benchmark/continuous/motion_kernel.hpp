@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "src/scenes/hard_motions.hpp"
+#include "test/support/hard_motions.hpp"
 
 namespace fiber::bench {
 

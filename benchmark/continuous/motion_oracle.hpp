@@ -4,7 +4,7 @@
 
 #include "benchmark/continuous/motion_separation.hpp"
 #include "benchmark/continuous/moving_pair.hpp"
-#include "src/scenes/hard_motions.hpp"
+#include "test/support/hard_motions.hpp"
 
 namespace fiber::bench {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "fiber_proximity/geometry/contact_time.hpp"
-#include "src/scenes/hard_motions.hpp"
+#include "test/support/hard_motions.hpp"
 
 namespace fiber::bench {
 

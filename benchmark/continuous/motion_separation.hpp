@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "benchmark/continuous/time_polynomial.hpp"
-#include "src/scenes/hard_motions.hpp"
+#include "test/support/hard_motions.hpp"
 
 namespace fiber::bench {
 

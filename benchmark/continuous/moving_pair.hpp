@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "benchmark/continuous/reference_vector.hpp"
-#include "src/scenes/hard_motions.hpp"
+#include "test/support/hard_motions.hpp"
 
 /// Two segments that move, as the truth about them is found, in any kind of number: by formulas
 /// that the kernel does not use.

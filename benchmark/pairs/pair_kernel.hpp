@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "src/scenes/hard_pairs.hpp"
+#include "test/support/hard_pairs.hpp"
 
 namespace fiber {
 

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "src/scenes/hard_pairs.hpp"
+#include "test/support/hard_pairs.hpp"
 
 namespace fiber {
 

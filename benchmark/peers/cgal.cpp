@@ -31,7 +31,7 @@ class CgalEngine final : public PeerEngine {
   explicit CgalEngine(const BenchEngineOptions& options)
       : PeerEngine(options), threads_(options.threads), boxes_(options.margin) {}
 
-  std::uint32_t thread_count() const override { return threads_.count(); }
+  EngineFacts facts() const override { return {threads_.count()}; }
 
  protected:
   void do_update(const FiberAssembly& fibers, bool same_topology) override {

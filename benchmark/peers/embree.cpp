@@ -68,7 +68,7 @@ class EmbreeEngine final : public PeerEngine {
     check();
   }
 
-  std::uint32_t thread_count() const override { return threads_.count(); }
+  EngineFacts facts() const override { return {threads_.count()}; }
 
  protected:
   void do_update(const FiberAssembly& fibers, bool same_topology) override {

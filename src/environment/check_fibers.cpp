@@ -210,9 +210,10 @@ class MotionChecker {
         check.self.complete = check.fibers.complete = check.environment.complete = false;
         break;
       }
-      ask_environment(path[step], path[step + 1], step, environment);
-      ask_fibers(path[step], path[step + 1], step, fibers);
-      ask_self(path[step], path[step + 1], step, self);
+      const FiberMotion motion{path[step], path[step + 1]};
+      ask_environment(motion, step, environment);
+      ask_fibers(motion, step, fibers);
+      ask_self(motion, step, self);
     }
     for (PathCollector* collector : {&self, &fibers, &environment}) {
       collector->finish();
@@ -229,38 +230,36 @@ class MotionChecker {
     return options;
   }
 
-  void ask_environment(const FiberAssembly& before, const FiberAssembly& after, std::size_t step,
-                       PathCollector& collector) {
+  void ask_environment(const FiberMotion& motion, std::size_t step, PathCollector& collector) {
     if (surroundings_.environment == nullptr || !collector.takes_step()) {
       return;
     }
     const Environment& environment = *surroundings_.environment;
-    environment.query_motion(before, after, options_for(collector), surroundings_.allowed, found_);
+    environment.query_motion(motion.before, motion.after, environment, options_for(collector),
+                             surroundings_.allowed, found_);
     collector.take(found_, step, [&](const MotionContact& contact) {
-      return environment.first_contact({before, after}, environment, contact);
+      return environment.first_contact(motion, environment, contact);
     });
   }
 
-  void ask_fibers(const FiberAssembly& before, const FiberAssembly& after, std::size_t step,
-                  PathCollector& collector) {
+  void ask_fibers(const FiberMotion& motion, std::size_t step, PathCollector& collector) {
     if (still_.engine() == nullptr || !collector.takes_step()) {
       return;
     }
-    still_.engine()->query_motion_shape(before, after, options_for(collector), found_);
+    still_.engine()->query_motion_shape(motion.before, motion.after, options_for(collector),
+                                        found_);
     const FiberMotion still{still_.fibers(), still_.fibers()};
     collector.take(found_, step, [&](const MotionContact& contact) {
-      return first_contact({before, after}, still, contact);
+      return first_contact(motion, still, contact);
     });
   }
 
-  void ask_self(const FiberAssembly& before, const FiberAssembly& after, std::size_t step,
-                PathCollector& collector) {
+  void ask_self(const FiberMotion& motion, std::size_t step, PathCollector& collector) {
     if (!surroundings_.self || !collector.takes_step()) {
       return;
     }
-    engine_->update_motion(before, after);
+    engine_->update_motion(motion.before, motion.after);
     engine_->query_motion(options_for(collector), found_);
-    const FiberMotion motion{before, after};
     collector.take(found_, step, [&](const MotionContact& contact) {
       return first_contact(motion, motion, contact);
     });

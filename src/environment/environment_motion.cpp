@@ -182,14 +182,12 @@ class EnvironmentMotion {
 }  // namespace
 
 void Environment::query_motion(const FiberAssembly& before, const FiberAssembly& after,
-                               const MotionOptions& options, const AllowedPairs& allowed,
-                               MotionResult& result) const {
-  query_motion(*broad_phase_, {before, after}, options, allowed, result);
-}
-
-void Environment::query_motion(const FiberAssembly& before, const FiberAssembly& after,
                                const Environment& later, const MotionOptions& options,
                                const AllowedPairs& allowed, MotionResult& result) const {
+  if (&later == this) {
+    query_motion(*broad_phase_, {before, after}, options, allowed, result);
+    return;
+  }
   const std::vector<ObjectPath> paths = paths_between(objects_, later.objects_);
   const bool do_turn =
       std::any_of(paths.begin(), paths.end(), [](const ObjectPath& path) { return path.turns(); });

@@ -6,6 +6,7 @@
 #include <limits>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "src/environment/convex_solids.hpp"
 #include "src/hierarchy/sort_keys.hpp"
@@ -17,6 +18,7 @@ using Eigen::Vector3d;
 
 /// Bits of a cell's index along each axis; as many levels of an octree.
 constexpr int morton_levels = 16;
+static_assert(OccupancyOctree::half_of_cells == 1 << (morton_levels - 1));
 
 /// Every third bit of these becomes one of 16 bits in a row.
 std::uint32_t every_third_bit(std::uint64_t code) {
@@ -58,9 +60,6 @@ Eigen::Array3i morton_cell(std::uint64_t code) {
 unsigned morton_child(std::uint64_t code, int level) {
   return static_cast<unsigned>(code >> (3 * (morton_levels - 1 - level))) & 7U;
 }
-
-/// Cells along an axis on either side of the origin.
-constexpr int half_of_cells = 1 << (morton_levels - 1);
 
 double checked_resolution(double resolution) {
   if (!(resolution > 0.0 && resolution < std::numeric_limits<double>::infinity())) {
@@ -149,24 +148,23 @@ class CellSearch {
 
 }  // namespace
 
-OccupancyOctree::OccupancyOctree(double resolution, const std::vector<Vector3d>& points)
-    : resolution_(checked_resolution(resolution)) {
-  const double cells_per_metre = 1.0 / resolution;
-  codes_.reserve(points.size());
-  for (const Vector3d& point : points) {
-    const Eigen::Array3d cell =
-        (cells_per_metre * point.array()).floor() + static_cast<double>(half_of_cells);
-    if ((cell >= 0.0 && cell < 2.0 * half_of_cells).all()) {  // false for NaN
-      codes_.push_back(morton_code(cell.cast<int>()));
-    }
+std::optional<OccupancyOctree::Cell> OccupancyOctree::cell_at(double resolution,
+                                                              const Vector3d& point) {
+  const Eigen::Array3d cell = (point.array() / resolution).floor() + double{half_of_cells};
+  if (!(cell >= 0.0 && cell < 2.0 * half_of_cells).all()) {  // so it is of NaN
+    return std::nullopt;
   }
-  left_out_ = points.size() - codes_.size();
-  std::vector<std::uint64_t> scratch;
-  sort_keys(codes_, scratch);
-  codes_.erase(std::unique(codes_.begin(), codes_.end()), codes_.end());
+  return morton_code(cell.cast<int>());
+}
 
-  centres_.reserve(codes_.size());
-  for (const std::uint64_t code : codes_) {
+OccupancyOctree::OccupancyOctree(double resolution, std::vector<Cell> cells)
+    : resolution_(checked_resolution(resolution)), cells_(std::move(cells)) {
+  std::vector<Cell> scratch;
+  sort_keys(cells_, scratch);
+  cells_.erase(std::unique(cells_.begin(), cells_.end()), cells_.end());
+
+  centres_.reserve(cells_.size());
+  for (const Cell code : cells_) {
     const Eigen::Array3d cell = (morton_cell(code) - half_of_cells).cast<double>();
     centres_.emplace_back((cell + 0.5) * resolution);
     box_.extend(centres_.back());
@@ -194,14 +192,14 @@ AxisDistance OccupancyOctree::axis_distance(const Vector3d& p0, const Vector3d& 
     best.lower = std::min(best.lower, found.lower);
   };
   const WorldBox axis_box(p0.cwiseMin(p1), p0.cwiseMax(p1));
-  CellSearch(resolution_, axis_box, bound, look).search(codes_);
+  CellSearch(resolution_, axis_box, bound, look).search(cells_);
   return best;
 }
 
 void OccupancyOctree::visit_near(const WorldBox& box, double within,
                                  const std::function<void(const Vector3d&)>& visit) const {
   const auto look = [&](const Vector3d& centre, double&) { visit(centre); };
-  CellSearch(resolution_, box, within, look).search(codes_);
+  CellSearch(resolution_, box, within, look).search(cells_);
 }
 
 }  // namespace fiber

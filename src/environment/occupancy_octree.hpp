@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "fiber_proximity/environment/shapes.hpp"
@@ -15,19 +16,24 @@ namespace fiber {
 /// is never below minus half a cell.
 class OccupancyOctree {
  public:
-  /// All cells that hold one of the points at least.
+  /// Cells along an axis on either side of the origin.
+  static constexpr int half_of_cells = 1 << 15;
+
+  /// A cell's place on Morton's curve.
+  using Cell = std::uint64_t;
+
+  /// The cell of this edge [m] that holds a point [m]; none of a point that is not finite, or
+  /// further than `half_of_cells` from the origin.
+  static std::optional<Cell> cell_at(double resolution, const Eigen::Vector3d& point);
+
   /// @param resolution [m] edge of a cell, > 0
-  /// @param points     [m] those beyond 32767 cells from the origin are left out and counted
+  /// @param cells      those that are occupied, in any order
   /// @throws std::invalid_argument for a resolution that is not positive and finite
-  OccupancyOctree(double resolution, const std::vector<Eigen::Vector3d>& points);
+  OccupancyOctree(double resolution, std::vector<Cell> cells);
   OccupancyOctree(const OccupancyOctree&) = delete;
   OccupancyOctree& operator=(const OccupancyOctree&) = delete;
 
-  double resolution() const { return resolution_; }  ///< [m]
-  std::size_t cell_count() const { return centres_.size(); }
-  std::size_t left_out_count() const {
-    return left_out_;
-  }  ///< points that are not finite or too far
+  double resolution() const { return resolution_; }                         ///< [m]
   const std::vector<Eigen::Vector3d>& centres() const { return centres_; }  ///< of the cells [m]
   const WorldBox& box() const { return box_; }  ///< around the cells, in their frame [m]
 
@@ -43,10 +49,9 @@ class OccupancyOctree {
  private:
   double resolution_;  // [m]
   // Of the cells along Morton's curve, ascending: cubes of the octree are ranges of them.
-  std::vector<std::uint64_t> codes_;
+  std::vector<Cell> cells_;
   std::vector<Eigen::Vector3d> centres_;
   WorldBox box_;
-  std::size_t left_out_ = 0;
 };
 
 }  // namespace fiber

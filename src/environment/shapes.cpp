@@ -76,36 +76,6 @@ struct Check {
   }
 };
 
-bool is_same(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
-  return a.matrix() == b.matrix();
-}
-
-struct IsSameSolid {
-  bool operator()(const BoxShape& x, const BoxShape& y) const { return x.size == y.size; }
-  bool operator()(const SphereShape& x, const SphereShape& y) const { return x.radius == y.radius; }
-  bool operator()(const CapsuleShape& x, const CapsuleShape& y) const {
-    return x.radius == y.radius && x.length == y.length;
-  }
-  template <class Upright>  // a cylinder or a cone
-  auto operator()(const Upright& x, const Upright& y) const -> decltype(x.height == y.height) {
-    return x.radius == y.radius && x.height == y.height;
-  }
-  template <class Sheet>  // a plane or a half-space
-  auto operator()(const Sheet& x, const Sheet& y) const -> decltype(x.normal == y.normal) {
-    return x.normal == y.normal && x.offset == y.offset;
-  }
-  template <class Shared>
-  bool operator()(const std::shared_ptr<const Shared>& x,
-                  const std::shared_ptr<const Shared>& y) const {
-    return x == y;
-  }
-  template <class One, class Other>
-  std::enable_if_t<!std::is_same_v<One, Other>, bool> operator()(const One& /*x*/,
-                                                                 const Other& /*y*/) const {
-    return false;
-  }
-};
-
 struct Reach {
   double operator()(const BoxShape& box) const { return box.size.norm() / 2.0; }
   double operator()(const SphereShape& sphere) const { return sphere.radius; }
@@ -204,8 +174,7 @@ void validate(const EnvironmentObject& object) {
 bool have_same_shapes(const EnvironmentObject& x, const EnvironmentObject& y) {
   return std::equal(x.shapes.begin(), x.shapes.end(), y.shapes.begin(), y.shapes.end(),
                     [](const PlacedShape& one, const PlacedShape& other) {
-                      return is_same(one.pose, other.pose) &&
-                             std::visit(IsSameSolid(), one.shape, other.shape);
+                      return one.pose.matrix() == other.pose.matrix() && one.shape == other.shape;
                     });
 }
 

@@ -71,17 +71,11 @@ void build(const std::vector<Vector3d>& vertices, const std::vector<Triangle>& t
 template <class Function>
 AxisDistance lipschitz_minimum(const Function& function, double length, const AxisDistance& start) {
   struct Interval {
-    Interval(double low, double high, double at_low, double at_high, double segment_length)
-        : begin(low),
-          end(high),
-          begin_value(at_low),
-          end_value(at_high),
-          lower(0.5 * (at_low + at_high - segment_length * (high - low))) {}
-    bool operator<(const Interval& other) const { return lower > other.lower; }
-
     double begin, end;
     double begin_value, end_value;  // [m]
     double lower;                   // [m] no value between is less
+
+    bool operator<(const Interval& other) const { return lower > other.lower; }
   };
   constexpr double tolerance = 1.0 / 16.0;
   AxisDistance best = start;
@@ -94,9 +88,12 @@ AxisDistance lipschitz_minimum(const Function& function, double length, const Ax
     return found.distance;
   };
   std::priority_queue<Interval> intervals;
+  const auto add = [&](double begin, double end, double begin_value, double end_value) {
+    intervals.push({begin, end, begin_value, end_value,
+                    0.5 * (begin_value + end_value - length * (end - begin))});
+  };
   const double begin_value = look(0.0);
-  const double end_value = look(1.0);
-  intervals.emplace(0.0, 1.0, begin_value, end_value, length);
+  add(0.0, 1.0, begin_value, look(1.0));
   for (;;) {
     const Interval lowest = intervals.top();
     const double middle = 0.5 * (lowest.begin + lowest.end);
@@ -107,8 +104,8 @@ AxisDistance lipschitz_minimum(const Function& function, double length, const Ax
     }
     intervals.pop();
     const double value = look(middle);
-    intervals.emplace(lowest.begin, middle, lowest.begin_value, value, length);
-    intervals.emplace(middle, lowest.end, value, lowest.end_value, length);
+    add(lowest.begin, middle, lowest.begin_value, value);
+    add(middle, lowest.end, value, lowest.end_value);
   }
 }
 

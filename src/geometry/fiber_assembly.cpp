@@ -58,6 +58,14 @@ void check_points(const std::vector<Eigen::Vector3d>& points,
   }
 }
 
+void check_new_points(const std::vector<Eigen::Vector3d>& points, std::size_t point_count,
+                      const std::vector<std::uint32_t>& offsets) {
+  if (points.size() != point_count) {
+    refuse("update with ", points.size(), " points for an assembly of ", point_count);
+  }
+  check_points(points, offsets);
+}
+
 void check_radii(const std::vector<double>& radii, const std::vector<std::uint32_t>& offsets,
                  std::size_t point_count) {
   const std::size_t fiber_count = offsets.size() - 1;
@@ -111,11 +119,13 @@ FiberAssembly::FiberAssembly(std::vector<Eigen::Vector3d> points,
 }
 
 void FiberAssembly::update_points(const std::vector<Eigen::Vector3d>& points) {
-  if (points.size() != points_.size()) {
-    refuse("update with ", points.size(), " points for an assembly of ", points_.size());
-  }
-  check_points(points, offsets_);
+  check_new_points(points, points_.size(), offsets_);
   std::copy(points.begin(), points.end(), points_.begin());
+}
+
+void FiberAssembly::exchange_points(std::vector<Eigen::Vector3d>& points) {
+  check_new_points(points, points_.size(), offsets_);
+  points_.swap(points);
 }
 
 void FiberAssembly::assign_segments(const std::vector<Eigen::Vector3d>& points,

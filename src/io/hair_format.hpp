@@ -1,19 +1,38 @@
 #pragma once
 
+#include <boost/endian/conversion.hpp>
+#include <cstddef>
 #include <cstdint>
 
 namespace fiber::hair_format {
 
+// Files are read and written as they are in memory.
+static_assert(boost::endian::order::native == boost::endian::order::little);
+
 constexpr char signature[] = {'H', 'A', 'I', 'R'};
 
-// Where the header's fields begin, and where it ends [bytes].
-constexpr std::uint64_t strand_count_byte = 4;
-constexpr std::uint64_t point_count_byte = 8;
-constexpr std::uint64_t flags_byte = 12;
-constexpr std::uint64_t default_segments_byte = 16;
-constexpr std::uint64_t default_thickness_byte = 20;
-constexpr std::uint64_t information_byte = 40;
-constexpr std::uint64_t header_size = 128;
+/// What follows the signature.
+struct Header {
+  std::uint32_t strands = 0;
+  std::uint32_t points = 0;
+  std::uint32_t flags = 0;
+  std::uint32_t default_segments = 0;
+  float default_thickness = 0.0F;
+  float default_transparency = 0.0F;
+  float default_color[3] = {1.0F, 1.0F, 1.0F};
+  char information[88] = "written by fiber_proximity, lengths in metres";
+};
+constexpr std::uint64_t header_size = sizeof(signature) + sizeof(Header);
+static_assert(header_size == 128);
+
+// Where errors say that its fields begin [bytes].
+constexpr std::uint64_t strand_count_byte = sizeof(signature) + offsetof(Header, strands);
+constexpr std::uint64_t point_count_byte = sizeof(signature) + offsetof(Header, points);
+constexpr std::uint64_t flags_byte = sizeof(signature) + offsetof(Header, flags);
+constexpr std::uint64_t default_segments_byte =
+    sizeof(signature) + offsetof(Header, default_segments);
+constexpr std::uint64_t default_thickness_byte =
+    sizeof(signature) + offsetof(Header, default_thickness);
 
 enum Flag : std::uint32_t {
   SEGMENTS = 1U << 0U,

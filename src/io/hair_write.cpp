@@ -1,5 +1,4 @@
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <stdexcept>
 
@@ -13,21 +12,10 @@ namespace {
 
 using namespace hair_format;
 
-void append_uint16(std::string& bytes, std::uint32_t value) {
-  bytes += static_cast<char>(value & 0xffU);
-  bytes += static_cast<char>((value >> 8U) & 0xffU);
-}
-
-void append_uint32(std::string& bytes, std::uint32_t value) {
-  append_uint16(bytes, value);
-  append_uint16(bytes, value >> 16U);
-}
-
-void append_float32(std::string& bytes, float value) {
-  std::uint32_t bits = 0;
-  static_assert(sizeof(value) == sizeof(bits));
-  std::memcpy(&bits, &value, sizeof(bits));
-  append_uint32(bytes, bits);
+/// As it is in memory.
+template <class Value>
+void append(std::string& bytes, const Value& value) {
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
 }
 
 [[noreturn]] void refuse(const std::string& reason) {
@@ -36,10 +24,8 @@ void append_float32(std::string& bytes, float value) {
 
 float single_precision(double value, const char* what, std::size_t fiber, std::size_t point) {
   if (std::abs(value) > std::numeric_limits<float>::max()) {
-    std::string text;
-    append_number(text, value);
     refuse("fibre " + std::to_string(fiber) + ", point " + std::to_string(point) + ": " + what +
-           " is " + text + ", beyond single precision");
+           " is " + text_of(value) + ", beyond single precision");
   }
   return static_cast<float>(value);
 }
@@ -59,22 +45,16 @@ std::uint32_t common_segments(const FiberAssembly& fibers) {
   return segments;
 }
 
-std::string header(const FiberAssembly& fibers, std::uint32_t flags) {
-  std::string bytes(signature, sizeof(signature));
-  append_uint32(bytes, static_cast<std::uint32_t>(fibers.fiber_count()));
-  append_uint32(bytes, static_cast<std::uint32_t>(fibers.point_count()));
-  append_uint32(bytes, flags);
-  append_uint32(bytes, common_segments(fibers));
+Header header_of(const FiberAssembly& fibers, std::uint32_t flags) {
+  Header header;
+  header.strands = static_cast<std::uint32_t>(fibers.fiber_count());
+  header.points = static_cast<std::uint32_t>(fibers.point_count());
+  header.flags = flags;
+  header.default_segments = common_segments(fibers);
   const bool shared_radius = (flags & THICKNESS) == 0;
   const double thickness = shared_radius ? 2.0 * fibers.radii().front() : 0.0;
-  append_float32(bytes, single_precision(thickness, "the thickness", 0, 0));
-  append_float32(bytes, 0.0F);  // opaque
-  for (int channel = 0; channel < 3; ++channel) {
-    append_float32(bytes, 1.0F);  // white
-  }
-  bytes += "written by fiber_proximity, lengths in metres";
-  bytes.resize(header_size, '\0');
-  return bytes;
+  header.default_thickness = single_precision(thickness, "the thickness", 0, 0);
+  return header;
 }
 
 void append_segments(std::string& bytes, const FiberAssembly& fibers) {
@@ -86,7 +66,7 @@ void append_segments(std::string& bytes, const FiberAssembly& fibers) {
              " segments, more than " + std::to_string(most_segments) +
              " and not as many as the others");
     }
-    append_uint16(bytes, segments);
+    append(bytes, static_cast<std::uint16_t>(segments));
   }
 }
 
@@ -110,22 +90,23 @@ std::string encoded(const FiberFile& file) {
   const bool radii_differ = fibers.radii().size() > 1;
   const std::uint32_t flags =
       POINTS | (segments_differ ? SEGMENTS : 0U) | (radii_differ ? THICKNESS : 0U);
-  std::string bytes = header(fibers, flags);
-  bytes.reserve(header_size + 2 * fibers.fiber_count() + 16 * fibers.point_count());
+  std::string bytes(signature, sizeof(signature));
+  append(bytes, header_of(fibers, flags));
+  bytes.reserve(bytes.size() + 2 * fibers.fiber_count() + 16 * fibers.point_count());
   if (segments_differ) {
     append_segments(bytes, fibers);
   }
   for_each_point(fibers, [&](std::size_t fiber, std::size_t i) {
     for (int axis = 0; axis < 3; ++axis) {
       const char name[] = {"xyz"[axis], '\0'};
-      append_float32(bytes, single_precision(fibers.points()[i][axis], name, fiber,
-                                             i - fibers.offsets()[fiber]));
+      append(bytes,
+             single_precision(fibers.points()[i][axis], name, fiber, i - fibers.offsets()[fiber]));
     }
   });
   if (radii_differ) {
     for_each_point(fibers, [&](std::size_t fiber, std::size_t i) {
-      append_float32(bytes, single_precision(2.0 * point_radius(fibers, fiber, i), "the thickness",
-                                             fiber, i - fibers.offsets()[fiber]));
+      append(bytes, single_precision(2.0 * point_radius(fibers, fiber, i), "the thickness", fiber,
+                                     i - fibers.offsets()[fiber]));
     });
   }
   return bytes;

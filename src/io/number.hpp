@@ -37,6 +37,13 @@ void append_number(std::string& text, Number value) {
   }
 }
 
+template <class Number>
+std::string text_of(Number value) {
+  std::string text;
+  append_number(text, value);
+  return text;
+}
+
 /// The number a whole text stands for, in any locale; a leading plus is allowed. Nothing if it is
 /// no number or lies outside the type's range.
 template <class Number>

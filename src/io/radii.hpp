@@ -14,9 +14,7 @@ namespace fiber {
 /// @throws std::invalid_argument naming the value and what is allowed
 inline void check_default_radius(double radius) {
   if (!FiberAssembly::is_valid_radius(radius)) {
-    std::string value;
-    append_number(value, radius);
-    throw std::invalid_argument("the default radius is " + value + ", " +
+    throw std::invalid_argument("the default radius is " + text_of(radius) + ", " +
                                 FiberAssembly::radius_rule);
   }
 }

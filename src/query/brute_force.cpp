@@ -5,19 +5,6 @@
 
 namespace fiber {
 
-void brute_force(const FiberAssembly& fibers, const QueryOptions& options, QueryResult& result) {
-  BruteForceEngine engine;
-  engine.update(fibers);
-  engine.query(options, result);
-}
-
-void brute_force_shape(const FiberAssembly& shape, const FiberAssembly& fibers,
-                       const QueryOptions& options, QueryResult& result) {
-  BruteForceEngine engine;
-  engine.update(fibers);
-  engine.query_shape(shape, options, result);
-}
-
 void BruteForceEngine::do_update(const FiberAssembly& /*fibers*/, bool /*same_topology*/) {}
 
 void BruteForceEngine::do_query(const FiberAssembly& fibers, const QueryOptions& options,

@@ -4,14 +4,8 @@
 
 namespace fiber {
 
-/// Tests every pair: the oracle all other engines are held against. O(n²).
-void brute_force(const FiberAssembly& fibers, const QueryOptions& options, QueryResult& result);
-
-/// Tests every pair of a segment of the shape and one of the fibres.
-void brute_force_shape(const FiberAssembly& shape, const FiberAssembly& fibers,
-                       const QueryOptions& options, QueryResult& result);
-
-/// The same as an engine, by the name `brute_force`.
+/// Tests every pair, by the name `brute_force`: the oracle all other engines are held against.
+/// O(n²).
 class BruteForceEngine final : public ProximityEngine {
  protected:
   void do_update(const FiberAssembly& fibers, bool same_topology) override;

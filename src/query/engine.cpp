@@ -95,40 +95,37 @@ struct ProximityEngine::Motion {
 ProximityEngine::ProximityEngine() = default;
 ProximityEngine::~ProximityEngine() = default;
 
-void ProximityEngine::update(const FiberAssembly& fibers) {
+/// Calls update(same_topology) for these fibres. One that throws leaves no half-updated engine
+/// behind.
+template <class Update>
+void ProximityEngine::update_from(const FiberAssembly& fibers, const Update& update) {
   const bool same_topology = has_hierarchy_ && offsets_ == fibers.offsets();
-  forget();
-  do_update(fibers, same_topology);
-  know(fibers);
-  fibers_ = &fibers;
-}
-
-void ProximityEngine::update_motion(const FiberAssembly& before, const FiberAssembly& after) {
-  const bool same_topology = has_hierarchy_ && offsets_ == before.offsets();
-  forget();
-  if (motion_ == nullptr) {
-    motion_ = std::make_unique<Motion>();
-  }
-  do_update_motion(before, after, same_topology);
-  know(before);
-  motion_->before = &before;
-  motion_->after = &after;
-}
-
-/// An update that throws leaves no half-updated engine behind.
-void ProximityEngine::forget() {
   fibers_ = nullptr;
   has_hierarchy_ = false;
   if (motion_ != nullptr) {
     motion_->before = nullptr;
   }
-}
-
-void ProximityEngine::know(const FiberAssembly& fibers) {
-  if (offsets_ != fibers.offsets()) {
+  update(same_topology);
+  if (!same_topology) {
     offsets_ = fibers.offsets();
   }
   has_hierarchy_ = true;
+}
+
+void ProximityEngine::update(const FiberAssembly& fibers) {
+  update_from(fibers, [&](bool same_topology) { do_update(fibers, same_topology); });
+  fibers_ = &fibers;
+}
+
+void ProximityEngine::update_motion(const FiberAssembly& before, const FiberAssembly& after) {
+  update_from(before, [&](bool same_topology) {
+    if (motion_ == nullptr) {
+      motion_ = std::make_unique<Motion>();
+    }
+    do_update_motion(before, after, same_topology);
+  });
+  motion_->before = &before;
+  motion_->after = &after;
 }
 
 void ProximityEngine::query(const QueryOptions& options, QueryResult& result) const {
@@ -144,60 +141,36 @@ void ProximityEngine::query_shape(const FiberAssembly& shape, const QueryOptions
   do_query_shape(shape, require_fibers(fibers_), options, result);
 }
 
-const ProximityEngine::Motion& ProximityEngine::require_motion() const {
-  if (motion_ == nullptr || motion_->before == nullptr) {
-    throw std::logic_error("the engine has no motion: call update_motion() first");
-  }
-  return *motion_;
-}
-
 void ProximityEngine::query_motion(const MotionOptions& options, MotionResult& result) const {
-  validate(options);
-  reset(result);
-  require_motion();
-  do_query_motion(options, result);
+  find_motions(nullptr, options, result);
 }
 
 void ProximityEngine::query_motion_shape(const FiberAssembly& shape_before,
                                          const FiberAssembly& shape_after,
                                          const MotionOptions& options, MotionResult& result) const {
+  const FiberMotion shape{shape_before, shape_after};
+  find_motions(&shape, options, result);
+}
+
+/// @param shape null: of the fibres with each other
+void ProximityEngine::find_motions(const FiberMotion* shape, const MotionOptions& options,
+                                   MotionResult& result) const {
   validate(options);
   reset(result);
-  require_motion();
-  do_query_motion_shape(shape_before, shape_after, options, result);
-}
-
-void ProximityEngine::do_query_motion(const MotionOptions& options, MotionResult& result) const {
-  const Motion& motion = require_motion();
+  if (motion_ == nullptr || motion_->before == nullptr) {
+    throw std::logic_error("the engine has no motion: call update_motion() first");
+  }
+  const FiberMotion fibers{*motion_->before, *motion_->after};
   const QueryOptions pairs = candidates_of(options);
   const auto work = [&] {
     const QueryLimits limits(pairs);
-    const NarrowPhase test(*motion.before, pairs, loops_before());
-    const FiberMotion fibers{*motion.before, *motion.after};
-    motion.memory.lend([&](Motion::Memory& memory) {
+    const NarrowPhase test = shape != nullptr ? NarrowPhase(shape->before, fibers.before, pairs)
+                                              : NarrowPhase(fibers.before, pairs, loops_before());
+    motion_->memory.lend([&](Motion::Memory& memory) {
       reset(memory.candidates);
-      do_find_candidates(test, limits, memory.candidates);
-      memory.evaluator.evaluate(memory.candidates, fibers, fibers, test, options, limits, result);
-    });
-  };
-  on_threads(std::cref(work));  // a function of its own would be allocated
-}
-
-void ProximityEngine::do_query_motion_shape(const FiberAssembly& shape_before,
-                                            const FiberAssembly& shape_after,
-                                            const MotionOptions& options,
-                                            MotionResult& result) const {
-  const Motion& motion = require_motion();
-  const FiberMotion shape{shape_before, shape_after};
-  const QueryOptions pairs = candidates_of(options);
-  const auto work = [&] {
-    const QueryLimits limits(pairs);
-    const NarrowPhase test(shape_before, *motion.before, pairs);
-    const FiberMotion fibers{*motion.before, *motion.after};
-    motion.memory.lend([&](Motion::Memory& memory) {
-      reset(memory.candidates);
-      do_find_shape_candidates(shape, test, limits, memory.candidates);
-      memory.evaluator.evaluate(memory.candidates, shape, fibers, test, options, limits, result);
+      do_find_candidates(shape, test, limits, memory.candidates);
+      memory.evaluator.evaluate(memory.candidates, shape != nullptr ? *shape : fibers, fibers, test,
+                                options, limits, result);
     });
   };
   on_threads(std::cref(work));  // a function of its own would be allocated
@@ -209,26 +182,33 @@ void ProximityEngine::do_update_motion(const FiberAssembly& before, const FiberA
   do_update(motion_->swept.fibers(), same_topology);
 }
 
-void ProximityEngine::do_find_candidates(const NarrowPhase& test, const QueryLimits& limits,
+void ProximityEngine::do_find_candidates(const FiberMotion* shape, const NarrowPhase& test,
+                                         const QueryLimits& limits,
                                          MotionCandidates& candidates) const {
   const FiberAssembly& swept = motion_->swept.fibers();
   QueryOptions options = candidate_options(test, limits);
-  // What is left out by where the fibres are is evaluated by where they were before the motion.
-  options.neighbour_skip = test.wants_adjacent() ? 0 : 1;
   QueryResult result;
-  do_query(swept, options, result);
-  take(result, swept, swept, test, limits, candidates);
+  if (shape == nullptr) {
+    // What is left out by where the fibres are is evaluated by where they were before the motion.
+    options.neighbour_skip = test.wants_adjacent() ? 0 : 1;
+    do_query(swept, options, result);
+    take(result, swept, swept, test, limits, candidates);
+    return;
+  }
+  SweptFibers swept_shape;
+  swept_shape.update(shape->before, shape->after, motion_->swept.drift());
+  do_query_shape(swept_shape.fibers(), swept, options, result);
+  take(result, swept_shape.fibers(), swept, test, limits, candidates);
 }
 
-void ProximityEngine::do_find_shape_candidates(const FiberMotion& shape, const NarrowPhase& test,
-                                               const QueryLimits& limits,
-                                               MotionCandidates& candidates) const {
-  const FiberAssembly& swept = motion_->swept.fibers();
-  SweptFibers swept_shape;
-  swept_shape.update(shape.before, shape.after, motion_->swept.drift());
-  QueryResult result;
-  do_query_shape(swept_shape.fibers(), swept, candidate_options(test, limits), result);
-  take(result, swept_shape.fibers(), swept, test, limits, candidates);
+double ProximityEngine::mean_level_volume(std::uint32_t level) const {
+  std::vector<NodeBox> boxes;
+  level_boxes(level, boxes);
+  double sum = 0.0;
+  for (const NodeBox& box : boxes) {
+    sum += (box.upper - box.lower).prod();
+  }
+  return boxes.empty() ? 0.0 : sum / static_cast<double>(boxes.size());
 }
 
 void ProximityEngine::on_threads(const std::function<void()>& work) const {

@@ -102,10 +102,6 @@ bool NarrowPhase::is_neighbour_of_same_fiber(PointPair pair) const {
   return is_of_one_fiber(pair);
 }
 
-bool NarrowPhase::is_of_other_pairing(PointPair pair) const {
-  return is_of_one_fiber(pair) != (options_.pairing == Pairing::SAME_FIBER);
-}
-
 PairDistance NarrowPhase::distance(PointPair pair) const {
   const Capsule a = a_.capsule(pair.a);
   const Capsule b = b_.capsule(pair.b);
@@ -143,15 +139,6 @@ bool NarrowPhase::is_within_margin(PointPair pair, const PairDistance& distance)
                      {a.radius, b.radius, options_.margin});
 }
 
-/// The distance, rounded correctly.
-PairDistance NarrowPhase::rounded(PointPair pair, const PairDistance& distance) const {
-  const Capsule a = a_.capsule(pair.a);
-  const Capsule b = b_.capsule(pair.b);
-  const SegmentDistance nearest =
-      rounded_segment_distance(distance.nearest, a.p0, a.p1, b.p0, b.p1);
-  return {nearest, nearest.distance - radii(pair)};
-}
-
 double NarrowPhase::least_gap() const {
   return -(1.0 + 0x1p-51) * (a_.largest_radius() + b_.largest_radius());
 }
@@ -174,12 +161,16 @@ double NarrowPhase::gap_lower_bound(PointPair pair) const {
   return apart - radii - error;
 }
 
-Contact NarrowPhase::contact(PointPair pair, const PairDistance& computed) const {
-  const PairDistance distance =
-      options_.kernel == Kernel::EXACT ? rounded(pair, computed) : computed;
+Contact NarrowPhase::contact(PointPair pair, const PairDistance& distance) const {
+  const Capsule a = a_.capsule(pair.a);
+  const Capsule b = b_.capsule(pair.b);
   const SegmentId id_a = a_.segment_id(pair.a);
   const SegmentId id_b = b_.segment_id(pair.b);
-  Contact contact = contact_of(a_.capsule(pair.a), b_.capsule(pair.b), distance.nearest);
+  Contact contact =
+      contact_of(a, b,
+                 options_.kernel == Kernel::EXACT
+                     ? rounded_segment_distance(distance.nearest, a.p0, a.p1, b.p0, b.p1)
+                     : distance.nearest);
   static_cast<SegmentIdPair&>(contact) = {id_a.fiber, id_a.segment, id_b.fiber, id_b.segment};
   return contact;
 }

@@ -84,13 +84,15 @@ constexpr double most_outdated = 0.25;
 RunTreeEngine::RunTreeEngine(const EngineOptions& options)
     : arena_(arena_concurrency(options.threads)), skin_(checked_length("skin", options.skin)) {}
 
-std::uint32_t RunTreeEngine::thread_count() const {
-  return static_cast<std::uint32_t>(arena_.max_concurrency());
-}
-
-std::size_t RunTreeEngine::memory_bytes() const {
-  return tree_.memory_bytes() + motion_.memory_bytes() + cache_.memory_bytes() +
-         dirty_.memory_bytes() + loops_.memory_bytes();
+EngineFacts RunTreeEngine::facts() const {
+  EngineFacts facts;
+  facts.thread_count = static_cast<std::uint32_t>(arena_.max_concurrency());
+  facts.memory_bytes = tree_.memory_bytes() + motion_.memory_bytes() + cache_.memory_bytes() +
+                       dirty_.memory_bytes() + loops_.memory_bytes();
+  // The root, which the tree has no box for, and the levels of the tree from the top down.
+  const std::uint32_t levels = tree_.view().level_count;
+  facts.level_count = levels == 0 ? 0 : levels + 1;
+  return facts;
 }
 
 void RunTreeEngine::do_update(const FiberAssembly& fibers, bool same_topology) {
@@ -278,26 +280,20 @@ void RunTreeEngine::do_update_motion(const FiberAssembly& before, const FiberAss
   check_ways(tree_, before, after);
 }
 
-void RunTreeEngine::do_find_candidates(const NarrowPhase& test, const QueryLimits& limits,
+void RunTreeEngine::do_find_candidates(const FiberMotion* shape, const NarrowPhase& test,
+                                       const QueryLimits& limits,
                                        MotionCandidates& candidates) const {
-  find_candidates(tree_.view(), test, limits, candidates);
-}
-
-void RunTreeEngine::do_find_shape_candidates(const FiberMotion& shape, const NarrowPhase& test,
-                                             const QueryLimits& limits,
-                                             MotionCandidates& candidates) const {
-  require_same_topology(shape.before, shape.after);
   RunTree shape_tree;
-  shape_tree.build({shape.before, shape.after, tree_.origin(), tree_.origin_after()});
-  check_ways(shape_tree, shape.before, shape.after);
-  find_candidates(shape_tree.view(), test, limits, candidates);
-}
-
-void RunTreeEngine::find_candidates(const RunTreeView& a, const NarrowPhase& test,
-                                    const QueryLimits& limits, MotionCandidates& candidates) const {
+  if (shape != nullptr) {
+    require_same_topology(shape->before, shape->after);
+    shape_tree.build({shape->before, shape->after, tree_.origin(), tree_.origin_after()});
+    check_ways(shape_tree, shape->before, shape->after);
+  }
+  const RunTree& a = shape != nullptr ? shape_tree : tree_;
   with_batch([&](ContactBatch& batch) {
-    const ContactBatch::Found found = batch.collect(a, tree_.view(), test, test.margin(), limits,
-                                                    true, candidates.keys, candidates.counts);
+    const ContactBatch::Found found =
+        batch.collect(a.view(), tree_.view(), test, test.margin(), limits, true, candidates.keys,
+                      candidates.counts);
     candidates.are_all = found != ContactBatch::Found::SOME;
     candidates.are_too_many = found == ContactBatch::Found::TOO_MANY;
   });
@@ -306,12 +302,6 @@ void RunTreeEngine::find_candidates(const RunTreeView& a, const NarrowPhase& tes
 template <class Call>
 void RunTreeEngine::with_batch(const Call& call) const {
   batches_.lend([&](ContactBatch& batch) { arena_.execute([&] { call(batch); }); });
-}
-
-// The root, which the tree has no box for, and the levels of the tree from the top down.
-std::uint32_t RunTreeEngine::level_count() const {
-  const std::uint32_t levels = tree_.view().level_count;
-  return levels == 0 ? 0 : levels + 1;
 }
 
 void RunTreeEngine::level_boxes(std::uint32_t level, std::vector<NodeBox>& boxes) const {
@@ -334,16 +324,6 @@ void RunTreeEngine::level_boxes(std::uint32_t level, std::vector<NodeBox>& boxes
     }
     boxes.resize(1, boxes.front());
   }
-}
-
-double RunTreeEngine::mean_level_volume(std::uint32_t level) const {
-  std::vector<NodeBox> boxes;
-  level_boxes(level, boxes);
-  double sum = 0.0;
-  for (const NodeBox& box : boxes) {
-    sum += (box.upper - box.lower).prod();
-  }
-  return boxes.empty() ? 0.0 : sum / static_cast<double>(boxes.size());
 }
 
 }  // namespace fiber

@@ -21,11 +21,8 @@ class RunTreeEngine final : public ProximityEngine {
   /// @throws std::invalid_argument for a skin that is negative or not finite
   explicit RunTreeEngine(const EngineOptions& options);
 
-  std::uint32_t thread_count() const override;
-  std::uint32_t level_count() const override;
+  EngineFacts facts() const override;
   void level_boxes(std::uint32_t level, std::vector<NodeBox>& boxes) const override;
-  double mean_level_volume(std::uint32_t level) const override;
-  std::size_t memory_bytes() const override;
 
   /// How often updates have moved the tree.
   std::uint64_t refit_count() const { return refit_count_; }
@@ -41,11 +38,8 @@ class RunTreeEngine final : public ProximityEngine {
                       const QueryOptions& options, QueryResult& result) const override;
   void do_update_motion(const FiberAssembly& before, const FiberAssembly& after,
                         bool same_topology) override;
-  void do_find_candidates(const NarrowPhase& test, const QueryLimits& limits,
-                          MotionCandidates& candidates) const override;
-  void do_find_shape_candidates(const FiberMotion& shape, const NarrowPhase& test,
-                                const QueryLimits& limits,
-                                MotionCandidates& candidates) const override;
+  void do_find_candidates(const FiberMotion* shape, const NarrowPhase& test,
+                          const QueryLimits& limits, MotionCandidates& candidates) const override;
   const LoopTest* loops_before() const override { return &loops_; }
   void on_threads(const std::function<void()>& work) const override { arena_.execute(work); }
 
@@ -64,9 +58,6 @@ class RunTreeEngine final : public ProximityEngine {
                                 QueryCounts& counts) const;
   bool find_own(const NarrowPhase& test, const QueryOptions& options, const QueryLimits& limits,
                 QueryResult& result) const;
-
-  void find_candidates(const RunTreeView& a, const NarrowPhase& test, const QueryLimits& limits,
-                       MotionCandidates& candidates) const;
 
   /// Calls with memory that queries which run at the same time do not share.
   template <class Call>

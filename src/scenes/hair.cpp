@@ -276,10 +276,4 @@ FiberAssembly hair(const HairStyle& style, const SceneOptions& options, std::uin
                       hair_radius);
 }
 
-double max_hair_step(const HairStyle& style) {
-  // The slope of the sine, and how much lifting off the head stretches distances at most.
-  constexpr double stretch = 2.0;
-  return stretch * tau * style.sway / sway_period;
-}
-
 }  // namespace fiber

@@ -71,12 +71,8 @@ constexpr double hair_clearance = 0.01;
 /// Hairs of this style, all of the same number of segments. Their roots have hair_density, so a
 /// smaller scale grows the same hair on a smaller patch around the crown. No hair passes through
 /// the Head. Each frame is computed from nothing but the options and its number, and is the same
-/// bits everywhere; from one to the next no point moves farther than
-/// max_hair_step(style).
+/// bits everywhere.
 /// @throws std::invalid_argument for a scale that needs more scalp than there is
 FiberAssembly hair(const HairStyle& style, const SceneOptions& options, std::uint32_t frame);
-
-/// Bound on the motion of a point from frame to frame [m].
-double max_hair_step(const HairStyle& style);
 
 }  // namespace fiber

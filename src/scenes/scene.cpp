@@ -73,11 +73,9 @@ std::uint32_t scaled_fiber_count(const SceneOptions& options, std::uint32_t full
   const double limit = std::min<double>(std::floor(most_points / points_per_fiber), most_fibers);
   const double fibers = std::floor(options.scale * full_count + 0.5);
   if (!(options.scale > 0.0) || fibers > limit) {
-    std::string message = "scale is ";
-    append_number(message, options.scale);
-    message += ", it must be above 0 and at most ";
-    append_number(message, std::floor(100.0 * limit / full_count) / 100.0);
-    throw std::invalid_argument(message);
+    throw std::invalid_argument("scale is " + text_of(options.scale) +
+                                ", it must be above 0 and at most " +
+                                text_of(std::floor(100.0 * limit / full_count) / 100.0));
   }
   return fibers < 1.0 ? 1U : static_cast<std::uint32_t>(fibers);
 }

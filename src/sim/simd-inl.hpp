@@ -26,26 +26,16 @@ using LaneTag = hn::CappedTag<double, lane_count>;
 
 HWY_INLINE std::size_t lanes_at_once() { return hn::Lanes(LaneTag()); }
 
-struct Real {
-  hn::Vec<LaneTag> value;
-};
+/// A number of each lane; sums, products and so on are Highway's.
+using Real = hn::Vec<LaneTag>;
 
-HWY_INLINE Real real(double value) { return {hn::Set(LaneTag(), value)}; }
+HWY_INLINE Real real(double value) { return hn::Set(LaneTag(), value); }
 HWY_INLINE Real load(const SimdBatch& from, std::size_t lane) {
-  return {hn::Load(LaneTag(), from.of.data() + lane)};
+  return hn::Load(LaneTag(), from.of.data() + lane);
 }
 HWY_INLINE void store(Real value, SimdBatch& to, std::size_t lane) {
-  hn::Store(value.value, LaneTag(), to.of.data() + lane);
+  hn::Store(value, LaneTag(), to.of.data() + lane);
 }
-
-HWY_INLINE Real operator+(Real a, Real b) { return {hn::Add(a.value, b.value)}; }
-HWY_INLINE Real operator-(Real a, Real b) { return {hn::Sub(a.value, b.value)}; }
-HWY_INLINE Real operator*(Real a, Real b) { return {hn::Mul(a.value, b.value)}; }
-HWY_INLINE Real operator/(Real a, Real b) { return {hn::Div(a.value, b.value)}; }
-HWY_INLINE Real negative(Real a) { return {hn::Neg(a.value)}; }
-HWY_INLINE Real square_root(Real a) { return {hn::Sqrt(a.value)}; }
-HWY_INLINE Real smaller(Real a, Real b) { return {hn::Min(a.value, b.value)}; }
-HWY_INLINE Real larger(Real a, Real b) { return {hn::Max(a.value, b.value)}; }
 
 HWY_INLINE void add(Real value, SimdBatch& to, std::size_t lane) {
   store(load(to, lane) + value, to, lane);
@@ -76,7 +66,7 @@ HWY_INLINE Vector operator-(const Vector& a, const Vector& b) {
   return {{a.of[0] - b.of[0], a.of[1] - b.of[1], a.of[2] - b.of[2]}};
 }
 HWY_INLINE Vector negative(const Vector& a) {
-  return {{negative(a.of[0]), negative(a.of[1]), negative(a.of[2])}};
+  return {{hn::Neg(a.of[0]), hn::Neg(a.of[1]), hn::Neg(a.of[2])}};
 }
 HWY_INLINE Vector operator*(Real factor, const Vector& a) {
   return {{factor * a.of[0], factor * a.of[1], factor * a.of[2]}};
@@ -158,7 +148,7 @@ HWY_INLINE void add_edge(const Vector& gradient, const Block& block, std::size_t
   Block minus;
   for (std::size_t r = 0; r < 3; ++r) {
     for (std::size_t c = 0; c < 3; ++c) {
-      minus.of[r][c] = negative(block.of[r][c]);
+      minus.of[r][c] = hn::Neg(block.of[r][c]);
     }
   }
   add_gradient<U>(negative(gradient), edge, lane, system);
@@ -219,10 +209,10 @@ HWY_INLINE EdgeBlocks isotropic_blocks(const TwoEdges& edges, Real factor) {
   EdgeBlocks blocks;
   for (std::size_t r = 0; r < 3; ++r) {
     for (std::size_t c = 0; c < 3; ++c) {
-      const Real aa = r == c ? one - a.of[r] * a.of[c] : negative(a.of[r] * a.of[c]);
+      const Real aa = r == c ? one - a.of[r] * a.of[c] : hn::Neg(a.of[r] * a.of[c]);
       const Real bb = b.of[r] * b.of[c];
       blocks.first.of[r][c] = of_first * aa;
-      blocks.last.of[r][c] = of_last * (r == c ? one - bb : negative(bb));
+      blocks.last.of[r][c] = of_last * (r == c ? one - bb : hn::Neg(bb));
       blocks.cross.of[r][c] = of_cross * (aa - bb + b.of[r] * (cosine * a.of[c]));
     }
   }
@@ -254,8 +244,8 @@ HWY_INLINE void add_hessian(const EdgeBlocks& blocks, std::size_t node, std::siz
   Block above_last;
   for (std::size_t r = 0; r < 3; ++r) {
     for (std::size_t c = 0; c < 3; ++c) {
-      below_first.of[r][c] = negative(first.of[r][c] + cross.of[r][c]);
-      above_last.of[r][c] = negative(last.of[r][c] + cross.of[r][c]);
+      below_first.of[r][c] = hn::Neg(first.of[r][c] + cross.of[r][c]);
+      above_last.of[r][c] = hn::Neg(last.of[r][c] + cross.of[r][c]);
       middle.of[r][c] = first.of[r][c] + last.of[r][c] + cross.of[r][c] + cross.of[c][r];
     }
   }
@@ -278,18 +268,18 @@ HWY_INLINE Vector transport(const Vector& v, const Vector& from, const Vector& t
   const Real beside_opposite = real(0.5) * dot(sum, sum);
   const Vector axis = cross(from, to);
   const Vector turned = cosine * v + cross(axis, v) + dot(axis, v) / beside_opposite * axis;
-  const auto stays = hn::Or(hn::Lt(beside_opposite.value, real(1e-12).value),
-                            hn::Eq((dot(from, from) * dot(to, to)).value, real(0.0).value));
+  const auto stays = hn::Or(hn::Lt(beside_opposite, real(1e-12)),
+                            hn::Eq(dot(from, from) * dot(to, to), real(0.0)));
   Vector result;
   for (std::size_t k = 0; k < 3; ++k) {
-    result.of[k] = {hn::IfThenElse(stays, v.of[k].value, turned.of[k].value)};
+    result.of[k] = hn::IfThenElse(stays, v.of[k], turned.of[k]);
   }
   return result;
 }
 
 HWY_INLINE Vector curvature_binormal(const Vector& before, const Vector& after) {
   constexpr double folded = 1e-3;
-  const Real factor = real(2.0) / larger(real(folded), real(1.0) + dot(before, after));
+  const Real factor = real(2.0) / hn::Max(real(folded), real(1.0) + dot(before, after));
   return factor * cross(before, after);
 }
 
@@ -298,12 +288,12 @@ HWY_INLINE Vector curvature_binormal(const Vector& before, const Vector& after) 
 HWY_INLINE Real angle_of(Real cosine, Real sine) {
   const Real one = real(1.0);
   const Real least = real(std::numeric_limits<double>::min());
-  const Real across = {hn::Abs(sine.value)};
-  const Real along = {hn::Abs(cosine.value)};
+  const Real across = hn::Abs(sine);
+  const Real along = hn::Abs(cosine);
   // The tangent of an angle of up to pi/4, and of a quarter of it, whose series is short.
-  Real tangent = smaller(across, along) / larger(larger(across, along), least);
+  Real tangent = hn::Min(across, along) / hn::Max(hn::Max(across, along), least);
   for (int i = 0; i < 2; ++i) {
-    tangent = tangent / (one + square_root(one + tangent * tangent));
+    tangent = tangent / (one + hn::Sqrt(one + tangent * tangent));
   }
   const Real square = tangent * tangent;
   Real series = real(0.0);
@@ -311,13 +301,9 @@ HWY_INLINE Real angle_of(Real cosine, Real sine) {
     series = real(1.0 / power) - square * series;
   }
   const Real angle = real(4.0) * tangent * series;
-  const auto is_steep = hn::Gt(across.value, along.value);
-  const Real in_quadrant = {
-      hn::IfThenElse(is_steep, (real(0.5 * M_PI) - angle).value, angle.value)};
-  const auto is_behind = hn::Lt(cosine.value, real(0.0).value);
-  const Real in_half = {
-      hn::IfThenElse(is_behind, (real(M_PI) - in_quadrant).value, in_quadrant.value)};
-  return {hn::CopySignToAbs(in_half.value, sine.value)};
+  const Real in_quadrant = hn::IfThenElse(hn::Gt(across, along), real(0.5 * M_PI) - angle, angle);
+  const auto is_behind = hn::Lt(cosine, real(0.0));
+  return hn::CopySignToAbs(hn::IfThenElse(is_behind, real(M_PI) - in_quadrant, in_quadrant), sine);
 }
 
 HWY_INLINE Real signed_angle(const Vector& from, const Vector& to, const Vector& about) {
@@ -326,7 +312,7 @@ HWY_INLINE Real signed_angle(const Vector& from, const Vector& to, const Vector&
 
 HWY_INLINE Real nearest_turn(Real angle, Real to) {
   const Real turn = real(2.0 * M_PI);
-  return angle - turn * Real{hn::Round(((angle - to) / turn).value)};
+  return angle - turn * hn::Round((angle - to) / turn);
 }
 
 HWY_INLINE Real angle_at(const RodPack& rods, std::size_t edge, std::size_t lane) {

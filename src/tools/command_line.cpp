@@ -66,11 +66,7 @@ CLI::Validator number_of(const std::string& kind, const std::string& range,
           range};
 }
 
-std::string length_range() {
-  std::string range = "from 0 to ";
-  append_number(range, FiberAssembly::max_coordinate);
-  return range;
-}
+std::string length_range() { return "from 0 to " + text_of(FiberAssembly::max_coordinate); }
 
 /// What stands where a subcommand should, if there is one and none of this name.
 std::optional<std::string> unknown_subcommand(const std::vector<std::string>& known, int argc,
@@ -126,9 +122,7 @@ CLI::Validator whole_number(std::uint64_t least) {
 }
 
 CLI::Validator finite_number(double least) {
-  std::string range = "from ";
-  append_number(range, least);
-  return number_of<double>("a finite number", range, [least](double value) {
+  return number_of<double>("a finite number", "from " + text_of(least), [least](double value) {
     return std::isfinite(value) && value >= least;
   });
 }

@@ -36,18 +36,12 @@ std::string milliseconds(double seconds) {
   return text.data();
 }
 
-std::string number(double value) {
-  std::string text;
-  append_number(text, value);
-  return text;
-}
-
 std::string segment(const SegmentId& id) {
   return std::to_string(id.fiber) + "/" + std::to_string(id.segment);
 }
 
 std::string described(const std::optional<PairClaim>& claim) {
-  return claim ? number(claim->gap) + " m" : "no contact";
+  return claim ? text_of(claim->gap) + " m" : "no contact";
 }
 
 const char* described(Verdict verdict) {
@@ -67,7 +61,7 @@ const char* described(Verdict verdict) {
 std::string described(const Disagreement& pair) {
   return segment(pair.a) + " - " + segment(pair.b) + ": ours " + described(pair.ours) + ", FCL " +
          (pair.fcl_has_answer ? described(pair.fcl) : "no answer") + ", true gap " +
-         number(pair.gap) + " m" + (pair.is_contact ? " (contact)" : " (no contact)") + ": " +
+         text_of(pair.gap) + " m" + (pair.is_contact ? " (contact)" : " (no contact)") + ": " +
          described(pair.verdict);
 }
 
@@ -164,7 +158,7 @@ void write_text(TextOutput& output, const FrameComparison& frame) {
             std::to_string(style.only_fcl) + ", in both " + std::to_string(style.in_both) +
             ", no answer " + std::to_string(style.no_answer);
     if (style.largest_difference > 0.0) {
-      text += "; distances differ by up to " + number(style.largest_difference) + " m (" +
+      text += "; distances differ by up to " + text_of(style.largest_difference) + " m (" +
               segment(style.largest_a) + " - " + segment(style.largest_b) + ")";
     }
     text += '\n';

@@ -194,19 +194,15 @@ std::int64_t YamlField::integer(std::int64_t least, std::int64_t most) const {
   return number;
 }
 
-std::vector<double> YamlField::numbers() const {
+std::vector<double> YamlField::numbers(std::optional<std::size_t> count) const {
+  if (count && (!node_.IsSequence() || node_.size() != *count)) {
+    refuse("a list of " + std::to_string(*count) + " numbers");
+  }
   std::vector<double> numbers;
   for (const YamlField& item : items()) {
     numbers.push_back(item.number());
   }
   return numbers;
-}
-
-std::vector<double> YamlField::numbers(std::size_t count) const {
-  if (!node_.IsSequence() || node_.size() != count) {
-    refuse("a list of " + std::to_string(count) + " numbers");
-  }
-  return numbers();
 }
 
 Eigen::Vector3d YamlField::vector() const {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "benchmark/accuracy_settings.hpp"
-#include "src/query/brute_force.hpp"
+#include "test/support/answers.hpp"
 
 namespace fiber::test {
 namespace {
@@ -26,7 +26,7 @@ class AnswerErrorsTest : public testing::Test {
     options_.type = type;
     options_.margin = margin;
     options_.kernel = Kernel::EXACT;
-    brute_force(fibers_, options_, exact_);
+    exact_ = brute_force(fibers_, options_);
     answer_ = exact_;
   }
 

@@ -4,7 +4,7 @@
 
 #include <thread>
 
-#include "src/query/brute_force.hpp"
+#include "test/support/answers.hpp"
 #include "test/support/assemblies.hpp"
 #include "test/support/contacts.hpp"
 
@@ -16,11 +16,8 @@ TEST(ParallelCollector, GivesBruteForcesAnswerFromAnyNumberOfThreads) {
   Random random;
   ParallelCollector collector;  // kept, as an engine does
   for (int round = 0; round < 20; ++round) {
-    AssemblyBuilder builder;
-    builder.add_fiber(random_walk(random, 60, 0.05));
-    const FiberAssembly fibers = builder.build({0.02});
-    QueryResult expected;
-    brute_force(fibers, {}, expected);
+    const FiberAssembly fibers = walks(random, 1, 60, 0.05, 0.02);
+    const QueryResult expected = brute_force(fibers);
 
     const auto thread_count = static_cast<std::uint32_t>(random.integer(1, 4));
     const QueryOptions options;

@@ -8,9 +8,10 @@
 
 #include "benchmark/peers/peer.hpp"
 #include "src/hierarchy/segment_boxes.hpp"
-#include "src/query/brute_force.hpp"
+#include "test/support/answers.hpp"
 #include "test/support/assemblies.hpp"
 #include "test/support/contacts.hpp"
+#include "test/support/error_of.hpp"
 #include "test/support/process.hpp"
 
 namespace fiber::test {
@@ -21,18 +22,10 @@ class PeerTest : public testing::TestWithParam<std::string> {
  protected:
   static QueryResult ask(ProximityEngine& peer, const FiberAssembly& fibers,
                          const QueryOptions& options) {
-    QueryResult result;
     peer.update(fibers);
-    peer.query(options, result);
-    return result;
+    return answer(peer, options);
   }
 };
-
-QueryResult truth(const FiberAssembly& fibers, const QueryOptions& options) {
-  QueryResult result;
-  brute_force(fibers, options, result);
-  return result;
-}
 
 /// The same fibres with points moved a little.
 void move(FiberAssembly& fibers, double step, Random& random) {
@@ -58,7 +51,7 @@ TEST_P(PeerTest, GivesBruteForcesContactsBeforeAndAfterAMove) {
       FiberAssembly fibers = family.make(random);
       for (int frame = 0; frame < 3; ++frame) {
         const QueryResult found = ask(*peer, fibers, options);
-        ASSERT_TRUE(same_contacts(found.contacts, truth(fibers, options).contacts))
+        ASSERT_TRUE(same_contacts(found.contacts, brute_force(fibers, options).contacts))
             << "frame " << frame << ", margin " << options.margin << ", threads " << bench.threads;
         move(fibers, 0.05, random);
       }
@@ -73,18 +66,12 @@ TEST_P(PeerTest, FollowsAChangeOfTopology) {
   for (int round = 0; round < 20; ++round) {
     const FiberAssembly fibers = assembly_families().front().make(random);
     ASSERT_TRUE(same_contacts(ask(*peer, fibers, QueryOptions{}).contacts,
-                              truth(fibers, QueryOptions{}).contacts));
+                              brute_force(fibers, QueryOptions{}).contacts));
   }
 }
 
 /// Many fibres, so that trees have levels and threads have work.
-FiberAssembly many_walks(Random& random) {
-  AssemblyBuilder builder;
-  for (int fiber = 0; fiber < 60; ++fiber) {
-    builder.add_fiber(random_walk(random, 30, 0.02));
-  }
-  return builder.build({0.005});
-}
+FiberAssembly many_walks(Random& random) { return walks(random, 60, 30, 0.02, 0.005); }
 
 TEST_P(PeerTest, OffersThePairsWhoseBoxesOverlapAndNoOthers) {
   SCOPED_TRACE(seed_message());
@@ -136,8 +123,8 @@ TEST_P(PeerTest, RefusesWhatItDoesNotAnswer) {
 
 TEST_P(PeerTest, TellsHowManyThreadsItUses) {
   const bool several = GetParam() == "cgal" || GetParam().rfind("embree", 0) == 0;
-  EXPECT_EQ(make_bench_engine(GetParam(), {1, 0.0})->thread_count(), 1U);
-  EXPECT_EQ(make_bench_engine(GetParam(), {2, 0.0})->thread_count(),
+  EXPECT_EQ(make_bench_engine(GetParam(), {1, 0.0})->facts().thread_count, 1U);
+  EXPECT_EQ(make_bench_engine(GetParam(), {2, 0.0})->facts().thread_count,
             several ? std::min(2U, std::thread::hardware_concurrency()) : 1U);
 }
 
@@ -147,19 +134,13 @@ GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(PeerTest);  // a build may be with
 INSTANTIATE_TEST_SUITE_P(Peers, PeerTest, testing::ValuesIn(peer_names()),
                          [](const auto& instance) { return instance.param; });
 
-/// What make_bench_engine says no with; empty if it does not.
 std::string refusal(const std::string& name) {
-  try {
-    make_bench_engine(name);
-    return "";
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
+  return error_of([&] { make_bench_engine(name); });
 }
 
 TEST(MakeBenchEngine, MakesPeersAndEngines) {
-  EXPECT_EQ(refusal("AL"), "");
-  EXPECT_EQ(refusal("DL-14-classic"), "");
+  EXPECT_EQ(refusal("AL"), "no error");
+  EXPECT_EQ(refusal("DL-14-classic"), "no error");
   EXPECT_EQ(refusal("octree").find("unknown engine 'octree', known are: run_tree, AL"), 0U);
   EXPECT_NE(refusal("octree").find("; peers are: bullet, cgal, embree_low, embree_medium, "
                                    "embree_refit, fcl, fcl_naive"),
@@ -189,7 +170,7 @@ TEST(FiberBench, RunsThePeersBesideOurEngines) {
     const nlohmann::json row = nlohmann::json::parse(line);
     const std::string name = row.at("engine");
     EXPECT_GT(row.at("pairs"), 0) << name;
-    EXPECT_EQ(row.at("threads"), make_bench_engine(name, {2, 0.0})->thread_count()) << name;
+    EXPECT_EQ(row.at("threads"), make_bench_engine(name, {2, 0.0})->facts().thread_count) << name;
   }
   EXPECT_EQ(count, 2 + peer_names().size());
 }

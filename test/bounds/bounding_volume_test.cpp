@@ -10,6 +10,7 @@
 #include "fiber_proximity/geometry/segment_distance.hpp"
 #include "test/support/bounding_volumes.hpp"
 #include "test/support/random.hpp"
+#include "test/support/rounds.hpp"
 
 namespace fiber::test {
 namespace {
@@ -185,7 +186,7 @@ TYPED_TEST(BoundingVolumeTest, MergedVolumesNeverMissWhatTheirPartsFind) {
 TYPED_TEST(BoundingVolumeTest, VolumeIsAtLeastThatOfTheCapsuleAndFitsInItsBox) {
   SCOPED_TRACE(seed_message());
   Random random;
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < rounds(200); ++i) {
     const Capsule capsule = random_capsule(random, 1.0);
     const auto fit_volume = fitted<TypeParam>(capsule);
     constexpr double pi = 3.14159265358979323846;

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "fiber_proximity/scenes/scene.hpp"
-#include "src/query/brute_force.hpp"
+#include "test/support/answers.hpp"
 #include "test/support/hard_scenes.hpp"
 #include "test/support/small_scene.hpp"
 
@@ -115,8 +115,7 @@ TEST_F(FclComparerTest, FollowsChangesOfMarginAndTopology) {
     QueryOptions options;
     options.margin = 0.01 * random.integer(0, 2);
     const Comparison found = compare(fibers, options);
-    QueryResult truth;
-    brute_force(fibers, options, truth);
+    const QueryResult truth = brute_force(fibers, options);
     EXPECT_EQ(found.styles[0].contacts, truth.contacts.size());
     EXPECT_EQ(found.styles[1].contacts, truth.contacts.size());
   }
@@ -239,7 +238,7 @@ class BrokenEngine final : public ProximityEngine {
   void do_update(const FiberAssembly& /*fibers*/, bool /*same_topology*/) override {}
   void do_query(const FiberAssembly& fibers, const QueryOptions& options,
                 QueryResult& result) const override {
-    brute_force(fibers, options, result);
+    result = brute_force(fibers, options);
     change_(result.contacts);
   }
   void do_query_shape(const FiberAssembly& /*shape*/, const FiberAssembly& /*fibers*/,

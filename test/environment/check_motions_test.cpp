@@ -109,7 +109,8 @@ class CheckMotions : public testing::Test {
     MotionResult found;
     for (std::size_t i = 0; i + 1 < path.size(); ++i) {
       const auto step = static_cast<double>(i);
-      environment_->query_motion(path[i], path[i + 1], options_, surroundings_.allowed, found);
+      environment_->query_motion(path[i], path[i + 1], *environment_, options_,
+                                 surroundings_.allowed, found);
       add_firsts(found, step, expected.environment);
       still->query_motion_shape(path[i], path[i + 1], options_, found);
       add_firsts(found, step, expected.fibers);

@@ -117,7 +117,7 @@ std::vector<std::pair<Shape, double>> thin_things() {
           {HalfSpaceShape{Vector3d::UnitZ(), 0.0}, 0.0},
           {box_mesh(plate, 5), thin},
           {std::make_shared<const TriangleMesh>(corners, Triangles{{0, 1, 2}, {0, 2, 3}}), 0.0},
-          {std::make_shared<const OccupancyOctree>(thin, cells), thin}};
+          {octree_of(thin, cells), thin}};
 }
 
 const Isometry3d identity = Isometry3d::Identity();

@@ -12,6 +12,7 @@
 
 #include "src/environment/convex_solids.hpp"
 #include "test/environment/random_shapes.hpp"
+#include "test/support/error_of.hpp"
 #include "test/support/not_finite.hpp"
 
 namespace fiber::test {
@@ -296,19 +297,14 @@ TEST(Environment, OfManyAllowedPairsEachIsNone) {
 
 TEST(Environment, NamesWhatItRefuses) {
   const auto refusal = [](const std::vector<EnvironmentObject>& objects) {
-    try {
-      const Environment environment(objects);
-    } catch (const std::invalid_argument& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    return error_of([&] { const Environment environment(objects); });
   };
   const Eigen::Isometry3d identity = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d scaled = identity;
   scaled.linear() *= 2.0;
   Eigen::Isometry3d nowhere = identity;
   nowhere.translation().x() = std::nan("");
-  EXPECT_EQ(refusal({{"table", identity, {{SphereShape{1.0}}}}}), "");
+  EXPECT_EQ(refusal({{"table", identity, {{SphereShape{1.0}}}}}), "no error");
   EXPECT_EQ(refusal({{"", identity, {{SphereShape{1.0}}}}}), "an object has no name");
   EXPECT_EQ(
       refusal({{"table", identity, {{SphereShape{1.0}}, {SphereShape{-1.0}}}}}),

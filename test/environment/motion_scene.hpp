@@ -103,7 +103,8 @@ inline MotionResult ask(const std::vector<EnvironmentObject>& objects, const Fib
                         const FiberAssembly& after, const MotionOptions& options,
                         const AllowedPairs& allowed = {}) {
   MotionResult result;
-  Environment(objects).query_motion(before, after, options, allowed, result);
+  const Environment environment(objects);
+  environment.query_motion(before, after, environment, options, allowed, result);
   return result;
 }
 

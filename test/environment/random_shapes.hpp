@@ -65,13 +65,23 @@ inline std::shared_ptr<const TriangleMesh> triangle_soup(Random& random, std::ui
   return std::make_shared<const TriangleMesh>(vertices, triangles);
 }
 
+/// The cells that hold one of the points [m] at least.
+inline std::shared_ptr<const OccupancyOctree> octree_of(
+    double resolution, const std::vector<Eigen::Vector3d>& points) {
+  std::vector<OccupancyOctree::Cell> cells;
+  for (const Eigen::Vector3d& point : points) {
+    cells.push_back(OccupancyOctree::cell_at(resolution, point).value());
+  }
+  return std::make_shared<const OccupancyOctree>(resolution, cells);
+}
+
 inline std::shared_ptr<const OccupancyOctree> random_octree(Random& random, int points,
                                                             double extent) {
   std::vector<Eigen::Vector3d> cloud;
   for (int i = 0; i < points; ++i) {
     cloud.push_back(random.in_cube(extent));
   }
-  return std::make_shared<const OccupancyOctree>(0.1 * extent, cloud);
+  return octree_of(0.1 * extent, cloud);
 }
 
 /// One of each kind, of about this extent [m].

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "test/support/error_of.hpp"
+
 namespace fiber::test {
 namespace {
 
@@ -26,12 +28,7 @@ EnvironmentObject place(const std::string& name, double x) {
 const EnvironmentObject& only(const World& world) { return world.environment()->objects().at(0); }
 
 std::string refusal(World& world, const std::vector<ObjectChange>& changes) {
-  try {
-    world.apply(changes);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
+  return error_of([&] { world.apply(changes); });
 }
 
 TEST(World, AppliesChanges) {

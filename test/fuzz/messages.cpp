@@ -73,7 +73,7 @@ void try_cloud(MessageStream& stream, const Options& /*options*/) {
   const auto message = stream.read<sensor_msgs::PointCloud2>();
   FiberBuffer chains;
   to_chains(message, chains);
-  CloudCells cells{CloudOptions{}};
+  CloudCells cells{CloudOptions{0.02}};
   const CloudCounts counts =
       cells.add(chains.points, Eigen::Isometry3d::Identity(), message.header.stamp.toSec());
   const auto octree = cells.octree();

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "benchmark/continuous/motion_score.hpp"
-#include "src/scenes/hard_motions.hpp"
+#include "test/support/hard_motions.hpp"
 #include "test/support/not_finite.hpp"
 #include "test/support/public_edge_motions.hpp"
 #include "test/support/random.hpp"

@@ -5,7 +5,7 @@
 
 #include "benchmark/continuous/motion_score.hpp"
 #include "fiber_proximity/geometry/contact_time.hpp"
-#include "src/scenes/hard_motions.hpp"
+#include "test/support/hard_motions.hpp"
 
 namespace fiber::test {
 namespace {

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "test/support/error_of.hpp"
 #include "test/support/not_finite.hpp"
 
 namespace fiber {
@@ -12,20 +13,11 @@ namespace {
 
 using Eigen::Vector3d;
 
+using test::error_of;
 using test::infinity;
 using test::nan;
 
 const std::vector<Vector3d> five_points{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}};
-
-template <class Action>
-std::string error_of(const Action& action) {
-  try {
-    action();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 std::string error_of_assembly(const std::vector<Vector3d>& points,
                               const std::vector<std::uint32_t>& offsets,
@@ -141,6 +133,27 @@ TEST(FiberAssembly, UpdateMovesThePointsOrLeavesAllAsItWas) {
 
   moved.pop_back();
   EXPECT_EQ(error_of([&] { fibers.update_points(moved); }),
+            "update with 4 points for an assembly of 5");
+}
+
+TEST(FiberAssembly, ExchangeTakesThePointsOrLeavesBothAsTheyWere) {
+  FiberAssembly fibers(five_points, {0, 3, 5}, {0.1});
+  std::vector<Vector3d> moved = five_points;
+  moved[2].z() = 7.0;
+  const Vector3d* memory = moved.data();
+  fibers.exchange_points(moved);
+  EXPECT_EQ(fibers.points().data(), memory);
+  EXPECT_EQ(fibers.points()[2].z(), 7.0);
+  EXPECT_EQ(moved, five_points);
+
+  moved[4].x() = nan;
+  EXPECT_NE(error_of([&] { fibers.exchange_points(moved); }).find("fibre 1, point 1: x is nan"),
+            std::string::npos);
+  EXPECT_TRUE(std::isnan(moved[4].x()));
+  EXPECT_EQ(fibers.points().data(), memory);
+
+  moved.pop_back();
+  EXPECT_EQ(error_of([&] { fibers.exchange_points(moved); }),
             "update with 4 points for an assembly of 5");
 }
 

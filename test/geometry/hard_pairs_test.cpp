@@ -1,5 +1,5 @@
 // Every kernel on every family of hard pairs, judged in exact rationals.
-#include "src/scenes/hard_pairs.hpp"
+#include "test/support/hard_pairs.hpp"
 
 #include <gtest/gtest.h>
 

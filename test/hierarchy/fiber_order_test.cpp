@@ -4,6 +4,8 @@
 
 #include <stdexcept>
 
+#include "test/support/error_of.hpp"
+
 namespace fiber {
 namespace {
 
@@ -23,14 +25,11 @@ TEST(ThreadingOrder, PutsEqualOrdinalsSideBySide) {
 }
 
 TEST(ThreadingOrder, RefusesFibersOfDifferentLength) {
-  try {
-    threading_order({0, 3, 6, 8});
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(),
-                 "fibre 2 has 1 segment(s), fibre 0 has 2; threading needs the same number in all "
-                 "fibres");
-  }
+  EXPECT_EQ(test::error_of([] {
+              threading_order({0, 3, 6, 8});
+            }),
+            "fibre 2 has 1 segment(s), fibre 0 has 2; threading needs the same number in all "
+            "fibres");
 }
 
 }  // namespace

@@ -159,13 +159,7 @@ TEST(WrappedHierarchy, EqualsTheLayeredOneForDops) {
   expect_wrapped_equals_layered<Kdop<3>>();
 }
 
-FiberAssembly long_walk(Random& random) {
-  AssemblyBuilder builder;
-  for (int fiber = 0; fiber < 4; ++fiber) {
-    builder.add_fiber(random_walk(random, 200, 0.05));
-  }
-  return builder.build({0.01});
-}
+FiberAssembly long_walk(Random& random) { return walks(random, 4, 200, 0.05, 0.01); }
 
 TEST(CascadedHierarchy, RecomputesNothingWhereNothingMoved) {
   SCOPED_TRACE(seed_message());

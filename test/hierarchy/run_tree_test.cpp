@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "fiber_proximity/scenes/scene.hpp"
-#include "src/query/brute_force.hpp"
 #include "src/query/run_tree_engine.hpp"
+#include "test/support/answers.hpp"
 #include "test/support/assemblies.hpp"
 #include "test/support/contacts.hpp"
 
@@ -34,9 +34,7 @@ QueryResult contacts_of(const FiberAssembly& fibers, std::uint32_t threads,
                         const QueryOptions& options = {}) {
   RunTreeEngine engine({threads});
   engine.update(fibers);
-  QueryResult result;
-  engine.query(options, result);
-  return result;
+  return answer(engine, options);
 }
 
 TEST(RunTree, HoldsEverySegmentOnce) {
@@ -74,10 +72,8 @@ TEST(RunTree, AnswersTheSameWithEveryInstructionSet) {
   Random random;
   const FiberAssembly fibers = tangle(random, 60, 40, 1.0, 0.03);
   for (const QueryType type : {QueryType::ALL, QueryType::FIRST, QueryType::CLOSEST}) {
-    QueryOptions options;
-    options.type = type;
-    QueryResult expected;
-    brute_force(fibers, options, expected);
+    const QueryOptions options = within(0.0, type);
+    QueryResult expected = brute_force(fibers, options);
     ASSERT_FALSE(expected.contacts.empty());
     if (type == QueryType::FIRST) {
       expected = contacts_of(fibers, 1, options);  // which one is the engine's choice
@@ -143,13 +139,12 @@ TEST(RunTree, EqualsBruteForceWhateverSizeAndPlace) {
     QueryOptions options;
     options.margin = round % 3 == 0 ? 0.0 : random.uniform(0.0, 0.1) * size;
     options.neighbour_skip = 1;  // many contacts: neighbours' too
-    QueryResult expected;
-    brute_force(fibers, options, expected);
+    QueryResult expected = brute_force(fibers, options);
     if (round % 3 == 1 && !expected.contacts.empty()) {
       // Exactly what one pair is apart: rounding decides whether it is found.
       const int which = random.integer(0, static_cast<int>(expected.contacts.size()) - 1);
       options.margin = std::max(0.0, expected.contacts[static_cast<std::size_t>(which)].distance);
-      brute_force(fibers, options, expected);
+      expected = brute_force(fibers, options);
     }
     EXPECT_TRUE(same_contacts(contacts_of(fibers, 1, options).contacts, expected.contacts))
         << "size " << size << ", away " << away;

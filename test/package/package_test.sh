@@ -59,6 +59,24 @@ if "$work/examples/simulate_scene" "$work/none.yaml" 2>"$work/error.txt"; then
 fi
 grep -q "none.yaml" "$work/error.txt" || fail "the error does not name the file"
 
+# Python knows no sanitizer.
+module=$(find "$prefix" -name '_native*.so')
+if [ -n "$module" ] && [[ $flags != *fsanitize* ]]; then
+  python_path=$(dirname "$(dirname "$module")")
+  # Not the libraries of the build, which catkin's setup.bash has put first.
+  answer=$(cd "$work" && PYTHONPATH=$python_path:${PYTHONPATH:-} env -u LD_LIBRARY_PATH /usr/bin/python3 -B -c \
+    'import fiber_proximity as fp; print(fp.Engine(fp.Fibers([[0, 0, 0], [1, 0, 0]])).nearest([0, 1, 0])["distance"])')
+  [ "$answer" = "[1.]" ] ||
+    fail "the Python module does not answer from where it is installed"
+  # What it loads is what is installed beside it.
+  [[ $(env -u LD_LIBRARY_PATH ldd "$module") == *"$prefix"*libfiber_proximity.so* ]] || fail "the Python module loads another library"
+  if [ -d "$python_path/fiber_proximity/msg" ]; then
+    (cd "$work" && PYTHONPATH=$python_path:${PYTHONPATH:-} /usr/bin/python3 -B -c \
+      'import fiber_proximity; fiber_proximity.Engine(); from fiber_proximity.msg import Contact; Contact()') ||
+      fail "module and messages are not one package where they are installed"
+  fi
+fi
+
 expect_refused "has no component 'gui'" "REQUIRED COMPONENTS gui"
 expect_refused "99.0" "99.0 REQUIRED"
 find "$prefix" -name fiber_proximity-sim.cmake -delete

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
-#include "src/query/brute_force.hpp"
-#include "src/scenes/hard_pairs.hpp"
+#include "test/support/answers.hpp"
 #include "test/support/contacts.hpp"
 #include "test/support/engines_test.hpp"
+#include "test/support/error_of.hpp"
 #include "test/support/exact_pairs.hpp"
+#include "test/support/hard_pairs.hpp"
 #include "test/support/not_finite.hpp"
 
 namespace fiber::test {
@@ -23,11 +23,9 @@ using AccuracyTest = EnginesTest;
 
 /// Margins at which some pairs only just are contacts, and some only just are not.
 std::vector<double> hard_margins(const FiberAssembly& fibers, Random& random) {
-  QueryOptions options;
+  QueryOptions options = within(infinity);
   options.neighbour_skip = 1;  // as all_pairs() has it, which knows no loops
-  options.margin = infinity;
-  QueryResult result;
-  brute_force(fibers, options, result);
+  const QueryResult result = brute_force(fibers, options);
   std::vector<double> margins{0.0};
   for (int i = 0; i < 3 && !result.contacts.empty(); ++i) {
     const int last = static_cast<int>(result.contacts.size()) - 1;
@@ -43,9 +41,8 @@ TEST_P(AccuracyTest, ExactDecidesExactly) {
   for_each_assembly(1, [this](const FiberAssembly& fibers, Random& random) {
     const std::vector<Pair> pairs = all_pairs(fibers);
     for (const double margin : hard_margins(fibers, random)) {
-      QueryOptions options;
+      QueryOptions options = within(margin);
       options.neighbour_skip = 1;  // as all_pairs() has it, which knows no loops
-      options.margin = margin;
       options.kernel = Kernel::EXACT;
       const QueryResult result = ask(fibers, options);
       std::size_t count = 0;
@@ -65,10 +62,8 @@ TEST_P(AccuracyTest, BoundsHoldTheTruth) {
     for (const double margin : {hard_margins(fibers, random).back(), infinity}) {
       for (const QueryType type : all_types) {
         for (const Kernel kernel : all_kernels) {
-          QueryOptions options;
+          QueryOptions options = within(margin, type);
           options.neighbour_skip = 1;  // as all_pairs() has it, which knows no loops
-          options.type = type;
-          options.margin = margin;
           options.kernel = kernel;
           options.max_contacts = 5;
           options.tolerance = random.chance(0.5) ? 0.0 : 0.01;
@@ -98,13 +93,10 @@ TEST_P(AccuracyTest, EngineAndBruteForceAgreeWithEveryKernel) {
       for (const QueryType type :
            {QueryType::CLOSEST, QueryType::LIMITED, QueryType::ALL, QueryType::FIBER_PAIRS}) {
         for (const Kernel kernel : all_kernels) {
-          QueryOptions options;
-          options.type = type;
-          options.margin = margin;
+          QueryOptions options = within(margin, type);
           options.kernel = kernel;
           options.max_contacts = 5;
-          QueryResult expected;
-          brute_force(fibers, options, expected);
+          const QueryResult expected = brute_force(fibers, options);
           ASSERT_TRUE(same_contacts(ask(fibers, options).contacts, expected.contacts))
               << name_of(kernel) << ", type " << static_cast<int>(type);
         }
@@ -125,9 +117,7 @@ TEST_P(AccuracyTest, BoundsOfWhatIsLeftOutHoldTheTruth) {
                                  {pair.radius_a, pair.radius_b});
       engine->update(fibers);
       for (const QueryType type : all_types) {
-        QueryOptions options;
-        options.type = type;
-        engine->query(options, result);
+        engine->query(within(0.0, type), result);
         ASSERT_TRUE(all_pairs(fibers).front().gap.is_at_least(result.minimum_lower()))
             << family.name << ", type " << static_cast<int>(type);
       }
@@ -139,9 +129,7 @@ TEST_P(AccuracyTest, BoundsOfWhatIsLeftOutHoldTheTruth) {
 TEST_P(AccuracyTest, BoundsOfAllButTheClosestHoldTheTruth) {
   SCOPED_TRACE(seed_message());
   const std::unique_ptr<ProximityEngine> engine = make_engine(GetParam());
-  QueryOptions options;
-  options.type = QueryType::CLOSEST;
-  options.margin = infinity;
+  const QueryOptions options = within(infinity, QueryType::CLOSEST);
   QueryResult result;
   for (const HardFamily& family : hard_families()) {
     for (const HardPair& pair : hard_pairs(family, 20, run_seed())) {
@@ -176,13 +164,8 @@ TEST(QueryOptions, RefuseWhatIsNoAccuracy) {
     for (const double value : bad) {
       QueryOptions options;
       options.*field = value;
-      try {
-        validate(options);
-        FAIL() << name << " of " << value;
-      } catch (const std::invalid_argument& error) {
-        EXPECT_EQ(std::string(error.what()).rfind(std::string(name) + " is ", 0), 0U)
-            << error.what();
-      }
+      const std::string error = error_of([&] { validate(options); });
+      EXPECT_EQ(error.rfind(std::string(name) + " is ", 0), 0U) << error << ", of " << value;
     }
   }
 }

@@ -42,14 +42,6 @@ void operator delete(void* memory, std::size_t /*size*/, std::align_val_t /*alig
 namespace fiber::test {
 namespace {
 
-FiberAssembly walks(Random& random, int fibers, int segments, double radius) {
-  AssemblyBuilder builder;
-  for (int fiber = 0; fiber < fibers; ++fiber) {
-    builder.add_fiber(random_walk(random, segments, 0.1));
-  }
-  return builder.build({radius});
-}
-
 // Which thread does which job changes from frame to frame: all of them get to know all frames.
 constexpr int warm_up = 20;
 
@@ -85,13 +77,10 @@ class AllocationTest : public testing::TestWithParam<std::string> {};
 TEST_P(AllocationTest, AnUpdateWithTheSameTopologyAllocatesNothing) {
   SCOPED_TRACE(seed_message());
   Random random;
-  FiberAssembly fibers = walks(random, 20, 50, 0.01);
-  std::vector<Eigen::Vector3d> points = fibers.points();
+  FiberAssembly fibers = walks(random, 20, 50, 0.1, 0.01);
+  const std::vector<Eigen::Vector3d> points = shaken(fibers, 0.01, random).points();
   const auto engine = make_engine(GetParam());
   engine->update(fibers);
-  for (Eigen::Vector3d& point : points) {
-    point += 0.01 * random.in_cube();
-  }
   const std::size_t before = allocations;
   fibers.update_points(points);
   engine->update(fibers);
@@ -102,7 +91,7 @@ TEST(RunTreeAllocationTest, AFrameInSteadyStateAllocatesNothing) {
   SCOPED_TRACE(seed_message());
   Random random;
   // Enough for several threads to have a part.
-  const FiberAssembly fibers = walks(random, 400, 50, 0.02);
+  const FiberAssembly fibers = walks(random, 400, 50, 0.1, 0.02);
   QueryResult result;
   const std::size_t found = allocations_at_rest(fibers, 2, {}, result);
   expect_enough(result.contacts.size(), std::size_t{1});
@@ -112,12 +101,9 @@ TEST(RunTreeAllocationTest, AFrameInSteadyStateAllocatesNothing) {
 TEST(RunTreeAllocationTest, AMotionInSteadyStateAllocatesNothing) {
   SCOPED_TRACE(seed_message());
   Random random;
-  const FiberAssembly before = walks(random, 400, 50, 0.02);
+  const FiberAssembly before = walks(random, 400, 50, 0.1, 0.02);
   FiberAssembly after = before;
-  std::vector<Eigen::Vector3d> points = before.points();
-  for (Eigen::Vector3d& point : points) {
-    point += 0.05 * random.in_cube();
-  }
+  const std::vector<Eigen::Vector3d> points = shaken(before, 0.05, random).points();
   const auto engine = make_engine("run_tree", {2});
   MotionResult result;
   const std::size_t found = allocations_in_steady_state([&](int /*frame*/) {
@@ -139,10 +125,8 @@ TEST_P(TouchingItselfAllocationTest, AFrameInWhichAFiberTouchesItselfAllocatesNo
   for (int i = 0; i <= segments; ++i) {
     hairpin.emplace_back(0.1 * std::min(i, segments - i), 0.05 * i / segments, 0.0);
   }
-  AssemblyBuilder builder;
-  builder.add_fiber(hairpin);
   QueryResult result;
-  const std::size_t found = allocations_at_rest(builder.build({0.03}), 1, {}, result);
+  const std::size_t found = allocations_at_rest(as_fibers({hairpin}, 0.03), 1, {}, result);
   ASSERT_FALSE(result.contacts.empty());
   EXPECT_EQ(result.contacts.front().segment_a, 0U);
   EXPECT_GT(static_cast<int>(result.contacts.front().segment_b), segments - 10);
@@ -156,7 +140,7 @@ INSTANTIATE_TEST_SUITE_P(Segments, TouchingItselfAllocationTest, testing::Values
 TEST(RunTreeAllocationTest, AFrameInWhichSomeFibersMoveAllocatesNothing) {
   SCOPED_TRACE(seed_message());
   Random random;
-  FiberAssembly fibers = walks(random, 100, 50, 0.02);
+  FiberAssembly fibers = walks(random, 100, 50, 0.1, 0.02);
   std::vector<Eigen::Vector3d> points = fibers.points();
   RunTreeEngine engine({1, 0.01});
   QueryResult result;
@@ -178,7 +162,7 @@ class FiberPairsAllocationTest : public SeededTest {};
 TEST_P(FiberPairsAllocationTest, AskingAgainAllocatesNothing) {
   SCOPED_TRACE(seed_message());
   Random random(seed(), 0);
-  const FiberAssembly fibers = walks(random, 100, 10, 0.02);
+  const FiberAssembly fibers = walks(random, 100, 10, 0.1, 0.02);
   const auto engine = make_engine("run_tree");
   engine->update(fibers);
   const QueryOptions options = within(0.5, QueryType::FIBER_PAIRS);
@@ -197,7 +181,7 @@ TEST(RunTreeAllocationTest, AFrameWhoseMarginIsLargerThanItsFibersAllocatesNothi
   SCOPED_TRACE(seed_message());
   Random random;
   QueryResult result;
-  const std::size_t found = allocations_at_rest(walks(random, 100, 10, 0.02), 2,
+  const std::size_t found = allocations_at_rest(walks(random, 100, 10, 0.1, 0.02), 2,
                                                 within(10.0, QueryType::FIBER_PAIRS), result);
   EXPECT_GE(result.contacts.size(), 100U * 99U / 2U);
   EXPECT_EQ(found, 0U);

@@ -4,8 +4,10 @@
 #include <thread>
 
 #include "fiber_proximity/query/engine.hpp"
+#include "test/support/answers.hpp"
 #include "test/support/assemblies.hpp"
 #include "test/support/contacts.hpp"
+#include "test/support/engines_test.hpp"
 
 namespace fiber::test {
 namespace {
@@ -17,11 +19,8 @@ constexpr QueryType types[] = {QueryType::ALL, QueryType::FIRST, QueryType::CLOS
 std::vector<QueryResult> ask_everything(const ProximityEngine& engine, const FiberAssembly& shape) {
   std::vector<QueryResult> answers;
   for (const QueryType type : types) {
-    QueryOptions options;
-    options.type = type;
-    options.margin = 0.1;
-    engine.query(options, answers.emplace_back());
-    engine.query_shape(shape, options, answers.emplace_back());
+    answers.push_back(answer(engine, within(0.1, type)));
+    answers.push_back(answer(engine, shape, within(0.1, type)));
   }
   return answers;
 }
@@ -62,8 +61,7 @@ TEST_P(ConcurrentQueriesTest, AreAnsweredAsOneAfterAnother) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Engines, ConcurrentQueriesTest, testing::ValuesIn(engine_names()),
-                         [](const auto& instance) { return test_name(instance.param); });
+INSTANTIATE_TEST_SUITE_P(Engines, ConcurrentQueriesTest, all_engines(), name_of_engine);
 
 }  // namespace
 }  // namespace fiber::test

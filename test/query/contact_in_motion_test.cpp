@@ -5,6 +5,7 @@
 
 #include "fiber_proximity/query/motion.hpp"
 #include "test/query/motion_queries.hpp"
+#include "test/support/answers.hpp"
 
 namespace fiber::test {
 namespace {
@@ -13,10 +14,7 @@ constexpr double radius = 0.002;  // [m] of crossed_cables()
 
 /// What one engine finds of the only pair that meets.
 MotionContact only_contact(const FiberMotion& motion, const MotionOptions& options) {
-  const std::unique_ptr<ProximityEngine> engine = make_engine("run_tree");
-  MotionResult result;
-  engine->update_motion(motion.before, motion.after);
-  engine->query_motion(options, result);
+  const MotionResult result = answer("run_tree", motion.before, motion.after, options);
   EXPECT_EQ(result.contacts.size(), 1U);
   return result.contacts.at(0);
 }

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "src/query/brute_force.hpp"
+#include "test/support/answers.hpp"
 #include "test/support/contacts.hpp"
 #include "test/support/engines_test.hpp"
 #include "test/support/not_finite.hpp"
@@ -37,8 +37,7 @@ TEST_P(ContactLimitTest, TheClosestAreReportedOnEveryFamily) {
     for (const Kernel kernel : {Kernel::ROBUST, Kernel::EXACT}) {
       QueryOptions options = within(random.uniform(0.0, 1.0));
       options.kernel = kernel;
-      QueryResult all;
-      brute_force(fibers, options, all);
+      const QueryResult all = brute_force(fibers, options);
       const auto count = static_cast<std::uint32_t>(all.contacts.size());
       for (const std::uint32_t limit : {1U, count / 2, count, count + 1}) {
         if (limit > 0) {
@@ -63,8 +62,7 @@ TEST_P(ContactLimitTest, TheClosestOfVeryManyAreReported) {
     }
   }
   for (QueryOptions options : sampled(queries, random)) {
-    QueryResult all;
-    brute_force(fibers, options, all);
+    const QueryResult all = brute_force(fibers, options);
     ASSERT_GT(all.contacts.size(), 20'000U);
     for (const std::uint32_t limit : {300U, 10'000U}) {
       options.contact_limit = limit;
@@ -77,10 +75,8 @@ TEST_P(ContactLimitTest, TheClosestPairsOfFibersAreReported) {
   SCOPED_TRACE(seed_message());
   Random random;
   const FiberAssembly fibers = tangle(random, 80);
-  QueryOptions options = within(infinity);
-  options.type = QueryType::FIBER_PAIRS;
-  QueryResult all;
-  brute_force(fibers, options, all);
+  QueryOptions options = within(infinity, QueryType::FIBER_PAIRS);
+  const QueryResult all = brute_force(fibers, options);
   ASSERT_GT(all.contacts.size(), 3000U);
   for (const std::uint32_t limit : {1U, 300U, 2000U, 5000U}) {
     options.contact_limit = limit;
@@ -96,15 +92,11 @@ TEST_P(ContactLimitTest, TheClosestToAShapeAreReported) {
   const std::unique_ptr<ProximityEngine> engine = make_engine(GetParam());
   engine->update(fibers);
   for (const QueryType type : {QueryType::ALL, QueryType::FIBER_PAIRS}) {
-    QueryOptions options = within(0.5);
-    options.type = type;
-    QueryResult all;
-    brute_force_shape(shape, fibers, options, all);
-    QueryResult found;
+    QueryOptions options = within(0.5, type);
+    const QueryResult all = brute_force(shape, fibers, options);
     for (const std::uint32_t limit : {1U, 100U, 100'000U}) {
       options.contact_limit = limit;
-      engine->query_shape(shape, options, found);
-      ASSERT_NO_FATAL_FAILURE(expect_closest(found, all, limit));
+      ASSERT_NO_FATAL_FAILURE(expect_closest(answer(*engine, shape, options), all, limit));
     }
   }
 }
@@ -113,10 +105,8 @@ TEST_P(ContactLimitTest, LimitedReportsNoMore) {
   SCOPED_TRACE(seed_message());
   Random random;
   const FiberAssembly fibers = tangle(random, 10);
-  QueryResult all;
-  brute_force(fibers, within(0.5), all);
-  QueryOptions options = within(0.5);
-  options.type = QueryType::LIMITED;
+  const QueryResult all = brute_force(fibers, within(0.5));
+  QueryOptions options = within(0.5, QueryType::LIMITED);
   options.max_contacts = 0xFFFF'FFFFU;
   options.contact_limit = 20;
   ASSERT_NO_FATAL_FAILURE(expect_closest(ask(fibers, options), all, 20));
@@ -141,8 +131,7 @@ TEST_P(PairLimitTest, AQueryEndsAfterSoManyPairsWithWhatItHasFound) {
   Random random;
   const FiberAssembly fibers = tangle(random, 60);
   QueryOptions options = within(0.5);
-  QueryResult all;
-  brute_force(fibers, options, all);
+  const QueryResult all = brute_force(fibers, options);
   for (const QueryType type :
        {QueryType::CLOSEST, QueryType::LIMITED, QueryType::ALL, QueryType::FIBER_PAIRS}) {
     SCOPED_TRACE("type " + std::to_string(static_cast<int>(type)));
@@ -168,9 +157,8 @@ TEST_P(PairLimitTest, AQueryThatStaysWithinItIsComplete) {
   const std::uint64_t segments = fibers.segment_count();
   for (const QueryType type : {QueryType::FIRST, QueryType::CLOSEST, QueryType::LIMITED,
                                QueryType::ALL, QueryType::FIBER_PAIRS}) {
-    QueryOptions options = within(0.5);
+    QueryOptions options = within(0.5, type);
     options.neighbour_skip = 1;  // looks along fibres would count, too
-    options.type = type;
     const QueryResult whole = ask(fibers, options);
     options.pair_limit = segments * (segments - 1) / 2;
     const QueryResult found = ask(fibers, options);
@@ -189,13 +177,12 @@ TEST_P(PairLimitTest, HoldsForShapesToo) {
   engine->update(fibers);
   QueryOptions options = within(0.5);
   options.pair_limit = 100;
-  QueryResult result;
-  engine->query_shape(shape, options, result);
+  QueryResult result = answer(*engine, shape, options);
   EXPECT_FALSE(result.complete);
   EXPECT_TRUE(result.limit_reached);
   EXPECT_LE(result.counts.primitive_tests, 100U);
   options.pair_limit = 0;
-  engine->query_shape(shape, options, result);
+  result = answer(*engine, shape, options);
   EXPECT_TRUE(result.complete);
   EXPECT_FALSE(result.limit_reached);
 }
@@ -209,10 +196,9 @@ TEST(BruteForcePairLimit, CountsEachPair) {
   const std::uint64_t segments = fibers.segment_count();
   QueryOptions options = within(infinity);
   options.neighbour_skip = 1;  // looks along fibres would count, too
-  QueryResult result;
   for (const std::uint64_t too_few : {0U, 1U}) {
     options.pair_limit = segments * (segments - 1) / 2 - too_few;
-    brute_force(fibers, options, result);
+    const QueryResult result = brute_force(fibers, options);
     EXPECT_EQ(result.complete, too_few == 0);
     EXPECT_EQ(result.limit_reached, too_few == 1);
   }

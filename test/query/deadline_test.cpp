@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <vector>
 
-#include "src/query/brute_force.hpp"
+#include "test/support/answers.hpp"
 #include "test/support/contacts.hpp"
 #include "test/support/engines_test.hpp"
+#include "test/support/rounds.hpp"
 
 namespace fiber::test {
 namespace {
@@ -15,13 +17,7 @@ constexpr QueryType types[] = {QueryType::FIRST, QueryType::CLOSEST, QueryType::
 
 using DeadlineTest = EnginesTest;
 
-FiberAssembly many_walks(Random& random) {
-  AssemblyBuilder builder;
-  for (int fiber = 0; fiber < 30; ++fiber) {
-    builder.add_fiber(random_walk(random, 50, 0.05));
-  }
-  return builder.build({0.02});
-}
+FiberAssembly many_walks(Random& random) { return walks(random, 30, 50, 0.05, 0.02); }
 
 TEST_P(DeadlineTest, ADeadlineLeavesAnAnswerThatIsTrue) {
   SCOPED_TRACE(seed_message());
@@ -29,11 +25,11 @@ TEST_P(DeadlineTest, ADeadlineLeavesAnAnswerThatIsTrue) {
   const FiberAssembly fibers = many_walks(random);
   for (const QueryType type : types) {
     QueryOptions options;
-    options.type = QueryType::ALL;
     const QueryResult all = ask(fibers, options);
     options.type = type;
     const QueryResult whole = ask(fibers, options);
-    for (const double deadline : {1e-9, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e3}) {
+    const std::vector<double> deadlines{1e-9, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e3};
+    for (const double deadline : sampled(deadlines, random)) {
       SCOPED_TRACE("type " + std::to_string(static_cast<int>(type)) + ", deadline " +
                    std::to_string(deadline));
       options.deadline = deadline;
@@ -66,12 +62,9 @@ TEST_P(DeadlineTest, ADeadlineHoldsForShapesToo) {
   engine->update(fibers);
   QueryOptions options;
   options.deadline = 1e-9;
-  QueryResult result;
-  engine->query_shape(shape, options, result);
-  EXPECT_FALSE(result.complete);
+  EXPECT_FALSE(answer(*engine, shape, options).complete);
   options.deadline = 0.0;
-  engine->query_shape(shape, options, result);
-  EXPECT_TRUE(result.complete);
+  EXPECT_TRUE(answer(*engine, shape, options).complete);
 }
 
 INSTANTIATE_TEST_SUITE_P(Engines, DeadlineTest, all_engines(), name_of_engine);
@@ -82,18 +75,16 @@ TEST(RunTreeDeadline, ADeadlineCutsOffCandidatesThatWereKept) {
   const FiberAssembly fibers = many_walks(random);
   const std::unique_ptr<ProximityEngine> engine = make_engine("run_tree", {1, 0.01});
   QueryOptions options;
-  QueryResult whole;
   engine->update(fibers);
-  engine->query(options, whole);  // the next one only judges
+  const QueryResult whole = answer(*engine, options);  // the next one only judges
   ASSERT_TRUE(whole.complete);
   options.deadline = 1e-9;
-  QueryResult found;
-  engine->query(options, found);
+  QueryResult found = answer(*engine, options);
   EXPECT_FALSE(found.complete);
   EXPECT_TRUE(found.contacts.empty());
   EXPECT_LT(found.minimum_lower(), -0.03);
   options.deadline = 0.0;
-  engine->query(options, found);
+  found = answer(*engine, options);
   EXPECT_TRUE(found.complete);
   EXPECT_TRUE(same_contacts(found.contacts, whole.contacts));
 }
@@ -106,13 +97,10 @@ TEST(RunTreeDeadline, WhatADeadlineLeavesIsNotKept) {
   engine->update(fibers);
   QueryOptions options;
   options.deadline = 1e-9;
-  QueryResult found;
-  engine->query(options, found);
-  ASSERT_FALSE(found.complete);
+  ASSERT_FALSE(answer(*engine, options).complete);
   options.deadline = 0.0;
-  engine->query(options, found);
-  QueryResult expected;
-  brute_force(fibers, options, expected);
+  const QueryResult found = answer(*engine, options);
+  const QueryResult expected = brute_force(fibers, options);
   EXPECT_TRUE(found.complete);
   EXPECT_TRUE(same_contacts(found.contacts, expected.contacts));
 }

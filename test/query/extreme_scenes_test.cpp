@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "src/query/brute_force.hpp"
+#include "test/support/answers.hpp"
 #include "test/support/assemblies.hpp"
 #include "test/support/contacts.hpp"
 
@@ -16,36 +16,24 @@ using Points = std::vector<Vector3d>;
 
 class ExtremeScenesTest : public testing::Test {
  protected:
-  /// Moves every point, each within a cube of its own.
-  void shake(FiberAssembly& fibers, double half_edge) {
-    Points points = fibers.points();
-    for (Vector3d& point : points) {
-      point += random_.in_cube(half_edge);
-    }
-    fibers.update_points(points);
-  }
-
   void expect(const FiberAssembly& fibers, const std::vector<Contact>& contacts) {
     for (const auto& engine : {one_thread_.get(), two_threads_.get()}) {
       engine->update(fibers);
-      QueryResult result;
-      engine->query(options_, result);
-      EXPECT_TRUE(same_contacts(result.contacts, contacts)) << engine->thread_count() << " threads";
+      EXPECT_TRUE(same_contacts(answer(*engine, options_).contacts, contacts))
+          << engine->facts().thread_count << " threads";
     }
     found_ += contacts.size();
   }
 
   void expect_brute_forces(const FiberAssembly& fibers) {
-    QueryResult truth;
-    brute_force(fibers, options_, truth);
-    expect(fibers, truth.contacts);
+    expect(fibers, brute_force(fibers, options_).contacts);
   }
 
   /// After a build, then after updates of moved points.
   void expect_brute_forces_in_motion(FiberAssembly fibers, double half_edge) {
     expect_brute_forces(fibers);
     for (int frame = 0; frame < 3; ++frame) {
-      shake(fibers, half_edge);
+      fibers.update_points(shaken(fibers, half_edge, random_).points());
       expect_brute_forces(fibers);
     }
   }
@@ -53,11 +41,9 @@ class ExtremeScenesTest : public testing::Test {
   void expect_same_as_in_motion(const std::string& name, FiberAssembly fibers, double half_edge) {
     const auto other = make_engine(name);
     for (int frame = 0; frame < 2; ++frame) {
-      QueryResult truth;
       other->update(fibers);
-      other->query(options_, truth);
-      expect(fibers, truth.contacts);
-      shake(fibers, half_edge);
+      expect(fibers, answer(*other, options_).contacts);
+      fibers.update_points(shaken(fibers, half_edge, random_).points());
     }
   }
 
@@ -74,9 +60,7 @@ class ExtremeScenesTest : public testing::Test {
 
 TEST_F(ExtremeScenesTest, OneFiberOfAMillionSegments) {
   SCOPED_TRACE(seed_message());
-  AssemblyBuilder builder;
-  builder.add_fiber(random_walk(random_, 1'000'000, 1.0));
-  expect_same_as_in_motion("AL", builder.build({0.3}), 0.2);
+  expect_same_as_in_motion("AL", walks(random_, 1, 1'000'000, 1.0, 0.3), 0.2);
   expect_enough(found_, std::size_t{1001});
 }
 
@@ -94,12 +78,7 @@ TEST_F(ExtremeScenesTest, AMillionFibersOfOneSegment) {
 
 TEST_F(ExtremeScenesTest, RadiiBeyondTheScene) {
   SCOPED_TRACE(seed_message());
-  AssemblyBuilder builder;
-  for (int fiber = 0; fiber < 20; ++fiber) {
-    builder.add_fiber(random_walk(random_, 20, 0.1));
-  }
-  const FiberAssembly thick = builder.build({100.0});
-  expect_brute_forces_in_motion(thick, 0.1);
+  expect_brute_forces_in_motion(walks(random_, 20, 20, 0.1, 100.0), 0.1);
   // Every pair but the neighbours along a fibre, in each of four frames.
   EXPECT_EQ(found_, 4U * (400U * 399U / 2U - 20U * 19U));
 }
@@ -174,11 +153,7 @@ TEST_F(ExtremeScenesTest, IdenticalFibers) {
   SCOPED_TRACE(seed_message());
   for (const double radius : {0.0, 0.01}) {
     const Points fiber = random_walk(random_, 4, 0.1);
-    AssemblyBuilder builder;
-    for (int copy = 0; copy < 200; ++copy) {
-      builder.add_fiber(fiber);
-    }
-    FiberAssembly fibers = builder.build({radius});
+    FiberAssembly fibers = as_fibers(std::vector(200, fiber), radius);
     found_ = 0;
     expect_brute_forces(fibers);
     EXPECT_GE(found_, 4U * 200U * 199U / 2U);  // each segment with its copies

@@ -4,9 +4,10 @@
 #include <map>
 #include <utility>
 
-#include "src/query/brute_force.hpp"
+#include "test/support/answers.hpp"
 #include "test/support/assemblies.hpp"
 #include "test/support/contacts.hpp"
+#include "test/support/engines_test.hpp"
 #include "test/support/neighbour_skips.hpp"
 #include "test/support/not_finite.hpp"
 #include "test/support/rounds.hpp"
@@ -33,17 +34,12 @@ std::vector<Contact> closest_by_fibers(const std::vector<Contact>& contacts) {
 
 /// From touching to everything.
 std::vector<double> margins(const FiberAssembly& fibers) {
-  double size = 0.0;
-  for (const Eigen::Vector3d& point : fibers.points()) {
-    size = std::max(size, (point - fibers.points().front()).cwiseAbs().maxCoeff());
-  }
+  const double size = extent_of(fibers);
   return {0.0, 1e-3 * size, 0.1 * size, size, infinity};
 }
 
 QueryOptions of_all(double margin, Random& random) {
-  QueryOptions options;
-  options.type = QueryType::ALL;
-  options.margin = margin;
+  QueryOptions options = within(margin);
   set_neighbour_skips(options, random, 3, 0.0);
   return options;
 }
@@ -63,8 +59,7 @@ class FiberPairsTest : public testing::TestWithParam<std::string> {
   void expect_closest(const FiberAssembly& fibers, const QueryOptions& all) {
     engine_->update(fibers);
     engine_->query(of_fiber_pairs(all), found_);
-    QueryResult expected;
-    brute_force(fibers, all, expected);
+    const QueryResult expected = brute_force(fibers, all);
     ASSERT_TRUE(same_contacts(found_.contacts, closest_by_fibers(expected.contacts)))
         << "margin " << all.margin << ", " << skips_of(all);
     EXPECT_FALSE(found_.limit_reached);
@@ -104,8 +99,7 @@ TEST_P(FiberPairsTest, GivesTheClosestOfAllContactsOfEachFiberOfAShape) {
       for (const double margin : margins(fibers)) {
         const QueryOptions all = of_all(margin, random);
         engine_->query_shape(shape, of_fiber_pairs(all), found_);
-        QueryResult expected;
-        brute_force_shape(shape, fibers, all, expected);
+        const QueryResult expected = brute_force(shape, fibers, all);
         ASSERT_TRUE(same_contacts(found_.contacts, closest_by_fibers(expected.contacts)))
             << "margin " << margin;
       }
@@ -116,12 +110,8 @@ TEST_P(FiberPairsTest, GivesTheClosestOfAllContactsOfEachFiberOfAShape) {
 TEST_P(FiberPairsTest, RemembersThousandsOfPairs) {
   SCOPED_TRACE(seed_message());
   Random random;
-  AssemblyBuilder builder;
   constexpr std::size_t count = 120;
-  for (std::size_t fiber = 0; fiber < count; ++fiber) {
-    builder.add_fiber(random_walk(random, 4, 0.1));
-  }
-  const FiberAssembly fibers = builder.build({0.01});
+  const FiberAssembly fibers = walks(random, count, 4, 0.1, 0.01);
   ASSERT_NO_FATAL_FAILURE(expect_closest(fibers, of_all(0.1, random)));
   QueryOptions everything = of_all(infinity, random);
   everything.neighbour_skip = 4;  // more than a fibre has: no pair with itself
@@ -129,16 +119,10 @@ TEST_P(FiberPairsTest, RemembersThousandsOfPairs) {
   EXPECT_EQ(found_.contacts.size(), count * (count - 1) / 2);
 }
 
-INSTANTIATE_TEST_SUITE_P(Engines, FiberPairsTest, testing::ValuesIn(engine_names()),
-                         [](const auto& instance) { return test_name(instance.param); });
+INSTANTIATE_TEST_SUITE_P(Engines, FiberPairsTest, all_engines(), name_of_engine);
 
 QueryResult ask(const FiberAssembly& fibers, double margin) {
-  QueryOptions options;
-  options.type = QueryType::FIBER_PAIRS;
-  options.margin = margin;
-  QueryResult result;
-  brute_force(fibers, options, result);
-  return result;
+  return brute_force(fibers, within(margin, QueryType::FIBER_PAIRS));
 }
 
 // A hairpin of three segments, 1 m wide, and a fibre of two segments, 3 m beside it.
@@ -165,12 +149,9 @@ TEST(FiberPairs, TestFewerSegmentsThanThereAre) {
     }
   }
   const FiberAssembly fibers(points, {0, 101, 202}, {0.0});
-  QueryOptions options;
-  options.type = QueryType::FIBER_PAIRS;
-  options.margin = infinity;
+  QueryOptions options = within(infinity, QueryType::FIBER_PAIRS);
   options.neighbour_skip = 100;
-  QueryResult result;
-  brute_force(fibers, options, result);
+  const QueryResult result = brute_force(fibers, options);
   ASSERT_EQ(result.contacts.size(), 1U);
   EXPECT_EQ(result.contacts.front().key(), std::make_tuple(0U, 0U, 1U, 0U));
   EXPECT_LT(result.counts.primitive_tests, 1000U) << "of 10000";

@@ -1,11 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <limits>
 
 #include "fiber_proximity/query/contact.hpp"
-#include "src/query/brute_force.hpp"
+#include "test/support/answers.hpp"
+#include "test/support/contacts.hpp"
 #include "test/support/exact_distance.hpp"
+#include "test/support/not_finite.hpp"
 #include "test/support/random.hpp"
 #include "test/support/rounds.hpp"
 
@@ -20,12 +21,7 @@ struct TwoSegments {
 
   Contact contact() const {
     const FiberAssembly fibers({ends[0], ends[1], ends[2], ends[3]}, {0, 2, 4}, {0.01});
-    QueryOptions options;
-    options.type = QueryType::CLOSEST;
-    options.margin = std::numeric_limits<double>::infinity();
-    QueryResult result;
-    brute_force(fibers, options, result);
-    return result.contacts.front();
+    return brute_force(fibers, within(infinity, QueryType::CLOSEST)).contacts.front();
   }
   Wide distance() const { return exact_distance(ends[0], ends[1], ends[2], ends[3]); }
 };

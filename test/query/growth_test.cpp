@@ -8,6 +8,7 @@
 
 #include "fiber_proximity/query/engine.hpp"
 #include "src/geometry/smallest_rotation.hpp"
+#include "test/support/answers.hpp"
 #include "test/support/assemblies.hpp"
 
 namespace fiber::test {
@@ -76,13 +77,7 @@ double growth_exponent(const std::string& engine_name, MakeChain make_chain, int
     for (Vector3d& point : points) {
       point = rotation * point;
     }
-    AssemblyBuilder builder;
-    builder.add_fiber(points);
-    const FiberAssembly chain = builder.build({0.3});
-    const auto engine = make_engine(engine_name);
-    QueryResult result;
-    engine->update(chain);
-    engine->query({}, result);
+    const QueryResult result = answer(engine_name, as_fibers({points}, 0.3));
     above += (exponent - middle) * std::log2(static_cast<double>(result.counts.node_tests));
     below += (exponent - middle) * (exponent - middle);
   }

@@ -10,7 +10,7 @@
 #include <tuple>
 
 #include "fiber_proximity/geometry/exact_distance.hpp"
-#include "src/query/brute_force.hpp"
+#include "test/support/answers.hpp"
 #include "test/support/contacts.hpp"
 #include "test/support/not_finite.hpp"
 #include "test/support/rounds.hpp"
@@ -35,17 +35,9 @@ FiberAssembly make(const std::string& name, Random& random) {
   return family->make(random);
 }
 
-QueryResult truth(const FiberAssembly& fibers, const QueryOptions& options) {
-  QueryResult result;
-  brute_force(fibers, options, result);
-  return result;
-}
-
 /// None, and the gap of a pair: just enough for it, just too little.
 std::vector<double> hard_margins(const FiberAssembly& fibers, Random& random) {
-  QueryOptions options;
-  options.margin = infinity;
-  const std::vector<Contact> all = truth(fibers, options).contacts;
+  const std::vector<Contact> all = brute_force(fibers, within(infinity)).contacts;
   const int any = random.integer(0, static_cast<int>(all.size()) - 1);
   const double gap = std::max(0.0, all[static_cast<std::size_t>(any)].distance);
   return {0.0, gap, std::nextafter(gap, 0.0)};
@@ -63,19 +55,18 @@ TEST_P(HardScenesEngineTest, GivesBruteForcesContactsToTheBit) {
     engine->update(fibers);
     for (const double margin : hard_margins(fibers, random)) {
       SCOPED_TRACE("frame " + std::to_string(frame) + ", margin " + std::to_string(margin));
-      QueryOptions options;
-      options.margin = margin;
+      QueryOptions options = within(margin);
       options.max_contacts = static_cast<std::uint32_t>(random.integer(1, 200));
       QueryResult found;
       for (const QueryType type :
            {QueryType::ALL, QueryType::CLOSEST, QueryType::LIMITED, QueryType::FIBER_PAIRS}) {
         options.type = type;
         engine->query(options, found);
-        ASSERT_TRUE(same_contacts(found.contacts, truth(fibers, options).contacts))
+        ASSERT_TRUE(same_contacts(found.contacts, brute_force(fibers, options).contacts))
             << "type " << static_cast<int>(type);
       }
       options.type = QueryType::ALL;
-      const QueryResult all = truth(fibers, options);
+      const QueryResult all = brute_force(fibers, options);
       options.type = QueryType::FIRST;
       engine->query(options, found);
       ASSERT_EQ(found.contacts.size(), all.contacts.empty() ? 0U : 1U);
@@ -106,17 +97,6 @@ bool is_of(const FiberAssembly& fibers, const Contact& contact, std::uint32_t a,
          fibers.offsets()[contact.fiber_b] + contact.segment_b == b;
 }
 
-/// First points of all segments.
-std::vector<std::uint32_t> segments(const FiberAssembly& fibers) {
-  std::vector<std::uint32_t> starts;
-  for (std::size_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
-    for (std::uint32_t p = fibers.offsets()[fiber]; p + 1 < fibers.offsets()[fiber + 1]; ++p) {
-      starts.push_back(p);
-    }
-  }
-  return starts;
-}
-
 /// Largest difference of coordinates along one axis [m].
 double extent(const Capsule& a, const Capsule& b) {
   const Eigen::Vector3d low = a.p0.cwiseMin(a.p1).cwiseMin(b.p0.cwiseMin(b.p1));
@@ -134,12 +114,11 @@ TEST_P(HardScenesTest, BruteForceErrsByNoMoreThanItsKernel) {
   SCOPED_TRACE(seed_message());
   Random random;
   const FiberAssembly fibers = make(GetParam(), random);
-  const std::vector<std::uint32_t> starts = segments(fibers);
+  const std::vector<std::uint32_t> starts = segments_of(fibers);
   for (const double margin : hard_margins(fibers, random)) {
-    QueryOptions options;
-    options.margin = margin;
+    QueryOptions options = within(margin);
     options.neighbour_skip = 0;
-    const std::vector<Contact> contacts = truth(fibers, options).contacts;
+    const std::vector<Contact> contacts = brute_force(fibers, options).contacts;
     std::size_t reported = 0;
     for (std::size_t i = 0; i < starts.size(); ++i) {
       for (std::size_t j = i + 1; j < starts.size(); ++j) {
@@ -162,10 +141,9 @@ TEST_P(HardScenesTest, BruteForcesDistancesAreExactToFourRoundings) {
   SCOPED_TRACE(seed_message());
   Random random;
   const FiberAssembly fibers = make(GetParam(), random);
-  QueryOptions options;
-  options.margin = infinity;
+  QueryOptions options = within(infinity);
   options.neighbour_skip = 0;
-  const std::vector<Contact> contacts = truth(fibers, options).contacts;
+  const std::vector<Contact> contacts = brute_force(fibers, options).contacts;
   const std::size_t count = fibers.segment_count();
   ASSERT_EQ(contacts.size(), count * (count - 1) / 2);
   for (const Contact& contact : contacts) {
@@ -186,11 +164,7 @@ class CoincidentFibersTest : public testing::Test {
   static FiberAssembly copies(int count, double radius) {
     Random random;
     const std::vector<Eigen::Vector3d> fiber = random_walk(random, 1, 0.1);
-    AssemblyBuilder builder;
-    for (int copy = 0; copy < count; ++copy) {
-      builder.add_fiber(fiber);
-    }
-    return builder.build({radius});
+    return as_fibers(std::vector(count, fiber), radius);
   }
 };
 
@@ -201,15 +175,13 @@ TEST_F(CoincidentFibersTest, AreBruteForcesNearestOfAThousand) {
     const FiberAssembly fibers = copies(1000, radius);
     engine->update(fibers);
     for (const QueryType type : {QueryType::CLOSEST, QueryType::LIMITED, QueryType::FIRST}) {
-      QueryOptions options;
-      options.type = type;
-      QueryResult found;
-      engine->query(options, found);
+      const QueryOptions options = within(0.0, type);
+      const QueryResult found = answer(*engine, options);
       if (type == QueryType::FIRST) {
         ASSERT_EQ(found.contacts.size(), 1U);
         EXPECT_EQ(found.contacts.front().distance, -2.0 * radius);
       } else {
-        EXPECT_TRUE(same_contacts(found.contacts, truth(fibers, options).contacts));
+        EXPECT_TRUE(same_contacts(found.contacts, brute_force(fibers, options).contacts));
       }
     }
   }
@@ -222,10 +194,7 @@ TEST_F(CoincidentFibersTest, AreInContactAllWithAll) {
   const auto engine = make_engine("run_tree");
   engine->update(fibers);
   for (const QueryType type : {QueryType::ALL, QueryType::FIBER_PAIRS}) {
-    QueryOptions options;
-    options.type = type;
-    QueryResult found;
-    engine->query(options, found);
+    const QueryResult found = answer(*engine, within(0.0, type));
     ASSERT_EQ(found.contacts.size(), std::size_t{count} * (count - 1) / 2);
     const Contact* contact = found.contacts.data();
     for (std::uint32_t a = 0; a < count; ++a) {

@@ -4,6 +4,7 @@
 
 #include "fiber_proximity/query/motion.hpp"
 #include "test/query/motion_queries.hpp"
+#include "test/support/answers.hpp"
 #include "test/support/not_finite.hpp"
 
 namespace fiber::test {
@@ -47,10 +48,8 @@ TEST_P(MotionQueries, TheEarliestAreThoseOfAll) {
 
 /// They come nearer ever more slowly, and overlap by less than the tolerance in the end.
 TEST_P(MotionQueries, BoundsOnTheTimeAreAsNearAsIsAsked) {
-  AssemblyBuilder builder;
-  builder.add_fiber({{-0.5, 0.0, 0.0}, {0.5, 0.0, 0.0}});
-  builder.add_fiber({{0.0, -0.5, 0.1}, {0.0, 0.5, 0.1}});
-  const FiberAssembly before = builder.build({0.01});
+  const FiberAssembly before =
+      as_fibers({{{-0.5, 0.0, 0.0}, {0.5, 0.0, 0.0}}, {{0.0, -0.5, 0.1}, {0.0, 0.5, 0.1}}}, 0.01);
   std::vector<Vector3d> points = before.points();
   points[2].z() = points[3].z() = 0.02 - 0.5e-3;
   const FiberAssembly after = with_points(before, points);
@@ -88,10 +87,7 @@ TEST_P(MotionQueries, LimitsAreKeptAndTold) {
   EXPECT_TRUE(two.limit_reached);
   options.contact_limit = 0;
   options.pair_limit = 1;
-  const std::unique_ptr<ProximityEngine> engine = make_engine(GetParam());
-  MotionResult none;
-  engine->update_motion(before, after);
-  engine->query_motion(options, none);
+  const MotionResult none = answer(GetParam(), before, after, options);
   EXPECT_TRUE(none.contacts.empty() && none.limit_reached && !none.complete);
   EXPECT_EQ(none.others_lower, 0.0);
 }
@@ -100,16 +96,8 @@ TEST_P(MotionQueries, LimitsAreKeptAndTold) {
 TEST_P(MotionQueries, ADeadlineLeavesAnAnswerThatIsTrue) {
   SCOPED_TRACE(seed_message());
   Random random;
-  AssemblyBuilder builder;
-  for (int fiber = 0; fiber < 40; ++fiber) {
-    builder.add_fiber(random_walk(random, 30, 0.08));
-  }
-  const FiberAssembly before = builder.build({0.01});
-  std::vector<Vector3d> points = before.points();
-  for (Vector3d& point : points) {
-    point += 0.3 * random.in_cube();
-  }
-  const FiberAssembly after = with_points(before, points);
+  const FiberAssembly before = walks(random, 40, 30, 0.08, 0.01);
+  const FiberAssembly after = shaken(before, 0.3, random);
   const std::unique_ptr<ProximityEngine> engine = make_engine(GetParam());
   engine->update_motion(before, after);
   MotionOptions options;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "test/support/answers.hpp"
 #include "test/support/engines_test.hpp"
 #include "test/support/motions.hpp"
 
@@ -12,11 +13,8 @@ namespace fiber::test {
 class MotionQueries : public EnginesTest {
  protected:
   MotionResult ask_motion(const FiberAssembly& before, const FiberAssembly& after,
-                          const MotionOptions& options, std::uint32_t threads = 0) const {
-    const std::unique_ptr<ProximityEngine> engine = make_engine(GetParam(), {threads});
-    MotionResult result;
-    engine->update_motion(before, after);
-    engine->query_motion(options, result);
+                          const MotionOptions& options) const {
+    MotionResult result = answer(GetParam(), before, after, options);
     EXPECT_TRUE(result.complete);
     return result;
   }
@@ -33,10 +31,7 @@ inline std::vector<Eigen::Vector3d> straight(double z, bool along_x) {
 }
 
 inline FiberAssembly crossed_cables(double z) {
-  AssemblyBuilder builder;
-  builder.add_fiber(straight(0.0, true));
-  builder.add_fiber(straight(z, false));
-  return builder.build({0.002});
+  return as_fibers({straight(0.0, true), straight(z, false)}, 0.002);
 }
 
 }  // namespace fiber::test

@@ -12,6 +12,7 @@
 #include "fiber_proximity/query/narrow_phase.hpp"
 #include "src/query/contact_evaluator.hpp"
 #include "test/query/motion_queries.hpp"
+#include "test/support/answers.hpp"
 #include "test/support/error_of.hpp"
 #include "test/support/not_finite.hpp"
 
@@ -32,10 +33,10 @@ double size_of(const FiberAssembly& fibers) {
 
 /// Every point goes its own way, and all together one more.
 FiberAssembly moved(const FiberAssembly& fibers, double way, Random& random) {
+  std::vector<Vector3d> points = shaken(fibers, way, random).points();
   const Vector3d common = 3.0 * way * random.in_cube();
-  std::vector<Vector3d> points = fibers.points();
   for (Vector3d& point : points) {
-    point += common + way * random.in_cube();
+    point += common;
   }
   return with_points(fibers, points);
 }
@@ -94,15 +95,12 @@ TEST_P(MotionQueries, AShapeThatMovesMeetsFibersThatMove) {
     engine->update_motion(before, after);
     engine->query_motion_shape(shape_before, shape_after, options, found);
     MotionResult expected;
-    for (const std::uint32_t a : first_points(before)) {
-      for (const std::uint32_t b : first_points(before)) {
-        const ContactTime time =
-            contact_time({&shape_before.points()[a],
-                          &shape_after.points()[a],
-                          &before.points()[b],
-                          &after.points()[b],
-                          {before.segment_radius(a), before.segment_radius(b), 0.0}},
-                         options.tolerance);
+    for (const std::uint32_t a : segments_of(before)) {
+      for (const std::uint32_t b : segments_of(before)) {
+        SegmentMotions motions = motions_of(before, after, {a, b}, 0.0);
+        motions.a_before = &shape_before.points()[a];
+        motions.a_after = &shape_after.points()[a];
+        const ContactTime time = contact_time(motions, options.tolerance);
         if (time.hit) {
           const SegmentId id_a = before.segment_id(a);
           const SegmentId id_b = before.segment_id(b);
@@ -178,9 +176,7 @@ TEST_P(MotionQueries, BadInputIsRefused) {
   const std::unique_ptr<ProximityEngine> engine = make_engine(GetParam());
   MotionResult result;
   EXPECT_THROW(engine->query_motion({}, result), std::logic_error);
-  AssemblyBuilder other;
-  other.add_fiber(straight(0.0, true));
-  const FiberAssembly one = other.build({0.002});
+  const FiberAssembly one = as_fibers({straight(0.0, true)}, 0.002);
   EXPECT_EQ(
       error_of([&] { engine->update_motion(before, one); }),
       "the fibres change their topology: 2 of 42 points before, 1 of 21 after; a motion needs "
@@ -225,22 +221,12 @@ INSTANTIATE_TEST_SUITE_P(All, MotionQueries, all_engines(), name_of_engine);
 
 TEST(MotionQueriesOnThreads, AnswerTheSame) {
   Random random;
-  AssemblyBuilder builder;
-  for (int i = 0; i < 200; ++i) {
-    builder.add_fiber(random_walk(random, 20, 0.05));
-  }
-  const FiberAssembly before = builder.build({0.004});
+  const FiberAssembly before = walks(random, 200, 20, 0.05, 0.004);
   const FiberAssembly after = moved(before, 0.05, random);
-  MotionResult expected;
-  for (const std::uint32_t threads : {1U, 2U, 4U}) {
-    const std::unique_ptr<ProximityEngine> engine = make_engine("run_tree", {threads});
-    MotionResult result;
-    engine->update_motion(before, after);
-    engine->query_motion({}, result);
-    if (threads == 1) {
-      expected = result;
-    }
-    expect_enough(result.contacts.size(), std::size_t{100});
+  const MotionResult expected = answer("run_tree", before, after, {}, 1);
+  expect_enough(expected.contacts.size(), std::size_t{100});
+  for (const std::uint32_t threads : {2U, 4U}) {
+    const MotionResult result = answer("run_tree", before, after, {}, threads);
     EXPECT_TRUE(same(result.contacts, expected.contacts) &&
                 same(result.touching, expected.touching));
   }

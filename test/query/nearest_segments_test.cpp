@@ -8,6 +8,8 @@
 #include "src/query/brute_force.hpp"
 #include "test/support/assemblies.hpp"
 #include "test/support/contacts.hpp"
+#include "test/support/engines_test.hpp"
+#include "test/support/error_of.hpp"
 #include "test/support/rounds.hpp"
 
 namespace fiber::test {
@@ -28,10 +30,8 @@ long double distance(const Vector3d& point, const Capsule& capsule) {
 /// [m] Of all segments, sorted.
 std::vector<long double> distances(const Vector3d& point, const FiberAssembly& fibers) {
   std::vector<long double> all;
-  for (std::size_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
-    for (std::uint32_t p = fibers.offsets()[fiber]; p + 1 < fibers.offsets()[fiber + 1]; ++p) {
-      all.push_back(distance(point, fibers.capsule(p)));
-    }
+  for (const std::uint32_t segment : segments_of(fibers)) {
+    all.push_back(distance(point, fibers.capsule(segment)));
   }
   std::sort(all.begin(), all.end());
   return all;
@@ -116,8 +116,7 @@ TEST_P(NearestSegmentsTest, AreBruteForcesToTheBit) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Engines, NearestSegmentsTest, testing::ValuesIn(engine_names()),
-                         [](const auto& instance) { return test_name(instance.param); });
+INSTANTIATE_TEST_SUITE_P(Engines, NearestSegmentsTest, all_engines(), name_of_engine);
 
 // Three fibres along x at heights 0, 1 and 3; the point is in the axis of the second.
 TEST(NearestSegments, AreSortedByDistanceThenByIndex) {
@@ -147,20 +146,15 @@ TEST(NearestSegments, RefuseWhatTheyCannotAnswer) {
   QueryResult result;
   EXPECT_THROW(nearest_segments(*engine, {0, 0, 0}, 1, result), std::logic_error);
   engine->update(fibers);
-  const auto error_of = [&](const Vector3d& point, std::uint32_t k) -> std::string {
-    try {
-      nearest_segments(*engine, point, k, result);
-    } catch (const std::invalid_argument& error) {
-      return error.what();
-    }
-    return "";
+  const auto refusal = [&](const Vector3d& point, std::uint32_t k) {
+    return error_of([&] { nearest_segments(*engine, point, k, result); });
   };
   const std::string rule = ", coordinates must be finite and at most 1e150 m in magnitude";
-  EXPECT_EQ(error_of({0, 0, 0}, 1), "");
-  EXPECT_EQ(error_of({0, 0, 0}, 0), "k is 0, it must be at least 1");
-  EXPECT_EQ(error_of({0, std::nan(""), 0}, 1), "point: y is nan" + rule);
-  EXPECT_EQ(error_of({std::numeric_limits<double>::infinity(), 0, 0}, 1), "point: x is inf" + rule);
-  EXPECT_EQ(error_of({0, 0, -1e200}, 1), "point: z is -1e+200" + rule);
+  EXPECT_EQ(refusal({0, 0, 0}, 1), "no error");
+  EXPECT_EQ(refusal({0, 0, 0}, 0), "k is 0, it must be at least 1");
+  EXPECT_EQ(refusal({0, std::nan(""), 0}, 1), "point: y is nan" + rule);
+  EXPECT_EQ(refusal({std::numeric_limits<double>::infinity(), 0, 0}, 1), "point: x is inf" + rule);
+  EXPECT_EQ(refusal({0, 0, -1e200}, 1), "point: z is -1e+200" + rule);
 }
 
 }  // namespace

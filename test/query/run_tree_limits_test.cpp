@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "src/query/brute_force.hpp"
+#include "test/support/answers.hpp"
 #include "test/support/contacts.hpp"
 #include "test/support/not_finite.hpp"
 #include "test/support/tangle.hpp"
@@ -14,23 +14,15 @@ namespace {
 /// Answers of engines of one thread and of several.
 class RunTreeLimits : public testing::TestWithParam<double> {
  protected:
-  static EngineOptions with_threads(std::uint32_t threads) {
-    EngineOptions options;
-    options.threads = threads;
-    options.skin = GetParam();
-    return options;
-  }
-
   /// Of the same motion, twice: with a skin the second query has candidates of the first.
   void expect_the_same(const FiberAssembly& fibers, const QueryOptions& options) {
-    const std::unique_ptr<ProximityEngine> one = make_engine("run_tree", with_threads(1));
-    const std::unique_ptr<ProximityEngine> four = make_engine("run_tree", with_threads(4));
-    QueryResult of_four;
+    const std::unique_ptr<ProximityEngine> one = make_engine("run_tree", {1, GetParam()});
+    const std::unique_ptr<ProximityEngine> four = make_engine("run_tree", {4, GetParam()});
     for (int round = 0; round < 2; ++round) {
       one->update(fibers);
       one->query(options, found_);
       four->update(fibers);
-      four->query(options, of_four);
+      const QueryResult of_four = answer(*four, options);
       ASSERT_TRUE(same_contacts(found_.contacts, of_four.contacts));
       ASSERT_EQ(found_.complete, of_four.complete);
       ASSERT_EQ(found_.limit_reached, of_four.limit_reached);
@@ -64,16 +56,10 @@ TEST_P(RunTreeLimits, GiveTheSameForAnyNumberOfThreads) {
 TEST_P(RunTreeLimits, TheClosestAreFoundAmongFarMorePairsThanAreExamined) {
   SCOPED_TRACE(seed_message());
   Random random;
-  AssemblyBuilder builder;
-  for (int fiber = 0; fiber < 300; ++fiber) {
-    builder.add_fiber(random_walk(random, 12, 0.05));
-  }
-  const FiberAssembly fibers = builder.build({1e-6});
-  QueryOptions options = within(infinity);
-  options.type = QueryType::LIMITED;
+  const FiberAssembly fibers = walks(random, 300, 12, 0.05, 1e-6);
+  QueryOptions options = within(infinity, QueryType::LIMITED);
   options.max_contacts = 500;
-  QueryResult expected;
-  brute_force(fibers, options, expected);
+  const QueryResult expected = brute_force(fibers, options);
   options.type = QueryType::ALL;
   options.contact_limit = 500;
   options.pair_limit = 1'000'000;
@@ -113,21 +99,17 @@ TEST(RunTreeLimitsOfSkin, CandidatesThatWereKeptDoNotServeASmallerLimit) {
   SCOPED_TRACE(seed_message());
   Random random;
   const FiberAssembly fibers = tangle(random, 60);
-  EngineOptions engine_options;
-  engine_options.skin = 0.01;
-  const std::unique_ptr<ProximityEngine> engine = make_engine("run_tree", engine_options);
+  const std::unique_ptr<ProximityEngine> engine = make_engine("run_tree", {0, 0.01});
   engine->update(fibers);
   QueryOptions options = within(0.1);
-  QueryResult whole;
-  engine->query(options, whole);
+  const QueryResult whole = answer(*engine, options);
   ASSERT_TRUE(whole.complete);
   options.pair_limit = 1000;
-  QueryResult found;
-  engine->query(options, found);
+  QueryResult found = answer(*engine, options);
   EXPECT_FALSE(found.complete);
   EXPECT_LE(found.counts.primitive_tests, 1000U);
   options.pair_limit = 0;
-  engine->query(options, found);
+  found = answer(*engine, options);
   EXPECT_TRUE(found.complete);
   EXPECT_TRUE(same_contacts(found.contacts, whole.contacts));
 }

@@ -8,6 +8,7 @@
 
 #include "fiber_proximity/geometry/segment_distance.hpp"
 #include "src/query/run_tree_engine.hpp"
+#include "test/support/answers.hpp"
 #include "test/support/assemblies.hpp"
 #include "test/support/contacts.hpp"
 #include "test/support/motions.hpp"
@@ -17,15 +18,6 @@ namespace fiber::test {
 namespace {
 
 using Eigen::Vector3d;
-
-MotionResult ask_run_tree(const FiberAssembly& before, const FiberAssembly& after,
-                          const MotionOptions& options, std::uint32_t threads = 1) {
-  RunTreeEngine engine({threads});
-  MotionResult result;
-  engine.update_motion(before, after);
-  engine.query_motion(options, result);
-  return result;
-}
 
 void expect_same(const MotionResult& found, const MotionResult& expected) {
   EXPECT_EQ(found.contacts.size(), expected.contacts.size());
@@ -90,7 +82,7 @@ TEST(RunTreeMotion, FindsWhatAllPairsFindWhateverSizePlaceAndWay) {
     options.neighbour_skip = 1;  // many contacts: neighbours' too
     MotionResult expected = expected_of(before, after, options);
     SCOPED_TRACE("round " + std::to_string(round));
-    expect_same(ask_run_tree(before, after, options), expected);
+    expect_same(answer("run_tree", before, after, options, 1), expected);
     began += expected.contacts.size();
     for (const MotionContact& contact : expected.contacts) {
       uncertain += contact.certain ? 0 : 1;
@@ -108,10 +100,9 @@ TEST(RunTreeMotion, FindsWhatOnlyJustTouches) {
     const Vector3d along = random.direction();
     const Vector3d gap = random.direction().cross(along).normalized() * random.uniform(0.01, 1.0);
     const Vector3d place = 100.0 * random.in_cube();
-    AssemblyBuilder from;
-    from.add_fiber({place, place + random.uniform(0.0, 0.5) * along});
-    from.add_fiber({place + gap - along, place + gap - random.uniform(1.0, 2.0) * along});
-    const FiberAssembly before = from.build({0.0});
+    const FiberAssembly before =
+        as_fibers({{place, place + random.uniform(0.0, 0.5) * along},
+                   {place + gap - along, place + gap - random.uniform(1.0, 2.0) * along}});
     std::vector<Vector3d> points = before.points();
     points[2] += 3.0 * along;
     points[3] += 3.0 * along;
@@ -119,7 +110,7 @@ TEST(RunTreeMotion, FindsWhatOnlyJustTouches) {
     options.margin = gap.norm() * (1.0 + 0x1p-40);
     options.tolerance = 1e-9;
     const FiberAssembly after = with_points(before, points);
-    const MotionResult found = ask_run_tree(before, after, options);
+    const MotionResult found = answer("run_tree", before, after, options, 1);
     expect_same(found, expected_of(before, after, options));
     EXPECT_EQ(found.contacts.size(), 1U);
   }
@@ -148,16 +139,14 @@ TEST(RunTreeMotion, FindsWhatIsReportedForTheToleranceAlone) {
   Random random;
   std::size_t reported = 0;
   for (int round = 0; round < rounds(40000); ++round) {
-    AssemblyBuilder from;
-    from.add_fiber({random.in_cube(), random.in_cube()});
-    from.add_fiber({random.in_cube(), random.in_cube()});
-    const FiberAssembly before = from.build({0.0});
+    const FiberAssembly before =
+        as_fibers({{random.in_cube(), random.in_cube()}, {random.in_cube(), random.in_cube()}});
     const FiberAssembly after = after_ways(before, 1.0, random.uniform(0.0, 0.3), random);
     MotionOptions options;
     options.margin = 0.7 * least_distance(before, after);
     options.tolerance = options.margin;
     const MotionResult expected = expected_of(before, after, options);
-    expect_same(ask_run_tree(before, after, options), expected);
+    expect_same(answer("run_tree", before, after, options, 1), expected);
     reported += expected.contacts.size();
   }
   expect_enough(reported, static_cast<std::size_t>(rounds(1000)));
@@ -173,7 +162,7 @@ TEST(RunTreeMotion, AnswersTheSameWithEveryInstructionSet) {
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
     hwy::SetSupportedTargetsForTest(target);
     SCOPED_TRACE(hwy::TargetName(target));
-    expect_same(ask_run_tree(before, after, {}, 2), expected);
+    expect_same(answer("run_tree", before, after, {}, 2), expected);
   }
   hwy::SetSupportedTargetsForTest(0);
 }
@@ -184,7 +173,8 @@ TEST(RunTreeMotion, LooksAtHardlyMorePairsThanCome) {
   Random random;
   const FiberAssembly before = walks_in(random, 300, 40, 1.0, 0.001);
   for (const double way : {0.01, 0.1}) {
-    const MotionResult result = ask_run_tree(before, after_ways(before, way, 0.0, random), {});
+    const MotionResult result =
+        answer("run_tree", before, after_ways(before, way, 0.0, random), {}, 1);
     const std::size_t found = result.contacts.size() + result.touching.size();
     expect_enough(found, std::size_t{100});
     EXPECT_LE(result.counts.primitive_tests, 3 * found);
@@ -207,14 +197,12 @@ TEST(RunTreeMotion, LeavesNoTreeForFibersThatStand) {
     engine.update(*fibers);
     engine.query({}, result);
     RunTreeEngine fresh({1});
-    QueryResult expected;
     fresh.update(*fibers);
-    fresh.query({}, expected);
+    const QueryResult expected = answer(fresh);
     expect_enough(expected.contacts.size(), std::size_t{100});
     EXPECT_TRUE(same_contacts(result.contacts, expected.contacts));
-    engine.query_shape(before, {}, result);
-    fresh.query_shape(before, {}, expected);
-    EXPECT_TRUE(same_contacts(result.contacts, expected.contacts));
+    EXPECT_TRUE(
+        same_contacts(answer(engine, before, {}).contacts, answer(fresh, before, {}).contacts));
   }
 }
 

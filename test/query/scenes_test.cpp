@@ -6,7 +6,7 @@
 #include "src/bounds/aabb.hpp"
 #include "src/paper/engines/hierarchy_engine.hpp"
 #include "src/paper/hierarchy/hierarchy.hpp"
-#include "src/query/brute_force.hpp"
+#include "test/support/answers.hpp"
 #include "test/support/contacts.hpp"
 #include "test/support/rounds.hpp"
 #include "test/support/small_scene.hpp"
@@ -30,18 +30,6 @@ std::vector<Element*> pointers_to(std::vector<Element>& elements) {
     pointers.push_back(&element);
   }
   return pointers;
-}
-
-QueryResult ask(const ProximityEngine& engine, const QueryOptions& options) {
-  QueryResult result;
-  engine.query(options, result);
-  return result;
-}
-
-QueryResult truth(const FiberAssembly& fibers, const QueryOptions& options) {
-  QueryResult result;
-  brute_force(fibers, options, result);
-  return result;
 }
 
 class ScenesAgreementTest : public testing::TestWithParam<std::string> {
@@ -68,12 +56,11 @@ class ScenesAgreementTest : public testing::TestWithParam<std::string> {
       engine->update(fibers);
     }
     for (const double margin : margins) {
-      QueryOptions options;
-      options.margin = margin * radius;
-      const QueryResult expected = truth(fibers, options);
+      QueryOptions options = within(margin * radius);
+      const QueryResult expected = brute_force(fibers, options);
       contacts_ += expected.contacts.size();
       for (const auto& [name, engine] : engines_) {
-        ASSERT_TRUE(same_contacts(ask(*engine, options).contacts, expected.contacts))
+        ASSERT_TRUE(same_contacts(answer(*engine, options).contacts, expected.contacts))
             << name << ", margin " << margin << " radii, " << fibers.segment_count() << " segments";
       }
     }
@@ -126,16 +113,15 @@ TEST_P(ScenesAgreementTest, TheLeafPretestChangesOnlyTheCost) {
   for_small_scenes(1, [this](const SmallScene& scene, Random& random) {
     const FiberAssembly fibers = scene(static_cast<std::uint32_t>(random.integer(0, 1000)));
     for (const double margin : margins) {
-      QueryOptions options;
-      options.margin = margin * scene.radius();
-      const std::uint64_t all_pairs = truth(fibers, options).counts.primitive_tests;
+      QueryOptions options = within(margin * scene.radius());
+      const std::uint64_t all_pairs = brute_force(fibers, options).counts.primitive_tests;
       for (const auto& [name, engine] : engines_) {
         SCOPED_TRACE(testing::Message() << name << ", margin " << margin << " radii");
         engine->update(fibers);
         options.leaf_pretest = true;
-        const QueryResult with = ask(*engine, options);
+        const QueryResult with = answer(*engine, options);
         options.leaf_pretest = false;
-        const QueryResult without = ask(*engine, options);
+        const QueryResult without = answer(*engine, options);
         ASSERT_TRUE(same_contacts(without.contacts, with.contacts));
         EXPECT_LE(with.contacts.size(), with.counts.primitive_tests);
         EXPECT_LE(with.counts.primitive_tests, without.counts.primitive_tests);
@@ -158,14 +144,13 @@ TEST_P(ScenesAgreementTest, TreesOfTheSameDopsTestTheSamePrimitives) {
   for_small_scenes(1, [&](const SmallScene& scene, Random& random) {
     const FiberAssembly fibers = scene(static_cast<std::uint32_t>(random.integer(0, 1000)));
     for (const double margin : margins) {
-      QueryOptions options;
-      options.margin = margin * scene.radius();
+      QueryOptions options = within(margin * scene.radius());
       for (const std::vector<std::string>& names : alike) {
         std::vector<std::uint64_t> tests;
         for (const auto& [name, engine] : engines_) {
           if (std::find(names.begin(), names.end(), name) != names.end()) {
             engine->update(fibers);
-            tests.push_back(ask(*engine, options).counts.primitive_tests);
+            tests.push_back(answer(*engine, options).counts.primitive_tests);
           }
         }
         ASSERT_EQ(tests, std::vector<std::uint64_t>(names.size(), tests.front())) << names.front();
@@ -186,8 +171,8 @@ TEST_P(ScenesAgreementTest, WrappedBoxesCostWhatLayeredOnesDo) {
       QueryOptions options;
       options.margin = scene.radius();
       options.leaf_pretest = leaf_pretest;
-      const QueryCounts one = ask(layered, options).counts;
-      const QueryCounts other = ask(wrapped, options).counts;
+      const QueryCounts one = answer(layered, options).counts;
+      const QueryCounts other = answer(wrapped, options).counts;
       EXPECT_EQ(one.node_tests, other.node_tests);
       EXPECT_EQ(one.node_overlaps, other.node_overlaps);
       EXPECT_EQ(one.primitive_tests, other.primitive_tests);

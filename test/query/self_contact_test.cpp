@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "src/query/brute_force.hpp"
+#include "test/support/answers.hpp"
 #include "test/support/cables.hpp"
 #include "test/support/contacts.hpp"
 #include "test/support/engines_test.hpp"
@@ -67,8 +67,7 @@ TEST_P(SelfContactTest, StrandsThatTouchAreContactsAtEverySampling) {
   for (const Cable& cable : sampled(touching_cables(), random)) {
     SCOPED_TRACE(cable.name);
     const FiberAssembly fibers = cable.fibers();
-    QueryResult truth;
-    brute_force(fibers, within(nothing), truth);
+    const QueryResult truth = brute_force(fibers, within(nothing));
     ASSERT_GT(truth.contacts.size(), 0U);
     ASSERT_TRUE(same_contacts(ask(fibers, within(nothing)).contacts, truth.contacts));
     for (const QueryType type : {QueryType::CLOSEST, QueryType::FIBER_PAIRS}) {
@@ -105,8 +104,7 @@ TEST_P(SelfContactTest, AreThoseOfBruteForceAmongOtherFibers) {
   for_each_assembly(2, [this](const FiberAssembly& fibers, Random& random) {
     QueryOptions options = within(random.chance(0.3) ? infinity : random.uniform(0.0, 0.5));
     options.kernel = random.chance(0.5) ? Kernel::ROBUST : Kernel::EXACT;
-    QueryResult truth;
-    brute_force(fibers, options, truth);
+    const QueryResult truth = brute_force(fibers, options);
     ASSERT_TRUE(same_contacts(ask(fibers, options).contacts, truth.contacts));
   });
 }
@@ -143,8 +141,7 @@ TEST(SelfContact, LongCablesWithoutALoopHaveNone) {
       const FiberAssembly fibers = cable.fibers();
       engine->update(fibers);
       for (const double margin : {0.0, infinity}) {
-        QueryResult none;
-        engine->query(within(margin, QueryType::CLOSEST), none);
+        const QueryResult none = answer(*engine, within(margin, QueryType::CLOSEST));
         ASSERT_EQ(none.contacts.size(), 0U) << "margin " << margin;
       }
     }
@@ -153,12 +150,9 @@ TEST(SelfContact, LongCablesWithoutALoopHaveNone) {
 
 /// Candidates that are kept must not have been chosen by loops there were then.
 TEST(SelfContactWithSkin, FollowsACableThatCloses) {
-  EngineOptions engine_options;
-  engine_options.skin = 3.0;
-  const auto engine = make_engine("run_tree", engine_options);
+  const auto engine = make_engine("run_tree", {0, 3.0});
   FiberAssembly fibers = hairpin(30.0, 60).fibers();
   const Curve closed = fibers.points();
-  QueryResult found;
   bool has_kept = false;
   for (const double opening : {0.0, 0.1, 0.2, 0.3, 0.2, 0.1, 0.0, 0.4, 0.0}) {
     Curve points = closed;
@@ -168,10 +162,9 @@ TEST(SelfContactWithSkin, FollowsACableThatCloses) {
     fibers.update_points(points);
     engine->update(fibers);
     for (const double margin : {0.0, nothing, 0.3, infinity}) {
-      engine->query(within(margin), found);
-      QueryResult truth;
-      brute_force(fibers, within(margin), truth);
-      ASSERT_TRUE(same_contacts(found.contacts, truth.contacts)) << opening;
+      const QueryResult truth = brute_force(fibers, within(margin));
+      ASSERT_TRUE(same_contacts(answer(*engine, within(margin)).contacts, truth.contacts))
+          << opening;
       has_kept = has_kept || !truth.contacts.empty();
     }
   }
@@ -185,9 +178,7 @@ TEST(SelfContact, IsTheSameForAnyNumberOfThreads) {
     const FiberAssembly fibers = cable.fibers();
     QueryResult first;
     for (const std::uint32_t threads : {1U, 2U, 4U}) {
-      EngineOptions engine_options;
-      engine_options.threads = threads;
-      const auto engine = make_engine("run_tree", engine_options);
+      const auto engine = make_engine("run_tree", {threads});
       engine->update(fibers);
       QueryResult found;
       engine->query(within(2.0 * fibers.largest_radius()), found);

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "src/query/brute_force.hpp"
 #include "src/query/run_tree_engine.hpp"
+#include "test/support/answers.hpp"
 #include "test/support/assemblies.hpp"
 #include "test/support/contacts.hpp"
 #include "test/support/neighbour_skips.hpp"
@@ -16,23 +16,6 @@ namespace fiber::test {
 namespace {
 
 using Eigen::Vector3d;
-
-double size_of(const FiberAssembly& fibers) {
-  double size = 0.0;
-  for (const Vector3d& point : fibers.points()) {
-    size = std::max(size, (point - fibers.points().front()).cwiseAbs().maxCoeff());
-  }
-  return size;
-}
-
-/// Moves every point, each within a cube of its own.
-void shake(Random& random, FiberAssembly& fibers, double half_edge) {
-  std::vector<Vector3d> points = fibers.points();
-  for (Vector3d& point : points) {
-    point += random.in_cube(half_edge);
-  }
-  fibers.update_points(points);
-}
 
 QueryOptions random_options(Random& random, double size) {
   QueryOptions options;
@@ -50,14 +33,10 @@ void expect_answer(const FiberAssembly& fibers, const QueryOptions& options,
   if (options.type == QueryType::FIRST) {
     wanted.type = QueryType::ALL;
   }
-  QueryResult truth;
-  brute_force(fibers, wanted, truth);
+  const QueryResult truth = brute_force(fibers, wanted);
   if (options.type == QueryType::FIRST) {
     ASSERT_EQ(found.empty(), truth.contacts.empty());
-    EXPECT_TRUE(found.empty() || std::any_of(truth.contacts.begin(), truth.contacts.end(),
-                                             [&](const Contact& contact) {
-                                               return contact.key() == found.front().key();
-                                             }));
+    EXPECT_TRUE(found.empty() || contains(truth.contacts, found.front()));
     return;
   }
   EXPECT_TRUE(same_contacts(found, truth.contacts));
@@ -72,19 +51,17 @@ TEST(SkinTest, AnswersAsBruteForceWhileFibersMove) {
     for (const AssemblyFamily& family : assembly_families()) {
       SCOPED_TRACE(family.name);
       FiberAssembly fibers = family.make(random);
-      const double size = size_of(fibers);
+      const double size = extent_of(fibers);
       const double skin = size * random.uniform(0.0, 0.2);
       RunTreeEngine engine({1, skin});
       const QueryOptions options = random_options(random, size);
       for (int frame = 0; frame < 10; ++frame) {
         engine.update(fibers);
-        QueryResult result;
-        engine.query(options, result);
-        expect_answer(fibers, options, result.contacts);
+        expect_answer(fibers, options, answer(engine, options).contacts);
         const QueryOptions others = random_options(random, size);
-        engine.query(others, result);
-        expect_answer(fibers, others, result.contacts);
-        shake(random, fibers, skin * random.uniform(0.0, 0.3));
+        expect_answer(fibers, others, answer(engine, others).contacts);
+        const double way = skin * random.uniform(0.0, 0.3);
+        fibers.update_points(shaken(fibers, way, random).points());
         ++frames;
       }
       refits += engine.refit_count();
@@ -167,9 +144,7 @@ TEST(SkinTest, CountsWhatFibersHadMovedBeforeOthersWereLookedForAnew) {
        {two_of_ten(0.0, 100.0), two_of_ten(-0.24, 0.98), two_of_ten(0.4900001, 0.49)}) {
     engine.update(frame);
     for (const QueryType type : {QueryType::ALL, QueryType::CLOSEST}) {
-      QueryOptions options;
-      options.type = type;
-      options.margin = 0.001;
+      const QueryOptions options = within(0.001, type);
       engine.query(options, result);
       expect_answer(frame, options, result.contacts);
     }
@@ -192,30 +167,19 @@ TEST(SkinTest, MeasuresFromWhereFibersWereLookedForAnew) {
 TEST(SkinTest, AShapeMeetsFibersThatHaveMoved) {
   SCOPED_TRACE(seed_message());
   Random random;
-  const auto oracle = make_engine("brute_force");
   std::size_t found = 0;
   for (int round = 0; round < 200; ++round) {
-    AssemblyBuilder builder;
-    builder.add_fiber(random_walk(random, 40, 0.1));
-    FiberAssembly fibers = builder.build({0.02});
+    FiberAssembly fibers = walks(random, 1, 40, 0.1, 0.02);
     RunTreeEngine engine({1, 0.2});
     engine.update(fibers);
-    shake(random, fibers, 0.05);
+    fibers.update_points(shaken(fibers, 0.05, random).points());
     engine.update(fibers);
     EXPECT_EQ(engine.refit_count(), 1U);
-    AssemblyBuilder shape_builder;
-    shape_builder.add_fiber(random_walk(random, 5, 0.2));
-    const FiberAssembly shape = shape_builder.build({0.1});
+    const FiberAssembly shape = walks(random, 1, 5, 0.2, 0.1);
     for (const QueryType type : {QueryType::ALL, QueryType::CLOSEST}) {
-      QueryOptions options;
-      options.type = type;
-      options.margin = 0.3;
-      QueryResult truth;
-      oracle->update(fibers);
-      oracle->query_shape(shape, options, truth);
-      QueryResult result;
-      engine.query_shape(shape, options, result);
-      EXPECT_TRUE(same_contacts(result.contacts, truth.contacts));
+      const QueryOptions options = within(0.3, type);
+      const QueryResult truth = brute_force(shape, fibers, options);
+      EXPECT_TRUE(same_contacts(answer(engine, shape, options).contacts, truth.contacts));
       found += truth.contacts.size();
     }
   }
@@ -225,10 +189,8 @@ TEST(SkinTest, AShapeMeetsFibersThatHaveMoved) {
 /// Two fibres that are as far apart as the skin and come together by just as much.
 TEST(SkinTest, LosesNothingAtItsVeryEdge) {
   const double skin = 0.25;
-  AssemblyBuilder builder;
-  builder.add_fiber({{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}});
-  builder.add_fiber({{0.0, skin, 0.0}, {1.0, skin, 0.0}});
-  FiberAssembly fibers = builder.build({0.0});
+  FiberAssembly fibers =
+      as_fibers({{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}}, {{0.0, skin, 0.0}, {1.0, skin, 0.0}}});
   RunTreeEngine engine({1, skin});
   QueryResult result;
   engine.update(fibers);
@@ -241,10 +203,8 @@ TEST(SkinTest, LosesNothingAtItsVeryEdge) {
     points[2].y() = points[3].y() = skin - half;
     fibers.update_points(points);
     engine.update(fibers);
-    QueryOptions options;
-    options.margin = skin - 2.0 * half;
-    QueryResult truth;
-    brute_force(fibers, options, truth);
+    const QueryOptions options = within(skin - 2.0 * half);
+    const QueryResult truth = brute_force(fibers, options);
     ASSERT_FALSE(truth.contacts.empty());
     engine.query(options, result);
     EXPECT_TRUE(same_contacts(result.contacts, truth.contacts));
@@ -263,8 +223,7 @@ TEST(SkinTest, SeesThatRadiiOrTopologyHaveChanged) {
   const auto contacts = [&](const FiberAssembly& fibers) {
     engine.update(fibers);
     engine.query({}, result);
-    QueryResult truth;
-    brute_force(fibers, {}, truth);
+    const QueryResult truth = brute_force(fibers, {});
     EXPECT_TRUE(same_contacts(result.contacts, truth.contacts));
     return result.contacts.size();
   };

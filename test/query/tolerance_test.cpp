@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/query/brute_force.hpp"
+#include "test/support/answers.hpp"
 #include "test/support/engines_test.hpp"
 #include "test/support/not_finite.hpp"
 
@@ -25,12 +25,9 @@ std::vector<double> sorted_distances(const QueryResult& result) {
 TEST_P(ToleranceTest, NothingIsCloserByMoreThanTheTolerance) {
   for_each_assembly(3, [this](const FiberAssembly& fibers, Random& random) {
     for (const QueryType type : {QueryType::CLOSEST, QueryType::LIMITED}) {
-      QueryOptions options;
-      options.type = type;
-      options.margin = infinity;
+      QueryOptions options = within(infinity, type);
       options.max_contacts = static_cast<std::uint32_t>(random.integer(1, 8));
-      QueryResult truth;
-      brute_force(fibers, options, truth);
+      const QueryResult truth = brute_force(fibers, options);
       options.tolerance = random.chance(0.5) ? 0.0 : random.uniform(0.0, 0.1);
       options.relative_tolerance = random.chance(0.5) ? 0.0 : random.uniform(0.0, 1.0);
       const std::vector<double> found = sorted_distances(ask(fibers, options));
@@ -49,18 +46,13 @@ TEST_P(ToleranceTest, NothingIsCloserByMoreThanTheTolerance) {
 /// The depth that is reported is at least the greatest / (1 + ρ), and more than half of it.
 TEST_P(ToleranceTest, ADepthIsWithinItsPartOfTheGreatest) {
   for_each_assembly(3, [this](const FiberAssembly& given, Random& random) {
-    double size = 0.0;
-    for (const Eigen::Vector3d& point : given.points()) {
-      size = std::max(size, (point - given.points().front()).cwiseAbs().maxCoeff());
-    }
+    const double size = extent_of(given);
     const FiberAssembly fibers(given.points(), given.offsets(),
                                {std::min(0.3 * size + given.largest_radius(), 1e150)});
     for (const QueryType type : {QueryType::CLOSEST, QueryType::LIMITED, QueryType::FIBER_PAIRS}) {
-      QueryOptions options;
-      options.type = type;
+      QueryOptions options = within(0.0, type);
       options.max_contacts = 3;
-      QueryResult truth;
-      brute_force(fibers, options, truth);
+      const QueryResult truth = brute_force(fibers, options);
       const double part = std::exp(random.uniform(-5.0, 5.0));
       options.relative_tolerance = part;
       const QueryResult found = ask(fibers, options);
@@ -85,11 +77,8 @@ TEST_P(ToleranceTest, ADepthIsWithinItsPartOfTheGreatest) {
 
 TEST_P(ToleranceTest, EveryPairOfFibersIsWithinTheTolerance) {
   for_each_assembly(3, [this](const FiberAssembly& fibers, Random& random) {
-    QueryOptions options;
-    options.type = QueryType::FIBER_PAIRS;
-    options.margin = infinity;
-    QueryResult truth;
-    brute_force(fibers, options, truth);
+    QueryOptions options = within(infinity, QueryType::FIBER_PAIRS);
+    const QueryResult truth = brute_force(fibers, options);
     options.tolerance = random.uniform(0.0, 0.1);
     const QueryResult found = ask(fibers, options);
     ASSERT_EQ(found.contacts.size(), truth.contacts.size());

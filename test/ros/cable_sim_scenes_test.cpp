@@ -12,6 +12,7 @@
 #include "test/ros/mesh_files.hpp"
 #include "test/ros/node_test.hpp"
 #include "test/ros/running_node.hpp"
+#include "test/support/answers.hpp"
 #include "test/support/process.hpp"
 
 namespace {
@@ -199,8 +200,7 @@ TEST_F(OwnSceneTest, FibresThatBeginInEachOtherAreRefusedOrMovedApart) {
     const fiber::FiberAssembly assembly = node_test::to_assembly(message);
     fiber::QueryOptions options;
     options.pairing = fiber::Pairing::DIFFERENT_FIBERS;
-    fiber::QueryResult contacts;
-    fiber::brute_force(assembly, options, contacts);
+    const fiber::QueryResult contacts = fiber::test::brute_force(assembly, options);
     return std::count_if(contacts.contacts.begin(), contacts.contacts.end(),
                          [&](const auto& contact) { return contact.distance < -distance; });
   };

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "src/query/brute_force.hpp"
+#include "test/support/answers.hpp"
 #include "test/support/random.hpp"
 
 namespace fiber_proximity_ros {
@@ -53,8 +53,7 @@ TEST(Detector, FindsTheMinimumAmongContactsThatAreNotTheClosest) {
     fiber::QueryOptions options;
     options.type = fiber::QueryType::CLOSEST;
     options.margin = std::numeric_limits<double>::infinity();
-    fiber::QueryResult closest;
-    fiber::brute_force(fibers, options, closest);
+    const fiber::QueryResult closest = fiber::test::brute_force(fibers, options);
     Detector detector("AL");
     detector.set_fibers(fibers);
     options.max_contacts = 3;

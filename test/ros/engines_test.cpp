@@ -3,6 +3,7 @@
 #include "test/ros/messages.hpp"
 #include "test/ros/node_test.hpp"
 #include "test/ros/running_node.hpp"
+#include "test/support/answers.hpp"
 #include "test/support/assemblies.hpp"
 
 namespace {
@@ -34,9 +35,8 @@ class EnginesTest : public node_test::NodeTest, public testing::WithParamInterfa
     ASSERT_TRUE(query.response.success) << query.response.message;
     fiber::QueryOptions options;
     options.margin = query.request.margin;
-    fiber::QueryResult expected;
-    fiber::brute_force_shape({{center, center}, {0, 2}, {radius}}, node_test::to_assembly(merged),
-                             options, expected);
+    const fiber::QueryResult expected = fiber::test::brute_force(
+        {{center, center}, {0, 2}, {radius}}, node_test::to_assembly(merged), options);
     ASSERT_GT(expected.contacts.size(), 0U) << "the ball is around a point of a fibre";
     ASSERT_EQ(query.response.contacts.size(), expected.contacts.size());
     for (std::size_t i = 0; i < expected.contacts.size(); ++i) {

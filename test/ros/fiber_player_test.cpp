@@ -83,7 +83,7 @@ class Heard {
 };
 
 PlayerOptions fast(const std::string& format) {
-  PlayerOptions options;
+  PlayerOptions options = read_player_options(ros::NodeHandle("~"));
   options.file = recording();
   options.rate = 100.0;
   options.format = format;
@@ -140,7 +140,7 @@ TEST(FiberPlayer, StopsAfterTheLastFrameWithoutLoop) {
 
 TEST(FiberPlayer, PlaysASceneWithoutEnd) {
   const Heard<fiber_proximity::FiberArray> heard("fibers");
-  const FiberPlayer player(ros::NodeHandle(), PlayerOptions{});
+  const FiberPlayer player(ros::NodeHandle(), read_player_options(ros::NodeHandle("~")));
   ASSERT_TRUE(spin_until([&] { return heard.count() >= 5; }));
   EXPECT_EQ(heard[0].offsets, fiber::cables(0.0).offsets());
   EXPECT_NE(heard[0].points[20].y, heard[4].points[20].y);

@@ -3,6 +3,7 @@
 #include "fiber_proximity/CheckFibers.h"
 #include "test/ros/messages.hpp"
 #include "test/ros/node_test.hpp"
+#include "test/support/answers.hpp"
 #include "test/support/random.hpp"
 
 namespace {
@@ -77,9 +78,8 @@ TEST_F(LimitsTest, OfTooManyContactsTheClosestAreReported) {
   ASSERT_NE(answer, nullptr);
   const fiber_proximity::FiberArray* sent = fibers.wait_for(answer->header.stamp);
   ASSERT_NE(sent, nullptr);
-  fiber::QueryResult all;
-  fiber::brute_force(node_test::to_assembly(*sent), {}, all);
-  std::vector<fiber::Contact> expected = all.contacts;
+  std::vector<fiber::Contact> expected =
+      fiber::test::brute_force(node_test::to_assembly(*sent)).contacts;
   ASSERT_GT(expected.size(), 2 * contact_limit);
   fiber::sort_by_distance(expected);
   expected.resize(contact_limit);

@@ -17,7 +17,7 @@
 #include "fiber_proximity/QueryProximity.h"
 #include "fiber_proximity/Statistics.h"
 #include "fiber_proximity/ros/conversions.hpp"
-#include "src/query/brute_force.hpp"
+#include "test/support/answers.hpp"
 
 /// What tests of the running node share. The node under test is /proximity.
 namespace node_test {
@@ -194,15 +194,14 @@ inline void expect_brute_force(const fiber_proximity::ContactArray& message,
                                fiber::QueryOptions options = {}) {
   const fiber::FiberAssembly assembly = to_assembly(fibers);
   options.margin = message.margin;
-  fiber::QueryResult expected;
-  fiber::brute_force(assembly, options, expected);
+  fiber::QueryResult expected = fiber::test::brute_force(assembly, options);
   ASSERT_EQ(message.contacts.size(), expected.contacts.size());
   for (std::size_t i = 0; i < expected.contacts.size(); ++i) {
     expect_same(message.contacts[i], expected.contacts[i]);
   }
   options.type = fiber::QueryType::CLOSEST;
   options.margin = std::numeric_limits<double>::infinity();
-  fiber::brute_force(assembly, options, expected);
+  expected = fiber::test::brute_force(assembly, options);
   ASSERT_EQ(message.has_minimum, !expected.contacts.empty());
   if (message.has_minimum) {
     EXPECT_EQ(message.minimum_distance, expected.contacts.front().distance);

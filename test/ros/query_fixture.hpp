@@ -5,6 +5,7 @@
 
 #include "test/ros/messages.hpp"
 #include "test/ros/node_test.hpp"
+#include "test/support/answers.hpp"
 
 namespace node_test {
 
@@ -57,8 +58,7 @@ class QueryTest : public NodeTest {
                           const fiber::QueryOptions& options) const {
     const fiber::FiberAssembly shape(points, {0, static_cast<std::uint32_t>(points.size())},
                                      {radius});
-    fiber::QueryResult expected;
-    fiber::brute_force_shape(shape, assembly_, options, expected);
+    const fiber::QueryResult expected = fiber::test::brute_force(shape, assembly_, options);
     const std::uint32_t begin = response.offsets[index];
     ASSERT_EQ(response.offsets[index + 1] - begin, expected.contacts.size());
     for (std::size_t i = 0; i < expected.contacts.size(); ++i) {

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "test/ros/query_fixture.hpp"
+#include "test/support/answers.hpp"
 #include "test/support/not_finite.hpp"
 
 namespace {
@@ -19,8 +20,7 @@ TEST_F(QueryTest, AccuracyIsChosenByCall) {
   fiber::QueryOptions options;
   options.type = fiber::QueryType::CLOSEST;
   options.margin = std::numeric_limits<double>::infinity();
-  fiber::QueryResult truth;
-  fiber::brute_force_shape(asked, assembly_, options, truth);
+  const fiber::QueryResult truth = fiber::test::brute_force(asked, assembly_, options);
   const double minimum = truth.contacts.front().distance;
   QueryProximity::Request request;
   request.margin = options.margin;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "test/ros/query_fixture.hpp"
+#include "test/support/answers.hpp"
 
 namespace {
 
@@ -92,8 +93,7 @@ TEST_F(QueryTest, FiberPairsGiveEachShapeItsClosestSegmentOfEachFibre) {
     const Points points(begin + assembly_.offsets()[fiber], begin + assembly_.offsets()[fiber + 1]);
     const fiber::FiberAssembly only(points, {0, static_cast<std::uint32_t>(points.size())},
                                     {assembly_.segment_radius(assembly_.offsets()[fiber])});
-    fiber::QueryResult expected;
-    fiber::brute_force_shape(shapes[i / 3], only, closest, expected);
+    const fiber::QueryResult expected = fiber::test::brute_force(shapes[i / 3], only, closest);
     EXPECT_EQ(response.contacts[i].segment_b, expected.contacts.front().segment_b);
     EXPECT_NEAR(response.contacts[i].distance, expected.contacts.front().distance, 1e-12);
   }

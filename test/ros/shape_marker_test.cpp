@@ -186,8 +186,7 @@ TEST(ShapeMarker, GiantMeshesAreTheirBoxes) {
 }
 
 TEST(ShapeMarker, OfOctreesThoseCellsThatReachIn) {
-  const auto octree = std::make_shared<const fiber::OccupancyOctree>(
-      0.1, std::vector<Vector3d>{{0.05, 0.05, 0.05}, {0.95, 0.05, 0.05}});
+  const auto octree = fiber::test::octree_of(0.1, {{0.05, 0.05, 0.05}, {0.95, 0.05, 0.05}});
   const Marker both = draw(octree);
   EXPECT_EQ(both.type, Marker::CUBE_LIST);
   EXPECT_EQ(to_vector(both.scale), Vector3d::Constant(octree->resolution()));

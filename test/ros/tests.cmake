@@ -83,7 +83,6 @@ add_executable(node_test EXCLUDE_FROM_ALL
   ros/query_test.cpp  # first of its suite: asks before there are fibres
   ros/query_options_test.cpp
   ros/reconfigure_test.cpp
-  ros/reference_test.cpp
   ros/self_contact_test.cpp
   ros/sim_time_test.cpp
   ros/skin_test.cpp
@@ -103,7 +102,7 @@ foreach(name crossings draw environment inputs query)
     ARGS nodelet:=true DEPENDENCIES node_test fiber_proximity_nodelets fiber_player)
 endforeach()
 add_rostest(ros/nodelet.test DEPENDENCIES node_test fiber_proximity_nodelets)
-foreach(name bad_input cell cloud_points compare continuous crossings_camera engines limits reconfigure reference
+foreach(name bad_input cell cloud_points compare continuous crossings_camera engines limits reconfigure
     self_contact shared_tracks sim_time skin soak stale timing tracks)
   add_rostest(ros/${name}.test DEPENDENCIES node_test proximity_node fiber_player)
 endforeach()
@@ -112,6 +111,7 @@ add_rostest(ros/self_contact.test
   ARGS config:=cdcpd tests:=SelfContactOfOneTest DEPENDENCIES node_test proximity_node)
 
 add_rostest(ros/relaunch.test DEPENDENCIES proximity_node)
+add_rostest(ros/reference.test DEPENDENCIES proximity_node fiber_player cable_sim)
 
 add_rostest_gtest(fiber_player_test ros/fiber_player.test ros/fiber_player_test.cpp)
 target_link_libraries(fiber_player_test fiber_proximity_ros fiber_proximity_options)

@@ -45,7 +45,7 @@ class WaitingChangesTest : public EnvironmentFixture {
   /// The same, prepared by a worker.
   Change change(const std::string& label, TouchedObjects touched, Worker& worker) {
     return with(label, std::move(touched), "world", 1000.0,
-                Prepared<Change::Apply>(made(label), worker));
+                Prepared<Change::Apply>(made(label), &worker));
   }
 
   bool update_until(const std::function<bool()>& condition) {

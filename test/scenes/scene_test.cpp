@@ -9,18 +9,14 @@
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "src/scenes/scenes.hpp"
+#include "test/support/error_of.hpp"
 #include "test/support/hash.hpp"
 
 namespace fiber {
 namespace {
 
 std::string refusal(const std::string& name, const SceneOptions& options) {
-  try {
-    make_scene(name, options)(0);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test::error_of([&] { make_scene(name, options)(0); });
 }
 
 TEST(Scene, UnknownNameIsRefusedWithTheKnownOnes) {

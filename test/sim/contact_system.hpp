@@ -51,7 +51,7 @@ inline FullSystem full_system(ContactSet& contacts, const Rods& rods) {
   }
   contacts.measure(rods);
   contacts.find_derivatives(rods);
-  contacts.add_derivatives(rods, pointers, std::vector<std::uint32_t>(rods.count(), 0), 0);
+  add_derivatives(contacts.terms(), rods, pointers, std::vector<std::uint32_t>(rods.count(), 0), 0);
   FullSystem full{Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size)};
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
     const std::size_t first = std::size_t{3} * rods.first(rod);
@@ -72,10 +72,11 @@ inline FullSystem full_system(ContactSet& contacts, const Rods& rods) {
   }
   using Spread = Eigen::Map<Eigen::VectorXd, 0, Eigen::InnerStride<lane_count>>;
   for (Eigen::Index c = 0; c < size; ++c) {
-    Eigen::VectorXd unit = Eigen::VectorXd::Unit(size * lane_count, c * lane_count);
-    Eigen::VectorXd column = Eigen::VectorXd::Zero(size * lane_count);
-    contacts.add_coupling(places, unit.data(), column.data());
-    full.hessian.col(c) += Spread(column.data(), size);
+    NodeValues unit(rods.positions.size() * 3);
+    NodeValues column(unit.size());
+    unit[static_cast<std::size_t>(c)][0] = 1.0;
+    add_coupling(contacts.terms(), places, unit.data(), column.data());
+    full.hessian.col(c) += Spread(column.data()->of.data(), size);
   }
   return full;
 }

@@ -28,25 +28,12 @@ inline double& unknown(Rods& rods, std::uint32_t rod, std::uint32_t index) {
   return part == 3 ? rods.angles[node] : rods.positions[node][part];
 }
 
-/// What an effect has found of rods side by side, as their energy reads it.
-inline std::vector<SimdBatch> values_of(const Effect& effect, const RodPack& rods) {
-  const auto [first, per_node] = effect.numbers();
-  const std::size_t count = per_node;
-  std::vector<SimdBatch> values(count * rods.node_count);
-  for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    for (std::uint32_t i = 0; i < rods.node_count; ++i) {
-      for (std::size_t k = 0; k < count; ++k) {
-        values[count * i + k][lane] = first[count * (rods.first_nodes[lane] + i) + k];
-      }
-    }
-  }
-  return values;
-}
-
 /// [J]
 inline double energy_in(const Effect& effect, const RodPack& rods, std::size_t lane = 0) {
   SimdBatch energy;
-  effect.energy(rods, values_of(effect, rods), energy);
+  NodeValues values;
+  load_values(effect, rods, values);
+  effect.energy(rods, values, energy);
   return energy[lane];
 }
 
@@ -65,9 +52,11 @@ class PackedRods {
 
   Derivatives derivatives(std::size_t lane = 0) const {
     PackSystem system;
-    system.resize(step_.rods().node_count, step_.rods().unknowns, step_.used());
+    system.resize(step_.rods().node_count, step_.rods().unknowns, step_.rods().used);
     system.set_zero();
-    effect_.add_derivatives(step_.rods(), values_of(effect_, step_.rods()), system);
+    NodeValues values;
+    load_values(effect_, step_.rods(), values);
+    effect_.add_derivatives(step_.rods(), values, system);
     return derivatives_in(RodSystem(system, lane), static_cast<Eigen::Index>(system.size()));
   }
 

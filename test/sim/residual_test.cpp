@@ -85,7 +85,7 @@ std::vector<double> residuals(const Rods& before, const Rods& after,
     systems.emplace_back(packs[rod], 0);
     pointers.push_back(&systems.back());
   }
-  found.add_derivatives(after, pointers, std::vector<std::uint32_t>(after.count(), 0), 0);
+  add_derivatives(found.terms(), after, pointers, std::vector<std::uint32_t>(after.count(), 0), 0);
   std::vector<double> left;
   for (std::uint32_t rod = 0; rod < after.count(); ++rod) {
     VectorXd gradient = VectorXd::Zero(3 * after.node_count(rod));

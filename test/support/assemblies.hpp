@@ -48,6 +48,62 @@ inline std::vector<Eigen::Vector3d> random_walk(Random& random, int segments, do
   return points;
 }
 
+/// So many random walks, of one radius.
+inline FiberAssembly walks(Random& random, int fibers, int segments, double step, double radius) {
+  AssemblyBuilder builder;
+  for (int fiber = 0; fiber < fibers; ++fiber) {
+    builder.add_fiber(random_walk(random, segments, step));
+  }
+  return builder.build({radius});
+}
+
+/// Fibres of these points, of one radius.
+inline FiberAssembly as_fibers(const std::vector<std::vector<Eigen::Vector3d>>& fibers,
+                               double radius = 0.0) {
+  AssemblyBuilder builder;
+  for (const std::vector<Eigen::Vector3d>& points : fibers) {
+    builder.add_fiber(points);
+  }
+  return builder.build({radius});
+}
+
+/// The same fibres, moved.
+inline FiberAssembly with_points(const FiberAssembly& fibers,
+                                 const std::vector<Eigen::Vector3d>& points) {
+  FiberAssembly moved = fibers;
+  moved.update_points(points);
+  return moved;
+}
+
+/// The same fibres, every point moved within a cube of its own.
+inline FiberAssembly shaken(const FiberAssembly& fibers, double half_edge, Random& random) {
+  std::vector<Eigen::Vector3d> points = fibers.points();
+  for (Eigen::Vector3d& point : points) {
+    point += random.in_cube(half_edge);
+  }
+  return with_points(fibers, points);
+}
+
+/// [m] How far a point is at most from the first, along one axis.
+inline double extent_of(const FiberAssembly& fibers) {
+  double extent = 0.0;
+  for (const Eigen::Vector3d& point : fibers.points()) {
+    extent = std::max(extent, (point - fibers.points().front()).cwiseAbs().maxCoeff());
+  }
+  return extent;
+}
+
+/// First points of all segments.
+inline std::vector<std::uint32_t> segments_of(const FiberAssembly& fibers) {
+  std::vector<std::uint32_t> segments;
+  for (std::size_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
+    for (std::uint32_t i = fibers.offsets()[fiber]; i + 1 < fibers.offsets()[fiber + 1]; ++i) {
+      segments.push_back(i);
+    }
+  }
+  return segments;
+}
+
 /// The fibres of an assembly cut to the shortest one's number of points, with its first radius.
 inline FiberAssembly equal_fibers(const FiberAssembly& fibers) {
   std::uint32_t shortest = 0xFFFF'FFFFU;
@@ -107,9 +163,8 @@ inline std::vector<AssemblyFamily> assembly_families() {
       {"beyond_float", [=](Random& r) { return walks(r, 1e60, origin).build({1e58}); }},
       {"single_segment",
        [](Random& r) {
-         AssemblyBuilder builder;
-         builder.add_fiber({r.in_cube(), r.in_cube()});
-         return builder.build({0.1});
+         const Eigen::Vector3d start = r.in_cube();
+         return as_fibers({{start, r.in_cube()}}, 0.1);
        }},
       {"parallel",
        [](Random& r) {
@@ -155,12 +210,8 @@ inline std::vector<AssemblyFamily> assembly_families() {
        }},
       {"coincident",
        [](Random& r) {
-         AssemblyBuilder builder;
          const std::vector<Eigen::Vector3d> fiber = random_walk(r, 8, 0.1);
-         for (int f = 0; f < 6; ++f) {
-           builder.add_fiber(fiber);
-         }
-         return builder.build({r.chance(0.5) ? 0.0 : 0.01});
+         return as_fibers(std::vector(6, fiber), r.chance(0.5) ? 0.0 : 0.01);
        }},
       {"zero_length",
        [](Random& r) {
@@ -173,23 +224,17 @@ inline std::vector<AssemblyFamily> assembly_families() {
        }},
       {"all_in_one_point",
        [](Random& r) {
-         AssemblyBuilder builder;
-         const Eigen::Vector3d point = r.in_cube();
-         for (int f = 0; f < 5; ++f) {
-           builder.add_fiber(std::vector<Eigen::Vector3d>(5, point));
-         }
-         return builder.build({0.0});
+         const std::vector<Eigen::Vector3d> fiber(5, r.in_cube());
+         return as_fibers(std::vector(5, fiber));
        }},
       {"folded_back",
        [](Random& r) {
-         AssemblyBuilder builder;
          const Eigen::Vector3d u = r.direction();
          std::vector<Eigen::Vector3d> points;
          for (int i = 0; i < 30; ++i) {
            points.emplace_back((i % 10 < 5 ? i % 5 : 5 - i % 5) * 0.1 * u + 1e-3 * i * r.in_cube());
          }
-         builder.add_fiber(points);
-         return builder.build({0.01});
+         return as_fibers({points}, 0.01);
        }},
       {"long_and_short",
        [](Random& r) {

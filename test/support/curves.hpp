@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
-#include "test/support/random.hpp"
+#include "test/support/assemblies.hpp"
 
 namespace fiber::test {
 
@@ -83,16 +83,6 @@ inline Curve grid_curve(Random& random, int count, int half_edge) {
 inline Curve closed(Curve curve) {
   curve.push_back(curve.front());
   return curve;
-}
-
-inline FiberAssembly as_fibers(const std::vector<Curve>& curves, double radius = 0.0) {
-  std::vector<Eigen::Vector3d> points;
-  std::vector<std::uint32_t> offsets{0};
-  for (const Curve& curve : curves) {
-    points.insert(points.end(), curve.begin(), curve.end());
-    offsets.push_back(static_cast<std::uint32_t>(points.size()));
-  }
-  return {points, offsets, {radius}};
 }
 
 inline Curve mapped(const Curve& curve,

@@ -69,17 +69,6 @@ inline std::optional<ExactCrossing> exact_crossing(const Capsule& a, const Capsu
   return crossing;
 }
 
-/// First points of all segments.
-inline std::vector<std::uint32_t> segments_of(const FiberAssembly& fibers) {
-  std::vector<std::uint32_t> segments;
-  for (std::size_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
-    for (std::uint32_t i = fibers.offsets()[fiber]; i + 1 < fibers.offsets()[fiber + 1]; ++i) {
-      segments.push_back(i);
-    }
-  }
-  return segments;
-}
-
 /// Of all pairs of segments that are no neighbours by index.
 inline std::vector<ExactCrossing> exact_crossings(const FiberAssembly& fibers, const View& view) {
   std::vector<ExactCrossing> crossings;

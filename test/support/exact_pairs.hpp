@@ -7,6 +7,7 @@
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/query/contact.hpp"
+#include "test/support/assemblies.hpp"
 #include "test/support/exact_gap.hpp"
 
 namespace fiber::test {
@@ -20,12 +21,7 @@ struct Pair {
 };
 
 inline std::vector<Pair> all_pairs(const FiberAssembly& fibers) {
-  std::vector<std::uint32_t> segments;
-  for (std::size_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
-    for (std::uint32_t i = fibers.offsets()[fiber]; i + 1 < fibers.offsets()[fiber + 1]; ++i) {
-      segments.push_back(i);
-    }
-  }
+  const std::vector<std::uint32_t> segments = segments_of(fibers);
   std::vector<Pair> pairs;
   for (const std::uint32_t a : segments) {
     for (const std::uint32_t b : segments) {

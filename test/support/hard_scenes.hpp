@@ -45,11 +45,7 @@ inline FiberAssembly folded_fiber(Random& random) {
 
 inline FiberAssembly coincident_fibers(Random& random) {
   const std::vector<Eigen::Vector3d> fiber = random_walk(random, 4, 0.1);
-  AssemblyBuilder builder;
-  for (int copy = 0; copy < 25; ++copy) {
-    builder.add_fiber(fiber);
-  }
-  return builder.build({random.chance(0.5) ? 0.0 : 0.01});
+  return as_fibers(std::vector(25, fiber), random.chance(0.5) ? 0.0 : 0.01);
 }
 
 /// A trefoil around a ring: two strands that wind around each other and touch all along, as they
@@ -69,9 +65,7 @@ inline FiberAssembly tight_knot(Random& random) {
   for (std::size_t i = 0; i < segments / 2; ++i) {
     gap = std::min(gap, segment_gap(points, i, i + segments / 2));
   }
-  AssemblyBuilder builder;
-  builder.add_fiber(points);
-  return builder.build({0.5 * gap});
+  return as_fibers({points}, 0.5 * gap);
 }
 
 /// A helix with its pitch, across the wire, for a diameter: turns touch but for the last digits.
@@ -84,9 +78,7 @@ inline FiberAssembly close_wound_coil(Random& random) {
     points.emplace_back(0.05 * std::cos(angle), 0.05 * std::sin(angle), 0.02 * i / per_turn);
   }
   turn(points, random);
-  AssemblyBuilder builder;
-  builder.add_fiber(points);
-  return builder.build({0.5 * segment_gap(points, 0, per_turn)});
+  return as_fibers({points}, 0.5 * segment_gap(points, 0, per_turn));
 }
 
 /// Radii of 0 and whole numbers for coordinates: segments touch exactly where they cross.

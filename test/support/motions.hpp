@@ -1,11 +1,15 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "fiber_proximity/geometry/contact_time.hpp"
+#include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/query/motion.hpp"
 #include "fiber_proximity/query/narrow_phase.hpp"
+#include "test/support/assemblies.hpp"
 
 namespace fiber::test {
 
@@ -18,14 +22,6 @@ inline bool same(const std::vector<MotionContact>& x, const std::vector<MotionCo
                     });
 }
 
-/// The same fibres, moved.
-inline FiberAssembly with_points(const FiberAssembly& fibers,
-                                 const std::vector<Eigen::Vector3d>& points) {
-  FiberAssembly moved = fibers;
-  moved.update_points(points);
-  return moved;
-}
-
 inline SegmentMotions motions_of(const FiberAssembly& before, const FiberAssembly& after,
                                  PointPair pair, double margin) {
   return {&before.points()[pair.a],
@@ -35,14 +31,15 @@ inline SegmentMotions motions_of(const FiberAssembly& before, const FiberAssembl
           {before.segment_radius(pair.a), before.segment_radius(pair.b), margin}};
 }
 
-inline std::vector<std::uint32_t> first_points(const FiberAssembly& fibers) {
-  std::vector<std::uint32_t> points;
-  for (std::size_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
-    for (std::uint32_t i = fibers.offsets()[fiber]; i + 1 < fibers.offsets()[fiber + 1]; ++i) {
-      points.push_back(i);
-    }
-  }
-  return points;
+/// Of an engine of this name.
+inline MotionResult answer(const std::string& name, const FiberAssembly& before,
+                           const FiberAssembly& after, const MotionOptions& options,
+                           std::uint32_t threads = 0) {
+  const std::unique_ptr<ProximityEngine> engine = make_engine(name, {threads});
+  MotionResult result;
+  engine->update_motion(before, after);
+  engine->query_motion(options, result);
+  return result;
 }
 
 /// All pairs, one by one.
@@ -50,7 +47,7 @@ inline MotionResult expected_of(const FiberAssembly& before, const FiberAssembly
                                 const MotionOptions& options) {
   const QueryOptions pairs = pairs_of(options);
   const NarrowPhase test(before, pairs);
-  const std::vector<std::uint32_t> segments = first_points(before);
+  const std::vector<std::uint32_t> segments = segments_of(before);
   MotionResult result;
   for (const std::uint32_t a : segments) {
     for (const std::uint32_t b : segments) {

@@ -6,11 +6,7 @@ namespace fiber::test {
 
 /// Where nearly all is near all.
 inline FiberAssembly tangle(Random& random, int fibers) {
-  AssemblyBuilder builder;
-  for (int fiber = 0; fiber < fibers; ++fiber) {
-    builder.add_fiber(random_walk(random, 12, 0.05));
-  }
-  return builder.build({0.1});
+  return walks(random, fibers, 12, 0.05, 0.1);
 }
 
 }  // namespace fiber::test

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "fiber_proximity/io/fiber_file.hpp"
-#include "src/query/brute_force.hpp"
+#include "test/support/answers.hpp"
 
 namespace fiber::test {
 namespace {
@@ -202,8 +202,7 @@ TEST_F(FiberQuery, PrintsTheLibrarysNumbersBitForBit) {
 
   std::size_t row = 1;
   for (const FiberFrame& frame : read_csv(path).frames) {
-    QueryResult expected;
-    brute_force(frame.fibers, options, expected);
+    const QueryResult expected = brute_force(frame.fibers, options);
     ASSERT_GT(expected.contacts.size(), 1U);
     const auto object = nlohmann::json::parse(objects[static_cast<std::size_t>(frame.frame)]);
     EXPECT_EQ(object.at("frame"), frame.frame);

@@ -6,7 +6,7 @@
 
 #include "fiber_proximity/geometry/contact_time.hpp"
 #include "src/io/number.hpp"
-#include "src/scenes/hard_motions.hpp"
+#include "test/support/hard_motions.hpp"
 #include "test/support/public_edge_motions.hpp"
 #include "test/tools/tools_test.hpp"
 

@@ -4,7 +4,7 @@
 
 #include "fiber_proximity/geometry/segment_distance.hpp"
 #include "src/io/number.hpp"
-#include "src/scenes/hard_pairs.hpp"
+#include "test/support/hard_pairs.hpp"
 #include "test/support/public_edge_pairs.hpp"
 #include "test/tools/tools_test.hpp"
 

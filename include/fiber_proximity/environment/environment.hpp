@@ -64,18 +64,15 @@ class Environment {
   /// and each time has proven bounds: see shape_contact_time.hpp. Pairs that query() reports before
   /// the motion are in `touching`, with the times 0. The pairing and the neighbour skips do not
   /// apply. Works on all cores; the answer is the same on any number.
-  /// @throws std::invalid_argument for options that do not validate, or fibres that change their
-  ///         topology
-  void query_motion(const FiberAssembly& before, const FiberAssembly& after,
-                    const MotionOptions& options, const AllowedPairs& allowed,
-                    MotionResult& result) const;
-
-  /// The same while objects move to where those of the same name are later: their positions move
-  /// linearly, and they turn at a constant rate about one axis, the shorter way round, as tf
-  /// interpolates. Objects that are not there later stand still; those that are only there later
-  /// are not looked at.
-  /// @throws std::invalid_argument for an object that has other shapes later, meshes and octrees
-  ///         not being the same ones included, or for a tolerance of 0 where one turns
+  ///
+  /// Objects move to where those of the same name are later: their positions move linearly, and
+  /// they turn at a constant rate about one axis, the shorter way round, as tf interpolates.
+  /// Objects that are not there later stand still; those that are only there later are not looked
+  /// at.
+  /// @param later this environment itself where all stand still
+  /// @throws std::invalid_argument for options that do not validate, fibres that change their
+  ///         topology, an object that has other shapes later, meshes and octrees not being the same
+  ///         ones included, or for a tolerance of 0 where one turns
   void query_motion(const FiberAssembly& before, const FiberAssembly& after,
                     const Environment& later, const MotionOptions& options,
                     const AllowedPairs& allowed, MotionResult& result) const;

@@ -15,41 +15,58 @@ class OccupancyOctree;
 /// at the origin, along z. All lengths in metres, finite and at least 0.
 struct BoxShape {
   Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< edge to edge
+  bool operator==(const BoxShape& other) const { return size == other.size; }
 };
 
 /// Around the origin.
 struct SphereShape {
   double radius = 0.0;
+  bool operator==(const SphereShape& other) const { return radius == other.radius; }
 };
 
 /// From z = −height/2 to height/2.
 struct CylinderShape {
   double radius = 0.0;
   double height = 0.0;
+  bool operator==(const CylinderShape& other) const {
+    return radius == other.radius && height == other.height;
+  }
 };
 
 /// Its base at z = −height/2, its apex at z = height/2.
 struct ConeShape {
   double radius = 0.0;
   double height = 0.0;
+  bool operator==(const ConeShape& other) const {
+    return radius == other.radius && height == other.height;
+  }
 };
 
 /// Around a segment along z of this length, so that it is 2 radius + length high.
 struct CapsuleShape {
   double radius = 0.0;
   double length = 0.0;
+  bool operator==(const CapsuleShape& other) const {
+    return radius == other.radius && length == other.length;
+  }
 };
 
 /// All points p with normal·p <= offset are solid.
 struct HalfSpaceShape {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< of unit length, out of the solid
   double offset = 0.0;
+  bool operator==(const HalfSpaceShape& other) const {
+    return normal == other.normal && offset == other.offset;
+  }
 };
 
 /// All points p with normal·p = offset: a sheet that can be touched from both sides.
 struct PlaneShape {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< of unit length
   double offset = 0.0;
+  bool operator==(const PlaneShape& other) const {
+    return normal == other.normal && offset == other.offset;
+  }
 };
 
 /// Shapes that are made once and shared are behind a pointer, which is never null.

@@ -71,6 +71,9 @@ class FiberAssembly {
   ///         is unchanged then
   void update_points(const std::vector<Eigen::Vector3d>& points);
 
+  /// The same without a copy: takes these points and leaves those it had.
+  void exchange_points(std::vector<Eigen::Vector3d>& points);
+
   /// Makes it other fibres, in the memory it has, with a radius for each segment [m]: that of its
   /// first point. The last point of a fibre has one as well, which must be 0.
   /// @throws std::invalid_argument as the constructor; the assembly is unchanged then

@@ -35,6 +35,17 @@ struct EngineOptions {
   double skin = 0.0;
 };
 
+/// What an engine takes and holds since its last update.
+struct EngineFacts {
+  std::uint32_t thread_count = 1;  ///< that updates and queries use at most
+  std::size_t memory_bytes = 0;    ///< for its fibres, the fibres themselves apart
+  std::uint32_t level_count = 0;   ///< of the hierarchy, 0 if there is none
+
+  /// How many of the hierarchy's cages the last update computed anew: all of them, except where
+  /// cascade verification (Sect. 3.3) shows that the old ones hold.
+  std::uint64_t recomputed_count = 0;
+};
+
 /// Answers proximity queries over one assembly at a time. All engines give the same contacts; they
 /// differ in what an update and a query cost.
 class ProximityEngine {
@@ -83,21 +94,11 @@ class ProximityEngine {
   void query_motion_shape(const FiberAssembly& shape_before, const FiberAssembly& shape_after,
                           const MotionOptions& options, MotionResult& result) const;
 
-  /// Number of levels of the hierarchy, 0 if there is none.
-  virtual std::uint32_t level_count() const { return 0; }
+  virtual EngineFacts facts() const { return {}; }
 
-  /// Mean volume of the cages of a level [m³] (paper, Fig. 5); 0 without a hierarchy.
-  virtual double mean_level_volume(std::uint32_t /*level*/) const { return 0.0; }
-
-  /// How many of the hierarchy's cages the last update computed anew: all of them, except where
-  /// cascade verification (Sect. 3.3) shows that the old ones hold.
-  virtual std::uint64_t recomputed_count() const { return 0; }
-
-  /// How many threads updates and queries use at most.
-  virtual std::uint32_t thread_count() const { return 1; }
-
-  /// Memory the engine holds for its fibres, the fibres themselves apart [bytes].
-  virtual std::size_t memory_bytes() const { return 0; }
+  /// Mean volume of the cages of a level [m³] (paper, Fig. 5), those of level_boxes() if the engine
+  /// has no others; 0 without a hierarchy.
+  virtual double mean_level_volume(std::uint32_t level) const;
 
   /// Boxes around the nodes of a level, and around leaves above it, so that together they hold all
   /// fibres; 0 is the root, levels beyond the last give the last.
@@ -116,19 +117,13 @@ class ProximityEngine {
 
   virtual void do_update_motion(const FiberAssembly& before, const FiberAssembly& after,
                                 bool same_topology);
-  virtual void do_query_motion(const MotionOptions& options, MotionResult& result) const;
-  virtual void do_query_motion_shape(const FiberAssembly& shape_before,
-                                     const FiberAssembly& shape_after, const MotionOptions& options,
-                                     MotionResult& result) const;
 
   /// Pairs of segments whose gap comes down to the test's margin, but for those that the test
   /// leaves out; others may be among them.
-  virtual void do_find_candidates(const NarrowPhase& test, const QueryLimits& limits,
-                                  MotionCandidates& candidates) const;
-  /// The same of a shape that moves (a) and the fibres (b).
-  virtual void do_find_shape_candidates(const FiberMotion& shape, const NarrowPhase& test,
-                                        const QueryLimits& limits,
-                                        MotionCandidates& candidates) const;
+  /// @param shape that moves: pairs are of a segment of it (a) and one of the fibres (b); null for
+  ///              pairs of the fibres
+  virtual void do_find_candidates(const FiberMotion* shape, const NarrowPhase& test,
+                                  const QueryLimits& limits, MotionCandidates& candidates) const;
   /// What is known of the loops of the fibres before the motion, nullptr if nothing is.
   virtual const LoopTest* loops_before() const { return nullptr; }
   /// Works on as many threads as this engine may use.
@@ -137,9 +132,10 @@ class ProximityEngine {
  private:
   struct Motion;
 
-  void forget();
-  void know(const FiberAssembly& fibers);
-  const Motion& require_motion() const;
+  template <class Update>
+  void update_from(const FiberAssembly& fibers, const Update& update);
+  void find_motions(const FiberMotion* shape, const MotionOptions& options,
+                    MotionResult& result) const;
 
   const FiberAssembly* fibers_ = nullptr;
   bool has_hierarchy_ = false;

@@ -46,7 +46,8 @@ class NarrowPhase {
   bool is_left_out(PointPair pair) const {
     const bool far_by_index = pair.b - pair.a > neighbour_skip_;
     return self_ && ((!(far_by_index && arc_length_.empty()) && is_neighbour_of_same_fiber(pair)) ||
-                     (options_.pairing != Pairing::ALL && is_of_other_pairing(pair)));
+                     (options_.pairing != Pairing::ALL &&
+                      is_of_one_fiber(pair) != (options_.pairing == Pairing::SAME_FIBER)));
   }
 
   /// Whether this ordered pair that is not left out is none all the same: the options need loops,
@@ -94,11 +95,9 @@ class NarrowPhase {
 
  private:
   bool is_neighbour_of_same_fiber(PointPair pair) const;
-  bool is_of_other_pairing(PointPair pair) const;
   bool is_of_one_fiber(PointPair pair) const {
     return a_.segment_id(pair.a).fiber == a_.segment_id(pair.b).fiber;
   }
-  PairDistance rounded(PointPair pair, const PairDistance& distance) const;
   double radii(PointPair pair) const {
     return a_.segment_radius(pair.a) + b_.segment_radius(pair.b);
   }

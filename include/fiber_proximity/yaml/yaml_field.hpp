@@ -16,7 +16,9 @@ namespace fiber {
 class YamlField {
  public:
   /// @param source what errors call the document
-  YamlField(const YAML::Node& node, std::string source) : node_(node), source_(std::move(source)) {}
+  /// @param path   what they call the value in it; empty for all of it
+  YamlField(const YAML::Node& node, std::string source, std::string path = "")
+      : node_(node), source_(std::move(source)), path_(std::move(path)) {}
 
   /// The same value; errors name it and its fields so.
   YamlField named(const std::string& name) const { return {node_, source_, name}; }
@@ -43,8 +45,9 @@ class YamlField {
   bool flag() const;
   double number() const;
   std::int64_t integer(std::int64_t least, std::int64_t most) const;
-  std::vector<double> numbers() const;
-  std::vector<double> numbers(std::size_t count) const;
+
+  /// @param count none: as many as there are
+  std::vector<double> numbers(std::optional<std::size_t> count = std::nullopt) const;
   Eigen::Vector3d vector() const;
 
   // The value of a key if there is one; else the variable stays as it is.
@@ -61,9 +64,6 @@ class YamlField {
   std::string statement() const;
 
  private:
-  YamlField(const YAML::Node& node, std::string source, std::string path)
-      : node_(node), source_(std::move(source)), path_(std::move(path)) {}
-
   YAML::Node node_;
   std::string source_;
   std::string path_;

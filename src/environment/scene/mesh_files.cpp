@@ -4,18 +4,16 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <fcntl.h>
-#include <poll.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <assimp/Importer.hpp>
 #include <cerrno>
-#include <chrono>
 #include <csignal>
-#include <cstring>
+#include <cstdio>
 #include <fstream>
 #include <memory>
 #include <sstream>
@@ -43,29 +41,16 @@ struct ParsedMesh {
   std::vector<TriangleMesh::Triangle> triangles;
 };
 
-/// What comes through the pipe first.
+constexpr std::uint64_t most_vertices = 3 * TriangleMesh::most_triangles;
+
+/// What comes first of what the process that reads a mesh writes.
 struct MeshCounts {
   std::uint64_t vertices = 0;
   std::uint64_t triangles = 0;
 };
 
-class FileDescriptor {
- public:
-  explicit FileDescriptor(int number) : number_(number) {}
-  ~FileDescriptor() { close(); }
-  FileDescriptor(const FileDescriptor&) = delete;
-  FileDescriptor& operator=(const FileDescriptor&) = delete;
-
-  int number() const { return number_; }
-  void close() {
-    if (number_ >= 0) {
-      ::close(number_);
-    }
-    number_ = -1;
-  }
-
- private:
-  int number_;
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
 };
 
 [[noreturn]] void refuse_for_system(const char* what) {
@@ -81,9 +66,15 @@ void set_limit(int resource, std::size_t most) {
 
 /// @param used address space that the parent has [byte]; 0 if that is not known
 void enter_limits(const ParseLimits& limits, std::size_t used) {
-  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU, SIGTERM, SIGINT}) {
+  for (const int signal :
+       {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU, SIGALRM, SIGTERM, SIGINT}) {
     std::signal(signal, SIG_DFL);
   }
+  sigset_t none;  // threads of roscpp block all of them
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  // It may have to wait for the processor, and for a lock that another thread held when it began.
+  alarm(static_cast<unsigned>(10 * limits.seconds));
   set_limit(RLIMIT_CORE, 0);
   set_limit(RLIMIT_CPU, limits.seconds);
   if (used > 0) {
@@ -92,19 +83,6 @@ void enter_limits(const ParseLimits& limits, std::size_t used) {
   const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
   dup2(nowhere, STDOUT_FILENO);
   dup2(nowhere, STDERR_FILENO);
-}
-
-bool send_all(int pipe, const void* data, std::size_t size) {
-  const auto* next = static_cast<const char*>(data);
-  while (size > 0) {
-    const ssize_t sent = ::write(pipe, next, size);
-    if (sent < 0 && errno != EINTR) {
-      return false;
-    }
-    next += std::max<ssize_t>(sent, 0);
-    size -= static_cast<std::size_t>(std::max<ssize_t>(sent, 0));
-  }
-  return true;
 }
 
 /// Appends the triangles of a node and of those below it.
@@ -154,21 +132,23 @@ ParsedMesh parse(const std::string& bytes, const std::string& name) {
   return mesh;
 }
 
-void parse_and_send(const std::string& bytes, const std::string& name, int pipe) {
+void parse_and_write(const std::string& bytes, const std::string& name, std::FILE* file) {
   const ParsedMesh mesh = parse(bytes, name);
   const MeshCounts counts{mesh.vertices.size(), mesh.triangles.size()};
-  if (send_all(pipe, &counts, sizeof counts) && counts.triangles <= TriangleMesh::most_triangles) {
-    send_all(pipe, mesh.vertices.data(), sizeof(Eigen::Vector3d) * counts.vertices) &&
-        send_all(pipe, mesh.triangles.data(), sizeof(TriangleMesh::Triangle) * counts.triangles);
+  std::fwrite(&counts, sizeof counts, 1, file);
+  if (counts.vertices <= most_vertices && counts.triangles <= TriangleMesh::most_triangles) {
+    std::fwrite(mesh.vertices.data(), sizeof(Eigen::Vector3d), counts.vertices, file);
+    std::fwrite(mesh.triangles.data(), sizeof(TriangleMesh::Triangle), counts.triangles, file);
   }
+  std::fflush(file);
 }
 
-[[noreturn]] void run_child(const std::string& bytes, const std::string& name, int pipe,
+[[noreturn]] void run_child(const std::string& bytes, const std::string& name, std::FILE* file,
                             std::size_t used) {
   enter_limits(ParseLimits(bytes.size()), used);
   try {
-    parse_and_send(bytes, name, pipe);
-  } catch (...) {  // what is missing in the pipe tells
+    parse_and_write(bytes, name, file);
+  } catch (...) {  // what is missing in the file tells
   }
   _exit(0);
 }
@@ -180,63 +160,6 @@ std::size_t used_address_space() {
   std::ifstream("/proc/self/statm") >> pages;
   return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
-
-/// The process that reads a mesh; ends with this.
-class ParsingProcess {
- public:
-  ParsingProcess(const std::string& bytes, const std::string& name) {
-    const std::size_t used = used_address_space();
-    std::array<int, 2> ends{};
-    if (pipe2(ends.data(), O_CLOEXEC) != 0) {
-      refuse_for_system("no pipe for the process that reads it");
-    }
-    from_ = std::make_unique<FileDescriptor>(ends[0]);
-    FileDescriptor to(ends[1]);
-    process_ = fork();
-    if (process_ < 0) {
-      refuse_for_system("no process to read it");
-    }
-    if (process_ == 0) {
-      run_child(bytes, name, to.number(), used);
-    }
-  }
-  ~ParsingProcess() {
-    kill(process_, SIGKILL);
-    while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
-    }
-  }
-  ParsingProcess(const ParsingProcess&) = delete;
-  ParsingProcess& operator=(const ParsingProcess&) = delete;
-
-  /// @returns false if it has ended, or the time is over, before so much came
-  bool receive(void* data, std::size_t size, std::chrono::steady_clock::time_point end) const {
-    auto* next = static_cast<char*>(data);
-    while (size > 0) {
-      const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
-          end - std::chrono::steady_clock::now());
-      pollfd waiting{from_->number(), POLLIN, 0};
-      const int ready =
-          poll(&waiting, 1, static_cast<int>(std::max<std::int64_t>(left.count(), 0)));
-      if (ready < 0 && errno == EINTR) {
-        continue;
-      }
-      const ssize_t received = ready > 0 ? ::read(from_->number(), next, size) : 0;
-      if (received < 0 && errno == EINTR) {
-        continue;
-      }
-      if (received <= 0) {
-        return false;
-      }
-      next += received;
-      size -= static_cast<std::size_t>(received);
-    }
-    return true;
-  }
-
- private:
-  std::unique_ptr<FileDescriptor> from_;
-  pid_t process_ = -1;
-};
 
 void check_counts(const MeshCounts& counts) {
   if (counts.triangles == 0) {
@@ -256,21 +179,33 @@ void check_counts(const MeshCounts& counts) {
 /// @throws std::invalid_argument if there is no mesh in it or too large a one, or assimp fails
 ParsedMesh parse_mesh(const std::string& bytes, const std::string& name) {
   const ParseLimits limits(bytes.size());
-  // It may have to wait for the processor, and for a lock that another thread held when it began.
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10 * limits.seconds);
-  const ParsingProcess child(bytes, name);
+  const std::size_t used = used_address_space();
+  const int number = memfd_create("mesh", MFD_CLOEXEC);
+  const std::unique_ptr<std::FILE, CloseFile> file(number < 0 ? nullptr : fdopen(number, "w+"));
+  if (file == nullptr) {
+    refuse_for_system("no memory for the process that reads it");
+  }
+  const pid_t process = fork();
+  if (process < 0) {
+    refuse_for_system("no process to read it");
+  }
+  if (process == 0) {
+    run_child(bytes, name, file.get(), used);
+  }
+  while (waitpid(process, nullptr, 0) < 0 && errno == EINTR) {
+  }
+  std::rewind(file.get());
   MeshCounts counts;
   ParsedMesh mesh;
-  const auto receive = [&](auto& values, std::uint64_t count) {
+  const auto read = [&file](auto& values, std::uint64_t count) {
     values.resize(count);
-    return child.receive(values.data(), count * sizeof values.front(), end);
+    return std::fread(values.data(), sizeof values.front(), count, file.get()) == count;
   };
-  bool is_whole = child.receive(&counts, sizeof counts, end);
+  bool is_whole = std::fread(&counts, sizeof counts, 1, file.get()) == 1;
   if (is_whole) {
     check_counts(counts);
-    constexpr std::uint64_t most_vertices = 3 * TriangleMesh::most_triangles;
-    is_whole = counts.vertices <= most_vertices && receive(mesh.vertices, counts.vertices) &&
-               receive(mesh.triangles, counts.triangles);
+    is_whole = counts.vertices <= most_vertices && read(mesh.vertices, counts.vertices) &&
+               read(mesh.triangles, counts.triangles);
   }
   if (!is_whole) {
     throw std::invalid_argument("assimp fails on it: it crashes, takes more than " +

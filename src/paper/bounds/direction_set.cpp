@@ -1,9 +1,6 @@
 #include "src/paper/bounds/direction_set.hpp"
 
-#include <Eigen/Geometry>
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -77,19 +74,6 @@ const DirectionSet& classic_directions(int k) {
       throw std::invalid_argument("classic k-DOP with k = " + std::to_string(k) +
                                   ": k must be 6, 14, 18 or 26");
   }
-}
-
-double smallest_angle(const DirectionSet& directions) {
-  constexpr double right_angle = 1.57079632679489661923;
-  double smallest = right_angle;
-  for (std::size_t i = 0; i < directions.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      const double sine = directions[i].cross(directions[j]).norm();
-      const double cosine = std::abs(directions[i].dot(directions[j]));
-      smallest = std::min(smallest, std::atan2(sine, cosine));
-    }
-  }
-  return smallest;
 }
 
 }  // namespace fiber

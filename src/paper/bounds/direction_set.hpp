@@ -20,8 +20,4 @@ const std::vector<Eigen::Vector3d>& grassmannian_directions(int k);
 /// @throws std::invalid_argument for any other k
 const std::vector<Eigen::Vector3d>& classic_directions(int k);
 
-/// [rad] the smallest angle between any two lines along these unit vectors, at most π/2; π/2 if
-/// there are fewer than two.
-double smallest_angle(const std::vector<Eigen::Vector3d>& directions);
-
 }  // namespace fiber

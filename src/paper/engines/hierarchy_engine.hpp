@@ -156,7 +156,13 @@ class HierarchyEngine final : public ProximityEngine {
 
   explicit HierarchyEngine(Kind hierarchy) : hierarchy_(std::move(hierarchy)) {}
 
-  std::uint32_t level_count() const override { return hierarchy_.tree().level_count(); }
+  EngineFacts facts() const override {
+    EngineFacts facts;
+    facts.memory_bytes = hierarchy_.memory_bytes();
+    facts.level_count = level_count();
+    facts.recomputed_count = hierarchy_.recomputed_count();
+    return facts;
+  }
 
   void level_boxes(std::uint32_t level, std::vector<NodeBox>& boxes) const override {
     boxes.clear();
@@ -182,10 +188,6 @@ class HierarchyEngine final : public ProximityEngine {
     }
     return begin == end ? 0.0 : sum / (end - begin);
   }
-
-  std::uint64_t recomputed_count() const override { return hierarchy_.recomputed_count(); }
-
-  std::size_t memory_bytes() const override { return hierarchy_.memory_bytes(); }
 
  protected:
   void do_update(const FiberAssembly& fibers, bool same_topology) override {
@@ -215,6 +217,8 @@ class HierarchyEngine final : public ProximityEngine {
 
  private:
   static Eigen::Vector3d to_vector(Float4 corner) { return {corner[0], corner[1], corner[2]}; }
+
+  std::uint32_t level_count() const { return hierarchy_.tree().level_count(); }
 
   /// Levels beyond the last give the last.
   std::uint32_t shown_level(std::uint32_t level) const {

@@ -4,13 +4,10 @@
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace fiber_proximity_ros {
 namespace {
-
-constexpr double half_range = 32768.0;  // [cell] from the origin, along each axis
-constexpr unsigned index_bits = 16;
-constexpr std::uint64_t index_mask = 0xFFFFU;
 
 void check(const CloudOptions& options) {
   std::ostringstream message;
@@ -40,7 +37,7 @@ std::string reasons_of(const CloudCounts& counts, double resolution) {
   };
   add(counts.not_finite, "not finite");
   add(counts.outside_box, "outside the box");
-  add(counts.too_far, "further than ", half_range * resolution,
+  add(counts.too_far, "further than ", fiber::OccupancyOctree::half_of_cells * resolution,
       " m from the origin of the fixed frame along an axis (is the unit metres?)");
   return reasons.str();
 }
@@ -54,16 +51,15 @@ CloudCounts CloudCells::add(const std::vector<Eigen::Vector3d>& points,
   counts.points = points.size();
   for (const Eigen::Vector3d& seen : points) {
     const Eigen::Vector3d point = pose * seen;
-    Cell cell = 0;
     if (!point.allFinite()) {
       ++counts.not_finite;
     } else if (!options_.box.contains(point)) {
       ++counts.outside_box;
-    } else if (!find_cell(point, cell)) {
-      ++counts.too_far;
-    } else {
-      double& last = cells_.try_emplace(cell, time).first->second;
+    } else if (const auto cell = fiber::OccupancyOctree::cell_at(options_.resolution, point)) {
+      double& last = cells_.try_emplace(*cell, time).first->second;
       last = std::max(last, time);
+    } else {
+      ++counts.too_far;
     }
   }
   return counts;
@@ -73,31 +69,12 @@ std::shared_ptr<const fiber::OccupancyOctree> CloudCells::octree() const {
   if (cells_.empty()) {
     return nullptr;
   }
-  std::vector<Eigen::Vector3d> centres;
-  centres.reserve(cells_.size());
+  std::vector<fiber::OccupancyOctree::Cell> cells;
+  cells.reserve(cells_.size());
   for (const auto& [cell, time] : cells_) {
-    centres.push_back(centre_of(cell));
+    cells.push_back(cell);
   }
-  return std::make_shared<const fiber::OccupancyOctree>(options_.resolution, centres);
-}
-
-bool CloudCells::find_cell(const Eigen::Vector3d& point, Cell& cell) const {
-  cell = 0;
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const double index = std::floor(point[axis] / options_.resolution) + half_range;
-    if (!(index >= 0.0 && index < 2.0 * half_range)) {
-      return false;
-    }
-    cell = cell << index_bits | static_cast<Cell>(index);
-  }
-  return true;
-}
-
-Eigen::Vector3d CloudCells::centre_of(Cell cell) const {
-  const auto along = [this](Cell index) {
-    return (static_cast<double>(index & index_mask) - half_range + 0.5) * options_.resolution;
-  };
-  return {along(cell >> (2 * index_bits)), along(cell >> index_bits), along(cell)};
+  return std::make_shared<const fiber::OccupancyOctree>(options_.resolution, std::move(cells));
 }
 
 void CloudCells::forget(double time) {

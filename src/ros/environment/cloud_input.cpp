@@ -40,15 +40,9 @@ bool CloudInput::update(const ros::Time& now, FixedFrame& frame, fiber::World& w
   while (waiting_ && place_waiting(frame)) {
     waiting_ = std::exchange(next_, std::nullopt);
   }
-  std::vector<Result> results;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    results.swap(results_);
-  }
-  in_work_ -= results.size();
-  bool changed = false;
-  for (Result& result : results) {
-    changed = put_into_world(std::move(result), world) || changed;
+  const bool changed = in_work_ && in_work_->is_ready() && take_result(world);
+  if (placed_ && !in_work_) {
+    in_work_.emplace(*std::exchange(placed_, std::nullopt), &worker_);
   }
   return remove_decayed(now, world) || changed;
 }
@@ -83,7 +77,11 @@ bool CloudInput::place_waiting(FixedFrame& frame) {
   frame.adopt(header.frame_id);
   try {
     const ros::Time stamp = header.stamp.isZero() ? ros::Time::now() : header.stamp;
-    submit({waiting_->message, frame.transform_from(header), stamp});
+    MakeResult make = [this, message = waiting_->message, pose = frame.transform_from(header),
+                       stamp] { return use(*message, pose, stamp); };
+    if (std::exchange(placed_, std::move(make))) {
+      log_.overtake();
+    }
     return true;
   } catch (const TransformUnavailable& error) {
     if ((ros::SteadyTime::now() - waiting_->arrival).toSec() <= tf_timeout_) {
@@ -94,41 +92,22 @@ bool CloudInput::place_waiting(FixedFrame& frame) {
   }
 }
 
-/// Gives a cloud to the worker, in place of one that it has not begun.
-void CloudInput::submit(PlacedCloud cloud) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (std::exchange(placed_, std::move(cloud))) {
-    log_.overtake();
-  } else {
-    ++in_work_;
-    worker_.submit([this] { work(); });
-  }
+/// What a cloud becomes that was seen from this pose.
+CloudInput::Result CloudInput::use(const sensor_msgs::PointCloud2& message,
+                                   const Eigen::Isometry3d& pose, const ros::Time& stamp) {
+  FiberBuffer chain;
+  to_chains(message, chain);
+  const CloudCounts counts = cells_.add(chain.points, pose, stamp.toSec());
+  return {cells_.octree(), counts, stamp};
 }
 
-void CloudInput::work() {
-  std::unique_lock<std::mutex> lock(mutex_);
-  const PlacedCloud cloud = *std::exchange(placed_, std::nullopt);
-  lock.unlock();
-  Result result;
-  result.stamp = cloud.stamp;
+bool CloudInput::take_result(fiber::World& world) {
   try {
-    FiberBuffer chain;
-    to_chains(*cloud.message, chain);
-    result.counts = cells_.add(chain.points, cloud.pose, cloud.stamp.toSec());
-    result.octree = cells_.octree();
+    newest_ = std::exchange(in_work_, std::nullopt)->get();
   } catch (const std::exception& error) {
-    result.error = error.what();
-  }
-  lock.lock();
-  results_.push_back(std::move(result));
-}
-
-bool CloudInput::put_into_world(Result result, fiber::World& world) {
-  if (!result.error.empty()) {
-    log_.refuse(result.error);
+    log_.refuse(error.what());
     return false;
   }
-  newest_ = std::move(result);
   warn_if_unused();
   if (newest_.octree == nullptr) {
     return remove_cloud(world);

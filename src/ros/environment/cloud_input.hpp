@@ -7,7 +7,6 @@
 #include <Eigen/Geometry>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,7 +39,7 @@ class CloudInput {
   bool update(const ros::Time& now, FixedFrame& frame, fiber::World& world);
 
   /// True if update() should be called again soon.
-  bool is_waiting() const { return waiting_ || in_work_ > 0; }
+  bool is_waiting() const { return waiting_ || in_work_; }
 
   /// With what became of the points of the newest cloud.
   fiber_proximity::InputStatistics statistics(const ros::Time& now) const;
@@ -51,28 +50,21 @@ class CloudInput {
     ros::SteadyTime arrival;
   };
 
-  /// A cloud, and where it was seen from.
-  struct PlacedCloud {
-    sensor_msgs::PointCloud2::ConstPtr message;
-    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  // of its frame in the fixed frame
-    ros::Time stamp;
-  };
-
   /// What a cloud has become.
   struct Result {
     std::shared_ptr<const fiber::OccupancyOctree> octree;  // null if no cell is occupied
     CloudCounts counts;
     ros::Time stamp;
-    std::string error;  // why the cloud was refused; empty if it was not
   };
+  using MakeResult = std::function<Result()>;
 
   void receive(const sensor_msgs::PointCloud2::ConstPtr& message);
 
   /// @returns false if the waiting cloud goes on waiting
   bool place_waiting(FixedFrame& frame);
-  void submit(PlacedCloud cloud);
-  void work();
-  bool put_into_world(Result result, fiber::World& world);
+  Result use(const sensor_msgs::PointCloud2& message, const Eigen::Isometry3d& pose,
+             const ros::Time& stamp);
+  bool take_result(fiber::World& world);
   void warn_if_unused() const;
   bool remove_decayed(const ros::Time& now, fiber::World& world);
 
@@ -83,13 +75,10 @@ class CloudInput {
   MessageLog log_;
   std::optional<Cloud> waiting_;
   std::optional<Cloud> next_;
-  std::size_t in_work_ = 0;  // clouds whose results are still to come or to be taken
+  std::optional<MakeResult> placed_;  // what is to become of the newest that has its transform
+  std::optional<Prepared<Result>> in_work_;
   Result newest_;
-
   CloudCells cells_;  // the worker's alone
-  std::mutex mutex_;  // of what follows
-  std::optional<PlacedCloud> placed_;
-  std::vector<Result> results_;
 
   // Last: its job and its callback use all of the above.
   Worker worker_;

@@ -1,6 +1,5 @@
 #include "src/ros/environment/environment_options.hpp"
 
-#include <algorithm>
 #include <stdexcept>
 
 #include "src/ros/support/parameters.hpp"
@@ -11,66 +10,66 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-void refuse_unknown_keys(const ros::NodeHandle& node, const std::string& name,
-                         const std::vector<std::string>& keys, const std::string& allowed) {
+const NodeInterface& interface() { return interface_of("proximity"); }
+
+/// Of a parameter that is a map.
+void refuse_unknown_keys(const Parameters& parameters, const std::string& name) {
   XmlRpcValue map;
-  node.getParam(name, map);
+  parameters.node().getParam(name, map);
   if (map.getType() != XmlRpcValue::TypeStruct) {
-    refuse_parameter(node, name, allowed);
+    parameters.refuse(name);
   }
   for (const auto& [key, value] : map) {
-    if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
-      std::string parameter = name;
-      parameter.append("/").append(key);
-      refuse_parameter(node, parameter, "left out: it must be " + allowed);
+    std::string entry = name;
+    entry.append("/").append(key);
+    if (interface().find(entry) == nullptr) {
+      parameters.refuse(entry, "left out: it must be " + interface().find(name)->must_be);
     }
   }
 }
 
 /// Leaves the corner as it is if it is not set.
-void read_corner(const ros::NodeHandle& node, const std::string& name, Eigen::Vector3d& corner) {
-  const std::string allowed = "a list of 3 numbers [m]";
+void read_corner(const Parameters& parameters, const std::string& name, Eigen::Vector3d& corner) {
   std::vector<double> values{corner.x(), corner.y(), corner.z()};
-  read_parameter(node, name, allowed, values);
+  parameters.read(name, values);
   if (values.size() != 3) {
-    refuse_parameter(node, name, allowed);
+    parameters.refuse(name);
   }
   corner = {values[0], values[1], values[2]};
 }
 
-void read_box(const ros::NodeHandle& node, fiber::WorldBox& box) {
-  if (!node.hasParam("cloud/box")) {
+void read_box(const Parameters& parameters, fiber::WorldBox& box) {
+  if (!parameters.node().hasParam("cloud/box")) {
     return;
   }
-  refuse_unknown_keys(node, "cloud/box", {"min", "max"}, "a map of the keys min and max");
-  read_corner(node, "cloud/box/min", box.min());
-  read_corner(node, "cloud/box/max", box.max());
+  refuse_unknown_keys(parameters, "cloud/box");
+  read_corner(parameters, "cloud/box/min", box.min());
+  read_corner(parameters, "cloud/box/max", box.max());
   if (!(box.min().array() <= box.max().array()).all()) {
-    refuse_parameter(node, "cloud/box", "a minimum that is at most the maximum along all axes");
+    parameters.refuse("cloud/box", "a minimum that is at most the maximum along all axes");
   }
 }
 
 /// Those that are absent keep their defaults; ~cloud may also just be true.
 /// @returns none if there is no parameter ~cloud, or if it is false: then no cloud is wanted
-std::optional<CloudOptions> read_cloud_options(const ros::NodeHandle& private_node) {
-  if (!private_node.hasParam("cloud")) {
+std::optional<CloudOptions> read_cloud_options(const Parameters& parameters) {
+  bool is_wanted = parameters.node().hasParam("cloud");
+  const bool is_map = is_wanted && !parameters.node().getParam("cloud", is_wanted);
+  if (!is_wanted) {
     return std::nullopt;
   }
-  CloudOptions options;
-  bool is_wanted = true;
-  if (private_node.getParam("cloud", is_wanted)) {
-    return is_wanted ? std::make_optional(options) : std::nullopt;
+  if (is_map) {
+    refuse_unknown_keys(parameters, "cloud");
   }
-  refuse_unknown_keys(private_node, "cloud", {"resolution", "box", "decay"},
-                      "true, false or a map of the keys resolution, box and decay");
-  constexpr double finest = 1e-4;  // [m] no depth camera sees less
-  read_parameter(private_node, "cloud/resolution", finest, options.resolution);
-  read_parameter(private_node, "cloud/decay", 0.0, options.decay);
-  read_box(private_node, options.box);
+  CloudOptions options;
+  parameters.read("cloud/resolution", options.resolution);
+  parameters.read("cloud/decay", options.decay);
+  read_box(parameters, options.box);
   return options;
 }
 
-fiber::EnvironmentScene read_scene(const ros::NodeHandle& node, const MeshLoader& meshes) {
+fiber::EnvironmentScene read_scene(const Parameters& parameters, const MeshLoader& meshes) {
+  const ros::NodeHandle& node = parameters.node();
   XmlRpcValue value;
   if (!node.getParam("scene", value)) {
     return {};
@@ -79,26 +78,25 @@ fiber::EnvironmentScene read_scene(const ros::NodeHandle& node, const MeshLoader
     return fiber::read_environment_scene(to_yaml(node.resolveName("scene"), value), meshes);
   }
   if (value.getType() != XmlRpcValue::TypeString) {
-    refuse_parameter(node, "scene",
-                     "the path of a YAML file or a map of the keys obstacles and allowed");
+    parameters.refuse("scene");
   }
   const auto& file = static_cast<const std::string&>(value);
   return file.empty() ? fiber::EnvironmentScene()
                       : fiber::read_environment_scene(fiber::load_yaml(file), meshes);
 }
 
-std::vector<RobotLink> read_robot(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
+std::vector<RobotLink> read_robot(const ros::NodeHandle& node, const Parameters& parameters,
                                   const MeshLoader& meshes) {
   bool is_wanted = false;
-  read_parameter(private_node, "robot", "true or false", is_wanted);
-  std::string name = "robot_description";
-  read_parameter(private_node, "robot_description_param", "the name of a parameter", name);
+  parameters.read("robot", is_wanted);
+  std::string name;
+  parameters.read("robot_description_param", name);
   if (!is_wanted) {
     return {};
   }
   std::string description;
   if (!node.getParam(name, description)) {
-    throw std::invalid_argument("parameter " + private_node.resolveName("robot") +
+    throw std::invalid_argument("parameter " + parameters.node().resolveName("robot") +
                                 " is true, but parameter " + node.resolveName(name) +
                                 " is not set, it must be the URDF of the robot");
   }
@@ -132,9 +130,9 @@ bool read_marker_topic(const XmlRpcValue& entry, MarkerTopic& topic) {
   return !topic.topic.empty();
 }
 
-std::vector<MarkerTopic> read_marker_topics(const ros::NodeHandle& node) {
+std::vector<MarkerTopic> read_marker_topics(const Parameters& parameters) {
   XmlRpcValue value;
-  if (!node.getParam("obstacle_markers", value)) {
+  if (!parameters.node().getParam("obstacle_markers", value)) {
     return {};
   }
   XmlRpcValue list;
@@ -146,9 +144,7 @@ std::vector<MarkerTopic> read_marker_topics(const ros::NodeHandle& node) {
   std::vector<MarkerTopic> topics(static_cast<std::size_t>(list.size()));
   for (std::size_t i = 0; i < topics.size(); ++i) {
     if (!read_marker_topic(list[static_cast<int>(i)], topics[i])) {
-      refuse_parameter(node, "obstacle_markers",
-                       "a topic or a list of topics, each its name or a map of the keys topic and "
-                       "type: visualization_msgs/MarkerArray or visualization_msgs/Marker");
+      parameters.refuse("obstacle_markers");
     }
   }
   return topics;
@@ -156,31 +152,24 @@ std::vector<MarkerTopic> read_marker_topics(const ros::NodeHandle& node) {
 
 }  // namespace
 
-MeshLoader read_mesh_folders(const ros::NodeHandle& node) {
+MeshLoader read_mesh_folders(const Parameters& parameters) {
   std::vector<std::string> folders;
-  read_parameter(node, "mesh_folders", "a list of absolute paths of folders", folders);
+  parameters.read("mesh_folders", folders);
   return MeshLoader(folders);
 }
 
 EnvironmentOptions read_environment_options(const ros::NodeHandle& node,
                                             const ros::NodeHandle& private_node) {
-  constexpr double shortest_timeout = 1e-3;
+  const Parameters parameters(private_node, interface());
   EnvironmentOptions options;
-  options.meshes = read_mesh_folders(private_node);
-  options.scene = read_scene(private_node, options.meshes);
-  options.robot = read_robot(node, private_node, options.meshes);
-  options.cloud = read_cloud_options(private_node);
-  options.marker_topics = read_marker_topics(private_node);
-  read_parameter(private_node, "robot_timeout", shortest_timeout, options.robot_timeout);
-  read_parameter(private_node, "obstacle_timeout", 0.0, options.obstacle_timeout);
+  options.meshes = read_mesh_folders(parameters);
+  options.scene = read_scene(parameters, options.meshes);
+  options.robot = read_robot(node, parameters, options.meshes);
+  options.cloud = read_cloud_options(parameters);
+  options.marker_topics = read_marker_topics(parameters);
+  parameters.read("robot_timeout", options.robot_timeout);
+  parameters.read("obstacle_timeout", options.obstacle_timeout);
   return options;
-}
-
-const std::vector<std::string>& environment_parameters() {
-  static const std::vector<std::string> names{
-      "cloud",         "mesh_folders", "obstacle_markers",       "obstacle_timeout", "robot",
-      "robot_timeout", "scene",        "robot_description_param"};
-  return names;
 }
 
 }  // namespace fiber_proximity_ros

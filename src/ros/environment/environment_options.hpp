@@ -10,6 +10,7 @@
 #include "src/ros/environment/cloud_cells.hpp"
 #include "src/ros/environment/mesh_loader.hpp"
 #include "src/ros/environment/robot_links.hpp"
+#include "src/ros/support/parameters.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -19,7 +20,8 @@ struct MarkerTopic {
   bool is_array = true;  ///< visualization_msgs/MarkerArray, or Marker
 };
 
-/// Where the environment comes from, as the private parameters have it.
+/// Where the environment comes from, as the private parameters have it; their defaults are in
+/// cfg/interface.yaml.
 struct EnvironmentOptions {
   MeshLoader meshes;
   fiber::EnvironmentScene scene;
@@ -27,11 +29,11 @@ struct EnvironmentOptions {
   std::optional<CloudOptions> cloud;
   std::vector<MarkerTopic> marker_topics;
 
-  double robot_timeout = 1.0;  ///< [s] links are unknown whose transforms are older
+  double robot_timeout{};  ///< [s] links are unknown whose transforms are older
 
   /// [s] of wall time an obstacle may wait for its transform; longer than tf takes to arrive after
   /// the start, as nobody sends obstacles twice
-  double obstacle_timeout = 5.0;
+  double obstacle_timeout{};
 };
 
 /// Reads the parameters, and with them scene and robot.
@@ -40,11 +42,8 @@ struct EnvironmentOptions {
 EnvironmentOptions read_environment_options(const ros::NodeHandle& node,
                                             const ros::NodeHandle& private_node);
 
-/// Names of these parameters.
-const std::vector<std::string>& environment_parameters();
-
 /// Reads ~mesh_folders.
 /// @throws std::invalid_argument naming the parameter, or for a folder that is not there
-MeshLoader read_mesh_folders(const ros::NodeHandle& private_node);
+MeshLoader read_mesh_folders(const Parameters& parameters);
 
 }  // namespace fiber_proximity_ros

@@ -113,7 +113,7 @@ Change MarkerObstacles::change_of(std::shared_ptr<const Markers> markers, const 
       apply(steps, poses);
     };
   };
-  auto apply = Prepared<Change::Apply>::of(prepare, worker, is_large);
+  auto apply = Prepared<Change::Apply>(prepare, is_large ? &worker : nullptr);
   return {std::move(touched), std::move(frames), std::move(apply), patience, {}};
 }
 

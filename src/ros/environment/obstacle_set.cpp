@@ -77,7 +77,7 @@ Change ObstacleSet::change_of(std::shared_ptr<const Obstacles> obstacles, double
       apply(placed, cancelled);
     };
   };
-  auto apply = Prepared<Change::Apply>::of(prepare, worker, is_large);
+  auto apply = Prepared<Change::Apply>(prepare, is_large ? &worker : nullptr);
   return {std::move(touched), std::move(frames), std::move(apply), patience, {}};
 }
 

@@ -84,7 +84,7 @@ std::vector<RobotLink> read_robot(const std::string& description, const MeshLoad
 
 RobotLinks::RobotLinks(const std::vector<RobotLink>& links, double timeout) : timeout_(timeout) {
   for (const RobotLink& link : links) {
-    links_.push_back({link.frame, link.object, false, "not looked for yet"});
+    links_.push_back({link});
   }
 }
 

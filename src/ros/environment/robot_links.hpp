@@ -42,11 +42,10 @@ class RobotLinks {
   std::vector<std::string> unknown() const;
 
  private:
-  struct Link {
-    std::string frame;
-    fiber::EnvironmentObject object;  // where it was last
+  /// Where it was last.
+  struct Link : RobotLink {
     bool is_present = false;
-    std::string error;
+    std::string error = "not looked for yet";
   };
 
   /// None where it is unknown; the link's error says why then.

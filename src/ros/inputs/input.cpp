@@ -9,6 +9,21 @@
 #include <utility>
 
 namespace fiber_proximity_ros {
+namespace {
+
+/// By the input, where the message does not; before any are left out or cut, so that the others
+/// keep their names.
+void name_fibers(const std::string& input, FiberBuffer& chains) {
+  if (!chains.names.empty()) {
+    return;
+  }
+  chains.names.assign(chains.fiber_count(), input);
+  for (std::size_t i = 0; chains.names.size() > 1 && i < chains.names.size(); ++i) {
+    chains.names[i] += "/" + std::to_string(i);
+  }
+}
+
+}  // namespace
 
 Input::Input(InputOptions options, const InputTiming& timing)
     : options_(std::move(options)),
@@ -43,12 +58,12 @@ void Input::store(const ReadMessage& read, FixedFrame& frame) {
   if (repeats_stamp_) {
     return;  // a tracker that has frozen sends its last answer again and again
   }
-  name_fibers();
+  name_fibers(options_.name, chains_);
   handle_missing_points(options_.missing_points, chains_, missing_);
   if (chains_.radii.empty()) {
     chains_.radii.assign(1, options_.radius);
   }
-  MessagePtr message = take_spare();
+  MessagePtr message = spares_.take();
   assign(chains_, message->fibers);
   message->names.swap(chains_.names);
   message->header = header;
@@ -106,7 +121,7 @@ std::vector<ros::Time> Input::place_waiting(const FixedFrame& frame) {
     return (ros::SteadyTime::now() - waiting_.front()->steady_arrival).toSec();
   };
   if (!waiting_.empty() && waited() > timing_.tf_timeout) {
-    recycle(waiting_.front());
+    spares_.add(waiting_.front());
     waiting_.pop_front();
     log_.refuse(transform_error_);
   }
@@ -127,7 +142,7 @@ void Input::accept(const ros::Time& stamp) {
     assert(placed_.size() > 1);
   }
   assert(placed_.front()->stamp == stamp);
-  recycle(current_);
+  spares_.add(current_);
   current_ = std::move(placed_.front());
   placed_.pop_front();
   has_fibers_ = true;
@@ -203,39 +218,24 @@ bool Input::place(MessagePtr& message, const FixedFrame& frame) {
   } catch (const TransformUnavailable& error) {
     transform_error_ = error.what();
   } catch (const std::invalid_argument& error) {
-    recycle(message);
+    spares_.add(message);
     log_.refuse(error.what());
   }
   return false;
 }
 
-/// By the input, where the message does not; before any are left out or cut, so that the others
-/// keep their names.
-void Input::name_fibers() {
-  if (!chains_.names.empty()) {
-    return;
-  }
-  chains_.names.assign(chains_.fiber_count(), options_.name);
-  for (std::size_t i = 0; chains_.names.size() > 1 && i < chains_.names.size(); ++i) {
-    chains_.names[i] += "/" + std::to_string(i);
-  }
-}
-
-/// A message whose memory can be used again.
-Input::MessagePtr Input::take_spare() {
-  if (spare_.empty()) {
+Input::MessagePtr Input::Spares::take() {
+  if (messages_.empty()) {
     return std::make_unique<Message>();
   }
-  MessagePtr message = std::move(spare_.back());
-  spare_.pop_back();
+  MessagePtr message = std::move(messages_.back());
+  messages_.pop_back();
   return message;
 }
 
-void Input::recycle(MessagePtr& message) { spare_.push_back(std::move(message)); }
-
 void Input::overtake(MessagePtr& message) {
   log_.overtake();
-  recycle(message);
+  spares_.add(message);
 }
 
 }  // namespace fiber_proximity_ros

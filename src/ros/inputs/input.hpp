@@ -18,23 +18,23 @@
 namespace fiber_proximity_ros {
 
 /// When an input's messages and fibres expire, which stamps they may have, and whose belong
-/// together.
+/// together; the defaults are in cfg/interface.yaml.
 struct InputTiming {
   /// [s] of wall time a message may wait for its transform; longer than tf takes to arrive
-  double tf_timeout = 0.1;
+  double tf_timeout{};
 
   /// [s] of ROS time after which fibres that were not renewed are left out; several periods of any
   /// camera
-  double input_timeout = 1.0;
+  double input_timeout{};
 
   /// [s] a stamp may be ahead of the node's time; more than the clocks of one robot differ
-  double max_stamp_ahead = 1.0;
+  double max_stamp_ahead{};
 
   /// True: the fibres of all inputs change together, to those whose stamps belong together.
-  bool synchronize = false;
+  bool synchronize{};
 
   /// [s] most by which stamps that belong together differ; more than a period of a usual camera
-  double synchronize_slop = 0.05;
+  double synchronize_slop{};
 
   /// Messages of one input that wait, for their transforms or for those of the other inputs.
   /// Without synchronisation one keeps its turn, and the newest stands behind it.
@@ -105,13 +105,19 @@ class Input {
   /// Why the fibres are stale: no message comes, or those that come match no other input's.
   enum class Staleness { NONE, SILENT, STRANGER };
 
+  /// Messages whose memory can be used again.
+  class Spares {
+   public:
+    MessagePtr take();
+    void add(MessagePtr& message) { messages_.push_back(std::move(message)); }
+
+   private:
+    std::vector<MessagePtr> messages_;
+  };
+
   void store(const ReadMessage& read, FixedFrame& frame);
   void check_stamp(const ros::Time& stamp, const ros::Time& now) const;
   bool place(MessagePtr& message, const FixedFrame& frame);
-  void name_fibers();
-
-  MessagePtr take_spare();
-  void recycle(MessagePtr& message);
   void overtake(MessagePtr& message);
 
   InputOptions options_;
@@ -122,7 +128,7 @@ class Input {
 
   FiberBuffer chains_;                   // what is being read; a member for its memory
   std::vector<Eigen::Vector3d> buffer_;  // the same
-  std::vector<MessagePtr> spare_;        // the same
+  Spares spares_;                        // the same
 
   std::deque<MessagePtr> waiting_;  // for their transforms
   std::deque<MessagePtr> placed_;   // in the fixed frame, to be accepted

@@ -2,6 +2,7 @@
 
 #include <ros/names.h>
 
+#include <algorithm>
 #include <map>
 #include <stdexcept>
 #include <type_traits>
@@ -78,81 +79,66 @@ using XmlRpc::XmlRpcValue;
   throw std::invalid_argument("key '" + key + "' is " + text_of(value) + ", it must be " + allowed);
 }
 
+/// Reads the value of a key, if there is one, of the type that the variable has.
 template <class Value>
-const Value& read_value(const std::string& key, const XmlRpcValue& value, XmlRpcValue::Type type,
-                        const std::string& allowed) {
-  if (value.getType() != type) {
-    refuse(key, value, allowed);
+void read_key(const XmlRpcValue& entry, const std::string& key, const std::string& allowed,
+              Value& value) {
+  if (!entry.hasMember(key)) {
+    return;
   }
-  return static_cast<const Value&>(value);
+  const XmlRpcValue& given = entry[key];
+  if (given.getType() != XmlRpcValue(value).getType()) {
+    refuse(key, given, allowed);
+  }
+  value = static_cast<const Value&>(given);
 }
 
-std::string read_string(const std::string& key, const XmlRpcValue& value) {
-  return read_value<std::string>(key, value, XmlRpcValue::TypeString, "a string");
+/// The same of a number of at least 0, which may be a whole one.
+void read_size(const XmlRpcValue& entry, const std::string& key, const std::string& allowed,
+               double& size) {
+  if (entry.hasMember(key) && entry[key].getType() == XmlRpcValue::TypeInt) {
+    size = static_cast<const int&>(entry[key]);
+  } else {
+    read_key(entry, key, allowed, size);
+  }
+  if (!(size >= 0.0 && size <= fiber::FiberAssembly::max_coordinate)) {
+    refuse(key, entry[key], allowed);
+  }
 }
 
-double read_number(const std::string& key, const XmlRpcValue& value, const std::string& allowed) {
-  double number = -1.0;
-  if (value.getType() == XmlRpcValue::TypeDouble) {
-    number = static_cast<const double&>(value);
-  } else if (value.getType() == XmlRpcValue::TypeInt) {
-    number = static_cast<const int&>(value);
-  }
-  if (!(number >= 0.0 && number <= fiber::FiberAssembly::max_coordinate)) {
-    refuse(key, value, allowed);
-  }
-  return number;
-}
-
-MissingPoints read_missing_points(const std::string& key, const XmlRpcValue& value) {
+MissingPoints read_missing_points(const XmlRpcValue& entry) {
+  const std::string key = "missing_points";
   const std::string allowed = "refuse, bridge or split";
   static const std::map<std::string, MissingPoints> policies{{"refuse", MissingPoints::REFUSE},
                                                              {"bridge", MissingPoints::BRIDGE},
                                                              {"split", MissingPoints::SPLIT}};
-  const auto policy =
-      policies.find(read_value<std::string>(key, value, XmlRpcValue::TypeString, allowed));
+  std::string name = "refuse";
+  read_key(entry, key, allowed, name);
+  const auto policy = policies.find(name);
   if (policy == policies.end()) {
-    refuse(key, value, allowed);
+    refuse(key, entry[key], allowed);
   }
   return policy->second;
 }
 
-/// @returns false if there is no such key
-bool read_marker_key(const std::string& key, const XmlRpcValue& value, MarkerInputOptions& marker) {
-  if (key == "namespace") {
-    marker.marker_namespace = read_string(key, value);
-  } else if (key == "radius_from_marker") {
-    marker.radius_from_marker =
-        read_value<bool>(key, value, XmlRpcValue::TypeBoolean, "true or false");
-  } else if (key == "weld_tolerance") {
-    marker.weld_tolerance =
-        read_number(key, value, "a number of at least 0, a fraction of a segment's length");
-  } else {
-    return false;
-  }
-  return true;
-}
-
-/// @returns false if there is no such key
-bool read_key(const std::string& key, const XmlRpcValue& value, InputOptions& options) {
-  if (key == "topic") {
-    options.topic = read_string(key, value);
-    std::string reason;
-    if (!ros::names::validate(options.topic, reason)) {
-      refuse(key, value, "a ROS name: " + reason);
+/// @returns the last key that is for markers only; empty if there is none
+std::string require_known_keys(const XmlRpcValue& entry) {
+  const std::vector<std::string> keys{"topic", "type", "name", "radius", "missing_points"};
+  const std::vector<std::string> marker_keys{"namespace", "radius_from_marker", "weld_tolerance"};
+  const auto is_among = [](const std::vector<std::string>& known, const std::string& key) {
+    return std::find(known.begin(), known.end(), key) != known.end();
+  };
+  std::string marker_key;
+  for (const auto& [key, value] : entry) {
+    if (is_among(marker_keys, key)) {
+      marker_key = key;
+    } else if (!is_among(keys, key)) {
+      throw std::invalid_argument("has the unknown key '" + key +
+                                  "', known are: " + fiber::join(keys) + ", and for markers " +
+                                  fiber::join(marker_keys));
     }
-  } else if (key == "type") {
-    options.type = read_string(key, value);
-  } else if (key == "name") {
-    options.name = read_string(key, value);
-  } else if (key == "radius") {
-    options.radius = read_number(key, value, "a number of metres, at least 0");
-  } else if (key == "missing_points") {
-    options.missing_points = read_missing_points(key, value);
-  } else {
-    return false;
   }
-  return true;
+  return marker_key;
 }
 
 }  // namespace
@@ -169,21 +155,21 @@ InputOptions read_input_options(const XmlRpcValue& entry, double default_radius)
   }
   InputOptions options;
   options.radius = default_radius;
-  std::string marker_key;
-  for (const auto& [key, value] : entry) {
-    if (read_key(key, value, options)) {
-      continue;
-    }
-    if (!read_marker_key(key, value, options.marker)) {
-      throw std::invalid_argument(
-          "has the unknown key '" + key +
-          "', known are: topic, type, name, radius, missing_points, and for markers namespace, "
-          "radius_from_marker, weld_tolerance");
-    }
-    marker_key = key;
-  }
+  const std::string marker_key = require_known_keys(entry);
+  read_key(entry, "topic", "a string", options.topic);
+  read_key(entry, "type", "a string", options.type);
+  read_key(entry, "name", "a string", options.name);
+  read_size(entry, "radius", "a number of metres, at least 0", options.radius);
+  options.missing_points = read_missing_points(entry);
+  read_key(entry, "namespace", "a string", options.marker.marker_namespace);
+  read_key(entry, "radius_from_marker", "true or false", options.marker.radius_from_marker);
+  read_size(entry, "weld_tolerance", "a number of at least 0, a fraction of a segment's length",
+            options.marker.weld_tolerance);
   if (options.topic.empty()) {
     throw std::invalid_argument("has no key 'topic'");
+  }
+  if (std::string reason; !ros::names::validate(options.topic, reason)) {
+    refuse("topic", entry["topic"], "a ROS name: " + reason);
   }
   const bool is_marker = find(options.type).is_marker;
   if (!marker_key.empty() && !is_marker) {

@@ -25,7 +25,7 @@ struct InputOptions {
   /// Empty: the topic.
   std::string name;
 
-  double radius = 0.005;  ///< [m] where the message has none; 5 mm, a common cable
+  double radius{};  ///< [m] where the message has none
 
   MissingPoints missing_points = MissingPoints::REFUSE;
 

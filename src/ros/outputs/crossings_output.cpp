@@ -17,37 +17,36 @@ CrossingsOutput::CrossingsOutput(const ros::NodeHandle& private_node, const Fixe
 }
 
 void CrossingsOutput::read_parameters(const ros::NodeHandle& private_node) {
-  const std::string allowed =
-      "a map of 'direction', three numbers that are not all 0, or 'camera_frame', a name";
+  const NodeInterface& interface = interface_of("proximity");
+  const Parameters parameters(private_node, interface);
   XmlRpc::XmlRpcValue map;
   if (!private_node.getParam("crossings", map)) {
     return;
   }
   if (map.getType() != XmlRpc::XmlRpcValue::TypeStruct) {
-    refuse_parameter(private_node, "crossings", allowed);
+    parameters.refuse("crossings");
   }
   for (const auto& [key, value] : map) {
-    if (key != "direction" && key != "camera_frame") {
+    if (interface.find("crossings/" + key) == nullptr) {
       ROS_WARN_STREAM("parameter " << private_node.resolveName("crossings/" + key)
                                    << " is unknown and not used");
     }
   }
   if (map.hasMember("direction") && map.hasMember("camera_frame")) {
-    refuse_parameter(private_node, "crossings", allowed + ", not both");
+    parameters.refuse("crossings", interface.find("crossings")->must_be + ", not both");
   }
-  read_parameter(private_node, "crossings/camera_frame", "a name", camera_frame_);
-  const std::string allowed_direction = "three finite numbers that are not all 0";
+  parameters.read("crossings/camera_frame", camera_frame_);
   std::vector<double> direction{view_.direction.x(), view_.direction.y(), view_.direction.z()};
-  read_parameter(private_node, "crossings/direction", allowed_direction, direction);
+  parameters.read("crossings/direction", direction);
   if (direction.size() != 3) {
-    refuse_parameter(private_node, "crossings/direction", allowed_direction);
+    parameters.refuse("crossings/direction");
   }
   view_.direction = {direction[0], direction[1], direction[2]};
   view_.is_perspective = !camera_frame_.empty();
   try {
     validate(view_);
   } catch (const std::invalid_argument&) {
-    refuse_parameter(private_node, "crossings/direction", allowed_direction);
+    parameters.refuse("crossings/direction");
   }
 }
 

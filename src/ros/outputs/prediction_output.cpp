@@ -157,8 +157,8 @@ void PredictionOutput::predict(const fiber::QueryOptions& options,
     motion.type = fiber::MotionType::FIRST;
     motion.contact_limit = options.contact_limit;
     const std::shared_ptr<const fiber::Environment> around = environment.inputs().environment();
-    around->query_motion(before_, after_, motion, environment.inputs().allowed(inputs_.names()),
-                         result_);
+    around->query_motion(before_, after_, *around, motion,
+                         environment.inputs().allowed(inputs_.names()), result_);
     message_.object_names = object_names(*around);
   } else {
     result_ = fiber::MotionResult();

@@ -122,11 +122,7 @@ KnownMotion detect_motion_contacts(const MovingEnvironment& environment,
   const fiber::MotionOptions asked = fiber::motion_options(options, step.tolerance);
   const std::shared_ptr<const Environment> before = as_before(environment);
   const std::shared_ptr<const Environment> now = environment.now;
-  if (before == now) {
-    now->query_motion(motion.before, motion.after, asked, allowed, result);
-  } else {
-    before->query_motion(motion.before, motion.after, *now, asked, allowed, result);
-  }
+  before->query_motion(motion.before, motion.after, *now, asked, allowed, result);
   const auto first_contact = [=](const MotionContact& contact) {
     return before->first_contact(motion, *now, contact);
   };

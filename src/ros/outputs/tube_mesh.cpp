@@ -65,13 +65,6 @@ double drawn_radius(const fiber::FiberAssembly& fibers, std::uint32_t point) {
 
 }  // namespace
 
-TubeRing collar(const TubeRing& end, double side) {
-  TubeRing ring = end;
-  ring.radius = end.radius * std::sqrt(0.5);
-  ring.center += side * ring.radius * end.tangent;
-  return ring;
-}
-
 std::vector<Eigen::Vector2d> corner_directions(int sides) {
   assert(sides >= 3);
   std::vector<Eigen::Vector2d> directions;
@@ -119,19 +112,12 @@ void append_tube(const fiber::FiberAssembly& fibers, std::uint32_t fiber,
   static const std::vector<Eigen::Vector2d> directions = corner_directions(tube_sides);
   std::vector<TubeRing> rings;
   sweep_tube(fibers, fiber, rings);
-  const TubeRing first = rings.front();
-  const TubeRing last = rings.back();
-  rings.insert(rings.begin(), collar(first, -1.0));
-  rings.push_back(collar(last, 1.0));
   std::vector<geometry_msgs::Point> corners;
-  corners.push_back(to_message(Vector3d(first.center - first.radius * first.tangent)));
-  for (const TubeRing& ring : rings) {
-    for (const Eigen::Vector2d& direction : directions) {
-      corners.push_back(to_message(Vector3d(ring.center + ring.radius * ring.outward(direction))));
-    }
-  }
-  corners.push_back(to_message(Vector3d(last.center + last.radius * last.tangent)));
-  for_each_triangle(static_cast<std::uint32_t>(rings.size()), tube_sides,
+  for_each_corner(rings, directions, Vector3d::Zero(),
+                  [&corners](const Vector3d& position, const Vector3d&, const TubeRing&) {
+                    corners.push_back(to_message(position));
+                  });
+  for_each_triangle(static_cast<std::uint32_t>(skin_rows(rings)), tube_sides,
                     [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
                       triangles.insert(triangles.end(), {corners[a], corners[b], corners[c]});
                     });

@@ -3,6 +3,8 @@
 #include <geometry_msgs/Point.h>
 
 #include <Eigen/Core>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -22,18 +24,7 @@ struct TubeRing {
   Eigen::Vector3d binormal;
   double radius = 0.0;      ///< [m] above 0
   std::uint32_t point = 0;  ///< of the assembly, in whose place the ring is
-
-  /// Unit vector from the axis to the i-th of `sides` corners.
-  /// @param corner cosine and sine of its angle, see corner_directions()
-  Eigen::Vector3d outward(const Eigen::Vector2d& corner) const {
-    return corner.x() * normal + corner.y() * binormal;
-  }
 };
-
-/// The ring halfway, at 45°, along the half sphere that closes a tube.
-/// @param end the tube's last ring
-/// @param side 1 ahead of it, -1 behind it (then it is the tube's first ring)
-TubeRing collar(const TubeRing& end, double side);
 
 /// Cosine and sine of the angles of a regular polygon's corners.
 /// @param sides at least 3
@@ -50,10 +41,44 @@ std::vector<Eigen::Vector2d> corner_directions(int sides);
 void sweep_tube(const fiber::FiberAssembly& fibers, std::uint32_t fiber,
                 std::vector<TubeRing>& rings);
 
-/// The triangles of a tube's skin, counter-clockwise from outside. Its corners are numbered: a
-/// pole, rows along the tube, each as corner_directions() has them, and the other pole.
-/// @param rows one per ring and one on each half sphere
-/// @param add  called with the numbers of three corners
+/// Rows of corners of a tube's skin: one per ring, and one halfway, at 45°, along each half sphere
+/// that closes it.
+inline std::size_t skin_rows(const std::vector<TubeRing>& rings) { return rings.size() + 2; }
+
+/// The corners of a tube's skin: a pole, rows along the tube, and the other pole.
+/// @param directions see corner_directions()
+/// @param origin     [m] that positions count from
+/// @param add        called with a corner's position [m], the skin's normal, and the corner's ring;
+///                   normals have no particular length
+template <class Add>
+void for_each_corner(const std::vector<TubeRing>& rings,
+                     const std::vector<Eigen::Vector2d>& directions, const Eigen::Vector3d& origin,
+                     const Add& add) {
+  const auto add_corner = [&](const TubeRing& ring, double ahead, const Eigen::Vector3d& across) {
+    const Eigen::Vector3d out = across + ahead * ring.tangent;
+    add(Eigen::Vector3d(ring.center - origin + ring.radius * out), out, ring);
+  };
+  const auto add_row = [&](const TubeRing& ring, double ahead) {
+    const double aside = std::sqrt(1.0 - ahead * ahead);
+    for (const Eigen::Vector2d& direction : directions) {
+      const Eigen::Vector3d across = direction.x() * ring.normal + direction.y() * ring.binormal;
+      add_corner(ring, ahead, aside * across);
+    }
+  };
+  const double halfway = std::sqrt(0.5);
+  const Eigen::Vector3d none = Eigen::Vector3d::Zero();
+  add_corner(rings.front(), -1.0, none);
+  add_row(rings.front(), -halfway);
+  for (const TubeRing& ring : rings) {
+    add_row(ring, 0.0);
+  }
+  add_row(rings.back(), halfway);
+  add_corner(rings.back(), 1.0, none);
+}
+
+/// The triangles of a tube's skin, counter-clockwise from outside.
+/// @param rows see skin_rows()
+/// @param add  called with the numbers of three corners, counted as for_each_corner() has them
 template <class Add>
 void for_each_triangle(std::uint32_t rows, std::uint32_t sides, const Add& add) {
   const std::uint32_t first_row = 1;

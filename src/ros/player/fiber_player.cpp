@@ -182,21 +182,19 @@ std::vector<FiberAssembly> read_frames(const PlayerOptions& options) {
 }  // namespace
 
 PlayerOptions read_player_options(const ros::NodeHandle& private_node) {
+  const Parameters parameters(private_node, interface_of("fiber_player"));
   PlayerOptions options;
-  const char* const text = "a string";
-  read_parameter(private_node, "file", text, options.file);
-  read_parameter(private_node, "scene", text, options.scene);
-  read_parameter(private_node, "topic", text, options.topic);
-  read_parameter(private_node, "format", text, options.format);
-  read_parameter(private_node, "frame_id", text, options.frame_id);
-  read_parameter(private_node, "loop", "true or false", options.loop);
-  read_parameter(private_node, "fiber", -1, options.fiber);
-  read_parameter(private_node, "rate", Limits{1e-3, 1e6}, options.rate);
-  read_parameter(private_node, "start_delay", Limits{0.0, 1e9}, options.start_delay);
-  read_parameter(private_node, "radius", Limits{0.0, FiberAssembly::max_coordinate},
-                 options.radius);
-  warn_of_unknown_parameters(private_node, {"file", "scene", "topic", "format", "frame_id", "loop",
-                                            "fiber", "rate", "start_delay", "radius"});
+  parameters.read("file", options.file);
+  parameters.read("scene", options.scene);
+  parameters.read("topic", options.topic);
+  parameters.read("format", options.format);
+  parameters.read("frame_id", options.frame_id);
+  parameters.read("loop", options.loop);
+  parameters.read("fiber", options.fiber);
+  parameters.read("rate", options.rate);
+  parameters.read("start_delay", options.start_delay);
+  parameters.read("radius", options.radius);
+  parameters.warn_of_unknown();
   if (!options.file.empty() && private_node.hasParam("scene")) {
     throw std::invalid_argument("parameters file and scene are both set: " + options.file +
                                 " and " + options.scene);

@@ -12,24 +12,25 @@
 
 namespace fiber_proximity_ros {
 
-/// What the player plays, and how; the node's private parameters of the same names.
+/// What the player plays, and how; the node's private parameters of the same names, whose defaults
+/// are in cfg/interface.yaml.
 struct PlayerOptions {
-  std::string file;              ///< fibre file to play; empty: the scene
-  std::string scene = "cables";  ///< one of fiber::scene_names()
-  int fiber = -1;                ///< index of the one fibre to play; -1: all
+  std::string file;   ///< fibre file to play; empty: the scene
+  std::string scene;  ///< one of fiber::scene_names()
+  int fiber{};        ///< index of the one fibre to play; -1: all
 
-  std::string topic = "fibers";
+  std::string topic;
 
   /// `fiber_array`, `marker_array` or, for one fibre, `marker`, `point_cloud2`, `point_cloud`,
   /// `pose_array` or `path`. Only `fiber_array` tells the radius; a marker's width is the diameter
   /// of the fibre's first segment.
-  std::string format = "fiber_array";
-  std::string frame_id = "world";
+  std::string format;
+  std::string frame_id;
 
-  double rate = 30.0;        ///< [Hz] frames per second
-  bool loop = true;          ///< begin again after a file's last frame
-  double start_delay = 0.0;  ///< [s] before the first frame
-  double radius = 0.005;     ///< [m] of fibres in a file without radii
+  double rate{};         ///< [Hz] frames per second
+  bool loop{};           ///< begin again after a file's last frame
+  double start_delay{};  ///< [s] before the first frame
+  double radius{};       ///< [m] of fibres in a file without radii
 };
 
 /// @throws std::invalid_argument naming the parameter, its value and what is allowed

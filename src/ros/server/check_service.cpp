@@ -196,8 +196,7 @@ void append(const Check& check, const PresentFibers& present, CheckFibers::Respo
 /// @param check   fiber::check_fibers or fiber::check_motions
 template <class Item, class Options, class Check, class Read>
 void answer_all(const CheckFibers::Request& request, const QueryTarget& target,
-                const FindAllowed& find_allowed, const std::vector<std::uint32_t>& offsets,
-                Options options, const Read& read,
+                const std::vector<std::uint32_t>& offsets, Options options, const Read& read,
                 void (*check)(const std::vector<Item>&, const fiber::Surroundings&, const Options&,
                               std::vector<Check>&),
                 CheckFibers::Response& response) {
@@ -217,7 +216,7 @@ void answer_all(const CheckFibers::Request& request, const QueryTarget& target,
     for (std::size_t i = begin; i < count && is_next(i); ++i) {
       items.push_back(read(i));
     }
-    surroundings.allowed = find_allowed(names);
+    surroundings.allowed = target.find_allowed(names);
     options.deadline = target.time_for_query();
     options.contact_limit =
         share_of_contacts(target.defaults.contact_limit, response.contacts.size(),
@@ -236,7 +235,7 @@ void answer_all(const CheckFibers::Request& request, const QueryTarget& target,
 }  // namespace
 
 void answer(const CheckFibers::Request& request, const QueryTarget& target,
-            const FindAllowed& find_allowed, CheckFibers::Response& response) {
+            CheckFibers::Response& response) {
   if (request.waypoint_offsets.empty()) {
     const fiber::QueryOptions options = options_of_candidates(request, target.defaults);
     fiber::validate(options);
@@ -246,14 +245,13 @@ void answer(const CheckFibers::Request& request, const QueryTarget& target,
       return naming("candidate " + std::to_string(i),
                     [&] { return to_candidate(request.candidates[i], target.frame); });
     };
-    answer_all(request, target, find_allowed, offsets, options, read, &fiber::check_fibers,
-               response);
+    answer_all(request, target, offsets, options, read, &fiber::check_fibers, response);
   } else {
     const fiber::MotionOptions options = options_of_motions(request, target.defaults);
     validate_waypoints(request);
     const auto read = [&](std::size_t i) { return read_motion(request, i, target.frame); };
-    answer_all(request, target, find_allowed, request.waypoint_offsets, options, read,
-               &fiber::check_motions, response);
+    answer_all(request, target, request.waypoint_offsets, options, read, &fiber::check_motions,
+               response);
   }
   if (request.gradients) {
     std::for_each(response.contacts.begin(), response.contacts.end(), add_gradients);

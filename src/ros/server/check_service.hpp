@@ -23,6 +23,9 @@ struct QueryTarget {
   const fiber::QueryOptions& defaults;  ///< what a request leaves open
   fiber::Deadline deadline;             ///< of the whole call, from its arrival
 
+  /// What may touch fibres of these names.
+  std::function<fiber::AllowedPairs(const std::vector<std::string>&)> find_allowed;
+
   /// Part of the time after which nothing more is examined: the rest is for the answer.
   static constexpr double examining_part = 0.8;
 
@@ -32,9 +35,6 @@ struct QueryTarget {
   double time_for_query() const { return examining_part * deadline.left(); }
 };
 
-/// What may touch fibres of these names.
-using FindAllowed = std::function<fiber::AllowedPairs(const std::vector<std::string>&)>;
-
 /// Checks the candidates of a request or, with waypoint_offsets, their motions; fills in all of the
 /// response but header, names and success. Candidates or motions that the deadline comes before are
 /// not read.
@@ -42,6 +42,6 @@ using FindAllowed = std::function<fiber::AllowedPairs(const std::vector<std::str
 ///         what is allowed
 /// @throws TransformUnavailable naming the same and the frame
 void answer(const fiber_proximity::CheckFibers::Request& request, const QueryTarget& target,
-            const FindAllowed& find_allowed, fiber_proximity::CheckFibers::Response& response);
+            fiber_proximity::CheckFibers::Response& response);
 
 }  // namespace fiber_proximity_ros

@@ -140,7 +140,8 @@ bool respond(const QuerySubject& subject, const std::function<void()>& before_an
     const fiber::FiberAssembly& merged = fibers.fibers();
     answer_it(QueryTarget{merged, fibers.names(),
                           asks_about_fibers ? &subject.detector.engine() : nullptr, *environment,
-                          fibers.frame(), subject.defaults, deadline});
+                          fibers.frame(), subject.defaults, deadline,
+                          [&](const auto& names) { return subject.environment.allowed(names); }});
     response.header = fibers.header();
     if (!fibers.is_fresh()) {
       response.header.frame_id = fibers.frame().name();
@@ -169,11 +170,8 @@ std::vector<ros::ServiceServer> serve_queries(ros::NodeHandle private_node,
   };
   using Check = boost::function<bool(CheckFibers::Request&, CheckFibers::Response&)>;
   const Check check = [=](const auto& request, auto& response) {
-    const auto allowed = [&](const std::vector<std::string>& names) {
-      return subject.environment.allowed(names);
-    };
     return respond(subject, before_answer, request, request.ignore_fibers == 0, response,
-                   [&](const QueryTarget& target) { answer(request, target, allowed, response); });
+                   [&](const QueryTarget& target) { answer(request, target, response); });
   };
   return {private_node.advertiseService("query", query),
           private_node.advertiseService("check_fibers", check)};

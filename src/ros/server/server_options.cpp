@@ -2,15 +2,11 @@
 
 #include <ros/console.h>
 
-#include <algorithm>
-#include <regex>
 #include <stdexcept>
 #include <utility>
 
-#include "src/ros/environment/environment_options.hpp"
 #include "src/ros/server/query_options.hpp"
 #include "src/ros/support/parameters.hpp"
-#include "src/text/join.hpp"
 #include "src/text/with_context.hpp"
 
 namespace fiber_proximity_ros {
@@ -18,117 +14,34 @@ namespace {
 
 using fiber_proximity::ProximityConfig;
 using XmlRpc::XmlRpcValue;
-using Description = ProximityConfig::AbstractParamDescription;
+
+const NodeInterface& interface() { return interface_of("proximity"); }
 
 /// The parameters whose values are names of kernels.
 constexpr std::pair<const char*, std::string ProximityConfig::*> kernel_parameters[] = {
     {"kernel", &ProximityConfig::kernel}, {"accuracy", &ProximityConfig::accuracy}};
 
-template <class Value>
-Value config_value(const Description& parameter, const ProximityConfig& config) {
-  boost::any value;
-  parameter.getValue(config, value);
-  return boost::any_cast<Value>(value);
-}
-
-/// The value of a configuration as the parameter server has it.
-XmlRpcValue to_xml_rpc(const Description& parameter, const ProximityConfig& config) {
-  if (parameter.type == "bool") {
-    return XmlRpcValue(config_value<bool>(parameter, config));
-  }
-  if (parameter.type == "int") {
-    return XmlRpcValue(config_value<int>(parameter, config));
-  }
-  if (parameter.type == "double") {
-    return XmlRpcValue(config_value<double>(parameter, config));
-  }
-  return XmlRpcValue(config_value<std::string>(parameter, config));
-}
-
-/// The values of an enumeration, which are in the text that tells clients how to edit it.
-std::vector<std::string> values_of_enumeration(const Description& parameter) {
-  static const std::regex value("'value': '([^']*)'");
-  std::vector<std::string> values;
-  const std::string& text = parameter.edit_method;
-  for (std::sregex_iterator i(text.begin(), text.end(), value); i != std::sregex_iterator(); ++i) {
-    values.push_back((*i)[1]);
-  }
-  return values;
-}
-
-template <class Number>
-std::string allowed_number(const std::string& kind, const Description& parameter) {
-  return allowed_range(kind, config_value<Number>(parameter, ProximityConfig::__getMin__()),
-                       config_value<Number>(parameter, ProximityConfig::__getMax__()));
-}
-
-std::string what_is_allowed(const Description& parameter) {
-  if (parameter.type == "bool") {
-    return "true or false";
-  }
-  if (parameter.type == "int") {
-    return allowed_number<int>("a whole number", parameter);
-  }
-  if (parameter.type == "double") {
-    return allowed_number<double>("a number", parameter);
-  }
-  return "one of " + fiber::join(values_of_enumeration(parameter));
-}
-
-template <class Number>
-bool is_in_range(const Description& parameter, Number number) {
-  return number >= config_value<Number>(parameter, ProximityConfig::__getMin__()) &&
-         number <= config_value<Number>(parameter, ProximityConfig::__getMax__());
-}
-
-bool is_allowed(const Description& parameter, const XmlRpcValue& value) {
-  switch (value.getType()) {
-    case XmlRpcValue::TypeBoolean:
-      return parameter.type == "bool";
-    case XmlRpcValue::TypeInt: {
-      const int number = static_cast<const int&>(value);
-      return parameter.type == "double" ? is_in_range<double>(parameter, number)
-                                        : parameter.type == "int" && is_in_range(parameter, number);
-    }
-    case XmlRpcValue::TypeDouble:
-      return parameter.type == "double" &&
-             is_in_range(parameter, static_cast<const double&>(value));
-    case XmlRpcValue::TypeString: {
-      const std::vector<std::string> values = values_of_enumeration(parameter);
-      return parameter.type == "str" &&
-             std::find(values.begin(), values.end(), static_cast<const std::string&>(value)) !=
-                 values.end();
-    }
-    default:
-      return false;
-  }
-}
-
-void require_allowed(const ros::NodeHandle& node, const Description& parameter,
-                     const XmlRpcValue& value) {
-  if (!is_allowed(parameter, value)) {
-    throw std::invalid_argument("parameter " + node.resolveName(parameter.name) + " is " +
-                                text_of(value) + ", it must be " + what_is_allowed(parameter));
-  }
-}
-
-/// @returns the names that are no parameters of this type
+/// @returns why these are no values of parameters of this type that can change; empty if they are
 template <class Entries>
 std::string not_of_type(const std::string& type, const Entries& entries) {
   for (const auto& entry : entries) {
-    const auto& parameters = ProximityConfig::__getParamDescriptions__();
-    const auto found =
-        std::find_if(parameters.begin(), parameters.end(),
-                     [&entry](const auto& parameter) { return parameter->name == entry.name; });
-    if (found == parameters.end()) {
+    const Parameter* const parameter = interface().find(entry.name);
+    if (parameter == nullptr || !parameter->is_dynamic) {
       return "there is no parameter " + entry.name;
     }
-    if ((*found)->type != type) {
+    if (parameter->type != type) {
       return "parameter " + entry.name + " is a value of type " + type + ", it must be " +
-             what_is_allowed(**found);
+             parameter->must_be;
     }
   }
   return "";
+}
+
+template <class Entries>
+void require_allowed(const Parameters& parameters, const Entries& entries) {
+  for (const auto& entry : entries) {
+    parameters.require_allowed(entry.name, XmlRpcValue(entry.value));
+  }
 }
 
 /// @throws std::invalid_argument if a fibre would have the name of another input's
@@ -145,8 +58,7 @@ void require_new_name(const InputOptions& input, const std::vector<InputOptions>
 /// @throws std::invalid_argument for a topic that has another type here, or would feed back
 void require_foreign_topic(const InputOptions& input, const ros::NodeHandle& node,
                            const ros::NodeHandle& private_node) {
-  for (const char* const own : {"obstacles", "cloud", "contacts", "environment_contacts",
-                                "crossings", "comparison", "fibers", "markers", "statistics"}) {
+  for (const std::string& own : interface().topics) {
     if (node.resolveName(input.topic) == private_node.resolveName(own)) {
       throw std::invalid_argument("key 'topic' is " + input.topic +
                                   ", it must be none of the node's own topics");
@@ -155,7 +67,8 @@ void require_foreign_topic(const InputOptions& input, const ros::NodeHandle& nod
 }
 
 std::vector<InputOptions> read_inputs(const ros::NodeHandle& public_node,
-                                      const ros::NodeHandle& node, double radius) {
+                                      const Parameters& parameters, double radius) {
+  const ros::NodeHandle& node = parameters.node();
   InputOptions default_input;
   default_input.topic = "fibers";
   default_input.name = default_input.topic;
@@ -166,7 +79,7 @@ std::vector<InputOptions> read_inputs(const ros::NodeHandle& public_node,
     return {default_input};
   }
   if (list.getType() != XmlRpcValue::TypeArray) {
-    refuse_parameter(node, "inputs", "a list of maps with the key 'topic' at least");
+    parameters.refuse("inputs");
   }
   if (list.size() == 0) {
     ROS_WARN_STREAM("parameter " << node.resolveName("inputs")
@@ -202,42 +115,29 @@ void check_engine(const ros::NodeHandle& private_node, const ServerOptions& opti
 
 }  // namespace
 
-std::vector<std::string> known_parameters() {
-  std::vector<std::string> known{
-      "engine",    "threads",         "skin",        "fixed_frame",     "inputs",
-      "radius",    "input_timeout",   "marker_rate", "tf_timeout",      "diagnostic_period",
-      "crossings", "max_stamp_ahead", "synchronize", "synchronize_slop"};
-  known.insert(known.end(), environment_parameters().begin(), environment_parameters().end());
-  for (const auto& parameter : ProximityConfig::__getParamDescriptions__()) {
-    known.push_back(parameter->name);
-  }
-  return known;
-}
-
 ServerOptions read_server_options(const ros::NodeHandle& node,
                                   const ros::NodeHandle& private_node) {
-  constexpr double shortest_timeout = 1e-3;
-  constexpr double slowest_rate = 1e-3;
+  const Parameters parameters(private_node, interface());
   ServerOptions options;
-  double radius = InputOptions().radius;
-  read_parameter(private_node, "engine", "a string", options.engine);
-  read_parameter(private_node, "threads", options.engine_options.threads);
-  read_parameter(private_node, "skin", 0.0, options.engine_options.skin);
-  read_parameter(private_node, "fixed_frame", "a string", options.fixed_frame);
-  read_parameter(private_node, "radius", Limits{0.0, fiber::FiberAssembly::max_coordinate}, radius);
-  read_parameter(private_node, "tf_timeout", 0.0, options.timing.tf_timeout);
-  read_parameter(private_node, "input_timeout", shortest_timeout, options.timing.input_timeout);
-  read_parameter(private_node, "max_stamp_ahead", 0.0, options.timing.max_stamp_ahead);
-  read_parameter(private_node, "synchronize", "true or false", options.timing.synchronize);
-  read_parameter(private_node, "synchronize_slop", 0.0, options.timing.synchronize_slop);
-  read_parameter(private_node, "marker_rate", slowest_rate, options.marker_rate);
+  double radius = 0.0;
+  parameters.read("engine", options.engine);
+  parameters.read("threads", options.engine_options.threads);
+  parameters.read("skin", options.engine_options.skin);
+  parameters.read("fixed_frame", options.fixed_frame);
+  parameters.read("radius", radius);
+  parameters.read("tf_timeout", options.timing.tf_timeout);
+  parameters.read("input_timeout", options.timing.input_timeout);
+  parameters.read("max_stamp_ahead", options.timing.max_stamp_ahead);
+  parameters.read("synchronize", options.timing.synchronize);
+  parameters.read("synchronize_slop", options.timing.synchronize_slop);
+  parameters.read("marker_rate", options.marker_rate);
   // Read by diagnostic_updater, which keeps silent about what is none.
-  double diagnostic_period = 1.0;
-  read_parameter(private_node, "diagnostic_period", shortest_timeout, diagnostic_period);
+  double diagnostic_period = 0.0;
+  parameters.read("diagnostic_period", diagnostic_period);
   check_engine(private_node, options);
   options.config = read_dynamic_parameters(private_node);
-  options.inputs = read_inputs(node, private_node, radius);
-  warn_of_unknown_parameters(private_node, known_parameters());
+  options.inputs = read_inputs(node, parameters, radius);
+  parameters.warn_of_unknown();
   return options;
 }
 
@@ -260,10 +160,11 @@ ProximityConfig read_dynamic_parameters(const ros::NodeHandle& private_node) {
       private_node.setParam(name, current);  // where dynamic_reconfigure will read it, too
     }
   }
-  for (const auto& parameter : ProximityConfig::__getParamDescriptions__()) {
+  const Parameters parameters(private_node, interface());
+  for (const Parameter& parameter : interface().parameters) {
     XmlRpcValue value;
-    if (private_node.getParam(parameter->name, value)) {
-      require_allowed(private_node, *parameter, value);
+    if (parameter.is_dynamic && private_node.getParam(parameter.name, value)) {
+      parameters.require_allowed(parameter.name, value);
     }
   }
   ProximityConfig config = ProximityConfig::__getDefault__();
@@ -273,9 +174,12 @@ ProximityConfig read_dynamic_parameters(const ros::NodeHandle& private_node) {
 }
 
 void check(const ros::NodeHandle& private_node, const ProximityConfig& config) {
-  for (const auto& parameter : ProximityConfig::__getParamDescriptions__()) {
-    require_allowed(private_node, *parameter, to_xml_rpc(*parameter, config));
-  }
+  const Parameters parameters(private_node, interface());
+  dynamic_reconfigure::Config values;
+  config.__toMessage__(values);
+  require_allowed(parameters, values.ints);
+  require_allowed(parameters, values.doubles);
+  require_allowed(parameters, values.strs);
   try {
     to_query_options(config);
   } catch (const std::invalid_argument& error) {

@@ -12,9 +12,9 @@
 
 namespace fiber_proximity_ros {
 
-/// Parameters of the proximity node at its start.
+/// Parameters of the proximity node at its start; their defaults are in cfg/interface.yaml.
 struct ServerOptions {
-  std::string engine = "run_tree";  ///< one of fiber::engine_names()
+  std::string engine;  ///< one of fiber::engine_names()
   fiber::EngineOptions engine_options;
 
   /// All results are in this frame; empty: the frame of the first message.
@@ -22,7 +22,7 @@ struct ServerOptions {
 
   InputTiming timing;
 
-  double marker_rate = 15.0;  ///< [Hz] markers are drawn at most this often
+  double marker_rate{};  ///< [Hz] markers are drawn at most this often
 
   std::vector<InputOptions> inputs;
 
@@ -36,11 +36,8 @@ struct ServerOptions {
 ///         allowed
 ServerOptions read_server_options(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
 
-/// Names of all private parameters that the node reads.
-std::vector<std::string> known_parameters();
-
 /// Reads the parameters that can change while the node runs; those that are absent keep their
-/// defaults. Their types and ranges are those of cfg/Proximity.cfg.
+/// defaults. Their types and ranges are those of cfg/interface.yaml.
 /// @throws std::invalid_argument naming the parameter, its value and what is allowed:
 ///         dynamic_reconfigure alone would keep silent, and take the default or the nearest value
 fiber_proximity::ProximityConfig read_dynamic_parameters(const ros::NodeHandle& private_node);

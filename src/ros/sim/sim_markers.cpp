@@ -3,6 +3,8 @@
 #include <ros/console.h>
 
 #include <algorithm>
+#include <memory>
+#include <utility>
 
 #include "fiber_proximity/ros/conversions.hpp"
 
@@ -79,27 +81,6 @@ void SimMarkers::receive(const InteractiveMarkerFeedback& feedback) {
   received_.push_back(feedback);
 }
 
-void SimMarkers::take_hold(fiber::SimScene& scene, const fiber::NodeOfRod& end, Grab& grab) const {
-  const fiber::Rods& rods = scene.stepper->rods();
-  const Vector3d& here = rods.positions[rods.first(end.rod) + end.node];
-  grab.way = std::make_shared<Way>(Way{here, here, 0.0, 0.0});
-  if (const auto id = scene.attachment->find(end.rod, end.node)) {
-    grab.was_held = true;
-    scene.attachment->remove(*id);
-  }
-  fiber::Attachment::Hold hold;
-  hold.rod = end.rod;
-  hold.node = end.node;
-  hold.placement = [way = grab.way](double time) {
-    const double share = way->end > way->start
-                             ? std::clamp((time - way->start) / (way->end - way->start), 0.0, 1.0)
-                             : 1.0;
-    return fiber::Placement{way->from + share * (way->to - way->from), Vector3d::UnitX(),
-                            Vector3d::UnitY()};
-  };
-  scene.attachment->add(rods, hold);
-}
-
 void SimMarkers::apply(fiber::SimScene& scene) {
   std::vector<InteractiveMarkerFeedback> received;
   {
@@ -117,8 +98,13 @@ void SimMarkers::apply(fiber::SimScene& scene) {
       const Vector3d target =
           world_.transform_from(feedback.header) * to_vector(feedback.pose.position);
       Grab& grab = grabs_[end->first];
-      if (grab.way == nullptr) {
-        take_hold(scene, end->second, grab);
+      if (grab.path == nullptr) {
+        const auto& [rod, node] = end->second;
+        grab.was_held = scene.attachment->find(rod, node).has_value();
+        const Vector3d& here = fiber::position_of(scene.stepper->rods(), end->second);
+        const fiber::Placement placement{here, Vector3d::UnitX(), Vector3d::UnitY()};
+        grab.path = std::make_shared<fiber::PlacementPath>(1, std::make_pair(0.0, placement));
+        fiber::hold_on_path(scene, end->second, grab.path);
       }
       grab.is_over = is_up;
       grab.target = is_up ? grab.target : target;
@@ -129,10 +115,6 @@ void SimMarkers::apply(fiber::SimScene& scene) {
   for (auto grabbed = grabs_.begin(); grabbed != grabs_.end();) {
     const Grab& grab = grabbed->second;
     const fiber::NodeOfRod& end = ends_.at(grabbed->first);
-    Way& way = *grab.way;
-    way.from = way.to;
-    way.start = scene.stepper->time();
-    way.end = way.start + scene.time_step;
     if (grab.is_over) {
       const auto id = scene.attachment->find(end.rod, end.node);
       if (id && !grab.was_held) {
@@ -141,13 +123,17 @@ void SimMarkers::apply(fiber::SimScene& scene) {
       grabbed = grabs_.erase(grabbed);
       continue;
     }
-    const fiber::Lead lead = fiber::lead(scene, end, way.from, grab.target, fastest_hand);
+    const fiber::Placement last = grab.path->back().second;
+    const fiber::Lead lead = fiber::lead(scene, end, last.position, grab.target, fastest_hand);
     if (!lead.problem.empty()) {
       ROS_WARN_STREAM_THROTTLE(warning_period, "the handle "
                                                    << grabbed->first
                                                    << " is not followed further: " << lead.problem);
     }
-    way.to = lead.position;
+    const double start = scene.stepper->time();
+    fiber::Placement next = last;
+    next.position = lead.position;
+    *grab.path = {{start, last}, {start + scene.time_step, next}};
     ++grabbed;
   }
 }
@@ -156,7 +142,7 @@ void SimMarkers::update(const fiber::SimScene& scene) {
   const fiber::Rods& rods = scene.stepper->rods();
   for (const auto& [name, end] : ends_) {
     geometry_msgs::Pose pose;
-    pose.position = to_message(rods.positions[rods.first(end.rod) + end.node]);
+    pose.position = to_message(fiber::position_of(rods, end));
     pose.orientation.w = 1.0;
     server_.setPose(name, pose);
   }

@@ -34,23 +34,14 @@ class SimMarkers {
   void update(const fiber::SimScene& scene);
 
  private:
-  /// Where a dragged end is from one frame to the next.
-  struct Way {
-    Eigen::Vector3d from;
-    Eigen::Vector3d to;
-    double start;  // [s] of the scene
-    double end;
-  };
-
   struct Grab {
-    std::shared_ptr<Way> way;
+    std::shared_ptr<fiber::PlacementPath> path;  // from one frame to the next
     Eigen::Vector3d target;
     bool was_held = false;
     bool is_over = false;
   };
 
   void receive(const visualization_msgs::InteractiveMarkerFeedback& feedback);
-  void take_hold(fiber::SimScene& scene, const fiber::NodeOfRod& end, Grab& grab) const;
 
   const FixedFrame& world_;
   std::map<std::string, fiber::NodeOfRod> ends_;

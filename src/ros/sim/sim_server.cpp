@@ -27,21 +27,55 @@ constexpr double warning_pause = 5.0;
 /// How often handles are moved: rviz takes far longer for them than for fibres.
 const ros::WallDuration marker_period(1.0 / 30.0);
 
+/// What the scene is, and what is to be expected of it.
+void log_scene(const SimOptions& options, const fiber::SimDescription& description,
+               const fiber::SimScene& scene) {
+  const fiber::Rods& rods = scene.stepper->rods();
+  ROS_INFO_STREAM(options.scene << ": " << rods.count() << " fibre(s), " << rods.positions.size()
+                                << " nodes, effects " << fiber::join(scene.effect_names) << ", "
+                                << scene.substeps << " steps of " << scene.step_length() << " s");
+  constexpr std::uint32_t most = 10;
+  for (std::uint32_t rod = 0; rod < std::min(most, rods.count()); ++rod) {
+    const fiber::RodSection& section = rods.sections[rod];
+    ROS_INFO_STREAM("fibre '" << scene.fiber_names[rod] << "': EA " << section.stretching_stiffness
+                              << " N, EI " << section.bending_stiffness << " N m^2, GJ "
+                              << section.twisting_stiffness << " N m^2, " << section.mass_per_length
+                              << " kg/m");
+  }
+  if (scene.accuracy) {
+    ROS_INFO_STREAM(
+        "segments and substeps that the scene leaves open are chosen for an accuracy of "
+        << 100.0 * *scene.accuracy << " %");
+  }
+  if (!scene.overlap_note.empty()) {
+    ROS_INFO_STREAM(scene.overlap_note);
+  }
+  const fiber::SimReport expected =
+      fiber::report(scene, fiber::try_scene(description, options.threads));
+  for (const std::string& fact : expected.facts) {
+    ROS_INFO_STREAM(fact);
+  }
+  for (const std::string& warning : expected.warnings) {
+    ROS_WARN_STREAM(options.scene << ": " << warning);
+  }
+}
+
 }  // namespace
 
 SimOptions read_sim_options(const ros::NodeHandle& private_node) {
+  const Parameters parameters(private_node, interface_of("cable_sim"));
   SimOptions options;
-  read_parameter(private_node, "scene", "the name of a YAML file", options.scene);
+  parameters.read("scene", options.scene);
   if (options.scene.empty()) {
-    refuse_parameter(private_node, "scene", "the name of a YAML file");
+    parameters.refuse("scene");
   }
-  read_parameter(private_node, "threads", options.threads);
-  read_parameter(private_node, "clock", "true or false", options.clock);
-  read_parameter(private_node, "paused", "true or false", options.paused);
-  read_parameter(private_node, "interactive", "true or false", options.interactive);
-  read_parameter(private_node, "frame_timeout", 0.0, options.frame_timeout);
-  read_parameter(private_node, "frame_wait", 0.0, options.frame_wait);
-  options.meshes = read_mesh_folders(private_node);
+  parameters.read("threads", options.threads);
+  parameters.read("clock", options.clock);
+  parameters.read("paused", options.paused);
+  parameters.read("interactive", options.interactive);
+  parameters.read("frame_timeout", options.frame_timeout);
+  parameters.read("frame_wait", options.frame_wait);
+  options.meshes = read_mesh_folders(parameters);
   return options;
 }
 
@@ -63,7 +97,7 @@ SimServer::SimServer(const ros::NodeHandle& private_node, const SimOptions& opti
       next_frame_(ros::SteadyTime::now()),
       forces_(private_node) {
   frames_.wait_for(scene_.frames, options.frame_wait);
-  log_scene(description);
+  log_scene(options_, description, scene_);
   fibers_ = node_.advertise<fiber_proximity::FiberArray>("fibers", 1, true);
   if (options_.clock) {
     clock_ = node_.advertise<rosgraph_msgs::Clock>("/clock", 1);
@@ -81,38 +115,6 @@ SimServer::SimServer(const ros::NodeHandle& private_node, const SimOptions& opti
 }
 
 SimServer::~SimServer() { is_ending_ = true; }
-
-void SimServer::log_scene(const fiber::SimDescription& description) const {
-  const fiber::Rods& rods = scene_.stepper->rods();
-  ROS_INFO_STREAM(options_.scene << ": " << rods.count() << " fibre(s), " << rods.positions.size()
-                                 << " nodes, effects " << fiber::join(scene_.effect_names) << ", "
-                                 << scene_.substeps << " steps of " << scene_.step_length()
-                                 << " s");
-  constexpr std::uint32_t most = 10;
-  for (std::uint32_t rod = 0; rod < std::min(most, rods.count()); ++rod) {
-    const fiber::RodSection& section = rods.sections[rod];
-    ROS_INFO_STREAM("fibre '" << scene_.fiber_names[rod] << "': EA " << section.stretching_stiffness
-                              << " N, EI " << section.bending_stiffness << " N m^2, GJ "
-                              << section.twisting_stiffness << " N m^2, " << section.mass_per_length
-                              << " kg/m");
-  }
-  if (scene_.accuracy) {
-    ROS_INFO_STREAM(
-        "segments and substeps that the scene leaves open are chosen for an accuracy of "
-        << 100.0 * *scene_.accuracy << " %");
-  }
-  if (!scene_.overlap_note.empty()) {
-    ROS_INFO_STREAM(scene_.overlap_note);
-  }
-  const fiber::SimReport expected =
-      fiber::report(scene_, fiber::try_scene(description, options_.threads));
-  for (const std::string& fact : expected.facts) {
-    ROS_INFO_STREAM(fact);
-  }
-  for (const std::string& warning : expected.warnings) {
-    ROS_WARN_STREAM(options_.scene << ": " << warning);
-  }
-}
 
 void SimServer::keep_pace() {
   const std::lock_guard<FairMutex> lock(mutex_);

@@ -18,24 +18,25 @@
 #include "fiber_proximity/sim/scene/scene.hpp"
 #include "src/ros/environment/mesh_loader.hpp"
 #include "src/ros/inputs/fixed_frame.hpp"
+#include "src/ros/sim/fair_mutex.hpp"
 #include "src/ros/sim/sim_forces.hpp"
 #include "src/ros/sim/sim_frames.hpp"
 #include "src/ros/sim/sim_markers.hpp"
-#include "src/ros/support/fair_mutex.hpp"
 #include "src/sim/scene/report.hpp"
 
 namespace fiber_proximity_ros {
 
-/// What the simulation runs, and how; the node's private parameters of the same names.
+/// What the simulation runs, and how; the node's private parameters of the same names, whose
+/// defaults are in cfg/interface.yaml.
 struct SimOptions {
-  std::string scene;           ///< YAML file
-  std::uint32_t threads = 0;   ///< most to use, 0 for as many as there are cores
-  bool clock = false;          ///< publish /clock, and stamp fibres with the scene's time
-  bool paused = false;         ///< wait for ~step or ~pause
-  bool interactive = false;    ///< handles for rviz, if the scene has the effect attachment
-  double frame_timeout = 1.0;  ///< [s] of wall time without news of a frame that holds something
-  double frame_wait = 10.0;  ///< [s] of wall time for such frames to come when the scene is loaded
-  MeshLoader meshes;         ///< of the environment, from the folders of ~mesh_folders
+  std::string scene;        ///< YAML file
+  std::uint32_t threads{};  ///< most to use, 0 for as many as there are cores
+  bool clock{};             ///< publish /clock, and stamp fibres with the scene's time
+  bool paused{};            ///< wait for ~step or ~pause
+  bool interactive{};       ///< handles for rviz, if the scene has the effect attachment
+  double frame_timeout{};   ///< [s] of wall time without news of a frame that holds something
+  double frame_wait{};      ///< [s] of wall time for such frames to come when the scene is loaded
+  MeshLoader meshes;        ///< of the environment, from the folders of ~mesh_folders
 };
 
 /// @throws std::invalid_argument naming the parameter, its value and what is allowed
@@ -66,7 +67,6 @@ class SimServer {
             const fiber::SimDescription& description);
 
   void advertise_services();
-  void log_scene(const fiber::SimDescription& description) const;
   void keep_pace();
   void update_markers();
 
@@ -79,11 +79,8 @@ class SimServer {
   void make_markers();
   void publish();
   void publish_obstacles(const std::vector<fiber::EnvironmentObject>& before);
-  fiber::NodeOfRod find_node(const std::string& fiber, std::int32_t node) const;
 
   void step_frames(std::uint32_t count);
-  void begin_again();
-  void hold(const fiber_proximity::AttachFiber::Request& request);
   bool reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
   bool step(fiber_proximity::StepSimulation::Request& request,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <memory>
 #include <mutex>
 #include <stdexcept>
 
@@ -38,6 +39,47 @@ bool answer(Response& response, const Function& function) {
   return true;
 }
 
+/// The node of a fibre that a request names, counted from the end if it is negative.
+fiber::NodeOfRod find_node(const fiber::SimScene& scene, const std::string& fiber,
+                           std::int32_t node) {
+  const auto& names = scene.fiber_names;
+  const auto found = std::find(names.begin(), names.end(), fiber);
+  if (found == names.end()) {
+    throw std::invalid_argument("there is no fibre " + fiber::quote(fiber));
+  }
+  const auto rod = static_cast<std::uint32_t>(found - names.begin());
+  const auto count = static_cast<std::int64_t>(scene.stepper->rods().node_count(rod));
+  const std::int64_t index = node < 0 ? count + node : node;
+  if (index < 0 || index >= count) {
+    throw std::invalid_argument("fibre " + fiber::quote(fiber) + " has " + std::to_string(count) +
+                                " nodes, there is no node " + std::to_string(node));
+  }
+  if (scene.attachment == nullptr) {
+    throw std::invalid_argument("the scene does not name the effect attachment");
+  }
+  return {rod, static_cast<std::uint32_t>(index)};
+}
+
+/// Has a scene hold a node where a request says.
+void hold(const fiber_proximity::AttachFiber::Request& request, fiber::SimScene& scene) {
+  const fiber::NodeOfRod held = find_node(scene, request.fiber, request.node);
+  const Vector3d target = to_vector(request.position);
+  if (!target.allFinite() || !(request.speed >= 0.0)) {
+    throw std::invalid_argument("position must be finite and speed at least 0");
+  }
+  fiber::require_reach(scene, held, target, request.speed);
+  const Vector3d from = fiber::position_of(scene.stepper->rods(), held);
+  const double time = scene.stepper->time();
+  const auto path = std::make_shared<fiber::PlacementPath>();
+  path->emplace_back(time, fiber::Placement{target, Vector3d::UnitX(), Vector3d::UnitY()});
+  if (request.speed > 0.0) {
+    path->insert(path->begin(), path->front());
+    path->front().second.position = from;
+    path->back().first += (target - from).norm() / request.speed;
+  }
+  fiber::hold_on_path(scene, held, path);
+}
+
 }  // namespace
 
 void SimServer::advertise_services() {
@@ -51,42 +93,21 @@ void SimServer::advertise_services() {
   servers_.push_back(own_thread.advertiseService("step", &SimServer::step, this));
 }
 
-fiber::NodeOfRod SimServer::find_node(const std::string& fiber, std::int32_t node) const {
-  const auto& names = scene_.fiber_names;
-  const auto found = std::find(names.begin(), names.end(), fiber);
-  if (found == names.end()) {
-    throw std::invalid_argument("there is no fibre " + fiber::quote(fiber));
-  }
-  const auto rod = static_cast<std::uint32_t>(found - names.begin());
-  const auto count = static_cast<std::int64_t>(scene_.stepper->rods().node_count(rod));
-  const std::int64_t index = node < 0 ? count + node : node;
-  if (index < 0 || index >= count) {
-    throw std::invalid_argument("fibre " + fiber::quote(fiber) + " has " + std::to_string(count) +
-                                " nodes, there is no node " + std::to_string(node));
-  }
-  if (scene_.attachment == nullptr) {
-    throw std::invalid_argument("the scene does not name the effect attachment");
-  }
-  return {rod, static_cast<std::uint32_t>(index)};
-}
-
-/// The file is read without the mutex: that may take long.
-void SimServer::begin_again() {
-  fiber::SimScene scene = fiber::make_sim_scene(read_scene(options_), options_.threads);
-  frames_.wait_for(scene.frames, 0.0);
-  const std::lock_guard<FairMutex> lock(mutex_);
-  std::swap(scene_, scene);
-  forces_.begin();
-  failure_.clear();
-  interruption_ = "~reset began the scene again";
-  publish();
-  publish_obstacles(scene.environment->objects());
-  make_markers();
-}
-
 bool SimServer::reset(std_srvs::Trigger::Request& /*request*/,
                       std_srvs::Trigger::Response& response) {
-  return answer(response, [this] { begin_again(); });
+  return answer(response, [this] {
+    // The file is read without the mutex: that may take long.
+    fiber::SimScene scene = fiber::make_sim_scene(read_scene(options_), options_.threads);
+    frames_.wait_for(scene.frames, 0.0);
+    const std::lock_guard<FairMutex> lock(mutex_);
+    std::swap(scene_, scene);
+    forces_.begin();
+    failure_.clear();
+    interruption_ = "~reset began the scene again";
+    publish();
+    publish_obstacles(scene.environment->objects());
+    make_markers();
+  });
 }
 
 bool SimServer::pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
@@ -131,38 +152,12 @@ bool SimServer::step(fiber_proximity::StepSimulation::Request& request,
   return true;
 }
 
-void SimServer::hold(const fiber_proximity::AttachFiber::Request& request) {
-  require_running();
-  const fiber::NodeOfRod held = find_node(request.fiber, request.node);
-  const Vector3d target = to_vector(request.position);
-  if (!target.allFinite() || !(request.speed >= 0.0)) {
-    throw std::invalid_argument("position must be finite and speed at least 0");
-  }
-  fiber::require_reach(scene_, held, target, request.speed);
-  const fiber::Rods& rods = scene_.stepper->rods();
-  const Vector3d from = rods.positions[rods.first(held.rod) + held.node];
-  const double start = scene_.stepper->time();
-  const double way = (target - from).norm();
-  const double speed = request.speed;
-  fiber::Attachment::Hold hold;
-  hold.rod = held.rod;
-  hold.node = held.node;
-  hold.placement = [=](double time) {
-    const double share =
-        speed > 0.0 && way > 0.0 ? std::min(1.0, std::max(0.0, speed * (time - start) / way)) : 1.0;
-    return fiber::Placement{from + share * (target - from), Vector3d::UnitX(), Vector3d::UnitY()};
-  };
-  if (const auto id = scene_.attachment->find(held.rod, held.node)) {
-    scene_.attachment->remove(*id);
-  }
-  scene_.attachment->add(rods, hold);
-}
-
 bool SimServer::attach(fiber_proximity::AttachFiber::Request& request,
                        fiber_proximity::AttachFiber::Response& response) {
   return answer(response, [&] {
     const std::lock_guard<FairMutex> lock(mutex_);
-    hold(request);
+    require_running();
+    hold(request, scene_);
   });
 }
 
@@ -171,7 +166,7 @@ bool SimServer::detach(fiber_proximity::DetachFiber::Request& request,
   return answer(response, [&] {
     const std::lock_guard<FairMutex> lock(mutex_);
     require_running();
-    const fiber::NodeOfRod held = find_node(request.fiber, request.node);
+    const fiber::NodeOfRod held = find_node(scene_, request.fiber, request.node);
     const auto id = scene_.attachment->find(held.rod, held.node);
     if (!id) {
       throw std::invalid_argument("nothing holds node " + std::to_string(request.node) +

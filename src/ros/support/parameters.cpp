@@ -3,9 +3,10 @@
 #include <ros/console.h>
 
 #include <algorithm>
-#include <cmath>
+#include <map>
 #include <numeric>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 
 #include "src/text/quote.hpp"
@@ -32,17 +33,39 @@ std::size_t edit_distance(const std::string& from, const std::string& to) {
 }
 
 /// The known name that is nearest, if it is near enough to have been meant.
-std::string suggested_parameter(const std::string& name, const std::vector<std::string>& known) {
+std::string suggested_parameter(const std::string& name, const std::vector<Parameter>& known) {
   const std::string* nearest = nullptr;
   std::size_t least = std::max<std::size_t>(1, name.size() / 3);
-  for (const std::string& candidate : known) {
-    const std::size_t distance = edit_distance(name, candidate);
+  for (const Parameter& candidate : known) {
+    const std::size_t distance = edit_distance(name, candidate.name);
     if (distance <= least && (nearest == nullptr || distance < least)) {
-      nearest = &candidate;
+      nearest = &candidate.name;
       least = distance;
     }
   }
   return nearest == nullptr ? "" : "; is " + *nearest + " meant?";
+}
+
+bool is_allowed(const Parameter& parameter, const XmlRpcValue& value) {
+  const auto is_in_range = [&](double number) {
+    return number >= parameter.least && number <= parameter.most;
+  };
+  const std::vector<std::string>& values = parameter.values;
+  switch (value.getType()) {
+    case XmlRpcValue::TypeBoolean:
+      return parameter.type == "bool";
+    case XmlRpcValue::TypeInt:
+      return (parameter.type == "int" || parameter.type == "double") &&
+             is_in_range(static_cast<const int&>(value));
+    case XmlRpcValue::TypeDouble:
+      return parameter.type == "double" && is_in_range(static_cast<const double&>(value));
+    case XmlRpcValue::TypeString:
+      return parameter.type == "str" &&
+             (values.empty() || std::find(values.begin(), values.end(),
+                                          static_cast<const std::string&>(value)) != values.end());
+    default:
+      return false;
+  }
 }
 
 YAML::Node to_yaml(const XmlRpcValue& value) {
@@ -82,46 +105,59 @@ std::string text_of(const XmlRpcValue& value) {
   return fiber::shortened(stream.str());
 }
 
-void refuse_parameter(const ros::NodeHandle& node, const std::string& name,
-                      const std::string& allowed) {
+const Parameter* NodeInterface::find(const std::string& name) const {
+  const auto found = std::find_if(parameters.begin(), parameters.end(),
+                                  [&](const Parameter& known) { return known.name == name; });
+  return found == parameters.end() ? nullptr : &*found;
+}
+
+const NodeInterface& interface_of(const std::string& node) {
+  static const std::map<std::string, NodeInterface> interfaces{
+#include "fiber_proximity/interface_table.h"
+  };
+  return interfaces.at(node);
+}
+
+const Parameter& Parameters::find(const std::string& name) const {
+  const Parameter* const parameter = interface_.find(name);
+  if (parameter == nullptr) {
+    throw std::out_of_range("parameter " + name + " is not in cfg/interface.yaml");
+  }
+  return *parameter;
+}
+
+void Parameters::require_allowed(const std::string& name, const XmlRpcValue& value) const {
+  const Parameter& parameter = find(name);
+  if (!is_allowed(parameter, value)) {
+    throw std::invalid_argument("parameter " + node_.resolveName(name) + " is " + text_of(value) +
+                                ", it must be " + parameter.must_be);
+  }
+}
+
+void Parameters::refuse(const std::string& name) const { refuse(name, find(name).must_be); }
+
+void Parameters::refuse(const std::string& name, const std::string& must_be) const {
   XmlRpcValue value;
-  node.getParam(name, value);
-  throw std::invalid_argument("parameter " + node.resolveName(name) + " is " + text_of(value) +
-                              ", it must be " + allowed);
+  node_.getParam(name, value);
+  throw std::invalid_argument("parameter " + node_.resolveName(name) + " is " + text_of(value) +
+                              ", it must be " + must_be);
 }
 
-void read_parameter(const ros::NodeHandle& node, const std::string& name, const Limits& limits,
-                    double& value) {
-  const std::string allowed = allowed_range("a number", limits.least, limits.most);
-  read_parameter(node, name, allowed, value);
-  if (!(value >= limits.least && value <= limits.most && std::isfinite(value))) {
-    refuse_parameter(node, name, allowed);
+XmlRpcValue Parameters::read_checked(const std::string& name) const {
+  const Parameter& parameter = find(name);
+  XmlRpcValue value;
+  if (!node_.getParam(name, value)) {
+    return parameter.value;
   }
+  require_allowed(name, value);
+  const bool is_whole = parameter.type == "double" && value.getType() == XmlRpcValue::TypeInt;
+  return is_whole ? XmlRpcValue(static_cast<double>(static_cast<const int&>(value))) : value;
 }
 
-void read_parameter(const ros::NodeHandle& node, const std::string& name, int least, int& value) {
-  XmlRpcValue number;
-  if (!node.getParam(name, number)) {
-    return;
-  }
-  if (number.getType() != XmlRpcValue::TypeInt || static_cast<const int&>(number) < least) {
-    refuse_parameter(node, name,
-                     allowed_range("a whole number", least, std::numeric_limits<int>::max()));
-  }
-  value = static_cast<const int&>(number);
-}
-
-void read_parameter(const ros::NodeHandle& node, const std::string& name, std::uint32_t& value) {
-  auto number = static_cast<int>(value);
-  read_parameter(node, name, 0, number);
-  value = static_cast<std::uint32_t>(number);
-}
-
-void warn_of_unknown_parameters(const ros::NodeHandle& private_node,
-                                const std::vector<std::string>& known) {
+void Parameters::warn_of_unknown() const {
   std::vector<std::string> names;
-  private_node.getParamNames(names);
-  const std::string prefix = private_node.getNamespace() + "/";
+  node_.getParamNames(names);
+  const std::string prefix = node_.getNamespace() + "/";
   std::set<std::string> unknown;
   for (const std::string& name : names) {
     if (name.rfind(prefix, 0) != 0) {
@@ -129,13 +165,13 @@ void warn_of_unknown_parameters(const ros::NodeHandle& private_node,
     }
     const std::string own =
         name.substr(prefix.size(), name.find('/', prefix.size()) - prefix.size());
-    if (std::find(known.begin(), known.end(), own) == known.end()) {
+    if (interface_.find(own) == nullptr) {
       unknown.insert(own);
     }
   }
   for (const std::string& name : unknown) {
     ROS_WARN_STREAM("parameter " << prefix << name << " is unknown and not used"
-                                 << suggested_parameter(name, known));
+                                 << suggested_parameter(name, interface_.parameters));
   }
 }
 

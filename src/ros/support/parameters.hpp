@@ -4,10 +4,9 @@
 #include <xmlrpcpp/XmlRpcValue.h>
 
 #include <cstdint>
-#include <limits>
-#include <sstream>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "fiber_proximity/yaml/yaml_field.hpp"
@@ -18,54 +17,76 @@ namespace fiber_proximity_ros {
 /// A value as a message shows it: on one line, and no more of it than the reader needs.
 std::string text_of(const XmlRpc::XmlRpcValue& value);
 
-/// @throws std::invalid_argument naming the parameter, its value and what is allowed
-[[noreturn]] void refuse_parameter(const ros::NodeHandle& node, const std::string& name,
-                                   const std::string& allowed);
-
-/// Reads a parameter; one that is not set leaves the value as it is.
-/// @throws std::invalid_argument if it is of another type: roscpp alone would keep silent
-template <class Value>
-void read_parameter(const ros::NodeHandle& node, const std::string& name,
-                    const std::string& allowed, Value& value) {
-  if (node.hasParam(name) && !node.getParam(name, value)) {
-    refuse_parameter(node, name, allowed);
-  }
-}
-
-/// What a number may be, as a message says it: whether it has an upper limit, too.
-/// @param kind as "a number"
-template <class Number>
-std::string allowed_range(const std::string& kind, Number least, Number most) {
-  std::ostringstream text;
-  if (most < std::numeric_limits<Number>::max()) {
-    text << kind << " from " << least << " to " << most;
-  } else {
-    text << kind << " of at least " << least;
-  }
-  return text.str();
-}
-
-/// What a number may be; without an upper limit at least this.
-struct Limits {
-  Limits(double from, double to = std::numeric_limits<double>::infinity())
-      : least(from), most(to) {}
-
-  double least;
-  double most;
+/// A private parameter, as cfg/interface.yaml has it.
+struct Parameter {
+  std::string name;
+  std::string type;           ///< bool, int, double or str; values of others are checked by code
+  XmlRpc::XmlRpcValue value;  ///< where it is not set; not valid: code knows what to do
+  double least;               ///< of a number
+  double most;                ///< of a number
+  std::vector<std::string> values;  ///< those of a str; empty: any
+  std::string must_be;              ///< what is allowed, for errors
+  bool is_dynamic;                  ///< can change while the node runs
 };
 
-/// Reads a finite number within these limits; a whole number is one, too.
-/// @throws std::invalid_argument if it is anything else
-void read_parameter(const ros::NodeHandle& node, const std::string& name, const Limits& limits,
-                    double& value);
+/// What one of our nodes has in cfg/interface.yaml.
+struct NodeInterface {
+  /// @returns null if there is none of this name
+  const Parameter* find(const std::string& name) const;
 
-/// Reads a whole number of at least this limit; roscpp alone would round others.
-/// @throws std::invalid_argument if it is anything else
-void read_parameter(const ros::NodeHandle& node, const std::string& name, int least, int& value);
+  std::vector<std::string> topics;
+  std::vector<Parameter> parameters;
+};
 
-/// Reads a whole number of at least 0.
-/// @throws std::invalid_argument if it is anything else
-void read_parameter(const ros::NodeHandle& node, const std::string& name, std::uint32_t& value);
+/// @param node as cfg/interface.yaml names it
+const NodeInterface& interface_of(const std::string& node);
+
+/// The private parameters of one of our nodes. Reading has one way: type, limits and defaults are
+/// those of cfg/interface.yaml, and so are the errors.
+class Parameters {
+ public:
+  Parameters(const ros::NodeHandle& private_node, const NodeInterface& interface)
+      : node_(private_node), interface_(interface) {}
+
+  const ros::NodeHandle& node() const { return node_; }
+
+  /// Reads a parameter of type bool, int, double or str; one that is not set has its default.
+  /// @throws std::invalid_argument naming the parameter, its value and what is allowed: roscpp
+  ///         alone would keep silent about another type, and round numbers that are not whole
+  template <class Value>
+  void read(const std::string& name, Value& value) const {
+    using Stored = std::conditional_t<std::is_same_v<Value, std::uint32_t>, int, Value>;
+    const XmlRpc::XmlRpcValue found = read_checked(name);
+    value = static_cast<Value>(static_cast<const Stored&>(found));
+  }
+
+  /// Reads a list; one that is not set leaves the value as it is.
+  /// @throws std::invalid_argument as read()
+  template <class Value>
+  void read(const std::string& name, std::vector<Value>& values) const {
+    if (node_.hasParam(name) && !node_.getParam(name, values)) {
+      refuse(name);
+    }
+  }
+
+  /// @throws std::invalid_argument as read()
+  void require_allowed(const std::string& name, const XmlRpc::XmlRpcValue& value) const;
+
+  /// Throws what read() does, for the value that is set.
+  [[noreturn]] void refuse(const std::string& name) const;
+  [[noreturn]] void refuse(const std::string& name, const std::string& must_be) const;
+
+  /// Logs a warning for each private parameter that there is not, with the one it may have been
+  /// meant to be.
+  void warn_of_unknown() const;
+
+ private:
+  const Parameter& find(const std::string& name) const;
+  XmlRpc::XmlRpcValue read_checked(const std::string& name) const;
+
+  ros::NodeHandle node_;
+  const NodeInterface& interface_;
+};
 
 /// The entry of this name.
 /// @param what as "format"
@@ -83,11 +104,6 @@ const Entry& find_by_name(const std::vector<Entry>& entries, const std::string& 
   throw std::invalid_argument("unknown " + what + " '" + name +
                               "', known are: " + fiber::join(known));
 }
-
-/// Logs a warning for each private parameter that is none of these, with the known one it may have
-/// been meant to be.
-void warn_of_unknown_parameters(const ros::NodeHandle& private_node,
-                                const std::vector<std::string>& known);
 
 /// A parameter as the YAML document that it may have come from.
 /// @param name for errors

@@ -1,38 +1,39 @@
 #pragma once
 
+#include <ros/callback_queue.h>
+
 #include <chrono>
-#include <condition_variable>
-#include <deque>
 #include <functional>
 #include <future>
 #include <memory>
-#include <mutex>
 #include <thread>
 #include <utility>
+
+#include "src/ros/support/callback_task.hpp"
 
 namespace fiber_proximity_ros {
 
 /// A thread that does jobs one after the other, in the order in which they were submitted.
 class Worker {
  public:
-  Worker();
+  Worker() = default;
   /// Waits for the job that is being done; those not yet begun are dropped.
-  ~Worker();
+  ~Worker() {
+    jobs_.disable();
+    thread_.join();
+  }
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
   /// @param job must not throw
-  void submit(std::function<void()> job);
+  void submit(std::function<void()> job) { add_task(jobs_, this, std::move(job)); }
 
  private:
-  void run();
-
-  std::mutex mutex_;
-  std::condition_variable condition_;
-  std::deque<std::function<void()>> jobs_;
-  bool stops_ = false;
-
-  std::thread thread_;  // last: it uses all of the above
+  ros::CallbackQueue jobs_;
+  std::thread thread_{[this] {  // last: it uses the above
+    while (jobs_.callOne(ros::WallDuration(1e6)) != ros::CallbackQueue::Disabled) {
+    }
+  }};
 };
 
 /// A value that is made at once, or by a worker meanwhile. The worker skips what nobody waits for
@@ -42,16 +43,14 @@ class Prepared {
  public:
   using Make = std::function<Value()>;
 
-  /// Made before this returns.
-  explicit Prepared(Make make) : Prepared(std::make_shared<Task>(std::move(make))) { (*task_)(); }
-
-  /// By a worker if it takes long, else before this returns.
-  static Prepared of(Make make, Worker& worker, bool takes_long) {
-    return takes_long ? Prepared(std::move(make), worker) : Prepared(std::move(make));
-  }
-
-  Prepared(Make make, Worker& worker) : Prepared(std::make_shared<Task>(std::move(make))) {
-    worker.submit([waiting = std::weak_ptr<Task>(task_)] {
+  /// @param worker makes the value; without one it is made before this returns
+  explicit Prepared(Make make, Worker* worker = nullptr)
+      : task_(std::make_shared<Task>(std::move(make))), value_(task_->get_future()) {
+    if (worker == nullptr) {
+      (*task_)();
+      return;
+    }
+    worker->submit([waiting = std::weak_ptr<Task>(task_)] {
       if (const std::shared_ptr<Task> task = waiting.lock()) {
         (*task)();
       }
@@ -67,9 +66,6 @@ class Prepared {
 
  private:
   using Task = std::packaged_task<Value()>;
-
-  explicit Prepared(std::shared_ptr<Task> task)
-      : task_(std::move(task)), value_(task_->get_future()) {}
 
   std::shared_ptr<Task> task_;
   std::future<Value> value_;

@@ -41,17 +41,9 @@ void ContactSet::clear() {
   obstacle_contacts.clear();
   obstacle_edges.clear();
   frictions_.clear();
-  for (std::vector<Term>& terms : terms_) {
+  for (std::vector<ContactTerm>& terms : terms_) {
     terms.clear();
   }
-}
-
-void ContactSet::append(const ContactSet& other) {
-  pairs.insert(pairs.end(), other.pairs.begin(), other.pairs.end());
-  obstacle_contacts.insert(obstacle_contacts.end(), other.obstacle_contacts.begin(),
-                           other.obstacle_contacts.end());
-  obstacle_edges.insert(obstacle_edges.end(), other.obstacle_edges.begin(),
-                        other.obstacle_edges.end());
 }
 
 /// Calls function(points, term, barrier) for what a contact has of the energy.
@@ -64,7 +56,8 @@ void ContactSet::visit(const Rods& rods, std::size_t index, std::vector<Distance
     const ObstacleContact& contact = obstacle_contacts[index];
     obstacle_contact(contact, obstacle_distances_[index], &found);
     for (const DistanceTerm& term : found) {
-      function(PointPair{contact.rod, contact.edge, term.s, contact.piece.object(), no_edge, 0.0},
+      function(ContactPoints{contact.rod, contact.edge, term.s, contact.piece.object(),
+                             ContactPoints::no_edge, 0.0},
                term, contact.barrier);
     }
     return;
@@ -72,7 +65,7 @@ void ContactSet::visit(const Rods& rods, std::size_t index, std::vector<Distance
   const EdgePair& pair = pairs[index - obstacle_contacts.size()];
   edge_contact(pair, rods.positions, distances_[index - obstacle_contacts.size()], &found);
   for (const DistanceTerm& term : found) {
-    function(PointPair{pair.rod_a, pair.edge_a, term.s, pair.rod_b, pair.edge_b, term.t}, term,
+    function(ContactPoints{pair.rod_a, pair.edge_a, term.s, pair.rod_b, pair.edge_b, term.t}, term,
              pair.barrier);
   }
 }
@@ -89,11 +82,11 @@ void ContactSet::begin(const Rods& rods, const Friction* friction,
   std::vector<std::vector<FrictionPoint>> by_chunk(chunks_of(distance_count()));
   for_each_chunk(distance_count(), [&](std::size_t index, std::size_t begin, std::size_t end) {
     std::vector<DistanceTerm> room;
-    const auto add = [&](const PointPair& points, const DistanceTerm& term,
+    const auto add = [&](const ContactPoints& points, const DistanceTerm& term,
                          const Barrier& /*barrier*/) {
       if (term.pressure > 0.0) {
         Vector3d reference = point_at(references, points.edge_a, points.s);
-        if (points.edge_b != no_edge) {
+        if (points.is_of_rods()) {
           reference -= point_at(references, points.edge_b, points.t);
         }
         by_chunk[index].push_back(
@@ -147,12 +140,12 @@ void ContactSet::measure(const Rods& rods) {
   });
 }
 
-Vector3d ContactSet::slip_of(const Rods& rods, const FrictionPoint& point) const {
-  Vector3d moved = point_at(rods.positions, point.points.edge_a, point.points.s) - point.reference;
-  if (point.points.edge_b != no_edge) {
-    moved -= point_at(rods.positions, point.points.edge_b, point.points.t);
+Vector3d ContactSet::FrictionPoint::slip(const Rods& rods) const {
+  Vector3d moved = point_at(rods.positions, points.edge_a, points.s) - reference;
+  if (points.is_of_rods()) {
+    moved -= point_at(rods.positions, points.edge_b, points.t);
   }
-  return moved - point.normal * point.normal.dot(moved);
+  return moved - normal * normal.dot(moved);
 }
 
 double ContactSet::energy_of(const Rods& rods, std::size_t contact) const {
@@ -164,7 +157,7 @@ double ContactSet::energy_of(const Rods& rods, std::size_t contact) const {
     return edge_contact(pairs[contact], rods.positions, distances_[contact], nullptr);
   }
   const FrictionPoint& point = frictions_[contact - pairs.size()];
-  return point.most * Friction::law(slip_of(rods, point).norm(), stick_length_).energy;
+  return point.most * Friction::law(point.slip(rods).norm(), stick_length_).energy;
 }
 
 void ContactSet::add_energies(const Rods& rods, const std::vector<std::uint32_t>& islands,
@@ -189,8 +182,8 @@ std::pair<std::uint32_t, std::uint32_t> ContactSet::rods_of(std::size_t contact)
     const EdgePair& pair = pairs[contact - obstacle_contacts.size()];
     return {pair.rod_a, pair.rod_b};
   }
-  const PointPair& points = frictions_[contact - distance_count()].points;
-  return {points.rod_a, points.edge_b == no_edge ? points.rod_a : points.rod_b};
+  const ContactPoints& points = frictions_[contact - distance_count()].points;
+  return {points.rod_a, points.is_of_rods() ? points.rod_b : points.rod_a};
 }
 
 double ContactSet::stored_energy() const {
@@ -210,8 +203,9 @@ double ContactSet::stiffening_energy(const std::vector<double>& before,
 }
 
 void ContactSet::find_terms(const Rods& rods, std::size_t contact, std::vector<DistanceTerm>& found,
-                            std::vector<Term>& terms) const {
-  const auto add = [&](const PointPair& points, const DistanceTerm& term, const Barrier& barrier) {
+                            std::vector<ContactTerm>& terms) const {
+  const auto add = [&](const ContactPoints& points, const DistanceTerm& term,
+                       const Barrier& barrier) {
     terms.push_back({points, term.slope * term.normal,
                      (term.curvature - term.across) * term.normal * term.normal.transpose() +
                          term.across * Matrix3d::Identity(),
@@ -223,7 +217,7 @@ void ContactSet::find_terms(const Rods& rods, std::size_t contact, std::vector<D
     return;
   }
   const FrictionPoint& point = frictions_[contact - distance_count()];
-  const Vector3d slip = slip_of(rods, point);
+  const Vector3d slip = point.slip(rods);
   const double length = slip.norm();
   const Friction::Law law = Friction::law(length, stick_length_);
   Matrix3d hessian =
@@ -245,20 +239,16 @@ void ContactSet::find_derivatives(const Rods& rods) {
       find_terms(rods, i, found, terms_[index]);
     }
   });
-  has_coupling_ = std::any_of(terms_.begin(), terms_.end(), [](const std::vector<Term>& terms) {
-    return std::any_of(terms.begin(), terms.end(),
-                       [](const Term& term) { return term.points.edge_b != no_edge; });
-  });
 }
 
 void ContactSet::add_forces(const Rods& rods, std::vector<RodForces::ContactForce>& forces) const {
   using Key = std::array<std::uint32_t, 3>;
   std::map<Key, std::size_t> places;
-  const auto force_of = [&](const PointPair& points) -> RodForces::ContactForce& {
+  const auto force_of = [&](const ContactPoints& points) -> RodForces::ContactForce& {
     const auto [place, is_new] =
         places.emplace(Key{points.edge_a, points.rod_b, points.edge_b}, forces.size());
     if (is_new) {
-      const bool is_obstacle = points.edge_b == no_edge;
+      const bool is_obstacle = !points.is_of_rods();
       RodForces::ContactForce& force = forces.emplace_back();
       force.rod = points.rod_a;
       force.edge = points.edge_a - rods.first(points.rod_a);
@@ -270,12 +260,12 @@ void ContactSet::add_forces(const Rods& rods, std::vector<RodForces::ContactForc
     return forces[place->second];
   };
   std::map<std::size_t, double> weights;
-  const auto press = [&](const PointPair& points, const DistanceTerm& term,
+  const auto press = [&](const ContactPoints& points, const DistanceTerm& term,
                          const Barrier& /*barrier*/) {
     RodForces::ContactForce& force = force_of(points);
     const Vector3d on_a = point_at(rods.positions, points.edge_a, points.s);
     Vector3d between = on_a - rods.radii[points.rod_a] * term.normal;
-    if (points.edge_b != no_edge) {
+    if (points.is_of_rods()) {
       const Vector3d on_b = point_at(rods.positions, points.edge_b, points.t);
       const double share =
           rods.radii[points.rod_a] / (rods.radii[points.rod_a] + rods.radii[points.rod_b]);
@@ -293,7 +283,7 @@ void ContactSet::add_forces(const Rods& rods, std::vector<RodForces::ContactForc
     forces[place].point /= weight;
   }
   for (const FrictionPoint& point : frictions_) {
-    const Vector3d slip = slip_of(rods, point);
+    const Vector3d slip = point.slip(rods);
     RodForces::ContactForce& force = force_of(point.points);
     if (force.point.isZero(0.0)) {
       force.point = point_at(rods.positions, point.points.edge_a, point.points.s);

@@ -39,88 +39,19 @@ void add_side(std::uint32_t node, double parameter, const Vector3d& gradient,
   system.add_hessian(node + 1, node, weights[0] * weights[1] * hessian);
 }
 
-}  // namespace
-
-void ContactSet::add_derivatives(const Rods& rods, const std::vector<RodSystem*>& systems,
-                                 const std::vector<std::uint32_t>& packs,
-                                 std::uint32_t which) const {
-  for (const std::vector<Term>& terms : terms_) {
-    for (const Term& term : terms) {
-      const PointPair& points = term.points;
-      if (packs[points.rod_a] == which) {
-        const std::uint32_t edge = points.edge_a - rods.first(points.rod_a);
-        add_side(edge, points.s, term.gradient, term.hessian, *systems[points.rod_a]);
-        if (term.turning > 0.0) {
-          systems[points.rod_a]->add_edge(edge, Vector3d::Zero(),
-                                          term.turning * term.gradient * term.gradient.transpose());
-        }
-      }
-      if (points.edge_b != no_edge && packs[points.rod_b] == which) {
-        add_side(points.edge_b - rods.first(points.rod_b), points.t, -term.gradient, term.hessian,
-                 *systems[points.rod_b]);
-      }
-    }
+/// Calls function(term) for all of them.
+template <class Function>
+void for_each_term(const ContactTerms& terms, const Function& function) {
+  for (const std::vector<ContactTerm>& some : terms) {
+    std::for_each(some.begin(), some.end(), function);
   }
-}
-
-void ContactSet::add_coupling(const std::vector<std::size_t>& places, const double* displacements,
-                              double* product) const {
-  using Stride = Eigen::InnerStride<lane_count>;
-  const auto displacement = [&](std::uint32_t node) {
-    return Eigen::Map<const Vector3d, 0, Stride>(displacements + places[node]);
-  };
-  const auto combine = [&](std::uint32_t edge, double parameter) -> Vector3d {
-    return (1.0 - parameter) * displacement(edge) + parameter * displacement(edge + 1);
-  };
-  const auto spread = [&](std::uint32_t edge, double parameter, const Vector3d& v) {
-    Eigen::Map<Vector3d, 0, Stride>(product + places[edge]) -= (1.0 - parameter) * v;
-    Eigen::Map<Vector3d, 0, Stride>(product + places[edge + 1]) -= parameter * v;
-  };
-  for (const std::vector<Term>& terms : terms_) {
-    for (const Term& term : terms) {
-      const PointPair& points = term.points;
-      if (points.edge_b != no_edge) {
-        const Vector3d from_a = term.hessian * combine(points.edge_a, points.s);
-        const Vector3d from_b = term.hessian * combine(points.edge_b, points.t);
-        spread(points.edge_a, points.s, from_b);
-        spread(points.edge_b, points.t, from_a);
-      }
-    }
-  }
-}
-
-void ContactSet::add_loads(std::vector<double>& loads) const {
-  for (const std::vector<Term>& terms : terms_) {
-    for (const Term& term : terms) {
-      const PointPair& points = term.points;
-      loads[points.rod_a] = std::max(loads[points.rod_a], term.load);
-      if (points.edge_b != no_edge) {
-        loads[points.rod_b] = std::max(loads[points.rod_b], term.load);
-      }
-    }
-  }
-}
-
-void ContactSet::bound_step(const Rods& rods, const std::vector<Vector3d>& displacements,
-                            const std::vector<std::uint32_t>& islands, std::vector<double>& shares,
-                            std::vector<Vector3d>& ends) const {
-  for (std::size_t i = 0; i < obstacle_contacts.size(); ++i) {
-    double& share = shares[islands[obstacle_contacts[i].rod]];
-    share = fiber::bounded_share(obstacle_contacts[i], obstacle_distances_[i], rods.positions,
-                                 displacements, most_lost, share);
-  }
-  for (const ObstacleEdge& edge : obstacle_edges) {
-    double& share = shares[islands[edge.rod]];
-    share = bounded_share(rods, edge, displacements, share);
-  }
-  bound_pairs(rods, displacements, islands, shares, ends);
 }
 
 /// How far an edge may go for an obstacle: as far as it is away; else, with a convex one, as long
 /// as it stays in front of the plane that parted them when the step began; else until it comes to
 /// it.
-double ContactSet::bounded_share(const Rods& rods, const ObstacleEdge& edge,
-                                 const std::vector<Vector3d>& displacements, double share) {
+double bounded_share(const Rods& rods, const ObstacleEdge& edge,
+                     const std::vector<Vector3d>& displacements, double share) {
   const Vector3d* const now = &rods.positions[edge.edge];
   const Vector3d* const ways = &displacements[edge.edge];
   double farthest = 0.0;  // from where the ends were
@@ -150,9 +81,81 @@ double ContactSet::bounded_share(const Rods& rods, const ObstacleEdge& edge,
   return time.hit ? share * time.lower : share;
 }
 
-void ContactSet::bound_pairs(const Rods& rods, const std::vector<Vector3d>& displacements,
-                             const std::vector<std::uint32_t>& islands, std::vector<double>& shares,
-                             std::vector<Vector3d>& ends) const {
+}  // namespace
+
+void add_derivatives(const ContactTerms& terms, const Rods& rods,
+                     const std::vector<RodSystem*>& systems,
+                     const std::vector<std::uint32_t>& packs, std::uint32_t which) {
+  for_each_term(terms, [&](const ContactTerm& term) {
+    const ContactPoints& points = term.points;
+    if (packs[points.rod_a] == which) {
+      const std::uint32_t edge = points.edge_a - rods.first(points.rod_a);
+      add_side(edge, points.s, term.gradient, term.hessian, *systems[points.rod_a]);
+      if (term.turning > 0.0) {
+        systems[points.rod_a]->add_edge(edge, Vector3d::Zero(),
+                                        term.turning * term.gradient * term.gradient.transpose());
+      }
+    }
+    if (points.is_of_rods() && packs[points.rod_b] == which) {
+      add_side(points.edge_b - rods.first(points.rod_b), points.t, -term.gradient, term.hessian,
+               *systems[points.rod_b]);
+    }
+  });
+}
+
+bool has_coupling(const ContactTerms& terms) {
+  return std::any_of(terms.begin(), terms.end(), [](const auto& some) {
+    return std::any_of(some.begin(), some.end(),
+                       [](const ContactTerm& term) { return term.points.is_of_rods(); });
+  });
+}
+
+void add_coupling(const ContactTerms& terms, const std::vector<std::size_t>& places,
+                  const SimdBatch* displacements, SimdBatch* product) {
+  using Stride = Eigen::InnerStride<lane_count>;
+  const auto displacement = [&](std::uint32_t node) {
+    return Eigen::Map<const Vector3d, 0, Stride>(displacements->of.data() + places[node]);
+  };
+  const auto combine = [&](std::uint32_t edge, double parameter) -> Vector3d {
+    return (1.0 - parameter) * displacement(edge) + parameter * displacement(edge + 1);
+  };
+  const auto spread = [&](std::uint32_t edge, double parameter, const Vector3d& v) {
+    Eigen::Map<Vector3d, 0, Stride>(product->of.data() + places[edge]) -= (1.0 - parameter) * v;
+    Eigen::Map<Vector3d, 0, Stride>(product->of.data() + places[edge + 1]) -= parameter * v;
+  };
+  for_each_term(terms, [&](const ContactTerm& term) {
+    const ContactPoints& points = term.points;
+    if (points.is_of_rods()) {
+      const Vector3d from_a = term.hessian * combine(points.edge_a, points.s);
+      const Vector3d from_b = term.hessian * combine(points.edge_b, points.t);
+      spread(points.edge_a, points.s, from_b);
+      spread(points.edge_b, points.t, from_a);
+    }
+  });
+}
+
+void add_loads(const ContactTerms& terms, std::vector<double>& loads) {
+  for_each_term(terms, [&](const ContactTerm& term) {
+    const ContactPoints& points = term.points;
+    loads[points.rod_a] = std::max(loads[points.rod_a], term.load);
+    if (points.is_of_rods()) {
+      loads[points.rod_b] = std::max(loads[points.rod_b], term.load);
+    }
+  });
+}
+
+void ContactSet::bound_step(const Rods& rods, const std::vector<Vector3d>& displacements,
+                            const std::vector<std::uint32_t>& islands, std::vector<double>& shares,
+                            std::vector<Vector3d>& ends) const {
+  for (std::size_t i = 0; i < obstacle_contacts.size(); ++i) {
+    double& share = shares[islands[obstacle_contacts[i].rod]];
+    share = bounded_share(obstacle_contacts[i], obstacle_distances_[i], rods.positions,
+                          displacements, most_lost, share);
+  }
+  for (const ObstacleEdge& edge : obstacle_edges) {
+    double& share = shares[islands[edge.rod]];
+    share = bounded_share(rods, edge, displacements, share);
+  }
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const EdgePair& pair = pairs[i];
     double& share = shares[islands[pair.rod_a]];

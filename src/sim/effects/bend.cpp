@@ -64,7 +64,7 @@ struct CurvedTurn {
 HWY_INLINE CurvedTurn curved_turn(const TwoEdges& edges, const SimdBatch& natural,
                                   std::size_t lane) {
   const Vector turn = edges.after - edges.before;
-  const Real size = square_root(dot(turn, turn));
+  const Real size = hn::Sqrt(dot(turn, turn));
   return {turn, size, size - load(natural, lane)};
 }
 
@@ -83,7 +83,7 @@ void curved_energy(const RodPack& rods, const NodeValues& natural, const double*
 /// Of the turn; where there is none, one of those across the rod, found lane by lane.
 HWY_INLINE Vector direction_of(const CurvedTurn& turn, const Vector& tangent) {
   const Real zero = real(0.0);
-  const auto is_bent = hn::Gt(turn.size.value, zero.value);
+  const auto is_bent = hn::Gt(turn.size, zero);
   const Vector along = real(1.0) / turn.size * turn.turn;
   if (hn::AllTrue(LaneTag(), is_bent)) {
     return along;
@@ -99,7 +99,7 @@ HWY_INLINE Vector direction_of(const CurvedTurn& turn, const Vector& tangent) {
   }
   Vector direction;
   for (std::size_t k = 0; k < 3; ++k) {
-    direction.of[k] = {hn::IfThenElse(is_bent, along.of[k].value, load(across[k], 0).value)};
+    direction.of[k] = hn::IfThenElse(is_bent, along.of[k], load(across[k], 0));
   }
   return direction;
 }
@@ -119,9 +119,9 @@ void add_curved_derivatives_of(const RodPack& rods, const NodeValues& natural, P
       add_gradient<U>(edges, negative(gradient), gradient, i, lane, system);
       // A rod that is straighter than it wants to be gives way sideways: as in Stretch.
       const Real wanted = load(natural[i], lane);
-      const Real share = larger(zero, turn.excess) / larger(turn.size, wanted);
-      const auto is_straight = hn::Eq(wanted.value, zero.value);
-      const Real sideways = {hn::IfThenElse(is_straight, one.value, share.value)};
+      const Real share = hn::Max(zero, turn.excess) / hn::Max(turn.size, wanted);
+      const auto is_straight = hn::Eq(wanted, zero);
+      const Real sideways = hn::IfThenElse(is_straight, one, share);
       EdgeBlocks blocks = isotropic_blocks(edges, stiffness * sideways);
       add_along(edges, stiffness * (one - sideways), direction, blocks);
       add_hessian<U>(blocks, i, lane, system);

@@ -44,14 +44,14 @@ HWY_INLINE TurnChange turn_change(const RodPack& rods, const NodeValues& starts,
   result.edges = edges_beside(rods, node, lane);
   result.turn = result.edges.after - result.edges.before;
   const Vector sum = result.edges.before + result.edges.after;
-  result.middle_length = square_root(dot(sum, sum));
-  result.middle = real(1.0) / larger(result.middle_length, least) * sum;
+  result.middle_length = hn::Sqrt(dot(sum, sum));
+  result.middle = real(1.0) / hn::Max(result.middle_length, least) * sum;
   result.old_middle = load_vector(start + 3, lane);
   result.change =
       result.turn - transport(load_vector(start, lane), result.old_middle, result.middle);
-  const auto had_middle = hn::Gt(dot(result.old_middle, result.old_middle).value, real(0.0).value);
+  const auto had_middle = hn::Gt(dot(result.old_middle, result.old_middle), real(0.0));
   const Real stiffness = total * load(rods.inverse_node_lengths[node], lane);
-  result.stiffness = {hn::IfThenElseZero(had_middle, stiffness.value)};
+  result.stiffness = hn::IfThenElseZero(had_middle, stiffness);
   return result;
 }
 
@@ -61,7 +61,7 @@ HWY_INLINE Vector by_middle(const TurnChange& turn) {
   constexpr double folded = 1e-3;  // as in Damping
   const Real rotated = dot(turn.middle, cross(turn.change, turn.turn));
   const Real factor =
-      real(-0.5) * turn.stiffness * rotated / larger(real(folded), turn.middle_length);
+      real(-0.5) * turn.stiffness * rotated / hn::Max(real(folded), turn.middle_length);
   return factor * curvature_binormal(turn.old_middle, turn.middle);
 }
 

@@ -41,7 +41,7 @@ void add_stretch_of(const RodPack& rods, PackSystem& system) {
       const Vector tangent = tangent_at(rods, i, lane);
       const Vector force = stiffness * excess * tangent;
       // Under pressure an edge gives way sideways; that part is negative definite and left out.
-      const Real sideways = stiffness * larger(zero, excess * load(rods.inverse_lengths[i], lane));
+      const Real sideways = stiffness * hn::Max(zero, excess * load(rods.inverse_lengths[i], lane));
       const Vector along = (stiffness - sideways) * tangent;
       add_edge<U>(force, block_of(sideways, along, tangent), i, lane, system);
     }
@@ -88,7 +88,7 @@ void add_springs_of(const RodPack& rods, const NodeValues& values, PackSystem& s
       const Vector tangent = tangent_at(rods, i, lane);
       const Real force = spring.tension + spring.stiffness * spring.excess;
       // As in Stretch, without what gives way under pressure.
-      const Real sideways = larger(zero, force) * load(rods.inverse_lengths[i], lane);
+      const Real sideways = hn::Max(zero, force) * load(rods.inverse_lengths[i], lane);
       const Vector along = (spring.stiffness - sideways) * tangent;
       add_edge<U>(force * tangent, block_of(sideways, along, tangent), i, lane, system);
     }

@@ -57,7 +57,7 @@ HWY_INLINE TwistDerivative derivative_at(const RodPack& rods, std::size_t node, 
   TwistDerivative derivative;
   for (std::size_t k = 0; k < 3; ++k) {
     derivative.of[k] = by_previous.of[k];
-    derivative.of[unknowns + k] = negative(by_previous.of[k] + by_next.of[k]);
+    derivative.of[unknowns + k] = hn::Neg(by_previous.of[k] + by_next.of[k]);
     derivative.of[2 * unknowns + k] = by_next.of[k];
   }
   derivative.of[3] = real(-1.0);

@@ -131,29 +131,6 @@ double fastest_speed(const Waypoints& path) {
   return fastest;
 }
 
-/// Before the first entry and after the last one these hold.
-Placement at(const PlacementPath& path, double time) {
-  const auto later = std::find_if(path.begin(), path.end(),
-                                  [time](const auto& entry) { return entry.first > time; });
-  if (later == path.begin() || later == path.end()) {
-    return later == path.end() ? path.back().second : later->second;
-  }
-  const auto& [start, from] = *std::prev(later);
-  const double share = (time - start) / (later->first - start);
-  const Placement& to = later->second;
-  Placement placement;
-  placement.position = from.position + share * (to.position - from.position);
-  // Directions turn at equal rates; opposite ones turn about any axis.
-  const auto turn = smallest_rotation(from.tangent, to.tangent);
-  const auto part = Eigen::Quaterniond::Identity().slerp(share, turn);
-  placement.tangent = part * from.tangent;
-  const Vector3d carried = turn * from.director;
-  const double twist =
-      std::atan2(to.tangent.dot(carried.cross(to.director)), carried.dot(to.director));
-  placement.director = Eigen::AngleAxisd(share * twist, placement.tangent) * (part * from.director);
-  return placement;
-}
-
 /// Where the fibre would be torn in the first step: a hold begins where it is, within an edge.
 void require_near(const SimHold& hold, const Rods& rods) {
   const double length = rods.rest_lengths[edge_at(rods, hold.rod, hold.node)];
@@ -208,6 +185,28 @@ SimHold read_hold(const YamlField& entry, std::uint32_t rod, const Rods& rods) {
 
 }  // namespace
 
+Placement placement_at(const PlacementPath& path, double time) {
+  const auto later = std::find_if(path.begin(), path.end(),
+                                  [time](const auto& entry) { return entry.first > time; });
+  if (later == path.begin() || later == path.end()) {
+    return later == path.end() ? path.back().second : later->second;
+  }
+  const auto& [start, from] = *std::prev(later);
+  const double share = (time - start) / (later->first - start);
+  const Placement& to = later->second;
+  Placement placement;
+  placement.position = from.position + share * (to.position - from.position);
+  // Opposite directions turn about any axis.
+  const auto turn = smallest_rotation(from.tangent, to.tangent);
+  const auto part = Eigen::Quaterniond::Identity().slerp(share, turn);
+  placement.tangent = part * from.tangent;
+  const Vector3d carried = turn * from.director;
+  const double twist =
+      std::atan2(to.tangent.dot(carried.cross(to.director)), carried.dot(to.director));
+  placement.director = Eigen::AngleAxisd(share * twist, placement.tangent) * (part * from.director);
+  return placement;
+}
+
 void read_holds(const YamlField& list, SimDescription& scene) {
   HeldPlaces places;
   for (const YamlField& entry : list.items()) {
@@ -251,7 +250,7 @@ std::function<Placement(double)> placement_of(const SimHold& hold, const SimDesc
   }
   const double period = hold.is_periodic ? hold.path.back().time : 0.0;
   return [path, period](double time) {
-    return at(*path, period > 0.0 ? std::fmod(time, period) : time);
+    return placement_at(*path, period > 0.0 ? std::fmod(time, period) : time);
   };
 }
 

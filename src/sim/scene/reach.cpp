@@ -126,6 +126,18 @@ std::string out_of_reach(const SimScene& scene, const NodeOfRod& held, const Vec
 
 }  // namespace
 
+void hold_on_path(SimScene& scene, const NodeOfRod& node,
+                  const std::shared_ptr<const PlacementPath>& path) {
+  if (const auto id = scene.attachment->find(node.rod, node.node)) {
+    scene.attachment->remove(*id);
+  }
+  Attachment::Hold hold;
+  hold.rod = node.rod;
+  hold.node = node.node;
+  hold.placement = [path](double time) { return placement_at(*path, time); };
+  scene.attachment->add(scene.stepper->rods(), hold);
+}
+
 Lead lead(const SimScene& scene, const NodeOfRod& held, const Vector3d& from,
           const Vector3d& wanted, double fastest) {
   if (!is_place(scene, held.rod, wanted)) {

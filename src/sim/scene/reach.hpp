@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,16 @@ struct NodeOfRod {
   std::uint32_t rod;
   std::uint32_t node;
 };
+
+/// Where it is [m].
+inline const Eigen::Vector3d& position_of(const Rods& rods, const NodeOfRod& node) {
+  return rods.positions[rods.first(node.rod) + node.node];
+}
+
+/// Holds a node of a scene with the effect attachment on a path, which may change meanwhile, in
+/// place of what has held it.
+void hold_on_path(SimScene& scene, const NodeOfRod& node,
+                  const std::shared_ptr<const PlacementPath>& path);
 
 /// Where something may lead a node that it holds in the next frame.
 struct Lead {

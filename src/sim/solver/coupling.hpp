@@ -53,8 +53,8 @@ class Coupling {
     const std::vector<LaneIslands>& islands;  ///< by pack
     const std::vector<double>& decreases;     ///< by island: what the step by the bands alone
                                               ///< promises [J]; 0 where there is none to find
-    const ContactSet& contacts;               ///< with derivatives
-    const std::vector<std::size_t>& places;   ///< of nodes in the step
+    const ContactTerms& contacts;
+    const std::vector<std::size_t>& places;  ///< of nodes in the step
   };
 
   /// Makes the step by the bands alone the one by the whole Hessian.
@@ -78,18 +78,11 @@ class Coupling {
     bool is_solving = true;
   };
 
-  /// Adds what contacts between rods bring for these values to a product.
-  static void add_coupling(const Problem& problem, const std::vector<SimdBatch>& values,
-                           std::vector<SimdBatch>& product) {
-    problem.contacts.add_coupling(problem.places, values.data()->of.data(),
-                                  product.data()->of.data());
-  }
-
   /// By lane of a pack, what holds for its islands.
   template <class Value>
   static SimdBatch by_lane(const PackStep& pack, const LaneIslands& islands, const Value& value) {
     SimdBatch values;
-    for (std::size_t lane = 0; lane < pack.used(); ++lane) {
+    for (std::size_t lane = 0; lane < pack.rods().used; ++lane) {
       values[lane] = value(islands[lane]);
     }
     return values;
@@ -101,7 +94,7 @@ class Coupling {
   static void for_each_part(const Problem& problem, Work work, const Function& function) {
     for_each_pack(problem.packs.size(), work, [&](std::size_t pack) {
       function(pack, problem.offsets[pack],
-               SumSize{problem.packs[pack].step_size(), problem.packs[pack].used()});
+               SumSize{problem.packs[pack].step_size(), problem.packs[pack].rods().used});
     });
   }
 
@@ -109,7 +102,7 @@ class Coupling {
   std::vector<double> sums(const Problem& problem) const {
     std::vector<double> sums(numbers_.size(), 0.0);
     for (std::size_t pack = 0; pack < problem.packs.size(); ++pack) {
-      for (std::size_t lane = 0; lane < problem.packs[pack].used(); ++lane) {
+      for (std::size_t lane = 0; lane < problem.packs[pack].rods().used; ++lane) {
         sums[problem.islands[pack][lane]] += partial_sums_[pack][lane];
       }
     }
@@ -129,10 +122,10 @@ class Coupling {
       }
       residual_[i] = SimdBatch{};
     }
-    add_coupling(problem, image_, residual_);
+    add_coupling(problem.contacts, problem.places, image_.data(), residual_.data());
     for_each_part(problem, Work::MUCH, [&](std::size_t pack, std::size_t first, SumSize size) {
       std::copy_n(&residual_[first], size.count, &direction_[first]);
-      problem.packs[pack].solve(&direction_[first]);
+      solve_band(problem.packs[pack].system(), &direction_[first]);
       std::copy_n(&residual_[first], size.count, &product_[first]);
       partial_sums_[pack] = products(size, &residual_[first], &direction_[first]);
     });
@@ -157,7 +150,7 @@ class Coupling {
   /// And how far to go along the direction.
   void find_image(const Problem& problem) {
     image_ = product_;
-    add_coupling(problem, direction_, image_);
+    add_coupling(problem.contacts, problem.places, direction_.data(), image_.data());
     for_each_part(problem, Work::LITTLE, [&](std::size_t pack, std::size_t first, SumSize size) {
       partial_sums_[pack] = products(size, &direction_[first], &image_[first]);
     });
@@ -180,7 +173,7 @@ class Coupling {
       move_by(size, &step[first], &direction_[first], forward(1.0), &step[first]);
       move_by(size, &residual_[first], &image_[first], forward(-1.0), &residual_[first]);
       std::copy_n(&residual_[first], size.count, &preconditioned_[first]);
-      of_pack.solve(&preconditioned_[first]);
+      solve_band(of_pack.system(), &preconditioned_[first]);
       partial_sums_[pack] = products(size, &residual_[first], &preconditioned_[first]);
     });
     const std::vector<double> norms = sums(problem);

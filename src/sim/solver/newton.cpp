@@ -64,7 +64,7 @@ void NewtonSolver::load(const Rods& rods) {
   for_each_pack(packs_.size(), Work::LITTLE, [&](std::size_t pack) { packs_[pack].load(rods); });
 }
 
-bool NewtonSolver::solve(Rods& rods, const Problem& problem) {
+std::optional<double> NewtonSolver::solve(Rods& rods, const Problem& problem) {
   if (problem.room != nullptr) {
     bound_.begin(problem.room, static_cast<std::uint32_t>(searches_.size()));
   }
@@ -74,7 +74,7 @@ bool NewtonSolver::solve(Rods& rods, const Problem& problem) {
   measure(rods, problem);
   const double stored_before = stored_energy(problem);
   if (!predict(rods, problem)) {
-    return false;
+    return std::nullopt;
   }
   for (std::uint32_t iteration = 0;; ++iteration) {
     assemble(rods, problem);
@@ -86,7 +86,7 @@ bool NewtonSolver::solve(Rods& rods, const Problem& problem) {
     }
     find_step(problem);
     if (!bound_step(rods, problem)) {
-      return false;
+      return std::nullopt;
     }
     // Where no share helps, rounding errors are all that is left.
     search_line(rods, problem, LineSearch::most_halvings);
@@ -96,9 +96,11 @@ bool NewtonSolver::solve(Rods& rods, const Problem& problem) {
       searches_[i].is_active = searches_[i].is_active && !found.has_failed;
     }
   }
-  stored_gain_ = stored_energy(problem) - stored_before;
   for_each_pack(packs_.size(), Work::LITTLE, [&](std::size_t pack) { packs_[pack].finish(rods); });
-  return problem.room == nullptr || problem.room->is_last || bound_.is_within(rods, members_);
+  if (problem.room != nullptr && !problem.room->is_last && !bound_.is_within(rods, members_)) {
+    return std::nullopt;
+  }
+  return stored_energy(problem) - stored_before;
 }
 
 /// Energies where the rods are, by island.
@@ -106,7 +108,7 @@ void NewtonSolver::measure(Rods& rods, const Problem& problem) {
   for_each_pack(packs_.size(), Work::MUCH, [&](std::size_t pack) {
     packs_[pack].measure(problem.effects);
     if (problem.contacts != nullptr) {
-      packs_[pack].store(rods);
+      store(packs_[pack].rods(), rods);
     }
   });
   energies_.assign(searches_.size(), EnergySum{});
@@ -151,8 +153,8 @@ void NewtonSolver::assemble(Rods& rods, const Problem& problem) {
   for_each_pack(packs_.size(), Work::MUCH, [&](std::size_t pack) {
     packs_[pack].assemble(problem.effects);
     if (problem.contacts != nullptr) {
-      problem.contacts->add_derivatives(rods, scratch_->systems, scratch_->packs,
-                                        static_cast<std::uint32_t>(pack));
+      add_derivatives(problem.contacts->terms(), rods, scratch_->systems, scratch_->packs,
+                      static_cast<std::uint32_t>(pack));
     }
     packs_[pack].measure_residuals();
   });
@@ -167,7 +169,12 @@ void NewtonSolver::judge_balance(Rods& rods, const Problem& problem, std::uint32
     searches_[i].is_balanced = searches_[i].is_active && reports_[i].residual <= allowed;
   }
   if (learn_multipliers(rods, problem)) {
-    measure_again(rods, problem);
+    for (PackStep& pack : packs_) {
+      pack.load_values(problem.effects);
+    }
+    measure(rods, problem);
+    assemble(rods, problem);
+    find_residuals();
   }
   for (std::size_t i = 0; i < searches_.size(); ++i) {
     if (searches_[i].is_active) {
@@ -186,7 +193,7 @@ void NewtonSolver::find_residuals() {
     IslandReport& report = reports_[island];
     if (!(residual.speed <= report.residual)) {
       report.residual = residual.speed;
-      report.rod = packs_[pack].rod(lane);
+      report.rod = packs_[pack].rods().rods[lane];
       report.node = residual.node;
     }
   });
@@ -205,8 +212,8 @@ bool NewtonSolver::learn_multipliers(Rods& rods, const Problem& problem) {
     }
     for_each_rod([&](std::size_t pack, std::size_t lane, std::uint32_t island) {
       if (searches_[island].is_learning) {
-        packs_[pack].store(rods);
-        if (!effect->update_multipliers(rods, packs_[pack].rod(lane))) {
+        store(packs_[pack].rods(), rods);
+        if (!effect->update_multipliers(rods, packs_[pack].rods().rods[lane])) {
           searches_[island].is_balanced = false;
           has_learnt = true;
         }
@@ -214,16 +221,6 @@ bool NewtonSolver::learn_multipliers(Rods& rods, const Problem& problem) {
     });
   }
   return has_learnt;
-}
-
-/// Energies and derivatives where the rods are, after something has learnt from them.
-void NewtonSolver::measure_again(Rods& rods, const Problem& problem) {
-  for (PackStep& pack : packs_) {
-    pack.load_values(problem.effects);
-  }
-  measure(rods, problem);
-  assemble(rods, problem);
-  find_residuals();
 }
 
 void NewtonSolver::find_step(const Problem& problem) {
@@ -238,21 +235,18 @@ void NewtonSolver::find_step(const Problem& problem) {
     }
   });
   weigh_step();
-  if (problem.contacts != nullptr && problem.contacts->has_coupling()) {
+  if (problem.contacts != nullptr && has_coupling(problem.contacts->terms())) {
     decreases_.clear();
     for (const Search& search : searches_) {
       decreases_.push_back(search.decrease);
     }
-    coupling_.correct({packs_, offsets_, islands_, decreases_, *problem.contacts, scratch_->places},
-                      step_);
+    coupling_.correct(
+        {packs_, offsets_, islands_, decreases_, problem.contacts->terms(), scratch_->places},
+        step_);
     weigh_step();
   }
-  scale_step();
-}
-
-/// Where the Hessian is stiffer than the energy, steps are too short, each by the same factor: the
-/// next one is made longer by what the last one has told.
-void NewtonSolver::scale_step() {
+  // Where the Hessian is stiffer than the energy, steps are too short, each by the same factor: the
+  // next one is made longer by what the last one has told.
   for_each_rod([&](std::size_t pack, std::size_t lane, std::uint32_t island) {
     const double scale = searches_[island].scale;
     for (std::size_t i = 0; scale != 1.0 && i < packs_[pack].step_size(); ++i) {
@@ -270,10 +264,10 @@ void NewtonSolver::weigh_step() {
     search.decrease = 0.0;
   }
   for (std::size_t pack = 0; pack < packs_.size(); ++pack) {
-    const std::vector<SimdBatch>& gradient = packs_[pack].gradient();
-    const SimdBatch slopes =
-        products({gradient.size(), packs_[pack].used()}, gradient.data(), part(pack));
-    for (std::size_t lane = 0; lane < packs_[pack].used(); ++lane) {
+    const std::vector<SimdBatch>& gradient = packs_[pack].system().gradient;
+    const std::size_t used = packs_[pack].rods().used;
+    const SimdBatch slopes = products({gradient.size(), used}, gradient.data(), part(pack));
+    for (std::size_t lane = 0; lane < used; ++lane) {
       searches_[islands_[pack][lane]].decrease -= slopes[lane];
     }
   }
@@ -299,30 +293,24 @@ bool NewtonSolver::bound_step(const Rods& rods, const Problem& problem) {
 
 /// Moves rods by shares of the step that bring them lower, if there are any.
 void NewtonSolver::search_line(Rods& rods, const Problem& problem, int halvings) {
-  for (PackStep& pack : packs_) {
-    pack.remember();
-  }
   line_.begin(searches_.size(), halvings);
   for (std::size_t i = 0; i < searches_.size(); ++i) {
     line_.island(i) = {energies_[i], searches_[i].decrease,
                        searches_[i].is_active ? shares_[i] : 0.0, searches_[i].is_active, false};
   }
   do {
-    move();
-    measure(rods, problem);
+    try_shares(rods, problem);
   } while (line_.judge(energies_));
   bool has_to_return = false;
   for (std::size_t i = 0; i < searches_.size(); ++i) {
     has_to_return |= line_.island(i).has_failed;
   }
   if (line_.refine(energies_)) {
-    move();
-    measure(rods, problem);
+    try_shares(rods, problem);
     has_to_return = line_.settle(energies_);
   }
   if (has_to_return) {
-    move();
-    measure(rods, problem);
+    try_shares(rods, problem);
   }
   for (std::size_t i = 0; i < searches_.size(); ++i) {
     shares_[i] = line_.island(i).share;
@@ -332,14 +320,16 @@ void NewtonSolver::search_line(Rods& rods, const Problem& problem, int halvings)
   }
 }
 
-void NewtonSolver::move() {
+/// Measures where the shares of the step lead.
+void NewtonSolver::try_shares(Rods& rods, const Problem& problem) {
   for_each_pack(packs_.size(), Work::LITTLE, [&](std::size_t pack) {
     SimdBatch shares;
-    for (std::size_t lane = 0; lane < packs_[pack].used(); ++lane) {
+    for (std::size_t lane = 0; lane < packs_[pack].rods().used; ++lane) {
       shares[lane] = line_.island(islands_[pack][lane]).share;
     }
     packs_[pack].move(part(pack), shares);
   });
+  measure(rods, problem);
 }
 
 }  // namespace fiber

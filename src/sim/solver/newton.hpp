@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "fiber_proximity/sim/stepper.hpp"
@@ -59,15 +60,13 @@ class NewtonSolver {
   void load(const Rods& rods);
 
   /// Moves the rods from there to the end of the step.
-  /// @returns false if rods need more room: they are anywhere then
-  bool solve(Rods& rods, const Problem& problem);
+  /// @returns what more energy rods and contacts store then, all islands together [J]; none if rods
+  ///          need more room: they are anywhere then
+  std::optional<double> solve(Rods& rods, const Problem& problem);
 
   /// Of the last solve, by island.
   const std::vector<IslandReport>& reports() const { return reports_; }
   const StepBound& step_bound() const { return bound_; }
-
-  /// What more energy rods and contacts store since its start, all islands together [J].
-  double stored_gain() const { return stored_gain_; }
 
  private:
   /// An island in the course of a solve.
@@ -83,7 +82,7 @@ class NewtonSolver {
   template <class Function>
   void for_each_rod(const Function& function) {
     for (std::size_t pack = 0; pack < packs_.size(); ++pack) {
-      for (std::size_t lane = 0; lane < packs_[pack].used(); ++lane) {
+      for (std::size_t lane = 0; lane < packs_[pack].rods().used; ++lane) {
         function(pack, lane, islands_[pack][lane]);
       }
     }
@@ -96,14 +95,12 @@ class NewtonSolver {
   void assemble(Rods& rods, const Problem& problem);
   void judge_balance(Rods& rods, const Problem& problem, std::uint32_t iteration);
   bool learn_multipliers(Rods& rods, const Problem& problem);
-  void measure_again(Rods& rods, const Problem& problem);
   void find_residuals();
   void find_step(const Problem& problem);
   void weigh_step();
-  void scale_step();
   bool bound_step(const Rods& rods, const Problem& problem);
+  void try_shares(Rods& rods, const Problem& problem);
   void search_line(Rods& rods, const Problem& problem, int halvings);
-  void move();
 
   std::vector<PackStep> packs_;
   std::vector<std::uint32_t> members_;  // rods
@@ -116,7 +113,6 @@ class NewtonSolver {
   std::vector<double> decreases_;      // by island
   std::vector<double> shares_;         // by island: the most of a step
   std::vector<SimdBatch> step_;
-  double stored_gain_ = 0.0;
   LineSearch line_;
   Coupling coupling_;
   StepBound bound_;

@@ -23,7 +23,7 @@ void measure(RodPack& rods) {
     for (std::size_t i = 0; i + 1 < rods.node_count; ++i) {
       const Vector next = position_at(rods, i + 1, lane);
       const Vector edge = next - point;
-      const Real length = larger(square_root(dot(edge, edge)), least);
+      const Real length = hn::Max(hn::Sqrt(dot(edge, edge)), least);
       const Real inverse = one / length;
       store(length, rods.lengths[i], lane);
       store(inverse, rods.inverse_lengths[i], lane);
@@ -58,8 +58,9 @@ void measure_directors(RodPack& rods) {
   }
 }
 
-void sum_squares(SumSize size, const SimdBatch* inertias, const SimdBatch* positions,
-                 const SimdBatch* predicted, SimdBatch& sum) {
+SimdBatch sum_squares(SumSize size, const SimdBatch* inertias, const SimdBatch* positions,
+                      const SimdBatch* predicted) {
+  SimdBatch sum;
   for (std::size_t lane = 0; lane < size.used; lane += lanes_at_once()) {
     Real squares = real(0.0);
     for (std::size_t i = 0; i < size.count; ++i) {
@@ -68,6 +69,7 @@ void sum_squares(SumSize size, const SimdBatch* inertias, const SimdBatch* posit
     }
     store(squares, sum, lane);
   }
+  return sum;
 }
 
 void inertia(SumSize size, double factor, const SimdBatch* inertias, const SimdBatch* positions,
@@ -83,7 +85,8 @@ void inertia(SumSize size, double factor, const SimdBatch* inertias, const SimdB
   }
 }
 
-void sum_products(SumSize size, const SimdBatch* a, const SimdBatch* b, SimdBatch& sum) {
+SimdBatch sum_products(SumSize size, const SimdBatch* a, const SimdBatch* b) {
+  SimdBatch sum;
   for (std::size_t lane = 0; lane < size.used; lane += lanes_at_once()) {
     Real products = real(0.0);
     for (std::size_t i = 0; i < size.count; ++i) {
@@ -91,17 +94,17 @@ void sum_products(SumSize size, const SimdBatch* a, const SimdBatch* b, SimdBatc
     }
     store(products, sum, lane);
   }
+  return sum;
 }
 
 void move(SumSize size, const SimdBatch* from, const SimdBatch* step, const SimdBatch& shares,
           SimdBatch* positions) {
   for (std::size_t lane = 0; lane < size.used; lane += lanes_at_once()) {
     const Real share = load(shares, lane);
-    const auto is_moving = hn::Ne(share.value, real(0.0).value);
+    const auto is_moving = hn::Ne(share, real(0.0));
     for (std::size_t i = 0; i < size.count; ++i) {
-      const Real way = share * load(step[i], lane);
-      const Real moved = {hn::IfThenElseZero(is_moving, way.value)};
-      store(load(from[i], lane) + moved, positions[i], lane);
+      const Real way = hn::IfThenElseZero(is_moving, share * load(step[i], lane));
+      store(load(from[i], lane) + way, positions[i], lane);
     }
   }
 }
@@ -118,7 +121,7 @@ void residual_squares(SumSize size, std::size_t unknowns, const SimdBatch* gradi
       }
       if (unknowns == 4) {
         const Real turn = load(gradient[first + 3], lane) * load(scales[first + 3], lane);
-        sum = larger(sum, turn * turn);
+        sum = hn::Max(sum, turn * turn);
       }
       store(sum, squares[node], lane);
     }
@@ -136,8 +139,7 @@ void factorise_width(std::size_t used, std::size_t size, SimdBatch* hessian) {
     SimdBatch* column = hessian;
     for (std::size_t c = 0; c < size; ++c, column += W + 1) {
       const Real pivot = load(column[0], lane);
-      const auto is_positive = hn::Gt(pivot.value, zero.value);
-      const Real inverse = one / Real{hn::IfThenElse(is_positive, pivot.value, most.value)};
+      const Real inverse = one / hn::IfThenElse(hn::Gt(pivot, zero), pivot, most);
       Real entries[W + 1];
       for (std::size_t j = 1; j <= W; ++j) {
         entries[j] = load(column[j], lane);
@@ -227,9 +229,7 @@ HWY_EXPORT(residual_squares);
 
 SimdBatch weighted_squares(SumSize size, const SimdBatch* inertias, const SimdBatch* positions,
                            const SimdBatch* predicted) {
-  SimdBatch sum;
-  HWY_DYNAMIC_DISPATCH(sum_squares)(size, inertias, positions, predicted, sum);
-  return sum;
+  return HWY_DYNAMIC_DISPATCH(sum_squares)(size, inertias, positions, predicted);
 }
 
 void set_inertia(SumSize size, double factor, const SimdBatch* inertias, const SimdBatch* positions,
@@ -240,9 +240,7 @@ void set_inertia(SumSize size, double factor, const SimdBatch* inertias, const S
 }
 
 SimdBatch products(SumSize size, const SimdBatch* a, const SimdBatch* b) {
-  SimdBatch sum;
-  HWY_DYNAMIC_DISPATCH(sum_products)(size, a, b, sum);
-  return sum;
+  return HWY_DYNAMIC_DISPATCH(sum_products)(size, a, b);
 }
 
 void move_by(SumSize size, const SimdBatch* from, const SimdBatch* step, const SimdBatch& shares,

@@ -11,6 +11,64 @@
 
 namespace fiber {
 
+/// Calls function(lane, place, node) for the nodes of the first lanes: where what is unknown of one
+/// begins, and which one Rods has it as.
+template <class Function>
+void for_each_node(const RodPack& pack, std::size_t lanes, const Function& function) {
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    for (std::uint32_t i = 0; i < pack.node_count; ++i) {
+      function(lane, i * pack.unknowns, pack.first_nodes[lane] + i);
+    }
+  }
+}
+
+/// What does not change in a step.
+inline void load_constants(const Rods& rods, RodPack& pack) {
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    const std::uint32_t first = pack.first_nodes[lane];
+    const RodSection& section = rods.sections[pack.rods[lane]];
+    pack.stretching_stiffness[lane] = section.stretching_stiffness;
+    pack.bending_stiffness[lane] = section.bending_stiffness;
+    pack.twisting_stiffness[lane] = section.twisting_stiffness;
+    for (std::uint32_t i = 0; i < pack.node_count; ++i) {
+      const double length = rods.rest_lengths[first + i];
+      pack.masses[i][lane] = rods.masses[first + i];
+      pack.rest_lengths[i][lane] = length;
+      if (i + 1 < pack.node_count) {
+        const double before = i > 0 ? rods.rest_lengths[first + i - 1] : length;
+        pack.inverse_rest_lengths[i][lane] = 1.0 / length;
+        pack.inverse_node_lengths[i][lane] = 2.0 / (before + length);
+      }
+    }
+  }
+}
+
+/// What an effect has found of the rods.
+inline void load_values(const Effect& effect, const RodPack& pack, NodeValues& values) {
+  const auto [numbers, count] = effect.numbers();
+  values.resize(std::size_t{count} * pack.node_count);
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    const std::uint32_t first = pack.first_nodes[lane];
+    for (std::uint32_t i = 0; i < pack.node_count; ++i) {
+      for (std::size_t k = 0; k < count; ++k) {
+        values[count * i + k][lane] = numbers[std::size_t{count} * (first + i) + k];
+      }
+    }
+  }
+}
+
+/// Writes where the rods are.
+inline void store(const RodPack& pack, Rods& rods) {
+  for_each_node(pack, pack.used, [&](std::size_t lane, std::size_t place, std::uint32_t node) {
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      rods.positions[node][k] = pack.positions[place + k][lane];
+    }
+    if (pack.unknowns == 4) {
+      rods.angles[node] = pack.positions[place + 3][lane];
+    }
+  });
+}
+
 /// Rods with the same number of nodes side by side in a step of implicit Euler: where inertia alone
 /// would bring them, where they are now, and the incremental potential of that. What becomes of a
 /// rod does not depend on what it is beside.
@@ -41,7 +99,7 @@ class PackStep {
       pack_.director_twists.resize(nodes);
     }
     for (auto* array :
-         {&pack_.positions, &inertias_, &scales_, &beginning_, &predicted_, &remembered_}) {
+         {&pack_.positions, &inertias_, &scales_, &beginning_, &predicted_, &start_}) {
       array->resize(system_.size());
     }
     views_.clear();
@@ -51,8 +109,6 @@ class PackStep {
   }
 
   const RodPack& rods() const { return pack_; }
-  std::size_t used() const { return pack_.used; }
-  std::uint32_t rod(std::size_t lane) const { return pack_.rods[lane]; }
 
   /// How many SimdBatches a step takes: what is unknown, and the zeros that solve_band() wants
   /// after it.
@@ -63,17 +119,23 @@ class PackStep {
   void begin(const Rods& rods, const Effects& effects, double step) {
     step_length_ = step;
     const std::size_t unknowns = system_.unknowns;
-    for (std::size_t lane = 0; lane < lane_count; ++lane) {
-      load_constants(rods, lane);
-    }
-    for_each_node(lane_count, [&](std::size_t lane, std::size_t place, std::uint32_t node) {
+    load_constants(rods, pack_);
+    for_each_node(pack_, lane_count, [&](std::size_t lane, std::size_t place, std::uint32_t node) {
       for (std::uint32_t k = 0; k < 3; ++k) {
         predicted_[place + k][lane] =
             rods.positions[node][k] + step_length_ * rods.velocities[node][k];
+        inertias_[place + k][lane] = rods.masses[node];
+        scales_[place + k][lane] = step_length_ / rods.masses[node];
       }
       if (unknowns == 4) {
         predicted_[place + 3][lane] = rods.angles[node] + step_length_ * rods.spins[node];
+        const std::uint32_t rod = pack_.rods[lane];
         const std::uint32_t edge = node - pack_.first_nodes[lane];
+        // After the last node there is no edge: its angle stays as it is.
+        const double length = edge + 1 < pack_.node_count ? rods.rest_lengths[node] : 1.0;
+        const double inertia = rods.sections[rod].inertia_per_length * length;
+        inertias_[place + 3][lane] = inertia;
+        scales_[place + 3][lane] = rods.radii[rod] * step_length_ / inertia;
         for (std::uint32_t k = 0; k < 3; ++k) {
           pack_.start_directors[3 * edge + k][lane] = rods.directors[node][k];
           pack_.start_tangents[3 * edge + k][lane] = rods.start_tangents[node][k];
@@ -89,22 +151,13 @@ class PackStep {
   void load_values(const Effects& effects) {
     values_.resize(effects.size());
     for (std::size_t e = 0; e < effects.size(); ++e) {
-      const auto [numbers, count] = effects[e]->numbers();
-      values_[e].resize(std::size_t{count} * pack_.node_count);
-      for (std::size_t lane = 0; lane < lane_count; ++lane) {
-        const std::uint32_t first = pack_.first_nodes[lane];
-        for (std::uint32_t i = 0; i < pack_.node_count; ++i) {
-          for (std::size_t k = 0; k < count; ++k) {
-            values_[e][count * i + k][lane] = numbers[std::size_t{count} * (first + i) + k];
-          }
-        }
-      }
+      fiber::load_values(*effects[e], pack_, values_[e]);
     }
   }
 
-  /// Moves the rods to where they are in Rods, and back.
+  /// Moves the rods to where they are in Rods.
   void load(const Rods& rods) {
-    for_each_node(lane_count, [&](std::size_t lane, std::size_t place, std::uint32_t node) {
+    for_each_node(pack_, lane_count, [&](std::size_t lane, std::size_t place, std::uint32_t node) {
       for (std::uint32_t k = 0; k < 3; ++k) {
         pack_.positions[place + k][lane] = rods.positions[node][k];
       }
@@ -115,20 +168,10 @@ class PackStep {
     measure_edges(pack_);
   }
 
-  void store(Rods& rods) const {
-    for_each_node(pack_.used, [&](std::size_t lane, std::size_t place, std::uint32_t node) {
-      for (std::uint32_t k = 0; k < 3; ++k) {
-        rods.positions[node][k] = pack_.positions[place + k][lane];
-      }
-      if (system_.unknowns == 4) {
-        rods.angles[node] = pack_.positions[place + 3][lane];
-      }
-    });
-  }
-
   /// The step from where the rods are to where inertia alone would bring them.
   /// @param step step_size() of them, overwritten
-  void predict(SimdBatch* step) const {
+  void predict(SimdBatch* step) {
+    start_ = pack_.positions;
     for (std::size_t i = 0; i < system_.size(); ++i) {
       for (std::size_t lane = 0; lane < lane_count; ++lane) {
         step[i][lane] = predicted_[i][lane] - pack_.positions[i][lane];
@@ -137,12 +180,9 @@ class PackStep {
     std::fill(step + system_.size(), step + step_size(), SimdBatch{});
   }
 
-  /// Remembers where the rods are as where move() starts.
-  void remember() { remembered_ = pack_.positions; }
-
-  /// Brings each rod a share of a step away from there.
+  /// Brings each rod a share of a step away from where predict() or find_step() has found it.
   void move(const SimdBatch* step, const SimdBatch& shares) {
-    move_by({system_.size(), pack_.used}, remembered_.data(), step, shares, pack_.positions.data());
+    move_by({system_.size(), pack_.used}, start_.data(), step, shares, pack_.positions.data());
     measure_edges(pack_);
   }
 
@@ -212,26 +252,24 @@ class PackStep {
     // All effects add positive semidefinite blocks, and masses are positive: only rounding errors
     // can make it indefinite, and what it solves for then still lets the energy fall.
     factorise_band(system_);
+    start_ = pack_.positions;
     for (std::size_t i = 0; i < system_.size(); ++i) {
       for (std::size_t lane = 0; lane < lane_count; ++lane) {
         step[i][lane] = -system_.gradient[i][lane];
       }
     }
     std::fill(step + system_.size(), step + step_size(), SimdBatch{});
-    solve(step);
+    solve_band(system_, step);
     keep_finite(step);
   }
 
-  /// Solves for other right-hand sides.
-  /// @param values step_size() of them, zeros where nothing is unknown
-  void solve(SimdBatch* values) const { solve_band(system_, values); }
-
-  const std::vector<SimdBatch>& gradient() const { return system_.gradient; }
+  /// The gradient, and the Hessian or after find_step() its factors.
+  const PackSystem& system() const { return system_; }
 
   /// Stores where the rods are, and the velocities that bring them there from where it began.
   void finish(Rods& rods) const {
-    store(rods);
-    for_each_node(pack_.used, [&](std::size_t lane, std::size_t place, std::uint32_t node) {
+    store(pack_, rods);
+    for_each_node(pack_, pack_.used, [&](std::size_t lane, std::size_t place, std::uint32_t node) {
       const auto rate = [&](std::size_t k) {
         return (pack_.positions[place + k][lane] - beginning_[place + k][lane]) / step_length_;
       };
@@ -249,48 +287,6 @@ class PackStep {
   }
 
  private:
-  /// Calls function(lane, place, node) for the nodes of the first lanes: where what is unknown of
-  /// one begins, and which one Rods has it as.
-  template <class Function>
-  void for_each_node(std::size_t lanes, const Function& function) const {
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      for (std::uint32_t i = 0; i < pack_.node_count; ++i) {
-        function(lane, i * system_.unknowns, pack_.first_nodes[lane] + i);
-      }
-    }
-  }
-
-  void load_constants(const Rods& rods, std::size_t lane) {
-    const std::size_t unknowns = system_.unknowns;
-    const std::uint32_t first = pack_.first_nodes[lane];
-    const std::uint32_t rod = pack_.rods[lane];
-    const RodSection& section = rods.sections[rod];
-    pack_.stretching_stiffness[lane] = section.stretching_stiffness;
-    pack_.bending_stiffness[lane] = section.bending_stiffness;
-    pack_.twisting_stiffness[lane] = section.twisting_stiffness;
-    for (std::uint32_t i = 0; i < pack_.node_count; ++i) {
-      const double length = rods.rest_lengths[first + i];
-      pack_.masses[i][lane] = rods.masses[first + i];
-      pack_.rest_lengths[i][lane] = length;
-      for (std::size_t k = 0; k < 3; ++k) {
-        inertias_[i * unknowns + k][lane] = rods.masses[first + i];
-        scales_[i * unknowns + k][lane] = step_length_ / rods.masses[first + i];
-      }
-      const bool has_edge = i + 1 < pack_.node_count;
-      if (unknowns == 4) {
-        // After the last node there is no edge: its angle stays as it is.
-        const double inertia = section.inertia_per_length * (has_edge ? length : 1.0);
-        inertias_[i * unknowns + 3][lane] = inertia;
-        scales_[i * unknowns + 3][lane] = rods.radii[rod] * step_length_ / inertia;
-      }
-      if (has_edge) {
-        const double before = i > 0 ? rods.rest_lengths[first + i - 1] : length;
-        pack_.inverse_rest_lengths[i][lane] = 1.0 / length;
-        pack_.inverse_node_lengths[i][lane] = 2.0 / (before + length);
-      }
-    }
-  }
-
   /// Where edges have shrunk to nothing, as without stretch they may, stiffnesses are beyond what
   /// numbers can hold: such a rod has no step.
   void keep_finite(SimdBatch* step) const {
@@ -317,7 +313,7 @@ class PackStep {
   std::vector<SimdBatch> scales_;     // from gradient to speed [s/kg], of angles times the radius
   std::vector<SimdBatch> beginning_;  // of the step
   std::vector<SimdBatch> predicted_;  // where inertia would bring the rods
-  std::vector<SimdBatch> remembered_;
+  std::vector<SimdBatch> start_;      // of the step that was found last
   std::vector<SimdBatch> residuals_;  // squared, by node
   std::array<EnergySum, lane_count> energies_;
   double stored_ = 0.0;

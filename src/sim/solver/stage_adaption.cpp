@@ -75,11 +75,13 @@ void StageSolver::adapt_room(const Rods& rods) {
 /// Barriers are as stiff as the material makes natural; where holds pull far harder, they would
 /// hold only right at their inner distance, where equations are hard to solve.
 void StageSolver::stiffen_contacts() {
-  for (EdgePair& pair : found_.pairs) {
-    pair.barrier.scale *= std::max(stiffening_[pair.rod_a], stiffening_[pair.rod_b]);
-  }
-  for (ObstacleContact& contact : found_.obstacle_contacts) {
-    contact.barrier.scale *= stiffening_[contact.rod];
+  for (ContactSet& found : found_by_) {
+    for (EdgePair& pair : found.pairs) {
+      pair.barrier.scale *= std::max(stiffening_[pair.rod_a], stiffening_[pair.rod_b]);
+    }
+    for (ObstacleContact& contact : found.obstacle_contacts) {
+      contact.barrier.scale *= stiffening_[contact.rod];
+    }
   }
 }
 
@@ -95,7 +97,7 @@ void StageSolver::adapt_stiffening(const Rods& rods) {
         group.reports.begin(), group.reports.end(),
         [this](const IslandReport& report) { return report.residual <= options_.residual; });
     if (is_balanced) {
-      group.contacts.add_loads(loads_);
+      add_loads(group.contacts.terms(), loads_);
     }
   }
   const std::vector<double> before = stiffening_;

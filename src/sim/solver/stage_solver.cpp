@@ -92,20 +92,18 @@ void StageSolver::solve(Rods& rods, const Effects& effects, const TimeStep& stag
 /// What rods may touch from where the solve starts.
 void StageSolver::find_contacts(Rods& rods) {
   rods.positions.swap(start_.positions);
-  found_.clear();
   found_by_.resize(contacts_->sources().size());
   tbb::parallel_for(std::size_t{0}, found_by_.size(), [&](std::size_t source) {
     found_by_[source].clear();
     contacts_->sources()[source]->find(rods, room_, found_by_[source]);
   });
-  for (const ContactSet& found : found_by_) {
-    found_.append(found);
-  }
   rods.positions.swap(start_.positions);
   stiffen_contacts();
   islands_.reset(rods.count());
-  for (const EdgePair& pair : found_.pairs) {
-    islands_.join(pair.rod_a, pair.rod_b);
+  for (const ContactSet& found : found_by_) {
+    for (const EdgePair& pair : found.pairs) {
+      islands_.join(pair.rod_a, pair.rod_b);
+    }
   }
 }
 
@@ -175,9 +173,11 @@ void StageSolver::split_contacts() {
       }
     }
   };
-  give(found_.pairs, &ContactSet::pairs, &EdgePair::rod_a);
-  give(found_.obstacle_contacts, &ContactSet::obstacle_contacts, &ObstacleContact::rod);
-  give(found_.obstacle_edges, &ContactSet::obstacle_edges, &ObstacleEdge::rod);
+  for (const ContactSet& found : found_by_) {
+    give(found.pairs, &ContactSet::pairs, &EdgePair::rod_a);
+    give(found.obstacle_contacts, &ContactSet::obstacle_contacts, &ObstacleContact::rod);
+    give(found.obstacle_edges, &ContactSet::obstacle_edges, &ObstacleEdge::rod);
+  }
 }
 
 void StageSolver::solve_group(Rods& rods, const Effects& effects, double step, Group& group) {
@@ -198,11 +198,12 @@ void StageSolver::solve_group(Rods& rods, const Effects& effects, double step, G
   // Where nothing is in reach, all that counts is that the rods end within their rooms.
   const bool bounds = room != nullptr && (!group.contacts.is_empty() || room->is_last);
   const Friction* const friction = bounds ? contacts_->friction() : nullptr;
-  group.is_solved =
+  const std::optional<double> gain =
       solver->solve(rods, {effects, options_, step, bounds ? &group.contacts : nullptr, room,
                            friction, reference_.positions});
+  group.is_solved = gain.has_value();
+  group.stored_gain = gain.value_or(0.0);
   group.reports = solver->reports();
-  group.stored_gain = solver->stored_gain();
   group.needed_room = solver->step_bound().needed();
   solvers_.push(std::move(solver));
 }

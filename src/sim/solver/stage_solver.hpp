@@ -94,7 +94,6 @@ class StageSolver {
   std::vector<std::uint32_t> group_of_;  // by rod
   SolverScratch scratch_;
   std::vector<ContactSet> found_by_;  // by source
-  ContactSet found_;
   Room room_;
   std::vector<double> stiffening_;  // of contacts that have much to hold, by rod
   std::vector<double> loads_;       // of contacts, by rod

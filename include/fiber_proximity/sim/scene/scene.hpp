@@ -137,9 +137,12 @@ class SimParameters {
   std::map<std::string, Entry> effects_;
 };
 
-/// Placements by time [s], which rises. In between straight lines; before and after, the first and
-/// the last.
+/// Placements by time [s], which rises.
 using PlacementPath = std::vector<std::pair<double, Placement>>;
+
+/// In between straight lines, with directions that turn at equal rates; before and after, the first
+/// and the last.
+Placement placement_at(const PlacementPath& path, double time);
 
 /// A frame of tf that holds a fibre. What is held is where the frame was last, and turns with it.
 struct FollowedFrame {

@@ -1,4 +1,4 @@
-#include "src/scenes/hard_motions.hpp"
+#include "test/support/hard_motions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -64,8 +64,8 @@ HardMotion with_radii(HardMotion motion, double sum, Random& random) {
 
 MotionFamily scaled_family(const std::string& name, double scale, double offset) {
   return {name, [=](Random& random) {
-            HardMotion motion =
-                with_radii(motion_of(random_parts(random)), random.uniform(0.01, 0.3), random);
+            const double sum = random.uniform(0.01, 0.3);
+            HardMotion motion = with_radii(motion_of(random_parts(random)), sum, random);
             const Vector3d origin = offset * random.direction();
             for (Vector3d* ends : {motion.a_before.data(), motion.a_after.data(),
                                    motion.b_before.data(), motion.b_after.data()}) {
@@ -231,8 +231,8 @@ void append_general(std::vector<MotionFamily>& all) {
   }));
   all.push_back(family("10^6 lengths", [](MovingParts& parts, Random& random) {
     parts.a.way *= 1e6;
-    parts.a.start =
-        parts.b.start - random.uniform(0.0, 1.0) * parts.a.way + random.point_in_cube(-0.2, 0.2);
+    const Vector3d offset = random.point_in_cube(-0.2, 0.2);
+    parts.a.start = parts.b.start - random.uniform(0.0, 1.0) * parts.a.way + offset;
   }));
   all.push_back(scaled_family("1e140 m", 1e140, 0.0));
   all.push_back(scaled_family("1e-150 m", 1e-150, 0.0));
@@ -255,9 +255,9 @@ void append_degenerate(std::vector<MotionFamily>& all) {
     parts.b.turn = angle * random.direction();
   }));
   all.push_back(family("coincident", [](MovingParts& parts, Random& random) {
+    const Vector3d direction = random.direction();
     parts.b = parts.a;
-    parts.b.start +=
-        std::ldexp(1.0, -static_cast<int>(random.uniform(0.0, 60.0))) * random.direction();
+    parts.b.start += std::ldexp(1.0, -static_cast<int>(random.uniform(0.0, 60.0))) * direction;
     parts.b.way += 0.1 * random.direction();
   }));
   all.push_back(family("a point", [](MovingParts& parts, Random&) {

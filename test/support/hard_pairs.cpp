@@ -1,4 +1,4 @@
-#include "src/scenes/hard_pairs.hpp"
+#include "test/support/hard_pairs.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,239 @@
+#include "src/python/fibers.hpp"
+
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+
+#include "src/python/bindings.hpp"
+
+namespace fiber::python {
+
+Fibers::State Fibers::state() const {
+  const std::lock_guard<std::mutex> lock(newest_);
+  return state_;
+}
+
+void Fibers::move(const double* rows, std::size_t count) {
+  const std::lock_guard<std::mutex> one_at_a_time(moving_);
+  copy_points(rows, count, incoming_);
+  if (spare_ == nullptr || spare_.use_count() > 1) {
+    spare_ = std::make_shared<FiberAssembly>(*state());
+  }
+  // Who let go of it last has read it before.
+  std::atomic_thread_fence(std::memory_order_acquire);
+  spare_->exchange_points(incoming_);
+  const std::lock_guard<std::mutex> lock(newest_);
+  state_.swap(spare_);
+}
+
+FiberAssembly make_fibers(const py::object& points, const py::object& offsets,
+                          const py::object& radii) {
+  const Doubles array = to_doubles(points, "points");
+  const bool is_stack = array.ndim() == 3 && offsets.is_none();
+  if (!is_stack && array.ndim() != 2) {
+    refuse_shape(array, "points", "(n, 3), or (fibres, n, 3) without offsets");
+  }
+  if (array.shape(array.ndim() - 1) != 3) {
+    refuse_shape(array, "points", "(n, 3), or (fibres, n, 3) without offsets");
+  }
+  std::vector<std::uint32_t> begins;
+  if (offsets.is_none()) {
+    const Py_ssize_t length = is_stack ? array.shape(1) : array.shape(0);
+    // Of fibres without points one is enough to be refused.
+    const Py_ssize_t most = length == 0 ? 1 : std::numeric_limits<Py_ssize_t>::max();
+    const Py_ssize_t fibers = is_stack ? std::min(array.shape(0), most) : 1;
+    for (Py_ssize_t fiber = 0; fiber <= fibers; ++fiber) {
+      begins.push_back(to_index(fiber * length, "the number of points"));
+    }
+  } else {
+    begins = to_indices(offsets, "offsets");
+  }
+  std::vector<double> thickness = to_numbers(radii, "radii");
+  const double* rows = array.data();
+  const auto count = static_cast<std::size_t>(array.size() / 3);
+  const WithoutPythonLock others_may_run;
+  std::vector<Eigen::Vector3d> copied;
+  copy_points(rows, count, copied);
+  return FiberAssembly(std::move(copied), std::move(begins), std::move(thickness));
+}
+
+Fibers::State to_state(const py::object& object, const char* name) {
+  if (py::isinstance<Fibers>(object)) {
+    return object.cast<const Fibers&>().state();
+  }
+  throw py::type_error(std::string(name) + " is a " + std::string(py::str(object.get_type())) +
+                       ", it must be Fibers");
+}
+
+void require_segment(const FiberAssembly& fibers, std::uint32_t fiber, std::uint32_t segment) {
+  if (fiber >= fibers.fiber_count() ||
+      segment + std::uint64_t{1} >= fibers.offsets()[fiber + 1] - fibers.offsets()[fiber]) {
+    throw std::invalid_argument("there is no segment " + std::to_string(segment) + " of fibre " +
+                                std::to_string(fiber));
+  }
+}
+
+namespace {
+
+py::array points_of(const Fibers& fibers) {
+  const Fibers::State state = fibers.state();
+  const auto count = static_cast<Py_ssize_t>(state->point_count());
+  const double* first = count == 0 ? nullptr : state->points().front().data();
+  return view(first, {count, 3}, keep(state));
+}
+
+py::array points_of_fiber(const Fibers& fibers, Py_ssize_t index) {
+  const Fibers::State state = fibers.state();
+  const auto count = static_cast<Py_ssize_t>(state->fiber_count());
+  if (index < -count || index >= count) {
+    throw py::index_error("there is no fibre " + std::to_string(index) + ", there are " +
+                          std::to_string(count));
+  }
+  const auto fiber = static_cast<std::size_t>(index < 0 ? index + count : index);
+  const std::uint32_t begin = state->offsets()[fiber];
+  const std::uint32_t end = state->offsets()[fiber + 1];
+  return view(state->points()[begin].data(), {static_cast<Py_ssize_t>(end - begin), 3},
+              keep(state));
+}
+
+py::array radii_of(const Fibers& fibers) {
+  const Fibers::State state = fibers.state();
+  return view(state->radii().data(), {static_cast<Py_ssize_t>(state->radii().size())}, keep(state));
+}
+
+void move(Fibers& fibers, const py::object& points) {
+  const Doubles array = to_doubles(points, "points");
+  if ((array.ndim() != 2 && array.ndim() != 3) || array.shape(array.ndim() - 1) != 3) {
+    refuse_shape(array, "points", "(n, 3) or (fibres, n, 3)");
+  }
+  const double* rows = array.data();
+  const auto count = static_cast<std::size_t>(array.size() / 3);
+  const WithoutPythonLock others_may_run;
+  fibers.move(rows, count);
+}
+
+std::string describe(const Fibers& fibers) {
+  const Fibers::State state = fibers.state();
+  return "<fiber_proximity.Fibers: " + std::to_string(state->fiber_count()) + " fibres of " +
+         std::to_string(state->point_count()) + " points>";
+}
+
+}  // namespace
+
+void bind_fibers(py::module& module) {
+  py::class_<Fibers, std::shared_ptr<Fibers>>(module, "Fibers", R"(
+Fibres, each a chain of points with a radius.
+
+Consecutive points of a fibre make a segment, a capped cylinder; where the radii of its two points
+differ, one of the larger radius. The points are copied and checked once.
+
+Parameters
+----------
+points : (n, 3) of real numbers [m], or (fibres, n, 3) for fibres of as many points each
+offsets : (fibres + 1,) of whole numbers, optional
+    Fibre f owns points[offsets[f]:offsets[f + 1]], at least two. Without: one fibre.
+radii : number, (fibres,) or (n,) [m], default 0
+
+Raises
+------
+ValueError
+    For a shape that is not allowed, offsets that do not fit, coordinates or radii that are not
+    finite; names fibre, point and value.
+TypeError
+    For arrays of anything but real numbers.
+
+>>> import numpy as np
+>>> from fiber_proximity import Fibers
+>>> fibers = Fibers([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], offsets=[0, 2, 4], radii=0.01)
+>>> len(fibers)
+2
+>>> fibers[1]
+array([[0., 1., 0.],
+       [1., 1., 0.]])
+)")
+      .def(py::init(
+               [](const py::object& points, const py::object& offsets, const py::object& radii) {
+                 return std::make_shared<Fibers>(make_fibers(points, offsets, radii));
+               }),
+           py::arg("points"), py::arg("offsets") = py::none(), py::arg("radii") = 0.0)
+      .def("move", &move, py::arg("points"), R"(
+Moves the points, for the next frame; which fibre owns which stays, and so do the radii.
+
+They are copied once. Engines go on with where the fibres were until their next ``update()``.
+
+Parameters
+----------
+points : (n, 3) or (fibres, n, 3) of real numbers, as many as there are [m]
+
+Raises
+------
+ValueError
+    For another number of points, or coordinates that are not finite; nothing has moved then.
+
+>>> fibers = Fibers([[0, 0, 0], [1, 0, 0]])
+>>> fibers.move(fibers.points + [0, 0, 1])
+>>> fibers.points[:, 2]
+array([1., 1.])
+)")
+      .def_property_readonly("points", &points_of,
+                             "(n, 3) float64 [m], read-only: the points as they are now. An array "
+                             "taken before ``move()`` keeps showing those before.")
+      .def_property_readonly(
+          "offsets",
+          [](const Fibers& fibers) {
+            const Fibers::State state = fibers.state();
+            return view(state->offsets(), keep(state));
+          },
+          "(fibres + 1,) uint32, read-only: index of each fibre's first point, then the number of "
+          "points.")
+      .def_property_readonly("radii", &radii_of,
+                             "(1,), (fibres,) or (n,) float64 [m], read-only: as they were given.")
+      .def_property_readonly(
+          "segment_count", [](const Fibers& fibers) { return fibers.state()->segment_count(); },
+          "Number of segments of all fibres.")
+      .def_property_readonly(
+          "point_count", [](const Fibers& fibers) { return fibers.state()->point_count(); },
+          "Number of points of all fibres.")
+      .def("__len__", [](const Fibers& fibers) { return fibers.state()->fiber_count(); })
+      .def("__getitem__", &points_of_fiber, py::arg("fiber"),
+           "(n, 3) float64 [m], read-only: the points of one fibre.")
+      .def(
+          "select",
+          [](const Fibers& fibers, const py::object& selection) {
+            const Fibers::State state = fibers.state();
+            const std::vector<std::uint32_t> indices = to_indices(selection, "fibers");
+            for (const std::uint32_t index : indices) {
+              if (index >= state->fiber_count()) {
+                throw py::index_error("there is no fibre " + std::to_string(index) +
+                                      ", there are " + std::to_string(state->fiber_count()));
+              }
+            }
+            return std::make_shared<Fibers>(select_fibers(*state, indices));
+          },
+          py::arg("fibers"), "New Fibers: some of these, by index, in this order.")
+      .def(
+          "copy", [](const Fibers& fibers) { return std::make_shared<Fibers>(*fibers.state()); },
+          "New Fibers that move on their own.")
+      .def("__copy__",
+           [](const Fibers& fibers) { return std::make_shared<Fibers>(*fibers.state()); })
+      .def("__deepcopy__",
+           [](const Fibers& fibers, const py::dict& /*memo*/) {
+             return std::make_shared<Fibers>(*fibers.state());
+           })
+      .def("__repr__", &describe)
+      .def(py::pickle(
+          [](const Fibers& fibers) {
+            const Fibers::State state = fibers.state();
+            return py::make_tuple(to_array(state->points()), state->offsets(), state->radii());
+          },
+          [](const py::tuple& kept) {
+            if (kept.size() != 3) {
+              throw std::invalid_argument("this is no pickle of Fibers");
+            }
+            return std::make_shared<Fibers>(make_fibers(kept[0], kept[1], kept[2]));
+          }));
+}
+
+}  // namespace fiber::python

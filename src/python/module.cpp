@@ -1,0 +1,14 @@
+#include "src/python/bindings.hpp"
+
+PYBIND11_MODULE(_native, module) {
+  // What this file makes of the world is described in the package's __init__.py.
+  module.doc() = "The compiled part of fiber_proximity; import that.";
+  fiber::python::bind_fibers(module);
+  fiber::python::bind_contacts(module);
+  fiber::python::bind_environment(module);
+  fiber::python::bind_engine(module);
+  fiber::python::bind_check(module);
+  fiber::python::bind_topology(module);
+  fiber::python::bind_simulation(module);
+  fiber::python::bind_files(module);
+}
