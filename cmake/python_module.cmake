@@ -68,6 +68,14 @@ install(TARGETS fiber_proximity_python LIBRARY DESTINATION ${python_folder})
 # All that a wheel holds: setup.py installs this component.
 install(TARGETS fiber_proximity_python fiber_proximity fiber_proximity_paper fiber_proximity_environment
   fiber_proximity_sim LIBRARY DESTINATION fiber_proximity COMPONENT wheel EXCLUDE_FROM_ALL)
+if(FIBER_PROXIMITY_BUILD_ROS)
+  # By name with rosrun.
+  catkin_install_python(PROGRAMS
+    examples/python/clearance_over_time.py examples/python/fit_stiffness.py
+    examples/python/plan_two_grippers.py examples/python/plot_clearances.py
+    DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+  install(FILES examples/python/swinging_cable.csv DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+endif()
 if(FIBER_PROXIMITY_BUILD_BENCHMARKS)
   # What benchmark/python/calls.py measures beside.
   add_executable(fiber_python_calls EXCLUDE_FROM_ALL benchmark/python/calls.cpp)

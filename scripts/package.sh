@@ -104,7 +104,7 @@ dependencies() {
     "${files[@]}") | sed 's/^shlibs:Depends=//'
 }
 
-# pack FOLDER DEPENDS SUMMARY
+# pack FOLDER DEPENDS SUMMARY [RECOMMENDS]
 pack() {
   local folder=$1 package
   package=$(basename "$1")
@@ -117,7 +117,8 @@ Architecture: $architecture
 Maintainer: $maintainer
 Section: science
 Priority: optional
-Depends: $2
+Depends: $2${4:+
+Recommends: $4}
 Description: $3
  Contacts, distances and markers from tracked point chains, over chain-aligned
  bounding volume hierarchies.
@@ -162,7 +163,7 @@ make_packages() {
   pack "$development" "libfiber-proximity (= $version), ros-fiber-proximity (= $version), $of_catkin, $(comma_joined \
     "${development_needs[@]}")" "proximity queries for fibres: headers"
   pack "$ros" "libfiber-proximity (= $version), $of_ros, $(comma_joined "${ros_needs[@]}")" \
-    "proximity queries for fibres: ROS nodes"
+    "proximity queries for fibres: ROS nodes" "python3-matplotlib, python3-scipy" # of the examples
 }
 
 run_step "packaging $version" "$work/package.log" make_packages

@@ -48,6 +48,7 @@ packages=(
   libinteractive-markers-dev
   libnav-msgs-dev libsensor-msgs-dev libvisualization-msgs-dev libros-rosgraph-msgs-dev libstd-srvs-dev
   libshape-msgs-dev liburdf-dev libroslib-dev ros-robot-state-publisher python3-{numpy,yaml}
+  python3-{matplotlib,scipy}
   ros-{std,geometry,sensor,shape,nav,visualization,diagnostic,tf2}-msgs ros-{rosgraph-msgs,std-srvs}
   python3-{std,geometry,sensor,shape,nav,visualization,diagnostic,tf2,rosgraph}-msgs python3-std-srvs
   librostest-dev python3-rostest python3-roslaunch python3-rostopic python3-rosservice
@@ -62,7 +63,7 @@ if $lint; then
 fi
 if $bench; then
   packages+=(libembree-dev libcgal-dev libbullet-dev libmujoco-dev)
-  packages+=(python3-matplotlib python3-tqdm)
+  packages+=(python3-tqdm)
 fi
 if $fuzz; then
   packages+=(clang-13 libclang-common-13-dev)

@@ -34,6 +34,7 @@ fiber_proximity_python_test(stubs)
 fiber_proximity_python_test(threads)
 if(NOT FIBER_PROXIMITY_SANITIZE)
   fiber_proximity_python_test(memory)  # asks the system's malloc
+  fiber_proximity_python_test(examples ${PROJECT_SOURCE_DIR}/examples/python)
 endif()
 if(FIBER_PROXIMITY_BUILD_ROS)
   fiber_proximity_python_test(messages)

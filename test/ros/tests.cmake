@@ -208,7 +208,11 @@ if(TARGET fiber_proximity_rviz)
 endif()
 
 # In the environment of the devel space, as its readers.
-foreach(name ask_before_you_move attach_a_tracker measure_your_own_scene simulate_a_cable)
+set(tutorials ask_before_you_move attach_a_tracker measure_your_own_scene simulate_a_cable)
+if(TARGET fiber_proximity_python)
+  list(APPEND tutorials clearance_from_a_bag fit_a_cable plan_with_two_grippers)
+endif()
+foreach(name IN LISTS tutorials)
   add_test(NAME tutorial_${name} COMMAND ${CATKIN_ENV} /usr/bin/python3 -B
     ${CMAKE_CURRENT_SOURCE_DIR}/docs/tutorials_test.py ${PROJECT_SOURCE_DIR}/docs/tutorials/${name}.md)
 endforeach()
