@@ -84,16 +84,16 @@ TEST_F(CrossingsTest, AreDrawnAndGo) {
         }
       });
   const ros::Publisher publisher = advertise<fiber_proximity::FiberArray>("fibers");
-  connect(publisher, cross());
+  connect(publisher, cross(), [&] { return is_drawn; });
   const auto becomes = [&](const fiber_proximity::FiberArray& message, bool drawn) {
     fiber_proximity::FiberArray stamped = message;
     stamped.header.stamp = new_stamp();
     publisher.publish(stamped);
     return node_test::wait_for([&] { return is_drawn == drawn; });
   };
-  EXPECT_TRUE(becomes(cross(), true));
   EXPECT_TRUE(becomes(
       test_messages::fiber_array(test_messages::header("world"), {{0, 0, 0}, {1, 0, 0}}), false));
+  EXPECT_TRUE(becomes(cross(), true));
 }
 
 // From below, once tf knows where the camera is.

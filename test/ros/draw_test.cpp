@@ -48,6 +48,11 @@ class Screen {
 
 class DrawTest : public node_test::NodeTest {
  protected:
+  /// Also until markers come: what is drawn before is never seen.
+  void connect(const ros::Publisher& publisher) {
+    NodeTest::connect(publisher, cross(), [this] { return !markers_.messages.empty(); });
+  }
+
   /// Publishes the fibres and waits until they are on the screen.
   void show(const ros::Publisher& publisher, fiber_proximity::FiberArray message) {
     message.header = header("world", new_stamp());
@@ -100,7 +105,7 @@ class DrawTest : public node_test::NodeTest {
 
 TEST_F(DrawTest, MarkersShowTheAnswerAndGoWithIt) {
   const ros::Publisher publisher = advertise<fiber_proximity::FiberArray>("fibers");
-  connect(publisher, cross());
+  connect(publisher);
 
   show(publisher, cross());
   ASSERT_EQ(answer->contacts.size(), 1U);
@@ -124,7 +129,7 @@ TEST_F(DrawTest, MarkersShowTheAnswerAndGoWithIt) {
 
 TEST_F(DrawTest, NamesAndLegendAreShownWhileSomebodyWantsThem) {
   const ros::Publisher publisher = advertise<fiber_proximity::FiberArray>("fibers");
-  connect(publisher, cross());
+  connect(publisher);
   switch_texts(true);
   show(publisher, cross());
   EXPECT_EQ(screen.names(),
@@ -140,7 +145,7 @@ TEST_F(DrawTest, NamesAndLegendAreShownWhileSomebodyWantsThem) {
 
 TEST_F(DrawTest, DiscsAreBoundByTheFibersNotByTheMargin) {
   const ros::Publisher publisher = advertise<fiber_proximity::FiberArray>("fibers");
-  connect(publisher, cross());
+  connect(publisher);
   fiber_proximity::FiberArray apart = cross();
   apart.points[3].z = apart.points[4].z = 0.06;  // 40 mm between them, the margin is 50
   show(publisher, apart);

@@ -67,8 +67,10 @@ TEST_P(EnginesTest, AnswerWhatBruteForceAnswers) {
   Random random;
   std::size_t found = 0;
   // Other fibres, of another topology first; then the same ones moving, for the refit.
-  connect(publisher, test_messages::fiber_array(test_messages::header("world"),
-                                                {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}));
+  connect(
+      publisher,
+      test_messages::fiber_array(test_messages::header("world"), {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}),
+      [this] { return !markers.messages.empty(); });
   FiberArray message = test_messages::tangled_fibers(random);
   for (int frame = 0; frame < 5; ++frame) {
     SCOPED_TRACE(frame);
@@ -90,7 +92,6 @@ TEST_P(EnginesTest, AnswerWhatBruteForceAnswers) {
     move(message, random);
   }
   fiber::test::expect_enough(found, std::size_t{1});
-  EXPECT_TRUE(node_test::wait_for([this] { return !markers.messages.empty(); }));
   EXPECT_EQ(proximity.stop(), 0);
 }
 
