@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "src/hierarchy/candidates-inl.hpp"
 #include "src/hierarchy/run_lanes-inl.hpp"
@@ -63,15 +64,16 @@ class Finder {
         overlaps_(overlaps),
         candidates_(a, b, sink),
         self_(a.runs == b.runs),
-        skip_adjacent_(self_ && !sink.wants_adjacent()) {}
+        skip_adjacent_(self_ && !sink.wants_adjacent()),
+        bound_shrinks_(sink.bound_shrinks()) {}
 
   /// Whether to go on.
   bool find(std::uint32_t group) {
     group_ = group;
     known_ranges_ = 0;
+    visited_ = none;
     aim();
-    // Near ones first: those of the group itself.
-    return (!self_ || visit_group(group, all_bits)) && descend();
+    return visit_near_ones() && descend();
   }
 
   /// Offers what waits; whether to go on.
@@ -82,6 +84,52 @@ class Finder {
     std::uint32_t level;
     std::uint32_t index;
   };
+
+  static constexpr auto none = static_cast<std::uint32_t>(-1);
+
+  /// Of a tree with itself, the group with itself; of another one, where nothing is known yet of
+  /// how near it is, its nearest group, the nearest run of that first: descend() finds the bound
+  /// smaller.
+  bool visit_near_ones() {
+    if (self_) {
+      visited_ = group_;
+      return visit_group(group_, all_bits);
+    }
+    if (!std::isinf(bound_)) {
+      return true;
+    }
+    std::uint32_t node = 0;
+    for (std::uint32_t level = b_.level_count - 1; level > 0; --level) {
+      node = node * run_width + nearest_child(level, node);
+    }
+    visited_ = node;
+    const std::uint32_t nearest = 1U << nearest_child(0, node);
+    return visit_group(node, nearest) && settle() && visit_group(node, all_bits & ~nearest) &&
+           settle();
+  }
+
+  /// That of a node whose box is nearest to the first run of the group.
+  std::uint32_t nearest_child(std::uint32_t level, std::uint32_t node) const {
+    const RunTreeLevel& nodes = b_.levels[level];
+    const BoxBlock& boxes = nodes.boxes[node];
+    const BoxBlock& of_group = a_.levels[0].boxes[group_];
+    std::uint32_t nearest = 0;
+    float least = std::numeric_limits<float>::infinity();
+    for (std::uint32_t lane = 0; lane < std::min(run_width, nodes.child_count - node * run_width);
+         ++lane) {
+      float squared = 0.0F;
+      for (int axis = 0; axis < 3; ++axis) {
+        const float gap = std::max({boxes.lower[axis][lane] - of_group.upper[axis][0],
+                                    of_group.lower[axis][0] - boxes.upper[axis][lane], 0.0F});
+        squared += gap * gap;
+      }
+      if (squared < least) {
+        least = squared;
+        nearest = lane;
+      }
+    }
+    return nearest;
+  }
 
   void aim() {
     bound_ = sink_.bound();
@@ -150,8 +198,8 @@ class Finder {
           children(level, node.index) & overlapping(level.boxes[node.index], probe_.whole(), 0);
       count(bits);
       if (node.level == 0) {
-        const bool again = self_ && node.index == group_;
-        if (bits != 0 && !again && !visit_group(node.index, bits)) {
+        if (bits != 0 && node.index != visited_ &&
+            !(visit_group(node.index, bits) && (!bound_shrinks_ || settle()))) {
           return false;
         }
         continue;
@@ -246,10 +294,12 @@ class Finder {
   }
 
   /// For the pairs of two runs; the bound may shrink by that. Whether to go on.
-  bool make_room() {
-    if (!candidates_.make_room()) {
-      return false;
-    }
+  bool make_room() { return candidates_.make_room() && shrink(); }
+
+  /// Offers what waits, for a smaller bound. Whether to go on.
+  bool settle() { return candidates_.flush() && shrink(); }
+
+  bool shrink() {
     if (sink_.bound() < bound_) {
       aim();
     }
@@ -277,10 +327,12 @@ class Finder {
   std::uint64_t& overlaps_;
   Candidates candidates_;
   std::uint32_t group_ = 0;
-  float bound_ = 0.0F;  // [m]
-  float span_ = 0.0F;   // [m] the bound, and half of the longest way of the group
+  std::uint32_t visited_ = none;  // the group of b that has been visited before the others
+  float bound_ = 0.0F;            // [m]
+  float span_ = 0.0F;             // [m] the bound, and half of the longest way of the group
   const bool self_;
   const bool skip_adjacent_;
+  const bool bound_shrinks_;
   // Whether to ask if they are ruled out: the group, and by bit its runs.
   bool prunes_group_ = false;
   std::uint32_t prunes_runs_ = 0;

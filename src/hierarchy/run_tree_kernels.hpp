@@ -85,6 +85,9 @@ class PairSink {
   /// [m] Pairs further apart than this do not matter (any more).
   virtual float bound() const = 0;
 
+  /// Whether pairs that are offered make the bound smaller: if so, they should not wait for others.
+  virtual bool bound_shrinks() const = 0;
+
   /// Whether segments that share a point are pairs. Every segment is near its neighbours: if they
   /// are not wanted, they should go early.
   virtual bool wants_adjacent() const = 0;

@@ -1,6 +1,9 @@
 #include "src/python/engine.hpp"
 
 #include <pybind11/stl.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <limits>
@@ -8,6 +11,7 @@
 
 #include "src/python/bindings.hpp"
 #include "src/python/options.hpp"
+#include "src/query/threads.hpp"
 
 namespace fiber::python {
 
@@ -69,17 +73,32 @@ py::array Engine::nearest(const py::object& points, std::int64_t k) {
   const auto* rows = array.data();
   const Py_ssize_t asked = is_one ? 1 : array.shape(0);
   std::vector<Contact> found;
+  Py_ssize_t each = 0;
   {
     const WithoutPythonLock others_may_run;
-    QueryResult result;
     read([&](const ProximityEngine& engine) {
-      for (Py_ssize_t i = 0; i < asked; ++i) {
-        nearest_segments(engine, Eigen::Vector3d(rows + 3 * i), count, result);
-        found.insert(found.end(), result.contacts.begin(), result.contacts.end());
+      if (engine.fibers() != nullptr) {
+        each =
+            static_cast<Py_ssize_t>(std::min<std::size_t>(count, engine.fibers()->segment_count()));
       }
+      found.resize(static_cast<std::size_t>(asked * each));
+      const auto find = [&](const tbb::blocked_range<Py_ssize_t>& range) {
+        QueryResult result;
+        for (Py_ssize_t i = range.begin(); i < range.end(); ++i) {
+          nearest_segments(engine, Eigen::Vector3d(rows + 3 * i), count, result);
+          std::copy(result.contacts.begin(), result.contacts.end(), found.begin() + i * each);
+        }
+      };
+      constexpr Py_ssize_t worth_a_thread = 32;
+      const tbb::blocked_range<Py_ssize_t> all(0, asked, worth_a_thread);
+      if (asked <= worth_a_thread) {
+        find(all);
+        return;
+      }
+      tbb::task_arena arena(arena_concurrency(options_.threads));
+      arena.execute([&] { tbb::parallel_for(all, find); });
     });
   }
-  const auto each = static_cast<Py_ssize_t>(found.size()) / std::max<Py_ssize_t>(asked, 1);
   const py::array all = to_array(contact_dtype(), found);
   return is_one ? all : py::array(all.attr("reshape")(asked, asked == 0 ? count : each));
 }

@@ -45,6 +45,8 @@ class CandidateSink final : public PairSink {
   }
 
   float bound() const override { return bound_; }
+  bool bound_shrinks() const override { return false; }
+
   bool wants_adjacent() const override { return test_.wants_adjacent(); }
   PointRange ruled_out_with(std::uint32_t point) const override {
     return prunes_ ? test_.ruled_out_with(point) : PointRange{};

@@ -31,6 +31,8 @@ class CollectorSink final : public PairSink {
     return moved_ == 0.0F ? collector_.bound() : round_up(double{collector_.bound()} + moved_);
   }
 
+  bool bound_shrinks() const override { return true; }
+
   bool wants_adjacent() const override { return collector_.wants_adjacent(); }
   PointRange ruled_out_with(std::uint32_t point) const override {
     return collector_.ruled_out_with(point);

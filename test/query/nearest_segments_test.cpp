@@ -116,6 +116,23 @@ TEST_P(NearestSegmentsTest, AreBruteForcesToTheBit) {
   }
 }
 
+// Without a margin nothing is too far: what the tree finds first must make the bound small.
+TEST(NearestSegmentsOfRunTree, LookAtFewSegments) {
+  Random random(1);
+  const FiberAssembly fibers = walks(random, 100, 100, 0.01, 0.001);
+  const auto engine = make_engine("run_tree");
+  engine->update(fibers);
+  QueryResult found;
+  std::uint64_t tests = 0;
+  for (int i = 0; i < 100; ++i) {
+    nearest_segments(*engine, random.in_cube(), 1, found);
+    ASSERT_EQ(found.contacts.size(), 1U);
+    tests += found.counts.primitive_tests;
+  }
+  EXPECT_GT(tests, 100U);
+  EXPECT_LT(tests, 100U * fibers.segment_count() / 50);
+}
+
 INSTANTIATE_TEST_SUITE_P(Engines, NearestSegmentsTest, all_engines(), name_of_engine);
 
 // Three fibres along x at heights 0, 1 and 3; the point is in the axis of the second.
