@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs an experiment with fiber_bench and draws its figures.
-#   scripts/bench.sh paper|peers|scaling|coherence|accuracy|continuous|simulation [--quick] [--out DIR] [--verbose]
+#   scripts/bench.sh paper|peers|scaling|coherence|accuracy|continuous|simulation|python [--quick] [--out DIR] [--verbose]
 #     paper      Fig. 4 to 7 of Sobottka and Weber (2005) on this machine
 #     peers      run_tree beside other engines and Embree, CGAL, FCL and Bullet, on every scene
 #     scaling    how a cycle grows from 10⁴ to 4.7 million segments, with one thread and two
@@ -9,6 +9,8 @@
 #     continuous whether moving capsules touch, and when: right or wrong, and how fast
 #     simulation whether rods move as theory says, time against error, beside Bullet and MuJoCo, too,
 #                what each effect costs
+#     python     what calls from Python cost beside C++; the same questions asked of numpy, scipy's k-d tree and
+#                Bullet in Python
 #     --quick    small scenes: minutes at most
 #     --verbose  all that installing and building write
 #     --out DIR  where CSV and SVG go (default: build/bench/EXPERIMENT, -quick with --quick);
@@ -17,7 +19,7 @@ set -euo pipefail
 # shellcheck source=scripts/environment.sh
 source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 
-usage="usage: scripts/bench.sh paper|peers|scaling|coherence|accuracy|continuous|simulation [--quick] [--out DIR] [--verbose]"
+usage="usage: scripts/bench.sh paper|peers|scaling|coherence|accuracy|continuous|simulation|python [--quick] [--out DIR] [--verbose]"
 experiment=
 quick=()
 out=
@@ -31,7 +33,7 @@ while [ $# -gt 0 ]; do
       ;;
     --verbose) be_verbose ;;
     -h | --help) echo "$usage"; exit 0 ;;
-    paper | peers | scaling | coherence | accuracy | continuous | simulation) experiment=$1 ;;
+    paper | peers | scaling | coherence | accuracy | continuous | simulation | python) experiment=$1 ;;
     *) echo "bench.sh: unknown argument '$1'; $usage" >&2; exit 2 ;;
   esac
   shift
@@ -40,8 +42,15 @@ done
 
 "$root/scripts/setup.sh" --bench
 cmake_arguments=()
-build_package fiber_bench
+tool=fiber_bench
+targets=(fiber_bench)
+if [ "$experiment" = python ]; then
+  tool=fiber_python_calls
+  targets=(fiber_python_calls fiber_proximity_python)
+fi
+build_package "${targets[@]}"
 out=${out:-$build/bench/$experiment${quick:+-quick}}
-PYTHONPATH=$root/benchmark /usr/bin/python3 -B -m bench "$experiment" \
-  --tool "$build/devel/lib/fiber_proximity/fiber_bench" --out "$out" "${quick[@]}"
+PYTHONPATH=$root/benchmark:$build/devel/lib/python3/dist-packages${PYTHONPATH:+:$PYTHONPATH} \
+  /usr/bin/python3 -B -m bench "$experiment" \
+  --tool "$build/devel/lib/fiber_proximity/$tool" --out "$out" "${quick[@]}"
 echo "figures, CSV and tables are in $out"

@@ -63,7 +63,7 @@ if $lint; then
 fi
 if $bench; then
   packages+=(libembree-dev libcgal-dev libbullet-dev libmujoco-dev)
-  packages+=(python3-tqdm)
+  packages+=(python3-tqdm python3-dartpy)
 fi
 if $fuzz; then
   packages+=(clang-13 libclang-common-13-dev)

@@ -35,6 +35,7 @@ fiber_proximity_python_test(threads)
 if(NOT FIBER_PROXIMITY_SANITIZE)
   fiber_proximity_python_test(memory)  # asks the system's malloc
   fiber_proximity_python_test(examples ${PROJECT_SOURCE_DIR}/examples/python)
+  fiber_proximity_python_test(peers ${PROJECT_SOURCE_DIR}/benchmark/python/peers.py)
 endif()
 if(FIBER_PROXIMITY_BUILD_ROS)
   fiber_proximity_python_test(messages)
