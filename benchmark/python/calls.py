@@ -36,17 +36,12 @@ def median_seconds(call, repeats, calls):
     return statistics.median(times)
 
 
-def take_turns(turns, in_python, in_cpp):
-    pairs = [(in_python(), in_cpp()) for _ in range(turns)]
-    return [statistics.median(times) for times in zip(*pairs)]
-
-
 class Bench:
 
     def __init__(self, arguments, folder):
         self.arguments = arguments
         self.folder = folder
-        self.turns = 3 if arguments.quick else 7
+        self.turns = 3 if arguments.quick else 11
 
     def in_cpp(self, what, path, margin, repeats):
         run = subprocess.run([self.arguments.tool, what, path, str(margin), str(repeats)], check=True,
@@ -61,10 +56,12 @@ class Bench:
                             for name, value in row.items()), flush=True)
 
     def compare(self, what, path, margin, call, repeats, calls, **more):
-        python, cpp = take_turns(self.turns, lambda: median_seconds(call, repeats, calls),
-                                 lambda: self.in_cpp(what, path, margin, repeats))
-        self.report(call=what, python_us=1e6 * python, cpp_us=1e6 * cpp, overhead_us=1e6 * (python - cpp),
-                    throughput=cpp / python, **more)
+        turns = np.array([(median_seconds(call, repeats, calls), self.in_cpp(what, path, margin, repeats))
+                          for _ in range(self.turns)])
+        # Of each turn: the processor's clock changes between them.
+        python, cpp, overhead, throughput = np.median(
+            np.column_stack([1e6 * turns, 1e6 * (turns[:, 0] - turns[:, 1]), turns[:, 1] / turns[:, 0]]), axis=0)
+        self.report(call=what, python_us=python, cpp_us=cpp, overhead_us=overhead, throughput=throughput, **more)
 
     def small_calls(self, rng):
         """Two cables of ten points: what is left is the call itself."""
