@@ -207,6 +207,10 @@ if(TARGET fiber_proximity_rviz)
   add_rostest(rviz/tracker_view.test DEPENDENCIES tracker_view_test)
 endif()
 
+if(TARGET fiber_proximity_python)
+  add_rostest(ros/plot_clearances.test)
+endif()
+
 # In the environment of the devel space, as its readers.
 set(tutorials ask_before_you_move attach_a_tracker measure_your_own_scene simulate_a_cable)
 if(TARGET fiber_proximity_python)
