@@ -4,7 +4,7 @@
 Usage: make_reference.py [--check | --table FILE]
 
 Below each line `<!-- NODE KIND, by scripts/make_reference.py -->` of docs/*.md stands a table, which is made anew; KIND
-is subscribes, publishes, serves or parameters. --check changes nothing, and fails if a table is not what would be made.
+is subscribes, publishes, serves, parameters or keys. --check changes nothing, and fails if a table is not what would be made.
 --table writes what C++ reads, for src/ros/support/parameters.cpp.
 """
 import pathlib
@@ -17,6 +17,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 INTERFACE = yaml.safe_load((ROOT / 'cfg' / 'interface.yaml').read_text(encoding='utf-8'))
 TABLE = re.compile(r'^(<!-- (\w+) (\w+), by scripts/make_reference\.py -->\n)\n(?:\|.*\n)*', re.MULTILINE)
 KEYS = set('type default shown unit least most values prefix must_be text see dynamic'.split())
+OPTIONS = {'parameters': 'parameter', 'keys': 'key'}
 KINDS = {'int': 'a whole number', 'double': 'a number'}
 
 
@@ -43,8 +44,8 @@ def must_be(entry):
 
 # ---- documentation -------------------------------------------------------------------------------
 
-def shown_name(name):
-    return name if '`' in name else f"`{'' if name.startswith('/') else '~'}{name}`"
+def shown_name(name, kind):
+    return name if '`' in name else f"`{'' if name.startswith('/') or kind == 'keys' else '~'}{name}`"
 
 
 def shown_default(entry):
@@ -63,12 +64,12 @@ def shown_text(entry):
 def table(node, kind):
     """The lines of a table in Markdown."""
     entries = INTERFACE[node][kind]
-    if kind != 'parameters':
-        rows = [[kind, 'type', '']] + [[shown_name(name), entry['type'], entry['text']] for name, entry in entries.items()]
+    if kind not in OPTIONS:
+        rows = [[kind, 'type', '']] + [[shown_name(name, kind), entry['type'], entry['text']] for name, entry in entries.items()]
     else:
-        rows = [['parameter', 'default', 'unit', 'must be', '']]
+        rows = [[OPTIONS[kind], 'default', 'unit', 'must be', '']]
         for name, entry in entries.items():
-            rows.append([shown_name(name) + ' \\*' * entry.get('dynamic', False), shown_default(entry),
+            rows.append([shown_name(name, kind) + ' \\*' * entry.get('dynamic', False), shown_default(entry),
                          entry.get('unit', ''), must_be(entry), shown_text(entry)])
     lines = ['| ' + ' | '.join(row) + ' |' for row in rows]
     return ''.join(line + '\n' for line in [lines[0], '|-' * len(rows[0]) + '|', *lines[1:]]).replace('  |', ' |')
@@ -111,7 +112,8 @@ def cpp_table():
     for node, interface in INTERFACE.items():
         topics = [name for kind in ('publishes', 'subscribes') for name in interface.get(kind, {}) if '`' not in name]
         text += f"{{{literal(node)}, {{{{{', '.join(literal(topic) for topic in topics)}}}, {{\n"
-        text += ''.join(cpp_parameter(*item) for item in interface['parameters'].items()) + '}}},\n'
+        options = next(interface[kind] for kind in OPTIONS if kind in interface)
+        text += ''.join(cpp_parameter(*item) for item in options.items()) + '}}},\n'
     return text
 
 

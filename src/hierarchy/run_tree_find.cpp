@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "src/hierarchy/candidates-inl.hpp"
+#include "src/hierarchy/probe-inl.hpp"
 #include "src/hierarchy/run_lanes-inl.hpp"
 #include "src/hierarchy/run_tree_kernels.hpp"
 
@@ -18,37 +18,6 @@ namespace HWY_NAMESPACE {
 namespace {
 
 constexpr std::uint32_t all_bits = first_bits(run_width);
-
-/// A group of the one tree while it looks for what is near it in the other: all its boxes, larger
-/// by the bound.
-template <bool moves>
-class Probe {
- public:
-  void aim(const RunTreeView& tree, std::uint32_t group, float bound) {
-    const std::uint32_t first = group * run_width;
-    run_count_ = std::min(run_width, tree.levels[0].child_count - first);
-    inflate(tree.levels[0].boxes[group], bound, runs_);
-    for (std::uint32_t lane = 0; lane < run_count_; ++lane) {
-      fit_boxes<moves>(tree, first + lane, segments_[lane]);
-      inflate(segments_[lane], bound, segments_[lane]);
-    }
-    for (int axis = 0; axis < 3; ++axis) {
-      whole_.lower[axis][0] = *std::min_element(runs_.lower[axis], runs_.lower[axis] + run_width);
-      whole_.upper[axis][0] = *std::max_element(runs_.upper[axis], runs_.upper[axis] + run_width);
-    }
-  }
-
-  std::uint32_t run_count() const { return run_count_; }
-  const BoxBlock& whole() const { return whole_; }  ///< in lane 0
-  const BoxBlock& runs() const { return runs_; }
-  const BoxBlock& segments(std::uint32_t run) const { return segments_[run]; }
-
- private:
-  std::uint32_t run_count_ = 0;
-  BoxBlock whole_ = {};
-  BoxBlock runs_ = {};
-  BoxBlock segments_[run_width] = {};
-};
 
 /// All pairs of the groups of one tree and the segments of another, or of the same.
 /// @tparam moves both
@@ -98,37 +67,15 @@ class Finder {
     if (!std::isinf(bound_)) {
       return true;
     }
+    const BoxBlock& runs = a_.levels[0].boxes[group_];
     std::uint32_t node = 0;
     for (std::uint32_t level = b_.level_count - 1; level > 0; --level) {
-      node = node * run_width + nearest_child(level, node);
+      node = node * run_width + nearest_child(b_.levels[level], node, runs);
     }
     visited_ = node;
-    const std::uint32_t nearest = 1U << nearest_child(0, node);
+    const std::uint32_t nearest = 1U << nearest_child(b_.levels[0], node, runs);
     return visit_group(node, nearest) && settle() && visit_group(node, all_bits & ~nearest) &&
            settle();
-  }
-
-  /// That of a node whose box is nearest to the first run of the group.
-  std::uint32_t nearest_child(std::uint32_t level, std::uint32_t node) const {
-    const RunTreeLevel& nodes = b_.levels[level];
-    const BoxBlock& boxes = nodes.boxes[node];
-    const BoxBlock& of_group = a_.levels[0].boxes[group_];
-    std::uint32_t nearest = 0;
-    float least = std::numeric_limits<float>::infinity();
-    for (std::uint32_t lane = 0; lane < std::min(run_width, nodes.child_count - node * run_width);
-         ++lane) {
-      float squared = 0.0F;
-      for (int axis = 0; axis < 3; ++axis) {
-        const float gap = std::max({boxes.lower[axis][lane] - of_group.upper[axis][0],
-                                    of_group.lower[axis][0] - boxes.upper[axis][lane], 0.0F});
-        squared += gap * gap;
-      }
-      if (squared < least) {
-        least = squared;
-        nearest = lane;
-      }
-    }
-    return nearest;
   }
 
   void aim() {

@@ -49,7 +49,7 @@ TEST_F(BadInputTest, BadEntriesOfInputsAreLeftOutWithAnErrorEach) {
                   "unknown input type 'std_msgs/String', known are: fiber_proximity/FiberArray,");
   expect_left_out(2, "has no key 'topic'");
   expect_left_out(3, "has the unknown key 'colour', known are: topic, type,");
-  expect_left_out(4, "key 'radius' is thick, it must be a number of metres, at least 0");
+  expect_left_out(4, "key 'radius' is thick, it must be a number from 0 to 1e+150");
   expect_left_out(5, "key 'topic' is yaml/not a name, it must be a ROS name");
   expect_left_out(6, "is yaml_no_map, it must be a map with the key 'topic' at least");
   expect_left_out(36,

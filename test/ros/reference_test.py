@@ -84,9 +84,9 @@ class ReferenceTest(unittest.TestCase):
 
     def test_parameters_read_at_the_start(self):
         tried = 0
-        for node, interface in INTERFACE.items():
-            program = roslib.packages.find_node('fiber_proximity', PROGRAMS[node])[0]
-            for name, entry in interface['parameters'].items():
+        for node, program in PROGRAMS.items():
+            program = roslib.packages.find_node('fiber_proximity', program)[0]
+            for name, entry in INTERFACE[node]['parameters'].items():
                 for value in bad_values(entry):
                     self.master.setParam('/refused', {'scene': 'none'} if node == 'cable_sim' else {})
                     self.master.setParam(f'/refused/{name}', value)
@@ -100,6 +100,30 @@ class ReferenceTest(unittest.TestCase):
                     tried += 1
         self.master.deleteParam('/refused')
         self.assertGreater(tried, 100)
+
+    def test_keys_of_inputs(self):
+        bad = [(name, value) for name, entry in INTERFACE['input']['keys'].items() for value in bad_values(entry)]
+        self.assertGreater(len(bad), 8)
+        self.master.setParam('/refused/inputs', [
+            {'topic': f'cable_{number}', 'type': 'visualization_msgs/Marker', name: value}
+            for number, (name, value) in enumerate(bad)])
+        program = roslib.packages.find_node('fiber_proximity', PROGRAMS['proximity'])[0]
+        # The node goes on without them.
+        node = subprocess.Popen(['timeout', str(PATIENCE), program, '__name:=refused'], text=True,
+                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        output = ''
+        while output.count('it must be ') < len(bad):
+            line = node.stdout.readline()
+            self.assertNotEqual(line, '', f'the node tells only: {output}')
+            output += line
+        node.terminate()
+        node.communicate()
+        self.master.deleteParam('/refused')
+        for name, value in bad:
+            self.assertIn(f"key '{name}' is ", output)
+        for name, entry in INTERFACE['input']['keys'].items():
+            if 'values' in entry:
+                self.assertIn(f"it must be one of {', '.join(entry['values'])}", output)
 
 
 if __name__ == '__main__':

@@ -74,71 +74,40 @@ const InputType& find(const std::string& name) {
 
 using XmlRpc::XmlRpcValue;
 
-[[noreturn]] void refuse(const std::string& key, const XmlRpcValue& value,
-                         const std::string& allowed) {
-  throw std::invalid_argument("key '" + key + "' is " + text_of(value) + ", it must be " + allowed);
-}
-
-/// Reads the value of a key, if there is one, of the type that the variable has.
+/// Reads the value of a key, which is the default where there is none.
 template <class Value>
-void read_key(const XmlRpcValue& entry, const std::string& key, const std::string& allowed,
-              Value& value) {
-  if (!entry.hasMember(key)) {
-    return;
+void read_key(const XmlRpcValue& entry, const std::string& key, Value& value) {
+  const Parameter& known = *interface_of("input").find(key);
+  XmlRpcValue found = known.value;
+  if (entry.hasMember(key)) {
+    found = checked(known, entry[key], "key '" + key + "'");
   }
-  const XmlRpcValue& given = entry[key];
-  if (given.getType() != XmlRpcValue(value).getType()) {
-    refuse(key, given, allowed);
-  }
-  value = static_cast<const Value&>(given);
-}
-
-/// The same of a number of at least 0, which may be a whole one.
-void read_size(const XmlRpcValue& entry, const std::string& key, const std::string& allowed,
-               double& size) {
-  if (entry.hasMember(key) && entry[key].getType() == XmlRpcValue::TypeInt) {
-    size = static_cast<const int&>(entry[key]);
-  } else {
-    read_key(entry, key, allowed, size);
-  }
-  if (!(size >= 0.0 && size <= fiber::FiberAssembly::max_coordinate)) {
-    refuse(key, entry[key], allowed);
+  if (found.valid()) {
+    value = static_cast<const Value&>(found);
   }
 }
 
 MissingPoints read_missing_points(const XmlRpcValue& entry) {
-  const std::string key = "missing_points";
-  const std::string allowed = "refuse, bridge or split";
   static const std::map<std::string, MissingPoints> policies{{"refuse", MissingPoints::REFUSE},
                                                              {"bridge", MissingPoints::BRIDGE},
                                                              {"split", MissingPoints::SPLIT}};
-  std::string name = "refuse";
-  read_key(entry, key, allowed, name);
-  const auto policy = policies.find(name);
-  if (policy == policies.end()) {
-    refuse(key, entry[key], allowed);
-  }
-  return policy->second;
+  std::string name;
+  read_key(entry, "missing_points", name);
+  return policies.at(name);
 }
 
-/// @returns the last key that is for markers only; empty if there is none
-std::string require_known_keys(const XmlRpcValue& entry) {
-  const std::vector<std::string> keys{"topic", "type", "name", "radius", "missing_points"};
-  const std::vector<std::string> marker_keys{"namespace", "radius_from_marker", "weld_tolerance"};
-  const auto is_among = [](const std::vector<std::string>& known, const std::string& key) {
-    return std::find(known.begin(), known.end(), key) != known.end();
-  };
-  std::string marker_key;
+void require_known_keys(const XmlRpcValue& entry) {
+  const NodeInterface& known = interface_of("input");
   for (const auto& [key, value] : entry) {
-    if (is_among(marker_keys, key)) {
-      marker_key = key;
-    } else if (!is_among(keys, key)) {
+    if (known.find(key) == nullptr) {
+      std::vector<std::string> names;
+      for (const Parameter& parameter : known.parameters) {
+        names.push_back(parameter.name);
+      }
       throw std::invalid_argument("has the unknown key '" + key +
-                                  "', known are: " + fiber::join(keys) + ", and for markers " +
-                                  fiber::join(marker_keys));
+                                  "', known are: " + fiber::join(names));
     }
   }
-  return marker_key;
 }
 
 }  // namespace
@@ -155,26 +124,28 @@ InputOptions read_input_options(const XmlRpcValue& entry, double default_radius)
   }
   InputOptions options;
   options.radius = default_radius;
-  const std::string marker_key = require_known_keys(entry);
-  read_key(entry, "topic", "a string", options.topic);
-  read_key(entry, "type", "a string", options.type);
-  read_key(entry, "name", "a string", options.name);
-  read_size(entry, "radius", "a number of metres, at least 0", options.radius);
+  require_known_keys(entry);
+  read_key(entry, "topic", options.topic);
+  read_key(entry, "type", options.type);
+  read_key(entry, "name", options.name);
+  read_key(entry, "radius", options.radius);
   options.missing_points = read_missing_points(entry);
-  read_key(entry, "namespace", "a string", options.marker.marker_namespace);
-  read_key(entry, "radius_from_marker", "true or false", options.marker.radius_from_marker);
-  read_size(entry, "weld_tolerance", "a number of at least 0, a fraction of a segment's length",
-            options.marker.weld_tolerance);
+  read_key(entry, "namespace", options.marker.marker_namespace);
+  read_key(entry, "radius_from_marker", options.marker.radius_from_marker);
+  read_key(entry, "weld_tolerance", options.marker.weld_tolerance);
   if (options.topic.empty()) {
     throw std::invalid_argument("has no key 'topic'");
   }
   if (std::string reason; !ros::names::validate(options.topic, reason)) {
-    refuse("topic", entry["topic"], "a ROS name: " + reason);
+    throw std::invalid_argument("key 'topic' is " + text_of(entry["topic"]) +
+                                ", it must be a ROS name: " + reason);
   }
   const bool is_marker = find(options.type).is_marker;
-  if (!marker_key.empty() && !is_marker) {
-    throw std::invalid_argument("key '" + marker_key + "' is for markers only, not for type '" +
-                                options.type + "'");
+  for (const char* key : {"namespace", "radius_from_marker", "weld_tolerance"}) {
+    if (entry.hasMember(key) && !is_marker) {
+      throw std::invalid_argument("key '" + std::string(key) +
+                                  "' is for markers only, not for type '" + options.type + "'");
+    }
   }
   if (options.name.empty()) {
     options.name = options.topic;

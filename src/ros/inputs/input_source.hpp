@@ -19,7 +19,7 @@ namespace fiber_proximity_ros {
 /// One source of fibres: an entry of the parameter `~inputs`.
 struct InputOptions {
   std::string topic;
-  std::string type = "fiber_proximity/FiberArray";  ///< of its messages, one that subscribe() knows
+  std::string type;  ///< of its messages, one that subscribe() knows
 
   /// Of the fibre, where the message does not name it; of several: name/0, name/1, ...
   /// Empty: the topic.
@@ -34,7 +34,8 @@ struct InputOptions {
   std::string where;  ///< what the log calls the entry
 };
 
-/// Reads one entry of the list; keys that are absent keep their defaults.
+/// Reads one entry of the list; keys that are absent have the defaults of
+/// cfg/interface.yaml.
 /// @throws std::invalid_argument naming key, value and what is allowed
 InputOptions read_input_options(const XmlRpc::XmlRpcValue& entry, double default_radius);
 

@@ -69,14 +69,13 @@ void require_foreign_topic(const InputOptions& input, const ros::NodeHandle& nod
 std::vector<InputOptions> read_inputs(const ros::NodeHandle& public_node,
                                       const Parameters& parameters, double radius) {
   const ros::NodeHandle& node = parameters.node();
-  InputOptions default_input;
-  default_input.topic = "fibers";
-  default_input.name = default_input.topic;
-  default_input.radius = radius;
-  default_input.where = "the default of parameter " + node.resolveName("inputs");
   XmlRpcValue list;
   if (!node.getParam("inputs", list)) {
-    return {default_input};
+    XmlRpcValue fibers;
+    fibers["topic"] = "fibers";
+    InputOptions input = read_input_options(fibers, radius);
+    input.where = "the default of parameter " + node.resolveName("inputs");
+    return {input};
   }
   if (list.getType() != XmlRpcValue::TypeArray) {
     parameters.refuse("inputs");

@@ -105,6 +105,15 @@ std::string text_of(const XmlRpcValue& value) {
   return fiber::shortened(stream.str());
 }
 
+XmlRpcValue checked(const Parameter& parameter, const XmlRpcValue& value, const std::string& what) {
+  if (!is_allowed(parameter, value)) {
+    throw std::invalid_argument(what + " is " + text_of(value) + ", it must be " +
+                                parameter.must_be);
+  }
+  const bool is_whole = parameter.type == "double" && value.getType() == XmlRpcValue::TypeInt;
+  return is_whole ? XmlRpcValue(static_cast<double>(static_cast<const int&>(value))) : value;
+}
+
 const Parameter* NodeInterface::find(const std::string& name) const {
   const auto found = std::find_if(parameters.begin(), parameters.end(),
                                   [&](const Parameter& known) { return known.name == name; });
@@ -127,11 +136,7 @@ const Parameter& Parameters::find(const std::string& name) const {
 }
 
 void Parameters::require_allowed(const std::string& name, const XmlRpcValue& value) const {
-  const Parameter& parameter = find(name);
-  if (!is_allowed(parameter, value)) {
-    throw std::invalid_argument("parameter " + node_.resolveName(name) + " is " + text_of(value) +
-                                ", it must be " + parameter.must_be);
-  }
+  checked(find(name), value, "parameter " + node_.resolveName(name));
 }
 
 void Parameters::refuse(const std::string& name) const { refuse(name, find(name).must_be); }
@@ -149,9 +154,7 @@ XmlRpcValue Parameters::read_checked(const std::string& name) const {
   if (!node_.getParam(name, value)) {
     return parameter.value;
   }
-  require_allowed(name, value);
-  const bool is_whole = parameter.type == "double" && value.getType() == XmlRpcValue::TypeInt;
-  return is_whole ? XmlRpcValue(static_cast<double>(static_cast<const int&>(value))) : value;
+  return checked(parameter, value, "parameter " + node_.resolveName(name));
 }
 
 void Parameters::warn_of_unknown() const {

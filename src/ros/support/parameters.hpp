@@ -17,7 +17,7 @@ namespace fiber_proximity_ros {
 /// A value as a message shows it: on one line, and no more of it than the reader needs.
 std::string text_of(const XmlRpc::XmlRpcValue& value);
 
-/// A private parameter, as cfg/interface.yaml has it.
+/// A private parameter, or a key of an entry of one, as cfg/interface.yaml has it.
 struct Parameter {
   std::string name;
   std::string type;           ///< bool, int, double or str; values of others are checked by code
@@ -28,6 +28,12 @@ struct Parameter {
   std::string must_be;              ///< what is allowed, for errors
   bool is_dynamic;                  ///< can change while the node runs
 };
+
+/// A value as the parameter's type has it: whole numbers stand for real ones, too.
+/// @param what as errors call it
+/// @throws std::invalid_argument naming what it is, its value and what is allowed
+XmlRpc::XmlRpcValue checked(const Parameter& parameter, const XmlRpc::XmlRpcValue& value,
+                            const std::string& what);
 
 /// What one of our nodes has in cfg/interface.yaml.
 struct NodeInterface {
