@@ -9,6 +9,7 @@
 #include "test/support/bounding_volumes.hpp"
 #include "test/support/hard_runs.hpp"
 #include "test/support/not_finite.hpp"
+#include "test/support/random.hpp"
 #include "test/support/rounds.hpp"
 #include "test/support/seeded_test.hpp"
 

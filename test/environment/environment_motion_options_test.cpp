@@ -8,6 +8,7 @@
 #include "test/environment/motion_scene.hpp"
 #include "test/support/error_of.hpp"
 #include "test/support/not_finite.hpp"
+#include "test/support/random.hpp"
 #include "test/support/rounds.hpp"
 
 namespace fiber::test {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "test/environment/motion_scene.hpp"
+#include "test/support/random.hpp"
 #include "test/support/rounds.hpp"
 
 namespace fiber::test {

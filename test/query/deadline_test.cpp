@@ -7,7 +7,7 @@
 #include "test/support/answers.hpp"
 #include "test/support/contacts.hpp"
 #include "test/support/engines_test.hpp"
-#include "test/support/rounds.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber::test {
 namespace {

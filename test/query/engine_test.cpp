@@ -14,6 +14,7 @@
 #include "test/support/error_of.hpp"
 #include "test/support/hard_pairs.hpp"
 #include "test/support/neighbour_skips.hpp"
+#include "test/support/random.hpp"
 #include "test/support/rounds.hpp"
 
 namespace fiber::test {

@@ -10,7 +10,7 @@
 #include "test/support/engines_test.hpp"
 #include "test/support/neighbour_skips.hpp"
 #include "test/support/not_finite.hpp"
-#include "test/support/rounds.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber::test {
 namespace {

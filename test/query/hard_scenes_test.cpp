@@ -13,6 +13,7 @@
 #include "test/support/answers.hpp"
 #include "test/support/contacts.hpp"
 #include "test/support/not_finite.hpp"
+#include "test/support/random.hpp"
 #include "test/support/rounds.hpp"
 
 namespace fiber::test {

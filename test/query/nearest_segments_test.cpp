@@ -10,7 +10,7 @@
 #include "test/support/contacts.hpp"
 #include "test/support/engines_test.hpp"
 #include "test/support/error_of.hpp"
-#include "test/support/rounds.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber::test {
 namespace {

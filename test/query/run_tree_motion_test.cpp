@@ -12,6 +12,7 @@
 #include "test/support/assemblies.hpp"
 #include "test/support/contacts.hpp"
 #include "test/support/motions.hpp"
+#include "test/support/random.hpp"
 #include "test/support/rounds.hpp"
 
 namespace fiber::test {

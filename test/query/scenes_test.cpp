@@ -8,6 +8,7 @@
 #include "src/paper/hierarchy/hierarchy.hpp"
 #include "test/support/answers.hpp"
 #include "test/support/contacts.hpp"
+#include "test/support/random.hpp"
 #include "test/support/rounds.hpp"
 #include "test/support/small_scene.hpp"
 

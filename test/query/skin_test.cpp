@@ -10,6 +10,7 @@
 #include "test/support/assemblies.hpp"
 #include "test/support/contacts.hpp"
 #include "test/support/neighbour_skips.hpp"
+#include "test/support/random.hpp"
 #include "test/support/rounds.hpp"
 
 namespace fiber::test {

@@ -7,6 +7,7 @@
 #include "benchmark/sim/contact_scenes.hpp"
 #include "src/sim/solver/stage_solver.hpp"
 #include "test/sim/random_rods.hpp"
+#include "test/support/random.hpp"
 #include "test/support/rounds.hpp"
 
 namespace fiber::test {

@@ -11,6 +11,7 @@
 #include "test/sim/random_rods.hpp"
 #include "test/support/error_of.hpp"
 #include "test/support/not_finite.hpp"
+#include "test/support/random.hpp"
 #include "test/support/rounds.hpp"
 
 namespace fiber::test {

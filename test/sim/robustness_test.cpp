@@ -9,6 +9,7 @@
 #include "fiber_proximity/sim/effects.hpp"
 #include "test/sim/energy_bounds.hpp"
 #include "test/sim/random_rods.hpp"
+#include "test/support/random.hpp"
 #include "test/support/rounds.hpp"
 
 namespace fiber::test {

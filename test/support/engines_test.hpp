@@ -7,7 +7,7 @@
 
 #include "fiber_proximity/query/engine.hpp"
 #include "test/support/assemblies.hpp"
-#include "test/support/rounds.hpp"
+#include "test/support/random.hpp"
 
 namespace fiber::test {
 

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -12,6 +14,9 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <vector>
+
+#include "test/support/rounds.hpp"
 
 namespace fiber::test {
 
@@ -38,11 +43,11 @@ inline std::uint64_t run_seed() {
   return seed;
 }
 
-/// That a test has seen enough of what it is about is a fact about the numbers of the fixed seed.
-/// With others chance decides: nothing is expected then.
+/// That a test has seen enough of what it is about is a fact about the numbers of the fixed seed in
+/// all rounds. With others, or in fewer of them, chance decides: nothing is expected then.
 template <class Count>
 void expect_enough(Count seen, Count least) {
-  if (run_seed() == fixed_seed) {
+  if (run_seed() == fixed_seed && rounds_less == 1) {
     EXPECT_GE(seen, least) << "too few to tell anything";
   }
 }
@@ -98,5 +103,18 @@ class Random {
  private:
   std::mt19937_64 engine_;
 };
+
+/// What to test with of all: all, or every few from a random one on where tests go fewer rounds; at
+/// least one of those there are.
+template <class Element>
+std::vector<Element> sampled(const std::vector<Element>& all, Random& random) {
+  std::vector<Element> some;
+  const int last_first = std::clamp(static_cast<int>(all.size()), 1, rounds_less) - 1;
+  for (auto i = static_cast<std::size_t>(random.integer(0, last_first)); i < all.size();
+       i += rounds_less) {
+    some.push_back(all[i]);
+  }
+  return some;
+}
 
 }  // namespace fiber::test

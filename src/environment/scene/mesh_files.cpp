@@ -136,7 +136,8 @@ void parse_and_write(const std::string& bytes, const std::string& name, std::FIL
   const ParsedMesh mesh = parse(bytes, name);
   const MeshCounts counts{mesh.vertices.size(), mesh.triangles.size()};
   std::fwrite(&counts, sizeof counts, 1, file);
-  if (counts.vertices <= most_vertices && counts.triangles <= TriangleMesh::most_triangles) {
+  if (counts.triangles > 0 && counts.vertices <= most_vertices &&
+      counts.triangles <= TriangleMesh::most_triangles) {
     std::fwrite(mesh.vertices.data(), sizeof(Eigen::Vector3d), counts.vertices, file);
     std::fwrite(mesh.triangles.data(), sizeof(TriangleMesh::Triangle), counts.triangles, file);
   }
