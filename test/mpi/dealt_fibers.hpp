@@ -118,27 +118,35 @@ inline std::string names_in(const DistributedContact& x) {
          std::to_string(x.fiber_b) + ", " + std::to_string(x.segment_b) + ")";
 }
 
-/// On rank 0: whether the ranks have found what one process finds, bit for bit.
-inline testing::AssertionResult same_as_one_process(const DistributedResult& all,
-                                                    const std::vector<Contact>& expected) {
-  if (own_rank() != 0) {
-    return testing::AssertionSuccess();
-  }
-  for (std::size_t i = 0; i < std::min(all.contacts.size(), expected.size()); ++i) {
+inline testing::AssertionResult same_contacts(const std::vector<DistributedContact>& found,
+                                              const std::vector<Contact>& expected) {
+  for (std::size_t i = 0; i < std::min(found.size(), expected.size()); ++i) {
     const Contact& contact = expected[i];
-    if (!same_bits(all.contacts[i], contact)) {
+    if (!same_bits(found[i], contact)) {
       return testing::AssertionFailure()
-             << "contact " << i << " is " << names_in(all.contacts[i]) << " at "
-             << all.contacts[i].distance << ", expected (" << name_of_fiber(contact.fiber_a) << ", "
-             << contact.segment_a << ", " << name_of_fiber(contact.fiber_b) << ", "
-             << contact.segment_b << ") at " << contact.distance;
+             << "contact " << i << " is " << names_in(found[i]) << " at " << found[i].distance
+             << ", expected (" << name_of_fiber(contact.fiber_a) << ", " << contact.segment_a
+             << ", " << name_of_fiber(contact.fiber_b) << ", " << contact.segment_b << ") at "
+             << contact.distance;
     }
   }
-  if (all.contacts.size() != expected.size()) {
-    return testing::AssertionFailure()
-           << all.contacts.size() << " contacts, expected " << expected.size();
+  if (found.size() != expected.size()) {
+    return testing::AssertionFailure() << found.size() << " contacts, expected " << expected.size();
   }
   return testing::AssertionSuccess();
+}
+
+/// Whether the ranks have found what one process finds, bit for bit. Rank 0 has the contacts, and
+/// tells the others: a test that one rank leaves, all must.
+inline testing::AssertionResult same_as_one_process(const DistributedResult& all,
+                                                    const std::vector<Contact>& expected) {
+  testing::AssertionResult result = testing::AssertionSuccess();
+  if (own_rank() == 0) {
+    result = same_contacts(all.contacts, expected);
+  }
+  int is_same = result ? 1 : 0;
+  MPI_Bcast(&is_same, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  return own_rank() == 0 || is_same != 0 ? result : testing::AssertionFailure() << "see rank 0";
 }
 
 /// Of one thread: ranks share the machine.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fiber_proximity/geometry/segment_distance.hpp"
+#include "src/mpi/box_tree.hpp"
 #include "test/mpi/dealt_fibers.hpp"
 #include "test/support/assemblies.hpp"
 #include "test/support/contacts.hpp"
@@ -65,6 +67,26 @@ TEST(DistributedHalo, AThickFibreBringsNoMoreThanWhatIsNearIt) {
   const std::uint64_t few = over_ranks(thin.engine.facts().halo_segments, MPI_SUM);
   // Each contact of the thick one brings one segment at most; boxes are somewhat larger.
   EXPECT_LE(more, few + expected.contacts.size() * 2);
+}
+
+/// A segment across an axis, so that boxes are as far apart as segments.
+std::pair<FiberNode, FiberNode> across(double place, double radius) {
+  return {{{place, -1e-3, 0.0}, 0.0, radius}, {{place, 1e-3, 0.0}, 0.0, 0.0}};
+}
+
+TEST(DistributedHalo, BoxesAreNoFurtherApartThanSegmentsAreFound) {
+  Random random;
+  for (int round = 0; round < 20000; ++round) {
+    const double near = random.uniform(-1.0, 1.0) * std::pow(10.0, random.integer(-6, 0));
+    const double far = near + random.uniform(0.5, 2.0);
+    const auto [a0, a1] = across(near, random.uniform(0.0, 0.2));
+    const auto [b0, b1] = across(far, random.uniform(0.0, 0.2));
+    const SegmentDistance nearest = segment_distance(vector_of(a0.point), vector_of(a1.point),
+                                                     vector_of(b0.point), vector_of(b1.point));
+    const double gap = nearest.distance - (a0.radius + b0.radius);
+    ASSERT_TRUE(may_come_within(box_around(a0, a1), box_around(b0, b1), gap)) << gap;
+    ASSERT_FALSE(may_come_within(box_around(a0, a1), box_around(b0, b1), gap - 1e-12)) << gap;
+  }
 }
 
 }  // namespace
