@@ -3,14 +3,19 @@
 #include <mpi.h>
 
 #include <exception>
+#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <streambuf>
 #include <string>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 #include "fiber_proximity/io/fiber_file.hpp"
+#include "fiber_proximity/io/file.hpp"
 #include "fiber_proximity/mpi/distributed_engine.hpp"
 #include "src/mpi/communicator.hpp"
 #include "src/tools/contact_rows.hpp"
@@ -24,6 +29,41 @@ struct MpiRequest {
   double radius = 0.0;  // [m]
   EngineOptions engine_options;
   QueryOptions query;
+  std::string out;  // "" for stdout
+};
+
+/// Where rank 0 writes: stdout, or a file that has its name only once it is whole.
+class Answer {
+ public:
+  explicit Answer(std::string path)
+      : path_(std::move(path)),
+        file_(path_.empty() ? nullptr : std::make_unique<OutputFile>(aside())),
+        text_(file_ != nullptr ? file_->stream() : std::cout) {}
+  ~Answer() {
+    if (file_ != nullptr) {
+      std::error_code ignored;
+      std::filesystem::remove(aside(), ignored);
+    }
+  }
+  Answer(const Answer&) = delete;
+  Answer& operator=(const Answer&) = delete;
+
+  TextOutput& text() { return text_; }
+
+  void finish() {
+    if (file_ != nullptr) {
+      file_->close();
+      std::filesystem::rename(aside(), path_);
+      file_.reset();
+    }
+  }
+
+ private:
+  std::string aside() const { return path_ + ".part"; }
+
+  const std::string path_;
+  std::unique_ptr<OutputFile> file_;  // none for stdout
+  TextOutput text_;
 };
 
 /// Does on rank 0 what may go wrong there.
@@ -53,11 +93,12 @@ ExitCode run(const MpiRequest& request) {
   const Communicator ranks(MPI_COMM_WORLD);
   DistributedEngine engine(MPI_COMM_WORLD, request.engine_options);
   FiberFile file;
-  TextOutput output(std::cout);
+  std::optional<Answer> answer;
   on_first_rank(ranks, [&] {
     file = read_fibers(request.file, request.radius);
-    output.write((file.has_frames ? "frame," : "") + std::string(contact_columns));
-    output.flush();
+    answer.emplace(request.out);
+    answer->text().write((file.has_frames ? "frame," : "") + std::string(contact_columns));
+    answer->text().flush();
   });
   const std::uint64_t frame_count = ranks.sum(file.frames.size());  // the others have none
   const FiberAssembly nothing;
@@ -69,10 +110,11 @@ ExitCode run(const MpiRequest& request) {
     engine.query(request.query, result);
     const DistributedResult all = gather(MPI_COMM_WORLD, result);
     on_first_rank(ranks, [&] {
-      write_csv_contacts(output, {file.has_frames, file.frames[i].frame}, all.contacts);
-      output.flush();
+      write_csv_contacts(answer->text(), {file.has_frames, file.frames[i].frame}, all.contacts);
+      answer->text().flush();
     });
   }
+  on_first_rank(ranks, [&] { answer->finish(); });
   return SUCCEEDED;
 }
 
@@ -95,6 +137,9 @@ void setup_mpi(CLI::App& app, Command& command) {
       ->add_option("--margin", request->query.margin,
                    "pairs with a gap of at most this [m]; inf for no limit")
       ->capture_default_str();
+  contacts->add_option("--out", request->out,
+                       "write to this file, which has its name once it is whole; without this, to "
+                       "what mpirun takes as output");
   add_neighbour_options(*contacts, request->query.neighbour_skip,
                         request->query.neighbour_skip_length);
   add_kernel_option(*contacts, request->query.kernel);

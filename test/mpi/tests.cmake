@@ -5,6 +5,7 @@ if(TARGET fiber_proximity_mpi)
     mpi/distributed_engine_test.cpp
     mpi/distributed_errors_test.cpp
     mpi/distributed_halo_test.cpp
+    mpi/loop_questions_test.cpp
     mpi/mpi_main.cpp
   )
   if(FIBER_PROXIMITY_BUILD_ROS)
@@ -28,4 +29,7 @@ if(TARGET fiber_proximity_mpi)
         $<TARGET_FILE:distributed_engine_test>)
     set_tests_properties(distributed_engine_test_${ranks} PROPERTIES PROCESSORS ${ranks})
   endforeach()
+  add_test(NAME fiber_query_mpi_test
+    COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/mpi/fiber_query_mpi_test.sh $<TARGET_FILE_DIR:fiber_query_mpi>
+      ${MPIEXEC_EXECUTABLE} ${mpiexec_flags} ${MPIEXEC_NUMPROC_FLAG})
 endif()
