@@ -128,16 +128,17 @@ bool BoxTree::has_near(const PlainBox& box, double margin, const GlobalSegment& 
   if (empty()) {
     return false;
   }
-  std::vector<std::uint32_t> waiting{0};
-  while (!waiting.empty()) {
-    const Node& node = nodes_[waiting.back()];
-    waiting.pop_back();
+  // Nodes halve: a tree of 2³² boxes has less levels, and of each level one node waits.
+  std::array<std::uint32_t, 64> waiting{};
+  std::size_t count = 1;
+  while (count > 0) {
+    const Node& node = nodes_[waiting[--count]];
     if (!is_near(node.around)) {
       continue;
     }
     if (node.left != 0) {
-      waiting.push_back(node.left);
-      waiting.push_back(node.left + 1);
+      waiting[count++] = node.left;
+      waiting[count++] = node.left + 1;
     } else if (std::any_of(boxes_.begin() + node.begin, boxes_.begin() + node.end, is_near)) {
       return true;
     }

@@ -33,6 +33,9 @@ bool are_same(const std::vector<FiberPart>& x, const std::vector<FiberPart>& y) 
 FiberRuns pieces_of(const FiberAssembly& parts, const std::vector<FiberPart>& names,
                     const std::vector<double>& arcs) {
   FiberRuns pieces;
+  const std::size_t most = parts.segment_count() / segments_per_piece + names.size();
+  pieces.runs.reserve(most);
+  pieces.nodes.reserve(parts.segment_count() + most);
   std::vector<FiberNode> nodes;
   for (std::size_t part = 0; part < names.size(); ++part) {
     const std::uint32_t begin = parts.offsets()[part];
@@ -122,7 +125,7 @@ void DistributedEngine::State::migrate(FiberRuns pieces, bool is_same) {
   }
   pieces = {};
   if (!is_same) {
-    own = exchange_runs(ranks, to);
+    own = exchange_runs(ranks, std::move(to));
     return;
   }
   PerRank<FiberNode> nodes;

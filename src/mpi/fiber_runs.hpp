@@ -72,7 +72,12 @@ inline std::vector<FiberRun> joined_runs(const PerRank<FiberRun>& from) {
 }
 
 inline std::vector<FiberNode> joined_nodes(const PerRank<FiberNode>& from) {
+  std::size_t count = 0;
+  for (const std::vector<FiberNode>& some : from) {
+    count += some.size();
+  }
   std::vector<FiberNode> nodes;
+  nodes.reserve(count);
   for (const std::vector<FiberNode>& some : from) {
     nodes.insert(nodes.end(), some.begin(), some.end());
   }
@@ -80,12 +85,12 @@ inline std::vector<FiberNode> joined_nodes(const PerRank<FiberNode>& from) {
 }
 
 /// Sends each rank its runs, and takes those that are for this one.
-inline FiberRuns exchange_runs(const Communicator& ranks, const std::vector<FiberRuns>& to) {
+inline FiberRuns exchange_runs(const Communicator& ranks, std::vector<FiberRuns> to) {
   PerRank<FiberRun> runs(to.size());
   PerRank<FiberNode> nodes(to.size());
   for (std::size_t i = 0; i < to.size(); ++i) {
-    runs[i] = to[i].runs;
-    nodes[i] = to[i].nodes;
+    runs[i] = std::move(to[i].runs);
+    nodes[i] = std::move(to[i].nodes);
   }
   FiberRuns all;
   all.runs = joined_runs(ranks.exchange(runs));

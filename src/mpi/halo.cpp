@@ -37,12 +37,13 @@ PlainBox box_of_piece(const FiberNode* nodes, std::uint64_t count) {
   return box;
 }
 
-BoxTree tree_of(const FiberRuns& own) {
+/// In the order of for_each_piece().
+std::vector<SegmentBox> boxes_of(const FiberRuns& own) {
   std::vector<SegmentBox> boxes;
   for_each_piece(own, [&](const GlobalSegment& first, const FiberNode* nodes, std::uint64_t count) {
     boxes.push_back({box_of_piece(nodes, count), first});
   });
-  return BoxTree(std::move(boxes));
+  return boxes;
 }
 
 /// Other ranks whose segments may be near.
@@ -68,11 +69,14 @@ std::vector<std::size_t> find_neighbours(const Communicator& ranks, const BoxTre
 constexpr GlobalSegment no_limit{~std::uint64_t{0}, ~std::uint64_t{0}};
 
 /// What of this rank is near segments of another that are before it.
-FiberRuns segments_near(const FiberRuns& own, const BoxTree& others, double margin) {
+/// @param boxes_of_own its pieces'
+FiberRuns segments_near(const FiberRuns& own, const std::vector<SegmentBox>& boxes_of_own,
+                        const BoxTree& others, double margin) {
   FiberRuns near;
+  auto box = boxes_of_own.begin();
   for_each_piece(own, [&](const GlobalSegment& first, const FiberNode* nodes, std::uint64_t count) {
     const GlobalSegment last{first.fiber, first.segment + count - 1};
-    if (!others.has_near(box_of_piece(nodes, count), margin, last)) {
+    if (!others.has_near((box++)->box, margin, last)) {
       return;
     }
     std::uint64_t begin = 0;
@@ -94,7 +98,11 @@ FiberRuns segments_near(const FiberRuns& own, const BoxTree& others, double marg
 
 FiberRuns find_halo(const Communicator& ranks, const FiberRuns& own, double margin) {
   const auto size = static_cast<std::size_t>(ranks.size());
-  const BoxTree tree = tree_of(own);
+  if (size == 1) {
+    return {};
+  }
+  const std::vector<SegmentBox> boxes = boxes_of(own);
+  const BoxTree tree(boxes);
   const std::vector<std::size_t> neighbours = find_neighbours(ranks, tree, margin);
 
   PerRank<SegmentBox> coarse(size);
@@ -117,9 +125,9 @@ FiberRuns find_halo(const Communicator& ranks, const FiberRuns& own, double marg
 
   std::vector<FiberRuns> near(size);
   for (const std::size_t other : neighbours) {
-    near[other] = segments_near(own, BoxTree(std::move(fine[other])), margin);
+    near[other] = segments_near(own, boxes, BoxTree(std::move(fine[other])), margin);
   }
-  return exchange_runs(ranks, near);
+  return exchange_runs(ranks, std::move(near));
 }
 
 }  // namespace fiber

@@ -38,17 +38,17 @@ void LocalFibers::assign(const FiberRuns& own, const FiberRuns& halo) {
   std::sort(pieces.begin(), pieces.end(),
             [](const Piece& x, const Piece& y) { return x.first < y.first; });
 
-  std::vector<Eigen::Vector3d> points;
-  std::vector<double> radii;
-  std::vector<std::uint32_t> offsets{0};
-  points.reserve(most);
-  radii.reserve(most);
+  points_.clear();
+  radii_.clear();
+  offsets_.assign(1, 0);
+  points_.reserve(most);
+  radii_.reserve(most);
   first_.clear();
   is_own_.clear();
   arcs_.clear();
   const auto append = [&](const FiberNode& node, bool is_own) {
-    points.push_back(vector_of(node.point));
-    radii.push_back(node.radius);
+    points_.push_back(vector_of(node.point));
+    radii_.push_back(node.radius);
     arcs_.push_back(node.arc);
     is_own_.push_back(is_own ? 1 : 0);
   };
@@ -56,7 +56,7 @@ void LocalFibers::assign(const FiberRuns& own, const FiberRuns& halo) {
     const Piece& piece = pieces[i];
     const GlobalSegment next{piece.first.fiber, piece.first.segment + piece.count};
     const bool goes_on = i + 1 < pieces.size() && pieces[i + 1].first.key() == next.key();
-    if (points.size() == offsets.back()) {
+    if (points_.size() == offsets_.back()) {
       first_.push_back(piece.first);
     }
     // Of two pieces that meet, the point between belongs to the segment that starts there.
@@ -64,13 +64,13 @@ void LocalFibers::assign(const FiberRuns& own, const FiberRuns& halo) {
       append(piece.nodes[k], piece.is_own && k < piece.count);
     }
     if (!goes_on) {
-      offsets.push_back(static_cast<std::uint32_t>(points.size()));
+      offsets_.push_back(static_cast<std::uint32_t>(points_.size()));
     }
   }
-  if (points.empty()) {
+  if (points_.empty()) {
     fibers_ = FiberAssembly();
   } else {
-    fibers_.assign_segments(points, offsets, radii);
+    fibers_.assign_segments(points_, offsets_, radii_);
   }
 }
 

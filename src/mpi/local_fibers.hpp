@@ -37,6 +37,11 @@ class LocalFibers {
   std::vector<GlobalSegment> first_;  // by fibre
   std::vector<std::uint8_t> is_own_;  // by point
   std::vector<double> arcs_;          // by point
+
+  // Work memory, kept from one frame to the next:
+  std::vector<Eigen::Vector3d> points_;
+  std::vector<double> radii_;
+  std::vector<std::uint32_t> offsets_;
 };
 
 }  // namespace fiber
