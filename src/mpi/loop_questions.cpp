@@ -1,5 +1,6 @@
 #include "src/mpi/loop_questions.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "src/query/loop_rule.hpp"
@@ -43,6 +44,12 @@ class OwnRuns {
   explicit OwnRuns(const FiberRuns& own) : own_(own), sorted_(own.runs) {
     std::sort(sorted_.begin(), sorted_.end(),
               [](const FiberRun& x, const FiberRun& y) { return x.first < y.first; });
+    boxes_.resize(sorted_.size());
+    for (std::size_t i = 0; i < sorted_.size(); ++i) {
+      for (std::uint64_t k = 0; k < sorted_[i].count; ++k) {
+        boxes_[i].extend(vector_of(own.nodes[sorted_[i].begin + k].point));
+      }
+    }
   }
 
   std::vector<OwnedRun> joined(int rank) const {
@@ -65,11 +72,7 @@ class OwnRuns {
     Answers answers = 0;
     makes_loop_by(a, b, nearest_of(a, b),
                   [&](int number, const LoopPlace& x, const LoopPlace& y, double limit) {
-                    const LoopReach from_x(x, limit);
-                    const LoopReach from_y(y, limit);
-                    if (any_point(question, [&](const Eigen::Vector3d& point) {
-                          return from_x.is_beyond(point) || from_y.is_beyond(point);
-                        })) {
+                    if (any_beyond(question, LoopReach(x, limit), LoopReach(y, limit))) {
                       answers = static_cast<Answers>(answers | 1U << static_cast<unsigned>(number));
                     }
                     return number == 0;  // whatever others say: so that all questions come
@@ -78,8 +81,8 @@ class OwnRuns {
   }
 
  private:
-  template <class Test>
-  bool any_point(const PlainQuestion& question, const Test& test) const {
+  /// Whether any point that this rank has of those asked about is beyond either limit.
+  bool any_beyond(const PlainQuestion& question, const LoopReach& x, const LoopReach& y) const {
     auto run = std::upper_bound(
         sorted_.begin(), sorted_.end(), question.first,
         [](const GlobalSegment& first, const FiberRun& other) { return first < other.first; });
@@ -92,10 +95,15 @@ class OwnRuns {
           (first.fiber == question.first.fiber && first.segment > question.last)) {
         return false;
       }
-      for (std::uint64_t i = 0; first.fiber == question.first.fiber && i < run->count; ++i) {
+      const Eigen::AlignedBox3d& box = boxes_[static_cast<std::size_t>(run - sorted_.begin())];
+      if (first.fiber != question.first.fiber || (x.holds(box) && y.holds(box))) {
+        continue;
+      }
+      for (std::uint64_t i = 0; i < run->count; ++i) {
         const std::uint64_t segment = first.segment + i;
+        const Eigen::Vector3d point = vector_of(own_.nodes[run->begin + i].point);
         if (segment >= question.first.segment && segment <= question.last &&
-            test(vector_of(own_.nodes[run->begin + i].point))) {
+            (x.is_beyond(point) || y.is_beyond(point))) {
           return true;
         }
       }
@@ -105,6 +113,7 @@ class OwnRuns {
 
   const FiberRuns& own_;
   std::vector<FiberRun> sorted_;
+  std::vector<Eigen::AlignedBox3d> boxes_;  // around the points of those that start a segment
 };
 
 /// Asks for the owners of the fibres that the questions are about; sorted.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdint>
 
@@ -39,6 +39,14 @@ class LoopReach {
   bool is_beyond(double scaled_squared) const { return scaled_squared > limit_ * limit_; }
   bool is_beyond(const Eigen::Vector3d& point) const {
     return is_beyond(scaled_way_to(point).squaredNorm());
+  }
+
+  /// Whether it is certain that no point of the box is beyond the limit.
+  bool holds(const Eigen::AlignedBox3d& box) const {
+    // Sums and products are monotonic, roundings included: of no point more comes out.
+    const Eigen::Vector3d most =
+        scaled_way_to(box.min()).cwiseAbs().cwiseMax(scaled_way_to(box.max()).cwiseAbs());
+    return !is_beyond(most.squaredNorm());
   }
 
  private:

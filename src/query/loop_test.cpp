@@ -109,12 +109,7 @@ bool LoopTest::leaves(const LoopPlace& place, PointPair pair, double limit,
   const bool is_long = pair.b - pair.a > short_walk;
   const Chain* const along = is_long ? &chain(fibers_->segment_id(pair.a).fiber) : nullptr;
   const double step = is_long ? reach.scale() * along->step : 0.0;
-  const auto is_within = [&](const Eigen::AlignedBox3d& box) {
-    // Sums and products are monotonic, roundings included: of no point more comes out.
-    const Vector3d most = reach.scaled_way_to(box.min()).cwiseAbs().cwiseMax(
-        reach.scaled_way_to(box.max()).cwiseAbs());
-    return !reach.is_beyond(most.squaredNorm());
-  };
+  const auto is_within = [&](const Eigen::AlignedBox3d& box) { return reach.holds(box); };
   for (std::uint32_t k = pair.a + 1; k <= pair.b; ++k) {
     ++looks;
     const double squared = reach.scaled_way_to(points[k]).squaredNorm();
