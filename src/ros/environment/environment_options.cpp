@@ -23,7 +23,7 @@ void refuse_unknown_keys(const Parameters& parameters, const std::string& name) 
     std::string entry = name;
     entry.append("/").append(key);
     if (interface().find(entry) == nullptr) {
-      parameters.refuse(entry, "left out: it must be " + interface().find(name)->must_be);
+      parameters.refuse(entry, "left out: it must be " + interface().at(name).must_be);
     }
   }
 }

@@ -77,7 +77,7 @@ using XmlRpc::XmlRpcValue;
 /// Reads the value of a key, which is the default where there is none.
 template <class Value>
 void read_key(const XmlRpcValue& entry, const std::string& key, Value& value) {
-  const Parameter& known = *interface_of("input").find(key);
+  const Parameter& known = interface_of("input").at(key);
   XmlRpcValue found = known.value;
   if (entry.hasMember(key)) {
     found = checked(known, entry[key], "key '" + key + "'");
@@ -137,8 +137,7 @@ InputOptions read_input_options(const XmlRpcValue& entry, double default_radius)
     throw std::invalid_argument("has no key 'topic'");
   }
   if (std::string reason; !ros::names::validate(options.topic, reason)) {
-    throw std::invalid_argument("key 'topic' is " + text_of(entry["topic"]) +
-                                ", it must be a ROS name: " + reason);
+    refuse_value("key 'topic'", entry["topic"], "a ROS name: " + reason);
   }
   const bool is_marker = find(options.type).is_marker;
   for (const char* key : {"namespace", "radius_from_marker", "weld_tolerance"}) {

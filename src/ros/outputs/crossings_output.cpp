@@ -33,7 +33,7 @@ void CrossingsOutput::read_parameters(const ros::NodeHandle& private_node) {
     }
   }
   if (map.hasMember("direction") && map.hasMember("camera_frame")) {
-    parameters.refuse("crossings", interface.find("crossings")->must_be + ", not both");
+    parameters.refuse("crossings", interface.at("crossings").must_be + ", not both");
   }
   parameters.read("crossings/camera_frame", camera_frame_);
   std::vector<double> direction{view_.direction.x(), view_.direction.y(), view_.direction.z()};

@@ -105,10 +105,13 @@ std::string text_of(const XmlRpcValue& value) {
   return fiber::shortened(stream.str());
 }
 
+void refuse_value(const std::string& what, const XmlRpcValue& value, const std::string& must_be) {
+  throw std::invalid_argument(what + " is " + text_of(value) + ", it must be " + must_be);
+}
+
 XmlRpcValue checked(const Parameter& parameter, const XmlRpcValue& value, const std::string& what) {
   if (!is_allowed(parameter, value)) {
-    throw std::invalid_argument(what + " is " + text_of(value) + ", it must be " +
-                                parameter.must_be);
+    refuse_value(what, value, parameter.must_be);
   }
   const bool is_whole = parameter.type == "double" && value.getType() == XmlRpcValue::TypeInt;
   return is_whole ? XmlRpcValue(static_cast<double>(static_cast<const int&>(value))) : value;
@@ -127,8 +130,8 @@ const NodeInterface& interface_of(const std::string& node) {
   return interfaces.at(node);
 }
 
-const Parameter& Parameters::find(const std::string& name) const {
-  const Parameter* const parameter = interface_.find(name);
+const Parameter& NodeInterface::at(const std::string& name) const {
+  const Parameter* const parameter = find(name);
   if (parameter == nullptr) {
     throw std::out_of_range("parameter " + name + " is not in cfg/interface.yaml");
   }
@@ -136,25 +139,30 @@ const Parameter& Parameters::find(const std::string& name) const {
 }
 
 void Parameters::require_allowed(const std::string& name, const XmlRpcValue& value) const {
-  checked(find(name), value, "parameter " + node_.resolveName(name));
+  checked(interface_.at(name), value, title(name));
 }
 
-void Parameters::refuse(const std::string& name) const { refuse(name, find(name).must_be); }
+std::string Parameters::title(const std::string& name) const {
+  return "parameter " + node_.resolveName(name);
+}
+
+void Parameters::refuse(const std::string& name) const {
+  refuse(name, interface_.at(name).must_be);
+}
 
 void Parameters::refuse(const std::string& name, const std::string& must_be) const {
   XmlRpcValue value;
   node_.getParam(name, value);
-  throw std::invalid_argument("parameter " + node_.resolveName(name) + " is " + text_of(value) +
-                              ", it must be " + must_be);
+  refuse_value(title(name), value, must_be);
 }
 
 XmlRpcValue Parameters::read_checked(const std::string& name) const {
-  const Parameter& parameter = find(name);
+  const Parameter& parameter = interface_.at(name);
   XmlRpcValue value;
   if (!node_.getParam(name, value)) {
     return parameter.value;
   }
-  return checked(parameter, value, "parameter " + node_.resolveName(name));
+  return checked(parameter, value, title(name));
 }
 
 void Parameters::warn_of_unknown() const {

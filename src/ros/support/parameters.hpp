@@ -29,9 +29,13 @@ struct Parameter {
   bool is_dynamic;                  ///< can change while the node runs
 };
 
-/// A value as the parameter's type has it: whole numbers stand for real ones, too.
 /// @param what as errors call it
 /// @throws std::invalid_argument naming what it is, its value and what is allowed
+[[noreturn]] void refuse_value(const std::string& what, const XmlRpc::XmlRpcValue& value,
+                               const std::string& must_be);
+
+/// A value as the parameter's type has it: whole numbers stand for real ones, too.
+/// @throws std::invalid_argument as refuse_value()
 XmlRpc::XmlRpcValue checked(const Parameter& parameter, const XmlRpc::XmlRpcValue& value,
                             const std::string& what);
 
@@ -39,6 +43,9 @@ XmlRpc::XmlRpcValue checked(const Parameter& parameter, const XmlRpc::XmlRpcValu
 struct NodeInterface {
   /// @returns null if there is none of this name
   const Parameter* find(const std::string& name) const;
+
+  /// @throws std::out_of_range if there is none of this name
+  const Parameter& at(const std::string& name) const;
 
   std::vector<std::string> topics;
   std::vector<Parameter> parameters;
@@ -87,7 +94,8 @@ class Parameters {
   void warn_of_unknown() const;
 
  private:
-  const Parameter& find(const std::string& name) const;
+  /// As errors call it.
+  std::string title(const std::string& name) const;
   XmlRpc::XmlRpcValue read_checked(const std::string& name) const;
 
   ros::NodeHandle node_;
