@@ -10,7 +10,6 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "src/hierarchy/run_lanes-inl.hpp"
 #include "src/hierarchy/run_tree_kernels.hpp"
@@ -49,28 +48,6 @@ class Probe {
   BoxBlock runs_ = {};
   BoxBlock segments_[run_width] = {};
 };
-
-/// The child of a node whose box is nearest to the first one of others.
-inline std::uint32_t nearest_child(const RunTreeLevel& level, std::uint32_t node,
-                                   const BoxBlock& others) {
-  const BoxBlock& boxes = level.boxes[node];
-  const std::uint32_t count = std::min(run_width, level.child_count - node * run_width);
-  std::uint32_t nearest = 0;
-  float least = std::numeric_limits<float>::infinity();
-  for (std::uint32_t lane = 0; lane < count; ++lane) {
-    float squared = 0.0F;
-    for (int axis = 0; axis < 3; ++axis) {
-      const float gap = std::max({boxes.lower[axis][lane] - others.upper[axis][0],
-                                  others.lower[axis][0] - boxes.upper[axis][lane], 0.0F});
-      squared += gap * gap;
-    }
-    if (squared < least) {
-      least = squared;
-      nearest = lane;
-    }
-  }
-  return nearest;
-}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace fiber

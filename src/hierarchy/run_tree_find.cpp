@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "src/hierarchy/candidates-inl.hpp"
 #include "src/hierarchy/probe-inl.hpp"
@@ -67,18 +68,15 @@ class Finder {
     if (!std::isinf(bound_)) {
       return true;
     }
-    const BoxBlock& runs = a_.levels[0].boxes[group_];
-    std::uint32_t node = 0;
-    for (std::uint32_t level = b_.level_count - 1; level > 0; --level) {
-      node = node * run_width + nearest_child(b_.levels[level], node, runs);
-    }
-    visited_ = node;
-    const std::uint32_t nearest = 1U << nearest_child(b_.levels[0], node, runs);
-    return visit_group(node, nearest) && settle() && visit_group(node, all_bits & ~nearest) &&
-           settle();
+    const std::uint32_t run = nearest_run(b_, a_.levels[0].boxes[group_]);
+    visited_ = run / run_width;
+    const std::uint32_t nearest = 1U << run % run_width;
+    return visit_group(visited_, nearest) && settle() &&
+           visit_group(visited_, all_bits & ~nearest) && settle();
   }
 
-  void aim() {
+  // A call of its own: several copies of this and of visit_group() are more code and slower.
+  HWY_NOINLINE void aim() {
     bound_ = sink_.bound();
     probe_.aim(a_, group_, bound_);
     span_ = bound_ + longest_way();
@@ -165,7 +163,7 @@ class Finder {
   }
 
   /// Pairs of the group's runs and the chosen ones of group h of b.
-  bool visit_group(std::uint32_t h, std::uint32_t chosen) {
+  HWY_NOINLINE bool visit_group(std::uint32_t h, std::uint32_t chosen) {
     const bool same = self_ && h == group_;
     const RunTreeLevel& runs = b_.levels[0];
     if (prunes_group_ && is_ruled_out(h)) {
@@ -315,6 +313,30 @@ HWY_AFTER_NAMESPACE();
 namespace fiber {
 
 HWY_EXPORT(find_near_segments_lanes);
+
+std::uint32_t nearest_run(const RunTreeView& tree, const BoxBlock& boxes) {
+  std::uint32_t nearest = 0;
+  for (std::uint32_t level = tree.level_count; level-- > 0;) {
+    const RunTreeLevel& nodes = tree.levels[level];
+    const BoxBlock& children = nodes.boxes[nearest];
+    const std::uint32_t first = nearest * run_width;
+    float least = std::numeric_limits<float>::infinity();
+    nearest = first;
+    for (std::uint32_t lane = 0; lane < std::min(run_width, nodes.child_count - first); ++lane) {
+      float squared = 0.0F;
+      for (int axis = 0; axis < 3; ++axis) {
+        const float gap = std::max({children.lower[axis][lane] - boxes.upper[axis][0],
+                                    boxes.lower[axis][0] - children.upper[axis][lane], 0.0F});
+        squared += gap * gap;
+      }
+      if (squared < least) {
+        least = squared;
+        nearest = first + lane;
+      }
+    }
+  }
+  return nearest;
+}
 
 bool find_near_segments(const RunTreeView& a, std::uint32_t begin, std::uint32_t end,
                         const RunTreeView& b, PairSink& sink, std::uint64_t& tests,

@@ -110,6 +110,10 @@ void fit_groups(const TreeFibers& fibers, const std::uint32_t* first_points,
 void fit_nodes(const BoxBlock* boxes_below, std::uint32_t child_count, std::uint32_t begin,
                std::uint32_t end, BoxBlock* boxes);
 
+/// The run that one comes to from the root by the child, of each node, that is nearest to the first
+/// of these boxes.
+std::uint32_t nearest_run(const RunTreeView& tree, const BoxBlock& boxes);
+
 /// Offers every pair of segments of the groups [begin, end) of a and of all of b that may come
 /// within the sink's bound; of one tree with itself, every pair of segments once. Which pairs are
 /// offered beyond those that do come within it depends on the instruction set; their order does
