@@ -21,6 +21,12 @@ constexpr std::size_t worth_splitting = 1U << 15U;
 using Places = std::array<std::array<std::size_t, bucket_count>, chunk_count>;
 
 void sort_range(std::uint64_t* keys, std::size_t count) {
+  // Highway begins each time with a call of the system, for random bytes: that takes longer.
+  constexpr std::size_t few = 32;
+  if (count <= few) {
+    std::sort(keys, keys + count);
+    return;
+  }
   thread_local const hwy::Sorter sorter;  // has scratch memory of its own
   sorter(keys, count, hwy::SortAscending());
 }
