@@ -1,0 +1,103 @@
+#pragma once
+
+#include <mpi.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace fiber {
+
+/// For each rank what is sent to it, or what came from it.
+template <class T>
+using PerRank = std::vector<std::vector<T>>;
+
+/// A group of ranks with messages of its own: those of others that use the same ranks never meet
+/// them. All functions but rank() and size() are collective: every rank calls them, in one order.
+class Communicator {
+ public:
+  /// @throws std::logic_error on every rank if MPI is not running, or was started without thread
+  ///         support (MPI_THREAD_FUNNELED at least)
+  explicit Communicator(MPI_Comm ranks);
+  ~Communicator();
+  Communicator(const Communicator&) = delete;
+  Communicator& operator=(const Communicator&) = delete;
+
+  int rank() const { return rank_; }
+  int size() const { return size_; }
+  MPI_Comm handle() const { return ranks_; }
+
+  /// Ends what cannot go on, on all ranks alike.
+  /// @param error of this rank, "" for none
+  /// @throws std::invalid_argument on every rank if any has an error: that of the lowest of these
+  void agree(const std::string& error) const;
+
+  bool all(bool value) const;
+  double smallest(double value) const;
+  double largest(double value) const;
+  std::uint64_t sum(std::uint64_t value) const;
+
+  /// Of each rank its value.
+  template <class T>
+  std::vector<T> gather_all(const T& value) const {
+    static_assert(std::is_trivially_copyable_v<T>);
+    std::vector<T> values(static_cast<std::size_t>(size_));
+    MPI_Allgather(&value, sizeof(T), MPI_BYTE, values.data(), sizeof(T), MPI_BYTE, ranks_);
+    return values;
+  }
+
+  /// Sends what is for each rank, and takes what is for this one. Only counts go to all ranks.
+  template <class T>
+  PerRank<T> exchange(const PerRank<T>& to) const {
+    static_assert(std::is_trivially_copyable_v<T>);
+    const std::vector<std::uint64_t> counts = exchange_counts(
+        [&](int other) { return std::uint64_t{to[static_cast<std::size_t>(other)].size()}; });
+    PerRank<T> from(to.size());
+    Transfer transfer(*this);
+    for (std::size_t i = 0; i < to.size(); ++i) {
+      from[i].resize(counts[i]);
+      transfer.receive(static_cast<int>(i), from[i].data(), from[i].size() * sizeof(T));
+    }
+    for (std::size_t i = 0; i < to.size(); ++i) {
+      transfer.send(static_cast<int>(i), to[i].data(), to[i].size() * sizeof(T));
+    }
+    transfer.finish();
+    return from;
+  }
+
+ private:
+  /// Messages under way. Those of any size: MPI counts in int.
+  class Transfer {
+   public:
+    explicit Transfer(const Communicator& ranks) : ranks_(ranks) {}
+    void send(int to, const void* data, std::size_t bytes);
+    void receive(int from, void* data, std::size_t bytes);
+    void finish();
+
+   private:
+    const Communicator& ranks_;
+    std::vector<MPI_Request> requests_;
+  };
+
+  template <class CountOf>
+  std::vector<std::uint64_t> exchange_counts(const CountOf& count_of) const {
+    std::vector<std::uint64_t> sent(static_cast<std::size_t>(size_));
+    for (int other = 0; other < size_; ++other) {
+      sent[static_cast<std::size_t>(other)] = count_of(other);
+    }
+    std::vector<std::uint64_t> received(sent.size());
+    MPI_Alltoall(sent.data(), 1, MPI_UINT64_T, received.data(), 1, MPI_UINT64_T, ranks_);
+    return received;
+  }
+
+  MPI_Comm ranks_ = MPI_COMM_NULL;
+  int rank_ = 0;
+  int size_ = 1;
+};
+
+/// Messages that pass along a chain of ranks, one by one, apart from those of exchange().
+constexpr int chain_tag = 2;
+
+}  // namespace fiber

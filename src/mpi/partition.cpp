@@ -1,0 +1,111 @@
+#include "src/mpi/partition.hpp"
+
+#include <zoltan.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace fiber {
+namespace {
+
+using Objects = std::vector<PartitionObject>;
+
+const Objects& objects_of(void* data) { return *static_cast<const Objects*>(data); }
+
+int count_of(void* data, int* error) {
+  *error = ZOLTAN_OK;
+  return static_cast<int>(objects_of(data).size());
+}
+
+void list_of(void* data, int /*global_entries*/, int /*local_entries*/, ZOLTAN_ID_PTR global_ids,
+             ZOLTAN_ID_PTR local_ids, int /*weight_size*/, float* weights, int* error) {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  const Objects& objects = objects_of(data);
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    global_ids[2 * i] = static_cast<ZOLTAN_ID_TYPE>(rank);
+    global_ids[2 * i + 1] = static_cast<ZOLTAN_ID_TYPE>(i);
+    local_ids[i] = static_cast<ZOLTAN_ID_TYPE>(i);
+    weights[i] = objects[i].weight;
+  }
+  *error = ZOLTAN_OK;
+}
+
+int dimension_of(void* /*data*/, int* error) {
+  *error = ZOLTAN_OK;
+  return 3;
+}
+
+void centres_of(void* data, int /*global_entries*/, int /*local_entries*/, int count,
+                ZOLTAN_ID_PTR /*global_ids*/, ZOLTAN_ID_PTR local_ids, int dimension,
+                double* centres, int* error) {
+  const Objects& objects = objects_of(data);
+  for (int i = 0; i < count; ++i) {
+    for (int axis = 0; axis < dimension; ++axis) {
+      centres[i * dimension + axis] = objects[local_ids[i]].centre[static_cast<std::size_t>(axis)];
+    }
+  }
+  *error = ZOLTAN_OK;
+}
+
+struct DestroyZoltan {
+  void operator()(Zoltan_Struct* zoltan) const { Zoltan_Destroy(&zoltan); }
+};
+
+/// What Zoltan says of the objects that leave; it has memory of its own.
+struct Moves {
+  int count = 0;
+  ZOLTAN_ID_PTR global_ids = nullptr;
+  ZOLTAN_ID_PTR local_ids = nullptr;
+  int* ranks = nullptr;
+  int* parts = nullptr;
+
+  Moves() = default;
+  Moves(const Moves&) = delete;
+  Moves& operator=(const Moves&) = delete;
+  ~Moves() { Zoltan_LB_Free_Part(&global_ids, &local_ids, &ranks, &parts); }
+};
+
+}  // namespace
+
+std::vector<int> partition(const Communicator& ranks, const std::vector<PartitionObject>& objects) {
+  std::vector<int> destinations(objects.size(), ranks.rank());
+  if (ranks.size() == 1 || ranks.sum(objects.size()) == 0) {
+    return destinations;
+  }
+  float version = 0.0F;
+  Zoltan_Initialize(0, nullptr, &version);
+  const std::unique_ptr<Zoltan_Struct, DestroyZoltan> zoltan(Zoltan_Create(ranks.handle()));
+  for (const auto& [name, value] :
+       {std::pair("DEBUG_LEVEL", "0"),  // first: it writes about the others
+        std::pair("LB_METHOD", "HSFC"), std::pair("NUM_GID_ENTRIES", "2"),
+        std::pair("NUM_LID_ENTRIES", "1"), std::pair("OBJ_WEIGHT_DIM", "1"),
+        std::pair("RETURN_LISTS", "EXPORT")}) {
+    Zoltan_Set_Param(zoltan.get(), name, value);
+  }
+  auto* const data = const_cast<Objects*>(&objects);
+  Zoltan_Set_Num_Obj_Fn(zoltan.get(), count_of, data);
+  Zoltan_Set_Obj_List_Fn(zoltan.get(), list_of, data);
+  Zoltan_Set_Num_Geom_Fn(zoltan.get(), dimension_of, data);
+  Zoltan_Set_Geom_Multi_Fn(zoltan.get(), centres_of, data);
+
+  Moves come;
+  Moves go;
+  int changes = 0;
+  int global_entries = 2;
+  int local_entries = 1;
+  const int error =
+      Zoltan_LB_Partition(zoltan.get(), &changes, &global_entries, &local_entries, &come.count,
+                          &come.global_ids, &come.local_ids, &come.ranks, &come.parts, &go.count,
+                          &go.global_ids, &go.local_ids, &go.ranks, &go.parts);
+  ranks.agree(error == ZOLTAN_OK || error == ZOLTAN_WARN
+                  ? ""
+                  : "Zoltan cannot split the fibres: error " + std::to_string(error));
+  for (int i = 0; i < go.count; ++i) {
+    destinations[go.local_ids[i]] = go.ranks[i];
+  }
+  return destinations;
+}
+
+}  // namespace fiber
