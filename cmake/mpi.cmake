@@ -27,6 +27,7 @@ message(STATUS "Library for clusters: MPI ${MPI_CXX_VERSION}, ${ZOLTAN_LIBRARY}"
 
 add_library(fiber_proximity_mpi SHARED
   src/mpi/box_tree.cpp
+  src/mpi/closest_contacts.cpp
   src/mpi/communicator.cpp
   src/mpi/distributed_contacts.cpp
   src/mpi/distributed_engine.cpp
@@ -36,6 +37,8 @@ add_library(fiber_proximity_mpi SHARED
   src/mpi/local_fibers.cpp
   src/mpi/loop_questions.cpp
   src/mpi/partition.cpp
+  src/mpi/rank_fibers.cpp
+  src/mpi/rank_search.cpp
 )
 target_include_directories(fiber_proximity_mpi SYSTEM PRIVATE ${ZOLTAN_INCLUDE_FOLDER})
 target_link_libraries(fiber_proximity_mpi

@@ -48,6 +48,14 @@ class Communicator {
     return values;
   }
 
+  /// Of rank 0 its value.
+  template <class T>
+  T from_first(T value) const {
+    static_assert(std::is_trivially_copyable_v<T>);
+    MPI_Bcast(&value, sizeof(T), MPI_BYTE, 0, ranks_);
+    return value;
+  }
+
   /// Sends what is for each rank, and takes what is for this one. Only counts go to all ranks.
   template <class T>
   PerRank<T> exchange(const PerRank<T>& to) const {

@@ -62,6 +62,8 @@ DistributedResult gather(MPI_Comm ranks, const DistributedResult& result, int ro
                  plain_contact);
   contacts = all.exchange(contacts);
   DistributedResult gathered;
+  gathered.limit_reached = result.limit_reached;
+  gathered.complete = result.complete;
   gathered.others_lower = all.smallest(result.others_lower);
   for (const std::vector<PlainContact>& some : contacts) {
     std::transform(some.begin(), some.end(), std::back_inserter(gathered.contacts), contact_from);

@@ -3,32 +3,16 @@
 #include <array>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 namespace fiber {
 namespace {
 
-/// "" if such a query can be answered.
+/// "" if the options validate.
 std::string error_of(const QueryOptions& options) {
   try {
     validate(options);
   } catch (const std::invalid_argument& error) {
     return error.what();
-  }
-  if (options.type != QueryType::ALL) {
-    return "a query over several ranks must be of type all, other types are not supported yet";
-  }
-  if (options.deadline > 0.0) {
-    return "deadline is " + std::to_string(options.deadline) +
-           " s, a query over several ranks has none: it must be 0";
-  }
-  for (const auto& [name, value] :
-       {std::pair("contact_limit", std::uint64_t{options.contact_limit}),
-        std::pair("pair_limit", options.pair_limit)}) {
-    if (value > 0) {
-      return std::string(name) + " is " + std::to_string(value) +
-             ", a query over several ranks has none: it must be 0";
-    }
   }
   return "";
 }
@@ -42,8 +26,13 @@ void require_distributed_options(const Communicator& ranks, const QueryOptions& 
     double value;
   };
   constexpr double none = -1.0;  // as no field may be
-  const std::array<Field, 5> fields{
-      {{"margin", options.margin},
+  const std::array<Field, 10> fields{
+      {{"type", static_cast<double>(options.type)},
+       {"margin", options.margin},
+       {"max_contacts", static_cast<double>(options.max_contacts)},
+       {"contact_limit", static_cast<double>(options.contact_limit)},
+       {"pair_limit", static_cast<double>(options.pair_limit)},
+       {"deadline", options.deadline},
        {"pairing", static_cast<double>(options.pairing)},
        {"kernel", static_cast<double>(options.kernel)},
        {"neighbour_skip",

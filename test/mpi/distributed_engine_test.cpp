@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "src/io/number.hpp"
 #include "test/mpi/dealt_fibers.hpp"
 #include "test/support/contacts.hpp"
 #include "test/support/dense_fibers.hpp"
@@ -115,7 +117,28 @@ QueryOptions draw_options(const FiberAssembly& fibers, Random& random) {
   }
   options.pairing = static_cast<Pairing>(std::max(0, random.integer(-2, 2)));
   options.kernel = random.chance(0.2) ? Kernel::EXACT : Kernel::ROBUST;
+  constexpr QueryType types[] = {QueryType::ALL, QueryType::ALL, QueryType::FIBER_PAIRS,
+                                 QueryType::CLOSEST, QueryType::LIMITED};
+  options.type = types[random.integer(0, 4)];
+  options.max_contacts = static_cast<std::uint32_t>(random.integer(1, 40));
+  options.contact_limit =
+      random.chance(0.3) ? static_cast<std::uint32_t>(random.integer(1, 30)) : 0;
+  const bool is_bounded = options.type == QueryType::CLOSEST || options.type == QueryType::LIMITED;
+  if (is_bounded && random.chance(0.3)) {
+    options.margin = std::numeric_limits<double>::infinity();
+  }
   return options;
+}
+
+/// Whether the flags and bounds of an answer hold for what one process finds.
+testing::AssertionResult describes(const DistributedResult& found, const QueryResult& expected) {
+  if (!found.complete) {
+    return testing::AssertionFailure() << "not complete";
+  }
+  if (found.limit_reached != expected.limit_reached) {
+    return testing::AssertionFailure() << "limit_reached is " << found.limit_reached;
+  }
+  return testing::AssertionSuccess();
 }
 
 class DistributedEngineTest : public testing::TestWithParam<std::size_t> {};
@@ -134,10 +157,15 @@ TEST_P(DistributedEngineTest, FindsWhatOneProcessFinds) {
       for (int query = 0; query < 3; ++query) {
         const QueryOptions options = draw_options(fibers, random);
         const DistributedResult found = answer(engine, options);
-        ASSERT_TRUE(same_as_one_process(found, answer("run_tree", fibers, options).contacts))
-            << family.name << ", scene " << scene << ", frame " << frame << ", margin "
-            << options.margin << " m, " << skips_of(options) << ", pairing "
-            << static_cast<int>(options.pairing);
+        const QueryResult expected = answer("run_tree", fibers, options);
+        const std::string trace =
+            family.name + ", scene " + std::to_string(scene) + ", frame " + std::to_string(frame) +
+            ", type " + std::to_string(static_cast<int>(options.type)) + ", margin " +
+            text_of(options.margin) + " m, " + skips_of(options) + ", pairing " +
+            std::to_string(static_cast<int>(options.pairing)) + ", at most " +
+            std::to_string(options.max_contacts) + " and " + std::to_string(options.contact_limit);
+        ASSERT_TRUE(same_as_one_process(found, expected.contacts)) << trace;
+        ASSERT_TRUE(describes(found, expected)) << trace;
       }
       fibers = shaken(fibers, 0.02 * extent_of(fibers), random);
     }
@@ -150,6 +178,64 @@ std::string name_of_family(const testing::TestParamInfo<std::size_t>& info) {
 
 INSTANTIATE_TEST_SUITE_P(Families, DistributedEngineTest,
                          testing::Range(std::size_t{0}, families().size()), name_of_family);
+
+TEST(DistributedEngine, FirstIsAnyPairThereIs) {
+  Random random;
+  int found_count = 0;
+  for (int scene = 0; scene < rounds(60); ++scene) {
+    const FiberAssembly fibers = walks(random, random.integer(2, 60), 12, 0.1, 0.002);
+    const Dealt mine = dealt_to(own_rank(), fibers, deal(fibers, 2, random));
+    DistributedEngine engine(MPI_COMM_WORLD, one_thread());
+    engine.update(mine.parts, mine.names);
+    QueryOptions options = within(draw_margin(fibers, random));
+    set_neighbour_skips(options, random, 2, 0.0);
+    const std::vector<Contact> all = answer("run_tree", fibers, options).contacts;
+    options.type = QueryType::FIRST;
+    const DistributedResult found = answer(engine, options);
+    const auto is_found = [&](const Contact& contact) {
+      return same_bits(found.contacts.front(), contact);
+    };
+    if (own_rank() == 0) {
+      ASSERT_EQ(found.contacts.size(), all.empty() ? 0U : 1U);
+      ASSERT_TRUE(all.empty() || std::any_of(all.begin(), all.end(), is_found));
+      found_count += all.empty() ? 0 : 1;
+    }
+  }
+  expect_enough(own_rank() == 0 ? found_count : rounds(60), 20 / rounds_less);
+}
+
+TEST(DistributedEngine, TheClosestNeedNoMoreThanWhatIsNear) {
+  Random random;
+  const FiberAssembly fibers = walks(random, 500, 12, 0.01, 1e-5);
+  const Dealt mine = dealt_to(own_rank(), fibers, deal(fibers, 2, random));
+  DistributedEngine engine(MPI_COMM_WORLD, one_thread());
+  engine.update(mine.parts, mine.names);
+  QueryOptions options = within(std::numeric_limits<double>::infinity(), QueryType::LIMITED);
+  options.max_contacts = 10;
+  const DistributedResult found = answer(engine, options);
+  EXPECT_TRUE(same_as_one_process(found, answer("run_tree", fibers, options).contacts));
+  EXPECT_LE(engine.facts().halo_segments, fibers.segment_count() / 10);
+}
+
+TEST(DistributedEngine, ALimitOfPairsAndADeadlineLeaveTheRestOut) {
+  Random random;
+  const FiberAssembly fibers = walks(random, 200, 20, 0.05, 0.005);
+  const Dealt mine = dealt_to(own_rank(), fibers, deal(fibers, 2, random));
+  DistributedEngine engine(MPI_COMM_WORLD, one_thread());
+  engine.update(mine.parts, mine.names);
+  QueryOptions options = within(0.01);
+  const std::size_t all = answer("run_tree", fibers, options).contacts.size();
+  options.pair_limit = 100;
+  DistributedResult found = answer(engine, options);
+  EXPECT_FALSE(found.complete);
+  EXPECT_TRUE(found.limit_reached);
+  EXPECT_LT(found.contacts.size(), all);
+  options.pair_limit = 0;
+  options.deadline = 1e-9;
+  found = answer(engine, options);
+  EXPECT_FALSE(found.complete);
+  EXPECT_LT(found.contacts.size(), all);
+}
 
 TEST(DistributedEngine, AMarginWithoutLimitBringsAllPairs) {
   Random random;

@@ -94,25 +94,6 @@ TEST(DistributedErrors, TheErrorOfOneRankIsThatOfAll) {
   }
 }
 
-TEST(DistributedErrors, WhatIsNotSupportedIsRefused) {
-  DistributedEngine engine(MPI_COMM_WORLD, one_thread());
-  const TwoParts two(3.0, 3);
-  engine.update(two.parts, two.names);
-  for (const QueryType type :
-       {QueryType::FIRST, QueryType::CLOSEST, QueryType::LIMITED, QueryType::FIBER_PAIRS}) {
-    expect_error([&] { answer(engine, within(0.1, type)); }, "must be of type all");
-  }
-  QueryOptions options;
-  options.deadline = 1.0;
-  expect_error([&] { answer(engine, options); }, "deadline is 1.0");
-  options = {};
-  options.contact_limit = 5;
-  expect_error([&] { answer(engine, options); }, "contact_limit is 5");
-  options = {};
-  options.pair_limit = 6;
-  expect_error([&] { answer(engine, options); }, "pair_limit is 6");
-}
-
 TEST(DistributedErrors, AnEngineBeforeItsFirstUpdateHasNoFibres) {
   DistributedEngine engine(MPI_COMM_WORLD, one_thread());
   EXPECT_THROW(answer(engine, within(0.1)), std::logic_error);

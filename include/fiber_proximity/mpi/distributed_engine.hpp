@@ -46,8 +46,12 @@ struct DistributedResult {
   /// Of the pairs whose smaller segment this rank holds, sorted by DistributedContact::key().
   std::vector<DistributedContact> contacts;
 
-  /// [m] Of the pairs that were asked about, none that no rank reports has a smaller true gap; the
-  /// same on all ranks.
+  // The rest is the same on all ranks.
+
+  bool limit_reached = false;  ///< as in QueryResult
+  bool complete = true;        ///< as in QueryResult
+
+  /// [m] Of the pairs that were asked about, none that no rank reports has a smaller true gap.
   double others_lower = -std::numeric_limits<double>::infinity();
 };
 
@@ -97,10 +101,15 @@ class DistributedEngine {
   /// Pairs of segments of all fibres within the margin, each reported by the rank that holds the
   /// smaller of the two, by fibre and index. Options mean what they do for
   /// ProximityEngine::query(); which segments of one fibre are pairs is decided by whole fibres.
-  /// @param options the same on all ranks: of type ALL, without deadline, contact_limit and
-  ///                pair_limit. A margin of infinity brings all segments to all ranks
-  /// @throws std::invalid_argument for other options, options that do not validate or that differ
-  ///         between ranks, and where a rank would hold more than 2³¹ points
+  ///
+  /// CLOSEST and LIMITED get a bound from pairs that ranks know of, and need no more of others than
+  /// what may be nearer than that. FIBER_PAIRS, and FIRST where there is no pair, need all within
+  /// the margin: one of infinity brings all segments to all ranks.
+  /// @param options the same on all ranks. Tolerances are not used: the closest pairs are found.
+  ///                Each rank examines its share of the pair_limit; which pairs come up, then and
+  ///                by a deadline, and which one FIRST reports, depends on the number of ranks
+  /// @throws std::invalid_argument for options that do not validate or that differ between ranks,
+  ///         and where a rank would hold more than 2³¹ points
   /// @throws std::logic_error before the first update
   void query(const QueryOptions& options, DistributedResult& result);
 

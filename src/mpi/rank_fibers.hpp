@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/mpi/distributed_engine.hpp"
+#include "src/mpi/communicator.hpp"
+#include "src/mpi/fiber_chains.hpp"
+#include "src/mpi/fiber_runs.hpp"
+
+namespace fiber {
+
+/// The fibres of all ranks, cut into pieces of a few segments; each rank owns those that the split
+/// gives to it.
+class RankFibers {
+ public:
+  /// Takes the parts that the ranks bring. Of the same parts as before only the points go to their
+  /// owners. Collective.
+  /// @throws std::invalid_argument on every rank as DistributedEngine::update()
+  void update(const Communicator& ranks, const FiberAssembly& parts,
+              const std::vector<FiberPart>& names);
+
+  bool empty() const { return !has_fibers_; }
+
+  /// What this rank owns.
+  const FiberRuns& own() const { return own_; }
+
+  /// [m] Most that arc lengths of all fibres are rounded by, in units of ε.
+  double arc_roundings() const { return arc_roundings_; }
+
+ private:
+  bool is_as_before(const FiberAssembly& parts, const std::vector<FiberPart>& names) const;
+  void migrate(const Communicator& ranks, FiberRuns pieces, bool is_same);
+
+  // Of the parts that this rank brings:
+  std::vector<FiberPart> names_;
+  std::vector<std::uint32_t> offsets_;
+  std::optional<FiberChains> chains_;
+  std::vector<int> destinations_;  // of their pieces
+
+  FiberRuns own_;
+  double arc_roundings_ = 0.0;
+  bool has_fibers_ = false;
+};
+
+}  // namespace fiber
