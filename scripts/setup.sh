@@ -7,7 +7,8 @@
 #     --fuzz    also what scripts/fuzz.sh needs, on Debian: clang 13, the oldest there is, so that the
 #               sources are known to build with it
 #     --sanitize  also what scripts/sanitize.sh needs, on Debian: g++ 11, for the same reason
-#     --mpi     also what the library for clusters needs, on Debian: Open MPI and Zoltan
+#     --mpi     also what the library for clusters needs, on Debian: Open MPI, Zoltan, parallel
+#               HDF5
 #     --verbose all that installing writes
 # Debian 12: ROS 1 from Debian's own packages, with apt, as root or through sudo.
 # Ubuntu with ROS Noetic: through rosdep.
@@ -76,7 +77,7 @@ if $sanitize; then
   packages+=(g++-11)
 fi
 if $mpi; then
-  packages+=(libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev)
+  packages+=(libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev libhdf5-openmpi-dev)
 fi
 
 missing_packages() {

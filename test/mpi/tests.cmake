@@ -4,6 +4,7 @@ if(TARGET fiber_proximity_mpi)
   add_executable(distributed_engine_test
     mpi/distributed_engine_test.cpp
     mpi/distributed_errors_test.cpp
+    mpi/distributed_files_test.cpp
     mpi/distributed_halo_test.cpp
     mpi/loop_questions_test.cpp
     mpi/mpi_main.cpp

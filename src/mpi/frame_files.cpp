@@ -1,0 +1,250 @@
+#include "src/mpi/frame_files.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <exception>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "fiber_proximity/io/file.hpp"
+#include "src/mpi/hdf5_file.hpp"
+#include "src/text/quote.hpp"
+
+namespace fiber {
+namespace {
+
+/// @return what was thrown, "" for nothing
+std::string error_in(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const std::exception& failure) {
+    return *failure.what() == '\0' ? "failed" : failure.what();
+  }
+  return "";
+}
+
+/// Whether a file is one of our frames, finished or not.
+bool is_frame_name(std::string name) {
+  for (const std::string end : {".part", ".h5"}) {
+    if (name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0) {
+      name.resize(name.size() - end.size());
+    } else if (end == ".h5") {
+      return false;
+    }
+  }
+  return name.size() >= 6 && std::all_of(name.begin(), name.end(),
+                                         [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+void remove_file(const std::string& path) {
+  std::error_code ignored;
+  std::filesystem::remove(path, ignored);
+}
+
+}  // namespace
+
+bool is_hdf5_name(const std::string& path) {
+  std::string end = std::filesystem::path(path).extension().string();
+  std::transform(end.begin(), end.end(), end.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return end == ".h5" || end == ".hdf5" || end == ".hdf" || end == ".vtkhdf";
+}
+
+void on_first_rank(const Communicator& ranks, const std::function<void()>& work) {
+  ranks.agree(ranks.rank() == 0 ? error_in(work) : "");
+}
+
+void move_into_place(const std::string& path) {
+  const int file = open(aside(path).c_str(), O_RDONLY | O_CLOEXEC);
+  errno = file < 0 ? errno : 0;
+  if (file >= 0) {
+    errno = 0;
+    if (fsync(file) == 0 || errno == EINVAL || errno == EROFS) {
+      errno = 0;  // what is no file on a disk needs no waiting for it
+    }
+    const int error = errno;
+    close(file);
+    errno = error;
+  }
+  if (errno != 0) {
+    throw FileError::from_system(aside(path), "cannot be written");
+  }
+  std::error_code error;
+  std::filesystem::rename(aside(path), path, error);
+  if (error) {
+    throw FileError(path, "cannot be written: " + error.message());
+  }
+}
+
+std::string frame_name(std::size_t index) {
+  std::string digits = std::to_string(index);
+  return std::string(digits.size() < 6 ? 6 - digits.size() : 0, '0') + digits;
+}
+
+FrameFiles::FrameFiles(const Communicator& ranks, std::string path, std::string content,
+                       DistributedFileOptions options)
+    : ranks_(ranks),
+      path_(std::move(path)),
+      content_(std::move(content)),
+      options_(std::move(options)) {
+  const QuietHdf5 quiet;
+  std::uint64_t done = 0;
+  on_first_rank(ranks_, [&] {
+    if (options_.resume) {
+      done = count_done();
+    } else {
+      begin_anew();
+    }
+    // Whether it can be written is known before hours of work.
+    OutputFile(aside(path_)).close();
+    remove_file(aside(path_));
+  });
+  done_ = ranks_.sum(done);
+}
+
+/// Makes room for the frames. What another run has written is no longer the recording of its name.
+void FrameFiles::begin_anew() const {
+  if (!options_.has_frames) {
+    return;
+  }
+  std::filesystem::remove(path_);
+  std::filesystem::create_directories(folder());
+  for (const auto& entry : std::filesystem::directory_iterator(folder())) {
+    if (is_frame_name(entry.path().filename().string())) {
+      std::filesystem::remove(entry.path());
+    }
+  }
+}
+
+std::size_t FrameFiles::count_done() {
+  if (!options_.has_frames) {
+    return is_of_this_run(path_) ? 1 : 0;
+  }
+  std::filesystem::create_directories(folder());
+  std::size_t count = 0;
+  while (is_of_this_run(path_of(count))) {
+    ++count;
+  }
+  return count;
+}
+
+/// @return false if there is none
+/// @throws FileError if it is none of this run
+bool FrameFiles::is_of_this_run(const std::string& path) {
+  if (!std::filesystem::exists(path)) {
+    return false;
+  }
+  try {
+    const Hdf5Id file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose,
+                      "is no whole HDF5 file");
+    const std::optional<std::string> run = read_text(file.get(), attribute::run);
+    if (read_text(file.get(), attribute::content) != content_ || !run) {
+      throw std::runtime_error("holds no " + content_ + " of an earlier run");
+    }
+    if (*run != options_.run) {
+      throw std::runtime_error("is of another run, " + quote(*run) + ", this one is " +
+                               quote(options_.run));
+    }
+    frames_.insert(read_number(file.get(), attribute::frame).value_or(0));
+  } catch (const std::exception& failure) {
+    throw FileError(path, std::string("cannot be gone on with: ") + failure.what());
+  }
+  return true;
+}
+
+std::string FrameFiles::folder() const {
+  return std::filesystem::path(path_).replace_extension(".frames").string();
+}
+
+std::string FrameFiles::path_of(std::size_t index) const {
+  return options_.has_frames ? folder() + '/' + frame_name(index) + ".h5" : path_;
+}
+
+void FrameFiles::write_attributes(hid_t file) const {
+  write_text(file, attribute::content, content_);
+  write_numbers(file, attribute::version, {layout_version});
+  write_text(file, attribute::run, options_.run);
+}
+
+void FrameFiles::write(std::int64_t frame,
+                       const std::function<std::function<void()>(hid_t file)>& make) {
+  const QuietHdf5 quiet;
+  const std::string path = path_of(done_);
+  on_first_rank(ranks_, [&] {
+    if (!options_.has_frames && done_ > 0) {
+      throw FileError(path_, "holds one frame, without a number: there cannot be another");
+    }
+    if (!frames_.insert(options_.has_frames ? frame : 0).second) {
+      throw FileError(path_, "has a frame " + std::to_string(frame) + " already");
+    }
+    OutputFile(aside(path)).close();
+  });
+  // All that is collective is done before a rank can fail alone.
+  std::optional<Hdf5Id> file;
+  std::function<void()> write_rows;
+  std::string error = error_in([&] {
+    file.emplace(create_parallel_file(ranks_, aside(path)));
+    write_attributes(file->get());
+    if (options_.has_frames) {
+      write_numbers(file->get(), attribute::frame, {frame});
+    }
+    write_rows = make(file->get());
+  });
+  if (ranks_.all(error.empty())) {
+    error = error_in(write_rows);
+  }
+  write_rows = {};
+  if (file) {
+    const std::string at_end = error_in([&] { file->close("cannot be written"); });
+    error = error.empty() ? at_end : error;
+  }
+  if (!ranks_.all(error.empty()) && ranks_.rank() == 0) {
+    remove_file(aside(path));
+  }
+  ranks_.agree(error.empty() ? "" : FileError(aside(path), error).what());
+  on_first_rank(ranks_, [&] { move_into_place(path); });
+  ++done_;
+}
+
+void FrameFiles::write_links() const {
+  Hdf5Id file(H5Fcreate(aside(path_).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
+              "cannot be written");
+  write_attributes(file.get());
+  write_numbers(file.get(), attribute::has_frames, {1});
+  const Hdf5Id frames = create_group(file.get(), "frames");
+  const std::string beside = std::filesystem::path(folder()).filename().string();
+  for (std::size_t i = 0; i < done_; ++i) {
+    require_success(
+        H5Lcreate_external((beside + '/' + frame_name(i) + ".h5").c_str(), "/", frames.get(),
+                           frame_name(i).c_str(), H5P_DEFAULT, H5P_DEFAULT),
+        "cannot be written");
+  }
+  file.close("cannot be written");
+}
+
+void FrameFiles::finish() {
+  const QuietHdf5 quiet;
+  on_first_rank(ranks_, [&] {
+    if (!options_.has_frames && done_ == 0) {
+      throw FileError(path_, "has no frame");
+    }
+    if (options_.has_frames) {
+      const std::string error = error_in([&] { write_links(); });
+      if (!error.empty()) {
+        remove_file(aside(path_));
+        throw FileError(aside(path_), error);
+      }
+      move_into_place(path_);
+    }
+  });
+}
+
+}  // namespace fiber

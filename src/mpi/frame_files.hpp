@@ -1,0 +1,78 @@
+#pragma once
+
+#include <hdf5.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <set>
+#include <string>
+
+#include "fiber_proximity/mpi/distributed_files.hpp"
+#include "src/mpi/communicator.hpp"
+
+namespace fiber {
+
+/// Does on rank 0 what may go wrong there. Collective.
+/// @throws std::invalid_argument on all ranks if it does
+void on_first_rank(const Communicator& ranks, const std::function<void()>& work);
+
+/// How an unfinished file is called.
+inline std::string aside(const std::string& path) { return path + ".part"; }
+
+/// Gives a file of rank 0 its name, once it is on the disk.
+/// @throws FileError
+void move_into_place(const std::string& path);
+
+/// What all our files have, in attributes of their root.
+namespace attribute {
+constexpr const char* content = "fiber_proximity";  // "fibers" or "contacts"
+constexpr const char* version = "version";
+constexpr const char* has_frames = "has_frames";
+constexpr const char* frame = "frame";
+constexpr const char* run = "run";
+}  // namespace attribute
+
+constexpr std::int64_t layout_version = 1;
+
+/// Name of a frame by its index, within `frames` of NAME.h5 and in the folder NAME.frames.
+std::string frame_name(std::size_t index);
+
+/// One file, or one per frame and one with links to them; see distributed_files.hpp. All functions
+/// but done() are collective.
+class FrameFiles {
+ public:
+  /// @param content what is in them
+  /// @throws std::invalid_argument
+  FrameFiles(const Communicator& ranks, std::string path, std::string content,
+             DistributedFileOptions options);
+
+  std::size_t done() const { return done_; }
+
+  /// Writes the next frame.
+  /// @param make makes all groups, attributes and datasets on all ranks alike, and then returns a
+  ///             function that writes this rank's rows
+  /// @throws std::invalid_argument
+  void write(std::int64_t frame, const std::function<std::function<void()>(hid_t file)>& make);
+
+  /// @throws std::invalid_argument
+  void finish();
+
+ private:
+  std::string folder() const;
+  std::string path_of(std::size_t index) const;
+  void begin_anew() const;
+  std::size_t count_done();
+  bool is_of_this_run(const std::string& path);
+  void write_attributes(hid_t file) const;
+  void write_links() const;
+
+  const Communicator& ranks_;
+  const std::string path_;
+  const std::string content_;
+  const DistributedFileOptions options_;
+  std::size_t done_ = 0;
+  std::set<std::int64_t> frames_;  // numbers of those that are done
+};
+
+}  // namespace fiber
