@@ -2,13 +2,10 @@
 // errors is enough.
 #include <mpi.h>
 
-#include <exception>
 #include <filesystem>
-#include <functional>
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <streambuf>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -20,6 +17,7 @@
 #include "src/mpi/communicator.hpp"
 #include "src/tools/contact_rows.hpp"
 #include "src/tools/fiber_query.hpp"
+#include "src/tools/mpi_tool.hpp"
 
 namespace fiber {
 namespace {
@@ -65,20 +63,6 @@ class Answer {
   std::unique_ptr<OutputFile> file_;  // none for stdout
   TextOutput text_;
 };
-
-/// Does on rank 0 what may go wrong there.
-/// @throws std::invalid_argument on all ranks if it does
-void on_first_rank(const Communicator& ranks, const std::function<void()>& work) {
-  std::string error;
-  if (ranks.rank() == 0) {
-    try {
-      work();
-    } catch (const std::exception& failure) {
-      error = failure.what();
-    }
-  }
-  ranks.agree(error);
-}
 
 /// Whole fibres by the order of their file.
 std::vector<FiberPart> names_of(const FiberAssembly& fibers) {
@@ -149,32 +133,11 @@ void setup_mpi(CLI::App& app, Command& command) {
   });
 }
 
-/// For what only one rank need say.
-class NoText : public std::streambuf {
- protected:
-  int_type overflow(int_type c) override { return traits_type::not_eof(c); }
-};
-
 }  // namespace
 }  // namespace fiber
 
 int main(int argc, char** argv) {
-  int support = 0;
-  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &support);
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  fiber::NoText none;
-  std::streambuf* const output = std::cout.rdbuf();
-  std::streambuf* const errors = std::cerr.rdbuf();
-  if (rank != 0) {
-    std::cout.rdbuf(&none);
-    std::cerr.rdbuf(&none);
-  }
-  const int code = fiber::run_tool("fiber_query_mpi",
-                                   "Contacts of the fibres in a file, found by the ranks of mpirun",
-                                   fiber::setup_mpi, argc, argv);
-  std::cout.rdbuf(output);
-  std::cerr.rdbuf(errors);
-  MPI_Finalize();
-  return code;
+  return fiber::run_mpi_tool("fiber_query_mpi",
+                             "Contacts of the fibres in a file, found by the ranks of mpirun",
+                             fiber::setup_mpi, argc, argv);
 }
