@@ -33,4 +33,7 @@ if(TARGET fiber_proximity_mpi)
   add_test(NAME fiber_query_mpi_test
     COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/mpi/fiber_query_mpi_test.sh $<TARGET_FILE_DIR:fiber_query_mpi>
       ${MPIEXEC_EXECUTABLE} ${mpiexec_flags} ${MPIEXEC_NUMPROC_FLAG})
+  add_test(NAME fiber_scene_mpi_test
+    COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/mpi/fiber_scene_mpi_test.sh $<TARGET_FILE_DIR:fiber_scene_mpi>
+      ${MPIEXEC_EXECUTABLE} ${mpiexec_flags} ${MPIEXEC_NUMPROC_FLAG})
 endif()
