@@ -42,6 +42,8 @@ add_library(fiber_proximity_mpi SHARED
   src/mpi/box_tree.cpp
   src/mpi/closest_contacts.cpp
   src/mpi/communicator.cpp
+  src/mpi/contact_sort.cpp
+  src/mpi/contact_writer.cpp
   src/mpi/distributed_contacts.cpp
   src/mpi/distributed_engine.cpp
   src/mpi/distributed_options.cpp

@@ -6,48 +6,9 @@
 
 #include "fiber_proximity/mpi/distributed_engine.hpp"
 #include "src/mpi/communicator.hpp"
-#include "src/mpi/fiber_runs.hpp"
+#include "src/mpi/plain_contact.hpp"
 
 namespace fiber {
-namespace {
-
-/// A contact as it travels.
-struct PlainContact {
-  GlobalSegment a;
-  GlobalSegment b;
-  double s, t, distance, lower, upper;
-  PlainPoint point_a, point_b, normal;
-};
-
-PlainContact plain_contact(const DistributedContact& contact) {
-  return {{contact.fiber_a, contact.segment_a},
-          {contact.fiber_b, contact.segment_b},
-          contact.s,
-          contact.t,
-          contact.distance,
-          contact.lower,
-          contact.upper,
-          plain(contact.point_a),
-          plain(contact.point_b),
-          plain(contact.normal)};
-}
-
-DistributedContact contact_from(const PlainContact& contact) {
-  return {contact.a.fiber,
-          contact.a.segment,
-          contact.b.fiber,
-          contact.b.segment,
-          contact.s,
-          contact.t,
-          contact.distance,
-          contact.lower,
-          contact.upper,
-          vector_of(contact.point_a),
-          vector_of(contact.point_b),
-          vector_of(contact.normal)};
-}
-
-}  // namespace
 
 DistributedResult gather(MPI_Comm ranks, const DistributedResult& result, int root) {
   const Communicator all(ranks);
@@ -68,9 +29,7 @@ DistributedResult gather(MPI_Comm ranks, const DistributedResult& result, int ro
   for (const std::vector<PlainContact>& some : contacts) {
     std::transform(some.begin(), some.end(), std::back_inserter(gathered.contacts), contact_from);
   }
-  std::sort(
-      gathered.contacts.begin(), gathered.contacts.end(),
-      [](const DistributedContact& x, const DistributedContact& y) { return x.key() < y.key(); });
+  std::sort(gathered.contacts.begin(), gathered.contacts.end(), is_before);
   return gathered;
 }
 

@@ -25,6 +25,7 @@ constexpr const char* radius = "radius";
 constexpr const char* fiber = "fiber";
 constexpr const char* first_segment = "first_segment";
 
+constexpr std::uint8_t line = 3;       // VTK_LINE
 constexpr std::uint8_t poly_line = 4;  // VTK_POLY_LINE
 }  // namespace layout
 
@@ -77,7 +78,7 @@ class VtkSizes {
 /// Where the last line ends. By one rank.
 inline void write_end(hid_t offsets, const FiberCounts& all) {
   const auto end = static_cast<std::int64_t>(all.points);
-  write_rows(offsets, hdf5_type(end).memory, all.lines, {1}, &end);
+  write_rows(offsets, hdf5_type(end).memory, all.lines, {1, 1}, &end);
 }
 
 }  // namespace fiber

@@ -137,6 +137,15 @@ void write_numbers(hid_t place, const std::string& name, const std::vector<std::
                   failed);
 }
 
+void write_real(hid_t place, const std::string& name, double value) {
+  const std::string failed = "attribute " + name + " cannot be written";
+  const Hdf5Id space(H5Screate(H5S_SCALAR), H5Sclose, failed);
+  const Hdf5Id attribute(
+      H5Acreate2(place, name.c_str(), hdf5_type(value).file, space.get(), H5P_DEFAULT, H5P_DEFAULT),
+      H5Aclose, failed);
+  require_success(H5Awrite(attribute.get(), hdf5_type(value).memory, &value), failed);
+}
+
 void write_text(hid_t place, const std::string& name, const std::string& text) {
   const std::string failed = "attribute " + name + " cannot be written";
   const Hdf5Id type(H5Tcopy(H5T_C_S1), H5Tclose, failed);
@@ -193,6 +202,37 @@ Hdf5Id create_dataset(hid_t place, const std::string& name, hid_t file_type, Hdf
 Hdf5Id open_dataset(hid_t place, const std::string& name) {
   return {H5Dopen2(place, name.c_str(), H5P_DEFAULT), H5Dclose,
           "dataset " + name + " cannot be read"};
+}
+
+Hdf5Id create_view(hid_t place, const std::string& name, hid_t file_type,
+                   const std::vector<std::string>& paths, Hdf5Shape of_each) {
+  const std::string failed = "dataset " + name + " cannot be written";
+  const Hdf5Shape all{of_each.rows * paths.size(), of_each.columns};
+  if (all.rows == 0) {
+    return create_dataset(place, name, file_type, all);  // of nothing there can be no view
+  }
+  const Hdf5Id creation = list_without_times(H5P_DATASET_CREATE);
+  const Hdf5Id space = space_of(all);
+  const Hdf5Id source = space_of(of_each);
+  std::array<hsize_t, 2> start{0, 0};
+  for (const std::string& path : paths) {
+    require_success(H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr,
+                                        sizes_of(of_each).data(), nullptr),
+                    failed);
+    require_success(H5Pset_virtual(creation.get(), space.get(), ".", path.c_str(), source.get()),
+                    failed);
+    start[0] += of_each.rows;
+  }
+  require_success(H5Sselect_all(space.get()), failed);
+  return {H5Dcreate2(place, name.c_str(), file_type, space.get(), H5P_DEFAULT, creation.get(),
+                     H5P_DEFAULT),
+          H5Dclose, failed};
+}
+
+void link_dataset(hid_t group, const std::string& name, hid_t place, const std::string& path) {
+  require_success(
+      H5Lcreate_hard(group, name.c_str(), place, path.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+      "link " + path + " cannot be written");
 }
 
 Hdf5Shape shape_of(hid_t dataset) {

@@ -69,6 +69,7 @@ Hdf5Id open_group(hid_t place, const std::string& name);
 bool has_link(hid_t place, const std::string& name);
 
 void write_numbers(hid_t place, const std::string& name, const std::vector<std::int64_t>& values);
+void write_real(hid_t place, const std::string& name, double value);
 void write_text(hid_t place, const std::string& name, const std::string& text);
 
 /// Nothing if there is none of this name, or of another kind.
@@ -94,6 +95,14 @@ struct Hdf5Shape {
 /// Collective, as all that changes what is in a file.
 Hdf5Id create_dataset(hid_t place, const std::string& name, hid_t file_type, Hdf5Shape shape);
 Hdf5Id open_dataset(hid_t place, const std::string& name);
+
+/// A dataset that holds nothing itself: it shows the rows of others in its file, one after another.
+Hdf5Id create_view(hid_t place, const std::string& name, hid_t file_type,
+                   const std::vector<std::string>& paths, Hdf5Shape of_each);
+
+/// Another name, `path`, for a dataset of a group.
+void link_dataset(hid_t group, const std::string& name, hid_t place, const std::string& path);
+
 Hdf5Shape shape_of(hid_t dataset);
 
 /// Rows of a dataset from `first` on, by this rank alone.
@@ -130,7 +139,7 @@ class RowWriter {
   hid_t dataset() const { return dataset_.get(); }
 
  private:
-  static constexpr std::size_t slice = std::size_t{1} << 17U;  // [row]
+  static constexpr std::size_t slice = std::size_t{1} << 15U;  // [row]
 
   Hdf5Id dataset_;
   std::uint64_t next_;

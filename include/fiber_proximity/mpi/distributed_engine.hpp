@@ -125,4 +125,9 @@ class DistributedEngine {
 /// @return all contacts on that rank, none on the others
 DistributedResult gather(MPI_Comm ranks, const DistributedResult& result, int root = 0);
 
+/// Deals the contacts of all ranks out anew, sorted by DistributedContact::key(): those of a rank
+/// come before those of the next, and none has more than about twice as many as there are for each.
+/// Collective.
+void sort_over_ranks(MPI_Comm ranks, DistributedResult& result);
+
 }  // namespace fiber

@@ -100,4 +100,32 @@ class DistributedFiberReader {
   std::unique_ptr<State> state_;
 };
 
+/// Writes contacts, sorted by DistributedContact::key() over all ranks: the file is the same for
+/// any number of ranks.
+class DistributedContactWriter {
+ public:
+  /// @throws std::invalid_argument as DistributedFiberWriter
+  DistributedContactWriter(MPI_Comm ranks, const std::string& path,
+                           const DistributedFileOptions& options = {});
+  ~DistributedContactWriter();
+  DistributedContactWriter(const DistributedContactWriter&) = delete;
+  DistributedContactWriter& operator=(const DistributedContactWriter&) = delete;
+
+  /// How many frames are whole already, of an earlier run: the next one has this index.
+  std::size_t done() const;
+
+  /// Writes the next frame: once this returns, it is whole.
+  /// @param frame  its number, if frames have one
+  /// @param result as from DistributedEngine::query(); sort_over_ranks() has been called for it
+  /// @throws std::invalid_argument as DistributedFiberWriter::write()
+  void write(std::int64_t frame, const DistributedResult& result);
+
+  /// As DistributedFiberWriter::finish().
+  void finish();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
 }  // namespace fiber
