@@ -51,6 +51,7 @@ add_library(fiber_proximity_mpi SHARED
   src/mpi/fiber_reader.cpp
   src/mpi/fiber_writer.cpp
   src/mpi/frame_files.cpp
+  src/mpi/gathered_fibers.cpp
   src/mpi/halo.cpp
   src/mpi/hdf5_file.cpp
   src/mpi/local_fibers.cpp
@@ -58,6 +59,7 @@ add_library(fiber_proximity_mpi SHARED
   src/mpi/partition.cpp
   src/mpi/rank_fibers.cpp
   src/mpi/rank_search.cpp
+  src/mpi/whole_file.cpp
 )
 target_include_directories(fiber_proximity_mpi SYSTEM PRIVATE
   ${ZOLTAN_INCLUDE_FOLDER} ${PARALLEL_HDF5_INCLUDE_FOLDER})

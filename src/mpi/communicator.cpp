@@ -1,6 +1,7 @@
 #include "src/mpi/communicator.hpp"
 
 #include <algorithm>
+#include <exception>
 #include <stdexcept>
 
 namespace fiber {
@@ -99,6 +100,19 @@ void Communicator::Transfer::receive(int from, void* data, std::size_t bytes) {
 void Communicator::Transfer::finish() {
   MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
   requests_.clear();
+}
+
+std::string error_in(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const std::exception& failure) {
+    return *failure.what() == '\0' ? "failed" : failure.what();
+  }
+  return "";
+}
+
+void on_first_rank(const Communicator& ranks, const std::function<void()>& work) {
+  ranks.agree(ranks.rank() == 0 ? error_in(work) : "");
 }
 
 }  // namespace fiber

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -105,7 +106,17 @@ class Communicator {
   int size_ = 1;
 };
 
+/// @return what was thrown, "" for nothing
+std::string error_in(const std::function<void()>& work);
+
+/// Does on rank 0 what may go wrong there. Collective.
+/// @throws std::invalid_argument on all ranks if it does
+void on_first_rank(const Communicator& ranks, const std::function<void()>& work);
+
 /// Messages that pass along a chain of ranks, one by one, apart from those of exchange().
 constexpr int chain_tag = 2;
+
+/// Text on its way to rank 0.
+constexpr int text_tag = 3;
 
 }  // namespace fiber

@@ -210,13 +210,8 @@ struct DistributedFiberReader::State {
 
 void DistributedFiberReader::State::do_or_agree(const std::string& place,
                                                 const std::function<void()>& work) const {
-  std::string error;
-  try {
-    work();
-  } catch (const std::exception& failure) {
-    error = FileError(path, place + failure.what()).what();
-  }
-  ranks.agree(error);
+  const std::string error = error_in(work);
+  ranks.agree(error.empty() ? "" : FileError(path, place + error).what());
 }
 
 void DistributedFiberReader::State::open() {

@@ -1,16 +1,11 @@
 #include "src/mpi/frame_files.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
 #include <exception>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -20,16 +15,6 @@
 
 namespace fiber {
 namespace {
-
-/// @return what was thrown, "" for nothing
-std::string error_in(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const std::exception& failure) {
-    return *failure.what() == '\0' ? "failed" : failure.what();
-  }
-  return "";
-}
 
 /// Whether a file is one of our frames, finished or not.
 bool is_frame_name(std::string name) {
@@ -44,11 +29,6 @@ bool is_frame_name(std::string name) {
                                          [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
-void remove_file(const std::string& path) {
-  std::error_code ignored;
-  std::filesystem::remove(path, ignored);
-}
-
 }  // namespace
 
 bool is_hdf5_name(const std::string& path) {
@@ -56,32 +36,6 @@ bool is_hdf5_name(const std::string& path) {
   std::transform(end.begin(), end.end(), end.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return end == ".h5" || end == ".hdf5" || end == ".hdf" || end == ".vtkhdf";
-}
-
-void on_first_rank(const Communicator& ranks, const std::function<void()>& work) {
-  ranks.agree(ranks.rank() == 0 ? error_in(work) : "");
-}
-
-void move_into_place(const std::string& path) {
-  const int file = open(aside(path).c_str(), O_RDONLY | O_CLOEXEC);
-  errno = file < 0 ? errno : 0;
-  if (file >= 0) {
-    errno = 0;
-    if (fsync(file) == 0 || errno == EINVAL || errno == EROFS) {
-      errno = 0;  // what is no file on a disk needs no waiting for it
-    }
-    const int error = errno;
-    close(file);
-    errno = error;
-  }
-  if (errno != 0) {
-    throw FileError::from_system(aside(path), "cannot be written");
-  }
-  std::error_code error;
-  std::filesystem::rename(aside(path), path, error);
-  if (error) {
-    throw FileError(path, "cannot be written: " + error.message());
-  }
 }
 
 std::string frame_name(std::size_t index) {
@@ -105,7 +59,7 @@ FrameFiles::FrameFiles(const Communicator& ranks, std::string path, std::string 
     }
     // Whether it can be written is known before hours of work.
     OutputFile(aside(path_)).close();
-    remove_file(aside(path_));
+    remove_aside(path_);
   });
   done_ = ranks_.sum(done);
 }
@@ -207,7 +161,7 @@ void FrameFiles::write(std::int64_t frame,
     error = error.empty() ? at_end : error;
   }
   if (!ranks_.all(error.empty()) && ranks_.rank() == 0) {
-    remove_file(aside(path));
+    remove_aside(path);
   }
   ranks_.agree(error.empty() ? "" : FileError(aside(path), error).what());
   on_first_rank(ranks_, [&] { move_into_place(path); });
@@ -239,7 +193,7 @@ void FrameFiles::finish() {
     if (options_.has_frames) {
       const std::string error = error_in([&] { write_links(); });
       if (!error.empty()) {
-        remove_file(aside(path_));
+        remove_aside(path_);
         throw FileError(aside(path_), error);
       }
       move_into_place(path_);

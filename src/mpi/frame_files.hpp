@@ -10,19 +10,9 @@
 
 #include "fiber_proximity/mpi/distributed_files.hpp"
 #include "src/mpi/communicator.hpp"
+#include "src/mpi/whole_file.hpp"
 
 namespace fiber {
-
-/// Does on rank 0 what may go wrong there. Collective.
-/// @throws std::invalid_argument on all ranks if it does
-void on_first_rank(const Communicator& ranks, const std::function<void()>& work);
-
-/// How an unfinished file is called.
-inline std::string aside(const std::string& path) { return path + ".part"; }
-
-/// Gives a file of rank 0 its name, once it is on the disk.
-/// @throws FileError
-void move_into_place(const std::string& path);
 
 /// What all our files have, in attributes of their root.
 namespace attribute {

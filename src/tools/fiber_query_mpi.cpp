@@ -1,22 +1,21 @@
-// fiber_query over the ranks of MPI: the same bytes. Rank 0 reads and writes; what it says of
-// errors is enough.
+// fiber_query over the ranks of MPI: the same contacts. What rank 0 says of errors is enough.
+#include "src/tools/fiber_query_mpi.hpp"
+
 #include <mpi.h>
 
-#include <filesystem>
-#include <iostream>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
-#include <system_error>
-#include <utility>
-#include <vector>
 
-#include "fiber_proximity/io/fiber_file.hpp"
-#include "fiber_proximity/io/file.hpp"
+#include "fiber_proximity/geometry/segment_distance.hpp"
 #include "fiber_proximity/mpi/distributed_engine.hpp"
+#include "fiber_proximity/mpi/distributed_files.hpp"
+#include "src/io/number.hpp"
 #include "src/mpi/communicator.hpp"
-#include "src/tools/contact_rows.hpp"
+#include "src/tools/contact_sink.hpp"
 #include "src/tools/fiber_query.hpp"
+#include "src/tools/fiber_source.hpp"
 #include "src/tools/mpi_tool.hpp"
 
 namespace fiber {
@@ -28,77 +27,56 @@ struct MpiRequest {
   EngineOptions engine_options;
   QueryOptions query;
   std::string out;  // "" for stdout
+  std::optional<std::string> format;
+  bool resume = false;
 };
 
-/// Where rank 0 writes: stdout, or a file that has its name only once it is whole.
-class Answer {
- public:
-  explicit Answer(std::string path)
-      : path_(std::move(path)),
-        file_(path_.empty() ? nullptr : std::make_unique<OutputFile>(aside())),
-        text_(file_ != nullptr ? file_->stream() : std::cout) {}
-  ~Answer() {
-    if (file_ != nullptr) {
-      std::error_code ignored;
-      std::filesystem::remove(aside(), ignored);
-    }
+/// All that the answer depends on but the file.
+std::string run_of(const MpiRequest& request) {
+  const QueryOptions& query = request.query;
+  const auto text_of_option = [](const auto& value) {
+    return value ? text_of(*value) : std::string("none");
+  };
+  return "radius " + text_of(request.radius) + ", margin " + text_of(query.margin) +
+         ", neighbour_skip " + text_of_option(query.neighbour_skip) + ", neighbour_skip_length " +
+         text_of_option(query.neighbour_skip_length) + ", kernel " + name_of(query.kernel);
+}
+
+/// @throws std::invalid_argument for options that do not go together
+ContactTarget target_of(const MpiRequest& request) {
+  const bool is_hdf5 = request.format ? *request.format == "hdf5" : is_hdf5_name(request.out);
+  if (is_hdf5 && request.out.empty()) {
+    throw std::invalid_argument("--format hdf5 needs a file to write: give it with --out");
   }
-  Answer(const Answer&) = delete;
-  Answer& operator=(const Answer&) = delete;
-
-  TextOutput& text() { return text_; }
-
-  void finish() {
-    if (file_ != nullptr) {
-      file_->close();
-      std::filesystem::rename(aside(), path_);
-      file_.reset();
-    }
+  if (request.resume && !is_hdf5) {
+    throw std::invalid_argument(
+        "--resume: only files of HDF5 can be gone on with, give --out a name that ends in .h5");
   }
-
- private:
-  std::string aside() const { return path_ + ".part"; }
-
-  const std::string path_;
-  std::unique_ptr<OutputFile> file_;  // none for stdout
-  TextOutput text_;
-};
-
-/// Whole fibres by the order of their file.
-std::vector<FiberPart> names_of(const FiberAssembly& fibers) {
-  std::vector<FiberPart> names(fibers.fiber_count());
-  for (std::size_t fiber = 0; fiber < names.size(); ++fiber) {
-    names[fiber].fiber = fiber;
-  }
-  return names;
+  return {request.out, is_hdf5};
 }
 
 ExitCode run(const MpiRequest& request) {
+  const ContactTarget target = target_of(request);
   const Communicator ranks(MPI_COMM_WORLD);
+  require_other_file(ranks, request.file, request.out);
   DistributedEngine engine(MPI_COMM_WORLD, request.engine_options);
-  FiberFile file;
-  std::optional<Answer> answer;
-  on_first_rank(ranks, [&] {
-    file = read_fibers(request.file, request.radius);
-    answer.emplace(request.out);
-    answer->text().write((file.has_frames ? "frame," : "") + std::string(contact_columns));
-    answer->text().flush();
-  });
-  const std::uint64_t frame_count = ranks.sum(file.frames.size());  // the others have none
-  const FiberAssembly nothing;
+  FiberSource source(ranks, request.file, request.radius);
+  DistributedFileOptions options;
+  options.has_frames = source.has_frames();
+  options.resume = request.resume;
+  options.run = "contacts of " + description_of_file(ranks, request.file) + ", " + run_of(request);
+  ContactSink sink(ranks, target, options);
+  Progress progress = rank_progress(ranks);
+  DistributedFibers fibers;
   DistributedResult result;
-  for (std::uint64_t i = 0; i < frame_count; ++i) {
-    const bool is_first = ranks.rank() == 0;
-    const FiberAssembly& fibers = is_first ? file.frames[i].fibers : nothing;
-    engine.update(fibers, names_of(fibers));
+  for (std::size_t i = sink.done(); i < source.frame_count(); ++i) {
+    const std::int64_t frame = source.read(i, fibers);
+    engine.update(fibers.parts, fibers.names);
     engine.query(request.query, result);
-    const DistributedResult all = gather(MPI_COMM_WORLD, result);
-    on_first_rank(ranks, [&] {
-      write_csv_contacts(answer->text(), {file.has_frames, file.frames[i].frame}, all.contacts);
-      answer->text().flush();
-    });
+    sink.write({source.has_frames(), frame}, result);
+    show_frames(progress, i + 1, source.frame_count());
   }
-  on_first_rank(ranks, [&] { answer->finish(); });
+  sink.finish();
   return SUCCEEDED;
 }
 
@@ -106,8 +84,12 @@ void setup_mpi(CLI::App& app, Command& command) {
   app.require_subcommand(0, 1);
   const auto request = std::make_shared<MpiRequest>();
   CLI::App* const contacts =
-      app.add_subcommand("contacts", "all pairs of segments within the margin, as CSV");
-  contacts->add_option("FILE", request->file, "fibre file (.csv or .hair); rank 0 reads it")
+      app.add_subcommand("contacts", "all pairs of segments within the margin");
+  contacts
+      ->add_option(
+          "FILE", request->file,
+          "fibre file: .h5, of which each rank reads its part; .csv or .hair, which rank 0 "
+          "reads")
       ->required();
   contacts->add_option("--radius", request->radius, "of all fibres, if the file has no radii [m]")
       ->capture_default_str();
@@ -122,8 +104,14 @@ void setup_mpi(CLI::App& app, Command& command) {
                    "pairs with a gap of at most this [m]; inf for no limit")
       ->capture_default_str();
   contacts->add_option("--out", request->out,
-                       "write to this file, which has its name once it is whole; without this, to "
-                       "what mpirun takes as output");
+                       "write to this file, .h5 or .csv, which has its name once it is whole; "
+                       "without this, to what mpirun takes as output");
+  contacts
+      ->add_option("--format", request->format,
+                   "of the output; without this, hdf5 if its name ends in .h5, else csv")
+      ->check(CLI::IsMember({"csv", "hdf5"}));
+  contacts->add_flag("--resume", request->resume,
+                     "go on after the last whole frame of a run that was interrupted (.h5)");
   add_neighbour_options(*contacts, request->query.neighbour_skip,
                         request->query.neighbour_skip_length);
   add_kernel_option(*contacts, request->query.kernel);
@@ -131,6 +119,7 @@ void setup_mpi(CLI::App& app, Command& command) {
     validate(request->query);
     command = [request] { return run(*request); };
   });
+  add_convert(app, command);
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include <mpi.h>
 
 #include <cmath>
-#include <exception>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -45,16 +44,12 @@ DistributedFibers part_of(const Communicator& ranks, const LargeScene& scene, st
   const std::uint64_t end =
       scene.fiber_count / size * (rank + 1) + scene.fiber_count % size * (rank + 1) / size;
   DistributedFibers part;
-  std::string error;
-  try {
+  ranks.agree(error_in([&] {
     part.parts = scene.fibers(begin, end, frame);
     for (std::uint64_t fiber = begin; fiber < end; ++fiber) {
       part.names.push_back({fiber, 0});
     }
-  } catch (const std::exception& failure) {
-    error = failure.what();
-  }
-  ranks.agree(error);
+  }));
   return part;
 }
 

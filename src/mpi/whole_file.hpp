@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+namespace fiber {
+
+/// How a file is called while it is written.
+inline std::string aside(const std::string& path) { return path + ".part"; }
+
+/// Gives a file that was written aside its name, once it is on the disk. By one rank.
+/// @throws FileError
+void move_into_place(const std::string& path);
+
+/// Removes what was written aside, if there is anything. By one rank.
+void remove_aside(const std::string& path);
+
+}  // namespace fiber
