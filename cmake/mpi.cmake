@@ -56,6 +56,7 @@ add_library(fiber_proximity_mpi SHARED
   src/mpi/hdf5_file.cpp
   src/mpi/local_fibers.cpp
   src/mpi/loop_questions.cpp
+  src/mpi/part_loads.cpp
   src/mpi/partition.cpp
   src/mpi/rank_fibers.cpp
   src/mpi/rank_search.cpp

@@ -69,19 +69,20 @@ struct Moves {
 
 }  // namespace
 
-std::vector<int> partition(const Communicator& ranks, const std::vector<PartitionObject>& objects) {
-  std::vector<int> destinations(objects.size(), ranks.rank());
-  if (ranks.size() == 1 || ranks.sum(objects.size()) == 0) {
-    return destinations;
+std::vector<int> partition(const Communicator& ranks, const std::vector<PartitionObject>& objects,
+                           int parts) {
+  if (parts == 1 || ranks.sum(objects.size()) == 0) {
+    return std::vector<int>(objects.size(), 0);
   }
   float version = 0.0F;
   Zoltan_Initialize(0, nullptr, &version);
   const std::unique_ptr<Zoltan_Struct, DestroyZoltan> zoltan(Zoltan_Create(ranks.handle()));
+  const std::string count = std::to_string(parts);
   for (const auto& [name, value] :
        {std::pair("DEBUG_LEVEL", "0"),  // first: it writes about the others
         std::pair("LB_METHOD", "HSFC"), std::pair("NUM_GID_ENTRIES", "2"),
         std::pair("NUM_LID_ENTRIES", "1"), std::pair("OBJ_WEIGHT_DIM", "1"),
-        std::pair("RETURN_LISTS", "EXPORT")}) {
+        std::pair("NUM_GLOBAL_PARTS", count.c_str()), std::pair("RETURN_LISTS", "EXPORT")}) {
     Zoltan_Set_Param(zoltan.get(), name, value);
   }
   auto* const data = const_cast<Objects*>(&objects);
@@ -102,10 +103,12 @@ std::vector<int> partition(const Communicator& ranks, const std::vector<Partitio
   ranks.agree(error == ZOLTAN_OK || error == ZOLTAN_WARN
                   ? ""
                   : "Zoltan cannot split the fibres: error " + std::to_string(error));
+  // Those that are not told of belong to the part of this rank's number.
+  std::vector<int> part_of(objects.size(), ranks.rank());
   for (int i = 0; i < go.count; ++i) {
-    destinations[go.local_ids[i]] = go.ranks[i];
+    part_of[go.local_ids[i]] = go.parts[i];
   }
-  return destinations;
+  return part_of;
 }
 
 }  // namespace fiber

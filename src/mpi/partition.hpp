@@ -13,10 +13,12 @@ struct PartitionObject {
   float weight = 1.0F;  // > 0
 };
 
-/// Splits the objects of all ranks among them along a space-filling curve, in parts of about equal
-/// weight. Collective.
-/// @return for each object of this rank the rank it goes to
+/// Splits the objects of all ranks along a space-filling curve, in parts of about equal weight,
+/// which are the same, but for their numbers, however the objects are dealt out. Collective.
+/// @param parts how many
+/// @return for each object of this rank the part it belongs to
 /// @throws std::invalid_argument on every rank if Zoltan fails
-std::vector<int> partition(const Communicator& ranks, const std::vector<PartitionObject>& objects);
+std::vector<int> partition(const Communicator& ranks, const std::vector<PartitionObject>& objects,
+                           int parts);
 
 }  // namespace fiber

@@ -77,7 +77,7 @@ bool RankFibers::is_as_before(const FiberAssembly& parts,
 /// Sends the pieces of all ranks to whom they belong; of the same pieces, only the nodes.
 void RankFibers::migrate(const Communicator& ranks, FiberRuns pieces, bool is_same) {
   if (!is_same) {
-    destinations_ = partition(ranks, objects_of(pieces));
+    destinations_ = partition(ranks, objects_of(pieces), ranks.size());
   }
   std::vector<FiberRuns> to(static_cast<std::size_t>(ranks.size()));
   for (std::size_t i = 0; i < pieces.runs.size(); ++i) {

@@ -7,6 +7,7 @@ if(TARGET fiber_proximity_mpi)
     mpi/distributed_files_test.cpp
     mpi/distributed_halo_test.cpp
     mpi/loop_questions_test.cpp
+    mpi/part_loads_test.cpp
     mpi/mpi_main.cpp
   )
   if(FIBER_PROXIMITY_BUILD_ROS)
