@@ -2,6 +2,8 @@
 
 #include <zoltan.h>
 
+#include <algorithm>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -49,6 +51,31 @@ void centres_of(void* data, int /*global_entries*/, int /*local_entries*/, int c
   *error = ZOLTAN_OK;
 }
 
+/// Zoltan stretches the box around all objects to a cube, and so parts of a flat box to slices. Two
+/// objects without weight, at the ends of a cube, keep it from that.
+Objects with_cube(const Communicator& ranks, const Objects& objects) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  PlainPoint lower{infinity, infinity, infinity};
+  PlainPoint upper{-infinity, -infinity, -infinity};
+  for (const PartitionObject& object : objects) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      lower[axis] = std::min(lower[axis], object.centre[axis]);
+      upper[axis] = std::max(upper[axis], object.centre[axis]);
+    }
+  }
+  double edge = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    lower[axis] = ranks.smallest(lower[axis]);
+    edge = std::max(edge, ranks.largest(upper[axis]) - lower[axis]);
+  }
+  Objects all = objects;
+  if (ranks.rank() == 0) {
+    all.push_back({lower, 0.0F});
+    all.push_back({{lower[0] + edge, lower[1] + edge, lower[2] + edge}, 0.0F});
+  }
+  return all;
+}
+
 struct DestroyZoltan {
   void operator()(Zoltan_Struct* zoltan) const { Zoltan_Destroy(&zoltan); }
 };
@@ -85,7 +112,8 @@ std::vector<int> partition(const Communicator& ranks, const std::vector<Partitio
         std::pair("NUM_GLOBAL_PARTS", count.c_str()), std::pair("RETURN_LISTS", "EXPORT")}) {
     Zoltan_Set_Param(zoltan.get(), name, value);
   }
-  auto* const data = const_cast<Objects*>(&objects);
+  Objects all = with_cube(ranks, objects);
+  Objects* const data = &all;
   Zoltan_Set_Num_Obj_Fn(zoltan.get(), count_of, data);
   Zoltan_Set_Obj_List_Fn(zoltan.get(), list_of, data);
   Zoltan_Set_Num_Geom_Fn(zoltan.get(), dimension_of, data);
@@ -106,7 +134,9 @@ std::vector<int> partition(const Communicator& ranks, const std::vector<Partitio
   // Those that are not told of belong to the part of this rank's number.
   std::vector<int> part_of(objects.size(), ranks.rank());
   for (int i = 0; i < go.count; ++i) {
-    part_of[go.local_ids[i]] = go.parts[i];
+    if (go.local_ids[i] < part_of.size()) {
+      part_of[go.local_ids[i]] = go.parts[i];
+    }
   }
   return part_of;
 }

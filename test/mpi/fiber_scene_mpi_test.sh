@@ -36,6 +36,19 @@ for options in "soup --segments 1e4" "soup --segments 150 --seed 2" "tress_b --s
   done
 done
 
+# The contacts of what is made so are those that one process finds.
+for options in "soup --segments 2e4" "locks --segments 3e4"; do
+  # shellcheck disable=SC2086
+  scene 3 $options --out scene.h5
+  "${mpiexec[@]}" 2 "$tools/fiber_query_mpi" convert scene.h5 scene.csv
+  "$tools/fiber_query" contacts scene.csv --margin 0.001 >expected.csv
+  [ "$(wc -l <expected.csv)" -gt 10 ] || fail "hardly any contacts of $options"
+  for ranks in 1 2 4; do
+    "${mpiexec[@]}" "$ranks" "$tools/fiber_query_mpi" contacts scene.h5 --margin 0.001 --out contacts.csv
+    cmp expected.csv contacts.csv || fail "$ranks ranks find something else of $options"
+  done
+done
+
 # expect_refused TEXT ARGUMENT...: three ranks refuse this, with exit code 2 and this text, once.
 expect_refused() {
   local text=$1 code=0
