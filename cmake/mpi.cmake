@@ -54,8 +54,8 @@ add_library(fiber_proximity_mpi SHARED
   src/mpi/gathered_fibers.cpp
   src/mpi/halo.cpp
   src/mpi/hdf5_file.cpp
-  src/mpi/local_fibers.cpp
   src/mpi/loop_questions.cpp
+  src/mpi/named_fibers.cpp
   src/mpi/part_loads.cpp
   src/mpi/partition.cpp
   src/mpi/rank_fibers.cpp

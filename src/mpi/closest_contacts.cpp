@@ -51,7 +51,7 @@ Place last_of_closest(const Communicator& ranks, std::uint64_t count, std::vecto
     if (rank % (2 * step) == step) {
       to[rank - step] = std::move(places);
     }
-    for (const std::vector<Place>& more : ranks.exchange(to)) {
+    for (const std::vector<Place>& more : ranks.exchange(std::move(to))) {
       std::vector<Place> merged;
       merged.reserve(places.size() + more.size());
       std::merge(places.begin(), places.end(), more.begin(), more.end(),
@@ -149,7 +149,7 @@ void keep_closest_of_fibers(const Communicator& ranks, DistributedResult& result
   for (const DistributedContact& contact : result.contacts) {
     places[home_of(contact, size)].push_back(place_of(contact));
   }
-  places = ranks.exchange(places);
+  places = ranks.exchange(std::move(places));
   std::vector<Place> all;
   for (const std::vector<Place>& some : places) {
     all.insert(all.end(), some.begin(), some.end());
@@ -171,7 +171,7 @@ void keep_closest_of_fibers(const Communicator& ranks, DistributedResult& result
       is_closest[other].push_back(closest->key() == place.key() ? 1 : 0);
     }
   }
-  is_closest = ranks.exchange(is_closest);
+  is_closest = ranks.exchange(std::move(is_closest));
   std::vector<std::size_t> next(size, 0);
   keep_if(
       [&](const DistributedContact& contact) {

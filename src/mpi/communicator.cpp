@@ -81,23 +81,23 @@ std::uint64_t Communicator::sum(std::uint64_t value) const {
   return all;
 }
 
-void Communicator::Transfer::send(int to, const void* data, std::size_t bytes) {
+void Transfer::send(std::size_t to, const void* data, std::size_t bytes) {
   const auto* const begin = static_cast<const char*>(data);
   for (std::size_t done = 0; done < bytes; done += most_bytes_at_once) {
     MPI_Isend(begin + done, static_cast<int>(std::min(most_bytes_at_once, bytes - done)), MPI_BYTE,
-              to, exchange_tag, ranks_.handle(), &requests_.emplace_back());
+              static_cast<int>(to), exchange_tag, ranks_.handle(), &requests_.emplace_back());
   }
 }
 
-void Communicator::Transfer::receive(int from, void* data, std::size_t bytes) {
+void Transfer::receive(std::size_t from, void* data, std::size_t bytes) {
   auto* const begin = static_cast<char*>(data);
   for (std::size_t done = 0; done < bytes; done += most_bytes_at_once) {
     MPI_Irecv(begin + done, static_cast<int>(std::min(most_bytes_at_once, bytes - done)), MPI_BYTE,
-              from, exchange_tag, ranks_.handle(), &requests_.emplace_back());
+              static_cast<int>(from), exchange_tag, ranks_.handle(), &requests_.emplace_back());
   }
 }
 
-void Communicator::Transfer::finish() {
+void Transfer::finish() {
   MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
   requests_.clear();
 }

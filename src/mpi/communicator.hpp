@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace fiber {
@@ -57,50 +58,18 @@ class Communicator {
     return value;
   }
 
-  /// Sends what is for each rank, and takes what is for this one. Only counts go to all ranks.
+  /// Sends what is for each rank, and takes what is for this one.
   template <class T>
-  PerRank<T> exchange(const PerRank<T>& to) const {
-    static_assert(std::is_trivially_copyable_v<T>);
-    const std::vector<std::uint64_t> counts = exchange_counts(
-        [&](int other) { return std::uint64_t{to[static_cast<std::size_t>(other)].size()}; });
-    PerRank<T> from(to.size());
-    Transfer transfer(*this);
-    for (std::size_t i = 0; i < to.size(); ++i) {
-      from[i].resize(counts[i]);
-      transfer.receive(static_cast<int>(i), from[i].data(), from[i].size() * sizeof(T));
-    }
-    for (std::size_t i = 0; i < to.size(); ++i) {
-      transfer.send(static_cast<int>(i), to[i].data(), to[i].size() * sizeof(T));
-    }
-    transfer.finish();
-    return from;
-  }
+  PerRank<T> exchange(PerRank<T> to) const;
 
- private:
-  /// Messages under way. Those of any size: MPI counts in int.
-  class Transfer {
-   public:
-    explicit Transfer(const Communicator& ranks) : ranks_(ranks) {}
-    void send(int to, const void* data, std::size_t bytes);
-    void receive(int from, void* data, std::size_t bytes);
-    void finish();
-
-   private:
-    const Communicator& ranks_;
-    std::vector<MPI_Request> requests_;
-  };
-
-  template <class CountOf>
-  std::vector<std::uint64_t> exchange_counts(const CountOf& count_of) const {
-    std::vector<std::uint64_t> sent(static_cast<std::size_t>(size_));
-    for (int other = 0; other < size_; ++other) {
-      sent[static_cast<std::size_t>(other)] = count_of(other);
-    }
-    std::vector<std::uint64_t> received(sent.size());
-    MPI_Alltoall(sent.data(), 1, MPI_UINT64_T, received.data(), 1, MPI_UINT64_T, ranks_);
+  /// What each rank has for this one of what this one has for it. Only counts go to all ranks.
+  std::vector<std::uint64_t> exchange_counts(const std::vector<std::uint64_t>& counts) const {
+    std::vector<std::uint64_t> received(counts.size());
+    MPI_Alltoall(counts.data(), 1, MPI_UINT64_T, received.data(), 1, MPI_UINT64_T, ranks_);
     return received;
   }
 
+ private:
   MPI_Comm ranks_ = MPI_COMM_NULL;
   int rank_ = 0;
   int size_ = 1;
@@ -112,6 +81,67 @@ std::string error_in(const std::function<void()>& work);
 /// Does on rank 0 what may go wrong there. Collective.
 /// @throws std::invalid_argument on all ranks if it does
 void on_first_rank(const Communicator& ranks, const std::function<void()>& work);
+
+/// Messages under way. Those of any size: MPI counts in int.
+class Transfer {
+ public:
+  explicit Transfer(const Communicator& ranks) : ranks_(ranks) {}
+  void send(std::size_t to, const void* data, std::size_t bytes);
+  void receive(std::size_t from, void* data, std::size_t bytes);
+  void finish();
+
+ private:
+  const Communicator& ranks_;
+  std::vector<MPI_Request> requests_;
+};
+
+/// What goes from each rank to each while they do other things. Exchanges that overlap are started
+/// in the same order on all ranks.
+template <class T>
+class Exchange {
+  static_assert(std::is_trivially_copyable_v<T>);
+
+ public:
+  explicit Exchange(const Communicator& ranks) : ranks_(ranks), transfer_(ranks) {}
+
+  /// Begins to send what is for each rank. Collective.
+  void start(PerRank<T> to) {
+    to_ = std::move(to);
+    std::vector<std::uint64_t> counts(to_.size());
+    for (std::size_t i = 0; i < to_.size(); ++i) {
+      counts[i] = to_[i].size();
+    }
+    counts = ranks_.exchange_counts(counts);
+    from_.resize(to_.size());
+    for (std::size_t i = 0; i < to_.size(); ++i) {
+      from_[i].resize(counts[i]);
+      transfer_.receive(i, from_[i].data(), from_[i].size() * sizeof(T));
+    }
+    for (std::size_t i = 0; i < to_.size(); ++i) {
+      transfer_.send(i, to_[i].data(), to_[i].size() * sizeof(T));
+    }
+  }
+
+  /// Waits for what is for this rank; none if nothing was started.
+  PerRank<T> finish() {
+    transfer_.finish();
+    to_.clear();
+    return std::move(from_);
+  }
+
+ private:
+  const Communicator& ranks_;
+  Transfer transfer_;
+  PerRank<T> to_;
+  PerRank<T> from_;
+};
+
+template <class T>
+PerRank<T> Communicator::exchange(PerRank<T> to) const {
+  Exchange<T> exchange(*this);
+  exchange.start(std::move(to));
+  return exchange.finish();
+}
 
 /// Messages that pass along a chain of ranks, one by one, apart from those of exchange().
 constexpr int chain_tag = 2;

@@ -21,7 +21,7 @@ DistributedResult gather(MPI_Comm ranks, const DistributedResult& result, int ro
   mine.reserve(result.contacts.size());
   std::transform(result.contacts.begin(), result.contacts.end(), std::back_inserter(mine),
                  plain_contact);
-  contacts = all.exchange(contacts);
+  contacts = all.exchange(std::move(contacts));
   DistributedResult gathered;
   gathered.limit_reached = result.limit_reached;
   gathered.complete = result.complete;

@@ -7,24 +7,19 @@
 #include "src/mpi/closest_contacts.hpp"
 #include "src/mpi/communicator.hpp"
 #include "src/mpi/distributed_options.hpp"
+#include "src/mpi/halo.hpp"
 #include "src/mpi/rank_fibers.hpp"
 #include "src/mpi/rank_search.hpp"
 
 namespace fiber {
 
 struct DistributedEngine::State {
-  State(MPI_Comm comm, const EngineOptions& options) : ranks(comm), search(options) {}
+  State(MPI_Comm comm, const EngineOptions& options) : ranks(comm), search(ranks, options) {}
 
   Communicator ranks;
   RankFibers fibers;
   RankSearch search;
-  double near = 0.0;  // [m] how near the last closest pairs were that were asked for
 
-  void reach(double margin) { search.reach(ranks, fibers.own(), margin); }
-  void find(const QueryOptions& options, std::uint64_t count, DistributedResult& result) {
-    search.find(ranks, fibers.own(), fibers.arc_roundings(), options, count, result);
-    result.complete = ranks.all(result.complete);
-  }
   void find_all(const QueryOptions& options, std::uint64_t most, DistributedResult& result);
   void find_closest(const QueryOptions& options, std::uint64_t most, DistributedResult& result);
 };
@@ -32,37 +27,39 @@ struct DistributedEngine::State {
 /// @param most contacts to be reported
 void DistributedEngine::State::find_all(const QueryOptions& options, std::uint64_t most,
                                         DistributedResult& result) {
-  reach(options.margin);
-  if (options.type == QueryType::FIBER_PAIRS) {
-    find(options, RankSearch::no_limit, result);
+  const bool is_limited = most != RankSearch::no_limit;
+  const bool is_of_fibers = options.type == QueryType::FIBER_PAIRS;
+  const Deadline deadline(options.deadline);
+  Halo halo(ranks, fibers.own(), options.margin);
+  // Of a limited number one more, to see whether there are more.
+  search.find_inner(options, is_limited && !is_of_fibers ? most + 1 : RankSearch::no_limit, result);
+  QueryOptions rest = options;
+  rest.deadline = deadline.left();
+  search.find_across(halo.take(), rest, result);
+  if (is_of_fibers) {
     keep_closest_of_fibers(ranks, result);
-  } else {
-    // One more, to see whether there are more.
-    find(options, most == RankSearch::no_limit ? most : most + 1, result);
   }
-  result.limit_reached =
-      (most != RankSearch::no_limit && keep_closest(ranks, most, result)) || result.limit_reached;
+  const bool are_more = is_limited && keep_closest(ranks, most, result);
+  result.limit_reached = are_more || result.limit_reached;
 }
 
-/// Pairs of what is here make a bound: what is needed of other ranks is no further than that.
+/// Pairs of what each rank has make a bound: nothing of others matters that is further than that.
 void DistributedEngine::State::find_closest(const QueryOptions& options, std::uint64_t most,
                                             DistributedResult& result) {
   const Deadline deadline(options.deadline);
-  reach(std::min(options.margin, near));
-  find(options, most, result);
+  search.find_inner(options, most, result);
   const double enough = margin_of_closest(ranks, most, result.contacts);
   const bool is_over = options.type == QueryType::FIRST && std::isfinite(enough);
-  QueryOptions rest = options;
-  rest.margin = std::min(options.margin, enough);
-  if (rest.margin > search.reach() && !is_over && result.complete) {
-    reach(rest.margin);
+  if (ranks.all(result.complete) && !is_over) {
+    QueryOptions rest = options;
+    rest.margin = std::max(0.0, std::min(options.margin, enough));
     rest.deadline = deadline.left();
-    find(rest, most, result);
+    search.find_across(Halo(ranks, fibers.own(), rest.margin).take(), rest, result);
   }
-  near = std::isfinite(enough) ? std::max(0.0, enough) : 0.0;
   keep_closest(ranks, most, result);
-  result.limit_reached = result.limit_reached || (options.type == QueryType::LIMITED &&
-                                                  ranks.sum(result.contacts.size()) == most);
+  const bool are_enough = ranks.sum(result.contacts.size()) == most;
+  result.limit_reached =
+      (options.type == QueryType::LIMITED && are_enough) || result.limit_reached;
 }
 
 DistributedEngine::DistributedEngine(MPI_Comm ranks, const EngineOptions& options)
@@ -71,8 +68,8 @@ DistributedEngine::DistributedEngine(MPI_Comm ranks, const EngineOptions& option
 DistributedEngine::~DistributedEngine() = default;
 
 void DistributedEngine::update(const FiberAssembly& parts, const std::vector<FiberPart>& names) {
-  state_->search.clear();
-  state_->fibers.update(state_->ranks, parts, names);
+  state_->fibers.update(state_->ranks, parts, names, state_->search.cost());
+  state_->search.update(state_->fibers);
 }
 
 void DistributedEngine::query(const QueryOptions& options, DistributedResult& result) {
@@ -105,11 +102,13 @@ void DistributedEngine::query(const QueryOptions& options, DistributedResult& re
       result.contacts.begin(), result.contacts.end(),
       [](const DistributedContact& x, const DistributedContact& y) { return x.key() < y.key(); });
   result.limit_reached = !state.ranks.all(!result.limit_reached);
+  result.complete = state.ranks.all(result.complete);
   result.others_lower = state.ranks.smallest(result.others_lower);
 }
 
 DistributedFacts DistributedEngine::facts() const {
-  return {state_->fibers.own().segment_count(), state_->search.halo_segments()};
+  return {state_->fibers.own().fibers().segment_count(), state_->search.halo_segments(),
+          state_->fibers.split_count()};
 }
 
 }  // namespace fiber

@@ -71,7 +71,7 @@ FiberChains::FiberChains(const Communicator& ranks, const FiberAssembly& parts,
         {{names[part].fiber, names[part].first_segment}, count, part, ranks.rank()});
   }
   std::vector<PartNotice> sorted;
-  for (const std::vector<PartNotice>& some : ranks.exchange(notices)) {
+  for (const std::vector<PartNotice>& some : ranks.exchange(std::move(notices))) {
     sorted.insert(sorted.end(), some.begin(), some.end());
   }
   std::stable_sort(sorted.begin(), sorted.end(),
@@ -86,7 +86,7 @@ FiberChains::FiberChains(const Communicator& ranks, const FiberAssembly& parts,
     links[static_cast<std::size_t>(part.rank)].push_back(
         {part.part, goes_on ? sorted[i - 1].rank : -1, is_followed ? sorted[i + 1].rank : -1});
   }
-  for (const std::vector<LinkNotice>& some : ranks.exchange(links)) {
+  for (const std::vector<LinkNotice>& some : ranks.exchange(std::move(links))) {
     for (const LinkNotice& link : some) {
       links_.push_back({link.part, link.before, link.after});
     }
@@ -100,20 +100,28 @@ FiberChains::FiberChains(const Communicator& ranks, const FiberAssembly& parts,
   });
 }
 
-std::vector<double> FiberChains::arc_lengths(const Communicator& ranks, const FiberAssembly& parts,
-                                             const std::vector<FiberPart>& names) const {
-  std::vector<double> lengths(parts.point_count(), 0.0);
+ArcLengths FiberChains::arc_lengths(const Communicator& ranks, const FiberAssembly& parts,
+                                    const std::vector<FiberPart>& names,
+                                    std::uint32_t every) const {
+  ArcLengths lengths;
+  std::vector<std::size_t> first_pieces(names.size() + 1, 0);  // by part
+  for (std::size_t part = 0; part < names.size(); ++part) {
+    const std::uint32_t segments = parts.offsets()[part + 1] - parts.offsets()[part] - 1;
+    first_pieces[part + 1] = first_pieces[part] + (segments + every - 1) / every;
+  }
+  lengths.of_pieces.resize(first_pieces.back());
   std::list<Joint> sent;  // stay where they are until they have been sent
   std::vector<MPI_Request> requests;
   std::string error;
   for (const Link& link : links_) {
     const std::uint32_t begin = parts.offsets()[link.part];
-    const std::uint32_t end = parts.offsets()[link.part + 1];
+    const std::uint32_t last = parts.offsets()[link.part + 1] - 1;
+    double length = 0.0;
     if (link.before >= 0) {
       Joint joint;
       MPI_Recv(&joint, sizeof(Joint), MPI_BYTE, link.before, chain_tag, ranks.handle(),
                MPI_STATUS_IGNORE);
-      lengths[begin] = joint.arc;
+      length = joint.arc;
       const PlainPoint start = plain(parts.points()[begin]);
       if (start != joint.point && error.empty()) {
         error = "fibre " + std::to_string(names[link.part].fiber) + ": the part from segment " +
@@ -122,17 +130,23 @@ std::vector<double> FiberChains::arc_lengths(const Communicator& ranks, const Fi
                 " m, which must be the same";
       }
     }
-    for (std::uint32_t p = begin + 1; p < end; ++p) {
-      lengths[p] = lengths[p - 1] + norm_of(parts.points()[p] - parts.points()[p - 1]);
+    for (std::uint32_t p = begin; p < last; ++p) {
+      if ((p - begin) % every == 0) {
+        lengths.of_pieces[first_pieces[link.part] + (p - begin) / every] = length;
+      }
+      length += norm_of(parts.points()[p + 1] - parts.points()[p]);
     }
+    const double count = static_cast<double>(names[link.part].first_segment + (last - begin));
+    lengths.roundings = std::max(lengths.roundings, count * length);
     if (link.after >= 0) {
-      sent.push_back({plain(parts.points()[end - 1]), lengths[end - 1]});
+      sent.push_back({plain(parts.points()[last]), length});
       MPI_Isend(&sent.back(), sizeof(Joint), MPI_BYTE, link.after, chain_tag, ranks.handle(),
                 &requests.emplace_back());
     }
   }
   MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
   ranks.agree(error);
+  lengths.roundings = ranks.largest(lengths.roundings);
   return lengths;
 }
 

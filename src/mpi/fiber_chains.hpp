@@ -9,6 +9,11 @@
 
 namespace fiber {
 
+struct ArcLengths {
+  std::vector<double> of_pieces;  ///< [m] of each part one after another
+  double roundings = 0.0;         ///< [m] most that any is rounded by, of all ranks, in units of ε
+};
+
 /// How the parts of this rank go on at other parts of their fibres.
 class FiberChains {
  public:
@@ -18,11 +23,12 @@ class FiberChains {
   FiberChains(const Communicator& ranks, const FiberAssembly& parts,
               const std::vector<FiberPart>& names);
 
-  /// Arc length of each point of the parts from the start of its whole fibre [m]: the same sums,
-  /// in the same order, as one process makes. Each part waits for the one before it. Collective.
+  /// Arc lengths from the start of whole fibres: the same sums, in the same order, as one process
+  /// makes. Each part waits for the one before it. Collective.
+  /// @param every  so many segments of a part, the length to their first point is kept
   /// @throws std::invalid_argument on every rank if a part does not start where the one before ends
-  std::vector<double> arc_lengths(const Communicator& ranks, const FiberAssembly& parts,
-                                  const std::vector<FiberPart>& names) const;
+  ArcLengths arc_lengths(const Communicator& ranks, const FiberAssembly& parts,
+                         const std::vector<FiberPart>& names, std::uint32_t every) const;
 
  private:
   /// A part by its place among this rank's, and who has the parts beside it; none: -1.

@@ -27,10 +27,9 @@ using PlainPoint = std::array<double, 3>;  // [m]
 inline PlainPoint plain(const Eigen::Vector3d& point) { return {point[0], point[1], point[2]}; }
 inline Eigen::Vector3d vector_of(const PlainPoint& point) { return {point[0], point[1], point[2]}; }
 
-/// A point of a run, with what is known there.
+/// A point of a run.
 struct FiberNode {
   PlainPoint point{};   // [m]
-  double arc = 0.0;     // [m] along the whole fibre from its start
   double radius = 0.0;  // [m] of the segment that starts here; 0 at the last point of a run
 };
 
@@ -39,7 +38,8 @@ struct FiberNode {
 struct FiberRun {
   GlobalSegment first;
   std::uint64_t count = 0;
-  std::uint64_t begin = 0;  // its first node among the nodes of its set
+  std::uint64_t begin = 0;  // its first node among those of its set
+  double arc = 0.0;         // [m] along the whole fibre from its start to the run's
 };
 
 /// Runs and their nodes, those of a run one after another.
@@ -48,13 +48,6 @@ struct FiberRuns {
   std::vector<FiberNode> nodes;
 
   std::uint64_t segment_count() const { return nodes.size() - runs.size(); }
-
-  /// Adds a run of `count` segments whose nodes are there. Its last node loses its radius.
-  void add(const GlobalSegment& first, const FiberNode* begin, std::uint64_t count) {
-    runs.push_back({first, count, nodes.size()});
-    nodes.insert(nodes.end(), begin, begin + count + 1);
-    nodes.back().radius = 0.0;
-  }
 };
 
 /// Runs of all ranks as one set; the nodes may follow later.

@@ -18,32 +18,55 @@ struct RankBox {
   bool has_segments = false;
 };
 
-/// Calls with each box's first segment and its nodes: call(first, nodes, count).
+/// A few segments of a run that a box is around.
+struct Piece {
+  const FiberRun& run;
+  std::uint64_t begin;  // along the run
+  std::uint64_t count;
+
+  GlobalSegment name_of(std::uint64_t i) const {
+    return {run.first.fiber, run.first.segment + begin + i};
+  }
+  std::uint64_t point(std::uint64_t i) const { return run.begin + begin + i; }
+};
+
 template <class Call>
-void for_each_piece(const FiberRuns& own, const Call& call) {
-  for (const FiberRun& run : own.runs) {
+void for_each_piece(const NamedFibers& own, const Call& call) {
+  for (const FiberRun& run : own.runs()) {
     for (std::uint64_t i = 0; i < run.count; i += segments_per_box) {
-      call(GlobalSegment{run.first.fiber, run.first.segment + i}, own.nodes.data() + run.begin + i,
-           std::min(segments_per_box, run.count - i));
+      call(Piece{run, i, std::min(segments_per_box, run.count - i)});
     }
   }
 }
 
-PlainBox box_of_piece(const FiberNode* nodes, std::uint64_t count) {
-  PlainBox box = box_around(nodes[0], nodes[1]);
-  for (std::uint64_t i = 1; i < count; ++i) {
-    box = merged(box, box_around(nodes[i], nodes[i + 1]));
+PlainBox box_of(const NamedFibers& own, const Piece& piece, std::uint64_t i) {
+  return box_around(own.node(piece.point(i)), own.node(piece.point(i + 1)));
+}
+
+PlainBox box_of(const NamedFibers& own, const Piece& piece) {
+  PlainBox box = box_of(own, piece, 0);
+  for (std::uint64_t i = 1; i < piece.count; ++i) {
+    box = merged(box, box_of(own, piece, i));
   }
   return box;
 }
 
 /// In the order of for_each_piece().
-std::vector<SegmentBox> boxes_of(const FiberRuns& own) {
+std::vector<SegmentBox> boxes_of(const NamedFibers& own) {
   std::vector<SegmentBox> boxes;
-  for_each_piece(own, [&](const GlobalSegment& first, const FiberNode* nodes, std::uint64_t count) {
-    boxes.push_back({box_of_piece(nodes, count), first});
-  });
+  boxes.reserve(own.fibers().segment_count() / segments_per_box + own.runs().size());
+  for_each_piece(own,
+                 [&](const Piece& piece) { boxes.push_back({box_of(own, piece), piece.name_of(0)}); });
   return boxes;
+}
+
+/// Adds segments [begin, end) of a piece.
+void add(const NamedFibers& own, const Piece& piece, std::uint64_t begin, std::uint64_t end,
+         FiberRuns& runs) {
+  runs.runs.push_back({piece.name_of(begin), end - begin, 0, own.arc(piece.run, piece.begin + begin)});
+  for (std::uint64_t i = begin; i <= end; ++i) {
+    runs.nodes.push_back(own.node(piece.point(i)));
+  }
 }
 
 /// Other ranks whose segments may be near.
@@ -69,23 +92,22 @@ std::vector<std::size_t> find_neighbours(const Communicator& ranks, const BoxTre
 constexpr GlobalSegment no_limit{~std::uint64_t{0}, ~std::uint64_t{0}};
 
 /// What of this rank is near segments of another that are before it.
-/// @param boxes_of_own its pieces'
-FiberRuns segments_near(const FiberRuns& own, const std::vector<SegmentBox>& boxes_of_own,
+/// @param boxes of its pieces
+FiberRuns segments_near(const NamedFibers& own, const std::vector<SegmentBox>& boxes,
                         const BoxTree& others, double margin) {
   FiberRuns near;
-  auto box = boxes_of_own.begin();
-  for_each_piece(own, [&](const GlobalSegment& first, const FiberNode* nodes, std::uint64_t count) {
-    const GlobalSegment last{first.fiber, first.segment + count - 1};
-    if (!others.has_near((box++)->box, margin, last)) {
+  auto box = boxes.begin();
+  for_each_piece(own, [&](const Piece& piece) {
+    if (!others.has_near((box++)->box, margin, piece.name_of(piece.count - 1))) {
       return;
     }
     std::uint64_t begin = 0;
-    for (std::uint64_t i = 0; i <= count; ++i) {
-      const bool is_near = i < count && others.has_near(box_around(nodes[i], nodes[i + 1]), margin,
-                                                        {first.fiber, first.segment + i});
+    for (std::uint64_t i = 0; i <= piece.count; ++i) {
+      const bool is_near = i < piece.count &&
+                           others.has_near(box_of(own, piece, i), margin, piece.name_of(i));
       if (!is_near) {
         if (begin < i) {
-          near.add({first.fiber, first.segment + begin}, nodes + begin, i - begin);
+          add(own, piece, begin, i, near);
         }
         begin = i + 1;
       }
@@ -96,10 +118,11 @@ FiberRuns segments_near(const FiberRuns& own, const std::vector<SegmentBox>& box
 
 }  // namespace
 
-FiberRuns find_halo(const Communicator& ranks, const FiberRuns& own, double margin) {
+Halo::Halo(const Communicator& ranks, const NamedFibers& own, double margin)
+    : runs_(ranks), nodes_(ranks) {
   const auto size = static_cast<std::size_t>(ranks.size());
   if (size == 1) {
-    return {};
+    return;
   }
   const std::vector<SegmentBox> boxes = boxes_of(own);
   const BoxTree tree(boxes);
@@ -109,7 +132,7 @@ FiberRuns find_halo(const Communicator& ranks, const FiberRuns& own, double marg
   for (const std::size_t other : neighbours) {
     coarse[other] = tree.level_of_at_most(coarse_boxes);
   }
-  coarse = ranks.exchange(coarse);
+  coarse = ranks.exchange(std::move(coarse));
 
   // A neighbour needs those of my boxes that are near its own, to find what I need from it.
   PerRank<SegmentBox> fine(size);
@@ -121,13 +144,24 @@ FiberRuns find_halo(const Communicator& ranks, const FiberRuns& own, double marg
       }
     }
   }
-  fine = ranks.exchange(fine);
+  fine = ranks.exchange(std::move(fine));
 
-  std::vector<FiberRuns> near(size);
+  PerRank<FiberRun> runs(size);
+  PerRank<FiberNode> nodes(size);
   for (const std::size_t other : neighbours) {
-    near[other] = segments_near(own, boxes, BoxTree(std::move(fine[other])), margin);
+    FiberRuns near = segments_near(own, boxes, BoxTree(std::move(fine[other])), margin);
+    runs[other] = std::move(near.runs);
+    nodes[other] = std::move(near.nodes);
   }
-  return exchange_runs(ranks, std::move(near));
+  runs_.start(std::move(runs));
+  nodes_.start(std::move(nodes));
+}
+
+FiberRuns Halo::take() {
+  FiberRuns all;
+  all.runs = joined_runs(runs_.finish());
+  all.nodes = joined_nodes(nodes_.finish());
+  return all;
 }
 
 }  // namespace fiber

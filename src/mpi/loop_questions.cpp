@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <utility>
 
 #include "src/query/loop_rule.hpp"
 
@@ -38,23 +39,21 @@ SegmentDistance nearest_of(const Capsule& a, const Capsule& b) {
   return segment_distance(a.p0, a.p1, b.p0, b.p1);
 }
 
-/// A rank's runs by fibre and index, those that follow each other joined.
+/// A rank's runs, with boxes.
 class OwnRuns {
  public:
-  explicit OwnRuns(const FiberRuns& own) : own_(own), sorted_(own.runs) {
-    std::sort(sorted_.begin(), sorted_.end(),
-              [](const FiberRun& x, const FiberRun& y) { return x.first < y.first; });
-    boxes_.resize(sorted_.size());
-    for (std::size_t i = 0; i < sorted_.size(); ++i) {
-      for (std::uint64_t k = 0; k < sorted_[i].count; ++k) {
-        boxes_[i].extend(vector_of(own.nodes[sorted_[i].begin + k].point));
+  explicit OwnRuns(const NamedFibers& own) : own_(own), boxes_(own.runs().size()) {
+    for (std::size_t i = 0; i < boxes_.size(); ++i) {
+      const FiberRun& run = own.runs()[i];
+      for (std::uint64_t k = 0; k < run.count; ++k) {
+        boxes_[i].extend(own.fibers().points()[run.begin + k]);
       }
     }
   }
 
   std::vector<OwnedRun> joined(int rank) const {
     std::vector<OwnedRun> runs;
-    for (const FiberRun& run : sorted_) {
+    for (const FiberRun& run : own_.runs()) {
       if (!runs.empty() && runs.back().first.fiber == run.first.fiber &&
           runs.back().first.segment + runs.back().count == run.first.segment) {
         runs.back().count += run.count;
@@ -83,25 +82,26 @@ class OwnRuns {
  private:
   /// Whether any point that this rank has of those asked about is beyond either limit.
   bool any_beyond(const PlainQuestion& question, const LoopReach& x, const LoopReach& y) const {
+    const std::vector<FiberRun>& runs = own_.runs();
     auto run = std::upper_bound(
-        sorted_.begin(), sorted_.end(), question.first,
+        runs.begin(), runs.end(), question.first,
         [](const GlobalSegment& first, const FiberRun& other) { return first < other.first; });
-    if (run != sorted_.begin()) {
+    if (run != runs.begin()) {
       --run;  // may have begun before
     }
-    for (; run != sorted_.end(); ++run) {
+    for (; run != runs.end(); ++run) {
       const GlobalSegment& first = run->first;
       if (first.fiber > question.first.fiber ||
           (first.fiber == question.first.fiber && first.segment > question.last)) {
         return false;
       }
-      const Eigen::AlignedBox3d& box = boxes_[static_cast<std::size_t>(run - sorted_.begin())];
+      const Eigen::AlignedBox3d& box = boxes_[static_cast<std::size_t>(run - runs.begin())];
       if (first.fiber != question.first.fiber || (x.holds(box) && y.holds(box))) {
         continue;
       }
       for (std::uint64_t i = 0; i < run->count; ++i) {
         const std::uint64_t segment = first.segment + i;
-        const Eigen::Vector3d point = vector_of(own_.nodes[run->begin + i].point);
+        const Eigen::Vector3d& point = own_.fibers().points()[run->begin + i];
         if (segment >= question.first.segment && segment <= question.last &&
             (x.is_beyond(point) || y.is_beyond(point))) {
           return true;
@@ -111,8 +111,7 @@ class OwnRuns {
     return false;
   }
 
-  const FiberRuns& own_;
-  std::vector<FiberRun> sorted_;
+  const NamedFibers& own_;
   std::vector<Eigen::AlignedBox3d> boxes_;  // around the points of those that start a segment
 };
 
@@ -126,7 +125,7 @@ std::vector<OwnedRun> find_owners(const Communicator& ranks, const OwnRuns& own,
     notices[run.first.fiber % size].push_back(run);
   }
   std::vector<OwnedRun> known;
-  for (const std::vector<OwnedRun>& some : ranks.exchange(notices)) {
+  for (const std::vector<OwnedRun>& some : ranks.exchange(std::move(notices))) {
     known.insert(known.end(), some.begin(), some.end());
   }
   std::sort(known.begin(), known.end(), comes_first);
@@ -139,7 +138,7 @@ std::vector<OwnedRun> find_owners(const Communicator& ranks, const OwnRuns& own,
     std::sort(some.begin(), some.end());
     some.erase(std::unique(some.begin(), some.end()), some.end());
   }
-  fibers = ranks.exchange(fibers);
+  fibers = ranks.exchange(std::move(fibers));
   PerRank<OwnedRun> replies(size);
   for (std::size_t other = 0; other < size; ++other) {
     for (const std::uint64_t fiber : fibers[other]) {
@@ -151,7 +150,7 @@ std::vector<OwnedRun> find_owners(const Communicator& ranks, const OwnRuns& own,
     }
   }
   std::vector<OwnedRun> owners;
-  for (const std::vector<OwnedRun>& some : ranks.exchange(replies)) {
+  for (const std::vector<OwnedRun>& some : ranks.exchange(std::move(replies))) {
     owners.insert(owners.end(), some.begin(), some.end());
   }
   std::sort(owners.begin(), owners.end(), comes_first);
@@ -190,7 +189,7 @@ PlainQuestion plain_question(const LoopQuestion& question) {
 
 }  // namespace
 
-std::vector<bool> find_loops(const Communicator& ranks, const FiberRuns& own,
+std::vector<bool> find_loops(const Communicator& ranks, const NamedFibers& own,
                              const std::vector<LoopQuestion>& questions) {
   std::vector<bool> loops(questions.size());
   if (ranks.sum(questions.size()) == 0) {
@@ -207,14 +206,14 @@ std::vector<bool> find_loops(const Communicator& ranks, const FiberRuns& own,
       numbers[static_cast<std::size_t>(rank)].push_back(i);
     }
   }
-  asked = ranks.exchange(asked);
+  asked = ranks.exchange(std::move(asked));
   PerRank<Answers> answers(size);
   for (std::size_t other = 0; other < size; ++other) {
     for (const PlainQuestion& question : asked[other]) {
       answers[other].push_back(runs.answer(question));
     }
   }
-  answers = ranks.exchange(answers);
+  answers = ranks.exchange(std::move(answers));
   std::vector<Answers> by_question(questions.size(), 0);
   for (std::size_t other = 0; other < size; ++other) {
     for (std::size_t i = 0; i < answers[other].size(); ++i) {

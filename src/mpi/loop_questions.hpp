@@ -5,7 +5,7 @@
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "src/mpi/communicator.hpp"
-#include "src/mpi/fiber_runs.hpp"
+#include "src/mpi/named_fibers.hpp"
 
 namespace fiber {
 
@@ -22,7 +22,7 @@ struct LoopQuestion {
 /// Answers the questions of all ranks by the rule of LoopTest: each rank that owns points between
 /// the two segments looks at its own. Collective.
 /// @return one per question of this rank
-std::vector<bool> find_loops(const Communicator& ranks, const FiberRuns& own,
+std::vector<bool> find_loops(const Communicator& ranks, const NamedFibers& own,
                              const std::vector<LoopQuestion>& questions);
 
 }  // namespace fiber

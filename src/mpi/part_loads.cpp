@@ -135,7 +135,7 @@ SharedParts deal_parts(const Communicator& ranks, const FiberRuns& own, int part
   SharedParts shared;
   shared.first = first_of(ranks.rank());
   shared.parts.resize(static_cast<std::size_t>(first_of(ranks.rank() + 1) - shared.first));
-  for (const std::vector<int>& some : ranks.exchange(parts_to)) {
+  for (const std::vector<int>& some : ranks.exchange(std::move(parts_to))) {
     for (const int part : some) {
       const FiberRun& run = got.runs[next++];
       shared.parts[static_cast<std::size_t>(part - shared.first)].add(
@@ -160,7 +160,9 @@ FiberRuns all_of(const std::vector<FiberRuns>& parts) {
 std::vector<PartLoad> part_loads(const Communicator& ranks, const FiberRuns& own, int parts,
                                  double margin) {
   const SharedParts shared = deal_parts(ranks, own, parts);
-  const FiberRuns remote = find_halo(ranks, all_of(shared.parts), margin);
+  NamedFibers all;
+  all.assign(all_of(shared.parts));
+  const FiberRuns remote = Halo(ranks, all, margin).take();
   const std::vector<PlannedPiece> remote_pieces = planned_pieces(remote);
   std::vector<PlannedPart> here;
   std::vector<PartBox> boxes_here;

@@ -9,8 +9,8 @@
 #include "fiber_proximity/query/engine.hpp"
 #include "src/mpi/communicator.hpp"
 #include "src/mpi/fiber_runs.hpp"
-#include "src/mpi/local_fibers.hpp"
-#include "src/mpi/loop_questions.hpp"
+#include "src/mpi/named_fibers.hpp"
+#include "src/mpi/rank_fibers.hpp"
 
 namespace fiber {
 
@@ -20,39 +20,44 @@ class RankSearch {
  public:
   static constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
 
-  explicit RankSearch(const EngineOptions& options) : engine_(make_engine("run_tree", options)) {}
+  RankSearch(const Communicator& ranks, const EngineOptions& options)
+      : ranks_(ranks), engine_(make_engine("run_tree", options)) {}
 
-  /// Forgets the fibres.
-  void clear() { reach_ = -1.0; }
+  /// Makes these fibres those that are looked at; they must live until the next update.
+  void update(const RankFibers& fibers);
 
-  /// Gets what pairs within the margin [m] need of the fibres that the ranks own. Collective.
-  /// @throws std::invalid_argument on every rank if one would hold too much
-  void reach(const Communicator& ranks, const FiberRuns& own, double margin);
+  /// The so many closest pairs of this rank's own segments that the options ask for; if there are
+  /// more, others may be among them. Collective.
+  /// @param options FIRST: any one pair; all other types are one
+  /// @param result  contacts in any order
+  void find_inner(const QueryOptions& options, std::uint64_t count, DistributedResult& result);
 
-  /// [m] The margin up to which all pairs are known; -1 for none.
-  double reach() const { return reach_; }
+  /// Adds all pairs within the margin of a segment of this rank's own and one of others. Collective.
+  /// @throws std::invalid_argument on every rank if one has more than an assembly may have
+  void find_across(const FiberRuns& halo, const QueryOptions& options, DistributedResult& result);
 
-  std::uint64_t halo_segments() const { return halo_segments_; }
+  std::uint64_t halo_segments() const { return halo_.fibers().segment_count(); }
 
-  /// The so many closest pairs of this rank that the options ask for; if there are more, a few
-  /// others may be among them. Of those further apart than reach() some may be missing. Collective.
-  /// @param options       FIRST: any one pair; all other types are one
-  /// @param arc_roundings [m] most that arc lengths are rounded by, in units of ε
-  /// @param result        contacts in any order
-  void find(const Communicator& ranks, const FiberRuns& own, double arc_roundings,
-            const QueryOptions& options, std::uint64_t count, DistributedResult& result);
+  /// About what the last update and the queries since then took of this rank [s].
+  double cost() const;
 
  private:
-  QueryOptions options_here(const QueryOptions& options, double arc_roundings) const;
-  bool is_left_out(const QueryOptions& options, const Contact& contact) const;
-  void take(const Communicator& ranks, const FiberRuns& own, const QueryOptions& options,
-            std::vector<DistributedContact>& contacts) const;
+  QueryOptions options_here(const QueryOptions& options) const;
+  bool is_left_out(const QueryOptions& options, const Contact& contact,
+                   const NamedFibers& fibers_b) const;
+  void append(const QueryOptions& options, const std::vector<Contact>& found,
+              const NamedFibers& fibers_b, std::vector<DistributedContact>& contacts) const;
+  double rounding_across() const;
 
+  const Communicator& ranks_;
   std::unique_ptr<ProximityEngine> engine_;
-  LocalFibers local_;
-  std::uint64_t halo_segments_ = 0;
-  double reach_ = -1.0;
-  QueryResult found_;  // work memory
+  const RankFibers* fibers_ = nullptr;
+  NamedFibers halo_;
+  QueryCounts counts_;
+
+  // Work memory:
+  QueryResult found_;
+  std::vector<Contact> across_;
 };
 
 }  // namespace fiber

@@ -71,7 +71,7 @@ TEST(DistributedHalo, AThickFibreBringsNoMoreThanWhatIsNearIt) {
 
 /// A segment across an axis, so that boxes are as far apart as segments.
 std::pair<FiberNode, FiberNode> across(double place, double radius) {
-  return {{{place, -1e-3, 0.0}, 0.0, radius}, {{place, 1e-3, 0.0}, 0.0, 0.0}};
+  return {{{place, -1e-3, 0.0}, radius}, {{place, 1e-3, 0.0}, 0.0}};
 }
 
 TEST(DistributedHalo, BoxesAreNoFurtherApartThanSegmentsAreFound) {

@@ -17,8 +17,8 @@ namespace fiber::test {
 namespace {
 
 /// Stretches of one to seven segments, each for a rank that is drawn: those of this one.
-FiberRuns dealt_runs(const FiberAssembly& fibers, Random& random) {
-  FiberRuns own;
+NamedFibers dealt_runs(const FiberAssembly& fibers, Random& random) {
+  std::vector<FiberRun> runs;
   std::vector<FiberNode> nodes;
   for (std::uint32_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
     const std::uint32_t begin = fibers.offsets()[fiber];
@@ -26,16 +26,23 @@ FiberRuns dealt_runs(const FiberAssembly& fibers, Random& random) {
     for (std::uint32_t first = begin; first < last;) {
       const auto drawn = static_cast<std::uint32_t>(random.integer(1, 7));
       const std::uint32_t count = std::min(drawn, last - first);
-      nodes.clear();
-      for (std::uint32_t p = first; p <= first + count; ++p) {
-        nodes.push_back({plain(fibers.points()[p]), 0.0, fibers.segment_radius(p)});
-      }
       if (random.integer(0, rank_count() - 1) == own_rank()) {
-        own.add({name_of_fiber(fiber), first - begin}, nodes.data(), count);
+        runs.push_back({{name_of_fiber(fiber), first - begin}, count, 0, 0.0});
+        for (std::uint32_t p = first; p <= first + count; ++p) {
+          nodes.push_back(
+              {plain(fibers.points()[p]), p < first + count ? fibers.segment_radius(p) : 0.0});
+        }
       }
       first += count;
     }
   }
+  NamedFibers own;
+  own.assign(runs);
+  const FiberNode* node = nodes.data();
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    node = own.place(i, 0.0, node);
+  }
+  own.close();
   return own;
 }
 
@@ -79,7 +86,7 @@ TEST(LoopQuestions, AreAnsweredAsByWhoHasAllPoints) {
   for (const AssemblyFamily& family : families) {
     for (int round = 0; round < rounds(20); ++round) {
       const FiberAssembly fibers = family.make(random);
-      const FiberRuns own = dealt_runs(fibers, random);
+      const NamedFibers own = dealt_runs(fibers, random);
       const std::vector<PointPair> pairs =
           draw_pairs(fibers, own_random);  // each rank asks its own
       std::vector<LoopQuestion> questions;

@@ -59,6 +59,7 @@ struct DistributedResult {
 struct DistributedFacts {
   std::uint64_t own_segments = 0;   ///< that the split gave to this rank
   std::uint64_t halo_segments = 0;  ///< of other ranks, for the last query
+  std::uint64_t split_count = 0;    ///< how often fibres were split among the ranks
 };
 
 /// Contacts of fibres that are spread over the ranks of MPI, the same, bit for bit, as one process
@@ -66,8 +67,9 @@ struct DistributedFacts {
 ///
 /// The fibres are cut into pieces of a few segments, which are split among the ranks along a
 /// space-filling curve, by Zoltan. For a query each rank gets from others what may come within the
-/// margin of its own, and asks an engine run_tree about both. Distances are computed from the
-/// points as they were brought, by whoever has both segments.
+/// margin of its own; while that is on its way it asks an engine run_tree about its own fibres, and
+/// then about what has come. Distances are computed from the points as they were brought, by
+/// whoever has both segments.
 ///
 /// All functions but facts() are collective: all ranks of the communicator call them, in the same
 /// order, or they wait for each other. An error of one rank is thrown by all, with its number.
@@ -89,7 +91,8 @@ class DistributedEngine {
   /// Together, the parts make whole fibres: each segment is in one part, of any rank. Where a fibre
   /// goes on in another part, its last point is the first point of that, and both ranks bring it.
   /// Parts of the same names and numbers of points, on all ranks, as at the last update are taken
-  /// for the same fibres, moved: they stay with the ranks that have them.
+  /// for the same fibres, moved: they stay with the ranks that have them, until what these have
+  /// had to do since the last update differs too much.
   /// @param parts of this rank, each as a fibre, in any order, or none; a radius per fibre or point
   ///              as FiberAssembly has it [m]
   /// @param names one per part
