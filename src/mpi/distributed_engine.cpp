@@ -58,8 +58,7 @@ void DistributedEngine::State::find_closest(const QueryOptions& options, std::ui
   }
   keep_closest(ranks, most, result);
   const bool are_enough = ranks.sum(result.contacts.size()) == most;
-  result.limit_reached =
-      (options.type == QueryType::LIMITED && are_enough) || result.limit_reached;
+  result.limit_reached = (options.type == QueryType::LIMITED && are_enough) || result.limit_reached;
 }
 
 DistributedEngine::DistributedEngine(MPI_Comm ranks, const EngineOptions& options)

@@ -55,15 +55,17 @@ PlainBox box_of(const NamedFibers& own, const Piece& piece) {
 std::vector<SegmentBox> boxes_of(const NamedFibers& own) {
   std::vector<SegmentBox> boxes;
   boxes.reserve(own.fibers().segment_count() / segments_per_box + own.runs().size());
-  for_each_piece(own,
-                 [&](const Piece& piece) { boxes.push_back({box_of(own, piece), piece.name_of(0)}); });
+  for_each_piece(own, [&](const Piece& piece) {
+    boxes.push_back({box_of(own, piece), piece.name_of(0)});
+  });
   return boxes;
 }
 
 /// Adds segments [begin, end) of a piece.
 void add(const NamedFibers& own, const Piece& piece, std::uint64_t begin, std::uint64_t end,
          FiberRuns& runs) {
-  runs.runs.push_back({piece.name_of(begin), end - begin, 0, own.arc(piece.run, piece.begin + begin)});
+  runs.runs.push_back(
+      {piece.name_of(begin), end - begin, 0, own.arc(piece.run, piece.begin + begin)});
   for (std::uint64_t i = begin; i <= end; ++i) {
     runs.nodes.push_back(own.node(piece.point(i)));
   }
@@ -103,8 +105,8 @@ FiberRuns segments_near(const NamedFibers& own, const std::vector<SegmentBox>& b
     }
     std::uint64_t begin = 0;
     for (std::uint64_t i = 0; i <= piece.count; ++i) {
-      const bool is_near = i < piece.count &&
-                           others.has_near(box_of(own, piece, i), margin, piece.name_of(i));
+      const bool is_near =
+          i < piece.count && others.has_near(box_of(own, piece, i), margin, piece.name_of(i));
       if (!is_near) {
         if (begin < i) {
           add(own, piece, begin, i, near);

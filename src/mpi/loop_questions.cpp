@@ -39,21 +39,15 @@ SegmentDistance nearest_of(const Capsule& a, const Capsule& b) {
   return segment_distance(a.p0, a.p1, b.p0, b.p1);
 }
 
-/// A rank's runs, with boxes.
-class OwnRuns {
+/// Runs of a rank that loops are looked for in, with boxes.
+class KnownRuns {
  public:
-  explicit OwnRuns(const NamedFibers& own) : own_(own), boxes_(own.runs().size()) {
-    for (std::size_t i = 0; i < boxes_.size(); ++i) {
-      const FiberRun& run = own.runs()[i];
-      for (std::uint64_t k = 0; k < run.count; ++k) {
-        boxes_[i].extend(own.fibers().points()[run.begin + k]);
-      }
-    }
-  }
+  explicit KnownRuns(const NamedFibers& fibers) : fibers_(fibers) {}
 
+  /// Those that follow each other as one.
   std::vector<OwnedRun> joined(int rank) const {
     std::vector<OwnedRun> runs;
-    for (const FiberRun& run : own_.runs()) {
+    for (const FiberRun& run : fibers_.runs()) {
       if (!runs.empty() && runs.back().first.fiber == run.first.fiber &&
           runs.back().first.segment + runs.back().count == run.first.segment) {
         runs.back().count += run.count;
@@ -64,60 +58,104 @@ class OwnRuns {
     return runs;
   }
 
-  /// What this rank's points say to a question.
-  Answers answer(const PlainQuestion& question) const {
-    const Capsule a = capsule_of(question.a0, question.a1, question.radius_a);
-    const Capsule b = capsule_of(question.b0, question.b1, question.radius_b);
-    Answers answers = 0;
-    makes_loop_by(a, b, nearest_of(a, b),
-                  [&](int number, const LoopPlace& x, const LoopPlace& y, double limit) {
-                    if (any_beyond(question, LoopReach(x, limit), LoopReach(y, limit))) {
-                      answers = static_cast<Answers>(answers | 1U << static_cast<unsigned>(number));
-                    }
-                    return number == 0;  // whatever others say: so that all questions come
-                  });
-    return answers;
+  /// How many of the points asked about are here.
+  std::uint64_t count(const PlainQuestion& question) const {
+    std::uint64_t count = 0;
+    for (auto run = first_run(question); is_asked(run, question); ++run) {
+      const std::uint64_t begin = std::max(run->first.segment, question.first.segment);
+      const std::uint64_t end = std::min(run->first.segment + run->count, question.last + 1);
+      count += run->first.fiber == question.first.fiber && begin < end ? end - begin : 0;
+    }
+    return count;
   }
 
- private:
-  /// Whether any point that this rank has of those asked about is beyond either limit.
-  bool any_beyond(const PlainQuestion& question, const LoopReach& x, const LoopReach& y) const {
-    const std::vector<FiberRun>& runs = own_.runs();
-    auto run = std::upper_bound(
-        runs.begin(), runs.end(), question.first,
-        [](const GlobalSegment& first, const FiberRun& other) { return first < other.first; });
-    if (run != runs.begin()) {
-      --run;  // may have begun before
-    }
-    for (; run != runs.end(); ++run) {
-      const GlobalSegment& first = run->first;
-      if (first.fiber > question.first.fiber ||
-          (first.fiber == question.first.fiber && first.segment > question.last)) {
-        return false;
-      }
-      const Eigen::AlignedBox3d& box = boxes_[static_cast<std::size_t>(run - runs.begin())];
-      if (first.fiber != question.first.fiber || (x.holds(box) && y.holds(box))) {
-        continue;
-      }
-      for (std::uint64_t i = 0; i < run->count; ++i) {
-        const std::uint64_t segment = first.segment + i;
-        const Eigen::Vector3d& point = own_.fibers().points()[run->begin + i];
-        if (segment >= question.first.segment && segment <= question.last &&
-            (x.is_beyond(point) || y.is_beyond(point))) {
-          return true;
-        }
+  /// Whether any of the points asked about that are here is beyond either limit.
+  bool any_beyond(const PlainQuestion& question, const LoopReach& x, const LoopReach& y) {
+    for (auto run = first_run(question); is_asked(run, question); ++run) {
+      if (run->first.fiber == question.first.fiber && any_beyond(*run, question, x, y)) {
+        return true;
       }
     }
     return false;
   }
 
-  const NamedFibers& own_;
-  std::vector<Eigen::AlignedBox3d> boxes_;  // around the points of those that start a segment
+ private:
+  using Run = std::vector<FiberRun>::const_iterator;
+
+  Run first_run(const PlainQuestion& question) const {
+    const std::vector<FiberRun>& runs = fibers_.runs();
+    const auto run = std::upper_bound(
+        runs.begin(), runs.end(), question.first,
+        [](const GlobalSegment& first, const FiberRun& other) { return first < other.first; });
+    return run == runs.begin() ? run : run - 1;  // may have begun before
+  }
+  bool is_asked(Run run, const PlainQuestion& question) const {
+    return run != fibers_.runs().end() &&
+           !(GlobalSegment{question.first.fiber, question.last} < run->first);
+  }
+
+  bool any_beyond(const FiberRun& run, const PlainQuestion& question, const LoopReach& x,
+                  const LoopReach& y) {
+    const Eigen::AlignedBox3d& box = box_of(run);
+    if (x.holds(box) && y.holds(box)) {
+      return false;
+    }
+    for (std::uint64_t i = 0; i < run.count; ++i) {
+      const std::uint64_t segment = run.first.segment + i;
+      const Eigen::Vector3d& point = fibers_.fibers().points()[run.begin + i];
+      if (segment >= question.first.segment && segment <= question.last &&
+          (x.is_beyond(point) || y.is_beyond(point))) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// Around the points that start a segment.
+  const Eigen::AlignedBox3d& box_of(const FiberRun& run) {
+    boxes_.resize(fibers_.runs().size());
+    Eigen::AlignedBox3d& box = boxes_[static_cast<std::size_t>(&run - fibers_.runs().data())];
+    const bool is_new = box.isEmpty();
+    for (std::uint64_t i = 0; is_new && i < run.count; ++i) {
+      box.extend(fibers_.fibers().points()[run.begin + i]);
+    }
+    return box;
+  }
+
+  const NamedFibers& fibers_;
+  std::vector<Eigen::AlignedBox3d> boxes_;  // empty where they were not needed yet
 };
 
-/// Asks for the owners of the fibres that the questions are about; sorted.
-std::vector<OwnedRun> find_owners(const Communicator& ranks, const OwnRuns& own,
-                                  const std::vector<LoopQuestion>& questions) {
+/// What the points here say to a question.
+Answers answer(const PlainQuestion& question, KnownRuns& own, KnownRuns& halo) {
+  const Capsule a = capsule_of(question.a0, question.a1, question.radius_a);
+  const Capsule b = capsule_of(question.b0, question.b1, question.radius_b);
+  Answers answers = 0;
+  makes_loop_by(
+      a, b, nearest_of(a, b),
+      [&](int number, const LoopPlace& x, const LoopPlace& y, double limit) {
+        const LoopReach by_x(x, limit);
+        const LoopReach by_y(y, limit);
+        if (own.any_beyond(question, by_x, by_y) || halo.any_beyond(question, by_x, by_y)) {
+          answers = static_cast<Answers>(answers | 1U << static_cast<unsigned>(number));
+        }
+        return number == 0;  // whatever others say: so that all questions come
+      });
+  return answers;
+}
+
+bool makes_loop(const LoopQuestion& question, Answers answers) {
+  return makes_loop_by(
+      question.a, question.b, nearest_of(question.a, question.b),
+      [&](int number, const LoopPlace& /*x*/, const LoopPlace& /*y*/, double /*limit*/) {
+        return (answers >> static_cast<unsigned>(number) & 1U) != 0;
+      });
+}
+
+/// Asks for the owners of the fibres that the open questions are about; sorted.
+std::vector<OwnedRun> find_owners(const Communicator& ranks, const KnownRuns& own,
+                                  const std::vector<LoopQuestion>& questions,
+                                  const std::vector<std::size_t>& open) {
   // Each fibre has a rank that knows who owns it.
   const auto size = static_cast<std::size_t>(ranks.size());
   PerRank<OwnedRun> notices(size);
@@ -131,8 +169,8 @@ std::vector<OwnedRun> find_owners(const Communicator& ranks, const OwnRuns& own,
   std::sort(known.begin(), known.end(), comes_first);
 
   PerRank<std::uint64_t> fibers(size);
-  for (const LoopQuestion& question : questions) {
-    fibers[question.fiber % size].push_back(question.fiber);
+  for (const std::size_t i : open) {
+    fibers[questions[i].fiber % size].push_back(questions[i].fiber);
   }
   for (std::vector<std::uint64_t>& some : fibers) {
     std::sort(some.begin(), some.end());
@@ -190,17 +228,30 @@ PlainQuestion plain_question(const LoopQuestion& question) {
 }  // namespace
 
 std::vector<bool> find_loops(const Communicator& ranks, const NamedFibers& own,
-                             const std::vector<LoopQuestion>& questions) {
+                             const NamedFibers& halo, const std::vector<LoopQuestion>& questions) {
+  KnownRuns own_runs(own);
+  KnownRuns halo_runs(halo);
   std::vector<bool> loops(questions.size());
-  if (ranks.sum(questions.size()) == 0) {
+  std::vector<Answers> by_question(questions.size(), 0);
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < questions.size(); ++i) {
+    const PlainQuestion question = plain_question(questions[i]);
+    by_question[i] = answer(question, own_runs, halo_runs);
+    // More points can only answer more questions with yes, and that only makes loops.
+    loops[i] = makes_loop(questions[i], by_question[i]);
+    const std::uint64_t count = question.last + 1 - question.first.segment;
+    if (!loops[i] && own_runs.count(question) + halo_runs.count(question) < count) {
+      open.push_back(i);
+    }
+  }
+  if (ranks.sum(open.size()) == 0) {
     return loops;
   }
   const auto size = static_cast<std::size_t>(ranks.size());
-  const OwnRuns runs(own);
-  const std::vector<OwnedRun> owners = find_owners(ranks, runs, questions);
+  const std::vector<OwnedRun> owners = find_owners(ranks, own_runs, questions, open);
   PerRank<PlainQuestion> asked(size);
   PerRank<std::size_t> numbers(size);  // of the questions asked
-  for (std::size_t i = 0; i < questions.size(); ++i) {
+  for (const std::size_t i : open) {
     for (const int rank : ranks_between(owners, questions[i])) {
       asked[static_cast<std::size_t>(rank)].push_back(plain_question(questions[i]));
       numbers[static_cast<std::size_t>(rank)].push_back(i);
@@ -210,24 +261,18 @@ std::vector<bool> find_loops(const Communicator& ranks, const NamedFibers& own,
   PerRank<Answers> answers(size);
   for (std::size_t other = 0; other < size; ++other) {
     for (const PlainQuestion& question : asked[other]) {
-      answers[other].push_back(runs.answer(question));
+      answers[other].push_back(answer(question, own_runs, halo_runs));
     }
   }
   answers = ranks.exchange(std::move(answers));
-  std::vector<Answers> by_question(questions.size(), 0);
   for (std::size_t other = 0; other < size; ++other) {
     for (std::size_t i = 0; i < answers[other].size(); ++i) {
       Answers& all = by_question[numbers[other][i]];
       all = static_cast<Answers>(all | answers[other][i]);
     }
   }
-  for (std::size_t i = 0; i < questions.size(); ++i) {
-    const LoopQuestion& question = questions[i];
-    loops[i] = makes_loop_by(
-        question.a, question.b, nearest_of(question.a, question.b),
-        [&](int number, const LoopPlace& /*x*/, const LoopPlace& /*y*/, double /*limit*/) {
-          return (by_question[i] >> static_cast<unsigned>(number) & 1U) != 0;
-        });
+  for (const std::size_t i : open) {
+    loops[i] = makes_loop(questions[i], by_question[i]);
   }
   return loops;
 }

@@ -19,10 +19,12 @@ struct LoopQuestion {
   Capsule b;
 };
 
-/// Answers the questions of all ranks by the rule of LoopTest: each rank that owns points between
-/// the two segments looks at its own. Collective.
+/// Answers the questions of all ranks by the rule of LoopTest: what a rank does not know of the
+/// points between two segments it asks their owners. Collective.
+/// @param own  segments of this rank
+/// @param halo segments of others that it knows
 /// @return one per question of this rank
 std::vector<bool> find_loops(const Communicator& ranks, const NamedFibers& own,
-                             const std::vector<LoopQuestion>& questions);
+                             const NamedFibers& halo, const std::vector<LoopQuestion>& questions);
 
 }  // namespace fiber

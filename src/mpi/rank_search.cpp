@@ -21,6 +21,8 @@ std::uint64_t rest_of(std::uint64_t limit, std::uint64_t taken) {
 void RankSearch::update(const RankFibers& fibers) {
   fibers_ = &fibers;
   counts_ = {};
+  halo_.assign({});
+  halo_.close();
   engine_->update(fibers.own().fibers());
 }
 
@@ -48,13 +50,12 @@ void RankSearch::find_inner(const QueryOptions& options, std::uint64_t count,
   const Deadline deadline(options.deadline);
   QueryOptions here = options_here(options);
   constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
+  constexpr std::uint64_t more = 16;
   bool is_first = options.type == QueryType::FIRST;
   // Pairs that are none along whole fibres may be among those that the engine finds: it is asked
   // for more until enough are left.
-  for (std::uint64_t asked = count; true; asked = asked > most / 2 ? no_limit : 2 * asked) {
-    here.type = is_first       ? QueryType::FIRST
-                : asked > most ? QueryType::ALL
-                               : QueryType::LIMITED;
+  for (std::uint64_t asked = count; true; asked = asked > most / more ? no_limit : more * asked) {
+    here.type = is_first ? QueryType::FIRST : asked > most ? QueryType::ALL : QueryType::LIMITED;
     here.max_contacts = static_cast<std::uint32_t>(std::min(asked, most));
     here.deadline = deadline.left();
     engine_->query(here, found_);
@@ -177,7 +178,7 @@ void RankSearch::append(const QueryOptions& options, const std::vector<Contact>&
     }
     kept.push_back(&contact);
   }
-  const std::vector<bool> loops = find_loops(ranks_, own, questions);
+  const std::vector<bool> loops = find_loops(ranks_, own, halo_, questions);
   for (std::size_t i = 0; i < asked.size(); ++i) {
     if (!loops[i]) {
       kept[asked[i]] = nullptr;

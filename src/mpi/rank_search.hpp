@@ -32,7 +32,8 @@ class RankSearch {
   /// @param result  contacts in any order
   void find_inner(const QueryOptions& options, std::uint64_t count, DistributedResult& result);
 
-  /// Adds all pairs within the margin of a segment of this rank's own and one of others. Collective.
+  /// Adds all pairs within the margin of a segment of this rank's own and one of others.
+  /// Collective.
   /// @throws std::invalid_argument on every rank if one has more than an assembly may have
   void find_across(const FiberRuns& halo, const QueryOptions& options, DistributedResult& result);
 
