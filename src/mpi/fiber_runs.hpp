@@ -48,6 +48,13 @@ struct FiberRuns {
   std::vector<FiberNode> nodes;
 
   std::uint64_t segment_count() const { return nodes.size() - runs.size(); }
+
+  /// Adds a run whose nodes are there. Its last node loses its radius.
+  void add(const FiberRun& run, const FiberNode* begin) {
+    runs.push_back({run.first, run.count, nodes.size(), run.arc});
+    nodes.insert(nodes.end(), begin, begin + run.count + 1);
+    nodes.back().radius = 0.0;
+  }
 };
 
 /// Runs of all ranks as one set; the nodes may follow later.

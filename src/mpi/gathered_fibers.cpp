@@ -24,8 +24,7 @@ FiberRuns runs_of(const DistributedFibers& fibers) {
                          end - begin - 1,
                          runs.nodes.size()});
     for (std::uint32_t p = begin; p < end; ++p) {
-      runs.nodes.push_back(
-          {plain(fibers.parts.points()[p]), 0.0, point_radius(fibers.parts, part, p)});
+      runs.nodes.push_back({plain(fibers.parts.points()[p]), point_radius(fibers.parts, part, p)});
     }
   }
   return runs;
@@ -73,7 +72,8 @@ FiberAssembly joined(const FiberRuns& runs) {
 
 FiberAssembly gather_fibers(const Communicator& ranks, DistributedFibers fibers) {
   const FiberChains chains(ranks, fibers.parts, fibers.names);
-  chains.arc_lengths(ranks, fibers.parts, fibers.names);  // parts that do not meet are refused
+  // Parts that do not meet are refused; of the lengths hardly any are kept.
+  chains.arc_lengths(ranks, fibers.parts, fibers.names, 1U << 20U);
   std::vector<FiberRuns> to(static_cast<std::size_t>(ranks.size()));
   to[0] = runs_of(fibers);
   fibers = {};

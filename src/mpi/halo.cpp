@@ -61,16 +61,6 @@ std::vector<SegmentBox> boxes_of(const NamedFibers& own) {
   return boxes;
 }
 
-/// Adds segments [begin, end) of a piece.
-void add(const NamedFibers& own, const Piece& piece, std::uint64_t begin, std::uint64_t end,
-         FiberRuns& runs) {
-  runs.runs.push_back(
-      {piece.name_of(begin), end - begin, 0, own.arc(piece.run, piece.begin + begin)});
-  for (std::uint64_t i = begin; i <= end; ++i) {
-    runs.nodes.push_back(own.node(piece.point(i)));
-  }
-}
-
 /// Other ranks whose segments may be near.
 std::vector<std::size_t> find_neighbours(const Communicator& ranks, const BoxTree& tree,
                                          double margin) {
@@ -109,7 +99,7 @@ FiberRuns segments_near(const NamedFibers& own, const std::vector<SegmentBox>& b
           i < piece.count && others.has_near(box_of(own, piece, i), margin, piece.name_of(i));
       if (!is_near) {
         if (begin < i) {
-          add(own, piece, begin, i, near);
+          own.add_to(near, piece.run, piece.begin + begin, piece.begin + i);
         }
         begin = i + 1;
       }

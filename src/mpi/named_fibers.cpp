@@ -28,6 +28,14 @@ void NamedFibers::clear() {
   fibers_ = FiberAssembly();
 }
 
+void NamedFibers::assign(const FiberRuns& set) {
+  assign(set.runs);
+  for (std::size_t i = 0; i < set.runs.size(); ++i) {
+    place(i, set.runs[i].arc, set.nodes.data() + set.runs[i].begin);
+  }
+  close();
+}
+
 void NamedFibers::assign(std::vector<FiberRun> runs) {
   clear();
   std::vector<std::uint32_t> order(runs.size());
@@ -81,6 +89,18 @@ void NamedFibers::close() {
     clear();
     throw;
   }
+}
+
+void NamedFibers::add_to(FiberRuns& others, const FiberRun& run, std::uint64_t begin,
+                         std::uint64_t end) const {
+  others.runs.push_back({{run.first.fiber, run.first.segment + begin},
+                         end - begin,
+                         others.nodes.size(),
+                         arc(run, begin)});
+  for (std::uint64_t p = run.begin + begin; p <= run.begin + end; ++p) {
+    others.nodes.push_back(node(p));
+  }
+  others.nodes.back().radius = 0.0;  // of the segment that would come next
 }
 
 double NamedFibers::arc(std::uint32_t point) const {

@@ -15,6 +15,10 @@ namespace fiber {
 /// same first segment everywhere.
 class NamedFibers {
  public:
+  /// Takes other runs with their nodes.
+  /// @throws std::invalid_argument as the next ones
+  void assign(const FiberRuns& set);
+
   /// Takes other runs, whose nodes are all to be placed.
   /// @throws std::invalid_argument for more points than an assembly may have; there are none then
   void assign(std::vector<FiberRun> runs);
@@ -47,6 +51,9 @@ class NamedFibers {
     return {plain(fibers_.points()[point]),
             fibers_.segment_radius(static_cast<std::uint32_t>(point))};
   }
+
+  /// Adds segments [begin, end) of one of runs() to others.
+  void add_to(FiberRuns& others, const FiberRun& run, std::uint64_t begin, std::uint64_t end) const;
 
   /// [m] From the start of the whole fibre to this point: the sum that one process makes.
   double arc(std::uint32_t point) const;

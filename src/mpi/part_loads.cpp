@@ -107,11 +107,11 @@ struct SharedParts {
   std::vector<FiberRuns> parts;
 };
 
-SharedParts deal_parts(const Communicator& ranks, const FiberRuns& own, int parts) {
+SharedParts deal_parts(const Communicator& ranks, const NamedFibers& own, int parts) {
   std::vector<PartitionObject> objects;
-  objects.reserve(own.runs.size());
-  for (const FiberRun& run : own.runs) {
-    objects.push_back({own.nodes[run.begin + run.count / 2].point, static_cast<float>(run.count)});
+  objects.reserve(own.runs().size());
+  for (const FiberRun& run : own.runs()) {
+    objects.push_back({own.node(run.begin + run.count / 2).point, static_cast<float>(run.count)});
   }
   const std::vector<int> part_of = partition(ranks, objects, parts);
   const auto first_of = [&](int rank) {
@@ -124,10 +124,10 @@ SharedParts deal_parts(const Communicator& ranks, const FiberRuns& own, int part
   const auto size = static_cast<std::size_t>(ranks.size());
   std::vector<FiberRuns> to(size);
   PerRank<int> parts_to(size);
-  for (std::size_t i = 0; i < own.runs.size(); ++i) {
-    const FiberRun& run = own.runs[i];
+  for (std::size_t i = 0; i < own.runs().size(); ++i) {
+    const FiberRun& run = own.runs()[i];
     const auto rank = static_cast<std::size_t>(rank_of[static_cast<std::size_t>(part_of[i])]);
-    to[rank].add(run.first, own.nodes.data() + run.begin, run.count);
+    own.add_to(to[rank], run, 0, run.count);
     parts_to[rank].push_back(part_of[i]);
   }
   const FiberRuns got = exchange_runs(ranks, std::move(to));
@@ -138,8 +138,8 @@ SharedParts deal_parts(const Communicator& ranks, const FiberRuns& own, int part
   for (const std::vector<int>& some : ranks.exchange(std::move(parts_to))) {
     for (const int part : some) {
       const FiberRun& run = got.runs[next++];
-      shared.parts[static_cast<std::size_t>(part - shared.first)].add(
-          run.first, got.nodes.data() + run.begin, run.count);
+      shared.parts[static_cast<std::size_t>(part - shared.first)].add(run,
+                                                                      got.nodes.data() + run.begin);
     }
   }
   return shared;
@@ -149,7 +149,7 @@ FiberRuns all_of(const std::vector<FiberRuns>& parts) {
   FiberRuns all;
   for (const FiberRuns& part : parts) {
     for (const FiberRun& run : part.runs) {
-      all.add(run.first, part.nodes.data() + run.begin, run.count);
+      all.add(run, part.nodes.data() + run.begin);
     }
   }
   return all;
@@ -157,7 +157,7 @@ FiberRuns all_of(const std::vector<FiberRuns>& parts) {
 
 }  // namespace
 
-std::vector<PartLoad> part_loads(const Communicator& ranks, const FiberRuns& own, int parts,
+std::vector<PartLoad> part_loads(const Communicator& ranks, const NamedFibers& own, int parts,
                                  double margin) {
   const SharedParts shared = deal_parts(ranks, own, parts);
   NamedFibers all;

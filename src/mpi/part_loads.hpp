@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "src/mpi/communicator.hpp"
-#include "src/mpi/fiber_runs.hpp"
+#include "src/mpi/named_fibers.hpp"
 
 namespace fiber {
 
@@ -16,14 +16,14 @@ struct PartLoad {
   std::uint64_t neighbours = 0;     ///< parts that it asks for them
 };
 
-/// Splits the fibres as DistributedEngine does on so many ranks, and counts what find_halo() would
+/// Splits the fibres as DistributedEngine does on so many ranks, and counts what a Halo would
 /// bring to each. Collective.
 /// @param own    all fibres, cut into pieces, each on any rank
 /// @param parts  as many as there are ranks, or more
 /// @param margin [m]
 /// @return of each part, in any order; the same on all ranks
 /// @throws std::invalid_argument on every rank if Zoltan fails
-std::vector<PartLoad> part_loads(const Communicator& ranks, const FiberRuns& own, int parts,
+std::vector<PartLoad> part_loads(const Communicator& ranks, const NamedFibers& own, int parts,
                                  double margin);
 
 }  // namespace fiber

@@ -2,8 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <stdexcept>
-#include <string>
 
 #include "fiber_proximity/query/narrow_phase.hpp"
 #include "src/mpi/loop_questions.hpp"
@@ -21,8 +19,7 @@ std::uint64_t rest_of(std::uint64_t limit, std::uint64_t taken) {
 void RankSearch::update(const RankFibers& fibers) {
   fibers_ = &fibers;
   counts_ = {};
-  halo_.assign({});
-  halo_.close();
+  halo_.assign(FiberRuns());
   engine_->update(fibers.own().fibers());
 }
 
@@ -89,18 +86,7 @@ double RankSearch::rounding_across() const {
 
 void RankSearch::find_across(const FiberRuns& halo, const QueryOptions& options,
                              DistributedResult& result) {
-  std::string error;
-  try {
-    halo_.assign(halo.runs);
-    const FiberNode* nodes = halo.nodes.data();
-    for (std::size_t i = 0; i < halo.runs.size(); ++i) {
-      nodes = halo_.place(i, halo.runs[i].arc, nodes);
-    }
-    halo_.close();
-  } catch (const std::invalid_argument& failure) {
-    error = failure.what();
-  }
-  ranks_.agree(error);
+  ranks_.agree(error_in([&] { halo_.assign(halo); }));
 
   // The engine takes what is a shape to it for the first of each pair. Here it is the second one:
   // distances are computed anew, as one process computes them.

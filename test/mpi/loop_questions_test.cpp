@@ -16,26 +16,10 @@
 namespace fiber::test {
 namespace {
 
-/// Runs and their nodes, one after another.
-struct DealtRuns {
-  std::vector<FiberRun> runs;
-  std::vector<FiberNode> nodes;
-
-  NamedFibers named() const {
-    NamedFibers fibers;
-    fibers.assign(runs);
-    const FiberNode* node = nodes.data();
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-      node = fibers.place(i, 0.0, node);
-    }
-    fibers.close();
-    return fibers;
-  }
-};
-
 /// Stretches of one to seven segments, each for a rank that is drawn: those of this one, and some
 /// of others that it knows.
-void deal_runs(const FiberAssembly& fibers, Random& random, DealtRuns& own, DealtRuns& halo) {
+void deal_runs(const FiberAssembly& fibers, Random& random, FiberRuns& own, FiberRuns& halo) {
+  std::vector<FiberNode> nodes;
   for (std::uint32_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
     const std::uint32_t begin = fibers.offsets()[fiber];
     const std::uint32_t last = fibers.offsets()[fiber + 1] - 1;
@@ -44,12 +28,12 @@ void deal_runs(const FiberAssembly& fibers, Random& random, DealtRuns& own, Deal
       const std::uint32_t count = std::min(drawn, last - first);
       const bool is_own = random.integer(0, rank_count() - 1) == own_rank();
       if (random.chance(0.3) || is_own) {
-        DealtRuns& mine = is_own ? own : halo;
-        mine.runs.push_back({{name_of_fiber(fiber), first - begin}, count, 0, 0.0});
+        nodes.clear();
         for (std::uint32_t p = first; p <= first + count; ++p) {
-          mine.nodes.push_back(
-              {plain(fibers.points()[p]), p < first + count ? fibers.segment_radius(p) : 0.0});
+          nodes.push_back({plain(fibers.points()[p]), fibers.segment_radius(p)});
         }
+        (is_own ? own : halo)
+            .add({{name_of_fiber(fiber), first - begin}, count, 0, 0.0}, nodes.data());
       }
       first += count;
     }
@@ -96,16 +80,20 @@ TEST(LoopQuestions, AreAnsweredAsByWhoHasAllPoints) {
   for (const AssemblyFamily& family : families) {
     for (int round = 0; round < rounds(20); ++round) {
       const FiberAssembly fibers = family.make(random);
-      DealtRuns own;
-      DealtRuns halo;
-      deal_runs(fibers, random, own, halo);
+      FiberRuns own_runs;
+      FiberRuns halo_runs;
+      deal_runs(fibers, random, own_runs, halo_runs);
+      NamedFibers own;
+      own.assign(own_runs);
+      NamedFibers halo;
+      halo.assign(halo_runs);
       const std::vector<PointPair> pairs =
           draw_pairs(fibers, own_random);  // each rank asks its own
       std::vector<LoopQuestion> questions;
       for (const PointPair pair : pairs) {
         questions.push_back(question_about(fibers, pair));
       }
-      const std::vector<bool> found = find_loops(ranks, own.named(), halo.named(), questions);
+      const std::vector<bool> found = find_loops(ranks, own, halo, questions);
       const LoopTest test(fibers);
       for (std::size_t i = 0; i < pairs.size(); ++i) {
         const Capsule a = fibers.capsule(pairs[i].a);

@@ -58,7 +58,7 @@ std::vector<PartLoad> planned_by(int count, const FiberAssembly& fibers, double 
   }();
   const Dealt mine = dealt_to(own_rank(), fibers, dealt);
   RankFibers all;
-  all.update(ranks, mine.parts, mine.names);
+  all.update(ranks, mine.parts, mine.names, 0.0);
   return part_loads(ranks, all.own(), rank_count(), margin);
 }
 
