@@ -58,8 +58,10 @@ add_library(fiber_proximity_mpi SHARED
   src/mpi/named_fibers.cpp
   src/mpi/part_loads.cpp
   src/mpi/partition.cpp
+  src/mpi/plan.cpp
   src/mpi/rank_fibers.cpp
   src/mpi/rank_search.cpp
+  src/mpi/step_costs.cpp
   src/mpi/whole_file.cpp
 )
 target_include_directories(fiber_proximity_mpi SYSTEM PRIVATE

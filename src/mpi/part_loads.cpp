@@ -6,27 +6,29 @@
 
 #include "src/mpi/box_tree.hpp"
 #include "src/mpi/halo.hpp"
+#include "src/mpi/named_fibers.hpp"
 #include "src/mpi/partition.hpp"
+#include "src/mpi/rank_fibers.hpp"
 
 namespace fiber {
 namespace {
 
 // As in the search for halos.
-constexpr std::uint64_t segments_per_planned_box = 8;
+constexpr std::uint64_t segments_per_counted_box = 8;
 
 /// A few segments that follow each other.
-struct PlannedPiece {
+struct CountedPiece {
   SegmentBox around;
   const FiberNode* nodes = nullptr;
   std::uint64_t count = 0;
 };
 
-std::vector<PlannedPiece> planned_pieces(const FiberRuns& set) {
-  std::vector<PlannedPiece> pieces;
-  pieces.reserve(set.nodes.size() / segments_per_planned_box + set.runs.size());
+std::vector<CountedPiece> counted_pieces(const FiberRuns& set) {
+  std::vector<CountedPiece> pieces;
+  pieces.reserve(set.nodes.size() / segments_per_counted_box + set.runs.size());
   for (const FiberRun& run : set.runs) {
-    for (std::uint64_t i = 0; i < run.count; i += segments_per_planned_box) {
-      const std::uint64_t count = std::min(segments_per_planned_box, run.count - i);
+    for (std::uint64_t i = 0; i < run.count; i += segments_per_counted_box) {
+      const std::uint64_t count = std::min(segments_per_counted_box, run.count - i);
       const FiberNode* const nodes = set.nodes.data() + run.begin + i;
       PlainBox box = box_around(nodes[0], nodes[1]);
       for (std::uint64_t k = 1; k < count; ++k) {
@@ -38,10 +40,10 @@ std::vector<PlannedPiece> planned_pieces(const FiberRuns& set) {
   return pieces;
 }
 
-BoxTree tree_of(const std::vector<PlannedPiece>& pieces) {
+BoxTree tree_of(const std::vector<CountedPiece>& pieces) {
   std::vector<SegmentBox> boxes;
   boxes.reserve(pieces.size());
-  for (const PlannedPiece& piece : pieces) {
+  for (const CountedPiece& piece : pieces) {
     boxes.push_back(piece.around);
   }
   return BoxTree(std::move(boxes));
@@ -57,12 +59,12 @@ struct PartBox {
   }
 };
 
-struct PlannedPart {
-  std::vector<PlannedPiece> pieces;
+struct CountedPart {
+  std::vector<CountedPiece> pieces;
   BoxTree tree;
   PartBox around;
 
-  explicit PlannedPart(std::vector<PlannedPiece> some)
+  explicit CountedPart(std::vector<CountedPiece> some)
       : pieces(std::move(some)), tree(tree_of(pieces)) {
     around.has_segments = !tree.empty();
     if (around.has_segments) {
@@ -72,9 +74,9 @@ struct PlannedPart {
 };
 
 /// Adds the segments of other parts that this part needs.
-void count_near(const std::vector<PlannedPiece>& others, const BoxTree& part, double margin,
+void count_near(const std::vector<CountedPiece>& others, const BoxTree& part, double margin,
                 PartLoad& load) {
-  for (const PlannedPiece& piece : others) {
+  for (const CountedPiece& piece : others) {
     const GlobalSegment& first = piece.around.first;
     if (!part.has_near(piece.around.box, margin, {first.fiber, first.segment + piece.count - 1})) {
       continue;
@@ -107,7 +109,10 @@ struct SharedParts {
   std::vector<FiberRuns> parts;
 };
 
-SharedParts deal_parts(const Communicator& ranks, const NamedFibers& own, int parts) {
+SharedParts deal_parts(const Communicator& ranks, const DistributedFibers& fibers, int parts) {
+  RankFibers all;
+  all.update(ranks, fibers.parts, fibers.names, 0.0);
+  const NamedFibers& own = all.own();
   std::vector<PartitionObject> objects;
   objects.reserve(own.runs().size());
   for (const FiberRun& run : own.runs()) {
@@ -157,17 +162,17 @@ FiberRuns all_of(const std::vector<FiberRuns>& parts) {
 
 }  // namespace
 
-std::vector<PartLoad> part_loads(const Communicator& ranks, const NamedFibers& own, int parts,
-                                 double margin) {
-  const SharedParts shared = deal_parts(ranks, own, parts);
+std::vector<PartLoad> part_loads(const Communicator& ranks, const DistributedFibers& fibers,
+                                 int parts, double margin) {
+  const SharedParts shared = deal_parts(ranks, fibers, parts);
   NamedFibers all;
   all.assign(all_of(shared.parts));
   const FiberRuns remote = Halo(ranks, all, margin).take();
-  const std::vector<PlannedPiece> remote_pieces = planned_pieces(remote);
-  std::vector<PlannedPart> here;
+  const std::vector<CountedPiece> remote_pieces = counted_pieces(remote);
+  std::vector<CountedPart> here;
   std::vector<PartBox> boxes_here;
   for (const FiberRuns& part : shared.parts) {
-    here.emplace_back(planned_pieces(part));
+    here.emplace_back(counted_pieces(part));
     boxes_here.push_back(here.back().around);
   }
   const std::vector<PartBox> boxes = joined(ranks, boxes_here);

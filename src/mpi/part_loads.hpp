@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "fiber_proximity/mpi/distributed_files.hpp"
 #include "src/mpi/communicator.hpp"
-#include "src/mpi/named_fibers.hpp"
 
 namespace fiber {
 
@@ -18,12 +18,12 @@ struct PartLoad {
 
 /// Splits the fibres as DistributedEngine does on so many ranks, and counts what a Halo would
 /// bring to each. Collective.
-/// @param own    all fibres, cut into pieces, each on any rank
-/// @param parts  as many as there are ranks, or more
+/// @param fibers that this rank brings
+/// @param parts  how many
 /// @param margin [m]
 /// @return of each part, in any order; the same on all ranks
-/// @throws std::invalid_argument on every rank if Zoltan fails
-std::vector<PartLoad> part_loads(const Communicator& ranks, const NamedFibers& own, int parts,
-                                 double margin);
+/// @throws std::invalid_argument on every rank as DistributedEngine::update()
+std::vector<PartLoad> part_loads(const Communicator& ranks, const DistributedFibers& fibers,
+                                 int parts, double margin);
 
 }  // namespace fiber

@@ -7,16 +7,21 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "fiber_proximity/geometry/segment_distance.hpp"
 #include "fiber_proximity/mpi/distributed_engine.hpp"
 #include "fiber_proximity/mpi/distributed_files.hpp"
 #include "src/io/number.hpp"
 #include "src/mpi/communicator.hpp"
+#include "src/mpi/part_loads.hpp"
+#include "src/mpi/plan.hpp"
+#include "src/mpi/step_costs.hpp"
 #include "src/tools/contact_sink.hpp"
 #include "src/tools/fiber_query.hpp"
 #include "src/tools/fiber_source.hpp"
 #include "src/tools/mpi_tool.hpp"
+#include "src/tools/plan_output.hpp"
 
 namespace fiber {
 namespace {
@@ -29,6 +34,7 @@ struct MpiRequest {
   std::string out;  // "" for stdout
   std::optional<std::string> format;
   bool resume = false;
+  PlanRequest plan;
 };
 
 /// All that the answer depends on but the file.
@@ -80,6 +86,20 @@ ExitCode run(const MpiRequest& request) {
   return SUCCEEDED;
 }
 
+/// What more ranks would hold of the first frame.
+ExitCode plan_file(const MpiRequest& request) {
+  const Communicator ranks(MPI_COMM_WORLD);
+  FiberSource source(ranks, request.file, request.radius);
+  DistributedFibers fibers;
+  source.read(0, fibers);
+  std::vector<PlannedPart> parts =
+      plan_of(part_loads(ranks, fibers, request.plan.parts, request.query.margin));
+  predict_steps(parts, measure_steps(ranks, fibers, request.engine_options, request.query),
+                request.plan.network);
+  on_first_rank(ranks, [&] { write_plan(parts); });
+  return SUCCEEDED;
+}
+
 void setup_mpi(CLI::App& app, Command& command) {
   app.require_subcommand(0, 1);
   const auto request = std::make_shared<MpiRequest>();
@@ -103,9 +123,12 @@ void setup_mpi(CLI::App& app, Command& command) {
       ->add_option("--margin", request->query.margin,
                    "pairs with a gap of at most this [m]; inf for no limit")
       ->capture_default_str();
-  contacts->add_option("--out", request->out,
-                       "write to this file, .h5 or .csv, which has its name once it is whole; "
-                       "without this, to what mpirun takes as output");
+  CLI::Option* const out =
+      contacts->add_option("--out", request->out,
+                           "write to this file, .h5 or .csv, which has its name once it is whole; "
+                           "without this, to what mpirun takes as output");
+  add_plan_options(*contacts, request->plan, "of the file's first frame; contacts are not written")
+      ->excludes(out);
   contacts
       ->add_option("--format", request->format,
                    "of the output; without this, hdf5 if its name ends in .h5, else csv")
@@ -117,7 +140,7 @@ void setup_mpi(CLI::App& app, Command& command) {
   add_kernel_option(*contacts, request->query.kernel);
   contacts->callback([&command, request] {
     validate(request->query);
-    command = [request] { return run(*request); };
+    command = [request] { return request->plan.parts > 0 ? plan_file(*request) : run(*request); };
   });
   add_convert(app, command);
 }

@@ -5,13 +5,19 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "fiber_proximity/mpi/distributed_files.hpp"
 #include "fiber_proximity/scenes/large_scene.hpp"
 #include "src/io/number.hpp"
 #include "src/mpi/communicator.hpp"
+#include "src/mpi/part_loads.hpp"
+#include "src/mpi/plan.hpp"
+#include "src/mpi/step_costs.hpp"
 #include "src/text/quote.hpp"
 #include "src/tools/mpi_tool.hpp"
+#include "src/tools/plan_output.hpp"
 
 namespace fiber {
 namespace {
@@ -22,6 +28,10 @@ struct SceneRequest {
   std::uint64_t seed = 1;
   std::uint32_t frame = 0;
   std::string out;
+  PlanRequest plan;
+  std::string sample = "4e6";  // segments
+  EngineOptions engine_options;
+  QueryOptions query;
 };
 
 /// A whole number that may be written as 1e9.
@@ -54,6 +64,9 @@ DistributedFibers part_of(const Communicator& ranks, const LargeScene& scene, st
 }
 
 ExitCode write_scene(const SceneRequest& request) {
+  if (request.out.empty()) {
+    throw std::invalid_argument("--out is required, or --plan");
+  }
   const LargeScene scene =
       make_large_scene(request.name, parse_count("--segments", request.segments), request.seed);
   if (!is_hdf5_name(request.out)) {
@@ -69,9 +82,66 @@ ExitCode write_scene(const SceneRequest& request) {
   return SUCCEEDED;
 }
 
+/// What parts of so many segments in all would hold, of another scene of the same name.
+std::vector<PartLoad> loads_of_scene(const Communicator& ranks, const SceneRequest& request,
+                                     std::uint64_t segments, std::uint64_t seed) {
+  const LargeScene scene = make_large_scene(request.name, segments, seed);
+  return part_loads(ranks, part_of(ranks, scene, request.frame), request.plan.parts,
+                    request.query.margin);
+}
+
+/// Of several scenes: cuts differ by chance, most of all in small ones.
+HaloLaw law_of_scene(const Communicator& ranks, const SceneRequest& request,
+                     const std::vector<PartLoad>& large, std::uint64_t sample, int dimensions) {
+  constexpr std::uint64_t times_smaller = 8;
+  std::vector<PartLoad> small;
+  for (std::uint64_t i = 1; i <= times_smaller / 2; ++i) {
+    const std::vector<PartLoad> some =
+        loads_of_scene(ranks, request, sample / times_smaller, request.seed + i);
+    small.insert(small.end(), some.begin(), some.end());
+  }
+  return {large, small, dimensions};
+}
+
+ExitCode plan_scene(const SceneRequest& request) {
+  constexpr std::uint64_t least_of_a_part = 800;
+  const std::uint64_t segments = parse_count("--segments", request.segments);
+  const std::uint64_t most = parse_count("--sample", request.sample);
+  const LargeScene scene = make_large_scene(request.name, segments, request.seed);
+  const bool is_whole = scene.segment_count() <= most;
+  const auto parts = static_cast<std::uint64_t>(request.plan.parts);
+  if (!is_whole && most < least_of_a_part * parts) {
+    throw std::invalid_argument("--sample: " + quote(request.sample) + " must be at least " +
+                                std::to_string(least_of_a_part * parts) +
+                                ", for so many parts to be like large ones");
+  }
+  const Communicator ranks(MPI_COMM_WORLD);
+  const std::uint64_t sample = is_whole ? segments : most;
+  const std::vector<PartLoad> loads = loads_of_scene(ranks, request, sample, request.seed);
+  std::vector<PlannedPart> planned = plan_of(loads);
+  if (!is_whole) {
+    planned =
+        grown(std::move(planned), law_of_scene(ranks, request, loads, sample, scene.dimensions),
+              static_cast<double>(scene.segment_count()) / static_cast<double>(parts));
+  }
+  const LargeScene measured = make_large_scene(request.name, sample, request.seed);
+  predict_steps(planned,
+                measure_steps(ranks, part_of(ranks, measured, request.frame),
+                              request.engine_options, request.query),
+                request.plan.network);
+  on_first_rank(ranks, [&] { write_plan(planned); });
+  return SUCCEEDED;
+}
+
 void setup_scene(CLI::App& app, Command& command) {
   const auto request = std::make_shared<SceneRequest>();
-  command = [request] { return write_scene(*request); };
+  command = [request] {
+    validate(request->query);
+    if (request->plan.parts > 0) {
+      return plan_scene(*request);
+    }
+    return write_scene(*request);
+  };
   app.add_option("NAME", request->name, "one of " + join(large_scene_names()))->required();
   app.add_option("--segments", request->segments,
                  "how many, at least, in whole fibres; such as 1e9. The scene grows with them")
@@ -81,7 +151,24 @@ void setup_scene(CLI::App& app, Command& command) {
       ->capture_default_str();
   app.add_option("--frame", request->frame, "which moment of the sway, from 0")
       ->capture_default_str();
-  app.add_option("--out", request->out, "file to write (.h5)")->required();
+  CLI::Option* const out = app.add_option("--out", request->out, "file to write (.h5)");
+  CLI::Option* const plan = add_plan_options(
+      app, request->plan, "of this scene, from a sample of it; nothing of it is written");
+  plan->excludes(out);
+  app.add_option("--margin", request->query.margin, "of the plan's query [m]")
+      ->needs(plan)
+      ->capture_default_str();
+  app.add_option("--sample", request->sample,
+                 "most segments of what the plan is made from; all ranks share them")
+      ->needs(plan)
+      ->capture_default_str();
+  request->engine_options.threads = 1;
+  app.add_option(
+         "--threads", request->engine_options.threads,
+         "most threads that each of the plan's ranks uses, 0 for as many as there are cores")
+      ->check(whole_number(0))
+      ->needs(plan)
+      ->capture_default_str();
 }
 
 }  // namespace

@@ -65,6 +65,7 @@ for segments in 0 -1 1.5 many nan inf 1e16; do
     soup --segments "$segments" --out found.h5
 done
 expect_refused "--segments is required" soup --out found.h5
+expect_refused "--out is required, or --plan" soup --segments 9
 expect_refused "--seed: '-1'" soup --segments 9 --seed -1 --out found.h5
 expect_refused "--out: 'found.csv' must end in .h5" soup --segments 9 --out found.csv
 expect_refused "nowhere/found.h5.part: cannot be opened for writing" soup --segments 9 --out nowhere/found.h5

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "src/mpi/partition.hpp"
-#include "src/mpi/rank_fibers.hpp"
 #include "test/mpi/dealt_fibers.hpp"
 #include "test/support/assemblies.hpp"
 #include "test/support/contacts.hpp"
@@ -57,9 +56,7 @@ std::vector<PartLoad> planned_by(int count, const FiberAssembly& fibers, double 
     return parts;
   }();
   const Dealt mine = dealt_to(own_rank(), fibers, dealt);
-  RankFibers all;
-  all.update(ranks, mine.parts, mine.names, 0.0);
-  return part_loads(ranks, all.own(), rank_count(), margin);
+  return part_loads(ranks, {mine.parts, mine.names}, rank_count(), margin);
 }
 
 /// Own segments and those of the halo, of each rank or part: their numbers may differ.
