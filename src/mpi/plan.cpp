@@ -69,6 +69,26 @@ double HaloLaw::share(double segments) const {
   return std::max(0.0, linear_ * x + quadratic_ * x * x);
 }
 
+ScenePlan sample_scene(const Communicator& ranks, const SampleScene& scene, std::uint64_t segments,
+                       int parts, double margin, int dimensions) {
+  constexpr int few_parts = 16;
+  constexpr std::uint64_t most_scenes = 4;
+  constexpr std::uint64_t times_smaller = 8;
+  const auto scenes = std::clamp<std::uint64_t>(few_parts / parts, 1, most_scenes);
+  std::uint64_t number = 0;
+  const auto count = [&](std::uint64_t many, std::uint64_t size) {
+    std::vector<PartLoad> loads;
+    for (const std::uint64_t end = number + many; number < end; ++number) {
+      const std::vector<PartLoad> some = part_loads(ranks, scene(size, number), parts, margin);
+      loads.insert(loads.end(), some.begin(), some.end());
+    }
+    return loads;
+  };
+  const std::vector<PartLoad> large = count(scenes, segments);
+  const std::vector<PartLoad> small = count(most_scenes * scenes, segments / times_smaller);
+  return {plan_of(large), HaloLaw(large, small, dimensions)};
+}
+
 std::vector<PlannedPart> grown(std::vector<PlannedPart> parts, const HaloLaw& law,
                                double segments) {
   const double before = mean_segments(parts);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "src/mpi/part_loads.hpp"
@@ -47,6 +48,22 @@ class HaloLaw {
   double linear_ = 0.0;
   double quadratic_ = 0.0;
 };
+
+/// The fibres that this rank brings of a scene of so many segments: of the scene that is asked for,
+/// 0, or of others that are equally dense.
+using SampleScene = std::function<DistributedFibers(std::uint64_t segments, std::uint64_t number)>;
+
+/// What parts of a scene hold, and how that goes on while it grows.
+struct ScenePlan {
+  std::vector<PlannedPart> parts;
+  HaloLaw law;
+};
+
+/// Counts what parts of scenes of so many segments would hold, and of smaller ones. Where a part
+/// begins is a matter of chance, so that of few parts several scenes are taken. Collective.
+/// @param dimensions in which the scene grows
+ScenePlan sample_scene(const Communicator& ranks, const SampleScene& scene, std::uint64_t segments,
+                       int parts, double margin, int dimensions);
 
 /// Makes parts larger, by segments that they have on average.
 std::vector<PlannedPart> grown(std::vector<PlannedPart> parts, const HaloLaw& law, double segments);

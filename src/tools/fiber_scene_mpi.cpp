@@ -82,32 +82,12 @@ ExitCode write_scene(const SceneRequest& request) {
   return SUCCEEDED;
 }
 
-/// What parts of so many segments in all would hold, of another scene of the same name.
-std::vector<PartLoad> loads_of_scene(const Communicator& ranks, const SceneRequest& request,
-                                     std::uint64_t segments, std::uint64_t seed) {
-  const LargeScene scene = make_large_scene(request.name, segments, seed);
-  return part_loads(ranks, part_of(ranks, scene, request.frame), request.plan.parts,
-                    request.query.margin);
-}
-
-/// Of several scenes: cuts differ by chance, most of all in small ones.
-HaloLaw law_of_scene(const Communicator& ranks, const SceneRequest& request,
-                     const std::vector<PartLoad>& large, std::uint64_t sample, int dimensions) {
-  constexpr std::uint64_t times_smaller = 8;
-  std::vector<PartLoad> small;
-  for (std::uint64_t i = 1; i <= times_smaller / 2; ++i) {
-    const std::vector<PartLoad> some =
-        loads_of_scene(ranks, request, sample / times_smaller, request.seed + i);
-    small.insert(small.end(), some.begin(), some.end());
-  }
-  return {large, small, dimensions};
-}
-
+/// What a plan is made from: the whole scene if that is small, else others like it.
 ExitCode plan_scene(const SceneRequest& request) {
   constexpr std::uint64_t least_of_a_part = 800;
-  const std::uint64_t segments = parse_count("--segments", request.segments);
   const std::uint64_t most = parse_count("--sample", request.sample);
-  const LargeScene scene = make_large_scene(request.name, segments, request.seed);
+  const LargeScene scene =
+      make_large_scene(request.name, parse_count("--segments", request.segments), request.seed);
   const bool is_whole = scene.segment_count() <= most;
   const auto parts = static_cast<std::uint64_t>(request.plan.parts);
   if (!is_whole && most < least_of_a_part * parts) {
@@ -116,18 +96,23 @@ ExitCode plan_scene(const SceneRequest& request) {
                                 ", for so many parts to be like large ones");
   }
   const Communicator ranks(MPI_COMM_WORLD);
-  const std::uint64_t sample = is_whole ? segments : most;
-  const std::vector<PartLoad> loads = loads_of_scene(ranks, request, sample, request.seed);
-  std::vector<PlannedPart> planned = plan_of(loads);
-  if (!is_whole) {
+  const SampleScene sample = [&](std::uint64_t segments, std::uint64_t number) {
+    return part_of(ranks, make_large_scene(request.name, segments, request.seed + number),
+                   request.frame);
+  };
+  const std::uint64_t segments = is_whole ? scene.segment_count() : most;
+  std::vector<PlannedPart> planned;
+  if (is_whole) {
     planned =
-        grown(std::move(planned), law_of_scene(ranks, request, loads, sample, scene.dimensions),
-              static_cast<double>(scene.segment_count()) / static_cast<double>(parts));
+        plan_of(part_loads(ranks, sample(segments, 0), request.plan.parts, request.query.margin));
+  } else {
+    const ScenePlan plan = sample_scene(ranks, sample, segments, request.plan.parts,
+                                        request.query.margin, scene.dimensions);
+    planned = grown(plan.parts, plan.law,
+                    static_cast<double>(scene.segment_count()) / static_cast<double>(parts));
   }
-  const LargeScene measured = make_large_scene(request.name, sample, request.seed);
   predict_steps(planned,
-                measure_steps(ranks, part_of(ranks, measured, request.frame),
-                              request.engine_options, request.query),
+                measure_steps(ranks, sample(segments, 0), request.engine_options, request.query),
                 request.plan.network);
   on_first_rank(ranks, [&] { write_plan(planned); });
   return SUCCEEDED;

@@ -49,6 +49,18 @@ for options in "soup --segments 2e4" "locks --segments 3e4"; do
   done
 done
 
+# A plan counts the same, by any number of ranks, of the scene itself and of its file; times differ.
+scene 2 soup --segments 2e4 --out scene.h5
+scene 1 soup --segments 2e4 --plan 5 --margin 0.001 >plan.csv
+[ "$(cut -d , -f 1 plan.csv | tr '\n' ' ')" = "quantity segments halo_segments halo_share neighbours bytes seconds efficiency " ] ||
+  fail "no such plan: $(cat plan.csv)"
+grep -qE '^segments,39..,4000,40..$' plan.csv || fail "segments are planned otherwise: $(cat plan.csv)"
+scene 3 soup --segments 2e4 --plan 5 --margin 0.001 | head -n 6 | cmp - <(head -n 6 plan.csv) || fail "3 ranks plan otherwise"
+"${mpiexec[@]}" 2 "$tools/fiber_query_mpi" contacts scene.h5 --plan 5 --margin 0.001 | head -n 6 | cmp - <(head -n 6 plan.csv) ||
+  fail "of a file the plan is another"
+scene 2 soup --segments 1e7 --plan 5 --margin 0.001 --sample 8000 >plan.csv
+grep -qE "^segments,[0-9.]*,2e\+06,[0-9.]*$" plan.csv || fail "a plan from a sample: $(cat plan.csv)"
+
 # expect_refused TEXT ARGUMENT...: three ranks refuse this, with exit code 2 and this text, once.
 expect_refused() {
   local text=$1 code=0
@@ -69,4 +81,9 @@ expect_refused "--out is required, or --plan" soup --segments 9
 expect_refused "--seed: '-1'" soup --segments 9 --seed -1 --out found.h5
 expect_refused "--out: 'found.csv' must end in .h5" soup --segments 9 --out found.csv
 expect_refused "nowhere/found.h5.part: cannot be opened for writing" soup --segments 9 --out nowhere/found.h5
+expect_refused "--plan: Value 0 not in range" soup --segments 9 --plan 0
+expect_refused "--out excludes --plan" soup --segments 9 --plan 2 --out found.h5
+expect_refused "--bandwidth requires --plan" soup --segments 9 --bandwidth 1e9 --out found.h5
+expect_refused "margin is -1" soup --segments 9 --plan 2 --margin -1
+expect_refused "--sample: '1e4' must be at least 80000" soup --segments 1e9 --plan 100 --sample 1e4
 expect_refused "fibres in one part, there may be at most" soup --segments 1e15 --out found.h5

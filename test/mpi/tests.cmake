@@ -8,6 +8,7 @@ if(TARGET fiber_proximity_mpi)
     mpi/distributed_halo_test.cpp
     mpi/loop_questions_test.cpp
     mpi/part_loads_test.cpp
+    mpi/plan_test.cpp
     mpi/mpi_main.cpp
   )
   if(FIBER_PROXIMITY_BUILD_ROS)
@@ -16,7 +17,7 @@ if(TARGET fiber_proximity_mpi)
   else()
     target_link_libraries(distributed_engine_test GTest::gtest)
   endif()
-  target_link_libraries(distributed_engine_test fiber_proximity_mpi fiber_proximity_options)
+  target_link_libraries(distributed_engine_test fiber_proximity_mpi fiber_proximity_paper fiber_proximity_options)
   fiber_proximity_compile_tests_together(distributed_engine_test)
   execute_process(COMMAND ${MPIEXEC_EXECUTABLE} --version OUTPUT_VARIABLE mpiexec_version ERROR_QUIET)
   # Ranks of one machine, more than it has cores, and also where all is done as root, as in containers.
