@@ -13,10 +13,11 @@ using Eigen::Vector3d;
 
 constexpr std::uint32_t fiber_count = 10'000;
 constexpr std::uint32_t segments_per_fiber = 100;
-constexpr double segment_length = 0.01;     // [m]
-constexpr double radius = 3.5e-5;           // [m]
-constexpr double bend = 0.15;               // about the angle between neighbouring segments [rad]
-constexpr double amplitude = 0.005;         // of the sway [m]
+constexpr double segment_length = 0.01;  // [m]
+constexpr double radius = 3.5e-5;        // [m]
+constexpr double bend = 0.15;            // about the angle between neighbouring segments [rad]
+constexpr double amplitude = 0.005;      // of the sway [m]
+constexpr std::uint64_t typical_segments = 800;
 constexpr std::uint32_t soup_period = 100;  // of the sway [frames]
 
 /// A wave of period and amplitude 1, smooth like the sine but of two parabolas.
@@ -97,7 +98,7 @@ FiberAssembly soup(const SceneOptions& options, std::uint32_t frame) {
 
 LargeScene large_soup(std::uint64_t segments, std::uint64_t seed) {
   const std::uint64_t count = (segments + segments_per_fiber - 1) / segments_per_fiber;
-  return {count, segments_per_fiber, 3,
+  return {count, segments_per_fiber, 3, typical_segments,
           [=](std::uint64_t begin, std::uint64_t end, std::uint32_t frame) {
             return part_of_soup(count, seed, begin, end, frame);
           }};

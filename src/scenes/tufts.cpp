@@ -60,7 +60,10 @@ FiberAssembly part_of_tufts(const Tufts& tufts, std::uint64_t count, std::uint64
 
 LargeScene scene_of_tufts(const Tufts& tufts, std::uint64_t segments, std::uint64_t seed) {
   const std::uint64_t count = (segments + tufts.style.segments - 1) / tufts.style.segments;
-  return {count, tufts.style.segments, 2,
+  const double row = tufts.style.path.length / tufts.spacing;
+  const auto typical =
+      static_cast<std::uint64_t>(row * row * tufts.style.hair_count + 0.5) * tufts.style.segments;
+  return {count, tufts.style.segments, 2, typical,
           [=, &tufts](std::uint64_t begin, std::uint64_t end, std::uint32_t frame) {
             return part_of_tufts(tufts, count, seed, begin, end, frame);
           }};

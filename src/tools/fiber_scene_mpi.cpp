@@ -2,6 +2,7 @@
 #include <mpi.h>
 
 #include <cmath>
+#include <iostream>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -94,6 +95,10 @@ ExitCode plan_scene(const SceneRequest& request) {
     throw std::invalid_argument("--sample: " + quote(request.sample) + " must be at least " +
                                 std::to_string(least_of_a_part * parts) +
                                 ", for so many parts to be like large ones");
+  }
+  if (!is_whole && most < scene.typical_segments * parts) {
+    std::cerr << "warning: parts of the sample are smaller than " << scene.typical_segments
+              << " segments, larger ones may have twice the halos that are planned\n";
   }
   const Communicator ranks(MPI_COMM_WORLD);
   const SampleScene sample = [&](std::uint64_t segments, std::uint64_t number) {

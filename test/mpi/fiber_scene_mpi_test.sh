@@ -60,6 +60,8 @@ scene 3 soup --segments 2e4 --plan 5 --margin 0.001 | head -n 6 | cmp - <(head -
   fail "of a file the plan is another"
 scene 2 soup --segments 1e7 --plan 5 --margin 0.001 --sample 8000 >plan.csv
 grep -qE "^segments,[0-9.]*,2e\+06,[0-9.]*$" plan.csv || fail "a plan from a sample: $(cat plan.csv)"
+scene 2 locks --segments 1e7 --plan 2 --sample 8000 2>&1 >plan.csv | grep -q "^warning: parts of the sample are smaller than 1843200 segments" ||
+  fail "no warning of a sample that is too small"
 
 # expect_refused TEXT ARGUMENT...: three ranks refuse this, with exit code 2 and this text, once.
 expect_refused() {

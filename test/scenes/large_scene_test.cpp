@@ -46,14 +46,21 @@ TEST(LargeScene, IsTheSameInAnyParts) {
 }
 
 TEST(LargeScene, HasTheSegmentsAskedForInWholeFibres) {
-  for (const auto& [name, per_fiber] :
-       {std::pair("soup", 100U), std::pair("tress_b", 2000U), std::pair("locks", 64U)}) {
+  struct Fibres {
+    std::string name;
+    std::uint32_t per_fiber;
+    std::uint64_t typical;
+  };
+  for (const auto& [name, per_fiber, typical] :
+       {Fibres{"soup", 100, 800}, Fibres{"tress_b", 2000, 144'000'000},
+        Fibres{"locks", 64, 1'843'200}}) {
     SCOPED_TRACE(name);
     for (const std::uint64_t segments :
          {std::uint64_t{1}, std::uint64_t{per_fiber}, std::uint64_t{per_fiber + 1},
           std::uint64_t{10'000'000'000}, LargeScene::most_segments}) {
       const LargeScene scene = make_large_scene(name, segments);
       EXPECT_EQ(scene.segments_per_fiber, per_fiber);
+      EXPECT_EQ(scene.typical_segments, typical);
       EXPECT_GE(scene.segment_count(), segments);
       EXPECT_LT(scene.segment_count(), segments + per_fiber);
     }

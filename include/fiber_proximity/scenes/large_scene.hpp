@@ -20,6 +20,10 @@ struct LargeScene {
   std::uint32_t segments_per_fiber = 0;
   int dimensions = 3;  ///< in which it grows: 3 for a cube, 2 for what is side by side
 
+  /// So many segments that are beside each other look like any larger part of the scene: those of
+  /// hair are as wide as it is long.
+  std::uint64_t typical_segments = 1;
+
   /// Fibres begin … end - 1 at a frame, the same bits everywhere.
   /// @throws std::invalid_argument for fibres that there are not, and for more points than an
   ///         assembly may have
