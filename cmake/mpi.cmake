@@ -59,6 +59,7 @@ add_library(fiber_proximity_mpi SHARED
   src/mpi/part_loads.cpp
   src/mpi/partition.cpp
   src/mpi/plan.cpp
+  src/mpi/piece_boxes.cpp
   src/mpi/rank_fibers.cpp
   src/mpi/rank_search.cpp
   src/mpi/step_costs.cpp

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace fiber {
@@ -11,13 +12,8 @@ namespace {
 constexpr std::uint32_t boxes_per_leaf = 4;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-SegmentBox around_all(const SegmentBox* begin, const SegmentBox* end) {
-  SegmentBox all = *begin;
-  for (const SegmentBox* box = begin + 1; box != end; ++box) {
-    all.box = merged(all.box, box->box);
-    all.first = std::min(all.first, box->first);
-  }
-  return all;
+SegmentBox joined(const SegmentBox& a, const SegmentBox& b) {
+  return {merged(a.box, b.box), std::min(a.first, b.first)};
 }
 
 double centre(const SegmentBox& box, std::size_t axis) {
@@ -26,14 +22,17 @@ double centre(const SegmentBox& box, std::size_t axis) {
 
 }  // namespace
 
-PlainBox box_around(const FiberNode& start, const FiberNode& end) {
-  PlainBox box;
+PlainBox inflated(const PlainBox& box, double radius) {
+  PlainBox larger;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto [least, most] = std::minmax(start.point[axis], end.point[axis]);
-    box.lower[axis] = std::nextafter(least - start.radius, -infinity);
-    box.upper[axis] = std::nextafter(most + start.radius, infinity);
+    larger.lower[axis] = std::nextafter(box.lower[axis] - radius, -infinity);
+    larger.upper[axis] = std::nextafter(box.upper[axis] + radius, infinity);
   }
-  return box;
+  return larger;
+}
+
+PlainBox box_around(const FiberNode& start, const FiberNode& end) {
+  return inflated(merged({start.point, start.point}, {end.point, end.point}), start.radius);
 }
 
 PlainBox merged(const PlainBox& a, const PlainBox& b) {
@@ -57,10 +56,12 @@ bool may_come_within(const PlainBox& a, const PlainBox& b, double margin) {
   return apart <= margin + 0x1p-46 * extent;
 }
 
-BoxTree::BoxTree(std::vector<SegmentBox> boxes) : boxes_(std::move(boxes)) {
+BoxTree::BoxTree(std::vector<SegmentBox> boxes)
+    : boxes_(std::move(boxes)), numbers_(boxes_.size()) {
   if (boxes_.empty()) {
     return;
   }
+  std::iota(numbers_.begin(), numbers_.end(), 0U);
   nodes_.reserve(boxes_.size() / boxes_per_leaf * 2 + 1);
   nodes_.push_back({{}, 0, static_cast<std::uint32_t>(boxes_.size()), 0});
   for (std::uint32_t node = 0; node < nodes_.size(); ++node) {
@@ -68,26 +69,37 @@ BoxTree::BoxTree(std::vector<SegmentBox> boxes) : boxes_(std::move(boxes)) {
   }
 }
 
+SegmentBox BoxTree::around(const Node& node) const {
+  if (node.left != 0) {
+    return joined(nodes_[node.left].around, nodes_[node.left + 1].around);
+  }
+  SegmentBox all = boxes_[numbers_[node.begin]];
+  for (std::uint32_t i = node.begin + 1; i < node.end; ++i) {
+    all = joined(all, boxes_[numbers_[i]]);
+  }
+  return all;
+}
+
 /// Halves a node at the median of its longest axis.
 void BoxTree::split(std::uint32_t node) {
   const std::uint32_t begin = nodes_[node].begin;
   const std::uint32_t end = nodes_[node].end;
-  const SegmentBox around = around_all(boxes_.data() + begin, boxes_.data() + end);
-  nodes_[node].around = around;
+  const SegmentBox all = around(nodes_[node]);
+  nodes_[node].around = all;
   if (end - begin <= boxes_per_leaf) {
     return;
   }
   std::size_t longest = 0;
   for (std::size_t axis = 1; axis < 3; ++axis) {
-    if (around.box.upper[axis] - around.box.lower[axis] >
-        around.box.upper[longest] - around.box.lower[longest]) {
+    if (all.box.upper[axis] - all.box.lower[axis] >
+        all.box.upper[longest] - all.box.lower[longest]) {
       longest = axis;
     }
   }
   const std::uint32_t middle = begin + (end - begin) / 2;
-  std::nth_element(boxes_.begin() + begin, boxes_.begin() + middle, boxes_.begin() + end,
-                   [&](const SegmentBox& x, const SegmentBox& y) {
-                     return centre(x, longest) < centre(y, longest);
+  std::nth_element(numbers_.begin() + begin, numbers_.begin() + middle, numbers_.begin() + end,
+                   [&](std::uint32_t x, std::uint32_t y) {
+                     return centre(boxes_[x], longest) < centre(boxes_[y], longest);
                    });
   nodes_[node].left = static_cast<std::uint32_t>(nodes_.size());
   nodes_.push_back({{}, begin, middle, 0});
@@ -139,7 +151,8 @@ bool BoxTree::has_near(const PlainBox& box, double margin, const GlobalSegment& 
     if (node.left != 0) {
       waiting[count++] = node.left;
       waiting[count++] = node.left + 1;
-    } else if (std::any_of(boxes_.begin() + node.begin, boxes_.begin() + node.end, is_near)) {
+    } else if (std::any_of(numbers_.begin() + node.begin, numbers_.begin() + node.end,
+                           [&](std::uint32_t number) { return is_near(boxes_[number]); })) {
       return true;
     }
   }

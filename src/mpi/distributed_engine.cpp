@@ -30,7 +30,7 @@ void DistributedEngine::State::find_all(const QueryOptions& options, std::uint64
   const bool is_limited = most != RankSearch::no_limit;
   const bool is_of_fibers = options.type == QueryType::FIBER_PAIRS;
   const Deadline deadline(options.deadline);
-  Halo halo(ranks, fibers.own(), options.margin);
+  Halo halo(ranks, fibers.own(), fibers.boxes(), options.margin);
   // Of a limited number one more, to see whether there are more.
   search.find_inner(options, is_limited && !is_of_fibers ? most + 1 : RankSearch::no_limit, result);
   QueryOptions rest = options;
@@ -54,7 +54,7 @@ void DistributedEngine::State::find_closest(const QueryOptions& options, std::ui
     QueryOptions rest = options;
     rest.margin = std::max(0.0, std::min(options.margin, enough));
     rest.deadline = deadline.left();
-    search.find_across(Halo(ranks, fibers.own(), rest.margin).take(), rest, result);
+    search.find_across(Halo(ranks, fibers.own(), fibers.boxes(), rest.margin).take(), rest, result);
   }
   keep_closest(ranks, most, result);
   const bool are_enough = ranks.sum(result.contacts.size()) == most;

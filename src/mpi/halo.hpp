@@ -3,6 +3,7 @@
 #include "src/mpi/communicator.hpp"
 #include "src/mpi/fiber_runs.hpp"
 #include "src/mpi/named_fibers.hpp"
+#include "src/mpi/piece_boxes.hpp"
 
 namespace fiber {
 
@@ -12,7 +13,8 @@ namespace fiber {
 class Halo {
  public:
   /// Finds out what others need, and begins to send it. Collective.
-  Halo(const Communicator& ranks, const NamedFibers& own, double margin);
+  /// @param boxes of this rank's own
+  Halo(const Communicator& ranks, const NamedFibers& own, const PieceBoxes& boxes, double margin);
 
   /// Waits for what this rank needs. Collective.
   FiberRuns take();

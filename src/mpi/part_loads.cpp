@@ -4,50 +4,14 @@
 #include <numeric>
 #include <utility>
 
-#include "src/mpi/box_tree.hpp"
 #include "src/mpi/halo.hpp"
 #include "src/mpi/named_fibers.hpp"
 #include "src/mpi/partition.hpp"
+#include "src/mpi/piece_boxes.hpp"
 #include "src/mpi/rank_fibers.hpp"
 
 namespace fiber {
 namespace {
-
-// As in the search for halos.
-constexpr std::uint64_t segments_per_counted_box = 8;
-
-/// A few segments that follow each other.
-struct CountedPiece {
-  SegmentBox around;
-  const FiberNode* nodes = nullptr;
-  std::uint64_t count = 0;
-};
-
-std::vector<CountedPiece> counted_pieces(const FiberRuns& set) {
-  std::vector<CountedPiece> pieces;
-  pieces.reserve(set.nodes.size() / segments_per_counted_box + set.runs.size());
-  for (const FiberRun& run : set.runs) {
-    for (std::uint64_t i = 0; i < run.count; i += segments_per_counted_box) {
-      const std::uint64_t count = std::min(segments_per_counted_box, run.count - i);
-      const FiberNode* const nodes = set.nodes.data() + run.begin + i;
-      PlainBox box = box_around(nodes[0], nodes[1]);
-      for (std::uint64_t k = 1; k < count; ++k) {
-        box = merged(box, box_around(nodes[k], nodes[k + 1]));
-      }
-      pieces.push_back({{box, {run.first.fiber, run.first.segment + i}}, nodes, count});
-    }
-  }
-  return pieces;
-}
-
-BoxTree tree_of(const std::vector<CountedPiece>& pieces) {
-  std::vector<SegmentBox> boxes;
-  boxes.reserve(pieces.size());
-  for (const CountedPiece& piece : pieces) {
-    boxes.push_back(piece.around);
-  }
-  return BoxTree(std::move(boxes));
-}
 
 /// A part, as far as others need to know it.
 struct PartBox {
@@ -60,37 +24,28 @@ struct PartBox {
 };
 
 struct CountedPart {
-  std::vector<CountedPiece> pieces;
-  BoxTree tree;
+  NamedFibers fibers;
+  PieceBoxes boxes;
   PartBox around;
 
-  explicit CountedPart(std::vector<CountedPiece> some)
-      : pieces(std::move(some)), tree(tree_of(pieces)) {
-    around.has_segments = !tree.empty();
+  explicit CountedPart(const FiberRuns& set) {
+    fibers.assign(set);
+    boxes.update(fibers, false);
+    around.has_segments = !boxes.tree().empty();
     if (around.has_segments) {
-      around.box = tree.root().box;
+      around.box = boxes.tree().root().box;
     }
+  }
+
+  /// Adds to what a part needs that has these boxes.
+  void add_near(const PieceBoxes& part, double margin, PartLoad& load) const {
+    boxes.for_each_near(fibers, part.tree(), margin,
+                        [&](const FiberRun& /*run*/, std::uint64_t begin, std::uint64_t end) {
+                          load.halo_segments += end - begin;
+                          load.halo_runs += 1;
+                        });
   }
 };
-
-/// Adds the segments of other parts that this part needs.
-void count_near(const std::vector<CountedPiece>& others, const BoxTree& part, double margin,
-                PartLoad& load) {
-  for (const CountedPiece& piece : others) {
-    const GlobalSegment& first = piece.around.first;
-    if (!part.has_near(piece.around.box, margin, {first.fiber, first.segment + piece.count - 1})) {
-      continue;
-    }
-    bool goes_on = false;
-    for (std::uint64_t i = 0; i < piece.count; ++i) {
-      const bool is_near = part.has_near(box_around(piece.nodes[i], piece.nodes[i + 1]), margin,
-                                         {first.fiber, first.segment + i});
-      load.halo_segments += is_near ? 1 : 0;
-      load.halo_runs += is_near && !goes_on ? 1 : 0;
-      goes_on = is_near;
-    }
-  }
-}
 
 /// What each rank has, of all ranks in their order.
 template <class T>
@@ -165,14 +120,12 @@ FiberRuns all_of(const std::vector<FiberRuns>& parts) {
 std::vector<PartLoad> part_loads(const Communicator& ranks, const DistributedFibers& fibers,
                                  int parts, double margin) {
   const SharedParts shared = deal_parts(ranks, fibers, parts);
-  NamedFibers all;
-  all.assign(all_of(shared.parts));
-  const FiberRuns remote = Halo(ranks, all, margin).take();
-  const std::vector<CountedPiece> remote_pieces = counted_pieces(remote);
+  const CountedPart all(all_of(shared.parts));
+  const CountedPart remote(Halo(ranks, all.fibers, all.boxes, margin).take());
   std::vector<CountedPart> here;
   std::vector<PartBox> boxes_here;
   for (const FiberRuns& part : shared.parts) {
-    here.emplace_back(counted_pieces(part));
+    here.emplace_back(part);
     boxes_here.push_back(here.back().around);
   }
   const std::vector<PartBox> boxes = joined(ranks, boxes_here);
@@ -184,10 +137,10 @@ std::vector<PartLoad> part_loads(const Communicator& ranks, const DistributedFib
         std::count_if(boxes.begin(), boxes.end(),
                       [&](const PartBox& box) { return box.is_near(here[i].around, margin); }));
     load.neighbours -= here[i].around.has_segments ? 1 : 0;  // itself
-    count_near(remote_pieces, here[i].tree, margin, load);
+    remote.add_near(here[i].boxes, margin, load);
     for (std::size_t other = 0; other < here.size(); ++other) {
       if (other != i && here[other].around.is_near(here[i].around, margin)) {
-        count_near(here[other].pieces, here[i].tree, margin, load);
+        here[other].add_near(here[i].boxes, margin, load);
       }
     }
   }

@@ -53,7 +53,7 @@ class PieceCursor {
   std::uint32_t begin_ = 0;
 };
 
-/// By rank what a segment there costs; 1 if that is not known, none if they need not be split anew.
+/// By rank what a segment there costs, as a part of the mean; none if they need not be split anew.
 std::vector<double> weights_of_ranks(const Communicator& ranks, double cost,
                                      std::uint64_t segments) {
   const std::vector<double> costs = ranks.gather_all(cost);
@@ -63,9 +63,12 @@ std::vector<double> weights_of_ranks(const Communicator& ranks, double cost,
   if (most * static_cast<double>(ranks.size()) <= most_imbalance * sum) {
     return {};
   }
+  const double mean = sum / static_cast<double>(ranks.sum(segments));
   std::vector<double> weights;
   for (std::size_t i = 0; i < costs.size(); ++i) {
-    weights.push_back(counts[i] == 0 ? 1.0 : costs[i] / static_cast<double>(counts[i]));
+    const double of_segment = counts[i] == 0 ? mean : costs[i] / static_cast<double>(counts[i]);
+    // Zoltan adds up weights in single precision.
+    weights.push_back(std::clamp(of_segment / mean, 0x1p-6, 0x1p6));
   }
   return weights;
 }
@@ -157,12 +160,16 @@ void RankFibers::update(const Communicator& ranks, const FiberAssembly& parts,
   const std::vector<double> weights =
       is_same ? weights_of_ranks(ranks, cost, own_.fibers().segment_count())
               : std::vector<double>();
-  if (!is_same || !weights.empty()) {
+  const bool are_split_anew = !is_same || !weights.empty();
+  if (are_split_anew) {
     split(ranks, parts, weights);
   } else {
     own_.open();
   }
   send_nodes(ranks, parts, arcs.of_pieces);
+  if (ranks.size() > 1) {
+    boxes_.update(own_, !are_split_anew);
+  }
   has_fibers_ = true;
 }
 

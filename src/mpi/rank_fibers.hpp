@@ -9,6 +9,7 @@
 #include "src/mpi/communicator.hpp"
 #include "src/mpi/fiber_chains.hpp"
 #include "src/mpi/named_fibers.hpp"
+#include "src/mpi/piece_boxes.hpp"
 
 namespace fiber {
 
@@ -27,6 +28,8 @@ class RankFibers {
 
   /// What this rank owns.
   const NamedFibers& own() const { return own_; }
+
+  const PieceBoxes& boxes() const { return boxes_; }  ///< of own()
 
   /// [m] Most that arc lengths of all fibres are rounded by, in units of ε.
   double arc_roundings() const { return arc_roundings_; }
@@ -48,6 +51,7 @@ class RankFibers {
   std::vector<int> destinations_;  // of their pieces
 
   NamedFibers own_;
+  PieceBoxes boxes_;
   std::vector<std::size_t> first_of_rank_;  // number of the first run that each rank sends
   double arc_roundings_ = 0.0;
   std::uint64_t split_count_ = 0;
