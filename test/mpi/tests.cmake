@@ -2,6 +2,8 @@
 
 if(TARGET fiber_proximity_mpi)
   add_executable(distributed_engine_test
+    mpi/broken_files_test.cpp
+    mpi/contact_files_test.cpp
     mpi/distributed_engine_test.cpp
     mpi/distributed_errors_test.cpp
     mpi/distributed_files_test.cpp
@@ -16,7 +18,9 @@ if(TARGET fiber_proximity_mpi)
   else()
     target_link_libraries(distributed_engine_test GTest::gtest)
   endif()
-  target_link_libraries(distributed_engine_test fiber_proximity_mpi fiber_proximity_options)
+  target_link_libraries(distributed_engine_test
+    fiber_proximity_mpi ${PARALLEL_HDF5_LIBRARY} fiber_proximity_options)
+  target_include_directories(distributed_engine_test SYSTEM PRIVATE ${PARALLEL_HDF5_INCLUDE_FOLDER})
   fiber_proximity_compile_tests_together(distributed_engine_test)
   execute_process(COMMAND ${MPIEXEC_EXECUTABLE} --version OUTPUT_VARIABLE mpiexec_version ERROR_QUIET)
   # Ranks of one machine, more than it has cores, and also where all is done as root, as in containers.
