@@ -41,4 +41,13 @@ if(TARGET fiber_proximity_mpi)
   add_test(NAME fiber_scene_mpi_test
     COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/mpi/fiber_scene_mpi_test.sh $<TARGET_FILE_DIR:fiber_scene_mpi>
       ${MPIEXEC_EXECUTABLE} ${mpiexec_flags} ${MPIEXEC_NUMPROC_FLAG})
+  add_library(no_threads MODULE mpi/no_threads.cpp)
+  target_link_libraries(no_threads MPI::MPI_CXX fiber_proximity_options)
+  add_test(NAME distributed_faults_test
+    COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/mpi/distributed_faults_test.sh $<TARGET_FILE_DIR:fiber_query_mpi>
+      $<TARGET_FILE:no_threads> ${MPIEXEC_EXECUTABLE} ${mpiexec_flags} ${MPIEXEC_NUMPROC_FLAG})
+  add_test(NAME vtkhdf_test
+    COMMAND /usr/bin/python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/mpi/vtkhdf_test.py $<TARGET_FILE_DIR:fiber_query_mpi>
+      ${MPIEXEC_EXECUTABLE} ${mpiexec_flags} ${MPIEXEC_NUMPROC_FLAG})
+  set_tests_properties(vtkhdf_test PROPERTIES SKIP_RETURN_CODE 77)
 endif()
