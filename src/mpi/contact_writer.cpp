@@ -13,6 +13,8 @@
 namespace fiber {
 namespace {
 
+constexpr std::uint64_t bytes_per_contact = 169;  // of all datasets
+
 /// Where contacts of this rank stand among those of all.
 struct ContactRows {
   std::uint64_t first = 0;
@@ -173,13 +175,14 @@ std::size_t DistributedContactWriter::done() const { return state_->files.done()
 void DistributedContactWriter::write(std::int64_t frame, const DistributedResult& result) {
   const Communicator& ranks = state_->ranks;
   const ContactRows rows = rows_of(ranks, result.contacts.size());
-  state_->files.write(frame, [&](hid_t file) -> std::function<void()> {
-    write_numbers(file, "complete", {result.complete ? 1 : 0});
-    write_numbers(file, "limit_reached", {result.limit_reached ? 1 : 0});
-    write_real(file, "others_lower", result.others_lower);
-    const auto datasets = std::make_shared<ContactDatasets>(file, rows);
-    return [&, datasets] { datasets->write(result.contacts, ranks.rank() == 0); };
-  });
+  state_->files.write(
+      frame, bytes_per_contact * rows.all, [&](hid_t file) -> std::function<void()> {
+        write_numbers(file, "complete", {result.complete ? 1 : 0});
+        write_numbers(file, "limit_reached", {result.limit_reached ? 1 : 0});
+        write_real(file, "others_lower", result.others_lower);
+        const auto datasets = std::make_shared<ContactDatasets>(file, rows);
+        return [&, datasets] { datasets->write(result.contacts, ranks.rank() == 0); };
+      });
 }
 
 void DistributedContactWriter::finish() { state_->files.finish(); }

@@ -71,6 +71,9 @@ class FiberData {
     if (before >= segment_count()) {
       return {all_.lines, all_.points};
     }
+    if (before == 0) {
+      return {};  // also before lines without a segment, so that these are seen and refused
+    }
     std::uint64_t begin = 0;
     std::uint64_t end = all_.lines;
     while (end - begin > 1) {

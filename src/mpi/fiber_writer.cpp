@@ -153,6 +153,9 @@ class FiberDatasets {
   VtkSizes sizes_;
 };
 
+/// [byte]
+std::uint64_t size_of(const FiberCounts& all) { return 40 * all.points + 25 * all.lines; }
+
 }  // namespace
 
 struct DistributedFiberWriter::State {
@@ -179,7 +182,7 @@ void DistributedFiberWriter::write(std::int64_t frame, const DistributedFibers& 
                   : std::to_string(fibers.names.size()) + " names for " + std::to_string(count) +
                         " parts, there must be one per part");
   const RankLines lines = lines_of(ranks, fibers);
-  state_->files.write(frame, [&](hid_t file) -> std::function<void()> {
+  state_->files.write(frame, size_of(lines.all), [&](hid_t file) -> std::function<void()> {
     const auto datasets = std::make_shared<FiberDatasets>(file, lines, ranks.rank() == 0);
     return [&, datasets] { datasets->write(fibers, lines); };
   });

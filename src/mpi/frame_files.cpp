@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,21 @@
 
 namespace fiber {
 namespace {
+
+constexpr std::uint64_t space_of_names = 65'536;  // [byte] at most, of what is no data in a file
+constexpr std::uint64_t space_of_link = 512;      // [byte] the same, of a link
+
+/// Makes the unfinished file of a name, as large as it will be.
+/// @throws FileError
+void make_room(const std::string& path, std::uint64_t size) {
+  OutputFile(aside(path)).close();
+  try {
+    reserve(aside(path), size);
+  } catch (const FileError&) {
+    remove_aside(path);
+    throw;
+  }
+}
 
 /// Whether a file is one of our frames, finished or not.
 bool is_frame_name(std::string name) {
@@ -58,7 +74,7 @@ FrameFiles::FrameFiles(const Communicator& ranks, std::string path, std::string 
       begin_anew();
     }
     // Whether it can be written is known before hours of work.
-    OutputFile(aside(path_)).close();
+    make_room(path_, space_of_names);
     remove_aside(path_);
   });
   done_ = ranks_.sum(done);
@@ -128,7 +144,7 @@ void FrameFiles::write_attributes(hid_t file) const {
   write_text(file, attribute::run, options_.run);
 }
 
-void FrameFiles::write(std::int64_t frame,
+void FrameFiles::write(std::int64_t frame, std::uint64_t data_size,
                        const std::function<std::function<void()>(hid_t file)>& make) {
   const QuietHdf5 quiet;
   const std::string path = path_of(done_);
@@ -139,7 +155,7 @@ void FrameFiles::write(std::int64_t frame,
     if (!frames_.insert(options_.has_frames ? frame : 0).second) {
       throw FileError(path_, "has a frame " + std::to_string(frame) + " already");
     }
-    OutputFile(aside(path)).close();
+    make_room(path, data_size + space_of_names);
   });
   // All that is collective is done before a rank can fail alone.
   std::optional<Hdf5Id> file;
@@ -152,10 +168,17 @@ void FrameFiles::write(std::int64_t frame,
     }
     write_rows = make(file->get());
   });
-  if (ranks_.all(error.empty())) {
+  bool went_well = ranks_.all(error.empty());
+  if (went_well) {
     error = error_in(write_rows);
+    went_well = ranks_.all(error.empty());
   }
   write_rows = {};
+  if (!went_well && ranks_.rank() == 0) {
+    std::error_code ignored;
+    std::filesystem::resize_file(aside(path), 0, ignored);  // HDF5 needs some space to give up
+  }
+  ranks_.agree("");
   if (file) {
     const std::string at_end = error_in([&] { file->close("cannot be written"); });
     error = error.empty() ? at_end : error;
@@ -169,6 +192,7 @@ void FrameFiles::write(std::int64_t frame,
 }
 
 void FrameFiles::write_links() const {
+  make_room(path_, space_of_names + done_ * space_of_link);
   Hdf5Id file(H5Fcreate(aside(path_).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
               "cannot be written");
   write_attributes(file.get());

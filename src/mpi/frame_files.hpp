@@ -40,10 +40,12 @@ class FrameFiles {
   std::size_t done() const { return done_; }
 
   /// Writes the next frame.
+  /// @param data_size of all datasets together [byte]
   /// @param make makes all groups, attributes and datasets on all ranks alike, and then returns a
   ///             function that writes this rank's rows
   /// @throws std::invalid_argument
-  void write(std::int64_t frame, const std::function<std::function<void()>(hid_t file)>& make);
+  void write(std::int64_t frame, std::uint64_t data_size,
+             const std::function<std::function<void()>(hid_t file)>& make);
 
   /// @throws std::invalid_argument
   void finish();

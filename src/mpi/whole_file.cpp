@@ -12,18 +12,19 @@
 namespace fiber {
 namespace {
 
-/// Waits until a file is on the disk.
+/// Has the system do something with a file.
+/// @param work returns whether it went well, else there is errno
 /// @throws FileError
-void settle(const std::string& path) {
-  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+template <class Work>
+void with_file(const std::string& path, int flags, const Work& work) {
+  const int file = open(path.c_str(), flags | O_CLOEXEC);
   if (file < 0) {
     throw FileError::from_system(path, "cannot be written");
   }
-  // What is no file on a disk needs no waiting for it.
-  const bool is_settled = fsync(file) == 0 || errno == EINVAL || errno == EROFS;
+  const bool went_well = work(file);
   const int error = errno;
   close(file);
-  if (!is_settled) {
+  if (!went_well) {
     errno = error;
     throw FileError::from_system(path, "cannot be written");
   }
@@ -31,8 +32,20 @@ void settle(const std::string& path) {
 
 }  // namespace
 
+void reserve(const std::string& path, std::uint64_t size) {
+  with_file(path, O_WRONLY, [size](int file) {
+    int result = 0;
+    do {
+      result = size == 0 ? 0 : fallocate(file, 0, 0, static_cast<off_t>(size));
+    } while (result != 0 && errno == EINTR);
+    return result == 0 || (errno != ENOSPC && errno != EFBIG && errno != EDQUOT);
+  });
+}
+
 void move_into_place(const std::string& path) {
-  settle(aside(path));
+  // What is no file on a disk needs no waiting for it.
+  with_file(aside(path), O_RDONLY,
+            [](int file) { return fsync(file) == 0 || errno == EINVAL || errno == EROFS; });
   std::error_code error;
   std::filesystem::rename(aside(path), path, error);
   if (error) {

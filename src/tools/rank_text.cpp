@@ -107,6 +107,7 @@ void RankText::append_to_file(const std::function<void(TextOutput& output)>& wri
     place += other < ranks_.rank() ? sizes[static_cast<std::size_t>(other)] : 0;
     size_ += sizes[static_cast<std::size_t>(other)];
   }
+  on_first_rank(ranks_, [&] { reserve(aside(path_), size_); });
   std::string reason;
   const std::string error = error_in([&] {
     write_pieces(write, [&](const char* text, std::streamsize piece) {

@@ -2,7 +2,6 @@
 #include "fiber_proximity/mpi/distributed_files.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -17,35 +16,11 @@
 #include "src/mpi/communicator.hpp"
 #include "src/mpi/fiber_runs.hpp"
 #include "test/mpi/dealt_fibers.hpp"
+#include "test/mpi/shared_folder.hpp"
 #include "test/support/random.hpp"
 
 namespace fiber {
 namespace {
-
-/// A folder of all ranks, gone at the end.
-class SharedFolder {
- public:
-  SharedFolder() {
-    int number = static_cast<int>(getpid());
-    MPI_Bcast(&number, 1, MPI_INT, 0, MPI_COMM_WORLD);
-    path_ = std::filesystem::temp_directory_path() / ("files_" + std::to_string(number));
-    std::filesystem::create_directories(path_);
-    MPI_Barrier(MPI_COMM_WORLD);
-  }
-  ~SharedFolder() {
-    MPI_Barrier(MPI_COMM_WORLD);
-    if (test::own_rank() == 0) {
-      std::filesystem::remove_all(path_);
-    }
-  }
-  SharedFolder(const SharedFolder&) = delete;
-  SharedFolder& operator=(const SharedFolder&) = delete;
-
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// A segment with all that is known of it, as all ranks see it.
 using SegmentFacts = std::tuple<std::uint64_t, std::uint64_t, PlainPoint, PlainPoint, double>;
@@ -114,7 +89,7 @@ std::string bytes_of(const std::string& path) {
 }
 
 TEST(DistributedFiles, FibersComeBackAsTheyWere) {
-  const SharedFolder folder;
+  const test::SharedFolder folder;
   test::Random random(21);
   for (int round = 0; round < 20; ++round) {
     SCOPED_TRACE(round);
@@ -139,7 +114,7 @@ TEST(DistributedFiles, FibersComeBackAsTheyWere) {
 }
 
 TEST(DistributedFiles, WholeFibersMakeTheSameFileOfAnyRanks) {
-  const SharedFolder folder;
+  const test::SharedFolder folder;
   test::Random random(22);
   for (int round = 0; round < 10; ++round) {
     SCOPED_TRACE(round);
@@ -178,7 +153,7 @@ TEST(DistributedFiles, WholeFibersMakeTheSameFileOfAnyRanks) {
 }
 
 TEST(DistributedFiles, FramesComeBackWithTheirNumbers) {
-  const SharedFolder folder;
+  const test::SharedFolder folder;
   test::Random random(23);
   const FiberAssembly assembly = random_assembly(random);
   const std::vector<std::int64_t> numbers{5, -3, 12};

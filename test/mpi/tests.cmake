@@ -2,6 +2,8 @@
 
 if(TARGET fiber_proximity_mpi)
   add_executable(distributed_engine_test
+    mpi/broken_files_test.cpp
+    mpi/contact_files_test.cpp
     mpi/distributed_engine_test.cpp
     mpi/distributed_errors_test.cpp
     mpi/distributed_files_test.cpp
@@ -17,7 +19,9 @@ if(TARGET fiber_proximity_mpi)
   else()
     target_link_libraries(distributed_engine_test GTest::gtest)
   endif()
-  target_link_libraries(distributed_engine_test fiber_proximity_mpi fiber_proximity_paper fiber_proximity_options)
+  target_link_libraries(distributed_engine_test
+    fiber_proximity_mpi fiber_proximity_paper ${PARALLEL_HDF5_LIBRARY} fiber_proximity_options)
+  target_include_directories(distributed_engine_test SYSTEM PRIVATE ${PARALLEL_HDF5_INCLUDE_FOLDER})
   fiber_proximity_compile_tests_together(distributed_engine_test)
   execute_process(COMMAND ${MPIEXEC_EXECUTABLE} --version OUTPUT_VARIABLE mpiexec_version ERROR_QUIET)
   # Ranks of one machine, more than it has cores, and also where all is done as root, as in containers.
@@ -38,4 +42,13 @@ if(TARGET fiber_proximity_mpi)
   add_test(NAME fiber_scene_mpi_test
     COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/mpi/fiber_scene_mpi_test.sh $<TARGET_FILE_DIR:fiber_scene_mpi>
       ${MPIEXEC_EXECUTABLE} ${mpiexec_flags} ${MPIEXEC_NUMPROC_FLAG})
+  add_library(no_threads MODULE mpi/no_threads.cpp)
+  target_link_libraries(no_threads MPI::MPI_CXX fiber_proximity_options)
+  add_test(NAME distributed_faults_test
+    COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/mpi/distributed_faults_test.sh $<TARGET_FILE_DIR:fiber_query_mpi>
+      $<TARGET_FILE:no_threads> ${MPIEXEC_EXECUTABLE} ${mpiexec_flags} ${MPIEXEC_NUMPROC_FLAG})
+  add_test(NAME vtkhdf_test
+    COMMAND /usr/bin/python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/mpi/vtkhdf_test.py $<TARGET_FILE_DIR:fiber_query_mpi>
+      ${MPIEXEC_EXECUTABLE} ${mpiexec_flags} ${MPIEXEC_NUMPROC_FLAG})
+  set_tests_properties(vtkhdf_test PROPERTIES SKIP_RETURN_CODE 77)
 endif()
