@@ -11,7 +11,6 @@ namespace fiber {
 class Progress {
  public:
   Progress() = default;
-  explicit Progress(bool is_on) : on_(is_on) {}
   ~Progress() { show(""); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
