@@ -70,8 +70,8 @@ Objects with_cube(const Communicator& ranks, const Objects& objects) {
   }
   Objects all = objects;
   if (ranks.rank() == 0) {
-    all.push_back({lower, 0.0F});
-    all.push_back({{lower[0] + edge, lower[1] + edge, lower[2] + edge}, 0.0F});
+    all.push_back({lower, 0x1p-10F});
+    all.push_back({{lower[0] + edge, lower[1] + edge, lower[2] + edge}, 0x1p-10F});
   }
   return all;
 }
