@@ -13,11 +13,13 @@ add_library(fiber_proximity_paper SHARED
   src/scenes/cables.cpp
   src/scenes/cloth.cpp
   src/scenes/hair.cpp
+  src/scenes/large_scene.cpp
   test/support/hard_motions.cpp
   test/support/hard_pairs.cpp
   src/scenes/scalp.cpp
   src/scenes/scene.cpp
   src/scenes/soup.cpp
+  src/scenes/tufts.cpp
 )
 target_link_libraries(fiber_proximity_paper PUBLIC fiber_proximity PRIVATE fiber_proximity_options)
 target_link_options(fiber_proximity_paper PRIVATE LINKER:-z,nodelete INTERFACE LINKER:--no-as-needed)

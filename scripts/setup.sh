@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
 # Installs what building, testing and the demo need, and is quick when nothing is missing.
-#   scripts/setup.sh [--lint] [--bench] [--fuzz] [--sanitize] [--tarballs FOLDER] [--verbose]
+#   scripts/setup.sh [--lint] [--bench] [--fuzz] [--sanitize] [--mpi] [--tarballs FOLDER] [--verbose]
 #     --lint    also what scripts/lint.sh needs
 #     --bench   also the libraries fiber_bench compares with (benchmark/README.md), on Debian, and
 #               what draws its plots
 #     --fuzz    also what scripts/fuzz.sh needs, on Debian: clang 13, the oldest there is, so that the
 #               sources are known to build with it
 #     --sanitize  also what scripts/sanitize.sh needs, on Debian: g++ 11, for the same reason
+#     --mpi     also what the library for clusters needs, on Debian: Open MPI, Zoltan, parallel
+#               HDF5
 #     --verbose all that installing writes
 # Debian 12: ROS 1 from Debian's own packages, with apt, as root or through sudo.
 # Ubuntu with ROS Noetic: through rosdep.
@@ -15,11 +17,12 @@ cd "$(dirname "$0")/.."
 # shellcheck source=scripts/progress.sh
 source scripts/progress.sh
 
-usage="usage: scripts/setup.sh [--lint] [--bench] [--fuzz] [--sanitize] [--tarballs FOLDER] [--verbose]"
+usage="usage: scripts/setup.sh [--lint] [--bench] [--fuzz] [--sanitize] [--mpi] [--tarballs FOLDER] [--verbose]"
 lint=false
 bench=false
 fuzz=false
 sanitize=false
+mpi=false
 bring=()
 while [ $# -gt 0 ]; do
   case "$1" in
@@ -27,6 +30,7 @@ while [ $# -gt 0 ]; do
     --bench) bench=true ;;
     --fuzz) fuzz=true ;;
     --sanitize) sanitize=true ;;
+    --mpi) mpi=true ;;
     --tarballs)
       [ $# -ge 2 ] || { echo "setup.sh: --tarballs needs a folder; $usage" >&2; exit 2; }
       bring=(--tarballs "$2")
@@ -71,6 +75,9 @@ fi
 
 if $sanitize; then
   packages+=(g++-11)
+fi
+if $mpi; then
+  packages+=(libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev libhdf5-openmpi-dev)
 fi
 
 missing_packages() {

@@ -23,7 +23,7 @@ const std::vector<std::vector<std::string>> layers{
     {"bounds"},
     {"hierarchy"},
     {"query", "io"},
-    {"paper", "scenes", "environment", "compare"},
+    {"paper", "scenes", "environment", "compare", "mpi"},
     {"environment/scene", "sim"},
     {"sim/scene"},
     {"tools", "python", "ros"},

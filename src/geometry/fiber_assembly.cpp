@@ -106,6 +106,17 @@ std::vector<double> expand_radii(const std::vector<double>& radii,
   return segment_radii;
 }
 
+void check_segments(const std::vector<Eigen::Vector3d>& points,
+                    const std::vector<std::uint32_t>& offsets,
+                    const std::vector<double>& segment_radii) {
+  check_offsets(offsets, points.size());
+  check_points(points, offsets);
+  if (segment_radii.size() != points.size()) {
+    refuse(segment_radii.size(), " radii of segments for ", points.size(), " points");
+  }
+  check_radii(segment_radii, offsets, points.size());
+}
+
 }  // namespace
 
 FiberAssembly::FiberAssembly(std::vector<Eigen::Vector3d> points,
@@ -131,17 +142,29 @@ void FiberAssembly::exchange_points(std::vector<Eigen::Vector3d>& points) {
 void FiberAssembly::assign_segments(const std::vector<Eigen::Vector3d>& points,
                                     const std::vector<std::uint32_t>& offsets,
                                     const std::vector<double>& segment_radii) {
-  check_offsets(offsets, points.size());
-  check_points(points, offsets);
-  if (segment_radii.size() != points.size()) {
-    refuse(segment_radii.size(), " radii of segments for ", points.size(), " points");
-  }
-  check_radii(segment_radii, offsets, points.size());
+  check_segments(points, offsets, segment_radii);
   points_ = points;
   offsets_ = offsets;
-  radii_ = segment_radii;
   segment_radii_ = segment_radii;
-  largest_radius_ = radii_.empty() ? 0.0 : *std::max_element(radii_.begin(), radii_.end());
+  become_segments();
+}
+
+void FiberAssembly::exchange_segments(std::vector<Eigen::Vector3d>& points,
+                                      std::vector<std::uint32_t>& offsets,
+                                      std::vector<double>& segment_radii) {
+  check_segments(points, offsets, segment_radii);
+  points_.swap(points);
+  offsets_.swap(offsets);
+  segment_radii_.swap(segment_radii);
+  become_segments();
+}
+
+void FiberAssembly::become_segments() {
+  radii_.clear();
+  if (segment_radii_.empty()) {
+    radii_.push_back(0.0);
+  }
+  largest_radius_ = *std::max_element(radii().begin(), radii().end());
 }
 
 SegmentId FiberAssembly::segment_id(std::uint32_t point) const {

@@ -32,6 +32,16 @@ inline double sine_of_turns(double x) {
 /// cos(2πx), with an error below 1e-13.
 inline double cosine_of_turns(double x) { return sine_of_turns(x + 0.25); }
 
+/// Of a number from 1e-18 to 1e18, with an error of a few units in the last place.
+inline double cube_root(double x) {
+  // Newton's method: a third closer with each step, then twice the digits.
+  double root = x > 1.0 ? x : 1.0;
+  for (int step = 0; step < 120; ++step) {
+    root -= (root - x / (root * root)) / 3.0;
+  }
+  return root;
+}
+
 /// From 0 to 1 while x does, level at both ends; 0 below and 1 above.
 inline double smooth_step(double x) {
   const double y = x < 0.0 ? 0.0 : (x > 1.0 ? 1.0 : x);
@@ -48,6 +58,18 @@ inline Eigen::Vector3d unit(const Eigen::Vector3d& v) { return v / std::sqrt(dot
 /// The part of v that is perpendicular to a unit vector, made a unit vector itself.
 inline Eigen::Vector3d perpendicular_unit(const Eigen::Vector3d& v, const Eigen::Vector3d& axis) {
   return unit(v - dot(v, axis) * axis);
+}
+
+/// A bijection in which each bit depends on all: the last step of SplitMix64.
+inline std::uint64_t mixed(std::uint64_t bits) {
+  bits = (bits ^ (bits >> 30U)) * 0xbf58'476d'1ce4'e5b9U;
+  bits = (bits ^ (bits >> 27U)) * 0x94d0'49bb'1331'11ebU;
+  return bits ^ (bits >> 31U);
+}
+
+/// Seed of the random numbers that one of many has for itself; no two of a scene have the same.
+inline std::uint64_t stream_seed(std::uint64_t seed, std::uint64_t number) {
+  return mixed(mixed(seed + 0x9e37'79b9'7f4a'7c15U) + number);
 }
 
 /// Random numbers; the standard fixes std::mt19937_64, but not its distributions.

@@ -8,10 +8,10 @@
 #include <optional>
 #include <string>
 
-#include "fiber_proximity/geometry/segment_distance.hpp"
 #include "fiber_proximity/io/fiber_file.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "src/tools/command_line.hpp"
+#include "src/tools/contact_rows.hpp"
 #include "src/tools/text_output.hpp"
 
 namespace fiber {
@@ -87,18 +87,6 @@ void write_json_contacts(TextOutput& output, const FrameNumber& frame, const Que
   output.write_object(std::move(object), "contacts", result.contacts, json_of_contact);
 }
 
-constexpr const char* contact_columns =
-    "fiber_a,segment_a,s,fiber_b,segment_b,t,distance,point_a_x,point_a_y,point_a_z,"
-    "point_b_x,point_b_y,point_b_z,normal_x,normal_y,normal_z,lower,upper\n";
-
-void write_csv_contacts(TextOutput& output, const FrameNumber& frame, const QueryResult& result) {
-  for (const Contact& contact : result.contacts) {
-    output.write_row(frame, contact.fiber_a, contact.segment_a, contact.s, contact.fiber_b,
-                     contact.segment_b, contact.t, contact.distance, contact.point_a,
-                     contact.point_b, contact.normal, contact.lower, contact.upper);
-  }
-}
-
 ExitCode run(const Request& request, const Ask& ask) {
   const std::unique_ptr<ProximityEngine> engine =
       make_engine(request.engine, request.engine_options);
@@ -113,7 +101,11 @@ ExitCode run(const Request& request, const Ask& ask) {
     engine->update(frame.fibers);
     ask(*engine, result);
     const FrameNumber number{file.has_frames, frame.frame};
-    (json ? write_json_contacts : write_csv_contacts)(output, number, result);
+    if (json) {
+      write_json_contacts(output, number, result);
+    } else {
+      write_csv_contacts(output, number, result.contacts);
+    }
     output.flush();
     if (!result.complete) {
       std::cerr << "fiber_query: the deadline has passed"
@@ -196,31 +188,6 @@ void add_fiber_options(CLI::App& app, FiberRequest& request, const std::string& 
   app.add_option("--threads", request.engine_options.threads, threads)
       ->check(whole_number(0))
       ->capture_default_str();
-}
-
-void add_kernel_option(CLI::App& app, Kernel& kernel) {
-  app.add_option_function<std::string>(
-         "--kernel",
-         [&kernel](const std::string& name) {
-           const std::string current = current_kernel_name(name);
-           if (current != name) {
-             std::cerr << "warning: --kernel " << name << " saved no time and is gone: " << current
-                       << " is used\n";
-           }
-           kernel = kernel_from_name(current);
-         },
-         "one of " + join(kernel_names()))
-      ->default_str("robust");
-}
-
-void add_neighbour_options(CLI::App& app, std::optional<std::uint32_t>& skip,
-                           std::optional<double>& skip_length) {
-  app.add_option("--neighbour-skip", skip,
-                 "segments of a fibre whose indices differ by at most this are no pair; without "
-                 "this and the next option, those are that the fibre makes a loop between");
-  app.add_option("--neighbour-skip-length", skip_length,
-                 "segments of a fibre with less than this between them are no pair [m]; with one "
-                 "of the two given, the other is 1 or 0 m, and no loop is needed");
 }
 
 }  // namespace fiber

@@ -11,6 +11,7 @@ namespace fiber {
 class Progress {
  public:
   Progress() = default;
+  explicit Progress(bool is_on) : on_(is_on) {}
   ~Progress() { show(""); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;

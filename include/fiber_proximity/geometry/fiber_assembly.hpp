@@ -81,6 +81,11 @@ class FiberAssembly {
                        const std::vector<std::uint32_t>& offsets,
                        const std::vector<double>& segment_radii);
 
+  /// The same without a copy: takes these and leaves the points and offsets it had, and the memory
+  /// of its radii.
+  void exchange_segments(std::vector<Eigen::Vector3d>& points, std::vector<std::uint32_t>& offsets,
+                         std::vector<double>& segment_radii);
+
   std::size_t fiber_count() const { return offsets_.size() - 1; }
   std::size_t point_count() const { return points_.size(); }
   std::size_t segment_count() const { return points_.size() - fiber_count(); }
@@ -90,7 +95,7 @@ class FiberAssembly {
 
   /// Radii as they were given: one value, one per fibre, one per point, or one per segment at its
   /// first point [m]. Taken for radii of points, those of segments enclose the fibres, too.
-  const std::vector<double>& radii() const { return radii_; }
+  const std::vector<double>& radii() const { return radii_.empty() ? segment_radii_ : radii_; }
 
   /// Radius of the segment that starts at this point [m].
   double segment_radius(std::uint32_t point) const {
@@ -109,9 +114,11 @@ class FiberAssembly {
   SegmentId segment_id(std::uint32_t point) const;
 
  private:
+  void become_segments();
+
   std::vector<Eigen::Vector3d> points_;
   std::vector<std::uint32_t> offsets_{0};
-  std::vector<double> radii_{0.0};
+  std::vector<double> radii_{0.0};  // as they were given; empty for those of segments
   // By first point; empty when one radius serves all, so that the common case costs no memory.
   std::vector<double> segment_radii_;
   double largest_radius_ = 0.0;

@@ -10,6 +10,8 @@
 
 namespace fiber {
 
+struct LoopPlace;
+
 /// Tells contacts of a fibre with itself from segments that are near because they follow each
 /// other: self-contact needs a loop.
 ///
@@ -65,14 +67,12 @@ class LoopTest {
  private:
   struct Chain;
   struct Slot;
-  struct Place;
 
   bool is_within(std::uint32_t fiber, std::uint32_t point) const {
     return point < fibers_->offsets()[fiber + 1];
   }
   const Chain& chain(std::uint32_t fiber) const;
-  Place place(std::uint32_t segment, double s) const;
-  bool leaves(const Place& place, PointPair pair, double limit, std::uint64_t& looks) const;
+  bool leaves(const LoopPlace& place, PointPair pair, double limit, std::uint64_t& looks) const;
 
   const FiberAssembly* fibers_ = nullptr;
   std::uint32_t most_points_ = 0;    // of a fibre

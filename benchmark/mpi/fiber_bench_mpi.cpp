@@ -1,0 +1,180 @@
+// What ranks take for the contacts of a scene that moves: time, and memory.
+#include <mpi.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "fiber_proximity/mpi/distributed_engine.hpp"
+#include "fiber_proximity/query/engine.hpp"
+#include "fiber_proximity/scenes/large_scene.hpp"
+#include "src/mpi/communicator.hpp"
+#include "src/tools/mpi_tool.hpp"
+
+namespace fiber {
+namespace {
+
+struct BenchRequest {
+  std::string scene = "soup";
+  std::uint64_t segments = 1'000'000;
+  std::uint32_t frames = 5;
+  QueryOptions query;
+  bool without_ranks = false;
+};
+
+/// Time and processor time so far [s].
+struct Times {
+  double wall = 0.0;
+  double processor = 0.0;
+
+  static Times now() {
+    timespec used{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
+    return {
+        std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(),
+        static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec)};
+  }
+};
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
+                   values.end());
+  return values[values.size() / 2];
+}
+
+/// [bytes] The most that the process has had at once.
+double peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+/// Updates and asks once per frame; the first one, which splits, is not counted.
+class Measurement {
+ public:
+  template <class Frame>
+  void run(const Communicator& ranks, std::uint32_t frames, const Frame& frame) {
+    for (std::uint32_t i = 0; i <= frames; ++i) {
+      frame(i, [&](const auto& work) {
+        ranks.all(true);  // together
+        const Times begin = Times::now();
+        work();
+        const Times end = Times::now();
+        if (i > 0) {
+          wall_.push_back(ranks.largest(end.wall - begin.wall));
+          processor_.push_back(end.processor - begin.processor);
+        }
+      });
+    }
+  }
+
+  double wall() const { return median(wall_); }
+  double processor() const { return median(processor_); }
+
+ private:
+  std::vector<double> wall_;
+  std::vector<double> processor_;
+};
+
+/// Fibres of whom each rank makes its own, which are not those it will own.
+void make_part(const Communicator& ranks, const LargeScene& scene, std::uint32_t frame,
+               FiberAssembly& parts, std::vector<FiberPart>& names) {
+  const auto rank = static_cast<std::uint64_t>(ranks.rank());
+  const auto size = static_cast<std::uint64_t>(ranks.size());
+  const std::uint64_t begin = scene.fiber_count * rank / size;
+  const std::uint64_t end = scene.fiber_count * (rank + 1) / size;
+  parts = scene.fibers(begin, end, frame);
+  names.clear();
+  for (std::uint64_t fiber = begin; fiber < end; ++fiber) {
+    names.push_back({fiber, 0});
+  }
+}
+
+ExitCode run(const BenchRequest& request) {
+  const Communicator ranks(MPI_COMM_WORLD);
+  const LargeScene scene = make_large_scene(request.scene, request.segments);
+  const double baseline = peak_memory();
+  EngineOptions one_thread;
+  one_thread.threads = 1;
+  Measurement measurement;
+  DistributedFacts facts;
+  std::uint64_t pairs = 0;
+  FiberAssembly parts;
+  std::vector<FiberPart> names;
+  if (request.without_ranks) {
+    const std::unique_ptr<ProximityEngine> engine = make_engine("run_tree", one_thread);
+    QueryResult result;
+    std::vector<Eigen::Vector3d> points;
+    measurement.run(ranks, request.frames, [&](std::uint32_t frame, const auto& measure) {
+      make_part(ranks, scene, frame, parts, names);
+      measure([&] {
+        engine->update(parts);
+        engine->query(request.query, result);
+      });
+      pairs = result.contacts.size();
+    });
+    facts.own_segments = parts.segment_count();
+  } else {
+    DistributedEngine engine(MPI_COMM_WORLD, one_thread);
+    DistributedResult result;
+    measurement.run(ranks, request.frames, [&](std::uint32_t frame, const auto& measure) {
+      make_part(ranks, scene, frame, parts, names);
+      measure([&] {
+        engine.update(parts, names);
+        engine.query(request.query, result);
+      });
+      pairs = ranks.sum(result.contacts.size());
+    });
+    facts = engine.facts();
+  }
+  const double processor = ranks.largest(measurement.processor());
+  const double memory = ranks.largest(
+      (peak_memory() - baseline) / static_cast<double>(facts.own_segments + facts.halo_segments));
+  if (ranks.rank() == 0) {
+    nlohmann::ordered_json line;
+    line["scene"] = request.scene;
+    line["segments"] = scene.segment_count();
+    line["ranks"] = ranks.size();
+    line["engine"] = request.without_ranks ? "run_tree" : "DistributedEngine";
+    line["cycle_ms"] = 1e3 * measurement.wall();
+    line["processor_ms"] = 1e3 * processor;
+    line["pairs"] = pairs;
+    line["halo"] =
+        static_cast<double>(facts.halo_segments) / static_cast<double>(facts.own_segments);
+    line["bytes_per_segment"] = memory;
+    line["splits"] = facts.split_count;
+    std::cout << line.dump() << "\n";
+  }
+  return SUCCEEDED;
+}
+
+void setup(CLI::App& app, Command& command) {
+  const auto request = std::make_shared<BenchRequest>();
+  request->query.margin = 1e-4;
+  command = [request] { return run(*request); };
+  app.add_option("--scene", request->scene, "one of " + join(large_scene_names()))
+      ->capture_default_str();
+  app.add_option("--segments", request->segments, "at least, in whole fibres")
+      ->capture_default_str();
+  app.add_option("--frames", request->frames, "to measure, after the first one")
+      ->check(whole_number(1))
+      ->capture_default_str();
+  app.add_option("--margin", request->query.margin, "[m]")->capture_default_str();
+  app.add_flag("--without-ranks", request->without_ranks,
+               "ask an engine run_tree of one thread, as a program without MPI does");
+}
+
+}  // namespace
+}  // namespace fiber
+
+int main(int argc, char** argv) {
+  return fiber::run_mpi_tool("fiber_bench_mpi",
+                             "Time and memory of contacts over ranks, as JSON Lines", fiber::setup,
+                             argc, argv);
+}

@@ -1,0 +1,136 @@
+#pragma once
+
+#include <mpi.h>
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <tuple>
+#include <vector>
+
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/query/engine.hpp"
+#include "fiber_proximity/query/options.hpp"
+
+namespace fiber {
+
+/// What a rank calls a part of a fibre that it brings: the fibre, and the index along it of the
+/// part's first segment, both from 0. Fibres may have any numbers; contacts are sorted by them.
+struct FiberPart {
+  std::uint64_t fiber = 0;
+  std::uint64_t first_segment = 0;
+};
+
+/// A Contact with names that hold for all ranks.
+struct DistributedContact {
+  std::uint64_t fiber_a = 0;
+  std::uint64_t segment_a = 0;  ///< index along the fibre
+  std::uint64_t fiber_b = 0;
+  std::uint64_t segment_b = 0;
+  double s = 0.0;           ///< curve parameter on segment a, in [0, 1]
+  double t = 0.0;           ///< curve parameter on segment b, in [0, 1]
+  double distance = 0.0;    ///< signed gap of the surfaces, negative in penetration [m]
+  double lower = 0.0;       ///< the true gap is at least this [m]
+  double upper = 0.0;       ///< and at most this [m]
+  Eigen::Vector3d point_a;  ///< nearest point on the surface of a [m]
+  Eigen::Vector3d point_b;  ///< nearest point on the surface of b [m]
+  Eigen::Vector3d normal;   ///< unit vector from a to b
+
+  /// What contacts are sorted by.
+  auto key() const { return std::tie(fiber_a, segment_a, fiber_b, segment_b); }
+};
+
+/// A rank's part of an answer.
+struct DistributedResult {
+  /// Of the pairs whose smaller segment this rank holds, sorted by DistributedContact::key().
+  std::vector<DistributedContact> contacts;
+
+  // The rest is the same on all ranks.
+
+  bool limit_reached = false;  ///< as in QueryResult
+  bool complete = true;        ///< as in QueryResult
+
+  /// [m] Of the pairs that were asked about, none that no rank reports has a smaller true gap.
+  double others_lower = -std::numeric_limits<double>::infinity();
+};
+
+/// What a rank holds.
+struct DistributedFacts {
+  std::uint64_t own_segments = 0;   ///< that the split gave to this rank
+  std::uint64_t halo_segments = 0;  ///< of other ranks, for the last query
+  std::uint64_t split_count = 0;    ///< how often fibres were split among the ranks
+};
+
+/// Contacts of fibres that are spread over the ranks of MPI, the same, bit for bit, as one process
+/// finds, for any number of ranks and any parts that they bring.
+///
+/// The fibres are cut into pieces of a few segments, which are split among the ranks along a
+/// space-filling curve, by Zoltan. For a query each rank gets from others what may come within the
+/// margin of its own; while that is on its way it asks an engine run_tree about its own fibres, and
+/// then about what has come. Distances are computed from the points as they were brought, by
+/// whoever has both segments.
+///
+/// All functions but facts() are collective: all ranks of the communicator call them, in the same
+/// order, or they wait for each other. An error of one rank is thrown by all, with its number.
+/// Not thread-safe; only the thread that calls talks to MPI, which must have been started with
+/// MPI_THREAD_FUNNELED or more. Must be destroyed before MPI_Finalize().
+class DistributedEngine {
+ public:
+  /// @param ranks   a communicator; the engine works on a copy of it, so that messages do not meet
+  /// @param options of each rank's own engine; give `threads` where ranks share a machine
+  /// @throws std::logic_error if MPI is not running, or without thread support
+  /// @throws std::invalid_argument for options that are not allowed
+  explicit DistributedEngine(MPI_Comm ranks, const EngineOptions& options = {});
+  ~DistributedEngine();
+  DistributedEngine(const DistributedEngine&) = delete;
+  DistributedEngine& operator=(const DistributedEngine&) = delete;
+
+  /// Makes the parts of all ranks the fibres queries are about; copies them.
+  ///
+  /// Together, the parts make whole fibres: each segment is in one part, of any rank. Where a fibre
+  /// goes on in another part, its last point is the first point of that, and both ranks bring it.
+  /// Parts of the same names and numbers of points, on all ranks, as at the last update are taken
+  /// for the same fibres, moved: they stay with the ranks that have them, until what these have
+  /// had to do since the last update differs too much.
+  /// @param parts of this rank, each as a fibre, in any order, or none; a radius per fibre or point
+  ///              as FiberAssembly has it [m]
+  /// @param names one per part
+  /// @throws std::invalid_argument if there are not as many names as parts, where segments are
+  ///         brought twice or are missing, and where two parts of a fibre do not meet; then the
+  ///         engine has no fibres
+  void update(const FiberAssembly& parts, const std::vector<FiberPart>& names);
+
+  /// Pairs of segments of all fibres within the margin, each reported by the rank that holds the
+  /// smaller of the two, by fibre and index. Options mean what they do for
+  /// ProximityEngine::query(); which segments of one fibre are pairs is decided by whole fibres.
+  ///
+  /// CLOSEST and LIMITED get a bound from pairs that ranks know of, and need no more of others than
+  /// what may be nearer than that. FIBER_PAIRS, and FIRST where there is no pair, need all within
+  /// the margin: one of infinity brings all segments to all ranks.
+  /// @param options the same on all ranks. Tolerances are not used: the closest pairs are found.
+  ///                Each rank examines its share of the pair_limit; which pairs come up, then and
+  ///                by a deadline, and which one FIRST reports, depends on the number of ranks
+  /// @throws std::invalid_argument for options that do not validate or that differ between ranks,
+  ///         and where a rank would hold more than 2³¹ points
+  /// @throws std::logic_error before the first update
+  void query(const QueryOptions& options, DistributedResult& result);
+
+  DistributedFacts facts() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Brings the answers of all ranks together on one, sorted. Collective.
+/// @param root the rank that gets all; must be one of the communicator's
+/// @return all contacts on that rank, none on the others
+DistributedResult gather(MPI_Comm ranks, const DistributedResult& result, int root = 0);
+
+/// Deals the contacts of all ranks out anew, sorted by DistributedContact::key(): those of a rank
+/// come before those of the next, and none has more than about twice as many as there are for each.
+/// Collective.
+void sort_over_ranks(MPI_Comm ranks, DistributedResult& result);
+
+}  // namespace fiber

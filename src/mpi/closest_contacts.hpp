@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fiber_proximity/mpi/distributed_engine.hpp"
+#include "src/mpi/communicator.hpp"
+
+namespace fiber {
+
+/// The margin within which the so many closest contacts of all ranks are, as found and in truth
+/// [m]; infinity if there are fewer. Collective.
+/// @param contacts of this rank, in any order, which is changed
+double margin_of_closest(const Communicator& ranks, std::uint64_t count,
+                         std::vector<DistributedContact>& contacts);
+
+/// Leaves of the contacts of all ranks the so many closest ones. Those that go count in
+/// others_lower, of this rank. Collective.
+/// @return whether any go, of any rank
+bool keep_closest(const Communicator& ranks, std::uint64_t count, DistributedResult& result);
+
+/// Leaves of the contacts of all ranks the closest one of each pair of fibres. Those that go count
+/// in others_lower, of this rank. Collective.
+void keep_closest_of_fibers(const Communicator& ranks, DistributedResult& result);
+
+}  // namespace fiber

@@ -1,0 +1,113 @@
+#include "fiber_proximity/mpi/distributed_engine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "src/mpi/closest_contacts.hpp"
+#include "src/mpi/communicator.hpp"
+#include "src/mpi/distributed_options.hpp"
+#include "src/mpi/halo.hpp"
+#include "src/mpi/rank_fibers.hpp"
+#include "src/mpi/rank_search.hpp"
+
+namespace fiber {
+
+struct DistributedEngine::State {
+  State(MPI_Comm comm, const EngineOptions& options) : ranks(comm), search(ranks, options) {}
+
+  Communicator ranks;
+  RankFibers fibers;
+  RankSearch search;
+
+  void find_all(const QueryOptions& options, std::uint64_t most, DistributedResult& result);
+  void find_closest(const QueryOptions& options, std::uint64_t most, DistributedResult& result);
+};
+
+/// @param most contacts to be reported
+void DistributedEngine::State::find_all(const QueryOptions& options, std::uint64_t most,
+                                        DistributedResult& result) {
+  const bool is_limited = most != RankSearch::no_limit;
+  const bool is_of_fibers = options.type == QueryType::FIBER_PAIRS;
+  const Deadline deadline(options.deadline);
+  Halo halo(ranks, fibers.own(), fibers.boxes(), options.margin);
+  // Of a limited number one more, to see whether there are more.
+  search.find_inner(options, is_limited && !is_of_fibers ? most + 1 : RankSearch::no_limit, result);
+  QueryOptions rest = options;
+  rest.deadline = deadline.left();
+  search.find_across(halo.take(), rest, result);
+  if (is_of_fibers) {
+    keep_closest_of_fibers(ranks, result);
+  }
+  const bool are_more = is_limited && keep_closest(ranks, most, result);
+  result.limit_reached = are_more || result.limit_reached;
+}
+
+/// Pairs of what each rank has make a bound: nothing of others matters that is further than that.
+void DistributedEngine::State::find_closest(const QueryOptions& options, std::uint64_t most,
+                                            DistributedResult& result) {
+  const Deadline deadline(options.deadline);
+  search.find_inner(options, most, result);
+  const double enough = margin_of_closest(ranks, most, result.contacts);
+  const bool is_over = options.type == QueryType::FIRST && std::isfinite(enough);
+  if (ranks.all(result.complete) && !is_over) {
+    QueryOptions rest = options;
+    rest.margin = std::max(0.0, std::min(options.margin, enough));
+    rest.deadline = deadline.left();
+    search.find_across(Halo(ranks, fibers.own(), fibers.boxes(), rest.margin).take(), rest, result);
+  }
+  keep_closest(ranks, most, result);
+  const bool are_enough = ranks.sum(result.contacts.size()) == most;
+  result.limit_reached = (options.type == QueryType::LIMITED && are_enough) || result.limit_reached;
+}
+
+DistributedEngine::DistributedEngine(MPI_Comm ranks, const EngineOptions& options)
+    : state_(std::make_unique<State>(ranks, options)) {}
+
+DistributedEngine::~DistributedEngine() = default;
+
+void DistributedEngine::update(const FiberAssembly& parts, const std::vector<FiberPart>& names) {
+  state_->fibers.update(state_->ranks, parts, names, state_->search.cost());
+  state_->search.update(state_->fibers);
+}
+
+void DistributedEngine::query(const QueryOptions& options, DistributedResult& result) {
+  State& state = *state_;
+  if (state.fibers.empty()) {
+    throw std::logic_error("the engine has no fibres yet: call update() first");
+  }
+  require_distributed_options(state.ranks, options);
+  QueryOptions here = options;
+  if (options.pair_limit > 0) {
+    here.pair_limit = std::max<std::uint64_t>(1, options.pair_limit / state.ranks.size());
+  }
+  const bool is_limited = options.contact_limit > 0;
+  const std::uint64_t most = is_limited ? options.contact_limit : RankSearch::no_limit;
+  result.contacts.clear();
+  switch (options.type) {
+    case QueryType::FIRST:
+    case QueryType::CLOSEST:
+      state.find_closest(here, 1, result);
+      break;
+    case QueryType::LIMITED:
+      state.find_closest(here, std::min<std::uint64_t>(options.max_contacts, most), result);
+      break;
+    case QueryType::ALL:
+    case QueryType::FIBER_PAIRS:
+      state.find_all(here, most, result);
+      break;
+  }
+  std::sort(
+      result.contacts.begin(), result.contacts.end(),
+      [](const DistributedContact& x, const DistributedContact& y) { return x.key() < y.key(); });
+  result.limit_reached = !state.ranks.all(!result.limit_reached);
+  result.complete = state.ranks.all(result.complete);
+  result.others_lower = state.ranks.smallest(result.others_lower);
+}
+
+DistributedFacts DistributedEngine::facts() const {
+  return {state_->fibers.own().fibers().segment_count(), state_->search.halo_segments(),
+          state_->fibers.split_count()};
+}
+
+}  // namespace fiber

@@ -1,0 +1,228 @@
+#include "src/mpi/frame_files.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <exception>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "fiber_proximity/io/file.hpp"
+#include "src/mpi/hdf5_file.hpp"
+#include "src/text/quote.hpp"
+
+namespace fiber {
+namespace {
+
+constexpr std::uint64_t space_of_names = 65'536;  // [byte] at most, of what is no data in a file
+constexpr std::uint64_t space_of_link = 512;      // [byte] the same, of a link
+
+/// Makes the unfinished file of a name, as large as it will be.
+/// @throws FileError
+void make_room(const std::string& path, std::uint64_t size) {
+  OutputFile(aside(path)).close();
+  try {
+    reserve(aside(path), size);
+  } catch (const FileError&) {
+    remove_aside(path);
+    throw;
+  }
+}
+
+/// Whether a file is one of our frames, finished or not.
+bool is_frame_name(std::string name) {
+  for (const std::string end : {".part", ".h5"}) {
+    if (name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0) {
+      name.resize(name.size() - end.size());
+    } else if (end == ".h5") {
+      return false;
+    }
+  }
+  return name.size() >= 6 && std::all_of(name.begin(), name.end(),
+                                         [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+}  // namespace
+
+bool is_hdf5_name(const std::string& path) {
+  std::string end = std::filesystem::path(path).extension().string();
+  std::transform(end.begin(), end.end(), end.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return end == ".h5" || end == ".hdf5" || end == ".hdf" || end == ".vtkhdf";
+}
+
+std::string frame_name(std::size_t index) {
+  std::string digits = std::to_string(index);
+  return std::string(digits.size() < 6 ? 6 - digits.size() : 0, '0') + digits;
+}
+
+FrameFiles::FrameFiles(const Communicator& ranks, std::string path, std::string content,
+                       DistributedFileOptions options)
+    : ranks_(ranks),
+      path_(std::move(path)),
+      content_(std::move(content)),
+      options_(std::move(options)) {
+  const QuietHdf5 quiet;
+  std::uint64_t done = 0;
+  on_first_rank(ranks_, [&] {
+    if (options_.resume) {
+      done = count_done();
+    } else {
+      begin_anew();
+    }
+    // Whether it can be written is known before hours of work.
+    make_room(path_, space_of_names);
+    remove_aside(path_);
+  });
+  done_ = ranks_.sum(done);
+}
+
+/// Makes room for the frames. What another run has written is no longer the recording of its name.
+void FrameFiles::begin_anew() const {
+  if (!options_.has_frames) {
+    return;
+  }
+  std::filesystem::remove(path_);
+  std::filesystem::create_directories(folder());
+  for (const auto& entry : std::filesystem::directory_iterator(folder())) {
+    if (is_frame_name(entry.path().filename().string())) {
+      std::filesystem::remove(entry.path());
+    }
+  }
+}
+
+std::size_t FrameFiles::count_done() {
+  if (!options_.has_frames) {
+    return is_of_this_run(path_) ? 1 : 0;
+  }
+  std::filesystem::create_directories(folder());
+  std::size_t count = 0;
+  while (is_of_this_run(path_of(count))) {
+    ++count;
+  }
+  return count;
+}
+
+/// @return false if there is none
+/// @throws FileError if it is none of this run
+bool FrameFiles::is_of_this_run(const std::string& path) {
+  if (!std::filesystem::exists(path)) {
+    return false;
+  }
+  try {
+    const Hdf5Id file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose,
+                      "is no whole HDF5 file");
+    const std::optional<std::string> run = read_text(file.get(), attribute::run);
+    if (read_text(file.get(), attribute::content) != content_ || !run) {
+      throw std::runtime_error("holds no " + content_ + " of an earlier run");
+    }
+    if (*run != options_.run) {
+      throw std::runtime_error("is of another run, " + quote(*run) + ", this one is " +
+                               quote(options_.run));
+    }
+    frames_.insert(read_number(file.get(), attribute::frame).value_or(0));
+  } catch (const std::exception& failure) {
+    throw FileError(path, std::string("cannot be gone on with: ") + failure.what());
+  }
+  return true;
+}
+
+std::string FrameFiles::folder() const {
+  return std::filesystem::path(path_).replace_extension(".frames").string();
+}
+
+std::string FrameFiles::path_of(std::size_t index) const {
+  return options_.has_frames ? folder() + '/' + frame_name(index) + ".h5" : path_;
+}
+
+void FrameFiles::write_attributes(hid_t file) const {
+  write_text(file, attribute::content, content_);
+  write_numbers(file, attribute::version, {layout_version});
+  write_text(file, attribute::run, options_.run);
+}
+
+void FrameFiles::write(std::int64_t frame, std::uint64_t data_size,
+                       const std::function<std::function<void()>(hid_t file)>& make) {
+  const QuietHdf5 quiet;
+  const std::string path = path_of(done_);
+  on_first_rank(ranks_, [&] {
+    if (!options_.has_frames && done_ > 0) {
+      throw FileError(path_, "holds one frame, without a number: there cannot be another");
+    }
+    if (!frames_.insert(options_.has_frames ? frame : 0).second) {
+      throw FileError(path_, "has a frame " + std::to_string(frame) + " already");
+    }
+    make_room(path, data_size + space_of_names);
+  });
+  // All that is collective is done before a rank can fail alone.
+  std::optional<Hdf5Id> file;
+  std::function<void()> write_rows;
+  std::string error = error_in([&] {
+    file.emplace(create_parallel_file(ranks_, aside(path)));
+    write_attributes(file->get());
+    if (options_.has_frames) {
+      write_numbers(file->get(), attribute::frame, {frame});
+    }
+    write_rows = make(file->get());
+  });
+  bool went_well = ranks_.all(error.empty());
+  if (went_well) {
+    error = error_in(write_rows);
+    went_well = ranks_.all(error.empty());
+  }
+  write_rows = {};
+  if (!went_well && ranks_.rank() == 0) {
+    std::error_code ignored;
+    std::filesystem::resize_file(aside(path), 0, ignored);  // HDF5 needs some space to give up
+  }
+  ranks_.agree("");
+  if (file) {
+    const std::string at_end = error_in([&] { file->close("cannot be written"); });
+    error = error.empty() ? at_end : error;
+  }
+  if (!ranks_.all(error.empty()) && ranks_.rank() == 0) {
+    remove_aside(path);
+  }
+  ranks_.agree(error.empty() ? "" : FileError(aside(path), error).what());
+  on_first_rank(ranks_, [&] { move_into_place(path); });
+  ++done_;
+}
+
+void FrameFiles::write_links() const {
+  make_room(path_, space_of_names + done_ * space_of_link);
+  Hdf5Id file(H5Fcreate(aside(path_).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
+              "cannot be written");
+  write_attributes(file.get());
+  write_numbers(file.get(), attribute::has_frames, {1});
+  const Hdf5Id frames = create_group(file.get(), "frames");
+  const std::string beside = std::filesystem::path(folder()).filename().string();
+  for (std::size_t i = 0; i < done_; ++i) {
+    require_success(
+        H5Lcreate_external((beside + '/' + frame_name(i) + ".h5").c_str(), "/", frames.get(),
+                           frame_name(i).c_str(), H5P_DEFAULT, H5P_DEFAULT),
+        "cannot be written");
+  }
+  file.close("cannot be written");
+}
+
+void FrameFiles::finish() {
+  const QuietHdf5 quiet;
+  on_first_rank(ranks_, [&] {
+    if (!options_.has_frames && done_ == 0) {
+      throw FileError(path_, "has no frame");
+    }
+    if (options_.has_frames) {
+      const std::string error = error_in([&] { write_links(); });
+      if (!error.empty()) {
+        remove_aside(path_);
+        throw FileError(aside(path_), error);
+      }
+      move_into_place(path_);
+    }
+  });
+}
+
+}  // namespace fiber

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <hdf5.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <set>
+#include <string>
+
+#include "fiber_proximity/mpi/distributed_files.hpp"
+#include "src/mpi/communicator.hpp"
+#include "src/mpi/whole_file.hpp"
+
+namespace fiber {
+
+/// What all our files have, in attributes of their root.
+namespace attribute {
+constexpr const char* content = "fiber_proximity";  // "fibers" or "contacts"
+constexpr const char* version = "version";
+constexpr const char* has_frames = "has_frames";
+constexpr const char* frame = "frame";
+constexpr const char* run = "run";
+}  // namespace attribute
+
+constexpr std::int64_t layout_version = 1;
+
+/// Name of a frame by its index, within `frames` of NAME.h5 and in the folder NAME.frames.
+std::string frame_name(std::size_t index);
+
+/// One file, or one per frame and one with links to them; see distributed_files.hpp. All functions
+/// but done() are collective.
+class FrameFiles {
+ public:
+  /// @param content what is in them
+  /// @throws std::invalid_argument
+  FrameFiles(const Communicator& ranks, std::string path, std::string content,
+             DistributedFileOptions options);
+
+  std::size_t done() const { return done_; }
+
+  /// Writes the next frame.
+  /// @param data_size of all datasets together [byte]
+  /// @param make makes all groups, attributes and datasets on all ranks alike, and then returns a
+  ///             function that writes this rank's rows
+  /// @throws std::invalid_argument
+  void write(std::int64_t frame, std::uint64_t data_size,
+             const std::function<std::function<void()>(hid_t file)>& make);
+
+  /// @throws std::invalid_argument
+  void finish();
+
+ private:
+  std::string folder() const;
+  std::string path_of(std::size_t index) const;
+  void begin_anew() const;
+  std::size_t count_done();
+  bool is_of_this_run(const std::string& path);
+  void write_attributes(hid_t file) const;
+  void write_links() const;
+
+  const Communicator& ranks_;
+  const std::string path_;
+  const std::string content_;
+  const DistributedFileOptions options_;
+  std::size_t done_ = 0;
+  std::set<std::int64_t> frames_;  // numbers of those that are done
+};
+
+}  // namespace fiber

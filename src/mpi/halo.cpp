@@ -1,0 +1,90 @@
+#include "src/mpi/halo.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "src/mpi/box_tree.hpp"
+
+namespace fiber {
+namespace {
+
+// Of a rank, for those near it to see which of theirs matter to it.
+constexpr std::size_t coarse_boxes = 64;
+
+/// The root of a rank's tree.
+struct RankBox {
+  SegmentBox around;
+  bool has_segments = false;
+};
+
+/// Other ranks whose segments may be near.
+std::vector<std::size_t> find_neighbours(const Communicator& ranks, const BoxTree& tree,
+                                         double margin) {
+  RankBox mine;
+  mine.has_segments = !tree.empty();
+  if (mine.has_segments) {
+    mine.around = tree.root();
+  }
+  const std::vector<RankBox> boxes = ranks.gather_all(mine);
+  std::vector<std::size_t> neighbours;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    if (static_cast<int>(i) != ranks.rank() && mine.has_segments && boxes[i].has_segments &&
+        may_come_within(mine.around.box, boxes[i].around.box, margin)) {
+      neighbours.push_back(i);
+    }
+  }
+  return neighbours;
+}
+
+}  // namespace
+
+Halo::Halo(const Communicator& ranks, const NamedFibers& own, const PieceBoxes& boxes,
+           double margin)
+    : runs_(ranks), nodes_(ranks) {
+  const auto size = static_cast<std::size_t>(ranks.size());
+  if (size == 1) {
+    return;
+  }
+  const BoxTree& tree = boxes.tree();
+  const std::vector<std::size_t> neighbours = find_neighbours(ranks, tree, margin);
+
+  PerRank<SegmentBox> coarse(size);
+  for (const std::size_t other : neighbours) {
+    coarse[other] = tree.level_of_at_most(coarse_boxes);
+  }
+  coarse = ranks.exchange(std::move(coarse));
+
+  // A neighbour needs those of my boxes that are near its own, to find what I need from it.
+  PerRank<SegmentBox> fine(size);
+  for (const std::size_t other : neighbours) {
+    const BoxTree theirs(std::move(coarse[other]));
+    tree.for_each_near(theirs, margin, [&](const SegmentBox& box, std::uint32_t /*number*/) {
+      fine[other].push_back(box);
+    });
+  }
+  fine = ranks.exchange(std::move(fine));
+
+  PerRank<FiberRun> runs(size);
+  PerRank<FiberNode> nodes(size);
+  for (const std::size_t other : neighbours) {
+    const BoxTree theirs(std::move(fine[other]));
+    FiberRuns near;
+    boxes.for_each_near(own, theirs, margin,
+                        [&](const FiberRun& run, std::uint64_t begin, std::uint64_t end) {
+                          own.add_to(near, run, begin, end);
+                        });
+    runs[other] = std::move(near.runs);
+    nodes[other] = std::move(near.nodes);
+  }
+  runs_.start(std::move(runs));
+  nodes_.start(std::move(nodes));
+}
+
+FiberRuns Halo::take() {
+  FiberRuns all;
+  all.runs = joined_runs(runs_.finish());
+  all.nodes = joined_nodes(nodes_.finish());
+  return all;
+}
+
+}  // namespace fiber

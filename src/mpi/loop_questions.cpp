@@ -1,0 +1,280 @@
+#include "src/mpi/loop_questions.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <utility>
+
+#include "src/query/loop_rule.hpp"
+
+namespace fiber {
+namespace {
+
+/// Who owns segments of a fibre that follow each other.
+struct OwnedRun {
+  GlobalSegment first;
+  std::uint64_t count = 0;
+  int rank = 0;
+};
+
+bool comes_first(const OwnedRun& x, const OwnedRun& y) { return x.first < y.first; }
+
+/// A question as it travels.
+struct PlainQuestion {
+  GlobalSegment first;     // whose start is the first point to look at
+  std::uint64_t last = 0;  // segment whose start is the last one
+  PlainPoint a0{}, a1{}, b0{}, b1{};
+  double radius_a = 0.0;
+  double radius_b = 0.0;
+};
+
+/// For each question of the rule, by its bit, whether a point goes too far.
+using Answers = std::uint8_t;
+static_assert(loop_question_count <= 8);
+
+Capsule capsule_of(const PlainPoint& p0, const PlainPoint& p1, double radius) {
+  return {vector_of(p0), vector_of(p1), radius};
+}
+
+SegmentDistance nearest_of(const Capsule& a, const Capsule& b) {
+  return segment_distance(a.p0, a.p1, b.p0, b.p1);
+}
+
+/// Runs of a rank that loops are looked for in, with boxes.
+class KnownRuns {
+ public:
+  explicit KnownRuns(const NamedFibers& fibers) : fibers_(fibers) {}
+
+  /// Those that follow each other as one.
+  std::vector<OwnedRun> joined(int rank) const {
+    std::vector<OwnedRun> runs;
+    for (const FiberRun& run : fibers_.runs()) {
+      if (!runs.empty() && runs.back().first.fiber == run.first.fiber &&
+          runs.back().first.segment + runs.back().count == run.first.segment) {
+        runs.back().count += run.count;
+      } else {
+        runs.push_back({run.first, run.count, rank});
+      }
+    }
+    return runs;
+  }
+
+  /// How many of the points asked about are here.
+  std::uint64_t count(const PlainQuestion& question) const {
+    std::uint64_t count = 0;
+    for (auto run = first_run(question); is_asked(run, question); ++run) {
+      const std::uint64_t begin = std::max(run->first.segment, question.first.segment);
+      const std::uint64_t end = std::min(run->first.segment + run->count, question.last + 1);
+      count += run->first.fiber == question.first.fiber && begin < end ? end - begin : 0;
+    }
+    return count;
+  }
+
+  /// Whether any of the points asked about that are here is beyond either limit.
+  bool any_beyond(const PlainQuestion& question, const LoopReach& x, const LoopReach& y) {
+    for (auto run = first_run(question); is_asked(run, question); ++run) {
+      if (run->first.fiber == question.first.fiber && any_beyond(*run, question, x, y)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  using Run = std::vector<FiberRun>::const_iterator;
+
+  Run first_run(const PlainQuestion& question) const {
+    const std::vector<FiberRun>& runs = fibers_.runs();
+    const auto run = std::upper_bound(
+        runs.begin(), runs.end(), question.first,
+        [](const GlobalSegment& first, const FiberRun& other) { return first < other.first; });
+    return run == runs.begin() ? run : run - 1;  // may have begun before
+  }
+  bool is_asked(Run run, const PlainQuestion& question) const {
+    return run != fibers_.runs().end() &&
+           !(GlobalSegment{question.first.fiber, question.last} < run->first);
+  }
+
+  bool any_beyond(const FiberRun& run, const PlainQuestion& question, const LoopReach& x,
+                  const LoopReach& y) {
+    const Eigen::AlignedBox3d& box = box_of(run);
+    if (x.holds(box) && y.holds(box)) {
+      return false;
+    }
+    for (std::uint64_t i = 0; i < run.count; ++i) {
+      const std::uint64_t segment = run.first.segment + i;
+      const Eigen::Vector3d& point = fibers_.fibers().points()[run.begin + i];
+      if (segment >= question.first.segment && segment <= question.last &&
+          (x.is_beyond(point) || y.is_beyond(point))) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// Around the points that start a segment.
+  const Eigen::AlignedBox3d& box_of(const FiberRun& run) {
+    boxes_.resize(fibers_.runs().size());
+    Eigen::AlignedBox3d& box = boxes_[static_cast<std::size_t>(&run - fibers_.runs().data())];
+    const bool is_new = box.isEmpty();
+    for (std::uint64_t i = 0; is_new && i < run.count; ++i) {
+      box.extend(fibers_.fibers().points()[run.begin + i]);
+    }
+    return box;
+  }
+
+  const NamedFibers& fibers_;
+  std::vector<Eigen::AlignedBox3d> boxes_;  // empty where they were not needed yet
+};
+
+/// What the points here say to a question.
+Answers answer(const PlainQuestion& question, KnownRuns& own, KnownRuns& halo) {
+  const Capsule a = capsule_of(question.a0, question.a1, question.radius_a);
+  const Capsule b = capsule_of(question.b0, question.b1, question.radius_b);
+  Answers answers = 0;
+  makes_loop_by(
+      a, b, nearest_of(a, b),
+      [&](int number, const LoopPlace& x, const LoopPlace& y, double limit) {
+        const LoopReach by_x(x, limit);
+        const LoopReach by_y(y, limit);
+        if (own.any_beyond(question, by_x, by_y) || halo.any_beyond(question, by_x, by_y)) {
+          answers = static_cast<Answers>(answers | 1U << static_cast<unsigned>(number));
+        }
+        return number == 0;  // whatever others say: so that all questions come
+      });
+  return answers;
+}
+
+bool makes_loop(const LoopQuestion& question, Answers answers) {
+  return makes_loop_by(
+      question.a, question.b, nearest_of(question.a, question.b),
+      [&](int number, const LoopPlace& /*x*/, const LoopPlace& /*y*/, double /*limit*/) {
+        return (answers >> static_cast<unsigned>(number) & 1U) != 0;
+      });
+}
+
+/// Asks for the owners of the fibres that the open questions are about; sorted.
+std::vector<OwnedRun> find_owners(const Communicator& ranks, const KnownRuns& own,
+                                  const std::vector<LoopQuestion>& questions,
+                                  const std::vector<std::size_t>& open) {
+  // Each fibre has a rank that knows who owns it.
+  const auto size = static_cast<std::size_t>(ranks.size());
+  PerRank<OwnedRun> notices(size);
+  for (const OwnedRun& run : own.joined(ranks.rank())) {
+    notices[run.first.fiber % size].push_back(run);
+  }
+  std::vector<OwnedRun> known;
+  for (const std::vector<OwnedRun>& some : ranks.exchange(std::move(notices))) {
+    known.insert(known.end(), some.begin(), some.end());
+  }
+  std::sort(known.begin(), known.end(), comes_first);
+
+  PerRank<std::uint64_t> fibers(size);
+  for (const std::size_t i : open) {
+    fibers[questions[i].fiber % size].push_back(questions[i].fiber);
+  }
+  for (std::vector<std::uint64_t>& some : fibers) {
+    std::sort(some.begin(), some.end());
+    some.erase(std::unique(some.begin(), some.end()), some.end());
+  }
+  fibers = ranks.exchange(std::move(fibers));
+  PerRank<OwnedRun> replies(size);
+  for (std::size_t other = 0; other < size; ++other) {
+    for (const std::uint64_t fiber : fibers[other]) {
+      auto run =
+          std::lower_bound(known.begin(), known.end(), OwnedRun{{fiber, 0}, 0, 0}, comes_first);
+      for (; run != known.end() && run->first.fiber == fiber; ++run) {
+        replies[other].push_back(*run);
+      }
+    }
+  }
+  std::vector<OwnedRun> owners;
+  for (const std::vector<OwnedRun>& some : ranks.exchange(std::move(replies))) {
+    owners.insert(owners.end(), some.begin(), some.end());
+  }
+  std::sort(owners.begin(), owners.end(), comes_first);
+  return owners;
+}
+
+/// The ranks that own points from the start of segment a + 1 to that of segment b.
+std::vector<int> ranks_between(const std::vector<OwnedRun>& owners, const LoopQuestion& question) {
+  std::vector<int> ranks;
+  auto run =
+      std::upper_bound(owners.begin(), owners.end(),
+                       OwnedRun{{question.fiber, question.segment_a + 1}, 0, 0}, comes_first);
+  run -= run == owners.begin() ? 0 : 1;
+  for (; run != owners.end() && run->first.fiber == question.fiber &&
+         run->first.segment <= question.segment_b;
+       ++run) {
+    ranks.push_back(run->rank);
+  }
+  std::sort(ranks.begin(), ranks.end());
+  ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+  return ranks;
+}
+
+PlainQuestion plain_question(const LoopQuestion& question) {
+  PlainQuestion asked;
+  asked.first = {question.fiber, question.segment_a + 1};
+  asked.last = question.segment_b;
+  asked.a0 = plain(question.a.p0);
+  asked.a1 = plain(question.a.p1);
+  asked.b0 = plain(question.b.p0);
+  asked.b1 = plain(question.b.p1);
+  asked.radius_a = question.a.radius;
+  asked.radius_b = question.b.radius;
+  return asked;
+}
+
+}  // namespace
+
+std::vector<bool> find_loops(const Communicator& ranks, const NamedFibers& own,
+                             const NamedFibers& halo, const std::vector<LoopQuestion>& questions) {
+  KnownRuns own_runs(own);
+  KnownRuns halo_runs(halo);
+  std::vector<bool> loops(questions.size());
+  std::vector<Answers> by_question(questions.size(), 0);
+  std::vector<std::size_t> open;
+  for (std::size_t i = 0; i < questions.size(); ++i) {
+    const PlainQuestion question = plain_question(questions[i]);
+    by_question[i] = answer(question, own_runs, halo_runs);
+    // More points can only answer more questions with yes, and that only makes loops.
+    loops[i] = makes_loop(questions[i], by_question[i]);
+    const std::uint64_t count = question.last + 1 - question.first.segment;
+    if (!loops[i] && own_runs.count(question) + halo_runs.count(question) < count) {
+      open.push_back(i);
+    }
+  }
+  if (ranks.sum(open.size()) == 0) {
+    return loops;
+  }
+  const auto size = static_cast<std::size_t>(ranks.size());
+  const std::vector<OwnedRun> owners = find_owners(ranks, own_runs, questions, open);
+  PerRank<PlainQuestion> asked(size);
+  PerRank<std::size_t> numbers(size);  // of the questions asked
+  for (const std::size_t i : open) {
+    for (const int rank : ranks_between(owners, questions[i])) {
+      asked[static_cast<std::size_t>(rank)].push_back(plain_question(questions[i]));
+      numbers[static_cast<std::size_t>(rank)].push_back(i);
+    }
+  }
+  asked = ranks.exchange(std::move(asked));
+  PerRank<Answers> answers(size);
+  for (std::size_t other = 0; other < size; ++other) {
+    for (const PlainQuestion& question : asked[other]) {
+      answers[other].push_back(answer(question, own_runs, halo_runs));
+    }
+  }
+  answers = ranks.exchange(std::move(answers));
+  for (std::size_t other = 0; other < size; ++other) {
+    for (std::size_t i = 0; i < answers[other].size(); ++i) {
+      Answers& all = by_question[numbers[other][i]];
+      all = static_cast<Answers>(all | answers[other][i]);
+    }
+  }
+  for (const std::size_t i : open) {
+    loops[i] = makes_loop(questions[i], by_question[i]);
+  }
+  return loops;
+}
+
+}  // namespace fiber

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "src/mpi/communicator.hpp"
+#include "src/mpi/named_fibers.hpp"
+
+namespace fiber {
+
+/// Whether a fibre makes a loop between two of its segments, where this rank does not have all
+/// points between them.
+struct LoopQuestion {
+  std::uint64_t fiber = 0;
+  std::uint64_t segment_a = 0;  // index along the fibre, the smaller one
+  std::uint64_t segment_b = 0;
+  Capsule a;
+  Capsule b;
+};
+
+/// Answers the questions of all ranks by the rule of LoopTest: what a rank does not know of the
+/// points between two segments it asks their owners. Collective.
+/// @param own  segments of this rank
+/// @param halo segments of others that it knows
+/// @return one per question of this rank
+std::vector<bool> find_loops(const Communicator& ranks, const NamedFibers& own,
+                             const NamedFibers& halo, const std::vector<LoopQuestion>& questions);
+
+}  // namespace fiber

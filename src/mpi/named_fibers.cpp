@@ -1,0 +1,122 @@
+#include "src/mpi/named_fibers.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+#include "src/geometry/norm.hpp"
+
+namespace fiber {
+namespace {
+
+/// Whether the second run begins where the first one ends.
+bool goes_on(const FiberRun& run, const FiberRun& next) {
+  return next.first.fiber == run.first.fiber && next.first.segment == run.first.segment + run.count;
+}
+
+}  // namespace
+
+void NamedFibers::clear() {
+  runs_.clear();
+  numbers_.clear();
+  names_.clear();
+  points_.clear();
+  radii_.clear();
+  offsets_.assign(1, 0);
+  fibers_ = FiberAssembly();
+}
+
+void NamedFibers::assign(const FiberRuns& set) {
+  assign(set.runs);
+  for (std::size_t i = 0; i < set.runs.size(); ++i) {
+    place(i, set.runs[i].arc, set.nodes.data() + set.runs[i].begin);
+  }
+  close();
+}
+
+void NamedFibers::assign(std::vector<FiberRun> runs) {
+  clear();
+  std::vector<std::uint32_t> order(runs.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t x, std::uint32_t y) { return runs[x].first < runs[y].first; });
+  numbers_.resize(runs.size());
+  runs_.reserve(runs.size());
+  std::uint64_t point = 0;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const FiberRun& run = runs[order[i]];
+    if (point == offsets_.back()) {
+      names_.push_back(run.first);
+    }
+    numbers_[order[i]] = static_cast<std::uint32_t>(i);
+    runs_.push_back({run.first, run.count, point, run.arc});
+    point += run.count;
+    if (i + 1 == order.size() || !goes_on(run, runs[order[i + 1]])) {
+      ++point;
+      offsets_.push_back(static_cast<std::uint32_t>(point));
+    }
+    if (point > std::numeric_limits<std::int32_t>::max()) {
+      clear();
+      throw std::invalid_argument("this rank would hold more than " +
+                                  std::to_string(std::numeric_limits<std::int32_t>::max()) +
+                                  " points: take more ranks or a smaller margin");
+    }
+  }
+  points_.resize(point);
+  radii_.assign(point, 0.0);
+}
+
+void NamedFibers::open() { fibers_.exchange_segments(points_, offsets_, radii_); }
+
+const FiberNode* NamedFibers::place(std::size_t number, double arc, const FiberNode* nodes) {
+  FiberRun& run = runs_[numbers_[number]];
+  run.arc = arc;
+  for (std::uint64_t i = 0; i < run.count; ++i) {
+    points_[run.begin + i] = vector_of(nodes[i].point);
+    radii_[run.begin + i] = nodes[i].radius;
+  }
+  // The next run may begin there, with its radius.
+  points_[run.begin + run.count] = vector_of(nodes[run.count].point);
+  return nodes + run.count + 1;
+}
+
+void NamedFibers::close() {
+  try {
+    fibers_.exchange_segments(points_, offsets_, radii_);
+  } catch (const std::invalid_argument&) {
+    clear();
+    throw;
+  }
+}
+
+void NamedFibers::add_to(FiberRuns& others, const FiberRun& run, std::uint64_t begin,
+                         std::uint64_t end) const {
+  others.runs.push_back({{run.first.fiber, run.first.segment + begin},
+                         end - begin,
+                         others.nodes.size(),
+                         arc(run, begin)});
+  for (std::uint64_t p = run.begin + begin; p <= run.begin + end; ++p) {
+    others.nodes.push_back(node(p));
+  }
+  others.nodes.back().radius = 0.0;  // of the segment that would come next
+}
+
+double NamedFibers::arc(std::uint32_t point) const {
+  const auto after =
+      std::upper_bound(runs_.begin(), runs_.end(), point,
+                       [](std::uint64_t p, const FiberRun& run) { return p < run.begin; });
+  const FiberRun& run = *(after - 1);
+  return arc(run, point - run.begin);
+}
+
+double NamedFibers::arc(const FiberRun& run, std::uint64_t i) const {
+  double length = run.arc;
+  for (std::uint64_t p = run.begin + 1; p <= run.begin + i; ++p) {
+    length += norm_of(fibers_.points()[p] - fibers_.points()[p - 1]);
+  }
+  return length;
+}
+
+}  // namespace fiber

@@ -1,0 +1,176 @@
+#include "src/mpi/rank_fibers.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "src/mpi/partition.hpp"
+
+namespace fiber {
+namespace {
+
+// What goes to a rank as a whole. Shorter pieces fit space better, and take more memory each.
+constexpr std::uint32_t segments_per_piece = 16;
+
+// How many nodes a rank sends at a time: so they are not there twice.
+constexpr std::size_t nodes_per_slice = std::size_t{1} << 18U;
+
+// The most that the cost of one rank may be of the mean.
+constexpr double most_imbalance = 1.2;
+
+bool are_same(const std::vector<FiberPart>& x, const std::vector<FiberPart>& y) {
+  return std::equal(x.begin(), x.end(), y.begin(), y.end(),
+                    [](const FiberPart& a, const FiberPart& b) {
+                      return a.fiber == b.fiber && a.first_segment == b.first_segment;
+                    });
+}
+
+/// Goes through the pieces of parts, one after another.
+class PieceCursor {
+ public:
+  explicit PieceCursor(const std::vector<std::uint32_t>& offsets) : offsets_(offsets) {}
+
+  bool is_over() const { return part_ + 1 >= offsets_.size(); }
+  std::size_t part() const { return part_; }
+  std::uint32_t first_point() const { return offsets_[part_] + begin_; }
+  std::uint32_t first_segment() const { return begin_; }  ///< along the part
+  std::uint32_t count() const { return std::min(segments_per_piece, segments() - begin_); }
+
+  void go_on() {
+    begin_ += segments_per_piece;
+    if (begin_ >= segments()) {
+      ++part_;
+      begin_ = 0;
+    }
+  }
+
+ private:
+  std::uint32_t segments() const { return offsets_[part_ + 1] - offsets_[part_] - 1; }
+
+  const std::vector<std::uint32_t>& offsets_;
+  std::size_t part_ = 0;
+  std::uint32_t begin_ = 0;
+};
+
+/// By rank what a segment there costs, as a part of the mean; none if they need not be split anew.
+std::vector<double> weights_of_ranks(const Communicator& ranks, double cost,
+                                     std::uint64_t segments) {
+  const std::vector<double> costs = ranks.gather_all(cost);
+  const std::vector<std::uint64_t> counts = ranks.gather_all(segments);
+  const double most = *std::max_element(costs.begin(), costs.end());
+  const double sum = std::accumulate(costs.begin(), costs.end(), 0.0);
+  if (most * static_cast<double>(ranks.size()) <= most_imbalance * sum) {
+    return {};
+  }
+  const double mean = sum / static_cast<double>(ranks.sum(segments));
+  std::vector<double> weights;
+  for (std::size_t i = 0; i < costs.size(); ++i) {
+    const double of_segment = counts[i] == 0 ? mean : costs[i] / static_cast<double>(counts[i]);
+    // Zoltan adds up weights in single precision.
+    weights.push_back(std::clamp(of_segment / mean, 0x1p-6, 0x1p6));
+  }
+  return weights;
+}
+
+}  // namespace
+
+bool RankFibers::is_as_before(const FiberAssembly& parts,
+                              const std::vector<FiberPart>& names) const {
+  return has_fibers_ && offsets_ == parts.offsets() && are_same(names_, names);
+}
+
+/// @param rank_weights what a segment costs where it is; empty: the same for all
+void RankFibers::split(const Communicator& ranks, const FiberAssembly& parts,
+                       const std::vector<double>& rank_weights) {
+  std::vector<PartitionObject> objects;
+  for (PieceCursor piece(offsets_); !piece.is_over(); piece.go_on()) {
+    const double weight =
+        rank_weights.empty()
+            ? 1.0
+            : rank_weights[static_cast<std::size_t>(destinations_[objects.size()])];
+    objects.push_back({plain(parts.points()[piece.first_point() + piece.count() / 2]),
+                       static_cast<float>(weight * piece.count())});
+  }
+  destinations_ = partition(ranks, objects, ranks.size());
+  objects = {};
+  PerRank<FiberRun> runs(static_cast<std::size_t>(ranks.size()));
+  std::size_t i = 0;
+  for (PieceCursor piece(offsets_); !piece.is_over(); piece.go_on()) {
+    const FiberPart& name = names_[piece.part()];
+    const GlobalSegment first{name.fiber, name.first_segment + piece.first_segment()};
+    runs[static_cast<std::size_t>(destinations_[i++])].push_back({first, piece.count(), 0, 0.0});
+  }
+  runs = ranks.exchange(std::move(runs));
+  first_of_rank_.assign(1, 0);
+  for (const std::vector<FiberRun>& some : runs) {
+    first_of_rank_.push_back(first_of_rank_.back() + some.size());
+  }
+  ranks.agree(error_in([&] { own_.assign(joined_runs(runs)); }));
+  ++split_count_;
+}
+
+/// Sends the nodes of all pieces to whom they belong.
+/// @param arcs [m] of the pieces
+void RankFibers::send_nodes(const Communicator& ranks, const FiberAssembly& parts,
+                            const std::vector<double>& arcs) {
+  const auto size = static_cast<std::size_t>(ranks.size());
+  std::vector<std::size_t> next(first_of_rank_.begin(), first_of_rank_.end() - 1);
+  PieceCursor piece(offsets_);
+  for (std::size_t i = 0; !ranks.all(piece.is_over());) {
+    PerRank<double> some_arcs(size);
+    PerRank<FiberNode> some_nodes(size);
+    for (std::size_t count = 0; !piece.is_over() && count < nodes_per_slice; piece.go_on()) {
+      const auto to = static_cast<std::size_t>(destinations_[i]);
+      const std::uint32_t last = piece.first_point() + piece.count();
+      for (std::uint32_t p = piece.first_point(); p <= last; ++p) {
+        some_nodes[to].push_back(
+            {plain(parts.points()[p]), p < last ? parts.segment_radius(p) : 0.0});
+      }
+      some_arcs[to].push_back(arcs[i++]);
+      count += piece.count() + 1;
+    }
+    some_arcs = ranks.exchange(std::move(some_arcs));
+    some_nodes = ranks.exchange(std::move(some_nodes));
+    for (std::size_t from = 0; from < size; ++from) {
+      const FiberNode* nodes = some_nodes[from].data();
+      for (const double arc : some_arcs[from]) {
+        nodes = own_.place(next[from]++, arc, nodes);
+      }
+    }
+  }
+  ranks.agree(error_in([&] { own_.close(); }));
+}
+
+void RankFibers::update(const Communicator& ranks, const FiberAssembly& parts,
+                        const std::vector<FiberPart>& names, double cost) {
+  const bool is_same = ranks.all(is_as_before(parts, names));
+  has_fibers_ = false;
+  ranks.agree(names.size() == parts.fiber_count()
+                  ? ""
+                  : std::to_string(names.size()) + " names for " +
+                        std::to_string(parts.fiber_count()) + " parts, there must be one per part");
+  if (!is_same) {
+    chains_.emplace(ranks, parts, names);
+    names_ = names;
+    offsets_ = parts.offsets();
+  }
+  const ArcLengths arcs = chains_->arc_lengths(ranks, parts, names, segments_per_piece);
+  arc_roundings_ = arcs.roundings;
+  const std::vector<double> weights =
+      is_same ? weights_of_ranks(ranks, cost, own_.fibers().segment_count())
+              : std::vector<double>();
+  const bool are_split_anew = !is_same || !weights.empty();
+  if (are_split_anew) {
+    split(ranks, parts, weights);
+  } else {
+    own_.open();
+  }
+  send_nodes(ranks, parts, arcs.of_pieces);
+  if (ranks.size() > 1) {
+    boxes_.update(own_, !are_split_anew);
+  }
+  has_fibers_ = true;
+}
+
+}  // namespace fiber

@@ -1,0 +1,197 @@
+#include "src/mpi/rank_search.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "fiber_proximity/query/narrow_phase.hpp"
+#include "src/mpi/loop_questions.hpp"
+
+namespace fiber {
+namespace {
+
+/// The part of a limit of pairs that is left, at least one.
+std::uint64_t rest_of(std::uint64_t limit, std::uint64_t taken) {
+  return limit == 0 ? 0 : std::max<std::uint64_t>(1, limit - std::min(limit, taken));
+}
+
+}  // namespace
+
+void RankSearch::update(const RankFibers& fibers) {
+  fibers_ = &fibers;
+  counts_ = {};
+  halo_.assign(FiberRuns());
+  engine_->update(fibers.own().fibers());
+}
+
+/// What leaves out no pair that the options want. Those that are too many are left out later.
+QueryOptions RankSearch::options_here(const QueryOptions& options) const {
+  QueryOptions here = options;
+  here.tolerance = 0.0;
+  here.relative_tolerance = 0.0;
+  here.contact_limit = 0;
+  if (options.pairing == Pairing::SAME_FIBER) {
+    here.pairing = Pairing::ALL;  // stretches of one fibre may be several here
+  }
+  if (!options.needs_loops()) {
+    here.neighbour_skip = options.neighbour_skip.value_or(1);
+    // Sums along a stretch are rounded in another way than those along the whole fibre.
+    const double surely = (1.0 - 0x1p-50) * options.neighbour_skip_length.value_or(0.0) -
+                          0x1p-48 * fibers_->arc_roundings();
+    here.neighbour_skip_length = std::max(0.0, surely);
+  }
+  return here;
+}
+
+void RankSearch::find_inner(const QueryOptions& options, std::uint64_t count,
+                            DistributedResult& result) {
+  const Deadline deadline(options.deadline);
+  QueryOptions here = options_here(options);
+  constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
+  constexpr std::uint64_t more = 16;
+  bool is_first = options.type == QueryType::FIRST;
+  // Pairs that are none along whole fibres may be among those that the engine finds: it is asked
+  // for more until enough are left.
+  for (std::uint64_t asked = count; true; asked = asked > most / more ? no_limit : more * asked) {
+    here.type = is_first ? QueryType::FIRST : asked > most ? QueryType::ALL : QueryType::LIMITED;
+    here.max_contacts = static_cast<std::uint32_t>(std::min(asked, most));
+    here.deadline = deadline.left();
+    engine_->query(here, found_);
+    counts_ += found_.counts;
+    result.contacts.clear();
+    append(options, found_.contacts, fibers_->own(), result.contacts);
+    const bool had_all = here.type == QueryType::ALL || !found_.complete ||
+                         found_.contacts.size() < here.max_contacts;
+    if (ranks_.all(had_all || result.contacts.size() >= count)) {
+      break;
+    }
+    is_first = false;
+  }
+  result.complete = found_.complete;
+  result.limit_reached = !found_.complete && found_.limit_reached;
+  result.others_lower = found_.others_lower;
+}
+
+/// [m] More than distances of one pair differ by, the one segment first or the other.
+double RankSearch::rounding_across() const {
+  Eigen::AlignedBox3d box;
+  for (const NamedFibers* const fibers : {&fibers_->own(), &halo_}) {
+    for (const Eigen::Vector3d& point : fibers->fibers().points()) {
+      box.extend(point);
+    }
+  }
+  const double radius =
+      std::max(fibers_->own().fibers().largest_radius(), halo_.fibers().largest_radius());
+  return box.isEmpty() ? 0.0 : 0x1p-44 * (box.sizes().maxCoeff() + radius);
+}
+
+void RankSearch::find_across(const FiberRuns& halo, const QueryOptions& options,
+                             DistributedResult& result) {
+  ranks_.agree(error_in([&] { halo_.assign(halo); }));
+
+  // The engine takes what is a shape to it for the first of each pair. Here it is the second one:
+  // distances are computed anew, as one process computes them.
+  QueryOptions here = options_here(options);
+  here.type = QueryType::ALL;
+  here.kernel = Kernel::ROBUST;
+  here.margin = options.margin * (1.0 + 0x1p-50) + rounding_across();
+  here.pair_limit = rest_of(options.pair_limit, found_.counts.primitive_tests);
+  engine_->query_shape(halo_.fibers(), here, found_);
+  counts_ += found_.counts;
+  result.complete = result.complete && found_.complete;
+  result.limit_reached = result.limit_reached || (!found_.complete && found_.limit_reached);
+  result.others_lower = std::min(result.others_lower, found_.others_lower);
+  const NamedFibers& own = fibers_->own();
+  const NarrowPhase test(own.fibers(), halo_.fibers(), options);
+  across_.clear();
+  for (const Contact& contact : found_.contacts) {
+    if (!(own.name_of(contact.fiber_b, contact.segment_b) <
+          halo_.name_of(contact.fiber_a, contact.segment_a))) {
+      continue;  // another rank's
+    }
+    const PointPair pair{own.point_of(contact.fiber_b, contact.segment_b),
+                         halo_.point_of(contact.fiber_a, contact.segment_a)};
+    const PairDistance distance = test.distance(pair);
+    if (test.is_within_margin(pair, distance)) {
+      across_.push_back(test.contact(pair, distance));
+    } else {
+      result.others_lower = std::min(result.others_lower, test.gap_lower(pair, distance));
+    }
+  }
+  append(options, across_, halo_, result.contacts);
+}
+
+/// Whether segments that are a pair here are none along whole fibres.
+bool RankSearch::is_left_out(const QueryOptions& options, const Contact& contact,
+                             const NamedFibers& fibers_b) const {
+  const NamedFibers& own = fibers_->own();
+  const GlobalSegment a = own.name_of(contact.fiber_a, contact.segment_a);
+  const GlobalSegment b = fibers_b.name_of(contact.fiber_b, contact.segment_b);
+  if (a.fiber != b.fiber) {
+    return options.pairing == Pairing::SAME_FIBER;
+  }
+  if (options.pairing == Pairing::DIFFERENT_FIBERS ||
+      b.segment - a.segment <= options.neighbour_skip.value_or(1)) {
+    return true;
+  }
+  const double least = options.neighbour_skip_length.value_or(0.0);
+  return least > 0.0 && fibers_b.arc(fibers_b.point_of(contact.fiber_b, contact.segment_b)) -
+                                own.arc(own.point_of(contact.fiber_a, contact.segment_a) + 1) <
+                            least;
+}
+
+/// Appends what is found of this rank's own segments (a) and others, but for what is no pair.
+void RankSearch::append(const QueryOptions& options, const std::vector<Contact>& found,
+                        const NamedFibers& fibers_b,
+                        std::vector<DistributedContact>& contacts) const {
+  const NamedFibers& own = fibers_->own();
+  std::vector<const Contact*> kept;
+  std::vector<LoopQuestion> questions;
+  std::vector<std::size_t> asked;  // places of theirs among those kept
+  for (const Contact& contact : found) {
+    if (is_left_out(options, contact, fibers_b)) {
+      continue;
+    }
+    const GlobalSegment a = own.name_of(contact.fiber_a, contact.segment_a);
+    const GlobalSegment b = fibers_b.name_of(contact.fiber_b, contact.segment_b);
+    // Where a stretch of the fibre holds both, the engine has seen the loop.
+    const bool is_loop_known = &fibers_b == &own && contact.fiber_a == contact.fiber_b;
+    if (options.needs_loops() && a.fiber == b.fiber && !is_loop_known) {
+      asked.push_back(kept.size());
+      questions.push_back(
+          {a.fiber, a.segment, b.segment,
+           own.fibers().capsule(own.point_of(contact.fiber_a, contact.segment_a)),
+           fibers_b.fibers().capsule(fibers_b.point_of(contact.fiber_b, contact.segment_b))});
+    }
+    kept.push_back(&contact);
+  }
+  const std::vector<bool> loops = find_loops(ranks_, own, halo_, questions);
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    if (!loops[i]) {
+      kept[asked[i]] = nullptr;
+    }
+  }
+  for (const Contact* const contact : kept) {
+    if (contact != nullptr) {
+      const GlobalSegment a = own.name_of(contact->fiber_a, contact->segment_a);
+      const GlobalSegment b = fibers_b.name_of(contact->fiber_b, contact->segment_b);
+      contacts.push_back({a.fiber, a.segment, b.fiber, b.segment, contact->s, contact->t,
+                          contact->distance, contact->lower, contact->upper, contact->point_a,
+                          contact->point_b, contact->normal});
+    }
+  }
+}
+
+double RankSearch::cost() const {
+  // Measured on run_tree; only how they compare matters.
+  constexpr double per_segment = 60e-9;
+  constexpr double per_node_test = 0.5e-9;
+  constexpr double per_pair = 25e-9;
+  if (fibers_ == nullptr) {
+    return 0.0;
+  }
+  return per_segment * static_cast<double>(fibers_->own().fibers().segment_count()) +
+         per_node_test * static_cast<double>(counts_.node_tests) +
+         per_pair * static_cast<double>(counts_.primitive_tests);
+}
+
+}  // namespace fiber

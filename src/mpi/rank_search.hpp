@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "fiber_proximity/mpi/distributed_engine.hpp"
+#include "fiber_proximity/query/engine.hpp"
+#include "src/mpi/communicator.hpp"
+#include "src/mpi/fiber_runs.hpp"
+#include "src/mpi/named_fibers.hpp"
+#include "src/mpi/rank_fibers.hpp"
+
+namespace fiber {
+
+/// Looks for the pairs that a rank reports: those of its own segments with each other, and with
+/// segments of others that come after them.
+class RankSearch {
+ public:
+  static constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
+
+  RankSearch(const Communicator& ranks, const EngineOptions& options)
+      : ranks_(ranks), engine_(make_engine("run_tree", options)) {}
+
+  /// Makes these fibres those that are looked at; they must live until the next update.
+  void update(const RankFibers& fibers);
+
+  /// The so many closest pairs of this rank's own segments that the options ask for; if there are
+  /// more, others may be among them. Collective.
+  /// @param options FIRST: any one pair; all other types are one
+  /// @param result  contacts in any order
+  void find_inner(const QueryOptions& options, std::uint64_t count, DistributedResult& result);
+
+  /// Adds all pairs within the margin of a segment of this rank's own and one of others.
+  /// Collective.
+  /// @throws std::invalid_argument on every rank if one has more than an assembly may have
+  void find_across(const FiberRuns& halo, const QueryOptions& options, DistributedResult& result);
+
+  std::uint64_t halo_segments() const { return halo_.fibers().segment_count(); }
+
+  /// About what the last update and the queries since then took of this rank [s].
+  double cost() const;
+
+ private:
+  QueryOptions options_here(const QueryOptions& options) const;
+  bool is_left_out(const QueryOptions& options, const Contact& contact,
+                   const NamedFibers& fibers_b) const;
+  void append(const QueryOptions& options, const std::vector<Contact>& found,
+              const NamedFibers& fibers_b, std::vector<DistributedContact>& contacts) const;
+  double rounding_across() const;
+
+  const Communicator& ranks_;
+  std::unique_ptr<ProximityEngine> engine_;
+  const RankFibers* fibers_ = nullptr;
+  NamedFibers halo_;
+  QueryCounts counts_;
+
+  // Work memory:
+  QueryResult found_;
+  std::vector<Contact> across_;
+};
+
+}  // namespace fiber

@@ -1,0 +1,61 @@
+#include "src/mpi/whole_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+
+#include "fiber_proximity/io/file.hpp"
+
+namespace fiber {
+namespace {
+
+/// Has the system do something with a file.
+/// @param work returns whether it went well, else there is errno
+/// @throws FileError
+template <class Work>
+void with_file(const std::string& path, int flags, const Work& work) {
+  const int file = open(path.c_str(), flags | O_CLOEXEC);
+  if (file < 0) {
+    throw FileError::from_system(path, "cannot be written");
+  }
+  const bool went_well = work(file);
+  const int error = errno;
+  close(file);
+  if (!went_well) {
+    errno = error;
+    throw FileError::from_system(path, "cannot be written");
+  }
+}
+
+}  // namespace
+
+void reserve(const std::string& path, std::uint64_t size) {
+  with_file(path, O_WRONLY, [size](int file) {
+    int result = 0;
+    do {
+      result = size == 0 ? 0 : fallocate(file, 0, 0, static_cast<off_t>(size));
+    } while (result != 0 && errno == EINTR);
+    return result == 0 || (errno != ENOSPC && errno != EFBIG && errno != EDQUOT);
+  });
+}
+
+void move_into_place(const std::string& path) {
+  // What is no file on a disk needs no waiting for it.
+  with_file(aside(path), O_RDONLY,
+            [](int file) { return fsync(file) == 0 || errno == EINVAL || errno == EROFS; });
+  std::error_code error;
+  std::filesystem::rename(aside(path), path, error);
+  if (error) {
+    throw FileError(path, "cannot be written: " + error.message());
+  }
+}
+
+void remove_aside(const std::string& path) {
+  std::error_code ignored;
+  std::filesystem::remove(aside(path), ignored);
+}
+
+}  // namespace fiber

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cstdint>
+
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/geometry/segment_distance.hpp"
+#include "src/geometry/norm.hpp"
+
+namespace fiber {
+
+/// A place on a segment, as the sum of its nearer end and the way from there: what is near the end
+/// is then known to all digits.
+struct LoopPlace {
+  Eigen::Vector3d end;
+  Eigen::Vector3d way;
+};
+
+inline LoopPlace place_on(const Capsule& segment, double s) {
+  return s <= 0.5 ? LoopPlace{segment.p0, s * (segment.p1 - segment.p0)}
+                  : LoopPlace{segment.p1, (1.0 - s) * (segment.p0 - segment.p1)};
+}
+
+/// How far points are from a place, by a limit [m], in units in which squares keep their digits.
+class LoopReach {
+ public:
+  LoopReach(const LoopPlace& place, double limit)
+      : place_(place),
+        scale_(limit > least_safe_norm ? 1.0 : tiny_vector_scale),
+        limit_(scale_ * limit) {}
+
+  double scale() const { return scale_; }
+  double scaled_limit() const { return limit_; }
+
+  Eigen::Vector3d scaled_way_to(const Eigen::Vector3d& point) const {
+    return scale_ * ((point - place_.end) - place_.way);
+  }
+  bool is_beyond(double scaled_squared) const { return scaled_squared > limit_ * limit_; }
+  bool is_beyond(const Eigen::Vector3d& point) const {
+    return is_beyond(scaled_way_to(point).squaredNorm());
+  }
+
+  /// Whether it is certain that no point of the box is beyond the limit.
+  bool holds(const Eigen::AlignedBox3d& box) const {
+    // Sums and products are monotonic, roundings included: of no point more comes out.
+    const Eigen::Vector3d most =
+        scaled_way_to(box.min()).cwiseAbs().cwiseMax(scaled_way_to(box.max()).cwiseAbs());
+    return !is_beyond(most.squaredNorm());
+  }
+
+ private:
+  const LoopPlace& place_;
+  const double scale_;
+  const double limit_;
+};
+
+/// How many questions the rule asks at most.
+constexpr int loop_question_count = 4;
+
+/// The rule of LoopTest: whether a fibre makes a loop between two of its segments, the one of the
+/// smaller index first.
+/// @param nearest of the kernel robust
+/// @param is_left whether any point between them, the first of b included, is further from one of
+///                two places than a limit [m]: is_left(question, x, y, limit). Questions count from
+///                0 and come in this order; not all need be asked
+template <class IsLeft>
+bool makes_loop_by(const Capsule& a, const Capsule& b, const SegmentDistance& nearest,
+                   const IsLeft& is_left) {
+  // How far the fibre must go from two places: this part of their distance, and so many radii.
+  constexpr double part_of_distance = 1.25;
+  constexpr double count_of_radii = 2.5;
+  const double radius = std::max(a.radius, b.radius);
+  const double length_a = norm_of(a.p1 - a.p0);
+  const double length_b = norm_of(b.p1 - b.p0);
+  // What places on segments are rounded by makes no loop.
+  const double allowance = count_of_radii * radius + 0x1p-48 * (length_a + length_b);
+  const auto limit = [&](double distance) { return part_of_distance * distance + allowance; };
+  const LoopPlace on_a = place_on(a, nearest.s);
+  const LoopPlace on_b = place_on(b, nearest.t);
+  const double nearest_limit = limit(nearest.distance);
+  // Other places on the segments are no further from these than the longer segment.
+  const double limit_for_all = nearest_limit - std::max(length_a, length_b);
+  if (limit_for_all > 0.0 && !is_left(0, on_a, on_b, limit_for_all)) {
+    return false;
+  }
+  if (is_left(1, on_a, on_b, nearest_limit)) {
+    return true;
+  }
+  const double most = nearest.distance + radius;
+  const SegmentDistance of_a = segment_distance(a.p0, a.p0, b.p0, b.p1);
+  if (of_a.distance <= most &&
+      is_left(2, place_on(a, 0.0), place_on(b, of_a.t), limit(of_a.distance))) {
+    return true;
+  }
+  const SegmentDistance of_b = segment_distance(a.p0, a.p1, b.p1, b.p1);
+  return of_b.distance <= most &&
+         is_left(3, place_on(a, of_b.s), place_on(b, 1.0), limit(of_b.distance));
+}
+
+}  // namespace fiber

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "fiber_proximity/mpi/distributed_files.hpp"
+#include "src/mpi/communicator.hpp"
+#include "src/tools/rank_text.hpp"
+#include "src/tools/text_output.hpp"
+
+namespace fiber {
+
+/// Where contacts of all ranks go: rows of CSV, or HDF5.
+struct ContactTarget {
+  std::string path;  // "" for stdout
+  bool is_hdf5 = false;
+};
+
+/// Writes contacts frame by frame; each rank its part. All functions are collective.
+class ContactSink {
+ public:
+  /// @throws std::invalid_argument on all ranks
+  ContactSink(const Communicator& ranks, const ContactTarget& target,
+              const DistributedFileOptions& options);
+
+  /// How many frames an earlier run has written.
+  std::size_t done() const { return hdf5_ ? hdf5_->done() : 0; }
+
+  /// @param result is sorted over the ranks by this
+  /// @throws std::invalid_argument on all ranks
+  void write(const FrameNumber& frame, DistributedResult& result);
+
+  /// Call once, at the end.
+  /// @throws std::invalid_argument on all ranks
+  void finish();
+
+ private:
+  const Communicator& ranks_;
+  std::optional<DistributedContactWriter> hdf5_;
+  std::optional<RankText> text_;  // one of the two
+};
+
+}  // namespace fiber

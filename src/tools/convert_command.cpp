@@ -1,0 +1,143 @@
+// `fiber_query_mpi convert`: fibres from one format to another.
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fiber_proximity/io/fiber_file.hpp"
+#include "fiber_proximity/mpi/distributed_files.hpp"
+#include "src/io/number.hpp"
+#include "src/mpi/communicator.hpp"
+#include "src/mpi/gathered_fibers.hpp"
+#include "src/mpi/whole_file.hpp"
+#include "src/text/quote.hpp"
+#include "src/tools/fiber_query_mpi.hpp"
+#include "src/tools/fiber_source.hpp"
+#include "src/tools/mpi_tool.hpp"
+
+namespace fiber {
+namespace {
+
+struct ConvertRequest {
+  std::string in;
+  std::string out;
+  double radius = 0.0;  // [m]
+  bool resume = false;
+};
+
+void convert_to_hdf5(const Communicator& ranks, const ConvertRequest& request,
+                     FiberSource& source) {
+  DistributedFileOptions options;
+  options.has_frames = source.has_frames();
+  options.resume = request.resume;
+  options.run =
+      "fibres of " + description_of_file(ranks, request.in) + ", radius " + text_of(request.radius);
+  DistributedFiberWriter writer(ranks.handle(), request.out, options);
+  Progress progress = rank_progress(ranks);
+  DistributedFibers fibers;
+  for (std::size_t i = writer.done(); i < source.frame_count(); ++i) {
+    const std::int64_t frame = source.read(i, fibers);
+    writer.write(frame, fibers);
+    show_frames(progress, i + 1, source.frame_count());
+  }
+  writer.finish();
+}
+
+/// A file that rank 0 writes, in a format that has no parts.
+class SerialFile {
+ public:
+  SerialFile(std::string path, bool has_frames) : path_(std::move(path)), has_frames_(has_frames) {
+    if (is_hair()) {
+      OutputFile(aside(path_)).close();  // whether it can be written
+    } else {
+      csv_.emplace(aside(path_), has_frames);
+    }
+  }
+  ~SerialFile() { remove_aside(path_); }
+  SerialFile(const SerialFile&) = delete;
+  SerialFile& operator=(const SerialFile&) = delete;
+
+  void write(FiberFrame frame) {
+    if (csv_) {
+      csv_->write(frame);
+    } else {
+      FiberFile file{has_frames_, {}};
+      file.frames.push_back(std::move(frame));
+      write_hair(aside(path_), file);
+    }
+  }
+
+  void finish() {
+    if (csv_) {
+      csv_->finish();
+    }
+    move_into_place(path_);
+  }
+
+ private:
+  bool is_hair() const { return end_of_name(path_) == ".hair"; }
+
+  const std::string path_;
+  const bool has_frames_;
+  std::optional<CsvWriter> csv_;  // else .hair
+};
+
+void convert_on_first_rank(const Communicator& ranks, const ConvertRequest& request,
+                           FiberSource& source) {
+  std::optional<SerialFile> file;
+  on_first_rank(ranks, [&] { file.emplace(request.out, source.has_frames()); });
+  Progress progress = rank_progress(ranks);
+  DistributedFibers fibers;
+  for (std::size_t i = 0; i < source.frame_count(); ++i) {
+    const std::int64_t frame = source.read(i, fibers);
+    FiberAssembly all = gather_fibers(ranks, std::exchange(fibers, {}));
+    on_first_rank(ranks, [&] { file->write({frame, std::move(all)}); });
+    show_frames(progress, i + 1, source.frame_count());
+  }
+  on_first_rank(ranks, [&] { file->finish(); });
+}
+
+ExitCode convert(const ConvertRequest& request) {
+  const std::string end = end_of_name(request.out);
+  const bool is_hdf5 = is_hdf5_name(request.out);
+  if (!is_hdf5 && end != ".csv" && end != ".hair") {
+    throw std::invalid_argument("OUT: " + quote(request.out) + " must end in .h5, .csv or .hair");
+  }
+  if (request.resume && !is_hdf5) {
+    throw std::invalid_argument("--resume: only files of HDF5 can be gone on with, OUT is " +
+                                quote(request.out));
+  }
+  const Communicator ranks(MPI_COMM_WORLD);
+  require_other_file(ranks, request.in, request.out);
+  FiberSource source(ranks, request.in, request.radius);
+  if (is_hdf5) {
+    convert_to_hdf5(ranks, request, source);
+  } else {
+    convert_on_first_rank(ranks, request, source);
+  }
+  return SUCCEEDED;
+}
+
+}  // namespace
+
+void add_convert(CLI::App& app, Command& command) {
+  const auto request = std::make_shared<ConvertRequest>();
+  CLI::App* const subcommand =
+      app.add_subcommand("convert", "fibres in another format: .h5, .csv or .hair, as names end");
+  subcommand->add_option("IN", request->in, "fibre file (.h5, .csv or .hair)")->required();
+  subcommand
+      ->add_option("OUT", request->out,
+                   "what to write; all fibres of a frame are on rank 0 unless both files are .h5")
+      ->required();
+  subcommand->add_option("--radius", request->radius, "of all fibres, if the file has no radii [m]")
+      ->capture_default_str();
+  subcommand->add_flag("--resume", request->resume,
+                       "go on after the last whole frame of a run that was interrupted (.h5)");
+  subcommand->callback([&command, request] { command = [request] { return convert(*request); }; });
+}
+
+}  // namespace fiber

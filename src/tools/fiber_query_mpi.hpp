@@ -1,0 +1,12 @@
+#pragma once
+
+#include "src/tools/command_line.hpp"
+
+namespace fiber {
+
+// The subcommands of fiber_query_mpi that have a source of their own.
+
+/// `convert IN OUT [--radius R] [--resume]`: a file of fibres in another format.
+void add_convert(CLI::App& app, Command& command);
+
+}  // namespace fiber

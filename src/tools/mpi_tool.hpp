@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "src/mpi/communicator.hpp"
+#include "src/tools/command_line.hpp"
+#include "src/tools/progress.hpp"
+
+namespace fiber {
+
+/// run_tool() on every rank of MPI, from its start to its end. Rank 0 alone writes to stdout and
+/// stderr; commands see to it that all ranks throw what one does.
+int run_mpi_tool(const char* name, const char* description, const Setup& setup, int argc,
+                 char** argv);
+
+/// Of rank 0, where its stderr ends in a terminal; nothing of the others.
+Progress rank_progress(const Communicator& ranks);
+
+void show_frames(Progress& progress, std::size_t done, std::size_t all);
+
+/// The end of a file's name from its last dot on, in small letters.
+std::string end_of_name(const std::string& path);
+
+/// @throws std::invalid_argument on all ranks if both names are of the same file
+void require_other_file(const Communicator& ranks, const std::string& in, const std::string& out);
+
+}  // namespace fiber

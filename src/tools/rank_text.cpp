@@ -1,0 +1,187 @@
+#include "src/tools/rank_text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <iostream>
+#include <ostream>
+#include <streambuf>
+#include <utility>
+#include <vector>
+
+#include "fiber_proximity/io/file.hpp"
+#include "src/mpi/whole_file.hpp"
+
+namespace fiber {
+namespace {
+
+constexpr std::streamsize most_at_once = 65'536;  // [byte]
+
+/// Hands on what is written to it.
+class TextPieces : public std::streambuf {
+ public:
+  /// @return whether it went well
+  using Take = std::function<bool(const char* text, std::streamsize size)>;
+
+  explicit TextPieces(Take take) : take_(std::move(take)) {}
+
+ private:
+  std::streamsize xsputn(const char* text, std::streamsize size) override {
+    for (std::streamsize done = 0; done < size; done += most_at_once) {
+      if (!take_(text + done, std::min(most_at_once, size - done))) {
+        return done;
+      }
+    }
+    return size;
+  }
+  int_type overflow(int_type c) override {
+    const char character = traits_type::to_char_type(c);
+    return xsputn(&character, 1) == 1 ? traits_type::not_eof(c) : traits_type::eof();
+  }
+
+  const Take take_;
+};
+
+void write_pieces(const std::function<void(TextOutput& output)>& write,
+                  const TextPieces::Take& take) {
+  TextPieces pieces(take);
+  std::ostream stream(&pieces);
+  TextOutput output(stream);
+  write(output);
+  output.flush();
+}
+
+std::string text_of_mpi(int error) {
+  std::array<char, MPI_MAX_ERROR_STRING> text{};
+  int length = 0;
+  MPI_Error_string(error, text.data(), &length);
+  return {text.data(), static_cast<std::size_t>(length)};
+}
+
+}  // namespace
+
+RankText::RankText(const Communicator& ranks, std::string path)
+    : ranks_(ranks), path_(std::move(path)) {
+  if (path_.empty()) {
+    return;
+  }
+  on_first_rank(ranks_, [&] { OutputFile(aside(path_)).close(); });
+  const int error =
+      MPI_File_open(ranks_.handle(), aside(path_).c_str(), MPI_MODE_WRONLY, MPI_INFO_NULL, &file_);
+  if (!ranks_.all(error == MPI_SUCCESS)) {
+    remove_unfinished();
+    ranks_.agree(error == MPI_SUCCESS
+                     ? ""
+                     : FileError(aside(path_), "cannot be written: " + text_of_mpi(error)).what());
+  }
+}
+
+RankText::~RankText() {
+  close_file();
+  remove_unfinished();  // it is there only where something went wrong
+}
+
+/// What was written of a file that is not whole.
+void RankText::remove_unfinished() const {
+  if (!path_.empty() && ranks_.rank() == 0) {
+    remove_aside(path_);
+  }
+}
+
+void RankText::append(const std::function<void(TextOutput& output)>& write) {
+  if (path_.empty()) {
+    append_to_stdout(write);
+  } else {
+    append_to_file(write);
+  }
+}
+
+void RankText::append_to_file(const std::function<void(TextOutput& output)>& write) {
+  std::uint64_t size = 0;
+  write_pieces(write, [&](const char* /*text*/, std::streamsize piece) {
+    size += static_cast<std::uint64_t>(piece);
+    return true;
+  });
+  std::uint64_t place = size_;
+  const std::vector<std::uint64_t> sizes = ranks_.gather_all(size);
+  for (int other = 0; other < ranks_.size(); ++other) {
+    place += other < ranks_.rank() ? sizes[static_cast<std::size_t>(other)] : 0;
+    size_ += sizes[static_cast<std::size_t>(other)];
+  }
+  on_first_rank(ranks_, [&] { reserve(aside(path_), size_); });
+  std::string reason;
+  const std::string error = error_in([&] {
+    write_pieces(write, [&](const char* text, std::streamsize piece) {
+      MPI_Status status;
+      int written = 0;
+      const int failure = MPI_File_write_at(file_, static_cast<MPI_Offset>(place), text,
+                                            static_cast<int>(piece), MPI_BYTE, &status);
+      if (failure != MPI_SUCCESS) {
+        reason = text_of_mpi(failure);
+        return false;
+      }
+      MPI_Get_count(&status, MPI_BYTE, &written);
+      place += static_cast<std::uint64_t>(piece);
+      return written == static_cast<int>(piece);
+    });
+  });
+  ranks_.agree(error.empty()
+                   ? ""
+                   : FileError(aside(path_), reason.empty() ? "cannot be written"
+                                                            : "cannot be written: " + reason)
+                         .what());
+}
+
+/// Rank 0 takes the others' pieces, one rank after another, and each waits for its turn.
+void RankText::append_to_stdout(const std::function<void(TextOutput& output)>& write) const {
+  if (ranks_.rank() > 0) {
+    write_pieces(write, [&](const char* text, std::streamsize piece) {
+      MPI_Ssend(text, static_cast<int>(piece), MPI_BYTE, 0, text_tag, ranks_.handle());
+      return true;
+    });
+    MPI_Ssend(nullptr, 0, MPI_BYTE, 0, text_tag, ranks_.handle());
+    ranks_.agree("");
+    return;
+  }
+  const std::string error = error_in([&] {
+    TextOutput output(std::cout);
+    write(output);
+    output.flush();
+  });
+  pass_on_others();
+  std::cout.flush();
+  ranks_.agree(!error.empty() ? error : std::cout ? "" : "the output cannot be written");
+}
+
+void RankText::pass_on_others() const {
+  std::vector<char> text(static_cast<std::size_t>(most_at_once));
+  for (int other = 1; other < ranks_.size(); ++other) {
+    int size = 1;
+    while (size > 0) {
+      MPI_Status status;
+      MPI_Recv(text.data(), static_cast<int>(text.size()), MPI_BYTE, other, text_tag,
+               ranks_.handle(), &status);
+      MPI_Get_count(&status, MPI_BYTE, &size);
+      std::cout.write(text.data(), size);
+    }
+  }
+}
+
+/// @return what went wrong, "" for nothing
+std::string RankText::close_file() {
+  if (file_ == MPI_FILE_NULL) {
+    return "";
+  }
+  const int error = MPI_File_close(&file_);
+  return error == MPI_SUCCESS ? "" : text_of_mpi(error);
+}
+
+void RankText::finish() {
+  if (path_.empty()) {
+    return;
+  }
+  const std::string error = close_file();
+  ranks_.agree(error.empty() ? "" : FileError(aside(path_), "cannot be written: " + error).what());
+  on_first_rank(ranks_, [&] { move_into_place(path_); });
+}
+
+}  // namespace fiber

@@ -1,0 +1,271 @@
+// Files that are no whole files of fibres: all ranks say so, and the same.
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "fiber_proximity/mpi/distributed_files.hpp"
+#include "src/mpi/hdf5_file.hpp"
+#include "test/mpi/dealt_fibers.hpp"
+#include "test/mpi/shared_folder.hpp"
+
+namespace fiber::test {
+namespace {
+
+/// A file of HDF5 that one rank changes.
+class OpenFile {
+ public:
+  explicit OpenFile(const std::string& path)
+      : file_(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose, "cannot be opened") {}
+
+  hid_t get() const { return file_.get(); }
+
+  void remove(const std::string& path) const {
+    require_success(H5Ldelete(file_.get(), path.c_str(), H5P_DEFAULT), "cannot be removed");
+  }
+
+  /// Another dataset in place of one.
+  template <class T>
+  void replace(const std::string& path, Hdf5Shape shape, const std::vector<T>& values) const {
+    remove(path);
+    const Hdf5Id dataset = create_dataset(file_.get(), path, hdf5_type(T()).file, shape);
+    write_rows(dataset.get(), hdf5_type(T()).memory, 0, shape, values.data());
+  }
+
+  template <class T>
+  void set(const std::string& path, std::uint64_t row, const std::vector<T>& values) const {
+    const Hdf5Id dataset = open_dataset(file_.get(), path);
+    write_rows(dataset.get(), hdf5_type(T()).memory, row, {1, values.size()}, values.data());
+  }
+
+ private:
+  const QuietHdf5 quiet_;
+  Hdf5Id file_;
+};
+
+/// Three fibres of 4, 3 and 5 points, on rank 0.
+DistributedFibers three_fibers() {
+  DistributedFibers fibers;
+  if (own_rank() == 0) {
+    std::vector<Eigen::Vector3d> points;
+    for (int i = 0; i < 12; ++i) {
+      points.emplace_back(0.1 * i, 0.01 * i * i, 0.0);
+    }
+    fibers.parts = FiberAssembly(points, {0, 4, 7, 12}, {0.001});
+    fibers.names = {{5, 0}, {6, 0}, {8, 0}};
+  }
+  return fibers;
+}
+
+void write_fibers_to(const std::string& path, const DistributedFileOptions& options = {}) {
+  DistributedFiberWriter writer(MPI_COMM_WORLD, path, options);
+  writer.write(0, three_fibers());
+  if (options.has_frames) {
+    writer.write(1, three_fibers());
+  }
+  writer.finish();
+}
+
+/// Rank 0 breaks something, the others wait.
+void on_rank_0(const std::function<void()>& work) {
+  if (own_rank() == 0) {
+    work();
+  }
+  MPI_Barrier(MPI_COMM_WORLD);
+}
+
+/// Reads all frames.
+std::string error_of_reading(const std::string& path) {
+  try {
+    const DistributedFiberReader reader(MPI_COMM_WORLD, path);
+    DistributedFibers fibers;
+    for (std::size_t i = 0; i < reader.frame_count(); ++i) {
+      reader.read(i, fibers);
+    }
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+void expect_refused(const std::string& path, const std::string& text) {
+  testing::internal::CaptureStderr();
+  const std::string error = error_of_reading(path);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");  // HDF5 prints nothing
+  EXPECT_NE(error.find(text), std::string::npos) << error << "\nexpected: " << text;
+  EXPECT_EQ(error.rfind("rank ", 0), 0u) << error;
+  MPI_Barrier(MPI_COMM_WORLD);
+}
+
+struct Damage {
+  std::string what;
+  std::function<void(const OpenFile& file)> change;
+  std::string error;
+};
+
+TEST(BrokenFiles, WhatIsWrongInOneIsSaid) {
+  const SharedFolder folder;
+  const std::string path = folder / "broken.h5";
+  const double nan = std::nan("");
+  const std::vector<Damage> damages{
+      {"nothing", [](const OpenFile&) {}, "no error"},
+      {"no attribute", [](const OpenFile& file) { H5Adelete(file.get(), "fiber_proximity"); },
+       "is no file of fibres"},
+      {"an attribute of another kind",
+       [](const OpenFile& file) {
+         H5Adelete(file.get(), "fiber_proximity");
+         write_numbers(file.get(), "fiber_proximity", {7});
+       },
+       "is no file of fibres"},
+      {"another version",
+       [](const OpenFile& file) {
+         H5Adelete(file.get(), "version");
+         write_numbers(file.get(), "version", {2});
+       },
+       "has a layout of version 2, known is 1"},
+      {"no group", [](const OpenFile& file) { file.remove("VTKHDF"); },
+       "group VTKHDF cannot be read"},
+      {"no radii", [](const OpenFile& file) { file.remove("VTKHDF/PointData/radius"); },
+       "dataset radius cannot be read"},
+      {"a group for a dataset",
+       [](const OpenFile& file) {
+         file.remove("VTKHDF/Points");
+         create_group(file.get(), "VTKHDF/Points");
+       },
+       "dataset Points cannot be read"},
+      {"fewer radii",
+       [](const OpenFile& file) {
+         file.replace<double>("VTKHDF/PointData/radius", {11, 1}, std::vector<double>(11, 0.0));
+       },
+       "dataset radius has 11 rows of 1 values, it must have 12 rows of 1 value"},
+      {"radii of two values",
+       [](const OpenFile& file) {
+         file.replace<double>("VTKHDF/PointData/radius", {12, 2}, std::vector<double>(24, 0.0));
+       },
+       "dataset radius has 12 rows of 2 values"},
+      {"fewer points",
+       [](const OpenFile& file) {
+         file.replace<double>("VTKHDF/Points", {10, 3}, std::vector<double>(30, 0.0));
+       },
+       "dataset radius has 12 rows of 1 values, it must have 10"},
+      {"points of two coordinates",
+       [](const OpenFile& file) {
+         file.replace<double>("VTKHDF/Points", {12, 2}, std::vector<double>(24, 0.0));
+       },
+       "dataset Points has 2 columns, it must have 3"},
+      {"fewer names",
+       [](const OpenFile& file) {
+         file.replace<std::uint64_t>("VTKHDF/CellData/fiber", {2, 1}, {5, 6});
+       },
+       "dataset first_segment has 3 rows of 1 values, it must have 2"},
+      {"fewer offsets",
+       [](const OpenFile& file) {
+         file.replace<std::int64_t>("VTKHDF/Offsets", {3, 1}, {0, 4, 12});
+       },
+       "dataset Offsets has 3 rows of 1 values, it must have 4"},
+      {"offsets that begin late",
+       [](const OpenFile& file) { file.set<std::int64_t>("VTKHDF/Offsets", 0, {1}); },
+       "Offsets begin with 1 and end with 12, they must with 0 and 12"},
+      {"offsets that end early",
+       [](const OpenFile& file) { file.set<std::int64_t>("VTKHDF/Offsets", 3, {11}); },
+       "Offsets begin with 0 and end with 11, they must with 0 and 12"},
+      {"a coordinate that is no number",
+       [nan](const OpenFile& file) {
+         file.set<double>("VTKHDF/Points", 9, {0.0, nan, 0.0});
+       },
+       "point 9 has the coordinate nan, coordinates must be finite"},
+      {"an infinite coordinate",
+       [](const OpenFile& file) {
+         file.set<double>("VTKHDF/Points", 2, {HUGE_VAL, 0.0, 0.0});
+       },
+       "point 2 has the coordinate inf, coordinates must be finite"},
+      {"a negative radius",
+       [](const OpenFile& file) { file.set<double>("VTKHDF/PointData/radius", 5, {-1.0}); },
+       "point 5 has the radius -1, radii must be finite, at least 0"},
+  };
+  for (const Damage& damage : damages) {
+    SCOPED_TRACE(damage.what);
+    write_fibers_to(path);
+    on_rank_0([&] { damage.change(OpenFile(path)); });
+    if (damage.error == "no error") {
+      EXPECT_EQ(error_of_reading(path), damage.error);
+      MPI_Barrier(MPI_COMM_WORLD);
+    } else {
+      expect_refused(path, damage.error);
+    }
+  }
+}
+
+TEST(BrokenFiles, OffsetsOfAnyOrderAreRefusedByAnyNumberOfRanks) {
+  const SharedFolder folder;
+  const std::string path = folder / "offsets.h5";
+  write_fibers_to(path);
+  for (const std::int64_t first : {-1, 0, 1, 2, 3, 6, 7, 9, 11, 12, 13}) {
+    for (const std::int64_t second : {-5, 0, 3, 4, 5, 8, 11, 12, 99}) {
+      SCOPED_TRACE(std::to_string(first) + ", " + std::to_string(second));
+      on_rank_0([&] {
+        OpenFile(path).replace<std::int64_t>("VTKHDF/Offsets", {4, 1}, {0, first, second, 12});
+      });
+      const bool is_right = first >= 2 && second >= first + 2 && second <= 10;
+      const std::string error = error_of_reading(path);
+      EXPECT_EQ(error == "no error", is_right) << error;
+      MPI_Barrier(MPI_COMM_WORLD);
+    }
+  }
+}
+
+TEST(BrokenFiles, FilesThatAreNotWholeAreRefused) {
+  const SharedFolder folder;
+  expect_refused(folder / "none.h5", "none.h5: cannot be opened: No such file");
+  on_rank_0([&] { std::ofstream(folder / "empty.h5"); });
+  expect_refused(folder / "empty.h5", "is no whole HDF5 file");
+  on_rank_0([&] { std::ofstream(folder / "text.h5") << "fiber,x,y,z\n"; });
+  expect_refused(folder / "text.h5", "is no whole HDF5 file");
+  const std::string path = folder / "short.h5";
+  write_fibers_to(path);
+  const std::uintmax_t size = std::filesystem::file_size(path);
+  for (const std::uintmax_t left : {size - 1, size / 2, size / 10, std::uintmax_t{100}}) {
+    SCOPED_TRACE(left);
+    on_rank_0([&] { std::filesystem::resize_file(path, left); });
+    expect_refused(path, "short.h5: is no whole HDF5 file");
+  }
+}
+
+TEST(BrokenFiles, FramesThatAreNotThereAreRefused) {
+  const SharedFolder folder;
+  DistributedFileOptions options;
+  options.has_frames = true;
+  write_fibers_to(folder / "moving.h5", options);
+  EXPECT_EQ(error_of_reading(folder / "moving.h5"), "no error");
+  MPI_Barrier(MPI_COMM_WORLD);
+  on_rank_0([&] { std::filesystem::resize_file(folder / "moving.frames/000001.h5", 1000); });
+  expect_refused(folder / "moving.h5", "moving.h5: frames/000001: group frames/000001 cannot be");
+  on_rank_0([&] { std::filesystem::remove(folder / "moving.frames/000001.h5"); });
+  expect_refused(folder / "moving.h5", "moving.h5: frames/000001: group frames/000001 cannot be");
+}
+
+TEST(BrokenFiles, PartsThatOverlapAreRefusedByTheEngine) {
+  const SharedFolder folder;
+  const std::string path = folder / "overlap.h5";
+  write_fibers_to(path);
+  on_rank_0([&] { OpenFile(path).set<std::uint64_t>("VTKHDF/CellData/fiber", 1, {5}); });
+  DistributedFibers fibers;
+  DistributedFiberReader(MPI_COMM_WORLD, path).read(0, fibers);
+  DistributedEngine engine(MPI_COMM_WORLD, one_thread());
+  try {
+    engine.update(fibers.parts, fibers.names);
+    FAIL() << "no error";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("fibre 5: rank "), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace fiber::test

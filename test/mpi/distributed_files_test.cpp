@@ -1,0 +1,192 @@
+// What ranks write together they read together, whatever the number of either.
+#include "fiber_proximity/mpi/distributed_files.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "src/io/radii.hpp"
+#include "src/mpi/communicator.hpp"
+#include "src/mpi/fiber_runs.hpp"
+#include "test/mpi/dealt_fibers.hpp"
+#include "test/mpi/shared_folder.hpp"
+#include "test/support/random.hpp"
+
+namespace fiber {
+namespace {
+
+/// A segment with all that is known of it, as all ranks see it.
+using SegmentFacts = std::tuple<std::uint64_t, std::uint64_t, PlainPoint, PlainPoint, double>;
+
+/// Of all ranks, in the order of fibres.
+std::vector<SegmentFacts> segments_of(const DistributedFibers& fibers) {
+  struct Plain {
+    GlobalSegment name;
+    PlainPoint p0, p1;
+    double radius;
+  };
+  const Communicator ranks(MPI_COMM_WORLD);
+  PerRank<Plain> to(static_cast<std::size_t>(ranks.size()));
+  for (std::size_t part = 0; part < fibers.names.size(); ++part) {
+    const std::uint32_t begin = fibers.parts.offsets()[part];
+    for (std::uint32_t p = begin; p + 1 < fibers.parts.offsets()[part + 1]; ++p) {
+      const Capsule capsule = fibers.parts.capsule(p);
+      const Plain segment{{fibers.names[part].fiber, fibers.names[part].first_segment + p - begin},
+                          plain(capsule.p0),
+                          plain(capsule.p1),
+                          capsule.radius};
+      for (std::vector<Plain>& some : to) {
+        some.push_back(segment);
+      }
+    }
+  }
+  std::vector<SegmentFacts> all;
+  for (const std::vector<Plain>& some : ranks.exchange(to)) {
+    for (const Plain& segment : some) {
+      all.emplace_back(segment.name.fiber, segment.name.segment, segment.p0, segment.p1,
+                       segment.radius);
+    }
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+DistributedFibers random_parts(test::Random& random, const FiberAssembly& fibers, int cuts) {
+  test::Dealt dealt = test::dealt_to(test::own_rank(), fibers, test::deal(fibers, cuts, random));
+  return {std::move(dealt.parts), std::move(dealt.names)};
+}
+
+/// Fibres of few segments or many, with radii per point, per fibre or one for all.
+FiberAssembly random_assembly(test::Random& random) {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<std::uint32_t> offsets{0};
+  const int count = random.integer(1, 12);
+  for (int fiber = 0; fiber < count; ++fiber) {
+    for (int left = random.integer(2, random.chance(0.2) ? 300 : 6); left > 0; --left) {
+      points.emplace_back(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    }
+    offsets.push_back(static_cast<std::uint32_t>(points.size()));
+  }
+  std::vector<double> radii(random.chance(0.5)   ? points.size()
+                            : random.chance(0.5) ? offsets.size() - 1
+                                                 : 1);
+  for (double& radius : radii) {
+    radius = random.uniform(0, 0.1);
+  }
+  return {std::move(points), std::move(offsets), std::move(radii)};
+}
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(DistributedFiles, FibersComeBackAsTheyWere) {
+  const test::SharedFolder folder;
+  test::Random random(21);
+  for (int round = 0; round < 20; ++round) {
+    SCOPED_TRACE(round);
+    const FiberAssembly assembly = random_assembly(random);
+    const DistributedFibers written = random_parts(random, assembly, round % 4);
+    const std::string path = folder / "fibers.h5";
+    DistributedFiberWriter writer(MPI_COMM_WORLD, path);
+    writer.write(0, written);
+    writer.finish();
+    DistributedFibers read;
+    const DistributedFiberReader reader(MPI_COMM_WORLD, path);
+    ASSERT_EQ(reader.frame_count(), 1u);
+    ASSERT_FALSE(reader.has_frames());
+    ASSERT_EQ(reader.read(0, read), 0);
+    ASSERT_EQ(segments_of(read), segments_of(written));
+    // About equal shares.
+    const std::size_t all = assembly.segment_count();
+    const auto size = static_cast<std::size_t>(test::rank_count());
+    ASSERT_GE(read.parts.segment_count(), all / size);
+    ASSERT_LE(read.parts.segment_count(), all / size + 1);
+  }
+}
+
+TEST(DistributedFiles, WholeFibersMakeTheSameFileOfAnyRanks) {
+  const test::SharedFolder folder;
+  test::Random random(22);
+  for (int round = 0; round < 10; ++round) {
+    SCOPED_TRACE(round);
+    const FiberAssembly assembly = random_assembly(random);
+    // In the order of fibres, cut where the random numbers say.
+    std::vector<test::DealtPart> parts;
+    const auto ranks = static_cast<std::uint32_t>(test::rank_count());
+    for (std::uint32_t fiber = 0; fiber < assembly.fiber_count(); ++fiber) {
+      const std::uint32_t count = assembly.offsets()[fiber + 1] - assembly.offsets()[fiber] - 1;
+      const std::uint32_t rank = fiber * ranks / static_cast<std::uint32_t>(assembly.fiber_count());
+      const auto cut = static_cast<std::uint32_t>(random.integer(0, static_cast<int>(count)));
+      const std::uint32_t next_fiber =
+          (fiber + 1) * ranks / static_cast<std::uint32_t>(assembly.fiber_count());
+      const std::uint32_t after = std::min(next_fiber, ranks - 1);
+      if (cut > 0) {
+        parts.push_back({fiber, 0, cut, static_cast<int>(rank)});
+      }
+      if (cut < count) {
+        parts.push_back({fiber, cut, count, static_cast<int>(after)});
+      }
+    }
+    test::Dealt mine = test::dealt_to(test::own_rank(), assembly, parts);
+    DistributedFiberWriter cut(MPI_COMM_WORLD, folder / "cut.h5");
+    cut.write(0, {std::move(mine.parts), std::move(mine.names)});
+    cut.finish();
+    for (test::DealtPart& part : parts) {
+      part.rank = 0;
+    }
+    mine = test::dealt_to(test::own_rank(), assembly, parts);
+    DistributedFiberWriter whole(MPI_COMM_WORLD, folder / "whole.h5");
+    whole.write(0, {std::move(mine.parts), std::move(mine.names)});
+    whole.finish();
+    ASSERT_TRUE(bytes_of(folder / "cut.h5") == bytes_of(folder / "whole.h5"));
+    ASSERT_FALSE(std::filesystem::exists(folder / "whole.h5.part"));
+  }
+}
+
+TEST(DistributedFiles, FramesComeBackWithTheirNumbers) {
+  const test::SharedFolder folder;
+  test::Random random(23);
+  const FiberAssembly assembly = random_assembly(random);
+  const std::vector<std::int64_t> numbers{5, -3, 12};
+  DistributedFileOptions options;
+  options.has_frames = true;
+  options.run = "the first";
+  std::vector<std::vector<SegmentFacts>> expected;
+  {
+    DistributedFiberWriter writer(MPI_COMM_WORLD, folder / "moving.h5", options);
+    for (const std::int64_t number : numbers) {
+      FiberAssembly moved = assembly;
+      std::vector<Eigen::Vector3d> points = assembly.points();
+      for (Eigen::Vector3d& point : points) {
+        point.x() += static_cast<double>(number);
+      }
+      moved.update_points(points);
+      const DistributedFibers fibers = random_parts(random, moved, 2);
+      writer.write(number, fibers);
+      expected.push_back(segments_of(fibers));
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder / "moving.h5"));
+    EXPECT_THROW(writer.write(5, {}), std::invalid_argument);
+    writer.finish();
+  }
+  const DistributedFiberReader reader(MPI_COMM_WORLD, folder / "moving.h5");
+  ASSERT_TRUE(reader.has_frames());
+  ASSERT_EQ(reader.frame_count(), numbers.size());
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    DistributedFibers fibers;
+    EXPECT_EQ(reader.read(i, fibers), numbers[i]);
+    EXPECT_EQ(segments_of(fibers), expected[i]);
+  }
+}
+
+}  // namespace
+}  // namespace fiber

@@ -1,0 +1,93 @@
+// What ranks hold: their share, and of others what may be near.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "fiber_proximity/geometry/segment_distance.hpp"
+#include "src/mpi/box_tree.hpp"
+#include "test/mpi/dealt_fibers.hpp"
+#include "test/support/assemblies.hpp"
+#include "test/support/contacts.hpp"
+
+namespace fiber::test {
+namespace {
+
+std::uint64_t over_ranks(std::uint64_t value, MPI_Op operation) {
+  std::uint64_t result = 0;
+  MPI_Allreduce(&value, &result, 1, MPI_UINT64_T, operation, MPI_COMM_WORLD);
+  return result;
+}
+
+/// A soup of short fibres, dealt out fibre by fibre as they come; the first may be thick.
+struct Soup {
+  explicit Soup(double first_radius) {
+    AssemblyBuilder builder;
+    std::vector<double> radii(2000, 1e-5);
+    radii[0] = first_radius;
+    Random random;
+    for (std::size_t fiber = 0; fiber < radii.size(); ++fiber) {
+      builder.add_fiber(random_walk(random, 5, 0.01));
+    }
+    fibers = builder.build(radii);
+    const Dealt mine = dealt_to(own_rank(), fibers, deal(fibers, 1, random));
+    engine.update(mine.parts, mine.names);
+  }
+
+  FiberAssembly fibers;
+  DistributedEngine engine{MPI_COMM_WORLD, one_thread()};
+};
+
+TEST(DistributedHalo, SharesAreAboutEqual) {
+  Soup soup(1e-5);
+  const std::uint64_t own = soup.engine.facts().own_segments;
+  EXPECT_EQ(over_ranks(own, MPI_SUM), soup.fibers.segment_count());
+  const double share =
+      static_cast<double>(soup.fibers.segment_count()) / static_cast<double>(rank_count());
+  EXPECT_LE(static_cast<double>(over_ranks(own, MPI_MAX)), 1.1 * share + 16.0);
+}
+
+TEST(DistributedHalo, OnlyWhatIsNearComes) {
+  Soup soup(1e-5);
+  const DistributedResult found = answer(soup.engine, within(1e-3));
+  EXPECT_TRUE(same_as_one_process(found, answer("run_tree", soup.fibers, within(1e-3)).contacts));
+  const std::uint64_t halo = over_ranks(soup.engine.facts().halo_segments, MPI_SUM);
+  EXPECT_EQ(halo == 0, rank_count() == 1);
+  EXPECT_LE(halo, soup.fibers.segment_count() / 5);
+}
+
+TEST(DistributedHalo, AThickFibreBringsNoMoreThanWhatIsNearIt) {
+  Soup thin(1e-5);
+  Soup thick(0.1);  // ten thousand times as thick as the others
+  const DistributedResult found = answer(thick.engine, within(1e-3));
+  answer(thin.engine, within(1e-3));
+  const QueryResult expected = answer("run_tree", thick.fibers, within(1e-3));
+  EXPECT_TRUE(same_as_one_process(found, expected.contacts));
+  const std::uint64_t more = over_ranks(thick.engine.facts().halo_segments, MPI_SUM);
+  const std::uint64_t few = over_ranks(thin.engine.facts().halo_segments, MPI_SUM);
+  // Each contact of the thick one brings one segment at most; boxes are somewhat larger.
+  EXPECT_LE(more, few + expected.contacts.size() * 2);
+}
+
+/// A segment across an axis, so that boxes are as far apart as segments.
+std::pair<FiberNode, FiberNode> across(double place, double radius) {
+  return {{{place, -1e-3, 0.0}, radius}, {{place, 1e-3, 0.0}, 0.0}};
+}
+
+TEST(DistributedHalo, BoxesAreNoFurtherApartThanSegmentsAreFound) {
+  Random random;
+  for (int round = 0; round < 20000; ++round) {
+    const double near = random.uniform(-1.0, 1.0) * std::pow(10.0, random.integer(-6, 0));
+    const double far = near + random.uniform(0.5, 2.0);
+    const auto [a0, a1] = across(near, random.uniform(0.0, 0.2));
+    const auto [b0, b1] = across(far, random.uniform(0.0, 0.2));
+    const SegmentDistance nearest = segment_distance(vector_of(a0.point), vector_of(a1.point),
+                                                     vector_of(b0.point), vector_of(b1.point));
+    const double gap = nearest.distance - (a0.radius + b0.radius);
+    ASSERT_TRUE(may_come_within(box_around(a0, a1), box_around(b0, b1), gap)) << gap;
+    ASSERT_FALSE(may_come_within(box_around(a0, a1), box_around(b0, b1), gap - 1e-12)) << gap;
+  }
+}
+
+}  // namespace
+}  // namespace fiber::test

@@ -1,0 +1,91 @@
+#!/usr/bin/env bash
+# fiber_scene_mpi writes the same file from any number of ranks; what is wrong it says once, and leaves nothing.
+#   fiber_scene_mpi_test.sh FOLDER MPIEXEC [FLAG...]
+#     FOLDER  of the tools
+#     FLAG    of MPIEXEC, the last one before the number of ranks
+set -euo pipefail
+tools=$1
+shift
+mpiexec=("$@")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+
+fail() {
+  echo "fiber_scene_mpi_test: $*" >&2
+  exit 1
+}
+
+# scene RANKS ARGUMENT...: runs the tool.
+scene() {
+  local ranks=$1
+  shift
+  "${mpiexec[@]}" "$ranks" "$tools/fiber_scene_mpi" "$@"
+}
+
+for options in "soup --segments 1e4" "soup --segments 150 --seed 2" "tress_b --segments 11999" \
+  "locks --segments 3e4 --frame 30"; do
+  # shellcheck disable=SC2086  # several options
+  scene 1 $options --out expected.h5
+  [ -s expected.h5 ] || fail "nothing is written of $options"
+  for ranks in 2 3 7; do
+    # shellcheck disable=SC2086
+    scene "$ranks" $options --out found.h5
+    cmp expected.h5 found.h5 || fail "$ranks ranks write something else of $options"
+    rm found.h5
+  done
+done
+
+# The contacts of what is made so are those that one process finds.
+for options in "soup --segments 2e4" "locks --segments 3e4"; do
+  # shellcheck disable=SC2086
+  scene 3 $options --out scene.h5
+  "${mpiexec[@]}" 2 "$tools/fiber_query_mpi" convert scene.h5 scene.csv
+  "$tools/fiber_query" contacts scene.csv --margin 0.001 >expected.csv
+  [ "$(wc -l <expected.csv)" -gt 10 ] || fail "hardly any contacts of $options"
+  for ranks in 1 2 4; do
+    "${mpiexec[@]}" "$ranks" "$tools/fiber_query_mpi" contacts scene.h5 --margin 0.001 --out contacts.csv
+    cmp expected.csv contacts.csv || fail "$ranks ranks find something else of $options"
+  done
+done
+
+# A plan counts the same, by any number of ranks, of the scene itself and of its file; times differ.
+scene 2 soup --segments 2e4 --out scene.h5
+scene 1 soup --segments 2e4 --plan 5 --margin 0.001 >plan.csv
+[ "$(cut -d , -f 1 plan.csv | tr '\n' ' ')" = "quantity segments halo_segments halo_share neighbours bytes seconds efficiency " ] ||
+  fail "no such plan: $(cat plan.csv)"
+grep -qE '^segments,39..,4000,40..$' plan.csv || fail "segments are planned otherwise: $(cat plan.csv)"
+scene 3 soup --segments 2e4 --plan 5 --margin 0.001 | head -n 6 | cmp - <(head -n 6 plan.csv) || fail "3 ranks plan otherwise"
+"${mpiexec[@]}" 2 "$tools/fiber_query_mpi" contacts scene.h5 --plan 5 --margin 0.001 | head -n 6 | cmp - <(head -n 6 plan.csv) ||
+  fail "of a file the plan is another"
+scene 2 soup --segments 1e7 --plan 5 --margin 0.001 --sample 8000 >plan.csv
+grep -qE "^segments,[0-9.]*,2e\+06,[0-9.]*$" plan.csv || fail "a plan from a sample: $(cat plan.csv)"
+scene 2 locks --segments 1e7 --plan 2 --sample 8000 2>&1 >plan.csv | grep -q "^warning: parts of the sample are smaller than 1843200 segments" ||
+  fail "no warning of a sample that is too small"
+
+# expect_refused TEXT ARGUMENT...: three ranks refuse this, with exit code 2 and this text, once.
+expect_refused() {
+  local text=$1 code=0
+  shift
+  scene 3 "$@" >out.txt 2>error.txt || code=$?
+  [ "$code" -eq 2 ] || fail "$*: exit code $code"
+  [ "$(grep -cF -e "$text" error.txt)" -eq 1 ] || { cat error.txt; fail "$*: not once: $text"; }
+  [ -z "$(find . -name 'found*')" ] || fail "$*: something is left"
+}
+
+expect_refused "unknown scene 'cloth', known are: soup, tress_b, locks" cloth --segments 9 --out found.h5
+for segments in 0 -1 1.5 many nan inf 1e16; do
+  expect_refused "--segments: '$segments' must be a whole number from 1 to 1e15" \
+    soup --segments "$segments" --out found.h5
+done
+expect_refused "--segments is required" soup --out found.h5
+expect_refused "--out is required, or --plan" soup --segments 9
+expect_refused "--seed: '-1'" soup --segments 9 --seed -1 --out found.h5
+expect_refused "--out: 'found.csv' must end in .h5" soup --segments 9 --out found.csv
+expect_refused "nowhere/found.h5.part: cannot be opened for writing" soup --segments 9 --out nowhere/found.h5
+expect_refused "--plan: Value 0 not in range" soup --segments 9 --plan 0
+expect_refused "--out excludes --plan" soup --segments 9 --plan 2 --out found.h5
+expect_refused "--bandwidth requires --plan" soup --segments 9 --bandwidth 1e9 --out found.h5
+expect_refused "margin is -1" soup --segments 9 --plan 2 --margin -1
+expect_refused "--sample: '1e4' must be at least 80000" soup --segments 1e9 --plan 100 --sample 1e4
+expect_refused "fibres in one part, there may be at most" soup --segments 1e15 --out found.h5

@@ -1,0 +1,54 @@
+# The same answers from any number of ranks, over loopback; included from test/, where paths begin.
+
+if(TARGET fiber_proximity_mpi)
+  add_executable(distributed_engine_test
+    mpi/broken_files_test.cpp
+    mpi/contact_files_test.cpp
+    mpi/distributed_engine_test.cpp
+    mpi/distributed_errors_test.cpp
+    mpi/distributed_files_test.cpp
+    mpi/distributed_halo_test.cpp
+    mpi/loop_questions_test.cpp
+    mpi/part_loads_test.cpp
+    mpi/plan_test.cpp
+    mpi/mpi_main.cpp
+  )
+  if(FIBER_PROXIMITY_BUILD_ROS)
+    target_link_libraries(distributed_engine_test gtest)
+    add_dependencies(tests distributed_engine_test)
+  else()
+    target_link_libraries(distributed_engine_test GTest::gtest)
+  endif()
+  target_link_libraries(distributed_engine_test
+    fiber_proximity_mpi fiber_proximity_paper ${PARALLEL_HDF5_LIBRARY} fiber_proximity_options)
+  target_include_directories(distributed_engine_test SYSTEM PRIVATE ${PARALLEL_HDF5_INCLUDE_FOLDER})
+  fiber_proximity_compile_tests_together(distributed_engine_test)
+  execute_process(COMMAND ${MPIEXEC_EXECUTABLE} --version OUTPUT_VARIABLE mpiexec_version ERROR_QUIET)
+  # Ranks of one machine, more than it has cores, and also where all is done as root, as in containers.
+  set(mpiexec_flags "")
+  if(mpiexec_version MATCHES "Open MPI|OpenRTE")
+    set(mpiexec_flags --allow-run-as-root --oversubscribe --bind-to none --mca mpi_yield_when_idle 1
+      --mca btl self,vader,tcp --mca btl_tcp_if_include lo --mca oob_tcp_if_include lo)
+  endif()
+  foreach(ranks 1 2 3 4 7)
+    add_test(NAME distributed_engine_test_${ranks}
+      COMMAND ${MPIEXEC_EXECUTABLE} ${mpiexec_flags} ${MPIEXEC_NUMPROC_FLAG} ${ranks}
+        $<TARGET_FILE:distributed_engine_test>)
+    set_tests_properties(distributed_engine_test_${ranks} PROPERTIES PROCESSORS ${ranks})
+  endforeach()
+  add_test(NAME fiber_query_mpi_test
+    COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/mpi/fiber_query_mpi_test.sh $<TARGET_FILE_DIR:fiber_query_mpi>
+      ${MPIEXEC_EXECUTABLE} ${mpiexec_flags} ${MPIEXEC_NUMPROC_FLAG})
+  add_test(NAME fiber_scene_mpi_test
+    COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/mpi/fiber_scene_mpi_test.sh $<TARGET_FILE_DIR:fiber_scene_mpi>
+      ${MPIEXEC_EXECUTABLE} ${mpiexec_flags} ${MPIEXEC_NUMPROC_FLAG})
+  add_library(no_threads MODULE mpi/no_threads.cpp)
+  target_link_libraries(no_threads MPI::MPI_CXX fiber_proximity_options)
+  add_test(NAME distributed_faults_test
+    COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/mpi/distributed_faults_test.sh $<TARGET_FILE_DIR:fiber_query_mpi>
+      $<TARGET_FILE:no_threads> ${MPIEXEC_EXECUTABLE} ${mpiexec_flags} ${MPIEXEC_NUMPROC_FLAG})
+  add_test(NAME vtkhdf_test
+    COMMAND /usr/bin/python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/mpi/vtkhdf_test.py $<TARGET_FILE_DIR:fiber_query_mpi>
+      ${MPIEXEC_EXECUTABLE} ${mpiexec_flags} ${MPIEXEC_NUMPROC_FLAG})
+  set_tests_properties(vtkhdf_test PROPERTIES SKIP_RETURN_CODE 77)
+endif()
