@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+
 #include "src/tools/text_output.hpp"
 
 namespace fiber {
@@ -18,6 +22,41 @@ void write_csv_contacts(TextOutput& output, const FrameNumber& frame, const Cont
                      contact.segment_b, contact.t, contact.distance, contact.point_a,
                      contact.point_b, contact.normal, contact.lower, contact.upper);
   }
+}
+
+/// @param contact Contact, or DistributedContact
+template <class AnyContact>
+nlohmann::ordered_json json_of_contact(const AnyContact& contact) {
+  return {{"fiber_a", contact.fiber_a},
+          {"segment_a", contact.segment_a},
+          {"s", contact.s},
+          {"fiber_b", contact.fiber_b},
+          {"segment_b", contact.segment_b},
+          {"t", contact.t},
+          {"distance", contact.distance},
+          {"lower", contact.lower},
+          {"upper", contact.upper},
+          {"point_a", list_of(contact.point_a)},
+          {"point_b", list_of(contact.point_b)},
+          {"normal", list_of(contact.normal)}};
+}
+
+/// A JSON object of a frame's answer, before its contacts: the frame's number, if it has one,
+/// whether the answer is complete, and what no pair is closer than (null without a pair).
+inline nlohmann::ordered_json json_of_answer(const FrameNumber& frame, bool is_complete,
+                                             double minimum_lower) {
+  nlohmann::ordered_json object = object_of(frame);
+  object["complete"] = is_complete;
+  object["minimum_lower"] =
+      std::isfinite(minimum_lower) ? nlohmann::ordered_json(minimum_lower) : nullptr;
+  return object;
+}
+
+/// What is said of an answer that is not complete.
+inline std::string deadline_warning(const FrameNumber& frame) {
+  return "the deadline has passed" +
+         (frame.is_given ? " in frame " + std::to_string(frame.number) : "") +
+         ": pairs may be missing";
 }
 
 }  // namespace fiber

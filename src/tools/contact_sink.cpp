@@ -1,6 +1,8 @@
 #include "src/tools/contact_sink.hpp"
 
-#include <stdexcept>
+#include <algorithm>
+#include <cstdint>
+#include <vector>
 
 #include "src/tools/contact_rows.hpp"
 
@@ -8,14 +10,14 @@ namespace fiber {
 
 ContactSink::ContactSink(const Communicator& ranks, const ContactTarget& target,
                          const DistributedFileOptions& options)
-    : ranks_(ranks) {
-  if (target.is_hdf5) {
+    : ranks_(ranks), format_(target.format) {
+  if (format_ == ContactFormat::HDF5) {
     hdf5_.emplace(ranks.handle(), target.path, options);
     return;
   }
   text_.emplace(ranks, target.path);
   text_->append([&](TextOutput& output) {
-    if (ranks_.rank() == 0) {
+    if (ranks_.rank() == 0 && format_ == ContactFormat::CSV) {
       output.write((options.has_frames ? "frame," : "") + std::string(contact_columns));
     }
   });
@@ -25,9 +27,33 @@ void ContactSink::write(const FrameNumber& frame, DistributedResult& result) {
   sort_over_ranks(ranks_.handle(), result);
   if (hdf5_) {
     hdf5_->write(frame.number, result);
+  } else if (format_ == ContactFormat::JSON) {
+    write_json(frame, result);
   } else {
     text_->append([&](TextOutput& output) { write_csv_contacts(output, frame, result.contacts); });
   }
+}
+
+/// One object, whose contacts the ranks write one after another.
+void ContactSink::write_json(const FrameNumber& frame, const DistributedResult& result) {
+  double lower = result.others_lower;
+  for (const DistributedContact& contact : result.contacts) {
+    lower = std::min(lower, contact.lower);
+  }
+  lower = ranks_.smallest(lower);
+  const std::vector<std::uint64_t> counts =
+      ranks_.gather_all<std::uint64_t>(result.contacts.size());
+  const bool is_first = std::all_of(counts.begin(), counts.begin() + ranks_.rank(),
+                                    [](std::uint64_t count) { return count == 0; });
+  text_->append([&](TextOutput& output) {
+    if (ranks_.rank() == 0) {
+      output.begin_object(json_of_answer(frame, result.complete, lower), "contacts");
+    }
+    output.write_items(result.contacts, json_of_contact<DistributedContact>, is_first);
+    if (ranks_.rank() == ranks_.size() - 1) {
+      output.end_object();
+    }
+  });
 }
 
 void ContactSink::finish() {

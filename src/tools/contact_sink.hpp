@@ -11,10 +11,12 @@
 
 namespace fiber {
 
-/// Where contacts of all ranks go: rows of CSV, or HDF5.
+enum class ContactFormat { CSV, JSON, HDF5 };
+
+/// Where contacts of all ranks go.
 struct ContactTarget {
   std::string path;  // "" for stdout
-  bool is_hdf5 = false;
+  ContactFormat format = ContactFormat::CSV;
 };
 
 /// Writes contacts frame by frame; each rank its part. All functions are collective.
@@ -36,7 +38,10 @@ class ContactSink {
   void finish();
 
  private:
+  void write_json(const FrameNumber& frame, const DistributedResult& result);
+
   const Communicator& ranks_;
+  const ContactFormat format_;
   std::optional<DistributedContactWriter> hdf5_;
   std::optional<RankText> text_;  // one of the two
 };

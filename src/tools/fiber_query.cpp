@@ -1,11 +1,8 @@
 #include "src/tools/fiber_query.hpp"
 
-#include <cmath>
 #include <functional>
 #include <iostream>
-#include <limits>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "fiber_proximity/io/fiber_file.hpp"
@@ -18,18 +15,10 @@ namespace fiber {
 namespace {
 
 struct Request : FiberRequest {
-  QueryOptions query;
-  std::optional<double> margin;  // [m]
-  Eigen::Vector3d point;         // [m]
+  PairRequest pairs;
+  Eigen::Vector3d point;  // [m]
   std::uint32_t k = 1;
   std::string format = "csv";
-};
-
-struct Query {
-  const char* name;
-  const char* description;
-  QueryType type;
-  double default_margin;  // [m]
 };
 
 /// Asks an engine that knows the fibres of a frame.
@@ -42,49 +31,9 @@ void add_file_options(CLI::App& app, Request& request) {
       ->capture_default_str();
 }
 
-void add_accuracy_options(CLI::App& app, Request& request) {
-  add_kernel_option(app, request.query.kernel);
-  app.add_option("--tolerance", request.query.tolerance,
-                 "the closest pairs may be missed by less than this [m]")
-      ->capture_default_str();
-  app.add_option("--relative-tolerance", request.query.relative_tolerance,
-                 "the same as a part of the distance")
-      ->capture_default_str();
-  app.add_option("--deadline", request.query.deadline,
-                 "time to answer a frame [s]; what is found by then is the answer; 0 for none")
-      ->capture_default_str();
-}
-
-void add_pair_options(CLI::App& app, const Query& query, Request& request) {
-  app.add_option("--margin", request.margin,
-                 "pairs with a gap of at most this [m]; inf for no limit")
-      ->default_str(query.default_margin == 0.0 ? "0" : "inf");
-  add_neighbour_options(app, request.query.neighbour_skip, request.query.neighbour_skip_length);
-}
-
-nlohmann::ordered_json json_of_contact(const Contact& contact) {
-  return {{"fiber_a", contact.fiber_a},
-          {"segment_a", contact.segment_a},
-          {"s", contact.s},
-          {"fiber_b", contact.fiber_b},
-          {"segment_b", contact.segment_b},
-          {"t", contact.t},
-          {"distance", contact.distance},
-          {"lower", contact.lower},
-          {"upper", contact.upper},
-          {"point_a", list_of(contact.point_a)},
-          {"point_b", list_of(contact.point_b)},
-          {"normal", list_of(contact.normal)}};
-}
-
-/// A line with one JSON object: the frame's number, if it has one, whether the answer is complete,
-/// what no pair is closer than (null without a pair), and the contacts.
 void write_json_contacts(TextOutput& output, const FrameNumber& frame, const QueryResult& result) {
-  nlohmann::ordered_json object = object_of(frame);
-  object["complete"] = result.complete;
-  const double lower = result.minimum_lower();
-  object["minimum_lower"] = std::isfinite(lower) ? nlohmann::ordered_json(lower) : nullptr;
-  output.write_object(std::move(object), "contacts", result.contacts, json_of_contact);
+  output.write_object(json_of_answer(frame, result.complete, result.minimum_lower()), "contacts",
+                      result.contacts, json_of_contact<Contact>);
 }
 
 ExitCode run(const Request& request, const Ask& ask) {
@@ -108,9 +57,7 @@ ExitCode run(const Request& request, const Ask& ask) {
     }
     output.flush();
     if (!result.complete) {
-      std::cerr << "fiber_query: the deadline has passed"
-                << (number.is_given ? " in frame " + std::to_string(number.number) : "")
-                << ": pairs may be missing\n";
+      std::cerr << "fiber_query: " << deadline_warning(number) << '\n';
     }
   }
   output.flush();  // the header of a file without frames
@@ -118,25 +65,14 @@ ExitCode run(const Request& request, const Ask& ask) {
 }
 
 void add_pair_queries(CLI::App& app, Command& command, const std::shared_ptr<Request>& request) {
-  const double infinity = std::numeric_limits<double>::infinity();
-  const Query queries[] = {
-      {"contacts", "all pairs of segments within the margin", QueryType::ALL, 0.0},
-      {"closest", "the closest pair", QueryType::CLOSEST, infinity},
-      {"first", "any one pair within the margin", QueryType::FIRST, 0.0},
-      {"fiber_pairs", "the closest pair of each pair of fibres, of a fibre with itself too",
-       QueryType::FIBER_PAIRS, infinity}};
-  for (const Query& query : queries) {
+  for (const PairQuery& query : pair_queries()) {
     CLI::App* subcommand = app.add_subcommand(query.name, query.description);
     add_file_options(*subcommand, *request);
-    add_pair_options(*subcommand, query, *request);
-    add_accuracy_options(*subcommand, *request);
+    add_pair_options(*subcommand, query, request->pairs);
     subcommand->callback([&command, request, query] {
-      request->query.type = query.type;
-      request->query.margin = request->margin.value_or(query.default_margin);
-      validate(request->query);
-      command = [request] {
-        return run(*request, [request](const ProximityEngine& engine, QueryResult& result) {
-          engine.query(request->query, result);
+      command = [request, options = options_of(query, request->pairs)] {
+        return run(*request, [&options](const ProximityEngine& engine, QueryResult& result) {
+          engine.query(options, result);
         });
       };
     });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -46,6 +47,30 @@ void add_fiber_options(
 /// How distances are computed. `fast`, of versions before this one, is taken as robust, with a
 /// warning.
 void add_kernel_option(CLI::App& app, Kernel& kernel);
+
+/// A question about pairs of segments, as a subcommand asks it.
+struct PairQuery {
+  const char* name;
+  const char* description;
+  QueryType type;
+  double default_margin;  // [m]
+};
+
+/// All there are: `contacts`, `closest`, `first` and `fiber_pairs`.
+const std::array<PairQuery, 4>& pair_queries();
+
+/// What is asked about pairs, as options are read.
+struct PairRequest {
+  QueryOptions options;
+  std::optional<double> margin;  // [m]
+};
+
+/// Margin, neighbours, kernel, tolerances and deadline.
+void add_pair_options(CLI::App& app, const PairQuery& query, PairRequest& request);
+
+/// What is asked once all options are read.
+/// @throws std::invalid_argument for options that do not validate
+QueryOptions options_of(const PairQuery& query, const PairRequest& request);
 
 /// Which segments of one fibre are pairs.
 void add_neighbour_options(CLI::App& app, std::optional<std::uint32_t>& skip,

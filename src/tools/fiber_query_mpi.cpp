@@ -3,6 +3,7 @@
 
 #include <mpi.h>
 
+#include <iostream>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -17,6 +18,7 @@
 #include "src/mpi/part_loads.hpp"
 #include "src/mpi/plan.hpp"
 #include "src/mpi/step_costs.hpp"
+#include "src/tools/contact_rows.hpp"
 #include "src/tools/contact_sink.hpp"
 #include "src/tools/fiber_query.hpp"
 #include "src/tools/fiber_source.hpp"
@@ -30,27 +32,37 @@ struct MpiRequest {
   std::string file;
   double radius = 0.0;  // [m]
   EngineOptions engine_options;
-  QueryOptions query;
+  PairRequest pairs;
   std::string out;  // "" for stdout
   std::optional<std::string> format;
   bool resume = false;
   PlanRequest plan;
 };
 
-/// All that the answer depends on but the file.
-std::string run_of(const MpiRequest& request) {
-  const QueryOptions& query = request.query;
+/// What a subcommand asks.
+struct Question {
+  std::string name;
+  QueryOptions query;
+};
+
+/// All that the answer depends on.
+std::string run_of(const Communicator& ranks, const MpiRequest& request, const Question& question) {
+  const QueryOptions& query = question.query;
   const auto text_of_option = [](const auto& value) {
     return value ? text_of(*value) : std::string("none");
   };
-  return "radius " + text_of(request.radius) + ", margin " + text_of(query.margin) +
-         ", neighbour_skip " + text_of_option(query.neighbour_skip) + ", neighbour_skip_length " +
-         text_of_option(query.neighbour_skip_length) + ", kernel " + name_of(query.kernel);
+  return question.name + " of " + description_of_file(ranks, request.file) + ", radius " +
+         text_of(request.radius) + ", margin " + text_of(query.margin) + ", neighbour_skip " +
+         text_of_option(query.neighbour_skip) + ", neighbour_skip_length " +
+         text_of_option(query.neighbour_skip_length) + ", kernel " + name_of(query.kernel) +
+         ", tolerance " + text_of(query.tolerance) + ", relative_tolerance " +
+         text_of(query.relative_tolerance) + ", deadline " + text_of(query.deadline);
 }
 
 /// @throws std::invalid_argument for options that do not go together
 ContactTarget target_of(const MpiRequest& request) {
-  const bool is_hdf5 = request.format ? *request.format == "hdf5" : is_hdf5_name(request.out);
+  const std::string format = request.format.value_or(is_hdf5_name(request.out) ? "hdf5" : "csv");
+  const bool is_hdf5 = format == "hdf5";
   if (is_hdf5 && request.out.empty()) {
     throw std::invalid_argument("--format hdf5 needs a file to write: give it with --out");
   }
@@ -58,10 +70,12 @@ ContactTarget target_of(const MpiRequest& request) {
     throw std::invalid_argument(
         "--resume: only files of HDF5 can be gone on with, give --out a name that ends in .h5");
   }
-  return {request.out, is_hdf5};
+  return {request.out, is_hdf5            ? ContactFormat::HDF5
+                       : format == "json" ? ContactFormat::JSON
+                                          : ContactFormat::CSV};
 }
 
-ExitCode run(const MpiRequest& request) {
+ExitCode run(const MpiRequest& request, const Question& question) {
   const ContactTarget target = target_of(request);
   const Communicator ranks(MPI_COMM_WORLD);
   require_other_file(ranks, request.file, request.out);
@@ -70,7 +84,7 @@ ExitCode run(const MpiRequest& request) {
   DistributedFileOptions options;
   options.has_frames = source.has_frames();
   options.resume = request.resume;
-  options.run = "contacts of " + description_of_file(ranks, request.file) + ", " + run_of(request);
+  options.run = run_of(ranks, request, question);
   ContactSink sink(ranks, target, options);
   Progress progress = rank_progress(ranks);
   DistributedFibers fibers;
@@ -78,8 +92,12 @@ ExitCode run(const MpiRequest& request) {
   for (std::size_t i = sink.done(); i < source.frame_count(); ++i) {
     const std::int64_t frame = source.read(i, fibers);
     engine.update(fibers.parts, fibers.names);
-    engine.query(request.query, result);
-    sink.write({source.has_frames(), frame}, result);
+    engine.query(question.query, result);
+    const FrameNumber number{source.has_frames(), frame};
+    sink.write(number, result);
+    if (!result.complete) {
+      std::cerr << "fiber_query_mpi: " << deadline_warning(number) << '\n';
+    }
     show_frames(progress, i + 1, source.frame_count());
   }
   sink.finish();
@@ -87,61 +105,72 @@ ExitCode run(const MpiRequest& request) {
 }
 
 /// What more ranks would hold of the first frame.
-ExitCode plan_file(const MpiRequest& request) {
+ExitCode plan_file(const MpiRequest& request, const QueryOptions& query) {
   const Communicator ranks(MPI_COMM_WORLD);
   FiberSource source(ranks, request.file, request.radius);
   DistributedFibers fibers;
   source.read(0, fibers);
   std::vector<PlannedPart> parts =
-      plan_of(part_loads(ranks, fibers, request.plan.parts, request.query.margin));
-  predict_steps(parts, measure_steps(ranks, fibers, request.engine_options, request.query),
+      plan_of(part_loads(ranks, fibers, request.plan.parts, query.margin));
+  predict_steps(parts, measure_steps(ranks, fibers, request.engine_options, query),
                 request.plan.network);
   on_first_rank(ranks, [&] { write_plan(parts); });
   return SUCCEEDED;
 }
 
-void setup_mpi(CLI::App& app, Command& command) {
-  app.require_subcommand(0, 1);
-  const auto request = std::make_shared<MpiRequest>();
-  CLI::App* const contacts =
-      app.add_subcommand("contacts", "all pairs of segments within the margin");
-  contacts
-      ->add_option(
-          "FILE", request->file,
-          "fibre file: .h5, of which each rank reads its part; .csv or .hair, which rank 0 "
-          "reads")
+void add_file_options(CLI::App& app, MpiRequest& request) {
+  app.add_option("FILE", request.file,
+                 "fibre file: .h5, of which each rank reads its part; .csv or .hair, which rank 0 "
+                 "reads")
       ->required();
-  contacts->add_option("--radius", request->radius, "of all fibres, if the file has no radii [m]")
+  app.add_option("--radius", request.radius, "of all fibres, if the file has no radii [m]")
       ->capture_default_str();
-  request->engine_options.threads = 1;
-  contacts
-      ->add_option("--threads", request->engine_options.threads,
-                   "most threads that each rank uses, 0 for as many as there are cores")
+  app.add_option("--threads", request.engine_options.threads,
+                 "most threads that each rank uses, 0 for as many as there are cores")
       ->check(whole_number(0))
       ->capture_default_str();
-  contacts
-      ->add_option("--margin", request->query.margin,
-                   "pairs with a gap of at most this [m]; inf for no limit")
-      ->capture_default_str();
+}
+
+CLI::Option* add_output_options(CLI::App& app, MpiRequest& request) {
   CLI::Option* const out =
-      contacts->add_option("--out", request->out,
-                           "write to this file, .h5 or .csv, which has its name once it is whole; "
-                           "without this, to what mpirun takes as output");
-  add_plan_options(*contacts, request->plan, "of the file's first frame; contacts are not written")
-      ->excludes(out);
-  contacts
-      ->add_option("--format", request->format,
-                   "of the output; without this, hdf5 if its name ends in .h5, else csv")
-      ->check(CLI::IsMember({"csv", "hdf5"}));
-  contacts->add_flag("--resume", request->resume,
-                     "go on after the last whole frame of a run that was interrupted (.h5)");
-  add_neighbour_options(*contacts, request->query.neighbour_skip,
-                        request->query.neighbour_skip_length);
-  add_kernel_option(*contacts, request->query.kernel);
-  contacts->callback([&command, request] {
-    validate(request->query);
-    command = [request] { return request->plan.parts > 0 ? plan_file(*request) : run(*request); };
-  });
+      app.add_option("--out", request.out,
+                     "write to this file, .h5 or .csv, which has its name once it is whole; "
+                     "without this, to what mpirun takes as output");
+  app.add_option("--format", request.format,
+                 "of the output; json: one object per frame; without this, hdf5 if its name ends "
+                 "in .h5, else csv")
+      ->check(CLI::IsMember({"csv", "json", "hdf5"}));
+  app.add_flag("--resume", request.resume,
+               "go on after the last whole frame of a run that was interrupted (.h5)");
+  return out;
+}
+
+void add_pair_queries(CLI::App& app, Command& command) {
+  const auto request = std::make_shared<MpiRequest>();
+  request->engine_options.threads = 1;
+  for (const PairQuery& query : pair_queries()) {
+    CLI::App* const subcommand = app.add_subcommand(query.name, query.description);
+    add_file_options(*subcommand, *request);
+    CLI::Option* const out = add_output_options(*subcommand, *request);
+    add_pair_options(*subcommand, query, request->pairs);
+    if (query.type == QueryType::ALL) {
+      add_plan_options(*subcommand, request->plan,
+                       "of the file's first frame; contacts are not written")
+          ->excludes(out);
+    }
+    subcommand->callback([&command, request, query] {
+      const Question question{query.name, options_of(query, request->pairs)};
+      command = [request, question] {
+        return request->plan.parts > 0 ? plan_file(*request, question.query)
+                                       : run(*request, question);
+      };
+    });
+  }
+}
+
+void setup_mpi(CLI::App& app, Command& command) {
+  app.require_subcommand(0, 1);
+  add_pair_queries(app, command);
   add_convert(app, command);
 }
 

@@ -1,5 +1,6 @@
 // Options that tools about pairs of segments share.
 #include <iostream>
+#include <limits>
 
 #include "src/tools/fiber_query.hpp"
 
@@ -18,6 +19,42 @@ void add_kernel_option(CLI::App& app, Kernel& kernel) {
          },
          "one of " + join(kernel_names()))
       ->default_str("robust");
+}
+
+const std::array<PairQuery, 4>& pair_queries() {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  static const std::array<PairQuery, 4> queries{
+      {{"contacts", "all pairs of segments within the margin", QueryType::ALL, 0.0},
+       {"closest", "the closest pair", QueryType::CLOSEST, infinity},
+       {"first", "any one pair within the margin", QueryType::FIRST, 0.0},
+       {"fiber_pairs", "the closest pair of each pair of fibres, of a fibre with itself too",
+        QueryType::FIBER_PAIRS, infinity}}};
+  return queries;
+}
+
+void add_pair_options(CLI::App& app, const PairQuery& query, PairRequest& request) {
+  app.add_option("--margin", request.margin,
+                 "pairs with a gap of at most this [m]; inf for no limit")
+      ->default_str(query.default_margin == 0.0 ? "0" : "inf");
+  add_neighbour_options(app, request.options.neighbour_skip, request.options.neighbour_skip_length);
+  add_kernel_option(app, request.options.kernel);
+  app.add_option("--tolerance", request.options.tolerance,
+                 "the closest pairs may be missed by less than this [m]")
+      ->capture_default_str();
+  app.add_option("--relative-tolerance", request.options.relative_tolerance,
+                 "the same as a part of the distance")
+      ->capture_default_str();
+  app.add_option("--deadline", request.options.deadline,
+                 "time to answer a frame [s]; what is found by then is the answer; 0 for none")
+      ->capture_default_str();
+}
+
+QueryOptions options_of(const PairQuery& query, const PairRequest& request) {
+  QueryOptions options = request.options;
+  options.type = query.type;
+  options.margin = request.margin.value_or(query.default_margin);
+  validate(options);
+  return options;
 }
 
 void add_neighbour_options(CLI::App& app, std::optional<std::uint32_t>& skip,

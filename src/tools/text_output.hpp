@@ -47,16 +47,28 @@ class TextOutput {
   template <class Items, class ToJson>
   void write_object(nlohmann::ordered_json object, const char* list, const Items& items,
                     const ToJson& to_json) {
+    begin_object(std::move(object), list);
+    write_items(items, to_json, true);
+    end_object();
+  }
+
+  // The same in pieces, which several may write one after another.
+
+  void begin_object(nlohmann::ordered_json object, const char* list) {
     object[list] = nlohmann::ordered_json::array();
-    constexpr std::string_view end = "]}\n";
     const std::string empty = object.dump() + '\n';
-    write(std::string_view(empty).substr(0, empty.size() - end.size()));
-    bool is_first = true;
+    write(std::string_view(empty).substr(0, empty.size() - end_of_object.size()));
+  }
+
+  /// @param is_first whether the list has no item yet
+  template <class Items, class ToJson>
+  void write_items(const Items& items, const ToJson& to_json, bool is_first) {
     for (const auto& item : items) {
       write((std::exchange(is_first, false) ? "" : ",") + to_json(item).dump());
     }
-    write(end);
   }
+
+  void end_object() { write(end_of_object); }
 
   void flush() {
     stream_ << text_;
@@ -68,6 +80,7 @@ class TextOutput {
 
  private:
   static constexpr std::size_t long_text = 65'536;  // [byte]
+  static constexpr std::string_view end_of_object = "]}\n";
 
   template <class Number>
   void append(const Number& number) {

@@ -35,6 +35,49 @@ for options in "soup.csv --margin 0.002" "tress.csv --margin 0.0005" \
   done
 done
 
+# ask RANKS ARGUMENT...: fiber_query_mpi on so many ranks.
+ask() {
+  local ranks=$1
+  shift
+  "${mpiexec[@]}" "$ranks" "$tools/fiber_query_mpi" "$@"
+}
+
+# Each type of query and each format.
+printf 'fiber,x,y,z\n0,0,0,0\n0,1,0,0\n1,0,5,0\n1,1,5,0\n' >far.csv
+for options in "closest soup.csv" "closest tress.csv --neighbour-skip 3" "closest tress.csv --kernel exact --format json" \
+  "closest far.csv --margin 1 --format json" "fiber_pairs soup.csv --margin 0.004" \
+  "fiber_pairs tress.csv --margin 0.0008 --format json" "contacts tress.csv --margin 0.0005 --format json" \
+  "closest far.csv --margin 1"; do
+  # shellcheck disable=SC2086  # several options
+  "$tools/fiber_query" $options >expected.txt
+  for ranks in 1 2 3; do
+    # shellcheck disable=SC2086
+    ask "$ranks" $options --out found.txt
+    cmp expected.txt found.txt || fail "$ranks ranks find something else: $options"
+    rm found.txt
+  done
+done
+ask 3 closest tress.csv --format json | cmp <("$tools/fiber_query" closest tress.csv --format json) - ||
+  fail "something else is written to stdout"
+"$tools/fiber_query" closest soup.csv >expected.csv
+[ "$(wc -l <expected.csv)" -eq 2 ] || fail "no closest pair"
+"$tools/fiber_query" contacts soup.csv --margin 0.002 >expected.csv
+for ranks in 1 2 3; do
+  ask "$ranks" first soup.csv --margin 0.002 >found.csv
+  [ "$(wc -l <found.csv)" -eq 2 ] || fail "not one pair"
+  grep -qxFf <(tail -n 1 found.csv) expected.csv || fail "the pair that $ranks ranks find is none"
+  ask "$ranks" first far.csv --margin 1 >found.csv
+  [ "$(wc -l <found.csv)" -eq 1 ] || fail "a pair where there is none"
+done
+rm found.csv
+# A deadline that nothing can keep is told once for each frame; what is found by then is right.
+ask 2 contacts tress.csv --margin 0.0005 --deadline 1e-9 >found.csv 2>error.txt
+[ "$(grep -c '^fiber_query_mpi: the deadline has passed in frame [0-2]: pairs may be missing$' error.txt)" -eq 3 ] ||
+  fail "the deadline is not told of: $(cat error.txt)"
+"$tools/fiber_query" contacts tress.csv --margin 0.0005 >expected.csv
+[ -z "$(grep -vxFf expected.csv found.csv)" ] || fail "by the deadline something else is found"
+rm found.csv
+
 # expect_refused TEXT ARGUMENT...: three ranks refuse this, with exit code 2 and this text, once.
 expect_refused() {
   local text=$1 code=0
@@ -49,7 +92,20 @@ printf 'fiber,x,y,z\n0,0,0,0\n0,1,nothing,0\n' >bad.csv
 expect_refused "none.csv: cannot be opened" contacts none.csv --out found.csv
 expect_refused "bad.csv:3:" contacts bad.csv --out found.csv
 expect_refused "margin is -1" contacts soup.csv --margin -1 --out found.csv
-expect_refused "unknown subcommand 'first'" first soup.csv
+expect_refused "unknown subcommand 'nearest', known are: contacts, closest, first, fiber_pairs" nearest soup.csv
+expect_refused "deadline is -1" first soup.csv --deadline -1 --out found.csv
+expect_refused "tolerance is -1" closest soup.csv --tolerance -1 --out found.csv
+expect_refused "not expected: 4 --plan" closest soup.csv --plan 4
+# What an answer depends on tells its run from others.
+ask 2 closest tress.csv --out found.h5
+for options in "fiber_pairs" "closest --margin 1" "closest --radius 0.1" "closest --deadline 9" "closest --tolerance 1e-9" \
+  "closest --relative-tolerance 1e-9" "closest --kernel exact" "closest --neighbour-skip 1" \
+  "closest --neighbour-skip-length 0"; do
+  # shellcheck disable=SC2086  # several options
+  expect_refused "is of another run" $options tress.csv --out found.h5 --resume
+done
+ask 3 closest tress.csv --out found.h5 --resume
+rm -r found.h5 found.frames
 expect_refused "nowhere/found.csv.part: cannot be opened for writing" contacts soup.csv --out nowhere/found.csv
 ln -s /dev/full found.csv.part
 expect_refused "cannot be written" contacts soup.csv --margin 0.01 --out found.csv
