@@ -34,7 +34,9 @@ function(fiber_proximity_component component library)
   endif()
 endfunction()
 
-install(DIRECTORY include/fiber_proximity DESTINATION ${include_folder} FILES_MATCHING PATTERN "*.hpp")
+# Headers of an optional library come with it.
+install(DIRECTORY include/fiber_proximity DESTINATION ${include_folder} FILES_MATCHING PATTERN "*.hpp"
+  PATTERN include/fiber_proximity/mpi EXCLUDE)
 
 # With ROS, catkin makes the package's configuration, and the components are one of its extras.
 if(NOT FIBER_PROXIMITY_BUILD_ROS)

@@ -71,3 +71,5 @@ target_link_libraries(fiber_proximity_mpi
   PUBLIC fiber_proximity MPI::MPI_CXX PRIVATE ${ZOLTAN_LIBRARY} ${PARALLEL_HDF5_LIBRARY} fiber_proximity_options)
 fiber_proximity_parse_once(fiber_proximity_mpi ${core_headers})
 fiber_proximity_component(mpi fiber_proximity_mpi)
+install(DIRECTORY include/fiber_proximity/mpi DESTINATION ${include_folder}/fiber_proximity
+  FILES_MATCHING PATTERN "*.hpp")

@@ -3,11 +3,14 @@
 #   libfiber-proximity       the libraries that need no ROS, and the command-line tools
 #   libfiber-proximity-dev   headers, and what find_package and pkg-config read: catkin's, so it needs the next, too
 #   ros-fiber-proximity      nodes, messages, launch files and rviz's displays
+# and of a build with the library for clusters:
+#   libfiber-proximity-mpi      this library, and its tools
+#   libfiber-proximity-mpi-dev  headers, and what find_package reads of its component
 #   scripts/package.sh [--build BUILD] [--out DIR] [--verbose]
 #     --build BUILD  packages this build, which has ROS, as it is; without, builds first, in build/
 #     --out DIR      where to; without, build/packages
 #     --verbose      all that building and packaging write
-# Install all three with `apt-get install ./DIR/*.deb`, which brings what they need.
+# Install them with `apt-get install ./DIR/*.deb`, which brings what they need.
 set -euo pipefail
 # shellcheck source=scripts/environment.sh
 source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
@@ -56,6 +59,8 @@ trap 'rm -rf "$work"' EXIT
 whole=$work/whole
 library=$work/libfiber-proximity
 development=$work/libfiber-proximity-dev
+cluster=$work/libfiber-proximity-mpi
+cluster_development=$work/libfiber-proximity-mpi-dev
 ros=$work/ros-fiber-proximity
 
 install_whole() {
@@ -78,15 +83,29 @@ take() {
   done
 }
 
-sort_out() {
-  local name
-  cd "$whole/usr"
-  take "$library" lib/libfiber_proximity{,_compare,_environment,_paper,_sim}.so \
-    lib/fiber_proximity/fiber_{query,scene,simulate}
-  mkdir -p "$library/usr/bin"
-  for name in fiber_query fiber_scene fiber_simulate; do
-    ln -s "../lib/fiber_proximity/$name" "$library/usr/bin/$name"
+# take_tools PACKAGE TOOL...: moves these, and links them from where a shell finds them.
+take_tools() {
+  local to=$1 name
+  shift
+  take "$to" "${@/#/lib/fiber_proximity/}"
+  mkdir -p "$to/usr/bin"
+  for name in "$@"; do
+    ln -s "../lib/fiber_proximity/$name" "$to/usr/bin/$name"
   done
+}
+
+has_cluster() { [ -e "$whole/usr/lib/libfiber_proximity_mpi.so" ] || [ -e "$cluster" ]; }
+
+sort_out() {
+  cd "$whole/usr"
+  if has_cluster; then
+    take "$cluster" lib/libfiber_proximity_mpi.so
+    take_tools "$cluster" fiber_{query,scene}_mpi
+    [ ! -e lib/fiber_proximity/fiber_bench_mpi ] || take "$cluster" lib/fiber_proximity/fiber_bench_mpi
+    take "$cluster_development" include/fiber_proximity/mpi share/fiber_proximity/cmake/fiber_proximity-mpi*.cmake
+  fi
+  take "$library" lib/libfiber_proximity{,_compare,_environment,_paper,_sim}.so
+  take_tools "$library" fiber_{query,scene,simulate}
   take "$development" include lib/pkgconfig share/fiber_proximity/cmake
   # What is left is of ROS: catkin's and rosbag's own names for it.
   take "$ros" ./*
@@ -100,7 +119,7 @@ dependencies() {
   mkdir -p "$work/debian"
   printf 'Source: fiber-proximity\n\nPackage: any\nArchitecture: any\n' >"$work/debian/control"
   # Our own libraries belong to no package yet: what needs them says so below.
-  (cd "$work" && dpkg-shlibdeps -O --ignore-missing-info -l"$library/usr/lib" -l"$ros/usr/lib" \
+  (cd "$work" && dpkg-shlibdeps -O --ignore-missing-info -l"$library/usr/lib" -l"$cluster/usr/lib" -l"$ros/usr/lib" \
     "${files[@]}") | sed 's/^shlibs:Depends=//'
 }
 
@@ -164,6 +183,13 @@ make_packages() {
     "${development_needs[@]}")" "proximity queries for fibres: headers"
   pack "$ros" "libfiber-proximity (= $version), $of_ros, $(comma_joined "${ros_needs[@]}")" \
     "proximity queries for fibres: ROS nodes" "python3-matplotlib, python3-scipy" # of the examples
+  has_cluster || return 0
+  local of_cluster
+  of_cluster=$(dependencies "$cluster") || return 1
+  # mpirun starts the tools.
+  pack "$cluster" "libfiber-proximity (= $version), $of_cluster, openmpi-bin" "proximity queries for fibres on a cluster"
+  pack "$cluster_development" "libfiber-proximity-mpi (= $version), libfiber-proximity-dev (= $version), libopenmpi-dev" \
+    "proximity queries for fibres on a cluster: headers"
 }
 
 run_step "packaging $version" "$work/package.log" make_packages

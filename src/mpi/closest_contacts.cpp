@@ -49,7 +49,7 @@ Place last_of_closest(const Communicator& ranks, std::uint64_t count, std::vecto
   for (std::size_t step = 1; step < size; step *= 2) {
     PerRank<Place> to(size);
     if (rank % (2 * step) == step) {
-      to[rank - step] = std::move(places);
+      to[rank - step] = std::exchange(places, {});
     }
     for (const std::vector<Place>& more : ranks.exchange(std::move(to))) {
       std::vector<Place> merged;

@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <cstring>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +14,11 @@
 namespace fiber {
 namespace {
 
+/// As files have them: a zero below none is another.
+bool has_same_bits(double x, double y) {
+  return x == y && std::signbit(x) == std::signbit(y);
+}
+
 /// A point where a part may go on: it does at a point that has the same of all of this.
 struct PartEnd {
   GlobalSegment next;  // the segment that starts here
@@ -22,8 +27,8 @@ struct PartEnd {
 
   bool operator==(const PartEnd& other) const {
     return !(next < other.next) && !(other.next < next) &&
-           std::memcmp(&point, &other.point, sizeof(point)) == 0 &&
-           std::memcmp(&radius, &other.radius, sizeof(radius)) == 0;
+           std::equal(point.begin(), point.end(), other.point.begin(), has_same_bits) &&
+           has_same_bits(radius, other.radius);
   }
 };
 

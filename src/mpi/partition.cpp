@@ -3,9 +3,12 @@
 #include <zoltan.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cstdio>
 #include <limits>
 #include <memory>
 #include <string>
+#include <thread>
 #include <utility>
 
 namespace fiber {
@@ -80,6 +83,48 @@ struct DestroyZoltan {
   void operator()(Zoltan_Struct* zoltan) const { Zoltan_Destroy(&zoltan); }
 };
 
+/// How long a rank in which Zoltan has failed waits for the others to come out of it, too.
+constexpr std::chrono::seconds patience{10};
+
+/// "" if that is none.
+std::string zoltan_error(int code) {
+  switch (code) {
+    case ZOLTAN_OK:
+    case ZOLTAN_WARN:
+      return "";
+    case ZOLTAN_MEMERR:
+      return "Zoltan cannot split the fibres: not enough memory";
+    default:
+      return "Zoltan cannot split the fibres: error " + std::to_string(code);
+  }
+}
+
+/// Communicator::agree() after Zoltan. Its functions talk to other ranks, and one of them leaves
+/// where it fails: others may wait for it in Zoltan for ever. The one that has failed then ends
+/// all.
+void agree_after_zoltan(const Communicator& ranks, const std::string& error) {
+  const int has_failed = error.empty() ? 0 : 1;
+  int one_has_failed = 0;
+  MPI_Request all_came = MPI_REQUEST_NULL;
+  MPI_Iallreduce(&has_failed, &one_has_failed, 1, MPI_INT, MPI_MAX, ranks.handle(), &all_came);
+  if (has_failed != 0) {
+    const auto end = std::chrono::steady_clock::now() + patience;
+    int have_come = 0;
+    while (MPI_Request_get_status(all_came, &have_come, MPI_STATUS_IGNORE), have_come == 0) {
+      if (std::chrono::steady_clock::now() > end) {
+        std::fprintf(stderr, "rank %d: %s; others wait for it there: all end\n", ranks.rank(),
+                     error.c_str());
+        MPI_Abort(ranks.handle(), 2);
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+  MPI_Wait(&all_came, MPI_STATUS_IGNORE);
+  if (one_has_failed != 0) {
+    ranks.agree(error);
+  }
+}
+
 /// What Zoltan says of the objects that leave; it has memory of its own.
 struct Moves {
   int count = 0;
@@ -104,6 +149,7 @@ std::vector<int> partition(const Communicator& ranks, const std::vector<Partitio
   float version = 0.0F;
   Zoltan_Initialize(0, nullptr, &version);
   const std::unique_ptr<Zoltan_Struct, DestroyZoltan> zoltan(Zoltan_Create(ranks.handle()));
+  agree_after_zoltan(ranks, zoltan_error(zoltan ? ZOLTAN_OK : ZOLTAN_MEMERR));
   const std::string count = std::to_string(parts);
   for (const auto& [name, value] :
        {std::pair("DEBUG_LEVEL", "0"),  // first: it writes about the others
@@ -128,9 +174,7 @@ std::vector<int> partition(const Communicator& ranks, const std::vector<Partitio
       Zoltan_LB_Partition(zoltan.get(), &changes, &global_entries, &local_entries, &come.count,
                           &come.global_ids, &come.local_ids, &come.ranks, &come.parts, &go.count,
                           &go.global_ids, &go.local_ids, &go.ranks, &go.parts);
-  ranks.agree(error == ZOLTAN_OK || error == ZOLTAN_WARN
-                  ? ""
-                  : "Zoltan cannot split the fibres: error " + std::to_string(error));
+  agree_after_zoltan(ranks, zoltan_error(error));
   // Those that are not told of belong to the part of this rank's number.
   std::vector<int> part_of(objects.size(), ranks.rank());
   for (int i = 0; i < go.count; ++i) {

@@ -17,7 +17,8 @@ struct PartitionObject {
 /// which are the same, but for their numbers, however the objects are dealt out. Collective.
 /// @param parts how many
 /// @return for each object of this rank the part it belongs to
-/// @throws std::invalid_argument on every rank if Zoltan fails
+/// @throws std::invalid_argument on every rank if Zoltan fails; where it fails on some ranks and
+///         others wait for these in it, one ends all by MPI_Abort()
 std::vector<int> partition(const Communicator& ranks, const std::vector<PartitionObject>& objects,
                            int parts);
 

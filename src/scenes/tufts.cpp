@@ -48,8 +48,9 @@ FiberAssembly part_of_tufts(const Tufts& tufts, std::uint64_t count, std::uint64
     const auto here = static_cast<double>(std::min(hairs, count - first));
     const FiberAssembly fibers =
         hair(style, {here / style.hair_count, stream_seed(seed, tuft)}, frame);
+    const std::uint64_t rows_before = tuft / row;
     const Vector3d place(tufts.spacing * static_cast<double>(tuft % row),
-                         tufts.spacing * static_cast<double>(tuft / row), 0.0);
+                         tufts.spacing * static_cast<double>(rows_before), 0.0);
     const std::uint64_t last = (std::min(end, first + hairs) - first) * points_per_hair;
     for (std::uint64_t i = (std::max(begin, first) - first) * points_per_hair; i < last; ++i) {
       points.push_back(fibers.points()[i] + place);
@@ -61,8 +62,8 @@ FiberAssembly part_of_tufts(const Tufts& tufts, std::uint64_t count, std::uint64
 LargeScene scene_of_tufts(const Tufts& tufts, std::uint64_t segments, std::uint64_t seed) {
   const std::uint64_t count = (segments + tufts.style.segments - 1) / tufts.style.segments;
   const double row = tufts.style.path.length / tufts.spacing;
-  const auto typical =
-      static_cast<std::uint64_t>(row * row * tufts.style.hair_count + 0.5) * tufts.style.segments;
+  const auto typical = static_cast<std::uint64_t>(std::lround(row * row * tufts.style.hair_count)) *
+                       tufts.style.segments;
   return {count, tufts.style.segments, 2, typical,
           [=, &tufts](std::uint64_t begin, std::uint64_t end, std::uint32_t frame) {
             return part_of_tufts(tufts, count, seed, begin, end, frame);

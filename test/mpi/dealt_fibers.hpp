@@ -4,6 +4,7 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <string>
 #include <utility>
@@ -99,9 +100,15 @@ inline Dealt dealt_to(int rank, const FiberAssembly& fibers, const std::vector<D
   return mine;
 }
 
-inline bool same_bits(double x, double y) { return std::memcmp(&x, &y, sizeof(double)) == 0; }
+inline std::uint64_t bits_of(double x) {
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &x, sizeof(bits));
+  return bits;
+}
+
+inline bool same_bits(double x, double y) { return bits_of(x) == bits_of(y); }
 inline bool same_bits(const Eigen::Vector3d& x, const Eigen::Vector3d& y) {
-  return std::memcmp(x.data(), y.data(), 3 * sizeof(double)) == 0;
+  return same_bits(x.x(), y.x()) && same_bits(x.y(), y.y()) && same_bits(x.z(), y.z());
 }
 
 inline bool same_bits(const DistributedContact& x, const Contact& y) {

@@ -1,17 +1,19 @@
 #!/usr/bin/env bash
 # Where something goes wrong, one rank says so once, all end, and nothing half-written has a name; a run that was
 # interrupted goes on to the same files.
-#   distributed_faults_test.sh FOLDER LIBRARY MPIEXEC [FLAG...]
+#   distributed_faults_test.sh FOLDER FAULTS MPIEXEC [FLAG...]
 #     FOLDER   of the tools
-#     LIBRARY  to load before MPI: with it MPI has no thread support
+#     FAULTS   the folder of libraries to load before others, each of which brings a fault
 #     FLAG     of MPIEXEC, the last one before the number of ranks
 set -euo pipefail
 tools=$1
-no_threads=$2
+faults=$2
 shift 2
 mpiexec=("$@")
 work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+run=
+# What runs in the background ends with its ranks, whatever has failed.
+trap '[ -z "$run" ] || kill "$run" 2>/dev/null || true; wait; rm -rf "$work"' EXIT
 cd "$work"
 
 fail() {
@@ -26,28 +28,37 @@ query() {
   "${mpiexec[@]}" "$ranks" "$tools/fiber_query_mpi" "$@"
 }
 
+# choose_fault NAME[=HOW]: the tool as `faulty` has it.
+choose_fault() {
+  faulty=(env "LD_PRELOAD=$faults/${1%%=*}.so" "FAULT=${1#*=}" "$tools/fiber_query_mpi")
+}
+
+parts() { find . -name '*.part' | sort; }
+
 # expect_one_error TEXT COMMAND...: ends with exit code 2 and this, once, and nothing more from our side or HDF5's.
 expect_one_error() {
-  local text=$1 code=0
+  local text=$1 code=0 parts_before
   shift
+  parts_before=$(parts)
   "$@" >out.txt 2>error.txt || code=$?
   [ "$code" -eq 2 ] || fail "$*: exit code $code"
   [ "$(grep -c '^fiber_query_mpi: ' error.txt)" -eq 1 ] || fail "$*: not one error"
   grep -q -e "$text" error.txt || fail "$*: not said: $text"
   ! grep -qE 'HDF5-DIAG|terminate called|Segmentation|MPI_ERR' error.txt || fail "$*: noise"
   [ ! -s out.txt ] || fail "$*: output"
-  [ -z "$(find . -name '*.part')" ] || fail "$*: a part is left"
+  [ "$(parts)" = "$parts_before" ] || fail "$*: a part is left: $(parts)"
 }
 
 "$tools/fiber_scene" tress_b --scale 0.005 --frames 60 --out tress.csv
 query 2 convert tress.csv tress.h5
 
-# ---- a rank is killed
+# ---- a rank is killed, while one waits with the fifth frame, which is not yet whole
 query 2 contacts tress.h5 --margin 0.0005 --out whole.h5
 [ "$(find whole.frames -name '*.h5' | wc -l)" -eq 60 ] || fail "not 60 frames"
-query 3 contacts tress.h5 --margin 0.0005 --out killed.h5 2>error.txt &
+choose_fault held_rename=killed.frames/000004.h5
+"${mpiexec[@]}" 3 "${faulty[@]}" contacts tress.h5 --margin 0.0005 --out killed.h5 2>error.txt &
 run=$!
-until [ -e killed.frames/000003.h5 ]; do
+until [ -e killed.frames/000004.h5.part ]; do
   kill -0 "$run" || fail "the run has ended by itself"
   sleep 0.02
 done
@@ -64,14 +75,17 @@ done
 kill -9 "${ranks[1]}"
 code=0
 wait "$run" || code=$?
+run=
 [ "$code" -ne 0 ] || fail "the run whose rank was killed has succeeded"
 grep -qE 'rank [0-9]+' error.txt || fail "no rank is named"
+# Those that were not killed end, too; where nobody asks for what has ended, its entry stays.
 for rank in "${ranks[@]}"; do
-  while kill -0 "$rank" 2>/dev/null; do sleep 0.02; done # those that were not killed end, too
+  while grep -qs '^State:[[:space:]]*[^Z[:space:]]' "/proc/$rank/status"; do sleep 0.02; done
 done
 [ ! -e killed.h5 ] || fail "what is not whole has its name"
 done_before=$(find killed.frames -name '*.h5' | wc -l)
-[ "$done_before" -lt 60 ] || fail "nothing was left to do"
+[ "$done_before" -eq 4 ] || fail "$done_before frames are whole"
+[ "$(parts)" = ./killed.frames/000004.h5.part ] || fail "not the one frame that is not whole is left: $(parts)"
 first=$(stat -c '%i %y' killed.frames/000000.h5)
 
 expect_one_error "killed.frames/000000.h5: cannot be gone on with: is of another run" \
@@ -138,9 +152,24 @@ expect_one_error "the file to write is the one to read itself" query 3 convert t
 expect_one_error "nowhere/found.h5.part: cannot be opened" query 3 contacts short.csv --out nowhere/found.h5
 
 # ---- MPI without thread support
-expect_one_error "MPI was started without thread support" "${mpiexec[@]}" 3 env LD_PRELOAD="$no_threads" \
-  "$tools/fiber_query_mpi" contacts tress.h5 --margin 0.0005 --out found.h5
+choose_fault no_threads
+expect_one_error "MPI was started without thread support" \
+  "${mpiexec[@]}" 3 "${faulty[@]}" contacts tress.h5 --margin 0.0005 --out found.h5
 [ -z "$(find . -name 'found*')" ] || fail "something is left"
+
+# ---- Zoltan fails on one rank
+choose_fault failing_zoltan
+expect_one_error "rank 1: Zoltan cannot split the fibres: error -1" \
+  "${mpiexec[@]}" 3 "${faulty[@]}" contacts tress.h5 --margin 0.0005 --out found.csv
+[ -z "$(find . -name 'found*')" ] || fail "something is left"
+choose_fault failing_zoltan=early
+code=0
+"${mpiexec[@]}" 3 "${faulty[@]}" contacts tress.h5 --margin 0.0005 --out found.csv \
+  >out.txt 2>error.txt || code=$?
+[ "$code" -eq 2 ] || fail "others wait in Zoltan: exit code $code"
+grep -q "^rank 1: Zoltan cannot split the fibres: not enough memory; others wait for it there: all end" error.txt ||
+  fail "not said which rank ends all"
+if [ -e found.csv ] || [ -s out.txt ]; then fail "something is written"; fi
 
 # ---- more ranks than segments
 printf 'fiber,x,y,z,radius\n0,0,0,0,0.1\n0,1,0,0,0.1\n1,0,0.1,0,0.1\n1,1,0.1,0,0.1\n1,1,1,0,0.1\n' >few.csv

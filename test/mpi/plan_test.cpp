@@ -20,7 +20,7 @@ std::vector<PartLoad> parts_by_law(double segments, double linear, double quadra
   std::vector<PartLoad> loads(3);
   for (PartLoad& load : loads) {
     load.segments = static_cast<std::uint64_t>(segments);
-    load.halo_segments = static_cast<std::uint64_t>(0.75 * halo + 0.5);
+    load.halo_segments = static_cast<std::uint64_t>(std::lround(0.75 * halo));
     load.halo_runs = load.halo_segments / 3;
     load.neighbours = 2;
   }

@@ -30,25 +30,29 @@ if(TARGET fiber_proximity_mpi)
     set(mpiexec_flags --allow-run-as-root --oversubscribe --bind-to none --mca mpi_yield_when_idle 1
       --mca btl self,vader,tcp --mca btl_tcp_if_include lo --mca oob_tcp_if_include lo)
   endif()
+  set(start_ranks ${MPIEXEC_EXECUTABLE} ${mpiexec_flags} ${MPIEXEC_NUMPROC_FLAG})
   foreach(ranks 1 2 3 4 7)
     add_test(NAME distributed_engine_test_${ranks}
-      COMMAND ${MPIEXEC_EXECUTABLE} ${mpiexec_flags} ${MPIEXEC_NUMPROC_FLAG} ${ranks}
-        $<TARGET_FILE:distributed_engine_test>)
+      COMMAND ${start_ranks} ${ranks} $<TARGET_FILE:distributed_engine_test>)
     set_tests_properties(distributed_engine_test_${ranks} PROPERTIES PROCESSORS ${ranks})
   endforeach()
   add_test(NAME fiber_query_mpi_test
     COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/mpi/fiber_query_mpi_test.sh $<TARGET_FILE_DIR:fiber_query_mpi>
-      ${MPIEXEC_EXECUTABLE} ${mpiexec_flags} ${MPIEXEC_NUMPROC_FLAG})
+      ${start_ranks})
   add_test(NAME fiber_scene_mpi_test
     COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/mpi/fiber_scene_mpi_test.sh $<TARGET_FILE_DIR:fiber_scene_mpi>
-      ${MPIEXEC_EXECUTABLE} ${mpiexec_flags} ${MPIEXEC_NUMPROC_FLAG})
-  add_library(no_threads MODULE mpi/no_threads.cpp)
-  target_link_libraries(no_threads MPI::MPI_CXX fiber_proximity_options)
+      ${start_ranks})
+  foreach(fault failing_zoltan held_rename no_threads)
+    add_library(${fault} MODULE mpi/${fault}.cpp)
+    set_target_properties(${fault} PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/test/faults)
+    target_include_directories(${fault} SYSTEM PRIVATE ${ZOLTAN_INCLUDE_FOLDER})
+    target_link_libraries(${fault} MPI::MPI_CXX fiber_proximity_options ${CMAKE_DL_LIBS})
+  endforeach()
   add_test(NAME distributed_faults_test
     COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/mpi/distributed_faults_test.sh $<TARGET_FILE_DIR:fiber_query_mpi>
-      $<TARGET_FILE:no_threads> ${MPIEXEC_EXECUTABLE} ${mpiexec_flags} ${MPIEXEC_NUMPROC_FLAG})
+      $<TARGET_FILE_DIR:no_threads> ${start_ranks})
   add_test(NAME vtkhdf_test
     COMMAND /usr/bin/python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/mpi/vtkhdf_test.py $<TARGET_FILE_DIR:fiber_query_mpi>
-      ${MPIEXEC_EXECUTABLE} ${mpiexec_flags} ${MPIEXEC_NUMPROC_FLAG})
+      ${start_ranks})
   set_tests_properties(vtkhdf_test PROPERTIES SKIP_RETURN_CODE 77)
 endif()

@@ -15,7 +15,10 @@ fail() {
 
 "$source/scripts/package.sh" --build "$build" --out "$work/packages"
 version=$(sed -n 's/.*<version>\(.*\)<.*/\1/p' "$source/package.xml")
-for name in libfiber-proximity libfiber-proximity-dev ros-fiber-proximity; do
+names=(libfiber-proximity libfiber-proximity-dev ros-fiber-proximity)
+[ ! -e "$build/devel/lib/libfiber_proximity_mpi.so" ] || names+=(libfiber-proximity-mpi libfiber-proximity-mpi-dev)
+[ "$(find "$work/packages" -name '*.deb' | wc -l)" -eq "${#names[@]}" ] || fail "other packages: $(ls "$work/packages")"
+for name in "${names[@]}"; do
   package=$(echo "$work"/packages/"${name}"_*.deb)
   [ "$(dpkg-deb -f "$package" Version)" = "$version-1" ] || fail "$name has another version than package.xml"
   dpkg-deb -f "$package" Depends >"$work/$name.depends"
@@ -47,6 +50,25 @@ expect ros-fiber-proximity.depends rviz
 if grep -qE 'libros|rviz|librviz' "$work/libfiber-proximity.depends"; then
   fail "the library needs ROS: $(cat "$work/libfiber-proximity.depends")"
 fi
+# What is for clusters is apart, and nobody else needs MPI.
+if [ "${#names[@]}" -eq 5 ]; then
+  expect libfiber-proximity-mpi.files '/usr/lib/libfiber_proximity_mpi.so$'
+  expect libfiber-proximity-mpi.files '/usr/bin/fiber_query_mpi$'
+  expect libfiber-proximity-mpi.files '/usr/bin/fiber_scene_mpi$'
+  expect libfiber-proximity-mpi.depends '^libfiber-proximity (= '
+  expect libfiber-proximity-mpi.depends libopenmpi
+  expect libfiber-proximity-mpi.depends libhdf5-openmpi
+  expect libfiber-proximity-mpi.depends libtrilinos-zoltan
+  expect libfiber-proximity-mpi.depends openmpi-bin
+  expect libfiber-proximity-mpi-dev.files '/mpi/distributed_engine.hpp$'
+  expect libfiber-proximity-mpi-dev.files '/fiber_proximity-mpi.cmake$'
+  expect libfiber-proximity-mpi-dev.depends '^libfiber-proximity-mpi (= '
+  expect libfiber-proximity-mpi-dev.depends ' libopenmpi-dev'
+fi
+for name in libfiber-proximity libfiber-proximity-dev ros-fiber-proximity; do
+  ! grep -qE 'openmpi|mpich' "$work/$name.depends" || fail "$name needs MPI: $(cat "$work/$name.depends")"
+  ! grep -q '[-_/]mpi' "$work/$name.files" || fail "$name has what is for clusters: $(grep '[-_/]mpi' "$work/$name.files")"
+done
 
 # From there alone: what is loaded is what was unpacked.
 unset CMAKE_PREFIX_PATH ROS_PACKAGE_PATH PYTHONPATH

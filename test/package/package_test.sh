@@ -1,12 +1,15 @@
 #!/usr/bin/env bash
 # Installs a build into an empty folder and uses it from outside, as plain CMake and, where it is one, as a
 # catkin package: the examples must build, run, and answer.
-#   package_test.sh BUILD SOURCE [FLAGS]
-#     FLAGS   for the compiler
+#   package_test.sh BUILD SOURCE FLAGS [MPIEXEC...]
+#     FLAGS     for the compiler
+#     MPIEXEC   starts ranks, with its flags, the last one before the number of ranks; without, the library for
+#               clusters must not be there
 set -euo pipefail
 build=$1
 source=$2
-flags=${3:-}
+flags=$3
+mpiexec=("${@:4}")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 prefix=$work/prefix
@@ -16,16 +19,17 @@ fail() {
   exit 1
 }
 
-# expect_refused TEXT ARGUMENT...: configuring a project that asks for these fails, and says this.
+# expect_refused TEXT ARGUMENTS [OPTION...]: configuring a project that asks for these, with these options of CMake,
+# fails, and says this.
 expect_refused() {
-  local text=$1
-  shift
+  local text=$1 arguments=$2
+  shift 2
   mkdir -p "$work/refused"
-  printf 'cmake_minimum_required(VERSION 3.16)\nproject(refused CXX)\nfind_package(fiber_proximity %s)\n' "$*" \
+  printf 'cmake_minimum_required(VERSION 3.16)\nproject(refused CXX)\nfind_package(fiber_proximity %s)\n' "$arguments" \
     >"$work/refused/CMakeLists.txt"
   if cmake -S "$work/refused" -B "$work/refused-build" -DCMAKE_PREFIX_PATH="$prefix" \
-    -DPYTHON_EXECUTABLE=/usr/bin/python3 >"$work/refused.log" 2>&1; then
-    fail "find_package(fiber_proximity $*) was not refused"
+    -DPYTHON_EXECUTABLE=/usr/bin/python3 "$@" >"$work/refused.log" 2>&1; then
+    fail "find_package(fiber_proximity $arguments) was not refused"
   fi
   # CMake breaks lines.
   grep -qF "$text" <<<"$(tr -s ' \n' ' ' <"$work/refused.log")" || { cat "$work/refused.log"; fail "no word of: $text"; }
@@ -58,6 +62,20 @@ if "$work/examples/simulate_scene" "$work/none.yaml" 2>"$work/error.txt"; then
   fail "a scene that is not there is no error"
 fi
 grep -q "none.yaml" "$work/error.txt" || fail "the error does not name the file"
+
+if [ "${#mpiexec[@]}" -gt 0 ]; then
+  "${mpiexec[@]}" 3 "$work/examples/contacts_over_ranks" | tee "$work/ranks.txt"
+  [ "$(grep -c '^fibre [012] segment [01] and fibre [012] segment [01]: 0.0010 m apart$' "$work/ranks.txt")" -eq 8 ] ||
+    fail "contacts_over_ranks has another answer"
+  # To an MPI that is not there, the other components are still there.
+  expect_refused "'mpi' of fiber_proximity needs MPI for C++" "REQUIRED COMPONENTS core mpi" -DCMAKE_DISABLE_FIND_PACKAGE_MPI=ON
+  find "$prefix" -name fiber_proximity-mpi.cmake -delete
+else
+  left=$(find "$prefix" -name mpi -o -name '*[-_]mpi*')
+  [ -z "$left" ] || fail "installed without MPI: $left"
+  [ ! -e "$work/examples/contacts_over_ranks" ] || fail "contacts_over_ranks is built without MPI"
+fi
+expect_refused "'mpi' of fiber_proximity is not installed" "REQUIRED COMPONENTS core mpi"
 
 # Python knows no sanitizer.
 module=$(find "$prefix" -name '_native*.so')

@@ -72,7 +72,8 @@ struct DistributedFacts {
 /// whoever has both segments.
 ///
 /// All functions but facts() are collective: all ranks of the communicator call them, in the same
-/// order, or they wait for each other. An error of one rank is thrown by all, with its number.
+/// order, or they wait for each other. An error of one rank is thrown by all, with its number; but
+/// where Zoltan fails on one rank and others wait for it there, it ends all by MPI_Abort().
 /// Not thread-safe; only the thread that calls talks to MPI, which must have been started with
 /// MPI_THREAD_FUNNELED or more. Must be destroyed before MPI_Finalize().
 class DistributedEngine {
