@@ -15,9 +15,7 @@ namespace fiber {
 namespace {
 
 /// As files have them: a zero below none is another.
-bool has_same_bits(double x, double y) {
-  return x == y && std::signbit(x) == std::signbit(y);
-}
+bool has_same_bits(double x, double y) { return x == y && std::signbit(x) == std::signbit(y); }
 
 /// A point where a part may go on: it does at a point that has the same of all of this.
 struct PartEnd {
