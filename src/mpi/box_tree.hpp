@@ -1,6 +1,8 @@
 #pragma once
 
-#include <array>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -14,17 +16,47 @@ struct PlainBox {
   PlainPoint upper{};
 };
 
-/// That encloses capsules of up to this radius [m] around what is in the box, roundings included.
-PlainBox inflated(const PlainBox& box, double radius);
+/// Larger on all sides by a length [m], and by the roundings of distances to what is in it: four
+/// times what NarrowPhase::gap_lower_bound() allows for.
+inline PlainBox inflated(const PlainBox& box, double length) {
+  double by = length;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    by = std::max(by, length + 0x1p-46 * (box.upper[axis] - box.lower[axis] + length));
+  }
+  PlainBox larger;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    larger.lower[axis] = box.lower[axis] - (by + 0x1p-51 * std::abs(box.lower[axis]));
+    larger.upper[axis] = box.upper[axis] + (by + 0x1p-51 * std::abs(box.upper[axis]));
+  }
+  return larger;
+}
+
+inline PlainBox merged(const PlainBox& a, const PlainBox& b) {
+  PlainBox box;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    box.lower[axis] = std::min(a.lower[axis], b.lower[axis]);
+    box.upper[axis] = std::max(a.upper[axis], b.upper[axis]);
+  }
+  return box;
+}
 
 /// That encloses the capsule.
-PlainBox box_around(const FiberNode& start, const FiberNode& end);
+inline PlainBox box_around(const FiberNode& start, const FiberNode& end) {
+  return inflated(merged({start.point, start.point}, {end.point, end.point}), start.radius);
+}
 
-PlainBox merged(const PlainBox& a, const PlainBox& b);
+inline bool meet(const PlainBox& a, const PlainBox& b) {
+  bool do_meet = true;
+  for (std::size_t axis = 0; axis < 3; ++axis) {  // without branches: no one foresees them
+    do_meet = do_meet & (a.lower[axis] <= b.upper[axis]) & (b.lower[axis] <= a.upper[axis]);
+  }
+  return do_meet;
+}
 
-/// Whether capsules in the two boxes may be as near as the margin [m], or be found so near: the
-/// roundings of their distance are allowed for.
-bool may_come_within(const PlainBox& a, const PlainBox& b, double margin);
+/// Whether capsules in the two boxes may be as near as the margin [m], or be found so near.
+inline bool may_come_within(const PlainBox& a, const PlainBox& b, double margin) {
+  return meet(inflated(a, margin), b);
+}
 
 /// A box around some segments, and the first of them in the order of contacts.
 struct SegmentBox {
@@ -32,84 +64,101 @@ struct SegmentBox {
   GlobalSegment first;
 };
 
-/// Boxes around boxes: finds whether any of many is near.
+/// An order of these boxes in which those that follow each other are near each other, as a BoxTree
+/// needs them.
+/// @return their numbers
+std::vector<std::uint32_t> spatial_order(const std::vector<SegmentBox>& boxes);
+
+/// Boxes around boxes: each around four that follow each other. Finds out who is near.
 class BoxTree {
  public:
+  /// @param boxes in an order like that of spatial_order()
   explicit BoxTree(std::vector<SegmentBox> boxes);
 
   bool empty() const { return boxes_.empty(); }
+  const SegmentBox& box(std::uint32_t place) const { return boxes_[place]; }
 
   /// Around all; there must be any.
-  const SegmentBox& root() const { return nodes_.front().around; }
+  const PlainBox& root() const { return node(height(), 0); }
 
-  /// Boxes around the nodes of the lowest level that has at most so many, and around leaves above.
+  /// Boxes around the boxes of the lowest level that has at most so many. Which segments are in
+  /// them is not said.
   std::vector<SegmentBox> level_of_at_most(std::size_t count) const;
 
-  /// Moves the boxes: of each segments of before the new one, as box_of(number) gives it.
-  template <class BoxOf>
-  void refit(const BoxOf& box_of);
+  /// Moves one box. What is around it follows with close().
+  void move(std::uint32_t place, const PlainBox& box) { boxes_[place].box = box; }
+  void close();
 
-  /// Calls with the boxes that may come within the margin [m] of one of others, and with their
-  /// numbers: call(box, number).
+  /// Calls with the place of each box that may come within the margin [m] of some of others, and
+  /// with the places of those: call(place, first, last), pointers. Both trees are gone down
+  /// together.
   template <class Call>
   void for_each_near(const BoxTree& others, double margin, const Call& call) const;
 
-  /// Whether there is a box that may come within the margin of this one [m], of segments of which
-  /// one is before `last`.
-  bool has_near(const PlainBox& box, double margin, const GlobalSegment& last) const;
-
  private:
-  struct Node {
-    SegmentBox around;
-    std::uint32_t begin = 0;  // of its boxes' numbers
-    std::uint32_t end = 0;
-    std::uint32_t left = 0;  // child, the other one follows it; 0 for a leaf
+  static constexpr std::size_t fan = 4;
+
+  /// A node to look at, and which nodes of others may be near it: part of a list.
+  struct Visit {
+    std::size_t level = 0;
+    std::size_t index = 0;
+    std::size_t level_of_others = 0;
+    std::size_t begin = 0;
+    std::size_t end = 0;
   };
 
-  void split(std::uint32_t node);
+  /// Of level 0 are the boxes themselves.
+  std::size_t height() const { return begins_.size(); }
+  std::size_t count_at(std::size_t level) const {
+    if (level == 0) {
+      return boxes_.size();
+    }
+    return (level < height() ? begins_[level] : nodes_.size()) - begins_[level - 1];
+  }
+  const PlainBox& node(std::size_t level, std::size_t index) const {
+    return level == 0 ? boxes_[index].box : nodes_[begins_[level - 1] + index];
+  }
+  void append_meeting(const PlainBox& box, const Visit& visit,
+                      std::vector<std::uint32_t>& places) const;
+  void append_children(const PlainBox& box, std::size_t level, std::size_t begin,
+                       std::vector<std::uint32_t>& places) const;
 
-  // After everything.
-  static constexpr GlobalSegment no_limit{~std::uint64_t{0}, ~std::uint64_t{0}};
-
-  SegmentBox around(const Node& node) const;
-
-  std::vector<SegmentBox> boxes_;       // as they were given
-  std::vector<std::uint32_t> numbers_;  // of theirs, leaf by leaf
-  std::vector<Node> nodes_;
+  std::vector<SegmentBox> boxes_;
+  std::vector<PlainBox> nodes_;      // level by level, from 1
+  std::vector<std::size_t> begins_;  // of the levels
 };
-
-template <class BoxOf>
-void BoxTree::refit(const BoxOf& box_of) {
-  for (std::uint32_t number = 0; number < boxes_.size(); ++number) {
-    boxes_[number].box = box_of(number);
-  }
-  for (auto node = nodes_.rbegin(); node != nodes_.rend(); ++node) {
-    node->around = around(*node);  // children come after their parents
-  }
-}
 
 template <class Call>
 void BoxTree::for_each_near(const BoxTree& others, double margin, const Call& call) const {
-  const auto is_near = [&](const SegmentBox& around) {
-    return others.has_near(around.box, margin, no_limit);
-  };
-  std::vector<std::uint32_t> waiting(empty() ? 0 : 1, 0);
+  if (empty() || others.empty()) {
+    return;
+  }
+  std::vector<Visit> waiting{{height(), 0, others.height(), 0, 1}};
+  std::vector<std::uint32_t> places{0};  // of others' nodes, list by list
   while (!waiting.empty()) {
-    const Node& node = nodes_[waiting.back()];
+    const Visit visit = waiting.back();
     waiting.pop_back();
-    if (!is_near(node.around)) {
+    places.resize(visit.end);  // without the lists of visits that are over
+    const PlainBox box = inflated(node(visit.level, visit.index), margin);
+    others.append_meeting(box, visit, places);
+    std::size_t begin = visit.end;
+    std::size_t level_of_others = visit.level_of_others;
+    while (level_of_others > visit.level && begin < places.size()) {
+      const std::size_t end = places.size();
+      others.append_children(box, level_of_others--, begin, places);
+      begin = end;
+    }
+    if (begin == places.size()) {
       continue;
     }
-    if (node.left != 0) {
-      waiting.push_back(node.left);
-      waiting.push_back(node.left + 1);
+    if (visit.level == 0) {
+      call(static_cast<std::uint32_t>(visit.index), places.data() + begin,
+           places.data() + places.size());
       continue;
     }
-    for (std::uint32_t i = node.begin; i < node.end; ++i) {
-      const std::uint32_t number = numbers_[i];
-      if (is_near(boxes_[number])) {
-        call(boxes_[number], number);
-      }
+    const std::size_t first = fan * visit.index;
+    for (std::size_t i = std::min(first + fan, count_at(visit.level - 1)); i-- > first;) {
+      waiting.push_back({visit.level - 1, i, level_of_others, begin, places.size()});
     }
   }
 }

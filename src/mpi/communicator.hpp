@@ -113,12 +113,18 @@ class Exchange {
     }
     counts = ranks_.exchange_counts(counts);
     from_.resize(to_.size());
+    const auto here = static_cast<std::size_t>(ranks_.rank());
+    from_[here] = std::move(to_[here]);
     for (std::size_t i = 0; i < to_.size(); ++i) {
-      from_[i].resize(counts[i]);
-      transfer_.receive(i, from_[i].data(), from_[i].size() * sizeof(T));
+      if (i != here) {
+        from_[i].resize(counts[i]);
+        transfer_.receive(i, from_[i].data(), from_[i].size() * sizeof(T));
+      }
     }
     for (std::size_t i = 0; i < to_.size(); ++i) {
-      transfer_.send(i, to_[i].data(), to_[i].size() * sizeof(T));
+      if (i != here) {
+        transfer_.send(i, to_[i].data(), to_[i].size() * sizeof(T));
+      }
     }
   }
 

@@ -8,6 +8,7 @@
 #include "src/mpi/communicator.hpp"
 #include "src/mpi/distributed_options.hpp"
 #include "src/mpi/halo.hpp"
+#include "src/mpi/plain_contact.hpp"
 #include "src/mpi/rank_fibers.hpp"
 #include "src/mpi/rank_search.hpp"
 
@@ -61,6 +62,17 @@ void DistributedEngine::State::find_closest(const QueryOptions& options, std::ui
   result.limit_reached = (options.type == QueryType::LIMITED && are_enough) || result.limit_reached;
 }
 
+namespace {
+
+/// Of all contacts those of a rank's own fibres come first, and are sorted.
+void sort_contacts(std::vector<DistributedContact>& contacts) {
+  const auto rest = std::is_sorted_until(contacts.begin(), contacts.end(), is_before);
+  std::sort(rest, contacts.end(), is_before);
+  std::inplace_merge(contacts.begin(), rest, contacts.end(), is_before);
+}
+
+}  // namespace
+
 DistributedEngine::DistributedEngine(MPI_Comm ranks, const EngineOptions& options)
     : state_(std::make_unique<State>(ranks, options)) {}
 
@@ -97,9 +109,7 @@ void DistributedEngine::query(const QueryOptions& options, DistributedResult& re
       state.find_all(here, most, result);
       break;
   }
-  std::sort(
-      result.contacts.begin(), result.contacts.end(),
-      [](const DistributedContact& x, const DistributedContact& y) { return x.key() < y.key(); });
+  sort_contacts(result.contacts);
   result.limit_reached = !state.ranks.all(!result.limit_reached);
   result.complete = state.ranks.all(result.complete);
   result.others_lower = state.ranks.smallest(result.others_lower);

@@ -13,7 +13,7 @@ constexpr std::size_t coarse_boxes = 64;
 
 /// The root of a rank's tree.
 struct RankBox {
-  SegmentBox around;
+  PlainBox around;
   bool has_segments = false;
 };
 
@@ -29,7 +29,7 @@ std::vector<std::size_t> find_neighbours(const Communicator& ranks, const BoxTre
   std::vector<std::size_t> neighbours;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     if (static_cast<int>(i) != ranks.rank() && mine.has_segments && boxes[i].has_segments &&
-        may_come_within(mine.around.box, boxes[i].around.box, margin)) {
+        may_come_within(mine.around, boxes[i].around, margin)) {
       neighbours.push_back(i);
     }
   }
@@ -58,9 +58,10 @@ Halo::Halo(const Communicator& ranks, const NamedFibers& own, const PieceBoxes& 
   PerRank<SegmentBox> fine(size);
   for (const std::size_t other : neighbours) {
     const BoxTree theirs(std::move(coarse[other]));
-    tree.for_each_near(theirs, margin, [&](const SegmentBox& box, std::uint32_t /*number*/) {
-      fine[other].push_back(box);
-    });
+    tree.for_each_near(theirs, margin,
+                       [&](std::uint32_t place, const auto* /*first*/, const auto* /*last*/) {
+                         fine[other].push_back(tree.box(place));
+                       });
   }
   fine = ranks.exchange(std::move(fine));
 

@@ -33,7 +33,7 @@ struct CountedPart {
     boxes.update(fibers, false);
     around.has_segments = !boxes.tree().empty();
     if (around.has_segments) {
-      around.box = boxes.tree().root().box;
+      around.box = boxes.tree().root();
     }
   }
 

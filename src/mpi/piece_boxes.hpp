@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -33,35 +34,49 @@ class PieceBoxes {
   static std::uint64_t end_of(const Piece& piece, const FiberRun& run) {
     return std::min(piece.begin + segments_per_piece, run.count);
   }
+  static PlainBox box_of(const NamedFibers& fibers, const Piece& piece);
 
-  std::vector<Piece> pieces_;
+  std::vector<Piece> pieces_;           // run by run
+  std::vector<std::uint32_t> places_;   // of theirs in the tree
+  std::vector<std::uint32_t> numbers_;  // of the pieces, in the tree's order
   BoxTree tree_{{}};
 };
 
 template <class Call>
 void PieceBoxes::for_each_near(const NamedFibers& fibers, const BoxTree& others, double margin,
                                const Call& call) const {
-  tree_.for_each_near(others, margin, [&](const SegmentBox& box, std::uint32_t number) {
-    const Piece& piece = pieces_[number];
-    const FiberRun& run = fibers.runs()[piece.run];
-    const std::uint64_t end = end_of(piece, run);
-    if (!others.has_near(box.box, margin, {run.first.fiber, run.first.segment + end - 1})) {
-      return;
-    }
-    std::uint64_t begin = piece.begin;
-    for (std::uint64_t i = begin; i <= end; ++i) {
-      const bool is_near =
-          i < end &&
-          others.has_near(box_around(fibers.node(run.begin + i), fibers.node(run.begin + i + 1)),
-                          margin, {run.first.fiber, run.first.segment + i});
-      if (!is_near) {
-        if (begin < i) {
-          call(run, begin, i);
+  std::vector<SegmentBox> near;
+  const auto is_near = [&](const PlainBox& box, const GlobalSegment& segment) {
+    return std::any_of(near.begin(), near.end(), [&](const SegmentBox& other) {
+      return meet(other.box, box) && other.first < segment;
+    });
+  };
+  tree_.for_each_near(
+      others, margin, [&](std::uint32_t place, const auto* first, const auto* last) {
+        const Piece& piece = pieces_[numbers_[place]];
+        const FiberRun& run = fibers.runs()[piece.run];
+        const std::uint64_t end = end_of(piece, run);
+        near.clear();
+        for (const auto* other = first; other != last; ++other) {
+          const SegmentBox& box = others.box(*other);
+          if (box.first < GlobalSegment{run.first.fiber, run.first.segment + end - 1}) {
+            near.push_back(box);
+          }
         }
-        begin = i + 1;
-      }
-    }
-  });
+        std::uint64_t begin = piece.begin;
+        for (std::uint64_t i = begin; i <= end; ++i) {
+          if (i < end && is_near(inflated(box_around(fibers.node(run.begin + i),
+                                                     fibers.node(run.begin + i + 1)),
+                                          margin),
+                                 {run.first.fiber, run.first.segment + i})) {
+            continue;
+          }
+          if (begin < i) {
+            call(run, begin, i);
+          }
+          begin = i + 1;
+        }
+      });
 }
 
 }  // namespace fiber

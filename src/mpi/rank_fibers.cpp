@@ -14,10 +14,10 @@ namespace {
 constexpr std::uint32_t segments_per_piece = 16;
 
 // How many nodes a rank sends at a time: so they are not there twice.
-constexpr std::size_t nodes_per_slice = std::size_t{1} << 18U;
+constexpr std::size_t nodes_per_slice = std::size_t{1} << 16U;
 
-// The most that the cost of one rank may be of the mean.
-constexpr double most_imbalance = 1.2;
+// The most that the cost of one rank may be of the mean, beside what the last split reached.
+constexpr double most_imbalance = 1.1;
 
 bool are_same(const std::vector<FiberPart>& x, const std::vector<FiberPart>& y) {
   return std::equal(x.begin(), x.end(), y.begin(), y.end(),
@@ -53,17 +53,11 @@ class PieceCursor {
   std::uint32_t begin_ = 0;
 };
 
-/// By rank what a segment there costs, as a part of the mean; none if they need not be split anew.
-std::vector<double> weights_of_ranks(const Communicator& ranks, double cost,
-                                     std::uint64_t segments) {
-  const std::vector<double> costs = ranks.gather_all(cost);
-  const std::vector<std::uint64_t> counts = ranks.gather_all(segments);
-  const double most = *std::max_element(costs.begin(), costs.end());
-  const double sum = std::accumulate(costs.begin(), costs.end(), 0.0);
-  if (most * static_cast<double>(ranks.size()) <= most_imbalance * sum) {
-    return {};
-  }
-  const double mean = sum / static_cast<double>(ranks.sum(segments));
+/// By rank what a segment there costs, as a part of the mean.
+std::vector<double> weights_of_ranks(const std::vector<double>& costs,
+                                     const std::vector<std::uint64_t>& counts) {
+  const double mean = std::accumulate(costs.begin(), costs.end(), 0.0) /
+                      static_cast<double>(std::accumulate(counts.begin(), counts.end(), 0ULL));
   std::vector<double> weights;
   for (std::size_t i = 0; i < costs.size(); ++i) {
     const double of_segment = counts[i] == 0 ? mean : costs[i] / static_cast<double>(counts[i]);
@@ -78,6 +72,21 @@ std::vector<double> weights_of_ranks(const Communicator& ranks, double cost,
 bool RankFibers::is_as_before(const FiberAssembly& parts,
                               const std::vector<FiberPart>& names) const {
   return has_fibers_ && offsets_ == parts.offsets() && are_same(names_, names);
+}
+
+/// What is too much for a rank. What a split by costs could not even out is not tried again.
+bool RankFibers::is_too_uneven(const std::vector<double>& costs) {
+  const double mean =
+      std::accumulate(costs.begin(), costs.end(), 0.0) / static_cast<double>(costs.size());
+  const double most = *std::max_element(costs.begin(), costs.end());
+  if (mean <= 0.0) {
+    return false;
+  }
+  if (!evenness_is_known_) {
+    evenness_is_known_ = true;
+    reached_ = most / mean;
+  }
+  return most > most_imbalance * reached_ * mean;
 }
 
 /// @param rank_weights what a segment costs where it is; empty: the same for all
@@ -120,6 +129,9 @@ void RankFibers::send_nodes(const Communicator& ranks, const FiberAssembly& part
   for (std::size_t i = 0; !ranks.all(piece.is_over());) {
     PerRank<double> some_arcs(size);
     PerRank<FiberNode> some_nodes(size);
+    for (std::vector<FiberNode>& some : some_nodes) {
+      some.reserve(std::min(nodes_per_slice, 2 * nodes_per_slice / size));
+    }
     for (std::size_t count = 0; !piece.is_over() && count < nodes_per_slice; piece.go_on()) {
       const auto to = static_cast<std::size_t>(destinations_[i]);
       const std::uint32_t last = piece.first_point() + piece.count();
@@ -157,12 +169,19 @@ void RankFibers::update(const Communicator& ranks, const FiberAssembly& parts,
   }
   const ArcLengths arcs = chains_->arc_lengths(ranks, parts, names, segments_per_piece);
   arc_roundings_ = arcs.roundings;
-  const std::vector<double> weights =
-      is_same ? weights_of_ranks(ranks, cost, own_.fibers().segment_count())
-              : std::vector<double>();
+  std::vector<double> weights;
+  if (is_same) {
+    const std::vector<double> costs = ranks.gather_all(cost);
+    if (is_too_uneven(costs)) {
+      weights =
+          weights_of_ranks(costs, ranks.gather_all(std::uint64_t{own_.fibers().segment_count()}));
+    }
+  }
   const bool are_split_anew = !is_same || !weights.empty();
   if (are_split_anew) {
     split(ranks, parts, weights);
+    evenness_is_known_ = weights.empty();
+    reached_ = 1.0;
   } else {
     own_.open();
   }

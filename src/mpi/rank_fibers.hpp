@@ -39,6 +39,7 @@ class RankFibers {
 
  private:
   bool is_as_before(const FiberAssembly& parts, const std::vector<FiberPart>& names) const;
+  bool is_too_uneven(const std::vector<double>& costs);
   void split(const Communicator& ranks, const FiberAssembly& parts,
              const std::vector<double>& rank_weights);
   void send_nodes(const Communicator& ranks, const FiberAssembly& parts,
@@ -55,6 +56,8 @@ class RankFibers {
   std::vector<std::size_t> first_of_rank_;  // number of the first run that each rank sends
   double arc_roundings_ = 0.0;
   std::uint64_t split_count_ = 0;
+  double reached_ = 1.0;  // most of the ranks' costs beside the mean, by the last split
+  bool evenness_is_known_ = true;
   bool has_fibers_ = false;
 };
 

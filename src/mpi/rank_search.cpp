@@ -1,6 +1,5 @@
 #include "src/mpi/rank_search.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "fiber_proximity/query/narrow_phase.hpp"
@@ -73,15 +72,18 @@ void RankSearch::find_inner(const QueryOptions& options, std::uint64_t count,
 
 /// [m] More than distances of one pair differ by, the one segment first or the other.
 double RankSearch::rounding_across() const {
-  Eigen::AlignedBox3d box;
-  for (const NamedFibers* const fibers : {&fibers_->own(), &halo_}) {
-    for (const Eigen::Vector3d& point : fibers->fibers().points()) {
-      box.extend(point);
-    }
+  if (halo_.fibers().point_count() == 0) {
+    return 0.0;
   }
-  const double radius =
-      std::max(fibers_->own().fibers().largest_radius(), halo_.fibers().largest_radius());
-  return box.isEmpty() ? 0.0 : 0x1p-44 * (box.sizes().maxCoeff() + radius);
+  PlainBox box = fibers_->boxes().tree().root();
+  for (const Eigen::Vector3d& point : halo_.fibers().points()) {
+    box = merged(box, {plain(point), plain(point)});
+  }
+  double longest = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    longest = std::max(longest, box.upper[axis] - box.lower[axis]);
+  }
+  return 0x1p-44 * (longest + halo_.fibers().largest_radius());
 }
 
 void RankSearch::find_across(const FiberRuns& halo, const QueryOptions& options,
@@ -182,10 +184,10 @@ void RankSearch::append(const QueryOptions& options, const std::vector<Contact>&
 }
 
 double RankSearch::cost() const {
-  // Measured on run_tree; only how they compare matters.
-  constexpr double per_segment = 60e-9;
-  constexpr double per_node_test = 0.5e-9;
-  constexpr double per_pair = 25e-9;
+  // Fitted to the times of fiber_bench_mpi; only how they compare matters.
+  constexpr double per_segment = 65e-9;
+  constexpr double per_node_test = 5e-9;
+  constexpr double per_pair = 250e-9;
   if (fibers_ == nullptr) {
     return 0.0;
   }
