@@ -111,8 +111,9 @@ void check_segments(const std::vector<Eigen::Vector3d>& points,
                     const std::vector<double>& segment_radii) {
   check_offsets(offsets, points.size());
   check_points(points, offsets);
-  if (segment_radii.size() != points.size()) {
-    refuse(segment_radii.size(), " radii of segments for ", points.size(), " points");
+  if (segment_radii.size() != points.size() && segment_radii.size() != 1) {
+    refuse(segment_radii.size(), " radii of segments for ", points.size(),
+           " points; give 1 or one per point");
   }
   check_radii(segment_radii, offsets, points.size());
 }
@@ -161,7 +162,9 @@ void FiberAssembly::exchange_segments(std::vector<Eigen::Vector3d>& points,
 
 void FiberAssembly::become_segments() {
   radii_.clear();
-  if (segment_radii_.empty()) {
+  if (segment_radii_.size() == 1) {
+    radii_.swap(segment_radii_);
+  } else if (segment_radii_.empty()) {
     radii_.push_back(0.0);
   }
   largest_radius_ = *std::max_element(radii().begin(), radii().end());

@@ -65,17 +65,33 @@ void NamedFibers::assign(std::vector<FiberRun> runs) {
     }
   }
   points_.resize(point);
-  radii_.assign(point, 0.0);
 }
 
 void NamedFibers::open() { fibers_.exchange_segments(points_, offsets_, radii_); }
 
+/// Gives each segment a radius of its own. So far there is one for all.
+void NamedFibers::expand_radii() {
+  const double radius = radii_.front();
+  radii_.assign(points_.size(), radius);
+  for (std::size_t fiber = 1; fiber < offsets_.size(); ++fiber) {
+    radii_[offsets_[fiber] - 1] = 0.0;
+  }
+}
+
 const FiberNode* NamedFibers::place(std::size_t number, double arc, const FiberNode* nodes) {
   FiberRun& run = runs_[numbers_[number]];
   run.arc = arc;
+  if (radii_.empty()) {
+    radii_.push_back(nodes->radius);
+  }
   for (std::uint64_t i = 0; i < run.count; ++i) {
     points_[run.begin + i] = vector_of(nodes[i].point);
-    radii_[run.begin + i] = nodes[i].radius;
+    if (radii_.size() == 1 && nodes[i].radius != radii_.front()) {
+      expand_radii();
+    }
+    if (radii_.size() > 1) {
+      radii_[run.begin + i] = nodes[i].radius;
+    }
   }
   // The next run may begin there, with its radius.
   points_[run.begin + run.count] = vector_of(nodes[run.count].point);

@@ -62,6 +62,7 @@ class NamedFibers {
 
  private:
   void clear();
+  void expand_radii();
 
   FiberAssembly fibers_;
   std::vector<FiberRun> runs_;
@@ -71,7 +72,7 @@ class NamedFibers {
   // While nodes are placed those of fibers_, which has none then:
   std::vector<Eigen::Vector3d> points_;
   std::vector<std::uint32_t> offsets_{0};
-  std::vector<double> radii_;
+  std::vector<double> radii_;  // one for all, or one per point
 };
 
 }  // namespace fiber

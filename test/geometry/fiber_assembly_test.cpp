@@ -61,12 +61,18 @@ TEST(FiberAssembly, TakesOneRadiusPerSegmentWithNewFibers) {
                                      const std::vector<double>& radii) {
     return error_of([&] { fibers.assign_segments(five_points, offsets, radii); });
   };
-  EXPECT_EQ(error_of_segments({0, 3, 5}, {1}), "1 radii of segments for 5 points");
+  EXPECT_EQ(error_of_segments({0, 3, 5}, {1, 1}),
+            "2 radii of segments for 5 points; give 1 or one per point");
   EXPECT_EQ(error_of_segments({0, 3, 5}, {1, -1, 0, 2, 0}).rfind("fibre 0, point 1: the radius", 0),
             0U);
   EXPECT_EQ(error_of_segments({0, 3}, {1, 1, 0, 2, 0}),
             "the last offset is 3, but there are 5 points");
   EXPECT_EQ(fibers.segment_radius(1), 3.0) << "what was refused changes nothing";
+  fibers.assign_segments(five_points, {0, 3, 5}, {4});
+  EXPECT_EQ(fibers.segment_radius(1), 4.0);
+  EXPECT_EQ(fibers.radii(), std::vector<double>{4.0}) << "one for all takes no memory";
+  fibers.assign_segments(five_points, {0, 3, 5}, {1, 3, 0, 2, 0});
+  EXPECT_EQ(fibers.segment_radius(3), 2.0);
 }
 
 TEST(FiberAssembly, CountsAConicalSegmentAsItsLargerRadius) {

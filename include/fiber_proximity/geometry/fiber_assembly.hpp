@@ -74,8 +74,8 @@ class FiberAssembly {
   /// The same without a copy: takes these points and leaves those it had.
   void exchange_points(std::vector<Eigen::Vector3d>& points);
 
-  /// Makes it other fibres, in the memory it has, with a radius for each segment [m]: that of its
-  /// first point. The last point of a fibre has one as well, which must be 0.
+  /// Makes it other fibres, in the memory it has, with one radius for all, or one for each segment
+  /// [m]: that of its first point. The last point of a fibre has one as well then, which must be 0.
   /// @throws std::invalid_argument as the constructor; the assembly is unchanged then
   void assign_segments(const std::vector<Eigen::Vector3d>& points,
                        const std::vector<std::uint32_t>& offsets,
