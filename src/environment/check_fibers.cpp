@@ -41,7 +41,11 @@ std::unique_ptr<ProximityEngine> make_engine_of_one_thread() {
 class Checker {
  public:
   Checker(const Surroundings& surroundings, const QueryOptions& options)
-      : surroundings_(surroundings), options_(options), engine_(make_engine_of_one_thread()) {}
+      : surroundings_(surroundings),
+        options_(options),
+        depends_on_order_(options.type == QueryType::FIRST || options.pair_limit > 0 ||
+                          options.tolerance > 0.0 || options.relative_tolerance > 0.0),
+        engine_(make_engine_of_one_thread()) {}
 
   void check(const FiberAssembly& candidate, const Deadline& deadline, FiberCheck& check) {
     const bool is_reached = !deadline.has_passed();
@@ -59,6 +63,9 @@ class Checker {
       surroundings_.fibers->query_shape(candidate, options(deadline), check.fibers);
     }
     if (surroundings_.self && is_to_go_on(check)) {
+      if (depends_on_order_) {
+        engine_->update(none_);  // what it knows of another candidate would decide what it finds
+      }
       engine_->update(candidate);
       engine_->query(options(deadline), check.self);
     }
@@ -75,6 +82,8 @@ class Checker {
 
   const Surroundings& surroundings_;
   QueryOptions options_;
+  const bool depends_on_order_;  // whether the answer does, of the pairs that the engine looks at
+  const FiberAssembly none_;
   std::unique_ptr<ProximityEngine> engine_;
 };
 

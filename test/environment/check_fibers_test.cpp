@@ -111,6 +111,30 @@ TEST_P(CheckFibersTest, TheFirstContactDecides) {
   }
 }
 
+TEST_P(CheckFibersTest, OtherCandidatesDoNotDecideWhichContactIsFirst) {
+  SCOPED_TRACE(seed_message());
+  // As many points each: an engine might take one for another that has moved.
+  std::vector<FiberAssembly> alike;
+  for (int i = 0; i < 100; ++i) {
+    std::vector<Vector3d> points;
+    for (int point = 0; point < 60; ++point) {
+      points.push_back(random_.in_cube());
+    }
+    alike.push_back({points, {0, 20, 40, 60}, {0.02}});
+  }
+  for (const double tolerance : {0.0, 0.1}) {
+    QueryOptions options;
+    options.type = tolerance > 0.0 ? QueryType::CLOSEST : QueryType::FIRST;
+    options.tolerance = tolerance;
+    check_fibers(alike, {}, options, checks_);
+    std::vector<FiberCheck> alone;
+    for (std::size_t i = 0; i < alike.size(); ++i) {
+      check_fibers({alike[i]}, {}, options, alone);
+      expect_same(checks_[i].self, alone[0].self);
+    }
+  }
+}
+
 TEST_P(CheckFibersTest, WhatIsLeftOutHasNoContacts) {
   QueryOptions options;
   options.margin = 10.0;
