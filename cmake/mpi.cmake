@@ -44,6 +44,7 @@ add_library(fiber_proximity_mpi SHARED
   src/mpi/communicator.cpp
   src/mpi/contact_sort.cpp
   src/mpi/contact_writer.cpp
+  src/mpi/dealt_work.cpp
   src/mpi/distributed_contacts.cpp
   src/mpi/distributed_engine.cpp
   src/mpi/distributed_options.cpp

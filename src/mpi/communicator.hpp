@@ -155,4 +155,8 @@ constexpr int chain_tag = 2;
 /// Text on its way to rank 0.
 constexpr int text_tag = 3;
 
+/// What ranks ask rank 0 for, and get of it, while work is dealt out.
+constexpr int wish_tag = 4;
+constexpr int share_tag = 5;
+
 }  // namespace fiber
