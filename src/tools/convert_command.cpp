@@ -42,7 +42,7 @@ void convert_to_hdf5(const Communicator& ranks, const ConvertRequest& request,
   for (std::size_t i = writer.done(); i < source.frame_count(); ++i) {
     const std::int64_t frame = source.read(i, fibers);
     writer.write(frame, fibers);
-    show_frames(progress, i + 1, source.frame_count());
+    show_done(progress, i + 1, source.frame_count(), "frames");
   }
   writer.finish();
 }
@@ -96,7 +96,7 @@ void convert_on_first_rank(const Communicator& ranks, const ConvertRequest& requ
     const std::int64_t frame = source.read(i, fibers);
     FiberAssembly all = gather_fibers(ranks, std::exchange(fibers, {}));
     on_first_rank(ranks, [&] { file->write({frame, std::move(all)}); });
-    show_frames(progress, i + 1, source.frame_count());
+    show_done(progress, i + 1, source.frame_count(), "frames");
   }
   on_first_rank(ranks, [&] { file->finish(); });
 }

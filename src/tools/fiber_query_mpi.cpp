@@ -98,7 +98,7 @@ ExitCode run(const MpiRequest& request, const Question& question) {
     if (!result.complete) {
       std::cerr << "fiber_query_mpi: " << deadline_warning(number) << '\n';
     }
-    show_frames(progress, i + 1, source.frame_count());
+    show_done(progress, i + 1, source.frame_count(), "frames");
   }
   sink.finish();
   return SUCCEEDED;
@@ -171,6 +171,7 @@ void add_pair_queries(CLI::App& app, Command& command) {
 void setup_mpi(CLI::App& app, Command& command) {
   app.require_subcommand(0, 1);
   add_pair_queries(app, command);
+  add_check(app, command);
   add_convert(app, command);
 }
 

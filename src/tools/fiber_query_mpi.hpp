@@ -6,6 +6,9 @@ namespace fiber {
 
 // The subcommands of fiber_query_mpi that have a source of their own.
 
+/// `check CANDIDATES [--environment WORLD] [--margin M]`: which of many candidates could be there.
+void add_check(CLI::App& app, Command& command);
+
 /// `convert IN OUT [--radius R] [--resume]`: a file of fibres in another format.
 void add_convert(CLI::App& app, Command& command);
 

@@ -75,13 +75,13 @@ Progress rank_progress(const Communicator& ranks) {
   return Progress(ranks.rank() == 0 && is_stderr_terminal());
 }
 
-void show_frames(Progress& progress, std::size_t done, std::size_t all) {
+void show_done(Progress& progress, std::uint64_t done, std::uint64_t all, const std::string& what) {
   constexpr std::size_t width = 30;
   if (all > 1) {
     std::string bar(width * done / all, '#');
     bar.resize(width, ' ');
-    progress.show('[' + bar + "] " + std::to_string(done) + " of " + std::to_string(all) +
-                  " frames");
+    progress.show('[' + bar + "] " + std::to_string(done) + " of " + std::to_string(all) + ' ' +
+                  what);
   }
 }
 

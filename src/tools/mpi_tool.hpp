@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include "src/mpi/communicator.hpp"
@@ -17,7 +17,9 @@ int run_mpi_tool(const char* name, const char* description, const Setup& setup, 
 /// Of rank 0, where its stderr ends in a terminal; nothing of the others.
 Progress rank_progress(const Communicator& ranks);
 
-void show_frames(Progress& progress, std::size_t done, std::size_t all);
+/// A bar; nothing of a single one.
+/// @param what they are
+void show_done(Progress& progress, std::uint64_t done, std::uint64_t all, const std::string& what);
 
 /// The end of a file's name from its last dot on, in small letters.
 std::string end_of_name(const std::string& path);
