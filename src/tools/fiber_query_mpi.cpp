@@ -173,6 +173,7 @@ void setup_mpi(CLI::App& app, Command& command) {
   add_pair_queries(app, command);
   add_check(app, command);
   add_convert(app, command);
+  add_regions(app, command);
 }
 
 }  // namespace

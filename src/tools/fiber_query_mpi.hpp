@@ -12,4 +12,8 @@ void add_check(CLI::App& app, Command& command);
 /// `convert IN OUT [--radius R] [--resume]`: a file of fibres in another format.
 void add_convert(CLI::App& app, Command& command);
 
+/// `regions FILE --margin M [--out REGIONS.csv]`: which rank owns each segment, and whose halo it
+/// is in.
+void add_regions(CLI::App& app, Command& command);
+
 }  // namespace fiber
