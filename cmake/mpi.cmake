@@ -48,9 +48,11 @@ add_library(fiber_proximity_mpi SHARED
   src/mpi/distributed_contacts.cpp
   src/mpi/distributed_engine.cpp
   src/mpi/distributed_options.cpp
+  src/mpi/earliest_contacts.cpp
   src/mpi/fiber_chains.cpp
   src/mpi/fiber_reader.cpp
   src/mpi/fiber_writer.cpp
+  src/mpi/first_places.cpp
   src/mpi/frame_files.cpp
   src/mpi/gathered_fibers.cpp
   src/mpi/halo.cpp
@@ -62,6 +64,7 @@ add_library(fiber_proximity_mpi SHARED
   src/mpi/plan.cpp
   src/mpi/piece_boxes.cpp
   src/mpi/rank_fibers.cpp
+  src/mpi/rank_motions.cpp
   src/mpi/rank_search.cpp
   src/mpi/step_costs.cpp
   src/mpi/whole_file.cpp

@@ -40,11 +40,6 @@ inline PlainBox merged(const PlainBox& a, const PlainBox& b) {
   return box;
 }
 
-/// That encloses the capsule.
-inline PlainBox box_around(const FiberNode& start, const FiberNode& end) {
-  return inflated(merged({start.point, start.point}, {end.point, end.point}), start.radius);
-}
-
 inline bool meet(const PlainBox& a, const PlainBox& b) {
   bool do_meet = true;
   for (std::size_t axis = 0; axis < 3; ++axis) {  // without branches: no one foresees them

@@ -6,20 +6,10 @@
 #include <optional>
 #include <utility>
 
-#include "src/mpi/fiber_runs.hpp"
+#include "src/mpi/first_places.hpp"
 
 namespace fiber {
 namespace {
-
-/// What decides which contact is closer, as it travels.
-struct Place {
-  double distance = 0.0;  // [m]
-  GlobalSegment a;
-  GlobalSegment b;
-
-  auto key() const { return std::tie(distance, a.fiber, a.segment, b.fiber, b.segment); }
-  bool operator<(const Place& other) const { return key() < other.key(); }
-};
 
 Place place_of(const DistributedContact& contact) {
   return {
@@ -40,41 +30,15 @@ std::size_t closest_first(std::uint64_t count, std::vector<DistributedContact>& 
   return kept;
 }
 
-/// The last one of the so many closest of all ranks, which there must be as many of. Ranks pass
-/// theirs on in pairs, and each keeps no more than it is asked for.
-Place last_of_closest(const Communicator& ranks, std::uint64_t count, std::vector<Place> places) {
-  std::sort(places.begin(), places.end());
-  const auto rank = static_cast<std::size_t>(ranks.rank());
-  const auto size = static_cast<std::size_t>(ranks.size());
-  for (std::size_t step = 1; step < size; step *= 2) {
-    PerRank<Place> to(size);
-    if (rank % (2 * step) == step) {
-      to[rank - step] = std::exchange(places, {});
-    }
-    for (const std::vector<Place>& more : ranks.exchange(std::move(to))) {
-      std::vector<Place> merged;
-      merged.reserve(places.size() + more.size());
-      std::merge(places.begin(), places.end(), more.begin(), more.end(),
-                 std::back_inserter(merged));
-      places = std::move(merged);
-    }
-    places.resize(std::min<std::uint64_t>(count, places.size()));
-  }
-  return ranks.from_first(rank == 0 ? places.back() : Place());
-}
-
 /// None if there are fewer.
 std::optional<Place> find_last_of_closest(const Communicator& ranks, std::uint64_t count,
                                           std::vector<DistributedContact>& contacts) {
   const std::size_t kept = closest_first(count, contacts);
-  if (ranks.sum(kept) < count) {
-    return std::nullopt;
-  }
   std::vector<Place> places;
   places.reserve(kept);
   std::transform(contacts.begin(), contacts.begin() + static_cast<std::ptrdiff_t>(kept),
                  std::back_inserter(places), place_of);
-  return last_of_closest(ranks, count, std::move(places));
+  return last_of_first(ranks, count, std::move(places));
 }
 
 /// Leaves those that this holds for.
@@ -109,7 +73,7 @@ double margin_of_closest(const Communicator& ranks, std::uint64_t count,
   if (!last) {
     return std::numeric_limits<double>::infinity();
   }
-  double margin = last->distance;
+  double margin = last->value;
   for (const DistributedContact& contact : contacts) {
     if (!(*last < place_of(contact))) {
       margin = std::max(margin, contact.upper);

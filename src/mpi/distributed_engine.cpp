@@ -2,25 +2,37 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "src/mpi/closest_contacts.hpp"
 #include "src/mpi/communicator.hpp"
 #include "src/mpi/distributed_options.hpp"
+#include "src/mpi/earliest_contacts.hpp"
 #include "src/mpi/halo.hpp"
 #include "src/mpi/plain_contact.hpp"
 #include "src/mpi/rank_fibers.hpp"
+#include "src/mpi/rank_motions.hpp"
 #include "src/mpi/rank_search.hpp"
 
 namespace fiber {
 
 struct DistributedEngine::State {
-  State(MPI_Comm comm, const EngineOptions& options) : ranks(comm), search(ranks, options) {}
+  State(MPI_Comm comm, const EngineOptions& options)
+      : ranks(comm), engine_options(options), search(ranks, options) {}
 
   Communicator ranks;
+  EngineOptions engine_options;
   RankFibers fibers;
   RankSearch search;
+  std::optional<RankMotions> motions;  // none until there is a motion
 
+  bool has_motion = false;
+
+  /// Of a limit of pairs.
+  std::uint64_t share_of(std::uint64_t limit) const {
+    return limit == 0 ? 0 : std::max<std::uint64_t>(1, limit / ranks.size());
+  }
   void find_all(const QueryOptions& options, std::uint64_t most, DistributedResult& result);
   void find_closest(const QueryOptions& options, std::uint64_t most, DistributedResult& result);
 };
@@ -31,7 +43,7 @@ void DistributedEngine::State::find_all(const QueryOptions& options, std::uint64
   const bool is_limited = most != RankSearch::no_limit;
   const bool is_of_fibers = options.type == QueryType::FIBER_PAIRS;
   const Deadline deadline(options.deadline);
-  Halo halo(ranks, fibers.own(), fibers.boxes(), options.margin);
+  Halo halo(ranks, fibers.states(), fibers.boxes(), options.margin);
   // Of a limited number one more, to see whether there are more.
   search.find_inner(options, is_limited && !is_of_fibers ? most + 1 : RankSearch::no_limit, result);
   QueryOptions rest = options;
@@ -55,7 +67,8 @@ void DistributedEngine::State::find_closest(const QueryOptions& options, std::ui
     QueryOptions rest = options;
     rest.margin = std::max(0.0, std::min(options.margin, enough));
     rest.deadline = deadline.left();
-    search.find_across(Halo(ranks, fibers.own(), fibers.boxes(), rest.margin).take(), rest, result);
+    search.find_across(Halo(ranks, fibers.states(), fibers.boxes(), rest.margin).take(), rest,
+                       result);
   }
   keep_closest(ranks, most, result);
   const bool are_enough = ranks.sum(result.contacts.size()) == most;
@@ -79,20 +92,46 @@ DistributedEngine::DistributedEngine(MPI_Comm ranks, const EngineOptions& option
 DistributedEngine::~DistributedEngine() = default;
 
 void DistributedEngine::update(const FiberAssembly& parts, const std::vector<FiberPart>& names) {
+  state_->has_motion = false;
   state_->fibers.update(state_->ranks, parts, names, state_->search.cost());
   state_->search.update(state_->fibers);
 }
 
+void DistributedEngine::update_motion(const FiberAssembly& before, const FiberAssembly& after,
+                                      const std::vector<FiberPart>& names) {
+  State& state = *state_;
+  state.fibers.update_motion(state.ranks, before, after, names, 0.0);
+  if (!state.motions) {
+    state.motions.emplace(state.ranks, state.engine_options);
+  }
+  state.has_motion = false;
+  state.motions->update(state.fibers);
+  state.has_motion = true;
+}
+
+void DistributedEngine::query_motion(const MotionOptions& options,
+                                     DistributedMotionResult& result) {
+  State& state = *state_;
+  if (state.fibers.empty() || !state.has_motion) {
+    throw std::logic_error("the engine has no motion: call update_motion() first");
+  }
+  require_distributed_options(state.ranks, options);
+  MotionOptions here = options;
+  here.pair_limit = state.share_of(options.pair_limit);
+  result.contacts.clear();
+  result.touching.clear();
+  state.motions->find(here, result);
+  keep_earliest(state.ranks, options, result);
+}
+
 void DistributedEngine::query(const QueryOptions& options, DistributedResult& result) {
   State& state = *state_;
-  if (state.fibers.empty()) {
+  if (state.fibers.empty() || state.fibers.do_move()) {
     throw std::logic_error("the engine has no fibres yet: call update() first");
   }
   require_distributed_options(state.ranks, options);
   QueryOptions here = options;
-  if (options.pair_limit > 0) {
-    here.pair_limit = std::max<std::uint64_t>(1, options.pair_limit / state.ranks.size());
-  }
+  here.pair_limit = state.share_of(options.pair_limit);
   const bool is_limited = options.contact_limit > 0;
   const std::uint64_t most = is_limited ? options.contact_limit : RankSearch::no_limit;
   result.contacts.clear();

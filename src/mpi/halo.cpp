@@ -38,9 +38,9 @@ std::vector<std::size_t> find_neighbours(const Communicator& ranks, const BoxTre
 
 }  // namespace
 
-Halo::Halo(const Communicator& ranks, const NamedFibers& own, const PieceBoxes& boxes,
+Halo::Halo(const Communicator& ranks, const FiberStates& own, const PieceBoxes& boxes,
            double margin)
-    : runs_(ranks), nodes_(ranks) {
+    : runs_(ranks), nodes_(ranks), nodes_after_(ranks) {
   const auto size = static_cast<std::size_t>(ranks.size());
   if (size == 1) {
     return;
@@ -67,18 +67,27 @@ Halo::Halo(const Communicator& ranks, const NamedFibers& own, const PieceBoxes& 
 
   PerRank<FiberRun> runs(size);
   PerRank<FiberNode> nodes(size);
+  PerRank<FiberNode> nodes_after(size);
   for (const std::size_t other : neighbours) {
     const BoxTree theirs(std::move(fine[other]));
     FiberRuns near;
+    FiberRuns near_after;
     boxes.for_each_near(own, theirs, margin,
                         [&](const FiberRun& run, std::uint64_t begin, std::uint64_t end) {
-                          own.add_to(near, run, begin, end);
+                          own.before.add_to(near, run, begin, end);
+                          if (own.after != nullptr) {
+                            own.after->add_to(near_after, run, begin, end);
+                          }
                         });
     runs[other] = std::move(near.runs);
     nodes[other] = std::move(near.nodes);
+    nodes_after[other] = std::move(near_after.nodes);
   }
   runs_.start(std::move(runs));
   nodes_.start(std::move(nodes));
+  if (own.after != nullptr) {
+    nodes_after_.start(std::move(nodes_after));
+  }
 }
 
 FiberRuns Halo::take() {

@@ -30,7 +30,7 @@ struct CountedPart {
 
   explicit CountedPart(const FiberRuns& set) {
     fibers.assign(set);
-    boxes.update(fibers, false);
+    boxes.update({fibers}, false);
     around.has_segments = !boxes.tree().empty();
     if (around.has_segments) {
       around.box = boxes.tree().root();
@@ -39,7 +39,7 @@ struct CountedPart {
 
   /// Adds to what a part needs that has these boxes.
   void add_near(const PieceBoxes& part, double margin, PartLoad& load) const {
-    boxes.for_each_near(fibers, part.tree(), margin,
+    boxes.for_each_near({fibers}, part.tree(), margin,
                         [&](const FiberRun& /*run*/, std::uint64_t begin, std::uint64_t end) {
                           load.halo_segments += end - begin;
                           load.halo_runs += 1;
@@ -121,7 +121,7 @@ std::vector<PartLoad> part_loads(const Communicator& ranks, const DistributedFib
                                  int parts, double margin) {
   const SharedParts shared = deal_parts(ranks, fibers, parts);
   const CountedPart all(all_of(shared.parts));
-  const CountedPart remote(Halo(ranks, all.fibers, all.boxes, margin).take());
+  const CountedPart remote(Halo(ranks, {all.fibers}, all.boxes, margin).take());
   std::vector<CountedPart> here;
   std::vector<PartBox> boxes_here;
   for (const FiberRuns& part : shared.parts) {

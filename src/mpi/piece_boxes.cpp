@@ -4,22 +4,12 @@
 
 namespace fiber {
 
-PlainBox PieceBoxes::box_of(const NamedFibers& fibers, const Piece& piece) {
-  const FiberRun& run = fibers.runs()[piece.run];
-  const Eigen::Vector3d* const points = fibers.fibers().points().data() + run.begin;
-  Eigen::Array3d lower = points[piece.begin];
-  Eigen::Array3d upper = lower;
-  double radius = 0.0;
-  for (std::uint64_t i = piece.begin; i < end_of(piece, run); ++i) {
-    lower = lower.min(points[i + 1].array());
-    upper = upper.max(points[i + 1].array());
-    radius =
-        std::max(radius, fibers.fibers().segment_radius(static_cast<std::uint32_t>(run.begin + i)));
-  }
-  return inflated({{lower[0], lower[1], lower[2]}, {upper[0], upper[1], upper[2]}}, radius);
+PlainBox PieceBoxes::box_of(const FiberStates& fibers, const Piece& piece) {
+  const FiberRun& run = fibers.before.runs()[piece.run];
+  return fibers.box_around(run.begin + piece.begin, run.begin + end_of(piece, run));
 }
 
-void PieceBoxes::update(const NamedFibers& fibers, bool are_same) {
+void PieceBoxes::update(const FiberStates& fibers, bool are_same) {
   if (are_same) {
     for (std::size_t i = 0; i < pieces_.size(); ++i) {
       tree_.move(places_[i], box_of(fibers, pieces_[i]));
@@ -30,11 +20,11 @@ void PieceBoxes::update(const NamedFibers& fibers, bool are_same) {
   pieces_.clear();
   std::vector<SegmentBox> boxes;
   const std::size_t most =
-      fibers.fibers().segment_count() / segments_per_piece + fibers.runs().size();
+      fibers.before.fibers().segment_count() / segments_per_piece + fibers.before.runs().size();
   pieces_.reserve(most);
   boxes.reserve(most);
-  for (std::uint32_t i = 0; i < fibers.runs().size(); ++i) {
-    const FiberRun& run = fibers.runs()[i];
+  for (std::uint32_t i = 0; i < fibers.before.runs().size(); ++i) {
+    const FiberRun& run = fibers.before.runs()[i];
     for (std::uint32_t begin = 0; begin < run.count; begin += segments_per_piece) {
       pieces_.push_back({i, begin});
       boxes.push_back(

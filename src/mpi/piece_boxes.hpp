@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "src/mpi/box_tree.hpp"
+#include "src/mpi/fiber_states.hpp"
 #include "src/mpi/named_fibers.hpp"
 
 namespace fiber {
@@ -13,14 +14,14 @@ namespace fiber {
 class PieceBoxes {
  public:
   /// Takes fibres, or the same ones, moved, whose tree keeps its order.
-  void update(const NamedFibers& fibers, bool are_same);
+  void update(const FiberStates& fibers, bool are_same);
 
   const BoxTree& tree() const { return tree_; }
 
   /// Calls with the segments that may come within the margin [m] of others that are before them, by
   /// the others' boxes: call(run, begin, end), along the run.
   template <class Call>
-  void for_each_near(const NamedFibers& fibers, const BoxTree& others, double margin,
+  void for_each_near(const FiberStates& fibers, const BoxTree& others, double margin,
                      const Call& call) const;
 
  private:
@@ -34,7 +35,7 @@ class PieceBoxes {
   static std::uint64_t end_of(const Piece& piece, const FiberRun& run) {
     return std::min(piece.begin + segments_per_piece, run.count);
   }
-  static PlainBox box_of(const NamedFibers& fibers, const Piece& piece);
+  static PlainBox box_of(const FiberStates& fibers, const Piece& piece);
 
   std::vector<Piece> pieces_;           // run by run
   std::vector<std::uint32_t> places_;   // of theirs in the tree
@@ -43,7 +44,7 @@ class PieceBoxes {
 };
 
 template <class Call>
-void PieceBoxes::for_each_near(const NamedFibers& fibers, const BoxTree& others, double margin,
+void PieceBoxes::for_each_near(const FiberStates& fibers, const BoxTree& others, double margin,
                                const Call& call) const {
   std::vector<SegmentBox> near;
   const auto is_near = [&](const PlainBox& box, const GlobalSegment& segment) {
@@ -54,7 +55,7 @@ void PieceBoxes::for_each_near(const NamedFibers& fibers, const BoxTree& others,
   tree_.for_each_near(
       others, margin, [&](std::uint32_t place, const auto* first, const auto* last) {
         const Piece& piece = pieces_[numbers_[place]];
-        const FiberRun& run = fibers.runs()[piece.run];
+        const FiberRun& run = fibers.before.runs()[piece.run];
         const std::uint64_t end = end_of(piece, run);
         near.clear();
         for (const auto* other = first; other != last; ++other) {
@@ -65,10 +66,9 @@ void PieceBoxes::for_each_near(const NamedFibers& fibers, const BoxTree& others,
         }
         std::uint64_t begin = piece.begin;
         for (std::uint64_t i = begin; i <= end; ++i) {
-          if (i < end && is_near(inflated(box_around(fibers.node(run.begin + i),
-                                                     fibers.node(run.begin + i + 1)),
-                                          margin),
-                                 {run.first.fiber, run.first.segment + i})) {
+          if (i < end &&
+              is_near(inflated(fibers.box_around(run.begin + i, run.begin + i + 1), margin),
+                      {run.first.fiber, run.first.segment + i})) {
             continue;
           }
           if (begin < i) {

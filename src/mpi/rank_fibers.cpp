@@ -120,9 +120,10 @@ void RankFibers::split(const Communicator& ranks, const FiberAssembly& parts,
 }
 
 /// Sends the nodes of all pieces to whom they belong.
-/// @param arcs [m] of the pieces
+/// @param arcs  [m] of the pieces
+/// @param owned of this rank: its runs, open
 void RankFibers::send_nodes(const Communicator& ranks, const FiberAssembly& parts,
-                            const std::vector<double>& arcs) {
+                            const std::vector<double>& arcs, NamedFibers& owned) const {
   const auto size = static_cast<std::size_t>(ranks.size());
   std::vector<std::size_t> next(first_of_rank_.begin(), first_of_rank_.end() - 1);
   PieceCursor piece(offsets_);
@@ -147,21 +148,26 @@ void RankFibers::send_nodes(const Communicator& ranks, const FiberAssembly& part
     for (std::size_t from = 0; from < size; ++from) {
       const FiberNode* nodes = some_nodes[from].data();
       for (const double arc : some_arcs[from]) {
-        nodes = own_.place(next[from]++, arc, nodes);
+        nodes = owned.place(next[from]++, arc, nodes);
       }
     }
   }
-  ranks.agree(error_in([&] { own_.close(); }));
+  ranks.agree(error_in([&] { owned.close(); }));
 }
 
-void RankFibers::update(const Communicator& ranks, const FiberAssembly& parts,
-                        const std::vector<FiberPart>& names, double cost) {
+void RankFibers::take(const Communicator& ranks, const FiberAssembly& parts,
+                      const FiberAssembly* after, const std::vector<FiberPart>& names,
+                      double cost) {
   const bool is_same = ranks.all(is_as_before(parts, names));
   has_fibers_ = false;
   ranks.agree(names.size() == parts.fiber_count()
                   ? ""
                   : std::to_string(names.size()) + " names for " +
                         std::to_string(parts.fiber_count()) + " parts, there must be one per part");
+  ranks.agree(
+      after == nullptr || after->offsets() == parts.offsets()
+          ? ""
+          : "the parts after the motion are not of the same numbers of points as before it");
   if (!is_same) {
     chains_.emplace(ranks, parts, names);
     names_ = names;
@@ -185,9 +191,19 @@ void RankFibers::update(const Communicator& ranks, const FiberAssembly& parts,
   } else {
     own_.open();
   }
-  send_nodes(ranks, parts, arcs.of_pieces);
+  send_nodes(ranks, parts, arcs.of_pieces, own_);
+  if (after != nullptr) {
+    if (are_split_anew || !do_move_) {
+      own_after_ = own_;
+    }
+    own_after_.open();
+    send_nodes(ranks, *after, arcs.of_pieces, own_after_);
+  } else if (do_move_) {
+    own_after_ = NamedFibers();
+  }
+  do_move_ = after != nullptr;
   if (ranks.size() > 1) {
-    boxes_.update(own_, !are_split_anew);
+    boxes_.update(states(), !are_split_anew);
   }
   has_fibers_ = true;
 }

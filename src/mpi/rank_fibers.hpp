@@ -22,12 +22,25 @@ class RankFibers {
   /// @param cost of what this rank owns, in any unit; 0 if it is not known
   /// @throws std::invalid_argument on every rank as DistributedEngine::update()
   void update(const Communicator& ranks, const FiberAssembly& parts,
-              const std::vector<FiberPart>& names, double cost);
+              const std::vector<FiberPart>& names, double cost) {
+    take(ranks, parts, nullptr, names, cost);
+  }
+
+  /// The same of fibres that move: of one topology before and after.
+  void update_motion(const Communicator& ranks, const FiberAssembly& before,
+                     const FiberAssembly& after, const std::vector<FiberPart>& names, double cost) {
+    take(ranks, before, &after, names, cost);
+  }
 
   bool empty() const { return !has_fibers_; }
 
-  /// What this rank owns.
+  bool do_move() const { return do_move_; }
+
+  /// What this rank owns, before the motion if there is one.
   const NamedFibers& own() const { return own_; }
+  const NamedFibers& own_after() const { return own_after_; }
+
+  FiberStates states() const { return {own_, do_move_ ? &own_after_ : nullptr}; }
 
   const PieceBoxes& boxes() const { return boxes_; }  ///< of own()
 
@@ -43,7 +56,9 @@ class RankFibers {
   void split(const Communicator& ranks, const FiberAssembly& parts,
              const std::vector<double>& rank_weights);
   void send_nodes(const Communicator& ranks, const FiberAssembly& parts,
-                  const std::vector<double>& arcs);
+                  const std::vector<double>& arcs, NamedFibers& owned) const;
+  void take(const Communicator& ranks, const FiberAssembly& parts, const FiberAssembly* after,
+            const std::vector<FiberPart>& names, double cost);
 
   // Of the parts that this rank brings:
   std::vector<FiberPart> names_;
@@ -52,6 +67,7 @@ class RankFibers {
   std::vector<int> destinations_;  // of their pieces
 
   NamedFibers own_;
+  NamedFibers own_after_;
   PieceBoxes boxes_;
   std::vector<std::size_t> first_of_rank_;  // number of the first run that each rank sends
   double arc_roundings_ = 0.0;
@@ -59,6 +75,7 @@ class RankFibers {
   double reached_ = 1.0;  // most of the ranks' costs beside the mean, by the last split
   bool evenness_is_known_ = true;
   bool has_fibers_ = false;
+  bool do_move_ = false;
 };
 
 }  // namespace fiber

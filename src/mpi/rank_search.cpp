@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "fiber_proximity/query/narrow_phase.hpp"
-#include "src/mpi/loop_questions.hpp"
+#include "src/mpi/whole_fiber_pairs.hpp"
 
 namespace fiber {
 namespace {
@@ -25,19 +25,9 @@ void RankSearch::update(const RankFibers& fibers) {
 /// What leaves out no pair that the options want. Those that are too many are left out later.
 QueryOptions RankSearch::options_here(const QueryOptions& options) const {
   QueryOptions here = options;
+  static_cast<PairOptions&>(here) = options_of_stretches(options, fibers_->arc_roundings());
   here.tolerance = 0.0;
   here.relative_tolerance = 0.0;
-  here.contact_limit = 0;
-  if (options.pairing == Pairing::SAME_FIBER) {
-    here.pairing = Pairing::ALL;  // stretches of one fibre may be several here
-  }
-  if (!options.needs_loops()) {
-    here.neighbour_skip = options.neighbour_skip.value_or(1);
-    // Sums along a stretch are rounded in another way than those along the whole fibre.
-    const double surely = (1.0 - 0x1p-50) * options.neighbour_skip_length.value_or(0.0) -
-                          0x1p-48 * fibers_->arc_roundings();
-    here.neighbour_skip_length = std::max(0.0, surely);
-  }
   return here;
 }
 
@@ -122,64 +112,17 @@ void RankSearch::find_across(const FiberRuns& halo, const QueryOptions& options,
   append(options, across_, halo_, result.contacts);
 }
 
-/// Whether segments that are a pair here are none along whole fibres.
-bool RankSearch::is_left_out(const QueryOptions& options, const Contact& contact,
-                             const NamedFibers& fibers_b) const {
-  const NamedFibers& own = fibers_->own();
-  const GlobalSegment a = own.name_of(contact.fiber_a, contact.segment_a);
-  const GlobalSegment b = fibers_b.name_of(contact.fiber_b, contact.segment_b);
-  if (a.fiber != b.fiber) {
-    return options.pairing == Pairing::SAME_FIBER;
-  }
-  if (options.pairing == Pairing::DIFFERENT_FIBERS ||
-      b.segment - a.segment <= options.neighbour_skip.value_or(1)) {
-    return true;
-  }
-  const double least = options.neighbour_skip_length.value_or(0.0);
-  return least > 0.0 && fibers_b.arc(fibers_b.point_of(contact.fiber_b, contact.segment_b)) -
-                                own.arc(own.point_of(contact.fiber_a, contact.segment_a) + 1) <
-                            least;
-}
-
 /// Appends what is found of this rank's own segments (a) and others, but for what is no pair.
 void RankSearch::append(const QueryOptions& options, const std::vector<Contact>& found,
                         const NamedFibers& fibers_b,
                         std::vector<DistributedContact>& contacts) const {
-  const NamedFibers& own = fibers_->own();
-  std::vector<const Contact*> kept;
-  std::vector<LoopQuestion> questions;
-  std::vector<std::size_t> asked;  // places of theirs among those kept
-  for (const Contact& contact : found) {
-    if (is_left_out(options, contact, fibers_b)) {
-      continue;
-    }
-    const GlobalSegment a = own.name_of(contact.fiber_a, contact.segment_a);
-    const GlobalSegment b = fibers_b.name_of(contact.fiber_b, contact.segment_b);
-    // Where a stretch of the fibre holds both, the engine has seen the loop.
-    const bool is_loop_known = &fibers_b == &own && contact.fiber_a == contact.fiber_b;
-    if (options.needs_loops() && a.fiber == b.fiber && !is_loop_known) {
-      asked.push_back(kept.size());
-      questions.push_back(
-          {a.fiber, a.segment, b.segment,
-           own.fibers().capsule(own.point_of(contact.fiber_a, contact.segment_a)),
-           fibers_b.fibers().capsule(fibers_b.point_of(contact.fiber_b, contact.segment_b))});
-    }
-    kept.push_back(&contact);
-  }
-  const std::vector<bool> loops = find_loops(ranks_, own, halo_, questions);
-  for (std::size_t i = 0; i < asked.size(); ++i) {
-    if (!loops[i]) {
-      kept[asked[i]] = nullptr;
-    }
-  }
-  for (const Contact* const contact : kept) {
-    if (contact != nullptr) {
-      const GlobalSegment a = own.name_of(contact->fiber_a, contact->segment_a);
-      const GlobalSegment b = fibers_b.name_of(contact->fiber_b, contact->segment_b);
-      contacts.push_back({a.fiber, a.segment, b.fiber, b.segment, contact->s, contact->t,
-                          contact->distance, contact->lower, contact->upper, contact->point_a,
-                          contact->point_b, contact->normal});
-    }
+  const RankPairs pairs{ranks_, fibers_->own(), halo_};
+  for (const Contact* const contact : pairs.along_whole_fibers(options, found, fibers_b)) {
+    const GlobalSegment a = fibers_->own().name_of(contact->fiber_a, contact->segment_a);
+    const GlobalSegment b = fibers_b.name_of(contact->fiber_b, contact->segment_b);
+    contacts.push_back({a.fiber, a.segment, b.fiber, b.segment, contact->s, contact->t,
+                        contact->distance, contact->lower, contact->upper, contact->point_a,
+                        contact->point_b, contact->normal});
   }
 }
 

@@ -44,8 +44,6 @@ class RankSearch {
 
  private:
   QueryOptions options_here(const QueryOptions& options) const;
-  bool is_left_out(const QueryOptions& options, const Contact& contact,
-                   const NamedFibers& fibers_b) const;
   void append(const QueryOptions& options, const std::vector<Contact>& found,
               const NamedFibers& fibers_b, std::vector<DistributedContact>& contacts) const;
   double rounding_across() const;

@@ -57,8 +57,6 @@ class MotionTest {
   }
 
  private:
-  static bool is_there_before(const ContactTime& time) { return time.certain && time.upper == 0.0; }
-
   MotionContact contact(PointPair pair, const ContactTime& time) const {
     const SegmentId id_a = a_.before.segment_id(pair.a);
     const SegmentId id_b = b_.before.segment_id(pair.b);

@@ -50,6 +50,9 @@ inline SegmentMotions motions_of(const FiberMotion& a, const FiberMotion& b, Poi
           {a.radius(pair.a), b.radius(pair.b), margin}};
 }
 
+/// Whether two segments are in contact before the motion already.
+inline bool is_there_before(const ContactTime& time) { return time.certain && time.upper == 0.0; }
+
 /// Brings the bounds of a certain contact nearer to each other, to MotionOptions::time_tolerance,
 /// by asking again with smaller and smaller tolerances: what is proven with any of them holds.
 /// @param ask for the pair's ContactTime with a tolerance [m]

@@ -74,6 +74,10 @@ std::pair<FiberNode, FiberNode> across(double place, double radius) {
   return {{{place, -1e-3, 0.0}, radius}, {{place, 1e-3, 0.0}, 0.0}};
 }
 
+PlainBox box_of(const FiberNode& start, const FiberNode& end) {
+  return inflated(merged({start.point, start.point}, {end.point, end.point}), start.radius);
+}
+
 TEST(DistributedHalo, BoxesAreNoFurtherApartThanSegmentsAreFound) {
   Random random;
   for (int round = 0; round < 20000; ++round) {
@@ -84,8 +88,8 @@ TEST(DistributedHalo, BoxesAreNoFurtherApartThanSegmentsAreFound) {
     const SegmentDistance nearest = segment_distance(vector_of(a0.point), vector_of(a1.point),
                                                      vector_of(b0.point), vector_of(b1.point));
     const double gap = nearest.distance - (a0.radius + b0.radius);
-    ASSERT_TRUE(may_come_within(box_around(a0, a1), box_around(b0, b1), gap)) << gap;
-    ASSERT_FALSE(may_come_within(box_around(a0, a1), box_around(b0, b1), gap - 1e-12)) << gap;
+    ASSERT_TRUE(may_come_within(box_of(a0, a1), box_of(b0, b1), gap)) << gap;
+    ASSERT_FALSE(may_come_within(box_of(a0, a1), box_of(b0, b1), gap - 1e-12)) << gap;
   }
 }
 

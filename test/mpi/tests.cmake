@@ -9,6 +9,7 @@ if(TARGET fiber_proximity_mpi)
     mpi/distributed_errors_test.cpp
     mpi/distributed_files_test.cpp
     mpi/distributed_halo_test.cpp
+    mpi/distributed_motion_test.cpp
     mpi/loop_questions_test.cpp
     mpi/part_loads_test.cpp
     mpi/plan_test.cpp

@@ -11,6 +11,7 @@
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/query/engine.hpp"
+#include "fiber_proximity/query/motion.hpp"
 #include "fiber_proximity/query/options.hpp"
 
 namespace fiber {
@@ -53,6 +54,33 @@ struct DistributedResult {
 
   /// [m] Of the pairs that were asked about, none that no rank reports has a smaller true gap.
   double others_lower = -std::numeric_limits<double>::infinity();
+};
+
+/// A MotionContact with names that hold for all ranks.
+struct DistributedMotionContact {
+  std::uint64_t fiber_a = 0;
+  std::uint64_t segment_a = 0;  ///< index along the fibre
+  std::uint64_t fiber_b = 0;
+  std::uint64_t segment_b = 0;
+  double lower = 0.0;  ///< as in MotionContact, like the next two
+  double upper = 0.0;
+  bool certain = false;
+
+  /// What contacts are sorted by.
+  auto key() const { return std::tie(fiber_a, segment_a, fiber_b, segment_b); }
+};
+
+/// A rank's part of an answer about a motion.
+struct DistributedMotionResult {
+  /// Of the pairs whose smaller segment this rank holds; otherwise as in MotionResult.
+  std::vector<DistributedMotionContact> contacts;
+  std::vector<DistributedMotionContact> touching;
+
+  // The rest is the same on all ranks, and as in MotionResult.
+
+  bool limit_reached = false;
+  bool complete = true;
+  double others_lower = 0.0;
 };
 
 /// What a rank holds.
@@ -116,6 +144,20 @@ class DistributedEngine {
   ///         and where a rank would hold more than 2³¹ points
   /// @throws std::logic_error before the first update
   void query(const QueryOptions& options, DistributedResult& result);
+
+  /// Makes the motion of all parts, from where they are before to where they are after, the one
+  /// that query_motion() is about. There are no fibres for query() then. Otherwise as update().
+  /// @throws std::invalid_argument as update(), and as ProximityEngine::update_motion()
+  void update_motion(const FiberAssembly& before, const FiberAssembly& after,
+                     const std::vector<FiberPart>& names);
+
+  /// Pairs of segments of all fibres that come into contact during the motion, and when; each
+  /// reported by the rank that holds the smaller of the two.
+  /// @param options the same on all ranks; the pair_limit and the deadline as for query()
+  /// @throws std::invalid_argument for options that do not validate or that differ between ranks,
+  ///         and where a rank would hold more than 2³¹ points
+  /// @throws std::logic_error if the last update was of no motion
+  void query_motion(const MotionOptions& options, DistributedMotionResult& result);
 
   DistributedFacts facts() const;
 

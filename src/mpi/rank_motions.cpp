@@ -1,0 +1,112 @@
+#include "src/mpi/rank_motions.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "fiber_proximity/geometry/contact_time.hpp"
+#include "src/mpi/halo.hpp"
+#include "src/mpi/whole_fiber_pairs.hpp"
+#include "src/query/motion_evaluator.hpp"
+
+namespace fiber {
+namespace {
+
+bool is_stopped_by_limit(const MotionResult& result) {
+  return !result.complete && result.limit_reached;
+}
+
+}  // namespace
+
+void RankMotions::update(const RankFibers& fibers) {
+  fibers_ = &fibers;
+  ranks_.agree(error_in(
+      [&] { engine_->update_motion(fibers.own().fibers(), fibers.own_after().fibers()); }));
+}
+
+/// Appends what is found of this rank's own segments (a) and others, but for what is no pair.
+void RankMotions::append(const MotionOptions& options, const MotionResult& found,
+                         const NamedFibers& fibers_b, DistributedMotionResult& result) const {
+  const NamedFibers& own = fibers_->own();
+  const RankPairs pairs{ranks_, own, halo_};
+  const auto append_some = [&](const std::vector<MotionContact>& some,
+                               std::vector<DistributedMotionContact>& contacts) {
+    for (const MotionContact* const contact : pairs.along_whole_fibers(options, some, fibers_b)) {
+      const GlobalSegment a = own.name_of(contact->fiber_a, contact->segment_a);
+      const GlobalSegment b = fibers_b.name_of(contact->fiber_b, contact->segment_b);
+      contacts.push_back({a.fiber, a.segment, b.fiber, b.segment, contact->lower, contact->upper,
+                          contact->certain});
+    }
+  };
+  append_some(found.contacts, result.contacts);
+  append_some(found.touching, result.touching);
+}
+
+/// Asks about candidates as one process does: this rank's own segment first.
+/// @param candidates of a segment of the halo and one of this rank's own
+void RankMotions::evaluate(const MotionOptions& options,
+                           const std::vector<MotionContact>& candidates,
+                           MotionResult& result) const {
+  const NamedFibers& own = fibers_->own();
+  const FiberMotion motion_a{own.fibers(), fibers_->own_after().fibers()};
+  const FiberMotion motion_b{halo_.fibers(), halo_after_.fibers()};
+  for (const MotionContact& candidate : candidates) {
+    const SegmentIdPair pair{candidate.fiber_b, candidate.segment_b, candidate.fiber_a,
+                             candidate.segment_a};
+    if (!(own.name_of(pair.fiber_a, pair.segment_a) <
+          halo_.name_of(pair.fiber_b, pair.segment_b))) {
+      continue;  // another rank's
+    }
+    const SegmentMotions motions = motions_of(
+        motion_a, motion_b,
+        {own.point_of(pair.fiber_a, pair.segment_a), halo_.point_of(pair.fiber_b, pair.segment_b)},
+        options.margin);
+    const auto ask = [&](double tolerance) { return contact_time(motions, tolerance); };
+    ContactTime time = ask(options.tolerance);
+    narrow(time, options, ask);
+    if (time.hit) {
+      (is_there_before(time) ? result.touching : result.contacts)
+          .push_back({pair, time.lower, time.upper, time.certain});
+    }
+  }
+}
+
+void RankMotions::find(const MotionOptions& options, DistributedMotionResult& result) {
+  const Deadline deadline(options.deadline);
+  const double reach = (1.0 + 0x1p-50) * (options.margin + options.tolerance);
+  Halo halo(ranks_, fibers_->states(), fibers_->boxes(), reach);
+
+  MotionOptions here = options;
+  static_cast<PairOptions&>(here) = options_of_stretches(options, fibers_->arc_roundings());
+  here.type = MotionType::ALL;
+  engine_->query_motion(here, found_);
+  append(options, found_, fibers_->own(), result);
+  result.complete = found_.complete;
+  result.limit_reached = is_stopped_by_limit(found_);
+
+  ranks_.agree(error_in([&] {
+    FiberRuns runs = halo.take();
+    halo_.assign(runs);
+    runs.nodes = halo.take_after();
+    halo_after_.assign(runs);
+  }));
+  // What is a shape to the engine is the first of each pair there, and the second one here. All
+  // that may be reported is less apart than this, whichever comes first.
+  here.margin = reach;
+  here.time_tolerance = std::numeric_limits<double>::infinity();
+  here.deadline = deadline.left();
+  if (options.pair_limit > 0) {
+    here.pair_limit = std::max<std::uint64_t>(
+        1, options.pair_limit - std::min(options.pair_limit, found_.counts.primitive_tests));
+  }
+  ranks_.agree(error_in(
+      [&] { engine_->query_motion_shape(halo_.fibers(), halo_after_.fibers(), here, found_); }));
+  result.complete = result.complete && found_.complete;
+  result.limit_reached = result.limit_reached || is_stopped_by_limit(found_);
+  MotionResult across;
+  evaluate(options, found_.contacts, across);
+  evaluate(options, found_.touching, across);
+  append(options, across, halo_, result);
+}
+
+}  // namespace fiber

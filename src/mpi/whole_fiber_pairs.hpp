@@ -1,0 +1,101 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "fiber_proximity/query/contact.hpp"
+#include "fiber_proximity/query/options.hpp"
+#include "src/mpi/communicator.hpp"
+#include "src/mpi/loop_questions.hpp"
+#include "src/mpi/named_fibers.hpp"
+
+namespace fiber {
+
+/// Options with which an engine that has stretches of fibres leaves out no pair of those that the
+/// options ask for. Some that it finds are none along whole fibres.
+/// @param arc_roundings see RankFibers
+inline PairOptions options_of_stretches(const PairOptions& options, double arc_roundings) {
+  PairOptions here = options;
+  here.contact_limit = 0;
+  if (options.pairing == Pairing::SAME_FIBER) {
+    here.pairing = Pairing::ALL;  // stretches of one fibre may be several here
+  }
+  if (!options.needs_loops()) {
+    here.neighbour_skip = options.neighbour_skip.value_or(1);
+    // Sums along a stretch are rounded in another way than those along the whole fibre.
+    const double surely =
+        (1.0 - 0x1p-50) * options.neighbour_skip_length.value_or(0.0) - 0x1p-48 * arc_roundings;
+    here.neighbour_skip_length = std::max(0.0, surely);
+  }
+  return here;
+}
+
+/// Where a rank looks for pairs: segment a is one of its own, b one of these or of its halo.
+struct RankPairs {
+  const Communicator& ranks;
+  const NamedFibers& own;
+  const NamedFibers& halo;
+
+  /// Whether segments are no pair along whole fibres, loops apart.
+  bool are_left_out(const PairOptions& options, const SegmentIdPair& pair,
+                    const NamedFibers& fibers_b) const {
+    const GlobalSegment a = own.name_of(pair.fiber_a, pair.segment_a);
+    const GlobalSegment b = fibers_b.name_of(pair.fiber_b, pair.segment_b);
+    if (a.fiber != b.fiber) {
+      return options.pairing == Pairing::SAME_FIBER;
+    }
+    if (options.pairing == Pairing::DIFFERENT_FIBERS ||
+        b.segment - a.segment <= options.neighbour_skip.value_or(1)) {
+      return true;
+    }
+    const double least = options.neighbour_skip_length.value_or(0.0);
+    return least > 0.0 && fibers_b.arc(fibers_b.point_of(pair.fiber_b, pair.segment_b)) -
+                                  own.arc(own.point_of(pair.fiber_a, pair.segment_a) + 1) <
+                              least;
+  }
+
+  /// Of what an engine found those that are pairs along whole fibres. Collective.
+  /// @param found    pairs of a segment of own and one of fibers_b, which is one of the two
+  template <class Found>
+  std::vector<const Found*> along_whole_fibers(const PairOptions& options,
+                                               const std::vector<Found>& found,
+                                               const NamedFibers& fibers_b) const;
+};
+
+template <class Found>
+std::vector<const Found*> RankPairs::along_whole_fibers(const PairOptions& options,
+                                                        const std::vector<Found>& found,
+                                                        const NamedFibers& fibers_b) const {
+  std::vector<const Found*> kept;
+  kept.reserve(found.size());
+  std::vector<LoopQuestion> questions;
+  std::vector<std::size_t> asked;  // places of theirs among those kept
+  for (const Found& pair : found) {
+    if (are_left_out(options, pair, fibers_b)) {
+      continue;
+    }
+    const GlobalSegment a = own.name_of(pair.fiber_a, pair.segment_a);
+    const GlobalSegment b = fibers_b.name_of(pair.fiber_b, pair.segment_b);
+    // Where a stretch of the fibre holds both, the engine has seen the loop.
+    const bool is_loop_known = &fibers_b == &own && pair.fiber_a == pair.fiber_b;
+    if (options.needs_loops() && a.fiber == b.fiber && !is_loop_known) {
+      asked.push_back(kept.size());
+      questions.push_back(
+          {a.fiber, a.segment, b.segment,
+           own.fibers().capsule(own.point_of(pair.fiber_a, pair.segment_a)),
+           fibers_b.fibers().capsule(fibers_b.point_of(pair.fiber_b, pair.segment_b))});
+    }
+    kept.push_back(&pair);
+  }
+  const std::vector<bool> loops = find_loops(ranks, own, halo, questions);
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    if (!loops[i]) {
+      kept[asked[i]] = nullptr;
+    }
+  }
+  kept.erase(std::remove(kept.begin(), kept.end(), nullptr), kept.end());
+  return kept;
+}
+
+}  // namespace fiber

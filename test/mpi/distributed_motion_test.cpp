@@ -1,0 +1,235 @@
+// Any number of ranks finds of a motion what one process finds, to the bit.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fiber_proximity/mpi/distributed_engine.hpp"
+#include "test/mpi/dealt_fibers.hpp"
+#include "test/support/contacts.hpp"
+#include "test/support/dense_fibers.hpp"
+#include "test/support/hard_scenes.hpp"
+#include "test/support/neighbour_skips.hpp"
+#include "test/support/rounds.hpp"
+
+namespace fiber::test {
+namespace {
+
+std::vector<AssemblyFamily> families() {
+  std::vector<AssemblyFamily> all = assembly_families();
+  for (const std::vector<AssemblyFamily>& more : {dense_families(), hard_scenes()}) {
+    all.insert(all.end(), more.begin(), more.end());
+  }
+  return all;
+}
+
+MotionOptions draw_options(double extent, Random& random) {
+  QueryOptions pairs =
+      within(random.chance(0.3) ? 0.0 : extent * std::pow(10.0, random.uniform(-4.0, -2.0)));
+  set_neighbour_skips(pairs, random, 4, extent * random.uniform(0.0, 0.3));
+  pairs.pairing = static_cast<Pairing>(std::max(0, random.integer(-2, 2)));
+  pairs.contact_limit = random.chance(0.3) ? static_cast<std::uint32_t>(random.integer(1, 30)) : 0;
+  pairs.max_contacts = static_cast<std::uint32_t>(random.integer(1, 40));
+  constexpr QueryType types[] = {QueryType::ALL, QueryType::FIRST, QueryType::LIMITED};
+  pairs.type = types[random.integer(0, 2)];
+  MotionOptions options =
+      motion_options(pairs, extent * std::pow(10.0, random.uniform(-9.0, -4.0)));
+  if (random.chance(0.3)) {
+    options.time_tolerance = random.uniform(1e-6, 1e-2);
+  }
+  return options;
+}
+
+/// Of all ranks on rank 0, in their order.
+std::vector<DistributedMotionContact> gathered(std::vector<DistributedMotionContact> mine) {
+  std::vector<double> numbers;
+  for (const DistributedMotionContact& contact : mine) {
+    for (const std::uint64_t number :
+         {contact.fiber_a, contact.segment_a, contact.fiber_b, contact.segment_b}) {
+      numbers.push_back(static_cast<double>(number));
+    }
+    numbers.insert(numbers.end(), {contact.lower, contact.upper, contact.certain ? 1.0 : 0.0});
+  }
+  int size = 0;
+  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  const int count = static_cast<int>(numbers.size());
+  std::vector<int> counts(static_cast<std::size_t>(size));
+  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, MPI_COMM_WORLD);
+  std::vector<int> begins(1, 0);
+  for (const int some : counts) {
+    begins.push_back(begins.back() + some);
+  }
+  std::vector<double> all(static_cast<std::size_t>(begins.back()));
+  MPI_Allgatherv(numbers.data(), count, MPI_DOUBLE, all.data(), counts.data(), begins.data(),
+                 MPI_DOUBLE, MPI_COMM_WORLD);
+  std::vector<DistributedMotionContact> contacts;
+  for (std::size_t i = 0; i + 7 <= all.size(); i += 7) {
+    const auto name = [&](std::size_t k) { return static_cast<std::uint64_t>(all[i + k]); };
+    contacts.push_back(
+        {name(0), name(1), name(2), name(3), all[i + 4], all[i + 5], all[i + 6] != 0.0});
+  }
+  std::sort(contacts.begin(), contacts.end(),
+            [](const auto& x, const auto& y) { return x.key() < y.key(); });
+  return contacts;
+}
+
+testing::AssertionResult are_same(const std::vector<DistributedMotionContact>& mine,
+                                  const std::vector<MotionContact>& expected) {
+  const std::vector<DistributedMotionContact> found = gathered(mine);
+  if (found.size() != expected.size()) {
+    return testing::AssertionFailure() << found.size() << " contacts, expected " << expected.size();
+  }
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const DistributedMotionContact& x = found[i];
+    const MotionContact& y = expected[i];
+    if (x.fiber_a != name_of_fiber(y.fiber_a) || x.segment_a != y.segment_a ||
+        x.fiber_b != name_of_fiber(y.fiber_b) || x.segment_b != y.segment_b ||
+        !same_bits(x.lower, y.lower) || !same_bits(x.upper, y.upper) || x.certain != y.certain) {
+      return testing::AssertionFailure()
+             << "contact " << i << " is (" << x.fiber_a << ", " << x.segment_a << ", " << x.fiber_b
+             << ", " << x.segment_b << ") from " << x.lower << " to " << x.upper;
+    }
+  }
+  return testing::AssertionSuccess();
+}
+
+/// Updates the ranks' engine.
+void update(DistributedEngine& engine, const FiberAssembly& before, const FiberAssembly& after,
+            const std::vector<DealtPart>& dealt) {
+  const Dealt from = dealt_to(own_rank(), before, dealt);
+  const Dealt to = dealt_to(own_rank(), after, dealt);
+  engine.update_motion(from.parts, to.parts, from.names);
+}
+
+class DistributedMotionTest : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(DistributedMotionTest, FindsWhatOneProcessFinds) {
+  SCOPED_TRACE(seed_message());
+  const AssemblyFamily family = families()[GetParam()];
+  Random random(GetParam());
+  DistributedEngine engine(MPI_COMM_WORLD, one_thread());
+  for (int scene = 0; scene < rounds(6); ++scene) {
+    FiberAssembly before = family.make(random);
+    const double extent = extent_of(before);
+    const std::vector<DealtPart> dealt = deal(before, 3, random);
+    for (int frame = 0; frame < 2; ++frame) {
+      const FiberAssembly after = shaken(before, 0.02 * extent, random);
+      update(engine, before, after, dealt);
+      const auto one = make_engine("run_tree", one_thread());
+      one->update_motion(before, after);
+      for (int query = 0; query < 3; ++query) {
+        const MotionOptions options = draw_options(extent, random);
+        MotionResult expected;
+        one->query_motion(options, expected);
+        DistributedMotionResult found;
+        engine.query_motion(options, found);
+        const std::string trace =
+            family.name + ", scene " + std::to_string(scene) + ", frame " + std::to_string(frame) +
+            ", type " + std::to_string(static_cast<int>(options.type)) + ", margin " +
+            std::to_string(options.margin) + " m, at most " + std::to_string(options.contact_limit);
+        ASSERT_TRUE(are_same(found.contacts, expected.contacts)) << trace;
+        ASSERT_TRUE(are_same(found.touching, expected.touching)) << trace << ", touching";
+        ASSERT_EQ(found.complete, expected.complete) << trace;
+        ASSERT_EQ(found.limit_reached, expected.limit_reached) << trace;
+        ASSERT_EQ(found.others_lower, expected.others_lower) << trace;
+      }
+      before = after;
+    }
+  }
+}
+
+std::string name_of_family(const testing::TestParamInfo<std::size_t>& info) {
+  return test_name(families()[info.param].name);
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, DistributedMotionTest,
+                         testing::Range(std::size_t{0}, families().size()), name_of_family);
+
+/// Walks that come close to each other as they are shaken.
+struct Shaken {
+  FiberAssembly before;
+  FiberAssembly after;
+  std::vector<DealtPart> dealt;
+
+  explicit Shaken(Random& random)
+      : before(walks(random, 100, 20, 0.05, 0.005)),
+        after(shaken(before, 0.05, random)),
+        dealt(deal(before, 3, random)) {}
+};
+
+TEST(DistributedMotion, FindsContactsOfEveryKind) {
+  Random random;
+  const Shaken fibers(random);
+  DistributedEngine engine(MPI_COMM_WORLD, one_thread());
+  update(engine, fibers.before, fibers.after, fibers.dealt);
+  MotionOptions options;
+  options.margin = 0.005;
+  DistributedMotionResult found;
+  engine.query_motion(options, found);
+  EXPECT_GT(gathered(found.contacts).size(), 20U) << "or the tests compare nothing with nothing";
+  EXPECT_GT(gathered(found.touching).size(), 20U);
+}
+
+TEST(DistributedMotion, ReportsNothingBeyondALimitOfPairs) {
+  Random random;
+  const Shaken fibers(random);
+  DistributedEngine engine(MPI_COMM_WORLD, one_thread());
+  update(engine, fibers.before, fibers.after, fibers.dealt);
+  MotionOptions options;
+  options.pair_limit = 10;
+  DistributedMotionResult found;
+  engine.query_motion(options, found);
+  EXPECT_TRUE(found.limit_reached);
+  EXPECT_FALSE(found.complete);
+  EXPECT_EQ(found.others_lower, 0.0);
+  EXPECT_TRUE(gathered(found.contacts).empty() && gathered(found.touching).empty());
+  options.pair_limit = 0;
+  options.deadline = 1e-9;
+  engine.query_motion(options, found);
+  EXPECT_FALSE(found.complete);
+}
+
+TEST(DistributedMotion, IsForQueriesAboutMotionsOnly) {
+  Random random;
+  const Shaken fibers(random);
+  DistributedEngine engine(MPI_COMM_WORLD, one_thread());
+  DistributedMotionResult motion;
+  DistributedResult result;
+  EXPECT_THROW(engine.query_motion({}, motion), std::logic_error);
+  update(engine, fibers.before, fibers.after, fibers.dealt);
+  EXPECT_THROW(engine.query({}, result), std::logic_error);
+  const Dealt mine = dealt_to(own_rank(), fibers.before, fibers.dealt);
+  engine.update(mine.parts, mine.names);
+  EXPECT_THROW(engine.query_motion({}, motion), std::logic_error);
+  engine.query(within(0.001), result);
+  EXPECT_TRUE(same_as_one_process(gather(MPI_COMM_WORLD, result),
+                                  answer("run_tree", fibers.before, within(0.001)).contacts));
+}
+
+TEST(DistributedMotion, RefusesFibersThatAreOthersAfterwards) {
+  Random random;
+  const Shaken fibers(random);
+  DistributedEngine engine(MPI_COMM_WORLD, one_thread());
+  const Dealt from = dealt_to(own_rank(), fibers.before, fibers.dealt);
+  const bool is_wrong = own_rank() == 0;
+  const FiberAssembly other({{0, 0, 0}, {1, 0, 0}}, {0, 2}, {0.1});
+  EXPECT_THROW(engine.update_motion(from.parts, is_wrong ? other : from.parts, from.names),
+               std::invalid_argument)
+      << "on every rank";
+  MotionOptions options;
+  options.tolerance = -1.0;
+  update(engine, fibers.before, fibers.after, fibers.dealt);
+  DistributedMotionResult motion;
+  EXPECT_THROW(engine.query_motion(options, motion), std::invalid_argument);
+  options.tolerance = 1e-6 * (1.0 + own_rank());
+  if (rank_count() == 1) {
+    return;  // one rank alone always agrees with itself
+  }
+  EXPECT_THROW(engine.query_motion(options, motion), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace fiber::test
