@@ -107,6 +107,14 @@ check 2 tangles.csv --margin 0.01 >found.csv
 awk -F, '$2 == "0"' found.csv | cut -d, -f1,5- >first.csv
 [ -z "$(grep -vxFf contacts.csv first.csv)" ] || fail "a first contact is none"
 cmp <(cut -d, -f1 first.csv) <(tail -n +2 contacts.csv | cut -d, -f1 | uniq) || fail "not one for each that has contacts"
+# More than a rank keeps until they are written, which two keep.
+awk 'BEGIN {
+  print "frame,fiber,x,y,z,radius"
+  for (i = 0; i < 66000; ++i) for (x = 0; x <= 1; ++x) printf "%d,bar,%d,0,%.3f,0.01\n", i, x, (i % 97) / 97 - 0.1
+}' >many.csv
+check 1 many.csv --environment world.yaml --out expected.csv
+cmp <(tail -n +2 expected.csv | cut -d, -f1) <(seq 0 65999) || fail "candidates are not in order"
+check 2 many.csv --environment world.yaml | cmp expected.csv - || fail "many candidates have other answers"
 # One candidate, and none.
 check 3 there.csv >found.csv
 [ "$(tail -n +2 found.csv | tr -d ,)" = 1 ] || fail "a candidate without a number: $(cat found.csv)"
