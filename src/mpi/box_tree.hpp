@@ -41,11 +41,12 @@ inline PlainBox merged(const PlainBox& a, const PlainBox& b) {
 }
 
 inline bool meet(const PlainBox& a, const PlainBox& b) {
-  bool do_meet = true;
+  unsigned do_meet = 1U;
   for (std::size_t axis = 0; axis < 3; ++axis) {  // without branches: no one foresees them
-    do_meet = do_meet & (a.lower[axis] <= b.upper[axis]) & (b.lower[axis] <= a.upper[axis]);
+    do_meet &= static_cast<unsigned>(a.lower[axis] <= b.upper[axis]) &
+               static_cast<unsigned>(b.lower[axis] <= a.upper[axis]);
   }
-  return do_meet;
+  return do_meet != 0U;
 }
 
 /// Whether capsules in the two boxes may be as near as the margin [m], or be found so near.
