@@ -79,7 +79,7 @@ std::vector<SegmentHolder> holders_of(const Communicator& ranks, const Distribut
     }
   };
   add(fibers.own().runs(), 0);
-  add(Halo(ranks, fibers.own(), fibers.boxes(), margin).take().runs, 1);
+  add(Halo(ranks, fibers.states(), fibers.boxes(), margin).take().runs, 1);
   std::vector<SegmentHolder> holders;
   for (const std::vector<SegmentHolder>& some : ranks.exchange(std::move(to))) {
     holders.insert(holders.end(), some.begin(), some.end());
