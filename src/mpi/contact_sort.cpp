@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -26,7 +27,9 @@ struct ContactKey {
   bool operator<(const ContactKey& other) const { return key() < other.key(); }
 };
 
-ContactKey key_of(const DistributedContact& contact) {
+ContactKey key_of(const PlainContact& contact) { return {contact.a, contact.b}; }
+
+ContactKey key_of(const DistributedMotionContact& contact) {
   return {{contact.fiber_a, contact.segment_a}, {contact.fiber_b, contact.segment_b}};
 }
 
@@ -36,8 +39,8 @@ struct ContactSample {
   std::uint64_t weight = 0;
 };
 
-std::vector<ContactSample> samples_of(const std::vector<DistributedContact>& contacts,
-                                      std::size_t most) {
+template <class T>
+std::vector<ContactSample> samples_of(const std::vector<T>& contacts, std::size_t most) {
   std::vector<ContactSample> samples;
   const std::size_t count = std::min(most, contacts.size());
   std::size_t begin = 0;
@@ -52,8 +55,8 @@ std::vector<ContactSample> samples_of(const std::vector<DistributedContact>& con
 
 /// The last keys of all ranks' parts but the last one. Fewer for a few contacts: the other ranks
 /// get none.
-std::vector<ContactKey> find_splitters(const Communicator& ranks,
-                                       const std::vector<DistributedContact>& contacts) {
+template <class T>
+std::vector<ContactKey> find_splitters(const Communicator& ranks, const std::vector<T>& contacts) {
   const auto size = static_cast<std::size_t>(ranks.size());
   PerRank<ContactSample> to(size);
   to[0] = samples_of(contacts, std::max(fewest_samples, size));
@@ -81,40 +84,56 @@ std::vector<ContactKey> find_splitters(const Communicator& ranks,
   return splitters;
 }
 
+template <class T>
+void sort(std::vector<T>& contacts) {
+  std::sort(contacts.begin(), contacts.end(),
+            [](const T& x, const T& y) { return key_of(x) < key_of(y); });
+}
+
+/// @param contacts that may travel
+template <class T>
+void sort_all(const Communicator& ranks, std::vector<T>& contacts) {
+  sort(contacts);
+  const std::vector<ContactKey> splitters = find_splitters(ranks, contacts);
+  PerRank<T> parts(static_cast<std::size_t>(ranks.size()));
+  auto begin = contacts.begin();
+  for (std::size_t part = 0; part <= splitters.size(); ++part) {
+    const auto end = part == splitters.size()
+                         ? contacts.end()
+                         : std::upper_bound(begin, contacts.end(), splitters[part],
+                                            [](const ContactKey& key, const T& contact) {
+                                              return key < key_of(contact);
+                                            });
+    parts[part].assign(begin, end);
+    begin = end;
+  }
+  contacts = {};
+  parts = ranks.exchange(std::exchange(parts, {}));
+  for (std::vector<T>& some : parts) {
+    contacts.insert(contacts.end(), some.begin(), some.end());
+    some = {};
+  }
+  sort(contacts);
+}
+
 }  // namespace
 
 void sort_over_ranks(MPI_Comm ranks, DistributedResult& result) {
+  std::vector<PlainContact> contacts;
+  contacts.reserve(result.contacts.size());
+  std::transform(result.contacts.begin(), result.contacts.end(), std::back_inserter(contacts),
+                 plain_contact);
+  result.contacts = {};
+  sort_all(Communicator(ranks), contacts);
+  result.contacts.reserve(contacts.size());
+  std::transform(contacts.begin(), contacts.end(), std::back_inserter(result.contacts),
+                 contact_from);
+}
+
+void sort_over_ranks(MPI_Comm ranks, DistributedMotionResult& result) {
   const Communicator all(ranks);
-  std::vector<DistributedContact>& contacts = result.contacts;
-  std::sort(contacts.begin(), contacts.end(), is_before);
-  const std::vector<ContactKey> splitters = find_splitters(all, contacts);
-  PerRank<PlainContact> parts(static_cast<std::size_t>(all.size()));
-  std::size_t i = 0;
-  for (std::size_t part = 0; part <= splitters.size(); ++part) {
-    const std::size_t begin = i;
-    while (i < contacts.size() &&
-           (part == splitters.size() || !(splitters[part] < key_of(contacts[i])))) {
-      ++i;
-    }
-    parts[part].reserve(i - begin);
-    for (std::size_t j = begin; j < i; ++j) {
-      parts[part].push_back(plain_contact(contacts[j]));
-    }
-  }
-  contacts = {};
-  parts = all.exchange(std::exchange(parts, {}));
-  std::size_t count = 0;
-  for (const std::vector<PlainContact>& some : parts) {
-    count += some.size();
-  }
-  contacts.reserve(count);
-  for (std::vector<PlainContact>& some : parts) {
-    for (const PlainContact& contact : some) {
-      contacts.push_back(contact_from(contact));
-    }
-    some = {};
-  }
-  std::sort(contacts.begin(), contacts.end(), is_before);
+  sort_all(all, result.contacts);
+  sort_all(all, result.touching);
 }
 
 }  // namespace fiber

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "fiber_proximity/query/engine.hpp"
+#include "fiber_proximity/query/motion.hpp"
 #include "src/tools/command_line.hpp"
 
 namespace fiber {
@@ -71,6 +72,18 @@ void add_pair_options(CLI::App& app, const PairQuery& query, PairRequest& reques
 /// What is asked once all options are read.
 /// @throws std::invalid_argument for options that do not validate
 QueryOptions options_of(const PairQuery& query, const PairRequest& request);
+
+/// What is asked about the motions from frame to frame.
+struct SweepRequest {
+  MotionOptions motion;
+  bool new_only = false;
+};
+
+constexpr const char* sweep_columns =
+    "frame,fiber_a,segment_a,fiber_b,segment_b,time_lower,time_upper\n";
+
+/// Margin, tolerances, type and neighbours.
+void add_sweep_options(CLI::App& app, SweepRequest& request);
 
 /// Which segments of one fibre are pairs.
 void add_neighbour_options(CLI::App& app, std::optional<std::uint32_t>& skip,

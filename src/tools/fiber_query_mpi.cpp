@@ -174,6 +174,7 @@ void setup_mpi(CLI::App& app, Command& command) {
   add_check(app, command);
   add_convert(app, command);
   add_regions(app, command);
+  add_sweep_mpi(app, command);
 }
 
 }  // namespace

@@ -16,4 +16,8 @@ void add_convert(CLI::App& app, Command& command);
 /// is in.
 void add_regions(CLI::App& app, Command& command);
 
+/// `sweep FILE --margin M [--type all|first] [--out CONTACTS.csv]`: contacts between the frames of
+/// a file, with the time at which each begins.
+void add_sweep_mpi(CLI::App& app, Command& command);
+
 }  // namespace fiber

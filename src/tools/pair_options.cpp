@@ -57,6 +57,29 @@ QueryOptions options_of(const PairQuery& query, const PairRequest& request) {
   return options;
 }
 
+void add_sweep_options(CLI::App& app, SweepRequest& request) {
+  app.add_option("--margin", request.motion.margin, "pairs with a gap of at most this [m]")
+      ->capture_default_str();
+  app.add_option("--tolerance", request.motion.tolerance,
+                 "pairs that come within the margin and this may be reported [m]")
+      ->capture_default_str();
+  app.add_option("--time-tolerance", request.motion.time_tolerance,
+                 "bounds on times that are further apart than this part of a step are brought "
+                 "nearer; inf: as the tolerance makes them")
+      ->capture_default_str();
+  app.add_option_function<std::string>(
+         "--type",
+         [&request](const std::string& type) {
+           request.motion.type = type == "first" ? MotionType::FIRST : MotionType::ALL;
+         },
+         "all: each pair with the time of its first contact; first: the earliest pair")
+      ->check(CLI::IsMember({"all", "first"}))
+      ->default_str("all");
+  app.add_flag("--new-only", request.new_only,
+               "without the pairs that are in contact in the frame already, at time 0");
+  add_neighbour_options(app, request.motion.neighbour_skip, request.motion.neighbour_skip_length);
+}
+
 void add_neighbour_options(CLI::App& app, std::optional<std::uint32_t>& skip,
                            std::optional<double>& skip_length) {
   app.add_option("--neighbour-skip", skip,

@@ -13,10 +13,7 @@
 namespace fiber {
 namespace {
 
-struct SweepRequest : FiberRequest {
-  MotionOptions motion;
-  bool new_only = false;
-};
+struct SweepCommand : FiberRequest, SweepRequest {};
 
 /// What to report of a step, sorted by pair; what is in contact before it is earliest.
 std::vector<MotionContact> reported(const SweepRequest& request, const MotionResult& result) {
@@ -34,7 +31,7 @@ std::vector<MotionContact> reported(const SweepRequest& request, const MotionRes
   return contacts;
 }
 
-ExitCode run(const SweepRequest& request) {
+ExitCode run(const SweepCommand& request) {
   const std::unique_ptr<ProximityEngine> engine =
       make_engine(request.engine, request.engine_options);
   const FiberFile file = read_fibers(request.file, request.radius);
@@ -44,7 +41,7 @@ ExitCode run(const SweepRequest& request) {
                                 ", a motion needs at least two");
   }
   TextOutput output(std::cout);
-  output.write("frame,fiber_a,segment_a,fiber_b,segment_b,time_lower,time_upper\n");
+  output.write(sweep_columns);
   MotionResult result;
   for (std::size_t i = 0; i + 1 < file.frames.size(); ++i) {
     const FiberFrame& from = file.frames[i];
@@ -71,32 +68,9 @@ ExitCode run(const SweepRequest& request) {
 void add_sweep(CLI::App& app, Command& command) {
   CLI::App* sweep = app.add_subcommand(
       "sweep", "pairs of segments that come into contact from each frame to the next");
-  const auto request = std::make_shared<SweepRequest>();
+  const auto request = std::make_shared<SweepCommand>();
   add_fiber_options(*sweep, *request);
-  sweep->add_option("--margin", request->motion.margin, "pairs with a gap of at most this [m]")
-      ->capture_default_str();
-  sweep
-      ->add_option("--tolerance", request->motion.tolerance,
-                   "pairs that come within the margin and this may be reported [m]")
-      ->capture_default_str();
-  sweep
-      ->add_option("--time-tolerance", request->motion.time_tolerance,
-                   "bounds on times that are further apart than this part of a step are brought "
-                   "nearer; inf: as the tolerance makes them")
-      ->capture_default_str();
-  sweep
-      ->add_option_function<std::string>(
-          "--type",
-          [request](const std::string& type) {
-            request->motion.type = type == "first" ? MotionType::FIRST : MotionType::ALL;
-          },
-          "all: each pair with the time of its first contact; first: the earliest pair")
-      ->check(CLI::IsMember({"all", "first"}))
-      ->default_str("all");
-  sweep->add_flag("--new-only", request->new_only,
-                  "without the pairs that are in contact in the frame already, at time 0");
-  add_neighbour_options(*sweep, request->motion.neighbour_skip,
-                        request->motion.neighbour_skip_length);
+  add_sweep_options(*sweep, *request);
   sweep->callback([&command, request] {
     validate(request->motion);
     command = [request] { return run(*request); };

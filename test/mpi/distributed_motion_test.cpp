@@ -166,7 +166,7 @@ TEST(DistributedMotion, FindsContactsOfEveryKind) {
   DistributedEngine engine(MPI_COMM_WORLD, one_thread());
   update(engine, fibers.before, fibers.after, fibers.dealt);
   MotionOptions options;
-  options.margin = 0.005;
+  options.margin = 0.02;
   DistributedMotionResult found;
   engine.query_motion(options, found);
   EXPECT_GT(gathered(found.contacts).size(), 20U) << "or the tests compare nothing with nothing";

@@ -70,6 +70,27 @@ for ranks in 1 2 3; do
   [ "$(wc -l <found.csv)" -eq 1 ] || fail "a pair where there is none"
 done
 rm found.csv
+# Contacts between frames; of frames of different fibres those of the earlier one.
+{
+  cat tress.csv
+  tail -n +2 tress.csv | grep '^2,' | grep -v '^2,0,' | sed 's/^2,/3,/'
+} >frames.csv
+for options in "--margin 0.0003" "--margin 0.0003 --new-only --neighbour-skip 2" "--type first" "--type first --new-only"; do
+  # shellcheck disable=SC2086  # several options
+  "$tools/fiber_query" sweep frames.csv $options >expected.csv 2>error.txt
+  grep -q "frames 2 and 3 have different fibres" error.txt || fail "all frames have the same fibres"
+  [ "$(wc -l <expected.csv)" -gt 1 ] || fail "no contact between frames: $options"
+  for ranks in 1 2 3; do
+    # shellcheck disable=SC2086
+    ask "$ranks" sweep frames.csv $options --out found.csv 2>error.txt
+    cmp expected.csv found.csv || fail "$ranks ranks find something else between frames: $options"
+    [ "$(grep -c "frames 2 and 3 have different fibres" error.txt)" -eq 1 ] || fail "the frames that differ are not told of once"
+    rm found.csv
+  done
+done
+if ask 2 sweep soup.csv 2>error.txt; then fail "one frame makes a motion"; fi
+grep -q "a motion needs at least two" error.txt || fail "not said what is missing: $(cat error.txt)"
+
 # A deadline that nothing can keep is told once for each frame; what is found by then is right.
 ask 2 contacts tress.csv --margin 0.0005 --deadline 1e-9 >found.csv 2>error.txt
 [ "$(grep -c '^fiber_query_mpi: the deadline has passed in frame [0-2]: pairs may be missing$' error.txt)" -eq 3 ] ||

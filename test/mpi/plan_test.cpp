@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fiber_proximity/scenes/large_scene.hpp"
+#include "src/mpi/fiber_runs.hpp"
 #include "test/mpi/dealt_fibers.hpp"
 #include "test/support/contacts.hpp"
 

@@ -175,5 +175,6 @@ DistributedResult gather(MPI_Comm ranks, const DistributedResult& result, int ro
 /// come before those of the next, and none has more than about twice as many as there are for each.
 /// Collective.
 void sort_over_ranks(MPI_Comm ranks, DistributedResult& result);
+void sort_over_ranks(MPI_Comm ranks, DistributedMotionResult& result);
 
 }  // namespace fiber
