@@ -8,6 +8,7 @@ FOLDER is that of the tools; the last FLAG stands before the number of ranks.
 
 import collections
 import csv
+import importlib.util
 import pathlib
 import subprocess
 import sys
@@ -16,6 +17,7 @@ import unittest
 
 TOOLS = pathlib.Path(sys.argv[1])
 MPIEXEC = sys.argv[2:]
+DRAW = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "draw_regions.py"
 
 
 def start(ranks, *arguments):
@@ -127,6 +129,24 @@ class RegionsTest(unittest.TestCase):
         out = self.folder / "regions.csv"
         self.assertEqual(self.regions(3, path, "--margin", "0.01", "--out", out), "")
         self.assertEqual(out.read_text(), self.regions(3, path, "--margin", "0.01"))
+
+    @unittest.skipIf(importlib.util.find_spec("matplotlib") is None, "python3-matplotlib is missing")
+    def test_picture(self):
+        def draw(*arguments):
+            return subprocess.run([DRAW, *arguments], stderr=subprocess.PIPE, text=True, check=False)
+
+        path = self.make_scene("soup", "0.002")
+        out = self.folder / "regions.csv"
+        picture = self.folder / "regions.png"
+        self.regions(3, path, "--margin", "0.1", "--out", out)
+        run = draw(path, out, "--rank", "2", "--out", picture)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(picture.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+        picture.unlink()
+        self.assertIn("--rank is 3, it must be from 0 to 2", draw(path, out, "--rank", "3", "--out", picture).stderr)
+        other = self.make_scene("cables", "1")
+        self.assertIn("tells of other segments than", draw(other, out, "--out", picture).stderr)
+        self.assertFalse(picture.exists())
 
     def test_refusals(self):
         path = self.make_scene("soup", "0.002")

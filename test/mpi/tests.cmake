@@ -56,6 +56,9 @@ if(TARGET fiber_proximity_mpi)
   add_test(NAME distributed_faults_test
     COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/mpi/distributed_faults_test.sh $<TARGET_FILE_DIR:fiber_query_mpi>
       $<TARGET_FILE_DIR:no_threads> ${start_ranks})
+  add_test(NAME batch_file_test
+    COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/mpi/batch_file_test.sh ${PROJECT_SOURCE_DIR}/examples/contacts.sbatch
+      $<TARGET_FILE_DIR:fiber_query_mpi> ${start_ranks})
   add_test(NAME regions_test
     COMMAND /usr/bin/python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/mpi/regions_test.py $<TARGET_FILE_DIR:fiber_query_mpi>
       ${start_ranks})
