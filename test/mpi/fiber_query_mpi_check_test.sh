@@ -105,7 +105,7 @@ check 2 tangles.h5 --margin 0.01 --type all >found.csv
 awk -F, '$2 != "1"' found.csv | cut -d, -f1,5- | cmp contacts.csv - || fail "other contacts with itself"
 check 2 tangles.csv --margin 0.01 >found.csv
 awk -F, '$2 == "0"' found.csv | cut -d, -f1,5- >first.csv
-[ -z "$(grep -vxFf contacts.csv first.csv)" ] || fail "a first contact is none"
+! grep -qvxFf contacts.csv first.csv || fail "a first contact is none"
 cmp <(cut -d, -f1 first.csv) <(tail -n +2 contacts.csv | cut -d, -f1 | uniq) || fail "not one for each that has contacts"
 # More than a rank keeps until they are written, which two keep.
 awk 'BEGIN {

@@ -96,7 +96,7 @@ ask 2 contacts tress.csv --margin 0.0005 --deadline 1e-9 >found.csv 2>error.txt
 [ "$(grep -c '^fiber_query_mpi: the deadline has passed in frame [0-2]: pairs may be missing$' error.txt)" -eq 3 ] ||
   fail "the deadline is not told of: $(cat error.txt)"
 "$tools/fiber_query" contacts tress.csv --margin 0.0005 >expected.csv
-[ -z "$(grep -vxFf expected.csv found.csv)" ] || fail "by the deadline something else is found"
+! grep -qvxFf expected.csv found.csv || fail "by the deadline something else is found"
 rm found.csv
 
 # expect_refused TEXT ARGUMENT...: three ranks refuse this, with exit code 2 and this text, once.
