@@ -59,6 +59,9 @@ if(TARGET fiber_proximity_mpi)
   add_test(NAME batch_file_test
     COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/mpi/batch_file_test.sh ${PROJECT_SOURCE_DIR}/examples/contacts.sbatch
       $<TARGET_FILE_DIR:fiber_query_mpi> ${start_ranks})
+  add_test(NAME distributed_page_test
+    COMMAND /usr/bin/python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/mpi/distributed_page_test.py
+      ${PROJECT_SOURCE_DIR}/docs/distributed.md $<TARGET_FILE_DIR:fiber_query_mpi> ${start_ranks})
   add_test(NAME regions_test
     COMMAND /usr/bin/python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/mpi/regions_test.py $<TARGET_FILE_DIR:fiber_query_mpi>
       ${start_ranks})
