@@ -54,7 +54,7 @@ bash "$batch" none.h5 0.0005 other.h5 2>error.txt || code=$?
 [ "$code" -eq 2 ] || fail "exit code $code of a file that there is not"
 code=0
 bash "$batch" tress.h5 2>error.txt || code=$?
-[ "$code" -eq 2 ] && grep -q "^usage: " error.txt || fail "no usage"
+if [ "$code" -ne 2 ] || ! grep -q "^usage: " error.txt; then fail "no usage"; fi
 
 # Before its time is over it asks to be started again, once it is not too often, and ends with its ranks.
 for restarts in 0 20; do
