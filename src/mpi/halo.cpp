@@ -54,22 +54,30 @@ Halo::Halo(const Communicator& ranks, const FiberStates& own, const PieceBoxes& 
   }
   coarse = ranks.exchange(std::move(coarse));
 
-  // A neighbour needs those of my boxes that are near its own, to find what I need from it.
+  // A neighbour needs those of my pieces that are near its own, to find what I need from it.
   PerRank<SegmentBox> fine(size);
+  PerRank<PieceCapsule> capsules(size);
   for (const std::size_t other : neighbours) {
     const BoxTree theirs(std::move(coarse[other]));
+    std::vector<std::uint32_t> places;
     tree.for_each_near(theirs, margin,
                        [&](std::uint32_t place, const auto* /*first*/, const auto* /*last*/) {
-                         fine[other].push_back(tree.box(place));
+                         places.push_back(place);
                        });
+    fine[other].reserve(places.size());
+    for (const std::uint32_t place : places) {
+      fine[other].push_back(tree.box(place));
+    }
+    capsules[other] = boxes.capsules(own, places);
   }
   fine = ranks.exchange(std::move(fine));
+  capsules = ranks.exchange(std::move(capsules));
 
   PerRank<FiberRun> runs(size);
   PerRank<FiberNode> nodes(size);
   PerRank<FiberNode> nodes_after(size);
   for (const std::size_t other : neighbours) {
-    const BoxTree theirs(std::move(fine[other]));
+    const NearPieces theirs{BoxTree(std::move(fine[other])), std::move(capsules[other])};
     FiberRuns near;
     FiberRuns near_after;
     boxes.for_each_near(own, theirs, margin,

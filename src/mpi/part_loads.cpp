@@ -37,9 +37,9 @@ struct CountedPart {
     }
   }
 
-  /// Adds to what a part needs that has these boxes.
-  void add_near(const PieceBoxes& part, double margin, PartLoad& load) const {
-    boxes.for_each_near({fibers}, part.tree(), margin,
+  /// Adds to what a part needs that has these pieces.
+  void add_near(const NearPieces& part, double margin, PartLoad& load) const {
+    boxes.for_each_near({fibers}, part, margin,
                         [&](const FiberRun& /*run*/, std::uint64_t begin, std::uint64_t end) {
                           load.halo_segments += end - begin;
                           load.halo_runs += 1;
@@ -137,10 +137,11 @@ std::vector<PartLoad> part_loads(const Communicator& ranks, const DistributedFib
         std::count_if(boxes.begin(), boxes.end(),
                       [&](const PartBox& box) { return box.is_near(here[i].around, margin); }));
     load.neighbours -= here[i].around.has_segments ? 1 : 0;  // itself
-    remote.add_near(here[i].boxes, margin, load);
+    const NearPieces pieces = here[i].boxes.all({here[i].fibers});
+    remote.add_near(pieces, margin, load);
     for (std::size_t other = 0; other < here.size(); ++other) {
       if (other != i && here[other].around.is_near(here[i].around, margin)) {
-        here[other].add_near(here[i].boxes, margin, load);
+        here[other].add_near(pieces, margin, load);
       }
     }
   }

@@ -1,12 +1,51 @@
 #include "src/mpi/piece_boxes.hpp"
 
+#include <numeric>
 #include <utility>
 
 namespace fiber {
+namespace {
+
+/// The first point and the last one of segments that follow each other.
+struct PointSpan {
+  std::uint64_t begin = 0;
+  std::uint64_t end = 0;
+};
+
+}  // namespace
 
 PlainBox PieceBoxes::box_of(const FiberStates& fibers, const Piece& piece) {
   const FiberRun& run = fibers.before.runs()[piece.run];
   return fibers.box_around(run.begin + piece.begin, run.begin + end_of(piece, run));
+}
+
+std::vector<PieceCapsule> PieceBoxes::capsules(const FiberStates& fibers,
+                                               const std::vector<std::uint32_t>& places) const {
+  // Pieces that are near each other in space are not in memory. What they need is on its way while
+  // others are computed.
+  constexpr std::size_t ahead = 8;
+  std::vector<PointSpan> spans;
+  spans.reserve(places.size());
+  for (const std::uint32_t place : places) {
+    const Piece& piece = pieces_[numbers_[place]];
+    const FiberRun& run = fibers.before.runs()[piece.run];
+    spans.push_back({run.begin + piece.begin, run.begin + end_of(piece, run)});
+  }
+  std::vector<PieceCapsule> capsules;
+  capsules.reserve(places.size());
+  for (std::size_t i = 0; i < spans.size(); ++i) {
+    if (i + ahead < spans.size()) {
+      fibers.fetch(spans[i + ahead].begin, spans[i + ahead].end);
+    }
+    capsules.push_back(capsule_around(fibers, spans[i].begin, spans[i].end));
+  }
+  return capsules;
+}
+
+NearPieces PieceBoxes::all(const FiberStates& fibers) const {
+  std::vector<std::uint32_t> places(numbers_.size());
+  std::iota(places.begin(), places.end(), 0U);
+  return {tree_, capsules(fibers, places)};
 }
 
 void PieceBoxes::update(const FiberStates& fibers, bool are_same) {

@@ -2,13 +2,22 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
+#include <optional>
 #include <vector>
 
 #include "src/mpi/box_tree.hpp"
 #include "src/mpi/fiber_states.hpp"
 #include "src/mpi/named_fibers.hpp"
+#include "src/mpi/piece_capsule.hpp"
 
 namespace fiber {
+
+/// Pieces of others: a tree of boxes around them, and capsules by their places.
+struct NearPieces {
+  BoxTree tree{{}};
+  std::vector<PieceCapsule> capsules;
+};
 
 /// Boxes around a few segments each that follow each other, and a tree of them.
 class PieceBoxes {
@@ -18,10 +27,17 @@ class PieceBoxes {
 
   const BoxTree& tree() const { return tree_; }
 
+  /// Around the pieces at these places of the tree.
+  std::vector<PieceCapsule> capsules(const FiberStates& fibers,
+                                     const std::vector<std::uint32_t>& places) const;
+
+  /// All pieces, in the tree's order.
+  NearPieces all(const FiberStates& fibers) const;
+
   /// Calls with the segments that may come within the margin [m] of others that are before them, by
-  /// the others' boxes: call(run, begin, end), along the run.
+  /// what is around these: call(run, begin, end), along the run.
   template <class Call>
-  void for_each_near(const FiberStates& fibers, const BoxTree& others, double margin,
+  void for_each_near(const FiberStates& fibers, const NearPieces& others, double margin,
                      const Call& call) const;
 
  private:
@@ -44,31 +60,37 @@ class PieceBoxes {
 };
 
 template <class Call>
-void PieceBoxes::for_each_near(const FiberStates& fibers, const BoxTree& others, double margin,
+void PieceBoxes::for_each_near(const FiberStates& fibers, const NearPieces& others, double margin,
                                const Call& call) const {
-  std::vector<SegmentBox> near;
-  const auto is_near = [&](const PlainBox& box, const GlobalSegment& segment) {
-    return std::any_of(near.begin(), near.end(), [&](const SegmentBox& other) {
-      return meet(other.box, box) && other.first < segment;
+  std::vector<std::uint32_t> near;  // places of those that are before some of the piece
+  const auto is_near = [&](const GlobalSegment& segment, std::uint64_t point) {
+    const PlainBox box = inflated(fibers.box_around(point, point + 1), margin);
+    std::optional<SegmentBall> ball;
+    return std::any_of(near.begin(), near.end(), [&](std::uint32_t place) {
+      const SegmentBox& other = others.tree.box(place);
+      if (!meet(other.box, box) || !(other.first < segment)) {
+        return false;
+      }
+      if (!ball) {
+        ball = ball_around(fibers, point);
+      }
+      return may_come_within(*ball, others.capsules[place], margin);
     });
   };
   tree_.for_each_near(
-      others, margin, [&](std::uint32_t place, const auto* first, const auto* last) {
+      others.tree, margin, [&](std::uint32_t place, const auto* first, const auto* last) {
         const Piece& piece = pieces_[numbers_[place]];
         const FiberRun& run = fibers.before.runs()[piece.run];
         const std::uint64_t end = end_of(piece, run);
+        fibers.fetch(run.begin + piece.begin, run.begin + end);
+        const GlobalSegment last_segment{run.first.fiber, run.first.segment + end - 1};
         near.clear();
-        for (const auto* other = first; other != last; ++other) {
-          const SegmentBox& box = others.box(*other);
-          if (box.first < GlobalSegment{run.first.fiber, run.first.segment + end - 1}) {
-            near.push_back(box);
-          }
-        }
+        std::copy_if(first, last, std::back_inserter(near), [&](std::uint32_t other) {
+          return others.tree.box(other).first < last_segment;
+        });
         std::uint64_t begin = piece.begin;
         for (std::uint64_t i = begin; i <= end; ++i) {
-          if (i < end &&
-              is_near(inflated(fibers.box_around(run.begin + i, run.begin + i + 1), margin),
-                      {run.first.fiber, run.first.segment + i})) {
+          if (i < end && is_near({run.first.fiber, run.first.segment + i}, run.begin + i)) {
             continue;
           }
           if (begin < i) {

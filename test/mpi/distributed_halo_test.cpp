@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include "fiber_proximity/geometry/segment_distance.hpp"
 #include "src/mpi/box_tree.hpp"
+#include "src/mpi/named_fibers.hpp"
+#include "src/mpi/piece_capsule.hpp"
 #include "test/mpi/dealt_fibers.hpp"
 #include "test/support/assemblies.hpp"
 #include "test/support/contacts.hpp"
@@ -91,6 +95,60 @@ TEST(DistributedHalo, BoxesAreNoFurtherApartThanSegmentsAreFound) {
     ASSERT_TRUE(may_come_within(box_of(a0, a1), box_of(b0, b1), gap)) << gap;
     ASSERT_FALSE(may_come_within(box_of(a0, a1), box_of(b0, b1), gap - 1e-12)) << gap;
   }
+}
+
+/// One run of segments that all have this radius [m].
+NamedFibers run_of(const std::vector<Eigen::Vector3d>& points, double radius) {
+  FiberRuns set;
+  set.runs.push_back({{7, 3}, points.size() - 1, 0, 0.0});
+  for (const Eigen::Vector3d& point : points) {
+    set.nodes.push_back({plain(point), radius});
+  }
+  NamedFibers fibers;
+  fibers.assign(set);
+  return fibers;
+}
+
+TEST(DistributedHalo, WhatIsNearIsNearTheCapsuleAroundIt) {
+  Random random;
+  int apart = 0;
+  for (int round = 0; round < 3000; ++round) {
+    const double scale = std::pow(10.0, random.chance(0.1) ? -200.0 : random.uniform(-6.0, 6.0));
+    const Eigen::Vector3d offset =
+        random.chance(0.5) ? 1e3 * scale * random.in_cube() : Eigen::Vector3d::Zero().eval();
+    const auto walk = [&](int segments) {
+      std::vector<Eigen::Vector3d> points = random_walk(random, segments, 0.2);
+      for (Eigen::Vector3d& point : points) {
+        point = scale * point + offset;
+      }
+      return points;
+    };
+    const auto radius = [&] { return scale * random.uniform(0.0, 0.05); };
+    const int segments = random.integer(1, 8);
+    const bool do_move = random.chance(0.5);
+    const NamedFibers before = run_of(walk(segments), radius());
+    const NamedFibers after = run_of(walk(segments), radius());
+    const NamedFibers other = run_of(walk(1), radius());
+    const FiberStates piece{before, do_move ? &after : nullptr};
+    const PieceCapsule capsule = capsule_around(piece, 0, static_cast<std::uint64_t>(segments));
+    const SegmentBall ball = ball_around({other}, 0);
+    // On its way a segment is between where it is before and after it.
+    const double part = do_move ? random.uniform(0.0, 1.0) : 0.0;
+    double gap = std::numeric_limits<double>::infinity();
+    const Capsule own = other.fibers().capsule(0);
+    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(segments); ++i) {
+      const Capsule from = before.fibers().capsule(i);
+      const Capsule to = after.fibers().capsule(i);
+      const SegmentDistance nearest =
+          segment_distance((1.0 - part) * from.p0 + part * to.p0,
+                           (1.0 - part) * from.p1 + part * to.p1, own.p0, own.p1);
+      gap = std::min(gap, nearest.distance - from.radius - own.radius);
+    }
+    ASSERT_TRUE(may_come_within(ball, capsule, std::max(gap, 0.0)))
+        << gap << " m at scale " << scale;
+    apart += may_come_within(ball, capsule, 0.1 * std::max(gap, 0.0)) ? 0 : 1;
+  }
+  EXPECT_GT(apart, 300) << "or all is near all";
 }
 
 }  // namespace
