@@ -56,6 +56,7 @@ add_library(fiber_proximity_mpi SHARED
   src/mpi/frame_files.cpp
   src/mpi/gathered_fibers.cpp
   src/mpi/halo.cpp
+  src/mpi/halo_lists.cpp
   src/mpi/hdf5_file.cpp
   src/mpi/loop_questions.cpp
   src/mpi/named_fibers.cpp

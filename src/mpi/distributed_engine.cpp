@@ -24,6 +24,7 @@ struct DistributedEngine::State {
   Communicator ranks;
   EngineOptions engine_options;
   RankFibers fibers;
+  HaloLists lists;
   RankSearch search;
   std::optional<RankMotions> motions;  // none until there is a motion
 
@@ -43,7 +44,7 @@ void DistributedEngine::State::find_all(const QueryOptions& options, std::uint64
   const bool is_limited = most != RankSearch::no_limit;
   const bool is_of_fibers = options.type == QueryType::FIBER_PAIRS;
   const Deadline deadline(options.deadline);
-  Halo halo(ranks, fibers.states(), fibers.boxes(), options.margin);
+  Halo halo(ranks, fibers.states(), lists.find(ranks, fibers, options.margin));
   // Of a limited number one more, to see whether there are more.
   search.find_inner(options, is_limited && !is_of_fibers ? most + 1 : RankSearch::no_limit, result);
   QueryOptions rest = options;
@@ -67,8 +68,8 @@ void DistributedEngine::State::find_closest(const QueryOptions& options, std::ui
     QueryOptions rest = options;
     rest.margin = std::max(0.0, std::min(options.margin, enough));
     rest.deadline = deadline.left();
-    search.find_across(Halo(ranks, fibers.states(), fibers.boxes(), rest.margin).take(), rest,
-                       result);
+    search.find_across(Halo(ranks, fibers.states(), lists.find(ranks, fibers, rest.margin)).take(),
+                       rest, result);
   }
   keep_closest(ranks, most, result);
   const bool are_enough = ranks.sum(result.contacts.size()) == most;
@@ -120,7 +121,7 @@ void DistributedEngine::query_motion(const MotionOptions& options,
   here.pair_limit = state.share_of(options.pair_limit);
   result.contacts.clear();
   result.touching.clear();
-  state.motions->find(here, result);
+  state.motions->find(here, state.lists.find(state.ranks, state.fibers, reach_of(options)), result);
   keep_earliest(state.ranks, options, result);
 }
 
@@ -156,7 +157,7 @@ void DistributedEngine::query(const QueryOptions& options, DistributedResult& re
 
 DistributedFacts DistributedEngine::facts() const {
   return {state_->fibers.own().fibers().segment_count(), state_->search.halo_segments(),
-          state_->fibers.split_count()};
+          state_->fibers.split_count(), state_->lists.search_count()};
 }
 
 }  // namespace fiber

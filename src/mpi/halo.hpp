@@ -5,19 +5,18 @@
 #include "src/mpi/communicator.hpp"
 #include "src/mpi/fiber_runs.hpp"
 #include "src/mpi/fiber_states.hpp"
-#include "src/mpi/piece_boxes.hpp"
+#include "src/mpi/halo_lists.hpp"
 
 namespace fiber {
 
-/// The segments of other ranks that this rank needs for its pairs: those that may come within the
-/// margin [m] of one of its own that is before them in the order of contacts, by boxes around a few
-/// segments that follow each other. On the way while the rank does other things.
+/// The segments of other ranks that this rank needs for its pairs, on the way while the rank does
+/// other things.
 class Halo {
  public:
-  /// Finds out what others need, and begins to send it. Collective.
-  /// @param own   this rank's; of fibres that move the ways to where they are after that count
-  /// @param boxes of own
-  Halo(const Communicator& ranks, const FiberStates& own, const PieceBoxes& boxes, double margin);
+  /// Begins to send what others need. Collective.
+  /// @param own   this rank's
+  /// @param spans of these, by the rank that needs them
+  Halo(const Communicator& ranks, const FiberStates& own, const PerRank<RunSpan>& spans);
 
   /// Waits for what this rank needs. Collective.
   FiberRuns take();

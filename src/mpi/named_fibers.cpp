@@ -11,6 +11,8 @@
 namespace fiber {
 namespace {
 
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+
 /// Whether the second run begins where the first one ends.
 bool goes_on(const FiberRun& run, const FiberRun& next) {
   return next.first.fiber == run.first.fiber && next.first.segment == run.first.segment + run.count;
@@ -65,12 +67,19 @@ void NamedFibers::assign(std::vector<FiberRun> runs) {
     }
   }
   points_.resize(point);
+  moved_ = unbounded;
 }
 
-void NamedFibers::open() { fibers_.exchange_segments(points_, offsets_, radii_); }
+void NamedFibers::open() {
+  const std::vector<double>& radii = fibers_.radii();
+  radius_before_ = radii.size() == 1 ? radii.front() : unbounded;
+  moved_ = 0.0;
+  fibers_.exchange_segments(points_, offsets_, radii_);
+}
 
 /// Gives each segment a radius of its own. So far there is one for all.
 void NamedFibers::expand_radii() {
+  moved_ = unbounded;
   const double radius = radii_.front();
   radii_.assign(points_.size(), radius);
   for (std::size_t fiber = 1; fiber < offsets_.size(); ++fiber) {
@@ -83,18 +92,27 @@ const FiberNode* NamedFibers::place(std::size_t number, double arc, const FiberN
   run.arc = arc;
   if (radii_.empty()) {
     radii_.push_back(nodes->radius);
+    moved_ = nodes->radius == radius_before_ ? moved_ : unbounded;
   }
-  for (std::uint64_t i = 0; i < run.count; ++i) {
-    points_[run.begin + i] = vector_of(nodes[i].point);
+  double moved = 0.0;
+  for (std::uint64_t i = 0; i <= run.count; ++i) {
+    const Eigen::Vector3d point = vector_of(nodes[i].point);
+    moved =
+        std::max(moved, (point - points_[run.begin + i]).lpNorm<1>());  // which never underflows
+    points_[run.begin + i] = point;
+    if (i == run.count) {
+      break;  // the next run may begin there, with its radius
+    }
     if (radii_.size() == 1 && nodes[i].radius != radii_.front()) {
       expand_radii();
     }
     if (radii_.size() > 1) {
-      radii_[run.begin + i] = nodes[i].radius;
+      double& radius = radii_[run.begin + i];
+      moved_ = nodes[i].radius == radius ? moved_ : unbounded;
+      radius = nodes[i].radius;
     }
   }
-  // The next run may begin there, with its radius.
-  points_[run.begin + run.count] = vector_of(nodes[run.count].point);
+  moved_ = std::max(moved_, moved);
   return nodes + run.count + 1;
 }
 

@@ -34,6 +34,10 @@ class NamedFibers {
   /// @throws std::invalid_argument for nodes that an assembly may not have; there are none then
   void close();
 
+  /// [m] No point has moved further since the nodes before these; infinity where they are new, or
+  /// have other radii.
+  double moved() const { return moved_; }
+
   const FiberAssembly& fibers() const { return fibers_; }
 
   /// Sorted; `begin` is the first point of each among those of fibers().
@@ -72,7 +76,9 @@ class NamedFibers {
   // While nodes are placed those of fibers_, which has none then:
   std::vector<Eigen::Vector3d> points_;
   std::vector<std::uint32_t> offsets_{0};
-  std::vector<double> radii_;  // one for all, or one per point
+  std::vector<double> radii_;   // one for all, or one per point
+  double radius_before_ = 0.0;  // of all, infinity if they had several
+  double moved_ = 0.0;
 };
 
 }  // namespace fiber

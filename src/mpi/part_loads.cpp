@@ -40,7 +40,7 @@ struct CountedPart {
   /// Adds to what a part needs that has these pieces.
   void add_near(const NearPieces& part, double margin, PartLoad& load) const {
     boxes.for_each_near({fibers}, part, margin,
-                        [&](const FiberRun& /*run*/, std::uint64_t begin, std::uint64_t end) {
+                        [&](std::uint32_t /*run*/, std::uint64_t begin, std::uint64_t end) {
                           load.halo_segments += end - begin;
                           load.halo_runs += 1;
                         });
@@ -121,7 +121,8 @@ std::vector<PartLoad> part_loads(const Communicator& ranks, const DistributedFib
                                  int parts, double margin) {
   const SharedParts shared = deal_parts(ranks, fibers, parts);
   const CountedPart all(all_of(shared.parts));
-  const CountedPart remote(Halo(ranks, {all.fibers}, all.boxes, margin).take());
+  const CountedPart remote(
+      Halo(ranks, {all.fibers}, spans_near_others(ranks, {all.fibers}, all.boxes, margin)).take());
   std::vector<CountedPart> here;
   std::vector<PartBox> boxes_here;
   for (const FiberRuns& part : shared.parts) {

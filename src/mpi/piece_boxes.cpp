@@ -1,5 +1,6 @@
 #include "src/mpi/piece_boxes.hpp"
 
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -17,6 +18,18 @@ struct PointSpan {
 PlainBox PieceBoxes::box_of(const FiberStates& fibers, const Piece& piece) {
   const FiberRun& run = fibers.before.runs()[piece.run];
   return fibers.box_around(run.begin + piece.begin, run.begin + end_of(piece, run));
+}
+
+double PieceBoxes::mean_side() const {
+  double sum = 0.0;
+  for (std::uint32_t place = 0; place < numbers_.size(); ++place) {
+    const PlainBox& box = tree_.box(place).box;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      sum += box.upper[axis] - box.lower[axis];
+    }
+  }
+  return numbers_.empty() ? std::numeric_limits<double>::infinity()
+                          : sum / (3.0 * static_cast<double>(numbers_.size()));
 }
 
 std::vector<PieceCapsule> PieceBoxes::capsules(const FiberStates& fibers,

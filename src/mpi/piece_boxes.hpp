@@ -27,6 +27,9 @@ class PieceBoxes {
 
   const BoxTree& tree() const { return tree_; }
 
+  /// [m] Of the boxes, of all three sides; infinity without any.
+  double mean_side() const;
+
   /// Around the pieces at these places of the tree.
   std::vector<PieceCapsule> capsules(const FiberStates& fibers,
                                      const std::vector<std::uint32_t>& places) const;
@@ -35,7 +38,7 @@ class PieceBoxes {
   NearPieces all(const FiberStates& fibers) const;
 
   /// Calls with the segments that may come within the margin [m] of others that are before them, by
-  /// what is around these: call(run, begin, end), along the run.
+  /// what is around these: call(number of the run, begin, end), along the run.
   template <class Call>
   void for_each_near(const FiberStates& fibers, const NearPieces& others, double margin,
                      const Call& call) const;
@@ -94,7 +97,7 @@ void PieceBoxes::for_each_near(const FiberStates& fibers, const NearPieces& othe
             continue;
           }
           if (begin < i) {
-            call(run, begin, i);
+            call(piece.run, begin, i);
           }
           begin = i + 1;
         }

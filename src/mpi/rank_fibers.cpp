@@ -1,6 +1,8 @@
 #include "src/mpi/rank_fibers.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -201,11 +203,27 @@ void RankFibers::take(const Communicator& ranks, const FiberAssembly& parts,
   } else if (do_move_) {
     own_after_ = NamedFibers();
   }
-  do_move_ = after != nullptr;
-  if (ranks.size() > 1) {
-    boxes_.update(states(), !are_split_anew);
+  const double moved = ranks.largest(own_.moved());
+  if (do_move_ || after != nullptr || std::isinf(moved)) {
+    way_ = {way_.epoch + 1, 0.0, 0.0};
+  } else {
+    // Rounded up, so that a difference of two sums is no less than what was added between.
+    const double length =
+        moved == 0.0 ? way_.length
+                     : std::nextafter(way_.length + moved, std::numeric_limits<double>::infinity());
+    way_ = {way_.epoch, length, moved};
   }
+  do_move_ = after != nullptr;
   has_fibers_ = true;
+}
+
+const PieceBoxes& RankFibers::fit_boxes() {
+  if (boxes_way_.epoch != way_.epoch || boxes_way_.length != way_.length) {
+    boxes_.update(states(), boxes_split_ == split_count_);
+    boxes_split_ = split_count_;
+    boxes_way_ = way_;
+  }
+  return boxes_;
 }
 
 }  // namespace fiber

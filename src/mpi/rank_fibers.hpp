@@ -42,7 +42,19 @@ class RankFibers {
 
   FiberStates states() const { return {own_, do_move_ ? &own_after_ : nullptr}; }
 
-  const PieceBoxes& boxes() const { return boxes_; }  ///< of own()
+  /// How far points have come, of all ranks.
+  struct Way {
+    std::uint64_t epoch = 0;  // since when they have gone it
+    double length = 0.0;      // [m] that no point has gone further than
+    double last = 0.0;        // [m] with the last update
+  };
+
+  /// The same on all ranks. An epoch begins where it is not known how far points have come: where
+  /// fibres are split, have other radii, or go a way themselves.
+  const Way& way() const { return way_; }
+
+  /// Boxes of own(), fitted to where they are.
+  const PieceBoxes& fit_boxes();
 
   /// [m] Most that arc lengths of all fibres are rounded by, in units of ε.
   double arc_roundings() const { return arc_roundings_; }
@@ -69,6 +81,9 @@ class RankFibers {
   NamedFibers own_;
   NamedFibers own_after_;
   PieceBoxes boxes_;
+  std::uint64_t boxes_split_ = 0;  // split_count_ of the fibres that they are of
+  Way boxes_way_;                  // of these when they were fitted
+  Way way_;
   std::vector<std::size_t> first_of_rank_;  // number of the first run that each rank sends
   double arc_roundings_ = 0.0;
   std::uint64_t split_count_ = 0;

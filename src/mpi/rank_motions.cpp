@@ -71,10 +71,10 @@ void RankMotions::evaluate(const MotionOptions& options,
   }
 }
 
-void RankMotions::find(const MotionOptions& options, DistributedMotionResult& result) {
+void RankMotions::find(const MotionOptions& options, const PerRank<RunSpan>& spans,
+                       DistributedMotionResult& result) {
   const Deadline deadline(options.deadline);
-  const double reach = (1.0 + 0x1p-50) * (options.margin + options.tolerance);
-  Halo halo(ranks_, fibers_->states(), fibers_->boxes(), reach);
+  Halo halo(ranks_, fibers_->states(), spans);
 
   MotionOptions here = options;
   static_cast<PairOptions&>(here) = options_of_stretches(options, fibers_->arc_roundings());
@@ -92,7 +92,7 @@ void RankMotions::find(const MotionOptions& options, DistributedMotionResult& re
   }));
   // What is a shape to the engine is the first of each pair there, and the second one here. All
   // that may be reported is less apart than this, whichever comes first.
-  here.margin = reach;
+  here.margin = reach_of(options);
   here.time_tolerance = std::numeric_limits<double>::infinity();
   here.deadline = deadline.left();
   if (options.pair_limit > 0) {

@@ -6,10 +6,16 @@
 #include "fiber_proximity/mpi/distributed_engine.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "src/mpi/communicator.hpp"
+#include "src/mpi/halo_lists.hpp"
 #include "src/mpi/named_fibers.hpp"
 #include "src/mpi/rank_fibers.hpp"
 
 namespace fiber {
+
+/// [m] How near segments come that may be reported.
+inline double reach_of(const MotionOptions& options) {
+  return (1.0 + 0x1p-50) * (options.margin + options.tolerance);
+}
 
 /// Looks for the pairs that a rank reports that come into contact during a motion.
 class RankMotions {
@@ -24,10 +30,12 @@ class RankMotions {
 
   /// All pairs of a segment of this rank's own that there are, whatever type and limits of contacts
   /// the options have. Collective.
+  /// @param spans  what others need, found with reach_of(options)
   /// @param result contacts and what is touching in any order; limit_reached: the pair_limit was.
   ///               Bounds are not set
   /// @throws std::invalid_argument on every rank if one has more than an assembly may have
-  void find(const MotionOptions& options, DistributedMotionResult& result);
+  void find(const MotionOptions& options, const PerRank<RunSpan>& spans,
+            DistributedMotionResult& result);
 
  private:
   void append(const MotionOptions& options, const MotionResult& found, const NamedFibers& fibers_b,

@@ -65,9 +65,11 @@ double RankSearch::rounding_across() const {
   if (halo_.fibers().point_count() == 0) {
     return 0.0;
   }
-  PlainBox box = fibers_->boxes().tree().root();
-  for (const Eigen::Vector3d& point : halo_.fibers().points()) {
-    box = merged(box, {plain(point), plain(point)});
+  PlainBox box{plain(halo_.fibers().points().front()), plain(halo_.fibers().points().front())};
+  for (const NamedFibers* const fibers : {&halo_, &fibers_->own()}) {
+    for (const Eigen::Vector3d& point : fibers->fibers().points()) {
+      box = merged(box, {plain(point), plain(point)});
+    }
   }
   double longest = 0.0;
   for (std::size_t axis = 0; axis < 3; ++axis) {

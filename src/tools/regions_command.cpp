@@ -79,7 +79,8 @@ std::vector<SegmentHolder> holders_of(const Communicator& ranks, const Distribut
     }
   };
   add(fibers.own().runs(), 0);
-  add(Halo(ranks, fibers.states(), fibers.boxes(), margin).take().runs, 1);
+  const FiberStates own = fibers.states();
+  add(Halo(ranks, own, spans_near_others(ranks, own, fibers.fit_boxes(), margin)).take().runs, 1);
   std::vector<SegmentHolder> holders;
   for (const std::vector<SegmentHolder>& some : ranks.exchange(std::move(to))) {
     holders.insert(holders.end(), some.begin(), some.end());

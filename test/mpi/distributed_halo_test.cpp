@@ -73,6 +73,47 @@ TEST(DistributedHalo, AThickFibreBringsNoMoreThanWhatIsNearIt) {
   EXPECT_LE(more, few + expected.contacts.size() * 2);
 }
 
+/// The fibres, each point moved by up to this [m] along each axis; some thick ones go on and on. At
+/// times one more is thick.
+FiberAssembly stirred(const FiberAssembly& fibers, double step, Random& random) {
+  std::vector<Eigen::Vector3d> points = fibers.points();
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    points[p] += p < fibers.offsets()[10] ? Eigen::Vector3d(0.003, 0.002, -0.001)
+                                          : Eigen::Vector3d(step * random.in_cube());
+  }
+  std::vector<double> radii(fibers.fiber_count(), 0.002);
+  std::fill_n(radii.begin(), 10, 0.04);
+  radii.back() = random.chance(0.05) ? 0.04 : 0.002;
+  return {std::move(points), fibers.offsets(), std::move(radii)};
+}
+
+TEST(DistributedHalo, ServesWhilePointsMoveLittle) {
+  Random random;
+  int searches = 0;
+  int frames = 0;
+  for (int scene = 0; scene < 8; ++scene) {
+    FiberAssembly fibers = walks(random, 300, 20, 0.05, 0.002);
+    const std::vector<DealtPart> dealt = deal(fibers, 2, random);
+    DistributedEngine engine(MPI_COMM_WORLD, one_thread());
+    const QueryOptions options = within(scene % 2 == 0 ? 0.0 : 0.003);
+    for (int frame = 0; frame < 20; ++frame, ++frames) {
+      const Dealt mine = dealt_to(own_rank(), fibers, dealt);
+      engine.update(mine.parts, mine.names);
+      ASSERT_TRUE(same_as_one_process(answer(engine, options),
+                                      answer("run_tree", fibers, options).contacts))
+          << "scene " << scene << ", frame " << frame;
+      fibers = stirred(fibers, 1e-4, random);
+    }
+    searches += static_cast<int>(engine.facts().halo_search_count);
+  }
+  if (rank_count() == 1) {
+    EXPECT_EQ(searches, 0);
+  } else {
+    EXPECT_GT(searches, 3 * 8) << "what was found must not serve for ever";
+    EXPECT_LT(searches, frames * 3 / 4) << "nor be looked for every time";
+  }
+}
+
 /// A segment across an axis, so that boxes are as far apart as segments.
 std::pair<FiberNode, FiberNode> across(double place, double radius) {
   return {{{place, -1e-3, 0.0}, radius}, {{place, 1e-3, 0.0}, 0.0}};

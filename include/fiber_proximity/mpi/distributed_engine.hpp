@@ -88,6 +88,9 @@ struct DistributedFacts {
   std::uint64_t own_segments = 0;   ///< that the split gave to this rank
   std::uint64_t halo_segments = 0;  ///< of other ranks, for the last query
   std::uint64_t split_count = 0;    ///< how often fibres were split among the ranks
+
+  /// How often ranks looked for what others need. What they find serves until points have moved.
+  std::uint64_t halo_search_count = 0;
 };
 
 /// Contacts of fibres that are spread over the ranks of MPI, the same, bit for bit, as one process
