@@ -36,8 +36,8 @@ std::vector<std::size_t> find_neighbours(const Communicator& ranks, const BoxTre
   return neighbours;
 }
 
-/// [m] How much further than the margin to look. Room for several updates pays, unless it makes the
-/// halo much larger: pieces are about as large as what is around them is too large.
+/// [m] How much further than the margin to look. Room for several updates pays, as long as it is
+/// small beside pieces: then the halo is little larger.
 double room_for(const Communicator& ranks, double motion, const PieceBoxes& boxes) {
   constexpr double updates = 8.0;
   constexpr double most_of_piece = 0.1;
