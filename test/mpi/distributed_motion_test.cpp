@@ -44,7 +44,7 @@ MotionOptions draw_options(double extent, Random& random) {
 }
 
 /// Of all ranks on rank 0, in their order.
-std::vector<DistributedMotionContact> gathered(std::vector<DistributedMotionContact> mine) {
+std::vector<DistributedMotionContact> gathered(const std::vector<DistributedMotionContact>& mine) {
   std::vector<double> numbers;
   for (const DistributedMotionContact& contact : mine) {
     for (const std::uint64_t number :
