@@ -70,7 +70,9 @@ void add_pair_queries(CLI::App& app, Command& command, const std::shared_ptr<Req
     add_file_options(*subcommand, *request);
     add_pair_options(*subcommand, query, request->pairs);
     subcommand->callback([&command, request, query] {
-      command = [request, options = options_of(query, request->pairs)] {
+      // First of all: gcc 11 loses what a closure has already taken when this throws.
+      const QueryOptions options = options_of(query, request->pairs);
+      command = [request, options] {
         return run(*request, [&options](const ProximityEngine& engine, QueryResult& result) {
           engine.query(options, result);
         });

@@ -159,7 +159,8 @@ void add_pair_queries(CLI::App& app, Command& command) {
           ->excludes(out);
     }
     subcommand->callback([&command, request, query] {
-      const Question question{query.name, options_of(query, request->pairs)};
+      const QueryOptions options = options_of(query, request->pairs);
+      const Question question{query.name, options};
       command = [request, question] {
         return request->plan.parts > 0 ? plan_file(*request, question.query)
                                        : run(*request, question);
