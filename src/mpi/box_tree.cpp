@@ -28,7 +28,6 @@ std::size_t longest_axis(const std::vector<SegmentBox>& boxes, const std::uint32
 }  // namespace
 
 std::vector<std::uint32_t> spatial_order(const std::vector<SegmentBox>& boxes) {
-  constexpr std::size_t fan = 4;
   std::vector<std::uint32_t> numbers(boxes.size());
   std::iota(numbers.begin(), numbers.end(), 0U);
   struct Range {

@@ -60,6 +60,9 @@ struct SegmentBox {
   GlobalSegment first;
 };
 
+/// How many boxes, or nodes, a node of a BoxTree is around.
+constexpr std::size_t fan = 4;
+
 /// An order of these boxes in which those that follow each other are near each other, as a BoxTree
 /// needs them.
 /// @return their numbers
@@ -92,8 +95,6 @@ class BoxTree {
   void for_each_near(const BoxTree& others, double margin, const Call& call) const;
 
  private:
-  static constexpr std::size_t fan = 4;
-
   /// A node to look at, and which nodes of others may be near it: part of a list.
   struct Visit {
     std::size_t level = 0;

@@ -21,13 +21,6 @@ constexpr std::size_t nodes_per_slice = std::size_t{1} << 16U;
 // The most that the cost of one rank may be of the mean, beside what the last split reached.
 constexpr double most_imbalance = 1.1;
 
-bool are_same(const std::vector<FiberPart>& x, const std::vector<FiberPart>& y) {
-  return std::equal(x.begin(), x.end(), y.begin(), y.end(),
-                    [](const FiberPart& a, const FiberPart& b) {
-                      return a.fiber == b.fiber && a.first_segment == b.first_segment;
-                    });
-}
-
 /// Goes through the pieces of parts, one after another.
 class PieceCursor {
  public:
@@ -73,7 +66,7 @@ std::vector<double> weights_of_ranks(const std::vector<double>& costs,
 
 bool RankFibers::is_as_before(const FiberAssembly& parts,
                               const std::vector<FiberPart>& names) const {
-  return has_fibers_ && offsets_ == parts.offsets() && are_same(names_, names);
+  return has_fibers_ && offsets_ == parts.offsets() && names_ == names;
 }
 
 /// What is too much for a rank. What a split by costs could not even out is not tried again.

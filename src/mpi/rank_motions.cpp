@@ -95,10 +95,7 @@ void RankMotions::find(const MotionOptions& options, const PerRank<RunSpan>& spa
   here.margin = reach_of(options);
   here.time_tolerance = std::numeric_limits<double>::infinity();
   here.deadline = deadline.left();
-  if (options.pair_limit > 0) {
-    here.pair_limit = std::max<std::uint64_t>(
-        1, options.pair_limit - std::min(options.pair_limit, found_.counts.primitive_tests));
-  }
+  here.pair_limit = rest_of(options.pair_limit, found_.counts.primitive_tests);
   ranks_.agree(error_in(
       [&] { engine_->query_motion_shape(halo_.fibers(), halo_after_.fibers(), here, found_); }));
   result.complete = result.complete && found_.complete;

@@ -1,20 +1,12 @@
 #include "src/mpi/rank_search.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "fiber_proximity/query/narrow_phase.hpp"
 #include "src/mpi/whole_fiber_pairs.hpp"
 
 namespace fiber {
-namespace {
-
-/// The part of a limit of pairs that is left, at least one.
-std::uint64_t rest_of(std::uint64_t limit, std::uint64_t taken) {
-  return limit == 0 ? 0 : std::max<std::uint64_t>(1, limit - std::min(limit, taken));
-}
-
-}  // namespace
-
 void RankSearch::update(const RankFibers& fibers) {
   fibers_ = &fibers;
   counts_ = {};
@@ -65,17 +57,13 @@ double RankSearch::rounding_across() const {
   if (halo_.fibers().point_count() == 0) {
     return 0.0;
   }
-  PlainBox box{plain(halo_.fibers().points().front()), plain(halo_.fibers().points().front())};
+  Eigen::AlignedBox3d box;
   for (const NamedFibers* const fibers : {&halo_, &fibers_->own()}) {
     for (const Eigen::Vector3d& point : fibers->fibers().points()) {
-      box = merged(box, {plain(point), plain(point)});
+      box.extend(point);
     }
   }
-  double longest = 0.0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    longest = std::max(longest, box.upper[axis] - box.lower[axis]);
-  }
-  return 0x1p-44 * (longest + halo_.fibers().largest_radius());
+  return 0x1p-44 * (box.sizes().maxCoeff() + halo_.fibers().largest_radius());
 }
 
 void RankSearch::find_across(const FiberRuns& halo, const QueryOptions& options,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "fiber_proximity/query/contact.hpp"
@@ -29,6 +30,11 @@ inline PairOptions options_of_stretches(const PairOptions& options, double arc_r
     here.neighbour_skip_length = std::max(0.0, surely);
   }
   return here;
+}
+
+/// The part of a limit of pairs that is left, at least one; 0 stays none.
+inline std::uint64_t rest_of(std::uint64_t limit, std::uint64_t taken) {
+  return limit == 0 ? 0 : std::max<std::uint64_t>(1, limit - std::min(limit, taken));
 }
 
 /// Where a rank looks for pairs: segment a is one of its own, b one of these or of its halo.

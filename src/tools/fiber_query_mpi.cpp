@@ -28,10 +28,7 @@
 namespace fiber {
 namespace {
 
-struct MpiRequest {
-  std::string file;
-  double radius = 0.0;  // [m]
-  EngineOptions engine_options;
+struct MpiRequest : RankRequest {
   PairRequest pairs;
   std::string out;  // "" for stdout
   std::optional<std::string> format;
@@ -118,19 +115,6 @@ ExitCode plan_file(const MpiRequest& request, const QueryOptions& query) {
   return SUCCEEDED;
 }
 
-void add_file_options(CLI::App& app, MpiRequest& request) {
-  app.add_option("FILE", request.file,
-                 "fibre file: .h5, of which each rank reads its part; .csv or .hair, which rank 0 "
-                 "reads")
-      ->required();
-  app.add_option("--radius", request.radius, "of all fibres, if the file has no radii [m]")
-      ->capture_default_str();
-  app.add_option("--threads", request.engine_options.threads,
-                 "most threads that each rank uses, 0 for as many as there are cores")
-      ->check(whole_number(0))
-      ->capture_default_str();
-}
-
 CLI::Option* add_output_options(CLI::App& app, MpiRequest& request) {
   CLI::Option* const out =
       app.add_option("--out", request.out,
@@ -147,10 +131,9 @@ CLI::Option* add_output_options(CLI::App& app, MpiRequest& request) {
 
 void add_pair_queries(CLI::App& app, Command& command) {
   const auto request = std::make_shared<MpiRequest>();
-  request->engine_options.threads = 1;
   for (const PairQuery& query : pair_queries()) {
     CLI::App* const subcommand = app.add_subcommand(query.name, query.description);
-    add_file_options(*subcommand, *request);
+    add_rank_options(*subcommand, *request);
     CLI::Option* const out = add_output_options(*subcommand, *request);
     add_pair_options(*subcommand, query, request->pairs);
     if (query.type == QueryType::ALL) {
@@ -179,6 +162,20 @@ void setup_mpi(CLI::App& app, Command& command) {
 }
 
 }  // namespace
+
+void add_rank_options(CLI::App& app, RankRequest& request) {
+  app.add_option("FILE", request.file,
+                 "fibre file: .h5, of which each rank reads its part; .csv or .hair, which rank 0 "
+                 "reads")
+      ->required();
+  app.add_option("--radius", request.radius, "of all fibres, if the file has no radii [m]")
+      ->capture_default_str();
+  app.add_option("--threads", request.engine_options.threads,
+                 "most threads that each rank uses, 0 for as many as there are cores")
+      ->check(whole_number(0))
+      ->capture_default_str();
+}
+
 }  // namespace fiber
 
 int main(int argc, char** argv) {

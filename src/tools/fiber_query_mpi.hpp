@@ -1,8 +1,20 @@
 #pragma once
 
+#include <string>
+
+#include "fiber_proximity/query/engine.hpp"
 #include "src/tools/command_line.hpp"
 
 namespace fiber {
+
+/// A file of fibres, and the engine of each rank that answers questions about them.
+struct RankRequest {
+  std::string file;
+  double radius = 0.0;                   // [m]
+  EngineOptions engine_options{1, 0.0};  // one thread: ranks share a machine
+};
+
+void add_rank_options(CLI::App& app, RankRequest& request);
 
 // The subcommands of fiber_query_mpi that have a source of their own.
 

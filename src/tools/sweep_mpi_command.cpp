@@ -20,10 +20,7 @@
 namespace fiber {
 namespace {
 
-struct SweepMpiRequest : SweepRequest {
-  std::string file;
-  double radius = 0.0;  // [m]
-  EngineOptions engine_options;
+struct SweepMpiRequest : RankRequest, SweepRequest {
   std::string out;  // "" for stdout
 };
 
@@ -35,12 +32,7 @@ struct NumberedFrame {
 /// Whether all ranks have the same parts of both frames.
 bool have_same_fibers(const Communicator& ranks, const DistributedFibers& x,
                       const DistributedFibers& y) {
-  const auto is_same = [](const FiberPart& a, const FiberPart& b) {
-    return a.fiber == b.fiber && a.first_segment == b.first_segment;
-  };
-  return ranks.all(
-      x.parts.offsets() == y.parts.offsets() &&
-      std::equal(x.names.begin(), x.names.end(), y.names.begin(), y.names.end(), is_same));
+  return ranks.all(x.parts.offsets() == y.parts.offsets() && x.names == y.names);
 }
 
 /// What to report of a step, in the order of pairs; what is in contact before it is earliest.
@@ -119,15 +111,7 @@ void add_sweep_mpi(CLI::App& app, Command& command) {
   CLI::App* const sweep = app.add_subcommand(
       "sweep", "pairs of segments that come into contact from each frame to the next");
   const auto request = std::make_shared<SweepMpiRequest>();
-  request->engine_options.threads = 1;
-  sweep->add_option("FILE", request->file, "fibre file with frames (.h5 or .csv)")->required();
-  sweep->add_option("--radius", request->radius, "of all fibres, if the file has no radii [m]")
-      ->capture_default_str();
-  sweep
-      ->add_option("--threads", request->engine_options.threads,
-                   "most threads that each rank uses, 0 for as many as there are cores")
-      ->check(whole_number(0))
-      ->capture_default_str();
+  add_rank_options(*sweep, *request);
   sweep->add_option("--out", request->out,
                     "CSV to write, which has its name once it is whole; without this, to what "
                     "mpirun takes as output");

@@ -163,6 +163,15 @@ inline EngineOptions one_thread() {
   return options;
 }
 
+/// The ranks' engine, which has these fibres, dealt out at random.
+struct DealtEngine : DistributedEngine {
+  DealtEngine(const FiberAssembly& fibers, Random& random)
+      : DistributedEngine(MPI_COMM_WORLD, one_thread()) {
+    const Dealt mine = dealt_to(own_rank(), fibers, deal(fibers, 2, random));
+    update(mine.parts, mine.names);
+  }
+};
+
 /// What the ranks find together, on rank 0.
 inline DistributedResult answer(DistributedEngine& engine, const QueryOptions& options) {
   DistributedResult result;

@@ -184,9 +184,7 @@ TEST(DistributedEngine, FirstIsAnyPairThereIs) {
   int found_count = 0;
   for (int scene = 0; scene < rounds(60); ++scene) {
     const FiberAssembly fibers = walks(random, random.integer(2, 60), 12, 0.1, 0.002);
-    const Dealt mine = dealt_to(own_rank(), fibers, deal(fibers, 2, random));
-    DistributedEngine engine(MPI_COMM_WORLD, one_thread());
-    engine.update(mine.parts, mine.names);
+    DealtEngine engine(fibers, random);
     QueryOptions options = within(draw_margin(fibers, random));
     set_neighbour_skips(options, random, 2, 0.0);
     const std::vector<Contact> all = answer("run_tree", fibers, options).contacts;
@@ -207,9 +205,7 @@ TEST(DistributedEngine, FirstIsAnyPairThereIs) {
 TEST(DistributedEngine, TheClosestNeedNoMoreThanWhatIsNear) {
   Random random;
   const FiberAssembly fibers = walks(random, 500, 12, 0.01, 1e-5);
-  const Dealt mine = dealt_to(own_rank(), fibers, deal(fibers, 2, random));
-  DistributedEngine engine(MPI_COMM_WORLD, one_thread());
-  engine.update(mine.parts, mine.names);
+  DealtEngine engine(fibers, random);
   QueryOptions options = within(std::numeric_limits<double>::infinity(), QueryType::LIMITED);
   options.max_contacts = 10;
   const DistributedResult found = answer(engine, options);
@@ -220,9 +216,7 @@ TEST(DistributedEngine, TheClosestNeedNoMoreThanWhatIsNear) {
 TEST(DistributedEngine, ALimitOfPairsAndADeadlineLeaveTheRestOut) {
   Random random;
   const FiberAssembly fibers = walks(random, 200, 20, 0.05, 0.005);
-  const Dealt mine = dealt_to(own_rank(), fibers, deal(fibers, 2, random));
-  DistributedEngine engine(MPI_COMM_WORLD, one_thread());
-  engine.update(mine.parts, mine.names);
+  DealtEngine engine(fibers, random);
   QueryOptions options = within(0.01);
   const std::size_t all = answer("run_tree", fibers, options).contacts.size();
   options.pair_limit = 100;
@@ -240,9 +234,7 @@ TEST(DistributedEngine, ALimitOfPairsAndADeadlineLeaveTheRestOut) {
 TEST(DistributedEngine, AMarginWithoutLimitBringsAllPairs) {
   Random random;
   const FiberAssembly fibers = walks(random, 10, 12, 0.1, 0.01);
-  const Dealt mine = dealt_to(own_rank(), fibers, deal(fibers, 2, random));
-  DistributedEngine engine(MPI_COMM_WORLD, one_thread());
-  engine.update(mine.parts, mine.names);
+  DealtEngine engine(fibers, random);
   const QueryOptions options = within(std::numeric_limits<double>::infinity());
   const DistributedResult found = answer(engine, options);
   EXPECT_TRUE(same_as_one_process(found, answer("run_tree", fibers, options).contacts));
@@ -251,9 +243,7 @@ TEST(DistributedEngine, AMarginWithoutLimitBringsAllPairs) {
 TEST(DistributedEngine, BoundsWhatIsNotReported) {
   Random random;
   const FiberAssembly fibers = walks(random, 60, 12, 0.1, 0.01);
-  const Dealt mine = dealt_to(own_rank(), fibers, deal(fibers, 2, random));
-  DistributedEngine engine(MPI_COMM_WORLD, one_thread());
-  engine.update(mine.parts, mine.names);
+  DealtEngine engine(fibers, random);
   const QueryOptions options = within(0.01);
   const DistributedResult found = answer(engine, options);
   EXPECT_LE(found.others_lower, options.margin);

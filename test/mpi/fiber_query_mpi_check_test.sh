@@ -2,20 +2,9 @@
 # fiber_query_mpi check: the same answers from any number of ranks and any format of file, and what the library's check
 # of fibres means; what is wrong it says once, and leaves nothing.
 #   fiber_query_mpi_check_test.sh FOLDER MPIEXEC [FLAG...]
-#     FOLDER  of the tools
-#     FLAG    of MPIEXEC, the last one before the number of ranks
-set -euo pipefail
-tools=$1
-shift
-mpiexec=("$@")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work"
-
-fail() {
-  echo "fiber_query_mpi_check_test: $*" >&2
-  exit 1
-}
+#     see tool_test.sh
+# shellcheck source=test/mpi/tool_test.sh
+source "$(dirname "${BASH_SOURCE[0]}")/tool_test.sh"
 
 # check RANKS ARGUMENT...
 check() {

@@ -1,20 +1,9 @@
 #!/usr/bin/env bash
 # fiber_query_mpi writes the bytes of fiber_query; what is wrong it says once, and leaves no half output.
 #   fiber_query_mpi_test.sh FOLDER MPIEXEC [FLAG...]
-#     FOLDER  of the tools
-#     FLAG    of MPIEXEC, the last one before the number of ranks
-set -euo pipefail
-tools=$1
-shift
-mpiexec=("$@")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work"
-
-fail() {
-  echo "fiber_query_mpi_test: $*" >&2
-  exit 1
-}
+#     see tool_test.sh
+# shellcheck source=test/mpi/tool_test.sh
+source "$(dirname "${BASH_SOURCE[0]}")/tool_test.sh"
 
 "$tools/fiber_scene" soup --scale 0.01 --out soup.csv
 "$tools/fiber_scene" tress_b --scale 0.005 --frames 3 --out tress.csv

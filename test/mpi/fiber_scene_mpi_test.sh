@@ -1,20 +1,9 @@
 #!/usr/bin/env bash
 # fiber_scene_mpi writes the same file from any number of ranks; what is wrong it says once, and leaves nothing.
 #   fiber_scene_mpi_test.sh FOLDER MPIEXEC [FLAG...]
-#     FOLDER  of the tools
-#     FLAG    of MPIEXEC, the last one before the number of ranks
-set -euo pipefail
-tools=$1
-shift
-mpiexec=("$@")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work"
-
-fail() {
-  echo "fiber_scene_mpi_test: $*" >&2
-  exit 1
-}
+#     see tool_test.sh
+# shellcheck source=test/mpi/tool_test.sh
+source "$(dirname "${BASH_SOURCE[0]}")/tool_test.sh"
 
 # scene RANKS ARGUMENT...: runs the tool.
 scene() {

@@ -21,6 +21,10 @@ namespace fiber {
 struct FiberPart {
   std::uint64_t fiber = 0;
   std::uint64_t first_segment = 0;
+
+  bool operator==(const FiberPart& other) const {
+    return fiber == other.fiber && first_segment == other.first_segment;
+  }
 };
 
 /// A Contact with names that hold for all ranks.
