@@ -50,6 +50,7 @@ void DistributedEngine::State::find_all(const QueryOptions& options, std::uint64
   QueryOptions rest = options;
   rest.deadline = deadline.left();
   search.find_across(halo.take(), rest, result);
+  search.write(result.contacts);
   if (is_of_fibers) {
     keep_closest_of_fibers(ranks, result);
   }
@@ -62,6 +63,7 @@ void DistributedEngine::State::find_closest(const QueryOptions& options, std::ui
                                             DistributedResult& result) {
   const Deadline deadline(options.deadline);
   search.find_inner(options, most, result);
+  search.write(result.contacts);
   const double enough = margin_of_closest(ranks, most, result.contacts);
   const bool is_over = options.type == QueryType::FIRST && std::isfinite(enough);
   if (ranks.all(result.complete) && !is_over) {
@@ -70,22 +72,12 @@ void DistributedEngine::State::find_closest(const QueryOptions& options, std::ui
     rest.deadline = deadline.left();
     search.find_across(Halo(ranks, fibers.states(), lists.find(ranks, fibers, rest.margin)).take(),
                        rest, result);
+    search.write(result.contacts);
   }
   keep_closest(ranks, most, result);
   const bool are_enough = ranks.sum(result.contacts.size()) == most;
   result.limit_reached = (options.type == QueryType::LIMITED && are_enough) || result.limit_reached;
 }
-
-namespace {
-
-/// Of all contacts those of a rank's own fibres come first, and are sorted.
-void sort_contacts(std::vector<DistributedContact>& contacts) {
-  const auto rest = std::is_sorted_until(contacts.begin(), contacts.end(), is_before);
-  std::sort(rest, contacts.end(), is_before);
-  std::inplace_merge(contacts.begin(), rest, contacts.end(), is_before);
-}
-
-}  // namespace
 
 DistributedEngine::DistributedEngine(MPI_Comm ranks, const EngineOptions& options)
     : state_(std::make_unique<State>(ranks, options)) {}
@@ -94,14 +86,15 @@ DistributedEngine::~DistributedEngine() = default;
 
 void DistributedEngine::update(const FiberAssembly& parts, const std::vector<FiberPart>& names) {
   state_->has_motion = false;
-  state_->fibers.update(state_->ranks, parts, names, state_->search.cost());
+  state_->fibers.update(state_->ranks, parts, names, state_->search.load());
   state_->search.update(state_->fibers);
 }
 
 void DistributedEngine::update_motion(const FiberAssembly& before, const FiberAssembly& after,
                                       const std::vector<FiberPart>& names) {
   State& state = *state_;
-  state.fibers.update_motion(state.ranks, before, after, names, 0.0);
+  state.search.clear();
+  state.fibers.update_motion(state.ranks, before, after, names);
   if (!state.motions) {
     state.motions.emplace(state.ranks, state.engine_options);
   }
@@ -149,7 +142,9 @@ void DistributedEngine::query(const QueryOptions& options, DistributedResult& re
       state.find_all(here, most, result);
       break;
   }
-  sort_contacts(result.contacts);
+  if (options.type != QueryType::ALL || is_limited) {  // all are sorted as they are written
+    std::sort(result.contacts.begin(), result.contacts.end(), is_before);
+  }
   result.limit_reached = !state.ranks.all(!result.limit_reached);
   result.complete = state.ranks.all(result.complete);
   result.others_lower = state.ranks.smallest(result.others_lower);

@@ -88,7 +88,7 @@ void NamedFibers::expand_radii() {
 }
 
 const FiberNode* NamedFibers::place(std::size_t number, double arc, const FiberNode* nodes) {
-  FiberRun& run = runs_[numbers_[number]];
+  FiberRun& run = runs_[place_of(number)];
   run.arc = arc;
   if (radii_.empty()) {
     radii_.push_back(nodes->radius);
@@ -137,11 +137,15 @@ void NamedFibers::add_to(FiberRuns& others, const FiberRun& run, std::uint64_t b
   others.nodes.back().radius = 0.0;  // of the segment that would come next
 }
 
-double NamedFibers::arc(std::uint32_t point) const {
+std::size_t NamedFibers::run_of(std::uint32_t point) const {
   const auto after =
       std::upper_bound(runs_.begin(), runs_.end(), point,
                        [](std::uint64_t p, const FiberRun& run) { return p < run.begin; });
-  const FiberRun& run = *(after - 1);
+  return static_cast<std::size_t>(after - runs_.begin()) - 1;
+}
+
+double NamedFibers::arc(std::uint32_t point) const {
+  const FiberRun& run = runs_[run_of(point)];
   return arc(run, point - run.begin);
 }
 

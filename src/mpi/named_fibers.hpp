@@ -51,6 +51,12 @@ class NamedFibers {
     return fibers_.offsets()[fiber] + segment;
   }
 
+  /// The run that a point is in: its place among runs().
+  std::size_t run_of(std::uint32_t point) const;
+
+  /// The place among runs() of what assign() had there.
+  std::size_t place_of(std::size_t number) const { return numbers_[number]; }
+
   FiberNode node(std::uint64_t point) const {
     return {plain(fibers_.points()[point]),
             fibers_.segment_radius(static_cast<std::uint32_t>(point))};

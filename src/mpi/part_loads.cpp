@@ -66,7 +66,7 @@ struct SharedParts {
 
 SharedParts deal_parts(const Communicator& ranks, const DistributedFibers& fibers, int parts) {
   RankFibers all;
-  all.update(ranks, fibers.parts, fibers.names, 0.0);
+  all.update(ranks, fibers.parts, fibers.names);
   const NamedFibers& own = all.own();
   std::vector<PartitionObject> objects;
   objects.reserve(own.runs().size());

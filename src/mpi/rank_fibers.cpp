@@ -1,6 +1,7 @@
 #include "src/mpi/rank_fibers.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -48,20 +49,6 @@ class PieceCursor {
   std::uint32_t begin_ = 0;
 };
 
-/// By rank what a segment there costs, as a part of the mean.
-std::vector<double> weights_of_ranks(const std::vector<double>& costs,
-                                     const std::vector<std::uint64_t>& counts) {
-  const double mean = std::accumulate(costs.begin(), costs.end(), 0.0) /
-                      static_cast<double>(std::accumulate(counts.begin(), counts.end(), 0ULL));
-  std::vector<double> weights;
-  for (std::size_t i = 0; i < costs.size(); ++i) {
-    const double of_segment = counts[i] == 0 ? mean : costs[i] / static_cast<double>(counts[i]);
-    // Zoltan adds up weights in single precision.
-    weights.push_back(std::clamp(of_segment / mean, 0x1p-6, 0x1p6));
-  }
-  return weights;
-}
-
 }  // namespace
 
 bool RankFibers::is_as_before(const FiberAssembly& parts,
@@ -84,17 +71,44 @@ bool RankFibers::is_too_uneven(const std::vector<double>& costs) {
   return most > most_imbalance * reached_ * mean;
 }
 
-/// @param rank_weights what a segment costs where it is; empty: the same for all
+/// Of the pieces that this rank brings, in their order, what their owners say.
+std::vector<double> RankFibers::costs_of_pieces(const Communicator& ranks,
+                                                const RankLoad& load) const {
+  const std::vector<double> of_runs = load.costs_of_runs();
+  PerRank<double> costs(static_cast<std::size_t>(ranks.size()));
+  for (std::size_t other = 0; other < costs.size(); ++other) {
+    for (std::size_t i = first_of_rank_[other]; i < first_of_rank_[other + 1]; ++i) {
+      costs[other].push_back(of_runs[own_.place_of(i)]);
+    }
+  }
+  costs = ranks.exchange(std::move(costs));
+  std::vector<std::size_t> next(costs.size(), 0);
+  std::vector<double> of_pieces;
+  of_pieces.reserve(destinations_.size());
+  for (const int destination : destinations_) {
+    const auto owner = static_cast<std::size_t>(destination);
+    of_pieces.push_back(costs[owner][next[owner]++]);
+  }
+  return of_pieces;
+}
+
+/// @param costs of the pieces that this rank brings; empty: as many as they have segments
 void RankFibers::split(const Communicator& ranks, const FiberAssembly& parts,
-                       const std::vector<double>& rank_weights) {
+                       const std::vector<double>& costs) {
+  const std::vector<double> of_ranks =
+      ranks.gather_all(std::accumulate(costs.begin(), costs.end(), 0.0));
+  const double all = std::accumulate(of_ranks.begin(), of_ranks.end(), 0.0);
+  const std::uint64_t count = ranks.sum(costs.size());
   std::vector<PartitionObject> objects;
   for (PieceCursor piece(offsets_); !piece.is_over(); piece.go_on()) {
-    const double weight =
-        rank_weights.empty()
-            ? 1.0
-            : rank_weights[static_cast<std::size_t>(destinations_[objects.size()])];
+    double weight = piece.count();
+    if (all > 0.0) {
+      // Zoltan adds up in single precision: small whole numbers are exact for long.
+      const double of_mean = costs[objects.size()] * static_cast<double>(count) / all;
+      weight = std::clamp(std::round(segments_per_piece * of_mean), 1.0, 0x1p10);
+    }
     objects.push_back({plain(parts.points()[piece.first_point() + piece.count() / 2]),
-                       static_cast<float>(weight * piece.count())});
+                       static_cast<float>(weight)});
   }
   destinations_ = partition(ranks, objects, ranks.size());
   objects = {};
@@ -152,7 +166,7 @@ void RankFibers::send_nodes(const Communicator& ranks, const FiberAssembly& part
 
 void RankFibers::take(const Communicator& ranks, const FiberAssembly& parts,
                       const FiberAssembly* after, const std::vector<FiberPart>& names,
-                      double cost) {
+                      const RankLoad& load) {
   const bool is_same = ranks.all(is_as_before(parts, names));
   has_fibers_ = false;
   ranks.agree(names.size() == parts.fiber_count()
@@ -170,18 +184,11 @@ void RankFibers::take(const Communicator& ranks, const FiberAssembly& parts,
   }
   const ArcLengths arcs = chains_->arc_lengths(ranks, parts, names, segments_per_piece);
   arc_roundings_ = arcs.roundings;
-  std::vector<double> weights;
-  if (is_same) {
-    const std::vector<double> costs = ranks.gather_all(cost);
-    if (is_too_uneven(costs)) {
-      weights =
-          weights_of_ranks(costs, ranks.gather_all(std::uint64_t{own_.fibers().segment_count()}));
-    }
-  }
-  const bool are_split_anew = !is_same || !weights.empty();
+  const bool is_uneven = is_same && is_too_uneven(ranks.gather_all(load.cost));
+  const bool are_split_anew = !is_same || is_uneven;
   if (are_split_anew) {
-    split(ranks, parts, weights);
-    evenness_is_known_ = weights.empty();
+    split(ranks, parts, is_uneven ? costs_of_pieces(ranks, load) : std::vector<double>());
+    evenness_is_known_ = !is_uneven;
     reached_ = 1.0;
   } else {
     own_.open();
@@ -217,6 +224,11 @@ const PieceBoxes& RankFibers::fit_boxes() {
     boxes_way_ = way_;
   }
   return boxes_;
+}
+
+PlainBox RankFibers::around() const {
+  assert(boxes_way_.epoch == way_.epoch && !boxes_.tree().empty());
+  return inflated(boxes_.tree().root(), (1.0 + 0x1p-40) * (way_.length - boxes_way_.length));
 }
 
 }  // namespace fiber

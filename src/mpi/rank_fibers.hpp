@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -13,23 +14,29 @@
 
 namespace fiber {
 
+/// What a rank has to do, in any unit.
+struct RankLoad {
+  double cost = 0.0;                                   ///< of all; 0 if it is not known
+  std::function<std::vector<double>()> costs_of_runs;  ///< of each of its own
+};
+
 /// The fibres of all ranks, cut into pieces of a few segments; each rank owns those that the split
 /// gives to it.
 class RankFibers {
  public:
   /// Takes the parts that the ranks bring. Of the same parts as before only the points go to their
   /// owners, unless the ranks' costs differ too much: then they are split anew. Collective.
-  /// @param cost of what this rank owns, in any unit; 0 if it is not known
+  /// @param load of this rank since the last update
   /// @throws std::invalid_argument on every rank as DistributedEngine::update()
   void update(const Communicator& ranks, const FiberAssembly& parts,
-              const std::vector<FiberPart>& names, double cost) {
-    take(ranks, parts, nullptr, names, cost);
+              const std::vector<FiberPart>& names, const RankLoad& load = {}) {
+    take(ranks, parts, nullptr, names, load);
   }
 
   /// The same of fibres that move: of one topology before and after.
   void update_motion(const Communicator& ranks, const FiberAssembly& before,
-                     const FiberAssembly& after, const std::vector<FiberPart>& names, double cost) {
-    take(ranks, before, &after, names, cost);
+                     const FiberAssembly& after, const std::vector<FiberPart>& names) {
+    take(ranks, before, &after, names, {});
   }
 
   bool empty() const { return !has_fibers_; }
@@ -56,6 +63,9 @@ class RankFibers {
   /// Boxes of own(), fitted to where they are.
   const PieceBoxes& fit_boxes();
 
+  /// Around own(), and little more. Boxes must have been fitted since the epoch began, to some.
+  PlainBox around() const;
+
   /// [m] Most that arc lengths of all fibres are rounded by, in units of ε.
   double arc_roundings() const { return arc_roundings_; }
 
@@ -66,11 +76,12 @@ class RankFibers {
   bool is_as_before(const FiberAssembly& parts, const std::vector<FiberPart>& names) const;
   bool is_too_uneven(const std::vector<double>& costs);
   void split(const Communicator& ranks, const FiberAssembly& parts,
-             const std::vector<double>& rank_weights);
+             const std::vector<double>& costs);
+  std::vector<double> costs_of_pieces(const Communicator& ranks, const RankLoad& load) const;
   void send_nodes(const Communicator& ranks, const FiberAssembly& parts,
                   const std::vector<double>& arcs, NamedFibers& owned) const;
   void take(const Communicator& ranks, const FiberAssembly& parts, const FiberAssembly* after,
-            const std::vector<FiberPart>& names, double cost);
+            const std::vector<FiberPart>& names, const RankLoad& load);
 
   // Of the parts that this rank brings:
   std::vector<FiberPart> names_;

@@ -24,18 +24,19 @@ void RankMotions::update(const RankFibers& fibers) {
       [&] { engine_->update_motion(fibers.own().fibers(), fibers.own_after().fibers()); }));
 }
 
-/// Appends what is found of this rank's own segments (a) and others, but for what is no pair.
-void RankMotions::append(const MotionOptions& options, const MotionResult& found,
-                         const NamedFibers& fibers_b, DistributedMotionResult& result) const {
+/// Appends of what is found of this rank's own segments (a) and others what is a pair.
+void RankMotions::append(const MotionOptions& options, const NamedFibers& fibers_b,
+                         MotionResult& found, DistributedMotionResult& result) const {
   const NamedFibers& own = fibers_->own();
   const RankPairs pairs{ranks_, own, halo_};
-  const auto append_some = [&](const std::vector<MotionContact>& some,
+  const auto append_some = [&](std::vector<MotionContact>& some,
                                std::vector<DistributedMotionContact>& contacts) {
-    for (const MotionContact* const contact : pairs.along_whole_fibers(options, some, fibers_b)) {
-      const GlobalSegment a = own.name_of(contact->fiber_a, contact->segment_a);
-      const GlobalSegment b = fibers_b.name_of(contact->fiber_b, contact->segment_b);
-      contacts.push_back({a.fiber, a.segment, b.fiber, b.segment, contact->lower, contact->upper,
-                          contact->certain});
+    pairs.keep_those_of_whole_fibers(options, fibers_b, some);
+    for (const MotionContact& contact : some) {
+      const GlobalSegment a = own.name_of(contact.fiber_a, contact.segment_a);
+      const GlobalSegment b = fibers_b.name_of(contact.fiber_b, contact.segment_b);
+      contacts.push_back(
+          {a.fiber, a.segment, b.fiber, b.segment, contact.lower, contact.upper, contact.certain});
     }
   };
   append_some(found.contacts, result.contacts);
@@ -80,7 +81,7 @@ void RankMotions::find(const MotionOptions& options, const PerRank<RunSpan>& spa
   static_cast<PairOptions&>(here) = options_of_stretches(options, fibers_->arc_roundings());
   here.type = MotionType::ALL;
   engine_->query_motion(here, found_);
-  append(options, found_, fibers_->own(), result);
+  append(options, fibers_->own(), found_, result);
   result.complete = found_.complete;
   result.limit_reached = is_stopped_by_limit(found_);
 
@@ -103,7 +104,7 @@ void RankMotions::find(const MotionOptions& options, const PerRank<RunSpan>& spa
   MotionResult across;
   evaluate(options, found_.contacts, across);
   evaluate(options, found_.touching, across);
-  append(options, across, halo_, result);
+  append(options, halo_, across, result);
 }
 
 }  // namespace fiber

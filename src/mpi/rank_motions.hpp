@@ -38,7 +38,7 @@ class RankMotions {
             DistributedMotionResult& result);
 
  private:
-  void append(const MotionOptions& options, const MotionResult& found, const NamedFibers& fibers_b,
+  void append(const MotionOptions& options, const NamedFibers& fibers_b, MotionResult& found,
               DistributedMotionResult& result) const;
   void evaluate(const MotionOptions& options, const std::vector<MotionContact>& candidates,
                 MotionResult& result) const;

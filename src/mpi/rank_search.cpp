@@ -1,16 +1,24 @@
 #include "src/mpi/rank_search.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
+#include <utility>
 
 #include "fiber_proximity/query/narrow_phase.hpp"
 #include "src/mpi/whole_fiber_pairs.hpp"
 
 namespace fiber {
-void RankSearch::update(const RankFibers& fibers) {
-  fibers_ = &fibers;
+
+void RankSearch::clear() {
+  fibers_ = nullptr;
   counts_ = {};
   halo_.assign(FiberRuns());
+  inner_.contacts.clear();
+  across_.clear();
+}
+
+void RankSearch::update(const RankFibers& fibers) {
+  clear();
+  fibers_ = &fibers;
   engine_->update(fibers.own().fibers());
 }
 
@@ -26,7 +34,9 @@ QueryOptions RankSearch::options_here(const QueryOptions& options) const {
 void RankSearch::find_inner(const QueryOptions& options, std::uint64_t count,
                             DistributedResult& result) {
   const Deadline deadline(options.deadline);
+  const RankPairs pairs{ranks_, fibers_->own(), halo_};
   QueryOptions here = options_here(options);
+  across_.clear();
   constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
   constexpr std::uint64_t more = 16;
   bool is_first = options.type == QueryType::FIRST;
@@ -36,20 +46,22 @@ void RankSearch::find_inner(const QueryOptions& options, std::uint64_t count,
     here.type = is_first ? QueryType::FIRST : asked > most ? QueryType::ALL : QueryType::LIMITED;
     here.max_contacts = static_cast<std::uint32_t>(std::min(asked, most));
     here.deadline = deadline.left();
-    engine_->query(here, found_);
-    counts_ += found_.counts;
-    result.contacts.clear();
-    append(options, found_.contacts, fibers_->own(), result.contacts);
-    const bool had_all = here.type == QueryType::ALL || !found_.complete ||
-                         found_.contacts.size() < here.max_contacts;
-    if (ranks_.all(had_all || result.contacts.size() >= count)) {
+    engine_->query(here, inner_);
+    counts_ += inner_.counts;
+    if (here.type != QueryType::ALL) {
+      sort_by_key(inner_.contacts);
+    }
+    const bool had_all = here.type == QueryType::ALL || !inner_.complete ||
+                         inner_.contacts.size() < here.max_contacts;
+    pairs.keep_those_of_whole_fibers(options, fibers_->own(), inner_.contacts);
+    if (ranks_.all(had_all || inner_.contacts.size() >= count)) {
       break;
     }
     is_first = false;
   }
-  result.complete = found_.complete;
-  result.limit_reached = !found_.complete && found_.limit_reached;
-  result.others_lower = found_.others_lower;
+  result.complete = inner_.complete;
+  result.limit_reached = !inner_.complete && inner_.limit_reached;
+  result.others_lower = inner_.others_lower;
 }
 
 /// [m] More than distances of one pair differ by, the one segment first or the other.
@@ -57,13 +69,15 @@ double RankSearch::rounding_across() const {
   if (halo_.fibers().point_count() == 0) {
     return 0.0;
   }
-  Eigen::AlignedBox3d box;
-  for (const NamedFibers* const fibers : {&halo_, &fibers_->own()}) {
-    for (const Eigen::Vector3d& point : fibers->fibers().points()) {
-      box.extend(point);
-    }
+  PlainBox box = fibers_->around();
+  for (const Eigen::Vector3d& point : halo_.fibers().points()) {
+    box = merged(box, {plain(point), plain(point)});
   }
-  return 0x1p-44 * (box.sizes().maxCoeff() + halo_.fibers().largest_radius());
+  double size = halo_.fibers().largest_radius();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    size = std::max(size, box.upper[axis] - box.lower[axis]);
+  }
+  return 0x1p-44 * size;
 }
 
 void RankSearch::find_across(const FiberRuns& halo, const QueryOptions& options,
@@ -76,16 +90,17 @@ void RankSearch::find_across(const FiberRuns& halo, const QueryOptions& options,
   here.type = QueryType::ALL;
   here.kernel = Kernel::ROBUST;
   here.margin = options.margin * (1.0 + 0x1p-50) + rounding_across();
-  here.pair_limit = rest_of(options.pair_limit, found_.counts.primitive_tests);
-  engine_->query_shape(halo_.fibers(), here, found_);
-  counts_ += found_.counts;
-  result.complete = result.complete && found_.complete;
-  result.limit_reached = result.limit_reached || (!found_.complete && found_.limit_reached);
-  result.others_lower = std::min(result.others_lower, found_.others_lower);
+  here.pair_limit = rest_of(options.pair_limit, inner_.counts.primitive_tests);
+  engine_->query_shape(halo_.fibers(), here, candidates_);
+  counts_ += candidates_.counts;
+  result.complete = result.complete && candidates_.complete;
+  result.limit_reached =
+      result.limit_reached || (!candidates_.complete && candidates_.limit_reached);
+  result.others_lower = std::min(result.others_lower, candidates_.others_lower);
   const NamedFibers& own = fibers_->own();
   const NarrowPhase test(own.fibers(), halo_.fibers(), options);
   across_.clear();
-  for (const Contact& contact : found_.contacts) {
+  for (const Contact& contact : candidates_.contacts) {
     if (!(own.name_of(contact.fiber_b, contact.segment_b) <
           halo_.name_of(contact.fiber_a, contact.segment_a))) {
       continue;  // another rank's
@@ -99,34 +114,97 @@ void RankSearch::find_across(const FiberRuns& halo, const QueryOptions& options,
       result.others_lower = std::min(result.others_lower, test.gap_lower(pair, distance));
     }
   }
-  append(options, across_, halo_, result.contacts);
+  sort_by_key(across_);
+  RankPairs{ranks_, own, halo_}.keep_those_of_whole_fibers(options, halo_, across_);
 }
 
-/// Appends what is found of this rank's own segments (a) and others, but for what is no pair.
-void RankSearch::append(const QueryOptions& options, const std::vector<Contact>& found,
-                        const NamedFibers& fibers_b,
-                        std::vector<DistributedContact>& contacts) const {
-  const RankPairs pairs{ranks_, fibers_->own(), halo_};
-  for (const Contact* const contact : pairs.along_whole_fibers(options, found, fibers_b)) {
-    const GlobalSegment a = fibers_->own().name_of(contact->fiber_a, contact->segment_a);
-    const GlobalSegment b = fibers_b.name_of(contact->fiber_b, contact->segment_b);
-    contacts.push_back({a.fiber, a.segment, b.fiber, b.segment, contact->s, contact->t,
-                        contact->distance, contact->lower, contact->upper, contact->point_a,
-                        contact->point_b, contact->normal});
+void RankSearch::write(std::vector<DistributedContact>& contacts) const {
+  // Contacts are most of what is moved in memory where there are many: each is written once.
+  contacts.clear();
+  const std::size_t count = inner_.contacts.size() + across_.size();
+  if (count > contacts.capacity()) {
+    constexpr std::size_t part_more = 8;  // for a list that is a little longer next time
+    contacts.reserve(count + count / part_more);
+  }
+  const auto write_one = [&](const Contact& contact, const GlobalSegment& a,
+                             const GlobalSegment& b) {
+    contacts.push_back({a.fiber, a.segment, b.fiber, b.segment, contact.s, contact.t,
+                        contact.distance, contact.lower, contact.upper, contact.point_a,
+                        contact.point_b, contact.normal});
+  };
+  const NamedFibers& own = fibers_->own();
+  const auto name_a = [&](const Contact& contact) {
+    return own.name_of(contact.fiber_a, contact.segment_a);
+  };
+  const auto name_b = [](const Contact& contact, const NamedFibers& fibers_b) {
+    return fibers_b.name_of(contact.fiber_b, contact.segment_b);
+  };
+  auto across = across_.begin();
+  const auto write_across = [&] {
+    write_one(*across, name_a(*across), name_b(*across, halo_));
+    ++across;
+  };
+  for (const Contact& inner : inner_.contacts) {
+    const GlobalSegment a = name_a(inner);
+    const GlobalSegment b = name_b(inner, own);
+    while (across != across_.end() &&
+           std::pair(name_a(*across), name_b(*across, halo_)) < std::pair(a, b)) {
+      write_across();
+    }
+    write_one(inner, a, b);
+  }
+  while (across != across_.end()) {
+    write_across();
   }
 }
 
-double RankSearch::cost() const {
-  // Fitted to the times of fiber_bench_mpi; only how they compare matters.
+// Costs [s], fitted to the times of fiber_bench_mpi; only how they compare matters.
+
+double RankSearch::cost_of_segments() const {
   constexpr double per_segment = 65e-9;
   constexpr double per_node_test = 5e-9;
-  constexpr double per_pair = 250e-9;
-  if (fibers_ == nullptr) {
-    return 0.0;
-  }
   return per_segment * static_cast<double>(fibers_->own().fibers().segment_count()) +
-         per_node_test * static_cast<double>(counts_.node_tests) +
-         per_pair * static_cast<double>(counts_.primitive_tests);
+         per_node_test * static_cast<double>(counts_.node_tests);
+}
+
+double RankSearch::cost_of_pairs() const {
+  constexpr double per_pair = 250e-9;
+  return per_pair * static_cast<double>(counts_.primitive_tests);
+}
+
+/// Pairs are where contacts are.
+std::vector<double> RankSearch::costs_of_runs() const {
+  const NamedFibers& own = fibers_->own();
+  std::vector<double> contacts(own.runs().size());
+  double all = 0.0;
+  const auto add = [&](std::uint32_t fiber, std::uint32_t segment) {
+    contacts[own.run_of(own.point_of(fiber, segment))] += 1.0;
+    all += 1.0;
+  };
+  for (const Contact& contact : inner_.contacts) {
+    add(contact.fiber_a, contact.segment_a);
+    add(contact.fiber_b, contact.segment_b);
+  }
+  for (const Contact& contact : across_) {
+    add(contact.fiber_a, contact.segment_a);
+  }
+  const double of_contacts = all > 0.0 ? cost_of_pairs() : 0.0;
+  const double per_segment = (cost_of_segments() + cost_of_pairs() - of_contacts) /
+                             static_cast<double>(own.fibers().segment_count());
+  std::vector<double> costs;
+  costs.reserve(contacts.size());
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    costs.push_back(per_segment * static_cast<double>(own.runs()[i].count) +
+                    of_contacts * contacts[i] / std::max(1.0, all));
+  }
+  return costs;
+}
+
+RankLoad RankSearch::load() const {
+  if (fibers_ == nullptr) {
+    return {};
+  }
+  return {cost_of_segments() + cost_of_pairs(), [this] { return costs_of_runs(); }};
 }
 
 }  // namespace fiber

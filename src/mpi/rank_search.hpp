@@ -26,27 +26,35 @@ class RankSearch {
   /// Makes these fibres those that are looked at; they must live until the next update.
   void update(const RankFibers& fibers);
 
-  /// The so many closest pairs of this rank's own segments that the options ask for; if there are
-  /// more, others may be among them. Collective.
+  /// Forgets them.
+  void clear();
+
+  /// Finds the so many closest pairs of this rank's own segments that the options ask for; if there
+  /// are more, others may be among them. Those of an earlier query are gone. Collective.
   /// @param options FIRST: any one pair; all other types are one
-  /// @param result  contacts in any order
+  /// @param result  gets no contacts
   void find_inner(const QueryOptions& options, std::uint64_t count, DistributedResult& result);
 
-  /// Adds all pairs within the margin of a segment of this rank's own and one of others.
-  /// Collective.
+  /// Finds all pairs within the margin of a segment of this rank's own and one of others, beside
+  /// those that are found. Collective.
+  /// @param result  gets no contacts
   /// @throws std::invalid_argument on every rank if one has more than an assembly may have
   void find_across(const FiberRuns& halo, const QueryOptions& options, DistributedResult& result);
 
+  /// All contacts that are found, sorted.
+  void write(std::vector<DistributedContact>& contacts) const;
+
   std::uint64_t halo_segments() const { return halo_.fibers().segment_count(); }
 
-  /// About what the last update and the queries since then took of this rank [s].
-  double cost() const;
+  /// About what the last update and the queries since then took of this rank.
+  RankLoad load() const;
 
  private:
   QueryOptions options_here(const QueryOptions& options) const;
-  void append(const QueryOptions& options, const std::vector<Contact>& found,
-              const NamedFibers& fibers_b, std::vector<DistributedContact>& contacts) const;
   double rounding_across() const;
+  double cost_of_segments() const;
+  double cost_of_pairs() const;
+  std::vector<double> costs_of_runs() const;
 
   const Communicator& ranks_;
   std::unique_ptr<ProximityEngine> engine_;
@@ -54,9 +62,9 @@ class RankSearch {
   NamedFibers halo_;
   QueryCounts counts_;
 
-  // Work memory:
-  QueryResult found_;
-  std::vector<Contact> across_;
+  QueryResult inner_;            // contacts are sorted
+  std::vector<Contact> across_;  // sorted
+  QueryResult candidates_;       // work memory
 };
 
 }  // namespace fiber

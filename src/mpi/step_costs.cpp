@@ -51,7 +51,7 @@ double most_on_a_rank(const Communicator& ranks, std::uint64_t count) {
 /// What the split gives to this rank, as if there were nothing else.
 DistributedFibers split(const Communicator& ranks, const DistributedFibers& fibers) {
   RankFibers all;
-  all.update(ranks, fibers.parts, fibers.names, 0.0);
+  all.update(ranks, fibers.parts, fibers.names);
   DistributedFibers own{all.own().fibers(), {}};
   for (std::uint64_t fiber = 0; fiber < own.parts.fiber_count(); ++fiber) {
     own.names.push_back({fiber, 0});

@@ -61,23 +61,27 @@ struct RankPairs {
                               least;
   }
 
-  /// Of what an engine found those that are pairs along whole fibres. Collective.
+  /// Leaves of what an engine found those that are pairs along whole fibres. Collective.
   /// @param found    pairs of a segment of own and one of fibers_b, which is one of the two
   template <class Found>
-  std::vector<const Found*> along_whole_fibers(const PairOptions& options,
-                                               const std::vector<Found>& found,
-                                               const NamedFibers& fibers_b) const;
+  void keep_those_of_whole_fibers(const PairOptions& options, const NamedFibers& fibers_b,
+                                  std::vector<Found>& found) const;
 };
 
 template <class Found>
-std::vector<const Found*> RankPairs::along_whole_fibers(const PairOptions& options,
-                                                        const std::vector<Found>& found,
-                                                        const NamedFibers& fibers_b) const {
-  std::vector<const Found*> kept;
-  kept.reserve(found.size());
+void RankPairs::keep_those_of_whole_fibers(const PairOptions& options, const NamedFibers& fibers_b,
+                                           std::vector<Found>& found) const {
   std::vector<LoopQuestion> questions;
   std::vector<std::size_t> asked;  // places of theirs among those kept
-  for (const Found& pair : found) {
+  std::size_t kept = 0;
+  const auto keep = [&](std::size_t i) {
+    if (kept != i) {
+      found[kept] = found[i];
+    }
+    ++kept;
+  };
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const Found& pair = found[i];
     if (are_left_out(options, pair, fibers_b)) {
       continue;
     }
@@ -86,22 +90,26 @@ std::vector<const Found*> RankPairs::along_whole_fibers(const PairOptions& optio
     // Where a stretch of the fibre holds both, the engine has seen the loop.
     const bool is_loop_known = &fibers_b == &own && pair.fiber_a == pair.fiber_b;
     if (options.needs_loops() && a.fiber == b.fiber && !is_loop_known) {
-      asked.push_back(kept.size());
+      asked.push_back(kept);
       questions.push_back(
           {a.fiber, a.segment, b.segment,
            own.fibers().capsule(own.point_of(pair.fiber_a, pair.segment_a)),
            fibers_b.fibers().capsule(fibers_b.point_of(pair.fiber_b, pair.segment_b))});
     }
-    kept.push_back(&pair);
+    keep(i);
   }
+  found.resize(kept);
   const std::vector<bool> loops = find_loops(ranks, own, halo, questions);
-  for (std::size_t i = 0; i < asked.size(); ++i) {
-    if (!loops[i]) {
-      kept[asked[i]] = nullptr;
+  kept = 0;
+  auto next = asked.begin();
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const bool is_asked = next != asked.end() && *next == i;
+    if (!is_asked || loops[static_cast<std::size_t>(next - asked.begin())]) {
+      keep(i);
     }
+    next += is_asked ? 1 : 0;
   }
-  kept.erase(std::remove(kept.begin(), kept.end(), nullptr), kept.end());
-  return kept;
+  found.resize(kept);
 }
 
 }  // namespace fiber

@@ -67,7 +67,7 @@ class SegmentRanges {
 std::vector<SegmentHolder> holders_of(const Communicator& ranks, const DistributedFibers& read,
                                       double margin) {
   RankFibers fibers;
-  fibers.update(ranks, read.parts, read.names, 0.0);
+  fibers.update(ranks, read.parts, read.names);
   const SegmentRanges ranges(ranks, read);
   PerRank<SegmentHolder> to(static_cast<std::size_t>(ranks.size()));
   const auto add = [&](const std::vector<FiberRun>& runs, std::int32_t is_guest) {

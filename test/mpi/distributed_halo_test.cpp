@@ -51,6 +51,45 @@ TEST(DistributedHalo, SharesAreAboutEqual) {
   EXPECT_LE(static_cast<double>(over_ranks(own, MPI_MAX)), 1.1 * share + 16.0);
 }
 
+TEST(DistributedHalo, CostsAreSharedOutWhereTheyAre) {
+  // Fibres that touch nothing, and as many that all but fill their place.
+  Random random;
+  AssemblyBuilder builder;
+  const std::size_t count = 600;
+  for (std::size_t fiber = 0; fiber < 2 * count; ++fiber) {
+    const bool is_dense = fiber % 2 == 0;
+    std::vector<Eigen::Vector3d> points = random_walk(random, 33, 0.02);
+    const Eigen::Vector3d start = points.front();
+    for (Eigen::Vector3d& point : points) {
+      point += is_dense ? Eigen::Vector3d(-0.97 * start)
+                        : Eigen::Vector3d(9.0 * start + Eigen::Vector3d(100.0, 0.0, 0.0));
+    }
+    builder.add_fiber(points);
+  }
+  const FiberAssembly fibers = builder.build({1e-5});
+  const Dealt mine = dealt_to(own_rank(), fibers, deal(fibers, 1, random));
+  const std::vector<Contact> expected = answer("run_tree", fibers, within(0.02)).contacts;
+  ASSERT_GT(expected.size(), 2 * fibers.segment_count());
+  DistributedEngine engine(MPI_COMM_WORLD, one_thread());
+  std::vector<double> most_of_mean;
+  for (int frame = 0; frame < 4; ++frame) {
+    engine.update(mine.parts, mine.names);
+    DistributedResult result;
+    engine.query(within(0.02), result);
+    const auto most = static_cast<double>(over_ranks(result.contacts.size(), MPI_MAX));
+    most_of_mean.push_back(most * rank_count() / static_cast<double>(expected.size()));
+    ASSERT_TRUE(same_as_one_process(gather(MPI_COMM_WORLD, result), expected)) << "frame " << frame;
+  }
+  if (rank_count() == 2) {
+    EXPECT_GT(most_of_mean.front(), 1.8) << "first as many segments are taken for as much work";
+  }
+  if (rank_count() > 1) {
+    EXPECT_GT(engine.facts().split_count, 1U);
+    EXPECT_LT(most_of_mean.back(), 1.3);
+  }
+  EXPECT_LT(engine.facts().split_count, 4U) << "what was evened out is left alone";
+}
+
 TEST(DistributedHalo, OnlyWhatIsNearComes) {
   Soup soup(1e-5);
   const DistributedResult found = answer(soup.engine, within(1e-3));
