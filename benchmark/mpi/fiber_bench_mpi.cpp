@@ -1,10 +1,10 @@
 // What ranks take for the contacts of a scene that moves: time, and memory.
 #include <mpi.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <fstream>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -48,11 +48,29 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-/// [bytes] The most that the process has had at once.
-double peak_memory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+/// [bytes] A field of what Linux says of this process, "VmRSS:" for what it has, "VmHWM:" for the
+/// most that it had.
+double memory(const std::string& field) {
+  std::ifstream status("/proc/self/status");
+  std::string word;
+  double kibibytes = 0.0;
+  while (status >> word) {
+    if (word == field) {
+      status >> kibibytes;
+    }
+  }
+  return 1024.0 * kibibytes;
+}
+
+/// The most is what there is, from now on.
+void forget_peak() { std::ofstream("/proc/self/clear_refs") << "5"; }
+
+/// [bytes] Of what the engine is given.
+double size_of(const FiberAssembly& parts, const std::vector<FiberPart>& names) {
+  return static_cast<double>(sizeof(Eigen::Vector3d) * parts.points().size() +
+                             sizeof(std::uint32_t) * parts.offsets().size() +
+                             sizeof(double) * parts.radii().size() +
+                             sizeof(FiberPart) * names.size());
 }
 
 /// Updates and asks once per frame; the first one, which splits, is not counted.
@@ -62,10 +80,12 @@ class Measurement {
   void run(const Communicator& ranks, std::uint32_t frames, const Frame& frame) {
     for (std::uint32_t i = 0; i <= frames; ++i) {
       frame(i, [&](const auto& work) {
+        forget_peak();
         ranks.all(true);  // together
         const Times begin = Times::now();
         work();
         const Times end = Times::now();
+        peak_ = std::max(peak_, memory("VmHWM:"));
         if (i > 0) {
           wall_.push_back(ranks.largest(end.wall - begin.wall));
           processor_.push_back(end.processor - begin.processor);
@@ -76,10 +96,12 @@ class Measurement {
 
   double wall() const { return median(wall_); }
   double processor() const { return median(processor_); }
+  double peak() const { return peak_; }  ///< [bytes] that the process had while it worked
 
  private:
   std::vector<double> wall_;
   std::vector<double> processor_;
+  double peak_ = 0.0;
 };
 
 /// Fibres of whom each rank makes its own, which are not those it will own.
@@ -89,6 +111,7 @@ void make_part(const Communicator& ranks, const LargeScene& scene, std::uint32_t
   const auto size = static_cast<std::uint64_t>(ranks.size());
   const std::uint64_t begin = scene.fiber_count * rank / size;
   const std::uint64_t end = scene.fiber_count * (rank + 1) / size;
+  parts = FiberAssembly();  // those of before are gone then
   parts = scene.fibers(begin, end, frame);
   names.clear();
   for (std::uint64_t fiber = begin; fiber < end; ++fiber) {
@@ -99,7 +122,7 @@ void make_part(const Communicator& ranks, const LargeScene& scene, std::uint32_t
 ExitCode run(const BenchRequest& request) {
   const Communicator ranks(MPI_COMM_WORLD);
   const LargeScene scene = make_large_scene(request.scene, request.segments);
-  const double baseline = peak_memory();
+  const double baseline = memory("VmRSS:");
   EngineOptions one_thread;
   one_thread.threads = 1;
   Measurement measurement;
@@ -135,7 +158,7 @@ ExitCode run(const BenchRequest& request) {
   }
   const double processor = ranks.largest(measurement.processor());
   const double memory = ranks.largest(
-      (peak_memory() - baseline) / static_cast<double>(facts.own_segments + facts.halo_segments));
+      (measurement.peak() - baseline - size_of(parts, names)) / static_cast<double>(facts.own_segments + facts.halo_segments));
   if (ranks.rank() == 0) {
     nlohmann::ordered_json line;
     line["scene"] = request.scene;
