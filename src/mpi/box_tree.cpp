@@ -1,20 +1,28 @@
 #include "src/mpi/box_tree.hpp"
 
+#include <limits>
 #include <numeric>
-#include <utility>
 
 namespace fiber {
 namespace {
 
-double centre(const SegmentBox& box, std::size_t axis) {
-  return 0.5 * box.box.lower[axis] + 0.5 * box.box.upper[axis];
+constexpr float largest = std::numeric_limits<float>::max();
+
+// What comes off one bound and onto the other: more than the roundings of the number as it is seen
+// from the origin, and once it is single.
+float room_of(float bound) {
+  return 0x1p-22F * std::abs(bound) + std::numeric_limits<float>::min();
 }
 
-std::size_t longest_axis(const std::vector<SegmentBox>& boxes, const std::uint32_t* begin,
+double centre(const PlainBox& box, std::size_t axis) {
+  return 0.5 * box.lower[axis] + 0.5 * box.upper[axis];
+}
+
+std::size_t longest_axis(const std::vector<PlainBox>& boxes, const std::uint32_t* begin,
                          const std::uint32_t* end) {
-  PlainBox all = boxes[*begin].box;
+  PlainBox all = boxes[*begin];
   for (const std::uint32_t* number = begin; number != end; ++number) {
-    all = merged(all, boxes[*number].box);
+    all = merged(all, boxes[*number]);
   }
   std::size_t longest = 0;
   for (std::size_t axis = 1; axis < 3; ++axis) {
@@ -27,7 +35,7 @@ std::size_t longest_axis(const std::vector<SegmentBox>& boxes, const std::uint32
 
 }  // namespace
 
-std::vector<std::uint32_t> spatial_order(const std::vector<SegmentBox>& boxes) {
+std::vector<std::uint32_t> spatial_order(const std::vector<PlainBox>& boxes) {
   std::vector<std::uint32_t> numbers(boxes.size());
   std::iota(numbers.begin(), numbers.end(), 0U);
   struct Range {
@@ -61,22 +69,55 @@ std::vector<std::uint32_t> spatial_order(const std::vector<SegmentBox>& boxes) {
   return numbers;
 }
 
-BoxTree::BoxTree(std::vector<SegmentBox> boxes) : boxes_(std::move(boxes)) {
+BoxTree::BoxTree(std::size_t count, const PlainBox& around) : boxes_(count) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    // Boxes that single precision cannot tell apart are around everything.
+    const double middle = centre(around, axis);
+    origin_[axis] = std::isfinite(middle) ? middle : 0.0;
+  }
   std::size_t begin = 0;
-  for (std::size_t count = boxes_.size(); count > 1;) {
+  while (count > 1) {
     count = (count + fan - 1) / fan;
     begins_.push_back(begin);
     begin += count;
   }
   nodes_.resize(begin);
+}
+
+BoxTree::BoxTree(const std::vector<PlainBox>& boxes)
+    : BoxTree(boxes.size(), boxes.empty() ? PlainBox() : union_of(boxes)) {
+  for (std::uint32_t place = 0; place < boxes.size(); ++place) {
+    put(place, boxes[place]);
+  }
   close();
+}
+
+BoxTree::Box BoxTree::seen_from_origin(const PlainBox& box) const {
+  Box seen;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto lower = static_cast<float>(box.lower[axis] - origin_[axis]);
+    const auto upper = static_cast<float>(box.upper[axis] - origin_[axis]);
+    seen.lower[axis] =
+        std::min(lower, largest) - room_of(lower);  // what overflows is on the safe side
+    seen.upper[axis] = std::max(upper, -largest) + room_of(upper);
+  }
+  return seen;
+}
+
+PlainBox BoxTree::absolute(const Box& box) const {
+  PlainBox all;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    all.lower[axis] = origin_[axis] + double{box.lower[axis]};
+    all.upper[axis] = origin_[axis] + double{box.upper[axis]};
+  }
+  return all;
 }
 
 void BoxTree::close() {
   for (std::size_t level = 1; level <= height(); ++level) {
     const std::size_t below = count_at(level - 1);
     for (std::size_t i = 0; i < count_at(level); ++i) {
-      PlainBox all = node(level - 1, fan * i);
+      Box all = node(level - 1, fan * i);
       for (std::size_t child = fan * i + 1; child < std::min(fan * i + fan, below); ++child) {
         all = merged(all, node(level - 1, child));
       }
@@ -85,20 +126,20 @@ void BoxTree::close() {
   }
 }
 
-std::vector<SegmentBox> BoxTree::level_of_at_most(std::size_t count) const {
+std::vector<PlainBox> BoxTree::level_of_at_most(std::size_t count) const {
   std::size_t level = 0;
   while (count_at(level) > count) {
     ++level;
   }
-  std::vector<SegmentBox> boxes;
+  std::vector<PlainBox> boxes;
   for (std::size_t i = 0; i < count_at(level); ++i) {
-    boxes.push_back({node(level, i), {}});
+    boxes.push_back(absolute(node(level, i)));
   }
   return boxes;
 }
 
 /// Appends those of the visit's list that meet the box.
-void BoxTree::append_meeting(const PlainBox& box, const Visit& visit,
+void BoxTree::append_meeting(const Box& box, const Visit& visit,
                              std::vector<std::uint32_t>& places) const {
   places.resize(visit.end + (visit.end - visit.begin));
   std::size_t end = visit.end;
@@ -111,7 +152,7 @@ void BoxTree::append_meeting(const PlainBox& box, const Visit& visit,
 
 /// Appends the children that meet the box.
 /// @param level of the nodes whose places are in the list from `begin` on
-void BoxTree::append_children(const PlainBox& box, std::size_t level, std::size_t begin,
+void BoxTree::append_children(const Box& box, std::size_t level, std::size_t begin,
                               std::vector<std::uint32_t>& places) const {
   const std::size_t parents_end = places.size();
   places.resize(parents_end + fan * (parents_end - begin));

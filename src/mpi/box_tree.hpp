@@ -1,9 +1,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 #include "src/mpi/fiber_runs.hpp"
@@ -31,8 +33,9 @@ inline PlainBox inflated(const PlainBox& box, double length) {
   return larger;
 }
 
-inline PlainBox merged(const PlainBox& a, const PlainBox& b) {
-  PlainBox box;
+template <class Box>
+Box merged(const Box& a, const Box& b) {
+  Box box;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     box.lower[axis] = std::min(a.lower[axis], b.lower[axis]);
     box.upper[axis] = std::max(a.upper[axis], b.upper[axis]);
@@ -40,7 +43,8 @@ inline PlainBox merged(const PlainBox& a, const PlainBox& b) {
   return box;
 }
 
-inline bool meet(const PlainBox& a, const PlainBox& b) {
+template <class Box>
+bool meet(const Box& a, const Box& b) {
   unsigned do_meet = 1U;
   for (std::size_t axis = 0; axis < 3; ++axis) {  // without branches: no one foresees them
     do_meet &= static_cast<unsigned>(a.lower[axis] <= b.upper[axis]) &
@@ -54,11 +58,10 @@ inline bool may_come_within(const PlainBox& a, const PlainBox& b, double margin)
   return meet(inflated(a, margin), b);
 }
 
-/// A box around some segments, and the first of them in the order of contacts.
-struct SegmentBox {
-  PlainBox box;
-  GlobalSegment first;
-};
+/// Around all of these; there must be any.
+inline PlainBox union_of(const std::vector<PlainBox>& boxes) {
+  return std::accumulate(boxes.begin() + 1, boxes.end(), boxes.front(), merged<PlainBox>);
+}
 
 /// How many boxes, or nodes, a node of a BoxTree is around.
 constexpr std::size_t fan = 4;
@@ -66,26 +69,43 @@ constexpr std::size_t fan = 4;
 /// An order of these boxes in which those that follow each other are near each other, as a BoxTree
 /// needs them.
 /// @return their numbers
-std::vector<std::uint32_t> spatial_order(const std::vector<SegmentBox>& boxes);
+std::vector<std::uint32_t> spatial_order(const std::vector<PlainBox>& boxes);
 
-/// Boxes around boxes: each around four that follow each other. Finds out who is near.
+/// Boxes around boxes: each around four that follow each other. Finds out who is near. Boxes
+/// are kept in single precision, little larger than they are.
 class BoxTree {
  public:
-  /// @param boxes in an order like that of spatial_order()
-  explicit BoxTree(std::vector<SegmentBox> boxes);
+  /// A box as a tree has it: seen from its origin [m].
+  struct Box {
+    std::array<float, 3> lower{};
+    std::array<float, 3> upper{};
+  };
+
+  BoxTree() = default;
+
+  /// With places for so many boxes, which all must be put there, in an order like that of
+  /// spatial_order().
+  /// @param around most of them: the nearer they are to it, the less larger they get
+  BoxTree(std::size_t count, const PlainBox& around);
+
+  /// With these boxes, in such an order.
+  explicit BoxTree(const std::vector<PlainBox>& boxes);
 
   bool empty() const { return boxes_.empty(); }
-  const SegmentBox& box(std::uint32_t place) const { return boxes_[place]; }
+  PlainBox box(std::uint32_t place) const { return absolute(boxes_[place]); }
 
   /// Around all; there must be any.
-  const PlainBox& root() const { return node(height(), 0); }
+  PlainBox root() const { return absolute(node(height(), 0)); }
 
-  /// Boxes around the boxes of the lowest level that has at most so many. Which segments are in
-  /// them is not said.
-  std::vector<SegmentBox> level_of_at_most(std::size_t count) const;
+  /// Boxes around the boxes of the lowest level that has at most so many.
+  std::vector<PlainBox> level_of_at_most(std::size_t count) const;
 
-  /// Moves one box. What is around it follows with close().
-  void move(std::uint32_t place, const PlainBox& box) { boxes_[place].box = box; }
+  /// A box in which this one is, to hold against those of the tree.
+  Box seen_from_origin(const PlainBox& box) const;
+  bool meets(std::uint32_t place, const Box& box) const { return meet(boxes_[place], box); }
+
+  /// Puts a box at its place, or moves it. What is around it follows with close().
+  void put(std::uint32_t place, const PlainBox& box) { boxes_[place] = seen_from_origin(box); }
   void close();
 
   /// Calls with the place of each box that may come within the margin [m] of some of others, and
@@ -112,16 +132,17 @@ class BoxTree {
     }
     return (level < height() ? begins_[level] : nodes_.size()) - begins_[level - 1];
   }
-  const PlainBox& node(std::size_t level, std::size_t index) const {
-    return level == 0 ? boxes_[index].box : nodes_[begins_[level - 1] + index];
+  const Box& node(std::size_t level, std::size_t index) const {
+    return level == 0 ? boxes_[index] : nodes_[begins_[level - 1] + index];
   }
-  void append_meeting(const PlainBox& box, const Visit& visit,
-                      std::vector<std::uint32_t>& places) const;
-  void append_children(const PlainBox& box, std::size_t level, std::size_t begin,
+  PlainBox absolute(const Box& box) const;
+  void append_meeting(const Box& box, const Visit& visit, std::vector<std::uint32_t>& places) const;
+  void append_children(const Box& box, std::size_t level, std::size_t begin,
                        std::vector<std::uint32_t>& places) const;
 
-  std::vector<SegmentBox> boxes_;
-  std::vector<PlainBox> nodes_;      // level by level, from 1
+  PlainPoint origin_{};
+  std::vector<Box> boxes_;
+  std::vector<Box> nodes_;           // level by level, from 1
   std::vector<std::size_t> begins_;  // of the levels
 };
 
@@ -136,7 +157,8 @@ void BoxTree::for_each_near(const BoxTree& others, double margin, const Call& ca
     const Visit visit = waiting.back();
     waiting.pop_back();
     places.resize(visit.end);  // without the lists of visits that are over
-    const PlainBox box = inflated(node(visit.level, visit.index), margin);
+    const Box box =
+        others.seen_from_origin(inflated(absolute(node(visit.level, visit.index)), margin));
     others.append_meeting(box, visit, places);
     std::size_t begin = visit.end;
     std::size_t level_of_others = visit.level_of_others;

@@ -54,17 +54,17 @@ PerRank<RunSpan> spans_near_others(const Communicator& ranks, const FiberStates&
   const BoxTree& tree = boxes.tree();
   const std::vector<std::size_t> neighbours = find_neighbours(ranks, tree, margin);
 
-  PerRank<SegmentBox> coarse(size);
+  PerRank<PlainBox> coarse(size);
   for (const std::size_t other : neighbours) {
     coarse[other] = tree.level_of_at_most(coarse_boxes);
   }
   coarse = ranks.exchange(std::move(coarse));
 
   // A neighbour needs those of my pieces that are near its own, to find what I need from it.
-  PerRank<SegmentBox> fine(size);
-  PerRank<PieceCapsule> capsules(size);
+  PerRank<PlainBox> fine(size);
+  PerRank<NearPiece> pieces(size);
   for (const std::size_t other : neighbours) {
-    const BoxTree theirs(std::move(coarse[other]));
+    const BoxTree theirs(coarse[other]);
     std::vector<std::uint32_t> places;
     tree.for_each_near(theirs, margin,
                        [&](std::uint32_t place, const auto* /*first*/, const auto* /*last*/) {
@@ -74,14 +74,14 @@ PerRank<RunSpan> spans_near_others(const Communicator& ranks, const FiberStates&
     for (const std::uint32_t place : places) {
       fine[other].push_back(tree.box(place));
     }
-    capsules[other] = boxes.capsules(own, places);
+    pieces[other] = boxes.pieces(own, places);
   }
   fine = ranks.exchange(std::move(fine));
-  capsules = ranks.exchange(std::move(capsules));
+  pieces = ranks.exchange(std::move(pieces));
 
   PerRank<RunSpan> spans(size);
   for (const std::size_t other : neighbours) {
-    const NearPieces theirs{BoxTree(std::move(fine[other])), std::move(capsules[other])};
+    const NearPieces theirs{BoxTree(fine[other]), std::move(pieces[other])};
     boxes.for_each_near(own, theirs, margin,
                         [&](std::uint32_t run, std::uint64_t begin, std::uint64_t end) {
                           spans[other].push_back({run, begin, end});

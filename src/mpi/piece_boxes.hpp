@@ -13,10 +13,16 @@
 
 namespace fiber {
 
-/// Pieces of others: a tree of boxes around them, and capsules by their places.
+/// A few segments that follow each other, as others see them.
+struct NearPiece {
+  GlobalSegment first;
+  PieceCapsule capsule;
+};
+
+/// Pieces of others: a tree of boxes around them, and the pieces by their places.
 struct NearPieces {
-  BoxTree tree{{}};
-  std::vector<PieceCapsule> capsules;
+  BoxTree tree;
+  std::vector<NearPiece> pieces;
 };
 
 /// Boxes around a few segments each that follow each other, and a tree of them.
@@ -30,9 +36,9 @@ class PieceBoxes {
   /// [m] Of the boxes, of all three sides; infinity without any.
   double mean_side() const;
 
-  /// Around the pieces at these places of the tree.
-  std::vector<PieceCapsule> capsules(const FiberStates& fibers,
-                                     const std::vector<std::uint32_t>& places) const;
+  /// The pieces at these places of the tree.
+  std::vector<NearPiece> pieces(const FiberStates& fibers,
+                                const std::vector<std::uint32_t>& places) const;
 
   /// All pieces, in the tree's order.
   NearPieces all(const FiberStates& fibers) const;
@@ -55,11 +61,15 @@ class PieceBoxes {
     return std::min(piece.begin + segments_per_piece, run.count);
   }
   static PlainBox box_of(const FiberStates& fibers, const Piece& piece);
+  static void fetch(const FiberStates& fibers, const Piece& piece);
+  void order_pieces(const FiberStates& fibers);
 
-  std::vector<Piece> pieces_;           // run by run
-  std::vector<std::uint32_t> places_;   // of theirs in the tree
-  std::vector<std::uint32_t> numbers_;  // of the pieces, in the tree's order
-  BoxTree tree_{{}};
+  template <class Call>
+  static void for_each_piece(const FiberStates& fibers, const Call& call);
+
+  std::vector<Piece> pieces_;          // by their places in the tree
+  std::vector<std::uint32_t> places_;  // of the pieces, run by run
+  BoxTree tree_;
 };
 
 template <class Call>
@@ -67,29 +77,29 @@ void PieceBoxes::for_each_near(const FiberStates& fibers, const NearPieces& othe
                                const Call& call) const {
   std::vector<std::uint32_t> near;  // places of those that are before some of the piece
   const auto is_near = [&](const GlobalSegment& segment, std::uint64_t point) {
-    const PlainBox box = inflated(fibers.box_around(point, point + 1), margin);
+    const BoxTree::Box box =
+        others.tree.seen_from_origin(inflated(fibers.box_around(point, point + 1), margin));
     std::optional<SegmentBall> ball;
     return std::any_of(near.begin(), near.end(), [&](std::uint32_t place) {
-      const SegmentBox& other = others.tree.box(place);
-      if (!meet(other.box, box) || !(other.first < segment)) {
+      if (!others.tree.meets(place, box) || !(others.pieces[place].first < segment)) {
         return false;
       }
       if (!ball) {
         ball = ball_around(fibers, point);
       }
-      return may_come_within(*ball, others.capsules[place], margin);
+      return may_come_within(*ball, others.pieces[place].capsule, margin);
     });
   };
   tree_.for_each_near(
       others.tree, margin, [&](std::uint32_t place, const auto* first, const auto* last) {
-        const Piece& piece = pieces_[numbers_[place]];
+        const Piece& piece = pieces_[place];
         const FiberRun& run = fibers.before.runs()[piece.run];
         const std::uint64_t end = end_of(piece, run);
-        fibers.fetch(run.begin + piece.begin, run.begin + end);
+        fetch(fibers, piece);
         const GlobalSegment last_segment{run.first.fiber, run.first.segment + end - 1};
         near.clear();
         std::copy_if(first, last, std::back_inserter(near), [&](std::uint32_t other) {
-          return others.tree.box(other).first < last_segment;
+          return others.pieces[other].first < last_segment;
         });
         std::uint64_t begin = piece.begin;
         for (std::uint64_t i = begin; i <= end; ++i) {

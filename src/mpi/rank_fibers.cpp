@@ -134,30 +134,32 @@ void RankFibers::split(const Communicator& ranks, const FiberAssembly& parts,
 void RankFibers::send_nodes(const Communicator& ranks, const FiberAssembly& parts,
                             const std::vector<double>& arcs, NamedFibers& owned) const {
   const auto size = static_cast<std::size_t>(ranks.size());
-  std::vector<std::size_t> next(first_of_rank_.begin(), first_of_rank_.end() - 1);
+  PerRank<double> arcs_to(size);
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    arcs_to[static_cast<std::size_t>(destinations_[i])].push_back(arcs[i]);
+  }
+  const PerRank<double> arcs_from = ranks.exchange(std::move(arcs_to));
+  std::vector<std::size_t> next(size, 0);
   PieceCursor piece(offsets_);
   for (std::size_t i = 0; !ranks.all(piece.is_over());) {
-    PerRank<double> some_arcs(size);
-    PerRank<FiberNode> some_nodes(size);
-    for (std::vector<FiberNode>& some : some_nodes) {
-      some.reserve(std::min(nodes_per_slice, 2 * nodes_per_slice / size));
+    PerRank<FiberNode> to(size);
+    for (std::vector<FiberNode>& nodes : to) {
+      nodes.reserve(std::min(nodes_per_slice, 2 * nodes_per_slice / size));
     }
     for (std::size_t count = 0; !piece.is_over() && count < nodes_per_slice; piece.go_on()) {
-      const auto to = static_cast<std::size_t>(destinations_[i]);
+      std::vector<FiberNode>& nodes = to[static_cast<std::size_t>(destinations_[i++])];
       const std::uint32_t last = piece.first_point() + piece.count();
       for (std::uint32_t p = piece.first_point(); p <= last; ++p) {
-        some_nodes[to].push_back(
-            {plain(parts.points()[p]), p < last ? parts.segment_radius(p) : 0.0});
+        nodes.push_back({plain(parts.points()[p]), p < last ? parts.segment_radius(p) : 0.0});
       }
-      some_arcs[to].push_back(arcs[i++]);
       count += piece.count() + 1;
     }
-    some_arcs = ranks.exchange(std::move(some_arcs));
-    some_nodes = ranks.exchange(std::move(some_nodes));
-    for (std::size_t from = 0; from < size; ++from) {
-      const FiberNode* nodes = some_nodes[from].data();
-      for (const double arc : some_arcs[from]) {
-        nodes = owned.place(next[from]++, arc, nodes);
+    const PerRank<FiberNode> from = ranks.exchange(std::move(to));
+    for (std::size_t rank = 0; rank < size; ++rank) {
+      const FiberNode* nodes = from[rank].data();
+      while (nodes != from[rank].data() + from[rank].size()) {
+        const double arc = arcs_from[rank][next[rank]];
+        nodes = owned.place(first_of_rank_[rank] + next[rank]++, arc, nodes);
       }
     }
   }

@@ -123,6 +123,7 @@ void RankSearch::write(std::vector<DistributedContact>& contacts) const {
   contacts.clear();
   const std::size_t count = inner_.contacts.size() + across_.size();
   if (count > contacts.capacity()) {
+    contacts = {};                        // not both at once
     constexpr std::size_t part_more = 8;  // for a list that is a little longer next time
     contacts.reserve(count + count / part_more);
   }

@@ -159,7 +159,7 @@ std::pair<FiberNode, FiberNode> across(double place, double radius) {
 }
 
 PlainBox box_of(const FiberNode& start, const FiberNode& end) {
-  return inflated(merged({start.point, start.point}, {end.point, end.point}), start.radius);
+  return inflated(union_of({{start.point, start.point}, {end.point, end.point}}), start.radius);
 }
 
 TEST(DistributedHalo, BoxesAreNoFurtherApartThanSegmentsAreFound) {
