@@ -26,6 +26,7 @@ struct BenchRequest {
   std::uint32_t frames = 5;
   QueryOptions query;
   bool without_ranks = false;
+  bool is_adopted = false;
 };
 
 /// Time and processor time so far [s].
@@ -66,11 +67,12 @@ double memory(const std::string& field) {
 void forget_peak() { std::ofstream("/proc/self/clear_refs") << "5"; }
 
 /// [bytes] Of what the engine is given.
-double size_of(const FiberAssembly& parts, const std::vector<FiberPart>& names) {
+double size_of(const DistributedFibers& fibers) {
+  const FiberAssembly& parts = fibers.parts;
   return static_cast<double>(sizeof(Eigen::Vector3d) * parts.points().size() +
                              sizeof(std::uint32_t) * parts.offsets().size() +
                              sizeof(double) * parts.radii().size() +
-                             sizeof(FiberPart) * names.size());
+                             sizeof(FiberPart) * fibers.names.size());
 }
 
 /// Updates and asks once per frame; the first one, which splits, is not counted.
@@ -106,17 +108,40 @@ class Measurement {
 
 /// Fibres of whom each rank makes its own, which are not those it will own.
 void make_part(const Communicator& ranks, const LargeScene& scene, std::uint32_t frame,
-               FiberAssembly& parts, std::vector<FiberPart>& names) {
+               DistributedFibers& fibers) {
   const auto rank = static_cast<std::uint64_t>(ranks.rank());
   const auto size = static_cast<std::uint64_t>(ranks.size());
   const std::uint64_t begin = scene.fiber_count * rank / size;
   const std::uint64_t end = scene.fiber_count * (rank + 1) / size;
-  parts = FiberAssembly();  // those of before are gone then
-  parts = scene.fibers(begin, end, frame);
-  names.clear();
+  fibers.parts = FiberAssembly();  // those of before are gone then
+  fibers.parts = scene.fibers(begin, end, frame);
+  fibers.names.clear();
   for (std::uint64_t fiber = begin; fiber < end; ++fiber) {
-    names.push_back({fiber, 0});
+    fibers.names.push_back({fiber, 0});
   }
+}
+
+/// Moves what a rank has adopted to where it is at a frame.
+void move_part(const LargeScene& scene, std::uint32_t frame, DistributedFibers& fibers) {
+  constexpr std::uint64_t at_a_time = 1000;  // hair is not made one by one
+  const std::vector<std::uint32_t>& offsets = fibers.parts.offsets();
+  std::vector<Eigen::Vector3d> points;
+  points.reserve(fibers.parts.points().size());
+  FiberAssembly whole;
+  std::uint64_t begin = 0;
+  std::uint64_t end = 0;
+  for (std::size_t part = 0; part < fibers.names.size(); ++part) {
+    const FiberPart& name = fibers.names[part];
+    if (name.fiber >= end) {
+      begin = name.fiber;
+      end = std::min(begin + at_a_time, scene.fiber_count);
+      whole = scene.fibers(begin, end, frame);
+    }
+    const auto first = whole.points().begin() + whole.offsets()[name.fiber - begin] +
+                       static_cast<std::ptrdiff_t>(name.first_segment);
+    points.insert(points.end(), first, first + (offsets[part + 1] - offsets[part]));
+  }
+  fibers.parts.exchange_points(points);
 }
 
 ExitCode run(const BenchRequest& request) {
@@ -128,37 +153,46 @@ ExitCode run(const BenchRequest& request) {
   Measurement measurement;
   DistributedFacts facts;
   std::uint64_t pairs = 0;
-  FiberAssembly parts;
-  std::vector<FiberPart> names;
+  DistributedFibers fibers;
   if (request.without_ranks) {
     const std::unique_ptr<ProximityEngine> engine = make_engine("run_tree", one_thread);
     QueryResult result;
     std::vector<Eigen::Vector3d> points;
     measurement.run(ranks, request.frames, [&](std::uint32_t frame, const auto& measure) {
-      make_part(ranks, scene, frame, parts, names);
+      make_part(ranks, scene, frame, fibers);
       measure([&] {
-        engine->update(parts);
+        engine->update(fibers.parts);
         engine->query(request.query, result);
       });
       pairs = result.contacts.size();
     });
-    facts.own_segments = parts.segment_count();
+    facts.own_segments = fibers.parts.segment_count();
   } else {
     DistributedEngine engine(MPI_COMM_WORLD, one_thread);
     DistributedResult result;
+    std::uint64_t splits = 0;
     measurement.run(ranks, request.frames, [&](std::uint32_t frame, const auto& measure) {
-      make_part(ranks, scene, frame, parts, names);
+      if (request.is_adopted && frame > 0) {
+        move_part(scene, frame, fibers);
+      } else {
+        make_part(ranks, scene, frame, fibers);
+      }
       measure([&] {
-        engine.update(parts, names);
+        engine.update(fibers.parts, fibers.names);
         engine.query(request.query, result);
       });
+      if (request.is_adopted && engine.facts().split_count > splits) {
+        splits = engine.facts().split_count;
+        fibers = engine.adopt();
+      }
       pairs = ranks.sum(result.contacts.size());
     });
     facts = engine.facts();
   }
   const double processor = ranks.largest(measurement.processor());
-  const double memory = ranks.largest(
-      (measurement.peak() - baseline - size_of(parts, names)) / static_cast<double>(facts.own_segments + facts.halo_segments));
+  const double memory =
+      ranks.largest((measurement.peak() - baseline - size_of(fibers)) /
+                    static_cast<double>(facts.own_segments + facts.halo_segments));
   if (ranks.rank() == 0) {
     nlohmann::ordered_json line;
     line["scene"] = request.scene;
@@ -189,6 +223,7 @@ void setup(CLI::App& app, Command& command) {
       ->check(whole_number(1))
       ->capture_default_str();
   app.add_option("--margin", request->query.margin, "[m]")->capture_default_str();
+  app.add_flag("--adopt", request->is_adopted, "ranks bring what they hold, after each split");
   app.add_flag("--without-ranks", request->without_ranks,
                "ask an engine run_tree of one thread, as a program without MPI does");
 }

@@ -30,6 +30,12 @@ struct DistributedEngine::State {
 
   bool has_motion = false;
 
+  void require_fibers() const {
+    if (fibers.empty() || fibers.do_move()) {
+      throw std::logic_error("the engine has no fibres yet: call update() first");
+    }
+  }
+
   /// Of a limit of pairs.
   std::uint64_t share_of(std::uint64_t limit) const {
     return limit == 0 ? 0 : std::max<std::uint64_t>(1, limit / ranks.size());
@@ -118,11 +124,16 @@ void DistributedEngine::query_motion(const MotionOptions& options,
   keep_earliest(state.ranks, options, result);
 }
 
+DistributedFibers DistributedEngine::adopt() {
+  state_->require_fibers();
+  DistributedFibers parts = state_->fibers.adopt(state_->ranks);
+  state_->search.follow(state_->fibers);
+  return parts;
+}
+
 void DistributedEngine::query(const QueryOptions& options, DistributedResult& result) {
   State& state = *state_;
-  if (state.fibers.empty() || state.fibers.do_move()) {
-    throw std::logic_error("the engine has no fibres yet: call update() first");
-  }
+  state.require_fibers();
   require_distributed_options(state.ranks, options);
   QueryOptions here = options;
   here.pair_limit = state.share_of(options.pair_limit);
@@ -152,7 +163,7 @@ void DistributedEngine::query(const QueryOptions& options, DistributedResult& re
 
 DistributedFacts DistributedEngine::facts() const {
   return {state_->fibers.own().fibers().segment_count(), state_->search.halo_segments(),
-          state_->fibers.split_count(), state_->lists.search_count()};
+          state_->fibers.split_count(), state_->fibers.sent_points(), state_->lists.search_count()};
 }
 
 }  // namespace fiber

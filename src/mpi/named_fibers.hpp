@@ -43,6 +43,9 @@ class NamedFibers {
   /// Sorted; `begin` is the first point of each among those of fibers().
   const std::vector<FiberRun>& runs() const { return runs_; }
 
+  /// What the first segments of fibers() are called, by fibre.
+  const std::vector<GlobalSegment>& names() const { return names_; }
+
   /// What the segment of this index along this fibre here is called by all.
   GlobalSegment name_of(std::uint32_t fiber, std::uint32_t segment) const {
     return {names_[fiber].fiber, names_[fiber].segment + segment};

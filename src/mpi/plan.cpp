@@ -108,7 +108,8 @@ void predict_steps(std::vector<PlannedPart>& parts, const StepCosts& costs,
                    const Network& network) {
   const double alone = costs.alone * mean_segments(parts);
   for (PlannedPart& part : parts) {
-    part.bytes = sizeof(FiberNode) * nodes_per_own_segment * part.segments + part.halo_bytes;
+    const double own_nodes = network.is_adopted ? 0.0 : nodes_per_own_segment * part.segments;
+    part.bytes = sizeof(FiberNode) * own_nodes + part.halo_bytes;
     part.seconds = costs.together * (part.segments + part.halo_segments) +
                    part.bytes / network.bandwidth + part.neighbours * network.latency;
     part.efficiency = part.seconds > 0.0 ? alone / part.seconds : 1.0;

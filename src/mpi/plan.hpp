@@ -20,10 +20,11 @@ struct PlannedPart {
   double efficiency = 0.0;  ///< of all, if all parts took as long as this one
 };
 
-/// What connects the ranks.
+/// What connects the ranks, and what goes over it.
 struct Network {
   double bandwidth = 1.25e9;  ///< [byte/s] of each rank
   double latency = 20e-6;     ///< [s] of a message
+  bool is_adopted = false;    ///< whether ranks bring what they hold: only halos travel then
 };
 
 /// Parts as they were counted.

@@ -51,6 +51,13 @@ class PieceCursor {
 
 }  // namespace
 
+void RankFibers::name_parts(const Communicator& ranks, const FiberAssembly& parts,
+                            const std::vector<FiberPart>& names) {
+  chains_.emplace(ranks, parts, names);
+  names_ = names;
+  offsets_ = parts.offsets();
+}
+
 bool RankFibers::is_as_before(const FiberAssembly& parts,
                               const std::vector<FiberPart>& names) const {
   return has_fibers_ && offsets_ == parts.offsets() && names_ == names;
@@ -111,13 +118,20 @@ void RankFibers::split(const Communicator& ranks, const FiberAssembly& parts,
                        static_cast<float>(weight)});
   }
   destinations_ = partition(ranks, objects, ranks.size());
-  objects = {};
+  ++split_count_;
+}
+
+/// Gives all pieces to whom they belong now, but for their nodes.
+void RankFibers::hand_over(const Communicator& ranks) {
   PerRank<FiberRun> runs(static_cast<std::size_t>(ranks.size()));
   std::size_t i = 0;
+  sent_points_ = 0;
   for (PieceCursor piece(offsets_); !piece.is_over(); piece.go_on()) {
     const FiberPart& name = names_[piece.part()];
     const GlobalSegment first{name.fiber, name.first_segment + piece.first_segment()};
-    runs[static_cast<std::size_t>(destinations_[i++])].push_back({first, piece.count(), 0, 0.0});
+    const int to = destinations_[i++];
+    runs[static_cast<std::size_t>(to)].push_back({first, piece.count(), 0, 0.0});
+    sent_points_ += to == ranks.rank() ? 0 : piece.count() + 1;
   }
   runs = ranks.exchange(std::move(runs));
   first_of_rank_.assign(1, 0);
@@ -125,7 +139,7 @@ void RankFibers::split(const Communicator& ranks, const FiberAssembly& parts,
     first_of_rank_.push_back(first_of_rank_.back() + some.size());
   }
   ranks.agree(error_in([&] { own_.assign(joined_runs(runs)); }));
-  ++split_count_;
+  ++hand_over_count_;
 }
 
 /// Sends the nodes of all pieces to whom they belong.
@@ -180,9 +194,7 @@ void RankFibers::take(const Communicator& ranks, const FiberAssembly& parts,
           ? ""
           : "the parts after the motion are not of the same numbers of points as before it");
   if (!is_same) {
-    chains_.emplace(ranks, parts, names);
-    names_ = names;
-    offsets_ = parts.offsets();
+    name_parts(ranks, parts, names);
   }
   const ArcLengths arcs = chains_->arc_lengths(ranks, parts, names, segments_per_piece);
   arc_roundings_ = arcs.roundings;
@@ -190,6 +202,7 @@ void RankFibers::take(const Communicator& ranks, const FiberAssembly& parts,
   const bool are_split_anew = !is_same || is_uneven;
   if (are_split_anew) {
     split(ranks, parts, is_uneven ? costs_of_pieces(ranks, load) : std::vector<double>());
+    hand_over(ranks);
     evenness_is_known_ = !is_uneven;
     reached_ = 1.0;
   } else {
@@ -219,10 +232,25 @@ void RankFibers::take(const Communicator& ranks, const FiberAssembly& parts,
   has_fibers_ = true;
 }
 
+DistributedFibers RankFibers::adopt(const Communicator& ranks) {
+  DistributedFibers own{own_.fibers(), {}};
+  own.names.reserve(own_.names().size());
+  for (const GlobalSegment& first : own_.names()) {
+    own.names.push_back({first.fiber, first.segment});
+  }
+  name_parts(ranks, own.parts, own.names);
+  const ArcLengths arcs = chains_->arc_lengths(ranks, own.parts, own.names, segments_per_piece);
+  destinations_.assign(arcs.of_pieces.size(), ranks.rank());
+  hand_over(ranks);
+  send_nodes(ranks, own.parts, arcs.of_pieces, own_);
+  way_ = {way_.epoch + 1, 0.0, 0.0};
+  return own;
+}
+
 const PieceBoxes& RankFibers::fit_boxes() {
   if (boxes_way_.epoch != way_.epoch || boxes_way_.length != way_.length) {
-    boxes_.update(states(), boxes_split_ == split_count_);
-    boxes_split_ = split_count_;
+    boxes_.update(states(), boxes_hand_over_ == hand_over_count_);
+    boxes_hand_over_ = hand_over_count_;
     boxes_way_ = way_;
   }
   return boxes_;

@@ -39,6 +39,13 @@ class RankFibers {
     take(ranks, before, &after, names, {});
   }
 
+  /// Makes what each rank owns the parts that it brings. There must be fibres, and no motion.
+  /// Collective.
+  DistributedFibers adopt(const Communicator& ranks);
+
+  /// Points of this rank's parts that belong to others.
+  std::uint64_t sent_points() const { return sent_points_; }
+
   bool empty() const { return !has_fibers_; }
 
   bool do_move() const { return do_move_; }
@@ -74,9 +81,12 @@ class RankFibers {
 
  private:
   bool is_as_before(const FiberAssembly& parts, const std::vector<FiberPart>& names) const;
+  void name_parts(const Communicator& ranks, const FiberAssembly& parts,
+                  const std::vector<FiberPart>& names);
   bool is_too_uneven(const std::vector<double>& costs);
   void split(const Communicator& ranks, const FiberAssembly& parts,
              const std::vector<double>& costs);
+  void hand_over(const Communicator& ranks);
   std::vector<double> costs_of_pieces(const Communicator& ranks, const RankLoad& load) const;
   void send_nodes(const Communicator& ranks, const FiberAssembly& parts,
                   const std::vector<double>& arcs, NamedFibers& owned) const;
@@ -92,12 +102,14 @@ class RankFibers {
   NamedFibers own_;
   NamedFibers own_after_;
   PieceBoxes boxes_;
-  std::uint64_t boxes_split_ = 0;  // split_count_ of the fibres that they are of
-  Way boxes_way_;                  // of these when they were fitted
+  std::uint64_t boxes_hand_over_ = 0;  // hand_over_count_ of the fibres that they are of
+  Way boxes_way_;                      // of these when they were fitted
   Way way_;
   std::vector<std::size_t> first_of_rank_;  // number of the first run that each rank sends
   double arc_roundings_ = 0.0;
   std::uint64_t split_count_ = 0;
+  std::uint64_t hand_over_count_ = 0;
+  std::uint64_t sent_points_ = 0;
   double reached_ = 1.0;  // most of the ranks' costs beside the mean, by the last split
   bool evenness_is_known_ = true;
   bool has_fibers_ = false;

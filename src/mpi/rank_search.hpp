@@ -26,6 +26,9 @@ class RankSearch {
   /// Makes these fibres those that are looked at; they must live until the next update.
   void update(const RankFibers& fibers);
 
+  /// The same fibres are elsewhere in memory.
+  void follow(const RankFibers& fibers) { engine_->update(fibers.own().fibers()); }
+
   /// Forgets them.
   void clear();
 

@@ -15,8 +15,9 @@ struct StepCosts {
 
 /// Measures the fastest of a few steps. All ranks work at once in both: they share a machine, or
 /// would. Collective.
-/// @param fibers that this rank brings
-StepCosts measure_steps(const Communicator& ranks, const DistributedFibers& fibers,
+/// @param fibers     that this rank brings
+/// @param is_adopted whether ranks bring what they hold
+StepCosts measure_steps(const Communicator& ranks, const DistributedFibers& fibers, bool is_adopted,
                         const EngineOptions& engine_options, const QueryOptions& query);
 
 }  // namespace fiber

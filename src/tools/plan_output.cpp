@@ -27,6 +27,9 @@ CLI::Option* add_plan_options(CLI::App& app, PlanRequest& request, const std::st
       ->check(finite_number(0.0))
       ->needs(plan)
       ->capture_default_str();
+  app.add_flag("--adopted", request.network.is_adopted,
+               "the plan's ranks bring what they hold, so that only halos travel")
+      ->needs(plan);
   return plan;
 }
 

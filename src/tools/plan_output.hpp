@@ -9,7 +9,7 @@
 
 namespace fiber {
 
-/// `--plan P [--bandwidth B] [--latency L]`.
+/// `--plan P [--bandwidth B] [--latency L] [--adopted]`.
 struct PlanRequest {
   int parts = 0;  ///< 0: no plan is wanted
   Network network;

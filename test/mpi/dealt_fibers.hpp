@@ -29,6 +29,12 @@ inline int rank_count() {
   return size;
 }
 
+inline std::uint64_t over_ranks(std::uint64_t value, MPI_Op operation) {
+  std::uint64_t result = 0;
+  MPI_Allreduce(&value, &result, 1, MPI_UINT64_T, operation, MPI_COMM_WORLD);
+  return result;
+}
+
 /// What fibres of an assembly are called by all ranks: numbers beyond 32 bits, with gaps.
 inline std::uint64_t name_of_fiber(std::uint64_t fiber) {
   return (std::uint64_t{1} << 40U) + 3 * fiber;
@@ -98,6 +104,19 @@ inline Dealt dealt_to(int rank, const FiberAssembly& fibers, const std::vector<D
     mine.parts = FiberAssembly(std::move(points), std::move(offsets), std::move(radii));
   }
   return mine;
+}
+
+/// Moves parts of these fibres to where the fibres are.
+inline void follow(const FiberAssembly& fibers, DistributedFibers& mine) {
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t part = 0; part < mine.names.size(); ++part) {
+    const std::uint64_t fiber = (mine.names[part].fiber - name_of_fiber(0)) / 3;
+    const auto begin = fibers.points().begin() + fibers.offsets()[fiber] +
+                       static_cast<std::ptrdiff_t>(mine.names[part].first_segment);
+    points.insert(points.end(), begin,
+                  begin + (mine.parts.offsets()[part + 1] - mine.parts.offsets()[part]));
+  }
+  mine.parts.update_points(points);
 }
 
 inline std::uint64_t bits_of(double x) {

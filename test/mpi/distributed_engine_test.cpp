@@ -150,10 +150,15 @@ TEST_P(DistributedEngineTest, FindsWhatOneProcessFinds) {
   DistributedEngine engine(MPI_COMM_WORLD, one_thread());
   for (int scene = 0; scene < rounds(6); ++scene) {
     FiberAssembly fibers = family.make(random);
-    const std::vector<DealtPart> dealt = deal(fibers, 3, random);
+    const Dealt dealt = dealt_to(own_rank(), fibers, deal(fibers, 3, random));
+    DistributedFibers mine{dealt.parts, dealt.names};
+    const int adopted = random.integer(0, 4);
     for (int frame = 0; frame < 3; ++frame) {
-      const Dealt mine = dealt_to(own_rank(), fibers, dealt);
+      follow(fibers, mine);
       engine.update(mine.parts, mine.names);
+      if (frame == adopted) {
+        mine = engine.adopt();
+      }
       for (int query = 0; query < 3; ++query) {
         const QueryOptions options = draw_options(fibers, random);
         const DistributedResult found = answer(engine, options);
@@ -178,6 +183,32 @@ std::string name_of_family(const testing::TestParamInfo<std::size_t>& info) {
 
 INSTANTIATE_TEST_SUITE_P(Families, DistributedEngineTest,
                          testing::Range(std::size_t{0}, families().size()), name_of_family);
+
+TEST(DistributedEngine, WhatIsAdoptedIsNotSent) {
+  Random random;
+  FiberAssembly fibers = many_walks(random);
+  const Dealt dealt = dealt_to(own_rank(), fibers, deal(fibers, 2, random));
+  DistributedEngine engine(MPI_COMM_WORLD, one_thread());
+  EXPECT_THROW(engine.adopt(), std::logic_error);
+  engine.update(dealt.parts, dealt.names);
+  EXPECT_EQ(over_ranks(engine.facts().sent_points, MPI_SUM) == 0, rank_count() == 1);
+  DistributedFibers mine = engine.adopt();
+  EXPECT_EQ(mine.parts.segment_count(), engine.facts().own_segments);
+  const std::vector<Vector3d> points = mine.parts.points();
+  follow(fibers, mine);
+  EXPECT_EQ(mine.parts.points(), points) << "they are where the last update had them";
+  for (int frame = 0; frame < 3; ++frame) {
+    fibers = shaken(fibers, 0.01, random);
+    follow(fibers, mine);
+    engine.update(mine.parts, mine.names);
+    EXPECT_EQ(engine.facts().sent_points, 0U);
+    EXPECT_EQ(engine.facts().split_count, 1U);
+    EXPECT_TRUE(same_as_one_process(answer(engine, within(0.01)),
+                                    answer("run_tree", fibers, within(0.01)).contacts));
+  }
+  engine.update_motion(mine.parts, mine.parts, mine.names);
+  EXPECT_THROW(engine.adopt(), std::logic_error);
+}
 
 TEST(DistributedEngine, FirstIsAnyPairThereIs) {
   Random random;

@@ -17,12 +17,6 @@
 namespace fiber::test {
 namespace {
 
-std::uint64_t over_ranks(std::uint64_t value, MPI_Op operation) {
-  std::uint64_t result = 0;
-  MPI_Allreduce(&value, &result, 1, MPI_UINT64_T, operation, MPI_COMM_WORLD);
-  return result;
-}
-
 /// A soup of short fibres, dealt out fibre by fibre as they come; the first may be thick.
 struct Soup {
   explicit Soup(double first_radius) {

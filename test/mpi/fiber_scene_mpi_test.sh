@@ -51,6 +51,10 @@ same_counts "3 ranks plan otherwise"
 "${mpiexec[@]}" 2 "$tools/fiber_query_mpi" contacts scene.h5 --plan 5 --margin 0.001 >found.csv
 same_counts "of a file the plan is another"
 rm found.csv
+scene 2 soup --segments 2e4 --plan 5 --margin 0.001 --adopted >found.csv
+cmp <(head -n 5 found.csv) <(head -n 5 plan.csv) || fail "what is adopted is shared out otherwise"
+[ "$(awk -F , '/^bytes/ { print int($4) }' found.csv)" -lt "$(awk -F , '/^bytes/ { print int($4) }' plan.csv)" ] ||
+  fail "as much travels to those who bring what they hold: $(cat found.csv)"
 scene 2 soup --segments 1e7 --plan 5 --margin 0.001 --sample 8000 >plan.csv
 grep -qE "^segments,[0-9.]*,2e\+06,[0-9.]*$" plan.csv || fail "a plan from a sample: $(cat plan.csv)"
 scene 2 locks --segments 1e7 --plan 2 --sample 8000 >plan.csv 2>warning.txt
@@ -79,6 +83,7 @@ expect_refused "--out: 'found.csv' must end in .h5" soup --segments 9 --out foun
 expect_refused "nowhere/found.h5.part: cannot be opened for writing" soup --segments 9 --out nowhere/found.h5
 expect_refused "--plan: Value 0 not in range" soup --segments 9 --plan 0
 expect_refused "--out excludes --plan" soup --segments 9 --plan 2 --out found.h5
+expect_refused "--adopted requires --plan" soup --segments 9 --adopted --out found.h5
 expect_refused "--bandwidth requires --plan" soup --segments 9 --bandwidth 1e9 --out found.h5
 expect_refused "margin is -1" soup --segments 9 --plan 2 --margin -1
 expect_refused "--sample: '1e4' must be at least 80000" soup --segments 1e9 --plan 100 --sample 1e4

@@ -68,6 +68,9 @@ TEST(Plan, StepsTakeWhatTheirPartsTake) {
   EXPECT_DOUBLE_EQ(parts[0].seconds, 1.1 + bytes / 1e9 + 0.01);
   EXPECT_DOUBLE_EQ(parts[1].seconds, 1.3 + bytes / 1e9 + 0.01);
   EXPECT_DOUBLE_EQ(parts[1].efficiency, 0.9 / parts[1].seconds);
+  predict_steps(parts, {0.9e-6, 1e-6}, {1e9, 1e-3, true});
+  EXPECT_DOUBLE_EQ(parts[0].bytes, 4e6) << "of what is adopted only halos travel";
+  EXPECT_DOUBLE_EQ(parts[0].seconds, 1.1 + 4e-3 + 0.01);
 }
 
 /// All of it, on the first rank.

@@ -27,6 +27,12 @@ struct FiberPart {
   }
 };
 
+/// What a rank brings to DistributedEngine::update().
+struct DistributedFibers {
+  FiberAssembly parts;
+  std::vector<FiberPart> names;  ///< one per part
+};
+
 /// A Contact with names that hold for all ranks.
 struct DistributedContact {
   std::uint64_t fiber_a = 0;
@@ -93,6 +99,9 @@ struct DistributedFacts {
   std::uint64_t halo_segments = 0;  ///< of other ranks, for the last query
   std::uint64_t split_count = 0;    ///< how often fibres were split among the ranks
 
+  /// Points that this rank brought with the last update and others hold.
+  std::uint64_t sent_points = 0;
+
   /// How often ranks looked for what others need. What they find serves until points have moved.
   std::uint64_t halo_search_count = 0;
 };
@@ -136,6 +145,15 @@ class DistributedEngine {
   ///         brought twice or are missing, and where two parts of a fibre do not meet; then the
   ///         engine has no fibres
   void update(const FiberAssembly& parts, const std::vector<FiberPart>& names);
+
+  /// Makes what each rank holds the parts that it brings. A simulation that goes on with these
+  /// sends no points but those of halos, until fibres are split anew: then those that change hands.
+  /// @return the parts, as the last update had them, and what they are called. Their radii are
+  /// those
+  ///         of segments, so FiberAssembly::update_points() moves them. Later updates that bring
+  ///         parts of these names and numbers of points are of the same fibres
+  /// @throws std::logic_error before the first update, and after one of a motion
+  DistributedFibers adopt();
 
   /// Pairs of segments of all fibres within the margin, each reported by the rank that holds the
   /// smaller of the two, by fibre and index. Options mean what they do for

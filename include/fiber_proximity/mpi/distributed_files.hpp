@@ -28,12 +28,6 @@ namespace fiber {
 /// or not.
 bool is_hdf5_name(const std::string& path);
 
-/// What a rank brings to DistributedEngine::update().
-struct DistributedFibers {
-  FiberAssembly parts;
-  std::vector<FiberPart> names;  ///< one per part
-};
-
 struct DistributedFileOptions {
   bool has_frames = false;  ///< whether frames have numbers; without, the file holds exactly one
   /// What the file is made of and how, on one line: kept with each frame. What another run left is
