@@ -162,14 +162,14 @@ void RankSearch::write(std::vector<DistributedContact>& contacts) const {
 // Costs [s], fitted to the times of fiber_bench_mpi; only how they compare matters.
 
 double RankSearch::cost_of_segments() const {
-  constexpr double per_segment = 65e-9;
-  constexpr double per_node_test = 5e-9;
+  constexpr double per_segment = 55e-9;
+  constexpr double per_node_test = 2.5e-9;
   return per_segment * static_cast<double>(fibers_->own().fibers().segment_count()) +
          per_node_test * static_cast<double>(counts_.node_tests);
 }
 
 double RankSearch::cost_of_pairs() const {
-  constexpr double per_pair = 250e-9;
+  constexpr double per_pair = 300e-9;
   return per_pair * static_cast<double>(counts_.primitive_tests);
 }
 
