@@ -65,6 +65,7 @@ add_library(fiber_proximity_mpi SHARED
   src/mpi/plan.cpp
   src/mpi/piece_boxes.cpp
   src/mpi/rank_fibers.cpp
+  src/mpi/rank_load.cpp
   src/mpi/rank_motions.cpp
   src/mpi/rank_search.cpp
   src/mpi/step_costs.cpp

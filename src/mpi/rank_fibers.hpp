@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -11,14 +10,9 @@
 #include "src/mpi/fiber_chains.hpp"
 #include "src/mpi/named_fibers.hpp"
 #include "src/mpi/piece_boxes.hpp"
+#include "src/mpi/rank_load.hpp"
 
 namespace fiber {
-
-/// What a rank has to do, in any unit.
-struct RankLoad {
-  double cost = 0.0;                                   ///< of all; 0 if it is not known
-  std::function<std::vector<double>()> costs_of_runs;  ///< of each of its own
-};
 
 /// The fibres of all ranks, cut into pieces of a few segments; each rank owns those that the split
 /// gives to it.

@@ -159,53 +159,9 @@ void RankSearch::write(std::vector<DistributedContact>& contacts) const {
   }
 }
 
-// Costs [s], fitted to the times of fiber_bench_mpi; only how they compare matters.
-
-double RankSearch::cost_of_segments() const {
-  constexpr double per_segment = 55e-9;
-  constexpr double per_node_test = 2.5e-9;
-  return per_segment * static_cast<double>(fibers_->own().fibers().segment_count()) +
-         per_node_test * static_cast<double>(counts_.node_tests);
-}
-
-double RankSearch::cost_of_pairs() const {
-  constexpr double per_pair = 300e-9;
-  return per_pair * static_cast<double>(counts_.primitive_tests);
-}
-
-/// Pairs are where contacts are.
-std::vector<double> RankSearch::costs_of_runs() const {
-  const NamedFibers& own = fibers_->own();
-  std::vector<double> contacts(own.runs().size());
-  double all = 0.0;
-  const auto add = [&](std::uint32_t fiber, std::uint32_t segment) {
-    contacts[own.run_of(own.point_of(fiber, segment))] += 1.0;
-    all += 1.0;
-  };
-  for (const Contact& contact : inner_.contacts) {
-    add(contact.fiber_a, contact.segment_a);
-    add(contact.fiber_b, contact.segment_b);
-  }
-  for (const Contact& contact : across_) {
-    add(contact.fiber_a, contact.segment_a);
-  }
-  const double of_contacts = all > 0.0 ? cost_of_pairs() : 0.0;
-  const double per_segment = (cost_of_segments() + cost_of_pairs() - of_contacts) /
-                             static_cast<double>(own.fibers().segment_count());
-  std::vector<double> costs;
-  costs.reserve(contacts.size());
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    costs.push_back(per_segment * static_cast<double>(own.runs()[i].count) +
-                    of_contacts * contacts[i] / std::max(1.0, all));
-  }
-  return costs;
-}
-
 RankLoad RankSearch::load() const {
-  if (fibers_ == nullptr) {
-    return {};
-  }
-  return {cost_of_segments() + cost_of_pairs(), [this] { return costs_of_runs(); }};
+  return fibers_ == nullptr ? RankLoad()
+                            : load_of(fibers_->own(), counts_, inner_.contacts, across_);
 }
 
 }  // namespace fiber

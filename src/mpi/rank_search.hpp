@@ -11,6 +11,7 @@
 #include "src/mpi/fiber_runs.hpp"
 #include "src/mpi/named_fibers.hpp"
 #include "src/mpi/rank_fibers.hpp"
+#include "src/mpi/rank_load.hpp"
 
 namespace fiber {
 
@@ -55,9 +56,6 @@ class RankSearch {
  private:
   QueryOptions options_here(const QueryOptions& options) const;
   double rounding_across() const;
-  double cost_of_segments() const;
-  double cost_of_pairs() const;
-  std::vector<double> costs_of_runs() const;
 
   const Communicator& ranks_;
   std::unique_ptr<ProximityEngine> engine_;
