@@ -12,7 +12,7 @@
 namespace fiber {
 namespace {
 
-constexpr int steps_measured = 3;
+constexpr int steps_measured = 8;
 constexpr double step_shift = 1e-6;  // [m] by which all points move
 
 FiberAssembly shifted(const FiberAssembly& fibers) {
@@ -27,13 +27,11 @@ FiberAssembly shifted(const FiberAssembly& fibers) {
 
 /// Of the fastest step [s], from when all ranks begin to when the last one ends.
 double time_of_step(const Communicator& ranks, DistributedEngine& engine, DistributedFibers fibers,
-                    bool is_adopted, const QueryOptions& query) {
+                    const QueryOptions& query) {
   DistributedResult result;
   engine.update(fibers.parts, fibers.names);
   engine.query(query, result);
-  if (is_adopted) {
-    fibers = engine.adopt();
-  }
+  fibers = engine.adopt();
   double fastest = std::numeric_limits<double>::infinity();
   for (int step = 0; step < steps_measured; ++step) {
     fibers.parts = shifted(fibers.parts);
@@ -64,17 +62,17 @@ DistributedFibers split(const Communicator& ranks, const DistributedFibers& fibe
 
 }  // namespace
 
-StepCosts measure_steps(const Communicator& ranks, const DistributedFibers& fibers, bool is_adopted,
+StepCosts measure_steps(const Communicator& ranks, const DistributedFibers& fibers,
                         const EngineOptions& engine_options, const QueryOptions& query) {
   StepCosts costs;
   {
     const DistributedFibers own = split(ranks, fibers);
     DistributedEngine engine(MPI_COMM_SELF, engine_options);
-    costs.alone = time_of_step(ranks, engine, own, is_adopted, query) /
-                  most_on_a_rank(ranks, own.parts.segment_count());
+    costs.alone =
+        time_of_step(ranks, engine, own, query) / most_on_a_rank(ranks, own.parts.segment_count());
   }
   DistributedEngine engine(ranks.handle(), engine_options);
-  const double time = time_of_step(ranks, engine, fibers, is_adopted, query);
+  const double time = time_of_step(ranks, engine, fibers, query);
   const DistributedFacts facts = engine.facts();
   costs.together = time / most_on_a_rank(ranks, facts.own_segments + facts.halo_segments);
   return costs;

@@ -13,11 +13,10 @@ struct StepCosts {
   double together = 0.0;  ///< of ranks that share fibres, per segment that one has or gets
 };
 
-/// Measures the fastest of a few steps. All ranks work at once in both: they share a machine, or
-/// would. Collective.
-/// @param fibers     that this rank brings
-/// @param is_adopted whether ranks bring what they hold
-StepCosts measure_steps(const Communicator& ranks, const DistributedFibers& fibers, bool is_adopted,
+/// Measures the fastest of a few steps, of ranks that bring what they hold: what else travels is
+/// not of this machine. All ranks work at once in both: they share it, or would. Collective.
+/// @param fibers that this rank brings
+StepCosts measure_steps(const Communicator& ranks, const DistributedFibers& fibers,
                         const EngineOptions& engine_options, const QueryOptions& query);
 
 }  // namespace fiber

@@ -109,10 +109,8 @@ ExitCode plan_file(const MpiRequest& request, const QueryOptions& query) {
   source.read(0, fibers);
   std::vector<PlannedPart> parts =
       plan_of(part_loads(ranks, fibers, request.plan.parts, query.margin));
-  predict_steps(
-      parts,
-      measure_steps(ranks, fibers, request.plan.network.is_adopted, request.engine_options, query),
-      request.plan.network);
+  predict_steps(parts, measure_steps(ranks, fibers, request.engine_options, query),
+                request.plan.network);
   on_first_rank(ranks, [&] { write_plan(parts); });
   return SUCCEEDED;
 }

@@ -117,8 +117,7 @@ ExitCode plan_scene(const SceneRequest& request) {
                     static_cast<double>(scene.segment_count()) / static_cast<double>(parts));
   }
   predict_steps(planned,
-                measure_steps(ranks, sample(segments, 0), request.plan.network.is_adopted,
-                              request.engine_options, request.query),
+                measure_steps(ranks, sample(segments, 0), request.engine_options, request.query),
                 request.plan.network);
   on_first_rank(ranks, [&] { write_plan(planned); });
   return SUCCEEDED;
