@@ -21,6 +21,7 @@
 #include "src/tools/check_rows.hpp"
 #include "src/tools/fiber_query.hpp"
 #include "src/tools/fiber_query_mpi.hpp"
+#include "src/tools/fiber_source.hpp"
 #include "src/tools/mpi_tool.hpp"
 #include "src/tools/range_texts.hpp"
 #include "src/tools/rank_text.hpp"
@@ -29,8 +30,8 @@ namespace fiber {
 namespace {
 
 // So many are checked before their rows are put in order and written, by each rank on average: they
-// are in memory until then.
-constexpr std::uint64_t most_in_memory = 65'536;
+// are in memory until then, and lost if a run is killed.
+constexpr std::uint64_t most_in_memory = 8192;
 
 // For one rank: as many as take some milliseconds, beside which a message is nothing.
 constexpr std::uint64_t candidates_at_once = 256;
@@ -45,7 +46,25 @@ struct CheckRequest {
   bool without_self = false;
   std::uint32_t threads = 1;
   std::string out;  // "" for stdout
+  bool resume = false;
 };
+
+/// All that the answer depends on.
+std::string run_of(const Communicator& ranks, const CheckRequest& request) {
+  const QueryOptions& query = request.query;
+  const auto text_of_option = [](const auto& value) {
+    return value ? text_of(*value) : std::string("none");
+  };
+  const auto text_of_file = [&](const std::string& path) {
+    return path.empty() ? std::string("none") : description_of_file(ranks, path);
+  };
+  return "check of " + text_of_file(request.file) + ", radius " + text_of(request.radius) +
+         ", environment " + text_of_file(request.environment) + ", fibers " +
+         text_of_file(request.fibers) + ", self " + (request.without_self ? "no" : "yes") +
+         ", type " + request.type + ", margin " + text_of(query.margin) + ", neighbour_skip " +
+         text_of_option(query.neighbour_skip) + ", neighbour_skip_length " +
+         text_of_option(query.neighbour_skip_length) + ", kernel " + name_of(query.kernel);
+}
 
 /// What stands around the candidates, on every rank.
 class Around {
@@ -156,30 +175,36 @@ class RankChecker {
 };
 
 ExitCode run(const CheckRequest& request) {
+  if (request.resume && request.out.empty()) {
+    throw std::invalid_argument("--resume: what went to stdout cannot be gone on with, give --out");
+  }
   const Communicator ranks(MPI_COMM_WORLD);
   for (const std::string& in : {request.file, request.environment, request.fibers}) {
     require_other_file(ranks, in, request.out);
   }
   Around around(ranks, request);
   CandidateSource source(ranks, request.file, request.radius);
-  RankText text(ranks, request.out);
-  text.append([&](TextOutput& output) {
-    output.write(ranks.rank() == 0 ? check_header(source.has_frames()) : "");
-  });
+  RankText text(ranks, request.out, {run_of(ranks, request), request.resume});
+  if (text.done() == 0) {
+    text.append([&](TextOutput& output) {
+      output.write(ranks.rank() == 0 ? check_header(source.has_frames()) : "");
+    });
+  }
   RankChecker checker(source, around, request);
   Progress progress = rank_progress(ranks);
   const std::uint64_t count = source.frame_count();
   const std::uint64_t step = most_in_memory * static_cast<std::uint64_t>(ranks.size());
-  for (std::uint64_t begin = 0; begin < count; begin += step) {
+  for (std::uint64_t begin = text.done(); begin < count; begin += step) {
+    const std::uint64_t end = std::min(begin + step, count);
     std::vector<RangeText> checked;
-    DealtWork work{{begin, std::min(begin + step, count)}, candidates_at_once};
+    DealtWork work{{begin, end}, candidates_at_once};
     work.work = [&](const WorkRange& range, const std::vector<char>& packed) {
       checked.push_back(checker.check(range, packed));
     };
     if (source.is_packed()) {
       work.pack = [&](const WorkRange& range) { return source.pack(range); };
     }
-    work.show = [&](std::uint64_t end) { show_done(progress, end, count, "candidates"); };
+    work.show = [&](std::uint64_t dealt) { show_done(progress, dealt, count, "candidates"); };
     deal_work(ranks, work);
     checked = sort_over_ranks(ranks, work.all, std::move(checked));
     text.append([&](TextOutput& output) {
@@ -187,6 +212,7 @@ ExitCode run(const CheckRequest& request) {
         output.write(range.text);
       }
     });
+    text.note(end);
   }
   text.finish();
   return SUCCEEDED;
@@ -232,6 +258,9 @@ void add_check(CLI::App& app, Command& command) {
   subcommand->add_option("--out", request->out,
                          "write to this file (.csv), which has its name once it is whole; without "
                          "this, to what mpirun takes as output");
+  subcommand->add_flag("--resume", request->resume,
+                       "go on with the --out of a run that was killed, after the last candidates "
+                       "that it has noted");
   subcommand->callback([&command, request] {
     request->query.type = query_type_from_name(request->type);
     validate(request->query);

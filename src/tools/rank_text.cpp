@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <iostream>
 #include <ostream>
 #include <streambuf>
@@ -59,12 +60,31 @@ std::string text_of_mpi(int error) {
 
 }  // namespace
 
-RankText::RankText(const Communicator& ranks, std::string path)
+/// Makes the file that is written, or takes up what there is of it.
+RunProgress RankText::begin(bool resume) const {
+  const std::optional<RunProgress> earlier = note_ && resume ? note_->read() : std::nullopt;
+  if (earlier) {
+    std::filesystem::resize_file(aside(path_), earlier->bytes);
+    return *earlier;
+  }
+  RunNote(path_, "").remove();
+  OutputFile(aside(path_)).close();
+  return {};
+}
+
+RankText::RankText(const Communicator& ranks, std::string path, const TextRun& run)
     : ranks_(ranks), path_(std::move(path)) {
   if (path_.empty()) {
     return;
   }
-  on_first_rank(ranks_, [&] { OutputFile(aside(path_)).close(); });
+  if (!run.run.empty()) {
+    note_.emplace(path_, run.run);
+  }
+  RunProgress earlier;
+  on_first_rank(ranks_, [&] { earlier = begin(run.resume); });
+  earlier = ranks_.from_first(earlier);
+  done_ = earlier.steps;
+  size_ = earlier.bytes;
   const int error =
       MPI_File_open(ranks_.handle(), aside(path_).c_str(), MPI_MODE_WRONLY, MPI_INFO_NULL, &file_);
   if (!ranks_.all(error == MPI_SUCCESS)) {
@@ -84,6 +104,17 @@ RankText::~RankText() {
 void RankText::remove_unfinished() const {
   if (!path_.empty() && ranks_.rank() == 0) {
     remove_aside(path_);
+    RunNote(path_, "").remove();
+  }
+}
+
+void RankText::note(std::uint64_t steps) {
+  if (note_) {
+    const int error = MPI_File_sync(file_);
+    ranks_.agree(error == MPI_SUCCESS
+                     ? ""
+                     : FileError(aside(path_), "cannot be written: " + text_of_mpi(error)).what());
+    on_first_rank(ranks_, [&] { note_->write({steps, size_}); });
   }
 }
 
@@ -181,7 +212,10 @@ void RankText::finish() {
   }
   const std::string error = close_file();
   ranks_.agree(error.empty() ? "" : FileError(aside(path_), "cannot be written: " + error).what());
-  on_first_rank(ranks_, [&] { move_into_place(path_); });
+  on_first_rank(ranks_, [&] {
+    move_into_place(path_);
+    RunNote(path_, "").remove();
+  });
 }
 
 }  // namespace fiber

@@ -4,12 +4,20 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "src/mpi/communicator.hpp"
+#include "src/tools/run_note.hpp"
 #include "src/tools/text_output.hpp"
 
 namespace fiber {
+
+/// What a RankText is made of.
+struct TextRun {
+  std::string run;      ///< all that the text depends on, on one line; "": what is killed is lost
+  bool resume = false;  ///< whether to go on with what an earlier one has noted
+};
 
 /// Text that all ranks write, those with smaller numbers first: to a file, each rank at its place,
 /// which has its name once it is whole; or to the stdout of rank 0, through which it passes piece
@@ -17,8 +25,9 @@ namespace fiber {
 class RankText {
  public:
   /// @param path "" for stdout
+  /// @param run  of stdout nothing is noted
   /// @throws std::invalid_argument on all ranks
-  RankText(const Communicator& ranks, std::string path);
+  RankText(const Communicator& ranks, std::string path, const TextRun& run = {});
   ~RankText();
   RankText(const RankText&) = delete;
   RankText& operator=(const RankText&) = delete;
@@ -28,6 +37,14 @@ class RankText {
   /// @throws std::invalid_argument on all ranks
   void append(const std::function<void(TextOutput& output)>& write);
 
+  /// How many steps of the work an earlier run has noted; their text is there.
+  std::uint64_t done() const { return done_; }
+
+  /// Notes how many steps of the work what has been appended is: a run that is killed now goes on
+  /// there.
+  /// @throws std::invalid_argument on all ranks
+  void note(std::uint64_t steps);
+
   /// Call once, at the end: only then the file has its name.
   /// @throws std::invalid_argument on all ranks
   void finish();
@@ -36,13 +53,16 @@ class RankText {
   void append_to_file(const std::function<void(TextOutput& output)>& write);
   void append_to_stdout(const std::function<void(TextOutput& output)>& write) const;
   void pass_on_others() const;
+  RunProgress begin(bool resume) const;
   std::string close_file();
   void remove_unfinished() const;
 
   const Communicator& ranks_;
   const std::string path_;
+  std::optional<RunNote> note_;
   MPI_File file_ = MPI_FILE_NULL;
   std::uint64_t size_ = 0;  // [byte] of the file so far
+  std::uint64_t done_ = 0;
 };
 
 }  // namespace fiber

@@ -49,6 +49,29 @@ expect_one_error() {
   [ "$(parts)" = "$parts_before" ] || fail "$*: a part is left: $(parts)"
 }
 
+# kill_one_of COUNT NAME: of the ranks of $run, which are so many and have this argument; all end then, and say why.
+kill_one_of() {
+  local ranks=() process rank code=0
+  # By what it is called, among the processes of this run alone.
+  for process in /proc/[0-9]*; do
+    if grep -qzx "$2" "$process/cmdline" 2>/dev/null &&
+      grep -q '^Name:.*fiber_query_mpi' "$process/status" 2>/dev/null &&
+      [ "$(readlink "$process/cwd")" = "$work" ]; then
+      ranks+=("${process#/proc/}")
+    fi
+  done
+  [ "${#ranks[@]}" -eq "$1" ] || fail "${#ranks[@]} ranks are running"
+  kill -9 "${ranks[1]}"
+  wait "$run" || code=$?
+  run=
+  [ "$code" -ne 0 ] || fail "the run whose rank was killed has succeeded"
+  grep -qE 'rank [0-9]+' error.txt || fail "no rank is named"
+  # Those that were not killed end, too; where nobody asks for what has ended, its entry stays.
+  for rank in "${ranks[@]}"; do
+    while grep -qs '^State:[[:space:]]*[^Z[:space:]]' "/proc/$rank/status"; do sleep 0.02; done
+  done
+}
+
 "$tools/fiber_scene" tress_b --scale 0.005 --frames 60 --out tress.csv
 query 2 convert tress.csv tress.h5
 
@@ -62,26 +85,7 @@ until [ -e killed.frames/000004.h5.part ]; do
   kill -0 "$run" || fail "the run has ended by itself"
   sleep 0.02
 done
-# By what it is called, among the processes of this run alone.
-ranks=()
-for process in /proc/[0-9]*; do
-  if grep -qzx killed.h5 "$process/cmdline" 2>/dev/null &&
-    grep -q '^Name:.*fiber_query_mpi' "$process/status" 2>/dev/null &&
-    [ "$(readlink "$process/cwd")" = "$work" ]; then
-    ranks+=("${process#/proc/}")
-  fi
-done
-[ "${#ranks[@]}" -eq 3 ] || fail "${#ranks[@]} ranks are running"
-kill -9 "${ranks[1]}"
-code=0
-wait "$run" || code=$?
-run=
-[ "$code" -ne 0 ] || fail "the run whose rank was killed has succeeded"
-grep -qE 'rank [0-9]+' error.txt || fail "no rank is named"
-# Those that were not killed end, too; where nobody asks for what has ended, its entry stays.
-for rank in "${ranks[@]}"; do
-  while grep -qs '^State:[[:space:]]*[^Z[:space:]]' "/proc/$rank/status"; do sleep 0.02; done
-done
+kill_one_of 3 killed.h5
 [ ! -e killed.h5 ] || fail "what is not whole has its name"
 done_before=$(find killed.frames -name '*.h5' | wc -l)
 [ "$done_before" -eq 4 ] || fail "$done_before frames are whole"
@@ -103,6 +107,50 @@ query 1 contacts tress.h5 --margin 0.0005 --out killed.h5 --resume # nothing is 
 [ "$(wc -c <killed.h5)" -eq "$(wc -c <whole.h5)" ] || fail "other links"
 touch tress.h5
 expect_one_error "is of another run" query 2 contacts tress.h5 --margin 0.0005 --out killed.h5 --resume
+
+# ---- a rank is killed that checks candidates: what has been noted by then is not checked again
+awk 'BEGIN {
+  print "frame,fiber,x,y,z,radius"
+  for (i = 0; i < 20000; ++i) for (x = 0; x <= 1; ++x) printf "%d,0,%d,0,%.3f,0.01\n", i, x, (i % 97) / 97 - 0.1
+}' >many.csv
+printf 'obstacles:\n  - {id: floor, half_spaces: [{coef: [0, 0, 1, 0]}]}\n' >world.yaml
+checks=(check many.csv --environment world.yaml --margin 0.01 --out checks.csv)
+query 2 "${checks[@]}"
+mv checks.csv expected.csv
+choose_fault held_rename=checks.csv
+"${mpiexec[@]}" 2 "${faulty[@]}" "${checks[@]}" 2>error.txt &
+run=$!
+until grep -qs '^20000 ' checks.csv.part.run; do
+  kill -0 "$run" || fail "the run has ended by itself"
+  sleep 0.02
+done
+kill_one_of 2 checks.csv
+[ ! -e checks.csv ] || fail "what is not whole has its name"
+cmp expected.csv checks.csv.part || fail "other checks have been noted"
+# As if it had been killed earlier, after the first 16384; one of these rows is another, to be known again.
+sed -i "1s/.*/16384 $(head -n 16385 expected.csv | wc -c)/" checks.csv.part.run
+sed -i -e '3s/^1,/9,/' -e '19000,$d' checks.csv.part
+cp checks.csv.part earlier.part
+cp checks.csv.part.run earlier.run
+expect_one_error "checks.csv.part: cannot be gone on with: is of another run" \
+  query 3 "${checks[@]}" --kernel exact --resume
+query 3 "${checks[@]}" --resume
+sed '3s/^1,/9,/' expected.csv | cmp - checks.csv || fail "it has not gone on where it was"
+[ "$(echo checks*)" = checks.csv ] || fail "more is left than the checks: $(echo checks*)"
+mv earlier.part checks.csv.part
+mv earlier.run checks.csv.part.run
+query 2 "${checks[@]}"
+cmp expected.csv checks.csv || fail "it has gone on without being told to"
+[ "$(echo checks*)" = checks.csv ] || fail "more is left than the checks: $(echo checks*)"
+echo 9 >checks.csv.part.run
+touch checks.csv.part
+code=0
+query 2 "${checks[@]}" --resume 2>error.txt || code=$?
+{ [ "$code" -eq 2 ] && grep -q "checks.csv.part.run: cannot be gone on with" error.txt; } || fail "a note that says nothing is read"
+rm checks.csv*
+query 2 "${checks[@]}" --resume # there is nothing to go on with
+cmp expected.csv checks.csv || fail "without anything to go on with it checks something else"
+expect_one_error "--resume: what went to stdout" query 2 check many.csv --resume
 
 # ---- a file that may not be as large as it must be, as on a full disk; ranks use no shared memory, which are files
 limited=("${mpiexec[@]/self,vader,tcp/self,tcp}")
