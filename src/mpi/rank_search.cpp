@@ -73,11 +73,11 @@ double RankSearch::rounding_across() const {
   for (const Eigen::Vector3d& point : halo_.fibers().points()) {
     box = merged(box, {plain(point), plain(point)});
   }
-  double size = halo_.fibers().largest_radius();
+  double longest = 0.0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    size = std::max(size, box.upper[axis] - box.lower[axis]);
+    longest = std::max(longest, box.upper[axis] - box.lower[axis]);
   }
-  return 0x1p-44 * size;
+  return 0x1p-44 * (longest + halo_.fibers().largest_radius());
 }
 
 void RankSearch::find_across(const FiberRuns& halo, const QueryOptions& options,
