@@ -1,9 +1,9 @@
 #include "src/mpi/rank_search.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "fiber_proximity/query/narrow_phase.hpp"
+#include "src/mpi/plain_contact.hpp"
 #include "src/mpi/whole_fiber_pairs.hpp"
 
 namespace fiber {
@@ -127,35 +127,24 @@ void RankSearch::write(std::vector<DistributedContact>& contacts) const {
     constexpr std::size_t part_more = 8;  // for a list that is a little longer next time
     contacts.reserve(count + count / part_more);
   }
-  const auto write_one = [&](const Contact& contact, const GlobalSegment& a,
-                             const GlobalSegment& b) {
-    contacts.push_back({a.fiber, a.segment, b.fiber, b.segment, contact.s, contact.t,
-                        contact.distance, contact.lower, contact.upper, contact.point_a,
-                        contact.point_b, contact.normal});
-  };
   const NamedFibers& own = fibers_->own();
-  const auto name_a = [&](const Contact& contact) {
-    return own.name_of(contact.fiber_a, contact.segment_a);
-  };
-  const auto name_b = [](const Contact& contact, const NamedFibers& fibers_b) {
-    return fibers_b.name_of(contact.fiber_b, contact.segment_b);
+  const auto named = [&own](const Contact& contact, const NamedFibers& fibers_b) {
+    const GlobalSegment a = own.name_of(contact.fiber_a, contact.segment_a);
+    const GlobalSegment b = fibers_b.name_of(contact.fiber_b, contact.segment_b);
+    return DistributedContact{a.fiber,       a.segment,       b.fiber,          b.segment,
+                              contact.s,     contact.t,       contact.distance, contact.lower,
+                              contact.upper, contact.point_a, contact.point_b,  contact.normal};
   };
   auto across = across_.begin();
-  const auto write_across = [&] {
-    write_one(*across, name_a(*across), name_b(*across, halo_));
-    ++across;
-  };
-  for (const Contact& inner : inner_.contacts) {
-    const GlobalSegment a = name_a(inner);
-    const GlobalSegment b = name_b(inner, own);
-    while (across != across_.end() &&
-           std::pair(name_a(*across), name_b(*across, halo_)) < std::pair(a, b)) {
-      write_across();
+  for (const Contact& contact : inner_.contacts) {
+    const DistributedContact inner = named(contact, own);
+    while (across != across_.end() && is_before(named(*across, halo_), inner)) {
+      contacts.push_back(named(*across++, halo_));
     }
-    write_one(inner, a, b);
+    contacts.push_back(inner);
   }
   while (across != across_.end()) {
-    write_across();
+    contacts.push_back(named(*across++, halo_));
   }
 }
 

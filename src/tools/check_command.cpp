@@ -51,19 +51,13 @@ struct CheckRequest {
 
 /// All that the answer depends on.
 std::string run_of(const Communicator& ranks, const CheckRequest& request) {
-  const QueryOptions& query = request.query;
-  const auto text_of_option = [](const auto& value) {
-    return value ? text_of(*value) : std::string("none");
-  };
   const auto text_of_file = [&](const std::string& path) {
     return path.empty() ? std::string("none") : description_of_file(ranks, path);
   };
   return "check of " + text_of_file(request.file) + ", radius " + text_of(request.radius) +
          ", environment " + text_of_file(request.environment) + ", fibers " +
          text_of_file(request.fibers) + ", self " + (request.without_self ? "no" : "yes") +
-         ", type " + request.type + ", margin " + text_of(query.margin) + ", neighbour_skip " +
-         text_of_option(query.neighbour_skip) + ", neighbour_skip_length " +
-         text_of_option(query.neighbour_skip_length) + ", kernel " + name_of(query.kernel);
+         ", type " + request.type + text_of_pairs(request.query);
 }
 
 /// What stands around the candidates, on every rank.

@@ -45,15 +45,10 @@ struct Question {
 /// All that the answer depends on.
 std::string run_of(const Communicator& ranks, const MpiRequest& request, const Question& question) {
   const QueryOptions& query = question.query;
-  const auto text_of_option = [](const auto& value) {
-    return value ? text_of(*value) : std::string("none");
-  };
   return question.name + " of " + description_of_file(ranks, request.file) + ", radius " +
-         text_of(request.radius) + ", margin " + text_of(query.margin) + ", neighbour_skip " +
-         text_of_option(query.neighbour_skip) + ", neighbour_skip_length " +
-         text_of_option(query.neighbour_skip_length) + ", kernel " + name_of(query.kernel) +
-         ", tolerance " + text_of(query.tolerance) + ", relative_tolerance " +
-         text_of(query.relative_tolerance) + ", deadline " + text_of(query.deadline);
+         text_of(request.radius) + text_of_pairs(query) + ", tolerance " +
+         text_of(query.tolerance) + ", relative_tolerance " + text_of(query.relative_tolerance) +
+         ", deadline " + text_of(query.deadline);
 }
 
 /// @throws std::invalid_argument for options that do not go together
@@ -162,6 +157,15 @@ void setup_mpi(CLI::App& app, Command& command) {
 }
 
 }  // namespace
+
+std::string text_of_pairs(const QueryOptions& query) {
+  const auto text_of_option = [](const auto& value) {
+    return value ? text_of(*value) : std::string("none");
+  };
+  return ", margin " + text_of(query.margin) + ", neighbour_skip " +
+         text_of_option(query.neighbour_skip) + ", neighbour_skip_length " +
+         text_of_option(query.neighbour_skip_length) + ", kernel " + name_of(query.kernel);
+}
 
 void add_rank_options(CLI::App& app, RankRequest& request) {
   app.add_option("FILE", request.file,

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "fiber_proximity/query/engine.hpp"
+#include "fiber_proximity/query/options.hpp"
 #include "src/tools/command_line.hpp"
 
 namespace fiber {
@@ -15,6 +16,9 @@ struct RankRequest {
 };
 
 void add_rank_options(CLI::App& app, RankRequest& request);
+
+/// Which pairs a query asks about, and how, as a run that is gone on with is compared by.
+std::string text_of_pairs(const QueryOptions& query);
 
 // The subcommands of fiber_query_mpi that have a source of their own.
 

@@ -51,7 +51,11 @@ void write_pieces(const std::function<void(TextOutput& output)>& write,
   output.flush();
 }
 
+/// @return "" where nothing went wrong
 std::string text_of_mpi(int error) {
+  if (error == MPI_SUCCESS) {
+    return "";
+  }
   std::array<char, MPI_MAX_ERROR_STRING> text{};
   int length = 0;
   MPI_Error_string(error, text.data(), &length);
@@ -62,23 +66,20 @@ std::string text_of_mpi(int error) {
 
 /// Makes the file that is written, or takes up what there is of it.
 RunProgress RankText::begin(bool resume) const {
-  const std::optional<RunProgress> earlier = note_ && resume ? note_->read() : std::nullopt;
+  const std::optional<RunProgress> earlier = resume ? note_.read() : std::nullopt;
   if (earlier) {
     std::filesystem::resize_file(aside(path_), earlier->bytes);
     return *earlier;
   }
-  RunNote(path_, "").remove();
+  note_.remove();
   OutputFile(aside(path_)).close();
   return {};
 }
 
 RankText::RankText(const Communicator& ranks, std::string path, const TextRun& run)
-    : ranks_(ranks), path_(std::move(path)) {
+    : ranks_(ranks), path_(std::move(path)), note_(path_, run.run) {
   if (path_.empty()) {
     return;
-  }
-  if (!run.run.empty()) {
-    note_.emplace(path_, run.run);
   }
   RunProgress earlier;
   on_first_rank(ranks_, [&] { earlier = begin(run.resume); });
@@ -89,10 +90,14 @@ RankText::RankText(const Communicator& ranks, std::string path, const TextRun& r
       MPI_File_open(ranks_.handle(), aside(path_).c_str(), MPI_MODE_WRONLY, MPI_INFO_NULL, &file_);
   if (!ranks_.all(error == MPI_SUCCESS)) {
     remove_unfinished();
-    ranks_.agree(error == MPI_SUCCESS
-                     ? ""
-                     : FileError(aside(path_), "cannot be written: " + text_of_mpi(error)).what());
+    agree(text_of_mpi(error));
   }
+}
+
+/// @param reason why this rank cannot write, "" for none
+void RankText::agree(const std::string& reason) const {
+  ranks_.agree(reason.empty() ? ""
+                              : FileError(aside(path_), "cannot be written: " + reason).what());
 }
 
 RankText::~RankText() {
@@ -104,17 +109,14 @@ RankText::~RankText() {
 void RankText::remove_unfinished() const {
   if (!path_.empty() && ranks_.rank() == 0) {
     remove_aside(path_);
-    RunNote(path_, "").remove();
+    note_.remove();
   }
 }
 
 void RankText::note(std::uint64_t steps) {
-  if (note_) {
-    const int error = MPI_File_sync(file_);
-    ranks_.agree(error == MPI_SUCCESS
-                     ? ""
-                     : FileError(aside(path_), "cannot be written: " + text_of_mpi(error)).what());
-    on_first_rank(ranks_, [&] { note_->write({steps, size_}); });
+  if (!path_.empty()) {
+    agree(text_of_mpi(MPI_File_sync(file_)));
+    on_first_rank(ranks_, [&] { note_.write({steps, size_}); });
   }
 }
 
@@ -202,19 +204,17 @@ std::string RankText::close_file() {
   if (file_ == MPI_FILE_NULL) {
     return "";
   }
-  const int error = MPI_File_close(&file_);
-  return error == MPI_SUCCESS ? "" : text_of_mpi(error);
+  return text_of_mpi(MPI_File_close(&file_));
 }
 
 void RankText::finish() {
   if (path_.empty()) {
     return;
   }
-  const std::string error = close_file();
-  ranks_.agree(error.empty() ? "" : FileError(aside(path_), "cannot be written: " + error).what());
+  agree(close_file());
   on_first_rank(ranks_, [&] {
     move_into_place(path_);
-    RunNote(path_, "").remove();
+    note_.remove();
   });
 }
 

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <string>
 
 #include "src/mpi/communicator.hpp"
@@ -15,7 +14,7 @@ namespace fiber {
 
 /// What a RankText is made of.
 struct TextRun {
-  std::string run;      ///< all that the text depends on, on one line; "": what is killed is lost
+  std::string run;      ///< all that the text depends on, on one line, if note() is called
   bool resume = false;  ///< whether to go on with what an earlier one has noted
 };
 
@@ -54,12 +53,13 @@ class RankText {
   void append_to_stdout(const std::function<void(TextOutput& output)>& write) const;
   void pass_on_others() const;
   RunProgress begin(bool resume) const;
+  void agree(const std::string& reason) const;
   std::string close_file();
   void remove_unfinished() const;
 
   const Communicator& ranks_;
   const std::string path_;
-  std::optional<RunNote> note_;
+  const RunNote note_;
   MPI_File file_ = MPI_FILE_NULL;
   std::uint64_t size_ = 0;  // [byte] of the file so far
   std::uint64_t done_ = 0;

@@ -75,16 +75,12 @@ inline std::vector<DealtPart> deal(const FiberAssembly& fibers, int cuts, Random
 }
 
 /// What a rank has been dealt.
-struct Dealt {
-  FiberAssembly parts;
-  std::vector<FiberPart> names;
-};
-
-inline Dealt dealt_to(int rank, const FiberAssembly& fibers, const std::vector<DealtPart>& deal) {
+inline DistributedFibers dealt_to(int rank, const FiberAssembly& fibers,
+                                  const std::vector<DealtPart>& deal) {
   std::vector<Eigen::Vector3d> points;
   std::vector<double> radii;
   std::vector<std::uint32_t> offsets{0};
-  Dealt mine;
+  DistributedFibers mine;
   const auto radius_of = [&](std::uint32_t fiber, std::uint32_t point) {
     const std::vector<double>& all = fibers.radii();
     return all.size() == 1 ? all[0] : all.size() == fibers.fiber_count() ? all[fiber] : all[point];
@@ -186,7 +182,7 @@ inline EngineOptions one_thread() {
 struct DealtEngine : DistributedEngine {
   DealtEngine(const FiberAssembly& fibers, Random& random)
       : DistributedEngine(MPI_COMM_WORLD, one_thread()) {
-    const Dealt mine = dealt_to(own_rank(), fibers, deal(fibers, 2, random));
+    const DistributedFibers mine = dealt_to(own_rank(), fibers, deal(fibers, 2, random));
     update(mine.parts, mine.names);
   }
 };

@@ -59,8 +59,7 @@ std::vector<SegmentFacts> segments_of(const DistributedFibers& fibers) {
 }
 
 DistributedFibers random_parts(test::Random& random, const FiberAssembly& fibers, int cuts) {
-  test::Dealt dealt = test::dealt_to(test::own_rank(), fibers, test::deal(fibers, cuts, random));
-  return {std::move(dealt.parts), std::move(dealt.names)};
+  return test::dealt_to(test::own_rank(), fibers, test::deal(fibers, cuts, random));
 }
 
 /// Fibres of few segments or many, with radii per point, per fibre or one for all.
@@ -136,16 +135,16 @@ TEST(DistributedFiles, WholeFibersMakeTheSameFileOfAnyRanks) {
         parts.push_back({fiber, cut, count, static_cast<int>(after)});
       }
     }
-    test::Dealt mine = test::dealt_to(test::own_rank(), assembly, parts);
+    DistributedFibers mine = test::dealt_to(test::own_rank(), assembly, parts);
     DistributedFiberWriter cut(MPI_COMM_WORLD, folder / "cut.h5");
-    cut.write(0, {std::move(mine.parts), std::move(mine.names)});
+    cut.write(0, mine);
     cut.finish();
     for (test::DealtPart& part : parts) {
       part.rank = 0;
     }
     mine = test::dealt_to(test::own_rank(), assembly, parts);
     DistributedFiberWriter whole(MPI_COMM_WORLD, folder / "whole.h5");
-    whole.write(0, {std::move(mine.parts), std::move(mine.names)});
+    whole.write(0, mine);
     whole.finish();
     ASSERT_TRUE(bytes_of(folder / "cut.h5") == bytes_of(folder / "whole.h5"));
     ASSERT_FALSE(std::filesystem::exists(folder / "whole.h5.part"));

@@ -28,7 +28,7 @@ struct Soup {
       builder.add_fiber(random_walk(random, 5, 0.01));
     }
     fibers = builder.build(radii);
-    const Dealt mine = dealt_to(own_rank(), fibers, deal(fibers, 1, random));
+    const DistributedFibers mine = dealt_to(own_rank(), fibers, deal(fibers, 1, random));
     engine.update(mine.parts, mine.names);
   }
 
@@ -61,7 +61,7 @@ TEST(DistributedHalo, CostsAreSharedOutWhereTheyAre) {
     builder.add_fiber(points);
   }
   const FiberAssembly fibers = builder.build({1e-5});
-  const Dealt mine = dealt_to(own_rank(), fibers, deal(fibers, 1, random));
+  const DistributedFibers mine = dealt_to(own_rank(), fibers, deal(fibers, 1, random));
   const std::vector<Contact> expected = answer("run_tree", fibers, within(0.02)).contacts;
   ASSERT_GT(expected.size(), 2 * fibers.segment_count());
   DistributedEngine engine(MPI_COMM_WORLD, one_thread());
@@ -130,7 +130,7 @@ TEST(DistributedHalo, ServesWhilePointsMoveLittle) {
     DistributedEngine engine(MPI_COMM_WORLD, one_thread());
     const QueryOptions options = within(scene % 2 == 0 ? 0.0 : 0.003);
     for (int frame = 0; frame < 20; ++frame, ++frames) {
-      const Dealt mine = dealt_to(own_rank(), fibers, dealt);
+      const DistributedFibers mine = dealt_to(own_rank(), fibers, dealt);
       engine.update(mine.parts, mine.names);
       ASSERT_TRUE(same_as_one_process(answer(engine, options),
                                       answer("run_tree", fibers, options).contacts))

@@ -99,8 +99,8 @@ testing::AssertionResult are_same(const std::vector<DistributedMotionContact>& m
 /// Updates the ranks' engine.
 void update(DistributedEngine& engine, const FiberAssembly& before, const FiberAssembly& after,
             const std::vector<DealtPart>& dealt) {
-  const Dealt from = dealt_to(own_rank(), before, dealt);
-  const Dealt to = dealt_to(own_rank(), after, dealt);
+  const DistributedFibers from = dealt_to(own_rank(), before, dealt);
+  const DistributedFibers to = dealt_to(own_rank(), after, dealt);
   engine.update_motion(from.parts, to.parts, from.names);
 }
 
@@ -201,7 +201,7 @@ TEST(DistributedMotion, IsForQueriesAboutMotionsOnly) {
   EXPECT_THROW(engine.query_motion({}, motion), std::logic_error);
   update(engine, fibers.before, fibers.after, fibers.dealt);
   EXPECT_THROW(engine.query({}, result), std::logic_error);
-  const Dealt mine = dealt_to(own_rank(), fibers.before, fibers.dealt);
+  const DistributedFibers mine = dealt_to(own_rank(), fibers.before, fibers.dealt);
   engine.update(mine.parts, mine.names);
   EXPECT_THROW(engine.query_motion({}, motion), std::logic_error);
   engine.query(within(0.001), result);
@@ -213,7 +213,7 @@ TEST(DistributedMotion, RefusesFibersThatAreOthersAfterwards) {
   Random random;
   const Shaken fibers(random);
   DistributedEngine engine(MPI_COMM_WORLD, one_thread());
-  const Dealt from = dealt_to(own_rank(), fibers.before, fibers.dealt);
+  const DistributedFibers from = dealt_to(own_rank(), fibers.before, fibers.dealt);
   const bool is_wrong = own_rank() == 0;
   const FiberAssembly other({{0, 0, 0}, {1, 0, 0}}, {0, 2}, {0.1});
   EXPECT_THROW(engine.update_motion(from.parts, is_wrong ? other : from.parts, from.names),

@@ -55,7 +55,7 @@ std::vector<PartLoad> planned_by(int count, const FiberAssembly& fibers, double 
     }
     return parts;
   }();
-  const Dealt mine = dealt_to(own_rank(), fibers, dealt);
+  const DistributedFibers mine = dealt_to(own_rank(), fibers, dealt);
   return part_loads(ranks, {mine.parts, mine.names}, rank_count(), margin);
 }
 
@@ -77,7 +77,7 @@ Held held_by(const std::vector<PartLoad>& loads) {
 
 /// By the engines of all ranks, as they say themselves.
 Held held_by_ranks(const FiberAssembly& fibers, double margin, Random& random) {
-  const Dealt mine = dealt_to(own_rank(), fibers, deal(fibers, 0, random));
+  const DistributedFibers mine = dealt_to(own_rank(), fibers, deal(fibers, 0, random));
   DistributedEngine engine(MPI_COMM_WORLD, one_thread());
   engine.update(mine.parts, mine.names);
   DistributedResult result;

@@ -148,10 +148,9 @@ class DistributedEngine {
 
   /// Makes what each rank holds the parts that it brings. A simulation that goes on with these
   /// sends no points but those of halos, until fibres are split anew: then those that change hands.
-  /// @return the parts, as the last update had them, and what they are called. Their radii are
-  /// those
-  ///         of segments, so FiberAssembly::update_points() moves them. Later updates that bring
-  ///         parts of these names and numbers of points are of the same fibres
+  /// @return the parts, as the last update had them, and what they are called. Their radii are of
+  ///         segments, so FiberAssembly::update_points() moves them. Later updates that bring parts
+  ///         of these names and numbers of points are of the same fibres
   /// @throws std::logic_error before the first update, and after one of a motion
   DistributedFibers adopt();
 
