@@ -2,12 +2,15 @@
 #include <ros/console.h>
 
 #include <exception>
+#include <future>
 #include <memory>
 #include <pluginlib/class_list_macros.hpp>
 #include <string>
+#include <utility>
 
 #include "src/ros/server/proximity_server.hpp"
 #include "src/ros/sim/sim_server.hpp"
+#include "src/ros/support/callback_task.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -17,9 +20,14 @@ class ServerNodelet : public nodelet::Nodelet {
  private:
   virtual std::unique_ptr<Server> make() = 0;
 
+  /// The server is built where its callbacks come from, one at a time: the manager's threads would
+  /// call others while it is half built.
   void onInit() final {
+    auto build = std::make_shared<std::packaged_task<void()>>([this] { server_ = make(); });
+    std::future<void> built = build->get_future();
+    add_task(queue_of(getNodeHandle()), this, [build = std::move(build)] { (*build)(); });
     try {
-      server_ = make();
+      built.get();
     } catch (const std::exception& error) {
       ROS_FATAL_STREAM("nodelet " << getName() << ": " << error.what());
       throw;
