@@ -9,6 +9,7 @@ add_library(fiber_proximity_ros SHARED
   src/ros/environment/mesh_loader.cpp
   src/ros/environment/obstacle_change.cpp
   src/ros/environment/obstacle_set.cpp
+  src/ros/environment/owed_changes.cpp
   src/ros/environment/robot_links.cpp
   src/ros/environment/waiting_changes.cpp
   src/ros/inputs/fixed_frame.cpp
@@ -27,6 +28,7 @@ add_library(fiber_proximity_ros SHARED
   src/ros/outputs/environment_markers.cpp
   src/ros/outputs/environment_output.cpp
   src/ros/outputs/fiber_step.cpp
+  src/ros/outputs/knowledge.cpp
   src/ros/outputs/marker_canvas.cpp
   src/ros/outputs/markers.cpp
   src/ros/outputs/node_reports.cpp
@@ -46,6 +48,8 @@ add_library(fiber_proximity_ros SHARED
   src/ros/sim/sim_services.cpp
   src/ros/support/conversions.cpp
   src/ros/support/parameters.cpp
+  src/ros/support/stamps.cpp
+  src/ros/support/unknown.cpp
 )
 # The generated messages' headers, as the system's: our warnings are not meant for them.
 #catkin_lint: ignore_once external_directory

@@ -77,7 +77,7 @@ class Checker {
     return options_;
   }
   bool is_to_go_on(const FiberCheck& check) const {
-    return options_.type != QueryType::FIRST || check.is_free();
+    return options_.type != QueryType::FIRST || !check.has_contact();
   }
 
   const Surroundings& surroundings_;
@@ -214,7 +214,7 @@ class MotionChecker {
     PathCollector fibers(options_, check.fibers);
     PathCollector environment(options_, check.environment);
     const bool is_first = options_.type == MotionType::FIRST;
-    for (std::size_t step = 0; step + 1 < path.size() && !(is_first && !check.is_free()); ++step) {
+    for (std::size_t step = 0; step + 1 < path.size() && !(is_first && check.has_contact()); ++step) {
       if (deadline_.has_passed()) {
         check.self.complete = check.fibers.complete = check.environment.complete = false;
         break;

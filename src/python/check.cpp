@@ -45,6 +45,7 @@ struct CheckAnswer : OnlyShared {
   template <class Check>
   CheckAnswer(const std::vector<Check>& checks, bool moves)
       : free(static_cast<Py_ssize_t>(checks.size())),
+        decided(free.size()),
         complete(free.size()),
         limit_reached(free.size()) {
     std::vector<CandidateContact> found;
@@ -52,6 +53,7 @@ struct CheckAnswer : OnlyShared {
       const Check& check = checks[i];
       const auto index = static_cast<Py_ssize_t>(i);
       free.mutable_at(index) = check.is_free();
+      decided.mutable_at(index) = check.is_decided();
       complete.mutable_at(index) = check.is_complete();
       limit_reached.mutable_at(index) = check.is_limit_reached();
       const auto candidate = static_cast<std::uint32_t>(i);
@@ -63,6 +65,7 @@ struct CheckAnswer : OnlyShared {
   }
 
   py::array_t<bool> free;
+  py::array_t<bool> decided;
   py::array_t<bool> complete;
   py::array_t<bool> limit_reached;
   py::array contacts;
@@ -206,9 +209,14 @@ void bind_check(py::module& module) {
   module.attr("candidate_motion_contact_dtype") = candidate_dtype(true);
   py::class_<CheckAnswer, std::shared_ptr<CheckAnswer>>(
       module, "CheckResult", "Answer to ``check()`` and ``check_motions()``.")
-      .def_readonly("free", &CheckAnswer::free, "(m,) bool: whether the candidate touches nothing.")
+      .def_readonly("free", &CheckAnswer::free,
+                    "(m,) bool: whether it is certain that the candidate touches nothing.")
+      .def_readonly("decided", &CheckAnswer::decided,
+                    "(m,) bool: whether it is free, or has a contact. What a deadline or a limit "
+                    "left open is neither.")
       .def_readonly("complete", &CheckAnswer::complete,
-                    "(m,) bool: whether all pairs have been looked at, or it is not free.")
+                    "(m,) bool: whether all pairs have been looked at. With type \"first\" the "
+                    "first contact ends a check, which then is complete.")
       .def_readonly("limit_reached", &CheckAnswer::limit_reached,
                     "(m,) bool: whether contacts may be missing as a limit has been reached.")
       .def_readonly("contacts", &CheckAnswer::contacts,

@@ -158,7 +158,9 @@ TEST_P(CheckFibersTest, SaysWhichTheDeadlineDidNotReach) {
   // Nothing may be left of what was known of others before.
   for (const FiberCheck& check : checks_) {
     EXPECT_FALSE(check.is_complete());
-    EXPECT_TRUE(check.is_free());
+    EXPECT_FALSE(check.is_free()) << "what is unknown is not free";
+    EXPECT_FALSE(check.has_contact());
+    EXPECT_FALSE(check.is_decided());
     for (const QueryResult* result : {&check.self, &check.fibers, &check.environment}) {
       EXPECT_EQ(result->minimum_lower(), -std::numeric_limits<double>::infinity());
     }

@@ -239,8 +239,10 @@ TEST_F(CheckMotions, SayWhichTheDeadlineDidNotReach) {
   options_.deadline = 1e-9;
   check();
   for (const MotionCheck& check : checks_) {
-    EXPECT_TRUE(check.is_free());  // nothing is left of what was known before
+    EXPECT_FALSE(check.has_contact());  // nothing is left of what was known before
     EXPECT_FALSE(check.is_complete());
+    EXPECT_FALSE(check.is_free()) << "what is unknown is not free";
+    EXPECT_FALSE(check.is_decided());
   }
 }
 

@@ -24,11 +24,16 @@ struct CandidateCheck {
   Answer fibers;       ///< of the candidate (a) with the fibres there are (b)
   Answer environment;  ///< of the candidate (a) with an object (fiber_b) and its shape
 
-  bool is_free() const {
-    return self.contacts.empty() && fibers.contacts.empty() && environment.contacts.empty();
+  /// Whether a contact was found.
+  bool has_contact() const {
+    return !self.contacts.empty() || !fibers.contacts.empty() || !environment.contacts.empty();
   }
-  /// Whether all pairs have been looked at; of a candidate that is not free some need not be.
+  /// Whether all pairs have been looked at; of a candidate that has a contact some need not be.
   bool is_complete() const { return self.complete && fibers.complete && environment.complete; }
+  /// Whether it is certain that there is no contact.
+  bool is_free() const { return !has_contact() && is_complete(); }
+  /// Whether it is known to be free, or not to be.
+  bool is_decided() const { return has_contact() || is_complete(); }
   /// Of one of the three answers.
   bool is_limit_reached() const {
     return self.limit_reached || fibers.limit_reached || environment.limit_reached;

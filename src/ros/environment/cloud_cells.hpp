@@ -21,6 +21,9 @@ struct CloudOptions {
                       Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity())};
 
   double decay{};  ///< [s] cells seen within this time stay; 0: those of the newest cloud only
+
+  bool required{};   ///< answers without a cloud are incomplete
+  double timeout{};  ///< [s] from the last cloud on it counts as such; 0: never
 };
 
 /// What became of the points of a cloud.

@@ -2,6 +2,7 @@
 
 #include <ros/console.h>
 
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -9,12 +10,19 @@
 #include "src/environment/obstacle_parts.hpp"
 #include "src/ros/environment/obstacle_change.hpp"
 #include "src/ros/inputs/point_messages.hpp"
+#include "src/ros/support/stamps.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
 
 /// [s] How often a cloud of which nothing is used is logged.
 constexpr double unused_warning_period = 5.0;
+
+bool is_latched(const ros::MessageEvent<const sensor_msgs::PointCloud2>& event) {
+  const ros::M_string& header = event.getConnectionHeader();
+  const auto latching = header.find("latching");
+  return latching != header.end() && latching->second == "1";
+}
 
 bool remove_cloud(fiber::World& world) {
   if (!world.has(fiber::cloud_name)) {
@@ -27,12 +35,15 @@ bool remove_cloud(fiber::World& world) {
 }  // namespace
 
 CloudInput::CloudInput(ros::NodeHandle private_node, const CloudOptions& options, double tf_timeout,
-                       std::function<void()> on_message)
+                       double max_stamp_ahead, std::function<void()> on_message)
     : resolution_(options.resolution),
       decay_(options.decay),
+      timeout_(options.timeout),
+      required_(options.required),
       tf_timeout_(tf_timeout),
+      max_stamp_ahead_(max_stamp_ahead),
       on_message_(std::move(on_message)),
-      log_("cloud", "sensor_msgs/PointCloud2"),
+      log_(private_node.resolveName("cloud"), "sensor_msgs/PointCloud2"),
       cells_(options),
       subscriber_(private_node.subscribe("cloud", 1, &CloudInput::receive, this)) {}
 
@@ -58,12 +69,37 @@ fiber_proximity::InputStatistics CloudInput::statistics(const ros::Time& now) co
   return statistics;
 }
 
-void CloudInput::receive(const sensor_msgs::PointCloud2::ConstPtr& message) {
+std::optional<Unknown> CloudInput::unknown(const ros::Time& now) const {
+  const auto because = [this](const std::string& why) {
+    const std::string& refused = log_.refused_since();
+    return Unknown{log_.statistics().topic, fiber::cloud_name, last_use_,
+                   why + (refused.empty() ? "" : ", the last one was refused: " + refused)};
+  };
+  if (required_ && newest_.stamp.isZero()) {
+    return because("no cloud yet");
+  }
+  if (required_ && timeout_ > 0.0 && !newest_.is_latched &&
+      (now - last_use_).toSec() > timeout_) {
+    std::ostringstream why;
+    why << "no cloud for " << timeout_ << " s (cloud/timeout)";
+    return because(why.str());
+  }
+  const CloudCounts& counts = newest_.counts;
+  const bool is_blind = counts.used() == 0 && counts.not_finite > 0;
+  if (is_blind || counts.too_far > 0) {
+    return because("of its " + std::to_string(counts.points) + " point(s) " +
+                   reasons_of(counts, resolution_));
+  }
+  return std::nullopt;
+}
+
+void CloudInput::receive(const ros::MessageEvent<const sensor_msgs::PointCloud2>& event) {
   log_.receive();
   if (next_) {
     log_.overtake();
   }
-  (waiting_ ? next_ : waiting_) = Cloud{message, ros::SteadyTime::now()};
+  (waiting_ ? next_ : waiting_) =
+      Cloud{event.getConstMessage(), is_latched(event), ros::SteadyTime::now()};
   on_message_();
 }
 
@@ -74,14 +110,20 @@ bool CloudInput::place_waiting(FixedFrame& frame) {
     log_.refuse("header.frame_id is empty, it must name the frame of the points");
     return true;
   }
-  frame.adopt(header.frame_id);
+  const ros::Time now = ros::Time::now();
+  const ros::Time stamp = header.stamp.isZero() ? now : header.stamp;
   try {
-    const ros::Time stamp = header.stamp.isZero() ? ros::Time::now() : header.stamp;
-    MakeResult make = [this, message = waiting_->message, pose = frame.transform_from(header),
-                       stamp] { return use(*message, pose, stamp); };
+    validate_stamp(stamp, now, max_stamp_ahead_);
+    frame.adopt(header.frame_id);
+    MakeResult make = [this, cloud = *waiting_, pose = frame.transform_from(header), stamp] {
+      return use(cloud, pose, stamp);
+    };
     if (std::exchange(placed_, std::move(make))) {
       log_.overtake();
     }
+    return true;
+  } catch (const std::invalid_argument& error) {
+    log_.refuse(error.what());
     return true;
   } catch (const TransformUnavailable& error) {
     if ((ros::SteadyTime::now() - waiting_->arrival).toSec() <= tf_timeout_) {
@@ -93,12 +135,12 @@ bool CloudInput::place_waiting(FixedFrame& frame) {
 }
 
 /// What a cloud becomes that was seen from this pose.
-CloudInput::Result CloudInput::use(const sensor_msgs::PointCloud2& message,
-                                   const Eigen::Isometry3d& pose, const ros::Time& stamp) {
+CloudInput::Result CloudInput::use(const Cloud& cloud, const Eigen::Isometry3d& pose,
+                                   const ros::Time& stamp) {
   FiberBuffer chain;
-  to_chains(message, chain);
+  to_chains(*cloud.message, chain);
   const CloudCounts counts = cells_.add(chain.points, pose, stamp.toSec());
-  return {cells_.octree(), counts, stamp};
+  return {cells_.octree(), counts, stamp, cloud.is_latched};
 }
 
 bool CloudInput::take_result(fiber::World& world) {
@@ -108,6 +150,8 @@ bool CloudInput::take_result(fiber::World& world) {
     log_.refuse(error.what());
     return false;
   }
+  last_use_ = ros::Time::now();
+  log_.accept();
   warn_if_unused();
   if (newest_.octree == nullptr) {
     return remove_cloud(world);
@@ -123,7 +167,7 @@ bool CloudInput::take_result(fiber::World& world) {
 void CloudInput::warn_if_unused() const {
   const CloudCounts& counts = newest_.counts;
   if (counts.points > 0 && counts.used() == 0) {
-    ROS_WARN_STREAM_THROTTLE(unused_warning_period, "'cloud': none of its "
+    ROS_WARN_STREAM_THROTTLE(unused_warning_period, log_.label() << ": none of its "
                                                         << counts.points << " point(s) is used: "
                                                         << reasons_of(counts, resolution_));
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <ros/message_event.h>
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
 #include <sensor_msgs/PointCloud2.h>
@@ -16,6 +17,7 @@
 #include "src/ros/environment/cloud_cells.hpp"
 #include "src/ros/inputs/fixed_frame.hpp"
 #include "src/ros/inputs/message_log.hpp"
+#include "src/ros/support/unknown.hpp"
 #include "src/ros/support/worker.hpp"
 
 namespace fiber_proximity_ros {
@@ -27,11 +29,12 @@ namespace fiber_proximity_ros {
 /// arrives or the timeout is over, and the newest one behind it.
 class CloudInput {
  public:
-  /// @param tf_timeout [s] of wall time a cloud may wait for its transform
+  /// @param tf_timeout      [s] of wall time a cloud may wait for its transform
+  /// @param max_stamp_ahead [s] a stamp may be ahead of the node's time
   /// @param on_message called for each cloud that arrives
   /// @throws std::invalid_argument as CloudCells
   CloudInput(ros::NodeHandle private_node, const CloudOptions& options, double tf_timeout,
-             std::function<void()> on_message);
+             double max_stamp_ahead, std::function<void()> on_message);
 
   /// Has clouds made into octrees whose transforms are known, puts the newest finished one into the
   /// world, and removes it when all its cells have decayed.
@@ -41,12 +44,17 @@ class CloudInput {
   /// True if update() should be called again soon.
   bool is_waiting() const { return waiting_ || in_work_; }
 
+  /// What is not known of it: no cloud has come yet, none has for the timeout though its publisher
+  /// does not keep its last one for others (a latched topic), or points were beyond the octree.
+  std::optional<Unknown> unknown(const ros::Time& now) const;
+
   /// With what became of the points of the newest cloud.
   fiber_proximity::InputStatistics statistics(const ros::Time& now) const;
 
  private:
   struct Cloud {
     sensor_msgs::PointCloud2::ConstPtr message;
+    bool is_latched;
     ros::SteadyTime arrival;
   };
 
@@ -55,22 +63,25 @@ class CloudInput {
     std::shared_ptr<const fiber::OccupancyOctree> octree;  // null if no cell is occupied
     CloudCounts counts;
     ros::Time stamp;
+    bool is_latched = false;
   };
   using MakeResult = std::function<Result()>;
 
-  void receive(const sensor_msgs::PointCloud2::ConstPtr& message);
+  void receive(const ros::MessageEvent<const sensor_msgs::PointCloud2>& event);
 
   /// @returns false if the waiting cloud goes on waiting
   bool place_waiting(FixedFrame& frame);
-  Result use(const sensor_msgs::PointCloud2& message, const Eigen::Isometry3d& pose,
-             const ros::Time& stamp);
+  Result use(const Cloud& cloud, const Eigen::Isometry3d& pose, const ros::Time& stamp);
   bool take_result(fiber::World& world);
   void warn_if_unused() const;
   bool remove_decayed(const ros::Time& now, fiber::World& world);
 
   double resolution_;
   double decay_;
+  double timeout_;
+  bool required_;
   double tf_timeout_;
+  double max_stamp_ahead_;
   std::function<void()> on_message_;
   MessageLog log_;
   std::optional<Cloud> waiting_;
@@ -78,6 +89,7 @@ class CloudInput {
   std::optional<MakeResult> placed_;  // what is to become of the newest that has its transform
   std::optional<Prepared<Result>> in_work_;
   Result newest_;
+  ros::Time last_use_ = ros::Time::now();  // or when it was first waited for
   CloudCells cells_;  // the worker's alone
 
   // Last: its job and its callback use all of the above.

@@ -13,6 +13,8 @@
 #include "fiber_proximity/ApplyObstacles.h"
 #include "src/ros/inputs/input_source.hpp"
 #include "src/ros/support/callback_task.hpp"
+#include "src/ros/support/stamps.hpp"
+#include "src/text/with_context.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -23,12 +25,23 @@ constexpr std::uint32_t queue_size = 1000;
 /// Requests that may wait at the same time, as those of different clients do for large meshes.
 constexpr std::uint32_t waiting_request_count = 4;
 
-/// [s] How often what is unknown is logged, and how long it may be so without.
-constexpr double warning_period = 5.0;
-
 bool is_configured(const EnvironmentOptions& options) {
   return !options.scene.obstacles.empty() || !options.robot.empty() || options.cloud ||
-         !options.marker_topics.empty();
+         !options.marker_topics.empty() || options.obstacles_required;
+}
+
+/// Refuses a change whose stamps are in the future.
+void check_stamps(Change& change, double most_ahead) {
+  const ros::Time now = ros::Time::now();
+  for (const FramedName& thing : change.frames) {
+    try {
+      fiber::with_context(thing.name, [&] { validate_stamp(thing.header.stamp, now, most_ahead); });
+    } catch (const std::invalid_argument& error) {
+      change.apply =
+          Prepared<Change::Apply>([error]() -> Change::Apply { throw std::invalid_argument(error); });
+      return;
+    }
+  }
 }
 
 /// A part of a message, which keeps the message alive.
@@ -121,11 +134,13 @@ class EnvironmentInputs::ObstacleService {
 
 struct EnvironmentInputs::MarkerSource {
   MarkerSource(const MarkerTopic& from, const MeshLoader& meshes, ObstacleSet& set,
-               FixedFrame& frame)
+               FixedFrame& frame, OwedChanges& owed)
       : obstacles(from.topic, meshes, set),
         topic(from.topic,
-              from.is_array ? "visualization_msgs/MarkerArray" : "visualization_msgs/Marker"),
+              from.is_array ? "visualization_msgs/MarkerArray" : "visualization_msgs/Marker",
+              from.required, from.topic, owed),
         changes(frame) {}
+
 
   MarkerObstacles obstacles;
   ChangeTopic topic;
@@ -135,21 +150,30 @@ struct EnvironmentInputs::MarkerSource {
 EnvironmentInputs::EnvironmentInputs(const ros::NodeHandle& node,
                                      const ros::NodeHandle& private_node,
                                      const EnvironmentOptions& options, FixedFrame& frame,
-                                     double tf_timeout, std::function<void()> on_message)
-    : frame_(frame),
+                                     std::function<void()> on_message)
+    : private_name_(private_node.getNamespace()),
+      frame_(frame),
       on_message_(std::move(on_message)),
       obstacles_(world_),
       scene_(options.scene.obstacles),
       robot_(options.robot, options.robot_timeout),
       obstacle_timeout_(options.obstacle_timeout),
-      obstacle_topic_("obstacles", "fiber_proximity/ObstacleArray"),
+      max_stamp_ahead_(options.max_stamp_ahead),
+      most_late_(options.tf_timeout),
+      obstacle_topic_name_(private_node.resolveName("obstacles")),
+      obstacle_topic_(obstacle_topic_name_, "fiber_proximity/ObstacleArray",
+                      options.obstacles_required, "", owed_),
       changes_(frame),
+      has_scene_(!options.scene.obstacles.empty()),
+      has_robot_(!options.robot.empty()),
       is_configured_(is_configured(options)) {
   allowed_.apply(false, {}, options.scene.allowed);
+  warn_of_allowed();
   scene_.update(obstacles_, frame_);
   ros::NodeHandle own(private_node);
   if (options.cloud) {
-    cloud_ = std::make_unique<CloudInput>(own, *options.cloud, tf_timeout, on_message_);
+    cloud_ = std::make_unique<CloudInput>(own, *options.cloud, options.tf_timeout,
+                                          max_stamp_ahead_, on_message_);
   }
   subscribers_.push_back(
       own.subscribe("obstacles", queue_size, &EnvironmentInputs::receive_obstacles, this));
@@ -177,9 +201,7 @@ bool EnvironmentInputs::update(const ros::Time& stamp) {
   const auto find_pose = [this](const std::string& frame, const ros::Time& time) {
     return frame_.latest_pose(frame, time);
   };
-  changed = robot_.update(stamp, find_pose, world_) || changed;
-  warn_of_unknown();
-  return changed;
+  return robot_.update(stamp, find_pose, world_) || changed;
 }
 
 bool EnvironmentInputs::is_waiting() const {
@@ -188,11 +210,63 @@ bool EnvironmentInputs::is_waiting() const {
                      [](const auto& source) { return source->changes.is_waiting(); });
 }
 
-std::vector<std::string> EnvironmentInputs::unknown() const {
-  std::vector<std::string> unknown = scene_.unknown();
-  const std::vector<std::string> links = robot_.unknown();
-  unknown.insert(unknown.end(), links.begin(), links.end());
-  return unknown;
+std::vector<Unknown> EnvironmentInputs::unknown(bool of_contacts) const {
+  std::vector<Unknown> all = left_out_;
+  const auto add = [&all](const std::optional<Unknown>& unknown) {
+    if (unknown) {
+      all.push_back(*unknown);
+    }
+  };
+  const auto is_there = [this](const std::string& name) { return world_.has(name); };
+  append(scene_.unknown(), all);
+  append(robot_.unknown(), all);
+  add(obstacle_topic_.unknown());
+  append(changes_.unknown(is_there, most_late_), all);
+  for (const std::unique_ptr<MarkerSource>& source : markers_) {
+    add(source->topic.unknown());
+    append(source->changes.unknown(is_there, most_late_), all);
+  }
+  append(owed_.unknown(), all);
+  if (cloud_ != nullptr) {
+    add(cloud_->unknown(ros::Time::now()));
+  }
+  if (of_contacts) {
+    all.erase(std::remove_if(all.begin(), all.end(),
+                             [this](const Unknown& each) { return may_touch_all(each.what); }),
+              all.end());
+  }
+  return all;
+}
+
+std::vector<std::string> EnvironmentInputs::sources() const {
+  std::vector<std::string> sources;
+  if (has_scene_) {
+    sources.emplace_back("scene");
+  }
+  if (has_robot_) {
+    sources.emplace_back("robot");
+  }
+  for (const fiber_proximity::InputStatistics& topic : statistics(ros::Time::now())) {
+    sources.push_back(topic.topic);
+  }
+  return sources;
+}
+
+/// Whether every fibre may touch an object, or whatever has no name.
+bool EnvironmentInputs::may_touch_all(const std::string& object) const {
+  const std::vector<fiber::NamedPair>& pairs = allowed_.pairs();
+  return std::any_of(pairs.begin(), pairs.end(), [&object](const fiber::NamedPair& pair) {
+    return pair.fiber.empty() && pair.segments.empty() &&
+           (pair.object.empty() || pair.object == object);
+  });
+}
+
+/// Pairs that are allowed without naming them are easily forgotten, and left by an earlier launch.
+void EnvironmentInputs::warn_of_allowed() const {
+  if (may_touch_all("")) {
+    ROS_WARN_STREAM(private_name_ << ": every object may touch every fibre, as a pair of `allowed` "
+                                     "names neither: no contacts with objects are reported");
+  }
 }
 
 std::vector<fiber_proximity::InputStatistics> EnvironmentInputs::statistics(
@@ -212,7 +286,8 @@ void EnvironmentInputs::subscribe_to_markers(ros::NodeHandle node,
   using visualization_msgs::Marker;
   using visualization_msgs::MarkerArray;
   for (const MarkerTopic& topic : options.marker_topics) {
-    markers_.push_back(std::make_unique<MarkerSource>(topic, options.meshes, obstacles_, frame_));
+    markers_.push_back(
+        std::make_unique<MarkerSource>(topic, options.meshes, obstacles_, frame_, owed_));
     MarkerSource& source = *markers_.back();
     using Markers = MarkerObstacles::Markers;
     const boost::function<void(const MarkerArray::ConstPtr&)> receive_array =
@@ -230,26 +305,38 @@ void EnvironmentInputs::subscribe_to_markers(ros::NodeHandle node,
     };
     if (!subscribes("parameter ~obstacle_markers, topic '" + topic.topic + "'", subscribe)) {
       markers_.pop_back();
+      left_out_.push_back({topic.topic, "obstacles of " + topic.topic, ros::Time::now(),
+                           "its topic is subscribed to with another type already", true});
     }
   }
 }
 
 void EnvironmentInputs::receive_obstacles(const fiber_proximity::ObstacleArray::ConstPtr& message) {
-  changes_.receive(obstacle_topic_.received(obstacles_.change_of(
-      part_of(message, message->obstacles), obstacle_timeout_, mesh_builder_)));
+  Change change = obstacles_.change_of(part_of(message, message->obstacles), obstacle_timeout_,
+                                       mesh_builder_);
+  check_stamps(change, max_stamp_ahead_);
+  changes_.receive(obstacle_topic_.received(std::move(change)));
   on_message_();
 }
 
 void EnvironmentInputs::receive_markers(std::shared_ptr<const MarkerObstacles::Markers> markers,
                                         MarkerSource& source) {
-  source.changes.receive(source.topic.received(source.obstacles.change_of(
-      std::move(markers), ros::Time::now(), obstacle_timeout_, mesh_builder_)));
+  Change change = source.obstacles.change_of(std::move(markers), ros::Time::now(),
+                                             obstacle_timeout_, mesh_builder_);
+  check_stamps(change, max_stamp_ahead_);
+  source.changes.receive(source.topic.received(std::move(change)));
   on_message_();
 }
 
 void EnvironmentInputs::apply(std::shared_ptr<const Obstacles> obstacles, const Answer& answer) {
   Change change = obstacles_.change_of(std::move(obstacles), 0.0, mesh_builder_);
-  change.on_end = [answer](Change::End end, const std::string& reason) {
+  check_stamps(change, max_stamp_ahead_);
+  change.source = obstacle_topic_name_;
+  change.on_end = [this, answer, touched = change.touched](Change::End end,
+                                                           const std::string& reason) {
+    if (end == Change::End::APPLIED) {
+      owed_.settle("", touched);
+    }
     answer(end == Change::End::OVERTAKEN ? "all its objects were removed meanwhile" : reason);
   };
   changes_.receive(std::move(change));
@@ -261,6 +348,7 @@ bool EnvironmentInputs::allow(fiber_proximity::AllowPairs::Request& request,
                               fiber_proximity::AllowPairs::Response& response) {
   try {
     allowed_.apply(request.reset != 0, to_pairs(request.forbid), to_pairs(request.allow));
+    warn_of_allowed();
     response.success = true;
     was_changed_ = true;
     on_message_();
@@ -269,15 +357,6 @@ bool EnvironmentInputs::allow(fiber_proximity::AllowPairs::Request& request,
   }
   response.allowed = to_messages(allowed_.pairs());
   return true;
-}
-
-void EnvironmentInputs::warn_of_unknown() const {
-  const std::vector<std::string> unknown = this->unknown();
-  if (!unknown.empty()) {
-    ROS_WARN_STREAM_DELAYED_THROTTLE(
-        warning_period, unknown.size() << " object(s) are left out of the environment, the first: "
-                                       << unknown.front());
-  }
 }
 
 }  // namespace fiber_proximity_ros

@@ -20,7 +20,9 @@
 #include "src/ros/environment/marker_obstacles.hpp"
 #include "src/ros/environment/obstacle_set.hpp"
 #include "src/ros/environment/robot_links.hpp"
+#include "src/ros/environment/owed_changes.hpp"
 #include "src/ros/environment/waiting_changes.hpp"
+#include "src/ros/support/unknown.hpp"
 #include "src/ros/support/worker.hpp"
 
 namespace fiber_proximity_ros {
@@ -33,12 +35,11 @@ namespace fiber_proximity_ros {
 class EnvironmentInputs {
  public:
   /// @param frame      must outlive this
-  /// @param tf_timeout [s] of wall time a cloud may wait for its transform
   /// @param on_message called for each message that arrives; it should see to it that update() is
   ///        called soon
   /// @throws std::invalid_argument for a scene that the world refuses
   EnvironmentInputs(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
-                    const EnvironmentOptions& options, FixedFrame& frame, double tf_timeout,
+                    const EnvironmentOptions& options, FixedFrame& frame,
                     std::function<void()> on_message);
   ~EnvironmentInputs();
   EnvironmentInputs(const EnvironmentInputs&) = delete;
@@ -54,7 +55,10 @@ class EnvironmentInputs {
   bool is_waiting() const;
 
   /// True if there is something to look at, or may be later: otherwise the fibres are alone.
-  bool is_used() const { return is_configured_ || world_.object_count() > 0; }
+  bool is_used() const {
+    return is_configured_ || world_.object_count() > 0 || changes_.is_waiting() ||
+           !owed_.is_empty();
+  }
 
   /// May be kept and asked by any thread.
   std::shared_ptr<const fiber::Environment> environment() const { return world_.environment(); }
@@ -63,9 +67,14 @@ class EnvironmentInputs {
     return fiber::resolve(allowed_.pairs(), fiber_names);
   }
 
-  /// Links of the robot and obstacles of the scene that are left out as their transforms are not
-  /// known, and why.
-  std::vector<std::string> unknown() const;
+  /// What of all this is not known now: links and obstacles without transforms, topics that nothing
+  /// has come of, obstacles that were refused. What every fibre may touch is nothing that contacts
+  /// are asked about.
+  /// @param of_contacts whether allowed pairs count: shapes of a query may touch nothing
+  std::vector<Unknown> unknown(bool of_contacts) const;
+
+  /// Where it comes from, as Unknown::source has it.
+  std::vector<std::string> sources() const;
 
   /// State of each topic there is.
   std::vector<fiber_proximity::InputStatistics> statistics(const ros::Time& now) const;
@@ -89,8 +98,10 @@ class EnvironmentInputs {
   void apply(std::shared_ptr<const Obstacles> obstacles, const Answer& answer);
   bool allow(fiber_proximity::AllowPairs::Request& request,
              fiber_proximity::AllowPairs::Response& response);
-  void warn_of_unknown() const;
+  bool may_touch_all(const std::string& object) const;
+  void warn_of_allowed() const;
 
+  std::string private_name_;
   FixedFrame& frame_;
   std::function<void()> on_message_;
   fiber::World world_;
@@ -98,11 +109,18 @@ class EnvironmentInputs {
   fiber::AllowedContacts allowed_;
   SceneObstacles scene_;
   RobotLinks robot_;
-  double obstacle_timeout_;  // [s]
+  double obstacle_timeout_;   // [s]
+  double max_stamp_ahead_;    // [s]
+  double most_late_;          // [s] a change of an object that is there may wait so long
+  OwedChanges owed_;
+  std::string obstacle_topic_name_;
   ChangeTopic obstacle_topic_;
   WaitingChanges changes_;  // of topic and service
   std::vector<std::unique_ptr<MarkerSource>> markers_;
   std::unique_ptr<CloudInput> cloud_;
+  std::vector<Unknown> left_out_;
+  bool has_scene_;
+  bool has_robot_;
   bool is_configured_;
   bool was_changed_ = false;
 

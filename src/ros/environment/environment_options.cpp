@@ -64,6 +64,8 @@ std::optional<CloudOptions> read_cloud_options(const Parameters& parameters) {
   CloudOptions options;
   parameters.read("cloud/resolution", options.resolution);
   parameters.read("cloud/decay", options.decay);
+  parameters.read("cloud/required", options.required);
+  parameters.read("cloud/timeout", options.timeout);
   read_box(parameters, options.box);
   return options;
 }
@@ -114,6 +116,10 @@ bool read_marker_topic(const XmlRpcValue& entry, MarkerTopic& topic) {
     return false;
   }
   for (const auto& [key, value] : entry) {
+    if (key == "required" && value.getType() == XmlRpcValue::TypeBoolean) {
+      topic.required = static_cast<const bool&>(value);
+      continue;
+    }
     if (value.getType() != XmlRpcValue::TypeString) {
       return false;
     }
@@ -167,6 +173,9 @@ EnvironmentOptions read_environment_options(const ros::NodeHandle& node,
   options.robot = read_robot(node, parameters, options.meshes);
   options.cloud = read_cloud_options(parameters);
   options.marker_topics = read_marker_topics(parameters);
+  parameters.read("obstacles_required", options.obstacles_required);
+  parameters.read("tf_timeout", options.tf_timeout);
+  parameters.read("max_stamp_ahead", options.max_stamp_ahead);
   parameters.read("robot_timeout", options.robot_timeout);
   parameters.read("obstacle_timeout", options.obstacle_timeout);
   return options;

@@ -18,6 +18,7 @@ namespace fiber_proximity_ros {
 struct MarkerTopic {
   std::string topic;
   bool is_array = true;  ///< visualization_msgs/MarkerArray, or Marker
+  bool required = true;  ///< answers are incomplete until its first message
 };
 
 /// Where the environment comes from, as the private parameters have it; their defaults are in
@@ -29,7 +30,13 @@ struct EnvironmentOptions {
   std::optional<CloudOptions> cloud;
   std::vector<MarkerTopic> marker_topics;
 
+  bool obstacles_required{};  ///< answers are incomplete until the first message of ~obstacles
+
   double robot_timeout{};  ///< [s] links are unknown whose transforms are older
+
+  double tf_timeout{};  ///< [s] of wall time a cloud may wait for its transform
+
+  double max_stamp_ahead{};  ///< [s] a stamp may be ahead of the node's time
 
   /// [s] of wall time an obstacle may wait for its transform; longer than tf takes to arrive after
   /// the start, as nobody sends obstacles twice

@@ -114,7 +114,7 @@ Change MarkerObstacles::change_of(std::shared_ptr<const Markers> markers, const 
     };
   };
   auto apply = Prepared<Change::Apply>(prepare, is_large ? &worker : nullptr);
-  return {std::move(touched), std::move(frames), std::move(apply), patience, {}};
+  return {std::move(touched), std::move(frames), std::move(apply), patience, {}, {}};
 }
 
 bool MarkerObstacles::expire(const ros::Time& now) {

@@ -78,7 +78,7 @@ Change ObstacleSet::change_of(std::shared_ptr<const Obstacles> obstacles, double
     };
   };
   auto apply = Prepared<Change::Apply>(prepare, is_large ? &worker : nullptr);
-  return {std::move(touched), std::move(frames), std::move(apply), patience, {}};
+  return {std::move(touched), std::move(frames), std::move(apply), patience, {}, {}};
 }
 
 SceneObstacles::SceneObstacles(const std::vector<fiber::SceneObstacle>& obstacles) {
@@ -112,10 +112,10 @@ bool SceneObstacles::update(ObstacleSet& obstacles, FixedFrame& frame) {
   return waiting_.size() != before;
 }
 
-std::vector<std::string> SceneObstacles::unknown() const {
-  std::vector<std::string> unknown;
-  for (const Waiting& obstacle : waiting_) {
-    unknown.push_back(obstacle.error);
+std::vector<Unknown> SceneObstacles::unknown() const {
+  std::vector<Unknown> unknown;
+  for (const Waiting& waiting : waiting_) {
+    unknown.push_back({"scene", waiting.obstacle.object.name, beginning_, waiting.error});
   }
   return unknown;
 }

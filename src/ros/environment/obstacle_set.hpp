@@ -9,6 +9,7 @@
 #include "fiber_proximity/environment/world.hpp"
 #include "src/environment/scene/environment_scene.hpp"
 #include "src/ros/environment/waiting_changes.hpp"
+#include "src/ros/support/unknown.hpp"
 #include "src/ros/support/worker.hpp"
 
 namespace fiber_proximity_ros {
@@ -48,8 +49,8 @@ class SceneObstacles {
   /// @returns true if there are any
   bool update(ObstacleSet& obstacles, FixedFrame& frame);
 
-  /// Names of those that are not in the world yet, and why.
-  std::vector<std::string> unknown() const;
+  /// Those that are not in the world yet.
+  std::vector<Unknown> unknown() const;
 
  private:
   struct Waiting {
@@ -58,6 +59,7 @@ class SceneObstacles {
   };
 
   std::vector<Waiting> waiting_;
+  ros::Time beginning_ = ros::Time::now();
 };
 
 }  // namespace fiber_proximity_ros

@@ -2,6 +2,7 @@
 
 #include <urdf/model.h>
 
+#include <algorithm>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -99,11 +100,11 @@ bool RobotLinks::update(const ros::Time& stamp, const FindPose& find_pose, fiber
   return !changes.empty();
 }
 
-std::vector<std::string> RobotLinks::unknown() const {
-  std::vector<std::string> unknown;
+std::vector<Unknown> RobotLinks::unknown() const {
+  std::vector<Unknown> unknown;
   for (const Link& link : links_) {
     if (!link.is_present) {
-      unknown.push_back(link.object.name + ": " + link.error);
+      unknown.push_back({"robot", link.object.name, link.known, link.error});
     }
   }
   return unknown;
@@ -134,10 +135,12 @@ std::optional<Eigen::Isometry3d> RobotLinks::find_pose(Link& link, const ros::Ti
     fiber::validate(found.pose);
     const double age = found.stamp.isZero() ? 0.0 : (stamp - found.stamp).toSec();
     if (age <= timeout_) {
+      link.known = found.stamp.isZero() ? stamp : std::max(link.known, found.stamp);
       return found.pose;
     }
     std::ostringstream message;
-    message << "its transform is " << age << " s old";
+    message << "its transform is of " << found.stamp << ", older than " << timeout_
+            << " s (robot_timeout)";
     link.error = message.str();
   } catch (const TransformUnavailable& error) {
     link.error = error.what();

@@ -9,6 +9,7 @@
 #include "fiber_proximity/environment/world.hpp"
 #include "src/ros/environment/mesh_loader.hpp"
 #include "src/ros/inputs/fixed_frame.hpp"
+#include "src/ros/support/unknown.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -38,13 +39,14 @@ class RobotLinks {
   /// @returns true if the world changed
   bool update(const ros::Time& stamp, const FindPose& find_pose, fiber::World& world);
 
-  /// Names of the links that are not in the world, and why.
-  std::vector<std::string> unknown() const;
+  /// The links that are not in the world.
+  std::vector<Unknown> unknown() const;
 
  private:
   /// Where it was last.
   struct Link : RobotLink {
     bool is_present = false;
+    ros::Time known = ros::Time::now();  // when it was, or was first looked for
     std::string error = "not looked for yet";
   };
 

@@ -7,7 +7,13 @@
 
 namespace fiber_proximity_ros {
 
+void TouchedObjects::add(const std::string& name) {
+  names_.insert(name);
+  wanted_.insert(name);
+}
+
 void TouchedObjects::remove(const std::string& name) {
+  wanted_.erase(name);
   if (names_.insert(name).second) {
     removed_first_.insert(name);
   }
@@ -16,6 +22,7 @@ void TouchedObjects::remove(const std::string& name) {
 void TouchedObjects::remove_all() {
   removes_everything_first_ = removes_everything_first_ || (names_.empty() && !is_everything_);
   is_everything_ = true;
+  wanted_.clear();
 }
 
 bool TouchedObjects::overlaps(const TouchedObjects& other) const {
@@ -96,6 +103,22 @@ void WaitingChanges::receive(Change change) {
   }
 }
 
+std::vector<Unknown> WaitingChanges::unknown(
+    const std::function<bool(const std::string&)>& is_there, double lateness) const {
+  std::vector<Unknown> unknown;
+  const ros::SteadyTime now = ros::SteadyTime::now();
+  for (const Waiting& waiting : waiting_) {
+    const bool is_late = (now - waiting.arrival).toSec() > lateness;
+    for (const std::string& name : waiting.change.touched.names()) {
+      if (waiting.change.touched.wants(name) && (is_late || !is_there(name))) {
+        unknown.push_back({waiting.change.source, name, waiting.since,
+                           waiting.missing.empty() ? "its change is not made yet" : waiting.missing});
+      }
+    }
+  }
+  return unknown;
+}
+
 bool WaitingChanges::update() {
   bool applied = false;
   Blocked blocked;
@@ -173,11 +196,15 @@ bool WaitingChanges::refuse(const Waiting& waiting, const std::string& reason) c
 
 Change ChangeTopic::received(Change change) {
   log_.receive();
-  change.on_end = [this](Change::End end, const std::string& reason) {
+  change.source = topic_;
+  change.on_end = [this, touched = change.touched](Change::End end, const std::string& reason) {
     if (end == Change::End::APPLIED) {
       last_applied_ = ros::Time::now();
+      log_.accept();
+      owed_.settle(scope_, touched);
     } else if (end == Change::End::REFUSED) {
       log_.refuse(reason);
+      owed_.refuse(topic_, touched, ros::Time::now(), reason);
     } else {
       log_.overtake();
     }
@@ -191,6 +218,15 @@ fiber_proximity::InputStatistics ChangeTopic::statistics(const ros::Time& now) c
     statistics.age = (now - *last_applied_).toSec();
   }
   return statistics;
+}
+
+std::optional<Unknown> ChangeTopic::unknown() const {
+  if (!required_ || last_applied_) {
+    return std::nullopt;
+  }
+  const std::string& refused = log_.refused_since();
+  return Unknown{topic_, "obstacles of " + topic_, beginning_,
+                 "no message yet" + (refused.empty() ? "" : " but what was refused: " + refused)};
 }
 
 }  // namespace fiber_proximity_ros

@@ -14,7 +14,9 @@
 
 #include "fiber_proximity/InputStatistics.h"
 #include "src/ros/inputs/fixed_frame.hpp"
+#include "src/ros/environment/owed_changes.hpp"
 #include "src/ros/inputs/message_log.hpp"
+#include "src/ros/support/unknown.hpp"
 #include "src/ros/support/worker.hpp"
 
 namespace fiber_proximity_ros {
@@ -23,12 +25,15 @@ namespace fiber_proximity_ros {
 class TouchedObjects {
  public:
   /// Notes the next step of the change.
-  void add(const std::string& name) { names_.insert(name); }
+  void add(const std::string& name);
   void remove(const std::string& name);
   void remove_all();
 
   const std::set<std::string>& names() const { return names_; }
   bool is_everything() const { return is_everything_; }
+
+  /// Whether the object of a name is to be there after the change.
+  bool wants(const std::string& name) const { return wanted_.count(name) > 0; }
 
   /// Whether it could undo another change.
   bool begins_with_removal() const { return removes_everything_first_ || !removed_first_.empty(); }
@@ -41,7 +46,8 @@ class TouchedObjects {
 
  private:
   std::set<std::string> names_;
-  std::set<std::string> removed_first_;  // of these names
+  std::set<std::string> wanted_;         // of these names
+  std::set<std::string> removed_first_;  // the same
   bool is_everything_ = false;
   bool removes_everything_first_ = false;
 };
@@ -79,6 +85,8 @@ struct Change {
 
   /// Called once, at the end, with the reason if the change was refused.
   std::function<void(End, const std::string& reason)> on_end;
+
+  std::string source;  ///< where it comes from, as /diagnostics names it
 };
 
 /// Changes of the environment on their way. Each waits for three things: the transforms of its
@@ -105,6 +113,13 @@ class WaitingChanges {
 
   bool is_waiting() const { return !waiting_.empty(); }
 
+  /// Objects of which a change waits: those that are not there yet, and those that are there and
+  /// whose change has waited for longer than they may be late.
+  /// @param is_there whether the world has an object of a name
+  /// @param lateness [s]
+  std::vector<Unknown> unknown(const std::function<bool(const std::string& name)>& is_there,
+                               double lateness) const;
+
   /// Drops all, as this ends.
   void clear() { waiting_.clear(); }
 
@@ -120,6 +135,7 @@ class WaitingChanges {
     std::string missing;                 // why the next one has none
     std::optional<Change::Apply> apply;  // once it is prepared
     ros::SteadyTime arrival = ros::SteadyTime::now();
+    ros::Time since = ros::Time::now();  // the same
   };
   using Queue = std::list<Waiting>;
 
@@ -144,10 +160,16 @@ class WaitingChanges {
   Queue waiting_;
 };
 
-/// A topic whose messages change the environment: counts what becomes of them.
+/// A topic whose messages change the environment: counts what becomes of them, and knows what it is
+/// owed.
 class ChangeTopic {
  public:
-  ChangeTopic(const std::string& topic, const std::string& type) : log_(topic, type) {}
+  /// @param required whether what is around the fibres is unknown until the first change
+  /// @param scope    see OwedChanges::settle()
+  /// @param owed     must outlive this
+  ChangeTopic(const std::string& topic, const std::string& type, bool required, std::string scope,
+              OwedChanges& owed)
+      : topic_(topic), required_(required), scope_(std::move(scope)), owed_(owed), log_(topic, type) {}
 
   /// Counts a message.
   /// @returns the change with what counts its end, too; this must outlive it
@@ -155,8 +177,16 @@ class ChangeTopic {
 
   fiber_proximity::InputStatistics statistics(const ros::Time& now) const;
 
+  /// That nothing has come yet that is waited for.
+  std::optional<Unknown> unknown() const;
+
  private:
+  std::string topic_;
+  bool required_;
+  std::string scope_;
+  OwedChanges& owed_;
   MessageLog log_;
+  ros::Time beginning_ = ros::Time::now();
   std::optional<ros::Time> last_applied_;
 };
 

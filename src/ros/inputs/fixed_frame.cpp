@@ -95,8 +95,14 @@ geometry_msgs::TransformStamped FixedFrame::look_up(const std_msgs::Header& head
                            fiber::quote(name_) + time_of(header.stamp) + ": ";
   try {
     return buffer_.lookupTransform(name_, frame, header.stamp);
-  } catch (const tf2::LookupException& error) {
-    throw TransformUnavailable(what + "unknown frame: " + error.what());
+  } catch (const tf2::LookupException&) {
+    // tf names the first that it misses: the fixed frame, as long as nobody has published any.
+    const bool knows_fixed = buffer_._frameExists(name_);
+    throw TransformUnavailable(what + "unknown frame: " +
+                               (buffer_._frameExists(frame)
+                                    ? fiber::quote(name_)
+                                    : fiber::quote(frame) +
+                                          (knows_fixed ? "" : ", and so is " + fiber::quote(name_))));
   } catch (const tf2::ConnectivityException& error) {
     throw TransformUnavailable(what + "frames not connected: " + error.what());
   } catch (const tf2::ExtrapolationException& error) {

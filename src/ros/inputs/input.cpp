@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "src/ros/support/stamps.hpp"
+
 namespace fiber_proximity_ros {
 namespace {
 
@@ -59,6 +61,7 @@ void Input::store(const ReadMessage& read, FixedFrame& frame) {
     return;  // a tracker that has frozen sends its last answer again and again
   }
   name_fibers(options_.name, chains_);
+  const std::uint64_t gaps_before = missing_.gaps;
   handle_missing_points(options_.missing_points, chains_, missing_);
   if (chains_.radii.empty()) {
     chains_.radii.assign(1, options_.radius);
@@ -66,6 +69,7 @@ void Input::store(const ReadMessage& read, FixedFrame& frame) {
   MessagePtr message = spares_.take();
   assign(chains_, message->fibers);
   message->names.swap(chains_.names);
+  message->gaps = missing_.gaps - gaps_before;
   message->header = header;
   message->stamp = stamp;
   message->arrival = now;
@@ -80,22 +84,12 @@ void Input::store(const ReadMessage& read, FixedFrame& frame) {
   waiting_.push_back(std::move(message));
 }
 
-/// The past is unlimited, as a recording has stamps of the past, and starts again at its end; but
-/// a stamp of the future would be that of all answers until then.
+/// A recording starts again at its end.
 void Input::check_stamp(const ros::Time& stamp, const ros::Time& now) const {
-  std::ostringstream error;
-  if (constexpr std::uint32_t second = 1'000'000'000; stamp.nsec >= second) {
-    error << "its stamp has " << stamp.nsec << " nanoseconds, it must have fewer than " << second;
-    throw std::invalid_argument(error.str());
-  }
-  const double ahead = stamp.toSec() - now.toSec();
-  if (ros::Time::isValid() && ahead > timing_.max_stamp_ahead) {
-    error << "its stamp " << stamp << " is " << ahead << " s ahead of the node's time " << now
-          << ", it may be " << timing_.max_stamp_ahead << " s ahead (max_stamp_ahead)";
-    throw std::invalid_argument(error.str());
-  }
+  validate_stamp(stamp, now, timing_.max_stamp_ahead);
   const bool starts_anew = !last_arrival_ || (now - *last_arrival_).toSec() > timing_.input_timeout;
   if (!starts_anew && stamp < *last_stamp_) {
+    std::ostringstream error;
     error << "its stamp " << stamp << " is older than " << *last_stamp_
           << ", that of the message before it";
     throw std::invalid_argument(error.str());
@@ -146,6 +140,7 @@ void Input::accept(const ros::Time& stamp) {
   current_ = std::move(placed_.front());
   placed_.pop_front();
   has_fibers_ = true;
+  log_.accept();
   if (staleness_ != Staleness::NONE) {
     staleness_ = Staleness::NONE;
     stale_reason_.clear();
@@ -170,6 +165,9 @@ bool Input::expire(const ros::Time& now, bool is_stranger) {
   if (has_stopped) {
     reason << "no new message for " << timing_.input_timeout << " s"
            << (repeats_stamp_ ? ", its messages repeat their stamp" : "");
+    if (!log_.refused_since().empty()) {
+      reason << ", its last one was refused: " << log_.refused_since();
+    }
     for (; !placed_.empty(); placed_.pop_front()) {
       overtake(placed_.front());
     }
@@ -196,6 +194,32 @@ void Input::reset() {
   last_arrival_.reset();
   newest_header_stamp_.reset();
   newest_arrival_.reset();
+  beginning_ = ros::Time::now();
+}
+
+std::optional<Unknown> Input::unknown() const {
+  const std::string& topic = options_.topic;
+  if (is_fresh()) {
+    const std::uint64_t gaps = current_->gaps;
+    return gaps == 0 ? std::nullopt
+                     : std::make_optional<Unknown>(
+                           {topic, "input " + topic, current_->stamp,
+                            std::to_string(gaps) + " of its points are missing", true});
+  }
+  if (!options_.required) {
+    return std::nullopt;
+  }
+  const bool is_stale = staleness_ != Staleness::NONE;
+  return Unknown{topic, "input " + topic, newest_arrival_.value_or(beginning_),
+                 is_stale ? stale_reason_ : absence(), is_stale};
+}
+
+/// Why there have been no fibres yet.
+std::string Input::absence() const {
+  const std::string reason = newest_arrival_ ? "no message that belongs to those of other inputs yet"
+                                             : "no message yet";
+  const std::string& refused = log_.refused_since();
+  return refused.empty() ? reason : reason + " but what was refused: " + refused;
 }
 
 fiber_proximity::InputStatistics Input::statistics(const ros::Time& now) const {

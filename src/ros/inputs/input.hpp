@@ -3,6 +3,7 @@
 #include <ros/time.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "src/ros/inputs/fixed_frame.hpp"
 #include "src/ros/inputs/input_source.hpp"
 #include "src/ros/inputs/message_log.hpp"
+#include "src/ros/support/unknown.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -91,6 +93,10 @@ class Input {
   /// Why the fibres are stale; empty if they are not.
   const std::string& stale_reason() const { return stale_reason_; }
 
+  /// What of it is not known now, which makes answers incomplete: the fibres, or some of their
+  /// points. Nothing of an input that is not required is missed but points.
+  std::optional<Unknown> unknown() const;
+
  private:
   struct Message {
     std_msgs::Header header;
@@ -99,6 +105,7 @@ class Input {
     ros::SteadyTime steady_arrival;
     fiber::FiberAssembly fibers;
     std::vector<std::string> names;
+    std::uint64_t gaps = 0;  // points that are missing, and that no bridge stands in for
   };
   using MessagePtr = std::unique_ptr<Message>;
 
@@ -115,6 +122,7 @@ class Input {
     std::vector<MessagePtr> messages_;
   };
 
+  std::string absence() const;
   void store(const ReadMessage& read, FixedFrame& frame);
   void check_stamp(const ros::Time& stamp, const ros::Time& now) const;
   bool place(MessagePtr& message, const FixedFrame& frame);
@@ -137,6 +145,7 @@ class Input {
   Staleness staleness_ = Staleness::NONE;
   std::string stale_reason_;
   bool repeats_stamp_ = false;
+  ros::Time beginning_ = ros::Time::now();  // since when it is waited for
 
   // Of the last message stored, and of the last one placed; empty if there was none.
   std::optional<ros::Time> last_stamp_;

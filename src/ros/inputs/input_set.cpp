@@ -60,10 +60,11 @@ void merge_radii(const std::vector<const Input*>& inputs, std::vector<double>& r
 }  // namespace
 
 InputSet::InputSet(ros::NodeHandle node, const std::vector<InputOptions>& inputs,
-                   const InputTiming& timing, const std::string& fixed_frame,
-                   std::function<void()> on_message)
+                   std::vector<Unknown> left_out, const InputTiming& timing,
+                   const std::string& fixed_frame, std::function<void()> on_message)
     : frame_(fixed_frame, node),
       on_message_(std::move(on_message)),
+      left_out_(std::move(left_out)),
       input_timeout_(timing.input_timeout),
       last_time_(ros::Time::now()) {
   for (const InputOptions& options : inputs) {
@@ -74,6 +75,8 @@ InputSet::InputSet(ros::NodeHandle node, const std::vector<InputOptions>& inputs
     };
     if (!subscribes(options.where,
                     [&] { subscribers_.push_back(subscribe(node, options, receiver)); })) {
+      left_out_.push_back({options.topic, "input " + options.topic, last_time_,
+                           "its topic is subscribed to with another type already", true});
       inputs_.pop_back();
     }
   }
@@ -92,6 +95,10 @@ bool InputSet::update() {
     changed = inputs_[i]->expire(last_time_, matcher_ && matcher_->is_stranger(i)) || changed;
   }
   merged_is_old_ = merged_is_old_ || changed;
+  if (!is_fresh()) {
+    merged_.header.frame_id = frame_.name();
+    merged_.header.stamp = last_time_;
+  }
   work_time_ += stopwatch.seconds();
   return changed;
 }
@@ -104,6 +111,16 @@ bool InputSet::is_waiting() const {
 bool InputSet::is_fresh() const {
   return std::any_of(inputs_.begin(), inputs_.end(),
                      [](const std::unique_ptr<Input>& input) { return input->is_fresh(); });
+}
+
+std::vector<Unknown> InputSet::unknown() const {
+  std::vector<Unknown> all = left_out_;
+  for (const std::unique_ptr<Input>& input : inputs_) {
+    if (std::optional<Unknown> unknown = input->unknown()) {
+      all.push_back(std::move(*unknown));
+    }
+  }
+  return all;
 }
 
 void InputSet::require_fresh() const {

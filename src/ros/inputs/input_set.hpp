@@ -12,6 +12,7 @@
 #include "src/ros/inputs/fixed_frame.hpp"
 #include "src/ros/inputs/input.hpp"
 #include "src/ros/inputs/stamp_matcher.hpp"
+#include "src/ros/support/unknown.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -20,9 +21,11 @@ namespace fiber_proximity_ros {
 /// fallen silent, or whose stamps never match, are left out then, as they would stop the others.
 class InputSet {
  public:
+  /// @param left_out   inputs that are configured and cannot be had
   /// @param on_message called for each message that arrives; it should see to it that update() is
   ///        called once the others that have arrived are in as well
-  InputSet(ros::NodeHandle node, const std::vector<InputOptions>& inputs, const InputTiming& timing,
+  InputSet(ros::NodeHandle node, const std::vector<InputOptions>& inputs,
+           std::vector<Unknown> left_out, const InputTiming& timing,
            const std::string& fixed_frame, std::function<void()> on_message);
 
   /// Takes over what has arrived and leaves out what has expired.
@@ -38,11 +41,15 @@ class InputSet {
   /// @throws std::invalid_argument saying so unless it is
   void require_fresh() const;
 
+  /// What of the inputs is not known now: those without fresh fibres, and what is missing of the
+  /// others.
+  std::vector<Unknown> unknown() const;
+
   /// The fibres of all fresh inputs, merged at the first call after a change.
   const fiber::FiberAssembly& fibers();
   const std::vector<std::string>& names() const { return merged_.names; }
 
-  /// Fixed frame, and the newest stamp among the fibres.
+  /// Fixed frame, and the newest stamp among the fibres; without any, the time of the last update.
   const std_msgs::Header& header() const { return merged_.header; }
 
   const FixedFrame& frame() const { return frame_; }
@@ -62,6 +69,7 @@ class InputSet {
   FixedFrame frame_;
   std::function<void()> on_message_;
   std::vector<std::unique_ptr<Input>> inputs_;
+  std::vector<Unknown> left_out_;
   double input_timeout_;                 // [s]
   std::optional<StampMatcher> matcher_;  // if the inputs are synchronised
   ros::Time last_match_;                 // when a set was found, or none was waited for

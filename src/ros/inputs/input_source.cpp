@@ -130,6 +130,7 @@ InputOptions read_input_options(const XmlRpcValue& entry, double default_radius)
   read_key(entry, "name", options.name);
   read_key(entry, "radius", options.radius);
   options.missing_points = read_missing_points(entry);
+  read_key(entry, "required", options.required);
   read_key(entry, "namespace", options.marker.marker_namespace);
   read_key(entry, "radius_from_marker", options.marker.radius_from_marker);
   read_key(entry, "weld_tolerance", options.marker.weld_tolerance);

@@ -29,6 +29,8 @@ struct InputOptions {
 
   MissingPoints missing_points = MissingPoints::REFUSE;
 
+  bool required = true;  ///< answers without its fibres are incomplete
+
   MarkerInputOptions marker;  ///< used by the marker types
 
   std::string where;  ///< what the log calls the entry

@@ -48,6 +48,7 @@ MessageLog::MessageLog(const std::string& topic, const std::string& type, const 
 void MessageLog::refuse(const std::string& reason) {
   ++statistics_.refused;
   statistics_.last_error = reason;
+  refused_since_ = reason;
   const ros::SteadyTime now = ros::SteadyTime::now();
   Reason* const place = place_of(reason_kind(reason), now);
   if (place == nullptr) {

@@ -24,8 +24,12 @@ class MessageLog {
   MessageLog(const std::string& topic, const std::string& type, const std::string& source = "");
 
   void receive() { ++statistics_.received; }
+  void accept() { refused_since_.clear(); }
   void overtake() { ++statistics_.overtaken; }
   void refuse(const std::string& reason);
+
+  /// Why the last message was refused since one was accepted; empty if none was.
+  const std::string& refused_since() const { return refused_since_; }
 
   /// What the log calls the topic.
   const std::string& label() const { return label_; }
@@ -46,6 +50,7 @@ class MessageLog {
   std::vector<Reason> reasons_;
   std::uint64_t unlogged_ = 0;  // times for reasons that are not among these
   fiber_proximity::InputStatistics statistics_;
+  std::string refused_since_;
 };
 
 /// Counts the messages of a topic that were sent but never arrived: a publisher numbers its

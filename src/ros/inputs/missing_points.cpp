@@ -59,13 +59,20 @@ class KnownChains {
 
   void copy(std::size_t fiber, MissingPoints policy) {
     const std::size_t fibers_before = known_.fiber_count();
+    std::uint64_t gap = 0;  // points since the last known one
     for (std::uint32_t i = chains_.offsets[fiber]; i < chains_.offsets[fiber + 1]; ++i) {
-      if (!is_missing(chains_.points[i])) {
-        piece_.push_back(i);
-      } else if (policy == MissingPoints::SPLIT) {
-        end_piece(fiber, fibers_before);
+      if (is_missing(chains_.points[i])) {
+        ++gap;
+        if (policy == MissingPoints::SPLIT) {
+          end_piece(fiber, fibers_before);
+        }
+        continue;
       }
+      counts_.gaps += piece_.empty() ? gap : 0;
+      gap = 0;
+      piece_.push_back(i);
     }
+    counts_.gaps += gap;
     end_piece(fiber, fibers_before);
     counts_.fibers += known_.fiber_count() == fibers_before ? 1 : 0;
   }

@@ -16,6 +16,7 @@ enum class MissingPoints {
 /// What was missing, in all messages so far.
 struct MissingPointCounts {
   std::uint64_t points = 0;
+  std::uint64_t gaps = 0;         ///< of these points, those that no bridge stands in for
   std::uint64_t fibers = 0;       ///< left out: fewer than two of their points are known
   std::uint64_t lone_points = 0;  ///< known, but left out: no neighbour of theirs is known
 };

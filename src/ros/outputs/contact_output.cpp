@@ -52,6 +52,17 @@ double duration_of(const fiber::TouchEvent& event) {
       .count();
 }
 
+/// @param message with the names of the bodies
+std::uint8_t kind_of(const fiber::TouchEvent& event, const fiber_proximity::ContactEvent& message,
+                     const Knowledge& knowledge) {
+  if (event.kind == fiber::TouchEvent::Kind::BEGAN) {
+    return fiber_proximity::ContactEvent::BEGAN;
+  }
+  const bool is_lost = !knowledge.is_all_known() &&
+                       (knowledge.is_lost(message.body_a) || knowledge.is_lost(message.body_b));
+  return is_lost ? fiber_proximity::ContactEvent::LOST : fiber_proximity::ContactEvent::ENDED;
+}
+
 /// Adds what is known of it over time.
 void add_details(const StepContact& contact, const fiber::Touch& touch, nanoseconds since,
                  nanoseconds now, Contact& message) {
@@ -66,9 +77,9 @@ void add_details(const StepContact& contact, const fiber::Touch& touch, nanoseco
 }  // namespace
 
 ContactOutput::ContactOutput(ros::NodeHandle& private_node, const std::string& topic,
-                             std::uint8_t type_b)
+                             std::uint8_t type_b, const Newcomer& on_newcomer)
     : type_b_(type_b),
-      publisher_(private_node.advertise<fiber_proximity::ContactArray>(topic, 1)),
+      publisher_(advertise<fiber_proximity::ContactArray>(private_node, topic, on_newcomer)),
       event_publisher_(private_node.advertise<fiber_proximity::ContactEvent>("contact_events",
                                                                              most_waiting_events)),
       tracker_(type_b == Contact::OBJECT ? 2 : 1, 2) {}
@@ -80,7 +91,7 @@ void ContactOutput::track(const ContactAnswer& answer) {
   contacts_ = step_contacts(answer.detection.contacts().contacts, step, answer.motion);
   events_.clear();
   rename(answer.names, step);
-  publish_events(names_, answer.header);
+  publish_events(names_, answer);
   names_ = answer.names;
   pairs_.clear();
   for (const StepContact& contact : contacts_) {
@@ -88,7 +99,7 @@ void ContactOutput::track(const ContactAnswer& answer) {
   }
   events_.clear();
   tracker_.advance(pairs_, step, events_);
-  publish_events(names_, answer.header);
+  publish_events(names_, answer);
   has_answer_ = true;
   last_answer_ = now;
 }
@@ -97,7 +108,8 @@ void ContactOutput::publish(const ContactAnswer& answer, bool has_gradients, dou
   if (publisher_.getNumSubscribers() == 0) {
     return;
   }
-  const auto& [detection, options, motion, names, header] = answer;
+  const auto& [detection, options, motion, completeness, knowledge, names, header] = answer;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   const nanoseconds now = to_time(header.stamp);
   const nanoseconds since = motion != nullptr ? motion->time.lower : now;
   const auto fill_in = [&, type_b = type_b_](const fiber::Contact& contact, Contact& message) {
@@ -124,17 +136,18 @@ void ContactOutput::publish(const ContactAnswer& answer, bool has_gradients, dou
   message_.contacts.resize(count);
   message_.margin = options.margin;
   message_.has_minimum = detection.minimum() != nullptr;
-  message_.minimum_distance = std::numeric_limits<double>::infinity();
+  message_.minimum_distance = infinity;
   message_.minimum = Contact();
   if (message_.has_minimum) {
     message_.minimum_distance = detection.minimum()->distance;
     fill_in(*detection.minimum(), message_.minimum);
   }
-  message_.minimum_lower = detection.minimum_lower();
+  message_.minimum_lower = completeness.lower(detection.minimum_lower(), -infinity);
   message_.minimum_upper = detection.minimum_upper();
   message_.kernel = name_of(options.kernel);
   message_.tolerance = options.tolerance;
-  message_.complete = detection.is_complete() && (motion == nullptr || motion->result.complete);
+  message_.complete = completeness.is_complete();
+  message_.unknown = completeness.unknown();
   message_.limit_reached =
       detection.is_limit_reached() || (motion != nullptr && motion->result.limit_reached);
   message_.node_tests = detection.counts().node_tests;
@@ -163,7 +176,8 @@ void ContactOutput::rename(const BodyNames& names, const fiber::TimeBounds& step
   }
 }
 
-void ContactOutput::publish_events(const BodyNames& names, const std_msgs::Header& header) {
+/// @param names of the answer that the events' indices are of
+void ContactOutput::publish_events(const BodyNames& names, const ContactAnswer& answer) {
   if (event_publisher_.getNumSubscribers() == 0) {
     return;
   }
@@ -171,10 +185,7 @@ void ContactOutput::publish_events(const BodyNames& names, const std_msgs::Heade
   for (const fiber::TouchEvent& event : events_) {
     fiber_proximity::ContactEvent message;
     const fiber::TouchingPair& pair = event.touch.pair;
-    message.header = header;
-    message.kind = event.kind == fiber::TouchEvent::Kind::BEGAN
-                       ? fiber_proximity::ContactEvent::BEGAN
-                       : fiber_proximity::ContactEvent::ENDED;
+    message.header = answer.header;
     message.id = event.touch.id;
     message.type_a = Contact::FIBER;
     message.body_a = names.a[pair.fiber_a];
@@ -182,6 +193,7 @@ void ContactOutput::publish_events(const BodyNames& names, const std_msgs::Heade
     message.segment_a = pair.segment_a;
     message.type_b = type_b_;
     message.body_b = names_b[pair.fiber_b];
+    message.kind = kind_of(event, message, answer.knowledge);
     message.fiber_b = pair.fiber_b;
     message.segment_b = pair.segment_b;
     message.time_lower = to_stamp(event.time.lower);

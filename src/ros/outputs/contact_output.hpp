@@ -9,7 +9,9 @@
 #include "fiber_proximity/query/options.hpp"
 #include "src/query/touch_tracker.hpp"
 #include "src/ros/outputs/detector.hpp"
+#include "src/ros/outputs/knowledge.hpp"
 #include "src/ros/outputs/step_contacts.hpp"
+#include "src/ros/support/advertise.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -24,6 +26,8 @@ struct ContactAnswer {
   const Detection& detection;
   const fiber::QueryOptions& options;
   const KnownMotion* motion;  ///< since the answer before; null if it is of its stamp alone
+  const Completeness& completeness;
+  const Knowledge& knowledge;
   const BodyNames& names;
   const std_msgs::Header& header;
 };
@@ -33,9 +37,11 @@ struct ContactAnswer {
 /// by the names of their bodies.
 class ContactOutput {
  public:
-  /// @param topic  of ContactArray
-  /// @param type_b what the second bodies are, fiber_proximity::Contact::FIBER or OBJECT
-  ContactOutput(ros::NodeHandle& private_node, const std::string& topic, std::uint8_t type_b);
+  /// @param topic       of ContactArray
+  /// @param type_b      what the second bodies are, fiber_proximity::Contact::FIBER or OBJECT
+  /// @param on_newcomer called when somebody begins to listen
+  ContactOutput(ros::NodeHandle& private_node, const std::string& topic, std::uint8_t type_b,
+                const Newcomer& on_newcomer);
 
   bool has_listeners() const {
     return publisher_.getNumSubscribers() > 0 || event_publisher_.getNumSubscribers() > 0;
@@ -57,7 +63,7 @@ class ContactOutput {
 
  private:
   void rename(const BodyNames& names, const fiber::TimeBounds& step);
-  void publish_events(const BodyNames& names, const std_msgs::Header& header);
+  void publish_events(const BodyNames& names, const ContactAnswer& answer);
 
   std::uint8_t type_b_;
   ros::Publisher publisher_;

@@ -9,11 +9,12 @@
 
 namespace fiber_proximity_ros {
 
-CrossingsOutput::CrossingsOutput(const ros::NodeHandle& private_node, const FixedFrame& frame)
+CrossingsOutput::CrossingsOutput(const ros::NodeHandle& private_node, const FixedFrame& frame,
+                                 const Newcomer& on_newcomer)
     : frame_(frame) {
   read_parameters(private_node);
   ros::NodeHandle node = private_node;
-  publisher_ = node.advertise<fiber_proximity::CrossingArray>("crossings", 1);
+  publisher_ = advertise<fiber_proximity::CrossingArray>(node, "crossings", on_newcomer);
 }
 
 void CrossingsOutput::read_parameters(const ros::NodeHandle& private_node) {

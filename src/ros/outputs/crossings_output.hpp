@@ -10,6 +10,7 @@
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/query/crossings.hpp"
 #include "src/ros/inputs/fixed_frame.hpp"
+#include "src/ros/support/advertise.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -24,7 +25,8 @@ class CrossingsOutput {
  public:
   /// Refers to the frame, which must outlive it.
   /// @throws std::invalid_argument for a bad parameter
-  CrossingsOutput(const ros::NodeHandle& private_node, const FixedFrame& frame);
+  CrossingsOutput(const ros::NodeHandle& private_node, const FixedFrame& frame,
+                  const Newcomer& on_newcomer);
 
   /// Whether anybody listens.
   bool is_wanted() const { return publisher_.getNumSubscribers() > 0; }

@@ -9,7 +9,15 @@
 
 namespace fiber_proximity_ros {
 
+void Detection::fail(const std::string& reason) {
+  *this = Detection();
+  complete_ = false;
+  failure_ = reason;
+  minimum_lower_ = -std::numeric_limits<double>::infinity();
+}
+
 void Detection::detect(const fiber::QueryOptions& options, bool wants_minimum, const Ask& ask) {
+  failure_.clear();
   const Stopwatch stopwatch;
   const fiber::Deadline deadline(options.deadline);
   ask(options, contacts_);
@@ -57,6 +65,26 @@ std::string Detection::limit_problem(const fiber::QueryOptions& options) const {
   return text.str();
 }
 
+std::string cut_off_text(const std::string& pairs, const fiber::PairOptions& options) {
+  std::ostringstream text;
+  text << pairs << ": not all have been looked at, as";
+  if (options.deadline > 0.0) {
+    text << " the deadline of " << options.deadline << " s";
+  }
+  if (options.pair_limit > 0) {
+    text << (options.deadline > 0.0 ? " or" : "") << " pair_limit, " << options.pair_limit << ",";
+  }
+  text << " came first";
+  return text.str();
+}
+
+std::string Detection::cut_off(const fiber::QueryOptions& options) const {
+  if (complete_) {
+    return "";
+  }
+  return failure_.empty() ? cut_off_text("pairs of segments", options) : failure_;
+}
+
 double Detection::contact_error() const {
   double error = 0.0;
   for (const fiber::Contact& contact : contacts_.contacts) {
@@ -80,11 +108,17 @@ const fiber::ProximityEngine& Detector::engine() {
 }
 
 void Detector::detect(const fiber::QueryOptions& options, bool wants_minimum) {
-  const fiber::ProximityEngine& updated = engine();
-  detection_.detect(options, wants_minimum,
-                    [&](const fiber::QueryOptions& asked, fiber::QueryResult& result) {
-                      updated.query(asked, result);
-                    });
+  try {
+    update_time_ = 0.0;
+    const fiber::ProximityEngine& updated = engine();
+    detection_.detect(options, wants_minimum,
+                      [&](const fiber::QueryOptions& asked, fiber::QueryResult& result) {
+                        updated.query(asked, result);
+                      });
+  } catch (const std::invalid_argument& error) {
+    detection_.fail(error.what());
+    throw;
+  }
 }
 
 }  // namespace fiber_proximity_ros

@@ -22,6 +22,9 @@ class Detection {
   /// @throws std::invalid_argument for options that do not validate
   void detect(const fiber::QueryOptions& options, bool wants_minimum, const Ask& ask);
 
+  /// Nothing could be asked: nothing is known.
+  void fail(const std::string& reason);
+
   // What the last detect() found:
   const fiber::QueryResult& contacts() const { return contacts_; }
   const fiber::Contact* minimum() const { return minimum_; }  ///< nullptr if there is no pair
@@ -34,6 +37,8 @@ class Detection {
   /// What a user is told who has not asked for so few contacts or pairs; empty if no limit of the
   /// options but that of LIMITED is reached.
   std::string limit_problem(const fiber::QueryOptions& options) const;
+  /// Why not all pairs have been looked at; empty if they have.
+  std::string cut_off(const fiber::QueryOptions& options) const;
   /// [m] Bounds of the true distance of the closest pair; infinite where there is no pair.
   double minimum_lower() const { return minimum_lower_; }
   double minimum_upper() const;
@@ -49,11 +54,15 @@ class Detection {
   const fiber::Contact* minimum_ = nullptr;
   bool complete_ = true;
   bool limit_reached_ = false;
+  std::string failure_;
   double minimum_lower_ = 0.0;
   fiber::QueryCounts counts_;
   double contact_time_ = 0.0;
   double minimum_time_ = 0.0;
 };
+
+/// What an answer says of pairs that a deadline or a limit has left out.
+std::string cut_off_text(const std::string& pairs, const fiber::PairOptions& options);
 
 /// Contacts and closest pair of the newest fibres, from one engine whose update waits until it is
 /// asked something.
@@ -71,13 +80,14 @@ class Detector {
   const fiber::ProximityEngine& engine();
 
   /// Finds the contacts and, if it is wanted, the closest pair whatever the margin.
-  /// @throws std::invalid_argument for options that do not validate, and as engine()
+  /// @throws std::invalid_argument for options that do not validate, and as engine(); nothing is
+  ///         known then
   void detect(const fiber::QueryOptions& options, bool wants_minimum = true);
 
   /// What the last detect() found.
   const Detection& detection() const { return detection_; }
 
-  double update_time() const { return update_time_; }  ///< [s] of the last update
+  double update_time() const { return update_time_; }  ///< [s] of the update for that
   double detect_time() const {                         ///< [s] of the last detection
     return detection_.contact_time() + detection_.minimum_time();
   }

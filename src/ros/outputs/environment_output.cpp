@@ -8,13 +8,14 @@
 namespace fiber_proximity_ros {
 
 EnvironmentOutput::EnvironmentOutput(const ros::NodeHandle& node, ros::NodeHandle private_node,
-                                     InputSet& fibers, double tf_timeout,
-                                     std::function<void()> on_message)
+                                     InputSet& fibers, std::function<void()> on_message,
+                                     const Newcomer& on_newcomer)
     : fibers_(fibers),
       inputs_(node, private_node, read_environment_options(node, private_node), fibers.frame(),
-              tf_timeout, std::move(on_message)),
+              std::move(on_message)),
       environment_(inputs_.environment()),
-      contacts_(private_node, "environment_contacts", fiber_proximity::Contact::OBJECT) {}
+      contacts_(private_node, "environment_contacts", fiber_proximity::Contact::OBJECT,
+                on_newcomer) {}
 
 bool EnvironmentOutput::update() {
   fibers_.fibers();  // merged by now, and with them their stamp
@@ -46,15 +47,21 @@ void EnvironmentOutput::detect(const fiber::QueryOptions& options, bool wants_mi
   }
 }
 
-void EnvironmentOutput::publish(const fiber::QueryOptions& options, bool has_gradients) {
+void EnvironmentOutput::publish(const fiber::QueryOptions& options, const Knowledge& knowledge,
+                                bool has_gradients) {
   is_tracked_ = has_listeners();
   if (!is_tracked_) {
     skip();
     return;
   }
   const BodyNames names{fibers_.names(), object_names(*environment_)};
-  const ContactAnswer answer{detection_, options, motion_ ? &*motion_ : nullptr, names,
-                             fibers_.header()};
+  Completeness known = knowledge.completeness(Knowledge::About::FIBERS_AND_ENVIRONMENT);
+  known.add_cut_off(detection_.cut_off(options));
+  if (motion_ && !motion_->result.complete) {
+    known.add_cut_off(cut_off_text("pairs that move", options));
+  }
+  const ContactAnswer answer{detection_, options, motion_ ? &*motion_ : nullptr, known, knowledge,
+                             names, fibers_.header()};
   contacts_.track(answer);
   contacts_.publish(answer, has_gradients, update_time_);
 }

@@ -20,12 +20,12 @@ namespace fiber_proximity_ros {
 /// ~contact_events; not looked for while there is nothing around, or nobody asks.
 class EnvironmentOutput {
  public:
-  /// @param fibers     must outlive this
-  /// @param tf_timeout [s]
-  /// @param on_message see EnvironmentInputs
+  /// @param fibers      must outlive this
+  /// @param on_message  see EnvironmentInputs
+  /// @param on_newcomer see ContactOutput
   /// @throws std::invalid_argument for bad parameters (read_environment_options)
   EnvironmentOutput(const ros::NodeHandle& node, ros::NodeHandle private_node, InputSet& fibers,
-                    double tf_timeout, std::function<void()> on_message);
+                    std::function<void()> on_message, const Newcomer& on_newcomer);
   EnvironmentOutput(const EnvironmentOutput&) = delete;
   EnvironmentOutput& operator=(const EnvironmentOutput&) = delete;
 
@@ -43,7 +43,7 @@ class EnvironmentOutput {
   void detect(const fiber::QueryOptions& options, bool wants_minimum, const ContinuousStep* step);
   /// Publishes what detect() found, and what of it began or ended, if somebody listens.
   /// @param has_gradients whether derivatives are asked for
-  void publish(const fiber::QueryOptions& options, bool has_gradients);
+  void publish(const fiber::QueryOptions& options, const Knowledge& knowledge, bool has_gradients);
 
   /// An answer is given without looking around.
   void skip();

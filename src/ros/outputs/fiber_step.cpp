@@ -38,15 +38,21 @@ void read_state(InputSet& inputs, bool keeps_fibers, FiberState& state) {
 void FiberStep::advance(FiberState& newest) {
   std::swap(before_, after_);
   std::swap(after_, newest);
-  stand_still();
-  is_motion_ = false;
-  problem_.clear();
+  rest();
+  rests_ = false;
   if (before_.has_fibers && after_.has_fibers) {
     is_motion_ = true;
     if (const std::string problem = find_motion(); !problem.empty()) {
       refuse(problem);
     }
   }
+}
+
+void FiberStep::rest() {
+  is_motion_ = false;
+  rests_ = true;
+  problem_.clear();
+  stand_still();
 }
 
 void FiberStep::refuse(const std::string& problem) {

@@ -39,6 +39,9 @@ class FiberStep {
   /// Takes the fibres of a new answer, and gives old ones for their memory.
   void advance(FiberState& newest);
 
+  /// An answer is given about the same fibres again, which have not moved since.
+  void rest();
+
   /// It is no motion that can be looked at.
   void refuse(const std::string& problem);
 
@@ -51,8 +54,11 @@ class FiberStep {
   /// How many such steps there were.
   std::uint64_t problem_count() const { return problem_count_; }
 
-  // Of a motion. What has not moved stands still.
-  fiber::FiberMotion motion() const { return {before_.fibers, after_.fibers}; }
+  /// Whether the fibres are known and stand still: see rest().
+  bool rests() const { return rests_ && after_.has_fibers; }
+
+  // Of a motion or a rest. What has not moved stands still.
+  fiber::FiberMotion motion() const { return {rests_ ? after_.fibers : before_.fibers, after_.fibers}; }
 
   /// From the oldest stamp before to the newest one after of the inputs that have moved; of no
   /// motion that after, which then is the newest of all.
@@ -67,6 +73,7 @@ class FiberStep {
   FiberState after_;
   fiber::TimeBounds time_;
   bool is_motion_ = false;
+  bool rests_ = false;
   std::string problem_;
   std::uint64_t problem_count_ = 0;
 };

@@ -1,6 +1,7 @@
 #include "src/ros/outputs/node_reports.hpp"
 
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace fiber_proximity_ros {
@@ -12,15 +13,18 @@ std::uint32_t to_count(std::size_t count) { return static_cast<std::uint32_t>(co
 
 }  // namespace
 
-StatisticsOutput::StatisticsOutput(ros::NodeHandle& private_node, const Subject& about)
+StatisticsOutput::StatisticsOutput(ros::NodeHandle& private_node, const Subject& about,
+                                   const Newcomer& on_newcomer)
     : about_(about),
-      publisher_(private_node.advertise<fiber_proximity::Statistics>("statistics", 1)) {}
+      publisher_(
+          advertise<fiber_proximity::Statistics>(private_node, "statistics", on_newcomer)) {}
 
 void StatisticsOutput::add_part(const std::string& name, double seconds) {
   parts_.emplace_back(name, seconds);
 }
 
-void StatisticsOutput::publish(fiber::Kernel kernel, double time) {
+void StatisticsOutput::publish(fiber::Kernel kernel, const Completeness& of_fibers,
+                               const Completeness& of_all, double time) {
   fiber_proximity::Statistics& message = message_;
   message.header = about_.inputs.header();
   message.engine = about_.engine;
@@ -34,11 +38,13 @@ void StatisticsOutput::publish(fiber::Kernel kernel, double time) {
   message.merge_time = parts_.front().second;
   message.update_time = about_.detector.update_time();
   message.detect_time = about_.detector.detect_time();
-  message.total_time = parts_.front().second + time;
+  message.total_time = time;
   message.kernel = name_of(kernel);
-  message.complete = found.is_complete();
+  message.complete = of_all.is_complete();
+  message.unknown = of_all.unknown();
   message.limit_reached = found.is_limit_reached();
-  message.minimum_lower = found.minimum_lower();
+  message.minimum_lower =
+      of_fibers.lower(found.minimum_lower(), -std::numeric_limits<double>::infinity());
   message.minimum_upper = found.minimum_upper();
   message.contact_error = found.contact_error();
   message.node_tests = found.counts().node_tests;
@@ -56,7 +62,6 @@ void StatisticsOutput::publish(fiber::Kernel kernel, double time) {
   message.objects = is_alone ? 0 : to_count(about_.environment.environment().objects().size());
   message.environment_contacts =
       is_alone ? 0 : to_count(about_.environment.detection().contacts().contacts.size());
-  message.unknown_objects = about_.environment.inputs().unknown();
   message.inputs.clear();
   for (const std::unique_ptr<Input>& input : about_.inputs.inputs()) {
     message.inputs.push_back(input->statistics(ros::Time::now()));
@@ -68,67 +73,131 @@ void StatisticsOutput::publish(fiber::Kernel kernel, double time) {
 }
 
 Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
-                         const InputSet& inputs, const Detector& detector)
-    : inputs_(inputs),
-      detector_(detector),
-      seen_(inputs.inputs().size()),
-      updater_(node, private_node, private_node.getNamespace()) {
+                         const Subject& about)
+    : about_(about), updater_(node, private_node, private_node.getNamespace()) {
   updater_.setHardwareID("none");
-  for (std::size_t i = 0; i < seen_.size(); ++i) {
-    updater_.add("input " + inputs.inputs()[i]->options().topic,
+  for (std::size_t i = 0; i < about_.inputs.inputs().size(); ++i) {
+    updater_.add("input " + about_.inputs.inputs()[i]->options().topic,
                  [this, i](Status& status) { report_input(i, status); });
   }
+  for (const std::string& source : about_.environment.sources()) {
+    updater_.add("environment " + source,
+                 [this, source](Status& status) { report_source(source, status); });
+  }
   updater_.add("engine", [this](Status& status) { report_engine(status); });
+  updater_.add("deadlines and limits", [this](Status& status) { report_deadlines(status); });
 }
 
-void Diagnostics::report_input(std::size_t index, Status& status) {
-  const fiber_proximity::InputStatistics input =
-      inputs_.inputs()[index]->statistics(ros::Time::now());
+void Diagnostics::count(const std::string& cut_off) {
+  ++counts_.answers;
+  if (!cut_off.empty()) {
+    ++counts_.cut_off;
+    counts_.reason = cut_off;
+  }
+}
+
+/// What becomes of the messages of a topic; the summary is worse where some were refused since the
+/// last report.
+void Diagnostics::add_counts(const fiber_proximity::InputStatistics& input, Status& status) {
   Seen now;
   now.received = input.received;
   now.refused = input.refused;
-  const Seen before = std::exchange(seen_[index], now);
+  const Seen before = std::exchange(seen_.try_emplace(input.topic).first->second, now);
   const double seconds = (now.time - before.time).toSec();
-
-  if (input.stale) {
-    status.summary(DiagnosticStatus::ERROR, "stale: " + inputs_.inputs()[index]->stale_reason());
-  } else if (now.refused > before.refused) {
-    status.summary(DiagnosticStatus::ERROR, "messages refused: " + input.last_error);
-  } else if (input.age < 0.0) {
-    status.summary(DiagnosticStatus::WARN, "no message yet");
-  } else {
-    status.summary(DiagnosticStatus::OK, "receiving");
+  if (now.refused > before.refused) {
+    status.mergeSummary(DiagnosticStatus::ERROR, "messages refused: " + input.last_error);
   }
   status.add("type", input.type);
-  status.add("fibres", input.fibers);
   status.addf("rate [Hz]", "%.1f", static_cast<double>(now.received - before.received) / seconds);
   status.addf("age [s]", "%.3f", input.age);
   status.add("received", input.received);
   status.add("refused", input.refused);
   status.add("overtaken", input.overtaken);
+  status.add("last error", input.last_error);
+}
+
+void Diagnostics::report_input(std::size_t index, Status& status) {
+  const Input& source = *about_.inputs.inputs()[index];
+  const fiber_proximity::InputStatistics input = source.statistics(ros::Time::now());
+  const std::optional<Unknown> unknown = source.unknown();
+  if (input.stale) {
+    status.summary(source.options().required ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN,
+                   "stale: " + source.stale_reason());
+  } else if (unknown) {
+    status.summary(DiagnosticStatus::WARN, unknown->why);
+  } else {
+    status.summary(DiagnosticStatus::OK, input.age < 0.0 ? "no message yet" : "receiving");
+  }
+  add_counts(input, status);
+  status.add("fibres", input.fibers);
   status.add("dropped", input.dropped < 0 ? "unknown" : std::to_string(input.dropped));
   status.add("missing points", input.missing_points);
   status.add("missing fibres", input.missing_fibers);
   status.add("lone points", input.lone_points);
-  status.add("last error", input.last_error);
 }
 
-void Diagnostics::report_engine(Status& status) {
-  if (inputs_.inputs().empty()) {
+/// A source of the environment: robot, scene or a topic.
+void Diagnostics::report_source(const std::string& source, Status& status) {
+  std::vector<std::string> unknown;
+  for (const Unknown& each : about_.knowledge.unknown_objects()) {
+    if (each.source == source) {
+      unknown.push_back(text_of(each));
+      status.add("unknown", unknown.back());
+    }
+  }
+  if (unknown.empty()) {
+    status.summary(DiagnosticStatus::OK, "all there");
+  } else {
+    status.summary(DiagnosticStatus::ERROR,
+                   std::to_string(unknown.size()) + " unknown: " + unknown.front());
+  }
+  for (const auto& topic : about_.environment.statistics(ros::Time::now())) {
+    if (topic.topic == source) {
+      add_counts(topic, status);
+    }
+  }
+}
+
+void Diagnostics::report_engine(Status& status) const {
+  const Detection& found = about_.detector.detection();
+  if (about_.inputs.inputs().empty()) {
     status.summary(DiagnosticStatus::ERROR, "no valid input in ~inputs");
-  } else if (!inputs_.is_fresh()) {
+  } else if (!about_.inputs.is_fresh()) {
     status.summary(DiagnosticStatus::WARN, "no fresh input");
+  } else if (!about_.knowledge.is_all_known()) {
+    status.summary(DiagnosticStatus::WARN, "answers are incomplete: something is unknown");
   } else {
     status.summary(DiagnosticStatus::OK, "answering");
   }
-  status.add("fixed frame", inputs_.frame().name());
-  const Detection& found = detector_.detection();
+  for (const auto* unknown :
+       {&about_.knowledge.unknown_fibers(), &about_.knowledge.unknown_objects()}) {
+    for (const Unknown& each : *unknown) {
+      status.add("unknown", text_of(each));
+    }
+  }
+  status.add("fixed frame", about_.inputs.frame().name());
   status.add("contacts", found.contacts().contacts.size());
   if (found.minimum() != nullptr) {
     status.addf("minimum distance [m]", "%.6f", found.minimum()->distance);
   }
-  status.addf("update [ms]", "%.3f", 1e3 * detector_.update_time());
-  status.addf("detect [ms]", "%.3f", 1e3 * detector_.detect_time());
+  status.addf("update [ms]", "%.3f", 1e3 * about_.detector.update_time());
+  status.addf("detect [ms]", "%.3f", 1e3 * about_.detector.detect_time());
+}
+
+void Diagnostics::report_deadlines(Status& status) {
+  const AnswerCounts counts = std::exchange(counts_, {});
+  if (counts.cut_off == 0) {
+    status.summary(DiagnosticStatus::OK, "no answer cut off");
+  } else {
+    status.summary(DiagnosticStatus::WARN, std::to_string(counts.cut_off) + " of " +
+                                               std::to_string(counts.answers) +
+                                               " answers cut off: " + counts.reason);
+  }
+  status.addf("deadline [s]", "%g", about_.options.deadline);
+  status.add("pair limit", about_.options.pair_limit);
+  status.add("contact limit", about_.options.contact_limit);
+  status.add("answers", counts.answers);
+  status.add("cut off", counts.cut_off);
 }
 
 }  // namespace fiber_proximity_ros

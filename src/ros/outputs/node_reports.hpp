@@ -3,6 +3,8 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/node_handle.h>
 
+#include <cstdint>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +15,8 @@
 #include "src/ros/outputs/detector.hpp"
 #include "src/ros/outputs/environment_output.hpp"
 #include "src/ros/outputs/fiber_step.hpp"
+#include "src/ros/outputs/knowledge.hpp"
+#include "src/ros/support/advertise.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -28,7 +32,8 @@ class StatisticsOutput {
     const FiberStep& step;
   };
 
-  StatisticsOutput(ros::NodeHandle& private_node, const Subject& about);
+  StatisticsOutput(ros::NodeHandle& private_node, const Subject& about,
+                   const Newcomer& on_newcomer);
 
   bool has_listeners() const { return publisher_.getNumSubscribers() > 0; }
 
@@ -38,8 +43,10 @@ class StatisticsOutput {
   /// What an answer has run, and how long it took [s]. The first part is the merging of inputs.
   void add_part(const std::string& name, double seconds);
 
-  /// @param time [s] of all parts but the first, with conversions
-  void publish(fiber::Kernel kernel, double time);
+  /// @param of_fibers how complete the contacts of fibres are, of all how complete all of it is
+  /// @param time      [s] of all of it, with conversions
+  void publish(fiber::Kernel kernel, const Completeness& of_fibers, const Completeness& of_all,
+               double time);
 
  private:
   Subject about_;
@@ -48,13 +55,34 @@ class StatisticsOutput {
   fiber_proximity::Statistics message_;  // for its memory
 };
 
-/// The node's entries on /diagnostics: one per input and one for the engine, each second.
+/// Answers since the last report, and how many of them a deadline or a limit has cut off.
+struct AnswerCounts {
+  std::uint64_t answers = 0;
+  std::uint64_t cut_off = 0;
+  std::string reason;  ///< of the last one that was
+};
+
+/// The node's entries on /diagnostics, each second: one per input and source of the environment, one
+/// for the engine and one for deadlines and limits.
 class Diagnostics {
  public:
+  /// What they are about; all must outlive this.
+  struct Subject {
+    const InputSet& inputs;
+    const EnvironmentInputs& environment;
+    const Knowledge& knowledge;
+    const Detector& detector;
+    const fiber::QueryOptions& options;
+  };
+
   Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
-              const InputSet& inputs, const Detector& detector);
+              const Subject& about);
   Diagnostics(const Diagnostics&) = delete;
   Diagnostics& operator=(const Diagnostics&) = delete;
+
+  /// Counts an answer.
+  /// @param cut_off why not all pairs were looked at; empty if they were
+  void count(const std::string& cut_off);
 
   /// Publishes if it is time to.
   void update() { updater_.update(); }
@@ -70,11 +98,14 @@ class Diagnostics {
   };
 
   void report_input(std::size_t index, Status& status);
-  void report_engine(Status& status);
+  void report_source(const std::string& source, Status& status);
+  void report_engine(Status& status) const;
+  void report_deadlines(Status& status);
+  void add_counts(const fiber_proximity::InputStatistics& input, Status& status);
 
-  const InputSet& inputs_;
-  const Detector& detector_;
-  std::vector<Seen> seen_;
+  Subject about_;
+  std::map<std::string, Seen> seen_;  // by topic
+  AnswerCounts counts_;
   diagnostic_updater::Updater updater_;
 };
 

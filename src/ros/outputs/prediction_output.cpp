@@ -41,9 +41,11 @@ PredictedContact earliest_of(const fiber::MotionResult& result, double horizon,
 }  // namespace
 
 PredictionOutput::PredictionOutput(ros::NodeHandle& private_node, InputSet& inputs,
-                                   const std::string& engine, const fiber::EngineOptions& options)
+                                   const std::string& engine, const fiber::EngineOptions& options,
+                                   const Newcomer& on_newcomer)
     : inputs_(inputs),
-      publisher_(private_node.advertise<fiber_proximity::TimeToContact>("time_to_contact", 1)),
+      publisher_(advertise<fiber_proximity::TimeToContact>(private_node, "time_to_contact",
+                                                           on_newcomer)),
       engine_(fiber::make_engine(engine, options)) {}
 
 void PredictionOutput::configure(const PredictionOptions& options) {
@@ -54,7 +56,7 @@ void PredictionOutput::configure(const PredictionOptions& options) {
 }
 
 void PredictionOutput::publish(const fiber::QueryOptions& options,
-                               const EnvironmentOutput& environment) {
+                               const EnvironmentOutput& environment, const Knowledge& knowledge) {
   take_frames();
   message_ = {};
   message_.header = inputs_.header();
@@ -63,7 +65,7 @@ void PredictionOutput::publish(const fiber::QueryOptions& options,
   message_.horizon = options_.horizon;
   message_.assumption =
       "each point keeps the velocity of the line of least squares through its places in the last "
-      "messages of its input";
+      "messages of its input, and objects stand still";
   try {
     predict(options, environment);
   } catch (const std::invalid_argument& error) {
@@ -71,7 +73,35 @@ void PredictionOutput::publish(const fiber::QueryOptions& options,
     message_.problem = error.what();
     ROS_WARN_STREAM_THROTTLE(1.0, "time_to_contact: " << message_.problem);
   }
+  limit_to_known(options, knowledge);
   publisher_.publish(message_);
+}
+
+/// What is unknown may come at any moment.
+void PredictionOutput::limit_to_known(const fiber::QueryOptions& options,
+                                      const Knowledge& knowledge) {
+  using About = Knowledge::About;
+  const auto limit = [&](const Completeness& known, PredictedContact& contact) {
+    contact.time_lower = known.lower(contact.time_lower, 0.0);
+    contact.complete = contact.complete && known.is_complete() && message_.problem.empty();
+  };
+  Completeness all = knowledge.completeness(About::FIBERS_AND_ENVIRONMENT);
+  const Completeness of_fibers = knowledge.completeness(About::FIBERS);
+  bool is_cut_off = false;
+  for (const PredictedContact* contact :
+       {&message_.same_fiber, &message_.different_fibers, &message_.environment}) {
+    is_cut_off = is_cut_off || !contact->complete;
+  }
+  limit(of_fibers, message_.same_fiber);
+  limit(of_fibers, message_.different_fibers);
+  limit(all, message_.environment);
+  if (!message_.problem.empty()) {
+    all.add_cut_off("prediction: " + message_.problem);
+  } else if (is_cut_off) {
+    all.add_cut_off(cut_off_text("pairs that move", options));
+  }
+  message_.complete = all.is_complete();
+  message_.unknown = all.unknown();
 }
 
 /// Of each input its newest message, if it is new.

@@ -13,6 +13,7 @@
 #include "src/geometry/point_velocities.hpp"
 #include "src/ros/inputs/input_set.hpp"
 #include "src/ros/outputs/environment_output.hpp"
+#include "src/ros/outputs/knowledge.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -30,7 +31,7 @@ class PredictionOutput {
   /// @param inputs must outlive this
   /// @throws std::invalid_argument as fiber::make_engine()
   PredictionOutput(ros::NodeHandle& private_node, InputSet& inputs, const std::string& engine,
-                   const fiber::EngineOptions& options);
+                   const fiber::EngineOptions& options, const Newcomer& on_newcomer);
 
   void configure(const PredictionOptions& options);
 
@@ -38,7 +39,8 @@ class PredictionOutput {
 
   /// Takes the new fibres and publishes what they are about to touch.
   /// @param environment what is around them, if there is anything
-  void publish(const fiber::QueryOptions& options, const EnvironmentOutput& environment);
+  void publish(const fiber::QueryOptions& options, const EnvironmentOutput& environment,
+               const Knowledge& knowledge);
 
   /// Fibres are not looked at: their velocities are not known any more.
   void skip() { inputs_frames_.clear(); }
@@ -56,6 +58,7 @@ class PredictionOutput {
   void take_frames();
   bool predict_places();
   void predict(const fiber::QueryOptions& options, const EnvironmentOutput& environment);
+  void limit_to_known(const fiber::QueryOptions& options, const Knowledge& knowledge);
 
   InputSet& inputs_;
   ros::Publisher publisher_;

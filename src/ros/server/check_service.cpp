@@ -11,6 +11,7 @@
 #include "fiber_proximity/ros/conversions.hpp"
 #include "src/geometry/swept_fibers.hpp"
 #include "src/ros/inputs/fixed_frame.hpp"
+#include "src/ros/outputs/detector.hpp"
 #include "src/ros/server/query_options.hpp"
 #include "src/text/quote.hpp"
 
@@ -173,11 +174,14 @@ void append(const fiber::PathContacts& found, std::uint8_t body_b,
   }
 }
 
-/// @param check a fiber::FiberCheck or fiber::MotionCheck
+/// @param check         a fiber::FiberCheck or fiber::MotionCheck
+/// @param was_all_there whether there was all that it was to be checked against
 template <class Check>
-void append(const Check& check, const PresentFibers& present, CheckFibers::Response& response) {
-  response.free.push_back(check.is_free());
-  response.complete.push_back(check.is_complete());
+void append(const Check& check, const PresentFibers& present, bool was_all_there,
+            CheckFibers::Response& response) {
+  response.free.push_back(check.is_free() && was_all_there);
+  response.decided.push_back(check.has_contact() || response.free.back() != 0);
+  response.complete.push_back(check.is_complete() && was_all_there);
   response.limit_reached = response.limit_reached || check.is_limit_reached();
   append(check.self, Contact::CANDIDATE, response);
   const std::size_t first = response.contacts.size();
@@ -187,6 +191,18 @@ void append(const Check& check, const PresentFibers& present, CheckFibers::Respo
   }
   append(check.environment, Contact::OBJECT, response);
   response.offsets.push_back(static_cast<std::uint32_t>(response.contacts.size()));
+}
+
+/// What the candidates of a request are checked against, as far as it is known.
+Completeness surroundings_known(const CheckFibers::Request& request, const Knowledge& knowledge) {
+  using About = Knowledge::About;
+  const bool fibers = request.ignore_fibers == 0;
+  const bool environment = request.ignore_environment == 0;
+  if (!fibers && !environment) {
+    return {};
+  }
+  return knowledge.completeness(fibers ? environment ? About::FIBERS_AND_ENVIRONMENT : About::FIBERS
+                                       : About::ENVIRONMENT);
 }
 
 /// Answers for candidates or motions. At once those of the same names in a row are checked, which
@@ -201,6 +217,8 @@ void answer_all(const CheckFibers::Request& request, const QueryTarget& target,
                               std::vector<Check>&),
                 CheckFibers::Response& response) {
   const PresentFibers present(target, request);
+  Completeness known = surroundings_known(request, target.knowledge);
+  bool is_cut_off = false;
   fiber::Surroundings surroundings = present.surroundings();
   const std::size_t count = offsets.size() - 1;
   response.offsets.push_back(0);
@@ -223,11 +241,18 @@ void answer_all(const CheckFibers::Request& request, const QueryTarget& target,
                           queries_per_candidate * items.size());
     check(items, surroundings, options, checks);
     for (const Check& each : checks) {
-      append(each, present, response);
+      append(each, present, known.was_all_there(), response);
+      is_cut_off = is_cut_off || !each.is_complete();
     }
   }
-  // Nothing is known to touch those that the deadline came before.
-  response.free.resize(count, 1);
+  if (is_cut_off || response.free.size() < count) {
+    options.deadline = request.deadline;
+    known.add_cut_off(cut_off_text("pairs of candidates", options));
+  }
+  response.unknown = known.unknown();
+  // Nothing is known of those that the deadline came before.
+  response.free.resize(count, 0);
+  response.decided.resize(count, 0);
   response.complete.resize(count, 0);
   response.offsets.resize(count + 1, response.offsets.back());
 }

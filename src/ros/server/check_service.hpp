@@ -9,6 +9,7 @@
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/query/options.hpp"
 #include "src/ros/inputs/fixed_frame.hpp"
+#include "src/ros/outputs/knowledge.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -20,6 +21,7 @@ struct QueryTarget {
       engine;  ///< updated to the fibres; null if they are not asked about
   const fiber::Environment& environment;
   const FixedFrame& frame;
+  const Knowledge& knowledge;
   const fiber::QueryOptions& defaults;  ///< what a request leaves open
   fiber::Deadline deadline;             ///< of the whole call, from its arrival
 
@@ -37,7 +39,7 @@ struct QueryTarget {
 
 /// Checks the candidates of a request or, with waypoint_offsets, their motions; fills in all of the
 /// response but header, names and success. Candidates or motions that the deadline comes before are
-/// not read.
+/// not read, and nothing is known of them.
 /// @throws std::invalid_argument naming the candidate, or the motion and its state, the value and
 ///         what is allowed
 /// @throws TransformUnavailable naming the same and the frame

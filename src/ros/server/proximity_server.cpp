@@ -29,23 +29,29 @@ ProximityServer::ProximityServer(const ros::NodeHandle& node, const ros::NodeHan
       detector_(options_.engine, options_.engine_options),
       motion_engine_(fiber::make_engine(options_.engine, options_.engine_options)),
       step_(options_.timing.input_timeout),
-      contacts_(private_node_, "contacts", fiber_proximity::Contact::FIBER),
-      fibers_publisher_(private_node_.advertise<fiber_proximity::FiberArray>("fibers", 1)),
-      markers_publisher_(private_node_.advertise<visualization_msgs::MarkerArray>("markers", 1)),
-      inputs_(node_, options_.inputs, options_.timing, options_.fixed_frame,
-              [this] { schedule(); }),
-      crossings_(private_node_, inputs_.frame()),
-      diagnostics_(node_, private_node_, inputs_, detector_),
-      environment_(node_, private_node_, inputs_, options_.timing.tf_timeout,
-                   [this] { schedule(); }),
-      statistics_(private_node_, {options_.engine, inputs_, detector_, environment_, step_}),
-      prediction_(private_node_, inputs_, options_.engine, options_.engine_options),
+      newcomer_([this] { has_newcomers_ = true; }),
+      contacts_(private_node_, "contacts", fiber_proximity::Contact::FIBER, newcomer_),
+      fibers_publisher_(
+          advertise<fiber_proximity::FiberArray>(private_node_, "fibers", newcomer_)),
+      markers_publisher_(
+          advertise<visualization_msgs::MarkerArray>(private_node_, "markers", newcomer_)),
+      inputs_(node_, options_.inputs, options_.left_out_inputs, options_.timing,
+              options_.fixed_frame, [this] { schedule(); }),
+      crossings_(private_node_, inputs_.frame(), newcomer_),
+      environment_(node_, private_node_, inputs_, [this] { schedule(); }, newcomer_),
+      knowledge_(inputs_, environment_.inputs()),
+      diagnostics_(node_, private_node_,
+                   {inputs_, environment_.inputs(), knowledge_, detector_, query_options_}),
+      statistics_(private_node_, {options_.engine, inputs_, detector_, environment_, step_},
+                  newcomer_),
+      prediction_(private_node_, inputs_, options_.engine, options_.engine_options, newcomer_),
       comparison_(private_node_, {inputs_, detector_, query_options_, options_.engine},
                   [this] { process(); }),
-      queries_(serve_queries(private_node_,
-                             {inputs_, detector_, environment_.inputs(), query_options_},
-                             [this] { process(); })),
+      queries_(serve_queries(
+          private_node_, {inputs_, detector_, environment_.inputs(), knowledge_, query_options_},
+          [this] { process(); })),
       reconfigure_server_(private_node_) {
+  detector_.set_fibers(inputs_.fibers());  // none yet, which can be asked about, too
   reconfigure_server_.setCallback(
       [this](AskedConfig& config, std::uint32_t /*level*/) { reconfigure(config); });
   tick_timer_ = node_.createSteadyTimer(ros::WallDuration(tick_interval),
@@ -67,16 +73,15 @@ void ProximityServer::schedule() {
 }
 
 void ProximityServer::process() {
+  const double time_before = inputs_.take_work_time();
+  const Stopwatch stopwatch;
   const bool fibers_changed = inputs_.update();
   const bool environment_changed = environment_.update();
-  if (fibers_changed) {
-    publish();
+  const bool knowledge_changed = knowledge_.update();
+  if (fibers_changed || knowledge_changed) {
+    answer(fibers_changed, time_before, stopwatch);
   } else if (environment_changed && inputs_.is_fresh() && environment_.has_listeners()) {
-    statistics_.begin();
-    const std::chrono::nanoseconds now = to_time(inputs_.header().stamp);
-    const ContinuousStep step{
-        {inputs_.fibers(), inputs_.fibers()}, {now, now}, config_.motion_tolerance};
-    detect_in_environment(config_.continuous ? &step : nullptr);
+    answer_about_environment();
   }
   if (inputs_.is_waiting() || environment_.inputs().is_waiting()) {
     retry_timer_.start();
@@ -87,17 +92,32 @@ void ProximityServer::process() {
 
 void ProximityServer::tick() {
   process();
+  if (has_newcomers_ || is_heartbeat_due()) {
+    answer(false, 0.0, Stopwatch());
+  }
   publish_markers_if_due();
   diagnostics_.update();
 }
 
-void ProximityServer::publish() {
-  detector_.set_fibers(inputs_.fibers());
-  read_state(inputs_, config_.continuous, newest_state_);
-  step_.advance(newest_state_);
-  crossings_.forget();
+bool ProximityServer::is_heartbeat_due() const {
+  return options_.heartbeat > 0.0 && !knowledge_.is_all_known() &&
+         (ros::SteadyTime::now() - last_answer_).toSec() >= options_.heartbeat;
+}
+
+/// @param is_about_new_fibers false: about the same as the answer before, which have not moved since
+/// @param time_before         [s] that messages have taken before
+/// @param stopwatch           of all else
+void ProximityServer::answer(bool is_about_new_fibers, double time_before,
+                             const Stopwatch& stopwatch) {
+  last_answer_ = ros::SteadyTime::now();
+  has_newcomers_ = false;
   statistics_.begin();
-  statistics_.add_part("merge", inputs_.take_work_time());
+  if (is_about_new_fibers) {
+    take_fibers();
+  } else {
+    step_.rest();
+  }
+  statistics_.add_part("merge", time_before + inputs_.take_work_time());
   if (fibers_publisher_.getNumSubscribers() > 0) {
     to_message(inputs_.fibers(), inputs_.names(), fibers_message_);
     fibers_message_.header = inputs_.header();
@@ -111,24 +131,20 @@ void ProximityServer::publish() {
   const bool statistics = statistics_.has_listeners();
   drawing_is_due_ = markers_publisher_.getNumSubscribers() > 0;
   const bool everything = statistics || drawing_is_due_;
-  const Stopwatch stopwatch;
   if (everything || contacts_.has_listeners()) {
-    if (!detect()) {
-      return;
-    }
+    detect();
     publish_contacts();
   } else {
     contacts_.skip();
   }
   if (environment_.is_used() && (everything || environment_.has_listeners())) {
-    const ContinuousStep step{step_.motion(), step_.time(), config_.motion_tolerance};
-    detect_in_environment(step_.is_motion() ? &step : nullptr);
+    detect_in_environment();
   } else {
     environment_.skip();
   }
   if (prediction_.is_wanted()) {
     const Stopwatch prediction_time;
-    prediction_.publish(query_options_, environment_);
+    prediction_.publish(query_options_, environment_, knowledge_);
     statistics_.add_part("prediction", prediction_time.seconds());
   } else {
     prediction_.skip();
@@ -139,19 +155,41 @@ void ProximityServer::publish() {
     statistics_.add_part("comparison", comparison_time.seconds());
   }
   if (statistics) {
-    statistics_.publish(query_options_.kernel, stopwatch.seconds());
+    publish_statistics(time_before + stopwatch.seconds());
   }
 }
 
-/// Finds contacts and closest pair of the fibres.
-/// @returns false if the engine cannot
-bool ProximityServer::detect() {
+/// What is around the fibres has changed, and they have not.
+void ProximityServer::answer_about_environment() {
+  statistics_.begin();
+  step_.rest();
+  detect_in_environment();
+}
+
+void ProximityServer::take_fibers() {
+  detector_.set_fibers(inputs_.fibers());
+  read_state(inputs_, config_.continuous, newest_state_);
+  step_.advance(newest_state_);
+  crossings_.forget();
+}
+
+/// @param time [s] of the answer
+void ProximityServer::publish_statistics(double time) {
+  Completeness of_fibers = knowledge_.completeness(Knowledge::About::FIBERS);
+  Completeness of_all = knowledge_.completeness(Knowledge::About::FIBERS_AND_ENVIRONMENT);
+  of_all.add_cut_off(detector_.detection().cut_off(query_options_));
+  if (environment_.is_used()) {
+    of_all.add_cut_off(environment_.detection().cut_off(query_options_));
+  }
+  statistics_.publish(query_options_.kernel, of_fibers, of_all, time);
+}
+
+/// Finds contacts and closest pair of the fibres. Where the engine cannot, the answer says so.
+void ProximityServer::detect() {
   try {
     detector_.detect(query_options_, config_.minimum_distance);
   } catch (const std::invalid_argument& error) {
     ROS_ERROR_STREAM_THROTTLE(1.0, "engine " << options_.engine << ": " << error.what());
-    drawing_is_due_ = false;
-    return false;
   }
   if (const std::string problem = detector_.detection().limit_problem(query_options_);
       !problem.empty()) {
@@ -162,7 +200,6 @@ bool ProximityServer::detect() {
   if (config_.minimum_distance) {
     statistics_.add_part("minimum", detector_.detection().minimum_time());
   }
-  return true;
 }
 
 /// What came into contact since the fibres before; nothing where that cannot be told, and the
@@ -192,18 +229,26 @@ void ProximityServer::publish_contacts() {
   const std::optional<KnownMotion> motion = detect_motion();
   const Stopwatch stopwatch;
   const BodyNames names{inputs_.names(), {}};
+  Completeness known = knowledge_.completeness(Knowledge::About::FIBERS);
+  known.add_cut_off(detector_.detection().cut_off(query_options_));
+  if (motion && !motion->result.complete) {
+    known.add_cut_off(cut_off_text("pairs that move", query_options_));
+  }
   const ContactAnswer answer{detector_.detection(), query_options_, motion ? &*motion : nullptr,
-                             names, inputs_.header()};
+                             known, knowledge_, names, inputs_.header()};
+  diagnostics_.count(detector_.detection().cut_off(query_options_));
   contacts_.track(answer);
   passed_.add(contacts_.contacts());
   statistics_.add_part("touches", stopwatch.seconds());
   contacts_.publish(answer, config_.gradients, detector_.update_time());
 }
 
-/// @param step see EnvironmentOutput
-void ProximityServer::detect_in_environment(const ContinuousStep* step) {
+void ProximityServer::detect_in_environment() {
+  // Objects may have moved where fibres have not.
+  const ContinuousStep step{step_.motion(), step_.time(), config_.motion_tolerance};
   try {
-    environment_.detect(query_options_, config_.minimum_distance, step);
+    environment_.detect(query_options_, config_.minimum_distance,
+                        step_.is_motion() || step_.rests() ? &step : nullptr);
   } catch (const std::invalid_argument& error) {
     ROS_WARN_STREAM_THROTTLE(
         1.0, "environment, continuous: " << error.what() << "; this answer is of its stamp alone");
@@ -221,7 +266,7 @@ void ProximityServer::detect_in_environment(const ContinuousStep* step) {
   if (environment_.motion_time() > 0.0) {
     statistics_.add_part("environment_motion", environment_.motion_time());
   }
-  environment_.publish(query_options_, config_.gradients);
+  environment_.publish(query_options_, knowledge_, config_.gradients);
 }
 
 void ProximityServer::publish_markers_if_due() {

@@ -16,12 +16,14 @@
 #include "src/ros/outputs/detector.hpp"
 #include "src/ros/outputs/environment_output.hpp"
 #include "src/ros/outputs/fiber_step.hpp"
+#include "src/ros/outputs/knowledge.hpp"
 #include "src/ros/outputs/markers.hpp"
 #include "src/ros/outputs/node_reports.hpp"
 #include "src/ros/outputs/prediction_output.hpp"
 #include "src/ros/outputs/step_contacts.hpp"
 #include "src/ros/server/query_services.hpp"
 #include "src/ros/server/server_options.hpp"
+#include "src/ros/support/stopwatch.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -31,7 +33,9 @@ namespace fiber_proximity_ros {
 /// Publishes ~contacts, ~environment_contacts, ~contact_events, ~time_to_contact, ~crossings (see
 /// CrossingsOutput), ~fibers, ~markers, ~statistics, ~comparison and /diagnostics; serves ~compare,
 /// and what serve_queries() and EnvironmentInputs serve. Each set of messages that have arrived
-/// gives one answer, each answer is published once, and what nobody subscribes to is not computed.
+/// gives one answer, and what nobody subscribes to is not computed. An answer is given again where
+/// somebody has begun to listen, where other things are unknown than before, and each ~heartbeat
+/// while something is.
 class ProximityServer {
  public:
   /// @throws std::invalid_argument for a bad parameter (see read_server_options) or an unknown
@@ -47,12 +51,16 @@ class ProximityServer {
   void schedule();
   void process();
   void tick();
+  bool is_heartbeat_due() const;
 
-  void publish();
-  bool detect();
+  void answer(bool is_about_new_fibers, double time_before, const Stopwatch& stopwatch);
+  void answer_about_environment();
+  void take_fibers();
+  void publish_statistics(double time);
+  void detect();
   std::optional<KnownMotion> detect_motion();
   void publish_contacts();
-  void detect_in_environment(const ContinuousStep* step);
+  void detect_in_environment();
   void publish_markers_if_due();
 
   void reconfigure(AskedConfig& config);
@@ -69,6 +77,7 @@ class ProximityServer {
   FiberStep step_;
   FiberState newest_state_;  // for its memory
 
+  Newcomer newcomer_;  // before those who call it
   ContactOutput contacts_;
   ros::Publisher fibers_publisher_;
   ros::Publisher markers_publisher_;
@@ -84,12 +93,15 @@ class ProximityServer {
   ros::SteadyTime last_drawing_;
   bool drawing_is_due_ = false;
   bool is_scheduled_ = false;
+  bool has_newcomers_ = false;
+  ros::SteadyTime last_answer_ = ros::SteadyTime::now();
 
   // Last, so that they go first: callbacks come from here.
   InputSet inputs_;
   CrossingsOutput crossings_;
-  Diagnostics diagnostics_;
   EnvironmentOutput environment_;
+  Knowledge knowledge_;
+  Diagnostics diagnostics_;
   StatisticsOutput statistics_;
   PredictionOutput prediction_;
   ComparisonOutput comparison_;

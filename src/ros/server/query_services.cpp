@@ -88,6 +88,19 @@ void append_contacts(const fiber::QueryResult& result, std::uint32_t shape,
   response.offsets.push_back(static_cast<std::uint32_t>(response.contacts.size()));
 }
 
+/// What a request is about, as far as it is known.
+Completeness known_around(std::uint8_t against, const Knowledge& knowledge) {
+  using About = Knowledge::About;
+  switch (against) {
+    case QueryProximity::Request::FIBERS:
+      return knowledge.completeness(About::FIBERS, true);
+    case QueryProximity::Request::ENVIRONMENT:
+      return knowledge.completeness(About::ENVIRONMENT, true);
+    default:
+      return knowledge.completeness(About::FIBERS_AND_ENVIRONMENT, true);
+  }
+}
+
 /// Contacts of each shape of the request with the fibres, the environment or both; fills in all of
 /// the response but header, names and success. Shapes that the deadline comes before are not read.
 /// @throws std::invalid_argument naming the shape, the value and what is allowed
@@ -98,7 +111,9 @@ void answer(const QueryProximity::Request& request, const QueryTarget& target,
   fiber::QueryResult of_fibers;
   fiber::QueryResult result;
   const std::size_t count = request.shapes.size();
-  response.complete = true;
+  Completeness known = known_around(request.against, target.knowledge);
+  const double nothing_known = -std::numeric_limits<double>::infinity();
+  bool is_cut_off = false;
   response.offsets.reserve(count + 1);
   response.minimum_lower.reserve(count);
   response.offsets.push_back(0);
@@ -111,14 +126,19 @@ void answer(const QueryProximity::Request& request, const QueryTarget& target,
                   of_fibers, result);
     });
     append_contacts(result, i, static_cast<std::uint32_t>(target.fibers.fiber_count()), response);
-    response.minimum_lower.push_back(result.minimum_lower());
-    response.complete = response.complete && result.complete;
+    response.minimum_lower.push_back(known.lower(result.minimum_lower(), nothing_known));
+    is_cut_off = is_cut_off || !result.complete;
     response.limit_reached = response.limit_reached || result.limit_reached;
   }
   // Of the shapes that the deadline came before nothing is known.
-  response.complete = response.complete && response.minimum_lower.size() == count;
+  if (is_cut_off || response.minimum_lower.size() < count) {
+    options.deadline = request.deadline;
+    known.add_cut_off(cut_off_text("pairs of shapes", options));
+  }
+  response.complete = known.is_complete();
+  response.unknown = known.unknown();
   response.offsets.resize(count + 1, response.offsets.back());
-  response.minimum_lower.resize(count, -std::numeric_limits<double>::infinity());
+  response.minimum_lower.resize(count, nothing_known);
   if (request.gradients) {
     std::for_each(response.contacts.begin(), response.contacts.end(), add_gradients);
   }
@@ -140,7 +160,7 @@ bool respond(const QuerySubject& subject, const std::function<void()>& before_an
     const fiber::FiberAssembly& merged = fibers.fibers();
     answer_it(QueryTarget{merged, fibers.names(),
                           asks_about_fibers ? &subject.detector.engine() : nullptr, *environment,
-                          fibers.frame(), subject.defaults, deadline,
+                          fibers.frame(), subject.knowledge, subject.defaults, deadline,
                           [&](const auto& names) { return subject.environment.allowed(names); }});
     response.header = fibers.header();
     if (!fibers.is_fresh()) {

@@ -8,6 +8,7 @@
 #include "src/ros/environment/environment_inputs.hpp"
 #include "src/ros/inputs/input_set.hpp"
 #include "src/ros/outputs/detector.hpp"
+#include "src/ros/outputs/knowledge.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -16,6 +17,7 @@ struct QuerySubject {
   InputSet& fibers;
   Detector& detector;  ///< knows the fibres of the inputs
   const EnvironmentInputs& environment;
+  const Knowledge& knowledge;
   const fiber::QueryOptions& defaults;
 };
 

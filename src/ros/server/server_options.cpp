@@ -66,8 +66,8 @@ void require_foreign_topic(const InputOptions& input, const ros::NodeHandle& nod
   }
 }
 
-std::vector<InputOptions> read_inputs(const ros::NodeHandle& public_node,
-                                      const Parameters& parameters, double radius) {
+void read_inputs(const ros::NodeHandle& public_node, const Parameters& parameters, double radius,
+                 ServerOptions& options) {
   const ros::NodeHandle& node = parameters.node();
   XmlRpcValue list;
   if (!node.getParam("inputs", list)) {
@@ -75,7 +75,8 @@ std::vector<InputOptions> read_inputs(const ros::NodeHandle& public_node,
     fibers["topic"] = "fibers";
     InputOptions input = read_input_options(fibers, radius);
     input.where = "the default of parameter " + node.resolveName("inputs");
-    return {input};
+    options.inputs = {input};
+    return;
   }
   if (list.getType() != XmlRpcValue::TypeArray) {
     parameters.refuse("inputs");
@@ -84,7 +85,6 @@ std::vector<InputOptions> read_inputs(const ros::NodeHandle& public_node,
     ROS_WARN_STREAM("parameter " << node.resolveName("inputs")
                                  << " is an empty list: no fibres will arrive");
   }
-  std::vector<InputOptions> inputs;
   for (int i = 0; i < list.size(); ++i) {
     const std::string where =
         "parameter " + node.resolveName("inputs") + ", entry " + std::to_string(i);
@@ -92,13 +92,14 @@ std::vector<InputOptions> read_inputs(const ros::NodeHandle& public_node,
       InputOptions input = read_input_options(list[i], radius);
       input.where = where;
       require_foreign_topic(input, public_node, node);
-      require_new_name(input, inputs);
-      inputs.push_back(input);
+      require_new_name(input, options.inputs);
+      options.inputs.push_back(input);
     } catch (const std::invalid_argument& error) {
       ROS_ERROR_STREAM(where << " is left out: " << error.what());
+      options.left_out_inputs.push_back(
+          {"inputs", where, ros::Time::now(), std::string("left out: ") + error.what(), true});
     }
   }
-  return inputs;
 }
 
 /// What an engine refuses is the value of a parameter.
@@ -130,12 +131,13 @@ ServerOptions read_server_options(const ros::NodeHandle& node,
   parameters.read("synchronize", options.timing.synchronize);
   parameters.read("synchronize_slop", options.timing.synchronize_slop);
   parameters.read("marker_rate", options.marker_rate);
+  parameters.read("heartbeat", options.heartbeat);
   // Read by diagnostic_updater, which keeps silent about what is none.
   double diagnostic_period = 0.0;
   parameters.read("diagnostic_period", diagnostic_period);
   check_engine(private_node, options);
   options.config = read_dynamic_parameters(private_node);
-  options.inputs = read_inputs(node, parameters, radius);
+  read_inputs(node, parameters, radius, options);
   parameters.warn_of_unknown();
   return options;
 }

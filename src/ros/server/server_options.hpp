@@ -24,7 +24,10 @@ struct ServerOptions {
 
   double marker_rate{};  ///< [Hz] markers are drawn at most this often
 
+  double heartbeat{};  ///< [s] answers are repeated that often while something is unknown; 0: not
+
   std::vector<InputOptions> inputs;
+  std::vector<Unknown> left_out_inputs;  ///< entries that are bad
 
   fiber_proximity::ProximityConfig config;  ///< those that can change later
 };
