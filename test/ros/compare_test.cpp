@@ -68,7 +68,8 @@ class CompareTest : public node_test::NodeTest {
 };
 
 TEST_F(CompareTest, ServesAComparisonOfTheNewestFibres) {
-  ASSERT_TRUE(node_test::wait_for([&] { return !contacts.messages.empty(); }));
+  ASSERT_NE(contacts.wait_for([](const auto& answer) { return !answer.fiber_names.empty(); }),
+            nullptr);
   const CompareWithFcl::Response response = call();
   ASSERT_TRUE(response.success) << response.message;
   expect_agreement(response.comparison);

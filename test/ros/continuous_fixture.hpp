@@ -60,11 +60,12 @@ class ContinuousTest : public node_test::NodeTest {
   void SetUp() override {
     cables_ = advertise<FiberArray>("/cables");
     double z = 0.1;
+    const auto is_answer = [](const auto& answer) { return !answer.fiber_names.empty(); };
     ASSERT_TRUE(node_test::wait_for([&] {
       publish(crossed(0.1, z = -z));
       ros::WallDuration(0.02).sleep();
-      return !contacts.messages.empty() && !statistics.messages.empty() &&
-             !events_.messages.empty() && !times_.messages.empty();
+      return contacts.find(is_answer) != nullptr && times_.find(is_answer) != nullptr &&
+             !statistics.messages.empty() && !events_.messages.empty();
     })) << "the node does not answer";
     z_ = z;
     ASSERT_NE(answer_to(crossed(0.1, z)), nullptr);  // and it stands still

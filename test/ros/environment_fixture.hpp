@@ -30,7 +30,7 @@ class EnvironmentFixture : public ::testing::Test {
   }
 
   void start() {
-    inputs = std::make_unique<EnvironmentInputs>(node, own, options(), frame, 0.1, [] {});
+    inputs = std::make_unique<EnvironmentInputs>(node, own, options(), frame, [] {});
   }
 
   /// Updates and handles callbacks until the condition holds.
@@ -102,9 +102,18 @@ class EnvironmentFixture : public ::testing::Test {
     return places;
   }
 
+  /// What is unknown now, each on one line.
+  std::vector<std::string> unknown() const {
+    std::vector<std::string> texts;
+    for (const fiber_proximity_ros::Unknown& unknown : inputs->unknown(true)) {
+      texts.push_back(unknown.what + ": " + unknown.why);
+    }
+    return texts;
+  }
+
   fiber_proximity::InputStatistics statistics_of(const std::string& topic) const {
     for (const auto& statistics : inputs->statistics(ros::Time::now())) {
-      if (statistics.topic == topic) {
+      if (statistics.topic == own.resolveName(topic)) {
         return statistics;
       }
     }

@@ -77,6 +77,19 @@ TEST_F(EnvironmentInputsTest, AMessageIsAppliedWholeOrNotAtAll) {
   expect_refusal({ball("good"), ball("cloud")}, "cloud");
   expect_refusal({ball("good"), ball("robot/hand")}, "robot/hand");
   expect_refusal({ball("good"), ball("")}, "");
+  EXPECT_TRUE(places().empty());
+  // What was to be there is owed; "cloud" and the robot's link were never to be had.
+  const std::vector<std::string> owed = unknown();
+  ASSERT_FALSE(owed.empty());
+  for (const char* const name : {"good: refused: ", "bad: refused: "}) {
+    EXPECT_EQ(std::count_if(owed.begin(), owed.end(),
+                            [name](const std::string& text) { return text.rfind(name, 0) == 0; }),
+              1)
+        << name;
+  }
+  EXPECT_TRUE(inputs->is_used()) << "there is something to be told";
+  EXPECT_EQ(apply({removal("")}), "");
+  EXPECT_TRUE(unknown().empty()) << "all are gone now";
   EXPECT_FALSE(inputs->is_used());
 }
 
@@ -221,7 +234,7 @@ TEST_F(EnvironmentInputsTest, ABadMeshIsRefusedByNameAndNoOtherIs) {
   bad.meshes[0].triangles.back().vertex_indices[2] = 1000000;
   publish({bad, ball("with bad", 1.0)});
   publish({rock("good", 2.0)});
-  ASSERT_TRUE(wait_for([&] { return inputs->is_used(); }));
+  ASSERT_TRUE(wait_for([&] { return !places().empty(); }));
   EXPECT_EQ(places(), (Places{{"good", 2.0}}));
   EXPECT_EQ(statistics_of("obstacles").refused, 1U);
   EXPECT_EQ(statistics_of("obstacles").last_error.rfind("obstacle 'bad': mesh 0: triangle", 0), 0U)
@@ -242,9 +255,12 @@ TEST_F(EnvironmentInputsTest, ARemovalCancelsAMeshThatIsBeingBuilt) {
   EXPECT_EQ(statistics_of("obstacles").overtaken, 2U);
   EXPECT_EQ(statistics_of("obstacles").refused, 0U);
   publish({rock("last", 3.0)});
+  ASSERT_TRUE(wait_for([&] { return inputs->is_waiting(); }));
+  ASSERT_EQ(unknown(), (std::vector<std::string>{"last: its change is not made yet"}));
   gate.open();
-  ASSERT_TRUE(wait_for([&] { return inputs->is_used(); }));
+  ASSERT_TRUE(wait_for([&] { return !places().empty(); }));
   EXPECT_EQ(places(), (Places{{"last", 3.0}}));
+  EXPECT_TRUE(unknown().empty());
   EXPECT_NE(apply({removal("rock")}), "");
 }
 

@@ -181,8 +181,10 @@ TEST_F(EnvironmentServicesTest, ADeadlineIsThatOfAllCandidates) {
     ASSERT_EQ(answer.offsets.size(), 2001U);
     EXPECT_EQ(answer.offsets.back(), answer.contacts.size());
     for (std::size_t i = 0; i < 2000; ++i) {
-      EXPECT_TRUE(answer.free[i] || !truth.free[i]) << i;
+      EXPECT_TRUE(!answer.free[i] || (truth.free[i] && answer.complete[i])) << i;
       EXPECT_TRUE(!answer.complete[i] || answer.free[i] == truth.free[i]) << i;
+      const bool has_contact = answer.offsets[i + 1] > answer.offsets[i];
+      EXPECT_EQ(answer.decided[i] != 0, answer.free[i] != 0 || has_contact) << i;
     }
     if (deadline == 1e-9) {
       EXPECT_EQ(std::count(answer.complete.begin(), answer.complete.end(), 0), 2000);
@@ -223,7 +225,8 @@ TEST_F(EnvironmentServicesTest, AfterTheDeadlineNoBlockOfCandidatesIsChecked) {
     const auto answer = call<CheckFibers>("check_fibers", request);
     ASSERT_TRUE(answer.success) << answer.message;
     ASSERT_EQ(answer.complete.size(), count);
-    EXPECT_EQ(answer.free, std::vector<std::uint8_t>(count, 1));
+    EXPECT_EQ(answer.free, answer.complete) << "what was not looked at is not free";
+    EXPECT_EQ(answer.decided, answer.complete);
     complete =
         static_cast<std::size_t>(std::count(answer.complete.begin(), answer.complete.end(), 1));
     const auto first = std::find(answer.complete.begin(), answer.complete.end(), 0);
@@ -255,7 +258,14 @@ TEST_F(EnvironmentServicesTest, CandidatesTheDeadlineComesBeforeAreNotRead) {
   const auto answer = call<CheckFibers>("check_fibers", request);
   ASSERT_TRUE(answer.success) << answer.message;
   EXPECT_EQ(answer.complete, (std::vector<std::uint8_t>{0, 0, 0}));
-  EXPECT_EQ(answer.free, (std::vector<std::uint8_t>{1, 1, 1}));
+  EXPECT_EQ(answer.free, (std::vector<std::uint8_t>{0, 0, 0})) << "nothing is known of them";
+  EXPECT_EQ(answer.decided, (std::vector<std::uint8_t>{0, 0, 0}));
+  ASSERT_EQ(answer.unknown.size(), 1U);
+  EXPECT_EQ(answer.unknown[0].rfind("pairs of candidates: not all have been looked at, as the "
+                                    "deadline of 0.001 s",
+                                    0),
+            0U)
+      << answer.unknown[0];
 }
 
 }  // namespace

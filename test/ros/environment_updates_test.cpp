@@ -76,7 +76,7 @@ TEST_F(EnvironmentServicesTest, ContactsKeepComingWhileALargeMeshIsBuilt) {
   apply({ball("ball", 0.0, 0.25)});
   connect(publisher, fiber(0.4, -1, 1), [&] { return !around.messages.empty(); });
   const ros::Publisher obstacles = advertise<ObstacleArray>("/proximity/obstacles");
-  const auto input = [&] { return input_of(*statistics.messages.back(), "obstacles"); };
+  const auto input = [&] { return input_of(*statistics.messages.back(), "/proximity/obstacles"); };
   ObstacleArray message;
   message.obstacles = {ball("other", 1.0, 0.25)};
   obstacles.publish(message);

@@ -90,13 +90,14 @@ add_executable(node_test EXCLUDE_FROM_ALL
   ros/stale_test.cpp
   ros/timing_test.cpp
   ros/tracks_test.cpp
+  ros/unknown_test.cpp
 )
 target_compile_definitions(node_test PRIVATE PROXIMITY_NODE="$<TARGET_FILE:proximity_node>")
 target_link_libraries(node_test
   fiber_proximity_ros fiber_proximity_options test_support ${GTEST_LIBRARIES})
 add_dependencies(tests node_test)
 add_custom_target(soak DEPENDS node_test proximity_node)  # for scripts/campaign.sh
-foreach(name crossings draw environment inputs query)
+foreach(name crossings draw environment inputs query unknown)
   add_rostest(ros/${name}.test DEPENDENCIES node_test proximity_node fiber_player)
   add_rostest(ros/${name}.test
     ARGS nodelet:=true DEPENDENCIES node_test fiber_proximity_nodelets fiber_player)

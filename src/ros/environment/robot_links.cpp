@@ -2,7 +2,6 @@
 
 #include <urdf/model.h>
 
-#include <algorithm>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -85,7 +84,7 @@ std::vector<RobotLink> read_robot(const std::string& description, const MeshLoad
 
 RobotLinks::RobotLinks(const std::vector<RobotLink>& links, double timeout) : timeout_(timeout) {
   for (const RobotLink& link : links) {
-    links_.push_back({link});
+    links_.emplace_back(link);
   }
 }
 
@@ -130,12 +129,15 @@ std::optional<fiber::ObjectChange> RobotLinks::place(Link& link,
 
 std::optional<Eigen::Isometry3d> RobotLinks::find_pose(Link& link, const ros::Time& stamp,
                                                        const FindPose& find_pose) const {
+  if (link.known.isZero()) {
+    link.known = stamp;
+  }
   try {
     const FramePose found = find_pose(link.frame, stamp);
     fiber::validate(found.pose);
     const double age = found.stamp.isZero() ? 0.0 : (stamp - found.stamp).toSec();
     if (age <= timeout_) {
-      link.known = found.stamp.isZero() ? stamp : std::max(link.known, found.stamp);
+      link.known = found.stamp.isZero() ? stamp : found.stamp;
       return found.pose;
     }
     std::ostringstream message;

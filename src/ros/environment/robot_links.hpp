@@ -45,8 +45,10 @@ class RobotLinks {
  private:
   /// Where it was last.
   struct Link : RobotLink {
+    explicit Link(const RobotLink& link) : RobotLink(link) {}
+
     bool is_present = false;
-    ros::Time known = ros::Time::now();  // when it was, or was first looked for
+    ros::Time known;  // when it was last, or was first looked for
     std::string error = "not looked for yet";
   };
 
