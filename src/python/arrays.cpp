@@ -32,15 +32,20 @@ bool is_masked(const py::handle& object) {
 
 }  // namespace
 
-void refuse_masked(const py::handle& object, const char* name) {
-  if (PyFloat_CheckExact(object.ptr()) || PyLong_CheckExact(object.ptr())) {
+bool is_list(const py::handle& object) {
+  return PyList_Check(object.ptr()) != 0 || PyTuple_Check(object.ptr()) != 0;
+}
+
+void refuse_masked(const py::handle& object, const char* name, int levels) {
+  if (is_list(object)) {
+    for (Py_ssize_t i = 0; levels > 0 && i < PySequence_Fast_GET_SIZE(object.ptr()); ++i) {
+      refuse_masked(PySequence_Fast_GET_ITEM(object.ptr(), i), name, levels - 1);
+    }
     return;
   }
-  if (py::isinstance<py::list>(object) || py::isinstance<py::tuple>(object)) {
-    for (const py::handle item : object) {
-      refuse_masked(item, name);
-    }
-  } else if (py::hasattr(object, "mask") && is_masked(object)) {
+  // Masked arrays are of a class that is made in Python; what C makes, such as plain arrays and
+  // numbers, is told at once.
+  if (PyType_HasFeature(Py_TYPE(object.ptr()), Py_TPFLAGS_HEAPTYPE) != 0 && is_masked(object)) {
     throw py::type_error(std::string(name) +
                          " has masked values, it must have none: leave them out, or put numbers "
                          "there by filled()");

@@ -147,7 +147,8 @@ py::array MotionAnswer::at(const py::object& motion_contacts) const {
 
 void bind_contacts(py::module& module) {
   // For what of the package is written in Python.
-  module.def("refuse_masked", &refuse_masked);
+  module.def("refuse_masked",
+             [](const py::object& object, const char* name) { refuse_masked(object, name); });
   module.attr("contact_dtype") = contact_dtype();
   module.attr("motion_contact_dtype") = motion_contact_dtype();
   module.def("gradients", &gradients, py::arg("contacts"), R"(

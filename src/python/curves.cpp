@@ -7,20 +7,19 @@
 namespace fiber::python {
 namespace {
 
-bool is_list(const py::handle& object) {
-  return py::isinstance<py::list>(object) || py::isinstance<py::tuple>(object);
-}
-
-/// Dimensions of an array; of a list how deep lists are in each other, by the first of each.
-Py_ssize_t dimensions_of(const py::handle& object) {
+/// Dimensions of an array; of a list how deep lists are in each other, by the first of each, as far
+/// as matters here.
+Py_ssize_t dimensions_of(const py::handle& object, Py_ssize_t most = 3) {
   if (py::isinstance<py::array>(object)) {
     return py::reinterpret_borrow<py::array>(object).ndim();
   }
   if (!is_list(object)) {
     return 0;
   }
-  const auto items = py::reinterpret_borrow<py::sequence>(object);
-  return 1 + (items.size() == 0 ? 0 : dimensions_of(py::object(items[0])));
+  if (most == 1 || PySequence_Fast_GET_SIZE(object.ptr()) == 0) {
+    return 1;
+  }
+  return 1 + dimensions_of(PySequence_Fast_GET_ITEM(object.ptr(), 0), most - 1);
 }
 
 std::string item_name(const char* name, std::size_t index) {

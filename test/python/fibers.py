@@ -83,6 +83,9 @@ class FibersTest(unittest.TestCase):
                 warnings.simplefilter('ignore')  # of numpy before 1.24 about lists that differ
                 self.refuse(kind, words, lambda curves=curves: fp.Fibers(curves))
         self.refuse(ValueError, 'points is a list of curves, which needs no offsets', lambda: fp.Fibers([A, B], [0, 3, 7]))
+        itself = []
+        itself.extend([itself, itself])
+        self.assertIn(support.message_of(lambda: fp.Fibers(itself))[0], (ValueError, TypeError))
 
     def test_curves_move(self):
         fibers = fp.Fibers([A, B])
