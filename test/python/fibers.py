@@ -84,7 +84,7 @@ class FibersTest(unittest.TestCase):
                 self.refuse(kind, words, lambda curves=curves: fp.Fibers(curves))
         self.refuse(ValueError, 'points is a list of curves, which needs no offsets', lambda: fp.Fibers([A, B], [0, 3, 7]))
         itself = []
-        itself.extend([itself, itself])
+        itself.append(itself)
         self.assertIn(support.message_of(lambda: fp.Fibers(itself))[0], (ValueError, TypeError))
 
     def test_curves_move(self):
