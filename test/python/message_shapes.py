@@ -1,10 +1,12 @@
 #!/usr/bin/python3
 """Messages are known by their shape: of classes as rclpy generates them, where no ROS is installed."""
 import array
+import pathlib
 import re
 import sys
 import unittest
 from types import SimpleNamespace as Part
+from unittest import mock
 
 import numpy as np
 
@@ -144,11 +146,24 @@ class MessageShapes(unittest.TestCase):
             self.refuse(ValueError, words, lambda sent=sent: fp.from_msg(sent))
 
     def test_other_objects(self):
-        import pathlib
         for other in (pathlib.Path('a'), message('Image', data=b''), message('PointCloud2', data=b''), 5, None,
                       message('ContactArray', contacts=[])):
             self.refuse(TypeError, 'it must be one of: ContactArray, FiberArray, Marker, MarkerArray, Path, PointCloud, '
                         'PointCloud2, PoseArray', lambda other=other: fp.from_msg(other))
+
+    def test_the_program_of_the_page(self):
+        page = (pathlib.Path(__file__).parents[2] / 'docs' / 'ros2_and_containers.md').read_text(encoding='utf-8')
+        program, = re.findall(r'^```python\n(.*?)^```$', page, re.M | re.S)
+        there = [(0.01 * i, 0.0, 0.0) for i in range(21)]
+        back = [(x, 0.014, 0.0) for x, _, _ in reversed(there)]
+        receivers, warnings = [], []
+        node = Part(create_subscription=lambda kind, topic, receive, depth: receivers.append(receive),
+                    get_logger=lambda: Part(warn=warnings.append))
+        rclpy = Part(init=lambda: None, create_node=lambda name: node,
+                     spin=lambda spun: [receive(cloud(points)) for receive in receivers for points in (there, there + back)])
+        with mock.patch.dict(sys.modules, {'rclpy': rclpy, 'sensor_msgs': Part(), 'sensor_msgs.msg': Part(PointCloud2=None)}):
+            exec(compile(program, 'page', 'exec'), {})
+        self.assertEqual(warnings, ['4.0 mm apart'])
 
     def test_no_ros_is_needed(self):
         self.assertFalse({'genpy', 'rospy', 'sensor_msgs', 'geometry_msgs', 'rclpy'} & set(sys.modules))
