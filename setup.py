@@ -48,7 +48,7 @@ setup(
     name='fiber_proximity',
     version=version(),
     description='Proximity queries for cables, ropes, hair and other fibres',
-    license='BSD',
+    license='BSD-3-Clause',
     python_requires='>=3.8',
     install_requires=['numpy'],
     # The package's files come by CMake, too.

@@ -14,7 +14,7 @@ endif()
 
 # In place of the empty __init__.py that is generated with the messages: also where the module is not built, as a
 # wheel that is installed elsewhere needs it to find them.
-set(python_sources __init__.py __init__.pyi messages.py py.typed robot.py)
+set(python_sources __init__.py __init__.pyi marker_messages.py messages.py point_messages.py py.typed robot.py)
 foreach(source IN LISTS python_sources)
   configure_file(src/python/fiber_proximity/${source} ${python_build_folder}/${source} COPYONLY)
   install(FILES src/python/fiber_proximity/${source} DESTINATION ${python_folder})
@@ -40,6 +40,7 @@ add_library(fiber_proximity_python MODULE
   src/python/candidates.cpp
   src/python/check.cpp
   src/python/contacts.cpp
+  src/python/curves.cpp
   src/python/engine.cpp
   src/python/environment.cpp
   src/python/environment_objects.cpp

@@ -68,13 +68,28 @@ safe_execute_process(COMMAND ${GENERATE_ENVIRONMENT_CACHE_COMMAND})
 generate_dynamic_reconfigure_options(cfg/Proximity.cfg)
 # One file tells what nodes offer: Proximity.cfg reads it, and so does what makes the nodes' table of parameters.
 set(interface ${PROJECT_SOURCE_DIR}/cfg/interface.yaml)
-set(generated_headers ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_INCLUDE_DESTINATION})
-add_custom_command(OUTPUT ${generated_headers}/ProximityConfig.h APPEND DEPENDS ${interface})
-add_custom_command(OUTPUT ${generated_headers}/interface_table.h
-  COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/scripts/make_reference.py --table ${generated_headers}/interface_table.h
+add_custom_command(OUTPUT ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_INCLUDE_DESTINATION}/ProximityConfig.h
+  APPEND DEPENDS ${interface})
+# For one source: not among the headers, which are installed.
+set(interface_table ${PROJECT_BINARY_DIR}/generated/interface_table.inc)
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/generated)
+add_custom_command(OUTPUT ${interface_table}
+  COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/scripts/make_reference.py --table ${interface_table}
   DEPENDS ${interface} ${PROJECT_SOURCE_DIR}/scripts/make_reference.py
   COMMENT "Making the table of parameters")
-add_custom_target(${PROJECT_NAME}_interface DEPENDS ${generated_headers}/interface_table.h)
+add_custom_target(${PROJECT_NAME}_interface DEPENDS ${interface_table})
+
+# Who asks for components gets them without catkin, which makes a workspace of each project it is found by. It takes
+# the package's own template of its configuration: here its own one with a few lines before.
+set(${PROJECT_NAME}_EXTRAS_DIR ${PROJECT_BINARY_DIR}/generated)
+file(READ ${catkin_EXTRAS_DIR}/templates/pkgConfig.cmake.in catkins_configuration)
+file(WRITE ${${PROJECT_NAME}_EXTRAS_DIR}/${PROJECT_NAME}Config.cmake.in
+  "if(${PROJECT_NAME}_FIND_COMPONENTS)
+  include(\${CMAKE_CURRENT_LIST_DIR}/${PROJECT_NAME}-components.cmake)
+  return()
+endif()
+
+${catkins_configuration}")
 
 catkin_package(
   INCLUDE_DIRS include

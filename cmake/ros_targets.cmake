@@ -59,6 +59,8 @@ target_include_directories(fiber_proximity_ros SYSTEM PUBLIC
 target_link_libraries(fiber_proximity_ros
   PUBLIC fiber_proximity_sim fiber_proximity_compare fiber_proximity_paper ${catkin_LIBRARIES}
   PRIVATE fiber_proximity_options)
+get_filename_component(interface_folder ${interface_table} DIRECTORY)
+target_include_directories(fiber_proximity_ros PRIVATE ${interface_folder})
 fiber_proximity_parse_once(fiber_proximity_ros ${ros_headers})
 # Not all exported targets: messages in other languages need not be there first.
 add_dependencies(fiber_proximity_ros

@@ -13,7 +13,7 @@
 #                Bullet in Python
 #     --quick    small scenes: minutes at most
 #     --verbose  all that installing and building write
-#     --out DIR  where CSV and SVG go (default: build/bench/EXPERIMENT, -quick with --quick);
+#     --out DIR  where CSV and SVG go (default: bench/EXPERIMENT in the build's folder, -quick with --quick);
 #                a run that was stopped goes on from what is there
 set -euo pipefail
 # shellcheck source=scripts/environment.sh

@@ -5,8 +5,8 @@
 #     --minutes N   how long, without building; default: 60
 #     --jobs N      how many processes at once; default: as many as there are cores
 #     --only PART   all the time for one of the three
-#     --out DIR     where the report goes; default: build/campaign. A campaign adds to what the folder
-#                   has from earlier ones
+#     --out DIR     where the report goes; default: campaign in the build's folder. A campaign adds to what
+#                   the folder has from earlier ones
 #     --no-build    with what has been built
 #   scripts/campaign.sh --table [--out DIR]
 #     --table       no campaign: writes the folder's table into docs/reliability.md

@@ -3,7 +3,9 @@
 # variables.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-build=$root/build
+# Beside the checkout: rosrun leaves out a folder `build` within a package, and finds programs in any other folder there
+# twice. Nor may the path begin as the checkout's does: rosrun takes it for a part of it then.
+build=${FIBER_PROXIMITY_BUILD:-$(dirname "$root")/build-$(basename "$root")}
 
 # ROS's Python modules belong to /usr/bin/python3; another python3 may stand first on PATH.
 export PATH=/usr/bin:$PATH
@@ -17,6 +19,12 @@ fi
 # shellcheck source=scripts/progress.sh
 source "$root/scripts/progress.sh"
 
+make_build_folder() {
+  mkdir -p "$build" && return
+  echo "$(basename "$0"): FIBER_PROXIMITY_BUILD names another folder to build in" >&2
+  return 1
+}
+
 # build_package [TARGET...]: configures (arguments in the array cmake_arguments) and builds.
 # A new build is one of Ninja, which starts in no time where make asks hundreds of catkin's targets, and what
 # ccache has compiled before it does not compile again.
@@ -28,7 +36,7 @@ build_package() {
   fi
   # What another checkout has compiled counts, and so do precompiled headers.
   export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=true CCACHE_SLOPPINESS=pch_defines,time_macros
-  mkdir -p "$build"
+  make_build_folder
   run_step "configuring $(basename "$build")" "$build/configure.log" \
     cmake -S "$root" -B "$build" "${tools[@]}" "${cmake_arguments[@]}"
   local target
@@ -46,7 +54,7 @@ run_tests() {
   $verbose || sed -n "/tests passed/,\$p" "$build/ctest.log"
 }
 
-# use_devel_space: what `source build/devel/setup.bash` does, under set -u.
+# use_devel_space: what `source devel/setup.bash` in the build does, under set -u.
 use_devel_space() {
   set +u
   # shellcheck disable=SC1091

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Feeds what reads files and messages with what nobody foresaw: libFuzzer on the inputs kept in
 # test/fuzz/corpus. A crash, a report of a sanitizer, too much memory, a hang or an unreadable error is a
-# finding: exit 1, and the input stays in build-fuzz/findings. Without ROS there are fewer targets.
+# finding: exit 1, and the input stays in fuzz/findings of the build. Without ROS there are fewer targets.
 #   scripts/fuzz.sh [--runs N | --seconds N] [--seed S] [--target T]... [--jobs N]
 #     --runs N      inputs per target (default 20000, fewer of slow ones): the same inputs each time,
 #                   however busy the machine
@@ -45,9 +45,10 @@ if [ ${#targets[@]} -eq 0 ]; then
 fi
 
 "$root/scripts/setup.sh" --fuzz
-build=$root/build-fuzz
+build+=/fuzz
+make_build_folder
 mkdir -p "$build/findings"
-run_step "configuring build-fuzz" "$build/configure.log" \
+run_step "configuring fuzz" "$build/configure.log" \
   cmake -S "$root/test/fuzz" -B "$build" -DCMAKE_CXX_COMPILER=clang++-13
 run_step "building fuzzers" "$build/make.log" cmake --build "$build" --parallel "$(nproc)"
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Formatting, doxygen and catkin_lint over the whole tree, clang-tidy over sources, benchmarks and tests; it reads
-# the compile commands and the messages' headers in build/, which scripts/test.sh makes.
+# the compile commands and the messages' headers in the build that scripts/test.sh makes.
 #   scripts/lint.sh [--all] [--verbose]
 #     --verbose   what the tools write as it comes
 #     --all   clang-tidy over all of them, which takes half an hour; without, over those changed since the

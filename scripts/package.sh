@@ -7,8 +7,8 @@
 #   libfiber-proximity-mpi      this library, and its tools
 #   libfiber-proximity-mpi-dev  headers, and what find_package reads of its component
 #   scripts/package.sh [--build BUILD] [--out DIR] [--verbose]
-#     --build BUILD  packages this build, which has ROS, as it is; without, builds first, in build/
-#     --out DIR      where to; without, build/packages
+#     --build BUILD  packages this build, which has ROS, as it is; without, builds first, where all scripts do
+#     --out DIR      where to; without, packages in the build's folder
 #     --verbose      all that building and packaging write
 # Install them with `apt-get install ./DIR/*.deb`, which brings what they need.
 set -euo pipefail
@@ -38,12 +38,14 @@ while [ $# -gt 0 ]; do
 done
 out=${out:-$build/packages}
 
-if [ -d /opt/ros ] || ! command -v dpkg-deb dpkg-shlibdeps >/dev/null; then
+if $builds; then
+  "$root/scripts/setup.sh"
+fi
+if [ -d /opt/ros ] || ! command -v dpkg-deb >/dev/null || ! command -v dpkg-shlibdeps >/dev/null; then
   echo "package.sh: makes packages for Debian with ROS from Debian's own packages (dpkg-dev)" >&2
   exit 1
 fi
 if $builds; then
-  "$root/scripts/setup.sh"
   build_package all
 fi
 if [ ! -d "$build/catkin_generated" ]; then

@@ -25,7 +25,7 @@ core_arguments=(-DFIBER_PROXIMITY_BUILD_ROS=OFF -DFIBER_PROXIMITY_BUILD_BENCHMAR
   -DFIBER_PROXIMITY_BUILD_MPI=OFF
   -DCMAKE_BUILD_TYPE=RelWithDebInfo -DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1\ -g1)
 
-build=$root/build-sanitize
+build+=/sanitize
 # By the oldest compiler there is: so CI knows that it takes the sources.
 cmake_arguments=("${core_arguments[@]}" "-DFIBER_PROXIMITY_SANITIZE=address,undefined"
   -DCMAKE_CXX_COMPILER=g++-11)
@@ -42,7 +42,7 @@ long_tests=(
 )
 GTEST_FILTER="-$(IFS=:; echo "${long_tests[*]}")" run_tests --parallel "$(nproc)"
 
-build=$root/build-sanitize-threads
+build+=-threads
 if ! dpkg-query -W libtbb12 >/dev/null 2>&1; then
   echo "sanitize.sh: ThreadSanitizer needs Debian 12's TBB: left out" >&2
   exit

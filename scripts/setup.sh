@@ -10,7 +10,7 @@
 #     --mpi     also what the library for clusters needs, on Debian: Open MPI, Zoltan, parallel
 #               HDF5
 #     --verbose all that installing writes
-# Debian 12: ROS 1 from Debian's own packages, with apt, as root or through sudo.
+# Debian 12: ROS 1 from Debian's own packages, with apt, as root or through sudo; Ubuntu 22.04 (never tried) alike.
 # Ubuntu with ROS Noetic: through rosdep.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -59,7 +59,7 @@ packages=(
   python3-rosnode python3-rosparam python3-rosmsg python3-rosbag
   rviz librviz-dev qtbase5-dev xvfb xauth imagemagick x11-utils xdotool libgl1-mesa-dri
   libeigen3-dev libtbb-dev libhwy-dev libfcl-dev libassimp-dev
-  pybind11-dev python3-dev python3-pip python3-setuptools python3-wheel
+  pybind11-dev python3-dev python3-pip python3-setuptools python3-venv python3-wheel
   libcli11-dev nlohmann-json3-dev libyaml-cpp-dev libboost-dev libgmp-dev libgtest-dev
 )
 if $lint; then
@@ -123,8 +123,7 @@ install_with_apt() {
 install_with_rosdep() {
   # shellcheck disable=SC1091
   source /opt/ros/noetic/setup.bash
-  # Ubuntu 20.04 has these too old or not at all: scripts/bring_libraries.sh builds them.
-  local keys=(--from-paths . --ignore-src --skip-keys "libhwy-dev cli11 nlohmann-json-dev")
+  local keys=(--from-paths . --ignore-src)
   rosdep check "${keys[@]}" >/dev/null 2>&1 && return
   log=$(mktemp)
   run_step "asking for packages" "$log" rosdep update
@@ -135,10 +134,14 @@ install_with_rosdep() {
 
 if [ -f /opt/ros/noetic/setup.bash ]; then
   install_with_rosdep
+  # Ubuntu 20.04 has three too old or not at all, for which package.xml does not ask rosdep.
   scripts/bring_libraries.sh "${bring[@]}"
 elif command -v dpkg-query >/dev/null && command -v apt-get >/dev/null; then
   install_with_apt
-  [ "${#bring[@]}" -eq 0 ] || scripts/bring_libraries.sh "${bring[@]}"
+  # Ubuntu 22.04 has ROS 1 in its own packages as Debian does, and Highway 0.16.
+  if [ "${#bring[@]}" -gt 0 ] || dpkg --compare-versions "$(dpkg-query -W -f '${Version}' libhwy-dev)" lt 1.0.3; then
+    scripts/bring_libraries.sh "${bring[@]}"
+  fi
 else
   echo "setup.sh: neither /opt/ros/noetic nor apt-get here; supported are Debian 12 and Ubuntu with ROS Noetic" >&2
   exit 1

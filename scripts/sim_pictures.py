@@ -2,7 +2,7 @@
 """Makes the pictures of the simulated scenes with scripts/screenshot.sh, and one sheet of them all.
 
 Usage: sim_pictures.py [SCENE...]     of config/sim; default: all, and docs/simulation_scenes.png
-Each picture becomes build/simulation_pictures/SCENE.png; the sheet needs all of them.
+Each picture becomes simulation_pictures/SCENE.png in the build's folder; the sheet needs all of them.
 """
 import pathlib
 import subprocess
@@ -11,7 +11,9 @@ import sys
 import yaml
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PICTURES = ROOT / "build" / "simulation_pictures"
+BUILD = subprocess.run(["bash", "-euc", 'source "$0"; echo "$build"', ROOT / "scripts" / "environment.sh"],
+                       check=True, capture_output=True, text=True).stdout.strip()
+PICTURES = pathlib.Path(BUILD) / "simulation_pictures"
 SHEET = ROOT / "docs" / "simulation_scenes.png"
 
 # Seconds until the picture is taken; the view: yaw and pitch [rad], distance and focal point [m];

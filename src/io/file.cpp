@@ -21,7 +21,10 @@ FileError::FileError(const std::string& name, std::size_t line, const std::strin
                          reason) {}
 
 FileError FileError::from_system(const std::string& name, const std::string& what) {
-  return {name, what + ": " + std::generic_category().message(errno)};
+  const int code = errno;
+  FileError error(name, what + ": " + std::generic_category().message(code));
+  error.code_ = code;
+  return error;
 }
 
 OutputFile::OutputFile(const std::string& path) : path_(path) {

@@ -11,9 +11,6 @@ namespace {
 
 static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double));
 
-/// As numpy sees it; what it does not take raises its own error.
-py::array to_any_array(const py::object& object) { return py::array(object); }
-
 void require_kind(const py::array& array, const std::string& kinds, const char* name,
                   const char* allowed) {
   if (kinds.find(array.dtype().kind()) == std::string::npos && array.size() > 0) {
@@ -22,10 +19,54 @@ void require_kind(const py::array& array, const std::string& kinds, const char* 
   }
 }
 
+/// Whether a value is masked of an array, which may be structured.
+bool is_masked(const py::handle& object) {
+  const py::module masked_arrays = py::module::import("numpy.ma");
+  if (!py::isinstance(object, masked_arrays.attr("MaskedArray"))) {
+    return false;
+  }
+  const py::object mask = masked_arrays.attr("getmaskarray")(object);
+  const py::object flat = py::module::import("numpy").attr("ascontiguousarray")(mask);
+  return flat.attr("view")("?").attr("any")().cast<bool>();
+}
+
 }  // namespace
 
+bool is_list(const py::handle& object) {
+  return PyList_Check(object.ptr()) != 0 || PyTuple_Check(object.ptr()) != 0;
+}
+
+void refuse_masked(const py::handle& object, const char* name, int levels) {
+  if (is_list(object)) {
+    for (Py_ssize_t i = 0; levels > 0 && i < PySequence_Fast_GET_SIZE(object.ptr()); ++i) {
+      refuse_masked(PySequence_Fast_GET_ITEM(object.ptr(), i), name, levels - 1);
+    }
+    return;
+  }
+  // Masked arrays are of a class that is made in Python; what C makes, such as plain arrays and
+  // numbers, is told at once.
+  if (PyType_HasFeature(Py_TYPE(object.ptr()), Py_TPFLAGS_HEAPTYPE) != 0 && is_masked(object)) {
+    throw py::type_error(std::string(name) +
+                         " has masked values, it must have none: leave them out, or put numbers "
+                         "there by filled()");
+  }
+}
+
+py::array to_any_array(const py::object& object, const char* name) {
+  refuse_masked(object, name);
+  try {
+    return py::array(object);
+  } catch (const py::error_already_set& error) {
+    if (!error.matches(PyExc_ValueError)) {
+      throw;
+    }
+    throw std::invalid_argument(std::string(name) +
+                                " is no array: " + std::string(py::str(error.value())));
+  }
+}
+
 Doubles to_doubles(const py::object& object, const char* name) {
-  const py::array array = to_any_array(object);
+  const py::array array = to_any_array(object, name);
   require_kind(array, "fiu", name, "one of real numbers");
   return Doubles(array);
 }
@@ -74,7 +115,7 @@ std::vector<double> to_numbers(const py::object& object, const char* name) {
 }
 
 std::vector<std::uint32_t> to_indices(const py::object& object, const char* name) {
-  const py::array array = to_any_array(object);
+  const py::array array = to_any_array(object, name);
   require_kind(array, "iu", name, "one of whole numbers");
   if (array.ndim() != 1) {
     refuse_shape(array, name, "(n,)");

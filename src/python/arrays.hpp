@@ -21,6 +21,17 @@ using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 // ---- numpy to C++. What is not as it must be raises TypeError (not numbers) or ValueError (their
 // shape), naming the argument. Of an array that is not float64 in C order a copy is taken.
 
+/// A list or tuple.
+bool is_list(const py::handle& object);
+
+/// @param levels of lists in each other that are looked into: a list may hold itself
+/// @throws py::type_error for masked values of numpy.ma, also within lists
+void refuse_masked(const py::handle& object, const char* name, int levels = 6);
+
+/// Any array or sequence as numpy sees it.
+/// @throws std::invalid_argument where lists in it differ in length; other errors are numpy's own
+py::array to_any_array(const py::object& object, const char* name);
+
 /// Any array or sequence of numbers as float64.
 Doubles to_doubles(const py::object& object, const char* name);
 

@@ -28,6 +28,7 @@ py::array to_records(const py::object& object, const py::dtype& dtype, const cha
                          ", it must be an array of contacts");
   }
   const py::module numpy = py::module::import("numpy");
+  refuse_masked(object, name);
   py::array array = numpy.attr("asarray")(object);
   if (!array.dtype().equal(dtype)) {
     throw py::type_error(std::string(name) + " has the dtype " +
@@ -145,6 +146,9 @@ py::array MotionAnswer::at(const py::object& motion_contacts) const {
 }
 
 void bind_contacts(py::module& module) {
+  // For what of the package is written in Python.
+  module.def("refuse_masked",
+             [](const py::object& object, const char* name) { refuse_masked(object, name); });
   module.attr("contact_dtype") = contact_dtype();
   module.attr("motion_contact_dtype") = motion_contact_dtype();
   module.def("gradients", &gradients, py::arg("contacts"), R"(

@@ -109,7 +109,7 @@ Fibers::State shape_of(const py::object& shape) {
   return shape.is_none() ? nullptr : to_state(shape, "shape");
 }
 
-constexpr const char* class_doc = R"(
+constexpr const char* engine_doc = R"(
 Answers proximity queries about fibres.
 
 Any number of threads may use one engine: queries run at the same time and let Python go on, an
@@ -294,7 +294,7 @@ py::object closest(Engine& engine, double margin, const py::object& shape,
 void bind_engine(py::module& module) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   module.def("engine_names", &engine_names, "Names of all engines, a list of str.");
-  py::class_<Engine, Pointer>(module, "Engine", class_doc)
+  py::class_<Engine, Pointer>(module, "Engine", engine_doc)
       .def(py::init([](const std::string& name, std::int64_t threads, double skin) {
              return std::make_shared<Engine>(name, threads, skin);
            }),

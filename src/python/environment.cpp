@@ -87,8 +87,8 @@ void read_file(SharedWorld& world, const std::string& path) {
   world.apply(changes);
 }
 
-QueryResult query(const SharedWorld& world, const py::object& fibers, const py::object& allowed,
-                  const QueryOptions& options) {
+QueryResult environment_query(const SharedWorld& world, const py::object& fibers,
+                              const py::object& allowed, const QueryOptions& options) {
   const Fibers::State state = to_state(fibers, "fibers");
   const AllowedPairs pairs = to_allowed(allowed);
   const WithoutPythonLock others_may_run;
@@ -97,16 +97,17 @@ QueryResult query(const SharedWorld& world, const py::object& fibers, const py::
   return result;
 }
 
-py::array contacts(const SharedWorld& world, const py::object& fibers, double margin,
-                   const py::object& allowed, const py::kwargs& options) {
-  QueryResult result = query(world, fibers, allowed, query_options("all", margin, options));
+py::array environment_contacts(const SharedWorld& world, const py::object& fibers, double margin,
+                               const py::object& allowed, const py::kwargs& options) {
+  QueryResult result =
+      environment_query(world, fibers, allowed, query_options("all", margin, options));
   return to_array(contact_dtype(), result.contacts);
 }
 
-py::object closest(const SharedWorld& world, const py::object& fibers, double margin,
-                   const py::object& allowed, const py::kwargs& options) {
+py::object environment_closest(const SharedWorld& world, const py::object& fibers, double margin,
+                               const py::object& allowed, const py::kwargs& options) {
   const QueryResult result =
-      query(world, fibers, allowed, query_options("closest", margin, options));
+      environment_query(world, fibers, allowed, query_options("closest", margin, options));
   const Contact* found = result.closest();
   return found == nullptr ? py::none() : to_record(contact_dtype(), *found);
 }
@@ -122,10 +123,12 @@ void require_pair(const Environment& environment, const FiberAssembly& fibers,
   }
 }
 
-std::shared_ptr<MotionAnswer> motion(const SharedWorld& world, const py::object& fibers_before,
-                                     const py::object& fibers_after, double margin,
-                                     const std::string& type, const py::object& later,
-                                     const py::object& allowed, const py::kwargs& keywords) {
+std::shared_ptr<MotionAnswer> environment_motion(const SharedWorld& world,
+                                                 const py::object& fibers_before,
+                                                 const py::object& fibers_after, double margin,
+                                                 const std::string& type, const py::object& later,
+                                                 const py::object& allowed,
+                                                 const py::kwargs& keywords) {
   const Fibers::State before = to_state(fibers_before, "before");
   const Fibers::State after = to_state(fibers_after, "after");
   const AllowedPairs pairs = to_allowed(allowed);
@@ -144,7 +147,7 @@ std::shared_ptr<MotionAnswer> motion(const SharedWorld& world, const py::object&
   });
 }
 
-constexpr const char* class_doc = R"(
+constexpr const char* environment_doc = R"(
 What is around the fibres: named objects of solids, planes and meshes.
 
 Objects are added under a name, in place of one of the same name. Poses are (4, 4) matrices, a
@@ -204,7 +207,7 @@ void bind_environment(py::module& module) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   using Operation = ObjectChange::Operation;
   py::class_<SharedWorld, std::shared_ptr<SharedWorld>> environment(module, "Environment",
-                                                                    class_doc);
+                                                                    environment_doc);
   environment.def(py::init([] { return std::make_shared<SharedWorld>(); }));
   bind_shapes(environment);
   environment
@@ -237,7 +240,7 @@ void bind_environment(py::module& module) {
           "__contains__",
           [](const SharedWorld& world, const std::string& name) { return world.has(name); },
           py::arg("name"))
-      .def("contacts", &contacts, py::arg("fibers"), py::arg("margin") = 0.0,
+      .def("contacts", &environment_contacts, py::arg("fibers"), py::arg("margin") = 0.0,
            py::arg("allowed") = py::none(), R"(
 All pairs of a segment (a) and a shape of an object (b) no further apart than the margin.
 
@@ -253,11 +256,12 @@ Returns
 (m,) of ``contact_dtype``
     `fiber_b` is the index of the object in ``names``, `segment_b` that of the shape in it.
 )")
-      .def("closest", &closest, py::arg("fibers"), py::arg("margin") = infinity,
+      .def("closest", &environment_closest, py::arg("fibers"), py::arg("margin") = infinity,
            py::arg("allowed") = py::none(),
            "The closest pair within the margin [m], a record of ``contact_dtype``, or None.")
-      .def("motion", &motion, py::arg("before"), py::arg("after"), py::arg("margin") = 0.0,
-           py::arg("type") = "all", py::arg("later") = py::none(), py::arg("allowed") = py::none(),
+      .def("motion", &environment_motion, py::arg("before"), py::arg("after"),
+           py::arg("margin") = 0.0, py::arg("type") = "all", py::arg("later") = py::none(),
+           py::arg("allowed") = py::none(),
            "Pairs of a segment and a shape that come into contact while the fibres move from where "
            "they are before to where they are after, and the objects to where they are in `later`, "
            "an Environment of the same objects; as ``Engine.motion()`` otherwise.")

@@ -36,7 +36,8 @@ std::shared_ptr<const TriangleMesh> to_mesh(const py::object& mesh, const py::ob
   }
   std::vector<Eigen::Vector3d> vertices =
       to_points(has_arrays ? py::object(mesh.attr("vertices")) : mesh, "vertices");
-  const py::array corners(has_arrays ? py::object(mesh.attr("faces")) : faces);
+  const py::array corners =
+      to_any_array(has_arrays ? py::object(mesh.attr("faces")) : faces, "faces");
   if (corners.ndim() != 2 || corners.shape(1) != 3) {
     refuse_shape(corners, "faces", "(m, 3)");
   }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "src/python/bindings.hpp"
+#include "src/python/curves.hpp"
 
 namespace fiber::python {
 
@@ -30,6 +31,15 @@ void Fibers::move(const double* rows, std::size_t count) {
 
 FiberAssembly make_fibers(const py::object& points, const py::object& offsets,
                           const py::object& radii) {
+  if (is_list_of_curves(points)) {
+    if (!offsets.is_none()) {
+      throw std::invalid_argument("points is a list of curves, which needs no offsets");
+    }
+    Curves curves = to_curves(points, "points");
+    std::vector<double> thickness = to_radii(radii, curves.offsets);
+    const WithoutPythonLock others_may_run;
+    return FiberAssembly(std::move(curves.points), std::move(curves.offsets), std::move(thickness));
+  }
   const Doubles array = to_doubles(points, "points");
   const bool is_stack = array.ndim() == 3 && offsets.is_none();
   if (!is_stack && array.ndim() != 2) {
@@ -103,7 +113,33 @@ py::array radii_of(const Fibers& fibers) {
   return view(state->radii().data(), {static_cast<Py_ssize_t>(state->radii().size())}, keep(state));
 }
 
+/// @throws std::invalid_argument for curves that are not of as many points each as the fibres
+void move_curves(Fibers& fibers, const py::object& list) {
+  const Curves curves = to_curves(list, "points");
+  const Fibers::State state = fibers.state();
+  const std::vector<std::uint32_t>& offsets = state->offsets();
+  if (curves.offsets.size() != offsets.size()) {
+    throw std::invalid_argument("points is a list of " + std::to_string(curves.offsets.size() - 1) +
+                                " curves, there are " + std::to_string(offsets.size() - 1) +
+                                " fibres");
+  }
+  for (std::size_t i = 0; i + 1 < offsets.size(); ++i) {
+    const std::uint32_t given = curves.offsets[i + 1] - curves.offsets[i];
+    if (given != offsets[i + 1] - offsets[i]) {
+      throw std::invalid_argument("points[" + std::to_string(i) + "] has " + std::to_string(given) +
+                                  " points, fibre " + std::to_string(i) + " has " +
+                                  std::to_string(offsets[i + 1] - offsets[i]));
+    }
+  }
+  const WithoutPythonLock others_may_run;
+  fibers.move(curves.points.front().data(), curves.points.size());
+}
+
 void move(Fibers& fibers, const py::object& points) {
+  if (is_list_of_curves(points)) {
+    move_curves(fibers, points);
+    return;
+  }
   const Doubles array = to_doubles(points, "points");
   if ((array.ndim() != 2 && array.ndim() != 3) || array.shape(array.ndim() - 1) != 3) {
     refuse_shape(array, "points", "(n, 3) or (fibres, n, 3)");
@@ -112,6 +148,20 @@ void move(Fibers& fibers, const py::object& points) {
   const auto count = static_cast<std::size_t>(array.size() / 3);
   const WithoutPythonLock others_may_run;
   fibers.move(rows, count);
+}
+
+/// What copy and pickle make another one of: of the same class, which may be a subclass, with what
+/// it holds besides. Python's own way would leave the C++ part out.
+py::tuple reduce(const py::object& self) {
+  const Fibers::State state = self.cast<const Fibers&>().state();
+  const py::tuple arguments = py::make_tuple(self.get_type(), to_array(state->points()),
+                                             state->offsets(), to_array(state->radii()));
+  // Python has __getstate__ of all objects since 3.11.
+  const py::object besides = py::hasattr(self, "__getstate__")
+                                 ? py::object(self.attr("__getstate__")())
+                                 : py::getattr(self, "__dict__", py::none());
+  return py::make_tuple(py::module::import("fiber_proximity").attr("_restore_fibers"), arguments,
+                        besides);
 }
 
 std::string describe(const Fibers& fibers) {
@@ -131,10 +181,13 @@ differ, one of the larger radius. The points are copied and checked once.
 
 Parameters
 ----------
-points : (n, 3) of real numbers [m], or (fibres, n, 3) for fibres of as many points each
+points : (n, 3) of real numbers [m], (fibres, n, 3) for fibres of as many points each, or a list of
+    curves, (n, 3) each
 offsets : (fibres + 1,) of whole numbers, optional
-    Fibre f owns points[offsets[f]:offsets[f + 1]], at least two. Without: one fibre.
+    Fibre f owns points[offsets[f]:offsets[f + 1]], at least two. Without: one fibre, or what the
+    shape of points says.
 radii : number, (fibres,) or (n,) [m], default 0
+    For a list of curves also a list: a number or (n,) for each.
 
 Raises
 ------
@@ -152,6 +205,9 @@ TypeError
 >>> fibers[1]
 array([[0., 1., 0.],
        [1., 1., 0.]])
+>>> fibers = Fibers([np.zeros((3, 3)), np.ones((4, 3))], radii=[0.01, [0.01, 0.01, 0.02, 0.02]])
+>>> fibers.offsets
+array([0, 3, 7], dtype=uint32)
 )")
       .def(py::init(
                [](const py::object& points, const py::object& offsets, const py::object& radii) {
@@ -165,7 +221,7 @@ They are copied once. Engines go on with where the fibres were until their next 
 
 Parameters
 ----------
-points : (n, 3) or (fibres, n, 3) of real numbers, as many as there are [m]
+points : (n, 3), (fibres, n, 3) or a list of curves, (n, 3) each, as many as there are [m]
 
 Raises
 ------
@@ -215,25 +271,9 @@ array([1., 1.])
           py::arg("fibers"), "New Fibers: some of these, by index, in this order.")
       .def(
           "copy", [](const Fibers& fibers) { return std::make_shared<Fibers>(*fibers.state()); },
-          "New Fibers that move on their own.")
-      .def("__copy__",
-           [](const Fibers& fibers) { return std::make_shared<Fibers>(*fibers.state()); })
-      .def("__deepcopy__",
-           [](const Fibers& fibers, const py::dict& /*memo*/) {
-             return std::make_shared<Fibers>(*fibers.state());
-           })
-      .def("__repr__", &describe)
-      .def(py::pickle(
-          [](const Fibers& fibers) {
-            const Fibers::State state = fibers.state();
-            return py::make_tuple(to_array(state->points()), state->offsets(), state->radii());
-          },
-          [](const py::tuple& kept) {
-            if (kept.size() != 3) {
-              throw std::invalid_argument("this is no pickle of Fibers");
-            }
-            return std::make_shared<Fibers>(make_fibers(kept[0], kept[1], kept[2]));
-          }));
+          "New Fibers that move on their own; copy.copy() keeps a subclass, too.")
+      .def("__reduce__", &reduce)
+      .def("__repr__", &describe);
 }
 
 }  // namespace fiber::python

@@ -88,7 +88,11 @@ void bind_files(py::module& module) {
     try {
       std::rethrow_exception(std::move(thrown));
     } catch (const FileError& error) {
-      PyErr_SetString(PyExc_OSError, error.what());
+      // With a number Python makes FileNotFoundError and the like of it.
+      const py::object made = error.code() == 0
+                                  ? py::handle(PyExc_OSError)(error.what())
+                                  : py::handle(PyExc_OSError)(error.code(), error.what());
+      PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(made.ptr())), made.ptr());
     }
   });
   module.def("read", &read, py::arg("path"), py::arg("default_radius") = 0.0, R"(
@@ -120,7 +124,7 @@ same, but for .hair, which has single precision.
 
 Raises
 ------
-OSError
+FileNotFoundError, OSError
     For a file that cannot be written.
 ValueError
     For fibres that the format cannot hold.

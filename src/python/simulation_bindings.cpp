@@ -17,6 +17,7 @@ namespace {
 
 /// What json cannot write of a scene: numpy's arrays and numbers.
 py::object to_plain(const py::object& value) {
+  refuse_masked(value, "a value of the scene");
   if (py::hasattr(value, "tolist")) {
     return value.attr("tolist")();
   }
@@ -169,7 +170,7 @@ std::vector<std::string> warnings_of(const Simulation& simulation) {
   });
 }
 
-constexpr const char* class_doc = R"(
+constexpr const char* simulation_doc = R"(
 Fibres that move: discrete elastic rods with the effects that a scene names.
 
 One thread at a time works with a simulation, others wait.
@@ -242,7 +243,7 @@ py::cpp_function points_by(const Read& read) {
 
 void bind_simulation(py::module& module) {
   bind_forces(module);
-  py::class_<Simulation, std::shared_ptr<Simulation>>(module, "Simulation", class_doc)
+  py::class_<Simulation, std::shared_ptr<Simulation>>(module, "Simulation", simulation_doc)
       .def(py::init(&make), py::arg("scene"), py::arg("folder") = py::none(),
            py::arg("threads") = 0)
       .def(

@@ -5,7 +5,7 @@ Usage: tutorials_test.py TUTORIAL.md
 
 The ```sh blocks run in one bash, in an empty folder, beside a roscore of their own. The lines of a ```text
 block must come in this order in the output of the sh block before, leading blanks aside; `...` stands for
-anything. `rosrun` is one that also looks into a build within the package, which ROS's own does not.
+anything. `rosrun` is one that finds programs wherever the build is; setup_test.py is about ROS's own.
 """
 import os
 import re

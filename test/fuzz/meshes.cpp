@@ -1,6 +1,6 @@
 // Files of meshes. An input is a byte, which format, and the file. What assimp does to the process
 // that reads a file is no finding: it crashes and hangs on many. What it makes of the others is
-// looked at. `build-fuzz/fuzz_meshes --write_seeds=test/fuzz/corpus/meshes` writes the seeds.
+// looked at. `fuzz_meshes --write_seeds=test/fuzz/corpus/meshes` writes the seeds.
 #include <pthread.h>
 #include <sanitizer/common_interface_defs.h>
 

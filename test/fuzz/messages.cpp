@@ -1,6 +1,6 @@
 // Messages that come to the node: of every type of input, of which it makes fibres, clouds of which
 // it makes an octree, and obstacles. An input is two bytes, which type and which options, and the
-// message as ROS sends it. `build-fuzz/fuzz_messages --write_seeds=test/fuzz/corpus/messages`
+// message as ROS sends it. `fuzz_messages --write_seeds=test/fuzz/corpus/messages`
 // writes the seeds.
 #include <cmath>
 #include <functional>

@@ -37,13 +37,16 @@ expect_refused() {
 }
 
 cmake --install "$build" --prefix "$prefix" >"$work/install.log"
-if [ -n "$(find "$prefix" -path '*include*' -name '*-inl.hpp')" ]; then
+if [ -n "$(find "$prefix" -path '*include*' \( -name '*-inl.hpp' -o -name '*interface_table*' \))" ]; then
   fail "a private header is installed"
 fi
 
 cmake -S "$source/examples" -B "$work/examples" -DCMAKE_PREFIX_PATH="$prefix" \
   -DPYTHON_EXECUTABLE=/usr/bin/python3 \
   -DCMAKE_CXX_FLAGS="$flags" >"$work/configure.log" || { cat "$work/configure.log"; exit 1; }
+for made in CATKIN_IGNORE devel catkin catkin_generated test_results; do
+  [ ! -e "$work/examples/$made" ] || fail "catkin makes its $made in a project that asks for components"
+done
 cmake --build "$work/examples" >"$work/build.log" || { cat "$work/build.log"; exit 1; }
 "$work/examples/first_query" | tee "$work/first_query.txt"
 grep -q "^fibre 0 segment 1 and fibre 1 segment 0: 0.0020 m apart" "$work/first_query.txt" ||

@@ -289,7 +289,14 @@ class BadInput(unittest.TestCase):
             self.refuse(ValueError, 'bad.csv:2', lambda: fp.read(path))
             self.refuse(FileNotFoundError, 'none.csv', lambda: fp.read(os.path.join(folder, 'none.csv')))
             self.refuse(IsADirectoryError, folder, lambda: fp.read(folder))
-            self.refuse(OSError, 'none', lambda: fp.write(os.path.join(folder, 'none', 'a.csv'), fp.Fibers(TWO)))
+            def write(*names):
+                return lambda: fp.write(os.path.join(*names), fp.Fibers(TWO))
+
+            for name in ('a.csv', 'a.hair', 'a.pvd'):
+                self.refuse(FileNotFoundError, name, write(folder, 'none', name))
+                self.refuse(NotADirectoryError, name, write(path, name))
+            self.refuse(FileNotFoundError, 'a.csv', lambda: fp.write_frames(os.path.join(folder, 'none', 'a.csv'), []))
+            self.refuse(IsADirectoryError, folder, write(folder))
             self.refuse(TypeError, '', lambda: fp.read(5))
             self.refuse(TypeError, 'must be Fibers', lambda: fp.write(path, TWO))
             fp.write_frames(path, [fp.Fibers(TWO), fp.Fibers(TWO)])

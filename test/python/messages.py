@@ -10,8 +10,9 @@ import rospy
 import support
 from geometry_msgs.msg import Point, Pose, PoseArray, PoseStamped, Vector3
 from nav_msgs.msg import Path
-from sensor_msgs.msg import PointCloud2, PointField
+from sensor_msgs.msg import PointCloud, PointCloud2, PointField
 from std_msgs.msg import Header
+from visualization_msgs.msg import Marker, MarkerArray
 
 import fiber_proximity as fp
 from fiber_proximity.msg import Contact, ContactArray, FiberArray
@@ -135,6 +136,15 @@ class Messages(unittest.TestCase):
         for message in (PoseArray(poses=poses), Path(poses=[PoseStamped(pose=pose) for pose in poses])):
             for received in (message, as_any(message)):
                 np.testing.assert_array_equal(fp.from_msg(received).points, [[0, 0, 0], [1, 2, 0], [2, 4, 0]])
+
+    def test_point_clouds_and_markers(self):
+        points = [Point(0, 0, 0), Point(1, 0, 0), Point(2, 0, 1)]
+        marker = Marker(type=Marker.LINE_STRIP, points=points, pose=Pose(position=Point(0, 0, 3)))
+        for message, height in ((PointCloud(points=points), 0), (marker, 3), (MarkerArray(markers=[marker]), 3)):
+            for received in (message, as_any(message)):
+                np.testing.assert_array_equal(fp.from_msg(received).points, [[0, 0, height], [1, 0, height], [2, 0, height + 1]])
+        marker.type = Marker.SPHERE
+        self.assertIn('marker /0 is a SPHERE', support.message_of(lambda: fp.from_msg(as_any(marker)))[1])
 
     def test_what_is_refused(self):
         for wrong in (Header(), 5, None, as_any(Header()), fp.Fibers([[0, 0, 0], [1, 0, 0]])):

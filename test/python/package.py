@@ -6,6 +6,7 @@ Usage: package.py BUILD PYTHON_PATH     PYTHON_PATH: where the build has its pac
 import importlib.util
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -86,6 +87,23 @@ class Package(unittest.TestCase):
         self.assertTrue(list(pathlib.Path(target).glob('fiber_proximity-*.dist-info')))
         if self.has_messages:
             self.expect([target, self.beside_build], API + MESSAGE)
+
+    @unittest.skipUnless(importlib.util.find_spec('ensurepip') and
+                         os.path.realpath(sys.executable) == os.path.realpath('/usr/bin/python3'), 'there is no venv')
+    def test_the_lines_of_the_page(self):
+        """What docs/python.md says to type, with an empty home; but for compiling, as before."""
+        page = (ROOT / 'docs' / 'python.md').read_text(encoding='utf-8')
+        lines, = (block for block in re.findall(r'^```sh\n(.*?)^```$', page, re.M | re.S) if '-m venv' in block)
+        home = os.path.join(self.folder.name, 'home')
+        os.mkdir(home)
+        unset = ('PYTHONPATH', 'LD_LIBRARY_PATH')
+        environment = {name: value for name, value in os.environ.items() if name not in unset}
+        environment.update(HOME=home, PIP_NO_INDEX='1', FIBER_PROXIMITY_BUILD=self.build)
+        run = subprocess.run(['bash', '-e'], input=lines, cwd=ROOT, env=environment, text=True, capture_output=True, check=False)
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+        self.assertIn("'run_tree'", run.stdout)
+        installed = list(pathlib.Path(home).rglob('fiber_proximity/_native*.so'))
+        self.assertEqual(len(installed), 1, installed)
 
 
 if __name__ == '__main__':

@@ -26,6 +26,8 @@ endfunction()
 
 fiber_proximity_python_test(bad_input)
 fiber_proximity_python_test(doctests)
+fiber_proximity_python_test(fibers)
+fiber_proximity_python_test(message_shapes)
 fiber_proximity_python_test(motions)
 fiber_proximity_python_test(package ${PROJECT_BINARY_DIR} ${python_path})
 fiber_proximity_python_test(queries)

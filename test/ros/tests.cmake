@@ -221,6 +221,8 @@ foreach(name IN LISTS tutorials)
   add_test(NAME tutorial_${name} COMMAND ${CATKIN_ENV} /usr/bin/python3 -B
     ${CMAKE_CURRENT_SOURCE_DIR}/docs/tutorials_test.py ${PROJECT_SOURCE_DIR}/docs/tutorials/${name}.md)
 endforeach()
+add_test(NAME setup_test COMMAND /usr/bin/python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/docs/setup_test.py
+  ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR})
 
 find_package(roslaunch REQUIRED)
 roslaunch_add_file_check(../launch/cable_sim.launch)

@@ -16,6 +16,12 @@ class FileError : public std::runtime_error {
 
   /// With the system's reason (errno) after what failed.
   static FileError from_system(const std::string& name, const std::string& what);
+
+  /// The system's reason (errno); 0 where it is not the system that refuses.
+  int code() const noexcept { return code_; }
+
+ private:
+  int code_ = 0;
 };
 
 /// A file that is written.

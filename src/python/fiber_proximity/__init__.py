@@ -56,5 +56,13 @@ def __getattr__(name):
     return value
 
 
+def _restore_fibers(kind, points, offsets, radii):
+    """Fibers of a class, as copy and pickle make them: without the constructor of a subclass."""
+    fibers_class = __getattr__('Fibers')
+    fibers = fibers_class.__new__(kind)
+    fibers_class.__init__(fibers, points, offsets, radii)
+    return fibers
+
+
 def __dir__():
     return sorted({*globals(), *__all__})

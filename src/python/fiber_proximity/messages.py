@@ -1,14 +1,16 @@
 """Messages of ROS as arrays, by their buffers: no object for each point.
 
-``from_msg(message)`` takes what a subscriber gets. One of the type ``rospy.AnyMsg`` is not even unpacked: its bytes
-become arrays. What ``to_msg()`` makes is packed as one piece.
+``from_msg(message)`` takes what a subscriber gets. FiberArray and ContactArray of the type ``rospy.AnyMsg`` are not even
+unpacked: their bytes become arrays. What ``to_msg()`` makes is packed as one piece.
 """
 import io
 import struct
+from importlib import import_module
 
 import numpy as np
 
-from fiber_proximity import Fibers, contact_dtype
+from fiber_proximity import Fibers, contact_dtype, marker_messages, point_messages
+from fiber_proximity._native import refuse_masked
 
 _POINT = ('<f8', (3,))
 # As bytes of the message Contact, up to its gradients.
@@ -58,24 +60,24 @@ class _Reader:
         return self.text()
 
 
-def _type_of(message):
-    """The type of a message, such as fiber_proximity/FiberArray."""
-    if getattr(message, '_type', None) == '*':  # rospy.AnyMsg
-        return message._connection_header['type']
-    return getattr(message, '_type', None)
+def _is_any(message):
+    return getattr(message, '_type', None) == '*'  # rospy.AnyMsg
 
 
 def _bytes_of(message):
-    if getattr(message, '_type', None) == '*':
+    if _is_any(message):
         return message._buff
     buffer = io.BytesIO()
     message.serialize(buffer)
     return buffer.getvalue()
 
 
-def _unpack(message, message_class):
-    """Of AnyMsg the message of this class."""
-    return message_class().deserialize(message._buff) if message._type == '*' else message
+def _unpacked(message):
+    """Of AnyMsg the message that it holds."""
+    if not _is_any(message):
+        return message
+    package, name = message._connection_header['type'].split('/')
+    return getattr(import_module(f'{package}.msg'), name)().deserialize(message._buff)
 
 
 def _from_fibers(message, default_radius):
@@ -132,53 +134,30 @@ def _from_contacts(message, default_radius):
     return contacts
 
 
-def _from_cloud(message, default_radius):
-    from sensor_msgs.msg import PointCloud2, PointField
-    cloud = _unpack(message, PointCloud2)
-    if cloud.is_bigendian:
-        raise ValueError('the cloud is big-endian, only little-endian is supported')
-    formats = {PointField.FLOAT32: '<f4', PointField.FLOAT64: '<f8'}
-    fields = {field.name: field for field in cloud.fields}
-    if any(name not in fields or fields[name].datatype not in formats for name in 'xyz'):
-        raise ValueError(f"the cloud has the fields {sorted(fields)}, it needs x, y and z of FLOAT32 or FLOAT64")
-    dtype = np.dtype({'names': list('xyz'), 'formats': [formats[fields[name].datatype] for name in 'xyz'],
-                      'offsets': [fields[name].offset for name in 'xyz'], 'itemsize': cloud.point_step})
-    if len(cloud.data) != cloud.height * cloud.row_step or cloud.row_step < cloud.width * cloud.point_step:
-        raise ValueError(f'data has {len(cloud.data)} bytes, it must be {cloud.height} rows of row_step {cloud.row_step}, '
-                         f'each of {cloud.width} points of point_step {cloud.point_step}')
-    points = np.ndarray((cloud.height, cloud.width), dtype, bytes(cloud.data), 0, (cloud.row_step, cloud.point_step))
-    return Fibers(np.stack([points[name].ravel() for name in 'xyz'], axis=1).astype(float), radii=default_radius)
+# As bytes, which only messages of ROS 1 become.
+_BYTE_READERS = {'FiberArray': _from_fibers, 'ContactArray': _from_contacts}
+_READERS = {**point_messages.READERS, **marker_messages.READERS}
 
 
-def _from_positions(positions, default_radius):
-    points = np.array([(point.x, point.y, point.z) for point in positions], dtype=float).reshape(-1, 3)
-    return Fibers(points, radii=default_radius)
-
-
-def _from_poses(message, default_radius):
-    from geometry_msgs.msg import PoseArray
-    return _from_positions([pose.position for pose in _unpack(message, PoseArray).poses], default_radius)
-
-
-def _from_path(message, default_radius):
-    from nav_msgs.msg import Path
-    return _from_positions([pose.pose.position for pose in _unpack(message, Path).poses], default_radius)
-
-
-_READERS = {
-    'fiber_proximity/FiberArray': _from_fibers, 'fiber_proximity/ContactArray': _from_contacts,
-    'sensor_msgs/PointCloud2': _from_cloud, 'geometry_msgs/PoseArray': _from_poses, 'nav_msgs/Path': _from_path}
+def _names_of(message):
+    """What a message may be called: its type without the package; without a type its class and what this is made of."""
+    full = message._connection_header['type'] if _is_any(message) else getattr(message, '_type', None)
+    return [full.split('/')[-1]] if isinstance(full, str) else [kind.__name__ for kind in type(message).__mro__]
 
 
 def from_msg(message, default_radius=0.0):
     """Makes of a message of ROS what this package works with.
 
+    Messages are known by the names of their types and by their attributes, so those of ROS 2 (rclpy) are taken as those
+    of ROS 1, which need not be there.
+
     Parameters
     ----------
-    message : FiberArray, PointCloud2, PoseArray, Path, ContactArray, or a rospy.AnyMsg that is one of these
-        A message of points is one fibre.
+    message : FiberArray, PointCloud2, PointCloud, PoseArray, Path, Marker, MarkerArray, or in ROS 1 a ContactArray or a
+        rospy.AnyMsg that is one of these
+        A message of points is one fibre; of markers each LINE_STRIP or list of points (POINTS, SPHERE_LIST, CUBE_LIST).
     default_radius : float [m]
-        Of all fibres if the message has no radii.
+        Of all fibres if the message has no radii; the widths of markers are none.
 
     Returns
     -------
@@ -189,12 +168,19 @@ def from_msg(message, default_radius=0.0):
     TypeError
         For other messages.
     ValueError
-        As ``Fibers``: for points that are not finite, as trackers mark those they do not see, for example.
+        As ``Fibers``: for points that are not finite, as trackers mark those they do not see, for example. For markers of
+        other types, and where none is added.
     """
-    name = _type_of(message)
-    if name not in _READERS:
-        raise TypeError(f'a message is {name or type(message)}, it must be one of: {", ".join(sorted(_READERS))}')
-    return _READERS[name](message, default_radius)
+    for name in _names_of(message):
+        if name in _BYTE_READERS and (_is_any(message) or hasattr(message, 'serialize')):
+            return _BYTE_READERS[name](message, default_radius)
+        read, attributes = _READERS.get(name, (None, ()))
+        if read is not None:
+            held = _unpacked(message)
+            if all(hasattr(held, attribute) for attribute in attributes):
+                return read(held, default_radius)
+    raise TypeError(f'a message is a {_names_of(message)[0]}, it must be one of: '
+                    f'{", ".join(sorted({*_READERS, *_BYTE_READERS}))}')
 
 
 def _packed_texts(texts):
@@ -316,6 +302,7 @@ def to_msg(value, frame_id='', stamp=None, names=(), margin=0.0):
     FiberArray or ContactArray
         Packed as one piece: what is published is not packed again, and its fields are made when somebody looks at them.
     """
+    refuse_masked(value, 'value')
     from genpy import Time
     from std_msgs.msg import Header
     header = Header(frame_id=frame_id, stamp=stamp or Time())

@@ -6,6 +6,7 @@ import xml.etree.ElementTree
 import numpy as np
 
 from fiber_proximity import Environment
+from fiber_proximity._native import refuse_masked
 
 
 def _numbers(element, name, default):
@@ -172,6 +173,7 @@ class Robot:
         dict of (4, 4) float64 by link
         """
         values = self._values(joints or {})
+        refuse_masked(base, 'base')
         found = {}
 
         def pose_of(link, below):

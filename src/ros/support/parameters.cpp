@@ -125,7 +125,7 @@ const Parameter* NodeInterface::find(const std::string& name) const {
 
 const NodeInterface& interface_of(const std::string& node) {
   static const std::map<std::string, NodeInterface> interfaces{
-#include "fiber_proximity/interface_table.h"
+#include "interface_table.inc"
   };
   return interfaces.at(node);
 }
