@@ -1,6 +1,7 @@
 #include "src/query/touch_tracker.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 #include <utility>
 
@@ -61,6 +62,33 @@ std::uint32_t first_of(std::vector<std::uint32_t>& patches, std::uint32_t pair) 
   return pair;
 }
 
+/// Joins those of the pairs that are to be joined and are neighbours.
+/// @param firsts becomes the first pair that each is joined with, none of those that are not to be
+template <class IsWanted>
+void join_neighbours(const std::vector<TouchingPair>& pairs, const IsWanted& is_wanted,
+                     std::vector<std::uint32_t>& firsts) {
+  firsts.assign(pairs.size(), none);
+  Neighbours<TouchingPair> earlier_pairs(pairs);
+  for (std::uint32_t i = 0; i < pairs.size(); ++i) {
+    if (!is_wanted(pairs[i])) {
+      continue;
+    }
+    firsts[i] = i;
+    earlier_pairs.for_each(pairs[i], i, [&](std::size_t neighbour) {
+      if (firsts[neighbour] != none) {
+        const std::uint32_t x = first_of(firsts, static_cast<std::uint32_t>(neighbour));
+        const std::uint32_t y = first_of(firsts, i);
+        firsts[std::max(x, y)] = std::min(x, y);
+      }
+    });
+  }
+  for (std::uint32_t i = 0; i < pairs.size(); ++i) {
+    if (firsts[i] != none) {
+      firsts[i] = first_of(firsts, i);
+    }
+  }
+}
+
 TimeBounds earlier(const TimeBounds& x, const TimeBounds& y) {
   return {std::min(x.lower, y.lower), std::min(x.upper, y.upper)};
 }
@@ -85,11 +113,12 @@ void TouchTracker::advance(const std::vector<TouchingPair>& pairs, const TimeBou
     const TouchingPair& pair = pairs[i];
     const std::uint32_t touch = touch_of_patch_[patches_[i]];
     touch_of_pair_[i] = touch;
-    take(pair, touches_[touch]);
+    take(pair, step, touches_[touch]);
     if (!pair.is_gone) {
       standing_.push_back({static_cast<const SegmentIdPair&>(pair), touch});
     }
   }
+  begin_when_parted(pairs.size());
   for (const TouchStep& touch : touches_) {
     if (touch.is_new) {
       events.push_back({TouchEvent::Kind::BEGAN, touch.touch, touch.touch.began});
@@ -103,32 +132,87 @@ void TouchTracker::advance(const std::vector<TouchingPair>& pairs, const TimeBou
   }
 }
 
-/// Of all pairs: patches_ is the first pair of each.
+/// patches_ is the first pair of each pair's patch; of a patch that has parted, of its part.
 void TouchTracker::find_patches(const std::vector<TouchingPair>& pairs) {
-  patches_.resize(pairs.size());
-  Neighbours<TouchingPair> earlier_pairs(pairs);
-  for (std::uint32_t i = 0; i < pairs.size(); ++i) {
-    patches_[i] = i;
-    earlier_pairs.for_each(pairs[i], i, [&](std::size_t neighbour) {
-      const std::uint32_t x = first_of(patches_, static_cast<std::uint32_t>(neighbour));
-      const std::uint32_t y = first_of(patches_, i);
-      patches_[std::max(x, y)] = std::min(x, y);
-    });
+  join_neighbours(pairs, [](const TouchingPair&) { return true; }, patches_);
+  partings_.clear();
+  if (find_parts(pairs)) {
+    share_gone_pairs(pairs);
   }
+}
+
+/// Finds what is left of each patch at the end of the step.
+/// @returns whether one has parted
+bool TouchTracker::find_parts(const std::vector<TouchingPair>& pairs) {
+  const auto is_gone = [](const TouchingPair& pair) { return pair.is_gone; };
+  if (std::none_of(pairs.begin(), pairs.end(), is_gone)) {
+    return false;
+  }
+  join_neighbours(pairs, [](const TouchingPair& pair) { return !pair.is_gone; }, parts_);
+  bool one_has_parted = false;
+  partings_.assign(pairs.size(), {none, false, {std::chrono::nanoseconds::max(), {}}});
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    Parting& parting = partings_[patches_[i]];
+    if (pairs[i].is_gone) {  // it may have been what joined them
+      parting.time = {std::min(parting.time.lower, pairs[i].last.lower),
+                      std::max(parting.time.upper, pairs[i].last.upper)};
+    } else if (parting.first_part == none) {
+      parting.first_part = parts_[i];
+    } else if (parting.first_part != parts_[i]) {
+      parting.has_parted = one_has_parted = true;
+    }
+  }
+  return one_has_parted;
+}
+
+/// Makes the parts of patches that have parted patches of their own. A pair that is gone goes with
+/// the part that the fewest pairs are between, of several the first.
+void TouchTracker::share_gone_pairs(const std::vector<TouchingPair>& pairs) {
+  std::vector<std::uint32_t> unshared;
   for (std::uint32_t i = 0; i < pairs.size(); ++i) {
-    patches_[i] = first_of(patches_, i);
+    if (partings_[patches_[i]].has_parted && pairs[i].is_gone) {
+      unshared.push_back(i);
+    }
+  }
+  while (!unshared.empty()) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> shared;
+    Neighbours<TouchingPair> neighbours(pairs);
+    for (const std::uint32_t i : unshared) {
+      std::uint32_t part = none;
+      neighbours.for_each(pairs[i], pairs.size(),
+                          [&](std::size_t neighbour) { part = std::min(part, parts_[neighbour]); });
+      if (part != none) {
+        shared.emplace_back(i, part);
+      }
+    }
+    assert(!shared.empty());
+    for (const auto& [pair, part] : shared) {
+      parts_[pair] = part;
+    }
+    unshared.erase(std::remove_if(unshared.begin(), unshared.end(),
+                                  [this](std::uint32_t i) { return parts_[i] != none; }),
+                   unshared.end());
+  }
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const Parting parting = partings_[patches_[i]];
+    if (parting.has_parted) {
+      patches_[i] = parts_[i];
+      partings_[parts_[i]] = parting;
+    }
   }
 }
 
 void TouchTracker::find_claims(const std::vector<TouchingPair>& pairs) {
   claims_.clear();
-  claimed_last_.assign(touches_.size(), none);
+  claimed_last_.assign(2 * touches_.size(), none);
   Neighbours<Standing> before(standing_);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     before.for_each(pairs[i], standing_.size(), [&](std::size_t neighbour) {
-      const std::uint32_t touch = standing_[neighbour].touch;
-      if (std::exchange(claimed_last_[touch], patches_[i]) != patches_[i]) {
-        claims_.push_back({touch, patches_[i]});
+      const Standing& pair = standing_[neighbour];
+      const bool stays = pair.key() == pairs[i].key() && !pairs[i].is_gone;
+      std::uint32_t& last = claimed_last_[2 * pair.touch + (stays ? 0 : 1)];
+      if (std::exchange(last, patches_[i]) != patches_[i]) {
+        claims_.push_back({pair.touch, !stays, patches_[i]});
       }
     });
   }
@@ -142,7 +226,7 @@ void TouchTracker::go_on() {
     TouchStep& before = last_touches_[claim.touch];
     if (before.lasts && touch_of_patch_[claim.patch] == none) {
       touch_of_patch_[claim.patch] = static_cast<std::uint32_t>(touches_.size());
-      touches_.push_back({before.touch, false, false, {}});
+      touches_.push_back({before.touch, false, false, {}, false});
       touches_.back().touch.pair.distance = std::numeric_limits<double>::infinity();
       before.lasts = false;  // as that one
     }
@@ -155,7 +239,7 @@ void TouchTracker::begin_others(std::size_t pair_count) {
   for (std::size_t i = 0; i < pair_count; ++i) {
     if (patches_[i] == i && touch_of_patch_[i] == none) {
       touch_of_patch_[i] = static_cast<std::uint32_t>(touches_.size());
-      TouchStep touch{{}, true, false, {}};
+      TouchStep touch{{}, true, false, {}, false};
       touch.touch.id = next_id_;
       touch.touch.began = {never, never};
       touch.touch.deepest = std::numeric_limits<double>::infinity();
@@ -166,19 +250,31 @@ void TouchTracker::begin_others(std::size_t pair_count) {
   }
 }
 
-void TouchTracker::take(const TouchingPair& pair, TouchStep& step) {
-  Touch& touch = step.touch;
+void TouchTracker::take(const TouchingPair& pair, const TimeBounds& step, TouchStep& taken) {
+  Touch& touch = taken.touch;
   touch.deepest = std::min(touch.deepest, pair.distance);
   if (pair.distance < touch.pair.distance) {
     touch.pair = pair;
   }
-  if (step.is_new) {
+  const bool was_there = pair.first.upper <= step.lower;
+  if (taken.is_new && !(was_there && pair.is_gone)) {  // that was part of another touch
     touch.began = earlier(touch.began, pair.first);
   }
   if (pair.is_gone) {
-    step.last = later(step.last, pair.last);
+    taken.last = later(taken.last, pair.last);
   }
-  step.lasts = step.lasts || !pair.is_gone;
+  taken.lasts = taken.lasts || !pair.is_gone;
+  taken.was_there = taken.was_there || (was_there && !pair.is_gone);
+}
+
+/// What was there already and has parted from a touch that goes on elsewhere begins when it parts.
+void TouchTracker::begin_when_parted(std::size_t pair_count) {
+  for (std::size_t i = 0; i < pair_count && !partings_.empty(); ++i) {
+    TouchStep& touch = touches_[touch_of_patch_[patches_[i]]];
+    if (partings_[patches_[i]].has_parted && touch.is_new && touch.was_there) {
+      touch.touch.began = partings_[patches_[i]].time;
+    }
+  }
 }
 
 /// Those that have found no patch have ended, if they had not before.

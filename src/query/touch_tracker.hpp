@@ -48,10 +48,12 @@ struct TouchEvent {
 
 /// Recognises contacts from step to step.
 ///
-/// A touch goes on in a patch of neighbouring pairs that has a pair which is the same as, or next
-/// to, one of the touch's pairs of the step before. Where touches meet, the oldest one goes on and
-/// the others end; where one parts, it goes on in the patch of the smallest indices, and the other
-/// patches begin anew.
+/// A touch is one patch of neighbouring pairs at the end of a step. Pairs that touched during the
+/// step and are gone belong to the patch that they were next to. A touch goes on in a patch that has
+/// one of its pairs of the step before or, if none has, in one with a pair next to these. Where
+/// touches meet, the oldest one goes on and the others end; where one parts, it goes on in the patch
+/// of the smallest indices, and the other patches begin: when they part, or where none of their
+/// pairs was in contact before, when the first of these came.
 class TouchTracker {
  public:
   /// @param first_id, id_step ids are first_id, first_id + id_step, …: two trackers need not give
@@ -91,6 +93,7 @@ class TouchTracker {
     bool is_new;
     bool lasts;       // has a pair that is not gone
     TimeBounds last;  // when its pairs that are gone were in contact for the last time
+    bool was_there;   // has a pair that was in contact before the step, and is
   };
 
   /// A pair at the end of that step.
@@ -99,11 +102,14 @@ class TouchTracker {
   };
 
   void find_patches(const std::vector<TouchingPair>& pairs);
+  bool find_parts(const std::vector<TouchingPair>& pairs);
+  void share_gone_pairs(const std::vector<TouchingPair>& pairs);
   void find_claims(const std::vector<TouchingPair>& pairs);
   void end_unclaimed(const TimeBounds& step, std::vector<TouchEvent>& events);
   void go_on();
   void begin_others(std::size_t pair_count);
-  static void take(const TouchingPair& pair, TouchStep& step);
+  static void take(const TouchingPair& pair, const TimeBounds& step, TouchStep& taken);
+  void begin_when_parted(std::size_t pair_count);
 
   std::uint64_t next_id_;
   std::uint64_t id_step_;
@@ -114,16 +120,26 @@ class TouchTracker {
   /// A patch that a touch of the step before may go on in.
   struct Claim {
     std::uint32_t touch;
+    bool is_next_to;  // by a pair next to one of its own, not by one that stays
     std::uint32_t patch;
 
-    auto key() const { return std::tie(touch, patch); }
+    auto key() const { return std::tie(touch, is_next_to, patch); }
   };
 
   // Of the step that is being taken; members for their memory. A patch is known by its first pair.
   std::vector<std::uint32_t> patches_;  // by pair: an earlier pair of its patch, or itself
+  std::vector<std::uint32_t> parts_;    // the same, of what is there at the end of the step
+
+  /// What becomes of a patch.
+  struct Parting {
+    std::uint32_t first_part;
+    bool has_parted;
+    TimeBounds time;  // of that
+  };
+  std::vector<Parting> partings_;  // by patch
   std::vector<std::uint32_t> touch_of_patch_;
   std::vector<Claim> claims_;
-  std::vector<std::uint32_t> claimed_last_;  // by touch: the patch of its last claim
+  std::vector<std::uint32_t> claimed_last_;  // by touch: the patches of its last claims of both kinds
   std::vector<TouchStep> last_touches_;
 };
 

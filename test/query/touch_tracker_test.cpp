@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -167,6 +168,33 @@ TEST_F(TouchTrackerTest, ForgettingEndsNothing) {
   EXPECT_EQ(events[0].touch.id, 2U);
 }
 
+/// The first pair of the patch of each pair that is wanted, by looking at all pairs until nothing
+/// changes any more.
+template <class IsWanted>
+std::vector<std::size_t> patches_of(const std::vector<TouchingPair>& pairs,
+                                    const IsWanted& is_wanted) {
+  const auto apart = [](std::uint32_t x, std::uint32_t y) { return x < y ? y - x : x - y; };
+  std::vector<std::size_t> patch(pairs.size());
+  for (std::size_t i = 0; i < patch.size(); ++i) {
+    patch[i] = i;
+  }
+  for (bool changes = true; changes;) {
+    changes = false;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      for (std::size_t j = 0; j < pairs.size(); ++j) {
+        if (is_wanted(pairs[i]) && is_wanted(pairs[j]) && patch[j] < patch[i] &&
+            pairs[i].fiber_a == pairs[j].fiber_a && pairs[i].fiber_b == pairs[j].fiber_b &&
+            apart(pairs[i].segment_a, pairs[j].segment_a) <= 1 &&
+            apart(pairs[i].segment_b, pairs[j].segment_b) <= 1) {
+          patch[i] = patch[j];
+          changes = true;
+        }
+      }
+    }
+  }
+  return patch;
+}
+
 /// Against patches that are grown by looking at all pairs, over random steps; that every touch
 /// begins once, ends once, and is there in between.
 TEST_F(TouchTrackerTest, PatchesAreThoseOfAllPairs) {
@@ -195,22 +223,7 @@ TEST_F(TouchTrackerTest, PatchesAreThoseOfAllPairs) {
         ++ended;
       }
     }
-    std::vector<std::size_t> patch(pairs.size());
-    for (std::size_t i = 0; i < patch.size(); ++i) {
-      patch[i] = i;
-    }
-    const auto apart = [](std::uint32_t x, std::uint32_t y) { return x < y ? y - x : x - y; };
-    for (std::size_t again = 0; again < pairs.size(); ++again) {
-      for (std::size_t i = 0; i < pairs.size(); ++i) {
-        for (std::size_t j = 0; j < pairs.size(); ++j) {
-          if (pairs[i].fiber_a == pairs[j].fiber_a && pairs[i].fiber_b == pairs[j].fiber_b &&
-              apart(pairs[i].segment_a, pairs[j].segment_a) <= 1 &&
-              apart(pairs[i].segment_b, pairs[j].segment_b) <= 1) {
-            patch[i] = std::min(patch[i], patch[j]);
-          }
-        }
-      }
-    }
+    const std::vector<std::size_t> patch = patches_of(pairs, [](const auto&) { return true; });
     std::set<std::uint64_t> there;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       there.insert(ids_[i]);
@@ -224,6 +237,185 @@ TEST_F(TouchTrackerTest, PatchesAreThoseOfAllPairs) {
     }
   }
   expect_enough(ended, static_cast<std::size_t>(rounds(500)));
+}
+
+// Of three places that met within the step, what is left at its end are two touches.
+TEST_F(TouchTrackerTest, WhatPartsWithinTheStepThatItBeganInIsTwo) {
+  step({});
+  std::vector<TouchingPair> pairs;
+  for (std::uint32_t i = 0; i < 9; ++i) {
+    const bool is_gone = i >= 3 && i < 6;
+    pairs.push_back({0, i, 1, i, -1e-3, is_gone, at(1900 + i, 1900 + i),
+                     is_gone ? at(1950, 1951) : at(0, 0)});
+  }
+  const auto began = step_with(pairs);
+  ASSERT_EQ(began.size(), 2U);
+  EXPECT_EQ(ids_, (std::vector<std::uint64_t>{1, 1, 1, 1, 1, 2, 2, 2, 2}))
+      << "what is gone goes with what it was next to";
+  EXPECT_EQ(began[0].time.lower, nanoseconds(1900));
+  EXPECT_EQ(began[1].time.lower, nanoseconds(1905));
+  EXPECT_TRUE(step({{0, 0}, {1, 1}, {2, 2}, {6, 6}, {7, 7}, {8, 8}}).empty())
+      << "told when it happened, and not again";
+}
+
+TEST_F(TouchTrackerTest, WhatPartsFromALongTouchBeginsWhenItParts) {
+  step({{4, 4}, {5, 5}, {6, 6}, {7, 7}, {8, 8}});
+  const auto events = step_with({{0, 4, 1, 4, -1e-3, false, at(1000, 1000), {}},
+                                 {0, 5, 1, 5, -1e-3, true, at(1000, 1000), at(1600, 1610)},
+                                 {0, 6, 1, 6, -1e-3, true, at(1000, 1000), at(1700, 1720)},
+                                 {0, 7, 1, 7, -1e-3, false, at(1000, 1000), {}},
+                                 {0, 8, 1, 8, -1e-3, false, at(1000, 1000), {}}});
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].kind, TouchEvent::Kind::BEGAN);
+  EXPECT_EQ(events[0].touch.id, 2U);
+  EXPECT_EQ(events[0].time.lower, nanoseconds(1600));
+  EXPECT_EQ(events[0].time.upper, nanoseconds(1720));
+  EXPECT_EQ(ids_, (std::vector<std::uint64_t>{1, 1, 2, 2, 2}));
+}
+
+TEST_F(TouchTrackerTest, APairThatStaysKeepsItsTouchBeforeOneThatComesNextToIt) {
+  step({{9, 9}});
+  // Something comes on both sides at smaller indices, and what joined it with the pair is gone.
+  const auto events = step_with({{0, 6, 1, 6, -1e-3, false, at(1500, 1500), {}},
+                                 {0, 7, 1, 7, -1e-3, true, at(1500, 1500), at(1600, 1600)},
+                                 {0, 8, 1, 8, -1e-3, true, at(1500, 1500), at(1600, 1600)},
+                                 {0, 9, 1, 9, -1e-3, false, at(1000, 1000), {}}});
+  EXPECT_EQ(ids_, (std::vector<std::uint64_t>{2, 2, 1, 1}));
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].touch.id, 2U);
+  EXPECT_EQ(events[0].time.lower, nanoseconds(1500));
+}
+
+/// A random walk of what touches: some pairs stay, some leave, some come, some come and go.
+class TouchingWalk {
+ public:
+  explicit TouchingWalk(Random& random) : random_(random) {}
+
+  std::vector<TouchingPair> next(const TimeBounds& step) {
+    std::map<Key, TouchingPair> pairs;
+    const auto time_from = [&](std::int64_t begin) {
+      const std::int64_t time =
+          begin + random_.integer(0, static_cast<int>(step.upper.count() - begin));
+      return at(time, std::min<std::int64_t>(time + 3, step.upper.count()));
+    };
+    for (const Key& key : standing_) {
+      const bool is_gone = random_.uniform(0, 1) < 0.3;
+      TouchingPair pair = make(key, is_gone, {step.lower, step.lower});
+      pair.last = is_gone ? time_from(step.lower.count()) : TimeBounds{};
+      pairs.emplace(key, pair);
+    }
+    for (std::int64_t i = random_.integer(0, 25); i > 0; --i) {
+      const Key key{0, static_cast<std::uint32_t>(random_.integer(0, 9)), 1,
+                    static_cast<std::uint32_t>(random_.integer(0, 9))};
+      const TimeBounds first = time_from(step.lower.count() + 1);
+      TouchingPair pair = make(key, random_.uniform(0, 1) < 0.5, first);
+      pair.last = pair.is_gone ? time_from(first.upper.count()) : TimeBounds{};
+      pairs.emplace(key, pair);
+    }
+    std::vector<TouchingPair> sorted;
+    standing_.clear();
+    for (const auto& [key, pair] : pairs) {
+      sorted.push_back(pair);
+      if (!pair.is_gone) {
+        standing_.insert(key);
+      }
+    }
+    return sorted;
+  }
+
+  using Key = std::array<std::uint32_t, 4>;
+
+ private:
+  static TouchingPair make(const Key& key, bool is_gone, const TimeBounds& first) {
+    return {key[0], key[1], key[2], key[3], -1e-3, is_gone, first, {}};
+  }
+
+  Random& random_;
+  std::set<Key> standing_;
+};
+
+/// Beside what is told by looking at all pairs: a touch is what hangs together at the end of a step.
+TEST_F(TouchTrackerTest, TouchesAreWhatHangsTogetherAtTheEndOfAStep) {
+  Random random;
+  TouchingWalk walk(random);
+  std::map<TouchingWalk::Key, std::uint64_t> before;
+  std::set<std::uint64_t> open;
+  std::size_t parted = 0;
+  std::size_t stayed = 0;
+  for (int round = 0; round < rounds(1000); ++round) {
+    const TimeBounds step = step_;
+    const std::vector<TouchingPair> pairs = walk.next(step);
+    const std::vector<TouchEvent> events = step_with(pairs);
+    const auto stands = [](const TouchingPair& pair) { return !pair.is_gone; };
+    const std::vector<std::size_t> whole = patches_of(pairs, [](const auto&) { return true; });
+    const std::vector<std::size_t> parts = patches_of(pairs, stands);
+    std::map<TouchingWalk::Key, std::uint64_t> now;
+    std::set<std::uint64_t> there;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      if (!stands(pairs[i])) {
+        continue;
+      }
+      now[{pairs[i].fiber_a, pairs[i].segment_a, pairs[i].fiber_b, pairs[i].segment_b}] = ids_[i];
+      there.insert(ids_[i]);
+      for (std::size_t j = 0; j < i; ++j) {
+        ASSERT_TRUE(!stands(pairs[j]) || (ids_[i] == ids_[j]) == (parts[i] == parts[j]));
+      }
+    }
+    for (const auto& [key, id] : now) {
+      const auto old = before.find(key);
+      if (old == before.end()) {
+        continue;
+      }
+      ++stayed;
+      // It is the same, has met an older one, or has parted from what goes on under its id.
+      EXPECT_TRUE(id <= old->second || there.count(old->second) > 0) << id << " " << old->second;
+    }
+    std::set<std::uint64_t> ended;
+    for (const TouchEvent& event : events) {
+      const std::uint64_t id = event.touch.id;
+      if (event.kind == TouchEvent::Kind::ENDED) {
+        EXPECT_EQ(open.erase(id), 1U);
+        ended.insert(id);
+        EXPECT_EQ(there.count(id), 0U);
+        continue;
+      }
+      EXPECT_TRUE(open.insert(id).second);
+      TimeBounds first = at(std::numeric_limits<std::int64_t>::max(),
+                            std::numeric_limits<std::int64_t>::max());
+      TimeBounds joined = at(std::numeric_limits<std::int64_t>::max(), 0);
+      bool has_parted = false;
+      bool was_there = false;
+      std::size_t count = 0;
+      for (std::size_t i = 0; i < pairs.size(); ++i) {
+        if (ids_[i] != id) {
+          continue;
+        }
+        ++count;
+        const bool was_before = pairs[i].first.upper <= step.lower;
+        was_there = was_there || (was_before && stands(pairs[i]));
+        if (stands(pairs[i]) || !was_before) {
+          first.lower = std::min(first.lower, pairs[i].first.lower);
+          first.upper = std::min(first.upper, pairs[i].first.upper);
+        }
+        for (std::size_t j = 0; j < pairs.size(); ++j) {
+          if (whole[i] == whole[j] && pairs[j].is_gone) {
+            joined = {std::min(joined.lower, pairs[j].last.lower),
+                      std::max(joined.upper, pairs[j].last.upper)};
+          }
+          has_parted = has_parted || (whole[i] == whole[j] && ids_[j] != id);
+        }
+      }
+      ASSERT_GT(count, 0U) << "it began, and nothing of it is there";
+      parted += was_there ? 1 : 0;
+      ASSERT_TRUE(!was_there || has_parted);
+      EXPECT_EQ(event.time.lower, (was_there ? joined : first).lower);
+      EXPECT_EQ(event.time.upper, (was_there ? joined : first).upper);
+    }
+    ASSERT_EQ(open, there) << "each is there from its beginning to its end";
+    before = std::move(now);
+  }
+  expect_enough(parted, static_cast<std::size_t>(rounds(100)));
+  expect_enough(stayed, static_cast<std::size_t>(rounds(5000)));
 }
 
 }  // namespace

@@ -89,6 +89,7 @@ add_executable(node_test EXCLUDE_FROM_ALL
   ros/soak_test.cpp
   ros/stale_test.cpp
   ros/timing_test.cpp
+  ros/touches_test.cpp
   ros/tracks_test.cpp
   ros/unknown_test.cpp
 )
