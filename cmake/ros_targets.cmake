@@ -14,6 +14,7 @@ add_library(fiber_proximity_ros SHARED
   src/ros/environment/waiting_changes.cpp
   src/ros/inputs/fixed_frame.cpp
   src/ros/inputs/input.cpp
+  src/ros/inputs/input_budget.cpp
   src/ros/inputs/input_set.cpp
   src/ros/inputs/input_source.cpp
   src/ros/inputs/marker_input.cpp

@@ -47,6 +47,7 @@ if(TARGET fiber_proximity_moveit)
   )
 endif()
 fiber_proximity_gtest(input_options_test
+  ros/input_budget_test.cpp
   ros/input_options_test.cpp
   LIBRARIES fiber_proximity_ros
 )
@@ -140,6 +141,7 @@ add_rostest(ros/cable_sim.test
   ARGS nodelet:=true DEPENDENCIES cable_sim_test cable_sim fiber_proximity_nodelets)
 
 add_executable(input_node_test EXCLUDE_FROM_ALL
+  ros/input_budget_node_test.cpp
   ros/main.cpp
   ros/missing_points_node_test.cpp
   ros/reversed_test.cpp
@@ -149,7 +151,7 @@ add_executable(input_node_test EXCLUDE_FROM_ALL
 target_link_libraries(input_node_test
   fiber_proximity_ros fiber_proximity_options ${GTEST_LIBRARIES})
 add_dependencies(tests input_node_test)
-foreach(name missing_points reversed stamps synchronize)
+foreach(name input_budget missing_points reversed stamps synchronize)
   add_rostest(ros/${name}.test DEPENDENCIES input_node_test proximity_node)
 endforeach()
 

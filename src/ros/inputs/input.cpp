@@ -27,15 +27,21 @@ void name_fibers(const std::string& input, FiberBuffer& chains) {
 
 }  // namespace
 
-Input::Input(InputOptions options, const InputTiming& timing)
+Input::Input(InputOptions options, const InputTiming& timing, Worker& worker)
     : options_(std::move(options)),
       timing_(timing),
-      log_(options_.topic, options_.type, "input ") {}
+      log_(options_.topic, options_.type, "input "),
+      budget_(options_.cost),
+      worker_(worker) {}
 
 void Input::receive(const ReceivedMessage& message, FixedFrame& frame) {
   log_.receive();
   if (message.sequence) {
     gaps_.add(message.publisher, *message.sequence);
+  }
+  if (budget_.is_closed()) {
+    log_.refuse(budget_.problem());
+    return;
   }
   try {
     store(message.read, frame);
@@ -96,10 +102,39 @@ void Input::check_stamp(const ros::Time& stamp, const ros::Time& now) const {
   }
 }
 
-std::vector<ros::Time> Input::place_waiting(const FixedFrame& frame) {
+std::vector<ros::Time> Input::place_waiting(const FixedFrame& frame,
+                                            const fiber::QueryOptions& answered) {
   for (; placed_.size() > timing_.queue_size(); placed_.pop_front()) {
     overtake(placed_.front());
   }
+  if (trial_ && !trial_->cost.is_ready()) {
+    return {};
+  }
+  std::vector<MessagePtr> placed;
+  if (trial_) {
+    placed.push_back(end_trial());
+  } else {
+    placed = place_all(frame);
+  }
+  std::vector<ros::Time> stamps;
+  for (MessagePtr& message : placed) {
+    if (message != nullptr && trial_) {
+      overtake(message);  // the one before it has its turn
+    } else if (message != nullptr && budget_.is_to_be_tried(message->fibers)) {
+      begin_trial(std::move(message), answered);
+    } else if (message != nullptr) {
+      stamps.push_back(message->stamp);
+      newest_header_stamp_ = message->header.stamp;
+      newest_arrival_ = message->arrival;
+      placed_.push_back(std::move(message));
+    }
+  }
+  return stamps;
+}
+
+/// Brings what waits into the fixed frame.
+/// @returns those that are, in their order
+std::vector<Input::MessagePtr> Input::place_all(const FixedFrame& frame) {
   // From the newest to the oldest: what comes before one that is placed has lost its turn, unless
   // it can be placed, too, and may be the one that those of the other inputs belong to.
   std::vector<MessagePtr> placed;
@@ -119,15 +154,40 @@ std::vector<ros::Time> Input::place_waiting(const FixedFrame& frame) {
     waiting_.pop_front();
     log_.refuse(transform_error_);
   }
-  std::vector<ros::Time> stamps;
-  for (; !placed.empty(); placed.pop_back()) {
-    Message& message = *placed.back();
-    stamps.push_back(message.stamp);
-    newest_header_stamp_ = message.header.stamp;
-    newest_arrival_ = message.arrival;
-    placed_.push_back(std::move(placed.back()));
+  std::reverse(placed.begin(), placed.end());
+  return placed;
+}
+
+void Input::begin_trial(MessagePtr message, const fiber::QueryOptions& answered) {
+  auto find_cost = [message, answered, limits = budget_.limits()] {
+    return cost_of(message->fibers, answered, limits);
+  };
+  trial_.emplace(Trial{std::move(message), Prepared<FiberCost>(std::move(find_cost), &worker_)});
+}
+
+/// @returns the message that was tried, or null if it costs too much
+Input::MessagePtr Input::end_trial() {
+  Trial trial = std::move(*std::exchange(trial_, std::nullopt));
+  budget_.take(trial.message->fibers, trial.cost.get());
+  if (budget_.problem().empty()) {
+    return std::move(trial.message);
   }
-  return stamps;
+  log_.refuse(budget_.problem());
+  trial.message.reset();
+  leave_out();
+  return nullptr;
+}
+
+/// Gives back what its fibres have taken.
+void Input::leave_out() {
+  takes_leave_ = true;
+  has_fibers_ = false;
+  waiting_.clear();
+  placed_.clear();
+  current_ = std::make_shared<Message>();
+  spares_ = {};
+  chains_ = {};
+  std::vector<Eigen::Vector3d>().swap(buffer_);
 }
 
 void Input::accept(const ros::Time& stamp) {
@@ -185,6 +245,7 @@ bool Input::expire(const ros::Time& now, bool is_stranger) {
 
 void Input::reset() {
   waiting_.clear();
+  trial_.reset();
   placed_.clear();
   has_fibers_ = false;
   staleness_ = Staleness::NONE;
@@ -205,6 +266,9 @@ std::optional<Unknown> Input::unknown() const {
                      : std::make_optional<Unknown>(
                            {topic, "input " + topic, current_->stamp,
                             std::to_string(gaps) + " of its points are missing", true});
+  }
+  if (!budget_.problem().empty()) {
+    return Unknown{topic, "input " + topic, budget_.since(), budget_.problem(), true};
   }
   if (!options_.required) {
     return std::nullopt;
@@ -250,7 +314,7 @@ bool Input::place(MessagePtr& message, const FixedFrame& frame) {
 
 Input::MessagePtr Input::Spares::take() {
   if (messages_.empty()) {
-    return std::make_unique<Message>();
+    return std::make_shared<Message>();
   }
   MessagePtr message = std::move(messages_.back());
   messages_.pop_back();

@@ -13,9 +13,11 @@
 #include "fiber_proximity/InputStatistics.h"
 #include "fiber_proximity/ros/conversions.hpp"
 #include "src/ros/inputs/fixed_frame.hpp"
+#include "src/ros/inputs/input_budget.hpp"
 #include "src/ros/inputs/input_source.hpp"
 #include "src/ros/inputs/message_log.hpp"
 #include "src/ros/support/unknown.hpp"
+#include "src/ros/support/worker.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -51,15 +53,18 @@ struct InputTiming {
 /// one replaces the one before it.
 class Input {
  public:
-  Input(InputOptions options, const InputTiming& timing);
+  /// @param worker tries fibres that may cost too much; it must end before the input
+  Input(InputOptions options, const InputTiming& timing, Worker& worker);
 
   /// Takes the newest message. A malformed one is refused and changes nothing.
   void receive(const ReceivedMessage& message, FixedFrame& frame);
 
   /// Brings what waits into the fixed frame where tf has the transform by now: the newest only, or
-  /// all of them if inputs are synchronised.
+  /// all of them if inputs are synchronised. Those that may cost too much are tried first.
+  /// @param answered what the node asks about fibres
   /// @returns the stamps of those that may be accepted now, too; they do not decrease
-  std::vector<ros::Time> place_waiting(const FixedFrame& frame);
+  std::vector<ros::Time> place_waiting(const FixedFrame& frame,
+                                       const fiber::QueryOptions& answered);
 
   /// Makes the fibres those of the message with this stamp, which place_waiting() has returned;
   /// those before it are overtaken.
@@ -73,7 +78,13 @@ class Input {
   /// Forgets all fibres, as when time starts again.
   void reset();
 
-  bool is_waiting() const { return !waiting_.empty(); }
+  bool is_waiting() const { return !waiting_.empty() || trial_; }
+
+  /// An answer has taken so long [s].
+  void doubt(double time) { budget_.doubt(time); }
+
+  /// Whether its fibres are left out as they cost too much; is told once.
+  bool takes_leave() { return std::exchange(takes_leave_, false); }
 
   /// True if there are fibres and they are not stale: these may be used.
   bool is_fresh() const { return has_fibers_ && staleness_ == Staleness::NONE; }
@@ -107,7 +118,13 @@ class Input {
     std::vector<std::string> names;
     std::uint64_t gaps = 0;  // points that are missing, and that no bridge stands in for
   };
-  using MessagePtr = std::unique_ptr<Message>;
+  using MessagePtr = std::shared_ptr<Message>;
+
+  /// A message that is tried.
+  struct Trial {
+    MessagePtr message;
+    Prepared<FiberCost> cost;
+  };
 
   /// Why the fibres are stale: no message comes, or those that come match no other input's.
   enum class Staleness { NONE, SILENT, STRANGER };
@@ -126,6 +143,10 @@ class Input {
   void store(const ReadMessage& read, FixedFrame& frame);
   void check_stamp(const ros::Time& stamp, const ros::Time& now) const;
   bool place(MessagePtr& message, const FixedFrame& frame);
+  std::vector<MessagePtr> place_all(const FixedFrame& frame);
+  MessagePtr end_trial();
+  void begin_trial(MessagePtr message, const fiber::QueryOptions& answered);
+  void leave_out();
   void overtake(MessagePtr& message);
 
   InputOptions options_;
@@ -138,9 +159,14 @@ class Input {
   std::vector<Eigen::Vector3d> buffer_;  // the same
   Spares spares_;                        // the same
 
+  InputBudget budget_;
+  Worker& worker_;
+
   std::deque<MessagePtr> waiting_;  // for their transforms
+  std::optional<Trial> trial_;      // of the one whose turn it is
   std::deque<MessagePtr> placed_;   // in the fixed frame, to be accepted
-  MessagePtr current_ = std::make_unique<Message>();
+  MessagePtr current_ = std::make_shared<Message>();
+  bool takes_leave_ = false;
   bool has_fibers_ = false;
   Staleness staleness_ = Staleness::NONE;
   std::string stale_reason_;

@@ -1,5 +1,6 @@
 #include "src/ros/inputs/input_set.hpp"
 
+#include <malloc.h>
 #include <ros/console.h>
 
 #include <algorithm>
@@ -61,14 +62,16 @@ void merge_radii(const std::vector<const Input*>& inputs, std::vector<double>& r
 
 InputSet::InputSet(ros::NodeHandle node, const std::vector<InputOptions>& inputs,
                    std::vector<Unknown> left_out, const InputTiming& timing,
-                   const std::string& fixed_frame, std::function<void()> on_message)
+                   const std::string& fixed_frame, const fiber::QueryOptions& answered,
+                   std::function<void()> on_message)
     : frame_(fixed_frame, node),
+      answered_(answered),
       on_message_(std::move(on_message)),
       left_out_(std::move(left_out)),
       input_timeout_(timing.input_timeout),
       last_time_(ros::Time::now()) {
   for (const InputOptions& options : inputs) {
-    inputs_.push_back(std::make_unique<Input>(options, timing));
+    inputs_.push_back(std::make_unique<Input>(options, timing, worker_));
     Input& input = *inputs_.back();
     const auto receiver = [this, &input](const ReceivedMessage& message) {
       receive(input, message);
@@ -91,8 +94,16 @@ bool InputSet::update() {
   watch_time();
   bool changed = std::exchange(was_reset_, false);
   changed = (matcher_ ? accept_matches() : accept_placed()) || changed;
+  bool leaves = false;
   for (std::size_t i = 0; i < inputs_.size(); ++i) {
     changed = inputs_[i]->expire(last_time_, matcher_ && matcher_->is_stranger(i)) || changed;
+    if (inputs_[i]->takes_leave()) {
+      changed = true;
+      leaves = true;
+    }
+  }
+  if (leaves) {
+    malloc_trim(0);  // what its fibres have taken is much
   }
   merged_is_old_ = merged_is_old_ || changed;
   if (!is_fresh()) {
@@ -111,6 +122,23 @@ bool InputSet::is_waiting() const {
 bool InputSet::is_fresh() const {
   return std::any_of(inputs_.begin(), inputs_.end(),
                      [](const std::unique_ptr<Input>& input) { return input->is_fresh(); });
+}
+
+void InputSet::doubt(double time) {
+  for (const std::unique_ptr<Input>& input : inputs_) {
+    input->doubt(time);
+  }
+}
+
+const Input& InputSet::input_of(std::size_t fiber) const {
+  for (const std::unique_ptr<Input>& input : inputs_) {
+    const std::size_t count = input->is_fresh() ? input->fibers().fiber_count() : 0;
+    if (fiber < count) {
+      return *input;
+    }
+    fiber -= count;
+  }
+  throw std::out_of_range("there is no fibre of this index");
 }
 
 std::vector<Unknown> InputSet::unknown() const {
@@ -166,7 +194,7 @@ void InputSet::watch_time() {
 bool InputSet::accept_placed() {
   bool changed = false;
   for (const std::unique_ptr<Input>& input : inputs_) {
-    const std::vector<ros::Time> stamps = input->place_waiting(frame_);
+    const std::vector<ros::Time> stamps = input->place_waiting(frame_, answered_);
     if (!stamps.empty()) {
       input->accept(stamps.back());
       changed = true;
@@ -179,7 +207,7 @@ bool InputSet::accept_placed() {
 /// @returns true if that changed the fibres
 bool InputSet::accept_matches() {
   for (std::size_t i = 0; i < inputs_.size(); ++i) {
-    for (const ros::Time& stamp : inputs_[i]->place_waiting(frame_)) {
+    for (const ros::Time& stamp : inputs_[i]->place_waiting(frame_, answered_)) {
       matcher_->add(i, stamp);
     }
   }

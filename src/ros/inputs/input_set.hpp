@@ -22,17 +22,19 @@ namespace fiber_proximity_ros {
 class InputSet {
  public:
   /// @param left_out   inputs that are configured and cannot be had
+  /// @param answered   what the node asks about fibres; must outlive this
   /// @param on_message called for each message that arrives; it should see to it that update() is
   ///        called once the others that have arrived are in as well
   InputSet(ros::NodeHandle node, const std::vector<InputOptions>& inputs,
            std::vector<Unknown> left_out, const InputTiming& timing,
-           const std::string& fixed_frame, std::function<void()> on_message);
+           const std::string& fixed_frame, const fiber::QueryOptions& answered,
+           std::function<void()> on_message);
 
   /// Takes over what has arrived and leaves out what has expired.
   /// @returns true if that changed the fibres
   bool update();
 
-  /// True if a message waits for its transform: update() should be called again soon.
+  /// True if a message waits for its transform, or is tried: update() should be called again soon.
   bool is_waiting() const;
 
   /// True if at least one input is fresh, so that there is something to answer about.
@@ -44,6 +46,12 @@ class InputSet {
   /// What of the inputs is not known now: those without fresh fibres, and what is missing of the
   /// others.
   std::vector<Unknown> unknown() const;
+
+  /// An answer about these fibres has taken so long [s]: one of the inputs may cost too much.
+  void doubt(double time);
+
+  /// The input of the fibre with this index among all.
+  const Input& input_of(std::size_t fiber) const;
 
   /// The fibres of all fresh inputs, merged at the first call after a change.
   const fiber::FiberAssembly& fibers();
@@ -67,6 +75,7 @@ class InputSet {
   void merge();
 
   FixedFrame frame_;
+  const fiber::QueryOptions& answered_;
   std::function<void()> on_message_;
   std::vector<std::unique_ptr<Input>> inputs_;
   std::vector<Unknown> left_out_;
@@ -79,7 +88,9 @@ class InputSet {
   FiberBuffer merged_;
   fiber::FiberAssembly fibers_;
   double work_time_ = 0.0;
-  std::vector<ros::Subscriber> subscribers_;  // last: their callbacks use all of the above
+  // Last: their job and their callbacks use all of the above.
+  Worker worker_;
+  std::vector<ros::Subscriber> subscribers_;
 };
 
 }  // namespace fiber_proximity_ros

@@ -82,8 +82,9 @@ void read_key(const XmlRpcValue& entry, const std::string& key, Value& value) {
   if (entry.hasMember(key)) {
     found = checked(known, entry[key], "key '" + key + "'");
   }
+  using Stored = std::conditional_t<std::is_same_v<Value, std::uint32_t>, int, Value>;
   if (found.valid()) {
-    value = static_cast<const Value&>(found);
+    value = static_cast<Value>(static_cast<const Stored&>(found));
   }
 }
 
@@ -131,6 +132,8 @@ InputOptions read_input_options(const XmlRpcValue& entry, double default_radius)
   read_key(entry, "radius", options.radius);
   options.missing_points = read_missing_points(entry);
   read_key(entry, "required", options.required);
+  read_key(entry, "max_pairs", options.cost.max_pairs);
+  read_key(entry, "max_time", options.cost.max_time);
   read_key(entry, "namespace", options.marker.marker_namespace);
   read_key(entry, "radius_from_marker", options.marker.radius_from_marker);
   read_key(entry, "weld_tolerance", options.marker.weld_tolerance);

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "fiber_proximity/ros/conversions.hpp"
+#include "src/ros/inputs/input_budget.hpp"
 #include "src/ros/inputs/marker_input.hpp"
 #include "src/ros/inputs/missing_points.hpp"
 
@@ -30,6 +31,8 @@ struct InputOptions {
   MissingPoints missing_points = MissingPoints::REFUSE;
 
   bool required = true;  ///< answers without its fibres are incomplete
+
+  CostLimits cost;
 
   MarkerInputOptions marker;  ///< used by the marker types
 

@@ -2,6 +2,8 @@
 
 #include <ros/console.h>
 
+#include <algorithm>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -36,7 +38,7 @@ ProximityServer::ProximityServer(const ros::NodeHandle& node, const ros::NodeHan
       markers_publisher_(
           advertise<visualization_msgs::MarkerArray>(private_node_, "markers", newcomer_)),
       inputs_(node_, options_.inputs, options_.left_out_inputs, options_.timing,
-              options_.fixed_frame, [this] { schedule(); }),
+              options_.fixed_frame, query_options_, [this] { schedule(); }),
       crossings_(private_node_, inputs_.frame(), newcomer_),
       environment_(node_, private_node_, inputs_, [this] { schedule(); }, newcomer_),
       knowledge_(inputs_, environment_.inputs()),
@@ -193,13 +195,26 @@ void ProximityServer::detect() {
   }
   if (const std::string problem = detector_.detection().limit_problem(query_options_);
       !problem.empty()) {
-    ROS_WARN_STREAM_THROTTLE(1.0, "fibres (engine " << options_.engine << "): " << problem);
+    ROS_WARN_STREAM_THROTTLE(1.0, "fibres (engine " << options_.engine << "): " << problem
+                                                    << most_contacts_of());
   }
   statistics_.add_part("update", detector_.update_time());
   statistics_.add_part("contacts", detector_.detection().contact_time());
   if (config_.minimum_distance) {
     statistics_.add_part("minimum", detector_.detection().minimum_time());
   }
+}
+
+/// Which input most of the contacts are of, for the log.
+std::string ProximityServer::most_contacts_of() const {
+  std::map<std::string, std::size_t> counts;
+  for (const fiber::Contact& contact : detector_.detection().contacts().contacts) {
+    ++counts[inputs_.input_of(contact.fiber_a).options().topic];
+  }
+  const auto most = std::max_element(counts.begin(), counts.end(), [](const auto& x, const auto& y) {
+    return x.second < y.second;
+  });
+  return most == counts.end() ? "" : ". Most are of input " + most->first;
 }
 
 /// What came into contact since the fibres before; nothing where that cannot be told, and the
@@ -240,6 +255,7 @@ void ProximityServer::publish_contacts() {
   contacts_.track(answer);
   passed_.add(contacts_.contacts());
   statistics_.add_part("touches", stopwatch.seconds());
+  inputs_.doubt(detector_.update_time() + detector_.detect_time() + stopwatch.seconds());
   contacts_.publish(answer, config_.gradients, detector_.update_time());
 }
 

@@ -58,6 +58,7 @@ class ProximityServer {
   void take_fibers();
   void publish_statistics(double time);
   void detect();
+  std::string most_contacts_of() const;
   std::optional<KnownMotion> detect_motion();
   void publish_contacts();
   void detect_in_environment();
