@@ -17,10 +17,12 @@ add_library(fiber_proximity_ros SHARED
   src/ros/inputs/input_budget.cpp
   src/ros/inputs/input_set.cpp
   src/ros/inputs/input_source.cpp
+  src/ros/inputs/marker_chains.cpp
   src/ros/inputs/marker_input.cpp
   src/ros/inputs/message_log.cpp
   src/ros/inputs/missing_points.cpp
   src/ros/inputs/point_messages.cpp
+  src/ros/inputs/segment_welder.cpp
   src/ros/inputs/stamp_matcher.cpp
   src/ros/outputs/comparison_output.cpp
   src/ros/outputs/contact_output.cpp

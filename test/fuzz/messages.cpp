@@ -2,8 +2,12 @@
 // it makes an octree, and obstacles. An input is two bytes, which type and which options, and the
 // message as ROS sends it. `fuzz_messages --write_seeds=test/fuzz/corpus/messages`
 // writes the seeds.
+#include <visualization_msgs/MarkerArray.h>
+
 #include <cmath>
 #include <functional>
+#include <memory>
+#include <vector>
 
 #include "fiber_proximity/ObstacleArray.h"
 #include "fiber_proximity/ros/conversions.hpp"
@@ -36,12 +40,21 @@ Options options_of(std::uint8_t bits) {
   return options;
 }
 
+bool read_markers(const std::vector<MarkerInput::MarkerPtr>& markers, const Options& options,
+                  FiberBuffer& chains) {
+  return MarkerInput(options.marker).read(markers, ros::Time(1.0), chains).is_for_input;
+}
 bool read(const visualization_msgs::Marker& message, const Options& options, FiberBuffer& chains) {
-  return to_chains(message, options.marker, chains);
+  return read_markers({std::make_shared<const visualization_msgs::Marker>(message)}, options,
+                      chains);
 }
 bool read(const visualization_msgs::MarkerArray& message, const Options& options,
           FiberBuffer& chains) {
-  return to_chains(message, options.marker, chains);
+  std::vector<MarkerInput::MarkerPtr> markers;
+  for (const visualization_msgs::Marker& marker : message.markers) {
+    markers.push_back(std::make_shared<const visualization_msgs::Marker>(marker));
+  }
+  return read_markers(markers, options, chains);
 }
 template <class Message>
 bool read(const Message& message, const Options& /*options*/, FiberBuffer& chains) {

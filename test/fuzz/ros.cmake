@@ -35,10 +35,12 @@ include_directories(SYSTEM ${generated})
 fuzzed_library(fuzzed_messages UNITY 4
   src/ros/environment/cloud_cells.cpp
   src/ros/support/conversions.cpp
+  src/ros/inputs/marker_chains.cpp
   src/ros/inputs/marker_input.cpp
   src/ros/inputs/missing_points.cpp
   src/ros/environment/obstacle_change.cpp
   src/ros/inputs/point_messages.cpp
+  src/ros/inputs/segment_welder.cpp
 )
 add_dependencies(fuzzed_messages message_headers)
 target_link_libraries(fuzzed_messages PUBLIC fuzzed_shapes ${roscpp_LIBRARIES})

@@ -1,6 +1,7 @@
 // Every type of input through the running node.
 #include <algorithm>
 
+#include "fiber_proximity/CrossingArray.h"
 #include "test/ros/messages.hpp"
 #include "test/ros/node_test.hpp"
 
@@ -135,6 +136,29 @@ TEST_F(InputsTest, NamesRadiiAndSeveralFibresOfAMessageAreKept) {
       [&](const fiber_proximity::FiberArray& m) { return is_first(m.names, "left", "right"); });
   ASSERT_NE(answer, nullptr);
   EXPECT_EQ(std::vector<double>(answer->radii.begin(), answer->radii.begin() + 5), message.radii);
+}
+
+// As with `rostopic echo` where messages are rare: here none comes any more.
+TEST_F(InputsTest, WhoListensLateIsToldWhatThereIs) {
+  const ros::Publisher publisher = advertise<fiber_proximity::FiberArray>("fiber_array");
+  connect(publisher, test_messages::fiber_array(header("world"), {{0, 0, 0}, {1, 0, 0}}));
+  const ros::Time stamp = contacts.messages.back()->header.stamp;
+  const auto is_answer = [&stamp](const auto& message) { return message.header.stamp == stamp; };
+  const node_test::Recorder<fiber_proximity::ContactArray> late_contacts(node,
+                                                                         "/proximity/contacts");
+  const node_test::Recorder<fiber_proximity::FiberArray> late_fibers(node, "/proximity/fibers");
+  const node_test::Recorder<fiber_proximity::Statistics> late_statistics(node,
+                                                                         "/proximity/statistics");
+  const node_test::Recorder<fiber_proximity::CrossingArray> late_crossings(
+      node, "/proximity/crossings");
+  const node_test::Recorder<visualization_msgs::MarkerArray> late_markers(node,
+                                                                          "/proximity/markers");
+  EXPECT_NE(late_contacts.wait_for(is_answer), nullptr);
+  EXPECT_NE(late_fibers.wait_for(is_answer), nullptr);
+  EXPECT_NE(late_statistics.wait_for(is_answer), nullptr);
+  EXPECT_NE(late_crossings.wait_for(is_answer), nullptr);
+  EXPECT_NE(late_markers.wait_for([](const auto& message) { return !message.markers.empty(); }),
+            nullptr);
 }
 
 }  // namespace

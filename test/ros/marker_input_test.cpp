@@ -4,7 +4,10 @@
 
 #include <Eigen/Geometry>
 
+#include <memory>
+
 #include "test/ros/messages.hpp"
+#include "test/support/error_of.hpp"
 #include "test/support/not_finite.hpp"
 
 namespace fiber_proximity_ros {
@@ -28,26 +31,39 @@ Points segments(const Points& chain) {
   return pairs;
 }
 
+/// With ids by their places, as they would be in place of each other with the same.
 MarkerArray array(std::vector<Marker> markers) {
   MarkerArray message;
   message.markers = std::move(markers);
+  for (std::size_t i = 0; i < message.markers.size(); ++i) {
+    message.markers[i].id = static_cast<std::int32_t>(i);
+  }
   return message;
+}
+
+std::vector<MarkerInput::MarkerPtr> parts_of(const MarkerArray& message) {
+  std::vector<MarkerInput::MarkerPtr> parts;
+  for (const Marker& marker : message.markers) {
+    parts.push_back(std::make_shared<const Marker>(marker));
+  }
+  return parts;
+}
+
+/// As the first message of an input.
+ReadResult read_first(const MarkerArray& message, const MarkerInputOptions& options,
+                      FiberBuffer& chains) {
+  return MarkerInput(options).read(parts_of(message), ros::Time(100.0), chains);
 }
 
 FiberBuffer read(const MarkerArray& message, const MarkerInputOptions& options = {}) {
   FiberBuffer chains;
-  EXPECT_TRUE(to_chains(message, options, chains));
+  EXPECT_TRUE(read_first(message, options, chains).is_for_input);
   return chains;
 }
 
 std::string refusal_of(const MarkerArray& message) {
   FiberBuffer chains;
-  try {
-    to_chains(message, {}, chains);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "no error";
+  return fiber::test::error_of([&] { read_first(message, {}, chains); });
 }
 
 TEST(MarkerInput, AListOfPointsIsAFibre) {
@@ -62,9 +78,8 @@ TEST(MarkerInput, AListOfPointsIsAFibre) {
   }
 }
 
-TEST(MarkerInput, ASingleMarkerIsReadAsAnArrayOfOne) {
-  FiberBuffer chains;
-  EXPECT_TRUE(to_chains(marker(header("map"), Marker::LINE_STRIP, chain(0)), {}, chains));
+TEST(MarkerInput, ASingleMarkerIsAFibreInItsFrame) {
+  const FiberBuffer chains = read(array({marker(header("map"), Marker::LINE_STRIP, chain(0))}));
   EXPECT_EQ(chains.points, chain(0));
   EXPECT_EQ(chains.header.frame_id, "map");
 }
@@ -113,11 +128,12 @@ TEST(MarkerInput, LineListsOfTwoMarkersAreTwoFibres) {
 }
 
 TEST(MarkerInput, StripsOfTwoPointsAreWelded) {
-  MarkerArray message;
+  std::vector<Marker> strips;
   const Points pairs = segments(chain(0));
   for (std::size_t i = 0; i < pairs.size(); i += 2) {
-    message.markers.push_back(marker(header("map"), Marker::LINE_STRIP, {pairs[i], pairs[i + 1]}));
+    strips.push_back(marker(header("map"), Marker::LINE_STRIP, {pairs[i], pairs[i + 1]}));
   }
+  MarkerArray message = array(strips);
   message.markers.emplace_back();  // a planner that sizes its array one too large
   const FiberBuffer chains = read(message);
   EXPECT_EQ(chains.points, chain(0));
@@ -242,7 +258,7 @@ TEST(MarkerInput, OnlyTheChosenNamespaceIsRead) {
   EXPECT_EQ(read(message, options).points, chain(3));
   options.marker_namespace = "nobody";
   FiberBuffer chains;
-  EXPECT_FALSE(to_chains(message, options, chains));
+  EXPECT_FALSE(read_first(message, options, chains).is_for_input);
 }
 
 TEST(MarkerInput, DeletionsAreNoFibres) {
@@ -252,7 +268,7 @@ TEST(MarkerInput, DeletionsAreNoFibres) {
   EXPECT_EQ(read(message).points, chain(3));
   message.markers[1].action = Marker::DELETE;
   FiberBuffer chains;
-  EXPECT_FALSE(to_chains(message, {}, chains));
+  EXPECT_FALSE(read_first(message, {}, chains).is_for_input) << "there has been none";
 }
 
 TEST(MarkerInput, MalformedMarkersAreRefused) {
@@ -266,10 +282,229 @@ TEST(MarkerInput, MalformedMarkersAreRefused) {
             "SPHERE_LIST, CUBE_LIST, SPHERE, CUBE and CYLINDER");
   EXPECT_EQ(refusal_of(array({marker(header("map"), Marker::LINE_STRIP, chain(0)),
                               marker(header("camera"), Marker::LINE_STRIP, chain(0))})),
-            "marker cable/0 is in frame 'camera', marker cable/0 in 'map'; they must be the same");
+            "marker cable/1 is in frame 'camera', marker cable/0 in 'map'; they must be the same");
   Marker unprintable = marker(header("map"), Marker::TEXT_VIEW_FACING, {});
   unprintable.ns = "ca\nble";
   EXPECT_EQ(refusal_of(array({unprintable})).substr(0, 18), "marker ca\\nble/0 h");
+  Marker odd_action = marker(header("map"), Marker::LINE_STRIP, chain(0));
+  odd_action.action = 9;
+  EXPECT_EQ(refusal_of(array({odd_action})),
+            "marker cable/0: action is 9, it must be 0 (ADD), 2 (DELETE) or 3 (DELETEALL)");
+  Marker past = marker(header("map"), Marker::LINE_STRIP, chain(0));
+  past.lifetime = ros::Duration(-5.0);
+  EXPECT_EQ(refusal_of(array({past})).rfind("marker cable/0: lifetime is -5", 0), 0U);
+}
+
+Marker strip_of(const std::string& ns, const Points& points) {
+  Marker strip = marker(header("map"), Marker::LINE_STRIP, points);
+  strip.ns = ns;
+  return strip;
+}
+
+/// The fibres of several namespaces, with the names "tree/…".
+FiberBuffer read_named(const MarkerArray& message) {
+  MarkerInputOptions options;
+  options.name = "tree";
+  return read(message, options);
+}
+
+TEST(MarkerInput, StraightCablesInTwoNamespacesAreTwoFibresAsTheyAre) {
+  const Points first{{0, 0, 0}, {1, 0, 0}};
+  for (const Points& second : {Points{{0, 0.1, 0}, {1, 0.1, 0}},    // beside it
+                               Points{{1, 0.1, 0}, {0, 0.1, 0}},    // the other way round
+                               Points{{1.2, 0.1, 0}, {2.2, 0.1, 0}}}) {  // behind it
+    MarkerArray message;
+    message.markers = {strip_of("tether_1", first), strip_of("tether_2", second)};
+    const FiberBuffer chains = read_named(message);
+    ASSERT_EQ(chains.offsets, (std::vector<std::uint32_t>{0, 2, 4}));
+    EXPECT_EQ(Points(chains.points.begin(), chains.points.begin() + 2), first);
+    EXPECT_EQ(Points(chains.points.begin() + 2, chains.points.end()), second);
+    EXPECT_EQ(chains.names, (std::vector<std::string>{"tree/tether_1", "tree/tether_2"}));
+  }
+}
+
+TEST(MarkerInput, SegmentsInNamespacesOfTheirOwnAreWeldedWhereTheyCoincide) {
+  MarkerArray message;
+  const Points all = chain(0);
+  for (std::size_t i = 0; i + 1 < all.size(); ++i) {
+    Marker strip = strip_of("line_" + std::to_string(i), {all[i], all[i + 1]});
+    strip.id = static_cast<std::int32_t>(i);
+    message.markers.push_back(strip);
+  }
+  message.markers[1].points[0].x += 1e-4;
+  EXPECT_EQ(read_named(message).offsets, (std::vector<std::uint32_t>{0, 4}));
+  EXPECT_EQ(read_named(message).names, std::vector<std::string>{"tree"});
+  message.markers[1].points[0].x += 1e-2;
+  EXPECT_EQ(read_named(message).offsets, (std::vector<std::uint32_t>{0, 2, 5}));
+}
+
+TEST(MarkerInput, ANamespaceOfSeveralSpheresIsAFibreOfItsOwn) {
+  MarkerArray message;
+  for (int i = 0; i < 6; ++i) {
+    Marker sphere = marker(header("map"), Marker::SPHERE, {});
+    sphere.ns = i < 3 ? "a" : "b";
+    sphere.id = i < 3 ? i : 7 + i;
+    sphere.pose.position.x = 0.5 * (i % 3);
+    sphere.pose.position.y = i < 3 ? 0.0 : 0.3;
+    message.markers.push_back(sphere);
+  }
+  const FiberBuffer chains = read_named(message);
+  EXPECT_EQ(chains.offsets, (std::vector<std::uint32_t>{0, 3, 6}));
+  EXPECT_EQ(chains.points[3], Eigen::Vector3d(0, 0.3, 0));
+  EXPECT_EQ(chains.names, (std::vector<std::string>{"tree/a", "tree/b"}));
+}
+
+TEST(MarkerInput, WhatIsTurnedRoundOrMovedIsTold) {
+  const Points all = chain(0);
+  const auto remarks_of = [](const Points& pairs) {
+    FiberBuffer chains;
+    return read_first(array({marker(header("map"), Marker::LINE_LIST, pairs)}), {}, chains)
+        .remarks;
+  };
+  EXPECT_TRUE(remarks_of(segments(all)).empty());
+  Points turned = segments(all);
+  std::swap(turned[2], turned[3]);
+  ASSERT_EQ(remarks_of(turned).size(), 1U);
+  EXPECT_EQ(remarks_of(turned)[0].rfind("1 segment(s) are turned round", 0), 0U);
+  Points apart = segments(all);
+  apart[2].x() += 0.1;
+  ASSERT_EQ(remarks_of(apart).size(), 1U);
+  EXPECT_EQ(remarks_of(apart)[0].rfind("ends up to 0.1 m apart are moved together", 0), 0U)
+      << remarks_of(apart)[0];
+}
+
+/// Messages one after another.
+class KeptMarkers : public ::testing::Test {
+ protected:
+  /// Takes a message at a time.
+  ReadResult take(double time, const MarkerArray& message) {
+    const ReadResult result = input_.read(parts_of(message), ros::Time(time), chains_);
+    input_.keep();
+    return result;
+  }
+
+  static MarkerArray one(const std::string& ns, double x, double stamp = 0.0) {
+    MarkerArray message;
+    message.markers = {strip_of(ns, chain(x))};
+    message.markers[0].header.stamp = ros::Time(stamp);
+    return message;
+  }
+
+  static MarkerArray deletion(std::int32_t action, const std::string& ns = "") {
+    MarkerArray message;
+    message.markers.resize(1);
+    message.markers[0].action = static_cast<std::uint8_t>(action);
+    message.markers[0].ns = ns;
+    return message;
+  }
+
+  std::vector<double> places() const {
+    std::vector<double> places;
+    for (std::size_t i = 0; i + 1 < chains_.offsets.size(); ++i) {
+      places.push_back(chains_.points[chains_.offsets[i]].x());
+    }
+    return places;
+  }
+
+  static MarkerInputOptions options() {
+    MarkerInputOptions options;
+    options.name = "cable";
+    options.timeout = 1.0;
+    return options;
+  }
+
+  using Places = std::vector<double>;
+  MarkerInput input_{options()};
+  FiberBuffer chains_;
+};
+
+TEST_F(KeptMarkers, EachCableMayComeInAMessageOfItsOwn) {
+  take(1.0, one("a", 0.0, 1.0));
+  EXPECT_EQ(places(), Places{0.0});
+  EXPECT_EQ(chains_.names, std::vector<std::string>{"cable"});
+  EXPECT_TRUE(take(1.1, one("b", 5.0, 1.0)).is_news) << "though its stamp is the same";
+  EXPECT_EQ(places(), (Places{0.0, 5.0}));
+  EXPECT_EQ(chains_.names, (std::vector<std::string>{"cable/a", "cable/b"}));
+  EXPECT_TRUE(take(1.2, one("a", 1.0, 1.1)).is_news);
+  EXPECT_EQ(places(), (Places{1.0, 5.0}));
+  EXPECT_FALSE(take(1.3, one("a", 1.0, 1.1)).is_news) << "a tracker that has frozen";
+}
+
+TEST_F(KeptMarkers, DeletionsAreThoseOfRviz) {
+  take(1.0, one("a", 0.0));
+  take(1.0, one("b", 5.0));
+  EXPECT_TRUE(take(1.1, deletion(Marker::DELETE, "a")).is_news);
+  EXPECT_EQ(places(), Places{5.0});
+  EXPECT_FALSE(take(1.1, deletion(Marker::DELETE, "a")).is_news) << "it is gone already";
+  take(1.2, one("a", 1.0));
+  EXPECT_EQ(places(), (Places{1.0, 5.0}));
+  const ReadResult all = take(1.3, deletion(Marker::DELETEALL));
+  EXPECT_TRUE(all.is_for_input);
+  EXPECT_TRUE(all.is_news);
+  EXPECT_EQ(places(), Places{});
+  EXPECT_EQ(all.missing, "") << "the tracker has said so";
+  EXPECT_EQ(chains_.header.frame_id, "map");
+  take(1.4, one("b", 2.0));
+  EXPECT_EQ(places(), Places{2.0});
+}
+
+TEST_F(KeptMarkers, TheStampNeverGoesBackByADeletion) {
+  take(1.0, one("a", 0.0, 10.0));
+  take(1.0, one("b", 5.0, 12.0));
+  EXPECT_EQ(chains_.header.stamp, ros::Time(12.0));
+  MarkerArray gone = deletion(Marker::DELETE, "b");
+  gone.markers[0].header.stamp = ros::Time(13.0);
+  take(1.1, gone);
+  EXPECT_EQ(chains_.header.stamp, ros::Time(13.0)) << "though what is left is of 10";
+  take(1.2, deletion(Marker::DELETE, "a"));
+  EXPECT_EQ(chains_.header.stamp, ros::Time()) << "when it arrives";
+}
+
+TEST_F(KeptMarkers, ALifetimeEnds) {
+  MarkerArray message = one("a", 0.0);
+  message.markers[0].lifetime = ros::Duration(0.5);
+  take(1.0, message);
+  const ReadResult later = take(1.6, one("b", 5.0));
+  EXPECT_EQ(places(), Places{5.0});
+  EXPECT_EQ(later.missing, "");
+}
+
+TEST_F(KeptMarkers, WhatIsNotSentAgainIsLeftOutAndMissed) {
+  take(1.0, one("a", 0.0));
+  take(1.5, one("b", 5.0));
+  const ReadResult later = take(2.1, one("b", 6.0));
+  EXPECT_EQ(places(), Places{6.0});
+  EXPECT_EQ(later.missing, "marker a/0 was not sent again for 1 s");
+  EXPECT_EQ(take(2.2, one("a", 1.0)).missing, "");
+  EXPECT_EQ(places(), (Places{1.0, 6.0}));
+  take(4.0, one("a", 1.0));
+  EXPECT_EQ(take(4.1, deletion(Marker::DELETE, "b")).missing, "") << "now it is said to be gone";
+}
+
+TEST_F(KeptMarkers, WhatIsRefusedHasNotBeen) {
+  take(1.0, one("a", 0.0));
+  MarkerArray bad = one("b", 5.0);
+  bad.markers.push_back(strip_of("c", {}));
+  bad.markers.back().action = 7;
+  EXPECT_THROW(take(1.1, bad), std::invalid_argument);
+  input_.read(parts_of(one("d", 9.0)), ros::Time(1.2), chains_);  // and is not kept
+  take(1.3, one("a", 1.0));
+  EXPECT_EQ(places(), Places{1.0});
+}
+
+TEST_F(KeptMarkers, TimeThatStartsAgainForgetsAll) {
+  take(100.0, one("a", 0.0));
+  take(1.0, one("b", 5.0));
+  EXPECT_EQ(places(), Places{5.0});
+}
+
+TEST_F(KeptMarkers, TheLastOfSeveralWithTheSameIdCountsAndThatIsTold) {
+  MarkerArray message = one("a", 0.0);
+  message.markers.push_back(strip_of("a", chain(3.0)));
+  const ReadResult result = take(1.0, message);
+  EXPECT_EQ(places(), Places{3.0});
+  ASSERT_EQ(result.remarks.size(), 1U);
+  EXPECT_EQ(result.remarks[0].rfind("marker a/0 is in a message more than once", 0), 0U);
 }
 
 }  // namespace

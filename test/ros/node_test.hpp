@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <mutex>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -148,6 +149,20 @@ class NodeTest : public ::testing::Test {
       }
     }
     return found;
+  }
+
+  /// What holds of every answer, whatever it is about.
+  void TearDown() override {
+    for (const auto& answer : contacts.messages) {
+      EXPECT_EQ(answer->complete != 0, answer->unknown.empty());
+    }
+    for (const auto& told : statistics.messages) {
+      EXPECT_EQ(told->complete != 0, told->unknown.empty());
+      ASSERT_EQ(told->parts.size(), told->part_times.size());
+      const double sum =
+          std::accumulate(told->part_times.begin(), told->part_times.end(), 0.0);
+      EXPECT_LE(sum, told->total_time * (1.0 + 1e-9)) << "parts take longer than the whole";
+    }
   }
 
   static const fiber_proximity::InputStatistics* input_of(

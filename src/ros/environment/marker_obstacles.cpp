@@ -157,6 +157,10 @@ std::optional<MarkerObstacles::Step> MarkerObstacles::read(const Marker& marker,
     throw std::invalid_argument("action is " + std::to_string(marker.action) +
                                 ", it must be 0 (ADD), 2 (DELETE) or 3 (DELETEALL)");
   }
+  if (marker.lifetime < ros::Duration()) {
+    throw std::invalid_argument("lifetime is " + std::to_string(marker.lifetime.toSec()) +
+                                " s, it must be at least 0");
+  }
   if (!is_body(marker)) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (ignored_types_.insert(marker.type).second) {

@@ -44,15 +44,19 @@ void Input::receive(const ReceivedMessage& message, FixedFrame& frame) {
     return;
   }
   try {
-    store(message.read, frame);
+    if (store(message.read, frame)) {
+      message.keep();
+    }
   } catch (const std::invalid_argument& error) {
     log_.refuse(error.what());
   }
 }
 
-void Input::store(const ReadMessage& read, FixedFrame& frame) {
-  if (!read(chains_)) {
-    return;
+/// @returns whether the message counts: not if it holds nothing for this input, or nothing new
+bool Input::store(const ReadMessage& read, FixedFrame& frame) {
+  const ReadResult result = read(chains_);
+  if (!result.is_for_input) {
+    return false;
   }
   std_msgs::Header header = chains_.header;
   header.frame_id = tf2_name(header.frame_id);
@@ -62,9 +66,10 @@ void Input::store(const ReadMessage& read, FixedFrame& frame) {
   const ros::Time now = ros::Time::now();
   const ros::Time stamp = header.stamp.isZero() ? now : header.stamp;
   check_stamp(stamp, now);
-  repeats_stamp_ = !header.stamp.isZero() && header.stamp == newest_header_stamp_;
+  repeats_stamp_ =
+      !header.stamp.isZero() && header.stamp == newest_header_stamp_ && !result.is_news;
   if (repeats_stamp_) {
-    return;  // a tracker that has frozen sends its last answer again and again
+    return false;  // a tracker that has frozen sends its last answer again and again
   }
   name_fibers(options_.name, chains_);
   const std::uint64_t gaps_before = missing_.gaps;
@@ -75,7 +80,11 @@ void Input::store(const ReadMessage& read, FixedFrame& frame) {
   MessagePtr message = spares_.take();
   assign(chains_, message->fibers);
   message->names.swap(chains_.names);
-  message->gaps = missing_.gaps - gaps_before;
+  message->missing = result.missing;
+  if (const std::uint64_t gaps = missing_.gaps - gaps_before; gaps > 0) {
+    message->missing += (result.missing.empty() ? "" : ", ") + std::to_string(gaps) +
+                        " of its points are missing";
+  }
   message->header = header;
   message->stamp = stamp;
   message->arrival = now;
@@ -88,6 +97,10 @@ void Input::store(const ReadMessage& read, FixedFrame& frame) {
     waiting_.pop_back();
   }
   waiting_.push_back(std::move(message));
+  for (const std::string& remark : result.remarks) {
+    log_.remark(remark);
+  }
+  return true;
 }
 
 /// A recording starts again at its end.
@@ -261,11 +274,10 @@ void Input::reset() {
 std::optional<Unknown> Input::unknown() const {
   const std::string& topic = options_.topic;
   if (is_fresh()) {
-    const std::uint64_t gaps = current_->gaps;
-    return gaps == 0 ? std::nullopt
-                     : std::make_optional<Unknown>(
-                           {topic, "input " + topic, current_->stamp,
-                            std::to_string(gaps) + " of its points are missing", true});
+    return current_->missing.empty()
+               ? std::nullopt
+               : std::make_optional<Unknown>(
+                     {topic, "input " + topic, current_->stamp, current_->missing, true});
   }
   if (!budget_.problem().empty()) {
     return Unknown{topic, "input " + topic, budget_.since(), budget_.problem(), true};

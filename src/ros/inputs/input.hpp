@@ -116,7 +116,7 @@ class Input {
     ros::SteadyTime steady_arrival;
     fiber::FiberAssembly fibers;
     std::vector<std::string> names;
-    std::uint64_t gaps = 0;  // points that are missing, and that no bridge stands in for
+    std::string missing;  // what of its fibres is not known; empty: nothing
   };
   using MessagePtr = std::shared_ptr<Message>;
 
@@ -140,7 +140,7 @@ class Input {
   };
 
   std::string absence() const;
-  void store(const ReadMessage& read, FixedFrame& frame);
+  bool store(const ReadMessage& read, FixedFrame& frame);
   void check_stamp(const ros::Time& stamp, const ros::Time& now) const;
   bool place(MessagePtr& message, const FixedFrame& frame);
   std::vector<MessagePtr> place_all(const FixedFrame& frame);

@@ -1,9 +1,11 @@
 #include "src/ros/inputs/input_source.hpp"
 
 #include <ros/names.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <stdexcept>
 #include <type_traits>
 #include <vector>
@@ -18,14 +20,20 @@ template <class Message>
 constexpr bool is_marker = std::is_same_v<Message, visualization_msgs::Marker> ||
                            std::is_same_v<Message, visualization_msgs::MarkerArray>;
 
-template <class Message>
-bool read(const Message& message, const MarkerInputOptions& marker, FiberBuffer& chains) {
-  if constexpr (is_marker<Message>) {
-    return to_chains(message, marker, chains);
-  } else {
-    to_chains(message, chains);
-    return true;
+/// Each marker of a message, which keeps the message alive.
+std::vector<MarkerInput::MarkerPtr> markers_of(const visualization_msgs::Marker::ConstPtr& one) {
+  return {MarkerInput::MarkerPtr(one.get(), [one](const void* /*marker*/) {})};
+}
+
+std::vector<MarkerInput::MarkerPtr> markers_of(
+    const visualization_msgs::MarkerArray::ConstPtr& array) {
+  const std::shared_ptr<const visualization_msgs::MarkerArray> all(
+      array.get(), [array](const void* /*markers*/) {});
+  std::vector<MarkerInput::MarkerPtr> markers;
+  for (const visualization_msgs::Marker& marker : array->markers) {
+    markers.emplace_back(all, &marker);
   }
+  return markers;
 }
 
 /// Publishers number the messages of types that begin with a header, and no others.
@@ -42,12 +50,26 @@ template <class Message>
 ros::Subscriber subscribe_to(ros::NodeHandle& node, const InputOptions& options,
                              const Receiver& receiver) {
   using Event = ros::MessageEvent<const Message>;
-  const boost::function<void(const Event&)> callback =
-      [receiver, marker = options.marker](const Event& event) {
-        const Message& message = *event.getConstMessage();
-        receiver({[&](FiberBuffer& chains) { return read(message, marker, chains); },
-                  event.getPublisherName(), sequence_of(message)});
-      };
+  boost::function<void(const Event&)> callback;
+  if constexpr (is_marker<Message>) {
+    auto input = std::make_shared<MarkerInput>(options.marker);
+    callback = [receiver, input](const Event& event) {
+      receiver({[&](FiberBuffer& chains) {
+                  return input->read(markers_of(event.getConstMessage()), ros::Time::now(), chains);
+                },
+                [&] { input->keep(); }, event.getPublisherName(),
+                sequence_of(*event.getConstMessage())});
+    };
+  } else {
+    callback = [receiver](const Event& event) {
+      const Message& message = *event.getConstMessage();
+      receiver({[&](FiberBuffer& chains) {
+                  to_chains(message, chains);
+                  return ReadResult();
+                },
+                [] {}, event.getPublisherName(), sequence_of(message)});
+    };
+  }
   return node.subscribe<Message, const Event&>(options.topic, 1, callback, ros::VoidConstPtr(),
                                                ros::TransportHints().tcpNoDelay());
 }
@@ -153,6 +175,7 @@ InputOptions read_input_options(const XmlRpcValue& entry, double default_radius)
   if (options.name.empty()) {
     options.name = options.topic;
   }
+  options.marker.name = options.name;
   return options;
 }
 

@@ -44,14 +44,14 @@ struct InputOptions {
 /// @throws std::invalid_argument naming key, value and what is allowed
 InputOptions read_input_options(const XmlRpc::XmlRpcValue& entry, double default_radius);
 
-/// Reads the fibres of one message, in the message's frame.
-/// Returns false if the message holds none for this input; throws std::invalid_argument if it is
+/// Reads the fibres of one message, in the message's frame; throws std::invalid_argument if it is
 /// malformed.
-using ReadMessage = std::function<bool(FiberBuffer& chains)>;
+using ReadMessage = std::function<ReadResult(FiberBuffer& chains)>;
 
 /// A message as it arrives.
 struct ReceivedMessage {
   ReadMessage read;
+  std::function<void()> keep;             ///< to be called if it is not refused
   std::string publisher;                  ///< name of the node that has sent it
   std::optional<std::uint32_t> sequence;  ///< its header.seq; none where roscpp numbers none
 };

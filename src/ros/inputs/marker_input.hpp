@@ -1,39 +1,75 @@
 #pragma once
 
-#include <visualization_msgs/MarkerArray.h>
+#include <ros/time.h>
+#include <visualization_msgs/Marker.h>
 
+#include <map>
+#include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "fiber_proximity/ros/conversions.hpp"
+#include "src/ros/inputs/marker_chains.hpp"
 
 namespace fiber_proximity_ros {
 
-/// How markers, which were made to be looked at, are read as fibres.
-struct MarkerInputOptions {
-  /// Read only markers of this namespace; empty: of all.
-  std::string marker_namespace;
+/// What a message has brought.
+struct ReadResult {
+  bool is_for_input = true;  ///< false: it holds nothing for this input
 
-  /// Half the marker's width is the fibre's radius. Off by default: it hardly ever is.
-  bool radius_from_marker = false;
+  /// Its fibres are others than before, or newer, even if its stamp is the same.
+  bool is_news = false;
 
-  /// Segments that come one by one are joined when their ends lie within this fraction of the
-  /// shorter one's length.
-  double weld_tolerance = 0.25;
+  std::string missing;               ///< what of the input is not known any more; empty: nothing
+  std::vector<std::string> remarks;  ///< what the log is to be told of, once
 };
 
-/// Reads the fibres of one message. Of the kinds below the first that occurs is read, the others
-/// repeat the same cable in another look:
-///  1. lines: a LINE_STRIP is a fibre; the segments of a LINE_LIST, and LINE_STRIPs of two points,
-///     are welded into fibres;
-///  2. lists of points: each POINTS, SPHERE_LIST or CUBE_LIST is a fibre;
-///  3. single SPHEREs and CUBEs: their centres by ascending id are one fibre;
-///  4. CYLINDERs: their axes by ascending id are welded into fibres.
-/// Poses of markers are applied. All markers that are read must be in one frame.
-/// @returns false if there is nothing in it to read: only other namespaces or deletions
-/// @throws std::invalid_argument for markers of other types only, and for malformed ones
-bool to_chains(const visualization_msgs::MarkerArray& message, const MarkerInputOptions& options,
-               FiberBuffer& chains);
-bool to_chains(const visualization_msgs::Marker& message, const MarkerInputOptions& options,
-               FiberBuffer& chains);
+/// The markers of one topic, which rviz would show: as there, one is in place of the one of its
+/// namespace and id before, and stays until DELETE, DELETEALL or the end of its lifetime. One that
+/// is not sent again within the timeout is left out, as messages of other types are, but not
+/// forgotten: nobody has said that the fibre is gone.
+class MarkerInput {
+ public:
+  using MarkerPtr = std::shared_ptr<const visualization_msgs::Marker>;
+
+  explicit MarkerInput(MarkerInputOptions options) : options_(std::move(options)) {}
+
+  /// [marker] More are not kept.
+  static constexpr std::size_t most_markers = 100'000;
+
+  /// Reads the fibres that there are with a message.
+  /// @throws std::invalid_argument as to_chains(), and for unknown actions, negative lifetimes and
+  ///         too many markers, naming the marker
+  ReadResult read(const std::vector<MarkerPtr>& message, const ros::Time& now,
+                  FiberBuffer& chains);
+
+  /// Keeps what the last message has changed: without it the message has not been.
+  void keep() { state_ = next_; }
+
+ private:
+  using Key = std::pair<std::string, std::int32_t>;  // namespace and id
+  struct Kept {
+    MarkerPtr marker;
+    ros::Time arrival;
+    ros::Time expiry;  // zero: never
+  };
+  using Kepts = std::map<Key, Kept>;
+
+  struct State {
+    Kepts kept;
+    std_msgs::Header header;  // of the last fibres
+    ros::Time last_read;
+    std::size_t late_count = 0;
+  };
+
+  bool is_wanted(const visualization_msgs::Marker& marker) const;
+  bool apply(const MarkerPtr& marker, const ros::Time& now, Kepts& kept) const;
+  bool is_late(const Kept& kept, const ros::Time& now) const;
+
+  MarkerInputOptions options_;
+  State state_;
+  State next_;  // once the message is kept
+};
 
 }  // namespace fiber_proximity_ros

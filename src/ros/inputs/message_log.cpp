@@ -66,6 +66,12 @@ void MessageLog::refuse(const std::string& reason) {
   unlogged_ = 0;
 }
 
+void MessageLog::remark(const std::string& text) {
+  if (remarked_.size() < most_reasons && remarked_.insert(reason_kind(text)).second) {
+    ROS_WARN_STREAM(label_ << ": " << text);
+  }
+}
+
 /// The entry of a reason, a new one if need be; nullptr if all are taken by reasons of this second.
 MessageLog::Reason* MessageLog::place_of(const std::string& kind, const ros::SteadyTime& now) {
   for (Reason& reason : reasons_) {

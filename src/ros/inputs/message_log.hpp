@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,9 @@ class MessageLog {
   void overtake() { ++statistics_.overtaken; }
   void refuse(const std::string& reason);
 
+  /// Warns of something that is done with messages; once of what differs in numbers alone.
+  void remark(const std::string& text);
+
   /// Why the last message was refused since one was accepted; empty if none was.
   const std::string& refused_since() const { return refused_since_; }
 
@@ -51,6 +55,7 @@ class MessageLog {
   std::uint64_t unlogged_ = 0;  // times for reasons that are not among these
   fiber_proximity::InputStatistics statistics_;
   std::string refused_since_;
+  std::set<std::string> remarked_;
 };
 
 /// Counts the messages of a topic that were sent but never arrived: a publisher numbers its

@@ -91,6 +91,7 @@ void read_inputs(const ros::NodeHandle& public_node, const Parameters& parameter
     try {
       InputOptions input = read_input_options(list[i], radius);
       input.where = where;
+      input.marker.timeout = options.timing.input_timeout;
       require_foreign_topic(input, public_node, node);
       require_new_name(input, options.inputs);
       options.inputs.push_back(input);
