@@ -14,6 +14,7 @@
 #include "fiber_proximity/mpi/distributed_files.hpp"
 #include "src/io/radii.hpp"
 #include "src/mpi/fiber_layout.hpp"
+#include "src/mpi/fiber_name_data.hpp"
 #include "src/mpi/frame_files.hpp"
 #include "src/mpi/hdf5_file.hpp"
 
@@ -272,6 +273,8 @@ std::int64_t DistributedFiberReader::read(std::size_t index, DistributedFibers& 
     const std::uint64_t begin = count / size * rank + std::min(rank, rest);
     const std::uint64_t end = begin + count / size + (rank < rest ? 1 : 0);
     fibers = data.read(data.find(begin), data.find(end));
+    fibers.fiber_names = read_names(frame->get());
+    require_names(fibers);
   });
   return number;
 }
