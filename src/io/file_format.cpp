@@ -28,7 +28,7 @@ constexpr const char* what_is_written =
 const std::vector<KnownFormat>& known_formats() {
   using namespace std::string_view_literals;
   static const std::vector<KnownFormat> formats{
-      {FileFormat::CSV, "CSV", {".csv", ".tsv", ".txt", ".dat"}, {}},
+      {FileFormat::CSV, "CSV", {".csv", ".tsv"}, {}},
       {FileFormat::HAIR, "HAIR", {".hair"}, {"HAIR"}},
       {FileFormat::HDF5, "HDF5", {".h5", ".hdf5", ".hdf", ".vtkhdf"}, {"\x89HDF"}},
       {FileFormat::PVD, "a collection of VTK", {".pvd"}, {}},

@@ -2,6 +2,7 @@
 #include <cerrno>
 #include <cstdint>
 #include <exception>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <memory>
@@ -219,7 +220,8 @@ void DistributedFiberReader::State::do_or_agree(const std::string& place,
 }
 
 void DistributedFiberReader::State::open() {
-  file.emplace(open_parallel_file(ranks, path));
+  // Files of frames are looked for beside the file, not beside a link to it.
+  file.emplace(open_parallel_file(ranks, std::filesystem::canonical(path).string()));
   if (read_text(file->get(), attribute::content) != layout::fibers) {
     throw std::runtime_error("is no file of fibres: its attribute fiber_proximity is not fibers");
   }
