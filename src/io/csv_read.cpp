@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <optional>
 #include <unordered_map>
 #include <utility>
@@ -53,12 +54,14 @@ class CsvReader {
     if (!file.has_frames) {
       enter_frame(0);
     }
-    for (FrameRows& rows : frames_) {
-      file.frames.push_back(builder_.build(std::exchange(rows, {}), name_, default_radius_));
+    file.frames.reserve(frames_.size());
+    for (; !frames_.empty(); frames_.pop_front()) {
+      file.frames.push_back(builder_.build(std::move(frames_.front()), name_, default_radius_));
     }
     if (!file.has_frames && !builder_.scattered().empty()) {
       notes_.push_back("rows of one fibre do not stand one after another, as of " +
-                       quote(builder_.scattered()) + ": without a column frame they are put together");
+                       quote(builder_.scattered()) +
+                       ": without a column frame they are put together");
     }
     file.notes = std::move(notes_);
     return file;
@@ -135,11 +138,10 @@ class CsvReader {
       note += " and " + std::to_string(others.size() - most_names) + " more";
     }
     note += others.size() == 1 ? " is not read" : " are not read";
-    return note + (columns_->has(CsvColumns::FIBER)
-                       ? ""
-                       : columns_->has(CsvColumns::FRAME)
-                             ? "; there is no column fiber: the rows of a frame are one fibre"
-                             : "; there is no column fiber: all rows are one fibre");
+    return note + (columns_->has(CsvColumns::FIBER) ? ""
+                   : columns_->has(CsvColumns::FRAME)
+                       ? "; there is no column fiber: the rows of a frame are one fibre"
+                       : "; there is no column fiber: all rows are one fibre");
   }
 
   void split(std::string_view line) {
@@ -159,9 +161,8 @@ class CsvReader {
 
   void read_row() {
     enter_frame(columns_->has(CsvColumns::FRAME) ? read_frame(field(CsvColumns::FRAME)) : 0);
-    FrameRows& rows = frames_[frame_];
-    enter_fiber(rows, columns_->has(CsvColumns::FIBER) ? field(CsvColumns::FIBER) : "0");
-    Eigen::Vector3d& point = rows.points.emplace_back();
+    enter_fiber(columns_->has(CsvColumns::FIBER) ? field(CsvColumns::FIBER) : "0");
+    Eigen::Vector3d& point = rows_->points.emplace_back();
     for (int axis = 0; axis < 3; ++axis) {
       const std::string_view text = field(static_cast<CsvColumns::Column>(CsvColumns::X + axis));
       const char name[] = {"xyz"[axis], '\0'};
@@ -172,8 +173,8 @@ class CsvReader {
     }
     if (columns_->has(CsvColumns::RADIUS)) {
       const std::string_view text = field(CsvColumns::RADIUS);
-      rows.radii.push_back(read_double("radius", text));
-      if (!FiberAssembly::is_valid_radius(rows.radii.back())) {
+      rows_->radii.push_back(read_double("radius", text));
+      if (!FiberAssembly::is_valid_radius(rows_->radii.back())) {
         refuse("radius is " + quote(text) + ", " + FiberAssembly::radius_rule);
       }
     }
@@ -184,7 +185,8 @@ class CsvReader {
     if (const auto frame = parse_number<std::int64_t>(text)) {
       return *frame;
     }
-    constexpr double most = 9'007'199'254'740'992.0;  // 2⁵³: below it doubles are every whole number
+    constexpr double most =
+        9'007'199'254'740'992.0;  // 2⁵³: below it doubles are every whole number
     const auto number = parse_number<double>(text);
     if (!number || !(std::abs(*number) < most) || *number != std::floor(*number)) {
       refuse("frame is " + quote(text) + ", expected a whole number");
@@ -202,18 +204,19 @@ class CsvReader {
   }
 
   void enter_frame(std::int64_t frame) {
-    if (!frames_.empty() && frame == frames_[frame_].number) {
+    if (rows_ != nullptr && frame == rows_->number) {
       return;
     }
-    const auto [place, is_new] = places_.try_emplace(frame, frames_.size());
-    frame_ = place->second;
-    if (is_new) {
-      frames_.emplace_back().number = frame;
+    FrameRows*& rows = frames_by_number_[frame];
+    if (rows == nullptr) {
+      rows = &frames_.emplace_back();
+      rows->number = frame;
     }
+    rows_ = rows;
     is_new_run_ = true;
   }
 
-  void enter_fiber(FrameRows& rows, std::string_view label) {
+  void enter_fiber(std::string_view label) {
     if (!is_new_run_ && label == label_) {
       return;
     }
@@ -222,7 +225,7 @@ class CsvReader {
     }
     label_ = label;
     is_new_run_ = false;
-    rows.runs.push_back({builder_.number_of(label), rows.points.size(), line_});
+    rows_->runs.push_back({builder_.number_of(label), rows_->points.size(), line_});
   }
 
   static constexpr std::size_t longest_begin = 16;  // [byte] enough to know other formats by
@@ -230,17 +233,17 @@ class CsvReader {
   const std::string name_;
   const double default_radius_;  // [m]
   std::vector<std::string> notes_;
-  std::string begin_;  // of the file
+  std::string begin_;                    // of the file
   std::optional<CsvColumns> columns_;    // nothing before the header
   std::optional<CsvColumns> commented_;  // of a header that is a comment, if it is one
 
   std::size_t line_ = 0;
   CsvRow row_;
 
-  std::vector<FrameRows> frames_;
-  std::unordered_map<std::int64_t, std::size_t> places_;  // of frames, by number
-  std::size_t frame_ = 0;                                 // of the row before
-  bool is_new_run_ = true;  // whether the next row is of another frame than the one before
+  std::deque<FrameRows> frames_;
+  std::unordered_map<std::int64_t, FrameRows*> frames_by_number_;
+  FrameRows* rows_ = nullptr;  // the frame of the row before
+  bool is_new_run_ = true;     // whether the next row is of another frame
   std::string label_;
   FrameBuilder builder_;
 };

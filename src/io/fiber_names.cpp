@@ -15,7 +15,7 @@ void check_names(const std::vector<std::string>& names) {
   seen.reserve(names.size());
   for (std::size_t fiber = 0; fiber < names.size(); ++fiber) {
     const std::string& name = names[fiber];
-    const char* const problem = name.empty()                            ? "is empty"
+    const char* const problem = name.empty()                             ? "is empty"
                                 : name.size() > FiberNames::longest_name ? "is too long"
                                 : name.find('\n') != std::string::npos   ? "has several lines"
                                 : !seen.insert(name).second              ? "is that of another, too"

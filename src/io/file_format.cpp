@@ -52,7 +52,10 @@ const std::vector<KnownFormat>& known_formats() {
       {FileFormat::OTHER, "Parquet", {".parquet"}, {"PAR1"}},
       {FileFormat::OTHER, "pickle", {".pkl", ".pickle"}, {}},
       {FileFormat::OTHER, "a ROS bag", {".bag", ".mcap"}, {"#ROSBAG"}},
-      {FileFormat::OTHER, "compressed", {".gz", ".bz2", ".xz", ".zst", ".zip"}, {"\x1f\x8b", "PK\x03"}},
+      {FileFormat::OTHER,
+       "compressed",
+       {".gz", ".bz2", ".xz", ".zst", ".zip"},
+       {"\x1f\x8b", "PK\x03"}},
   };
   return formats;
 }
@@ -96,8 +99,8 @@ std::string format_of_content(std::string_view begin) {
 void require_format_to_read(const std::string& path) {
   const FileFormat format = format_of(path);
   if (format != FileFormat::CSV && format != FileFormat::HAIR) {
-    throw FileError(path, "is " + std::string(format_of_name(path)->name) + " by its name; " +
-                              what_is_read);
+    throw FileError(
+        path, "is " + std::string(format_of_name(path)->name) + " by its name; " + what_is_read);
   }
 }
 

@@ -22,8 +22,8 @@ std::optional<FileFormat> format_meant(const std::string& path);
 /// The same; CSV where it means nothing.
 FileFormat format_of(const std::string& path);
 
-/// What a file is that has a name of CSV, by its first bytes, for an error; "" if they are none that
-/// are known.
+/// What a file is that has a name of CSV, by its first bytes, for an error; "" if they are none
+/// that are known.
 std::string format_of_content(std::string_view begin);
 
 /// Sees that fibres can be read from a file of this name here, without ranks.

@@ -76,9 +76,9 @@ void FrameBuilder::require_segments(const FrameRows& rows, const std::string& fi
   for (const FrameRows::Run& run : rows.runs) {
     const std::uint32_t fiber = fibers_[run.name];
     if (offsets_[fiber + 1] - offsets_[fiber] < 2) {
-      throw FileError(file, run.line,
-                      "fibre " + quote(names_[run.name]) +
-                          " has only this point, a fibre needs at least 2");
+      throw FileError(
+          file, run.line,
+          "fibre " + quote(names_[run.name]) + " has only this point, a fibre needs at least 2");
     }
   }
 }

@@ -51,8 +51,8 @@ class FrameBuilder {
 
   std::deque<std::string> names_;  // by number
   std::unordered_map<std::string_view, std::uint32_t> numbers_;
-  std::uint32_t last_ = 0;              // of number_of()
-  std::vector<std::uint32_t> fibers_;   // of the frame that is built, by number of the name
+  std::uint32_t last_ = 0;                     // of number_of()
+  std::vector<std::uint32_t> fibers_;          // of the frame that is built, by number of the name
   std::vector<std::uint32_t> names_in_frame_;  // by fibre
   std::vector<std::uint32_t> offsets_;
 

@@ -55,8 +55,8 @@ char separator_in(std::string_view row) {
 }
 
 /// Reads a file of points row by row. Fields are separated by commas or semicolons, by blanks or
-/// both; where there are commas, names end with them and may have blanks in them, and so they may in
-/// quotes. Blank lines are ignored, and so are comments and a first line of column names.
+/// both; where there are commas, names end with them and may have blanks in them, and so they may
+/// in quotes. Blank lines are ignored, and so are comments and a first line of column names.
 class CoordinateRows {
  public:
   /// @param name what errors call the stream
@@ -114,10 +114,10 @@ class CoordinateRows {
       return false;
     }
     if (split_row(line) == nullptr && fields_.size() >= name_count_ + coordinates_.size() &&
-        std::all_of(fields_.begin() + static_cast<std::ptrdiff_t>(name_count_),
-                    fields_.begin() +
-                        static_cast<std::ptrdiff_t>(name_count_ + coordinates_.size()),
-                    is_number)) {
+        std::all_of(
+            fields_.begin() + static_cast<std::ptrdiff_t>(name_count_),
+            fields_.begin() + static_cast<std::ptrdiff_t>(name_count_ + coordinates_.size()),
+            is_number)) {
       throw FileError(name_, line_,
                       "is a comment, or a row of the name " + quote(fields_.front()) +
                           ": a name that begins with # stands in quotes, and a comment is no row");

@@ -11,7 +11,7 @@ namespace fiber {
 
 /// Two segments [m].
 struct SegmentPair {
-  std::string name;            ///< "" for none
+  std::string name;        ///< "" for none
   Eigen::Vector3d p0, p1;  ///< ends of the first
   Eigen::Vector3d q0, q1;  ///< ends of the second
 };

@@ -14,7 +14,8 @@ namespace fiber {
 void require_names(const DistributedFibers& fibers) {
   for (const FiberPart& part : fibers.names) {
     if (!fibers.fiber_names.are_indices() && part.fiber >= fibers.fiber_names.size()) {
-      throw std::invalid_argument("fibre " + std::to_string(part.fiber) + " has no name, there are " +
+      throw std::invalid_argument("fibre " + std::to_string(part.fiber) +
+                                  " has no name, there are " +
                                   std::to_string(fibers.fiber_names.size()));
     }
   }

@@ -36,7 +36,10 @@ void make_room(const std::string& path, std::uint64_t size) {
 /// Where a file is written, by all ranks at once, anywhere in it. Collective.
 std::string place_of_file(const Communicator& ranks, const std::string& path) {
   const WritePlace place = write_place(ranks, path);
-  ranks.agree(place.is_file ? "" : FileError(path, "is a device or a pipe: HDF5 can be written to a file only").what());
+  ranks.agree(
+      place.is_file
+          ? ""
+          : FileError(path, "is a device or a pipe: HDF5 can be written to a file only").what());
   return place.path;
 }
 

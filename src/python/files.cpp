@@ -49,8 +49,8 @@ std::vector<std::pair<std::int64_t, std::shared_ptr<Fibers>>> read_frames(const 
   std::vector<std::pair<std::int64_t, std::shared_ptr<Fibers>>> frames;
   frames.reserve(file.frames.size());
   for (FiberFrame& frame : file.frames) {
-    frames.emplace_back(
-        frame.frame, std::make_shared<Fibers>(std::move(frame.fibers), std::move(frame.names)));
+    frames.emplace_back(frame.frame,
+                        std::make_shared<Fibers>(std::move(frame.fibers), std::move(frame.names)));
   }
   return frames;
 }
@@ -86,7 +86,8 @@ void write_frames(const py::object& path, const py::iterable& frames, const py::
                                   std::to_string(seconds->size()));
     }
     const WithoutPythonLock others_may_run;
-    writer.write({number, *state, names}, seconds ? std::make_optional((*seconds)[count]) : std::nullopt);
+    writer.write({number, *state, names},
+                 seconds ? std::make_optional((*seconds)[count]) : std::nullopt);
     ++count;
   }
   if (seconds && count != seconds->size()) {

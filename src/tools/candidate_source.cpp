@@ -126,12 +126,11 @@ FiberFrame CandidateSource::read(std::uint64_t index) const {
   FiberFrame frame;
   DistributedFibers fibers;
   on_rank_alone("", [&] { frame.frame = reader_->read(index, fibers); });
-  on_rank_alone(path_ + ": frame " + std::to_string(frame.frame) + ": ",
-                [&] {
-                  WholeFibers whole = gather_fibers(alone_, std::move(fibers));
-                  frame.fibers = std::move(whole.fibers);
-                  frame.names = std::move(whole.names);
-                });
+  on_rank_alone(path_ + ": frame " + std::to_string(frame.frame) + ": ", [&] {
+    WholeFibers whole = gather_fibers(alone_, std::move(fibers));
+    frame.fibers = std::move(whole.fibers);
+    frame.names = std::move(whole.names);
+  });
   return frame;
 }
 

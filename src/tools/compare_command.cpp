@@ -61,7 +61,8 @@ const char* described(Verdict verdict) {
 }
 
 std::string described(const FiberNames& names, const Disagreement& pair) {
-  return segment(names, pair.a) + " - " + segment(names, pair.b) + ": ours " + described(pair.ours) + ", FCL " +
+  return segment(names, pair.a) + " - " + segment(names, pair.b) + ": ours " +
+         described(pair.ours) + ", FCL " +
          (pair.fcl_has_answer ? described(pair.fcl) : "no answer") + ", true gap " +
          text_of(pair.gap) + " m" + (pair.is_contact ? " (contact)" : " (no contact)") + ": " +
          described(pair.verdict);

@@ -101,8 +101,7 @@ void convert_on_first_rank(const Communicator& ranks, const ConvertRequest& requ
                            FiberSource& source) {
   std::optional<SerialFile> file;
   const WritePlace place = write_place(ranks, request.out);
-  on_first_rank(ranks,
-                [&] { file.emplace(place, format_of(request.out), source.has_frames()); });
+  on_first_rank(ranks, [&] { file.emplace(place, format_of(request.out), source.has_frames()); });
   Progress progress = rank_progress(ranks);
   DistributedFibers fibers;
   for (std::size_t i = 0; i < source.frame_count(); ++i) {

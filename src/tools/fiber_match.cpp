@@ -84,12 +84,13 @@ FiberMatch match_fibers(const FiberFrame& from, const FiberFrame& to) {
     }
   }
   if (!match.others.empty() || !there.empty()) {
-    std::string kinds = gone.text("gone") + changed.text("of other numbers of points") +
-                        added.text("new");
+    std::string kinds =
+        gone.text("gone") + changed.text("of other numbers of points") + added.text("new");
     kinds.erase(0, 2);
     match.difference = "frames " + std::to_string(from.frame) + " and " + std::to_string(to.frame) +
-                       " have different fibres (" + kinds + "): of these only the contacts that frame " +
-                       std::to_string(from.frame) + " has itself";
+                       " have different fibres (" + kinds +
+                       "): of these only the contacts that frame " + std::to_string(from.frame) +
+                       " has itself";
   }
   return match;
 }

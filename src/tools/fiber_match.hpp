@@ -14,7 +14,8 @@ namespace fiber {
 struct FiberMatch {
   std::vector<std::uint32_t> before;  ///< their indices, in order
   std::vector<std::uint32_t> after;   ///< what the same fibres have in the next frame
-  std::vector<std::uint32_t> others;  ///< the rest of the frame, whose motion is not known, in order
+  std::vector<std::uint32_t>
+      others;  ///< the rest of the frame, whose motion is not known, in order
 
   /// What else is different, on one line; "" for nothing.
   std::string difference;

@@ -123,9 +123,10 @@ CLI::Option* add_output_options(CLI::App& app, MpiRequest& request) {
       app.add_option("--out", request.out,
                      "write to this file, .h5, .csv or .json, which has its name once it is whole; "
                      "without this, to what mpirun takes as output");
-  app.add_option("--format", request.format,
-                 "of the output; json: one object per frame, in which a fibre's name is a number if "
-                 "it is whole; without this, by the end of its name, else csv")
+  app.add_option(
+         "--format", request.format,
+         "of the output; json: one object per frame, in which a fibre's name is a number if "
+         "it is whole; without this, by the end of its name, else csv")
       ->check(CLI::IsMember({"csv", "json", "hdf5"}));
   app.add_flag("--resume", request.resume,
                "go on after the last whole frame of a run that was interrupted (.h5)");

@@ -226,8 +226,9 @@ void setup(CLI::App& app, Command& command) {
   app.add_option("--seconds", request->seconds, "how far to simulate [s]")
       ->check(finite_number(0.0))
       ->required();
-  app.add_option("--out", request->out,
-                 "file to write: CSV, or .pvd for ParaView, with a .vtp file for each frame beside it")
+  app.add_option(
+         "--out", request->out,
+         "file to write: CSV, or .pvd for ParaView, with a .vtp file for each frame beside it")
       ->required();
   app.add_option("--forces", request->forces,
                  "CSV file to write: what acts in the fibres and on them, frame by frame");

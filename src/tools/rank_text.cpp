@@ -85,9 +85,10 @@ RankText::RankText(const Communicator& ranks, const std::string& path, const Tex
   if (!place_.is_file) {
     on_first_rank(ranks_, [&] {
       if (run.resume) {
-        throw std::invalid_argument("--resume: what went to " +
-                                    (path_.empty() ? "stdout" : quote(path_) + ", which is no file,") +
-                                    " cannot be gone on with, give --out a file");
+        throw std::invalid_argument(
+            "--resume: what went to " +
+            (path_.empty() ? "stdout" : quote(path_) + ", which is no file,") +
+            " cannot be gone on with, give --out a file");
       }
       if (!path_.empty()) {
         stream_.emplace(path_);

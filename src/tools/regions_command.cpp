@@ -100,7 +100,8 @@ void write_rows(TextOutput& output, const FiberNames& names,
     for (; next != holders.end() && next->is_guest != 0; ++next) {
       guests += (guests.empty() ? "" : ";") + std::to_string(next->rank);
     }
-    output.write_row(FiberCalled{names, owner->segment.fiber}, owner->segment.segment, owner->rank, guests);
+    output.write_row(FiberCalled{names, owner->segment.fiber}, owner->segment.segment, owner->rank,
+                     guests);
     owner = next;
   }
 }

@@ -113,8 +113,7 @@ class RankSweeper {
     engine_.update_motion(before, after, names);
     engine_.query_motion(options, result);
     if (!request_.new_only) {
-      result.contacts.insert(result.contacts.end(), result.touching.begin(),
-                             result.touching.end());
+      result.contacts.insert(result.contacts.end(), result.touching.begin(), result.touching.end());
     }
     result.touching.clear();
     return result;

@@ -87,8 +87,9 @@ ExitCode run_crossings(const TopologyRequest& request) {
       json_of_crossing,
       [](const FiberNames& names, const Crossing& crossing, const auto& row) {
         row(FiberCalled{names, crossing.fiber_a}, crossing.segment_a, crossing.s,
-            FiberCalled{names, crossing.fiber_b}, crossing.segment_b, crossing.t, std::string(crossing.a_is_over ? "a" : "b"), crossing.sign,
-            crossing.separation, crossing.gap, crossing.point_a, crossing.point_b);
+            FiberCalled{names, crossing.fiber_b}, crossing.segment_b, crossing.t,
+            std::string(crossing.a_is_over ? "a" : "b"), crossing.sign, crossing.separation,
+            crossing.gap, crossing.point_a, crossing.point_b);
       });
 }
 

@@ -74,7 +74,8 @@ TEST(CsvShapes, OfOneSpellingAndOfAllOthers) {
       "\"\",\"fibre\",\"x\",\"y\",\"z\"\n\"1\",\"rope\",0,1,2\n\"2\",\"rope\",3,4.5,5\n"
       "\"3\",\"tube\",6,7,8\n\"4\",\"tube\",-9,1,0.125\n\"5\",\"tube\",2,3,4\n",
       ",fiber,x,y,z\n0,rope,0,1,2\n1,rope,3,4.5,5\n2,tube,6,7,8\n3,tube,-9,1,0.125\n4,tube,2,3,4\n",
-      "\" X \";\"Y\";\"Fiber\";\"Z\"\r\n\"0\";\"1\";\"rope\";\"2\"\r\n\"3\";\"4.5\";\"rope\";\"5\"\r\n"
+      "\" X "
+      "\";\"Y\";\"Fiber\";\"Z\"\r\n\"0\";\"1\";\"rope\";\"2\"\r\n\"3\";\"4.5\";\"rope\";\"5\"\r\n"
       "\"6\";\"7\";\"tube\";\"8\"\r\n\"-9\";\"1\";\"tube\";\"0.125\"\r\n\"2\";\"3\";\"tube\";\"4\"",
       // Another order, and of rows, too.
       "z,fiber,y,x\n2,rope,1,0\n5,rope,4.5,3\n8,tube,7,6\n0.125,tube,1,-9\n4,tube,3,2\n",
@@ -101,7 +102,8 @@ TEST(CsvShapes, RowsMayBeShuffledAsLongAsThoseOfAFibreKeepTheirOrder) {
       }
     }
     for (std::size_t i = whose.size(); i > 1; --i) {
-      std::swap(whose[i - 1], whose[static_cast<std::size_t>(random.integer(0, static_cast<int>(i) - 1))]);
+      std::swap(whose[i - 1],
+                whose[static_cast<std::size_t>(random.integer(0, static_cast<int>(i) - 1))]);
     }
     std::string text = "frame,fiber,x,y,z,radius\n";
     std::vector<std::string> frames;
@@ -125,8 +127,7 @@ TEST(CsvShapes, RowsMayBeShuffledAsLongAsThoseOfAFibreKeepTheirOrder) {
         for (std::size_t i = frame.fibers.offsets()[fiber]; i < frame.fibers.offsets()[fiber + 1];
              ++i, ++rows) {
           const double row = frame.fibers.points()[i].x();
-          EXPECT_EQ(whose[static_cast<std::size_t>(row)],
-                    frames[f] + ",\"" + names[fiber] + "\"");
+          EXPECT_EQ(whose[static_cast<std::size_t>(row)], frames[f] + ",\"" + names[fiber] + "\"");
           EXPECT_GT(row, last) << "points in the order of their rows";
           EXPECT_EQ(frame.fibers.radii().at(i), row);
           last = row;
@@ -156,13 +157,14 @@ TEST(CsvShapes, WithoutAColumnFiberAFrameIsOneFibre) {
 }
 
 TEST(CsvShapes, FramesMayBeWrittenAsOtherNumbers) {
-  const FiberFile file = read(
-      "frame,fiber,x,y,z\n-3.000e+00,1.0,0,0,0\n-3,1.0,1,0,0\n+4.0,1.0,0,0,0\n4,1.0,1,0,0\n");
+  const FiberFile file =
+      read("frame,fiber,x,y,z\n-3.000e+00,1.0,0,0,0\n-3,1.0,1,0,0\n+4.0,1.0,0,0,0\n4,1.0,1,0,0\n");
   ASSERT_EQ(file.frames.size(), 2U);
   EXPECT_EQ(file.frames[0].frame, -3);
   EXPECT_EQ(file.frames[1].frame, 4);
   EXPECT_EQ(names_in(file.frames[0]), Names{"1.0"}) << "a name is a text";
-  for (const std::string frame : {"1e300", "0.5", "nan", "inf", "9007199254740993.0", "first", ""}) {
+  for (const std::string frame :
+       {"1e300", "0.5", "nan", "inf", "9007199254740993.0", "first", ""}) {
     EXPECT_EQ(error_in_shape("frame,x,y,z\n" + frame + ",0,0,0\n"),
               "shape.csv:2: frame is '" + frame + "', expected a whole number");
   }
@@ -208,7 +210,7 @@ TEST(CsvShapes, OtherFormatsAreKnownByTheirFirstBytes) {
 TEST(CsvShapes, NamesAreWrittenSoThatTheyReadBackAsTheSame) {
   const test::TemporaryDirectory directory;
   const std::string path = directory.path("names.csv");
-  const Names names{"plain", "a,b",      "\"",   "say \"\"", " blanks ", "#1", "0",
+  const Names names{"plain", "a,b",      "\"",    "say \"\"", " blanks ", "#1", "0",
                     "\t",    "semi;col", "é\xFF", "=1+1",     "x",        "\r", "'"};
   std::vector<Eigen::Vector3d> points;
   std::vector<std::uint32_t> offsets{0};

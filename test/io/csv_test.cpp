@@ -81,7 +81,8 @@ TEST(ReadCsv, AcceptsAFileOfNoFibers) {
 
 TEST(ReadCsv, RefusesABadHeader) {
   const std::string rule =
-      ", expected the columns x, y, z and, where there are any, frame, fiber, radius (or a name that "
+      ", expected the columns x, y, z and, where there are any, frame, fiber, radius (or a name "
+      "that "
       "ends in .hair)";
   EXPECT_EQ(refusal(""), "a.csv: is empty" + rule);
   EXPECT_EQ(refusal("# only a comment\n"), "a.csv: is empty" + rule);
@@ -104,14 +105,14 @@ TEST(ReadCsv, RefusesBadValuesNamingLineAndReason) {
   EXPECT_EQ(refusal(head + "0,0,0,0,0,\n"), "a.csv:3: has 6 values, expected 5 as in the header");
   EXPECT_EQ(refusal(head + ",0,0,0,0\n0,1,0,0,0\n"), "a.csv:3: fiber is empty, expected a name");
   EXPECT_EQ(refusal(head + "0,0,0,0,0\n,0,0,0,0\n"), "a.csv:4: fiber is empty, expected a name");
-  EXPECT_EQ(refusal(head + "0,0,0,0,0\n\"\",0,0,0,0\n"), "a.csv:4: fiber is empty, expected a name");
+  EXPECT_EQ(refusal(head + "0,0,0,0,0\n\"\",0,0,0,0\n"),
+            "a.csv:4: fiber is empty, expected a name");
   EXPECT_EQ(refusal(head + "0,0,\"0,5\",0,0\n"),
             "a.csv:3: y is '0,5', expected a number with a decimal point");
   EXPECT_EQ(refusal("fiber;x;y;z\n0;0,5;0;0\n"),
             "a.csv:2: x is '0,5', expected a number with a decimal point");
   EXPECT_EQ(refusal(head + "\"0,0,0,0,0\n"), "a.csv:3: value 1 has no closing quote on its line");
-  EXPECT_EQ(refusal(head + "0,\"0\"1,0,0,0\n"),
-            "a.csv:3: value 2 goes on after its closing quote");
+  EXPECT_EQ(refusal(head + "0,\"0\"1,0,0,0\n"), "a.csv:3: value 2 goes on after its closing quote");
   EXPECT_EQ(refusal("x y z\n0 \"0\"1 0\n"), "a.csv:2: value 2 goes on after its closing quote");
   EXPECT_EQ(refusal(head + "0,0,0,nan,0\n"),
             "a.csv:3: z is 'nan', coordinates must be finite and at most 1e150 m in magnitude");

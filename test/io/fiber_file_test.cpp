@@ -75,7 +75,8 @@ TEST_F(FiberFileTest, NamesOfOtherFormatsAreRefused) {
     return error([&] { write_fibers(path(name), {false, {{0, fibers}}}); });
   };
   const std::string read = "; CSV and .hair are read, and .h5 by fiber_query_mpi";
-  const std::string written = "; CSV, .hair and .pvd are written, and .h5 by fiber_query_mpi convert";
+  const std::string written =
+      "; CSV, .hair and .pvd are written, and .h5 by fiber_query_mpi convert";
   EXPECT_EQ(reading("a.h5"), path("a.h5") + ": is HDF5 by its name" + read);
   EXPECT_EQ(writing("a.h5"), "'" + path("a.h5") + "' is a name of HDF5" + written);
   EXPECT_EQ(writing("A.VTP"), "'" + path("A.VTP") + "' is a name of VTK" + written);

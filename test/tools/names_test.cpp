@@ -62,7 +62,8 @@ TEST_F(Names, LeadThroughAllAnswersAboutPairs) {
   }
   EXPECT_EQ(answer("nearest " + named + " --point 0,0,1.75 --k 4"),
             renamed(answer("nearest " + crossing() + " --point 0,0,1.75 --k 4"), 0, 3, written));
-  EXPECT_EQ(answer("crossings " + named), renamed(answer("crossings " + crossing()), 0, 3, written));
+  EXPECT_EQ(answer("crossings " + named),
+            renamed(answer("crossings " + crossing()), 0, 3, written));
   EXPECT_EQ(answer("writhe " + named), renamed(answer("writhe " + crossing()), 0, 0, written));
   EXPECT_EQ(answer("linking " + crossing()), answer("linking " + named)) << "of none there is none";
 }

@@ -14,9 +14,10 @@ namespace {
 class Outputs : public Simulate {
  protected:
   std::string rope() const {
-    return write("rope.yaml",
-                 "{fibers: [{name: a, shape: {line: {from: [0, 0, 0], to: [1, 0, 0]}}, segments: 4, "
-                 "radius: 0.01, material: rope}], effects: [gravity], time_step: 0.01}");
+    return write(
+        "rope.yaml",
+        "{fibers: [{name: a, shape: {line: {from: [0, 0, 0], to: [1, 0, 0]}}, segments: 4, "
+        "radius: 0.01, material: rope}], effects: [gravity], time_step: 0.01}");
   }
   std::string simulation(const std::string& out) const {
     return FIBER_SIMULATE " " + rope() + " --seconds 0.02 --out " + out;
@@ -43,8 +44,7 @@ TEST_F(Outputs, PipesAreWrittenTo) {
   const std::string pipe = path("pipe");
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   for (const std::string& command : {soup_to(pipe), simulation(pipe)}) {
-    const ProcessResult read =
-        run_process("(" + command + " & cat " + pipe + "; wait $!)");
+    const ProcessResult read = run_process("(" + command + " & cat " + pipe + "; wait $!)");
     EXPECT_EQ(read.exit_code, 0) << read.err;
     EXPECT_GT(read.out.size(), 100U) << command;
     EXPECT_TRUE(std::filesystem::is_fifo(pipe)) << command;
@@ -63,7 +63,8 @@ TEST_F(Outputs, DevicesAreWrittenTo) {
 }
 
 TEST_F(Outputs, NamesOfOtherFormatsAreRefused) {
-  const std::string written = "; CSV, .hair and .pvd are written, and .h5 by fiber_query_mpi convert";
+  const std::string written =
+      "; CSV, .hair and .pvd are written, and .h5 by fiber_query_mpi convert";
   for (const std::string end : {"h5", "vtp", "tck", "npy", "json"}) {
     const std::string out = path("out." + end);
     EXPECT_TRUE(refused(run_process(soup_to(out)), "'" + out + "' is a name of "));

@@ -85,10 +85,8 @@ TEST_F(Segments, ReadsAllThatAFileMayBe) {
   const std::string expected = answer(crossing);
   EXPECT_NE(expected, header);
   for (const std::string& content :
-       {crossing + ",,further,7\n", "," + crossing + "\n",
-        std::string("-1 0 0 3 0 0 0 -1 2 0 1 2"),
-        std::string("-1 0 0\t3 0 0 0 -1 2 0 1 2 9\n"),
-        std::string("-1;0;0;3;0;0;0;-1;2;0;1;2\n"),
+       {crossing + ",,further,7\n", "," + crossing + "\n", std::string("-1 0 0 3 0 0 0 -1 2 0 1 2"),
+        std::string("-1 0 0\t3 0 0 0 -1 2 0 1 2 9\n"), std::string("-1;0;0;3;0;0;0;-1;2;0;1;2\n"),
         std::string("# a comment\n\"-1\",\"0\",0,3,0,0,0,-1,2,0,1,2\n#-1,0,0,3,0,0,0,-1,2,0,1,2\n"),
         std::string("-1 0 0, 3 0 0, 0 -1 2, 0 1 2\n"),
         std::string(" -1 , 0 ,0 ,3,0,0,0,-1,2,0,1,2 \r\n"),

@@ -43,9 +43,9 @@ std::string told(const std::string& what) {
 TEST_F(SweepNames, TheOrderOfFibresInTheFileMakesNoMotion) {
   const std::string first = bar(0, "a", 0.0, 0.0) + bar(0, "b", 0.0, 1.0);
   EXPECT_EQ(contacts(first + bar(1, "b", 0.0, 1.0) + bar(1, "a", 0.0, 0.0), ""), "");
-  EXPECT_EQ(contacts(bar(0, "0", 0, 0) + bar(0, "1", 0, 1) + bar(1, "1", 0, 1) + bar(1, "0", 0, 0),
-                     ""),
-            "");
+  EXPECT_EQ(
+      contacts(bar(0, "0", 0, 0) + bar(0, "1", 0, 1) + bar(1, "1", 0, 1) + bar(1, "0", 0, 0), ""),
+      "");
   // In either order b falls through a, by the names and the order of the first frame.
   const std::string falls = contacts(first + bar(1, "a", 0.0, 0.0) + bar(1, "b", 0.0, -1.0), "");
   EXPECT_EQ(falls.substr(0, 10), "0,a,0,b,0,") << falls;
@@ -56,9 +56,9 @@ TEST_F(SweepNames, TheOrderOfFibresInTheFileMakesNoMotion) {
 
 TEST_F(SweepNames, AFibreThatComesTakesNobodysPlace) {
   const std::string first = bar(0, "a", 0.0, 0.0) + bar(0, "b", 0.0, 1.0);
-  EXPECT_EQ(contacts(first + bar(1, "a", 0.0, 0.0) + bar(1, "c", 0.0, -1.0),
-                     told("gone: 'b'; new: 'c'")),
-            "");
+  EXPECT_EQ(
+      contacts(first + bar(1, "a", 0.0, 0.0) + bar(1, "c", 0.0, -1.0), told("gone: 'b'; new: 'c'")),
+      "");
   EXPECT_EQ(contacts(first + bar(1, "c", 0.0, 0.0) + bar(1, "d", 0.0, -1.0),
                      told("gone: 'a', 'b'; new: 'c', 'd'")),
             "");
@@ -68,14 +68,15 @@ TEST_F(SweepNames, AFibreThatComesTakesNobodysPlace) {
             "");
 }
 
-// What is in both frames is still swept: a falls through b; c, which goes, touched d and would be in
-// the way of e; f, of other points, touched d as well.
+// What is in both frames is still swept: a falls through b; c, which goes, touched d and would be
+// in the way of e; f, of other points, touched d as well.
 TEST_F(SweepNames, OfFibresThatGoTheContactsOfTheFrameItself) {
   const std::string first = bar(0, "c", 3.0, 0.0) + bar(0, "a", 0.0, 1.0) + bar(0, "b", 0.0, 0.0) +
-                            bar(0, "d", 3.015, 0.0) + bar(0, "e", 3.0, 1.0) + bar(0, "f", 3.03, 0.0);
-  const std::string second = bar(1, "e", 3.0, -1.0) + bar(1, "d", 9.0, 0.0) + bar(1, "b", 0.0, 0.0) +
-                             bar(1, "f", 3.03, 0.0) + "1,f,2,3.03,0,0.01\n" +
-                             bar(1, "a", 0.0, -1.0) + bar(1, "g", 0.0, 0.0);
+                            bar(0, "d", 3.015, 0.0) + bar(0, "e", 3.0, 1.0) +
+                            bar(0, "f", 3.03, 0.0);
+  const std::string second = bar(1, "e", 3.0, -1.0) + bar(1, "d", 9.0, 0.0) +
+                             bar(1, "b", 0.0, 0.0) + bar(1, "f", 3.03, 0.0) +
+                             "1,f,2,3.03,0,0.01\n" + bar(1, "a", 0.0, -1.0) + bar(1, "g", 0.0, 0.0);
   const std::string what = told("gone: 'c'; of other numbers of points: 'f'; new: 'g'");
   const std::vector<std::string> rows = lines(contacts(first + second, what));
   ASSERT_EQ(rows.size(), 3U);
@@ -84,7 +85,8 @@ TEST_F(SweepNames, OfFibresThatGoTheContactsOfTheFrameItself) {
   EXPECT_EQ(rows[2], "0,d,0,f,0,0,0");
   const std::vector<double> times = numbers_in(rows[1].substr(10));
   EXPECT_NEAR(times[0], 0.49, 1e-5) << "while it moves";
-  EXPECT_EQ(lines(contacts(first + second, what, " --new-only")), std::vector<std::string>{rows[1]});
+  EXPECT_EQ(lines(contacts(first + second, what, " --new-only")),
+            std::vector<std::string>{rows[1]});
   EXPECT_EQ(lines(contacts(first + second, what, " --type first")),
             std::vector<std::string>{rows[0]});
   EXPECT_EQ(lines(contacts(first + second, what, " --type first --new-only")),

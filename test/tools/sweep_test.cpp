@@ -118,9 +118,10 @@ TEST_F(Sweep, OtherFibresInTheNextFrameAreTold) {
                                   frame(2, -0.5, "2,1,0,0.5,-0.5,0.05\n"));
   const ProcessResult result = query("sweep " + cables);
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_EQ(result.err,
-            "fiber_query: frames 0 and 1 have different fibres (of other numbers of points: '1'): of "
-            "these only the contacts that frame 0 has itself\n");
+  EXPECT_EQ(
+      result.err,
+      "fiber_query: frames 0 and 1 have different fibres (of other numbers of points: '1'): of "
+      "these only the contacts that frame 0 has itself\n");
   EXPECT_NE(result.out.find("\n0,0,0,1,0,0,0\n"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("\n1,0,0,1,"), std::string::npos) << result.out;
 }

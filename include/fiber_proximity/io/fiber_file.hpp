@@ -33,16 +33,16 @@ struct FiberFile {
 // ---- CSV
 
 /// Reads a fibre file: a header, then a row per point. Columns are found by their names, in any
-/// order and in capitals or not: `x`, `y`, `z` [m], and where there are any `frame`, a whole number,
-/// `fiber`, any text, and `radius` [m]. Others are left out, and FiberFile::notes names them; without
-/// `fiber` all rows of a frame are one fibre. The points of a fibre are the rows with its name, in
-/// their order, wherever they stand; frames and the fibres of each are in the order in which they
-/// first appear.
+/// order and in capitals or not: `x`, `y`, `z` [m], and where there are any `frame`, a whole
+/// number, `fiber`, any text, and `radius` [m]. Others are left out, and FiberFile::notes names
+/// them; without `fiber` all rows of a frame are one fibre. The points of a fibre are the rows with
+/// its name, in their order, wherever they stand; frames and the fibres of each are in the order in
+/// which they first appear.
 ///
-/// Values are separated by commas, semicolons, tabs or blanks, as the header is; those in quotes may
-/// hold anything but a line's end (RFC 4180). Blanks around values, blank lines, CRLF line ends and
-/// lines that begin with # are allowed; the header may be such a line. A line has at most 65 536
-/// bytes, a value 4 096.
+/// Values are separated by commas, semicolons, tabs or blanks, as the header is; those in quotes
+/// may hold anything but a line's end (RFC 4180). Blanks around values, blank lines, CRLF line ends
+/// and lines that begin with # are allowed; the header may be such a line. A line has at most 65
+/// 536 bytes, a value 4 096.
 /// @param default_radius [m] of all fibres if the file has no radius column
 /// @throws FileError
 /// @throws std::invalid_argument for a bad default_radius
@@ -51,8 +51,9 @@ FiberFile read_csv(const std::string& path, double default_radius = 0.0);
 /// The same from a stream; errors call it by `name`.
 FiberFile read_csv(std::istream& stream, const std::string& name, double default_radius = 0.0);
 
-/// Writes a fibre file frame by frame, so that a long one never is in memory. The radius column is that of the point if there is one per point, else that of
-/// its fibre. All numbers read back as the same.
+/// Writes a fibre file frame by frame, so that a long one never is in memory. The radius column is
+/// that of the point if there is one per point, else that of its fibre. All numbers read back as
+/// the same.
 class CsvWriter {
  public:
   /// @param has_frames whether frames have numbers; without them the file holds exactly one
