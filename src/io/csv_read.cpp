@@ -54,6 +54,10 @@ class CsvReader {
     if (!file.has_frames) {
       enter_frame(0);
     }
+    if (are_mixed_) {
+      std::sort(frames_.begin(), frames_.end(),
+                [](const FrameRows& x, const FrameRows& y) { return x.number < y.number; });
+    }
     file.frames.reserve(frames_.size());
     for (; !frames_.empty(); frames_.pop_front()) {
       file.frames.push_back(builder_.build(std::move(frames_.front()), name_, default_radius_));
@@ -208,6 +212,7 @@ class CsvReader {
       return;
     }
     FrameRows*& rows = frames_by_number_[frame];
+    are_mixed_ = are_mixed_ || rows != nullptr;
     if (rows == nullptr) {
       rows = &frames_.emplace_back();
       rows->number = frame;
@@ -242,6 +247,7 @@ class CsvReader {
 
   std::deque<FrameRows> frames_;
   std::unordered_map<std::int64_t, FrameRows*> frames_by_number_;
+  bool are_mixed_ = false;     // whether rows of a frame stand between those of another
   FrameRows* rows_ = nullptr;  // the frame of the row before
   bool is_new_run_ = true;     // whether the next row is of another frame
   std::string label_;

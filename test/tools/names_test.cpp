@@ -114,6 +114,40 @@ TEST_F(Names, AreThoseOfEachFrame) {
   EXPECT_EQ(rows[3].substr(0, 10), "3,b,0,0,1,");
 }
 
+// Two frames of two fibres, as pandas, R, MATLAB, numpy and a logger sorted by time write them.
+TEST_F(Names, AreReadFromWhatOtherProgramsWrite) {
+  const std::string plain =
+      "frame,fiber,x,y,z,radius\n"
+      "1,a,0,0,0,0.1\n1,a,1,0,0,0.1\n1,b,0,0,0.25,0.1\n1,b,1,0,0.25,0.1\n"
+      "2,a,0,0,0,0.1\n2,a,1,0,0,0.1\n2,b,0,0,0.125,0.1\n2,b,1,0,0.125,0.1\n";
+  const std::vector<std::string> shapes{
+      ",frame,fiber,x,y,z,radius\n"
+      "0,1,a,0,0,0,0.1\n1,1,a,1,0,0,0.1\n2,1,b,0,0,0.25,0.1\n3,1,b,1,0,0.25,0.1\n"
+      "4,2,a,0,0,0,0.1\n5,2,a,1,0,0,0.1\n6,2,b,0,0,0.125,0.1\n7,2,b,1,0,0.125,0.1\n",
+      "\"\";\"Frame\";\"X\";\"Y\";\"Z\";\"Fiber\";\"Radius\"\r\n"
+      "\"1\";1;0;0;0;\"a\";0.1\r\n\"2\";1;1;0;0;\"a\";0.1\r\n"
+      "\"3\";1;0;0;0.25;\"b\";0.1\r\n\"4\";1;1;0;0.25;\"b\";0.1\r\n"
+      "\"5\";2;0;0;0;\"a\";0.1\r\n\"6\";2;1;0;0;\"a\";0.1\r\n"
+      "\"7\";2;0;0;0.125;\"b\";0.1\r\n\"8\";2;1;0;0.125;\"b\";0.1\r\n",
+      "# fiber frame x y z radius\n"
+      "a 1.000e+00 0.000e+00 0 0 1e-1\na 1.000e+00 1 0 0 1e-1\nb 1 0 0 0.25 0.1\nb 1 1 0 0.25 0.1\n"
+      "a 2 0 0 0 0.1\na 2 1 0 0 0.1\nb 2 0 0 0.125 0.1\nb 2 1 0 0.125 0.1\n",
+      "frame\tx\ty\tz\tradius\tfiber\n"
+      "1\t0\t0\t0\t0.1\ta\n1\t0\t0\t0.25\t0.1\tb\n2\t0\t0\t0\t0.1\ta\n"
+      "2\t0\t0\t0.125\t0.1\tb\n1\t1\t0\t0\t0.1\ta\n1\t1\t0\t0.25\t0.1\tb\n"
+      "2\t1\t0\t0\t0.1\ta\n2\t1\t0\t0.125\t0.1\tb\n"};
+  const std::string file = write("plain.csv", plain);
+  for (const std::string command : {"contacts ", "closest ", "sweep "}) {
+    const std::string expected = answer(command + file);
+    EXPECT_NE(expected.find(",a,"), std::string::npos);
+    for (const std::string& shape : shapes) {
+      EXPECT_EQ(answer(command + write("shape.csv", shape)), expected) << shape;
+    }
+  }
+  EXPECT_TRUE(refused(query("contacts " + write("german.csv", "x;y;z\n0,5;0;0\n1,5;0;0\n")),
+                      "german.csv:2: x is '0,5', expected a number with a decimal point"));
+}
+
 TEST_F(Names, WhatOfAFileIsNotReadIsTold) {
   const std::string file =
       write("more.csv", "time,x,y,z,id\n0,0,0,0,3\n0,1,0,0,3\n1,5,5,5,4\n1,6,6,6,4\n");

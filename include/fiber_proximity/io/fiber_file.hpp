@@ -24,7 +24,7 @@ struct FiberFrame {
 /// What a fibre file holds: one frame without a number, or any number of numbered ones.
 struct FiberFile {
   bool has_frames = false;
-  std::vector<FiberFrame> frames;  ///< in the file's order; exactly one without numbers
+  std::vector<FiberFrame> frames;  ///< in the file's order, see read_csv(); one without numbers
 
   /// What of the file is not in here, such as columns that mean nothing: a sentence each.
   std::vector<std::string> notes{};
@@ -36,13 +36,14 @@ struct FiberFile {
 /// order and in capitals or not: `x`, `y`, `z` [m], and where there are any `frame`, a whole
 /// number, `fiber`, any text, and `radius` [m]. Others are left out, and FiberFile::notes names
 /// them; without `fiber` all rows of a frame are one fibre. The points of a fibre are the rows with
-/// its name, in their order, wherever they stand; frames and the fibres of each are in the order in
-/// which they first appear.
+/// its name, in their order, wherever they stand. Frames are in the file's order, or in that of
+/// their numbers where their rows are mixed; the fibres of each are in the order in which they
+/// first appear.
 ///
 /// Values are separated by commas, semicolons, tabs or blanks, as the header is; those in quotes
 /// may hold anything but a line's end (RFC 4180). Blanks around values, blank lines, CRLF line ends
-/// and lines that begin with # are allowed; the header may be such a line. A line has at most 65
-/// 536 bytes, a value 4 096.
+/// and lines that begin with # are allowed; the header may be such a line. A line has at most
+/// 65 536 bytes, a value 4 096.
 /// @param default_radius [m] of all fibres if the file has no radius column
 /// @throws FileError
 /// @throws std::invalid_argument for a bad default_radius
