@@ -87,6 +87,37 @@ void require_segment(const FiberAssembly& fibers, std::uint32_t fiber, std::uint
 
 namespace {
 
+// Names are bytes that need not be UTF-8: what is none comes and goes as Python has it in paths.
+
+py::list fiber_name_list(const Fibers& fibers) {
+  py::list names;
+  for (const std::string& name : fibers.names().list(fibers.state()->fiber_count())) {
+    names.append(py::reinterpret_steal<py::str>(PyUnicode_DecodeUTF8(
+        name.data(), static_cast<Py_ssize_t>(name.size()), "surrogateescape")));
+  }
+  return names;
+}
+
+void rename_fibers(Fibers& fibers, const py::iterable& names) {
+  std::vector<std::string> texts;
+  for (const py::handle name : names) {
+    if (!py::isinstance<py::str>(name)) {
+      throw py::type_error("a name is a " + std::string(py::str(name.get_type())) +
+                           ", it must be a str");
+    }
+    PyObject* const bytes = PyUnicode_AsEncodedString(name.ptr(), "utf-8", "surrogateescape");
+    if (bytes == nullptr) {
+      throw py::error_already_set();
+    }
+    texts.emplace_back(py::reinterpret_steal<py::bytes>(bytes));
+  }
+  if (texts.size() != fibers.state()->fiber_count()) {
+    throw std::invalid_argument(std::to_string(texts.size()) + " names for " +
+                                std::to_string(fibers.state()->fiber_count()) + " fibres");
+  }
+  fibers.rename(FiberNames(std::move(texts)));
+}
+
 py::array points_of(const Fibers& fibers) {
   const Fibers::State state = fibers.state();
   const auto count = static_cast<Py_ssize_t>(state->point_count());
@@ -122,37 +153,6 @@ void move(Fibers& fibers, const py::object& points) {
   const auto count = static_cast<std::size_t>(array.size() / 3);
   const WithoutPythonLock others_may_run;
   fibers.move(rows, count);
-}
-
-// Names are bytes that need not be UTF-8: what is none comes and goes as Python has it in paths.
-
-py::list fiber_name_list(const Fibers& fibers) {
-  py::list names;
-  for (const std::string& name : fibers.names().list(fibers.state()->fiber_count())) {
-    names.append(py::reinterpret_steal<py::str>(PyUnicode_DecodeUTF8(
-        name.data(), static_cast<Py_ssize_t>(name.size()), "surrogateescape")));
-  }
-  return names;
-}
-
-void rename_fibers(Fibers& fibers, const py::iterable& names) {
-  std::vector<std::string> texts;
-  for (const py::handle name : names) {
-    if (!py::isinstance<py::str>(name)) {
-      throw py::type_error("a name is a " + std::string(py::str(name.get_type())) +
-                           ", it must be a str");
-    }
-    PyObject* const bytes = PyUnicode_AsEncodedString(name.ptr(), "utf-8", "surrogateescape");
-    if (bytes == nullptr) {
-      throw py::error_already_set();
-    }
-    texts.emplace_back(py::reinterpret_steal<py::bytes>(bytes));
-  }
-  if (texts.size() != fibers.state()->fiber_count()) {
-    throw std::invalid_argument(std::to_string(texts.size()) + " names for " +
-                                std::to_string(fibers.state()->fiber_count()) + " fibres");
-  }
-  fibers.rename(FiberNames(std::move(texts)));
 }
 
 std::string describe(const Fibers& fibers) {
