@@ -70,11 +70,11 @@ for end in csv hair; do
   expected=$([ $end = csv ] && echo expected_fibers.csv || echo expected.hair)
   ln -s elsewhere/converted link.$end
   mkfifo pipe.$end
-  run 2 fiber_query_mpi convert $source link.$end
+  run 2 fiber_query_mpi convert "$source" link.$end
   [ -L link.$end ] && cmp $expected elsewhere/converted || fail "a link to .$end"
   cat pipe.$end >read.txt &
   reader=$!
-  run 2 fiber_query_mpi convert $source pipe.$end
+  run 2 fiber_query_mpi convert "$source" pipe.$end
   wait $reader
   [ -p pipe.$end ] && cmp $expected read.txt || fail "a pipe of .$end"
 done
