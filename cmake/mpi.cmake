@@ -50,6 +50,8 @@ add_library(fiber_proximity_mpi SHARED
   src/mpi/distributed_options.cpp
   src/mpi/earliest_contacts.cpp
   src/mpi/fiber_chains.cpp
+  src/mpi/fiber_name_data.cpp
+  src/mpi/fiber_name_text.cpp
   src/mpi/fiber_reader.cpp
   src/mpi/fiber_writer.cpp
   src/mpi/first_places.cpp

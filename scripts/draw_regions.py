@@ -33,7 +33,7 @@ def read_segments(path):
         for row in csv.DictReader(file):
             point = (1e3 * float(row['x']), 1e3 * float(row['y']))
             if row['fiber'] == name:
-                segments[(int(name), count)] = (last, point)
+                segments[(name, count)] = (last, point)
                 count += 1
             else:
                 name, count = row['fiber'], 0
@@ -44,7 +44,7 @@ def read_segments(path):
 def read_regions(path):
     """Of each segment the owner, and the set of ranks that have it in their halo."""
     with open(path, newline='', encoding='utf-8') as file:
-        return {(int(row['fiber']), int(row['segment'])):
+        return {(row['fiber'], int(row['segment'])):
                 (int(row['owner']), {int(rank) for rank in row['in_halo_of'].split(';') if rank})
                 for row in csv.DictReader(file)}
 

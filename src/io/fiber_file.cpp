@@ -4,22 +4,12 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "src/io/file_format.hpp"
 #include "src/io/number.hpp"
 #include "src/io/radii.hpp"
 
 namespace fiber {
 namespace {
-
-/// @param format an extension of small letters
-bool has_format(const std::string& path, const char* format) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  for (char& letter : extension) {
-    if (letter >= 'A' && letter <= 'Z') {
-      letter = static_cast<char>(letter - 'A' + 'a');
-    }
-  }
-  return extension == format;
-}
 
 template <class Writer>
 void write_all(const std::string& path, const FiberFile& file) {
@@ -135,15 +125,18 @@ void PvdWriter::append(const std::string& text) {
 }
 
 FiberFile read_fibers(const std::string& path, double default_radius) {
-  return has_format(path, ".hair") ? read_hair(path, default_radius)
-                                   : read_csv(path, default_radius);
+  require_format_to_read(path);
+  return format_of(path) == FileFormat::HAIR ? read_hair(path, default_radius)
+                                             : read_csv(path, default_radius);
 }
 
 FiberWriter::FiberWriter(const std::string& path, bool has_frames)
     : path_(path), has_frames_(has_frames) {
-  if (has_format(path, ".pvd")) {
+  require_format_to_write(path);
+  const FileFormat format = format_of(path);
+  if (format == FileFormat::PVD) {
     pvd_.emplace(path);
-  } else if (!has_format(path, ".hair")) {
+  } else if (format == FileFormat::CSV) {
     csv_.emplace(path, has_frames);
   }
 }

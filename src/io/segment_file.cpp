@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "src/io/csv_row.hpp"
 #include "src/io/input_file.hpp"
 #include "src/io/number.hpp"
 #include "src/text/quote.hpp"
@@ -23,7 +24,8 @@ struct RowFormat {
   /// Those of the coordinates, of which there are three for each point.
   std::vector<std::string> coordinates;
 
-  /// Whether a row that begins with a number has no names, and further columns are ignored.
+  /// Whether a row that begins with a number has no name, unless the header begins with `name` and
+  /// the row has a number more, and further columns are ignored.
   bool is_loose;
 
   /// How an error calls all coordinates together.
@@ -32,21 +34,29 @@ struct RowFormat {
 
 bool is_number(std::string_view text) { return parse_decimal_or_hex(text).has_value(); }
 
-std::string_view first_part(std::string_view field) {
-  return field.substr(0, field.find_first_of(blanks));
-}
-
-/// Appends the parts between blanks; nothing between commas is an empty field.
+/// Appends the parts between blanks; nothing at all is an empty field.
 void append_parts(std::string_view field, std::vector<std::string_view>& parts) {
   do {
-    parts.push_back(first_part(field));
+    parts.push_back(field.substr(0, field.find_first_of(blanks)));
     field = trimmed(field.substr(parts.back().size()));
   } while (!field.empty());
 }
 
-/// Reads a file of points row by row. Fields are separated by commas, blanks or both; where there
-/// are commas, names end with them and may have blanks in them. Blank lines are ignored, and so is
-/// a first line of column names.
+/// What separates the values of a row, beside blanks: the first that stands in no quotes.
+char separator_in(std::string_view row) {
+  bool is_quoted = false;
+  for (const char letter : row) {
+    is_quoted = is_quoted != (letter == '"');
+    if (!is_quoted && (letter == ',' || letter == ';')) {
+      return letter;
+    }
+  }
+  return ' ';
+}
+
+/// Reads a file of points row by row. Fields are separated by commas or semicolons, by blanks or
+/// both; where there are commas, names end with them and may have blanks in them, and so they may
+/// in quotes. Blank lines are ignored, and so are comments and a first line of column names.
 class CoordinateRows {
  public:
   /// @param name what errors call the stream
@@ -61,6 +71,7 @@ class CoordinateRows {
   bool next() {
     bool found = next_fields();
     if (std::exchange(is_first_, false) && found && is_header()) {
+      has_name_column_ = fields_.front() == "name";
       found = next_fields();
     }
     if (found) {
@@ -79,33 +90,62 @@ class CoordinateRows {
   }
 
  private:
-  /// Whether there is a line that is not blank.
+  /// Whether there is a line that is neither blank nor a comment.
   bool next_fields() {
     for (std::string_view line; lines_.next(line);) {
       ++line_;
       line = trimmed(line);
-      if (!line.empty()) {
-        split_row(line);
-        check_fields(fields_, name_, line_);
-        return true;
+      if (line.empty() || is_comment(line)) {
+        continue;
       }
+      if (const char* const problem = split_row(line)) {
+        throw FileError(name_, line_,
+                        "value " + std::to_string(row_.fields().size() + 1) + ' ' + problem);
+      }
+      check_fields(fields_, name_, line_);
+      return true;
     }
     return false;
   }
 
-  void split_row(std::string_view row) {
-    split(row, between_commas_);
-    const bool has_names = !format_.is_loose || !is_number(first_part(between_commas_.front()));
-    name_count_ = has_names ? format_.names.size() : 0;
-    const bool has_commas = between_commas_.size() > 1;
+  /// @throws FileError for one that is a row, too
+  bool is_comment(std::string_view line) {
+    if (line.front() != '#') {
+      return false;
+    }
+    if (split_row(line) == nullptr && fields_.size() >= name_count_ + coordinates_.size() &&
+        std::all_of(
+            fields_.begin() + static_cast<std::ptrdiff_t>(name_count_),
+            fields_.begin() + static_cast<std::ptrdiff_t>(name_count_ + coordinates_.size()),
+            is_number)) {
+      throw FileError(name_, line_,
+                      "is a comment, or a row of the name " + quote(fields_.front()) +
+                          ": a name that begins with # stands in quotes, and a comment is no row");
+    }
+    return true;
+  }
+
+  /// @return nullptr, or what is wrong
+  const char* split_row(std::string_view row) {
+    const char separator = separator_in(row);
     fields_.clear();
-    for (std::size_t i = 0; i < between_commas_.size(); ++i) {
-      if (has_commas && i < name_count_) {
-        fields_.push_back(between_commas_[i]);
+    if (const char* const problem = row_.split(row, separator)) {
+      return problem;
+    }
+    const std::vector<std::string_view>& values = row_.fields();
+    const std::string_view first = values.front();
+    const bool has_names = !format_.is_loose ||
+                           (has_name_column_ && values.size() > coordinates_.size()) ||
+                           !is_number(first.substr(0, first.find_first_of(blanks)));
+    name_count_ = has_names ? format_.names.size() : 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (separator == ' ' || i < name_count_) {
+        fields_.push_back(values[i]);
       } else {
-        append_parts(between_commas_[i], fields_);
+        append_parts(values[i], fields_);
       }
     }
+    return nullptr;
   }
 
   bool is_header() const {
@@ -148,8 +188,9 @@ class CoordinateRows {
   const std::string name_;
   const RowFormat format_;
   std::size_t line_ = 0;
-  bool is_first_ = true;  // of the lines that are not blank
-  std::vector<std::string_view> between_commas_;
+  bool is_first_ = true;          // of the lines that are not blank
+  bool has_name_column_ = false;  // as the header says
+  CsvRow row_;
   std::vector<std::string_view> fields_;
   std::size_t name_count_ = 0;  // of the fields
   std::vector<double> coordinates_;
@@ -207,7 +248,8 @@ std::vector<SegmentPair> read_segment_pairs(const std::string& path) {
 
 std::vector<SegmentPair> read_segment_pairs(std::istream& stream, const std::string& name) {
   return read_rows(stream, name, pair_format(), [](const CoordinateRows& rows) {
-    return SegmentPair{rows.point(0), rows.point(1), rows.point(2), rows.point(3)};
+    return SegmentPair{std::string(rows.name(0)), rows.point(0), rows.point(1), rows.point(2),
+                       rows.point(3)};
   });
 }
 

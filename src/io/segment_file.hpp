@@ -11,14 +11,17 @@ namespace fiber {
 
 /// Two segments [m].
 struct SegmentPair {
+  std::string name;        ///< "" for none
   Eigen::Vector3d p0, p1;  ///< ends of the first
   Eigen::Vector3d q0, q1;  ///< ends of the second
 };
 
 /// Reads a file of pairs of segments, one a line: the 12 coordinates of p0, p1, q0 and q1 [m],
-/// decimal or C hexadecimal, separated by commas, blanks or both. A name that is no number may
-/// stand before them; further columns are ignored, and so are blank lines and a first line of
-/// column names. Lines and values are at most as long as in read_csv().
+/// decimal or C hexadecimal, separated by commas, semicolons, blanks or one of these and blanks. A
+/// name may stand before them that is no number, or any one where the header begins with `name`;
+/// further columns are ignored, and so are blank
+/// lines, lines that begin with # and a first line of column names. Quotes, and how long lines and
+/// values may be, are as in read_csv().
 /// @throws FileError naming line, column, value and what is allowed
 std::vector<SegmentPair> read_segment_pairs(const std::string& path);
 

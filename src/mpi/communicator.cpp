@@ -81,6 +81,14 @@ std::uint64_t Communicator::sum(std::uint64_t value) const {
   return all;
 }
 
+void Communicator::broadcast(void* data, std::size_t bytes) const {
+  auto* const begin = static_cast<char*>(data);
+  for (std::size_t done = 0; done < bytes; done += most_bytes_at_once) {
+    MPI_Bcast(begin + done, static_cast<int>(std::min(most_bytes_at_once, bytes - done)), MPI_BYTE,
+              0, ranks_);
+  }
+}
+
 void Transfer::send(std::size_t to, const void* data, std::size_t bytes) {
   const auto* const begin = static_cast<const char*>(data);
   for (std::size_t done = 0; done < bytes; done += most_bytes_at_once) {

@@ -58,6 +58,15 @@ class Communicator {
     return value;
   }
 
+  /// The same of a list.
+  template <class T>
+  std::vector<T> from_first(std::vector<T> values) const {
+    static_assert(std::is_trivially_copyable_v<T>);
+    values.resize(from_first<std::uint64_t>(values.size()));
+    broadcast(values.data(), values.size() * sizeof(T));
+    return values;
+  }
+
   /// Sends what is for each rank, and takes what is for this one.
   template <class T>
   PerRank<T> exchange(PerRank<T> to) const;
@@ -70,6 +79,8 @@ class Communicator {
   }
 
  private:
+  void broadcast(void* data, std::size_t bytes) const;
+
   MPI_Comm ranks_ = MPI_COMM_NULL;
   int rank_ = 0;
   int size_ = 1;

@@ -7,6 +7,7 @@
 #include "fiber_proximity/mpi/distributed_files.hpp"
 #include "src/mpi/communicator.hpp"
 #include "src/mpi/fiber_layout.hpp"
+#include "src/mpi/fiber_name_data.hpp"
 #include "src/mpi/frame_files.hpp"
 #include "src/mpi/hdf5_file.hpp"
 
@@ -172,17 +173,23 @@ DistributedContactWriter::~DistributedContactWriter() = default;
 
 std::size_t DistributedContactWriter::done() const { return state_->files.done(); }
 
-void DistributedContactWriter::write(std::int64_t frame, const DistributedResult& result) {
+void DistributedContactWriter::write(std::int64_t frame, const DistributedResult& result,
+                                     const FiberNames& names) {
   const Communicator& ranks = state_->ranks;
   const ContactRows rows = rows_of(ranks, result.contacts.size());
-  state_->files.write(
-      frame, bytes_per_contact * rows.all, [&](hid_t file) -> std::function<void()> {
-        write_numbers(file, "complete", {result.complete ? 1 : 0});
-        write_numbers(file, "limit_reached", {result.limit_reached ? 1 : 0});
-        write_real(file, "others_lower", result.others_lower);
-        const auto datasets = std::make_shared<ContactDatasets>(file, rows);
-        return [&, datasets] { datasets->write(result.contacts, ranks.rank() == 0); };
-      });
+  state_->files.write(frame, bytes_per_contact * rows.all + size_of_names(names),
+                      [&](hid_t file) -> std::function<void()> {
+                        write_numbers(file, "complete", {result.complete ? 1 : 0});
+                        write_numbers(file, "limit_reached", {result.limit_reached ? 1 : 0});
+                        write_real(file, "others_lower", result.others_lower);
+                        const auto datasets = std::make_shared<ContactDatasets>(file, rows);
+                        return [&, datasets, write_names = create_names(file, names)] {
+                          datasets->write(result.contacts, ranks.rank() == 0);
+                          if (ranks.rank() == 0) {
+                            write_names();
+                          }
+                        };
+                      });
 }
 
 void DistributedContactWriter::finish() { state_->files.finish(); }

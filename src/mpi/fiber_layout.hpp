@@ -12,6 +12,7 @@ namespace layout {
 constexpr const char* fibers = "fibers";
 constexpr const char* contacts = "contacts";
 constexpr const char* frames = "frames";
+constexpr const char* fiber_names = "fiber_names";
 
 constexpr const char* vtk = "VTKHDF";
 constexpr const char* at_points = "PointData";

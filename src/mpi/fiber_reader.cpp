@@ -2,6 +2,7 @@
 #include <cerrno>
 #include <cstdint>
 #include <exception>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <memory>
@@ -14,6 +15,7 @@
 #include "fiber_proximity/mpi/distributed_files.hpp"
 #include "src/io/radii.hpp"
 #include "src/mpi/fiber_layout.hpp"
+#include "src/mpi/fiber_name_data.hpp"
 #include "src/mpi/frame_files.hpp"
 #include "src/mpi/hdf5_file.hpp"
 
@@ -218,7 +220,8 @@ void DistributedFiberReader::State::do_or_agree(const std::string& place,
 }
 
 void DistributedFiberReader::State::open() {
-  file.emplace(open_parallel_file(ranks, path));
+  // Files of frames are looked for beside the file, not beside a link to it.
+  file.emplace(open_parallel_file(ranks, std::filesystem::canonical(path).string()));
   if (read_text(file->get(), attribute::content) != layout::fibers) {
     throw std::runtime_error("is no file of fibres: its attribute fiber_proximity is not fibers");
   }
@@ -272,6 +275,8 @@ std::int64_t DistributedFiberReader::read(std::size_t index, DistributedFibers& 
     const std::uint64_t begin = count / size * rank + std::min(rank, rest);
     const std::uint64_t end = begin + count / size + (rank < rest ? 1 : 0);
     fibers = data.read(data.find(begin), data.find(end));
+    fibers.fiber_names = read_names(frame->get());
+    require_names(fibers);
   });
   return number;
 }

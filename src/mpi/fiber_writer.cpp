@@ -7,6 +7,7 @@
 #include "fiber_proximity/mpi/distributed_files.hpp"
 #include "src/io/radii.hpp"
 #include "src/mpi/fiber_layout.hpp"
+#include "src/mpi/fiber_name_data.hpp"
 #include "src/mpi/fiber_runs.hpp"
 #include "src/mpi/frame_files.hpp"
 #include "src/mpi/hdf5_file.hpp"
@@ -184,10 +185,17 @@ void DistributedFiberWriter::write(std::int64_t frame, const DistributedFibers& 
                   ? ""
                   : std::to_string(fibers.names.size()) + " names for " + std::to_string(count) +
                         " parts, there must be one per part");
+  ranks.agree(error_in([&] { require_names(fibers); }));
   const RankLines lines = lines_of(ranks, fibers);
-  state_->files.write(frame, size_of(lines.all), [&](hid_t file) -> std::function<void()> {
+  const std::uint64_t size = size_of(lines.all) + size_of_names(fibers.fiber_names);
+  state_->files.write(frame, size, [&](hid_t file) -> std::function<void()> {
     const auto datasets = std::make_shared<FiberDatasets>(file, lines, ranks.rank() == 0);
-    return [&, datasets] { datasets->write(fibers, lines); };
+    return [&, datasets, write_names = create_names(file, fibers.fiber_names)] {
+      datasets->write(fibers, lines);
+      if (ranks.rank() == 0) {
+        write_names();
+      }
+    };
   });
 }
 

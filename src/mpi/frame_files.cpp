@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "fiber_proximity/io/file.hpp"
+#include "src/io/file_format.hpp"
 #include "src/mpi/hdf5_file.hpp"
 #include "src/text/quote.hpp"
 
@@ -32,6 +33,16 @@ void make_room(const std::string& path, std::uint64_t size) {
   }
 }
 
+/// Where a file is written, by all ranks at once, anywhere in it. Collective.
+std::string place_of_file(const Communicator& ranks, const std::string& path) {
+  const WritePlace place = write_place(ranks, path);
+  ranks.agree(
+      place.is_file
+          ? ""
+          : FileError(path, "is a device or a pipe: HDF5 can be written to a file only").what());
+  return place.path;
+}
+
 /// Whether a file is one of our frames, finished or not.
 bool is_frame_name(std::string name) {
   for (const std::string end : {".part", ".h5"}) {
@@ -47,22 +58,17 @@ bool is_frame_name(std::string name) {
 
 }  // namespace
 
-bool is_hdf5_name(const std::string& path) {
-  std::string end = std::filesystem::path(path).extension().string();
-  std::transform(end.begin(), end.end(), end.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return end == ".h5" || end == ".hdf5" || end == ".hdf" || end == ".vtkhdf";
-}
+bool is_hdf5_name(const std::string& path) { return format_of(path) == FileFormat::HDF5; }
 
 std::string frame_name(std::size_t index) {
   std::string digits = std::to_string(index);
   return std::string(digits.size() < 6 ? 6 - digits.size() : 0, '0') + digits;
 }
 
-FrameFiles::FrameFiles(const Communicator& ranks, std::string path, std::string content,
+FrameFiles::FrameFiles(const Communicator& ranks, const std::string& path, std::string content,
                        DistributedFileOptions options)
     : ranks_(ranks),
-      path_(std::move(path)),
+      path_(place_of_file(ranks, path)),
       content_(std::move(content)),
       options_(std::move(options)) {
   const QuietHdf5 quiet;

@@ -34,7 +34,7 @@ class FrameFiles {
  public:
   /// @param content what is in them
   /// @throws std::invalid_argument
-  FrameFiles(const Communicator& ranks, std::string path, std::string content,
+  FrameFiles(const Communicator& ranks, const std::string& path, std::string content,
              DistributedFileOptions options);
 
   std::size_t done() const { return done_; }

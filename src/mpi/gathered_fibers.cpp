@@ -68,21 +68,33 @@ FiberAssembly joined(const FiberRuns& runs) {
   return {std::move(points), std::move(offsets), shared_if_equal(std::move(radii))};
 }
 
+/// What the fibres of sorted runs are called, each once.
+FiberNames names_of(const FiberRuns& runs, const FiberNames& by_number) {
+  std::vector<std::string> names;
+  for (const FiberRun& run : runs.runs) {
+    if (run.first.segment == 0) {
+      names.push_back(by_number.of(run.first.fiber));
+    }
+  }
+  return FiberNames(std::move(names));
+}
+
 }  // namespace
 
-FiberAssembly gather_fibers(const Communicator& ranks, DistributedFibers fibers) {
+WholeFibers gather_fibers(const Communicator& ranks, DistributedFibers fibers) {
   const FiberChains chains(ranks, fibers.parts, fibers.names);
   // Parts that do not meet are refused; of the lengths hardly any are kept.
   chains.arc_lengths(ranks, fibers.parts, fibers.names, 1U << 20U);
   std::vector<FiberRuns> to(static_cast<std::size_t>(ranks.size()));
   to[0] = runs_of(fibers);
+  const FiberNames names = std::move(fibers.fiber_names);
   fibers = {};
   FiberRuns all = exchange_runs(ranks, std::move(to));
   std::sort(all.runs.begin(), all.runs.end(),
             [](const FiberRun& x, const FiberRun& y) { return x.first < y.first; });
-  FiberAssembly assembly;
-  ranks.agree(error_in([&] { assembly = joined(all); }));
-  return assembly;
+  WholeFibers whole;
+  ranks.agree(error_in([&] { whole = {joined(all), names_of(all, names)}; }));
+  return whole;
 }
 
 }  // namespace fiber

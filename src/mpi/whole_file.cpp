@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <filesystem>
 #include <system_error>
+#include <vector>
 
 #include "fiber_proximity/io/file.hpp"
 
@@ -30,7 +31,36 @@ void with_file(const std::string& path, int flags, const Work& work) {
   }
 }
 
+WritePlace place_of_name(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (fs::is_directory(status)) {
+    throw FileError(path, "cannot be written: is a folder");
+  }
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    return {path, false};
+  }
+  constexpr int most_links = 40;  // as systems allow
+  fs::path place(path);
+  for (int links = 0; fs::is_symlink(fs::symlink_status(place, error)); ++links) {
+    if (links == most_links) {
+      throw FileError(path, "cannot be written: too many links");
+    }
+    place = place.parent_path() / fs::read_symlink(place);  // an absolute one replaces all
+  }
+  return {place.string(), true};
+}
+
 }  // namespace
+
+WritePlace write_place(const Communicator& ranks, const std::string& path) {
+  WritePlace place;
+  on_first_rank(ranks, [&] { place = place_of_name(path); });
+  const std::vector<char> text =
+      ranks.from_first(std::vector<char>(place.path.begin(), place.path.end()));
+  return {{text.begin(), text.end()}, ranks.from_first(place.is_file)};
+}
 
 void reserve(const std::string& path, std::uint64_t size) {
   with_file(path, O_WRONLY, [size](int file) {

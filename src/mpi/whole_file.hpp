@@ -3,7 +3,22 @@
 #include <cstdint>
 #include <string>
 
+#include "src/mpi/communicator.hpp"
+
 namespace fiber {
+
+/// Where what is written under a name goes: to what a link leads to, never in the place of a link.
+struct WritePlace {
+  std::string path;
+
+  /// A file, or nothing so far: it is written aside and gets its name once it is whole. Otherwise a
+  /// device, a pipe or a socket, which is written to as it stands.
+  bool is_file = true;
+};
+
+/// Collective; rank 0 looks.
+/// @throws std::invalid_argument for a folder, and for links that lead in a circle
+WritePlace write_place(const Communicator& ranks, const std::string& path);
 
 /// How a file is called while it is written.
 inline std::string aside(const std::string& path) { return path + ".part"; }

@@ -16,6 +16,16 @@ Fibers::State Fibers::state() const {
   return state_;
 }
 
+FiberNames Fibers::names() const {
+  const std::lock_guard<std::mutex> lock(newest_);
+  return names_;
+}
+
+void Fibers::rename(FiberNames names) {
+  const std::lock_guard<std::mutex> lock(newest_);
+  names_ = std::move(names);
+}
+
 void Fibers::move(const double* rows, std::size_t count) {
   const std::lock_guard<std::mutex> one_at_a_time(moving_);
   copy_points(rows, count, incoming_);
@@ -86,6 +96,37 @@ void require_segment(const FiberAssembly& fibers, std::uint32_t fiber, std::uint
 }
 
 namespace {
+
+// Names are bytes that need not be UTF-8: what is none comes and goes as Python has it in paths.
+
+py::list fiber_name_list(const Fibers& fibers) {
+  py::list names;
+  for (const std::string& name : fibers.names().list(fibers.state()->fiber_count())) {
+    names.append(py::reinterpret_steal<py::str>(PyUnicode_DecodeUTF8(
+        name.data(), static_cast<Py_ssize_t>(name.size()), "surrogateescape")));
+  }
+  return names;
+}
+
+void rename_fibers(Fibers& fibers, const py::iterable& names) {
+  std::vector<std::string> texts;
+  for (const py::handle name : names) {
+    if (!py::isinstance<py::str>(name)) {
+      throw py::type_error("a name is a " + std::string(py::str(name.get_type())) +
+                           ", it must be a str");
+    }
+    PyObject* const bytes = PyUnicode_AsEncodedString(name.ptr(), "utf-8", "surrogateescape");
+    if (bytes == nullptr) {
+      throw py::error_already_set();
+    }
+    texts.emplace_back(py::reinterpret_steal<py::bytes>(bytes));
+  }
+  if (texts.size() != fibers.state()->fiber_count()) {
+    throw std::invalid_argument(std::to_string(texts.size()) + " names for " +
+                                std::to_string(fibers.state()->fiber_count()) + " fibres");
+  }
+  fibers.rename(FiberNames(std::move(texts)));
+}
 
 py::array points_of(const Fibers& fibers) {
   const Fibers::State state = fibers.state();
@@ -246,6 +287,9 @@ array([1., 1.])
           "points.")
       .def_property_readonly("radii", &radii_of,
                              "(1,), (fibres,) or (n,) float64 [m], read-only: as they were given.")
+      .def_property("names", &fiber_name_list, &rename_fibers,
+                    "What the fibres are called, (fibres,) of str: as in the file that they were "
+                    "read from, and where they are written; without names, their indices.")
       .def_property_readonly(
           "segment_count", [](const Fibers& fibers) { return fibers.state()->segment_count(); },
           "Number of segments of all fibres.")
@@ -266,7 +310,8 @@ array([1., 1.])
                                       ", there are " + std::to_string(state->fiber_count()));
               }
             }
-            return std::make_shared<Fibers>(select_fibers(*state, indices));
+            return std::make_shared<Fibers>(select_fibers(*state, indices),
+                                            fibers.names().select(indices));
           },
           py::arg("fibers"), "New Fibers: some of these, by index, in this order.")
       .def(

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/io/fiber_names.hpp"
 #include "src/python/arrays.hpp"
 #include "src/python/shared.hpp"
 
@@ -17,8 +18,11 @@ class Fibers : public OnlyShared {
  public:
   using State = std::shared_ptr<const FiberAssembly>;
 
-  explicit Fibers(FiberAssembly fibers)
-      : state_(std::make_shared<FiberAssembly>(std::move(fibers))) {}
+  explicit Fibers(FiberAssembly fibers, FiberNames names = {})
+      : names_(std::move(names)), state_(std::make_shared<FiberAssembly>(std::move(fibers))) {}
+
+  FiberNames names() const;
+  void rename(FiberNames names);
 
   /// The newest one.
   State state() const;
@@ -30,7 +34,8 @@ class Fibers : public OnlyShared {
 
  private:
   std::mutex moving_;          // one move at a time
-  mutable std::mutex newest_;  // guards state_
+  mutable std::mutex newest_;  // guards state_ and names_
+  FiberNames names_;
   std::shared_ptr<FiberAssembly> state_;
   std::shared_ptr<FiberAssembly> spare_;
   std::vector<Eigen::Vector3d> incoming_;

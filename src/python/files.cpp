@@ -11,14 +11,25 @@
 namespace fiber::python {
 namespace {
 
-FiberFile read_file(const std::string& path, double default_radius) {
-  require_readable(path);
+FiberFile read_without_lock(const std::string& path, double default_radius) {
   const WithoutPythonLock others_may_run;
   try {
     return read_fibers(path, default_radius);
   } catch (const FileError& error) {
     throw std::invalid_argument(error.what());  // it can be read, so what it holds is wrong
   }
+}
+
+/// What of the file is not read is a warning.
+FiberFile read_file(const std::string& path, double default_radius) {
+  require_readable(path);
+  FiberFile file = read_without_lock(path, default_radius);
+  for (const std::string& note : file.notes) {
+    if (PyErr_WarnEx(PyExc_UserWarning, (path + ": " + note).c_str(), 1) != 0) {
+      throw py::error_already_set();
+    }
+  }
+  return file;
 }
 
 std::shared_ptr<Fibers> read(const py::object& path, double default_radius) {
@@ -28,7 +39,8 @@ std::shared_ptr<Fibers> read(const py::object& path, double default_radius) {
     throw std::invalid_argument(name + " holds " + std::to_string(file.frames.size()) +
                                 " frames: read_frames() reads them");
   }
-  return std::make_shared<Fibers>(std::move(file.frames.front().fibers));
+  return std::make_shared<Fibers>(std::move(file.frames.front().fibers),
+                                  std::move(file.frames.front().names));
 }
 
 std::vector<std::pair<std::int64_t, std::shared_ptr<Fibers>>> read_frames(const py::object& path,
@@ -37,7 +49,8 @@ std::vector<std::pair<std::int64_t, std::shared_ptr<Fibers>>> read_frames(const 
   std::vector<std::pair<std::int64_t, std::shared_ptr<Fibers>>> frames;
   frames.reserve(file.frames.size());
   for (FiberFrame& frame : file.frames) {
-    frames.emplace_back(frame.frame, std::make_shared<Fibers>(std::move(frame.fibers)));
+    frames.emplace_back(frame.frame,
+                        std::make_shared<Fibers>(std::move(frame.fibers), std::move(frame.names)));
   }
   return frames;
 }
@@ -45,9 +58,10 @@ std::vector<std::pair<std::int64_t, std::shared_ptr<Fibers>>> read_frames(const 
 void write(const py::object& path, const py::object& fibers) {
   const std::string name = to_path(path);
   const Fibers::State state = to_state(fibers, "fibers");
+  const FiberNames names = fibers.cast<const Fibers&>().names();
   const WithoutPythonLock others_may_run;
   FiberWriter writer(name, false);
-  writer.write({0, *state});
+  writer.write({0, *state, names});
   writer.finish();
 }
 
@@ -66,12 +80,14 @@ void write_frames(const py::object& path, const py::iterable& frames, const py::
       std::tie(number, fibers) = frame.cast<std::pair<std::int64_t, py::object>>();
     }
     const Fibers::State state = to_state(fibers, "a frame");
+    const FiberNames names = fibers.cast<const Fibers&>().names();
     if (seconds && count >= seconds->size()) {
       throw std::invalid_argument("there are more frames than times, " +
                                   std::to_string(seconds->size()));
     }
     const WithoutPythonLock others_may_run;
-    writer.write({number, *state}, seconds ? std::make_optional((*seconds)[count]) : std::nullopt);
+    writer.write({number, *state, names},
+                 seconds ? std::make_optional((*seconds)[count]) : std::nullopt);
     ++count;
   }
   if (seconds && count != seconds->size()) {
@@ -96,7 +112,10 @@ void bind_files(py::module& module) {
     }
   });
   module.def("read", &read, py::arg("path"), py::arg("default_radius") = 0.0, R"(
-Reads a file of fibres at one moment: CSV (`fiber,x,y,z[,radius]`) or .hair.
+Reads a file of fibres at one moment: CSV or .hair.
+
+CSV has a header with the columns x, y, z and, where there are any, fiber (names), frame and radius,
+in any order, separated by commas, semicolons, tabs or blanks. A warning names others.
 
 Parameters
 ----------
@@ -113,21 +132,22 @@ Raises
 FileNotFoundError, OSError
     For a file that cannot be read.
 ValueError
-    For what it should not hold, naming file and line; for several frames.
+    For what it should not hold, naming file and line; for several frames; for a name of another
+    format, as .h5 or .vtp.
 )");
   module.def("read_frames", &read_frames, py::arg("path"), py::arg("default_radius") = 0.0,
-             "Reads a file with frames (a CSV file with a leading column `frame`): a list of "
+             "Reads a file with frames (a CSV file with a column `frame`): a list of "
              "(number, Fibers). A file without numbers has one frame, 0. Raises as ``read()``.");
   module.def("write", &write, py::arg("path"), py::arg("fibers"), R"(
-Writes fibres to a file: .hair, .pvd for ParaView, any other name CSV. Numbers read back as the
-same, but for .hair, which has single precision.
+Writes fibres to a file: .hair, .pvd for ParaView, or CSV. Numbers read back as the same, but for
+.hair, which has single precision; CSV has names of fibres, too.
 
 Raises
 ------
 FileNotFoundError, OSError
     For a file that cannot be written.
 ValueError
-    For fibres that the format cannot hold.
+    For fibres that the format cannot hold; for a name of another format, as .h5 or .vtp.
 
 >>> import os, tempfile
 >>> from fiber_proximity import Fibers, read, write

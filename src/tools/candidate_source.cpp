@@ -7,6 +7,7 @@
 
 #include "fiber_proximity/io/file.hpp"
 #include "src/mpi/gathered_fibers.hpp"
+#include "src/tools/read_input.hpp"
 
 namespace fiber {
 namespace {
@@ -25,6 +26,13 @@ class Packer {
     add(&count, 1);
     add(values.data(), count);
   }
+  void add(const FiberNames& names) {
+    const std::uint64_t count = names.size();
+    add(&count, 1);
+    for (const std::string& name : names.list(count)) {
+      add(std::vector<char>(name.begin(), name.end()));
+    }
+  }
   std::vector<char> take() { return std::move(bytes_); }
 
  private:
@@ -40,10 +48,19 @@ class Unpacker {
     auto points = values<Eigen::Vector3d>();
     auto offsets = values<std::uint32_t>();
     auto radii = values<double>();
-    return {number, {std::move(points), std::move(offsets), std::move(radii)}};
+    return {number, {std::move(points), std::move(offsets), std::move(radii)}, names()};
   }
 
  private:
+  FiberNames names() {
+    std::vector<std::string> names(value<std::uint64_t>());
+    for (std::string& name : names) {
+      const std::vector<char> letters = values<char>();
+      name.assign(letters.begin(), letters.end());
+    }
+    return FiberNames(std::move(names));
+  }
+
   template <class T>
   T value() {
     T value;
@@ -87,7 +104,7 @@ CandidateSource::CandidateSource(const Communicator& ranks, const std::string& p
     frame_count_ = reader_->frame_count();
     return;
   }
-  on_first_rank(ranks, [&] { file_ = read_fibers(path, radius); });
+  on_first_rank(ranks, [&] { file_ = read_input("fiber_query_mpi", path, radius); });
   has_frames_ = ranks.from_first(file_.has_frames);
   frame_count_ = ranks.from_first<std::uint64_t>(file_.frames.size());
 }
@@ -100,6 +117,7 @@ std::vector<char> CandidateSource::pack(const WorkRange& range) {
     packer.add(frame.fibers.points());
     packer.add(frame.fibers.offsets());
     packer.add(frame.fibers.radii());
+    packer.add(frame.names);
   }
   return packer.take();
 }
@@ -108,8 +126,11 @@ FiberFrame CandidateSource::read(std::uint64_t index) const {
   FiberFrame frame;
   DistributedFibers fibers;
   on_rank_alone("", [&] { frame.frame = reader_->read(index, fibers); });
-  on_rank_alone(path_ + ": frame " + std::to_string(frame.frame) + ": ",
-                [&] { frame.fibers = gather_fibers(alone_, std::move(fibers)); });
+  on_rank_alone(path_ + ": frame " + std::to_string(frame.frame) + ": ", [&] {
+    WholeFibers whole = gather_fibers(alone_, std::move(fibers));
+    frame.fibers = std::move(whole.fibers);
+    frame.names = std::move(whole.names);
+  });
   return frame;
 }
 

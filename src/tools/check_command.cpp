@@ -13,6 +13,7 @@
 
 #include "fiber_proximity/environment/check_fibers.hpp"
 #include "src/environment/scene/environment_scene.hpp"
+#include "src/io/file_format.hpp"
 #include "src/mpi/communicator.hpp"
 #include "src/mpi/dealt_work.hpp"
 #include "src/query/threads.hpp"
@@ -81,18 +82,20 @@ class Around {
   Around(const Around&) = delete;
   Around& operator=(const Around&) = delete;
 
-  /// For candidates of at most so many fibres. Their names are their indices.
-  const Surroundings& surroundings(std::size_t fiber_count) {
-    if (fiber_count > names_.size()) {
-      while (names_.size() < fiber_count) {
-        names_.push_back(std::to_string(names_.size()));
-      }
-      surroundings_.allowed = resolve(allowed_, names_);
+  /// For candidates of at most so many fibres, of these names.
+  const Surroundings& surroundings(const FiberNames& names, std::size_t fiber_count) {
+    if (fiber_count > fiber_count_ || names != names_) {
+      names_ = names;
+      fiber_count_ = fiber_count;
+      surroundings_.allowed = resolve(allowed_, names.list(fiber_count));
     }
     return surroundings_;
   }
 
   const Environment* environment() const { return surroundings_.environment; }
+
+  /// Of the fibres that there are.
+  const FiberNames& fiber_names() const { return fibers_.names; }
 
  private:
   void read_environment(const std::string& path) {
@@ -115,19 +118,22 @@ class Around {
 
   void read_fibers_on_all(const Communicator& ranks, const CheckRequest& request) {
     CandidateSource source(ranks, request.fibers, request.radius);
-    fibers_ = source.take_on_all(ranks, 0).fibers;
+    fibers_ = source.take_on_all(ranks, 0);
     EngineOptions options;
     options.threads = request.threads;
     engine_ = make_engine("run_tree", options);
-    engine_->update(fibers_);
+    engine_->update(fibers_.fibers);
   }
 
   std::optional<Environment> environment_;
   std::vector<NamedPair> allowed_;
-  FiberAssembly fibers_;
+  FiberFrame fibers_;
   std::unique_ptr<ProximityEngine> engine_;
-  std::vector<std::string> names_;
+
+  // Of the candidates that `allowed` of these is for:
   Surroundings surroundings_;
+  FiberNames names_;
+  std::size_t fiber_count_ = 0;
 };
 
 /// Checks candidates on this rank.
@@ -141,25 +147,39 @@ class RankChecker {
 
   RangeText check(const WorkRange& range, const std::vector<char>& packed) {
     std::vector<FiberFrame> frames = source_.take(range, packed);
-    candidates_.clear();
-    std::size_t fiber_count = 0;
-    for (FiberFrame& frame : frames) {
-      fiber_count = std::max(fiber_count, frame.fibers.fiber_count());
-      candidates_.push_back(std::move(frame.fibers));
-    }
-    const Surroundings& surroundings = around_.surroundings(fiber_count);
-    arena_.execute([&] { check_fibers(candidates_, surroundings, options_, checks_); });
     std::ostringstream rows;
     TextOutput output(rows);
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-      write_check(output, {source_.has_frames(), frames[i].frame}, checks_[i],
-                  around_.environment());
+    for (auto begin = frames.begin(); begin != frames.end();) {
+      const auto end = std::find_if(begin, frames.end(), [&](const FiberFrame& frame) {
+        return frame.names != begin->names;
+      });
+      check_alike(begin, end, output);
+      begin = end;
     }
     output.flush();
     return {range.begin, rows.str()};
   }
 
  private:
+  using Frames = std::vector<FiberFrame>::iterator;
+
+  /// Candidates whose fibres have the same names, which say what they may touch.
+  void check_alike(Frames begin, Frames end, TextOutput& output) {
+    candidates_.clear();
+    std::size_t fiber_count = 0;
+    for (auto frame = begin; frame != end; ++frame) {
+      fiber_count = std::max(fiber_count, frame->fibers.fiber_count());
+      candidates_.push_back(std::move(frame->fibers));
+    }
+    const Surroundings& surroundings = around_.surroundings(begin->names, fiber_count);
+    arena_.execute([&] { check_fibers(candidates_, surroundings, options_, checks_); });
+    for (const FiberCheck& check : checks_) {
+      write_check(output, {source_.has_frames(), begin->frame}, check,
+                  {begin->names, around_.fiber_names()}, around_.environment());
+      ++begin;
+    }
+  }
+
   CandidateSource& source_;
   Around& around_;
   const QueryOptions options_;
@@ -169,9 +189,7 @@ class RankChecker {
 };
 
 ExitCode run(const CheckRequest& request) {
-  if (request.resume && request.out.empty()) {
-    throw std::invalid_argument("--resume: what went to stdout cannot be gone on with, give --out");
-  }
+  require_format(FileFormat::CSV, "--out", request.out);
   const Communicator ranks(MPI_COMM_WORLD);
   for (const std::string& in : {request.file, request.environment, request.fibers}) {
     require_other_file(ranks, in, request.out);

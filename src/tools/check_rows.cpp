@@ -3,22 +3,10 @@
 #include <algorithm>
 #include <string>
 
-#include "src/tools/contact_rows.hpp"
+#include "src/text/csv_field.hpp"
 
 namespace fiber {
 namespace {
-
-/// A field of CSV, whatever is in the text.
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) {
-    return text;
-  }
-  std::string quoted = "\"";
-  for (const char character : text) {
-    quoted += character == '"' ? "\"\"" : std::string(1, character);
-  }
-  return quoted + '"';
-}
 
 /// A line for what has no contact.
 std::string row_of_free(const FrameNumber& frame) {
@@ -35,21 +23,23 @@ std::string check_header(bool has_frames) {
 }
 
 void write_check(TextOutput& output, const FrameNumber& frame, const FiberCheck& check,
-                 const Environment* environment) {
+                 const PairNames& names, const Environment* environment) {
   if (check.is_free()) {
     output.write(row_of_free(frame));
   }
-  const auto write = [&](const QueryResult& result, const std::string& with) {
+  const auto write = [&](const QueryResult& result, const std::string& with,
+                         const FiberNames& names_b) {
     for (const Contact& contact : result.contacts) {
-      const bool is_object = &result == &check.environment;
-      write_csv_contact(
-          output, contact, frame, false, with,
-          is_object ? csv_field(environment->objects()[contact.fiber_b].name) : std::string());
+      std::string object;
+      if (&result == &check.environment) {
+        append_csv_field(object, environment->objects()[contact.fiber_b].name);
+      }
+      write_csv_contact(output, contact, {names.a, names_b}, frame, false, with, object);
     }
   };
-  write(check.self, "candidate");
-  write(check.fibers, "fiber");
-  write(check.environment, "object");
+  write(check.self, "candidate", names.a);
+  write(check.fibers, "fiber", names.b);
+  write(check.environment, "object", {});
 }
 
 }  // namespace fiber

@@ -10,6 +10,7 @@
 #include "fiber_proximity/compare/fcl_comparer.hpp"
 #include "fiber_proximity/io/fiber_file.hpp"
 #include "src/tools/fiber_query.hpp"
+#include "src/tools/read_input.hpp"
 #include "src/tools/text_output.hpp"
 
 namespace fiber {
@@ -25,6 +26,7 @@ struct CompareRequest : FiberRequest {
 /// One frame of a file, compared.
 struct FrameComparison {
   FrameNumber frame;
+  const FiberNames& names;
   double update_time = 0.0;  // [s] of our engine
   Comparison comparison;
 };
@@ -36,8 +38,8 @@ std::string milliseconds(double seconds) {
   return text.data();
 }
 
-std::string segment(const SegmentId& id) {
-  return std::to_string(id.fiber) + "/" + std::to_string(id.segment);
+std::string segment(const FiberNames& names, const SegmentId& id) {
+  return names.of(id.fiber) + "/" + std::to_string(id.segment);
 }
 
 std::string described(const std::optional<PairClaim>& claim) {
@@ -58,8 +60,9 @@ const char* described(Verdict verdict) {
   return "both are wrong";
 }
 
-std::string described(const Disagreement& pair) {
-  return segment(pair.a) + " - " + segment(pair.b) + ": ours " + described(pair.ours) + ", FCL " +
+std::string described(const FiberNames& names, const Disagreement& pair) {
+  return segment(names, pair.a) + " - " + segment(names, pair.b) + ": ours " +
+         described(pair.ours) + ", FCL " +
          (pair.fcl_has_answer ? described(pair.fcl) : "no answer") + ", true gap " +
          text_of(pair.gap) + " m" + (pair.is_contact ? " (contact)" : " (no contact)") + ": " +
          described(pair.verdict);
@@ -72,10 +75,10 @@ nlohmann::ordered_json json_of(const std::optional<PairClaim>& claim) {
   return claim->gap;
 }
 
-nlohmann::ordered_json json_of(const Disagreement& pair) {
-  return {{"fiber_a", pair.a.fiber},
+nlohmann::ordered_json json_of(const FiberNames& names, const Disagreement& pair) {
+  return {{"fiber_a", json_of(FiberCalled{names, pair.a.fiber})},
           {"segment_a", pair.a.segment},
-          {"fiber_b", pair.b.fiber},
+          {"fiber_b", json_of(FiberCalled{names, pair.b.fiber})},
           {"segment_b", pair.b.segment},
           {"ours", json_of(pair.ours)},
           {"fcl", json_of(pair.fcl)},
@@ -85,7 +88,7 @@ nlohmann::ordered_json json_of(const Disagreement& pair) {
           {"verdict", name_of(pair.verdict)}};
 }
 
-nlohmann::ordered_json json_of(const StyleComparison& style) {
+nlohmann::ordered_json json_of(const FiberNames& names, const StyleComparison& style) {
   nlohmann::ordered_json object = {
       {"style", name_of(style.style)},    {"update_time", style.update_time},
       {"detect_time", style.detect_time}, {"pair_tests", style.pair_tests},
@@ -94,7 +97,7 @@ nlohmann::ordered_json json_of(const StyleComparison& style) {
       {"no_answer", style.no_answer},     {"largest_difference", style.largest_difference}};
   object["disagreements"] = nlohmann::ordered_json::array();
   for (const Disagreement& pair : style.disagreements) {
-    object["disagreements"].push_back(json_of(pair));
+    object["disagreements"].push_back(json_of(names, pair));
   }
   return object;
 }
@@ -136,10 +139,10 @@ void write_json(TextOutput& output, const FrameComparison& frame) {
                     {"contacts", comparison.contacts}};
   object["fcl"] = nlohmann::ordered_json::array();
   for (const StyleComparison& style : comparison.styles) {
-    object["fcl"].push_back(json_of(style));
+    object["fcl"].push_back(json_of(frame.names, style));
   }
   object["ours_is_right"] = comparison.ours_is_right();
-  output.write(object.dump() + '\n');
+  output.write_line(object);
 }
 
 /// Lines to read: one for our engine, one for each style and for each disagreement.
@@ -159,11 +162,12 @@ void write_text(TextOutput& output, const FrameComparison& frame) {
             ", no answer " + std::to_string(style.no_answer);
     if (style.largest_difference > 0.0) {
       text += "; distances differ by up to " + text_of(style.largest_difference) + " m (" +
-              segment(style.largest_a) + " - " + segment(style.largest_b) + ")";
+              segment(frame.names, style.largest_a) + " - " +
+              segment(frame.names, style.largest_b) + ")";
     }
     text += '\n';
     for (const Disagreement& pair : style.disagreements) {
-      text += "    " + described(pair) + '\n';
+      text += "    " + described(frame.names, pair) + '\n';
     }
   }
   output.write(text);
@@ -201,7 +205,7 @@ class Totals {
 ExitCode run(const CompareRequest& request) {
   const std::unique_ptr<ProximityEngine> engine =
       make_engine(request.engine, request.engine_options);
-  const FiberFile file = read_fibers(request.file, request.radius);
+  const FiberFile file = read_input("fiber_query", request.file, request.radius);
   const bool csv = request.format == "csv";
   const auto write = csv ? write_csv : request.format == "json" ? write_json : write_text;
   FclComparer comparer;
@@ -213,6 +217,7 @@ ExitCode run(const CompareRequest& request) {
     engine->update(frame.fibers);
     const std::chrono::duration<double> update = std::chrono::steady_clock::now() - begin;
     const FrameComparison found{{file.has_frames, frame.frame},
+                                frame.names,
                                 update.count(),
                                 comparer.compare(frame.fibers, *engine, request.query)};
     totals.add(found.comparison);

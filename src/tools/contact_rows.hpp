@@ -13,31 +13,40 @@ constexpr const char* contact_columns =
     "fiber_a,segment_a,s,fiber_b,segment_b,t,distance,point_a_x,point_a_y,point_a_z,"
     "point_b_x,point_b_y,point_b_z,normal_x,normal_y,normal_z,lower,upper\n";
 
+/// What the fibres of a pair are called.
+struct PairNames {
+  const FiberNames& a;
+  const FiberNames& b;
+};
+
 /// A line of CSV.
 /// @param contact Contact, or DistributedContact
 /// @param fields  before those of the contact
 template <class AnyContact, class... Fields>
-void write_csv_contact(TextOutput& output, const AnyContact& contact, const Fields&... fields) {
-  output.write_row(fields..., contact.fiber_a, contact.segment_a, contact.s, contact.fiber_b,
-                   contact.segment_b, contact.t, contact.distance, contact.point_a, contact.point_b,
-                   contact.normal, contact.lower, contact.upper);
+void write_csv_contact(TextOutput& output, const AnyContact& contact, const PairNames& names,
+                       const Fields&... fields) {
+  output.write_row(fields..., FiberCalled{names.a, contact.fiber_a}, contact.segment_a, contact.s,
+                   FiberCalled{names.b, contact.fiber_b}, contact.segment_b, contact.t,
+                   contact.distance, contact.point_a, contact.point_b, contact.normal,
+                   contact.lower, contact.upper);
 }
 
 /// A line per contact.
 template <class Contacts>
-void write_csv_contacts(TextOutput& output, const FrameNumber& frame, const Contacts& contacts) {
+void write_csv_contacts(TextOutput& output, const FrameNumber& frame, const FiberNames& names,
+                        const Contacts& contacts) {
   for (const auto& contact : contacts) {
-    write_csv_contact(output, contact, frame);
+    write_csv_contact(output, contact, {names, names}, frame);
   }
 }
 
 /// @param contact Contact, or DistributedContact
 template <class AnyContact>
-nlohmann::ordered_json json_of_contact(const AnyContact& contact) {
-  return {{"fiber_a", contact.fiber_a},
+nlohmann::ordered_json json_of_contact(const FiberNames& names, const AnyContact& contact) {
+  return {{"fiber_a", json_of(FiberCalled{names, contact.fiber_a})},
           {"segment_a", contact.segment_a},
           {"s", contact.s},
-          {"fiber_b", contact.fiber_b},
+          {"fiber_b", json_of(FiberCalled{names, contact.fiber_b})},
           {"segment_b", contact.segment_b},
           {"t", contact.t},
           {"distance", contact.distance},

@@ -23,19 +23,22 @@ ContactSink::ContactSink(const Communicator& ranks, const ContactTarget& target,
   });
 }
 
-void ContactSink::write(const FrameNumber& frame, DistributedResult& result) {
+void ContactSink::write(const FrameNumber& frame, const FiberNames& names,
+                        DistributedResult& result) {
   sort_over_ranks(ranks_.handle(), result);
   if (hdf5_) {
-    hdf5_->write(frame.number, result);
+    hdf5_->write(frame.number, result, names);
   } else if (format_ == ContactFormat::JSON) {
-    write_json(frame, result);
+    write_json(frame, names, result);
   } else {
-    text_->append([&](TextOutput& output) { write_csv_contacts(output, frame, result.contacts); });
+    text_->append(
+        [&](TextOutput& output) { write_csv_contacts(output, frame, names, result.contacts); });
   }
 }
 
 /// One object, whose contacts the ranks write one after another.
-void ContactSink::write_json(const FrameNumber& frame, const DistributedResult& result) {
+void ContactSink::write_json(const FrameNumber& frame, const FiberNames& names,
+                             const DistributedResult& result) {
   double lower = result.others_lower;
   for (const DistributedContact& contact : result.contacts) {
     lower = std::min(lower, contact.lower);
@@ -49,7 +52,10 @@ void ContactSink::write_json(const FrameNumber& frame, const DistributedResult& 
     if (ranks_.rank() == 0) {
       output.begin_object(json_of_answer(frame, result.complete, lower), "contacts");
     }
-    output.write_items(result.contacts, json_of_contact<DistributedContact>, is_first);
+    const auto to_json = [&](const DistributedContact& contact) {
+      return json_of_contact(names, contact);
+    };
+    output.write_items(result.contacts, to_json, is_first);
     if (ranks_.rank() == ranks_.size() - 1) {
       output.end_object();
     }

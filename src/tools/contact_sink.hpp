@@ -29,16 +29,18 @@ class ContactSink {
   /// How many frames an earlier run has written.
   std::size_t done() const { return hdf5_ ? hdf5_->done() : 0; }
 
+  /// @param names  of the fibres, by number
   /// @param result is sorted over the ranks by this
   /// @throws std::invalid_argument on all ranks
-  void write(const FrameNumber& frame, DistributedResult& result);
+  void write(const FrameNumber& frame, const FiberNames& names, DistributedResult& result);
 
   /// Call once, at the end.
   /// @throws std::invalid_argument on all ranks
   void finish();
 
  private:
-  void write_json(const FrameNumber& frame, const DistributedResult& result);
+  void write_json(const FrameNumber& frame, const FiberNames& names,
+                  const DistributedResult& result);
 
   const Communicator& ranks_;
   const ContactFormat format_;

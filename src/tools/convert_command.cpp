@@ -1,6 +1,5 @@
 // `fiber_query_mpi convert`: fibres from one format to another.
-#include <algorithm>
-#include <filesystem>
+#include <iostream>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -10,6 +9,7 @@
 
 #include "fiber_proximity/io/fiber_file.hpp"
 #include "fiber_proximity/mpi/distributed_files.hpp"
+#include "src/io/file_format.hpp"
 #include "src/io/number.hpp"
 #include "src/mpi/communicator.hpp"
 #include "src/mpi/gathered_fibers.hpp"
@@ -50,24 +50,33 @@ void convert_to_hdf5(const Communicator& ranks, const ConvertRequest& request,
 /// A file that rank 0 writes, in a format that has no parts.
 class SerialFile {
  public:
-  SerialFile(std::string path, bool has_frames) : path_(std::move(path)), has_frames_(has_frames) {
-    if (is_hair()) {
-      OutputFile(aside(path_)).close();  // whether it can be written
-    } else {
-      csv_.emplace(aside(path_), has_frames);
+  SerialFile(WritePlace place, FileFormat format, bool has_frames)
+      : place_(std::move(place)), has_frames_(has_frames) {
+    if (format == FileFormat::CSV) {
+      csv_.emplace(written(), has_frames);
+    } else if (place_.is_file) {
+      OutputFile(written()).close();  // whether it can be written
     }
   }
-  ~SerialFile() { remove_aside(path_); }
+  ~SerialFile() {
+    if (place_.is_file) {
+      remove_aside(place_.path);
+    }
+  }
   SerialFile(const SerialFile&) = delete;
   SerialFile& operator=(const SerialFile&) = delete;
 
   void write(FiberFrame frame) {
     if (csv_) {
       csv_->write(frame);
-    } else {
-      FiberFile file{has_frames_, {}};
-      file.frames.push_back(std::move(frame));
-      write_hair(aside(path_), file);
+      return;
+    }
+    FiberFile file{has_frames_, {}};
+    file.frames.push_back(std::move(frame));
+    write_hair(written(), file);
+    if (!file.frames.front().names.are_indices()) {
+      std::cerr << "fiber_query_mpi: " << place_.path
+                << ": .hair has no names: fibres are only in their order\n";
     }
   }
 
@@ -75,13 +84,15 @@ class SerialFile {
     if (csv_) {
       csv_->finish();
     }
-    move_into_place(path_);
+    if (place_.is_file) {
+      move_into_place(place_.path);
+    }
   }
 
  private:
-  bool is_hair() const { return end_of_name(path_) == ".hair"; }
+  std::string written() const { return place_.is_file ? aside(place_.path) : place_.path; }
 
-  const std::string path_;
+  const WritePlace place_;
   const bool has_frames_;
   std::optional<CsvWriter> csv_;  // else .hair
 };
@@ -89,22 +100,25 @@ class SerialFile {
 void convert_on_first_rank(const Communicator& ranks, const ConvertRequest& request,
                            FiberSource& source) {
   std::optional<SerialFile> file;
-  on_first_rank(ranks, [&] { file.emplace(request.out, source.has_frames()); });
+  const WritePlace place = write_place(ranks, request.out);
+  on_first_rank(ranks, [&] { file.emplace(place, format_of(request.out), source.has_frames()); });
   Progress progress = rank_progress(ranks);
   DistributedFibers fibers;
   for (std::size_t i = 0; i < source.frame_count(); ++i) {
     const std::int64_t frame = source.read(i, fibers);
-    FiberAssembly all = gather_fibers(ranks, std::exchange(fibers, {}));
-    on_first_rank(ranks, [&] { file->write({frame, std::move(all)}); });
+    WholeFibers all = gather_fibers(ranks, std::exchange(fibers, {}));
+    on_first_rank(ranks, [&] {
+      file->write({frame, std::move(all.fibers), std::move(all.names)});
+    });
     show_done(progress, i + 1, source.frame_count(), "frames");
   }
   on_first_rank(ranks, [&] { file->finish(); });
 }
 
 ExitCode convert(const ConvertRequest& request) {
-  const std::string end = end_of_name(request.out);
-  const bool is_hdf5 = is_hdf5_name(request.out);
-  if (!is_hdf5 && end != ".csv" && end != ".hair") {
+  const std::optional<FileFormat> format = format_meant(request.out);
+  const bool is_hdf5 = format == FileFormat::HDF5;
+  if (!is_hdf5 && format != FileFormat::HAIR && format != FileFormat::CSV) {
     throw std::invalid_argument("OUT: " + quote(request.out) + " must end in .h5, .csv or .hair");
   }
   if (request.resume && !is_hdf5) {

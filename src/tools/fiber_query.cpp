@@ -9,6 +9,7 @@
 #include "fiber_proximity/query/engine.hpp"
 #include "src/tools/command_line.hpp"
 #include "src/tools/contact_rows.hpp"
+#include "src/tools/read_input.hpp"
 #include "src/tools/text_output.hpp"
 
 namespace fiber {
@@ -26,20 +27,22 @@ using Ask = std::function<void(const ProximityEngine& engine, QueryResult& resul
 
 void add_file_options(CLI::App& app, Request& request) {
   add_fiber_options(app, request);
-  app.add_option("--format", request.format, "of the output; json: one object per frame")
+  app.add_option("--format", request.format, format_help)
       ->check(CLI::IsMember({"csv", "json"}))
       ->capture_default_str();
 }
 
-void write_json_contacts(TextOutput& output, const FrameNumber& frame, const QueryResult& result) {
+void write_json_contacts(TextOutput& output, const FrameNumber& frame, const FiberNames& names,
+                         const QueryResult& result) {
   output.write_object(json_of_answer(frame, result.complete, result.minimum_lower()), "contacts",
-                      result.contacts, json_of_contact<Contact>);
+                      result.contacts,
+                      [&](const Contact& contact) { return json_of_contact(names, contact); });
 }
 
 ExitCode run(const Request& request, const Ask& ask) {
   const std::unique_ptr<ProximityEngine> engine =
       make_engine(request.engine, request.engine_options);
-  const FiberFile file = read_fibers(request.file, request.radius);
+  const FiberFile file = read_input("fiber_query", request.file, request.radius);
   const bool json = request.format == "json";
   QueryResult result;
   TextOutput output(std::cout);
@@ -51,9 +54,9 @@ ExitCode run(const Request& request, const Ask& ask) {
     ask(*engine, result);
     const FrameNumber number{file.has_frames, frame.frame};
     if (json) {
-      write_json_contacts(output, number, result);
+      write_json_contacts(output, number, frame.names, result);
     } else {
-      write_csv_contacts(output, number, result.contacts);
+      write_csv_contacts(output, number, frame.names, result.contacts);
     }
     output.flush();
     if (!result.complete) {
@@ -118,7 +121,7 @@ void setup(CLI::App& app, Command& command) {
 }  // namespace
 
 void add_fiber_options(CLI::App& app, FiberRequest& request, const std::string& threads) {
-  app.add_option("FILE", request.file, "fibre file (.csv or .hair)")->required();
+  app.add_option("FILE", request.file, file_help)->required();
   app.add_option("--engine", request.engine, "one of " + join(engine_names()))
       ->capture_default_str();
   app.add_option("--radius", request.radius, "of all fibres, if the file has no radii [m]")

@@ -32,6 +32,13 @@ void add_compare(CLI::App& app, Command& command);
 /// `crossings FILE [--direction X,Y,Z] [--eye X,Y,Z]`, `linking FILE` and `writhe FILE [--closed]`.
 void add_topology(CLI::App& app, Command& command);
 
+/// What is said of a file of fibres, and of what is written.
+constexpr const char* file_help =
+    "fibre file: .hair, or CSV with the columns x, y, z and where there are any frame, fiber (a "
+    "name, which answers repeat) and radius";
+constexpr const char* format_help =
+    "of the output; json: one object per frame, in which a fibre's name is a number if it is whole";
+
 /// A file of fibres, and who answers questions about them.
 struct FiberRequest {
   std::string file;

@@ -13,6 +13,7 @@
 #include "fiber_proximity/geometry/segment_distance.hpp"
 #include "fiber_proximity/mpi/distributed_engine.hpp"
 #include "fiber_proximity/mpi/distributed_files.hpp"
+#include "src/io/file_format.hpp"
 #include "src/io/number.hpp"
 #include "src/mpi/communicator.hpp"
 #include "src/mpi/part_loads.hpp"
@@ -53,11 +54,18 @@ std::string run_of(const Communicator& ranks, const MpiRequest& request, const Q
 
 /// @throws std::invalid_argument for options that do not go together
 ContactTarget target_of(const MpiRequest& request) {
-  const std::string format = request.format.value_or(is_hdf5_name(request.out) ? "hdf5" : "csv");
+  const FileFormat meant = format_of(request.out);
+  const std::string format = request.format.value_or(meant == FileFormat::HDF5   ? "hdf5"
+                                                     : meant == FileFormat::JSON ? "json"
+                                                                                 : "csv");
   const bool is_hdf5 = format == "hdf5";
   if (is_hdf5 && request.out.empty()) {
     throw std::invalid_argument("--format hdf5 needs a file to write: give it with --out");
   }
+  require_format(is_hdf5            ? FileFormat::HDF5
+                 : format == "json" ? FileFormat::JSON
+                                    : FileFormat::CSV,
+                 "--out", request.out);
   if (request.resume && !is_hdf5) {
     throw std::invalid_argument(
         "--resume: only files of HDF5 can be gone on with, give --out a name that ends in .h5");
@@ -86,7 +94,7 @@ ExitCode run(const MpiRequest& request, const Question& question) {
     engine.update(fibers.parts, fibers.names);
     engine.query(question.query, result);
     const FrameNumber number{source.has_frames(), frame};
-    sink.write(number, result);
+    sink.write(number, fibers.fiber_names, result);
     if (!result.complete) {
       std::cerr << "fiber_query_mpi: " << deadline_warning(number) << '\n';
     }
@@ -113,11 +121,12 @@ ExitCode plan_file(const MpiRequest& request, const QueryOptions& query) {
 CLI::Option* add_output_options(CLI::App& app, MpiRequest& request) {
   CLI::Option* const out =
       app.add_option("--out", request.out,
-                     "write to this file, .h5 or .csv, which has its name once it is whole; "
+                     "write to this file, .h5, .csv or .json, which has its name once it is whole; "
                      "without this, to what mpirun takes as output");
-  app.add_option("--format", request.format,
-                 "of the output; json: one object per frame; without this, hdf5 if its name ends "
-                 "in .h5, else csv")
+  app.add_option(
+         "--format", request.format,
+         "of the output; json: one object per frame, in which a fibre's name is a number if "
+         "it is whole; without this, by the end of its name, else csv")
       ->check(CLI::IsMember({"csv", "json", "hdf5"}));
   app.add_flag("--resume", request.resume,
                "go on after the last whole frame of a run that was interrupted (.h5)");
@@ -169,8 +178,8 @@ std::string text_of_pairs(const QueryOptions& query) {
 
 void add_rank_options(CLI::App& app, RankRequest& request) {
   app.add_option("FILE", request.file,
-                 "fibre file: .h5, of which each rank reads its part; .csv or .hair, which rank 0 "
-                 "reads")
+                 "fibre file: .h5, of which each rank reads its part; .hair, or CSV as fiber_query "
+                 "reads it, which rank 0 reads")
       ->required();
   app.add_option("--radius", request.radius, "of all fibres, if the file has no radii [m]")
       ->capture_default_str();

@@ -12,6 +12,7 @@
 
 #include "fiber_proximity/io/fiber_file.hpp"
 #include "fiber_proximity/sim/scene/scene.hpp"
+#include "src/io/file_format.hpp"
 #include "src/sim/scene/force_file.hpp"
 #include "src/sim/scene/report.hpp"
 #include "src/text/quote.hpp"
@@ -144,6 +145,7 @@ SimScene make_scene(const Request& request) {
   if (!request.forces.empty()) {
     require_different("--forces", request.forces, "the scene", request.scene);
     require_different("--forces", request.forces, "--out", request.out);
+    require_format(FileFormat::CSV, "--forces", request.forces);
   }
   const MeshSource meshes = mesh_files(std::filesystem::path(request.scene).parent_path());
   SimScene scene =
@@ -224,9 +226,9 @@ void setup(CLI::App& app, Command& command) {
   app.add_option("--seconds", request->seconds, "how far to simulate [s]")
       ->check(finite_number(0.0))
       ->required();
-  app.add_option("--out", request->out,
-                 "file to write: .pvd for ParaView, with a .vtp file for each frame beside it; any "
-                 "other name: CSV")
+  app.add_option(
+         "--out", request->out,
+         "file to write: CSV, or .pvd for ParaView, with a .vtp file for each frame beside it")
       ->required();
   app.add_option("--forces", request->forces,
                  "CSV file to write: what acts in the fibres and on them, frame by frame");

@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "fiber_proximity/io/file.hpp"
+#include "src/mpi/fiber_name_text.hpp"
 #include "src/text/quote.hpp"
+#include "src/tools/read_input.hpp"
 
 namespace fiber {
 
@@ -18,7 +20,7 @@ FiberSource::FiberSource(const Communicator& ranks, const std::string& path, dou
     frame_count_ = reader_->frame_count();
     return;
   }
-  on_first_rank(ranks_, [&] { file_ = read_fibers(path, radius); });
+  on_first_rank(ranks_, [&] { file_ = read_input("fiber_query_mpi", path, radius); });
   has_frames_ = ranks_.from_first(file_.has_frames);
   frame_count_ = ranks_.from_first(file_.frames.size());
 }
@@ -35,7 +37,9 @@ std::int64_t FiberSource::read(std::size_t index, DistributedFibers& fibers) {
     for (std::uint64_t fiber = 0; fiber < fibers.parts.fiber_count(); ++fiber) {
       fibers.names.push_back({fiber, 0});
     }
+    fibers.fiber_names = file_.frames[index].names;
   }
+  fibers.fiber_names = names_from_first(ranks_, fibers.fiber_names);
   return ranks_.from_first(number);
 }
 

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -83,13 +82,6 @@ void show_done(Progress& progress, std::uint64_t done, std::uint64_t all, const 
     progress.show('[' + bar + "] " + std::to_string(done) + " of " + std::to_string(all) + ' ' +
                   what);
   }
-}
-
-std::string end_of_name(const std::string& path) {
-  std::string end = std::filesystem::path(path).extension().string();
-  std::transform(end.begin(), end.end(), end.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return end;
 }
 
 void require_other_file(const Communicator& ranks, const std::string& in, const std::string& out) {

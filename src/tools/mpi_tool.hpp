@@ -21,9 +21,6 @@ Progress rank_progress(const Communicator& ranks);
 /// @param what they are
 void show_done(Progress& progress, std::uint64_t done, std::uint64_t all, const std::string& what);
 
-/// The end of a file's name from its last dot on, in small letters.
-std::string end_of_name(const std::string& path);
-
 /// @throws std::invalid_argument on all ranks if both names are of the same file
 void require_other_file(const Communicator& ranks, const std::string& in, const std::string& out);
 

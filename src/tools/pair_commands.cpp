@@ -1,4 +1,5 @@
 // The subcommands of fiber_query about pairs of segments in a file, at rest and in motion.
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -7,6 +8,7 @@
 #include "fiber_proximity/geometry/contact_time.hpp"
 #include "fiber_proximity/geometry/segment_distance.hpp"
 #include "src/io/segment_file.hpp"
+#include "src/text/csv_field.hpp"
 #include "src/tools/fiber_query.hpp"
 #include "src/tools/text_output.hpp"
 
@@ -19,10 +21,22 @@ struct SegmentsRequest {
 };
 
 ExitCode run(const SegmentsRequest& request) {
+  const std::vector<SegmentPair> pairs = read_segment_pairs(request.file);
+  const bool has_names = std::any_of(pairs.begin(), pairs.end(),
+                                     [](const SegmentPair& pair) { return !pair.name.empty(); });
   TextOutput output(std::cout);
-  output.write("distance,lower,upper,s,t\n");
-  for (const auto& [p0, p1, q0, q1] : read_segment_pairs(request.file)) {
-    const SegmentDistance nearest = segment_distance(request.kernel, p0, p1, q0, q1);
+  output.write(std::string(has_names ? "name," : "") + "distance,lower,upper,s,t\n");
+  std::string name;
+  for (const SegmentPair& pair : pairs) {
+    if (has_names) {
+      name.clear();
+      if (!pair.name.empty()) {
+        append_csv_field(name, pair.name);
+      }
+      output.write(name + ',');
+    }
+    const SegmentDistance nearest =
+        segment_distance(request.kernel, pair.p0, pair.p1, pair.q0, pair.q1);
     output.write_row(nearest.distance, nearest.lower(), nearest.upper(), nearest.s, nearest.t);
   }
   output.flush();
@@ -63,7 +77,9 @@ ExitCode run(const MotionsRequest& request) {
 
 void add_segments(CLI::App& app, Command& command) {
   CLI::App* segments = app.add_subcommand(
-      "segments", "the distance of each pair of segments, and bounds the true one lies between");
+      "segments",
+      "the distance of each pair of segments, and bounds the true one lies between: "
+      "[name,]distance,lower,upper,s,t");
   const auto request = std::make_shared<SegmentsRequest>();
   segments
       ->add_option("FILE", request->file,

@@ -5,12 +5,13 @@
 #include <filesystem>
 #include <iostream>
 #include <ostream>
+#include <stdexcept>
 #include <streambuf>
 #include <utility>
 #include <vector>
 
 #include "fiber_proximity/io/file.hpp"
-#include "src/mpi/whole_file.hpp"
+#include "src/text/quote.hpp"
 
 namespace fiber {
 namespace {
@@ -76,9 +77,23 @@ RunProgress RankText::begin(bool resume) const {
   return {};
 }
 
-RankText::RankText(const Communicator& ranks, std::string path, const TextRun& run)
-    : ranks_(ranks), path_(std::move(path)), note_(path_, run.run) {
-  if (path_.empty()) {
+RankText::RankText(const Communicator& ranks, const std::string& path, const TextRun& run)
+    : ranks_(ranks),
+      place_(path.empty() ? WritePlace{"", false} : write_place(ranks, path)),
+      path_(place_.path),
+      note_(path_, run.run) {
+  if (!place_.is_file) {
+    on_first_rank(ranks_, [&] {
+      if (run.resume) {
+        throw std::invalid_argument(
+            "--resume: what went to " +
+            (path_.empty() ? "stdout" : quote(path_) + ", which is no file,") +
+            " cannot be gone on with, give --out a file");
+      }
+      if (!path_.empty()) {
+        stream_.emplace(path_);
+      }
+    });
     return;
   }
   RunProgress earlier;
@@ -107,24 +122,24 @@ RankText::~RankText() {
 
 /// What was written of a file that is not whole.
 void RankText::remove_unfinished() const {
-  if (!path_.empty() && ranks_.rank() == 0) {
+  if (place_.is_file && ranks_.rank() == 0) {
     remove_aside(path_);
     note_.remove();
   }
 }
 
 void RankText::note(std::uint64_t steps) {
-  if (!path_.empty()) {
+  if (place_.is_file) {
     agree(text_of_mpi(MPI_File_sync(file_)));
     on_first_rank(ranks_, [&] { note_.write({steps, size_}); });
   }
 }
 
 void RankText::append(const std::function<void(TextOutput& output)>& write) {
-  if (path_.empty()) {
-    append_to_stdout(write);
-  } else {
+  if (place_.is_file) {
     append_to_file(write);
+  } else {
+    append_to_stream(write);
   }
 }
 
@@ -165,7 +180,7 @@ void RankText::append_to_file(const std::function<void(TextOutput& output)>& wri
 }
 
 /// Rank 0 takes the others' pieces, one rank after another, and each waits for its turn.
-void RankText::append_to_stdout(const std::function<void(TextOutput& output)>& write) const {
+void RankText::append_to_stream(const std::function<void(TextOutput& output)>& write) {
   if (ranks_.rank() > 0) {
     write_pieces(write, [&](const char* text, std::streamsize piece) {
       MPI_Ssend(text, static_cast<int>(piece), MPI_BYTE, 0, text_tag, ranks_.handle());
@@ -175,17 +190,19 @@ void RankText::append_to_stdout(const std::function<void(TextOutput& output)>& w
     ranks_.agree("");
     return;
   }
+  std::ostream& stream = stream_ ? stream_->stream() : std::cout;
   const std::string error = error_in([&] {
-    TextOutput output(std::cout);
+    TextOutput output(stream);
     write(output);
     output.flush();
   });
-  pass_on_others();
-  std::cout.flush();
-  ranks_.agree(!error.empty() ? error : std::cout ? "" : "the output cannot be written");
+  pass_on_others(stream);
+  stream.flush();
+  const std::string failure = failure_of_stream();
+  ranks_.agree(failure.empty() ? error : failure);
 }
 
-void RankText::pass_on_others() const {
+void RankText::pass_on_others(std::ostream& stream) const {
   std::vector<char> text(static_cast<std::size_t>(most_at_once));
   for (int other = 1; other < ranks_.size(); ++other) {
     int size = 1;
@@ -194,9 +211,17 @@ void RankText::pass_on_others() const {
       MPI_Recv(text.data(), static_cast<int>(text.size()), MPI_BYTE, other, text_tag,
                ranks_.handle(), &status);
       MPI_Get_count(&status, MPI_BYTE, &size);
-      std::cout.write(text.data(), size);
+      stream.write(text.data(), size);
     }
   }
+}
+
+/// @return what went wrong with it, "" for nothing
+std::string RankText::failure_of_stream() const {
+  if (stream_) {
+    return error_in([&] { stream_->check(); });
+  }
+  return std::cout ? "" : "the output cannot be written";
 }
 
 /// @return what went wrong, "" for nothing
@@ -208,7 +233,12 @@ std::string RankText::close_file() {
 }
 
 void RankText::finish() {
-  if (path_.empty()) {
+  if (!place_.is_file) {
+    on_first_rank(ranks_, [&] {
+      if (stream_) {
+        stream_->close();
+      }
+    });
     return;
   }
   agree(close_file());

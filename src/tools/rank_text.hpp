@@ -4,9 +4,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <ostream>
 #include <string>
 
+#include "fiber_proximity/io/file.hpp"
 #include "src/mpi/communicator.hpp"
+#include "src/mpi/whole_file.hpp"
 #include "src/tools/run_note.hpp"
 #include "src/tools/text_output.hpp"
 
@@ -19,14 +23,14 @@ struct TextRun {
 };
 
 /// Text that all ranks write, those with smaller numbers first: to a file, each rank at its place,
-/// which has its name once it is whole; or to the stdout of rank 0, through which it passes piece
-/// by piece. All functions are collective.
+/// which has its name once it is whole; or to what is no file, as a pipe, or the stdout of rank 0,
+/// through which it passes piece by piece. All functions are collective.
 class RankText {
  public:
   /// @param path "" for stdout
-  /// @param run  of stdout nothing is noted
+  /// @param run  of what is no file nothing is noted
   /// @throws std::invalid_argument on all ranks
-  RankText(const Communicator& ranks, std::string path, const TextRun& run = {});
+  RankText(const Communicator& ranks, const std::string& path, const TextRun& run = {});
   ~RankText();
   RankText(const RankText&) = delete;
   RankText& operator=(const RankText&) = delete;
@@ -50,16 +54,19 @@ class RankText {
 
  private:
   void append_to_file(const std::function<void(TextOutput& output)>& write);
-  void append_to_stdout(const std::function<void(TextOutput& output)>& write) const;
-  void pass_on_others() const;
+  void append_to_stream(const std::function<void(TextOutput& output)>& write);
+  void pass_on_others(std::ostream& stream) const;
+  std::string failure_of_stream() const;
   RunProgress begin(bool resume) const;
   void agree(const std::string& reason) const;
   std::string close_file();
   void remove_unfinished() const;
 
   const Communicator& ranks_;
+  const WritePlace place_;
   const std::string path_;
   const RunNote note_;
+  std::optional<OutputFile> stream_;  // of rank 0, for what is no file; none for stdout
   MPI_File file_ = MPI_FILE_NULL;
   std::uint64_t size_ = 0;  // [byte] of the file so far
   std::uint64_t done_ = 0;

@@ -10,6 +10,7 @@
 
 #include "fiber_proximity/mpi/distributed_files.hpp"
 #include "fiber_proximity/query/options.hpp"
+#include "src/io/file_format.hpp"
 #include "src/mpi/communicator.hpp"
 #include "src/mpi/halo.hpp"
 #include "src/mpi/named_fibers.hpp"
@@ -90,7 +91,8 @@ std::vector<SegmentHolder> holders_of(const Communicator& ranks, const Distribut
 }
 
 /// A line per segment; the owner comes first among those who have it.
-void write_rows(TextOutput& output, const std::vector<SegmentHolder>& holders) {
+void write_rows(TextOutput& output, const FiberNames& names,
+                const std::vector<SegmentHolder>& holders) {
   std::string guests;
   for (auto owner = holders.begin(); owner != holders.end();) {
     guests.clear();
@@ -98,13 +100,15 @@ void write_rows(TextOutput& output, const std::vector<SegmentHolder>& holders) {
     for (; next != holders.end() && next->is_guest != 0; ++next) {
       guests += (guests.empty() ? "" : ";") + std::to_string(next->rank);
     }
-    output.write_row(owner->segment.fiber, owner->segment.segment, owner->rank, guests);
+    output.write_row(FiberCalled{names, owner->segment.fiber}, owner->segment.segment, owner->rank,
+                     guests);
     owner = next;
   }
 }
 
 ExitCode write_regions(const RegionsRequest& request) {
   validate(request.query);
+  require_format(FileFormat::CSV, "--out", request.out);
   const Communicator ranks(MPI_COMM_WORLD);
   require_other_file(ranks, request.file, request.out);
   FiberSource source(ranks, request.file, request.radius);
@@ -116,7 +120,7 @@ ExitCode write_regions(const RegionsRequest& request) {
     if (ranks.rank() == 0) {
       output.write("fiber,segment,owner,in_halo_of\n");
     }
-    write_rows(output, holders);
+    write_rows(output, fibers.fiber_names, holders);
   });
   text.finish();
   return SUCCEEDED;

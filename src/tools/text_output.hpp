@@ -9,9 +9,17 @@
 #include <string_view>
 #include <utility>
 
+#include "fiber_proximity/io/fiber_names.hpp"
 #include "src/io/number.hpp"
+#include "src/text/csv_field.hpp"
 
 namespace fiber {
+
+/// A fibre, by its name where it has one.
+struct FiberCalled {
+  const FiberNames& names;
+  std::uint64_t fiber;
+};
 
 /// The number of a frame, if its file has numbers.
 struct FrameNumber {
@@ -41,6 +49,9 @@ class TextOutput {
     write("");
   }
 
+  /// A line with one JSON value.
+  void write_line(const nlohmann::ordered_json& value) { write(text_of_json(value) + '\n'); }
+
   /// A line with one JSON object that ends with a list, which is never in memory as text.
   /// @param object  what stands before the list
   /// @param to_json makes JSON of an item
@@ -64,7 +75,7 @@ class TextOutput {
   template <class Items, class ToJson>
   void write_items(const Items& items, const ToJson& to_json, bool is_first) {
     for (const auto& item : items) {
-      write((std::exchange(is_first, false) ? "" : ",") + to_json(item).dump());
+      write((std::exchange(is_first, false) ? "" : ",") + text_of_json(to_json(item)));
     }
   }
 
@@ -82,6 +93,11 @@ class TextOutput {
   static constexpr std::size_t long_text = 65'536;  // [byte]
   static constexpr std::string_view end_of_object = "]}\n";
 
+  /// JSON is UTF-8: what is none in a name becomes U+FFFD.
+  static std::string text_of_json(const nlohmann::ordered_json& value) {
+    return value.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  }
+
   template <class Number>
   void append(const Number& number) {
     append_number(text_, number);
@@ -89,6 +105,14 @@ class TextOutput {
   }
   void append(bool flag) { text_ += flag ? "1," : "0,"; }
   void append(const std::string& word) { text_ += word + ','; }
+  void append(const FiberCalled& called) {
+    if (called.names.are_indices()) {
+      append_number(text_, called.fiber);
+    } else {
+      append_csv_field(text_, called.names.of(called.fiber));
+    }
+    text_ += ',';
+  }
   void append(const Eigen::Vector3d& vector) {
     for (const double coordinate : {vector.x(), vector.y(), vector.z()}) {
       append(coordinate);
@@ -111,6 +135,20 @@ inline nlohmann::ordered_json object_of(const FrameNumber& frame) {
     object["frame"] = frame.number;
   }
   return object;
+}
+
+/// A name that is a whole number is a number in JSON, any other one text.
+inline nlohmann::ordered_json json_of(const FiberCalled& called) {
+  if (called.names.are_indices()) {
+    return called.fiber;
+  }
+  constexpr std::int64_t most = 9'007'199'254'740'992;  // 2⁵³: others read it as a double
+  std::string name = called.names.of(called.fiber);
+  const auto number = parse_number<std::int64_t>(name);
+  if (number && *number > -most && *number < most && text_of(*number) == name) {
+    return *number;
+  }
+  return name;
 }
 
 inline nlohmann::ordered_json list_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }

@@ -9,6 +9,7 @@
 #include "fiber_proximity/query/topology.hpp"
 #include "src/io/number.hpp"
 #include "src/tools/fiber_query.hpp"
+#include "src/tools/read_input.hpp"
 #include "src/tools/text_output.hpp"
 
 namespace fiber {
@@ -28,12 +29,12 @@ struct TopologyRequest {
 /// Asks of the fibres of each frame, and writes the items of the answers.
 /// @param ask      of fibres
 /// @param name     of the items of a frame, in JSON
-/// @param to_json  makes JSON of an item
+/// @param to_json  makes JSON of an item, by the fibres' names
 /// @param to_row   calls row(fields...) for an item, with the fields of its line of CSV
 template <class Ask, class ToJson, class ToRow>
 ExitCode run(const TopologyRequest& request, const std::string& columns, const char* name,
              const Ask& ask, const ToJson& to_json, const ToRow& to_row) {
-  const FiberFile file = read_fibers(request.file, request.radius);
+  const FiberFile file = read_input("fiber_query", request.file, request.radius);
   TextOutput output(std::cout);
   if (!request.json()) {
     output.write((file.has_frames ? "frame," : "") + columns);
@@ -42,10 +43,12 @@ ExitCode run(const TopologyRequest& request, const std::string& columns, const c
     const FrameNumber number{file.has_frames, frame.frame};
     const auto& items = ask(frame.fibers);
     if (request.json()) {
-      output.write_object(object_of(number), name, items, to_json);
+      output.write_object(object_of(number), name, items,
+                          [&](const auto& item) { return to_json(frame.names, item); });
     } else {
       for (const auto& item : items) {
-        to_row(item, [&](const auto&... fields) { output.write_row(number, fields...); });
+        to_row(frame.names, item,
+               [&](const auto&... fields) { output.write_row(number, fields...); });
       }
     }
     output.flush();
@@ -54,11 +57,11 @@ ExitCode run(const TopologyRequest& request, const std::string& columns, const c
   return SUCCEEDED;
 }
 
-nlohmann::ordered_json json_of_crossing(const Crossing& crossing) {
-  return {{"fiber_a", crossing.fiber_a},
+nlohmann::ordered_json json_of_crossing(const FiberNames& names, const Crossing& crossing) {
+  return {{"fiber_a", json_of(FiberCalled{names, crossing.fiber_a})},
           {"segment_a", crossing.segment_a},
           {"s", crossing.s},
-          {"fiber_b", crossing.fiber_b},
+          {"fiber_b", json_of(FiberCalled{names, crossing.fiber_b})},
           {"segment_b", crossing.segment_b},
           {"t", crossing.t},
           {"over", crossing.a_is_over ? "a" : "b"},
@@ -82,23 +85,26 @@ ExitCode run_crossings(const TopologyRequest& request) {
         return crossings;
       },
       json_of_crossing,
-      [](const Crossing& crossing, const auto& row) {
-        row(crossing.fiber_a, crossing.segment_a, crossing.s, crossing.fiber_b, crossing.segment_b,
-            crossing.t, std::string(crossing.a_is_over ? "a" : "b"), crossing.sign,
-            crossing.separation, crossing.gap, crossing.point_a, crossing.point_b);
+      [](const FiberNames& names, const Crossing& crossing, const auto& row) {
+        row(FiberCalled{names, crossing.fiber_a}, crossing.segment_a, crossing.s,
+            FiberCalled{names, crossing.fiber_b}, crossing.segment_b, crossing.t,
+            std::string(crossing.a_is_over ? "a" : "b"), crossing.sign, crossing.separation,
+            crossing.gap, crossing.point_a, crossing.point_b);
       });
 }
 
 ExitCode run_linking(const TopologyRequest& request) {
   return run(
       request, "fiber_a,fiber_b,linking_number\n", "linking_numbers", linking_numbers,
-      [](const auto& pair) -> nlohmann::ordered_json {
+      [](const FiberNames& names, const auto& pair) -> nlohmann::ordered_json {
         const auto& [fiber_a, fiber_b, value] = pair;
-        return {{"fiber_a", fiber_a}, {"fiber_b", fiber_b}, {"linking_number", value}};
+        return {{"fiber_a", json_of(FiberCalled{names, fiber_a})},
+                {"fiber_b", json_of(FiberCalled{names, fiber_b})},
+                {"linking_number", value}};
       },
-      [](const auto& pair, const auto& row) {
+      [](const FiberNames& names, const auto& pair, const auto& row) {
         const auto& [fiber_a, fiber_b, value] = pair;
-        row(fiber_a, fiber_b, value);
+        row(FiberCalled{names, fiber_a}, FiberCalled{names, fiber_b}, value);
       });
 }
 
@@ -115,10 +121,12 @@ ExitCode run_writhe(const TopologyRequest& request) {
         }
         return writhes;
       },
-      [](const auto& each) -> nlohmann::ordered_json {
-        return {{"fiber", each.first}, {"writhe", each.second}};
+      [](const FiberNames& names, const auto& each) -> nlohmann::ordered_json {
+        return {{"fiber", json_of(FiberCalled{names, each.first})}, {"writhe", each.second}};
       },
-      [](const auto& each, const auto& row) { row(each.first, each.second); });
+      [](const FiberNames& names, const auto& each, const auto& row) {
+        row(FiberCalled{names, each.first}, each.second);
+      });
 }
 
 /// A subcommand with the options all of these have.
@@ -126,8 +134,8 @@ CLI::App* add(CLI::App& app, Command& command, const std::shared_ptr<TopologyReq
               const char* name, const char* description,
               ExitCode (*run_it)(const TopologyRequest&)) {
   CLI::App* subcommand = app.add_subcommand(name, description);
-  subcommand->add_option("FILE", request->file, "fibre file (.csv or .hair)")->required();
-  subcommand->add_option("--format", request->format, "of the output; json: one object per frame")
+  subcommand->add_option("FILE", request->file, file_help)->required();
+  subcommand->add_option("--format", request->format, format_help)
       ->check(CLI::IsMember({"csv", "json"}))
       ->capture_default_str();
   subcommand->callback(

@@ -80,13 +80,18 @@ TEST(ReadCsv, AcceptsAFileOfNoFibers) {
 }
 
 TEST(ReadCsv, RefusesABadHeader) {
-  EXPECT_EQ(refusal(""), "a.csv: is empty, expected the header [frame,]fiber,x,y,z[,radius]");
-  EXPECT_EQ(refusal("\n0,0,0,0\n"),
-            "a.csv:2: the header is '0,0,0,0', expected [frame,]fiber,x,y,z[,radius]");
-  EXPECT_EQ(refusal("fiber,frame,x,y,z\n"),
-            "a.csv:1: the header is 'fiber,frame,x,y,z', expected [frame,]fiber,x,y,z[,radius]");
-  EXPECT_EQ(refusal("frame\n"),
-            "a.csv:1: the header is 'frame', expected [frame,]fiber,x,y,z[,radius]");
+  const std::string rule =
+      ", expected the columns x, y, z and, where there are any, frame, fiber, radius (or a name "
+      "that "
+      "ends in .hair)";
+  EXPECT_EQ(refusal(""), "a.csv: is empty" + rule);
+  EXPECT_EQ(refusal("# only a comment\n"), "a.csv: is empty" + rule);
+  EXPECT_EQ(refusal("\n0,0,0,0\n"), "a.csv:2: the header is '0,0,0,0'" + rule);
+  EXPECT_EQ(refusal("frame\n"), "a.csv:1: the header is 'frame'" + rule);
+  EXPECT_EQ(refusal(",fiber,x,y\n"), "a.csv:1: the header is ',fiber,x,y'" + rule)
+      << "with all that stands in it";
+  EXPECT_EQ(refusal("fiber,x;y,z\n"), "a.csv:1: the header is 'fiber,x;y,z'" + rule);
+  EXPECT_EQ(refusal("fiber,x,y,z,X\n"), "a.csv:1: the header has the column x twice");
 }
 
 TEST(ReadCsv, RefusesBadValuesNamingLineAndReason) {
@@ -98,9 +103,17 @@ TEST(ReadCsv, RefusesBadValuesNamingLineAndReason) {
   EXPECT_EQ(refusal(head + "0,0,0,1e999,0\n"), "a.csv:3: z is '1e999', expected a number");
   EXPECT_EQ(refusal(head + "0,0,0,0\n"), "a.csv:3: has 4 values, expected 5 as in the header");
   EXPECT_EQ(refusal(head + "0,0,0,0,0,\n"), "a.csv:3: has 6 values, expected 5 as in the header");
-  EXPECT_EQ(refusal(head + ",0,0,0,0\n0,1,0,0,0\n"),
-            "a.csv:2: fibre '0' has only this point, a fibre needs at least 2");
-  EXPECT_EQ(refusal(head + "0,0,0,0,0\n,0,0,0,0\n"), "a.csv:4: fiber is empty, expected a label");
+  EXPECT_EQ(refusal(head + ",0,0,0,0\n0,1,0,0,0\n"), "a.csv:3: fiber is empty, expected a name");
+  EXPECT_EQ(refusal(head + "0,0,0,0,0\n,0,0,0,0\n"), "a.csv:4: fiber is empty, expected a name");
+  EXPECT_EQ(refusal(head + "0,0,0,0,0\n\"\",0,0,0,0\n"),
+            "a.csv:4: fiber is empty, expected a name");
+  EXPECT_EQ(refusal(head + "0,0,\"0,5\",0,0\n"),
+            "a.csv:3: y is '0,5', expected a number with a decimal point");
+  EXPECT_EQ(refusal("fiber;x;y;z\n0;0,5;0;0\n"),
+            "a.csv:2: x is '0,5', expected a number with a decimal point");
+  EXPECT_EQ(refusal(head + "\"0,0,0,0,0\n"), "a.csv:3: value 1 has no closing quote on its line");
+  EXPECT_EQ(refusal(head + "0,\"0\"1,0,0,0\n"), "a.csv:3: value 2 goes on after its closing quote");
+  EXPECT_EQ(refusal("x y z\n0 \"0\"1 0\n"), "a.csv:2: value 2 goes on after its closing quote");
   EXPECT_EQ(refusal(head + "0,0,0,nan,0\n"),
             "a.csv:3: z is 'nan', coordinates must be finite and at most 1e150 m in magnitude");
   EXPECT_EQ(refusal(head + "0,0,-inf,0,0\n"),
@@ -115,13 +128,6 @@ TEST(ReadCsv, RefusesBadValuesNamingLineAndReason) {
             "a.csv:3: radius is '-0.001', radii must be finite, at least 0 and at most 1e150 m");
   EXPECT_EQ(refusal("frame,fiber,x,y,z\n1.5,0,0,0,0\n"),
             "a.csv:2: frame is '1.5', expected a whole number");
-}
-
-TEST(ReadCsv, RefusesRowsThatDoNotStandTogether) {
-  EXPECT_EQ(refusal("fiber,x,y,z\na,0,0,0\na,1,0,0\nb,0,0,0\nb,1,0,0\na,2,0,0\n"),
-            "a.csv:6: fibre 'a' appears again; the rows of a fibre must stand one after another");
-  EXPECT_EQ(refusal("frame,fiber,x,y,z\n0,a,0,0,0\n0,a,1,0,0\n1,a,0,0,0\n1,a,1,0,0\n0,b,0,0,0\n"),
-            "a.csv:6: frame 0 appears again; the rows of a frame must stand one after another");
 }
 
 TEST(ReadCsv, RefusesAFiberOfOnePoint) {

@@ -59,6 +59,43 @@ TEST_F(FiberFileTest, ManyFramesGoIntoCsvOnly) {
                std::invalid_argument);
 }
 
+TEST_F(FiberFileTest, NamesOfOtherFormatsAreRefused) {
+  const auto error = [](const auto& work) -> std::string {
+    try {
+      work();
+    } catch (const std::exception& failure) {
+      return failure.what();
+    }
+    return "none";
+  };
+  const auto reading = [&](const std::string& name) {
+    return error([&] { read_fibers(path(name)); });
+  };
+  const auto writing = [&](const std::string& name) {
+    return error([&] { write_fibers(path(name), {false, {{0, fibers}}}); });
+  };
+  const std::string read = "; CSV and .hair are read, and .h5 by fiber_query_mpi";
+  const std::string written =
+      "; CSV, .hair and .pvd are written, and .h5 by fiber_query_mpi convert";
+  EXPECT_EQ(reading("a.h5"), path("a.h5") + ": is HDF5 by its name" + read);
+  EXPECT_EQ(writing("a.h5"), "'" + path("a.h5") + "' is a name of HDF5" + written);
+  EXPECT_EQ(writing("A.VTP"), "'" + path("A.VTP") + "' is a name of VTK" + written);
+  EXPECT_EQ(reading("a.pvd"), path("a.pvd") + ": is a collection of VTK by its name" + read);
+  for (const std::string end :
+       {"hdf5", "vtkhdf", "vtp", "vtk", "npy", "npz", "tck", "trk", "swc", "ply", "obj", "json",
+        "yaml", "xlsx", "csv.gz", "mat", "abc", "usda", "bag"}) {
+    EXPECT_NE(reading("a." + end).find(" by its name; "), std::string::npos) << end;
+    EXPECT_NE(writing("a." + end).find(" is a name of "), std::string::npos) << end;
+    EXPECT_FALSE(std::filesystem::exists(path("a." + end)));
+  }
+  for (const std::string name :
+       {"a.csv", "a.CSV", "a.txt", "a.dat", "a.tsv", "a", "run_0.5", "h5", ".h5", "a.h5.old"}) {
+    EXPECT_EQ(writing(name), "none") << name;
+    EXPECT_EQ(reading(name), "none") << name;
+    EXPECT_EQ(start_of(name), "fibe") << name;
+  }
+}
+
 TEST_F(FiberFileTest, NamesWhatCannotBeReadOrWritten) {
   EXPECT_THROW(read_fibers(path("missing.hair")), FileError);
   EXPECT_THROW(read_fibers(path("missing.csv")), FileError);

@@ -61,6 +61,7 @@ DistributedFibers three_fibers() {
     fibers.parts = FiberAssembly(points, {0, 4, 7, 12}, {0.001});
     fibers.names = {{5, 0}, {6, 0}, {8, 0}};
   }
+  fibers.fiber_names = FiberNames({"a", "b", "c", "d", "e", "f", "g", "h", "i"});
   return fibers;
 }
 
@@ -186,6 +187,27 @@ TEST(BrokenFiles, WhatIsWrongInOneIsSaid) {
          file.set<double>("VTKHDF/Points", 2, {HUGE_VAL, 0.0, 0.0});
        },
        "point 2 has the coordinate inf, coordinates must be finite"},
+      {"no names of fibres", [](const OpenFile& file) { file.remove("fiber_names"); }, "no error"},
+      {"too few names of fibres",
+       [](const OpenFile& file) {
+         file.replace<std::uint8_t>("fiber_names", {4, 1}, {'a', '\n', 'b', '\n'});
+       },
+       " has no name, there are 2"},
+      {"a name of a fibre without an end",
+       [](const OpenFile& file) {
+         file.replace<std::uint8_t>("fiber_names", {3, 1}, {'a', '\n', 'b'});
+       },
+       "the last name of a fibre has no end"},
+      {"a name of two fibres",
+       [](const OpenFile& file) {
+         file.replace<std::uint8_t>("fiber_names", {4, 1}, {'a', '\n', 'a', '\n'});
+       },
+       "fibre 1: the name 'a' is that of another, too"},
+      {"names in columns",
+       [](const OpenFile& file) {
+         file.replace<std::uint8_t>("fiber_names", {1, 2}, {'a', '\n'});
+       },
+       "dataset fiber_names has 2 columns, it must have 1"},
       {"a negative radius",
        [](const OpenFile& file) { file.set<double>("VTKHDF/PointData/radius", 5, {-1.0}); },
        "point 5 has the radius -1, radii must be finite, at least 0"},

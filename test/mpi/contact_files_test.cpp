@@ -96,11 +96,12 @@ std::string bytes_in(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-void write_contacts(MPI_Comm ranks, const std::string& path, const DistributedResult& result) {
+void write_contacts(MPI_Comm ranks, const std::string& path, const DistributedResult& result,
+                    const FiberNames& names = {}) {
   DistributedFileOptions options;
   options.run = "a test";
   DistributedContactWriter writer(ranks, path, options);
-  writer.write(0, result);
+  writer.write(0, result, names);
   writer.finish();
 }
 
@@ -122,6 +123,21 @@ TEST(ContactFiles, TheFileIsTheSameForAnyNumberOfRanks) {
     }
     MPI_Barrier(MPI_COMM_WORLD);
   }
+}
+
+TEST(ContactFiles, NamesOfFibresStandInTheFileOnce) {
+  const SharedFolder folder;
+  Random random(34);
+  DealtContacts dealt = deal_contacts(5, 0.0, random);
+  sort_over_ranks(MPI_COMM_WORLD, dealt.mine);
+  write_contacts(MPI_COMM_WORLD, folder / "named.h5", dealt.mine, FiberNames({"rope", "a tube"}));
+  write_contacts(MPI_COMM_WORLD, folder / "numbered.h5", dealt.mine);
+  const std::string named = bytes_in(folder / "named.h5");
+  const std::size_t place = named.find("rope\na tube\n");
+  EXPECT_NE(place, std::string::npos);
+  EXPECT_EQ(named.find("a tube", place + 11), std::string::npos);
+  EXPECT_NE(named.find("fiber_names"), std::string::npos);
+  EXPECT_EQ(bytes_in(folder / "numbered.h5").find("fiber_names"), std::string::npos);
 }
 
 TEST(ContactFiles, ARunGoesOnAfterTheLastWholeFrame) {

@@ -112,6 +112,45 @@ TEST(DistributedFiles, FibersComeBackAsTheyWere) {
   }
 }
 
+TEST(DistributedFiles, NamesComeBackOnAllRanks) {
+  const test::SharedFolder folder;
+  test::Random random(23);
+  const FiberAssembly assembly = random_assembly(random);
+  DistributedFibers written = random_parts(random, assembly, 2);
+  for (FiberPart& part : written.names) {  // names are found by numbers from 0 on
+    part.fiber = (part.fiber - test::name_of_fiber(0)) / 3;
+  }
+  std::vector<std::string> names;
+  for (std::size_t fiber = 0; fiber < assembly.fiber_count(); ++fiber) {
+    names.push_back("rope, no. " + std::to_string(assembly.fiber_count() - fiber) + "\xFF");
+  }
+  DistributedFileOptions options;
+  options.has_frames = true;
+  DistributedFiberWriter writer(MPI_COMM_WORLD, folder / "fibers.h5", options);
+  writer.write(3, written);
+  written.fiber_names = FiberNames(names);
+  writer.write(4, written);
+  names.front() = "one";
+  written.fiber_names = FiberNames({"one"});
+  if (names.size() > 1) {
+    EXPECT_THROW(writer.write(5, written), std::invalid_argument);
+  }
+  written.fiber_names = FiberNames(names);
+  writer.write(6, written);
+  writer.finish();
+  const DistributedFiberReader reader(MPI_COMM_WORLD, folder / "fibers.h5");
+  DistributedFibers read;
+  EXPECT_EQ(reader.read(2, read), 6);
+  EXPECT_EQ(read.fiber_names.list(names.size()), names);
+  EXPECT_EQ(reader.read(1, read), 4);
+  names.front() = "rope, no. " + std::to_string(names.size()) + "\xFF";
+  EXPECT_EQ(read.fiber_names.list(names.size()), names);
+  EXPECT_EQ(read.fiber_names.size(), assembly.fiber_count());
+  EXPECT_EQ(segments_of(read), segments_of(written));
+  EXPECT_EQ(reader.read(0, read), 3);
+  EXPECT_TRUE(read.fiber_names.are_indices());
+}
+
 TEST(DistributedFiles, WholeFibersMakeTheSameFileOfAnyRanks) {
   const test::SharedFolder folder;
   test::Random random(22);

@@ -41,15 +41,24 @@ head -n 1 found.csv | grep -q '^frame,free,with,object,fiber_a,segment_a,s,' || 
 tail -n +2 found.csv | sed -E 's/^([0-9]+,1,,),+$/\1/; s/^([0-9]+,0,object,(floor|"a ""ball"", round")),.*/\1/' | cmp expected.csv - ||
   fail "other candidates are free"
 # What is allowed to touch, what is left out, and what there is no environment for.
-printf 'allowed:\n  - {object: floor, fiber: "0", segments: [0, 0]}\n' | cat world.yaml - >allowed.yaml
+printf 'allowed:\n  - {object: floor, fiber: bar, segments: [0, 0]}\n' | cat world.yaml - >allowed.yaml
 check 2 bars.csv --environment allowed.yaml --margin 0.01 >found.csv
 [ "$(grep -c '^[0-9]*,0,object,floor' found.csv)" -eq 0 ] || fail "what may touch counts"
+# Names are those of each candidate: every second one is of another bar, whose number is that of the first.
+awk -F, -v OFS=, '/^frame/ { print; next } $1 % 2 { $2 = "\"other, bar\"" } 1' bars.csv >turns.csv
+check 3 turns.csv --environment allowed.yaml --margin 0.01 >found.csv
+check 3 turns.csv --environment world.yaml --margin 0.01 >expected_turns.csv
+cmp <(grep ',0,object,floor' found.csv) <(grep '^[0-9]*[13579],0,object,floor' expected_turns.csv) ||
+  fail "other bars may touch the floor"
+[ "$(grep -c ',0,object,floor,"other, bar",0,' found.csv)" -eq "$(grep -c ',0,object,floor' found.csv)" ] ||
+  fail "bars have other names"
+[ "$(grep -c ',0,object,floor' found.csv)" -gt 2 ] || fail "no bar touches the floor"
 check 2 bars.csv --margin 0.01 >found.csv
 [ "$(grep -c '^[0-9]*,1,,,*$' found.csv)" -eq 50 ] || fail "without environment not all are free"
 # Fibres that there are: a bar across at height 0.5.
 printf 'fiber,x,y,z,radius\n0,0.5,-1,0.5,0.01\n0,0.5,1,0.5,0.01\n' >there.csv
 check 3 bars.csv --fibers there.csv --margin 0.001 --type closest >found.csv
-[ "$(grep '^[0-9]*,0,fiber,,0,0,' found.csv | cut -d, -f1 | tr '\n' ' ')" = "970 969 " ] || fail "other fibres are near"
+[ "$(grep '^[0-9]*,0,fiber,,bar,0,' found.csv | cut -d, -f1 | tr '\n' ' ')" = "970 969 " ] || fail "other fibres are near"
 
 # ---- tangles: any number of ranks, any format, any type
 awk 'BEGIN {

@@ -80,6 +80,53 @@ done
 if ask 2 sweep soup.csv 2>error.txt; then fail "one frame makes a motion"; fi
 grep -q "a motion needs at least two" error.txt || fail "not said what is missing: $(cat error.txt)"
 
+# Fibres by their names, whatever ranks have them: with quotes, in another order in each frame, gone and new ones, one of
+# other points. A file of HDF5 keeps them.
+awk 'BEGIN {
+  srand(3)
+  print "x,y,z,frame,fiber,radius"
+  split("rope|a, \"long\" one|7|#9|wire|0", names, "|")
+  for (frame = 0; frame < 6; ++frame) for (k = 0; k < 6; ++k) {
+    fiber = frame == 1 ? 6 - k : frame == 2 ? (k * 5 + 2) % 6 + 1 : k + 1
+    name = names[fiber]
+    if (frame == 3 && fiber == 2 || frame == 4 && fiber == 5) continue
+    if (frame == 4 && fiber == 1) name = "new"
+    gsub(/"/, "\"\"", name)
+    for (point = 0; point < 5 + (frame == 5 && fiber == 3); ++point)
+      printf "%.6f,%.6f,%.6f,%d,\"%s\",0.02\n", 0.1 * point + 0.1 * rand(), 0.3 * rand(), 0.3 * rand(), 10 - frame, name
+  }
+}' >named.csv
+ask 2 convert named.csv named.h5
+ask 3 convert named.h5 again.csv
+for query in "contacts --margin 0.02" "contacts --margin 0.02 --format json" "fiber_pairs" "sweep" "sweep --type first --new-only"; do
+  # shellcheck disable=SC2086  # several options
+  set -- $query
+  command=$1
+  shift
+  "$tools/fiber_query" "$command" named.csv "$@" >expected.txt 2>told.txt
+  grep -q 'a, .*long' expected.txt || fail "names are not those of the file: $query"
+  "$tools/fiber_query" "$command" again.csv "$@" 2>error.txt | cmp expected.txt - || fail "HDF5 has lost something: $query"
+  for ranks in 1 2 3; do
+    for file in named.csv named.h5; do
+      ask "$ranks" "$command" "$file" "$@" --out found.txt 2>error.txt
+      cmp expected.txt found.txt || fail "$ranks ranks name something else in $file: $query"
+      sed 's/^fiber_query_mpi/fiber_query/' error.txt | cmp told.txt - || fail "$ranks ranks tell something else of $file: $query"
+      rm found.txt
+    done
+  done
+done
+[ "$(wc -l <told.txt)" -eq 3 ] || fail "not told where fibres differ: $(cat told.txt)"
+grep -qF "frames 7 and 6 have different fibres (gone: 'rope', 'wire'; new: 'new', 'a, \"long\" one')" told.txt ||
+  fail "not told who comes and goes: $(cat told.txt)"
+ask 3 regions named.csv --margin 0.1 >regions.csv
+[ "$(tail -n +2 regions.csv | sed 's/,[0-9]*,[0-9]*,[0-9;]*$//' | uniq | tr '\n' ' ')" = \
+  'rope "a, ""long"" one" 7 "#9" wire 0 ' ] || fail "regions have other names: $(cat regions.csv)"
+# What of a file is not read is told once.
+sed '1s/radius/thickness/' named.csv >more.csv
+ask 3 contacts more.csv --out found.csv 2>error.txt
+[ "$(cat error.txt)" = "fiber_query_mpi: more.csv: column 'thickness' is not read" ] || fail "told: $(cat error.txt)"
+rm found.csv
+
 # A deadline that nothing can keep is told once for each frame; what is found by then is right.
 ask 2 contacts tress.csv --margin 0.0005 --deadline 1e-9 >found.csv 2>error.txt
 [ "$(grep -c '^fiber_query_mpi: the deadline has passed in frame [0-2]: pairs may be missing$' error.txt)" -eq 3 ] ||

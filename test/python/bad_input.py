@@ -302,6 +302,23 @@ class BadInput(unittest.TestCase):
             fp.write_frames(path, [fp.Fibers(TWO), fp.Fibers(TWO)])
             self.refuse(ValueError, 'holds 2 frames', lambda: fp.read(path))
             self.refuse(ValueError, 'times', lambda: fp.write_frames(path, [fp.Fibers(TWO)], [0, 1]))
+            for name in 'a.h5', 'a.vtp', 'a.npy':
+                other = os.path.join(folder, name)
+                self.refuse(ValueError, '.h5 by fiber_query_mpi convert', lambda other=other: fp.write(other, fp.Fibers(TWO)))
+                self.refuse(ValueError, 'a name of', lambda other=other: fp.write_frames(other, [fp.Fibers(TWO)]))
+                self.assertFalse(os.path.exists(other))
+                with open(other, 'wb') as file:
+                    file.write(b'\x89HDF\r\n\x1a\n')
+                self.refuse(ValueError, '.h5 by fiber_query_mpi', lambda other=other: fp.read(other))
+            fibers = fp.Fibers(TWO)
+            for kind, words, names in (
+                    (ValueError, '2 names for 1 fibres', ['a', 'b']), (ValueError, '0 names', []),
+                    (ValueError, 'is empty', ['']), (ValueError, 'several lines', ['a\nb']),
+                    (TypeError, 'must be a str', [7]), (TypeError, '', 7), (UnicodeError, '', ['\ud800'])):
+                with self.assertRaises(kind) as raised:
+                    fibers.names = names
+                self.assertIn(words, str(raised.exception))
+            self.assertEqual(fibers.names, ['0'])
 
     def test_topology(self):
         fibers = support.two_cables()

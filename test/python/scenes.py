@@ -1,9 +1,11 @@
 #!/usr/bin/python3
 """Simulations, files, the environment and robots: that Python gives what the library does."""
+import csv
 import os
 import pathlib
 import tempfile
 import unittest
+import warnings
 
 import numpy as np
 import support
@@ -113,6 +115,49 @@ class Files(unittest.TestCase):
             self.assertIn('timestep="0.5"', file.read())
         fp.write(self.path('one.csv'), frames[0][1])
         self.assertEqual([number for number, _ in fp.read_frames(self.path('one.csv'))], [0])
+
+    def test_names_come_back(self):
+        fibers = fp.Fibers([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0, 2, 0], [1, 2, 0]], [0, 2, 4, 6])
+        self.assertEqual(fibers.names, ['0', '1', '2'])
+        names = ['rope', 'a, "long" one', 'c\udce2ble é']
+        fibers.names = names
+        self.assertEqual(fibers.names, names)
+        fp.write(self.path('a.csv'), fibers)
+        with open(self.path('a.csv'), 'rb') as file:
+            self.assertIn(b'\n"a, ""long"" one",0,1,0,0\n', file.read())
+        self.assertEqual(fp.read(self.path('a.csv')).names, names)
+        fp.write_frames(self.path('b.csv'), [fibers, fibers.select([2, 0])])
+        self.assertEqual([frame.names for _, frame in fp.read_frames(self.path('b.csv'))],
+                         [names, [names[2], names[0]]])
+        fibers.move(fibers.points + [0, 0, 1])
+        self.assertEqual(fibers.names, names)
+        fibers.names = (str(i) for i in range(3))
+        fp.write(self.path('a.csv'), fibers)
+        with open(self.path('a.csv'), encoding='utf-8') as file:
+            self.assertIn('\n1,0,1,1,0\n', file.read())
+
+    def test_what_other_programs_write(self):
+        points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.5]])
+        table = np.column_stack([[0, 0, 1, 1], points])
+        for arguments in {'delimiter': ','}, {'delimiter': ';'}, {'delimiter': '\t'}, {}:
+            separator = arguments.get('delimiter', ' ')
+            np.savetxt(self.path('a.csv'), table, header=separator.join(['fiber', 'x', 'y', 'z']), **arguments)
+            again = fp.read(self.path('a.csv'))
+            np.testing.assert_array_equal(again.points, points)
+            np.testing.assert_array_equal(again.offsets, [0, 2, 4])
+        with open(self.path('b.csv'), 'w', newline='', encoding='utf-8-sig') as file:
+            rows = csv.writer(file, quoting=csv.QUOTE_ALL)
+            rows.writerow(['', 'Z', 'time', 'X', 'Y', 'Fiber'])
+            for i, (x, y, z) in enumerate(points):
+                rows.writerow([i, z, 0.1, x, y, 'ab'[i // 2]])
+        with self.assertWarnsRegex(UserWarning, "b.csv: column 'time' is not read"):
+            again = fp.read(self.path('b.csv'))
+        np.testing.assert_array_equal(again.points, points)
+        self.assertEqual(again.names, ['a', 'b'])
+        with warnings.catch_warnings():
+            warnings.simplefilter('error')
+            self.assertRaises(UserWarning, fp.read, self.path('b.csv'))
+            fp.read(self.path('a.csv'))
 
 
 class Environments(unittest.TestCase):

@@ -17,7 +17,7 @@ class Compare : public ToolsTest {
   /// Crossing segments of a tenth of a micrometre, which FCL takes for parallel.
   std::string tiny() const {
     return write("tiny.csv",
-                 "fiber,x,y,z\na,-5e-8,0,0\na,5e-8,0,0\nb,0,-5e-8,2e-8\nb,0,5e-8,2e-8\n");
+                 "fiber,x,y,z\n0,-5e-8,0,0\n0,5e-8,0,0\n1,0,-5e-8,2e-8\n1,0,5e-8,2e-8\n");
   }
   static std::vector<nlohmann::json> frames(const ProcessResult& result) {
     EXPECT_EQ(result.exit_code, 0) << result.err;

@@ -17,9 +17,9 @@ class FiberQuery : public ToolsTest {
   std::string crossing() const {
     return write("crossing.csv",
                  "fiber,x,y,z,radius\n"
-                 "a,-2,0,0,0.2\na,-1,0,0,0.2\na,1,0,0,0.2\n"
-                 "b,0,-1,0.5,0.2\nb,0,1,0.5,0.2\n"
-                 "c,-2,0,1.5,0.2\nc,2,0,1.5,0.2\n");
+                 "0,-2,0,0,0.2\n0,-1,0,0,0.2\n0,1,0,0,0.2\n"
+                 "1,0,-1,0.5,0.2\n1,0,1,0.5,0.2\n"
+                 "2,-2,0,1.5,0.2\n2,2,0,1.5,0.2\n");
   }
   std::string soup(const std::string& arguments) const {
     const ProcessResult made = scene("soup " + arguments + " --out " + path("soup.csv"));

@@ -83,8 +83,8 @@ TEST_F(FiberQuery, FirstIsOneOfTheContacts) {
 TEST_F(FiberQuery, FiberPairsAreTheMinimumDistancesOfFibres) {
   const std::string file = write("hairpin.csv",
                                  "fiber,x,y,z\n"
-                                 "a,0,0,0\na,4,0,0\na,4,1,0\na,0,1,0\n"
-                                 "b,1,2,3\nb,3,2,3\nc,0,0,-2\nc,0,-1,-2\n");
+                                 "0,0,0,0\n0,4,0,0\n0,4,1,0\n0,0,1,0\n"
+                                 "1,1,2,3\n1,3,2,3\n2,0,0,-2\n2,0,-1,-2\n");
   const auto rows = [&](const std::string& options) {
     std::vector<std::vector<double>> values;
     const std::vector<std::string> found = lines(query("fiber_pairs " + file + options).out);

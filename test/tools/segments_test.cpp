@@ -72,6 +72,7 @@ TEST_F(Segments, PrintsTheLibrarysNumbersBitForBit) {
     std::getline(out, line);
     for (const auto& [p0, p1, q0, q1, radius_a, radius_b] : pairs) {
       ASSERT_TRUE(std::getline(out, line)) << kernel;
+      line.erase(0, line.find(',') + 1);  // the name
       ASSERT_EQ(numbers_in(line),
                 numbers(segment_distance(kernel_from_name(kernel), p0, p1, q0, q1)))
           << kernel;
@@ -84,9 +85,9 @@ TEST_F(Segments, ReadsAllThatAFileMayBe) {
   const std::string expected = answer(crossing);
   EXPECT_NE(expected, header);
   for (const std::string& content :
-       {crossing + ",,further,7\n", "a name," + crossing + "\n", "," + crossing + "\n",
-        std::string("-1 0 0 3 0 0 0 -1 2 0 1 2"),
-        std::string("name -1 0 0\t3 0 0 0 -1 2 0 1 2 9\n"),
+       {crossing + ",,further,7\n", "," + crossing + "\n", std::string("-1 0 0 3 0 0 0 -1 2 0 1 2"),
+        std::string("-1 0 0\t3 0 0 0 -1 2 0 1 2 9\n"), std::string("-1;0;0;3;0;0;0;-1;2;0;1;2\n"),
+        std::string("# a comment\n\"-1\",\"0\",0,3,0,0,0,-1,2,0,1,2\n#-1,0,0,3,0,0,0,-1,2,0,1,2\n"),
         std::string("-1 0 0, 3 0 0, 0 -1 2, 0 1 2\n"),
         std::string(" -1 , 0 ,0 ,3,0,0,0,-1,2,0,1,2 \r\n"),
         std::string("-0x1p+0,0x0p+0,0,0x1.8p1,0,0,0,-1,0X1P1,+0,1,2\n"),
@@ -96,6 +97,22 @@ TEST_F(Segments, ReadsAllThatAFileMayBe) {
   }
   EXPECT_EQ(answer(""), header);
   EXPECT_EQ(answer("\n\r\n"), header);
+}
+
+TEST_F(Segments, NamesOfPairsLeadTheirRows) {
+  const std::string row = answer(crossing).substr(header.size());
+  ASSERT_GT(row.size(), 10U);
+  for (const std::string separator : {",", ";", " "}) {
+    std::string numbers = crossing;
+    std::replace(numbers.begin(), numbers.end(), ',', separator[0]);
+    EXPECT_EQ(answer("edge" + separator + numbers + "\n" + numbers + "\n\"my \"\"pair\"\", 2;\"" +
+                     separator + numbers + "\n"),
+              "name," + header + "edge," + row + "," + row + "\"my \"\"pair\"\", 2;\"," + row)
+        << separator;
+  }
+  EXPECT_EQ(answer("\"name\",\"p0.x\",a,b,c,d,e,f,g,h,i,j,k\n7," + crossing + "\n"),
+            "name," + header + "7," + row)
+      << "the header says that numbers are names";
 }
 
 TEST_F(Segments, RefusesBadFilesNamingFileLineColumnAndReason) {
@@ -113,6 +130,10 @@ TEST_F(Segments, RefusesBadFilesNamingFileLineColumnAndReason) {
   EXPECT_TRUE(refusal("1,2,3\n", ":1: has 3 values, expected the 12 coordinates"));
   EXPECT_TRUE(refusal("a,1,2,3,4,5,6,7,8,9,10,11\n", ":1: has 11 values after the name 'a'"));
   EXPECT_TRUE(refusal(good + "a,b,c,d,e,f,g,h,i,j,k,l,m\n", ":3: column 2 (p0.x) is 'b'"));
+  EXPECT_TRUE(refusal("#a," + crossing, ":1: is a comment, or a row of the name '#a'"));
+  EXPECT_TRUE(refusal("a," + crossing + "\n\"a," + crossing,
+                      ":2: value 1 has no closing quote on its line"));
+  EXPECT_TRUE(refusal("\"a\"b," + crossing, ":1: value 1 goes on after its closing quote"));
   EXPECT_TRUE(refused(query("segments " + path("none.csv")),
                       path("none.csv") + ": cannot be opened: No such file or directory"));
   EXPECT_TRUE(refused(query("segments /"), "/: cannot be read: Is a directory"));
@@ -136,6 +157,7 @@ TEST_F(Segments, AnswersThePublicEdgePairs) {
   std::getline(out, line);
   for (const EdgePair& pair : pairs) {
     ASSERT_TRUE(std::getline(out, line));
+    line.erase(0, line.find(',') + 1);  // the name
     ASSERT_EQ(numbers_in(line)[0], pair.distance);
   }
 }

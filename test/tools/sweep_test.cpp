@@ -14,10 +14,10 @@ const std::string sweep_header =
 /// A fibre along y that stays, and one along x at this height, in a frame.
 std::string frame(int number, double height, const std::string& middle = "") {
   std::ostringstream rows;
-  rows << number << ",post,0,-1,0,0.05\n" << number << ",post,0,1,0,0.05\n";
-  rows << number << ",cable,-1,0.5," << height << ",0.05\n";
+  rows << number << ",0,0,-1,0,0.05\n" << number << ",0,0,1,0,0.05\n";
+  rows << number << ",1,-1,0.5," << height << ",0.05\n";
   rows << middle;
-  rows << number << ",cable,1,0.5," << height << ",0.05\n";
+  rows << number << ",1,1,0.5," << height << ",0.05\n";
   return rows.str();
 }
 
@@ -88,10 +88,10 @@ TEST_F(Sweep, FirstIsTheEarliestOfAStep) {
   // The end at x = 1 comes down first.
   const auto tilted = [](int number, double height) {
     std::ostringstream rows;
-    rows << number << ",a,-1,0,0,0.01\n" << number << ",a,1,0,0,0.01\n";
-    rows << number << ",b,-1,0," << height + 0.5 << ",0.01\n";
-    rows << number << ",b,0,0," << height + 0.25 << ",0.01\n";
-    rows << number << ",b,1,0," << height << ",0.01\n";
+    rows << number << ",0,-1,0,0,0.01\n" << number << ",0,1,0,0,0.01\n";
+    rows << number << ",1,-1,0," << height + 0.5 << ",0.01\n";
+    rows << number << ",1,0,0," << height + 0.25 << ",0.01\n";
+    rows << number << ",1,1,0," << height << ",0.01\n";
     return rows.str();
   };
   const std::string cables = file(tilted(0, 0.5) + tilted(1, -1.0));
@@ -114,13 +114,14 @@ TEST_F(Sweep, EveryEngineAnswersTheSame) {
 }
 
 TEST_F(Sweep, OtherFibresInTheNextFrameAreTold) {
-  const std::string cables = file(frame(0, 0.05) + frame(1, 0.5, "1,cable,0,0.5,0.5,0.05\n") +
-                                  frame(2, -0.5, "2,cable,0,0.5,-0.5,0.05\n"));
+  const std::string cables = file(frame(0, 0.05) + frame(1, 0.5, "1,1,0,0.5,0.5,0.05\n") +
+                                  frame(2, -0.5, "2,1,0,0.5,-0.5,0.05\n"));
   const ProcessResult result = query("sweep " + cables);
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_EQ(result.err,
-            "fiber_query: frames 0 and 1 have different fibres: of frame 0 the contacts it has "
-            "itself\n");
+  EXPECT_EQ(
+      result.err,
+      "fiber_query: frames 0 and 1 have different fibres (of other numbers of points: '1'): of "
+      "these only the contacts that frame 0 has itself\n");
   EXPECT_NE(result.out.find("\n0,0,0,1,0,0,0\n"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("\n1,0,0,1,"), std::string::npos) << result.out;
 }

@@ -9,10 +9,13 @@ fiber_proximity_gtest(tools_test
   tools/fiber_scene_test.cpp
   tools/memory_test.cpp
   tools/motions_test.cpp
+  tools/names_test.cpp
+  tools/outputs_test.cpp
   tools/segments_test.cpp
   tools/self_contact_test.cpp
   tools/simulate_forces_test.cpp
   tools/simulate_test.cpp
+  tools/sweep_names_test.cpp
   tools/sweep_test.cpp
   tools/tiny_fibers_test.cpp
   tools/topology_test.cpp

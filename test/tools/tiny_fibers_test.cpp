@@ -51,7 +51,7 @@ TEST_F(TinyFibers, NormalsAreOfUnitLength) {
     SCOPED_TRACE(x);
     const std::string point = std::string(x) + "," + y + ",0,0\n";
     const std::string file =
-        write("points.csv", "fiber,x,y,z,radius\na,0,0,0,0\na,0,0,0,0\nb," + point + "b," + point);
+        write("points.csv", "fiber,x,y,z,radius\n0,0,0,0,0\n0,0,0,0,0\n1," + point + "1," + point);
     const auto found = contacts(file, "--margin 1");
     ASSERT_EQ(found.size(), 1U);
     EXPECT_NEAR(found[0].at(13), 0.6, 1e-15);

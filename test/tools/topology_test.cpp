@@ -22,8 +22,8 @@ class Topology : public ToolsTest {
   std::string cross() const {
     return write("cross.csv",
                  "fiber,x,y,z,radius\n"
-                 "a,-2,0,0,0.125\na,-1,0,0,0.125\na,1,0,0,0.125\n"
-                 "b,0.5,-1,0.5,0.125\nb,0.5,3,0.5,0.125\n");
+                 "0,-2,0,0,0.125\n0,-1,0,0,0.125\n0,1,0,0,0.125\n"
+                 "1,0.5,-1,0.5,0.125\n1,0.5,3,0.5,0.125\n");
   }
   /// Two rings, twice around each other in frame 7 and apart in frame 9.
   std::string rings() const {
@@ -32,7 +32,7 @@ class Topology : public ToolsTest {
       for (const bool second : {false, true}) {
         for (Eigen::Vector3d point : torus_link(60, 2, second)) {
           point.x() += second && frame == 9 ? 10.0 : 0.0;
-          text += std::to_string(frame) + (second ? ",b" : ",a");
+          text += std::to_string(frame) + (second ? ",1" : ",0");
           for (const double coordinate : {point.x(), point.y(), point.z()}) {
             text += ',';
             append_number(text, coordinate);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/io/fiber_names.hpp"
 #include "fiber_proximity/io/file.hpp"
 
 namespace fiber {
@@ -17,20 +18,31 @@ namespace fiber {
 struct FiberFrame {
   std::int64_t frame = 0;  ///< the frame's number in the file
   FiberAssembly fibers;
+  FiberNames names{};
 };
 
 /// What a fibre file holds: one frame without a number, or any number of numbered ones.
 struct FiberFile {
   bool has_frames = false;
-  std::vector<FiberFrame> frames;  ///< in the file's order; exactly one without numbers
+  std::vector<FiberFrame> frames;  ///< in the file's order, see read_csv(); one without numbers
+
+  /// What of the file is not in here, such as columns that mean nothing: a sentence each.
+  std::vector<std::string> notes{};
 };
 
 // ---- CSV
 
-/// Reads a fibre file: a header `fiber,x,y,z` with an optional leading `frame` and an optional
-/// trailing `radius`, then a row per point [m]. Rows of a frame, and within it rows of a fibre,
-/// stand one after another. A fibre's label is any text; its index is its place in the order of
-/// appearance. Spaces around values, blank lines and CRLF line ends are allowed. A line has at most
+/// Reads a fibre file: a header, then a row per point. Columns are found by their names, in any
+/// order and in capitals or not: `x`, `y`, `z` [m], and where there are any `frame`, a whole
+/// number, `fiber`, any text, and `radius` [m]. Others are left out, and FiberFile::notes names
+/// them; without `fiber` all rows of a frame are one fibre. The points of a fibre are the rows with
+/// its name, in their order, wherever they stand. Frames are in the file's order, or in that of
+/// their numbers where their rows are mixed; the fibres of each are in the order in which they
+/// first appear.
+///
+/// Values are separated by commas, semicolons, tabs or blanks, as the header is; those in quotes
+/// may hold anything but a line's end (RFC 4180). Blanks around values, blank lines, CRLF line ends
+/// and lines that begin with # are allowed; the header may be such a line. A line has at most
 /// 65 536 bytes, a value 4 096.
 /// @param default_radius [m] of all fibres if the file has no radius column
 /// @throws FileError
@@ -40,9 +52,9 @@ FiberFile read_csv(const std::string& path, double default_radius = 0.0);
 /// The same from a stream; errors call it by `name`.
 FiberFile read_csv(std::istream& stream, const std::string& name, double default_radius = 0.0);
 
-/// Writes a fibre file frame by frame, so that a long one never is in memory. Fibres are labelled
-/// by their index; the radius column is that of the point if there is one per point, else that of
-/// its fibre. All numbers read back as the same.
+/// Writes a fibre file frame by frame, so that a long one never is in memory. The radius column is
+/// that of the point if there is one per point, else that of its fibre. All numbers read back as
+/// the same.
 class CsvWriter {
  public:
   /// @param has_frames whether frames have numbers; without them the file holds exactly one
@@ -129,8 +141,9 @@ class PvdWriter {
 /// Writes fibres as a VTK file of poly data, in XML, to a stream, which is not checked for errors.
 void write_vtp(std::ostream& stream, const FiberAssembly& fibers);
 
-// ---- any format: the name decides. One that ends in .hair, in capitals or not, is a HAIR file,
-// one that is written and ends in .pvd is for ParaView, every other one CSV.
+// ---- any format: the name decides, in capitals or not. One that ends in .hair is a HAIR file, one
+// that is written and ends in .pvd is for ParaView. A name of another format that is known, as .h5,
+// .vtp or .npy, is refused; every other one is CSV.
 
 /// Reads a fibre file of either format.
 /// @param default_radius [m] of all fibres if the file has no radii
@@ -143,6 +156,7 @@ class FiberWriter {
  public:
   /// @param has_frames whether frames have numbers, which a HAIR file cannot hold; without them the
   ///        file holds exactly one
+  /// @throws std::invalid_argument for a name of a format that is not written
   /// @throws FileError
   FiberWriter(const std::string& path, bool has_frames);
 

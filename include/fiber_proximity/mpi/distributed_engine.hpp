@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/io/fiber_names.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/query/motion.hpp"
 #include "fiber_proximity/query/options.hpp"
@@ -31,6 +32,9 @@ struct FiberPart {
 struct DistributedFibers {
   FiberAssembly parts;
   std::vector<FiberPart> names;  ///< one per part
+
+  /// What people call the fibres, by number, the same on all ranks: for files and answers.
+  FiberNames fiber_names{};
 };
 
 /// A Contact with names that hold for all ranks.

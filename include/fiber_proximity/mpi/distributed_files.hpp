@@ -58,7 +58,8 @@ class DistributedFiberWriter {
   /// @param frame its number, if frames have one
   /// @throws std::invalid_argument for a second frame without numbers, a number of an earlier
   /// frame,
-  ///         other than one name per part, and where the file cannot be written
+  ///         other than one name per part, fibres that fiber_names has none for, and where the file
+  ///         cannot be written
   void write(std::int64_t frame, const DistributedFibers& fibers);
 
   /// Call once, after the last frame: only then is there a file of the name.
@@ -111,8 +112,9 @@ class DistributedContactWriter {
   /// Writes the next frame: once this returns, it is whole.
   /// @param frame  its number, if frames have one
   /// @param result as from DistributedEngine::query(); sort_over_ranks() has been called for it
+  /// @param names  what the fibres are called, by number, the same on all ranks
   /// @throws std::invalid_argument as DistributedFiberWriter::write()
-  void write(std::int64_t frame, const DistributedResult& result);
+  void write(std::int64_t frame, const DistributedResult& result, const FiberNames& names = {});
 
   /// As DistributedFiberWriter::finish().
   void finish();

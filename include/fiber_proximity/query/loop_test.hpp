@@ -16,7 +16,7 @@ struct LoopPlace;
 /// other: self-contact needs a loop.
 ///
 /// Two places of a fibre are joined by a loop if a point between them is further away from one of
-/// the two than 5/4 of their distance and 5/2 radii. Places of touching strands, two radii apart,
+/// the two than 5/4 of their distance plus 5/2 radii. Places of touching strands, two radii apart,
 /// therefore need a point between them that is five radii away. Of two segments, the places where
 /// they are nearest count, and the outer end of each with the place nearest to it, if these are at
 /// most one radius further apart: parallel strands are nearest at more than one place. The radius

@@ -166,6 +166,9 @@ FiberAssembly select(FiberAssembly fibers, const PlayerOptions& options, const s
 
 std::vector<FiberAssembly> read_frames(const PlayerOptions& options) {
   fiber::FiberFile file = fiber::read_fibers(options.file, options.radius);
+  for (const std::string& note : file.notes) {
+    ROS_WARN("%s: %s", options.file.c_str(), note.c_str());
+  }
   std::vector<FiberAssembly> frames;
   frames.reserve(file.frames.size());
   for (fiber::FiberFrame& frame : file.frames) {

@@ -1,0 +1,69 @@
+#include <stdexcept>
+
+#include "fiber_proximity/io/fiber_file.hpp"
+#include "src/io/number.hpp"
+#include "src/io/radii.hpp"
+#include "src/text/csv_field.hpp"
+
+namespace fiber {
+namespace {
+
+void append_name(std::string& text, const FiberNames& names, std::size_t fiber) {
+  if (names.are_indices()) {
+    append_number(text, fiber);
+  } else {
+    append_csv_field(text, names.of(fiber));
+  }
+}
+
+void append_rows(std::string& text, const FiberFrame& frame, bool has_frames) {
+  const std::vector<std::uint32_t>& offsets = frame.fibers.offsets();
+  for (std::size_t fiber = 0; fiber < frame.fibers.fiber_count(); ++fiber) {
+    for (std::size_t point = offsets[fiber]; point < offsets[fiber + 1]; ++point) {
+      if (has_frames) {
+        append_number(text, frame.frame);
+        text += ',';
+      }
+      append_name(text, frame.names, fiber);
+      const Eigen::Vector3d& position = frame.fibers.points()[point];
+      for (const double coordinate : {position.x(), position.y(), position.z()}) {
+        text += ',';
+        append_number(text, coordinate);
+      }
+      text += ',';
+      append_number(text, point_radius(frame.fibers, fiber, point));
+      text += '\n';
+    }
+  }
+}
+
+}  // namespace
+
+CsvWriter::CsvWriter(const std::string& path, bool has_frames)
+    : has_frames_(has_frames), file_(path) {
+  file_.write(has_frames ? "frame,fiber,x,y,z,radius\n" : "fiber,x,y,z,radius\n");
+}
+
+void CsvWriter::write(const FiberFrame& frame) {
+  if (!has_frames_ && !frames_written_.empty()) {
+    throw std::invalid_argument("a file without frame numbers holds only one frame");
+  }
+  if (has_frames_ && frame.fibers.fiber_count() == 0) {
+    throw std::invalid_argument("frame " + std::to_string(frame.frame) +
+                                " has no fibres, a file with frames cannot hold it");
+  }
+  if (!frame.names.are_indices() && frame.names.size() != frame.fibers.fiber_count()) {
+    throw std::invalid_argument(std::to_string(frame.names.size()) + " names for " +
+                                std::to_string(frame.fibers.fiber_count()) + " fibres");
+  }
+  if (!frames_written_.insert(frame.frame).second) {
+    throw std::invalid_argument("frame " + std::to_string(frame.frame) + " was written before");
+  }
+  rows_.clear();
+  append_rows(rows_, frame, has_frames_);
+  file_.write(rows_);
+}
+
+void CsvWriter::finish() { file_.close(); }
+
+}  // namespace fiber

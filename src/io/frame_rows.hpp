@@ -1,0 +1,66 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "fiber_proximity/io/fiber_file.hpp"
+
+namespace fiber {
+
+/// Rows of a frame in a file's order.
+struct FrameRows {
+  /// Rows of one fibre that follow each other, up to the next of the runs.
+  struct Run {
+    std::uint32_t name = 0;  ///< FrameBuilder::number_of()
+    std::size_t begin = 0;   ///< among the points
+    std::size_t line = 0;    ///< of the first one
+  };
+
+  std::int64_t number = 0;
+  std::vector<Eigen::Vector3d> points;
+  std::vector<double> radii;  ///< of the points [m], or none
+  std::vector<Run> runs;
+};
+
+/// Makes frames of the rows of a file. Fibres are in the order in which their names appear, and the
+/// points of a fibre in that of its rows.
+class FrameBuilder {
+ public:
+  /// The number of a name, the same in all frames.
+  std::uint32_t number_of(std::string_view name);
+
+  /// @param file           what errors call it
+  /// @param default_radius [m] of a frame without radii
+  /// @throws FileError for a fibre of one point
+  FiberFrame build(FrameRows rows, const std::string& file, double default_radius);
+
+  /// A fibre whose rows did not stand one after another in a frame that was built, "" for none.
+  const std::string& scattered() const { return scattered_; }
+
+ private:
+  void find_fibers(const FrameRows& rows);
+  void bring_together(FrameRows& rows);
+  void require_segments(const FrameRows& rows, const std::string& file) const;
+  FiberNames names_of_fibers();
+
+  std::deque<std::string> names_;  // by number
+  std::unordered_map<std::string_view, std::uint32_t> numbers_;
+  std::uint32_t last_ = 0;                     // of number_of()
+  std::vector<std::uint32_t> fibers_;          // of the frame that is built, by number of the name
+  std::vector<std::uint32_t> names_in_frame_;  // by fibre
+  std::vector<std::uint32_t> offsets_;
+
+  std::string scattered_;
+
+  // Of the frame before.
+  std::vector<std::uint32_t> names_before_;
+  FiberNames fiber_names_;
+};
+
+}  // namespace fiber
