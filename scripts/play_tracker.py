@@ -6,6 +6,8 @@ the right, y down, z forward), which nobody publishes a transform of.
 
 Parameters: ~topic (/trackdlo/results_pc), ~frame_id (camera_color_optical_frame), ~rate (15 Hz).
 """
+import threading
+
 import numpy
 import rospy
 from sensor_msgs import point_cloud2
@@ -26,8 +28,18 @@ def cable(time):
     return numpy.stack([x, y, DEPTH + gap * t / 2.2], axis=-1)
 
 
+def warn_where_time_stands_still():
+    """To be called every now and then; nothing is published before the first /clock."""
+    if rospy.get_param("/use_sim_time", False) and rospy.Time.now().is_zero():
+        rospy.logwarn_once("time stands still: the parameter /use_sim_time is true, and nothing publishes /clock. "
+                           "`rosparam set /use_sim_time false` makes it go on for nodes that are started then")
+
+
 def main():
     rospy.init_node("play_tracker")
+    timer = threading.Timer(5.0, warn_where_time_stands_still)  # as rospy's own stand still, too
+    timer.daemon = True
+    timer.start()
     publisher = rospy.Publisher(rospy.get_param("~topic", "/trackdlo/results_pc"),
                                 point_cloud2.PointCloud2, queue_size=1)
     header = Header(frame_id=rospy.get_param("~frame_id", "camera_color_optical_frame"))

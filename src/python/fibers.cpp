@@ -194,9 +194,11 @@ void move(Fibers& fibers, const py::object& points) {
 /// What copy and pickle make another one of: of the same class, which may be a subclass, with what
 /// it holds besides. Python's own way would leave the C++ part out.
 py::tuple reduce(const py::object& self) {
-  const Fibers::State state = self.cast<const Fibers&>().state();
-  const py::tuple arguments = py::make_tuple(self.get_type(), to_array(state->points()),
-                                             state->offsets(), to_array(state->radii()));
+  const auto& fibers = self.cast<const Fibers&>();
+  const Fibers::State state = fibers.state();
+  const py::tuple arguments =
+      py::make_tuple(self.get_type(), to_array(state->points()), state->offsets(),
+                     to_array(state->radii()), fiber_name_list(fibers));
   // Python has __getstate__ of all objects since 3.11.
   const py::object besides = py::hasattr(self, "__getstate__")
                                  ? py::object(self.attr("__getstate__")())
@@ -315,7 +317,10 @@ array([1., 1.])
           },
           py::arg("fibers"), "New Fibers: some of these, by index, in this order.")
       .def(
-          "copy", [](const Fibers& fibers) { return std::make_shared<Fibers>(*fibers.state()); },
+          "copy",
+          [](const Fibers& fibers) {
+            return std::make_shared<Fibers>(*fibers.state(), fibers.names());
+          },
           "New Fibers that move on their own; copy.copy() keeps a subclass, too.")
       .def("__reduce__", &reduce)
       .def("__repr__", &describe);

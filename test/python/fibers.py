@@ -129,8 +129,10 @@ class FibersTest(unittest.TestCase):
 
     def test_the_class_itself(self):
         fibers = fp.Fibers([A, B], radii=[0.1, 0.2])
-        for other in (copy.copy(fibers), copy.deepcopy(fibers), pickle.loads(pickle.dumps(fibers))):
+        fibers.names = ['red', 'grün']
+        for other in (copy.copy(fibers), copy.deepcopy(fibers), pickle.loads(pickle.dumps(fibers)), fibers.copy()):
             self.assertIs(type(other), fp.Fibers)
+            self.assertEqual(other.names, ['red', 'grün'])
             np.testing.assert_array_equal(other.offsets, fibers.offsets)
         robots = {'cables': [fibers, fibers]}
         again = copy.deepcopy(robots)['cables']

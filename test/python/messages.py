@@ -57,6 +57,7 @@ class Messages(unittest.TestCase):
         self.assertEqual(made, FiberArray().deserialize(packed(message)))
         self.assertEqual((made._type, made._md5sum, type(made).__name__), (message._type, message._md5sum, 'FiberArray'))
         # As rospy does before it sends.
+        self.assertEqual(fp.from_msg(message).names, message.names)
         made = fp.to_msg(fp.from_msg(message), names=['a', 'b'])
         made.header.seq = 77
         self.assertEqual(FiberArray().deserialize(packed(made)).header.seq, 77)

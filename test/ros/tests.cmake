@@ -234,6 +234,7 @@ roslaunch_add_file_check(../launch/demo.launch)
 roslaunch_add_file_check(../launch/hair.launch)
 roslaunch_add_file_check(../launch/hose.launch)
 roslaunch_add_file_check(../launch/passing.launch)
+roslaunch_add_file_check(../launch/proximity.launch)
 roslaunch_add_file_check(../launch/tracker_example.launch)
 roslaunch_add_file_check(../launch/with_tracker.launch
   frame:=world topic:=points radius:=0.01 margin:=0.02)

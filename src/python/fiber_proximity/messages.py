@@ -83,11 +83,11 @@ def _unpacked(message):
 def _from_fibers(message, default_radius):
     reader = _Reader(_bytes_of(message))
     reader.header()
-    reader.texts()
+    names = reader.texts()
     offsets = reader.list('<u4')
     points = reader.list(np.dtype(_POINT))
     radii = reader.list('<f8')
-    return Fibers(points, offsets, radii if radii.size else default_radius)
+    return point_messages.named(Fibers(points, offsets, radii if radii.size else default_radius), names)
 
 
 def _read_gradients(reader, count):

@@ -15,10 +15,17 @@ def positions(points):
     return np.array([(point.x, point.y, point.z) for point in points], dtype=float).reshape(-1, 3)
 
 
+def named(fibers, names):
+    """Fibres with the names of their message, if it has any."""
+    if names:
+        fibers.names = names
+    return fibers
+
+
 def _from_fiber_array(message, default_radius):
     radii = np.asarray(message.radii, dtype=float)
-    return Fibers(positions(message.points), np.asarray(message.offsets, dtype=np.int64),
-                  radii if radii.size else default_radius)
+    return named(Fibers(positions(message.points), np.asarray(message.offsets, dtype=np.int64),
+                        radii if radii.size else default_radius), getattr(message, 'names', ()))
 
 
 def _from_cloud(cloud, default_radius):

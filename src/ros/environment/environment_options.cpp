@@ -84,7 +84,9 @@ fiber::EnvironmentScene read_scene(const Parameters& parameters, const MeshLoade
   }
   const auto& file = static_cast<const std::string&>(value);
   return file.empty() ? fiber::EnvironmentScene()
-                      : fiber::read_environment_scene(fiber::load_yaml(file), meshes);
+                      : fiber::with_context("parameter " + node.resolveName("scene"), [&] {
+                          return fiber::read_environment_scene(fiber::load_yaml(file), meshes);
+                        });
 }
 
 std::vector<RobotLink> read_robot(const ros::NodeHandle& node, const Parameters& parameters,
@@ -161,7 +163,8 @@ std::vector<MarkerTopic> read_marker_topics(const Parameters& parameters) {
 MeshLoader read_mesh_folders(const Parameters& parameters) {
   std::vector<std::string> folders;
   parameters.read("mesh_folders", folders);
-  return MeshLoader(folders);
+  return fiber::with_context("parameter " + parameters.node().resolveName("mesh_folders"),
+                             [&] { return MeshLoader(folders); });
 }
 
 EnvironmentOptions read_environment_options(const ros::NodeHandle& node,

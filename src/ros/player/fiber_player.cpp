@@ -198,6 +198,12 @@ PlayerOptions read_player_options(const ros::NodeHandle& private_node) {
   parameters.read("start_delay", options.start_delay);
   parameters.read("radius", options.radius);
   parameters.warn_of_unknown();
+  if (std::string reason; !ros::names::validate(options.topic, reason)) {
+    parameters.refuse("topic", "a ROS name: " + reason);
+  }
+  if (options.frame_id.empty()) {
+    parameters.refuse("frame_id", "the name of a frame: messages without one are refused");
+  }
   if (!options.file.empty() && private_node.hasParam("scene")) {
     throw std::invalid_argument("parameters file and scene are both set: " + options.file +
                                 " and " + options.scene);
@@ -224,6 +230,8 @@ FiberPlayer::FiberPlayer(const ros::NodeHandle& node, const PlayerOptions& optio
       false);
   start_timer_ = node_.createTimer(
       ros::Duration(options.start_delay), [this](const ros::TimerEvent&) { timer_.start(); }, true);
+  clock_timer_ = node_.createSteadyTimer(
+      ros::WallDuration(1.0), [this](const ros::SteadyTimerEvent&) { clock_.look(); });
 }
 
 void FiberPlayer::publish_next() {

@@ -9,6 +9,7 @@
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
+#include "src/ros/support/clock_watch.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -56,6 +57,8 @@ class FiberPlayer {
   std::function<void(const std_msgs::Header&, const fiber::FiberAssembly&)> publish_;
   ros::Timer timer_;
   ros::Timer start_timer_;
+  ClockWatch clock_;
+  ros::SteadyTimer clock_timer_;
 };
 
 }  // namespace fiber_proximity_ros

@@ -93,6 +93,7 @@ void ProximityServer::process() {
 }
 
 void ProximityServer::tick() {
+  clock_.look();
   process();
   if (has_newcomers_ || is_heartbeat_due()) {
     answer(false, 0.0, Stopwatch());

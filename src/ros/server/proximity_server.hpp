@@ -23,6 +23,7 @@
 #include "src/ros/outputs/step_contacts.hpp"
 #include "src/ros/server/query_services.hpp"
 #include "src/ros/server/server_options.hpp"
+#include "src/ros/support/clock_watch.hpp"
 #include "src/ros/support/stopwatch.hpp"
 
 namespace fiber_proximity_ros {
@@ -108,6 +109,7 @@ class ProximityServer {
   ComparisonOutput comparison_;
   std::vector<ros::ServiceServer> queries_;
   dynamic_reconfigure::Server<AskedConfig> reconfigure_server_;
+  ClockWatch clock_;
   ros::SteadyTimer tick_timer_;
   ros::SteadyTimer retry_timer_;
 };

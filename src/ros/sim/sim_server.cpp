@@ -15,6 +15,7 @@
 #include "src/ros/support/parameters.hpp"
 #include "src/sim/scene/report.hpp"
 #include "src/text/join.hpp"
+#include "src/text/with_context.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -84,7 +85,9 @@ fiber::SimDescription read_scene(const SimOptions& options) {
 }
 
 SimServer::SimServer(const ros::NodeHandle& private_node, const SimOptions& options)
-    : SimServer(private_node, options, read_scene(options)) {}
+    : SimServer(private_node, options,
+                fiber::with_context("parameter " + private_node.resolveName("scene"),
+                                    [&options] { return read_scene(options); })) {}
 
 SimServer::SimServer(const ros::NodeHandle& private_node, const SimOptions& options,
                      const fiber::SimDescription& description)
@@ -117,6 +120,7 @@ SimServer::SimServer(const ros::NodeHandle& private_node, const SimOptions& opti
 SimServer::~SimServer() { is_ending_ = true; }
 
 void SimServer::keep_pace() {
+  clock_watch_.look();
   const std::lock_guard<FairMutex> lock(mutex_);
   if (is_paused_ || is_stepping_ || !failure_.empty()) {
     next_frame_ = ros::SteadyTime::now();

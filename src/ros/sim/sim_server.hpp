@@ -22,6 +22,7 @@
 #include "src/ros/sim/sim_forces.hpp"
 #include "src/ros/sim/sim_frames.hpp"
 #include "src/ros/sim/sim_markers.hpp"
+#include "src/ros/support/clock_watch.hpp"
 #include "src/sim/scene/report.hpp"
 
 namespace fiber_proximity_ros {
@@ -117,6 +118,7 @@ class SimServer {
   std::atomic<bool> is_ending_{false};
   ros::CallbackQueue step_queue_;
   std::vector<ros::ServiceServer> servers_;
+  ClockWatch clock_watch_;
   ros::SteadyTimer timer_;
   ros::SteadyTimer marker_timer_;
   ros::AsyncSpinner step_spinner_{1, &step_queue_};

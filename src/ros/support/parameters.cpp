@@ -100,6 +100,9 @@ YAML::Node to_yaml(const XmlRpcValue& value) {
 }  // namespace
 
 std::string text_of(const XmlRpcValue& value) {
+  if (value.getType() == XmlRpcValue::TypeBoolean) {
+    return static_cast<const bool&>(value) ? "true" : "false";  // not as a number
+  }
   std::ostringstream stream;
   stream << value;
   return fiber::shortened(stream.str());
