@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""Runs a tutorial as it is written, and compares what it prints with what it says it prints.
+"""Runs tutorials as they are written, and compares what they print with what they say they print.
 
-Usage: tutorials_test.py TUTORIAL.md
+Usage: tutorials_test.py [--reverse] TUTORIAL.md ...
 
-The ```sh blocks run in one bash, in an empty folder, beside a roscore of their own. The lines of a ```text
+They run one after another beside one roscore, as a reader would go through them: what one leaves on the parameter
+server is there for the next. The ```sh blocks of each run in one bash, in an empty folder. The lines of a ```text
 block must come in this order in the output of the sh block before, leading blanks aside; `...` stands for
 anything. `rosrun` is one that finds programs wherever the build is; setup_test.py is about ROS's own.
 """
@@ -114,8 +115,20 @@ def run(path, environment, folder):
         end(shell)
 
 
+def run_all(paths, environment, folder):
+    for number, path in enumerate(paths):
+        print(f'=== {path}', flush=True)
+        own = os.path.join(folder, str(number))
+        os.mkdir(own)
+        problem = run(path, environment, own)
+        if problem:
+            raise SystemExit(f'{path}: {problem}')
+
+
 def main():
-    path = os.path.abspath(sys.argv[1])
+    paths = [os.path.abspath(path) for path in sys.argv[1:] if path != '--reverse']
+    if '--reverse' in sys.argv:
+        paths.reverse()
     port = free_port()
     environment = dict(os.environ, ROS_MASTER_URI=f'http://127.0.0.1:{port}', ROS_IP='127.0.0.1')
     with tempfile.TemporaryDirectory() as folder:
@@ -134,11 +147,9 @@ def main():
                 if core.poll() is not None:
                     raise SystemExit('roscore ended')
                 time.sleep(0.2)
-            problem = run(path, environment, folder)
+            run_all(paths, environment, folder)
         finally:
             end(core)
-    if problem:
-        raise SystemExit(f'{path}: {problem}')
 
 
 if __name__ == '__main__':

@@ -220,10 +220,13 @@ set(tutorials ask_before_you_move attach_a_tracker measure_your_own_scene simula
 if(TARGET fiber_proximity_python)
   list(APPEND tutorials clearance_from_a_bag fit_a_cable plan_with_two_grippers)
 endif()
-foreach(name IN LISTS tutorials)
-  add_test(NAME tutorial_${name} COMMAND ${CATKIN_ENV} /usr/bin/python3 -B
-    ${CMAKE_CURRENT_SOURCE_DIR}/docs/tutorials_test.py ${PROJECT_SOURCE_DIR}/docs/tutorials/${name}.md)
-endforeach()
+list(TRANSFORM tutorials PREPEND ${PROJECT_SOURCE_DIR}/docs/tutorials/)
+list(TRANSFORM tutorials APPEND .md)
+# In both orders each comes after each other one, and what that has left.
+add_test(NAME tutorials COMMAND ${CATKIN_ENV} /usr/bin/python3 -B
+  ${CMAKE_CURRENT_SOURCE_DIR}/docs/tutorials_test.py ${tutorials})
+add_test(NAME tutorials_in_reverse COMMAND ${CATKIN_ENV} /usr/bin/python3 -B
+  ${CMAKE_CURRENT_SOURCE_DIR}/docs/tutorials_test.py --reverse ${tutorials})
 add_test(NAME setup_test COMMAND /usr/bin/python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/docs/setup_test.py
   ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR})
 

@@ -113,7 +113,9 @@ bool ProximityServer::is_heartbeat_due() const {
 void ProximityServer::answer(bool is_about_new_fibers, double time_before,
                              const Stopwatch& stopwatch) {
   last_answer_ = ros::SteadyTime::now();
-  has_newcomers_ = false;
+  // These two cannot say what is unknown: they are about fibres, where there are any.
+  const bool has_newcomers = std::exchange(has_newcomers_, false);
+  const bool shows_fibers = is_about_new_fibers || (has_newcomers && inputs_.is_fresh());
   statistics_.begin();
   if (is_about_new_fibers) {
     take_fibers();
@@ -121,12 +123,12 @@ void ProximityServer::answer(bool is_about_new_fibers, double time_before,
     step_.rest();
   }
   statistics_.add_part("merge", time_before + inputs_.take_work_time());
-  if (fibers_publisher_.getNumSubscribers() > 0) {
+  if (shows_fibers && fibers_publisher_.getNumSubscribers() > 0) {
     to_message(inputs_.fibers(), inputs_.names(), fibers_message_);
     fibers_message_.header = inputs_.header();
     fibers_publisher_.publish(fibers_message_);
   }
-  if (crossings_.is_wanted()) {
+  if (shows_fibers && crossings_.is_wanted()) {
     const Stopwatch crossings_time;
     crossings_.publish(inputs_.fibers(), inputs_.header(), inputs_.names());
     statistics_.add_part("crossings", crossings_time.seconds());
