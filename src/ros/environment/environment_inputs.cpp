@@ -336,6 +336,8 @@ void EnvironmentInputs::apply(std::shared_ptr<const Obstacles> obstacles, const 
                                                            const std::string& reason) {
     if (end == Change::End::APPLIED) {
       owed_.settle("", touched);
+    } else if (end == Change::End::REFUSED) {
+      owed_.refuse(obstacle_topic_name_, touched, ros::Time::now(), reason);
     }
     answer(end == Change::End::OVERTAKEN ? "all its objects were removed meanwhile" : reason);
   };

@@ -12,8 +12,8 @@ namespace fiber_proximity_ros {
 
 class TouchedObjects;
 
-/// Obstacles that somebody has sent on a topic and that were refused: what is around the fibres is
-/// not known until a later change of the same obstacle is made, or it is removed.
+/// Obstacles that somebody has sent and that were refused: what is around the fibres is not known
+/// until a later change of the same obstacle is made, or it is removed.
 class OwedChanges {
  public:
   /// [obstacle] Of more than these only the topics are known; they are owed until all obstacles of
