@@ -150,6 +150,9 @@ TEST_F(BadInputTest, ABadParameterIsAClearErrorAndExitCode2) {
            {"max_contacts", "2.5", "a whole number of at least 1"},
            {"contact_limit", "-1", "a whole number of at least 0"},
            {"pair_limit", "1.5", "a whole number of at least 0"},
+           {"pair_limit", "true", "a whole number of at least 0"},
+           {"heartbeat", "-1", "a number of at least 0"},
+           {"obstacles_required", "maybe", "true or false"},
            {"box_level", "-1", "a whole number of at least 0"},
            {"query_type", "nearest", "one of first, closest, limited, all, fiber_pairs"},
            {"query_type", "3", "one of first, closest, limited, all, fiber_pairs"},
@@ -188,6 +191,8 @@ TEST_F(BadInputTest, ABadParameterIsAClearErrorAndExitCode2) {
     expect_exit("_skin:=" + value,
                 "parameter /refused/skin is " + value + ", it must be a number of at least 0");
   }
+  expect_exit("_scene:=/none",
+              "parameter /refused/scene: scene '/none': there is no such file to read");
   expect_exit("_tf_timeout:=-1", "parameter /refused/tf_timeout is -1, it must be a number of ");
   expect_exit("_radius:=thick",
               "parameter /refused/radius is thick, it must be a number from 0 to ");

@@ -104,6 +104,9 @@ TEST_F(CloudTest, ABadCloudChangesNothing) {
   bad = good;
   bad.header.frame_id = "moon";
   expect_refusal(bad, "'moon'");
+  bad = good;
+  bad.header.stamp = ros::Time::now() + ros::Duration(3600.0);
+  expect_refusal(bad, "it may be 1 s ahead (max_stamp_ahead)");
 }
 
 TEST_F(CloudTest, WhatBecomesOfThePointsIsTold) {
@@ -326,6 +329,12 @@ TEST_F(ObstacleMarkersTest, ABadMarkerIsNamedAndItsMessageChangesNothing) {
   bad = marker(Marker::CUBE, 1);
   bad.scale.x = -1.0;
   expect_refusal(bad, "-1");
+  bad = marker(Marker::CUBE, 1);
+  bad.lifetime = ros::Duration(-5.0);
+  expect_refusal(bad, "lifetime is -5.000000 s, it must be at least 0");
+  bad = marker(Marker::CUBE, 1);
+  bad.action = 9;
+  expect_refusal(bad, "action is 9");
   bad = marker(Marker::CUBE, 1);
   bad.pose.orientation.x = 3.0;
   expect_refusal(bad, "quaternion");

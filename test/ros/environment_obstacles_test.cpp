@@ -93,6 +93,22 @@ TEST_F(EnvironmentInputsTest, AMessageIsAppliedWholeOrNotAtAll) {
   EXPECT_FALSE(inputs->is_used());
 }
 
+TEST_F(EnvironmentInputsTest, StampsOfTheFutureAreRefusedByTopicAndService) {
+  start_with_topic();
+  Obstacle late = ball("late");
+  late.header.stamp = ros::Time::now() + ros::Duration(3600.0);
+  publish({late});
+  ASSERT_TRUE(wait_for([&] { return statistics_of("obstacles").refused == 1; }));
+  const std::string error = statistics_of("obstacles").last_error;
+  EXPECT_EQ(error.rfind("obstacle 'late': its stamp ", 0), 0U) << error;
+  EXPECT_NE(error.find("it may be 1 s ahead (max_stamp_ahead)"), std::string::npos) << error;
+  EXPECT_NE(apply({late}).find("(max_stamp_ahead)"), std::string::npos);
+  EXPECT_TRUE(places().empty());
+  late.header.stamp = ros::Time::now();
+  EXPECT_EQ(apply({late}), "");
+  EXPECT_TRUE(unknown().empty()) << "it is there now";
+}
+
 TEST_F(EnvironmentInputsTest, AnEmptyIdRemovesAllObstaclesOfThatMoment) {
   start();
   EXPECT_EQ(apply({ball("a"), ball("b")}), "");

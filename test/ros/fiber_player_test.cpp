@@ -280,6 +280,9 @@ TEST(FiberPlayer, BadParametersEndTheNodeWithOneLine) {
   expect_refusal("_file:=" + good + " _fiber:=2", {"fiber is 2", "2 fibre(s)"});
   expect_refusal("_rate:=0", {"/bad_player/rate", "0"});
   expect_refusal("_rate:=quick", {"/bad_player/rate", "quick"});
+  expect_refusal("_rate:=1e6", {"/bad_player/rate", "a number from 0.001 to 1000"});
+  expect_refusal("_topic:=a-b", {"/bad_player/topic is a-b", "a ROS name"});
+  expect_refusal("_frame_id:=", {"/bad_player/frame_id", "the name of a frame"});
   expect_refusal("_radius:=-1", {"/bad_player/radius", "-1"});
   expect_refusal("_loop:=maybe", {"/bad_player/loop", "maybe"});
   expect_refusal("_fiber:=-2", {"FATAL", "/bad_player/fiber is -2", "at least -1"});

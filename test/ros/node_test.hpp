@@ -93,6 +93,11 @@ class Recorder {
     return wait_for([stamp](const Message& message) { return message.header.stamp == stamp; });
   }
 
+  /// For messages that nobody sends again. @returns whether the publisher is there
+  bool wait_for_connection() const {
+    return node_test::wait_for([&] { return subscriber_.getNumPublishers() > 0; });
+  }
+
   std::vector<Pointer> messages;
 
  private:

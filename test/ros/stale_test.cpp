@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "fiber_proximity/ContactEvent.h"
 #include "test/ros/messages.hpp"
 #include "test/ros/simulated_time_test.hpp"
 
@@ -48,8 +49,20 @@ class StaleTest : public node_test::SimulatedTimeTest {
 
 TEST_F(StaleTest, ATrackerThatStopsIsLeftOutUntilItIsBack) {
   const node_test::Recorder<diagnostic_msgs::DiagnosticArray> diagnostics(node, "/diagnostics");
+  const node_test::Recorder<fiber_proximity::ContactEvent> events(node,
+                                                                  "/proximity/contact_events");
+  ASSERT_TRUE(events.wait_for_connection());
+  ASSERT_TRUE(wait_for_answer(Names{"a", "b"}, &a_, &b_));
   const std::size_t logged = logs_of("input 'b'").size();
   ASSERT_TRUE(wait_for_answer(Names{"a"}, &a_));
+  // They lie on each other, and as far as anybody knows they still do.
+  const auto* lost = events.wait_for([](const fiber_proximity::ContactEvent& event) {
+    return event.kind != fiber_proximity::ContactEvent::BEGAN;
+  });
+  ASSERT_NE(lost, nullptr);
+  EXPECT_EQ(lost->kind, fiber_proximity::ContactEvent::LOST);
+  EXPECT_EQ(lost->body_a, "a");
+  EXPECT_EQ(lost->body_b, "b");
   const auto* stale = statistics.wait_for([this](const fiber_proximity::Statistics& message) {
     const auto* b = input_of(message, "b");
     return b->stale && message.header.stamp == contacts.messages.back()->header.stamp;
@@ -80,6 +93,23 @@ TEST_F(StaleTest, ATrackerThatStopsIsLeftOutUntilItIsBack) {
             "left out");
 
   EXPECT_TRUE(wait_for_answer(Names{"a", "b"}, &a_, &b_));
+}
+
+TEST_F(StaleTest, AFibreThatItsTrackerDoesNotSendAnyMoreHasEndedItsTouches) {
+  const node_test::Recorder<fiber_proximity::ContactEvent> events(node,
+                                                                  "/proximity/contact_events");
+  ASSERT_TRUE(events.wait_for_connection());
+  ASSERT_TRUE(wait_for_answer(Names{"a", "b"}, &a_, &b_));
+  FiberArray none;
+  none.header = header("world", now());
+  none.offsets = {0};
+  b_.publish(none);
+  const auto* ended = events.wait_for([](const fiber_proximity::ContactEvent& event) {
+    return event.kind != fiber_proximity::ContactEvent::BEGAN;
+  });
+  ASSERT_NE(ended, nullptr);
+  EXPECT_EQ(ended->kind, fiber_proximity::ContactEvent::ENDED) << "that it is gone is known";
+  EXPECT_TRUE(contacts.messages.back()->complete);
 }
 
 TEST_F(StaleTest, ATrackerThatRepeatsItsStampIsFrozen) {

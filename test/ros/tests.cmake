@@ -79,6 +79,7 @@ add_executable(node_test EXCLUDE_FROM_ALL
   ros/inputs_test.cpp
   ros/limits_test.cpp
   ros/main.cpp
+  ros/no_clock_test.cpp
   ros/nodelet_test.cpp
   ros/prediction_test.cpp
   ros/query_test.cpp  # first of its suite: asks before there are fibres
@@ -113,6 +114,7 @@ endforeach()
 add_rostest(ros/self_contact.test
   ARGS config:=cdcpd tests:=SelfContactOfOneTest DEPENDENCIES node_test proximity_node)
 
+add_rostest(ros/no_clock.test DEPENDENCIES node_test proximity_node fiber_player cable_sim)
 add_rostest(ros/relaunch.test DEPENDENCIES proximity_node)
 add_rostest(ros/reference.test DEPENDENCIES proximity_node fiber_player cable_sim)
 

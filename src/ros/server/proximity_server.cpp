@@ -74,13 +74,15 @@ void ProximityServer::schedule() {
   }
 }
 
-void ProximityServer::process() {
+/// @param may_repeat whether the last answer is to be given again where that is due
+void ProximityServer::process(bool may_repeat) {
   const double time_before = inputs_.take_work_time();
   const Stopwatch stopwatch;
   const bool fibers_changed = inputs_.update();
   const bool environment_changed = environment_.update();
   const bool knowledge_changed = knowledge_.update();
-  if (fibers_changed || knowledge_changed) {
+  const bool repeats = may_repeat && (has_newcomers_ || is_heartbeat_due());
+  if (fibers_changed || knowledge_changed || repeats) {
     answer(fibers_changed, time_before, stopwatch);
   } else if (environment_changed && inputs_.is_fresh() && environment_.has_listeners()) {
     answer_about_environment();
@@ -94,10 +96,7 @@ void ProximityServer::process() {
 
 void ProximityServer::tick() {
   clock_.look();
-  process();
-  if (has_newcomers_ || is_heartbeat_due()) {
-    answer(false, 0.0, Stopwatch());
-  }
+  process(true);
   publish_markers_if_due();
   diagnostics_.update();
 }

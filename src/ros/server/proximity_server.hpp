@@ -50,7 +50,7 @@ class ProximityServer {
   /// Has process() called after the callbacks that are in the queue already, so that messages that
   /// have arrived together are answered together.
   void schedule();
-  void process();
+  void process(bool may_repeat = false);
   void tick();
   bool is_heartbeat_due() const;
 
