@@ -70,14 +70,12 @@ generate_dynamic_reconfigure_options(cfg/Proximity.cfg)
 set(interface ${PROJECT_SOURCE_DIR}/cfg/interface.yaml)
 add_custom_command(OUTPUT ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_INCLUDE_DESTINATION}/ProximityConfig.h
   APPEND DEPENDS ${interface})
-# For one source: not among the headers, which are installed.
-set(interface_table ${PROJECT_BINARY_DIR}/generated/interface_table.inc)
+set(interface_table ${PROJECT_BINARY_DIR}/generated/interface_table.cpp)
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/generated)
 add_custom_command(OUTPUT ${interface_table}
   COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/scripts/make_reference.py --table ${interface_table}
   DEPENDS ${interface} ${PROJECT_SOURCE_DIR}/scripts/make_reference.py
   COMMENT "Making the table of parameters")
-add_custom_target(${PROJECT_NAME}_interface DEPENDS ${interface_table})
 
 # Who asks for components gets them without catkin, which makes a workspace of each project it is found by. It takes
 # the package's own template of its configuration: here its own one with a few lines before.

@@ -62,12 +62,11 @@ target_include_directories(fiber_proximity_ros SYSTEM PUBLIC
 target_link_libraries(fiber_proximity_ros
   PUBLIC fiber_proximity_sim fiber_proximity_compare fiber_proximity_paper ${catkin_LIBRARIES}
   PRIVATE fiber_proximity_options)
-get_filename_component(interface_folder ${interface_table} DIRECTORY)
-target_include_directories(fiber_proximity_ros PRIVATE ${interface_folder})
 fiber_proximity_parse_once(fiber_proximity_ros ${ros_headers})
+target_sources(fiber_proximity_ros PRIVATE ${interface_table}) # not there yet to be read for what is compiled together
 # Not all exported targets: messages in other languages need not be there first.
 add_dependencies(fiber_proximity_ros
-  ${PROJECT_NAME}_generate_messages_cpp ${PROJECT_NAME}_gencfg ${PROJECT_NAME}_interface)
+  ${PROJECT_NAME}_generate_messages_cpp ${PROJECT_NAME}_gencfg)
 
 add_executable(fiber_player src/nodes/fiber_player.cpp)
 target_link_libraries(fiber_player fiber_proximity_ros fiber_proximity_options)

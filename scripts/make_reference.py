@@ -5,7 +5,7 @@ Usage: make_reference.py [--check | --table FILE]
 
 Below each line `<!-- NODE KIND, by scripts/make_reference.py -->` of docs/*.md stands a table, which is made anew; KIND
 is subscribes, publishes, serves, parameters or keys. --check changes nothing, and fails if a table is not what would be made.
---table writes what C++ reads, for src/ros/support/parameters.cpp.
+--table writes interface_of() of src/ros/support/parameters.hpp in C++.
 """
 import pathlib
 import re
@@ -88,6 +88,27 @@ def make_documents(check):
 
 # ---- C++ -----------------------------------------------------------------------------------------
 
+CPP_BEGIN = '''\
+// Made from cfg/interface.yaml by scripts/make_reference.py.
+#include <limits>
+#include <map>
+
+#include "src/ros/support/parameters.hpp"
+
+namespace fiber_proximity_ros {
+
+const NodeInterface& interface_of(const std::string& node) {
+  static const std::map<std::string, NodeInterface> interfaces{
+'''
+CPP_END = '''\
+  };
+  return interfaces.at(node);
+}
+
+}  // namespace fiber_proximity_ros
+'''
+
+
 def literal(value):
     """A value of Python as C++ writes it."""
     if isinstance(value, str):
@@ -108,13 +129,13 @@ def cpp_parameter(name, entry):
 
 
 def cpp_table():
-    text = '// Made from cfg/interface.yaml by scripts/make_reference.py.\n'
+    text = CPP_BEGIN
     for node, interface in INTERFACE.items():
         topics = [name for kind in ('publishes', 'subscribes') for name in interface.get(kind, {}) if '`' not in name]
         text += f"{{{literal(node)}, {{{{{', '.join(literal(topic) for topic in topics)}}}, {{\n"
         options = next(interface[kind] for kind in OPTIONS if kind in interface)
         text += ''.join(cpp_parameter(*item) for item in options.items()) + '}}},\n'
-    return text
+    return text + CPP_END
 
 
 def main():

@@ -88,7 +88,7 @@ TEST(InputOptions, EveryErrorNamesKeyValueAndWhatIsAllowed) {
                                                      ", it must be one of refuse, bridge, split");
   }
   EXPECT_EQ(error_with("missing_points", true),
-            "key 'missing_points' is 1, it must be one of refuse, bridge, split");
+            "key 'missing_points' is true, it must be one of refuse, bridge, split");
   EXPECT_EQ(error_with("namespace", "state"),
             "key 'namespace' is for markers only, not for type 'fiber_proximity/FiberArray'");
   EXPECT_EQ(error_with("radius_from_marker", 1),

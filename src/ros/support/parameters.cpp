@@ -126,13 +126,6 @@ const Parameter* NodeInterface::find(const std::string& name) const {
   return found == parameters.end() ? nullptr : &*found;
 }
 
-const NodeInterface& interface_of(const std::string& node) {
-  static const std::map<std::string, NodeInterface> interfaces{
-#include "interface_table.inc"
-  };
-  return interfaces.at(node);
-}
-
 const Parameter& NodeInterface::at(const std::string& name) const {
   const Parameter* const parameter = find(name);
   if (parameter == nullptr) {
