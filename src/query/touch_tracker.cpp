@@ -9,6 +9,7 @@ namespace fiber {
 namespace {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+constexpr TimeBounds never{std::chrono::nanoseconds::max(), std::chrono::nanoseconds::max()};
 
 /// A segment as one number, in the order of fibre and index.
 std::uint64_t number_of(std::uint32_t fiber, std::uint32_t segment) {
@@ -119,8 +120,12 @@ void TouchTracker::advance(const std::vector<TouchingPair>& pairs, const TimeBou
     }
   }
   begin_when_parted(pairs.size());
-  for (const TouchStep& touch : touches_) {
+  for (TouchStep& touch : touches_) {
     if (touch.is_new) {
+      if (touch.touch.began.lower == never.lower) {  // nobody has told of it before
+        touch.touch.began = touch.left;
+      }
+      assert(touch.touch.began.upper < never.upper);
       events.push_back({TouchEvent::Kind::BEGAN, touch.touch, touch.touch.began});
     }
   }
@@ -134,7 +139,8 @@ void TouchTracker::advance(const std::vector<TouchingPair>& pairs, const TimeBou
 
 /// patches_ is the first pair of each pair's patch; of a patch that has parted, of its part.
 void TouchTracker::find_patches(const std::vector<TouchingPair>& pairs) {
-  join_neighbours(pairs, [](const TouchingPair&) { return true; }, patches_);
+  join_neighbours(
+      pairs, [](const TouchingPair&) { return true; }, patches_);
   partings_.clear();
   if (find_parts(pairs)) {
     share_gone_pairs(pairs);
@@ -148,7 +154,8 @@ bool TouchTracker::find_parts(const std::vector<TouchingPair>& pairs) {
   if (std::none_of(pairs.begin(), pairs.end(), is_gone)) {
     return false;
   }
-  join_neighbours(pairs, [](const TouchingPair& pair) { return !pair.is_gone; }, parts_);
+  join_neighbours(
+      pairs, [](const TouchingPair& pair) { return !pair.is_gone; }, parts_);
   bool one_has_parted = false;
   partings_.assign(pairs.size(), {none, false, {std::chrono::nanoseconds::max(), {}}});
   for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -226,7 +233,7 @@ void TouchTracker::go_on() {
     TouchStep& before = last_touches_[claim.touch];
     if (before.lasts && touch_of_patch_[claim.patch] == none) {
       touch_of_patch_[claim.patch] = static_cast<std::uint32_t>(touches_.size());
-      touches_.push_back({before.touch, false, false, {}, false});
+      touches_.push_back({before.touch, false, false, {}, false, never});
       touches_.back().touch.pair.distance = std::numeric_limits<double>::infinity();
       before.lasts = false;  // as that one
     }
@@ -235,13 +242,12 @@ void TouchTracker::go_on() {
 
 /// Touches of patches that none goes on in.
 void TouchTracker::begin_others(std::size_t pair_count) {
-  constexpr auto never = std::chrono::nanoseconds::max();
   for (std::size_t i = 0; i < pair_count; ++i) {
     if (patches_[i] == i && touch_of_patch_[i] == none) {
       touch_of_patch_[i] = static_cast<std::uint32_t>(touches_.size());
-      TouchStep touch{{}, true, false, {}, false};
+      TouchStep touch{{}, true, false, {}, false, never};
       touch.touch.id = next_id_;
-      touch.touch.began = {never, never};
+      touch.touch.began = never;
       touch.touch.deepest = std::numeric_limits<double>::infinity();
       touch.touch.pair.distance = touch.touch.deepest;
       next_id_ += id_step_;
@@ -257,8 +263,9 @@ void TouchTracker::take(const TouchingPair& pair, const TimeBounds& step, TouchS
     touch.pair = pair;
   }
   const bool was_there = pair.first.upper <= step.lower;
-  if (taken.is_new && !(was_there && pair.is_gone)) {  // that was part of another touch
-    touch.began = earlier(touch.began, pair.first);
+  TimeBounds& began = was_there && pair.is_gone ? taken.left : touch.began;
+  if (taken.is_new) {
+    began = earlier(began, pair.first);
   }
   if (pair.is_gone) {
     taken.last = later(taken.last, pair.last);

@@ -49,11 +49,11 @@ struct TouchEvent {
 /// Recognises contacts from step to step.
 ///
 /// A touch is one patch of neighbouring pairs at the end of a step. Pairs that touched during the
-/// step and are gone belong to the patch that they were next to. A touch goes on in a patch that has
-/// one of its pairs of the step before or, if none has, in one with a pair next to these. Where
-/// touches meet, the oldest one goes on and the others end; where one parts, it goes on in the patch
-/// of the smallest indices, and the other patches begin: when they part, or where none of their
-/// pairs was in contact before, when the first of these came.
+/// step and are gone belong to the patch that they were next to. A touch goes on in a patch that
+/// has one of its pairs of the step before or, if none has, in one with a pair next to these. Where
+/// touches meet, the oldest one goes on and the others end; where one parts, it goes on in the
+/// patch of the smallest indices, and the other patches begin: when they part, or where none of
+/// their pairs was in contact before, when the first of these came.
 class TouchTracker {
  public:
   /// @param first_id, id_step ids are first_id, first_id + id_step, …: two trackers need not give
@@ -94,6 +94,8 @@ class TouchTracker {
     bool lasts;       // has a pair that is not gone
     TimeBounds last;  // when its pairs that are gone were in contact for the last time
     bool was_there;   // has a pair that was in contact before the step, and is
+    TimeBounds left;  // when its pairs came that were there and are gone: parts of another touch,
+                      // if it has others
   };
 
   /// A pair at the end of that step.
@@ -139,7 +141,8 @@ class TouchTracker {
   std::vector<Parting> partings_;  // by patch
   std::vector<std::uint32_t> touch_of_patch_;
   std::vector<Claim> claims_;
-  std::vector<std::uint32_t> claimed_last_;  // by touch: the patches of its last claims of both kinds
+  std::vector<std::uint32_t>
+      claimed_last_;  // by touch: the patches of its last claims of both kinds
   std::vector<TouchStep> last_touches_;
 };
 

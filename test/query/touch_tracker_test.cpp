@@ -76,6 +76,19 @@ TEST_F(TouchTrackerTest, ATouchBeginsLastsAndEnds) {
   EXPECT_EQ(step({{4, 7}}).front().touch.id, 2U);
 }
 
+/// An object that was put elsewhere is met from where nobody saw it.
+TEST_F(TouchTrackerTest, WhatWasThereUnseenAndLeavesBeginsWhenItCame) {
+  ASSERT_TRUE(step({}).empty());
+  const auto events = step_with({{0, 4, 1, 7, -1e-3, true, at(1000, 1000), at(1200, 1300)}});
+  ASSERT_EQ(events.size(), 2U);
+  EXPECT_EQ(events[0].kind, TouchEvent::Kind::BEGAN);
+  EXPECT_EQ(events[0].time.lower, nanoseconds(1000));
+  EXPECT_EQ(events[0].time.upper, nanoseconds(1000));
+  EXPECT_EQ(events[1].kind, TouchEvent::Kind::ENDED);
+  EXPECT_EQ(events[1].time.upper, nanoseconds(1300));
+  EXPECT_EQ(events[1].duration(), nanoseconds(300));
+}
+
 TEST_F(TouchTrackerTest, ATouchThatSlidesAlongStaysTheSame) {
   ASSERT_EQ(step({{0, 0}}).size(), 1U);
   for (std::uint32_t i = 1; i < 50; ++i) {
@@ -245,8 +258,8 @@ TEST_F(TouchTrackerTest, WhatPartsWithinTheStepThatItBeganInIsTwo) {
   std::vector<TouchingPair> pairs;
   for (std::uint32_t i = 0; i < 9; ++i) {
     const bool is_gone = i >= 3 && i < 6;
-    pairs.push_back({0, i, 1, i, -1e-3, is_gone, at(1900 + i, 1900 + i),
-                     is_gone ? at(1950, 1951) : at(0, 0)});
+    pairs.push_back(
+        {0, i, 1, i, -1e-3, is_gone, at(1900 + i, 1900 + i), is_gone ? at(1950, 1951) : at(0, 0)});
   }
   const auto began = step_with(pairs);
   ASSERT_EQ(began.size(), 2U);
@@ -334,7 +347,8 @@ class TouchingWalk {
   std::set<Key> standing_;
 };
 
-/// Beside what is told by looking at all pairs: a touch is what hangs together at the end of a step.
+/// Beside what is told by looking at all pairs: a touch is what hangs together at the end of a
+/// step.
 TEST_F(TouchTrackerTest, TouchesAreWhatHangsTogetherAtTheEndOfAStep) {
   Random random;
   TouchingWalk walk(random);
@@ -380,8 +394,8 @@ TEST_F(TouchTrackerTest, TouchesAreWhatHangsTogetherAtTheEndOfAStep) {
         continue;
       }
       EXPECT_TRUE(open.insert(id).second);
-      TimeBounds first = at(std::numeric_limits<std::int64_t>::max(),
-                            std::numeric_limits<std::int64_t>::max());
+      TimeBounds first =
+          at(std::numeric_limits<std::int64_t>::max(), std::numeric_limits<std::int64_t>::max());
       TimeBounds joined = at(std::numeric_limits<std::int64_t>::max(), 0);
       bool has_parted = false;
       bool was_there = false;
