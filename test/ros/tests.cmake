@@ -115,6 +115,7 @@ add_rostest(ros/self_contact.test
   ARGS config:=cdcpd tests:=SelfContactOfOneTest DEPENDENCIES node_test proximity_node)
 
 add_rostest(ros/no_clock.test DEPENDENCIES node_test proximity_node fiber_player cable_sim)
+add_rostest(ros/guard_robot.test)
 add_rostest(ros/relaunch.test DEPENDENCIES proximity_node)
 add_rostest(ros/reference.test DEPENDENCIES proximity_node fiber_player cable_sim)
 
@@ -236,6 +237,7 @@ find_package(roslaunch REQUIRED)
 roslaunch_add_file_check(../launch/cable_sim.launch)
 roslaunch_add_file_check(../launch/cell.launch)
 roslaunch_add_file_check(../launch/demo.launch)
+roslaunch_add_file_check(../launch/guard_robot.launch distance:=0.05)
 roslaunch_add_file_check(../launch/hair.launch)
 roslaunch_add_file_check(../launch/hose.launch)
 roslaunch_add_file_check(../launch/passing.launch)
