@@ -219,7 +219,8 @@ if(TARGET fiber_proximity_python)
 endif()
 
 # In the environment of the devel space, as its readers.
-set(tutorials ask_before_you_move attach_a_tracker measure_your_own_scene simulate_a_cable)
+set(tutorials ask_before_you_move attach_a_tracker measure_your_own_scene my_robot_and_my_cable simulate_a_cable
+  stop_the_robot two_cables)
 if(TARGET fiber_proximity_python)
   list(APPEND tutorials clearance_from_a_bag fit_a_cable plan_with_two_grippers)
 endif()
@@ -244,7 +245,7 @@ roslaunch_add_file_check(../launch/passing.launch)
 roslaunch_add_file_check(../launch/proximity.launch)
 roslaunch_add_file_check(../launch/tracker_example.launch)
 roslaunch_add_file_check(../launch/with_tracker.launch
-  frame:=world topic:=points radius:=0.01 margin:=0.02)
+  frame:=world topic:=points radius:=0.01 margin:=0.02 robot:=true)
 roslaunch_add_file_check(../launch/with_tracker.launch frame:=world
   config:=${PROJECT_SOURCE_DIR}/config/cdcpd.yaml)
 roslaunch_add_file_check(../launch/bag.launch bag:=/tmp/any.bag frame:=world
