@@ -146,8 +146,10 @@ class Guard:
             if reason and not self.is_stopped:
                 self.is_stopped = True
                 self.has_to_call.set()
+                self.publisher.publish(True)  # before anything that may take time
                 rospy.logwarn('stop: %s', reason)
-            elif not reason and self.is_stopped and not self.holds:
+                return
+            if not reason and self.is_stopped and not self.holds:
                 self.go()
             self.publisher.publish(self.is_stopped)
 
