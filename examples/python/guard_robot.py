@@ -10,7 +10,7 @@ Parameters:
   ~among_fibers (false)   to its ~contacts as well: cables near each other or themselves stop the robot, too
   ~objects ([])  names that must be among those of the answers, such as [robot/tool]
   ~hold (true)   a stop holds until ~reset is called; false: until answers are free again
-  ~service (none)         of type std_srvs/Trigger, called at each stop, again and again until it succeeds
+  ~service (none)         a std_srvs/Trigger, called at the start and at each stop, again and again until it succeeds
 Publishes ~stop (std_msgs/Bool), at each change and 20 times a second. Who hears nothing has to stop as well.
 Serves ~reset (std_srvs/Trigger). It starts stopped.
 """
@@ -42,7 +42,8 @@ def check_names():
     """A parameter that is misspelt would leave a guard that is not the one that was meant."""
     for name in rospy.get_param('~', {}):
         if name not in PARAMETERS:
-            raise ValueError(f'parameter {rospy.resolve_name("~" + name)} is unknown, there are: {", ".join(PARAMETERS)}')
+            raise ValueError(f'parameter {rospy.resolve_name("~" + name)} is unknown, it must be one of: '
+                             f'{", ".join(PARAMETERS)}')
 
 
 def is_number(value):

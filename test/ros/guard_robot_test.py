@@ -112,7 +112,7 @@ class GuardTest(unittest.TestCase):
         nearer = Contact(type_b=Contact.OBJECT, lower=0.049, gone=True)
         for answer, reason in [
                 (free(complete=False), 'not complete'),
-                (free(complete=False, unknown=['the link robot/tool: no transform']), 'the link robot/tool: no transform'),
+                (free(complete=False, unknown=['tool since 2: no transform']), 'tool since 2: no transform'),
                 (free(unknown=['a cloud']), 'a cloud'),
                 (free(minimum_lower=0.049), 'cable and robot/tool: 49.0 mm'),
                 (free(minimum_lower=-math.inf), '-inf mm'),
@@ -201,7 +201,7 @@ class GuardTest(unittest.TestCase):
                 (['_distance:=5mm'], "parameter /guard/distance is '5mm', it must be"),
                 (['_distance:=0.05', '_timeout:=0'], 'parameter /guard/timeout is 0, it must be a number above 0 [s]'),
                 (['_distance:=0.05', '_hold:=1'], 'parameter /guard/hold is 1, it must be true or false'),
-                (['_distance:=0.05', '_objects:=tool'], "parameter /guard/objects is 'tool', it must be a list of names"),
+                (['_distance:=0.05', '_objects:=tool'], "parameter /guard/objects is 'tool', it must be a list"),
                 (['_distance:=0.05', '_timout:=1'], 'parameter /guard/timout is unknown')]:
             with self.subTest(line):
                 self.log = ''
