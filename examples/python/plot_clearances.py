@@ -1,6 +1,10 @@
 #!/usr/bin/python3
 """Plots how near fibres come to themselves and to each other, while they move: rosrun fiber_proximity
-plot_clearances.py ~fibers:=/proximity/fibers. Where it ends, the plot is written to the file ~picture, if that is set."""
+plot_clearances.py ~fibers:=/proximity/fibers. Where it ends, the plot is written to the file ~picture, if that is set.
+Time is that of the messages' stamps."""
+import struct
+import sys
+
 import matplotlib.pyplot as plt
 import rospy
 
@@ -15,10 +19,20 @@ axes.set(xlabel='time [s]', ylabel='clearance [mm]')
 axes.legend()
 
 
+def stamp_of(message):
+    """[s], from its bytes: a header comes first, in an array of markers after their number. Without a stamp: now."""
+    place = 8 if message._connection_header['type'].endswith('/MarkerArray') else 4
+    seconds, nanoseconds = struct.unpack_from('<II', message._buff, place)
+    return seconds + 1e-9 * nanoseconds or rospy.get_time()
+
+
 def receive(message):  # its bytes, which from_msg reads at once
     engine.update(from_msg(message))
     closest = [engine.closest(pairing=pairing) for pairing in PAIRINGS]
-    track.append([rospy.get_time()] + [None if contact is None else 1000 * contact['distance'] for contact in closest])
+    stamp = stamp_of(message)
+    if track and stamp < track[-1][0]:  # a bag that begins anew
+        track.clear()
+    track.append([stamp] + [None if contact is None else 1000 * contact['distance'] for contact in closest])
 
 
 rospy.Subscriber('~fibers', rospy.AnyMsg, receive, queue_size=1)
@@ -28,5 +42,7 @@ while not rospy.is_shutdown() and plt.fignum_exists(figure.number):
     axes.relim()
     axes.autoscale_view()
     plt.pause(0.1)
+if not track:
+    sys.exit(f'plot_clearances.py: no fibres have come on {rospy.resolve_name("~fibers")}')
 if rospy.has_param('~picture'):
     figure.savefig(rospy.get_param('~picture'))

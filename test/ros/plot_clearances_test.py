@@ -20,10 +20,12 @@ PATIENCE = 120.0  # [s] that only a broken example needs
 SCRIPT = os.path.join(rospkg.RosPack().get_path('fiber_proximity'), 'examples', 'python', 'plot_clearances.py')
 
 
-def cables(height):
+def cables(height, stamp=0.0):
     """Two straight ones that cross, 10 mm thick, their axes a height [m] apart."""
-    return FiberArray(offsets=[0, 2, 4], radii=[0.005],
-                      points=[Point(-1, 0, 0), Point(1, 0, 0), Point(0, -1, height), Point(0, 1, height)])
+    message = FiberArray(offsets=[0, 2, 4], radii=[0.005],
+                         points=[Point(-1, 0, 0), Point(1, 0, 0), Point(0, -1, height), Point(0, 1, height)])
+    message.header.stamp = rospy.Time.from_sec(stamp)
+    return message
 
 
 def lines_of(picture):
@@ -36,36 +38,68 @@ def lines_of(picture):
 
 class PlotClearancesTest(unittest.TestCase):
 
-    def test_plot_follows_the_fibers(self):
-        rospy.init_node('plot_clearances_test')
-        publisher = rospy.Publisher('cables', FiberArray, queue_size=100)
-        with tempfile.TemporaryDirectory() as folder:
-            picture = os.path.join(folder, 'plot.svg')
-            plot = subprocess.Popen([SCRIPT, '~fibers:=/cables', f'_picture:={picture}'],
-                                    env=dict(os.environ, MPLBACKEND='Agg'))
-            self.addCleanup(plot.kill)
-            end = time.monotonic() + PATIENCE
-            while publisher.get_num_connections() == 0:
-                self.assertIsNone(plot.poll(), 'the example has ended')
-                self.assertLess(time.monotonic(), end, 'the example does not subscribe')
-                time.sleep(0.1)
-            # Up and down, so that no two pieces of the curve are one.
-            heights = 0.03 + 0.01 * np.sin(np.linspace(0, 3 * np.pi, 60))
-            for height in heights:
-                publisher.publish(cables(height))
-                time.sleep(0.05)
-            time.sleep(1.0)  # a message that comes late is not drawn
-            plot.send_signal(signal.SIGINT)
-            self.assertEqual(plot.wait(PATIENCE), 0)
-            curve = lines_of(picture)[0]
+    def setUp(self):
+        self.publisher = rospy.Publisher('cables', FiberArray, queue_size=100)
+        self.addCleanup(self.publisher.unregister)
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.picture = os.path.join(folder.name, 'plot.svg')
+        self.plot = subprocess.Popen([SCRIPT, '~fibers:=/cables', f'_picture:={self.picture}'],
+                                     env=dict(os.environ, MPLBACKEND='Agg'), stderr=subprocess.PIPE, text=True)
+        self.addCleanup(self.plot.stderr.close)
+        self.addCleanup(self.plot.wait)
+        self.addCleanup(self.plot.kill)
+        end = time.monotonic() + PATIENCE
+        while self.publisher.get_num_connections() == 0:
+            self.assertIsNone(self.plot.poll(), 'the example has ended')
+            self.assertLess(time.monotonic(), end, 'the example does not subscribe')
+            time.sleep(0.1)
+
+    def end(self):
+        """The exit code, and what it says."""
+        self.plot.send_signal(signal.SIGINT)
+        _, text = self.plot.communicate(timeout=PATIENCE)
+        return self.plot.returncode, text
+
+    def curve(self):
+        time.sleep(1.0)  # a message that comes late is not drawn
+        self.assertEqual(self.end()[0], 0)
+        curve = lines_of(self.picture)[0]
         self.assertGreater(len(curve), 30)
         self.assertTrue((np.diff(curve[:, 0]) >= 0.0).all(), 'time runs to the right')
-        # Three half waves: a maximum, a minimum and a maximum of the clearance, which SVG draws downwards.
-        up = -curve[:, 1]
+        return curve[:, 0], -curve[:, 1]  # which SVG draws downwards
+
+    def test_plot_follows_the_fibers(self):
+        # Up and down, so that no two pieces of the curve are one.
+        for height in 0.03 + 0.01 * np.sin(np.linspace(0, 3 * np.pi, 60)):
+            self.publisher.publish(cables(height))
+            time.sleep(0.05)
+        _, up = self.curve()
+        # Three half waves: a maximum, a minimum and a maximum of the clearance.
         middle = up[0]
         turns = np.flatnonzero(np.diff(np.sign(up - middle)[np.abs(up - middle) > 0.05 * np.ptp(up)]))
         self.assertEqual(len(turns), 2)
 
+    def test_time_is_that_of_the_stamps(self):
+        # As from a bag that was first played slowly: what was drawn then is gone where it begins anew.
+        self.publisher.publish(cables(0.05, 2000.0))
+        self.publisher.publish(cables(0.06, 2001.0))
+        time.sleep(0.5)
+        parts = np.linspace(0.0, 1.0, 60)
+        for part in parts:  # a parabola by stamps, and far from one by arrival
+            self.publisher.publish(cables(0.02 + 0.01 * part**2, 1000.0 + part))
+            time.sleep(0.02 if part < 0.5 else 0.1)
+        along, up = self.curve()
+        part = (along - along[0]) / np.ptp(along)
+        np.testing.assert_allclose((up - up[0]) / np.ptp(up), part**2, atol=0.02)
+
+    def test_without_fibers_there_is_no_picture(self):
+        code, text = self.end()
+        self.assertEqual(code, 1)
+        self.assertIn('no fibres have come on /cables', text)
+        self.assertFalse(os.path.exists(self.picture))
+
 
 if __name__ == '__main__':
+    rospy.init_node('plot_clearances_test')
     rostest.rosrun('fiber_proximity', 'plot_clearances_test', PlotClearancesTest)

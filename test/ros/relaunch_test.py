@@ -88,6 +88,15 @@ class RelaunchTest(unittest.TestCase):
         self.assertEqual(parameters["margin"], 0.001)
         self.assertEqual(parameters["neighbour_skip"], 2)
 
+    def test_robot_is_an_argument_beside_a_file(self):
+        self.master.setParam("/robot_description", "<robot name='box'><link name='box'><collision><geometry>"
+                             "<box size='1 1 1'/></geometry></collision></link></robot>")
+        self.assertIs(self.start("frame:=base_link", "topic:=/points", "robot:=true")["robot"], True)
+        self.assertNotIn("robot", self.start("frame:=base_link", "topic:=/points"))
+        self.config.write("robot: true\n")
+        self.config.flush()
+        self.assertIs(self.start("frame:=base_link", f"config:={self.config.name}")["robot"], True)
+
     def test_rviz_shows_a_view_that_finds_cables(self):
         package = rospkg.RosPack().get_path("fiber_proximity")
         config = roslaunch.config.ROSLaunchConfig()

@@ -115,6 +115,7 @@ add_rostest(ros/self_contact.test
   ARGS config:=cdcpd tests:=SelfContactOfOneTest DEPENDENCIES node_test proximity_node)
 
 add_rostest(ros/no_clock.test DEPENDENCIES node_test proximity_node fiber_player cable_sim)
+add_rostest(ros/guard_robot.test)
 add_rostest(ros/relaunch.test DEPENDENCIES proximity_node)
 add_rostest(ros/reference.test DEPENDENCIES proximity_node fiber_player cable_sim)
 
@@ -218,7 +219,8 @@ if(TARGET fiber_proximity_python)
 endif()
 
 # In the environment of the devel space, as its readers.
-set(tutorials ask_before_you_move attach_a_tracker measure_your_own_scene simulate_a_cable)
+set(tutorials ask_before_you_move attach_a_tracker measure_your_own_scene my_robot_and_my_cable simulate_a_cable
+  stop_the_robot two_cables)
 if(TARGET fiber_proximity_python)
   list(APPEND tutorials clearance_from_a_bag fit_a_cable plan_with_two_grippers)
 endif()
@@ -236,13 +238,14 @@ find_package(roslaunch REQUIRED)
 roslaunch_add_file_check(../launch/cable_sim.launch)
 roslaunch_add_file_check(../launch/cell.launch)
 roslaunch_add_file_check(../launch/demo.launch)
+roslaunch_add_file_check(../launch/guard_robot.launch distance:=0.05)
 roslaunch_add_file_check(../launch/hair.launch)
 roslaunch_add_file_check(../launch/hose.launch)
 roslaunch_add_file_check(../launch/passing.launch)
 roslaunch_add_file_check(../launch/proximity.launch)
 roslaunch_add_file_check(../launch/tracker_example.launch)
 roslaunch_add_file_check(../launch/with_tracker.launch
-  frame:=world topic:=points radius:=0.01 margin:=0.02)
+  frame:=world topic:=points radius:=0.01 margin:=0.02 robot:=true)
 roslaunch_add_file_check(../launch/with_tracker.launch frame:=world
   config:=${PROJECT_SOURCE_DIR}/config/cdcpd.yaml)
 roslaunch_add_file_check(../launch/bag.launch bag:=/tmp/any.bag frame:=world
