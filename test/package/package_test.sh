@@ -66,6 +66,22 @@ if "$work/examples/simulate_scene" "$work/none.yaml" 2>"$work/error.txt"; then
 fi
 grep -q "none.yaml" "$work/error.txt" || fail "the error does not name the file"
 
+# expect_paper_engines FOLDER: the program of this build has the engine of the paper that it calls for.
+expect_paper_engines() {
+  local answer
+  answer=$("$(find "$1" -name paper_engines -type f)" 2>&1) || fail "paper_engines of $1: $answer"
+  [ "$answer" = "AL: 1 contact, 0.5 m" ] || fail "paper_engines of $1 has another answer: $answer"
+}
+cmake -S "$source/test/package/cmake_user" -B "$work/cmake_user" -DCMAKE_PREFIX_PATH="$prefix" \
+  -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCMAKE_CXX_FLAGS="$flags" >"$work/configure.log" ||
+  { cat "$work/configure.log"; exit 1; }
+cmake --build "$work/cmake_user" >"$work/build.log" || { cat "$work/build.log"; exit 1; }
+expect_paper_engines "$work/cmake_user"
+# What is linked is for the consumer to say.
+if grep -r LINK_OPTIONS "$prefix" --include='fiber_proximity-*.cmake'; then
+  fail "a component has linker options for its consumers"
+fi
+
 if [ "${#mpiexec[@]}" -gt 0 ]; then
   "${mpiexec[@]}" 3 "$work/examples/contacts_over_ranks" | tee "$work/ranks.txt"
   [ "$(grep -c '^fibre [012] segment [01] and fibre [012] segment [01]: 0.0010 m apart$' "$work/ranks.txt")" -eq 8 ] ||
@@ -114,4 +130,5 @@ if grep -q catkin "$config"; then
   # Not through a pipe: grep ends it early, and ldd then fails now and then.
   linked=$(ldd "$(find "$work/catkin/devel" -name contact_node -type f)")
   [[ $linked == *libfiber_proximity_ros* ]] || fail "contact_node does not link the library"
+  expect_paper_engines "$work/catkin/devel"
 fi
