@@ -12,8 +12,6 @@ add_library(fiber_proximity_paper SHARED
   src/scenes/cloth.cpp
   src/scenes/hair.cpp
   src/scenes/large_scene.cpp
-  test/support/hard_motions.cpp
-  test/support/hard_pairs.cpp
   src/scenes/scalp.cpp
   src/scenes/scene.cpp
   src/scenes/soup.cpp

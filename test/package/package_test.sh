@@ -40,6 +40,19 @@ cmake --install "$build" --prefix "$prefix" >"$work/install.log"
 if [ -n "$(find "$prefix" -path '*include*' \( -name '*-inl.hpp' -o -name '*interface_table*' \))" ]; then
   fail "a private header is installed"
 fi
+# Nothing that only tests and benchmarks are made of is in an installed library.
+# defined FILE… [-D]: names of what these define once and for all; templates and inline functions are everybody's.
+defined() {
+  nm --defined-only -g "$@" 2>/dev/null | awk '$2 ~ /^[TDBR]$/ { print $3 }' | sort -u
+}
+mapfile -t archives < <(
+  find "$build" \( -name libhard_cases.a -o -name libtest_support.a -o -name 'libfiber_bench_*.a' \))
+defined "${archives[@]}" >"$work/test_symbols.txt"
+grep -q hard_pairs "$work/test_symbols.txt" || fail "no symbols of test code are found"
+while IFS= read -r library; do
+  defined -D "$library" | comm -12 - "$work/test_symbols.txt" >"$work/both.txt"
+  [ ! -s "$work/both.txt" ] || fail "$library has code of tests: $(c++filt <"$work/both.txt")"
+done < <(find "$prefix" -name 'libfiber_proximity*.so')
 
 cmake -S "$source/examples" -B "$work/examples" -DCMAKE_PREFIX_PATH="$prefix" \
   -DPYTHON_EXECUTABLE=/usr/bin/python3 \
