@@ -43,6 +43,37 @@ class CollectorSink final : public PairSink {
   const float moved_;
 };
 
+/// Hands on what another sink is offered, of trees whose pairs may be nearer than they have them.
+class WideningSink final : public PairSink {
+ public:
+  /// @param moved [m] by how much
+  WideningSink(PairSink& sink, double moved) : sink_(sink), moved_(moved) {}
+
+  bool offer(PointPair pair) override { return sink_.offer(pair); }
+  float bound() const override { return round_up(double{sink_.bound()} + moved_); }
+  bool bound_shrinks() const override { return sink_.bound_shrinks(); }
+  bool wants_adjacent() const override { return sink_.wants_adjacent(); }
+  PointRange ruled_out_with(std::uint32_t point) const override {
+    return sink_.ruled_out_with(point);
+  }
+
+ private:
+  PairSink& sink_;
+  const double moved_;
+};
+
+void offer_all(const RunTreeView& a, const RunTreeView& b, double moved, PairSink& sink,
+               const std::function<bool()>& is_over, QueryCounts& counts) {
+  WideningSink wide(sink, moved);
+  const std::uint32_t groups = b.group_count() == 0 ? 0 : a.group_count();
+  for (std::uint32_t group = 0; group < groups && !is_over(); ++group) {
+    if (!find_near_segments(a, group, group + 1, b, wide, counts.node_tests,
+                            counts.node_overlaps)) {
+      return;
+    }
+  }
+}
+
 void find_some(const RunTreeView& a, const RunTreeView& b, const QueryOptions& options,
                double moved, PairCollector& collector, QueryCounts& counts) {
   CollectorSink sink(collector, moved);
@@ -214,6 +245,19 @@ void RunTreeEngine::do_query_shape(const FiberAssembly& shape, const FiberAssemb
   }
   PairCollector collector(shape, fibers, left, result);
   find_some(shape_tree.view(), tree_.view(), left, moved_since_fit(), collector, result.counts);
+}
+
+void RunTreeEngine::offer_pairs(PairSink& sink, const std::function<bool()>& is_over,
+                                QueryCounts& counts) const {
+  offer_all(tree_.view(), tree_.view(), 2.0 * moved_since_fit(), sink, is_over, counts);
+}
+
+void RunTreeEngine::offer_pairs_with(const FiberAssembly& shape, PairSink& sink,
+                                     const std::function<bool()>& is_over,
+                                     QueryCounts& counts) const {
+  RunTree shape_tree;
+  shape_tree.build({shape, tree_.origin()});
+  offer_all(shape_tree.view(), tree_.view(), moved_since_fit(), sink, is_over, counts);
 }
 
 /// All contacts of the fibres with each other: from candidates that are kept, if there are such.
