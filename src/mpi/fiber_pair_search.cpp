@@ -26,14 +26,6 @@ std::uint64_t count_fiber_pairs(const Communicator& ranks, const NamedFibers& ow
 
 }  // namespace
 
-void SegmentNames::seek(std::uint32_t point) {
-  if (point - begin_ >= end_ - begin_) {
-    stretch_ = fibers_.fibers().segment_id(point).fiber;
-    begin_ = fibers_.fibers().offsets()[stretch_];
-    end_ = fibers_.fibers().offsets()[stretch_ + 1];
-  }
-}
-
 /// Hands what the trees find to the search.
 class FiberPairSearch::Sink final : public PairSink {
  public:

@@ -10,35 +10,11 @@
 #include "src/mpi/closest_of_fibers.hpp"
 #include "src/mpi/loop_questions.hpp"
 #include "src/mpi/named_fibers.hpp"
+#include "src/mpi/segment_names.hpp"
 #include "src/mpi/whole_fiber_pairs.hpp"
 #include "src/query/run_tree_engine.hpp"
 
 namespace fiber {
-
-/// What segments are called, which come in any order.
-class SegmentNames {
- public:
-  explicit SegmentNames(const NamedFibers& fibers) : fibers_(fibers) {}
-
-  /// What the segment that starts at this point is called by all ranks.
-  GlobalSegment name_of(std::uint32_t point) {
-    seek(point);
-    return fibers_.name_of(stretch_, point - begin_);
-  }
-  /// The fibre here that it is on.
-  std::uint32_t stretch_of(std::uint32_t point) {
-    seek(point);
-    return stretch_;
-  }
-
- private:
-  void seek(std::uint32_t point);
-
-  const NamedFibers& fibers_;
-  std::uint32_t stretch_ = 0;  // that of the segment before, as the next one is often on it, too
-  std::uint32_t begin_ = 0;    // of its points; none yet
-  std::uint32_t end_ = 0;
-};
 
 /// FIBER_PAIRS over ranks: of each pair of fibres the closest pair of segments among those that
 /// this rank reports. Only pairs closer than what is known of their fibres are looked at, and asked
