@@ -63,9 +63,7 @@ FiberPairSearch::FiberPairSearch(const Communicator& ranks, const NamedFibers& o
       options_(options),
       deadline_(options.deadline),
       inner_test_(own.fibers(), here),
-      own_a_(own),
-      own_b_(own),
-      halo_b_(halo),
+      own_names_(own),
       closest_(count_fiber_pairs(ranks, own, options.pairing), options.margin),
       own_loops_(own),
       tries_left_(own.fibers().segment_count()),
@@ -79,6 +77,7 @@ double FiberPairSearch::find_inner() {
 void FiberPairSearch::find_across() {
   join_halo();
   across_test_.emplace(own_.fibers(), halo_.fibers(), options_);
+  halo_names_ = SegmentNames(halo_);
   Sink sink(*this, true);
   if (halo_.fibers().point_count() > 0 && !is_over()) {
     engine_.offer_pairs_with(
@@ -103,8 +102,9 @@ void FiberPairSearch::offer_inner(PointPair points) {
   if (points.b < points.a) {
     std::swap(points.a, points.b);  // points here are in the order of names
   }
-  const Pair pair{points, own_a_.name_of(points.a), own_b_.name_of(points.b), false};
-  const bool waits = needs_loop(pair) && own_a_.stretch_of(points.a) != own_b_.stretch_of(points.b);
+  const Pair pair{points, own_names_.name_of(points.a), own_names_.name_of(points.b), false};
+  const bool waits =
+      needs_loop(pair) && own_names_.stretch_of(points.a) != own_names_.stretch_of(points.b);
   has_split_fibers_ = has_split_fibers_ || waits;
   if (across_test_ ? waits : !waits || tries_left_ > 0) {
     consider(pair);
@@ -113,7 +113,8 @@ void FiberPairSearch::offer_inner(PointPair points) {
 
 /// @param points of a segment of the halo, and of one of this rank
 void FiberPairSearch::offer_across(PointPair points) {
-  const Pair pair{{points.b, points.a}, own_a_.name_of(points.b), halo_b_.name_of(points.a), true};
+  const Pair pair{
+      {points.b, points.a}, own_names_.name_of(points.b), halo_names_.name_of(points.a), true};
   if (pair.a < pair.b) {  // otherwise another rank's
     consider(pair);
   }
@@ -233,7 +234,8 @@ void FiberPairSearch::join_halo() {
 /// Where both segments are, if that is one stretch: of what has been joined or else of own ones.
 std::optional<PointPair> FiberPairSearch::on_one_stretch(const Pair& pair) {
   if (!loops_) {
-    const bool is_one = own_a_.stretch_of(pair.points.a) == own_b_.stretch_of(pair.points.b);
+    const bool is_one =
+        own_names_.stretch_of(pair.points.a) == own_names_.stretch_of(pair.points.b);
     return is_one ? std::optional(pair.points) : std::nullopt;
   }
   const std::vector<GlobalSegment>& names = joined_.names();

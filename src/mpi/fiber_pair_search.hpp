@@ -95,9 +95,8 @@ class FiberPairSearch {
   const Deadline deadline_;
   const NarrowPhase inner_test_;
   std::optional<NarrowPhase> across_test_;  // once there is a halo
-  SegmentNames own_a_;
-  SegmentNames own_b_;
-  SegmentNames halo_b_;
+  const SegmentNames own_names_;
+  SegmentNames halo_names_;
 
   ClosestOfFibers closest_;
   // Own segments and those of the halo together, where loops need them:

@@ -1,40 +1,36 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "src/mpi/named_fibers.hpp"
 
 namespace fiber {
 
-/// What segments are called, which come in any order.
+/// What segments are called by all ranks, by the points that they start at: for whoever asks for
+/// each pair there is, in any order.
 class SegmentNames {
  public:
-  explicit SegmentNames(const NamedFibers& fibers) : fibers_(fibers) {}
-
-  /// What the segment that starts at this point is called by all ranks.
-  GlobalSegment name_of(std::uint32_t point) {
-    seek(point);
-    return fibers_.name_of(stretch_, point - begin_);
-  }
-  /// The fibre here that it is on.
-  std::uint32_t stretch_of(std::uint32_t point) {
-    seek(point);
-    return stretch_;
-  }
-
- private:
-  void seek(std::uint32_t point) {
-    if (point - begin_ >= end_ - begin_) {
-      stretch_ = fibers_.fibers().segment_id(point).fiber;
-      begin_ = fibers_.fibers().offsets()[stretch_];
-      end_ = fibers_.fibers().offsets()[stretch_ + 1];
+  SegmentNames() = default;
+  explicit SegmentNames(const NamedFibers& fibers) : fibers_(&fibers) {
+    const std::vector<std::uint32_t>& offsets = fibers.fibers().offsets();
+    stretches_.reserve(fibers.fibers().point_count());
+    for (std::uint32_t stretch = 0; stretch + 1 < offsets.size(); ++stretch) {
+      stretches_.resize(offsets[stretch + 1], stretch);
     }
   }
 
-  const NamedFibers& fibers_;
-  std::uint32_t stretch_ = 0;  // that of the segment before, as the next one is often on it, too
-  std::uint32_t begin_ = 0;    // of its points; none yet
-  std::uint32_t end_ = 0;
+  GlobalSegment name_of(std::uint32_t point) const {
+    const std::uint32_t stretch = stretches_[point];
+    return fibers_->name_of(stretch, point - fibers_->fibers().offsets()[stretch]);
+  }
+
+  /// The fibre here that a segment is on.
+  std::uint32_t stretch_of(std::uint32_t point) const { return stretches_[point]; }
+
+ private:
+  const NamedFibers* fibers_ = nullptr;
+  std::vector<std::uint32_t> stretches_;  // by point
 };
 
 }  // namespace fiber
