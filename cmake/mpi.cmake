@@ -64,6 +64,7 @@ add_library(fiber_proximity_mpi SHARED
   src/mpi/hdf5_file.cpp
   src/mpi/loop_questions.cpp
   src/mpi/named_fibers.cpp
+  src/mpi/ordered_pairs.cpp
   src/mpi/part_loads.cpp
   src/mpi/partition.cpp
   src/mpi/plan.cpp

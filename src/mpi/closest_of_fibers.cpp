@@ -93,6 +93,21 @@ double ClosestOfFibers::exchange(const Communicator& ranks, double& others_lower
   return are_all_known ? std::min(margin_, std::max(0.0, most)) : margin_;
 }
 
+std::uint64_t count_fiber_pairs(const Communicator& ranks, const NamedFibers& own,
+                                Pairing pairing) {
+  const auto& runs = own.runs();
+  const auto starts = std::count_if(runs.begin(), runs.end(),
+                                    [](const FiberRun& run) { return run.first.segment == 0; });
+  const std::uint64_t fibers = ranks.sum(static_cast<std::uint64_t>(starts));
+  if (fibers > std::numeric_limits<std::uint32_t>::max()) {
+    return std::numeric_limits<std::uint64_t>::max();  // nobody holds as many
+  }
+  const std::uint64_t of_two = fibers * (fibers - std::min<std::uint64_t>(1, fibers)) / 2;
+  return pairing == Pairing::SAME_FIBER         ? fibers
+         : pairing == Pairing::DIFFERENT_FIBERS ? of_two
+                                                : of_two + fibers;
+}
+
 std::vector<Place> closest_of_fibers(const Communicator& ranks, const std::vector<Place>& places) {
   // Each pair of fibres has a rank where its places meet.
   const auto size = static_cast<std::size_t>(ranks.size());

@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "fiber_proximity/query/contact.hpp"
+#include "fiber_proximity/query/options.hpp"
 #include "src/mpi/communicator.hpp"
 #include "src/mpi/first_places.hpp"
+#include "src/mpi/named_fibers.hpp"
 
 namespace fiber {
 
@@ -78,6 +80,9 @@ class ClosestOfFibers {
 
   static constexpr auto none = static_cast<std::size_t>(-1);
 };
+
+/// How many pairs of fibres may have a closest pair of segments, over all ranks. Collective.
+std::uint64_t count_fiber_pairs(const Communicator& ranks, const NamedFibers& own, Pairing pairing);
 
 /// Of the fibres of each place the closest place that any rank has. Collective.
 /// @param places of this rank, each of other fibres

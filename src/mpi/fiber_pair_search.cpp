@@ -1,30 +1,13 @@
 #include "src/mpi/fiber_pair_search.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "src/bounds/bounding_volume.hpp"
+#include "src/mpi/ordered_pairs.hpp"
 
 namespace fiber {
-namespace {
-
-/// Pairs of fibres that may have a minimum, over all ranks. Collective.
-std::uint64_t count_fiber_pairs(const Communicator& ranks, const NamedFibers& own,
-                                Pairing pairing) {
-  const auto& runs = own.runs();
-  const auto starts = std::count_if(runs.begin(), runs.end(),
-                                    [](const FiberRun& run) { return run.first.segment == 0; });
-  const std::uint64_t fibers = ranks.sum(static_cast<std::uint64_t>(starts));
-  if (fibers > std::numeric_limits<std::uint32_t>::max()) {
-    return std::numeric_limits<std::uint64_t>::max();  // nobody holds as many
-  }
-  const std::uint64_t of_two = fibers * (fibers - std::min<std::uint64_t>(1, fibers)) / 2;
-  return pairing == Pairing::SAME_FIBER         ? fibers
-         : pairing == Pairing::DIFFERENT_FIBERS ? of_two
-                                                : of_two + fibers;
-}
-
-}  // namespace
 
 /// Hands what the trees find to the search.
 class FiberPairSearch::Sink final : public PairSink {
@@ -79,9 +62,13 @@ void FiberPairSearch::find_across() {
   across_test_.emplace(own_.fibers(), halo_.fibers(), options_);
   halo_names_ = SegmentNames(halo_);
   Sink sink(*this, true);
-  if (halo_.fibers().point_count() > 0 && !is_over()) {
-    engine_.offer_pairs_with(
-        halo_.fibers(), sink, [this] { return is_over(); }, counts_);
+  const auto is_over_now = [this] { return is_over(); };
+  if (halo_.fibers().point_count() == 0) {
+    // Nothing of others is near.
+  } else if (std::isfinite(closest_.bound())) {
+    engine_.offer_pairs_with(halo_.fibers(), sink, is_over_now, counts_);
+  } else {
+    offer_ordered_pairs(halo_, own_, sink, is_over_now, counts_);
   }
   if (has_split_fibers_ && !is_over()) {
     look();
