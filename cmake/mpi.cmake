@@ -41,6 +41,7 @@ message(STATUS "Library for clusters: MPI ${MPI_CXX_VERSION}, ${ZOLTAN_LIBRARY},
 add_library(fiber_proximity_mpi SHARED
   src/mpi/box_tree.cpp
   src/mpi/closest_contacts.cpp
+  src/mpi/closest_of_fibers.cpp
   src/mpi/communicator.cpp
   src/mpi/contact_sort.cpp
   src/mpi/contact_writer.cpp
@@ -51,6 +52,7 @@ add_library(fiber_proximity_mpi SHARED
   src/mpi/earliest_contacts.cpp
   src/mpi/fiber_chains.cpp
   src/mpi/fiber_name_data.cpp
+  src/mpi/fiber_pair_search.cpp
   src/mpi/fiber_name_text.cpp
   src/mpi/fiber_reader.cpp
   src/mpi/fiber_writer.cpp
@@ -62,6 +64,7 @@ add_library(fiber_proximity_mpi SHARED
   src/mpi/hdf5_file.cpp
   src/mpi/loop_questions.cpp
   src/mpi/named_fibers.cpp
+  src/mpi/ordered_pairs.cpp
   src/mpi/part_loads.cpp
   src/mpi/partition.cpp
   src/mpi/plan.cpp

@@ -1,6 +1,4 @@
-# The volumes, hierarchies and engines of the paper, and its scenes beside ours. Whoever links this library finds
-# the engines in the factory: a static variable registers them, so it must be loaded though nothing in it is
-# called, and stay.
+# The volumes, hierarchies and engines of the paper, and its scenes beside ours.
 
 add_library(fiber_proximity_paper SHARED
   src/paper/bounds/direction_set.cpp
@@ -14,15 +12,14 @@ add_library(fiber_proximity_paper SHARED
   src/scenes/cloth.cpp
   src/scenes/hair.cpp
   src/scenes/large_scene.cpp
-  test/support/hard_motions.cpp
-  test/support/hard_pairs.cpp
   src/scenes/scalp.cpp
   src/scenes/scene.cpp
   src/scenes/soup.cpp
   src/scenes/tufts.cpp
 )
 target_link_libraries(fiber_proximity_paper PUBLIC fiber_proximity PRIVATE fiber_proximity_options)
-target_link_options(fiber_proximity_paper PRIVATE LINKER:-z,nodelete INTERFACE LINKER:--no-as-needed)
+# Once registered, its engines are in the factory of the core, which may outlive a plugin that loaded this library.
+target_link_options(fiber_proximity_paper PRIVATE LINKER:-z,nodelete)
 # Takes a minute: alone, beside the others.
 set_source_files_properties(src/paper/engines/kdop_engines.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 fiber_proximity_parse_once(fiber_proximity_paper ${core_headers})

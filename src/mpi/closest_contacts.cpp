@@ -55,16 +55,6 @@ void keep_if(const IsKept& is_kept, DistributedResult& result) {
   result.contacts.resize(kept);
 }
 
-/// Where contacts of a pair of fibres meet.
-std::size_t home_of(const DistributedContact& contact, std::size_t size) {
-  constexpr std::uint64_t odd = 0x9e3779b97f4a7c15U;  // spreads neighbouring numbers
-  return ((contact.fiber_a * odd ^ contact.fiber_b) * odd >> 32U) % size;
-}
-
-bool are_of_same_fibers(const Place& x, const Place& y) {
-  return x.a.fiber == y.a.fiber && x.b.fiber == y.b.fiber;
-}
-
 }  // namespace
 
 double margin_of_closest(const Communicator& ranks, std::uint64_t count,
@@ -89,60 +79,6 @@ bool keep_closest(const Communicator& ranks, std::uint64_t count, DistributedRes
   const std::optional<Place> last = find_last_of_closest(ranks, count, result.contacts);
   keep_if([&](const DistributedContact& contact) { return !(*last < place_of(contact)); }, result);
   return true;
-}
-
-void keep_closest_of_fibers(const Communicator& ranks, DistributedResult& result) {
-  std::sort(result.contacts.begin(), result.contacts.end(),
-            [](const DistributedContact& x, const DistributedContact& y) {
-              const auto x_fibers = std::tie(x.fiber_a, x.fiber_b);
-              const auto y_fibers = std::tie(y.fiber_a, y.fiber_b);
-              return x_fibers < y_fibers || (x_fibers == y_fibers && is_closer(x, y));
-            });
-  std::optional<Place> last;
-  keep_if(
-      [&](const DistributedContact& contact) {
-        const Place place = place_of(contact);
-        const bool is_first = !last || !are_of_same_fibers(*last, place);
-        last = place;
-        return is_first;
-      },
-      result);
-
-  const auto size = static_cast<std::size_t>(ranks.size());
-  PerRank<Place> places(size);
-  for (const DistributedContact& contact : result.contacts) {
-    places[home_of(contact, size)].push_back(place_of(contact));
-  }
-  places = ranks.exchange(std::move(places));
-  std::vector<Place> all;
-  for (const std::vector<Place>& some : places) {
-    all.insert(all.end(), some.begin(), some.end());
-  }
-  std::sort(all.begin(), all.end(), [](const Place& x, const Place& y) {
-    const auto x_fibers = std::tie(x.a.fiber, x.b.fiber);
-    const auto y_fibers = std::tie(y.a.fiber, y.b.fiber);
-    return x_fibers < y_fibers || (x_fibers == y_fibers && x < y);
-  });
-  all.erase(std::unique(all.begin(), all.end(), are_of_same_fibers), all.end());
-
-  PerRank<std::uint8_t> is_closest(size);
-  for (std::size_t other = 0; other < size; ++other) {
-    for (const Place& place : places[other]) {
-      const auto closest =
-          std::lower_bound(all.begin(), all.end(), place, [](const Place& x, const Place& y) {
-            return std::tie(x.a.fiber, x.b.fiber) < std::tie(y.a.fiber, y.b.fiber);
-          });
-      is_closest[other].push_back(closest->key() == place.key() ? 1 : 0);
-    }
-  }
-  is_closest = ranks.exchange(std::move(is_closest));
-  std::vector<std::size_t> next(size, 0);
-  keep_if(
-      [&](const DistributedContact& contact) {
-        const std::size_t home = home_of(contact, size);
-        return is_closest[home][next[home]++] != 0;
-      },
-      result);
 }
 
 }  // namespace fiber

@@ -19,8 +19,4 @@ double margin_of_closest(const Communicator& ranks, std::uint64_t count,
 /// @return whether any go, of any rank
 bool keep_closest(const Communicator& ranks, std::uint64_t count, DistributedResult& result);
 
-/// Leaves of the contacts of all ranks the closest one of each pair of fibres. Those that go count
-/// in others_lower, of this rank. Collective.
-void keep_closest_of_fibers(const Communicator& ranks, DistributedResult& result);
-
 }  // namespace fiber

@@ -41,6 +41,8 @@ struct DistributedEngine::State {
     return limit == 0 ? 0 : std::max<std::uint64_t>(1, limit / ranks.size());
   }
   void find_all(const QueryOptions& options, std::uint64_t most, DistributedResult& result);
+  void find_closest_of_fibers(const QueryOptions& options, std::uint64_t most,
+                              DistributedResult& result);
   void find_closest(const QueryOptions& options, std::uint64_t most, DistributedResult& result);
 };
 
@@ -48,19 +50,41 @@ struct DistributedEngine::State {
 void DistributedEngine::State::find_all(const QueryOptions& options, std::uint64_t most,
                                         DistributedResult& result) {
   const bool is_limited = most != RankSearch::no_limit;
-  const bool is_of_fibers = options.type == QueryType::FIBER_PAIRS;
   const Deadline deadline(options.deadline);
   Halo halo(ranks, fibers.states(), lists.find(ranks, fibers, options.margin));
   // Of a limited number one more, to see whether there are more.
-  search.find_inner(options, is_limited && !is_of_fibers ? most + 1 : RankSearch::no_limit, result);
+  search.find_inner(options, is_limited ? most + 1 : RankSearch::no_limit, result);
   QueryOptions rest = options;
   rest.deadline = deadline.left();
   search.find_across(halo.take(), rest, result);
   search.write(result.contacts);
-  if (is_of_fibers) {
-    keep_closest_of_fibers(ranks, result);
-  }
   const bool are_more = is_limited && keep_closest(ranks, most, result);
+  result.limit_reached = are_more || result.limit_reached;
+}
+
+void DistributedEngine::State::find_closest_of_fibers(const QueryOptions& options,
+                                                      std::uint64_t most,
+                                                      DistributedResult& result) {
+  // The lists of a margin serve several queries, and its halo comes while this rank looks at what
+  // it has. Without a margin all others would come: then what it finds says first how near they
+  // matter.
+  std::optional<Halo> halo;
+  const auto send = [&](double margin) {
+    halo.emplace(ranks, fibers.states(), lists.find(ranks, fibers, margin));
+  };
+  if (std::isfinite(options.margin)) {
+    send(options.margin);
+  }
+  search.find_closest_of_fibers(
+      [&](double margin) {
+        if (!halo) {
+          send(margin);
+        }
+        return halo->take();
+      },
+      options, result);
+  search.write(result.contacts);
+  const bool are_more = keep_closest(ranks, most, result);
   result.limit_reached = are_more || result.limit_reached;
 }
 
@@ -149,8 +173,10 @@ void DistributedEngine::query(const QueryOptions& options, DistributedResult& re
       state.find_closest(here, std::min<std::uint64_t>(options.max_contacts, most), result);
       break;
     case QueryType::ALL:
-    case QueryType::FIBER_PAIRS:
       state.find_all(here, most, result);
+      break;
+    case QueryType::FIBER_PAIRS:
+      state.find_closest_of_fibers(here, most, result);
       break;
   }
   if (options.type != QueryType::ALL || is_limited) {  // all are sorted as they are written
@@ -162,8 +188,12 @@ void DistributedEngine::query(const QueryOptions& options, DistributedResult& re
 }
 
 DistributedFacts DistributedEngine::facts() const {
-  return {state_->fibers.own().fibers().segment_count(), state_->search.halo_segments(),
-          state_->fibers.split_count(), state_->fibers.sent_points(), state_->lists.search_count()};
+  return {state_->fibers.own().fibers().segment_count(),
+          state_->search.halo_segments(),
+          state_->fibers.split_count(),
+          state_->fibers.sent_points(),
+          state_->lists.search_count(),
+          state_->search.counts()};
 }
 
 }  // namespace fiber

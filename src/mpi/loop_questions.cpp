@@ -1,6 +1,5 @@
 #include "src/mpi/loop_questions.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <utility>
 
@@ -9,23 +8,7 @@
 namespace fiber {
 namespace {
 
-/// Who owns segments of a fibre that follow each other.
-struct OwnedRun {
-  GlobalSegment first;
-  std::uint64_t count = 0;
-  int rank = 0;
-};
-
 bool comes_first(const OwnedRun& x, const OwnedRun& y) { return x.first < y.first; }
-
-/// A question as it travels.
-struct PlainQuestion {
-  GlobalSegment first;     // whose start is the first point to look at
-  std::uint64_t last = 0;  // segment whose start is the last one
-  PlainPoint a0{}, a1{}, b0{}, b1{};
-  double radius_a = 0.0;
-  double radius_b = 0.0;
-};
 
 /// For each question of the rule, by its bit, whether a point goes too far.
 using Answers = std::uint8_t;
@@ -39,95 +22,8 @@ SegmentDistance nearest_of(const Capsule& a, const Capsule& b) {
   return segment_distance(a.p0, a.p1, b.p0, b.p1);
 }
 
-/// Runs of a rank that loops are looked for in, with boxes.
-class KnownRuns {
- public:
-  explicit KnownRuns(const NamedFibers& fibers) : fibers_(fibers) {}
-
-  /// Those that follow each other as one.
-  std::vector<OwnedRun> joined(int rank) const {
-    std::vector<OwnedRun> runs;
-    for (const FiberRun& run : fibers_.runs()) {
-      if (!runs.empty() && runs.back().first.fiber == run.first.fiber &&
-          runs.back().first.segment + runs.back().count == run.first.segment) {
-        runs.back().count += run.count;
-      } else {
-        runs.push_back({run.first, run.count, rank});
-      }
-    }
-    return runs;
-  }
-
-  /// How many of the points asked about are here.
-  std::uint64_t count(const PlainQuestion& question) const {
-    std::uint64_t count = 0;
-    for (auto run = first_run(question); is_asked(run, question); ++run) {
-      const std::uint64_t begin = std::max(run->first.segment, question.first.segment);
-      const std::uint64_t end = std::min(run->first.segment + run->count, question.last + 1);
-      count += run->first.fiber == question.first.fiber && begin < end ? end - begin : 0;
-    }
-    return count;
-  }
-
-  /// Whether any of the points asked about that are here is beyond either limit.
-  bool any_beyond(const PlainQuestion& question, const LoopReach& x, const LoopReach& y) {
-    for (auto run = first_run(question); is_asked(run, question); ++run) {
-      if (run->first.fiber == question.first.fiber && any_beyond(*run, question, x, y)) {
-        return true;
-      }
-    }
-    return false;
-  }
-
- private:
-  using Run = std::vector<FiberRun>::const_iterator;
-
-  Run first_run(const PlainQuestion& question) const {
-    const std::vector<FiberRun>& runs = fibers_.runs();
-    const auto run = std::upper_bound(
-        runs.begin(), runs.end(), question.first,
-        [](const GlobalSegment& first, const FiberRun& other) { return first < other.first; });
-    return run == runs.begin() ? run : run - 1;  // may have begun before
-  }
-  bool is_asked(Run run, const PlainQuestion& question) const {
-    return run != fibers_.runs().end() &&
-           !(GlobalSegment{question.first.fiber, question.last} < run->first);
-  }
-
-  bool any_beyond(const FiberRun& run, const PlainQuestion& question, const LoopReach& x,
-                  const LoopReach& y) {
-    const Eigen::AlignedBox3d& box = box_of(run);
-    if (x.holds(box) && y.holds(box)) {
-      return false;
-    }
-    for (std::uint64_t i = 0; i < run.count; ++i) {
-      const std::uint64_t segment = run.first.segment + i;
-      const Eigen::Vector3d& point = fibers_.fibers().points()[run.begin + i];
-      if (segment >= question.first.segment && segment <= question.last &&
-          (x.is_beyond(point) || y.is_beyond(point))) {
-        return true;
-      }
-    }
-    return false;
-  }
-
-  /// Around the points that start a segment.
-  const Eigen::AlignedBox3d& box_of(const FiberRun& run) {
-    boxes_.resize(fibers_.runs().size());
-    Eigen::AlignedBox3d& box = boxes_[static_cast<std::size_t>(&run - fibers_.runs().data())];
-    const bool is_new = box.isEmpty();
-    for (std::uint64_t i = 0; is_new && i < run.count; ++i) {
-      box.extend(fibers_.fibers().points()[run.begin + i]);
-    }
-    return box;
-  }
-
-  const NamedFibers& fibers_;
-  std::vector<Eigen::AlignedBox3d> boxes_;  // empty where they were not needed yet
-};
-
 /// What the points here say to a question.
-Answers answer(const PlainQuestion& question, KnownRuns& own, KnownRuns& halo) {
+Answers answer(const PlainLoopQuestion& question, KnownRuns& own, KnownRuns& halo) {
   const Capsule a = capsule_of(question.a0, question.a1, question.radius_a);
   const Capsule b = capsule_of(question.b0, question.b1, question.radius_b);
   Answers answers = 0;
@@ -212,8 +108,8 @@ std::vector<int> ranks_between(const std::vector<OwnedRun>& owners, const LoopQu
   return ranks;
 }
 
-PlainQuestion plain_question(const LoopQuestion& question) {
-  PlainQuestion asked;
+PlainLoopQuestion plain_question(const LoopQuestion& question) {
+  PlainLoopQuestion asked;
   asked.first = {question.fiber, question.segment_a + 1};
   asked.last = question.segment_b;
   asked.a0 = plain(question.a.p0);
@@ -235,7 +131,7 @@ std::vector<bool> find_loops(const Communicator& ranks, const NamedFibers& own,
   std::vector<Answers> by_question(questions.size(), 0);
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < questions.size(); ++i) {
-    const PlainQuestion question = plain_question(questions[i]);
+    const PlainLoopQuestion question = plain_question(questions[i]);
     by_question[i] = answer(question, own_runs, halo_runs);
     // More points can only answer more questions with yes, and that only makes loops.
     loops[i] = makes_loop(questions[i], by_question[i]);
@@ -249,7 +145,7 @@ std::vector<bool> find_loops(const Communicator& ranks, const NamedFibers& own,
   }
   const auto size = static_cast<std::size_t>(ranks.size());
   const std::vector<OwnedRun> owners = find_owners(ranks, own_runs, questions, open);
-  PerRank<PlainQuestion> asked(size);
+  PerRank<PlainLoopQuestion> asked(size);
   PerRank<std::size_t> numbers(size);  // of the questions asked
   for (const std::size_t i : open) {
     for (const int rank : ranks_between(owners, questions[i])) {
@@ -260,7 +156,7 @@ std::vector<bool> find_loops(const Communicator& ranks, const NamedFibers& own,
   asked = ranks.exchange(std::move(asked));
   PerRank<Answers> answers(size);
   for (std::size_t other = 0; other < size; ++other) {
-    for (const PlainQuestion& question : asked[other]) {
+    for (const PlainLoopQuestion& question : asked[other]) {
       answers[other].push_back(answer(question, own_runs, halo_runs));
     }
   }
@@ -275,6 +171,10 @@ std::vector<bool> find_loops(const Communicator& ranks, const NamedFibers& own,
     loops[i] = makes_loop(questions[i], by_question[i]);
   }
   return loops;
+}
+
+bool LoopsOfRank::know_of(const LoopQuestion& question) {
+  return makes_loop(question, answer(plain_question(question), own_, of_others_));
 }
 
 }  // namespace fiber

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "fiber_proximity/query/narrow_phase.hpp"
+#include "src/mpi/fiber_pair_search.hpp"
 #include "src/mpi/plain_contact.hpp"
 #include "src/mpi/whole_fiber_pairs.hpp"
 
@@ -116,6 +117,22 @@ void RankSearch::find_across(const FiberRuns& halo, const QueryOptions& options,
   }
   sort_by_key(across_);
   RankPairs{ranks_, own, halo_}.keep_those_of_whole_fibers(options, halo_, across_);
+}
+
+void RankSearch::find_closest_of_fibers(const std::function<FiberRuns(double)>& halo_within,
+                                        const QueryOptions& options, DistributedResult& result) {
+  halo_.assign(FiberRuns());
+  const QueryOptions here = options_here(options);
+  FiberPairSearch search(ranks_, fibers_->own(), *engine_, halo_, options, here);
+  const double reach = search.find_inner();
+  const FiberRuns halo = halo_within(reach);
+  ranks_.agree(error_in([&] { halo_.assign(halo); }));
+  search.find_across();
+  search.write(inner_.contacts, across_);
+  counts_ += search.counts();
+  result.complete = search.is_complete();
+  result.limit_reached = search.limit_reached();
+  result.others_lower = std::min(search.others_lower(), reach);
 }
 
 void RankSearch::write(std::vector<DistributedContact>& contacts) const {

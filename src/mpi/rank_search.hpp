@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "src/mpi/named_fibers.hpp"
 #include "src/mpi/rank_fibers.hpp"
 #include "src/mpi/rank_load.hpp"
+#include "src/query/run_tree_engine.hpp"
 
 namespace fiber {
 
@@ -22,7 +24,7 @@ class RankSearch {
   static constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
 
   RankSearch(const Communicator& ranks, const EngineOptions& options)
-      : ranks_(ranks), engine_(make_engine("run_tree", options)) {}
+      : ranks_(ranks), engine_(std::make_unique<RunTreeEngine>(options)) {}
 
   /// Makes these fibres those that are looked at; they must live until the next update.
   void update(const RankFibers& fibers);
@@ -45,10 +47,21 @@ class RankSearch {
   /// @throws std::invalid_argument on every rank if one has more than an assembly may have
   void find_across(const FiberRuns& halo, const QueryOptions& options, DistributedResult& result);
 
+  /// Finds of each pair of fibres the closest pair of segments of all ranks, where this rank
+  /// reports it: instead of the above. Collective.
+  /// @param halo_within brings the halo of a margin [m]. Collective
+  /// @param result      gets no contacts
+  /// @throws std::invalid_argument on every rank if one has more than an assembly may have
+  void find_closest_of_fibers(const std::function<FiberRuns(double margin)>& halo_within,
+                              const QueryOptions& options, DistributedResult& result);
+
   /// All contacts that are found, sorted.
   void write(std::vector<DistributedContact>& contacts) const;
 
   std::uint64_t halo_segments() const { return halo_.fibers().segment_count(); }
+
+  /// Of this rank, since the last update.
+  const QueryCounts& counts() const { return counts_; }
 
   /// About what the last update and the queries since then took of this rank.
   RankLoad load() const;
@@ -58,7 +71,7 @@ class RankSearch {
   double rounding_across() const;
 
   const Communicator& ranks_;
-  std::unique_ptr<ProximityEngine> engine_;
+  std::unique_ptr<RunTreeEngine> engine_;
   const RankFibers* fibers_ = nullptr;
   NamedFibers halo_;
   QueryCounts counts_;

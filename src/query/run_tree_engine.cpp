@@ -6,53 +6,34 @@
 #include <string>
 
 #include "fiber_proximity/query/pair_collector.hpp"
-#include "src/bounds/bounding_volume.hpp"
 #include "src/geometry/swept_fibers.hpp"
 #include "src/hierarchy/run_tree_kernels.hpp"
 #include "src/query/motion_evaluator.hpp"
+#include "src/query/pair_sinks.hpp"
 #include "src/query/threads.hpp"
 
 namespace fiber {
 namespace {
 
-/// Hands candidates to a collector one by one: for the queries whose bound shrinks.
-class CollectorSink final : public PairSink {
- public:
-  /// @param moved [m] by how much pairs may be nearer than the trees have them
-  CollectorSink(PairCollector& collector, double moved)
-      : collector_(collector), moved_(round_up(moved)) {}
-
-  bool offer(PointPair pair) override {
-    collector_.offer(pair.a, pair.b);
-    return !collector_.done();
+/// Offers the pairs of two trees, or of one, that may come within the sink's bound.
+/// @param is_over     asked between groups
+/// @param looks_often otherwise once: where no candidates are, nobody else would look at a deadline
+template <class IsOver>
+void offer_all(const RunTreeView& a, const RunTreeView& b, PairSink& sink, bool looks_often,
+               const IsOver& is_over, QueryCounts& counts) {
+  const std::uint32_t groups = b.group_count() == 0 ? 0 : a.group_count();
+  const std::uint32_t step = looks_often ? 1 : std::max(groups, 1U);
+  for (std::uint32_t group = 0; group < groups && !is_over(); group += step) {
+    find_near_segments(a, group, std::min(groups, group + step), b, sink, counts.node_tests,
+                       counts.node_overlaps);
   }
-
-  float bound() const override {
-    return moved_ == 0.0F ? collector_.bound() : round_up(double{collector_.bound()} + moved_);
-  }
-
-  bool bound_shrinks() const override { return true; }
-
-  bool wants_adjacent() const override { return collector_.wants_adjacent(); }
-  PointRange ruled_out_with(std::uint32_t point) const override {
-    return collector_.ruled_out_with(point);
-  }
-
- private:
-  PairCollector& collector_;
-  const float moved_;
-};
+}
 
 void find_some(const RunTreeView& a, const RunTreeView& b, const QueryOptions& options,
                double moved, PairCollector& collector, QueryCounts& counts) {
   CollectorSink sink(collector, moved);
-  const std::uint32_t groups = b.group_count() == 0 ? 0 : a.group_count();
-  // Where no candidates are, nobody would look at the deadline.
-  const std::uint32_t step = options.deadline > 0.0 ? 1 : std::max(groups, 1U);
-  for (std::uint32_t group = 0; group < groups && !collector.done(); group += step) {
-    find_near_segments(a, group, std::min(groups, group + step), b, sink, counts.node_tests,
-                       counts.node_overlaps);
-  }
+  offer_all(
+      a, b, sink, options.deadline > 0.0, [&] { return collector.done(); }, counts);
   collector.finish();
 }
 
@@ -214,6 +195,21 @@ void RunTreeEngine::do_query_shape(const FiberAssembly& shape, const FiberAssemb
   }
   PairCollector collector(shape, fibers, left, result);
   find_some(shape_tree.view(), tree_.view(), left, moved_since_fit(), collector, result.counts);
+}
+
+void RunTreeEngine::offer_pairs(PairSink& sink, const std::function<bool()>& is_over,
+                                QueryCounts& counts) const {
+  WideningSink wide(sink, 2.0 * moved_since_fit());
+  offer_all(tree_.view(), tree_.view(), wide, true, is_over, counts);
+}
+
+void RunTreeEngine::offer_pairs_with(const FiberAssembly& shape, PairSink& sink,
+                                     const std::function<bool()>& is_over,
+                                     QueryCounts& counts) const {
+  RunTree shape_tree;
+  shape_tree.build({shape, tree_.origin()});
+  WideningSink wide(sink, moved_since_fit());
+  offer_all(shape_tree.view(), tree_.view(), wide, true, is_over, counts);
 }
 
 /// All contacts of the fibres with each other: from candidates that are kept, if there are such.

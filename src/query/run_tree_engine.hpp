@@ -24,6 +24,14 @@ class RunTreeEngine final : public ProximityEngine {
   EngineFacts facts() const override;
   void level_boxes(std::uint32_t level, std::vector<NodeBox>& boxes) const override;
 
+  /// Offers the pairs of segments of its fibres that may come within the sink's bound, each once,
+  /// while the sink wants more and not all is over, which is asked often. One thread.
+  void offer_pairs(PairSink& sink, const std::function<bool()>& is_over, QueryCounts& counts) const;
+
+  /// The same for pairs of a segment of the shape (a) and one of its fibres (b).
+  void offer_pairs_with(const FiberAssembly& shape, PairSink& sink,
+                        const std::function<bool()>& is_over, QueryCounts& counts) const;
+
   /// How often updates have moved the tree.
   std::uint64_t refit_count() const { return refit_count_; }
 

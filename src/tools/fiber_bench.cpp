@@ -1,10 +1,12 @@
 #include "benchmark/commands.hpp"
+#include "fiber_proximity/paper/paper_engines.hpp"
 #include "src/tools/command_line.hpp"
 
 namespace fiber {
 namespace {
 
 void setup(CLI::App& app, Command& command) {
+  register_paper_engines();
   app.require_subcommand(0, 1);
   add_scene_commands(app, command);
   add_stages_command(app, command);

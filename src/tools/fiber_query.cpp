@@ -6,6 +6,7 @@
 #include <string>
 
 #include "fiber_proximity/io/fiber_file.hpp"
+#include "fiber_proximity/paper/paper_engines.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "src/tools/command_line.hpp"
 #include "src/tools/contact_rows.hpp"
@@ -107,6 +108,7 @@ void add_nearest(CLI::App& app, Command& command, const std::shared_ptr<Request>
 }
 
 void setup(CLI::App& app, Command& command) {
+  register_paper_engines();
   app.require_subcommand(0, 1);
   const auto request = std::make_shared<Request>();
   add_pair_queries(app, command, request);

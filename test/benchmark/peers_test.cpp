@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "benchmark/peers/peer.hpp"
+#include "fiber_proximity/paper/paper_engines.hpp"
 #include "src/hierarchy/segment_boxes.hpp"
 #include "test/support/answers.hpp"
 #include "test/support/assemblies.hpp"
@@ -135,6 +136,7 @@ INSTANTIATE_TEST_SUITE_P(Peers, PeerTest, testing::ValuesIn(peer_names()),
                          [](const auto& instance) { return instance.param; });
 
 std::string refusal(const std::string& name) {
+  register_paper_engines();
   return error_of([&] { make_bench_engine(name); });
 }
 

@@ -7,6 +7,7 @@ if(TARGET fiber_proximity_mpi)
     mpi/dealt_work_test.cpp
     mpi/distributed_engine_test.cpp
     mpi/distributed_errors_test.cpp
+    mpi/distributed_fiber_pairs_test.cpp
     mpi/distributed_files_test.cpp
     mpi/distributed_halo_test.cpp
     mpi/distributed_motion_test.cpp

@@ -40,6 +40,19 @@ cmake --install "$build" --prefix "$prefix" >"$work/install.log"
 if [ -n "$(find "$prefix" -path '*include*' \( -name '*-inl.hpp' -o -name '*interface_table*' \))" ]; then
   fail "a private header is installed"
 fi
+# Nothing that only tests and benchmarks are made of is in an installed library.
+# defined FILE… [-D]: names of what these define once and for all; templates and inline functions are everybody's.
+defined() {
+  nm --defined-only -g "$@" 2>/dev/null | awk '$2 ~ /^[TDBR]$/ { print $3 }' | sort -u
+}
+mapfile -t archives < <(
+  find "$build" \( -name libhard_cases.a -o -name libtest_support.a -o -name 'libfiber_bench_*.a' \))
+defined "${archives[@]}" >"$work/test_symbols.txt"
+grep -q hard_pairs "$work/test_symbols.txt" || fail "no symbols of test code are found"
+while IFS= read -r library; do
+  defined -D "$library" | comm -12 - "$work/test_symbols.txt" >"$work/both.txt"
+  [ ! -s "$work/both.txt" ] || fail "$library has code of tests: $(c++filt <"$work/both.txt")"
+done < <(find "$prefix" -name 'libfiber_proximity*.so')
 
 cmake -S "$source/examples" -B "$work/examples" -DCMAKE_PREFIX_PATH="$prefix" \
   -DPYTHON_EXECUTABLE=/usr/bin/python3 \
@@ -65,6 +78,22 @@ if "$work/examples/simulate_scene" "$work/none.yaml" 2>"$work/error.txt"; then
   fail "a scene that is not there is no error"
 fi
 grep -q "none.yaml" "$work/error.txt" || fail "the error does not name the file"
+
+# expect_paper_engines FOLDER: the program of this build has the engine of the paper that it calls for.
+expect_paper_engines() {
+  local answer
+  answer=$("$(find "$1" -name paper_engines -type f)" 2>&1) || fail "paper_engines of $1: $answer"
+  [ "$answer" = "AL: 1 contact, 0.5 m" ] || fail "paper_engines of $1 has another answer: $answer"
+}
+cmake -S "$source/test/package/cmake_user" -B "$work/cmake_user" -DCMAKE_PREFIX_PATH="$prefix" \
+  -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCMAKE_CXX_FLAGS="$flags" >"$work/configure.log" ||
+  { cat "$work/configure.log"; exit 1; }
+cmake --build "$work/cmake_user" >"$work/build.log" || { cat "$work/build.log"; exit 1; }
+expect_paper_engines "$work/cmake_user"
+# What is linked is for the consumer to say.
+if grep -r LINK_OPTIONS "$prefix" --include='fiber_proximity-*.cmake'; then
+  fail "a component has linker options for its consumers"
+fi
 
 if [ "${#mpiexec[@]}" -gt 0 ]; then
   "${mpiexec[@]}" 3 "$work/examples/contacts_over_ranks" | tee "$work/ranks.txt"
@@ -114,4 +143,5 @@ if grep -q catkin "$config"; then
   # Not through a pipe: grep ends it early, and ldd then fails now and then.
   linked=$(ldd "$(find "$work/catkin/devel" -name contact_node -type f)")
   [[ $linked == *libfiber_proximity_ros* ]] || fail "contact_node does not link the library"
+  expect_paper_engines "$work/catkin/devel"
 fi

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "fiber_proximity/paper/paper_engines.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "src/query/run_tree_engine.hpp"
 #include "test/support/assemblies.hpp"
@@ -72,7 +73,10 @@ std::size_t allocations_at_rest(FiberAssembly fibers, std::uint32_t threads,
   });
 }
 
-class AllocationTest : public testing::TestWithParam<std::string> {};
+class AllocationTest : public testing::TestWithParam<std::string> {
+ protected:
+  static void SetUpTestSuite() { register_paper_engines(); }
+};
 
 TEST_P(AllocationTest, AnUpdateWithTheSameTopologyAllocatesNothing) {
   SCOPED_TRACE(seed_message());

@@ -1,8 +1,11 @@
 // Queries are const: several threads may ask one engine at once.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
 #include <thread>
 
+#include "fiber_proximity/paper/paper_engines.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "test/support/answers.hpp"
 #include "test/support/assemblies.hpp"
@@ -62,6 +65,21 @@ TEST_P(ConcurrentQueriesTest, AreAnsweredAsOneAfterAnother) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Engines, ConcurrentQueriesTest, all_engines(), name_of_engine);
+
+TEST(PaperEngines, AreThereOnceWhoeverRegistersThem) {
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 4; ++i) {
+    threads.emplace_back(register_paper_engines);
+  }
+  for (std::thread& thread : threads) {
+    thread.join();
+  }
+  register_paper_engines();
+  const std::vector<std::string> names = engine_names();
+  EXPECT_EQ(std::count(names.begin(), names.end(), "AL"), 1);
+  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
+  EXPECT_NE(make_engine("AL"), nullptr);
+}
 
 }  // namespace
 }  // namespace fiber::test

@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "fiber_proximity/paper/paper_engines.hpp"
 #include "test/support/answers.hpp"
 #include "test/support/assemblies.hpp"
 #include "test/support/contacts.hpp"
@@ -208,6 +209,7 @@ TEST_P(EngineTest, DrawsBoxesAroundAllItsSegments) {
 INSTANTIATE_TEST_SUITE_P(Engines, EngineTest, all_engines(), name_of_engine);
 
 std::string refusal(const std::string& name) {
+  register_paper_engines();
   return error_of([&] { make_engine(name); });
 }
 

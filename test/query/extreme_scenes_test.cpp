@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "fiber_proximity/paper/paper_engines.hpp"
 #include "test/support/answers.hpp"
 #include "test/support/assemblies.hpp"
 #include "test/support/contacts.hpp"
@@ -39,6 +40,7 @@ class ExtremeScenesTest : public testing::Test {
   }
 
   void expect_same_as_in_motion(const std::string& name, FiberAssembly fibers, double half_edge) {
+    register_paper_engines();
     const auto other = make_engine(name);
     for (int frame = 0; frame < 2; ++frame) {
       other->update(fibers);

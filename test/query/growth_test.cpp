@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "fiber_proximity/paper/paper_engines.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "src/geometry/smallest_rotation.hpp"
 #include "test/support/answers.hpp"
@@ -86,6 +87,8 @@ double growth_exponent(const std::string& engine_name, MakeChain make_chain, int
 
 class GrowthTest : public testing::TestWithParam<std::string> {
  protected:
+  static void SetUpTestSuite() { register_paper_engines(); }
+
   double measure(MakeChain make_chain, int first, int last) const {
     const double exponent = growth_exponent(GetParam(), make_chain, first, last);
     RecordProperty("exponent", std::to_string(exponent));

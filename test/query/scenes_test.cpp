@@ -8,6 +8,7 @@
 #include "src/paper/hierarchy/hierarchy.hpp"
 #include "test/support/answers.hpp"
 #include "test/support/contacts.hpp"
+#include "test/support/engine_names.hpp"
 #include "test/support/random.hpp"
 #include "test/support/rounds.hpp"
 #include "test/support/small_scene.hpp"
@@ -18,7 +19,7 @@ namespace {
 constexpr double margins[] = {0.0, 0.5, 4.0};  // [radii]
 
 std::vector<std::string> engines_under_test() {
-  std::vector<std::string> names = engine_names();
+  std::vector<std::string> names = all_engine_names();
   names.insert(names.end(), {"DL-6", "DS-6", "DL-14-classic", "DS-14-classic"});
   names.erase(std::find(names.begin(), names.end(), "brute_force"));
   return names;

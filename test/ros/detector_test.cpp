@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fiber_proximity/paper/paper_engines.hpp"
 #include "test/support/answers.hpp"
 #include "test/support/random.hpp"
 
@@ -18,6 +19,7 @@ const fiber::FiberAssembly unequal({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, 
 const fiber::FiberAssembly equal({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {0, 2, 4}, {0.1});
 
 TEST(Detector, RefusesFibersTheEngineCannotTakeAsOftenAsItIsAsked) {
+  fiber::register_paper_engines();
   Detector detector("AL-threaded");
   detector.set_fibers(unequal);
   EXPECT_THROW(detector.detect(fiber::QueryOptions()), std::invalid_argument);
@@ -29,7 +31,7 @@ TEST(Detector, RefusesFibersTheEngineCannotTakeAsOftenAsItIsAsked) {
 }
 
 TEST(Detector, FindsTheMinimumBeyondTheMarginAndWhateverTheType) {
-  Detector detector("AL");
+  Detector detector("run_tree");
   detector.set_fibers(equal);
   fiber::QueryOptions options;
   for (const auto type : {fiber::QueryType::ALL, fiber::QueryType::FIRST}) {
@@ -54,7 +56,7 @@ TEST(Detector, FindsTheMinimumAmongContactsThatAreNotTheClosest) {
     options.type = fiber::QueryType::CLOSEST;
     options.margin = std::numeric_limits<double>::infinity();
     const fiber::QueryResult closest = fiber::test::brute_force(fibers, options);
-    Detector detector("AL");
+    Detector detector("run_tree");
     detector.set_fibers(fibers);
     options.max_contacts = 3;
     for (const auto type :
@@ -74,7 +76,7 @@ TEST(Detector, FindsTheMinimumAmongContactsThatAreNotTheClosest) {
 
 TEST(Detector, HasNoMinimumWithoutAPair) {
   const fiber::FiberAssembly none;
-  Detector detector("AL");
+  Detector detector("run_tree");
   detector.set_fibers(none);
   detector.detect(fiber::QueryOptions());
   EXPECT_EQ(detector.detection().minimum(), nullptr);

@@ -5,6 +5,7 @@
 #include "test/ros/running_node.hpp"
 #include "test/support/answers.hpp"
 #include "test/support/assemblies.hpp"
+#include "test/support/engine_names.hpp"
 
 namespace {
 
@@ -96,7 +97,7 @@ TEST_P(EnginesTest, AnswerWhatBruteForceAnswers) {
 }
 
 std::vector<std::string> engines() {
-  std::vector<std::string> names = fiber::engine_names();
+  std::vector<std::string> names = fiber::test::all_engine_names();
   names.insert(names.end(), {"DL-6", "DS-14-classic", "DL-200"});
   return names;
 }

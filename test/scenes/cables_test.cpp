@@ -46,7 +46,7 @@ TEST(Cables, ContactsComeAndGo) {
     double deepest = 0.0;
   };
   std::map<std::pair<std::uint32_t, std::uint32_t>, Meeting> meetings;
-  const auto engine = make_engine("AL");
+  const auto engine = make_engine("run_tree");
   QueryOptions options;
   options.neighbour_skip_length = 0.05;
   QueryResult result;

@@ -16,7 +16,7 @@ using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
 /// Pairs of yarns that touch; of each, whether the first is over the second.
 std::set<std::pair<Pair, bool>> touching(const FiberAssembly& fibers) {
-  const auto engine = make_engine("AL");
+  const auto engine = make_engine("run_tree");
   engine->update(fibers);
   QueryResult result;
   engine->query({}, result);

@@ -201,7 +201,7 @@ TEST(Hair, TouchesButNotEverywhere) {
     SCOPED_TRACE(name);
     const FiberAssembly fibers =
         hair(style, about(style, style.segments > 1000 ? 150.0 : 1000.0), 0);
-    const auto engine = make_engine("AL");
+    const auto engine = make_engine("run_tree");
     engine->update(fibers);
     QueryResult result;
     engine->query({}, result);

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "fiber_proximity/query/engine.hpp"
+#include "test/support/engine_names.hpp"
 #include "test/support/shared_data.hpp"
 #include "test/tools/fiber_query.hpp"
 
@@ -15,7 +15,7 @@ TEST_F(FiberQuery, NearestAnswersEveryFrameWithEveryEngine) {
   const ProcessResult expected = query(arguments + "brute_force");
   EXPECT_EQ(lines(expected.out).size(), 1U + 3 * 7);
   EXPECT_EQ(lines(expected.out)[0] + "\n", "frame," + columns);
-  for (const std::string& engine : engine_names()) {
+  for (const std::string& engine : all_engine_names()) {
     EXPECT_EQ(query(arguments + engine).out, expected.out) << engine;
   }
 }
@@ -32,7 +32,7 @@ TEST_F(FiberQuery, AgreesWithBruteForceInEveryFrame) {
 }
 
 TEST_F(FiberQuery, EveryEnginePrintsTheSameBytes) {
-  std::vector<std::string> engines = engine_names();
+  std::vector<std::string> engines = all_engine_names();
   engines.insert(engines.end(), {"DL-6", "DS-200", "DL-26-classic"});
   const std::string tress = "tress_a --scale 0.004 --seed 3";
   ASSERT_EQ(scene(tress + " --frames 2 --out " + path("moving.csv")).exit_code, 0);
@@ -54,7 +54,7 @@ TEST_F(FiberQuery, EveryEnginePrintsTheSameBytes) {
 TEST_F(FiberQuery, AnEngineThatIsNoneIsRefusedWithAllThereAre) {
   const std::string file = crossing();
   std::string known;
-  for (const std::string& name : engine_names()) {
+  for (const std::string& name : all_engine_names()) {
     known += (known.empty() ? "known are: " : ", ") + name;
   }
   known += "; DL-k and DS-k for even k from 6 to 200";

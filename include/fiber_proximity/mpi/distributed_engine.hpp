@@ -108,6 +108,9 @@ struct DistributedFacts {
 
   /// How often ranks looked for what others need. What they find serves until points have moved.
   std::uint64_t halo_search_count = 0;
+
+  /// What queries since the last update took of this rank.
+  QueryCounts query_counts;
 };
 
 /// Contacts of fibres that are spread over the ranks of MPI, the same, bit for bit, as one process
@@ -163,8 +166,9 @@ class DistributedEngine {
   /// ProximityEngine::query(); which segments of one fibre are pairs is decided by whole fibres.
   ///
   /// CLOSEST and LIMITED get a bound from pairs that ranks know of, and need no more of others than
-  /// what may be nearer than that. FIBER_PAIRS, and FIRST where there is no pair, need all within
-  /// the margin: one of infinity brings all segments to all ranks.
+  /// what may be nearer than that. So does FIBER_PAIRS without a margin (infinity) where ranks know
+  /// a pair of each two fibres; otherwise, and FIRST where there is no pair, it needs all within the
+  /// margin, and infinity brings all segments to all ranks.
   /// @param options the same on all ranks. Tolerances are not used: the closest pairs are found.
   ///                Each rank examines its share of the pair_limit; which pairs come up, then and
   ///                by a deadline, and which one FIRST reports, depends on the number of ranks

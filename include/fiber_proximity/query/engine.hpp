@@ -143,15 +143,13 @@ class ProximityEngine {
   std::unique_ptr<Motion> motion_;      // none until there is one
 };
 
-/// The engine of this name: one of engine_names(). Where the library fiber_proximity_paper is
-/// linked, also DL-k and DS-k for any even k in [6, 200], and with the standard directions
-/// DL-k-classic and DS-k-classic for k of 6, 14, 18 and 26.
+/// The engine of this name: run_tree, brute_force, or one of a registered family. The paper's are
+/// there after register_paper_engines() (paper/paper_engines.hpp).
 /// @throws std::invalid_argument listing the names, or for options that are not allowed
 std::unique_ptr<ProximityEngine> make_engine(const std::string& name,
                                              const EngineOptions& options = {});
 
-/// Names of all engines there are: run_tree, brute_force and those of the libraries that are
-/// linked. k-DOPs are listed with the paper's best k for hair, 20.
+/// Names of all engines there are: run_tree, brute_force and those of the registered families.
 std::vector<std::string> engine_names();
 
 /// Engines that make_engine() can make, beside those of this library.
@@ -170,9 +168,10 @@ struct EngineFamily {
   std::string other_names;
 };
 
-/// Adds a family, for the rest of the process. A library calls this when it is loaded, so that its
-/// engines are there for whoever links it. Safe from several threads.
-/// @return true, so that the initialiser of a static variable can call it
+/// Adds a family, for the rest of the process. Safe from several threads. A library offers a
+/// function that calls this: a linker may drop a library of which nothing is called, and its static
+/// variables with it.
+/// @return true, so that the initialiser of a program's static variable can call it
 bool register_engines(EngineFamily family);
 
 /// The k segments of the engine's fibres whose surfaces are nearest to a point, or all of them if

@@ -1,4 +1,5 @@
-// The paper's engines, in the factory of whoever links this library.
+#include "fiber_proximity/paper/paper_engines.hpp"
+
 #include <charconv>
 #include <stdexcept>
 #include <utility>
@@ -78,7 +79,7 @@ EnginePointer make_paper_engine(const std::string& name, const EngineOptions& /*
   return make_kdop_engine(name);
 }
 
-EngineFamily paper_engines() {
+EngineFamily paper_family() {
   EngineFamily family;
   for (const auto& entry : makers()) {
     family.names.push_back(entry.first);
@@ -90,7 +91,11 @@ EngineFamily paper_engines() {
   return family;
 }
 
-[[maybe_unused]] const bool is_registered = register_engines(paper_engines());
-
 }  // namespace
+
+void register_paper_engines() {
+  // Once in a process, whoever calls and on however many threads.
+  [[maybe_unused]] static const bool is_registered = register_engines(paper_family());
+}
+
 }  // namespace fiber

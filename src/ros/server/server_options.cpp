@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fiber_proximity/paper/paper_engines.hpp"
 #include "src/ros/server/query_options.hpp"
 #include "src/ros/support/parameters.hpp"
 #include "src/text/with_context.hpp"
@@ -118,6 +119,7 @@ void check_engine(const ros::NodeHandle& private_node, const ServerOptions& opti
 
 ServerOptions read_server_options(const ros::NodeHandle& node,
                                   const ros::NodeHandle& private_node) {
+  fiber::register_paper_engines();
   const Parameters parameters(private_node, interface());
   ServerOptions options;
   double radius = 0.0;

@@ -1,0 +1,152 @@
+#include "src/mpi/closest_of_fibers.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+namespace fiber {
+namespace {
+
+constexpr double no_gap = std::numeric_limits<double>::infinity();
+
+std::uint64_t hash_of_fibers(std::uint64_t fiber_a, std::uint64_t fiber_b) {
+  constexpr std::uint64_t odd = 0x9e3779b97f4a7c15U;  // spreads neighbouring numbers
+  return (fiber_a * odd ^ fiber_b) * odd >> 32U;
+}
+
+auto two_fibers_of(const Place& place) { return std::tie(place.a.fiber, place.b.fiber); }
+
+}  // namespace
+
+std::size_t ClosestOfFibers::Hash::operator()(const FiberPair& pair) const {
+  return static_cast<std::size_t>(hash_of_fibers(pair.a, pair.b));
+}
+
+const FiberPairMinimum* ClosestOfFibers::find(std::uint64_t fiber_a, std::uint64_t fiber_b) {
+  const FiberPair pair{fiber_a, fiber_b};
+  if (!(pair == last_) || last_place_ == none) {
+    const auto found = places_.find(pair);
+    last_ = pair;
+    last_place_ = found == places_.end() ? none : found->second;
+  }
+  return last_place_ == none ? nullptr : &minima_[last_place_];
+}
+
+double ClosestOfFibers::keep(const FiberPairMinimum& minimum) {
+  const FiberPair pair{minimum.place.a.fiber, minimum.place.b.fiber};
+  const FiberPairMinimum* known = find(pair.a, pair.b);
+  double lower = no_gap;
+  if (known != nullptr) {
+    assert(minimum.place < known->place);
+    lower = known->is_here ? known->contact.lower : no_gap;
+    minima_[last_place_] = minimum;
+  } else {
+    last_place_ = minima_.size();
+    places_.emplace(pair, last_place_);
+    minima_.push_back(minimum);
+  }
+  ++changes_;
+  lower_bound();
+  return lower;
+}
+
+/// Not at each change: looking at all minima is to cost no more than finding them.
+void ClosestOfFibers::lower_bound() {
+  if (minima_.size() != pair_count_ || changes_ < pair_count_) {
+    return;
+  }
+  changes_ = 0;
+  double most = -no_gap;
+  for (const FiberPairMinimum& minimum : minima_) {
+    most = std::max(most, minimum.place.value);
+  }
+  bound_ = std::min(bound_, most);
+}
+
+double ClosestOfFibers::exchange(const Communicator& ranks, double& others_lower) {
+  std::vector<Place> places;
+  places.reserve(minima_.size());
+  for (const FiberPairMinimum& minimum : minima_) {
+    places.push_back(minimum.place);
+  }
+  const std::vector<Place> closest = closest_of_fibers(ranks, places);
+  double most = -no_gap;
+  std::uint64_t reported = 0;
+  for (std::size_t i = 0; i < minima_.size(); ++i) {
+    FiberPairMinimum& minimum = minima_[i];
+    if (closest[i] < minimum.place) {
+      others_lower = minimum.is_here ? std::min(others_lower, minimum.contact.lower) : others_lower;
+      minimum.place = closest[i];
+      minimum.is_here = false;
+      ++changes_;
+    }
+    most = minimum.is_here ? std::max({most, minimum.place.value, minimum.contact.upper}) : most;
+    reported += minimum.is_here ? 1 : 0;
+  }
+  lower_bound();
+  // Each pair of segments is one rank's, so each pair of fibres that has any is counted once.
+  const bool are_all_known = ranks.sum(reported) == pair_count_;
+  most = ranks.largest(most);
+  bound_ = are_all_known ? std::min(bound_, std::max(0.0, most)) : bound_;
+  return are_all_known ? std::min(margin_, std::max(0.0, most)) : margin_;
+}
+
+std::uint64_t count_fiber_pairs(const Communicator& ranks, const NamedFibers& own,
+                                Pairing pairing) {
+  const auto& runs = own.runs();
+  const auto starts = std::count_if(runs.begin(), runs.end(),
+                                    [](const FiberRun& run) { return run.first.segment == 0; });
+  const std::uint64_t fibers = ranks.sum(static_cast<std::uint64_t>(starts));
+  if (fibers > std::numeric_limits<std::uint32_t>::max()) {
+    return std::numeric_limits<std::uint64_t>::max();  // nobody holds as many
+  }
+  const std::uint64_t of_two = fibers * (fibers - std::min<std::uint64_t>(1, fibers)) / 2;
+  return pairing == Pairing::SAME_FIBER         ? fibers
+         : pairing == Pairing::DIFFERENT_FIBERS ? of_two
+                                                : of_two + fibers;
+}
+
+std::vector<Place> closest_of_fibers(const Communicator& ranks, const std::vector<Place>& places) {
+  // Each pair of fibres has a rank where its places meet.
+  const auto size = static_cast<std::size_t>(ranks.size());
+  const auto home_of = [size](const Place& place) {
+    return hash_of_fibers(place.a.fiber, place.b.fiber) % size;
+  };
+  PerRank<Place> met(size);
+  for (const Place& place : places) {
+    met[home_of(place)].push_back(place);
+  }
+  met = ranks.exchange(std::move(met));
+  std::vector<Place> closest;
+  for (const std::vector<Place>& some : met) {
+    closest.insert(closest.end(), some.begin(), some.end());
+  }
+  std::sort(closest.begin(), closest.end(), [](const Place& x, const Place& y) {
+    return two_fibers_of(x) < two_fibers_of(y) || (two_fibers_of(x) == two_fibers_of(y) && x < y);
+  });
+  closest.erase(std::unique(closest.begin(), closest.end(),
+                            [](const Place& x, const Place& y) {
+                              return two_fibers_of(x) == two_fibers_of(y);
+                            }),
+                closest.end());
+  for (std::vector<Place>& some : met) {
+    for (Place& place : some) {
+      place = *std::lower_bound(
+          closest.begin(), closest.end(), place,
+          [](const Place& x, const Place& y) { return two_fibers_of(x) < two_fibers_of(y); });
+    }
+  }
+  met = ranks.exchange(std::move(met));
+  std::vector<std::size_t> next(size, 0);
+  std::vector<Place> answers;
+  answers.reserve(places.size());
+  for (const Place& place : places) {
+    const std::size_t home = home_of(place);
+    answers.push_back(met[home][next[home]++]);
+  }
+  return answers;
+}
+
+}  // namespace fiber

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "fiber_proximity/query/contact.hpp"
+#include "fiber_proximity/query/options.hpp"
+#include "src/mpi/communicator.hpp"
+#include "src/mpi/first_places.hpp"
+#include "src/mpi/named_fibers.hpp"
+
+namespace fiber {
+
+/// The closest pair of segments of two fibres, as far as it is known.
+struct FiberPairMinimum {
+  Place place;             ///< names are those of all ranks
+  Contact contact;         ///< the same, by numbers of fibres here, if it is_here
+  bool is_here = false;    ///< otherwise another rank reports it
+  bool is_across = false;  ///< its segment b is another rank's
+};
+
+/// Of each pair of fibres the closest pair of segments that this rank knows of, and how close
+/// others must be to matter.
+class ClosestOfFibers {
+ public:
+  /// @param pair_count of fibres that may have one, over all ranks
+  /// @param margin     [m]
+  ClosestOfFibers(std::uint64_t pair_count, double margin)
+      : pair_count_(pair_count), margin_(margin), bound_(margin) {}
+
+  /// [m] Pairs of segments further apart than this do not matter, whatever their fibres. It is less
+  /// than the margin once each pair of fibres has a minimum.
+  double bound() const { return bound_; }
+
+  /// What is known of these fibres, nullptr for nothing.
+  const FiberPairMinimum* find(std::uint64_t fiber_a, std::uint64_t fiber_b);
+
+  /// [m] Pairs of segments of these fibres further apart than this do not matter.
+  double bound_of(std::uint64_t fiber_a, std::uint64_t fiber_b) {
+    const FiberPairMinimum* minimum = find(fiber_a, fiber_b);
+    return minimum == nullptr ? bound_ : minimum->place.value;
+  }
+
+  /// Keeps a pair that is closer than what is known of its fibres.
+  /// @return [m] the true gap of the pair that it replaces is at least this; infinity for none
+  double keep(const FiberPairMinimum& minimum);
+
+  const std::vector<FiberPairMinimum>& minima() const { return minima_; }
+
+  /// Takes over what other ranks know. Collective.
+  /// @param others_lower [m] is lowered to what is known of pairs that this rank does not report
+  /// any more
+  /// @return [m] bound() of what all ranks know together, in truth and as found
+  double exchange(const Communicator& ranks, double& others_lower);
+
+ private:
+  struct FiberPair {
+    std::uint64_t a = 0;
+    std::uint64_t b = 0;
+
+    bool operator==(const FiberPair& other) const { return a == other.a && b == other.b; }
+  };
+  struct Hash {
+    std::size_t operator()(const FiberPair& pair) const;
+  };
+
+  void lower_bound();
+
+  const std::uint64_t pair_count_;
+  const double margin_;  // [m]
+  double bound_;         // [m]
+  std::vector<FiberPairMinimum> minima_;
+  std::unordered_map<FiberPair, std::size_t, Hash> places_;  // among the minima
+  std::uint64_t changes_ = 0;                                // since the bound was looked for
+  // Pairs of two fibres are found in a row:
+  FiberPair last_;
+  std::size_t last_place_ = none;
+
+  static constexpr auto none = static_cast<std::size_t>(-1);
+};
+
+/// How many pairs of fibres may have a closest pair of segments, over all ranks. Collective.
+std::uint64_t count_fiber_pairs(const Communicator& ranks, const NamedFibers& own, Pairing pairing);
+
+/// Of the fibres of each place the closest place that any rank has. Collective.
+/// @param places of this rank, each of other fibres
+std::vector<Place> closest_of_fibers(const Communicator& ranks, const std::vector<Place>& places);
+
+}  // namespace fiber
