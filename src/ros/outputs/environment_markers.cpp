@@ -11,6 +11,7 @@
 #include "src/environment/obstacle_parts.hpp"
 #include "src/environment/occupancy_octree.hpp"
 #include "src/geometry/smallest_rotation.hpp"
+#include "src/ros/outputs/label_place.hpp"
 #include "src/ros/outputs/tube_mesh.hpp"
 
 namespace fiber_proximity_ros {
@@ -267,12 +268,17 @@ void draw_nearest_object(const EnvironmentDrawing& drawing, double free_distance
   line.scale.x = 0.004 * scale.extent;
   line.color = distance_color(minimum.distance, free_distance);
   line.points = {to_message(minimum.point_a), to_message(minimum.point_b)};
-  // Above all fibres, as beside the point the object would often hide it.
-  Vector3d place = minimum.point_b;
-  const double below_top = std::max(0.0, scale.up.dot(scale.top - place));
-  place += (below_top + 0.07 * scale.extent) * scale.up;
-  canvas.add_text("environment_nearest_text", 0.035 * scale.extent, place,
-                  drawing.objects[minimum.fiber_b].name + ": " + distance_text(minimum.distance));
+  // At the object, on the side where its surface is, as its inside would hide the text; a little
+  // upwards, as what it stands on would.
+  const std::string text =
+      drawing.objects[minimum.fiber_b].name + ": " + distance_text(minimum.distance);
+  const Vector3d outwards = (0.6 * scale.up - minimum.normal).stableNormalized();
+  const double height = 0.035 * scale.extent;
+  const double gap = 1.5 * height;
+  const Vector3d place =
+      label_place(drawing.fibers, scale, {minimum.point_b, outwards, gap, height, text.size()});
+  canvas.add_text("environment_nearest_text", height, place, text);
+  canvas.add_leader("environment_nearest_leader", scale, minimum.point_b, place, gap);
 }
 
 }  // namespace

@@ -30,6 +30,18 @@ struct MarkerScale {
   /// Middle of the box's lower side.
   Eigen::Vector3d bottom() const { return top - std::abs(up.dot(box.sizes())) * up; }
 
+  /// Unit vector along the axis that is level and along which the fibres are widest: x or y, or
+  /// the camera's x in an optical frame.
+  Eigen::Vector3d side() const;
+
+  /// Unit vector towards whoever looks at them as most do: −y, or the camera.
+  Eigen::Vector3d front() const;
+
+  /// Below the fibres, and in front of them: what lies here lies across none of them for whoever
+  /// looks from the front, from above, too.
+  /// @param distance [m] below
+  Eigen::Vector3d below_in_front(double distance) const;
+
   double thickest = 0.0;                                      ///< largest radius
   double thinnest = std::numeric_limits<double>::infinity();  ///< smallest radius
   double extent = 0.0;                                        ///< longest side of the box
@@ -64,7 +76,12 @@ class MarkerCanvas {
   visualization_msgs::Marker& add_text(const std::string& ns, double height,
                                        const Eigen::Vector3d& position, const std::string& text);
 
-  /// Lines of text below what is drawn, of the namespace `legend`.
+  /// A thin line towards a text from what it is about.
+  /// @param gap [m] between both
+  void add_leader(const std::string& ns, const MarkerScale& scale, const Eigen::Vector3d& point,
+                  const Eigen::Vector3d& text, double gap);
+
+  /// Lines of text below what is drawn and in front of it, of the namespace `legend`.
   void add_legend(const std::vector<LegendLine>& legend, const MarkerScale& scale);
 
   /// Deletes what was drawn and has not been drawn again; remembers what has.

@@ -57,6 +57,7 @@ class ProximityServer {
   void answer(bool is_about_new_fibers, double time_before, const Stopwatch& stopwatch);
   void answer_about_environment();
   void take_fibers();
+  Completeness completeness_of_all() const;
   void publish_statistics(double time);
   void detect();
   std::string most_contacts_of() const;
