@@ -105,7 +105,7 @@ TEST_F(Markers, LegendIsBelowTheFibersAndInFrontOfThem) {
     const double block = static_cast<double>(legend_.size()) * line->scale.z;
     const double upper_edge = up.dot(to_vector(line->pose.position)) + 0.5 * block;
     for (const Eigen::Vector3d& point : fibers.points()) {
-      EXPECT_LT(upper_edge, up.dot(point) + 0.5 * block * (1.0 - std::cos(pitch))) << pitch;
+      EXPECT_LT(upper_edge, up.dot(point)) << pitch;
     }
   }
 }

@@ -59,7 +59,7 @@ Vector3d MarkerScale::front() const {
 
 Vector3d MarkerScale::below_in_front(double distance) const {
   const double depth = box.isEmpty() ? 0.0 : std::abs(front().dot(box.sizes()));
-  return bottom() + 0.5 * depth * front() - distance * up;
+  return bottom() + (0.5 * depth + distance) * front() - distance * up;
 }
 
 Marker& MarkerCanvas::add(const std::string& ns, int type) {

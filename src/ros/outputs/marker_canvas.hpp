@@ -39,7 +39,7 @@ struct MarkerScale {
 
   /// Below the fibres, and in front of them: what lies here lies across none of them for whoever
   /// looks from the front, from above, too.
-  /// @param distance [m] below
+  /// @param distance [m] both ways
   Eigen::Vector3d below_in_front(double distance) const;
 
   double thickest = 0.0;                                      ///< largest radius
