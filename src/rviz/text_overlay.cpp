@@ -2,12 +2,12 @@
 
 #include <OgreHardwarePixelBuffer.h>
 #include <OgreMaterialManager.h>
-#include <OgreOverlay.h>
-#include <OgreOverlayManager.h>
-#include <OgrePanelOverlayElement.h>
 #include <OgrePass.h>
 #include <OgreTechnique.h>
 #include <OgreTextureManager.h>
+#include <Overlay/OgreOverlay.h>
+#include <Overlay/OgreOverlayManager.h>
+#include <Overlay/OgrePanelOverlayElement.h>
 
 #include <QFont>
 #include <QFontMetrics>
@@ -22,8 +22,8 @@ namespace {
 using Corner = TextOverlay::Corner;
 using fiber_proximity_ros::LegendLine;
 
-constexpr int margin = 12;  // [pixels] from the window's edges
-constexpr int inset = 6;    // [pixels] of the texts from their ground's edges
+constexpr int edge_distance = 12;  // [pixels] from the window's edges
+constexpr int inset = 6;           // [pixels] of the texts from their ground's edges
 
 QColor color_of(const fiber_proximity_ros::Rgb& rgb) {
   const auto to_int = [](float x) {
@@ -64,13 +64,13 @@ void put_into(Corner corner, int width, int height, Ogre::PanelOverlayElement& p
   panel.setHorizontalAlignment(is_left ? Ogre::GHA_LEFT : Ogre::GHA_RIGHT);
   panel.setVerticalAlignment(is_top ? Ogre::GVA_TOP : Ogre::GVA_BOTTOM);
   const auto at = [](bool is_near, int size) {
-    return static_cast<Ogre::Real>(is_near ? margin : -margin - size);
+    return static_cast<Ogre::Real>(is_near ? edge_distance : -edge_distance - size);
   };
   panel.setPosition(at(is_left, width), at(is_top, height));
   panel.setDimensions(static_cast<Ogre::Real>(width), static_cast<Ogre::Real>(height));
 }
 
-const std::string& group() { return Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME; }
+const std::string& text_group() { return Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME; }
 
 }  // namespace
 
@@ -81,7 +81,8 @@ TextOverlay::TextOverlay() {
   overlay_ = overlays.create(name_);
   panel_ = static_cast<Ogre::PanelOverlayElement*>(overlays.createOverlayElement("Panel", name_));
   panel_->setMetricsMode(Ogre::GMM_PIXELS);
-  const Ogre::MaterialPtr material = Ogre::MaterialManager::getSingleton().create(name_, group());
+  const Ogre::MaterialPtr material =
+      Ogre::MaterialManager::getSingleton().create(name_, text_group());
   Ogre::Pass& pass = *material->getTechnique(0)->getPass(0);
   pass.createTextureUnitState();
   pass.setSceneBlending(Ogre::SBT_TRANSPARENT_ALPHA);
@@ -123,7 +124,7 @@ void TextOverlay::show(const std::vector<LegendLine>& lines, Corner corner, int 
   const auto width = static_cast<Ogre::uint32>(image.width());
   const auto rows = static_cast<Ogre::uint32>(image.height());
   const Ogre::TexturePtr texture = Ogre::TextureManager::getSingleton().createManual(
-      name_, group(), Ogre::TEX_TYPE_2D, width, rows, 0, Ogre::PF_A8R8G8B8, Ogre::TU_DEFAULT);
+      name_, text_group(), Ogre::TEX_TYPE_2D, width, rows, 0, Ogre::PF_A8R8G8B8, Ogre::TU_DEFAULT);
   has_texture_ = true;
   // Rows of QImage's 32 bit formats lie one behind another.
   texture->getBuffer()->blitFromMemory(
