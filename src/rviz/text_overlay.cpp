@@ -72,6 +72,13 @@ void put_into(Corner corner, int width, int height, Ogre::PanelOverlayElement& p
 
 const std::string& text_group() { return Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME; }
 
+/// Those who still show it keep it.
+void remove_texture(const std::string& name) {
+  if (!name.empty()) {
+    Ogre::TextureManager::getSingleton().remove(name);
+  }
+}
+
 }  // namespace
 
 TextOverlay::TextOverlay() {
@@ -98,14 +105,7 @@ TextOverlay::~TextOverlay() {
   overlays.destroy(overlay_);
   overlays.destroyOverlayElement(panel_);
   Ogre::MaterialManager::getSingleton().remove(name_);
-  forget_texture();
-}
-
-void TextOverlay::forget_texture() {
-  if (has_texture_) {
-    Ogre::TextureManager::getSingleton().remove(name_);
-    has_texture_ = false;
-  }
+  remove_texture(texture_);
 }
 
 void TextOverlay::show(const std::vector<LegendLine>& lines, Corner corner, int height) {
@@ -119,17 +119,17 @@ void TextOverlay::show(const std::vector<LegendLine>& lines, Corner corner, int 
                                       ->getTechnique(0)
                                       ->getPass(0)
                                       ->getTextureUnitState(0);
-  unit.setTextureName("");
-  forget_texture();  // it has another size
+  const std::string name = name_ + "_" + std::to_string(texture_count_++);
   const auto width = static_cast<Ogre::uint32>(image.width());
   const auto rows = static_cast<Ogre::uint32>(image.height());
   const Ogre::TexturePtr texture = Ogre::TextureManager::getSingleton().createManual(
-      name_, text_group(), Ogre::TEX_TYPE_2D, width, rows, 0, Ogre::PF_A8R8G8B8, Ogre::TU_DEFAULT);
-  has_texture_ = true;
+      name, text_group(), Ogre::TEX_TYPE_2D, width, rows, 0, Ogre::PF_A8R8G8B8, Ogre::TU_DEFAULT);
   // Rows of QImage's 32 bit formats lie one behind another.
   texture->getBuffer()->blitFromMemory(
       Ogre::PixelBox(width, rows, 1, Ogre::PF_A8R8G8B8, image.bits()));
-  unit.setTextureName(name_);
+  unit.setTextureName(name);
+  remove_texture(texture_);
+  texture_ = name;
   put_into(corner, image.width(), image.height(), *panel_);
   overlay_->show();
 }

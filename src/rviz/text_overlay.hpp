@@ -27,12 +27,11 @@ class TextOverlay {
   void show(const std::vector<fiber_proximity_ros::LegendLine>& lines, Corner corner, int height);
 
  private:
-  void forget_texture();
-
   std::string name_;  // of all that is Ogre's here
   Ogre::Overlay* overlay_;
   Ogre::PanelOverlayElement* panel_;
-  bool has_texture_ = false;
+  std::string texture_;  // its name, empty if there is none; each has another, as of another size
+  int texture_count_ = 0;
 };
 
 }  // namespace fiber_proximity_rviz
