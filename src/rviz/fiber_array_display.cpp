@@ -101,9 +101,11 @@ std::vector<LegendLine> FiberArrayDisplay::legend() const {
   if (!shown_range_) {
     return {};
   }
-  const char* const what = properties_.color_by() == ColorBy::radius ? "radius " : "distance ";
-  return {{ramp(0.0), name + what + distance_text(shown_range_->at_blue)},
-          {ramp(1.0), name + what + distance_text(shown_range_->at_red)}};
+  const auto text = [&](double value) {
+    return name + (properties_.color_by() == ColorBy::radius ? "radius " + distance_text(value)
+                                                             : distance_text(value) + " apart");
+  };
+  return {{ramp(0.0), text(shown_range_->at_blue)}, {ramp(1.0), text(shown_range_->at_red)}};
 }
 
 void FiberArrayDisplay::unsubscribe() {

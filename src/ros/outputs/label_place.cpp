@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace fiber_proximity_ros {
 namespace {
@@ -74,25 +75,36 @@ Vector3d label_place(const fiber::FiberAssembly& fibers, const MarkerScale& scal
   const Picture picture(scale);
   const Vector2d half(0.5 * text_width(label.height, label.letters), 0.5 * label.height);
   // As far away as its own size in that direction, and the gap.
-  const auto place_at = [&](const Vector3d& direction) {
+  const auto place_at = [&](const Vector3d& direction, double gaps) {
     const Vector2d flat = picture(direction).cwiseAbs();
-    return Vector3d(label.point + (label.gap + flat.dot(half)) * direction);
+    return Vector3d(label.point + (gaps * label.gap + flat.dot(half)) * direction);
   };
   const Vector3d& first = label.preferred;
   if (fibers.segment_count() > most_label_segments) {
-    return place_at(first);
+    return place_at(first, 1.0);
   }
   const Vector3d& up = scale.up;
   const Vector3d side = scale.side();
   const double slant = std::sqrt(0.5);
-  const std::array<Vector3d, 9> directions{first, up,    slant * (up + side), slant * (up - side),
-                                           side,  -side, slant * (side - up), slant * (-side - up),
-                                           -up};
+  // Above, above what is right above, sideways and below.
+  const std::array<std::pair<Vector3d, double>, 13> places{{{first, 1.0},
+                                                            {up, 1.0},
+                                                            {slant * (up + side), 1.0},
+                                                            {slant * (up - side), 1.0},
+                                                            {first, 3.0},
+                                                            {up, 3.0},
+                                                            {slant * (up + side), 3.0},
+                                                            {slant * (up - side), 3.0},
+                                                            {side, 1.0},
+                                                            {-side, 1.0},
+                                                            {slant * (side - up), 1.0},
+                                                            {slant * (-side - up), 1.0},
+                                                            {-up, 1.0}}};
   const double enough = 0.5 * label.height;
-  Vector3d best = place_at(first);
+  Vector3d best = place_at(first, 1.0);
   double most = -std::numeric_limits<double>::infinity();
-  for (const Vector3d& direction : directions) {
-    const Vector3d place = place_at(direction);
+  for (const auto& [direction, gaps] : places) {
+    const Vector3d place = place_at(direction, gaps);
     const double room = room_around(fibers, picture, place, half, enough);
     if (room >= enough) {
       return place;

@@ -21,8 +21,9 @@ struct Label {
 double text_width(double height, std::size_t letters);
 
 /// Middle of the text: beside its point, where no fibre hides it. Directions are tried from the
-/// preferred one to the opposite one, and the first with room wins, so that a text stays where it
-/// is while fibres move elsewhere; where there is no room at all, the one with most.
+/// preferred one and up, then three gaps away, to down, and the first with room wins, so that a
+/// text stays where it is while fibres move elsewhere; where there is no room at all, the one with
+/// most.
 ///
 /// Whoever looks at fibres is taken to look at them from where they are widest: what lies before or
 /// behind a text there hides it, however far away. Of more segments than `most_label_segments` none
