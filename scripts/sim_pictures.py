@@ -43,7 +43,7 @@ def write_view(scene, view):
     current["Focal Point"] = dict(zip("XYZ", focal))
     for display in config["Visualization Manager"]["Displays"]:
         if "Fit View" in display:
-            display["Fit View"] = False
+            display["Fit View"] = {"Value": False}
     path = PICTURES / f"{scene}.rviz"
     path.write_text(yaml.safe_dump(config))
     return path

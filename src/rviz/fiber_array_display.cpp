@@ -208,7 +208,7 @@ void FiberArrayDisplay::fit_view() {
       Eigen::Translation3d(position.x, position.y, position.z) *
       Eigen::Quaterniond(orientation.w, orientation.x, orientation.y, orientation.z);
   view_fitter_.fit(*context_->getViewManager()->getCurrent(), fixed_frame_.toStdString(), fibers_,
-                   pose);
+                   pose, properties_.keeps_in_view());
 }
 
 void FiberArrayDisplay::read_fibers() {

@@ -80,8 +80,9 @@ class FileTest(unittest.TestCase):
 
     def test_the_view_finds_fibers_or_is_of_a_cell(self):
         for path in (PACKAGE / "rviz").glob("*.rviz"):
-            fits = [display.get("Fit View", False) for display in
-                    displays_of(yaml.safe_load(path.read_text()), "fiber_proximity/FiberArray")]
+            properties = [display.get("Fit View", False) for display in
+                          displays_of(yaml.safe_load(path.read_text()), "fiber_proximity/FiberArray")]
+            fits = [each["Value"] if isinstance(each, dict) else each for each in properties]
             self.assertEqual(sum(fits), 0 if path.stem == "cell" else 1, path.name)
 
     def test_a_trackers_cable_shows_distances(self):

@@ -322,8 +322,13 @@ void ProximityServer::publish_markers_if_due() {
   around_options.show_distances = is_used && config_.show_contacts;
   around_options.show_nearest = is_used && config_.show_nearest;
   std::vector<LegendLine> legend;
+  // Where fibres may touch all that is around them, there are none to explain.
+  has_shown_distances_ =
+      has_shown_distances_ || !environment_.detection().contacts().contacts.empty();
   if (marker_options_.show_legend) {
-    legend = legend_lines(marker_options_, around_options, query_options_.margin);
+    EnvironmentMarkerOptions explained = around_options;
+    explained.show_distances = explained.show_distances && has_shown_distances_;
+    legend = legend_lines(marker_options_, explained, query_options_.margin);
   }
   passed_.forget_old();
   const Completeness completeness = completeness_of_all();

@@ -95,6 +95,7 @@ class ProximityServer {
   PassedContacts passed_;
   ros::SteadyTime last_drawing_;
   bool drawing_is_due_ = false;
+  bool has_shown_distances_ = false;  // from objects
   bool is_scheduled_ = false;
   bool has_newcomers_ = false;
   ros::SteadyTime last_answer_ = ros::SteadyTime::now();
