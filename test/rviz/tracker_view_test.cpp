@@ -117,7 +117,7 @@ TEST_F(TrackerViewTest, SaysInTheWindowThatItWaitsUntilThereAreFibers) {
 TEST_F(TrackerViewTest, TheLegendIsInTheCornerWhereverItsMarkersAre) {
   ros::Publisher markers =
       node_.advertise<visualization_msgs::MarkerArray>("/proximity/markers", 1);
-  ASSERT_TRUE(RvizWindow::wait_until([&] { return markers.getNumSubscribers() == 2; }));
+  ASSERT_TRUE(RvizWindow::wait_until([&] { return markers.getNumSubscribers() > 0; }));
   expect_cable(cables({0.0, 0.0, 0.6}));
   EXPECT_EQ(window_->count_pixels(is_red), 0U);
   visualization_msgs::MarkerArray legend;
@@ -131,8 +131,8 @@ TEST_F(TrackerViewTest, TheLegendIsInTheCornerWhereverItsMarkersAre) {
   marker.scale.z = 0.05;
   marker.color.r = marker.color.a = 1.0F;
   marker.text = "red: penetrating\n\n";
-  markers.publish(legend);
   ASSERT_TRUE(RvizWindow::wait_until([&] {
+    markers.publish(legend);
     window_->settle();
     return window_->count_pixels(is_red) > 100;
   }));

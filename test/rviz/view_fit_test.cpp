@@ -75,7 +75,7 @@ TEST(ViewFit, WhatItIsFittedToIsInViewAndWhatGoesAwayIsNot) {
   EXPECT_TRUE(is_in_view(points, view, fit, 0.65 + 1e-9));
   EXPECT_FALSE(is_in_view(points, view, fit, 0.64));
   for (const Eigen::Vector3d& away :
-       {Eigen::Vector3d(0.4, 0, 0), Eigen::Vector3d(-0.4, 0, 0), Eigen::Vector3d(0, 0, 0.5),
+       {Eigen::Vector3d(0.4, 0, 0), Eigen::Vector3d(-1.2, 0, 0), Eigen::Vector3d(0, 0, 0.5),
         Eigen::Vector3d(0, 0, -0.5), Eigen::Vector3d(0, -3.0, 3.0)}) {
     std::vector<Eigen::Vector3d> moved = points;
     moved[1] += away;

@@ -170,8 +170,8 @@ void draw_axes(const MarkerScale& scale, MarkerCanvas& canvas) {
   const double length = 0.12 * scale.extent;
   Marker& marker = canvas.add("axes", Marker::LINE_LIST);
   marker.scale.x = 0.06 * length;
-  const Vector3d origin =
-      scale.below_in_front(0.07 * scale.extent) + 0.35 * scale.box.sizes().x() * Vector3d::UnitX();
+  const Vector3d origin = scale.below_in_front(0.0) - 0.07 * scale.extent * scale.up +
+                          0.35 * scale.box.sizes().x() * Vector3d::UnitX();
   for (int axis = 0; axis < 3; ++axis) {
     Rgb rgb{0.2F, 0.2F, 0.2F};
     rgb[static_cast<std::size_t>(axis)] = 1.0F;
