@@ -113,7 +113,7 @@ TEST_F(Markers, LegendIsBelowTheFibersAndInFrontOfThem) {
 TEST_F(Markers, NamesAreNearTheirEnds) {
   names_ = {"pc"};
   options_.show_names = true;
-  build(parallel_fibers(1));
+  build(parallel_fibers(1, 41));  // 4 m, as wide as the picture
   const Marker* name = find("names");
   ASSERT_NE(name, nullptr);
   // The end is at the origin, the fibre 2 cm thick; the text has two letters.
