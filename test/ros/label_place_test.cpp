@@ -17,7 +17,9 @@ Vector3d place_in(const FiberAssembly& fibers, const Label& label) {
 constexpr double height = 0.02;
 constexpr double gap = 0.03;
 
-Label label_at(const Vector3d& point) { return {point, Vector3d::UnitZ(), gap, height, 6}; }
+Label label_at(const Vector3d& point) {
+  return {point, Vector3d::UnitZ(), gap, height, 6, Vector3d::Zero()};
+}
 
 TEST(LabelPlace, IsWherePreferredWhereThereIsRoom) {
   const FiberAssembly fibers({{-1, 0, 0}, {1, 0, 0}}, {0, 2}, {0.005});
@@ -31,8 +33,9 @@ TEST(LabelPlace, AFiberThatWouldHideItMovesIt) {
     const FiberAssembly fibers({{-1, 0, 0}, {1, 0, 0}, {-1, depth, 0.04}, {1, depth, 0.04}},
                                {0, 2, 4}, {0.005});
     const Vector3d place = place_in(fibers, label_at({0.1, 0, 0}));
-    for (const double strand : {0.0, 0.04}) {
-      EXPECT_GT(std::abs(place.z() - strand), 0.5 * height + 0.005) << place.transpose();
+    const Vector3d up(0.0, std::sin(0.6), std::cos(0.6));  // of who looks from −y, and from above
+    for (const Vector3d& strand : {Vector3d(0, 0, 0), Vector3d(0, depth, 0.04)}) {
+      EXPECT_GT(std::abs(up.dot(place - strand)), 0.5 * height + 0.005) << place.transpose();
     }
     EXPECT_LT((place - Vector3d(0.1, 0, 0)).norm(), 0.15) << "but stays near its point";
   }
@@ -50,6 +53,19 @@ TEST(LabelPlace, WithoutRoomAnywhereItStaysNearItsPoint) {
       place_in(FiberAssembly(points, offsets, {0.002}), label_at(Vector3d::Zero()));
   EXPECT_LT(place.norm(), 0.15);
   EXPECT_TRUE(place.allFinite());
+}
+
+TEST(LabelPlace, IsNotInsideTheBodyThatItNames) {
+  // A fibre right below the point; what is above is inside.
+  const FiberAssembly fibers({{-1, 0, -0.03}, {1, 0, -0.03}}, {0, 2}, {0.005});
+  Label label = label_at(Vector3d::Zero());
+  label.preferred = -Vector3d::UnitZ();
+  EXPECT_GT(place_in(fibers, label).z(), 0.0) << "there is room above";
+  label.inwards = Vector3d::UnitZ();
+  EXPECT_LT(place_in(fibers, label).z(), -0.05) << "below the fibre";
+  label.preferred = Vector3d::UnitX();
+  label.inwards = -Vector3d::UnitX();
+  EXPECT_GT(place_in(fibers, label).x(), -1e-12);
 }
 
 TEST(LabelPlace, AWideTextIsFurtherAwaySideways) {

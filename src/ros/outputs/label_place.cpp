@@ -12,9 +12,13 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Where fibres are widest: to the side and up.
+/// What is seen from the front, and from as far above as the views of this package look from.
 struct Picture {
-  explicit Picture(const MarkerScale& scale) : side(scale.side()), up(scale.up) {}
+  explicit Picture(const MarkerScale& scale)
+      : side(scale.side()),
+        up(std::cos(looking_down) * scale.up - std::sin(looking_down) * scale.front()) {}
+
+  static constexpr double looking_down = 0.6;  // [rad]
 
   Vector2d operator()(const Vector3d& point) const { return {side.dot(point), up.dot(point)}; }
 
@@ -76,8 +80,9 @@ Vector3d label_place(const fiber::FiberAssembly& fibers, const MarkerScale& scal
   const Vector2d half(0.5 * text_width(label.height, label.letters), 0.5 * label.height);
   // As far away as its own size in that direction, and the gap.
   const auto place_at = [&](const Vector3d& direction, double gaps) {
-    const Vector2d flat = picture(direction).cwiseAbs();
-    return Vector3d(label.point + (gaps * label.gap + flat.dot(half)) * direction);
+    const double own = std::abs(direction.dot(scale.side())) * half.x() +
+                       std::abs(direction.dot(scale.up)) * half.y();
+    return Vector3d(label.point + (gaps * label.gap + own) * direction);
   };
   const Vector3d& first = label.preferred;
   if (fibers.segment_count() > most_label_segments) {
@@ -104,6 +109,9 @@ Vector3d label_place(const fiber::FiberAssembly& fibers, const MarkerScale& scal
   Vector3d best = place_at(first, 1.0);
   double most = -std::numeric_limits<double>::infinity();
   for (const auto& [direction, gaps] : places) {
+    if (direction.dot(label.inwards) > 0.1) {
+      continue;
+    }
     const Vector3d place = place_at(direction, gaps);
     const double room = room_around(fibers, picture, place, half, enough);
     if (room >= enough) {

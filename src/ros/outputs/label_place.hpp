@@ -15,6 +15,8 @@ struct Label {
   double gap;                 ///< [m] from there to the text
   double height;              ///< [m] of its letters
   std::size_t letters;        ///< how many
+  /// Unit vector into a body whose inside would hide the text; 0 if there is none.
+  Eigen::Vector3d inwards = Eigen::Vector3d::Zero();
 };
 
 /// [m] How wide a text is, about.
@@ -25,9 +27,9 @@ double text_width(double height, std::size_t letters);
 /// text stays where it is while fibres move elsewhere; where there is no room at all, the one with
 /// most.
 ///
-/// Whoever looks at fibres is taken to look at them from where they are widest: what lies before or
-/// behind a text there hides it, however far away. Of more segments than `most_label_segments` none
-/// is looked at: the preferred direction is taken.
+/// Whoever looks at fibres is taken to look from the front and a little from above: what lies
+/// before or behind a text there hides it, however far away. Of more segments than
+/// `most_label_segments` none is looked at: the preferred direction is taken.
 Eigen::Vector3d label_place(const fiber::FiberAssembly& fibers, const MarkerScale& scale,
                             const Label& label);
 

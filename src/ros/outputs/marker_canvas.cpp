@@ -47,12 +47,6 @@ MarkerScale::MarkerScale(const fiber::FiberAssembly& fibers, const std::string& 
   top = box.min() + half + std::abs(up.dot(half)) * up;
 }
 
-Vector3d MarkerScale::side() const {
-  const bool is_optical = up.y() != 0.0;
-  return !is_optical && !box.isEmpty() && box.sizes().y() > box.sizes().x() ? Vector3d::UnitY()
-                                                                            : Vector3d::UnitX();
-}
-
 Vector3d MarkerScale::front() const {
   return up.y() != 0.0 ? Vector3d(-Vector3d::UnitZ()) : Vector3d(-Vector3d::UnitY());
 }

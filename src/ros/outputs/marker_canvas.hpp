@@ -30,11 +30,10 @@ struct MarkerScale {
   /// Middle of the box's lower side.
   Eigen::Vector3d bottom() const { return top - std::abs(up.dot(box.sizes())) * up; }
 
-  /// Unit vector along the axis that is level and along which the fibres are widest: x or y, or
-  /// the camera's x in an optical frame.
-  Eigen::Vector3d side() const;
+  /// Unit vector that is level, and to the right for whoever looks from the front.
+  static Eigen::Vector3d side() { return Eigen::Vector3d::UnitX(); }
 
-  /// Unit vector towards whoever looks at them as most do: −y, or the camera.
+  /// Unit vector towards whoever looks at them as the views of this package do: −y, or the camera.
   Eigen::Vector3d front() const;
 
   /// Below the fibres, and in front of them: what lies here lies across none of them for whoever

@@ -131,7 +131,8 @@ void draw_nearest(const fiber::FiberAssembly& fibers, const fiber::Contact& mini
   const double height = text_height * scale.extent;
   const double gap = 1.5 * height;
   const Vector3d middle = middle_of(minimum);
-  const Vector3d place = label_place(fibers, scale, {middle, scale.up, gap, height, text.size()});
+  const Vector3d place =
+      label_place(fibers, scale, {middle, scale.up, gap, height, text.size(), Vector3d::Zero()});
   canvas.add_text("nearest_text", height, place, text);
   canvas.add_leader("nearest_leader", scale, middle, place, gap);
 }
@@ -170,7 +171,7 @@ void draw_axes(const MarkerScale& scale, MarkerCanvas& canvas) {
   const double length = 0.12 * scale.extent;
   Marker& marker = canvas.add("axes", Marker::LINE_LIST);
   marker.scale.x = 0.06 * length;
-  const Vector3d origin = scale.below_in_front(0.0) - 0.07 * scale.extent * scale.up +
+  const Vector3d origin = scale.bottom() - 0.12 * scale.extent * scale.up +
                           0.35 * scale.box.sizes().x() * Vector3d::UnitX();
   for (int axis = 0; axis < 3; ++axis) {
     Rgb rgb{0.2F, 0.2F, 0.2F};
