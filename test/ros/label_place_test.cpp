@@ -18,7 +18,7 @@ constexpr double height = 0.02;
 constexpr double gap = 0.03;
 
 Label label_at(const Vector3d& point) {
-  return {point, Vector3d::UnitZ(), gap, height, 6, Vector3d::Zero()};
+  return {point, Vector3d::UnitZ(), gap, height, 6, Vector3d::Zero(), {}};
 }
 
 TEST(LabelPlace, IsWherePreferredWhereThereIsRoom) {
@@ -66,6 +66,16 @@ TEST(LabelPlace, IsNotInsideTheBodyThatItNames) {
   label.preferred = Vector3d::UnitX();
   label.inwards = -Vector3d::UnitX();
   EXPECT_GT(place_in(fibers, label).x(), -1e-12);
+}
+
+TEST(LabelPlace, DoesNotLieAcrossAnotherText) {
+  const FiberAssembly fibers({{-1, 0, 0}, {1, 0, 0}}, {0, 2}, {0.005});
+  Label label = label_at(Vector3d::Zero());
+  const Vector3d alone = place_in(fibers, label);
+  label.others = {{alone + Vector3d(0.01, 0, 0), height, 6}};
+  const Vector3d beside = place_in(fibers, label);
+  const Vector3d apart = (beside - label.others[0].middle).cwiseAbs();
+  EXPECT_TRUE(apart.x() >= text_width(height, 6) || apart.z() >= height) << beside.transpose();
 }
 
 TEST(LabelPlace, AWideTextIsFurtherAwaySideways) {

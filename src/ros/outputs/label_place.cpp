@@ -68,6 +68,16 @@ double room_around(const fiber::FiberAssembly& fibers, const Picture& picture,
   return room;
 }
 
+bool lies_across(const std::vector<PlacedText>& others, const Picture& picture,
+                 const Vector3d& place, const Vector2d& half) {
+  return std::any_of(others.begin(), others.end(), [&](const PlacedText& other) {
+    const Vector2d reach =
+        half + 0.5 * Vector2d(text_width(other.height, other.letters), other.height);
+    const Vector2d apart = picture(place - other.middle).cwiseAbs();
+    return (apart.array() < reach.array()).all();
+  });
+}
+
 }  // namespace
 
 double text_width(double height, std::size_t letters) {
@@ -98,12 +108,12 @@ Vector3d label_place(const fiber::FiberAssembly& fibers, const MarkerScale& scal
                                                             {slant * (up - side), 1.0},
                                                             {first, 3.0},
                                                             {up, 3.0},
-                                                            {slant * (up + side), 3.0},
-                                                            {slant * (up - side), 3.0},
                                                             {side, 1.0},
                                                             {-side, 1.0},
                                                             {slant * (side - up), 1.0},
                                                             {slant * (-side - up), 1.0},
+                                                            {slant * (up + side), 3.0},
+                                                            {slant * (up - side), 3.0},
                                                             {-up, 1.0}}};
   const double enough = 0.5 * label.height;
   Vector3d best = place_at(first, 1.0);
@@ -113,7 +123,9 @@ Vector3d label_place(const fiber::FiberAssembly& fibers, const MarkerScale& scal
       continue;
     }
     const Vector3d place = place_at(direction, gaps);
-    const double room = room_around(fibers, picture, place, half, enough);
+    const double room = lies_across(label.others, picture, place, half)
+                            ? -label.gap
+                            : room_around(fibers, picture, place, half, enough);
     if (room >= enough) {
       return place;
     }

@@ -2,11 +2,19 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "src/ros/outputs/marker_canvas.hpp"
 
 namespace fiber_proximity_ros {
+
+/// Where another text is.
+struct PlacedText {
+  Eigen::Vector3d middle;  ///< [m]
+  double height;           ///< [m] of its letters
+  std::size_t letters;
+};
 
 /// A text that belongs to a point.
 struct Label {
@@ -17,6 +25,7 @@ struct Label {
   std::size_t letters;        ///< how many
   /// Unit vector into a body whose inside would hide the text; 0 if there is none.
   Eigen::Vector3d inwards = Eigen::Vector3d::Zero();
+  std::vector<PlacedText> others = {};  ///< it lies across none of them, if that can be
 };
 
 /// [m] How wide a text is, about.

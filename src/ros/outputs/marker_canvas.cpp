@@ -74,8 +74,8 @@ Marker& MarkerCanvas::add_text(const std::string& ns, double height, const Vecto
 void MarkerCanvas::add_leader(const std::string& ns, const MarkerScale& scale,
                               const Vector3d& point, const Vector3d& text, double gap) {
   Marker& line = add(ns, Marker::LINE_LIST);
-  line.scale.x = 0.0015 * scale.extent;
-  line.color = color({1.0F, 1.0F, 1.0F}, 0.5F);
+  line.scale.x = 0.002 * scale.extent;
+  line.color = color({1.0F, 1.0F, 1.0F}, 0.8F);
   line.points = {to_message(point),
                  to_message(Vector3d(point + 0.9 * gap * (text - point).stableNormalized()))};
 }
