@@ -78,6 +78,18 @@ TEST(LabelPlace, DoesNotLieAcrossAnotherText) {
   EXPECT_TRUE(apart.x() >= text_width(height, 6) || apart.z() >= height) << beside.transpose();
 }
 
+TEST(LabelPlace, ItsLeaderReachesIt) {
+  const FiberAssembly fibers({{-1, 0, 0}, {1, 0, 0}}, {0, 2}, {0.005});
+  const MarkerScale scale(fibers, "world");
+  const Label label = label_at({0.1, 0, 0});
+  for (const double gaps : {1.0, 3.0}) {
+    const Vector3d place = label.point + Vector3d(0, 0, gaps * gap + 0.5 * height);
+    const Vector3d end = leader_end(scale, label, place);
+    EXPECT_NEAR(end.z(), 0.9 * gaps * gap, 1e-12) << "a little below the letters";
+    EXPECT_NEAR(end.x(), 0.1, 1e-12);
+  }
+}
+
 TEST(LabelPlace, AWideTextIsFurtherAwaySideways) {
   EXPECT_DOUBLE_EQ(text_width(0.02, 10), 2.0 * text_width(0.02, 5));
   Label label = label_at(Vector3d::Zero());

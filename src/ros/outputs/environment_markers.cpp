@@ -287,11 +287,11 @@ void draw_nearest_object(const EnvironmentDrawing& drawing, double free_distance
   const Vector3d outwards = (0.6 * scale.up - minimum.normal).stableNormalized();
   const double height = 0.035 * scale.extent;
   const double gap = 1.5 * height;
-  const Vector3d place =
-      label_place(drawing.fibers, scale,
-                  {minimum.point_b, outwards, gap, height, text.size(), minimum.normal, others});
+  const Label label{minimum.point_b, outwards, gap, height, text.size(), minimum.normal, others};
+  const Vector3d place = label_place(drawing.fibers, scale, label);
   canvas.add_text("environment_nearest_text", height, place, text);
-  canvas.add_leader("environment_nearest_leader", scale, minimum.point_b, place, gap);
+  canvas.add_leader("environment_nearest_leader", scale, minimum.point_b,
+                    leader_end(scale, label, place));
 }
 
 }  // namespace

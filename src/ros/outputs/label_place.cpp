@@ -78,6 +78,12 @@ bool lies_across(const std::vector<PlacedText>& others, const Picture& picture,
   });
 }
 
+/// [m] From the middle of a text to its edge.
+double half_extent(const MarkerScale& scale, const Label& label, const Vector3d& direction) {
+  return 0.5 * (std::abs(direction.dot(scale.side())) * text_width(label.height, label.letters) +
+                std::abs(direction.dot(scale.up)) * label.height);
+}
+
 }  // namespace
 
 double text_width(double height, std::size_t letters) {
@@ -90,8 +96,7 @@ Vector3d label_place(const fiber::FiberAssembly& fibers, const MarkerScale& scal
   const Vector2d half(0.5 * text_width(label.height, label.letters), 0.5 * label.height);
   // As far away as its own size in that direction, and the gap.
   const auto place_at = [&](const Vector3d& direction, double gaps) {
-    const double own = std::abs(direction.dot(scale.side())) * half.x() +
-                       std::abs(direction.dot(scale.up)) * half.y();
+    const double own = half_extent(scale, label, direction);
     return Vector3d(label.point + (gaps * label.gap + own) * direction);
   };
   const Vector3d& first = label.preferred;
@@ -135,6 +140,12 @@ Vector3d label_place(const fiber::FiberAssembly& fibers, const MarkerScale& scal
     }
   }
   return best;
+}
+
+Vector3d leader_end(const MarkerScale& scale, const Label& label, const Vector3d& place) {
+  const Vector3d direction = (place - label.point).stableNormalized();
+  const double distance = (place - label.point).norm() - half_extent(scale, label, direction);
+  return label.point + 0.9 * distance * direction;
 }
 
 }  // namespace fiber_proximity_ros

@@ -42,6 +42,11 @@ double text_width(double height, std::size_t letters);
 Eigen::Vector3d label_place(const fiber::FiberAssembly& fibers, const MarkerScale& scale,
                             const Label& label);
 
+/// Where a line from the point to the text ends: a little before its letters.
+/// @param place as label_place() has it
+Eigen::Vector3d leader_end(const MarkerScale& scale, const Label& label,
+                           const Eigen::Vector3d& place);
+
 /// Looking for room takes time for each of them.
 constexpr std::size_t most_label_segments = 20'000;
 

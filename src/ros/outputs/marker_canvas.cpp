@@ -72,12 +72,11 @@ Marker& MarkerCanvas::add_text(const std::string& ns, double height, const Vecto
 }
 
 void MarkerCanvas::add_leader(const std::string& ns, const MarkerScale& scale,
-                              const Vector3d& point, const Vector3d& text, double gap) {
+                              const Vector3d& point, const Vector3d& end) {
   Marker& line = add(ns, Marker::LINE_LIST);
   line.scale.x = 0.002 * scale.extent;
   line.color = color({1.0F, 1.0F, 1.0F}, 0.8F);
-  line.points = {to_message(point),
-                 to_message(Vector3d(point + 0.9 * gap * (text - point).stableNormalized()))};
+  line.points = {to_message(point), to_message(end)};
 }
 
 /// Each line is a marker of its own, for its colour; all are at one place, where empty lines above

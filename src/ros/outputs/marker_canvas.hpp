@@ -75,10 +75,9 @@ class MarkerCanvas {
   visualization_msgs::Marker& add_text(const std::string& ns, double height,
                                        const Eigen::Vector3d& position, const std::string& text);
 
-  /// A thin line towards a text from what it is about.
-  /// @param gap [m] between both
+  /// A thin line from what a text is about towards it.
   void add_leader(const std::string& ns, const MarkerScale& scale, const Eigen::Vector3d& point,
-                  const Eigen::Vector3d& text, double gap);
+                  const Eigen::Vector3d& end);
 
   /// Lines of text below what is drawn and in front of it, of the namespace `legend`.
   void add_legend(const std::vector<LegendLine>& legend, const MarkerScale& scale);

@@ -131,10 +131,10 @@ void draw_nearest(const fiber::FiberAssembly& fibers, const fiber::Contact& mini
   const double height = text_height * scale.extent;
   const double gap = 1.5 * height;
   const Vector3d middle = middle_of(minimum);
-  const Vector3d place = label_place(
-      fibers, scale, {middle, scale.up, gap, height, text.size(), Vector3d::Zero(), {}});
+  const Label label{middle, scale.up, gap, height, text.size(), Vector3d::Zero(), {}};
+  const Vector3d place = label_place(fibers, scale, label);
   canvas.add_text("nearest_text", height, place, text);
-  canvas.add_leader("nearest_leader", scale, middle, place, gap);
+  canvas.add_leader("nearest_leader", scale, middle, leader_end(scale, label, place));
 }
 
 void draw_boxes(const std::vector<fiber::NodeBox>& boxes, double extent, MarkerCanvas& canvas) {
