@@ -32,6 +32,7 @@ add_library(fiber_proximity_ros SHARED
   src/ros/outputs/environment_output.cpp
   src/ros/outputs/fiber_step.cpp
   src/ros/outputs/knowledge.cpp
+  src/ros/outputs/label_place.cpp
   src/ros/outputs/marker_canvas.cpp
   src/ros/outputs/markers.cpp
   src/ros/outputs/node_reports.cpp

@@ -5,6 +5,7 @@ add_library(fiber_proximity_mesh STATIC
   src/rviz/fiber_colors.cpp
   src/rviz/fiber_detail.cpp
   src/rviz/fiber_mesh.cpp
+  src/rviz/marker_texts.cpp
 )
 set_target_properties(fiber_proximity_mesh PROPERTIES POSITION_INDEPENDENT_CODE ON)
 target_link_libraries(fiber_proximity_mesh
@@ -23,6 +24,8 @@ add_library(fiber_proximity_rviz SHARED
   src/rviz/fiber_array_display.cpp
   src/rviz/fiber_materials.cpp
   src/rviz/fiber_renderable.cpp
+  src/rviz/legend_display.cpp
+  src/rviz/text_overlay.cpp
   src/rviz/view_fit.cpp
 )
 #catkin_lint: ignore_once external_directory

@@ -41,6 +41,9 @@ def write_view(scene, view):
     current = config["Visualization Manager"]["Views"]["Current"]
     current["Yaw"], current["Pitch"], current["Distance"], focal = view
     current["Focal Point"] = dict(zip("XYZ", focal))
+    for display in config["Visualization Manager"]["Displays"]:
+        if "Fit View" in display:
+            display["Fit View"] = {"Value": False}
     path = PICTURES / f"{scene}.rviz"
     path.write_text(yaml.safe_dump(config))
     return path

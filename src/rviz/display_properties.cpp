@@ -55,7 +55,10 @@ DisplayProperties::DisplayProperties(rviz::Property& display, const std::functio
           "Fit View", false,
           "Moves the view to where the first fibers are, and again when there are more, as long as "
           "nobody has moved it.",
-          &display)) {
+          &display)),
+      keep_in_view_(new rviz::BoolProperty("Keep in View", false,
+                                           "Moves it again when fibers are about to leave it, too.",
+                                           fit_view_)) {
   add_option(*style_, "Automatic", Style::automatic);
   add_option(*style_, "Tubes", Style::tubes);
   add_option(*style_, "Ribbons", Style::ribbons);
@@ -66,6 +69,7 @@ DisplayProperties::DisplayProperties(rviz::Property& display, const std::functio
   sides_->setMin(3);
   sides_->setMax(32);
   reduce_detail_->setDisableChildrenIfFalse(true);
+  fit_view_->setDisableChildrenIfFalse(true);
   pixel_error_->setMin(0.01F);
   opacity_->setMin(0.0F);
   opacity_->setMax(1.0F);

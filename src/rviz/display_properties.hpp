@@ -44,6 +44,8 @@ class DisplayProperties {
   std::string contact_topic() const { return contact_topic_->getTopicStd(); }
   /// rviz's view is moved to where the fibres are.
   bool fits_view() const { return fit_view_->getBool(); }
+  /// It is moved again when they are about to leave it.
+  bool keeps_in_view() const { return keep_in_view_->getBool(); }
 
  private:
   /// Hides what has no effect.
@@ -63,6 +65,7 @@ class DisplayProperties {
   rviz::FloatProperty* opacity_;
   rviz::FloatProperty* default_radius_;
   rviz::BoolProperty* fit_view_;
+  rviz::BoolProperty* keep_in_view_;
 };
 
 }  // namespace fiber_proximity_rviz

@@ -26,6 +26,9 @@ using ColorBy = DisplayProperties::ColorBy;
 using Level = rviz::StatusProperty::Level;
 using Style = DisplayProperties::Style;
 
+using fiber_proximity_ros::distance_text;
+using fiber_proximity_ros::LegendLine;
+
 const char* const fiber_status = "Fibers";
 const char* const contact_status = "Contacts";
 
@@ -34,6 +37,10 @@ std::string drawn_text(const fiber::FiberAssembly& fibers, FiberMesh::Kind kind,
          std::to_string(fibers.segment_count()) + " segment(s) as " +
          (kind == FiberMesh::Kind::ribbons ? "ribbons" : "tubes") + " in " +
          std::to_string(std::lround(1e3 * seconds)) + " ms";
+}
+
+std::string waiting_text(const std::string& topic) {
+  return "waiting for the first message of " + topic;
 }
 
 }  // namespace
@@ -67,15 +74,43 @@ void FiberArrayDisplay::reset() {
   if (renderable_ != nullptr) {
     renderable_->show_nothing();
   }
+  say_what_is_waited_for();
 }
 
 void FiberArrayDisplay::subscribe() {
   MFDClass::subscribe();
   subscribe_to_contacts();
+  say_what_is_waited_for();
+}
+
+/// A black window beside "Status: Ok" would be a riddle: the first message of many fibres may take
+/// its sender half a minute.
+void FiberArrayDisplay::say_what_is_waited_for() {
+  is_waiting_ = isEnabled() && !topic_property_->getTopicStd().empty();
+  if (is_waiting_) {
+    setStatusStd(Level::Warn, fiber_status, waiting_text(topic_property_->getTopicStd()));
+  }
+}
+
+std::vector<LegendLine> FiberArrayDisplay::legend() const {
+  const std::string name = getNameStd() + ": ";
+  if (is_waiting_) {
+    return {{fiber_proximity_ros::palette::within_margin,
+             name + waiting_text(topic_property_->getTopicStd())}};
+  }
+  if (!shown_range_) {
+    return {};
+  }
+  const auto text = [&](double value) {
+    return name + (properties_.color_by() == ColorBy::radius ? "radius " + distance_text(value)
+                                                             : distance_text(value) + " apart");
+  };
+  return {{ramp(0.0), text(shown_range_->at_blue)}, {ramp(1.0), text(shown_range_->at_red)}};
 }
 
 void FiberArrayDisplay::unsubscribe() {
   MFDClass::unsubscribe();
+  is_waiting_ = false;
   contact_subscriber_.shutdown();
 }
 
@@ -135,6 +170,7 @@ void FiberArrayDisplay::update(float wall_dt, float /*ros_dt*/) {
 }
 
 void FiberArrayDisplay::draw() {
+  is_waiting_ = false;
   try {
     const fiber_proximity_ros::Stopwatch stopwatch;
     if (is_new_) {  // the transform of an old stamp may be forgotten
@@ -172,7 +208,7 @@ void FiberArrayDisplay::fit_view() {
       Eigen::Translation3d(position.x, position.y, position.z) *
       Eigen::Quaterniond(orientation.w, orientation.x, orientation.y, orientation.z);
   view_fitter_.fit(*context_->getViewManager()->getCurrent(), fixed_frame_.toStdString(), fibers_,
-                   pose);
+                   pose, properties_.keeps_in_view());
 }
 
 void FiberArrayDisplay::read_fibers() {
@@ -195,6 +231,7 @@ void FiberArrayDisplay::place(const std_msgs::Header& header) {
 }
 
 void FiberArrayDisplay::choose_colors() {
+  shown_range_.reset();
   switch (properties_.color_by()) {
     case ColorBy::fiber:
       color_by_fiber(fibers_, properties_.opacity(), colors_);
@@ -202,7 +239,8 @@ void FiberArrayDisplay::choose_colors() {
     case ColorBy::radius: {
       const std::vector<std::optional<double>> radii = radii_of_points(fibers_);
       const std::optional<ValueRange> range = properties_.range();
-      color_by_value(radii, range ? *range : range_of(radii), properties_.color(), colors_);
+      shown_range_ = range ? *range : range_of(radii);
+      color_by_value(radii, *shown_range_, properties_.color(), colors_);
       return;
     }
     case ColorBy::distance:
@@ -229,8 +267,8 @@ void FiberArrayDisplay::color_by_distance() {
     const std::optional<ValueRange> range = properties_.range();
     // Without a margin contacts penetrate; then they are all red.
     const double margin = std::isfinite(contacts->margin) ? contacts->margin : 0.0;
-    color_by_value(distances_of_points(fibers_, *contacts),
-                   range ? *range : ValueRange{std::max(margin, 1e-9), 0.0}, properties_.color(),
+    shown_range_ = range ? *range : ValueRange{std::max(margin, 1e-9), 0.0};
+    color_by_value(distances_of_points(fibers_, *contacts), *shown_range_, properties_.color(),
                    colors_);
     setStatus(Level::Ok, contact_status,
               QString::number(contacts->contacts.size()) + " contact(s)");

@@ -5,12 +5,15 @@
 
 #include <Eigen/Geometry>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "fiber_proximity/ContactArray.h"
 #include "fiber_proximity/FiberArray.h"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
+#include "src/ros/outputs/marker_canvas.hpp"
 #include "src/rviz/contact_pairing.hpp"
 #include "src/rviz/display_properties.hpp"
 #include "src/rviz/fiber_mesh.hpp"
@@ -35,6 +38,10 @@ class FiberArrayDisplay : public rviz::MessageFilterDisplay<fiber_proximity::Fib
   void reset() override;
   void update(float wall_dt, float ros_dt) override;
 
+  /// What the fibres' colours mean, where distances or radii choose them; before the first message
+  /// that there is none.
+  std::vector<fiber_proximity_ros::LegendLine> legend() const;
+
  protected:
   void onInitialize() override;
   void subscribe() override;
@@ -56,18 +63,21 @@ class FiberArrayDisplay : public rviz::MessageFilterDisplay<fiber_proximity::Fib
   void place(const std_msgs::Header& header);
   void choose_colors();
   void color_by_distance();
+  void say_what_is_waited_for();
   const FiberMesh& make_mesh();
 
   DisplayProperties properties_;
   ros::Subscriber contact_subscriber_;
   ContactPairing pairing_;
   FibersAndContacts shown_;
+  bool is_waiting_ = false;  // for the first message
   bool is_new_ = false;      // `shown_` has not been placed
   bool is_changed_ = false;  // nor drawn as the properties say
 
   fiber_proximity_ros::FiberBuffer chains_;
   fiber::FiberAssembly fibers_;
   std::vector<Color> colors_;
+  std::optional<ValueRange> shown_range_;  // that colours stand for
   FiberMesher mesher_;
   ViewFitter view_fitter_;
   std::unique_ptr<FiberRenderable> renderable_;

@@ -3,6 +3,7 @@
 #include <OgreCamera.h>
 #include <rviz/view_controller.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "src/ros/inputs/fixed_frame.hpp"
@@ -11,6 +12,7 @@ namespace fiber_proximity_rviz {
 namespace {
 
 constexpr double share_of_picture = 0.65;  // names and legend have the rest
+constexpr double share_to_leave = 0.85;    // where ends have no room for handles any more
 
 bool is_orbit(const rviz::ViewController& view) { return view.getClassId() == "rviz/Orbit"; }
 
@@ -46,23 +48,28 @@ OrbitView orbit_view(rviz::ViewController& view, const std::string& frame) {
 }  // namespace
 
 void ViewFitter::fit(rviz::ViewController& view, const std::string& frame,
-                     const fiber::FiberAssembly& fibers, const Eigen::Isometry3d& pose) {
+                     const fiber::FiberAssembly& fibers, const Eigen::Isometry3d& pose, bool keep) {
+  const bool is_first = fiber_count_ == 0;
   const bool is_untouched = is_orbit(view) && numbers_of(view) == as_left_;
-  if (fibers.fiber_count() <= fiber_count_ || (fiber_count_ > 0 && !is_untouched)) {
+  const bool are_more = fibers.fiber_count() > fiber_count_;
+  if (fibers.fiber_count() == 0 || (!is_first && !is_untouched) || (!are_more && !keep)) {
     return;
   }
-  fiber_count_ = fibers.fiber_count();
   std::vector<Eigen::Vector3d> points;
   points.reserve(fibers.point_count());
   for (const Eigen::Vector3d& point : fibers.points()) {
     points.push_back(pose * point);
   }
   const OrbitView orbit = is_orbit(view) ? orbit_view(view, frame) : OrbitView();
-  const ViewFit fit = fit_view(points, orbit, share_of_picture);
-  view.lookAt(static_cast<float>(fit.focal_point.x()), static_cast<float>(fit.focal_point.y()),
-              static_cast<float>(fit.focal_point.z()));
+  if (!are_more && is_in_view(points, orbit, fit_, share_to_leave)) {
+    return;
+  }
+  fiber_count_ = std::max(fiber_count_, fibers.fiber_count());
+  fit_ = fit_view(points, orbit, share_of_picture);
+  view.lookAt(static_cast<float>(fit_.focal_point.x()), static_cast<float>(fit_.focal_point.y()),
+              static_cast<float>(fit_.focal_point.z()));
   if (is_orbit(view)) {
-    view.subProp("Distance")->setValue(fit.distance);
+    view.subProp("Distance")->setValue(fit_.distance);
     view.subProp("Pitch")->setValue(orbit.pitch);
     view.subProp("Yaw")->setValue(orbit.yaw);
   }

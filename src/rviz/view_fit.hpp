@@ -60,6 +60,22 @@ inline ViewFit fit_view(const std::vector<Eigen::Vector3d>& points, const OrbitV
   return fit;
 }
 
+/// Whether points are in the picture, `share` of it at most from its middle to each side.
+/// @param fit where the camera is
+inline bool is_in_view(const std::vector<Eigen::Vector3d>& points, const OrbitView& view,
+                       const ViewFit& fit, double share) {
+  const Eigen::Vector3d to_camera(std::cos(view.yaw) * std::cos(view.pitch),
+                                  std::sin(view.yaw) * std::cos(view.pitch), std::sin(view.pitch));
+  const Eigen::Vector3d right(-std::sin(view.yaw), std::cos(view.yaw), 0.0);
+  const Eigen::Vector3d up = to_camera.cross(right);
+  return std::all_of(points.begin(), points.end(), [&](const Eigen::Vector3d& point) {
+    const Eigen::Vector3d offset = point - fit.focal_point;
+    const double reach = share * (fit.distance - to_camera.dot(offset));
+    return std::abs(right.dot(offset)) <= reach * view.tan_half_width &&
+           std::abs(up.dot(offset)) <= reach * view.tan_half_height;
+  });
+}
+
 /// Moves rviz's view to where fibres are: once, and again when there are more of them, as long as
 /// nobody has moved it since.
 class ViewFitter {
@@ -72,12 +88,14 @@ class ViewFitter {
   /// from where it looks already. Other kinds of views look at their middle.
   /// @param frame the fixed frame
   /// @param pose  of the fibres' frame in it
+  /// @param keep  it is due, too, when fibres are about to leave the picture of an orbit view
   void fit(rviz::ViewController& view, const std::string& frame, const fiber::FiberAssembly& fibers,
-           const Eigen::Isometry3d& pose);
+           const Eigen::Isometry3d& pose, bool keep);
 
  private:
   std::size_t fiber_count_ = 0;  // of those last fitted to
   std::vector<float> as_left_;   // the view's numbers after that
+  ViewFit fit_;                  // what it was fitted to
 };
 
 }  // namespace fiber_proximity_rviz

@@ -111,7 +111,7 @@ TEST_F(DrawTest, MarkersShowTheAnswerAndGoWithIt) {
   ASSERT_EQ(answer->contacts.size(), 1U);
   EXPECT_EQ(screen.names(),
             (std::vector<std::string>{"boxes/0", "contacts/0", "fibers/0", "fibers/1", "nearest/0",
-                                      "nearest_text/0", "normals/0"}));
+                                      "nearest_leader/0", "nearest_text/0", "normals/0"}));
   EXPECT_EQ(screen["contacts"].points.size(), 1U);
   EXPECT_NEAR(screen["contacts"].points[0].x, 0.5, 1e-12);
   EXPECT_NEAR(screen["contacts"].points[0].z, 0.015, 1e-12);
@@ -124,7 +124,7 @@ TEST_F(DrawTest, MarkersShowTheAnswerAndGoWithIt) {
   EXPECT_EQ(screen.names(), (std::vector<std::string>{"boxes/0", "fibers/0"}));
 
   show(publisher, cross());
-  EXPECT_EQ(screen.names().size(), 7U);
+  EXPECT_EQ(screen.names().size(), 8U);
 }
 
 TEST_F(DrawTest, NamesAndLegendAreShownWhileSomebodyWantsThem) {
@@ -134,13 +134,14 @@ TEST_F(DrawTest, NamesAndLegendAreShownWhileSomebodyWantsThem) {
   show(publisher, cross());
   EXPECT_EQ(screen.names(),
             (std::vector<std::string>{"axes/0", "boxes/0", "contacts/0", "fibers/0", "fibers/1",
-                                      "legend/0", "legend/1", "legend/2", "legend/3", "names/0",
-                                      "names/1", "nearest/0", "nearest_text/0", "normals/0"}));
+                                      "legend/0", "legend/1", "legend/2", "legend/3", "legend/4",
+                                      "names/0", "names/1", "nearest/0", "nearest_leader/0",
+                                      "nearest_text/0", "normals/0"}));
   EXPECT_EQ(screen["names"].text, "fibers/0");
   EXPECT_NE(screen["legend"].text.find("red"), std::string::npos);
   switch_texts(false);
   show(publisher, cross());
-  EXPECT_EQ(screen.names().size(), 7U);
+  EXPECT_EQ(screen.names().size(), 8U);
 }
 
 TEST_F(DrawTest, DiscsAreBoundByTheFibersNotByTheMargin) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "fiber_proximity/environment/environment.hpp"
+#include "fiber_proximity/ros/conversions.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -187,21 +188,45 @@ TEST_F(EnvironmentMarkersTest, TheClosestPairHasItsObjectsNameAndDistanceInMilli
   EXPECT_EQ(text->text, "robot/hand: 12.3 mm");
   EXPECT_GT(text->scale.z, 0.0);
   EXPECT_EQ(text->pose.position.x, line->points[1].x);
-  EXPECT_GT(text->pose.position.z, line->points[1].z);
+  // Below the hand, which is above the fibre: its inside would hide the text.
+  EXPECT_LT(text->pose.position.z, line->points[1].z);
+  const Marker* leader = find("environment_nearest_leader");
+  ASSERT_NE(leader, nullptr);
+  ASSERT_EQ(leader->points.size(), 2U);
+  EXPECT_EQ(leader->points[0], line->points[1]) << "it begins at the object";
+  const Vector3d place = to_vector(text->pose.position);
+  EXPECT_LT((to_vector(leader->points[1]) - place).norm(),
+            (to_vector(leader->points[0]) - place).norm());
+}
+
+/// Where the text is, whatever the highest point of the fibres.
+TEST_F(EnvironmentMarkersTest, TheTextLiesAtTheObjectThatItNames) {
+  // A fibre from a table up to a rail, as the object of another name.
+  fibers_ = FiberAssembly({{0, 0, 0.02}, {0.5, 0, 0.02}, {1, 0, 0.9}}, {0, 3}, {0.01});
+  objects_ = {ball("table", {0.25, 0, -0.05}), ball("rail", {1.0, 0, 1.0})};
+  draw();
+  const Marker* text = find("environment_nearest_text");
+  ASSERT_NE(text, nullptr);
+  EXPECT_EQ(text->text.rfind("table", 0), 0U) << text->text;
+  const Vector3d place = to_vector(text->pose.position);
+  const double to_table = (place - Vector3d(0.25, 0, 0)).norm();
+  EXPECT_LT(to_table, 0.2) << "of fibres of 1 m";
+  EXPECT_LT(to_table, 0.25 * (place - Vector3d(1.0, 0, 1.0)).norm());
 }
 
 TEST_F(EnvironmentMarkersTest, DeletesWhatVanishedOnceAndNothingElse) {
   draw();
-  EXPECT_EQ(array_.markers.size(), 6U);
+  EXPECT_EQ(array_.markers.size(), 7U);
   EXPECT_EQ(deletions(), 0U);
   objects_.pop_back();
   draw(0.01);
   EXPECT_NE(find("obstacles"), nullptr);
-  for (const char* ns : {"robot", "environment_distances", "environment_points",
-                         "environment_nearest", "environment_nearest_text"}) {
+  for (const char* ns :
+       {"robot", "environment_distances", "environment_points", "environment_nearest",
+        "environment_nearest_leader", "environment_nearest_text"}) {
     EXPECT_NE(find(ns, 0, Marker::DELETE), nullptr) << ns;
   }
-  EXPECT_EQ(deletions(), 5U);
+  EXPECT_EQ(deletions(), 6U);
   draw(0.01);
   EXPECT_EQ(deletions(), 0U);
 }
@@ -221,8 +246,8 @@ TEST_F(EnvironmentMarkersTest, OptionsTurnPartsOff) {
   draw();
   options_.show_objects = options_.show_distances = options_.show_nearest = false;
   draw();
-  EXPECT_EQ(array_.markers.size(), 6U);
-  EXPECT_EQ(deletions(), 6U);
+  EXPECT_EQ(array_.markers.size(), 7U);
+  EXPECT_EQ(deletions(), 7U);
 }
 
 TEST_F(EnvironmentMarkersTest, NoFibersNoMarkers) {

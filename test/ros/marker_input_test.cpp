@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-
 #include <memory>
 
 #include "test/ros/messages.hpp"
@@ -310,8 +309,8 @@ FiberBuffer read_named(const MarkerArray& message) {
 
 TEST(MarkerInput, StraightCablesInTwoNamespacesAreTwoFibresAsTheyAre) {
   const Points first{{0, 0, 0}, {1, 0, 0}};
-  for (const Points& second : {Points{{0, 0.1, 0}, {1, 0.1, 0}},    // beside it
-                               Points{{1, 0.1, 0}, {0, 0.1, 0}},    // the other way round
+  for (const Points& second : {Points{{0, 0.1, 0}, {1, 0.1, 0}},         // beside it
+                               Points{{1, 0.1, 0}, {0, 0.1, 0}},         // the other way round
                                Points{{1.2, 0.1, 0}, {2.2, 0.1, 0}}}) {  // behind it
     MarkerArray message;
     message.markers = {strip_of("tether_1", first), strip_of("tether_2", second)};
@@ -358,8 +357,7 @@ TEST(MarkerInput, WhatIsTurnedRoundOrMovedIsTold) {
   const Points all = chain(0);
   const auto remarks_of = [](const Points& pairs) {
     FiberBuffer chains;
-    return read_first(array({marker(header("map"), Marker::LINE_LIST, pairs)}), {}, chains)
-        .remarks;
+    return read_first(array({marker(header("map"), Marker::LINE_LIST, pairs)}), {}, chains).remarks;
   };
   EXPECT_TRUE(remarks_of(segments(all)).empty());
   Points turned = segments(all);

@@ -92,6 +92,56 @@ TEST_F(Markers, AxesAreBesideTheFibersWithTheLegend) {
   EXPECT_NE(find("axes", 0, Marker::DELETE), nullptr);
 }
 
+// Whoever looks from the front, from above, sees what is behind higher up.
+TEST_F(Markers, LegendIsBelowTheFibersAndInFrontOfThem) {
+  legend_ = legend_lines(options_, {}, 0.02);
+  options_.show_legend = true;
+  const FiberAssembly fibers = parallel_fibers(8);  // 0.2 m by 0.21 m, flat on a table
+  build(fibers);
+  for (const double pitch : {0.0, 0.3, 0.68, 1.2}) {
+    const Eigen::Vector3d up(0.0, std::sin(pitch), std::cos(pitch));  // of the picture
+    const Marker* line = find("legend");
+    ASSERT_NE(line, nullptr);
+    const double block = static_cast<double>(legend_.size()) * line->scale.z;
+    const double upper_edge = up.dot(to_vector(line->pose.position)) + 0.5 * block;
+    for (const Eigen::Vector3d& point : fibers.points()) {
+      EXPECT_LT(upper_edge, up.dot(point)) << pitch;
+    }
+  }
+}
+
+TEST_F(Markers, NamesAreNearTheirEnds) {
+  names_ = {"pc"};
+  options_.show_names = true;
+  build(parallel_fibers(1, 41));  // 4 m, as wide as the picture
+  const Marker* name = find("names");
+  ASSERT_NE(name, nullptr);
+  // The end is at the origin, the fibre 2 cm thick; the text has two letters.
+  EXPECT_LT(to_vector(name->pose.position).norm(), 0.02 + 2.0 * name->scale.z);
+}
+
+TEST_F(Markers, WhatAnAnswerLacksIsRedAboveAllAndThereWithoutFibersToo) {
+  build(parallel_fibers(2));
+  EXPECT_EQ(find("incomplete"), nullptr);
+  unknown_ = {"robot/arm since 12.5: no transform"};
+  build(parallel_fibers(2));
+  const Marker* text = find("incomplete");
+  ASSERT_NE(text, nullptr);
+  EXPECT_EQ(text->type, Marker::TEXT_VIEW_FACING);
+  EXPECT_EQ(text->text, "incomplete: robot/arm since 12.5: no transform");
+  EXPECT_GT(text->color.r, 2.0F * text->color.g);
+  EXPECT_GT(text->pose.position.z, 0.0);
+  unknown_.emplace_back("rope since 3: stale");
+  build(FiberAssembly());
+  text = find("incomplete");
+  ASSERT_NE(text, nullptr) << "a tracker that is gone leaves no fibres";
+  EXPECT_EQ(text->text, "incomplete: robot/arm since 12.5: no transform; and 1 more");
+  EXPECT_GT(text->scale.z, 0.0);
+  unknown_.clear();
+  build(parallel_fibers(2));
+  EXPECT_NE(find("incomplete", 0, Marker::DELETE), nullptr);
+}
+
 // There y is downwards (REP 103): what is deeper in z would be behind the fibres.
 TEST_F(Markers, TextsAreAboveTheFibersInAnOpticalFrame) {
   header_.frame_id = "camera_color_optical_frame";
@@ -124,17 +174,19 @@ TEST(Legend, TellsOfWhatIsShown) {
   EnvironmentMarkerOptions environment;
   environment.show_distances = false;
   const std::string penetrating = "red: penetrating";
+  const std::string normals = "lines: normals of contacts";
   const std::string nearest = "white: nearest pair";
   using Texts = std::vector<std::string>;
-  EXPECT_EQ(texts_of(legend_lines(options, environment, 0.0)), (Texts{penetrating, nearest}));
+  EXPECT_EQ(texts_of(legend_lines(options, environment, 0.0)),
+            (Texts{penetrating, normals, nearest}));
   EXPECT_EQ(texts_of(legend_lines(options, environment, 0.02)),
-            (Texts{penetrating, "amber: within 20.0 mm", nearest}));
+            (Texts{penetrating, "amber: within 20.0 mm", normals, nearest}));
   EXPECT_EQ(texts_of(legend_lines(options, environment, HUGE_VAL)),
-            (Texts{penetrating, "amber: apart", nearest}));
+            (Texts{penetrating, "amber: apart", normals, nearest}));
   environment.show_distances = true;
   options.show_nearest = false;
   EXPECT_EQ(texts_of(legend_lines(options, environment, 0.0)),
-            (Texts{penetrating, "red to green: from objects, 0 to 100.0 mm"}));
+            (Texts{penetrating, normals, "red to green: from objects, 0 to 100.0 mm"}));
   environment.show_distances = false;
   options.show_contacts = false;
   options.show_boxes = true;

@@ -32,9 +32,10 @@ class Markers : public testing::Test {
   }
 
   void build(const fiber::FiberAssembly& fibers) {
-    builder_.build(
-        header_, {fibers, contacts_.contacts, minimum_, boxes_, cost_, nullptr, &names_, &legend_},
-        options_, array_);
+    builder_.build(header_,
+                   {fibers, contacts_.contacts, minimum_, boxes_, cost_, nullptr, &names_, &legend_,
+                    nullptr, &unknown_},
+                   options_, array_);
   }
 
   void add_contact(double distance) {
@@ -71,6 +72,7 @@ class Markers : public testing::Test {
   std::string cost_;
   std::vector<std::string> names_;
   std::vector<LegendLine> legend_;
+  std::vector<std::string> unknown_;
   MarkerOptions options_;
   MarkerBuilder builder_;
   visualization_msgs::MarkerArray array_;

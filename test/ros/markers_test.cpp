@@ -143,15 +143,15 @@ TEST_F(Markers, DeletesWhatVanishedOnceAndNothingElse) {
   minimum_ = contacts_.contacts.data();
   boxes_.push_back({{0, 0, 0}, {1, 1, 1}});
   build(parallel_fibers(3));
-  EXPECT_EQ(array_.markers.size(), 3U + 5U);
+  EXPECT_EQ(array_.markers.size(), 3U + 6U);
   EXPECT_EQ(deletions(), 0U);
 
   contacts_.contacts.clear();
   minimum_ = nullptr;
   build(parallel_fibers(1));
-  EXPECT_EQ(deletions(), 2U + 4U);
+  EXPECT_EQ(deletions(), 2U + 5U);
   EXPECT_NE(find("fibers", 0), nullptr);
-  for (const char* ns : {"contacts", "normals", "nearest", "nearest_text"}) {
+  for (const char* ns : {"contacts", "normals", "nearest", "nearest_leader", "nearest_text"}) {
     EXPECT_NE(find(ns, 0, Marker::DELETE), nullptr) << ns;
   }
   EXPECT_NE(find("fibers", 1, Marker::DELETE), nullptr);
@@ -171,7 +171,7 @@ TEST_F(Markers, OptionsTurnPartsOff) {
   build(parallel_fibers(2));
   options_ = {false, false, false, false};
   build(parallel_fibers(2));
-  EXPECT_EQ(array_.markers.size(), 2U + 5U);
+  EXPECT_EQ(array_.markers.size(), 2U + 6U);
   EXPECT_EQ(deletions(), array_.markers.size());
 }
 

@@ -4,6 +4,7 @@ fiber_proximity_gtest(tube_mesh_test ros/tube_mesh_test.cpp LIBRARIES fiber_prox
 fiber_proximity_gtest(markers_test
   ros/crossing_markers_test.cpp
   ros/environment_markers_test.cpp
+  ros/label_place_test.cpp
   ros/marker_texts_test.cpp
   ros/markers_test.cpp
   ros/shape_marker_test.cpp
@@ -57,6 +58,7 @@ fiber_proximity_gtest(fiber_mesh_test
   rviz/fiber_colors_test.cpp
   rviz/fiber_detail_test.cpp
   rviz/fiber_mesh_test.cpp
+  rviz/marker_texts_test.cpp
   rviz/view_fit_test.cpp
   LIBRARIES fiber_proximity_mesh
 )
@@ -117,6 +119,7 @@ add_rostest(ros/self_contact.test
 add_rostest(ros/no_clock.test DEPENDENCIES node_test proximity_node fiber_player cable_sim)
 add_rostest(ros/guard_robot.test)
 add_rostest(ros/relaunch.test DEPENDENCIES proximity_node)
+add_rostest(ros/views.test DEPENDENCIES proximity_node fiber_player cable_sim)
 add_rostest(ros/reference.test DEPENDENCIES proximity_node fiber_player cable_sim)
 
 add_rostest_gtest(fiber_player_test ros/fiber_player.test ros/fiber_player_test.cpp)
@@ -241,6 +244,7 @@ roslaunch_add_file_check(../launch/demo.launch)
 roslaunch_add_file_check(../launch/guard_robot.launch distance:=0.05)
 roslaunch_add_file_check(../launch/hair.launch)
 roslaunch_add_file_check(../launch/hose.launch)
+roslaunch_add_file_check(../launch/known_frame.launch)
 roslaunch_add_file_check(../launch/passing.launch)
 roslaunch_add_file_check(../launch/proximity.launch)
 roslaunch_add_file_check(../launch/tracker_example.launch)

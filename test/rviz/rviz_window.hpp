@@ -91,6 +91,16 @@ class RvizWindow {
   rviz::Display& add(const char* class_id) {
     return *manager_->createDisplay(class_id, class_id, true);
   }
+  /// A display of a configuration file; nullptr if there is none of this name.
+  rviz::Display* find(const std::string& name) {
+    const rviz::DisplayGroup& all = *manager_->getRootDisplayGroup();
+    for (int i = 0; i < all.numDisplays(); ++i) {
+      if (all.getDisplayAt(i)->getNameStd() == name) {
+        return all.getDisplayAt(i);
+      }
+    }
+    return nullptr;
+  }
   void remove(rviz::Display& display) {
     display.setEnabled(false);
     delete &display;

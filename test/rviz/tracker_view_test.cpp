@@ -1,6 +1,7 @@
 // The view of launch/with_tracker.launch: from cables somewhere before a camera to pixels.
 #include <gtest/gtest.h>
 #include <ros/ros.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include <cmath>
 #include <string>
@@ -92,6 +93,57 @@ TEST_F(TrackerViewTest, FindsACableBeforeTheCamera) {
   window_->settle();
   EXPECT_LT(window_->count_pixels(is_blue, 1.0 / 6.0), 50U) << "but for the smoothed z axis";
   expect_cable(cables({0.0, 0.0, 0.6}));
+}
+
+bool is_amber(const Pixel& pixel) {
+  return pixel[0] > 150 && pixel[1] > 90 && pixel[1] < pixel[0] && pixel[2] < 90;
+}
+bool is_red(const Pixel& pixel) { return pixel[0] > 150 && pixel[1] < 80 && pixel[2] < 80; }
+
+TEST_F(TrackerViewTest, SaysInTheWindowThatItWaitsUntilThereAreFibers) {
+  window_->settle();
+  rviz::Display* fibers = window_->find("Fibers");
+  ASSERT_NE(fibers, nullptr);
+  const rviz_test::Status waiting = RvizWindow::status(*fibers, "Fibers");
+  EXPECT_EQ(waiting.level, rviz::StatusProperty::Warn);
+  EXPECT_EQ(waiting.text, "waiting for the first message of /proximity/fibers");
+  EXPECT_GT(window_->count_pixels(is_amber), 100U) << "letters";
+  expect_cable(cables({0.0, 0.0, 0.6}));
+  window_->settle();
+  EXPECT_EQ(RvizWindow::status(*fibers, "Fibers").level, rviz::StatusProperty::Ok);
+  EXPECT_EQ(window_->count_pixels(is_amber), 0U);
+}
+
+TEST_F(TrackerViewTest, TheLegendIsInTheCornerWhereverItsMarkersAre) {
+  ros::Publisher markers =
+      node_.advertise<visualization_msgs::MarkerArray>("/proximity/markers", 1);
+  ASSERT_TRUE(RvizWindow::wait_until([&] { return markers.getNumSubscribers() > 0; }));
+  expect_cable(cables({0.0, 0.0, 0.6}));
+  EXPECT_EQ(window_->count_pixels(is_red), 0U);
+  visualization_msgs::MarkerArray legend;
+  legend.markers.resize(1);
+  visualization_msgs::Marker& marker = legend.markers[0];
+  marker.header = test_messages::header(optical_frame, ros::Time::now());
+  marker.ns = "legend";
+  marker.type = visualization_msgs::Marker::TEXT_VIEW_FACING;
+  marker.pose.position.z = 0.6;  // across the cable
+  marker.pose.orientation.w = 1.0;
+  marker.scale.z = 0.05;
+  marker.color.r = marker.color.a = 1.0F;
+  marker.text = "red: penetrating\n\n";
+  ASSERT_TRUE(RvizWindow::wait_until([&] {
+    markers.publish(legend);
+    window_->settle();
+    return window_->count_pixels(is_red) > 100;
+  }));
+  EXPECT_EQ(window_->count_pixels(is_red, 1.0 / 6.0), 0U)
+      << "none in the middle, where the cable is";
+  marker.action = visualization_msgs::Marker::DELETE;
+  markers.publish(legend);
+  EXPECT_TRUE(RvizWindow::wait_until([&] {
+    window_->settle();
+    return window_->count_pixels(is_red) == 0;
+  }));
 }
 
 TEST_F(TrackerViewTest, FindsACableFarAwayInAnotherFrame) {

@@ -64,5 +64,24 @@ TEST(ViewFit, ACablePointingAtTheCameraIsBeforeIt) {
   EXPECT_GE(fit.distance, 0.5);
 }
 
+TEST(ViewFit, WhatItIsFittedToIsInViewAndWhatGoesAwayIsNot) {
+  OrbitView view;
+  view.yaw = 4.9;
+  view.pitch = 0.68;
+  view.tan_half_width = 0.6;
+  view.tan_half_height = 0.4;
+  const std::vector<Eigen::Vector3d> points{{-0.3, 0, 0.5}, {0.3, 0.1, 0.5}, {0, -0.1, 0.7}};
+  const ViewFit fit = fit_view(points, view, 0.65);
+  EXPECT_TRUE(is_in_view(points, view, fit, 0.65 + 1e-9));
+  EXPECT_FALSE(is_in_view(points, view, fit, 0.64));
+  for (const Eigen::Vector3d& away :
+       {Eigen::Vector3d(0.4, 0, 0), Eigen::Vector3d(-1.2, 0, 0), Eigen::Vector3d(0, 0, 0.5),
+        Eigen::Vector3d(0, 0, -0.5), Eigen::Vector3d(0, -3.0, 3.0)}) {
+    std::vector<Eigen::Vector3d> moved = points;
+    moved[1] += away;
+    EXPECT_FALSE(is_in_view(moved, view, fit, 0.85)) << away.transpose();
+  }
+}
+
 }  // namespace
 }  // namespace fiber_proximity_rviz

@@ -11,6 +11,7 @@
 #include "src/environment/obstacle_parts.hpp"
 #include "src/environment/occupancy_octree.hpp"
 #include "src/geometry/smallest_rotation.hpp"
+#include "src/ros/outputs/label_place.hpp"
 #include "src/ros/outputs/tube_mesh.hpp"
 
 namespace fiber_proximity_ros {
@@ -260,19 +261,37 @@ void draw_distances(const std::vector<fiber::Contact>& contacts, double free_dis
   }
 }
 
+/// Texts that are drawn already.
+std::vector<PlacedText> texts_of(const visualization_msgs::MarkerArray& markers) {
+  std::vector<PlacedText> texts;
+  for (const Marker& marker : markers.markers) {
+    if (marker.type == Marker::TEXT_VIEW_FACING && marker.action == Marker::ADD) {
+      texts.push_back({to_vector(marker.pose.position), marker.scale.z, marker.text.size()});
+    }
+  }
+  return texts;
+}
+
 void draw_nearest_object(const EnvironmentDrawing& drawing, double free_distance,
-                         const MarkerScale& scale, MarkerCanvas& canvas) {
+                         const std::vector<PlacedText>& others, const MarkerScale& scale,
+                         MarkerCanvas& canvas) {
   const fiber::Contact& minimum = *drawing.minimum;
   Marker& line = canvas.add("environment_nearest", Marker::LINE_LIST);
   line.scale.x = 0.004 * scale.extent;
   line.color = distance_color(minimum.distance, free_distance);
   line.points = {to_message(minimum.point_a), to_message(minimum.point_b)};
-  // Above all fibres, as beside the point the object would often hide it.
-  Vector3d place = minimum.point_b;
-  const double below_top = std::max(0.0, scale.up.dot(scale.top - place));
-  place += (below_top + 0.07 * scale.extent) * scale.up;
-  canvas.add_text("environment_nearest_text", 0.035 * scale.extent, place,
-                  drawing.objects[minimum.fiber_b].name + ": " + distance_text(minimum.distance));
+  // At the object, on the side where its surface is, as its inside would hide the text; a little
+  // upwards, as what it stands on would.
+  const std::string text =
+      drawing.objects[minimum.fiber_b].name + ": " + distance_text(minimum.distance);
+  const Vector3d outwards = (0.6 * scale.up - minimum.normal).stableNormalized();
+  const double height = 0.035 * scale.extent;
+  const double gap = 1.5 * height;
+  const Label label{minimum.point_b, outwards, gap, height, text.size(), minimum.normal, others};
+  const Vector3d place = label_place(drawing.fibers, scale, label);
+  canvas.add_text("environment_nearest_text", height, place, text);
+  canvas.add_leader("environment_nearest_leader", scale, minimum.point_b,
+                    leader_end(scale, label, place));
 }
 
 }  // namespace
@@ -306,6 +325,7 @@ void EnvironmentMarkers::append(const std_msgs::Header& header, const Environmen
                                 const EnvironmentMarkerOptions& options,
                                 visualization_msgs::MarkerArray& markers) {
   const MarkerScale scale(drawing.fibers, header.frame_id);
+  const std::vector<PlacedText> others = texts_of(markers);
   MarkerCanvas canvas(header, markers, markers.markers.size());
   if (options.show_objects && drawing.fibers.fiber_count() > 0) {
     draw_objects(drawing, options.reach, canvas);
@@ -314,7 +334,7 @@ void EnvironmentMarkers::append(const std_msgs::Header& header, const Environmen
     draw_distances(drawing.contacts, options.free_distance, 3.0 * scale.thickest, canvas);
   }
   if (options.show_nearest && drawing.minimum != nullptr) {
-    draw_nearest_object(drawing, options.free_distance, scale, canvas);
+    draw_nearest_object(drawing, options.free_distance, others, scale, canvas);
   }
   canvas.finish(drawn_);
 }

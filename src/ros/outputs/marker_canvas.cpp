@@ -47,6 +47,15 @@ MarkerScale::MarkerScale(const fiber::FiberAssembly& fibers, const std::string& 
   top = box.min() + half + std::abs(up.dot(half)) * up;
 }
 
+Vector3d MarkerScale::front() const {
+  return up.y() != 0.0 ? Vector3d(-Vector3d::UnitZ()) : Vector3d(-Vector3d::UnitY());
+}
+
+Vector3d MarkerScale::below_in_front(double distance) const {
+  const double depth = box.isEmpty() ? 0.0 : std::abs(front().dot(box.sizes()));
+  return bottom() + (0.5 * depth + distance) * front() - distance * up;
+}
+
 Marker& MarkerCanvas::add(const std::string& ns, int type) {
   Marker& marker = take(ns, counts_[ns]++, Marker::ADD);
   marker.type = type;
@@ -62,14 +71,24 @@ Marker& MarkerCanvas::add_text(const std::string& ns, double height, const Vecto
   return marker;
 }
 
+void MarkerCanvas::add_leader(const std::string& ns, const MarkerScale& scale,
+                              const Vector3d& point, const Vector3d& end) {
+  Marker& line = add(ns, Marker::LINE_LIST);
+  line.scale.x = 0.002 * scale.extent;
+  line.color = color({1.0F, 1.0F, 1.0F}, 0.8F);
+  line.points = {to_message(point), to_message(end)};
+}
+
 /// Each line is a marker of its own, for its colour; all are at one place, where empty lines above
 /// and below move each to its own, from wherever one looks.
 void MarkerCanvas::add_legend(const std::vector<LegendLine>& legend, const MarkerScale& scale) {
-  const Vector3d position = scale.bottom() - 0.15 * scale.extent * scale.up;
+  const double height = 0.03 * scale.extent;
+  const double half_block = 0.5 * static_cast<double>(legend.size()) * height;
+  const Vector3d position = scale.below_in_front(0.1 * scale.extent + half_block);
   for (std::size_t line = 0; line < legend.size(); ++line) {
     const std::string text =
         std::string(line, '\n') + legend[line].text + std::string(legend.size() - 1 - line, '\n');
-    add_text("legend", 0.03 * scale.extent, position, text).color = color(legend[line].color);
+    add_text("legend", height, position, text).color = color(legend[line].color);
   }
 }
 

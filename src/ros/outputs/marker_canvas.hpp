@@ -30,6 +30,17 @@ struct MarkerScale {
   /// Middle of the box's lower side.
   Eigen::Vector3d bottom() const { return top - std::abs(up.dot(box.sizes())) * up; }
 
+  /// Unit vector that is level, and to the right for whoever looks from the front.
+  static Eigen::Vector3d side() { return Eigen::Vector3d::UnitX(); }
+
+  /// Unit vector towards whoever looks at them as the views of this package do: −y, or the camera.
+  Eigen::Vector3d front() const;
+
+  /// Below the fibres, and in front of them: what lies here lies across none of them for whoever
+  /// looks from the front, from above, too.
+  /// @param distance [m] both ways
+  Eigen::Vector3d below_in_front(double distance) const;
+
   double thickest = 0.0;                                      ///< largest radius
   double thinnest = std::numeric_limits<double>::infinity();  ///< smallest radius
   double extent = 0.0;                                        ///< longest side of the box
@@ -64,7 +75,11 @@ class MarkerCanvas {
   visualization_msgs::Marker& add_text(const std::string& ns, double height,
                                        const Eigen::Vector3d& position, const std::string& text);
 
-  /// Lines of text below what is drawn, of the namespace `legend`.
+  /// A thin line from what a text is about towards it.
+  void add_leader(const std::string& ns, const MarkerScale& scale, const Eigen::Vector3d& point,
+                  const Eigen::Vector3d& end);
+
+  /// Lines of text below what is drawn and in front of it, of the namespace `legend`.
   void add_legend(const std::vector<LegendLine>& legend, const MarkerScale& scale);
 
   /// Deletes what was drawn and has not been drawn again; remembers what has.

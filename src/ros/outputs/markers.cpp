@@ -8,6 +8,7 @@
 #include <map>
 
 #include "fiber_proximity/ros/conversions.hpp"
+#include "src/ros/outputs/label_place.hpp"
 #include "src/ros/outputs/tube_mesh.hpp"
 
 namespace fiber_proximity_ros {
@@ -120,14 +121,20 @@ void draw_passed(const std::vector<fiber::Contact>& contacts, double largest,
   }
 }
 
-void draw_nearest(const fiber::Contact& minimum, const MarkerScale& scale, MarkerCanvas& canvas) {
+void draw_nearest(const fiber::FiberAssembly& fibers, const fiber::Contact& minimum,
+                  const MarkerScale& scale, MarkerCanvas& canvas) {
   Marker& line = canvas.add("nearest", Marker::LINE_LIST);
   line.scale.x = 0.004 * scale.extent;
   line.color = color(palette::nearest);
   line.points = {to_message(minimum.point_a), to_message(minimum.point_b)};
-  canvas.add_text("nearest_text", text_height * scale.extent,
-                  middle_of(minimum) + 0.07 * scale.extent * scale.up,
-                  distance_text(minimum.distance));
+  const std::string text = distance_text(minimum.distance);
+  const double height = text_height * scale.extent;
+  const double gap = 1.5 * height;
+  const Vector3d middle = middle_of(minimum);
+  const Label label{middle, scale.up, gap, height, text.size(), Vector3d::Zero(), {}};
+  const Vector3d place = label_place(fibers, scale, label);
+  canvas.add_text("nearest_text", height, place, text);
+  canvas.add_leader("nearest_leader", scale, middle, leader_end(scale, label, place));
 }
 
 void draw_boxes(const std::vector<fiber::NodeBox>& boxes, double extent, MarkerCanvas& canvas) {
@@ -147,24 +154,40 @@ void draw_names(const fiber::FiberAssembly& fibers, const std::vector<std::strin
     const Vector3d& end = fibers.points()[first];
     const Vector3d& middle = fibers.points()[(first + fibers.offsets()[fiber + 1]) / 2];
     const Vector3d outward = (end - middle).stableNormalized();
-    const Vector3d position = end + scale.extent * (0.1 * outward + 0.05 * scale.up);
-    canvas.add_text("names", text_height * scale.extent, position, names[fiber]).color =
+    // Beside its end, a little above: as far away as it is wide there.
+    const double height = text_height * scale.extent;
+    const double width = text_width(height, names[fiber].size());
+    const double reach = 0.5 * (height + width * std::abs(scale.side().dot(outward)));
+    const Vector3d position =
+        end + (scale.thickest + reach) * outward + (scale.thickest + 0.5 * height) * scale.up;
+    canvas.add_text("names", height, position, names[fiber]).color =
         color(mix({1.0F, 1.0F, 1.0F}, fiber_color(fiber), 0.5));
   }
 }
 
-/// x red, y green, z blue, as everywhere in rviz; between the legend and the names of the ends.
+/// x red, y green, z blue, as everywhere in rviz; beside the legend, and not in the corner where
+/// the display of the legend has it.
 void draw_axes(const MarkerScale& scale, MarkerCanvas& canvas) {
   const double length = 0.12 * scale.extent;
   Marker& marker = canvas.add("axes", Marker::LINE_LIST);
   marker.scale.x = 0.06 * length;
-  const Vector3d origin = scale.bottom() - 0.12 * scale.extent * scale.up -
+  const Vector3d origin = scale.bottom() - 0.12 * scale.extent * scale.up +
                           0.35 * scale.box.sizes().x() * Vector3d::UnitX();
   for (int axis = 0; axis < 3; ++axis) {
     Rgb rgb{0.2F, 0.2F, 0.2F};
     rgb[static_cast<std::size_t>(axis)] = 1.0F;
     append_line(origin, origin + length * Vector3d::Unit(axis), color(rgb), marker);
   }
+}
+
+/// Above all else. Without fibres there is nothing that it could lie beside, or be as large as.
+void draw_incomplete(const std::vector<std::string>& unknown, const MarkerScale& scale,
+                     MarkerCanvas& canvas) {
+  const double extent = scale.extent > 0.0 ? scale.extent : 1.0;
+  canvas
+      .add_text("incomplete", text_height * extent, scale.top + 0.22 * extent * scale.up,
+                incomplete_text(unknown))
+      .color = color(palette::incomplete);
 }
 
 /// One of the two strands of a crossing.
@@ -188,6 +211,15 @@ std::string cost_text(const std::string& kernel, double seconds, double error, b
   return text.data();
 }
 
+std::string incomplete_text(const std::vector<std::string>& unknown) {
+  assert(!unknown.empty());
+  std::string text = "incomplete: " + unknown.front();
+  if (unknown.size() > 1) {
+    text += "; and " + std::to_string(unknown.size() - 1) + " more";
+  }
+  return text;
+}
+
 std::vector<LegendLine> legend_lines(const MarkerOptions& options,
                                      const EnvironmentMarkerOptions& environment, double margin) {
   std::vector<LegendLine> lines;
@@ -198,6 +230,7 @@ std::vector<LegendLine> legend_lines(const MarkerOptions& options,
                                                    ? "amber: within " + distance_text(margin)
                                                    : "amber: apart"});
     }
+    lines.push_back({palette::normal, "lines: normals of contacts"});
   }
   if (options.show_passed) {
     lines.push_back({palette::passed, "cyan: came and went between two messages"});
@@ -245,7 +278,8 @@ void draw_crossings(const fiber::FiberAssembly& fibers, const CrossingDrawing& d
 
 void MarkerBuilder::build(const std_msgs::Header& header, const Drawing& drawing,
                           const MarkerOptions& options, visualization_msgs::MarkerArray& markers) {
-  const auto& [fibers, contacts, minimum, boxes, cost, crossings, names, legend, passed] = drawing;
+  const auto& [fibers, contacts, minimum, boxes, cost, crossings, names, legend, passed, unknown] =
+      drawing;
   const MarkerScale scale(fibers, header.frame_id);
   // Thicker than the fibres, to be seen where two of them hide the point of contact.
   const double thickness = 3.0 * scale.thickest;
@@ -263,7 +297,7 @@ void MarkerBuilder::build(const std_msgs::Header& header, const Drawing& drawing
     draw_passed(*passed, 1.5 * thickness, canvas);
   }
   if (options.show_nearest && minimum != nullptr) {
-    draw_nearest(*minimum, scale, canvas);
+    draw_nearest(fibers, *minimum, scale, canvas);
   }
   if (options.show_cost) {
     canvas.add_text("cost", text_height * scale.extent, scale.top + 0.15 * scale.extent * scale.up,
@@ -281,6 +315,9 @@ void MarkerBuilder::build(const std_msgs::Header& header, const Drawing& drawing
   if (options.show_legend && legend != nullptr && fibers.fiber_count() > 0) {
     canvas.add_legend(*legend, scale);
     draw_axes(scale, canvas);
+  }
+  if (unknown != nullptr && !unknown->empty()) {
+    draw_incomplete(*unknown, scale, canvas);
   }
   canvas.finish(drawn_);
 }

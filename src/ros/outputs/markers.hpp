@@ -47,12 +47,17 @@ struct Drawing {
   const std::vector<std::string>* names = nullptr;  ///< of the fibres, if they are shown
   const std::vector<LegendLine>* legend = nullptr;  ///< if it is shown
   const std::vector<fiber::Contact>* passed = nullptr;  ///< contacts that came and went
+  const std::vector<std::string>* unknown = nullptr;  ///< what the answer lacks; it is always shown
 };
 
 /// What an answer cost and how accurate it is, in one line.
 /// @param seconds of update and detection
 /// @param error   [m] of a contact's distance, at most
 std::string cost_text(const std::string& kernel, double seconds, double error, bool is_complete);
+
+/// What an answer lacks, in one line.
+/// @param unknown not empty
+std::string incomplete_text(const std::vector<std::string>& unknown);
 
 /// What the colours of the markers mean that these options show: a line for each.
 /// @param margin [m] of the contacts; may be infinite
@@ -78,15 +83,18 @@ void draw_crossings(const fiber::FiberAssembly& fibers, const CrossingDrawing& d
 /// | `normals`      | 0           | LINE_LIST from there along the normal a→b                    |
 /// | `passed`       | 0           | SPHERE_LIST where contacts came and went, of late; cyan      |
 /// | `nearest`      | 0           | LINE_LIST between the nearest points of the closest pair     |
-/// | `nearest_text` | 0           | its distance in mm                                           |
+/// | `nearest_text` | 0           | its distance in mm, beside it                                |
+/// | `nearest_leader`| 0          | LINE_LIST from there to the text                             |
 /// | `cost`         | 0           | TEXT_VIEW_FACING above all fibres: kernel, ms, error in m    |
 /// | `boxes`        | 0           | LINE_LIST of the edges of the boxes                          |
 /// | `crossings`    | 0           | LINE_LIST: bars over, stubs under; green +1, magenta −1      |
 /// | `names`        | fibre index | TEXT_VIEW_FACING at each fibre's first point, unless there   |
 /// |                |             | are more than `most_names`                                   |
-/// | `legend`       | line        | TEXT_VIEW_FACING below all fibres, one line below another    |
+/// | `legend`       | line        | TEXT_VIEW_FACING below all fibres and in front of them, one  |
+/// |                |             | line below another                                           |
 /// | `axes`         | 0           | LINE_LIST beside the fibres, with the legend: x red, y       |
 /// |                |             | green, z blue, as the frame has them                         |
+/// | `incomplete`   | 0           | TEXT_VIEW_FACING above all: what the answer lacks; red       |
 ///
 /// Above is z, or −y in a camera's optical frame.
 class MarkerBuilder {

@@ -33,14 +33,14 @@ ProximityServer::ProximityServer(const ros::NodeHandle& node, const ros::NodeHan
       step_(options_.timing.input_timeout),
       newcomer_([this] { has_newcomers_ = true; }),
       contacts_(private_node_, "contacts", fiber_proximity::Contact::FIBER, newcomer_),
-      fibers_publisher_(
-          advertise<fiber_proximity::FiberArray>(private_node_, "fibers", newcomer_)),
+      fibers_publisher_(advertise<fiber_proximity::FiberArray>(private_node_, "fibers", newcomer_)),
       markers_publisher_(
           advertise<visualization_msgs::MarkerArray>(private_node_, "markers", newcomer_)),
       inputs_(node_, options_.inputs, options_.left_out_inputs, options_.timing,
               options_.fixed_frame, query_options_, [this] { schedule(); }),
       crossings_(private_node_, inputs_.frame(), newcomer_),
-      environment_(node_, private_node_, inputs_, [this] { schedule(); }, newcomer_),
+      environment_(
+          node_, private_node_, inputs_, [this] { schedule(); }, newcomer_),
       knowledge_(inputs_, environment_.inputs()),
       diagnostics_(node_, private_node_,
                    {inputs_, environment_.inputs(), knowledge_, detector_, query_options_}),
@@ -106,7 +106,8 @@ bool ProximityServer::is_heartbeat_due() const {
          (ros::SteadyTime::now() - last_answer_).toSec() >= options_.heartbeat;
 }
 
-/// @param is_about_new_fibers false: about the same as the answer before, which have not moved since
+/// @param is_about_new_fibers false: about the same as the answer before, which have not moved
+/// since
 /// @param time_before         [s] that messages have taken before
 /// @param stopwatch           of all else
 void ProximityServer::answer(bool is_about_new_fibers, double time_before,
@@ -177,15 +178,20 @@ void ProximityServer::take_fibers() {
   crossings_.forget();
 }
 
-/// @param time [s] of the answer
-void ProximityServer::publish_statistics(double time) {
-  Completeness of_fibers = knowledge_.completeness(Knowledge::About::FIBERS);
+/// Of contacts of fibres with each other and with what is around them.
+Completeness ProximityServer::completeness_of_all() const {
   Completeness of_all = knowledge_.completeness(Knowledge::About::FIBERS_AND_ENVIRONMENT);
   of_all.add_cut_off(detector_.detection().cut_off(query_options_));
   if (environment_.is_used()) {
     of_all.add_cut_off(environment_.detection().cut_off(query_options_));
   }
-  statistics_.publish(query_options_.kernel, of_fibers, of_all, time);
+  return of_all;
+}
+
+/// @param time [s] of the answer
+void ProximityServer::publish_statistics(double time) {
+  const Completeness of_fibers = knowledge_.completeness(Knowledge::About::FIBERS);
+  statistics_.publish(query_options_.kernel, of_fibers, completeness_of_all(), time);
 }
 
 /// Finds contacts and closest pair of the fibres. Where the engine cannot, the answer says so.
@@ -197,8 +203,8 @@ void ProximityServer::detect() {
   }
   if (const std::string problem = detector_.detection().limit_problem(query_options_);
       !problem.empty()) {
-    ROS_WARN_STREAM_THROTTLE(1.0, "fibres (engine " << options_.engine << "): " << problem
-                                                    << most_contacts_of());
+    ROS_WARN_STREAM_THROTTLE(
+        1.0, "fibres (engine " << options_.engine << "): " << problem << most_contacts_of());
   }
   statistics_.add_part("update", detector_.update_time());
   statistics_.add_part("contacts", detector_.detection().contact_time());
@@ -213,9 +219,9 @@ std::string ProximityServer::most_contacts_of() const {
   for (const fiber::Contact& contact : detector_.detection().contacts().contacts) {
     ++counts[inputs_.input_of(contact.fiber_a).options().topic];
   }
-  const auto most = std::max_element(counts.begin(), counts.end(), [](const auto& x, const auto& y) {
-    return x.second < y.second;
-  });
+  const auto most =
+      std::max_element(counts.begin(), counts.end(),
+                       [](const auto& x, const auto& y) { return x.second < y.second; });
   return most == counts.end() ? "" : ". Most are of input " + most->first;
 }
 
@@ -251,8 +257,9 @@ void ProximityServer::publish_contacts() {
   if (motion && !motion->result.complete) {
     known.add_cut_off(cut_off_text("pairs that move", query_options_));
   }
-  const ContactAnswer answer{detector_.detection(), query_options_, motion ? &*motion : nullptr,
-                             known, knowledge_, names, inputs_.header()};
+  const ContactAnswer answer{
+      detector_.detection(), query_options_, motion ? &*motion : nullptr, known, knowledge_, names,
+      inputs_.header()};
   diagnostics_.count(detector_.detection().cut_off(query_options_));
   contacts_.track(answer);
   passed_.add(contacts_.contacts());
@@ -315,10 +322,16 @@ void ProximityServer::publish_markers_if_due() {
   around_options.show_distances = is_used && config_.show_contacts;
   around_options.show_nearest = is_used && config_.show_nearest;
   std::vector<LegendLine> legend;
+  // Where fibres may touch all that is around them, there are none to explain.
+  has_shown_distances_ =
+      has_shown_distances_ || !environment_.detection().contacts().contacts.empty();
   if (marker_options_.show_legend) {
-    legend = legend_lines(marker_options_, around_options, query_options_.margin);
+    EnvironmentMarkerOptions explained = around_options;
+    explained.show_distances = explained.show_distances && has_shown_distances_;
+    legend = legend_lines(marker_options_, explained, query_options_.margin);
   }
   passed_.forget_old();
+  const Completeness completeness = completeness_of_all();
   const CrossingDrawing crossings{crossings_.crossings(), crossings_.view()};
   const Drawing drawing{inputs_.fibers(),
                         detector_.detection().contacts().contacts,
@@ -328,7 +341,8 @@ void ProximityServer::publish_markers_if_due() {
                         &crossings,
                         &inputs_.names(),
                         &legend,
-                        &passed_.contacts()};
+                        &passed_.contacts(),
+                        &completeness.unknown()};
   marker_builder_.build(inputs_.header(), drawing, marker_options_, markers_message_);
   const Detection& around = environment_.detection();
   environment_markers_.append(inputs_.header(),

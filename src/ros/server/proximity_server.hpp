@@ -57,6 +57,7 @@ class ProximityServer {
   void answer(bool is_about_new_fibers, double time_before, const Stopwatch& stopwatch);
   void answer_about_environment();
   void take_fibers();
+  Completeness completeness_of_all() const;
   void publish_statistics(double time);
   void detect();
   std::string most_contacts_of() const;
@@ -94,6 +95,7 @@ class ProximityServer {
   PassedContacts passed_;
   ros::SteadyTime last_drawing_;
   bool drawing_is_due_ = false;
+  bool has_shown_distances_ = false;  // from objects
   bool is_scheduled_ = false;
   bool has_newcomers_ = false;
   ros::SteadyTime last_answer_ = ros::SteadyTime::now();
