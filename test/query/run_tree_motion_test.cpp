@@ -73,8 +73,11 @@ TEST(RunTreeMotion, FindsWhatAllPairsFindWhateverSizePlaceAndWay) {
     // The scene is far away, or goes far as a whole.
     const double away = random.chance(0.5) ? 0.0 : 1e6 * random.uniform(0.0, 1.0);
     const double drift = random.chance(0.5) ? 0.0 : 1e3 * random.uniform(0.0, 1.0);
-    const FiberAssembly still = walks_in(random, 1 + round % 12, 1 + round % 23, size, radius);
-    const FiberAssembly before = elsewhere(still, away * size * Vector3d(1.0, -0.5, 0.3));
+    const FiberAssembly wide = walks_in(random, 1 + round % 12, 1 + round % 23, size, radius);
+    std::vector<Vector3d> points = wide.points();
+    flatten_some(points, random);
+    const FiberAssembly before =
+        elsewhere(with_points(wide, points), away * size * Vector3d(1.0, -0.5, 0.3));
     const FiberAssembly after = elsewhere(after_ways(before, way, own_way, random),
                                           drift * size * Vector3d(-0.2, 1.0, 0.4));
     MotionOptions options;
