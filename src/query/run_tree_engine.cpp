@@ -27,8 +27,9 @@ class CollectorSink final : public PairSink {
     return !collector_.done();
   }
 
-  float bound() const override {
-    return moved_ == 0.0F ? collector_.bound() : round_up(double{collector_.bound()} + moved_);
+  PairBound bound() const override {
+    const float gap = collector_.gap_bound();
+    return {moved_ == 0.0F ? gap : round_up(double{gap} + moved_), collector_.key_bound()};
   }
 
   bool bound_shrinks() const override { return true; }
