@@ -96,20 +96,30 @@ TEST(RunTreeMotion, FindsWhatAllPairsFindWhateverSizePlaceAndWay) {
   expect_enough(uncertain, std::size_t{10});
 }
 
-/// Two segments that pass each other at the margin.
+/// Two segments that pass each other at the margin; along the axes, too, where they have no extent
+/// along one, and it is their boxes that touch.
 TEST(RunTreeMotion, FindsWhatOnlyJustTouches) {
   SCOPED_TRACE(seed_message());
   Random random;
   for (int round = 0; round < 2000; ++round) {
-    const Vector3d along = random.direction();
-    const Vector3d gap = random.direction().cross(along).normalized() * random.uniform(0.01, 1.0);
+    Vector3d along = random.direction();
+    Vector3d to_other = random.direction().cross(along).normalized();
+    if (random.chance(0.5)) {
+      const int axis = random.integer(0, 2);
+      along = Vector3d::Unit(axis);
+      to_other = Vector3d::Unit((axis + random.integer(1, 2)) % 3);
+    }
+    const Vector3d gap = random.uniform(0.01, 1.0) * to_other;
     const Vector3d place = 100.0 * random.in_cube();
+    // The first one, which trees take their origin from, stands aside.
+    const Vector3d aside = place - random.uniform(3.0, 4.0) * to_other;
     const FiberAssembly before =
-        as_fibers({{place, place + random.uniform(0.0, 0.5) * along},
+        as_fibers({{aside, aside + random.uniform(0.0, 1.0) * along},
+                   {place, place + random.uniform(0.0, 0.5) * along},
                    {place + gap - along, place + gap - random.uniform(1.0, 2.0) * along}});
     std::vector<Vector3d> points = before.points();
-    points[2] += 3.0 * along;
-    points[3] += 3.0 * along;
+    points[4] += 3.0 * along;
+    points[5] += 3.0 * along;
     MotionOptions options;
     options.margin = gap.norm() * (1.0 + 0x1p-40);
     options.tolerance = 1e-9;
