@@ -50,7 +50,7 @@ void find_some(const RunTreeView& a, const RunTreeView& b, const QueryOptions& o
   const std::uint32_t groups = b.group_count() == 0 ? 0 : a.group_count();
   // Where no candidates are, nobody would look at the deadline.
   const std::uint32_t step = options.deadline > 0.0 ? 1 : std::max(groups, 1U);
-  for (std::uint32_t group = 0; group < groups && !collector.done(); group += step) {
+  for (std::uint32_t group = 0; group < groups && !collector.done_by_now(); group += step) {
     find_near_segments(a, group, std::min(groups, group + step), b, sink, counts.node_tests,
                        counts.node_overlaps);
   }

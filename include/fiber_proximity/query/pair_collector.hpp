@@ -52,8 +52,8 @@ class FiberPairMinima {
 /// CLOSEST and LIMITED are one thing: keep the k closest, and let the bound below which a pair is
 /// of interest shrink to the k-th of them, in penetration, too. FIBER_PAIRS has such a bound for
 /// each pair of fibres; the one for all stays the margin. A tolerance makes these bounds smaller
-/// than what has been found. Where ALL and FIBER_PAIRS find more contacts than may be reported, they
-/// become such queries too.
+/// than what has been found. Where ALL and FIBER_PAIRS find more contacts than may be reported,
+/// they become such queries too.
 class ContactAccumulator {
  public:
   /// Holds references: options and result must outlive it. Forgets what is in the result.
@@ -103,6 +103,13 @@ class ContactAccumulator {
   /// pairs is reached. To be asked often.
   bool done() {
     if (limits_.deadline.is_set() && ++steps_ % steps_between_looks == 0) {
+      look_at_deadline();
+    }
+    return done_;
+  }
+  /// The same for what asks seldom.
+  bool done_by_now() {
+    if (limits_.deadline.is_set()) {
       look_at_deadline();
     }
     return done_;
@@ -173,6 +180,7 @@ class PairCollector {
 
   /// See ContactAccumulator.
   bool done() { return accumulator_.done(); }
+  bool done_by_now() { return accumulator_.done_by_now(); }
   bool wants_near_first() const { return accumulator_.wants_near_first(); }
 
   /// Sorts the contacts; call once, after the last offer.
