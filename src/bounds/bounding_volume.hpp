@@ -115,10 +115,13 @@ struct SplitAxis {
   double extent = 0.0;  ///< [m]
 };
 
-/// A margin [m] as the volumes take it: rounded up to single precision.
+/// A margin [m] as the volumes take it: rounded up to single precision; or a depth below 0.
 inline float round_up(double margin) {
   if (margin > std::numeric_limits<float>::max()) {
     return std::numeric_limits<float>::infinity();
+  }
+  if (margin < std::numeric_limits<float>::lowest()) {
+    return std::numeric_limits<float>::lowest();
   }
   const auto nearest = static_cast<float>(margin);
   return static_cast<double>(nearest) < margin

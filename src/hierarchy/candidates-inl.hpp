@@ -61,14 +61,16 @@ class Candidates {
     for (std::uint32_t first = 0; first < size; first += static_cast<std::uint32_t>(hn::Lanes(d))) {
       const GatheredSegments a = gather(a_.runs, places_a_ + first);
       const GatheredSegments b = gather(b_.runs, places_b_ + first);
-      const auto reach = hn::Add(hn::Add(a.radius, b.radius), hn::Set(d, sink_.bound()));
-      const auto close = a_.ways == nullptr
-                             ? segments_near(a.segments, b.segments, reach)
-                             : MovingPairs(a.segments, b.segments,
-                                           subtract(gather(a_.ways, places_a_ + first),
-                                                    gather(b_.ways, places_b_ + first)),
-                                           reach)
-                                   .are_near();
+      const auto reach = hn::Add(hn::Add(a.radius, b.radius), hn::Set(d, sink_.bound().gap));
+      const auto may_be_close = a_.ways == nullptr
+                                    ? segments_near(a.segments, b.segments, reach)
+                                    : MovingPairs(a.segments, b.segments,
+                                                  subtract(gather(a_.ways, places_a_ + first),
+                                                           gather(b_.ways, places_b_ + first)),
+                                                  reach)
+                                          .are_near();
+      // Where the bound is a depth, those that are thinner than that have none.
+      const auto close = hn::And(may_be_close, hn::Ge(reach, hn::Zero(d)));
       std::uint32_t bits = bits_of(close) & first_bits(std::min(run_width, size - first));
       while (bits != 0) {
         const std::uint32_t i = first + take_lowest(bits);

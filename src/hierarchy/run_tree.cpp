@@ -93,6 +93,10 @@ void RunTree::build(const TreeFibers& fibers, const std::vector<std::uint32_t>& 
     levels_[level_count].resize(count);
   }
   levels_.resize(level_count);
+  least_points_.resize(level_count);
+  for (std::size_t level = 0; level < level_count; ++level) {
+    least_points_[level].resize(levels_[level].size() * run_width);
+  }
   set_view();
   origin_ = fibers.origin_before;
   sort(fibers.before);
@@ -129,7 +133,24 @@ void RunTree::sort(const FiberAssembly& fibers) {
     std::fill(first_points_.begin() + segment_count_, first_points_.end(),
               first_points_[segment_count_ - 1]);
   }
+  find_least_points();
   sorted_looseness_ = looseness(fibers);
+}
+
+/// Of what is in the order of the curve: they stay while boxes are refitted.
+void RunTree::find_least_points() {
+  const std::vector<std::uint32_t>* below = &first_points_;
+  for (std::vector<std::uint32_t>& level : least_points_) {
+    const auto children = static_cast<std::uint32_t>(below->size() / run_width);
+    for_ranges(children, [&](std::uint32_t begin, std::uint32_t end) {
+      for (std::uint32_t child = begin; child < end; ++child) {
+        const auto first = below->begin() + std::ptrdiff_t{child} * run_width;
+        level[child] = *std::min_element(first, first + run_width);
+      }
+    });
+    std::fill(level.begin() + children, level.end(), std::numeric_limits<std::uint32_t>::max());
+    below = &level;
+  }
 }
 
 void RunTree::refit(const TreeFibers& fibers) {
@@ -185,7 +206,7 @@ void RunTree::set_view() {
   auto children = static_cast<std::uint32_t>(runs_.size());
   for (std::size_t level = 0; level < levels_.size(); ++level) {
     const auto nodes = static_cast<std::uint32_t>(levels_[level].size());
-    view_.levels[level] = {levels_[level].data(), nodes, children};
+    view_.levels[level] = {levels_[level].data(), nodes, children, least_points_[level].data()};
     children = nodes;
   }
 }
@@ -206,7 +227,34 @@ std::size_t RunTree::memory_bytes() const {
   for (const std::vector<BoxBlock>& boxes : levels_) {
     bytes += boxes.capacity() * sizeof(BoxBlock);
   }
+  for (const std::vector<std::uint32_t>& points : least_points_) {
+    bytes += points.capacity() * sizeof(std::uint32_t);
+  }
   return bytes;
+}
+
+std::uint32_t nearest_run(const RunTreeView& tree, const BoxBlock& boxes) {
+  std::uint32_t nearest = 0;
+  for (std::uint32_t level = tree.level_count; level-- > 0;) {
+    const RunTreeLevel& nodes = tree.levels[level];
+    const BoxBlock& children = nodes.boxes[nearest];
+    const std::uint32_t first = nearest * run_width;
+    float least = std::numeric_limits<float>::infinity();
+    nearest = first;
+    for (std::uint32_t lane = 0; lane < std::min(run_width, nodes.child_count - first); ++lane) {
+      float squared = 0.0F;
+      for (int axis = 0; axis < 3; ++axis) {
+        const float gap = std::max({children.lower[axis][lane] - boxes.upper[axis][0],
+                                    boxes.lower[axis][0] - children.upper[axis][lane], 0.0F});
+        squared += gap * gap;
+      }
+      if (squared < least) {
+        least = squared;
+        nearest = first + lane;
+      }
+    }
+  }
+  return nearest;
 }
 
 }  // namespace fiber

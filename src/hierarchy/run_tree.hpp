@@ -53,6 +53,7 @@ class RunTree {
 
  private:
   void sort(const FiberAssembly& fibers);
+  void find_least_points();
   void refit(const TreeFibers& fibers);
   double looseness(const FiberAssembly& fibers);
   void set_view();
@@ -62,7 +63,8 @@ class RunTree {
   std::vector<Run> runs_;
   std::vector<RunWays> ways_;                  // empty until something moves
   std::vector<std::vector<BoxBlock>> levels_;  // boxes of the children, by node; groups first
-  std::vector<std::uint64_t> keys_;            // of sort()
+  std::vector<std::vector<std::uint32_t>> least_points_;  // of the children, by node
+  std::vector<std::uint64_t> keys_;                       // of sort()
   std::vector<std::uint64_t> scratch_;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d origin_after_ = Eigen::Vector3d::Zero();

@@ -34,15 +34,22 @@ class Finder {
         overlaps_(overlaps),
         candidates_(a, b, sink),
         self_(a.runs == b.runs),
+        keys_{self_},
         skip_adjacent_(self_ && !sink.wants_adjacent()),
         bound_shrinks_(sink.bound_shrinks()) {}
 
   /// Whether to go on.
   bool find(std::uint32_t group) {
+    const PairBound bound = sink_.bound();
     group_ = group;
     known_ranges_ = 0;
     visited_ = none;
-    aim();
+    keys_.bound = bound.key;
+    if (HWY_UNLIKELY(keys_.are_bounded()) &&
+        children_by_key({b_.level_count - 1, 0}, a_.least_point(group)) == 0) {
+      return true;
+    }
+    aim(bound.gap);
     return visit_near_ones() && descend();
   }
 
@@ -76,8 +83,8 @@ class Finder {
   }
 
   // A call of its own: several copies of this and of visit_group() are more code and slower.
-  HWY_NOINLINE void aim() {
-    bound_ = sink_.bound();
+  HWY_NOINLINE void aim(float bound) {
+    bound_ = bound;
     probe_.aim(a_, group_, bound_);
     span_ = bound_ + longest_way();
     prunes_group_ = self_ && is_smaller_than_bound(probe_.whole(), 0);
@@ -142,6 +149,9 @@ class Finder {
       std::uint32_t bits =
           children(level, node.index) & overlapping(level.boxes[node.index], probe_.whole(), 0);
       count(bits);
+      if (HWY_UNLIKELY(keys_.are_bounded())) {
+        bits &= children_by_key(node, a_.least_point(group_));
+      }
       if (node.level == 0) {
         if (bits != 0 && node.index != visited_ &&
             !(visit_group(node.index, bits) && (!bound_shrinks_ || settle()))) {
@@ -175,6 +185,9 @@ class Finder {
       const std::uint32_t wanted = same ? chosen & ~first_bits(run) : chosen;
       std::uint32_t bits = wanted & overlapping(runs.boxes[h], probe_.runs(), run);
       count(bits);
+      if (HWY_UNLIKELY(keys_.are_bounded())) {
+        bits &= children_by_key({0, h}, a_.levels[0].least_points[group_ * run_width + run]);
+      }
       while (bits != 0) {
         if (!visit_runs(run, h, take_lowest(bits))) {
           return false;
@@ -215,6 +228,9 @@ class Finder {
       if (bits != 0 && self_) {
         bits &= ~left_out(run, i, b);
       }
+      if (HWY_UNLIKELY(keys_.are_bounded())) {
+        bits &= keys_.lanes(a_.first_points[a * run_width + i], b_.first_points + b * run_width);
+      }
       if (bits != 0) {
         bits &= near_lines<moves>(b_, b, a_, a, i, bound_);
       }
@@ -245,10 +261,19 @@ class Finder {
   bool settle() { return candidates_.flush() && shrink(); }
 
   bool shrink() {
-    if (sink_.bound() < bound_) {
-      aim();
+    const PairBound bound = sink_.bound();
+    keys_.bound = bound.key;
+    if (bound.gap < bound_) {
+      aim(bound.gap);
     }
     return true;
+  }
+
+  /// Bits of the children of a node of b that may have pairs that matter by their keys with what
+  /// has this least first point.
+  std::uint32_t children_by_key(Node node, std::uint32_t least) const {
+    return keys_.lanes(least,
+                       b_.levels[node.level].least_points + std::size_t{run_width} * node.index);
   }
 
   /// Bits of the children of a node, and of the segments of a run, that there are.
@@ -276,6 +301,7 @@ class Finder {
   float bound_ = 0.0F;            // [m]
   float span_ = 0.0F;             // [m] the bound, and half of the longest way of the group
   const bool self_;
+  KeyBound keys_;
   const bool skip_adjacent_;
   const bool bound_shrinks_;
   // Whether to ask if they are ruled out: the group, and by bit its runs.
@@ -313,30 +339,6 @@ HWY_AFTER_NAMESPACE();
 namespace fiber {
 
 HWY_EXPORT(find_near_segments_lanes);
-
-std::uint32_t nearest_run(const RunTreeView& tree, const BoxBlock& boxes) {
-  std::uint32_t nearest = 0;
-  for (std::uint32_t level = tree.level_count; level-- > 0;) {
-    const RunTreeLevel& nodes = tree.levels[level];
-    const BoxBlock& children = nodes.boxes[nearest];
-    const std::uint32_t first = nearest * run_width;
-    float least = std::numeric_limits<float>::infinity();
-    nearest = first;
-    for (std::uint32_t lane = 0; lane < std::min(run_width, nodes.child_count - first); ++lane) {
-      float squared = 0.0F;
-      for (int axis = 0; axis < 3; ++axis) {
-        const float gap = std::max({children.lower[axis][lane] - boxes.upper[axis][0],
-                                    boxes.lower[axis][0] - children.upper[axis][lane], 0.0F});
-        squared += gap * gap;
-      }
-      if (squared < least) {
-        least = squared;
-        nearest = first + lane;
-      }
-    }
-  }
-  return nearest;
-}
 
 bool find_near_segments(const RunTreeView& a, std::uint32_t begin, std::uint32_t end,
                         const RunTreeView& b, PairSink& sink, std::uint64_t& tests,

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "src/hierarchy/pair_bound.hpp"
 
 namespace fiber {
 
@@ -39,6 +41,10 @@ struct RunTreeLevel {
   const BoxBlock* boxes;  ///< of the children, by node
   std::uint32_t node_count;
   std::uint32_t child_count;  ///< of all nodes of the level
+
+  /// Of the children, by node: the least of their segments' first points. Lanes without a child
+  /// have the largest number there is.
+  const std::uint32_t* least_points;
 };
 
 /// What the kernels see of a tree.
@@ -54,6 +60,34 @@ struct RunTreeView {
   std::uint32_t level_count = 0;
 
   std::uint32_t group_count() const { return level_count == 0 ? 0 : levels[0].node_count; }
+
+  /// The least first point of a group's segments.
+  std::uint32_t least_point(std::uint32_t group) const {
+    const std::uint32_t* const of_runs = levels[0].least_points + std::size_t{group} * run_width;
+    return *std::min_element(of_runs, of_runs + run_width);
+  }
+};
+
+/// The bound of keys in a traversal of eight segments, or boxes of some, at a time.
+struct KeyBound {
+  bool self;  ///< pairs are of one assembly: the smaller point comes first
+  std::uint64_t bound = PairBound::no_key;
+
+  bool are_bounded() const { return bound != PairBound::no_key; }
+
+  /// Bits of those of eight that may have pairs of smaller keys with what begins at this point.
+  /// @param points the least first point of each
+  std::uint32_t lanes(std::uint32_t least, const std::uint32_t* points) const {
+    std::uint32_t bits = 0;
+    for (std::uint32_t lane = 0; lane < run_width; ++lane) {
+      const std::uint32_t other = points[lane];
+      // No pair of these points or later ones has a smaller key.
+      const std::uint64_t key =
+          self ? key_of({std::min(least, other), std::max(least, other)}) : key_of({least, other});
+      bits |= key < bound ? 1U << lane : 0U;
+    }
+    return bits;
+  }
 };
 
 /// What a tree is fitted to: fibres where they are, or with each point moving linearly from there
@@ -82,8 +116,8 @@ class PairSink {
   /// @return whether to go on
   virtual bool offer(PointPair pair) = 0;
 
-  /// [m] Pairs further apart than this do not matter (any more).
-  virtual float bound() const = 0;
+  /// Which pairs matter (any more).
+  virtual PairBound bound() const = 0;
 
   /// Whether pairs that are offered make the bound smaller: if so, they should not wait for others.
   virtual bool bound_shrinks() const = 0;

@@ -22,7 +22,7 @@ class FiberPairSearch::Sink final : public PairSink {
     }
     return !search_.is_over();
   }
-  float bound() const override { return round_up(std::max(0.0, search_.closest_.bound())); }
+  PairBound bound() const override { return {round_up(std::max(0.0, search_.closest_.bound()))}; }
   bool bound_shrinks() const override { return true; }
   bool wants_adjacent() const override {
     return is_across_ || search_.inner_test_.wants_adjacent();

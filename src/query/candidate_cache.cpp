@@ -4,6 +4,23 @@
 
 namespace fiber {
 
+CandidateKey::CandidateKey(const PairOptions& options) {
+  // All are named: an option that is new does not compile before it is told here whether candidates
+  // depend on it. On how many contacts may be reported, and on what they may cost, they do not.
+  const auto& [margin, max_contacts, pairing, neighbour_skip, neighbour_skip_length, deadline,
+               contact_limit, pair_limit] = options;
+  margin_ = margin;
+  pairing_ = pairing;
+  neighbour_skip_ = neighbour_skip;
+  neighbour_skip_length_ = neighbour_skip_length;
+}
+
+bool CandidateKey::operator==(const CandidateKey& other) const {
+  return margin_ == other.margin_ && pairing_ == other.pairing_ &&
+         neighbour_skip_ == other.neighbour_skip_ &&
+         neighbour_skip_length_ == other.neighbour_skip_length_;
+}
+
 CandidateCache::State CandidateCache::state() const {
   const std::lock_guard lock(mutex_);
   return state_;
@@ -16,9 +33,7 @@ void CandidateCache::become(State worse) {
 
 CandidateCache::Keys CandidateCache::find(const QueryOptions& options, State state) const {
   const std::lock_guard lock(mutex_);
-  const bool same = state_ == state && options.margin == margin_ &&
-                    options.neighbour_skip == neighbour_skip_ && options.pairing == pairing_;
-  return same ? keys_ : nullptr;
+  return state_ == state && key_ == CandidateKey(options) ? keys_ : nullptr;
 }
 
 CandidateCache::Keys CandidateCache::make() {
@@ -33,9 +48,7 @@ CandidateCache::Keys CandidateCache::make() {
 void CandidateCache::keep(const QueryOptions& options, const Keys& keys) {
   const std::lock_guard lock(mutex_);
   state_ = State::CURRENT;
-  margin_ = options.margin;
-  neighbour_skip_ = options.neighbour_skip;
-  pairing_ = options.pairing;
+  key_ = CandidateKey(options);
   if (keys_ != nullptr) {
     spare_ = std::move(keys_);
   }

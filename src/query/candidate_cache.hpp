@@ -13,6 +13,21 @@
 
 namespace fiber {
 
+/// What candidates of a query depend on, beside the fibres: they serve all queries of the same key.
+class CandidateKey {
+ public:
+  CandidateKey() = default;
+  explicit CandidateKey(const PairOptions& options);
+
+  bool operator==(const CandidateKey& other) const;
+
+ private:
+  double margin_ = 0.0;  // [m]
+  Pairing pairing_ = Pairing::ALL;
+  std::optional<std::uint32_t> neighbour_skip_;
+  std::optional<double> neighbour_skip_length_;  // [m]
+};
+
 /// Candidates of a query, kept for those after it; several threads may ask at the same time.
 class CandidateCache {
  public:
@@ -30,8 +45,7 @@ class CandidateCache {
   /// Makes them worse: CURRENT ones STALE or NONE, STALE ones NONE.
   void become(State worse);
 
-  /// Those in this state of a query of the same margin, neighbour skip and pairing; null if there
-  /// are none.
+  /// Those in this state of a query of the same key; null if there are none.
   Keys find(const QueryOptions& options, State state) const;
 
   /// Where to put new ones: memory that nobody else uses.
@@ -45,9 +59,7 @@ class CandidateCache {
  private:
   mutable std::mutex mutex_;
   State state_ = State::NONE;
-  double margin_ = 0.0;  // [m]
-  std::optional<std::uint32_t> neighbour_skip_;
-  Pairing pairing_ = Pairing::ALL;
+  CandidateKey key_;
   Keys keys_;
   Keys spare_;  // the ones before, for their memory
 };

@@ -1,5 +1,7 @@
 #include "src/query/contact_batch.hpp"
 
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <atomic>
 
@@ -13,16 +15,36 @@ namespace {
 
 constexpr std::uint32_t groups_per_job = 32;
 
-// Judging what has been found takes a quarter of the time.
+// Judging what has been found takes a quarter of the time, or more where it is much.
 constexpr double part_to_collect = 2.0 / 3.0;
+// On one thread, with what sorts it; more than it takes, as what is not sorted cannot be judged.
+constexpr double seconds_to_judge_one = 3e-7;
 
-/// The candidates that all threads come by.
-struct CandidateCount {
-  const std::uint64_t most;
-  std::atomic<std::uint64_t> count{0};
+/// The candidates that all threads come by, and whether to look for more.
+class CandidateCount {
+ public:
+  explicit CandidateCount(const QueryLimits& limits)
+      : limits_(limits), seconds_for_one_(seconds_to_judge_one / thread_count()) {}
+
+  void add(std::uint64_t count) { count_.fetch_add(count, std::memory_order_relaxed); }
 
   /// Once and for all: whether it comes to that does not depend on the threads.
-  bool is_too_much() const { return count.load(std::memory_order_relaxed) > most; }
+  bool is_too_much() const { return count() > limits_.pairs; }
+
+  /// Whether it is time to judge those that there are.
+  bool is_late() const {
+    return limits_.deadline.has_passed(part_to_collect) ||
+           limits_.deadline.has_passed(ContactEvaluator::part_of_time,
+                                       seconds_for_one_ * static_cast<double>(count()));
+  }
+
+ private:
+  static double thread_count() { return tbb::this_task_arena::max_concurrency(); }
+  std::uint64_t count() const { return count_.load(std::memory_order_relaxed); }
+
+  const QueryLimits& limits_;
+  const double seconds_for_one_;
+  std::atomic<std::uint64_t> count_{0};
 };
 
 /// Keeps all candidates but those that are no pairs.
@@ -34,7 +56,7 @@ class CandidateSink final : public PairSink {
       : test_(test), bound_(bound), prunes_(prunes), count_(count), keys_(keys) {}
   CandidateSink(const CandidateSink&) = delete;
   CandidateSink& operator=(const CandidateSink&) = delete;
-  ~CandidateSink() override { count_.count.fetch_add(uncounted_, std::memory_order_relaxed); }
+  ~CandidateSink() override { count_.add(uncounted_); }
 
   bool offer(PointPair candidate) override {
     const PointPair pair = test_.ordered(candidate);
@@ -44,7 +66,7 @@ class CandidateSink final : public PairSink {
     return ++uncounted_ < uncounted_at_most || count_and_go_on();
   }
 
-  float bound() const override { return bound_; }
+  PairBound bound() const override { return {bound_}; }
   bool bound_shrinks() const override { return false; }
 
   bool wants_adjacent() const override { return test_.wants_adjacent(); }
@@ -56,9 +78,9 @@ class CandidateSink final : public PairSink {
   static constexpr std::uint32_t uncounted_at_most = 1024;  // threads wait for each other to count
 
   bool count_and_go_on() {
-    count_.count.fetch_add(uncounted_, std::memory_order_relaxed);
+    count_.add(uncounted_);
     uncounted_ = 0;
-    return !count_.is_too_much();
+    return !count_.is_too_much() && !count_.is_late();
   }
 
   const NarrowPhase& test_;
@@ -81,7 +103,7 @@ ContactBatch::Found ContactBatch::collect(const RunTreeView& a, const RunTreeVie
   const std::size_t job_count =
       b.group_count() == 0 ? 0 : (groups + groups_per_job - 1) / groups_per_job;
   jobs_.resize(std::max(jobs_.size(), job_count));
-  CandidateCount count{limits.pairs};
+  CandidateCount count(limits);
   for_each_of(job_count, [&](std::size_t index) {
     Job& job = jobs_[index];
     job.keys.clear();
@@ -92,11 +114,9 @@ ContactBatch::Found ContactBatch::collect(const RunTreeView& a, const RunTreeVie
     CandidateSink sink(test, rounded_bound, prunes, count, job.keys);
     for (std::uint32_t group = begin; group < end && job.complete && !count.is_too_much();
          group += step) {
-      job.complete = !limits.deadline.has_passed(part_to_collect);
-      if (job.complete) {
-        find_near_segments(a, group, std::min(end, group + step), b, sink, job.counts.node_tests,
-                           job.counts.node_overlaps);
-      }
+      job.complete =
+          !count.is_late() && find_near_segments(a, group, std::min(end, group + step), b, sink,
+                                                 job.counts.node_tests, job.counts.node_overlaps);
     }
   });
   keys.clear();

@@ -26,7 +26,8 @@ class ContactBatch {
 
   /// Candidates in the order of the contacts: all pairs that may come within the bound [m], and
   /// others; they may serve other queries, too, when points have moved. Takes two thirds of the
-  /// time until the deadline, if need be: the rest is for judging.
+  /// time until the deadline, if need be, and less where very many are found: the rest is for
+  /// judging.
   /// @param prunes leave out what lacks a loop as the fibres of the test are now
   Found collect(const RunTreeView& a, const RunTreeView& b, const NarrowPhase& test, double bound,
                 const QueryLimits& limits, bool prunes, std::vector<std::uint64_t>& keys,

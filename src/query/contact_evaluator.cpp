@@ -13,9 +13,6 @@ constexpr std::size_t pairs_per_slice = 512;
 constexpr std::size_t slices_per_round = 32;
 constexpr std::size_t pairs_per_round = slices_per_round * pairs_per_slice;
 
-// Contacts are written down after that.
-constexpr double part_to_evaluate = 0.9;
-
 /// Along fibres, of all candidates together.
 std::uint64_t most_looks(const QueryLimits& limits) {
   constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
@@ -74,7 +71,7 @@ void ContactEvaluator::evaluate_round(const std::uint64_t* keys, std::size_t cou
     Slice& slice = slices_[index];
     slice.begin = index * pairs_per_slice;
     slice.end = std::min(count, slice.begin + pairs_per_slice);
-    slice.complete = !limits.deadline.has_passed(part_to_evaluate);
+    slice.complete = !limits.deadline.has_passed(part_of_time);
     if (slice.complete) {
       evaluate_slice(keys, test, most_looks(limits) / slices_per_round, slice);
     }

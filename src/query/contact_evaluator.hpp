@@ -6,19 +6,17 @@
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/narrow_phase.hpp"
 #include "fiber_proximity/query/options.hpp"
+#include "src/hierarchy/pair_bound.hpp"
 
 namespace fiber {
-
-/// Pairs as keys, in the order of the contacts.
-inline std::uint64_t key_of(PointPair pair) { return std::uint64_t{pair.a} << 32U | pair.b; }
-inline PointPair pair_of(std::uint64_t key) {
-  return {static_cast<std::uint32_t>(key >> 32U), static_cast<std::uint32_t>(key)};
-}
 
 /// Makes contacts of candidates, slice by slice on several threads. Gives the same for any number
 /// of threads. Keeps its memory from query to query.
 class ContactEvaluator {
  public:
+  /// Of the time until the deadline, when candidates are judged: contacts are written down after.
+  static constexpr double part_of_time = 0.9;
+
   /// @param keys of the candidates, as NarrowPhase orders pairs, in ascending order
   /// @param result its contacts and others_lower are replaced; complete becomes false if the
   /// deadline has passed before all were evaluated, and is to be false if some candidates are

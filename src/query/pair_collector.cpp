@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "src/bounds/bounding_volume.hpp"
+#include "src/hierarchy/pair_bound.hpp"
 
 namespace fiber {
 namespace {
@@ -214,8 +215,7 @@ void ContactAccumulator::finish(double least_gap) {
 
 void ContactAccumulator::set_bound(double bound) {
   bound_ = bound;
-  // Capsules that penetrate have volumes that overlap: those know no negative margin.
-  rounded_bound_ = round_up(std::max(bound, 0.0));
+  rounded_bound_ = round_up(bound);
 }
 
 std::uint32_t PairCollector::FiberFinder::fiber_of(std::uint32_t point) {
@@ -250,7 +250,7 @@ void PairCollector::offer(std::uint32_t point_a, std::uint32_t point_b) {
     return;
   }
   const PointPair pair = test_.ordered({point_a, point_b});
-  if (test_.is_left_out(pair)) {
+  if (key_of(pair) >= key_bound_ || test_.is_left_out(pair)) {
     return;
   }
   if (options_.type == QueryType::FIBER_PAIRS) {
@@ -263,7 +263,30 @@ void PairCollector::offer(std::uint32_t point_a, std::uint32_t point_b) {
   }
   if (const std::optional<Contact> contact = contact_within(pair, accumulator_.bound())) {
     accumulator_.keep(*contact);
+    look_at_depth();
   }
+}
+
+/// No pair is deeper than both segments are thick. Where those that are kept are as deep, only
+/// pairs of smaller indices can take their place, and with a tolerance none need.
+void PairCollector::look_at_depth() {
+  const Contact* const farthest = accumulator_.farthest();
+  if (farthest == nullptr || accumulator_.bound() > test_.least_computed_gap()) {
+    return;
+  }
+  if (accumulator_.bound() < test_.least_computed_gap()) {
+    accumulator_.stop();
+  } else if (farthest->distance <= test_.least_computed_gap()) {
+    key_bound_ = key_of({fibers_a_.first_point_of(farthest->fiber_a, farthest->segment_a),
+                         fibers_b_.first_point_of(farthest->fiber_b, farthest->segment_b)});
+  }
+}
+
+void PairCollector::finish() {
+  if (key_bound_ != PairBound::no_key) {
+    accumulator_.leave_out(test_.least_gap());
+  }
+  accumulator_.finish(test_.least_gap());
 }
 
 void PairCollector::offer_of_fibers(PointPair pair) {

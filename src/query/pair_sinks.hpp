@@ -18,8 +18,9 @@ class CollectorSink final : public PairSink {
     return !collector_.done();
   }
 
-  float bound() const override {
-    return moved_ == 0.0F ? collector_.bound() : round_up(double{collector_.bound()} + moved_);
+  PairBound bound() const override {
+    const float gap = collector_.gap_bound();
+    return {moved_ == 0.0F ? gap : round_up(double{gap} + moved_), collector_.key_bound()};
   }
 
   bool bound_shrinks() const override { return true; }
@@ -41,8 +42,9 @@ class WideningSink final : public PairSink {
   WideningSink(PairSink& sink, double moved) : sink_(sink), moved_(moved) {}
 
   bool offer(PointPair pair) override { return sink_.offer(pair); }
-  float bound() const override {
-    return moved_ == 0.0 ? sink_.bound() : round_up(double{sink_.bound()} + moved_);
+  PairBound bound() const override {
+    const PairBound bound = sink_.bound();
+    return {moved_ == 0.0 ? bound.gap : round_up(double{bound.gap} + moved_), bound.key};
   }
   bool bound_shrinks() const override { return sink_.bound_shrinks(); }
   bool wants_adjacent() const override { return sink_.wants_adjacent(); }

@@ -33,7 +33,7 @@ void find_some(const RunTreeView& a, const RunTreeView& b, const QueryOptions& o
                double moved, PairCollector& collector, QueryCounts& counts) {
   CollectorSink sink(collector, moved);
   offer_all(
-      a, b, sink, options.deadline > 0.0, [&] { return collector.done(); }, counts);
+      a, b, sink, options.deadline > 0.0, [&] { return collector.done_by_now(); }, counts);
   collector.finish();
 }
 

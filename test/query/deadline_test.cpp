@@ -89,6 +89,29 @@ TEST(RunTreeDeadline, ADeadlineCutsOffCandidatesThatWereKept) {
   EXPECT_TRUE(same_contacts(found.contacts, whole.contacts));
 }
 
+/// What is found and not judged is no answer: where all is near all, most of the time is for
+/// judging.
+TEST(RunTreeDeadline, NoMoreIsFoundThanCanBeJudged) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  const FiberAssembly fibers =
+      as_fibers(std::vector(std::size_t{6000}, random_walk(random, 1, 0.1)), 0.01);
+  const std::unique_ptr<ProximityEngine> engine = make_engine("run_tree", {1});
+  engine->update(fibers);
+  constexpr double least_seconds_for_one = 1e-7;  // slower machines find no more for that
+  constexpr double one_more_look = 1e4;
+  QueryOptions options;
+  QueryResult found;
+  // Whatever else the machine does, some time is enough for some contacts.
+  for (options.deadline = 0.01; found.contacts.empty(); options.deadline *= 2.0) {
+    found = answer(*engine, options);
+    ASSERT_LE(static_cast<double>(found.counts.primitive_tests),
+              options.deadline / least_seconds_for_one + one_more_look);
+  }
+  EXPECT_FALSE(found.complete);
+  EXPECT_EQ(found.others_lower, -(1.0 + 0x1p-51) * 0.02);
+}
+
 TEST(RunTreeDeadline, WhatADeadlineLeavesIsNotKept) {
   SCOPED_TRACE(seed_message());
   Random random;

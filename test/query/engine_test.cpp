@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "fiber_proximity/paper/paper_engines.hpp"
@@ -15,6 +14,7 @@
 #include "test/support/error_of.hpp"
 #include "test/support/hard_pairs.hpp"
 #include "test/support/neighbour_skips.hpp"
+#include "test/support/query_options.hpp"
 #include "test/support/random.hpp"
 #include "test/support/rounds.hpp"
 
@@ -40,21 +40,6 @@ class EngineTest : public testing::TestWithParam<std::string> {
   std::unique_ptr<ProximityEngine> engine_;
 };
 
-/// With margins that find some pairs but not all.
-QueryOptions random_options(Random& random, const FiberAssembly& fibers, QueryType type) {
-  QueryOptions options;
-  options.type = type;
-  const double size = extent_of(fibers);
-  const double margins[] = {0.0, 1e-3 * size, 0.1 * size, size,
-                            std::numeric_limits<double>::infinity()};
-  options.margin = margins[random.integer(0, 4)];
-  const Pairing pairings[] = {Pairing::ALL, Pairing::SAME_FIBER, Pairing::DIFFERENT_FIBERS};
-  options.pairing = random.chance(0.3) ? pairings[random.integer(0, 2)] : Pairing::ALL;
-  set_neighbour_skips(options, random, 3, random.chance(0.3) ? 0.2 * size : 0.0);
-  options.max_contacts = static_cast<std::uint32_t>(random.integer(1, 20));
-  return options;
-}
-
 TEST_P(EngineTest, GivesBruteForcesAnswerOnEveryFamily) {
   SCOPED_TRACE(seed_message());
   Random random;
@@ -62,7 +47,7 @@ TEST_P(EngineTest, GivesBruteForcesAnswerOnEveryFamily) {
     for (int round = 0; round < rounds(4); ++round) {
       const FiberAssembly fibers = make(family, random);
       for (const QueryType type : {QueryType::ALL, QueryType::CLOSEST, QueryType::LIMITED}) {
-        const QueryOptions options = random_options(random, fibers, type);
+        const QueryOptions options = random_options(random, extent_of(fibers), type);
         SCOPED_TRACE(family.name + ", round " + std::to_string(round) + ", type " +
                      std::to_string(static_cast<int>(type)) + ", margin " +
                      std::to_string(options.margin) + ", " + skips_of(options));
@@ -99,9 +84,10 @@ TEST_P(EngineTest, FindsAFirstContactIfAndOnlyIfThereIsOne) {
     for (int round = 0; round < rounds(4); ++round) {
       SCOPED_TRACE(family.name);
       const FiberAssembly fibers = make(family, random);
-      QueryOptions options = random_options(random, fibers, QueryType::FIRST);
+      QueryOptions options = random_options(random, extent_of(fibers), QueryType::FIRST);
       const QueryResult first = ask(fibers, options);
       options.type = QueryType::ALL;
+      options.contact_limit = 0;
       const QueryResult all = brute_force(fibers, options);
       ASSERT_EQ(first.contacts.size(), all.contacts.empty() ? 0U : 1U);
       if (!all.contacts.empty()) {
@@ -120,7 +106,7 @@ TEST_P(EngineTest, AnswersShapesAsBruteForceDoes) {
       const FiberAssembly shape = make(family, random);
       for (const QueryType type : {QueryType::ALL, QueryType::CLOSEST, QueryType::LIMITED}) {
         SCOPED_TRACE(family.name);
-        const QueryOptions options = random_options(random, fibers, type);
+        const QueryOptions options = random_options(random, extent_of(fibers), type);
         engine_->update(fibers);
         const QueryResult found = answer(*engine_, shape, options);
         const QueryResult expected = brute_force(shape, fibers, options);

@@ -73,8 +73,11 @@ TEST(RunTreeMotion, FindsWhatAllPairsFindWhateverSizePlaceAndWay) {
     // The scene is far away, or goes far as a whole.
     const double away = random.chance(0.5) ? 0.0 : 1e6 * random.uniform(0.0, 1.0);
     const double drift = random.chance(0.5) ? 0.0 : 1e3 * random.uniform(0.0, 1.0);
-    const FiberAssembly still = walks_in(random, 1 + round % 12, 1 + round % 23, size, radius);
-    const FiberAssembly before = elsewhere(still, away * size * Vector3d(1.0, -0.5, 0.3));
+    const FiberAssembly wide = walks_in(random, 1 + round % 12, 1 + round % 23, size, radius);
+    std::vector<Vector3d> points = wide.points();
+    flatten_some(points, random);
+    const FiberAssembly before =
+        elsewhere(with_points(wide, points), away * size * Vector3d(1.0, -0.5, 0.3));
     const FiberAssembly after = elsewhere(after_ways(before, way, own_way, random),
                                           drift * size * Vector3d(-0.2, 1.0, 0.4));
     MotionOptions options;
@@ -93,20 +96,30 @@ TEST(RunTreeMotion, FindsWhatAllPairsFindWhateverSizePlaceAndWay) {
   expect_enough(uncertain, std::size_t{10});
 }
 
-/// Two segments that pass each other at the margin.
+/// Two segments that pass each other at the margin; along the axes, too, where they have no extent
+/// along one, and it is their boxes that touch.
 TEST(RunTreeMotion, FindsWhatOnlyJustTouches) {
   SCOPED_TRACE(seed_message());
   Random random;
   for (int round = 0; round < 2000; ++round) {
-    const Vector3d along = random.direction();
-    const Vector3d gap = random.direction().cross(along).normalized() * random.uniform(0.01, 1.0);
+    Vector3d along = random.direction();
+    Vector3d to_other = random.direction().cross(along).normalized();
+    if (random.chance(0.5)) {
+      const int axis = random.integer(0, 2);
+      along = Vector3d::Unit(axis);
+      to_other = Vector3d::Unit((axis + random.integer(1, 2)) % 3);
+    }
+    const Vector3d gap = random.uniform(0.01, 1.0) * to_other;
     const Vector3d place = 100.0 * random.in_cube();
+    // The first one, which trees take their origin from, stands aside.
+    const Vector3d aside = place - random.uniform(3.0, 4.0) * to_other;
     const FiberAssembly before =
-        as_fibers({{place, place + random.uniform(0.0, 0.5) * along},
+        as_fibers({{aside, aside + random.uniform(0.0, 1.0) * along},
+                   {place, place + random.uniform(0.0, 0.5) * along},
                    {place + gap - along, place + gap - random.uniform(1.0, 2.0) * along}});
     std::vector<Vector3d> points = before.points();
-    points[2] += 3.0 * along;
-    points[3] += 3.0 * along;
+    points[4] += 3.0 * along;
+    points[5] += 3.0 * along;
     MotionOptions options;
     options.margin = gap.norm() * (1.0 + 0x1p-40);
     options.tolerance = 1e-9;

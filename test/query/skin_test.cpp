@@ -9,7 +9,7 @@
 #include "test/support/answers.hpp"
 #include "test/support/assemblies.hpp"
 #include "test/support/contacts.hpp"
-#include "test/support/neighbour_skips.hpp"
+#include "test/support/query_options.hpp"
 #include "test/support/random.hpp"
 #include "test/support/rounds.hpp"
 
@@ -18,21 +18,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-QueryOptions random_options(Random& random, double size) {
-  QueryOptions options;
-  options.type = static_cast<QueryType>(random.integer(0, 3));
-  options.margin = random.chance(0.3) ? 0.0 : size * random.uniform(0.0, 0.1);
-  options.max_contacts = 5;
-  set_neighbour_skips(options, random, 3, random.chance(0.2) ? 0.05 * size : 0.0);
-  return options;
-}
-
 /// As brute force has it; of FIRST, any pair that brute force knows, or none.
 void expect_answer(const FiberAssembly& fibers, const QueryOptions& options,
                    const std::vector<Contact>& found) {
   QueryOptions wanted = options;
   if (options.type == QueryType::FIRST) {
     wanted.type = QueryType::ALL;
+    wanted.contact_limit = 0;
   }
   const QueryResult truth = brute_force(fibers, wanted);
   if (options.type == QueryType::FIRST) {
@@ -55,11 +47,14 @@ TEST(SkinTest, AnswersAsBruteForceWhileFibersMove) {
       const double size = extent_of(fibers);
       const double skin = size * random.uniform(0.0, 0.2);
       RunTreeEngine engine({1, skin});
-      const QueryOptions options = random_options(random, size);
+      QueryOptions options = random_options(random, size);
+      // Only those that ask for all keep candidates.
+      options.type = random.chance(0.5) ? QueryType::ALL : options.type;
       for (int frame = 0; frame < 10; ++frame) {
         engine.update(fibers);
         expect_answer(fibers, options, answer(engine, options).contacts);
-        const QueryOptions others = random_options(random, size);
+        const QueryOptions others = random.chance(0.5) ? with_one_drawn_anew(options, random, size)
+                                                       : random_options(random, size);
         expect_answer(fibers, others, answer(engine, others).contacts);
         const double way = skin * random.uniform(0.0, 0.3);
         fibers.update_points(shaken(fibers, way, random).points());
@@ -111,7 +106,8 @@ TEST(SkinTest, AnswersAsBruteForceWhileSomeFibersMove) {
         found += result.contacts.size();
       }
       if (random.chance(0.2)) {  // others replace the kept candidates, or use the tree itself
-        const QueryOptions others = random_options(random, 1.0);
+        const QueryOptions others = random.chance(0.5) ? with_one_drawn_anew(options, random, 1.0)
+                                                       : random_options(random, 1.0);
         engine.query(others, result);
         expect_answer(fibers, others, result.contacts);
       }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "benchmark/sim/contact_scenes.hpp"
+#include "fiber_proximity/geometry/segment_distance.hpp"
 
 namespace fiber::test {
 namespace {
@@ -75,6 +76,44 @@ TEST(Forces, SumUpToHowMomentumChanges) {
   EXPECT_GT(largest_change, 0.5 * weight);
   EXPECT_GT(with_fiber_contacts, 20);
   EXPECT_GT(with_friction, 20);
+}
+
+/// [m] How far a point is from the axis of a rod's edge.
+double distance_from_axis(const Rods& rods, std::uint32_t rod, std::uint32_t edge,
+                          const Vector3d& point) {
+  const std::size_t first = rods.first(rod) + edge;
+  return segment_distance(point, point, rods.positions[first], rods.positions[first + 1]).distance;
+}
+
+/// A rod that is held by its ends, and one that lies across it, three times as thick or as thin.
+TEST(Forces, BetweenRodsOfUnequalRadiiActWhereTheirSurfacesMeet) {
+  for (const auto& [below, above] : {std::pair{0.009, 0.003}, {0.003, 0.009}}) {
+    SCOPED_TRACE("radii " + std::to_string(below) + " and " + std::to_string(above));
+    Rods rods;
+    rods.add(straight({-0.1, 0.0, 0.0}, {0.1, 0.0, 0.0}, 9), below, rubber(below));
+    const double height = 1.02 * (below + above);
+    rods.add(straight({0.0, -0.1, height}, {0.0, 0.1, height}, 9), above, rubber(above));
+    Effects all = elastic(standard_gravity);
+    all.push_back(hold(rods, {pin(0, rods.positions[0]), pin(9, rods.positions[9])}));
+    Stepper stepper(rods, std::move(all), precise(), contacts_with(nullptr));
+    std::size_t found = 0;
+    for (int i = 0; i < 20; ++i) {
+      stepper.step(1.0 / 240.0);
+      for (const RodForces::ContactForce& contact : stepper.forces().contacts) {
+        const double radius_a = rods.radii[contact.rod];
+        const double radius_b = rods.radii[contact.other_rod];
+        const double from_a =
+            distance_from_axis(stepper.rods(), contact.rod, contact.edge, contact.point);
+        const double from_b = distance_from_axis(stepper.rods(), contact.other_rod,
+                                                 contact.other_edge, contact.point);
+        EXPECT_NE(radius_a, radius_b);
+        EXPECT_NEAR(from_a, radius_a, 0.1 * radius_a);
+        EXPECT_NEAR(from_b, radius_b, 0.1 * radius_b);
+        ++found;
+      }
+    }
+    EXPECT_GE(found, 10U);
+  }
 }
 
 TEST(Forces, OfAHangingCableAreTheWeightBelow) {

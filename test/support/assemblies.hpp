@@ -84,6 +84,24 @@ inline FiberAssembly shaken(const FiberAssembly& fibers, double half_edge, Rando
   return with_points(fibers, points);
 }
 
+/// Leaves points next to no extent along some axes: one axis makes them flat, two make them a
+/// needle. What holds segments must hold them whichever axis is the long one.
+/// @param first the first of the thin axes; the others follow it
+inline void flatten(std::vector<Eigen::Vector3d>& points, int thin_axes, int first) {
+  constexpr double thinness = 1e-4;
+  for (Eigen::Vector3d& point : points) {
+    for (int i = 0; i < thin_axes; ++i) {
+      point[(first + i) % 3] *= thinness;
+    }
+  }
+}
+
+/// The same along none, one or two of the axes, whichever they are.
+inline void flatten_some(std::vector<Eigen::Vector3d>& points, Random& random) {
+  const int thin_axes = random.integer(0, 2);
+  flatten(points, thin_axes, random.integer(0, 2));
+}
+
 /// [m] How far a point is at most from the first, along one axis.
 inline double extent_of(const FiberAssembly& fibers) {
   double extent = 0.0;
@@ -116,6 +134,16 @@ inline FiberAssembly equal_fibers(const FiberAssembly& fibers) {
     builder.add_fiber({begin, begin + shortest});
   }
   return builder.build({fibers.radii().front()});
+}
+
+/// Walks that are flat, or a needle.
+inline FiberAssembly thin_walks(Random& random, int thin_axes) {
+  const double radius = random.chance(0.3) ? 0.0 : random.uniform(0.0, 0.05);
+  const FiberAssembly fibers =
+      walks(random, random.integer(2, 8), random.integer(1, 40), 0.1, radius);
+  std::vector<Eigen::Vector3d> points = fibers.points();
+  flatten(points, thin_axes, random.integer(0, 2));
+  return with_points(fibers, points);
 }
 
 /// Ordinary and hard assemblies, small enough for brute force.
@@ -246,6 +274,8 @@ inline std::vector<AssemblyFamily> assembly_families() {
          }
          return builder.build({1e-6});
        }},
+      {"flat", [](Random& r) { return thin_walks(r, 1); }},
+      {"needle", [](Random& r) { return thin_walks(r, 2); }},
       {"no_fibers", [](Random& /*r*/) { return FiberAssembly(); }},
   };
 }

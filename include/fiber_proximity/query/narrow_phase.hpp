@@ -87,6 +87,9 @@ class NarrowPhase {
   /// [m] No gap is less.
   double least_gap() const;
 
+  /// [m] No gap that is computed or reported is less: axes can do no more than meet.
+  double least_computed_gap() const { return -(a_.largest_radius() + b_.largest_radius()); }
+
   /// [m] distance(pair).gap is at least this, its rounding included; costs a fraction of it.
   double gap_lower_bound(PointPair pair) const;
 

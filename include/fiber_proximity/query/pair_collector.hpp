@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -49,10 +50,10 @@ class FiberPairMinima {
 /// to matter. Whatever the bodies are: all queries keep their contacts here.
 ///
 /// CLOSEST and LIMITED are one thing: keep the k closest, and let the bound below which a pair is
-/// of interest shrink to the k-th of them. FIBER_PAIRS has such a bound for each pair of fibres;
-/// the one for all stays the margin. A tolerance makes these bounds smaller than what has been
-/// found. Where ALL and FIBER_PAIRS find more contacts than may be reported, they become such
-/// queries too.
+/// of interest shrink to the k-th of them, in penetration, too. FIBER_PAIRS has such a bound for
+/// each pair of fibres; the one for all stays the margin. A tolerance makes these bounds smaller
+/// than what has been found. Where ALL and FIBER_PAIRS find more contacts than may be reported,
+/// they become such queries too.
 class ContactAccumulator {
  public:
   /// Holds references: options and result must outlive it. Forgets what is in the result.
@@ -62,8 +63,17 @@ class ContactAccumulator {
   double bound() const { return bound_; }
   /// Whether contacts that are kept lower it.
   bool lowers_bound() const { return capacity_ != 0; }
-  /// [m] The same, rounded up to single precision, as the bounding volumes take it.
+  /// [m] The same, rounded up to single precision.
   float rounded_bound() const { return rounded_bound_; }
+
+  /// The farthest of the k closest; nullptr until there are so many, and where all are kept.
+  const Contact* farthest() const {
+    return capacity_ != 0 && result_.contacts.size() == capacity_ ? &result_.contacts.front()
+                                                                  : nullptr;
+  }
+
+  /// No further pair can change the answer: it is done.
+  void stop() { done_ = true; }
 
   /// [m] Pairs of these fibres further apart than this do not matter any more.
   double bound_of(std::uint32_t fiber_a, std::uint32_t fiber_b);
@@ -93,6 +103,13 @@ class ContactAccumulator {
   /// pairs is reached. To be asked often.
   bool done() {
     if (limits_.deadline.is_set() && ++steps_ % steps_between_looks == 0) {
+      look_at_deadline();
+    }
+    return done_;
+  }
+  /// The same for what asks seldom.
+  bool done_by_now() {
+    if (limits_.deadline.is_set()) {
       look_at_deadline();
     }
     return done_;
@@ -148,19 +165,26 @@ class PairCollector {
   /// shape and of the fibres. Each pair may be offered once.
   void offer(std::uint32_t point_a, std::uint32_t point_b);
 
-  /// [m] Pairs further apart than this do not matter any more; rounded up to single precision, as
-  /// the bounding volumes take it.
-  float bound() const { return accumulator_.rounded_bound(); }
+  /// [m] Pairs further apart than this do not matter any more; rounded up to single precision.
+  float gap_bound() const { return accumulator_.rounded_bound(); }
+  /// [m] The same as the bounding volumes of capsules take it: where those penetrate, volumes
+  /// overlap, and know no negative margin.
+  float bound() const { return std::max(gap_bound(), 0.0F); }
+
+  /// Nor do pairs whose keys, as pair_bound.hpp has them, are not less than this: what is kept is
+  /// as deep as any pair can be, and of equals the smallest indices win.
+  std::uint64_t key_bound() const { return key_bound_; }
 
   bool wants_adjacent() const { return test_.wants_adjacent(); }
   PointRange ruled_out_with(std::uint32_t point) const { return test_.ruled_out_with(point); }
 
   /// See ContactAccumulator.
   bool done() { return accumulator_.done(); }
+  bool done_by_now() { return accumulator_.done_by_now(); }
   bool wants_near_first() const { return accumulator_.wants_near_first(); }
 
   /// Sorts the contacts; call once, after the last offer.
-  void finish() { accumulator_.finish(test_.least_gap()); }
+  void finish();
 
  private:
   /// Finds the fibre of a point; at once if it is that of the point before.
@@ -168,6 +192,9 @@ class PairCollector {
    public:
     explicit FiberFinder(const FiberAssembly& fibers) : fibers_(fibers) {}
     std::uint32_t fiber_of(std::uint32_t point);
+    std::uint32_t first_point_of(std::uint32_t fiber, std::uint32_t segment) const {
+      return fibers_.offsets()[fiber] + segment;
+    }
 
    private:
     const FiberAssembly& fibers_;
@@ -178,6 +205,7 @@ class PairCollector {
 
   void offer_of_fibers(PointPair pair);
   std::optional<Contact> contact_within(PointPair pair, double bound);
+  void look_at_depth();
 
   ContactAccumulator accumulator_;  // first: its time begins, and the test takes time to make
   const NarrowPhase test_;
@@ -185,6 +213,7 @@ class PairCollector {
   FiberFinder fibers_b_;
   const QueryOptions& options_;
   QueryCounts& counts_;
+  std::uint64_t key_bound_ = std::numeric_limits<std::uint64_t>::max();
 };
 
 }  // namespace fiber
