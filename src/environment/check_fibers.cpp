@@ -214,7 +214,8 @@ class MotionChecker {
     PathCollector fibers(options_, check.fibers);
     PathCollector environment(options_, check.environment);
     const bool is_first = options_.type == MotionType::FIRST;
-    for (std::size_t step = 0; step + 1 < path.size() && !(is_first && check.has_contact()); ++step) {
+    for (std::size_t step = 0; step + 1 < path.size() && !(is_first && check.has_contact());
+         ++step) {
       if (deadline_.has_passed()) {
         check.self.complete = check.fibers.complete = check.environment.complete = false;
         break;

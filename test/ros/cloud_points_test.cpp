@@ -59,7 +59,8 @@ TEST_F(CloudPointsTest, ACloudOfWhichNoneIsUsedIsAWarning) {
   EXPECT_EQ(told.points_used, 0U);
   ASSERT_TRUE(node_test::wait_for([this] { return !logs_of("none of its").empty(); }));
   EXPECT_EQ(logs_of("none of its").front(),
-            "'/proximity/cloud' (sensor_msgs/PointCloud2): none of its 3 point(s) is used: 1 is not finite, 2 are further than 655.36 m "
+            "'/proximity/cloud' (sensor_msgs/PointCloud2): none of its 3 point(s) is used: 1 is "
+            "not finite, 2 are further than 655.36 m "
             "from the origin of the fixed frame along an axis (is the unit metres?)");
   EXPECT_EQ(told_about({{0, 0, 1}}).points_used, 1U);
 }

@@ -139,7 +139,8 @@ TEST_F(CloudTest, WhatBecomesOfThePointsIsTold) {
   EXPECT_EQ(told.points_used, 0U);
   EXPECT_TRUE(cells().empty());
   const auto* log = logs.wait_for([](const rosgraph_msgs::Log& message) {
-    return message.msg.find("(sensor_msgs/PointCloud2): none of its 3 point(s) is used") != std::string::npos;
+    return message.msg.find("(sensor_msgs/PointCloud2): none of its 3 point(s) is used") !=
+           std::string::npos;
   });
   ASSERT_NE(log, nullptr);
   EXPECT_EQ(log->level, rosgraph_msgs::Log::WARN);

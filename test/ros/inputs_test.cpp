@@ -149,8 +149,8 @@ TEST_F(InputsTest, WhoListensLateIsToldWhatThereIs) {
   const node_test::Recorder<fiber_proximity::FiberArray> late_fibers(node, "/proximity/fibers");
   const node_test::Recorder<fiber_proximity::Statistics> late_statistics(node,
                                                                          "/proximity/statistics");
-  const node_test::Recorder<fiber_proximity::CrossingArray> late_crossings(
-      node, "/proximity/crossings");
+  const node_test::Recorder<fiber_proximity::CrossingArray> late_crossings(node,
+                                                                           "/proximity/crossings");
   const node_test::Recorder<visualization_msgs::MarkerArray> late_markers(node,
                                                                           "/proximity/markers");
   EXPECT_NE(late_contacts.wait_for(is_answer), nullptr);

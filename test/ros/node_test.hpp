@@ -164,8 +164,7 @@ class NodeTest : public ::testing::Test {
     for (const auto& told : statistics.messages) {
       EXPECT_EQ(told->complete != 0, told->unknown.empty());
       ASSERT_EQ(told->parts.size(), told->part_times.size());
-      const double sum =
-          std::accumulate(told->part_times.begin(), told->part_times.end(), 0.0);
+      const double sum = std::accumulate(told->part_times.begin(), told->part_times.end(), 0.0);
       EXPECT_LE(sum, told->total_time * (1.0 + 1e-9)) << "parts take longer than the whole";
     }
   }

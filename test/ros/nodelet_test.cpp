@@ -78,8 +78,8 @@ TEST_F(NodeletTest, TwoOnABusyTopicAreLoadedAndUnloadedAgainAndAgain) {
     ros::NodeHandle own;
     const ros::Publisher publisher = own.advertise<fiber_proximity::FiberArray>("/busy", 10);
     while (!ends) {
-      publisher.publish(test_messages::fiber_array(
-          test_messages::header("world", ros::Time::now()), {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}));
+      publisher.publish(test_messages::fiber_array(test_messages::header("world", ros::Time::now()),
+                                                   {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}));
       ros::WallDuration(0.01).sleep();
     }
   });
@@ -102,7 +102,8 @@ TEST_F(NodeletTest, TwoOnABusyTopicAreLoadedAndUnloadedAgainAndAgain) {
   tracker.join();
 }
 
-// One's output is the other's input, without a copy in between; it is latched, so that it is there at once.
+// One's output is the other's input, without a copy in between; it is latched, so that it is there
+// at once.
 TEST_F(NodeletTest, TheSimulatorAndTheNodeWorkInOneManager) {
   ros::param::set("/chained_sim/scene",
                   ros::package::getPath("fiber_proximity") + "/config/sim/hanging_cable.yaml");

@@ -1,5 +1,5 @@
-// The running node with ~continuous on random ropes: ids, events and ages beside a tracker of its own that
-// looks at all pairs of an answer.
+// The running node with ~continuous on random ropes: ids, events and ages beside a tracker of its
+// own that looks at all pairs of an answer.
 #include <array>
 #include <map>
 #include <set>
@@ -30,8 +30,7 @@ TEST_F(ContinuousTest, WhatPartsDuringAStepIsTwoTouchesInThatAnswer) {
   const double radius_of_both = 0.007;  // they touch where they are 0.012 apart
   ASSERT_NE(answer_to(parted_in_the_middle({4, 5}, radius_of_both)), nullptr);
   const std::size_t events_before = events_.messages.size();
-  const ContactArray* const answer =
-      answer_to(parted_in_the_middle({1, 2, 7, 8}, radius_of_both));
+  const ContactArray* const answer = answer_to(parted_in_the_middle({1, 2, 7, 8}, radius_of_both));
   ASSERT_NE(answer, nullptr);
   ASSERT_TRUE(answer->continuous);
   std::map<bool, std::set<std::uint64_t>> ids;  // on the left and on the right

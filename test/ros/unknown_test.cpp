@@ -1,5 +1,5 @@
-// Sources that fail: whatever is unknown, no answer is complete and nothing is free of it, while all that
-// does not depend on it is answered as ever.
+// Sources that fail: whatever is unknown, no answer is complete and nothing is free of it, while
+// all that does not depend on it is answered as ever.
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
@@ -32,11 +32,11 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 enum class Fault {
   NONE,
-  SILENCE,      // never came, or stopped
-  REFUSED,      // malformed
-  UNKNOWN_TF,   // in a frame that nobody has heard of
-  OLD_TF,       // tf does not go on to its stamp
-  NOT_CONNECTED // in a frame that tf knows nowhere near the fixed one
+  SILENCE,       // never came, or stopped
+  REFUSED,       // malformed
+  UNKNOWN_TF,    // in a frame that nobody has heard of
+  OLD_TF,        // tf does not go on to its stamp
+  NOT_CONNECTED  // in a frame that tf knows nowhere near the fixed one
 };
 
 std::string name_of(Fault fault) {
@@ -61,8 +61,8 @@ std::string frame_of(Fault fault) {
 
 /// Where answers come from.
 struct Source {
-  std::string name;     // in what is unknown
-  std::string status;   // on /diagnostics
+  std::string name;    // in what is unknown
+  std::string status;  // on /diagnostics
   bool is_of_fibers;
   std::vector<Fault> faults;  // once it has been heard
   std::function<void(Fault)> send;
@@ -103,7 +103,9 @@ class UnknownTest : public node_test::SimulatedTimeTest {
     sources_ = {
         {"input /a", "input /a", true, all, [this](Fault fault) { send_fibers(a_, 0.0, fault); }},
         {"input /b", "input /b", true, all, [this](Fault fault) { send_fibers(b_, 1.0, fault); }},
-        {"robot/tool", "environment robot", false,
+        {"robot/tool",
+         "environment robot",
+         false,
          {Fault::SILENCE, Fault::OLD_TF, Fault::NOT_CONNECTED},
          [this](Fault fault) { send_link(fault); }},
         {"cloud", "environment /proximity/cloud", false, all,
@@ -245,10 +247,10 @@ class UnknownTest : public node_test::SimulatedTimeTest {
     for (const auto& [against, about] : queries) {
       const QueryProximity::Response answer = query(against);
       if (answer.success) {
-        verdicts.emplace("query " + std::to_string(against),
-                         std::make_pair(about, Verdict{answer.complete != 0,
-                                                       answer.minimum_lower[0] > -infinity,
-                                                       answer.unknown}));
+        verdicts.emplace(
+            "query " + std::to_string(against),
+            std::make_pair(about, Verdict{answer.complete != 0, answer.minimum_lower[0] > -infinity,
+                                          answer.unknown}));
       }
     }
   }
@@ -322,8 +324,9 @@ class UnknownTest : public node_test::SimulatedTimeTest {
       }
       if (verdict.is_complete != is_complete || verdict.is_free != is_complete ||
           verdict.unknown.empty() != is_complete) {
-        return output + (is_complete ? " is incomplete, for "
-                                     : " is complete or free without what it is about, for ") +
+        return output +
+               (is_complete ? " is incomplete, for "
+                            : " is complete or free without what it is about, for ") +
                (verdict.unknown.empty() ? "nothing" : verdict.unknown.front());
       }
     }
@@ -435,8 +438,7 @@ TEST_F(UnknownTest, WhereAllStopAListenerIsToldAgainAndAgain) {
   const std::size_t times_before = times_.messages.size();
   ASSERT_TRUE(node_test::wait_for([&] {
     return contacts.messages.size() > contacts_before + 3 &&
-           around_.messages.size() > around_before + 3 &&
-           times_.messages.size() > times_before + 3;
+           around_.messages.size() > around_before + 3 && times_.messages.size() > times_before + 3;
   })) << "though nothing was sent";
   EXPECT_EQ(problem(lacking), "");
   EXPECT_FALSE(contacts.messages.back()->has_minimum);

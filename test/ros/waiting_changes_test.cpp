@@ -78,8 +78,12 @@ class WaitingChangesTest : public EnvironmentFixture {
 
   Change with(const std::string& label, TouchedObjects touched, const std::string& in,
               double patience, Prepared<Change::Apply> apply) {
-    Change change{
-        std::move(touched), {{label, test_messages::header(in)}}, std::move(apply), patience, {}, {}};
+    Change change{std::move(touched),
+                  {{label, test_messages::header(in)}},
+                  std::move(apply),
+                  patience,
+                  {},
+                  {}};
     change.on_end = [this, label](Change::End end, const std::string& reason) {
       if (end != Change::End::APPLIED) {
         (end == Change::End::REFUSED ? refused_ : overtaken_).push_back(label);

@@ -167,8 +167,8 @@ class DistributedEngine {
   ///
   /// CLOSEST and LIMITED get a bound from pairs that ranks know of, and need no more of others than
   /// what may be nearer than that. So does FIBER_PAIRS without a margin (infinity) where ranks know
-  /// a pair of each two fibres; otherwise, and FIRST where there is no pair, it needs all within the
-  /// margin, and infinity brings all segments to all ranks.
+  /// a pair of each two fibres; otherwise, and FIRST where there is no pair, it needs all within
+  /// the margin, and infinity brings all segments to all ranks.
   /// @param options the same on all ranks. Tolerances are not used: the closest pairs are found.
   ///                Each rank examines its share of the pair_limit; which pairs come up, then and
   ///                by a deadline, and which one FIRST reports, depends on the number of ranks

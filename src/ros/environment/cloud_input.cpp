@@ -78,8 +78,7 @@ std::optional<Unknown> CloudInput::unknown(const ros::Time& now) const {
   if (required_ && newest_.stamp.isZero()) {
     return because("no cloud yet");
   }
-  if (required_ && timeout_ > 0.0 && !newest_.is_latched &&
-      (now - last_use_).toSec() > timeout_) {
+  if (required_ && timeout_ > 0.0 && !newest_.is_latched && (now - last_use_).toSec() > timeout_) {
     std::ostringstream why;
     why << "no cloud for " << timeout_ << " s (cloud/timeout)";
     return because(why.str());
@@ -167,9 +166,10 @@ bool CloudInput::take_result(fiber::World& world) {
 void CloudInput::warn_if_unused() const {
   const CloudCounts& counts = newest_.counts;
   if (counts.points > 0 && counts.used() == 0) {
-    ROS_WARN_STREAM_THROTTLE(unused_warning_period, log_.label() << ": none of its "
-                                                        << counts.points << " point(s) is used: "
-                                                        << reasons_of(counts, resolution_));
+    ROS_WARN_STREAM_THROTTLE(unused_warning_period,
+                             log_.label()
+                                 << ": none of its " << counts.points
+                                 << " point(s) is used: " << reasons_of(counts, resolution_));
   }
 }
 

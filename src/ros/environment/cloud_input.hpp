@@ -90,7 +90,7 @@ class CloudInput {
   std::optional<Prepared<Result>> in_work_;
   Result newest_;
   ros::Time last_use_ = ros::Time::now();  // or when it was first waited for
-  CloudCells cells_;  // the worker's alone
+  CloudCells cells_;                       // the worker's alone
 
   // Last: its job and its callback use all of the above.
   Worker worker_;

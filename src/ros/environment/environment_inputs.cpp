@@ -37,8 +37,8 @@ void check_stamps(Change& change, double most_ahead) {
     try {
       fiber::with_context(thing.name, [&] { validate_stamp(thing.header.stamp, now, most_ahead); });
     } catch (const std::invalid_argument& error) {
-      change.apply =
-          Prepared<Change::Apply>([error]() -> Change::Apply { throw std::invalid_argument(error); });
+      change.apply = Prepared<Change::Apply>(
+          [error]() -> Change::Apply { throw std::invalid_argument(error); });
       return;
     }
   }
@@ -141,7 +141,6 @@ struct EnvironmentInputs::MarkerSource {
               from.required, from.topic, owed),
         changes(frame) {}
 
-
   MarkerObstacles obstacles;
   ChangeTopic topic;
   WaitingChanges changes;
@@ -172,8 +171,8 @@ EnvironmentInputs::EnvironmentInputs(const ros::NodeHandle& node,
   scene_.update(obstacles_, frame_);
   ros::NodeHandle own(private_node);
   if (options.cloud) {
-    cloud_ = std::make_unique<CloudInput>(own, *options.cloud, options.tf_timeout,
-                                          max_stamp_ahead_, on_message_);
+    cloud_ = std::make_unique<CloudInput>(own, *options.cloud, options.tf_timeout, max_stamp_ahead_,
+                                          on_message_);
   }
   subscribers_.push_back(
       own.subscribe("obstacles", queue_size, &EnvironmentInputs::receive_obstacles, this));
@@ -312,8 +311,8 @@ void EnvironmentInputs::subscribe_to_markers(ros::NodeHandle node,
 }
 
 void EnvironmentInputs::receive_obstacles(const fiber_proximity::ObstacleArray::ConstPtr& message) {
-  Change change = obstacles_.change_of(part_of(message, message->obstacles), obstacle_timeout_,
-                                       mesh_builder_);
+  Change change =
+      obstacles_.change_of(part_of(message, message->obstacles), obstacle_timeout_, mesh_builder_);
   check_stamps(change, max_stamp_ahead_);
   changes_.receive(obstacle_topic_.received(std::move(change)));
   on_message_();

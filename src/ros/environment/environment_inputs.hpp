@@ -19,8 +19,8 @@
 #include "src/ros/environment/environment_options.hpp"
 #include "src/ros/environment/marker_obstacles.hpp"
 #include "src/ros/environment/obstacle_set.hpp"
-#include "src/ros/environment/robot_links.hpp"
 #include "src/ros/environment/owed_changes.hpp"
+#include "src/ros/environment/robot_links.hpp"
 #include "src/ros/environment/waiting_changes.hpp"
 #include "src/ros/support/unknown.hpp"
 #include "src/ros/support/worker.hpp"
@@ -109,9 +109,9 @@ class EnvironmentInputs {
   fiber::AllowedContacts allowed_;
   SceneObstacles scene_;
   RobotLinks robot_;
-  double obstacle_timeout_;   // [s]
-  double max_stamp_ahead_;    // [s]
-  double most_late_;          // [s] a change of an object that is there may wait so long
+  double obstacle_timeout_;  // [s]
+  double max_stamp_ahead_;   // [s]
+  double most_late_;         // [s] a change of an object that is there may wait so long
   OwedChanges owed_;
   std::string obstacle_topic_name_;
   ChangeTopic obstacle_topic_;

@@ -111,8 +111,9 @@ std::vector<Unknown> WaitingChanges::unknown(
     const bool is_late = (now - waiting.arrival).toSec() > lateness;
     for (const std::string& name : waiting.change.touched.names()) {
       if (waiting.change.touched.wants(name) && (is_late || !is_there(name))) {
-        unknown.push_back({waiting.change.source, name, waiting.since,
-                           waiting.missing.empty() ? "its change is not made yet" : waiting.missing});
+        unknown.push_back(
+            {waiting.change.source, name, waiting.since,
+             waiting.missing.empty() ? "its change is not made yet" : waiting.missing});
       }
     }
   }

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "fiber_proximity/InputStatistics.h"
-#include "src/ros/inputs/fixed_frame.hpp"
 #include "src/ros/environment/owed_changes.hpp"
+#include "src/ros/inputs/fixed_frame.hpp"
 #include "src/ros/inputs/message_log.hpp"
 #include "src/ros/support/unknown.hpp"
 #include "src/ros/support/worker.hpp"
@@ -169,7 +169,11 @@ class ChangeTopic {
   /// @param owed     must outlive this
   ChangeTopic(const std::string& topic, const std::string& type, bool required, std::string scope,
               OwedChanges& owed)
-      : topic_(topic), required_(required), scope_(std::move(scope)), owed_(owed), log_(topic, type) {}
+      : topic_(topic),
+        required_(required),
+        scope_(std::move(scope)),
+        owed_(owed),
+        log_(topic, type) {}
 
   /// Counts a message.
   /// @returns the change with what counts its end, too; this must outlive it

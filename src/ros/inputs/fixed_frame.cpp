@@ -98,11 +98,11 @@ geometry_msgs::TransformStamped FixedFrame::look_up(const std_msgs::Header& head
   } catch (const tf2::LookupException&) {
     // tf names the first that it misses: the fixed frame, as long as nobody has published any.
     const bool knows_fixed = buffer_._frameExists(name_);
-    throw TransformUnavailable(what + "unknown frame: " +
-                               (buffer_._frameExists(frame)
-                                    ? fiber::quote(name_)
-                                    : fiber::quote(frame) +
-                                          (knows_fixed ? "" : ", and so is " + fiber::quote(name_))));
+    throw TransformUnavailable(
+        what + "unknown frame: " +
+        (buffer_._frameExists(frame)
+             ? fiber::quote(name_)
+             : fiber::quote(frame) + (knows_fixed ? "" : ", and so is " + fiber::quote(name_))));
   } catch (const tf2::ConnectivityException& error) {
     throw TransformUnavailable(what + "frames not connected: " + error.what());
   } catch (const tf2::ExtrapolationException& error) {

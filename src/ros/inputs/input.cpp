@@ -82,8 +82,8 @@ bool Input::store(const ReadMessage& read, FixedFrame& frame) {
   message->names.swap(chains_.names);
   message->missing = result.missing;
   if (const std::uint64_t gaps = missing_.gaps - gaps_before; gaps > 0) {
-    message->missing += (result.missing.empty() ? "" : ", ") + std::to_string(gaps) +
-                        " of its points are missing";
+    message->missing +=
+        (result.missing.empty() ? "" : ", ") + std::to_string(gaps) + " of its points are missing";
   }
   message->header = header;
   message->stamp = stamp;
@@ -292,8 +292,8 @@ std::optional<Unknown> Input::unknown() const {
 
 /// Why there have been no fibres yet.
 std::string Input::absence() const {
-  const std::string reason = newest_arrival_ ? "no message that belongs to those of other inputs yet"
-                                             : "no message yet";
+  const std::string reason =
+      newest_arrival_ ? "no message that belongs to those of other inputs yet" : "no message yet";
   const std::string& refused = log_.refused_since();
   return refused.empty() ? reason : reason + " but what was refused: " + refused;
 }

@@ -30,8 +30,8 @@ FiberCost cost_of(const fiber::FiberAssembly& fibers, fiber::QueryOptions option
 
 /// Keeps one input from delaying the others. Fibres that are many are tried by themselves before
 /// they join the others' for the first time, when they have become twice as many, and when answers
-/// have come to take long. An input whose fibres cost too much is left out, and its messages are not
-/// even read, but for one to try again with, so rarely that it takes a small part of the time.
+/// have come to take long. An input whose fibres cost too much is left out, and its messages are
+/// not even read, but for one to try again with, so rarely that it takes a small part of the time.
 class InputBudget {
  public:
   explicit InputBudget(const CostLimits& limits) : limits_(limits) {}

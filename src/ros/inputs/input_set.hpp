@@ -26,9 +26,8 @@ class InputSet {
   /// @param on_message called for each message that arrives; it should see to it that update() is
   ///        called once the others that have arrived are in as well
   InputSet(ros::NodeHandle node, const std::vector<InputOptions>& inputs,
-           std::vector<Unknown> left_out, const InputTiming& timing,
-           const std::string& fixed_frame, const fiber::QueryOptions& answered,
-           std::function<void()> on_message);
+           std::vector<Unknown> left_out, const InputTiming& timing, const std::string& fixed_frame,
+           const fiber::QueryOptions& answered, std::function<void()> on_message);
 
   /// Takes over what has arrived and leaves out what has expired.
   /// @returns true if that changed the fibres

@@ -57,9 +57,8 @@ bool MarkerInput::is_late(const Kept& kept, const ros::Time& now) const {
 ReadResult MarkerInput::read(const std::vector<MarkerPtr>& message, const ros::Time& now,
                              FiberBuffer& chains) {
   ReadResult result;
-  result.is_for_input =
-      std::any_of(message.begin(), message.end(),
-                  [this](const MarkerPtr& marker) { return is_wanted(*marker); });
+  result.is_for_input = std::any_of(message.begin(), message.end(),
+                                    [this](const MarkerPtr& marker) { return is_wanted(*marker); });
   if (!result.is_for_input) {
     return result;
   }

@@ -41,8 +41,7 @@ class MarkerInput {
   /// Reads the fibres that there are with a message.
   /// @throws std::invalid_argument as to_chains(), and for unknown actions, negative lifetimes and
   ///         too many markers, naming the marker
-  ReadResult read(const std::vector<MarkerPtr>& message, const ros::Time& now,
-                  FiberBuffer& chains);
+  ReadResult read(const std::vector<MarkerPtr>& message, const ros::Time& now, FiberBuffer& chains);
 
   /// Keeps what the last message has changed: without it the message has not been.
   void keep() { state_ = next_; }

@@ -57,8 +57,8 @@ void SegmentWelder::end_chain() {
 bool SegmentWelder::join(Vector3d from, Vector3d to, double length, double reach,
                          double tolerance) {
   Vector3d& end = chains_.points.back();
-  const bool is_turned = distance(to, end) < distance(from, end) &&
-                         (is_known(from) || distance(to, end) <= reach);
+  const bool is_turned =
+      distance(to, end) < distance(from, end) && (is_known(from) || distance(to, end) <= reach);
   if (is_turned) {
     std::swap(from, to);
   }

@@ -60,8 +60,9 @@ void EnvironmentOutput::publish(const fiber::QueryOptions& options, const Knowle
   if (motion_ && !motion_->result.complete) {
     known.add_cut_off(cut_off_text("pairs that move", options));
   }
-  const ContactAnswer answer{detection_, options, motion_ ? &*motion_ : nullptr, known, knowledge,
-                             names, fibers_.header()};
+  const ContactAnswer answer{detection_,      options,   motion_ ? &*motion_ : nullptr,
+                             known,           knowledge, names,
+                             fibers_.header()};
   contacts_.track(answer);
   contacts_.publish(answer, has_gradients, update_time_);
 }

@@ -58,7 +58,9 @@ class FiberStep {
   bool rests() const { return rests_ && after_.has_fibers; }
 
   // Of a motion or a rest. What has not moved stands still.
-  fiber::FiberMotion motion() const { return {rests_ ? after_.fibers : before_.fibers, after_.fibers}; }
+  fiber::FiberMotion motion() const {
+    return {rests_ ? after_.fibers : before_.fibers, after_.fibers};
+  }
 
   /// From the oldest stamp before to the newest one after of the inputs that have moved; of no
   /// motion that after, which then is the newest of all.

@@ -63,8 +63,8 @@ class Knowledge {
   const std::vector<Unknown>& unknown_fibers() const { return unknown_fibers_; }
   const std::vector<Unknown>& unknown_objects() const { return unknown_objects_; }
 
-  /// Whether a body that was there is unknown now, all of it or a part, so that nobody knows whether
-  /// it touches what it touched.
+  /// Whether a body that was there is unknown now, all of it or a part, so that nobody knows
+  /// whether it touches what it touched.
   /// @param name of a fibre or an object
   bool is_lost(const std::string& name) const;
 

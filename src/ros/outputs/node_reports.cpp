@@ -16,8 +16,7 @@ std::uint32_t to_count(std::size_t count) { return static_cast<std::uint32_t>(co
 StatisticsOutput::StatisticsOutput(ros::NodeHandle& private_node, const Subject& about,
                                    const Newcomer& on_newcomer)
     : about_(about),
-      publisher_(
-          advertise<fiber_proximity::Statistics>(private_node, "statistics", on_newcomer)) {}
+      publisher_(advertise<fiber_proximity::Statistics>(private_node, "statistics", on_newcomer)) {}
 
 void StatisticsOutput::add_part(const std::string& name, double seconds) {
   parts_.emplace_back(name, seconds);

@@ -62,8 +62,8 @@ struct AnswerCounts {
   std::string reason;  ///< of the last one that was
 };
 
-/// The node's entries on /diagnostics, each second: one per input and source of the environment, one
-/// for the engine and one for deadlines and limits.
+/// The node's entries on /diagnostics, each second: one per input and source of the environment,
+/// one for the engine and one for deadlines and limits.
 class Diagnostics {
  public:
   /// What they are about; all must outlive this.

@@ -44,8 +44,8 @@ PredictionOutput::PredictionOutput(ros::NodeHandle& private_node, InputSet& inpu
                                    const std::string& engine, const fiber::EngineOptions& options,
                                    const Newcomer& on_newcomer)
     : inputs_(inputs),
-      publisher_(advertise<fiber_proximity::TimeToContact>(private_node, "time_to_contact",
-                                                           on_newcomer)),
+      publisher_(
+          advertise<fiber_proximity::TimeToContact>(private_node, "time_to_contact", on_newcomer)),
       engine_(fiber::make_engine(engine, options)) {}
 
 void PredictionOutput::configure(const PredictionOptions& options) {

@@ -231,8 +231,8 @@ FiberPlayer::FiberPlayer(const ros::NodeHandle& node, const PlayerOptions& optio
       false);
   start_timer_ = node_.createTimer(
       ros::Duration(options.start_delay), [this](const ros::TimerEvent&) { timer_.start(); }, true);
-  clock_timer_ = node_.createSteadyTimer(
-      ros::WallDuration(1.0), [this](const ros::SteadyTimerEvent&) { clock_.look(); });
+  clock_timer_ = node_.createSteadyTimer(ros::WallDuration(1.0),
+                                         [this](const ros::SteadyTimerEvent&) { clock_.look(); });
 }
 
 void FiberPlayer::publish_next() {

@@ -16,9 +16,10 @@ class ClockWatch {
       return;
     }
     is_told_ = true;
-    ROS_WARN_STREAM("time stands still: the parameter /use_sim_time is true, and nothing publishes "
-                    "/clock. `rosparam set /use_sim_time false` makes it go on for nodes that are "
-                    "started then");
+    ROS_WARN_STREAM(
+        "time stands still: the parameter /use_sim_time is true, and nothing publishes "
+        "/clock. `rosparam set /use_sim_time false` makes it go on for nodes that are "
+        "started then");
   }
 
  private:
