@@ -54,7 +54,8 @@ struct PairOptions {
   bool needs_loops() const { return !neighbour_skip && !neighbour_skip_length; }
 
   /// [s] Time from the start of the query after which it answers with what it has found; >= 0, 0
-  /// for none. QueryResult::complete tells whether it was enough.
+  /// for none. QueryResult::complete tells whether it was enough. Where it is not, a part of it
+  /// goes to deciding about what has been found.
   double deadline = 0.0;
 
   /// ALL, LIMITED and FIBER_PAIRS: the most contacts to report, 0 for no limit. Where there are
@@ -79,8 +80,9 @@ struct QueryOptions : PairOptions {
   /// correctly, before the radii are subtracted.
   Kernel kernel = Kernel::ROBUST;
 
-  /// CLOSEST, LIMITED and FIBER_PAIRS: a pair need not be looked for that is closer than a reported
-  /// one by less than this [m]; >= 0. Which pair is reported then depends on the engine.
+  /// CLOSEST, LIMITED and FIBER_PAIRS: a pair need not be looked for that is closer, or deeper,
+  /// than a reported one by less than this [m]; >= 0. Which pair is reported then depends on the
+  /// engine.
   double tolerance = 0.0;
 
   /// The same as a part of the distance; >= 0. The larger of both counts: a distance d is reported
