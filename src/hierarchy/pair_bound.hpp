@@ -8,7 +8,7 @@
 namespace fiber {
 
 /// Pairs as keys, in the order of the contacts.
-inline std::uint64_t key_of(PointPair pair) { return std::uint64_t{pair.a} << 32U | pair.b; }
+inline std::uint64_t pair_key(PointPair pair) { return std::uint64_t{pair.a} << 32U | pair.b; }
 inline PointPair pair_of(std::uint64_t key) {
   return {static_cast<std::uint32_t>(key >> 32U), static_cast<std::uint32_t>(key)};
 }

@@ -82,8 +82,8 @@ struct KeyBound {
     for (std::uint32_t lane = 0; lane < run_width; ++lane) {
       const std::uint32_t other = points[lane];
       // No pair of these points or later ones has a smaller key.
-      const std::uint64_t key =
-          self ? key_of({std::min(least, other), std::max(least, other)}) : key_of({least, other});
+      const std::uint64_t key = self ? pair_key({std::min(least, other), std::max(least, other)})
+                                     : pair_key({least, other});
       bits |= key < bound ? 1U << lane : 0U;
     }
     return bits;

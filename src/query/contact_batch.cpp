@@ -61,7 +61,7 @@ class CandidateSink final : public PairSink {
   bool offer(PointPair candidate) override {
     const PointPair pair = test_.ordered(candidate);
     if (!test_.is_left_out(pair)) {
-      keys_.push_back(key_of(pair));
+      keys_.push_back(pair_key(pair));
     }
     return ++uncounted_ < uncounted_at_most || count_and_go_on();
   }

@@ -57,7 +57,7 @@ void take(const QueryResult& result, const FiberAssembly& a, const FiberAssembly
     const PointPair pair = test.ordered({a.offsets()[contact.fiber_a] + contact.segment_a,
                                          b.offsets()[contact.fiber_b] + contact.segment_b});
     if (!test.is_left_out(pair)) {
-      candidates.keys.push_back(key_of(pair));
+      candidates.keys.push_back(pair_key(pair));
     }
   }
   std::sort(candidates.keys.begin(), candidates.keys.end());

@@ -25,7 +25,7 @@ struct MotionSlice {
 
 /// Pairs that may come into contact during a motion.
 struct MotionCandidates {
-  std::vector<std::uint64_t> keys;  ///< see key_of(); in ascending order
+  std::vector<std::uint64_t> keys;  ///< see pair_key(); in ascending order
   bool are_all = true;              ///< false: the deadline has passed
   bool are_too_many = false;        ///< more than may be examined: there are none
   QueryCounts counts;

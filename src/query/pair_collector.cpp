@@ -250,7 +250,7 @@ void PairCollector::offer(std::uint32_t point_a, std::uint32_t point_b) {
     return;
   }
   const PointPair pair = test_.ordered({point_a, point_b});
-  if (key_of(pair) >= key_bound_ || test_.is_left_out(pair)) {
+  if (pair_key(pair) >= key_bound_ || test_.is_left_out(pair)) {
     return;
   }
   if (options_.type == QueryType::FIBER_PAIRS) {
@@ -277,8 +277,8 @@ void PairCollector::look_at_depth() {
   if (accumulator_.bound() < test_.least_computed_gap()) {
     accumulator_.stop();
   } else if (farthest->distance <= test_.least_computed_gap()) {
-    key_bound_ = key_of({fibers_a_.first_point_of(farthest->fiber_a, farthest->segment_a),
-                         fibers_b_.first_point_of(farthest->fiber_b, farthest->segment_b)});
+    key_bound_ = pair_key({fibers_a_.first_point_of(farthest->fiber_a, farthest->segment_a),
+                           fibers_b_.first_point_of(farthest->fiber_b, farthest->segment_b)});
   }
 }
 
