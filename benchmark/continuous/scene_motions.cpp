@@ -58,7 +58,7 @@ class MovingScene {
   /// The two segments, by their first points.
   template <class Found>
   std::uint64_t key(const Found& contact) const {
-    return key_of({before_.offsets()[contact.fiber_a] + contact.segment_a,
+    return pair_key({before_.offsets()[contact.fiber_a] + contact.segment_a,
                    before_.offsets()[contact.fiber_b] + contact.segment_b});
   }
 

@@ -12,6 +12,7 @@ fiber_proximity_gtest(markers_test
 )
 fiber_proximity_gtest(conversions_test
   ros/conversions_test.cpp
+  ros/kept_markers_test.cpp
   ros/marker_input_test.cpp
   ros/missing_points_test.cpp
   LIBRARIES fiber_proximity_ros
