@@ -59,7 +59,7 @@ class MovingScene {
   template <class Found>
   std::uint64_t key(const Found& contact) const {
     return pair_key({before_.offsets()[contact.fiber_a] + contact.segment_a,
-                   before_.offsets()[contact.fiber_b] + contact.segment_b});
+                     before_.offsets()[contact.fiber_b] + contact.segment_b});
   }
 
  private:

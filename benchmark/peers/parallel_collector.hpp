@@ -47,7 +47,7 @@ class ParallelCollector {
       test_->distances(waiting_.data(), size_, distances.data());
       for (std::size_t i = 0; i < size_; ++i) {
         if (test_->is_within_margin(waiting_[i], distances[i])) {
-          keys_.push_back(key_of(waiting_[i]));
+          keys_.push_back(pair_key(waiting_[i]));
         }
       }
       tests_ += size_;

@@ -38,7 +38,7 @@ QueryOptions all_pairs(const QueryOptions& options) {
 }
 
 bool is_before(const PairAnswered& a, const PairAnswered& b) {
-  return key_of(a.pair) < key_of(b.pair);
+  return pair_key(a.pair) < pair_key(b.pair);
 }
 
 void to_answers(const FiberAssembly& fibers, const std::vector<Contact>& contacts,

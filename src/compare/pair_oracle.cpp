@@ -142,9 +142,10 @@ void compare(const PairOracle& oracle, const std::vector<PairAnswered>& ours,
   auto our = ours.begin();
   auto theirs = fcl.begin();
   while (our != ours.end() || theirs != fcl.end()) {
-    if (theirs == fcl.end() || (our != ours.end() && key_of(our->pair) < key_of(theirs->pair))) {
+    if (theirs == fcl.end() ||
+        (our != ours.end() && pair_key(our->pair) < pair_key(theirs->pair))) {
       merge.only_ours(*our++);
-    } else if (our == ours.end() || key_of(theirs->pair) < key_of(our->pair)) {
+    } else if (our == ours.end() || pair_key(theirs->pair) < pair_key(our->pair)) {
       merge.only_fcl(*theirs++);
     } else {
       merge.both(*our++, *theirs++);

@@ -97,7 +97,7 @@ class EnvironmentMotion {
         candidates_.are_too_many = true;
         return -std::numeric_limits<double>::infinity();
       }
-      candidates_.keys.push_back(key_of({point, index}));
+      candidates_.keys.push_back(pair_key({point, index}));
     }
     return within(run.radius);
   }
