@@ -46,14 +46,14 @@ FiberArray cables(const Eigen::Vector3d& middle, std::uint32_t count = 1) {
 class TrackerViewTest : public testing::Test {
  protected:
   // rviz's window can be made once in a process; load() begins anew.
-  static void SetUpTestSuite() { window_ = new RvizWindow(640, 400); }
+  static void SetUpTestSuite() { window = new RvizWindow(640, 400); }
   static void TearDownTestSuite() {
-    delete window_;
-    window_ = nullptr;
+    delete window;
+    window = nullptr;
   }
 
   void SetUp() override {
-    ASSERT_TRUE(window_->load(TRACKER_VIEW, optical_frame));
+    ASSERT_TRUE(window->load(TRACKER_VIEW, optical_frame));
     wait_for_subscriber();
   }
 
@@ -66,32 +66,32 @@ class TrackerViewTest : public testing::Test {
   void expect_cable(const FiberArray& message) {
     EXPECT_TRUE(RvizWindow::wait_until([&] {
       publisher_.publish(message);
-      window_->settle();
-      return window_->count_pixels(is_blue, 1.0 / 6.0) > 500;
+      window->settle();
+      return window->count_pixels(is_blue, 1.0 / 6.0) > 500;
     }));
     // All of it is in the picture, and nearly all of that is the middle.
-    EXPECT_GT(window_->count_pixels(is_blue, 1.0 / 6.0), window_->count_pixels(is_blue) * 9 / 10);
+    EXPECT_GT(window->count_pixels(is_blue, 1.0 / 6.0), window->count_pixels(is_blue) * 9 / 10);
   }
 
   void show(const FiberArray& message) {
     publisher_.publish(message);
     for (int i = 0; i < 3; ++i) {
-      window_->settle();
+      window->settle();
     }
   }
 
-  double number(const char* name) { return window_->view().subProp(name)->getValue().toDouble(); }
+  double number(const char* name) { return window->view().subProp(name)->getValue().toDouble(); }
 
-  static RvizWindow* window_;
+  static RvizWindow* window;
   ros::NodeHandle node_;
   ros::Publisher publisher_{node_.advertise<FiberArray>("/proximity/fibers", 1)};
 };
 
-RvizWindow* TrackerViewTest::window_ = nullptr;
+RvizWindow* TrackerViewTest::window = nullptr;
 
 TEST_F(TrackerViewTest, FindsACableBeforeTheCamera) {
-  window_->settle();
-  EXPECT_LT(window_->count_pixels(is_blue, 1.0 / 6.0), 50U) << "but for the smoothed z axis";
+  window->settle();
+  EXPECT_LT(window->count_pixels(is_blue, 1.0 / 6.0), 50U) << "but for the smoothed z axis";
   expect_cable(cables({0.0, 0.0, 0.6}));
 }
 
@@ -101,17 +101,17 @@ bool is_amber(const Pixel& pixel) {
 bool is_red(const Pixel& pixel) { return pixel[0] > 150 && pixel[1] < 80 && pixel[2] < 80; }
 
 TEST_F(TrackerViewTest, SaysInTheWindowThatItWaitsUntilThereAreFibers) {
-  window_->settle();
-  rviz::Display* fibers = window_->find("Fibers");
+  window->settle();
+  rviz::Display* fibers = window->find("Fibers");
   ASSERT_NE(fibers, nullptr);
   const rviz_test::Status waiting = RvizWindow::status(*fibers, "Fibers");
   EXPECT_EQ(waiting.level, rviz::StatusProperty::Warn);
   EXPECT_EQ(waiting.text, "waiting for the first message of /proximity/fibers");
-  EXPECT_GT(window_->count_pixels(is_amber), 100U) << "letters";
+  EXPECT_GT(window->count_pixels(is_amber), 100U) << "letters";
   expect_cable(cables({0.0, 0.0, 0.6}));
-  window_->settle();
+  window->settle();
   EXPECT_EQ(RvizWindow::status(*fibers, "Fibers").level, rviz::StatusProperty::Ok);
-  EXPECT_EQ(window_->count_pixels(is_amber), 0U);
+  EXPECT_EQ(window->count_pixels(is_amber), 0U);
 }
 
 TEST_F(TrackerViewTest, TheLegendIsInTheCornerWhereverItsMarkersAre) {
@@ -119,7 +119,7 @@ TEST_F(TrackerViewTest, TheLegendIsInTheCornerWhereverItsMarkersAre) {
       node_.advertise<visualization_msgs::MarkerArray>("/proximity/markers", 1);
   ASSERT_TRUE(RvizWindow::wait_until([&] { return markers.getNumSubscribers() > 0; }));
   expect_cable(cables({0.0, 0.0, 0.6}));
-  EXPECT_EQ(window_->count_pixels(is_red), 0U);
+  EXPECT_EQ(window->count_pixels(is_red), 0U);
   visualization_msgs::MarkerArray legend;
   legend.markers.resize(1);
   visualization_msgs::Marker& marker = legend.markers[0];
@@ -133,21 +133,21 @@ TEST_F(TrackerViewTest, TheLegendIsInTheCornerWhereverItsMarkersAre) {
   marker.text = "red: penetrating\n\n";
   ASSERT_TRUE(RvizWindow::wait_until([&] {
     markers.publish(legend);
-    window_->settle();
-    return window_->count_pixels(is_red) > 100;
+    window->settle();
+    return window->count_pixels(is_red) > 100;
   }));
-  EXPECT_EQ(window_->count_pixels(is_red, 1.0 / 6.0), 0U)
+  EXPECT_EQ(window->count_pixels(is_red, 1.0 / 6.0), 0U)
       << "none in the middle, where the cable is";
   marker.action = visualization_msgs::Marker::DELETE;
   markers.publish(legend);
   EXPECT_TRUE(RvizWindow::wait_until([&] {
-    window_->settle();
-    return window_->count_pixels(is_red) == 0;
+    window->settle();
+    return window->count_pixels(is_red) == 0;
   }));
 }
 
 TEST_F(TrackerViewTest, FindsACableFarAwayInAnotherFrame) {
-  window_->set_fixed_frame("base_link");
+  window->set_fixed_frame("base_link");
   FiberArray message = cables({3.0, -2.0, 1.5});
   message.header.frame_id = "base_link";
   const double pitch = number("Pitch");
@@ -161,20 +161,20 @@ TEST_F(TrackerViewTest, FollowsNewCablesUntilTheUserMovesIt) {
   // The same cable elsewhere is no reason to move.
   show(cables({0.3, 0.0, 0.6}));
   EXPECT_EQ(number("Distance"), distance);
-  EXPECT_NEAR(window_->view().subProp("Focal Point")->subProp("X")->getValue().toDouble(), 0.0,
+  EXPECT_NEAR(window->view().subProp("Focal Point")->subProp("X")->getValue().toDouble(), 0.0,
               1e-6);
   // More cables are: these reach over 2 m.
   show(cables({0.0, 0.0, 0.6}, 40));
   EXPECT_GT(number("Distance"), 1.5 * distance);
-  window_->view().subProp("Yaw")->setValue(1.0);
+  window->view().subProp("Yaw")->setValue(1.0);
   show(cables({0.0, 0.0, 0.6}, 80));
   EXPECT_EQ(number("Yaw"), 1.0);
 }
 
 TEST_F(TrackerViewTest, AnotherFrameIsLookedAtAnew) {
   expect_cable(cables({0.0, 0.0, 0.6}));
-  window_->view().subProp("Distance")->setValue(100.0);
-  window_->set_fixed_frame("base_link");
+  window->view().subProp("Distance")->setValue(100.0);
+  window->set_fixed_frame("base_link");
   FiberArray message = cables({3.0, -2.0, 1.5});
   message.header.frame_id = "base_link";
   expect_cable(message);
