@@ -44,7 +44,9 @@ list(REMOVE_ITEM queries ${shapes} src/geometry/fiber_assembly.cpp)
 list(FILTER queries EXCLUDE REGEX "_engines?.cpp|engine_factory|candidate_cache")  # see engine.cpp
 unwatched_library(fiber_queries ${queries}
   src/hierarchy/fiber_order.cpp
+  src/hierarchy/run_tree.cpp
   src/hierarchy/run_tree_find.cpp
+  src/hierarchy/run_tree_fit.cpp
   src/hierarchy/sort_keys.cpp
 )
 target_sources(fiber_queries PRIVATE engine.cpp)
