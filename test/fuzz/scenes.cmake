@@ -39,16 +39,10 @@ set(shapes
   src/environment/triangle_mesh.cpp
   src/environment/world.cpp
 )
-sources_in(queries environment geometry query)
+sources_in(queries environment geometry hierarchy query)
 list(REMOVE_ITEM queries ${shapes} src/geometry/fiber_assembly.cpp)
 list(FILTER queries EXCLUDE REGEX "_engines?.cpp|engine_factory|candidate_cache")  # see engine.cpp
-unwatched_library(fiber_queries ${queries}
-  src/hierarchy/fiber_order.cpp
-  src/hierarchy/run_tree.cpp
-  src/hierarchy/run_tree_find.cpp
-  src/hierarchy/run_tree_fit.cpp
-  src/hierarchy/sort_keys.cpp
-)
+unwatched_library(fiber_queries ${queries})
 target_sources(fiber_queries PRIVATE engine.cpp)
 target_link_libraries(fiber_queries PUBLIC fuzzed_io fcl TBB::tbb hwy::hwy hwy::hwy_contrib)
 
