@@ -272,9 +272,7 @@ void FiberPairSearch::ask_about_loops() {
     std::vector<LoopQuestion> questions;
     questions.reserve(asked.size());
     for (const OpenPair& pair : asked) {
-      questions.push_back({pair.a.fiber, pair.a.segment, pair.b.segment,
-                           own_.fibers().capsule(pair.points.a),
-                           (pair.is_across ? halo_ : own_).fibers().capsule(pair.points.b)});
+      questions.push_back(question_about(pair));
     }
     const std::vector<bool> loops = find_loops(ranks_, own_, halo_, questions);
     for (std::size_t i = 0; i < asked.size(); ++i) {
