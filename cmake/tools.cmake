@@ -3,13 +3,24 @@
 add_library(fiber_proximity_command_line OBJECT src/tools/command_line.cpp)
 target_link_libraries(fiber_proximity_command_line PUBLIC
   fiber_proximity_paper CLI11::CLI11 fiber_proximity_options)
-fiber_proximity_parse_once(fiber_proximity_command_line ${tool_headers})
+target_link_libraries(fiber_proximity_command_line PUBLIC nlohmann_json::nlohmann_json)
 fiber_proximity_compile_fast(fiber_proximity_command_line)
+fiber_proximity_precompile(fiber_proximity_command_line ${tool_headers})
+
+# fiber_proximity_compile_tool(TARGET)
+# Tools hand on what libraries compute. CLI11 and json, most of what the compiler reads, are parsed once for all.
+function(fiber_proximity_compile_tool target)
+  fiber_proximity_compile_fast(${target})
+  fiber_proximity_compile_together(${target} 12)
+  if(FIBER_PROXIMITY_PRECOMPILE_HEADERS)
+    target_precompile_headers(${target} REUSE_FROM fiber_proximity_command_line)
+  endif()
+endfunction()
 
 # fiber_proximity_tool(NAME SOURCE...)
 function(fiber_proximity_tool name)
   add_executable(${name} ${ARGN})
-  target_link_libraries(${name} fiber_proximity_command_line nlohmann_json::nlohmann_json)
+  target_link_libraries(${name} fiber_proximity_command_line)
   file(RELATIVE_PATH libraries /${program_folder} /${library_folder})
   set_target_properties(${name} PROPERTIES INSTALL_RPATH "$ORIGIN/${libraries}")
   install(TARGETS ${name} RUNTIME DESTINATION ${program_folder})

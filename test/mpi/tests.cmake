@@ -25,6 +25,7 @@ if(TARGET fiber_proximity_mpi)
   target_link_libraries(distributed_engine_test
     fiber_proximity_mpi fiber_proximity_paper ${PARALLEL_HDF5_LIBRARY} fiber_proximity_options)
   target_include_directories(distributed_engine_test SYSTEM PRIVATE ${PARALLEL_HDF5_INCLUDE_FOLDER})
+  fiber_proximity_compile_fast(distributed_engine_test)
   fiber_proximity_compile_tests_together(distributed_engine_test)
   execute_process(COMMAND ${MPIEXEC_EXECUTABLE} --version OUTPUT_VARIABLE mpiexec_version ERROR_QUIET)
   # Ranks of one machine, more than it has cores, and also where all is done as root, as in containers.
