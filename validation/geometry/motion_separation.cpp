@@ -1,8 +1,8 @@
-#include "benchmark/continuous/motion_separation.hpp"
+#include "validation/geometry/motion_separation.hpp"
 
 #include <algorithm>
 
-namespace fiber::bench {
+namespace fiber {
 namespace {
 
 /// A point before and after.
@@ -81,4 +81,4 @@ bool MotionSeparation::holds_between(long double begin, long double end) const {
   });
 }
 
-}  // namespace fiber::bench
+}  // namespace fiber

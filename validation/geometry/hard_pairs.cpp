@@ -1,4 +1,4 @@
-#include "test/support/hard_pairs.hpp"
+#include "validation/geometry/hard_pairs.hpp"
 
 #include <algorithm>
 #include <cmath>

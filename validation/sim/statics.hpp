@@ -1,6 +1,6 @@
 #pragma once
 
-#include "benchmark/sim/elastica.hpp"
+#include "validation/sim/elastica.hpp"
 
 namespace fiber {
 

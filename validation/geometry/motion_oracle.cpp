@@ -1,13 +1,13 @@
-#include "benchmark/continuous/motion_oracle.hpp"
+#include "validation/geometry/motion_oracle.hpp"
 
 #include <algorithm>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <vector>
 
-#include "benchmark/continuous/motion_score.hpp"
+#include "validation/geometry/motion_score.hpp"
 
-namespace fiber::bench {
+namespace fiber {
 namespace {
 
 using reference::MovingPair;
@@ -168,4 +168,4 @@ bool MotionOracle::is_separated(const Piece& piece) const {
   return separation_->holds_between(piece.begin, piece.end);
 }
 
-}  // namespace fiber::bench
+}  // namespace fiber

@@ -1,10 +1,10 @@
-#include "benchmark/sim/elastica.hpp"
+#include "validation/sim/elastica.hpp"
 
 #include <array>
 #include <boost/numeric/odeint/stepper/runge_kutta4.hpp>
 #include <cmath>
 
-#include "benchmark/sim/root.hpp"
+#include "validation/sim/root.hpp"
 
 namespace fiber {
 namespace {

@@ -1,10 +1,10 @@
-#include "benchmark/sim/motion.hpp"
+#include "validation/sim/motion.hpp"
 
 #include <cmath>
 
-#include "benchmark/sim/rod_scene.hpp"
-#include "benchmark/sim/root.hpp"
 #include "fiber_proximity/sim/effects.hpp"
+#include "validation/sim/rod_scene.hpp"
+#include "validation/sim/root.hpp"
 
 namespace fiber {
 

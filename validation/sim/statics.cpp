@@ -1,9 +1,9 @@
-#include "benchmark/sim/statics.hpp"
+#include "validation/sim/statics.hpp"
 
 #include <cmath>
 
-#include "benchmark/sim/rod_scene.hpp"
-#include "benchmark/sim/root.hpp"
+#include "validation/sim/rod_scene.hpp"
+#include "validation/sim/root.hpp"
 
 namespace fiber {
 

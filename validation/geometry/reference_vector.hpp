@@ -1,6 +1,6 @@
 #pragma once
 
-namespace fiber::bench::reference {
+namespace fiber::reference {
 
 /// A vector of any kind of number.
 template <class Number>
@@ -31,4 +31,4 @@ Vector<Number> cross(const Vector<Number>& a, const Vector<Number>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-}  // namespace fiber::bench::reference
+}  // namespace fiber::reference

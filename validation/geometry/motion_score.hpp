@@ -3,9 +3,9 @@
 #include <cstdint>
 
 #include "fiber_proximity/geometry/contact_time.hpp"
-#include "test/support/hard_motions.hpp"
+#include "validation/geometry/hard_motions.hpp"
 
-namespace fiber::bench {
+namespace fiber {
 
 /// How answers about moving capsules compare with the truth.
 struct MotionScore {
@@ -29,4 +29,4 @@ MotionScore judge(const HardMotion& motion, double tolerance, const ContactTime&
 /// The largest difference of coordinates between points of the two capsules [m].
 double extent_of(const HardMotion& motion);
 
-}  // namespace fiber::bench
+}  // namespace fiber

@@ -1,8 +1,8 @@
-#include "benchmark/continuous/time_polynomial.hpp"
+#include "validation/geometry/time_polynomial.hpp"
 
 #include <algorithm>
 
-namespace fiber::bench {
+namespace fiber {
 namespace {
 
 /// Of all that is computed here, as a part of magnitudes: some hundred operations in 113 bits.
@@ -71,4 +71,4 @@ TimePolynomial operator*(const TimePolynomial& a, const TimePolynomial& b) {
   return product;
 }
 
-}  // namespace fiber::bench
+}  // namespace fiber

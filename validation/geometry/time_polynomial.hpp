@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
-#include "benchmark/continuous/reference_vector.hpp"
+#include "validation/geometry/reference_vector.hpp"
 
-namespace fiber::bench {
+namespace fiber {
 
 /// 113 bits, and exponents that no power of a double leaves.
 using QuadNumber = boost::multiprecision::cpp_bin_float_quad;
@@ -34,4 +34,4 @@ TimePolynomial operator*(const TimePolynomial& a, const TimePolynomial& b);
 
 using TimePolynomialVector = reference::Vector<TimePolynomial>;
 
-}  // namespace fiber::bench
+}  // namespace fiber

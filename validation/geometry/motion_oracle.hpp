@@ -2,11 +2,11 @@
 
 #include <optional>
 
-#include "benchmark/continuous/motion_separation.hpp"
-#include "benchmark/continuous/moving_pair.hpp"
-#include "test/support/hard_motions.hpp"
+#include "validation/geometry/hard_motions.hpp"
+#include "validation/geometry/motion_separation.hpp"
+#include "validation/geometry/moving_pair.hpp"
 
-namespace fiber::bench {
+namespace fiber {
 
 /// Whether and when the capsules of a motion touch, by means that share no formula with
 /// contact_time(): distances of the textbook's normal equations in 64 bits, on smaller and smaller
@@ -52,4 +52,4 @@ class MotionOracle {
   mutable std::optional<MotionSeparation> separation_;  // where it has been needed
 };
 
-}  // namespace fiber::bench
+}  // namespace fiber

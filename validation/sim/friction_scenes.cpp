@@ -1,9 +1,9 @@
-#include "benchmark/sim/friction_scenes.hpp"
+#include "validation/sim/friction_scenes.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "benchmark/sim/contact_scenes.hpp"
+#include "validation/sim/contact_scenes.hpp"
 
 namespace fiber {
 

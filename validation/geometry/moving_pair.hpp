@@ -4,12 +4,12 @@
 #include <utility>
 #include <vector>
 
-#include "benchmark/continuous/reference_vector.hpp"
-#include "test/support/hard_motions.hpp"
+#include "validation/geometry/hard_motions.hpp"
+#include "validation/geometry/reference_vector.hpp"
 
 /// Two segments that move, as the truth about them is found, in any kind of number: by formulas
 /// that the kernel does not use.
-namespace fiber::bench::reference {
+namespace fiber::reference {
 
 /// Two segments at one time: directions, and from the start of the second to that of the first.
 template <class Number>
@@ -105,4 +105,4 @@ Nearest<Number> nearest_of(const Placed<Number>& placed) {
   return best;
 }
 
-}  // namespace fiber::bench::reference
+}  // namespace fiber::reference

@@ -5,11 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include "benchmark/sim/rod_scene.hpp"
 #include "fiber_proximity/environment/environment.hpp"
 #include "fiber_proximity/sim/contacts.hpp"
 #include "fiber_proximity/sim/effects.hpp"
 #include "fiber_proximity/sim/stepper.hpp"
+#include "validation/sim/rod_scene.hpp"
 
 namespace fiber {
 

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "test/support/hard_motions.hpp"
+#include "validation/geometry/hard_motions.hpp"
 
-namespace fiber::bench {
+namespace fiber {
 
 /// Edges that move, of which somebody else has found out whether they meet.
 struct KnownMotion {
@@ -21,4 +21,4 @@ std::vector<KnownMotion> read_known_motions(const std::string& path);
 /// The 24 numbers of a motion, as in such a file.
 std::string coordinates_of(const HardMotion& motion);
 
-}  // namespace fiber::bench
+}  // namespace fiber

@@ -2,10 +2,10 @@
 
 #include <vector>
 
-#include "benchmark/continuous/time_polynomial.hpp"
-#include "test/support/hard_motions.hpp"
+#include "validation/geometry/hard_motions.hpp"
+#include "validation/geometry/time_polynomial.hpp"
 
-namespace fiber::bench {
+namespace fiber {
 
 /// Proves of pieces of a motion that the capsules do not touch in them.
 ///
@@ -34,4 +34,4 @@ class MotionSeparation {
   std::vector<std::vector<Case>> kinds_;  // of which one case each must hold
 };
 
-}  // namespace fiber::bench
+}  // namespace fiber

@@ -1,4 +1,4 @@
-#include "test/support/hard_motions.hpp"
+#include "validation/geometry/hard_motions.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,12 @@
-#include "benchmark/continuous/motion_score.hpp"
+#include "validation/geometry/motion_score.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "benchmark/continuous/motion_oracle.hpp"
+#include "validation/geometry/motion_oracle.hpp"
 
-namespace fiber::bench {
+namespace fiber {
 
 MotionScore& MotionScore::operator+=(const MotionScore& more) {
   motions += more.motions;
@@ -67,4 +67,4 @@ MotionScore judge(const HardMotion& motion, double tolerance, const ContactTime&
   return score;
 }
 
-}  // namespace fiber::bench
+}  // namespace fiber

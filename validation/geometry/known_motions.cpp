@@ -1,4 +1,4 @@
-#include "benchmark/continuous/known_motions.hpp"
+#include "validation/geometry/known_motions.hpp"
 
 #include <algorithm>
 #include <ios>
@@ -8,7 +8,7 @@
 #include "src/io/segment_file.hpp"
 #include "src/text/quote.hpp"
 
-namespace fiber::bench {
+namespace fiber {
 namespace {
 
 /// @throws std::invalid_argument for a truth that is none
@@ -55,4 +55,4 @@ std::string coordinates_of(const HardMotion& motion) {
   return text.str();
 }
 
-}  // namespace fiber::bench
+}  // namespace fiber

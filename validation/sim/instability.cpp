@@ -1,12 +1,12 @@
-#include "benchmark/sim/instability.hpp"
+#include "validation/sim/instability.hpp"
 
 #include <cmath>
 #include <iterator>
 
-#include "benchmark/sim/rod_scene.hpp"
-#include "benchmark/sim/root.hpp"
 #include "fiber_proximity/sim/effects.hpp"
 #include "src/geometry/smallest_rotation.hpp"
+#include "validation/sim/rod_scene.hpp"
+#include "validation/sim/root.hpp"
 
 namespace fiber {
 
