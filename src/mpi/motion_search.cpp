@@ -1,11 +1,11 @@
-#include "src/mpi/rank_motions.hpp"
+#include "src/mpi/motion_search.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <utility>
 
 #include "fiber_proximity/geometry/contact_time.hpp"
-#include "src/mpi/halo.hpp"
+#include "src/mpi/halo_exchange.hpp"
 #include "src/mpi/whole_fiber_pairs.hpp"
 #include "src/query/motion_evaluator.hpp"
 
@@ -18,23 +18,23 @@ bool is_stopped_by_limit(const MotionResult& result) {
 
 }  // namespace
 
-void RankMotions::update(const RankFibers& fibers) {
+void MotionSearch::update(const RankFibers& fibers) {
   fibers_ = &fibers;
-  ranks_.agree(error_in(
+  ranks_.throw_on_all(error_in(
       [&] { engine_->update_motion(fibers.own().fibers(), fibers.own_after().fibers()); }));
 }
 
 /// Appends of what is found of this rank's own segments (a) and others what is a pair.
-void RankMotions::append(const MotionOptions& options, const NamedFibers& fibers_b,
-                         MotionResult& found, DistributedMotionResult& result) const {
-  const NamedFibers& own = fibers_->own();
+void MotionSearch::append(const MotionOptions& options, const LocalFibers& fibers_b,
+                          MotionResult& found, DistributedMotionResult& result) const {
+  const LocalFibers& own = fibers_->own();
   const RankPairs pairs{ranks_, own, halo_};
   const auto append_some = [&](std::vector<MotionContact>& some,
                                std::vector<DistributedMotionContact>& contacts) {
     pairs.keep_those_of_whole_fibers(options, fibers_b, some);
     for (const MotionContact& contact : some) {
-      const GlobalSegment a = own.name_of(contact.fiber_a, contact.segment_a);
-      const GlobalSegment b = fibers_b.name_of(contact.fiber_b, contact.segment_b);
+      const GlobalSegment a = own.global_id(contact.fiber_a, contact.segment_a);
+      const GlobalSegment b = fibers_b.global_id(contact.fiber_b, contact.segment_b);
       contacts.push_back(
           {a.fiber, a.segment, b.fiber, b.segment, contact.lower, contact.upper, contact.certain});
     }
@@ -45,17 +45,17 @@ void RankMotions::append(const MotionOptions& options, const NamedFibers& fibers
 
 /// Asks about candidates as one process does: this rank's own segment first.
 /// @param candidates of a segment of the halo and one of this rank's own
-void RankMotions::evaluate(const MotionOptions& options,
-                           const std::vector<MotionContact>& candidates,
-                           MotionResult& result) const {
-  const NamedFibers& own = fibers_->own();
+void MotionSearch::evaluate(const MotionOptions& options,
+                            const std::vector<MotionContact>& candidates,
+                            MotionResult& result) const {
+  const LocalFibers& own = fibers_->own();
   const FiberMotion motion_a{own.fibers(), fibers_->own_after().fibers()};
   const FiberMotion motion_b{halo_.fibers(), halo_after_.fibers()};
   for (const MotionContact& candidate : candidates) {
     const SegmentIdPair pair{candidate.fiber_b, candidate.segment_b, candidate.fiber_a,
                              candidate.segment_a};
-    if (!(own.name_of(pair.fiber_a, pair.segment_a) <
-          halo_.name_of(pair.fiber_b, pair.segment_b))) {
+    if (!(own.global_id(pair.fiber_a, pair.segment_a) <
+          halo_.global_id(pair.fiber_b, pair.segment_b))) {
       continue;  // another rank's
     }
     const SegmentMotions motions = motions_of(
@@ -72,10 +72,10 @@ void RankMotions::evaluate(const MotionOptions& options,
   }
 }
 
-void RankMotions::find(const MotionOptions& options, const PerRank<RunSpan>& spans,
-                       DistributedMotionResult& result) {
+void MotionSearch::find(const MotionOptions& options, const PerRank<RunSpan>& spans,
+                        DistributedMotionResult& result) {
   const Deadline deadline(options.deadline);
-  Halo halo(ranks_, fibers_->states(), spans);
+  HaloExchange halo(ranks_, fibers_->states(), spans);
 
   MotionOptions here = options;
   static_cast<PairOptions&>(here) = options_of_stretches(options, fibers_->arc_roundings());
@@ -85,7 +85,7 @@ void RankMotions::find(const MotionOptions& options, const PerRank<RunSpan>& spa
   result.complete = found_.complete;
   result.limit_reached = is_stopped_by_limit(found_);
 
-  ranks_.agree(error_in([&] {
+  ranks_.throw_on_all(error_in([&] {
     FiberRuns runs = halo.take();
     halo_.assign(runs);
     runs.nodes = halo.take_after();
@@ -97,7 +97,7 @@ void RankMotions::find(const MotionOptions& options, const PerRank<RunSpan>& spa
   here.time_tolerance = std::numeric_limits<double>::infinity();
   here.deadline = deadline.left();
   here.pair_limit = rest_of(options.pair_limit, found_.counts.primitive_tests);
-  ranks_.agree(error_in(
+  ranks_.throw_on_all(error_in(
       [&] { engine_->query_motion_shape(halo_.fibers(), halo_after_.fibers(), here, found_); }));
   result.complete = result.complete && found_.complete;
   result.limit_reached = result.limit_reached || is_stopped_by_limit(found_);

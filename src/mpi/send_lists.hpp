@@ -21,12 +21,12 @@ struct RunSpan {
 /// other. Collective.
 /// @param own   of fibres that move the ways to where they are after that count
 /// @param boxes of own
-PerRank<RunSpan> spans_near_others(const Communicator& ranks, const FiberStates& own,
-                                   const PieceBoxes& boxes, double margin);
+PerRank<RunSpan> find_send_lists(const Communicator& ranks, const FiberStates& own,
+                                 const PieceBoxes& boxes, double margin);
 
 /// The same for queries one after another: found with some room, they serve until points have moved
 /// that far.
-class HaloLists {
+class SendLists {
  public:
   /// Finds lists, or has some that serve. Collective.
   const PerRank<RunSpan>& find(const Communicator& ranks, RankFibers& fibers, double margin);
@@ -38,7 +38,7 @@ class HaloLists {
   PerRank<RunSpan> spans_;
   double margin_ = 0.0;  // [m] that they are for
   double reach_ = -1.0;  // [m] and that they were found with; nothing comes within less than 0
-  RankFibers::Way way_;
+  RankFibers::Displacement displacement_;
   std::uint64_t search_count_ = 0;
 };
 

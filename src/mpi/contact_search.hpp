@@ -10,7 +10,7 @@
 #include "fiber_proximity/query/engine.hpp"
 #include "src/mpi/communicator.hpp"
 #include "src/mpi/fiber_runs.hpp"
-#include "src/mpi/named_fibers.hpp"
+#include "src/mpi/local_fibers.hpp"
 #include "src/mpi/rank_fibers.hpp"
 #include "src/mpi/rank_load.hpp"
 #include "src/query/run_tree_engine.hpp"
@@ -19,11 +19,11 @@ namespace fiber {
 
 /// Looks for the pairs that a rank reports: those of its own segments with each other, and with
 /// segments of others that come after them.
-class RankSearch {
+class ContactSearch {
  public:
   static constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
 
-  RankSearch(const Communicator& ranks, const EngineOptions& options)
+  ContactSearch(const Communicator& ranks, const EngineOptions& options)
       : ranks_(ranks), engine_(std::make_unique<RunTreeEngine>(options)) {}
 
   /// Makes these fibres those that are looked at; they must live until the next update.
@@ -73,7 +73,7 @@ class RankSearch {
   const Communicator& ranks_;
   std::unique_ptr<RunTreeEngine> engine_;
   const RankFibers* fibers_ = nullptr;
-  NamedFibers halo_;
+  LocalFibers halo_;
   QueryCounts counts_;
 
   QueryResult inner_;            // contacts are sorted

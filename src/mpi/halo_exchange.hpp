@@ -5,18 +5,18 @@
 #include "src/mpi/communicator.hpp"
 #include "src/mpi/fiber_runs.hpp"
 #include "src/mpi/fiber_states.hpp"
-#include "src/mpi/halo_lists.hpp"
+#include "src/mpi/send_lists.hpp"
 
 namespace fiber {
 
 /// The segments of other ranks that this rank needs for its pairs, on the way while the rank does
 /// other things.
-class Halo {
+class HaloExchange {
  public:
   /// Begins to send what others need. Collective.
   /// @param own   this rank's
   /// @param spans of these, by the rank that needs them
-  Halo(const Communicator& ranks, const FiberStates& own, const PerRank<RunSpan>& spans);
+  HaloExchange(const Communicator& ranks, const FiberStates& own, const PerRank<RunSpan>& spans);
 
   /// Waits for what this rank needs. Collective.
   FiberRuns take();

@@ -41,7 +41,7 @@ inline std::uint64_t name_of_fiber(std::uint64_t fiber) {
 }
 
 /// Segments begin … end - 1 of a fibre, for one rank.
-struct DealtPart {
+struct ScatteredPart {
   std::uint32_t fiber = 0;
   std::uint32_t begin = 0;
   std::uint32_t end = 0;
@@ -50,9 +50,9 @@ struct DealtPart {
 
 /// Cuts fibres and deals them out, the same on every rank; some ranks may get nothing.
 /// @param cuts for each fibre, at most
-inline std::vector<DealtPart> deal(const FiberAssembly& fibers, int cuts, Random& random) {
+inline std::vector<ScatteredPart> scatter(const FiberAssembly& fibers, int cuts, Random& random) {
   const int first = random.chance(0.3) ? random.integer(0, rank_count() - 1) : 0;
-  std::vector<DealtPart> parts;
+  std::vector<ScatteredPart> parts;
   for (std::uint32_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
     const auto count = static_cast<int>(fibers.offsets()[fiber + 1] - fibers.offsets()[fiber] - 1);
     std::vector<int> places{0, count};
@@ -75,8 +75,8 @@ inline std::vector<DealtPart> deal(const FiberAssembly& fibers, int cuts, Random
 }
 
 /// What a rank has been dealt.
-inline DistributedFibers dealt_to(int rank, const FiberAssembly& fibers,
-                                  const std::vector<DealtPart>& deal) {
+inline DistributedFibers scattered_to(int rank, const FiberAssembly& fibers,
+                                      const std::vector<ScatteredPart>& deal) {
   std::vector<Eigen::Vector3d> points;
   std::vector<double> radii;
   std::vector<std::uint32_t> offsets{0};
@@ -85,7 +85,7 @@ inline DistributedFibers dealt_to(int rank, const FiberAssembly& fibers,
     const std::vector<double>& all = fibers.radii();
     return all.size() == 1 ? all[0] : all.size() == fibers.fiber_count() ? all[fiber] : all[point];
   };
-  for (const DealtPart& part : deal) {
+  for (const ScatteredPart& part : deal) {
     if (part.rank == rank) {
       const std::uint32_t start = fibers.offsets()[part.fiber];
       for (std::uint32_t p = start + part.begin; p <= start + part.end; ++p) {
@@ -182,7 +182,7 @@ inline EngineOptions one_thread() {
 struct DealtEngine : DistributedEngine {
   DealtEngine(const FiberAssembly& fibers, Random& random)
       : DistributedEngine(MPI_COMM_WORLD, one_thread()) {
-    const DistributedFibers mine = dealt_to(own_rank(), fibers, deal(fibers, 2, random));
+    const DistributedFibers mine = scattered_to(own_rank(), fibers, scatter(fibers, 2, random));
     update(mine.parts, mine.names);
   }
 };

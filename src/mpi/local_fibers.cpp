@@ -1,4 +1,4 @@
-#include "src/mpi/named_fibers.hpp"
+#include "src/mpi/local_fibers.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -20,17 +20,17 @@ bool goes_on(const FiberRun& run, const FiberRun& next) {
 
 }  // namespace
 
-void NamedFibers::clear() {
+void LocalFibers::clear() {
   runs_.clear();
   numbers_.clear();
-  names_.clear();
+  first_ids_.clear();
   points_.clear();
   radii_.clear();
   offsets_.assign(1, 0);
   fibers_ = FiberAssembly();
 }
 
-void NamedFibers::assign(const FiberRuns& set) {
+void LocalFibers::assign(const FiberRuns& set) {
   assign(set.runs);
   for (std::size_t i = 0; i < set.runs.size(); ++i) {
     place(i, set.runs[i].arc, set.nodes.data() + set.runs[i].begin);
@@ -38,7 +38,7 @@ void NamedFibers::assign(const FiberRuns& set) {
   close();
 }
 
-void NamedFibers::assign(std::vector<FiberRun> runs) {
+void LocalFibers::assign(std::vector<FiberRun> runs) {
   clear();
   std::vector<std::uint32_t> order(runs.size());
   std::iota(order.begin(), order.end(), 0U);
@@ -50,7 +50,7 @@ void NamedFibers::assign(std::vector<FiberRun> runs) {
   for (std::size_t i = 0; i < order.size(); ++i) {
     const FiberRun& run = runs[order[i]];
     if (point == offsets_.back()) {
-      names_.push_back(run.first);
+      first_ids_.push_back(run.first);
     }
     numbers_[order[i]] = static_cast<std::uint32_t>(i);
     runs_.push_back({run.first, run.count, point, run.arc});
@@ -70,7 +70,7 @@ void NamedFibers::assign(std::vector<FiberRun> runs) {
   moved_ = unbounded;
 }
 
-void NamedFibers::open() {
+void LocalFibers::open() {
   const std::vector<double>& radii = fibers_.radii();
   radius_before_ = radii.size() == 1 ? radii.front() : unbounded;
   moved_ = 0.0;
@@ -78,7 +78,7 @@ void NamedFibers::open() {
 }
 
 /// Gives each segment a radius of its own. So far there is one for all.
-void NamedFibers::expand_radii() {
+void LocalFibers::expand_radii() {
   moved_ = unbounded;
   const double radius = radii_.front();
   radii_.assign(points_.size(), radius);
@@ -87,8 +87,8 @@ void NamedFibers::expand_radii() {
   }
 }
 
-const FiberNode* NamedFibers::place(std::size_t number, double arc, const FiberNode* nodes) {
-  FiberRun& run = runs_[place_of(number)];
+const FiberNode* LocalFibers::place(std::size_t number, double arc, const FiberNode* nodes) {
+  FiberRun& run = runs_[sorted_index(number)];
   run.arc = arc;
   if (radii_.empty()) {
     radii_.push_back(nodes->radius);
@@ -116,7 +116,7 @@ const FiberNode* NamedFibers::place(std::size_t number, double arc, const FiberN
   return nodes + run.count + 1;
 }
 
-void NamedFibers::close() {
+void LocalFibers::close() {
   try {
     fibers_.exchange_segments(points_, offsets_, radii_);
   } catch (const std::invalid_argument&) {
@@ -125,7 +125,7 @@ void NamedFibers::close() {
   }
 }
 
-void NamedFibers::add_to(FiberRuns& others, const FiberRun& run, std::uint64_t begin,
+void LocalFibers::add_to(FiberRuns& others, const FiberRun& run, std::uint64_t begin,
                          std::uint64_t end) const {
   others.runs.push_back({{run.first.fiber, run.first.segment + begin},
                          end - begin,
@@ -137,19 +137,19 @@ void NamedFibers::add_to(FiberRuns& others, const FiberRun& run, std::uint64_t b
   others.nodes.back().radius = 0.0;  // of the segment that would come next
 }
 
-std::size_t NamedFibers::run_of(std::uint32_t point) const {
+std::size_t LocalFibers::run_of(std::uint32_t point) const {
   const auto after =
       std::upper_bound(runs_.begin(), runs_.end(), point,
                        [](std::uint64_t p, const FiberRun& run) { return p < run.begin; });
   return static_cast<std::size_t>(after - runs_.begin()) - 1;
 }
 
-double NamedFibers::arc(std::uint32_t point) const {
+double LocalFibers::arc(std::uint32_t point) const {
   const FiberRun& run = runs_[run_of(point)];
   return arc(run, point - run.begin);
 }
 
-double NamedFibers::arc(const FiberRun& run, std::uint64_t i) const {
+double LocalFibers::arc(const FiberRun& run, std::uint64_t i) const {
   double length = run.arc;
   for (std::uint64_t p = run.begin + 1; p <= run.begin + i; ++p) {
     length += norm_of(fibers_.points()[p] - fibers_.points()[p - 1]);

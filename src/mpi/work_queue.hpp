@@ -15,9 +15,9 @@ struct WorkRange {
 };
 
 /// Work that is dealt out among ranks while they do it.
-struct DealtWork {
+struct WorkQueue {
   WorkRange all;
-  std::uint64_t most_at_once = 1;  ///< of the numbers, for one rank; at least 1
+  std::uint64_t max_chunk = 1;  ///< of the numbers, for one rank; at least 1
 
   /// Does the numbers of a range, on any rank.
   /// @param packed what pack() has made for them on rank 0; nothing on rank 0 itself
@@ -36,6 +36,6 @@ struct DealtWork {
 /// @param work the same numbers on all ranks
 /// @throws std::invalid_argument on every rank if something is thrown on any, with its number;
 ///         numbers may be left undone then
-void deal_work(const Communicator& ranks, const DealtWork& work);
+void run_work_queue(const Communicator& ranks, const WorkQueue& work);
 
 }  // namespace fiber

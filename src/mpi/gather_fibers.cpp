@@ -1,4 +1,4 @@
-#include "src/mpi/gathered_fibers.hpp"
+#include "src/mpi/gather_fibers.hpp"
 
 #include <algorithm>
 #include <string>
@@ -93,7 +93,7 @@ WholeFibers gather_fibers(const Communicator& ranks, DistributedFibers fibers) {
   std::sort(all.runs.begin(), all.runs.end(),
             [](const FiberRun& x, const FiberRun& y) { return x.first < y.first; });
   WholeFibers whole;
-  ranks.agree(error_in([&] { whole = {joined(all), names_of(all, names)}; }));
+  ranks.throw_on_all(error_in([&] { whole = {joined(all), names_of(all, names)}; }));
   return whole;
 }
 

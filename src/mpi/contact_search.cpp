@@ -1,4 +1,4 @@
-#include "src/mpi/rank_search.hpp"
+#include "src/mpi/contact_search.hpp"
 
 #include <algorithm>
 
@@ -9,7 +9,7 @@
 
 namespace fiber {
 
-void RankSearch::clear() {
+void ContactSearch::clear() {
   fibers_ = nullptr;
   counts_ = {};
   halo_.assign(FiberRuns());
@@ -17,14 +17,14 @@ void RankSearch::clear() {
   across_.clear();
 }
 
-void RankSearch::update(const RankFibers& fibers) {
+void ContactSearch::update(const RankFibers& fibers) {
   clear();
   fibers_ = &fibers;
   engine_->update(fibers.own().fibers());
 }
 
 /// What leaves out no pair that the options want. Those that are too many are left out later.
-QueryOptions RankSearch::options_here(const QueryOptions& options) const {
+QueryOptions ContactSearch::options_here(const QueryOptions& options) const {
   QueryOptions here = options;
   static_cast<PairOptions&>(here) = options_of_stretches(options, fibers_->arc_roundings());
   here.tolerance = 0.0;
@@ -32,8 +32,8 @@ QueryOptions RankSearch::options_here(const QueryOptions& options) const {
   return here;
 }
 
-void RankSearch::find_inner(const QueryOptions& options, std::uint64_t count,
-                            DistributedResult& result) {
+void ContactSearch::find_inner(const QueryOptions& options, std::uint64_t count,
+                               DistributedResult& result) {
   const Deadline deadline(options.deadline);
   const RankPairs pairs{ranks_, fibers_->own(), halo_};
   QueryOptions here = options_here(options);
@@ -66,7 +66,7 @@ void RankSearch::find_inner(const QueryOptions& options, std::uint64_t count,
 }
 
 /// [m] More than distances of one pair differ by, the one segment first or the other.
-double RankSearch::rounding_across() const {
+double ContactSearch::rounding_across() const {
   if (halo_.fibers().point_count() == 0) {
     return 0.0;
   }
@@ -81,9 +81,9 @@ double RankSearch::rounding_across() const {
   return 0x1p-44 * (longest + halo_.fibers().largest_radius());
 }
 
-void RankSearch::find_across(const FiberRuns& halo, const QueryOptions& options,
-                             DistributedResult& result) {
-  ranks_.agree(error_in([&] { halo_.assign(halo); }));
+void ContactSearch::find_across(const FiberRuns& halo, const QueryOptions& options,
+                                DistributedResult& result) {
+  ranks_.throw_on_all(error_in([&] { halo_.assign(halo); }));
 
   // The engine takes what is a shape to it for the first of each pair. Here it is the second one:
   // distances are computed anew, as one process computes them.
@@ -98,12 +98,12 @@ void RankSearch::find_across(const FiberRuns& halo, const QueryOptions& options,
   result.limit_reached =
       result.limit_reached || (!candidates_.complete && candidates_.limit_reached);
   result.others_lower = std::min(result.others_lower, candidates_.others_lower);
-  const NamedFibers& own = fibers_->own();
+  const LocalFibers& own = fibers_->own();
   const NarrowPhase test(own.fibers(), halo_.fibers(), options);
   across_.clear();
   for (const Contact& contact : candidates_.contacts) {
-    if (!(own.name_of(contact.fiber_b, contact.segment_b) <
-          halo_.name_of(contact.fiber_a, contact.segment_a))) {
+    if (!(own.global_id(contact.fiber_b, contact.segment_b) <
+          halo_.global_id(contact.fiber_a, contact.segment_a))) {
       continue;  // another rank's
     }
     const PointPair pair{own.point_of(contact.fiber_b, contact.segment_b),
@@ -119,14 +119,14 @@ void RankSearch::find_across(const FiberRuns& halo, const QueryOptions& options,
   RankPairs{ranks_, own, halo_}.keep_those_of_whole_fibers(options, halo_, across_);
 }
 
-void RankSearch::find_closest_of_fibers(const std::function<FiberRuns(double)>& halo_within,
-                                        const QueryOptions& options, DistributedResult& result) {
+void ContactSearch::find_closest_of_fibers(const std::function<FiberRuns(double)>& halo_within,
+                                           const QueryOptions& options, DistributedResult& result) {
   halo_.assign(FiberRuns());
   const QueryOptions here = options_here(options);
   FiberPairSearch search(ranks_, fibers_->own(), *engine_, halo_, options, here);
   const double reach = search.find_inner();
   const FiberRuns halo = halo_within(reach);
-  ranks_.agree(error_in([&] { halo_.assign(halo); }));
+  ranks_.throw_on_all(error_in([&] { halo_.assign(halo); }));
   search.find_across();
   search.write(inner_.contacts, across_);
   counts_ += search.counts();
@@ -135,7 +135,7 @@ void RankSearch::find_closest_of_fibers(const std::function<FiberRuns(double)>& 
   result.others_lower = std::min(search.others_lower(), reach);
 }
 
-void RankSearch::write(std::vector<DistributedContact>& contacts) const {
+void ContactSearch::write(std::vector<DistributedContact>& contacts) const {
   // Contacts are most of what is moved in memory where there are many: each is written once.
   contacts.clear();
   const std::size_t count = inner_.contacts.size() + across_.size();
@@ -144,10 +144,10 @@ void RankSearch::write(std::vector<DistributedContact>& contacts) const {
     constexpr std::size_t part_more = 8;  // for a list that is a little longer next time
     contacts.reserve(count + count / part_more);
   }
-  const NamedFibers& own = fibers_->own();
-  const auto named = [&own](const Contact& contact, const NamedFibers& fibers_b) {
-    const GlobalSegment a = own.name_of(contact.fiber_a, contact.segment_a);
-    const GlobalSegment b = fibers_b.name_of(contact.fiber_b, contact.segment_b);
+  const LocalFibers& own = fibers_->own();
+  const auto named = [&own](const Contact& contact, const LocalFibers& fibers_b) {
+    const GlobalSegment a = own.global_id(contact.fiber_a, contact.segment_a);
+    const GlobalSegment b = fibers_b.global_id(contact.fiber_b, contact.segment_b);
     return DistributedContact{a.fiber,       a.segment,       b.fiber,          b.segment,
                               contact.s,     contact.t,       contact.distance, contact.lower,
                               contact.upper, contact.point_a, contact.point_b,  contact.normal};
@@ -165,7 +165,7 @@ void RankSearch::write(std::vector<DistributedContact>& contacts) const {
   }
 }
 
-RankLoad RankSearch::load() const {
+RankLoad ContactSearch::load() const {
   return fibers_ == nullptr ? RankLoad()
                             : load_of(fibers_->own(), counts_, inner_.contacts, across_);
 }

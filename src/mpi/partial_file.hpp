@@ -21,7 +21,7 @@ struct WritePlace {
 WritePlace write_place(const Communicator& ranks, const std::string& path);
 
 /// How a file is called while it is written.
-inline std::string aside(const std::string& path) { return path + ".part"; }
+inline std::string partial_name(const std::string& path) { return path + ".part"; }
 
 /// Makes a file that is there as long as this, if the system can: a disk that is full is known
 /// before anything is written, as HDF5 does not survive it. By one rank.
@@ -33,6 +33,6 @@ void reserve(const std::string& path, std::uint64_t size);
 void move_into_place(const std::string& path);
 
 /// Removes what was written aside, if there is anything. By one rank.
-void remove_aside(const std::string& path);
+void remove_partial(const std::string& path);
 
 }  // namespace fiber

@@ -13,7 +13,7 @@ namespace fiber {
 /// Runs of the fibres of all ranks as an assembly that knows their names. Runs that follow each
 /// other are joined to one fibre here, and all are in the order of contacts, so that a pair has the
 /// same first segment everywhere.
-class NamedFibers {
+class LocalFibers {
  public:
   /// Takes other runs with their nodes.
   /// @throws std::invalid_argument as the next ones
@@ -44,11 +44,11 @@ class NamedFibers {
   const std::vector<FiberRun>& runs() const { return runs_; }
 
   /// What the first segments of fibers() are called, by fibre.
-  const std::vector<GlobalSegment>& names() const { return names_; }
+  const std::vector<GlobalSegment>& first_ids() const { return first_ids_; }
 
   /// What the segment of this index along this fibre here is called by all.
-  GlobalSegment name_of(std::uint32_t fiber, std::uint32_t segment) const {
-    return {names_[fiber].fiber, names_[fiber].segment + segment};
+  GlobalSegment global_id(std::uint32_t fiber, std::uint32_t segment) const {
+    return {first_ids_[fiber].fiber, first_ids_[fiber].segment + segment};
   }
   std::uint32_t point_of(std::uint32_t fiber, std::uint32_t segment) const {
     return fibers_.offsets()[fiber] + segment;
@@ -58,7 +58,7 @@ class NamedFibers {
   std::size_t run_of(std::uint32_t point) const;
 
   /// The place among runs() of what assign() had there.
-  std::size_t place_of(std::size_t number) const { return numbers_[number]; }
+  std::size_t sorted_index(std::size_t number) const { return numbers_[number]; }
 
   FiberNode node(std::uint64_t point) const {
     return {plain(fibers_.points()[point]),
@@ -80,7 +80,7 @@ class NamedFibers {
   FiberAssembly fibers_;
   std::vector<FiberRun> runs_;
   std::vector<std::uint32_t> numbers_;  // place among the sorted runs by the number it was given
-  std::vector<GlobalSegment> names_;    // of the first segment, by fibre
+  std::vector<GlobalSegment> first_ids_;    // of the first segment, by fibre
 
   // While nodes are placed those of fibers_, which has none then:
   std::vector<Eigen::Vector3d> points_;

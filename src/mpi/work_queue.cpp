@@ -1,4 +1,4 @@
-#include "src/mpi/dealt_work.hpp"
+#include "src/mpi/work_queue.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -28,8 +28,8 @@ bool is_empty(const WorkRange& range) { return range.begin >= range.end; }
 /// much longer one number takes than another.
 class Ranges {
  public:
-  Ranges(const DealtWork& work, int ranks)
-      : left_(work.all), most_(work.most_at_once), shares_(shares_per_rank * ranks) {}
+  Ranges(const WorkQueue& work, int ranks)
+      : left_(work.all), most_(work.max_chunk), shares_(shares_per_rank * ranks) {}
 
   /// @param part of what a rank gets at once
   WorkRange next(std::uint64_t part = 1) {
@@ -64,7 +64,7 @@ class Ranges {
 /// ranges as large as theirs.
 class Dealer {
  public:
-  Dealer(const Communicator& ranks, const DealtWork& work)
+  Dealer(const Communicator& ranks, const WorkQueue& work)
       : ranks_(ranks),
         work_(work),
         ranges_(work, ranks.size()),
@@ -169,7 +169,7 @@ class Dealer {
   }
 
   const Communicator& ranks_;
-  const DealtWork& work_;
+  const WorkQueue& work_;
   Ranges ranges_;
   std::vector<Delivery> deliveries_;  // by rank
   int busy_;                          // ranks that have not been told that there is no more to do
@@ -194,7 +194,7 @@ Share take(const Communicator& ranks, std::vector<char>& packed) {
 
 /// Any other rank.
 /// @return what went wrong here
-std::string work_for(const Communicator& ranks, const DealtWork& work) {
+std::string work_for(const Communicator& ranks, const WorkQueue& work) {
   std::string error;
   std::vector<char> packed;
   ask(ranks, Wish::MORE);
@@ -210,8 +210,8 @@ std::string work_for(const Communicator& ranks, const DealtWork& work) {
 
 }  // namespace
 
-void deal_work(const Communicator& ranks, const DealtWork& work) {
-  ranks.agree(ranks.rank() == 0 ? Dealer(ranks, work).run() : work_for(ranks, work));
+void run_work_queue(const Communicator& ranks, const WorkQueue& work) {
+  ranks.throw_on_all(ranks.rank() == 0 ? Dealer(ranks, work).run() : work_for(ranks, work));
 }
 
 }  // namespace fiber

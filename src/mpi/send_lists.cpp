@@ -1,4 +1,4 @@
-#include "src/mpi/halo_lists.hpp"
+#include "src/mpi/send_lists.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -41,15 +41,15 @@ std::vector<std::size_t> find_neighbours(const Communicator& ranks, const BoxTre
 double room_for(const Communicator& ranks, double motion, const PieceBoxes& boxes) {
   constexpr double updates = 8.0;
   constexpr double most_of_piece = 0.1;
-  const double most = most_of_piece * ranks.smallest(boxes.mean_side());
+  const double most = most_of_piece * ranks.min(boxes.mean_side());
   const double per_update = 2.0 * motion;  // of two segments
   return per_update <= most ? std::min(updates * per_update, most) : 0.0;
 }
 
 }  // namespace
 
-PerRank<RunSpan> spans_near_others(const Communicator& ranks, const FiberStates& own,
-                                   const PieceBoxes& boxes, double margin) {
+PerRank<RunSpan> find_send_lists(const Communicator& ranks, const FiberStates& own,
+                                 const PieceBoxes& boxes, double margin) {
   const auto size = static_cast<std::size_t>(ranks.size());
   const BoxTree& tree = boxes.tree();
   const std::vector<std::size_t> neighbours = find_neighbours(ranks, tree, margin);
@@ -90,24 +90,24 @@ PerRank<RunSpan> spans_near_others(const Communicator& ranks, const FiberStates&
   return spans;
 }
 
-const PerRank<RunSpan>& HaloLists::find(const Communicator& ranks, RankFibers& fibers,
+const PerRank<RunSpan>& SendLists::find(const Communicator& ranks, RankFibers& fibers,
                                         double margin) {
   if (ranks.size() == 1) {
     spans_.resize(1);
     return spans_;
   }
-  const RankFibers::Way& now = fibers.way();
+  const RankFibers::Displacement& now = fibers.displacement();
   // Both of two segments may have moved; a little more than the roundings of these sums.
-  const double nearer = 2.0 * (1.0 + 0x1p-40) * (now.length - way_.length);
-  if (now.epoch == way_.epoch && margin == margin_ && margin + nearer <= reach_) {
+  const double nearer = 2.0 * (1.0 + 0x1p-40) * (now.length - displacement_.length);
+  if (now.epoch == displacement_.epoch && margin == margin_ && margin + nearer <= reach_) {
     return spans_;
   }
   ++search_count_;
   const PieceBoxes& boxes = fibers.fit_boxes();
   margin_ = margin;
   reach_ = (1.0 + 0x1p-50) * (margin + room_for(ranks, now.last, boxes));
-  way_ = now;
-  spans_ = spans_near_others(ranks, fibers.states(), boxes, reach_);
+  displacement_ = now;
+  spans_ = find_send_lists(ranks, fibers.states(), boxes, reach_);
   return spans_;
 }
 

@@ -1,10 +1,11 @@
-#include "src/mpi/halo.hpp"
+#include "src/mpi/halo_exchange.hpp"
 
 #include <utility>
 
 namespace fiber {
 
-Halo::Halo(const Communicator& ranks, const FiberStates& own, const PerRank<RunSpan>& spans)
+HaloExchange::HaloExchange(const Communicator& ranks, const FiberStates& own,
+                           const PerRank<RunSpan>& spans)
     : runs_(ranks), nodes_(ranks), nodes_after_(ranks) {
   const std::size_t size = spans.size();
   PerRank<FiberRun> runs(size);
@@ -30,7 +31,7 @@ Halo::Halo(const Communicator& ranks, const FiberStates& own, const PerRank<RunS
   }
 }
 
-FiberRuns Halo::take() {
+FiberRuns HaloExchange::take() {
   FiberRuns all;
   all.runs = joined_runs(runs_.finish());
   all.nodes = joined_nodes(nodes_.finish());

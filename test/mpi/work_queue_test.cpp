@@ -1,5 +1,5 @@
 // Work that is dealt out is done once, whatever ranks do with it.
-#include "src/mpi/dealt_work.hpp"
+#include "src/mpi/work_queue.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "test/mpi/dealt_fibers.hpp"
+#include "test/mpi/scattered_fibers.hpp"
 
 namespace fiber::test {
 namespace {
@@ -45,17 +45,17 @@ class DealtNumbers {
   std::vector<int> done_;
 };
 
-TEST(DealtWork, EachNumberIsDoneOnce) {
+TEST(WorkQueue, EachNumberIsDoneOnce) {
   const Communicator ranks(MPI_COMM_WORLD);
   for (const std::uint64_t count : {0, 1, 2, 3, 6, 100, 1000}) {
-    for (const std::uint64_t most_at_once : {1, 7, 64}) {
-      SCOPED_TRACE(std::to_string(count) + " numbers, at most " + std::to_string(most_at_once));
+    for (const std::uint64_t max_chunk : {1, 7, 64}) {
+      SCOPED_TRACE(std::to_string(count) + " numbers, at most " + std::to_string(max_chunk));
       DealtNumbers numbers(count);
       std::uint64_t shown = first_number;
-      DealtWork work{numbers.all(), most_at_once};
+      WorkQueue work{numbers.all(), max_chunk};
       work.work = [&](const WorkRange& range, const std::vector<char>& packed) {
         EXPECT_LT(range.begin, range.end);
-        EXPECT_LE(range.end - range.begin, most_at_once);
+        EXPECT_LE(range.end - range.begin, max_chunk);
         EXPECT_TRUE(packed.empty());
         numbers.note(range);
       };
@@ -63,31 +63,31 @@ TEST(DealtWork, EachNumberIsDoneOnce) {
         EXPECT_GE(end, shown);
         shown = end;
       };
-      deal_work(ranks, work);
+      run_work_queue(ranks, work);
       numbers.expect_each_once();
       EXPECT_EQ(shown, own_rank() == 0 ? numbers.all().end : first_number);
     }
   }
 }
 
-TEST(DealtWork, SlowRanksLeaveNothingUndone) {
+TEST(WorkQueue, SlowRanksLeaveNothingUndone) {
   const Communicator ranks(MPI_COMM_WORLD);
   for (int slow = 0; slow < rank_count(); ++slow) {
     SCOPED_TRACE("rank " + std::to_string(slow) + " is slow");
     DealtNumbers numbers(40);
-    DealtWork work{numbers.all(), 4};
+    WorkQueue work{numbers.all(), 4};
     work.work = [&](const WorkRange& range, const std::vector<char>&) {
       if (own_rank() == slow) {
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
       }
       numbers.note(range);
     };
-    deal_work(ranks, work);
+    run_work_queue(ranks, work);
     numbers.expect_each_once();
   }
 }
 
-TEST(DealtWork, OthersDoWhatARankHasNoTimeFor) {
+TEST(WorkQueue, OthersDoWhatARankHasNoTimeFor) {
   const Communicator ranks(MPI_COMM_WORLD);
   const Communicator signals(MPI_COMM_WORLD);
   const int last = rank_count() - 1;
@@ -103,7 +103,7 @@ TEST(DealtWork, OthersDoWhatARankHasNoTimeFor) {
     }
   };
   DealtNumbers numbers(50);
-  DealtWork work{numbers.all(), 1};
+  WorkQueue work{numbers.all(), 1};
   work.work = [&](const WorkRange& range, const std::vector<char>&) {
     wait();
     numbers.note(range);
@@ -115,7 +115,7 @@ TEST(DealtWork, OthersDoWhatARankHasNoTimeFor) {
       has_told = true;
     }
   };
-  deal_work(ranks, work);
+  run_work_queue(ranks, work);
   wait();  // if the others were faster than it could ask for any
   numbers.expect_each_once();
   if (own_rank() == last) {
@@ -132,10 +132,10 @@ std::string letters_of(const WorkRange& range) {
   return text;
 }
 
-TEST(DealtWork, WhatIsPackedGoesWithItsRange) {
+TEST(WorkQueue, WhatIsPackedGoesWithItsRange) {
   const Communicator ranks(MPI_COMM_WORLD);
   DealtNumbers numbers(300);
-  DealtWork work{numbers.all(), 16};
+  WorkQueue work{numbers.all(), 16};
   work.pack = [](const WorkRange& range) {
     EXPECT_EQ(own_rank(), 0);
     const std::string text = letters_of(range);
@@ -145,13 +145,13 @@ TEST(DealtWork, WhatIsPackedGoesWithItsRange) {
     EXPECT_EQ(std::string(packed.begin(), packed.end()), own_rank() == 0 ? "" : letters_of(range));
     numbers.note(range);
   };
-  deal_work(ranks, work);
+  run_work_queue(ranks, work);
   numbers.expect_each_once();
 }
 
 /// Has one rank fail in an endless work: that it ever gets a number does not depend on the others.
 std::string error_of_endless_work(const Communicator& ranks, int failing, bool in_pack) {
-  DealtWork work{{0, UINT64_MAX}, 1};
+  WorkQueue work{{0, UINT64_MAX}, 1};
   work.work = [&](const WorkRange& range, const std::vector<char>&) {
     if (!in_pack && own_rank() == failing) {
       throw std::runtime_error("cannot do " + std::to_string(range.begin / UINT64_MAX));
@@ -163,14 +163,14 @@ std::string error_of_endless_work(const Communicator& ranks, int failing, bool i
     };
   }
   try {
-    deal_work(ranks, work);
+    run_work_queue(ranks, work);
   } catch (const std::invalid_argument& error) {
     return error.what();
   }
   return "no error";
 }
 
-TEST(DealtWork, TheErrorOfOneRankIsThatOfAll) {
+TEST(WorkQueue, TheErrorOfOneRankIsThatOfAll) {
   const Communicator ranks(MPI_COMM_WORLD);
   for (int failing = 0; failing < rank_count(); ++failing) {
     EXPECT_EQ(error_of_endless_work(ranks, failing, false),
@@ -181,9 +181,9 @@ TEST(DealtWork, TheErrorOfOneRankIsThatOfAll) {
   }
   // Nothing of it is left over.
   DealtNumbers numbers(20);
-  DealtWork work{numbers.all(), 2};
+  WorkQueue work{numbers.all(), 2};
   work.work = [&](const WorkRange& range, const std::vector<char>&) { numbers.note(range); };
-  deal_work(ranks, work);
+  run_work_queue(ranks, work);
   numbers.expect_each_once();
 }
 

@@ -1,4 +1,4 @@
-#include "src/mpi/whole_file.hpp"
+#include "src/mpi/partial_file.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -56,10 +56,10 @@ WritePlace place_of_name(const std::string& path) {
 
 WritePlace write_place(const Communicator& ranks, const std::string& path) {
   WritePlace place;
-  on_first_rank(ranks, [&] { place = place_of_name(path); });
+  run_on_root(ranks, [&] { place = place_of_name(path); });
   const std::vector<char> text =
-      ranks.from_first(std::vector<char>(place.path.begin(), place.path.end()));
-  return {{text.begin(), text.end()}, ranks.from_first(place.is_file)};
+      ranks.broadcast(std::vector<char>(place.path.begin(), place.path.end()));
+  return {{text.begin(), text.end()}, ranks.broadcast(place.is_file)};
 }
 
 void reserve(const std::string& path, std::uint64_t size) {
@@ -74,18 +74,18 @@ void reserve(const std::string& path, std::uint64_t size) {
 
 void move_into_place(const std::string& path) {
   // What is no file on a disk needs no waiting for it.
-  with_file(aside(path), O_RDONLY,
+  with_file(partial_name(path), O_RDONLY,
             [](int file) { return fsync(file) == 0 || errno == EINVAL || errno == EROFS; });
   std::error_code error;
-  std::filesystem::rename(aside(path), path, error);
+  std::filesystem::rename(partial_name(path), path, error);
   if (error) {
     throw FileError(path, "cannot be written: " + error.message());
   }
 }
 
-void remove_aside(const std::string& path) {
+void remove_partial(const std::string& path) {
   std::error_code ignored;
-  std::filesystem::remove(aside(path), ignored);
+  std::filesystem::remove(partial_name(path), ignored);
 }
 
 }  // namespace fiber

@@ -1,4 +1,4 @@
-#include "src/mpi/first_places.hpp"
+#include "src/mpi/kth_smallest.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -6,8 +6,8 @@
 
 namespace fiber {
 
-std::optional<Place> last_of_first(const Communicator& ranks, std::uint64_t count,
-                                   std::vector<Place> places) {
+std::optional<PairKey> kth_smallest(const Communicator& ranks, std::uint64_t count,
+                                    std::vector<PairKey> places) {
   if (ranks.sum(places.size()) < count) {
     return std::nullopt;
   }
@@ -17,12 +17,12 @@ std::optional<Place> last_of_first(const Communicator& ranks, std::uint64_t coun
   const auto rank = static_cast<std::size_t>(ranks.rank());
   const auto size = static_cast<std::size_t>(ranks.size());
   for (std::size_t step = 1; step < size; step *= 2) {
-    PerRank<Place> to(size);
+    PerRank<PairKey> to(size);
     if (rank % (2 * step) == step) {
       to[rank - step] = std::exchange(places, {});
     }
-    for (const std::vector<Place>& more : ranks.exchange(std::move(to))) {
-      std::vector<Place> merged;
+    for (const std::vector<PairKey>& more : ranks.exchange(std::move(to))) {
+      std::vector<PairKey> merged;
       merged.reserve(places.size() + more.size());
       std::merge(places.begin(), places.end(), more.begin(), more.end(),
                  std::back_inserter(merged));
@@ -30,7 +30,7 @@ std::optional<Place> last_of_first(const Communicator& ranks, std::uint64_t coun
     }
     places.resize(std::min<std::uint64_t>(count, places.size()));
   }
-  return ranks.from_first(rank == 0 ? places.back() : Place());
+  return ranks.broadcast(rank == 0 ? places.back() : PairKey());
 }
 
 }  // namespace fiber

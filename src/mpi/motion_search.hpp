@@ -6,9 +6,9 @@
 #include "fiber_proximity/mpi/distributed_engine.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "src/mpi/communicator.hpp"
-#include "src/mpi/halo_lists.hpp"
-#include "src/mpi/named_fibers.hpp"
+#include "src/mpi/local_fibers.hpp"
 #include "src/mpi/rank_fibers.hpp"
+#include "src/mpi/send_lists.hpp"
 
 namespace fiber {
 
@@ -18,9 +18,9 @@ inline double reach_of(const MotionOptions& options) {
 }
 
 /// Looks for the pairs that a rank reports that come into contact during a motion.
-class RankMotions {
+class MotionSearch {
  public:
-  RankMotions(const Communicator& ranks, const EngineOptions& options)
+  MotionSearch(const Communicator& ranks, const EngineOptions& options)
       : ranks_(ranks), engine_(make_engine("run_tree", options)) {}
 
   /// Makes the motion of these fibres the one that is looked at; they must live until the next
@@ -38,7 +38,7 @@ class RankMotions {
             DistributedMotionResult& result);
 
  private:
-  void append(const MotionOptions& options, const NamedFibers& fibers_b, MotionResult& found,
+  void append(const MotionOptions& options, const LocalFibers& fibers_b, MotionResult& found,
               DistributedMotionResult& result) const;
   void evaluate(const MotionOptions& options, const std::vector<MotionContact>& candidates,
                 MotionResult& result) const;
@@ -46,8 +46,8 @@ class RankMotions {
   const Communicator& ranks_;
   std::unique_ptr<ProximityEngine> engine_;
   const RankFibers* fibers_ = nullptr;
-  NamedFibers halo_;
-  NamedFibers halo_after_;
+  LocalFibers halo_;
+  LocalFibers halo_after_;
   MotionResult found_;  // work memory
 };
 

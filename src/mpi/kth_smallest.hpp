@@ -11,18 +11,18 @@
 namespace fiber {
 
 /// What decides which pair comes first, as it travels: a distance or a time, then the segments.
-struct Place {
+struct PairKey {
   double value = 0.0;
   GlobalSegment a;
   GlobalSegment b;
 
   auto key() const { return std::tie(value, a.fiber, a.segment, b.fiber, b.segment); }
-  bool operator<(const Place& other) const { return key() < other.key(); }
+  bool operator<(const PairKey& other) const { return key() < other.key(); }
 };
 
 /// The last one of the so many first ones of all ranks; none if there are fewer. Collective.
 /// @param places of this rank, at least its so many first ones
-std::optional<Place> last_of_first(const Communicator& ranks, std::uint64_t count,
-                                   std::vector<Place> places);
+std::optional<PairKey> kth_smallest(const Communicator& ranks, std::uint64_t count,
+                                    std::vector<PairKey> places);
 
 }  // namespace fiber
