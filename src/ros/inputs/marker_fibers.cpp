@@ -1,4 +1,4 @@
-#include "src/ros/inputs/marker_chains.hpp"
+#include "src/ros/inputs/marker_fibers.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -16,9 +16,9 @@ using visualization_msgs::Marker;
 using Markers = std::vector<const Marker*>;
 
 /// Part of the shorter segment's length within which ends of different namespaces are one.
-constexpr double most_between_namespaces = 1e-3;
+constexpr double max_between_namespaces = 1e-3;
 
-/// What a marker can be read as, best first.
+/// The ways to read a marker, best first.
 enum class Kind { LINES, POINT_LIST, POINT, CYLINDER, NONE };
 
 Kind kind_of(const Marker& marker) {
@@ -55,7 +55,7 @@ struct Group {
   double tolerance;  // between one and the next
 };
 
-/// Whose order along the fibre only their ids tell must have different ones.
+/// @throws std::invalid_argument for markers of one id where only ids tell the order along a fibre
 void sort_by_id(Markers& markers, Kind kind) {
   std::stable_sort(markers.begin(), markers.end(),
                    [](const Marker* a, const Marker* b) { return a->id < b->id; });
@@ -75,7 +75,7 @@ std::vector<Group> groups_of(const Markers& markers, Kind kind, double weld_tole
     namespaces[marker->ns].push_back(marker);
   }
   std::vector<Group> groups;
-  Group lone{{}, std::min(weld_tolerance, most_between_namespaces)};
+  Group lone{{}, std::min(weld_tolerance, max_between_namespaces)};
   for (auto& [name, own] : namespaces) {
     if (own.size() == 1) {
       lone.markers.push_back(own.front());
@@ -90,11 +90,11 @@ std::vector<Group> groups_of(const Markers& markers, Kind kind, double weld_tole
   return groups;
 }
 
-/// Reads markers of one kind into chains.
+/// Reads markers of one kind into fibers.
 class MarkerReader {
  public:
-  MarkerReader(const MarkerInputOptions& options, FiberBuffer& chains)
-      : options_(options), chains_(chains), welder_(chains) {}
+  MarkerReader(const MarkerInputOptions& options, FiberBuffer& fibers)
+      : options_(options), fibers_(fibers), welder_(fibers) {}
 
   void read(const Group& group, Kind kind) {
     switch (kind) {
@@ -116,7 +116,7 @@ class MarkerReader {
           read_cylinder(*marker, group.tolerance);
         }
     }
-    welder_.end_chain();
+    welder_.end_fiber();
   }
 
   /// Names of all fibres.
@@ -132,7 +132,7 @@ class MarkerReader {
       if (counts[first->ns] > 1) {
         name += "/" + std::to_string(numbers[first->ns]++);
       }
-      chains_.names.push_back(name);
+      fibers_.names.push_back(name);
     }
   }
 
@@ -154,7 +154,7 @@ class MarkerReader {
   void begin_fiber(const Marker& marker) {
     firsts_.push_back(&marker);
     if (options_.radius_from_marker) {
-      chains_.radii.push_back(0.5 * marker.scale.x);
+      fibers_.radii.push_back(0.5 * marker.scale.x);
     }
   }
 
@@ -184,31 +184,31 @@ class MarkerReader {
                                   std::to_string(marker.points.size()) +
                                   " points, it must have two per segment and not be empty");
     }
-    welder_.end_chain();
+    welder_.end_fiber();
     const Eigen::Isometry3d pose = pose_of(marker);
     for (std::size_t i = 0; i < marker.points.size(); i += 2) {
       weld(marker, pose * to_vector(marker.points[i]), pose * to_vector(marker.points[i + 1]),
            options_.weld_tolerance);
     }
-    welder_.end_chain();
+    welder_.end_fiber();
   }
 
   void read_point_list(const Marker& marker) {
-    welder_.end_chain();
+    welder_.end_fiber();
     const Eigen::Isometry3d pose = pose_of(marker);
     for (const geometry_msgs::Point& point : marker.points) {
-      chains_.points.push_back(pose * to_vector(point));
+      fibers_.points.push_back(pose * to_vector(point));
     }
     begin_fiber(marker);
-    chains_.end_chain();
+    fibers_.end_chain();
   }
 
   void read_points(const Markers& markers) {
     for (const Marker* marker : markers) {
-      chains_.points.push_back(to_vector(marker->pose.position));
+      fibers_.points.push_back(to_vector(marker->pose.position));
     }
     begin_fiber(*markers.front());
-    chains_.end_chain();
+    fibers_.end_chain();
   }
 
   void read_cylinder(const Marker& marker, double tolerance) {
@@ -218,7 +218,7 @@ class MarkerReader {
   }
 
   const MarkerInputOptions& options_;
-  FiberBuffer& chains_;
+  FiberBuffer& fibers_;
   SegmentWelder welder_;
   bool has_lines_ = false;
   Markers firsts_;  // by fibre: the marker that it begins with
@@ -241,9 +241,9 @@ std::string name_of(const Marker& marker) {
   return "marker " + fiber::shortened(marker.ns) + "/" + std::to_string(marker.id);
 }
 
-void to_chains(const Markers& markers, const MarkerInputOptions& options, FiberBuffer& chains,
+void to_chains(const Markers& markers, const MarkerInputOptions& options, FiberBuffer& fibers,
                std::vector<std::string>& remarks) {
-  chains.clear();
+  fibers.clear();
   Kind best = Kind::NONE;
   for (const Marker* marker : markers) {
     best = std::min(best, kind_of(*marker));
@@ -258,8 +258,8 @@ void to_chains(const Markers& markers, const MarkerInputOptions& options, FiberB
   std::copy_if(markers.begin(), markers.end(), std::back_inserter(read),
                [best](const Marker* marker) { return kind_of(*marker) == best; });
   check_frames(read);
-  chains.header = read.front()->header;
-  MarkerReader reader(options, chains);
+  fibers.header = read.front()->header;
+  MarkerReader reader(options, fibers);
   for (const Group& group : groups_of(read, best, options.weld_tolerance)) {
     reader.read(group, best);
   }

@@ -48,7 +48,7 @@ std::string name_of(const visualization_msgs::Marker& marker);
 ///                moved together
 /// @throws std::invalid_argument for markers of other types only, and for malformed ones
 void to_chains(const std::vector<const visualization_msgs::Marker*>& markers,
-               const MarkerInputOptions& options, FiberBuffer& chains,
+               const MarkerInputOptions& options, FiberBuffer& fibers,
                std::vector<std::string>& remarks);
 
 }  // namespace fiber_proximity_ros
