@@ -1,4 +1,4 @@
-#include "fiber_proximity/geometry/exact_distance.hpp"
+#include "fiber_proximity/geometry/segment_distance.hpp"
 
 #include <algorithm>
 #include <cmath>

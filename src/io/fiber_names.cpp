@@ -1,4 +1,4 @@
-#include "fiber_proximity/io/fiber_names.hpp"
+#include "fiber_proximity/io/fiber_file.hpp"
 
 #include <stdexcept>
 #include <string_view>

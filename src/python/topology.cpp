@@ -1,4 +1,4 @@
-#include "fiber_proximity/query/topology.hpp"
+#include "fiber_proximity/query/crossings.hpp"
 
 #include <pybind11/stl.h>
 

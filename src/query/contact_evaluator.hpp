@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "fiber_proximity/query/contact.hpp"
-#include "fiber_proximity/query/narrow_phase.hpp"
+#include "fiber_proximity/query/for_engines/narrow_phase.hpp"
 #include "fiber_proximity/query/options.hpp"
 #include "src/hierarchy/pair_bound.hpp"
 
@@ -21,7 +21,7 @@ class ContactEvaluator {
   /// @param result its contacts and others_lower are replaced; complete becomes false if the
   /// deadline has passed before all were evaluated, and is to be false if some candidates are
   /// missing; limit_reached becomes true if there are more contacts than may be reported. Both do
-  /// if candidates take so many looks along fibres that they count as too many pairs
+  /// if candidates take so many steps along fibres that they count as too many pairs
   void evaluate(const std::vector<std::uint64_t>& keys, const NarrowPhase& test,
                 const QueryLimits& limits, QueryResult& result);
 
@@ -33,7 +33,7 @@ class ContactEvaluator {
     std::size_t place = 0;  // of its first contact
     std::size_t contact_count = 0;
     double others_lower = 0.0;  // [m]
-    std::uint64_t looks = 0;    // along fibres
+    std::uint64_t loop_steps = 0;    // along fibres
     bool took_too_long = false;
     bool complete = true;
   };
@@ -45,7 +45,7 @@ class ContactEvaluator {
   void report(const std::uint64_t* keys, const NarrowPhase& test,
               std::vector<Contact>& contacts) const;
   void leave_closest(std::uint64_t count, QueryResult& result);
-  void evaluate_slice(const std::uint64_t* keys, const NarrowPhase& test, std::uint64_t looks_left,
+  void evaluate_slice(const std::uint64_t* keys, const NarrowPhase& test, std::uint64_t loop_steps_left,
                       Slice& slice);
 
   // Of a round:
@@ -55,7 +55,7 @@ class ContactEvaluator {
 
   // Of all rounds so far:
   std::size_t contact_count_ = 0;
-  std::uint64_t looks_ = 0;  // along fibres
+  std::uint64_t loop_steps_ = 0;  // along fibres
   bool took_too_long_ = false;
   double bound_ = 0.0;  // [m] so many are within it that pairs beyond are not reported
 };

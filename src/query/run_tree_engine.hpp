@@ -3,7 +3,7 @@
 #include <tbb/task_arena.h>
 
 #include "fiber_proximity/query/engine.hpp"
-#include "fiber_proximity/query/loop_test.hpp"
+#include "fiber_proximity/query/for_engines/loop_test.hpp"
 #include "src/hierarchy/motion_bound.hpp"
 #include "src/hierarchy/run_tree.hpp"
 #include "src/query/candidate_cache.hpp"

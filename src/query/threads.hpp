@@ -8,7 +8,7 @@
 namespace fiber {
 
 /// The most threads that may be asked for; more cores than most machines have.
-constexpr std::uint32_t most_threads = 1024;
+constexpr std::uint32_t max_threads = 1024;
 
 /// @throws std::invalid_argument naming the value and what is allowed, if that is more
 void validate_threads(std::uint32_t threads);

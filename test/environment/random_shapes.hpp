@@ -7,7 +7,7 @@
 
 #include "fiber_proximity/environment/shapes.hpp"
 #include "fiber_proximity/environment/triangle_mesh.hpp"
-#include "src/environment/occupancy_octree.hpp"
+#include "fiber_proximity/environment/occupancy_octree.hpp"
 #include "test/support/random.hpp"
 
 namespace fiber::test {

@@ -4,7 +4,7 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include "fiber_proximity/environment/triangle_mesh.hpp"
-#include "src/environment/occupancy_octree.hpp"
+#include "fiber_proximity/environment/occupancy_octree.hpp"
 #include "test/ros/environment_fixture.hpp"
 #include "test/ros/gate.hpp"
 #include "test/ros/mesh_files.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fiber_proximity/geometry/exact_distance.hpp"
+#include "fiber_proximity/geometry/segment_distance.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 
 namespace fiber::test {

@@ -1,5 +1,5 @@
 // fiber_query crossings, linking and writhe
-#include "fiber_proximity/query/topology.hpp"
+#include "fiber_proximity/query/crossings.hpp"
 
 #include <nlohmann/json.hpp>
 #include <string>

@@ -6,7 +6,7 @@
 
 #include "fiber_proximity/environment/triangle_mesh.hpp"
 #include "src/environment/convex_solids.hpp"
-#include "src/environment/occupancy_octree.hpp"
+#include "fiber_proximity/environment/occupancy_octree.hpp"
 
 namespace fiber {
 
