@@ -8,6 +8,7 @@
 #include "benchmark/statistics.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
+#include "src/paper/engines/leaf_pretest.hpp"
 
 namespace fiber {
 namespace {

@@ -2,7 +2,6 @@
 
 #include "benchmark/pairs/makers.hpp"
 #include "fiber_proximity/geometry/segment_distance.hpp"
-#include "fiber_proximity/geometry/segment_distance.hpp"
 
 namespace fiber {
 namespace {

@@ -5,9 +5,9 @@
 #include <limits>
 #include <memory>
 
+#include "fiber_proximity/environment/occupancy_octree.hpp"
 #include "fiber_proximity/environment/triangle_mesh.hpp"
 #include "src/environment/convex_solids.hpp"
-#include "fiber_proximity/environment/occupancy_octree.hpp"
 #include "src/environment/triangle_distance.hpp"
 #include "src/geometry/norm.hpp"
 
@@ -69,7 +69,7 @@ struct AxisState {
       ends[i] = motion.before[i] + time * displacements[i];
     }
   }
-  Vector3d ends[2];  // [m]
+  Vector3d ends[2];           // [m]
   Vector3d displacements[2];  // [m] in all of the motion
 };
 

@@ -99,7 +99,8 @@ class ContactTimes {
   /// Takes what has been seen of a pair; whether it wants another look.
   bool go_on(FollowedPair& followed, const MotionLook<double>& look) {
     ContactTime& result = times_[followed.pair];
-    if (followed.advancement.time() == 0.0 && !(look.free > 0.0) && touch_before(motions_[followed.pair])) {
+    if (followed.advancement.time() == 0.0 && !(look.free > 0.0) &&
+        touch_before(motions_[followed.pair])) {
       result = {true, 0.0, 0.0, true};
       return false;
     }
@@ -109,7 +110,8 @@ class ContactTimes {
         result = followed.advancement.result();
         return false;
       case State::UNDECIDED:
-        result = wide_contact_time(motions_[followed.pair], tolerance_, followed.advancement.time());
+        result =
+            wide_contact_time(motions_[followed.pair], tolerance_, followed.advancement.time());
         return false;
       default:
         return true;

@@ -110,7 +110,8 @@ std::vector<double> expand_radii(const std::vector<double>& radii, RadiusPer rad
   std::vector<double> segment_radii(point_count, 0.0);
   for (std::size_t fiber = 0; fiber + 1 < offsets.size(); ++fiber) {
     for (std::size_t point = offsets[fiber]; point + 1 < offsets[fiber + 1]; ++point) {
-      segment_radii[point] = radius_per == RadiusPer::FIBER ? radii[fiber] : std::max(radii[point], radii[point + 1]);
+      segment_radii[point] =
+          radius_per == RadiusPer::FIBER ? radii[fiber] : std::max(radii[point], radii[point + 1]);
     }
   }
   return segment_radii;

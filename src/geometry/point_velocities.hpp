@@ -5,11 +5,13 @@
 #include <deque>
 #include <vector>
 
+#include "fiber_proximity/export.hpp"
+
 namespace fiber {
 
 /// Velocities of points from their last few frames: for each point the slope of the line through
 /// its places over time with the least sum of squared errors.
-class PointVelocities {
+class FIBER_PROXIMITY_EXPORT PointVelocities {
  public:
   /// @param max_frames that count: the newest; at least 2
   explicit PointVelocities(std::size_t max_frames) : max_frames_(max_frames) {}

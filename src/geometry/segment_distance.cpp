@@ -5,7 +5,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "fiber_proximity/geometry/segment_distance.hpp"
 #include "src/text/join.hpp"
 #include "src/text/quote.hpp"
 

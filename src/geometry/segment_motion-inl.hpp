@@ -104,7 +104,7 @@ class SegmentMotion {
   }
 
   Number parts_;  // which the limit is rounded by a part of
-  Vector min_;  // of all corners, before and after
+  Vector min_;    // of all corners, before and after
   Vector max_;
 };
 
@@ -125,7 +125,7 @@ bool surely_cross(const SegmentMotion<Number>& motion, const Number& from, const
   // No vector differs by more than `change` from what it is at the first time, its error included.
   const Number error = Number(4.0) * motion.error;
   const Number change = length_of(last.along_a() - u) + length_of(last.along_b() - v) +
-                     length_of(last.corners[0][0] - w) + error;
+                        length_of(last.corners[0][0] - w) + error;
   const Number max_u = length_of(u) + change;
   const Number max_v = length_of(v) + change;
   const Number max_w = length_of(w) + change;

@@ -222,7 +222,8 @@ bool RunTree::is_unbounded() const {
 
 std::size_t RunTree::memory_bytes() const {
   std::size_t bytes = first_points_.capacity() * sizeof(std::uint32_t) +
-                      runs_.capacity() * sizeof(Run) + displacements_.capacity() * sizeof(RunDisplacement) +
+                      runs_.capacity() * sizeof(Run) +
+                      displacements_.capacity() * sizeof(RunDisplacement) +
                       (keys_.capacity() + scratch_.capacity()) * sizeof(std::uint64_t);
   for (const std::vector<BoxBlock>& boxes : levels_) {
     bytes += boxes.capacity() * sizeof(BoxBlock);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "fiber_proximity/export.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "src/hierarchy/run_tree_kernels.hpp"
 
@@ -16,7 +17,7 @@ namespace fiber {
 /// fibres are alone, of neighbouring fibres where they are dense. Over them lies a tree of eight
 /// children per node, without pointers, in level order. An update refits all boxes in place; only
 /// when they have grown by more than `max_decay` since the last sort are segments sorted anew.
-class RunTree {
+class FIBER_PROXIMITY_EXPORT RunTree {
  public:
   RunTree() = default;
   RunTree(const RunTree&) = delete;  // the view points into it
@@ -61,10 +62,10 @@ class RunTree {
   std::vector<std::uint32_t> first_points_;  // of segments, in the order of the curve; whole runs
   std::uint32_t segment_count_ = 0;
   std::vector<Run> runs_;
-  std::vector<RunDisplacement> displacements_;                  // empty until something moves
-  std::vector<std::vector<BoxBlock>> levels_;  // boxes of the children, by node; groups first
+  std::vector<RunDisplacement> displacements_;  // empty until something moves
+  std::vector<std::vector<BoxBlock>> levels_;   // boxes of the children, by node; groups first
   std::vector<std::vector<std::uint32_t>> min_points_;  // of the children, by node
-  std::vector<std::uint64_t> keys_;                       // of sort()
+  std::vector<std::uint64_t> keys_;                     // of sort()
   std::vector<std::uint64_t> scratch_;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d origin_after_ = Eigen::Vector3d::Zero();

@@ -107,8 +107,8 @@ class Finder {
     return longest;
   }
 
-  /// Where a group or a run extends over many times the bound and the displacements, few of its pairs are
-  /// near: it does not pay to ask which are ruled out.
+  /// Where a group or a run extends over many times the bound and the displacements, few of its
+  /// pairs are near: it does not pay to ask which are ruled out.
   /// @param boxes larger by the bound on all sides
   bool is_smaller_than_bound(const BoxBlock& boxes, std::uint32_t lane) const {
     float extent = 0.0F;
@@ -299,7 +299,7 @@ class Finder {
   std::uint32_t group_ = 0;
   std::uint32_t visited_ = none;  // the group of b that has been visited before the others
   float bound_ = 0.0F;            // [m]
-  float span_ = 0.0F;             // [m] the bound, and half of the longest displacement of the group
+  float span_ = 0.0F;  // [m] the bound, and half of the longest displacement of the group
   const bool self_;
   KeyBound keys_;
   const bool skip_adjacent_;
@@ -327,7 +327,7 @@ bool find_near_segments_lanes(const RunTreeView& a, std::uint32_t begin, std::ui
                               const RunTreeView& b, PairSink& sink, std::uint64_t& tests,
                               std::uint64_t& overlaps) {
   return a.displacements == nullptr ? find_near<false>(a, begin, end, b, sink, tests, overlaps)
-                           : find_near<true>(a, begin, end, b, sink, tests, overlaps);
+                                    : find_near<true>(a, begin, end, b, sink, tests, overlaps);
 }
 
 }  // namespace

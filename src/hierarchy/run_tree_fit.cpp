@@ -57,8 +57,8 @@ HWY_INLINE void make_relative(const double* coordinates, const double (&origin)[
 HWY_INLINE Lanes padded(Lanes radius, const LaneVector& largest) {
   const Floats d;
   const auto magnitude = hn::Max(hn::Max(radius, largest.x), hn::Max(largest.y, largest.z));
-  const auto finite = hn::Add(hn::MulAdd(magnitude, hn::Set(d, relative_padding), radius),
-                              hn::Set(d, min_padding));
+  const auto finite =
+      hn::Add(hn::MulAdd(magnitude, hn::Set(d, relative_padding), radius), hn::Set(d, min_padding));
   return hn::IfThenElse(hn::Gt(magnitude, hn::Set(d, largest_magnitude)),
                         hn::Set(d, std::numeric_limits<float>::infinity()), finite);
 }
@@ -205,11 +205,12 @@ void fit_run(const GroupReader& group, std::uint32_t first, Run& run, BoxBlock& 
   box.store(boxes, lane);
 }
 
-/// The same of segments that move: halfway, thicker by as much as their ends leave the displacement of their
-/// middle, which goes into the displacements.
+/// The same of segments that move: halfway, thicker by as much as their ends leave the displacement
+/// of their middle, which goes into the displacements.
 ///
 /// Rounded, both states are off by u of the largest coordinate M, u = 2⁻²⁴; halfway is off by 2
-/// u·M, half a displacement and what the ends have beside it by 3 u·M each. That makes 19 u·M in space.
+/// u·M, half a displacement and what the ends have beside it by 3 u·M each. That makes 19 u·M in
+/// space.
 void fit_moving_run(const GroupReader& before, const GroupReader& after, std::uint32_t first,
                     Run& run, RunDisplacement& displacements, BoxBlock& boxes, std::uint32_t lane) {
   const Floats d;
@@ -227,7 +228,8 @@ void fit_moving_run(const GroupReader& before, const GroupReader& after, std::ui
                                               maximum(absolute(to.start), absolute(to.end))));
     ends.store(run, i);
     store(displacement, displacements.half, i);
-    box.take(subtract(ends.lower(), absolute(displacement)), add(ends.upper(), absolute(displacement)));
+    box.take(subtract(ends.lower(), absolute(displacement)),
+             add(ends.upper(), absolute(displacement)));
   }
   box.store(boxes, lane);
 }
@@ -267,7 +269,8 @@ void fit_groups_lanes(const TreeFibers& fibers, const std::uint32_t* first_point
     after.read(group * segments_per_group);
     fit_group(group, segment_count, boxes[group],
               [&](std::uint32_t first, std::uint32_t run, std::uint32_t lane) {
-                fit_moving_run(before, after, first, runs[run], displacements[run], boxes[group], lane);
+                fit_moving_run(before, after, first, runs[run], displacements[run], boxes[group],
+                               lane);
               });
   }
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "fiber_proximity/export.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "src/hierarchy/pair_bound.hpp"
 
@@ -134,7 +135,8 @@ class PairSink {
 /// Fits the runs of groups [begin, end): their segments and boxes, which hold all that segments
 /// that move come by.
 /// @param first_points of all segments, along the curve
-/// @param runs, displacements, boxes by run, by run, by group; no displacements of what does not move
+/// @param runs, displacements, boxes by run, by run, by group; no displacements of what does not
+/// move
 void fit_groups(const TreeFibers& fibers, const std::uint32_t* first_points,
                 std::uint32_t segment_count, std::uint32_t begin, std::uint32_t end, Run* runs,
                 RunDisplacement* displacements, BoxBlock* boxes);
@@ -155,8 +157,9 @@ std::uint32_t nearest_run(const RunTreeView& tree, const BoxBlock& boxes);
 /// @param tests, overlaps boxes of nodes that were tested, and those that were near, are added to
 /// these
 /// @return whether the sink wanted to go on
-bool find_near_segments(const RunTreeView& a, std::uint32_t begin, std::uint32_t end,
-                        const RunTreeView& b, PairSink& sink, std::uint64_t& tests,
-                        std::uint64_t& overlaps);
+FIBER_PROXIMITY_EXPORT bool find_near_segments(const RunTreeView& a, std::uint32_t begin,
+                                               std::uint32_t end, const RunTreeView& b,
+                                               PairSink& sink, std::uint64_t& tests,
+                                               std::uint64_t& overlaps);
 
 }  // namespace fiber

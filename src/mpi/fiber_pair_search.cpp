@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "fiber_proximity/query/for_engines/pair_collector.hpp"
 #include "src/bounds/bounding_volume.hpp"
 #include "src/mpi/ordered_pairs.hpp"
 
@@ -74,8 +75,7 @@ void FiberPairSearch::find_across() {
     look();
   }
   ask_about_loops();
-  leave_out(is_over_ ? std::min(inner_test_.min_gap(), across_test_->min_gap())
-                     : closest_.bound());
+  leave_out(is_over_ ? std::min(inner_test_.min_gap(), across_test_->min_gap()) : closest_.bound());
 }
 
 /// At pairs of own segments: before there is a halo, and then at those that waited for it.

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "fiber_proximity/environment/scene/environment_scene.hpp"
-#include "fiber_proximity/environment/scene/environment_scene.hpp"
 #include "src/python/bindings.hpp"
 #include "src/python/contacts.hpp"
 #include "src/python/errors.hpp"

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "fiber_proximity/query/contact.hpp"
-#include "fiber_proximity/query/for_engines/narrow_phase.hpp"
+#include "fiber_proximity/query/for_engines/pair_collector.hpp"
 #include "fiber_proximity/query/options.hpp"
 #include "src/hierarchy/run_tree_kernels.hpp"
 #include "src/query/candidate_cache.hpp"

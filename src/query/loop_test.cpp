@@ -138,7 +138,8 @@ bool LoopTest::makes_loop(PointPair pair, const SegmentDistance& nearest,
   }
   return makes_loop_by(fibers_->capsule(pair.a), fibers_->capsule(pair.b), nearest,
                        [&](int /*question*/, const LoopPlace& x, const LoopPlace& y, double limit) {
-                         return leaves(x, pair, limit, loop_steps) || leaves(y, pair, limit, loop_steps);
+                         return leaves(x, pair, limit, loop_steps) ||
+                                leaves(y, pair, limit, loop_steps);
                        });
 }
 

@@ -17,7 +17,8 @@ namespace {
 
 /// Offers the pairs of two trees, or of one, that may come within the sink's bound.
 /// @param is_over     asked between groups
-/// @param checks_often otherwise once: where no candidates are, nobody else would look at a deadline
+/// @param checks_often otherwise once: where no candidates are, nobody else would look at a
+/// deadline
 template <class IsOver>
 void offer_all(const RunTreeView& a, const RunTreeView& b, PairSink& sink, bool checks_often,
                const IsOver& is_over, QueryCounts& counts) {

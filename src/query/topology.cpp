@@ -1,5 +1,3 @@
-#include "fiber_proximity/query/crossings.hpp"
-
 #include <algorithm>
 #include <map>
 #include <numeric>

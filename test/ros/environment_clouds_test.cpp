@@ -3,8 +3,8 @@
 #include <visualization_msgs/Marker.h>
 #include <visualization_msgs/MarkerArray.h>
 
-#include "fiber_proximity/environment/triangle_mesh.hpp"
 #include "fiber_proximity/environment/occupancy_octree.hpp"
+#include "fiber_proximity/environment/triangle_mesh.hpp"
 #include "test/ros/environment_fixture.hpp"
 #include "test/ros/gate.hpp"
 #include "test/ros/mesh_files.hpp"

@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-namespace fiber {
+#include "fiber_proximity/export.hpp"
+
+namespace FIBER_PROXIMITY_EXPORT fiber {
 
 /// A capped cylinder: all points within `radius` of the axis p0–p1. One segment of a fibre.
 struct Capsule {

@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
-namespace fiber {
+#include "fiber_proximity/export.hpp"
+
+namespace FIBER_PROXIMITY_EXPORT fiber {
 
 /// How the distance of two segments is computed; docs/numerics.md has the bounds of each.
 enum class Kernel {

@@ -10,10 +10,11 @@
 #include <string>
 #include <vector>
 
+#include "fiber_proximity/export.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/io/file.hpp"
 
-namespace fiber {
+namespace FIBER_PROXIMITY_EXPORT fiber {
 
 /// What fibres are called, by index. Fibres without names of their own are called by their indices,
 /// which takes no memory. Copies share the names.

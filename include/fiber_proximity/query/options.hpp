@@ -7,9 +7,10 @@
 #include <optional>
 #include <string>
 
+#include "fiber_proximity/export.hpp"
 #include "fiber_proximity/geometry/segment_distance.hpp"
 
-namespace fiber {
+namespace FIBER_PROXIMITY_EXPORT fiber {
 
 /// Which of the pairs within the margin to report.
 enum class QueryType {

@@ -1,5 +1,3 @@
-#include "fiber_proximity/environment/scene/environment_scene.hpp"
-
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -20,6 +18,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "fiber_proximity/environment/scene/environment_scene.hpp"
 #include "src/text/quote.hpp"
 #include "src/text/with_context.hpp"
 

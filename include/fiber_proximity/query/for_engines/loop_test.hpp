@@ -5,10 +5,11 @@
 #include <mutex>
 #include <vector>
 
+#include "fiber_proximity/export.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/geometry/segment_distance.hpp"
 
-namespace fiber {
+namespace FIBER_PROXIMITY_EXPORT fiber {
 
 struct LoopPlace;
 
@@ -72,10 +73,11 @@ class LoopTest {
     return point < fibers_->offsets()[fiber + 1];
   }
   const Chain& chain(std::uint32_t fiber) const;
-  bool leaves(const LoopPlace& place, PointPair pair, double limit, std::uint64_t& loop_steps) const;
+  bool leaves(const LoopPlace& place, PointPair pair, double limit,
+              std::uint64_t& loop_steps) const;
 
   const FiberAssembly* fibers_ = nullptr;
-  std::uint32_t max_points_ = 0;    // of a fibre
+  std::uint32_t max_points_ = 0;     // of a fibre
   mutable std::vector<Slot> slots_;  // by fibre; filled when asked for, most never are
   mutable std::mutex mutex_;         // of those that fill them
 };

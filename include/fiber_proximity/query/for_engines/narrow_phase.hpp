@@ -4,13 +4,14 @@
 #include <optional>
 #include <vector>
 
+#include "fiber_proximity/export.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/geometry/segment_distance.hpp"
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/for_engines/loop_test.hpp"
 #include "fiber_proximity/query/options.hpp"
 
-namespace fiber {
+namespace FIBER_PROXIMITY_EXPORT fiber {
 
 /// Nearest points of two segments, and the signed gap of their surfaces [m].
 struct PairDistance {

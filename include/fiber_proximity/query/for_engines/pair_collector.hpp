@@ -7,12 +7,13 @@
 #include <optional>
 #include <vector>
 
+#include "fiber_proximity/export.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/for_engines/narrow_phase.hpp"
 #include "fiber_proximity/query/options.hpp"
 
-namespace fiber {
+namespace FIBER_PROXIMITY_EXPORT fiber {
 
 /// What the options of a query allow it to cost: where it stops, and how much it may report. A
 /// limit that is not set is one that nothing reaches.
