@@ -126,7 +126,7 @@ if [ -n "$module" ] && [[ $flags != *fsanitize* ]]; then
   [ "$answer" = "[1.]" ] ||
     fail "the Python module does not answer from where it is installed"
   # What it loads is what is installed beside it.
-  [[ $(env -u LD_LIBRARY_PATH ldd "$module") == *"$prefix"*libfiber_proximity.so* ]] || fail "the Python module loads another library"
+  [[ $(env -u LD_LIBRARY_PATH ldd "$module") == *"$prefix"*libfiber_proximity.so.* ]] || fail "the Python module loads another library"
   if [ -d "$python_path/fiber_proximity/msg" ]; then
     (cd "$work" && PYTHONPATH=$python_path:${PYTHONPATH:-} /usr/bin/python3 -B -c \
       'import fiber_proximity; fiber_proximity.Engine(); from fiber_proximity.msg import Contact; Contact()') ||
