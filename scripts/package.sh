@@ -103,7 +103,7 @@ sort_out() {
   cd "$whole/usr"
   if has_cluster; then
     take_tools "$cluster" fiber_{query,scene}_mpi
-    [ ! -e lib/fiber_proximity/fiber_bench_mpi ] || take "$cluster" lib/fiber_proximity/fiber_bench_mpi
+    [ ! -e lib/fiber_proximity/fiber_bench_mpi ] || take "$cluster" lib/fiber_proximity/fiber_{bench,forecast}_mpi
     # Programs are built by the link, and run by what it names.
     take "$cluster_development" lib/libfiber_proximity_mpi.so include/fiber_proximity/mpi \
       share/fiber_proximity/cmake/fiber_proximity-mpi*.cmake
