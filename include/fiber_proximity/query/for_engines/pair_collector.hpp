@@ -7,12 +7,44 @@
 #include <optional>
 #include <vector>
 
+#include "fiber_proximity/export.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/query/contact.hpp"
-#include "fiber_proximity/query/narrow_phase.hpp"
+#include "fiber_proximity/query/for_engines/narrow_phase.hpp"
 #include "fiber_proximity/query/options.hpp"
 
-namespace fiber {
+namespace FIBER_PROXIMITY_EXPORT fiber {
+
+/// What the options of a query allow it to cost: where it stops, and how much it may report. A
+/// limit that is not set is one that nothing reaches.
+struct QueryLimits {
+  explicit QueryLimits(const QueryOptions& options)
+      : deadline(options.deadline),
+        pairs(options.pair_limit == 0 ? std::numeric_limits<std::uint64_t>::max()
+                                      : options.pair_limit),
+        contacts(max_reported(options)),
+        max_kept(std::max(2 * contacts, contacts + min_surplus)) {}
+
+  Deadline deadline;
+  std::uint64_t pairs;     ///< to be examined
+  std::uint64_t contacts;  ///< to be reported
+
+  /// Contacts that are kept at a time: so many more than reported that it is rarely asked which of
+  /// them are the closest.
+  std::uint64_t max_kept;
+
+  /// So many steps along a fibre (LoopTest) cost as much as one more pair, and count as one.
+  static constexpr std::uint64_t loop_steps_per_pair = 8;
+
+  static constexpr std::uint64_t min_surplus = 1024;
+
+ private:
+  static std::uint64_t max_reported(const QueryOptions& options) {
+    constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
+    const std::uint32_t limit = options.contact_limit == 0 ? none : options.contact_limit;
+    return options.type == QueryType::LIMITED ? std::min(options.max_contacts, limit) : limit;
+  }
+};
 
 /// The closest contact of each pair of fibres so far, among the contacts of a result.
 ///
@@ -88,9 +120,9 @@ class ContactAccumulator {
     return true;
   }
 
-  /// Counts looks along a fibre that a pair has taken: many are as much work as other pairs.
-  void count_looks(std::uint64_t looks) {
-    pairs_left_ -= std::min(pairs_left_, looks / QueryLimits::looks_per_pair);
+  /// Counts the steps along a fibre that a pair has taken: many are as much work as other pairs.
+  void count_loop_steps(std::uint64_t loop_steps) {
+    pairs_left_ -= std::min(pairs_left_, loop_steps / QueryLimits::loop_steps_per_pair);
   }
 
   /// Keeps a contact that is within the bound, or notes that it does not.
@@ -102,15 +134,15 @@ class ContactAccumulator {
   /// No further pair can change the answer, or none may: the deadline has passed, or the limit of
   /// pairs is reached. To be asked often.
   bool done() {
-    if (limits_.deadline.is_set() && ++steps_ % steps_between_looks == 0) {
-      look_at_deadline();
+    if (limits_.deadline.is_set() && ++steps_ % steps_between_checks == 0) {
+      check_deadline();
     }
     return done_;
   }
   /// The same for what asks seldom.
   bool done_by_now() {
     if (limits_.deadline.is_set()) {
-      look_at_deadline();
+      check_deadline();
     }
     return done_;
   }
@@ -120,8 +152,8 @@ class ContactAccumulator {
   bool wants_near_first() const { return capacity_ != 0; }
 
   /// Sorts the contacts; call once, at the end.
-  /// @param least_gap [m] no pair at all has a smaller gap
-  void finish(double least_gap);
+  /// @param min_gap [m] no pair at all has a smaller gap
+  void finish(double min_gap);
 
  private:
   void keep_of_fibers(const Contact& contact);
@@ -129,11 +161,11 @@ class ContactAccumulator {
   void stay_within_limit();
   void set_bound(double bound);
   double slack(double distance) const;
-  void look_at_deadline();
+  void check_deadline();
   void end_early();
   void reach_pair_limit();
 
-  static constexpr std::uint32_t steps_between_looks = 32;  // looking takes as long as a few steps
+  static constexpr std::uint32_t steps_between_checks = 32;  // looking takes as long as a few steps
 
   const QueryLimits limits_;
   std::uint64_t pairs_left_;

@@ -5,10 +5,11 @@
 #include <mutex>
 #include <vector>
 
+#include "fiber_proximity/export.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/geometry/segment_distance.hpp"
 
-namespace fiber {
+namespace FIBER_PROXIMITY_EXPORT fiber {
 
 struct LoopPlace;
 
@@ -43,17 +44,17 @@ class LoopTest {
 
   /// Whether both are segments of one fibre.
   bool are_of_one_fiber(PointPair pair) const {
-    return pair.b - pair.a < most_points_ && is_within(fibers_->segment_id(pair.a).fiber, pair.b);
+    return pair.b - pair.a < max_points_ && is_within(fibers_->segment_id(pair.a).fiber, pair.b);
   }
 
   /// Whether the fibre makes a loop between two of its segments that share no point.
   /// @param pair the smaller index first
   /// @param nearest of the kernel robust
-  /// @param looks at points or boxes of the fibre that it took are added to these
-  bool makes_loop(PointPair pair, const SegmentDistance& nearest, std::uint64_t& looks) const;
+  /// @param loop_steps grows by the points and boxes of the fibre that had to be visited
+  bool makes_loop(PointPair pair, const SegmentDistance& nearest, std::uint64_t& loop_steps) const;
   bool makes_loop(PointPair pair, const SegmentDistance& nearest) const {
-    std::uint64_t looks = 0;
-    return makes_loop(pair, nearest, looks);
+    std::uint64_t loop_steps = 0;
+    return makes_loop(pair, nearest, loop_steps);
   }
 
   /// Whether it is certain that no two segments make a loop that start at the points first … last;
@@ -72,10 +73,11 @@ class LoopTest {
     return point < fibers_->offsets()[fiber + 1];
   }
   const Chain& chain(std::uint32_t fiber) const;
-  bool leaves(const LoopPlace& place, PointPair pair, double limit, std::uint64_t& looks) const;
+  bool leaves(const LoopPlace& place, PointPair pair, double limit,
+              std::uint64_t& loop_steps) const;
 
   const FiberAssembly* fibers_ = nullptr;
-  std::uint32_t most_points_ = 0;    // of a fibre
+  std::uint32_t max_points_ = 0;     // of a fibre
   mutable std::vector<Slot> slots_;  // by fibre; filled when asked for, most never are
   mutable std::mutex mutex_;         // of those that fill them
 };

@@ -4,13 +4,14 @@
 #include <optional>
 #include <vector>
 
+#include "fiber_proximity/export.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/geometry/segment_distance.hpp"
 #include "fiber_proximity/query/contact.hpp"
-#include "fiber_proximity/query/loop_test.hpp"
+#include "fiber_proximity/query/for_engines/loop_test.hpp"
 #include "fiber_proximity/query/options.hpp"
 
-namespace fiber {
+namespace FIBER_PROXIMITY_EXPORT fiber {
 
 /// Nearest points of two segments, and the signed gap of their surfaces [m].
 struct PairDistance {
@@ -52,10 +53,10 @@ class NarrowPhase {
 
   /// Whether this ordered pair that is not left out is none all the same: the options need loops,
   /// and the fibre makes none between these segments.
-  /// @param looks at points of the fibre that it took are added to these
-  bool lacks_loop(PointPair pair, const PairDistance& distance, std::uint64_t& looks) const {
+  /// @param loop_steps as LoopTest::makes_loop() has them
+  bool lacks_loop(PointPair pair, const PairDistance& distance, std::uint64_t& loop_steps) const {
     return loops_ != nullptr && loops_->are_of_one_fiber(pair) &&
-           !loops_->makes_loop(pair, distance.nearest, looks);
+           !loops_->makes_loop(pair, distance.nearest, loop_steps);
   }
   /// The same where the distance is not there.
   bool lacks_loop(PointPair pair) const {
@@ -85,10 +86,10 @@ class NarrowPhase {
   double margin() const { return options_.margin; }  ///< [m]
 
   /// [m] No gap is less.
-  double least_gap() const;
+  double min_gap() const;
 
   /// [m] No gap that is computed or reported is less: axes can do no more than meet.
-  double least_computed_gap() const { return -(a_.largest_radius() + b_.largest_radius()); }
+  double min_computed_gap() const { return -(a_.largest_radius() + b_.largest_radius()); }
 
   /// [m] distance(pair).gap is at least this, its rounding included; costs a fraction of it.
   double gap_lower_bound(PointPair pair) const;

@@ -6,8 +6,12 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "fiber_proximity/environment/environment.hpp"
+#include "fiber_proximity/environment/shapes.hpp"
 #include "fiber_proximity/environment/triangle_mesh.hpp"
+#include "fiber_proximity/yaml/yaml_field.hpp"
 
 namespace fiber {
 
@@ -32,5 +36,25 @@ std::shared_ptr<const TriangleMesh> read_mesh_file(const std::filesystem::path& 
 /// Meshes of files: a resource is file:///PATH, or a path, which begins in a folder if it does not
 /// begin with a slash.
 MeshSource mesh_files(const std::filesystem::path& folder);
+
+/// An object around the fibres, and the frame that its pose is in.
+struct SceneObstacle {
+  std::string frame_id;  ///< empty: that of the fibres
+  EnvironmentObject object;
+};
+
+/// What is around the fibres from the start.
+struct EnvironmentScene {
+  std::vector<SceneObstacle> obstacles;  ///< each with a name of its own
+  std::vector<NamedPair> allowed;
+};
+
+/// Reads the lists `obstacles` and `allowed` of a YAML document, whose fields are those of the
+/// messages Obstacle and AllowedPair, but `frame_id` stands for the header; vectors are lists of
+/// three numbers, quaternions of four, x y z w. Primitives have the names box, sphere, cylinder or
+/// cone as type; meshes may be `{resource: file:///..., scale: [1, 1, 1]}`.
+/// @throws std::invalid_argument naming file, line, field and value, or the obstacle, and what is
+///         allowed
+EnvironmentScene read_environment_scene(const YamlField& document, const MeshSource& meshes);
 
 }  // namespace fiber
