@@ -5,6 +5,7 @@ add_library(fiber_proximity_ros SHARED
   src/ros/detection/fiber_step.cpp
   src/ros/detection/knowledge.cpp
   src/ros/detection/step_contacts.cpp
+  src/ros/environment/allowed_pairs_service.cpp
   src/ros/environment/cloud_cells.cpp
   src/ros/environment/cloud_input.cpp
   src/ros/environment/environment_inputs.cpp
@@ -12,22 +13,29 @@ add_library(fiber_proximity_ros SHARED
   src/ros/environment/marker_obstacles.cpp
   src/ros/environment/mesh_loader.cpp
   src/ros/environment/obstacle_change.cpp
+  src/ros/environment/obstacle_service.cpp
   src/ros/environment/obstacle_set.cpp
   src/ros/environment/owed_changes.cpp
   src/ros/environment/robot_links.cpp
   src/ros/environment/waiting_changes.cpp
+  src/ros/inputs/fiber_trial.cpp
   src/ros/inputs/fixed_frame.cpp
   src/ros/inputs/input.cpp
   src/ros/inputs/input_budget.cpp
   src/ros/inputs/input_set.cpp
   src/ros/inputs/input_source.cpp
-  src/ros/inputs/marker_chains.cpp
+  src/ros/inputs/input_stamps.cpp
+  src/ros/inputs/marker_fibers.cpp
   src/ros/inputs/marker_input.cpp
+  src/ros/inputs/merged_fibers.cpp
   src/ros/inputs/message_log.cpp
+  src/ros/inputs/message_reader.cpp
   src/ros/inputs/missing_points.cpp
   src/ros/inputs/point_messages.cpp
   src/ros/inputs/segment_welder.cpp
   src/ros/inputs/stamp_matcher.cpp
+  src/ros/inputs/synchronizer.cpp
+  src/ros/inputs/transform_queue.cpp
   src/ros/outputs/comparison_output.cpp
   src/ros/outputs/contact_output.cpp
   src/ros/outputs/crossings_output.cpp

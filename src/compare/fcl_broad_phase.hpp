@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
-#include "fiber_proximity/query/pair_collector.hpp"
+#include "fiber_proximity/query/for_engines/pair_collector.hpp"
 
 namespace fiber {
 

@@ -6,7 +6,7 @@
 
 #include "fiber_proximity/compare/fcl_comparer.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
-#include "fiber_proximity/query/narrow_phase.hpp"
+#include "fiber_proximity/query/for_engines/narrow_phase.hpp"
 #include "fiber_proximity/query/options.hpp"
 
 namespace fiber {

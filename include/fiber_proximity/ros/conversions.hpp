@@ -37,9 +37,11 @@ struct FiberBuffer {
   std::size_t fiber_count() const { return offsets.empty() ? 0 : offsets.size() - 1; }
 };
 
-/// Makes the assembly that of the chains, without allocating where only the points differ.
+/// Makes the assembly that of the buffer's fibres without copying their points, and without
+/// allocating where only the points differ. The buffer keeps header and names; the rest of it is
+/// unspecified then.
 /// @throws std::invalid_argument as FiberAssembly; the assembly is unchanged then
-void assign(const FiberBuffer& chains, fiber::FiberAssembly& fibers);
+void assign(FiberBuffer& buffer, fiber::FiberAssembly& fibers);
 
 template <class Point>
 Eigen::Vector3d to_vector(const Point& point) {
@@ -65,6 +67,6 @@ void add_gradients(fiber_proximity::Contact& message);
 void to_message(const fiber::Crossing& crossing, fiber_proximity::Crossing& message);
 
 /// @throws std::invalid_argument if there are names, but not one per fibre
-void to_chains(const fiber_proximity::FiberArray& message, FiberBuffer& chains);
+void to_chains(const fiber_proximity::FiberArray& message, FiberBuffer& fibers);
 
 }  // namespace fiber_proximity_ros

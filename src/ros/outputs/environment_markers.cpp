@@ -5,11 +5,11 @@
 #include <cmath>
 #include <utility>
 
+#include "fiber_proximity/environment/occupancy_octree.hpp"
 #include "fiber_proximity/environment/shapes.hpp"
 #include "fiber_proximity/environment/triangle_mesh.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
 #include "src/environment/obstacle_parts.hpp"
-#include "src/environment/occupancy_octree.hpp"
 #include "src/geometry/smallest_rotation.hpp"
 #include "src/ros/outputs/label_place.hpp"
 #include "src/ros/outputs/tube_mesh.hpp"

@@ -90,7 +90,7 @@ fiber::FiberAssembly to_candidate(const fiber_proximity::FiberArray& message,
   if (chains.header.frame_id.empty()) {
     chains.header.frame_id = frame.name();
   }
-  frame.place(chains.header, fibers, chains.points);
+  frame.place(chains.header, fibers);
   return fibers;
 }
 

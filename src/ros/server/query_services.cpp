@@ -45,13 +45,13 @@ fiber::FiberAssembly to_assembly(const QueryShape& shape, const FixedFrame& fram
   if (points.size() == 1) {
     points.push_back(points.front());  // a sphere is a capsule of no length
   }
-  fiber::FiberAssembly assembly(points, {0, static_cast<std::uint32_t>(points.size())},
-                                {shape.radius});
+  const auto count = static_cast<std::uint32_t>(points.size());
+  fiber::FiberAssembly assembly(std::move(points), {0, count}, {shape.radius});
   std_msgs::Header header = shape.header;
   if (header.frame_id.empty()) {
     header.frame_id = frame.name();
   }
-  frame.place(header, assembly, points);
+  frame.place(header, assembly);
   return assembly;
 }
 

@@ -6,16 +6,16 @@
 
 namespace fiber_proximity_ros {
 
-void validate_stamp(const ros::Time& stamp, const ros::Time& now, double most_ahead) {
+void validate_stamp(const ros::Time& stamp, const ros::Time& now, double max_ahead) {
   std::ostringstream error;
   if (constexpr std::uint32_t second = 1'000'000'000; stamp.nsec >= second) {
     error << "its stamp has " << stamp.nsec << " nanoseconds, it must have fewer than " << second;
     throw std::invalid_argument(error.str());
   }
   const double ahead = stamp.toSec() - now.toSec();
-  if (ros::Time::isValid() && ahead > most_ahead) {
+  if (ros::Time::isValid() && ahead > max_ahead) {
     error << "its stamp " << stamp << " is " << ahead << " s ahead of the node's time " << now
-          << ", it may be " << most_ahead << " s ahead (max_stamp_ahead)";
+          << ", it may be " << max_ahead << " s ahead (max_stamp_ahead)";
     throw std::invalid_argument(error.str());
   }
 }
