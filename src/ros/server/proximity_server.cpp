@@ -357,7 +357,6 @@ void ProximityServer::reconfigure(AskedConfig& config) {
     if (!config.problem().empty()) {
       throw std::invalid_argument(config.problem());
     }
-    replace_old_names(private_node_, config);
     check(private_node_, config);
   } catch (const std::invalid_argument& error) {
     ROS_ERROR_STREAM("parameters stay as they were: " << error.what());
@@ -366,6 +365,12 @@ void ProximityServer::reconfigure(AskedConfig& config) {
   }
   config_ = static_cast<const fiber_proximity::ProximityConfig&>(config);
   query_options_ = to_query_options(config);
+  if (const std::string overridden = overridden_by_accuracy(config, query_options_);
+      !overridden.empty()) {
+    ROS_WARN_STREAM("parameter " << private_node_.resolveName("accuracy") << " is "
+                                 << config.accuracy << ", which overrides " << overridden
+                                 << "; accuracy custom uses them");
+  }
   comparison_.switch_on(config.compare);
   prediction_.configure({config.prediction, static_cast<std::size_t>(config.prediction_frames),
                          config.motion_tolerance});

@@ -3,7 +3,6 @@
 #include <ros/console.h>
 
 #include <stdexcept>
-#include <utility>
 
 #include "fiber_proximity/paper/paper_engines.hpp"
 #include "src/ros/server/query_options.hpp"
@@ -17,10 +16,6 @@ using fiber_proximity::ProximityConfig;
 using XmlRpc::XmlRpcValue;
 
 const NodeInterface& interface() { return interface_of("proximity"); }
-
-/// The parameters whose values are names of kernels.
-constexpr std::pair<const char*, std::string ProximityConfig::*> kernel_parameters[] = {
-    {"kernel", &ProximityConfig::kernel}, {"accuracy", &ProximityConfig::accuracy}};
 
 /// @returns why these are no values of parameters of this type that can change; empty if they are
 template <class Entries>
@@ -145,25 +140,7 @@ ServerOptions read_server_options(const ros::NodeHandle& node,
   return options;
 }
 
-void replace_old_names(const ros::NodeHandle& private_node, ProximityConfig& config) {
-  for (const auto& [name, member] : kernel_parameters) {
-    std::string& value = config.*member;
-    value = current_kernel_name("parameter " + private_node.resolveName(name), value);
-  }
-}
-
 ProximityConfig read_dynamic_parameters(const ros::NodeHandle& private_node) {
-  for (const auto& [name, member] : kernel_parameters) {
-    std::string value;
-    if (!private_node.getParam(name, value)) {
-      continue;
-    }
-    const std::string current =
-        current_kernel_name("parameter " + private_node.resolveName(name), value);
-    if (current != value) {
-      private_node.setParam(name, current);  // where dynamic_reconfigure will read it, too
-    }
-  }
   const Parameters parameters(private_node, interface());
   for (const Parameter& parameter : interface().parameters) {
     XmlRpcValue value;

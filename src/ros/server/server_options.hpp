@@ -45,10 +45,6 @@ ServerOptions read_server_options(const ros::NodeHandle& node, const ros::NodeHa
 ///         dynamic_reconfigure alone would keep silent, and take the default or the nearest value
 fiber_proximity::ProximityConfig read_dynamic_parameters(const ros::NodeHandle& private_node);
 
-/// Gives values that were allowed in the version before this their new names, with a warning.
-void replace_old_names(const ros::NodeHandle& private_node,
-                       fiber_proximity::ProximityConfig& config);
-
 /// @throws std::invalid_argument as read_dynamic_parameters()
 void check(const ros::NodeHandle& private_node, const fiber_proximity::ProximityConfig& config);
 
