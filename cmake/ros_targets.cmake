@@ -61,7 +61,7 @@ add_library(fiber_proximity_ros SHARED
 target_include_directories(fiber_proximity_ros SYSTEM PUBLIC
   ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION} ${catkin_INCLUDE_DIRS})
 target_link_libraries(fiber_proximity_ros
-  PUBLIC fiber_proximity_sim fiber_proximity_compare fiber_proximity_paper ${catkin_LIBRARIES}
+  PUBLIC fiber_proximity_sim fiber_proximity_compare fiber_proximity_paper fiber_proximity_scenes ${catkin_LIBRARIES}
   PRIVATE fiber_proximity_options)
 fiber_proximity_parse_once(fiber_proximity_ros ${ros_headers})
 target_sources(fiber_proximity_ros PRIVATE ${interface_table}) # not there yet to be read for what is compiled together
