@@ -70,7 +70,9 @@ class Detector {
  public:
   /// @throws std::invalid_argument for an unknown engine, or for options that are not allowed
   explicit Detector(const std::string& engine, const fiber::EngineOptions& options = {})
-      : engine_(fiber::make_engine(engine, options)) {}
+      : engine_name_(engine), engine_(fiber::make_engine(engine, options)) {}
+
+  const std::string& engine_name() const { return engine_name_; }
 
   /// The fibres to ask about from now on; they must live, unchanged, until the next call.
   void set_fibers(const fiber::FiberAssembly& fibers) { new_fibers_ = &fibers; }
@@ -93,6 +95,7 @@ class Detector {
   }
 
  private:
+  std::string engine_name_;
   std::unique_ptr<fiber::ProximityEngine> engine_;
   const fiber::FiberAssembly* new_fibers_ = nullptr;
   Detection detection_;

@@ -14,10 +14,6 @@
 
 namespace fiber_proximity_ros {
 
-/// A stamp as time since the epoch, and back.
-std::chrono::nanoseconds to_time(const ros::Time& stamp);
-ros::Time to_stamp(std::chrono::nanoseconds time);
-
 /// The fibres of an answer, and when they were there.
 struct FiberState {
   bool has_fibers = false;  ///< false: there are none, or they are not to be kept
@@ -68,7 +64,7 @@ class FiberStep {
 
  private:
   std::string find_motion();
-  void stand_still();
+  void set_static();
 
   double longest_motion_;  // [s]
   FiberState before_;

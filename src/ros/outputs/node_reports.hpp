@@ -12,11 +12,10 @@
 #include "fiber_proximity/Statistics.h"
 #include "fiber_proximity/query/options.hpp"
 #include "src/ros/detection/detector.hpp"
+#include "src/ros/detection/environment_detector.hpp"
 #include "src/ros/detection/fiber_step.hpp"
-#include "src/ros/detection/knowledge.hpp"
-#include "src/ros/inputs/input_set.hpp"
-#include "src/ros/outputs/environment_output.hpp"
-#include "src/ros/support/advertise.hpp"
+#include "src/ros/detection/observed_scene.hpp"
+#include "src/ros/outputs/output_topic.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -25,23 +24,22 @@ class StatisticsOutput {
  public:
   /// What they are about; all must outlive the output.
   struct Subject {
-    const std::string& engine;
-    InputSet& inputs;
+    ObservedScene& scene;
     const Detector& detector;
-    const EnvironmentOutput& environment;
+    const EnvironmentDetector& environment;
     const FiberStep& step;
   };
 
-  StatisticsOutput(ros::NodeHandle& private_node, const Subject& about,
+  StatisticsOutput(const ros::NodeHandle& private_node, const Subject& about,
                    const Newcomer& on_newcomer);
 
-  bool has_listeners() const { return publisher_.getNumSubscribers() > 0; }
+  bool has_listeners() const { return topic_.has_listeners(); }
 
   /// Forgets the parts of the answer before.
   void begin() { parts_.clear(); }
 
   /// What an answer has run, and how long it took [s]. The first part is the merging of inputs.
-  void add_part(const std::string& name, double seconds);
+  void add_part(const std::string& name, double seconds) { parts_.emplace_back(name, seconds); }
 
   /// @param of_fibers how complete the contacts of fibres are, of all how complete all of it is
   /// @param time      [s] of all of it, with conversions
@@ -50,9 +48,8 @@ class StatisticsOutput {
 
  private:
   Subject about_;
-  ros::Publisher publisher_;
+  OutputTopic<fiber_proximity::Statistics> topic_;
   std::vector<std::pair<std::string, double>> parts_;
-  fiber_proximity::Statistics message_;  // for its memory
 };
 
 /// Answers since the last report, and how many of them a deadline or a limit has cut off.
@@ -68,9 +65,7 @@ class Diagnostics {
  public:
   /// What they are about; all must outlive this.
   struct Subject {
-    const InputSet& inputs;
-    const EnvironmentInputs& environment;
-    const Knowledge& knowledge;
+    const ObservedScene& scene;
     const Detector& detector;
     const fiber::QueryOptions& options;
   };

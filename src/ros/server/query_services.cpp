@@ -9,8 +9,8 @@
 #include "fiber_proximity/QueryProximity.h"
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
+#include "src/ros/detection/environment_detector.hpp"
 #include "src/ros/inputs/fixed_frame.hpp"
-#include "src/ros/outputs/environment_output.hpp"
 #include "src/ros/server/check_service.hpp"
 #include "src/ros/server/query_options.hpp"
 
@@ -152,16 +152,17 @@ bool respond(const QuerySubject& subject, const std::function<void()>& before_an
   const fiber::Deadline deadline(request.deadline);
   before_answer();  // asked after a message arrived, answered with it
   try {
-    InputSet& fibers = subject.fibers;
+    InputSet& fibers = subject.scene.fibers;
+    const EnvironmentInputs& environment_inputs = subject.scene.environment;
     if (asks_about_fibers) {
       fibers.require_fresh();
     }
-    const std::shared_ptr<const fiber::Environment> environment = subject.environment.environment();
+    const std::shared_ptr<const fiber::Environment> environment = environment_inputs.environment();
     const fiber::FiberAssembly& merged = fibers.fibers();
     answer_it(QueryTarget{merged, fibers.names(),
                           asks_about_fibers ? &subject.detector.engine() : nullptr, *environment,
-                          fibers.frame(), subject.knowledge, subject.defaults, deadline,
-                          [&](const auto& names) { return subject.environment.allowed(names); }});
+                          fibers.frame(), subject.scene.knowledge, subject.defaults, deadline,
+                          [&](const auto& names) { return environment_inputs.allowed(names); }});
     response.header = fibers.header();
     if (!fibers.is_fresh()) {
       response.header.frame_id = fibers.frame().name();

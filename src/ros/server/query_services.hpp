@@ -6,18 +6,14 @@
 #include <vector>
 
 #include "src/ros/detection/detector.hpp"
-#include "src/ros/detection/knowledge.hpp"
-#include "src/ros/environment/environment_inputs.hpp"
-#include "src/ros/inputs/input_set.hpp"
+#include "src/ros/detection/observed_scene.hpp"
 
 namespace fiber_proximity_ros {
 
 /// What services are asked about, which must outlive them.
 struct QuerySubject {
-  InputSet& fibers;
-  Detector& detector;  ///< knows the fibres of the inputs
-  const EnvironmentInputs& environment;
-  const Knowledge& knowledge;
+  ObservedScene& scene;
+  Detector& detector;  ///< knows the fibres of the scene
   const fiber::QueryOptions& defaults;
 };
 

@@ -63,7 +63,7 @@ void require_foreign_topic(const InputOptions& input, const ros::NodeHandle& nod
 }
 
 void read_inputs(const ros::NodeHandle& public_node, const Parameters& parameters, double radius,
-                 ServerOptions& options) {
+                 FiberInputOptions& options) {
   const ros::NodeHandle& node = parameters.node();
   XmlRpcValue list;
   if (!node.getParam("inputs", list)) {
@@ -93,7 +93,7 @@ void read_inputs(const ros::NodeHandle& public_node, const Parameters& parameter
       options.inputs.push_back(input);
     } catch (const std::invalid_argument& error) {
       ROS_ERROR_STREAM(where << " is left out: " << error.what());
-      options.left_out_inputs.push_back(
+      options.left_out.push_back(
           {"inputs", where, ros::Time::now(), std::string("left out: ") + error.what(), true});
     }
   }
@@ -121,13 +121,13 @@ ServerOptions read_server_options(const ros::NodeHandle& node,
   parameters.read("engine", options.engine);
   parameters.read("threads", options.engine_options.threads);
   parameters.read("skin", options.engine_options.skin);
-  parameters.read("fixed_frame", options.fixed_frame);
+  parameters.read("fixed_frame", options.fibers.fixed_frame);
   parameters.read("radius", radius);
-  parameters.read("tf_timeout", options.timing.tf_timeout);
-  parameters.read("input_timeout", options.timing.input_timeout);
-  parameters.read("max_stamp_ahead", options.timing.max_stamp_ahead);
-  parameters.read("synchronize", options.timing.synchronize);
-  parameters.read("synchronize_slop", options.timing.synchronize_slop);
+  parameters.read("tf_timeout", options.fibers.timing.tf_timeout);
+  parameters.read("input_timeout", options.fibers.timing.input_timeout);
+  parameters.read("max_stamp_ahead", options.fibers.timing.max_stamp_ahead);
+  parameters.read("synchronize", options.fibers.timing.synchronize);
+  parameters.read("synchronize_slop", options.fibers.timing.synchronize_slop);
   parameters.read("marker_rate", options.marker_rate);
   parameters.read("heartbeat", options.heartbeat);
   // Read by diagnostic_updater, which keeps silent about what is none.
@@ -135,7 +135,7 @@ ServerOptions read_server_options(const ros::NodeHandle& node,
   parameters.read("diagnostic_period", diagnostic_period);
   check_engine(private_node, options);
   options.config = read_dynamic_parameters(private_node);
-  read_inputs(node, parameters, radius, options);
+  read_inputs(node, parameters, radius, options.fibers);
   parameters.warn_of_unknown();
   return options;
 }

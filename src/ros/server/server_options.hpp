@@ -3,12 +3,10 @@
 #include <ros/node_handle.h>
 
 #include <string>
-#include <vector>
 
 #include "fiber_proximity/ProximityConfig.h"
 #include "fiber_proximity/query/engine.hpp"
-#include "src/ros/inputs/input.hpp"
-#include "src/ros/inputs/input_source.hpp"
+#include "src/ros/detection/observed_scene.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -17,17 +15,11 @@ struct ServerOptions {
   std::string engine;  ///< one of fiber::engine_names()
   fiber::EngineOptions engine_options;
 
-  /// All results are in this frame; empty: the frame of the first message.
-  std::string fixed_frame;
-
-  InputTiming timing;
+  FiberInputOptions fibers;
 
   double marker_rate{};  ///< [Hz] markers are drawn at most this often
 
   double heartbeat{};  ///< [s] answers are repeated that often while something is unknown; 0: not
-
-  std::vector<InputOptions> inputs;
-  std::vector<Unknown> left_out_inputs;  ///< entries that are bad
 
   fiber_proximity::ProximityConfig config;  ///< those that can change later
 };
