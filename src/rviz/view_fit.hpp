@@ -25,7 +25,7 @@ struct OrbitView {
   double tan_half_height = 1.0;  ///< the same to its upper or lower side
 };
 
-/// What to look at.
+/// The camera position that shows the fibres.
 struct ViewFit {
   Eigen::Vector3d focal_point = Eigen::Vector3d::Zero();
   double distance = 0.0;  ///< [m] of the camera from there
@@ -93,9 +93,9 @@ class ViewFitter {
            const Eigen::Isometry3d& pose, bool keep);
 
  private:
-  std::size_t fiber_count_ = 0;  // of those last fitted to
-  std::vector<float> as_left_;   // the view's numbers after that
-  ViewFit fit_;                  // what it was fitted to
+  std::size_t fiber_count_ = 0;      // of those last fitted to
+  std::vector<float> fitted_state_;  // the state of the view after that
+  ViewFit fit_;                      // what it was fitted to
 };
 
 }  // namespace fiber_proximity_rviz

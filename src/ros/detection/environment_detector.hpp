@@ -29,7 +29,7 @@ class EnvironmentDetector {
   /// An answer is given without looking around.
   void skip() { is_tracked_ = false; }
 
-  // What the last detect() found, in which environment:
+  // These are about the last detect():
   const Detection& detection() const { return detection_; }
   /// Null if the answer is of its stamp alone.
   const KnownMotion* motion() const { return motion_ ? &*motion_ : nullptr; }
@@ -51,7 +51,7 @@ class EnvironmentDetector {
   double motion_time_ = 0.0;
 };
 
-/// By index.
+/// The names of the objects, by index.
 std::vector<std::string> object_names(const fiber::Environment& environment);
 
 }  // namespace fiber_proximity_ros

@@ -71,7 +71,7 @@ void Predictor::predict(const fiber::QueryOptions& options,
   limit_to_known(options, message);
 }
 
-/// What is unknown may come at any moment.
+/// Lowers the bounds to those that hold although something is unknown: it may come at any moment.
 void Predictor::limit_to_known(const fiber::QueryOptions& options,
                                fiber_proximity::TimeToContact& message) const {
   using About = Knowledge::About;
@@ -98,7 +98,7 @@ void Predictor::limit_to_known(const fiber::QueryOptions& options,
   message.unknown = all.unknown();
 }
 
-/// Of each input its newest message, if it is new.
+/// Takes the newest message of each input, if it is new.
 void Predictor::take_frames() {
   const std::vector<std::unique_ptr<Input>>& inputs = scene_.fibers.inputs();
   while (inputs_frames_.size() < inputs.size()) {
@@ -121,8 +121,9 @@ void Predictor::take_frames() {
   }
 }
 
-/// Where the points will be at the horizon. Who has sent one message only stands still.
-/// @returns false if that are all of them
+/// Finds where the points will be at the horizon. An input that has sent only one message stands
+/// still.
+/// @returns false if all inputs do
 bool Predictor::predict_places(fiber_proximity::TimeToContact& message) {
   const std::vector<std::unique_ptr<Input>>& inputs = scene_.fibers.inputs();
   points_.clear();

@@ -41,10 +41,10 @@ class Predictor {
   void skip() { inputs_frames_.clear(); }
 
  private:
-  /// What is known of an input's motion.
+  /// The known motion of an input.
   struct InputFrames {
     fiber::PointVelocities velocities;
-    // Of the newest frame:
+    // These are of the newest frame:
     std::vector<std::string> names;
     std::vector<std::uint32_t> offsets;
     std::optional<ros::Time> stamp;

@@ -16,7 +16,7 @@ namespace fiber_proximity_ros {
 /// asked to, and never else.
 class ComparisonOutput {
  public:
-  /// What is compared, which must outlive this.
+  /// The things that are compared; all must outlive this.
   struct Subject {
     ObservedScene& scene;
     Detector& detector;  ///< knows the fibres of the scene

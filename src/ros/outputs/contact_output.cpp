@@ -17,7 +17,7 @@ using fiber_proximity::Contact;
 using std::chrono::nanoseconds;
 
 /// ~contact_events: each event counts, and an answer may have many of them.
-constexpr std::uint32_t most_waiting_events = 100000;
+constexpr std::uint32_t max_waiting_events = 100000;
 
 /// Where the bodies of these names are among others; of names that are there twice, the first.
 fiber::TouchTracker::FiberIndices indices_among(const std::vector<std::string>& names,
@@ -81,7 +81,7 @@ ContactOutput::ContactOutput(ros::NodeHandle private_node, const std::string& to
     : type_b_(type_b),
       topic_(private_node, topic, on_newcomer),
       event_publisher_(private_node.advertise<fiber_proximity::ContactEvent>("contact_events",
-                                                                             most_waiting_events)),
+                                                                             max_waiting_events)),
       tracker_(type_b == Contact::OBJECT ? 2 : 1, 2) {}
 
 void ContactOutput::track(const ContactAnswer& answer) {

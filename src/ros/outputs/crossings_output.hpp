@@ -44,8 +44,9 @@ class CrossingsOutput {
   /// @returns false, without any, if it is unknown where the camera is
   bool find(const fiber::FiberAssembly& fibers, const std_msgs::Header& header);
 
-  /// What the last find() or publish() has found, and in which view.
+  /// The crossings that the last find() or publish() has found.
   const std::vector<fiber::Crossing>& crossings() const { return crossings_; }
+  /// The view in which they were found.
   const fiber::View& view() const { return view_; }
 
  private:

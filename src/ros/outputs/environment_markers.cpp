@@ -117,13 +117,13 @@ class ShapeDrawer {
     begin_triangles();
     std::size_t drawn = 0;
     for (const fiber::TriangleMesh::Triangle& triangle : mesh->triangles()) {
-      if (is_near(*mesh, triangle) && ++drawn <= most_mesh_triangles) {
+      if (is_near(*mesh, triangle) && ++drawn <= max_mesh_triangles) {
         for (const std::uint32_t corner : triangle) {
           marker_.points.push_back(to_message(mesh->vertices()[corner]));
         }
       }
     }
-    if (drawn > most_mesh_triangles) {
+    if (drawn > max_mesh_triangles) {
       marker_.points.clear();
       draw_solid(Marker::CUBE, mesh->box().sizes(),
                  pose_ * Eigen::Translation3d(mesh->box().center()));
@@ -177,7 +177,7 @@ bool is_link(const fiber::EnvironmentObject& object) {
   return object.name.rfind(fiber::robot_prefix, 0) == 0;
 }
 
-/// What is near the fibres. Each is looked at only if its box is near.
+/// Tells what is near the fibres. A fibre is examined only if its box is near.
 class Neighbourhood {
  public:
   Neighbourhood(const fiber::FiberAssembly& fibers, double reach)

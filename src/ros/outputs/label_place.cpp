@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// What is seen from the front, and from as far above as the views of this package look from.
+/// The image that is seen from the front, and from as far above as the views of this package look.
 struct Picture {
   explicit Picture(const MarkerScale& scale)
       : side(scale.side()),
@@ -100,7 +100,7 @@ Vector3d label_place(const fiber::FiberAssembly& fibers, const MarkerScale& scal
     return Vector3d(label.point + (gaps * label.gap + own) * direction);
   };
   const Vector3d& first = label.preferred;
-  if (fibers.segment_count() > most_label_segments) {
+  if (fibers.segment_count() > max_label_segments) {
     return place_at(first, 1.0);
   }
   const Vector3d& up = scale.up;
@@ -122,7 +122,7 @@ Vector3d label_place(const fiber::FiberAssembly& fibers, const MarkerScale& scal
                                                             {-up, 1.0}}};
   const double enough = 0.5 * label.height;
   Vector3d best = place_at(first, 1.0);
-  double most = -std::numeric_limits<double>::infinity();
+  double max_room = -std::numeric_limits<double>::infinity();
   for (const auto& [direction, gaps] : places) {
     if (direction.dot(label.inwards) > 0.1) {
       continue;
@@ -134,8 +134,8 @@ Vector3d label_place(const fiber::FiberAssembly& fibers, const MarkerScale& scal
     if (room >= enough) {
       return place;
     }
-    if (room > most) {
-      most = room;
+    if (room > max_room) {
+      max_room = room;
       best = place;
     }
   }

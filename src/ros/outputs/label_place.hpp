@@ -38,7 +38,7 @@ double text_width(double height, std::size_t letters);
 ///
 /// Whoever looks at fibres is taken to look from the front and a little from above: what lies
 /// before or behind a text there hides it, however far away. Of more segments than
-/// `most_label_segments` none is looked at: the preferred direction is taken.
+/// `max_label_segments` none is looked at: the preferred direction is taken.
 Eigen::Vector3d label_place(const fiber::FiberAssembly& fibers, const MarkerScale& scale,
                             const Label& label);
 
@@ -48,6 +48,6 @@ Eigen::Vector3d leader_end(const MarkerScale& scale, const Label& label,
                            const Eigen::Vector3d& place);
 
 /// Looking for room takes time for each of them.
-constexpr std::size_t most_label_segments = 20'000;
+constexpr std::size_t max_label_segments = 20'000;
 
 }  // namespace fiber_proximity_ros

@@ -284,7 +284,7 @@ void MarkerBuilder::build(const std_msgs::Header& header, const Drawing& drawing
   // Thicker than the fibres, to be seen where two of them hide the point of contact.
   const double thickness = 3.0 * scale.thickest;
   MarkerCanvas canvas(header, markers);
-  if (options.show_fibers && fibers.segment_count() > most_tube_segments) {
+  if (options.show_fibers && fibers.segment_count() > max_tube_segments) {
     draw_lines(fibers, 2.0 * scale.thinnest, canvas);
   } else if (options.show_fibers) {
     draw_tubes(fibers, canvas);
@@ -309,7 +309,7 @@ void MarkerBuilder::build(const std_msgs::Header& header, const Drawing& drawing
   if (options.show_crossings && crossings != nullptr && !crossings->crossings.empty()) {
     draw_crossings(fibers, *crossings, thickness, canvas.add("crossings", Marker::LINE_LIST));
   }
-  if (options.show_names && names != nullptr && names->size() <= most_names) {
+  if (options.show_names && names != nullptr && names->size() <= max_names) {
     draw_names(fibers, *names, scale, canvas);
   }
   if (options.show_legend && legend != nullptr && fibers.fiber_count() > 0) {

@@ -92,7 +92,7 @@ void Diagnostics::count(const std::string& cut_off) {
   }
 }
 
-/// What becomes of the messages of a topic; the summary is worse where some were refused since the
+/// Adds the counts of messages of a topic; the summary is worse where some were refused since the
 /// last report.
 void Diagnostics::add_counts(const fiber_proximity::InputStatistics& input, Status& status) {
   Seen now;

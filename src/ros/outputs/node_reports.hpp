@@ -22,7 +22,7 @@ namespace fiber_proximity_ros {
 /// Sizes, times and accuracy of each answer, on ~statistics.
 class StatisticsOutput {
  public:
-  /// What they are about; all must outlive the output.
+  /// The things that statistics are about; all must outlive the output.
   struct Subject {
     ObservedScene& scene;
     const Detector& detector;
@@ -38,7 +38,7 @@ class StatisticsOutput {
   /// Forgets the parts of the answer before.
   void begin() { parts_.clear(); }
 
-  /// What an answer has run, and how long it took [s]. The first part is the merging of inputs.
+  /// Adds a part of the answer and how long it took [s]. The first part is the merging of inputs.
   void add_part(const std::string& name, double seconds) { parts_.emplace_back(name, seconds); }
 
   /// @param of_fibers how complete the contacts of fibres are, of all how complete all of it is
@@ -63,7 +63,7 @@ struct AnswerCounts {
 /// one for the engine and one for deadlines and limits.
 class Diagnostics {
  public:
-  /// What they are about; all must outlive this.
+  /// The things that diagnostics are about; all must outlive this.
   struct Subject {
     const ObservedScene& scene;
     const Detector& detector;
@@ -85,7 +85,7 @@ class Diagnostics {
  private:
   using Status = diagnostic_updater::DiagnosticStatusWrapper;
 
-  /// What was seen at the last report, for rates.
+  /// The counts at the last report, for rates.
   struct Seen {
     ros::SteadyTime time = ros::SteadyTime::now();
     std::uint64_t received = 0;

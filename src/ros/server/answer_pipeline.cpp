@@ -114,7 +114,7 @@ void AnswerPipeline::detect() {
   }
   if (const std::string problem = found.limit_problem(settings_.query()); !problem.empty()) {
     ROS_WARN_STREAM_THROTTLE(1.0, "fibres (engine " << detector_.engine_name() << "): " << problem
-                                                    << most_contacts_of());
+                                                    << input_with_most_contacts());
   }
   statistics_.add_part("update", detector_.update_time());
   statistics_.add_part("contacts", found.contact_time());
@@ -124,7 +124,7 @@ void AnswerPipeline::detect() {
 }
 
 /// Which input most of the contacts are of, for the log.
-std::string AnswerPipeline::most_contacts_of() const {
+std::string AnswerPipeline::input_with_most_contacts() const {
   std::map<std::string, std::size_t> counts;
   for (const fiber::Contact& contact : detector_.detection().contacts().contacts) {
     ++counts[scene_.fibers.input_of(contact.fiber_a).options().topic];
@@ -214,7 +214,7 @@ void AnswerPipeline::publish_markers_if_due() {
   }
 }
 
-/// Of contacts of fibres with each other and with what is around them.
+/// The completeness of contacts of fibres with each other and with objects.
 Completeness AnswerPipeline::completeness_of_all() const {
   Completeness of_all = scene_.knowledge.completeness(Knowledge::About::FIBERS_AND_ENVIRONMENT);
   of_all.add_cut_off(detector_.detection().cut_off(settings_.query()));

@@ -23,7 +23,7 @@
 
 namespace fiber_proximity_ros {
 
-/// What an answer is given for.
+/// The reason for an answer.
 struct AnswerCause {
   bool has_new_fibers;  ///< false: about the same fibres as the answer before
   bool shows_fibers;    ///< whether ~fibers and ~crossings are published, too
@@ -58,7 +58,7 @@ class AnswerPipeline {
  private:
   void publish_fibers();
   void detect();
-  std::string most_contacts_of() const;
+  std::string input_with_most_contacts() const;
   void publish_contacts();
   void detect_in_environment();
   void predict();

@@ -25,7 +25,7 @@ using fiber_proximity::Contact;
 constexpr std::size_t queries_per_candidate = 3;
 
 /// So many are checked at once, that it does not take long to see that a deadline has come.
-constexpr std::size_t most_candidates = 256;
+constexpr std::size_t max_candidates = 256;
 
 /// Must be validated yet.
 fiber::QueryOptions options_of_candidates(const CheckFibers::Request& request,
@@ -125,10 +125,10 @@ class PresentFibers {
     }
   }
 
-  /// What candidates of the request are to be checked against, but for what may touch.
+  /// The bodies that candidates of the request are checked against, without the allowed pairs.
   const fiber::Surroundings& surroundings() const { return surroundings_; }
 
-  /// What all fibres of the node count one of these as.
+  /// The index among all fibres of the node of one that is present.
   std::uint32_t number_among_all(std::uint32_t fiber) const { return kept_[fiber]; }
 
  private:
@@ -193,7 +193,7 @@ void append(const Check& check, const PresentFibers& present, bool was_all_there
   response.offsets.push_back(static_cast<std::uint32_t>(response.contacts.size()));
 }
 
-/// What the candidates of a request are checked against, as far as it is known.
+/// How completely the bodies are known that the candidates of a request are checked against.
 Completeness surroundings_known(const CheckFibers::Request& request, const Knowledge& knowledge) {
   using About = Knowledge::About;
   const bool fibers = request.ignore_fibers == 0;
@@ -227,7 +227,7 @@ void answer_all(const CheckFibers::Request& request, const QueryTarget& target,
     const std::size_t begin = response.free.size();
     const std::vector<std::string>& names = request.candidates[offsets[begin]].names;
     const auto is_next = [&](std::size_t i) {
-      return i == begin || (offsets[i + 1] - offsets[begin] <= most_candidates &&
+      return i == begin || (offsets[i + 1] - offsets[begin] <= max_candidates &&
                             request.candidates[offsets[i]].names == names && !target.is_time_up());
     };
     std::vector<Item> items;

@@ -13,7 +13,7 @@
 
 namespace fiber_proximity_ros {
 
-/// What services ask about. Holds references: only for the call.
+/// The scene that a request is about. Holds references: only for the call.
 struct QueryTarget {
   const fiber::FiberAssembly& fibers;
   const std::vector<std::string>& fiber_names;
@@ -25,7 +25,7 @@ struct QueryTarget {
   const fiber::QueryOptions& defaults;  ///< what a request leaves open
   fiber::Deadline deadline;             ///< of the whole call, from its arrival
 
-  /// What may touch fibres of these names.
+  /// Finds the pairs that fibres of these names are allowed to touch.
   std::function<fiber::AllowedPairs(const std::vector<std::string>&)> find_allowed;
 
   /// Part of the time after which nothing more is examined: the rest is for the answer.

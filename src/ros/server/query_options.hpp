@@ -23,7 +23,7 @@ std::string overridden_by_accuracy(const fiber_proximity::ProximityConfig& confi
 /// @throws std::invalid_argument listing the numbers
 fiber::QueryType to_query_type(std::uint8_t type);
 
-/// What requests of all services have in common; they must be validated yet.
+/// The options that requests of all services have in common; they are not validated yet.
 /// @throws std::invalid_argument for an unknown type or kernel
 template <class Request>
 fiber::QueryOptions to_options(const Request& request, const fiber::QueryOptions& defaults) {

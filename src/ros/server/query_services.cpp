@@ -88,7 +88,7 @@ void append_contacts(const fiber::QueryResult& result, std::uint32_t shape,
   response.offsets.push_back(static_cast<std::uint32_t>(response.contacts.size()));
 }
 
-/// What a request is about, as far as it is known.
+/// How completely the bodies are known that a request is about.
 Completeness known_around(std::uint8_t against, const Knowledge& knowledge) {
   using About = Knowledge::About;
   switch (against) {
@@ -130,7 +130,7 @@ void answer(const QueryProximity::Request& request, const QueryTarget& target,
     is_cut_off = is_cut_off || !result.complete;
     response.limit_reached = response.limit_reached || result.limit_reached;
   }
-  // Of the shapes that the deadline came before nothing is known.
+  // Nothing is known of the shapes that the deadline came before.
   if (is_cut_off || response.minimum_lower.size() < count) {
     options.deadline = request.deadline;
     known.add_cut_off(cut_off_text("pairs of shapes", options));

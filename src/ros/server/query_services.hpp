@@ -10,7 +10,7 @@
 
 namespace fiber_proximity_ros {
 
-/// What services are asked about, which must outlive them.
+/// The things that services are asked about; all must outlive them.
 struct QuerySubject {
   ObservedScene& scene;
   Detector& detector;  ///< knows the fibres of the scene

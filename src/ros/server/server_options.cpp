@@ -99,7 +99,7 @@ void read_inputs(const ros::NodeHandle& public_node, const Parameters& parameter
   }
 }
 
-/// What an engine refuses is the value of a parameter.
+/// Checks the parameters that the engine judges.
 void check_engine(const ros::NodeHandle& private_node, const ServerOptions& options) {
   const std::string prefix = "parameter " + private_node.getNamespace() + "/";
   fiber::with_context(prefix + "engine", [&] { fiber::make_engine(options.engine); });

@@ -49,13 +49,14 @@ class AskedConfig : public fiber_proximity::ProximityConfig {
   // NOLINTNEXTLINE(google-explicit-constructor, hicpp-explicit-conversions)
   AskedConfig(const fiber_proximity::ProximityConfig& config) : ProximityConfig(config) {}
 
-  // What the server calls; these hide those of the base class.
+  // The server calls these; they hide those of the base class.
   // NOLINTBEGIN(bugprone-reserved-identifier, cert-dcl37-c, cert-dcl51-cpp)
   void __clamp__() {}
   bool __fromMessage__(dynamic_reconfigure::Config& message);
   // NOLINTEND(bugprone-reserved-identifier, cert-dcl37-c, cert-dcl51-cpp)
 
-  /// What of the message that was read last is no parameter of this name and type; empty: nothing.
+  /// Why the message that was read last has something that is no parameter of its name and type;
+  /// empty if all are.
   const std::string& problem() const { return problem_; }
 
  private:
