@@ -14,7 +14,8 @@
 #include <QImage>
 #include <QPainter>
 #include <algorithm>
-#include <cmath>
+
+#include "src/rviz/fiber_colors.hpp"
 
 namespace fiber_proximity_rviz {
 namespace {
@@ -24,13 +25,6 @@ using fiber_proximity_ros::LegendLine;
 
 constexpr int window_margin = 12;  // [pixels] from the window's edges
 constexpr int padding = 6;         // [pixels] of the texts from their ground's edges
-
-QColor color_of(const fiber_proximity_ros::Rgb& rgb) {
-  const auto to_int = [](float x) {
-    return std::clamp(static_cast<int>(std::lround(255.0F * x)), 0, 255);
-  };
-  return {to_int(rgb[0]), to_int(rgb[1]), to_int(rgb[2])};
-}
 
 /// The lines before a ground that is dark enough to read them whatever is behind.
 QImage paint(const std::vector<LegendLine>& lines, int height) {
@@ -51,7 +45,8 @@ QImage paint(const std::vector<LegendLine>& lines, int height) {
   painter.setFont(font);
   int base = padding + metrics.ascent();
   for (const LegendLine& line : lines) {
-    painter.setPen(color_of(line.color));
+    const Color color = to_color(line.color, 1.0F);
+    painter.setPen(QColor(color[0], color[1], color[2]));
     painter.drawText(padding, base, QString::fromStdString(line.text));
     base += step;
   }

@@ -156,6 +156,11 @@ class NodeTest : public ::testing::Test {
     return found;
   }
 
+  /// Waits for an error or a warning that has this text.
+  void expect_log(const std::string& text) const {
+    EXPECT_TRUE(wait_for([&] { return !logs_of(text).empty(); })) << text;
+  }
+
   /// What holds of every answer, whatever it is about.
   void TearDown() override {
     for (const auto& answer : contacts.messages) {

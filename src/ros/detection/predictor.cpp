@@ -100,7 +100,7 @@ void Predictor::limit_to_known(const fiber::QueryOptions& options,
 
 /// Takes the newest message of each input, if it is new.
 void Predictor::take_frames() {
-  const std::vector<std::unique_ptr<Input>>& inputs = scene_.fibers.inputs();
+  const auto& inputs = scene_.fibers.inputs();
   while (inputs_frames_.size() < inputs.size()) {
     inputs_frames_.push_back({fiber::PointVelocities(options_.frames), {}, {}, {}});
   }
@@ -125,7 +125,7 @@ void Predictor::take_frames() {
 /// still.
 /// @returns false if all inputs do
 bool Predictor::predict_places(fiber_proximity::TimeToContact& message) {
-  const std::vector<std::unique_ptr<Input>>& inputs = scene_.fibers.inputs();
+  const auto& inputs = scene_.fibers.inputs();
   points_.clear();
   message.frames = std::numeric_limits<std::uint32_t>::max();
   message.frame_time = std::numeric_limits<double>::infinity();

@@ -276,10 +276,6 @@ void draw_nearest_object(const EnvironmentDrawing& drawing, double free_distance
                          const std::vector<PlacedText>& others, const MarkerScale& scale,
                          MarkerCanvas& canvas) {
   const fiber::Contact& minimum = *drawing.minimum;
-  Marker& line = canvas.add("environment_nearest", Marker::LINE_LIST);
-  line.scale.x = 0.004 * scale.extent;
-  line.color = distance_color(minimum.distance, free_distance);
-  line.points = {to_message(minimum.point_a), to_message(minimum.point_b)};
   // At the object, on the side where its surface is, as its inside would hide the text; a little
   // upwards, as what it stands on would.
   const std::string text =
@@ -288,10 +284,8 @@ void draw_nearest_object(const EnvironmentDrawing& drawing, double free_distance
   const double height = 0.035 * scale.extent;
   const double gap = 1.5 * height;
   const Label label{minimum.point_b, outwards, gap, height, text.size(), minimum.normal, others};
-  const Vector3d place = label_place(drawing.fibers, scale, label);
-  canvas.add_text("environment_nearest_text", height, place, text);
-  canvas.add_leader("environment_nearest_leader", scale, minimum.point_b,
-                    leader_end(scale, label, place));
+  draw_closest_pair(drawing.fibers, scale, minimum, distance_color(minimum.distance, free_distance),
+                    label, text, "environment_nearest", canvas);
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "fiber_proximity/ros/conversions.hpp"
+
 namespace fiber_proximity_ros {
 namespace {
 
@@ -146,6 +148,19 @@ Vector3d leader_end(const MarkerScale& scale, const Label& label, const Vector3d
   const Vector3d direction = (place - label.point).stableNormalized();
   const double distance = (place - label.point).norm() - half_extent(scale, label, direction);
   return label.point + 0.9 * distance * direction;
+}
+
+void draw_closest_pair(const fiber::FiberAssembly& fibers, const MarkerScale& scale,
+                       const fiber::Contact& pair, const std_msgs::ColorRGBA& color,
+                       const Label& label, const std::string& text, const std::string& ns,
+                       MarkerCanvas& canvas) {
+  visualization_msgs::Marker& line = canvas.add(ns, visualization_msgs::Marker::LINE_LIST);
+  line.scale.x = 0.004 * scale.extent;
+  line.color = color;
+  line.points = {to_message(pair.point_a), to_message(pair.point_b)};
+  const Vector3d place = label_place(fibers, scale, label);
+  canvas.add_text(ns + "_text", label.height, place, text);
+  canvas.add_leader(ns + "_leader", scale, label.point, leader_end(scale, label, place));
 }
 
 }  // namespace fiber_proximity_ros

@@ -123,18 +123,12 @@ void draw_passed(const std::vector<fiber::Contact>& contacts, double largest,
 
 void draw_nearest(const fiber::FiberAssembly& fibers, const fiber::Contact& minimum,
                   const MarkerScale& scale, MarkerCanvas& canvas) {
-  Marker& line = canvas.add("nearest", Marker::LINE_LIST);
-  line.scale.x = 0.004 * scale.extent;
-  line.color = color(palette::nearest);
-  line.points = {to_message(minimum.point_a), to_message(minimum.point_b)};
   const std::string text = distance_text(minimum.distance);
   const double height = text_height * scale.extent;
   const double gap = 1.5 * height;
-  const Vector3d middle = middle_of(minimum);
-  const Label label{middle, scale.up, gap, height, text.size(), Vector3d::Zero(), {}};
-  const Vector3d place = label_place(fibers, scale, label);
-  canvas.add_text("nearest_text", height, place, text);
-  canvas.add_leader("nearest_leader", scale, middle, leader_end(scale, label, place));
+  const Label label{middle_of(minimum), scale.up, gap, height, text.size(), Vector3d::Zero(), {}};
+  draw_closest_pair(fibers, scale, minimum, color(palette::nearest), label, text, "nearest",
+                    canvas);
 }
 
 void draw_boxes(const std::vector<fiber::NodeBox>& boxes, double extent, MarkerCanvas& canvas) {

@@ -133,7 +133,7 @@ class PresentFibers {
 
  private:
   void leave_out(const QueryTarget& target, const std::vector<std::string>& replaced) {
-    const std::vector<std::string>& names = target.fiber_names;
+    const std::vector<std::string>& names = target.scene.fibers.names();
     for (const std::string& name : replaced) {
       if (std::find(names.begin(), names.end(), name) == names.end()) {
         throw std::invalid_argument("there is no fibre " + fiber::quote(name) + " to be replaced");
@@ -217,7 +217,7 @@ void answer_all(const CheckFibers::Request& request, const QueryTarget& target,
                               std::vector<Check>&),
                 CheckFibers::Response& response) {
   const PresentFibers present(target, request);
-  Completeness known = surroundings_known(request, target.knowledge);
+  Completeness known = surroundings_known(request, target.scene.knowledge);
   bool is_cut_off = false;
   fiber::Surroundings surroundings = present.surroundings();
   const std::size_t count = offsets.size() - 1;
@@ -234,7 +234,7 @@ void answer_all(const CheckFibers::Request& request, const QueryTarget& target,
     for (std::size_t i = begin; i < count && is_next(i); ++i) {
       items.push_back(read(i));
     }
-    surroundings.allowed = target.find_allowed(names);
+    surroundings.allowed = target.scene.environment.allowed(names);
     options.deadline = target.time_for_query();
     options.contact_limit =
         share_of_contacts(target.defaults.contact_limit, response.contacts.size(),
@@ -267,14 +267,17 @@ void answer(const CheckFibers::Request& request, const QueryTarget& target,
     std::vector<std::uint32_t> offsets(request.candidates.size() + 1);
     std::iota(offsets.begin(), offsets.end(), 0);
     const auto read = [&](std::size_t i) {
-      return naming("candidate " + std::to_string(i),
-                    [&] { return to_candidate(request.candidates[i], target.frame); });
+      return naming("candidate " + std::to_string(i), [&] {
+        return to_candidate(request.candidates[i], target.scene.fibers.frame());
+      });
     };
     answer_all(request, target, offsets, options, read, &fiber::check_fibers, response);
   } else {
     const fiber::MotionOptions options = options_of_motions(request, target.defaults);
     validate_waypoints(request);
-    const auto read = [&](std::size_t i) { return read_motion(request, i, target.frame); };
+    const auto read = [&](std::size_t i) {
+      return read_motion(request, i, target.scene.fibers.frame());
+    };
     answer_all(request, target, request.waypoint_offsets, options, read, &fiber::check_motions,
                response);
   }

@@ -111,7 +111,7 @@ void answer(const QueryProximity::Request& request, const QueryTarget& target,
   fiber::QueryResult of_fibers;
   fiber::QueryResult result;
   const std::size_t count = request.shapes.size();
-  Completeness known = known_around(request.against, target.knowledge);
+  Completeness known = known_around(request.against, target.scene.knowledge);
   const double nothing_known = -std::numeric_limits<double>::infinity();
   bool is_cut_off = false;
   response.offsets.reserve(count + 1);
@@ -122,8 +122,9 @@ void answer(const QueryProximity::Request& request, const QueryTarget& target,
     options.contact_limit =
         share_of_contacts(target.defaults.contact_limit, response.contacts.size(), 1);
     naming("shape " + std::to_string(i), [&] {
-      query_shape(target, request.against, to_assembly(request.shapes[i], target.frame), options,
-                  of_fibers, result);
+      query_shape(target, request.against,
+                  to_assembly(request.shapes[i], target.scene.fibers.frame()), options, of_fibers,
+                  result);
     });
     append_contacts(result, i, static_cast<std::uint32_t>(target.fibers.fiber_count()), response);
     response.minimum_lower.push_back(known.lower(result.minimum_lower(), nothing_known));
@@ -153,16 +154,15 @@ bool respond(const QuerySubject& subject, const std::function<void()>& before_an
   before_answer();  // asked after a message arrived, answered with it
   try {
     InputSet& fibers = subject.scene.fibers;
-    const EnvironmentInputs& environment_inputs = subject.scene.environment;
     if (asks_about_fibers) {
       fibers.require_fresh();
     }
-    const std::shared_ptr<const fiber::Environment> environment = environment_inputs.environment();
+    const std::shared_ptr<const fiber::Environment> environment =
+        subject.scene.environment.environment();
     const fiber::FiberAssembly& merged = fibers.fibers();
-    answer_it(QueryTarget{merged, fibers.names(),
+    answer_it(QueryTarget{subject.scene, merged,
                           asks_about_fibers ? &subject.detector.engine() : nullptr, *environment,
-                          fibers.frame(), subject.scene.knowledge, subject.defaults, deadline,
-                          [&](const auto& names) { return environment_inputs.allowed(names); }});
+                          subject.defaults, deadline});
     response.header = fibers.header();
     if (!fibers.is_fresh()) {
       response.header.frame_id = fibers.frame().name();
