@@ -59,7 +59,7 @@ fiber_proximity::FclComparison message_of(const fiber::StyleComparison& style) {
 
 }  // namespace
 
-ComparisonOutput::ComparisonOutput(ros::NodeHandle private_node, const Subject& subject,
+ComparisonOutput::ComparisonOutput(ros::NodeHandle private_node, const DetectedScene& subject,
                                    std::function<void()> before_answer)
     : subject_(subject),
       before_answer_(std::move(before_answer)),

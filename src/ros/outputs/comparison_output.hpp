@@ -7,8 +7,7 @@
 #include "fiber_proximity/CompareWithFcl.h"
 #include "fiber_proximity/Comparison.h"
 #include "fiber_proximity/compare/fcl_comparer.hpp"
-#include "src/ros/detection/detector.hpp"
-#include "src/ros/detection/observed_scene.hpp"
+#include "src/ros/detection/detected_scene.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -16,15 +15,8 @@ namespace fiber_proximity_ros {
 /// asked to, and never else.
 class ComparisonOutput {
  public:
-  /// The things that are compared; all must outlive this.
-  struct Subject {
-    ObservedScene& scene;
-    Detector& detector;  ///< knows the fibres of the scene
-    const fiber::QueryOptions& query;
-  };
-
   /// @param before_answer called before a request is answered, to take in what has arrived
-  ComparisonOutput(ros::NodeHandle private_node, const Subject& subject,
+  ComparisonOutput(ros::NodeHandle private_node, const DetectedScene& subject,
                    std::function<void()> before_answer);
   ComparisonOutput(const ComparisonOutput&) = delete;
   ComparisonOutput& operator=(const ComparisonOutput&) = delete;
@@ -41,7 +33,7 @@ class ComparisonOutput {
   /// @throws std::exception saying why not
   fiber_proximity::Comparison compare();
 
-  Subject subject_;
+  DetectedScene subject_;
   std::function<void()> before_answer_;
   fiber::FclComparer comparer_;
   ros::Publisher publisher_;

@@ -42,13 +42,15 @@ std::vector<LegendLine> MarkerOutput::legend(const MarkerOptions& options,
   return legend_lines(options, explained, margin);
 }
 
-void MarkerOutput::publish(const Subject& subject) {
+void MarkerOutput::publish(const DetectedScene& subject, CrossingsOutput& crossings,
+                           const fiber_proximity::ProximityConfig& config,
+                           const Completeness& completeness) {
   is_requested_ = false;
   last_time_ = ros::SteadyTime::now();
   InputSet& inputs = subject.scene.fibers;
-  const MarkerOptions options = marker_options(subject.config);
+  const MarkerOptions options = marker_options(config);
   const EnvironmentMarkerOptions environment_shown =
-      environment_options(subject.config, subject.scene.environment.is_used());
+      environment_options(config, subject.scene.environment.is_used());
   const Detection& found = subject.detector.detection();
   const Detection& around = subject.environment.detection();
   boxes_.clear();
@@ -62,24 +64,24 @@ void MarkerOutput::publish(const Subject& subject) {
                      found.contact_error(), found.is_complete());
   }
   if (options.show_crossings) {
-    subject.crossings.find(inputs.fibers(), inputs.header());
+    crossings.find(inputs.fibers(), inputs.header());
   }
   has_shown_distances_ = has_shown_distances_ || !around.contacts().contacts.empty();
   const std::vector<LegendLine> lines =
       options.show_legend ? legend(options, environment_shown, subject.query.margin)
                           : std::vector<LegendLine>();
   passed_.forget_old();
-  const CrossingDrawing crossings{subject.crossings.crossings(), subject.crossings.view()};
+  const CrossingDrawing crossing_drawing{crossings.crossings(), crossings.view()};
   const Drawing drawing{inputs.fibers(),
                         found.contacts().contacts,
                         found.minimum(),
                         boxes_,
                         cost,
-                        &crossings,
+                        &crossing_drawing,
                         &inputs.names(),
                         &lines,
                         &passed_.contacts(),
-                        &subject.completeness.unknown()};
+                        &completeness.unknown()};
   builder_.build(inputs.header(), drawing, options, topic_.message());
   environment_markers_.append(inputs.header(),
                               {inputs.fibers(), subject.environment.environment().objects(),

@@ -6,9 +6,7 @@
 #include <vector>
 
 #include "fiber_proximity/ProximityConfig.h"
-#include "src/ros/detection/detector.hpp"
-#include "src/ros/detection/environment_detector.hpp"
-#include "src/ros/detection/observed_scene.hpp"
+#include "src/ros/detection/detected_scene.hpp"
 #include "src/ros/detection/step_contacts.hpp"
 #include "src/ros/outputs/crossings_output.hpp"
 #include "src/ros/outputs/environment_markers.hpp"
@@ -20,17 +18,6 @@ namespace fiber_proximity_ros {
 /// The newest answer, drawn on ~markers.
 class MarkerOutput {
  public:
-  /// An answer to draw. Holds references: only for the call.
-  struct Subject {
-    ObservedScene& scene;
-    Detector& detector;
-    const EnvironmentDetector& environment;
-    CrossingsOutput& crossings;
-    const fiber_proximity::ProximityConfig& config;
-    const fiber::QueryOptions& query;
-    const Completeness& completeness;  ///< of contacts with fibres and with objects
-  };
-
   /// @param rate [Hz] markers are drawn at most this often
   MarkerOutput(const ros::NodeHandle& private_node, double rate, const Newcomer& on_newcomer)
       : topic_(private_node, "markers", on_newcomer), rate_(rate) {}
@@ -49,7 +36,9 @@ class MarkerOutput {
   void add_passed(const std::vector<StepContact>& contacts) { passed_.add(contacts); }
 
   /// Draws and publishes.
-  void publish(const Subject& subject);
+  /// @param completeness of contacts with fibres and with objects
+  void publish(const DetectedScene& subject, CrossingsOutput& crossings,
+               const fiber_proximity::ProximityConfig& config, const Completeness& completeness);
 
  private:
   std::vector<LegendLine> legend(const MarkerOptions& options,

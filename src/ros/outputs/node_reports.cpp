@@ -17,9 +17,9 @@ StatisticsOutput::StatisticsOutput(const ros::NodeHandle& private_node, const Su
                                    const Newcomer& on_newcomer)
     : about_(about), topic_(private_node, "statistics", on_newcomer) {}
 
-void StatisticsOutput::publish(fiber::Kernel kernel, const Completeness& of_fibers,
-                               const Completeness& of_all, double time) {
-  const auto& [scene, detector, environment, step] = about_;
+void StatisticsOutput::publish(const Completeness& of_fibers, const Completeness& of_all,
+                               double time) {
+  const auto& [scene, detector, environment, step, query] = about_;
   fiber_proximity::Statistics& message = topic_.message();
   message.header = scene.fibers.header();
   message.engine = detector.engine_name();
@@ -35,7 +35,7 @@ void StatisticsOutput::publish(fiber::Kernel kernel, const Completeness& of_fibe
   message.update_time = detector.update_time();
   message.detect_time = detector.detect_time();
   message.total_time = time;
-  message.kernel = name_of(kernel);
+  message.kernel = name_of(query.kernel);
   message.complete = of_all.is_complete();
   message.unknown = of_all.unknown();
   message.limit_reached = found.is_limit_reached();
@@ -191,9 +191,9 @@ void Diagnostics::report_deadlines(Status& status) {
                                                std::to_string(counts.answers) +
                                                " answers cut off: " + counts.reason);
   }
-  status.addf("deadline [s]", "%g", about_.options.deadline);
-  status.add("pair limit", about_.options.pair_limit);
-  status.add("contact limit", about_.options.contact_limit);
+  status.addf("deadline [s]", "%g", about_.query.deadline);
+  status.add("pair limit", about_.query.pair_limit);
+  status.add("contact limit", about_.query.contact_limit);
   status.add("answers", counts.answers);
   status.add("cut off", counts.cut_off);
 }

@@ -10,11 +10,7 @@
 #include <vector>
 
 #include "fiber_proximity/Statistics.h"
-#include "fiber_proximity/query/options.hpp"
-#include "src/ros/detection/detector.hpp"
-#include "src/ros/detection/environment_detector.hpp"
-#include "src/ros/detection/fiber_step.hpp"
-#include "src/ros/detection/observed_scene.hpp"
+#include "src/ros/detection/detected_scene.hpp"
 #include "src/ros/outputs/output_topic.hpp"
 
 namespace fiber_proximity_ros {
@@ -22,15 +18,7 @@ namespace fiber_proximity_ros {
 /// Sizes, times and accuracy of each answer, on ~statistics.
 class StatisticsOutput {
  public:
-  /// The things that statistics are about; all must outlive the output.
-  struct Subject {
-    ObservedScene& scene;
-    const Detector& detector;
-    const EnvironmentDetector& environment;
-    const FiberStep& step;
-  };
-
-  StatisticsOutput(const ros::NodeHandle& private_node, const Subject& about,
+  StatisticsOutput(const ros::NodeHandle& private_node, const DetectedScene& about,
                    const Newcomer& on_newcomer);
 
   bool has_listeners() const { return topic_.has_listeners(); }
@@ -43,11 +31,10 @@ class StatisticsOutput {
 
   /// @param of_fibers how complete the contacts of fibres are, of all how complete all of it is
   /// @param time      [s] of all of it, with conversions
-  void publish(fiber::Kernel kernel, const Completeness& of_fibers, const Completeness& of_all,
-               double time);
+  void publish(const Completeness& of_fibers, const Completeness& of_all, double time);
 
  private:
-  Subject about_;
+  DetectedScene about_;
   OutputTopic<fiber_proximity::Statistics> topic_;
   std::vector<std::pair<std::string, double>> parts_;
 };
@@ -63,15 +50,8 @@ struct AnswerCounts {
 /// one for the engine and one for deadlines and limits.
 class Diagnostics {
  public:
-  /// The things that diagnostics are about; all must outlive this.
-  struct Subject {
-    const ObservedScene& scene;
-    const Detector& detector;
-    const fiber::QueryOptions& options;
-  };
-
   Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
-              const Subject& about);
+              const DetectedScene& about);
   Diagnostics(const Diagnostics&) = delete;
   Diagnostics& operator=(const Diagnostics&) = delete;
 
@@ -98,7 +78,7 @@ class Diagnostics {
   void report_deadlines(Status& status);
   void add_counts(const fiber_proximity::InputStatistics& input, Status& status);
 
-  Subject about_;
+  DetectedScene about_;
   std::map<std::string, Seen> seen_;  // by topic
   AnswerCounts counts_;
   diagnostic_updater::Updater updater_;

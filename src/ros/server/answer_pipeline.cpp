@@ -31,9 +31,9 @@ AnswerPipeline::AnswerPipeline(const ros::NodeHandle& node, const ros::NodeHandl
       crossings_(private_node, scene.fibers.frame(), on_newcomer),
       time_to_contact_(private_node, "time_to_contact", on_newcomer),
       markers_(private_node, options.marker_rate, on_newcomer),
-      comparison_(private_node, {scene, detector_, settings.query()}, before_answer),
-      statistics_(private_node, {scene, detector_, environment_, motion_.step()}, on_newcomer),
-      diagnostics_(node, private_node, {scene, detector_, settings.query()}) {
+      comparison_(private_node, detected(), before_answer),
+      statistics_(private_node, detected(), on_newcomer),
+      diagnostics_(node, private_node, detected()) {
   detector_.set_fibers(scene.fibers.fibers());  // none yet, which can be asked about, too
 }
 
@@ -70,8 +70,7 @@ void AnswerPipeline::answer(const AnswerCause& cause) {
   publish_markers_if_due();
   compare();
   if (has_statistics) {
-    statistics_.publish(settings_.query().kernel,
-                        scene_.knowledge.completeness(Knowledge::About::FIBERS),
+    statistics_.publish(scene_.knowledge.completeness(Knowledge::About::FIBERS),
                         completeness_of_all(), cause.time_before + cause.stopwatch.seconds());
   }
 }
@@ -209,8 +208,7 @@ void AnswerPipeline::compare() {
 
 void AnswerPipeline::publish_markers_if_due() {
   if (markers_.is_due()) {
-    markers_.publish({scene_, detector_, environment_, crossings_, settings_.config(),
-                      settings_.query(), completeness_of_all()});
+    markers_.publish(detected(), crossings_, settings_.config(), completeness_of_all());
   }
 }
 

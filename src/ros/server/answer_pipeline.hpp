@@ -6,6 +6,7 @@
 
 #include "fiber_proximity/FiberArray.h"
 #include "fiber_proximity/TimeToContact.h"
+#include "src/ros/detection/detected_scene.hpp"
 #include "src/ros/detection/detector.hpp"
 #include "src/ros/detection/environment_detector.hpp"
 #include "src/ros/detection/motion_detector.hpp"
@@ -52,8 +53,9 @@ class AnswerPipeline {
   /// Does what is due whether or not messages arrive: late markers and diagnostics.
   void tick();
 
-  /// Knows the fibres of the scene.
-  Detector& detector() { return detector_; }
+  DetectedScene detected() {
+    return {scene_, detector_, environment_, motion_.step(), settings_.query()};
+  }
 
  private:
   void publish_fibers();

@@ -24,8 +24,7 @@ ProximityServer::ProximityServer(const ros::NodeHandle& node, const ros::NodeHan
       pipeline_(
           node, private_node, options_, settings_, scene_, [this] { has_newcomers_ = true; },
           [this] { process(); }),
-      queries_(serve_queries(private_node, {scene_, pipeline_.detector(), settings_.query()},
-                             [this] { process(); })),
+      queries_(serve_queries(private_node, pipeline_.detected(), [this] { process(); })),
       tick_timer_(node_.createSteadyTimer(ros::WallDuration(tick_interval),
                                           [this](const ros::SteadyTimerEvent&) { tick(); })),
       retry_timer_(node_.createSteadyTimer(

@@ -147,7 +147,7 @@ void answer(const QueryProximity::Request& request, const QueryTarget& target,
 
 /// Answers a request about what there is now, or says why it cannot.
 template <class Request, class Response, class Answer>
-bool respond(const QuerySubject& subject, const std::function<void()>& before_answer,
+bool respond(const DetectedScene& subject, const std::function<void()>& before_answer,
              const Request& request, bool asks_about_fibers, Response& response,
              const Answer& answer_it) {
   const fiber::Deadline deadline(request.deadline);
@@ -162,7 +162,7 @@ bool respond(const QuerySubject& subject, const std::function<void()>& before_an
     const fiber::FiberAssembly& merged = fibers.fibers();
     answer_it(QueryTarget{subject.scene, merged,
                           asks_about_fibers ? &subject.detector.engine() : nullptr, *environment,
-                          subject.defaults, deadline});
+                          subject.query, deadline});
     response.header = fibers.header();
     if (!fibers.is_fresh()) {
       response.header.frame_id = fibers.frame().name();
@@ -181,7 +181,7 @@ bool respond(const QuerySubject& subject, const std::function<void()>& before_an
 }  // namespace
 
 std::vector<ros::ServiceServer> serve_queries(ros::NodeHandle private_node,
-                                              const QuerySubject& subject,
+                                              const DetectedScene& subject,
                                               const std::function<void()>& before_answer) {
   using Query = boost::function<bool(QueryProximity::Request&, QueryProximity::Response&)>;
   const Query query = [=](const auto& request, auto& response) {
