@@ -1,4 +1,4 @@
-// What stands beside the fibres: names, the legend with its axes, the cost.
+// The texts beside the fibres: names, the legend with its axes, the cost.
 #include <cmath>
 
 #include "fiber_proximity/ros/conversions.hpp"

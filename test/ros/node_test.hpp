@@ -20,7 +20,7 @@
 #include "fiber_proximity/ros/conversions.hpp"
 #include "test/support/answers.hpp"
 
-/// What tests of the running node share. The node under test is /proximity.
+/// Tools that tests of the running node share. The node under test is /proximity.
 namespace node_test {
 
 /// [s] that only a broken node needs, however busy the machine is.
@@ -161,7 +161,7 @@ class NodeTest : public ::testing::Test {
     EXPECT_TRUE(wait_for([&] { return !logs_of(text).empty(); })) << text;
   }
 
-  /// What holds of every answer, whatever it is about.
+  /// Checks what holds of every answer, whatever it is about.
   void TearDown() override {
     for (const auto& answer : contacts.messages) {
       EXPECT_EQ(answer->complete != 0, answer->unknown.empty());

@@ -170,7 +170,7 @@ class UnknownTest : public node_test::SimulatedTimeTest {
     pass(0.05);
   }
 
-  /// What the newest message of each output says.
+  /// Returns what the newest message of each output says.
   std::map<std::string, std::pair<About, Verdict>> verdicts() const {
     std::map<std::string, std::pair<About, Verdict>> verdicts;
     const auto of_array = [](const ContactArray& answer) {
@@ -256,7 +256,7 @@ class UnknownTest : public node_test::SimulatedTimeTest {
     return "";
   }
 
-  /// Of the newest report; -1 if there is none.
+  /// The level of the newest report; -1 if there is none.
   int level_of(const std::string& name) const {
     if (!diagnostics_.messages.empty()) {
       for (const auto& status : diagnostics_.messages.back()->status) {
