@@ -13,7 +13,7 @@ std::uint32_t to_count(std::size_t count) { return static_cast<std::uint32_t>(co
 
 }  // namespace
 
-StatisticsOutput::StatisticsOutput(const ros::NodeHandle& private_node, const Subject& about,
+StatisticsOutput::StatisticsOutput(const ros::NodeHandle& private_node, const DetectedScene& about,
                                    const Newcomer& on_newcomer)
     : about_(about), topic_(private_node, "statistics", on_newcomer) {}
 
@@ -69,7 +69,7 @@ void StatisticsOutput::publish(const Completeness& of_fibers, const Completeness
 }
 
 Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
-                         const Subject& about)
+                         const DetectedScene& about)
     : about_(about), updater_(node, private_node, private_node.getNamespace()) {
   updater_.setHardwareID("none");
   for (std::size_t i = 0; i < about_.scene.fibers.inputs().size(); ++i) {
