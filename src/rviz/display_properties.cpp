@@ -76,20 +76,18 @@ DisplayProperties::DisplayProperties(rviz::Property& display,
   opacity_->setMax(1.0F);
   default_radius_->setMin(0.0F);
 
-  for (rviz::Property* property : std::initializer_list<rviz::Property*>{
-           style_, sides_, reduce_detail_, pixel_error_, color_by_, color_, autocompute_range_,
-           min_value_, max_value_, opacity_, default_radius_}) {
-    QObject::connect(property, &rviz::Property::changed, property, on_style_change);
-  }
-  for (rviz::Property* property :
-       std::initializer_list<rviz::Property*>{style_, color_by_, autocompute_range_}) {
-    QObject::connect(property, &rviz::Property::changed, property, [this] { update_visibility(); });
-  }
-  for (rviz::Property* property :
-       std::initializer_list<rviz::Property*>{color_by_, contact_topic_}) {
-    QObject::connect(property, &rviz::Property::changed, property, on_source_change);
-  }
-  QObject::connect(fit_view_, &rviz::Property::changed, fit_view_, on_fit_change);
+  const auto connect = [](std::initializer_list<rviz::Property*> properties,
+                          const std::function<void()>& on_change) {
+    for (rviz::Property* property : properties) {
+      QObject::connect(property, &rviz::Property::changed, property, on_change);
+    }
+  };
+  connect({style_, sides_, reduce_detail_, pixel_error_, color_by_, color_, autocompute_range_,
+           min_value_, max_value_, opacity_, default_radius_},
+          on_style_change);
+  connect({style_, color_by_, autocompute_range_}, [this] { update_visibility(); });
+  connect({color_by_, contact_topic_}, on_source_change);
+  connect({fit_view_}, on_fit_change);
   update_visibility();
 }
 

@@ -33,15 +33,6 @@ EnvironmentMarkerOptions environment_options(const fiber_proximity::ProximityCon
 
 }  // namespace
 
-/// Where fibres may touch all that is around them, there are no distances to explain.
-std::vector<LegendLine> MarkerOutput::legend(const MarkerOptions& options,
-                                             const EnvironmentMarkerOptions& environment,
-                                             double margin) {
-  EnvironmentMarkerOptions explained = environment;
-  explained.show_distances = explained.show_distances && has_shown_distances_;
-  return legend_lines(options, explained, margin);
-}
-
 void MarkerOutput::publish(const DetectedScene& subject, CrossingsOutput& crossings,
                            const fiber_proximity::ProximityConfig& config,
                            const Completeness& completeness) {
@@ -67,9 +58,13 @@ void MarkerOutput::publish(const DetectedScene& subject, CrossingsOutput& crossi
     crossings.find(inputs.fibers(), inputs.header());
   }
   has_shown_distances_ = has_shown_distances_ || !around.contacts().contacts.empty();
-  const std::vector<LegendLine> lines =
-      options.show_legend ? legend(options, environment_shown, subject.query.margin)
-                          : std::vector<LegendLine>();
+  std::vector<LegendLine> legend;
+  if (options.show_legend) {
+    // Where fibres may touch all that is around them, there are no distances to explain.
+    EnvironmentMarkerOptions explained = environment_shown;
+    explained.show_distances = explained.show_distances && has_shown_distances_;
+    legend = legend_lines(options, explained, subject.query.margin);
+  }
   passed_.forget_old();
   const CrossingDrawing crossing_drawing{crossings.crossings(), crossings.view()};
   const Drawing drawing{inputs.fibers(),
@@ -79,7 +74,7 @@ void MarkerOutput::publish(const DetectedScene& subject, CrossingsOutput& crossi
                         cost,
                         &crossing_drawing,
                         &inputs.names(),
-                        &lines,
+                        &legend,
                         &passed_.contacts(),
                         &completeness.unknown()};
   builder_.build(inputs.header(), drawing, options, topic_.message());

@@ -41,9 +41,6 @@ class MarkerOutput {
                const fiber_proximity::ProximityConfig& config, const Completeness& completeness);
 
  private:
-  std::vector<LegendLine> legend(const MarkerOptions& options,
-                                 const EnvironmentMarkerOptions& environment, double margin);
-
   OutputTopic<visualization_msgs::MarkerArray> topic_;
   double rate_;  // [Hz]
   bool is_requested_ = false;
