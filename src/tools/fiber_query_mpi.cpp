@@ -16,15 +16,11 @@
 #include "src/io/file_format.hpp"
 #include "src/io/number.hpp"
 #include "src/mpi/communicator.hpp"
-#include "src/mpi/part_loads.hpp"
-#include "src/mpi/plan.hpp"
-#include "src/mpi/step_costs.hpp"
 #include "src/tools/contact_rows.hpp"
 #include "src/tools/contact_sink.hpp"
 #include "src/tools/fiber_query.hpp"
 #include "src/tools/fiber_source.hpp"
 #include "src/tools/mpi_tool.hpp"
-#include "src/tools/plan_output.hpp"
 
 namespace fiber {
 namespace {
@@ -34,7 +30,6 @@ struct MpiRequest : RankRequest {
   std::string out;  // "" for stdout
   std::optional<std::string> format;
   bool resume = false;
-  PlanRequest plan;
 };
 
 /// What a subcommand asks.
@@ -104,25 +99,10 @@ ExitCode run(const MpiRequest& request, const Question& question) {
   return SUCCEEDED;
 }
 
-/// What more ranks would hold of the first frame.
-ExitCode plan_file(const MpiRequest& request, const QueryOptions& query) {
-  const Communicator ranks(MPI_COMM_WORLD);
-  FiberSource source(ranks, request.file, request.radius);
-  DistributedFibers fibers;
-  source.read(0, fibers);
-  std::vector<PlannedPart> parts =
-      plan_of(part_loads(ranks, fibers, request.plan.parts, query.margin));
-  predict_steps(parts, measure_steps(ranks, fibers, request.engine_options, query),
-                request.plan.network);
-  on_first_rank(ranks, [&] { write_plan(parts); });
-  return SUCCEEDED;
-}
-
-CLI::Option* add_output_options(CLI::App& app, MpiRequest& request) {
-  CLI::Option* const out =
-      app.add_option("--out", request.out,
-                     "write to this file, .h5, .csv or .json, which has its name once it is whole; "
-                     "without this, to what mpirun takes as output");
+void add_output_options(CLI::App& app, MpiRequest& request) {
+  app.add_option("--out", request.out,
+                 "write to this file, .h5, .csv or .json, which has its name once it is whole; "
+                 "without this, to what mpirun takes as output");
   app.add_option(
          "--format", request.format,
          "of the output; json: one object per frame, in which a fibre's name is a number if "
@@ -130,7 +110,6 @@ CLI::Option* add_output_options(CLI::App& app, MpiRequest& request) {
       ->check(CLI::IsMember({"csv", "json", "hdf5"}));
   app.add_flag("--resume", request.resume,
                "go on after the last whole frame of a run that was interrupted (.h5)");
-  return out;
 }
 
 void add_pair_queries(CLI::App& app, Command& command) {
@@ -138,20 +117,12 @@ void add_pair_queries(CLI::App& app, Command& command) {
   for (const PairQuery& query : pair_queries()) {
     CLI::App* const subcommand = app.add_subcommand(query.name, query.description);
     add_rank_options(*subcommand, *request);
-    CLI::Option* const out = add_output_options(*subcommand, *request);
+    add_output_options(*subcommand, *request);
     add_pair_options(*subcommand, query, request->pairs);
-    if (query.type == QueryType::ALL) {
-      add_plan_options(*subcommand, request->plan,
-                       "of the file's first frame; contacts are not written")
-          ->excludes(out);
-    }
     subcommand->callback([&command, request, query] {
       const QueryOptions options = options_of(query, request->pairs);
       const Question question{query.name, options};
-      command = [request, question] {
-        return request->plan.parts > 0 ? plan_file(*request, question.query)
-                                       : run(*request, question);
-      };
+      command = [request, question] { return run(*request, question); };
     });
   }
 }
@@ -161,7 +132,6 @@ void setup_mpi(CLI::App& app, Command& command) {
   add_pair_queries(app, command);
   add_check(app, command);
   add_convert(app, command);
-  add_regions(app, command);
   add_sweep_mpi(app, command);
 }
 

@@ -28,10 +28,6 @@ void add_check(CLI::App& app, Command& command);
 /// `convert IN OUT [--radius R] [--resume]`: a file of fibres in another format.
 void add_convert(CLI::App& app, Command& command);
 
-/// `regions FILE --margin M [--out REGIONS.csv]`: which rank owns each segment, and whose halo it
-/// is in.
-void add_regions(CLI::App& app, Command& command);
-
 /// `sweep FILE --margin M [--type all|first] [--out CONTACTS.csv]`: contacts between the frames of
 /// a file, with the time at which each begins.
 void add_sweep_mpi(CLI::App& app, Command& command);
