@@ -44,18 +44,25 @@ void check_offsets(const std::vector<std::uint32_t>& offsets, std::size_t point_
   }
 }
 
-void check_points(const std::vector<Eigen::Vector3d>& points,
-                  const std::vector<std::uint32_t>& offsets) {
+/// @param point_at the point of an index, to be checked
+template <class PointAt>
+void check_points(const PointAt& point_at, const std::vector<std::uint32_t>& offsets) {
   for (std::size_t fiber = 0; fiber + 1 < offsets.size(); ++fiber) {
-    for (std::size_t point = offsets[fiber]; point < offsets[fiber + 1]; ++point) {
+    for (std::size_t i = offsets[fiber]; i < offsets[fiber + 1]; ++i) {
+      const Eigen::Vector3d& point = point_at(i);
       for (int axis = 0; axis < 3; ++axis) {
-        if (!FiberAssembly::is_valid_coordinate(points[point][axis])) {
-          refuse("fibre ", fiber, ", point ", point - offsets[fiber], ": ", "xyz"[axis], " is ",
-                 points[point][axis], ", ", FiberAssembly::coordinate_rule);
+        if (!FiberAssembly::is_valid_coordinate(point[axis])) {
+          refuse("fibre ", fiber, ", point ", i - offsets[fiber], ": ", "xyz"[axis], " is ",
+                 point[axis], ", ", FiberAssembly::coordinate_rule);
         }
       }
     }
   }
+}
+
+void check_points(const std::vector<Eigen::Vector3d>& points,
+                  const std::vector<std::uint32_t>& offsets) {
+  check_points([&points](std::size_t i) -> const Eigen::Vector3d& { return points[i]; }, offsets);
 }
 
 void check_new_points(const std::vector<Eigen::Vector3d>& points, std::size_t point_count,
@@ -149,6 +156,13 @@ void FiberAssembly::update_points(const std::vector<Eigen::Vector3d>& points) {
 void FiberAssembly::exchange_points(std::vector<Eigen::Vector3d>& points) {
   check_new_points(points, points_.size(), offsets_);
   points_.swap(points);
+}
+
+void FiberAssembly::transform(const Eigen::Isometry3d& pose) {
+  check_points([&](std::size_t i) -> Eigen::Vector3d { return pose * points_[i]; }, offsets_);
+  for (Eigen::Vector3d& point : points_) {
+    point = pose * point;
+  }
 }
 
 void FiberAssembly::assign_segments(const std::vector<Eigen::Vector3d>& points,

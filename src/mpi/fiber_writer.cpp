@@ -181,11 +181,11 @@ std::size_t DistributedFiberWriter::done() const { return state_->files.done(); 
 void DistributedFiberWriter::write(std::int64_t frame, const DistributedFibers& fibers) {
   const Communicator& ranks = state_->ranks;
   const std::size_t count = fibers.parts.fiber_count();
-  ranks.agree(fibers.names.size() == count
-                  ? ""
-                  : std::to_string(fibers.names.size()) + " names for " + std::to_string(count) +
-                        " parts, there must be one per part");
-  ranks.agree(error_in([&] { require_names(fibers); }));
+  ranks.throw_on_all(fibers.names.size() == count
+                         ? ""
+                         : std::to_string(fibers.names.size()) + " names for " +
+                               std::to_string(count) + " parts, there must be one per part");
+  ranks.throw_on_all(error_in([&] { require_names(fibers); }));
   const RankLines lines = lines_of(ranks, fibers);
   const std::uint64_t size = size_of(lines.all) + size_of_names(fibers.fiber_names);
   state_->files.write(frame, size, [&](hid_t file) -> std::function<void()> {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -82,6 +83,12 @@ class FiberAssembly {
 
   /// The same without a copy: takes these points and leaves those it had.
   void exchange_points(std::vector<Eigen::Vector3d>& points);
+
+  /// Moves all points by a pose, in place.
+  /// @throws std::invalid_argument for a point that gets a bad coordinate; the assembly is
+  /// unchanged
+  ///         then
+  void transform(const Eigen::Isometry3d& pose);
 
   /// Makes it other fibres, in the memory it has, with one radius for all, or one for each segment
   /// [m]: that of its first point. The last point of a fibre has one as well then, which must be 0.
