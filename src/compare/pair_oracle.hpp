@@ -11,9 +11,9 @@
 
 namespace fiber {
 
-/// What FCL's distance of two capsules may be wrong by: 16 roundings of the largest coordinate and
-/// the radii. FCL gives no error. It works on world coordinates and rotations, so no better can be
-/// expected of it; on pairs that are neither tiny nor almost parallel it is as good [m].
+/// The error that FCL's distance of two capsules may have: 16 roundings of the largest coordinate
+/// and the radii. FCL gives no error. It works on world coordinates and rotations, so no better can
+/// be expected of it; on pairs that are neither tiny nor almost parallel it is as good [m].
 double fcl_error(const Capsule& a, const Capsule& b);
 
 /// Judges pairs by their exact distance.

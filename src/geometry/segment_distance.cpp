@@ -155,10 +155,6 @@ Kernel kernel_from_name(const std::string& name) {
   return static_cast<Kernel>(found - names.begin());
 }
 
-std::string current_kernel_name(const std::string& name) {
-  return name == "fast" ? name_of(Kernel::ROBUST) : name;
-}
-
 SegmentDistance segment_distance(Kernel kernel, const Vector3d& p0, const Vector3d& p1,
                                  const Vector3d& q0, const Vector3d& q1) {
   return kernel == Kernel::EXACT ? exact_segment_distance(p0, p1, q0, q1)

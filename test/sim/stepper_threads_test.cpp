@@ -64,7 +64,7 @@ TEST(StepperThreads, GiveTheSameBits) {
 
 TEST(StepperThreads, BeyondTheMostAreRefused) {
   StepperOptions options;
-  options.threads = most_threads + 1;
+  options.threads = max_threads + 1;
   EXPECT_EQ(error_of([&] { Stepper(Rods(), {}, options); }),
             "threads is 1025, it must be at most 1024 (0 for as many as there are cores)");
 }

@@ -21,10 +21,6 @@ enum class Kernel {
 /// @throws std::invalid_argument listing the names
 Kernel kernel_from_name(const std::string& name);
 
-/// What a kernel of the version before this is called now: `fast`, which saved no time, is robust;
-/// every other name is as it is.
-std::string current_kernel_name(const std::string& name);
-
 /// All names, in the order of Kernel.
 const std::vector<std::string>& kernel_names();
 

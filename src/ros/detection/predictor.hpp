@@ -1,6 +1,6 @@
 #pragma once
 
-#include <ros/node_handle.h>
+#include <ros/time.h>
 
 #include <cstdint>
 #include <memory>
@@ -11,9 +11,7 @@
 #include "fiber_proximity/TimeToContact.h"
 #include "fiber_proximity/query/engine.hpp"
 #include "src/geometry/point_velocities.hpp"
-#include "src/ros/detection/knowledge.hpp"
-#include "src/ros/inputs/input_set.hpp"
-#include "src/ros/outputs/environment_output.hpp"
+#include "src/ros/detection/observed_scene.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -24,44 +22,41 @@ struct PredictionOptions {
   double tolerance = 1e-6;  ///< [m] see MotionOptions
 };
 
-/// When fibres will touch if they go on as they do, on ~time_to_contact; nothing is computed unless
-/// somebody listens.
-class PredictionOutput {
+/// Finds when fibres will touch each other, and what is around them, if they go on as they do.
+class Predictor {
  public:
-  /// @param inputs must outlive this
+  /// @param scene must outlive this
   /// @throws std::invalid_argument as fiber::make_engine()
-  PredictionOutput(ros::NodeHandle& private_node, InputSet& inputs, const std::string& engine,
-                   const fiber::EngineOptions& options, const Newcomer& on_newcomer);
+  Predictor(ObservedScene& scene, const std::string& engine, const fiber::EngineOptions& options)
+      : scene_(scene), engine_(fiber::make_engine(engine, options)) {}
 
   void configure(const PredictionOptions& options);
 
-  bool is_wanted() const { return options_.horizon > 0.0 && publisher_.getNumSubscribers() > 0; }
+  bool is_on() const { return options_.horizon > 0.0; }
 
-  /// Takes the new fibres and publishes what they are about to touch.
-  /// @param environment what is around them, if there is anything
-  void publish(const fiber::QueryOptions& options, const EnvironmentOutput& environment,
-               const Knowledge& knowledge);
+  /// Takes the new fibres and tells what they are about to touch.
+  void predict(const fiber::QueryOptions& options, fiber_proximity::TimeToContact& message);
 
   /// Fibres are not looked at: their velocities are not known any more.
   void skip() { inputs_frames_.clear(); }
 
  private:
-  /// What is known of an input's motion.
+  /// The known motion of an input.
   struct InputFrames {
     fiber::PointVelocities velocities;
-    // Of the newest frame:
+    // These are of the newest frame:
     std::vector<std::string> names;
     std::vector<std::uint32_t> offsets;
     std::optional<ros::Time> stamp;
   };
 
   void take_frames();
-  bool predict_places();
-  void predict(const fiber::QueryOptions& options, const EnvironmentOutput& environment);
-  void limit_to_known(const fiber::QueryOptions& options, const Knowledge& knowledge);
+  bool predict_places(fiber_proximity::TimeToContact& message);
+  void find_contacts(const fiber::QueryOptions& options, fiber_proximity::TimeToContact& message);
+  void limit_to_known(const fiber::QueryOptions& options,
+                      fiber_proximity::TimeToContact& message) const;
 
-  InputSet& inputs_;
-  ros::Publisher publisher_;
+  ObservedScene& scene_;
   std::unique_ptr<fiber::ProximityEngine> engine_;
   PredictionOptions options_;
   std::vector<InputFrames> inputs_frames_;  // by input
@@ -72,7 +67,6 @@ class PredictionOutput {
   fiber::FiberAssembly before_;
   fiber::FiberAssembly after_;
   fiber::MotionResult result_;
-  fiber_proximity::TimeToContact message_;
 };
 
 }  // namespace fiber_proximity_ros

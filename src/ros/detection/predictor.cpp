@@ -1,10 +1,13 @@
-#include "src/ros/outputs/prediction_output.hpp"
+#include "src/ros/detection/predictor.hpp"
 
 #include <ros/console.h>
 
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
+
+#include "src/ros/detection/detector.hpp"
+#include "src/ros/detection/environment_detector.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -40,73 +43,64 @@ PredictedContact earliest_of(const fiber::MotionResult& result, double horizon,
 
 }  // namespace
 
-PredictionOutput::PredictionOutput(ros::NodeHandle& private_node, InputSet& inputs,
-                                   const std::string& engine, const fiber::EngineOptions& options,
-                                   const Newcomer& on_newcomer)
-    : inputs_(inputs),
-      publisher_(
-          advertise<fiber_proximity::TimeToContact>(private_node, "time_to_contact", on_newcomer)),
-      engine_(fiber::make_engine(engine, options)) {}
-
-void PredictionOutput::configure(const PredictionOptions& options) {
+void Predictor::configure(const PredictionOptions& options) {
   if (options.frames != options_.frames) {
     inputs_frames_.clear();
   }
   options_ = options;
 }
 
-void PredictionOutput::publish(const fiber::QueryOptions& options,
-                               const EnvironmentOutput& environment, const Knowledge& knowledge) {
+void Predictor::predict(const fiber::QueryOptions& options,
+                        fiber_proximity::TimeToContact& message) {
   take_frames();
-  message_ = {};
-  message_.header = inputs_.header();
-  message_.fiber_names = inputs_.names();
-  message_.margin = options.margin;
-  message_.horizon = options_.horizon;
-  message_.assumption =
+  message = {};
+  message.header = scene_.fibers.header();
+  message.fiber_names = scene_.fibers.names();
+  message.margin = options.margin;
+  message.horizon = options_.horizon;
+  message.assumption =
       "each point keeps the velocity of the line of least squares through its places in the last "
       "messages of its input, and objects stand still";
   try {
-    predict(options, environment);
+    find_contacts(options, message);
   } catch (const std::invalid_argument& error) {
-    message_.same_fiber = message_.different_fibers = message_.environment = PredictedContact();
-    message_.problem = error.what();
-    ROS_WARN_STREAM_THROTTLE(1.0, "time_to_contact: " << message_.problem);
+    message.same_fiber = message.different_fibers = message.environment = PredictedContact();
+    message.problem = error.what();
+    ROS_WARN_STREAM_THROTTLE(1.0, "time_to_contact: " << message.problem);
   }
-  limit_to_known(options, knowledge);
-  publisher_.publish(message_);
+  limit_to_known(options, message);
 }
 
-/// What is unknown may come at any moment.
-void PredictionOutput::limit_to_known(const fiber::QueryOptions& options,
-                                      const Knowledge& knowledge) {
+/// Lowers the bounds to those that hold although something is unknown: it may come at any moment.
+void Predictor::limit_to_known(const fiber::QueryOptions& options,
+                               fiber_proximity::TimeToContact& message) const {
   using About = Knowledge::About;
   const auto limit = [&](const Completeness& known, PredictedContact& contact) {
     contact.time_lower = known.lower(contact.time_lower, 0.0);
-    contact.complete = contact.complete && known.is_complete() && message_.problem.empty();
+    contact.complete = contact.complete && known.is_complete() && message.problem.empty();
   };
-  Completeness all = knowledge.completeness(About::FIBERS_AND_ENVIRONMENT);
-  const Completeness of_fibers = knowledge.completeness(About::FIBERS);
+  Completeness all = scene_.knowledge.completeness(About::FIBERS_AND_ENVIRONMENT);
+  const Completeness of_fibers = scene_.knowledge.completeness(About::FIBERS);
   bool is_cut_off = false;
   for (const PredictedContact* contact :
-       {&message_.same_fiber, &message_.different_fibers, &message_.environment}) {
+       {&message.same_fiber, &message.different_fibers, &message.environment}) {
     is_cut_off = is_cut_off || !contact->complete;
   }
-  limit(of_fibers, message_.same_fiber);
-  limit(of_fibers, message_.different_fibers);
-  limit(all, message_.environment);
-  if (!message_.problem.empty()) {
-    all.add_cut_off("prediction: " + message_.problem);
+  limit(of_fibers, message.same_fiber);
+  limit(of_fibers, message.different_fibers);
+  limit(all, message.environment);
+  if (!message.problem.empty()) {
+    all.add_cut_off("prediction: " + message.problem);
   } else if (is_cut_off) {
     all.add_cut_off(cut_off_text("pairs that move", options));
   }
-  message_.complete = all.is_complete();
-  message_.unknown = all.unknown();
+  message.complete = all.is_complete();
+  message.unknown = all.unknown();
 }
 
-/// Of each input its newest message, if it is new.
-void PredictionOutput::take_frames() {
-  const std::vector<std::unique_ptr<Input>>& inputs = inputs_.inputs();
+/// Takes the newest message of each input, if it is new.
+void Predictor::take_frames() {
+  const auto& inputs = scene_.fibers.inputs();
   while (inputs_frames_.size() < inputs.size()) {
     inputs_frames_.push_back({fiber::PointVelocities(options_.frames), {}, {}, {}});
   }
@@ -127,13 +121,14 @@ void PredictionOutput::take_frames() {
   }
 }
 
-/// Where the points will be at the horizon. Who has sent one message only stands still.
-/// @returns false if that are all of them
-bool PredictionOutput::predict_places() {
-  const std::vector<std::unique_ptr<Input>>& inputs = inputs_.inputs();
+/// Finds where the points will be at the horizon. An input that has sent only one message stands
+/// still.
+/// @returns false if all inputs do
+bool Predictor::predict_places(fiber_proximity::TimeToContact& message) {
+  const auto& inputs = scene_.fibers.inputs();
   points_.clear();
-  message_.frames = std::numeric_limits<std::uint32_t>::max();
-  message_.frame_time = std::numeric_limits<double>::infinity();
+  message.frames = std::numeric_limits<std::uint32_t>::max();
+  message.frame_time = std::numeric_limits<double>::infinity();
   bool one_moves = false;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     if (!inputs[i]->is_fresh()) {
@@ -141,11 +136,11 @@ bool PredictionOutput::predict_places() {
     }
     const fiber::PointVelocities& frames = inputs_frames_[i].velocities;
     if (frames.frame_count() < 2) {
-      message_.assumption += "; " + inputs[i]->options().topic + ", with one message, stands still";
+      message.assumption += "; " + inputs[i]->options().topic + ", with one message, stands still";
     } else {
       one_moves = true;
-      message_.frames = std::min(message_.frames, static_cast<std::uint32_t>(frames.frame_count()));
-      message_.frame_time = std::min(message_.frame_time, frames.duration());
+      message.frames = std::min(message.frames, static_cast<std::uint32_t>(frames.frame_count()));
+      message.frame_time = std::min(message.frame_time, frames.duration());
     }
     frames.find(velocities_);
     const std::vector<Eigen::Vector3d>& points = inputs[i]->fibers().points();
@@ -156,19 +151,19 @@ bool PredictionOutput::predict_places() {
   return one_moves;
 }
 
-void PredictionOutput::predict(const fiber::QueryOptions& options,
-                               const EnvironmentOutput& environment) {
-  if (!inputs_.is_fresh()) {
-    message_.problem = "there are no fibres";
+void Predictor::find_contacts(const fiber::QueryOptions& options,
+                              fiber_proximity::TimeToContact& message) {
+  if (!scene_.fibers.is_fresh()) {
+    message.problem = "there are no fibres";
     return;
   }
-  if (!predict_places()) {
-    message_.frames = 1;
-    message_.frame_time = 0.0;
-    message_.problem = "no input has sent more than one message: there are no velocities yet";
+  if (!predict_places(message)) {
+    message.frames = 1;
+    message.frame_time = 0.0;
+    message.problem = "no input has sent more than one message: there are no velocities yet";
     return;
   }
-  before_ = inputs_.fibers();  // its own: the engine refers to it until the next time
+  before_ = scene_.fibers.fibers();  // its own: the engine refers to it until the next time
   after_ = before_;
   after_.update_points(points_);
   engine_->update_motion(before_, after_);
@@ -177,24 +172,24 @@ void PredictionOutput::predict(const fiber::QueryOptions& options,
   motion.type = fiber::MotionType::ALL;
   motion.contact_limit = 0;
   engine_->query_motion(motion, result_);
-  message_.same_fiber = earliest_of(result_, options_.horizon, [](const MotionContact& contact) {
+  message.same_fiber = earliest_of(result_, options_.horizon, [](const MotionContact& contact) {
     return contact.fiber_a == contact.fiber_b;
   });
-  message_.different_fibers =
+  message.different_fibers =
       earliest_of(result_, options_.horizon,
                   [](const MotionContact& contact) { return contact.fiber_a != contact.fiber_b; });
-  if (environment.is_used()) {
+  if (scene_.environment.is_used()) {
     motion.type = fiber::MotionType::FIRST;
     motion.contact_limit = options.contact_limit;
-    const std::shared_ptr<const fiber::Environment> around = environment.inputs().environment();
+    const std::shared_ptr<const fiber::Environment> around = scene_.environment.environment();
     around->query_motion(before_, after_, *around, motion,
-                         environment.inputs().allowed(inputs_.names()), result_);
-    message_.object_names = object_names(*around);
+                         scene_.environment.allowed(scene_.fibers.names()), result_);
+    message.object_names = object_names(*around);
   } else {
     result_ = fiber::MotionResult();
     result_.others_lower = 1.0;
   }
-  message_.environment =
+  message.environment =
       earliest_of(result_, options_.horizon, [](const MotionContact&) { return true; });
 }
 
