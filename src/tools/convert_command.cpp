@@ -127,7 +127,7 @@ ExitCode convert(const ConvertRequest& request) {
   }
   const Communicator ranks(MPI_COMM_WORLD);
   require_other_file(ranks, request.in, request.out);
-  FiberSource source(ranks, request.in, request.radius);
+  FiberSource source(ranks, request.in, request.radius, FrameSharing::PARTS);
   if (is_hdf5) {
     convert_to_hdf5(ranks, request, source);
   } else {
@@ -147,8 +147,7 @@ void add_convert(CLI::App& app, Command& command) {
       ->add_option("OUT", request->out,
                    "what to write; all fibres of a frame are on rank 0 unless both files are .h5")
       ->required();
-  subcommand->add_option("--radius", request->radius, "of all fibres, if the file has no radii [m]")
-      ->capture_default_str();
+  add_radius_option(*subcommand, request->radius);
   subcommand->add_flag("--resume", request->resume,
                        "go on after the last whole frame of a run that was interrupted (.h5)");
   subcommand->callback([&command, request] { command = [request] { return convert(*request); }; });

@@ -16,25 +16,19 @@
 #include "src/io/file_format.hpp"
 #include "src/io/number.hpp"
 #include "src/mpi/communicator.hpp"
-#include "src/mpi/part_loads.hpp"
-#include "src/mpi/plan.hpp"
-#include "src/mpi/step_costs.hpp"
 #include "src/tools/contact_rows.hpp"
 #include "src/tools/contact_sink.hpp"
-#include "src/tools/fiber_query.hpp"
 #include "src/tools/fiber_source.hpp"
 #include "src/tools/mpi_tool.hpp"
-#include "src/tools/plan_output.hpp"
 
 namespace fiber {
 namespace {
 
-struct MpiRequest : RankRequest {
+struct MpiRequest : FiberRequest {
   PairRequest pairs;
   std::string out;  // "" for stdout
   std::optional<std::string> format;
   bool resume = false;
-  PlanRequest plan;
 };
 
 /// What a subcommand asks.
@@ -80,7 +74,7 @@ ExitCode run(const MpiRequest& request, const Question& question) {
   const Communicator ranks(MPI_COMM_WORLD);
   require_other_file(ranks, request.file, request.out);
   DistributedEngine engine(MPI_COMM_WORLD, request.engine_options);
-  FiberSource source(ranks, request.file, request.radius);
+  FiberSource source(ranks, request.file, request.radius, FrameSharing::PARTS);
   DistributedFileOptions options;
   options.has_frames = source.has_frames();
   options.resume = request.resume;
@@ -104,33 +98,13 @@ ExitCode run(const MpiRequest& request, const Question& question) {
   return SUCCEEDED;
 }
 
-/// What more ranks would hold of the first frame.
-ExitCode plan_file(const MpiRequest& request, const QueryOptions& query) {
-  const Communicator ranks(MPI_COMM_WORLD);
-  FiberSource source(ranks, request.file, request.radius);
-  DistributedFibers fibers;
-  source.read(0, fibers);
-  std::vector<PlannedPart> parts =
-      plan_of(part_loads(ranks, fibers, request.plan.parts, query.margin));
-  predict_steps(parts, measure_steps(ranks, fibers, request.engine_options, query),
-                request.plan.network);
-  on_first_rank(ranks, [&] { write_plan(parts); });
-  return SUCCEEDED;
-}
-
-CLI::Option* add_output_options(CLI::App& app, MpiRequest& request) {
-  CLI::Option* const out =
-      app.add_option("--out", request.out,
-                     "write to this file, .h5, .csv or .json, which has its name once it is whole; "
-                     "without this, to what mpirun takes as output");
-  app.add_option(
-         "--format", request.format,
-         "of the output; json: one object per frame, in which a fibre's name is a number if "
-         "it is whole; without this, by the end of its name, else csv")
+void add_output_options(CLI::App& app, MpiRequest& request) {
+  add_out_option(app, request.out, ".h5, .csv or .json");
+  app.add_option("--format", request.format,
+                 std::string(format_help) + "; without this, by the end of its name, else csv")
       ->check(CLI::IsMember({"csv", "json", "hdf5"}));
   app.add_flag("--resume", request.resume,
                "go on after the last whole frame of a run that was interrupted (.h5)");
-  return out;
 }
 
 void add_pair_queries(CLI::App& app, Command& command) {
@@ -138,20 +112,12 @@ void add_pair_queries(CLI::App& app, Command& command) {
   for (const PairQuery& query : pair_queries()) {
     CLI::App* const subcommand = app.add_subcommand(query.name, query.description);
     add_rank_options(*subcommand, *request);
-    CLI::Option* const out = add_output_options(*subcommand, *request);
+    add_output_options(*subcommand, *request);
     add_pair_options(*subcommand, query, request->pairs);
-    if (query.type == QueryType::ALL) {
-      add_plan_options(*subcommand, request->plan,
-                       "of the file's first frame; contacts are not written")
-          ->excludes(out);
-    }
     subcommand->callback([&command, request, query] {
       const QueryOptions options = options_of(query, request->pairs);
       const Question question{query.name, options};
-      command = [request, question] {
-        return request->plan.parts > 0 ? plan_file(*request, question.query)
-                                       : run(*request, question);
-      };
+      command = [request, question] { return run(*request, question); };
     });
   }
 }
@@ -159,9 +125,8 @@ void add_pair_queries(CLI::App& app, Command& command) {
 void setup_mpi(CLI::App& app, Command& command) {
   app.require_subcommand(0, 1);
   add_pair_queries(app, command);
-  add_check(app, command);
+  add_check_mpi(app, command);
   add_convert(app, command);
-  add_regions(app, command);
   add_sweep_mpi(app, command);
 }
 
@@ -176,17 +141,19 @@ std::string text_of_pairs(const QueryOptions& query) {
          text_of_option(query.neighbour_skip_length) + ", kernel " + name_of(query.kernel);
 }
 
-void add_rank_options(CLI::App& app, RankRequest& request) {
-  app.add_option("FILE", request.file,
-                 "fibre file: .h5, of which each rank reads its part; .hair, or CSV as fiber_query "
-                 "reads it, which rank 0 reads")
-      ->required();
-  app.add_option("--radius", request.radius, "of all fibres, if the file has no radii [m]")
-      ->capture_default_str();
-  app.add_option("--threads", request.engine_options.threads,
-                 "most threads that each rank uses, 0 for as many as there are cores")
-      ->check(whole_number(0))
-      ->capture_default_str();
+void add_rank_options(CLI::App& app, FiberRequest& request) {
+  request.engine_options.threads = 1;
+  add_fiber_options(app, request,
+                    "fibre file: .h5, of which each rank reads its part; .hair, or CSV as "
+                    "fiber_query reads it, which rank 0 reads",
+                    rank_threads_help);
+}
+
+void add_out_option(CLI::App& app, std::string& out, const std::string& ends) {
+  app.add_option("--out", out,
+                 "write to this file (" + ends +
+                     "), which has its name once it is whole; without this, to what mpirun takes "
+                     "as output");
 }
 
 }  // namespace fiber
