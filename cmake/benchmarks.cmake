@@ -21,7 +21,8 @@ fiber_proximity_tool(fiber_bench src/tools/fiber_bench.cpp
   benchmark/sim/tip_truth.cpp benchmark/sim/validation.cpp benchmark/sim/xpbd_rod.cpp
   benchmark/simulate.cpp benchmark/stages.cpp benchmark/swapped_places.cpp
   benchmark/swaying.cpp)
-target_link_libraries(fiber_bench fiber_bench_motions fiber_bench_peers fiber_bench_sim fiber_proximity_environment fcl)
+target_link_libraries(fiber_bench fiber_bench_motions fiber_bench_peers fiber_bench_sim
+  fiber_proximity_paper fiber_proximity_scenes fiber_proximity_environment fcl)
 if(FIBER_PROXIMITY_BUILD_ROS)
   target_sources(fiber_bench PRIVATE benchmark/latency.cpp benchmark/obstacle_latency.cpp)
   target_compile_definitions(fiber_bench PRIVATE FIBER_BENCH_HAS_LATENCY)

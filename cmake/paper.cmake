@@ -1,4 +1,4 @@
-# The volumes, hierarchies and engines of the paper, and its scenes beside ours.
+# The volumes, hierarchies and engines of the paper.
 
 add_library(fiber_proximity_paper SHARED
   src/paper/bounds/direction_set.cpp
@@ -8,14 +8,6 @@ add_library(fiber_proximity_paper SHARED
   src/paper/engines/kdop_engines.cpp
   src/paper/engines/paper_engines.cpp
   src/paper/hierarchy/cascaded_hierarchy.cpp
-  src/scenes/cables.cpp
-  src/scenes/cloth.cpp
-  src/scenes/hair.cpp
-  src/scenes/large_scene.cpp
-  src/scenes/scalp.cpp
-  src/scenes/scene.cpp
-  src/scenes/soup.cpp
-  src/scenes/tufts.cpp
 )
 target_link_libraries(fiber_proximity_paper PUBLIC fiber_proximity PRIVATE fiber_proximity_options)
 # Once registered, its engines are in the factory of the core, which may outlive a plugin that loaded this library.

@@ -1,6 +1,10 @@
 # Nodes, nodelets, launch files, and what a catkin workspace installs.
 
 add_library(fiber_proximity_ros SHARED
+  src/ros/detection/detector.cpp
+  src/ros/detection/fiber_step.cpp
+  src/ros/detection/knowledge.cpp
+  src/ros/detection/step_contacts.cpp
   src/ros/environment/cloud_cells.cpp
   src/ros/environment/cloud_input.cpp
   src/ros/environment/environment_inputs.cpp
@@ -27,17 +31,13 @@ add_library(fiber_proximity_ros SHARED
   src/ros/outputs/comparison_output.cpp
   src/ros/outputs/contact_output.cpp
   src/ros/outputs/crossings_output.cpp
-  src/ros/outputs/detector.cpp
   src/ros/outputs/environment_markers.cpp
   src/ros/outputs/environment_output.cpp
-  src/ros/outputs/fiber_step.cpp
-  src/ros/outputs/knowledge.cpp
   src/ros/outputs/label_place.cpp
   src/ros/outputs/marker_canvas.cpp
   src/ros/outputs/markers.cpp
   src/ros/outputs/node_reports.cpp
   src/ros/outputs/prediction_output.cpp
-  src/ros/outputs/step_contacts.cpp
   src/ros/outputs/tube_mesh.cpp
   src/ros/player/fiber_player.cpp
   src/ros/server/check_service.cpp
@@ -61,7 +61,7 @@ add_library(fiber_proximity_ros SHARED
 target_include_directories(fiber_proximity_ros SYSTEM PUBLIC
   ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION} ${catkin_INCLUDE_DIRS})
 target_link_libraries(fiber_proximity_ros
-  PUBLIC fiber_proximity_sim fiber_proximity_compare fiber_proximity_paper ${catkin_LIBRARIES}
+  PUBLIC fiber_proximity_sim fiber_proximity_compare fiber_proximity_paper fiber_proximity_scenes ${catkin_LIBRARIES}
   PRIVATE fiber_proximity_options)
 fiber_proximity_parse_once(fiber_proximity_ros ${ros_headers})
 target_sources(fiber_proximity_ros PRIVATE ${interface_table}) # not there yet to be read for what is compiled together

@@ -2,7 +2,7 @@
 
 add_library(fiber_proximity_command_line OBJECT src/tools/command_line.cpp)
 target_link_libraries(fiber_proximity_command_line PUBLIC
-  fiber_proximity_paper CLI11::CLI11 fiber_proximity_options)
+  fiber_proximity CLI11::CLI11 fiber_proximity_options)
 target_link_libraries(fiber_proximity_command_line PUBLIC nlohmann_json::nlohmann_json)
 fiber_proximity_compile_fast(fiber_proximity_command_line)
 fiber_proximity_precompile(fiber_proximity_command_line ${tool_headers})

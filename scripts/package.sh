@@ -106,7 +106,7 @@ sort_out() {
     [ ! -e lib/fiber_proximity/fiber_bench_mpi ] || take "$cluster" lib/fiber_proximity/fiber_bench_mpi
     take "$cluster_development" include/fiber_proximity/mpi share/fiber_proximity/cmake/fiber_proximity-mpi*.cmake
   fi
-  take "$library" lib/libfiber_proximity{,_compare,_environment,_paper,_sim}.so
+  take "$library" lib/libfiber_proximity{,_compare,_environment,_paper,_scenes,_sim}.so
   take_tools "$library" fiber_{query,scene,simulate}
   take "$development" include lib/pkgconfig share/fiber_proximity/cmake
   # What is left is of ROS: catkin's and rosbag's own names for it.

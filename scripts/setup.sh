@@ -45,7 +45,7 @@ done
 
 # Message definitions (ros-*) and Python modules come beside the headers: Debian only recommends them.
 packages=(
-  build-essential cmake ninja-build catkin ros-message-generation libroscpp-dev rosbash
+  build-essential cmake ninja-build ccache catkin ros-message-generation libroscpp-dev rosbash
   libnodelet-dev libnodeletlib-dev libnodeletlib-tools pluginlib-dev
   libtf2-ros-dev libtf2-geometry-msgs-dev tf2-tools
   libdynamic-reconfigure-config-init-mutex-dev python3-dynamic-reconfigure libdiagnostic-updater-dev

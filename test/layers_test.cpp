@@ -30,6 +30,7 @@ const std::vector<std::vector<std::string>> layers{
     {"ros/support"},
     {"ros/inputs"},
     {"ros/environment"},
+    {"ros/detection"},
     {"ros/outputs"},
     {"ros/server", "ros/sim", "ros/bridges", "ros/player", "rviz"},
     {"nodes"},

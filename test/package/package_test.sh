@@ -90,6 +90,13 @@ cmake -S "$source/test/package/cmake_user" -B "$work/cmake_user" -DCMAKE_PREFIX_
   { cat "$work/configure.log"; exit 1; }
 cmake --build "$work/cmake_user" >"$work/build.log" || { cat "$work/build.log"; exit 1; }
 expect_paper_engines "$work/cmake_user"
+[ "$("$work/cmake_user/scene_fibers")" = "5 cables" ] || fail "scene_fibers makes other fibres"
+# The paper's engines are loaded by those tools alone that offer them by name.
+for tool in fiber_scene fiber_simulate fiber_scene_mpi fiber_query_mpi; do
+  program=$(find "$prefix" -name "$tool" -type f)
+  [ -n "$program" ] || continue
+  [[ $(ldd "$program") != *libfiber_proximity_paper* ]] || fail "$tool loads the paper's engines"
+done
 # What is linked is for the consumer to say.
 if grep -r LINK_OPTIONS "$prefix" --include='fiber_proximity-*.cmake'; then
   fail "a component has linker options for its consumers"

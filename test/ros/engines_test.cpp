@@ -1,5 +1,5 @@
 // The running node with every engine by its parameter.
-#include "src/ros/outputs/detector.hpp"
+#include "src/ros/detection/detector.hpp"
 #include "test/ros/messages.hpp"
 #include "test/ros/node_test.hpp"
 #include "test/ros/running_node.hpp"

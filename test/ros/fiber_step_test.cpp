@@ -1,5 +1,5 @@
 // Between which states there is a motion, and when.
-#include "src/ros/outputs/fiber_step.hpp"
+#include "src/ros/detection/fiber_step.hpp"
 
 #include <gtest/gtest.h>
 

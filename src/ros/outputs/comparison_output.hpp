@@ -7,8 +7,8 @@
 #include "fiber_proximity/CompareWithFcl.h"
 #include "fiber_proximity/Comparison.h"
 #include "fiber_proximity/compare/fcl_comparer.hpp"
+#include "src/ros/detection/detector.hpp"
 #include "src/ros/inputs/input_set.hpp"
-#include "src/ros/outputs/detector.hpp"
 
 namespace fiber_proximity_ros {
 

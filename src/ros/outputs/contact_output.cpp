@@ -8,7 +8,7 @@
 
 #include "fiber_proximity/ContactEvent.h"
 #include "fiber_proximity/ros/conversions.hpp"
-#include "src/ros/outputs/fiber_step.hpp"
+#include "src/ros/detection/fiber_step.hpp"
 
 namespace fiber_proximity_ros {
 namespace {

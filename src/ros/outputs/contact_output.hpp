@@ -8,9 +8,9 @@
 #include "fiber_proximity/ContactArray.h"
 #include "fiber_proximity/query/options.hpp"
 #include "src/query/touch_tracker.hpp"
-#include "src/ros/outputs/detector.hpp"
-#include "src/ros/outputs/knowledge.hpp"
-#include "src/ros/outputs/step_contacts.hpp"
+#include "src/ros/detection/detector.hpp"
+#include "src/ros/detection/knowledge.hpp"
+#include "src/ros/detection/step_contacts.hpp"
 #include "src/ros/support/advertise.hpp"
 
 namespace fiber_proximity_ros {

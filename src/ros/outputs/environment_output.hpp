@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "src/ros/detection/detector.hpp"
+#include "src/ros/detection/step_contacts.hpp"
 #include "src/ros/environment/environment_inputs.hpp"
 #include "src/ros/inputs/input_set.hpp"
 #include "src/ros/outputs/contact_output.hpp"
-#include "src/ros/outputs/detector.hpp"
-#include "src/ros/outputs/step_contacts.hpp"
 
 namespace fiber_proximity_ros {
 

@@ -11,11 +11,11 @@
 
 #include "fiber_proximity/Statistics.h"
 #include "fiber_proximity/query/options.hpp"
+#include "src/ros/detection/detector.hpp"
+#include "src/ros/detection/fiber_step.hpp"
+#include "src/ros/detection/knowledge.hpp"
 #include "src/ros/inputs/input_set.hpp"
-#include "src/ros/outputs/detector.hpp"
 #include "src/ros/outputs/environment_output.hpp"
-#include "src/ros/outputs/fiber_step.hpp"
-#include "src/ros/outputs/knowledge.hpp"
 #include "src/ros/support/advertise.hpp"
 
 namespace fiber_proximity_ros {

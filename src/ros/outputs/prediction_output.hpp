@@ -11,9 +11,9 @@
 #include "fiber_proximity/TimeToContact.h"
 #include "fiber_proximity/query/engine.hpp"
 #include "src/geometry/point_velocities.hpp"
+#include "src/ros/detection/knowledge.hpp"
 #include "src/ros/inputs/input_set.hpp"
 #include "src/ros/outputs/environment_output.hpp"
-#include "src/ros/outputs/knowledge.hpp"
 
 namespace fiber_proximity_ros {
 

@@ -10,8 +10,8 @@
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
 #include "src/geometry/swept_fibers.hpp"
+#include "src/ros/detection/detector.hpp"
 #include "src/ros/inputs/fixed_frame.hpp"
-#include "src/ros/outputs/detector.hpp"
 #include "src/ros/server/query_options.hpp"
 #include "src/text/quote.hpp"
 

@@ -8,8 +8,8 @@
 #include "fiber_proximity/environment/environment.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/query/options.hpp"
+#include "src/ros/detection/knowledge.hpp"
 #include "src/ros/inputs/fixed_frame.hpp"
-#include "src/ros/outputs/knowledge.hpp"
 
 namespace fiber_proximity_ros {
 

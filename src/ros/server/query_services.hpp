@@ -5,10 +5,10 @@
 #include <functional>
 #include <vector>
 
+#include "src/ros/detection/detector.hpp"
+#include "src/ros/detection/knowledge.hpp"
 #include "src/ros/environment/environment_inputs.hpp"
 #include "src/ros/inputs/input_set.hpp"
-#include "src/ros/outputs/detector.hpp"
-#include "src/ros/outputs/knowledge.hpp"
 
 namespace fiber_proximity_ros {
 

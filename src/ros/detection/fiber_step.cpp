@@ -1,4 +1,4 @@
-#include "src/ros/outputs/fiber_step.hpp"
+#include "src/ros/detection/fiber_step.hpp"
 
 #include <algorithm>
 #include <sstream>

@@ -1,4 +1,4 @@
-#include "src/ros/outputs/step_contacts.hpp"
+#include "src/ros/detection/step_contacts.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "src/ros/outputs/knowledge.hpp"
+#include "src/ros/detection/knowledge.hpp"
 
 #include <ros/console.h>
 

@@ -1,4 +1,4 @@
-#include "src/ros/outputs/detector.hpp"
+#include "src/ros/detection/detector.hpp"
 
 #include <algorithm>
 #include <limits>
