@@ -17,7 +17,7 @@
 namespace fiber {
 namespace {
 
-void pack(std::vector<char>& bytes, const FiberFrame& frame) {
+void pack_frame(std::vector<char>& bytes, const FiberFrame& frame) {
   pack(bytes, std::vector{frame.frame});
   pack(bytes, frame.fibers.points());
   pack(bytes, frame.fibers.offsets());
@@ -90,7 +90,7 @@ std::int64_t FiberSource::read(std::size_t index, DistributedFibers& fibers) {
 std::vector<char> FiberSource::pack(const WorkRange& range) {
   std::vector<char> bytes;
   for (std::uint64_t i = range.begin; i < range.end; ++i) {
-    fiber::pack(bytes, std::exchange(file_.frames[i], {}));
+    pack_frame(bytes, std::exchange(file_.frames[i], {}));
   }
   return bytes;
 }
