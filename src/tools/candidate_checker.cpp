@@ -17,18 +17,18 @@ namespace fiber {
 /// What candidates are checked against.
 class CheckContext {
  public:
-  CheckContext(const CheckRequest& request, std::optional<FiberFrame> fibers) {
+  CheckContext(const CheckRequest& request, std::optional<FiberFrame> fibers)
+      : fibers_(std::move(fibers)) {
     if (!request.environment.empty()) {
       read_environment(request.environment);
       surroundings_.environment = &*environment_;
     }
-    if (fibers) {
+    if (fibers_) {
       EngineOptions options;
       options.threads = request.threads;
       engine_ = make_engine("run_tree", options);
-      engine_->update(fibers->fibers);
+      engine_->update(fibers_->fibers);
       surroundings_.fibers = engine_.get();
-      fiber_names_ = fibers->names;
     }
     surroundings_.self = !request.without_self;
   }
@@ -50,7 +50,7 @@ class CheckContext {
   }
 
   /// Of the fibres that there are.
-  const FiberNames& fiber_names() const { return fiber_names_; }
+  const FiberNames& fiber_names() const { return fibers_->names; }
 
  private:
   void read_environment(const std::string& path) {
@@ -73,8 +73,8 @@ class CheckContext {
 
   std::optional<Environment> environment_;
   std::vector<NamedPair> allowed_;
-  std::unique_ptr<ProximityEngine> engine_;
-  FiberNames fiber_names_;
+  const std::optional<FiberFrame> fibers_;
+  std::unique_ptr<ProximityEngine> engine_;  // refers to them
 
   // Which pairs are allowed depends on the names of the candidates that were asked about last:
   Surroundings surroundings_;
