@@ -41,7 +41,7 @@ done
 [ -n "$experiment" ] || { echo "bench.sh: which experiment? $usage" >&2; exit 2; }
 
 "$root/scripts/setup.sh" --bench
-cmake_arguments=()
+cmake_arguments=(-DFIBER_PROXIMITY_BUILD_BENCHMARKS=ON)
 tool=fiber_bench
 targets=(fiber_bench)
 if [ "$experiment" = python ]; then

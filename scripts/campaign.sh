@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Tries what the tests do not: fresh seeds for all random tests, then the fuzzers (scripts/fuzz.sh, if
-# it is there) and the soak of the running node (with ROS).
-#   scripts/campaign.sh [--minutes N] [--jobs N] [--only tests|fuzz|soak] [--out DIR] [--no-build]
+# it is there) and the soak of the running node (with ROS). Mistakes that the tests should see are a part of their own.
+#   scripts/campaign.sh [--minutes N] [--jobs N] [--only tests|fuzz|soak|mutants] [--out DIR] [--no-build]
 #     --minutes N   how long, without building; default: 60
 #     --jobs N      how many processes at once; default: as many as there are cores
-#     --only PART   all the time for one of the three
+#     --only PART   all the time for one of the three; mutants: scripts/mutate.sh, for as long as that takes
 #     --out DIR     where the report goes; default: campaign in the build's folder. A campaign adds to what
 #                   the folder has from earlier ones
 #     --no-build    with what has been built
@@ -17,7 +17,7 @@ set -euo pipefail
 # shellcheck source=scripts/environment.sh
 source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 
-usage="usage: scripts/campaign.sh [--minutes N] [--jobs N] [--only tests|fuzz|soak] [--out DIR]\
+usage="usage: scripts/campaign.sh [--minutes N] [--jobs N] [--only tests|fuzz|soak|mutants] [--out DIR]\
  [--no-build] | --table [--out DIR]"
 refuse() {
   echo "campaign.sh: $1; $usage" >&2
@@ -41,7 +41,7 @@ while [ $# -gt 0 ]; do
       shift
       ;;
     --only)
-      [[ ${2-} =~ ^(tests|fuzz|soak)$ ]] || refuse "--only needs tests, fuzz or soak, not '${2-}'"
+      [[ ${2-} =~ ^(tests|fuzz|soak|mutants)$ ]] || refuse "--only needs tests, fuzz, soak or mutants, not '${2-}'"
       only=$2
       shift
       ;;
@@ -61,6 +61,9 @@ done
 campaign=("$root/scripts/campaign.py" --out "$out")
 if $table; then
   exec "${campaign[@]}" --table "$root/docs/reliability.md"
+fi
+if [ "$only" = mutants ]; then
+  exec "$root/scripts/mutate.sh"
 fi
 if $build_first; then
   "$root/scripts/setup.sh"

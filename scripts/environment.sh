@@ -25,10 +25,10 @@ make_build_folder() {
   return 1
 }
 
-# build_package [TARGET...]: configures (arguments in the array cmake_arguments) and builds.
+# configure_package: with the arguments in the array cmake_arguments.
 # A new build is one of Ninja, which starts in no time where make asks hundreds of catkin's targets, and what
 # ccache has compiled before it does not compile again.
-build_package() {
+configure_package() {
   local tools=()
   if [ ! -f "$build/CMakeCache.txt" ]; then
     ! command -v ninja >/dev/null || tools+=(-G Ninja)
@@ -39,6 +39,11 @@ build_package() {
   make_build_folder
   run_step "configuring $(basename "$build")" "$build/configure.log" \
     cmake -S "$root" -B "$build" "${tools[@]}" "${cmake_arguments[@]}"
+}
+
+# build_package [TARGET...]: configures and builds.
+build_package() {
+  configure_package
   local target
   for target in "${@:-all}"; do
     run_step "building $target" "$build/make.log" \

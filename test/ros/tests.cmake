@@ -223,8 +223,10 @@ if(TARGET fiber_proximity_python)
 endif()
 
 # In the environment of the devel space, as its readers.
-set(tutorials ask_before_you_move attach_a_tracker measure_your_own_scene my_robot_and_my_cable simulate_a_cable
-  stop_the_robot two_cables)
+set(tutorials ask_before_you_move attach_a_tracker my_robot_and_my_cable simulate_a_cable stop_the_robot two_cables)
+if(FIBER_PROXIMITY_BUILD_BENCHMARKS)
+  list(APPEND tutorials measure_your_own_scene)
+endif()
 if(TARGET fiber_proximity_python)
   list(APPEND tutorials clearance_from_a_bag fit_a_cable plan_with_two_grippers)
 endif()
