@@ -65,15 +65,12 @@ add_library(fiber_proximity_mpi SHARED
   src/mpi/loop_questions.cpp
   src/mpi/named_fibers.cpp
   src/mpi/ordered_pairs.cpp
-  src/mpi/part_loads.cpp
   src/mpi/partition.cpp
-  src/mpi/plan.cpp
   src/mpi/piece_boxes.cpp
   src/mpi/rank_fibers.cpp
   src/mpi/rank_load.cpp
   src/mpi/rank_motions.cpp
   src/mpi/rank_search.cpp
-  src/mpi/step_costs.cpp
   src/mpi/whole_file.cpp
 )
 target_include_directories(fiber_proximity_mpi SYSTEM PRIVATE

@@ -103,7 +103,7 @@ sort_out() {
   if has_cluster; then
     take "$cluster" lib/libfiber_proximity_mpi.so
     take_tools "$cluster" fiber_{query,scene}_mpi
-    [ ! -e lib/fiber_proximity/fiber_bench_mpi ] || take "$cluster" lib/fiber_proximity/fiber_bench_mpi
+    [ ! -e lib/fiber_proximity/fiber_bench_mpi ] || take "$cluster" lib/fiber_proximity/fiber_{bench,forecast}_mpi
     take "$cluster_development" include/fiber_proximity/mpi share/fiber_proximity/cmake/fiber_proximity-mpi*.cmake
   fi
   take "$library" lib/libfiber_proximity{,_compare,_environment,_paper,_scenes,_sim}.so

@@ -152,6 +152,7 @@ ExitCode run(const BenchRequest& request) {
   one_thread.threads = 1;
   Measurement measurement;
   DistributedFacts facts;
+  double halo = 0.0;  // for each own segment of all ranks, after the first split
   std::uint64_t pairs = 0;
   DistributedFibers fibers;
   if (request.without_ranks) {
@@ -181,13 +182,17 @@ ExitCode run(const BenchRequest& request) {
         engine.update(fibers.parts, fibers.names);
         engine.query(request.query, result);
       });
-      if (request.is_adopted && engine.facts().split_count > splits) {
-        splits = engine.facts().split_count;
+      facts = engine.facts();
+      if (frame == 0) {
+        halo = static_cast<double>(ranks.sum(facts.halo_segments)) /
+               static_cast<double>(ranks.sum(facts.own_segments));
+      }
+      if (request.is_adopted && facts.split_count > splits) {
+        splits = facts.split_count;
         fibers = engine.adopt();
       }
       pairs = ranks.sum(result.contacts.size());
     });
-    facts = engine.facts();
   }
   const double processor = ranks.largest(measurement.processor());
   const double memory =
@@ -202,8 +207,7 @@ ExitCode run(const BenchRequest& request) {
     line["cycle_ms"] = 1e3 * measurement.wall();
     line["processor_ms"] = 1e3 * processor;
     line["pairs"] = pairs;
-    line["halo"] =
-        static_cast<double>(facts.halo_segments) / static_cast<double>(facts.own_segments);
+    line["halo"] = halo;
     line["bytes_per_segment"] = memory;
     line["splits"] = facts.split_count;
     std::cout << line.dump() << "\n";

@@ -24,10 +24,6 @@ ROOT = PAGE.resolve().parents[1]
 # What a command of the page has, and has here.
 SMALLER = {
     "--segments 1e9": "--segments 1e4",
-    "--segments 1.024e10 --plan 1024 --margin 1e-4 --threads 1 --sample 1.6e7":
-        "--segments 1e6 --plan 8 --margin 1e-4 --threads 1 --sample 2e4",
-    "--segments 1.024e10 --plan 1024": "--segments 1e6 --plan 8 --sample 2e4",
-    "--segments 1.6e7 --plan 8 --margin 1e-4 --sample 1e6": "--segments 1e6 --plan 8 --margin 1e-4 --sample 2e4",
     "soup --scale 0.1 ": "soup --scale 0.02 ",
 }
 
@@ -90,7 +86,7 @@ class DistributedPageTest(unittest.TestCase):
                     self.assertGreater((self.folder / out).stat().st_size, 0, out)
                 if "soup --scale 0.02 " in block:  # the start
                     self.type("fiber_query contacts soup.csv --margin 1e-4 | cmp - contacts.csv")
-        self.assertGreaterEqual(typed, 12)
+        self.assertGreaterEqual(typed, 10)
 
 
 if __name__ == "__main__":

@@ -31,7 +31,7 @@ mkdir elsewhere
 "$tools/fiber_query" contacts bars.csv >expected.csv
 
 # ---- each tool that writes text: the bytes are those of stdout, whatever they go to
-tools_of_text=("contacts bars.csv" "fiber_pairs bars.csv --format json" "sweep bars.csv" "regions one.csv --margin 0.1" "check bars.csv")
+tools_of_text=("contacts bars.csv" "fiber_pairs bars.csv --format json" "sweep bars.csv" "check bars.csv")
 for command in "${tools_of_text[@]}"; do
   # shellcheck disable=SC2086  # a command with its arguments
   run 3 fiber_query_mpi $command >expected.txt
@@ -112,7 +112,7 @@ for end in npy vtp tck; do
 done
 for command in "contacts bars.csv --format json --out found.csv" "contacts bars.csv --format csv --out found.json" \
   "contacts bars.csv --format json --out found.h5" "contacts bars.csv --format hdf5 --out found.csv" \
-  "sweep bars.csv --out found.h5" "check bars.csv --out found.json" "regions one.csv --out found.h5"; do
+  "sweep bars.csv --out found.h5" "check bars.csv --out found.json"; do
   # shellcheck disable=SC2086
   expect_refused "is a name of" fiber_query_mpi $command
 done

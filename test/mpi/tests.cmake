@@ -12,8 +12,7 @@ if(TARGET fiber_proximity_mpi)
     mpi/distributed_halo_test.cpp
     mpi/distributed_motion_test.cpp
     mpi/loop_questions_test.cpp
-    mpi/part_loads_test.cpp
-    mpi/plan_test.cpp
+    mpi/partition_test.cpp
     mpi/mpi_main.cpp
   )
   if(FIBER_PROXIMITY_BUILD_ROS)
@@ -52,6 +51,11 @@ if(TARGET fiber_proximity_mpi)
   add_test(NAME fiber_scene_mpi_test
     COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/mpi/fiber_scene_mpi_test.sh $<TARGET_FILE_DIR:fiber_scene_mpi>
       ${start_ranks})
+  if(TARGET fiber_forecast_mpi)
+    add_test(NAME fiber_forecast_mpi_test
+      COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/mpi/fiber_forecast_mpi_test.sh $<TARGET_FILE_DIR:fiber_forecast_mpi>
+        ${start_ranks})
+  endif()
   foreach(fault failing_zoltan held_rename no_threads)
     add_library(${fault} MODULE mpi/${fault}.cpp)
     set_target_properties(${fault} PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/test/faults)
@@ -67,9 +71,6 @@ if(TARGET fiber_proximity_mpi)
   add_test(NAME distributed_page_test
     COMMAND /usr/bin/python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/mpi/distributed_page_test.py
       ${PROJECT_SOURCE_DIR}/docs/distributed.md $<TARGET_FILE_DIR:fiber_query_mpi> ${start_ranks})
-  add_test(NAME regions_test
-    COMMAND /usr/bin/python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/mpi/regions_test.py $<TARGET_FILE_DIR:fiber_query_mpi>
-      ${start_ranks})
   add_test(NAME vtkhdf_test
     COMMAND /usr/bin/python3 -B ${CMAKE_CURRENT_SOURCE_DIR}/mpi/vtkhdf_test.py $<TARGET_FILE_DIR:fiber_query_mpi>
       ${start_ranks})
