@@ -14,7 +14,7 @@
 
 namespace fiber {
 
-/// What candidates are checked against.
+/// Holds what candidates are checked against.
 class CheckContext {
  public:
   CheckContext(const CheckRequest& request, std::optional<FiberFrame> fibers)
@@ -35,7 +35,7 @@ class CheckContext {
   CheckContext(const CheckContext&) = delete;
   CheckContext& operator=(const CheckContext&) = delete;
 
-  /// For candidates of at most so many fibres, of these names.
+  /// @param fiber_count at least as many as each candidate has, whose fibres have these names
   const Surroundings& surroundings(const FiberNames& names, std::size_t fiber_count) {
     if (fiber_count > fiber_count_ || names != names_) {
       names_ = names;
@@ -49,7 +49,7 @@ class CheckContext {
     return environment_->objects()[object].name;
   }
 
-  /// Of the fibres that there are.
+  /// The names of the fibres that there are.
   const FiberNames& fiber_names() const { return fibers_->names; }
 
  private:

@@ -15,7 +15,7 @@
 
 namespace fiber {
 
-/// What `check` is asked, with ranks and without.
+/// The options of `check`, with ranks and without.
 struct CheckRequest {
   std::string file;         // of candidates, each frame one
   double radius = 0.0;      // [m]
@@ -27,16 +27,16 @@ struct CheckRequest {
   std::uint32_t threads = 0;
 };
 
-/// @param candidates what is said of their file
-/// @param threads    what is said of the number of threads
+/// @param candidates help for their file
+/// @param threads    help for the number of threads
 void add_check_options(CLI::App& app, CheckRequest& request, const std::string& candidates,
                        const std::string& threads);
 
-/// Once all options are read.
+/// Completes the request once all options are read.
 /// @throws std::invalid_argument for options that do not validate
 void finish_check_options(CheckRequest& request);
 
-/// As many candidates as take some milliseconds: they are checked at the same time.
+/// So many candidates are checked together, which takes some milliseconds.
 constexpr std::uint64_t candidates_at_once = 256;
 
 /// The line with the columns of CandidateChecker::check().

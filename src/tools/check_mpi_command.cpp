@@ -19,8 +19,8 @@
 namespace fiber {
 namespace {
 
-// So many are checked before their rows are put in order and written, by each rank on average: they
-// are in memory until then, and lost if a run is killed.
+// Each rank checks so many candidates on average before their rows are put in order and written.
+// The rows are in memory until then, and lost if the run is killed.
 constexpr std::uint64_t max_in_memory = 8192;
 
 struct RankCheckRequest : CheckRequest {
@@ -28,7 +28,7 @@ struct RankCheckRequest : CheckRequest {
   bool resume = false;
 };
 
-/// All that the answer depends on.
+/// Names all that the answer depends on.
 std::string run_of(const Communicator& ranks, const CheckRequest& request) {
   const auto text_of_file = [&](const std::string& path) {
     return path.empty() ? std::string("none") : description_of_file(ranks, path);

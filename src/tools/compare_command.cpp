@@ -172,7 +172,7 @@ void write_text(TextOutput& output, const FrameComparison& frame) {
   output.write(text);
 }
 
-/// All disagreements of a file, for its last line.
+/// Counts the disagreements of a file, for its last line.
 class Totals {
  public:
   void add(const Comparison& comparison) {

@@ -31,13 +31,13 @@ struct MpiRequest : FiberRequest {
   bool resume = false;
 };
 
-/// What a subcommand asks.
+/// The question that a subcommand asks.
 struct Question {
   std::string name;
   QueryOptions query;
 };
 
-/// All that the answer depends on.
+/// Names all that the answer depends on.
 std::string run_of(const Communicator& ranks, const MpiRequest& request, const Question& question) {
   const QueryOptions& query = question.query;
   return question.name + " of " + description_of_file(ranks, request.file) + ", radius " +

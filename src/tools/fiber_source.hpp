@@ -37,7 +37,7 @@ class FiberSource {
   /// @throws std::invalid_argument on all ranks
   std::int64_t read(std::size_t index, DistributedFibers& fibers);
 
-  // Of WHOLE:
+  // These are for frames that are shared WHOLE.
 
   /// Whether other ranks need what pack() makes of a range to take its frames.
   bool is_packed() const { return !reader_; }

@@ -24,8 +24,8 @@ struct FiberRequest {
 };
 
 /// FILE, the radius and the number of threads.
-/// @param file    what is said of the file
-/// @param threads what is said of their number
+/// @param file    help for the file
+/// @param threads help for the number of threads
 void add_fiber_options(CLI::App& app, FiberRequest& request, const std::string& file,
                        const std::string& threads);
 
@@ -48,10 +48,10 @@ struct PairQuery {
   double default_margin;  // [m]
 };
 
-/// All there are: `contacts`, `closest`, `first` and `fiber_pairs`.
+/// All of them: `contacts`, `closest`, `first` and `fiber_pairs`.
 const std::array<PairQuery, 4>& pair_queries();
 
-/// What is asked about pairs, as options are read.
+/// The options of a question about pairs, as they are read.
 struct PairRequest {
   QueryOptions options;
   std::optional<double> margin;  // [m]
@@ -64,7 +64,7 @@ void add_pair_options(CLI::App& app, const PairQuery& query, PairRequest& reques
 /// @throws std::invalid_argument for options that do not validate
 QueryOptions options_of(const PairQuery& query, const PairRequest& request);
 
-/// What is asked about the motions from frame to frame.
+/// The options of `sweep`: a question about the motions from frame to frame.
 struct SweepRequest : FiberRequest {
   MotionOptions motion;
   bool new_only = false;

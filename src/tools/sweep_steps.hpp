@@ -15,7 +15,7 @@
 
 namespace fiber {
 
-// What `sweep` does with ranks and without.
+// The parts of `sweep` that are the same with ranks and without.
 
 constexpr const char* sweep_columns =
     "frame,fiber_a,segment_a,fiber_b,segment_b,time_lower,time_upper\n";

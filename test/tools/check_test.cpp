@@ -78,7 +78,7 @@ TEST_F(Check, WhatIsWrongIsRefused) {
   EXPECT_TRUE(refused(query("check " + bars(1) + " --type limited"), "--type"));
   EXPECT_TRUE(refused(query("check " + bars(1) + " --environment " + path("absent.yaml")),
                       "there is no such file"));
-  const std::string nothing = write("none.csv", "fiber,x,y,z,radius\n");
+  const std::string nothing = write("none.csv", "frame,fiber,x,y,z,radius\n");
   EXPECT_TRUE(refused(query("check " + bars(1) + " --fibers " + nothing), "has no fibres"));
   EXPECT_EQ(lines(query("check " + nothing).out).size(), 1U) << "candidates where there are none";
 }
