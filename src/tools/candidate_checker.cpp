@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "src/environment/scene/environment_scene.hpp"
+#include "fiber_proximity/environment/scene/environment_scene.hpp"
 #include "src/query/threads.hpp"
 #include "src/text/csv_field.hpp"
 #include "src/text/quote.hpp"

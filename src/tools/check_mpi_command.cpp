@@ -8,7 +8,7 @@
 
 #include "src/io/file_format.hpp"
 #include "src/mpi/communicator.hpp"
-#include "src/mpi/dealt_work.hpp"
+#include "src/mpi/work_queue.hpp"
 #include "src/tools/candidate_checker.hpp"
 #include "src/tools/fiber_query_mpi.hpp"
 #include "src/tools/fiber_source.hpp"
@@ -51,7 +51,7 @@ ExitCode run(const RankCheckRequest& request) {
         FiberSource(ranks, request.fibers, request.radius, FrameSharing::WHOLE).take_first_on_all();
   }
   std::optional<CandidateChecker> checker;
-  ranks.agree(error_in([&] { checker.emplace(request, std::move(fibers)); }));
+  ranks.throw_on_all(error_in([&] { checker.emplace(request, std::move(fibers)); }));
   FiberSource source(ranks, request.file, request.radius, FrameSharing::WHOLE);
   ParallelTextFile text(ranks, request.out,
                         {source.has_frames(), run_of(ranks, request), request.resume});
@@ -66,7 +66,7 @@ ExitCode run(const RankCheckRequest& request) {
   for (std::uint64_t begin = text.done(); begin < count; begin += step) {
     const std::uint64_t end = std::min(begin + step, count);
     std::vector<RangeText> checked;
-    DealtWork work{{begin, end}, candidates_at_once};
+    WorkQueue work{{begin, end}, candidates_at_once};
     work.work = [&](const WorkRange& range, const std::vector<char>& packed) {
       RangeText rows{range.begin, {}};
       TextOutput output([&rows](std::string_view piece) { rows.text += piece; });
@@ -77,8 +77,8 @@ ExitCode run(const RankCheckRequest& request) {
     if (source.is_packed()) {
       work.pack = [&](const WorkRange& range) { return source.pack(range); };
     }
-    work.show = [&](std::uint64_t dealt) { show_done(progress, dealt, count, "candidates"); };
-    deal_work(ranks, work);
+    work.show = [&](std::uint64_t taken) { show_done(progress, taken, count, "candidates"); };
+    run_work_queue(ranks, work);
     checked = sort_over_ranks(ranks, work.all, std::move(checked));
     text.append([&](TextOutput& output) {
       for (const RangeText& range : checked) {
@@ -97,7 +97,7 @@ void add_check_mpi(CLI::App& app, Command& command) {
   const auto request = std::make_shared<RankCheckRequest>();
   request->threads = 1;  // ranks share a machine
   CLI::App* const check = app.add_subcommand(
-      "check", "which candidates could be there, and what the others touch, dealt out among ranks");
+      "check", "which candidates could be there, and what the others touch; ranks share them out");
   add_check_options(*check, *request,
                     "fibre file, each frame a candidate: .h5, of which each rank reads those that "
                     "it checks; .csv or .hair, which rank 0 reads",

@@ -6,13 +6,13 @@
 #include <utility>
 
 #include "fiber_proximity/io/file.hpp"
-#include "src/mpi/whole_file.hpp"
+#include "src/mpi/partial_file.hpp"
 #include "src/text/quote.hpp"
 
 namespace fiber {
 
 CheckpointFile::CheckpointFile(const std::string& path, std::string run)
-    : part_(aside(path)), path_(part_ + ".run"), run_(std::move(run)) {}
+    : part_(partial_name(path)), path_(part_ + ".run"), run_(std::move(run)) {}
 
 std::optional<RunProgress> CheckpointFile::read() const {
   std::ifstream file(path_);
@@ -37,7 +37,7 @@ std::optional<RunProgress> CheckpointFile::read() const {
 }
 
 void CheckpointFile::write(const RunProgress& progress) const {
-  OutputFile file(aside(path_));
+  OutputFile file(partial_name(path_));
   file.write(std::to_string(progress.steps) + " " + std::to_string(progress.bytes) + "\n" + run_ +
              "\n");
   file.close();
@@ -47,7 +47,7 @@ void CheckpointFile::write(const RunProgress& progress) const {
 void CheckpointFile::remove() const {
   std::error_code ignored;
   std::filesystem::remove(path_, ignored);
-  remove_aside(path_);
+  remove_partial(path_);
 }
 
 }  // namespace fiber

@@ -9,7 +9,7 @@
 
 #include "fiber_proximity/io/file.hpp"
 #include "src/mpi/fiber_name_text.hpp"
-#include "src/mpi/gathered_fibers.hpp"
+#include "src/mpi/gather_fibers.hpp"
 #include "src/text/quote.hpp"
 #include "src/tools/packed.hpp"
 #include "src/tools/read_input.hpp"
@@ -53,15 +53,15 @@ FiberSource::FiberSource(const Communicator& ranks, const std::string& path, dou
                          FrameSharing sharing)
     : ranks_(ranks), alone_(MPI_COMM_SELF), path_(path) {
   if (!is_hdf5_name(path)) {
-    on_first_rank(ranks_, [&] { file_ = read_input("fiber_query_mpi", path, radius); });
-    has_frames_ = ranks_.from_first(file_.has_frames);
-    frame_count_ = ranks_.from_first(file_.frames.size());
+    run_on_root(ranks_, [&] { file_ = read_input("fiber_query_mpi", path, radius); });
+    has_frames_ = ranks_.broadcast(file_.has_frames);
+    frame_count_ = ranks_.broadcast(file_.frames.size());
     return;
   }
   if (sharing == FrameSharing::PARTS) {
     reader_.emplace(ranks_.handle(), path);
   } else {
-    ranks_.agree(
+    ranks_.throw_on_all(
         error_in([&] { on_rank_alone("", [&] { reader_.emplace(alone_.handle(), path); }); }));
   }
   has_frames_ = reader_->has_frames();
@@ -83,8 +83,8 @@ std::int64_t FiberSource::read(std::size_t index, DistributedFibers& fibers) {
     }
     fibers.fiber_names = frame.names;
   }
-  fibers.fiber_names = names_from_first(ranks_, fibers.fiber_names);
-  return ranks_.from_first(number);
+  fibers.fiber_names = broadcast_names(ranks_, fibers.fiber_names);
+  return ranks_.broadcast(number);
 }
 
 std::vector<char> FiberSource::pack(const WorkRange& range) {
@@ -120,13 +120,13 @@ std::vector<FiberFrame> FiberSource::take(const WorkRange& range, const std::vec
 }
 
 FiberFrame FiberSource::take_first_on_all() {
-  ranks_.agree(frame_count_ > 0 ? "" : FileError(path_, "has no fibres").what());
+  ranks_.throw_on_all(frame_count_ > 0 ? "" : FileError(path_, "has no fibres").what());
   std::vector<char> packed;
   if (is_packed()) {
-    packed = ranks_.from_first(ranks_.rank() == 0 ? pack({0, 1}) : packed);
+    packed = ranks_.broadcast(ranks_.rank() == 0 ? pack({0, 1}) : packed);
   }
   FiberFrame frame;
-  ranks_.agree(error_in([&] {
+  ranks_.throw_on_all(error_in([&] {
     const char* next = packed.data();
     frame = reader_ ? read_alone(0) : unpack_frame(next);
   }));
@@ -140,7 +140,7 @@ std::string description_of_file(const Communicator& ranks, const std::string& pa
     std::int64_t nanoseconds = 0;
   };
   Facts facts;
-  on_first_rank(ranks, [&] {
+  run_on_root(ranks, [&] {
     struct stat status {};
     errno = 0;
     if (stat(path.c_str(), &status) != 0) {
@@ -148,7 +148,7 @@ std::string description_of_file(const Communicator& ranks, const std::string& pa
     }
     facts = {status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
   });
-  facts = ranks.from_first(facts);
+  facts = ranks.broadcast(facts);
   return shortened(path, 4096) + " of " + std::to_string(facts.size) + " bytes and time " +
          std::to_string(facts.seconds) + '.' + std::to_string(facts.nanoseconds);
 }

@@ -21,7 +21,7 @@ ParallelTextFile::ParallelTextFile(const Communicator& ranks, const std::string&
       place_(path.empty() ? WritePlace{"", false} : write_place(ranks, path)),
       path_(place_.path),
       checkpoint_(path_, options.run) {
-  on_first_rank(ranks_, [&] {
+  run_on_root(ranks_, [&] {
     if (place_.is_file) {
       progress_ = begin(options.resume);
       return;
@@ -39,16 +39,16 @@ ParallelTextFile::ParallelTextFile(const Communicator& ranks, const std::string&
   if (!place_.is_file) {
     return;
   }
-  progress_ = ranks_.from_first(progress_);
-  file_ = open(aside(path_).c_str(), O_WRONLY | O_CLOEXEC);
+  progress_ = ranks_.broadcast(progress_);
+  file_ = open(partial_name(path_).c_str(), O_WRONLY | O_CLOEXEC);
   const std::string error =
-      file_ < 0 ? FileError::from_system(aside(path_), "cannot be written").what() : "";
+      file_ < 0 ? FileError::from_system(partial_name(path_), "cannot be written").what() : "";
   if (!ranks_.all(error.empty())) {
     if (file_ >= 0) {
       close(file_);
     }
     remove_unfinished();
-    ranks_.agree(error);
+    ranks_.throw_on_all(error);
   }
 }
 
@@ -56,11 +56,11 @@ ParallelTextFile::ParallelTextFile(const Communicator& ranks, const std::string&
 RunProgress ParallelTextFile::begin(bool resume) const {
   const std::optional<RunProgress> earlier = resume ? checkpoint_.read() : std::nullopt;
   if (earlier) {
-    std::filesystem::resize_file(aside(path_), earlier->bytes);
+    std::filesystem::resize_file(partial_name(path_), earlier->bytes);
     return *earlier;
   }
   checkpoint_.remove();
-  OutputFile(aside(path_)).close();
+  OutputFile(partial_name(path_)).close();
   return {};
 }
 
@@ -74,7 +74,7 @@ ParallelTextFile::~ParallelTextFile() {
 /// Removes what was written of a file that is not whole.
 void ParallelTextFile::remove_unfinished() const {
   if (place_.is_file && ranks_.rank() == 0) {
-    remove_aside(path_);
+    remove_partial(path_);
     checkpoint_.remove();
   }
 }
@@ -122,14 +122,14 @@ void ParallelTextFile::append(const std::function<void(TextOutput& output)>& wri
       }
     });
   }
-  ranks_.agree(error);
+  ranks_.throw_on_all(error);
 }
 
 void ParallelTextFile::write_to_file(std::uint64_t place, std::string_view text) const {
   while (!text.empty()) {
     const ssize_t written = pwrite(file_, text.data(), text.size(), static_cast<off_t>(place));
     if (written < 0 && errno != EINTR) {
-      throw FileError::from_system(aside(path_), "cannot be written");
+      throw FileError::from_system(partial_name(path_), "cannot be written");
     }
     if (written > 0) {
       text.remove_prefix(static_cast<std::size_t>(written));
@@ -177,23 +177,24 @@ std::string ParallelTextFile::receive_from(int rank, std::uint64_t size) {
 
 void ParallelTextFile::checkpoint(std::uint64_t steps) {
   if (place_.is_file) {
-    ranks_.agree(fsync(file_) == 0 || errno == EINVAL || errno == EROFS
-                     ? ""
-                     : FileError::from_system(aside(path_), "cannot be written").what());
-    on_first_rank(ranks_, [&] { checkpoint_.write({steps, progress_.bytes}); });
+    ranks_.throw_on_all(
+        fsync(file_) == 0 || errno == EINVAL || errno == EROFS
+            ? ""
+            : FileError::from_system(partial_name(path_), "cannot be written").what());
+    run_on_root(ranks_, [&] { checkpoint_.write({steps, progress_.bytes}); });
   }
 }
 
 /// @throws FileError where what was written has not reached the file
 void ParallelTextFile::close_file() {
   if (file_ >= 0 && close(std::exchange(file_, -1)) != 0) {
-    throw FileError::from_system(aside(path_), "cannot be written");
+    throw FileError::from_system(partial_name(path_), "cannot be written");
   }
 }
 
 void ParallelTextFile::finish() {
-  ranks_.agree(error_in([&] { close_file(); }));
-  on_first_rank(ranks_, [&] {
+  ranks_.throw_on_all(error_in([&] { close_file(); }));
+  run_on_root(ranks_, [&] {
     if (place_.is_file) {
       move_into_place(path_);
       checkpoint_.remove();

@@ -1,6 +1,5 @@
 #include "src/tools/query_options.hpp"
 
-#include <iostream>
 #include <limits>
 
 namespace fiber {
@@ -23,15 +22,7 @@ void add_threads_option(CLI::App& app, std::uint32_t& threads, const std::string
 
 void add_kernel_option(CLI::App& app, Kernel& kernel) {
   app.add_option_function<std::string>(
-         "--kernel",
-         [&kernel](const std::string& name) {
-           const std::string current = current_kernel_name(name);
-           if (current != name) {
-             std::cerr << "warning: --kernel " << name << " saved no time and is gone: " << current
-                       << " is used\n";
-           }
-           kernel = kernel_from_name(current);
-         },
+         "--kernel", [&kernel](const std::string& name) { kernel = kernel_from_name(name); },
          "one of " + join(kernel_names()))
       ->default_str("robust");
 }

@@ -32,8 +32,7 @@ void add_fiber_options(CLI::App& app, FiberRequest& request, const std::string& 
 void add_radius_option(CLI::App& app, double& radius);
 void add_threads_option(CLI::App& app, std::uint32_t& threads, const std::string& help);
 
-/// How distances are computed. `fast`, of versions before this one, is taken as robust, with a
-/// warning.
+/// Adds `--kernel`, which says how distances are computed.
 void add_kernel_option(CLI::App& app, Kernel& kernel);
 
 /// Which segments of one fibre are pairs.

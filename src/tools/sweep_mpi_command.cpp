@@ -11,7 +11,7 @@
 #include "src/io/file_format.hpp"
 #include "src/mpi/communicator.hpp"
 #include "src/mpi/fiber_name_text.hpp"
-#include "src/mpi/gathered_fibers.hpp"
+#include "src/mpi/gather_fibers.hpp"
 #include "src/tools/fiber_match.hpp"
 #include "src/tools/fiber_query_mpi.hpp"
 #include "src/tools/fiber_source.hpp"
@@ -57,14 +57,14 @@ class RankSweeper {
     // without ranks.
     const FiberFrame before = whole(from.number, std::move(from.fibers));
     const FiberFrame after = whole(to.number, to.fibers);
-    from.fibers.fiber_names = names_from_first(ranks_, before.names);
+    from.fibers.fiber_names = broadcast_names(ranks_, before.names);
     FiberMatch match = match_fibers(before, after);
     if (!match.difference.empty()) {
       std::cerr << "fiber_query_mpi: " << match.difference << '\n';
     }
-    match.others = ranks_.from_first(std::move(match.others));
+    match.others = ranks_.broadcast(std::move(match.others));
     return contacts_of_step<DistributedMotionContact>(
-        before.fibers, after.fibers, match, ranks_.from_first(!match.before.empty()),
+        before.fibers, after.fibers, match, ranks_.broadcast(!match.before.empty()),
         request_.motion,
         [this](const FiberAssembly& x, const FiberAssembly& y,
                const std::vector<std::uint32_t>& fibers, const MotionOptions& options) {
