@@ -46,7 +46,6 @@ add_library(fiber_proximity_mpi SHARED
   src/mpi/contact_sort.cpp
   src/mpi/contact_writer.cpp
   src/mpi/work_queue.cpp
-  src/mpi/distributed_contacts.cpp
   src/mpi/distributed_engine.cpp
   src/mpi/distributed_options.cpp
   src/mpi/earliest_contacts.cpp

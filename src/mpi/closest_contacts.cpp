@@ -16,16 +16,12 @@ PairKey sort_key(const DistributedContact& contact) {
       contact.distance, {contact.fiber_a, contact.segment_a}, {contact.fiber_b, contact.segment_b}};
 }
 
-bool is_closer(const DistributedContact& x, const DistributedContact& y) {
-  return sort_key(x) < sort_key(y);
-}
-
 /// The so many closest ones of this rank first; how many these are.
 std::size_t closest_first(std::uint64_t count, std::vector<DistributedContact>& contacts) {
   const std::uint64_t kept = std::min<std::uint64_t>(count, contacts.size());
   if (kept < contacts.size()) {
     std::nth_element(contacts.begin(), contacts.begin() + static_cast<std::ptrdiff_t>(kept),
-                     contacts.end(), is_closer);
+                     contacts.end(), closer);
   }
   return kept;
 }

@@ -12,9 +12,29 @@
 
 namespace fiber {
 
+/// Whether objects of a type may be sent as their bytes: those that own nothing. Not asked for is
+/// std::is_trivially_copyable, which Eigen 3.4's vectors are not.
+template <class T>
+constexpr bool is_sendable = std::is_trivially_destructible_v<T> && !std::is_polymorphic_v<T>;
+
 /// For each rank what is sent to it, or what came from it.
 template <class T>
 using PerRank = std::vector<std::vector<T>>;
+
+/// The lists of all ranks as one, in the order of ranks.
+template <class T>
+std::vector<T> joined(const PerRank<T>& lists) {
+  std::size_t count = 0;
+  for (const std::vector<T>& list : lists) {
+    count += list.size();
+  }
+  std::vector<T> all;
+  all.reserve(count);
+  for (const std::vector<T>& list : lists) {
+    all.insert(all.end(), list.begin(), list.end());
+  }
+  return all;
+}
 
 /// A group of ranks with messages of its own: those of others that use the same ranks never meet
 /// them. All functions but rank() and size() are collective: every rank calls them, in one order.
@@ -44,7 +64,7 @@ class Communicator {
   /// Of each rank its value.
   template <class T>
   std::vector<T> gather_all(const T& value) const {
-    static_assert(std::is_trivially_copyable_v<T>);
+    static_assert(is_sendable<T>);
     std::vector<T> values(static_cast<std::size_t>(size_));
     MPI_Allgather(&value, sizeof(T), MPI_BYTE, values.data(), sizeof(T), MPI_BYTE, ranks_);
     return values;
@@ -53,7 +73,7 @@ class Communicator {
   /// Of rank 0 its value.
   template <class T>
   T broadcast(T value) const {
-    static_assert(std::is_trivially_copyable_v<T>);
+    static_assert(is_sendable<T>);
     MPI_Bcast(&value, sizeof(T), MPI_BYTE, 0, ranks_);
     return value;
   }
@@ -61,9 +81,9 @@ class Communicator {
   /// The same of a list.
   template <class T>
   std::vector<T> broadcast(std::vector<T> values) const {
-    static_assert(std::is_trivially_copyable_v<T>);
+    static_assert(is_sendable<T>);
     values.resize(broadcast<std::uint64_t>(values.size()));
-    broadcast(values.data(), values.size() * sizeof(T));
+    broadcast_bytes(values.data(), values.size() * sizeof(T));
     return values;
   }
 
@@ -79,7 +99,7 @@ class Communicator {
   }
 
  private:
-  void broadcast(void* data, std::size_t bytes) const;
+  void broadcast_bytes(void* data, std::size_t bytes) const;
 
   MPI_Comm ranks_ = MPI_COMM_NULL;
   int rank_ = 0;
@@ -93,16 +113,27 @@ std::string error_in(const std::function<void()>& work);
 /// @throws std::invalid_argument on all ranks if it does
 void run_on_root(const Communicator& ranks, const std::function<void()>& work);
 
-/// Messages under way. Those of any size: MPI counts in int.
+/// Tags keep messages of different kinds apart.
+enum class MessageTag {
+  EXCHANGE = 1,
+  CHAIN,    ///< passes along a chain of ranks, one by one
+  TEXT,     ///< on its way to rank 0
+  REQUEST,  ///< for the next chunk of a work queue
+  CHUNK     ///< of a work queue
+};
+
+/// Messages under way, of any size: they are sent in parts, as MPI counts in int.
 class Transfer {
  public:
-  explicit Transfer(const Communicator& ranks) : ranks_(ranks) {}
+  explicit Transfer(const Communicator& ranks, MessageTag tag = MessageTag::EXCHANGE)
+      : ranks_(ranks), tag_(static_cast<int>(tag)) {}
   void send(std::size_t to, const void* data, std::size_t bytes);
   void receive(std::size_t from, void* data, std::size_t bytes);
   void finish();
 
  private:
   const Communicator& ranks_;
+  int tag_;
   std::vector<MPI_Request> requests_;
 };
 
@@ -110,7 +141,7 @@ class Transfer {
 /// in the same order on all ranks.
 template <class T>
 class Exchange {
-  static_assert(std::is_trivially_copyable_v<T>);
+  static_assert(is_sendable<T>);
 
  public:
   explicit Exchange(const Communicator& ranks) : ranks_(ranks), transfer_(ranks) {}
@@ -159,15 +190,5 @@ PerRank<T> Communicator::exchange(PerRank<T> to) const {
   exchange.start(std::move(to));
   return exchange.finish();
 }
-
-/// Messages that pass along a chain of ranks, one by one, apart from those of exchange().
-constexpr int chain_tag = 2;
-
-/// Text on its way to rank 0.
-constexpr int text_tag = 3;
-
-/// What ranks ask rank 0 for, and get of it, while work is dealt out.
-constexpr int wish_tag = 4;
-constexpr int share_tag = 5;
 
 }  // namespace fiber

@@ -4,7 +4,6 @@
 
 #include "fiber_proximity/query/narrow_phase.hpp"
 #include "src/mpi/fiber_pair_search.hpp"
-#include "src/mpi/plain_contact.hpp"
 #include "src/mpi/whole_fiber_pairs.hpp"
 
 namespace fiber {
@@ -70,15 +69,11 @@ double ContactSearch::rounding_across() const {
   if (halo_.fibers().point_count() == 0) {
     return 0.0;
   }
-  PlainBox box = fibers_->around();
+  Box3d box = fibers_->around();
   for (const Eigen::Vector3d& point : halo_.fibers().points()) {
-    box = merged(box, {plain(point), plain(point)});
+    box.extend(point);
   }
-  double longest = 0.0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    longest = std::max(longest, box.upper[axis] - box.lower[axis]);
-  }
-  return 0x1p-44 * (longest + halo_.fibers().largest_radius());
+  return 0x1p-44 * (box.sizes().maxCoeff() + halo_.fibers().largest_radius());
 }
 
 void ContactSearch::find_across(const FiberRuns& halo, const QueryOptions& options,
@@ -155,7 +150,7 @@ void ContactSearch::write(std::vector<DistributedContact>& contacts) const {
   auto across = across_.begin();
   for (const Contact& contact : inner_.contacts) {
     const DistributedContact inner = named(contact, own);
-    while (across != across_.end() && is_before(named(*across, halo_), inner)) {
+    while (across != across_.end() && by_key(named(*across, halo_), inner)) {
       contacts.push_back(named(*across++, halo_));
     }
     contacts.push_back(inner);

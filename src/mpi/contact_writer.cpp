@@ -118,18 +118,18 @@ class ContactDatasets {
  public:
   ContactDatasets(hid_t file, const ContactRows& rows)
       : group_(create_group(file, layout::contacts)),
-        ids_{ContactColumn(group_.get(), "fiber_a", rows, &DistributedContact::fiber_a),
-             ContactColumn(group_.get(), "segment_a", rows, &DistributedContact::segment_a),
-             ContactColumn(group_.get(), "fiber_b", rows, &DistributedContact::fiber_b),
-             ContactColumn(group_.get(), "segment_b", rows, &DistributedContact::segment_b)},
-        numbers_{ContactColumn(group_.get(), "s", rows, &DistributedContact::s),
-                 ContactColumn(group_.get(), "t", rows, &DistributedContact::t),
-                 ContactColumn(group_.get(), "distance", rows, &DistributedContact::distance),
-                 ContactColumn(group_.get(), "lower", rows, &DistributedContact::lower),
-                 ContactColumn(group_.get(), "upper", rows, &DistributedContact::upper)},
-        vectors_{ContactColumn(group_.get(), "point_a", rows, &DistributedContact::point_a),
-                 ContactColumn(group_.get(), "point_b", rows, &DistributedContact::point_b),
-                 ContactColumn(group_.get(), "normal", rows, &DistributedContact::normal)},
+        ids_{{{group_.get(), "fiber_a", rows, &DistributedContact::fiber_a},
+              {group_.get(), "segment_a", rows, &DistributedContact::segment_a},
+              {group_.get(), "fiber_b", rows, &DistributedContact::fiber_b},
+              {group_.get(), "segment_b", rows, &DistributedContact::segment_b}}},
+        numbers_{{{group_.get(), "s", rows, &DistributedContact::s},
+                  {group_.get(), "t", rows, &DistributedContact::t},
+                  {group_.get(), "distance", rows, &DistributedContact::distance},
+                  {group_.get(), "lower", rows, &DistributedContact::lower},
+                  {group_.get(), "upper", rows, &DistributedContact::upper}}},
+        vectors_{{{group_.get(), "point_a", rows, &DistributedContact::point_a},
+                  {group_.get(), "point_b", rows, &DistributedContact::point_b},
+                  {group_.get(), "normal", rows, &DistributedContact::normal}}},
         lines_(file, group_.get(), rows) {}
 
   void write(const std::vector<DistributedContact>& contacts, bool is_first_rank) {

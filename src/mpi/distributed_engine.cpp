@@ -12,7 +12,6 @@
 #include "src/mpi/earliest_contacts.hpp"
 #include "src/mpi/halo_exchange.hpp"
 #include "src/mpi/motion_search.hpp"
-#include "src/mpi/plain_contact.hpp"
 #include "src/mpi/rank_fibers.hpp"
 
 namespace fiber {
@@ -181,7 +180,7 @@ void DistributedEngine::query(const QueryOptions& options, DistributedResult& re
       break;
   }
   if (options.type != QueryType::ALL || is_limited) {  // all are sorted as they are written
-    std::sort(result.contacts.begin(), result.contacts.end(), is_before);
+    std::sort(result.contacts.begin(), result.contacts.end(), by_key);
   }
   result.limit_reached = !state.ranks.all(!result.limit_reached);
   result.complete = state.ranks.all(result.complete);

@@ -42,13 +42,6 @@ bool keep_first(const Communicator& ranks, std::uint64_t most, const Value& valu
   return true;
 }
 
-void sort(std::vector<DistributedMotionContact>& contacts) {
-  std::sort(contacts.begin(), contacts.end(),
-            [](const DistributedMotionContact& x, const DistributedMotionContact& y) {
-              return x.key() < y.key();
-            });
-}
-
 }  // namespace
 
 void keep_earliest(const Communicator& ranks, const MotionOptions& options,
@@ -67,8 +60,8 @@ void keep_earliest(const Communicator& ranks, const MotionOptions& options,
       ranks, most_contacts(options), [](const auto& contact) { return contact.lower; },
       [&](const auto& contact) { others_lower = std::min(others_lower, contact.lower); },
       result.contacts);
-  sort(result.contacts);
-  sort(result.touching);
+  std::sort(result.contacts.begin(), result.contacts.end(), by_key);
+  std::sort(result.touching.begin(), result.touching.end(), by_key);
   result.limit_reached =
       result.limit_reached || are_more_touching || (are_more && options.type != MotionType::FIRST);
   result.others_lower = ranks.min(are_more_touching ? 0.0 : others_lower);

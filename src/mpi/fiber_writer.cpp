@@ -21,7 +21,7 @@ bool has_same_bits(double x, double y) { return x == y && std::signbit(x) == std
 /// A point where a part may go on: it does at a point that has the same of all of this.
 struct PartEnd {
   GlobalSegment next;  // the segment that starts here
-  PlainPoint point{};
+  Eigen::Vector3d point{};
   double radius = 0.0;
 
   bool operator==(const PartEnd& other) const {
@@ -36,7 +36,7 @@ PartEnd end_of(const DistributedFibers& fibers, std::size_t part, bool is_start)
   const std::uint32_t point = is_start ? begin : fibers.parts.offsets()[part + 1] - 1;
   const FiberPart& name = fibers.names[part];
   return {{name.fiber, name.first_segment + (point - begin)},
-          plain(fibers.parts.points()[point]),
+          fibers.parts.points()[point],
           point_radius(fibers.parts, part, point)};
 }
 

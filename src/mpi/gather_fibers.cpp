@@ -24,7 +24,7 @@ FiberRuns runs_of(const DistributedFibers& fibers) {
                          end - begin - 1,
                          runs.nodes.size()});
     for (std::uint32_t p = begin; p < end; ++p) {
-      runs.nodes.push_back({plain(fibers.parts.points()[p]), point_radius(fibers.parts, part, p)});
+      runs.nodes.push_back({fibers.parts.points()[p], point_radius(fibers.parts, part, p)});
     }
   }
   return runs;
@@ -53,7 +53,7 @@ FiberAssembly joined(const FiberRuns& runs) {
       ++node;
     }
     for (; node != end; ++node) {
-      points.push_back(vector_of(node->point));
+      points.push_back(node->point);
       radii.push_back(node->radius);
     }
   }

@@ -22,7 +22,7 @@ class HaloExchange {
   FiberRuns take();
 
   /// The nodes of the same runs after the motion, none without one. After take(); collective.
-  std::vector<FiberNode> take_after() { return joined_nodes(nodes_after_.finish()); }
+  std::vector<FiberNode> take_after() { return joined(nodes_after_.finish()); }
 
  private:
   Exchange<FiberRun> runs_;

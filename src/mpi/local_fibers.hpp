@@ -61,8 +61,7 @@ class LocalFibers {
   std::size_t sorted_index(std::size_t number) const { return numbers_[number]; }
 
   FiberNode node(std::uint64_t point) const {
-    return {plain(fibers_.points()[point]),
-            fibers_.segment_radius(static_cast<std::uint32_t>(point))};
+    return {fibers_.points()[point], fibers_.segment_radius(static_cast<std::uint32_t>(point))};
   }
 
   /// Adds segments [begin, end) of one of runs() to others.
@@ -79,8 +78,8 @@ class LocalFibers {
 
   FiberAssembly fibers_;
   std::vector<FiberRun> runs_;
-  std::vector<std::uint32_t> numbers_;  // place among the sorted runs by the number it was given
-  std::vector<GlobalSegment> first_ids_;    // of the first segment, by fibre
+  std::vector<std::uint32_t> numbers_;    // place among the sorted runs by the number it was given
+  std::vector<GlobalSegment> first_ids_;  // of the first segment, by fibre
 
   // While nodes are placed those of fibers_, which has none then:
   std::vector<Eigen::Vector3d> points_;

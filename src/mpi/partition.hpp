@@ -9,8 +9,8 @@ namespace fiber {
 
 /// What goes to one rank as a whole.
 struct PartitionObject {
-  PlainPoint centre{};  // [m]
-  float weight = 1.0F;  // > 0
+  Eigen::Vector3d centre{};  // [m]
+  float weight = 1.0F;       // > 0
 };
 
 /// Splits the objects of all ranks along a space-filling curve, in parts of about equal weight,

@@ -114,8 +114,8 @@ void RankFibers::split(const Communicator& ranks, const FiberAssembly& parts,
       const double of_mean = costs[objects.size()] * static_cast<double>(count) / all;
       weight = std::clamp(std::round(segments_per_piece * of_mean), 1.0, 0x1p10);
     }
-    objects.push_back({plain(parts.points()[piece.first_point() + piece.count() / 2]),
-                       static_cast<float>(weight)});
+    objects.push_back(
+        {parts.points()[piece.first_point() + piece.count() / 2], static_cast<float>(weight)});
   }
   destinations_ = partition(ranks, objects, ranks.size());
   ++split_count_;
@@ -164,7 +164,7 @@ void RankFibers::send_nodes(const Communicator& ranks, const FiberAssembly& part
       std::vector<FiberNode>& nodes = to[static_cast<std::size_t>(destinations_[i++])];
       const std::uint32_t last = piece.first_point() + piece.count();
       for (std::uint32_t p = piece.first_point(); p <= last; ++p) {
-        nodes.push_back({plain(parts.points()[p]), p < last ? parts.segment_radius(p) : 0.0});
+        nodes.push_back({parts.points()[p], p < last ? parts.segment_radius(p) : 0.0});
       }
       count += piece.count() + 1;
     }
@@ -258,7 +258,7 @@ const PieceBoxes& RankFibers::fit_boxes() {
   return boxes_;
 }
 
-PlainBox RankFibers::around() const {
+Box3d RankFibers::around() const {
   assert(boxes_displacement_.epoch == displacement_.epoch && !boxes_.tree().empty());
   return inflated(boxes_.tree().root(),
                   (1.0 + 0x1p-40) * (displacement_.length - boxes_displacement_.length));

@@ -65,7 +65,7 @@ class RankFibers {
   const PieceBoxes& fit_boxes();
 
   /// Around own(), and little more. Boxes must have been fitted since the epoch began, to some.
-  PlainBox around() const;
+  Box3d around() const;
 
   /// [m] Most that arc lengths of all fibres are rounded by, in units of ε.
   double arc_roundings() const { return arc_roundings_; }

@@ -11,25 +11,15 @@ namespace {
 // Of a rank, for those near it to see which of theirs matter to it.
 constexpr std::size_t coarse_boxes = 64;
 
-/// The root of a rank's tree.
-struct RankBox {
-  PlainBox around;
-  bool has_segments = false;
-};
-
 /// Other ranks whose segments may be near.
 std::vector<std::size_t> find_neighbours(const Communicator& ranks, const BoxTree& tree,
                                          double margin) {
-  RankBox mine;
-  mine.has_segments = !tree.empty();
-  if (mine.has_segments) {
-    mine.around = tree.root();
-  }
-  const std::vector<RankBox> boxes = ranks.gather_all(mine);
+  const Box3d own = tree.empty() ? Box3d() : tree.root();
+  const std::vector<Box3d> boxes = ranks.gather_all(own);
   std::vector<std::size_t> neighbours;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    if (static_cast<int>(i) != ranks.rank() && mine.has_segments && boxes[i].has_segments &&
-        may_come_within(mine.around, boxes[i].around, margin)) {
+    if (static_cast<int>(i) != ranks.rank() && !own.isEmpty() && !boxes[i].isEmpty() &&
+        may_come_within(own, boxes[i], margin)) {
       neighbours.push_back(i);
     }
   }
@@ -54,14 +44,14 @@ PerRank<RunSpan> find_send_lists(const Communicator& ranks, const FiberStates& o
   const BoxTree& tree = boxes.tree();
   const std::vector<std::size_t> neighbours = find_neighbours(ranks, tree, margin);
 
-  PerRank<PlainBox> coarse(size);
+  PerRank<Box3d> coarse(size);
   for (const std::size_t other : neighbours) {
     coarse[other] = tree.level_of_at_most(coarse_boxes);
   }
   coarse = ranks.exchange(std::move(coarse));
 
   // A neighbour needs those of my pieces that are near its own, to find what I need from it.
-  PerRank<PlainBox> fine(size);
+  PerRank<Box3d> fine(size);
   PerRank<NearPiece> pieces(size);
   for (const std::size_t other : neighbours) {
     const BoxTree theirs(coarse[other]);

@@ -183,10 +183,11 @@ void RankText::append_to_file(const std::function<void(TextOutput& output)>& wri
 void RankText::append_to_stream(const std::function<void(TextOutput& output)>& write) {
   if (ranks_.rank() > 0) {
     write_pieces(write, [&](const char* text, std::streamsize piece) {
-      MPI_Ssend(text, static_cast<int>(piece), MPI_BYTE, 0, text_tag, ranks_.handle());
+      MPI_Ssend(text, static_cast<int>(piece), MPI_BYTE, 0, static_cast<int>(MessageTag::TEXT),
+                ranks_.handle());
       return true;
     });
-    MPI_Ssend(nullptr, 0, MPI_BYTE, 0, text_tag, ranks_.handle());
+    MPI_Ssend(nullptr, 0, MPI_BYTE, 0, static_cast<int>(MessageTag::TEXT), ranks_.handle());
     ranks_.throw_on_all("");
     return;
   }
@@ -208,8 +209,8 @@ void RankText::pass_on_others(std::ostream& stream) const {
     int size = 1;
     while (size > 0) {
       MPI_Status status;
-      MPI_Recv(text.data(), static_cast<int>(text.size()), MPI_BYTE, other, text_tag,
-               ranks_.handle(), &status);
+      MPI_Recv(text.data(), static_cast<int>(text.size()), MPI_BYTE, other,
+               static_cast<int>(MessageTag::TEXT), ranks_.handle(), &status);
       MPI_Get_count(&status, MPI_BYTE, &size);
       stream.write(text.data(), size);
     }
