@@ -16,7 +16,7 @@ void ContactSearch::clear() {
   across_.clear();
 }
 
-void ContactSearch::update(const RankFibers& fibers) {
+void ContactSearch::update(const OwnedFibers& fibers) {
   clear();
   fibers_ = &fibers;
   engine_->update(fibers.own().fibers());

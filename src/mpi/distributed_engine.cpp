@@ -12,7 +12,7 @@
 #include "src/mpi/earliest_contacts.hpp"
 #include "src/mpi/halo_exchange.hpp"
 #include "src/mpi/motion_search.hpp"
-#include "src/mpi/rank_fibers.hpp"
+#include "src/mpi/owned_fibers.hpp"
 
 namespace fiber {
 
@@ -22,7 +22,7 @@ struct DistributedEngine::State {
 
   Communicator ranks;
   EngineOptions engine_options;
-  RankFibers fibers;
+  OwnedFibers fibers;
   SendLists lists;
   ContactSearch search;
   std::optional<MotionSearch> motions;  // none until there is a motion

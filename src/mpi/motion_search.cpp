@@ -18,7 +18,7 @@ bool is_stopped_by_limit(const MotionResult& result) {
 
 }  // namespace
 
-void MotionSearch::update(const RankFibers& fibers) {
+void MotionSearch::update(const OwnedFibers& fibers) {
   fibers_ = &fibers;
   ranks_.throw_on_all(error_in(
       [&] { engine_->update_motion(fibers.own().fibers(), fibers.own_after().fibers()); }));

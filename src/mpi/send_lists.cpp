@@ -80,23 +80,23 @@ PerRank<RunSpan> find_send_lists(const Communicator& ranks, const FiberStates& o
   return spans;
 }
 
-const PerRank<RunSpan>& SendLists::find(const Communicator& ranks, RankFibers& fibers,
+const PerRank<RunSpan>& SendLists::find(const Communicator& ranks, OwnedFibers& fibers,
                                         double margin) {
   if (ranks.size() == 1) {
     spans_.resize(1);
     return spans_;
   }
-  const RankFibers::Displacement& now = fibers.displacement();
+  const Displacement& now = fibers.displacement();
   // Both of two segments may have moved; a little more than the roundings of these sums.
-  const double nearer = 2.0 * (1.0 + 0x1p-40) * (now.length - displacement_.length);
-  if (now.epoch == displacement_.epoch && margin == margin_ && margin + nearer <= reach_) {
+  const double nearer = 2.0 * (1.0 + 0x1p-40) * (now.length - found_at_.length);
+  if (now.epoch == found_at_.epoch && margin == margin_ && margin + nearer <= reach_) {
     return spans_;
   }
   ++search_count_;
   const PieceBoxes& boxes = fibers.fit_boxes();
   margin_ = margin;
   reach_ = (1.0 + 0x1p-50) * (margin + room_for(ranks, now.last, boxes));
-  displacement_ = now;
+  found_at_ = now;
   spans_ = find_send_lists(ranks, fibers.states(), boxes, reach_);
   return spans_;
 }

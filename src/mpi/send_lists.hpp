@@ -4,8 +4,8 @@
 
 #include "src/mpi/communicator.hpp"
 #include "src/mpi/fiber_states.hpp"
+#include "src/mpi/owned_fibers.hpp"
 #include "src/mpi/piece_boxes.hpp"
-#include "src/mpi/rank_fibers.hpp"
 
 namespace fiber {
 
@@ -29,7 +29,7 @@ PerRank<RunSpan> find_send_lists(const Communicator& ranks, const FiberStates& o
 class SendLists {
  public:
   /// Finds lists, or has some that serve. Collective.
-  const PerRank<RunSpan>& find(const Communicator& ranks, RankFibers& fibers, double margin);
+  const PerRank<RunSpan>& find(const Communicator& ranks, OwnedFibers& fibers, double margin);
 
   /// How often none served.
   std::uint64_t search_count() const { return search_count_; }
@@ -38,7 +38,7 @@ class SendLists {
   PerRank<RunSpan> spans_;
   double margin_ = 0.0;  // [m] that they are for
   double reach_ = -1.0;  // [m] and that they were found with; nothing comes within less than 0
-  RankFibers::Displacement displacement_;
+  Displacement found_at_;
   std::uint64_t search_count_ = 0;
 };
 

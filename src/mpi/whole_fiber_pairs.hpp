@@ -15,7 +15,7 @@ namespace fiber {
 
 /// Options with which an engine that has stretches of fibres leaves out no pair of those that the
 /// options ask for. Some that it finds are none along whole fibres.
-/// @param arc_roundings see RankFibers
+/// @param arc_roundings see OwnedFibers
 inline PairOptions options_of_stretches(const PairOptions& options, double arc_roundings) {
   PairOptions here = options;
   here.contact_limit = 0;
