@@ -17,7 +17,7 @@
 namespace fiber::test {
 namespace {
 
-/// A soup of short fibres, dealt out fibre by fibre as they come; the first may be thick.
+/// A soup of short fibres, scattered out fibre by fibre as they come; the first may be thick.
 struct Soup {
   explicit Soup(double first_radius) {
     AssemblyBuilder builder;
@@ -126,11 +126,11 @@ TEST(DistributedHalo, ServesWhilePointsMoveLittle) {
   int frames = 0;
   for (int scene = 0; scene < 8; ++scene) {
     FiberAssembly fibers = walks(random, 300, 20, 0.05, 0.002);
-    const std::vector<ScatteredPart> dealt = scatter(fibers, 2, random);
+    const std::vector<ScatteredPart> scattered = scatter(fibers, 2, random);
     DistributedEngine engine(MPI_COMM_WORLD, one_thread());
     const QueryOptions options = within(scene % 2 == 0 ? 0.0 : 0.003);
     for (int frame = 0; frame < 20; ++frame, ++frames) {
-      const DistributedFibers mine = scattered_to(own_rank(), fibers, dealt);
+      const DistributedFibers mine = scattered_to(own_rank(), fibers, scattered);
       engine.update(mine.parts, mine.names);
       ASSERT_TRUE(same_as_one_process(answer(engine, options),
                                       answer("run_tree", fibers, options).contacts))
