@@ -85,18 +85,18 @@ class BoxTree {
 
   BoxTree() = default;
 
-  /// With places for so many boxes, which all must be put there, in an order like that of
+  /// Makes places for so many boxes. All must be put there, in an order like that of
   /// spatial_order().
   /// @param around most of them: the nearer they are to it, the less larger they get
   BoxTree(std::size_t count, const Box3d& around);
 
-  /// With these boxes, in such an order.
+  /// Makes a tree of these boxes, which are in such an order.
   explicit BoxTree(const std::vector<Box3d>& boxes);
 
   bool empty() const { return boxes_.empty(); }
   Box3d box(std::uint32_t place) const { return absolute(boxes_[place]); }
 
-  /// Around all; there must be any.
+  /// The box around all boxes; there must be any.
   Box3d root() const { return absolute(node(height(), 0)); }
 
   /// Boxes around the boxes of the lowest level that has at most so many.
@@ -126,7 +126,7 @@ class BoxTree {
     std::size_t end = 0;
   };
 
-  /// Of level 0 are the boxes themselves.
+  /// Level 0 are the boxes themselves.
   std::size_t height() const { return begins_.size(); }
   std::size_t count_at(std::size_t level) const {
     if (level == 0) {

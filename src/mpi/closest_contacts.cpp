@@ -26,7 +26,7 @@ std::size_t closest_first(std::uint64_t count, std::vector<DistributedContact>& 
   return kept;
 }
 
-/// None if there are fewer.
+/// The k-th closest contact of all ranks; none if there are fewer.
 std::optional<PairKey> find_last_of_closest(const Communicator& ranks, std::uint64_t count,
                                             std::vector<DistributedContact>& contacts) {
   const std::size_t kept = closest_first(count, contacts);

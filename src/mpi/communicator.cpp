@@ -68,15 +68,15 @@ void Communicator::throw_on_all(const std::string& error) const {
 
 bool Communicator::all(bool value) const {
   const int mine = value ? 1 : 0;
-  int least = 0;
-  MPI_Allreduce(&mine, &least, 1, MPI_INT, MPI_MIN, ranks_);
-  return least != 0;
+  int smallest = 0;
+  MPI_Allreduce(&mine, &smallest, 1, MPI_INT, MPI_MIN, ranks_);
+  return smallest != 0;
 }
 
 double Communicator::min(double value) const {
-  double least = value;
-  MPI_Allreduce(&value, &least, 1, MPI_DOUBLE, MPI_MIN, ranks_);
-  return least;
+  double smallest = value;
+  MPI_Allreduce(&value, &smallest, 1, MPI_DOUBLE, MPI_MIN, ranks_);
+  return smallest;
 }
 
 double Communicator::max(double value) const { return -min(-value); }

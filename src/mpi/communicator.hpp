@@ -17,7 +17,7 @@ namespace fiber {
 template <class T>
 constexpr bool is_sendable = std::is_trivially_destructible_v<T> && !std::is_polymorphic_v<T>;
 
-/// For each rank what is sent to it, or what came from it.
+/// A list per rank: what is sent to it, or what has come from it.
 template <class T>
 using PerRank = std::vector<std::vector<T>>;
 
@@ -51,7 +51,7 @@ class Communicator {
   int size() const { return size_; }
   MPI_Comm handle() const { return ranks_; }
 
-  /// Ends what cannot go on, on all ranks alike.
+  /// Throws on all ranks if any has an error.
   /// @param error of this rank, "" for none
   /// @throws std::invalid_argument on every rank if any has an error: that of the lowest of these
   void throw_on_all(const std::string& error) const;
@@ -61,7 +61,7 @@ class Communicator {
   double max(double value) const;
   std::uint64_t sum(std::uint64_t value) const;
 
-  /// Of each rank its value.
+  /// Gathers the value of each rank on all ranks.
   template <class T>
   std::vector<T> gather_all(const T& value) const {
     static_assert(is_sendable<T>);
@@ -70,7 +70,7 @@ class Communicator {
     return values;
   }
 
-  /// Of rank 0 its value.
+  /// Returns the value of rank 0 on all ranks.
   template <class T>
   T broadcast(T value) const {
     static_assert(is_sendable<T>);
@@ -78,7 +78,7 @@ class Communicator {
     return value;
   }
 
-  /// The same of a list.
+  /// Returns the list of rank 0 on all ranks.
   template <class T>
   std::vector<T> broadcast(std::vector<T> values) const {
     static_assert(is_sendable<T>);
@@ -91,7 +91,8 @@ class Communicator {
   template <class T>
   PerRank<T> exchange(PerRank<T> to) const;
 
-  /// What each rank has for this one of what this one has for it. Only counts go to all ranks.
+  /// Tells each rank how much this one has for it.
+  /// @return how much each rank has for this one
   std::vector<std::uint64_t> exchange_counts(const std::vector<std::uint64_t>& counts) const {
     std::vector<std::uint64_t> received(counts.size());
     MPI_Alltoall(counts.data(), 1, MPI_UINT64_T, received.data(), 1, MPI_UINT64_T, ranks_);
@@ -109,7 +110,7 @@ class Communicator {
 /// @return what was thrown, "" for nothing
 std::string error_in(const std::function<void()>& work);
 
-/// Does on rank 0 what may go wrong there. Collective.
+/// Does work on rank 0 that may fail there. Collective.
 /// @throws std::invalid_argument on all ranks if it does
 void run_on_root(const Communicator& ranks, const std::function<void()>& work);
 
@@ -137,8 +138,8 @@ class Transfer {
   std::vector<MPI_Request> requests_;
 };
 
-/// What goes from each rank to each while they do other things. Exchanges that overlap are started
-/// in the same order on all ranks.
+/// Messages from each rank to each, under way while ranks do other things. Exchanges that overlap
+/// are started in the same order on all ranks.
 template <class T>
 class Exchange {
   static_assert(is_sendable<T>);

@@ -22,7 +22,8 @@ void ContactSearch::update(const OwnedFibers& fibers) {
   engine_->update(fibers.own().fibers());
 }
 
-/// What leaves out no pair that the options want. Those that are too many are left out later.
+/// Options for the engine that leave out no pair that the query wants. Pairs that are too many are
+/// left out later.
 QueryOptions ContactSearch::options_here(const QueryOptions& options) const {
   QueryOptions here = options;
   static_cast<PairOptions&>(here) = options_of_stretches(options, fibers_->arc_roundings());
@@ -37,14 +38,17 @@ void ContactSearch::find_inner(const QueryOptions& options, std::uint64_t count,
   const RankPairs pairs{ranks_, fibers_->own(), halo_};
   QueryOptions here = options_here(options);
   across_.clear();
-  constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
+  constexpr std::uint64_t max_count = std::numeric_limits<std::uint32_t>::max();
   constexpr std::uint64_t more = 16;
   bool is_first = options.type == QueryType::FIRST;
   // Pairs that are none along whole fibres may be among those that the engine finds: it is asked
   // for more until enough are left.
-  for (std::uint64_t asked = count; true; asked = asked > most / more ? no_limit : more * asked) {
-    here.type = is_first ? QueryType::FIRST : asked > most ? QueryType::ALL : QueryType::LIMITED;
-    here.max_contacts = static_cast<std::uint32_t>(std::min(asked, most));
+  for (std::uint64_t asked = count; true;
+       asked = asked > max_count / more ? no_limit : more * asked) {
+    here.type = is_first            ? QueryType::FIRST
+                : asked > max_count ? QueryType::ALL
+                                    : QueryType::LIMITED;
+    here.max_contacts = static_cast<std::uint32_t>(std::min(asked, max_count));
     here.deadline = deadline.left();
     engine_->query(here, inner_);
     counts_ += inner_.counts;

@@ -29,7 +29,7 @@ class ContactSearch {
   /// Makes these fibres those that are looked at; they must live until the next update.
   void update(const OwnedFibers& fibers);
 
-  /// The same fibres are elsewhere in memory.
+  /// Takes the same fibres, which have moved to another place in memory.
   void follow(const OwnedFibers& fibers) { engine_->update(fibers.own().fibers()); }
 
   /// Forgets them.
@@ -60,7 +60,7 @@ class ContactSearch {
 
   std::uint64_t halo_segments() const { return halo_.fibers().segment_count(); }
 
-  /// Of this rank, since the last update.
+  /// Work of this rank since the last update.
   const QueryCounts& counts() const { return counts_; }
 
   /// About what the last update and the queries since then took of this rank.

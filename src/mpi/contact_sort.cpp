@@ -18,7 +18,7 @@ namespace {
 // be.
 constexpr std::size_t min_samples = 64;
 
-/// What contacts are sorted by: their base.
+/// The base that contacts are sorted by.
 using ContactKey = BasicSegmentIdPair<std::uint64_t>;
 
 /// A contact that stands for those from the sample before it on.
@@ -28,9 +28,9 @@ struct ContactSample {
 };
 
 template <class T>
-std::vector<ContactSample> samples_of(const std::vector<T>& contacts, std::size_t most) {
+std::vector<ContactSample> samples_of(const std::vector<T>& contacts, std::size_t max_samples) {
   std::vector<ContactSample> samples;
-  const std::size_t count = std::min(most, contacts.size());
+  const std::size_t count = std::min(max_samples, contacts.size());
   std::size_t begin = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t end =

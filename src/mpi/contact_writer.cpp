@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint64_t bytes_per_contact = 169;  // of all datasets
 
-/// Where contacts of this rank stand among those of all.
+/// The rows that contacts of this rank take among those of all ranks.
 struct ContactRows {
   std::uint64_t first = 0;
   std::uint64_t all = 0;
@@ -67,7 +67,7 @@ class ContactColumn<Eigen::Vector3d> {
   Eigen::Vector3d DistributedContact::*member_;
 };
 
-/// The same as lines from point_a to point_b, for VTK: points and values are those of the columns,
+/// Contacts as lines from point_a to point_b, for VTK. Points and values are those of the columns,
 /// under other names.
 class ContactLines {
  public:

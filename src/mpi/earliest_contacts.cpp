@@ -19,9 +19,9 @@ PairKey sort_key(double value, const DistributedMotionContact& contact) {
 /// @param dropped is called with those that go
 /// @return whether any go, of any rank
 template <class Value, class Dropped>
-bool keep_first(const Communicator& ranks, std::uint64_t most, const Value& value,
+bool keep_first(const Communicator& ranks, std::uint64_t max_contacts, const Value& value,
                 const Dropped& dropped, std::vector<DistributedMotionContact>& contacts) {
-  if (most == 0 || ranks.sum(contacts.size()) <= most) {
+  if (max_contacts == 0 || ranks.sum(contacts.size()) <= max_contacts) {
     return false;
   }
   std::vector<PairKey> places;
@@ -29,7 +29,7 @@ bool keep_first(const Communicator& ranks, std::uint64_t most, const Value& valu
   for (const DistributedMotionContact& contact : contacts) {
     places.push_back(sort_key(value(contact), contact));
   }
-  const std::optional<PairKey> last = kth_smallest(ranks, most, std::move(places));
+  const std::optional<PairKey> last = kth_smallest(ranks, max_contacts, std::move(places));
   std::size_t kept = 0;
   for (const DistributedMotionContact& contact : contacts) {
     if (*last < sort_key(value(contact), contact)) {

@@ -19,7 +19,7 @@ struct PartNotice {
   int rank = 0;
 };
 
-/// Where a part ends.
+/// The end of a part.
 struct Joint {
   Eigen::Vector3d point{};
   double arc = 0.0;

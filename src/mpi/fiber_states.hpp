@@ -44,7 +44,7 @@ struct FiberStates {
     });
   }
 
-  /// Around segments that follow each other, on all their way.
+  /// A box around consecutive segments during the whole motion.
   /// @param begin, end the first point and the last one
   Box3d box_around(std::uint64_t begin, std::uint64_t end) const {
     const Eigen::Vector3d& first = before.fibers().points()[begin];

@@ -15,7 +15,7 @@
 namespace fiber {
 namespace {
 
-/// As files have them: a zero below none is another.
+/// Whether numbers are the same in a file: -0 is another than 0.
 bool has_same_bits(double x, double y) { return x == y && std::signbit(x) == std::signbit(y); }
 
 /// A point where a part may go on: it does at a point that has the same of all of this.
@@ -40,7 +40,7 @@ PartEnd end_of(const DistributedFibers& fibers, std::size_t part, bool is_start)
           point_radius(fibers.parts, part, point)};
 }
 
-/// Of a rank the parts that are lines of their own in the file, and what it adds to it.
+/// The lines that the parts of a rank become in the file.
 struct RankLines {
   std::vector<bool> is_joined;  // to the part before it, by part
   FiberCounts own;

@@ -68,7 +68,7 @@ FiberAssembly joined(const FiberRuns& runs) {
   return {std::move(points), std::move(offsets), shared_if_equal(std::move(radii))};
 }
 
-/// What the fibres of sorted runs are called, each once.
+/// The names of the fibres of sorted runs, each once.
 FiberNames names_of(const FiberRuns& runs, const FiberNames& by_number) {
   std::vector<std::string> names;
   for (const FiberRun& run : runs.runs) {

@@ -29,7 +29,7 @@ Hdf5Id list_without_times(hid_t kind) {
   return list;
 }
 
-/// For a file whose ids are all closed with it: what is still open would keep it open.
+/// Access that closes all ids with the file: an open id would keep the file open.
 Hdf5Id file_access() {
   Hdf5Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "no property list");
   require_success(H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG), "no property list");
@@ -47,7 +47,7 @@ Hdf5Id parallel_access(const Communicator& ranks) {
 Hdf5Id access_alone() {
   Hdf5Id access = file_access();
 #if H5_VERSION_GE(1, 10, 7)
-  // As with MPI: there are file systems that know no locks.
+  // Some file systems have no locks; MPI-IO does not ask for them either.
   require_success(H5Pset_file_locking(access.get(), 0, 1), "no property list");
 #endif
   return access;
@@ -60,7 +60,7 @@ Hdf5Id space_of(Hdf5Shape shape) {
   return {H5Screate_simple(rank_of(shape), sizes_of(shape).data(), nullptr), H5Sclose, "no space"};
 }
 
-/// Of a dataset's rows those of a part.
+/// Selects the rows of a part of a dataset.
 Hdf5Id selection(hid_t dataset, std::uint64_t first, Hdf5Shape part) {
   Hdf5Id space(H5Dget_space(dataset), H5Sclose, "a dataset has no space");
   const std::array<hsize_t, 2> start{first, 0};

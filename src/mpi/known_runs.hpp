@@ -36,7 +36,7 @@ class KnownRuns {
  public:
   explicit KnownRuns(const LocalFibers& fibers) : fibers_(fibers) {}
 
-  /// Those that follow each other as one.
+  /// The runs of this rank; consecutive ones are joined.
   std::vector<OwnedRun> joined(int rank) const {
     std::vector<OwnedRun> runs;
     for (const FiberRun& run : fibers_.runs()) {
@@ -103,7 +103,7 @@ class KnownRuns {
     return false;
   }
 
-  /// Around the points that start a segment.
+  /// A box around the points of the run that start a segment.
   const Eigen::AlignedBox3d& box_of(const FiberRun& run) {
     boxes_.resize(fibers_.runs().size());
     Eigen::AlignedBox3d& box = boxes_[static_cast<std::size_t>(&run - fibers_.runs().data())];

@@ -10,7 +10,7 @@
 
 namespace fiber {
 
-/// What decides which pair comes first, as it travels: a distance or a time, then the segments.
+/// The order of pairs of all ranks: by distance or time, then by their segments.
 struct PairKey {
   double value = 0.0;
   GlobalSegment a;
@@ -20,9 +20,9 @@ struct PairKey {
   bool operator<(const PairKey& other) const { return key() < other.key(); }
 };
 
-/// The last one of the so many first ones of all ranks; none if there are fewer. Collective.
-/// @param places of this rank, at least its so many first ones
-std::optional<PairKey> kth_smallest(const Communicator& ranks, std::uint64_t count,
-                                    std::vector<PairKey> places);
+/// The k-th smallest key of all ranks, none if there are fewer. Collective.
+/// @param keys of this rank, at least its k smallest ones
+std::optional<PairKey> kth_smallest(const Communicator& ranks, std::uint64_t k,
+                                    std::vector<PairKey> keys);
 
 }  // namespace fiber

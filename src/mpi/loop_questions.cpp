@@ -10,7 +10,7 @@ namespace {
 
 bool comes_first(const OwnedRun& x, const OwnedRun& y) { return x.first < y.first; }
 
-/// For each question of the rule, by its bit, whether a point goes too far.
+/// A bit for each question of the rule: whether a point goes too far.
 using Answers = std::uint8_t;
 static_assert(loop_question_count <= 8);
 
@@ -18,7 +18,7 @@ SegmentDistance nearest_of(const Capsule& a, const Capsule& b) {
   return segment_distance(a.p0, a.p1, b.p0, b.p1);
 }
 
-/// What the points here say to a question.
+/// Answers a question by the points here.
 Answers answer(const LoopQuestion& question, KnownRuns& own, KnownRuns& halo) {
   Answers answers = 0;
   makes_loop_by(

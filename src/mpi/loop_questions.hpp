@@ -18,7 +18,7 @@ namespace fiber {
 std::vector<bool> find_loops(const Communicator& ranks, const LocalFibers& own,
                              const LocalFibers& halo, const std::vector<LoopQuestion>& questions);
 
-/// What the segments of one rank tell of loops by themselves.
+/// Finds loops by the segments of one rank alone.
 class LoopsOfRank {
  public:
   explicit LoopsOfRank(const LocalFibers& own) : own_(own), of_others_(none_) {}

@@ -55,7 +55,7 @@ class OwnedFibers {
 
   bool do_move() const { return do_move_; }
 
-  /// What this rank owns, before the motion if there is one.
+  /// The fibres that this rank owns, before the motion if there is one.
   const LocalFibers& own() const { return own_; }
   const LocalFibers& own_after() const { return own_after_; }
 

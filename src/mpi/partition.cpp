@@ -125,7 +125,7 @@ void throw_on_all_after_zoltan(const Communicator& ranks, const std::string& err
   }
 }
 
-/// What Zoltan says of the objects that leave; it has memory of its own.
+/// Zoltan's list of objects that change ranks, in memory of its own.
 struct Moves {
   int count = 0;
   ZOLTAN_ID_PTR global_ids = nullptr;
@@ -175,7 +175,7 @@ std::vector<int> partition(const Communicator& ranks, const std::vector<Partitio
       &imports.local_ids, &imports.ranks, &imports.parts, &exports.count, &exports.global_ids,
       &exports.local_ids, &exports.ranks, &exports.parts);
   throw_on_all_after_zoltan(ranks, zoltan_error(error));
-  // Those that are not told of belong to the part of this rank's number.
+  // Objects that are not exported belong to the part of this rank's number.
   std::vector<int> part_of(objects.size(), ranks.rank());
   for (int i = 0; i < exports.count; ++i) {
     if (exports.local_ids[i] < part_of.size()) {

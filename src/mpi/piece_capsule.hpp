@@ -8,15 +8,15 @@
 
 namespace fiber {
 
-/// A capsule around segments that follow each other, on all their way, as it travels: around the
-/// line from the first point to the last one. Much tighter than a box where a line runs askew.
+/// A capsule around consecutive segments during their whole motion: around the line from the first
+/// point to the last one. It is much tighter than a box where a line runs askew.
 struct PieceCapsule {
   Eigen::Vector3d start{};
   Eigen::Vector3d line{};  // [m] from there to the end
   double radius = 0.0;     // [m]
 };
 
-/// Around one segment, on all its way.
+/// A ball around one segment during its whole motion.
 struct SegmentBall {
   Eigen::Vector3d centre;  // [m]
   double radius = 0.0;     // [m]

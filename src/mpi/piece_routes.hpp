@@ -50,7 +50,7 @@ class PieceRoutes {
   void send_nodes(const Communicator& ranks, const FiberAssembly& parts,
                   const std::vector<double>& arcs, LocalFibers& owned) const;
 
-  /// What the owners say that the pieces of this rank cost.
+  /// Asks the owners what the pieces of this rank cost.
   /// @param of_runs costs of the runs that this rank owns
   std::vector<double> collect_costs(const Communicator& ranks, const LocalFibers& owned,
                                     const std::vector<double>& of_runs) const;

@@ -8,7 +8,7 @@
 namespace fiber {
 namespace {
 
-// Of a rank, for those near it to see which of theirs matter to it.
+// So many boxes a rank shows its neighbours, for them to see which of their segments matter to it.
 constexpr std::size_t coarse_boxes = 64;
 
 /// Other ranks whose segments may be near.
@@ -30,10 +30,10 @@ std::vector<std::size_t> find_neighbours(const Communicator& ranks, const BoxTre
 /// small beside pieces: then the halo is little larger.
 double room_for(const Communicator& ranks, double motion, const PieceBoxes& boxes) {
   constexpr double updates = 8.0;
-  constexpr double most_of_piece = 0.1;
-  const double most = most_of_piece * ranks.min(boxes.mean_side());
+  constexpr double max_part_of_piece = 0.1;
+  const double max_room = max_part_of_piece * ranks.min(boxes.mean_side());
   const double per_update = 2.0 * motion;  // of two segments
-  return per_update <= most ? std::min(updates * per_update, most) : 0.0;
+  return per_update <= max_room ? std::min(updates * per_update, max_room) : 0.0;
 }
 
 }  // namespace

@@ -16,19 +16,19 @@ struct RunSpan {
   std::uint64_t end = 0;
 };
 
-/// By rank the segments of this one that may come within the margin [m] of one of the other's that
-/// is before them in the order of contacts, by what is around a few segments that follow each
-/// other. Collective.
-/// @param own   of fibres that move the ways to where they are after that count
+/// Finds what this rank must send to each other one: its segments that may come within the margin
+/// [m] of a segment of the other that is before them in the order of contacts. Decided by boxes and
+/// capsules around a few consecutive segments. Collective.
+/// @param own   this rank's fibres; where they move, during the whole motion
 /// @param boxes of own
 PerRank<RunSpan> find_send_lists(const Communicator& ranks, const FiberStates& own,
                                  const PieceBoxes& boxes, double margin);
 
-/// The same for queries one after another: found with some room, they serve until points have moved
-/// that far.
+/// Send lists that serve several queries: they are found with some room, and serve until points
+/// have moved that far.
 class SendLists {
  public:
-  /// Finds lists, or has some that serve. Collective.
+  /// The send list of each rank, found now or before. Collective.
   const PerRank<RunSpan>& find(const Communicator& ranks, OwnedFibers& fibers, double margin);
 
   /// How often none served.

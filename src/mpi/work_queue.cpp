@@ -9,13 +9,14 @@ namespace {
 
 constexpr auto request_tag = static_cast<int>(MessageTag::REQUEST);
 
-/// What a rank asks rank 0 for.
+/// A rank's message to rank 0.
 enum class Request : std::uint8_t {
   CHUNK,
   STOP  // the rank has failed: nobody need go on
 };
 
-/// What rank 0 answers, before the data it has packed. An empty range says that the queue is empty.
+/// The answer of rank 0, before the data it has packed. An empty range says that the queue is
+/// empty.
 struct Chunk {
   WorkRange range;
   std::uint64_t packed = 0;  // [byte]
@@ -172,7 +173,7 @@ void ask(const Communicator& ranks, Request request) {
   MPI_Send(&request, sizeof request, MPI_BYTE, 0, request_tag, ranks.handle());
 }
 
-/// What rank 0 gives to this one.
+/// Receives a chunk from rank 0.
 Chunk take(const Communicator& ranks, std::vector<char>& packed) {
   Transfer transfer(ranks, MessageTag::CHUNK);
   Chunk chunk;

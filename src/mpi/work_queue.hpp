@@ -23,7 +23,7 @@ struct WorkQueue {
   /// @param packed what pack() has made for them on rank 0; nothing on rank 0 itself
   std::function<void(const WorkRange& range, const std::vector<char>& packed)> work = {};
 
-  /// What another rank needs to do a range, made on rank 0; may be left out.
+  /// Packs on rank 0 the data that another rank needs to do a range; may be left out.
   std::function<std::vector<char>(const WorkRange& range)> pack = {};
 
   /// Told on rank 0 up to which number all have been given away; may be left out.

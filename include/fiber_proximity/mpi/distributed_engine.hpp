@@ -17,7 +17,7 @@
 
 namespace fiber {
 
-/// What a rank calls a part of a fibre that it brings: the fibre, and the index along it of the
+/// The name of a part of a fibre that a rank brings: the fibre, and the index along it of the
 /// part's first segment, both from 0. Fibres may have any numbers; contacts are sorted by them.
 struct FiberPart {
   std::uint64_t fiber = 0;
@@ -28,12 +28,12 @@ struct FiberPart {
   }
 };
 
-/// What a rank brings to DistributedEngine::update().
+/// The fibres that a rank brings to DistributedEngine::update().
 struct DistributedFibers {
   FiberAssembly parts;
   std::vector<FiberPart> names;  ///< one per part
 
-  /// What people call the fibres, by number, the same on all ranks: for files and answers.
+  /// Names of the fibres by number, the same on all ranks: for files and answers.
   FiberNames fiber_names{};
 };
 
@@ -42,7 +42,7 @@ using DistributedContact = BasicContact<std::uint64_t>;
 
 /// A rank's part of an answer.
 struct DistributedResult {
-  /// Of the pairs whose smaller segment this rank holds, sorted by key().
+  /// Pairs whose smaller segment this rank owns, sorted by key().
   std::vector<DistributedContact> contacts;
 
   // The rest is the same on all ranks.
@@ -59,7 +59,7 @@ using DistributedMotionContact = BasicMotionContact<std::uint64_t>;
 
 /// A rank's part of an answer about a motion.
 struct DistributedMotionResult {
-  /// Of the pairs whose smaller segment this rank holds; otherwise as in MotionResult.
+  /// Pairs whose smaller segment this rank owns; otherwise as in MotionResult.
   std::vector<DistributedMotionContact> contacts;
   std::vector<DistributedMotionContact> touching;
 
@@ -70,7 +70,7 @@ struct DistributedMotionResult {
   double others_lower = 0.0;
 };
 
-/// What a rank holds.
+/// Sizes and counts of a rank.
 struct DistributedFacts {
   std::uint64_t own_segments = 0;   ///< that the split gave to this rank
   std::uint64_t halo_segments = 0;  ///< of other ranks, for the last query
@@ -82,7 +82,7 @@ struct DistributedFacts {
   /// How often ranks looked for what others need. What they find serves until points have moved.
   std::uint64_t halo_search_count = 0;
 
-  /// What queries since the last update took of this rank.
+  /// Work of this rank for queries since the last update.
   QueryCounts query_counts;
 };
 
