@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "fiber_proximity/query/narrow_phase.hpp"
+#include "fiber_proximity/query/for_engines/narrow_phase.hpp"
 #include "src/mpi/fiber_pair_search.hpp"
 #include "src/mpi/whole_fiber_pairs.hpp"
 

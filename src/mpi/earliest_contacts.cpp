@@ -57,7 +57,7 @@ void keep_earliest(const Communicator& ranks, const MotionOptions& options,
       ranks, options.contact_limit, [](const auto& /*contact*/) { return 0.0; },
       [](const auto& /*contact*/) {}, result.touching);
   const bool are_more = keep_first(
-      ranks, most_contacts(options), [](const auto& contact) { return contact.lower; },
+      ranks, max_reported(options), [](const auto& contact) { return contact.lower; },
       [&](const auto& contact) { others_lower = std::min(others_lower, contact.lower); },
       result.contacts);
   std::sort(result.contacts.begin(), result.contacts.end(), by_key);

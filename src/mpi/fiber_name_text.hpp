@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "fiber_proximity/io/fiber_names.hpp"
+#include "fiber_proximity/io/fiber_file.hpp"
 #include "src/mpi/communicator.hpp"
 
 namespace fiber {

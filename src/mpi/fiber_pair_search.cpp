@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "fiber_proximity/query/for_engines/pair_collector.hpp"
 #include "src/bounds/bounding_volume.hpp"
 #include "src/mpi/ordered_pairs.hpp"
 
@@ -74,8 +75,7 @@ void FiberPairSearch::find_across() {
     look();
   }
   ask_about_loops();
-  leave_out(is_over_ ? std::min(inner_test_.least_gap(), across_test_->least_gap())
-                     : closest_.bound());
+  leave_out(is_over_ ? std::min(inner_test_.min_gap(), across_test_->min_gap()) : closest_.bound());
 }
 
 /// At pairs of own segments: before there is a halo, and then at those that waited for it.
@@ -249,10 +249,10 @@ bool FiberPairSearch::is_ruled_out(PointPair along) const {
 }
 
 bool FiberPairSearch::makes_loop(PointPair along, const PairDistance& distance) {
-  std::uint64_t looks = 0;
-  const bool makes = loops_ ? loops_->makes_loop(along, distance.nearest, looks)
-                            : !inner_test_.lacks_loop(along, distance, looks);
-  pairs_left_ -= std::min(pairs_left_, looks / QueryLimits::looks_per_pair);
+  std::uint64_t loop_steps = 0;
+  const bool makes = loops_ ? loops_->makes_loop(along, distance.nearest, loop_steps)
+                            : !inner_test_.lacks_loop(along, distance, loop_steps);
+  pairs_left_ -= std::min(pairs_left_, loop_steps / QueryLimits::loop_steps_per_pair);
   return makes;
 }
 

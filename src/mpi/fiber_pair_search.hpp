@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "fiber_proximity/query/loop_test.hpp"
-#include "fiber_proximity/query/narrow_phase.hpp"
+#include "fiber_proximity/query/for_engines/loop_test.hpp"
+#include "fiber_proximity/query/for_engines/narrow_phase.hpp"
 #include "src/mpi/closest_of_fibers.hpp"
 #include "src/mpi/global_segments.hpp"
 #include "src/mpi/local_fibers.hpp"

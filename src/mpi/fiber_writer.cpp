@@ -37,7 +37,7 @@ PartEnd end_of(const DistributedFibers& fibers, std::size_t part, bool is_start)
   const FiberPart& name = fibers.names[part];
   return {{name.fiber, name.first_segment + (point - begin)},
           fibers.parts.points()[point],
-          point_radius(fibers.parts, part, point)};
+          fibers.parts.radius_at(part, point)};
 }
 
 /// The lines that the parts of a rank become in the file.
@@ -112,7 +112,7 @@ class FiberDatasets {
       for (; point < fibers.parts.offsets()[part + 1]; ++point) {
         const Eigen::Vector3d& p = fibers.parts.points()[point];
         points_.append(p[0], p[1], p[2]);
-        radii_.append(point_radius(fibers.parts, part, point));
+        radii_.append(fibers.parts.radius_at(part, point));
         connectivity_.append(static_cast<std::int64_t>(next_point_++));
       }
     }

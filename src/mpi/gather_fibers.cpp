@@ -24,7 +24,7 @@ FiberRuns runs_of(const DistributedFibers& fibers) {
                          end - begin - 1,
                          runs.nodes.size()});
     for (std::uint32_t p = begin; p < end; ++p) {
-      runs.nodes.push_back({fibers.parts.points()[p], point_radius(fibers.parts, part, p)});
+      runs.nodes.push_back({fibers.parts.points()[p], fibers.parts.radius_at(part, p)});
     }
   }
   return runs;

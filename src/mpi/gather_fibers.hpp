@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fiber_proximity/io/fiber_names.hpp"
+#include "fiber_proximity/io/fiber_file.hpp"
 #include "fiber_proximity/mpi/distributed_files.hpp"
 #include "src/mpi/communicator.hpp"
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "fiber_proximity/environment/check_fibers.hpp"
-#include "src/environment/scene/environment_scene.hpp"
+#include "fiber_proximity/environment/scene/environment_scene.hpp"
 #include "src/io/file_format.hpp"
 #include "src/mpi/communicator.hpp"
 #include "src/mpi/work_queue.hpp"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "fiber_proximity/query/loop_test.hpp"
+#include "fiber_proximity/query/for_engines/loop_test.hpp"
 #include "test/mpi/scattered_fibers.hpp"
 #include "test/support/assemblies.hpp"
 #include "test/support/dense_fibers.hpp"
