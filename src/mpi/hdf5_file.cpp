@@ -70,6 +70,17 @@ Hdf5Id selection(hid_t dataset, std::uint64_t first, Hdf5Shape part) {
   return space;
 }
 
+Hdf5Id scalar_space() { return {H5Screate(H5S_SCALAR), H5Sclose, "no space"}; }
+
+void write_attribute(hid_t place, const std::string& name, hid_t file_type, hid_t memory_type,
+                     const Hdf5Id& space, const void* value) {
+  const std::string failed = "attribute " + name + " cannot be written";
+  const Hdf5Id attribute(
+      H5Acreate2(place, name.c_str(), file_type, space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+      failed);
+  require_success(H5Awrite(attribute.get(), memory_type, value), failed);
+}
+
 /// An attribute's value if it is of this class.
 std::optional<Hdf5Id> open_attribute(hid_t place, const std::string& name, H5T_class_t kind) {
   if (H5Aexists(place, name.c_str()) <= 0) {
@@ -143,23 +154,14 @@ bool has_link(hid_t place, const std::string& name) {
 }
 
 void write_numbers(hid_t place, const std::string& name, const std::vector<std::int64_t>& values) {
-  const std::string failed = "attribute " + name + " cannot be written";
-  const Hdf5Id space = values.size() == 1 ? Hdf5Id(H5Screate(H5S_SCALAR), H5Sclose, failed)
-                                          : space_of({values.size()});
-  const Hdf5Id attribute(H5Acreate2(place, name.c_str(), hdf5_type(std::int64_t()).file,
-                                    space.get(), H5P_DEFAULT, H5P_DEFAULT),
-                         H5Aclose, failed);
-  require_success(H5Awrite(attribute.get(), hdf5_type(std::int64_t()).memory, values.data()),
-                  failed);
+  const hid_t type = hdf5_type(std::int64_t()).file;
+  const Hdf5Id space = values.size() == 1 ? scalar_space() : space_of({values.size()});
+  write_attribute(place, name, type, hdf5_type(std::int64_t()).memory, space, values.data());
 }
 
 void write_real(hid_t place, const std::string& name, double value) {
-  const std::string failed = "attribute " + name + " cannot be written";
-  const Hdf5Id space(H5Screate(H5S_SCALAR), H5Sclose, failed);
-  const Hdf5Id attribute(
-      H5Acreate2(place, name.c_str(), hdf5_type(value).file, space.get(), H5P_DEFAULT, H5P_DEFAULT),
-      H5Aclose, failed);
-  require_success(H5Awrite(attribute.get(), hdf5_type(value).memory, &value), failed);
+  const Hdf5Type type = hdf5_type(value);
+  write_attribute(place, name, type.file, type.memory, scalar_space(), &value);
 }
 
 void write_text(hid_t place, const std::string& name, const std::string& text) {
@@ -167,11 +169,7 @@ void write_text(hid_t place, const std::string& name, const std::string& text) {
   const Hdf5Id type(H5Tcopy(H5T_C_S1), H5Tclose, failed);
   require_success(H5Tset_size(type.get(), std::max<std::size_t>(text.size(), 1)), failed);
   require_success(H5Tset_strpad(type.get(), H5T_STR_NULLPAD), failed);
-  const Hdf5Id space(H5Screate(H5S_SCALAR), H5Sclose, failed);
-  const Hdf5Id attribute(
-      H5Acreate2(place, name.c_str(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
-      failed);
-  require_success(H5Awrite(attribute.get(), type.get(), text.c_str()), failed);
+  write_attribute(place, name, type.get(), type.get(), scalar_space(), text.c_str());
 }
 
 std::optional<std::int64_t> read_number(hid_t place, const std::string& name) {

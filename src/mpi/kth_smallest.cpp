@@ -12,8 +12,9 @@ std::optional<PairKey> kth_smallest(const Communicator& ranks, std::uint64_t k,
     return std::nullopt;
   }
   // Ranks pass theirs on in pairs, and each keeps no more than it is asked for.
-  std::sort(keys.begin(), keys.end());
-  keys.resize(std::min<std::uint64_t>(k, keys.size()));
+  const std::uint64_t kept = std::min<std::uint64_t>(k, keys.size());
+  std::partial_sort(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(kept), keys.end());
+  keys.resize(kept);
   const auto rank = static_cast<std::size_t>(ranks.rank());
   const auto size = static_cast<std::size_t>(ranks.size());
   for (std::size_t step = 1; step < size; step *= 2) {
