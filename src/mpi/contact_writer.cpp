@@ -88,7 +88,7 @@ class ContactLines {
     }
   }
 
-  void write(std::uint64_t count, bool is_first_rank) {
+  void write(std::uint64_t count, bool is_root) {
     for (std::uint64_t row = rows_.first; row < rows_.first + count; ++row) {
       connectivity_.append(static_cast<std::int64_t>(row));
       connectivity_.append(static_cast<std::int64_t>(rows_.all + row));
@@ -98,7 +98,7 @@ class ContactLines {
     connectivity_.flush();
     offsets_.flush();
     types_.flush();
-    if (is_first_rank) {
+    if (is_root) {
       sizes_.write();
       write_end(offsets_.dataset(), {rows_.all, 2 * rows_.all});
     }
@@ -132,7 +132,7 @@ class ContactDatasets {
                   {group_.get(), "normal", rows, &DistributedContact::normal}}},
         lines_(file, group_.get(), rows) {}
 
-  void write(const std::vector<DistributedContact>& contacts, bool is_first_rank) {
+  void write(const std::vector<DistributedContact>& contacts, bool is_root) {
     const auto write_columns = [&](auto& columns) {
       for (auto& column : columns) {
         for (const DistributedContact& contact : contacts) {
@@ -144,7 +144,7 @@ class ContactDatasets {
     write_columns(ids_);
     write_columns(numbers_);
     write_columns(vectors_);
-    lines_.write(contacts.size(), is_first_rank);
+    lines_.write(contacts.size(), is_root);
   }
 
  private:

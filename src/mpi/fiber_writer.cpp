@@ -85,11 +85,11 @@ RankLines lines_of(const Communicator& ranks, const DistributedFibers& fibers) {
 /// The datasets of a frame. All ranks make them alike, then each writes its rows.
 class FiberDatasets {
  public:
-  FiberDatasets(hid_t file, const RankLines& lines, bool is_first_rank)
+  FiberDatasets(hid_t file, const RankLines& lines, bool is_root)
       : vtk_(create_group(file, layout::vtk)),
         at_points_(create_group(vtk_.get(), layout::at_points)),
         at_cells_(create_group(vtk_.get(), layout::at_cells)),
-        is_first_rank_(is_first_rank),
+        is_root_(is_root),
         next_point_(lines.before.points),
         all_(lines.all),
         points_(vtk_.get(), layout::points, all_.points, lines.before.points),
@@ -117,7 +117,7 @@ class FiberDatasets {
       }
     }
     flush();
-    if (is_first_rank_) {
+    if (is_root_) {
       sizes_.write();
       write_end(offsets_.dataset(), all_);
     }
@@ -144,7 +144,7 @@ class FiberDatasets {
   Hdf5Id vtk_;
   Hdf5Id at_points_;
   Hdf5Id at_cells_;
-  const bool is_first_rank_;
+  const bool is_root_;
   std::uint64_t next_point_;
   const FiberCounts all_;
   RowWriter<double, 3> points_;
