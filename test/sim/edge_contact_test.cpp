@@ -10,11 +10,11 @@
 #include <limits>
 #include <ostream>
 
-#include "benchmark/sim/contact_scenes.hpp"
 #include "test/sim/contact_system.hpp"
 #include "test/sim/polyline.hpp"
 #include "test/sim/tunnelling.hpp"
 #include "test/support/random.hpp"
+#include "validation/sim/contact_scenes.hpp"
 
 namespace fiber::test {
 namespace {

@@ -6,11 +6,11 @@
 
 #include <cmath>
 
-#include "benchmark/sim/contact_scenes.hpp"
 #include "test/sim/random_rods.hpp"
 #include "test/sim/throw.hpp"
 #include "test/sim/trefoil.hpp"
 #include "test/support/random.hpp"
+#include "validation/sim/contact_scenes.hpp"
 
 namespace fiber::test {
 namespace {

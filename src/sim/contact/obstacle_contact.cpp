@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "fiber_proximity/environment/occupancy_octree.hpp"
 #include "fiber_proximity/environment/triangle_mesh.hpp"
 #include "src/environment/convex_solids.hpp"
-#include "src/environment/occupancy_octree.hpp"
 
 namespace fiber {
 

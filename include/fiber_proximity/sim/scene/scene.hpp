@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "fiber_proximity/environment/environment.hpp"
-#include "fiber_proximity/environment/scene/mesh_files.hpp"
+#include "fiber_proximity/environment/scene/environment_scene.hpp"
 #include "fiber_proximity/sim/attachment.hpp"
 #include "fiber_proximity/sim/stepper.hpp"
 #include "fiber_proximity/yaml/yaml_field.hpp"
