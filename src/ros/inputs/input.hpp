@@ -10,8 +10,8 @@
 
 #include "fiber_proximity/InputStatistics.h"
 #include "src/ros/inputs/fiber_message.hpp"
-#include "src/ros/inputs/fiber_trial.hpp"
 #include "src/ros/inputs/fixed_frame.hpp"
+#include "src/ros/inputs/input_budget.hpp"
 #include "src/ros/inputs/input_source.hpp"
 #include "src/ros/inputs/input_stamps.hpp"
 #include "src/ros/inputs/message_log.hpp"
