@@ -21,8 +21,7 @@ ros::Time to_stamp(std::chrono::nanoseconds time);
 /// The fibres of an answer, and when they were there.
 struct FiberState {
   bool has_fibers = false;  ///< false: there are none, or they are not to be kept
-  fiber::FiberAssembly fibers;
-  std::vector<std::string> names;
+  std::shared_ptr<const FiberMessage> message = std::make_shared<const FiberMessage>();
   std::vector<std::optional<ros::Time>> stamps;  ///< by input, of those that are fresh
   ros::Time stamp;                               ///< the newest
 };
@@ -59,7 +58,7 @@ class FiberStep {
 
   // Of a motion or a rest. What has not moved stands still.
   fiber::FiberMotion motion() const {
-    return {rests_ ? after_.fibers : before_.fibers, after_.fibers};
+    return {rests_ ? after_.message->fibers : before_.message->fibers, after_.message->fibers};
   }
 
   /// From the oldest stamp before to the newest one after of the inputs that have moved; of no

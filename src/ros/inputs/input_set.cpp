@@ -108,11 +108,11 @@ void InputSet::require_fresh() const {
   }
 }
 
-const fiber::FiberAssembly& InputSet::fibers() {
+const std::shared_ptr<const FiberMessage>& InputSet::message() {
   if (std::exchange(merged_is_old_, false)) {
     merge();
   }
-  return merged_.message()->fibers;
+  return merged_.message();
 }
 
 void InputSet::receive(Input& input, const ReceivedMessage& message) {
