@@ -2,8 +2,12 @@
 
 add_library(fiber_proximity_ros SHARED
   src/ros/detection/detector.cpp
+  src/ros/detection/environment_detector.cpp
   src/ros/detection/fiber_step.cpp
   src/ros/detection/knowledge.cpp
+  src/ros/detection/motion_detector.cpp
+  src/ros/detection/observed_scene.cpp
+  src/ros/detection/predictor.cpp
   src/ros/detection/step_contacts.cpp
   src/ros/environment/allowed_pairs_service.cpp
   src/ros/environment/cloud_cells.cpp
@@ -39,19 +43,20 @@ add_library(fiber_proximity_ros SHARED
   src/ros/outputs/contact_output.cpp
   src/ros/outputs/crossings_output.cpp
   src/ros/outputs/environment_markers.cpp
-  src/ros/outputs/environment_output.cpp
   src/ros/outputs/label_place.cpp
   src/ros/outputs/marker_canvas.cpp
+  src/ros/outputs/marker_output.cpp
   src/ros/outputs/markers.cpp
   src/ros/outputs/node_reports.cpp
-  src/ros/outputs/prediction_output.cpp
   src/ros/outputs/tube_mesh.cpp
   src/ros/player/fiber_player.cpp
+  src/ros/server/answer_pipeline.cpp
   src/ros/server/check_service.cpp
   src/ros/server/proximity_server.cpp
   src/ros/server/query_options.cpp
   src/ros/server/query_services.cpp
   src/ros/server/server_options.cpp
+  src/ros/server/settings.cpp
   src/ros/sim/sim_forces.cpp
   src/ros/sim/sim_frames.cpp
   src/ros/sim/sim_markers.cpp

@@ -2,6 +2,7 @@
 """What scripts/mutate.sh runs: its help tells what it is for."""
 
 import argparse
+import hashlib
 import json
 import os
 import pathlib
@@ -72,8 +73,11 @@ def copy_checkout(folder):
     source = folder / "source"
     listed = git("ls-files", "-z", "--cached", "--others", "--exclude-standard").split("\0")
     names = {name for name in listed if name and (ROOT / name).is_file()}
-    for name in names:
+    digest = hashlib.sha256()
+    for name in sorted(names):
         original, copy = ROOT / name, source / name
+        if not name.startswith(("docs/", "scripts/", "test/mutants/")):
+            digest.update(name.encode() + original.read_bytes())
         if not copy.exists() or copy.read_bytes() != original.read_bytes():
             copy.parent.mkdir(parents=True, exist_ok=True)
             copy.write_bytes(original.read_bytes())
@@ -82,6 +86,7 @@ def copy_checkout(folder):
         if copy.is_file() and str(copy.relative_to(source)) not in names:
             copy.unlink()
     (folder / "commit").write_text(git("rev-parse", "--short=12", "HEAD"))
+    (folder / "digest").write_text(digest.hexdigest())
 
 
 class Progress:
@@ -127,7 +132,13 @@ class Run:
         listed = self.build / "unit_tests.txt"
         for line in listed.read_text().split() if listed.exists() else []:
             self._programs[pathlib.Path(line).name] = pathlib.Path(line)
-        self.seconds = {}  # of each test that passes without a mistake
+        # Of each test that passes without a mistake, kept as long as the sources are the same.
+        self.seconds = {}
+        self._kept = folder / "unmutated.json"
+        self._digest = (folder / "digest").read_text() if (folder / "digest").exists() else ""
+        if self._kept.exists():
+            kept = json.loads(self._kept.read_text())
+            self.seconds = kept["seconds"] if kept["digest"] == self._digest else {}
 
     def command(self, step, command, limit=None, environment=None):
         """The exit code, None where it took too long, and the seconds it took; the log is in the folder."""
@@ -214,11 +225,13 @@ class Run:
         wanted = {target for mutant in built for target in [*mutant.targets, *names[mutant]]}
         if built and self.build_targets("building", sorted(wanted)) != 0:
             sys.exit(f"{self.log()}\nmutate.sh: the sources do not build as they are")
-        tests = sorted({test for mutant in built for test in mutant.tests})
+        tests = sorted({test for mutant in built for test in mutant.tests} - set(self.seconds))
         for number, test in enumerate(tests, 1):
-            passes, self.seconds[test] = self.test(f"[{number}/{len(tests)}] without a mistake", test)
+            passes, seconds = self.test(f"[{number}/{len(tests)}] without a mistake", test)
             if not passes:
                 sys.exit(f"{self.log()}\nmutate.sh: without a mistake, {test} fails or is empty")
+            self.seconds[test] = seconds
+            self._kept.write_text(json.dumps({"digest": self._digest, "seconds": self.seconds}, indent=1) + "\n")
         return built
 
 
@@ -266,7 +279,8 @@ def main():
     mutants = [mutant for mutant in mutants if (not arguments.room or mutant.room in arguments.room)
                and (not arguments.only or mutant.name in arguments.only)]
     if arguments.list:
-        print("\n".join(f"{mutant.room}: {mutant.name}" for mutant in mutants))
+        for mutant in mutants:
+            print(f"{mutant.room}: {mutant.name}{'' if mutant.apply(ROOT) else ': no longer applies'}")
         return 0
     signal.signal(signal.SIGTERM, stop)
     signal.signal(signal.SIGINT, stop)

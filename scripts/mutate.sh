@@ -6,7 +6,7 @@
 #     --only NAME   this mistake only
 #     --folder DIR  for the copy (DIR/source), its build (DIR/build) and the report (DIR/report.json); default:
 #                   mutation in the build's folder. A run adds to the report that is there
-#     --list        the names, and nothing else
+#     --list        only the names, and which of them no longer apply
 #   scripts/mutate.sh --table [--folder DIR]
 #     --table       no mistakes: writes the report as a table into docs/reliability.md
 # The first run builds the tests concerned, and runs them without a mistake. Ctrl-C ends a run early and leaves the

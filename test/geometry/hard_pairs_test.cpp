@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fiber_proximity/geometry/exact_distance.hpp"
+#include "fiber_proximity/geometry/segment_distance.hpp"
 #include "test/support/exact_distance.hpp"
 #include "test/support/hash.hpp"
 #include "test/support/not_finite.hpp"

@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "test/support/answers.hpp"
 #include "test/support/contacts.hpp"
@@ -99,6 +102,53 @@ TEST_P(ContactLimitTest, TheClosestToAShapeAreReported) {
       ASSERT_NO_FATAL_FAILURE(expect_closest(answer(*engine, shape, options), all, limit));
     }
   }
+}
+
+/// A net of 128 fibres along x and as many across them, each so far above [m]: as many pairs as
+/// are judged in one round. Then ten pairs of short fibres by themselves, a distance apart [m].
+FiberAssembly net_and_pairs(const std::function<double(std::uint32_t)>& height, double apart) {
+  constexpr std::uint32_t count = 128;
+  constexpr double spacing = 8.0;  // [m]
+  constexpr double length = count * spacing;
+  std::vector<Eigen::Vector3d> points;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    points.emplace_back(-spacing, spacing * i, 0.0);
+    points.emplace_back(length, spacing * i, 0.0);
+  }
+  for (std::uint32_t i = 0; i < count; ++i) {
+    points.emplace_back(spacing * i, -spacing, height(i));
+    points.emplace_back(spacing * i, length, height(i));
+  }
+  for (std::uint32_t i = 0; i < 10; ++i) {
+    const double y = spacing * i;
+    points.emplace_back(2.0 * length - 0.25, y, 0.0);
+    points.emplace_back(2.0 * length + 0.25, y, 0.0);
+    points.emplace_back(2.0 * length, y - 0.25, apart);
+    points.emplace_back(2.0 * length, y + 0.25, apart);
+  }
+  std::vector<std::uint32_t> offsets;
+  for (std::uint32_t point = 0; point <= points.size(); point += 2) {
+    offsets.push_back(point);
+  }
+  return {std::move(points), std::move(offsets), {0.0}};
+}
+
+TEST_P(ContactLimitTest, WhatIsCloserByLessThanAnErrorIsReported) {
+  // Distances of the long fibres may be off by more than the short ones are closer.
+  const FiberAssembly fibers = net_and_pairs([](std::uint32_t) { return 1.0; }, 1.0 - 0x1p-44);
+  QueryOptions options = within(1.5);
+  const QueryResult all = brute_force(fibers, options);
+  options.contact_limit = 300;
+  ASSERT_NO_FATAL_FAILURE(expect_closest(ask(fibers, options), all, 300));
+}
+
+TEST_P(ContactLimitTest, WhatIsNearerThanWhatWasLeftOutBeforeBoundsTheOthers) {
+  const FiberAssembly fibers =
+      net_and_pairs([](std::uint32_t i) { return i < 2 ? 1.0 : 1.4; }, 1.2);
+  QueryOptions options = within(1.5);
+  const QueryResult all = brute_force(fibers, options);
+  options.contact_limit = 256;  // those of the first two across
+  ASSERT_NO_FATAL_FAILURE(expect_closest(ask(fibers, options), all, 256));
 }
 
 TEST_P(ContactLimitTest, LimitedReportsNoMore) {

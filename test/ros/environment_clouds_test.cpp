@@ -1,7 +1,7 @@
 // Point clouds as obstacles, through the real graph.
 #include <sensor_msgs/PointCloud2.h>
 
-#include "src/environment/occupancy_octree.hpp"
+#include "fiber_proximity/environment/occupancy_octree.hpp"
 #include "test/ros/environment_fixture.hpp"
 #include "test/support/not_finite.hpp"
 

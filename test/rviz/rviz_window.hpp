@@ -126,7 +126,7 @@ class RvizWindow {
     wait_until([&] { return manager_->getFrameCount() > begin + 2; });
   }
 
-  /// What the display says of itself under this name.
+  /// The status of the display with this name.
   static Status status(const rviz::Display& display, const std::string& name) {
     for (int i = 0; i < display.numChildren(); ++i) {
       const auto* list = dynamic_cast<const rviz::StatusList*>(display.childAt(i));
@@ -144,7 +144,7 @@ class RvizWindow {
   /// Draws, whether or not there is anything new.
   void draw() { panel_->getRenderWindow()->update(); }
 
-  /// What is to be seen now.
+  /// The picture that is to be seen now.
   /// @param border part of the width and height that is left out at each side
   std::vector<Pixel> picture(double border = 0.0) {
     draw();

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "fiber_proximity/geometry/exact_distance.hpp"
+#include "fiber_proximity/geometry/segment_distance.hpp"
 #include "src/io/number.hpp"
 
 namespace fiber {

@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "src/environment/occupancy_octree.hpp"
+#include "fiber_proximity/environment/occupancy_octree.hpp"
 
 namespace fiber_proximity_ros {
 

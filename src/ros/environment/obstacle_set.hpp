@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "fiber_proximity/Obstacle.h"
+#include "fiber_proximity/environment/scene/environment_scene.hpp"
 #include "fiber_proximity/environment/world.hpp"
-#include "src/environment/scene/environment_scene.hpp"
 #include "src/ros/environment/waiting_changes.hpp"
 #include "src/ros/support/unknown.hpp"
 #include "src/ros/support/worker.hpp"

@@ -1,10 +1,19 @@
 #include "src/ros/support/stamps.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <sstream>
 #include <stdexcept>
 
 namespace fiber_proximity_ros {
+
+std::chrono::nanoseconds to_time(const ros::Time& stamp) {
+  return std::chrono::nanoseconds(static_cast<std::int64_t>(stamp.toNSec()));
+}
+
+ros::Time to_stamp(std::chrono::nanoseconds time) {
+  return ros::Time().fromNSec(static_cast<std::uint64_t>(std::max<std::int64_t>(time.count(), 0)));
+}
 
 void validate_stamp(const ros::Time& stamp, const ros::Time& now, double max_ahead) {
   std::ostringstream error;
