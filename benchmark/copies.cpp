@@ -34,7 +34,7 @@ std::uint32_t cube_root_rounded_up(std::uint32_t value) {
 FiberAssembly repeat(const FiberAssembly& fibers, std::uint32_t copies,
                      const Eigen::Vector3d& step) {
   const std::uint32_t side = cube_root_rounded_up(copies);
-  const bool radius_shared = fibers.radii().size() == 1;
+  const bool radius_shared = fibers.radius_per() == RadiusPer::ASSEMBLY;
   std::vector<Eigen::Vector3d> points;
   std::vector<std::uint32_t> offsets{0};
   std::vector<double> radii(fibers.radii().begin(),

@@ -8,6 +8,7 @@
 #include "benchmark/statistics.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
+#include "src/paper/engines/leaf_pretest.hpp"
 
 namespace fiber {
 namespace {
@@ -47,7 +48,7 @@ class Stages {
         scene_(make_scene(request.scene, request.scene_options)),
         fibers_(scene_(0)),
         engine_(make_engine(request.engine)) {
-    options_.leaf_pretest = !request.no_leaf_pretest;
+    set_leaf_pretest(*engine_, !request.no_leaf_pretest);
     print("build", {{"build_ms", time_of([this] { engine_->update(fibers_); })}});
   }
 
@@ -113,7 +114,7 @@ class Stages {
               {"engine", request_.engine},
               {"fibers", fibers_.fiber_count()},
               {"segments", fibers_.segment_count()},
-              {"leaf_pretest", options_.leaf_pretest}};
+              {"leaf_pretest", !request_.no_leaf_pretest}};
     line.update(results);
     std::cout << line.dump() << std::endl;
   }

@@ -17,7 +17,10 @@ endif()
 # fiber_proximity_component(COMPONENT LIBRARY [OBJECTS...])
 # Installs and exports the library as fiber_proximity::COMPONENT. Objects are libraries it is made of.
 function(fiber_proximity_component component library)
-  set_target_properties(${library} PROPERTIES EXPORT_NAME ${component} INSTALL_RPATH "$ORIGIN")
+  # Programs load it by this version: before 1.0 a minor version may break them. Without a longer one there is only one
+  # link, for those who build, which a wheel can do without.
+  set_target_properties(${library} PROPERTIES EXPORT_NAME ${component} INSTALL_RPATH "$ORIGIN"
+    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   target_include_directories(${library} INTERFACE
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${include_folder}>)
   target_compile_features(${library} INTERFACE cxx_std_17)

@@ -68,7 +68,7 @@ fiber_proximity_compile_fast(fiber_proximity_python)
 install(TARGETS fiber_proximity_python LIBRARY DESTINATION ${python_folder})
 # All that a wheel holds: setup.py installs this component.
 install(TARGETS fiber_proximity_python fiber_proximity fiber_proximity_paper fiber_proximity_environment
-  fiber_proximity_sim LIBRARY DESTINATION fiber_proximity COMPONENT wheel EXCLUDE_FROM_ALL)
+  fiber_proximity_sim LIBRARY DESTINATION fiber_proximity COMPONENT wheel NAMELINK_SKIP EXCLUDE_FROM_ALL)
 if(FIBER_PROXIMITY_BUILD_ROS)
   # By name with rosrun.
   catkin_install_python(PROGRAMS

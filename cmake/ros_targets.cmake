@@ -2,9 +2,14 @@
 
 add_library(fiber_proximity_ros SHARED
   src/ros/detection/detector.cpp
+  src/ros/detection/environment_detector.cpp
   src/ros/detection/fiber_step.cpp
   src/ros/detection/knowledge.cpp
+  src/ros/detection/motion_detector.cpp
+  src/ros/detection/observed_scene.cpp
+  src/ros/detection/predictor.cpp
   src/ros/detection/step_contacts.cpp
+  src/ros/environment/allowed_pairs_service.cpp
   src/ros/environment/cloud_cells.cpp
   src/ros/environment/cloud_input.cpp
   src/ros/environment/environment_inputs.cpp
@@ -12,39 +17,47 @@ add_library(fiber_proximity_ros SHARED
   src/ros/environment/marker_obstacles.cpp
   src/ros/environment/mesh_loader.cpp
   src/ros/environment/obstacle_change.cpp
+  src/ros/environment/obstacle_service.cpp
   src/ros/environment/obstacle_set.cpp
   src/ros/environment/owed_changes.cpp
   src/ros/environment/robot_links.cpp
   src/ros/environment/waiting_changes.cpp
+  src/ros/inputs/fiber_trial.cpp
   src/ros/inputs/fixed_frame.cpp
   src/ros/inputs/input.cpp
   src/ros/inputs/input_budget.cpp
   src/ros/inputs/input_set.cpp
   src/ros/inputs/input_source.cpp
-  src/ros/inputs/marker_chains.cpp
+  src/ros/inputs/input_stamps.cpp
+  src/ros/inputs/marker_fibers.cpp
   src/ros/inputs/marker_input.cpp
+  src/ros/inputs/merged_fibers.cpp
   src/ros/inputs/message_log.cpp
+  src/ros/inputs/message_reader.cpp
   src/ros/inputs/missing_points.cpp
   src/ros/inputs/point_messages.cpp
   src/ros/inputs/segment_welder.cpp
   src/ros/inputs/stamp_matcher.cpp
+  src/ros/inputs/synchronizer.cpp
+  src/ros/inputs/transform_queue.cpp
   src/ros/outputs/comparison_output.cpp
   src/ros/outputs/contact_output.cpp
   src/ros/outputs/crossings_output.cpp
   src/ros/outputs/environment_markers.cpp
-  src/ros/outputs/environment_output.cpp
   src/ros/outputs/label_place.cpp
   src/ros/outputs/marker_canvas.cpp
+  src/ros/outputs/marker_output.cpp
   src/ros/outputs/markers.cpp
   src/ros/outputs/node_reports.cpp
-  src/ros/outputs/prediction_output.cpp
   src/ros/outputs/tube_mesh.cpp
   src/ros/player/fiber_player.cpp
+  src/ros/server/answer_pipeline.cpp
   src/ros/server/check_service.cpp
   src/ros/server/proximity_server.cpp
   src/ros/server/query_options.cpp
   src/ros/server/query_services.cpp
   src/ros/server/server_options.cpp
+  src/ros/server/settings.cpp
   src/ros/sim/sim_forces.cpp
   src/ros/sim/sim_frames.cpp
   src/ros/sim/sim_markers.cpp

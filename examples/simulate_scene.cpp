@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
-#include <fiber_proximity/environment/scene/mesh_files.hpp>
+#include <fiber_proximity/environment/scene/environment_scene.hpp>
 #include <fiber_proximity/sim/scene/scene.hpp>
 #include <fiber_proximity/yaml/yaml_field.hpp>
 #include <filesystem>

@@ -54,6 +54,7 @@ if [ ! -d "$build/catkin_generated" ]; then
 fi
 
 version=$(sed -n 's/.*<version>\(.*\)<.*/\1/p' "$root/package.xml")-1
+abi=${version%.*}  # major and minor, by which programs load the libraries
 architecture=$(dpkg --print-architecture)
 maintainer=$(sed -n 's/.*<maintainer email="\(.*\)">\(.*\)<.*/\2 <\1>/p' "$root/package.xml")
 work=$(mktemp -d)
@@ -101,14 +102,17 @@ has_cluster() { [ -e "$whole/usr/lib/libfiber_proximity_mpi.so" ] || [ -e "$clus
 sort_out() {
   cd "$whole/usr"
   if has_cluster; then
-    take "$cluster" lib/libfiber_proximity_mpi.so
     take_tools "$cluster" fiber_{query,scene}_mpi
     [ ! -e lib/fiber_proximity/fiber_bench_mpi ] || take "$cluster" lib/fiber_proximity/fiber_{bench,forecast}_mpi
-    take "$cluster_development" include/fiber_proximity/mpi share/fiber_proximity/cmake/fiber_proximity-mpi*.cmake
+    # Programs are built by the link, and run by what it names.
+    take "$cluster_development" lib/libfiber_proximity_mpi.so include/fiber_proximity/mpi \
+      share/fiber_proximity/cmake/fiber_proximity-mpi*.cmake
+    take "$cluster" lib/libfiber_proximity_mpi.so.*
   fi
-  take "$library" lib/libfiber_proximity{,_compare,_environment,_paper,_scenes,_sim}.so
+  local libraries=(lib/libfiber_proximity{,_compare,_environment,_paper,_scenes,_sim}.so)
+  take "$development" "${libraries[@]}" include lib/pkgconfig share/fiber_proximity/cmake
+  take "$library" "${libraries[@]/%/.$abi}"
   take_tools "$library" fiber_{query,scene,simulate}
-  take "$development" include lib/pkgconfig share/fiber_proximity/cmake
   # What is left is of ROS: catkin's and rosbag's own names for it.
   take "$ros" ./*
   cd - >/dev/null

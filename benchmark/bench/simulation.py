@@ -55,7 +55,7 @@ def run(tool, folder, quick):
     for name, table in tables.items():
         (out / f"{name}.md").write_text(f"{table}\n{command}")
     (out / "machine.txt").write_text(machine)
-    put_between_marks(out.with_suffix(".md"), summary)
+    put_between_marks(out.with_name(f"{out.name}_method.md"), summary)
     print(summary, *tables.values(), sep="\n", end="")
 
 

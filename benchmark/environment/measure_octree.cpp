@@ -3,7 +3,7 @@
 #include "benchmark/environment/camera_cloud.hpp"
 #include "benchmark/environment/measurements.hpp"
 #include "benchmark/statistics.hpp"
-#include "src/environment/occupancy_octree.hpp"
+#include "fiber_proximity/environment/occupancy_octree.hpp"
 #include "src/tools/progress.hpp"
 
 namespace fiber {

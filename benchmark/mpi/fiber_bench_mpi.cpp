@@ -89,7 +89,7 @@ class Measurement {
         const Times end = Times::now();
         peak_ = std::max(peak_, memory("VmHWM:"));
         if (i > 0) {
-          wall_.push_back(ranks.largest(end.wall - begin.wall));
+          wall_.push_back(ranks.max(end.wall - begin.wall));
           processor_.push_back(end.processor - begin.processor);
         }
       });
@@ -194,10 +194,9 @@ ExitCode run(const BenchRequest& request) {
       pairs = ranks.sum(result.contacts.size());
     });
   }
-  const double processor = ranks.largest(measurement.processor());
-  const double memory =
-      ranks.largest((measurement.peak() - baseline - size_of(fibers)) /
-                    static_cast<double>(facts.own_segments + facts.halo_segments));
+  const double processor = ranks.max(measurement.processor());
+  const double memory = ranks.max((measurement.peak() - baseline - size_of(fibers)) /
+                                  static_cast<double>(facts.own_segments + facts.halo_segments));
   if (ranks.rank() == 0) {
     nlohmann::ordered_json line;
     line["scene"] = request.scene;

@@ -13,7 +13,7 @@
 
 #include "fiber_proximity/scenes/large_scene.hpp"
 #include "src/mpi/communicator.hpp"
-#include "src/mpi/named_fibers.hpp"
+#include "src/mpi/local_fibers.hpp"
 #include "src/mpi/partition.hpp"
 #include "src/mpi/piece_boxes.hpp"
 #include "src/mpi/rank_fibers.hpp"
@@ -33,7 +33,7 @@ struct ForecastRequest {
 
 /// What one rank would hold.
 struct Part {
-  NamedFibers fibers;
+  LocalFibers fibers;
   PieceBoxes boxes;
   double own_segments = 0.0;
   double halo_segments = 0.0;

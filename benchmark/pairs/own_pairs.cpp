@@ -1,7 +1,6 @@
 #include <cmath>
 
 #include "benchmark/pairs/makers.hpp"
-#include "fiber_proximity/geometry/exact_distance.hpp"
 #include "fiber_proximity/geometry/segment_distance.hpp"
 
 namespace fiber {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fiber_proximity/geometry/exact_distance.hpp"
+#include "fiber_proximity/geometry/segment_distance.hpp"
 
 namespace fiber {
 namespace {

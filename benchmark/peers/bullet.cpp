@@ -2,7 +2,7 @@
 
 #include "benchmark/peers/makers.hpp"
 #include "benchmark/peers/peer_engine.hpp"
-#include "fiber_proximity/query/pair_collector.hpp"
+#include "fiber_proximity/query/for_engines/pair_collector.hpp"
 #include "src/hierarchy/segment_boxes.hpp"
 
 namespace fiber {

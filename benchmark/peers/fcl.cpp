@@ -1,6 +1,6 @@
 #include "benchmark/peers/makers.hpp"
 #include "benchmark/peers/peer_engine.hpp"
-#include "fiber_proximity/query/pair_collector.hpp"
+#include "fiber_proximity/query/for_engines/pair_collector.hpp"
 #include "src/compare/fcl_broad_phase.hpp"
 
 namespace fiber {

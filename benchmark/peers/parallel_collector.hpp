@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "fiber_proximity/query/for_engines/pair_collector.hpp"
 #include "fiber_proximity/query/options.hpp"
 #include "src/hierarchy/sort_keys.hpp"
 #include "src/query/contact_evaluator.hpp"

@@ -128,8 +128,8 @@ class Boxes final : public Tree<FclBroadPhase, BoxObject> {
   SegmentBoxes boxes_;
 };
 
-/// What FCL's boxes may err by, relative to the capsule's magnitude: it takes rotations by less
-/// than 1e-12 for none.
+/// The error that FCL's boxes may have, relative to the capsule's magnitude: it takes rotations by
+/// less than 1e-12 for none.
 constexpr double relative_padding = 0x1p-36;
 /// [m] FCL squares lengths: smaller ones would vanish.
 constexpr double smallest_padding = 1e-150;
@@ -178,7 +178,7 @@ double gap_of(const FclSegment& a, const FclSegment& b) {
   try {
     fcl::DistanceResultd result;
     fcl::distance(&a, &b, fcl::DistanceRequestd(), result);
-    // What FCL has at first says that it has found nothing.
+    // The initial value of FCL says that it has found nothing.
     const bool found = std::abs(result.min_distance) < std::numeric_limits<double>::max();
     return found ? result.min_distance : none;
   } catch (const std::exception&) {

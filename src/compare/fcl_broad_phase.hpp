@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
-#include "fiber_proximity/query/pair_collector.hpp"
+#include "fiber_proximity/query/for_engines/pair_collector.hpp"
 
 namespace fiber {
 
@@ -25,7 +25,7 @@ class FclBroadPhase {
   virtual void collide(PairCollector& collector) const = 0;
 };
 
-/// What fcl::distance() says of two segments.
+/// The result of fcl::distance() for two segments.
 struct FclDistance {
   PointPair pair{};  ///< the smaller one first
   double gap = 0.0;  ///< [m] of the surfaces, negative in penetration; NaN: no answer

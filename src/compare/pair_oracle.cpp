@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fiber_proximity/geometry/exact_distance.hpp"
+#include "fiber_proximity/geometry/segment_distance.hpp"
 #include "src/query/contact_evaluator.hpp"
 
 namespace fiber {
@@ -14,7 +14,7 @@ double magnitude(const Capsule& capsule) {
   return std::max(capsule.p0.cwiseAbs().maxCoeff(), capsule.p1.cwiseAbs().maxCoeff());
 }
 
-/// What the claim's error may add up to [m].
+/// The bound of the claim's error [m].
 double error_of(const PairClaim& claim) {
   return std::max(claim.upper - claim.gap, claim.gap - claim.lower);
 }

@@ -6,14 +6,14 @@
 
 #include "fiber_proximity/compare/fcl_comparer.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
-#include "fiber_proximity/query/narrow_phase.hpp"
+#include "fiber_proximity/query/for_engines/narrow_phase.hpp"
 #include "fiber_proximity/query/options.hpp"
 
 namespace fiber {
 
-/// What FCL's distance of two capsules may be wrong by: 16 roundings of the largest coordinate and
-/// the radii. FCL gives no error. It works on world coordinates and rotations, so no better can be
-/// expected of it; on pairs that are neither tiny nor almost parallel it is as good [m].
+/// The error that FCL's distance of two capsules may have: 16 roundings of the largest coordinate
+/// and the radii. FCL gives no error. It works on world coordinates and rotations, so no better can
+/// be expected of it; on pairs that are neither tiny nor almost parallel it is as good [m].
 double fcl_error(const Capsule& a, const Capsule& b);
 
 /// Judges pairs by their exact distance.

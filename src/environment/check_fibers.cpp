@@ -108,7 +108,7 @@ class PathCollector {
 
   /// @param contacts is cleared
   PathCollector(const MotionOptions& options, PathContacts& contacts)
-      : options_(options), most_(most_contacts(options)), contacts_(contacts) {
+      : options_(options), max_(max_reported(options)), contacts_(contacts) {
     contacts_.contacts.clear();
     contacts_.limit_reached = false;
     contacts_.complete = true;
@@ -117,7 +117,7 @@ class PathCollector {
   /// Whether the next step is to be asked: not if there are as many contacts as may be, of earlier
   /// ones.
   bool takes_step() {
-    has_left_out_ = has_left_out_ || (most_ > 0 && contacts_.contacts.size() >= most_);
+    has_left_out_ = has_left_out_ || (max_ > 0 && contacts_.contacts.size() >= max_);
     return !has_left_out_;
   }
 
@@ -128,7 +128,7 @@ class PathCollector {
     // Some of what a step finds are pairs that met before: so many more are needed.
     constexpr std::size_t largest = std::numeric_limits<std::uint32_t>::max();
     options.contact_limit =
-        static_cast<std::uint32_t>(most_ == 0 ? 0 : std::min(most_ + seen_.size(), largest));
+        static_cast<std::uint32_t>(max_ == 0 ? 0 : std::min(max_ + seen_.size(), largest));
     return options;
   }
 
@@ -152,14 +152,14 @@ class PathCollector {
 
   void finish() {
     std::vector<PathContact>& contacts = contacts_.contacts;
-    const bool are_more = has_left_out_ || (most_ > 0 && contacts.size() > most_);
+    const bool are_more = has_left_out_ || (max_ > 0 && contacts.size() > max_);
     contacts_.limit_reached =
         contacts_.limit_reached || (are_more && options_.type != MotionType::FIRST);
-    if (most_ > 0 && contacts.size() > most_) {
+    if (max_ > 0 && contacts.size() > max_) {
       std::sort(contacts.begin(), contacts.end(), [](const PathContact& x, const PathContact& y) {
         return x.when.earlier_than(y.when);
       });
-      contacts.resize(most_);
+      contacts.resize(max_);
     }
     std::sort(contacts.begin(), contacts.end(), [](const PathContact& x, const PathContact& y) {
       return x.when.key() < y.when.key();
@@ -170,7 +170,7 @@ class PathCollector {
   using Key = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;
 
   const MotionOptions options_;
-  std::size_t most_;  // to be reported, 0 for no limit
+  std::size_t max_;  // to be reported, 0 for no limit
   PathContacts& contacts_;
   std::set<Key> seen_;
   bool has_left_out_ = false;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "src/environment/occupancy_octree.hpp"
+#include "fiber_proximity/environment/occupancy_octree.hpp"
 
 namespace fiber {
 namespace {
@@ -169,7 +169,7 @@ PointDistance point_distance(const PlaneShape& plane, const Vector3d& point) {
 
 template <class Solid>
 AxisDistance axis_distance(const Solid& solid, const Vector3d& p0, const Vector3d& p1) {
-  constexpr int most_steps = 100;  // a third of them halve the interval at least
+  constexpr int max_steps = 100;  // a third of them halve the interval at least
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   const Vector3d along = p1 - p0;
   Sample left = sample(solid, p0, along, 0.0);
@@ -184,7 +184,7 @@ AxisDistance axis_distance(const Solid& solid, const Vector3d& p0, const Vector3
   Sample best = left.value() <= right.value() ? left : right;
   for (int step = 0;; ++step) {
     const Meeting meeting(left, right);
-    if (best.value() - meeting.lower <= rounding || step == most_steps) {
+    if (best.value() - meeting.lower <= rounding || step == max_steps) {
       return answer(best, meeting.lower);
     }
     const double looks[] = {left.s + (right.s - left.s) * (left.slope / (left.slope - right.slope)),

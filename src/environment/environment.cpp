@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "fiber_proximity/query/for_engines/pair_collector.hpp"
 #include "fiber_proximity/query/motion.hpp"
-#include "fiber_proximity/query/pair_collector.hpp"
 #include "src/environment/allowed_contacts.hpp"
 #include "src/environment/broad_phase.hpp"
 #include "src/text/quote.hpp"

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "fiber_proximity/environment/environment.hpp"
+#include "fiber_proximity/query/for_engines/pair_collector.hpp"
 #include "fiber_proximity/query/options.hpp"
 #include "src/environment/allowed_contacts.hpp"
 #include "src/environment/broad_phase.hpp"

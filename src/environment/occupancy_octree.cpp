@@ -1,4 +1,4 @@
-#include "src/environment/occupancy_octree.hpp"
+#include "fiber_proximity/environment/occupancy_octree.hpp"
 
 #include <algorithm>
 #include <array>

@@ -5,9 +5,9 @@
 #include <limits>
 #include <memory>
 
+#include "fiber_proximity/environment/occupancy_octree.hpp"
 #include "fiber_proximity/environment/triangle_mesh.hpp"
 #include "src/environment/convex_solids.hpp"
-#include "src/environment/occupancy_octree.hpp"
 #include "src/environment/triangle_distance.hpp"
 #include "src/geometry/norm.hpp"
 
@@ -65,12 +65,12 @@ Vector3d off_straight(const TriangleCorners& triangle, const Vector3d& normal,
 struct AxisState {
   AxisState(const AxisMotion& motion, double time) {
     for (int i = 0; i < 2; ++i) {
-      ways[i] = motion.after[i] - motion.before[i];
-      ends[i] = motion.before[i] + time * ways[i];
+      displacements[i] = motion.after[i] - motion.before[i];
+      ends[i] = motion.before[i] + time * displacements[i];
     }
   }
-  Vector3d ends[2];  // [m]
-  Vector3d ways[2];  // [m] in all of the motion
+  Vector3d ends[2];           // [m]
+  Vector3d displacements[2];  // [m] in all of the motion
 };
 
 /// A plane through the nearest point of a solid: how far both ends of an axis are beyond it.
@@ -87,14 +87,14 @@ class SeparatingPlane {
 
   /// For how long both ends stay beyond it; 0 if they are not.
   double separates_for() const {
-    constexpr double least_length = 0.5;
-    if (!(normal_.norm() >= least_length)) {
+    constexpr double min_length = 0.5;
+    if (!(normal_.norm() >= min_length)) {
       return 0.0;
     }
     double time = never;
     for (int i = 0; i < 2; ++i) {
       const double above = normal_.dot(axis_.ends[i]) - height_ - apart_ * length(normal_);
-      const double fall = -normal_.dot(axis_.ways[i]);
+      const double fall = -normal_.dot(axis_.displacements[i]);
       if (!(above > 0.0)) {
         return 0.0;
       }
@@ -123,9 +123,9 @@ class SeparatingPlane {
   /// is straight.
   Vector3d turning() const {
     const Vector3d along = axis_.ends[1] - axis_.ends[0];
-    const Vector3d way = axis_.ways[1] - axis_.ways[0];
+    const Vector3d difference = axis_.displacements[1] - axis_.displacements[0];
     const Vector3d free = off_straight(solid_, normal_, along);
-    return (-normal_.dot(way) / free.dot(along)) * free;
+    return (-normal_.dot(difference) / free.dot(along)) * free;
   }
 
   /// The support of the solid is convex: it is at most what is between its values at both times.
@@ -140,8 +140,8 @@ class SeparatingPlane {
     bool separates = true;
     for (int i = 0; i < 2 && separates; ++i) {
       const double start = normal_.dot(axis_.ends[i]) - height_ - needed;
-      const double slope = normal_.dot(axis_.ways[i]) + turn.dot(axis_.ends[i]) - rise;
-      const double bend = turn.dot(axis_.ways[i]);
+      const double slope = normal_.dot(axis_.displacements[i]) + turn.dot(axis_.ends[i]) - rise;
+      const double bend = turn.dot(axis_.displacements[i]);
       const double lowest = bend > 0.0 ? std::clamp(-slope / (2.0 * bend), 0.0, time) : 0.0;
       for (const double at : {0.0, lowest, time}) {
         separates = separates && start + at * (slope + at * bend) > 0.0;
@@ -166,20 +166,20 @@ class SolidAdvance {
                double tolerance)
       : solid_(solid), motion_(motion), limit_(limit), error_(error), tolerance_(tolerance) {
     const AxisState axis(motion, 0.0);
-    speed_ = steepest * std::max(norm_of(axis.ways[0]), norm_of(axis.ways[1]));
+    speed_ = steepest * std::max(norm_of(axis.displacements[0]), norm_of(axis.displacements[1]));
   }
 
   /// The contact that begins before this time, if there is one.
   /// @param guess a normal that may separate them all the time: where it does, that was all.
   ///              Becomes the normal of a plane that has separated them last
   ContactTime first_before(double until, Vector3d& guess) const {
-    constexpr int most_steps = 500;
+    constexpr int max_steps = 500;
     const AxisState start(motion_, 0.0);
     if (SeparatingPlane<Solid>(solid_, start, guess, limit_ + error_).separates_for() >= until) {
       return {};
     }
     double time = 0.0;
-    for (int step = 0; step < most_steps; ++step) {
+    for (int step = 0; step < max_steps; ++step) {
       const AxisState axis(motion_, time);
       const AxisDistance near = distance_of_axis(solid_, axis.ends[0], axis.ends[1]);
       const double next = time + free_for(axis, near, until - time, guess);
@@ -215,7 +215,7 @@ class SolidAdvance {
         guess = time < enough ? guess : normal;
       }
       if (time < enough) {
-        time = std::max(time, plane.turning_separates_for(enough, std::max(time, least_turning)));
+        time = std::max(time, plane.turning_separates_for(enough, std::max(time, min_turning)));
       }
     }
     return time;
@@ -248,7 +248,7 @@ class SolidAdvance {
     }
   }
 
-  static constexpr double least_turning = 0x1p-20;
+  static constexpr double min_turning = 0x1p-20;
 
   const Solid& solid_;
   const AxisMotion& motion_;
@@ -333,7 +333,7 @@ class MovingAxis {
   const double limit_;      // [m]
   const double tolerance_;  // [m]
   double error_ = 0.0;      // [m]
-  WorldBox box_;            // around the way of the axis [m]
+  WorldBox box_;            // around the difference of the axis [m]
   // What separates the axis from one triangle often does so from the next ones.
   mutable Vector3d guess_ = Vector3d::Zero();
 };

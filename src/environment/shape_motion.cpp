@@ -42,7 +42,7 @@ class ShapeMotion {
 
   ContactTime first_in(const TimeSpan& span) const {
     constexpr double part = 0.25;  // of the tolerance, for the way not being straight
-    constexpr double least_size = 0x1p-24;
+    constexpr double min_size = 0x1p-24;
     const double deviation = deviation_in(span);
     ContactTime time =
         contact_time(shape_.shape, motion_in(span), {distance_, error_ + deviation}, tolerance_);
@@ -51,7 +51,7 @@ class ShapeMotion {
       time.upper = std::min(span.begin + span.size * time.upper, upper_end(time));
       return time;
     }
-    if (span.size <= least_size) {
+    if (span.size <= min_size) {
       return {true, span.begin, std::numeric_limits<double>::infinity(), false};
     }
     const ContactTime first = first_in(span.first_half());

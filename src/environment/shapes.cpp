@@ -6,9 +6,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "fiber_proximity/environment/occupancy_octree.hpp"
 #include "fiber_proximity/environment/triangle_mesh.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
-#include "src/environment/occupancy_octree.hpp"
 #include "src/text/quote.hpp"
 #include "src/text/with_context.hpp"
 

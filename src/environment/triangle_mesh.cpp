@@ -24,10 +24,10 @@ using Model = fcl::BVHModel<fcl::AABBd>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 void check(const std::vector<Vector3d>& vertices, const std::vector<Triangle>& triangles) {
-  if (triangles.empty() || triangles.size() > TriangleMesh::most_triangles) {
+  if (triangles.empty() || triangles.size() > TriangleMesh::max_triangles) {
     throw std::invalid_argument("the mesh has " + std::to_string(triangles.size()) +
                                 " triangles, it must have at least 1 and at most " +
-                                std::to_string(TriangleMesh::most_triangles));
+                                std::to_string(TriangleMesh::max_triangles));
   }
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     if (!vertices[i].unaryExpr(&FiberAssembly::is_valid_coordinate).all()) {

@@ -53,20 +53,20 @@ class ContactTimes {
     while (busy_count_ > 0) {
       lanes_.look();
       for (std::size_t lane = 0; lane < lanes; ++lane) {
-        Way& way = ways_[lane];
-        if (way.is_busy && !go_on(way, lanes_.look_of(lane))) {
+        FollowedPair& followed = followed_[lane];
+        if (followed.is_busy && !go_on(followed, lanes_.look_of(lane))) {
           --busy_count_;
           begin(lane);
         } else {
-          lanes_.set_time(lane, way.advancement.time());
+          lanes_.set_time(lane, followed.advancement.time());
         }
       }
     }
   }
 
  private:
-  /// A pair that is on its way, in a lane.
-  struct Way {
+  /// A pair that is being followed, in a lane.
+  struct FollowedPair {
     Motion motion;
     Advancement<double> advancement;
     std::size_t pair = 0;
@@ -80,36 +80,38 @@ class ContactTimes {
 
   /// Puts the next pair into a lane that wants another look, if there is one.
   void begin(std::size_t lane) {
-    Way& way = ways_[lane];
-    way.is_busy = false;
-    while (!way.is_busy && next_ < count_) {
+    FollowedPair& followed = followed_[lane];
+    followed.is_busy = false;
+    while (!followed.is_busy && next_ < count_) {
       const OpenPair& open = open_[next_++];
-      way.pair = open.pair;
-      way.motion = Motion(motions_[way.pair], tolerance_, motion_roundings);
-      way.advancement = Advancement<double>(0.0, false);
-      way.is_busy = go_on(way, open.look);
+      followed.pair = open.pair;
+      followed.motion = Motion(motions_[followed.pair], tolerance_, motion_roundings);
+      followed.advancement = Advancement<double>(0.0, false);
+      followed.is_busy = go_on(followed, open.look);
     }
-    if (way.is_busy) {
-      lanes_.set(lane, way.motion);
-      lanes_.set_time(lane, way.advancement.time());
+    if (followed.is_busy) {
+      lanes_.set(lane, followed.motion);
+      lanes_.set_time(lane, followed.advancement.time());
       ++busy_count_;
     }
   }
 
   /// Takes what has been seen of a pair; whether it wants another look.
-  bool go_on(Way& way, const MotionLook<double>& look) {
-    ContactTime& result = times_[way.pair];
-    if (way.advancement.time() == 0.0 && !(look.free > 0.0) && touch_before(motions_[way.pair])) {
+  bool go_on(FollowedPair& followed, const MotionLook<double>& look) {
+    ContactTime& result = times_[followed.pair];
+    if (followed.advancement.time() == 0.0 && !(look.free > 0.0) &&
+        touch_before(motions_[followed.pair])) {
       result = {true, 0.0, 0.0, true};
       return false;
     }
-    way.advancement.take(way.motion, look);
-    switch (way.advancement.state()) {
+    followed.advancement.take(followed.motion, look);
+    switch (followed.advancement.state()) {
       case State::DONE:
-        result = way.advancement.result();
+        result = followed.advancement.result();
         return false;
       case State::UNDECIDED:
-        result = wide_contact_time(motions_[way.pair], tolerance_, way.advancement.time());
+        result =
+            wide_contact_time(motions_[followed.pair], tolerance_, followed.advancement.time());
         return false;
       default:
         return true;
@@ -120,7 +122,7 @@ class ContactTimes {
   const SegmentMotions* const motions_;
   const double tolerance_;  // [m]
   ContactTime* const times_;
-  Way ways_[most_motion_lanes];
+  FollowedPair followed_[max_motion_lanes];
   OpenPair open_[pairs_at_a_time];
   std::size_t count_ = 0;
   std::size_t next_ = 0;

@@ -1,9 +1,8 @@
-#include "fiber_proximity/geometry/exact_distance.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "fiber_proximity/geometry/segment_distance.hpp"
 #include "src/geometry/exact_numbers.hpp"
 
 namespace fiber {

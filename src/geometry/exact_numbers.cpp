@@ -10,7 +10,7 @@ namespace fiber {
 namespace {
 
 constexpr int precision = std::numeric_limits<double>::digits;
-constexpr int least_exponent = std::numeric_limits<double>::min_exponent - precision;  // −1074
+constexpr int min_exponent = std::numeric_limits<double>::min_exponent - precision;  // −1074
 
 int bit_length(const Integer& value) {
   return value == 0 ? 0 : static_cast<int>(boost::multiprecision::msb(value)) + 1;
@@ -20,7 +20,7 @@ int bit_length(const Integer& value) {
 /// to even; value has more bits than a double, or no rest. Not negative.
 Rounded rounded(const Integer& value, bool has_rest, int exponent) {
   const int drop =
-      std::max(bit_length(value) - precision, least_exponent - exponent);  // bits too many
+      std::max(bit_length(value) - precision, min_exponent - exponent);  // bits too many
   if (drop <= 0) {
     assert(!has_rest);
     return {std::ldexp(value.convert_to<double>(), exponent), true};

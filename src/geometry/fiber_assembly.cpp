@@ -18,9 +18,9 @@ template <class... Parts>
 
 void check_offsets(const std::vector<std::uint32_t>& offsets, std::size_t point_count) {
   // The flag bit of BinaryTree's leaves halves the range of indices.
-  constexpr std::size_t most_points = 0x8000'0000U;
-  if (point_count >= most_points) {
-    refuse(point_count, " points; at most ", most_points - 1, " are supported");
+  constexpr std::size_t max_points = 0x8000'0000U;
+  if (point_count >= max_points) {
+    refuse(point_count, " points; at most ", max_points - 1, " are supported");
   }
   if (offsets.empty() || offsets.front() != 0) {
     refuse("offsets must start with 0", offsets.empty() ? ", but are empty" : ", not ",
@@ -44,18 +44,25 @@ void check_offsets(const std::vector<std::uint32_t>& offsets, std::size_t point_
   }
 }
 
-void check_points(const std::vector<Eigen::Vector3d>& points,
-                  const std::vector<std::uint32_t>& offsets) {
+/// @param point_at the point of an index, to be checked
+template <class PointAt>
+void check_points(const PointAt& point_at, const std::vector<std::uint32_t>& offsets) {
   for (std::size_t fiber = 0; fiber + 1 < offsets.size(); ++fiber) {
-    for (std::size_t point = offsets[fiber]; point < offsets[fiber + 1]; ++point) {
+    for (std::size_t i = offsets[fiber]; i < offsets[fiber + 1]; ++i) {
+      const Eigen::Vector3d& point = point_at(i);
       for (int axis = 0; axis < 3; ++axis) {
-        if (!FiberAssembly::is_valid_coordinate(points[point][axis])) {
-          refuse("fibre ", fiber, ", point ", point - offsets[fiber], ": ", "xyz"[axis], " is ",
-                 points[point][axis], ", ", FiberAssembly::coordinate_rule);
+        if (!FiberAssembly::is_valid_coordinate(point[axis])) {
+          refuse("fibre ", fiber, ", point ", i - offsets[fiber], ": ", "xyz"[axis], " is ",
+                 point[axis], ", ", FiberAssembly::coordinate_rule);
         }
       }
     }
   }
+}
+
+void check_points(const std::vector<Eigen::Vector3d>& points,
+                  const std::vector<std::uint32_t>& offsets) {
+  check_points([&points](std::size_t i) -> const Eigen::Vector3d& { return points[i]; }, offsets);
 }
 
 void check_new_points(const std::vector<Eigen::Vector3d>& points, std::size_t point_count,
@@ -66,41 +73,52 @@ void check_new_points(const std::vector<Eigen::Vector3d>& points, std::size_t po
   check_points(points, offsets);
 }
 
-void check_radii(const std::vector<double>& radii, const std::vector<std::uint32_t>& offsets,
-                 std::size_t point_count) {
-  const std::size_t fiber_count = offsets.size() - 1;
-  const bool per_fiber = radii.size() == fiber_count;
-  if (radii.size() != 1 && !per_fiber && radii.size() != point_count) {
-    refuse(radii.size(), " radii for ", fiber_count, " fibre(s) of ", point_count,
+/// How so many radii are given; throws where they are none of these.
+RadiusPer check_count(std::size_t radius_count, std::size_t fiber_count, std::size_t point_count) {
+  if (radius_count == 1) {
+    return RadiusPer::ASSEMBLY;
+  }
+  if (radius_count == fiber_count) {
+    return RadiusPer::FIBER;
+  }
+  if (radius_count != point_count) {
+    refuse(radius_count, " radii for ", fiber_count, " fibre(s) of ", point_count,
            " points in all; give 1, one per fibre, or one per point");
   }
+  return RadiusPer::POINT;
+}
+
+RadiusPer check_radii(const std::vector<double>& radii, const std::vector<std::uint32_t>& offsets,
+                      std::size_t point_count) {
+  const RadiusPer radius_per = check_count(radii.size(), offsets.size() - 1, point_count);
   for (std::size_t i = 0; i < radii.size(); ++i) {
     if (FiberAssembly::is_valid_radius(radii[i])) {
       continue;
     }
-    if (radii.size() == 1) {
+    if (radius_per == RadiusPer::ASSEMBLY) {
       refuse("the radius is ", radii[i], ", ", FiberAssembly::radius_rule);
     }
-    if (per_fiber) {
+    if (radius_per == RadiusPer::FIBER) {
       refuse("fibre ", i, ": the radius is ", radii[i], ", ", FiberAssembly::radius_rule);
     }
     const auto fiber = std::upper_bound(offsets.begin(), offsets.end(), i) - offsets.begin() - 1;
     refuse("fibre ", fiber, ", point ", i - offsets[static_cast<std::size_t>(fiber)],
            ": the radius is ", radii[i], ", ", FiberAssembly::radius_rule);
   }
+  return radius_per;
 }
 
-std::vector<double> expand_radii(const std::vector<double>& radii,
+std::vector<double> expand_radii(const std::vector<double>& radii, RadiusPer radius_per,
                                  const std::vector<std::uint32_t>& offsets,
                                  std::size_t point_count) {
-  if (radii.size() == 1) {
+  if (radius_per == RadiusPer::ASSEMBLY) {
     return {};
   }
   std::vector<double> segment_radii(point_count, 0.0);
-  const bool per_fiber = radii.size() == offsets.size() - 1;
   for (std::size_t fiber = 0; fiber + 1 < offsets.size(); ++fiber) {
     for (std::size_t point = offsets[fiber]; point + 1 < offsets[fiber + 1]; ++point) {
-      segment_radii[point] = per_fiber ? radii[fiber] : std::max(radii[point], radii[point + 1]);
+      segment_radii[point] =
+          radius_per == RadiusPer::FIBER ? radii[fiber] : std::max(radii[point], radii[point + 1]);
     }
   }
   return segment_radii;
@@ -125,8 +143,8 @@ FiberAssembly::FiberAssembly(std::vector<Eigen::Vector3d> points,
     : points_(std::move(points)), offsets_(std::move(offsets)), radii_(std::move(radii)) {
   check_offsets(offsets_, points_.size());
   check_points(points_, offsets_);
-  check_radii(radii_, offsets_, points_.size());
-  segment_radii_ = expand_radii(radii_, offsets_, points_.size());
+  radius_per_ = check_radii(radii_, offsets_, points_.size());
+  segment_radii_ = expand_radii(radii_, radius_per_, offsets_, points_.size());
   largest_radius_ = radii_.empty() ? 0.0 : *std::max_element(radii_.begin(), radii_.end());
 }
 
@@ -138,6 +156,13 @@ void FiberAssembly::update_points(const std::vector<Eigen::Vector3d>& points) {
 void FiberAssembly::exchange_points(std::vector<Eigen::Vector3d>& points) {
   check_new_points(points, points_.size(), offsets_);
   points_.swap(points);
+}
+
+void FiberAssembly::transform(const Eigen::Isometry3d& pose) {
+  check_points([&](std::size_t i) -> Eigen::Vector3d { return pose * points_[i]; }, offsets_);
+  for (Eigen::Vector3d& point : points_) {
+    point = pose * point;
+  }
 }
 
 void FiberAssembly::assign_segments(const std::vector<Eigen::Vector3d>& points,
@@ -167,6 +192,7 @@ void FiberAssembly::become_segments() {
   } else if (segment_radii_.empty()) {
     radii_.push_back(0.0);
   }
+  radius_per_ = radii_.empty() ? RadiusPer::POINT : RadiusPer::ASSEMBLY;
   largest_radius_ = *std::max_element(radii().begin(), radii().end());
 }
 
@@ -195,8 +221,6 @@ void require_coordinates(const char* name, const Eigen::Vector3d& vector) {
 FiberAssembly select_fibers(const FiberAssembly& fibers,
                             const std::vector<std::uint32_t>& selection) {
   const std::vector<double>& all_radii = fibers.radii();
-  const bool radius_shared = all_radii.size() == 1;
-  const bool radius_per_fiber = !radius_shared && all_radii.size() == fibers.fiber_count();
   std::vector<std::uint32_t> offsets{0};
   offsets.reserve(selection.size() + 1);
   for (const std::uint32_t fiber : selection) {
@@ -210,9 +234,9 @@ FiberAssembly select_fibers(const FiberAssembly& fibers,
     const std::uint32_t begin = fibers.offsets()[fiber];
     const std::uint32_t end = fibers.offsets()[fiber + 1];
     points.insert(points.end(), fibers.points().begin() + begin, fibers.points().begin() + end);
-    if (radius_per_fiber) {
+    if (fibers.radius_per() == RadiusPer::FIBER) {
       radii.push_back(all_radii[fiber]);
-    } else if (!radius_shared) {
+    } else if (fibers.radius_per() == RadiusPer::POINT) {
       radii.insert(radii.end(), all_radii.begin() + begin, all_radii.begin() + end);
     }
   }

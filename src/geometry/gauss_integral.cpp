@@ -45,13 +45,13 @@ double volume(const Parallelogram& shape) {
 /// would be inaccurate.
 std::optional<double> half_solid_angle(double volume, const Vector3d& a, const Vector3d& b,
                                        const Vector3d& c) {
-  constexpr double least_part = 0x1p-6;
+  constexpr double min_part = 0x1p-6;
   const double length_a = a.norm();
   const double length_b = b.norm();
   const double length_c = c.norm();
   const double product = length_a * length_b * length_c;
   const double cosine = product + a.dot(b) * length_c + b.dot(c) * length_a + c.dot(a) * length_b;
-  if (std::abs(volume) + std::abs(cosine) < least_part * product) {
+  if (std::abs(volume) + std::abs(cosine) < min_part * product) {
     return std::nullopt;
   }
   return std::atan2(volume, cosine);

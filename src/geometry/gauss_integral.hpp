@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include "fiber_proximity/export.hpp"
+
 namespace fiber {
 
 /// The Gauss integral of two segments p0–p1 and q0–q1 over 4π: the mean, over all directions of
@@ -14,7 +16,7 @@ namespace fiber {
 /// pass each other closely, from the angles between the faces, as method 1a does. In [−1/2, 1/2].
 /// The error is some roundings of 1 for segments that are not nearer to each other than a rounding
 /// of their extent. Segments in one plane have 0, touching ones too.
-double gauss_integral(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1,
-                      const Eigen::Vector3d& q0, const Eigen::Vector3d& q1);
+FIBER_PROXIMITY_EXPORT double gauss_integral(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1,
+                                             const Eigen::Vector3d& q0, const Eigen::Vector3d& q1);
 
 }  // namespace fiber

@@ -23,13 +23,13 @@ namespace HWY_NAMESPACE {
 
 using MotionTag = LaneNumber::Tag;
 
-constexpr std::size_t most_motion_lanes = hn::MaxLanes(MotionTag());
+constexpr std::size_t max_motion_lanes = hn::MaxLanes(MotionTag());
 
 /// What is computed in double errs by less than this part of coordinates and limit
 /// (docs/numerics.md).
 constexpr double motion_roundings = 0x1p-46;
 
-HWY_INLINE Parallelogram<LaneNumber> load(const double (&values)[12][most_motion_lanes]) {
+HWY_INLINE Parallelogram<LaneNumber> load(const double (&values)[12][max_motion_lanes]) {
   const MotionTag d;
   Parallelogram<LaneNumber> result;
   for (std::size_t corner = 0; corner < 4; ++corner) {
@@ -96,7 +96,7 @@ class alignas(64) LaneMotions {
   }
 
  private:
-  using Values = double[12][most_motion_lanes];
+  using Values = double[12][max_motion_lanes];
 
   static void store(const NumberVector<double>& vector, std::size_t row, std::size_t lane,
                     Values& values) {
@@ -107,12 +107,12 @@ class alignas(64) LaneMotions {
 
   Values start_ = {};
   Values rate_ = {};
-  double limit_[most_motion_lanes] = {};
-  double error_[most_motion_lanes] = {};
-  double time_[most_motion_lanes] = {};
-  double distance_[most_motion_lanes] = {};
-  double closing_[most_motion_lanes] = {};
-  double free_[most_motion_lanes] = {};
+  double limit_[max_motion_lanes] = {};
+  double error_[max_motion_lanes] = {};
+  double time_[max_motion_lanes] = {};
+  double distance_[max_motion_lanes] = {};
+  double closing_[max_motion_lanes] = {};
+  double free_[max_motion_lanes] = {};
 };
 
 /// The look at time 0, which shows for most pairs that they never come into contact, or that they
@@ -156,7 +156,7 @@ class FirstLook {
     }
     LaneNumber largest = larger(larger(larger(-least.x, most.x), larger(-least.y, most.y)),
                                 larger(-least.z, most.z));
-    if (!hn::AllTrue(d, hn::And(LaneNumber(least_distance_scale) < largest,
+    if (!hn::AllTrue(d, hn::And(LaneNumber(min_distance_scale) < largest,
                                 largest < LaneNumber(largest_distance_scale)))) {
       const LaneNumber factor = factors_of(largest);
       start = scaled(factor, start);
@@ -191,7 +191,7 @@ class FirstLook {
   }
 
  private:
-  using Ends = double[6][most_motion_lanes];
+  using Ends = double[6][max_motion_lanes];
 
   static void read(const Eigen::Vector3d* ends, std::size_t lane, Ends& values) {
     const double* const coordinates = ends->data();
@@ -226,7 +226,7 @@ class FirstLook {
 
   static LaneNumber factors_of(LaneNumber largest) {
     const MotionTag d;
-    alignas(64) double factors[most_motion_lanes];
+    alignas(64) double factors[max_motion_lanes];
     hn::Store(largest.lanes, d, factors);
     for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
       factors[lane] = scale_of(factors[lane]);
@@ -238,11 +238,11 @@ class FirstLook {
   alignas(64) Ends a_after_;
   alignas(64) Ends b_before_;
   alignas(64) Ends b_after_;
-  alignas(64) double limit_[most_motion_lanes];  // [m]
-  alignas(64) double parts_[most_motion_lanes];  // [m] which the limit is rounded by a part of
-  alignas(64) double distance_[most_motion_lanes];
-  alignas(64) double closing_[most_motion_lanes];
-  alignas(64) double free_[most_motion_lanes];
+  alignas(64) double limit_[max_motion_lanes];  // [m]
+  alignas(64) double parts_[max_motion_lanes];  // [m] which the limit is rounded by a part of
+  alignas(64) double distance_[max_motion_lanes];
+  alignas(64) double closing_[max_motion_lanes];
+  alignas(64) double free_[max_motion_lanes];
 };
 
 }  // namespace HWY_NAMESPACE

@@ -216,7 +216,7 @@ HWY_INLINE TurningPlane<Number> plane_between(const Parallelogram<Number>& now,
   const Number zero(0.0);
   const Number one(1.0);
   // Of lines at smaller angles than this, the cross product is not as good as what is nearest.
-  const Number least_sine_squared(1e-6);
+  const Number min_sine_squared(1e-6);
   const NumberVector<Number> u = now.along_a();
   const NumberVector<Number> v = now.along_b();
   const NumberVector<Number> upright = cross(u, v);
@@ -226,7 +226,7 @@ HWY_INLINE TurningPlane<Number> plane_between(const Parallelogram<Number>& now,
   const Number sine = dot(upright, upright);  // squared, times both squared lengths
   const auto on_a = both(zero < s, s < one);
   const auto on_b = both(zero < t, t < one);
-  const auto on_both = both(both(on_a, on_b), least_sine_squared * (uu * vv) < sine);
+  const auto on_both = both(both(on_a, on_b), min_sine_squared * (uu * vv) < sine);
 
   const NumberVector<Number> towards =
       choose_vector(dot(upright, nearest) < zero, Number(-1.0) * upright, upright);

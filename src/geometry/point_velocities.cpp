@@ -11,7 +11,7 @@ void PointVelocities::add(double time, const std::vector<Eigen::Vector3d>& point
     frames_.clear();
   }
   Frame frame{};
-  if (frames_.size() >= most_frames_) {
+  if (frames_.size() >= max_frames_) {
     frame = std::move(frames_.front());  // for its memory
     frames_.pop_front();
   }

@@ -5,14 +5,16 @@
 #include <deque>
 #include <vector>
 
+#include "fiber_proximity/export.hpp"
+
 namespace fiber {
 
 /// Velocities of points from their last few frames: for each point the slope of the line through
 /// its places over time with the least sum of squared errors.
-class PointVelocities {
+class FIBER_PROXIMITY_EXPORT PointVelocities {
  public:
-  /// @param most_frames that count: the newest; at least 2
-  explicit PointVelocities(std::size_t most_frames) : most_frames_(most_frames) {}
+  /// @param max_frames that count: the newest; at least 2
+  explicit PointVelocities(std::size_t max_frames) : max_frames_(max_frames) {}
 
   /// Takes a frame. One with another number of points, or a time [s] that is not after that of the
   /// frame before, is the first one of new frames.
@@ -36,7 +38,7 @@ class PointVelocities {
     std::vector<Eigen::Vector3d> points;
   };
 
-  std::size_t most_frames_;
+  std::size_t max_frames_;
   std::deque<Frame> frames_;
 };
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "fiber_proximity/geometry/exact_distance.hpp"
 #include "src/text/join.hpp"
 #include "src/text/quote.hpp"
 
@@ -136,7 +135,7 @@ SegmentDistance segment_distance(const Vector3d& p0, const Vector3d& p1, const V
   const Vector3d upper = p0.cwiseMax(p1).cwiseMax(q0.cwiseMax(q1));
   const Vector3d lower = p0.cwiseMin(p1).cwiseMin(q0.cwiseMin(q1));
   const double extent = (upper - lower).maxCoeff();
-  if (extent > 0.0 && !(extent > least_distance_scale && extent < largest_distance_scale)) {
+  if (extent > 0.0 && !(extent > min_distance_scale && extent < largest_distance_scale)) {
     return scaled_segment_distance(p0, p1, q0, q1, extent);
   }
   return Candidates(p0, p1, q0, q1).nearest(robust_error * extent);
@@ -154,10 +153,6 @@ Kernel kernel_from_name(const std::string& name) {
     throw std::invalid_argument("unknown kernel " + quote(name) + ", known are: " + join(names));
   }
   return static_cast<Kernel>(found - names.begin());
-}
-
-std::string current_kernel_name(const std::string& name) {
-  return name == "fast" ? name_of(Kernel::ROBUST) : name;
 }
 
 SegmentDistance segment_distance(Kernel kernel, const Vector3d& p0, const Vector3d& p1,

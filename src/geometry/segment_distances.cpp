@@ -68,7 +68,7 @@ struct alignas(64) LaneResults {
 /// Whether the range of double needs no scaling in any lane.
 bool is_in_range(Distance::V extent) {
   const Doubles d;
-  const auto inside = hn::And(hn::Gt(extent, hn::Set(d, least_distance_scale)),
+  const auto inside = hn::And(hn::Gt(extent, hn::Set(d, min_distance_scale)),
                               hn::Lt(extent, hn::Set(d, largest_distance_scale)));
   return hn::AllTrue(d, hn::Or(inside, hn::Eq(extent, hn::Zero(d))));
 }

@@ -1,4 +1,4 @@
-// The way of one pair of moving segments from time 0 to its contact. Included once per instruction
+// Follows one pair of moving segments from time 0 to its contact. Included once per instruction
 // set, so it has the guard that Highway asks for instead of #pragma once.
 #if defined(FIBER_SEGMENT_MOTION_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef FIBER_SEGMENT_MOTION_INL
@@ -27,7 +27,7 @@ constexpr double longest_limit = 0x1p1000;
 /// What lengths are multiplied with, a power of two: 1 where fourth powers of the largest
 /// coordinate stay in the range of double.
 inline double scale_of(double largest) {
-  if (largest == 0.0 || (largest > least_distance_scale && largest < largest_distance_scale)) {
+  if (largest == 0.0 || (largest > min_distance_scale && largest < largest_distance_scale)) {
     return 1.0;
   }
   constexpr int largest_exponent = 1000;
@@ -52,8 +52,8 @@ class SegmentMotion {
       : limit(motions.limit.sum<Number>()),
         tolerance(tolerance_in_metres),
         parts_(motions.limit.parts<Number>()) {
-    least_ = difference(motions.a_before[0], motions.b_before[0]);
-    most_ = least_;
+    min_ = difference(motions.a_before[0], motions.b_before[0]);
+    max_ = min_;
     for (int i = 0; i < 2; ++i) {
       for (int j = 0; j < 2; ++j) {
         start.corners[i][j] = difference(motions.a_before[i], motions.b_before[j]);
@@ -73,13 +73,13 @@ class SegmentMotion {
   using Vector = NumberVector<Number>;
 
   void enclose(const Vector& corner) {
-    least_ = smaller(corner, least_);
-    most_ = larger(corner, most_);
+    min_ = smaller(corner, min_);
+    max_ = larger(corner, max_);
   }
 
   /// The largest magnitude of a coordinate.
   Number largest() const {
-    const Vector magnitudes = larger(Number(-1.0) * least_, most_);
+    const Vector magnitudes = larger(Number(-1.0) * min_, max_);
     return larger(magnitudes.x, larger(magnitudes.y, magnitudes.z));
   }
 
@@ -94,8 +94,8 @@ class SegmentMotion {
     for (Number* length : {&limit, &tolerance, &parts_}) {
       *length = smaller(unit * *length, Number(longest_limit));
     }
-    least_ = unit * least_;
-    most_ = unit * most_;
+    min_ = unit * min_;
+    max_ = unit * max_;
   }
 
   static Vector difference(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
@@ -104,8 +104,8 @@ class SegmentMotion {
   }
 
   Number parts_;  // which the limit is rounded by a part of
-  Vector least_;  // of all corners, before and after
-  Vector most_;
+  Vector min_;    // of all corners, before and after
+  Vector max_;
 };
 
 /// Whether two segments surely cross between two times: the volume that they span changes its sign,
@@ -122,28 +122,28 @@ bool surely_cross(const SegmentMotion<Number>& motion, const Number& from, const
   const Number volume = dot(w, normal);
   const Number last_volume = dot(last.corners[0][0], last_normal);
 
-  // No vector differs by more than `way` from what it is at the first time, its error included.
+  // No vector differs by more than `change` from what it is at the first time, its error included.
   const Number error = Number(4.0) * motion.error;
-  const Number way = length_of(last.along_a() - u) + length_of(last.along_b() - v) +
-                     length_of(last.corners[0][0] - w) + error;
-  const Number most_u = length_of(u) + way;
-  const Number most_v = length_of(v) + way;
-  const Number most_w = length_of(w) + way;
-  const Number volume_error = Number(4.0) * error * (most_u * most_v + most_w * (most_u + most_v));
+  const Number change = length_of(last.along_a() - u) + length_of(last.along_b() - v) +
+                        length_of(last.corners[0][0] - w) + error;
+  const Number max_u = length_of(u) + change;
+  const Number max_v = length_of(v) + change;
+  const Number max_w = length_of(w) + change;
+  const Number volume_error = Number(4.0) * error * (max_u * max_v + max_w * (max_u + max_v));
   const Number length = length_of(normal);
-  const Number normal_way = way * (most_u + most_v);
-  const Number most_length = length + normal_way;
+  const Number normal_change = change * (max_u + max_v);
+  const Number max_length = length + normal_change;
   const Number squared = dot(normal, normal);
-  const Number squared_way = normal_way * (length + most_length);
+  const Number squared_change = normal_change * (length + max_length);
   const Number s = dot(cross(v, w), normal);
   const Number t = dot(cross(u, w), normal);
-  const Number s_way = way * (most_v + most_w) * most_length + most_v * most_w * normal_way;
-  const Number t_way = way * (most_u + most_w) * most_length + most_u * most_w * normal_way;
+  const Number s_change = change * (max_v + max_w) * max_length + max_v * max_w * normal_change;
+  const Number t_change = change * (max_u + max_w) * max_length + max_u * max_w * normal_change;
   const Number zero(0.0);
   const bool changes_sign = (volume_error < volume && last_volume < -volume_error) ||
                             (volume < -volume_error && volume_error < last_volume);
-  return changes_sign && s_way < s && t_way < t && s_way + squared_way < squared - s &&
-         t_way + squared_way < squared - t && zero < squared - squared_way;
+  return changes_sign && s_change < s && t_change < t && s_change + squared_change < squared - s &&
+         t_change + squared_change < squared - t && zero < squared - squared_change;
 }
 
 /// Goes from time to time as far as there is surely no contact, then looks for a time at which
@@ -184,9 +184,9 @@ class Advancement {
 
  private:
   // Grazing motions take the most looks: 65 have been seen.
-  static constexpr std::uint32_t most_looks = 256;
-  static constexpr std::uint32_t most_probes = 4;
-  static constexpr std::uint32_t most_near_looks = 1;
+  static constexpr std::uint32_t max_looks = 256;
+  static constexpr std::uint32_t max_probes = 4;
+  static constexpr std::uint32_t max_near_looks = 1;
 
   void advance(const SegmentMotion<Number>& motion, const MotionLook<Number>& look, bool is_near,
                bool is_contact) {
@@ -196,12 +196,12 @@ class Advancement {
       state_ = State::DONE;
     } else if (is_near) {
       result_ = {true, time_, time_, is_contact};
-      if (until > time_ && near_looks_++ < most_near_looks) {
+      if (until > time_ && near_looks_++ < max_near_looks) {
         time_ = until;  // so little is left that it pays to see more of it
       } else {
         go_on_from(motion, look, is_contact);
       }
-    } else if (until > time_ && looks_ < most_looks) {
+    } else if (until > time_ && looks_ < max_looks) {
       time_ = until;
     } else if (until > time_ || is_last_) {
       result_ = {true, time_, std::numeric_limits<double>::infinity(), false};
@@ -235,7 +235,7 @@ class Advancement {
   void go_on_from(const SegmentMotion<Number>& motion, const MotionLook<Number>& look,
                   bool is_certain) {
     state_ = State::DONE;
-    if (is_certain || probes_ == most_probes) {
+    if (is_certain || probes_ == max_probes) {
       return;
     }
     if (probes_ == 0 || Number(0.0) < look.closing) {

@@ -4,13 +4,15 @@
 #include <optional>
 #include <vector>
 
+#include "fiber_proximity/export.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 
 namespace fiber {
 
 /// @throws std::invalid_argument if there is no motion from one to the other, as the numbers of
 ///         their fibres and of the points of these are not the same
-void require_same_topology(const FiberAssembly& before, const FiberAssembly& after);
+FIBER_PROXIMITY_EXPORT void require_same_topology(const FiberAssembly& before,
+                                                  const FiberAssembly& after);
 
 /// [m] What fibres of one topology have in common of their ways: about the mean of some points,
 /// evenly spread.

@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "fiber_proximity/geometry/exact_distance.hpp"
+#include "fiber_proximity/geometry/segment_distance.hpp"
 #include "src/geometry/double_double.hpp"
 
 namespace fiber {
@@ -183,7 +183,7 @@ WideNearest wide_nearest_of(const SegmentDistance& robust,
 
 /// Neither overflow nor underflow that counts.
 bool is_in_range(double extent) { return extent > 0x1p-100 && extent < 0x1p100; }
-constexpr double least_squared_normal = 0x1p-600;
+constexpr double min_squared_normal = 0x1p-600;
 
 /// gap_at_most() in numbers of twice the digits: whether there are two points that are surely no
 /// further apart than the limit, or a plane that surely keeps the segments further apart. Nothing
@@ -208,7 +208,7 @@ std::optional<bool> wide_gap_at_most(const SegmentDistance& robust, const Vector
     return true;
   }
   const DoubleDouble squared_normal = dot(nearest.normal, nearest.normal);
-  if (!(squared_normal.high > least_squared_normal)) {
+  if (!(squared_normal.high > min_squared_normal)) {
     return std::nullopt;
   }
   const DoubleDouble reach = root(squared_normal) * (sum + error);

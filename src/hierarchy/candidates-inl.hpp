@@ -62,13 +62,14 @@ class Candidates {
       const GatheredSegments a = gather(a_.runs, places_a_ + first);
       const GatheredSegments b = gather(b_.runs, places_b_ + first);
       const auto reach = hn::Add(hn::Add(a.radius, b.radius), hn::Set(d, sink_.bound().gap));
-      const auto may_be_close = a_.ways == nullptr
-                                    ? segments_near(a.segments, b.segments, reach)
-                                    : MovingPairs(a.segments, b.segments,
-                                                  subtract(gather(a_.ways, places_a_ + first),
-                                                           gather(b_.ways, places_b_ + first)),
-                                                  reach)
-                                          .are_near();
+      const auto may_be_close =
+          a_.displacements == nullptr
+              ? segments_near(a.segments, b.segments, reach)
+              : MovingPairs(a.segments, b.segments,
+                            subtract(gather(a_.displacements, places_a_ + first),
+                                     gather(b_.displacements, places_b_ + first)),
+                            reach)
+                    .are_near();
       // Where the bound is a depth, those that are thinner than that have none.
       const auto close = hn::And(may_be_close, hn::Ge(reach, hn::Zero(d)));
       std::uint32_t bits = bits_of(close) & first_bits(std::min(run_width, size - first));
@@ -96,9 +97,10 @@ class Candidates {
     return {lane_segments({rows[0], rows[1], rows[2]}, {rows[3], rows[4], rows[5]}), rows[6]};
   }
 
-  static LaneVector gather(const RunWays* ways, const std::int32_t* places) {
-    static_assert(std::is_standard_layout_v<RunWays>, "ways are read as arrays of floats");
-    const Rows rows(ways->half[0], sizeof(RunWays) / sizeof(float), places);
+  static LaneVector gather(const RunDisplacement* displacements, const std::int32_t* places) {
+    static_assert(std::is_standard_layout_v<RunDisplacement>,
+                  "displacements are read as arrays of floats");
+    const Rows rows(displacements->half[0], sizeof(RunDisplacement) / sizeof(float), places);
     return {rows[0], rows[1], rows[2]};
   }
 

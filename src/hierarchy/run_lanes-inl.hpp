@@ -18,38 +18,43 @@ namespace fiber {
 namespace HWY_NAMESPACE {
 
 // The vectors from segment b to segment a while both move are w + s·u − t·v + r·m, with w from
-// start to start halfway, s and t in [0, 1], and r in [−1, 1] for half of the way of a relative to
-// b: a parallelepiped. The segments stay apart if a plane has it further from the origin than their
-// reach. Any plane proves it; which one is tried, by its normal, is a guess.
+// start to start halfway, s and t in [0, 1], and r in [−1, 1] for half of the displacement of a
+// relative to b: a parallelepiped. The segments stay apart if a plane has it further from the
+// origin than their reach. Any plane proves it; which one is tried, by its normal, is a guess.
 
 /// Pairs of segments that move.
 class MovingPairs {
  public:
-  /// @param way half of that of a relative to b [m]
-  MovingPairs(const LaneSegments& a, const LaneSegments& b, const LaneVector& way, Lanes reach)
-      : u_(a.direction), v_(b.direction), w_(subtract(a.start, b.start)), way_(way) {
+  /// @param displacement half of that of a relative to b [m]
+  MovingPairs(const LaneSegments& a, const LaneSegments& b, const LaneVector& displacement,
+              Lanes reach)
+      : u_(a.direction),
+        v_(b.direction),
+        w_(subtract(a.start, b.start)),
+        displacement_(displacement) {
     const Floats d;
     // Each dot product rounds by less than 8 u of the lengths of its factors.
     const auto extent = hn::Add(hn::Add(length_bound(u_), length_bound(v_)),
-                                hn::Add(length_bound(w_), length_bound(way_)));
+                                hn::Add(length_bound(w_), length_bound(displacement_)));
     limit_ = hn::MulAdd(extent, hn::Set(d, rounding_of_products), reach);
     squared_u_inverse_ = a.inverse_squared_length;
     squared_v_inverse_ = b.inverse_squared_length;
   }
 
-  /// Tries planes along each segment's way, and that through the shortest vector about when the
-  /// middles are nearest. That along both segments has been tried: moving_lines_near().
+  /// Tries planes along each segment's displacement, and that through the shortest vector about
+  /// when the middles are nearest. That along both segments has been tried: moving_lines_near().
   LaneMask are_near() const {
     const Floats d;
     const auto one = hn::Set(d, 1.0F);
     const auto half_of_one = hn::Set(d, 0.5F);
     const auto squared_way =
-        hn::Max(dot(way_, way_), hn::Set(d, std::numeric_limits<float>::min()));
+        hn::Max(dot(displacement_, displacement_), hn::Set(d, std::numeric_limits<float>::min()));
     const LaneVector middles = along(along(w_, half_of_one, u_), hn::Neg(half_of_one), v_);
-    const auto nearest_time = hn::Neg(hn::Div(dot(middles, way_), squared_way));
+    const auto nearest_time = hn::Neg(hn::Div(dot(middles, displacement_), squared_way));
     const auto time = hn::Min(hn::Max(nearest_time, hn::Neg(one)), one);
-    return hn::Not(hn::Or(hn::Or(are_beyond(cross(u_, way_)), are_beyond(cross(v_, way_))),
-                          are_beyond(shortest(along(w_, time, way_)))));
+    return hn::Not(
+        hn::Or(hn::Or(are_beyond(cross(u_, displacement_)), are_beyond(cross(v_, displacement_))),
+               are_beyond(shortest(along(w_, time, displacement_)))));
   }
 
  private:
@@ -61,7 +66,7 @@ class MovingPairs {
     const auto start = dot(normal, w_);
     const auto along_u = dot(normal, u_);
     const auto along_v = dot(normal, v_);
-    const auto along_way = hn::Abs(dot(normal, way_));
+    const auto along_way = hn::Abs(dot(normal, displacement_));
     const auto least = hn::Sub(hn::Add(start, hn::Min(along_u, zero)), hn::Max(along_v, zero));
     const auto most = hn::Sub(hn::Add(start, hn::Max(along_u, zero)), hn::Min(along_v, zero));
     const auto gap = hn::Sub(hn::Max(least, hn::Neg(most)), along_way);
@@ -94,21 +99,22 @@ class MovingPairs {
   LaneVector u_;
   LaneVector v_;
   LaneVector w_;
-  LaneVector way_;
+  LaneVector displacement_;
   Lanes limit_;
   Lanes squared_u_inverse_;
   Lanes squared_v_inverse_;
 };
 
-/// lines_near() of segments that move, by `way` from halfway to either side, of a relative to b.
+/// lines_near() of segments that move, by `displacement` from halfway to either side, of a relative
+/// to b.
 HWY_INLINE LaneMask moving_lines_near(const LaneVector& u, const LaneVector& v, const LaneVector& w,
-                                      const LaneVector& way, Lanes reach) {
+                                      const LaneVector& displacement, Lanes reach) {
   const Floats d;
   const LaneVector n = cross(u, v);
-  const auto rounding =
-      hn::Mul(hn::Set(d, rounding_of_products), hn::Mul(hn::Add(length_bound(w), length_bound(way)),
-                                                        hn::Mul(length_bound(u), length_bound(v))));
-  const auto across = hn::Sub(hn::Abs(dot(w, n)), hn::Abs(dot(way, n)));
+  const auto rounding = hn::Mul(hn::Set(d, rounding_of_products),
+                                hn::Mul(hn::Add(length_bound(w), length_bound(displacement)),
+                                        hn::Mul(length_bound(u), length_bound(v))));
+  const auto across = hn::Sub(hn::Abs(dot(w, n)), hn::Abs(dot(displacement, n)));
   return within_reach(hn::Sub(across, rounding), reach, n);
 }
 
@@ -137,9 +143,9 @@ HWY_INLINE void fit_boxes(const RunTreeView& tree, std::uint32_t which, BoxBlock
     LaneVector lower = lower_corner(start, end, radius);
     LaneVector upper = upper_corner(start, end, radius);
     if constexpr (moves) {
-      const LaneVector way = absolute(load(tree.ways[which].half, lane));
-      lower = subtract(lower, way);
-      upper = add(upper, way);
+      const LaneVector displacement = absolute(load(tree.displacements[which].half, lane));
+      lower = subtract(lower, displacement);
+      upper = add(upper, displacement);
     }
     store(lower, boxes.lower, lane);
     store(upper, boxes.upper, lane);
@@ -165,9 +171,10 @@ HWY_INLINE std::uint32_t near_lines(const RunTreeView& tree, std::uint32_t which
     const LaneVector w = subtract(start, starts);
     const auto reaches = hn::Add(reach, load(run.radius, lane));
     if constexpr (moves) {
-      const LaneVector way = subtract(spread(other_tree.ways[other_which].half, other_lane),
-                                      load(tree.ways[which].half, lane));
-      bits |= bits_of(moving_lines_near(u, v, w, way, reaches)) << lane;
+      const LaneVector displacement =
+          subtract(spread(other_tree.displacements[other_which].half, other_lane),
+                   load(tree.displacements[which].half, lane));
+      bits |= bits_of(moving_lines_near(u, v, w, displacement, reaches)) << lane;
     } else {
       bits |= bits_of(lines_near(u, v, w, reaches)) << lane;
     }

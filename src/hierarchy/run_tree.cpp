@@ -93,9 +93,9 @@ void RunTree::build(const TreeFibers& fibers, const std::vector<std::uint32_t>& 
     levels_[level_count].resize(count);
   }
   levels_.resize(level_count);
-  least_points_.resize(level_count);
+  min_points_.resize(level_count);
   for (std::size_t level = 0; level < level_count; ++level) {
-    least_points_[level].resize(levels_[level].size() * run_width);
+    min_points_[level].resize(levels_[level].size() * run_width);
   }
   set_view();
   origin_ = fibers.origin_before;
@@ -107,7 +107,7 @@ void RunTree::build(const TreeFibers& fibers, const std::vector<std::uint32_t>& 
 void RunTree::update(const TreeFibers& fibers) {
   assert(segment_count_ == fibers.before.segment_count());
   origin_ = fibers.origin_before;
-  if (looseness(fibers.before) > most_decay * sorted_looseness_) {
+  if (looseness(fibers.before) > max_decay * sorted_looseness_) {
     // Read along the fibres, points are near each other in memory: along a curve that has decayed,
     // they are near in nothing.
     number_segments(fibers.before.offsets(), first_points_);
@@ -133,14 +133,14 @@ void RunTree::sort(const FiberAssembly& fibers) {
     std::fill(first_points_.begin() + segment_count_, first_points_.end(),
               first_points_[segment_count_ - 1]);
   }
-  find_least_points();
+  find_min_points();
   sorted_looseness_ = looseness(fibers);
 }
 
 /// Of what is in the order of the curve: they stay while boxes are refitted.
-void RunTree::find_least_points() {
+void RunTree::find_min_points() {
   const std::vector<std::uint32_t>* below = &first_points_;
-  for (std::vector<std::uint32_t>& level : least_points_) {
+  for (std::vector<std::uint32_t>& level : min_points_) {
     const auto children = static_cast<std::uint32_t>(below->size() / run_width);
     for_ranges(children, [&](std::uint32_t begin, std::uint32_t end) {
       for (std::uint32_t child = begin; child < end; ++child) {
@@ -156,16 +156,16 @@ void RunTree::find_least_points() {
 void RunTree::refit(const TreeFibers& fibers) {
   origin_after_ = fibers.origin_after;
   if (fibers.moves) {
-    ways_.resize(runs_.size());
+    displacements_.resize(runs_.size());
   }
-  view_.ways = fibers.moves ? ways_.data() : nullptr;
+  view_.displacements = fibers.moves ? displacements_.data() : nullptr;
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     std::vector<BoxBlock>& boxes = levels_[i];
     for_ranges(
         static_cast<std::uint32_t>(boxes.size()), [&](std::uint32_t begin, std::uint32_t end) {
           if (i == 0) {
             fit_groups(fibers, first_points_.data(), segment_count_, begin, end, runs_.data(),
-                       ways_.data(), boxes.data());
+                       displacements_.data(), boxes.data());
           } else {
             fit_nodes(levels_[i - 1].data(), static_cast<std::uint32_t>(levels_[i - 1].size()),
                       begin, end, boxes.data());
@@ -206,7 +206,7 @@ void RunTree::set_view() {
   auto children = static_cast<std::uint32_t>(runs_.size());
   for (std::size_t level = 0; level < levels_.size(); ++level) {
     const auto nodes = static_cast<std::uint32_t>(levels_[level].size());
-    view_.levels[level] = {levels_[level].data(), nodes, children, least_points_[level].data()};
+    view_.levels[level] = {levels_[level].data(), nodes, children, min_points_[level].data()};
     children = nodes;
   }
 }
@@ -222,12 +222,13 @@ bool RunTree::is_unbounded() const {
 
 std::size_t RunTree::memory_bytes() const {
   std::size_t bytes = first_points_.capacity() * sizeof(std::uint32_t) +
-                      runs_.capacity() * sizeof(Run) + ways_.capacity() * sizeof(RunWays) +
+                      runs_.capacity() * sizeof(Run) +
+                      displacements_.capacity() * sizeof(RunDisplacement) +
                       (keys_.capacity() + scratch_.capacity()) * sizeof(std::uint64_t);
   for (const std::vector<BoxBlock>& boxes : levels_) {
     bytes += boxes.capacity() * sizeof(BoxBlock);
   }
-  for (const std::vector<std::uint32_t>& points : least_points_) {
+  for (const std::vector<std::uint32_t>& points : min_points_) {
     bytes += points.capacity() * sizeof(std::uint32_t);
   }
   return bytes;

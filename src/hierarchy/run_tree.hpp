@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "fiber_proximity/export.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "src/hierarchy/run_tree_kernels.hpp"
 
@@ -15,8 +16,8 @@ namespace fiber {
 /// Leaves are runs of eight segments that follow each other along the curve: of one fibre where
 /// fibres are alone, of neighbouring fibres where they are dense. Over them lies a tree of eight
 /// children per node, without pointers, in level order. An update refits all boxes in place; only
-/// when they have grown by more than `most_decay` since the last sort are segments sorted anew.
-class RunTree {
+/// when they have grown by more than `max_decay` since the last sort are segments sorted anew.
+class FIBER_PROXIMITY_EXPORT RunTree {
  public:
   RunTree() = default;
   RunTree(const RunTree&) = delete;  // the view points into it
@@ -25,7 +26,7 @@ class RunTree {
 
   /// By how much the boxes of runs may grow, relative to those of their segments, before segments
   /// are sorted anew (docs/performance.md).
-  static constexpr double most_decay = 1.5;
+  static constexpr double max_decay = 1.5;
 
   void build(const TreeFibers& fibers);
 
@@ -42,7 +43,7 @@ class RunTree {
   const Eigen::Vector3d& origin_after() const { return origin_after_; }  ///< the same without one
 
   /// Whether its fibres move.
-  bool moves() const { return view_.ways != nullptr; }
+  bool moves() const { return view_.displacements != nullptr; }
 
   /// Whether some segments are beyond the range of float.
   bool is_unbounded() const;
@@ -53,7 +54,7 @@ class RunTree {
 
  private:
   void sort(const FiberAssembly& fibers);
-  void find_least_points();
+  void find_min_points();
   void refit(const TreeFibers& fibers);
   double looseness(const FiberAssembly& fibers);
   void set_view();
@@ -61,10 +62,10 @@ class RunTree {
   std::vector<std::uint32_t> first_points_;  // of segments, in the order of the curve; whole runs
   std::uint32_t segment_count_ = 0;
   std::vector<Run> runs_;
-  std::vector<RunWays> ways_;                  // empty until something moves
-  std::vector<std::vector<BoxBlock>> levels_;  // boxes of the children, by node; groups first
-  std::vector<std::vector<std::uint32_t>> least_points_;  // of the children, by node
-  std::vector<std::uint64_t> keys_;                       // of sort()
+  std::vector<RunDisplacement> displacements_;  // empty until something moves
+  std::vector<std::vector<BoxBlock>> levels_;   // boxes of the children, by node; groups first
+  std::vector<std::vector<std::uint32_t>> min_points_;  // of the children, by node
+  std::vector<std::uint64_t> keys_;                     // of sort()
   std::vector<std::uint64_t> scratch_;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d origin_after_ = Eigen::Vector3d::Zero();

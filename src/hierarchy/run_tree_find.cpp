@@ -46,7 +46,7 @@ class Finder {
     visited_ = none;
     keys_.bound = bound.key;
     if (HWY_UNLIKELY(keys_.are_bounded()) &&
-        children_by_key({b_.level_count - 1, 0}, a_.least_point(group)) == 0) {
+        children_by_key({b_.level_count - 1, 0}, a_.min_point(group)) == 0) {
       return true;
     }
     aim(bound.gap);
@@ -98,7 +98,7 @@ class Finder {
   float longest_way() const {
     float longest = 0.0F;
     for (std::uint32_t run = 0; moves && run < probe_.run_count(); ++run) {
-      for (const auto& halves : a_.ways[group_ * run_width + run].half) {
+      for (const auto& halves : a_.displacements[group_ * run_width + run].half) {
         for (const float half : halves) {
           longest = std::max(longest, std::abs(half));
         }
@@ -107,8 +107,8 @@ class Finder {
     return longest;
   }
 
-  /// Where a group or a run extends over many times the bound and the ways, few of its pairs are
-  /// near: it does not pay to ask which are ruled out.
+  /// Where a group or a run extends over many times the bound and the displacements, few of its
+  /// pairs are near: it does not pay to ask which are ruled out.
   /// @param boxes larger by the bound on all sides
   bool is_smaller_than_bound(const BoxBlock& boxes, std::uint32_t lane) const {
     float extent = 0.0F;
@@ -123,10 +123,10 @@ class Finder {
     const std::uint32_t* const of_a = a_.first_points + std::size_t{group_} * run_width * run_width;
     const std::uint32_t* const of_b = b_.first_points + std::size_t{h} * run_width * run_width;
     const std::uint32_t runs_b = std::min(run_width, b_.levels[0].child_count - h * run_width);
-    const auto [least_a, most_a] = std::minmax_element(of_a, of_a + probe_.run_count() * run_width);
-    const auto [least_b, most_b] = std::minmax_element(of_b, of_b + runs_b * run_width);
-    const PointRange range = sink_.ruled_out_with(std::min(*least_a, *least_b));
-    return std::max(*most_a, *most_b) < range.end;
+    const auto [min_a, max_a] = std::minmax_element(of_a, of_a + probe_.run_count() * run_width);
+    const auto [min_b, max_b] = std::minmax_element(of_b, of_b + runs_b * run_width);
+    const PointRange range = sink_.ruled_out_with(std::min(*min_a, *min_b));
+    return std::max(*max_a, *max_b) < range.end;
   }
 
   /// Finds what is ruled out with the segments of a run of the group.
@@ -140,7 +140,7 @@ class Finder {
   }
 
   bool descend() {
-    Node stack[RunTreeView::most_levels * run_width];
+    Node stack[RunTreeView::max_levels * run_width];
     std::uint32_t size = 0;
     stack[size++] = {b_.level_count - 1, 0};
     while (size > 0) {
@@ -150,7 +150,7 @@ class Finder {
           children(level, node.index) & overlapping(level.boxes[node.index], probe_.whole(), 0);
       count(bits);
       if (HWY_UNLIKELY(keys_.are_bounded())) {
-        bits &= children_by_key(node, a_.least_point(group_));
+        bits &= children_by_key(node, a_.min_point(group_));
       }
       if (node.level == 0) {
         if (bits != 0 && node.index != visited_ &&
@@ -186,7 +186,7 @@ class Finder {
       std::uint32_t bits = wanted & overlapping(runs.boxes[h], probe_.runs(), run);
       count(bits);
       if (HWY_UNLIKELY(keys_.are_bounded())) {
-        bits &= children_by_key({0, h}, a_.levels[0].least_points[group_ * run_width + run]);
+        bits &= children_by_key({0, h}, a_.levels[0].min_points[group_ * run_width + run]);
       }
       while (bits != 0) {
         if (!visit_runs(run, h, take_lowest(bits))) {
@@ -273,7 +273,7 @@ class Finder {
   /// has this least first point.
   std::uint32_t children_by_key(Node node, std::uint32_t least) const {
     return keys_.lanes(least,
-                       b_.levels[node.level].least_points + std::size_t{run_width} * node.index);
+                       b_.levels[node.level].min_points + std::size_t{run_width} * node.index);
   }
 
   /// Bits of the children of a node, and of the segments of a run, that there are.
@@ -299,7 +299,7 @@ class Finder {
   std::uint32_t group_ = 0;
   std::uint32_t visited_ = none;  // the group of b that has been visited before the others
   float bound_ = 0.0F;            // [m]
-  float span_ = 0.0F;             // [m] the bound, and half of the longest way of the group
+  float span_ = 0.0F;  // [m] the bound, and half of the longest displacement of the group
   const bool self_;
   KeyBound keys_;
   const bool skip_adjacent_;
@@ -326,8 +326,8 @@ bool find_near(const RunTreeView& a, std::uint32_t begin, std::uint32_t end, con
 bool find_near_segments_lanes(const RunTreeView& a, std::uint32_t begin, std::uint32_t end,
                               const RunTreeView& b, PairSink& sink, std::uint64_t& tests,
                               std::uint64_t& overlaps) {
-  return a.ways == nullptr ? find_near<false>(a, begin, end, b, sink, tests, overlaps)
-                           : find_near<true>(a, begin, end, b, sink, tests, overlaps);
+  return a.displacements == nullptr ? find_near<false>(a, begin, end, b, sink, tests, overlaps)
+                                    : find_near<true>(a, begin, end, b, sink, tests, overlaps);
 }
 
 }  // namespace

@@ -57,8 +57,8 @@ HWY_INLINE void make_relative(const double* coordinates, const double (&origin)[
 HWY_INLINE Lanes padded(Lanes radius, const LaneVector& largest) {
   const Floats d;
   const auto magnitude = hn::Max(hn::Max(radius, largest.x), hn::Max(largest.y, largest.z));
-  const auto finite = hn::Add(hn::MulAdd(magnitude, hn::Set(d, relative_padding), radius),
-                              hn::Set(d, least_padding));
+  const auto finite =
+      hn::Add(hn::MulAdd(magnitude, hn::Set(d, relative_padding), radius), hn::Set(d, min_padding));
   return hn::IfThenElse(hn::Gt(magnitude, hn::Set(d, largest_magnitude)),
                         hn::Set(d, std::numeric_limits<float>::infinity()), finite);
 }
@@ -144,7 +144,7 @@ class GroupReader {
         fibers_(fibers),
         first_points_(first_points),
         segment_count_(segment_count),
-        same_radius_(fibers.radii().size() == 1) {
+        same_radius_(fibers.radius_per() == RadiusPer::ASSEMBLY) {
     if (same_radius_) {
       std::fill_n(radii_, segments_per_group, radius_of(fibers.radii().front()));
     }
@@ -205,29 +205,31 @@ void fit_run(const GroupReader& group, std::uint32_t first, Run& run, BoxBlock& 
   box.store(boxes, lane);
 }
 
-/// The same of segments that move: halfway, thicker by as much as their ends leave the way of their
-/// middle, which goes into the ways.
+/// The same of segments that move: halfway, thicker by as much as their ends leave the displacement
+/// of their middle, which goes into the displacements.
 ///
 /// Rounded, both states are off by u of the largest coordinate M, u = 2⁻²⁴; halfway is off by 2
-/// u·M, half a way and what the ends have beside it by 3 u·M each. That makes 19 u·M in space.
+/// u·M, half a displacement and what the ends have beside it by 3 u·M each. That makes 19 u·M in
+/// space.
 void fit_moving_run(const GroupReader& before, const GroupReader& after, std::uint32_t first,
-                    Run& run, RunWays& ways, BoxBlock& boxes, std::uint32_t lane) {
+                    Run& run, RunDisplacement& displacements, BoxBlock& boxes, std::uint32_t lane) {
   const Floats d;
   SingleBox box = empty_box();
   for (std::uint32_t i = 0; i < run_width; i += static_cast<std::uint32_t>(hn::Lanes(d))) {
     const LaneEnds from = before.ends(first + i);
     const LaneEnds to = after.ends(first + i);
-    const LaneVector start_way = middle(to.start, negative(from.start));
-    const LaneVector end_way = middle(to.end, negative(from.end));
-    const LaneVector way = middle(start_way, end_way);
-    const LaneVector beside = middle(end_way, negative(start_way));
+    const LaneVector start_displacement = middle(to.start, negative(from.start));
+    const LaneVector end_displacement = middle(to.end, negative(from.end));
+    const LaneVector displacement = middle(start_displacement, end_displacement);
+    const LaneVector beside = middle(end_displacement, negative(start_displacement));
     LaneEnds ends{middle(from.start, to.start), middle(from.end, to.end),
                   hn::Add(hn::Max(from.radius, to.radius), hn::Sqrt(dot(beside, beside)))};
     ends.radius = padded(ends.radius, maximum(maximum(absolute(from.start), absolute(from.end)),
                                               maximum(absolute(to.start), absolute(to.end))));
     ends.store(run, i);
-    store(way, ways.half, i);
-    box.take(subtract(ends.lower(), absolute(way)), add(ends.upper(), absolute(way)));
+    store(displacement, displacements.half, i);
+    box.take(subtract(ends.lower(), absolute(displacement)),
+             add(ends.upper(), absolute(displacement)));
   }
   box.store(boxes, lane);
 }
@@ -249,7 +251,7 @@ void fit_group(std::uint32_t group, std::uint32_t segment_count, BoxBlock& boxes
 
 void fit_groups_lanes(const TreeFibers& fibers, const std::uint32_t* first_points,
                       std::uint32_t segment_count, std::uint32_t begin, std::uint32_t end,
-                      Run* runs, RunWays* ways, BoxBlock* boxes) {
+                      Run* runs, RunDisplacement* displacements, BoxBlock* boxes) {
   GroupReader before(fibers.before, fibers.origin_before, first_points, segment_count);
   if (!fibers.moves) {
     for (std::uint32_t group = begin; group < end; ++group) {
@@ -267,7 +269,8 @@ void fit_groups_lanes(const TreeFibers& fibers, const std::uint32_t* first_point
     after.read(group * segments_per_group);
     fit_group(group, segment_count, boxes[group],
               [&](std::uint32_t first, std::uint32_t run, std::uint32_t lane) {
-                fit_moving_run(before, after, first, runs[run], ways[run], boxes[group], lane);
+                fit_moving_run(before, after, first, runs[run], displacements[run], boxes[group],
+                               lane);
               });
   }
 }
@@ -300,9 +303,9 @@ HWY_EXPORT(fit_nodes_lanes);
 
 void fit_groups(const TreeFibers& fibers, const std::uint32_t* first_points,
                 std::uint32_t segment_count, std::uint32_t begin, std::uint32_t end, Run* runs,
-                RunWays* ways, BoxBlock* boxes) {
+                RunDisplacement* displacements, BoxBlock* boxes) {
   HWY_DYNAMIC_DISPATCH(fit_groups_lanes)
-  (fibers, first_points, segment_count, begin, end, runs, ways, boxes);
+  (fibers, first_points, segment_count, begin, end, runs, displacements, boxes);
 }
 
 void fit_nodes(const BoxBlock* boxes_below, std::uint32_t child_count, std::uint32_t begin,

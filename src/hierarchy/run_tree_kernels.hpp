@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "fiber_proximity/export.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "src/hierarchy/pair_bound.hpp"
 
@@ -24,7 +25,7 @@ struct alignas(32) Run {
 
 /// How far the eight segments of a run move [m]: from that much before where the run has them to as
 /// much beyond, all points of a segment alike; by how much they do not, its radius is larger.
-struct alignas(32) RunWays {
+struct alignas(32) RunDisplacement {
   float half[3][run_width];
 };
 
@@ -44,26 +45,26 @@ struct RunTreeLevel {
 
   /// Of the children, by node: the least of their segments' first points. Lanes without a child
   /// have the largest number there is.
-  const std::uint32_t* least_points;
+  const std::uint32_t* min_points;
 };
 
 /// What the kernels see of a tree.
 struct RunTreeView {
-  static constexpr std::uint32_t most_levels = 11;  // 8^11 runs are more than there can be
+  static constexpr std::uint32_t max_levels = 11;  // 8^11 runs are more than there can be
 
   const Run* runs = nullptr;
-  const RunWays* ways = nullptr;  ///< of the runs; none where nothing moves
+  const RunDisplacement* displacements = nullptr;  ///< of the runs; none where nothing moves
   /// Of the segments, along the curve; lanes without a segment repeat the last.
   const std::uint32_t* first_points = nullptr;
   std::uint32_t segment_count = 0;
-  RunTreeLevel levels[most_levels] = {};
+  RunTreeLevel levels[max_levels] = {};
   std::uint32_t level_count = 0;
 
   std::uint32_t group_count() const { return level_count == 0 ? 0 : levels[0].node_count; }
 
   /// The least first point of a group's segments.
-  std::uint32_t least_point(std::uint32_t group) const {
-    const std::uint32_t* const of_runs = levels[0].least_points + std::size_t{group} * run_width;
+  std::uint32_t min_point(std::uint32_t group) const {
+    const std::uint32_t* const of_runs = levels[0].min_points + std::size_t{group} * run_width;
     return *std::min_element(of_runs, of_runs + run_width);
   }
 };
@@ -134,10 +135,11 @@ class PairSink {
 /// Fits the runs of groups [begin, end): their segments and boxes, which hold all that segments
 /// that move come by.
 /// @param first_points of all segments, along the curve
-/// @param runs, ways, boxes by run, by run, by group; no ways of what does not move
+/// @param runs, displacements, boxes by run, by run, by group; no displacements of what does not
+/// move
 void fit_groups(const TreeFibers& fibers, const std::uint32_t* first_points,
                 std::uint32_t segment_count, std::uint32_t begin, std::uint32_t end, Run* runs,
-                RunWays* ways, BoxBlock* boxes);
+                RunDisplacement* displacements, BoxBlock* boxes);
 
 /// Fits the nodes [begin, end) of a level above the groups to the boxes of the level below.
 /// @param child_count of the whole level
@@ -155,8 +157,9 @@ std::uint32_t nearest_run(const RunTreeView& tree, const BoxBlock& boxes);
 /// @param tests, overlaps boxes of nodes that were tested, and those that were near, are added to
 /// these
 /// @return whether the sink wanted to go on
-bool find_near_segments(const RunTreeView& a, std::uint32_t begin, std::uint32_t end,
-                        const RunTreeView& b, PairSink& sink, std::uint64_t& tests,
-                        std::uint64_t& overlaps);
+FIBER_PROXIMITY_EXPORT bool find_near_segments(const RunTreeView& a, std::uint32_t begin,
+                                               std::uint32_t end, const RunTreeView& b,
+                                               PairSink& sink, std::uint64_t& tests,
+                                               std::uint64_t& overlaps);
 
 }  // namespace fiber

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "fiber_proximity/export.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "src/bounds/aabb.hpp"
 
@@ -12,7 +13,7 @@ namespace fiber {
 /// all and thicker by half the margin, so that two overlap where the segments are no further apart
 /// than it; in single precision, rounded outward as those of our own engines, and clamped to
 /// 1e12 m.
-class SegmentBoxes {
+class FIBER_PROXIMITY_EXPORT SegmentBoxes {
  public:
   /// @param margin [m] finite, >= 0
   explicit SegmentBoxes(double margin) : margin_(margin) {}

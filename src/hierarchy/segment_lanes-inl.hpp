@@ -22,7 +22,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// Rounding a point, and all that the tests of segment_lanes-inl.hpp do with it, errs by less than
 /// 32 u of the largest coordinate, u = 2⁻²⁴; the constant keeps it alive where floats run out [m].
 constexpr float relative_padding = 0x1p-19F;
-constexpr float least_padding = 0x1p-60F;
+constexpr float min_padding = 0x1p-60F;
 
 /// At most the eight lanes of a run, fewer where the machine has no more.
 using Floats = hn::CappedTag<float, run_width>;

@@ -45,14 +45,14 @@ class Buckets {
           return found;
         },
         united);
-    least_ = extremes.least;
+    min_ = extremes.least;
     const std::uint64_t range = extremes.largest - extremes.least;
     while ((range >> shift_) >= bucket_count) {
       ++shift_;
     }
   }
 
-  std::size_t of(std::uint64_t key) const { return (key - least_) >> shift_; }
+  std::size_t of(std::uint64_t key) const { return (key - min_) >> shift_; }
 
  private:
   struct Extremes {
@@ -64,7 +64,7 @@ class Buckets {
     return {std::min(a.least, b.least), std::max(a.largest, b.largest)};
   }
 
-  std::uint64_t least_ = 0;
+  std::uint64_t min_ = 0;
   unsigned shift_ = 0;
 };
 

@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <vector>
 
+#include "fiber_proximity/export.hpp"
+
 namespace fiber {
 
 /// Hilbert's space-filling curve through the bounding box of some points: positions along it put
 /// what is near in space near in order. Neighbours on it are neighbours in space, which Morton's
 /// curve, with its jumps, does not offer (docs/performance.md).
-class SpaceCurve {
+class FIBER_PROXIMITY_EXPORT SpaceCurve {
  public:
   explicit SpaceCurve(const std::vector<Eigen::Vector3d>& points);
 

@@ -132,14 +132,14 @@ class CsvReader {
 
   /// Of columns that are not read.
   std::string note_of_others() const {
-    constexpr std::size_t most_names = 5;
+    constexpr std::size_t max_names = 5;
     const std::vector<std::string>& others = columns_->others;
     std::string note = others.size() == 1 ? "column " : "columns ";
-    for (std::size_t i = 0; i < others.size() && i < most_names; ++i) {
+    for (std::size_t i = 0; i < others.size() && i < max_names; ++i) {
       note += (i == 0 ? "" : ", ") + quote(others[i]);
     }
-    if (others.size() > most_names) {
-      note += " and " + std::to_string(others.size() - most_names) + " more";
+    if (others.size() > max_names) {
+      note += " and " + std::to_string(others.size() - max_names) + " more";
     }
     note += others.size() == 1 ? " is not read" : " are not read";
     return note + (columns_->has(CsvColumns::FIBER) ? ""

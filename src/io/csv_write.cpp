@@ -31,7 +31,7 @@ void append_rows(std::string& text, const FiberFrame& frame, bool has_frames) {
         append_number(text, coordinate);
       }
       text += ',';
-      append_number(text, point_radius(frame.fibers, fiber, point));
+      append_number(text, frame.fibers.radius_at(fiber, point));
       text += '\n';
     }
   }

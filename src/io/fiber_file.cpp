@@ -75,7 +75,7 @@ void write_vtp(std::ostream& stream, const FiberAssembly& fibers) {
          << "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<PointData Scalars=\"radius\">\n";
   write_array(stream, "type=\"Float64\" Name=\"radius\"", points,
               [&](std::string& text, std::size_t i) {
-                append_number(text, point_radius(fibers, fiber_of[i], i));
+                append_number(text, fibers.radius_at(fiber_of[i], i));
               });
   write_array(stream, "type=\"Int64\" Name=\"fiber\"", points,
               [&](std::string& text, std::size_t i) { append_number(text, fiber_of[i]); });

@@ -1,10 +1,9 @@
-#include "fiber_proximity/io/fiber_names.hpp"
-
 #include <stdexcept>
 #include <string_view>
 #include <unordered_set>
 #include <utility>
 
+#include "fiber_proximity/io/fiber_file.hpp"
 #include "src/text/quote.hpp"
 
 namespace fiber {

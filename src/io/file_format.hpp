@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "fiber_proximity/export.hpp"
+
 namespace fiber {
 
 /// Formats of files with fibres, and of tables about them.
@@ -17,10 +19,10 @@ enum class FileFormat {
 };
 
 /// What a file's name means by its end, in capitals or not; nothing by most ends, and by none.
-std::optional<FileFormat> format_meant(const std::string& path);
+FIBER_PROXIMITY_EXPORT std::optional<FileFormat> format_meant(const std::string& path);
 
 /// The same; CSV where it means nothing.
-FileFormat format_of(const std::string& path);
+FIBER_PROXIMITY_EXPORT FileFormat format_of(const std::string& path);
 
 /// What a file is that has a name of CSV, by its first bytes, for an error; "" if they are none
 /// that are known.
@@ -37,6 +39,7 @@ void require_format_to_write(const std::string& path);
 /// Sees that a name does not mean another format than the one that is written; "" means nothing.
 /// @param what is called so, such as an option
 /// @throws std::invalid_argument
-void require_format(FileFormat format, const std::string& what, const std::string& path);
+FIBER_PROXIMITY_EXPORT void require_format(FileFormat format, const std::string& what,
+                                           const std::string& path);
 
 }  // namespace fiber

@@ -91,10 +91,10 @@ class HairReader {
       refuse("the flags" + at_byte(flags_byte) + " are " + text_of(header_.flags) +
              ", without the points (" + text_of<std::uint32_t>(POINTS) + ") there are no fibres");
     }
-    constexpr std::uint32_t most_points = 0x7fff'ffffU;
-    if (header_.points > most_points) {
+    constexpr std::uint32_t max_points = 0x7fff'ffffU;
+    if (header_.points > max_points) {
       refuse("the number of points" + at_byte(point_count_byte) + " is " + text_of(header_.points) +
-             ", at most " + text_of(most_points) + " are supported");
+             ", at most " + text_of(max_points) + " are supported");
     }
   }
 

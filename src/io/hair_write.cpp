@@ -60,10 +60,10 @@ Header header_of(const FiberAssembly& fibers, std::uint32_t flags) {
 void append_segments(std::string& bytes, const FiberAssembly& fibers) {
   for (std::size_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
     const std::uint32_t segments = segments_of(fibers, fiber);
-    constexpr std::uint32_t most_segments = std::numeric_limits<std::uint16_t>::max();
-    if (segments > most_segments) {
+    constexpr std::uint32_t max_segments = std::numeric_limits<std::uint16_t>::max();
+    if (segments > max_segments) {
       refuse("fibre " + std::to_string(fiber) + " has " + std::to_string(segments) +
-             " segments, more than " + std::to_string(most_segments) +
+             " segments, more than " + std::to_string(max_segments) +
              " and not as many as the others");
     }
     append(bytes, static_cast<std::uint16_t>(segments));
@@ -87,7 +87,7 @@ std::string encoded(const FiberFile& file) {
   }
   const FiberAssembly& fibers = file.frames.front().fibers;
   const bool segments_differ = fibers.fiber_count() > 0 && common_segments(fibers) == 0;
-  const bool radii_differ = fibers.radii().size() > 1;
+  const bool radii_differ = fibers.radius_per() != RadiusPer::ASSEMBLY;
   const std::uint32_t flags =
       POINTS | (segments_differ ? SEGMENTS : 0U) | (radii_differ ? THICKNESS : 0U);
   std::string bytes(signature, sizeof(signature));
@@ -105,7 +105,7 @@ std::string encoded(const FiberFile& file) {
   });
   if (radii_differ) {
     for_each_point(fibers, [&](std::size_t fiber, std::size_t i) {
-      append(bytes, single_precision(2.0 * point_radius(fibers, fiber, i), "the thickness", fiber,
+      append(bytes, single_precision(2.0 * fibers.radius_at(fiber, i), "the thickness", fiber,
                                      i - fibers.offsets()[fiber]));
     });
   }

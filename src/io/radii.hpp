@@ -30,13 +30,4 @@ inline std::vector<double> shared_if_equal(std::vector<double> radii) {
   return radii;
 }
 
-/// Radius at a point: its own if there is one per point, else that of its fibre [m].
-inline double point_radius(const FiberAssembly& fibers, std::size_t fiber, std::size_t point) {
-  const std::vector<double>& radii = fibers.radii();
-  if (radii.size() == 1) {
-    return radii.front();
-  }
-  return radii.size() == fibers.fiber_count() ? radii[fiber] : radii[point];
-}
-
 }  // namespace fiber

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "fiber_proximity/export.hpp"
 #include "fiber_proximity/io/file.hpp"
 
 namespace fiber {
@@ -23,10 +24,11 @@ struct SegmentPair {
 /// lines, lines that begin with # and a first line of column names. Quotes, and how long lines and
 /// values may be, are as in read_csv().
 /// @throws FileError naming line, column, value and what is allowed
-std::vector<SegmentPair> read_segment_pairs(const std::string& path);
+FIBER_PROXIMITY_EXPORT std::vector<SegmentPair> read_segment_pairs(const std::string& path);
 
 /// The same from a stream; errors call it by `name`.
-std::vector<SegmentPair> read_segment_pairs(std::istream& stream, const std::string& name);
+FIBER_PROXIMITY_EXPORT std::vector<SegmentPair> read_segment_pairs(std::istream& stream,
+                                                                   const std::string& name);
 
 /// Two segments whose ends each move linearly, from where they are before, at t = 0, to where they
 /// are after, at t = 1 [m].
@@ -45,9 +47,10 @@ struct MovingSegmentPair {
 /// Separators, blank lines and a first line of column names are as in read_segment_pairs(); further
 /// columns are refused.
 /// @throws FileError naming line, column, value and what is allowed
-std::vector<MovingSegmentPair> read_segment_motions(const std::string& path);
+FIBER_PROXIMITY_EXPORT std::vector<MovingSegmentPair> read_segment_motions(const std::string& path);
 
 /// The same from a stream; errors call it by `name`.
-std::vector<MovingSegmentPair> read_segment_motions(std::istream& stream, const std::string& name);
+FIBER_PROXIMITY_EXPORT std::vector<MovingSegmentPair> read_segment_motions(std::istream& stream,
+                                                                           const std::string& name);
 
 }  // namespace fiber

@@ -6,18 +6,18 @@
 #include <optional>
 #include <utility>
 
-#include "src/mpi/first_places.hpp"
+#include "src/mpi/kth_smallest.hpp"
 
 namespace fiber {
 namespace {
 
-Place place_of(const DistributedContact& contact) {
+PairKey sort_key(const DistributedContact& contact) {
   return {
       contact.distance, {contact.fiber_a, contact.segment_a}, {contact.fiber_b, contact.segment_b}};
 }
 
 bool is_closer(const DistributedContact& x, const DistributedContact& y) {
-  return place_of(x) < place_of(y);
+  return sort_key(x) < sort_key(y);
 }
 
 /// The so many closest ones of this rank first; how many these are.
@@ -31,14 +31,14 @@ std::size_t closest_first(std::uint64_t count, std::vector<DistributedContact>& 
 }
 
 /// None if there are fewer.
-std::optional<Place> find_last_of_closest(const Communicator& ranks, std::uint64_t count,
-                                          std::vector<DistributedContact>& contacts) {
+std::optional<PairKey> find_last_of_closest(const Communicator& ranks, std::uint64_t count,
+                                            std::vector<DistributedContact>& contacts) {
   const std::size_t kept = closest_first(count, contacts);
-  std::vector<Place> places;
+  std::vector<PairKey> places;
   places.reserve(kept);
   std::transform(contacts.begin(), contacts.begin() + static_cast<std::ptrdiff_t>(kept),
-                 std::back_inserter(places), place_of);
-  return last_of_first(ranks, count, std::move(places));
+                 std::back_inserter(places), sort_key);
+  return kth_smallest(ranks, count, std::move(places));
 }
 
 /// Leaves those that this holds for.
@@ -59,25 +59,25 @@ void keep_if(const IsKept& is_kept, DistributedResult& result) {
 
 double margin_of_closest(const Communicator& ranks, std::uint64_t count,
                          std::vector<DistributedContact>& contacts) {
-  const std::optional<Place> last = find_last_of_closest(ranks, count, contacts);
+  const std::optional<PairKey> last = find_last_of_closest(ranks, count, contacts);
   if (!last) {
     return std::numeric_limits<double>::infinity();
   }
   double margin = last->value;
   for (const DistributedContact& contact : contacts) {
-    if (!(*last < place_of(contact))) {
+    if (!(*last < sort_key(contact))) {
       margin = std::max(margin, contact.upper);
     }
   }
-  return ranks.largest(margin);
+  return ranks.max(margin);
 }
 
 bool keep_closest(const Communicator& ranks, std::uint64_t count, DistributedResult& result) {
   if (ranks.sum(result.contacts.size()) <= count) {
     return false;
   }
-  const std::optional<Place> last = find_last_of_closest(ranks, count, result.contacts);
-  keep_if([&](const DistributedContact& contact) { return !(*last < place_of(contact)); }, result);
+  const std::optional<PairKey> last = find_last_of_closest(ranks, count, result.contacts);
+  keep_if([&](const DistributedContact& contact) { return !(*last < sort_key(contact)); }, result);
   return true;
 }
 

@@ -16,7 +16,7 @@ std::uint64_t hash_of_fibers(std::uint64_t fiber_a, std::uint64_t fiber_b) {
   return (fiber_a * odd ^ fiber_b) * odd >> 32U;
 }
 
-auto two_fibers_of(const Place& place) { return std::tie(place.a.fiber, place.b.fiber); }
+auto two_fibers_of(const PairKey& key) { return std::tie(key.a.fiber, key.b.fiber); }
 
 }  // namespace
 
@@ -35,11 +35,11 @@ const FiberPairMinimum* ClosestOfFibers::find(std::uint64_t fiber_a, std::uint64
 }
 
 double ClosestOfFibers::keep(const FiberPairMinimum& minimum) {
-  const FiberPair pair{minimum.place.a.fiber, minimum.place.b.fiber};
+  const FiberPair pair{minimum.key.a.fiber, minimum.key.b.fiber};
   const FiberPairMinimum* known = find(pair.a, pair.b);
   double lower = no_gap;
   if (known != nullptr) {
-    assert(minimum.place < known->place);
+    assert(minimum.key < known->key);
     lower = known->is_here ? known->contact.lower : no_gap;
     minima_[last_place_] = minimum;
   } else {
@@ -60,40 +60,40 @@ void ClosestOfFibers::lower_bound() {
   changes_ = 0;
   double most = -no_gap;
   for (const FiberPairMinimum& minimum : minima_) {
-    most = std::max(most, minimum.place.value);
+    most = std::max(most, minimum.key.value);
   }
   bound_ = std::min(bound_, most);
 }
 
 double ClosestOfFibers::exchange(const Communicator& ranks, double& others_lower) {
-  std::vector<Place> places;
+  std::vector<PairKey> places;
   places.reserve(minima_.size());
   for (const FiberPairMinimum& minimum : minima_) {
-    places.push_back(minimum.place);
+    places.push_back(minimum.key);
   }
-  const std::vector<Place> closest = closest_of_fibers(ranks, places);
+  const std::vector<PairKey> closest = closest_of_fibers(ranks, places);
   double most = -no_gap;
   std::uint64_t reported = 0;
   for (std::size_t i = 0; i < minima_.size(); ++i) {
     FiberPairMinimum& minimum = minima_[i];
-    if (closest[i] < minimum.place) {
+    if (closest[i] < minimum.key) {
       others_lower = minimum.is_here ? std::min(others_lower, minimum.contact.lower) : others_lower;
-      minimum.place = closest[i];
+      minimum.key = closest[i];
       minimum.is_here = false;
       ++changes_;
     }
-    most = minimum.is_here ? std::max({most, minimum.place.value, minimum.contact.upper}) : most;
+    most = minimum.is_here ? std::max({most, minimum.key.value, minimum.contact.upper}) : most;
     reported += minimum.is_here ? 1 : 0;
   }
   lower_bound();
   // Each pair of segments is one rank's, so each pair of fibres that has any is counted once.
   const bool are_all_known = ranks.sum(reported) == pair_count_;
-  most = ranks.largest(most);
+  most = ranks.max(most);
   bound_ = are_all_known ? std::min(bound_, std::max(0.0, most)) : bound_;
   return are_all_known ? std::min(margin_, std::max(0.0, most)) : margin_;
 }
 
-std::uint64_t count_fiber_pairs(const Communicator& ranks, const NamedFibers& own,
+std::uint64_t count_fiber_pairs(const Communicator& ranks, const LocalFibers& own,
                                 Pairing pairing) {
   const auto& runs = own.runs();
   const auto starts = std::count_if(runs.begin(), runs.end(),
@@ -108,42 +108,43 @@ std::uint64_t count_fiber_pairs(const Communicator& ranks, const NamedFibers& ow
                                                 : of_two + fibers;
 }
 
-std::vector<Place> closest_of_fibers(const Communicator& ranks, const std::vector<Place>& places) {
+std::vector<PairKey> closest_of_fibers(const Communicator& ranks,
+                                       const std::vector<PairKey>& places) {
   // Each pair of fibres has a rank where its places meet.
   const auto size = static_cast<std::size_t>(ranks.size());
-  const auto home_of = [size](const Place& place) {
-    return hash_of_fibers(place.a.fiber, place.b.fiber) % size;
+  const auto home_of = [size](const PairKey& key) {
+    return hash_of_fibers(key.a.fiber, key.b.fiber) % size;
   };
-  PerRank<Place> met(size);
-  for (const Place& place : places) {
-    met[home_of(place)].push_back(place);
+  PerRank<PairKey> met(size);
+  for (const PairKey& key : places) {
+    met[home_of(key)].push_back(key);
   }
   met = ranks.exchange(std::move(met));
-  std::vector<Place> closest;
-  for (const std::vector<Place>& some : met) {
+  std::vector<PairKey> closest;
+  for (const std::vector<PairKey>& some : met) {
     closest.insert(closest.end(), some.begin(), some.end());
   }
-  std::sort(closest.begin(), closest.end(), [](const Place& x, const Place& y) {
+  std::sort(closest.begin(), closest.end(), [](const PairKey& x, const PairKey& y) {
     return two_fibers_of(x) < two_fibers_of(y) || (two_fibers_of(x) == two_fibers_of(y) && x < y);
   });
   closest.erase(std::unique(closest.begin(), closest.end(),
-                            [](const Place& x, const Place& y) {
+                            [](const PairKey& x, const PairKey& y) {
                               return two_fibers_of(x) == two_fibers_of(y);
                             }),
                 closest.end());
-  for (std::vector<Place>& some : met) {
-    for (Place& place : some) {
-      place = *std::lower_bound(
-          closest.begin(), closest.end(), place,
-          [](const Place& x, const Place& y) { return two_fibers_of(x) < two_fibers_of(y); });
+  for (std::vector<PairKey>& some : met) {
+    for (PairKey& key : some) {
+      key = *std::lower_bound(
+          closest.begin(), closest.end(), key,
+          [](const PairKey& x, const PairKey& y) { return two_fibers_of(x) < two_fibers_of(y); });
     }
   }
   met = ranks.exchange(std::move(met));
   std::vector<std::size_t> next(size, 0);
-  std::vector<Place> answers;
+  std::vector<PairKey> answers;
   answers.reserve(places.size());
-  for (const Place& place : places) {
-    const std::size_t home = home_of(place);
+  for (const PairKey& key : places) {
+    const std::size_t home = home_of(key);
     answers.push_back(met[home][next[home]++]);
   }
   return answers;

@@ -8,14 +8,14 @@
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/options.hpp"
 #include "src/mpi/communicator.hpp"
-#include "src/mpi/first_places.hpp"
-#include "src/mpi/named_fibers.hpp"
+#include "src/mpi/kth_smallest.hpp"
+#include "src/mpi/local_fibers.hpp"
 
 namespace fiber {
 
 /// The closest pair of segments of two fibres, as far as it is known.
 struct FiberPairMinimum {
-  Place place;             ///< names are those of all ranks
+  PairKey key;             ///< of global ids
   Contact contact;         ///< the same, by numbers of fibres here, if it is_here
   bool is_here = false;    ///< otherwise another rank reports it
   bool is_across = false;  ///< its segment b is another rank's
@@ -40,7 +40,7 @@ class ClosestOfFibers {
   /// [m] Pairs of segments of these fibres further apart than this do not matter.
   double bound_of(std::uint64_t fiber_a, std::uint64_t fiber_b) {
     const FiberPairMinimum* minimum = find(fiber_a, fiber_b);
-    return minimum == nullptr ? bound_ : minimum->place.value;
+    return minimum == nullptr ? bound_ : minimum->key.value;
   }
 
   /// Keeps a pair that is closer than what is known of its fibres.
@@ -82,10 +82,11 @@ class ClosestOfFibers {
 };
 
 /// How many pairs of fibres may have a closest pair of segments, over all ranks. Collective.
-std::uint64_t count_fiber_pairs(const Communicator& ranks, const NamedFibers& own, Pairing pairing);
+std::uint64_t count_fiber_pairs(const Communicator& ranks, const LocalFibers& own, Pairing pairing);
 
-/// Of the fibres of each place the closest place that any rank has. Collective.
+/// Of the fibres of each key the closest key that any rank has. Collective.
 /// @param places of this rank, each of other fibres
-std::vector<Place> closest_of_fibers(const Communicator& ranks, const std::vector<Place>& places);
+std::vector<PairKey> closest_of_fibers(const Communicator& ranks,
+                                       const std::vector<PairKey>& places);
 
 }  // namespace fiber

@@ -45,7 +45,7 @@ Communicator::~Communicator() {
   }
 }
 
-void Communicator::agree(const std::string& error) const {
+void Communicator::throw_on_all(const std::string& error) const {
   const int mine = error.empty() ? size_ : rank_;
   int first = size_;
   MPI_Allreduce(&mine, &first, 1, MPI_INT, MPI_MIN, ranks_);
@@ -67,13 +67,13 @@ bool Communicator::all(bool value) const {
   return least != 0;
 }
 
-double Communicator::smallest(double value) const {
+double Communicator::min(double value) const {
   double least = value;
   MPI_Allreduce(&value, &least, 1, MPI_DOUBLE, MPI_MIN, ranks_);
   return least;
 }
 
-double Communicator::largest(double value) const { return -smallest(-value); }
+double Communicator::max(double value) const { return -min(-value); }
 
 std::uint64_t Communicator::sum(std::uint64_t value) const {
   std::uint64_t all = 0;
@@ -119,8 +119,8 @@ std::string error_in(const std::function<void()>& work) {
   return "";
 }
 
-void on_first_rank(const Communicator& ranks, const std::function<void()>& work) {
-  ranks.agree(ranks.rank() == 0 ? error_in(work) : "");
+void run_on_root(const Communicator& ranks, const std::function<void()>& work) {
+  ranks.throw_on_all(ranks.rank() == 0 ? error_in(work) : "");
 }
 
 }  // namespace fiber

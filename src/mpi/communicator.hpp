@@ -34,11 +34,11 @@ class Communicator {
   /// Ends what cannot go on, on all ranks alike.
   /// @param error of this rank, "" for none
   /// @throws std::invalid_argument on every rank if any has an error: that of the lowest of these
-  void agree(const std::string& error) const;
+  void throw_on_all(const std::string& error) const;
 
   bool all(bool value) const;
-  double smallest(double value) const;
-  double largest(double value) const;
+  double min(double value) const;
+  double max(double value) const;
   std::uint64_t sum(std::uint64_t value) const;
 
   /// Of each rank its value.
@@ -52,7 +52,7 @@ class Communicator {
 
   /// Of rank 0 its value.
   template <class T>
-  T from_first(T value) const {
+  T broadcast(T value) const {
     static_assert(std::is_trivially_copyable_v<T>);
     MPI_Bcast(&value, sizeof(T), MPI_BYTE, 0, ranks_);
     return value;
@@ -60,9 +60,9 @@ class Communicator {
 
   /// The same of a list.
   template <class T>
-  std::vector<T> from_first(std::vector<T> values) const {
+  std::vector<T> broadcast(std::vector<T> values) const {
     static_assert(std::is_trivially_copyable_v<T>);
-    values.resize(from_first<std::uint64_t>(values.size()));
+    values.resize(broadcast<std::uint64_t>(values.size()));
     broadcast(values.data(), values.size() * sizeof(T));
     return values;
   }
@@ -91,7 +91,7 @@ std::string error_in(const std::function<void()>& work);
 
 /// Does on rank 0 what may go wrong there. Collective.
 /// @throws std::invalid_argument on all ranks if it does
-void on_first_rank(const Communicator& ranks, const std::function<void()>& work);
+void run_on_root(const Communicator& ranks, const std::function<void()>& work);
 
 /// Messages under way. Those of any size: MPI counts in int.
 class Transfer {

@@ -78,7 +78,7 @@ std::vector<ContactKey> find_splitters(const Communicator& ranks, const std::vec
       splitters.push_back(sample.key);
     }
   }
-  splitters.resize(static_cast<std::size_t>(ranks.from_first(std::uint64_t{splitters.size()})));
+  splitters.resize(static_cast<std::size_t>(ranks.broadcast(std::uint64_t{splitters.size()})));
   MPI_Bcast(splitters.data(), static_cast<int>(splitters.size() * sizeof(ContactKey)), MPI_BYTE, 0,
             ranks.handle());
   return splitters;

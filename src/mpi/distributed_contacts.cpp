@@ -12,10 +12,10 @@ namespace fiber {
 
 DistributedResult gather(MPI_Comm ranks, const DistributedResult& result, int root) {
   const Communicator all(ranks);
-  all.agree(root >= 0 && root < all.size()
-                ? ""
-                : "root is " + std::to_string(root) + ", there are ranks 0 to " +
-                      std::to_string(all.size() - 1));
+  all.throw_on_all(root >= 0 && root < all.size()
+                       ? ""
+                       : "root is " + std::to_string(root) + ", there are ranks 0 to " +
+                             std::to_string(all.size() - 1));
   PerRank<PlainContact> contacts(static_cast<std::size_t>(all.size()));
   std::vector<PlainContact>& mine = contacts[static_cast<std::size_t>(root)];
   mine.reserve(result.contacts.size());
@@ -25,7 +25,7 @@ DistributedResult gather(MPI_Comm ranks, const DistributedResult& result, int ro
   DistributedResult gathered;
   gathered.limit_reached = result.limit_reached;
   gathered.complete = result.complete;
-  gathered.others_lower = all.smallest(result.others_lower);
+  gathered.others_lower = all.min(result.others_lower);
   for (const std::vector<PlainContact>& some : contacts) {
     std::transform(some.begin(), some.end(), std::back_inserter(gathered.contacts), contact_from);
   }

@@ -7,13 +7,13 @@
 
 #include "src/mpi/closest_contacts.hpp"
 #include "src/mpi/communicator.hpp"
+#include "src/mpi/contact_search.hpp"
 #include "src/mpi/distributed_options.hpp"
 #include "src/mpi/earliest_contacts.hpp"
-#include "src/mpi/halo.hpp"
+#include "src/mpi/halo_exchange.hpp"
+#include "src/mpi/motion_search.hpp"
 #include "src/mpi/plain_contact.hpp"
 #include "src/mpi/rank_fibers.hpp"
-#include "src/mpi/rank_motions.hpp"
-#include "src/mpi/rank_search.hpp"
 
 namespace fiber {
 
@@ -24,9 +24,9 @@ struct DistributedEngine::State {
   Communicator ranks;
   EngineOptions engine_options;
   RankFibers fibers;
-  HaloLists lists;
-  RankSearch search;
-  std::optional<RankMotions> motions;  // none until there is a motion
+  SendLists lists;
+  ContactSearch search;
+  std::optional<MotionSearch> motions;  // none until there is a motion
 
   bool has_motion = false;
 
@@ -49,11 +49,11 @@ struct DistributedEngine::State {
 /// @param most contacts to be reported
 void DistributedEngine::State::find_all(const QueryOptions& options, std::uint64_t most,
                                         DistributedResult& result) {
-  const bool is_limited = most != RankSearch::no_limit;
+  const bool is_limited = most != ContactSearch::no_limit;
   const Deadline deadline(options.deadline);
-  Halo halo(ranks, fibers.states(), lists.find(ranks, fibers, options.margin));
+  HaloExchange halo(ranks, fibers.states(), lists.find(ranks, fibers, options.margin));
   // Of a limited number one more, to see whether there are more.
-  search.find_inner(options, is_limited ? most + 1 : RankSearch::no_limit, result);
+  search.find_inner(options, is_limited ? most + 1 : ContactSearch::no_limit, result);
   QueryOptions rest = options;
   rest.deadline = deadline.left();
   search.find_across(halo.take(), rest, result);
@@ -68,7 +68,7 @@ void DistributedEngine::State::find_closest_of_fibers(const QueryOptions& option
   // The lists of a margin serve several queries, and its halo comes while this rank looks at what
   // it has. Without a margin all others would come: then what it finds says first how near they
   // matter.
-  std::optional<Halo> halo;
+  std::optional<HaloExchange> halo;
   const auto send = [&](double margin) {
     halo.emplace(ranks, fibers.states(), lists.find(ranks, fibers, margin));
   };
@@ -100,8 +100,9 @@ void DistributedEngine::State::find_closest(const QueryOptions& options, std::ui
     QueryOptions rest = options;
     rest.margin = std::max(0.0, std::min(options.margin, enough));
     rest.deadline = deadline.left();
-    search.find_across(Halo(ranks, fibers.states(), lists.find(ranks, fibers, rest.margin)).take(),
-                       rest, result);
+    search.find_across(
+        HaloExchange(ranks, fibers.states(), lists.find(ranks, fibers, rest.margin)).take(), rest,
+        result);
     search.write(result.contacts);
   }
   keep_closest(ranks, most, result);
@@ -162,7 +163,7 @@ void DistributedEngine::query(const QueryOptions& options, DistributedResult& re
   QueryOptions here = options;
   here.pair_limit = state.share_of(options.pair_limit);
   const bool is_limited = options.contact_limit > 0;
-  const std::uint64_t most = is_limited ? options.contact_limit : RankSearch::no_limit;
+  const std::uint64_t most = is_limited ? options.contact_limit : ContactSearch::no_limit;
   result.contacts.clear();
   switch (options.type) {
     case QueryType::FIRST:
@@ -184,7 +185,7 @@ void DistributedEngine::query(const QueryOptions& options, DistributedResult& re
   }
   result.limit_reached = !state.ranks.all(!result.limit_reached);
   result.complete = state.ranks.all(result.complete);
-  result.others_lower = state.ranks.smallest(result.others_lower);
+  result.others_lower = state.ranks.min(result.others_lower);
 }
 
 DistributedFacts DistributedEngine::facts() const {

@@ -26,7 +26,7 @@ struct Field {
 void require_same(const Communicator& ranks, const std::vector<Field>& fields) {
   for (const Field& field : fields) {
     // Before this all ranks have the same text for an error.
-    if (ranks.smallest(field.value) != ranks.largest(field.value)) {
+    if (ranks.min(field.value) != ranks.max(field.value)) {
       throw std::invalid_argument(std::string(field.name) +
                                   " is not the same on all ranks, it must be");
     }
@@ -50,14 +50,14 @@ void require_same(const Communicator& ranks, const PairOptions& options) {
 }  // namespace
 
 void require_distributed_options(const Communicator& ranks, const QueryOptions& options) {
-  ranks.agree(error_of(options));
+  ranks.throw_on_all(error_of(options));
   require_same(ranks, {{"type", static_cast<double>(options.type)},
                        {"kernel", static_cast<double>(options.kernel)}});
   require_same(ranks, static_cast<const PairOptions&>(options));
 }
 
 void require_distributed_options(const Communicator& ranks, const MotionOptions& options) {
-  ranks.agree(error_of(options));
+  ranks.throw_on_all(error_of(options));
   require_same(ranks, {{"type", static_cast<double>(options.type)},
                        {"tolerance", options.tolerance},
                        {"time_tolerance", options.time_tolerance}});

@@ -4,13 +4,13 @@
 #include <optional>
 #include <vector>
 
-#include "src/mpi/first_places.hpp"
+#include "src/mpi/kth_smallest.hpp"
 #include "src/query/motion_evaluator.hpp"
 
 namespace fiber {
 namespace {
 
-Place place_of(double value, const DistributedMotionContact& contact) {
+PairKey sort_key(double value, const DistributedMotionContact& contact) {
   return {value, {contact.fiber_a, contact.segment_a}, {contact.fiber_b, contact.segment_b}};
 }
 
@@ -24,15 +24,15 @@ bool keep_first(const Communicator& ranks, std::uint64_t most, const Value& valu
   if (most == 0 || ranks.sum(contacts.size()) <= most) {
     return false;
   }
-  std::vector<Place> places;
+  std::vector<PairKey> places;
   places.reserve(contacts.size());
   for (const DistributedMotionContact& contact : contacts) {
-    places.push_back(place_of(value(contact), contact));
+    places.push_back(sort_key(value(contact), contact));
   }
-  const std::optional<Place> last = last_of_first(ranks, most, std::move(places));
+  const std::optional<PairKey> last = kth_smallest(ranks, most, std::move(places));
   std::size_t kept = 0;
   for (const DistributedMotionContact& contact : contacts) {
-    if (*last < place_of(value(contact), contact)) {
+    if (*last < sort_key(value(contact), contact)) {
       dropped(contact);
     } else {
       contacts[kept++] = contact;
@@ -64,14 +64,14 @@ void keep_earliest(const Communicator& ranks, const MotionOptions& options,
       ranks, options.contact_limit, [](const auto& /*contact*/) { return 0.0; },
       [](const auto& /*contact*/) {}, result.touching);
   const bool are_more = keep_first(
-      ranks, most_contacts(options), [](const auto& contact) { return contact.lower; },
+      ranks, max_reported(options), [](const auto& contact) { return contact.lower; },
       [&](const auto& contact) { others_lower = std::min(others_lower, contact.lower); },
       result.contacts);
   sort(result.contacts);
   sort(result.touching);
   result.limit_reached =
       result.limit_reached || are_more_touching || (are_more && options.type != MotionType::FIRST);
-  result.others_lower = ranks.smallest(are_more_touching ? 0.0 : others_lower);
+  result.others_lower = ranks.min(are_more_touching ? 0.0 : others_lower);
 }
 
 }  // namespace fiber

@@ -76,7 +76,7 @@ FiberChains::FiberChains(const Communicator& ranks, const FiberAssembly& parts,
   }
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const PartNotice& x, const PartNotice& y) { return x.first < y.first; });
-  ranks.agree(gap_in(sorted));
+  ranks.throw_on_all(gap_in(sorted));
 
   PerRank<LinkNotice> links(size);
   for (std::size_t i = 0; i < sorted.size(); ++i) {
@@ -145,8 +145,8 @@ ArcLengths FiberChains::arc_lengths(const Communicator& ranks, const FiberAssemb
     }
   }
   MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
-  ranks.agree(error);
-  lengths.roundings = ranks.largest(lengths.roundings);
+  ranks.throw_on_all(error);
+  lengths.roundings = ranks.max(lengths.roundings);
   return lengths;
 }
 

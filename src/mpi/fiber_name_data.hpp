@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "fiber_proximity/io/fiber_names.hpp"
+#include "fiber_proximity/io/fiber_file.hpp"
 #include "fiber_proximity/mpi/distributed_engine.hpp"
 
 namespace fiber {

@@ -29,8 +29,8 @@ FiberNames names_in_text(const std::vector<char>& text) {
   return FiberNames(std::move(names));
 }
 
-FiberNames names_from_first(const Communicator& ranks, const FiberNames& names) {
-  const std::vector<char> text = ranks.from_first(text_of_names(names));
+FiberNames broadcast_names(const Communicator& ranks, const FiberNames& names) {
+  const std::vector<char> text = ranks.broadcast(text_of_names(names));
   return ranks.rank() == 0 ? names : names_in_text(text);
 }
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "fiber_proximity/io/fiber_names.hpp"
+#include "fiber_proximity/io/fiber_file.hpp"
 #include "src/mpi/communicator.hpp"
 
 namespace fiber {
@@ -16,6 +16,6 @@ std::vector<char> text_of_names(const FiberNames& names);
 FiberNames names_in_text(const std::vector<char>& text);
 
 /// The names that rank 0 has, for every rank. Collective.
-FiberNames names_from_first(const Communicator& ranks, const FiberNames& names);
+FiberNames broadcast_names(const Communicator& ranks, const FiberNames& names);
 
 }  // namespace fiber

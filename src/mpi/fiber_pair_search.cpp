@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "fiber_proximity/query/for_engines/pair_collector.hpp"
 #include "src/bounds/bounding_volume.hpp"
 #include "src/mpi/ordered_pairs.hpp"
 
@@ -36,8 +37,8 @@ class FiberPairSearch::Sink final : public PairSink {
   const bool is_across_;
 };
 
-FiberPairSearch::FiberPairSearch(const Communicator& ranks, const NamedFibers& own,
-                                 const RunTreeEngine& engine, const NamedFibers& halo,
+FiberPairSearch::FiberPairSearch(const Communicator& ranks, const LocalFibers& own,
+                                 const RunTreeEngine& engine, const LocalFibers& halo,
                                  const QueryOptions& options, const QueryOptions& here)
     : ranks_(ranks),
       own_(own),
@@ -46,7 +47,7 @@ FiberPairSearch::FiberPairSearch(const Communicator& ranks, const NamedFibers& o
       options_(options),
       deadline_(options.deadline),
       inner_test_(own.fibers(), here),
-      own_names_(own),
+      own_ids_(own),
       closest_(count_fiber_pairs(ranks, own, options.pairing), options.margin),
       own_loops_(own),
       tries_left_(own.fibers().segment_count()),
@@ -60,7 +61,7 @@ double FiberPairSearch::find_inner() {
 void FiberPairSearch::find_across() {
   join_halo();
   across_test_.emplace(own_.fibers(), halo_.fibers(), options_);
-  halo_names_ = SegmentNames(halo_);
+  halo_ids_ = GlobalSegments(halo_);
   Sink sink(*this, true);
   const auto is_over_now = [this] { return is_over(); };
   if (halo_.fibers().point_count() == 0) {
@@ -74,8 +75,7 @@ void FiberPairSearch::find_across() {
     look();
   }
   ask_about_loops();
-  leave_out(is_over_ ? std::min(inner_test_.least_gap(), across_test_->least_gap())
-                     : closest_.bound());
+  leave_out(is_over_ ? std::min(inner_test_.min_gap(), across_test_->min_gap()) : closest_.bound());
 }
 
 /// At pairs of own segments: before there is a halo, and then at those that waited for it.
@@ -89,9 +89,9 @@ void FiberPairSearch::offer_inner(PointPair points) {
   if (points.b < points.a) {
     std::swap(points.a, points.b);  // points here are in the order of names
   }
-  const Pair pair{points, own_names_.name_of(points.a), own_names_.name_of(points.b), false};
+  const Pair pair{points, own_ids_.global_id(points.a), own_ids_.global_id(points.b), false};
   const bool waits =
-      needs_loop(pair) && own_names_.stretch_of(points.a) != own_names_.stretch_of(points.b);
+      needs_loop(pair) && own_ids_.stretch_of(points.a) != own_ids_.stretch_of(points.b);
   has_split_fibers_ = has_split_fibers_ || waits;
   if (across_test_ ? waits : !waits || tries_left_ > 0) {
     consider(pair);
@@ -101,7 +101,7 @@ void FiberPairSearch::offer_inner(PointPair points) {
 /// @param points of a segment of the halo, and of one of this rank
 void FiberPairSearch::offer_across(PointPair points) {
   const Pair pair{
-      {points.b, points.a}, own_names_.name_of(points.b), halo_names_.name_of(points.a), true};
+      {points.b, points.a}, own_ids_.global_id(points.b), halo_ids_.global_id(points.a), true};
   if (pair.a < pair.b) {  // otherwise another rank's
     consider(pair);
   }
@@ -144,10 +144,10 @@ void FiberPairSearch::consider(const Pair& pair) {
   if (is_left_out(pair, contact)) {
     return;
   }
-  const Place place{contact.distance, pair.a, pair.b};
+  const PairKey key{contact.distance, pair.a, pair.b};
   const FiberPairMinimum* minimum = closest_.find(pair.a.fiber, pair.b.fiber);
-  if (minimum != nullptr && !(place < minimum->place)) {
-    if (minimum->place < place) {  // not the same pair, looked at again
+  if (minimum != nullptr && !(key < minimum->key)) {
+    if (minimum->key < key) {  // not the same pair, looked at again
       leave_out(contact.lower);
     }
   } else if (!needs_loop(pair) || along) {
@@ -181,9 +181,9 @@ bool FiberPairSearch::is_over() {
   return is_over_;
 }
 
-bool FiberPairSearch::is_closer(const Place& place) {
-  const FiberPairMinimum* minimum = closest_.find(place.a.fiber, place.b.fiber);
-  return minimum == nullptr || place < minimum->place;
+bool FiberPairSearch::is_closer(const PairKey& key) {
+  const FiberPairMinimum* minimum = closest_.find(key.a.fiber, key.b.fiber);
+  return minimum == nullptr || key < minimum->key;
 }
 
 void FiberPairSearch::keep(const Pair& pair, const Contact& contact) {
@@ -203,12 +203,12 @@ void FiberPairSearch::join_halo() {
   if (!options_.needs_loops() || options_.pairing == Pairing::DIFFERENT_FIBERS) {
     return;
   }
-  ranks_.agree(error_in([this] {
+  ranks_.throw_on_all(error_in([this] {
     if (halo_.runs().empty()) {
       return;
     }
     FiberRuns all;
-    for (const NamedFibers* some : {&own_, &halo_}) {
+    for (const LocalFibers* some : {&own_, &halo_}) {
       for (const FiberRun& run : some->runs()) {
         some->add_to(all, run, 0, run.count);
       }
@@ -221,11 +221,10 @@ void FiberPairSearch::join_halo() {
 /// Where both segments are, if that is one stretch: of what has been joined or else of own ones.
 std::optional<PointPair> FiberPairSearch::on_one_stretch(const Pair& pair) {
   if (!loops_) {
-    const bool is_one =
-        own_names_.stretch_of(pair.points.a) == own_names_.stretch_of(pair.points.b);
+    const bool is_one = own_ids_.stretch_of(pair.points.a) == own_ids_.stretch_of(pair.points.b);
     return is_one ? std::optional(pair.points) : std::nullopt;
   }
-  const std::vector<GlobalSegment>& names = joined_.names();
+  const std::vector<GlobalSegment>& names = joined_.first_ids();
   const auto has_first = [&](std::uint32_t stretch) {
     return !(pair.a < names[stretch]) &&
            (stretch + 1 == names.size() || pair.a < names[stretch + 1]);
@@ -249,10 +248,10 @@ bool FiberPairSearch::is_ruled_out(PointPair along) const {
 }
 
 bool FiberPairSearch::makes_loop(PointPair along, const PairDistance& distance) {
-  std::uint64_t looks = 0;
-  const bool makes = loops_ ? loops_->makes_loop(along, distance.nearest, looks)
-                            : !inner_test_.lacks_loop(along, distance, looks);
-  pairs_left_ -= std::min(pairs_left_, looks / QueryLimits::looks_per_pair);
+  std::uint64_t loop_steps = 0;
+  const bool makes = loops_ ? loops_->makes_loop(along, distance.nearest, loop_steps)
+                            : !inner_test_.lacks_loop(along, distance, loop_steps);
+  pairs_left_ -= std::min(pairs_left_, loop_steps / QueryLimits::loop_steps_per_pair);
   return makes;
 }
 
@@ -260,7 +259,7 @@ bool FiberPairSearch::makes_loop(PointPair along, const PairDistance& distance) 
 void FiberPairSearch::ask_about_loops() {
   constexpr std::size_t more = 4;
   std::sort(open_.begin(), open_.end(), [](const OpenPair& x, const OpenPair& y) {
-    return x.a.fiber < y.a.fiber || (x.a.fiber == y.a.fiber && x.place() < y.place());
+    return x.a.fiber < y.a.fiber || (x.a.fiber == y.a.fiber && x.key() < y.key());
   });
   for (std::size_t most = 1; true; most *= more) {
     closest_.exchange(ranks_, others_lower_);
@@ -279,7 +278,7 @@ void FiberPairSearch::ask_about_loops() {
       if (!loops[i]) {
         continue;
       }
-      if (is_closer(asked[i].place())) {
+      if (is_closer(asked[i].key())) {
         const NarrowPhase& test = test_of(asked[i]);
         keep(asked[i], test.contact(asked[i].points, test.distance(asked[i].points)));
       } else {
@@ -297,7 +296,7 @@ LoopQuestion FiberPairSearch::question_about(const Pair& pair) const {
 void FiberPairSearch::drop_those_beaten() {
   std::size_t kept = 0;
   for (const OpenPair& pair : open_) {
-    if (is_closer(pair.place())) {
+    if (is_closer(pair.key())) {
       open_[kept++] = pair;
     } else {
       leave_out(pair.lower);

@@ -5,12 +5,12 @@
 #include <optional>
 #include <vector>
 
-#include "fiber_proximity/query/loop_test.hpp"
-#include "fiber_proximity/query/narrow_phase.hpp"
+#include "fiber_proximity/query/for_engines/loop_test.hpp"
+#include "fiber_proximity/query/for_engines/narrow_phase.hpp"
 #include "src/mpi/closest_of_fibers.hpp"
+#include "src/mpi/global_segments.hpp"
+#include "src/mpi/local_fibers.hpp"
 #include "src/mpi/loop_questions.hpp"
-#include "src/mpi/named_fibers.hpp"
-#include "src/mpi/segment_names.hpp"
 #include "src/mpi/whole_fiber_pairs.hpp"
 #include "src/query/run_tree_engine.hpp"
 
@@ -25,8 +25,8 @@ class FiberPairSearch {
   /// @param halo    gets what others send
   /// @param options those of the query
   /// @param here    the same for stretches of fibres
-  FiberPairSearch(const Communicator& ranks, const NamedFibers& own, const RunTreeEngine& engine,
-                  const NamedFibers& halo, const QueryOptions& options, const QueryOptions& here);
+  FiberPairSearch(const Communicator& ranks, const LocalFibers& own, const RunTreeEngine& engine,
+                  const LocalFibers& halo, const QueryOptions& options, const QueryOptions& here);
 
   /// Pairs of segments of this rank. Collective.
   /// @return [m] how close segments of others must be to matter
@@ -58,7 +58,7 @@ class FiberPairSearch {
     double distance = 0.0;  // [m]
     double lower = 0.0;     // [m] of the true gap
 
-    Place place() const { return {distance, a, b}; }
+    PairKey key() const { return {distance, a, b}; }
   };
 
   void look();
@@ -82,25 +82,25 @@ class FiberPairSearch {
   const NarrowPhase& test_of(const Pair& pair) const {
     return pair.is_across ? *across_test_ : inner_test_;
   }
-  bool is_closer(const Place& place);
+  bool is_closer(const PairKey& key);
   bool takes_pair();
   bool is_over();
   void leave_out(double lower) { others_lower_ = std::min(others_lower_, lower); }
 
   const Communicator& ranks_;
-  const NamedFibers& own_;
+  const LocalFibers& own_;
   const RunTreeEngine& engine_;
-  const NamedFibers& halo_;
+  const LocalFibers& halo_;
   const QueryOptions& options_;
   const Deadline deadline_;
   const NarrowPhase inner_test_;
   std::optional<NarrowPhase> across_test_;  // once there is a halo
-  const SegmentNames own_names_;
-  SegmentNames halo_names_;
+  const GlobalSegments own_ids_;
+  GlobalSegments halo_ids_;
 
   ClosestOfFibers closest_;
   // Own segments and those of the halo together, where loops need them:
-  NamedFibers joined_;
+  LocalFibers joined_;
   std::optional<LoopTest> loops_;     // of these
   std::uint32_t joined_stretch_ = 0;  // that of the pair before
 

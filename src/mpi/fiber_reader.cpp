@@ -216,7 +216,7 @@ struct DistributedFiberReader::State {
 void DistributedFiberReader::State::do_or_agree(const std::string& place,
                                                 const std::function<void()>& work) const {
   const std::string error = error_in(work);
-  ranks.agree(error.empty() ? "" : FileError(path, place + error).what());
+  ranks.throw_on_all(error.empty() ? "" : FileError(path, place + error).what());
 }
 
 void DistributedFiberReader::State::open() {
@@ -242,7 +242,7 @@ void DistributedFiberReader::State::open() {
 
 DistributedFiberReader::DistributedFiberReader(MPI_Comm ranks, const std::string& path)
     : state_(std::make_unique<State>(ranks, path)) {
-  on_first_rank(state_->ranks, [&] {
+  run_on_root(state_->ranks, [&] {
     errno = 0;
     if (std::ifstream file(path, std::ios::binary); !file) {
       throw FileError::from_system(path, "cannot be opened");

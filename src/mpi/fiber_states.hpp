@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "src/mpi/box_tree.hpp"
-#include "src/mpi/named_fibers.hpp"
+#include "src/mpi/local_fibers.hpp"
 
 namespace fiber {
 
@@ -20,8 +20,8 @@ inline double largest_radius(const FiberAssembly& fibers, std::uint64_t begin, s
 
 /// Fibres as they are, or before and after a motion, of the same runs and points then.
 struct FiberStates {
-  const NamedFibers& before;
-  const NamedFibers* after = nullptr;  // none: they stay
+  const LocalFibers& before;
+  const LocalFibers* after = nullptr;  // none: they stay
 
   /// Calls with the fibres of each state.
   template <class Call>

@@ -37,7 +37,7 @@ PartEnd end_of(const DistributedFibers& fibers, std::size_t part, bool is_start)
   const FiberPart& name = fibers.names[part];
   return {{name.fiber, name.first_segment + (point - begin)},
           plain(fibers.parts.points()[point]),
-          point_radius(fibers.parts, part, point)};
+          fibers.parts.radius_at(part, point)};
 }
 
 /// Of a rank the parts that are lines of their own in the file, and what it adds to it.
@@ -112,7 +112,7 @@ class FiberDatasets {
       for (; point < fibers.parts.offsets()[part + 1]; ++point) {
         const Eigen::Vector3d& p = fibers.parts.points()[point];
         points_.append(p[0], p[1], p[2]);
-        radii_.append(point_radius(fibers.parts, part, point));
+        radii_.append(fibers.parts.radius_at(part, point));
         connectivity_.append(static_cast<std::int64_t>(next_point_++));
       }
     }
@@ -181,11 +181,11 @@ std::size_t DistributedFiberWriter::done() const { return state_->files.done(); 
 void DistributedFiberWriter::write(std::int64_t frame, const DistributedFibers& fibers) {
   const Communicator& ranks = state_->ranks;
   const std::size_t count = fibers.parts.fiber_count();
-  ranks.agree(fibers.names.size() == count
-                  ? ""
-                  : std::to_string(fibers.names.size()) + " names for " + std::to_string(count) +
-                        " parts, there must be one per part");
-  ranks.agree(error_in([&] { require_names(fibers); }));
+  ranks.throw_on_all(fibers.names.size() == count
+                         ? ""
+                         : std::to_string(fibers.names.size()) + " names for " +
+                               std::to_string(count) + " parts, there must be one per part");
+  ranks.throw_on_all(error_in([&] { require_names(fibers); }));
   const RankLines lines = lines_of(ranks, fibers);
   const std::uint64_t size = size_of(lines.all) + size_of_names(fibers.fiber_names);
   state_->files.write(frame, size, [&](hid_t file) -> std::function<void()> {

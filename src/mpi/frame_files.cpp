@@ -24,11 +24,11 @@ constexpr std::uint64_t space_of_link = 512;      // [byte] the same, of a link
 /// Makes the unfinished file of a name, as large as it will be.
 /// @throws FileError
 void make_room(const std::string& path, std::uint64_t size) {
-  OutputFile(aside(path)).close();
+  OutputFile(partial_name(path)).close();
   try {
-    reserve(aside(path), size);
+    reserve(partial_name(path), size);
   } catch (const FileError&) {
-    remove_aside(path);
+    remove_partial(path);
     throw;
   }
 }
@@ -36,7 +36,7 @@ void make_room(const std::string& path, std::uint64_t size) {
 /// Where a file is written, by all ranks at once, anywhere in it. Collective.
 std::string place_of_file(const Communicator& ranks, const std::string& path) {
   const WritePlace place = write_place(ranks, path);
-  ranks.agree(
+  ranks.throw_on_all(
       place.is_file
           ? ""
           : FileError(path, "is a device or a pipe: HDF5 can be written to a file only").what());
@@ -73,7 +73,7 @@ FrameFiles::FrameFiles(const Communicator& ranks, const std::string& path, std::
       options_(std::move(options)) {
   const QuietHdf5 quiet;
   std::uint64_t done = 0;
-  on_first_rank(ranks_, [&] {
+  run_on_root(ranks_, [&] {
     if (options_.resume) {
       done = count_done();
     } else {
@@ -81,7 +81,7 @@ FrameFiles::FrameFiles(const Communicator& ranks, const std::string& path, std::
     }
     // Whether it can be written is known before hours of work.
     make_room(path_, space_of_names);
-    remove_aside(path_);
+    remove_partial(path_);
   });
   done_ = ranks_.sum(done);
 }
@@ -154,7 +154,7 @@ void FrameFiles::write(std::int64_t frame, std::uint64_t data_size,
                        const std::function<std::function<void()>(hid_t file)>& make) {
   const QuietHdf5 quiet;
   const std::string path = path_of(done_);
-  on_first_rank(ranks_, [&] {
+  run_on_root(ranks_, [&] {
     if (!options_.has_frames && done_ > 0) {
       throw FileError(path_, "holds one frame, without a number: there cannot be another");
     }
@@ -167,7 +167,7 @@ void FrameFiles::write(std::int64_t frame, std::uint64_t data_size,
   std::optional<Hdf5Id> file;
   std::function<void()> write_rows;
   std::string error = error_in([&] {
-    file.emplace(create_parallel_file(ranks_, aside(path)));
+    file.emplace(create_parallel_file(ranks_, partial_name(path)));
     write_attributes(file->get());
     if (options_.has_frames) {
       write_numbers(file->get(), attribute::frame, {frame});
@@ -182,25 +182,26 @@ void FrameFiles::write(std::int64_t frame, std::uint64_t data_size,
   write_rows = {};
   if (!went_well && ranks_.rank() == 0) {
     std::error_code ignored;
-    std::filesystem::resize_file(aside(path), 0, ignored);  // HDF5 needs some space to give up
+    std::filesystem::resize_file(partial_name(path), 0,
+                                 ignored);  // HDF5 needs some space to give up
   }
-  ranks_.agree("");
+  ranks_.throw_on_all("");
   if (file) {
     const std::string at_end = error_in([&] { file->close("cannot be written"); });
     error = error.empty() ? at_end : error;
   }
   if (!ranks_.all(error.empty()) && ranks_.rank() == 0) {
-    remove_aside(path);
+    remove_partial(path);
   }
-  ranks_.agree(error.empty() ? "" : FileError(aside(path), error).what());
-  on_first_rank(ranks_, [&] { move_into_place(path); });
+  ranks_.throw_on_all(error.empty() ? "" : FileError(partial_name(path), error).what());
+  run_on_root(ranks_, [&] { move_into_place(path); });
   ++done_;
 }
 
 void FrameFiles::write_links() const {
   make_room(path_, space_of_names + done_ * space_of_link);
-  Hdf5Id file(H5Fcreate(aside(path_).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose,
-              "cannot be written");
+  Hdf5Id file(H5Fcreate(partial_name(path_).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
+              H5Fclose, "cannot be written");
   write_attributes(file.get());
   write_numbers(file.get(), attribute::has_frames, {1});
   const Hdf5Id frames = create_group(file.get(), "frames");
@@ -216,15 +217,15 @@ void FrameFiles::write_links() const {
 
 void FrameFiles::finish() {
   const QuietHdf5 quiet;
-  on_first_rank(ranks_, [&] {
+  run_on_root(ranks_, [&] {
     if (!options_.has_frames && done_ == 0) {
       throw FileError(path_, "has no frame");
     }
     if (options_.has_frames) {
       const std::string error = error_in([&] { write_links(); });
       if (!error.empty()) {
-        remove_aside(path_);
-        throw FileError(aside(path_), error);
+        remove_partial(path_);
+        throw FileError(partial_name(path_), error);
       }
       move_into_place(path_);
     }

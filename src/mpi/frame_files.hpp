@@ -10,7 +10,7 @@
 
 #include "fiber_proximity/mpi/distributed_files.hpp"
 #include "src/mpi/communicator.hpp"
-#include "src/mpi/whole_file.hpp"
+#include "src/mpi/partial_file.hpp"
 
 namespace fiber {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "src/mpi/fiber_runs.hpp"
-#include "src/mpi/named_fibers.hpp"
+#include "src/mpi/local_fibers.hpp"
 #include "src/query/loop_rule.hpp"
 
 namespace fiber {
@@ -31,7 +31,7 @@ struct PlainLoopQuestion {
 /// Runs of a rank that loops are looked for in, with boxes.
 class KnownRuns {
  public:
-  explicit KnownRuns(const NamedFibers& fibers) : fibers_(fibers) {}
+  explicit KnownRuns(const LocalFibers& fibers) : fibers_(fibers) {}
 
   /// Those that follow each other as one.
   std::vector<OwnedRun> joined(int rank) const {
@@ -111,7 +111,7 @@ class KnownRuns {
     return box;
   }
 
-  const NamedFibers& fibers_;
+  const LocalFibers& fibers_;
   std::vector<Eigen::AlignedBox3d> boxes_;  // empty where they were not needed yet
 };
 

@@ -123,8 +123,8 @@ PlainLoopQuestion plain_question(const LoopQuestion& question) {
 
 }  // namespace
 
-std::vector<bool> find_loops(const Communicator& ranks, const NamedFibers& own,
-                             const NamedFibers& halo, const std::vector<LoopQuestion>& questions) {
+std::vector<bool> find_loops(const Communicator& ranks, const LocalFibers& own,
+                             const LocalFibers& halo, const std::vector<LoopQuestion>& questions) {
   KnownRuns own_runs(own);
   KnownRuns halo_runs(halo);
   std::vector<bool> loops(questions.size());

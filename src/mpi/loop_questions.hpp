@@ -6,7 +6,7 @@
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "src/mpi/communicator.hpp"
 #include "src/mpi/known_runs.hpp"
-#include "src/mpi/named_fibers.hpp"
+#include "src/mpi/local_fibers.hpp"
 
 namespace fiber {
 
@@ -25,19 +25,19 @@ struct LoopQuestion {
 /// @param own  segments of this rank
 /// @param halo segments of others that it knows
 /// @return one per question of this rank
-std::vector<bool> find_loops(const Communicator& ranks, const NamedFibers& own,
-                             const NamedFibers& halo, const std::vector<LoopQuestion>& questions);
+std::vector<bool> find_loops(const Communicator& ranks, const LocalFibers& own,
+                             const LocalFibers& halo, const std::vector<LoopQuestion>& questions);
 
 /// What the segments of one rank tell of loops by themselves.
 class LoopsOfRank {
  public:
-  explicit LoopsOfRank(const NamedFibers& own) : own_(own), of_others_(none_) {}
+  explicit LoopsOfRank(const LocalFibers& own) : own_(own), of_others_(none_) {}
 
   /// Whether there is a loop for certain. If not, there may be one by the points of others.
   bool know_of(const LoopQuestion& question);
 
  private:
-  const NamedFibers none_;
+  const LocalFibers none_;
   KnownRuns own_;
   KnownRuns of_others_;
 };

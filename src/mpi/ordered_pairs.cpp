@@ -27,9 +27,9 @@ std::vector<std::uint32_t> starts_of_segments(const FiberAssembly& fibers) {
   return starts;
 }
 
-GlobalSegment name_at(const NamedFibers& fibers, std::uint32_t point) {
+GlobalSegment name_at(const LocalFibers& fibers, std::uint32_t point) {
   const SegmentId id = fibers.fibers().segment_id(point);
-  return fibers.name_of(id.fiber, id.segment);
+  return fibers.global_id(id.fiber, id.segment);
 }
 
 bool offer_all_of(const RunTree& halo, const RunTree& own, PairSink& sink,
@@ -46,7 +46,7 @@ bool offer_all_of(const RunTree& halo, const RunTree& own, PairSink& sink,
 
 }  // namespace
 
-void offer_ordered_pairs(const NamedFibers& halo, const NamedFibers& own, PairSink& sink,
+void offer_ordered_pairs(const LocalFibers& halo, const LocalFibers& own, PairSink& sink,
                          const std::function<bool()>& is_over, QueryCounts& counts) {
   const std::vector<std::uint32_t> own_starts = starts_of_segments(own.fibers());
   const std::vector<std::uint32_t> halo_starts = starts_of_segments(halo.fibers());

@@ -68,8 +68,8 @@ Objects with_cube(const Communicator& ranks, const Objects& objects) {
   }
   double edge = 0.0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    lower[axis] = ranks.smallest(lower[axis]);
-    edge = std::max(edge, ranks.largest(upper[axis]) - lower[axis]);
+    lower[axis] = ranks.min(lower[axis]);
+    edge = std::max(edge, ranks.max(upper[axis]) - lower[axis]);
   }
   Objects all = objects;
   if (ranks.rank() == 0) {
@@ -99,10 +99,10 @@ std::string zoltan_error(int code) {
   }
 }
 
-/// Communicator::agree() after Zoltan. Its functions talk to other ranks, and one of them leaves
-/// where it fails: others may wait for it in Zoltan for ever. The one that has failed then ends
-/// all.
-void agree_after_zoltan(const Communicator& ranks, const std::string& error) {
+/// Communicator::throw_on_all() after Zoltan. Its functions talk to other ranks, and one of them
+/// leaves where it fails: others may wait for it in Zoltan for ever. The one that has failed then
+/// ends all.
+void throw_on_all_after_zoltan(const Communicator& ranks, const std::string& error) {
   const int has_failed = error.empty() ? 0 : 1;
   int one_has_failed = 0;
   MPI_Request all_came = MPI_REQUEST_NULL;
@@ -121,7 +121,7 @@ void agree_after_zoltan(const Communicator& ranks, const std::string& error) {
   }
   MPI_Wait(&all_came, MPI_STATUS_IGNORE);
   if (one_has_failed != 0) {
-    ranks.agree(error);
+    ranks.throw_on_all(error);
   }
 }
 
@@ -149,7 +149,7 @@ std::vector<int> partition(const Communicator& ranks, const std::vector<Partitio
   float version = 0.0F;
   Zoltan_Initialize(0, nullptr, &version);
   const std::unique_ptr<Zoltan_Struct, DestroyZoltan> zoltan(Zoltan_Create(ranks.handle()));
-  agree_after_zoltan(ranks, zoltan_error(zoltan ? ZOLTAN_OK : ZOLTAN_MEMERR));
+  throw_on_all_after_zoltan(ranks, zoltan_error(zoltan ? ZOLTAN_OK : ZOLTAN_MEMERR));
   const std::string count = std::to_string(parts);
   for (const auto& [name, value] :
        {std::pair("DEBUG_LEVEL", "0"),  // first: it writes about the others
@@ -174,7 +174,7 @@ std::vector<int> partition(const Communicator& ranks, const std::vector<Partitio
       Zoltan_LB_Partition(zoltan.get(), &changes, &global_entries, &local_entries, &come.count,
                           &come.global_ids, &come.local_ids, &come.ranks, &come.parts, &go.count,
                           &go.global_ids, &go.local_ids, &go.ranks, &go.parts);
-  agree_after_zoltan(ranks, zoltan_error(error));
+  throw_on_all_after_zoltan(ranks, zoltan_error(error));
   // Those that are not told of belong to the part of this rank's number.
   std::vector<int> part_of(objects.size(), ranks.rank());
   for (int i = 0; i < go.count; ++i) {

@@ -8,7 +8,7 @@
 
 #include "src/mpi/box_tree.hpp"
 #include "src/mpi/fiber_states.hpp"
-#include "src/mpi/named_fibers.hpp"
+#include "src/mpi/local_fibers.hpp"
 #include "src/mpi/piece_capsule.hpp"
 
 namespace fiber {

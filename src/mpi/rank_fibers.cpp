@@ -20,7 +20,7 @@ constexpr std::uint32_t segments_per_piece = 16;
 constexpr std::size_t nodes_per_slice = std::size_t{1} << 16U;
 
 // The most that the cost of one rank may be of the mean, beside what the last split reached.
-constexpr double most_imbalance = 1.1;
+constexpr double max_imbalance = 1.1;
 
 /// Goes through the pieces of parts, one after another.
 class PieceCursor {
@@ -73,9 +73,9 @@ bool RankFibers::is_too_uneven(const std::vector<double>& costs) {
   }
   if (!evenness_is_known_) {
     evenness_is_known_ = true;
-    reached_ = most / mean;
+    best_imbalance_ = most / mean;
   }
-  return most > most_imbalance * reached_ * mean;
+  return most > max_imbalance * best_imbalance_ * mean;
 }
 
 /// Of the pieces that this rank brings, in their order, what their owners say.
@@ -85,7 +85,7 @@ std::vector<double> RankFibers::costs_of_pieces(const Communicator& ranks,
   PerRank<double> costs(static_cast<std::size_t>(ranks.size()));
   for (std::size_t other = 0; other < costs.size(); ++other) {
     for (std::size_t i = first_of_rank_[other]; i < first_of_rank_[other + 1]; ++i) {
-      costs[other].push_back(of_runs[own_.place_of(i)]);
+      costs[other].push_back(of_runs[own_.sorted_index(i)]);
     }
   }
   costs = ranks.exchange(std::move(costs));
@@ -138,7 +138,7 @@ void RankFibers::hand_over(const Communicator& ranks) {
   for (const std::vector<FiberRun>& some : runs) {
     first_of_rank_.push_back(first_of_rank_.back() + some.size());
   }
-  ranks.agree(error_in([&] { own_.assign(joined_runs(runs)); }));
+  ranks.throw_on_all(error_in([&] { own_.assign(joined_runs(runs)); }));
   ++hand_over_count_;
 }
 
@@ -146,7 +146,7 @@ void RankFibers::hand_over(const Communicator& ranks) {
 /// @param arcs  [m] of the pieces
 /// @param owned of this rank: its runs, open
 void RankFibers::send_nodes(const Communicator& ranks, const FiberAssembly& parts,
-                            const std::vector<double>& arcs, NamedFibers& owned) const {
+                            const std::vector<double>& arcs, LocalFibers& owned) const {
   const auto size = static_cast<std::size_t>(ranks.size());
   PerRank<double> arcs_to(size);
   for (std::size_t i = 0; i < arcs.size(); ++i) {
@@ -177,7 +177,7 @@ void RankFibers::send_nodes(const Communicator& ranks, const FiberAssembly& part
       }
     }
   }
-  ranks.agree(error_in([&] { owned.close(); }));
+  ranks.throw_on_all(error_in([&] { owned.close(); }));
 }
 
 void RankFibers::take(const Communicator& ranks, const FiberAssembly& parts,
@@ -185,11 +185,12 @@ void RankFibers::take(const Communicator& ranks, const FiberAssembly& parts,
                       const RankLoad& load) {
   const bool is_same = ranks.all(is_as_before(parts, names));
   has_fibers_ = false;
-  ranks.agree(names.size() == parts.fiber_count()
-                  ? ""
-                  : std::to_string(names.size()) + " names for " +
-                        std::to_string(parts.fiber_count()) + " parts, there must be one per part");
-  ranks.agree(
+  ranks.throw_on_all(names.size() == parts.fiber_count()
+                         ? ""
+                         : std::to_string(names.size()) + " names for " +
+                               std::to_string(parts.fiber_count()) +
+                               " parts, there must be one per part");
+  ranks.throw_on_all(
       after == nullptr || after->offsets() == parts.offsets()
           ? ""
           : "the parts after the motion are not of the same numbers of points as before it");
@@ -204,7 +205,7 @@ void RankFibers::take(const Communicator& ranks, const FiberAssembly& parts,
     split(ranks, parts, is_uneven ? costs_of_pieces(ranks, load) : std::vector<double>());
     hand_over(ranks);
     evenness_is_known_ = !is_uneven;
-    reached_ = 1.0;
+    best_imbalance_ = 1.0;
   } else {
     own_.open();
   }
@@ -216,17 +217,17 @@ void RankFibers::take(const Communicator& ranks, const FiberAssembly& parts,
     own_after_.open();
     send_nodes(ranks, *after, arcs.of_pieces, own_after_);
   } else if (do_move_) {
-    own_after_ = NamedFibers();
+    own_after_ = LocalFibers();
   }
-  const double moved = ranks.largest(own_.moved());
+  const double moved = ranks.max(own_.moved());
   if (do_move_ || after != nullptr || std::isinf(moved)) {
-    way_ = {way_.epoch + 1, 0.0, 0.0};
+    displacement_ = {displacement_.epoch + 1, 0.0, 0.0};
   } else {
     // Rounded up, so that a difference of two sums is no less than what was added between.
-    const double length =
-        moved == 0.0 ? way_.length
-                     : std::nextafter(way_.length + moved, std::numeric_limits<double>::infinity());
-    way_ = {way_.epoch, length, moved};
+    const double length = moved == 0.0 ? displacement_.length
+                                       : std::nextafter(displacement_.length + moved,
+                                                        std::numeric_limits<double>::infinity());
+    displacement_ = {displacement_.epoch, length, moved};
   }
   do_move_ = after != nullptr;
   has_fibers_ = true;
@@ -234,8 +235,8 @@ void RankFibers::take(const Communicator& ranks, const FiberAssembly& parts,
 
 DistributedFibers RankFibers::adopt(const Communicator& ranks) {
   DistributedFibers own{own_.fibers(), {}};
-  own.names.reserve(own_.names().size());
-  for (const GlobalSegment& first : own_.names()) {
+  own.names.reserve(own_.first_ids().size());
+  for (const GlobalSegment& first : own_.first_ids()) {
     own.names.push_back({first.fiber, first.segment});
   }
   name_parts(ranks, own.parts, own.names);
@@ -243,22 +244,24 @@ DistributedFibers RankFibers::adopt(const Communicator& ranks) {
   destinations_.assign(arcs.of_pieces.size(), ranks.rank());
   hand_over(ranks);
   send_nodes(ranks, own.parts, arcs.of_pieces, own_);
-  way_ = {way_.epoch + 1, 0.0, 0.0};
+  displacement_ = {displacement_.epoch + 1, 0.0, 0.0};
   return own;
 }
 
 const PieceBoxes& RankFibers::fit_boxes() {
-  if (boxes_way_.epoch != way_.epoch || boxes_way_.length != way_.length) {
+  if (boxes_displacement_.epoch != displacement_.epoch ||
+      boxes_displacement_.length != displacement_.length) {
     boxes_.update(states(), boxes_hand_over_ == hand_over_count_);
     boxes_hand_over_ = hand_over_count_;
-    boxes_way_ = way_;
+    boxes_displacement_ = displacement_;
   }
   return boxes_;
 }
 
 PlainBox RankFibers::around() const {
-  assert(boxes_way_.epoch == way_.epoch && !boxes_.tree().empty());
-  return inflated(boxes_.tree().root(), (1.0 + 0x1p-40) * (way_.length - boxes_way_.length));
+  assert(boxes_displacement_.epoch == displacement_.epoch && !boxes_.tree().empty());
+  return inflated(boxes_.tree().root(),
+                  (1.0 + 0x1p-40) * (displacement_.length - boxes_displacement_.length));
 }
 
 }  // namespace fiber

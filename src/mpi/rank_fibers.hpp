@@ -8,7 +8,7 @@
 #include "fiber_proximity/mpi/distributed_engine.hpp"
 #include "src/mpi/communicator.hpp"
 #include "src/mpi/fiber_chains.hpp"
-#include "src/mpi/named_fibers.hpp"
+#include "src/mpi/local_fibers.hpp"
 #include "src/mpi/piece_boxes.hpp"
 #include "src/mpi/rank_load.hpp"
 
@@ -45,13 +45,13 @@ class RankFibers {
   bool do_move() const { return do_move_; }
 
   /// What this rank owns, before the motion if there is one.
-  const NamedFibers& own() const { return own_; }
-  const NamedFibers& own_after() const { return own_after_; }
+  const LocalFibers& own() const { return own_; }
+  const LocalFibers& own_after() const { return own_after_; }
 
   FiberStates states() const { return {own_, do_move_ ? &own_after_ : nullptr}; }
 
   /// How far points have come, of all ranks.
-  struct Way {
+  struct Displacement {
     std::uint64_t epoch = 0;  // since when they have gone it
     double length = 0.0;      // [m] that no point has gone further than
     double last = 0.0;        // [m] with the last update
@@ -59,7 +59,7 @@ class RankFibers {
 
   /// The same on all ranks. An epoch begins where it is not known how far points have come: where
   /// fibres are split, have other radii, or go a way themselves.
-  const Way& way() const { return way_; }
+  const Displacement& displacement() const { return displacement_; }
 
   /// Boxes of own(), fitted to where they are.
   const PieceBoxes& fit_boxes();
@@ -83,7 +83,7 @@ class RankFibers {
   void hand_over(const Communicator& ranks);
   std::vector<double> costs_of_pieces(const Communicator& ranks, const RankLoad& load) const;
   void send_nodes(const Communicator& ranks, const FiberAssembly& parts,
-                  const std::vector<double>& arcs, NamedFibers& owned) const;
+                  const std::vector<double>& arcs, LocalFibers& owned) const;
   void take(const Communicator& ranks, const FiberAssembly& parts, const FiberAssembly* after,
             const std::vector<FiberPart>& names, const RankLoad& load);
 
@@ -93,18 +93,18 @@ class RankFibers {
   std::optional<FiberChains> chains_;
   std::vector<int> destinations_;  // of their pieces
 
-  NamedFibers own_;
-  NamedFibers own_after_;
+  LocalFibers own_;
+  LocalFibers own_after_;
   PieceBoxes boxes_;
   std::uint64_t boxes_hand_over_ = 0;  // hand_over_count_ of the fibres that they are of
-  Way boxes_way_;                      // of these when they were fitted
-  Way way_;
+  Displacement boxes_displacement_;    // of these when they were fitted
+  Displacement displacement_;
   std::vector<std::size_t> first_of_rank_;  // number of the first run that each rank sends
   double arc_roundings_ = 0.0;
   std::uint64_t split_count_ = 0;
   std::uint64_t hand_over_count_ = 0;
   std::uint64_t sent_points_ = 0;
-  double reached_ = 1.0;  // most of the ranks' costs beside the mean, by the last split
+  double best_imbalance_ = 1.0;  // most of the ranks' costs beside the mean, by the last split
   bool evenness_is_known_ = true;
   bool has_fibers_ = false;
   bool do_move_ = false;

@@ -12,7 +12,7 @@ constexpr double per_pair = 250e-9;
 
 /// Pairs cost where contacts are, all else is the same for each segment.
 /// @param of_segments, of_pairs [s] of all
-std::vector<double> costs_of_runs(const NamedFibers& own, double of_segments, double of_pairs,
+std::vector<double> costs_of_runs(const LocalFibers& own, double of_segments, double of_pairs,
                                   const std::vector<Contact>& inner,
                                   const std::vector<Contact>& across) {
   std::vector<double> contacts(own.runs().size());
@@ -43,7 +43,7 @@ std::vector<double> costs_of_runs(const NamedFibers& own, double of_segments, do
 
 }  // namespace
 
-RankLoad load_of(const NamedFibers& own, const QueryCounts& counts,
+RankLoad load_of(const LocalFibers& own, const QueryCounts& counts,
                  const std::vector<Contact>& inner, const std::vector<Contact>& across) {
   const double of_segments = per_segment * static_cast<double>(own.fibers().segment_count()) +
                              per_node_test * static_cast<double>(counts.node_tests);

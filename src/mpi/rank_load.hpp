@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "fiber_proximity/query/contact.hpp"
-#include "src/mpi/named_fibers.hpp"
+#include "src/mpi/local_fibers.hpp"
 
 namespace fiber {
 
@@ -20,7 +20,7 @@ struct RankLoad {
 /// @param counts of its queries
 /// @param inner  contacts among its own, and those across, of its own (a) and others; all live as
 ///               long as what is returned
-RankLoad load_of(const NamedFibers& own, const QueryCounts& counts,
+RankLoad load_of(const LocalFibers& own, const QueryCounts& counts,
                  const std::vector<Contact>& inner, const std::vector<Contact>& across);
 
 }  // namespace fiber

@@ -8,8 +8,8 @@
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/options.hpp"
 #include "src/mpi/communicator.hpp"
+#include "src/mpi/local_fibers.hpp"
 #include "src/mpi/loop_questions.hpp"
-#include "src/mpi/named_fibers.hpp"
 
 namespace fiber {
 
@@ -40,14 +40,14 @@ inline std::uint64_t rest_of(std::uint64_t limit, std::uint64_t taken) {
 /// Where a rank looks for pairs: segment a is one of its own, b one of these or of its halo.
 struct RankPairs {
   const Communicator& ranks;
-  const NamedFibers& own;
-  const NamedFibers& halo;
+  const LocalFibers& own;
+  const LocalFibers& halo;
 
   /// Whether segments are no pair along whole fibres, loops apart.
   bool are_left_out(const PairOptions& options, const SegmentIdPair& pair,
-                    const NamedFibers& fibers_b) const {
-    const GlobalSegment a = own.name_of(pair.fiber_a, pair.segment_a);
-    const GlobalSegment b = fibers_b.name_of(pair.fiber_b, pair.segment_b);
+                    const LocalFibers& fibers_b) const {
+    const GlobalSegment a = own.global_id(pair.fiber_a, pair.segment_a);
+    const GlobalSegment b = fibers_b.global_id(pair.fiber_b, pair.segment_b);
     if (a.fiber != b.fiber) {
       return options.pairing == Pairing::SAME_FIBER;
     }
@@ -64,12 +64,12 @@ struct RankPairs {
   /// Leaves of what an engine found those that are pairs along whole fibres. Collective.
   /// @param found    pairs of a segment of own and one of fibers_b, which is one of the two
   template <class Found>
-  void keep_those_of_whole_fibers(const PairOptions& options, const NamedFibers& fibers_b,
+  void keep_those_of_whole_fibers(const PairOptions& options, const LocalFibers& fibers_b,
                                   std::vector<Found>& found) const;
 };
 
 template <class Found>
-void RankPairs::keep_those_of_whole_fibers(const PairOptions& options, const NamedFibers& fibers_b,
+void RankPairs::keep_those_of_whole_fibers(const PairOptions& options, const LocalFibers& fibers_b,
                                            std::vector<Found>& found) const {
   std::vector<LoopQuestion> questions;
   std::vector<std::size_t> asked;  // places of theirs among those kept
@@ -85,8 +85,8 @@ void RankPairs::keep_those_of_whole_fibers(const PairOptions& options, const Nam
     if (are_left_out(options, pair, fibers_b)) {
       continue;
     }
-    const GlobalSegment a = own.name_of(pair.fiber_a, pair.segment_a);
-    const GlobalSegment b = fibers_b.name_of(pair.fiber_b, pair.segment_b);
+    const GlobalSegment a = own.global_id(pair.fiber_a, pair.segment_a);
+    const GlobalSegment b = fibers_b.global_id(pair.fiber_b, pair.segment_b);
     // Where a stretch of the fibre holds both, the engine has seen the loop.
     const bool is_loop_known = &fibers_b == &own && pair.fiber_a == pair.fiber_b;
     if (options.needs_loops() && a.fiber == b.fiber && !is_loop_known) {

@@ -78,10 +78,10 @@ std::size_t offset_of(const Object& object, Member Base::*member) {
 /// moved there, few are copied, so that their memory can be used again.
 template <class Value>
 py::array to_array(const py::dtype& dtype, std::vector<Value>& values) {
-  constexpr std::size_t most_copied = 64 * 1024 / sizeof(Value);
+  constexpr std::size_t max_copied = 64 * 1024 / sizeof(Value);
   const std::vector<Py_ssize_t> shape{static_cast<Py_ssize_t>(values.size())};
   const std::vector<Py_ssize_t> strides{static_cast<Py_ssize_t>(sizeof(Value))};
-  if (values.size() <= most_copied) {
+  if (values.size() <= max_copied) {
     return py::array(dtype, shape, strides, values.data());
   }
   auto owned = std::make_unique<std::vector<Value>>(std::move(values));

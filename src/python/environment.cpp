@@ -7,8 +7,7 @@
 #include <tuple>
 #include <utility>
 
-#include "fiber_proximity/environment/scene/mesh_files.hpp"
-#include "src/environment/scene/environment_scene.hpp"
+#include "fiber_proximity/environment/scene/environment_scene.hpp"
 #include "src/python/bindings.hpp"
 #include "src/python/contacts.hpp"
 #include "src/python/errors.hpp"

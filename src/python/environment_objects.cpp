@@ -1,4 +1,4 @@
-#include "fiber_proximity/environment/scene/mesh_files.hpp"
+#include "fiber_proximity/environment/scene/environment_scene.hpp"
 #include "src/environment/obstacle_parts.hpp"
 #include "src/python/environment.hpp"
 #include "src/python/errors.hpp"

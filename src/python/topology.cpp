@@ -1,5 +1,3 @@
-#include "fiber_proximity/query/topology.hpp"
-
 #include <pybind11/stl.h>
 
 #include "fiber_proximity/query/crossings.hpp"

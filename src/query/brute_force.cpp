@@ -1,6 +1,6 @@
 #include "src/query/brute_force.hpp"
 
-#include "fiber_proximity/query/pair_collector.hpp"
+#include "fiber_proximity/query/for_engines/pair_collector.hpp"
 #include "src/hierarchy/fiber_order.hpp"
 
 namespace fiber {

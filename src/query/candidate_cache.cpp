@@ -65,17 +65,17 @@ std::size_t CandidateCache::memory_bytes() const {
 
 void DirtySegments::clear() {
   for (const std::uint32_t point : first_points_) {
-    is_outdated_[point] = 0;
+    is_dirty_[point] = 0;
   }
   first_points_.clear();
 }
 
 void DirtySegments::add(const FiberAssembly& fibers, std::uint32_t fiber) {
-  is_outdated_.resize(fibers.point_count());
+  is_dirty_.resize(fibers.point_count());
   for (std::uint32_t point = fibers.offsets()[fiber]; point + 1 < fibers.offsets()[fiber + 1];
        ++point) {
-    if (is_outdated_[point] == 0) {
-      is_outdated_[point] = 1;
+    if (is_dirty_[point] == 0) {
+      is_dirty_[point] = 1;
       first_points_.push_back(point);
     }
   }
@@ -86,7 +86,7 @@ void DirtySegments::fit(const FiberAssembly& fibers, const Eigen::Vector3d& orig
 }
 
 std::size_t DirtySegments::memory_bytes() const {
-  return first_points_.capacity() * sizeof(std::uint32_t) + is_outdated_.capacity() +
+  return first_points_.capacity() * sizeof(std::uint32_t) + is_dirty_.capacity() +
          tree_.memory_bytes();
 }
 

@@ -79,14 +79,14 @@ class DirtySegments {
   std::size_t size() const { return first_points_.size(); }
 
   /// Of a segment by its first point.
-  bool contains(std::uint32_t first_point) const { return is_outdated_[first_point] != 0; }
+  bool contains(std::uint32_t first_point) const { return is_dirty_[first_point] != 0; }
 
   const RunTreeView& tree() const { return tree_.view(); }
   std::size_t memory_bytes() const;
 
  private:
   std::vector<std::uint32_t> first_points_;
-  std::vector<std::uint8_t> is_outdated_;  // by first point
+  std::vector<std::uint8_t> is_dirty_;  // by first point
   RunTree tree_;
 };
 

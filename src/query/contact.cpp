@@ -5,6 +5,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "fiber_proximity/query/for_engines/pair_collector.hpp"
 #include "fiber_proximity/query/options.hpp"
 
 namespace fiber {

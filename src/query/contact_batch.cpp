@@ -135,21 +135,21 @@ ContactBatch::Found ContactBatch::collect(const RunTreeView& a, const RunTreeVie
 }
 
 ContactBatch::Found ContactBatch::replace(const std::vector<std::uint64_t>& old_keys,
-                                          const DirtySegments& outdated, const RunTreeView& tree,
+                                          const DirtySegments& dirty, const RunTreeView& tree,
                                           const NarrowPhase& test, double bound,
                                           const QueryLimits& limits,
                                           std::vector<std::uint64_t>& keys, QueryCounts& counts) {
-  const Found found = collect(outdated.tree(), tree, test, bound, limits, false, keys_, counts);
+  const Found found = collect(dirty.tree(), tree, test, bound, limits, false, keys_, counts);
   if (found == Found::TOO_MANY) {
     return found;
   }
-  // Pairs of two outdated segments are found from both sides.
+  // Pairs of two dirty segments are found from both sides.
   keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
   keys.clear();
   auto next = keys_.begin();
   for (const std::uint64_t key : old_keys) {
     const PointPair pair = pair_of(key);
-    if (outdated.contains(pair.a) || outdated.contains(pair.b)) {
+    if (dirty.contains(pair.a) || dirty.contains(pair.b)) {
       continue;
     }
     for (; next != keys_.end() && *next < key; ++next) {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "fiber_proximity/query/contact.hpp"
-#include "fiber_proximity/query/narrow_phase.hpp"
+#include "fiber_proximity/query/for_engines/pair_collector.hpp"
 #include "fiber_proximity/query/options.hpp"
 #include "src/hierarchy/run_tree_kernels.hpp"
 #include "src/query/candidate_cache.hpp"
@@ -33,9 +33,9 @@ class ContactBatch {
                 const QueryLimits& limits, bool prunes, std::vector<std::uint64_t>& keys,
                 QueryCounts& counts);
 
-  /// The same from candidates of a tree with itself that were collected before: those of outdated
+  /// The same from candidates of a tree with itself that were collected before: those of dirty
   /// segments are left out and looked for anew.
-  Found replace(const std::vector<std::uint64_t>& old_keys, const DirtySegments& outdated,
+  Found replace(const std::vector<std::uint64_t>& old_keys, const DirtySegments& dirty,
                 const RunTreeView& tree, const NarrowPhase& test, double bound,
                 const QueryLimits& limits, std::vector<std::uint64_t>& keys, QueryCounts& counts);
 

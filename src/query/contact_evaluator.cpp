@@ -14,9 +14,9 @@ constexpr std::size_t slices_per_round = 32;
 constexpr std::size_t pairs_per_round = slices_per_round * pairs_per_slice;
 
 /// Along fibres, of all candidates together.
-std::uint64_t most_looks(const QueryLimits& limits) {
+std::uint64_t max_loop_steps(const QueryLimits& limits) {
   constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
-  constexpr std::uint64_t per_pair = QueryLimits::looks_per_pair;
+  constexpr std::uint64_t per_pair = QueryLimits::loop_steps_per_pair;
   return limits.pairs > most / per_pair ? most : limits.pairs * per_pair;
 }
 
@@ -28,7 +28,7 @@ void ContactEvaluator::evaluate(const std::vector<std::uint64_t>& keys, const Na
   distances_.resize(most);
   is_contact_.resize(most);
   contact_count_ = 0;
-  looks_ = 0;
+  loop_steps_ = 0;
   took_too_long_ = false;
   bound_ = std::numeric_limits<double>::infinity();
   result.others_lower = test.margin();  // of pairs that are no candidates
@@ -37,7 +37,7 @@ void ContactEvaluator::evaluate(const std::vector<std::uint64_t>& keys, const Na
     evaluate_round(keys.data() + begin, end - begin, test, limits, result);
     make_room(end, keys.size(), limits, result.contacts);
     report(keys.data() + begin, test, result.contacts);
-    if (contact_count_ >= limits.most_kept) {
+    if (contact_count_ >= limits.max_kept) {
       leave_closest(limits.contacts, result);
     }
   }
@@ -51,7 +51,7 @@ void ContactEvaluator::evaluate(const std::vector<std::uint64_t>& keys, const Na
     sort_by_key(result.contacts);
   }
   if (!result.complete) {
-    result.others_lower = test.least_gap();
+    result.others_lower = test.min_gap();
   }
 }
 
@@ -73,18 +73,18 @@ void ContactEvaluator::evaluate_round(const std::uint64_t* keys, std::size_t cou
     slice.end = std::min(count, slice.begin + pairs_per_slice);
     slice.complete = !limits.deadline.has_passed(part_of_time);
     if (slice.complete) {
-      evaluate_slice(keys, test, most_looks(limits) / slices_per_round, slice);
+      evaluate_slice(keys, test, max_loop_steps(limits) / slices_per_round, slice);
     }
   });
   for (Slice& slice : slices_) {
     slice.place = contact_count_;
     contact_count_ += slice.contact_count;
-    looks_ += slice.looks;
+    loop_steps_ += slice.loop_steps;
     took_too_long_ = took_too_long_ || slice.took_too_long;
     result.others_lower = std::min(result.others_lower, slice.others_lower);
     result.complete = result.complete && slice.complete;
   }
-  took_too_long_ = took_too_long_ || looks_ > most_looks(limits);
+  took_too_long_ = took_too_long_ || loop_steps_ > max_loop_steps(limits);
 }
 
 /// For all contacts there will be if the candidates that are left have as many as those evaluated,
@@ -97,7 +97,7 @@ void ContactEvaluator::make_room(std::size_t evaluated, std::size_t candidates,
     const double rest = static_cast<double>(candidates) / static_cast<double>(evaluated);
     const double expected = a_few + more * rest * static_cast<double>(contact_count_);
     contacts.reserve(
-        std::min(static_cast<std::uint64_t>(expected), limits.most_kept + pairs_per_round));
+        std::min(static_cast<std::uint64_t>(expected), limits.max_kept + pairs_per_round));
   }
   // What a query before has left there is written over: making it anew would take as long.
   contacts.resize(std::max(contacts.size(), contact_count_));
@@ -117,9 +117,9 @@ void ContactEvaluator::report(const std::uint64_t* keys, const NarrowPhase& test
   });
 }
 
-/// @param looks_left along fibres; where they are used up the rest of the slice is left out
+/// @param loop_steps_left along fibres; where they are used up the rest of the slice is left out
 void ContactEvaluator::evaluate_slice(const std::uint64_t* keys, const NarrowPhase& test,
-                                      std::uint64_t looks_left, Slice& slice) {
+                                      std::uint64_t loop_steps_left, Slice& slice) {
   PointPair pairs[pairs_per_slice];
   PairDistance* const distances = distances_.data() + slice.begin;
   const std::size_t size = slice.end - slice.begin;
@@ -128,10 +128,10 @@ void ContactEvaluator::evaluate_slice(const std::uint64_t* keys, const NarrowPha
   slice.others_lower = std::numeric_limits<double>::infinity();
   const bool is_bounded = bound_ < std::numeric_limits<double>::infinity();
   std::size_t i = 0;
-  for (; i < size && slice.looks <= looks_left; ++i) {
+  for (; i < size && slice.loop_steps <= loop_steps_left; ++i) {
     const bool is_near = test.is_within_margin(pairs[i], distances[i]) &&
                          (!is_bounded || test.gap_lower(pairs[i], distances[i]) <= bound_);
-    const bool is_contact = is_near && !test.lacks_loop(pairs[i], distances[i], slice.looks);
+    const bool is_contact = is_near && !test.lacks_loop(pairs[i], distances[i], slice.loop_steps);
     is_contact_[slice.begin + i] = is_contact ? 1 : 0;
     slice.contact_count += is_contact ? 1 : 0;
     if (!is_near) {
@@ -141,7 +141,7 @@ void ContactEvaluator::evaluate_slice(const std::uint64_t* keys, const NarrowPha
   for (; i < size; ++i) {
     is_contact_[slice.begin + i] = 0;
   }
-  slice.took_too_long = slice.looks > looks_left;
+  slice.took_too_long = slice.loop_steps > loop_steps_left;
 }
 
 }  // namespace fiber

@@ -3,8 +3,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "fiber_proximity/export.hpp"
 #include "fiber_proximity/query/contact.hpp"
-#include "fiber_proximity/query/narrow_phase.hpp"
+#include "fiber_proximity/query/for_engines/pair_collector.hpp"
 #include "fiber_proximity/query/options.hpp"
 #include "src/hierarchy/pair_bound.hpp"
 
@@ -12,7 +13,7 @@ namespace fiber {
 
 /// Makes contacts of candidates, slice by slice on several threads. Gives the same for any number
 /// of threads. Keeps its memory from query to query.
-class ContactEvaluator {
+class FIBER_PROXIMITY_EXPORT ContactEvaluator {
  public:
   /// Of the time until the deadline, when candidates are judged: contacts are written down after.
   static constexpr double part_of_time = 0.9;
@@ -21,7 +22,7 @@ class ContactEvaluator {
   /// @param result its contacts and others_lower are replaced; complete becomes false if the
   /// deadline has passed before all were evaluated, and is to be false if some candidates are
   /// missing; limit_reached becomes true if there are more contacts than may be reported. Both do
-  /// if candidates take so many looks along fibres that they count as too many pairs
+  /// if candidates take so many steps along fibres that they count as too many pairs
   void evaluate(const std::vector<std::uint64_t>& keys, const NarrowPhase& test,
                 const QueryLimits& limits, QueryResult& result);
 
@@ -32,8 +33,8 @@ class ContactEvaluator {
     std::size_t end = 0;
     std::size_t place = 0;  // of its first contact
     std::size_t contact_count = 0;
-    double others_lower = 0.0;  // [m]
-    std::uint64_t looks = 0;    // along fibres
+    double others_lower = 0.0;     // [m]
+    std::uint64_t loop_steps = 0;  // along fibres
     bool took_too_long = false;
     bool complete = true;
   };
@@ -45,8 +46,8 @@ class ContactEvaluator {
   void report(const std::uint64_t* keys, const NarrowPhase& test,
               std::vector<Contact>& contacts) const;
   void leave_closest(std::uint64_t count, QueryResult& result);
-  void evaluate_slice(const std::uint64_t* keys, const NarrowPhase& test, std::uint64_t looks_left,
-                      Slice& slice);
+  void evaluate_slice(const std::uint64_t* keys, const NarrowPhase& test,
+                      std::uint64_t loop_steps_left, Slice& slice);
 
   // Of a round:
   std::vector<Slice> slices_;
@@ -55,7 +56,7 @@ class ContactEvaluator {
 
   // Of all rounds so far:
   std::size_t contact_count_ = 0;
-  std::uint64_t looks_ = 0;  // along fibres
+  std::uint64_t loop_steps_ = 0;  // along fibres
   bool took_too_long_ = false;
   double bound_ = 0.0;  // [m] so many are within it that pairs beyond are not reported
 };

@@ -12,10 +12,10 @@ namespace {
 using Eigen::Vector3d;
 
 // δ in radii: √2·1.75 < 5/2, the rest is for rounding.
-constexpr double most_fall_back = 1.75;
+constexpr double max_fall_back = 1.75;
 
 // Products of shorter steps may lose digits.
-constexpr double least_step = 0x1p-1000;
+constexpr double min_step = 0x1p-1000;
 
 /// Whether these points fall back along none of the four directions by more than the limit [m].
 /// Of every step, what rounding may have added is taken off first.
@@ -36,7 +36,7 @@ bool is_loop_free(const std::vector<Vector3d>& points, std::uint32_t first, std:
     if (size == 0.0) {
       continue;
     }
-    if (size < least_step) {
+    if (size < min_step) {
       return false;
     }
     for (std::size_t d = 0; d < directions.size(); ++d) {
@@ -51,7 +51,7 @@ bool is_loop_free(const std::vector<Vector3d>& points, std::uint32_t first, std:
 }
 
 // Fibres of fewer points are walked along sooner than boxes are made.
-constexpr std::uint32_t least_boxed_points = 256;
+constexpr std::uint32_t min_boxed_points = 256;
 
 }  // namespace
 
@@ -59,7 +59,7 @@ void LoopFreeStretches::find(const FiberAssembly& fibers, std::uint32_t fiber, d
   begin_ = fibers.offsets()[fiber];
   first_.resize(fibers.offsets()[fiber + 1] - begin_);
   last_.resize(first_.size());
-  const double limit = most_fall_back * thinnest;
+  const double limit = max_fall_back * thinnest;
   const std::uint32_t last = fibers.offsets()[fiber + 1] - 1;
   std::uint32_t count = last - begin_;  // of segments to try
   std::uint32_t furthest = begin_;      // point of the stretches so far
@@ -99,7 +99,7 @@ void PointBoxes::fit(const FiberAssembly& fibers, std::uint32_t fiber) {
   begin_ = fibers.offsets()[fiber];
   level_count_ = 0;
   const std::uint32_t count = fibers.offsets()[fiber + 1] - begin_;
-  if (count < least_boxed_points) {
+  if (count < min_boxed_points) {
     return;
   }
   for (std::size_t left = count >> log_width; left > 0; left >>= log_width) {

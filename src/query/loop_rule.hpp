@@ -27,7 +27,7 @@ class LoopReach {
  public:
   LoopReach(const LoopPlace& place, double limit)
       : place_(place),
-        scale_(limit > least_safe_norm ? 1.0 : tiny_vector_scale),
+        scale_(limit > min_safe_norm ? 1.0 : tiny_vector_scale),
         limit_(scale_ * limit) {}
 
   double scale() const { return scale_; }

@@ -1,4 +1,4 @@
-#include "fiber_proximity/query/loop_test.hpp"
+#include "fiber_proximity/query/for_engines/loop_test.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -65,9 +65,9 @@ void LoopTest::reset(const FiberAssembly& fibers) {
   if (slots_.size() != fibers.fiber_count()) {
     slots_ = std::vector<Slot>(fibers.fiber_count());
   }
-  most_points_ = 0;
+  max_points_ = 0;
   for (std::size_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
-    most_points_ = std::max(most_points_, fibers.offsets()[fiber + 1] - fibers.offsets()[fiber]);
+    max_points_ = std::max(max_points_, fibers.offsets()[fiber + 1] - fibers.offsets()[fiber]);
     slots_[fiber].is_filled.store(false, std::memory_order_relaxed);
   }
 }
@@ -103,7 +103,7 @@ const LoopTest::Chain& LoopTest::chain(std::uint32_t fiber) const {
 /// points are left out each time as it takes at least to get there, or as are in a box that is not
 /// further: a fibre may stay near one place for a million points.
 bool LoopTest::leaves(const LoopPlace& place, PointPair pair, double limit,
-                      std::uint64_t& looks) const {
+                      std::uint64_t& loop_steps) const {
   const LoopReach reach(place, limit);
   const std::vector<Vector3d>& points = fibers_->points();
   const bool is_long = pair.b - pair.a > short_walk;
@@ -111,7 +111,7 @@ bool LoopTest::leaves(const LoopPlace& place, PointPair pair, double limit,
   const double step = is_long ? reach.scale() * along->step : 0.0;
   const auto is_within = [&](const Eigen::AlignedBox3d& box) { return reach.holds(box); };
   for (std::uint32_t k = pair.a + 1; k <= pair.b; ++k) {
-    ++looks;
+    ++loop_steps;
     const double squared = reach.scaled_way_to(points[k]).squaredNorm();
     if (reach.is_beyond(squared)) {
       return true;
@@ -132,18 +132,19 @@ bool LoopTest::leaves(const LoopPlace& place, PointPair pair, double limit,
 }
 
 bool LoopTest::makes_loop(PointPair pair, const SegmentDistance& nearest,
-                          std::uint64_t& looks) const {
+                          std::uint64_t& loop_steps) const {
   if (pair.b - pair.a > short_walk && rules_out(pair.a, pair.b)) {
     return false;
   }
   return makes_loop_by(fibers_->capsule(pair.a), fibers_->capsule(pair.b), nearest,
                        [&](int /*question*/, const LoopPlace& x, const LoopPlace& y, double limit) {
-                         return leaves(x, pair, limit, looks) || leaves(y, pair, limit, looks);
+                         return leaves(x, pair, limit, loop_steps) ||
+                                leaves(y, pair, limit, loop_steps);
                        });
 }
 
 bool LoopTest::rules_out(std::uint32_t first, std::uint32_t last) const {
-  if (last - first >= most_points_) {
+  if (last - first >= max_points_) {
     return false;
   }
   const std::uint32_t fiber = fibers_->segment_id(first).fiber;

@@ -7,7 +7,7 @@
 
 #include "fiber_proximity/geometry/contact_time.hpp"
 #include "fiber_proximity/geometry/segment_distance.hpp"
-#include "fiber_proximity/query/narrow_phase.hpp"
+#include "fiber_proximity/query/for_engines/narrow_phase.hpp"
 #include "src/query/motion_evaluator.hpp"
 
 namespace fiber {

@@ -72,7 +72,7 @@ class MotionTest {
 
 }  // namespace
 
-std::size_t most_contacts(const MotionOptions& options) {
+std::size_t max_reported(const MotionOptions& options) {
   std::size_t most = options.contact_limit;
   if (options.type != MotionType::ALL) {
     const std::size_t asked = options.type == MotionType::FIRST ? 1 : options.max_contacts;
@@ -99,7 +99,7 @@ void merge_slices(const MotionSlice* slices, std::size_t count, const MotionCand
     result.others_lower = 0.0;
     result.limit_reached = true;
   }
-  const bool are_more = keep_earliest(most_contacts(options), result);
+  const bool are_more = keep_earliest(max_reported(options), result);
   result.limit_reached = result.limit_reached || (are_more && options.type != MotionType::FIRST);
 }
 

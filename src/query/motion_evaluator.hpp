@@ -5,10 +5,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "fiber_proximity/export.hpp"
 #include "fiber_proximity/geometry/contact_time.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/query/for_engines/pair_collector.hpp"
 #include "fiber_proximity/query/motion.hpp"
-#include "fiber_proximity/query/narrow_phase.hpp"
 #include "fiber_proximity/query/options.hpp"
 
 namespace fiber {
@@ -32,13 +33,14 @@ struct MotionCandidates {
 };
 
 /// The most contacts to report that begin during the motion, 0 for no limit.
-std::size_t most_contacts(const MotionOptions& options);
+FIBER_PROXIMITY_EXPORT std::size_t max_reported(const MotionOptions& options);
 
 /// Puts together what was found of the candidates, slice by slice, and leaves what the options ask
 /// for.
 /// @param result its lists must be empty
-void merge_slices(const MotionSlice* slices, std::size_t count, const MotionCandidates& candidates,
-                  const MotionOptions& options, MotionResult& result);
+FIBER_PROXIMITY_EXPORT void merge_slices(const MotionSlice* slices, std::size_t count,
+                                         const MotionCandidates& candidates,
+                                         const MotionOptions& options, MotionResult& result);
 
 /// How two segments move, for contacts within the margin [m].
 inline SegmentMotions motions_of(const FiberMotion& a, const FiberMotion& b, PointPair pair,
@@ -58,10 +60,10 @@ inline bool is_there_before(const ContactTime& time) { return time.certain && ti
 /// @param ask for the pair's ContactTime with a tolerance [m]
 template <class Ask>
 void narrow(ContactTime& time, const MotionOptions& options, const Ask& ask) {
-  constexpr int most_questions = 6;
+  constexpr int max_questions = 6;
   constexpr double factor = 0x1p-8;
   double tolerance = factor * options.tolerance;
-  for (int i = 0; i < most_questions && time.certain && tolerance > 0.0 &&
+  for (int i = 0; i < max_questions && time.certain && tolerance > 0.0 &&
                   time.upper - time.lower > options.time_tolerance;
        ++i, tolerance *= factor) {
     const ContactTime again = ask(tolerance);

@@ -1,9 +1,9 @@
-#include "fiber_proximity/query/narrow_phase.hpp"
+#include "fiber_proximity/query/for_engines/narrow_phase.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "fiber_proximity/geometry/exact_distance.hpp"
+#include "fiber_proximity/geometry/segment_distance.hpp"
 #include "src/geometry/norm.hpp"
 
 namespace fiber {
@@ -139,7 +139,7 @@ bool NarrowPhase::is_within_margin(PointPair pair, const PairDistance& distance)
                      {a.radius, b.radius, options_.margin});
 }
 
-double NarrowPhase::least_gap() const {
+double NarrowPhase::min_gap() const {
   return -(1.0 + 0x1p-51) * (a_.largest_radius() + b_.largest_radius());
 }
 

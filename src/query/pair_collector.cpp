@@ -1,4 +1,4 @@
-#include "fiber_proximity/query/pair_collector.hpp"
+#include "fiber_proximity/query/for_engines/pair_collector.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -142,7 +142,7 @@ void ContactAccumulator::keep_of_fibers(const Contact& contact) {
 /// does not matter any more.
 void ContactAccumulator::stay_within_limit() {
   std::vector<Contact>& contacts = result_.contacts;
-  if (contacts.size() < limits_.most_kept) {
+  if (contacts.size() < limits_.max_kept) {
     return;
   }
   keep_closest(limits_.contacts, result_);
@@ -184,7 +184,7 @@ void ContactAccumulator::leave_out(double lower) {
 }
 
 /// What is found is sorted at the end, which must be over by then.
-void ContactAccumulator::look_at_deadline() {
+void ContactAccumulator::check_deadline() {
   constexpr double seconds_to_sort_one = 4e-7;
   const double needed = seconds_to_sort_one * static_cast<double>(result_.contacts.size());
   if (!done_ && limits_.deadline.has_passed(1.0, needed)) {
@@ -202,10 +202,10 @@ void ContactAccumulator::reach_pair_limit() {
   result_.limit_reached = true;
 }
 
-void ContactAccumulator::finish(double least_gap) {
+void ContactAccumulator::finish(double min_gap) {
   std::vector<Contact>& contacts = result_.contacts;
   // Pairs that were not found are beyond the bound, unless it ended early.
-  leave_out(done_ ? least_gap : bound_);
+  leave_out(done_ ? min_gap : bound_);
   const bool more = keep_closest(limits_.contacts, result_);
   if (more || (options_.type == QueryType::LIMITED && contacts.size() == capacity_)) {
     result_.limit_reached = true;
@@ -271,12 +271,12 @@ void PairCollector::offer(std::uint32_t point_a, std::uint32_t point_b) {
 /// pairs of smaller indices can take their place, and with a tolerance none need.
 void PairCollector::look_at_depth() {
   const Contact* const farthest = accumulator_.farthest();
-  if (farthest == nullptr || accumulator_.bound() > test_.least_computed_gap()) {
+  if (farthest == nullptr || accumulator_.bound() > test_.min_computed_gap()) {
     return;
   }
-  if (accumulator_.bound() < test_.least_computed_gap()) {
+  if (accumulator_.bound() < test_.min_computed_gap()) {
     accumulator_.stop();
-  } else if (farthest->distance <= test_.least_computed_gap()) {
+  } else if (farthest->distance <= test_.min_computed_gap()) {
     key_bound_ = pair_key({fibers_a_.first_point_of(farthest->fiber_a, farthest->segment_a),
                            fibers_b_.first_point_of(farthest->fiber_b, farthest->segment_b)});
   }
@@ -284,9 +284,9 @@ void PairCollector::look_at_depth() {
 
 void PairCollector::finish() {
   if (key_bound_ != PairBound::no_key) {
-    accumulator_.leave_out(test_.least_gap());
+    accumulator_.leave_out(test_.min_gap());
   }
-  accumulator_.finish(test_.least_gap());
+  accumulator_.finish(test_.min_gap());
 }
 
 void PairCollector::offer_of_fibers(PointPair pair) {
@@ -308,9 +308,9 @@ std::optional<Contact> PairCollector::contact_within(PointPair pair, double boun
   const PairDistance distance = test_.distance(pair);
   const double lower = test_.gap_lower(pair, distance);
   if (lower <= bound && test_.is_within_margin(pair, distance)) {
-    std::uint64_t looks = 0;
-    const bool lacks_loop = test_.lacks_loop(pair, distance, looks);
-    accumulator_.count_looks(looks);
+    std::uint64_t loop_steps = 0;
+    const bool lacks_loop = test_.lacks_loop(pair, distance, loop_steps);
+    accumulator_.count_loop_steps(loop_steps);
     if (lacks_loop) {
       return std::nullopt;
     }

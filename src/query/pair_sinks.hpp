@@ -1,6 +1,6 @@
 #pragma once
 
-#include "fiber_proximity/query/pair_collector.hpp"
+#include "fiber_proximity/query/for_engines/pair_collector.hpp"
 #include "src/bounds/bounding_volume.hpp"
 #include "src/hierarchy/run_tree_kernels.hpp"
 

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "fiber_proximity/query/pair_collector.hpp"
+#include "fiber_proximity/query/for_engines/pair_collector.hpp"
 #include "src/geometry/swept_fibers.hpp"
 #include "src/hierarchy/run_tree_kernels.hpp"
 #include "src/query/motion_evaluator.hpp"
@@ -17,12 +17,13 @@ namespace {
 
 /// Offers the pairs of two trees, or of one, that may come within the sink's bound.
 /// @param is_over     asked between groups
-/// @param looks_often otherwise once: where no candidates are, nobody else would look at a deadline
+/// @param checks_often otherwise once: where no candidates are, nobody else would look at a
+/// deadline
 template <class IsOver>
-void offer_all(const RunTreeView& a, const RunTreeView& b, PairSink& sink, bool looks_often,
+void offer_all(const RunTreeView& a, const RunTreeView& b, PairSink& sink, bool checks_often,
                const IsOver& is_over, QueryCounts& counts) {
   const std::uint32_t groups = b.group_count() == 0 ? 0 : a.group_count();
-  const std::uint32_t step = looks_often ? 1 : std::max(groups, 1U);
+  const std::uint32_t step = checks_often ? 1 : std::max(groups, 1U);
   for (std::uint32_t group = 0; group < groups && !is_over(); group += step) {
     find_near_segments(a, group, std::min(groups, group + step), b, sink, counts.node_tests,
                        counts.node_overlaps);
@@ -60,7 +61,7 @@ Eigen::Vector3d corner(const float (&by_axis)[3][run_width], std::uint32_t lane)
 }
 
 // Replacing the candidates of more segments than this part of all takes longer than finding all.
-constexpr double most_outdated = 0.25;
+constexpr double max_dirty_part = 0.25;
 
 }  // namespace
 
@@ -141,7 +142,7 @@ bool RunTreeEngine::most_still_serve(const FiberAssembly& fibers) {
     }
   }
   if (static_cast<double>(dirty_.size()) >
-      most_outdated * static_cast<double>(fibers.segment_count())) {
+      max_dirty_part * static_cast<double>(fibers.segment_count())) {
     dirty_.clear();
     return false;
   }

@@ -2,8 +2,9 @@
 
 #include <tbb/task_arena.h>
 
+#include "fiber_proximity/export.hpp"
 #include "fiber_proximity/query/engine.hpp"
-#include "fiber_proximity/query/loop_test.hpp"
+#include "fiber_proximity/query/for_engines/loop_test.hpp"
 #include "src/hierarchy/motion_bound.hpp"
 #include "src/hierarchy/run_tree.hpp"
 #include "src/query/candidate_cache.hpp"
@@ -16,7 +17,7 @@ namespace fiber {
 /// most half of it: all bounds are larger by what they have moved, and the candidates of one query
 /// serve the next ones. When few fibres have moved further, only their candidates are looked for
 /// anew.
-class RunTreeEngine final : public ProximityEngine {
+class FIBER_PROXIMITY_EXPORT RunTreeEngine final : public ProximityEngine {
  public:
   /// @throws std::invalid_argument for a skin that is negative or not finite
   explicit RunTreeEngine(const EngineOptions& options);

@@ -10,9 +10,9 @@
 namespace fiber {
 
 void validate_threads(std::uint32_t threads) {
-  if (threads > most_threads) {
+  if (threads > max_threads) {
     throw std::invalid_argument("threads is " + std::to_string(threads) + ", it must be at most " +
-                                std::to_string(most_threads) +
+                                std::to_string(max_threads) +
                                 " (0 for as many as there are cores)");
   }
 }

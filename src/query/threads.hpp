@@ -5,19 +5,21 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "fiber_proximity/export.hpp"
+
 namespace fiber {
 
 /// The most threads that may be asked for; more cores than most machines have.
-constexpr std::uint32_t most_threads = 1024;
+constexpr std::uint32_t max_threads = 1024;
 
 /// @throws std::invalid_argument naming the value and what is allowed, if that is more
-void validate_threads(std::uint32_t threads);
+FIBER_PROXIMITY_EXPORT void validate_threads(std::uint32_t threads);
 
 /// The concurrency of a tbb::task_arena for at most this many threads, 0 for as many as there are
 /// cores. It is never above what TBB allows (the cores of this process, or what a
 /// tbb::global_control says): TBB would write a warning to stderr and use no more of them.
 /// @throws std::invalid_argument as validate_threads
-int arena_concurrency(std::uint32_t threads);
+FIBER_PROXIMITY_EXPORT int arena_concurrency(std::uint32_t threads);
 
 /// Calls for 0 … count − 1, on several threads if that is more than one thread is woken for.
 template <class Call>

@@ -1,5 +1,3 @@
-#include "fiber_proximity/query/topology.hpp"
-
 #include <algorithm>
 #include <map>
 #include <numeric>

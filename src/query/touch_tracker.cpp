@@ -30,12 +30,12 @@ class Neighbours {
   template <class Other, class Use>
   void for_each(const Other& other, std::size_t end, const Use& use) {
     const std::uint64_t b = number_of(other.fiber_b, other.segment_b);
-    const std::uint64_t least_b = other.segment_b == 0 ? b : b - 1;
+    const std::uint64_t min_b = other.segment_b == 0 ? b : b - 1;
     // Of each segment next to the first one, and of itself, its own place.
     for (std::uint32_t row = other.segment_a == 0 ? 1 : 0; row < 3; ++row) {
       const std::uint64_t a = number_of(other.fiber_a, other.segment_a) + row - 1;
       std::size_t& begin = begins_[row];
-      while (begin < end && is_before(pairs_[begin], a, least_b)) {
+      while (begin < end && is_before(pairs_[begin], a, min_b)) {
         ++begin;
       }
       for (std::size_t i = begin; i < end && is_before(pairs_[i], a, b + 2); ++i) {

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <vector>
 
+#include "fiber_proximity/export.hpp"
 #include "fiber_proximity/query/contact.hpp"
 
 namespace fiber {
@@ -54,7 +55,7 @@ struct TouchEvent {
 /// touches meet, the oldest one goes on and the others end; where one parts, it goes on in the
 /// patch of the smallest indices, and the other patches begin: when they part, or where none of
 /// their pairs was in contact before, when the first of these came.
-class TouchTracker {
+class FIBER_PROXIMITY_EXPORT TouchTracker {
  public:
   /// @param first_id, id_step ids are first_id, first_id + id_step, …: two trackers need not give
   ///        the same

@@ -17,12 +17,12 @@ struct FibersAndContacts {
 /// waited for only so long, so that fibres are seen in any case.
 class ContactPairing {
  public:
-  /// [s] that fibres are kept back at most, counted from the last ones that were not.
-  static constexpr double patience = 0.5;
+  /// [s] Fibres are kept back at most so long, counted from the last ones that were not.
+  static constexpr double timeout = 0.5;
 
   void add(const fiber_proximity::FiberArrayConstPtr& fibers) {
     newest_.fibers = fibers;
-    fibers_wait_ = true;
+    is_pending_ = true;
     match();
   }
 
@@ -33,14 +33,14 @@ class ContactPairing {
 
   void clear() { *this = ContactPairing(); }
 
-  /// What has become ready since the last call; null fibres if nothing has.
+  /// Returns the fibres that have become ready since the last call; null fibres if none have.
   /// @param elapsed [s] since that call
   FibersAndContacts take(double elapsed) {
-    if (fibers_wait_) {
+    if (is_pending_) {
       waited_ += elapsed;
-      if (waited_ > patience) {  // and stays so until contacts match: the next ones do not wait
+      if (waited_ > timeout) {  // and stays so until contacts match: the next ones do not wait
         ready_ = {newest_.fibers, nullptr};
-        fibers_wait_ = false;
+        is_pending_ = false;
       }
     }
     return std::exchange(ready_, FibersAndContacts());
@@ -51,14 +51,14 @@ class ContactPairing {
     if (newest_.fibers && newest_.contacts &&
         newest_.fibers->header.stamp == newest_.contacts->header.stamp) {
       ready_ = newest_;
-      fibers_wait_ = false;
+      is_pending_ = false;
       waited_ = 0.0;
     }
   }
 
   FibersAndContacts newest_;  // not necessarily of one stamp
   FibersAndContacts ready_;
-  bool fibers_wait_ = false;  // the newest fibres have not been handed out
+  bool is_pending_ = false;  // the newest fibres have not been handed out
   double waited_ = 0.0;
 };
 

@@ -16,9 +16,10 @@ void add_option(rviz::EnumProperty& property, const char* name, Value value) {
 
 }  // namespace
 
-DisplayProperties::DisplayProperties(rviz::Property& display, const std::function<void()>& look,
-                                     const std::function<void()>& source,
-                                     const std::function<void()>& view)
+DisplayProperties::DisplayProperties(rviz::Property& display,
+                                     const std::function<void()>& on_style_change,
+                                     const std::function<void()>& on_source_change,
+                                     const std::function<void()>& on_fit_change)
     : style_(new rviz::EnumProperty(
           "Style", "Automatic",
           "Tubes of the fibres' radii, ribbons that face the viewer, or tubes as long as "
@@ -42,12 +43,12 @@ DisplayProperties::DisplayProperties(rviz::Property& display, const std::functio
           "Contacts among these fibers, with the same stamps: ~contacts of the node whose ~fibers "
           "are shown. Their distances color the segments.",
           &display)),
-      follow_values_(new rviz::BoolProperty(
+      autocompute_range_(new rviz::BoolProperty(
           "Autocompute Range", true,
           "Radius: from the least to the greatest. Distance: from the contacts' margin to 0.",
           &display)),
-      least_(new rviz::FloatProperty("Min Value", 0.0F, "[m]", &display)),
-      greatest_(new rviz::FloatProperty("Max Value", 0.01F, "[m]", &display)),
+      min_value_(new rviz::FloatProperty("Min Value", 0.0F, "[m]", &display)),
+      max_value_(new rviz::FloatProperty("Max Value", 0.01F, "[m]", &display)),
       opacity_(new rviz::FloatProperty("Alpha", 1.0F, "0 is invisible, 1 is opaque.", &display)),
       default_radius_(new rviz::FloatProperty(
           "Default Radius", 0.005F, "[m] Of fibers in messages without radii.", &display)),
@@ -75,20 +76,18 @@ DisplayProperties::DisplayProperties(rviz::Property& display, const std::functio
   opacity_->setMax(1.0F);
   default_radius_->setMin(0.0F);
 
-  for (rviz::Property* property : std::initializer_list<rviz::Property*>{
-           style_, sides_, reduce_detail_, pixel_error_, color_by_, color_, follow_values_, least_,
-           greatest_, opacity_, default_radius_}) {
-    QObject::connect(property, &rviz::Property::changed, property, look);
-  }
-  for (rviz::Property* property :
-       std::initializer_list<rviz::Property*>{style_, color_by_, follow_values_}) {
-    QObject::connect(property, &rviz::Property::changed, property, [this] { update_visibility(); });
-  }
-  for (rviz::Property* property :
-       std::initializer_list<rviz::Property*>{color_by_, contact_topic_}) {
-    QObject::connect(property, &rviz::Property::changed, property, source);
-  }
-  QObject::connect(fit_view_, &rviz::Property::changed, fit_view_, view);
+  const auto connect = [](std::initializer_list<rviz::Property*> properties,
+                          const std::function<void()>& on_change) {
+    for (rviz::Property* property : properties) {
+      QObject::connect(property, &rviz::Property::changed, property, on_change);
+    }
+  };
+  connect({style_, sides_, reduce_detail_, pixel_error_, color_by_, color_, autocompute_range_,
+           min_value_, max_value_, opacity_, default_radius_},
+          on_style_change);
+  connect({style_, color_by_, autocompute_range_}, [this] { update_visibility(); });
+  connect({color_by_, contact_topic_}, on_source_change);
+  connect({fit_view_}, on_fit_change);
   update_visibility();
 }
 
@@ -98,9 +97,9 @@ void DisplayProperties::update_visibility() {
   reduce_detail_->setHidden(style() == Style::tubes);
   color_->setHidden(color_by() != ColorBy::nothing && color_by() != ColorBy::distance);
   contact_topic_->setHidden(color_by() != ColorBy::distance);
-  follow_values_->setHidden(!has_values);
-  least_->setHidden(!has_values || follow_values_->getBool());
-  greatest_->setHidden(!has_values || follow_values_->getBool());
+  autocompute_range_->setHidden(!has_values);
+  min_value_->setHidden(!has_values || autocompute_range_->getBool());
+  max_value_->setHidden(!has_values || autocompute_range_->getBool());
 }
 
 Color DisplayProperties::color() const {
@@ -111,14 +110,14 @@ Color DisplayProperties::color() const {
 }
 
 std::optional<ValueRange> DisplayProperties::range() const {
-  if (follow_values_->getBool()) {
+  if (autocompute_range_->getBool()) {
     return std::nullopt;
   }
-  const double least = least_->getFloat();
-  const double greatest = greatest_->getFloat();
+  const double min_value = min_value_->getFloat();
+  const double max_value = max_value_->getFloat();
   // Red is what to beware of: short distances, but thick fibres.
-  return color_by() == ColorBy::distance ? ValueRange{greatest, least}
-                                         : ValueRange{least, greatest};
+  return color_by() == ColorBy::distance ? ValueRange{max_value, min_value}
+                                         : ValueRange{min_value, max_value};
 }
 
 }  // namespace fiber_proximity_rviz

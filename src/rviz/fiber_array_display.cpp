@@ -72,20 +72,20 @@ void FiberArrayDisplay::reset() {
   pairing_.clear();
   shown_ = FibersAndContacts();
   if (renderable_ != nullptr) {
-    renderable_->show_nothing();
+    renderable_->clear();
   }
-  say_what_is_waited_for();
+  show_waiting_status();
 }
 
 void FiberArrayDisplay::subscribe() {
   MFDClass::subscribe();
   subscribe_to_contacts();
-  say_what_is_waited_for();
+  show_waiting_status();
 }
 
 /// A black window beside "Status: Ok" would be a riddle: the first message of many fibres may take
 /// its sender half a minute.
-void FiberArrayDisplay::say_what_is_waited_for() {
+void FiberArrayDisplay::show_waiting_status() {
   is_waiting_ = isEnabled() && !topic_property_->getTopicStd().empty();
   if (is_waiting_) {
     setStatusStd(Level::Warn, fiber_status, waiting_text(topic_property_->getTopicStd()));
@@ -105,7 +105,8 @@ std::vector<LegendLine> FiberArrayDisplay::legend() const {
     return name + (properties_.color_by() == ColorBy::radius ? "radius " + distance_text(value)
                                                              : distance_text(value) + " apart");
   };
-  return {{ramp(0.0), text(shown_range_->at_blue)}, {ramp(1.0), text(shown_range_->at_red)}};
+  return {{color_map(0.0), text(shown_range_->at_blue)},
+          {color_map(1.0), text(shown_range_->at_red)}};
 }
 
 void FiberArrayDisplay::unsubscribe() {
@@ -174,7 +175,7 @@ void FiberArrayDisplay::draw() {
   try {
     const fiber_proximity_ros::Stopwatch stopwatch;
     if (is_new_) {  // the transform of an old stamp may be forgotten
-      place(shown_.fibers->header);
+      apply_transform(shown_.fibers->header);
     }
     read_fibers();
     if (properties_.fits_view()) {
@@ -194,7 +195,7 @@ void FiberArrayDisplay::draw() {
                             static_cast<float>(mesh.origin.z()));
     setStatusStd(Level::Ok, fiber_status, drawn_text(fibers_, mesh.kind, stopwatch.seconds()));
   } catch (const std::exception& error) {
-    renderable_->show_nothing();
+    renderable_->clear();
     setStatusStd(Level::Error, fiber_status, error.what());
   }
   is_new_ = false;
@@ -219,7 +220,7 @@ void FiberArrayDisplay::read_fibers() {
   assign(chains_, fibers_);
 }
 
-void FiberArrayDisplay::place(const std_msgs::Header& header) {
+void FiberArrayDisplay::apply_transform(const std_msgs::Header& header) {
   Ogre::Vector3 position;
   Ogre::Quaternion orientation;
   if (!context_->getFrameManager()->getTransform(header, position, orientation)) {
@@ -247,7 +248,7 @@ void FiberArrayDisplay::choose_colors() {
       color_by_distance();
       return;
     case ColorBy::nothing:
-      color_alike(fibers_, properties_.color(), colors_);
+      color_flat(fibers_, properties_.color(), colors_);
       return;
   }
 }
@@ -279,10 +280,10 @@ void FiberArrayDisplay::color_by_distance() {
 
 const FiberMesh& FiberArrayDisplay::make_mesh() {
   const int sides = properties_.sides();
-  const std::size_t least_vertices = fibers_.point_count() * static_cast<std::size_t>(sides);
+  const std::size_t min_vertices = fibers_.point_count() * static_cast<std::size_t>(sides);
   const bool as_tubes =
       properties_.style() == Style::tubes ||
-      (properties_.style() == Style::automatic && least_vertices <= most_automatic_vertices);
+      (properties_.style() == Style::automatic && min_vertices <= max_automatic_vertices);
   return as_tubes ? mesher_.make_tubes(fibers_, colors_, sides)
                   : mesher_.make_ribbons(fibers_, colors_);
 }

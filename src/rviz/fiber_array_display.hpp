@@ -30,7 +30,7 @@ class FiberRenderable;
 class FiberArrayDisplay : public rviz::MessageFilterDisplay<fiber_proximity::FiberArray> {
  public:
   /// The style `Automatic` draws tubes up to so many vertices, ribbons above.
-  static constexpr std::size_t most_automatic_vertices = 1000000;
+  static constexpr std::size_t max_automatic_vertices = 1000000;
 
   FiberArrayDisplay();
   ~FiberArrayDisplay() override;
@@ -38,8 +38,8 @@ class FiberArrayDisplay : public rviz::MessageFilterDisplay<fiber_proximity::Fib
   void reset() override;
   void update(float wall_dt, float ros_dt) override;
 
-  /// What the fibres' colours mean, where distances or radii choose them; before the first message
-  /// that there is none.
+  /// The legend of the fibres' colours, where distances or radii choose them; before the first
+  /// message it says that the display waits.
   std::vector<fiber_proximity_ros::LegendLine> legend() const;
 
  protected:
@@ -52,7 +52,7 @@ class FiberArrayDisplay : public rviz::MessageFilterDisplay<fiber_proximity::Fib
   void processMessage(const fiber_proximity::FiberArrayConstPtr& message) override;
   void process_contacts(const fiber_proximity::ContactArrayConstPtr& message);
 
-  /// Contacts come from where the properties say.
+  /// Subscribes to the topic of contacts that the properties name.
   void subscribe_to_contacts();
   bool wants_contacts() const;
 
@@ -60,19 +60,19 @@ class FiberArrayDisplay : public rviz::MessageFilterDisplay<fiber_proximity::Fib
   void draw();
   void fit_view();
   void read_fibers();
-  void place(const std_msgs::Header& header);
+  void apply_transform(const std_msgs::Header& header);
   void choose_colors();
   void color_by_distance();
-  void say_what_is_waited_for();
+  void show_waiting_status();
   const FiberMesh& make_mesh();
 
   DisplayProperties properties_;
   ros::Subscriber contact_subscriber_;
   ContactPairing pairing_;
   FibersAndContacts shown_;
-  bool is_waiting_ = false;  // for the first message
-  bool is_new_ = false;      // `shown_` has not been placed
-  bool is_changed_ = false;  // nor drawn as the properties say
+  bool is_waiting_ = false;  // the first message has not come
+  bool is_new_ = false;      // the transform of `shown_` has not been applied
+  bool is_changed_ = false;  // `shown_` has not been drawn as the properties say
 
   fiber_proximity_ros::FiberBuffer chains_;
   fiber::FiberAssembly fibers_;

@@ -54,7 +54,7 @@ Color to_color(const Rgb& rgb, float opacity) {
   return {to_byte(rgb[0]), to_byte(rgb[1]), to_byte(rgb[2]), to_byte(opacity)};
 }
 
-Rgb ramp(double value) {
+Rgb color_map(double value) {
   static constexpr std::array<Rgb, 4> stops{
       {{0.20F, 0.36F, 0.80F}, {0.16F, 0.70F, 0.62F}, {0.98F, 0.72F, 0.16F}, {0.90F, 0.14F, 0.12F}}};
   const double place = std::clamp(value, 0.0, 1.0) * (stops.size() - 1);
@@ -67,8 +67,8 @@ Rgb ramp(double value) {
   return rgb;
 }
 
-void color_alike(const fiber::FiberAssembly& fibers, const Color& color,
-                 std::vector<Color>& colors) {
+void color_flat(const fiber::FiberAssembly& fibers, const Color& color,
+                std::vector<Color>& colors) {
   color_fibers(fibers, colors, [&color](std::uint32_t fiber) {
     Color result = color;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -95,7 +95,7 @@ void color_by_value(const std::vector<std::optional<double>>& values, const Valu
     const double distance = *values[i] - range.at_blue;
     // All at one value: the middle.
     const double place = width != 0.0 ? distance / width : 0.5;
-    colors[i] = to_color(ramp(place), static_cast<float>(otherwise[3]) / 255.0F);
+    colors[i] = to_color(color_map(place), static_cast<float>(otherwise[3]) / 255.0F);
   }
 }
 

@@ -16,9 +16,9 @@ namespace {
 using Eigen::Vector3d;
 using fiber::FiberAssembly;
 
-/// A stretch and what chunks are made by.
+/// A range and what chunks are made by.
 struct Part {
-  Stretch stretch;
+  PointRange range;
   Vector3d middle;  // [m]
 };
 using Parts = std::vector<Part>;
@@ -28,7 +28,7 @@ Parts cut(const FiberAssembly& fibers) {
   for (std::size_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
     const std::uint32_t last = fibers.offsets()[fiber + 1] - 1;
     for (std::uint32_t point = fibers.offsets()[fiber]; point < last;) {
-      const std::uint32_t end = point + std::min(most_stretch_segments, last - point);
+      const std::uint32_t end = point + std::min(max_range_segments, last - point);
       parts.push_back({{point, end}, fibers.points()[point + (end - point) / 2]});
       point = end;
     }
@@ -39,7 +39,7 @@ Parts cut(const FiberAssembly& fibers) {
 std::size_t segment_count(Parts::const_iterator begin, Parts::const_iterator end) {
   std::size_t count = 0;
   for (auto part = begin; part != end; ++part) {
-    count += part->stretch.last - part->stretch.first;
+    count += part->range.last - part->range.first;
   }
   return count;
 }
@@ -47,7 +47,7 @@ std::size_t segment_count(Parts::const_iterator begin, Parts::const_iterator end
 /// Halves them where they extend farthest until each part is small enough.
 void split(Parts::iterator begin, Parts::iterator end,
            std::vector<std::pair<Parts::iterator, Parts::iterator>>& groups) {
-  if (end - begin <= 1 || segment_count(begin, end) <= most_chunk_segments) {
+  if (end - begin <= 1 || segment_count(begin, end) <= max_chunk_segments) {
     groups.emplace_back(begin, end);
     return;
   }
@@ -60,7 +60,7 @@ void split(Parts::iterator begin, Parts::iterator end,
   const auto half = begin + (end - begin) / 2;
   std::nth_element(begin, half, end, [axis](const Part& a, const Part& b) {
     return a.middle[axis] != b.middle[axis] ? a.middle[axis] < b.middle[axis]
-                                            : a.stretch.first < b.stretch.first;
+                                            : a.range.first < b.range.first;
   });
   split(begin, half, groups);
   split(half, end, groups);
@@ -71,11 +71,11 @@ FiberChunk make_chunk(const FiberAssembly& fibers, const Vector3d& origin,
   FiberChunk chunk;
   chunk.segment_count = segment_count(begin, end);
   for (auto part = begin; part != end; ++part) {
-    const Stretch& stretch = part->stretch;
-    chunk.stretches.push_back(stretch);
-    for (std::uint32_t point = stretch.first; point <= stretch.last; ++point) {
+    const PointRange& range = part->range;
+    chunk.ranges.push_back(range);
+    for (std::uint32_t point = range.first; point <= range.last; ++point) {
       chunk.box.extend((fibers.points()[point] - origin).cast<float>());
-      if (point < stretch.last) {
+      if (point < range.last) {
         chunk.largest_radius = std::max(chunk.largest_radius, fibers.segment_radius(point));
       }
     }
@@ -86,8 +86,8 @@ FiberChunk make_chunk(const FiberAssembly& fibers, const Vector3d& origin,
   return chunk;
 }
 
-/// What bounds the search for a run.
-constexpr std::uint32_t most_run_segments = 64;
+/// Bounds the search for a run.
+constexpr std::uint32_t max_run_segments = 64;
 
 bool look_alike(const MeshVertex& a, const MeshVertex& b) {
   return a.color == b.color && a.offset == b.offset;
@@ -137,22 +137,22 @@ Detail choose_detail(const FiberChunk& chunk, double pixel, const DetailOptions&
   return detail;
 }
 
-void keep_points(const std::vector<Vector3d>& points, const std::vector<MeshVertex>& vertices,
-                 const Stretch& stretch, double tolerance, std::vector<std::uint32_t>& kept) {
+void simplify(const std::vector<Vector3d>& points, const std::vector<MeshVertex>& vertices,
+              const PointRange& range, double tolerance, std::vector<std::uint32_t>& kept) {
   assert(vertices.size() == edges_of_ribbon * points.size());
-  std::uint32_t point = stretch.first;
-  while (point < stretch.last) {
+  std::uint32_t point = range.first;
+  while (point < range.last) {
     kept.push_back(point);
     std::uint32_t run = 1;
     if (tolerance > 0.0) {
-      const std::uint32_t most = std::min(most_run_segments, stretch.last - point);
+      const std::uint32_t most = std::min(max_run_segments, range.last - point);
       run = fiber::long_run(count_alike(vertices, point, most), [&](std::uint32_t count) {
         return std::isfinite(fiber::deviation_of_points(points, point, point + count, tolerance));
       });
     }
     point += run;
   }
-  kept.push_back(stretch.last);
+  kept.push_back(range.last);
 }
 
 std::vector<std::uint32_t> make_indices(const std::vector<Vector3d>& points,
@@ -160,9 +160,9 @@ std::vector<std::uint32_t> make_indices(const std::vector<Vector3d>& points,
                                         const FiberChunk& chunk, const Detail& detail) {
   std::vector<std::uint32_t> indices;
   std::vector<std::uint32_t> kept;
-  for (const Stretch& stretch : chunk.stretches) {
+  for (const PointRange& range : chunk.ranges) {
     kept.clear();
-    keep_points(points, vertices, stretch, detail.tolerance(), kept);
+    simplify(points, vertices, range, detail.tolerance(), kept);
     for (std::size_t i = 0; i + 1 < kept.size(); ++i) {
       const auto here = static_cast<std::uint32_t>(edges_of_ribbon * kept[i]);
       const auto next = static_cast<std::uint32_t>(edges_of_ribbon * kept[i + 1]);

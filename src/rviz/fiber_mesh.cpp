@@ -25,13 +25,13 @@ std::array<float, 3> to_floats(const Vector3d& vector) {
           static_cast<float>(vector.z())};
 }
 
-/// For each fibre, in parallel.
+/// Calls a function with each fibre, in parallel.
 template <class Function>
 void for_each_fiber(const FiberAssembly& fibers, const Function& function) {
   tbb::parallel_for(0U, static_cast<std::uint32_t>(fibers.fiber_count()), function);
 }
 
-void refuse_what_is_too_large(const FiberAssembly& fibers) {
+void require_drawable_size(const FiberAssembly& fibers) {
   if (fibers.largest_radius() > FiberMesher::max_drawn) {
     throw std::invalid_argument("a fibre is too thick to draw; radii may be 1e15 m at most");
   }
@@ -43,7 +43,7 @@ void refuse_what_is_too_large(const FiberAssembly& fibers) {
   }
 }
 
-void refuse_what_is_too_much(std::size_t vertices) {
+void require_vertex_count(std::size_t vertices) {
   if (vertices > FiberMesher::max_vertices) {
     throw std::invalid_argument(std::to_string(vertices) + " vertices are too many to draw; " +
                                 std::to_string(FiberMesher::max_vertices) + " are the most");
@@ -58,7 +58,7 @@ Vector3d tangent_at(const FiberAssembly& fibers, std::uint32_t begin, std::uint3
   return (fibers.points()[after] - fibers.points()[before]).stableNormalized();
 }
 
-/// Above 0, so that its sign tells left from right.
+/// The offset [m] of a ribbon's edges: above 0, so that its sign tells left from right.
 float ribbon_offset(const FiberAssembly& fibers, std::uint32_t segment) {
   return std::max(static_cast<float>(fibers.segment_radius(segment)),
                   std::numeric_limits<float>::min());
@@ -82,8 +82,8 @@ Eigen::AlignedBox3f box_of(const std::vector<MeshVertex>& vertices) {
 const FiberMesh& FiberMesher::make_ribbons(const FiberAssembly& fibers,
                                            const std::vector<Color>& colors) {
   assert(colors.size() == fibers.point_count());
-  refuse_what_is_too_much(edges_of_ribbon * fibers.point_count());
-  refuse_what_is_too_large(fibers);
+  require_vertex_count(edges_of_ribbon * fibers.point_count());
+  require_drawable_size(fibers);
   mesh_.kind = FiberMesh::Kind::ribbons;
   mesh_.origin = fibers.point_count() > 0 ? fibers.points().front() : Vector3d::Zero();
   mesh_.vertices.resize(edges_of_ribbon * fibers.point_count());
@@ -113,8 +113,8 @@ const FiberMesh& FiberMesher::make_tubes(const FiberAssembly& fibers,
                                          const std::vector<Color>& colors, int sides) {
   assert(colors.size() == fibers.point_count());
   const std::vector<Eigen::Vector2d> corners = fiber_proximity_ros::corner_directions(sides);
-  refuse_what_is_too_much(fibers.point_count() * corners.size());  // at least
-  refuse_what_is_too_large(fibers);
+  require_vertex_count(fibers.point_count() * corners.size());  // at least
+  require_drawable_size(fibers);
 
   rings_.resize(fibers.fiber_count());
   for_each_fiber(fibers, [&](std::uint32_t fiber) {
@@ -127,7 +127,7 @@ const FiberMesh& FiberMesher::make_tubes(const FiberAssembly& fibers,
     first_vertex.push_back(first_vertex.back() + corners_between_poles + 2);
     first_triangle.push_back(first_triangle.back() + 2 * corners_between_poles);
   }
-  refuse_what_is_too_much(first_vertex.back());
+  require_vertex_count(first_vertex.back());
 
   mesh_.kind = FiberMesh::Kind::tubes;
   mesh_.origin = fibers.point_count() > 0 ? fibers.points().front() : Vector3d::Zero();

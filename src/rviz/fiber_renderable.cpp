@@ -52,7 +52,7 @@ class PixelSize {
       depth_[i] = static_cast<double>(clip[3][i]);
     }
     const bool parallel_rays = projection[3][3] == 1.0F;
-    least_depth_ = parallel_rays ? 1.0 : static_cast<double>(camera.getNearClipDistance());
+    min_depth_ = parallel_rays ? 1.0 : static_cast<double>(camera.getNearClipDistance());
     scale_ = 2.0 / std::abs(static_cast<double>(projection[1][1])) /
              camera.getViewport()->getActualHeight();
   }
@@ -64,19 +64,19 @@ class PixelSize {
       depth += std::min(depth_[i] * static_cast<double>(box.min()[i]),
                         depth_[i] * static_cast<double>(box.max()[i]));
     }
-    return std::max(scale_ * std::max(depth, least_depth_), std::numeric_limits<double>::min());
+    return std::max(scale_ * std::max(depth, min_depth_), std::numeric_limits<double>::min());
   }
 
  private:
   double depth_[4];  // [m] by place: a plane
-  double least_depth_;
+  double min_depth_;
   double scale_;  // pixel's size by depth
 };
 
 }  // namespace
 
-/// What one call draws of the vertices that all parts share. A chunk of ribbons keeps what it has
-/// been drawn as, for the next time it is seen from as far.
+/// One draw call on the vertices that all parts share. A chunk of ribbons keeps the index buffers
+/// it has been drawn with, for the next time it is seen from as far.
 class FiberPart : public Ogre::Renderable {
  public:
   /// All must outlive it.
@@ -176,9 +176,9 @@ FiberRenderable::FiberRenderable() : vertices_(std::make_unique<Ogre::VertexData
 
 FiberRenderable::~FiberRenderable() = default;
 
-void FiberRenderable::show_nothing() {
+void FiberRenderable::clear() {
   parts_.clear();
-  in_view_.clear();
+  visible_parts_.clear();
   points_ = nullptr;
   failure_.clear();
   box_.setNull();
@@ -199,7 +199,7 @@ void FiberRenderable::set_vertices(const FiberMesh& mesh) {
 }
 
 void FiberRenderable::show_tubes(const FiberMesh& mesh) {
-  show_nothing();  // if anything below throws
+  clear();  // if anything below throws
   if (mesh.vertices.empty()) {
     return;
   }
@@ -214,7 +214,7 @@ void FiberRenderable::show_ribbons(const FiberMesh& mesh,
                                    const std::vector<Eigen::Vector3d>& points,
                                    const std::vector<FiberChunk>& chunks,
                                    const DetailOptions& options) {
-  show_nothing();
+  clear();
   if (mesh.vertices.empty()) {
     return;
   }
@@ -230,40 +230,40 @@ void FiberRenderable::show_ribbons(const FiberMesh& mesh,
 
 void FiberRenderable::_notifyCurrentCamera(Ogre::Camera* camera) {
   Ogre::MovableObject::_notifyCurrentCamera(camera);
-  in_view_.clear();
+  visible_parts_.clear();
   failure_.clear();
   try {
-    choose_parts(*camera);
+    cull_parts(*camera);
   } catch (const std::exception& error) {  // no memory for it; rviz would end
-    in_view_.clear();
+    visible_parts_.clear();
     failure_ = error.what();
   }
 }
 
-void FiberRenderable::choose_parts(const Ogre::Camera& camera) {
+void FiberRenderable::cull_parts(const Ogre::Camera& camera) {
   const auto& world = _getParentNodeFullTransform();
   for (const std::unique_ptr<FiberPart>& part : parts_) {
     Ogre::AxisAlignedBox box = to_ogre(part->chunk().box);
     box.transform(world);
     if (camera.isVisible(box)) {
-      in_view_.push_back(part.get());
+      visible_parts_.push_back(part.get());
     }
   }
   if (points_ == nullptr) {  // tubes
     return;
   }
   const PixelSize pixel(camera, world);
-  tbb::parallel_for(std::size_t{0}, in_view_.size(), [&](std::size_t i) {
-    const FiberChunk& chunk = in_view_[i]->chunk();
-    in_view_[i]->prepare(*points_, choose_detail(chunk, pixel.at(chunk.box), options_));
+  tbb::parallel_for(std::size_t{0}, visible_parts_.size(), [&](std::size_t i) {
+    const FiberChunk& chunk = visible_parts_[i]->chunk();
+    visible_parts_[i]->prepare(*points_, choose_detail(chunk, pixel.at(chunk.box), options_));
   });
-  for (FiberPart* part : in_view_) {
+  for (FiberPart* part : visible_parts_) {
     part->show();
   }
 }
 
 void FiberRenderable::_updateRenderQueue(Ogre::RenderQueue* queue) {
-  for (FiberPart* part : in_view_) {
+  for (FiberPart* part : visible_parts_) {
     queue->addRenderable(part, mRenderQueueID, OGRE_RENDERABLE_DEFAULT_PRIORITY);
   }
 }

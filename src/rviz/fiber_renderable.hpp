@@ -32,7 +32,7 @@ class FiberRenderable : public Ogre::MovableObject {
   /// Mesh and points must stay as they are until it shows something else.
   void show_ribbons(const FiberMesh& mesh, const std::vector<Eigen::Vector3d>& points,
                     const std::vector<FiberChunk>& chunks, const DetailOptions& options);
-  void show_nothing();
+  void clear();
 
   /// Why the last picture lacks fibres; empty if it does not.
   const std::string& failure() const { return failure_; }
@@ -47,7 +47,7 @@ class FiberRenderable : public Ogre::MovableObject {
 
  private:
   void set_vertices(const FiberMesh& mesh);
-  void choose_parts(const Ogre::Camera& camera);
+  void cull_parts(const Ogre::Camera& camera);
 
   FiberMaterials materials_;
   std::unique_ptr<Ogre::VertexData> vertices_;
@@ -55,7 +55,7 @@ class FiberRenderable : public Ogre::MovableObject {
   std::vector<std::unique_ptr<FiberPart>> parts_;
   const std::vector<Eigen::Vector3d>* points_ = nullptr;  // of ribbons
   DetailOptions options_;
-  std::vector<FiberPart*> in_view_;
+  std::vector<FiberPart*> visible_parts_;
   std::string failure_;
 };
 

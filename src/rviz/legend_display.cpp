@@ -18,7 +18,7 @@ using Level = rviz::StatusProperty::Level;
 
 const char* const topic_status = "Topic";
 
-/// What displays of fibres in a group tell.
+/// Appends the legends of the displays of fibres in a group.
 void append_legends(const rviz::DisplayGroup& group, std::vector<LegendLine>& lines) {
   for (int i = 0; i < group.numDisplays(); ++i) {
     const rviz::Display* display = group.getDisplayAt(i);

@@ -35,7 +35,7 @@ class LegendDisplay : public rviz::Display {
   void process(const visualization_msgs::MarkerArrayConstPtr& message) { texts_.take(*message); }
   void subscribe();
 
-  /// What is to be told now.
+  /// The lines to show now.
   std::vector<fiber_proximity_ros::LegendLine> lines() const;
 
   // rviz owns properties through their parents.

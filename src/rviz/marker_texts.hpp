@@ -11,7 +11,7 @@
 
 namespace fiber_proximity_rviz {
 
-/// Those texts among markers that belong to no place: legend, and what an answer lacks.
+/// The texts among markers that belong to no place: the legend, and what an answer lacks.
 class MarkerTexts {
  public:
   /// Takes what a message adds, modifies and deletes.
@@ -19,7 +19,7 @@ class MarkerTexts {
 
   void clear() { texts_.clear(); }
 
-  /// What an answer lacks, then the legend, from its first line on.
+  /// The lines: first what an answer lacks, then the legend from its first line on.
   std::vector<fiber_proximity_ros::LegendLine> lines() const;
 
  private:

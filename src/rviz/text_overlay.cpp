@@ -14,7 +14,8 @@
 #include <QImage>
 #include <QPainter>
 #include <algorithm>
-#include <cmath>
+
+#include "src/rviz/fiber_colors.hpp"
 
 namespace fiber_proximity_rviz {
 namespace {
@@ -22,15 +23,8 @@ namespace {
 using Corner = TextOverlay::Corner;
 using fiber_proximity_ros::LegendLine;
 
-constexpr int edge_distance = 12;  // [pixels] from the window's edges
-constexpr int inset = 6;           // [pixels] of the texts from their ground's edges
-
-QColor color_of(const fiber_proximity_ros::Rgb& rgb) {
-  const auto to_int = [](float x) {
-    return std::clamp(static_cast<int>(std::lround(255.0F * x)), 0, 255);
-  };
-  return {to_int(rgb[0]), to_int(rgb[1]), to_int(rgb[2])};
-}
+constexpr int window_margin = 12;  // [pixels] from the window's edges
+constexpr int padding = 6;         // [pixels] of the texts from their ground's edges
 
 /// The lines before a ground that is dark enough to read them whatever is behind.
 QImage paint(const std::vector<LegendLine>& lines, int height) {
@@ -43,28 +37,29 @@ QImage paint(const std::vector<LegendLine>& lines, int height) {
   }
   const int step = metrics.lineSpacing();
   // Ogre's hardware textures need no powers of 2.
-  QImage image(width + 2 * inset + 2, step * static_cast<int>(lines.size()) + 2 * inset,
+  QImage image(width + 2 * padding + 2, step * static_cast<int>(lines.size()) + 2 * padding,
                QImage::Format_ARGB32);
   image.fill(QColor(10, 12, 16, 170));
   QPainter painter(&image);
   painter.setRenderHint(QPainter::TextAntialiasing);
   painter.setFont(font);
-  int base = inset + metrics.ascent();
+  int base = padding + metrics.ascent();
   for (const LegendLine& line : lines) {
-    painter.setPen(color_of(line.color));
-    painter.drawText(inset, base, QString::fromStdString(line.text));
+    const Color color = to_color(line.color, 1.0F);
+    painter.setPen(QColor(color[0], color[1], color[2]));
+    painter.drawText(padding, base, QString::fromStdString(line.text));
     base += step;
   }
   return image;
 }
 
-void put_into(Corner corner, int width, int height, Ogre::PanelOverlayElement& panel) {
+void align_panel(Corner corner, int width, int height, Ogre::PanelOverlayElement& panel) {
   const bool is_left = corner == Corner::bottom_left || corner == Corner::top_left;
   const bool is_top = corner == Corner::top_left || corner == Corner::top_right;
   panel.setHorizontalAlignment(is_left ? Ogre::GHA_LEFT : Ogre::GHA_RIGHT);
   panel.setVerticalAlignment(is_top ? Ogre::GVA_TOP : Ogre::GVA_BOTTOM);
   const auto at = [](bool is_near, int size) {
-    return static_cast<Ogre::Real>(is_near ? edge_distance : -edge_distance - size);
+    return static_cast<Ogre::Real>(is_near ? window_margin : -window_margin - size);
   };
   panel.setPosition(at(is_left, width), at(is_top, height));
   panel.setDimensions(static_cast<Ogre::Real>(width), static_cast<Ogre::Real>(height));
@@ -72,7 +67,7 @@ void put_into(Corner corner, int width, int height, Ogre::PanelOverlayElement& p
 
 const std::string& text_group() { return Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME; }
 
-/// Those who still show it keep it.
+/// Removes a texture by name; those who still show it keep it.
 void remove_texture(const std::string& name) {
   if (!name.empty()) {
     Ogre::TextureManager::getSingleton().remove(name);
@@ -130,7 +125,7 @@ void TextOverlay::show(const std::vector<LegendLine>& lines, Corner corner, int 
   unit.setTextureName(name);
   remove_texture(texture_);
   texture_ = name;
-  put_into(corner, image.width(), image.height(), *panel_);
+  align_panel(corner, image.width(), image.height(), *panel_);
   overlay_->show();
 }
 

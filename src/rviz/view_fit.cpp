@@ -11,13 +11,13 @@
 namespace fiber_proximity_rviz {
 namespace {
 
-constexpr double share_of_picture = 0.65;  // names and legend have the rest
-constexpr double share_to_leave = 0.85;    // where ends have no room for handles any more
+constexpr double fitted_share = 0.65;  // of the viewport; names and legend have the rest
+constexpr double refit_share = 0.85;   // where ends have no room for handles any more
 
 bool is_orbit(const rviz::ViewController& view) { return view.getClassId() == "rviz/Orbit"; }
 
-/// What the user changes by moving the view.
-std::vector<float> numbers_of(rviz::ViewController& view) {
+/// The numbers that the user changes by moving the view.
+std::vector<float> view_state(rviz::ViewController& view) {
   std::vector<float> numbers;
   if (is_orbit(view)) {
     for (const char* name : {"Distance", "Pitch", "Yaw"}) {
@@ -50,7 +50,7 @@ OrbitView orbit_view(rviz::ViewController& view, const std::string& frame) {
 void ViewFitter::fit(rviz::ViewController& view, const std::string& frame,
                      const fiber::FiberAssembly& fibers, const Eigen::Isometry3d& pose, bool keep) {
   const bool is_first = fiber_count_ == 0;
-  const bool is_untouched = is_orbit(view) && numbers_of(view) == as_left_;
+  const bool is_untouched = is_orbit(view) && view_state(view) == fitted_state_;
   const bool are_more = fibers.fiber_count() > fiber_count_;
   if (fibers.fiber_count() == 0 || (!is_first && !is_untouched) || (!are_more && !keep)) {
     return;
@@ -61,11 +61,11 @@ void ViewFitter::fit(rviz::ViewController& view, const std::string& frame,
     points.push_back(pose * point);
   }
   const OrbitView orbit = is_orbit(view) ? orbit_view(view, frame) : OrbitView();
-  if (!are_more && is_in_view(points, orbit, fit_, share_to_leave)) {
+  if (!are_more && is_in_view(points, orbit, fit_, refit_share)) {
     return;
   }
   fiber_count_ = std::max(fiber_count_, fibers.fiber_count());
-  fit_ = fit_view(points, orbit, share_of_picture);
+  fit_ = fit_view(points, orbit, fitted_share);
   view.lookAt(static_cast<float>(fit_.focal_point.x()), static_cast<float>(fit_.focal_point.y()),
               static_cast<float>(fit_.focal_point.z()));
   if (is_orbit(view)) {
@@ -73,7 +73,7 @@ void ViewFitter::fit(rviz::ViewController& view, const std::string& frame,
     view.subProp("Pitch")->setValue(orbit.pitch);
     view.subProp("Yaw")->setValue(orbit.yaw);
   }
-  as_left_ = numbers_of(view);
+  fitted_state_ = view_state(view);
 }
 
 }  // namespace fiber_proximity_rviz

@@ -22,10 +22,17 @@ struct OrbitView {
   double pitch = 0.0;  ///< [rad] of that direction above the plane of x and y
   double tan_half_width =
       1.0;  ///< of the angle from the picture's middle to its left or right side
-  double tan_half_height = 1.0;  ///< the same to its upper or lower side
+  double tan_half_height = 1.0;  ///< of the angle to its upper or lower side
+
+  // The camera's axes, unit vectors:
+  Eigen::Vector3d to_camera() const {
+    return {std::cos(yaw) * std::cos(pitch), std::sin(yaw) * std::cos(pitch), std::sin(pitch)};
+  }
+  Eigen::Vector3d right() const { return {-std::sin(yaw), std::cos(yaw), 0.0}; }
+  Eigen::Vector3d up() const { return to_camera().cross(right()); }
 };
 
-/// What to look at.
+/// The camera position that shows the fibres.
 struct ViewFit {
   Eigen::Vector3d focal_point = Eigen::Vector3d::Zero();
   double distance = 0.0;  ///< [m] of the camera from there
@@ -39,10 +46,9 @@ struct ViewFit {
 inline ViewFit fit_view(const std::vector<Eigen::Vector3d>& points, const OrbitView& view,
                         double share) {
   assert(!points.empty() && share > 0.0 && share <= 1.0);
-  const Eigen::Vector3d to_camera(std::cos(view.yaw) * std::cos(view.pitch),
-                                  std::sin(view.yaw) * std::cos(view.pitch), std::sin(view.pitch));
-  const Eigen::Vector3d right(-std::sin(view.yaw), std::cos(view.yaw), 0.0);
-  const Eigen::Vector3d up = to_camera.cross(right);
+  const Eigen::Vector3d to_camera = view.to_camera();
+  const Eigen::Vector3d right = view.right();
+  const Eigen::Vector3d up = view.up();
   // As the camera has them: to the right, upwards, towards it.
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& point : points) {
@@ -64,10 +70,9 @@ inline ViewFit fit_view(const std::vector<Eigen::Vector3d>& points, const OrbitV
 /// @param fit where the camera is
 inline bool is_in_view(const std::vector<Eigen::Vector3d>& points, const OrbitView& view,
                        const ViewFit& fit, double share) {
-  const Eigen::Vector3d to_camera(std::cos(view.yaw) * std::cos(view.pitch),
-                                  std::sin(view.yaw) * std::cos(view.pitch), std::sin(view.pitch));
-  const Eigen::Vector3d right(-std::sin(view.yaw), std::cos(view.yaw), 0.0);
-  const Eigen::Vector3d up = to_camera.cross(right);
+  const Eigen::Vector3d to_camera = view.to_camera();
+  const Eigen::Vector3d right = view.right();
+  const Eigen::Vector3d up = view.up();
   return std::all_of(points.begin(), points.end(), [&](const Eigen::Vector3d& point) {
     const Eigen::Vector3d offset = point - fit.focal_point;
     const double reach = share * (fit.distance - to_camera.dot(offset));
@@ -93,9 +98,9 @@ class ViewFitter {
            const Eigen::Isometry3d& pose, bool keep);
 
  private:
-  std::size_t fiber_count_ = 0;  // of those last fitted to
-  std::vector<float> as_left_;   // the view's numbers after that
-  ViewFit fit_;                  // what it was fitted to
+  std::size_t fiber_count_ = 0;      // of those last fitted to
+  std::vector<float> fitted_state_;  // the state of the view after that
+  ViewFit fit_;                      // what it was fitted to
 };
 
 }  // namespace fiber_proximity_rviz

@@ -69,16 +69,16 @@ inline Eigen::Vector3d curvature_binormal(const Eigen::Vector3d& tangent_before,
          std::max(folded, 1.0 + tangent_before.dot(tangent_after));
 }
 
-/// How much current_director() turns about the tangent as the edge changes, against one that does
-/// not turn about it: the derivative by the edge's second point; by the first, minus this. It is
-/// transported in one turn from where the step began, which is not the same as bit by bit.
+/// The derivative, by the edge's second point, of the angle by which current_director() turns about
+/// the tangent; by the first point it is minus this. The director is transported in one rotation
+/// from where the step began, which differs from transport bit by bit.
 inline Eigen::Vector3d director_turn(const Eigen::Vector3d& start_tangent,
                                      const EdgeDirection& edge) {
   return curvature_binormal(start_tangent, edge.tangent) / (-2.0 * edge.length);
 }
 
-/// One rod of a pack, for what is computed one rod after the other. Nodes and edges are counted
-/// from the rod's first one.
+/// One rod of a pack, for computations rod by rod. Nodes and edges are counted from the rod's first
+/// one.
 class PackLane {
  public:
   PackLane(const RodPack& rods, std::size_t lane) : rods_(rods), lane_(lane) {}

@@ -17,18 +17,18 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// [m] What lies between two edges of a rod that may touch is now at least this.
-double least_length_now(const Rods& rods) {
-  double least = std::numeric_limits<double>::infinity();
+/// The least length that the rod between two edges of one rod that may touch has now [m].
+double min_length_now(const Rods& rods) {
+  double min_length = std::numeric_limits<double>::infinity();
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
     double ratio = 1.0 - 1e-12;  // for rounding
     for (std::uint32_t i = rods.first(rod); i + 1 < rods.end(rod); ++i) {
       const double now = (rods.positions[i + 1] - rods.positions[i]).norm();
       ratio = std::min(ratio, now / rods.rest_lengths[i]);
     }
-    least = std::min(least, ratio * contact_neighbour_length(rods, rod));
+    min_length = std::min(min_length, ratio * contact_neighbour_length(rods, rod));
   }
-  return least;
+  return min_length;
 }
 
 }  // namespace
@@ -41,8 +41,8 @@ OverlapFinder::OverlapFinder(const Options& options)
                                                                   : Pairing::DIFFERENT_FIBERS;
 }
 
-std::vector<Overlap> OverlapFinder::find(const Rods& rods, double share, std::uint32_t most) {
-  query_.max_contacts = most;
+std::vector<Overlap> OverlapFinder::find(const Rods& rods, double share, std::uint32_t max) {
+  query_.max_contacts = max;
   fibers_ = FiberAssembly(rods.positions, rods.offsets, rods.radii);
   std::vector<Overlap> found;
   if (options_.same_fiber || options_.different_fibers) {
@@ -64,8 +64,8 @@ std::vector<Overlap> OverlapFinder::find(const Rods& rods, double share, std::ui
 
 void OverlapFinder::find_between_rods(const Rods& rods, double share, std::vector<Overlap>& found) {
   query_.neighbour_skip = contact_neighbour_skip;
-  // Not all that the rule of lengths leaves out is to use up the most.
-  query_.neighbour_skip_length = least_length_now(rods);
+  // Neighbours that are dropped below should not use up the limit.
+  query_.neighbour_skip_length = min_length_now(rods);
   engine_->update(fibers_);
   engine_->query(query_, result_);
   const std::vector<double> arcs = contact_arcs(rods);
@@ -84,7 +84,7 @@ void OverlapFinder::find_between_rods(const Rods& rods, double share, std::vecto
 
 namespace {
 
-/// Overlaps of the same two things, each beside another one: they part along one direction.
+/// Neighbouring overlaps of the same two things, which are separated along one direction.
 using Patch = std::vector<Overlap>;
 
 /// One side of an overlap: an edge of a rod, and how its nodes take part.
@@ -96,10 +96,10 @@ struct Side {
   double mobility;  // of the point: 0 where it is held
 };
 
-/// Surfaces part by so much more than they must, for rounding errors.
+/// Factor on the distance to which surfaces are separated, for rounding errors.
 constexpr double clearance = 1.0 + 1e-4;
 
-/// So many radii of rod take part on both sides of where it is moved.
+/// Length of rod, on both sides of where it is moved, that moves with it, in radii.
 constexpr double spread = 20.0;
 
 class Separation {
@@ -124,13 +124,13 @@ class Separation {
     }
   }
 
-  void part(const Patch& patch) {
+  void separate(const Patch& patch) {
     const Vector3d direction = direction_of(patch);
     for (const Overlap& overlap : patch) {
       if (overlap.is_object) {
         leave_object(overlap, direction);
       } else {
-        part_rods(overlap, direction);
+        separate_rods(overlap, direction);
       }
     }
   }
@@ -140,8 +140,8 @@ class Separation {
     const std::uint32_t first = rods_.first(rod) + edge;
     const double mobility =
         (1.0 - parameter) * mobilities_[first] + parameter * mobilities_[first + 1];
-    constexpr double least = 1e-3;
-    return {rod, first, parameter, width, mobility < least ? 0.0 : mobility};
+    constexpr double min_mobility = 1e-3;
+    return {rod, first, parameter, width, mobility < min_mobility ? 0.0 : mobility};
   }
 
   /// Edges of one rod do not move each other's neighbourhood.
@@ -187,7 +187,7 @@ class Separation {
     }
   }
 
-  /// Of the deepest overlap, from b to a.
+  /// The direction of the deepest overlap, from b to a.
   Vector3d direction_of(const Patch& patch) const {
     const Overlap& deepest = patch.front();
     const Contact& contact = deepest.contact;
@@ -201,7 +201,7 @@ class Separation {
     return between.norm() > same * touching ? between.normalized() : choose_direction(patch);
   }
 
-  /// Where axes meet: that of some directions which is most across all edges of the patch.
+  /// For axes that meet: the one of some directions that is most across all edges of the patch.
   Vector3d choose_direction(const Patch& patch) const {
     std::vector<Vector3d> tangents;
     Vector3d mean = Vector3d::Zero();
@@ -243,7 +243,7 @@ class Separation {
     return best;
   }
 
-  void part_rods(const Overlap& overlap, const Vector3d& direction) {
+  void separate_rods(const Overlap& overlap, const Vector3d& direction) {
     const Contact& contact = overlap.contact;
     const double width = width_of(overlap);
     const Side a = side_of(contact.fiber_a, contact.segment_a, contact.s, width);
@@ -266,7 +266,7 @@ class Separation {
     }
   }
 
-  /// By its depth when it was found: another overlap of the patch may have moved it since.
+  /// The depth is that when it was found, less the motion for other overlaps of the patch.
   void leave_object(const Overlap& overlap, const Vector3d& direction) {
     const Contact& contact = overlap.contact;
     const Side side = side_of(contact.fiber_a, contact.segment_a, contact.s, width_of(overlap));
@@ -274,7 +274,7 @@ class Separation {
     const Vector3d& surface = contact.point_b;  // of the object
     const double wanted = clearance * rods_.radii[contact.fiber_a];
     const double missing = wanted - out.dot(point_of(side) - surface);
-    // What is nearer to another side goes with the rest of the patch.
+    // Overlaps that are nearer to another side move with the rest of the patch.
     constexpr double steepest = 0.5;
     if (missing > 0.0 && side.mobility > 0.0 && direction.dot(out) > steepest) {
       move(side, missing * direction);
@@ -331,20 +331,20 @@ std::vector<Patch> patches_of(const std::vector<Overlap>& overlaps) {
 
 std::vector<Overlap> separate_overlaps(Rods& rods, OverlapFinder& finder,
                                        const std::vector<bool>& is_held) {
-  constexpr int most_rounds = 300;
-  constexpr std::uint32_t most_at_once = 100000;
+  constexpr int max_rounds = 300;
+  constexpr std::uint32_t max_at_once = 100000;
   constexpr double settled = 0.1 * touching_share;
   Separation separation(rods, is_held);
-  for (int round = 0; round < most_rounds; ++round) {
-    const std::vector<Overlap> overlaps = finder.find(rods, settled, most_at_once);
+  for (int round = 0; round < max_rounds; ++round) {
+    const std::vector<Overlap> overlaps = finder.find(rods, settled, max_at_once);
     if (overlaps.empty()) {
       return {};
     }
     for (const Patch& patch : patches_of(overlaps)) {
-      separation.part(patch);
+      separation.separate(patch);
     }
   }
-  return finder.find(rods, touching_share, most_at_once);
+  return finder.find(rods, touching_share, max_at_once);
 }
 
 }  // namespace fiber

@@ -11,31 +11,31 @@ namespace fiber {
 
 /// An edge of a rod whose surface is inside of another edge's, or of an object.
 struct Overlap {
-  /// Of the two; edges are counted from their rod's first one. With an object, fiber_b is its index
-  /// and segment_b that of the shape.
+  /// Edges are counted from their rod's first one. With an object, fiber_b is its index and
+  /// segment_b that of the shape.
   Contact contact;
   bool is_object = false;
 
   double depth() const { return -contact.distance; }
 };
 
-/// Finds what is inside of what, by the rule of FiberContact for edges of one rod.
+/// Finds overlaps, by the rule of FiberContact for edges of one rod.
 class OverlapFinder {
  public:
-  /// What may not be inside of what.
+  /// The pairs that must not overlap.
   struct Options {
     bool same_fiber = false;
     bool different_fibers = false;
     std::shared_ptr<const Environment> environment;  ///< null for none
-    AllowedPairs allowed;                            ///< pairs of fibre and object that may
+    AllowedPairs allowed;                            ///< pairs of fibre and object that may overlap
   };
 
   explicit OverlapFinder(const Options& options);
 
   /// @param share depths up to this part of the radii's sum do not count
-  /// @param most  how many to find of rods, and of rods and objects
+  /// @param max   how many to find between rods, and between rods and objects
   /// @returns the deepest ones, deepest first
-  std::vector<Overlap> find(const Rods& rods, double share, std::uint32_t most);
+  std::vector<Overlap> find(const Rods& rods, double share, std::uint32_t max);
 
  private:
   void find_between_rods(const Rods& rods, double share, std::vector<Overlap>& found);
@@ -52,12 +52,12 @@ class OverlapFinder {
 /// that meet or are the same part across both; if that leaves a choice, along z, y or x, whichever
 /// is most across, the rod of the smaller index forwards.
 /// @param is_held by node: these do not move
-/// @returns what is still inside of what after a bounded number of rounds, more than touching_share
+/// @returns overlaps of more than touching_share that are left after a bounded number of rounds
 std::vector<Overlap> separate_overlaps(Rods& rods, OverlapFinder& finder,
                                        const std::vector<bool>& is_held);
 
-/// Rods that are no deeper in each other than this part of the sum of their radii only touch:
-/// polygons stand for curves, and positions are written with few digits.
+/// Overlaps of at most this part of the sum of radii are ignored: polygons stand for curves, and
+/// positions are written with few digits.
 constexpr double touching_share = 0.01;
 
 }  // namespace fiber

@@ -14,9 +14,9 @@ void require_accuracy(double accuracy) {
 }
 
 std::uint32_t whole(double number) {
-  constexpr double most = std::numeric_limits<std::uint32_t>::max();
-  // What rounding errors add to a whole number is none more.
-  return static_cast<std::uint32_t>(std::clamp(std::ceil(number - 1e-9 * number), 1.0, most));
+  constexpr double max = std::numeric_limits<std::uint32_t>::max();
+  // A whole number with rounding errors does not round up to the next one.
+  return static_cast<std::uint32_t>(std::clamp(std::ceil(number - 1e-9 * number), 1.0, max));
 }
 
 }  // namespace

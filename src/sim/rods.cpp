@@ -64,8 +64,7 @@ RodSection solid_round_section(const RodMaterial& material, double radius) {
 
 namespace {
 
-/// Of the first value that is not finite, or not positive where it must be: stretching stiffness
-/// and mass; the others may be 0.
+/// All values must be finite; stretching stiffness and mass positive, the others at least 0.
 void validate(const RodSection& section) {
   require_positive("stretching_stiffness", section.stretching_stiffness);
   require_not_negative("bending_stiffness", section.bending_stiffness);

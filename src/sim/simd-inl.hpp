@@ -21,20 +21,20 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// As many lanes as registers have, at most all: functions below work from one lane on.
+/// As many lanes as registers have, at most all. The functions below work on the lanes from one on.
 using LaneTag = hn::CappedTag<double, lane_count>;
 
 HWY_INLINE std::size_t lanes_at_once() { return hn::Lanes(LaneTag()); }
 
-/// A number of each lane; sums, products and so on are Highway's.
+/// A number for each lane; sums, products and so on are Highway's.
 using Real = hn::Vec<LaneTag>;
 
 HWY_INLINE Real real(double value) { return hn::Set(LaneTag(), value); }
 HWY_INLINE Real load(const SimdBatch& from, std::size_t lane) {
-  return hn::Load(LaneTag(), from.of.data() + lane);
+  return hn::Load(LaneTag(), from.lanes.data() + lane);
 }
 HWY_INLINE void store(Real value, SimdBatch& to, std::size_t lane) {
-  hn::Store(value, LaneTag(), to.of.data() + lane);
+  hn::Store(value, LaneTag(), to.lanes.data() + lane);
 }
 
 HWY_INLINE void add(Real value, SimdBatch& to, std::size_t lane) {
@@ -42,7 +42,7 @@ HWY_INLINE void add(Real value, SimdBatch& to, std::size_t lane) {
 }
 
 struct Vector {
-  Real of[3];
+  Real xyz[3];
 };
 
 HWY_INLINE Vector load_vector(const SimdBatch* from, std::size_t lane) {
@@ -56,27 +56,27 @@ HWY_INLINE Vector tangent_at(const RodPack& rods, std::size_t edge, std::size_t 
 }
 HWY_INLINE void store(const Vector& v, SimdBatch* to, std::size_t lane) {
   for (std::size_t i = 0; i < 3; ++i) {
-    store(v.of[i], to[i], lane);
+    store(v.xyz[i], to[i], lane);
   }
 }
 HWY_INLINE Vector operator+(const Vector& a, const Vector& b) {
-  return {{a.of[0] + b.of[0], a.of[1] + b.of[1], a.of[2] + b.of[2]}};
+  return {{a.xyz[0] + b.xyz[0], a.xyz[1] + b.xyz[1], a.xyz[2] + b.xyz[2]}};
 }
 HWY_INLINE Vector operator-(const Vector& a, const Vector& b) {
-  return {{a.of[0] - b.of[0], a.of[1] - b.of[1], a.of[2] - b.of[2]}};
+  return {{a.xyz[0] - b.xyz[0], a.xyz[1] - b.xyz[1], a.xyz[2] - b.xyz[2]}};
 }
 HWY_INLINE Vector negative(const Vector& a) {
-  return {{hn::Neg(a.of[0]), hn::Neg(a.of[1]), hn::Neg(a.of[2])}};
+  return {{hn::Neg(a.xyz[0]), hn::Neg(a.xyz[1]), hn::Neg(a.xyz[2])}};
 }
 HWY_INLINE Vector operator*(Real factor, const Vector& a) {
-  return {{factor * a.of[0], factor * a.of[1], factor * a.of[2]}};
+  return {{factor * a.xyz[0], factor * a.xyz[1], factor * a.xyz[2]}};
 }
 HWY_INLINE Real dot(const Vector& a, const Vector& b) {
-  return a.of[0] * b.of[0] + a.of[1] * b.of[1] + a.of[2] * b.of[2];
+  return a.xyz[0] * b.xyz[0] + a.xyz[1] * b.xyz[1] + a.xyz[2] * b.xyz[2];
 }
 
-// Derivatives of rods with U unknowns a node, which is known when compiling: where something goes
-// takes as long to find as to add.
+// Derivatives of rods with U unknowns a node. U is a constant, because computing a place in the
+// matrix takes as long as adding to it.
 
 /// Calls a function with the number of unknowns as a constant.
 template <class Function>
@@ -93,13 +93,13 @@ HWY_INLINE void add_gradient(const Vector& v, std::size_t node, std::size_t lane
                              PackSystem& system) {
   SimdBatch* const first = &system.gradient[U * node];
   for (std::size_t i = 0; i < 3; ++i) {
-    add(v.of[i], first[i], lane);
+    add(v.xyz[i], first[i], lane);
   }
 }
 
 /// A block of the Hessian, in registers.
 struct Block {
-  Real of[3][3];  // row, column
+  Real rows[3][3];  // row, column
 };
 
 /// isotropic I + a bᵀ
@@ -107,8 +107,8 @@ HWY_INLINE Block block_of(Real isotropic, const Vector& a, const Vector& b) {
   Block block;
   for (std::size_t r = 0; r < 3; ++r) {
     for (std::size_t c = 0; c < 3; ++c) {
-      const Real product = a.of[r] * b.of[c];
-      block.of[r][c] = r == c ? product + isotropic : product;
+      const Real product = a.xyz[r] * b.xyz[c];
+      block.rows[r][c] = r == c ? product + isotropic : product;
     }
   }
   return block;
@@ -124,19 +124,19 @@ HWY_INLINE void add_diagonal(const Block& block, std::size_t node, std::size_t l
   for (std::size_t c = 0; c < 3; ++c) {
     SimdBatch* const column = &system.hessian[(U * node + c) * column_height<U>];
     for (std::size_t r = c; r < 3; ++r) {
-      add(block.of[r][c], column[r - c], lane);
+      add(block.rows[r][c], column[r - c], lane);
     }
   }
 }
 
-/// Adds the block whose rows are those of a node so many further.
+/// Adds the block whose columns are those of a node, and whose rows those of a later one.
 template <std::size_t U>
 HWY_INLINE void add_below(const Block& block, std::size_t node, std::size_t further,
                           std::size_t lane, PackSystem& system) {
   for (std::size_t c = 0; c < 3; ++c) {
     SimdBatch* const column = &system.hessian[(U * node + c) * column_height<U>];
     for (std::size_t r = 0; r < 3; ++r) {
-      add(block.of[r][c], column[U * further + r - c], lane);
+      add(block.rows[r][c], column[U * further + r - c], lane);
     }
   }
 }
@@ -148,7 +148,7 @@ HWY_INLINE void add_edge(const Vector& gradient, const Block& block, std::size_t
   Block minus;
   for (std::size_t r = 0; r < 3; ++r) {
     for (std::size_t c = 0; c < 3; ++c) {
-      minus.of[r][c] = hn::Neg(block.of[r][c]);
+      minus.rows[r][c] = hn::Neg(block.rows[r][c]);
     }
   }
   add_gradient<U>(negative(gradient), edge, lane, system);
@@ -174,7 +174,7 @@ HWY_INLINE TwoEdges edges_beside(const RodPack& rods, std::size_t node, std::siz
           load(rods.inverse_lengths[node - 1], lane), load(rods.inverse_lengths[node], lane)};
 }
 
-/// From a gradient by a tangent to that by the edge.
+/// The gradient by an edge, from that by its tangent.
 HWY_INLINE Vector by_edge(const Vector& tangent, Real inverse_length, const Vector& gradient) {
   return inverse_length * (gradient - dot(tangent, gradient) * tangent);
 }
@@ -203,17 +203,17 @@ HWY_INLINE EdgeBlocks isotropic_blocks(const TwoEdges& edges, Real factor) {
   const Vector& a = edges.before;
   const Vector& b = edges.after;
   const Real cosine = dot(a, b);
-  const Real of_first = factor * edges.inverse_before * edges.inverse_before;
-  const Real of_last = factor * edges.inverse_after * edges.inverse_after;
-  const Real of_cross = factor * edges.inverse_before * edges.inverse_after;
+  const Real first_factor = factor * edges.inverse_before * edges.inverse_before;
+  const Real last_factor = factor * edges.inverse_after * edges.inverse_after;
+  const Real cross_factor = factor * edges.inverse_before * edges.inverse_after;
   EdgeBlocks blocks;
   for (std::size_t r = 0; r < 3; ++r) {
     for (std::size_t c = 0; c < 3; ++c) {
-      const Real aa = r == c ? one - a.of[r] * a.of[c] : hn::Neg(a.of[r] * a.of[c]);
-      const Real bb = b.of[r] * b.of[c];
-      blocks.first.of[r][c] = of_first * aa;
-      blocks.last.of[r][c] = of_last * (r == c ? one - bb : hn::Neg(bb));
-      blocks.cross.of[r][c] = of_cross * (aa - bb + b.of[r] * (cosine * a.of[c]));
+      const Real aa = r == c ? one - a.xyz[r] * a.xyz[c] : hn::Neg(a.xyz[r] * a.xyz[c]);
+      const Real bb = b.xyz[r] * b.xyz[c];
+      blocks.first.rows[r][c] = first_factor * aa;
+      blocks.last.rows[r][c] = last_factor * (r == c ? one - bb : hn::Neg(bb));
+      blocks.cross.rows[r][c] = cross_factor * (aa - bb + b.xyz[r] * (cosine * a.xyz[c]));
     }
   }
   return blocks;
@@ -224,12 +224,12 @@ HWY_INLINE void add_along(const TwoEdges& edges, Real factor, const Vector& u, E
   const Vector before = by_edge(edges.before, edges.inverse_before, u);
   const Vector after = by_edge(edges.after, edges.inverse_after, u);
   for (std::size_t r = 0; r < 3; ++r) {
-    const Real of_before = factor * before.of[r];
-    const Real of_after = factor * after.of[r];
+    const Real scaled_before = factor * before.xyz[r];
+    const Real scaled_after = factor * after.xyz[r];
     for (std::size_t c = 0; c < 3; ++c) {
-      blocks.first.of[r][c] = blocks.first.of[r][c] + of_before * before.of[c];
-      blocks.last.of[r][c] = blocks.last.of[r][c] + of_after * after.of[c];
-      blocks.cross.of[r][c] = blocks.cross.of[r][c] + of_after * before.of[c];
+      blocks.first.rows[r][c] = blocks.first.rows[r][c] + scaled_before * before.xyz[c];
+      blocks.last.rows[r][c] = blocks.last.rows[r][c] + scaled_after * after.xyz[c];
+      blocks.cross.rows[r][c] = blocks.cross.rows[r][c] + scaled_after * before.xyz[c];
     }
   }
 }
@@ -244,9 +244,9 @@ HWY_INLINE void add_hessian(const EdgeBlocks& blocks, std::size_t node, std::siz
   Block above_last;
   for (std::size_t r = 0; r < 3; ++r) {
     for (std::size_t c = 0; c < 3; ++c) {
-      below_first.of[r][c] = hn::Neg(first.of[r][c] + cross.of[r][c]);
-      above_last.of[r][c] = hn::Neg(last.of[r][c] + cross.of[r][c]);
-      middle.of[r][c] = first.of[r][c] + last.of[r][c] + cross.of[r][c] + cross.of[c][r];
+      below_first.rows[r][c] = hn::Neg(first.rows[r][c] + cross.rows[r][c]);
+      above_last.rows[r][c] = hn::Neg(last.rows[r][c] + cross.rows[r][c]);
+      middle.rows[r][c] = first.rows[r][c] + last.rows[r][c] + cross.rows[r][c] + cross.rows[c][r];
     }
   }
   add_diagonal<U>(first, node - 1, lane, system);
@@ -258,8 +258,8 @@ HWY_INLINE void add_hessian(const EdgeBlocks& blocks, std::size_t node, std::siz
 }
 
 HWY_INLINE Vector cross(const Vector& a, const Vector& b) {
-  return {{a.of[1] * b.of[2] - a.of[2] * b.of[1], a.of[2] * b.of[0] - a.of[0] * b.of[2],
-           a.of[0] * b.of[1] - a.of[1] * b.of[0]}};
+  return {{a.xyz[1] * b.xyz[2] - a.xyz[2] * b.xyz[1], a.xyz[2] * b.xyz[0] - a.xyz[0] * b.xyz[2],
+           a.xyz[0] * b.xyz[1] - a.xyz[1] * b.xyz[0]}};
 }
 
 HWY_INLINE Vector transport(const Vector& v, const Vector& from, const Vector& to) {
@@ -272,7 +272,7 @@ HWY_INLINE Vector transport(const Vector& v, const Vector& from, const Vector& t
                             hn::Eq(dot(from, from) * dot(to, to), real(0.0)));
   Vector result;
   for (std::size_t k = 0; k < 3; ++k) {
-    result.of[k] = hn::IfThenElse(stays, v.of[k], turned.of[k]);
+    result.xyz[k] = hn::IfThenElse(stays, v.xyz[k], turned.xyz[k]);
   }
   return result;
 }
@@ -283,15 +283,15 @@ HWY_INLINE Vector curvature_binormal(const Vector& before, const Vector& after) 
   return factor * cross(before, after);
 }
 
-/// In [-pi, pi]. Neither Highway nor the standard library has an arctangent that is the same on all
-/// processors; this one is wrong by some units of the last digit.
+/// The angle in [-pi, pi], to some units of the last digit. Neither Highway nor the standard
+/// library has an arctangent that is the same on all processors.
 HWY_INLINE Real angle_of(Real cosine, Real sine) {
   const Real one = real(1.0);
-  const Real least = real(std::numeric_limits<double>::min());
+  const Real smallest = real(std::numeric_limits<double>::min());
   const Real across = hn::Abs(sine);
   const Real along = hn::Abs(cosine);
   // The tangent of an angle of up to pi/4, and of a quarter of it, whose series is short.
-  Real tangent = hn::Min(across, along) / hn::Max(hn::Max(across, along), least);
+  Real tangent = hn::Min(across, along) / hn::Max(hn::Max(across, along), smallest);
   for (int i = 0; i < 2; ++i) {
     tangent = tangent / (one + hn::Sqrt(one + tangent * tangent));
   }

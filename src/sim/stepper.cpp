@@ -110,7 +110,7 @@ void Stepper::step(double length) {
   } else {
     step_by_bdf2(length);
   }
-  for (const std::unique_ptr<Effect>& effect : effects_) {
+  for (const auto& effect : effects_) {
     effect->end_step(rods_, {time_, length});
   }
   require_finite(rods_);
@@ -121,25 +121,26 @@ void Stepper::step(double length) {
 /// With the ratio w of this step to the last one, x' = ((1 + w)² x₁ − w² x₀) / (1 + 2w) and v'
 /// alike, it is a step of implicit Euler of (1 + w) / (1 + 2w) of its length from there.
 void Stepper::step_by_bdf2(double length) {
-  history_.begun = rods_.state();
+  history_.begin = rods_.state();
   if (history_.length == 0.0 || !is_at(rods_, history_.after)) {
     step_by_sdirk2(length);
   } else {
     const double ratio = length / history_.length;
     const double share = 1.0 / (1.0 + 2.0 * ratio);
     const double stage = (1.0 + ratio) * share * length;
-    combine((1.0 + ratio) * (1.0 + ratio) * share, history_.begun, -ratio * ratio * share,
+    combine((1.0 + ratio) * (1.0 + ratio) * share, history_.begin, -ratio * ratio * share,
             history_.before, history_.reference);
     solver_->solve(rods_, effects_, {time_ + length - stage, stage}, &history_.reference);
     solver_->add_to(report_);
   }
-  std::swap(history_.before, history_.begun);
+  std::swap(history_.before, history_.begin);
   history_.after = rods_.state();
   history_.length = length;
 }
 
-/// Of two stages of γ = 1 − 1/√2 of the step each, the first ends at γ, the second at the end of
-/// the step: from where the rest of it leads with what the first one has found.
+/// There are two stages, each of γ = 1 − 1/√2 of the step. The first ends at γ, the second at the
+/// end of the step: its rates are measured from where those of the first lead in the rest of the
+/// step.
 void Stepper::step_by_sdirk2(double length) {
   const double stage = (1.0 - std::sqrt(0.5)) * length;
   const double rest = length - stage;
@@ -147,7 +148,7 @@ void Stepper::step_by_sdirk2(double length) {
   solver_->add_to(report_);
   const double part = rest / stage;
   history_.after = rods_.state();
-  combine(1.0 - part, history_.begun, part, history_.after, history_.reference);
+  combine(1.0 - part, history_.begin, part, history_.after, history_.reference);
   solver_->solve(rods_, effects_, {time_ + rest, stage}, &history_.reference);
   solver_->add_to(report_);
 }

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "fiber_proximity/io/file.hpp"
-#include "src/mpi/gathered_fibers.hpp"
+#include "src/mpi/gather_fibers.hpp"
 #include "src/tools/read_input.hpp"
 
 namespace fiber {
@@ -98,15 +98,15 @@ void on_rank_alone(const std::string& context, const Work& work) {
 CandidateSource::CandidateSource(const Communicator& ranks, const std::string& path, double radius)
     : path_(path), is_first_rank_(ranks.rank() == 0), alone_(MPI_COMM_SELF) {
   if (is_hdf5_name(path)) {
-    ranks.agree(
+    ranks.throw_on_all(
         error_in([&] { on_rank_alone("", [&] { reader_.emplace(alone_.handle(), path); }); }));
     has_frames_ = reader_->has_frames();
     frame_count_ = reader_->frame_count();
     return;
   }
-  on_first_rank(ranks, [&] { file_ = read_input("fiber_query_mpi", path, radius); });
-  has_frames_ = ranks.from_first(file_.has_frames);
-  frame_count_ = ranks.from_first<std::uint64_t>(file_.frames.size());
+  run_on_root(ranks, [&] { file_ = read_input("fiber_query_mpi", path, radius); });
+  has_frames_ = ranks.broadcast(file_.has_frames);
+  frame_count_ = ranks.broadcast<std::uint64_t>(file_.frames.size());
 }
 
 std::vector<char> CandidateSource::pack(const WorkRange& range) {
@@ -152,7 +152,7 @@ std::vector<FiberFrame> CandidateSource::take(const WorkRange& range,
 }
 
 FiberFrame CandidateSource::take_on_all(const Communicator& ranks, std::uint64_t index) {
-  ranks.agree(index < frame_count_ ? "" : FileError(path_, "has no fibres").what());
+  ranks.throw_on_all(index < frame_count_ ? "" : FileError(path_, "has no fibres").what());
   const WorkRange range{index, index + 1};
   PerRank<char> to(static_cast<std::size_t>(ranks.size()));
   if (is_packed() && is_first_rank_) {
@@ -160,7 +160,8 @@ FiberFrame CandidateSource::take_on_all(const Communicator& ranks, std::uint64_t
   }
   const PerRank<char> packed = ranks.exchange(std::move(to));
   FiberFrame frame;
-  ranks.agree(error_in([&] { frame = reader_ ? read(index) : Unpacker(packed.front()).frame(); }));
+  ranks.throw_on_all(
+      error_in([&] { frame = reader_ ? read(index) : Unpacker(packed.front()).frame(); }));
   return frame;
 }
 

@@ -8,7 +8,7 @@
 #include "fiber_proximity/io/fiber_file.hpp"
 #include "fiber_proximity/mpi/distributed_files.hpp"
 #include "src/mpi/communicator.hpp"
-#include "src/mpi/dealt_work.hpp"
+#include "src/mpi/work_queue.hpp"
 
 namespace fiber {
 

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "fiber_proximity/environment/check_fibers.hpp"
-#include "src/environment/scene/environment_scene.hpp"
+#include "fiber_proximity/environment/scene/environment_scene.hpp"
 #include "src/io/file_format.hpp"
 #include "src/mpi/communicator.hpp"
-#include "src/mpi/dealt_work.hpp"
+#include "src/mpi/work_queue.hpp"
 #include "src/query/threads.hpp"
 #include "src/text/quote.hpp"
 #include "src/tools/candidate_source.hpp"
@@ -67,7 +67,7 @@ class Around {
   /// Collective.
   /// @throws std::invalid_argument on all ranks
   Around(const Communicator& ranks, const CheckRequest& request) {
-    ranks.agree(error_in([&] {
+    ranks.throw_on_all(error_in([&] {
       if (!request.environment.empty()) {
         read_environment(request.environment);
       }
@@ -209,7 +209,7 @@ ExitCode run(const CheckRequest& request) {
   for (std::uint64_t begin = text.done(); begin < count; begin += step) {
     const std::uint64_t end = std::min(begin + step, count);
     std::vector<RangeText> checked;
-    DealtWork work{{begin, end}, candidates_at_once};
+    WorkQueue work{{begin, end}, candidates_at_once};
     work.work = [&](const WorkRange& range, const std::vector<char>& packed) {
       checked.push_back(checker.check(range, packed));
     };
@@ -217,7 +217,7 @@ ExitCode run(const CheckRequest& request) {
       work.pack = [&](const WorkRange& range) { return source.pack(range); };
     }
     work.show = [&](std::uint64_t dealt) { show_done(progress, dealt, count, "candidates"); };
-    deal_work(ranks, work);
+    run_work_queue(ranks, work);
     checked = sort_over_ranks(ranks, work.all, std::move(checked));
     text.append([&](TextOutput& output) {
       for (const RangeText& range : checked) {

@@ -43,7 +43,7 @@ void ContactSink::write_json(const FrameNumber& frame, const FiberNames& names,
   for (const DistributedContact& contact : result.contacts) {
     lower = std::min(lower, contact.lower);
   }
-  lower = ranks_.smallest(lower);
+  lower = ranks_.min(lower);
   const std::vector<std::uint64_t> counts =
       ranks_.gather_all<std::uint64_t>(result.contacts.size());
   const bool is_first = std::all_of(counts.begin(), counts.begin() + ranks_.rank(),

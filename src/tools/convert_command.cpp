@@ -12,8 +12,8 @@
 #include "src/io/file_format.hpp"
 #include "src/io/number.hpp"
 #include "src/mpi/communicator.hpp"
-#include "src/mpi/gathered_fibers.hpp"
-#include "src/mpi/whole_file.hpp"
+#include "src/mpi/gather_fibers.hpp"
+#include "src/mpi/partial_file.hpp"
 #include "src/text/quote.hpp"
 #include "src/tools/fiber_query_mpi.hpp"
 #include "src/tools/fiber_source.hpp"
@@ -60,7 +60,7 @@ class SerialFile {
   }
   ~SerialFile() {
     if (place_.is_file) {
-      remove_aside(place_.path);
+      remove_partial(place_.path);
     }
   }
   SerialFile(const SerialFile&) = delete;
@@ -90,7 +90,7 @@ class SerialFile {
   }
 
  private:
-  std::string written() const { return place_.is_file ? aside(place_.path) : place_.path; }
+  std::string written() const { return place_.is_file ? partial_name(place_.path) : place_.path; }
 
   const WritePlace place_;
   const bool has_frames_;
@@ -101,18 +101,16 @@ void convert_on_first_rank(const Communicator& ranks, const ConvertRequest& requ
                            FiberSource& source) {
   std::optional<SerialFile> file;
   const WritePlace place = write_place(ranks, request.out);
-  on_first_rank(ranks, [&] { file.emplace(place, format_of(request.out), source.has_frames()); });
+  run_on_root(ranks, [&] { file.emplace(place, format_of(request.out), source.has_frames()); });
   Progress progress = rank_progress(ranks);
   DistributedFibers fibers;
   for (std::size_t i = 0; i < source.frame_count(); ++i) {
     const std::int64_t frame = source.read(i, fibers);
     WholeFibers all = gather_fibers(ranks, std::exchange(fibers, {}));
-    on_first_rank(ranks, [&] {
-      file->write({frame, std::move(all.fibers), std::move(all.names)});
-    });
+    run_on_root(ranks, [&] { file->write({frame, std::move(all.fibers), std::move(all.names)}); });
     show_done(progress, i + 1, source.frame_count(), "frames");
   }
-  on_first_rank(ranks, [&] { file->finish(); });
+  run_on_root(ranks, [&] { file->finish(); });
 }
 
 ExitCode convert(const ConvertRequest& request) {

@@ -52,8 +52,7 @@ void add_fiber_options(
     CLI::App& app, FiberRequest& request,
     const std::string& threads = "most threads to use, 0 for as many as there are cores");
 
-/// How distances are computed. `fast`, of versions before this one, is taken as robust, with a
-/// warning.
+/// Adds `--kernel`, which says how distances are computed.
 void add_kernel_option(CLI::App& app, Kernel& kernel);
 
 /// A question about pairs of segments, as a subcommand asks it.

@@ -47,7 +47,7 @@ DistributedFibers part_of(const Communicator& ranks, const LargeScene& scene, st
   const std::uint64_t end =
       scene.fiber_count / size * (rank + 1) + scene.fiber_count % size * (rank + 1) / size;
   DistributedFibers part;
-  ranks.agree(error_in([&] {
+  ranks.throw_on_all(error_in([&] {
     part.parts = scene.fibers(begin, end, frame);
     for (std::uint64_t fiber = begin; fiber < end; ++fiber) {
       part.names.push_back({fiber, 0});

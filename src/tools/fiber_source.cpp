@@ -20,9 +20,9 @@ FiberSource::FiberSource(const Communicator& ranks, const std::string& path, dou
     frame_count_ = reader_->frame_count();
     return;
   }
-  on_first_rank(ranks_, [&] { file_ = read_input("fiber_query_mpi", path, radius); });
-  has_frames_ = ranks_.from_first(file_.has_frames);
-  frame_count_ = ranks_.from_first(file_.frames.size());
+  run_on_root(ranks_, [&] { file_ = read_input("fiber_query_mpi", path, radius); });
+  has_frames_ = ranks_.broadcast(file_.has_frames);
+  frame_count_ = ranks_.broadcast(file_.frames.size());
 }
 
 std::int64_t FiberSource::read(std::size_t index, DistributedFibers& fibers) {
@@ -39,8 +39,8 @@ std::int64_t FiberSource::read(std::size_t index, DistributedFibers& fibers) {
     }
     fibers.fiber_names = file_.frames[index].names;
   }
-  fibers.fiber_names = names_from_first(ranks_, fibers.fiber_names);
-  return ranks_.from_first(number);
+  fibers.fiber_names = broadcast_names(ranks_, fibers.fiber_names);
+  return ranks_.broadcast(number);
 }
 
 std::string description_of_file(const Communicator& ranks, const std::string& path) {
@@ -50,7 +50,7 @@ std::string description_of_file(const Communicator& ranks, const std::string& pa
     std::int64_t nanoseconds = 0;
   };
   Facts facts;
-  on_first_rank(ranks, [&] {
+  run_on_root(ranks, [&] {
     struct stat status {};
     errno = 0;
     if (stat(path.c_str(), &status) != 0) {
@@ -58,7 +58,7 @@ std::string description_of_file(const Communicator& ranks, const std::string& pa
     }
     facts = {status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
   });
-  facts = ranks.from_first(facts);
+  facts = ranks.broadcast(facts);
   return shortened(path, 4096) + " of " + std::to_string(facts.size) + " bytes and time " +
          std::to_string(facts.seconds) + '.' + std::to_string(facts.nanoseconds);
 }

@@ -85,7 +85,7 @@ void show_done(Progress& progress, std::uint64_t done, std::uint64_t all, const 
 }
 
 void require_other_file(const Communicator& ranks, const std::string& in, const std::string& out) {
-  on_first_rank(ranks, [&] {
+  run_on_root(ranks, [&] {
     std::error_code none;
     if (std::filesystem::equivalent(in, out, none)) {
       throw std::invalid_argument("the file to write is the one to read itself, " + quote(in));

@@ -1,5 +1,4 @@
 // Options that tools about pairs of segments share.
-#include <iostream>
 #include <limits>
 
 #include "src/tools/fiber_query.hpp"
@@ -8,15 +7,7 @@ namespace fiber {
 
 void add_kernel_option(CLI::App& app, Kernel& kernel) {
   app.add_option_function<std::string>(
-         "--kernel",
-         [&kernel](const std::string& name) {
-           const std::string current = current_kernel_name(name);
-           if (current != name) {
-             std::cerr << "warning: --kernel " << name << " saved no time and is gone: " << current
-                       << " is used\n";
-           }
-           kernel = kernel_from_name(current);
-         },
+         "--kernel", [&kernel](const std::string& name) { kernel = kernel_from_name(name); },
          "one of " + join(kernel_names()))
       ->default_str("robust");
 }

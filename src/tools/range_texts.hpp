@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "src/mpi/communicator.hpp"
-#include "src/mpi/dealt_work.hpp"
+#include "src/mpi/work_queue.hpp"
 
 namespace fiber {
 

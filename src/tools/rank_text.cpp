@@ -16,7 +16,7 @@
 namespace fiber {
 namespace {
 
-constexpr std::streamsize most_at_once = 65'536;  // [byte]
+constexpr std::streamsize max_chunk = 65'536;  // [byte]
 
 /// Hands on what is written to it.
 class TextPieces : public std::streambuf {
@@ -28,8 +28,8 @@ class TextPieces : public std::streambuf {
 
  private:
   std::streamsize xsputn(const char* text, std::streamsize size) override {
-    for (std::streamsize done = 0; done < size; done += most_at_once) {
-      if (!take_(text + done, std::min(most_at_once, size - done))) {
+    for (std::streamsize done = 0; done < size; done += max_chunk) {
+      if (!take_(text + done, std::min(max_chunk, size - done))) {
         return done;
       }
     }
@@ -69,11 +69,11 @@ std::string text_of_mpi(int error) {
 RunProgress RankText::begin(bool resume) const {
   const std::optional<RunProgress> earlier = resume ? note_.read() : std::nullopt;
   if (earlier) {
-    std::filesystem::resize_file(aside(path_), earlier->bytes);
+    std::filesystem::resize_file(partial_name(path_), earlier->bytes);
     return *earlier;
   }
   note_.remove();
-  OutputFile(aside(path_)).close();
+  OutputFile(partial_name(path_)).close();
   return {};
 }
 
@@ -83,7 +83,7 @@ RankText::RankText(const Communicator& ranks, const std::string& path, const Tex
       path_(place_.path),
       note_(path_, run.run) {
   if (!place_.is_file) {
-    on_first_rank(ranks_, [&] {
+    run_on_root(ranks_, [&] {
       if (run.resume) {
         throw std::invalid_argument(
             "--resume: what went to " +
@@ -97,22 +97,22 @@ RankText::RankText(const Communicator& ranks, const std::string& path, const Tex
     return;
   }
   RunProgress earlier;
-  on_first_rank(ranks_, [&] { earlier = begin(run.resume); });
-  earlier = ranks_.from_first(earlier);
+  run_on_root(ranks_, [&] { earlier = begin(run.resume); });
+  earlier = ranks_.broadcast(earlier);
   done_ = earlier.steps;
   size_ = earlier.bytes;
-  const int error =
-      MPI_File_open(ranks_.handle(), aside(path_).c_str(), MPI_MODE_WRONLY, MPI_INFO_NULL, &file_);
+  const int error = MPI_File_open(ranks_.handle(), partial_name(path_).c_str(), MPI_MODE_WRONLY,
+                                  MPI_INFO_NULL, &file_);
   if (!ranks_.all(error == MPI_SUCCESS)) {
     remove_unfinished();
-    agree(text_of_mpi(error));
+    throw_on_all(text_of_mpi(error));
   }
 }
 
 /// @param reason why this rank cannot write, "" for none
-void RankText::agree(const std::string& reason) const {
-  ranks_.agree(reason.empty() ? ""
-                              : FileError(aside(path_), "cannot be written: " + reason).what());
+void RankText::throw_on_all(const std::string& reason) const {
+  ranks_.throw_on_all(
+      reason.empty() ? "" : FileError(partial_name(path_), "cannot be written: " + reason).what());
 }
 
 RankText::~RankText() {
@@ -123,15 +123,15 @@ RankText::~RankText() {
 /// What was written of a file that is not whole.
 void RankText::remove_unfinished() const {
   if (place_.is_file && ranks_.rank() == 0) {
-    remove_aside(path_);
+    remove_partial(path_);
     note_.remove();
   }
 }
 
 void RankText::note(std::uint64_t steps) {
   if (place_.is_file) {
-    agree(text_of_mpi(MPI_File_sync(file_)));
-    on_first_rank(ranks_, [&] { note_.write({steps, size_}); });
+    throw_on_all(text_of_mpi(MPI_File_sync(file_)));
+    run_on_root(ranks_, [&] { note_.write({steps, size_}); });
   }
 }
 
@@ -155,7 +155,7 @@ void RankText::append_to_file(const std::function<void(TextOutput& output)>& wri
     place += other < ranks_.rank() ? sizes[static_cast<std::size_t>(other)] : 0;
     size_ += sizes[static_cast<std::size_t>(other)];
   }
-  on_first_rank(ranks_, [&] { reserve(aside(path_), size_); });
+  run_on_root(ranks_, [&] { reserve(partial_name(path_), size_); });
   std::string reason;
   const std::string error = error_in([&] {
     write_pieces(write, [&](const char* text, std::streamsize piece) {
@@ -172,11 +172,11 @@ void RankText::append_to_file(const std::function<void(TextOutput& output)>& wri
       return written == static_cast<int>(piece);
     });
   });
-  ranks_.agree(error.empty()
-                   ? ""
-                   : FileError(aside(path_), reason.empty() ? "cannot be written"
-                                                            : "cannot be written: " + reason)
-                         .what());
+  ranks_.throw_on_all(error.empty() ? ""
+                                    : FileError(partial_name(path_),
+                                                reason.empty() ? "cannot be written"
+                                                               : "cannot be written: " + reason)
+                                          .what());
 }
 
 /// Rank 0 takes the others' pieces, one rank after another, and each waits for its turn.
@@ -187,7 +187,7 @@ void RankText::append_to_stream(const std::function<void(TextOutput& output)>& w
       return true;
     });
     MPI_Ssend(nullptr, 0, MPI_BYTE, 0, text_tag, ranks_.handle());
-    ranks_.agree("");
+    ranks_.throw_on_all("");
     return;
   }
   std::ostream& stream = stream_ ? stream_->stream() : std::cout;
@@ -199,11 +199,11 @@ void RankText::append_to_stream(const std::function<void(TextOutput& output)>& w
   pass_on_others(stream);
   stream.flush();
   const std::string failure = failure_of_stream();
-  ranks_.agree(failure.empty() ? error : failure);
+  ranks_.throw_on_all(failure.empty() ? error : failure);
 }
 
 void RankText::pass_on_others(std::ostream& stream) const {
-  std::vector<char> text(static_cast<std::size_t>(most_at_once));
+  std::vector<char> text(static_cast<std::size_t>(max_chunk));
   for (int other = 1; other < ranks_.size(); ++other) {
     int size = 1;
     while (size > 0) {
@@ -234,15 +234,15 @@ std::string RankText::close_file() {
 
 void RankText::finish() {
   if (!place_.is_file) {
-    on_first_rank(ranks_, [&] {
+    run_on_root(ranks_, [&] {
       if (stream_) {
         stream_->close();
       }
     });
     return;
   }
-  agree(close_file());
-  on_first_rank(ranks_, [&] {
+  throw_on_all(close_file());
+  run_on_root(ranks_, [&] {
     move_into_place(path_);
     note_.remove();
   });

@@ -10,7 +10,7 @@
 
 #include "fiber_proximity/io/file.hpp"
 #include "src/mpi/communicator.hpp"
-#include "src/mpi/whole_file.hpp"
+#include "src/mpi/partial_file.hpp"
 #include "src/tools/run_note.hpp"
 #include "src/tools/text_output.hpp"
 
@@ -58,7 +58,7 @@ class RankText {
   void pass_on_others(std::ostream& stream) const;
   std::string failure_of_stream() const;
   RunProgress begin(bool resume) const;
-  void agree(const std::string& reason) const;
+  void throw_on_all(const std::string& reason) const;
   std::string close_file();
   void remove_unfinished() const;
 

@@ -6,13 +6,13 @@
 #include <utility>
 
 #include "fiber_proximity/io/file.hpp"
-#include "src/mpi/whole_file.hpp"
+#include "src/mpi/partial_file.hpp"
 #include "src/text/quote.hpp"
 
 namespace fiber {
 
 RunNote::RunNote(const std::string& path, std::string run)
-    : part_(aside(path)), name_(part_ + ".run"), run_(std::move(run)) {}
+    : part_(partial_name(path)), name_(part_ + ".run"), run_(std::move(run)) {}
 
 std::optional<RunProgress> RunNote::read() const {
   std::ifstream note(name_);
@@ -37,7 +37,7 @@ std::optional<RunProgress> RunNote::read() const {
 }
 
 void RunNote::write(const RunProgress& progress) const {
-  OutputFile file(aside(name_));
+  OutputFile file(partial_name(name_));
   file.write(std::to_string(progress.steps) + " " + std::to_string(progress.bytes) + "\n" + run_ +
              "\n");
   file.close();
@@ -47,7 +47,7 @@ void RunNote::write(const RunProgress& progress) const {
 void RunNote::remove() const {
   std::error_code ignored;
   std::filesystem::remove(name_, ignored);
-  remove_aside(name_);
+  remove_partial(name_);
 }
 
 }  // namespace fiber

@@ -13,7 +13,7 @@
 #include "src/io/file_format.hpp"
 #include "src/mpi/communicator.hpp"
 #include "src/mpi/fiber_name_text.hpp"
-#include "src/mpi/gathered_fibers.hpp"
+#include "src/mpi/gather_fibers.hpp"
 #include "src/text/quote.hpp"
 #include "src/tools/fiber_match.hpp"
 #include "src/tools/fiber_query.hpp"
@@ -65,14 +65,14 @@ class RankSweeper {
   DistributedMotionResult contacts_of_whole(NumberedFrame& from, const NumberedFrame& to) {
     const FiberFrame before = whole(from.number, std::move(from.fibers));
     const FiberFrame after = whole(to.number, to.fibers);
-    from.fibers.fiber_names = names_from_first(ranks_, before.names);
+    from.fibers.fiber_names = broadcast_names(ranks_, before.names);
     FiberMatch match = match_fibers(before, after);
     if (!match.difference.empty()) {
       std::cerr << "fiber_query_mpi: " << match.difference << '\n';
     }
-    match.others = ranks_.from_first(std::move(match.others));
+    match.others = ranks_.broadcast(std::move(match.others));
     DistributedMotionResult result;
-    if (ranks_.from_first(!match.before.empty())) {
+    if (ranks_.broadcast(!match.before.empty())) {
       result = contacts_between(select_fibers(before.fibers, match.before),
                                 select_fibers(after.fibers, match.after), whole_parts(match.before),
                                 request_.motion);

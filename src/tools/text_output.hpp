@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "fiber_proximity/io/fiber_names.hpp"
+#include "fiber_proximity/io/fiber_file.hpp"
 #include "src/io/number.hpp"
 #include "src/text/csv_field.hpp"
 

@@ -6,7 +6,6 @@
 
 #include "fiber_proximity/io/fiber_file.hpp"
 #include "fiber_proximity/query/crossings.hpp"
-#include "fiber_proximity/query/topology.hpp"
 #include "src/io/number.hpp"
 #include "src/tools/fiber_query.hpp"
 #include "src/tools/read_input.hpp"

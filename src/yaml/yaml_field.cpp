@@ -17,14 +17,14 @@
 namespace fiber {
 namespace {
 
-constexpr std::uint64_t most_values_per_byte = 10;
+constexpr std::uint64_t max_values_per_byte = 10;
 constexpr std::size_t largest_file = 100'000'000;  // [byte]
 
 /// Counts the values of a document with its aliases written out, without writing them out: those of
 /// aliases of aliases multiply.
 class ValueCounter : public YAML::EventHandler {
  public:
-  explicit ValueCounter(std::uint64_t most) : most_(most) {}
+  explicit ValueCounter(std::uint64_t most) : max_(most) {}
 
   void OnDocumentStart(const YAML::Mark& /*mark*/) override {}
   void OnDocumentEnd() override {}
@@ -59,10 +59,10 @@ class ValueCounter : public YAML::EventHandler {
 
   void add(const YAML::Mark& mark, std::uint64_t values) {
     count_ += values;  // each at most the most: no overflow
-    if (count_ > most_) {
+    if (count_ > max_) {
       throw YAML::ParserException(mark, "with its aliases written out the document has more than " +
-                                            std::to_string(most_) + " values, " +
-                                            std::to_string(most_values_per_byte) + " per byte");
+                                            std::to_string(max_) + " values, " +
+                                            std::to_string(max_values_per_byte) + " per byte");
     }
   }
   void add_one(const YAML::Mark& mark, YAML::anchor_t anchor) {
@@ -83,7 +83,7 @@ class ValueCounter : public YAML::EventHandler {
     }
   }
 
-  std::uint64_t most_;
+  std::uint64_t max_;
   std::uint64_t count_ = 0;
   std::vector<Open> open_;
   std::map<YAML::anchor_t, std::uint64_t> values_;  // of what has an anchor and has ended
@@ -94,7 +94,7 @@ void check_aliases(const std::string& text) {
     return;
   }
   std::istringstream stream(text);
-  ValueCounter counter(most_values_per_byte * text.size());
+  ValueCounter counter(max_values_per_byte * text.size());
   YAML::Parser(stream).HandleNextDocument(counter);
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "fiber_proximity/geometry/exact_distance.hpp"
+#include "fiber_proximity/geometry/segment_distance.hpp"
 #include "src/paper/bounds/sphere.hpp"
 #include "test/support/bounding_volumes.hpp"
 #include "test/support/hard_runs.hpp"

@@ -22,7 +22,7 @@ using Lines = std::vector<Vector3d>;
 
 constexpr double pi = 3.14159265358979323846;
 constexpr int fewest_lines = 3;
-constexpr int most_lines = 100;
+constexpr int max_lines = 100;
 
 /// [degrees] smallest angles of the best packings known, from three lines on (Conway, Hardin and
 /// Sloane 1996).
@@ -61,7 +61,7 @@ TEST(DirectionSetTest, ReachesTheBestKnownAngles) {
 }
 
 TEST(DirectionSetTest, HasAllSetsOfUnitVectors) {
-  for (int n = fewest_lines; n <= most_lines; ++n) {
+  for (int n = fewest_lines; n <= max_lines; ++n) {
     const Lines& set = grassmannian_directions(2 * n);
     ASSERT_EQ(set.size(), static_cast<std::size_t>(n));
     for (const Vector3d& direction : set) {
@@ -71,7 +71,7 @@ TEST(DirectionSetTest, HasAllSetsOfUnitVectors) {
 }
 
 TEST(DirectionSetTest, StaysBelowThePointBoundAndCloseToIt) {
-  for (int n = fewest_lines; n <= most_lines; ++n) {
+  for (int n = fewest_lines; n <= max_lines; ++n) {
     const double angle = smallest_angle(grassmannian_directions(2 * n));
     EXPECT_LE(angle, upper_bound(n) + 1e-9) << n << " lines";
     EXPECT_GE(angle, 0.9 * upper_bound(n)) << n << " lines";
@@ -80,7 +80,7 @@ TEST(DirectionSetTest, StaysBelowThePointBoundAndCloseToIt) {
 
 TEST(DirectionSetTest, AngleNeverGrowsWithTheNumberOfLines) {
   constexpr double rounding = 1e-9;
-  for (int n = fewest_lines; n < most_lines; ++n) {
+  for (int n = fewest_lines; n < max_lines; ++n) {
     EXPECT_GE(smallest_angle(grassmannian_directions(2 * n)) + rounding,
               smallest_angle(grassmannian_directions(2 * n + 2)))
         << n << " and " << n + 1 << " lines";
@@ -88,11 +88,11 @@ TEST(DirectionSetTest, AngleNeverGrowsWithTheNumberOfLines) {
 }
 
 TEST(DirectionSetTest, StaysAwayFromTheCoordinateAxes) {
-  constexpr double least_angle = 0.05;  // [rad]
-  for (int n = fewest_lines; n <= most_lines; ++n) {
+  constexpr double min_angle = 0.05;  // [rad]
+  for (int n = fewest_lines; n <= max_lines; ++n) {
     for (const Vector3d& direction : grassmannian_directions(2 * n)) {
       for (int axis = 0; axis < 3; ++axis) {
-        EXPECT_GT(smallest_angle({direction, Vector3d::Unit(axis)}), least_angle) << n << " lines";
+        EXPECT_GT(smallest_angle({direction, Vector3d::Unit(axis)}), min_angle) << n << " lines";
       }
     }
   }

@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
+#include "fiber_proximity/environment/occupancy_octree.hpp"
 #include "fiber_proximity/environment/shapes.hpp"
 #include "fiber_proximity/environment/triangle_mesh.hpp"
-#include "src/environment/occupancy_octree.hpp"
 #include "test/support/random.hpp"
 
 namespace fiber::test {

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "fiber_proximity/environment/scene/mesh_files.hpp"
+#include "fiber_proximity/environment/scene/environment_scene.hpp"
 #include "test/fuzz/fuzz_target.hpp"
 #include "test/fuzz/seeds.hpp"
 #include "test/support/temporary_directory.hpp"

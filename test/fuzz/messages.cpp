@@ -62,7 +62,7 @@ bool read(const Message& message, const Options& /*options*/, FiberBuffer& chain
   return true;
 }
 
-/// What the node does with a message of an input, as Input::store.
+/// What the node does with a message of an input, as MessageReader::read.
 template <class Message>
 void try_fibers(MessageStream& stream, const Options& options) {
   const auto message = stream.read<Message>();
@@ -71,7 +71,7 @@ void try_fibers(MessageStream& stream, const Options& options) {
     return;
   }
   MissingPointCounts counts;
-  handle_missing_points(options.missing_points, chains, counts);
+  resolve_missing_points(options.missing_points, chains, counts);
   if (chains.radii.empty()) {
     chains.radii.assign(1, 0.01);
   }

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "fiber_proximity/environment/scene/mesh_files.hpp"
+#include "fiber_proximity/environment/scene/environment_scene.hpp"
 #include "src/text/quote.hpp"
 
 namespace fiber::test {

@@ -1,7 +1,7 @@
 // What is there from the start, as YAML: the obstacles of the node's ~scene, from which the
 // environment is made, and the contacts that are allowed.
 #include "fiber_proximity/environment/environment.hpp"
-#include "src/environment/scene/environment_scene.hpp"
+#include "fiber_proximity/environment/scene/environment_scene.hpp"
 #include "test/fuzz/fuzz_target.hpp"
 #include "test/fuzz/no_mesh.hpp"
 

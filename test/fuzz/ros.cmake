@@ -35,7 +35,7 @@ include_directories(SYSTEM ${generated})
 fuzzed_library(fuzzed_messages UNITY 4
   src/ros/environment/cloud_cells.cpp
   src/ros/support/conversions.cpp
-  src/ros/inputs/marker_chains.cpp
+  src/ros/inputs/marker_fibers.cpp
   src/ros/inputs/marker_input.cpp
   src/ros/inputs/missing_points.cpp
   src/ros/environment/obstacle_change.cpp

@@ -167,5 +167,25 @@ TEST(FiberAssembly, ExchangeTakesThePointsOrLeavesBothAsTheyWere) {
             "update with 4 points for an assembly of 5");
 }
 
+TEST(FiberAssembly, TransformMovesThePointsInPlaceOrLeavesThemAsTheyWere) {
+  FiberAssembly fibers(five_points, {0, 3, 5}, {0.1});
+  const Vector3d* const memory = fibers.points().data();
+  const Eigen::Isometry3d pose = Eigen::Translation3d(1.0, 2.0, 3.0) *
+                                 Eigen::AngleAxisd(0.7, Vector3d(1.0, -2.0, 0.5).normalized());
+  fibers.transform(pose);
+  EXPECT_EQ(fibers.points().data(), memory);
+  for (std::size_t i = 0; i < five_points.size(); ++i) {
+    EXPECT_EQ(fibers.points()[i], pose * five_points[i]);
+  }
+
+  std::vector<Vector3d> far = five_points;
+  far[4].y() = FiberAssembly::max_coordinate;
+  fibers.update_points(far);
+  const Eigen::Isometry3d away(Eigen::Translation3d(0.0, FiberAssembly::max_coordinate, 0.0));
+  EXPECT_NE(error_of([&] { fibers.transform(away); }).find("fibre 1, point 1: y is 2e+150"),
+            std::string::npos);
+  EXPECT_EQ(fibers.points(), far);
+}
+
 }  // namespace
 }  // namespace fiber

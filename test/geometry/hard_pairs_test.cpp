@@ -1,5 +1,5 @@
 // Every kernel on every family of hard pairs, judged in exact rationals.
-#include "test/support/hard_pairs.hpp"
+#include "validation/geometry/hard_pairs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fiber_proximity/geometry/exact_distance.hpp"
+#include "fiber_proximity/geometry/segment_distance.hpp"
 #include "test/support/exact_distance.hpp"
 #include "test/support/hash.hpp"
 #include "test/support/not_finite.hpp"

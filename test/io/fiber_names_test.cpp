@@ -1,7 +1,6 @@
-#include "fiber_proximity/io/fiber_names.hpp"
-
 #include <gtest/gtest.h>
 
+#include "fiber_proximity/io/fiber_file.hpp"
 #include "test/support/error_of.hpp"
 
 namespace fiber {

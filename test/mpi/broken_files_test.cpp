@@ -13,7 +13,7 @@
 
 #include "fiber_proximity/mpi/distributed_files.hpp"
 #include "src/mpi/hdf5_file.hpp"
-#include "test/mpi/dealt_fibers.hpp"
+#include "test/mpi/scattered_fibers.hpp"
 #include "test/mpi/shared_folder.hpp"
 
 namespace fiber::test {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "fiber_proximity/mpi/distributed_files.hpp"
-#include "test/mpi/dealt_fibers.hpp"
+#include "test/mpi/scattered_fibers.hpp"
 #include "test/mpi/shared_folder.hpp"
 #include "test/support/random.hpp"
 

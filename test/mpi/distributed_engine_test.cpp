@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "src/io/number.hpp"
-#include "test/mpi/dealt_fibers.hpp"
+#include "test/mpi/scattered_fibers.hpp"
 #include "test/support/contacts.hpp"
 #include "test/support/dense_fibers.hpp"
 #include "test/support/hard_scenes.hpp"
@@ -150,7 +150,7 @@ TEST_P(DistributedEngineTest, FindsWhatOneProcessFinds) {
   DistributedEngine engine(MPI_COMM_WORLD, one_thread());
   for (int scene = 0; scene < rounds(6); ++scene) {
     FiberAssembly fibers = family.make(random);
-    DistributedFibers mine = dealt_to(own_rank(), fibers, deal(fibers, 3, random));
+    DistributedFibers mine = scattered_to(own_rank(), fibers, scatter(fibers, 3, random));
     const int adopted = random.integer(0, 4);
     for (int frame = 0; frame < 3; ++frame) {
       follow(fibers, mine);
@@ -186,7 +186,7 @@ INSTANTIATE_TEST_SUITE_P(Families, DistributedEngineTest,
 TEST(DistributedEngine, WhatIsAdoptedIsNotSent) {
   Random random;
   FiberAssembly fibers = many_walks(random);
-  const DistributedFibers dealt = dealt_to(own_rank(), fibers, deal(fibers, 2, random));
+  const DistributedFibers dealt = scattered_to(own_rank(), fibers, scatter(fibers, 2, random));
   DistributedEngine engine(MPI_COMM_WORLD, one_thread());
   EXPECT_THROW(engine.adopt(), std::logic_error);
   engine.update(dealt.parts, dealt.names);

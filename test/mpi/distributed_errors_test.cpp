@@ -4,7 +4,7 @@
 #include <functional>
 #include <stdexcept>
 
-#include "test/mpi/dealt_fibers.hpp"
+#include "test/mpi/scattered_fibers.hpp"
 #include "test/support/assemblies.hpp"
 #include "test/support/contacts.hpp"
 

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "src/io/number.hpp"
-#include "test/mpi/dealt_fibers.hpp"
+#include "test/mpi/scattered_fibers.hpp"
 #include "test/support/assemblies.hpp"
 #include "test/support/contacts.hpp"
 #include "test/support/hard_scenes.hpp"

@@ -15,7 +15,7 @@
 #include "src/io/radii.hpp"
 #include "src/mpi/communicator.hpp"
 #include "src/mpi/fiber_runs.hpp"
-#include "test/mpi/dealt_fibers.hpp"
+#include "test/mpi/scattered_fibers.hpp"
 #include "test/mpi/shared_folder.hpp"
 #include "test/support/random.hpp"
 
@@ -59,7 +59,7 @@ std::vector<SegmentFacts> segments_of(const DistributedFibers& fibers) {
 }
 
 DistributedFibers random_parts(test::Random& random, const FiberAssembly& fibers, int cuts) {
-  return test::dealt_to(test::own_rank(), fibers, test::deal(fibers, cuts, random));
+  return test::scattered_to(test::own_rank(), fibers, test::scatter(fibers, cuts, random));
 }
 
 /// Fibres of few segments or many, with radii per point, per fibre or one for all.
@@ -158,7 +158,7 @@ TEST(DistributedFiles, WholeFibersMakeTheSameFileOfAnyRanks) {
     SCOPED_TRACE(round);
     const FiberAssembly assembly = random_assembly(random);
     // In the order of fibres, cut where the random numbers say.
-    std::vector<test::DealtPart> parts;
+    std::vector<test::ScatteredPart> parts;
     const auto ranks = static_cast<std::uint32_t>(test::rank_count());
     for (std::uint32_t fiber = 0; fiber < assembly.fiber_count(); ++fiber) {
       const std::uint32_t count = assembly.offsets()[fiber + 1] - assembly.offsets()[fiber] - 1;
@@ -174,14 +174,14 @@ TEST(DistributedFiles, WholeFibersMakeTheSameFileOfAnyRanks) {
         parts.push_back({fiber, cut, count, static_cast<int>(after)});
       }
     }
-    DistributedFibers mine = test::dealt_to(test::own_rank(), assembly, parts);
+    DistributedFibers mine = test::scattered_to(test::own_rank(), assembly, parts);
     DistributedFiberWriter cut(MPI_COMM_WORLD, folder / "cut.h5");
     cut.write(0, mine);
     cut.finish();
-    for (test::DealtPart& part : parts) {
+    for (test::ScatteredPart& part : parts) {
       part.rank = 0;
     }
-    mine = test::dealt_to(test::own_rank(), assembly, parts);
+    mine = test::scattered_to(test::own_rank(), assembly, parts);
     DistributedFiberWriter whole(MPI_COMM_WORLD, folder / "whole.h5");
     whole.write(0, mine);
     whole.finish();

@@ -8,9 +8,9 @@
 
 #include "fiber_proximity/geometry/segment_distance.hpp"
 #include "src/mpi/box_tree.hpp"
-#include "src/mpi/named_fibers.hpp"
+#include "src/mpi/local_fibers.hpp"
 #include "src/mpi/piece_capsule.hpp"
-#include "test/mpi/dealt_fibers.hpp"
+#include "test/mpi/scattered_fibers.hpp"
 #include "test/support/assemblies.hpp"
 #include "test/support/contacts.hpp"
 
@@ -28,7 +28,7 @@ struct Soup {
       builder.add_fiber(random_walk(random, 5, 0.01));
     }
     fibers = builder.build(radii);
-    const DistributedFibers mine = dealt_to(own_rank(), fibers, deal(fibers, 1, random));
+    const DistributedFibers mine = scattered_to(own_rank(), fibers, scatter(fibers, 1, random));
     engine.update(mine.parts, mine.names);
   }
 
@@ -61,7 +61,7 @@ TEST(DistributedHalo, CostsAreSharedOutWhereTheyAre) {
     builder.add_fiber(points);
   }
   const FiberAssembly fibers = builder.build({1e-5});
-  const DistributedFibers mine = dealt_to(own_rank(), fibers, deal(fibers, 1, random));
+  const DistributedFibers mine = scattered_to(own_rank(), fibers, scatter(fibers, 1, random));
   const std::vector<Contact> expected = answer("run_tree", fibers, within(0.02)).contacts;
   ASSERT_GT(expected.size(), 2 * fibers.segment_count());
   DistributedEngine engine(MPI_COMM_WORLD, one_thread());
@@ -126,11 +126,11 @@ TEST(DistributedHalo, ServesWhilePointsMoveLittle) {
   int frames = 0;
   for (int scene = 0; scene < 8; ++scene) {
     FiberAssembly fibers = walks(random, 300, 20, 0.05, 0.002);
-    const std::vector<DealtPart> dealt = deal(fibers, 2, random);
+    const std::vector<ScatteredPart> dealt = scatter(fibers, 2, random);
     DistributedEngine engine(MPI_COMM_WORLD, one_thread());
     const QueryOptions options = within(scene % 2 == 0 ? 0.0 : 0.003);
     for (int frame = 0; frame < 20; ++frame, ++frames) {
-      const DistributedFibers mine = dealt_to(own_rank(), fibers, dealt);
+      const DistributedFibers mine = scattered_to(own_rank(), fibers, dealt);
       engine.update(mine.parts, mine.names);
       ASSERT_TRUE(same_as_one_process(answer(engine, options),
                                       answer("run_tree", fibers, options).contacts))
@@ -172,13 +172,13 @@ TEST(DistributedHalo, BoxesAreNoFurtherApartThanSegmentsAreFound) {
 }
 
 /// One run of segments that all have this radius [m].
-NamedFibers run_of(const std::vector<Eigen::Vector3d>& points, double radius) {
+LocalFibers run_of(const std::vector<Eigen::Vector3d>& points, double radius) {
   FiberRuns set;
   set.runs.push_back({{7, 3}, points.size() - 1, 0, 0.0});
   for (const Eigen::Vector3d& point : points) {
     set.nodes.push_back({plain(point), radius});
   }
-  NamedFibers fibers;
+  LocalFibers fibers;
   fibers.assign(set);
   return fibers;
 }
@@ -200,9 +200,9 @@ TEST(DistributedHalo, WhatIsNearIsNearTheCapsuleAroundIt) {
     const auto radius = [&] { return scale * random.uniform(0.0, 0.05); };
     const int segments = random.integer(1, 8);
     const bool do_move = random.chance(0.5);
-    const NamedFibers before = run_of(walk(segments), radius());
-    const NamedFibers after = run_of(walk(segments), radius());
-    const NamedFibers other = run_of(walk(1), radius());
+    const LocalFibers before = run_of(walk(segments), radius());
+    const LocalFibers after = run_of(walk(segments), radius());
+    const LocalFibers other = run_of(walk(1), radius());
     const FiberStates piece{before, do_move ? &after : nullptr};
     const PieceCapsule capsule = capsule_around(piece, 0, static_cast<std::uint64_t>(segments));
     const SegmentBall ball = ball_around({other}, 0);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fiber_proximity/mpi/distributed_engine.hpp"
-#include "test/mpi/dealt_fibers.hpp"
+#include "test/mpi/scattered_fibers.hpp"
 #include "test/support/contacts.hpp"
 #include "test/support/dense_fibers.hpp"
 #include "test/support/hard_scenes.hpp"
@@ -98,9 +98,9 @@ testing::AssertionResult are_same(const std::vector<DistributedMotionContact>& m
 
 /// Updates the ranks' engine.
 void update(DistributedEngine& engine, const FiberAssembly& before, const FiberAssembly& after,
-            const std::vector<DealtPart>& dealt) {
-  const DistributedFibers from = dealt_to(own_rank(), before, dealt);
-  const DistributedFibers to = dealt_to(own_rank(), after, dealt);
+            const std::vector<ScatteredPart>& dealt) {
+  const DistributedFibers from = scattered_to(own_rank(), before, dealt);
+  const DistributedFibers to = scattered_to(own_rank(), after, dealt);
   engine.update_motion(from.parts, to.parts, from.names);
 }
 
@@ -114,7 +114,7 @@ TEST_P(DistributedMotionTest, FindsWhatOneProcessFinds) {
   for (int scene = 0; scene < rounds(6); ++scene) {
     FiberAssembly before = family.make(random);
     const double extent = extent_of(before);
-    const std::vector<DealtPart> dealt = deal(before, 3, random);
+    const std::vector<ScatteredPart> dealt = scatter(before, 3, random);
     for (int frame = 0; frame < 2; ++frame) {
       const FiberAssembly after = shaken(before, 0.02 * extent, random);
       update(engine, before, after, dealt);
@@ -152,12 +152,12 @@ INSTANTIATE_TEST_SUITE_P(Families, DistributedMotionTest,
 struct Shaken {
   FiberAssembly before;
   FiberAssembly after;
-  std::vector<DealtPart> dealt;
+  std::vector<ScatteredPart> dealt;
 
   explicit Shaken(Random& random)
       : before(walks(random, 100, 20, 0.05, 0.005)),
         after(shaken(before, 0.05, random)),
-        dealt(deal(before, 3, random)) {}
+        dealt(scatter(before, 3, random)) {}
 };
 
 TEST(DistributedMotion, FindsContactsOfEveryKind) {
@@ -201,7 +201,7 @@ TEST(DistributedMotion, IsForQueriesAboutMotionsOnly) {
   EXPECT_THROW(engine.query_motion({}, motion), std::logic_error);
   update(engine, fibers.before, fibers.after, fibers.dealt);
   EXPECT_THROW(engine.query({}, result), std::logic_error);
-  const DistributedFibers mine = dealt_to(own_rank(), fibers.before, fibers.dealt);
+  const DistributedFibers mine = scattered_to(own_rank(), fibers.before, fibers.dealt);
   engine.update(mine.parts, mine.names);
   EXPECT_THROW(engine.query_motion({}, motion), std::logic_error);
   engine.query(within(0.001), result);
@@ -213,7 +213,7 @@ TEST(DistributedMotion, RefusesFibersThatAreOthersAfterwards) {
   Random random;
   const Shaken fibers(random);
   DistributedEngine engine(MPI_COMM_WORLD, one_thread());
-  const DistributedFibers from = dealt_to(own_rank(), fibers.before, fibers.dealt);
+  const DistributedFibers from = scattered_to(own_rank(), fibers.before, fibers.dealt);
   const bool is_wrong = own_rank() == 0;
   const FiberAssembly other({{0, 0, 0}, {1, 0, 0}}, {0, 2}, {0.1});
   EXPECT_THROW(engine.update_motion(from.parts, is_wrong ? other : from.parts, from.names),

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "fiber_proximity/query/loop_test.hpp"
-#include "test/mpi/dealt_fibers.hpp"
+#include "fiber_proximity/query/for_engines/loop_test.hpp"
+#include "test/mpi/scattered_fibers.hpp"
 #include "test/support/assemblies.hpp"
 #include "test/support/dense_fibers.hpp"
 #include "test/support/hard_scenes.hpp"
@@ -83,9 +83,9 @@ TEST(LoopQuestions, AreAnsweredAsByWhoHasAllPoints) {
       FiberRuns own_runs;
       FiberRuns halo_runs;
       deal_runs(fibers, random, own_runs, halo_runs);
-      NamedFibers own;
+      LocalFibers own;
       own.assign(own_runs);
-      NamedFibers halo;
+      LocalFibers halo;
       halo.assign(halo_runs);
       const std::vector<PointPair> pairs =
           draw_pairs(fibers, own_random);  // each rank asks its own

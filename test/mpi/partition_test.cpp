@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "test/mpi/dealt_fibers.hpp"
+#include "test/mpi/scattered_fibers.hpp"
 
 namespace fiber::test {
 namespace {
@@ -28,7 +28,7 @@ TEST(Partition, DoesNotCutWhatIsFlatIntoSlices) {
         upper[axis] = std::max(upper[axis], objects[i].centre[axis]);
       }
     }
-    EXPECT_GT(ranks.largest(upper[2]) - ranks.smallest(lower[2]), 0.009) << "part " << part;
+    EXPECT_GT(ranks.max(upper[2]) - ranks.min(lower[2]), 0.009) << "part " << part;
   }
 }
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "test/mpi/dealt_fibers.hpp"
+#include "test/mpi/scattered_fibers.hpp"
 
 namespace fiber::test {
 

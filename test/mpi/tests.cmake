@@ -4,7 +4,7 @@ if(TARGET fiber_proximity_mpi)
   add_executable(distributed_engine_test
     mpi/broken_files_test.cpp
     mpi/contact_files_test.cpp
-    mpi/dealt_work_test.cpp
+    mpi/work_queue_test.cpp
     mpi/distributed_engine_test.cpp
     mpi/distributed_errors_test.cpp
     mpi/distributed_fiber_pairs_test.cpp

@@ -30,10 +30,11 @@ done
 expect() {
   grep -q "$2" "$work/$1" || fail "$1 lacks $2"
 }
-expect libfiber-proximity.files '/usr/lib/libfiber_proximity.so$'
+expect libfiber-proximity.files '/usr/lib/libfiber_proximity.so.[0-9.]*$'
 expect libfiber-proximity.files '/usr/bin/fiber_query$'
 expect libfiber-proximity.depends libtbb
 expect libfiber-proximity-dev.files '/query/engine.hpp$'
+expect libfiber-proximity-dev.files '/usr/lib/libfiber_proximity.so$'
 expect libfiber-proximity-dev.files '/fiber_proximity-core.cmake$'
 expect libfiber-proximity-dev.depends '^libfiber-proximity (= '
 # catkin's configuration looks for the library of ROS and for the packages whose messages it knows.
@@ -52,7 +53,7 @@ if grep -qE 'libros|rviz|librviz' "$work/libfiber-proximity.depends"; then
 fi
 # What is for clusters is apart, and nobody else needs MPI.
 if [ "${#names[@]}" -eq 5 ]; then
-  expect libfiber-proximity-mpi.files '/usr/lib/libfiber_proximity_mpi.so$'
+  expect libfiber-proximity-mpi.files '/usr/lib/libfiber_proximity_mpi.so.[0-9.]*$'
   expect libfiber-proximity-mpi.files '/usr/bin/fiber_query_mpi$'
   expect libfiber-proximity-mpi.files '/usr/bin/fiber_scene_mpi$'
   expect libfiber-proximity-mpi.depends '^libfiber-proximity (= '
@@ -61,6 +62,7 @@ if [ "${#names[@]}" -eq 5 ]; then
   expect libfiber-proximity-mpi.depends libtrilinos-zoltan
   expect libfiber-proximity-mpi.depends openmpi-bin
   expect libfiber-proximity-mpi-dev.files '/mpi/distributed_engine.hpp$'
+  expect libfiber-proximity-mpi-dev.files '/usr/lib/libfiber_proximity_mpi.so$'
   expect libfiber-proximity-mpi-dev.files '/fiber_proximity-mpi.cmake$'
   expect libfiber-proximity-mpi-dev.depends '^libfiber-proximity-mpi (= '
   expect libfiber-proximity-mpi-dev.depends ' libopenmpi-dev'

@@ -46,7 +46,7 @@ defined() {
   nm --defined-only -g "$@" 2>/dev/null | awk '$2 ~ /^[TDBR]$/ { print $3 }' | sort -u
 }
 mapfile -t archives < <(
-  find "$build" \( -name libhard_cases.a -o -name libtest_support.a -o -name 'libfiber_bench_*.a' \))
+  find "$build" \( -name libvalidation_geometry.a -o -name libvalidation_sim.a -o -name libtest_support.a -o -name 'libfiber_bench_*.a' \))
 defined "${archives[@]}" >"$work/test_symbols.txt"
 grep -q hard_pairs "$work/test_symbols.txt" || fail "no symbols of test code are found"
 while IFS= read -r library; do
@@ -85,11 +85,16 @@ expect_paper_engines() {
   answer=$("$(find "$1" -name paper_engines -type f)" 2>&1) || fail "paper_engines of $1: $answer"
   [ "$answer" = "AL: 1 contact, 0.5 m" ] || fail "paper_engines of $1 has another answer: $answer"
 }
+sed -n '/^## In C++$/,/^## /{/^```cpp$/,/^```$/{/^```/!p}}' "$source/README.md" >"$work/readme.cpp"
 cmake -S "$source/test/package/cmake_user" -B "$work/cmake_user" -DCMAKE_PREFIX_PATH="$prefix" \
+  -DREADME_PROGRAM="$work/readme.cpp" \
   -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCMAKE_CXX_FLAGS="$flags" >"$work/configure.log" ||
   { cat "$work/configure.log"; exit 1; }
 cmake --build "$work/cmake_user" >"$work/build.log" || { cat "$work/build.log"; exit 1; }
 expect_paper_engines "$work/cmake_user"
+"$work/cmake_user/readme" | grep -q '^0 and 1: 0.002 m, from ' || fail "the README's program finds no contact"
+[ "$("$work/cmake_user/yaml_environment" | tr '\n' ' ')" = "touches free touches " ] ||
+  fail "yaml_environment has another answer"
 [ "$("$work/cmake_user/scene_fibers")" = "5 cables" ] || fail "scene_fibers makes other fibres"
 # The paper's engines are loaded by those tools alone that offer them by name.
 for tool in fiber_scene fiber_simulate fiber_scene_mpi fiber_query_mpi; do
@@ -126,7 +131,7 @@ if [ -n "$module" ] && [[ $flags != *fsanitize* ]]; then
   [ "$answer" = "[1.]" ] ||
     fail "the Python module does not answer from where it is installed"
   # What it loads is what is installed beside it.
-  [[ $(env -u LD_LIBRARY_PATH ldd "$module") == *"$prefix"*libfiber_proximity.so* ]] || fail "the Python module loads another library"
+  [[ $(env -u LD_LIBRARY_PATH ldd "$module") == *"$prefix"*libfiber_proximity.so.* ]] || fail "the Python module loads another library"
   if [ -d "$python_path/fiber_proximity/msg" ]; then
     (cd "$work" && PYTHONPATH=$python_path:${PYTHONPATH:-} /usr/bin/python3 -B -c \
       'import fiber_proximity; fiber_proximity.Engine(); from fiber_proximity.msg import Contact; Contact()') ||

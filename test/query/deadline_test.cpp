@@ -98,7 +98,7 @@ TEST(RunTreeDeadline, NoMoreIsFoundThanCanBeJudged) {
       as_fibers(std::vector(std::size_t{6000}, random_walk(random, 1, 0.1)), 0.01);
   const std::unique_ptr<ProximityEngine> engine = make_engine("run_tree", {1});
   engine->update(fibers);
-  constexpr double least_seconds_for_one = 1e-7;  // slower machines find no more for that
+  constexpr double min_seconds_for_one = 1e-7;  // slower machines find no more for that
   constexpr double one_more_look = 1e4;
   QueryOptions options;
   QueryResult found;
@@ -106,7 +106,7 @@ TEST(RunTreeDeadline, NoMoreIsFoundThanCanBeJudged) {
   for (options.deadline = 0.01; found.contacts.empty(); options.deadline *= 2.0) {
     found = answer(*engine, options);
     ASSERT_LE(static_cast<double>(found.counts.primitive_tests),
-              options.deadline / least_seconds_for_one + one_more_look);
+              options.deadline / min_seconds_for_one + one_more_look);
   }
   EXPECT_FALSE(found.complete);
   EXPECT_EQ(found.others_lower, -(1.0 + 0x1p-51) * 0.02);

@@ -9,7 +9,7 @@
 #include <limits>
 #include <tuple>
 
-#include "fiber_proximity/geometry/exact_distance.hpp"
+#include "fiber_proximity/geometry/segment_distance.hpp"
 #include "test/support/answers.hpp"
 #include "test/support/contacts.hpp"
 #include "test/support/engine_names.hpp"

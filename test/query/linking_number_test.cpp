@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "fiber_proximity/query/topology.hpp"
+#include "fiber_proximity/query/crossings.hpp"
 #include "src/geometry/gauss_integral.hpp"
 #include "test/support/curves.hpp"
 

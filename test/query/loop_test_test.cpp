@@ -1,4 +1,4 @@
-#include "fiber_proximity/query/loop_test.hpp"
+#include "fiber_proximity/query/for_engines/loop_test.hpp"
 
 #include <gtest/gtest.h>
 

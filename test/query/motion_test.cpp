@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "fiber_proximity/geometry/contact_time.hpp"
-#include "fiber_proximity/query/narrow_phase.hpp"
+#include "fiber_proximity/query/for_engines/narrow_phase.hpp"
 #include "src/query/contact_evaluator.hpp"
 #include "test/query/motion_queries.hpp"
 #include "test/support/answers.hpp"

@@ -1,4 +1,4 @@
-#include "fiber_proximity/query/narrow_phase.hpp"
+#include "fiber_proximity/query/for_engines/narrow_phase.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "fiber_proximity/query/pair_collector.hpp"
+#include "fiber_proximity/query/for_engines/pair_collector.hpp"
 
 #include <gtest/gtest.h>
 

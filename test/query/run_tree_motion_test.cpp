@@ -131,7 +131,7 @@ TEST(RunTreeMotion, FindsWhatOnlyJustTouches) {
 }
 
 /// [m] The least distance of the first segments of two fibres at some times.
-double least_distance(const FiberAssembly& before, const FiberAssembly& after) {
+double min_distance(const FiberAssembly& before, const FiberAssembly& after) {
   constexpr int times = 64;
   double least = std::numeric_limits<double>::infinity();
   const auto point = [&](std::size_t i, double time) -> Vector3d {
@@ -157,7 +157,7 @@ TEST(RunTreeMotion, FindsWhatIsReportedForTheToleranceAlone) {
         as_fibers({{random.in_cube(), random.in_cube()}, {random.in_cube(), random.in_cube()}});
     const FiberAssembly after = after_ways(before, 1.0, random.uniform(0.0, 0.3), random);
     MotionOptions options;
-    options.margin = 0.7 * least_distance(before, after);
+    options.margin = 0.7 * min_distance(before, after);
     options.tolerance = options.margin;
     const MotionResult expected = expected_of(before, after, options);
     expect_same(answer("run_tree", before, after, options, 1), expected);

@@ -120,9 +120,9 @@ TEST_P(ScenesAgreementTest, TheLeafPretestChangesOnlyTheCost) {
       for (const auto& [name, engine] : engines_) {
         SCOPED_TRACE(testing::Message() << name << ", margin " << margin << " radii");
         engine->update(fibers);
-        options.leaf_pretest = true;
+        set_leaf_pretest(*engine, true);
         const QueryResult with = answer(*engine, options);
-        options.leaf_pretest = false;
+        set_leaf_pretest(*engine, false);
         const QueryResult without = answer(*engine, options);
         ASSERT_TRUE(same_contacts(without.contacts, with.contacts));
         EXPECT_LE(with.contacts.size(), with.counts.primitive_tests);
@@ -172,7 +172,8 @@ TEST_P(ScenesAgreementTest, WrappedBoxesCostWhatLayeredOnesDo) {
     for (const bool leaf_pretest : {false, true}) {
       QueryOptions options;
       options.margin = scene.radius();
-      options.leaf_pretest = leaf_pretest;
+      layered.set_leaf_pretest(leaf_pretest);
+      wrapped.set_leaf_pretest(leaf_pretest);
       const QueryCounts one = answer(layered, options).counts;
       const QueryCounts other = answer(wrapped, options).counts;
       EXPECT_EQ(one.node_tests, other.node_tests);

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include "fiber_proximity/query/crossings.hpp"
-#include "fiber_proximity/query/topology.hpp"
 #include "test/support/curves.hpp"
 
 namespace fiber::test {

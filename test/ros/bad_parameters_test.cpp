@@ -10,7 +10,7 @@ namespace {
 
 using node_test::BadInputTest;
 
-/// What a second node says and returns that does not start.
+/// Runs a second node that does not start, and tells what it says and returns.
 struct Refusal {
   std::string output;
   int exit_code = 0;

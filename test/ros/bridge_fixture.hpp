@@ -67,11 +67,6 @@ class BridgeTest : public node_test::NodeTest {
     EXPECT_TRUE(node_test::wait_for(is_expected)) << ::testing::PrintToString(distances());
   }
 
-  /// Waits for an error or warning that holds this text.
-  void expect_log(const std::string& text) const {
-    EXPECT_TRUE(node_test::wait_for([&] { return !logs_of(text).empty(); })) << text;
-  }
-
   ros::Publisher publisher_;
 };
 

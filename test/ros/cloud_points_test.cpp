@@ -20,7 +20,7 @@ class CloudPointsTest : public node_test::NodeTest {
     return test_messages::fiber_array(header("world", new_stamp()), {{0, 0, 0}, {1, 0, 0}});
   }
 
-  /// What the node tells about a cloud once it has become of use, or has not.
+  /// Returns what the node tells about a cloud once it has become of use, or has not.
   InputStatistics told_about(const Points& points) {
     cloud_.publish(test_messages::point_cloud2(header("world"), points));
     InputStatistics told;

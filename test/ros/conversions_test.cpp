@@ -189,16 +189,33 @@ TEST(PointCloud2, MalformedCloudsAreRefused) {
             "data has 85 bytes, but 2 row(s) of row_step 43 make 86");
 }
 
-TEST(FiberBuffer, AssignRefusesWhatAnAssemblyRefuses) {
-  FiberBuffer chains;
-  chains.points = three_points();
-  chains.end_chain();
-  chains.radii = {0.5};
+FiberBuffer one_fiber(double radius) {
+  FiberBuffer fibers;
+  fibers.points = three_points();
+  fibers.end_chain();
+  fibers.radii = {radius};
+  return fibers;
+}
+
+TEST(FiberBuffer, AssignTakesThePointsAndCopiesNone) {
   fiber::FiberAssembly fibers;
-  assign(chains, fibers);
+  for (const double radius : {0.5, 0.5, 0.25}) {  // other fibres, then moved points, then others
+    FiberBuffer buffer = one_fiber(radius);
+    const Eigen::Vector3d* const memory = buffer.points.data();
+    assign(buffer, fibers);
+    EXPECT_EQ(fibers.points().data(), memory);
+    EXPECT_EQ(fibers.points(), three_points());
+    EXPECT_EQ(fibers.radii(), std::vector<double>{radius});
+  }
+}
+
+TEST(FiberBuffer, AssignRefusesWhatAnAssemblyRefuses) {
+  FiberBuffer buffer = one_fiber(0.5);
+  fiber::FiberAssembly fibers;
+  assign(buffer, fibers);
   EXPECT_EQ(fibers.points(), three_points());
-  chains.radii = {-1.0};
-  EXPECT_THROW(assign(chains, fibers), std::invalid_argument);
+  buffer = one_fiber(-1.0);
+  EXPECT_THROW(assign(buffer, fibers), std::invalid_argument);
   EXPECT_EQ(fibers.radii(), std::vector<double>{0.5});
 }
 

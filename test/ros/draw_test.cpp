@@ -1,4 +1,4 @@
-// What rviz is told by the running node.
+// The markers of the running node.
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <visualization_msgs/MarkerArray.h>
 

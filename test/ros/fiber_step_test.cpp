@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "src/ros/support/stamps.hpp"
+
 namespace fiber_proximity_ros {
 namespace {
 

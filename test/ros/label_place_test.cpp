@@ -100,7 +100,7 @@ TEST(LabelPlace, AWideTextIsFurtherAwaySideways) {
 
 TEST(LabelPlace, OfVeryManySegmentsNoneIsLookedAt) {
   std::vector<Vector3d> points;
-  for (std::size_t i = 0; i < most_label_segments + 2; ++i) {
+  for (std::size_t i = 0; i < max_label_segments + 2; ++i) {
     points.emplace_back(1e-4 * static_cast<double>(i) - 1.0, 0, 0.04);
   }
   const FiberAssembly fibers(points, {0, static_cast<std::uint32_t>(points.size())}, {0.005});

@@ -50,8 +50,7 @@ TEST_F(LimitsTest, ATangleIsAnsweredAndTheNextMessageToo) {
   EXPECT_FALSE(answer->complete);
   ASSERT_TRUE(answer->has_minimum);
   EXPECT_LE(answer->minimum_lower, answer->minimum_distance);
-  EXPECT_TRUE(node_test::wait_for(
-      [this] { return !logs_of("the closest 1000 are reported, as contact_limit says").empty(); }));
+  expect_log("the closest 1000 are reported, as contact_limit says");
   EXPECT_FALSE(logs_of("as pair_limit says").empty());
 
   fiber_proximity::QueryProximity query;

@@ -1,4 +1,4 @@
-// What stands beside the fibres: names, the legend with its axes, the cost.
+// The texts beside the fibres: names, the legend with its axes, the cost.
 #include <cmath>
 
 #include "fiber_proximity/ros/conversions.hpp"
@@ -31,11 +31,11 @@ TEST_F(Markers, NamesAreAboveAndBesideTheFirstPoints) {
   names_.resize(1);
   build(parallel_fibers(1));
   EXPECT_NE(find("names", 1, Marker::DELETE), nullptr);
-  names_.assign(MarkerBuilder::most_names, "one of many");
-  build(parallel_fibers(MarkerBuilder::most_names));
-  EXPECT_NE(find("names", MarkerBuilder::most_names - 1), nullptr);
+  names_.assign(MarkerBuilder::max_names, "one of many");
+  build(parallel_fibers(MarkerBuilder::max_names));
+  EXPECT_NE(find("names", MarkerBuilder::max_names - 1), nullptr);
   names_.emplace_back("one too many");
-  build(parallel_fibers(MarkerBuilder::most_names + 1));
+  build(parallel_fibers(MarkerBuilder::max_names + 1));
   EXPECT_EQ(find("names"), nullptr);
   EXPECT_NE(find("names", 0, Marker::DELETE), nullptr);
 }

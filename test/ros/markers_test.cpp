@@ -28,7 +28,7 @@ TEST_F(Markers, DrawsOneTubePerFiberInItsOwnColor) {
 }
 
 TEST_F(Markers, ManySegmentsBecomeLines) {
-  const auto points = static_cast<std::uint32_t>(MarkerBuilder::most_tube_segments / 2 + 1);
+  const auto points = static_cast<std::uint32_t>(MarkerBuilder::max_tube_segments / 2 + 1);
   build(parallel_fibers(2, points));
   EXPECT_EQ(find("fibers", 0)->type, Marker::TRIANGLE_LIST);
   build(parallel_fibers(2, points + 1));

@@ -58,7 +58,7 @@ struct Handled {
 
 Handled handle(MissingPoints policy, const FiberBuffer& chains) {
   Handled handled{chains, {}};
-  handle_missing_points(policy, handled.chains, handled.counts);
+  resolve_missing_points(policy, handled.chains, handled.counts);
   EXPECT_EQ(handled.chains.header.frame_id, "camera");
   EXPECT_EQ(handled.chains.names.size(), handled.chains.fiber_count());
   return handled;
@@ -115,10 +115,11 @@ TEST(MissingPoints, RadiiGoWithTheirPointsOrFibres) {
   FiberBuffer chains = chains_of({"..x..", ".x.", "xx"});
   const auto radii_after = [&chains](MissingPoints policy, const Radii& radii) {
     chains.radii = radii;
-    const FiberBuffer left = handle(policy, chains).chains;
+    FiberBuffer left = handle(policy, chains).chains;
+    Radii radii_left = left.radii;
     fiber::FiberAssembly fibers;
     EXPECT_NO_THROW(assign(left, fibers));
-    return left.radii;
+    return radii_left;
   };
   EXPECT_EQ(radii_after(MissingPoints::SPLIT, {7}), Radii{7});
   EXPECT_EQ(radii_after(MissingPoints::SPLIT, {1, 2, 3}), (Radii{1, 1}));
@@ -150,7 +151,7 @@ TEST(MissingPoints, RefusedIsTheFirstByNameAndAllAreCounted) {
   FiberBuffer chains = chains_of({"...", "..x.x"});
   MissingPointCounts counts;
   try {
-    handle_missing_points(MissingPoints::REFUSE, chains, counts);
+    resolve_missing_points(MissingPoints::REFUSE, chains, counts);
     FAIL() << "not refused";
   } catch (const std::invalid_argument& error) {
     const std::string message = error.what();
@@ -167,12 +168,13 @@ TEST(MissingPoints, WhatLiesAboutItsLayoutStaysForTheAssemblyToRefuse) {
     const Offsets offsets = chains.offsets;
     MissingPointCounts counts;
     for (const MissingPoints policy : {MissingPoints::BRIDGE, MissingPoints::SPLIT}) {
-      handle_missing_points(policy, chains, counts);
+      resolve_missing_points(policy, chains, counts);
       EXPECT_EQ(chains.points.size(), 8U);
       EXPECT_EQ(chains.offsets, offsets);
       chains.radii.resize(std::max<std::size_t>(chains.radii.size(), 1));
+      FiberBuffer assigned = chains;
       fiber::FiberAssembly fibers;
-      EXPECT_THROW(assign(chains, fibers), std::invalid_argument);
+      EXPECT_THROW(assign(assigned, fibers), std::invalid_argument);
     }
     expect_counts(counts, 0, 0, 0);
   };

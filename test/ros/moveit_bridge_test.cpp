@@ -255,7 +255,7 @@ TEST_F(WaitingBridgeTest, KeepsWhatComesUntilTheServiceIsThere) {
 }
 
 TEST_F(WaitingBridgeTest, SaysWhichMessagesItCannotKeep) {
-  publish(0, MoveitBridge::most_waiting + 2);
+  publish(0, MoveitBridge::max_waiting + 2);
   const std::string lost =
       "'/late/collision_object': message lost, as 1000 wait for the service "
       "/late/proximity/apply_obstacles already; its first object is ";

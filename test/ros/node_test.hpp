@@ -20,7 +20,7 @@
 #include "fiber_proximity/ros/conversions.hpp"
 #include "test/support/answers.hpp"
 
-/// What tests of the running node share. The node under test is /proximity.
+/// Tools that tests of the running node share. The node under test is /proximity.
 namespace node_test {
 
 /// [s] that only a broken node needs, however busy the machine is.
@@ -156,7 +156,12 @@ class NodeTest : public ::testing::Test {
     return found;
   }
 
-  /// What holds of every answer, whatever it is about.
+  /// Waits for an error or a warning that has this text.
+  void expect_log(const std::string& text) const {
+    EXPECT_TRUE(wait_for([&] { return !logs_of(text).empty(); })) << text;
+  }
+
+  /// Checks what holds of every answer, whatever it is about.
   void TearDown() override {
     for (const auto& answer : contacts.messages) {
       EXPECT_EQ(answer->complete != 0, answer->unknown.empty());

@@ -233,7 +233,7 @@ TEST(ObstacleChange, BadMeshesAreRefused) {
   const std::string none = error_with([](auto& mesh) { mesh.triangles.clear(); });
   EXPECT_EQ(none.rfind(place, 0), 0U) << none;
   const std::string giant = error_with([](auto& mesh) {
-    mesh.triangles.assign(fiber::TriangleMesh::most_triangles + 1, mesh.triangles[0]);
+    mesh.triangles.assign(fiber::TriangleMesh::max_triangles + 1, mesh.triangles[0]);
   });
   EXPECT_EQ(giant.rfind(place, 0), 0U) << giant;
   EXPECT_NE(giant.find("1000001"), std::string::npos) << giant;

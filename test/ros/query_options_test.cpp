@@ -26,7 +26,7 @@ TEST_F(QueryTest, AccuracyIsChosenByCall) {
   request.margin = options.margin;
   request.shapes = {shape("world", line, 0.1)};
   request.type = QueryProximity::Request::CLOSEST;
-  for (const char* kernel : {"", "fast", "robust", "exact"}) {
+  for (const char* kernel : {"", "robust", "exact"}) {
     for (const double tolerance : {0.0, 0.05, 10.0}) {
       request.kernel = kernel;
       request.tolerance = tolerance;
@@ -47,25 +47,6 @@ TEST_F(QueryTest, AccuracyIsChosenByCall) {
   request.kernel = "exact";
   // The surfaces' distance, but for its last digits: the kernels know better than brute force.
   EXPECT_NEAR(call(request).contacts.front().distance, minimum, 1e-15);
-}
-
-TEST_F(QueryTest, TheKernelOfTheVersionBeforeIsRobust) {
-  std::string kernel;
-  EXPECT_TRUE(ros::param::get("/proximity/kernel", kernel));
-  EXPECT_EQ(kernel, "robust") << "the launch file says fast";
-  send_fibers();
-  QueryProximity::Request request;
-  request.type = QueryProximity::Request::ALL;
-  request.margin = std::numeric_limits<double>::infinity();
-  request.shapes = {shape("world", {{-1, 0, 0}, {1, 0, 0}}, 0.1)};
-  request.kernel = "robust";
-  const QueryProximity::Response robust = call(request);
-  request.kernel = "fast";
-  const QueryProximity::Response fast = call(request);
-  ASSERT_FALSE(robust.contacts.empty());
-  ASSERT_EQ(fast.contacts.size(), robust.contacts.size());
-  EXPECT_EQ(fast.contacts.front().lower, robust.contacts.front().lower);
-  EXPECT_EQ(fast.contacts.front().upper, robust.contacts.front().upper);
 }
 
 TEST_F(QueryTest, ADeadlineCutsTheAnswerOffAndSaysSo) {

@@ -115,6 +115,9 @@ TEST_F(ReconfigureTest, AccuracyCanBeChosenWhileItRuns) {
   now = answer();
   EXPECT_EQ(now.kernel, "robust");
   EXPECT_EQ(now.tolerance, 0.0);
+  expect_log(
+      "parameter /proximity/accuracy is robust, which overrides kernel exact, "
+      "tolerance 0.001; accuracy custom uses them");
   EXPECT_EQ(now.contacts.size(), 9U);
   EXPECT_LT(statistics_of(now).contact_error, 1e-15);
 
@@ -132,43 +135,21 @@ TEST_F(ReconfigureTest, AccuracyCanBeChosenWhileItRuns) {
   EXPECT_EQ(now.contacts.size(), 9U);
 }
 
-TEST_F(ReconfigureTest, TheKernelOfTheVersionBeforeIsRobust) {
-  ProximityConfig config = ProximityConfig::__getDefault__();
-  config.kernel = "fast";
-  EXPECT_EQ(set(config).kernel, "robust");
-  EXPECT_EQ(answer().kernel, "robust");
-  config.accuracy = "fast";
-  EXPECT_EQ(set(config).accuracy, "robust");
-  for (const std::string name : {"kernel", "accuracy"}) {
-    EXPECT_TRUE(node_test::wait_for([&] {
-      return !logs_of("parameter /proximity/" + name + " is fast, which saved no time").empty();
-    })) << name;
-  }
-}
-
 TEST_F(ReconfigureTest, AnAccuracyThatCannotBeIsAnError) {
   set(ProximityConfig::__getDefault__());
   ProximityConfig bad = ProximityConfig::__getDefault__();
   bad.accuracy = "deadline";
   EXPECT_EQ(set(bad).accuracy, "custom");
-  EXPECT_TRUE(node_test::wait_for([this] {
-    return !logs_of("accuracy is 'deadline' and deadline is 0 s, it must be above 0").empty();
-  }));
+  expect_log("accuracy is 'deadline' and deadline is 0 s, it must be above 0");
   bad.accuracy = "sloppy";
   EXPECT_EQ(set(bad).accuracy, "custom");
-  EXPECT_TRUE(node_test::wait_for([this] {
-    return !logs_of(
-                "parameter /proximity/accuracy is sloppy, it must be one of custom, robust, "
-                "exact, deadline")
-                .empty();
-  }));
+  expect_log(
+      "parameter /proximity/accuracy is sloppy, it must be one of custom, robust, "
+      "exact, deadline");
   bad = ProximityConfig::__getDefault__();
   bad.kernel = "double";
   EXPECT_EQ(set(bad).kernel, "robust");
-  EXPECT_TRUE(node_test::wait_for([this] {
-    return !logs_of("parameter /proximity/kernel is double, it must be one of robust, exact")
-                .empty();
-  }));
+  expect_log("parameter /proximity/kernel is double, it must be one of robust, exact");
 }
 
 TEST_F(ReconfigureTest, BadValuesAreAnErrorAndChangeNothing) {
@@ -181,34 +162,25 @@ TEST_F(ReconfigureTest, BadValuesAreAnErrorAndChangeNothing) {
   ProximityConfig in_use = set(bad);
   EXPECT_EQ(in_use.query_type, "all");
   EXPECT_EQ(in_use.margin, 0.1);
-  EXPECT_TRUE(node_test::wait_for([this] {
-    return !logs_of(
-                "parameters stay as they were: parameter /proximity/query_type is nearest, it must "
-                "be one of first, closest, limited, all, fiber_pairs")
-                .empty();
-  }));
+  expect_log(
+      "parameters stay as they were: parameter /proximity/query_type is nearest, it must "
+      "be one of first, closest, limited, all, fiber_pairs");
 
   bad = good;
   bad.margin = std::numeric_limits<double>::quiet_NaN();
   in_use = set(bad);
   EXPECT_EQ(in_use.margin, 0.1);
-  EXPECT_TRUE(node_test::wait_for([this] {
-    return !logs_of(
-                "parameters stay as they were: parameter /proximity/margin is nan, it must be a "
-                "number of at least 0")
-                .empty();
-  }));
+  expect_log(
+      "parameters stay as they were: parameter /proximity/margin is nan, it must be a "
+      "number of at least 0");
   EXPECT_EQ(answer().contacts.size(), 9U);
 
   bad = good;
   bad.max_contacts = -1;
   EXPECT_EQ(set(bad).max_contacts, good.max_contacts);
-  EXPECT_TRUE(node_test::wait_for([this] {
-    return !logs_of(
-                "parameters stay as they were: parameter /proximity/max_contacts is -1, it must be "
-                "a whole number of at least 1")
-                .empty();
-  }));
+  expect_log(
+      "parameters stay as they were: parameter /proximity/max_contacts is -1, it must be "
+      "a whole number of at least 1");
   int on_server = 0;
   EXPECT_TRUE(ros::param::get("/proximity/max_contacts", on_server));
   EXPECT_EQ(on_server, good.max_contacts);
@@ -227,19 +199,14 @@ TEST_F(ReconfigureTest, ValuesOfAnotherTypeOrNameChangeNothing) {
   ProximityConfig in_use;
   ASSERT_TRUE(in_use.__fromMessage__(call.response.config));
   EXPECT_EQ(in_use.margin, 0.0) << "all of a request, or nothing";
-  EXPECT_TRUE(node_test::wait_for([this] {
-    return !logs_of(
-                "parameters stay as they were: parameter show_boxes is a value of type int, it "
-                "must be true or false")
-                .empty();
-  }));
+  expect_log(
+      "parameters stay as they were: parameter show_boxes is a value of type int, it "
+      "must be true or false");
   call.request.config = {};
   call.request.config.doubles.resize(1);
   call.request.config.doubles[0].name = "margn";
   ASSERT_TRUE(node_test::call_service("/proximity/set_parameters", call));
-  EXPECT_TRUE(node_test::wait_for([this] {
-    return !logs_of("parameters stay as they were: there is no parameter margn").empty();
-  }));
+  expect_log("parameters stay as they were: there is no parameter margn");
 }
 
 }  // namespace

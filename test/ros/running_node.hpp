@@ -54,7 +54,7 @@ class RunningNode {
     }
   }
 
-  /// What it has printed so far.
+  /// Returns what it has printed so far.
   std::string output() const { return fiber::test::read_file(output_); }
 
   bool is_running() {

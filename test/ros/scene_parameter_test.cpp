@@ -1,7 +1,7 @@
 // What of scenes is ROS: parameters, and meshes of packages.
 #include <gtest/gtest.h>
 
-#include "src/environment/scene/environment_scene.hpp"
+#include "fiber_proximity/environment/scene/environment_scene.hpp"
 #include "src/ros/environment/mesh_loader.hpp"
 #include "src/ros/support/parameters.hpp"
 #include "test/ros/mesh_files.hpp"

@@ -33,7 +33,7 @@ Points hairpin(double radius, const Vector3d& from) {
 /// With config/trackdlo.yaml.
 class SelfContactTest : public node_test::NodeTest {
  protected:
-  /// Of an answer about both clouds.
+  /// Sends both clouds and returns the answer about them.
   const fiber_proximity::ContactArray* answer_about(const Points& left, const Points& right) {
     const ros::Time stamp = new_stamp();
     left_.publish(test_messages::point_cloud2(test_messages::header("world", stamp), left));

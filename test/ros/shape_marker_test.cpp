@@ -174,9 +174,9 @@ TEST(ShapeMarker, OfMeshesThoseTrianglesThatReachIn) {
 
 TEST(ShapeMarker, GiantMeshesAreTheirBoxes) {
   Random random;
-  const auto soup = fiber::test::triangle_soup(random, most_mesh_triangles, 1.0);
+  const auto soup = fiber::test::triangle_soup(random, max_mesh_triangles, 1.0);
   EXPECT_EQ(draw(soup).type, Marker::TRIANGLE_LIST);
-  const auto giant = fiber::test::triangle_soup(random, most_mesh_triangles + 1, 1.0);
+  const auto giant = fiber::test::triangle_soup(random, max_mesh_triangles + 1, 1.0);
   const Isometry3d pose = fiber::test::random_pose(random, 1.0);
   const Marker box = draw(giant, pose);
   ASSERT_EQ(box.type, Marker::CUBE);

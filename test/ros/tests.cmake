@@ -14,9 +14,17 @@ fiber_proximity_gtest(conversions_test
   ros/conversions_test.cpp
   ros/kept_markers_test.cpp
   ros/marker_input_test.cpp
+  ros/merged_fibers_test.cpp
   ros/missing_points_test.cpp
   LIBRARIES fiber_proximity_ros
 )
+if(NOT FIBER_PROXIMITY_SANITIZE)
+  # On its own: it replaces operator new.
+  fiber_proximity_gtest(input_allocation_test
+    ros/input_allocation_test.cpp
+    LIBRARIES fiber_proximity_ros
+  )
+endif()
 fiber_proximity_gtest(stamps_test
   ros/sequence_gaps_test.cpp
   ros/stamp_matcher_test.cpp
@@ -168,6 +176,7 @@ add_rostest_gtest(environment_node_test
   ros/environment_inputs_test.cpp
   ros/environment_obstacles_test.cpp
   ros/main.cpp
+  ros/marker_obstacles_test.cpp
   ros/waiting_changes_test.cpp
 )
 target_link_libraries(environment_node_test fiber_proximity_ros fiber_proximity_options)

@@ -17,7 +17,7 @@ class TimingTest : public node_test::NodeTest {
     connect(probe_, test_messages::fiber_array(header("world"), {{0, 0, 0}, {1, 0, 0}}));
   }
 
-  /// What the node says about its input `late` after it has handled what came before.
+  /// Returns what the node says about its input `late` after it has handled what came before.
   fiber_proximity::InputStatistics late_input() {
     const ros::Time stamp = new_stamp();
     probe_.publish(test_messages::fiber_array(header("world", stamp), {{0, 0, 0}, {1, 0, 0}}));

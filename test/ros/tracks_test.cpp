@@ -15,7 +15,7 @@ using fiber_proximity::ContactArray;
 using fiber_proximity::FiberArray;
 using Points = std::vector<Eigen::Vector3d>;
 
-/// What the player sends of one fibre, brought into the fixed frame by the test itself.
+/// The points of one fibre that the player sends, brought into the fixed frame by the test itself.
 std::vector<Points> read_track(const std::string& file, std::size_t fiber,
                                const Eigen::Isometry3d& transform) {
   std::vector<Points> track;

@@ -1,5 +1,6 @@
 // Sources that fail: whatever is unknown, no answer is complete and nothing is free of it, while
 // all that does not depend on it is answered as ever.
+#include "fiber_proximity/AllowPairs.h"
 #include "test/ros/unknown_fixture.hpp"
 
 namespace {

@@ -166,10 +166,10 @@ TEST_F(WaitingChangesTest, ARemovalOvertakesWhatItUndoes) {
 }
 
 TEST_F(WaitingChangesTest, NoMoreWaitThanMay) {
-  for (std::size_t i = 0; i <= WaitingChanges::most_waiting; ++i) {
+  for (std::size_t i = 0; i <= WaitingChanges::max_waiting; ++i) {
     changes_.receive(change(std::to_string(i), touching({std::to_string(i)}), "moon"));
   }
-  EXPECT_EQ(refused_, Labels{std::to_string(WaitingChanges::most_waiting)});
+  EXPECT_EQ(refused_, Labels{std::to_string(WaitingChanges::max_waiting)});
   EXPECT_EQ(reason_, "1000 changes are waiting already");
 }
 

@@ -71,7 +71,7 @@ TEST(ContactPairing, FibersDoNotWaitForever) {
     waited += frame;
     ASSERT_LT(waited, 1.0);
   }
-  EXPECT_GT(waited, ContactPairing::patience);
+  EXPECT_GT(waited, ContactPairing::timeout);
   EXPECT_EQ(ready.fibers, lonely);
   EXPECT_EQ(ready.contacts, nullptr);
 

@@ -32,13 +32,13 @@ TEST(FiberChunks, HoldEverySegmentOnceAndEncloseIt) {
   const FiberAssembly fibers = many_fibers(random);
   const Vector3d origin(0.1, 0.2, 0.3);
   const std::vector<FiberChunk> chunks = make_chunks(fibers, origin);
-  EXPECT_GE(chunks.size(), fibers.segment_count() / most_chunk_segments);
+  EXPECT_GE(chunks.size(), fibers.segment_count() / max_chunk_segments);
   std::vector<int> held(fibers.point_count(), 0);
   for (const FiberChunk& chunk : chunks) {
     std::size_t count = 0;
-    for (const Stretch& stretch : chunk.stretches) {
-      ASSERT_LT(stretch.first, stretch.last);
-      for (std::uint32_t point = stretch.first; point < stretch.last; ++point) {
+    for (const PointRange& range : chunk.ranges) {
+      ASSERT_LT(range.first, range.last);
+      for (std::uint32_t point = range.first; point < range.last; ++point) {
         ++held[point];
         ++count;
         const double radius = fibers.segment_radius(point);
@@ -54,7 +54,7 @@ TEST(FiberChunks, HoldEverySegmentOnceAndEncloseIt) {
       }
     }
     EXPECT_EQ(count, chunk.segment_count);
-    EXPECT_LE(count, most_chunk_segments);
+    EXPECT_LE(count, max_chunk_segments);
   }
   for (std::size_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
     for (std::uint32_t p = fibers.offsets()[fiber]; p < fibers.offsets()[fiber + 1]; ++p) {
@@ -91,9 +91,9 @@ TEST(FiberChunks, AreTheSameForAnyNumberOfThreads) {
   for (std::size_t i = 0; i < some.size(); ++i) {
     EXPECT_EQ(some[i].box.min(), again[i].box.min());
     EXPECT_EQ(some[i].box.max(), again[i].box.max());
-    ASSERT_EQ(some[i].stretches.size(), again[i].stretches.size());
-    for (std::size_t k = 0; k < some[i].stretches.size(); ++k) {
-      ASSERT_EQ(some[i].stretches[k].first, again[i].stretches[k].first);
+    ASSERT_EQ(some[i].ranges.size(), again[i].ranges.size());
+    for (std::size_t k = 0; k < some[i].ranges.size(); ++k) {
+      ASSERT_EQ(some[i].ranges[k].first, again[i].ranges[k].first);
     }
   }
 }

@@ -43,13 +43,13 @@ TEST(FiberColors, PartsAreRoundedAndClamped) {
 }
 
 TEST(FiberColors, RampRunsFromBlueToRedWithoutJumps) {
-  EXPECT_GT(ramp(0.0)[2], 2.0F * ramp(0.0)[0]);
-  EXPECT_GT(ramp(1.0)[0], 2.0F * ramp(1.0)[2]);
-  EXPECT_EQ(ramp(-1.0), ramp(0.0));
-  EXPECT_EQ(ramp(1e300), ramp(1.0));
+  EXPECT_GT(color_map(0.0)[2], 2.0F * color_map(0.0)[0]);
+  EXPECT_GT(color_map(1.0)[0], 2.0F * color_map(1.0)[2]);
+  EXPECT_EQ(color_map(-1.0), color_map(0.0));
+  EXPECT_EQ(color_map(1e300), color_map(1.0));
   for (int i = 0; i < 1000; ++i) {
     for (std::size_t part = 0; part < 3; ++part) {
-      EXPECT_NEAR(ramp(0.001 * i)[part], ramp(0.001 * (i + 1))[part], 0.004) << i;
+      EXPECT_NEAR(color_map(0.001 * i)[part], color_map(0.001 * (i + 1))[part], 0.004) << i;
     }
   }
 }
@@ -70,7 +70,7 @@ TEST(FiberColors, AlikeStillTellsFibersApart) {
   std::vector<Eigen::Vector3d> points(20, Eigen::Vector3d::Zero());
   const FiberAssembly fibers(points, {0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20}, {0.1});
   std::vector<Color> colors;
-  color_alike(fibers, {100, 200, 40, 77}, colors);
+  color_flat(fibers, {100, 200, 40, 77}, colors);
   ASSERT_EQ(colors.size(), points.size());
   std::set<Color> different(colors.begin(), colors.end());
   EXPECT_EQ(different.size(), 10U);
@@ -84,14 +84,14 @@ TEST(FiberColors, AlikeStillTellsFibersApart) {
 TEST(FiberColors, ValuesSpanTheRange) {
   std::vector<Color> colors;
   color_by_value({{0.02}, {0.04}, {0.03}, std::nullopt}, {0.02, 0.04}, grey, colors);
-  EXPECT_EQ(colors, (std::vector<Color>{to_color(ramp(0.0), 128.0F / 255.0F),
-                                        to_color(ramp(1.0), 128.0F / 255.0F),
-                                        to_color(ramp(0.5), 128.0F / 255.0F), grey}));
+  EXPECT_EQ(colors, (std::vector<Color>{to_color(color_map(0.0), 128.0F / 255.0F),
+                                        to_color(color_map(1.0), 128.0F / 255.0F),
+                                        to_color(color_map(0.5), 128.0F / 255.0F), grey}));
   // Turned round, and without width.
   color_by_value({{0.02}}, {0.04, 0.02}, grey, colors);
-  EXPECT_EQ(colors[0], to_color(ramp(1.0), 128.0F / 255.0F));
+  EXPECT_EQ(colors[0], to_color(color_map(1.0), 128.0F / 255.0F));
   color_by_value({{0.02}}, {0.02, 0.02}, grey, colors);
-  EXPECT_EQ(colors[0], to_color(ramp(0.5), 128.0F / 255.0F));
+  EXPECT_EQ(colors[0], to_color(color_map(0.5), 128.0F / 255.0F));
 }
 
 TEST(FiberColors, RangeIsThatOfTheValues) {

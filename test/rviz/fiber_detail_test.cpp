@@ -30,24 +30,24 @@ std::vector<Color> random_colors(const FiberAssembly& fibers, Random& random) {
   return colors;
 }
 
-Stretch all_of(const FiberAssembly& fibers, std::size_t fiber) {
+PointRange all_of(const FiberAssembly& fibers, std::size_t fiber) {
   return {fibers.offsets()[fiber], fibers.offsets()[fiber + 1] - 1};
 }
 
 std::vector<std::uint32_t> kept_points(const FiberAssembly& fibers, const FiberMesh& mesh,
-                                       const Stretch& stretch, double tolerance) {
+                                       const PointRange& range, double tolerance) {
   std::vector<std::uint32_t> kept;
-  keep_points(fibers.points(), mesh.vertices, stretch, tolerance, kept);
+  simplify(fibers.points(), mesh.vertices, range, tolerance, kept);
   return kept;
 }
 
 /// Nothing but the points between two kept ones is left out, and these lie and look like the line.
 void expect_stands_for(const FiberAssembly& fibers, const FiberMesh& mesh,
-                       const std::vector<std::uint32_t>& kept, const Stretch& stretch,
+                       const std::vector<std::uint32_t>& kept, const PointRange& range,
                        double tolerance) {
   ASSERT_GE(kept.size(), 2U);
-  ASSERT_EQ(kept.front(), stretch.first);
-  ASSERT_EQ(kept.back(), stretch.last);
+  ASSERT_EQ(kept.front(), range.first);
+  ASSERT_EQ(kept.back(), range.last);
   for (std::size_t i = 0; i + 1 < kept.size(); ++i) {
     ASSERT_LT(kept[i], kept[i + 1]);
     const Vector3d& a = fibers.points()[kept[i]];
@@ -74,10 +74,10 @@ TEST(FiberDetail, WhatIsLeftOutIsWithinTheToleranceOfWhatIsKept) {
       const FiberAssembly fibers = family.make(random);
       const FiberMesh& mesh = mesher.make_ribbons(fibers, random_colors(fibers, random));
       for (std::size_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
-        const Stretch stretch = all_of(fibers, fiber);
-        const std::vector<std::uint32_t> kept = kept_points(fibers, mesh, stretch, tolerance);
-        expect_stands_for(fibers, mesh, kept, stretch, tolerance);
-        const std::size_t count = stretch.last - stretch.first + 1;
+        const PointRange range = all_of(fibers, fiber);
+        const std::vector<std::uint32_t> kept = kept_points(fibers, mesh, range, tolerance);
+        expect_stands_for(fibers, mesh, kept, range, tolerance);
+        const std::size_t count = range.last - range.first + 1;
         left_out += count - kept.size();
         if (tolerance == 0.0) {
           ASSERT_EQ(kept.size(), count);
@@ -141,7 +141,7 @@ TEST(FiberDetail, IndicesRunFromPointToPoint) {
   FiberMesher mesher;
   const FiberMesh& mesh = mesher.make_ribbons(fibers, std::vector<Color>(6));
   FiberChunk chunk = thick(0.1);
-  chunk.stretches = {all_of(fibers, 0), all_of(fibers, 1)};
+  chunk.ranges = {all_of(fibers, 0), all_of(fibers, 1)};
   const auto indices = [&](Detail::Kind kind, int level) {
     return make_indices(fibers.points(), mesh.vertices, chunk, {kind, level});
   };

@@ -132,7 +132,7 @@ TEST(FiberMesh, RibbonsCoverTheirSegmentsAndNothingElse) {
   FiberMesher mesher;
   const FiberMesh& mesh = mesher.make_ribbons(fibers, all_red(fibers));
   FiberChunk all;
-  all.stretches = {{0, 3}, {4, 5}};
+  all.ranges = {{0, 3}, {4, 5}};
   const std::vector<std::uint32_t> indices =
       make_indices(fibers.points(), mesh.vertices, all, Detail());
   ASSERT_EQ(indices.size(), 6 * fibers.segment_count());
@@ -184,8 +184,9 @@ TEST(FiberMesh, StraightTubeIsAPrismWithRoundEnds) {
     expect_closed(mesh);
     EXPECT_EQ(mesh.kind, FiberMesh::Kind::tubes);
     const auto n = static_cast<std::size_t>(sides);
-    EXPECT_EQ(mesh.vertices.size(), 4 * n + 2);       // two rings, two collars, two poles
-    EXPECT_EQ(mesh.indices.size(), 3 * (2 * 4 * n));  // three stretches, two at the poles
+    EXPECT_EQ(mesh.vertices.size(), 4 * n + 2);  // two rings, two collars, two poles
+    EXPECT_EQ(mesh.indices.size(),
+              3 * (2 * 4 * n));  // three rows of quads, two of triangles at the poles
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
       const Vector3d p = position(mesh, i);
       const Vector3d nearest(1, 2, std::clamp(p.z(), 3.0, 7.0));

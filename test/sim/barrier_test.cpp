@@ -75,18 +75,18 @@ TEST(Barrier, HasItsStiffnessWhereSurfacesMeet) {
 
 TEST(Barrier, WithLessWeightItBeginsNearerAndNeverLetsNearerThanTheLeastDistance) {
   const Barrier barrier = Barrier::around(0.02, 100.0);
-  EXPECT_GE(barrier.least(), 0.9 * 0.02);
-  EXPECT_EQ(barrier.felt(0.0201, 1.0), 0.0201);
+  EXPECT_GE(barrier.min_distance(), 0.9 * 0.02);
+  EXPECT_EQ(barrier.effective(0.0201, 1.0), 0.0201);
   double last = 0.0201;
   for (const double weight : {0.9, 0.5, 0.1, 0.0}) {
-    const double felt = barrier.felt(0.0201, weight);
+    const double felt = barrier.effective(0.0201, weight);
     EXPECT_GT(felt, last) << weight;
-    EXPECT_EQ(barrier.energy(barrier.felt(barrier.outer, weight)), 0.0);
-    EXPECT_NEAR(barrier.felt(0.0201 + 1e-6, weight) - felt, 1e-6 * Barrier::depth_share(weight),
-                1e-15);
+    EXPECT_EQ(barrier.energy(barrier.effective(barrier.outer, weight)), 0.0);
+    EXPECT_NEAR(barrier.effective(0.0201 + 1e-6, weight) - felt,
+                1e-6 * Barrier::depth_share(weight), 1e-15);
     last = felt;
   }
-  EXPECT_NEAR(barrier.felt(barrier.least(), 0.0), barrier.inner, 1e-15);
+  EXPECT_NEAR(barrier.effective(barrier.min_distance(), 0.0), barrier.inner, 1e-15);
 }
 
 TEST(Barrier, ItsLogarithmIsThatOfTheStandardLibrary) {
@@ -115,18 +115,18 @@ TEST(Barrier, ALoadIsAForceInPartsOfWhatItHoldsWell) {
 TEST(Barrier, WhatBeginsNearerThanTheInnerDistanceMayStayOrPart) {
   const Barrier barrier = Barrier::around(0.02, 100.0);
   for (const double distance :
-       {barrier.inner, 0.0186, barrier.least(), 0.018, 0.001, 1e-9, 0.0, -0.001, -1.0}) {
-    const Barrier moved = barrier.for_start_at(distance);
+       {barrier.inner, 0.0186, barrier.min_distance(), 0.018, 0.001, 1e-9, 0.0, -0.001, -1.0}) {
+    const Barrier moved = barrier.relaxed_to(distance);
     EXPECT_LT(moved.inner, barrier.inner);
     EXPECT_EQ(moved.outer, barrier.outer);
     for (const double weight : {0.001, 0.5, 1.0}) {
-      const double felt = moved.felt(distance, weight);
+      const double felt = moved.effective(distance, weight);
       EXPECT_TRUE(std::isfinite(moved.energy(felt))) << distance << ", weight " << weight;
       EXPECT_LT(moved.slope(felt), 0.0) << distance << ", weight " << weight;
       EXPECT_TRUE(std::isfinite(moved.curvature(felt))) << distance << ", weight " << weight;
     }
     // A little farther away, a little less.
-    const double farther = barrier.for_start_at(distance + 1e-9).inner;
+    const double farther = barrier.relaxed_to(distance + 1e-9).inner;
     EXPECT_NEAR(farther, moved.inner, 2e-9);
   }
 }

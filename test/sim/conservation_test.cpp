@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include "benchmark/sim/rod_scene.hpp"
 #include "fiber_proximity/sim/effects.hpp"
 #include "test/sim/effect_derivatives.hpp"
 #include "test/sim/random_rods.hpp"
+#include "validation/sim/rod_scene.hpp"
 
 namespace fiber::test {
 namespace {

@@ -11,7 +11,7 @@ namespace fiber::test {
 
 /// What rods may touch from where they are, if none goes further than some room [m].
 inline ContactSet contacts_of(Contacts& contacts, const Rods& rods, double room = 0.0) {
-  Room around;
+  TravelBound around;
   around.start = rods.positions;
   around.expected.assign(rods.positions.size(), Eigen::Vector3d::Zero());
   around.by_rod.assign(rods.count(), room);
@@ -25,7 +25,7 @@ inline ContactSet contacts_of(Contacts& contacts, const Rods& rods, double room 
 /// Of contacts, and of friction if they have begun with it [J].
 inline double energy_in(ContactSet& contacts, const Rods& rods) {
   std::vector<EnergySum> energies(1);
-  contacts.measure(rods);
+  contacts.update_distances(rods);
   contacts.add_energies(rods, std::vector<std::uint32_t>(rods.count(), 0), energies);
   return energies[0].energy;
 }
@@ -49,7 +49,7 @@ inline FullSystem full_system(ContactSet& contacts, const Rods& rods) {
     systems.emplace_back(packs[rod], rod % lane_count);
     pointers.push_back(&systems.back());
   }
-  contacts.measure(rods);
+  contacts.update_distances(rods);
   contacts.find_derivatives(rods);
   add_derivatives(contacts.terms(), rods, pointers, std::vector<std::uint32_t>(rods.count(), 0), 0);
   FullSystem full{Eigen::VectorXd::Zero(size), Eigen::MatrixXd::Zero(size, size)};
@@ -76,7 +76,7 @@ inline FullSystem full_system(ContactSet& contacts, const Rods& rods) {
     NodeValues column(unit.size());
     unit[static_cast<std::size_t>(c)][0] = 1.0;
     add_coupling(contacts.terms(), places, unit.data(), column.data());
-    full.hessian.col(c) += Spread(column.data()->of.data(), size);
+    full.hessian.col(c) += Spread(column.data()->lanes.data(), size);
   }
   return full;
 }

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "benchmark/sim/contact_scenes.hpp"
 #include "test/environment/random_shapes.hpp"
 #include "test/sim/contact_system.hpp"
 #include "test/sim/tunnelling.hpp"
@@ -14,6 +13,7 @@
 #include "test/support/not_finite.hpp"
 #include "test/support/random.hpp"
 #include "test/support/rounds.hpp"
+#include "validation/sim/contact_scenes.hpp"
 
 namespace fiber::test {
 namespace {
@@ -145,7 +145,7 @@ TEST_P(OfShape, TheEnergyIsInfiniteFromTheLeastDistanceDownAndNowhereAboveTheInn
     const double energy = energy_in(found, rods);
     infinite += std::isinf(energy) ? 1 : 0;
     EXPECT_TRUE(std::isfinite(energy) || distance <= barrier.inner) << distance / rod_radius;
-    EXPECT_TRUE(std::isinf(energy) || distance > barrier.least()) << distance / rod_radius;
+    EXPECT_TRUE(std::isinf(energy) || distance > barrier.min_distance()) << distance / rod_radius;
     EXPECT_EQ(energy == 0.0, distance >= barrier.outer) << distance / rod_radius;
   }
   expect_enough(infinite, 10);
@@ -161,7 +161,7 @@ TEST_P(OfShape, StepsKeepAFifthOfEachDistance) {
     const Rods rods = rod_at(random, environment_, random.uniform(-0.3, 1.0) * obstacle_width);
     const auto contacts = contacts_with(environment_);
     ContactSet found = contacts_of(*contacts, rods, 10.0 * rod_radius);
-    found.measure(rods);
+    found.update_distances(rods);
     std::vector<Vector3d> displacements;
     const Vector3d together = random.in_cube(5.0 * rod_radius);
     for (std::size_t i = 0; i < rods.positions.size(); ++i) {
@@ -172,13 +172,13 @@ TEST_P(OfShape, StepsKeepAFifthOfEachDistance) {
     std::vector<Vector3d> ends(rods.positions.size());
     found.bound_step(rods, displacements, {0}, shares, ends);
     shortened += shares[0] < 1.0 ? 1 : 0;
-    const double gap = distance_from(*environment_, rods) + rod_radius - barrier.least();
+    const double gap = distance_from(*environment_, rods) + rod_radius - barrier.min_distance();
     for (int i = 1; i <= 20; ++i) {
       Rods moved = rods;
       for (std::size_t node = 0; node < moved.positions.size(); ++node) {
         moved.positions[node] += shares[0] * i / 20.0 * displacements[node];
       }
-      const double left = distance_from(*environment_, moved) + rod_radius - barrier.least();
+      const double left = distance_from(*environment_, moved) + rod_radius - barrier.min_distance();
       ASSERT_GE(left, 0.2 * gap * (1.0 - 1e-6)) << "share " << shares[0] * i / 20.0;
     }
   }
@@ -245,7 +245,7 @@ TEST(FrictionContacts, ARodThatSlidesAcrossAnotherHasItsCoefficient) {
       for (std::uint32_t i = rods.first(1); i < rods.end(1); ++i) {
         rods.positions[i].y() += 1e-4;  // along itself: what presses stays as it is
       }
-      found.measure(rods);
+      found.update_distances(rods);
       std::vector<RodForces::ContactForce> forces;
       found.add_forces(rods, forces);
       Vector3d normal = Vector3d::Zero();

@@ -9,8 +9,8 @@
 #include <new>
 #include <ostream>
 
-#include "benchmark/sim/contact_scenes.hpp"
 #include "fiber_proximity/sim/effects.hpp"
+#include "validation/sim/contact_scenes.hpp"
 
 namespace {
 std::atomic<std::size_t> allocations{0};

@@ -10,11 +10,11 @@
 #include <limits>
 #include <ostream>
 
-#include "benchmark/sim/contact_scenes.hpp"
 #include "test/sim/contact_system.hpp"
 #include "test/sim/polyline.hpp"
 #include "test/sim/tunnelling.hpp"
 #include "test/support/random.hpp"
+#include "validation/sim/contact_scenes.hpp"
 
 namespace fiber::test {
 namespace {
@@ -207,7 +207,8 @@ TEST_P(PairOfKind, IsInfiniteFromTheLeastDistanceDownAndNowhereAboveTheInnerOne)
     const double energy = energy_in(found, rods);
     infinite += std::isinf(energy) ? 1 : 0;
     EXPECT_TRUE(std::isfinite(energy) || distance <= barrier.inner) << distance / edge_touching;
-    EXPECT_TRUE(std::isinf(energy) || distance > barrier.least()) << distance / edge_touching;
+    EXPECT_TRUE(std::isinf(energy) || distance > barrier.min_distance())
+        << distance / edge_touching;
     EXPECT_EQ(energy == 0.0, distance >= barrier.outer) << distance / edge_touching;
   }
   expect_enough(infinite, 20);

@@ -18,7 +18,7 @@ using Storing = std::vector<const Effect*>;  // those that give back what they t
 
 inline Storing storing_of(const Effects& effects) {
   Storing storing;
-  for (const std::unique_ptr<Effect>& effect : effects) {
+  for (const auto& effect : effects) {
     if (effect->is_stored()) {
       storing.push_back(effect.get());
     }
@@ -28,7 +28,7 @@ inline Storing storing_of(const Effects& effects) {
 
 /// So that energies are those of steps like this.
 inline void begin(const Effects& effects, Rods& rods, double step) {
-  for (const std::unique_ptr<Effect>& effect : effects) {
+  for (const auto& effect : effects) {
     effect->begin_step(rods, {0.0, step});
   }
 }

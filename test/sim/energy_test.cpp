@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "benchmark/sim/contact_scenes.hpp"
 #include "test/sim/random_rods.hpp"
+#include "validation/sim/contact_scenes.hpp"
 
 namespace fiber::test {
 namespace {

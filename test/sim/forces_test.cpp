@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "benchmark/sim/contact_scenes.hpp"
 #include "fiber_proximity/geometry/segment_distance.hpp"
+#include "validation/sim/contact_scenes.hpp"
 
 namespace fiber::test {
 namespace {

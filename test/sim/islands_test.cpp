@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
-#include "benchmark/sim/contact_scenes.hpp"
 #include "src/sim/solver/stage_solver.hpp"
 #include "test/sim/random_rods.hpp"
 #include "test/support/random.hpp"
 #include "test/support/rounds.hpp"
+#include "validation/sim/contact_scenes.hpp"
 
 namespace fiber::test {
 namespace {
@@ -34,7 +34,7 @@ TEST(Islands, AreWhatWasJoined) {
       const std::uint32_t other = std::max(expected[a], expected[b]);
       std::replace(expected.begin(), expected.end(), other, least);
       for (std::uint32_t rod = 0; rod < expected.size(); ++rod) {
-        ASSERT_EQ(islands.of(rod), expected[rod]) << "round " << round;
+        ASSERT_EQ(islands.root(rod), expected[rod]) << "round " << round;
       }
     }
   }

@@ -23,17 +23,13 @@ std::vector<EnergySum> energies_at(const LineSearch& search, const std::vector<E
 /// @param decreases that slopes promise
 LineSearch searched(const std::vector<Energy>& along, const std::vector<double>& decreases) {
   LineSearch search;
-  search.begin(along.size(), LineSearch::most_halvings);
+  search.begin(along.size(), LineSearch::max_halvings);
   for (std::size_t i = 0; i < along.size(); ++i) {
     LineSearch::Island& island = search.island(i);
     island.accepted.add(along[i](0.0));
-    island.decrease = decreases[i];
+    island.predicted_decrease = decreases[i];
   }
-  while (search.judge(energies_at(search, along))) {
-  }
-  if (search.refine(energies_at(search, along))) {
-    search.settle(energies_at(search, along));
-  }
+  search.run([&] { return energies_at(search, along); });
   return search;
 }
 

@@ -1,10 +1,10 @@
 // Motion against closed forms: frequencies, periods, and what the steps' length adds to them.
 
-#include "benchmark/sim/motion.hpp"
+#include "validation/sim/motion.hpp"
 
 #include <gtest/gtest.h>
 
-#include "benchmark/sim/rod_scene.hpp"
+#include "validation/sim/rod_scene.hpp"
 
 namespace fiber::test {
 namespace {

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "benchmark/sim/rod_scene.hpp"
 #include "fiber_proximity/sim/effects.hpp"
 #include "src/geometry/smallest_rotation.hpp"
 #include "src/sim/effects/natural_bend.hpp"
@@ -13,6 +12,7 @@
 #include "test/support/not_finite.hpp"
 #include "test/support/random.hpp"
 #include "test/support/rounds.hpp"
+#include "validation/sim/rod_scene.hpp"
 
 namespace fiber::test {
 namespace {

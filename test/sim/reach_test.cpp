@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
-#include "benchmark/sim/contact_scenes.hpp"
 #include "test/support/error_of.hpp"
 #include "test/support/random.hpp"
+#include "validation/sim/contact_scenes.hpp"
 
 namespace fiber::test {
 namespace {

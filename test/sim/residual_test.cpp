@@ -6,12 +6,12 @@
 
 #include <cmath>
 
-#include "benchmark/sim/contact_scenes.hpp"
 #include "fiber_proximity/sim/effects.hpp"
 #include "test/sim/contact_system.hpp"
 #include "test/sim/effect_derivatives.hpp"
 #include "test/sim/energy_bounds.hpp"
 #include "test/sim/random_rods.hpp"
+#include "validation/sim/contact_scenes.hpp"
 
 namespace fiber::test {
 namespace {
@@ -73,7 +73,7 @@ std::vector<double> residuals(const Rods& before, const Rods& after,
   // As far as rods have gone, and farther.
   ContactSet found = contacts_of(*contacts, before, pressed_radius);
   found.begin(before, contacts->friction(), before.positions, balance_step);
-  found.measure(after);
+  found.update_distances(after);
   found.find_derivatives(after);
   std::vector<PackSystem> packs(after.count());
   std::vector<RodSystem> systems;
@@ -89,7 +89,7 @@ std::vector<double> residuals(const Rods& before, const Rods& after,
   std::vector<double> left;
   for (std::uint32_t rod = 0; rod < after.count(); ++rod) {
     VectorXd gradient = VectorXd::Zero(3 * after.node_count(rod));
-    for (const std::unique_ptr<Effect>& effect : effects) {
+    for (const auto& effect : effects) {
       gradient += derivatives_of(*effect, after, rod).gradient;
     }
     for (std::uint32_t i = 0; i < after.node_count(rod); ++i) {

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "benchmark/sim/elastica.hpp"
-#include "benchmark/sim/rod_scene.hpp"
 #include "test/support/error_of.hpp"
+#include "validation/sim/elastica.hpp"
+#include "validation/sim/rod_scene.hpp"
 
 namespace fiber::test {
 namespace {

@@ -5,11 +5,11 @@
 
 #include <cmath>
 
-#include "benchmark/sim/contact_scenes.hpp"
 #include "src/sim/contact/barrier.hpp"
 #include "src/sim/contact/edge_contact.hpp"
 #include "test/sim/random_rods.hpp"
 #include "test/support/random.hpp"
+#include "validation/sim/contact_scenes.hpp"
 
 namespace fiber::test {
 namespace {

@@ -5,8 +5,8 @@
 #include <memory>
 #include <utility>
 
-#include "benchmark/sim/contact_scenes.hpp"
 #include "fiber_proximity/sim/effects.hpp"
+#include "validation/sim/contact_scenes.hpp"
 
 namespace fiber::test {
 

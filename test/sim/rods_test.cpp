@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "benchmark/sim/rod_scene.hpp"
 #include "fiber_proximity/sim/effects.hpp"
 #include "test/support/error_of.hpp"
 #include "test/support/not_finite.hpp"
+#include "validation/sim/rod_scene.hpp"
 
 namespace fiber::test {
 namespace {

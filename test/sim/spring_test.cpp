@@ -5,9 +5,9 @@
 #include <cmath>
 #include <ostream>
 
-#include "benchmark/sim/rod_scene.hpp"
 #include "fiber_proximity/sim/effects.hpp"
 #include "src/sim/effects/natural_bend.hpp"
+#include "validation/sim/rod_scene.hpp"
 
 namespace fiber::test {
 namespace {

@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "benchmark/sim/contact_scenes.hpp"
 #include "test/sim/solver_path.hpp"
 #include "test/sim/tunnelling.hpp"
 #include "test/support/random.hpp"
+#include "validation/sim/contact_scenes.hpp"
 
 namespace fiber::test {
 

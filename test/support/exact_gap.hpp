@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "fiber_proximity/geometry/exact_distance.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/geometry/segment_distance.hpp"
 
 namespace fiber::test {
 

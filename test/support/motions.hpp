@@ -7,8 +7,8 @@
 
 #include "fiber_proximity/geometry/contact_time.hpp"
 #include "fiber_proximity/query/engine.hpp"
+#include "fiber_proximity/query/for_engines/narrow_phase.hpp"
 #include "fiber_proximity/query/motion.hpp"
-#include "fiber_proximity/query/narrow_phase.hpp"
 #include "test/support/assemblies.hpp"
 
 namespace fiber::test {

@@ -25,7 +25,6 @@ inline QueryOptions random_options(Random& random, double size) {
   set_neighbour_skips(options, random, 3, random.chance(0.3) ? 0.2 * size : 0.0);
   options.type = static_cast<QueryType>(random.integer(0, 4));
   options.kernel = random.chance(0.2) ? Kernel::EXACT : Kernel::ROBUST;
-  options.leaf_pretest = random.chance(0.5);
   return options;
 }
 

@@ -18,9 +18,9 @@ class SmallScene {
   /// @param thick a radius of 0.4 % of the extent, so that even the few fibres of a sparse scene
   ///        touch, instead of the scene's own
   SmallScene(const std::string& name, bool shuffle, bool thick, Random& random) {
-    const auto least_fibers = static_cast<std::size_t>(random.integer(2, 12));
+    const auto min_fibers = static_cast<std::size_t>(random.integer(2, 12));
     const auto seed = static_cast<std::uint64_t>(random.integer(0, 1'000'000));
-    scene_ = with_fibers(least_fibers, name, {0x1p-20, seed, shuffle});
+    scene_ = with_fibers(min_fibers, name, {0x1p-20, seed, shuffle});
     const FiberAssembly whole = scene_(0);
     int shortest = static_cast<int>(whole.point_count());
     for (std::size_t fiber = 0; fiber < whole.fiber_count(); ++fiber) {

@@ -142,11 +142,6 @@ TEST_F(FiberQuery, AccuracyIsChosenOnTheCommandLine) {
     const double width = contact.at("upper").get<double>() - contact.at("lower").get<double>();
     EXPECT_LT(width, 1e-9);
   }
-  const ProcessResult robust = query("contacts " + crossing() + " --margin 0.2");
-  const ProcessResult fast = query("contacts " + crossing() + " --margin 0.2 --kernel fast");
-  EXPECT_EQ(fast.out, robust.out);
-  EXPECT_EQ(fast.err, "warning: --kernel fast saved no time and is gone: robust is used\n");
-
   const ProcessResult loose = query("closest " + crossing() + " --tolerance 5");
   EXPECT_EQ(lines(loose.out).size(), 2U);
   EXPECT_GE(numbers_in(lines(loose.out)[1])[6], gap);

@@ -1,10 +1,9 @@
 // fiber_query crossings, linking and writhe
-#include "fiber_proximity/query/topology.hpp"
-
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "fiber_proximity/io/fiber_file.hpp"
+#include "fiber_proximity/query/crossings.hpp"
 #include "src/io/number.hpp"
 #include "test/support/curves.hpp"
 #include "test/tools/tools_test.hpp"

@@ -21,7 +21,7 @@ enum class Verdict {
 /// both, ours, fcl or neither
 const char* name_of(Verdict verdict);
 
-/// What one side says of a pair. Its bounds are what its error permits the truth to be.
+/// The result of one side for a pair, with the bounds that its error permits for the truth.
 struct PairClaim {
   double gap = 0.0;    ///< [m] of the surfaces
   double lower = 0.0;  ///< [m] the true gap should be at least this

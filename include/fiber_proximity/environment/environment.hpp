@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "fiber_proximity/environment/shapes.hpp"
@@ -27,6 +28,27 @@ struct AllowedPair {
 };
 
 using AllowedPairs = std::vector<AllowedPair>;
+
+/// An AllowedPair whose fibre is named; neither object nor fibre need be there already.
+struct NamedPair {
+  std::string object;  ///< empty for every one
+  std::string fiber;   ///< empty for every one
+
+  /// First and last segment of a part of the fibre, as AllowedPair has them; empty for all of it.
+  std::vector<std::int32_t> segments;
+
+  bool operator<(const NamedPair& other) const {
+    return std::tie(object, fiber, segments) < std::tie(other.object, other.fiber, other.segments);
+  }
+};
+
+/// @throws std::invalid_argument naming object and fibre, for segments that are not the first and
+///         the last of a part
+void validate(const NamedPair& pair);
+
+/// The pairs for these fibres; a name may be that of several.
+AllowedPairs resolve(const std::vector<NamedPair>& pairs,
+                     const std::vector<std::string>& fiber_names);
 
 /// The objects around the fibres at one moment; never changes once it is made, so that any number
 /// of threads may ask at once while the next one is made.

@@ -26,7 +26,7 @@ class TriangleMesh {
   using Triangle = std::array<std::uint32_t, 3>;  ///< indices of vertices, counter-clockwise
 
   /// More triangles than this are refused: building trees over them takes seconds.
-  static constexpr std::size_t most_triangles = 1'000'000;
+  static constexpr std::size_t max_triangles = 1'000'000;
 
   /// @param vertices  [m]
   /// @throws std::invalid_argument naming the first index out of range, coordinate that is not

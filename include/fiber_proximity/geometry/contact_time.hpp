@@ -4,9 +4,10 @@
 #include <cstddef>
 #include <limits>
 
-#include "fiber_proximity/geometry/exact_distance.hpp"
+#include "fiber_proximity/export.hpp"
+#include "fiber_proximity/geometry/segment_distance.hpp"
 
-namespace fiber {
+namespace FIBER_PROXIMITY_EXPORT fiber {
 
 /// Two capsules whose end points each move linearly from where they are before, at time 0, to where
 /// they are after, at time 1. Refers to the points: to the two ends of each segment, one after the

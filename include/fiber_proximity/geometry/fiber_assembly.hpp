@@ -1,11 +1,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cmath>
 #include <cstdint>
 #include <vector>
 
-namespace fiber {
+#include "fiber_proximity/export.hpp"
+
+namespace FIBER_PROXIMITY_EXPORT fiber {
 
 /// A capped cylinder: all points within `radius` of the axis p0–p1. One segment of a fibre.
 struct Capsule {
@@ -31,6 +34,13 @@ struct PointRange {
 struct SegmentId {
   std::uint32_t fiber = 0;
   std::uint32_t segment = 0;
+};
+
+/// How the radii of an assembly are given.
+enum class RadiusPer {
+  ASSEMBLY,  ///< one for all fibres
+  FIBER,     ///< one for each fibre
+  POINT      ///< one for each point, or each segment at its first point
 };
 
 /// Many fibres, each a chain of points with a radius.
@@ -74,6 +84,12 @@ class FiberAssembly {
   /// The same without a copy: takes these points and leaves those it had.
   void exchange_points(std::vector<Eigen::Vector3d>& points);
 
+  /// Moves all points by a pose, in place.
+  /// @throws std::invalid_argument for a point that gets a bad coordinate; the assembly is
+  /// unchanged
+  ///         then
+  void transform(const Eigen::Isometry3d& pose);
+
   /// Makes it other fibres, in the memory it has, with one radius for all, or one for each segment
   /// [m]: that of its first point. The last point of a fibre has one as well then, which must be 0.
   /// @throws std::invalid_argument as the constructor; the assembly is unchanged then
@@ -97,6 +113,24 @@ class FiberAssembly {
   /// first point [m]. Taken for radii of points, those of segments enclose the fibres, too.
   const std::vector<double>& radii() const { return radii_.empty() ? segment_radii_ : radii_; }
 
+  /// How radii() are given.
+  RadiusPer radius_per() const { return radius_per_; }
+
+  /// Radius at a point of a fibre, as it was given [m]: its own, that of its fibre, or that of all.
+  /// @param fiber the point's fibre, below fiber_count()
+  /// @param point below point_count()
+  double radius_at(std::size_t fiber, std::size_t point) const {
+    switch (radius_per_) {
+      case RadiusPer::FIBER:
+        return radii_[fiber];
+      case RadiusPer::POINT:
+        return radii()[point];
+      case RadiusPer::ASSEMBLY:
+        break;
+    }
+    return radii_.front();
+  }
+
   /// Radius of the segment that starts at this point [m].
   double segment_radius(std::uint32_t point) const {
     return segment_radii_.empty() ? radii_.front() : segment_radii_[point];
@@ -119,6 +153,7 @@ class FiberAssembly {
   std::vector<Eigen::Vector3d> points_;
   std::vector<std::uint32_t> offsets_{0};
   std::vector<double> radii_{0.0};  // as they were given; empty for those of segments
+  RadiusPer radius_per_ = RadiusPer::ASSEMBLY;
   // By first point; empty when one radius serves all, so that the common case costs no memory.
   std::vector<double> segment_radii_;
   double largest_radius_ = 0.0;

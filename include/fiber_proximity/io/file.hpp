@@ -5,7 +5,9 @@
 #include <stdexcept>
 #include <string>
 
-namespace fiber {
+#include "fiber_proximity/export.hpp"
+
+namespace FIBER_PROXIMITY_EXPORT fiber {
 
 /// A file that cannot be read or written, or does not hold what it should; the message names the
 /// file, the line where there is one, and the reason.

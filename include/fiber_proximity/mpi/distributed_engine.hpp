@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
-#include "fiber_proximity/io/fiber_names.hpp"
+#include "fiber_proximity/io/fiber_file.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/query/motion.hpp"
 #include "fiber_proximity/query/options.hpp"

@@ -7,7 +7,9 @@
 #include <tuple>
 #include <vector>
 
-namespace fiber {
+#include "fiber_proximity/export.hpp"
+
+namespace FIBER_PROXIMITY_EXPORT fiber {
 
 /// Two segments, by fibre and index along it.
 struct SegmentIdPair {

@@ -7,16 +7,18 @@
 #include <string>
 #include <vector>
 
+#include "fiber_proximity/export.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/motion.hpp"
 #include "fiber_proximity/query/options.hpp"
 
-namespace fiber {
+namespace FIBER_PROXIMITY_EXPORT fiber {
 
 class LoopTest;
 class NarrowPhase;
 struct MotionCandidates;
+struct QueryLimits;
 
 /// An axis-aligned box of a hierarchy, for drawing [m].
 struct NodeBox {

@@ -5,10 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "fiber_proximity/export.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/query/engine.hpp"
 
-namespace fiber {
+namespace FIBER_PROXIMITY_EXPORT fiber {
 
 /// Fibres of one moment and an engine that is updated to them; nothing of it changes while somebody
 /// holds it.

@@ -5,11 +5,12 @@
 #include <limits>
 #include <vector>
 
+#include "fiber_proximity/export.hpp"
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/options.hpp"
 
-namespace fiber {
+namespace FIBER_PROXIMITY_EXPORT fiber {
 
 /// Which of the pairs that come into contact during a motion to report.
 enum class MotionType {

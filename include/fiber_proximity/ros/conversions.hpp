@@ -20,13 +20,14 @@
 
 namespace fiber_proximity_ros {
 
-/// Fibres on their way into an assembly: what every type of message is read into and what the
-/// inputs are merged in. Flat as FiberAssembly, but not validated. Kept and reused by its owner.
+/// Fibres that have been read from messages of any type and are not validated yet. The layout is
+/// that of fiber::FiberAssembly. The memory is reused by the next message.
 struct FiberBuffer {
   std_msgs::Header header;
   std::vector<Eigen::Vector3d> points;    ///< [m] in header.frame_id
-  std::vector<std::uint32_t> offsets{0};  ///< as FiberAssembly
-  std::vector<double> radii;       ///< [m] as FiberAssembly; empty where the message has none
+  std::vector<std::uint32_t> offsets{0};  ///< of each fibre's first point, and the number of points
+  std::vector<double>
+      radii;  ///< [m] one, one per fibre or one per point; empty where there are none
   std::vector<std::string> names;  ///< one per fibre; empty where the message has none
 
   void clear();
@@ -37,34 +38,40 @@ struct FiberBuffer {
   std::size_t fiber_count() const { return offsets.empty() ? 0 : offsets.size() - 1; }
 };
 
-/// Makes the assembly that of the chains, without allocating where only the points differ.
+/// Makes the assembly that of the buffer's fibres without copying their points, and without
+/// allocating where only the points differ. The buffer keeps header and names; the rest of it is
+/// unspecified then.
 /// @throws std::invalid_argument as FiberAssembly; the assembly is unchanged then
-void assign(const FiberBuffer& chains, fiber::FiberAssembly& fibers);
+void assign(FiberBuffer& buffer, fiber::FiberAssembly& fibers);
 
+/// The vector of a message with the members x, y and z.
 template <class Point>
 Eigen::Vector3d to_vector(const Point& point) {
   return {static_cast<double>(point.x), static_cast<double>(point.y), static_cast<double>(point.z)};
 }
 
+/// Messages of a point, a vector and a pose.
 geometry_msgs::Point to_message(const Eigen::Vector3d& point);
 geometry_msgs::Vector3 to_vector_message(const Eigen::Vector3d& vector);
 geometry_msgs::Pose to_message(const Eigen::Isometry3d& pose);
 
-/// Everything but the header. Memory of the message is reused.
+/// Writes fibres into a message, all but the header. Memory of the message is reused.
 /// @param names one per fibre, or none
 void to_message(const fiber::FiberAssembly& fibers, const std::vector<std::string>& names,
                 fiber_proximity::FiberArray& message);
 
-/// @param body_a, body_b what the bodies are, as the message has it
+/// Writes a contact into a message.
+/// @param body_a, body_b types of the bodies, constants of fiber_proximity::Contact such as FIBER
 void to_message(const fiber::Contact& contact, std::uint8_t body_a, std::uint8_t body_b,
                 fiber_proximity::Contact& message);
 
 /// Adds the derivatives of a contact's distance, see fiber::gradient_of().
 void add_gradients(fiber_proximity::Contact& message);
 
+/// Writes a crossing into a message.
 void to_message(const fiber::Crossing& crossing, fiber_proximity::Crossing& message);
 
 /// @throws std::invalid_argument if there are names, but not one per fibre
-void to_chains(const fiber_proximity::FiberArray& message, FiberBuffer& chains);
+void to_chains(const fiber_proximity::FiberArray& message, FiberBuffer& fibers);
 
 }  // namespace fiber_proximity_ros

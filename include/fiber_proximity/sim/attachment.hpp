@@ -9,20 +9,20 @@
 
 namespace fiber {
 
-/// Where something that holds a rod is.
+/// The position and, for clamps, the orientation of a hold.
 struct Placement {
   Eigen::Vector3d position;  ///< [m]
-  Eigen::Vector3d tangent;   ///< of clamps: the rod's direction there, a unit vector
-  Eigen::Vector3d director;  ///< of clamps of rods with twist: across the tangent, a unit vector
+  Eigen::Vector3d tangent;   ///< for clamps: the rod's direction, a unit vector
+  Eigen::Vector3d director;  ///< for clamps of rods with twist: a unit vector across the tangent
 };
 
-/// A node that is held, and where it is to be.
+/// A node that is held, and its target.
 struct HeldNode {
   std::uint32_t node;        ///< from the rod's first one
   Eigen::Vector3d position;  ///< [m]
 };
 
-/// A hold that pulls with its greatest force and does not bring its node to where it should be.
+/// A hold that pulls with its maximum force without bringing its node to the target.
 struct HoldLag {
   std::uint32_t rod;
   std::uint32_t node;  ///< from the rod's first one
@@ -33,9 +33,9 @@ struct HoldLag {
 /// Holds on rods: pins, which pull a node to a place; clamps, which at an end of a rod also turn it
 /// into a direction, and with twist turn the cross-section.
 ///
-/// A hold pulls like a spring that is far stiffer than the rod's edges, and with no more than a
-/// greatest force: a node that something stronger keeps lags behind, and what it pulls on is not
-/// torn. The potential is the Huber loss of the distance.
+/// A hold pulls like a spring that is far stiffer than the rod's edges, up to a maximum force: a
+/// node that something stronger keeps lags behind, and the rod is not torn. The potential is the
+/// Huber loss of the distance.
 ///
 /// A clamp is an edge before the first or after the last one that meets it at the end node, half an
 /// edge's length of rod away: fixing two nodes instead would move the clamp by half an edge.
@@ -43,7 +43,7 @@ class Attachment : public Effect {
  public:
   enum class Kind { PIN, CLAMP };
 
-  /// What holds a node, and where.
+  /// A hold of one node.
   struct Hold {
     std::uint32_t rod = 0;
     std::uint32_t node = 0;  ///< from the rod's first one
@@ -56,23 +56,24 @@ class Attachment : public Effect {
   /// Nothing is held.
   Attachment() = default;
 
-  /// @returns what to remove it by
+  /// @returns the id for remove()
   /// @throws std::invalid_argument naming the hold, for a rod or node that there is not, a clamp
   ///         that is not at an end, a node that is held already, a force that is negative or not
   ///         finite, or a first placement that is not finite or whose vectors are not of unit
   ///         length
   std::uint32_t add(const Rods& rods, const Hold& hold);
 
-  /// What holds this node, counted from the rod's first one.
+  /// The id of the hold of this node, counted from the rod's first one; none if it is free.
   std::optional<std::uint32_t> find(std::uint32_t rod, std::uint32_t node) const;
 
-  /// Rods and their nodes that are held, counted from the rod's first one; rising.
+  /// All held nodes as (rod, node), counted from the rod's first one; rising.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> held_nodes() const;
 
-  /// The nodes of a rod that are held, rising, and where they are to be at a time [s].
+  /// The held nodes of a rod, rising, with their targets at a time [s].
   std::vector<HeldNode> held_at(std::uint32_t rod, double time) const;
 
-  /// The hold that lags furthest behind, of those that cannot pull any harder; none if none does.
+  /// The hold that lags furthest behind, of those that pull with their maximum force; none if there
+  /// is none.
   std::optional<HoldLag> longest_lag(const Rods& rods) const;
 
   /// @throws std::invalid_argument if there is no such hold
@@ -101,7 +102,7 @@ class Attachment : public Effect {
     Eigen::Vector3d pull_at(const Eigen::Vector3d& position) const;
   };
 
-  /// The first hold of a rod, or of one after it.
+  /// The first hold of a rod, or of the next rod that has one.
   std::vector<Held>::const_iterator first_of(std::uint32_t rod) const;
 
   template <class Visit>

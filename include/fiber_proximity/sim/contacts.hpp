@@ -15,7 +15,7 @@ namespace fiber {
 /// f (2 y/e − y²/e²) for slips y below e, and f above.
 class Friction {
  public:
-  /// The law of Coulomb, smoothed.
+  /// The smoothed law of Coulomb.
   struct Options {
     double coefficient = 0.3;    ///< of friction; >= 0
     double stick_speed = 0.001;  ///< [m/s] what sticks creeps more slowly; > 0
@@ -30,7 +30,7 @@ class Friction {
   /// @returns the slip below which a contact sticks [m]
   double stick_length(double step) const { return options_.stick_speed * step; }
 
-  /// Of a slip y, per newton of the largest force, with the stick length e; all lengths in [m].
+  /// The law at a slip, per newton of the largest force; all lengths in [m].
   struct Law {
     double energy;      ///< [m]
     double resistance;  ///< force divided by the slip [1/m]
@@ -43,25 +43,25 @@ class Friction {
 };
 
 class ContactSet;
-struct Room;
+struct TravelBound;
 
-/// A contact effect: it knows what rods may touch.
+/// A contact effect: it finds the contacts that rods may have in a step.
 class ContactSource {
  public:
   virtual ~ContactSource() = default;
 
-  /// Finds what rods may touch in a step.
-  /// @param rods where they are when it begins
-  /// @param room how far they may go
+  /// Finds all contacts that rods may reach in a step.
+  /// @param rods  where they are when it begins
+  /// @param bound how far they may go
   /// @param found appended to
-  virtual void find(const Rods& rods, const Room& room, ContactSet& found) = 0;
+  virtual void find(const Rods& rods, const TravelBound& bound, ContactSet& found) = 0;
 };
 
-/// All contacts of a simulation: what couples one rod to another.
+/// All contact effects of a simulation, and the friction in their contacts.
 class Contacts {
  public:
   /// @param friction null for none
-  Contacts(std::vector<std::unique_ptr<ContactSource>> sources, std::unique_ptr<Friction> friction)
+  Contacts(std::vector<std::unique_ptr<ContactSource>> sources, std::shared_ptr<Friction> friction)
       : sources_(std::move(sources)), friction_(std::move(friction)) {}
 
   const std::vector<std::unique_ptr<ContactSource>>& sources() const { return sources_; }
@@ -69,7 +69,7 @@ class Contacts {
 
  private:
   std::vector<std::unique_ptr<ContactSource>> sources_;
-  std::unique_ptr<Friction> friction_;
+  std::shared_ptr<Friction> friction_;
 };
 
 struct EdgePair;
@@ -81,7 +81,7 @@ struct EdgePair;
 /// Candidates come from run_tree, with a reach that serves for some steps.
 class FiberContact : public ContactSource {
  public:
-  /// How stiff contacts are, and of which rods.
+  /// The stiffness of contacts, and which pairs of rods have them.
   struct Options {
     Pairing pairing = Pairing::ALL;
 
@@ -94,11 +94,11 @@ class FiberContact : public ContactSource {
   explicit FiberContact(const Options& options);
   ~FiberContact() override;
 
-  void find(const Rods& rods, const Room& room, ContactSet& found) override;
+  void find(const Rods& rods, const TravelBound& bound, ContactSet& found) override;
 
  private:
   void find_candidates(const Rods& rods, double reach);
-  void add_near(const Rods& rods, const Room& room, double approach, ContactSet& found);
+  void add_near(const Rods& rods, const TravelBound& bound, double approach, ContactSet& found);
   EdgePair candidate(const Rods& rods, const Contact& contact) const;
 
   Options options_;
@@ -107,7 +107,7 @@ class FiberContact : public ContactSource {
   double reach_ = -1.0;       // [m] surfaces further apart then are no candidates
   std::vector<double> arcs_;  // along each rod at rest, by node [m]
   std::vector<EdgePair> candidates_;
-  std::vector<double> candidate_distances_;  // of axes, where they were looked for [m]
+  std::vector<double> candidate_distances_;  // of axes, when they were looked for [m]
   QueryResult result_;
 };
 
@@ -118,26 +118,27 @@ struct ObstacleShape;
 ///
 /// Nodes have contacts of their own, so that a rod lying flat rests on all of them; an edge has one
 /// where it is nearer than its ends are, weighted by how much nearer
-/// (src/sim/contact/obstacle_contact.hpp). Of meshes and octrees each triangle or cell counts.
+/// (src/sim/contact/obstacle_contact.hpp). Each triangle of a mesh and each cell of an octree has
+/// contacts.
 ///
-/// How far a step may go rests on the convexity of distances, and for edges that come from farther
-/// away on the certified time of contact with the shape.
+/// Steps are bounded by the convexity of distances, and for edges that come from farther away by
+/// the certified time of contact with the shape.
 class EnvironmentContact : public ContactSource {
  public:
-  /// How stiff contacts are, and which are none.
+  /// The stiffness of contacts, and which pairs have none.
   struct Options {
     double stiffness = 0.0;  ///< [N/m] >= 0; 0 derives it from the rod as FiberContact does
-    AllowedPairs allowed;    ///< what may touch, and then is not kept apart; fibres are rods
+    AllowedPairs allowed;    ///< pairs that may overlap and have no contacts; fibres are rods
   };
 
   /// @throws std::invalid_argument for a stiffness that is negative or not finite
   EnvironmentContact(std::shared_ptr<const Environment> environment, const Options& options);
   ~EnvironmentContact() override;
 
-  /// From the next step on.
+  /// Replaces the environment, from the next step on.
   void set_environment(std::shared_ptr<const Environment> environment);
 
-  void find(const Rods& rods, const Room& room, ContactSet& found) override;
+  void find(const Rods& rods, const TravelBound& bound, ContactSet& found) override;
 
  private:
   void place_fibers(const Rods& rods);
@@ -151,7 +152,7 @@ class EnvironmentContact : public ContactSource {
   AllowedPairs allowed_;        // in segments of these
   double reach_ = -1.0;         // [m] within which the answer has everything; below 0 for none
   QueryResult result_;          // for these
-  std::vector<double> needed_;  // by rod: how far what it may touch in a step is at the most [m]
+  std::vector<double> needed_;  // by rod: the distance within which it may reach contacts [m]
   std::vector<double> moved_;   // by rod: since the answer [m]
 };
 

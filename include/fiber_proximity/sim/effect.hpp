@@ -11,24 +11,24 @@
 
 namespace fiber {
 
-/// How many rods are moved side by side, each in a lane of its own of wide registers: as many as
-/// the widest have. Narrower ones take them in turns, and only as many as there are.
+/// The number of rods that are moved side by side, each in a lane of wide registers: as many as the
+/// widest registers have. Narrower ones take the lanes in turns, and only those in use.
 constexpr std::size_t lane_count = 8;
 
-/// The same number of each of them.
+/// One number for each lane.
 struct alignas(lane_count * sizeof(double)) SimdBatch {
-  std::array<double, lane_count> of{};
+  std::array<double, lane_count> lanes{};
 
-  double& operator[](std::size_t lane) { return of[lane]; }
-  double operator[](std::size_t lane) const { return of[lane]; }
+  double& operator[](std::size_t lane) { return lanes[lane]; }
+  double operator[](std::size_t lane) const { return lanes[lane]; }
 };
 
-/// So many numbers of each node of a pack, node by node.
+/// An effect's data of the nodes of a pack, node by node, see NodeData.
 using NodeValues = std::vector<SimdBatch>;
 
-/// The same of all rods.
-struct NodeNumbers {
-  const double* first = nullptr;
+/// An effect's data of all rods' nodes: some numbers per node, node by node.
+struct NodeData {
+  const double* first = nullptr;  ///< null if there are none per node
   std::uint32_t per_node = 0;
 };
 
@@ -41,16 +41,16 @@ struct RodPack {
   std::vector<SimdBatch> masses;                ///< of nodes [kg]
   std::vector<SimdBatch> rest_lengths;          ///< of edges [m]
   std::vector<SimdBatch> inverse_rest_lengths;  ///< of edges [1/m]
-  std::vector<SimdBatch> inverse_node_lengths;  ///< of inner nodes: of what belongs to them [1/m]
+  std::vector<SimdBatch> inverse_node_lengths;  ///< of half the edges at inner nodes [1/m]
 
   std::vector<SimdBatch> positions;  ///< vectors [m]; with twist, each with the angle of its edge
 
-  /// Of the edges between these positions, by measure_edges().
+  /// The edges between these positions, updated by measure_edges().
   std::vector<SimdBatch> lengths;          ///< [m] never 0, as in EdgeDirection
   std::vector<SimdBatch> inverse_lengths;  ///< [1/m]
   std::vector<SimdBatch> tangents;         ///< vectors
 
-  /// With twist only, vectors of edges: those of Rods, and the directors where the edges are now.
+  /// With twist only: the vectors of Rods by edge, and the directors where the edges are now.
   std::vector<SimdBatch> start_directors;
   std::vector<SimdBatch> start_tangents;
   std::vector<SimdBatch> directors;  ///< by measure_edges()
@@ -59,25 +59,24 @@ struct RodPack {
   /// to that of the next, in (-pi, pi] [rad].
   std::vector<SimdBatch> director_twists;
 
-  std::array<std::uint32_t, lane_count> rods{};         ///< which rod is in which lane
-  std::array<std::uint32_t, lane_count> first_nodes{};  ///< of these, as Rods counts nodes
+  std::array<std::uint32_t, lane_count> rods{};         ///< by lane
+  std::array<std::uint32_t, lane_count> first_nodes{};  ///< by lane, as Rods counts nodes
   std::size_t used = 0;                                 ///< lanes; the others repeat the first one
   std::size_t unknowns = 3;                             ///< of each node: 3, or 4 with twist
   std::uint32_t node_count = 0;
 };
 
-/// How far off the diagonal a rod's Hessian has entries: what is unknown at a node meets what is
-/// unknown at this node and the positions of the next two.
+/// The half-bandwidth of a rod's Hessian: the unknowns of a node are coupled to each other and to
+/// the positions of the next two nodes.
 /// @param unknowns of each node: 3, or 4 with twist
 constexpr std::size_t half_bandwidth(std::size_t unknowns) { return 2 * unknowns + 2; }
 
 /// Gradients and Hessians of the rods of a pack, side by side.
-/// Unknown are the positions of the nodes and, with twist, the angle of the edge after each:
+/// The unknowns are the positions of the nodes and, with twist, the angle of the edge after each:
 /// (x, y, z[, angle]) node by node. Hessians are symmetric bands, column by column from the
-/// diagonal down; after the last there are as many columns of zeros as a column has entries off the
-/// diagonal.
+/// diagonal down, followed by half_bandwidth() columns of zeros.
 struct PackSystem {
-  /// What it holds then is not said.
+  /// Contents are unspecified afterwards.
   /// @param unknowns_per_node 3, or 4 with twist
   /// @param lanes_used        the first ones
   void resize(std::size_t node_count, std::size_t unknowns_per_node,
@@ -103,8 +102,8 @@ struct PackSystem {
   std::vector<SimdBatch> hessian;
 };
 
-/// One rod's part of a PackSystem, for what is computed one rod after the other. Nodes are counted
-/// from the rod's first one.
+/// One rod's part of a PackSystem, for computations rod by rod. Nodes are counted from the rod's
+/// first one.
 class RodSystem {
  public:
   /// @param system must outlive this, and not change its size
@@ -154,12 +153,12 @@ class RodSystem {
     add_hessian(edge + 1, edge, -block);
   }
 
-  /// One entry, of unknowns counted through: row >= column.
+  /// Adds to one entry, row >= column; unknowns are counted through all nodes.
   void add_hessian_entry(std::size_t row, std::size_t column, double value) {
     hessian_[place_of(row, column)] += value;
   }
 
-  /// Of unknowns counted through, column <= row <= column + half_bandwidth().
+  /// Entries, with unknowns counted through all nodes; column <= row <= column + half_bandwidth().
   double gradient(std::size_t unknown) const { return gradient_[unknown * lane_count]; }
   double hessian(std::size_t row, std::size_t column) const {
     return hessian_[place_of(row, column)];
@@ -180,7 +179,7 @@ class RodSystem {
 
 struct RodForces;
 
-/// When a step begins, and how long it is [s].
+/// The beginning and the length of a step [s].
 struct TimeStep {
   double start;
   double length;
@@ -188,12 +187,12 @@ struct TimeStep {
   double end() const { return start + length; }
 };
 
-/// One thing that acts on rods. A scene has objects only for the effects it names; what it does not
-/// name takes neither time nor memory.
+/// An effect that acts on rods, given by its energy. A scene has objects only for the effects it
+/// names; others take neither time nor memory.
 ///
-/// A step finds the minimum of the sum of all energies and of the kinetic one, the incremental
-/// potential of implicit Euler. What has no potential, like drag, is brought into this form for the
-/// duration of one step. Energies are those of rods side by side, a rod in each lane of a pack.
+/// A step finds the minimum of the incremental potential of implicit Euler: the sum of all energies
+/// and of the kinetic one. Effects without a potential, like drag, have one for the duration of a
+/// step. Energies are computed for rods side by side, one in each lane of a pack.
 class Effect {
  public:
   virtual ~Effect() = default;
@@ -203,11 +202,11 @@ class Effect {
   /// points to.
   virtual void begin_step(Rods& /*rods*/, const TimeStep& /*step*/) {}
 
-  /// What the energy needs of each node that begin_step() has found.
-  virtual NodeNumbers numbers() const { return {}; }
+  /// The data of each node that the energy needs, as begin_step() has found them.
+  virtual NodeData per_node_data() const { return {}; }
 
-  /// Energy of the rods where they are now [J], up to a constant of the step; of the values the
-  /// effect has those numbers, node by node.
+  /// Energy of the rods where they are now [J], up to a constant of the step.
+  /// @param values per_node_data() of the pack's nodes
   /// @param energy by lane, overwritten
   virtual void energy(const RodPack& /*rods*/, const NodeValues& /*values*/,
                       SimdBatch& energy) const {
@@ -219,26 +218,25 @@ class Effect {
   virtual void add_derivatives(const RodPack& /*rods*/, const NodeValues& /*values*/,
                                PackSystem& /*system*/) const {}
 
-  /// Whether the energy is there again when the rods move back; if not, it only resists motion.
+  /// Whether the effect is conservative: if not, its energy of a step is lost.
   virtual bool is_stored() const { return true; }
 
-  /// Whether the effect holds a condition by forces that it has to learn.
+  /// Whether the effect enforces a constraint by Lagrange multipliers.
   virtual bool has_multipliers() const { return false; }
 
-  /// Called where a rod's energy is at a minimum. What holds a condition by a force that it has to
-  /// learn (a Lagrange multiplier) learns it here.
-  /// @returns whether the condition holds as well as it should; the minimum is looked for again
-  ///          until it does
+  /// Updates the Lagrange multipliers of a rod, where its energy is at a minimum.
+  /// @returns whether the constraint holds to its tolerance; otherwise the minimum is searched
+  /// again
   virtual bool update_multipliers(const Rods& /*rods*/, std::uint32_t /*rod*/) { return true; }
 
   /// Called once after each step, by one thread.
   virtual void end_step(Rods& /*rods*/, const TimeStep& /*step*/) {}
 
-  /// Adds what acts inside of the rods and on them where they are now.
+  /// Adds the effect's forces in the rods and on them where they are now.
   virtual void add_forces(const RodPack& /*rods*/, const NodeValues& /*values*/,
                           RodForces& /*forces*/) const {}
 };
 
-using Effects = std::vector<std::unique_ptr<Effect>>;
+using Effects = std::vector<std::shared_ptr<Effect>>;
 
 }  // namespace fiber

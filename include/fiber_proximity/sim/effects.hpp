@@ -21,12 +21,12 @@ class LaneEffect : public Effect {
   }
 
  protected:
-  /// Those of this machine, as Effect has them.
+  /// The functions of Effect, for the instruction set of this machine.
   struct Kernels {
     void (*energy)(const RodPack&, const NodeValues&, const double* constants, SimdBatch&);
     void (*add_derivatives)(const RodPack&, const NodeValues&, const double* constants,
                             PackSystem&);
-    const double* constants = nullptr;  ///< that all nodes have in common
+    const double* constants = nullptr;  ///< of all nodes
   };
 
  private:
@@ -43,13 +43,13 @@ class Stretch : public LaneEffect {
   Kernels kernels() const override;
 };
 
-/// Edges that keep their lengths, in place of stretch. An augmented Lagrangian (Nocedal and Wright
-/// 2006, Sect. 17.3): a stiff spring holds an edge, and where the energy is at a minimum, the force
-/// it holds is remembered as the edge's tension, until no edge of the rod is longer or shorter by
-/// more than a part of 1e-6.
+/// Edges that keep their lengths, in place of stretch, by an augmented Lagrangian (Nocedal and
+/// Wright 2006, Sect. 17.3): a stiff spring holds each edge, and where the energy is at a minimum,
+/// its force becomes the edge's multiplier, the tension. That is repeated until no edge of the rod
+/// is longer or shorter by more than 1e-6 of its length.
 ///
-/// Forces add up along a hanging rod: of n edges, springs n² as stiff as the inertia of a node
-/// leave a part of the lengths' error that does not depend on n.
+/// Forces add up along a hanging rod. With n edges and springs n² as stiff as the inertia of a
+/// node, the relative error of lengths does not depend on n.
 class Inextensible : public LaneEffect {
  public:
   explicit Inextensible(const Rods& rods);
@@ -57,14 +57,14 @@ class Inextensible : public LaneEffect {
   void begin_step(Rods& rods, const TimeStep& step) override;
   bool is_stored() const override { return false; }
 
-  NodeNumbers numbers() const override { return {&springs_.front().tension, 2}; }
+  NodeData per_node_data() const override { return {&springs_.front().tension, 2}; }
 
   bool has_multipliers() const override { return true; }
   bool update_multipliers(const Rods& rods, std::uint32_t rod) override;
   void add_forces(const RodPack& rods, const NodeValues& values, RodForces& forces) const override;
 
  private:
-  /// As the energy reads it.
+  /// The data of an edge, see per_node_data().
   struct Spring {
     double tension = 0.0;    // [N]
     double stiffness = 0.0;  // in this step [N/m]
@@ -90,25 +90,25 @@ class Bend : public LaneEffect {
  public:
   void begin_step(Rods& rods, const TimeStep& step) override;
   void add_forces(const RodPack& rods, const NodeValues& values, RodForces& forces) const override;
-  NodeNumbers numbers() const override;
+  NodeData per_node_data() const override;
 
  private:
   Kernels kernels() const override;
 
-  // Of inner nodes in this step; of the two at most one is not empty.
+  // By node, for this step; at most one of the two is not empty.
   std::vector<double> natural_turns_;                // k₀
   std::vector<Eigen::Vector2d> natural_curvatures_;  // with a direction [1/m]
 };
 
-/// Rods that stay bent: where the curvature differs from the natural one by more than the material
-/// bears, the natural one follows after each step (return mapping, Simo and Hughes 1998, Sect. 1.4,
-/// in one dimension). Like the natural curvatures of Bend, what stays has no direction.
+/// Rods that stay bent: where the curvature differs from the natural one by more than the yield
+/// strain allows, the natural one follows after each step (return mapping, Simo and Hughes 1998,
+/// Sect. 1.4, in one dimension). Like Rods::natural_curvatures, the plastic one has no direction.
 class Plasticity : public Effect {
  public:
-  /// When bending lasts.
+  /// The material's law.
   struct Options {
     double yield_strain = 0.02;  ///< of the outermost fibre, where yielding begins; > 0
-    double hardening = 0.0;      ///< share of what exceeds that and stays elastic, in [0, 1)
+    double hardening = 0.0;      ///< elastic part of the curvature beyond yield, in [0, 1)
   };
 
   /// Adds Rods::natural_curvatures if there are none.
@@ -124,8 +124,8 @@ class Plasticity : public Effect {
 
 /// Resistance to twist: ½ GJ/l m² at each inner node, with the twist m between the cross-sections
 /// of its edges (Bergou et al. 2008, Sect. 4.2; with the time-parallel frames of Bergou et al.
-/// 2010, Sect. 5). Adds an unknown angle to each edge; it keeps Rods::angles, directors and the
-/// like.
+/// 2010, Sect. 5). Adds an unknown angle to each edge, and keeps the members of Rods up to date
+/// that exist with twist only.
 class Twist : public LaneEffect {
  public:
   /// Gives the rods their frames: untwisted, and where a rod is bent, as the shortest rotations
@@ -134,7 +134,7 @@ class Twist : public LaneEffect {
   ///         inertia
   explicit Twist(Rods& rods);
 
-  NodeNumbers numbers() const override { return {reference_twists_.data(), 1}; }
+  NodeData per_node_data() const override { return {reference_twists_.data(), 1}; }
   void add_forces(const RodPack& rods, const NodeValues& values, RodForces& forces) const override;
 
   void end_step(Rods& rods, const TimeStep& step) override;
@@ -157,11 +157,11 @@ class Damping : public LaneEffect {
 
   void begin_step(Rods& rods, const TimeStep& step) override;
   bool is_stored() const override { return false; }
-  NodeNumbers numbers() const override { return {starts_.front().turn.data(), 7}; }
+  NodeData per_node_data() const override { return {starts_.front().turn.data(), 7}; }
   void add_forces(const RodPack& rods, const NodeValues& values, RodForces& forces) const override;
 
  private:
-  /// An edge and its first node when the step began, as the energy reads it.
+  /// The data of an edge and its first node when the step began, see per_node_data().
   struct Start {
     Eigen::Vector3d turn = Eigen::Vector3d::Zero();
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // of the tangents; zero where it is folded
@@ -171,11 +171,11 @@ class Damping : public LaneEffect {
   Kernels kernels() const override;
 
   double relaxation_time_;
-  double share_ = 0.0;  // of a stiffness that resists what a step changes
+  double share_ = 0.0;  // of a stiffness, against the change by a step
   std::vector<Start> starts_;
 };
 
-/// The same acceleration everywhere.
+/// A uniform acceleration.
 class Gravity : public LaneEffect {
  public:
   /// @param acceleration [m/s²]
@@ -204,11 +204,11 @@ struct WindField {
 /// (Taylor 1952). The coefficients' product with |w| is that of the step's beginning.
 class Drag : public LaneEffect {
  public:
-  /// What flows past the rods, and how much they resist it.
+  /// The fluid, and how much rods resist its flow.
   struct Options {
     double fluid_density = 1.2;  ///< [kg/m³]
     double across = 1.2;         ///< coefficient of a cylinder in cross flow
-    double along = 0.02;         ///< and along its axis
+    double along = 0.02;         ///< coefficient along the rod
     WindField wind;
   };
 
@@ -218,10 +218,10 @@ class Drag : public LaneEffect {
 
   void begin_step(Rods& rods, const TimeStep& step) override;
   bool is_stored() const override { return false; }
-  NodeNumbers numbers() const override { return {nodes_.front().tangent.data(), 8}; }
+  NodeData per_node_data() const override { return {nodes_.front().tangent.data(), 8}; }
 
  private:
-  /// What resists the motion of a node in a step, as the energy reads it.
+  /// The data of a node in a step, see per_node_data().
   struct Node {
     Eigen::Vector3d tangent;
     Eigen::Vector3d carried;  // where the wind alone would bring it [m]

@@ -6,9 +6,9 @@
 
 namespace fiber {
 
-/// What acts inside of rods and on them at the end of a step.
+/// The forces inside of rods and on them at the end of a step.
 struct RodForces {
-  /// Where a rod touches something: the force on its point.
+  /// A contact of a rod, and the forces in it.
   struct ContactForce {
     static constexpr std::uint32_t obstacle = 0xffffffff;
 
@@ -22,7 +22,7 @@ struct RodForces {
     Eigen::Vector3d friction_force;  ///< on `rod` [N]
   };
 
-  /// What a hold exerts on its rod.
+  /// The force and moment of a hold on its rod.
   struct HoldForce {
     std::uint32_t hold;  ///< as Attachment::add() calls it
     std::uint32_t rod;
@@ -31,17 +31,17 @@ struct RodForces {
     Eigen::Vector3d force;   ///< [N]
     Eigen::Vector3d moment;  ///< about the node [N m]
     double lag;              ///< of the node from where the hold pulls it [m]
-    double most;             ///< force that the hold pulls with at most [N]
+    double max_force;        ///< with which the hold pulls at most [N]
   };
 
-  /// By edge: the force with which the part of the rod after the edge pulls at the part before it,
-  /// along the edge: negative under pressure [N].
+  /// The force, by edge, with which the part of the rod after the edge pulls at the part before it,
+  /// along the edge; negative under pressure [N].
   std::vector<double> tensions;
 
-  /// By node: the moment with which the part of the rod after it bends the part before it [N m].
+  /// The moment, by node, with which the part of the rod after it bends the part before it [N m].
   std::vector<Eigen::Vector3d> bending_moments;
 
-  /// By edge: the moment with which the part of the rod after its first node twists that edge,
+  /// The moment, by edge, with which the part of the rod after its first node twists that edge,
   /// about the tangent [N m].
   std::vector<double> twisting_moments;
 

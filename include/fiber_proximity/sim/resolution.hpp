@@ -7,9 +7,9 @@
 
 namespace fiber {
 
-/// What segments and steps leave of accuracy and take of time. The errors are those that
-/// `sim_validation_test --gtest_filter=Resolution.*` measures and holds against these numbers; the
-/// times are about what scenes of the package take (docs/simulation.md).
+/// The errors and costs of segments and steps. `sim_validation_test --gtest_filter=Resolution.*`
+/// measures the errors and compares them with these numbers; the times are about those of the
+/// package's scenes (docs/simulation.md).
 struct ResolutionTable {
   /// A cantilever's tip under loads that bend it by up to 80°, in parts of how far it sinks: this
   /// / segments².

@@ -7,25 +7,25 @@
 
 namespace fiber {
 
-/// What a rod is made of.
+/// The material of a rod.
 struct RodMaterial {
   double youngs_modulus = 1e7;  ///< E [Pa]
   double shear_modulus = 4e6;   ///< G [Pa]
   double density = 1000.0;      ///< [kg/m³]
 
-  /// Of the bending stiffness that a solid rod would have, in (0, 1]: strands that slide along each
-  /// other bend far more easily than they stretch.
+  /// Part of the bending stiffness of a solid rod, in (0, 1]: strands that slide along each other
+  /// bend far more easily than they stretch.
   double bending_share = 1.0;
 };
 
-/// The material of this name: one of material_names(). Orders of magnitude, in want of a
-/// measurement of the cable at hand.
+/// The material of this name, one of material_names(): orders of magnitude, for cables that have
+/// not been measured.
 /// @throws std::invalid_argument listing the names
 RodMaterial material_preset(const std::string& name);
 
 std::vector<std::string> material_names();
 
-/// How the cross-section of a rod resists.
+/// The stiffnesses and masses of a rod's cross-section.
 struct RodSection {
   double stretching_stiffness = 0.0;  ///< EA [N]
   double bending_stiffness = 0.0;     ///< EI [N m²], the same about all axes
@@ -40,7 +40,7 @@ struct RodSection {
 ///         positive and finite, or a bending share out of its range
 RodSection solid_round_section(const RodMaterial& material, double radius);
 
-/// Where rods are, and how they move.
+/// The positions of rods, and their rates.
 struct RodState {
   std::vector<Eigen::Vector3d> positions;   ///< of nodes [m]
   std::vector<Eigen::Vector3d> velocities;  ///< [m/s]
@@ -56,8 +56,9 @@ struct RodState {
 /// has the index of its first node. Arrays that only one effect needs are empty without that
 /// effect.
 struct Rods : RodState {
-  /// Themselves, without what stays as it is.
+  /// The part that changes in a step.
   const RodState& state() const { return *this; }
+  RodState& state() { return *this; }
 
   std::vector<std::uint32_t> offsets{0};
   std::vector<double> radii;         ///< by rod [m]

@@ -25,7 +25,7 @@ enum class Integrator {
   BDF2
 };
 
-/// How steps are made, and how well they are solved.
+/// The time integration, and the tolerances of its solver.
 struct StepperOptions {
   Integrator integrator = Integrator::IMPLICIT_EULER;
 
@@ -41,7 +41,8 @@ struct StepperOptions {
   std::uint32_t threads = 0;
 };
 
-/// How the search of an island, rods that may touch each other in a step, has ended.
+/// The result of Newton's method for an island, which is a set of rods that may touch each other in
+/// a step.
 struct IslandReport {
   std::uint32_t iterations = 0;  ///< of Newton's method
   double residual = 0.0;         ///< largest change of speed that is left [m/s]
@@ -49,18 +50,18 @@ struct IslandReport {
   std::uint32_t node = 0;        ///< counted from the rod's first one
 };
 
-/// How well a step is balanced.
+/// The result of a step.
 struct StepReport {
   std::uint32_t iterations = 0;    ///< the most of an island, all solves of the step together
-  std::uint32_t unbalanced = 0;    ///< islands whose residual is above that of the options
+  std::uint32_t unbalanced = 0;    ///< islands that have not converged to the residual asked for
   IslandReport worst;              ///< the island with the largest residual
-  std::uint32_t coupled_rods = 0;  ///< that have been solved together with others
+  std::uint32_t coupled_rods = 0;  ///< that were solved together with others
 
-  /// What more kinetic and stored energy there is by the step, without what its input has brought
-  /// [J]. A balanced step of implicit Euler gains none; one that its iterations cut short may.
+  /// The increase of kinetic and stored energy by the step, without the work of its input [J]. A
+  /// converged step of implicit Euler gains none; one that its iterations cut short may.
   double energy_gain = 0.0;
 
-  /// What more contacts store that become stiffer for the next step, to hold what presses them [J].
+  /// The increase of the stored energy of contacts that are stiffened for the next step [J].
   double stiffening_energy = 0.0;
 };
 
@@ -91,10 +92,10 @@ class Stepper {
   /// [s] since the beginning
   double time() const { return time_; }
 
-  /// Of the last step.
+  /// The result of the last step.
   const StepReport& report() const { return report_; }
 
-  /// What acts on and in the rods as the last step has found it; before the first one nothing.
+  /// The forces in and on the rods at the end of the last step; before the first one, none.
   RodForces forces() const;
 
   /// Kinetic and stored energy [J], also of contacts, where the rods are; before the first step
@@ -102,13 +103,13 @@ class Stepper {
   double energy();
 
  private:
-  /// What BDF2 remembers of the rods.
+  /// The last step, for BDF2.
   struct History {
     RodState before;      // the last step
-    RodState after;       // it
-    double length = 0.0;  // of that [s]; 0 where there was none
-    RodState begun;       // room for one of now
-    RodState reference;
+    RodState after;       // the last step
+    double length = 0.0;  // of the last step [s]; 0 where there was none
+    RodState begin;       // buffer: the beginning of this step
+    RodState reference;   // buffer: where rates of this step are measured from
   };
 
   void step_by_sdirk2(double length);

@@ -1,5 +1,3 @@
-#include "fiber_proximity/environment/scene/mesh_files.hpp"
-
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -20,6 +18,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "fiber_proximity/environment/scene/environment_scene.hpp"
 #include "src/text/quote.hpp"
 #include "src/text/with_context.hpp"
 
@@ -41,7 +40,7 @@ struct ParsedMesh {
   std::vector<TriangleMesh::Triangle> triangles;
 };
 
-constexpr std::uint64_t most_vertices = 3 * TriangleMesh::most_triangles;
+constexpr std::uint64_t max_vertices = 3 * TriangleMesh::max_triangles;
 
 /// What comes first of what the process that reads a mesh writes.
 struct MeshCounts {
@@ -136,8 +135,8 @@ void parse_and_write(const std::string& bytes, const std::string& name, std::FIL
   const ParsedMesh mesh = parse(bytes, name);
   const MeshCounts counts{mesh.vertices.size(), mesh.triangles.size()};
   std::fwrite(&counts, sizeof counts, 1, file);
-  if (counts.triangles > 0 && counts.vertices <= most_vertices &&
-      counts.triangles <= TriangleMesh::most_triangles) {
+  if (counts.triangles > 0 && counts.vertices <= max_vertices &&
+      counts.triangles <= TriangleMesh::max_triangles) {
     std::fwrite(mesh.vertices.data(), sizeof(Eigen::Vector3d), counts.vertices, file);
     std::fwrite(mesh.triangles.data(), sizeof(TriangleMesh::Triangle), counts.triangles, file);
   }
@@ -166,7 +165,7 @@ void check_counts(const MeshCounts& counts) {
   if (counts.triangles == 0) {
     throw std::invalid_argument("it holds no mesh in a format that assimp reads");
   }
-  constexpr std::uint64_t most = TriangleMesh::most_triangles;
+  constexpr std::uint64_t most = TriangleMesh::max_triangles;
   if (counts.triangles > most) {
     throw std::invalid_argument("the mesh has " + std::to_string(counts.triangles) +
                                 " triangles, it may have at most " + std::to_string(most));
@@ -205,7 +204,7 @@ ParsedMesh parse_mesh(const std::string& bytes, const std::string& name) {
   bool is_whole = std::fread(&counts, sizeof counts, 1, file.get()) == 1;
   if (is_whole) {
     check_counts(counts);
-    is_whole = counts.vertices <= most_vertices && read(mesh.vertices, counts.vertices) &&
+    is_whole = counts.vertices <= max_vertices && read(mesh.vertices, counts.vertices) &&
                read(mesh.triangles, counts.triangles);
   }
   if (!is_whole) {

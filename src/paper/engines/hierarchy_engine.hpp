@@ -8,9 +8,10 @@
 
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/engine.hpp"
-#include "fiber_proximity/query/pair_collector.hpp"
+#include "fiber_proximity/query/for_engines/pair_collector.hpp"
 #include "src/bounds/aabb.hpp"
 #include "src/bounds/bounding_volume.hpp"
+#include "src/paper/engines/leaf_pretest.hpp"
 #include "src/paper/hierarchy/hierarchy.hpp"
 
 namespace fiber {
@@ -27,12 +28,12 @@ namespace fiber {
 template <class Volume, bool NearFirst>
 class Traversal {
  public:
-  Traversal(const Hierarchy<Volume>& a, const Hierarchy<Volume>& b, const QueryOptions& options,
+  Traversal(const Hierarchy<Volume>& a, const Hierarchy<Volume>& b, bool leaf_pretest,
             PairCollector& collector, QueryCounts& counts)
       : a_(a),
         b_(b),
         self_(&a == &b),
-        leaf_pretest_(options.leaf_pretest),
+        leaf_pretest_(leaf_pretest),
         collector_(collector),
         counts_(counts) {}
 
@@ -138,19 +139,19 @@ class Traversal {
 
 /// Offers the collector every pair of leaves it may be interested in; see Traversal.
 template <class Volume>
-void traverse(const Hierarchy<Volume>& a, const Hierarchy<Volume>& b, const QueryOptions& options,
+void traverse(const Hierarchy<Volume>& a, const Hierarchy<Volume>& b, bool leaf_pretest,
               PairCollector& collector, QueryCounts& counts) {
   if (collector.wants_near_first()) {
-    Traversal<Volume, true>(a, b, options, collector, counts).run();
+    Traversal<Volume, true>(a, b, leaf_pretest, collector, counts).run();
   } else {
-    Traversal<Volume, false>(a, b, options, collector, counts).run();
+    Traversal<Volume, false>(a, b, leaf_pretest, collector, counts).run();
   }
 }
 
 /// One of the paper's hierarchies as an engine.
 /// @tparam Kind a hierarchy with build(fibers, origin) and update(fibers, origin)
 template <class Kind>
-class HierarchyEngine final : public ProximityEngine {
+class HierarchyEngine final : public ProximityEngine, public LeafPretest {
  public:
   using Volume = typename Kind::Volume;
 
@@ -202,7 +203,7 @@ class HierarchyEngine final : public ProximityEngine {
   void do_query(const FiberAssembly& fibers, const QueryOptions& options,
                 QueryResult& result) const override {
     PairCollector collector(fibers, options, result);
-    traverse<Volume>(hierarchy_, hierarchy_, options, collector, result.counts);
+    traverse<Volume>(hierarchy_, hierarchy_, has_leaf_pretest(), collector, result.counts);
     collector.finish();
   }
 
@@ -211,7 +212,7 @@ class HierarchyEngine final : public ProximityEngine {
     LayeredHierarchy<Volume> shape_hierarchy(hierarchy_.parameters());
     shape_hierarchy.build(shape, hierarchy_.origin());
     PairCollector collector(shape, fibers, options, result);
-    traverse<Volume>(shape_hierarchy, hierarchy_, options, collector, result.counts);
+    traverse<Volume>(shape_hierarchy, hierarchy_, has_leaf_pretest(), collector, result.counts);
     collector.finish();
   }
 

@@ -143,8 +143,8 @@ void MoveitBridge::apply(const std::string& topic,
   if (obstacles.empty()) {  // most differences of scenes are about the robot alone
     return;
   }
-  if (waiting_.size() >= most_waiting) {
-    ROS_ERROR_STREAM("'" << topic << "': message lost, as " << most_waiting
+  if (waiting_.size() >= max_waiting) {
+    ROS_ERROR_STREAM("'" << topic << "': message lost, as " << max_waiting
                          << " wait for the service " << service_
                          << " already; its first object is '" << obstacles.front().id << "'");
     return;

@@ -29,7 +29,8 @@ std::vector<fiber_proximity::Obstacle> to_obstacles(const moveit_msgs::PlanningS
 /// origin is displaced, for which Octomap has no field.
 std::optional<octomap_msgs::Octomap> octomap_of(const moveit_msgs::PlanningScene& scene);
 
-/// What an object, or a scene and its objects, ask for that has no counterpart in the environment.
+/// Lists the parts of an object, or of a scene and its objects, that have no counterpart in the
+/// environment.
 std::vector<std::string> without_counterpart(const moveit_msgs::CollisionObject& object);
 std::vector<std::string> without_counterpart(const moveit_msgs::PlanningScene& scene);
 
@@ -40,7 +41,7 @@ class MoveitBridge {
  public:
   /// Messages that wait while the service is not there; one that comes on top is an error in the
   /// log.
-  static constexpr std::size_t most_waiting = 1000;
+  static constexpr std::size_t max_waiting = 1000;
 
   explicit MoveitBridge(ros::NodeHandle node);
   MoveitBridge(const MoveitBridge&) = delete;

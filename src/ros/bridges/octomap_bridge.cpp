@@ -21,8 +21,8 @@ namespace {
 constexpr std::int32_t root_cells = 65536;
 
 /// [m] Single precision has room for all coordinates in between, and for half a cell.
-constexpr double least_resolution = 1e-30;
-constexpr double greatest_resolution = 1e30;
+constexpr double min_resolution = 1e-30;
+constexpr double max_resolution = 1e30;
 
 /// A cube of cells. Cell (i, j, k) reaches from there to (i + 1, j + 1, k + 1), times the
 /// resolution.
@@ -147,10 +147,10 @@ std::vector<OctomapLeaf> read_occupied_leaves(const octomap_msgs::Octomap& map) 
     throw std::invalid_argument("id is " + fiber::quote(map.id) +
                                 ", it must be OcTree, ColorOcTree or OcTreeStamped");
   }
-  if (!(map.resolution >= least_resolution && map.resolution <= greatest_resolution)) {
+  if (!(map.resolution >= min_resolution && map.resolution <= max_resolution)) {
     std::ostringstream message;
     message << "resolution is " << map.resolution << ", it must be the edge of a cell in metres, "
-            << least_resolution << " to " << greatest_resolution;
+            << min_resolution << " to " << max_resolution;
     throw std::invalid_argument(message.str());
   }
   if (map.data.empty()) {  // an octree that was never filled
@@ -166,8 +166,8 @@ std::size_t count_cells(const std::vector<OctomapLeaf>& leaves) {
   for (const OctomapLeaf& leaf : leaves) {
     const auto edge = static_cast<std::uint64_t>(leaf.cells);
     count += edge * edge * edge;
-    if (count > most_occupied_cells) {
-      throw std::invalid_argument("more than " + std::to_string(most_occupied_cells) +
+    if (count > max_occupied_cells) {
+      throw std::invalid_argument("more than " + std::to_string(max_occupied_cells) +
                                   " cells of the finest resolution are occupied, that many may be");
     }
   }

@@ -11,7 +11,7 @@
 namespace fiber_proximity_ros {
 
 /// Cells that a map may occupy: 48 MB of points.
-inline constexpr std::size_t most_occupied_cells = 4'000'000;
+inline constexpr std::size_t max_occupied_cells = 4'000'000;
 
 /// The centres of all cells of the finest resolution that are occupied, with the map's header.
 /// Reads OcTree, ColorOcTree and OcTreeStamped, binary or full.

@@ -25,7 +25,7 @@ class Detection {
   /// Nothing could be asked: nothing is known.
   void fail(const std::string& reason);
 
-  // What the last detect() found:
+  // These are about the last detect():
   const fiber::QueryResult& contacts() const { return contacts_; }
   const fiber::Contact* minimum() const { return minimum_; }  ///< nullptr if there is no pair
   bool is_complete() const { return complete_; }  ///< no deadline or limit came before its end
@@ -34,8 +34,8 @@ class Detection {
   bool has_all_of(const fiber::QueryOptions& options) const {
     return options.type == fiber::QueryType::ALL && contacts_.complete && !contacts_.limit_reached;
   }
-  /// What a user is told who has not asked for so few contacts or pairs; empty if no limit of the
-  /// options but that of LIMITED is reached.
+  /// The warning for a user who has not asked for so few contacts or pairs; empty if no limit of
+  /// the options but that of LIMITED is reached.
   std::string limit_problem(const fiber::QueryOptions& options) const;
   /// Why not all pairs have been looked at; empty if they have.
   std::string cut_off(const fiber::QueryOptions& options) const;
@@ -61,7 +61,7 @@ class Detection {
   double minimum_time_ = 0.0;
 };
 
-/// What an answer says of pairs that a deadline or a limit has left out.
+/// The text in an answer about pairs that a deadline or a limit has left out.
 std::string cut_off_text(const std::string& pairs, const fiber::PairOptions& options);
 
 /// Contacts and closest pair of the newest fibres, from one engine whose update waits until it is
@@ -70,7 +70,9 @@ class Detector {
  public:
   /// @throws std::invalid_argument for an unknown engine, or for options that are not allowed
   explicit Detector(const std::string& engine, const fiber::EngineOptions& options = {})
-      : engine_(fiber::make_engine(engine, options)) {}
+      : engine_name_(engine), engine_(fiber::make_engine(engine, options)) {}
+
+  const std::string& engine_name() const { return engine_name_; }
 
   /// The fibres to ask about from now on; they must live, unchanged, until the next call.
   void set_fibers(const fiber::FiberAssembly& fibers) { new_fibers_ = &fibers; }
@@ -84,7 +86,7 @@ class Detector {
   ///         known then
   void detect(const fiber::QueryOptions& options, bool wants_minimum = true);
 
-  /// What the last detect() found.
+  /// The result of the last detect().
   const Detection& detection() const { return detection_; }
 
   double update_time() const { return update_time_; }  ///< [s] of the update for that
@@ -93,6 +95,7 @@ class Detector {
   }
 
  private:
+  std::string engine_name_;
   std::unique_ptr<fiber::ProximityEngine> engine_;
   const fiber::FiberAssembly* new_fibers_ = nullptr;
   Detection detection_;

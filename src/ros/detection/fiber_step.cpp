@@ -4,6 +4,8 @@
 #include <sstream>
 #include <utility>
 
+#include "src/ros/support/stamps.hpp"
+
 namespace fiber_proximity_ros {
 namespace {
 
@@ -13,14 +15,6 @@ std::string extent_of(const fiber::FiberAssembly& fibers) {
 }
 
 }  // namespace
-
-std::chrono::nanoseconds to_time(const ros::Time& stamp) {
-  return std::chrono::nanoseconds(static_cast<std::int64_t>(stamp.toNSec()));
-}
-
-ros::Time to_stamp(std::chrono::nanoseconds time) {
-  return ros::Time().fromNSec(static_cast<std::uint64_t>(std::max<std::int64_t>(time.count(), 0)));
-}
 
 void read_state(InputSet& inputs, bool keeps_fibers, FiberState& state) {
   state.has_fibers = keeps_fibers && inputs.is_fresh();
@@ -52,17 +46,17 @@ void FiberStep::rest() {
   is_motion_ = false;
   rests_ = true;
   problem_.clear();
-  stand_still();
+  set_static();
 }
 
 void FiberStep::refuse(const std::string& problem) {
   is_motion_ = false;
   problem_ = problem;
   ++problem_count_;
-  stand_still();
+  set_static();
 }
 
-void FiberStep::stand_still() {
+void FiberStep::set_static() {
   const std::chrono::nanoseconds stamp = to_time(after_.stamp);
   time_ = {stamp, stamp};
 }

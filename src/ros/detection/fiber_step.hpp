@@ -14,10 +14,6 @@
 
 namespace fiber_proximity_ros {
 
-/// A stamp as time since the epoch, and back.
-std::chrono::nanoseconds to_time(const ros::Time& stamp);
-ros::Time to_stamp(std::chrono::nanoseconds time);
-
 /// The fibres of an answer, and when they were there.
 struct FiberState {
   bool has_fibers = false;  ///< false: there are none, or they are not to be kept
@@ -57,18 +53,18 @@ class FiberStep {
   /// Whether the fibres are known and stand still: see rest().
   bool rests() const { return rests_ && after_.has_fibers; }
 
-  // Of a motion or a rest. What has not moved stands still.
+  /// The motion; at rest, one from where the fibres are to where they are.
   fiber::FiberMotion motion() const {
     return {rests_ ? after_.fibers : before_.fibers, after_.fibers};
   }
 
-  /// From the oldest stamp before to the newest one after of the inputs that have moved; of no
-  /// motion that after, which then is the newest of all.
+  /// The time of the motion, from the oldest stamp before to the newest one after among the inputs
+  /// that have moved. Without a motion both ends are the newest stamp of all.
   const fiber::TimeBounds& time() const { return time_; }
 
  private:
   std::string find_motion();
-  void stand_still();
+  void set_static();
 
   double longest_motion_;  // [s]
   FiberState before_;

@@ -8,15 +8,15 @@
 namespace fiber_proximity_ros {
 namespace {
 
-/// Of more an answer says only how many there are.
-constexpr std::size_t most_unknown = 20;
+/// An answer lists at most so many unknown things; of the others it says only how many there are.
+constexpr std::size_t max_unknown = 20;
 
 /// [s] of wall time something may be unknown without a word in the log: all is, for a moment, when
 /// a node starts.
 constexpr double quiet_time = 1.0;
 
 /// Lines in the log at a time.
-constexpr int most_lines = 10;
+constexpr int max_lines = 10;
 
 bool are_same(const std::vector<Unknown>& x, const std::vector<Unknown>& y) {
   return std::equal(x.begin(), x.end(), y.begin(), y.end(),
@@ -27,11 +27,11 @@ bool are_same(const std::vector<Unknown>& x, const std::vector<Unknown>& y) {
 
 void Completeness::add(const std::vector<Unknown>& unknown) {
   was_all_there_ = was_all_there_ && unknown.empty();
-  for (std::size_t i = 0; i < std::min(unknown.size(), most_unknown); ++i) {
+  for (std::size_t i = 0; i < std::min(unknown.size(), max_unknown); ++i) {
     unknown_.push_back(text_of(unknown[i]));
   }
-  if (unknown.size() > most_unknown) {
-    unknown_.push_back("and " + std::to_string(unknown.size() - most_unknown) + " more");
+  if (unknown.size() > max_unknown) {
+    unknown_.push_back("and " + std::to_string(unknown.size() - max_unknown) + " more");
   }
 }
 
@@ -73,7 +73,7 @@ void Knowledge::note(const std::vector<Unknown>& unknown) {
     }
     Noted& noted = noted_[each.what];
     noted.is_unknown = true;
-    if (!noted.is_logged && (now - noted.since).toSec() >= quiet_time && lines < most_lines) {
+    if (!noted.is_logged && (now - noted.since).toSec() >= quiet_time && lines < max_lines) {
       noted.is_logged = true;
       ++lines;
       ROS_WARN_STREAM("answers are incomplete: " << text_of(each));

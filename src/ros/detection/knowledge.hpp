@@ -28,24 +28,26 @@ class Completeness {
   /// Whether all was there that it was asked about.
   bool was_all_there() const { return was_all_there_; }
 
-  /// What it lacks, each with since when and why; of very many the first.
+  /// The things that it lacks, each with since when and why; the first of very many.
   const std::vector<std::string>& unknown() const { return unknown_; }
 
   /// A bound from below that holds for what was there, as one for all: what was not could be
   /// anywhere.
-  /// @param least where nothing is known
-  double lower(double bound, double least) const { return was_all_there_ ? bound : least; }
+  /// @param if_unknown the bound where nothing is known
+  double lower(double bound, double if_unknown) const {
+    return was_all_there_ ? bound : if_unknown;
+  }
 
  private:
   std::vector<std::string> unknown_;
   bool was_all_there_ = true;
 };
 
-/// What the node knows of what its answers are about: the one place that judges whether all of it
-/// is there.
+/// Tracks which of the things that answers are about are unknown. This is the one place that judges
+/// whether all of them are there.
 class Knowledge {
  public:
-  /// What an answer is about.
+  /// The things that an answer is about.
   enum class About { FIBERS, ENVIRONMENT, FIBERS_AND_ENVIRONMENT };
 
   /// @param fibers, environment must outlive this
@@ -72,7 +74,7 @@ class Knowledge {
   Completeness completeness(About about, bool of_shapes = false) const;
 
  private:
-  /// What the log has to be told of.
+  /// Something unknown that the log has to be told of.
   struct Noted {
     ros::SteadyTime since = ros::SteadyTime::now();
     bool is_logged = false;

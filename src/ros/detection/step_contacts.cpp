@@ -167,7 +167,7 @@ void PassedContacts::add(const std::vector<StepContact>& contacts) {
   forget_old();
   const auto now = std::chrono::steady_clock::now();
   for (const StepContact& contact : contacts) {
-    if (contact.state == StepContact::State::PASSED && contacts_.size() < most) {
+    if (contact.state == StepContact::State::PASSED && contacts_.size() < max_count) {
       contacts_.push_back(contact.contact);
       arrivals_.push_back(now);
     }

@@ -20,7 +20,7 @@ struct ContinuousStep {
   double tolerance;  ///< [m] see fiber::MotionOptions
 };
 
-/// What is known of a motion.
+/// The result of a query about a motion.
 struct KnownMotion {
   const fiber::MotionResult& result;
   std::function<fiber::Contact(const fiber::MotionContact&)> first_contact;
@@ -43,15 +43,15 @@ KnownMotion detect_motion_contacts(fiber::ProximityEngine& engine, const Continu
                                    const fiber::QueryOptions& options, bool reports_all,
                                    fiber::MotionResult& result);
 
-/// What is around the fibres before a step and after it.
+/// The environment before a step and after it.
 struct MovingEnvironment {
   std::shared_ptr<const fiber::Environment> before;
   std::shared_ptr<const fiber::Environment> now;
 };
 
-/// The same for contacts with what is around them. Objects move from where they were to where they
-/// are; those that were not there before, or had other shapes, as a point cloud does, count as
-/// standing still.
+/// Finds what of the fibres came into contact with objects in a step. Objects move from where they
+/// were to where they are; those that were not there before, or had other shapes, as a point cloud
+/// does, count as standing still.
 /// @throws std::invalid_argument as fiber::Environment::query_motion()
 KnownMotion detect_motion_contacts(const MovingEnvironment& environment,
                                    const fiber::AllowedPairs& allowed, const ContinuousStep& step,
@@ -83,8 +83,8 @@ std::vector<StepContact> step_contacts(const std::vector<fiber::Contact>& now,
 /// Contacts that came and went, kept for a moment so that somebody can see them.
 class PassedContacts {
  public:
-  static constexpr double shown_for = 1.0;    ///< [s] of wall time
-  static constexpr std::size_t most = 10000;  ///< more cannot be told apart
+  static constexpr double shown_for = 1.0;         ///< [s] of wall time
+  static constexpr std::size_t max_count = 10000;  ///< more cannot be told apart
 
   void add(const std::vector<StepContact>& contacts);
   void forget_old();

@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "src/environment/occupancy_octree.hpp"
+#include "fiber_proximity/environment/occupancy_octree.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -26,14 +26,14 @@ struct CloudOptions {
   double timeout{};  ///< [s] from the last cloud on it counts as such; 0: never
 };
 
-/// What became of the points of a cloud.
+/// How many points of a cloud became cells, and why others did not.
 struct CloudCounts {
   std::size_t points = 0;
   std::size_t not_finite = 0;   ///< as cameras mark what they do not see
   std::size_t outside_box = 0;  ///< and so not wanted
   std::size_t too_far = 0;      ///< further than an octree of the resolution reaches
 
-  /// Those that have become cells.
+  /// Points that have become cells.
   std::size_t used() const { return points - not_finite - outside_box - too_far; }
 };
 

@@ -133,12 +133,12 @@ bool CloudInput::place_waiting(FixedFrame& frame) {
   }
 }
 
-/// What a cloud becomes that was seen from this pose.
+/// Makes an octree of a cloud that was seen from this pose.
 CloudInput::Result CloudInput::use(const Cloud& cloud, const Eigen::Isometry3d& pose,
                                    const ros::Time& stamp) {
-  FiberBuffer chain;
-  to_chains(*cloud.message, chain);
-  const CloudCounts counts = cells_.add(chain.points, pose, stamp.toSec());
+  FiberBuffer buffer;
+  to_chains(*cloud.message, buffer);
+  const CloudCounts counts = cells_.add(buffer.points, pose, stamp.toSec());
   return {cells_.octree(), counts, stamp, cloud.is_latched};
 }
 

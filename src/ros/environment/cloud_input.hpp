@@ -44,11 +44,12 @@ class CloudInput {
   /// True if update() should be called again soon.
   bool is_waiting() const { return waiting_ || in_work_; }
 
-  /// What is not known of it: no cloud has come yet, none has for the timeout though its publisher
-  /// does not keep its last one for others (a latched topic), or points were beyond the octree.
+  /// Tells why the cloud is not known: no cloud has come yet, none has for the timeout though its
+  /// publisher does not keep its last one for others (a latched topic), or points were beyond the
+  /// octree.
   std::optional<Unknown> unknown(const ros::Time& now) const;
 
-  /// With what became of the points of the newest cloud.
+  /// Counts of messages, and of the points of the newest cloud.
   fiber_proximity::InputStatistics statistics(const ros::Time& now) const;
 
  private:
@@ -58,7 +59,7 @@ class CloudInput {
     ros::SteadyTime arrival;
   };
 
-  /// What a cloud has become.
+  /// The octree of a cloud, and how it came about.
   struct Result {
     std::shared_ptr<const fiber::OccupancyOctree> octree;  // null if no cell is occupied
     CloudCounts counts;

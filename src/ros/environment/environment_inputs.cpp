@@ -1,18 +1,9 @@
 #include "src/ros/environment/environment_inputs.hpp"
 
-#include <ros/callback_queue.h>
-#include <ros/console.h>
-#include <ros/spinner.h>
-
 #include <algorithm>
-#include <exception>
-#include <future>
-#include <mutex>
 #include <utility>
 
-#include "fiber_proximity/ApplyObstacles.h"
 #include "src/ros/inputs/input_source.hpp"
-#include "src/ros/support/callback_task.hpp"
 #include "src/ros/support/stamps.hpp"
 #include "src/text/with_context.hpp"
 
@@ -22,20 +13,17 @@ namespace {
 /// [message] Obstacles are sent once each, so that none should be dropped.
 constexpr std::uint32_t queue_size = 1000;
 
-/// Requests that may wait at the same time, as those of different clients do for large meshes.
-constexpr std::uint32_t waiting_request_count = 4;
-
 bool is_configured(const EnvironmentOptions& options) {
   return !options.scene.obstacles.empty() || !options.robot.empty() || options.cloud ||
          !options.marker_topics.empty() || options.obstacles_required;
 }
 
 /// Refuses a change whose stamps are in the future.
-void check_stamps(Change& change, double most_ahead) {
+void check_stamps(Change& change, double max_ahead) {
   const ros::Time now = ros::Time::now();
   for (const FramedName& thing : change.frames) {
     try {
-      fiber::with_context(thing.name, [&] { validate_stamp(thing.header.stamp, now, most_ahead); });
+      fiber::with_context(thing.name, [&] { validate_stamp(thing.header.stamp, now, max_ahead); });
     } catch (const std::invalid_argument& error) {
       change.apply = Prepared<Change::Apply>(
           [error]() -> Change::Apply { throw std::invalid_argument(error); });
@@ -51,86 +39,7 @@ std::shared_ptr<const Part> part_of(const boost::shared_ptr<const Message>& mess
   return std::shared_ptr<const Part>(&part, [message](const Part* /*part*/) {});
 }
 
-std::vector<fiber::NamedPair> to_pairs(const std::vector<fiber_proximity::AllowedPair>& messages) {
-  std::vector<fiber::NamedPair> pairs;
-  for (const fiber_proximity::AllowedPair& message : messages) {
-    pairs.push_back({message.object, message.fiber, message.segments});
-  }
-  return pairs;
-}
-
-std::vector<fiber_proximity::AllowedPair> to_messages(const std::vector<fiber::NamedPair>& pairs) {
-  std::vector<fiber_proximity::AllowedPair> messages(pairs.size());
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    messages[i].object = pairs[i].object;
-    messages[i].fiber = pairs[i].fiber;
-    messages[i].segments = pairs[i].segments;
-  }
-  return messages;
-}
-
 }  // namespace
-
-/// Serves ~apply_obstacles. roscpp answers a service when its callback returns, so callbacks come
-/// from threads of their own and wait there until the node has made the change: meanwhile the
-/// node's thread goes on.
-class EnvironmentInputs::ObstacleService {
- public:
-  ObstacleService(const ros::NodeHandle& private_node, EnvironmentInputs& inputs)
-      : inputs_(inputs),
-        queue_(queue_of(private_node)),
-        spinner_(waiting_request_count, &own_queue_) {
-    ros::NodeHandle node(private_node);
-    node.setCallbackQueue(&own_queue_);
-    server_ = node.advertiseService("apply_obstacles", &ObstacleService::apply, this);
-    spinner_.start();
-  }
-
-  /// All answers must have been called or dropped.
-  ~ObstacleService() {
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      stops_ = true;
-    }
-    remove_tasks(queue_, this);
-    spinner_.stop();
-    server_.shutdown();
-  }
-  ObstacleService(const ObstacleService&) = delete;
-  ObstacleService& operator=(const ObstacleService&) = delete;
-
- private:
-  bool apply(fiber_proximity::ApplyObstacles::Request& request,
-             fiber_proximity::ApplyObstacles::Response& response) {
-    auto promise = std::make_shared<std::promise<std::string>>();
-    std::future<std::string> reason = promise->get_future();
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      if (!stops_) {
-        auto obstacles = std::make_shared<const Obstacles>(std::move(request.obstacles));
-        add_task(queue_, this, [this, obstacles, promise = std::move(promise)] {
-          inputs_.apply(obstacles, [promise](const std::string& why) { promise->set_value(why); });
-        });
-      }
-    }
-    promise.reset();  // the task's is the last: once that is gone nobody will answer
-    try {
-      response.message = reason.get();
-      response.success = response.message.empty();
-    } catch (const std::future_error&) {
-      response.message = "the node ends";
-    }
-    return true;
-  }
-
-  EnvironmentInputs& inputs_;
-  ros::CallbackQueueInterface& queue_;  // of the node
-  ros::CallbackQueue own_queue_;
-  std::mutex mutex_;
-  bool stops_ = false;
-  ros::ServiceServer server_;
-  ros::AsyncSpinner spinner_;
-};
 
 struct EnvironmentInputs::MarkerSource {
   MarkerSource(const MarkerTopic& from, const MeshLoader& meshes, ObstacleSet& set,
@@ -150,15 +59,14 @@ EnvironmentInputs::EnvironmentInputs(const ros::NodeHandle& node,
                                      const ros::NodeHandle& private_node,
                                      const EnvironmentOptions& options, FixedFrame& frame,
                                      std::function<void()> on_message)
-    : private_name_(private_node.getNamespace()),
-      frame_(frame),
+    : frame_(frame),
       on_message_(std::move(on_message)),
       obstacles_(world_),
       scene_(options.scene.obstacles),
       robot_(options.robot, options.robot_timeout),
       obstacle_timeout_(options.obstacle_timeout),
       max_stamp_ahead_(options.max_stamp_ahead),
-      most_late_(options.tf_timeout),
+      max_lateness_(options.tf_timeout),
       obstacle_topic_name_(private_node.resolveName("obstacles")),
       obstacle_topic_(obstacle_topic_name_, "fiber_proximity/ObstacleArray",
                       options.obstacles_required, "", owed_),
@@ -166,10 +74,13 @@ EnvironmentInputs::EnvironmentInputs(const ros::NodeHandle& node,
       has_scene_(!options.scene.obstacles.empty()),
       has_robot_(!options.robot.empty()),
       is_configured_(is_configured(options)) {
-  allowed_.apply(false, {}, options.scene.allowed);
-  warn_of_allowed();
-  scene_.update(obstacles_, frame_);
   ros::NodeHandle own(private_node);
+  const auto on_change = [this] {
+    was_changed_ = true;
+    on_message_();
+  };
+  allowed_ = std::make_unique<AllowedPairsService>(own, options.scene.allowed, on_change);
+  scene_.update(obstacles_, frame_);
   if (options.cloud) {
     cloud_ = std::make_unique<CloudInput>(own, *options.cloud, options.tf_timeout, max_stamp_ahead_,
                                           on_message_);
@@ -177,8 +88,11 @@ EnvironmentInputs::EnvironmentInputs(const ros::NodeHandle& node,
   subscribers_.push_back(
       own.subscribe("obstacles", queue_size, &EnvironmentInputs::receive_obstacles, this));
   subscribe_to_markers(node, options);  // after the node's own topics, which come first
-  obstacle_service_ = std::make_unique<ObstacleService>(own, *this);
-  servers_.push_back(own.advertiseService("allow_pairs", &EnvironmentInputs::allow, this));
+  const auto apply = [this](ObstacleService::Obstacles obstacles,
+                            const ObstacleService::Answer& answer) {
+    this->apply(std::move(obstacles), answer);
+  };
+  obstacle_service_ = std::make_unique<ObstacleService>(own, apply);
 }
 
 EnvironmentInputs::~EnvironmentInputs() {
@@ -220,19 +134,20 @@ std::vector<Unknown> EnvironmentInputs::unknown(bool of_contacts) const {
   append(scene_.unknown(), all);
   append(robot_.unknown(), all);
   add(obstacle_topic_.unknown());
-  append(changes_.unknown(is_there, most_late_), all);
+  append(changes_.unknown(is_there, max_lateness_), all);
   for (const std::unique_ptr<MarkerSource>& source : markers_) {
     add(source->topic.unknown());
-    append(source->changes.unknown(is_there, most_late_), all);
+    append(source->changes.unknown(is_there, max_lateness_), all);
   }
   append(owed_.unknown(), all);
   if (cloud_ != nullptr) {
     add(cloud_->unknown(ros::Time::now()));
   }
   if (of_contacts) {
-    all.erase(std::remove_if(all.begin(), all.end(),
-                             [this](const Unknown& each) { return may_touch_all(each.what); }),
-              all.end());
+    all.erase(
+        std::remove_if(all.begin(), all.end(),
+                       [this](const Unknown& each) { return allowed_->may_touch_all(each.what); }),
+        all.end());
   }
   return all;
 }
@@ -249,23 +164,6 @@ std::vector<std::string> EnvironmentInputs::sources() const {
     sources.push_back(topic.topic);
   }
   return sources;
-}
-
-/// Whether every fibre may touch an object, or whatever has no name.
-bool EnvironmentInputs::may_touch_all(const std::string& object) const {
-  const std::vector<fiber::NamedPair>& pairs = allowed_.pairs();
-  return std::any_of(pairs.begin(), pairs.end(), [&object](const fiber::NamedPair& pair) {
-    return pair.fiber.empty() && pair.segments.empty() &&
-           (pair.object.empty() || pair.object == object);
-  });
-}
-
-/// Pairs that are allowed without naming them are easily forgotten, and left by an earlier launch.
-void EnvironmentInputs::warn_of_allowed() const {
-  if (may_touch_all("")) {
-    ROS_WARN_STREAM(private_name_ << ": every object may touch every fibre, as a pair of `allowed` "
-                                     "names neither: no contacts with objects are reported");
-  }
 }
 
 std::vector<fiber_proximity::InputStatistics> EnvironmentInputs::statistics(
@@ -327,7 +225,8 @@ void EnvironmentInputs::receive_markers(std::shared_ptr<const MarkerObstacles::M
   on_message_();
 }
 
-void EnvironmentInputs::apply(std::shared_ptr<const Obstacles> obstacles, const Answer& answer) {
+void EnvironmentInputs::apply(ObstacleService::Obstacles obstacles,
+                              const ObstacleService::Answer& answer) {
   Change change = obstacles_.change_of(std::move(obstacles), 0.0, mesh_builder_);
   check_stamps(change, max_stamp_ahead_);
   change.source = obstacle_topic_name_;
@@ -343,21 +242,6 @@ void EnvironmentInputs::apply(std::shared_ptr<const Obstacles> obstacles, const 
   changes_.receive(std::move(change));
   was_changed_ = changes_.update() || was_changed_;
   on_message_();
-}
-
-bool EnvironmentInputs::allow(fiber_proximity::AllowPairs::Request& request,
-                              fiber_proximity::AllowPairs::Response& response) {
-  try {
-    allowed_.apply(request.reset != 0, to_pairs(request.forbid), to_pairs(request.allow));
-    warn_of_allowed();
-    response.success = true;
-    was_changed_ = true;
-    on_message_();
-  } catch (const std::exception& error) {
-    response.message = error.what();
-  }
-  response.allowed = to_messages(allowed_.pairs());
-  return true;
 }
 
 }  // namespace fiber_proximity_ros

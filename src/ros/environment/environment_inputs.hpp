@@ -10,14 +10,14 @@
 #include <string>
 #include <vector>
 
-#include "fiber_proximity/AllowPairs.h"
 #include "fiber_proximity/InputStatistics.h"
 #include "fiber_proximity/ObstacleArray.h"
 #include "fiber_proximity/environment/world.hpp"
-#include "src/environment/allowed_contacts.hpp"
+#include "src/ros/environment/allowed_pairs_service.hpp"
 #include "src/ros/environment/cloud_input.hpp"
 #include "src/ros/environment/environment_options.hpp"
 #include "src/ros/environment/marker_obstacles.hpp"
+#include "src/ros/environment/obstacle_service.hpp"
 #include "src/ros/environment/obstacle_set.hpp"
 #include "src/ros/environment/owed_changes.hpp"
 #include "src/ros/environment/robot_links.hpp"
@@ -64,12 +64,12 @@ class EnvironmentInputs {
   std::shared_ptr<const fiber::Environment> environment() const { return world_.environment(); }
 
   fiber::AllowedPairs allowed(const std::vector<std::string>& fiber_names) const {
-    return fiber::resolve(allowed_.pairs(), fiber_names);
+    return fiber::resolve(allowed_->pairs(), fiber_names);
   }
 
-  /// What of all this is not known now: links and obstacles without transforms, topics that nothing
-  /// has come of, obstacles that were refused. What every fibre may touch is nothing that contacts
-  /// are asked about.
+  /// Lists the parts of the environment that are not known now: links and obstacles without
+  /// transforms, topics without a message, obstacles that were refused. Objects that every fibre
+  /// may touch are left out where contacts are asked about.
   /// @param of_contacts whether allowed pairs count: shapes of a query may touch nothing
   std::vector<Unknown> unknown(bool of_contacts) const;
 
@@ -79,39 +79,27 @@ class EnvironmentInputs {
   /// State of each topic there is.
   std::vector<fiber_proximity::InputStatistics> statistics(const ros::Time& now) const;
 
-  /// What builds the meshes, one after the other.
+  /// The thread that builds the meshes, one after the other.
   Worker& mesh_builder() { return mesh_builder_; }
 
  private:
-  class ObstacleService;
   struct MarkerSource;  // a topic of markers
-  using Obstacles = std::vector<fiber_proximity::Obstacle>;
-
-  /// To be called at the end, with the reason if the request is refused. Dropped uncalled, it tells
-  /// that the node ends.
-  using Answer = std::function<void(const std::string& reason)>;
 
   void subscribe_to_markers(ros::NodeHandle node, const EnvironmentOptions& options);
   void receive_obstacles(const fiber_proximity::ObstacleArray::ConstPtr& message);
   void receive_markers(std::shared_ptr<const MarkerObstacles::Markers> markers,
                        MarkerSource& source);
-  void apply(std::shared_ptr<const Obstacles> obstacles, const Answer& answer);
-  bool allow(fiber_proximity::AllowPairs::Request& request,
-             fiber_proximity::AllowPairs::Response& response);
-  bool may_touch_all(const std::string& object) const;
-  void warn_of_allowed() const;
+  void apply(ObstacleService::Obstacles obstacles, const ObstacleService::Answer& answer);
 
-  std::string private_name_;
   FixedFrame& frame_;
   std::function<void()> on_message_;
   fiber::World world_;
   ObstacleSet obstacles_;
-  fiber::AllowedContacts allowed_;
   SceneObstacles scene_;
   RobotLinks robot_;
   double obstacle_timeout_;  // [s]
   double max_stamp_ahead_;   // [s]
-  double most_late_;         // [s] a change of an object that is there may wait so long
+  double max_lateness_;      // [s] a change of an object that is there may wait so long
   OwedChanges owed_;
   std::string obstacle_topic_name_;
   ChangeTopic obstacle_topic_;
@@ -128,7 +116,7 @@ class EnvironmentInputs {
   Worker mesh_builder_;
   std::unique_ptr<ObstacleService> obstacle_service_;
   std::vector<ros::Subscriber> subscribers_;
-  std::vector<ros::ServiceServer> servers_;
+  std::unique_ptr<AllowedPairsService> allowed_;
 };
 
 }  // namespace fiber_proximity_ros

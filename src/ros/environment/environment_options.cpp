@@ -12,7 +12,7 @@ using XmlRpc::XmlRpcValue;
 
 const NodeInterface& interface() { return interface_of("proximity"); }
 
-/// Of a parameter that is a map.
+/// Refuses keys of a map that cfg/interface.yaml does not know.
 void refuse_unknown_keys(const Parameters& parameters, const std::string& name) {
   XmlRpcValue map;
   parameters.node().getParam(name, map);
@@ -50,7 +50,7 @@ void read_box(const Parameters& parameters, fiber::WorldBox& box) {
   }
 }
 
-/// Those that are absent keep their defaults; ~cloud may also just be true.
+/// Options that are absent keep their defaults; ~cloud may also just be true.
 /// @returns none if there is no parameter ~cloud, or if it is false: then no cloud is wanted
 std::optional<CloudOptions> read_cloud_options(const Parameters& parameters) {
   bool is_wanted = parameters.node().hasParam("cloud");

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "src/environment/scene/environment_scene.hpp"
+#include "fiber_proximity/environment/scene/environment_scene.hpp"
 #include "src/ros/environment/cloud_cells.hpp"
 #include "src/ros/environment/mesh_loader.hpp"
 #include "src/ros/environment/robot_links.hpp"

@@ -66,7 +66,7 @@ fiber::Shape triangles_of(const Marker& marker) {
   return std::make_shared<const fiber::TriangleMesh>(std::move(vertices), std::move(triangles));
 }
 
-/// What tells one mesh from another: resource and scale.
+/// The key of a mesh: its resource and its scale.
 std::pair<std::string, std::array<double, 3>> key_of(const Marker& marker) {
   return {marker.mesh_resource, {marker.scale.x, marker.scale.y, marker.scale.z}};
 }

@@ -28,7 +28,7 @@ class MarkerObstacles {
   MarkerObstacles(std::string topic, const MeshLoader& meshes, ObstacleSet& obstacles)
       : topic_(std::move(topic)), meshes_(meshes), obstacles_(obstacles) {}
 
-  /// What a message asks for; meshes that are large, or have to be read first, are left to the
+  /// Makes a change of a message; meshes that are large, or have to be read first, are left to the
   /// worker, which must end before this does. An error names the marker, what is wrong with it and
   /// what is allowed.
   /// @param patience see Change
@@ -40,7 +40,7 @@ class MarkerObstacles {
   bool expire(const ros::Time& now);
 
  private:
-  /// What one marker asks for.
+  /// The change that one marker asks for.
   struct Step {
     std::int32_t action = visualization_msgs::Marker::ADD;
     std::size_t marker = 0;      // its index

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "fiber_proximity/environment/scene/mesh_files.hpp"
+#include "fiber_proximity/environment/scene/environment_scene.hpp"
 #include "src/text/quote.hpp"
 #include "src/text/with_context.hpp"
 

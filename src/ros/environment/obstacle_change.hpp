@@ -13,7 +13,7 @@ namespace fiber_proximity_ros {
 /// @throws std::invalid_argument as fiber::make_pose
 Eigen::Isometry3d to_pose(const geometry_msgs::Pose& message);
 
-/// What a message asks for, as a change of the world, but in the message's frame. A REMOVE of an
+/// Makes a change of the world of a message, still in the message's frame. A REMOVE of an
 /// empty id, which means all obstacles, is left to those who know them.
 /// @throws std::invalid_argument naming the obstacle, what is wrong with it and what is allowed
 fiber::ObjectChange to_change(const fiber_proximity::Obstacle& obstacle);
@@ -31,8 +31,8 @@ fiber_proximity::Obstacle to_obstacle(const fiber::EnvironmentObject& object,
 /// Whether building meshes of so many triangles would keep the node from answering for longer than
 /// a small query takes; then it is left to a Worker.
 inline bool is_large_mesh(std::size_t triangles) {
-  constexpr std::size_t most_at_once = 500;  // about 2 ms
-  return triangles > most_at_once;
+  constexpr std::size_t max_at_once = 500;  // about 2 ms
+  return triangles > max_at_once;
 }
 
 }  // namespace fiber_proximity_ros

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "fiber_proximity/Obstacle.h"
+#include "fiber_proximity/environment/scene/environment_scene.hpp"
 #include "fiber_proximity/environment/world.hpp"
-#include "src/environment/scene/environment_scene.hpp"
 #include "src/ros/environment/waiting_changes.hpp"
 #include "src/ros/support/unknown.hpp"
 #include "src/ros/support/worker.hpp"
@@ -26,7 +26,7 @@ class ObstacleSet {
   void apply(const std::vector<fiber::ObjectChange>& changes,
              const std::set<std::string>& cancelled = {});
 
-  /// What these obstacles ask for; large meshes are built by the worker.
+  /// Makes a change of these obstacles; large meshes are built by the worker.
   /// @param patience see Change
   Change change_of(std::shared_ptr<const std::vector<fiber_proximity::Obstacle>> obstacles,
                    double patience, Worker& worker);
@@ -49,7 +49,7 @@ class SceneObstacles {
   /// @returns true if there are any
   bool update(ObstacleSet& obstacles, FixedFrame& frame);
 
-  /// Those that are not in the world yet.
+  /// Lists the obstacles that are not in the world yet.
   std::vector<Unknown> unknown() const;
 
  private:

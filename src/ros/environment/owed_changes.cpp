@@ -14,7 +14,7 @@ void OwedChanges::refuse(const std::string& topic, const TouchedObjects& touched
   };
   for (const std::string& name : touched.names()) {
     if (touched.wants(name)) {
-      const bool is_known = owed_.size() < most_obstacles || owed_.count(name) > 0;
+      const bool is_known = owed_.size() < max_obstacles || owed_.count(name) > 0;
       note(is_known ? name : "obstacles of " + topic);
     } else {
       owed_.erase(name);  // it is not there, or it is there still

@@ -18,7 +18,7 @@ class OwedChanges {
  public:
   /// [obstacle] Of more than these only the topics are known; they are owed until all obstacles of
   /// such a topic are removed.
-  static constexpr std::size_t most_obstacles = 1000;
+  static constexpr std::size_t max_obstacles = 1000;
 
   /// Notes that a change was refused. Obstacles that it should only have removed may be there
   /// still, but what is there is known.

@@ -56,7 +56,7 @@ class RobotLinks {
   std::optional<Eigen::Isometry3d> find_pose(Link& link, const ros::Time& stamp,
                                              const FindPose& find_pose) const;
 
-  /// What brings the link there, or away; none where it stays.
+  /// The change that brings the link there, or away; none where it stays.
   static std::optional<fiber::ObjectChange> place(Link& link,
                                                   const std::optional<Eigen::Isometry3d>& pose);
 

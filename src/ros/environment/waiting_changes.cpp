@@ -97,8 +97,8 @@ void WaitingChanges::Blocked::add(const TouchedObjects& touched, const std::stri
 
 void WaitingChanges::receive(Change change) {
   waiting_.emplace_back(std::move(change), frame_);
-  if (waiting_.size() > most_waiting) {
-    refuse(waiting_.back(), std::to_string(most_waiting) + " changes are waiting already");
+  if (waiting_.size() > max_waiting) {
+    refuse(waiting_.back(), std::to_string(max_waiting) + " changes are waiting already");
     waiting_.pop_back();
   }
 }

@@ -21,7 +21,7 @@
 
 namespace fiber_proximity_ros {
 
-/// Which objects a change touches, and which of them it removes before anything else.
+/// The objects that a change touches, and those among them that it removes before anything else.
 class TouchedObjects {
  public:
   /// Notes the next step of the change.
@@ -62,7 +62,7 @@ struct FramedName {
 /// @throws TransformUnavailable naming the thing
 Eigen::Isometry3d locate(const FramedName& thing, FixedFrame& frame);
 
-/// What one message or request asks for: all of it, or nothing.
+/// The change that one message or request asks for. It is made as a whole, or not at all.
 struct Change {
   using Poses = std::vector<Eigen::Isometry3d>;
   using Names = std::set<std::string>;
@@ -100,7 +100,7 @@ struct Change {
 class WaitingChanges {
  public:
   /// [change] More than these do not wait: what is beyond is refused.
-  static constexpr std::size_t most_waiting = 1000;
+  static constexpr std::size_t max_waiting = 1000;
 
   /// @param frame must outlive this
   explicit WaitingChanges(FixedFrame& frame) : frame_(frame) {}
@@ -181,7 +181,7 @@ class ChangeTopic {
 
   fiber_proximity::InputStatistics statistics(const ros::Time& now) const;
 
-  /// That nothing has come yet that is waited for.
+  /// Tells that no message has come yet on a topic that is required.
   std::optional<Unknown> unknown() const;
 
  private:

@@ -43,17 +43,10 @@ void FixedFrame::adopt(const std::string& frame) {
   }
 }
 
-void FixedFrame::place(const std_msgs::Header& header, fiber::FiberAssembly& fibers,
-                       std::vector<Eigen::Vector3d>& buffer) const {
-  if (tf2_name(header.frame_id) == name_) {
-    return;
+void FixedFrame::place(const std_msgs::Header& header, fiber::FiberAssembly& fibers) const {
+  if (tf2_name(header.frame_id) != name_) {
+    fibers.transform(transform_from(header));
   }
-  const Eigen::Isometry3d transform = transform_from(header);
-  buffer.clear();
-  for (const Eigen::Vector3d& point : fibers.points()) {
-    buffer.push_back(transform * point);
-  }
-  fibers.update_points(buffer);
 }
 
 Eigen::Isometry3d FixedFrame::transform_from(const std_msgs::Header& header) const {

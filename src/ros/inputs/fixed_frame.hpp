@@ -9,7 +9,6 @@
 #include <Eigen/Geometry>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "src/text/with_context.hpp"
@@ -45,11 +44,9 @@ class FixedFrame {
 
   /// Brings fibres that are in the header's frame at its stamp into this frame; a zero stamp means
   /// the latest transform. Does not wait.
-  /// @param buffer only for its memory, which is reused
   /// @throws TransformUnavailable
   /// @throws std::invalid_argument for points that leave the range of coordinates on the way
-  void place(const std_msgs::Header& header, fiber::FiberAssembly& fibers,
-             std::vector<Eigen::Vector3d>& buffer) const;
+  void place(const std_msgs::Header& header, fiber::FiberAssembly& fibers) const;
 
   /// Pose of the header's frame in this one at its stamp; a zero stamp means the latest transform,
   /// an empty frame this one. Does not wait.

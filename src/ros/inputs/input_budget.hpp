@@ -11,13 +11,14 @@
 
 namespace fiber_proximity_ros {
 
-/// What the fibres of one input may cost by themselves; the defaults are in cfg/interface.yaml.
+/// Limits of what the fibres of one input may cost by themselves. The defaults are in
+/// cfg/interface.yaml.
 struct CostLimits {
   std::uint32_t max_pairs{};  ///< of segments to examine; 0: any number
   double max_time{};          ///< [s] of one processor; 0: any
 };
 
-/// What fibres cost by themselves.
+/// The cost of fibres by themselves.
 struct FiberCost {
   std::string problem;  ///< why they cost too much; empty if they do not
   double time = 0.0;    ///< [s] that it took to find out

@@ -11,54 +11,6 @@
 #include "src/ros/support/stopwatch.hpp"
 
 namespace fiber_proximity_ros {
-namespace {
-
-void append(const Input& input, FiberBuffer& merged) {
-  const fiber::FiberAssembly& fibers = input.fibers();
-  const auto begin = static_cast<std::uint32_t>(merged.points.size());
-  merged.points.insert(merged.points.end(), fibers.points().begin(), fibers.points().end());
-  for (std::size_t fiber = 1; fiber < fibers.offsets().size(); ++fiber) {
-    merged.offsets.push_back(begin + fibers.offsets()[fiber]);
-  }
-  merged.names.insert(merged.names.end(), input.names().begin(), input.names().end());
-  merged.header.stamp = std::max(merged.header.stamp, input.stamp());
-}
-
-bool has_radius_per_point(const fiber::FiberAssembly& fibers) {
-  return fibers.radii().size() > 1 && fibers.radii().size() == fibers.point_count();
-}
-
-/// The radii of one input, written out per fibre or per point.
-void append_radii(const fiber::FiberAssembly& fibers, bool per_point, std::vector<double>& radii) {
-  if (per_point && has_radius_per_point(fibers)) {
-    radii.insert(radii.end(), fibers.radii().begin(), fibers.radii().end());
-    return;
-  }
-  for (std::size_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
-    const double radius = fibers.radii()[fibers.radii().size() == 1 ? 0 : fiber];
-    const std::size_t points = fibers.offsets()[fiber + 1] - fibers.offsets()[fiber];
-    radii.insert(radii.end(), per_point ? points : 1, radius);
-  }
-}
-
-/// The shortest form that holds the radii of all: one, one per fibre, or one per point.
-void merge_radii(const std::vector<const Input*>& inputs, std::vector<double>& radii) {
-  const auto& first = inputs.front()->fibers().radii();
-  if (first.size() == 1 && std::all_of(inputs.begin(), inputs.end(), [&first](const Input* input) {
-        return input->fibers().radii() == first;
-      })) {
-    radii = first;
-    return;
-  }
-  const bool per_point = std::any_of(inputs.begin(), inputs.end(), [](const Input* input) {
-    return has_radius_per_point(input->fibers());
-  });
-  for (const Input* input : inputs) {
-    append_radii(input->fibers(), per_point, radii);
-  }
-}
-
-}  // namespace
 
 InputSet::InputSet(ros::NodeHandle node, const std::vector<InputOptions>& inputs,
                    std::vector<Unknown> left_out, const InputTiming& timing,
@@ -68,7 +20,6 @@ InputSet::InputSet(ros::NodeHandle node, const std::vector<InputOptions>& inputs
       answered_(answered),
       on_message_(std::move(on_message)),
       left_out_(std::move(left_out)),
-      input_timeout_(timing.input_timeout),
       last_time_(ros::Time::now()) {
   for (const InputOptions& options : inputs) {
     inputs_.push_back(std::make_unique<Input>(options, timing, worker_));
@@ -84,8 +35,7 @@ InputSet::InputSet(ros::NodeHandle node, const std::vector<InputOptions>& inputs
     }
   }
   if (timing.synchronize) {
-    last_match_ = last_time_;
-    matcher_.emplace(inputs_.size(), timing.synchronize_slop, timing.queue_size());
+    synchronizer_.emplace(inputs_.size(), timing, last_time_);
   }
 }
 
@@ -93,10 +43,11 @@ bool InputSet::update() {
   const Stopwatch stopwatch;
   watch_time();
   bool changed = std::exchange(was_reset_, false);
-  changed = (matcher_ ? accept_matches() : accept_placed()) || changed;
+  changed = accept_placed() || changed;
   bool leaves = false;
   for (std::size_t i = 0; i < inputs_.size(); ++i) {
-    changed = inputs_[i]->expire(last_time_, matcher_ && matcher_->is_stranger(i)) || changed;
+    const bool is_stranger = synchronizer_ && synchronizer_->is_stranger(i);
+    changed = inputs_[i]->expire(last_time_, is_stranger) || changed;
     if (inputs_[i]->takes_leave()) {
       changed = true;
       leaves = true;
@@ -107,8 +58,8 @@ bool InputSet::update() {
   }
   merged_is_old_ = merged_is_old_ || changed;
   if (!is_fresh()) {
-    merged_.header.frame_id = frame_.name();
-    merged_.header.stamp = last_time_;
+    header_.frame_id = frame_.name();
+    header_.stamp = last_time_;
   }
   work_time_ += stopwatch.seconds();
   return changed;
@@ -161,7 +112,7 @@ const fiber::FiberAssembly& InputSet::fibers() {
   if (std::exchange(merged_is_old_, false)) {
     merge();
   }
-  return fibers_;
+  return merged_.message()->fibers;
 }
 
 void InputSet::receive(Input& input, const ReceivedMessage& message) {
@@ -181,78 +132,42 @@ void InputSet::watch_time() {
     for (const std::unique_ptr<Input>& input : inputs_) {
       input->reset();
     }
-    if (matcher_) {
-      matcher_->reset();
-      last_match_ = now;
+    if (synchronizer_) {
+      synchronizer_->reset(now);
     }
   }
   last_time_ = now;
 }
 
-/// Takes what each input has, on its own.
+/// Takes what each input has, on its own or where it belongs together.
 /// @returns true if that changed the fibres
 bool InputSet::accept_placed() {
   bool changed = false;
-  for (const std::unique_ptr<Input>& input : inputs_) {
-    const std::vector<ros::Time> stamps = input->place_waiting(frame_, answered_);
-    if (!stamps.empty()) {
-      input->accept(stamps.back());
+  for (std::size_t i = 0; i < inputs_.size(); ++i) {
+    const std::vector<ros::Time> stamps = inputs_[i]->place_waiting(frame_, answered_);
+    if (synchronizer_) {
+      for (const ros::Time& stamp : stamps) {
+        synchronizer_->add(i, stamp);
+      }
+    } else if (!stamps.empty()) {
+      inputs_[i]->accept(stamps.back());
       changed = true;
     }
   }
-  return changed;
-}
-
-/// Takes what belongs together.
-/// @returns true if that changed the fibres
-bool InputSet::accept_matches() {
-  for (std::size_t i = 0; i < inputs_.size(); ++i) {
-    for (const ros::Time& stamp : inputs_[i]->place_waiting(frame_, answered_)) {
-      matcher_->add(i, stamp);
-    }
-  }
-  bool one_has_left = false;
-  for (std::size_t i = 0; i < inputs_.size(); ++i) {
-    if (inputs_[i]->is_silent(last_time_)) {
-      one_has_left = matcher_->leave_out(i) || one_has_left;
-    }
-  }
-  std::vector<StampSet> sets = matcher_->take();
-  // Who waited for one that has left had no time to match yet.
-  if (!sets.empty() || one_has_left || !matcher_->is_waiting()) {
-    last_match_ = last_time_;
-  } else if ((last_time_ - last_match_).toSec() > input_timeout_) {
-    matcher_->leave_out_stranger(last_time_);
-    sets = matcher_->take();
-    last_match_ = last_time_;
-  }
-  for (const StampSet& set : sets) {
-    for (std::size_t i = 0; i < inputs_.size(); ++i) {
-      if (set[i]) {
-        inputs_[i]->accept(*set[i]);
-      }
-    }
-  }
-  return !sets.empty();
+  return synchronizer_ ? synchronizer_->accept(inputs_, last_time_) : changed;
 }
 
 void InputSet::merge() {
   const Stopwatch stopwatch;
-  merged_.clear();
-  merged_.header.frame_id = frame_.name();
-  std::vector<const Input*> fresh;
+  std::vector<FiberMessagePtr> fresh;
   for (const std::unique_ptr<Input>& input : inputs_) {
     if (input->is_fresh()) {
-      fresh.push_back(input.get());
-      append(*input, merged_);
+      fresh.push_back(input->message());
     }
   }
-  if (fresh.empty()) {
-    merged_.header.stamp = last_time_;
-  } else {
-    merge_radii(fresh, merged_.radii);
-  }
-  assign(merged_, fibers_);
+  merged_.merge(fresh);
+  header_.frame_id = frame_.name();
+  header_.stamp = fresh.empty() ? last_time_ : merged_.message()->stamp;
   work_time_ += stopwatch.seconds();
 }
 

@@ -11,7 +11,8 @@
 
 #include "src/ros/inputs/fixed_frame.hpp"
 #include "src/ros/inputs/input.hpp"
-#include "src/ros/inputs/stamp_matcher.hpp"
+#include "src/ros/inputs/merged_fibers.hpp"
+#include "src/ros/inputs/synchronizer.hpp"
 #include "src/ros/support/unknown.hpp"
 
 namespace fiber_proximity_ros {
@@ -42,8 +43,8 @@ class InputSet {
   /// @throws std::invalid_argument saying so unless it is
   void require_fresh() const;
 
-  /// What of the inputs is not known now: those without fresh fibres, and what is missing of the
-  /// others.
+  /// Lists the parts of the inputs that are not known now: inputs without fresh fibres, and missing
+  /// points of the others.
   std::vector<Unknown> unknown() const;
 
   /// An answer about these fibres has taken so long [s]: one of the inputs may cost too much.
@@ -54,14 +55,14 @@ class InputSet {
 
   /// The fibres of all fresh inputs, merged at the first call after a change.
   const fiber::FiberAssembly& fibers();
-  const std::vector<std::string>& names() const { return merged_.names; }
+  const std::vector<std::string>& names() const { return merged_.message()->names; }
 
   /// Fixed frame, and the newest stamp among the fibres; without any, the time of the last update.
-  const std_msgs::Header& header() const { return merged_.header; }
+  const std_msgs::Header& header() const { return header_; }
 
   const FixedFrame& frame() const { return frame_; }
   FixedFrame& frame() { return frame_; }
-  const std::vector<std::unique_ptr<Input>>& inputs() const { return inputs_; }
+  const Inputs& inputs() const { return inputs_; }
 
   /// [s] Time spent on reading, transforming and merging since this was last asked.
   double take_work_time() { return std::exchange(work_time_, 0.0); }
@@ -70,22 +71,19 @@ class InputSet {
   void receive(Input& input, const ReceivedMessage& message);
   void watch_time();
   bool accept_placed();
-  bool accept_matches();
   void merge();
 
   FixedFrame frame_;
   const fiber::QueryOptions& answered_;
   std::function<void()> on_message_;
-  std::vector<std::unique_ptr<Input>> inputs_;
+  Inputs inputs_;
   std::vector<Unknown> left_out_;
-  double input_timeout_;                 // [s]
-  std::optional<StampMatcher> matcher_;  // if the inputs are synchronised
-  ros::Time last_match_;                 // when a set was found, or none was waited for
+  std::optional<Synchronizer> synchronizer_;  // if the inputs are synchronised
   ros::Time last_time_;
   bool was_reset_ = false;
   bool merged_is_old_ = false;
-  FiberBuffer merged_;
-  fiber::FiberAssembly fibers_;
+  MergedFibers merged_;
+  std_msgs::Header header_;
   double work_time_ = 0.0;
   // Last: their job and their callbacks use all of the above.
   Worker worker_;

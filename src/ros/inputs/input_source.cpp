@@ -54,8 +54,8 @@ ros::Subscriber subscribe_to(ros::NodeHandle& node, const InputOptions& options,
   if constexpr (is_marker<Message>) {
     auto input = std::make_shared<MarkerInput>(options.marker);
     callback = [receiver, input](const Event& event) {
-      receiver({[&](FiberBuffer& chains) {
-                  return input->read(markers_of(event.getConstMessage()), ros::Time::now(), chains);
+      receiver({[&](FiberBuffer& fibers) {
+                  return input->read(markers_of(event.getConstMessage()), ros::Time::now(), fibers);
                 },
                 [&] { input->keep(); }, event.getPublisherName(),
                 sequence_of(*event.getConstMessage())});
@@ -63,8 +63,8 @@ ros::Subscriber subscribe_to(ros::NodeHandle& node, const InputOptions& options,
   } else {
     callback = [receiver](const Event& event) {
       const Message& message = *event.getConstMessage();
-      receiver({[&](FiberBuffer& chains) {
-                  to_chains(message, chains);
+      receiver({[&](FiberBuffer& fibers) {
+                  to_chains(message, fibers);
                   return ReadResult();
                 },
                 [] {}, event.getPublisherName(), sequence_of(message)});

@@ -5,6 +5,7 @@
 #include <ros/node_handle.h>
 #include <xmlrpcpp/XmlRpcValue.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -22,8 +23,8 @@ struct InputOptions {
   std::string topic;
   std::string type;  ///< of its messages, one that subscribe() knows
 
-  /// Of the fibre, where the message does not name it; of several: name/0, name/1, ...
-  /// Empty: the topic.
+  /// Name of the fibre where the message does not name it. Several fibres are called name/0,
+  /// name/1, ... An empty name stands for the topic.
   std::string name;
 
   double radius{};  ///< [m] where the message has none
@@ -39,6 +40,30 @@ struct InputOptions {
   std::string where;  ///< what the log calls the entry
 };
 
+/// When an input's messages and fibres expire, which stamps they may have, and whose belong
+/// together; the defaults are in cfg/interface.yaml.
+struct InputTiming {
+  /// [s] of wall time a message may wait for its transform; longer than tf takes to arrive
+  double tf_timeout{};
+
+  /// [s] of ROS time after which fibres that were not renewed are left out; several periods of any
+  /// camera
+  double input_timeout{};
+
+  /// [s] a stamp may be ahead of the node's time; more than the clocks of one robot differ
+  double max_stamp_ahead{};
+
+  /// True: the fibres of all inputs change together, to those whose stamps belong together.
+  bool synchronize{};
+
+  /// [s] most by which stamps that belong together differ; more than a period of a usual camera
+  double synchronize_slop{};
+
+  /// Messages of one input that wait, for their transforms or for those of the other inputs.
+  /// Without synchronisation one keeps its turn, and the newest stands behind it.
+  std::size_t queue_size() const { return synchronize ? 10 : 2; }
+};
+
 /// Reads one entry of the list; keys that are absent have the defaults of
 /// cfg/interface.yaml.
 /// @throws std::invalid_argument naming key, value and what is allowed
@@ -46,7 +71,7 @@ InputOptions read_input_options(const XmlRpc::XmlRpcValue& entry, double default
 
 /// Reads the fibres of one message, in the message's frame; throws std::invalid_argument if it is
 /// malformed.
-using ReadMessage = std::function<ReadResult(FiberBuffer& chains)>;
+using ReadMessage = std::function<ReadResult(FiberBuffer& fibers)>;
 
 /// A message as it arrives.
 struct ReceivedMessage {

@@ -55,7 +55,7 @@ bool MarkerInput::is_late(const Kept& kept, const ros::Time& now) const {
 }
 
 ReadResult MarkerInput::read(const std::vector<MarkerPtr>& message, const ros::Time& now,
-                             FiberBuffer& chains) {
+                             FiberBuffer& fibers) {
   ReadResult result;
   result.is_for_input = std::any_of(message.begin(), message.end(),
                                     [this](const MarkerPtr& marker) { return is_wanted(*marker); });
@@ -81,8 +81,8 @@ ReadResult MarkerInput::read(const std::vector<MarkerPtr>& message, const ros::T
                                " is in a message more than once: as in rviz, the last one counts");
     }
   }
-  if (kept.size() > most_markers) {
-    throw std::invalid_argument("there are more than " + std::to_string(most_markers) +
+  if (kept.size() > max_markers) {
+    throw std::invalid_argument("there are more than " + std::to_string(max_markers) +
                                 " markers now, which nobody has deleted");
   }
   std::vector<const Marker*> shown;
@@ -100,18 +100,19 @@ ReadResult MarkerInput::read(const std::vector<MarkerPtr>& message, const ros::T
     result.missing += ", nor were " + std::to_string(next_.late_count - 1) + " others";
   }
   result.is_news = result.is_news || next_.late_count != late_before;
-  chains.clear();
+  fibers.clear();
   if (!shown.empty()) {
-    to_chains(shown, options_, chains, result.remarks);
-    next_.header.frame_id = chains.header.frame_id;
+    to_chains(shown, options_, fibers, result.remarks);
+    next_.header.frame_id = fibers.header.frame_id;
   }
-  // That of what is there now, a deletion included; without stamps, when it arrives.
+  // The stamp is the newest of all markers in the message, deletions included. It stays zero, which
+  // means the time of arrival, where none of them has a stamp.
   ros::Time newest;
   for (const MarkerPtr& marker : message) {
     newest = std::max(newest, marker->header.stamp);
   }
   next_.header.stamp = newest.isZero() ? newest : std::max(newest, next_.header.stamp);
-  chains.header = next_.header;
+  fibers.header = next_.header;
   result.is_for_input = !next_.header.frame_id.empty();  // else there have been none yet
   return result;
 }

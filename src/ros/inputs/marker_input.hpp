@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "fiber_proximity/ros/conversions.hpp"
-#include "src/ros/inputs/marker_chains.hpp"
+#include "src/ros/inputs/marker_fibers.hpp"
 
 namespace fiber_proximity_ros {
 
-/// What a message has brought.
+/// The outcome of reading a message.
 struct ReadResult {
   bool is_for_input = true;  ///< false: it holds nothing for this input
 
@@ -36,12 +36,12 @@ class MarkerInput {
   explicit MarkerInput(MarkerInputOptions options) : options_(std::move(options)) {}
 
   /// [marker] More are not kept.
-  static constexpr std::size_t most_markers = 100'000;
+  static constexpr std::size_t max_markers = 100'000;
 
   /// Reads the fibres that there are with a message.
   /// @throws std::invalid_argument as to_chains(), and for unknown actions, negative lifetimes and
   ///         too many markers, naming the marker
-  ReadResult read(const std::vector<MarkerPtr>& message, const ros::Time& now, FiberBuffer& chains);
+  ReadResult read(const std::vector<MarkerPtr>& message, const ros::Time& now, FiberBuffer& fibers);
 
   /// Keeps what the last message has changed: without it the message has not been.
   void keep() { state_ = next_; }

@@ -33,7 +33,7 @@ std::string and_more(std::uint64_t count, const std::string& what) {
 }
 
 /// Publishers remembered at most: tools with names of their own for each run come and go.
-constexpr std::size_t most_publishers = 64;
+constexpr std::size_t max_publishers = 64;
 
 }  // namespace
 
@@ -67,7 +67,7 @@ void MessageLog::refuse(const std::string& reason) {
 }
 
 void MessageLog::remark(const std::string& text) {
-  if (remarked_.size() < most_reasons && remarked_.insert(reason_kind(text)).second) {
+  if (remarked_.size() < max_reasons && remarked_.insert(reason_kind(text)).second) {
     ROS_WARN_STREAM(label_ << ": " << text);
   }
 }
@@ -79,7 +79,7 @@ MessageLog::Reason* MessageLog::place_of(const std::string& kind, const ros::Ste
       return &reason;
     }
   }
-  if (reasons_.size() < most_reasons) {
+  if (reasons_.size() < max_reasons) {
     reasons_.push_back({kind, {}});
     return &reasons_.back();
   }
@@ -100,7 +100,7 @@ void SequenceGaps::add(const std::string& publisher, std::uint32_t sequence) {
       std::find_if(publishers_.begin(), publishers_.end(),
                    [&publisher](const Publisher& other) { return other.name == publisher; });
   if (found == publishers_.end()) {
-    if (publishers_.size() == most_publishers) {
+    if (publishers_.size() == max_publishers) {
       publishers_.pop_back();
     }
     publishers_.insert(publishers_.begin(), {publisher, sequence});

@@ -12,14 +12,14 @@
 
 namespace fiber_proximity_ros {
 
-/// What becomes of the messages of one topic. Those that are refused are logged without a flood: a
-/// source that sends nonsense does so at camera rate. Each reason is logged at most once a second,
-/// so that a frequent one does not hide another; reasons that differ in numbers alone are one.
-/// Beyond a few reasons within a second, others are only counted.
+/// Counts and logs what becomes of the messages of one topic. Refusals are logged without a flood:
+/// a source that sends nonsense does so at camera rate. Each reason is logged at most once a
+/// second, so that a frequent one does not hide another; reasons that differ in numbers alone are
+/// one. Beyond a few reasons within a second, others are only counted.
 class MessageLog {
  public:
   /// Most reasons that are logged within a second.
-  static constexpr std::size_t most_reasons = 10;
+  static constexpr std::size_t max_reasons = 10;
 
   /// @param source what the log calls the topic, before its name
   MessageLog(const std::string& topic, const std::string& type, const std::string& source = "");
@@ -35,10 +35,10 @@ class MessageLog {
   /// Why the last message was refused since one was accepted; empty if none was.
   const std::string& refused_since() const { return refused_since_; }
 
-  /// What the log calls the topic.
+  /// Name of the topic in the log.
   const std::string& label() const { return label_; }
 
-  /// What was counted here; without an age, and with no count of messages that were dropped.
+  /// The counts. They are without an age, and without the number of dropped messages.
   const fiber_proximity::InputStatistics& statistics() const { return statistics_; }
 
  private:
@@ -62,15 +62,15 @@ class MessageLog {
 /// messages one by one, so what is missing between two that have arrived was lost.
 ///
 /// Each publisher of a topic has numbers of its own. One whose numbers go back has started again.
-/// What passes other publishers' numbers on (a bag that is played, topic_tools) counts what was
-/// lost before, too.
+/// Where a publisher passes the numbers of others on (a bag that is played, topic_tools), messages
+/// that were lost before it count, too.
 class SequenceGaps {
  public:
   /// @param publisher name of the node that has sent the message
   /// @param sequence its header.seq, as it arrived
   void add(const std::string& publisher, std::uint32_t sequence);
 
-  /// Of all publishers; -1 while none has numbered its messages.
+  /// Lost messages of all publishers; -1 while none has numbered its messages.
   std::int64_t count() const { return is_numbered_ ? static_cast<std::int64_t>(count_) : -1; }
 
  private:

@@ -13,27 +13,27 @@ namespace {
 bool is_missing(const Eigen::Vector3d& point) { return !point.allFinite(); }
 
 /// True if every point belongs to a fibre of two at least, and radii can be told whose they are.
-bool has_sound_layout(const FiberBuffer& chains) {
-  const std::vector<std::uint32_t>& offsets = chains.offsets;
+bool has_sound_layout(const FiberBuffer& fibers) {
+  const std::vector<std::uint32_t>& offsets = fibers.offsets;
   const auto is_too_short = [](std::uint32_t begin, std::uint32_t end) {
     return std::uint64_t{end} < std::uint64_t{begin} + 2;
   };
-  const std::size_t radii = chains.radii.size();
-  return !offsets.empty() && offsets.front() == 0 && offsets.back() == chains.points.size() &&
+  const std::size_t radii = fibers.radii.size();
+  return !offsets.empty() && offsets.front() == 0 && offsets.back() == fibers.points.size() &&
          std::adjacent_find(offsets.begin(), offsets.end(), is_too_short) == offsets.end() &&
-         (radii <= 1 || radii == chains.fiber_count() || radii == chains.points.size());
+         (radii <= 1 || radii == fibers.fiber_count() || radii == fibers.points.size());
 }
 
-[[noreturn]] void refuse_first(const FiberBuffer& chains) {
-  const auto missing = std::find_if(chains.points.begin(), chains.points.end(), is_missing);
-  const auto index = static_cast<std::uint32_t>(missing - chains.points.begin());
-  const auto next = std::upper_bound(chains.offsets.begin(), chains.offsets.end(), index);
+[[noreturn]] void refuse_first(const FiberBuffer& fibers) {
+  const auto missing = std::find_if(fibers.points.begin(), fibers.points.end(), is_missing);
+  const auto index = static_cast<std::uint32_t>(missing - fibers.points.begin());
+  const auto next = std::upper_bound(fibers.offsets.begin(), fibers.offsets.end(), index);
   int axis = 0;
   while (std::isfinite((*missing)[axis])) {
     ++axis;
   }
   std::ostringstream message;
-  message << "fibre " << next - chains.offsets.begin() - 1 << ", point " << index - *(next - 1)
+  message << "fibre " << next - fibers.offsets.begin() - 1 << ", point " << index - *(next - 1)
           << ": "
           << "xyz"[axis] << " is " << (*missing)[axis] << ", "
           << fiber::FiberAssembly::coordinate_rule
@@ -41,74 +41,93 @@ bool has_sound_layout(const FiberBuffer& chains) {
   throw std::invalid_argument(message.str());
 }
 
-/// Copies the known parts of chains, with their names and radii.
-class KnownChains {
+/// Takes the missing points out of a buffer, in place: known points move towards its front.
+class GapCloser {
  public:
-  KnownChains(const FiberBuffer& chains, MissingPointCounts& counts)
-      : chains_(chains),
+  GapCloser(FiberBuffer& fibers, MissingPointCounts& counts)
+      : fibers_(fibers),
         counts_(counts),
-        has_radius_per_point_(chains.radii.size() > 1 &&
-                              chains.radii.size() == chains.points.size()),
-        has_radius_per_fiber_(chains.radii.size() > 1 && !has_radius_per_point_) {
-    known_.header = chains.header;
-    known_.points.reserve(chains.points.size());
-    if (!has_radius_per_point_ && !has_radius_per_fiber_) {
-      known_.radii = chains.radii;
+        has_radius_per_point_(fibers.radii.size() > 1 &&
+                              fibers.radii.size() == fibers.points.size()),
+        has_radius_per_fiber_(fibers.radii.size() > 1 && !has_radius_per_point_),
+        offsets_before_(std::exchange(fibers.offsets, {0})),
+        names_before_(std::exchange(fibers.names, {})) {
+    if (has_radius_per_fiber_) {
+      radii_before_ = std::exchange(fibers.radii, {});
     }
   }
 
-  void copy(std::size_t fiber, MissingPoints policy) {
-    const std::size_t fibers_before = known_.fiber_count();
+  /// Joins the neighbours of missing points.
+  void bridge() { close(false); }
+
+  /// Cuts fibres at missing points.
+  void split() { close(true); }
+
+ private:
+  void close(bool cuts) {
+    for (std::size_t fiber = 0; fiber + 1 < offsets_before_.size(); ++fiber) {
+      close(fiber, cuts);
+    }
+    fibers_.points.resize(end_);
+    if (has_radius_per_point_) {
+      fibers_.radii.resize(end_);
+    }
+  }
+
+  void close(std::size_t fiber, bool cuts) {
+    const std::size_t fibers_before = fibers_.fiber_count();
     std::uint64_t gap = 0;  // points since the last known one
-    for (std::uint32_t i = chains_.offsets[fiber]; i < chains_.offsets[fiber + 1]; ++i) {
-      if (is_missing(chains_.points[i])) {
+    for (std::uint32_t i = offsets_before_[fiber]; i < offsets_before_[fiber + 1]; ++i) {
+      if (is_missing(fibers_.points[i])) {
         ++gap;
-        if (policy == MissingPoints::SPLIT) {
+        if (cuts) {
           end_piece(fiber, fibers_before);
         }
         continue;
       }
-      counts_.gaps += piece_.empty() ? gap : 0;
+      if (end_ == fibers_.offsets.back()) {  // a piece begins
+        counts_.gaps += gap;
+        piece_begin_ = i;
+      }
       gap = 0;
-      piece_.push_back(i);
+      keep(i);
     }
     counts_.gaps += gap;
     end_piece(fiber, fibers_before);
-    counts_.fibers += known_.fiber_count() == fibers_before ? 1 : 0;
+    counts_.fibers += fibers_.fiber_count() == fibers_before ? 1 : 0;
   }
 
-  FiberBuffer take() { return std::move(known_); }
+  void keep(std::uint32_t point) {
+    fibers_.points[end_] = fibers_.points[point];
+    if (has_radius_per_point_) {
+      fibers_.radii[end_] = fibers_.radii[point];
+    }
+    ++end_;
+  }
 
- private:
+  /// Makes the known points since the last piece a fibre, but for a lone one, which it drops.
   void end_piece(std::size_t fiber, std::size_t fibers_before) {
-    if (piece_.size() > 1) {
-      copy_piece(fiber, known_.fiber_count() == fibers_before);
+    const std::uint32_t begin = fibers_.offsets.back();
+    if (end_ - begin < 2) {
+      counts_.lone_points += end_ - begin;
+      end_ = begin;
+      return;
     }
-    counts_.lone_points += piece_.size() == 1 ? 1 : 0;
-    piece_.clear();
-  }
-
-  void copy_piece(std::size_t fiber, bool is_first) {
-    for (const std::uint32_t i : piece_) {
-      known_.points.push_back(chains_.points[i]);
-      if (has_radius_per_point_) {
-        known_.radii.push_back(chains_.radii[i]);
-      }
-    }
-    if (!chains_.names.empty()) {
-      const std::string& name = chains_.names[fiber];
-      known_.names.push_back(is_first ? name
-                                      : piece_name(name, piece_.front() - chains_.offsets[fiber]));
+    if (!names_before_.empty()) {
+      const std::string& name = names_before_[fiber];
+      fibers_.names.push_back(fibers_.fiber_count() == fibers_before
+                                  ? name
+                                  : piece_name(name, piece_begin_ - offsets_before_[fiber]));
     }
     if (has_radius_per_fiber_) {
-      known_.radii.push_back(chains_.radii[fiber]);
+      fibers_.radii.push_back(radii_before_[fiber]);
     }
-    known_.end_chain();
+    fibers_.offsets.push_back(end_);
   }
 
   std::string piece_name(const std::string& name, std::uint32_t first_point) {
     if (taken_names_.empty()) {
-      taken_names_.insert(chains_.names.begin(), chains_.names.end());
+      taken_names_.insert(names_before_.begin(), names_before_.end());
     }
     const std::string suffix = "[" + std::to_string(first_point) + "]";
     std::string piece = name + suffix;
@@ -118,31 +137,36 @@ class KnownChains {
     return piece;
   }
 
-  const FiberBuffer& chains_;
+  FiberBuffer& fibers_;
   MissingPointCounts& counts_;
   bool has_radius_per_point_;
   bool has_radius_per_fiber_;
-  FiberBuffer known_;
-  std::vector<std::uint32_t> piece_;  // indices of its points
+  std::vector<std::uint32_t> offsets_before_;
+  std::vector<std::string> names_before_;
+  std::vector<double> radii_before_;  // by fibre
+  std::uint32_t end_ = 0;             // of the points kept so far
+  std::uint32_t piece_begin_ = 0;     // where the piece's first point was
   std::unordered_set<std::string> taken_names_;
 };
 
 }  // namespace
 
-void handle_missing_points(MissingPoints policy, FiberBuffer& chains, MissingPointCounts& counts) {
-  const auto missing = std::count_if(chains.points.begin(), chains.points.end(), is_missing);
-  if (missing == 0 || !has_sound_layout(chains)) {
+void resolve_missing_points(MissingPoints policy, FiberBuffer& fibers, MissingPointCounts& counts) {
+  const auto missing = std::count_if(fibers.points.begin(), fibers.points.end(), is_missing);
+  if (missing == 0 || !has_sound_layout(fibers)) {
     return;
   }
   counts.points += static_cast<std::uint64_t>(missing);
-  if (policy == MissingPoints::REFUSE) {
-    refuse_first(chains);
+  switch (policy) {
+    case MissingPoints::REFUSE:
+      refuse_first(fibers);
+    case MissingPoints::BRIDGE:
+      GapCloser(fibers, counts).bridge();
+      break;
+    case MissingPoints::SPLIT:
+      GapCloser(fibers, counts).split();
+      break;
   }
-  KnownChains known(chains, counts);
-  for (std::size_t fiber = 0; fiber < chains.fiber_count(); ++fiber) {
-    known.copy(fiber, policy);
-  }
-  chains = known.take();
 }
 
 }  // namespace fiber_proximity_ros

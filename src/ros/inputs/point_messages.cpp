@@ -73,46 +73,46 @@ void check_layout(const PointCloud2& cloud) {
 
 /// The items of a message's list as the points of one fibre.
 template <class Message, class Items, class PositionOf>
-void read_points(const Message& message, const Items& items, FiberBuffer& chains,
+void read_points(const Message& message, const Items& items, FiberBuffer& fibers,
                  const PositionOf& position_of) {
-  chains.clear();
-  chains.header = message.header;
-  chains.points.reserve(items.size());
+  fibers.clear();
+  fibers.header = message.header;
+  fibers.points.reserve(items.size());
   for (const auto& item : items) {
-    chains.points.push_back(to_vector(position_of(item)));
+    fibers.points.push_back(to_vector(position_of(item)));
   }
-  chains.end_chain();
+  fibers.end_chain();
 }
 
 }  // namespace
 
-void to_chains(const PointCloud2& message, FiberBuffer& chains) {
-  chains.clear();
-  chains.header = message.header;
+void to_chains(const PointCloud2& message, FiberBuffer& fibers) {
+  fibers.clear();
+  fibers.header = message.header;
   const std::array<CoordinateField, 3> fields{
       find_coordinate(message, "x"), find_coordinate(message, "y"), find_coordinate(message, "z")};
   check_layout(message);
-  chains.points.reserve(std::size_t{message.width} * message.height);
+  fibers.points.reserve(std::size_t{message.width} * message.height);
   const std::size_t rows = message.width == 0 ? 0 : message.height;
   for (std::size_t row = 0; row < rows; ++row) {
     const std::uint8_t* point = message.data.data() + row * message.row_step;
     for (std::size_t column = 0; column < message.width; ++column, point += message.point_step) {
-      chains.points.emplace_back(fields[0].read(point), fields[1].read(point),
+      fibers.points.emplace_back(fields[0].read(point), fields[1].read(point),
                                  fields[2].read(point));
     }
   }
-  chains.end_chain();
+  fibers.end_chain();
 }
 
-void to_chains(const sensor_msgs::PointCloud& message, FiberBuffer& chains) {
-  read_points(message, message.points, chains, [](const auto& point) { return point; });
+void to_chains(const sensor_msgs::PointCloud& message, FiberBuffer& fibers) {
+  read_points(message, message.points, fibers, [](const auto& point) { return point; });
 }
 
-void to_chains(const geometry_msgs::PoseArray& message, FiberBuffer& chains) {
-  read_points(message, message.poses, chains, [](const auto& pose) { return pose.position; });
+void to_chains(const geometry_msgs::PoseArray& message, FiberBuffer& fibers) {
+  read_points(message, message.poses, fibers, [](const auto& pose) { return pose.position; });
 }
 
-void to_chains(const nav_msgs::Path& message, FiberBuffer& chains) {
+void to_chains(const nav_msgs::Path& message, FiberBuffer& fibers) {
   for (std::size_t i = 0; i < message.poses.size(); ++i) {
     const std::string& frame = message.poses[i].header.frame_id;
     // Many publishers fill in the path's frame only.
@@ -122,7 +122,7 @@ void to_chains(const nav_msgs::Path& message, FiberBuffer& chains) {
           fiber::quote(message.header.frame_id) + "; they must be the same");
     }
   }
-  read_points(message, message.poses, chains, [](const auto& pose) { return pose.pose.position; });
+  read_points(message, message.poses, fibers, [](const auto& pose) { return pose.pose.position; });
 }
 
 }  // namespace fiber_proximity_ros

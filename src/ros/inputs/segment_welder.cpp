@@ -29,7 +29,7 @@ double nearer_end(const Vector3d& point, const Vector3d& from, const Vector3d& t
 bool SegmentWelder::add(const Vector3d& from, const Vector3d& to, double tolerance) {
   const double length = is_known(from) && is_known(to) ? (to - from).norm()
                                                        : std::numeric_limits<double>::quiet_NaN();
-  if (chain_size() > 0) {
+  if (fiber_size() > 0) {
     const double reach = std::fmax(0.0, tolerance * std::fmin(length, last_length_));  // [m]
     const bool has_turned_first = turn_first_segment_towards(from, to, reach);
     if (join(from, to, length, reach, tolerance)) {
@@ -37,9 +37,9 @@ bool SegmentWelder::add(const Vector3d& from, const Vector3d& to, double toleran
       return false;
     }
     if (has_turned_first) {  // in vain
-      (chains_.points.end() - 2)->swap(chains_.points.back());
+      (fibers_.points.end() - 2)->swap(fibers_.points.back());
     }
-    end_chain();
+    end_fiber();
   }
   longest_ = 0.0;
   push(from, length);
@@ -47,16 +47,16 @@ bool SegmentWelder::add(const Vector3d& from, const Vector3d& to, double toleran
   return true;
 }
 
-void SegmentWelder::end_chain() {
-  if (chain_size() > 0) {
-    chains_.end_chain();
+void SegmentWelder::end_fiber() {
+  if (fiber_size() > 0) {
+    fibers_.end_chain();
   }
 }
 
-/// @returns whether the segment is part of the chain now
+/// @returns whether the segment is part of the fibre now
 bool SegmentWelder::join(Vector3d from, Vector3d to, double length, double reach,
                          double tolerance) {
-  Vector3d& end = chains_.points.back();
+  Vector3d& end = fibers_.points.back();
   const bool is_turned =
       distance(to, end) < distance(from, end) && (is_known(from) || distance(to, end) <= reach);
   if (is_turned) {
@@ -82,21 +82,21 @@ bool SegmentWelder::join(Vector3d from, Vector3d to, double length, double reach
 }
 
 void SegmentWelder::push(const Vector3d& point, double length) {
-  chains_.points.push_back(point);
+  fibers_.points.push_back(point);
   last_length_ = length;
   longest_ = std::fmax(longest_, length);
 }
 
-/// True if the chain may go on across missing points: if what is known on both sides is no
+/// True if the fibre may go on across missing points: if what is known on both sides is no
 /// farther apart than the segments between them would reach, or nothing is known.
 bool SegmentWelder::reaches(const Vector3d& from, const Vector3d& to, double length,
                             double tolerance) const {
   const auto known =
-      std::find_if(chains_.points.rbegin(),
-                   chains_.points.rbegin() + static_cast<std::ptrdiff_t>(chain_size()), is_known);
-  const auto missing = static_cast<double>(known - chains_.points.rbegin());
+      std::find_if(fibers_.points.rbegin(),
+                   fibers_.points.rbegin() + static_cast<std::ptrdiff_t>(fiber_size()), is_known);
+  const auto missing = static_cast<double>(known - fibers_.points.rbegin());
   const double longest = std::fmax(longest_, length);
-  const bool is_compared = static_cast<std::size_t>(missing) < chain_size() &&
+  const bool is_compared = static_cast<std::size_t>(missing) < fiber_size() &&
                            (is_known(from) || is_known(to)) && longest > 0.0;
   const double segments = missing + (is_known(from) ? 1.0 : 2.0) + tolerance;
   return !is_compared || distance(*known, is_known(from) ? from : to) <= segments * longest;
@@ -106,11 +106,11 @@ bool SegmentWelder::reaches(const Vector3d& from, const Vector3d& to, double len
 /// @returns whether it is turned
 bool SegmentWelder::turn_first_segment_towards(const Vector3d& from, const Vector3d& to,
                                                double reach) {
-  if (chain_size() != 2) {
+  if (fiber_size() != 2) {
     return false;
   }
-  Vector3d& head = *(chains_.points.end() - 2);
-  Vector3d& tail = chains_.points.back();
+  Vector3d& head = *(fibers_.points.end() - 2);
+  Vector3d& tail = fibers_.points.back();
   const double gap = nearer_end(head, from, to);
   if (!(gap < nearer_end(tail, from, to) && (is_known(tail) || gap <= reach))) {
     return false;

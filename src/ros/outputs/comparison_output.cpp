@@ -59,30 +59,26 @@ fiber_proximity::FclComparison message_of(const fiber::StyleComparison& style) {
 
 }  // namespace
 
-ComparisonOutput::ComparisonOutput(ros::NodeHandle& private_node, const Subject& subject,
+ComparisonOutput::ComparisonOutput(ros::NodeHandle private_node, const DetectedScene& subject,
                                    std::function<void()> before_answer)
     : subject_(subject),
       before_answer_(std::move(before_answer)),
       publisher_(private_node.advertise<fiber_proximity::Comparison>("comparison", 1)),
       server_(private_node.advertiseService("compare", &ComparisonOutput::answer, this)) {}
 
-bool ComparisonOutput::publish_if_wanted() {
-  if (!is_on_ || publisher_.getNumSubscribers() == 0) {
-    return false;
-  }
+void ComparisonOutput::publish() {
   try {
     publisher_.publish(compare());
   } catch (const std::exception& error) {
     ROS_ERROR_STREAM_THROTTLE(1.0, "no comparison with FCL: " << error.what());
   }
-  return true;
 }
 
 bool ComparisonOutput::answer(fiber_proximity::CompareWithFcl::Request& /*request*/,
                               fiber_proximity::CompareWithFcl::Response& response) {
   before_answer_();
   try {
-    subject_.inputs.require_fresh();
+    subject_.scene.fibers.require_fresh();
     response.comparison = compare();
     response.success = true;
   } catch (const std::exception& error) {
@@ -95,10 +91,10 @@ bool ComparisonOutput::answer(fiber_proximity::CompareWithFcl::Request& /*reques
 fiber_proximity::Comparison ComparisonOutput::compare() {
   fiber_proximity::Comparison message;
   const fiber::Comparison found =
-      comparer_.compare(subject_.inputs.fibers(), subject_.detector.engine(), subject_.query);
-  message.header = subject_.inputs.header();
-  message.fiber_names = subject_.inputs.names();
-  message.engine = subject_.engine;
+      comparer_.compare(subject_.scene.fibers.fibers(), subject_.detector.engine(), subject_.query);
+  message.header = subject_.scene.fibers.header();
+  message.fiber_names = subject_.scene.fibers.names();
+  message.engine = subject_.detector.engine_name();
   message.kernel = name_of(subject_.query.kernel);
   message.margin = found.margin;
   message.update_time = subject_.detector.update_time();

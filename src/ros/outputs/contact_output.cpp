@@ -8,7 +8,7 @@
 
 #include "fiber_proximity/ContactEvent.h"
 #include "fiber_proximity/ros/conversions.hpp"
-#include "src/ros/detection/fiber_step.hpp"
+#include "src/ros/support/stamps.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -17,7 +17,7 @@ using fiber_proximity::Contact;
 using std::chrono::nanoseconds;
 
 /// ~contact_events: each event counts, and an answer may have many of them.
-constexpr std::uint32_t most_waiting_events = 100000;
+constexpr std::uint32_t max_waiting_events = 100000;
 
 /// Where the bodies of these names are among others; of names that are there twice, the first.
 fiber::TouchTracker::FiberIndices indices_among(const std::vector<std::string>& names,
@@ -76,12 +76,12 @@ void add_details(const StepContact& contact, const fiber::Touch& touch, nanoseco
 
 }  // namespace
 
-ContactOutput::ContactOutput(ros::NodeHandle& private_node, const std::string& topic,
+ContactOutput::ContactOutput(ros::NodeHandle private_node, const std::string& topic,
                              std::uint8_t type_b, const Newcomer& on_newcomer)
     : type_b_(type_b),
-      publisher_(advertise<fiber_proximity::ContactArray>(private_node, topic, on_newcomer)),
+      topic_(private_node, topic, on_newcomer),
       event_publisher_(private_node.advertise<fiber_proximity::ContactEvent>("contact_events",
-                                                                             most_waiting_events)),
+                                                                             max_waiting_events)),
       tracker_(type_b == Contact::OBJECT ? 2 : 1, 2) {}
 
 void ContactOutput::track(const ContactAnswer& answer) {
@@ -105,57 +105,70 @@ void ContactOutput::track(const ContactAnswer& answer) {
 }
 
 void ContactOutput::publish(const ContactAnswer& answer, bool has_gradients, double update_time) {
-  if (publisher_.getNumSubscribers() == 0) {
+  if (!topic_.has_listeners()) {
     return;
   }
-  const auto& [detection, options, motion, completeness, knowledge, names, header] = answer;
+  const auto& [detection, options, motion, knowledge, names, header] = answer;
+  const Completeness completeness = completeness_of(answer);
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const nanoseconds now = to_time(header.stamp);
   const nanoseconds since = motion != nullptr ? motion->time.lower : now;
-  const auto fill_in = [&, type_b = type_b_](const fiber::Contact& contact, Contact& message) {
-    to_message(contact, Contact::FIBER, type_b, message);
-    message.gradients.clear();  // of an earlier message
+  const auto fill_in = [&, type_b = type_b_](const fiber::Contact& contact, Contact& filled) {
+    to_message(contact, Contact::FIBER, type_b, filled);
+    filled.gradients.clear();  // of an earlier message
     if (has_gradients) {
-      add_gradients(message);
+      add_gradients(filled);
     }
   };
-  message_.header = header;
-  message_.fiber_names = names.a;
-  message_.object_names = names.b;
-  message_.continuous = motion != nullptr;
-  message_.since = to_stamp(since);
-  message_.contacts.resize(contacts_.size());
+  fiber_proximity::ContactArray& message = topic_.message();
+  message.header = header;
+  message.fiber_names = names.a;
+  message.object_names = names.b;
+  message.continuous = motion != nullptr;
+  message.since = to_stamp(since);
+  message.contacts.resize(contacts_.size());
   std::size_t count = 0;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     if (contacts_[i].state != StepContact::State::LEFT) {
-      Contact& message = message_.contacts[count++];
-      fill_in(contacts_[i].contact, message);
-      add_details(contacts_[i], tracker_.touch_of(i), since, now, message);
+      Contact& contact = message.contacts[count++];
+      fill_in(contacts_[i].contact, contact);
+      add_details(contacts_[i], tracker_.touch_of(i), since, now, contact);
     }
   }
-  message_.contacts.resize(count);
-  message_.margin = options.margin;
-  message_.has_minimum = detection.minimum() != nullptr;
-  message_.minimum_distance = infinity;
-  message_.minimum = Contact();
-  if (message_.has_minimum) {
-    message_.minimum_distance = detection.minimum()->distance;
-    fill_in(*detection.minimum(), message_.minimum);
+  message.contacts.resize(count);
+  message.margin = options.margin;
+  message.has_minimum = detection.minimum() != nullptr;
+  message.minimum_distance = infinity;
+  message.minimum = Contact();
+  if (message.has_minimum) {
+    message.minimum_distance = detection.minimum()->distance;
+    fill_in(*detection.minimum(), message.minimum);
   }
-  message_.minimum_lower = completeness.lower(detection.minimum_lower(), -infinity);
-  message_.minimum_upper = detection.minimum_upper();
-  message_.kernel = name_of(options.kernel);
-  message_.tolerance = options.tolerance;
-  message_.complete = completeness.is_complete();
-  message_.unknown = completeness.unknown();
-  message_.limit_reached =
+  message.minimum_lower = completeness.lower(detection.minimum_lower(), -infinity);
+  message.minimum_upper = detection.minimum_upper();
+  message.kernel = name_of(options.kernel);
+  message.tolerance = options.tolerance;
+  message.complete = completeness.is_complete();
+  message.unknown = completeness.unknown();
+  message.limit_reached =
       detection.is_limit_reached() || (motion != nullptr && motion->result.limit_reached);
-  message_.node_tests = detection.counts().node_tests;
-  message_.node_overlaps = detection.counts().node_overlaps;
-  message_.primitive_tests = detection.counts().primitive_tests;
-  message_.update_time = update_time;
-  message_.detect_time = detection.contact_time() + detection.minimum_time();
-  publisher_.publish(message_);
+  message.node_tests = detection.counts().node_tests;
+  message.node_overlaps = detection.counts().node_overlaps;
+  message.primitive_tests = detection.counts().primitive_tests;
+  message.update_time = update_time;
+  message.detect_time = detection.contact_time() + detection.minimum_time();
+  topic_.publish();
+}
+
+Completeness ContactOutput::completeness_of(const ContactAnswer& answer) const {
+  using About = Knowledge::About;
+  Completeness known = answer.knowledge.completeness(
+      type_b_ == Contact::OBJECT ? About::FIBERS_AND_ENVIRONMENT : About::FIBERS);
+  known.add_cut_off(answer.detection.cut_off(answer.options));
+  if (answer.motion != nullptr && !answer.motion->result.complete) {
+    known.add_cut_off(cut_off_text("pairs that move", answer.options));
+  }
+  return known;
 }
 
 void ContactOutput::skip() {

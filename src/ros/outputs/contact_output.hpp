@@ -11,7 +11,7 @@
 #include "src/ros/detection/detector.hpp"
 #include "src/ros/detection/knowledge.hpp"
 #include "src/ros/detection/step_contacts.hpp"
-#include "src/ros/support/advertise.hpp"
+#include "src/ros/outputs/output_topic.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -26,7 +26,6 @@ struct ContactAnswer {
   const Detection& detection;
   const fiber::QueryOptions& options;
   const KnownMotion* motion;  ///< since the answer before; null if it is of its stamp alone
-  const Completeness& completeness;
   const Knowledge& knowledge;
   const BodyNames& names;
   const std_msgs::Header& header;
@@ -40,11 +39,11 @@ class ContactOutput {
   /// @param topic       of ContactArray
   /// @param type_b      what the second bodies are, fiber_proximity::Contact::FIBER or OBJECT
   /// @param on_newcomer called when somebody begins to listen
-  ContactOutput(ros::NodeHandle& private_node, const std::string& topic, std::uint8_t type_b,
+  ContactOutput(ros::NodeHandle private_node, const std::string& topic, std::uint8_t type_b,
                 const Newcomer& on_newcomer);
 
   bool has_listeners() const {
-    return publisher_.getNumSubscribers() > 0 || event_publisher_.getNumSubscribers() > 0;
+    return topic_.has_listeners() || event_publisher_.getNumSubscribers() > 0;
   }
 
   /// Takes the contacts of an answer; publishes what began and ended, if somebody listens.
@@ -62,11 +61,12 @@ class ContactOutput {
   void skip();
 
  private:
+  Completeness completeness_of(const ContactAnswer& answer) const;
   void rename(const BodyNames& names, const fiber::TimeBounds& step);
   void publish_events(const BodyNames& names, const ContactAnswer& answer);
 
   std::uint8_t type_b_;
-  ros::Publisher publisher_;
+  OutputTopic<fiber_proximity::ContactArray> topic_;
   ros::Publisher event_publisher_;
   fiber::TouchTracker tracker_;
   bool has_answer_ = false;
@@ -76,7 +76,6 @@ class ContactOutput {
   // Members for their memory.
   std::vector<fiber::TouchingPair> pairs_;
   std::vector<fiber::TouchEvent> events_;
-  fiber_proximity::ContactArray message_;
 };
 
 }  // namespace fiber_proximity_ros

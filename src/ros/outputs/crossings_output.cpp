@@ -11,10 +11,8 @@ namespace fiber_proximity_ros {
 
 CrossingsOutput::CrossingsOutput(const ros::NodeHandle& private_node, const FixedFrame& frame,
                                  const Newcomer& on_newcomer)
-    : frame_(frame) {
+    : frame_(frame), topic_(private_node, "crossings", on_newcomer) {
   read_parameters(private_node);
-  ros::NodeHandle node = private_node;
-  publisher_ = advertise<fiber_proximity::CrossingArray>(node, "crossings", on_newcomer);
 }
 
 void CrossingsOutput::read_parameters(const ros::NodeHandle& private_node) {
@@ -76,16 +74,17 @@ void CrossingsOutput::publish(const fiber::FiberAssembly& fibers, const std_msgs
   if (!find(fibers, header)) {
     return;
   }
-  message_.header = header;
-  message_.fiber_names = names;
-  message_.direction = to_vector_message(view_.direction);
-  message_.is_perspective = view_.is_perspective;
-  message_.eye = to_message(view_.eye);
-  message_.crossings.resize(crossings_.size());
+  fiber_proximity::CrossingArray& message = topic_.message();
+  message.header = header;
+  message.fiber_names = names;
+  message.direction = to_vector_message(view_.direction);
+  message.is_perspective = view_.is_perspective;
+  message.eye = to_message(view_.eye);
+  message.crossings.resize(crossings_.size());
   for (std::size_t i = 0; i < crossings_.size(); ++i) {
-    to_message(crossings_[i], message_.crossings[i]);
+    to_message(crossings_[i], message.crossings[i]);
   }
-  publisher_.publish(message_);
+  topic_.publish();
 }
 
 }  // namespace fiber_proximity_ros

@@ -10,7 +10,7 @@
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/query/crossings.hpp"
 #include "src/ros/inputs/fixed_frame.hpp"
-#include "src/ros/support/advertise.hpp"
+#include "src/ros/outputs/output_topic.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -29,7 +29,7 @@ class CrossingsOutput {
                   const Newcomer& on_newcomer);
 
   /// Whether anybody listens.
-  bool is_wanted() const { return publisher_.getNumSubscribers() > 0; }
+  bool is_wanted() const { return topic_.has_listeners(); }
 
   /// There are other fibres from now on, whose crossings are found when they are first wanted.
   void forget() { is_found_ = false; }
@@ -44,8 +44,9 @@ class CrossingsOutput {
   /// @returns false, without any, if it is unknown where the camera is
   bool find(const fiber::FiberAssembly& fibers, const std_msgs::Header& header);
 
-  /// What the last find() or publish() has found, and in which view.
+  /// The crossings that the last find() or publish() has found.
   const std::vector<fiber::Crossing>& crossings() const { return crossings_; }
+  /// The view in which they were found.
   const fiber::View& view() const { return view_; }
 
  private:
@@ -57,8 +58,7 @@ class CrossingsOutput {
   fiber::CrossingFinder finder_;
   std::vector<fiber::Crossing> crossings_;
   bool is_found_ = false;
-  fiber_proximity::CrossingArray message_;  // a member for its memory
-  ros::Publisher publisher_;
+  OutputTopic<fiber_proximity::CrossingArray> topic_;
 };
 
 }  // namespace fiber_proximity_ros

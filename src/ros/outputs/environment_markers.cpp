@@ -5,11 +5,11 @@
 #include <cmath>
 #include <utility>
 
+#include "fiber_proximity/environment/occupancy_octree.hpp"
 #include "fiber_proximity/environment/shapes.hpp"
 #include "fiber_proximity/environment/triangle_mesh.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
 #include "src/environment/obstacle_parts.hpp"
-#include "src/environment/occupancy_octree.hpp"
 #include "src/geometry/smallest_rotation.hpp"
 #include "src/ros/outputs/label_place.hpp"
 #include "src/ros/outputs/tube_mesh.hpp"
@@ -117,13 +117,13 @@ class ShapeDrawer {
     begin_triangles();
     std::size_t drawn = 0;
     for (const fiber::TriangleMesh::Triangle& triangle : mesh->triangles()) {
-      if (is_near(*mesh, triangle) && ++drawn <= most_mesh_triangles) {
+      if (is_near(*mesh, triangle) && ++drawn <= max_mesh_triangles) {
         for (const std::uint32_t corner : triangle) {
           marker_.points.push_back(to_message(mesh->vertices()[corner]));
         }
       }
     }
-    if (drawn > most_mesh_triangles) {
+    if (drawn > max_mesh_triangles) {
       marker_.points.clear();
       draw_solid(Marker::CUBE, mesh->box().sizes(),
                  pose_ * Eigen::Translation3d(mesh->box().center()));
@@ -177,7 +177,7 @@ bool is_link(const fiber::EnvironmentObject& object) {
   return object.name.rfind(fiber::robot_prefix, 0) == 0;
 }
 
-/// What is near the fibres. Each is looked at only if its box is near.
+/// Tells what is near the fibres. A fibre is examined only if its box is near.
 class Neighbourhood {
  public:
   Neighbourhood(const fiber::FiberAssembly& fibers, double reach)
@@ -276,10 +276,6 @@ void draw_nearest_object(const EnvironmentDrawing& drawing, double free_distance
                          const std::vector<PlacedText>& others, const MarkerScale& scale,
                          MarkerCanvas& canvas) {
   const fiber::Contact& minimum = *drawing.minimum;
-  Marker& line = canvas.add("environment_nearest", Marker::LINE_LIST);
-  line.scale.x = 0.004 * scale.extent;
-  line.color = distance_color(minimum.distance, free_distance);
-  line.points = {to_message(minimum.point_a), to_message(minimum.point_b)};
   // At the object, on the side where its surface is, as its inside would hide the text; a little
   // upwards, as what it stands on would.
   const std::string text =
@@ -288,10 +284,8 @@ void draw_nearest_object(const EnvironmentDrawing& drawing, double free_distance
   const double height = 0.035 * scale.extent;
   const double gap = 1.5 * height;
   const Label label{minimum.point_b, outwards, gap, height, text.size(), minimum.normal, others};
-  const Vector3d place = label_place(drawing.fibers, scale, label);
-  canvas.add_text("environment_nearest_text", height, place, text);
-  canvas.add_leader("environment_nearest_leader", scale, minimum.point_b,
-                    leader_end(scale, label, place));
+  draw_closest_pair(drawing.fibers, scale, minimum, distance_color(minimum.distance, free_distance),
+                    label, text, "environment_nearest", canvas);
 }
 
 }  // namespace

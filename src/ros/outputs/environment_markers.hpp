@@ -12,7 +12,7 @@
 
 namespace fiber_proximity_ros {
 
-/// What to draw of the environment.
+/// Options for drawing the environment.
 struct EnvironmentMarkerOptions {
   bool show_objects = true;
   bool show_distances = true;
@@ -31,7 +31,7 @@ struct EnvironmentDrawing {
 
 /// A mesh of more triangles than this, of those near what is looked at, is drawn as its box: the
 /// message would be of megabytes.
-constexpr std::size_t most_mesh_triangles = 20'000;
+constexpr std::size_t max_mesh_triangles = 20'000;
 
 /// Whether a shape reaches into a box [m], which must not be empty; bounded ones by their own
 /// boxes.
@@ -55,7 +55,7 @@ std_msgs::ColorRGBA distance_color(double distance, double free_distance);
 /// | ns                         | id | what                                                       |
 /// |----------------------------|----|------------------------------------------------------------|
 /// | `obstacles`                | n  | half-transparent shapes near fibres, see draw_shape()      |
-/// | `robot`                    | n  | the same of the robot's links                              |
+/// | `robot`                    | n  | half-transparent shapes of the robot's links near fibres   |
 /// | `environment_distances`    | 0  | LINE_LIST between nearest points, coloured by distance     |
 /// | `environment_points`       | 0  | SPHERE_LIST of the points on the objects, so coloured, too |
 /// | `environment_nearest`      | 0  | LINE_LIST between the nearest points of the closest pair   |

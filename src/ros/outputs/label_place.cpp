@@ -6,13 +6,15 @@
 #include <limits>
 #include <utility>
 
+#include "fiber_proximity/ros/conversions.hpp"
+
 namespace fiber_proximity_ros {
 namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// What is seen from the front, and from as far above as the views of this package look from.
+/// The image that is seen from the front, and from as far above as the views of this package look.
 struct Picture {
   explicit Picture(const MarkerScale& scale)
       : side(scale.side()),
@@ -100,7 +102,7 @@ Vector3d label_place(const fiber::FiberAssembly& fibers, const MarkerScale& scal
     return Vector3d(label.point + (gaps * label.gap + own) * direction);
   };
   const Vector3d& first = label.preferred;
-  if (fibers.segment_count() > most_label_segments) {
+  if (fibers.segment_count() > max_label_segments) {
     return place_at(first, 1.0);
   }
   const Vector3d& up = scale.up;
@@ -122,7 +124,7 @@ Vector3d label_place(const fiber::FiberAssembly& fibers, const MarkerScale& scal
                                                             {-up, 1.0}}};
   const double enough = 0.5 * label.height;
   Vector3d best = place_at(first, 1.0);
-  double most = -std::numeric_limits<double>::infinity();
+  double max_room = -std::numeric_limits<double>::infinity();
   for (const auto& [direction, gaps] : places) {
     if (direction.dot(label.inwards) > 0.1) {
       continue;
@@ -134,8 +136,8 @@ Vector3d label_place(const fiber::FiberAssembly& fibers, const MarkerScale& scal
     if (room >= enough) {
       return place;
     }
-    if (room > most) {
-      most = room;
+    if (room > max_room) {
+      max_room = room;
       best = place;
     }
   }
@@ -146,6 +148,19 @@ Vector3d leader_end(const MarkerScale& scale, const Label& label, const Vector3d
   const Vector3d direction = (place - label.point).stableNormalized();
   const double distance = (place - label.point).norm() - half_extent(scale, label, direction);
   return label.point + 0.9 * distance * direction;
+}
+
+void draw_closest_pair(const fiber::FiberAssembly& fibers, const MarkerScale& scale,
+                       const fiber::Contact& pair, const std_msgs::ColorRGBA& color,
+                       const Label& label, const std::string& text, const std::string& ns,
+                       MarkerCanvas& canvas) {
+  visualization_msgs::Marker& line = canvas.add(ns, visualization_msgs::Marker::LINE_LIST);
+  line.scale.x = 0.004 * scale.extent;
+  line.color = color;
+  line.points = {to_message(pair.point_a), to_message(pair.point_b)};
+  const Vector3d place = label_place(fibers, scale, label);
+  canvas.add_text(ns + "_text", label.height, place, text);
+  canvas.add_leader(ns + "_leader", scale, label.point, leader_end(scale, label, place));
 }
 
 }  // namespace fiber_proximity_ros

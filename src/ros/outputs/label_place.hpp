@@ -2,9 +2,11 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/query/contact.hpp"
 #include "src/ros/outputs/marker_canvas.hpp"
 
 namespace fiber_proximity_ros {
@@ -38,16 +40,23 @@ double text_width(double height, std::size_t letters);
 ///
 /// Whoever looks at fibres is taken to look from the front and a little from above: what lies
 /// before or behind a text there hides it, however far away. Of more segments than
-/// `most_label_segments` none is looked at: the preferred direction is taken.
+/// `max_label_segments` none is looked at: the preferred direction is taken.
 Eigen::Vector3d label_place(const fiber::FiberAssembly& fibers, const MarkerScale& scale,
                             const Label& label);
 
-/// Where a line from the point to the text ends: a little before its letters.
+/// The end of a line from the point to the text, a little before its letters.
 /// @param place as label_place() has it
 Eigen::Vector3d leader_end(const MarkerScale& scale, const Label& label,
                            const Eigen::Vector3d& place);
 
+/// Draws the line between the points of a closest pair, the text that belongs to it, and a leader
+/// from the label's point to the text. Their namespaces are `ns`, `ns`_text and `ns`_leader.
+void draw_closest_pair(const fiber::FiberAssembly& fibers, const MarkerScale& scale,
+                       const fiber::Contact& pair, const std_msgs::ColorRGBA& color,
+                       const Label& label, const std::string& text, const std::string& ns,
+                       MarkerCanvas& canvas);
+
 /// Looking for room takes time for each of them.
-constexpr std::size_t most_label_segments = 20'000;
+constexpr std::size_t max_label_segments = 20'000;
 
 }  // namespace fiber_proximity_ros

@@ -49,7 +49,7 @@ struct MarkerScale {
   Eigen::AlignedBox3d box;                        ///< around the points
 };
 
-/// What a colour means.
+/// A line of the legend: the meaning of a colour.
 struct LegendLine {
   Rgb color;
   std::string text;

@@ -123,18 +123,12 @@ void draw_passed(const std::vector<fiber::Contact>& contacts, double largest,
 
 void draw_nearest(const fiber::FiberAssembly& fibers, const fiber::Contact& minimum,
                   const MarkerScale& scale, MarkerCanvas& canvas) {
-  Marker& line = canvas.add("nearest", Marker::LINE_LIST);
-  line.scale.x = 0.004 * scale.extent;
-  line.color = color(palette::nearest);
-  line.points = {to_message(minimum.point_a), to_message(minimum.point_b)};
   const std::string text = distance_text(minimum.distance);
   const double height = text_height * scale.extent;
   const double gap = 1.5 * height;
-  const Vector3d middle = middle_of(minimum);
-  const Label label{middle, scale.up, gap, height, text.size(), Vector3d::Zero(), {}};
-  const Vector3d place = label_place(fibers, scale, label);
-  canvas.add_text("nearest_text", height, place, text);
-  canvas.add_leader("nearest_leader", scale, middle, leader_end(scale, label, place));
+  const Label label{middle_of(minimum), scale.up, gap, height, text.size(), Vector3d::Zero(), {}};
+  draw_closest_pair(fibers, scale, minimum, color(palette::nearest), label, text, "nearest",
+                    canvas);
 }
 
 void draw_boxes(const std::vector<fiber::NodeBox>& boxes, double extent, MarkerCanvas& canvas) {
@@ -284,7 +278,7 @@ void MarkerBuilder::build(const std_msgs::Header& header, const Drawing& drawing
   // Thicker than the fibres, to be seen where two of them hide the point of contact.
   const double thickness = 3.0 * scale.thickest;
   MarkerCanvas canvas(header, markers);
-  if (options.show_fibers && fibers.segment_count() > most_tube_segments) {
+  if (options.show_fibers && fibers.segment_count() > max_tube_segments) {
     draw_lines(fibers, 2.0 * scale.thinnest, canvas);
   } else if (options.show_fibers) {
     draw_tubes(fibers, canvas);
@@ -309,7 +303,7 @@ void MarkerBuilder::build(const std_msgs::Header& header, const Drawing& drawing
   if (options.show_crossings && crossings != nullptr && !crossings->crossings.empty()) {
     draw_crossings(fibers, *crossings, thickness, canvas.add("crossings", Marker::LINE_LIST));
   }
-  if (options.show_names && names != nullptr && names->size() <= most_names) {
+  if (options.show_names && names != nullptr && names->size() <= max_names) {
     draw_names(fibers, *names, scale, canvas);
   }
   if (options.show_legend && legend != nullptr && fibers.fiber_count() > 0) {

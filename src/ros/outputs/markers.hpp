@@ -16,7 +16,7 @@
 
 namespace fiber_proximity_ros {
 
-/// What to draw.
+/// Options for drawing an answer.
 struct MarkerOptions {
   bool show_fibers = true;
   bool show_contacts = true;
@@ -50,16 +50,16 @@ struct Drawing {
   const std::vector<std::string>* unknown = nullptr;  ///< what the answer lacks; it is always shown
 };
 
-/// What an answer cost and how accurate it is, in one line.
+/// The cost of an answer and its accuracy, in one line.
 /// @param seconds of update and detection
 /// @param error   [m] of a contact's distance, at most
 std::string cost_text(const std::string& kernel, double seconds, double error, bool is_complete);
 
-/// What an answer lacks, in one line.
+/// The things that an answer lacks, in one line.
 /// @param unknown not empty
 std::string incomplete_text(const std::vector<std::string>& unknown);
 
-/// What the colours of the markers mean that these options show: a line for each.
+/// The legend of the markers that these options show: a line for each colour.
 /// @param margin [m] of the contacts; may be infinite
 std::vector<LegendLine> legend_lines(const MarkerOptions& options,
                                      const EnvironmentMarkerOptions& environment, double margin);
@@ -77,7 +77,7 @@ void draw_crossings(const fiber::FiberAssembly& fibers, const CrossingDrawing& d
 /// | ns             | id          | what                                                         |
 /// |----------------|-------------|--------------------------------------------------------------|
 /// | `fibers`       | fibre index | tubes of the exact radius (TRIANGLE_LIST); above             |
-/// |                |             | `most_tube_segments` in all one LINE_LIST of id 0            |
+/// |                |             | `max_tube_segments` in all one LINE_LIST of id 0            |
 /// | `contacts`     | n           | SPHERE_LIST midway between the surfaces; red in penetration, |
 /// |                |             | amber within the margin; one of each size                    |
 /// | `normals`      | 0           | LINE_LIST from there along the normal a→b                    |
@@ -89,7 +89,7 @@ void draw_crossings(const fiber::FiberAssembly& fibers, const CrossingDrawing& d
 /// | `boxes`        | 0           | LINE_LIST of the edges of the boxes                          |
 /// | `crossings`    | 0           | LINE_LIST: bars over, stubs under; green +1, magenta −1      |
 /// | `names`        | fibre index | TEXT_VIEW_FACING at each fibre's first point, unless there   |
-/// |                |             | are more than `most_names`                                   |
+/// |                |             | are more than `max_names`                                   |
 /// | `legend`       | line        | TEXT_VIEW_FACING below all fibres and in front of them, one  |
 /// |                |             | line below another                                           |
 /// | `axes`         | 0           | LINE_LIST beside the fibres, with the legend: x red, y       |
@@ -100,10 +100,10 @@ void draw_crossings(const fiber::FiberAssembly& fibers, const CrossingDrawing& d
 class MarkerBuilder {
  public:
   /// More segments than this would make messages of many megabytes: 1.2 kB each.
-  static constexpr std::size_t most_tube_segments = 5000;
+  static constexpr std::size_t max_tube_segments = 5000;
 
   /// More names than this cannot be read.
-  static constexpr std::size_t most_names = 20;
+  static constexpr std::size_t max_names = 20;
 
   /// Markers of one update; ends with DELETE for what the previous call drew and this one does not.
   /// @param markers overwritten; memory of an earlier call is reused

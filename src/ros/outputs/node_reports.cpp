@@ -13,32 +13,29 @@ std::uint32_t to_count(std::size_t count) { return static_cast<std::uint32_t>(co
 
 }  // namespace
 
-StatisticsOutput::StatisticsOutput(ros::NodeHandle& private_node, const Subject& about,
+StatisticsOutput::StatisticsOutput(const ros::NodeHandle& private_node, const DetectedScene& about,
                                    const Newcomer& on_newcomer)
-    : about_(about),
-      publisher_(advertise<fiber_proximity::Statistics>(private_node, "statistics", on_newcomer)) {}
+    : about_(about), topic_(private_node, "statistics", on_newcomer) {}
 
-void StatisticsOutput::add_part(const std::string& name, double seconds) {
-  parts_.emplace_back(name, seconds);
-}
-
-void StatisticsOutput::publish(fiber::Kernel kernel, const Completeness& of_fibers,
-                               const Completeness& of_all, double time) {
-  fiber_proximity::Statistics& message = message_;
-  message.header = about_.inputs.header();
-  message.engine = about_.engine;
-  message.fibers = to_count(about_.inputs.fibers().fiber_count());
-  message.points = to_count(about_.inputs.fibers().point_count());
-  message.segments = to_count(about_.inputs.fibers().segment_count());
-  const Detection& found = about_.detector.detection();
+void StatisticsOutput::publish(const Completeness& of_fibers, const Completeness& of_all,
+                               double time) {
+  const auto& [scene, detector, environment, step, query] = about_;
+  fiber_proximity::Statistics& message = topic_.message();
+  message.header = scene.fibers.header();
+  message.engine = detector.engine_name();
+  const fiber::FiberAssembly& fibers = scene.fibers.fibers();
+  message.fibers = to_count(fibers.fiber_count());
+  message.points = to_count(fibers.point_count());
+  message.segments = to_count(fibers.segment_count());
+  const Detection& found = detector.detection();
   message.contacts = to_count(found.contacts().contacts.size());
   message.minimum_distance = found.minimum() != nullptr ? found.minimum()->distance
                                                         : std::numeric_limits<double>::infinity();
   message.merge_time = parts_.front().second;
-  message.update_time = about_.detector.update_time();
-  message.detect_time = about_.detector.detect_time();
+  message.update_time = detector.update_time();
+  message.detect_time = detector.detect_time();
   message.total_time = time;
-  message.kernel = name_of(kernel);
+  message.kernel = name_of(query.kernel);
   message.complete = of_all.is_complete();
   message.unknown = of_all.unknown();
   message.limit_reached = found.is_limit_reached();
@@ -55,31 +52,31 @@ void StatisticsOutput::publish(fiber::Kernel kernel, const Completeness& of_fibe
     message.parts.push_back(name);
     message.part_times.push_back(seconds);
   }
-  message.discrete_answers = about_.step.problem_count();
-  message.discrete_reason = about_.step.problem();
-  const bool is_alone = !about_.environment.is_used();
-  message.objects = is_alone ? 0 : to_count(about_.environment.environment().objects().size());
+  message.discrete_answers = step.problem_count();
+  message.discrete_reason = step.problem();
+  const bool is_alone = !scene.environment.is_used();
+  message.objects = is_alone ? 0 : to_count(environment.environment().objects().size());
   message.environment_contacts =
-      is_alone ? 0 : to_count(about_.environment.detection().contacts().contacts.size());
+      is_alone ? 0 : to_count(environment.detection().contacts().contacts.size());
   message.inputs.clear();
-  for (const std::unique_ptr<Input>& input : about_.inputs.inputs()) {
+  for (const std::unique_ptr<Input>& input : scene.fibers.inputs()) {
     message.inputs.push_back(input->statistics(ros::Time::now()));
   }
-  for (const auto& input : about_.environment.inputs().statistics(ros::Time::now())) {
+  for (const auto& input : scene.environment.statistics(ros::Time::now())) {
     message.inputs.push_back(input);
   }
-  publisher_.publish(message);
+  topic_.publish();
 }
 
 Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
-                         const Subject& about)
+                         const DetectedScene& about)
     : about_(about), updater_(node, private_node, private_node.getNamespace()) {
   updater_.setHardwareID("none");
-  for (std::size_t i = 0; i < about_.inputs.inputs().size(); ++i) {
-    updater_.add("input " + about_.inputs.inputs()[i]->options().topic,
+  for (std::size_t i = 0; i < about_.scene.fibers.inputs().size(); ++i) {
+    updater_.add("input " + about_.scene.fibers.inputs()[i]->options().topic,
                  [this, i](Status& status) { report_input(i, status); });
   }
-  for (const std::string& source : about_.environment.sources()) {
+  for (const std::string& source : about_.scene.environment.sources()) {
     updater_.add("environment " + source,
                  [this, source](Status& status) { report_source(source, status); });
   }
@@ -95,7 +92,7 @@ void Diagnostics::count(const std::string& cut_off) {
   }
 }
 
-/// What becomes of the messages of a topic; the summary is worse where some were refused since the
+/// Adds the counts of messages of a topic; the summary is worse where some were refused since the
 /// last report.
 void Diagnostics::add_counts(const fiber_proximity::InputStatistics& input, Status& status) {
   Seen now;
@@ -116,7 +113,7 @@ void Diagnostics::add_counts(const fiber_proximity::InputStatistics& input, Stat
 }
 
 void Diagnostics::report_input(std::size_t index, Status& status) {
-  const Input& source = *about_.inputs.inputs()[index];
+  const Input& source = *about_.scene.fibers.inputs()[index];
   const fiber_proximity::InputStatistics input = source.statistics(ros::Time::now());
   const std::optional<Unknown> unknown = source.unknown();
   if (input.stale) {
@@ -138,7 +135,7 @@ void Diagnostics::report_input(std::size_t index, Status& status) {
 /// A source of the environment: robot, scene or a topic.
 void Diagnostics::report_source(const std::string& source, Status& status) {
   std::vector<std::string> unknown;
-  for (const Unknown& each : about_.knowledge.unknown_objects()) {
+  for (const Unknown& each : about_.scene.knowledge.unknown_objects()) {
     if (each.source == source) {
       unknown.push_back(text_of(each));
       status.add("unknown", unknown.back());
@@ -150,7 +147,7 @@ void Diagnostics::report_source(const std::string& source, Status& status) {
     status.summary(DiagnosticStatus::ERROR,
                    std::to_string(unknown.size()) + " unknown: " + unknown.front());
   }
-  for (const auto& topic : about_.environment.statistics(ros::Time::now())) {
+  for (const auto& topic : about_.scene.environment.statistics(ros::Time::now())) {
     if (topic.topic == source) {
       add_counts(topic, status);
     }
@@ -158,29 +155,31 @@ void Diagnostics::report_source(const std::string& source, Status& status) {
 }
 
 void Diagnostics::report_engine(Status& status) const {
-  const Detection& found = about_.detector.detection();
-  if (about_.inputs.inputs().empty()) {
+  const ObservedScene& scene = about_.scene;
+  const Detector& detector = about_.detector;
+  const Detection& found = detector.detection();
+  if (scene.fibers.inputs().empty()) {
     status.summary(DiagnosticStatus::ERROR, "no valid input in ~inputs");
-  } else if (!about_.inputs.is_fresh()) {
+  } else if (!scene.fibers.is_fresh()) {
     status.summary(DiagnosticStatus::WARN, "no fresh input");
-  } else if (!about_.knowledge.is_all_known()) {
+  } else if (!scene.knowledge.is_all_known()) {
     status.summary(DiagnosticStatus::WARN, "answers are incomplete: something is unknown");
   } else {
     status.summary(DiagnosticStatus::OK, "answering");
   }
   for (const auto* unknown :
-       {&about_.knowledge.unknown_fibers(), &about_.knowledge.unknown_objects()}) {
+       {&scene.knowledge.unknown_fibers(), &scene.knowledge.unknown_objects()}) {
     for (const Unknown& each : *unknown) {
       status.add("unknown", text_of(each));
     }
   }
-  status.add("fixed frame", about_.inputs.frame().name());
+  status.add("fixed frame", scene.fibers.frame().name());
   status.add("contacts", found.contacts().contacts.size());
   if (found.minimum() != nullptr) {
     status.addf("minimum distance [m]", "%.6f", found.minimum()->distance);
   }
-  status.addf("update [ms]", "%.3f", 1e3 * about_.detector.update_time());
-  status.addf("detect [ms]", "%.3f", 1e3 * about_.detector.detect_time());
+  status.addf("update [ms]", "%.3f", 1e3 * detector.update_time());
+  status.addf("detect [ms]", "%.3f", 1e3 * detector.detect_time());
 }
 
 void Diagnostics::report_deadlines(Status& status) {
@@ -192,9 +191,9 @@ void Diagnostics::report_deadlines(Status& status) {
                                                std::to_string(counts.answers) +
                                                " answers cut off: " + counts.reason);
   }
-  status.addf("deadline [s]", "%g", about_.options.deadline);
-  status.add("pair limit", about_.options.pair_limit);
-  status.add("contact limit", about_.options.contact_limit);
+  status.addf("deadline [s]", "%g", about_.query.deadline);
+  status.add("pair limit", about_.query.pair_limit);
+  status.add("contact limit", about_.query.contact_limit);
   status.add("answers", counts.answers);
   status.add("cut off", counts.cut_off);
 }

@@ -10,49 +10,33 @@
 #include <vector>
 
 #include "fiber_proximity/Statistics.h"
-#include "fiber_proximity/query/options.hpp"
-#include "src/ros/detection/detector.hpp"
-#include "src/ros/detection/fiber_step.hpp"
-#include "src/ros/detection/knowledge.hpp"
-#include "src/ros/inputs/input_set.hpp"
-#include "src/ros/outputs/environment_output.hpp"
-#include "src/ros/support/advertise.hpp"
+#include "src/ros/detection/detected_scene.hpp"
+#include "src/ros/outputs/output_topic.hpp"
 
 namespace fiber_proximity_ros {
 
 /// Sizes, times and accuracy of each answer, on ~statistics.
 class StatisticsOutput {
  public:
-  /// What they are about; all must outlive the output.
-  struct Subject {
-    const std::string& engine;
-    InputSet& inputs;
-    const Detector& detector;
-    const EnvironmentOutput& environment;
-    const FiberStep& step;
-  };
-
-  StatisticsOutput(ros::NodeHandle& private_node, const Subject& about,
+  StatisticsOutput(const ros::NodeHandle& private_node, const DetectedScene& about,
                    const Newcomer& on_newcomer);
 
-  bool has_listeners() const { return publisher_.getNumSubscribers() > 0; }
+  bool has_listeners() const { return topic_.has_listeners(); }
 
   /// Forgets the parts of the answer before.
   void begin() { parts_.clear(); }
 
-  /// What an answer has run, and how long it took [s]. The first part is the merging of inputs.
-  void add_part(const std::string& name, double seconds);
+  /// Adds a part of the answer and how long it took [s]. The first part is the merging of inputs.
+  void add_part(const std::string& name, double seconds) { parts_.emplace_back(name, seconds); }
 
   /// @param of_fibers how complete the contacts of fibres are, of all how complete all of it is
   /// @param time      [s] of all of it, with conversions
-  void publish(fiber::Kernel kernel, const Completeness& of_fibers, const Completeness& of_all,
-               double time);
+  void publish(const Completeness& of_fibers, const Completeness& of_all, double time);
 
  private:
-  Subject about_;
-  ros::Publisher publisher_;
+  DetectedScene about_;
+  OutputTopic<fiber_proximity::Statistics> topic_;
   std::vector<std::pair<std::string, double>> parts_;
-  fiber_proximity::Statistics message_;  // for its memory
 };
 
 /// Answers since the last report, and how many of them a deadline or a limit has cut off.
@@ -66,17 +50,8 @@ struct AnswerCounts {
 /// one for the engine and one for deadlines and limits.
 class Diagnostics {
  public:
-  /// What they are about; all must outlive this.
-  struct Subject {
-    const InputSet& inputs;
-    const EnvironmentInputs& environment;
-    const Knowledge& knowledge;
-    const Detector& detector;
-    const fiber::QueryOptions& options;
-  };
-
   Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
-              const Subject& about);
+              const DetectedScene& about);
   Diagnostics(const Diagnostics&) = delete;
   Diagnostics& operator=(const Diagnostics&) = delete;
 
@@ -90,7 +65,7 @@ class Diagnostics {
  private:
   using Status = diagnostic_updater::DiagnosticStatusWrapper;
 
-  /// What was seen at the last report, for rates.
+  /// The counts at the last report, for rates.
   struct Seen {
     ros::SteadyTime time = ros::SteadyTime::now();
     std::uint64_t received = 0;
@@ -103,7 +78,7 @@ class Diagnostics {
   void report_deadlines(Status& status);
   void add_counts(const fiber_proximity::InputStatistics& input, Status& status);
 
-  Subject about_;
+  DetectedScene about_;
   std::map<std::string, Seen> seen_;  // by topic
   AnswerCounts counts_;
   diagnostic_updater::Updater updater_;

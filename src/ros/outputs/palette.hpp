@@ -14,7 +14,7 @@ inline Rgb mix(const Rgb& a, const Rgb& b, double part) {
   return {a[0] + u * (b[0] - a[0]), a[1] + u * (b[1] - a[1]), a[2] + u * (b[2] - a[2])};
 }
 
-/// What distances look like, crossings and forces, everywhere.
+/// Colours of distances, crossings and forces, the same in every picture.
 namespace palette {
 constexpr Rgb penetrating{0.95F, 0.15F, 0.12F};
 constexpr Rgb within_margin{1.0F, 0.70F, 0.10F};

@@ -12,7 +12,7 @@
 
 namespace fiber_proximity_ros {
 
-/// What stands in for a radius of 0, to be seen at all [m].
+/// Fibres and shapes of radius 0 are drawn with this one, to be seen at all [m].
 constexpr double hairline_radius = 1e-4;
 
 /// A cross-section of a tube. `tangent`, `normal` and `binormal` are an orthonormal, right-handed

@@ -13,8 +13,8 @@
 
 namespace fiber_proximity_ros {
 
-/// What the player plays, and how; the node's private parameters of the same names, whose defaults
-/// are in cfg/interface.yaml.
+/// The source and the format that the player plays; the node's private parameters of the same
+/// names, whose defaults are in cfg/interface.yaml.
 struct PlayerOptions {
   std::string file;   ///< fibre file to play; empty: the scene
   std::string scene;  ///< one of fiber::scene_names()

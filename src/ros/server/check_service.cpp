@@ -25,7 +25,7 @@ using fiber_proximity::Contact;
 constexpr std::size_t queries_per_candidate = 3;
 
 /// So many are checked at once, that it does not take long to see that a deadline has come.
-constexpr std::size_t most_candidates = 256;
+constexpr std::size_t max_candidates = 256;
 
 /// Must be validated yet.
 fiber::QueryOptions options_of_candidates(const CheckFibers::Request& request,
@@ -90,7 +90,7 @@ fiber::FiberAssembly to_candidate(const fiber_proximity::FiberArray& message,
   if (chains.header.frame_id.empty()) {
     chains.header.frame_id = frame.name();
   }
-  frame.place(chains.header, fibers, chains.points);
+  frame.place(chains.header, fibers);
   return fibers;
 }
 
@@ -125,15 +125,15 @@ class PresentFibers {
     }
   }
 
-  /// What candidates of the request are to be checked against, but for what may touch.
+  /// The bodies that candidates of the request are checked against, without the allowed pairs.
   const fiber::Surroundings& surroundings() const { return surroundings_; }
 
-  /// What all fibres of the node count one of these as.
+  /// The index among all fibres of the node of one that is present.
   std::uint32_t number_among_all(std::uint32_t fiber) const { return kept_[fiber]; }
 
  private:
   void leave_out(const QueryTarget& target, const std::vector<std::string>& replaced) {
-    const std::vector<std::string>& names = target.fiber_names;
+    const std::vector<std::string>& names = target.scene.fibers.names();
     for (const std::string& name : replaced) {
       if (std::find(names.begin(), names.end(), name) == names.end()) {
         throw std::invalid_argument("there is no fibre " + fiber::quote(name) + " to be replaced");
@@ -193,7 +193,7 @@ void append(const Check& check, const PresentFibers& present, bool was_all_there
   response.offsets.push_back(static_cast<std::uint32_t>(response.contacts.size()));
 }
 
-/// What the candidates of a request are checked against, as far as it is known.
+/// How completely the bodies are known that the candidates of a request are checked against.
 Completeness surroundings_known(const CheckFibers::Request& request, const Knowledge& knowledge) {
   using About = Knowledge::About;
   const bool fibers = request.ignore_fibers == 0;
@@ -217,7 +217,7 @@ void answer_all(const CheckFibers::Request& request, const QueryTarget& target,
                               std::vector<Check>&),
                 CheckFibers::Response& response) {
   const PresentFibers present(target, request);
-  Completeness known = surroundings_known(request, target.knowledge);
+  Completeness known = surroundings_known(request, target.scene.knowledge);
   bool is_cut_off = false;
   fiber::Surroundings surroundings = present.surroundings();
   const std::size_t count = offsets.size() - 1;
@@ -227,14 +227,14 @@ void answer_all(const CheckFibers::Request& request, const QueryTarget& target,
     const std::size_t begin = response.free.size();
     const std::vector<std::string>& names = request.candidates[offsets[begin]].names;
     const auto is_next = [&](std::size_t i) {
-      return i == begin || (offsets[i + 1] - offsets[begin] <= most_candidates &&
+      return i == begin || (offsets[i + 1] - offsets[begin] <= max_candidates &&
                             request.candidates[offsets[i]].names == names && !target.is_time_up());
     };
     std::vector<Item> items;
     for (std::size_t i = begin; i < count && is_next(i); ++i) {
       items.push_back(read(i));
     }
-    surroundings.allowed = target.find_allowed(names);
+    surroundings.allowed = target.scene.environment.allowed(names);
     options.deadline = target.time_for_query();
     options.contact_limit =
         share_of_contacts(target.defaults.contact_limit, response.contacts.size(),
@@ -267,14 +267,17 @@ void answer(const CheckFibers::Request& request, const QueryTarget& target,
     std::vector<std::uint32_t> offsets(request.candidates.size() + 1);
     std::iota(offsets.begin(), offsets.end(), 0);
     const auto read = [&](std::size_t i) {
-      return naming("candidate " + std::to_string(i),
-                    [&] { return to_candidate(request.candidates[i], target.frame); });
+      return naming("candidate " + std::to_string(i), [&] {
+        return to_candidate(request.candidates[i], target.scene.fibers.frame());
+      });
     };
     answer_all(request, target, offsets, options, read, &fiber::check_fibers, response);
   } else {
     const fiber::MotionOptions options = options_of_motions(request, target.defaults);
     validate_waypoints(request);
-    const auto read = [&](std::size_t i) { return read_motion(request, i, target.frame); };
+    const auto read = [&](std::size_t i) {
+      return read_motion(request, i, target.scene.fibers.frame());
+    };
     answer_all(request, target, request.waypoint_offsets, options, read, &fiber::check_motions,
                response);
   }

@@ -1,32 +1,22 @@
 #pragma once
 
-#include <functional>
-#include <string>
-#include <vector>
-
 #include "fiber_proximity/CheckFibers.h"
 #include "fiber_proximity/environment/environment.hpp"
 #include "fiber_proximity/query/engine.hpp"
 #include "fiber_proximity/query/options.hpp"
-#include "src/ros/detection/knowledge.hpp"
-#include "src/ros/inputs/fixed_frame.hpp"
+#include "src/ros/detection/observed_scene.hpp"
 
 namespace fiber_proximity_ros {
 
-/// What services ask about. Holds references: only for the call.
+/// The scene that a request is about. Holds references: only for the call.
 struct QueryTarget {
+  const ObservedScene& scene;
   const fiber::FiberAssembly& fibers;
-  const std::vector<std::string>& fiber_names;
   const fiber::ProximityEngine*
       engine;  ///< updated to the fibres; null if they are not asked about
   const fiber::Environment& environment;
-  const FixedFrame& frame;
-  const Knowledge& knowledge;
   const fiber::QueryOptions& defaults;  ///< what a request leaves open
   fiber::Deadline deadline;             ///< of the whole call, from its arrival
-
-  /// What may touch fibres of these names.
-  std::function<fiber::AllowedPairs(const std::vector<std::string>&)> find_allowed;
 
   /// Part of the time after which nothing more is examined: the rest is for the answer.
   static constexpr double examining_part = 0.8;

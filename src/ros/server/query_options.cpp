@@ -1,11 +1,13 @@
 #include "src/ros/server/query_options.hpp"
 
-#include <ros/console.h>
-
 #include <algorithm>
 #include <array>
+#include <sstream>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
+#include "src/text/join.hpp"
 #include "src/text/quote.hpp"
 
 namespace fiber_proximity_ros {
@@ -59,13 +61,25 @@ fiber::QueryOptions to_query_options(const fiber_proximity::ProximityConfig& con
   return options;
 }
 
-std::string current_kernel_name(const std::string& place, const std::string& name) {
-  std::string current = fiber::current_kernel_name(name);
-  if (current != name) {
-    ROS_WARN_STREAM(place << " is " << name << ", which saved no time and is gone: " << current
-                          << " is used");
+std::string overridden_by_accuracy(const fiber_proximity::ProximityConfig& config,
+                                   const fiber::QueryOptions& options) {
+  const auto& defaults = fiber_proximity::ProximityConfig::__getDefault__();
+  std::vector<std::string> overridden;
+  if (config.kernel != name_of(options.kernel) && config.kernel != defaults.kernel) {
+    overridden.push_back("kernel " + config.kernel);
   }
-  return current;
+  const auto add = [&](const std::string& name, double value, double used, double usual) {
+    if (value != used && value != usual) {
+      std::ostringstream text;
+      text << name << ' ' << value;
+      overridden.push_back(text.str());
+    }
+  };
+  add("tolerance", config.tolerance, options.tolerance, defaults.tolerance);
+  add("relative_tolerance", config.relative_tolerance, options.relative_tolerance,
+      defaults.relative_tolerance);
+  add("deadline", config.deadline, options.deadline, defaults.deadline);
+  return fiber::join(overridden);
 }
 
 fiber::QueryType to_query_type(std::uint8_t type) {

@@ -13,15 +13,17 @@ namespace fiber_proximity_ros {
 /// @throws std::invalid_argument naming the parameter, its value and what is allowed
 fiber::QueryOptions to_query_options(const fiber_proximity::ProximityConfig& config);
 
-/// As fiber::current_kernel_name(), with a warning where that is another name.
-/// @param place where the name stands, for the warning
-std::string current_kernel_name(const std::string& place, const std::string& name);
+/// The parameters that `accuracy` overrides although they have been set to something else than
+/// their defaults, such as "kernel exact, tolerance 0.001"; empty if there are none.
+/// @param options that to_query_options() has made of the configuration
+std::string overridden_by_accuracy(const fiber_proximity::ProximityConfig& config,
+                                   const fiber::QueryOptions& options);
 
 /// The type of this number, as the requests have them.
 /// @throws std::invalid_argument listing the numbers
 fiber::QueryType to_query_type(std::uint8_t type);
 
-/// What requests of all services have in common; they must be validated yet.
+/// The options that requests of all services have in common; they are not validated yet.
 /// @throws std::invalid_argument for an unknown type or kernel
 template <class Request>
 fiber::QueryOptions to_options(const Request& request, const fiber::QueryOptions& defaults) {
@@ -30,9 +32,7 @@ fiber::QueryOptions to_options(const Request& request, const fiber::QueryOptions
   options.margin = request.margin;
   options.max_contacts = request.max_contacts;
   options.kernel =
-      request.kernel.empty()
-          ? defaults.kernel
-          : fiber::kernel_from_name(current_kernel_name("kernel of a request", request.kernel));
+      request.kernel.empty() ? defaults.kernel : fiber::kernel_from_name(request.kernel);
   options.deadline = request.deadline;
   options.contact_limit = defaults.contact_limit;
   options.pair_limit = defaults.pair_limit;

@@ -9,8 +9,8 @@
 #include "fiber_proximity/QueryProximity.h"
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
+#include "src/ros/detection/environment_detector.hpp"
 #include "src/ros/inputs/fixed_frame.hpp"
-#include "src/ros/outputs/environment_output.hpp"
 #include "src/ros/server/check_service.hpp"
 #include "src/ros/server/query_options.hpp"
 
@@ -45,13 +45,13 @@ fiber::FiberAssembly to_assembly(const QueryShape& shape, const FixedFrame& fram
   if (points.size() == 1) {
     points.push_back(points.front());  // a sphere is a capsule of no length
   }
-  fiber::FiberAssembly assembly(points, {0, static_cast<std::uint32_t>(points.size())},
-                                {shape.radius});
+  const auto count = static_cast<std::uint32_t>(points.size());
+  fiber::FiberAssembly assembly(std::move(points), {0, count}, {shape.radius});
   std_msgs::Header header = shape.header;
   if (header.frame_id.empty()) {
     header.frame_id = frame.name();
   }
-  frame.place(header, assembly, points);
+  frame.place(header, assembly);
   return assembly;
 }
 
@@ -88,7 +88,7 @@ void append_contacts(const fiber::QueryResult& result, std::uint32_t shape,
   response.offsets.push_back(static_cast<std::uint32_t>(response.contacts.size()));
 }
 
-/// What a request is about, as far as it is known.
+/// How completely the bodies are known that a request is about.
 Completeness known_around(std::uint8_t against, const Knowledge& knowledge) {
   using About = Knowledge::About;
   switch (against) {
@@ -111,7 +111,7 @@ void answer(const QueryProximity::Request& request, const QueryTarget& target,
   fiber::QueryResult of_fibers;
   fiber::QueryResult result;
   const std::size_t count = request.shapes.size();
-  Completeness known = known_around(request.against, target.knowledge);
+  Completeness known = known_around(request.against, target.scene.knowledge);
   const double nothing_known = -std::numeric_limits<double>::infinity();
   bool is_cut_off = false;
   response.offsets.reserve(count + 1);
@@ -122,15 +122,16 @@ void answer(const QueryProximity::Request& request, const QueryTarget& target,
     options.contact_limit =
         share_of_contacts(target.defaults.contact_limit, response.contacts.size(), 1);
     naming("shape " + std::to_string(i), [&] {
-      query_shape(target, request.against, to_assembly(request.shapes[i], target.frame), options,
-                  of_fibers, result);
+      query_shape(target, request.against,
+                  to_assembly(request.shapes[i], target.scene.fibers.frame()), options, of_fibers,
+                  result);
     });
     append_contacts(result, i, static_cast<std::uint32_t>(target.fibers.fiber_count()), response);
     response.minimum_lower.push_back(known.lower(result.minimum_lower(), nothing_known));
     is_cut_off = is_cut_off || !result.complete;
     response.limit_reached = response.limit_reached || result.limit_reached;
   }
-  // Of the shapes that the deadline came before nothing is known.
+  // Nothing is known of the shapes that the deadline came before.
   if (is_cut_off || response.minimum_lower.size() < count) {
     options.deadline = request.deadline;
     known.add_cut_off(cut_off_text("pairs of shapes", options));
@@ -146,22 +147,22 @@ void answer(const QueryProximity::Request& request, const QueryTarget& target,
 
 /// Answers a request about what there is now, or says why it cannot.
 template <class Request, class Response, class Answer>
-bool respond(const QuerySubject& subject, const std::function<void()>& before_answer,
+bool respond(const DetectedScene& subject, const std::function<void()>& before_answer,
              const Request& request, bool asks_about_fibers, Response& response,
              const Answer& answer_it) {
   const fiber::Deadline deadline(request.deadline);
   before_answer();  // asked after a message arrived, answered with it
   try {
-    InputSet& fibers = subject.fibers;
+    InputSet& fibers = subject.scene.fibers;
     if (asks_about_fibers) {
       fibers.require_fresh();
     }
-    const std::shared_ptr<const fiber::Environment> environment = subject.environment.environment();
+    const std::shared_ptr<const fiber::Environment> environment =
+        subject.scene.environment.environment();
     const fiber::FiberAssembly& merged = fibers.fibers();
-    answer_it(QueryTarget{merged, fibers.names(),
+    answer_it(QueryTarget{subject.scene, merged,
                           asks_about_fibers ? &subject.detector.engine() : nullptr, *environment,
-                          fibers.frame(), subject.knowledge, subject.defaults, deadline,
-                          [&](const auto& names) { return subject.environment.allowed(names); }});
+                          subject.query, deadline});
     response.header = fibers.header();
     if (!fibers.is_fresh()) {
       response.header.frame_id = fibers.frame().name();
@@ -180,7 +181,7 @@ bool respond(const QuerySubject& subject, const std::function<void()>& before_an
 }  // namespace
 
 std::vector<ros::ServiceServer> serve_queries(ros::NodeHandle private_node,
-                                              const QuerySubject& subject,
+                                              const DetectedScene& subject,
                                               const std::function<void()>& before_answer) {
   using Query = boost::function<bool(QueryProximity::Request&, QueryProximity::Response&)>;
   const Query query = [=](const auto& request, auto& response) {

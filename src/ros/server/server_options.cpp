@@ -3,7 +3,6 @@
 #include <ros/console.h>
 
 #include <stdexcept>
-#include <utility>
 
 #include "fiber_proximity/paper/paper_engines.hpp"
 #include "src/ros/server/query_options.hpp"
@@ -17,10 +16,6 @@ using fiber_proximity::ProximityConfig;
 using XmlRpc::XmlRpcValue;
 
 const NodeInterface& interface() { return interface_of("proximity"); }
-
-/// The parameters whose values are names of kernels.
-constexpr std::pair<const char*, std::string ProximityConfig::*> kernel_parameters[] = {
-    {"kernel", &ProximityConfig::kernel}, {"accuracy", &ProximityConfig::accuracy}};
 
 /// @returns why these are no values of parameters of this type that can change; empty if they are
 template <class Entries>
@@ -68,7 +63,7 @@ void require_foreign_topic(const InputOptions& input, const ros::NodeHandle& nod
 }
 
 void read_inputs(const ros::NodeHandle& public_node, const Parameters& parameters, double radius,
-                 ServerOptions& options) {
+                 FiberInputOptions& options) {
   const ros::NodeHandle& node = parameters.node();
   XmlRpcValue list;
   if (!node.getParam("inputs", list)) {
@@ -98,13 +93,13 @@ void read_inputs(const ros::NodeHandle& public_node, const Parameters& parameter
       options.inputs.push_back(input);
     } catch (const std::invalid_argument& error) {
       ROS_ERROR_STREAM(where << " is left out: " << error.what());
-      options.left_out_inputs.push_back(
+      options.left_out.push_back(
           {"inputs", where, ros::Time::now(), std::string("left out: ") + error.what(), true});
     }
   }
 }
 
-/// What an engine refuses is the value of a parameter.
+/// Checks the parameters that the engine judges.
 void check_engine(const ros::NodeHandle& private_node, const ServerOptions& options) {
   const std::string prefix = "parameter " + private_node.getNamespace() + "/";
   fiber::with_context(prefix + "engine", [&] { fiber::make_engine(options.engine); });
@@ -126,13 +121,13 @@ ServerOptions read_server_options(const ros::NodeHandle& node,
   parameters.read("engine", options.engine);
   parameters.read("threads", options.engine_options.threads);
   parameters.read("skin", options.engine_options.skin);
-  parameters.read("fixed_frame", options.fixed_frame);
+  parameters.read("fixed_frame", options.fibers.fixed_frame);
   parameters.read("radius", radius);
-  parameters.read("tf_timeout", options.timing.tf_timeout);
-  parameters.read("input_timeout", options.timing.input_timeout);
-  parameters.read("max_stamp_ahead", options.timing.max_stamp_ahead);
-  parameters.read("synchronize", options.timing.synchronize);
-  parameters.read("synchronize_slop", options.timing.synchronize_slop);
+  parameters.read("tf_timeout", options.fibers.timing.tf_timeout);
+  parameters.read("input_timeout", options.fibers.timing.input_timeout);
+  parameters.read("max_stamp_ahead", options.fibers.timing.max_stamp_ahead);
+  parameters.read("synchronize", options.fibers.timing.synchronize);
+  parameters.read("synchronize_slop", options.fibers.timing.synchronize_slop);
   parameters.read("marker_rate", options.marker_rate);
   parameters.read("heartbeat", options.heartbeat);
   // Read by diagnostic_updater, which keeps silent about what is none.
@@ -140,30 +135,12 @@ ServerOptions read_server_options(const ros::NodeHandle& node,
   parameters.read("diagnostic_period", diagnostic_period);
   check_engine(private_node, options);
   options.config = read_dynamic_parameters(private_node);
-  read_inputs(node, parameters, radius, options);
+  read_inputs(node, parameters, radius, options.fibers);
   parameters.warn_of_unknown();
   return options;
 }
 
-void replace_old_names(const ros::NodeHandle& private_node, ProximityConfig& config) {
-  for (const auto& [name, member] : kernel_parameters) {
-    std::string& value = config.*member;
-    value = current_kernel_name("parameter " + private_node.resolveName(name), value);
-  }
-}
-
 ProximityConfig read_dynamic_parameters(const ros::NodeHandle& private_node) {
-  for (const auto& [name, member] : kernel_parameters) {
-    std::string value;
-    if (!private_node.getParam(name, value)) {
-      continue;
-    }
-    const std::string current =
-        current_kernel_name("parameter " + private_node.resolveName(name), value);
-    if (current != value) {
-      private_node.setParam(name, current);  // where dynamic_reconfigure will read it, too
-    }
-  }
   const Parameters parameters(private_node, interface());
   for (const Parameter& parameter : interface().parameters) {
     XmlRpcValue value;

@@ -3,12 +3,10 @@
 #include <ros/node_handle.h>
 
 #include <string>
-#include <vector>
 
 #include "fiber_proximity/ProximityConfig.h"
 #include "fiber_proximity/query/engine.hpp"
-#include "src/ros/inputs/input.hpp"
-#include "src/ros/inputs/input_source.hpp"
+#include "src/ros/detection/observed_scene.hpp"
 
 namespace fiber_proximity_ros {
 
@@ -17,17 +15,11 @@ struct ServerOptions {
   std::string engine;  ///< one of fiber::engine_names()
   fiber::EngineOptions engine_options;
 
-  /// All results are in this frame; empty: the frame of the first message.
-  std::string fixed_frame;
-
-  InputTiming timing;
+  FiberInputOptions fibers;
 
   double marker_rate{};  ///< [Hz] markers are drawn at most this often
 
   double heartbeat{};  ///< [s] answers are repeated that often while something is unknown; 0: not
-
-  std::vector<InputOptions> inputs;
-  std::vector<Unknown> left_out_inputs;  ///< entries that are bad
 
   fiber_proximity::ProximityConfig config;  ///< those that can change later
 };
@@ -45,10 +37,6 @@ ServerOptions read_server_options(const ros::NodeHandle& node, const ros::NodeHa
 ///         dynamic_reconfigure alone would keep silent, and take the default or the nearest value
 fiber_proximity::ProximityConfig read_dynamic_parameters(const ros::NodeHandle& private_node);
 
-/// Gives values that were allowed in the version before this their new names, with a warning.
-void replace_old_names(const ros::NodeHandle& private_node,
-                       fiber_proximity::ProximityConfig& config);
-
 /// @throws std::invalid_argument as read_dynamic_parameters()
 void check(const ros::NodeHandle& private_node, const fiber_proximity::ProximityConfig& config);
 
@@ -61,13 +49,14 @@ class AskedConfig : public fiber_proximity::ProximityConfig {
   // NOLINTNEXTLINE(google-explicit-constructor, hicpp-explicit-conversions)
   AskedConfig(const fiber_proximity::ProximityConfig& config) : ProximityConfig(config) {}
 
-  // What the server calls; these hide those of the base class.
+  // The server calls these; they hide those of the base class.
   // NOLINTBEGIN(bugprone-reserved-identifier, cert-dcl37-c, cert-dcl51-cpp)
   void __clamp__() {}
   bool __fromMessage__(dynamic_reconfigure::Config& message);
   // NOLINTEND(bugprone-reserved-identifier, cert-dcl37-c, cert-dcl51-cpp)
 
-  /// What of the message that was read last is no parameter of this name and type; empty: nothing.
+  /// Why the message that was read last has something that is no parameter of its name and type;
+  /// empty if all are.
   const std::string& problem() const { return problem_; }
 
  private:

@@ -15,9 +15,9 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using visualization_msgs::Marker;
 
-constexpr std::size_t most_arrows = 200;  // rviz takes long for more; the largest
-constexpr double longest_arrow = 0.25;    // of the scene
-constexpr double fading = 0.97;           // of a scale, from drawing to drawing
+constexpr std::size_t max_arrows = 200;  // rviz takes long for more; the largest
+constexpr double longest_arrow = 0.25;   // of the scene
+constexpr double fading = 0.97;          // of a scale, from drawing to drawing
 
 /// Two fibres whose names differ by what is not allowed in a topic's name have different indices.
 std::string topic_name(const fiber::SimScene& scene, std::uint32_t rod, std::uint32_t node) {
@@ -105,7 +105,7 @@ void fill_in(const fiber::SimScene& scene, const fiber::RodForces& forces,
     hold.force = to_vector_message(force.force);
     hold.moment = to_vector_message(force.moment);
     hold.lag = force.lag;
-    hold.max_force = force.most;
+    hold.max_force = force.max_force;
   }
   const fiber::IslandReport& worst = scene.stepper->report().worst;
   message.residual = worst.residual;
@@ -161,7 +161,7 @@ std::vector<Arrow> arrows_of(const fiber::RodForces& forces) {
     return a.force.squaredNorm() > b.force.squaredNorm();
   };
   std::stable_sort(arrows.begin(), arrows.end(), is_larger);
-  arrows.resize(std::min(arrows.size(), most_arrows));
+  arrows.resize(std::min(arrows.size(), max_arrows));
   return arrows;
 }
 
@@ -253,10 +253,10 @@ void SimForces::draw(const fiber::SimScene& scene, const fiber::RodForces& force
     tension = std::max(tension, std::abs(each));
   }
   const std::vector<Arrow> arrows = arrows_of(forces);
-  most_tension_ = full_scale(tension, most_tension_);
-  most_force_ = full_scale(arrows.empty() ? 0.0 : arrows.front().force.norm(), most_force_);
-  const double full_tension = round_up(most_tension_);
-  const double full_force = round_up(most_force_);
+  max_tension_ = full_scale(tension, max_tension_);
+  max_force_ = full_scale(arrows.empty() ? 0.0 : arrows.front().force.norm(), max_force_);
+  const double full_tension = round_up(max_tension_);
+  const double full_force = round_up(max_force_);
   MarkerCanvas canvas(header, markers_);
   draw_tensions(rods, forces.tensions, full_tension, canvas);
   draw_arrows(arrows, full_force, scale, canvas);

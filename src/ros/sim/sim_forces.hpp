@@ -53,8 +53,8 @@ class SimForces {
   visualization_msgs::MarkerArray markers_;
   MarkerCanvas::Counts drawn_;
   // Scales of what is drawn, which fall by little and little [N].
-  double most_tension_ = 0.0;
-  double most_force_ = 0.0;
+  double max_tension_ = 0.0;
+  double max_force_ = 0.0;
 };
 
 }  // namespace fiber_proximity_ros

@@ -17,7 +17,7 @@ using visualization_msgs::InteractiveMarkerControl;
 using visualization_msgs::InteractiveMarkerFeedback;
 using visualization_msgs::Marker;
 
-constexpr std::uint32_t most_fibers = 100;
+constexpr std::uint32_t max_fibers = 100;
 constexpr double fastest_hand = 2.0;    // [m/s]
 constexpr double warning_period = 5.0;  // [s]
 constexpr double thickness = 3.0;       // of a handle, by that of its fibre
@@ -54,7 +54,7 @@ void SimMarkers::begin(const fiber::SimScene& scene) {
   ends_.clear();
   grabs_.clear();
   const fiber::Rods& rods = scene.stepper->rods();
-  for (std::uint32_t rod = 0; rod < std::min(most_fibers, rods.count()); ++rod) {
+  for (std::uint32_t rod = 0; rod < std::min(max_fibers, rods.count()); ++rod) {
     const std::string& fiber = scene.fiber_names[rod];
     for (const auto& [name, node] : {std::make_pair(fiber + "/first", 0U),
                                      std::make_pair(fiber + "/last", rods.node_count(rod) - 1)}) {

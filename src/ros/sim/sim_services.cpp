@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// More than four hours of a scene of 60 Hz: beyond that, a number is rather a mistake.
-constexpr std::uint32_t most_frames_of_a_call = 1000000;
+constexpr std::uint32_t max_frames_of_a_call = 1000000;
 
 /// Errors name what they refuse, which may be of any length.
 std::string shortened(const std::string& text) {
@@ -122,9 +122,9 @@ bool SimServer::pause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Re
 }
 
 void SimServer::step_frames(std::uint32_t count) {
-  if (count > most_frames_of_a_call) {
+  if (count > max_frames_of_a_call) {
     throw std::invalid_argument("frames is " + std::to_string(count) + ", it must be at most " +
-                                std::to_string(most_frames_of_a_call));
+                                std::to_string(max_frames_of_a_call));
   }
   interruption_.clear();
   for (std::uint32_t i = 0; i < count; ++i) {

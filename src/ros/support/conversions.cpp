@@ -1,6 +1,7 @@
 #include "fiber_proximity/ros/conversions.hpp"
 
 #include <stdexcept>
+#include <utility>
 
 #include "fiber_proximity/query/contact.hpp"
 
@@ -14,11 +15,12 @@ void FiberBuffer::clear() {
   names.clear();
 }
 
-void assign(const FiberBuffer& chains, fiber::FiberAssembly& fibers) {
-  if (chains.offsets == fibers.offsets() && chains.radii == fibers.radii()) {
-    fibers.update_points(chains.points);
+void assign(FiberBuffer& buffer, fiber::FiberAssembly& fibers) {
+  if (buffer.offsets == fibers.offsets() && buffer.radii == fibers.radii()) {
+    fibers.exchange_points(buffer.points);
   } else {
-    fibers = fiber::FiberAssembly(chains.points, chains.offsets, chains.radii);
+    fibers = fiber::FiberAssembly(std::move(buffer.points), std::move(buffer.offsets),
+                                  std::move(buffer.radii));
   }
 }
 
@@ -105,19 +107,19 @@ void to_message(const fiber::Crossing& crossing, fiber_proximity::Crossing& mess
   message.point_b = to_message(crossing.point_b);
 }
 
-void to_chains(const fiber_proximity::FiberArray& message, FiberBuffer& chains) {
-  chains.clear();
-  chains.header = message.header;
-  chains.offsets = message.offsets;
-  chains.radii = message.radii;
-  chains.names = message.names;
-  chains.points.reserve(message.points.size());
+void to_chains(const fiber_proximity::FiberArray& message, FiberBuffer& fibers) {
+  fibers.clear();
+  fibers.header = message.header;
+  fibers.offsets = message.offsets;
+  fibers.radii = message.radii;
+  fibers.names = message.names;
+  fibers.points.reserve(message.points.size());
   for (const geometry_msgs::Point& point : message.points) {
-    chains.points.push_back(to_vector(point));
+    fibers.points.push_back(to_vector(point));
   }
-  if (!chains.names.empty() && chains.names.size() != chains.fiber_count()) {
-    throw std::invalid_argument(std::to_string(chains.names.size()) + " names for " +
-                                std::to_string(chains.fiber_count()) +
+  if (!fibers.names.empty() && fibers.names.size() != fibers.fiber_count()) {
+    throw std::invalid_argument(std::to_string(fibers.names.size()) + " names for " +
+                                std::to_string(fibers.fiber_count()) +
                                 " fibre(s); give one per fibre or none");
   }
 }

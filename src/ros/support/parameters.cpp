@@ -48,7 +48,7 @@ std::string suggested_parameter(const std::string& name, const std::vector<Param
 
 bool is_allowed(const Parameter& parameter, const XmlRpcValue& value) {
   const auto is_in_range = [&](double number) {
-    return number >= parameter.least && number <= parameter.most;
+    return number >= parameter.min && number <= parameter.max;
   };
   const std::vector<std::string>& values = parameter.values;
   switch (value.getType()) {

@@ -22,8 +22,8 @@ struct Parameter {
   std::string name;
   std::string type;           ///< bool, int, double or str; values of others are checked by code
   XmlRpc::XmlRpcValue value;  ///< where it is not set; not valid: code knows what to do
-  double least;               ///< of a number
-  double most;                ///< of a number
+  double min;                 ///< of a number
+  double max;                 ///< of a number
   std::vector<std::string> values;  ///< those of a str; empty: any
   std::string must_be;              ///< what is allowed, for errors
   bool is_dynamic;                  ///< can change while the node runs
@@ -39,7 +39,7 @@ struct Parameter {
 XmlRpc::XmlRpcValue checked(const Parameter& parameter, const XmlRpc::XmlRpcValue& value,
                             const std::string& what);
 
-/// What one of our nodes has in cfg/interface.yaml.
+/// The topics and parameters of one of our nodes, as cfg/interface.yaml has them.
 struct NodeInterface {
   /// @returns null if there is none of this name
   const Parameter* find(const std::string& name) const;

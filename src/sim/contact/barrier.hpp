@@ -12,9 +12,9 @@
 
 namespace fiber {
 
-/// The natural logarithm of a positive, finite number, to some units of the last digit: unlike the
-/// standard library's the same on all processors. Without a call or a chain of eleven products, for
-/// contacts ask for it all the time.
+/// The natural logarithm of a positive, finite number, to some units of the last digit. Unlike the
+/// standard library's it is the same on all processors. It is inline, and its series has no long
+/// chain of products, because contacts evaluate it all the time.
 inline double natural_log(double x) {
   constexpr double root_of_half = 0.7071067811865476;
   constexpr double log_of_two = 0.6931471805599453;
@@ -33,7 +33,7 @@ inline double natural_log(double x) {
     fraction *= 2.0;
     --exponent;
   }
-  // ln f = 2 artanh z, of |z| < 0.172
+  // ln f = 2 artanh z, with |z| < 0.172
   const double z = (fraction - 1.0) / (fraction + 1.0);
   const double z2 = z * z;
   const double z4 = z2 * z2;
@@ -50,7 +50,8 @@ inline double natural_log(double x) {
 /// Surfaces meet in the middle: fibres begin to push before they touch, and no force brings them
 /// further into each other than to the inner distance.
 struct Barrier {
-  /// Of the distance at which surfaces meet: inner and outer distance are so much less and more.
+  /// The inner and outer distance are below and above the distance at which surfaces meet by this
+  /// part of it.
   static constexpr double half_width = 0.05;
 
   /// @param touching  distance at which surfaces meet [m]
@@ -61,17 +62,17 @@ struct Barrier {
             stiffness / curvature_in_middle};
   }
 
-  /// The same for what begins a step at a distance where the energy would be infinite, as scenes
-  /// may make it: it can only part.
-  Barrier for_start_at(double distance) const {
-    constexpr double spare = 1e-3;
+  /// A barrier whose energy is finite at a distance, for contacts that begin a step below the inner
+  /// one, as scenes may make them: they can only part.
+  Barrier relaxed_to(double distance) const {
+    constexpr double margin = 1e-3;
     Barrier barrier = *this;
-    barrier.inner = std::min(inner, distance - spare * width());
+    barrier.inner = std::min(inner, distance - margin * width());
     return barrier;
   }
 
-  /// A force in parts of what holds surfaces a third of the way from the inner distance to the
-  /// outer one.
+  /// A force in units of the one that holds surfaces a third of the way from the inner distance to
+  /// the outer one.
   double load_of(double force) const {
     constexpr double unit_force = 2.7981;  // of a barrier of 1 N/m and 1 m width there
     return force / (unit_force * scale * width());
@@ -83,19 +84,19 @@ struct Barrier {
 
   double width() const { return outer - inner; }
 
-  /// A contact with a part of its weight gives way to those that have the rest: it feels only this
-  /// share of how far a distance is below the outer one.
+  /// A contact with a weight below 1 gives way to those that have the rest: its effective distance
+  /// is below the outer one by only this share of what the distance is.
   /// @param weight in [0, 1]
-  static double depth_share(double weight) { return 1.0 - most_relief * (1.0 - weight); }
-  static constexpr double most_relief = 0.28;
+  static double depth_share(double weight) { return 1.0 - max_relief * (1.0 - weight); }
+  static constexpr double max_relief = 0.28;
 
-  /// The distance that it feels [m].
-  double felt(double distance, double weight) const {
+  /// The distance at which a contact with a weight evaluates the barrier [m].
+  double effective(double distance, double weight) const {
     return outer - depth_share(weight) * (outer - distance);
   }
 
   /// No contact lets a distance fall to this [m].
-  double least() const { return outer - width() / (1.0 - most_relief); }
+  double min_distance() const { return outer - width() / (1.0 - max_relief); }
 
   /// [J]
   double energy(double distance) const {
@@ -109,8 +110,8 @@ struct Barrier {
     return -scale * below * below * natural_log((distance - inner) / width());
   }
 
-  /// Its derivatives by the distance, of distances within (inner, outer): never above 0 [N], and
-  /// never below 0 [N/m].
+  /// The energy's derivatives by the distance, which must be within (inner, outer): the slope is
+  /// never positive [N], the curvature never negative [N/m].
   double slope(double distance) const {
     assert(distance > inner && distance < outer);
     const double below = distance - outer;
@@ -123,9 +124,9 @@ struct Barrier {
   }
 };
 
-/// Rises from 0 to 1 while x does, level at both ends: weights of contacts.
-struct Ramp {
-  explicit Ramp(double x)
+/// Rises from 0 to 1 while x does, with slope 0 at both ends: weights of contacts.
+struct Smoothstep {
+  explicit Smoothstep(double x)
       : value(x >= 1.0 ? 1.0 : x * x * (3.0 - 2.0 * x)),
         slope(x >= 1.0 ? 0.0 : 6.0 * x * (1.0 - x)) {}
   double value;
@@ -144,7 +145,7 @@ struct WeightedSlopes {
 };
 
 /// The barrier of an edge that has only a part of its weight, as its ends have barriers of their
-/// own: the weight is the product of ramps, each of how much further an end is than the edge.
+/// own: the weight is a product of smooth steps, each of how much further an end is than the edge.
 class WeightedBarrier {
  public:
   /// @param barrier must outlive this
@@ -152,58 +153,58 @@ class WeightedBarrier {
       : barrier_(barrier),
         distance_(distance),
         weight_(weight),
-        felt_(barrier.felt(distance, weight)),
-        energy_(barrier.energy(felt_)) {}
+        effective_(barrier.effective(distance, weight)),
+        energy_(barrier.energy(effective_)) {}
 
-  /// @returns [J], infinite where what is felt reaches the inner distance
+  /// @returns [J], infinite where the effective distance reaches the inner one
   double energy() const { return weight_ * energy_; }
 
-  /// Where the energy is finite.
-  /// @param ramps   of each end, in parts of the barrier's width
+  /// The derivatives, where the energy is finite.
+  /// @param steps   the weight's factors, by end
   /// @param cosines of the angles between the normals at ends and the edge's
   template <std::size_t ends>
-  WeightedSlopes<ends> slopes(const std::array<Ramp, ends>& ramps,
+  WeightedSlopes<ends> slopes(const std::array<Smoothstep, ends>& steps,
                               const std::array<double, ends>& cosines) const {
-    const double by_felt = weight_ * barrier_.slope(felt_);
-    const double by_felt_twice = weight_ * barrier_.curvature(felt_);
+    const double first_slope = weight_ * barrier_.slope(effective_);
+    const double second_slope = weight_ * barrier_.curvature(effective_);
     const double depth_share = Barrier::depth_share(weight_);
     const double by_weight =
-        energy_ - by_felt * Barrier::most_relief * (barrier_.outer - distance_);
+        energy_ - first_slope * Barrier::max_relief * (barrier_.outer - distance_);
     WeightedSlopes<ends> found;
-    found.slope = by_felt * depth_share;
+    found.slope = first_slope * depth_share;
     found.pressure = -found.slope;
-    // How what is felt changes with the distance, and with those of the ends, by the weight.
-    const double relief = Barrier::most_relief * (barrier_.outer - distance_);
-    std::array<double, ends> felt_by_end{};
-    double felt_by_ends = 0.0;
+    // Derivatives of the effective distance by the weight, and so by the distances of the ends.
+    const double relief = Barrier::max_relief * (barrier_.outer - distance_);
+    std::array<double, ends> effective_by_end{};
+    double effective_by_ends = 0.0;
     for (std::size_t end = 0; end < ends; ++end) {
-      if (ramps[end].slope > 0.0) {
+      if (steps[end].slope > 0.0) {
         const double weight_by_end =
-            weight_ / ramps[end].value * ramps[end].slope / barrier_.width();
-        felt_by_end[end] = relief * weight_by_end;
-        felt_by_ends += felt_by_end[end];
+            weight_ / steps[end].value * steps[end].slope / barrier_.width();
+        effective_by_end[end] = relief * weight_by_end;
+        effective_by_ends += effective_by_end[end];
         found.end_slopes[end] = by_weight * weight_by_end;
         found.slope -= found.end_slopes[end];
-        // What an end takes back is not along the same normal.
+        // The force that moves to an end acts along the end's normal, not the edge's.
         found.pressure += found.end_slopes[end] * (1.0 - cosines[end]);
       }
     }
-    // The square of the sum of these is no more than this sum of squares.
-    const double of_distance = depth_share + felt_by_ends;
-    const double all = of_distance + felt_by_ends;
-    found.curvature = by_felt_twice * of_distance * all;
+    // This sum of squares bounds the square of the sum, so that the Hessian stays semidefinite.
+    const double by_distance = depth_share + effective_by_ends;
+    const double all = by_distance + effective_by_ends;
+    found.curvature = second_slope * by_distance * all;
     for (std::size_t end = 0; end < ends; ++end) {
-      found.end_curvatures[end] = by_felt_twice * felt_by_end[end] * all;
+      found.end_curvatures[end] = second_slope * effective_by_end[end] * all;
     }
     return found;
   }
 
  private:
   const Barrier& barrier_;
-  double distance_;  // [m]
-  double weight_;    // in [0, 1]
-  double felt_;      // [m]
-  double energy_;    // [J] of the whole weight
+  double distance_;   // [m]
+  double weight_;     // in [0, 1]
+  double effective_;  // distance [m]
+  double energy_;     // with weight 1 [J]
 };
 
 /// Force by distance where surfaces meet that a rod's material makes natural [N/m]: a contact holds
@@ -212,7 +213,7 @@ class WeightedBarrier {
 /// @param touching distance at which surfaces meet [m]
 inline double material_contact_stiffness(const RodSection& section, double touching) {
   constexpr double share = 1e-3;
-  // A barrier around 1 m that has the stiffness 1 N/m where surfaces meet holds so much there.
+  // The force where surfaces meet of a barrier around 1 m of stiffness 1 N/m.
   static const double unit_force = -Barrier::around(1.0, 1.0).slope(1.0);
   return share * section.stretching_stiffness / (unit_force * touching);
 }

@@ -1,4 +1,3 @@
-
 #include "src/sim/contact/contact_set.hpp"
 
 #include <tbb/parallel_for.h>
@@ -16,20 +15,20 @@ using Eigen::Vector3d;
 
 namespace {
 
-Vector3d point_at(const std::vector<Vector3d>& of_nodes, std::uint32_t edge, double parameter) {
-  return (1.0 - parameter) * of_nodes[edge] + parameter * of_nodes[edge + 1];
+Vector3d point_at(const std::vector<Vector3d>& values, std::uint32_t edge, double parameter) {
+  return (1.0 - parameter) * values[edge] + parameter * values[edge + 1];
 }
 
-// Contacts are numbered: those with obstacles, those of pairs, those that have friction. Threads
-// take them in chunks, which do not depend on how many threads there are.
+// Contacts are numbered: first those with obstacles, then those of pairs, then those with friction.
+// Threads take them in chunks, which do not depend on the number of threads.
 constexpr std::size_t chunk = 64;
 
-std::size_t chunks_of(std::size_t count) { return (count + chunk - 1) / chunk; }
+std::size_t chunk_count(std::size_t count) { return (count + chunk - 1) / chunk; }
 
 /// Calls function(chunk, begin, end) in parallel.
 template <class Function>
 void for_each_chunk(std::size_t count, const Function& function) {
-  tbb::parallel_for(std::size_t{0}, chunks_of(count), [&](std::size_t index) {
+  tbb::parallel_for(std::size_t{0}, chunk_count(count), [&](std::size_t index) {
     function(index, index * chunk, std::min(count, (index + 1) * chunk));
   });
 }
@@ -46,11 +45,11 @@ void ContactSet::clear() {
   }
 }
 
-/// Calls function(points, term, barrier) for what a contact has of the energy.
-/// @param found room for its terms
+/// Calls function(points, term, barrier) for each term of a contact's energy.
+/// @param found buffer for the terms
 template <class Function>
-void ContactSet::visit(const Rods& rods, std::size_t index, std::vector<DistanceTerm>& found,
-                       const Function& function) const {
+void ContactSet::for_each_term(const Rods& rods, std::size_t index,
+                               std::vector<DistanceTerm>& found, const Function& function) const {
   found.clear();
   if (index < obstacle_contacts.size()) {
     const ObstacleContact& contact = obstacle_contacts[index];
@@ -73,15 +72,15 @@ void ContactSet::visit(const Rods& rods, std::size_t index, std::vector<Distance
 void ContactSet::begin(const Rods& rods, const Friction* friction,
                        const std::vector<Vector3d>& references, double step) {
   frictions_.clear();
-  measure(rods);
-  let_part(rods);
+  update_distances(rods);
+  relax_initial_overlap(rods);
   if (friction == nullptr) {
     return;
   }
   stick_length_ = friction->stick_length(step);
-  std::vector<std::vector<FrictionPoint>> by_chunk(chunks_of(distance_count()));
+  std::vector<std::vector<FrictionPoint>> by_chunk(chunk_count(distance_count()));
   for_each_chunk(distance_count(), [&](std::size_t index, std::size_t begin, std::size_t end) {
-    std::vector<DistanceTerm> room;
+    std::vector<DistanceTerm> buffer;
     const auto add = [&](const ContactPoints& points, const DistanceTerm& term,
                          const Barrier& /*barrier*/) {
       if (term.pressure > 0.0) {
@@ -94,7 +93,7 @@ void ContactSet::begin(const Rods& rods, const Friction* friction,
       }
     };
     for (std::size_t i = begin; i < end; ++i) {
-      visit(rods, i, room, add);
+      for_each_term(rods, i, buffer, add);
     }
   });
   for (const std::vector<FrictionPoint>& points : by_chunk) {
@@ -102,25 +101,25 @@ void ContactSet::begin(const Rods& rods, const Friction* friction,
   }
 }
 
-/// What begins where its energy is infinite gets a barrier that begins nearer.
-void ContactSet::let_part(const Rods& rods) {
-  const auto judge = [&](std::size_t contact, double distance, Barrier& barrier) {
-    // No part of a contact feels less than its distance, but for rounding.
+/// Contacts that begin the step where their energy is infinite get barriers that begin nearer.
+void ContactSet::relax_initial_overlap(const Rods& rods) {
+  const auto relax = [&](std::size_t contact, double distance, Barrier& barrier) {
+    // Effective distances are not below the distance, but for rounding.
     const double rounding = 1e-6 * barrier.width();
     if (!(distance > barrier.inner + rounding) && !std::isfinite(energy_of(rods, contact))) {
-      barrier = barrier.for_start_at(distance);
+      barrier = barrier.relaxed_to(distance);
     }
   };
   std::size_t contact = 0;
   for (std::size_t i = 0; i < obstacle_contacts.size(); ++i) {
-    judge(contact++, obstacle_distances_[i].nearest.distance, obstacle_contacts[i].barrier);
+    relax(contact++, obstacle_distances_[i].nearest.distance, obstacle_contacts[i].barrier);
   }
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    judge(contact++, distances_[i].distance, pairs[i].barrier);
+    relax(contact++, distances_[i].distance, pairs[i].barrier);
   }
 }
 
-void ContactSet::measure(const Rods& rods) {
+void ContactSet::update_distances(const Rods& rods) {
   obstacle_distances_.resize(obstacle_contacts.size());
   for_each_chunk(
       obstacle_contacts.size(), [&](std::size_t /*index*/, std::size_t begin, std::size_t end) {
@@ -157,7 +156,7 @@ double ContactSet::energy_of(const Rods& rods, std::size_t contact) const {
     return edge_contact(pairs[contact], rods.positions, distances_[contact], nullptr);
   }
   const FrictionPoint& point = frictions_[contact - pairs.size()];
-  return point.most * Friction::law(point.slip(rods).norm(), stick_length_).energy;
+  return point.max_force * Friction::law(point.slip(rods).norm(), stick_length_).energy;
 }
 
 void ContactSet::add_energies(const Rods& rods, const std::vector<std::uint32_t>& islands,
@@ -173,7 +172,7 @@ void ContactSet::add_energies(const Rods& rods, const std::vector<std::uint32_t>
   }
 }
 
-/// Of a contact; with an obstacle twice the same.
+/// The two rods of a contact; with an obstacle, one rod twice.
 std::pair<std::uint32_t, std::uint32_t> ContactSet::rods_of(std::size_t contact) const {
   if (contact < obstacle_contacts.size()) {
     return {obstacle_contacts[contact].rod, obstacle_contacts[contact].rod};
@@ -213,7 +212,7 @@ void ContactSet::find_terms(const Rods& rods, std::size_t contact, std::vector<D
                      barrier.load_of(std::abs(term.slope))});
   };
   if (contact < distance_count()) {
-    visit(rods, contact, found, add);
+    for_each_term(rods, contact, found, add);
     return;
   }
   const FrictionPoint& point = frictions_[contact - distance_count()];
@@ -227,11 +226,11 @@ void ContactSet::find_terms(const Rods& rods, std::size_t contact, std::vector<D
     hessian += (law.curvature - law.resistance) * along * along.transpose();
   }
   terms.push_back(
-      {point.points, point.most * law.resistance * slip, point.most * hessian, 0.0, 0.0});
+      {point.points, point.max_force * law.resistance * slip, point.max_force * hessian, 0.0, 0.0});
 }
 
 void ContactSet::find_derivatives(const Rods& rods) {
-  terms_.resize(chunks_of(contact_count()));
+  terms_.resize(chunk_count(contact_count()));
   for_each_chunk(contact_count(), [&](std::size_t index, std::size_t begin, std::size_t end) {
     std::vector<DistanceTerm> found;
     terms_[index].clear();
@@ -275,9 +274,9 @@ void ContactSet::add_forces(const Rods& rods, std::vector<RodForces::ContactForc
     force.point += std::abs(term.slope) * between;
     weights[static_cast<std::size_t>(&force - forces.data())] += std::abs(term.slope);
   };
-  std::vector<DistanceTerm> room;
+  std::vector<DistanceTerm> buffer;
   for (std::size_t i = 0; i < distance_count(); ++i) {
-    visit(rods, i, room, press);
+    for_each_term(rods, i, buffer, press);
   }
   for (const auto& [place, weight] : weights) {
     forces[place].point /= weight;
@@ -289,7 +288,7 @@ void ContactSet::add_forces(const Rods& rods, std::vector<RodForces::ContactForc
       force.point = point_at(rods.positions, point.points.edge_a, point.points.s);
     }
     force.friction_force -=
-        point.most * Friction::law(slip.norm(), stick_length_).resistance * slip;
+        point.max_force * Friction::law(slip.norm(), stick_length_).resistance * slip;
   }
 }
 

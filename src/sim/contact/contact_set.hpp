@@ -13,7 +13,7 @@
 
 namespace fiber {
 
-/// An edge and an obstacle that it may come to.
+/// An edge and an obstacle that it may reach.
 struct ObstacleEdge {
   std::uint32_t rod;
   std::uint32_t edge;  ///< as Rods counts edges
@@ -24,7 +24,7 @@ struct ObstacleEdge {
   std::array<Eigen::Vector3d, 2> starts;  ///< where the ends of the edge were then [m]
 };
 
-/// Points of two edges, or of one and an obstacle.
+/// Points of two edges, or of an edge and an obstacle.
 struct ContactPoints {
   static constexpr std::uint32_t no_edge = RodForces::ContactForce::obstacle;
 
@@ -38,7 +38,7 @@ struct ContactPoints {
   bool is_of_rods() const { return edge_b != no_edge; }
 };
 
-/// Part of the gradient and Hessian of contacts: by the difference of two points.
+/// A term of the contacts' gradient and Hessian, by the difference of two points.
 struct ContactTerm {
   ContactPoints points;
   Eigen::Vector3d gradient;
@@ -47,10 +47,10 @@ struct ContactTerm {
   double load;     ///< see add_loads(); 0 of friction
 };
 
-/// By chunk of contacts, which threads share.
+/// Terms by chunk of contacts. Threads share the chunks.
 using ContactTerms = std::vector<std::vector<ContactTerm>>;
 
-/// Adds gradients to some rods, and what of the Hessian is within the nodes of one edge.
+/// Adds the gradient to some rods, and the blocks of the Hessian between nodes of one edge.
 /// @param systems  by rod
 /// @param packs    by rod
 /// @param which    pack the rods are of
@@ -58,22 +58,20 @@ void add_derivatives(const ContactTerms& terms, const Rods& rods,
                      const std::vector<RodSystem*>& systems,
                      const std::vector<std::uint32_t>& packs, std::uint32_t which);
 
-/// Whether there is anything else of the Hessian.
+/// Whether the Hessian has other blocks: those between two rods' edges.
 bool has_coupling(const ContactTerms& terms);
 
-/// Adds what else there is of the Hessian's product with displacements.
+/// Adds the product of these other blocks with displacements.
 /// @param places        of each node's x in these arrays; y and z are lane_count further each
-/// @param displacements of all that is unknown
+/// @param displacements of all unknowns
 void add_coupling(const ContactTerms& terms, const std::vector<std::size_t>& places,
                   const SimdBatch* displacements, SimdBatch* product);
 
-/// Of each rod, the largest load of its contacts: the force in parts of what its barrier holds
-/// well.
+/// Finds the largest load of each rod's contacts, see Barrier::load_of().
 /// @param loads by rod: raised
 void add_loads(const ContactTerms& terms, std::vector<double>& loads);
 
-/// Everything that some rods may touch in a step: the potential of their contacts and of friction
-/// in them.
+/// The contacts that some rods may have in a step: their potential, and that of friction in them.
 class ContactSet {
  public:
   std::vector<EdgePair> pairs;
@@ -86,46 +84,46 @@ class ContactSet {
     return pairs.empty() && obstacle_contacts.empty() && obstacle_edges.empty();
   }
 
-  /// Begins a step where the rods are: what touches there has friction in the step.
+  /// Begins a step where the rods are: contacts that press there have friction in the step.
   /// @param friction   null for none
   /// @param references of nodes: slips are measured from there [m]
   /// @param step       [s]
   void begin(const Rods& rods, const Friction* friction,
              const std::vector<Eigen::Vector3d>& references, double step);
 
-  /// Measures where the rods are now; the following functions are about that.
-  void measure(const Rods& rods);
+  /// Updates the distances to where the rods are now. The functions below use these.
+  void update_distances(const Rods& rods);
 
   /// Adds the energy of each contact to that of the island of its rod.
   /// @param islands by rod
   void add_energies(const Rods& rods, const std::vector<std::uint32_t>& islands,
                     std::vector<EnergySum>& energies);
 
-  /// What has been added of them, without friction [J].
+  /// The sum of the energies added last, without friction [J].
   double stored_energy() const;
 
-  /// What more that would be if rods stiffened contacts by other factors [J].
+  /// The increase of that sum if rods stiffened contacts by other factors [J].
   /// @param before factors that they have, by rod
   /// @param after  others
   double stiffening_energy(const std::vector<double>& before,
                            const std::vector<double>& after) const;
 
-  /// Finds the derivatives where the rods are measured.
+  /// Finds the derivatives at the current distances.
   void find_derivatives(const Rods& rods);
 
   const ContactTerms& terms() const { return terms_; }
 
-  /// Shortens each island's share of a step: no distance may lose more than four fifths of what it
-  /// has beyond the inner one, anywhere on the way. Proven, by the kernel of continuous detection.
+  /// Shortens each island's share of a step: no distance may lose more than four fifths of its
+  /// excess over the least one, anywhere on the way. Proven, by the kernel of continuous detection.
   /// @param displacements of nodes by the whole step [m]
   /// @param islands       by rod
   /// @param shares        by island
-  /// @param ends          room for a position of each node
+  /// @param ends          buffer for a position of each node
   void bound_step(const Rods& rods, const std::vector<Eigen::Vector3d>& displacements,
                   const std::vector<std::uint32_t>& islands, std::vector<double>& shares,
                   std::vector<Eigen::Vector3d>& ends) const;
 
-  /// Appends what the contacts exert where the rods are measured.
+  /// Appends the forces of the contacts at the current distances.
   void add_forces(const Rods& rods, std::vector<RodForces::ContactForce>& forces) const;
 
  private:
@@ -133,16 +131,16 @@ class ContactSet {
   struct FrictionPoint {
     ContactPoints points;
     Eigen::Vector3d normal;
-    double most;                // force [N]
+    double max_force;           // [N]
     Eigen::Vector3d reference;  // from the point of b to that of a, where slips begin [m]
 
     Eigen::Vector3d slip(const Rods& rods) const;
   };
 
-  void let_part(const Rods& rods);
+  void relax_initial_overlap(const Rods& rods);
   template <class Function>
-  void visit(const Rods& rods, std::size_t index, std::vector<DistanceTerm>& found,
-             const Function& function) const;
+  void for_each_term(const Rods& rods, std::size_t index, std::vector<DistanceTerm>& found,
+                     const Function& function) const;
   double energy_of(const Rods& rods, std::size_t contact) const;
   void find_terms(const Rods& rods, std::size_t contact, std::vector<DistanceTerm>& found,
                   std::vector<ContactTerm>& terms) const;

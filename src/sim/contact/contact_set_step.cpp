@@ -1,5 +1,5 @@
-// What contacts have to do with a step of Newton's method: their part of its equations, and how far
-// it may go.
+// The part that contacts have in a step of Newton's method: in its equations, and in how far it
+// goes.
 
 #include <algorithm>
 
@@ -16,13 +16,13 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// What a distance may lose in a step of what it has beyond the least one, and how well the time is
-/// to be known at which it has lost that, in parts of what is left.
-constexpr double most_lost = 0.8;
+/// The part of its excess over the least distance that a distance may lose in a step; and the
+/// tolerance of the time of that, in parts of the excess that is left.
+constexpr double max_loss = 0.8;
 constexpr double tolerance = 0.1;
 
-/// The square of the most by which two edges' nodes approach each other.
-double largest_approach(const Vector3d* a, const Vector3d* b) {
+/// The square of the largest approach of two edges' nodes.
+double squared_approach(const Vector3d* a, const Vector3d* b) {
   return std::max(std::max((a[0] - b[0]).squaredNorm(), (a[0] - b[1]).squaredNorm()),
                   std::max((a[1] - b[0]).squaredNorm(), (a[1] - b[1]).squaredNorm()));
 }
@@ -47,37 +47,37 @@ void for_each_term(const ContactTerms& terms, const Function& function) {
   }
 }
 
-/// How far an edge may go for an obstacle: as far as it is away; else, with a convex one, as long
-/// as it stays in front of the plane that parted them when the step began; else until it comes to
-/// it.
+/// Shortens a share of a step so that an edge does not reach an obstacle. It need not be shortened
+/// for an edge that moves less than its distance, or for one that stays in front of the plane
+/// between it and a convex obstacle. All others are bounded by the time of contact.
 double bounded_share(const Rods& rods, const ObstacleEdge& edge,
                      const std::vector<Vector3d>& displacements, double share) {
   const Vector3d* const now = &rods.positions[edge.edge];
-  const Vector3d* const ways = &displacements[edge.edge];
+  const Vector3d* const step = &displacements[edge.edge];
   double farthest = 0.0;  // from where the ends were
   double lowest = edge.distance;
   for (std::size_t i = 0; i < 2; ++i) {
     farthest = std::max({farthest, (now[i] - edge.starts[i]).norm(),
-                         (now[i] + share * ways[i] - edge.starts[i]).norm()});
-    lowest = std::min(lowest, edge.normal.dot(now[i] + share * ways[i] - edge.point));
+                         (now[i] + share * step[i] - edge.starts[i]).norm()});
+    lowest = std::min(lowest, edge.normal.dot(now[i] + share * step[i] - edge.point));
   }
-  const double left = (1.0 - most_lost) * edge.distance;
-  if (farthest <= most_lost * edge.distance || (edge.shape->is_convex() && lowest >= left)) {
+  const double left = (1.0 - max_loss) * edge.distance;
+  if (farthest <= max_loss * edge.distance || (edge.shape->is_convex() && lowest >= left)) {
     return share;
   }
   const Shape& shape = *edge.shape->shape;
   AxisMotion motion;
   for (std::size_t i = 0; i < 2; ++i) {
     motion.before[i] = edge.shape->to_shape * now[i];
-    motion.after[i] = edge.shape->to_shape * (now[i] + share * ways[i]);
+    motion.after[i] = edge.shape->to_shape * (now[i] + share * step[i]);
   }
   const AxisDistance nearest =
       axis_distance(shape, motion.before[0], motion.before[1], 2.0 * (edge.distance + farthest));
   const double gap = std::max(0.0, nearest.lower);
   const double error = 0x1p-48 * (reach(shape) + edge.shape->pose.translation().norm() +
                                   now[0].norm() + now[1].norm());
-  const ContactTime time = contact_time(shape, motion, {(1.0 - most_lost) * gap, error},
-                                        tolerance * (1.0 - most_lost) * gap);
+  const ContactTime time = contact_time(shape, motion, {(1.0 - max_loss) * gap, error},
+                                        tolerance * (1.0 - max_loss) * gap);
   return time.hit ? share * time.lower : share;
 }
 
@@ -114,14 +114,14 @@ void add_coupling(const ContactTerms& terms, const std::vector<std::size_t>& pla
                   const SimdBatch* displacements, SimdBatch* product) {
   using Stride = Eigen::InnerStride<lane_count>;
   const auto displacement = [&](std::uint32_t node) {
-    return Eigen::Map<const Vector3d, 0, Stride>(displacements->of.data() + places[node]);
+    return Eigen::Map<const Vector3d, 0, Stride>(displacements->lanes.data() + places[node]);
   };
   const auto combine = [&](std::uint32_t edge, double parameter) -> Vector3d {
     return (1.0 - parameter) * displacement(edge) + parameter * displacement(edge + 1);
   };
   const auto spread = [&](std::uint32_t edge, double parameter, const Vector3d& v) {
-    Eigen::Map<Vector3d, 0, Stride>(product->of.data() + places[edge]) -= (1.0 - parameter) * v;
-    Eigen::Map<Vector3d, 0, Stride>(product->of.data() + places[edge + 1]) -= parameter * v;
+    Eigen::Map<Vector3d, 0, Stride>(product->lanes.data() + places[edge]) -= (1.0 - parameter) * v;
+    Eigen::Map<Vector3d, 0, Stride>(product->lanes.data() + places[edge + 1]) -= parameter * v;
   };
   for_each_term(terms, [&](const ContactTerm& term) {
     const ContactPoints& points = term.points;
@@ -150,7 +150,7 @@ void ContactSet::bound_step(const Rods& rods, const std::vector<Vector3d>& displ
   for (std::size_t i = 0; i < obstacle_contacts.size(); ++i) {
     double& share = shares[islands[obstacle_contacts[i].rod]];
     share = bounded_share(obstacle_contacts[i], obstacle_distances_[i], rods.positions,
-                          displacements, most_lost, share);
+                          displacements, max_loss, share);
   }
   for (const ObstacleEdge& edge : obstacle_edges) {
     double& share = shares[islands[edge.rod]];
@@ -159,21 +159,21 @@ void ContactSet::bound_step(const Rods& rods, const std::vector<Vector3d>& displ
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const EdgePair& pair = pairs[i];
     double& share = shares[islands[pair.rod_a]];
-    const double gap = distances_[i].distance - pair.barrier.least();
+    const double gap = distances_[i].distance - pair.barrier.min_distance();
     const double square =
-        largest_approach(&displacements[pair.edge_a], &displacements[pair.edge_b]);
-    if (gap > 0.0 && square * share * share < most_lost * most_lost * gap * gap) {
+        squared_approach(&displacements[pair.edge_a], &displacements[pair.edge_b]);
+    if (gap > 0.0 && square * share * share < max_loss * max_loss * gap * gap) {
       continue;
     }
     for (const std::uint32_t node : {pair.edge_a, pair.edge_a + 1, pair.edge_b, pair.edge_b + 1}) {
       ends[node] = rods.positions[node] + displacements[node];
     }
-    const double left = (1.0 - most_lost) * std::max(0.0, gap);
+    const double left = (1.0 - max_loss) * std::max(0.0, gap);
     const ContactTime time = contact_time({&rods.positions[pair.edge_a],
                                            &ends[pair.edge_a],
                                            &rods.positions[pair.edge_b],
                                            &ends[pair.edge_b],
-                                           {0.0, 0.0, pair.barrier.least() + left}},
+                                           {0.0, 0.0, pair.barrier.min_distance() + left}},
                                           tolerance * left);
     if (time.hit) {
       share = std::min(share, time.lower);

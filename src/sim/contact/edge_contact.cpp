@@ -9,7 +9,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Where an end of one edge is nearest to the other edge.
+/// The point of the other edge that is nearest to an end of one edge.
 struct EndDistance {
   double parameter;  // on the other edge
   Vector3d delta;    // from there to the end [m]
@@ -56,18 +56,26 @@ class EdgeContact {
     return end < 2 ? pair_.edge_b : pair_.edge_a;
   }
 
-  static DistanceTerm term(std::uint32_t end, const EndDistance& of_end, double slope,
+  static DistanceTerm term(std::uint32_t end, const EndDistance& nearest_to_end, double slope,
                            double curvature, double pressure) {
-    const Vector3d normal = of_end.delta / of_end.distance;
+    const Vector3d normal = nearest_to_end.delta / nearest_to_end.distance;
     const double own = end % 2 == 0 ? 0.0 : 1.0;
-    const double across = std::max(0.0, slope) / of_end.distance;
-    return end < 2 ? DistanceTerm{own,       of_end.parameter, normal, slope,
-                                  curvature, pressure,         0.0,    across}
-                   : DistanceTerm{of_end.parameter, own,      -normal, slope,
-                                  curvature,        pressure, 0.0,     across};
+    const double across = std::max(0.0, slope) / nearest_to_end.distance;
+    return end < 2 ? DistanceTerm{own,       nearest_to_end.parameter,
+                                  normal,    slope,
+                                  curvature, pressure,
+                                  0.0,       across}
+                   : DistanceTerm{nearest_to_end.parameter,
+                                  own,
+                                  -normal,
+                                  slope,
+                                  curvature,
+                                  pressure,
+                                  0.0,
+                                  across};
   }
 
-  /// Of the edges' distance, with its weight.
+  /// Adds the energy of the edges' distance, with its weight.
   double add_crossing(std::vector<DistanceTerm>* terms) {
     const double distance = nearest_.distance;
     const auto is_inner = [](double parameter) { return parameter > 0.0 && parameter < 1.0; };
@@ -75,11 +83,12 @@ class EdgeContact {
       return 0.0;
     }
     double weight = 1.0;
-    std::array<Ramp, 4> ramps{Ramp(1.0), Ramp(1.0), Ramp(1.0), Ramp(1.0)};
+    std::array<Smoothstep, 4> steps{Smoothstep(1.0), Smoothstep(1.0), Smoothstep(1.0),
+                                    Smoothstep(1.0)};
     for (std::uint32_t end = 0; end < 4; ++end) {
       const double further = std::max(0.0, ends_[end].distance - distance);
-      ramps[end] = Ramp(further / barrier_.width());
-      weight *= ramps[end].value;
+      steps[end] = Smoothstep(further / barrier_.width());
+      weight *= steps[end].value;
     }
     if (weight == 0.0) {
       return 0.0;
@@ -92,10 +101,10 @@ class EdgeContact {
     const Vector3d normal = -nearest_.delta / distance;
     std::array<double, 4> cosines{};
     for (std::uint32_t end = 0; end < 4; ++end) {
-      const Vector3d of_end = (end < 2 ? 1.0 : -1.0) / ends_[end].distance * ends_[end].delta;
-      cosines[end] = of_end.dot(normal);
+      const Vector3d end_normal = (end < 2 ? 1.0 : -1.0) / ends_[end].distance * ends_[end].delta;
+      cosines[end] = end_normal.dot(normal);
     }
-    const WeightedSlopes<4> by = weighted.slopes(ramps, cosines);
+    const WeightedSlopes<4> by = weighted.slopes(steps, cosines);
     for (std::uint32_t end = 0; end < 4; ++end) {
       slopes_[end] += by.end_slopes[end];
       curvatures_[end] += by.end_curvatures[end];
@@ -104,23 +113,23 @@ class EdgeContact {
     return energy;
   }
 
-  /// Of the distance of an end from the other edge.
+  /// Adds the energy of the distance of an end from the other edge.
   double add_node(std::uint32_t end, std::vector<DistanceTerm>* terms) {
-    const EndDistance& of_end = ends_[end];
-    if (!pair_.owns[end] || of_end.distance >= barrier_.outer) {
+    const EndDistance& nearest_to_end = ends_[end];
+    if (!pair_.owns[end] || nearest_to_end.distance >= barrier_.outer) {
       return 0.0;
     }
     double share = 1.0;
     double shared = 0.0;  // energy
     for (std::uint32_t last = 0; last < 2; ++last) {
       const double corner_parameter = last;
-      const bool is_corner = of_end.parameter == corner_parameter;
+      const bool is_corner = nearest_to_end.parameter == corner_parameter;
       if (!pair_.has_neighbour[end][last]) {
         continue;
       }
       const bool is_neighbour_clamped = neighbour_is_clamped(end, last);
       if (is_corner) {
-        // Both edges are nearest at the node between them, or the other one is nearer.
+        // Both edges are nearest at the node between them, or the neighbouring one is nearer.
         share = is_neighbour_clamped ? 0.5 : 0.0;
       } else if (!is_neighbour_clamped) {
         shared += add_corner(end, last, terms);
@@ -129,24 +138,25 @@ class EdgeContact {
     if (share == 0.0) {
       return shared;
     }
-    if (terms != nullptr && of_end.distance > barrier_.inner) {
-      slopes_[end] += share * barrier_.slope(of_end.distance);
-      pressures_[end] -= share * barrier_.slope(of_end.distance);
-      curvatures_[end] += share * barrier_.curvature(of_end.distance);
+    if (terms != nullptr && nearest_to_end.distance > barrier_.inner) {
+      slopes_[end] += share * barrier_.slope(nearest_to_end.distance);
+      pressures_[end] -= share * barrier_.slope(nearest_to_end.distance);
+      curvatures_[end] += share * barrier_.curvature(nearest_to_end.distance);
     }
-    return share * barrier_.energy(of_end.distance) + shared;
+    return share * barrier_.energy(nearest_to_end.distance) + shared;
   }
 
-  /// Whether the edge before or after the other one is nearest to the end at their common node: as
-  /// the pair with that edge finds it, to the last digit, so that each contact is one's.
+  /// Whether the edge before or after the other one is nearest to the end at their common node. It
+  /// is computed as the pair with that edge does, to the last digit, so that each contact counts
+  /// once.
   bool neighbour_is_clamped(std::uint32_t end, std::uint32_t last) const {
     const std::uint32_t first = last == 0 ? other_edge(end) - 1 : other_edge(end) + 1;
     const double common = last == 0 ? 1.0 : 0.0;
     return end_distance(x_[node_of(end)], x_[first], x_[first + 1]).parameter == common;
   }
 
-  /// In the hollow of a bend neither edge is nearest at the node between them, and that counts half
-  /// for each, taken away: all edges less all nodes between them is the potential of a polyline.
+  /// In the hollow of a bend neither edge is nearest at the node between them. Each of the two
+  /// pairs subtracts half of the node's energy, as the potential of a polyline requires.
   double add_corner(std::uint32_t end, std::uint32_t last, std::vector<DistanceTerm>* terms) {
     const Vector3d delta = x_[node_of(end)] - x_[other_edge(end) + last];
     const EndDistance corner{static_cast<double>(last), delta, delta.norm()};

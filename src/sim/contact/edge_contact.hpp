@@ -8,15 +8,17 @@
 
 namespace fiber {
 
-/// Edges of one rod whose indices differ by at most this do not touch but by folding.
+/// Edges of one rod whose indices differ by at most this are never in contact: only folding would
+/// bring them together.
 constexpr std::uint32_t contact_neighbour_skip = 2;
 
-/// Nor do those with less of the rod between them than this [m], measured at rest: four radii.
+/// Edges with less of the rod between them than this, measured at rest, are never in contact
+/// either: four radii [m].
 inline double contact_neighbour_length(const Rods& rods, std::uint32_t rod) {
   return 4.0 * rods.radii[rod];
 }
 
-/// Whether two edges of one rod are too near each other along it to touch.
+/// Whether two edges of one rod are too near each other along it to be in contact.
 /// @param arcs arc length at rest from the rod's first node, by node [m]
 inline bool are_contact_neighbours(const Rods& rods, const std::vector<double>& arcs,
                                    std::uint32_t rod, std::uint32_t edge_a, std::uint32_t edge_b) {
@@ -26,7 +28,7 @@ inline bool are_contact_neighbours(const Rods& rods, const std::vector<double>& 
          arcs[last] - arcs[first + 1] < contact_neighbour_length(rods, rod);
 }
 
-/// Those arc lengths of all rods.
+/// Arc lengths at rest of all nodes from their rod's first one [m].
 inline std::vector<double> contact_arcs(const Rods& rods) {
   std::vector<double> arcs(rods.positions.size(), 0.0);
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
@@ -46,7 +48,7 @@ struct EdgePair {
   Barrier barrier;
 
   /// For each of the four ends (two of a, two of b): whether the contact of this node and the other
-  /// edge is this pair's, not one of a neighbour of the node's edge.
+  /// edge belongs to this pair, and not to that of the neighbouring edge at the node.
   std::array<bool, 4> owns{};
 
   /// For each of them: whether the edges before and after the other edge may touch the node, too.
@@ -62,34 +64,35 @@ struct DistanceTerm {
   double slope;            ///< of the energy by the distance [N]
   double curvature;        ///< a positive part of the second derivative [N/m]
 
-  /// What presses the two together, at least 0 [N]: not all of the slope, part of which takes
-  /// weight from one contact of two edges and gives it to another.
+  /// The normal force, at least 0 [N]. It is not all of the slope: a part of that moves weight from
+  /// one contact of two edges to another.
   double pressure;
 
-  /// What resists that one end of edge a comes nearer than the other: as that moves the nearest
-  /// point along the edge [N/m].
+  /// Stiffness against a rotation that brings one end of edge a nearer than the other, which moves
+  /// the nearest point along the edge [N/m].
   double turning = 0.0;
 
-  /// What resists a displacement across the normal, where the two attract each other [N/m].
+  /// Stiffness against a displacement across the normal, where the two attract each other [N/m].
   double across = 0.0;
 };
 
 /// The potential of two polylines near each other, edge by edge:
 ///
-/// - Each node has the barrier of its distance from the other polyline: of those from each of its
-///   edges, less those from nodes between two of these, which both edges have (Li et al. 2023,
-///   Sect. 4). So a node that slides along an other rod feels no step from edge to edge.
+/// - Each node has the barrier of its distance from the other polyline: the sum over that one's
+///   edges, less the sum over the nodes between two of them, which both edges have (Li et al. 2023,
+///   Sect. 4). So the force on a node that slides along another rod does not jump from edge to
+///   edge.
 /// - Two edges that cross have the barrier of their distance times a weight: 0 where one of their
 ///   ends is as near to the other edge as they are to each other, as where they lie side by side or
 ///   meet at a node, and 1 where all ends are too far away to have a barrier of their own. The
 ///   nearest points of parallel edges jump along them, this energy does not. With less weight the
-///   barrier begins nearer, so that ends hold what is pressed before a barrier that is hardly
-///   there.
+///   barrier begins nearer, so that the contacts of the ends carry the load, not one of little
+///   weight.
 ///
 /// Gradients are exact, in terms of distances.
 /// @param nearest of the two edges, where `positions` has them
 /// @param terms   appended to; null if only the energy is asked for
-/// @returns energy [J], infinite where a distance is reached below which nothing can get
+/// @returns energy [J], infinite where a distance has reached its least value
 double edge_contact(const EdgePair& pair, const std::vector<Eigen::Vector3d>& positions,
                     const SegmentDistance& nearest, std::vector<DistanceTerm>* terms);
 

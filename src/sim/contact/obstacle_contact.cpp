@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "fiber_proximity/environment/occupancy_octree.hpp"
 #include "fiber_proximity/environment/triangle_mesh.hpp"
 #include "src/environment/convex_solids.hpp"
-#include "src/environment/occupancy_octree.hpp"
 
 namespace fiber {
 
@@ -17,13 +17,13 @@ namespace {
 using MeshPointer = std::shared_ptr<const TriangleMesh>;
 using OctreePointer = std::shared_ptr<const OccupancyOctree>;
 
-PointDistance distance_of(const TriangleCorners& triangle, const Vector3d& point) {
+PointDistance local_distance(const TriangleCorners& triangle, const Vector3d& point) {
   const Vector3d way = point - nearest_on_triangle(point, triangle).nearest;
   const double distance = way.norm();
   return {distance, distance > 0.0 ? Vector3d(way / distance) : Vector3d::UnitZ()};
 }
 
-PointDistance distance_of(const Shape& shape, const Vector3d& point) {
+PointDistance local_distance(const Shape& shape, const Vector3d& point) {
   return std::visit(
       [&](const auto& solid) -> PointDistance {
         using Solid = std::decay_t<decltype(solid)>;
@@ -82,11 +82,11 @@ PointDistance ObstaclePiece::distance_from(const Vector3d& point) const {
   const Vector3d local = shape_->to_shape * point;
   PointDistance found;
   if (const auto* const triangle = std::get_if<TriangleCorners>(&part_)) {
-    found = distance_of(*triangle, local);
+    found = local_distance(*triangle, local);
   } else if (const auto* const cell = std::get_if<Cell>(&part_)) {
     found = point_distance(BoxShape{Vector3d::Constant(cell->size)}, local - cell->center);
   } else {
-    found = distance_of(*shape_->shape, local);
+    found = local_distance(*shape_->shape, local);
   }
   found.gradient = shape_->pose.linear() * found.gradient;
   return found;
@@ -117,8 +117,8 @@ struct Line {
   double at(double s) const { return first + s * (last - first); }
 };
 
-/// What the distance at a place on an edge, and how it grows from there, promise for the whole
-/// edge.
+/// The lower bound for the whole edge that the distance and its gradient at a place give, as
+/// distances from convex pieces are convex.
 /// @param moved by which its ends have moved [m]
 Line tangent(double s, const PointDistance& found, const Vector3d& edge,
              const std::array<Vector3d, 2>& moved = {Vector3d::Zero(), Vector3d::Zero()}) {
@@ -126,13 +126,13 @@ Line tangent(double s, const PointDistance& found, const Vector3d& edge,
           found.distance + found.gradient.dot(moved[1] + (1.0 - s) * edge)};
 }
 
-/// The least distance that two tangents promise along an edge, of which the greater holds at each
-/// place.
-double least_promise(const Line& a, const Line& b) {
-  const double least = std::min(std::max(a.first, b.first), std::max(a.last, b.last));
+/// The least distance along an edge by two lower bounds, of which the greater holds at each place.
+double min_on_edge(const Line& a, const Line& b) {
+  const double min_at_ends = std::min(std::max(a.first, b.first), std::max(a.last, b.last));
   const double at_first = a.first - b.first;
   const double at_last = a.last - b.last;
-  return at_first * at_last < 0.0 ? std::min(least, a.at(at_first / (at_first - at_last))) : least;
+  const bool cross = at_first * at_last < 0.0;
+  return cross ? std::min(min_at_ends, a.at(at_first / (at_first - at_last))) : min_at_ends;
 }
 
 /// A part of an edge.
@@ -140,7 +140,7 @@ struct EdgePart {
   double first = 0.0;
   double last = 1.0;
 
-  /// Keeps of it where a line is not below a floor.
+  /// Keeps the part in which a line is not below a floor.
   void keep(const Line& line, double floor) {
     const double at_first = line.first - floor;
     const double at_last = line.last - floor;
@@ -155,8 +155,9 @@ struct EdgePart {
 };
 
 /// Whether tangents prove that the distance does not fall below a floor while the ends of an edge
-/// move. A tangent's promise for a place is linear in time: where it holds before and after, it
-/// holds all the way. So each place needs one tangent that is above the floor at both times.
+/// move. A tangent's bound at a place is linear in time: where it is above the floor before and
+/// after the motion, it is so all the way. So each place needs one tangent that is above at both
+/// times.
 bool stays_above(double floor, const ObstacleDistance& distance, const Vector3d& edge,
                  const std::array<Vector3d, 2>& ways) {
   std::array<EdgePart, 3> safe;
@@ -185,9 +186,10 @@ std::uint32_t node_of(const ObstacleContact& contact) {
   return contact.edge + (contact.part == ObstacleContact::Part::LAST_NODE ? 1 : 0);
 }
 
-Ramp ramp_of(const ObstacleContact& contact, const ObstacleDistance& distance, std::size_t end) {
+Smoothstep weight_factor(const ObstacleContact& contact, const ObstacleDistance& distance,
+                         std::size_t end) {
   const double further = distance.ends[end].distance - distance.nearest.distance;
-  return Ramp(std::max(0.0, further) / contact.barrier.width());
+  return Smoothstep(std::max(0.0, further) / contact.barrier.width());
 }
 
 /// The nearest point of an edge that turns about it moves along the edge, by the less the more the
@@ -201,8 +203,8 @@ double turning_of(const ObstacleContact& contact, const ObstacleDistance& distan
     const double way = distance.s - static_cast<double>(end);
     return 2.0 * (distance.ends[end].distance - distance.nearest.distance) / (way * way);
   };
-  const double most = std::max(bend(0), bend(1));
-  return most > 0.0 ? pressure / most : 0.0;
+  const double larger = std::max(bend(0), bend(1));
+  return larger > 0.0 ? pressure / larger : 0.0;
 }
 
 }  // namespace
@@ -217,21 +219,21 @@ ObstacleDistance obstacle_distance(const ObstacleContact& contact,
   const Vector3d& p0 = positions[contact.edge];
   const Vector3d& p1 = positions[contact.edge + 1];
   distance.ends = {contact.piece.distance_from(p0), contact.piece.distance_from(p1)};
-  // Mostly the ends tell that the edge has no part of its own.
+  // Mostly the distances of the ends show that the edge has no contact of its own.
   const Line from_first = tangent(0.0, distance.ends[0], p1 - p0);
   const Line from_last = tangent(1.0, distance.ends[1], p1 - p0);
-  const double promise = least_promise(from_first, from_last);
+  const double bound = min_on_edge(from_first, from_last);
   const double nearer_end = std::min(distance.ends[0].distance, distance.ends[1].distance);
   constexpr double rounding = 1e-7;
-  if (promise >= contact.barrier.outer ||
-      promise >= nearer_end - rounding * contact.barrier.width()) {
-    distance.nearest.distance = promise;
+  if (bound >= contact.barrier.outer || bound >= nearer_end - rounding * contact.barrier.width()) {
+    distance.nearest.distance = bound;
     distance.weight = 0.0;
     return distance;
   }
   distance.s = contact.piece.nearest_parameter(p0, p1);
   distance.nearest = contact.piece.distance_from((1.0 - distance.s) * p0 + distance.s * p1);
-  distance.weight = ramp_of(contact, distance, 0).value * ramp_of(contact, distance, 1).value;
+  distance.weight =
+      weight_factor(contact, distance, 0).value * weight_factor(contact, distance, 1).value;
   return distance;
 }
 
@@ -248,15 +250,15 @@ double obstacle_contact(const ObstacleContact& contact, const ObstacleDistance& 
     return energy;
   }
   const bool is_edge = contact.part == ObstacleContact::Part::EDGE;
-  std::array<Ramp, 2> ramps{Ramp(1.0), Ramp(1.0)};
+  std::array<Smoothstep, 2> steps{Smoothstep(1.0), Smoothstep(1.0)};
   std::array<double, 2> cosines{};
   for (std::size_t end = 0; is_edge && end < 2; ++end) {
-    ramps[end] = ramp_of(contact, distance, end);
+    steps[end] = weight_factor(contact, distance, end);
     cosines[end] = distance.ends[end].gradient.dot(distance.nearest.gradient);
   }
-  const WeightedSlopes<2> by = weighted.slopes(ramps, cosines);
+  const WeightedSlopes<2> by = weighted.slopes(steps, cosines);
   for (std::size_t end = 0; end < 2; ++end) {
-    if (ramps[end].slope > 0.0) {
+    if (steps[end].slope > 0.0) {
       terms->push_back({static_cast<double>(end), 0.0, distance.ends[end].gradient,
                         by.end_slopes[end], by.end_curvatures[end], 0.0});
     }
@@ -270,28 +272,27 @@ double obstacle_contact(const ObstacleContact& contact, const ObstacleDistance& 
 double bounded_share(const ObstacleContact& contact, const ObstacleDistance& distance,
                      const std::vector<Vector3d>& positions,
                      const std::vector<Vector3d>& displacements, double part, double share) {
-  const double least = contact.barrier.least();
-  const double room = part * (distance.nearest.distance - least);
+  const double max_loss = part * (distance.nearest.distance - contact.barrier.min_distance());
   if (contact.part != ObstacleContact::Part::EDGE) {
     const double approach = -distance.nearest.gradient.dot(displacements[node_of(contact)]);
-    return approach * share > room ? std::max(0.0, room / approach) : share;
+    return approach * share > max_loss ? std::max(0.0, max_loss / approach) : share;
   }
   const std::uint32_t edge = contact.edge;
-  const std::array<Vector3d, 2> ways{displacements[edge], displacements[edge + 1]};
-  const double longest = std::sqrt(std::max(ways[0].squaredNorm(), ways[1].squaredNorm()));
-  if (longest * share <= room) {
+  const std::array<Vector3d, 2> step{displacements[edge], displacements[edge + 1]};
+  const double longest = std::sqrt(std::max(step[0].squaredNorm(), step[1].squaredNorm()));
+  if (longest * share <= max_loss) {
     return share;
   }
-  const double floor = distance.nearest.distance - room;
-  constexpr int most_halvings = 20;
-  for (int i = 0; i < most_halvings; ++i) {
+  const double floor = distance.nearest.distance - max_loss;
+  constexpr int max_halvings = 20;
+  for (int i = 0; i < max_halvings; ++i) {
     if (stays_above(floor, distance, positions[edge + 1] - positions[edge],
-                    {share * ways[0], share * ways[1]})) {
+                    {share * step[0], share * step[1]})) {
       return share;
     }
     share *= 0.5;
   }
-  return longest * share <= room ? share : 0.0;
+  return longest * share <= max_loss ? share : 0.0;
 }
 
 }  // namespace fiber

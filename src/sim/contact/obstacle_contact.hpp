@@ -48,8 +48,8 @@ class ObstaclePiece {
   /// Where on a segment it is nearest, in [0, 1].
   double nearest_parameter(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1) const;
 
-  /// How far a point is, in the world. As the piece is convex, so is the distance: it never falls
-  /// below what its gradient promises.
+  /// The distance of a point in the world. As the piece is convex, so is the distance: it is
+  /// nowhere below its tangent planes.
   PointDistance distance_from(const Eigen::Vector3d& point) const;
 
  private:
@@ -57,8 +57,8 @@ class ObstaclePiece {
   Part part_;
 };
 
-/// The pieces of a shape within a distance of a segment [m]. Each of them counts: where a rod has
-/// come round a corner, it is another one that holds it.
+/// The pieces of a shape within a distance of a segment [m]. Each of them has a contact of its own:
+/// a rod may slide from one to the next.
 std::vector<ObstaclePiece> near_pieces(const ObstacleShape& shape, const Eigen::Vector3d& p0,
                                        const Eigen::Vector3d& p1, double within);
 
@@ -66,8 +66,8 @@ std::vector<ObstaclePiece> near_pieces(const ObstacleShape& shape, const Eigen::
 ///
 /// A node has the barrier of its distance. An edge has that of its own times a weight, as edges
 /// that cross have (EdgePair): 0 where one of its ends is as near, and 1 where both are too far
-/// away to have a barrier of their own. So a rod that lies flat rests on its nodes, and one around
-/// a post, whose edges touch that anywhere, feels no step as it slides.
+/// away to have a barrier of their own. So a rod that lies flat rests on its nodes, and the force
+/// on one that slides around a post, touching it with edges, does not jump.
 struct ObstacleContact {
   enum class Part { FIRST_NODE, LAST_NODE, EDGE };
 
@@ -78,7 +78,7 @@ struct ObstacleContact {
   ObstaclePiece piece;
 };
 
-/// Where that is now. Of a node `nearest` alone is in use.
+/// The distance of such a contact. Contacts of nodes only have `nearest`.
 struct ObstacleDistance {
   PointDistance nearest;
   double s = 0.0;                     ///< where on the edge that is
@@ -90,13 +90,12 @@ ObstacleDistance obstacle_distance(const ObstacleContact& contact,
                                    const std::vector<Eigen::Vector3d>& positions);
 
 /// @param terms appended to, t being 0; null if only the energy is asked for
-/// @returns energy [J], infinite where a distance is reached below which nothing can get
+/// @returns energy [J], infinite where a distance has reached its least value
 double obstacle_contact(const ObstacleContact& contact, const ObstacleDistance& distance,
                         std::vector<DistanceTerm>* terms);
 
-/// Shortens a share of a step so that the distance loses no more than a part of what it has beyond
-/// the least one. Proven: distances from convex pieces never fall below what their gradients, where
-/// rods are now, promise.
+/// Shortens a share of a step so that the distance loses no more than a part of its excess over the
+/// least one. This is proven: distances from convex pieces are nowhere below their tangent planes.
 /// @param displacements of nodes by the whole step [m]
 double bounded_share(const ObstacleContact& contact, const ObstacleDistance& distance,
                      const std::vector<Eigen::Vector3d>& positions,

@@ -171,14 +171,14 @@ class ClampedEnd {
   std::uint32_t edge_;  // from the rod's first one
   EdgeDirection direction_;
   double bending_;      // stiffness [J]
-  double twisting_;     // the same
+  double twisting_;     // stiffness [J]
   double twist_ = 0.0;  // [rad]
   std::optional<NaturalBend> bend_;
 };
 
 }  // namespace
 
-/// Force on the node.
+/// The force on the node.
 Vector3d Attachment::Held::pull_at(const Vector3d& position) const {
   const Vector3d way = placement.position - position;
   const double distance = way.norm();
@@ -260,9 +260,9 @@ void Attachment::begin_step(Rods& rods, const TimeStep& step) {
     validate(rods, held.hold, held.placement);
     const std::uint32_t node = rods.first(held.hold.rod) + held.hold.node;
     const std::uint32_t edge = std::min(node, rods.end(held.hold.rod) - 2);
-    const double of_edge =
+    const double edge_stiffness =
         rods.sections[held.hold.rod].stretching_stiffness / rods.rest_lengths[edge];
-    held.stiffness = ratio * (of_edge + rods.masses[node] / (step.length * step.length));
+    held.stiffness = ratio * (edge_stiffness + rods.masses[node] / (step.length * step.length));
     held.natural_bend.reset();
     if (held.is_clamp() && !rods.natural_curvature_vectors.empty()) {
       held.natural_bend = rods.natural_curvature_vectors[node];
@@ -275,7 +275,7 @@ std::vector<Attachment::Held>::const_iterator Attachment::first_of(std::uint32_t
                           [](const Held& held, std::uint32_t r) { return held.hold.rod < r; });
 }
 
-/// Few nodes are held: one after the other.
+/// Few nodes are held, so that they are visited one after the other.
 template <class Visit>
 void Attachment::for_each_held(const RodPack& rods, const Visit& visit) const {
   for (std::size_t lane = 0; lane < rods.used; ++lane) {
@@ -304,17 +304,18 @@ void Attachment::energy(const RodPack& rods, const NodeValues& /*values*/,
 void Attachment::add_derivatives(const RodPack& rods, const NodeValues& /*values*/,
                                  PackSystem& system) const {
   for_each_held(rods, [&](const Held& held, const PackLane& rod) {
-    RodSystem of_rod(system, rod.lane());
+    RodSystem rod_system(system, rod.lane());
     const std::uint32_t node = held.hold.node;
     const Vector3d pull = held.pull_at(rod.position(node));
     const double distance = (held.placement.position - rod.position(node)).norm();
-    // Of a constant force the Hessian has nothing along it. With this, Newton's step leads to the
-    // hold, not far beyond it.
+    // The Hessian of a constant force vanishes along it. With this stiffness, Newton's step leads
+    // to the hold, not far beyond it.
     const double stiffness = std::min(held.stiffness, held.max_force / distance);
-    of_rod.add_gradient(node, -pull);
-    of_rod.add_hessian(node, stiffness * Eigen::Matrix3d::Identity());
+    rod_system.add_gradient(node, -pull);
+    rod_system.add_hessian(node, stiffness * Eigen::Matrix3d::Identity());
     if (held.is_clamp()) {
-      ClampedEnd(rod, node, held.placement, held.twist, held.natural_bend).add_derivatives(of_rod);
+      ClampedEnd(rod, node, held.placement, held.twist, held.natural_bend)
+          .add_derivatives(rod_system);
     }
   });
 }

@@ -53,7 +53,7 @@ void add_derivatives(const RodPack& rods, const NodeValues& /*values*/, const do
   with_unknowns(system, [&](auto u) { add_derivatives_of<u>(rods, system); });
 }
 
-/// How a node is bent against its natural curvature.
+/// The turn at a node, and its excess over the natural one.
 struct CurvedTurn {
   Vector turn;
   Real size;
@@ -80,7 +80,8 @@ void curved_energy(const RodPack& rods, const NodeValues& natural, const double*
   }
 }
 
-/// Of the turn; where there is none, one of those across the rod, found lane by lane.
+/// The direction of the turn; where there is none, any direction across the rod, found lane by
+/// lane.
 HWY_INLINE Vector direction_of(const CurvedTurn& turn, const Vector& tangent) {
   const Real zero = real(0.0);
   const auto is_bent = hn::Gt(turn.size, zero);
@@ -91,15 +92,15 @@ HWY_INLINE Vector direction_of(const CurvedTurn& turn, const Vector& tangent) {
   SimdBatch across[3];
   store(tangent, across, 0);
   for (std::size_t l = 0; l < lanes_at_once(); ++l) {
-    const Eigen::Vector3d of_lane =
+    const Eigen::Vector3d lane_across =
         Eigen::Vector3d(across[0][l], across[1][l], across[2][l]).unitOrthogonal();
     for (std::size_t k = 0; k < 3; ++k) {
-      across[k][l] = of_lane[static_cast<Eigen::Index>(k)];
+      across[k][l] = lane_across[static_cast<Eigen::Index>(k)];
     }
   }
   Vector direction;
   for (std::size_t k = 0; k < 3; ++k) {
-    direction.of[k] = hn::IfThenElse(is_bent, along.of[k], load(across[k], 0));
+    direction.xyz[k] = hn::IfThenElse(is_bent, along.xyz[k], load(across[k], 0));
   }
   return direction;
 }
@@ -151,7 +152,7 @@ HWY_EXPORT(add_curved_derivatives);
 
 namespace {
 
-/// |k| of the natural curvature: that of an arc over the length that belongs to the node.
+/// k₀ of the natural curvature: that of an arc over the length that belongs to the node.
 double natural_turn(const Rods& rods, std::uint32_t node) {
   if (rods.natural_curvatures.empty()) {
     return 0.0;
@@ -160,7 +161,7 @@ double natural_turn(const Rods& rods, std::uint32_t node) {
   return 2.0 * std::sin(0.5 * std::min(angle, M_PI));
 }
 
-/// Bending with a direction is rare: one rod after the other.
+/// Natural curvature with a direction is rare, so that rods are visited one after the other.
 /// @param function takes lane, node and bend
 template <class Function>
 void for_each_natural_bend(const RodPack& rods, const NodeValues& values,
@@ -187,8 +188,8 @@ void add_natural_derivatives(const RodPack& rods, const NodeValues& values,
                              const double* /*constants*/, PackSystem& system) {
   for_each_natural_bend(rods, values,
                         [&](std::size_t lane, std::uint32_t /*node*/, const NaturalBend& bend) {
-                          RodSystem of_rod(system, lane);
-                          bend.add_derivatives(of_rod);
+                          RodSystem rod_system(system, lane);
+                          bend.add_derivatives(rod_system);
                         });
 }
 
@@ -204,7 +205,7 @@ void Bend::begin_step(Rods& rods, const TimeStep& /*step*/) {
   }
 }
 
-NodeNumbers Bend::numbers() const {
+NodeData Bend::per_node_data() const {
   if (!natural_curvatures_.empty()) {
     return {natural_curvatures_.front().data(), 2};
   }

@@ -28,7 +28,7 @@ Friction::Law Friction::law(double slip, double stick_length) {
 
 namespace {
 
-/// The most by which vectors differ from their mean.
+/// The largest distance of vectors from their mean.
 double spread_of(const std::vector<Vector3d>& vectors) {
   Vector3d mean = Vector3d::Zero();
   for (const Vector3d& vector : vectors) {
@@ -46,16 +46,16 @@ double largest_of(const std::vector<double>& values) {
   return *std::max_element(values.begin(), values.end());
 }
 
-/// How much further two edges may come towards each other than their nodes' room allows [m].
-double expected_approach(const Room& room, const EdgePair& pair) {
+/// An upper bound of how far two edges approach each other in a step [m].
+double expected_approach(const TravelBound& bound, const EdgePair& pair) {
   double square = 0.0;
   for (std::uint32_t i = 0; i < 2; ++i) {
     for (std::uint32_t j = 0; j < 2; ++j) {
-      const Vector3d way = room.expected[pair.edge_a + i] - room.expected[pair.edge_b + j];
+      const Vector3d way = bound.expected[pair.edge_a + i] - bound.expected[pair.edge_b + j];
       square = std::max(square, way.squaredNorm());
     }
   }
-  return std::sqrt(square) + room.by_rod[pair.rod_a] + room.by_rod[pair.rod_b];
+  return std::sqrt(square) + bound.by_rod[pair.rod_a] + bound.by_rod[pair.rod_b];
 }
 
 }  // namespace
@@ -67,10 +67,10 @@ FiberContact::FiberContact(const Options& options)
 
 FiberContact::~FiberContact() = default;
 
-void FiberContact::find(const Rods& rods, const Room& room, ContactSet& found) {
-  const double expected = spread_of(room.expected);
+void FiberContact::find(const Rods& rods, const TravelBound& bound, ContactSet& found) {
+  const double expected = spread_of(bound.expected);
   const double largest = largest_of(rods.radii);
-  const double needed = 2.0 * (Barrier::half_width * largest + expected + largest_of(room.by_rod));
+  const double needed = 2.0 * (Barrier::half_width * largest + expected + largest_of(bound.by_rod));
   double moved = 0.0;  // by rods beside each other since candidates were looked for
   if (fibers_.point_count() == rods.positions.size()) {
     std::vector<Vector3d> ways(rods.positions.size());
@@ -79,19 +79,19 @@ void FiberContact::find(const Rods& rods, const Room& room, ContactSet& found) {
     }
     moved = spread_of(ways);
   }
-  // A reach that serves for some steps; one that was for faster motion finds too much.
+  // The reach serves for some steps. One that was chosen for faster motion finds too many.
   const double wanted = needed + largest + 4.0 * expected;
   constexpr double too_far = 3.0;
   if (!(needed + 2.0 * moved <= reach_) || reach_ > too_far * wanted) {
     find_candidates(rods, wanted);
     moved = 0.0;
   }
-  add_near(rods, room, 2.0 * moved, found);
+  add_near(rods, bound, 2.0 * moved, found);
 }
 
-/// Adds candidates that are near enough for the step.
-/// @param approach by which any may have come nearer since they were found [m]
-void FiberContact::add_near(const Rods& rods, const Room& room, double approach,
+/// Adds the candidates that may be in contact within the step.
+/// @param approach of any of them since they were found, at most [m]
+void FiberContact::add_near(const Rods& rods, const TravelBound& bound, double approach,
                             ContactSet& found) {
   constexpr std::size_t batch = 64;
   std::array<const Vector3d*, batch> a{};
@@ -100,7 +100,7 @@ void FiberContact::add_near(const Rods& rods, const Room& room, double approach,
   std::array<double, batch> limits{};
   std::array<SegmentDistance, batch> distances;
   std::size_t count = 0;
-  const auto measure = [&] {
+  const auto add_batch = [&] {
     segment_distances(a.data(), b.data(), count, distances.data());
     for (std::size_t i = 0; i < count; ++i) {
       if (distances[i].distance <= limits[i]) {
@@ -111,7 +111,7 @@ void FiberContact::add_near(const Rods& rods, const Room& room, double approach,
   };
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     const EdgePair& pair = candidates_[i];
-    const double limit = pair.barrier.outer + expected_approach(room, pair);
+    const double limit = pair.barrier.outer + expected_approach(bound, pair);
     if (candidate_distances_[i] - approach > limit) {
       continue;
     }
@@ -120,10 +120,10 @@ void FiberContact::add_near(const Rods& rods, const Room& room, double approach,
     which[count] = i;
     limits[count] = limit;
     if (++count == batch) {
-      measure();
+      add_batch();
     }
   }
-  measure();
+  add_batch();
 }
 
 void FiberContact::find_candidates(const Rods& rods, double reach) {
@@ -166,8 +166,9 @@ EdgePair FiberContact::candidate(const Rods& rods, const Contact& contact) const
           : std::sqrt(material_contact_stiffness(rods.sections[pair.rod_a], touching) *
                       material_contact_stiffness(rods.sections[pair.rod_b], touching));
   pair.barrier = Barrier::around(touching, stiffness);
-  // Of the pairs that a node's two edges make with another edge, the one further along the rod owns
-  // the node's contact: it is there if the other one is.
+  // Two pairs of edges contain the contact of a node and another edge: those of the node's two
+  // edges. The pair of the edge further along the rod owns it, for it exists if the other pair
+  // does.
   pair.owns = {pair.edge_a == rods.first(pair.rod_a), true, true,
                pair.edge_b + 2 == rods.end(pair.rod_b)};
   const auto may_touch = [&](std::uint32_t edge_a, std::uint32_t edge_b) {
@@ -245,30 +246,30 @@ void EnvironmentContact::place_fibers(const Rods& rods) {
   fibers_ = FiberAssembly(doubled(rods.positions), offsets, rods.radii);
 }
 
-void EnvironmentContact::find(const Rods& rods, const Room& room, ContactSet& found) {
+void EnvironmentContact::find(const Rods& rods, const TravelBound& bound, ContactSet& found) {
   const double largest = *std::max_element(rods.radii.begin(), rods.radii.end());
   const bool was_asked = reach_ >= 0.0 && fibers_.point_count() == 2 * rods.positions.size();
-  double most_needed = 0.0;
-  double reached = 0.0;  // from where the environment was asked
+  double max_needed = 0.0;
+  double reached = 0.0;  // from the positions of the last query
   needed_.resize(rods.count());
   moved_.resize(rods.count());
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
     double expected = 0.0;
     double moved = 0.0;
     for (std::uint32_t i = rods.first(rod); i < rods.end(rod); ++i) {
-      expected = std::max(expected, room.expected[i].squaredNorm());
+      expected = std::max(expected, bound.expected[i].squaredNorm());
       if (was_asked) {
         const Vector3d way = rods.positions[i] - fibers_.points()[std::size_t{2} * i];
         moved = std::max(moved, way.squaredNorm());
       }
     }
-    needed_[rod] = std::sqrt(expected) + room.by_rod[rod] + Barrier::half_width * largest;
+    needed_[rod] = std::sqrt(expected) + bound.by_rod[rod] + Barrier::half_width * largest;
     moved_[rod] = std::sqrt(moved);
-    most_needed = std::max(most_needed, needed_[rod]);
+    max_needed = std::max(max_needed, needed_[rod]);
     reached = std::max(reached, needed_[rod] + moved_[rod]);
   }
-  // An answer that serves for some steps; one that was for faster motion finds too much.
-  const double wanted = largest + 4.0 * most_needed;
+  // The answer serves for some steps. One that was asked for faster motion contains too much.
+  const double wanted = largest + 4.0 * max_needed;
   constexpr double too_far = 3.0;
   if (!was_asked || !(reached <= reach_) || reach_ > too_far * wanted) {
     place_fibers(rods);
@@ -284,7 +285,7 @@ void EnvironmentContact::find(const Rods& rods, const Room& room, ContactSet& fo
   }
 }
 
-/// @param contact when the environment was asked
+/// @param contact as the last query has found it
 /// @param within  [m] of axes now
 void EnvironmentContact::add(const Rods& rods, const Contact& contact, double within,
                              ContactSet& found) const {
@@ -292,7 +293,7 @@ void EnvironmentContact::add(const Rods& rods, const Contact& contact, double wi
   const std::uint32_t rod = contact.fiber_a;
   const double radius = rods.radii[rod];
   const bool is_edge = contact.segment_a % 2 == 1;
-  // The distance from a half-space is linear along an edge: its nodes say all.
+  // The distance from a half-space is linear along an edge, so that its nodes suffice.
   if (is_edge && std::holds_alternative<HalfSpaceShape>(*shape.shape)) {
     return;
   }

@@ -18,13 +18,13 @@ namespace fiber {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// How much longer an edge is than when the step began.
+/// The lengthening of an edge since the step began.
 HWY_INLINE Real lengthening(const RodPack& rods, const NodeValues& starts, std::size_t edge,
                             std::size_t lane) {
   return load(rods.lengths[edge], lane) - load(starts[7 * edge + 6], lane);
 }
 
-/// What has changed of a node's turn since then, apart from rigid rotation.
+/// The change of a node's turn since the step began, apart from rigid rotation.
 struct TurnChange {
   TwoEdges edges;
   Vector turn;
@@ -39,13 +39,13 @@ struct TurnChange {
 HWY_INLINE TurnChange turn_change(const RodPack& rods, const NodeValues& starts, Real total,
                                   std::size_t node, std::size_t lane) {
   const SimdBatch* const start = &starts[7 * node];
-  const Real least = real(std::numeric_limits<double>::min());
+  const Real smallest = real(std::numeric_limits<double>::min());
   TurnChange result;
   result.edges = edges_beside(rods, node, lane);
   result.turn = result.edges.after - result.edges.before;
   const Vector sum = result.edges.before + result.edges.after;
   result.middle_length = hn::Sqrt(dot(sum, sum));
-  result.middle = real(1.0) / hn::Max(result.middle_length, least) * sum;
+  result.middle = real(1.0) / hn::Max(result.middle_length, smallest) * sum;
   result.old_middle = load_vector(start + 3, lane);
   result.change =
       result.turn - transport(load_vector(start, lane), result.old_middle, result.middle);
@@ -131,10 +131,10 @@ Damping::Damping(double relaxation_time) : relaxation_time_(relaxation_time) {
 
 /// Below this length of the sum of two tangents a rod is folded, and has no frame to compare its
 /// turns in.
-constexpr double least_middle = 1e-3;
+constexpr double min_middle = 1e-3;
 
 void Damping::begin_step(Rods& rods, const TimeStep& step) {
-  static_assert(sizeof(Start) == 7 * sizeof(double), "as numbers() has them");
+  static_assert(sizeof(Start) == 7 * sizeof(double), "as per_node_data() has them");
   share_ = relaxation_time_ / step.length;
   starts_.resize(rods.positions.size());
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
@@ -145,8 +145,7 @@ void Damping::begin_step(Rods& rods, const TimeStep& step) {
       const EdgeDirection middle = direction_of(before.tangent + after.tangent);
       starts_[i].length = after.length;
       starts_[i].turn = after.tangent - before.tangent;
-      starts_[i].middle =
-          middle.length > least_middle ? middle.tangent : Vector3d(Vector3d::Zero());
+      starts_[i].middle = middle.length > min_middle ? middle.tangent : Vector3d(Vector3d::Zero());
       before = after;
     }
   }

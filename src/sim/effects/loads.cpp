@@ -163,7 +163,7 @@ Drag::Node Drag::node_at(const Rods& rods, std::uint32_t rod, std::uint32_t node
 }
 
 void Drag::begin_step(Rods& rods, const TimeStep& step) {
-  static_assert(sizeof(Node) == 8 * sizeof(double), "as numbers() has them");
+  static_assert(sizeof(Node) == 8 * sizeof(double), "as per_node_data() has them");
   nodes_.resize(rods.positions.size());
   tbb::parallel_for(std::uint32_t{0}, rods.count(), [&](std::uint32_t rod) {
     for (std::uint32_t i = rods.first(rod); i < rods.end(rod); ++i) {

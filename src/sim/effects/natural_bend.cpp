@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Of an edge: its first node, its angle, its second node.
+/// Derivative by the unknowns of an edge: its first node, its angle, its second node.
 using RotationByEdge = Eigen::Matrix<double, 3, 7>;
 
 /// The matrix of the cross product with a vector on the left.
@@ -27,7 +27,7 @@ CrossSection cross_section(const PackLane& rod, std::uint32_t edge) {
   return {rod.direction(edge).tangent, rod.director(edge), rod.angle(edge)};
 }
 
-/// How the cross-section of an edge rotates by what is unknown of the edge.
+/// The derivative of the rotation of an edge's cross-section by the unknowns of the edge.
 RotationByEdge rotation_by_edge(const PackLane& rod, std::uint32_t edge) {
   const EdgeDirection direction = rod.direction(edge);
   const Matrix3d by_second =
@@ -39,7 +39,7 @@ RotationByEdge rotation_by_edge(const PackLane& rod, std::uint32_t edge) {
 }
 
 /// Adds the derivatives of half the square of a residual.
-/// @param by_all of the residual by all unknowns from the first node on
+/// @param by_all derivative of the residual by all unknowns from the first node on
 template <class Residual, class ByAll>
 void add_square(std::uint32_t first_node, double stiffness, const Residual& residual,
                 const ByAll& by_all, RodSystem& system) {
@@ -85,8 +85,8 @@ NaturalBend::NaturalBend(const PackLane& rod, std::uint32_t node, const Vector2d
   natural_after_ = std::cos(angle) * before_ + side.x() * before.first + side.y() * before.second;
   natural_before_ = std::cos(angle) * after_ - side.x() * after.first - side.y() * after.second;
   // A fold has no side: there, nothing but rounding errors would be left.
-  constexpr double least_cosine = 1e-6;
-  weight_ = 0.5 / std::max(least_cosine, std::cos(0.5 * angle));
+  constexpr double min_cosine = 1e-6;
+  weight_ = 0.5 / std::max(min_cosine, std::cos(0.5 * angle));
   residual_ = weight_ * (after_ - natural_after_ + natural_before_ - before_);
 }
 
@@ -113,7 +113,7 @@ Vector3d NaturalBend::moment() const {
 void NaturalBend::add_derivatives(RodSystem& system) const {
   const bool has_before = node_ > 0;
   const bool has_after = node_ + 1 < rod_.node_count();
-  // Of the residual by what is unknown, from the first to the last node of the one or two edges.
+  // The derivative of the residual by all unknowns of the one or two edges.
   Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 11> by_all;
   by_all.setZero(3, has_before && has_after ? 11 : 7);
   if (has_before) {
@@ -129,7 +129,7 @@ void NaturalBend::add_derivatives(RodSystem& system) const {
 
 namespace {
 
-/// By how much and to which side a rod bends at a node.
+/// The angle and the side to which a rod bends at a node.
 struct Turn {
   double angle;
   Vector3d side;  ///< across the edge before, of unit length; zero if it does not bend

@@ -4,7 +4,7 @@
 
 namespace fiber {
 
-/// What is across a rod or a clamp: the tangent there, and the material directions.
+/// The tangent and the two material directions of a cross-section of a rod, or of a clamp.
 struct CrossSection {
   /// @param director across the tangent, of unit length
   /// @param angle    of the first material direction against it [rad]

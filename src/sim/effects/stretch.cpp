@@ -53,7 +53,7 @@ void add_stretch(const RodPack& rods, const NodeValues& /*values*/, const double
   with_unknowns(system, [&](auto u) { add_stretch_of<u>(rods, system); });
 }
 
-/// Inextensible::Spring, and by how much it is too long.
+/// Inextensible::Spring, and the excess of its length.
 struct Spring {
   Real tension;
   Real stiffness;
@@ -87,7 +87,7 @@ void add_springs_of(const RodPack& rods, const NodeValues& values, PackSystem& s
       const Spring spring = spring_at(rods, values, i, lane);
       const Vector tangent = tangent_at(rods, i, lane);
       const Real force = spring.tension + spring.stiffness * spring.excess;
-      // As in Stretch, without what gives way under pressure.
+      // As in Stretch, the part that is negative definite under pressure is left out.
       const Real sideways = hn::Max(zero, force) * load(rods.inverse_lengths[i], lane);
       const Vector along = (spring.stiffness - sideways) * tangent;
       add_edge<U>(force * tangent, block_of(sideways, along, tangent), i, lane, system);
@@ -128,12 +128,12 @@ void Stretch::add_forces(const RodPack& rods, const std::vector<SimdBatch>& /*va
 Inextensible::Inextensible(const Rods& rods) : springs_(rods.positions.size()) {}
 
 void Inextensible::begin_step(Rods& rods, const TimeStep& step) {
-  static_assert(sizeof(Spring) == 2 * sizeof(double), "as numbers() has them");
-  constexpr double least = 1e4;
+  static_assert(sizeof(Spring) == 2 * sizeof(double), "as per_node_data() has them");
+  constexpr double min_ratio = 1e4;
   constexpr double by_edges = 100.0;
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
     const double edges = rods.node_count(rod) - 1;
-    const double ratio = std::max(least, by_edges * edges * edges);
+    const double ratio = std::max(min_ratio, by_edges * edges * edges);
     for (std::uint32_t i = rods.first(rod); i < rods.end(rod); ++i) {
       springs_[i].stiffness = ratio * rods.masses[i] / (step.length * step.length);
     }

@@ -43,7 +43,7 @@ void energy(const RodPack& rods, const NodeValues& references, const double* /*c
 /// The derivative of the twist at a node by all unknowns from the previous node to the next one.
 struct TwistDerivative {
   static constexpr std::size_t size = 2 * unknowns + 3;
-  Real of[size];
+  Real values[size];
 };
 
 HWY_INLINE TwistDerivative derivative_at(const RodPack& rods, std::size_t node, std::size_t lane) {
@@ -56,12 +56,12 @@ HWY_INLINE TwistDerivative derivative_at(const RodPack& rods, std::size_t node, 
       director_turn(rods, node, lane) + half * load(rods.inverse_lengths[node], lane) * binormal;
   TwistDerivative derivative;
   for (std::size_t k = 0; k < 3; ++k) {
-    derivative.of[k] = by_previous.of[k];
-    derivative.of[unknowns + k] = hn::Neg(by_previous.of[k] + by_next.of[k]);
-    derivative.of[2 * unknowns + k] = by_next.of[k];
+    derivative.values[k] = by_previous.xyz[k];
+    derivative.values[unknowns + k] = hn::Neg(by_previous.xyz[k] + by_next.xyz[k]);
+    derivative.values[2 * unknowns + k] = by_next.xyz[k];
   }
-  derivative.of[3] = real(-1.0);
-  derivative.of[unknowns + 3] = real(1.0);
+  derivative.values[3] = real(-1.0);
+  derivative.values[unknowns + 3] = real(1.0);
   return derivative;
 }
 
@@ -78,10 +78,10 @@ void add_derivatives(const RodPack& rods, const NodeValues& references, const do
       SimdBatch* const gradient = &system.gradient[start];
       SimdBatch* const hessian = &system.hessian[start * column_height<unknowns>];
       for (std::size_t c = 0; c < TwistDerivative::size; ++c) {
-        add(moment * derivative.of[c], gradient[c], lane);
-        const Real scaled = stiffness * derivative.of[c];
+        add(moment * derivative.values[c], gradient[c], lane);
+        const Real scaled = stiffness * derivative.values[c];
         for (std::size_t r = c; r < TwistDerivative::size; ++r) {
-          add(scaled * derivative.of[r], hessian[c * column_height<unknowns> + r - c], lane);
+          add(scaled * derivative.values[r], hessian[c * column_height<unknowns> + r - c], lane);
         }
       }
     }

@@ -17,7 +17,7 @@
 namespace fiber {
 namespace {
 
-/// All effects there are, with the numbers that are their options, as they are by default.
+/// All effects, with their numeric options by default.
 const std::map<std::string, EffectOptions>& known_effects() {
   static const auto effects = [] {
     const Drag::Options drag;
@@ -72,7 +72,7 @@ void read_options(const YamlField& field, const std::string& prefix, EffectOptio
   }
 }
 
-/// An effect by its name, and where its options are if it has some.
+/// An effect, and the field of its options if it has one.
 struct Entry {
   SimEffect effect;
   std::optional<YamlField> options;
@@ -97,7 +97,7 @@ Entry read_entry(const YamlField& entry) {
           entry.is_map() ? entry.find(name) : std::nullopt};
 }
 
-// ---- made by their options ---------------------------------------------------------------------
+// ---- making effects by their options -----------------------------------------------------------
 
 double number_of(const EffectOptions& options, const char* name) {
   return options.at(name).front();
@@ -140,24 +140,23 @@ auto make(const SimDescription& scene, const char* name, const Make& make_of) {
                            : with_context(effect->place, [&] { return make_of(effect->options); });
 }
 
-/// The same of an effect whose numbers may change later: with other numbers it is another effect,
-/// as its state is that of one step, which begins anew.
+/// Makes an effect whose options may change later. Changed options replace it, which is possible
+/// because its state lasts for one step only.
 template <class Made>
-std::unique_ptr<Made> make_adjustable(const SimDescription& description, const char* name,
+std::shared_ptr<Made> make_adjustable(const SimDescription& description, const char* name,
                                       Made (*made_by)(const EffectOptions&), SimScene& scene) {
   return make(description, name, [&](const EffectOptions& options) {
-    auto made = std::make_unique<Made>(made_by(options));
-    scene.parameters.add(name, options, [&made = *made, made_by](const EffectOptions& changed) {
-      made = made_by(changed);
-    });
+    const auto made = std::make_shared<Made>(made_by(options));
+    scene.parameters.add(
+        name, options, [made, made_by](const EffectOptions& changed) { *made = made_by(changed); });
     return made;
   });
 }
 
-std::unique_ptr<Attachment> make_attachment(const SimDescription& description, const Rods& rods,
+std::shared_ptr<Attachment> make_attachment(const SimDescription& description, const Rods& rods,
                                             SimScene& scene) {
   auto attachment =
-      make(description, "attachment", [](const auto&) { return std::make_unique<Attachment>(); });
+      make(description, "attachment", [](const auto&) { return std::make_shared<Attachment>(); });
   for (const SimHold& hold : description.holds) {
     with_context(hold.place, [&] {
       const auto kind = hold.is_clamp ? Attachment::Kind::CLAMP : Attachment::Kind::PIN;
@@ -166,7 +165,7 @@ std::unique_ptr<Attachment> make_attachment(const SimDescription& description, c
                  hold.max_force});
     });
   }
-  scene.attachment = attachment.get();
+  scene.attachment = attachment;
   return attachment;
 }
 
@@ -301,7 +300,7 @@ double gravity_of(const SimDescription& scene) {
 
 MadeEffects make_effects(const SimDescription& description, Rods& rods, SimScene& scene) {
   MadeEffects made;
-  const auto add = [&made](std::unique_ptr<Effect> effect) {
+  const auto add = [&made](std::shared_ptr<Effect> effect) {
     if (effect != nullptr) {
       made.effects.push_back(std::move(effect));
     }

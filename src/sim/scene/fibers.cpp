@@ -12,20 +12,20 @@
 namespace fiber {
 namespace {
 
-constexpr std::int64_t most_segments = 1000000;  // of all fibres together, too
-constexpr std::int64_t most_repeats = 100000;
-constexpr std::uint32_t most_substeps = 1000;
+constexpr std::int64_t max_segments = 1000000;  // of all fibres together, too
+constexpr std::int64_t max_repeats = 100000;
+constexpr std::uint32_t max_substeps = 1000;
 
-/// Into so many segments a curve is cut to measure how much it turns.
+/// The number of segments in which the turning of a curve is measured.
 constexpr std::int64_t fine_segments = 1000;
 
-/// What real_time chooses from, the finest first.
+/// The accuracies that real_time chooses from, the finest first.
 constexpr std::array<double, 8> accuracies{0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2};
 
-/// Of the time there is: the rest is for messages, and for whatever else runs.
+/// The part of the time for steps: the rest is for messages, and for whatever else runs.
 constexpr double share_of_time = 0.5;
 
-/// A fibre of a scene before it is cut into segments, or several that are alike.
+/// A fibre of a scene before it is cut into segments, or several of them by `repeat`.
 struct FiberEntry {
   std::string name;
   std::string place;                   ///< where it stands, for errors
@@ -37,21 +37,21 @@ struct FiberEntry {
   std::string repeat_place;
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< of each from the one before [m]
 
-  // Of the curve, where segments are chosen.
-  double length = 0.0;   ///< [m]
-  double turning = 0.0;  ///< in all [rad]
+  // Only known where segments are chosen.
+  double length = 0.0;   ///< of the curve [m]
+  double turning = 0.0;  ///< of the curve in all [rad]
 
-  /// Those given, or as many as an accuracy takes.
+  /// The segments given, or chosen for an accuracy.
   std::int64_t segments_for(std::optional<double> accuracy) const {
     if (segments) {
       return *segments;
     }
-    return naming_fiber(name, [&] {
+    return with_fiber_name(name, [&] {
       const std::int64_t chosen = fiber::segments_for(accuracy.value(), turning);
-      if (chosen > most_segments) {
+      if (chosen > max_segments) {
         throw std::invalid_argument(place + ": the scene's accuracy takes " +
                                     std::to_string(chosen) + " segments, " +
-                                    std::to_string(most_segments) + " are the most");
+                                    std::to_string(max_segments) + " are the most");
       }
       return chosen;
     });
@@ -89,7 +89,7 @@ void measure(FiberEntry& fiber) {
 
 void read_body(const YamlField& entry, bool chooses_segments, FiberEntry& fiber) {
   if (!chooses_segments || entry.find("segments")) {
-    fiber.segments = entry.get("segments").integer(1, most_segments);
+    fiber.segments = entry.get("segments").integer(1, max_segments);
   }
   fiber.curve = read_shape(entry.get("shape"));
   if (chooses_segments) {
@@ -107,11 +107,11 @@ FiberEntry read_fiber(const YamlField& entry, bool chooses_segments) {
   FiberEntry fiber;
   fiber.name = entry.get("name").text();
   fiber.place = entry.place();
-  naming_fiber(fiber.name, [&] { read_body(entry, chooses_segments, fiber); });
+  with_fiber_name(fiber.name, [&] { read_body(entry, chooses_segments, fiber); });
   if (const auto repeat = entry.find("repeat")) {
     repeat->require_map({"count", "offset"});
     fiber.repeat_place = repeat->place();
-    fiber.count = repeat->get("count").integer(1, most_repeats);
+    fiber.count = repeat->get("count").integer(1, max_repeats);
     fiber.offset = repeat->get("offset").vector();
   }
   return fiber;
@@ -126,7 +126,7 @@ void add(const FiberEntry& entry, std::int64_t segments, SimDescription& scene) 
     for (Eigen::Vector3d& point : moved) {
       point += static_cast<double>(i) * entry.offset;
     }
-    naming_fiber(entry.name, [&] {
+    with_fiber_name(entry.name, [&] {
       with_context(entry.place, [&] { scene.rods.add(moved, entry.radius, entry.section); });
     });
     scene.fibers.push_back({name, entry.name, entry.place});
@@ -140,17 +140,17 @@ void cut(const std::vector<FiberEntry>& entries, SimDescription& scene) {
   for (const FiberEntry& entry : entries) {
     const std::int64_t segments = entry.segments_for(scene.accuracy);
     const std::int64_t count = entry.count.value_or(1);
-    if (count > most_segments / segments) {
+    if (count > max_segments / segments) {
       throw std::invalid_argument(entry.repeat_place + ": " + std::to_string(count) +
                                   " fibres of " + std::to_string(segments) +
                                   " segments are too many, a scene has at most " +
-                                  std::to_string(most_segments) + " segments");
+                                  std::to_string(max_segments) + " segments");
     }
     total += count * segments;
-    if (total > most_segments) {
+    if (total > max_segments) {
       throw std::invalid_argument(entry.place + ": with this fibre the scene has " +
                                   std::to_string(total) + " segments, " +
-                                  std::to_string(most_segments) + " are the most");
+                                  std::to_string(max_segments) + " are the most");
     }
     add(entry, segments, scene);
   }
@@ -219,7 +219,7 @@ void read_fibers(const YamlField& document, double gravity, SimDescription& scen
     real_time->refuse("absent or false where there is an accuracy");
   }
   if (given) {
-    scene.substeps = static_cast<std::uint32_t>(given->integer(1, most_substeps));
+    scene.substeps = static_cast<std::uint32_t>(given->integer(1, max_substeps));
   }
   const YamlField list = document.get("fibers");
   std::vector<FiberEntry> fibers;
@@ -238,16 +238,16 @@ void read_fibers(const YamlField& document, double gravity, SimDescription& scen
   } else if (is_real_time) {
     for (const double candidate : accuracies) {
       choose(candidate);
-      scene.substeps = std::min(scene.substeps, most_substeps);
+      scene.substeps = std::min(scene.substeps, max_substeps);
       if (is_fast(fibers, scene)) {
         break;
       }
     }
   }
   cut(fibers, scene);
-  if (scene.substeps > most_substeps) {
+  if (scene.substeps > max_substeps) {
     accuracy->refuse("coarser: it takes " + std::to_string(scene.substeps) + " substeps a frame, " +
-                     std::to_string(most_substeps) +
+                     std::to_string(max_substeps) +
                      " are the most; bdf2 takes fewer, and `substeps` in the scene "
                      "are not chosen");
   }

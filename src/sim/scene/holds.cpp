@@ -15,7 +15,7 @@ namespace {
 using Eigen::Vector3d;
 using Waypoints = std::vector<SimWaypoint>;
 
-/// What is held, by rod and node, and where the scene says so.
+/// The place in the scene of each hold, by rod and node.
 using HeldPlaces = std::map<std::pair<std::uint32_t, std::uint32_t>, std::string>;
 
 /// Indices of the fibres of this name, or of the entry of this name.
@@ -70,7 +70,7 @@ Vector3d straightened(const Vector3d& director, const Vector3d& tangent) {
                                       : tangent.unitOrthogonal();
 }
 
-/// What the entry says of a waypoint; the rest stays.
+/// Changes a waypoint by the keys of an entry; without a key, the value stays.
 void read_waypoint(const YamlField& entry, SimWaypoint& waypoint) {
   entry.read("position", waypoint.position);
   if (const auto tangent = entry.find("tangent")) {
@@ -131,7 +131,7 @@ double fastest_speed(const Waypoints& path) {
   return fastest;
 }
 
-/// Where the fibre would be torn in the first step: a hold begins where it is, within an edge.
+/// A hold must begin within an edge's length of its node, or it would tear the fibre at once.
 void require_near(const SimHold& hold, const Rods& rods) {
   const double length = rods.rest_lengths[edge_at(rods, hold.rod, hold.node)];
   const double away =
@@ -149,7 +149,7 @@ SimHold read_hold(const YamlField& entry, std::uint32_t rod, const Rods& rods) {
   hold.place = entry.place();
   hold.rod = rod;
   hold.node = read_node(entry.find("node"), rods.node_count(rod));
-  hold.is_clamp = is_second(entry.find("kind"), "pin", "clamp");
+  hold.is_clamp = read_choice(entry.find("kind"), "pin", "clamp");
   const auto path = entry.find("path");
   const auto period = entry.find("period");
   const auto frame = entry.find("frame");
@@ -213,7 +213,7 @@ void read_holds(const YamlField& list, SimDescription& scene) {
     entry.require_map({"fiber", "node", "kind", "position", "tangent", "director", "path", "period",
                        "frame", "max_force"});
     for (const std::uint32_t rod : find_fibers(entry.get("fiber"), scene.fibers)) {
-      naming_fiber(scene.fibers[rod].name, [&] {
+      with_fiber_name(scene.fibers[rod].name, [&] {
         SimHold hold = read_hold(entry, rod, scene.rods);
         const auto [other, is_new] = places.insert({{rod, hold.node}, hold.place});
         if (!is_new) {

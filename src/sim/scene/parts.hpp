@@ -1,4 +1,4 @@
-// How the parts of a scene are read and made.
+// Reading and making the parts of a scene.
 #pragma once
 
 #include <optional>
@@ -12,18 +12,18 @@
 
 namespace fiber {
 
-/// Numbers and words as one text, with three digits each.
+/// Joins words and numbers, those with three digits, to one text.
 template <class... Parts>
-std::string sentence(const Parts&... parts) {
+std::string format(const Parts&... parts) {
   std::ostringstream text;
   text.precision(3);
   (text << ... << parts);
   return text.str();
 }
 
-/// Runs a function; an error of its names the fibre, too, after what it says.
+/// Runs a function, and appends the fibre's name to its errors.
 template <class Function>
-auto naming_fiber(const std::string& name, const Function& function) {
+auto with_fiber_name(const std::string& name, const Function& function) {
   try {
     return function();
   } catch (const std::invalid_argument& error) {
@@ -31,10 +31,11 @@ auto naming_fiber(const std::string& name, const Function& function) {
   }
 }
 
-/// Whether a field says the second of two words; without a field it is the first one.
+/// Reads one of two words; without a field it is the first one.
+/// @returns whether it is the second one
 /// @throws std::invalid_argument for any other
-inline bool is_second(const std::optional<YamlField>& field, const std::string& first,
-                      const std::string& second) {
+inline bool read_choice(const std::optional<YamlField>& field, const std::string& first,
+                        const std::string& second) {
   if (field && field->text() != first && field->text() != second) {
     field->refuse(first + " or " + second);
   }
@@ -87,15 +88,15 @@ void read_fibers(const YamlField& document, double gravity, SimDescription& scen
 /// @throws std::invalid_argument naming file, line, field and value, and what is allowed
 void read_holds(const YamlField& list, SimDescription& scene);
 
-/// How something is held, as a function of time [s].
+/// The placement of a hold as a function of time [s].
 /// @param rods   as the simulation begins; with twist, they have their frames already
 /// @param frames gets the frame that is to be followed, if there is one
 std::function<Placement(double)> placement_of(const SimHold& hold, const SimDescription& scene,
                                               const Rods& rods, std::vector<FollowedFrame>& frames);
 
 /// Reads the list `effects` of a scene but for its holds: each entry is a name, or a map of a name
-/// to the options that are not to be as they are by default.
-/// Of `bend` these are
+/// to options that replace the default ones.
+/// The effect `bend` has the options
 ///   natural_curvature: [1/m], or from_shape: that which each fibre begins with; 0 if there is none
 ///   towards:           a direction, to which side the first edge of each fibre bends; to any side
 ///                      if there is none
@@ -113,19 +114,19 @@ struct MadeEffects {
 };
 
 /// Makes the effects that a scene names, and nothing for those it does not name.
-/// @param rods   get what the effects need to be with them
+/// @param rods   get the arrays that the effects need
 /// @param scene  gets attachment, frames and parameters
 /// @throws std::invalid_argument naming file and line, for effects that refuse their options; for
 ///         a fibre that does not have the side to which it is to bend, too
 MadeEffects make_effects(const SimDescription& description, Rods& rods, SimScene& scene);
 
-/// Sees to it that no fibre begins inside of itself, of another or of an obstacle, as far as the
-/// scene names the effects that are contacts of these.
+/// Makes sure that no fibre begins inside of itself, of another or of an obstacle, where the scene
+/// names the effects for such contacts.
 /// @param attachment that holds nodes which do not move; null for none
 /// @param rods       are moved apart if the scene says so (separate_overlaps())
-/// @returns what was moved, for the log; empty if nothing was
+/// @returns how far rods were moved, for the log; empty if they were not
 /// @throws std::invalid_argument naming file and line of both fibres, their names, segments and how
 ///         deep they are in each other
-std::string settle_overlaps(const SimDescription& scene, const Attachment* attachment, Rods& rods);
+std::string resolve_overlaps(const SimDescription& scene, const Attachment* attachment, Rods& rods);
 
 }  // namespace fiber

@@ -88,10 +88,10 @@ LargestStrain largest_strain(const Rods& rods) {
 namespace {
 
 /// Coordinates of at most so many lengths of a fibre tell its edges' lengths to 1e-7 of the whole.
-constexpr double most_lengths = 1e9;
+constexpr double max_lengths = 1e9;
 
 double largest_coordinate(const SimScene& scene, std::uint32_t rod) {
-  return most_lengths * rest_length(scene.stepper->rods(), rod);
+  return max_lengths * rest_length(scene.stepper->rods(), rod);
 }
 
 bool is_place(const SimScene& scene, std::uint32_t rod, const Vector3d& position) {
@@ -105,9 +105,9 @@ std::string text_of(const Vector3d& position) {
 }
 
 std::string not_a_place(const SimScene& scene, std::uint32_t rod, const Vector3d& position) {
-  return sentence("position is ", text_of(position), ", coordinates of fibre ",
-                  quote(scene.fiber_names[rod]), " must be finite and at most ",
-                  largest_coordinate(scene, rod), " m, a billion of its lengths");
+  return format("position is ", text_of(position), ", coordinates of fibre ",
+                quote(scene.fiber_names[rod]), " must be finite and at most ",
+                largest_coordinate(scene, rod), " m, a billion of its lengths");
 }
 
 std::vector<ReachLimit> limits_of(const SimScene& scene, const NodeOfRod& held, double time) {
@@ -117,11 +117,10 @@ std::vector<ReachLimit> limits_of(const SimScene& scene, const NodeOfRod& held, 
 
 std::string out_of_reach(const SimScene& scene, const NodeOfRod& held, const Vector3d& position,
                          const ReachLimit& limit) {
-  return sentence("position ", text_of(position), " is ", (position - limit.center).norm(),
-                  " m from where node ", limit.node, " of fibre ",
-                  quote(scene.fiber_names[held.rod]), " is held, with ", limit.rest_length,
-                  " m of it between: it reaches ", limit.radius, " m, stretched by ",
-                  100.0 * scene.max_strain, " % (max_strain)");
+  return format("position ", text_of(position), " is ", (position - limit.center).norm(),
+                " m from where node ", limit.node, " of fibre ", quote(scene.fiber_names[held.rod]),
+                " is held, with ", limit.rest_length, " m of it between: it reaches ", limit.radius,
+                " m, stretched by ", 100.0 * scene.max_strain, " % (max_strain)");
 }
 
 }  // namespace
@@ -176,13 +175,13 @@ void require_reach(const SimScene& scene, const NodeOfRod& held, const Vector3d&
   const double at_most = pull_speed(rods.sections[held.rod], scene.max_strain);
   if (speed > at_most || (speed == 0.0 && way > at_most * step)) {
     const std::string at_once = speed == 0.0
-                                    ? sentence(", which is at once: ", way, " m in a step of ",
-                                               step, " s are ", way / step, " m/s")
+                                    ? format(", which is at once: ", way, " m in a step of ", step,
+                                             " s are ", way / step, " m/s")
                                     : "";
     throw std::invalid_argument(
-        sentence("speed is ", speed, " m/s", at_once, "; fibre ",
-                 quote(scene.fiber_names[held.rod]), " may be moved at up to ", at_most,
-                 " m/s, which stretches it by ", 100.0 * scene.max_strain, " % (max_strain)"));
+        format("speed is ", speed, " m/s", at_once, "; fibre ", quote(scene.fiber_names[held.rod]),
+               " may be moved at up to ", at_most, " m/s, which stretches it by ",
+               100.0 * scene.max_strain, " % (max_strain)"));
   }
 }
 

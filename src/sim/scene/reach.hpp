@@ -8,8 +8,7 @@
 
 namespace fiber {
 
-/// Where the rest of a rod lets one of its nodes be: another node is held at a center, and the rod
-/// between the two reaches so far.
+/// The sphere that a rod can reach with one of its nodes: another node is held at its center.
 struct ReachLimit {
   std::uint32_t node;      ///< that is held, from the rod's first one
   Eigen::Vector3d center;  ///< where it is held [m]
@@ -28,7 +27,7 @@ double rest_length_between(const Rods& rods, std::uint32_t rod, std::uint32_t no
 /// Length at rest of a whole rod [m].
 double rest_length(const Rods& rods, std::uint32_t rod);
 
-/// What other holds of its rod ask of a node, by rising node.
+/// The limits of a node by the other holds of its rod, by rising node.
 /// @param node   from the rod's first one
 /// @param time   when they hold [s]
 /// @param strain the most by which they may stretch the rod together
@@ -54,29 +53,29 @@ struct LargestStrain {
 };
 LargestStrain largest_strain(const Rods& rods);
 
-/// A node of a scene's rods, counted from the rod's first one.
+/// A node of a rod, counted from the rod's first one.
 struct NodeOfRod {
   std::uint32_t rod;
   std::uint32_t node;
 };
 
-/// Where it is [m].
+/// The position of a node [m].
 inline const Eigen::Vector3d& position_of(const Rods& rods, const NodeOfRod& node) {
   return rods.positions[rods.first(node.rod) + node.node];
 }
 
-/// Holds a node of a scene with the effect attachment on a path, which may change meanwhile, in
-/// place of what has held it.
+/// Holds a node of a scene with the effect attachment on a path, which may change later. Replaces
+/// the node's hold if it has one.
 void hold_on_path(SimScene& scene, const NodeOfRod& node,
                   const std::shared_ptr<const PlacementPath>& path);
 
-/// Where something may lead a node that it holds in the next frame.
+/// How far a hold may move its node in the next frame.
 struct Lead {
   Eigen::Vector3d position;  ///< at the end of the frame [m]
 
-  /// Why that is not on the straight way to where the node is wanted, as far as it comes in a
-  /// frame; empty if it is. It is not where the fibre, held elsewhere, would be stretched by more
-  /// than SimScene::max_strain, and where the place is none or too far away for numbers.
+  /// Why the node does not go as far towards the wanted position as the speed allows; empty if it
+  /// does. It stops where the fibre, held elsewhere, would be stretched by more than
+  /// SimScene::max_strain, and does not move for coordinates that are not finite or too large.
   std::string problem;
 };
 
@@ -86,11 +85,12 @@ struct Lead {
 Lead lead(const SimScene& scene, const NodeOfRod& held, const Eigen::Vector3d& from,
           const Eigen::Vector3d& wanted, double fastest);
 
-/// Looks whether a hold may bring a node from where it is to a target.
+/// Checks that a hold may move a node from where it is to a target.
 /// @param speed [m/s]; 0: within the next step
-/// @throws std::invalid_argument naming the value and what is allowed, for a target that is too far
-///         away for numbers, or out of the fibre's reach because of another hold, and for a speed
-///         that stretches the fibre by more than max_strain
+/// @throws std::invalid_argument naming the value and what is allowed, for a target with
+/// coordinates
+///         that are not finite or too large, or out of the fibre's reach because of another hold,
+///         and for a speed that stretches the fibre by more than max_strain
 void require_reach(const SimScene& scene, const NodeOfRod& held, const Eigen::Vector3d& target,
                    double speed);
 

@@ -14,15 +14,13 @@ namespace fiber {
 
 namespace {
 
-constexpr std::uint32_t most_trial_frames = 20;
+constexpr std::uint32_t max_trial_frames = 20;
 constexpr double longest_trial = 0.3;  // [s]
 
-/// Runs one step.
-/// @returns the wall time it took [s]
-double run_step(SimScene& scene) {
-  const auto begin = std::chrono::steady_clock::now();
-  scene.stepper->step(scene.step_length());
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
 double thinnest(const Rods& rods) {
@@ -35,59 +33,62 @@ double shortest_wave(const RodSection& section, double step) {
          std::pow(step * step * section.bending_stiffness / section.mass_per_length, 0.25);
 }
 
-void judge_steps(const SimScene& scene, SimReport& report) {
+void assess_steps(const SimScene& scene, SimReport& report) {
   const double step = scene.step_length();
   double longest = 0.0;
   for (const RodSection& section : scene.stepper->rods().sections) {
     longest = std::max(longest, shortest_wave(section, step));
   }
   if (scene.options.integrator == Integrator::BDF2) {
-    report.facts.push_back(sentence("stable: BDF2 in steps of ", 1e3 * step,
-                                    " ms keeps swings; bending waves below about ", 1e3 * longest,
-                                    " mm are not resolved and damped"));
+    report.facts.push_back(format("stable: BDF2 in steps of ", 1e3 * step,
+                                  " ms keeps swings; bending waves below about ", 1e3 * longest,
+                                  " mm are not resolved and damped"));
     return;
   }
   // ω² h / 2 is the rate at which implicit Euler damps a swing of ω.
   const double lost = 1.0 - std::exp(-0.5 * std::pow(2.0 * M_PI, 2) * step);
-  report.facts.push_back(sentence("stable: implicit Euler in steps of ", 1e3 * step,
-                                  " ms; expect bending waves below about ", 1e3 * longest,
-                                  " mm to be damped at once, and a swing of 1 Hz to lose ",
-                                  100.0 * lost, " % of its height a second"));
+  report.facts.push_back(format("stable: implicit Euler in steps of ", 1e3 * step,
+                                " ms; expect bending waves below about ", 1e3 * longest,
+                                " mm to be damped at once, and a swing of 1 Hz to lose ",
+                                100.0 * lost, " % of its height a second"));
 }
 
-void judge_grippers(const SimScene& scene, SimReport& report) {
+void assess_grippers(const SimScene& scene, SimReport& report) {
   const double way = scene.fastest_hold * scene.step_length();
   const double radius = thinnest(scene.stepper->rods());
   if (way > radius) {
-    report.warnings.push_back(sentence(
-        "a gripper moves ", 1e3 * way, " mm a step, more than the thinnest radius, ", 1e3 * radius,
-        " mm: nothing passes through anything, but expect jerks in contacts; ",
-        std::ceil(way / radius) * scene.substeps, " substeps would be enough"));
+    report.warnings.push_back(
+        format("a gripper moves ", 1e3 * way, " mm a step, more than the thinnest radius, ",
+               1e3 * radius, " mm: nothing passes through anything, but expect jerks in contacts; ",
+               std::ceil(way / radius) * scene.substeps, " substeps would be enough"));
   } else if (way > 0.0) {
-    report.facts.push_back(sentence("grippers move up to ", 1e3 * way, " mm a step, ", way / radius,
-                                    " of the thinnest radius"));
+    report.facts.push_back(format("grippers move up to ", 1e3 * way, " mm a step, ", way / radius,
+                                  " of the thinnest radius"));
   }
 }
 
-void judge_trial(const SimScene& scene, const SimTrial& trial, SimReport& report) {
+void assess_trial(const SimScene& scene, const SimTrial& trial, SimReport& report) {
+  report.facts.push_back(format("tried ", trial.steps,
+                                " step(s) on a copy of the scene, which took ",
+                                1e3 * trial.duration, " ms"));
   if (!trial.failure.empty()) {
     report.warnings.push_back(
-        sentence("expect it to stop after ", trial.steps, " step(s): ", trial.failure));
+        format("expect it to stop after ", trial.steps, " step(s): ", trial.failure));
     return;
   }
   const std::string within =
-      sentence(" within ", trial.iterations, " iteration(s) in ", trial.steps, " step(s)");
+      format(" within ", trial.iterations, " iteration(s) in ", trial.steps, " step(s)");
   if (trial.residual > scene.options.residual) {
-    report.warnings.push_back(sentence("forces do not balance", within,
-                                       ": they would change speeds by up to ", trial.residual,
-                                       " m/s a step, `residual` is ", scene.options.residual,
-                                       " m/s; expect lag; more iterations or substeps mend it"));
+    report.warnings.push_back(format("forces do not balance", within,
+                                     ": they would change speeds by up to ", trial.residual,
+                                     " m/s a step, `residual` is ", scene.options.residual,
+                                     " m/s; expect lag; more iterations or substeps mend it"));
   } else {
     report.facts.push_back(
-        sentence("forces balance to ", scene.options.residual, " m/s a step", within));
+        format("forces balance to ", scene.options.residual, " m/s a step", within));
   }
-  const std::string speed = sentence("expected real-time factor ", trial.real_time_factor,
-                                     ", by the first ", trial.steps, " step(s)");
+  const std::string speed = format("expected real-time factor ", trial.real_time_factor,
+                                   ", by the first ", trial.steps, " step(s)");
   if (trial.real_time_factor < 1.0) {
     report.warnings.push_back(speed +
                               ": expect it to fall behind; fewer segments or substeps, or "
@@ -100,36 +101,39 @@ void judge_trial(const SimScene& scene, const SimTrial& trial, SimReport& report
 }  // namespace
 
 SimTrial try_scene(const SimDescription& description, std::uint32_t threads) {
+  const Clock::time_point begin = Clock::now();
   SimScene scene = make_sim_scene(description, threads);
+  const Clock::time_point first_step = Clock::now();
   SimTrial trial;
-  double taken = 0.0;
   try {
-    while (trial.steps < most_trial_frames * scene.substeps && taken < longest_trial) {
-      taken += run_step(scene);
+    double taken = 0.0;
+    while (trial.steps < max_trial_frames * scene.substeps && taken < longest_trial) {
+      scene.stepper->step(scene.step_length());
+      taken = seconds_since(first_step);
       ++trial.steps;
       const StepReport& step = scene.stepper->report();
       trial.iterations = std::max(trial.iterations, step.iterations);
       trial.residual = std::max(trial.residual, step.worst.residual);
     }
+    trial.real_time_factor = trial.steps * scene.step_length() / taken;
   } catch (const std::exception& error) {
     trial.failure = error.what();
-    return trial;
   }
-  trial.real_time_factor = trial.steps * scene.step_length() / taken;
+  trial.duration = seconds_since(begin);
   return trial;
 }
 
 SimReport report(const SimScene& scene, const SimTrial& trial) {
   SimReport report;
-  judge_steps(scene, report);
-  judge_grippers(scene, report);
-  judge_trial(scene, trial, report);
+  assess_steps(scene, report);
+  assess_grippers(scene, report);
+  assess_trial(scene, trial, report);
   return report;
 }
 
 namespace {
 
-/// Where something keeps edges from being stretched, and what holds a fibre does it all the same.
+/// Warns of stretched edges in scenes where an effect resists stretch, which a hold then overcomes.
 void warn_of_strain(const SimScene& scene, std::vector<SimWarning>& warnings) {
   const LargestStrain largest = largest_strain(scene.stepper->rods());
   if (largest.strain <= scene.max_strain ||
@@ -137,10 +141,10 @@ void warn_of_strain(const SimScene& scene, std::vector<SimWarning>& warnings) {
     return;
   }
   warnings.push_back({SimWarning::Kind::STRAIN,
-                      sentence("edge ", largest.edge, " of fibre ",
-                               quote(scene.fiber_names[largest.rod]), " is stretched by ",
-                               100.0 * largest.strain, " %, more than ", 100.0 * scene.max_strain,
-                               " % (max_strain): what moves it goes too far or too fast")});
+                      format("edge ", largest.edge, " of fibre ",
+                             quote(scene.fiber_names[largest.rod]), " is stretched by ",
+                             100.0 * largest.strain, " %, more than ", 100.0 * scene.max_strain,
+                             " % (max_strain): what moves it goes too far or too fast")});
 }
 
 void warn_of_lag(const SimScene& scene, std::vector<SimWarning>& warnings) {
@@ -153,9 +157,9 @@ void warn_of_lag(const SimScene& scene, std::vector<SimWarning>& warnings) {
   }
   warnings.push_back(
       {SimWarning::Kind::LAG,
-       sentence("what holds node ", lag->node, " of fibre ", quote(scene.fiber_names[lag->rod]),
-                " pulls with ", lag->force, " N, its greatest force (max_force), and the node is ",
-                lag->distance, " m behind: something keeps it, or it moves too fast")});
+       format("what holds node ", lag->node, " of fibre ", quote(scene.fiber_names[lag->rod]),
+              " pulls with ", lag->force, " N, its greatest force (max_force), and the node is ",
+              lag->distance, " m behind: something keeps it, or it moves too fast")});
 }
 
 void warn_of_balance(const SimScene& scene, std::vector<SimWarning>& warnings) {
@@ -165,11 +169,11 @@ void warn_of_balance(const SimScene& scene, std::vector<SimWarning>& warnings) {
   }
   const IslandReport& worst = report.worst;
   warnings.push_back({SimWarning::Kind::BALANCE,
-                      sentence("forces do not balance within ", scene.options.max_iterations,
-                               " iterations: what is left at node ", worst.node, " of fibre ",
-                               quote(scene.fiber_names[worst.rod]), " would change its speed by ",
-                               worst.residual, " m/s a step, ", scene.residual_force(),
-                               " N; `residual` is ", scene.options.residual, " m/s")});
+                      format("forces do not balance within ", scene.options.max_iterations,
+                             " iterations: what is left at node ", worst.node, " of fibre ",
+                             quote(scene.fiber_names[worst.rod]), " would change its speed by ",
+                             worst.residual, " m/s a step, ", scene.residual_force(),
+                             " N; `residual` is ", scene.options.residual, " m/s")});
 }
 
 }  // namespace

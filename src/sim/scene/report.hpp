@@ -7,13 +7,14 @@
 
 namespace fiber {
 
-/// What the first steps of a scene took and how far they are solved, measured on a copy of it.
+/// The cost and residual of the first steps of a scene, measured on a copy of it.
 struct SimTrial {
   std::uint32_t steps = 0;
   double real_time_factor = 0.0;  ///< time of the scene by wall time
   std::uint32_t iterations = 0;   ///< of Newton's method, the most in a step
   double residual = 0.0;          ///< the largest of a step [m/s]
-  std::string failure;  ///< why the scene does not get further than that; empty if it does
+  std::string failure;    ///< why the scene does not get further than that; empty if it does
+  double duration = 0.0;  ///< of the trial in wall time, the copy included [s]
 };
 
 /// Steps a scene made of a description for some frames or some tenths of a second, whichever is
@@ -21,17 +22,17 @@ struct SimTrial {
 /// @throws std::invalid_argument as make_sim_scene
 SimTrial try_scene(const SimDescription& description, std::uint32_t threads);
 
-/// What is to be expected of a scene, in sentences.
+/// The expected behaviour of a scene, in sentences.
 struct SimReport {
-  std::vector<std::string> facts;     ///< stability, what steps damp, balance, speed
-  std::vector<std::string> warnings;  ///< what goes wrong, and what mends it
+  std::vector<std::string> facts;     ///< stability, damping, balance, speed, and the trial itself
+  std::vector<std::string> warnings;  ///< problems, and their remedies
 };
 
 /// Judges steps against the waves that they resolve, grippers against the radius, balance and speed
 /// by the trial.
 SimReport report(const SimScene& scene, const SimTrial& trial);
 
-/// What is not as the scene wants it after a frame.
+/// A problem after a frame.
 struct SimWarning {
   enum class Kind {
     STRAIN,  ///< an edge is stretched by more than `max_strain`
@@ -41,7 +42,7 @@ struct SimWarning {
   static constexpr std::size_t kinds = 3;
 
   Kind kind;
-  std::string text;  ///< names fibre and place, how far it is, and what is allowed
+  std::string text;  ///< names fibre, place, value and limit
 };
 
 /// At most one of each kind: the worst.

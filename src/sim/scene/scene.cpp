@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "src/environment/scene/environment_scene.hpp"
+#include "fiber_proximity/environment/scene/environment_scene.hpp"
 #include "src/sim/overlaps.hpp"
 #include "src/sim/scene/parts.hpp"
 #include "src/sim/scene/reach.hpp"
@@ -17,18 +17,18 @@ namespace fiber {
 
 namespace {
 
-/// In SI units: far beyond all that fibres are in, and far from where numbers end.
-constexpr double largest = 1e6;
+/// Largest magnitude of parameters in SI units: beyond all use, and far from overflow.
+constexpr double max_magnitude = 1e6;
 
-/// [character] Values that are longer are cut off in errors.
-constexpr std::size_t longest_text = 80;
+/// Longer values are cut off in errors.
+constexpr std::size_t max_characters = 80;
 
 std::string text_of(const std::vector<double>& value) {
   std::string text;
   for (const double number : value) {
     text += (text.empty() ? "" : ", ") + std::to_string(number);
-    if (text.size() > longest_text) {
-      text = text.substr(0, longest_text) + "...";
+    if (text.size() > max_characters) {
+      text = text.substr(0, max_characters) + "...";
       break;
     }
   }
@@ -64,7 +64,7 @@ void SimParameters::set_one(const SimParameter& parameter) {
     refuse(parameter, "it must be a list of " + std::to_string(value.size()) + " number(s)");
   }
   for (const double number : parameter.value) {
-    if (!(std::abs(number) <= largest)) {
+    if (!(std::abs(number) <= max_magnitude)) {
       refuse(parameter, "its numbers must be finite and at most 1e6 in magnitude");
     }
   }
@@ -103,8 +103,8 @@ std::vector<SimParameter> SimParameters::all() const {
 
 namespace {
 
-/// So many pairs of segments are looked for to tell how many there are.
-constexpr std::uint32_t most_counted = 1000;
+/// The number of overlaps up to which the error counts them.
+constexpr std::uint32_t max_counted = 1000;
 
 OverlapFinder make_finder(const SimDescription& scene) {
   OverlapFinder::Options options;
@@ -122,39 +122,37 @@ std::string describe(const std::vector<Overlap>& overlaps, const SimDescription&
   const Overlap& deepest = overlaps.front();
   const Contact& contact = deepest.contact;
   const SimFiber& a = scene.fibers[contact.fiber_a];
-  const std::string segment_a =
-      sentence("segment ", contact.segment_a, " of fibre ", quote(a.name));
+  const std::string segment_a = format("segment ", contact.segment_a, " of fibre ", quote(a.name));
   double touching = rods.radii[contact.fiber_a];
   std::string other;
   if (deepest.is_object) {
-    other = sentence("obstacle ", quote(scene.environment->objects()[contact.fiber_b].name), ": ",
-                     segment_a, " is ");
+    other = format("obstacle ", quote(scene.environment->objects()[contact.fiber_b].name), ": ",
+                   segment_a, " is ");
   } else {
     const SimFiber& b = scene.fibers[contact.fiber_b];
     touching += rods.radii[contact.fiber_b];
-    other = sentence(contact.fiber_a == contact.fiber_b ? "itself" : b.place, ": ", segment_a,
-                     " and segment ", contact.segment_b, " of fibre ", quote(b.name), " are ");
+    other = format(contact.fiber_a == contact.fiber_b ? "itself" : b.place, ": ", segment_a,
+                   " and segment ", contact.segment_b, " of fibre ", quote(b.name), " are ");
   }
   const std::string more =
-      overlaps.size() == 1
-          ? ""
-          : sentence("; so are ", overlaps.size() < most_counted ? "" : "at least ",
-                     overlaps.size() - 1, " more pairs");
-  return sentence(a.place, " begins inside of ", other, 1e3 * deepest.depth(), " mm deep in it, ",
-                  1e3 * touching_share * touching, " mm is the most", more);
+      overlaps.size() == 1 ? ""
+                           : format("; so are ", overlaps.size() < max_counted ? "" : "at least ",
+                                    overlaps.size() - 1, " more pairs");
+  return format(a.place, " begins inside of ", other, 1e3 * deepest.depth(), " mm deep in it, ",
+                1e3 * touching_share * touching, " mm is the most", more);
 }
 
-/// How far nodes are at most from where they were, and edges stretched, for the log.
+/// The largest displacement of nodes and strain of edges by the separation, for the log.
 std::string describe_move(const std::vector<Eigen::Vector3d>& before, const Rods& rods,
                           std::size_t count) {
   double farthest = 0.0;
   for (std::size_t i = 0; i < before.size(); ++i) {
     farthest = std::max(farthest, (rods.positions[i] - before[i]).norm());
   }
-  return sentence("initial_overlap: ", count,
-                  " pair(s) of segments began inside of each other; nodes were moved by up to ",
-                  1e3 * farthest, " mm, which stretches edges by up to ",
-                  100.0 * largest_strain(rods).strain, " %");
+  return format("initial_overlap: ", count,
+                " pair(s) of segments began inside of each other; nodes were moved by up to ",
+                1e3 * farthest, " mm, which stretches edges by up to ",
+                100.0 * largest_strain(rods).strain, " %");
 }
 
 std::vector<bool> held_nodes(const Attachment* attachment, const Rods& rods) {
@@ -169,9 +167,10 @@ std::vector<bool> held_nodes(const Attachment* attachment, const Rods& rods) {
 
 }  // namespace
 
-std::string settle_overlaps(const SimDescription& scene, const Attachment* attachment, Rods& rods) {
+std::string resolve_overlaps(const SimDescription& scene, const Attachment* attachment,
+                             Rods& rods) {
   OverlapFinder finder = make_finder(scene);
-  const std::vector<Overlap> overlaps = finder.find(rods, touching_share, most_counted);
+  const std::vector<Overlap> overlaps = finder.find(rods, touching_share, max_counted);
   if (overlaps.empty()) {
     return "";
   }
@@ -195,33 +194,33 @@ namespace {
 constexpr double shortest_frame = 1e-6;
 constexpr double longest_frame = 1000.0;
 
-constexpr std::int64_t most_iterations = 1000;
+constexpr std::int64_t max_iterations = 1000;
 
-/// [m/s] Smaller ones are rounding errors, with larger ones nothing would ever move.
-constexpr double least_residual = 1e-9;
-constexpr double most_residual = 1.0;
+/// [m/s] Smaller residuals are rounding errors, and with larger ones nothing would ever move.
+constexpr double min_residual = 1e-9;
+constexpr double max_residual = 1.0;
 
-/// Reads a number above 0, and from the least to the most, if there is one.
-void read_within(const YamlField& document, const char* key, double least, double most,
+/// Reads a number above 0 and in [min, max], if the key is there.
+void read_within(const YamlField& document, const char* key, double min, double max,
                  double& value) {
   const auto field = document.find(key);
   if (!field) {
     return;
   }
   value = field->number();
-  if (!(value > 0.0 && value >= least && value <= most)) {
+  if (!(value > 0.0 && value >= min && value <= max)) {
     std::ostringstream allowed;
-    allowed << (least > 0.0 ? "at least " : "above ") << least << " and at most " << most;
+    allowed << (min > 0.0 ? "at least " : "above ") << min << " and at most " << max;
     field->refuse(allowed.str());
   }
 }
 
 void read_stepper_options(const YamlField& document, StepperOptions& options) {
   if (const auto iterations = document.find("iterations")) {
-    options.max_iterations = static_cast<std::uint32_t>(iterations->integer(1, most_iterations));
+    options.max_iterations = static_cast<std::uint32_t>(iterations->integer(1, max_iterations));
   }
-  read_within(document, "residual", least_residual, most_residual, options.residual);
-  if (is_second(document.find("integrator"), "implicit_euler", "bdf2")) {
+  read_within(document, "residual", min_residual, max_residual, options.residual);
+  if (read_choice(document.find("integrator"), "implicit_euler", "bdf2")) {
     options.integrator = Integrator::BDF2;
   }
 }
@@ -276,7 +275,7 @@ SimDescription read_sim_scene(const YamlField& document, const MeshSource& meshe
   if (holds) {
     read_holds(*holds, scene);
   }
-  scene.separates_overlaps = is_second(document.find("initial_overlap"), "refuse", "separate");
+  scene.separates_overlaps = read_choice(document.find("initial_overlap"), "refuse", "separate");
   return scene;
 }
 
@@ -293,12 +292,11 @@ double SimScene::residual_force() const {
 }
 
 SimScene make_sim_scene(const SimDescription& description, std::uint32_t threads) {
-  SimScene scene;
-  static_cast<SimSettings&>(scene) = static_cast<const SimSettings&>(description);
+  SimScene scene(description);
   scene.options.threads = threads;
   Rods rods = description.rods;
   MadeEffects effects = make_effects(description, rods, scene);
-  scene.overlap_note = settle_overlaps(description, scene.attachment, rods);
+  scene.overlap_note = resolve_overlaps(description, scene.attachment.get(), rods);
   scene.stepper = std::make_unique<Stepper>(std::move(rods), std::move(effects.effects),
                                             scene.options, std::move(effects.contacts));
   return scene;

@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector3d;
 using Points = std::vector<Vector3d>;
 
-/// So many straight pieces stand for a curve when it is measured.
+/// The number of straight pieces that stand for a curve.
 constexpr int fine = 2000;
 
 Points sample(const std::function<Vector3d(double)>& curve) {

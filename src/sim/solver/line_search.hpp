@@ -7,7 +7,7 @@
 
 namespace fiber {
 
-/// A sum of energies, and of their magnitudes, which rounding errors are a part of [J].
+/// A sum of energies [J], and of their magnitudes, which bound its rounding errors.
 struct EnergySum {
   double energy = 0.0;
   double magnitude = 0.0;
@@ -22,21 +22,22 @@ struct EnergySum {
     magnitude += part.magnitude;
   }
 
-  /// What rounding errors may be [J]: a step that changes less cannot be judged by its energy.
+  /// Rounding errors are below this [J]: energies that differ by less cannot tell which is lower.
   double roundoff() const { return 1e-13 * magnitude; }
 };
 
-/// A search along a step, for each island by itself: half the share of the step until it brings
-/// what its slope promises (Armijo 1966; Nocedal and Wright 2006, Alg. 3.1), then less where the
-/// parabola through what is known has its minimum far before that: what swings to and fro between
-/// two walls would do so time and again otherwise.
+/// A backtracking line search along Newton's step, for each island by itself: halves the share of
+/// the step until it brings a sufficient decrease (Armijo 1966; Nocedal and Wright 2006, Alg. 3.1).
+/// Then it interpolates once: where the parabola through the known values has its minimum far
+/// before the share, that minimum is tried. A rod between two walls would swing to and fro
+/// otherwise.
 class LineSearch {
  public:
   struct Island {
-    EnergySum accepted;        ///< where the step begins
-    double decrease = 0.0;     ///< that the slope promises for a whole step [J]
-    double share = 1.0;        ///< of the step that is tried
-    bool is_searching = true;  ///< if not, `share` is what was found; 0 if none was
+    EnergySum accepted;               ///< where the step begins
+    double predicted_decrease = 0.0;  ///< by the directional derivative, for a whole step [J]
+    double share = 1.0;               ///< of the step that is tried
+    bool is_searching = true;         ///< if not, `share` is the accepted one; 0 if none was
     bool has_failed = false;
 
     /// Where along the step that parabola has its minimum: above 1 where all of the step is too
@@ -44,11 +45,9 @@ class LineSearch {
     double expected_share = 1.0;
   };
 
-  static constexpr int most_halvings = 40;
+  static constexpr int max_halvings = 40;
 
-  /// Begins a search; its islands are to be told what to search for, and the first shares to try.
-  /// @param islands  how many
-  /// @param halvings the most
+  /// Begins a search. The caller sets the islands' energies, decreases and first shares.
   void begin(std::size_t islands, int halvings) {
     islands_.assign(islands, Island{});
     halvings_left_ = halvings;
@@ -57,10 +56,28 @@ class LineSearch {
   Island& island(std::size_t index) { return islands_[index]; }
   const Island& island(std::size_t index) const { return islands_[index]; }
 
-  /// @param tried energies where the shares lead, by island
-  /// @returns whether there are islands for which other shares are to be tried
-  bool judge(const std::vector<EnergySum>& tried) {
-    constexpr double sufficient = 1e-4;  // of what the slope promises
+  /// Searches. The trial step that was evaluated last is the one that each island accepts.
+  /// @param evaluate returns the energies, by island, where the islands' shares lead
+  template <class Evaluate>
+  void run(const Evaluate& evaluate) {
+    do {
+      energies_ = evaluate();
+    } while (backtrack());
+    bool must_return = std::any_of(islands_.begin(), islands_.end(),
+                                   [](const Island& island) { return island.has_failed; });
+    if (interpolate()) {
+      must_return = keep_better(evaluate());
+    }
+    if (must_return) {
+      evaluate();
+    }
+  }
+
+ private:
+  /// Halves the shares of islands whose energy has not decreased sufficiently.
+  /// @returns whether there are any
+  bool backtrack() {
+    constexpr double sufficient = 1e-4;  // of the predicted decrease
     const bool is_last = halvings_left_-- == 0;
     bool is_any_searching = false;
     for (std::size_t i = 0; i < islands_.size(); ++i) {
@@ -68,9 +85,9 @@ class LineSearch {
       if (!island.is_searching) {
         continue;
       }
-      const double promised = sufficient * island.share * std::max(0.0, island.decrease);
+      const double required = sufficient * island.share * std::max(0.0, island.predicted_decrease);
       island.is_searching =
-          !(tried[i].energy <= island.accepted.energy - promised + island.accepted.roundoff());
+          !(energies_[i].energy <= island.accepted.energy - required + island.accepted.roundoff());
       if (island.is_searching && (is_last || island.share == 0.0)) {
         island.is_searching = false;
         island.has_failed = true;
@@ -82,54 +99,50 @@ class LineSearch {
     return is_any_searching;
   }
 
-  /// Has what was found been judged, tries less of steps that went far too far.
-  /// @param found energies where the shares lead, by island
-  /// @returns whether there are such islands
-  bool refine(const std::vector<EnergySum>& found) {
-    constexpr double far_too_far =
-        0.6;  // the minimum is expected before this part of what was found
-    constexpr double most = 16.0;
-    bool is_any_refined = false;
-    found_energies_ = found;
-    found_shares_.assign(islands_.size(), 0.0);
+  /// Moves shares that went far beyond the expected minimum to that minimum.
+  /// @returns whether there are any
+  bool interpolate() {
+    constexpr double far_beyond = 0.6;  // the minimum is before this part of the share
+    constexpr double max_share = 16.0;
+    bool is_any_interpolated = false;
+    backtracked_shares_.assign(islands_.size(), 0.0);
     for (std::size_t i = 0; i < islands_.size(); ++i) {
       Island& island = islands_[i];
-      const double promised = island.share * island.decrease;
-      if (promised <= 0.0) {
+      const double predicted = island.share * island.predicted_decrease;
+      if (predicted <= 0.0) {
         continue;
       }
-      // What curvature has taken of it.
-      const double taken = promised - (island.accepted.energy - found[i].energy);
-      island.expected_share = taken > island.accepted.roundoff()
-                                  ? std::min(most, 0.5 * island.share * promised / taken)
+      // The difference between the linear prediction and the energy is the parabola's curvature.
+      const double shortfall = predicted - (island.accepted.energy - energies_[i].energy);
+      island.expected_share = shortfall > island.accepted.roundoff()
+                                  ? std::min(max_share, 0.5 * island.share * predicted / shortfall)
                                   : 1.0;
-      if (island.expected_share < far_too_far * island.share) {
-        found_shares_[i] = island.share;
+      if (island.expected_share < far_beyond * island.share) {
+        backtracked_shares_[i] = island.share;
         island.share = island.expected_share;
-        is_any_refined = true;
+        is_any_interpolated = true;
       }
     }
-    return is_any_refined;
+    return is_any_interpolated;
   }
 
-  /// Goes back to what was found before, where that was better.
-  /// @param tried energies where the refined shares lead, by island
+  /// Returns to the share before interpolation where its energy was lower.
+  /// @param interpolated energies, by island
   /// @returns whether there are such islands
-  bool settle(const std::vector<EnergySum>& tried) {
-    bool is_any_back = false;
+  bool keep_better(const std::vector<EnergySum>& interpolated) {
+    bool is_any_reverted = false;
     for (std::size_t i = 0; i < islands_.size(); ++i) {
-      if (found_shares_[i] > 0.0 && !(tried[i].energy <= found_energies_[i].energy)) {
-        islands_[i].share = found_shares_[i];
-        is_any_back = true;
+      if (backtracked_shares_[i] > 0.0 && !(interpolated[i].energy <= energies_[i].energy)) {
+        islands_[i].share = backtracked_shares_[i];
+        is_any_reverted = true;
       }
     }
-    return is_any_back;
+    return is_any_reverted;
   }
 
- private:
   std::vector<Island> islands_;
-  std::vector<double> found_shares_;  // before they were refined; 0 of what was not
-  std::vector<EnergySum> found_energies_;
+  std::vector<EnergySum> energies_;         // of the last trial step of backtracking, by island
+  std::vector<double> backtracked_shares_;  // before interpolation; 0 where there was none
   int halvings_left_ = 0;
 };
 

@@ -12,16 +12,16 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// An island that has come to rest stays where it is if its residual is within this part of what is
-/// asked for; any other has at least one iteration, so that small forces set it in motion.
-constexpr double rest_share = 1e-3;
+/// Before the first iteration, an island has converged only if its residual is within this part of
+/// the tolerance: all others have at least one iteration, so that small forces set them in motion.
+constexpr double rest_tolerance = 1e-3;
 
-/// By what the step after this one is to be longer than Newton's.
-double scale_after(double scale, const LineSearch::Island& found) {
+/// Factor for the next Newton step.
+double next_scale(double scale, const LineSearch::Island& accepted) {
   constexpr double too_short = 1.6;
-  constexpr double most = 16.0;
-  const double expected = scale * found.expected_share;
-  return found.share == 1.0 && expected > too_short ? std::min(expected, most) : 1.0;
+  constexpr double max_scale = 16.0;
+  const double expected = scale * accepted.expected_share;
+  return accepted.share == 1.0 && expected > too_short ? std::min(expected, max_scale) : 1.0;
 }
 
 }  // namespace
@@ -51,7 +51,7 @@ void NewtonSolver::assign(const Rods& rods, const std::vector<std::vector<std::u
     size += packs_[pack].step_size();
   }
   step_.assign(size, SimdBatch{});
-  searches_.assign(islands, Search{});
+  states_.assign(islands, IslandState{});
   reports_.assign(islands, IslandReport{});
 }
 
@@ -65,63 +65,64 @@ void NewtonSolver::load(const Rods& rods) {
 }
 
 std::optional<double> NewtonSolver::solve(Rods& rods, const Problem& problem) {
-  if (problem.room != nullptr) {
-    bound_.begin(problem.room, static_cast<std::uint32_t>(searches_.size()));
+  if (problem.travel_bound != nullptr) {
+    bound_.begin(problem.travel_bound, static_cast<std::uint32_t>(states_.size()));
   }
   if (problem.contacts != nullptr) {
     problem.contacts->begin(rods, problem.friction, problem.references, problem.step);
   }
-  measure(rods, problem);
+  evaluate_energies(rods, problem);
   const double stored_before = stored_energy(problem);
   if (!predict(rods, problem)) {
     return std::nullopt;
   }
   for (std::uint32_t iteration = 0;; ++iteration) {
     assemble(rods, problem);
-    judge_balance(rods, problem, iteration);
-    const bool is_any_active = std::any_of(searches_.begin(), searches_.end(),
-                                           [](const Search& search) { return search.is_active; });
+    check_convergence(rods, problem, iteration);
+    const bool is_any_active = std::any_of(states_.begin(), states_.end(),
+                                           [](const auto& state) { return state.is_active; });
     if (!is_any_active || iteration == problem.options.max_iterations) {
       break;
     }
-    find_step(problem);
+    find_newton_step(problem);
     if (!bound_step(rods, problem)) {
       return std::nullopt;
     }
-    // Where no share helps, rounding errors are all that is left.
-    search_line(rods, problem, LineSearch::most_halvings);
-    for (std::size_t i = 0; i < searches_.size(); ++i) {
-      const LineSearch::Island& found = line_.island(i);
-      searches_[i].scale = scale_after(searches_[i].scale, found);
-      searches_[i].is_active = searches_[i].is_active && !found.has_failed;
+    line_search(rods, problem, LineSearch::max_halvings);
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+      const LineSearch::Island& accepted = line_search_.island(i);
+      states_[i].scale = next_scale(states_[i].scale, accepted);
+      // Where no share lowers the energy, only rounding errors are left.
+      states_[i].is_active = states_[i].is_active && !accepted.has_failed;
     }
   }
   for_each_pack(packs_.size(), Work::LITTLE, [&](std::size_t pack) { packs_[pack].finish(rods); });
-  if (problem.room != nullptr && !problem.room->is_last && !bound_.is_within(rods, members_)) {
+  if (problem.travel_bound != nullptr && !problem.travel_bound->is_final &&
+      !bound_.is_within(rods, members_)) {
     return std::nullopt;
   }
   return stored_energy(problem) - stored_before;
 }
 
-/// Energies where the rods are, by island.
-void NewtonSolver::measure(Rods& rods, const Problem& problem) {
+/// Sums the incremental potential where the rods are, by island.
+void NewtonSolver::evaluate_energies(Rods& rods, const Problem& problem) {
   for_each_pack(packs_.size(), Work::MUCH, [&](std::size_t pack) {
-    packs_[pack].measure(problem.effects);
+    packs_[pack].evaluate_energies(problem.effects);
     if (problem.contacts != nullptr) {
       store(packs_[pack].rods(), rods);
     }
   });
-  energies_.assign(searches_.size(), EnergySum{});
+  energies_.assign(states_.size(), EnergySum{});
   for_each_rod([&](std::size_t pack, std::size_t lane, std::uint32_t island) {
     energies_[island].add(packs_[pack].energy(lane));
   });
   if (problem.contacts != nullptr) {
-    problem.contacts->measure(rods);
+    problem.contacts->update_distances(rods);
     problem.contacts->add_energies(rods, scratch_->islands, energies_);
   }
 }
 
-/// Where the rods are measured.
+/// Stored energy of rods and contacts where they were evaluated last [J].
 double NewtonSolver::stored_energy(const Problem& problem) const {
   double stored = problem.contacts != nullptr ? problem.contacts->stored_energy() : 0.0;
   for (const PackStep& pack : packs_) {
@@ -130,19 +131,21 @@ double NewtonSolver::stored_energy(const Problem& problem) const {
   return stored;
 }
 
-/// Goes where inertia leads, as far as it may, if the energy is lower there.
+/// The first guess: moves the rods to where inertia alone leads, as far as the bound allows, if the
+/// energy is lower there.
+/// @returns false if a rod needs a wider travel bound
 bool NewtonSolver::predict(Rods& rods, const Problem& problem) {
   for (std::size_t pack = 0; pack < packs_.size(); ++pack) {
     packs_[pack].predict(part(pack));
   }
-  for (Search& search : searches_) {
-    search.is_active = true;
-    search.decrease = 0.0;
+  for (IslandState& state : states_) {
+    state.is_active = true;
+    state.predicted_decrease = 0.0;
   }
   if (!bound_step(rods, problem)) {
     return false;
   }
-  search_line(rods, problem, 0);
+  line_search(rods, problem, 0);
   return true;
 }
 
@@ -156,30 +159,30 @@ void NewtonSolver::assemble(Rods& rods, const Problem& problem) {
       add_derivatives(problem.contacts->terms(), rods, scratch_->systems, scratch_->packs,
                       static_cast<std::uint32_t>(pack));
     }
-    packs_[pack].measure_residuals();
+    packs_[pack].update_residuals();
   });
 }
 
-/// Ends the searches of islands whose forces balance. What has learnt from that may unbalance them
-/// again.
-void NewtonSolver::judge_balance(Rods& rods, const Problem& problem, std::uint32_t iteration) {
+/// Deactivates islands whose residual is within the tolerance. Effects with multipliers update them
+/// first, which may raise the residual again.
+void NewtonSolver::check_convergence(Rods& rods, const Problem& problem, std::uint32_t iteration) {
   find_residuals();
-  const double allowed = (iteration == 0 ? rest_share : 1.0) * problem.options.residual;
-  for (std::size_t i = 0; i < searches_.size(); ++i) {
-    searches_[i].is_balanced = searches_[i].is_active && reports_[i].residual <= allowed;
+  const double allowed = (iteration == 0 ? rest_tolerance : 1.0) * problem.options.residual;
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    states_[i].is_converged = states_[i].is_active && reports_[i].residual <= allowed;
   }
-  if (learn_multipliers(rods, problem)) {
+  if (update_multipliers(rods, problem)) {
     for (PackStep& pack : packs_) {
       pack.load_values(problem.effects);
     }
-    measure(rods, problem);
+    evaluate_energies(rods, problem);
     assemble(rods, problem);
     find_residuals();
   }
-  for (std::size_t i = 0; i < searches_.size(); ++i) {
-    if (searches_[i].is_active) {
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    if (states_[i].is_active) {
       reports_[i].iterations = iteration;
-      searches_[i].is_active = !searches_[i].is_balanced;
+      states_[i].is_active = !states_[i].is_converged;
     }
   }
 }
@@ -199,88 +202,89 @@ void NewtonSolver::find_residuals() {
   });
 }
 
-/// Where effects hold conditions, an island is only balanced if these hold.
-/// @returns whether anything is to be solved again
-bool NewtonSolver::learn_multipliers(Rods& rods, const Problem& problem) {
-  for (Search& search : searches_) {
-    search.is_learning = search.is_balanced;
+/// Updates the Lagrange multipliers of converged islands: one whose constraints do not hold yet has
+/// not converged.
+/// @returns whether there are any
+bool NewtonSolver::update_multipliers(Rods& rods, const Problem& problem) {
+  for (IslandState& state : states_) {
+    state.was_converged = state.is_converged;
   }
-  bool has_learnt = false;
-  for (const std::unique_ptr<Effect>& effect : problem.effects) {
+  bool is_any_violated = false;
+  for (const auto& effect : problem.effects) {
     if (!effect->has_multipliers()) {
       continue;
     }
     for_each_rod([&](std::size_t pack, std::size_t lane, std::uint32_t island) {
-      if (searches_[island].is_learning) {
+      if (states_[island].was_converged) {
         store(packs_[pack].rods(), rods);
         if (!effect->update_multipliers(rods, packs_[pack].rods().rods[lane])) {
-          searches_[island].is_balanced = false;
-          has_learnt = true;
+          states_[island].is_converged = false;
+          is_any_violated = true;
         }
       }
     });
   }
-  return has_learnt;
+  return is_any_violated;
 }
 
-void NewtonSolver::find_step(const Problem& problem) {
+void NewtonSolver::find_newton_step(const Problem& problem) {
   for_each_pack(packs_.size(), Work::MUCH,
-                [&](std::size_t pack) { packs_[pack].find_step(part(pack)); });
-  // What does not search has no step, so that nothing makes room for it.
+                [&](std::size_t pack) { packs_[pack].find_newton_step(part(pack)); });
+  // Inactive islands do not move, so that their rods need no wider travel bound.
   for_each_rod([&](std::size_t pack, std::size_t lane, std::uint32_t island) {
-    if (!searches_[island].is_active) {
+    if (!states_[island].is_active) {
       for (std::size_t i = 0; i < packs_[pack].step_size(); ++i) {
         part(pack)[i][lane] = 0.0;
       }
     }
   });
-  weigh_step();
+  update_directional_derivatives();
   if (problem.contacts != nullptr && has_coupling(problem.contacts->terms())) {
     decreases_.clear();
-    for (const Search& search : searches_) {
-      decreases_.push_back(search.decrease);
+    for (const IslandState& state : states_) {
+      decreases_.push_back(state.predicted_decrease);
     }
-    coupling_.correct(
+    coupling_.solve(
         {packs_, offsets_, islands_, decreases_, problem.contacts->terms(), scratch_->places},
         step_);
-    weigh_step();
+    update_directional_derivatives();
   }
-  // Where the Hessian is stiffer than the energy, steps are too short, each by the same factor: the
-  // next one is made longer by what the last one has told.
+  // Where the matrix is stiffer than the Hessian, steps are too short, each by about the same
+  // factor, which the line search of the last step has estimated.
   for_each_rod([&](std::size_t pack, std::size_t lane, std::uint32_t island) {
-    const double scale = searches_[island].scale;
+    const double scale = states_[island].scale;
     for (std::size_t i = 0; scale != 1.0 && i < packs_[pack].step_size(); ++i) {
       part(pack)[i][lane] *= scale;
     }
   });
-  for (Search& search : searches_) {
-    search.decrease *= search.scale;
+  for (IslandState& state : states_) {
+    state.predicted_decrease *= state.scale;
   }
 }
 
-/// What the slope of the step promises.
-void NewtonSolver::weigh_step() {
-  for (Search& search : searches_) {
-    search.decrease = 0.0;
+/// The predicted decrease of a whole step is minus the directional derivative along it.
+void NewtonSolver::update_directional_derivatives() {
+  for (IslandState& state : states_) {
+    state.predicted_decrease = 0.0;
   }
   for (std::size_t pack = 0; pack < packs_.size(); ++pack) {
     const std::vector<SimdBatch>& gradient = packs_[pack].system().gradient;
     const std::size_t used = packs_[pack].rods().used;
-    const SimdBatch slopes = products({gradient.size(), used}, gradient.data(), part(pack));
+    const SimdBatch slopes = dot_products({gradient.size(), used}, gradient.data(), part(pack));
     for (std::size_t lane = 0; lane < used; ++lane) {
-      searches_[islands_[pack][lane]].decrease -= slopes[lane];
+      states_[islands_[pack][lane]].predicted_decrease -= slopes[lane];
     }
   }
 }
 
-/// @returns false if a rod needs more room
+/// @returns false if a rod needs a wider travel bound
 bool NewtonSolver::bound_step(const Rods& rods, const Problem& problem) {
-  shares_.assign(searches_.size(), 1.0);
+  trial_shares_.assign(states_.size(), 1.0);
   if (problem.contacts == nullptr) {
     return true;
   }
   using Stride = Eigen::InnerStride<lane_count>;
-  const double* const step = step_.data()->of.data();
+  const double* const step = step_.data()->lanes.data();
   for (const std::uint32_t rod : members_) {
     for (std::uint32_t i = rods.first(rod); i < rods.end(rod); ++i) {
       scratch_->displacements[i] =
@@ -288,48 +292,39 @@ bool NewtonSolver::bound_step(const Rods& rods, const Problem& problem) {
     }
   }
   return bound_.bound(rods, scratch_->displacements, members_, scratch_->islands, *problem.contacts,
-                      shares_, scratch_->ends);
+                      trial_shares_, scratch_->ends);
 }
 
-/// Moves rods by shares of the step that bring them lower, if there are any.
-void NewtonSolver::search_line(Rods& rods, const Problem& problem, int halvings) {
-  line_.begin(searches_.size(), halvings);
-  for (std::size_t i = 0; i < searches_.size(); ++i) {
-    line_.island(i) = {energies_[i], searches_[i].decrease,
-                       searches_[i].is_active ? shares_[i] : 0.0, searches_[i].is_active, false};
+/// Moves the rods of each island along the step to a lower energy, or not at all.
+void NewtonSolver::line_search(Rods& rods, const Problem& problem, int halvings) {
+  line_search_.begin(states_.size(), halvings);
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    line_search_.island(i) = {energies_[i], states_[i].predicted_decrease,
+                              states_[i].is_active ? trial_shares_[i] : 0.0, states_[i].is_active,
+                              false};
   }
-  do {
-    try_shares(rods, problem);
-  } while (line_.judge(energies_));
-  bool has_to_return = false;
-  for (std::size_t i = 0; i < searches_.size(); ++i) {
-    has_to_return |= line_.island(i).has_failed;
-  }
-  if (line_.refine(energies_)) {
-    try_shares(rods, problem);
-    has_to_return = line_.settle(energies_);
-  }
-  if (has_to_return) {
-    try_shares(rods, problem);
-  }
-  for (std::size_t i = 0; i < searches_.size(); ++i) {
-    shares_[i] = line_.island(i).share;
+  line_search_.run([&]() -> const std::vector<EnergySum>& {
+    evaluate_trial_step(rods, problem);
+    return energies_;
+  });
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    trial_shares_[i] = line_search_.island(i).share;
   }
   if (problem.contacts != nullptr) {
-    bound_.advance(shares_);
+    bound_.advance(trial_shares_);
   }
 }
 
-/// Measures where the shares of the step lead.
-void NewtonSolver::try_shares(Rods& rods, const Problem& problem) {
+/// Moves the rods to where the shares of the step lead, and evaluates the energies there.
+void NewtonSolver::evaluate_trial_step(Rods& rods, const Problem& problem) {
   for_each_pack(packs_.size(), Work::LITTLE, [&](std::size_t pack) {
     SimdBatch shares;
     for (std::size_t lane = 0; lane < packs_[pack].rods().used; ++lane) {
-      shares[lane] = line_.island(islands_[pack][lane]).share;
+      shares[lane] = line_search_.island(islands_[pack][lane]).share;
     }
     packs_[pack].move(part(pack), shares);
   });
-  measure(rods, problem);
+  evaluate_energies(rods, problem);
 }
 
 }  // namespace fiber

@@ -11,7 +11,8 @@
 
 namespace fiber {
 
-/// By node or by rod, of all rods: what solvers of different rods write side by side.
+/// Arrays over all rods of a simulation. Solvers of different rods write their own entries side by
+/// side.
 struct SolverScratch {
   void resize(const Rods& rods) {
     islands.resize(rods.count());
@@ -30,52 +31,52 @@ struct SolverScratch {
   std::vector<Eigen::Vector3d> ends;
 };
 
-/// Newton's method for one or more islands, rods that may touch each other in a step: finds the
-/// minimum of the incremental potential near where the rods are, each step bounded and then
-/// shortened until the energy falls.
+/// Newton's method for one or more islands, which are sets of rods that may touch each other in a
+/// time step: finds the minimum of the incremental potential near where the rods are. Each Newton
+/// step is bounded, and then shortened by a line search.
 class NewtonSolver {
  public:
-  /// What is to be solved.
+  /// The system to be solved.
   struct Problem {
     const Effects& effects;
     const StepperOptions& options;
     double step;                                     ///< [s]
     ContactSet* contacts;                            ///< null for none
-    const Room* room;                                ///< null for none: rods may go anywhere
+    const TravelBound* travel_bound;                 ///< null: rods may go anywhere
     const Friction* friction;                        ///< null for none
     const std::vector<Eigen::Vector3d>& references;  ///< where rates are measured from, by node [m]
   };
 
-  /// Makes it about these rods; of what it was about before, it only keeps the memory.
+  /// Replaces the rods that it solves for. Memory is reused.
   /// @param packs   rods with the same number of nodes each, at most lane_count
   /// @param islands how many
   /// @param scratch with islands; must outlive this
   void assign(const Rods& rods, const std::vector<std::vector<std::uint32_t>>& packs,
               std::uint32_t islands, SolverScratch& scratch);
 
-  /// Loads the rods where rates are measured from, and what effects have found there.
+  /// Loads the rods where rates are measured from, and the effects' data of their nodes.
   void begin(const Rods& rods, const Effects& effects, double step);
 
-  /// Loads where the solve starts, if that is elsewhere.
+  /// Loads where the solve starts, if rates are measured from elsewhere.
   void load(const Rods& rods);
 
   /// Moves the rods from there to the end of the step.
-  /// @returns what more energy rods and contacts store then, all islands together [J]; none if rods
-  ///          need more room: they are anywhere then
+  /// @returns the increase of stored energy of rods and contacts, over all islands [J]; none if a
+  ///          rod needs a wider travel bound: positions are unspecified then
   std::optional<double> solve(Rods& rods, const Problem& problem);
 
-  /// Of the last solve, by island.
+  /// Reports of the last solve, by island.
   const std::vector<IslandReport>& reports() const { return reports_; }
   const StepBound& step_bound() const { return bound_; }
 
  private:
   /// An island in the course of a solve.
-  struct Search {
-    double decrease = 0.0;  ///< that the slope of a whole step promises [J]
-    double scale = 1.0;     ///< of the next step, for the last one was so much too short
-    bool is_active = true;  ///< goes on
-    bool is_balanced = false;
-    bool is_learning = false;  ///< was balanced before what multipliers have learnt
+  struct IslandState {
+    double predicted_decrease = 0.0;  ///< minus the directional derivative of a whole step [J]
+    double scale = 1.0;               ///< factor for the next step, if the last one was too short
+    bool is_active = true;            ///< iterates
+    bool is_converged = false;
+    bool was_converged = false;  ///< before multipliers were updated
   };
 
   /// Calls function(pack, lane, island), one after the other.
@@ -89,31 +90,31 @@ class NewtonSolver {
   }
   SimdBatch* part(std::size_t pack) { return step_.data() + offsets_[pack]; }
 
-  void measure(Rods& rods, const Problem& problem);
+  void evaluate_energies(Rods& rods, const Problem& problem);
   double stored_energy(const Problem& problem) const;
   bool predict(Rods& rods, const Problem& problem);
   void assemble(Rods& rods, const Problem& problem);
-  void judge_balance(Rods& rods, const Problem& problem, std::uint32_t iteration);
-  bool learn_multipliers(Rods& rods, const Problem& problem);
+  void check_convergence(Rods& rods, const Problem& problem, std::uint32_t iteration);
+  bool update_multipliers(Rods& rods, const Problem& problem);
   void find_residuals();
-  void find_step(const Problem& problem);
-  void weigh_step();
+  void find_newton_step(const Problem& problem);
+  void update_directional_derivatives();
   bool bound_step(const Rods& rods, const Problem& problem);
-  void try_shares(Rods& rods, const Problem& problem);
-  void search_line(Rods& rods, const Problem& problem, int halvings);
+  void evaluate_trial_step(Rods& rods, const Problem& problem);
+  void line_search(Rods& rods, const Problem& problem, int halvings);
 
   std::vector<PackStep> packs_;
   std::vector<std::uint32_t> members_;  // rods
   std::vector<std::size_t> offsets_;    // of the packs in the step
   std::vector<LaneIslands> islands_;    // by pack
   SolverScratch* scratch_ = nullptr;
-  std::vector<Search> searches_;       // by island
+  std::vector<IslandState> states_;    // by island
   std::vector<IslandReport> reports_;  // by island
   std::vector<EnergySum> energies_;    // by island, where its rods are
   std::vector<double> decreases_;      // by island
-  std::vector<double> shares_;         // by island: the most of a step
+  std::vector<double> trial_shares_;   // of the step, by island: bounds, then those accepted
   std::vector<SimdBatch> step_;
-  LineSearch line_;
+  LineSearch line_search_;
   Coupling coupling_;
   StepBound bound_;
 };

@@ -16,14 +16,14 @@ namespace HWY_NAMESPACE {
 namespace {
 
 void measure(RodPack& rods) {
-  const Real least = real(std::numeric_limits<double>::min());
+  const Real smallest = real(std::numeric_limits<double>::min());
   const Real one = real(1.0);
   for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
     Vector point = position_at(rods, 0, lane);
     for (std::size_t i = 0; i + 1 < rods.node_count; ++i) {
       const Vector next = position_at(rods, i + 1, lane);
       const Vector edge = next - point;
-      const Real length = hn::Max(hn::Sqrt(dot(edge, edge)), least);
+      const Real length = hn::Max(hn::Sqrt(dot(edge, edge)), smallest);
       const Real inverse = one / length;
       store(length, rods.lengths[i], lane);
       store(inverse, rods.inverse_lengths[i], lane);
@@ -37,7 +37,7 @@ HWY_INLINE Vector director_at(const RodPack& rods, std::size_t edge, std::size_t
   return load_vector(&rods.directors[3 * edge], lane);
 }
 
-/// From the director of the edge before a node to that of the edge after it.
+/// The angle from the director of the edge before a node to that of the edge after it.
 HWY_INLINE Real twist_at(const RodPack& rods, std::size_t node, std::size_t lane) {
   const Vector tangent = tangent_at(rods, node, lane);
   const Vector carried =
@@ -134,12 +134,12 @@ template <std::size_t W>
 void factorise_width(std::size_t used, std::size_t size, SimdBatch* hessian) {
   const Real zero = real(0.0);
   const Real one = real(1.0);
-  const Real most = real(std::numeric_limits<double>::max());
+  const Real largest = real(std::numeric_limits<double>::max());
   for (std::size_t lane = 0; lane < used; lane += lanes_at_once()) {
     SimdBatch* column = hessian;
     for (std::size_t c = 0; c < size; ++c, column += W + 1) {
       const Real pivot = load(column[0], lane);
-      const Real inverse = one / hn::IfThenElse(hn::Gt(pivot, zero), pivot, most);
+      const Real inverse = one / hn::IfThenElse(hn::Gt(pivot, zero), pivot, largest);
       Real entries[W + 1];
       for (std::size_t j = 1; j <= W; ++j) {
         entries[j] = load(column[j], lane);
@@ -239,12 +239,12 @@ void set_inertia(SumSize size, double factor, const SimdBatch* inertias, const S
   (size, factor, inertias, positions, predicted, gradient, hessian, height);
 }
 
-SimdBatch products(SumSize size, const SimdBatch* a, const SimdBatch* b) {
+SimdBatch dot_products(SumSize size, const SimdBatch* a, const SimdBatch* b) {
   return HWY_DYNAMIC_DISPATCH(sum_products)(size, a, b);
 }
 
-void move_by(SumSize size, const SimdBatch* from, const SimdBatch* step, const SimdBatch& shares,
-             SimdBatch* positions) {
+void add_scaled(SumSize size, const SimdBatch* from, const SimdBatch* step, const SimdBatch& shares,
+                SimdBatch* positions) {
   HWY_DYNAMIC_DISPATCH(move)(size, from, step, shares, positions);
 }
 

@@ -4,12 +4,12 @@
 
 namespace fiber {
 
-// What a step does with rods side by side, in all lanes at once.
+// Operations of a step on rods side by side, in all lanes at once.
 
-/// What rods have of edges where they are now.
+/// Updates lengths, tangents and, with twist, directors of the edges where the rods are now.
 void measure_edges(RodPack& rods);
 
-/// Of arrays: how many SimdBatches, and the lanes in use.
+/// The size of arrays: the number of SimdBatches, and of the lanes in use.
 struct SumSize {
   std::size_t count;
   std::size_t used;
@@ -26,15 +26,15 @@ void set_inertia(SumSize size, double factor, const SimdBatch* inertias, const S
                  std::size_t height);
 
 /// Σ a · b, by lane.
-SimdBatch products(SumSize size, const SimdBatch* a, const SimdBatch* b);
+SimdBatch dot_products(SumSize size, const SimdBatch* a, const SimdBatch* b);
 
-/// positions = from + share · step; where the share of a lane is 0, whatever the step is, from. All
-/// of them may be the same.
-void move_by(SumSize size, const SimdBatch* from, const SimdBatch* step, const SimdBatch& shares,
-             SimdBatch* positions);
+/// sum = from + share · step; where the share of a lane is 0, the sum is `from` even for a step
+/// that is not finite. The arrays may be the same.
+void add_scaled(SumSize size, const SimdBatch* from, const SimdBatch* step, const SimdBatch& shares,
+                SimdBatch* sum);
 
-/// Of each node: the square of the gradient by its position, or with a fourth unknown of that by
-/// its angle if it is larger, each times a scale of its own.
+/// Writes, for each node, the squared norm of the scaled gradient by its position, or the square of
+/// that by its angle if it is larger.
 void squared_residuals(SumSize size, std::size_t unknowns, const SimdBatch* gradient,
                        const SimdBatch* scales, SimdBatch* squares);
 
@@ -42,9 +42,9 @@ void squared_residuals(SumSize size, std::size_t unknowns, const SimdBatch* grad
 /// Needs no pivoting. LAPACK's pbtrf does the same for one matrix, but works in calls per column,
 /// each of which takes longer than a column of this width.
 ///
-/// An unknown whose pivot is not positive, as rounding errors may leave it where stiffnesses differ
-/// by more digits than numbers have, becomes as stiff as can be: its solution is about 0, and the
-/// factors are those of a positive definite matrix.
+/// A pivot that is not positive, as rounding errors may leave it where stiffnesses differ by more
+/// digits than a double has, is replaced by the largest number: the solution there is about 0, and
+/// the factors are those of a positive definite matrix.
 void factorise_band(PackSystem& system);
 
 /// Solves equations with the factors.

@@ -11,8 +11,8 @@
 
 namespace fiber {
 
-/// Calls function(lane, place, node) for the nodes of the first lanes: where what is unknown of one
-/// begins, and which one Rods has it as.
+/// Calls function(lane, place, node) for the nodes of the first lanes, with the place of the node's
+/// first unknown in the pack and the node's index in Rods.
 template <class Function>
 void for_each_node(const RodPack& pack, std::size_t lanes, const Function& function) {
   for (std::size_t lane = 0; lane < lanes; ++lane) {
@@ -22,7 +22,7 @@ void for_each_node(const RodPack& pack, std::size_t lanes, const Function& funct
   }
 }
 
-/// What does not change in a step.
+/// Loads the stiffnesses, masses and lengths, which do not change in a step.
 inline void load_constants(const Rods& rods, RodPack& pack) {
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     const std::uint32_t first = pack.first_nodes[lane];
@@ -43,21 +43,21 @@ inline void load_constants(const Rods& rods, RodPack& pack) {
   }
 }
 
-/// What an effect has found of the rods.
+/// Loads an effect's data of the rods' nodes.
 inline void load_values(const Effect& effect, const RodPack& pack, NodeValues& values) {
-  const auto [numbers, count] = effect.numbers();
+  const auto [data, count] = effect.per_node_data();
   values.resize(std::size_t{count} * pack.node_count);
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     const std::uint32_t first = pack.first_nodes[lane];
     for (std::uint32_t i = 0; i < pack.node_count; ++i) {
       for (std::size_t k = 0; k < count; ++k) {
-        values[count * i + k][lane] = numbers[std::size_t{count} * (first + i) + k];
+        values[count * i + k][lane] = data[std::size_t{count} * (first + i) + k];
       }
     }
   }
 }
 
-/// Writes where the rods are.
+/// Stores positions and angles.
 inline void store(const RodPack& pack, Rods& rods) {
   for_each_node(pack, pack.used, [&](std::size_t lane, std::size_t place, std::uint32_t node) {
     for (std::uint32_t k = 0; k < 3; ++k) {
@@ -70,11 +70,11 @@ inline void store(const RodPack& pack, Rods& rods) {
 }
 
 /// Rods with the same number of nodes side by side in a step of implicit Euler: where inertia alone
-/// would bring them, where they are now, and the incremental potential of that. What becomes of a
-/// rod does not depend on what it is beside.
+/// would bring them, where they are now, and the incremental potential of that. The result for a
+/// rod does not depend on the rods beside it.
 class PackStep {
  public:
-  /// Makes it about these rods; what it was about before does not matter but for the memory it has.
+  /// Replaces the rods of the pack. Memory is reused.
   /// @param members from 1 to lane_count rods
   void assign(const Rods& rods, const std::vector<std::uint32_t>& members) {
     pack_.used = members.size();
@@ -99,7 +99,7 @@ class PackStep {
       pack_.director_twists.resize(nodes);
     }
     for (auto* array :
-         {&pack_.positions, &inertias_, &scales_, &beginning_, &predicted_, &start_}) {
+         {&pack_.positions, &inertias_, &scales_, &step_start_, &predicted_, &search_start_}) {
       array->resize(system_.size());
     }
     views_.clear();
@@ -110,8 +110,8 @@ class PackStep {
 
   const RodPack& rods() const { return pack_; }
 
-  /// How many SimdBatches a step takes: what is unknown, and the zeros that solve_band() wants
-  /// after it.
+  /// The number of SimdBatches of a step: the unknowns, and the zeros after them that solve_band()
+  /// requires.
   std::size_t step_size() const { return system_.size() + half_bandwidth(system_.unknowns); }
 
   /// Begins a step: rates are measured from where the rods are.
@@ -144,10 +144,10 @@ class PackStep {
     });
     load_values(effects);
     load(rods);
-    beginning_ = pack_.positions;
+    step_start_ = pack_.positions;
   }
 
-  /// Loads what effects have found of the rods, again where they have learnt.
+  /// Loads the effects' data of the nodes; to be repeated when multipliers have changed.
   void load_values(const Effects& effects) {
     values_.resize(effects.size());
     for (std::size_t e = 0; e < effects.size(); ++e) {
@@ -171,7 +171,7 @@ class PackStep {
   /// The step from where the rods are to where inertia alone would bring them.
   /// @param step step_size() of them, overwritten
   void predict(SimdBatch* step) {
-    start_ = pack_.positions;
+    search_start_ = pack_.positions;
     for (std::size_t i = 0; i < system_.size(); ++i) {
       for (std::size_t lane = 0; lane < lane_count; ++lane) {
         step[i][lane] = predicted_[i][lane] - pack_.positions[i][lane];
@@ -180,14 +180,15 @@ class PackStep {
     std::fill(step + system_.size(), step + step_size(), SimdBatch{});
   }
 
-  /// Brings each rod a share of a step away from where predict() or find_step() has found it.
+  /// Moves each rod by a share of a step from where predict() or find_newton_step() began.
   void move(const SimdBatch* step, const SimdBatch& shares) {
-    move_by({system_.size(), pack_.used}, start_.data(), step, shares, pack_.positions.data());
+    add_scaled({system_.size(), pack_.used}, search_start_.data(), step, shares,
+               pack_.positions.data());
     measure_edges(pack_);
   }
 
   /// Kinetic and potential energy of the incremental potential where the rods are now [J].
-  void measure(const Effects& effects) {
+  void evaluate_energies(const Effects& effects) {
     const SimdBatch kinetic = weighted_squares({system_.size(), pack_.used}, inertias_.data(),
                                                pack_.positions.data(), predicted_.data());
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
@@ -208,7 +209,7 @@ class PackStep {
 
   const EnergySum& energy(std::size_t lane) const { return energies_[lane]; }
 
-  /// Of that, over all rods, what is there again when they move back: without inertia [J].
+  /// The conservative part of the energy, without inertia, over all rods [J].
   double stored_energy() const { return stored_; }
 
   /// Makes gradient and Hessian those of the energies where the rods are now.
@@ -224,11 +225,11 @@ class PackStep {
     }
   }
 
-  /// To add what else acts on a rod to what was assembled.
+  /// The system of one rod, to add contacts to it after assemble().
   RodSystem& system(std::size_t lane) { return views_[lane]; }
 
-  /// How far a rod's forces are from balance: the largest speed [m/s] that the force on a node
-  /// would change in a step, or of a surface that the moment on an edge would turn.
+  /// The residual of a rod's equations: the largest change of speed [m/s] that the force on a node,
+  /// or at the surface the moment on an edge, would cause in a step.
   struct Residual {
     double speed;
     std::uint32_t node;  ///< from the rod's first one
@@ -241,18 +242,18 @@ class PackStep {
     return {std::sqrt(residuals_[worst][lane]), worst};
   }
 
-  void measure_residuals() {
+  void update_residuals() {
     squared_residuals({pack_.node_count, pack_.used}, system_.unknowns, system_.gradient.data(),
                       scales_.data(), residuals_.data());
   }
 
   /// Factorises the Hessian, and solves for minus the gradient.
   /// @param step step_size() of them, overwritten
-  void find_step(SimdBatch* step) {
+  void find_newton_step(SimdBatch* step) {
     // All effects add positive semidefinite blocks, and masses are positive: only rounding errors
     // can make it indefinite, and what it solves for then still lets the energy fall.
     factorise_band(system_);
-    start_ = pack_.positions;
+    search_start_ = pack_.positions;
     for (std::size_t i = 0; i < system_.size(); ++i) {
       for (std::size_t lane = 0; lane < lane_count; ++lane) {
         step[i][lane] = -system_.gradient[i][lane];
@@ -260,10 +261,10 @@ class PackStep {
     }
     std::fill(step + system_.size(), step + step_size(), SimdBatch{});
     solve_band(system_, step);
-    keep_finite(step);
+    clear_nonfinite_steps(step);
   }
 
-  /// The gradient, and the Hessian or after find_step() its factors.
+  /// The gradient, and the Hessian or after find_newton_step() its factors.
   const PackSystem& system() const { return system_; }
 
   /// Stores where the rods are, and the velocities that bring them there from where it began.
@@ -271,7 +272,7 @@ class PackStep {
     store(pack_, rods);
     for_each_node(pack_, pack_.used, [&](std::size_t lane, std::size_t place, std::uint32_t node) {
       const auto rate = [&](std::size_t k) {
-        return (pack_.positions[place + k][lane] - beginning_[place + k][lane]) / step_length_;
+        return (pack_.positions[place + k][lane] - step_start_[place + k][lane]) / step_length_;
       };
       rods.velocities[node] = {rate(0), rate(1), rate(2)};
       if (system_.unknowns == 4) {
@@ -287,9 +288,9 @@ class PackStep {
   }
 
  private:
-  /// Where edges have shrunk to nothing, as without stretch they may, stiffnesses are beyond what
-  /// numbers can hold: such a rod has no step.
-  void keep_finite(SimdBatch* step) const {
+  /// Where edges have shrunk to nothing, as they may without the effect stretch, stiffnesses
+  /// overflow: such a rod has no step.
+  void clear_nonfinite_steps(SimdBatch* step) const {
     SimdBatch zero;
     for (std::size_t i = 0; i < system_.size(); ++i) {
       for (std::size_t lane = 0; lane < lane_count; ++lane) {
@@ -308,16 +309,16 @@ class PackStep {
 
   RodPack pack_;
   PackSystem system_;
-  std::vector<RodSystem> views_;      // of the system, by lane
-  std::vector<SimdBatch> inertias_;   // of what is unknown: masses, and those of angles
-  std::vector<SimdBatch> scales_;     // from gradient to speed [s/kg], of angles times the radius
-  std::vector<SimdBatch> beginning_;  // of the step
-  std::vector<SimdBatch> predicted_;  // where inertia would bring the rods
-  std::vector<SimdBatch> start_;      // of the step that was found last
-  std::vector<SimdBatch> residuals_;  // squared, by node
+  std::vector<RodSystem> views_;       // of the system, by lane
+  std::vector<SimdBatch> inertias_;    // of unknowns: masses, and moments of inertia of angles
+  std::vector<SimdBatch> scales_;      // from gradient to speed [s/kg], of angles times the radius
+  std::vector<SimdBatch> step_start_;  // where rates are measured from
+  std::vector<SimdBatch> predicted_;   // where inertia would bring the rods
+  std::vector<SimdBatch> search_start_;  // of the step that was found last
+  std::vector<SimdBatch> residuals_;     // squared, by node
   std::array<EnergySum, lane_count> energies_;
   double stored_ = 0.0;
-  std::vector<std::vector<SimdBatch>> values_;  // by effect: what it needs of the nodes
+  std::vector<std::vector<SimdBatch>> values_;  // by effect: its data of the nodes
   double step_length_ = 0.0;                    // [s]
 };
 

@@ -1,4 +1,4 @@
-// What a solve learns for the next one: how much room rods need, and how stiff contacts are to be.
+// A solve adapts the rods' travel bounds and the stiffness of contacts for the next one.
 
 #include <algorithm>
 #include <cmath>
@@ -11,12 +11,12 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Room that a rod has at the least, in parts of what it has needed in the step before. What is not
-/// needed any more is given up little by little.
-constexpr double spare_room = 2.0;
-constexpr double kept_room = 0.7;
+/// A rod's travel bound is at least the first of these times what it needed in the step before, and
+/// falls from step to step by the second at most.
+constexpr double travel_factor = 2.0;
+constexpr double kept_travel = 0.7;
 
-double longest_of(const std::vector<Vector3d>& vectors) {
+double max_length(const std::vector<Vector3d>& vectors) {
   double square = 0.0;
   for (const Vector3d& vector : vectors) {
     square = std::max(square, vector.squaredNorm());
@@ -26,49 +26,50 @@ double longest_of(const std::vector<Vector3d>& vectors) {
 
 }  // namespace
 
-/// Where nodes are expected to go.
-void StageSolver::expect(const RodState& reference, double step) {
-  room_.start = start_.positions;
-  room_.expected.resize(room_.start.size());
-  for (std::size_t i = 0; i < room_.start.size(); ++i) {
-    room_.expected[i] = reference.positions[i] + step * reference.velocities[i] - room_.start[i];
+/// Without forces, nodes would go where inertia leads.
+void StageSolver::predict_motion(const RodState& reference, double step) {
+  travel_bound_.start = start_.positions;
+  travel_bound_.expected.resize(travel_bound_.start.size());
+  for (std::size_t i = 0; i < travel_bound_.start.size(); ++i) {
+    travel_bound_.expected[i] =
+        reference.positions[i] + step * reference.velocities[i] - travel_bound_.start[i];
   }
 }
 
-/// Rods that went too far get more room, up to a length beyond which no step goes. Then no ways are
-/// expected: rooms hold whatever parts of these rods go.
-void StageSolver::widen_room(const Rods& rods) {
+/// Widens the travel bounds of rods that need it, up to a length beyond which no step goes. Then no
+/// displacements are expected any more: bounds hold for whatever the rods do.
+void StageSolver::widen_travel_bound(const Rods& rods) {
   constexpr double edges = 8.0;
-  constexpr double ways = 4.0;
-  const double most =
+  constexpr double displacements = 4.0;
+  const double widest =
       edges * *std::max_element(rods.rest_lengths.begin(), rods.rest_lengths.end()) +
-      ways * longest_of(room_.expected);
+      displacements * max_length(travel_bound_.expected);
   for (Group& group : groups_) {
-    for (const auto& [rod, needed] : group.needed_room) {
-      room_.by_rod[rod] = std::max(room_.by_rod[rod], needed);
-      room_.is_last |= needed > most;
+    for (const auto& [rod, needed] : group.needed_travel) {
+      travel_bound_.by_rod[rod] = std::max(travel_bound_.by_rod[rod], needed);
+      travel_bound_.is_final |= needed > widest;
     }
-    group.needed_room.clear();
+    group.needed_travel.clear();
   }
-  if (room_.is_last) {
-    std::fill(room_.by_rod.begin(), room_.by_rod.end(), most);
-    std::fill(room_.expected.begin(), room_.expected.end(), Vector3d::Zero());
+  if (travel_bound_.is_final) {
+    std::fill(travel_bound_.by_rod.begin(), travel_bound_.by_rod.end(), widest);
+    std::fill(travel_bound_.expected.begin(), travel_bound_.expected.end(), Vector3d::Zero());
     for (Group& group : groups_) {
       group.is_solved = false;
     }
   }
 }
 
-void StageSolver::adapt_room(const Rods& rods) {
+void StageSolver::adapt_travel_bound(const Rods& rods) {
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
     double square = 0.0;
     for (std::uint32_t i = rods.first(rod); i < rods.end(rod); ++i) {
-      const Vector3d off = rods.positions[i] - room_.start[i] - room_.expected[i];
+      const Vector3d off = rods.positions[i] - travel_bound_.start[i] - travel_bound_.expected[i];
       square = std::max(square, off.squaredNorm());
     }
-    room_.by_rod[rod] =
-        std::max({StepBound::least_room * rods.radii[rod], spare_room * std::sqrt(square),
-                  room_.is_last ? 0.0 : kept_room * room_.by_rod[rod]});
+    travel_bound_.by_rod[rod] =
+        std::max({StepBound::min_travel * rods.radii[rod], travel_factor * std::sqrt(square),
+                  travel_bound_.is_final ? 0.0 : kept_travel * travel_bound_.by_rod[rod]});
   }
 }
 
@@ -85,11 +86,11 @@ void StageSolver::stiffen_contacts() {
   }
 }
 
-/// To what the largest contact force of a rod was in this step; back to the material's little by
-/// little.
+/// Stiffens the contacts of rods whose largest contact force in this step was beyond what barriers
+/// hold well. Where it was below, stiffness falls back to the material's, by 5 % a step at most.
 void StageSolver::adapt_stiffening(const Rods& rods) {
   constexpr double kept = 0.95;
-  constexpr double most_growth = 4.0;
+  constexpr double max_growth = 4.0;
   loads_.assign(rods.count(), 0.0);
   for (const Group& group : groups_) {
     // Forces that do not balance tell nothing of what contacts have to hold.
@@ -102,7 +103,7 @@ void StageSolver::adapt_stiffening(const Rods& rods) {
   }
   const std::vector<double> before = stiffening_;
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
-    stiffening_[rod] = std::max(1.0, stiffening_[rod] * std::clamp(loads_[rod], kept, most_growth));
+    stiffening_[rod] = std::max(1.0, stiffening_[rod] * std::clamp(loads_[rod], kept, max_growth));
   }
   for (Group& group : groups_) {
     group.stiffening_energy = group.contacts.stiffening_energy(before, stiffening_);

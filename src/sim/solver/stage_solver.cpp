@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Makes as few packs as there must be, of about the same size, which threads share.
+/// Splits rods into as few packs as possible, of about the same size.
 void add_packs(const std::vector<std::uint32_t>& rods,
                std::vector<std::vector<std::uint32_t>>& packs) {
   const std::size_t count = (rods.size() + lane_count - 1) / lane_count;
@@ -31,7 +31,7 @@ StageSolver::StageSolver(const Rods& rods, const StepperOptions& options, Contac
   scratch_.resize(rods);
   group_of_.resize(rods.count());
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
-    room_.by_rod.push_back(StepBound::least_room * rods.radii[rod]);
+    travel_bound_.by_rod.push_back(StepBound::min_travel * rods.radii[rod]);
   }
   stiffening_.assign(rods.count(), 1.0);
   islands_.reset(rods.count());
@@ -45,27 +45,27 @@ void StageSolver::solve(Rods& rods, const Effects& effects, const TimeStep& stag
   if (contacts_ != nullptr || reference != nullptr) {
     start_ = rods.state();
     if (reference != nullptr) {
-      static_cast<RodState&>(rods) = *reference;
+      rods.state() = *reference;
     }
     reference_ = rods.state();
   }
   arena_.execute([&] {
-    for (const std::unique_ptr<Effect>& effect : effects) {
+    for (const auto& effect : effects) {
       effect->begin_step(rods, stage);
     }
     for (Group& group : groups_) {
       group.is_solved = false;
     }
-    room_.is_last = false;
+    travel_bound_.is_final = false;
     if (contacts_ != nullptr) {
-      expect(reference_, stage.length);
+      predict_motion(reference_, stage.length);
     }
     bool is_solved = false;
     while (!is_solved) {
       if (contacts_ != nullptr) {
         find_contacts(rods);
         make_groups(rods);
-        split_contacts();
+        distribute_contacts();
       }
       tbb::parallel_for(std::size_t{0}, groups_.size(), [&](std::size_t index) {
         if (!groups_[index].is_solved) {
@@ -75,27 +75,27 @@ void StageSolver::solve(Rods& rods, const Effects& effects, const TimeStep& stag
       is_solved = std::all_of(groups_.begin(), groups_.end(),
                               [](const Group& group) { return group.is_solved; });
       if (!is_solved) {
-        widen_room(rods);
+        widen_travel_bound(rods);
         is_at_start_ = false;
       }
     }
     if (contacts_ != nullptr) {
-      if (room_.is_last) {  // widen_room() has forgotten the ways that adapt_room() compares with
-        expect(reference_, stage.length);
+      if (travel_bound_.is_final) {  // widen_travel_bound() has cleared the expected displacements
+        predict_motion(reference_, stage.length);
       }
-      adapt_room(rods);
+      adapt_travel_bound(rods);
       adapt_stiffening(rods);
     }
   });
 }
 
-/// What rods may touch from where the solve starts.
+/// Finds the contacts that rods may come to from where the solve starts.
 void StageSolver::find_contacts(Rods& rods) {
   rods.positions.swap(start_.positions);
   found_by_.resize(contacts_->sources().size());
   tbb::parallel_for(std::size_t{0}, found_by_.size(), [&](std::size_t source) {
     found_by_[source].clear();
-    contacts_->sources()[source]->find(rods, room_, found_by_[source]);
+    contacts_->sources()[source]->find(rods, travel_bound_, found_by_[source]);
   });
   rods.positions.swap(start_.positions);
   stiffen_contacts();
@@ -112,7 +112,7 @@ void StageSolver::find_contacts(Rods& rods) {
 void StageSolver::make_groups(const Rods& rods) {
   std::vector<std::vector<std::uint32_t>> members(rods.count());
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
-    members[islands_.of(rod)].push_back(rod);
+    members[islands_.root(rod)].push_back(rod);
   }
   std::vector<Group> groups;
   std::map<std::uint32_t, std::size_t> open;  // groups of single rods, by node count
@@ -144,7 +144,8 @@ void StageSolver::make_groups(const Rods& rods) {
   for (Group& group : groups) {
     const std::uint32_t first = group.packs.front().front();
     Group* const before = groups_.empty() ? nullptr : &groups_[group_of_[first]];
-    if (before != nullptr && before->is_solved && before->packs == group.packs && !room_.is_last) {
+    if (before != nullptr && before->is_solved && before->packs == group.packs &&
+        !travel_bound_.is_final) {
       group = std::move(*before);
     }
   }
@@ -159,13 +160,13 @@ void StageSolver::make_groups(const Rods& rods) {
 }
 
 /// Gives each group that is to be solved its contacts.
-void StageSolver::split_contacts() {
+void StageSolver::distribute_contacts() {
   for (Group& group : groups_) {
     if (!group.is_solved) {
       group.contacts.clear();
     }
   }
-  const auto give = [&](const auto& all, auto ContactSet::*part, auto rod) {
+  const auto distribute = [&](const auto& all, auto ContactSet::*part, auto rod) {
     for (const auto& each : all) {
       Group& group = groups_[group_of_[each.*rod]];
       if (!group.is_solved) {
@@ -174,9 +175,9 @@ void StageSolver::split_contacts() {
     }
   };
   for (const ContactSet& found : found_by_) {
-    give(found.pairs, &ContactSet::pairs, &EdgePair::rod_a);
-    give(found.obstacle_contacts, &ContactSet::obstacle_contacts, &ObstacleContact::rod);
-    give(found.obstacle_edges, &ContactSet::obstacle_edges, &ObstacleEdge::rod);
+    distribute(found.pairs, &ContactSet::pairs, &EdgePair::rod_a);
+    distribute(found.obstacle_contacts, &ContactSet::obstacle_contacts, &ObstacleContact::rod);
+    distribute(found.obstacle_edges, &ContactSet::obstacle_edges, &ObstacleEdge::rod);
   }
 }
 
@@ -187,30 +188,31 @@ void StageSolver::solve_group(Rods& rods, const Effects& effects, double step, G
   }
   solver->assign(rods, group.packs, group.islands, scratch_);
   if (!is_at_start_) {
-    bring(reference_, group, rods, true);
+    copy_state(reference_, group, rods, true);
     solver->begin(rods, effects, step);
-    bring(start_, group, rods, false);
+    copy_state(start_, group, rods, false);
     solver->load(rods);
   } else {
     solver->begin(rods, effects, step);
   }
-  const Room* const room = contacts_ != nullptr ? &room_ : nullptr;
-  // Where nothing is in reach, all that counts is that the rods end within their rooms.
-  const bool bounds = room != nullptr && (!group.contacts.is_empty() || room->is_last);
+  const TravelBound* const travel_bound = contacts_ != nullptr ? &travel_bound_ : nullptr;
+  // Without contacts in reach, it suffices to check that the rods end within their travel bounds.
+  const bool bounds =
+      travel_bound != nullptr && (!group.contacts.is_empty() || travel_bound->is_final);
   const Friction* const friction = bounds ? contacts_->friction() : nullptr;
   const std::optional<double> gain =
-      solver->solve(rods, {effects, options_, step, bounds ? &group.contacts : nullptr, room,
-                           friction, reference_.positions});
+      solver->solve(rods, {effects, options_, step, bounds ? &group.contacts : nullptr,
+                           travel_bound, friction, reference_.positions});
   group.is_solved = gain.has_value();
   group.stored_gain = gain.value_or(0.0);
   group.reports = solver->reports();
-  group.needed_room = solver->step_bound().needed();
+  group.needed_travel = solver->step_bound().needed();
   solvers_.push(std::move(solver));
 }
 
-/// Moves the rods of a group.
-void StageSolver::bring(const RodState& state, const Group& group, Rods& rods,
-                        bool has_rates) const {
+/// Copies positions and angles of a group's rods, and their rates if asked for.
+void StageSolver::copy_state(const RodState& state, const Group& group, Rods& rods,
+                             bool has_rates) const {
   for (const std::vector<std::uint32_t>& pack : group.packs) {
     for (const std::uint32_t rod : pack) {
       const auto copy = [&](const auto& from, auto& to) {
@@ -274,12 +276,12 @@ void StageSolver::add_forces(const Rods& rods, const Effects& effects, RodForces
 double StageSolver::stored_energy(Rods& rods, const Effects& effects) {
   double energy = 0.0;
   for_each_pack(rods, effects, [&](PackStep& pack) {
-    pack.measure(effects);
+    pack.evaluate_energies(effects);
     energy += pack.stored_energy();
   });
   for (Group& group : groups_) {
     std::vector<EnergySum> by_island(group.islands);
-    group.contacts.measure(rods);
+    group.contacts.update_distances(rods);
     group.contacts.add_energies(rods, scratch_.islands, by_island);
     energy += group.contacts.stored_energy();
   }

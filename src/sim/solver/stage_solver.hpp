@@ -12,8 +12,8 @@
 
 namespace fiber {
 
-/// Which rods may touch each other in a step, directly or through others: disjoint sets of them, as
-/// a forest whose roots are the least rods of their trees.
+/// The sets of rods that may touch each other in a step, directly or through others: a disjoint-set
+/// forest whose roots are the smallest rods of their sets.
 class Islands {
  public:
   /// Each rod is alone.
@@ -24,13 +24,13 @@ class Islands {
 
   /// Makes the islands of two rods one.
   void join(std::uint32_t a, std::uint32_t b) {
-    const auto [root, other] = std::minmax({of(a), of(b)});
-    // Ways to the root stay short.
-    parents_[other] = parents_[a] = parents_[b] = root;
+    const auto [first, other] = std::minmax({root(a), root(b)});
+    // Short paths to the root keep look-ups fast.
+    parents_[other] = parents_[a] = parents_[b] = first;
   }
 
-  /// The least rod of a rod's island.
-  std::uint32_t of(std::uint32_t rod) const {
+  /// The smallest rod of a rod's island.
+  std::uint32_t root(std::uint32_t rod) const {
     while (parents_[rod] != rod) {
       rod = parents_[rod];
     }
@@ -41,8 +41,8 @@ class Islands {
   std::vector<std::uint32_t> parents_;  // by rod, never greater
 };
 
-/// One solve of a step: finds which rods may touch each other in it, and solves for each island, or
-/// some rods that touch none, on its own.
+/// One solve of a step: finds which rods may touch each other in it, and solves for each island by
+/// itself. Rods that touch none are solved for side by side.
 class StageSolver {
  public:
   /// @param contacts null for none; must outlive this
@@ -52,12 +52,12 @@ class StageSolver {
   /// @param reference where rates are measured from; null for where the solve starts
   void solve(Rods& rods, const Effects& effects, const TimeStep& stage, const RodState* reference);
 
-  /// Adds how the last solve has ended.
+  /// Adds the results of the last solve.
   void add_to(StepReport& report) const;
 
   void add_forces(const Rods& rods, const Effects& effects, RodForces& forces);
 
-  /// Of contacts and effects [J].
+  /// Stored energy of contacts and effects [J].
   double stored_energy(Rods& rods, const Effects& effects);
 
  private:
@@ -69,20 +69,20 @@ class StageSolver {
     std::vector<IslandReport> reports;
     double stored_gain = 0.0;  // of energy in the solve [J]
     double stiffening_energy = 0.0;
-    std::vector<std::pair<std::uint32_t, double>> needed_room;
+    std::vector<std::pair<std::uint32_t, double>> needed_travel;
     bool is_solved = false;
   };
 
   void find_contacts(Rods& rods);
   void make_groups(const Rods& rods);
-  void split_contacts();
-  void expect(const RodState& reference, double step);
-  void widen_room(const Rods& rods);
-  void adapt_room(const Rods& rods);
+  void distribute_contacts();
+  void predict_motion(const RodState& reference, double step);
+  void widen_travel_bound(const Rods& rods);
+  void adapt_travel_bound(const Rods& rods);
   void stiffen_contacts();
   void adapt_stiffening(const Rods& rods);
   void solve_group(Rods& rods, const Effects& effects, double step, Group& group);
-  void bring(const RodState& state, const Group& group, Rods& rods, bool has_rates) const;
+  void copy_state(const RodState& state, const Group& group, Rods& rods, bool has_rates) const;
   template <class Function>
   void for_each_pack(const Rods& rods, const Effects& effects, const Function& function);
 
@@ -94,7 +94,7 @@ class StageSolver {
   std::vector<std::uint32_t> group_of_;  // by rod
   SolverScratch scratch_;
   std::vector<ContactSet> found_by_;  // by source
-  Room room_;
+  TravelBound travel_bound_;
   std::vector<double> stiffening_;  // of contacts that have much to hold, by rod
   std::vector<double> loads_;       // of contacts, by rod
   bool is_at_start_ = true;  // whether rods are where the solve starts, and rates are measured from

@@ -9,29 +9,29 @@
 
 namespace fiber {
 
-/// How far nodes may go in a step, as contacts were looked for within that. A node may be off a
-/// share of its expected way by as much as its rod has room, the share being the same for all rods:
-/// what moves as expected, be it ever so fast, needs no room.
-struct Room {
+/// How far nodes may go in a step: contacts were looked for within that. The solve may bring an
+/// island any share of the expected displacements; beside that, a node may deviate by its rod's
+/// bound. Rods that move as expected, however fast, need no bound.
+struct TravelBound {
   std::vector<Eigen::Vector3d> start;     ///< of the step, by node [m]
-  std::vector<Eigen::Vector3d> expected;  ///< ways, by node [m]
-  std::vector<double> by_rod;             ///< [m]
+  std::vector<Eigen::Vector3d> expected;  ///< displacements, by node [m]
+  std::vector<double> by_rod;             ///< largest deviation [m]
 
-  /// There is no more room: a step goes no further. Otherwise rods that need more of it are to
-  /// begin the step again.
-  bool is_last = false;
+  /// The bound does not grow any more: steps are shortened to stay within it. Otherwise, the step
+  /// of rods that need a wider bound is solved again with that.
+  bool is_final = false;
 };
 
 /// The one bound on how far Newton's step goes, by island: no contact's distance falls below a
-/// fifth of what it has, and no rod leaves its room.
+/// fifth of what it has, and no rod leaves its travel bound.
 class StepBound {
  public:
-  /// Room that a rod should have at the least, in parts of its radius.
-  static constexpr double least_room = 0.25;
+  /// Least travel bound of a rod, in parts of its radius.
+  static constexpr double min_travel = 0.25;
 
-  /// @param room null for none
-  void begin(const Room* room, std::uint32_t islands) {
-    room_ = room;
+  /// @param travel_bound null for none
+  void begin(const TravelBound* travel_bound, std::uint32_t islands) {
+    travel_bound_ = travel_bound;
     progress_.assign(islands, 0.0);
     rates_.assign(islands, 0.0);
     needed_.clear();
@@ -42,78 +42,79 @@ class StepBound {
   /// @param members       rods
   /// @param islands       by rod
   /// @param shares        of the step, by island: shortened
-  /// @param ends          room for a position of each node
-  /// @returns false if a rod needs more room
+  /// @param ends          buffer for a position of each node
+  /// @returns false if a rod needs a wider travel bound
   bool bound(const Rods& rods, const std::vector<Eigen::Vector3d>& displacements,
              const std::vector<std::uint32_t>& members, const std::vector<std::uint32_t>& islands,
              const ContactSet& contacts, std::vector<double>& shares,
              std::vector<Eigen::Vector3d>& ends) {
     contacts.bound_step(rods, displacements, islands, shares, ends);
-    // Which part of the expected ways a step is, by least squares.
+    // The part of the expected displacements that a step is, by least squares.
     std::vector<double> along(shares.size(), 0.0);
     std::vector<double> squares(shares.size(), 0.0);
     for (const std::uint32_t rod : members) {
       for (std::uint32_t i = rods.first(rod); i < rods.end(rod); ++i) {
-        along[islands[rod]] += displacements[i].dot(room_->expected[i]);
-        squares[islands[rod]] += room_->expected[i].squaredNorm();
+        along[islands[rod]] += displacements[i].dot(travel_bound_->expected[i]);
+        squares[islands[rod]] += travel_bound_->expected[i].squaredNorm();
       }
     }
     for (std::size_t k = 0; k < shares.size(); ++k) {
       const double rate = squares[k] > 0.0 ? along[k] / squares[k] : 0.0;
       rates_[k] = std::clamp(progress_[k] + rate, 0.0, 1.0) - progress_[k];
     }
-    bool has_room = true;
+    bool is_within_bound = true;
     for (const std::uint32_t rod : members) {
       const std::uint32_t k = islands[rod];
-      const double room = room_->by_rod[rod];
+      const double travel_bound = travel_bound_->by_rod[rod];
       const double after =
           deviation(rods, rod, progress_[k] + shares[k] * rates_[k], &displacements, shares[k]);
-      if (after <= room) {
+      if (after <= travel_bound) {
         continue;
       }
-      if (!room_->is_last) {
-        require(rod, after);
-        has_room = false;
+      if (!travel_bound_->is_final) {
+        request(rod, after);
+        is_within_bound = false;
         continue;
       }
       // The deviation is a convex function of the share.
       const double before = deviation(rods, rod, progress_[k], nullptr, 0.0);
-      shares[k] *= std::max(0.0, room - before) / (after - before);
+      shares[k] *= std::max(0.0, travel_bound - before) / (after - before);
     }
-    return has_room;
+    return is_within_bound;
   }
 
-  /// Shares of it have been gone.
+  /// Adds shares of the bounded step, which the rods have gone, to their progress.
   void advance(const std::vector<double>& shares) {
     for (std::size_t k = 0; k < shares.size(); ++k) {
       progress_[k] += shares[k] * rates_[k];
     }
   }
 
-  /// Whether the rods are within their rooms about the ends of their expected ways.
+  /// Whether the rods are within their bounds about the ends of their expected displacements.
   bool is_within(const Rods& rods, const std::vector<std::uint32_t>& members) {
     bool is_within = true;
     for (const std::uint32_t rod : members) {
       const double off = deviation(rods, rod, 1.0, nullptr, 0.0);
-      if (off > room_->by_rod[rod]) {
-        require(rod, off);
+      if (off > travel_bound_->by_rod[rod]) {
+        request(rod, off);
         is_within = false;
       }
     }
     return is_within;
   }
 
-  /// By which the rods have been off, or would have been [m].
+  /// The rods that need a wider travel bound, and that bound [m].
   const std::vector<std::pair<std::uint32_t, double>>& needed() const { return needed_; }
 
  private:
-  /// The largest distance of a rod's nodes from a part of their expected ways [m], when a share of
-  /// some displacements is gone.
+  /// The largest distance of a rod's nodes from a part of their expected displacements [m], after
+  /// a share of some displacements.
   double deviation(const Rods& rods, std::uint32_t rod, double progress,
                    const std::vector<Eigen::Vector3d>* displacements, double share) const {
     double largest = 0.0;
     for (std::uint32_t i = rods.first(rod); i < rods.end(rod); ++i) {
-      Eigen::Vector3d off = rods.positions[i] - room_->start[i] - progress * room_->expected[i];
+      Eigen::Vector3d off =
+          rods.positions[i] - travel_bound_->start[i] - progress * travel_bound_->expected[i];
       if (displacements != nullptr) {
         off += share * (*displacements)[i];
       }
@@ -122,14 +123,14 @@ class StepBound {
     return std::sqrt(largest);
   }
 
-  void require(std::uint32_t rod, double room) {
-    constexpr double spare = 1.5;
-    needed_.emplace_back(rod, spare * room);
+  void request(std::uint32_t rod, double deviation) {
+    constexpr double margin = 1.5;
+    needed_.emplace_back(rod, margin * deviation);
   }
 
-  const Room* room_ = nullptr;
-  std::vector<double> progress_;  // along the expected ways, by island
-  std::vector<double> rates_;     // how a whole step changes that
+  const TravelBound* travel_bound_ = nullptr;
+  std::vector<double> progress_;  // along the expected displacements, by island
+  std::vector<double> rates_;     // change of the progress by a whole step
   std::vector<std::pair<std::uint32_t, double>> needed_;
 };
 

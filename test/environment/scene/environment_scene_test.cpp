@@ -1,4 +1,4 @@
-#include "src/environment/scene/environment_scene.hpp"
+#include "fiber_proximity/environment/scene/environment_scene.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
-#include "fiber_proximity/environment/scene/mesh_files.hpp"
+#include "test/support/mesh_files.hpp"
 
 #include <gtest/gtest.h>
 
+#include "fiber_proximity/environment/scene/environment_scene.hpp"
 #include "test/support/error_of.hpp"
-#include "test/support/mesh_files.hpp"
 #include "test/support/not_finite.hpp"
 #include "test/support/temporary_directory.hpp"
 

@@ -19,7 +19,7 @@ TEST_F(SimSceneTest, ReportsWhatToExpect) {
       "{time: "
       "1, position: [0, 0, 5]}]}]}]";
   const SimScene scene = read(scene_text(line, fast));
-  SimTrial trial{10, 3.0, 2, 1e-4, ""};
+  SimTrial trial{10, 3.0, 2, 1e-4, "", 0.04};
   const SimReport good = report(scene, trial);
   EXPECT_NE(sentences(good.facts).find("stable: implicit Euler in steps of 4.17 ms"),
             std::string::npos);
@@ -27,6 +27,8 @@ TEST_F(SimSceneTest, ReportsWhatToExpect) {
   EXPECT_NE(sentences(good.facts).find("forces balance to 0.001 m/s a step within 2 iteration(s)"),
             std::string::npos);
   EXPECT_NE(sentences(good.facts).find("expected real-time factor 3"), std::string::npos);
+  EXPECT_NE(sentences(good.facts).find("on a copy of the scene, which took 40 ms"),
+            std::string::npos);
   // 5 m/s and a radius of 10 mm: 21 mm a step.
   EXPECT_NE(sentences(good.warnings).find("a gripper moves 20.8 mm a step"), std::string::npos);
   EXPECT_NE(sentences(good.warnings).find("12 substeps would be enough"), std::string::npos);

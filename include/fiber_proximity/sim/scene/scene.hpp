@@ -9,14 +9,14 @@
 #include <vector>
 
 #include "fiber_proximity/environment/environment.hpp"
-#include "fiber_proximity/environment/scene/mesh_files.hpp"
+#include "fiber_proximity/environment/scene/environment_scene.hpp"
 #include "fiber_proximity/sim/attachment.hpp"
 #include "fiber_proximity/sim/stepper.hpp"
 #include "fiber_proximity/yaml/yaml_field.hpp"
 
 namespace fiber {
 
-/// What a scene of the simulation says of itself as a whole.
+/// The settings of a scene of the simulation as a whole.
 struct SimSettings {
   std::string frame_id = "world";
   std::vector<std::string> fiber_names;  ///< of the rods
@@ -24,12 +24,12 @@ struct SimSettings {
   double time_step = 1.0 / 60.0;  ///< from frame to frame [s]
   std::uint32_t substeps = 4;     ///< of a frame
   StepperOptions options;
-  std::optional<double> accuracy;  ///< by which segments and substeps were chosen; none: given
+  std::optional<double> accuracy;  ///< for which segments and substeps were chosen; none: given
   bool has_contacts = false;
   double fastest_hold = 0.0;  ///< on a path [m/s]
 
-  /// By how much of their length what holds fibres may stretch them where the scene does not say
-  /// itself how it moves: ~attach, handles and frames of tf.
+  /// The strain up to which holds may stretch fibres where the scene does not give their paths:
+  /// those of ~attach, handles and frames of tf.
   double max_strain = 0.1;
 
   std::shared_ptr<const Environment> environment;  ///< never null
@@ -38,33 +38,33 @@ struct SimSettings {
   double step_length() const { return time_step / substeps; }  ///< [s]
 };
 
-/// The fibre of a rod. Places are where something stands in the file, for errors.
+/// The fibre of a rod. Places are lines and fields of the file, for errors.
 struct SimFiber {
   std::string name;
   std::string group;  ///< name of the entry it comes from
   std::string place;
 };
 
-/// Numbers of an effect by the names of its options; of an option that is a map itself, the name is
-/// in front: wind.mean.
+/// The numbers of an effect by the names of its options. Names of options in a map begin with that
+/// of the map: wind.mean.
 using EffectOptions = std::map<std::string, std::vector<double>>;
 
 /// An effect that a scene names.
 struct SimEffect {
   std::string name;
   std::string place;
-  EffectOptions options;  ///< all there are, as the scene has them or by default
+  EffectOptions options;  ///< all, by the scene or by default
 };
 
 /// Options of the effect `bend`.
 struct SimCurvature {
   bool is_from_shape = false;
   double curvature = 0.0;                  ///< [1/m]
-  std::optional<Eigen::Vector3d> towards;  ///< to which side the first edge of each fibre bends
-  std::string towards_statement;           ///< with which a refusal of that begins
+  std::optional<Eigen::Vector3d> towards;  ///< the side to which the first edge of each fibre bends
+  std::string towards_statement;           ///< the beginning of an error about that
 };
 
-/// How a fibre is held at a time.
+/// The position and orientation of a hold at a time.
 struct SimWaypoint {
   double time;                              ///< [s]
   Eigen::Vector3d position;                 ///< [m]
@@ -72,7 +72,7 @@ struct SimWaypoint {
   std::optional<Eigen::Vector3d> director;  ///< none: as before, or as the cross-section lies
 };
 
-/// What holds a node of a rod.
+/// A hold of a node of a rod.
 struct SimHold {
   std::string place;
   std::uint32_t rod = 0;
@@ -81,10 +81,10 @@ struct SimHold {
   std::vector<SimWaypoint> path;     ///< times rise from 0; never empty
   bool is_periodic = false;          ///< from the last waypoint on, the path begins again
   std::optional<std::string> frame;  ///< of tf, in which the only waypoint is
-  double max_force = 0.0;            ///< [N] with which it pulls at most; 0: by the material
+  double max_force = 0.0;            ///< with which it pulls [N]; 0: by the material
 };
 
-/// All that a scene says, checked as far as that goes without making it.
+/// The contents of a scene file, checked as far as possible without making the scene.
 struct SimDescription : SimSettings {
   Rods rods;  ///< as they lie in the file
   std::vector<SimFiber> fibers;
@@ -106,9 +106,9 @@ struct SimDescription : SimSettings {
 ///         fibre where it is about one
 SimDescription read_sim_scene(const YamlField& document, const MeshSource& meshes);
 
-/// A number of an effect, or several, that may change between two steps.
+/// A parameter of an effect, one number or several, that may change between two steps.
 struct SimParameter {
-  std::string name;  ///< of effect and option, as the scene has them: gravity.acceleration
+  std::string name;  ///< effect.option, as in the scene: gravity.acceleration
   std::vector<double> value;
 };
 
@@ -123,7 +123,7 @@ class SimParameters {
   /// @throws std::invalid_argument naming the parameter, its value and what is allowed
   void set(const std::vector<SimParameter>& parameters);
 
-  /// All there are, by name.
+  /// All parameters, by name.
   std::vector<SimParameter> all() const;
 
  private:
@@ -140,33 +140,35 @@ class SimParameters {
 /// Placements by time [s], which rises.
 using PlacementPath = std::vector<std::pair<double, Placement>>;
 
-/// In between straight lines, with directions that turn at equal rates; before and after, the first
-/// and the last.
+/// The placement at a time: between two of the path on a straight line, with directions that turn
+/// at equal rates; before the first and after the last it is that one.
 Placement placement_at(const PlacementPath& path, double time);
 
-/// A frame of tf that holds a fibre. What is held is where the frame was last, and turns with it.
+/// A frame of tf that holds a fibre. The held node follows the frame's latest pose.
 struct FollowedFrame {
   std::string frame;
   std::uint32_t rod;                    ///< that it holds
   std::uint32_t node;                   ///< of the rod, from its first one
-  std::string what;                     ///< what it holds and where that stands, for warnings
-  Placement in_frame;                   ///< what it holds, in the frame
+  std::string what;                     ///< the held node and its place in the file, for warnings
+  Placement in_frame;                   ///< of the held node, in the frame
   std::shared_ptr<PlacementPath> path;  ///< in the world, never empty; the hold follows it
 };
 
 /// A scene of the simulation, ready to move.
 struct SimScene : SimSettings {
-  std::unique_ptr<Stepper> stepper;
-  Attachment* attachment = nullptr;   ///< of the stepper; null without the effect
-  std::vector<FollowedFrame> frames;  ///< whose placements are to be kept up to date
-  SimParameters parameters;           ///< of its effects
-  std::string overlap_note;           ///< what was moved before the beginning; empty if nothing was
+  explicit SimScene(const SimSettings& settings) : SimSettings(settings) {}
 
-  /// What the last step has left unbalanced, at StepReport::worst [N].
+  std::unique_ptr<Stepper> stepper;
+  std::shared_ptr<Attachment> attachment;  ///< one of the stepper's effects; null without it
+  std::vector<FollowedFrame> frames;       ///< whose placements are to be kept up to date
+  SimParameters parameters;                ///< of its effects
+  std::string overlap_note;  ///< the overlaps that were separated at the beginning; empty without
+
+  /// The force that the last step has left unbalanced at StepReport::worst [N].
   double residual_force() const;
 
-  /// Whether steps may end before forces balance, as the scene asks: it wants fewer iterations than
-  /// are usual.
+  /// Whether steps may end before forces balance because the scene asks for fewer iterations than
+  /// the default.
   bool asks_for_few_iterations() const {
     return options.max_iterations < StepperOptions().max_iterations;
   }

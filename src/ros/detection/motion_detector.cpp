@@ -1,0 +1,32 @@
+#include "src/ros/detection/motion_detector.hpp"
+
+#include <ros/console.h>
+
+#include <stdexcept>
+
+namespace fiber_proximity_ros {
+
+void MotionDetector::take(InputSet& fibers, bool keeps_fibers) {
+  read_state(fibers, keeps_fibers, newest_);
+  step_.advance(newest_);
+}
+
+std::optional<KnownMotion> MotionDetector::detect(const fiber::QueryOptions& options,
+                                                  bool reports_all, double tolerance) {
+  std::optional<KnownMotion> motion;
+  if (step_.is_motion()) {
+    try {
+      motion.emplace(detect_motion_contacts(*engine_, {step_.motion(), step_.time(), tolerance},
+                                            options, reports_all, result_));
+    } catch (const std::invalid_argument& error) {
+      step_.refuse(error.what());
+    }
+  }
+  if (!step_.problem().empty()) {
+    ROS_WARN_STREAM_THROTTLE(
+        1.0, "continuous: " << step_.problem() << "; this answer is of its stamp alone");
+  }
+  return motion;
+}
+
+}  // namespace fiber_proximity_ros

@@ -1,0 +1,196 @@
+#include "src/ros/detection/predictor.hpp"
+
+#include <ros/console.h>
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+#include "src/ros/detection/detector.hpp"
+#include "src/ros/detection/environment_detector.hpp"
+
+namespace fiber_proximity_ros {
+namespace {
+
+using fiber::MotionContact;
+using fiber_proximity::PredictedContact;
+
+/// The earliest of the contacts that are asked for.
+/// @param horizon [s]
+template <class IsAsked>
+PredictedContact earliest_of(const fiber::MotionResult& result, double horizon,
+                             const IsAsked& is_asked) {
+  PredictedContact message;
+  message.touching = static_cast<std::uint32_t>(
+      std::count_if(result.touching.begin(), result.touching.end(), is_asked));
+  message.complete = result.complete;
+  message.time_upper = std::numeric_limits<double>::infinity();
+  const MotionContact* const earliest = result.earliest(is_asked);
+  message.expected = earliest != nullptr;
+  if (earliest == nullptr) {
+    message.time_lower = result.others_lower * horizon;
+    return message;
+  }
+  message.time_lower = std::min(earliest->lower, result.others_lower) * horizon;
+  message.time_upper = earliest->upper * horizon;
+  message.certain = earliest->certain;
+  message.fiber_a = earliest->fiber_a;
+  message.segment_a = earliest->segment_a;
+  message.fiber_b = earliest->fiber_b;
+  message.segment_b = earliest->segment_b;
+  return message;
+}
+
+}  // namespace
+
+void Predictor::configure(const PredictionOptions& options) {
+  if (options.frames != options_.frames) {
+    inputs_frames_.clear();
+  }
+  options_ = options;
+}
+
+void Predictor::predict(const fiber::QueryOptions& options,
+                        fiber_proximity::TimeToContact& message) {
+  take_frames();
+  message = {};
+  message.header = scene_.fibers.header();
+  message.fiber_names = scene_.fibers.names();
+  message.margin = options.margin;
+  message.horizon = options_.horizon;
+  message.assumption =
+      "each point keeps the velocity of the line of least squares through its places in the last "
+      "messages of its input, and objects stand still";
+  try {
+    find_contacts(options, message);
+  } catch (const std::invalid_argument& error) {
+    message.same_fiber = message.different_fibers = message.environment = PredictedContact();
+    message.problem = error.what();
+    ROS_WARN_STREAM_THROTTLE(1.0, "time_to_contact: " << message.problem);
+  }
+  limit_to_known(options, message);
+}
+
+/// Lowers the bounds to those that hold although something is unknown: it may come at any moment.
+void Predictor::limit_to_known(const fiber::QueryOptions& options,
+                               fiber_proximity::TimeToContact& message) const {
+  using About = Knowledge::About;
+  const auto limit = [&](const Completeness& known, PredictedContact& contact) {
+    contact.time_lower = known.lower(contact.time_lower, 0.0);
+    contact.complete = contact.complete && known.is_complete() && message.problem.empty();
+  };
+  Completeness all = scene_.knowledge.completeness(About::FIBERS_AND_ENVIRONMENT);
+  const Completeness of_fibers = scene_.knowledge.completeness(About::FIBERS);
+  bool is_cut_off = false;
+  for (const PredictedContact* contact :
+       {&message.same_fiber, &message.different_fibers, &message.environment}) {
+    is_cut_off = is_cut_off || !contact->complete;
+  }
+  limit(of_fibers, message.same_fiber);
+  limit(of_fibers, message.different_fibers);
+  limit(all, message.environment);
+  if (!message.problem.empty()) {
+    all.add_cut_off("prediction: " + message.problem);
+  } else if (is_cut_off) {
+    all.add_cut_off(cut_off_text("pairs that move", options));
+  }
+  message.complete = all.is_complete();
+  message.unknown = all.unknown();
+}
+
+/// Takes the newest message of each input, if it is new.
+void Predictor::take_frames() {
+  const auto& inputs = scene_.fibers.inputs();
+  while (inputs_frames_.size() < inputs.size()) {
+    inputs_frames_.push_back({fiber::PointVelocities(options_.frames), {}, {}, {}});
+  }
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const Input& input = *inputs[i];
+    InputFrames& frames = inputs_frames_[i];
+    if (!input.is_fresh() || input.names() != frames.names ||
+        input.fibers().offsets() != frames.offsets) {
+      frames.velocities.forget();
+      frames.stamp.reset();
+    }
+    if (input.is_fresh() && frames.stamp != input.stamp()) {
+      frames.stamp = input.stamp();
+      frames.names = input.names();
+      frames.offsets = input.fibers().offsets();
+      frames.velocities.add(frames.stamp->toSec(), input.fibers().points());
+    }
+  }
+}
+
+/// Finds where the points will be at the horizon. An input that has sent only one message stands
+/// still.
+/// @returns false if all inputs do
+bool Predictor::predict_places(fiber_proximity::TimeToContact& message) {
+  const auto& inputs = scene_.fibers.inputs();
+  points_.clear();
+  message.frames = std::numeric_limits<std::uint32_t>::max();
+  message.frame_time = std::numeric_limits<double>::infinity();
+  bool one_moves = false;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    if (!inputs[i]->is_fresh()) {
+      continue;
+    }
+    const fiber::PointVelocities& frames = inputs_frames_[i].velocities;
+    if (frames.frame_count() < 2) {
+      message.assumption += "; " + inputs[i]->options().topic + ", with one message, stands still";
+    } else {
+      one_moves = true;
+      message.frames = std::min(message.frames, static_cast<std::uint32_t>(frames.frame_count()));
+      message.frame_time = std::min(message.frame_time, frames.duration());
+    }
+    frames.find(velocities_);
+    const std::vector<Eigen::Vector3d>& points = inputs[i]->fibers().points();
+    for (std::size_t point = 0; point < points.size(); ++point) {
+      points_.push_back(points[point] + options_.horizon * velocities_[point]);
+    }
+  }
+  return one_moves;
+}
+
+void Predictor::find_contacts(const fiber::QueryOptions& options,
+                              fiber_proximity::TimeToContact& message) {
+  if (!scene_.fibers.is_fresh()) {
+    message.problem = "there are no fibres";
+    return;
+  }
+  if (!predict_places(message)) {
+    message.frames = 1;
+    message.frame_time = 0.0;
+    message.problem = "no input has sent more than one message: there are no velocities yet";
+    return;
+  }
+  before_ = scene_.fibers.fibers();  // its own: the engine refers to it until the next time
+  after_ = before_;
+  after_.update_points(points_);
+  engine_->update_motion(before_, after_);
+  fiber::MotionOptions motion = fiber::motion_options(options, options_.tolerance);
+  // Takes as long as for the first one, is asked once for both, and is not reported.
+  motion.type = fiber::MotionType::ALL;
+  motion.contact_limit = 0;
+  engine_->query_motion(motion, result_);
+  message.same_fiber = earliest_of(result_, options_.horizon, [](const MotionContact& contact) {
+    return contact.fiber_a == contact.fiber_b;
+  });
+  message.different_fibers =
+      earliest_of(result_, options_.horizon,
+                  [](const MotionContact& contact) { return contact.fiber_a != contact.fiber_b; });
+  if (scene_.environment.is_used()) {
+    motion.type = fiber::MotionType::FIRST;
+    motion.contact_limit = options.contact_limit;
+    const std::shared_ptr<const fiber::Environment> around = scene_.environment.environment();
+    around->query_motion(before_, after_, *around, motion,
+                         scene_.environment.allowed(scene_.fibers.names()), result_);
+    message.object_names = object_names(*around);
+  } else {
+    result_ = fiber::MotionResult();
+    result_.others_lower = 1.0;
+  }
+  message.environment =
+      earliest_of(result_, options_.horizon, [](const MotionContact&) { return true; });
+}
+
+}  // namespace fiber_proximity_ros

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <ros/time.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fiber_proximity/TimeToContact.h"
+#include "fiber_proximity/query/engine.hpp"
+#include "src/geometry/point_velocities.hpp"
+#include "src/ros/detection/observed_scene.hpp"
+
+namespace fiber_proximity_ros {
+
+/// How predictions are made.
+struct PredictionOptions {
+  double horizon = 0.0;     ///< [s] how far ahead to look; 0: not at all
+  std::size_t frames = 5;   ///< messages of each input from which velocities are found
+  double tolerance = 1e-6;  ///< [m] see MotionOptions
+};
+
+/// Finds when fibres will touch each other, and what is around them, if they go on as they do.
+class Predictor {
+ public:
+  /// @param scene must outlive this
+  /// @throws std::invalid_argument as fiber::make_engine()
+  Predictor(ObservedScene& scene, const std::string& engine, const fiber::EngineOptions& options)
+      : scene_(scene), engine_(fiber::make_engine(engine, options)) {}
+
+  void configure(const PredictionOptions& options);
+
+  bool is_on() const { return options_.horizon > 0.0; }
+
+  /// Takes the new fibres and tells what they are about to touch.
+  void predict(const fiber::QueryOptions& options, fiber_proximity::TimeToContact& message);
+
+  /// Fibres are not looked at: their velocities are not known any more.
+  void skip() { inputs_frames_.clear(); }
+
+ private:
+  /// The known motion of an input.
+  struct InputFrames {
+    fiber::PointVelocities velocities;
+    // These are of the newest frame:
+    std::vector<std::string> names;
+    std::vector<std::uint32_t> offsets;
+    std::optional<ros::Time> stamp;
+  };
+
+  void take_frames();
+  bool predict_places(fiber_proximity::TimeToContact& message);
+  void find_contacts(const fiber::QueryOptions& options, fiber_proximity::TimeToContact& message);
+  void limit_to_known(const fiber::QueryOptions& options,
+                      fiber_proximity::TimeToContact& message) const;
+
+  ObservedScene& scene_;
+  std::unique_ptr<fiber::ProximityEngine> engine_;
+  PredictionOptions options_;
+  std::vector<InputFrames> inputs_frames_;  // by input
+
+  // Members for their memory.
+  std::vector<Eigen::Vector3d> velocities_;  // [m/s]
+  std::vector<Eigen::Vector3d> points_;      // [m] at the horizon
+  fiber::FiberAssembly before_;
+  fiber::FiberAssembly after_;
+  fiber::MotionResult result_;
+};
+
+}  // namespace fiber_proximity_ros

@@ -1,0 +1,88 @@
+#include "src/ros/outputs/marker_output.hpp"
+
+#include <string>
+
+namespace fiber_proximity_ros {
+namespace {
+
+MarkerOptions marker_options(const fiber_proximity::ProximityConfig& config) {
+  MarkerOptions options;
+  options.show_fibers = config.show_fibers;
+  options.show_contacts = config.show_contacts;
+  options.show_passed = config.continuous && config.show_contacts;
+  options.show_nearest = config.show_nearest;
+  options.show_cost = config.show_cost;
+  options.show_boxes = config.show_boxes;
+  options.show_crossings = config.show_crossings;
+  options.show_names = config.show_names;
+  options.show_legend = config.show_legend;
+  options.level = static_cast<std::uint32_t>(config.box_level);
+  return options;
+}
+
+/// @param is_used whether there is something around: what was detected before is not to be seen any
+///                more when there is not
+EnvironmentMarkerOptions environment_options(const fiber_proximity::ProximityConfig& config,
+                                             bool is_used) {
+  EnvironmentMarkerOptions options;
+  options.show_objects = is_used && config.show_objects;
+  options.show_distances = is_used && config.show_contacts;
+  options.show_nearest = is_used && config.show_nearest;
+  return options;
+}
+
+}  // namespace
+
+void MarkerOutput::publish(const DetectedScene& subject, CrossingsOutput& crossings,
+                           const fiber_proximity::ProximityConfig& config,
+                           const Completeness& completeness) {
+  is_requested_ = false;
+  last_time_ = ros::SteadyTime::now();
+  InputSet& inputs = subject.scene.fibers;
+  const MarkerOptions options = marker_options(config);
+  const EnvironmentMarkerOptions environment_shown =
+      environment_options(config, subject.scene.environment.is_used());
+  const Detection& found = subject.detector.detection();
+  const Detection& around = subject.environment.detection();
+  boxes_.clear();
+  if (options.show_boxes) {
+    subject.detector.engine().level_boxes(options.level, boxes_);
+  }
+  std::string cost;
+  if (options.show_cost) {
+    cost = cost_text(name_of(subject.query.kernel),
+                     subject.detector.update_time() + subject.detector.detect_time(),
+                     found.contact_error(), found.is_complete());
+  }
+  if (options.show_crossings) {
+    crossings.find(inputs.fibers(), inputs.header());
+  }
+  has_shown_distances_ = has_shown_distances_ || !around.contacts().contacts.empty();
+  std::vector<LegendLine> legend;
+  if (options.show_legend) {
+    // Where fibres may touch all that is around them, there are no distances to explain.
+    EnvironmentMarkerOptions explained = environment_shown;
+    explained.show_distances = explained.show_distances && has_shown_distances_;
+    legend = legend_lines(options, explained, subject.query.margin);
+  }
+  passed_.forget_old();
+  const CrossingDrawing crossing_drawing{crossings.crossings(), crossings.view()};
+  const Drawing drawing{inputs.fibers(),
+                        found.contacts().contacts,
+                        found.minimum(),
+                        boxes_,
+                        cost,
+                        &crossing_drawing,
+                        &inputs.names(),
+                        &legend,
+                        &passed_.contacts(),
+                        &completeness.unknown()};
+  builder_.build(inputs.header(), drawing, options, topic_.message());
+  environment_markers_.append(inputs.header(),
+                              {inputs.fibers(), subject.environment.environment().objects(),
+                               around.contacts().contacts, around.minimum()},
+                              environment_shown, topic_.message());
+  topic_.publish();
+}
+
+}  // namespace fiber_proximity_ros

@@ -1,0 +1,225 @@
+#include "src/ros/server/answer_pipeline.hpp"
+
+#include <ros/console.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "fiber_proximity/ros/conversions.hpp"
+
+namespace fiber_proximity_ros {
+
+using fiber_proximity::ProximityConfig;
+
+AnswerPipeline::AnswerPipeline(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
+                               const ServerOptions& options, const Settings& settings,
+                               ObservedScene& scene, const Newcomer& on_newcomer,
+                               const std::function<void()>& before_answer)
+    : settings_(settings),
+      scene_(scene),
+      detector_(options.engine, options.engine_options),
+      motion_(options.engine, options.engine_options, options.fibers.timing.input_timeout),
+      environment_(scene),
+      predictor_(scene, options.engine, options.engine_options),
+      fibers_(private_node, "fibers", on_newcomer),
+      contacts_(private_node, "contacts", fiber_proximity::Contact::FIBER, on_newcomer),
+      environment_contacts_(private_node, "environment_contacts", fiber_proximity::Contact::OBJECT,
+                            on_newcomer),
+      crossings_(private_node, scene.fibers.frame(), on_newcomer),
+      time_to_contact_(private_node, "time_to_contact", on_newcomer),
+      markers_(private_node, options.marker_rate, on_newcomer),
+      comparison_(private_node, detected(), before_answer),
+      statistics_(private_node, detected(), on_newcomer),
+      diagnostics_(node, private_node, detected()) {
+  detector_.set_fibers(scene.fibers.fibers());  // none yet, which can be asked about, too
+}
+
+void AnswerPipeline::answer(const AnswerCause& cause) {
+  const ProximityConfig& config = settings_.config();
+  statistics_.begin();
+  if (cause.has_new_fibers) {
+    detector_.set_fibers(scene_.fibers.fibers());
+    motion_.take(scene_.fibers, config.continuous);
+    crossings_.forget();
+  } else {
+    motion_.rest();
+  }
+  statistics_.add_part("merge", cause.time_before + scene_.fibers.take_work_time());
+  if (cause.shows_fibers) {
+    publish_fibers();
+  }
+  markers_.request();
+  const bool has_statistics = statistics_.has_listeners();
+  const bool wants_everything = has_statistics || markers_.has_listeners();
+  if (wants_everything || contacts_.has_listeners()) {
+    detect();
+    publish_contacts();
+  } else {
+    contacts_.skip();
+  }
+  if (scene_.environment.is_used() && (wants_everything || environment_contacts_.has_listeners())) {
+    detect_in_environment();
+  } else {
+    environment_.skip();
+    environment_contacts_.skip();
+  }
+  predict();
+  publish_markers_if_due();
+  compare();
+  if (has_statistics) {
+    statistics_.publish(scene_.knowledge.completeness(Knowledge::About::FIBERS),
+                        completeness_of_all(), cause.time_before + cause.stopwatch.seconds());
+  }
+}
+
+void AnswerPipeline::answer_about_environment() {
+  if (environment_contacts_.has_listeners()) {
+    statistics_.begin();
+    motion_.rest();
+    detect_in_environment();
+  }
+}
+
+void AnswerPipeline::tick() {
+  publish_markers_if_due();
+  diagnostics_.update();
+}
+
+/// These cannot say what is unknown: they are about fibres, where there are any.
+void AnswerPipeline::publish_fibers() {
+  if (fibers_.has_listeners()) {
+    to_message(scene_.fibers.fibers(), scene_.fibers.names(), fibers_.message());
+    fibers_.message().header = scene_.fibers.header();
+    fibers_.publish();
+  }
+  if (crossings_.is_wanted()) {
+    const Stopwatch stopwatch;
+    crossings_.publish(scene_.fibers.fibers(), scene_.fibers.header(), scene_.fibers.names());
+    statistics_.add_part("crossings", stopwatch.seconds());
+  }
+}
+
+/// Finds contacts and closest pair of the fibres. Where the engine cannot, the answer says so.
+void AnswerPipeline::detect() {
+  const bool wants_minimum = settings_.config().minimum_distance;
+  const Detection& found = detector_.detection();
+  try {
+    detector_.detect(settings_.query(), wants_minimum);
+  } catch (const std::invalid_argument& error) {
+    ROS_ERROR_STREAM_THROTTLE(1.0, "engine " << detector_.engine_name() << ": " << error.what());
+  }
+  if (const std::string problem = found.limit_problem(settings_.query()); !problem.empty()) {
+    ROS_WARN_STREAM_THROTTLE(1.0, "fibres (engine " << detector_.engine_name() << "): " << problem
+                                                    << input_with_most_contacts());
+  }
+  statistics_.add_part("update", detector_.update_time());
+  statistics_.add_part("contacts", found.contact_time());
+  if (wants_minimum) {
+    statistics_.add_part("minimum", found.minimum_time());
+  }
+}
+
+/// Which input most of the contacts are of, for the log.
+std::string AnswerPipeline::input_with_most_contacts() const {
+  std::map<std::string, std::size_t> counts;
+  for (const fiber::Contact& contact : detector_.detection().contacts().contacts) {
+    ++counts[scene_.fibers.input_of(contact.fiber_a).options().topic];
+  }
+  const auto most =
+      std::max_element(counts.begin(), counts.end(),
+                       [](const auto& x, const auto& y) { return x.second < y.second; });
+  return most == counts.end() ? "" : ". Most are of input " + most->first;
+}
+
+/// Recognises the contacts that were found, and publishes them.
+void AnswerPipeline::publish_contacts() {
+  const fiber::QueryOptions& query = settings_.query();
+  const Detection& found = detector_.detection();
+  const Stopwatch motion_time;
+  const std::optional<KnownMotion> motion =
+      motion_.detect(query, found.has_all_of(query), settings_.config().motion_tolerance);
+  if (motion) {
+    statistics_.add_part("motion", motion_time.seconds());
+  }
+  const Stopwatch stopwatch;
+  const BodyNames names{scene_.fibers.names(), {}};
+  const ContactAnswer answer{
+      found, query, motion ? &*motion : nullptr, scene_.knowledge, names, scene_.fibers.header()};
+  diagnostics_.count(found.cut_off(query));
+  contacts_.track(answer);
+  markers_.add_passed(contacts_.contacts());
+  statistics_.add_part("touches", stopwatch.seconds());
+  scene_.fibers.doubt(detector_.update_time() + detector_.detect_time() + stopwatch.seconds());
+  contacts_.publish(answer, settings_.config().gradients, detector_.update_time());
+}
+
+void AnswerPipeline::detect_in_environment() {
+  const ProximityConfig& config = settings_.config();
+  const fiber::QueryOptions& query = settings_.query();
+  const bool is_tracked = environment_contacts_.has_listeners();
+  // Objects may have moved where fibres have not.
+  const FiberStep& fiber_step = motion_.step();
+  const ContinuousStep step{fiber_step.motion(), fiber_step.time(), config.motion_tolerance};
+  environment_.detect(query, config.minimum_distance,
+                      fiber_step.is_motion() || fiber_step.rests() ? &step : nullptr, is_tracked);
+  statistics_.add_part("environment_update", environment_.update_time());
+  statistics_.add_part("environment_contacts", environment_.detection().contact_time());
+  if (config.minimum_distance) {
+    statistics_.add_part("environment_minimum", environment_.detection().minimum_time());
+  }
+  if (environment_.motion_time() > 0.0) {
+    statistics_.add_part("environment_motion", environment_.motion_time());
+  }
+  if (!is_tracked) {
+    environment_contacts_.skip();
+    return;
+  }
+  const BodyNames names{scene_.fibers.names(), object_names(environment_.environment())};
+  const ContactAnswer answer{environment_.detection(), query, environment_.motion(),
+                             scene_.knowledge,         names, scene_.fibers.header()};
+  environment_contacts_.track(answer);
+  environment_contacts_.publish(answer, config.gradients, environment_.update_time());
+}
+
+void AnswerPipeline::predict() {
+  const ProximityConfig& config = settings_.config();
+  predictor_.configure({config.prediction, static_cast<std::size_t>(config.prediction_frames),
+                        config.motion_tolerance});
+  if (!predictor_.is_on() || !time_to_contact_.has_listeners()) {
+    predictor_.skip();
+    return;
+  }
+  const Stopwatch stopwatch;
+  predictor_.predict(settings_.query(), time_to_contact_.message());
+  time_to_contact_.publish();
+  statistics_.add_part("prediction", stopwatch.seconds());
+}
+
+void AnswerPipeline::compare() {
+  if (settings_.config().compare && comparison_.has_listeners()) {
+    const Stopwatch stopwatch;
+    comparison_.publish();
+    statistics_.add_part("comparison", stopwatch.seconds());
+  }
+}
+
+void AnswerPipeline::publish_markers_if_due() {
+  if (markers_.is_due()) {
+    markers_.publish(detected(), crossings_, settings_.config(), completeness_of_all());
+  }
+}
+
+/// The completeness of contacts of fibres with each other and with objects.
+Completeness AnswerPipeline::completeness_of_all() const {
+  Completeness of_all = scene_.knowledge.completeness(Knowledge::About::FIBERS_AND_ENVIRONMENT);
+  of_all.add_cut_off(detector_.detection().cut_off(settings_.query()));
+  if (scene_.environment.is_used()) {
+    of_all.add_cut_off(environment_.detection().cut_off(settings_.query()));
+  }
+  return of_all;
+}
+
+}  // namespace fiber_proximity_ros

@@ -1,0 +1,197 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <mpi.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fiber_proximity/geometry/fiber_assembly.hpp"
+#include "fiber_proximity/mpi/distributed_engine.hpp"
+#include "test/support/answers.hpp"
+#include "test/support/random.hpp"
+
+namespace fiber::test {
+
+inline int own_rank() {
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  return rank;
+}
+
+inline int rank_count() {
+  int size = 1;
+  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  return size;
+}
+
+inline std::uint64_t over_ranks(std::uint64_t value, MPI_Op operation) {
+  std::uint64_t result = 0;
+  MPI_Allreduce(&value, &result, 1, MPI_UINT64_T, operation, MPI_COMM_WORLD);
+  return result;
+}
+
+/// What fibres of an assembly are called by all ranks: numbers beyond 32 bits, with gaps.
+inline std::uint64_t name_of_fiber(std::uint64_t fiber) {
+  return (std::uint64_t{1} << 40U) + 3 * fiber;
+}
+
+/// Segments begin … end - 1 of a fibre, for one rank.
+struct ScatteredPart {
+  std::uint32_t fiber = 0;
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+  int rank = 0;
+};
+
+/// Cuts fibres and deals them out, the same on every rank; some ranks may get nothing.
+/// @param cuts for each fibre, at most
+inline std::vector<ScatteredPart> scatter(const FiberAssembly& fibers, int cuts, Random& random) {
+  const int first = random.chance(0.3) ? random.integer(0, rank_count() - 1) : 0;
+  std::vector<ScatteredPart> parts;
+  for (std::uint32_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
+    const auto count = static_cast<int>(fibers.offsets()[fiber + 1] - fibers.offsets()[fiber] - 1);
+    std::vector<int> places{0, count};
+    for (int cut = random.integer(0, cuts); cut > 0; --cut) {
+      places.push_back(random.integer(0, count));
+    }
+    std::sort(places.begin(), places.end());
+    places.erase(std::unique(places.begin(), places.end()), places.end());
+    for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+      parts.push_back({fiber, static_cast<std::uint32_t>(places[i]),
+                       static_cast<std::uint32_t>(places[i + 1]),
+                       random.integer(first, rank_count() - 1)});
+    }
+  }
+  for (std::size_t i = parts.size(); i > 1; --i) {
+    std::swap(parts[i - 1],
+              parts[static_cast<std::size_t>(random.integer(0, static_cast<int>(i) - 1))]);
+  }
+  return parts;
+}
+
+/// What a rank has been dealt.
+inline DistributedFibers scattered_to(int rank, const FiberAssembly& fibers,
+                                      const std::vector<ScatteredPart>& deal) {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<double> radii;
+  std::vector<std::uint32_t> offsets{0};
+  DistributedFibers mine;
+  const auto radius_of = [&](std::uint32_t fiber, std::uint32_t point) {
+    const std::vector<double>& all = fibers.radii();
+    return all.size() == 1 ? all[0] : all.size() == fibers.fiber_count() ? all[fiber] : all[point];
+  };
+  for (const ScatteredPart& part : deal) {
+    if (part.rank == rank) {
+      const std::uint32_t start = fibers.offsets()[part.fiber];
+      for (std::uint32_t p = start + part.begin; p <= start + part.end; ++p) {
+        points.push_back(fibers.points()[p]);
+        radii.push_back(radius_of(part.fiber, p));
+      }
+      offsets.push_back(static_cast<std::uint32_t>(points.size()));
+      mine.names.push_back({name_of_fiber(part.fiber), part.begin});
+    }
+  }
+  if (!points.empty()) {
+    mine.parts = FiberAssembly(std::move(points), std::move(offsets), std::move(radii));
+  }
+  return mine;
+}
+
+/// Moves parts of these fibres to where the fibres are.
+inline void follow(const FiberAssembly& fibers, DistributedFibers& mine) {
+  std::vector<Eigen::Vector3d> points;
+  for (std::size_t part = 0; part < mine.names.size(); ++part) {
+    const std::uint64_t fiber = (mine.names[part].fiber - name_of_fiber(0)) / 3;
+    const auto begin = fibers.points().begin() + fibers.offsets()[fiber] +
+                       static_cast<std::ptrdiff_t>(mine.names[part].first_segment);
+    points.insert(points.end(), begin,
+                  begin + (mine.parts.offsets()[part + 1] - mine.parts.offsets()[part]));
+  }
+  mine.parts.update_points(points);
+}
+
+inline std::uint64_t bits_of(double x) {
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &x, sizeof(bits));
+  return bits;
+}
+
+inline bool same_bits(double x, double y) { return bits_of(x) == bits_of(y); }
+inline bool same_bits(const Eigen::Vector3d& x, const Eigen::Vector3d& y) {
+  return same_bits(x.x(), y.x()) && same_bits(x.y(), y.y()) && same_bits(x.z(), y.z());
+}
+
+inline bool same_bits(const DistributedContact& x, const Contact& y) {
+  return x.fiber_a == name_of_fiber(y.fiber_a) && x.segment_a == y.segment_a &&
+         x.fiber_b == name_of_fiber(y.fiber_b) && x.segment_b == y.segment_b &&
+         same_bits(x.s, y.s) && same_bits(x.t, y.t) && same_bits(x.distance, y.distance) &&
+         same_bits(x.lower, y.lower) && same_bits(x.upper, y.upper) &&
+         same_bits(x.point_a, y.point_a) && same_bits(x.point_b, y.point_b) &&
+         same_bits(x.normal, y.normal);
+}
+
+inline std::string names_in(const DistributedContact& x) {
+  return "(" + std::to_string(x.fiber_a) + ", " + std::to_string(x.segment_a) + ", " +
+         std::to_string(x.fiber_b) + ", " + std::to_string(x.segment_b) + ")";
+}
+
+inline testing::AssertionResult same_contacts(const std::vector<DistributedContact>& found,
+                                              const std::vector<Contact>& expected) {
+  for (std::size_t i = 0; i < std::min(found.size(), expected.size()); ++i) {
+    const Contact& contact = expected[i];
+    if (!same_bits(found[i], contact)) {
+      return testing::AssertionFailure()
+             << "contact " << i << " is " << names_in(found[i]) << " at " << found[i].distance
+             << ", expected (" << name_of_fiber(contact.fiber_a) << ", " << contact.segment_a
+             << ", " << name_of_fiber(contact.fiber_b) << ", " << contact.segment_b << ") at "
+             << contact.distance;
+    }
+  }
+  if (found.size() != expected.size()) {
+    return testing::AssertionFailure() << found.size() << " contacts, expected " << expected.size();
+  }
+  return testing::AssertionSuccess();
+}
+
+/// Whether the ranks have found what one process finds, bit for bit. Rank 0 has the contacts, and
+/// tells the others: a test that one rank leaves, all must.
+inline testing::AssertionResult same_as_one_process(const DistributedResult& all,
+                                                    const std::vector<Contact>& expected) {
+  testing::AssertionResult result = testing::AssertionSuccess();
+  if (own_rank() == 0) {
+    result = same_contacts(all.contacts, expected);
+  }
+  int is_same = result ? 1 : 0;
+  MPI_Bcast(&is_same, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  return own_rank() == 0 || is_same != 0 ? result : testing::AssertionFailure() << "see rank 0";
+}
+
+/// Of one thread: ranks share the machine.
+inline EngineOptions one_thread() {
+  EngineOptions options;
+  options.threads = 1;
+  return options;
+}
+
+/// The ranks' engine, which has these fibres, dealt out at random.
+struct DealtEngine : DistributedEngine {
+  DealtEngine(const FiberAssembly& fibers, Random& random)
+      : DistributedEngine(MPI_COMM_WORLD, one_thread()) {
+    const DistributedFibers mine = scattered_to(own_rank(), fibers, scatter(fibers, 2, random));
+    update(mine.parts, mine.names);
+  }
+};
+
+/// What the ranks find together, on rank 0.
+inline DistributedResult answer(DistributedEngine& engine, const QueryOptions& options) {
+  DistributedResult result;
+  engine.query(options, result);
+  return gather(MPI_COMM_WORLD, result);
+}
+
+}  // namespace fiber::test
