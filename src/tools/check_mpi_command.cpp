@@ -50,8 +50,8 @@ struct RangeRows {
 /// @param all  the candidates that were shared out
 /// @param rows of this rank, in any order
 /// @return the rows that this rank has then, in order
-std::vector<RangeRows> sort_over_ranks(const Communicator& ranks, const WorkRange& all,
-                                       std::vector<RangeRows> rows) {
+std::vector<RangeRows> sort_rows(const Communicator& ranks, const WorkRange& all,
+                                 std::vector<RangeRows> rows) {
   const auto rank_count = static_cast<std::size_t>(ranks.size());
   PerRank<char> packed(rank_count);
   for (RangeRows& range : rows) {
@@ -113,7 +113,7 @@ ExitCode run(const RankCheckRequest& request) {
     }
     work.show = [&](std::uint64_t taken) { show_done(progress, taken, count, "candidates"); };
     run_work_queue(ranks, work);
-    checked = sort_over_ranks(ranks, work.all, std::move(checked));
+    checked = sort_rows(ranks, work.all, std::move(checked));
     text.append([&](TextOutput& output) {
       for (const RangeRows& range : checked) {
         output.write(range.text);
