@@ -18,7 +18,7 @@ struct SegmentIdPair {
   std::uint32_t fiber_b = 0;
   std::uint32_t segment_b = 0;
 
-  /// What contacts are sorted by.
+  /// The key that contacts are sorted by.
   auto key() const { return std::tie(fiber_a, segment_a, fiber_b, segment_b); }
 };
 
