@@ -57,9 +57,6 @@ struct HoldRequest {
 /// @throws std::invalid_argument as require_reach() and Attachment::add()
 void attach(SimScene& scene, std::uint32_t rod, std::int64_t node, const HoldRequest& request);
 
-/// @throws std::invalid_argument if nothing holds the node
-void detach(SimScene& scene, std::uint32_t rod, std::int64_t node);
-
 /// Adds what forces are made of.
 void bind_forces(py::module& module);
 

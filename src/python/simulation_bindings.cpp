@@ -8,6 +8,7 @@
 #include "src/python/environment.hpp"
 #include "src/python/errors.hpp"
 #include "src/python/simulation.hpp"
+#include "src/sim/scene/reach.hpp"
 #include "src/sim/scene/report.hpp"
 #include "src/text/quote.hpp"
 
@@ -100,7 +101,7 @@ void attach_to(Simulation& simulation, const py::object& fiber, std::int64_t nod
 void detach_from(Simulation& simulation, const py::object& fiber, std::int64_t node) {
   const auto named = fiber_argument(fiber);
   simulation.with(
-      [&](SimScene& scene) { detach(scene, find_fiber(scene, named.first, named.second), node); });
+      [&](SimScene& scene) { release_node(scene, find_fiber(scene, named.first, named.second), node); });
 }
 
 py::dict parameters_of(const Simulation& simulation) {

@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "benchmark/sim/rod_scene.hpp"
 #include "fiber_proximity/sim/effects.hpp"
 #include "src/query/threads.hpp"
 #include "test/sim/random_rods.hpp"
 #include "test/support/error_of.hpp"
+#include "validation/sim/rod_scene.hpp"
 
 namespace fiber::test {
 namespace {

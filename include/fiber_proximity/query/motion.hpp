@@ -52,15 +52,17 @@ QueryOptions pairs_of(const MotionOptions& options);
 MotionOptions motion_options(const QueryOptions& options, double tolerance);
 
 /// Two segments, and when their gap first falls to the margin: a ContactTime with a hit.
-struct MotionContact : SegmentIdPair {
+template <class Index>
+struct BasicMotionContact : BasicSegmentIdPair<Index> {
   double lower = 0.0;    ///< there is no contact before this
   double upper = 0.0;    ///< the gap is at most margin + tolerance at this time
   bool certain = false;  ///< the gap is at most the margin no later than `upper`
 
-  bool earlier_than(const MotionContact& other) const {
-    return lower < other.lower || (lower == other.lower && key() < other.key());
+  bool earlier_than(const BasicMotionContact& other) const {
+    return lower < other.lower || (lower == other.lower && this->key() < other.key());
   }
 };
+using MotionContact = BasicMotionContact<std::uint32_t>;
 
 /// Answer to a query about a motion; kept by the caller and reused, so that its memory is.
 struct MotionResult {

@@ -80,7 +80,7 @@ std::vector<FiberMessagePtr> Input::take_placed(const FixedFrame& frame) {
 
 /// Gives back what its fibres have taken.
 void Input::leave_out() {
-  takes_leave_ = true;
+  was_left_out_ = true;
   has_fibers_ = false;
   transforms_.clear();
   placed_.clear();
@@ -112,11 +112,11 @@ void Input::overtake_placed(std::size_t left) {
   }
 }
 
-bool Input::expire(const ros::Time& now, bool is_stranger) {
+bool Input::expire(const ros::Time& now, bool is_unmatched) {
   const bool has_stopped = stamps_.has_placed() && is_silent(now);
-  const Staleness staleness = has_stopped   ? Staleness::SILENT
-                              : is_stranger ? Staleness::STRANGER
-                                            : Staleness::NONE;
+  const Staleness staleness = has_stopped    ? Staleness::SILENT
+                              : is_unmatched ? Staleness::UNMATCHED
+                                             : Staleness::NONE;
   if (staleness == Staleness::NONE || staleness == staleness_) {
     return false;
   }
@@ -125,7 +125,7 @@ bool Input::expire(const ros::Time& now, bool is_stranger) {
     overtake_placed(0);
   }
   staleness_ = staleness;
-  stale_reason_ = has_stopped ? silence() : strangeness();
+  stale_reason_ = has_stopped ? silence() : mismatch();
   ROS_WARN_STREAM(log_.label() << ": " << stale_reason_ << "; its " << fibers().fiber_count()
                                << " fibre(s) are left out");
   return was_fresh;
@@ -143,7 +143,7 @@ std::string Input::silence() const {
 }
 
 /// Why the fibres are stale though messages come: they match those of no other input.
-std::string Input::strangeness() const {
+std::string Input::mismatch() const {
   std::ostringstream reason;
   reason << "no stamp within " << timing_.synchronize_slop
          << " s (synchronize_slop) of those of the other inputs for " << timing_.input_timeout

@@ -2,6 +2,7 @@
 
 #include <ctime>
 #include <sstream>
+#include <utility>
 
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/engine.hpp"
@@ -94,6 +95,20 @@ void InputBudget::doubt(double time) {
       (ros::SteadyTime::now() - last_trial_).toSec() > shortest_trust) {
     passed_segments_ = 0;
   }
+}
+
+void FiberTrial::begin(FiberMessagePtr message, const fiber::QueryOptions& answered) {
+  auto find_cost = [message, answered, limits = budget_.limits()] {
+    return cost_of(message->fibers, answered, limits);
+  };
+  running_.emplace(
+      Running{std::move(message), Prepared<FiberCost>(std::move(find_cost), &worker_)});
+}
+
+FiberMessagePtr FiberTrial::end() {
+  Running trial = std::move(*std::exchange(running_, std::nullopt));
+  budget_.take(trial.message->fibers, trial.cost.get());
+  return budget_.problem().empty() ? std::move(trial.message) : nullptr;
 }
 
 }  // namespace fiber_proximity_ros

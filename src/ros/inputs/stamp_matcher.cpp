@@ -16,8 +16,8 @@ std::int64_t to_nanoseconds(const ros::Time& stamp) {
 }
 
 std::int64_t to_nanoseconds(double seconds) {
-  constexpr double most = 4e18;  // beyond all differences of stamps
-  return static_cast<std::int64_t>(std::min(std::round(1e9 * seconds), most));
+  constexpr double max = 4e18;  // beyond all differences of stamps
+  return static_cast<std::int64_t>(std::min(std::round(1e9 * seconds), max));
 }
 
 }  // namespace
@@ -27,7 +27,7 @@ StampMatcher::StampMatcher(std::size_t inputs, double slop, std::size_t queue_si
 
 void StampMatcher::add(std::size_t input, const ros::Time& stamp) {
   Queue& queue = queues_[input];
-  if (!queue.takes_part && !queue.is_stranger) {
+  if (!queue.takes_part && !queue.is_unmatched) {
     queue.takes_part = true;
     begin_again();
   }
@@ -40,11 +40,11 @@ void StampMatcher::add(std::size_t input, const ros::Time& stamp) {
     queue.has_dropped = true;
     search();
   }
-  readmit_strangers();
+  readmit_unmatched();
 }
 
 bool StampMatcher::leave_out(std::size_t input) {
-  if (!queues_[input].takes_part && !queues_[input].is_stranger) {
+  if (!queues_[input].takes_part && !queues_[input].is_unmatched) {
     return false;
   }
   begin_again();
@@ -53,20 +53,20 @@ bool StampMatcher::leave_out(std::size_t input) {
   return true;
 }
 
-void StampMatcher::leave_out_stranger(const ros::Time& now) {
-  Queue* stranger = nullptr;
-  Stamp farthest = -1;
+void StampMatcher::leave_out_farthest(const ros::Time& now) {
+  Queue* farthest = nullptr;
+  Stamp max_distance = -1;
   for (Queue& queue : queues_) {
     const Stamp distance =
         queue.takes_part && queue.newest ? std::abs(*queue.newest - to_nanoseconds(now)) : -1;
-    if (distance > farthest) {
-      farthest = distance;
-      stranger = &queue;
+    if (distance > max_distance) {
+      max_distance = distance;
+      farthest = &queue;
     }
   }
-  if (stranger != nullptr) {
-    stranger->takes_part = false;
-    stranger->is_stranger = true;
+  if (farthest != nullptr) {
+    farthest->takes_part = false;
+    farthest->is_unmatched = true;
     begin_again();
     search();
   }
@@ -84,11 +84,11 @@ void StampMatcher::reset() {
   found_.clear();
 }
 
-void StampMatcher::readmit_strangers() {
+void StampMatcher::readmit_unmatched() {
   for (Queue& queue : queues_) {
-    if (queue.is_stranger && std::any_of(queue.stamps.begin(), queue.stamps.end(),
-                                         [this](Stamp stamp) { return is_near(stamp); })) {
-      queue.is_stranger = false;
+    if (queue.is_unmatched && std::any_of(queue.stamps.begin(), queue.stamps.end(),
+                                          [this](Stamp stamp) { return is_near(stamp); })) {
+      queue.is_unmatched = false;
       queue.takes_part = true;
       begin_again();
       search();

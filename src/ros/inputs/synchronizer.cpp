@@ -14,7 +14,7 @@ bool Synchronizer::accept(const Inputs& inputs, const ros::Time& now) {
   if (!sets.empty() || one_has_left || !matcher_.is_waiting()) {
     last_match_ = now;
   } else if ((now - last_match_).toSec() > input_timeout_) {
-    matcher_.leave_out_stranger(now);
+    matcher_.leave_out_farthest(now);
     sets = matcher_.take();
     last_match_ = now;
   }
