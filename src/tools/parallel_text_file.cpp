@@ -152,7 +152,8 @@ void ParallelTextFile::write_to_stream(std::string_view text) {
 /// Each piece waits for rank 0 to take it.
 void ParallelTextFile::send_to_root(const std::vector<std::string>& pieces) const {
   for (const std::string& piece : pieces) {
-    MPI_Ssend(piece.data(), static_cast<int>(piece.size()), MPI_BYTE, 0, text_tag, ranks_.handle());
+    MPI_Ssend(piece.data(), static_cast<int>(piece.size()), MPI_BYTE, 0,
+              static_cast<int>(MessageTag::TEXT), ranks_.handle());
   }
 }
 
@@ -164,8 +165,8 @@ std::string ParallelTextFile::receive_from(int rank, std::uint64_t size) {
   while (size > 0) {
     MPI_Status status;
     int received = 0;
-    MPI_Recv(text.data(), static_cast<int>(text.size()), MPI_BYTE, rank, text_tag, ranks_.handle(),
-             &status);
+    MPI_Recv(text.data(), static_cast<int>(text.size()), MPI_BYTE, rank,
+             static_cast<int>(MessageTag::TEXT), ranks_.handle(), &status);
     MPI_Get_count(&status, MPI_BYTE, &received);
     size -= static_cast<std::uint64_t>(received);
     if (error.empty()) {

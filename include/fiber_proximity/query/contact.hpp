@@ -19,7 +19,7 @@ struct BasicSegmentIdPair {
   Index fiber_b = 0;
   Index segment_b = 0;
 
-  /// What contacts are sorted by.
+  /// The key that contacts are sorted by.
   auto key() const { return std::tie(fiber_a, segment_a, fiber_b, segment_b); }
 };
 using SegmentIdPair = BasicSegmentIdPair<std::uint32_t>;

@@ -19,7 +19,7 @@ enum class MotionType {
   ALL       ///< all of them, each with its first contact
 };
 
-/// What to ask about a motion from one state of the fibres to the next. Times are parts of it: 0
+/// Options for a motion from one state of the fibres to the next. Times are parts of it: 0
 /// before, 1 after.
 ///
 /// Whether a fibre makes a loop, and how long it is between two segments, is judged before the
@@ -80,7 +80,7 @@ struct MotionResult {
   /// False: the deadline or the pair_limit came before all pairs had been ruled out.
   bool complete = true;
 
-  /// Of the pairs that were asked about, none that is not reported comes into contact before this;
+  /// No pair that was asked about and is not reported comes into contact before this;
   /// 1 if none does at all.
   double others_lower = 0.0;
 
