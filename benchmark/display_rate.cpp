@@ -22,7 +22,7 @@
 #include "fiber_proximity/ros/conversions.hpp"
 #include "fiber_proximity/scenes/scene.hpp"
 #include "src/ros/support/stopwatch.hpp"
-#include "test/rviz/rviz_window.hpp"
+#include "validation/rviz/rviz_window.hpp"
 
 namespace {
 

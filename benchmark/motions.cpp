@@ -12,31 +12,28 @@
 namespace fiber {
 namespace {
 
-using bench::MotionMeasurement;
-using bench::MotionRow;
-
 /// A part of the measurement and what its table shows.
 struct MotionPart {
   std::string name;
-  std::function<void(const MotionMeasurement&, const bench::ReportMotionRow&)> measure;
+  std::function<void(const MotionMeasurement&, const ReportMotionRow&)> measure;
   std::vector<std::string> columns;
 };
 
 const std::vector<MotionPart>& motion_parts() {
   static const std::vector<MotionPart> all{
       {"times",
-       bench::measure_motion_times,
+       measure_motion_times,
        {"family", "kernel", "tolerance", "misses", "start_misses", "false_alarms", "late", "early",
         "ended", "rejected_ns", "hit_ns"}},
       {"known",
-       bench::measure_known_motions,
+       measure_known_motions,
        {"tolerance", "motions", "contacts", "contacts_missed", "contacts_invented", "near_hits"}},
       {"accuracy",
-       bench::measure_motion_accuracy,
+       measure_motion_accuracy,
        {"family", "tolerance", "motions", "hits", "misses", "false_alarms", "wrongly_certain",
         "wide", "without_upper", "undecided"}},
       {"scenes",
-       bench::measure_scene_motions,
+       measure_scene_motions,
        {"scene", "way", "method", "frames", "contacts", "missed", "candidates", "time_ms",
         "times_discrete"}}};
   return all;
@@ -133,7 +130,7 @@ void add_motions_command(CLI::App& app, Command& command) {
   add_names("--parts", request->parts, "with commas between them, of " + join(motion_part_names()))
       ->check(CLI::IsMember(motion_part_names()));
   add_names("--kernels", what.kernels,
-            "with commas between them, of " + join(bench::motion_kernel_names()));
+            "with commas between them, of " + join(motion_kernel_names()));
   motions->add_option("--families", what.families, "of motions, one after the other")
       ->default_str("all");
   motions->add_option("--seed", what.seed, "of the motions")->capture_default_str();

@@ -3,11 +3,14 @@
 
 option(FIBER_PROXIMITY_PEERS "Build fiber_bench with the peers installed here" ON)
 
+find_package(Threads REQUIRED)
 add_library(fiber_bench_peers STATIC
   benchmark/peers/cable_peers.cpp
   benchmark/peers/peer.cpp
   benchmark/peers/peer_engine.cpp
+  benchmark/continuous/decision_score.cpp
   benchmark/continuous/discrete_motions.cpp
+  benchmark/continuous/motion_accuracy.cpp
   benchmark/continuous/motion_kernel.cpp
   benchmark/continuous/motion_times.cpp
   benchmark/continuous/own_motions.cpp
@@ -22,7 +25,7 @@ add_library(fiber_bench_peers STATIC
   benchmark/pairs/turn_times.cpp
 )
 target_link_libraries(fiber_bench_peers
-  PUBLIC fiber_bench_motions fiber_proximity PRIVATE fiber_proximity_options)
+  PUBLIC validation_geometry fiber_proximity PRIVATE Threads::Threads fiber_proximity_options)
 
 # fiber_bench_peer(NAME SOURCE... [LIBRARIES LIB...] [INCLUDES FOLDER...])
 function(fiber_bench_peer name)

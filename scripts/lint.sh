@@ -50,7 +50,7 @@ run_step "doxygen" "$lint/doxygen.log" doxygen docs/Doxyfile
 echo "catkin_lint"
 ROS_PACKAGE_PATH=$root:/usr/share catkin_lint --quiet --strict "$root" 2>&1 |
   { grep -v "rosdep database\|unknown dependencies" || true; }
-mapfile -t units < <(scripts/units_to_lint.py "$lint/compile_commands.json" src benchmark test <<<"$(changed_files)")
+mapfile -t units < <(scripts/units_to_lint.py "$lint/compile_commands.json" src benchmark test validation <<<"$(changed_files)")
 # The analyser does not go as deep as it could (mode=shallow): that takes a third of the time, and sanitizers and
 # fuzzers run through the same code.
 # tidy UNIT...: each numbered for the progress.

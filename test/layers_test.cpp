@@ -135,9 +135,9 @@ TEST(Layers, AFolderWithoutOneMayNotInclude) {
 
 TEST(Layers, IncludesHaveOneSpelling) {
   static const std::regex ours(R"x(^\s*#\s*include\s*"(.*\.(?:hpp|inc))".*)x");
-  static const std::regex from_root(R"((src|test|benchmark|fiber_proximity)/.*)");
+  static const std::regex from_root(R"((src|test|benchmark|validation|fiber_proximity)/.*)");
   const fs::path source = fiber::test::source_folder();
-  for (const char* folder : {"src", "include", "test", "benchmark"}) {
+  for (const char* folder : {"src", "include", "test", "benchmark", "validation"}) {
     for_each_line(source / folder, [&](const fs::path& path, int number, const std::string& line) {
       std::smatch match;
       if (std::regex_match(line, match, ours)) {
@@ -149,6 +149,38 @@ TEST(Layers, IncludesHaveOneSpelling) {
       }
     });
   }
+}
+
+/// Whether a source in this folder of the repository may include one of `test`, `benchmark` or
+/// `validation`.
+bool may_include_checks(const std::string& folder, const std::string& other) {
+  if (other == "validation") {
+    return is_in(folder, "test") || is_in(folder, "benchmark") || is_in(folder, "validation");
+  }
+  return is_in(folder, other) || (other == "benchmark" && is_in(folder, "test/benchmark"));
+}
+
+TEST(Layers, TestsAndBenchmarksMeetInValidationOnly) {
+  static const std::regex checks(R"(^\s*#\s*include\s*"(test|benchmark|validation)/.*)");
+  const fs::path source = fiber::test::source_folder();
+  for (const char* root : {"src", "include", "test", "benchmark", "validation"}) {
+    for_each_line(source / root, [&](const fs::path& path, int number, const std::string& line) {
+      std::smatch match;
+      if (std::regex_match(line, match, checks)) {
+        EXPECT_TRUE(may_include_checks(fs::relative(path.parent_path(), source), match[1].str()))
+            << path << ":" << number << ": " << line;
+      }
+    });
+  }
+}
+
+TEST(Layers, ATestMayNotIncludeABenchmark) {
+  EXPECT_TRUE(may_include_checks("test/sim", "validation"));
+  EXPECT_TRUE(may_include_checks("test/benchmark", "benchmark"));
+  EXPECT_FALSE(may_include_checks("test/sim", "benchmark"));
+  EXPECT_FALSE(may_include_checks("benchmark/sim", "test"));
+  EXPECT_FALSE(may_include_checks("validation/sim", "test"));
+  EXPECT_FALSE(may_include_checks("src/tools", "benchmark"));
 }
 
 const std::string header_of_ros =

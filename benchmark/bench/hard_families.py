@@ -1,4 +1,4 @@
-"""The families of hard pairs (test/support/hard_pairs.hpp), sorted for tables and figures.
+"""The families of hard pairs (validation/geometry/hard_pairs.hpp), sorted for tables and figures.
 
 A group is a panel of the figure, a kind is a row of a table; a family belongs to the first kind with
 a pattern that it matches.

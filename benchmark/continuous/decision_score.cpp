@@ -1,6 +1,6 @@
 #include "benchmark/continuous/decision_score.hpp"
 
-namespace fiber::bench {
+namespace fiber {
 
 MotionTruth::MotionTruth(const HardMotion& motion, double tolerance_in_metres)
     : tolerance(tolerance_in_metres) {
@@ -46,4 +46,4 @@ void DecisionScore::add(const HardMotion& motion, const MotionTruth& truth,
   early += score.false_alarms;
 }
 
-}  // namespace fiber::bench
+}  // namespace fiber

@@ -2,10 +2,10 @@
 
 #include <cstdint>
 
-#include "benchmark/continuous/motion_score.hpp"
 #include "benchmark/pairs/outcome.hpp"
+#include "validation/geometry/motion_score.hpp"
 
-namespace fiber::bench {
+namespace fiber {
 
 /// What is true of a motion, whoever answers: by judge(), which looks first where contact_time()
 /// claims that there is a contact.
@@ -39,4 +39,4 @@ struct DecisionScore {
   void add(const HardMotion& motion, const MotionTruth& truth, const GuardedTime& guarded);
 };
 
-}  // namespace fiber::bench
+}  // namespace fiber

@@ -2,7 +2,7 @@
 
 #include "benchmark/continuous/makers.hpp"
 
-namespace fiber::bench {
+namespace fiber {
 namespace {
 
 /// A check without regard to motion: distances at the beginning and at the end of each of some
@@ -86,4 +86,4 @@ std::unique_ptr<MotionKernel> make_discrete_100_motions() {
   return std::make_unique<DiscreteMotions>(100);
 }
 
-}  // namespace fiber::bench
+}  // namespace fiber

@@ -2,7 +2,7 @@
 
 #include "src/scenes/portable_math.hpp"
 
-namespace fiber::bench {
+namespace fiber {
 
 std::vector<Eigen::Vector3d> after_own_ways(const FiberAssembly& before, double way,
                                             std::uint64_t seed) {
@@ -21,4 +21,4 @@ std::vector<Eigen::Vector3d> after_own_ways(const FiberAssembly& before, double 
   return points;
 }
 
-}  // namespace fiber::bench
+}  // namespace fiber

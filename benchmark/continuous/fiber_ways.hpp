@@ -6,7 +6,7 @@
 
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 
-namespace fiber::bench {
+namespace fiber {
 
 /// Where fibres come to that each go their own way: every point moves equally far, in a direction
 /// that turns once along its fibre in a plane of its own. What the fibres are before is kept as
@@ -15,4 +15,4 @@ namespace fiber::bench {
 std::vector<Eigen::Vector3d> after_own_ways(const FiberAssembly& before, double way,
                                             std::uint64_t seed);
 
-}  // namespace fiber::bench
+}  // namespace fiber

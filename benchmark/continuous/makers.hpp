@@ -4,7 +4,7 @@
 
 #include "benchmark/continuous/motion_kernel.hpp"
 
-namespace fiber::bench {
+namespace fiber {
 
 /// Makes a kernel; null where this build is without it.
 using MotionKernelMaker = std::unique_ptr<MotionKernel> (*)();
@@ -31,4 +31,4 @@ constexpr MotionKernelMaker make_bullet_continuous_motions = nullptr;
 constexpr MotionKernelMaker make_bullet_gjk_motions = nullptr;
 #endif
 
-}  // namespace fiber::bench
+}  // namespace fiber

@@ -1,9 +1,9 @@
-#include "benchmark/continuous/known_motions.hpp"
 #include "benchmark/continuous/measurements.hpp"
 #include "benchmark/continuous/motion_accuracy.hpp"
 #include "benchmark/pairs/chosen_families.hpp"
+#include "validation/geometry/known_motions.hpp"
 
-namespace fiber::bench {
+namespace fiber {
 namespace {
 
 constexpr std::uint32_t motions_per_exact_one = 100;
@@ -91,4 +91,4 @@ void measure_known_motions(const MotionMeasurement& what, const ReportMotionRow&
   }
 }
 
-}  // namespace fiber::bench
+}  // namespace fiber

@@ -1,7 +1,7 @@
 #include "benchmark/continuous/measurements.hpp"
 #include "benchmark/continuous/scene_motions.hpp"
 
-namespace fiber::bench {
+namespace fiber {
 
 void measure_scene_motions(const MotionMeasurement& what, const ReportMotionRow& report) {
   for (const std::string& scene : what.scenes) {
@@ -33,4 +33,4 @@ void measure_scene_motions(const MotionMeasurement& what, const ReportMotionRow&
   }
 }
 
-}  // namespace fiber::bench
+}  // namespace fiber

@@ -1,10 +1,10 @@
-#include "benchmark/continuous/known_motions.hpp"
 #include "benchmark/continuous/measurements.hpp"
 #include "benchmark/continuous/motion_times.hpp"
 #include "benchmark/pairs/chosen_families.hpp"
 #include "benchmark/statistics.hpp"
+#include "validation/geometry/known_motions.hpp"
 
-namespace fiber::bench {
+namespace fiber {
 namespace {
 
 /// What is asked of all: a kernel, and a part of the extent.
@@ -66,7 +66,7 @@ MotionRow time_or_null(const std::optional<double>& time) {
 }
 
 MotionRow row_of(const MotionMeasurement& what, const NamedMotions& group, const Question& question,
-                 const MotionResult& result) {
+                 const MotionKernelResult& result) {
   const DecisionScore& score = result.score;
   return {{"family", group.name},
           {"seed", what.seed},
@@ -104,7 +104,7 @@ void measure_motion_times(const MotionMeasurement& what, const ReportMotionRow& 
       contestants.push_back({[question] { return make_motion_kernel(question.kernel); },
                              question.tolerance * extent});
     }
-    const std::vector<MotionResult> results =
+    const std::vector<MotionKernelResult> results =
         motion_results(group.motions, contestants, what.repeats);
     for (std::size_t i = 0; i < results.size(); ++i) {
       report(row_of(what, group, questions[i], results[i]));
@@ -112,4 +112,4 @@ void measure_motion_times(const MotionMeasurement& what, const ReportMotionRow& 
   });
 }
 
-}  // namespace fiber::bench
+}  // namespace fiber

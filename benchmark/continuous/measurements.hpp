@@ -8,7 +8,7 @@
 
 #include "benchmark/continuous/motion_kernel.hpp"
 
-namespace fiber::bench {
+namespace fiber {
 
 /// What to measure of contact times; all counts at least 1.
 struct MotionMeasurement {
@@ -49,4 +49,4 @@ void measure_motion_times(const MotionMeasurement& what, const ReportMotionRow& 
 /// Whole scenes, one state after the other against the motion between them.
 void measure_scene_motions(const MotionMeasurement& what, const ReportMotionRow& report);
 
-}  // namespace fiber::bench
+}  // namespace fiber

@@ -4,7 +4,7 @@
 #include <atomic>
 #include <future>
 
-namespace fiber::bench {
+namespace fiber {
 namespace {
 
 constexpr std::uint32_t motions_per_chunk = 100;
@@ -77,4 +77,4 @@ std::vector<MotionAccuracy> motion_accuracy(const MotionFamily& family, const Mo
   return sum;
 }
 
-}  // namespace fiber::bench
+}  // namespace fiber

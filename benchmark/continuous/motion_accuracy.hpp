@@ -4,9 +4,9 @@
 #include <functional>
 #include <vector>
 
-#include "benchmark/continuous/motion_score.hpp"
+#include "validation/geometry/motion_score.hpp"
 
-namespace fiber::bench {
+namespace fiber {
 
 /// An answer that the truth contradicts.
 struct WrongAnswer {
@@ -41,4 +41,4 @@ std::vector<MotionAccuracy> motion_accuracy(const MotionFamily& family, const Mo
                                             const std::vector<double>& tolerances,
                                             std::uint32_t threads, const AnswerMotion& answer);
 
-}  // namespace fiber::bench
+}  // namespace fiber

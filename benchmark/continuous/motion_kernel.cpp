@@ -3,7 +3,7 @@
 #include "benchmark/continuous/makers.hpp"
 #include "benchmark/pairs/kernel_list.hpp"
 
-namespace fiber::bench {
+namespace fiber {
 namespace {
 
 constexpr KernelEntry<MotionKernel> motion_kernels[] = {
@@ -26,4 +26,4 @@ std::unique_ptr<MotionKernel> make_motion_kernel(const std::string& name) {
 
 std::vector<std::string> motion_kernel_names() { return kernel_names(motion_kernels); }
 
-}  // namespace fiber::bench
+}  // namespace fiber

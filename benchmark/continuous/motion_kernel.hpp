@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "test/support/hard_motions.hpp"
+#include "validation/geometry/hard_motions.hpp"
 
-namespace fiber::bench {
+namespace fiber {
 
 /// A way to find when two moving capsules first touch, ours or another library's.
 class MotionKernel {
@@ -41,4 +41,4 @@ std::unique_ptr<MotionKernel> make_motion_kernel(const std::string& name);
 /// Names of the kernels in this build.
 std::vector<std::string> motion_kernel_names();
 
-}  // namespace fiber::bench
+}  // namespace fiber

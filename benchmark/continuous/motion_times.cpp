@@ -11,7 +11,7 @@
 #include "benchmark/pairs/turn_times.hpp"
 #include "benchmark/peers/translation.hpp"
 
-namespace fiber::bench {
+namespace fiber {
 namespace {
 
 /// Motions of one kind, whose times are measured.
@@ -92,9 +92,9 @@ class MotionRun {
   TimedCalls& rejected() { return rejected_; }
   TimedCalls& hits() { return hits_; }
 
-  MotionResult result(const std::vector<BlockTime>& rejected,
-                      const std::vector<BlockTime>& hits) const {
-    MotionResult result = result_;
+  MotionKernelResult result(const std::vector<BlockTime>& rejected,
+                            const std::vector<BlockTime>& hits) const {
+    MotionKernelResult result = result_;
     std::tie(result.rejected, result.rejected_ns) = together(rejected);
     std::tie(result.hits, result.hit_ns) = together(hits);
     return result;
@@ -132,16 +132,16 @@ class MotionRun {
     return {motions, sum_ns / static_cast<double>(motions)};
   }
 
-  MotionResult result_;
+  MotionKernelResult result_;
   MotionCalls rejected_;
   MotionCalls hits_;
 };
 
 }  // namespace
 
-std::vector<MotionResult> motion_results(const std::vector<HardMotion>& motions,
-                                         const std::vector<MotionContestant>& contestants,
-                                         std::uint32_t repeats) {
+std::vector<MotionKernelResult> motion_results(const std::vector<HardMotion>& motions,
+                                               const std::vector<MotionContestant>& contestants,
+                                               std::uint32_t repeats) {
   std::map<double, std::vector<MotionTruth>> truths;  // by tolerance
   std::vector<std::unique_ptr<MotionRun>> runs;
   std::vector<TimedCalls*> calls;
@@ -159,11 +159,11 @@ std::vector<MotionResult> motion_results(const std::vector<HardMotion>& motions,
   sizes.repeats = repeats;
   sizes.block = 256;
   const std::vector<std::vector<BlockTime>> times = turn_times(calls, sizes);
-  std::vector<MotionResult> results;
+  std::vector<MotionKernelResult> results;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     results.push_back(runs[i]->result(times[2 * i], times[2 * i + 1]));
   }
   return results;
 }
 
-}  // namespace fiber::bench
+}  // namespace fiber

@@ -8,7 +8,7 @@
 #include "benchmark/continuous/decision_score.hpp"
 #include "benchmark/continuous/motion_kernel.hpp"
 
-namespace fiber::bench {
+namespace fiber {
 
 /// A kernel and the tolerance it is asked with [m].
 struct MotionContestant {
@@ -17,7 +17,7 @@ struct MotionContestant {
 };
 
 /// What a contestant answers, and how fast.
-struct MotionResult {
+struct MotionKernelResult {
   std::uint64_t translations = 0;  ///< motions of rigid bodies
   std::uint64_t answerable = 0;    ///< motions that the kernel knows; of these:
   std::uint64_t contacts = 0;      ///< they surely touch
@@ -34,8 +34,8 @@ struct MotionResult {
 
 /// Asks all contestants about the same motions, in child processes, and holds their answers against
 /// the truth. Then measures them in turns on what they survived. No other thread may be running.
-std::vector<MotionResult> motion_results(const std::vector<HardMotion>& motions,
-                                         const std::vector<MotionContestant>& contestants,
-                                         std::uint32_t repeats);
+std::vector<MotionKernelResult> motion_results(const std::vector<HardMotion>& motions,
+                                               const std::vector<MotionContestant>& contestants,
+                                               std::uint32_t repeats);
 
-}  // namespace fiber::bench
+}  // namespace fiber

@@ -1,6 +1,6 @@
 #include "benchmark/continuous/makers.hpp"
 
-namespace fiber::bench {
+namespace fiber {
 namespace {
 
 /// contact_times(), or one call for each motion.
@@ -42,4 +42,4 @@ std::unique_ptr<MotionKernel> make_own_single_motions() {
   return std::make_unique<OwnMotions>(false);
 }
 
-}  // namespace fiber::bench
+}  // namespace fiber

@@ -11,7 +11,7 @@
 #include "fiber_proximity/scenes/scene.hpp"
 #include "src/query/contact_evaluator.hpp"
 
-namespace fiber::bench {
+namespace fiber {
 namespace {
 
 /// [m] Of the segments.
@@ -146,7 +146,7 @@ class MotionLooks final : public SceneMethod {
  private:
   MotionOptions options_;
   const std::unique_ptr<ProximityEngine> engine_ = make_engine("run_tree", {1});
-  fiber::MotionResult result_;
+  MotionResult result_;
 };
 
 /// A way of looking, and what has come out so far.
@@ -230,4 +230,4 @@ SceneMotionResults scene_motion_results(const SceneMotionSettings& settings) {
   return results;
 }
 
-}  // namespace fiber::bench
+}  // namespace fiber

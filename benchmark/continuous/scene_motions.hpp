@@ -7,7 +7,7 @@
 
 #include "fiber_proximity/scenes/scene.hpp"
 
-namespace fiber::bench {
+namespace fiber {
 
 /// Fibres of a scene that each go their own way (after_own_ways), and how far.
 struct SceneMotionSettings {
@@ -42,4 +42,4 @@ struct SceneMotionResults {
 /// @throws std::invalid_argument for an unknown scene or bad options
 SceneMotionResults scene_motion_results(const SceneMotionSettings& settings);
 
-}  // namespace fiber::bench
+}  // namespace fiber

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "test/support/hard_pairs.hpp"
+#include "validation/geometry/hard_pairs.hpp"
 
 namespace fiber {
 

@@ -23,16 +23,6 @@ Function* bullet_function(const char* name) {
   return reinterpret_cast<Function*>(function);
 }
 
-}  // namespace
-
-std::unique_ptr<PairKernel> make_bullet_pairs() {
-  using Make = decltype(fiber_bench_make_bullet_pairs);
-  return std::unique_ptr<PairKernel>(bullet_function<Make>("fiber_bench_make_bullet_pairs")());
-}
-
-namespace bench {
-namespace {
-
 std::unique_ptr<MotionKernel> bullet_motions(BulletCast cast) {
   using Make = decltype(fiber_bench_make_bullet_motions);
   return std::unique_ptr<MotionKernel>(
@@ -41,11 +31,15 @@ std::unique_ptr<MotionKernel> bullet_motions(BulletCast cast) {
 
 }  // namespace
 
+std::unique_ptr<PairKernel> make_bullet_pairs() {
+  using Make = decltype(fiber_bench_make_bullet_pairs);
+  return std::unique_ptr<PairKernel>(bullet_function<Make>("fiber_bench_make_bullet_pairs")());
+}
+
 std::unique_ptr<MotionKernel> make_bullet_continuous_motions() {
   return bullet_motions(BulletCast::CONTINUOUS);
 }
 
 std::unique_ptr<MotionKernel> make_bullet_gjk_motions() { return bullet_motions(BulletCast::GJK); }
 
-}  // namespace bench
 }  // namespace fiber

@@ -8,7 +8,7 @@
 #include "benchmark/peers/bullet_module.hpp"
 #include "benchmark/peers/translation.hpp"
 
-namespace fiber::bench {
+namespace fiber {
 namespace {
 
 /// A capsule and where it is at the end.
@@ -72,8 +72,8 @@ class BulletMotions final : public MotionKernel {
 };
 
 }  // namespace
-}  // namespace fiber::bench
+}  // namespace fiber
 
-fiber::bench::MotionKernel* fiber_bench_make_bullet_motions(fiber::bench::BulletCast cast) {
-  return new fiber::bench::BulletMotions(cast);
+fiber::MotionKernel* fiber_bench_make_bullet_motions(fiber::BulletCast cast) {
+  return new fiber::BulletMotions(cast);
 }

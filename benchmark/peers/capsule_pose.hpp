@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "test/support/hard_pairs.hpp"
+#include "validation/geometry/hard_pairs.hpp"
 
 namespace fiber {
 

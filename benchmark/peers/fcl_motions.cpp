@@ -4,7 +4,7 @@
 #include "benchmark/peers/fcl_capsule.hpp"
 #include "benchmark/peers/translation.hpp"
 
-namespace fiber::bench {
+namespace fiber {
 namespace {
 
 /// A capsule and where it is at the end.
@@ -70,4 +70,4 @@ std::unique_ptr<MotionKernel> make_fcl_naive_motions() {
   return std::make_unique<FclMotions>(fcl::ContinuousCollisionRequestd());
 }
 
-}  // namespace fiber::bench
+}  // namespace fiber

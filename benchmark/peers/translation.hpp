@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "test/support/hard_motions.hpp"
+#include "validation/geometry/hard_motions.hpp"
 
-namespace fiber::bench {
+namespace fiber {
 
 /// Whether both capsules have thickness and keep length and direction: of all motions of ends on
 /// straight lines these are those of rigid bodies.
@@ -45,4 +45,4 @@ void make_moving_capsules(const std::vector<HardMotion>& motions, std::vector<Ca
   }
 }
 
-}  // namespace fiber::bench
+}  // namespace fiber

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "benchmark/sim/contact_scenes.hpp"
 #include "fiber_proximity/sim/effects.hpp"
+#include "validation/sim/contact_scenes.hpp"
 
 namespace fiber {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "benchmark/processor_time.hpp"
-#include "benchmark/sim/rod_scene.hpp"
+#include "validation/sim/rod_scene.hpp"
 
 namespace fiber {
 

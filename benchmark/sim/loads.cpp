@@ -4,10 +4,10 @@
 #include <cmath>
 #include <thread>
 
-#include "benchmark/sim/contact_scenes.hpp"
 #include "benchmark/sim/effect_scene.hpp"
 #include "benchmark/statistics.hpp"
 #include "fiber_proximity/sim/attachment.hpp"
+#include "validation/sim/contact_scenes.hpp"
 
 namespace fiber {
 

@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-#include "benchmark/sim/contact_scenes.hpp"
+#include "validation/sim/contact_scenes.hpp"
 
 namespace fiber {
 

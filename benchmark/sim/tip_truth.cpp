@@ -3,8 +3,8 @@
 #include <cassert>
 #include <cmath>
 
-#include "benchmark/sim/elastica.hpp"
 #include "benchmark/sim/own_cables.hpp"
+#include "validation/sim/elastica.hpp"
 
 namespace fiber {
 

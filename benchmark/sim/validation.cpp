@@ -3,10 +3,10 @@
 #include <cmath>
 #include <sstream>
 
-#include "benchmark/sim/friction_scenes.hpp"
-#include "benchmark/sim/instability.hpp"
-#include "benchmark/sim/motion.hpp"
-#include "benchmark/sim/statics.hpp"
+#include "validation/sim/friction_scenes.hpp"
+#include "validation/sim/instability.hpp"
+#include "validation/sim/motion.hpp"
+#include "validation/sim/statics.hpp"
 
 namespace fiber {
 namespace {

@@ -1,12 +1,13 @@
 #pragma once
 
+#include "fiber_proximity/export.hpp"
 #include "fiber_proximity/query/engine.hpp"
 
 namespace fiber {
 
 /// Tests every pair, by the name `brute_force`: the oracle all other engines are held against.
 /// O(n²).
-class BruteForceEngine final : public ProximityEngine {
+class FIBER_PROXIMITY_EXPORT BruteForceEngine final : public ProximityEngine {
  protected:
   void do_update(const FiberAssembly& fibers, bool same_topology) override;
   void do_query(const FiberAssembly& fibers, const QueryOptions& options,

@@ -1,22 +1,18 @@
 // What answers about motions are judged by.
-#include "benchmark/continuous/motion_oracle.hpp"
+#include "validation/geometry/motion_oracle.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "benchmark/continuous/motion_separation.hpp"
-#include "benchmark/continuous/time_polynomial.hpp"
 #include "test/support/random.hpp"
 #include "test/support/rounds.hpp"
+#include "validation/geometry/motion_separation.hpp"
+#include "validation/geometry/time_polynomial.hpp"
 
 namespace fiber::test {
 namespace {
 
-using bench::MotionOracle;
-using bench::MotionSeparation;
-using bench::QuadNumber;
-using bench::TimePolynomial;
 using Verdict = MotionOracle::Verdict;
 
 QuadNumber value_at(const TimePolynomial& polynomial, double time) {

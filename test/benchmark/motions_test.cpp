@@ -13,14 +13,6 @@
 namespace fiber::test {
 namespace {
 
-using bench::AnswerMotion;
-using bench::DecisionScore;
-using bench::GuardedTime;
-using bench::motion_accuracy;
-using bench::MotionAccuracy;
-using bench::MotionScore;
-using bench::MotionTruth;
-
 const MotionFamily& motion_family(const std::string& name) {
   return *std::find_if(motion_families().begin(), motion_families().end(),
                        [&](const MotionFamily& family) { return family.name == name; });
@@ -95,7 +87,7 @@ TEST(MotionAccuracy, KeepsSomeOfTheWrongAnswers) {
   EXPECT_GT(found.score.misses, 5U);
   ASSERT_EQ(found.wrong.size(), 5U);
   for (const auto& [motion, tolerance, answer] : found.wrong) {
-    EXPECT_EQ(bench::judge(motion, tolerance, answer).misses, 1U);
+    EXPECT_EQ(judge(motion, tolerance, answer).misses, 1U);
   }
 }
 
@@ -164,7 +156,7 @@ TEST(DecisionScore, CountsWhatIsNoAnswerAndNothingElseOfIt) {
 }
 
 /// Does to every motion what the radius of its first capsule says; otherwise never sees a contact.
-class FailingMotions final : public bench::MotionKernel {
+class FailingMotions final : public MotionKernel {
  public:
   static constexpr double unknown = 2.0;
   static constexpr double fatal = 3.0;
@@ -200,20 +192,19 @@ class FailingMotions final : public bench::MotionKernel {
   const std::vector<HardMotion>* motions_ = nullptr;
 };
 
-TEST(MotionResults, SurviveWhatAKernelDoes) {
+TEST(MotionKernelResults, SurviveWhatAKernelDoes) {
   std::vector<HardMotion> motions(8, meeting_spheres(2.0));
   for (std::size_t i = 1; i <= 5; ++i) {
     motions[i].radius_a = static_cast<double>(i + 1);
     motions[i].a_before[0].x() = motions[i].a_before[1].x() = 20.0;
   }
   motions.push_back(passing_spheres(1.0));
-  const auto results =
-      bench::motion_results(motions,
-                            {{[] { return std::make_unique<FailingMotions>(); }, 1e-6},
-                             {[] { return bench::make_motion_kernel("own"); }, 1e-6}},
-                            3);
+  const auto results = motion_results(motions,
+                                      {{[] { return std::make_unique<FailingMotions>(); }, 1e-6},
+                                       {[] { return make_motion_kernel("own"); }, 1e-6}},
+                                      3);
   ASSERT_EQ(results.size(), 2U);
-  const bench::MotionResult& failing = results[0];
+  const MotionKernelResult& failing = results[0];
   EXPECT_EQ(failing.contacts, 7U);
   EXPECT_EQ(failing.answerable, 8U);
   EXPECT_EQ(failing.score.ended, 2U);
@@ -222,7 +213,7 @@ TEST(MotionResults, SurviveWhatAKernelDoes) {
   EXPECT_EQ(failing.score.misses, 3U);
   EXPECT_EQ(failing.rejected, 1U);
   EXPECT_EQ(failing.hits, 3U);
-  const bench::MotionResult& own = results[1];
+  const MotionKernelResult& own = results[1];
   EXPECT_EQ(own.answerable, 9U);
   EXPECT_EQ(own.score.misses + own.score.false_alarms + own.score.late + own.score.early, 0U);
   EXPECT_GT(own.hit_ns.value(), 0.0);
@@ -241,9 +232,9 @@ TEST(MotionKernels, MostlyAgreeOnEasyMotions) {
     }
   }
   const double most_early = 1e-2;  // Bullet stops a millimetre before
-  for (const std::string& name : bench::motion_kernel_names()) {
+  for (const std::string& name : motion_kernel_names()) {
     SCOPED_TRACE(name);
-    const std::unique_ptr<bench::MotionKernel> kernel = bench::make_motion_kernel(name);
+    const std::unique_ptr<MotionKernel> kernel = make_motion_kernel(name);
     kernel->prepare(motions, 1e-6);
     std::vector<ContactTime> found(motions.size());
     kernel->find(0, found.size(), found.data());
@@ -260,8 +251,8 @@ TEST(MotionKernels, MostlyAgreeOnEasyMotions) {
 }
 
 TEST(MotionKernels, OfOthersKnowOnlyTranslations) {
-  for (const std::string& name : bench::motion_kernel_names()) {
-    const std::unique_ptr<bench::MotionKernel> kernel = bench::make_motion_kernel(name);
+  for (const std::string& name : motion_kernel_names()) {
+    const std::unique_ptr<MotionKernel> kernel = make_motion_kernel(name);
     const bool knows_all = name.rfind("own", 0) == 0 || name.rfind("discrete", 0) == 0;
     const auto count = [&](const std::string& family) {
       const std::vector<HardMotion> motions = hard_motions(motion_family(family), 50, 1);

@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/continuous/motion_score.hpp"
-#include "test/support/hard_motions.hpp"
 #include "test/support/not_finite.hpp"
 #include "test/support/public_edge_motions.hpp"
 #include "test/support/random.hpp"
 #include "test/support/rounds.hpp"
+#include "validation/geometry/hard_motions.hpp"
+#include "validation/geometry/motion_score.hpp"
 
 namespace fiber::test {
 namespace {
@@ -135,7 +135,7 @@ TEST(ContactTime, BoundsAreNarrowWhereSegmentsSlowDown) {
   const double tolerance = 0x1.c3c4010f0721bp-10;
   const ContactTime time = time_of(crossed, tolerance);
   EXPECT_TRUE(time.hit) << described(time);
-  EXPECT_FALSE(bench::judge(crossed, tolerance, time).has_wrong_answers()) << described(time);
+  EXPECT_FALSE(judge(crossed, tolerance, time).has_wrong_answers()) << described(time);
 
   HardMotion swapped;
   swapped.a_before[0] = {-0x1.be221ba91721p-1, -0x1.0e8eceb416e34p-1, 0x1.4acea1987aa28p-2};
@@ -150,7 +150,7 @@ TEST(ContactTime, BoundsAreNarrowWhereSegmentsSlowDown) {
   swapped.radius_b = 0.007520568640004277;
   const ContactTime turned = time_of(swapped, 0.0010403602577176796);
   EXPECT_TRUE(turned.hit && turned.certain) << described(turned);
-  EXPECT_FALSE(bench::judge(swapped, 0.0010403602577176796, turned).has_wrong_answers())
+  EXPECT_FALSE(judge(swapped, 0.0010403602577176796, turned).has_wrong_answers())
       << described(turned);
 }
 
@@ -181,7 +181,7 @@ class MotionFamilies : public testing::TestWithParam<std::string> {
   /// Segments without thickness are within less than a rounding of each other for less time than
   /// doubles tell apart.
   static bool has_thickness(const HardMotion& motion) {
-    return motion.radius_a + motion.radius_b > 1e-9 * bench::extent_of(motion);
+    return motion.radius_a + motion.radius_b > 1e-9 * extent_of(motion);
   }
 };
 
@@ -189,9 +189,9 @@ TEST_P(MotionFamilies, NoContactIsMissedAndNoneIsInvented) {
   SCOPED_TRACE(seed_message());
   for (const double part : {1e-2, 1e-6, 1e-9, 1e-12, 1e-15, 1e-18, 0.0}) {
     for (const HardMotion& motion : motions(judged_count())) {
-      const double tolerance = part * bench::extent_of(motion);
+      const double tolerance = part * extent_of(motion);
       const ContactTime answer = time_of(motion, tolerance);
-      EXPECT_FALSE(bench::judge(motion, tolerance, answer).has_wrong_answers())
+      EXPECT_FALSE(judge(motion, tolerance, answer).has_wrong_answers())
           << described(answer) << ", tolerance " << tolerance;
       EXPECT_TRUE(answer.hit ? answer.lower <= answer.upper : same(answer, ContactTime()));
       if (part >= 1e-12 || has_thickness(motion)) {
@@ -215,7 +215,7 @@ TEST_P(MotionFamilies, AContactAtTheBeginningIsDecidedExactly) {
       for (const double margin : {0.0, -1e6 * distance}) {
         const double radius = (part * distance - margin) / 3.0;
         pair.limit = {radius, part * distance - margin - radius, margin};
-        const ContactTime time = contact_time(pair, 1e-6 * bench::extent_of(motion));
+        const ContactTime time = contact_time(pair, 1e-6 * extent_of(motion));
         const bool is_touching = exact_gap_at_most(a[0], a[1], b[0], b[1], pair.limit);
         EXPECT_EQ(time.hit && time.certain && time.upper == 0.0, is_touching)
             << described(time) << ", " << part << " of the distance " << distance;
@@ -251,7 +251,7 @@ INSTANTIATE_TEST_SUITE_P(All, MotionFamilies, testing::ValuesIn(family_names()),
                          [](const auto& family) { return test_name(family.param); });
 
 TEST(PublicEdgeMotions, NoneIsMissed) {
-  const std::vector<bench::KnownMotion> motions = public_edge_motions();
+  const std::vector<KnownMotion> motions = public_edge_motions();
   if (motions.empty()) {
     GTEST_SKIP() << "no public edge motions at " << public_edge_motions_path();
   }
@@ -262,7 +262,7 @@ TEST(PublicEdgeMotions, NoneIsMissed) {
       const ContactTime answer = time_of(motion, tolerance);
       EXPECT_TRUE(answer.hit || !collides);
       EXPECT_FALSE(answer.hit && answer.certain && !collides);
-      EXPECT_FALSE(bench::judge(motion, tolerance, answer).has_wrong_answers());
+      EXPECT_FALSE(judge(motion, tolerance, answer).has_wrong_answers());
       collisions += collides ? 1 : 0;
       near_hits += answer.hit && !collides ? 1 : 0;
     }

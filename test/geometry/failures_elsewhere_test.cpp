@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "benchmark/continuous/motion_score.hpp"
 #include "fiber_proximity/geometry/contact_time.hpp"
-#include "test/support/hard_motions.hpp"
+#include "validation/geometry/hard_motions.hpp"
+#include "validation/geometry/motion_score.hpp"
 
 namespace fiber::test {
 namespace {
@@ -34,7 +34,7 @@ void expect_contact(const HardMotion& motion, double time) {
   EXPECT_LE(answer.lower, time * (1.0 + 1e-14));
   EXPECT_GE(answer.upper, time * (1.0 - 1e-14));
   EXPECT_LT(answer.upper - answer.lower, 20.0 * asked_tolerance);
-  EXPECT_FALSE(bench::judge(motion, asked_tolerance, answer).has_wrong_answers());
+  EXPECT_FALSE(judge(motion, asked_tolerance, answer).has_wrong_answers());
 }
 
 /// When the axes are as near as two radii, from a height of which the middle comes down twice.

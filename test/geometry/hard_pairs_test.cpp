@@ -1,5 +1,5 @@
 // Every kernel on every family of hard pairs, judged in exact rationals.
-#include "test/support/hard_pairs.hpp"
+#include "validation/geometry/hard_pairs.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 #include "test/support/engines_test.hpp"
 #include "test/support/error_of.hpp"
 #include "test/support/exact_pairs.hpp"
-#include "test/support/hard_pairs.hpp"
 #include "test/support/not_finite.hpp"
+#include "validation/geometry/hard_pairs.hpp"
 
 namespace fiber::test {
 namespace {

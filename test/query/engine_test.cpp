@@ -12,11 +12,11 @@
 #include "test/support/contacts.hpp"
 #include "test/support/engines_test.hpp"
 #include "test/support/error_of.hpp"
-#include "test/support/hard_pairs.hpp"
 #include "test/support/neighbour_skips.hpp"
 #include "test/support/query_options.hpp"
 #include "test/support/random.hpp"
 #include "test/support/rounds.hpp"
+#include "validation/geometry/hard_pairs.hpp"
 
 namespace fiber::test {
 namespace {

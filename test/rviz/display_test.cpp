@@ -12,8 +12,8 @@
 #include "fiber_proximity/ContactArray.h"
 #include "fiber_proximity/FiberArray.h"
 #include "test/ros/messages.hpp"
-#include "test/rviz/rviz_window.hpp"
 #include "test/support/not_finite.hpp"
+#include "validation/rviz/rviz_window.hpp"
 
 namespace {
 

@@ -8,7 +8,7 @@
 
 #include "fiber_proximity/FiberArray.h"
 #include "test/ros/messages.hpp"
-#include "test/rviz/rviz_window.hpp"
+#include "validation/rviz/rviz_window.hpp"
 
 namespace {
 

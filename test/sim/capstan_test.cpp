@@ -7,8 +7,8 @@
 #include <ostream>
 #include <vector>
 
-#include "benchmark/sim/friction_scenes.hpp"
 #include "test/support/random.hpp"
+#include "validation/sim/friction_scenes.hpp"
 
 namespace fiber::test {
 namespace {

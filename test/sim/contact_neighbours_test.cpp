@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "benchmark/sim/contact_scenes.hpp"
 #include "src/sim/contact/edge_contact.hpp"
 #include "test/sim/contact_system.hpp"
 #include "test/sim/polyline.hpp"
+#include "validation/sim/contact_scenes.hpp"
 
 namespace fiber::test {
 namespace {

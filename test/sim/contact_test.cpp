@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "benchmark/sim/contact_scenes.hpp"
 #include "test/environment/random_shapes.hpp"
 #include "test/sim/contact_system.hpp"
 #include "test/sim/tunnelling.hpp"
@@ -14,6 +13,7 @@
 #include "test/support/not_finite.hpp"
 #include "test/support/random.hpp"
 #include "test/support/rounds.hpp"
+#include "validation/sim/contact_scenes.hpp"
 
 namespace fiber::test {
 namespace {

@@ -1,12 +1,12 @@
-// What energy and angular momentum do without input.
+// Energy and angular momentum without input.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "benchmark/sim/contact_scenes.hpp"
 #include "test/sim/random_rods.hpp"
+#include "validation/sim/contact_scenes.hpp"
 
 namespace fiber::test {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "benchmark/sim/contact_scenes.hpp"
-#include "benchmark/sim/friction_scenes.hpp"
+#include "validation/sim/contact_scenes.hpp"
+#include "validation/sim/friction_scenes.hpp"
 
 namespace fiber::test {
 namespace {

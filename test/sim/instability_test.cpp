@@ -1,7 +1,7 @@
 // Loads at which a rod leaves the shape it was in, bracketed: below it returns from a small
 // disturbance, above it goes ever farther.
 
-#include "benchmark/sim/instability.hpp"
+#include "validation/sim/instability.hpp"
 
 #include <gtest/gtest.h>
 

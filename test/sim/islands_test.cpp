@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
-#include "benchmark/sim/contact_scenes.hpp"
 #include "src/sim/solver/stage_solver.hpp"
 #include "test/sim/random_rods.hpp"
 #include "test/support/random.hpp"
 #include "test/support/rounds.hpp"
+#include "validation/sim/contact_scenes.hpp"
 
 namespace fiber::test {
 namespace {

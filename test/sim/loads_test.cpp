@@ -7,10 +7,10 @@
 #include <cmath>
 #include <limits>
 
-#include "benchmark/sim/contact_scenes.hpp"
 #include "fiber_proximity/sim/effects.hpp"
 #include "test/sim/trefoil.hpp"
 #include "test/sim/tunnelling.hpp"
+#include "validation/sim/contact_scenes.hpp"
 
 namespace fiber::test {
 namespace {

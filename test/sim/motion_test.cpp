@@ -1,10 +1,10 @@
 // Motion against closed forms: frequencies, periods, and what the steps' length adds to them.
 
-#include "benchmark/sim/motion.hpp"
+#include "validation/sim/motion.hpp"
 
 #include <gtest/gtest.h>
 
-#include "benchmark/sim/rod_scene.hpp"
+#include "validation/sim/rod_scene.hpp"
 
 namespace fiber::test {
 namespace {
@@ -84,7 +84,7 @@ TEST(Motion, ImplicitEulerDampsInTheFirstOrderOfTheStep) {
   EXPECT_NEAR((0.1 - damped_amplitude(0.02)) / (0.1 - damped_amplitude(0.01)), 2.0, 0.05);
 }
 
-/// To the last digits.
+/// The two are equal to the last digits.
 TEST(Motion, AFreeFallHasTheBiasOfItsIntegrator) {
   for (const double step : {0.1, 0.01}) {
     for (const Integrator integrator : {Integrator::IMPLICIT_EULER, Integrator::BDF2}) {

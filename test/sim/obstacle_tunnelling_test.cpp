@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "benchmark/sim/contact_scenes.hpp"
 #include "test/environment/random_shapes.hpp"
 #include "test/sim/throw.hpp"
+#include "validation/sim/contact_scenes.hpp"
 
 namespace fiber::test {
 namespace {

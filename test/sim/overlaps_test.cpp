@@ -9,11 +9,11 @@
 #include <set>
 #include <tuple>
 
-#include "benchmark/sim/contact_scenes.hpp"
 #include "src/sim/scene/reach.hpp"
 #include "test/sim/random_rods.hpp"
 #include "test/sim/tunnelling.hpp"
 #include "test/support/random.hpp"
+#include "validation/sim/contact_scenes.hpp"
 
 namespace fiber::test {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "benchmark/sim/contact_scenes.hpp"
 #include "fiber_proximity/sim/effects.hpp"
 #include "test/sim/random_rods.hpp"
+#include "validation/sim/contact_scenes.hpp"
 
 namespace fiber::test {
 namespace {

@@ -8,13 +8,13 @@
 #include <cmath>
 #include <sstream>
 
-#include "benchmark/sim/contact_scenes.hpp"
 #include "fiber_proximity/sim/effects.hpp"
 #include "test/sim/energy_bounds.hpp"
 #include "test/sim/random_rods.hpp"
 #include "test/sim/tunnelling.hpp"
 #include "test/support/random.hpp"
 #include "test/support/rounds.hpp"
+#include "validation/sim/contact_scenes.hpp"
 
 namespace fiber::test {
 namespace {
@@ -145,7 +145,7 @@ class SceneMaker {
   std::ostringstream text_;
 };
 
-/// That of rods which touch nothing yet [J].
+/// The energy of rods that touch nothing yet [J].
 double energy_at_start(const Effects& effects, Rods& rods, double step) {
   begin(effects, rods, step);
   double energy = kinetic_energy(rods);

@@ -1,4 +1,4 @@
-// What holds may ask of a rod.
+// The limits of holds by the length of their rod.
 
 #include "src/sim/scene/reach.hpp"
 
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
-#include "benchmark/sim/contact_scenes.hpp"
 #include "test/support/error_of.hpp"
 #include "test/support/random.hpp"
+#include "validation/sim/contact_scenes.hpp"
 
 namespace fiber::test {
 namespace {

@@ -1,12 +1,12 @@
-// What users of other simulators have reported.
+// Problems that users of other simulators have reported.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "benchmark/sim/contact_scenes.hpp"
 #include "fiber_proximity/sim/effects.hpp"
 #include "test/sim/random_rods.hpp"
+#include "validation/sim/contact_scenes.hpp"
 
 namespace fiber::test {
 namespace {

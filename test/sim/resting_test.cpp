@@ -5,11 +5,11 @@
 
 #include <cmath>
 
-#include "benchmark/sim/contact_scenes.hpp"
 #include "src/sim/contact/barrier.hpp"
 #include "src/sim/contact/edge_contact.hpp"
 #include "test/sim/random_rods.hpp"
 #include "test/support/random.hpp"
+#include "validation/sim/contact_scenes.hpp"
 
 namespace fiber::test {
 namespace {
@@ -48,7 +48,7 @@ void run(Stepper& stepper, int steps) {
   }
 }
 
-/// What obstacles, or rods, bear upwards [N].
+/// The upward force of obstacles, or rods [N].
 double carried(const Stepper& stepper, bool by_obstacles) {
   double sum = 0.0;
   for (const RodForces::ContactForce& contact : stepper.forces().contacts) {

@@ -5,8 +5,8 @@
 #include <memory>
 #include <utility>
 
-#include "benchmark/sim/contact_scenes.hpp"
 #include "fiber_proximity/sim/effects.hpp"
+#include "validation/sim/contact_scenes.hpp"
 
 namespace fiber::test {
 
@@ -49,7 +49,7 @@ class Reversal {
       speed += step * force / mass();
       by_obstacles += step * speed;
     }
-    // As implicit Euler rises.
+    // The height to which implicit Euler rises.
     free_ = 0.5 * standard_gravity * stepper_->time() * (stepper_->time() + step);
     rise_ = height() - start;
     by_obstacles_ = by_obstacles;

@@ -5,12 +5,12 @@
 
 #include <sstream>
 
-#include "benchmark/sim/rod_scene.hpp"
 #include "fiber_proximity/sim/effects.hpp"
 #include "test/sim/energy_bounds.hpp"
 #include "test/sim/random_rods.hpp"
 #include "test/support/random.hpp"
 #include "test/support/rounds.hpp"
+#include "validation/sim/rod_scene.hpp"
 
 namespace fiber::test {
 namespace {
@@ -255,7 +255,7 @@ TEST(Robustness, AnEdgeWithoutLengthKeepsItsDirector) {
   }
 }
 
-/// As many turns as one likes between two clamps are no fewer when the rod is measured.
+/// Any number of turns between two clamps stays when the rod is evaluated.
 TEST(Robustness, TwistCountsItsTurns) {
   constexpr int segments = 20;
   constexpr double turns = 3.0;

@@ -1,13 +1,13 @@
-// What the simulation does not take, said so that the caller finds it.
+// The simulation refuses wrong rods and effects with errors that name what is wrong.
 
 #include "fiber_proximity/sim/rods.hpp"
 
 #include <gtest/gtest.h>
 
-#include "benchmark/sim/rod_scene.hpp"
 #include "fiber_proximity/sim/effects.hpp"
 #include "test/support/error_of.hpp"
 #include "test/support/not_finite.hpp"
+#include "validation/sim/rod_scene.hpp"
 
 namespace fiber::test {
 namespace {

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
-#include "benchmark/sim/rod_scene.hpp"
 #include "fiber_proximity/sim/effects.hpp"
 #include "test/sim/random_rods.hpp"
+#include "validation/sim/rod_scene.hpp"
 
 namespace fiber::test {
 namespace {

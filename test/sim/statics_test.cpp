@@ -1,12 +1,12 @@
 // Shapes at rest against the theory of rods; the quoted digits are those that textbooks print.
 
-#include "benchmark/sim/statics.hpp"
+#include "validation/sim/statics.hpp"
 
 #include <gtest/gtest.h>
 
 #include <ostream>
 
-#include "benchmark/sim/rod_scene.hpp"
+#include "validation/sim/rod_scene.hpp"
 
 namespace fiber::test {
 namespace {

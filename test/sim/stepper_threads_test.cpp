@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "benchmark/sim/rod_scene.hpp"
 #include "fiber_proximity/sim/effects.hpp"
 #include "src/query/threads.hpp"
 #include "test/sim/random_rods.hpp"
 #include "test/support/error_of.hpp"
+#include "validation/sim/rod_scene.hpp"
 
 namespace fiber::test {
 namespace {
@@ -64,7 +64,7 @@ TEST(StepperThreads, GiveTheSameBits) {
 
 TEST(StepperThreads, BeyondTheMostAreRefused) {
   StepperOptions options;
-  options.threads = most_threads + 1;
+  options.threads = max_threads + 1;
   EXPECT_EQ(error_of([&] { Stepper(Rods(), {}, options); }),
             "threads is 1025, it must be at most 1024 (0 for as many as there are cores)");
 }

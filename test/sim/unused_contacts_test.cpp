@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "benchmark/sim/contact_scenes.hpp"
 #include "fiber_proximity/sim/effects.hpp"
 #include "test/sim/random_rods.hpp"
+#include "validation/sim/contact_scenes.hpp"
 
 namespace fiber::test {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/continuous/known_motions.hpp"
 #include "test/support/shared_data.hpp"
+#include "validation/geometry/known_motions.hpp"
 
 namespace fiber::test {
 
@@ -15,10 +15,9 @@ inline std::string public_edge_motions_path() {
 }
 
 /// Empty if the file is not there.
-inline std::vector<bench::KnownMotion> public_edge_motions() {
+inline std::vector<KnownMotion> public_edge_motions() {
   const std::string path = public_edge_motions_path();
-  return std::filesystem::exists(path) ? bench::read_known_motions(path)
-                                       : std::vector<bench::KnownMotion>();
+  return std::filesystem::exists(path) ? read_known_motions(path) : std::vector<KnownMotion>();
 }
 
 }  // namespace fiber::test

@@ -6,9 +6,9 @@
 
 #include "fiber_proximity/geometry/contact_time.hpp"
 #include "src/io/number.hpp"
-#include "test/support/hard_motions.hpp"
 #include "test/support/public_edge_motions.hpp"
 #include "test/tools/tools_test.hpp"
+#include "validation/geometry/hard_motions.hpp"
 
 namespace fiber::test {
 namespace {
@@ -250,7 +250,7 @@ TEST_F(Motions, RefusesBadCommandLines) {
 }
 
 TEST_F(Motions, FindsThePublicCollisions) {
-  const std::vector<bench::KnownMotion> motions = public_edge_motions();
+  const std::vector<KnownMotion> motions = public_edge_motions();
   if (motions.empty()) {
     GTEST_SKIP() << "no " << public_edge_motions_path();
   }

@@ -4,9 +4,9 @@
 
 #include "fiber_proximity/geometry/segment_distance.hpp"
 #include "src/io/number.hpp"
-#include "test/support/hard_pairs.hpp"
 #include "test/support/public_edge_pairs.hpp"
 #include "test/tools/tools_test.hpp"
+#include "validation/geometry/hard_pairs.hpp"
 
 namespace fiber::test {
 namespace {

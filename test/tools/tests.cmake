@@ -2,6 +2,7 @@
 
 fiber_proximity_gtest(tools_test
   tools/bad_command_line_test.cpp
+  tools/check_test.cpp
   tools/compare_test.cpp
   tools/fiber_query_engines_test.cpp
   tools/fiber_query_refusals_test.cpp
@@ -19,7 +20,7 @@ fiber_proximity_gtest(tools_test
   tools/sweep_test.cpp
   tools/tiny_fibers_test.cpp
   tools/topology_test.cpp
-  LIBRARIES fiber_bench_motions fiber_proximity_compare fiber_proximity_sim nlohmann_json::nlohmann_json
+  LIBRARIES validation_geometry fiber_proximity_compare fiber_proximity_sim nlohmann_json::nlohmann_json
 )
 add_dependencies(tools_test fiber_query fiber_scene fiber_simulate)
 target_compile_definitions(tools_test PRIVATE

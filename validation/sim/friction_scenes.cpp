@@ -1,0 +1,137 @@
+#include "validation/sim/friction_scenes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "validation/sim/contact_scenes.hpp"
+
+namespace fiber {
+
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double step_length = 1.0 / 240.0;  // [s]
+
+constexpr double post_radius = 0.05;  // [m]
+
+/// In parts of the post's, so that the strain is a few parts in ten thousand before the post: it
+/// grows with the square of this and the bending share.
+double rope_radius(const RodMaterial& material) {
+  return post_radius * std::min(0.03, 1e-3 / std::sqrt(material.bending_share));
+}
+
+/// Nodes of a rope that is straight, around the post, and straight again: a polygon around the
+/// circle of the axis whose edges touch that in their middles, so that none begins in the post.
+std::vector<Vector3d> around_post(const Capstan& capstan, double axis_radius, double rise) {
+  const double turn = 2.0 * M_PI / capstan.edges_per_turn;
+  const double edge = 2.0 * axis_radius * std::tan(0.5 * turn);
+  const int corners = static_cast<int>(std::lround(capstan.turns * capstan.edges_per_turn));
+  const int straight_edges = std::max(6, static_cast<int>(0.06 / edge));
+  std::vector<Vector3d> points;
+  for (int node = -straight_edges; node < corners + straight_edges; ++node) {
+    // On the line that touches the circle at this angle.
+    const int touching = std::clamp(node, 0, corners);
+    const double angle = turn * touching;
+    const double along = edge * (node - touching + 0.5);
+    points.emplace_back(axis_radius * std::cos(angle) - along * std::sin(angle),
+                        axis_radius * std::sin(angle) + along * std::cos(angle), rise * node);
+  }
+  return points;
+}
+
+}  // namespace
+
+Incline::Incline(double angle, double friction)
+    : down_(std::cos(angle), 0.0, -std::sin(angle)),
+      normal_(std::sin(angle), 0.0, std::cos(angle)) {
+  constexpr double radius = 0.005;
+  const Vector3d start = radius * normal_;
+  Rods rods;
+  rods.add(straight(start, start + Vector3d(0.0, 0.2, 0.0), 10), radius, rubber(radius));
+  stepper_ = std::make_unique<Stepper>(
+      rods, elastic(standard_gravity), StepperOptions{},
+      contacts_with(environment_of(HalfSpaceShape{normal_, 0.0}), friction));
+}
+
+void Incline::run(double time) {
+  for (int i = 0; i < std::lround(time / step_length); ++i) {
+    stepper_->step(step_length);
+  }
+}
+
+double Incline::mass() const {
+  double mass = 0.0;
+  for (const double m : stepper_->rods().masses) {
+    mass += m;
+  }
+  return mass;
+}
+
+double Incline::speed() const { return momentum_of(stepper_->rods()).dot(down_) / mass(); }
+
+double Incline::weight() const { return mass() * standard_gravity; }
+
+double Incline::friction_force() const {
+  double force = 0.0;
+  for (const RodForces::ContactForce& contact : stepper_->forces().contacts) {
+    force -= contact.friction_force.dot(down_);
+  }
+  return force;
+}
+
+double Incline::normal_force() const {
+  double force = 0.0;
+  for (const RodForces::ContactForce& contact : stepper_->forces().contacts) {
+    force += contact.normal_force.dot(normal_);
+  }
+  return force;
+}
+
+double tension_ratio(const Capstan& capstan, double friction) {
+  const RodMaterial material = material_preset(capstan.material);
+  const double radius = rope_radius(material);
+  const double axis_radius = post_radius + radius;
+  constexpr double beside = 2.5;  // radii from turn to turn
+  const std::vector<Vector3d> points =
+      around_post(capstan, axis_radius, beside * radius / capstan.edges_per_turn);
+  const auto last = static_cast<std::uint32_t>(points.size()) - 1;
+  Rods rods;
+  rods.add(points, radius, solid_round_section(material, radius));
+
+  constexpr double stiffness_share = 1e-3;
+  Attachment::Hold load = pin(0, points[0] + 10.0 * (points[0] - points[1]).normalized());
+  load.max_force =
+      rods.sections[0].bending_stiffness / (stiffness_share * axis_radius * axis_radius);
+  // Drawn by a force it would run away; so the other end moves at a steady speed.
+  constexpr int steps_per_edge = 48;
+  const Vector3d edge = points[last] - points[last - 1];
+  Attachment::Hold pull = pin(last, points[last]);
+  pull.placement = [=, start = points[last]](double time) {
+    return Placement{start + time / (steps_per_edge * step_length) * edge, Vector3d::Zero(),
+                     Vector3d::Zero()};
+  };
+  Effects all = elastic();
+  all.push_back(hold(rods, {load, pull}));
+  std::vector<std::unique_ptr<ContactSource>> sources;
+  sources.push_back(std::make_unique<EnvironmentContact>(
+      environment_of(CylinderShape{post_radius, 1.0}), EnvironmentContact::Options{}));
+  Stepper stepper(
+      rods, std::move(all), StepperOptions{},
+      std::make_unique<Contacts>(std::move(sources),
+                                 std::make_unique<Friction>(Friction::Options{friction, 1e-3})));
+  double before = 0.0;
+  double beyond = 0.0;
+  constexpr int edges_before = 3;  // until all of it slides
+  for (int i = 0; i < (edges_before + 1) * steps_per_edge; ++i) {
+    stepper.step(step_length);
+    if (i >= edges_before * steps_per_edge) {
+      const RodForces forces = stepper.forces();
+      before += forces.tensions[1];
+      beyond += forces.tensions[last - 2];
+    }
+  }
+  return beyond / before;
+}
+
+}  // namespace fiber
