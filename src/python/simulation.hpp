@@ -44,7 +44,7 @@ class Simulation : public OnlyShared {
   std::string failure_;  // of a step; empty if none has failed
 };
 
-/// What a node is held by: a pin, or a clamp where it has a tangent.
+/// The hold of a node: a pin, or a clamp where it has a tangent.
 struct HoldRequest {
   Eigen::Vector3d target;                   ///< [m]
   double speed = 0.0;                       ///< [m/s] with which it goes there; 0: within a step

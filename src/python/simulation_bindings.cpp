@@ -16,7 +16,7 @@ namespace fiber::python {
 
 namespace {
 
-/// What json cannot write of a scene: numpy's arrays and numbers.
+/// Brings to json what it cannot write of a scene: numpy's arrays and numbers.
 py::object to_plain(const py::object& value) {
   refuse_masked(value, "a value of the scene");
   if (py::hasattr(value, "tolist")) {

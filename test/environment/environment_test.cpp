@@ -159,6 +159,10 @@ TEST(Environment, PointsNormalDistanceAndBoundsAgree) {
     const Capsule capsule = fibers.capsule(first);
     const Vector3d on_axis = capsule.p0 + contact.s * (capsule.p1 - capsule.p0);
     EXPECT_NEAR((contact.point_a - on_axis).norm(), capsule.radius, 1e-12);
+    const EnvironmentObject& object = objects[contact.fiber_b];
+    const PlacedShape& placed = object.shapes[contact.segment_b];
+    const Vector3d on_shape = (object.pose * placed.pose).inverse() * contact.point_b;
+    EXPECT_LE(axis_distance(placed.shape, on_shape, on_shape, infinity).distance, 1e-12);
     EXPECT_LE(contact.lower, contact.distance);
     EXPECT_LT(contact.distance, contact.upper);
     EXPECT_LT(contact.upper - contact.distance, 1e-13);

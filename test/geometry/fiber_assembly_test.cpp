@@ -35,6 +35,10 @@ TEST(FiberAssembly, KnowsItsFibersAndSegments) {
   EXPECT_EQ(fibers.segment_id(3).fiber, 1U);
   EXPECT_EQ(fibers.segment_id(3).segment, 0U);
   EXPECT_EQ(fibers.capsule(3).p1, Vector3d(1, 1, 0));
+  // The first point after a fibre that is shorter than most.
+  const FiberAssembly uneven(five_points, {0, 2, 5}, {0.1});
+  EXPECT_EQ(uneven.segment_id(2).fiber, 1U);
+  EXPECT_EQ(uneven.segment_id(2).segment, 0U);
 }
 
 TEST(FiberAssembly, OfNothingIsEmpty) {

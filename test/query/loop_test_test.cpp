@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "test/support/cables.hpp"
@@ -155,6 +156,29 @@ TEST(LoopTest, RulesOutOnlyWhatHasNoLoop) {
     }
   }
   EXPECT_GT(ruled_out, 1000U);
+}
+
+TEST(LoopTest, AThickEndHidesNoLoopOfThinSegments) {
+  Curve points;
+  std::vector<double> radii;
+  for (int i = 0; i < 50; ++i) {  // one turn and a quarter, then straight on
+    const double angle = 0.2 * std::min(i, 40);
+    points.emplace_back(0.5 * std::cos(angle), 0.5 * std::sin(angle), 0.01 * i);
+    radii.push_back(i < 48 ? 0.1 : 2.0);
+  }
+  const FiberAssembly fibers(points, {0, 50}, radii);
+  const LoopTest test(fibers);
+  const Rule rule(fibers);
+  int loops = 0;
+  for (std::uint32_t i = 0; i < 40; ++i) {
+    for (std::uint32_t j = i + 2; j < 40; ++j) {
+      const bool is_loop = rule.makes_loop(
+          {i, j}, segment_distance(points[i], points[i + 1], points[j], points[j + 1]));
+      ASSERT_FALSE(is_loop && test.rules_out(i, j)) << "segments " << i << " and " << j;
+      loops += is_loop ? 1 : 0;
+    }
+  }
+  EXPECT_GT(loops, 0);
 }
 
 TEST(LoopTest, RulesOutAllOfAStraightNoisyCableAtOnce) {
