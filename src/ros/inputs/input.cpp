@@ -78,7 +78,7 @@ std::vector<FiberMessagePtr> Input::take_placed(const FixedFrame& frame) {
   return {};
 }
 
-/// Gives back what its fibres have taken.
+/// Gives back the memory of its fibres.
 void Input::leave_out() {
   was_left_out_ = true;
   has_fibers_ = false;
@@ -131,7 +131,7 @@ bool Input::expire(const ros::Time& now, bool is_unmatched) {
   return was_fresh;
 }
 
-/// Why the fibres are stale though nobody says that they are gone: no message comes.
+/// Tells why the fibres of an input that has fallen silent are stale.
 std::string Input::silence() const {
   std::ostringstream reason;
   reason << "no new message for " << timing_.input_timeout << " s"
@@ -142,7 +142,7 @@ std::string Input::silence() const {
   return reason.str();
 }
 
-/// Why the fibres are stale though messages come: they match those of no other input.
+/// Tells why the fibres are stale of an input whose messages match those of no other input.
 std::string Input::mismatch() const {
   std::ostringstream reason;
   reason << "no stamp within " << timing_.synchronize_slop
@@ -182,7 +182,7 @@ std::optional<Unknown> Input::unknown() const {
   return unknown;
 }
 
-/// Why there have been no fibres yet.
+/// Tells why there have been no fibres yet.
 std::string Input::absence() const {
   const std::string reason = stamps_.has_placed()
                                  ? "no message that belongs to those of other inputs yet"

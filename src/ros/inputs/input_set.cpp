@@ -139,7 +139,7 @@ void InputSet::watch_time() {
   last_time_ = now;
 }
 
-/// Takes what each input has, on its own or where it belongs together.
+/// Has each input accept its placed messages: the newest, or those that belong together.
 /// @returns true if that changed the fibres
 bool InputSet::accept_placed() {
   bool changed = false;

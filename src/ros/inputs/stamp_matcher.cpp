@@ -8,7 +8,7 @@
 namespace fiber_proximity_ros {
 namespace {
 
-/// A later set must span less by this part of how much later it is.
+/// A later set is better only if it spans less by this part of the time that it is later.
 constexpr double age_penalty = 0.1;
 
 std::int64_t to_nanoseconds(const ros::Time& stamp) {
@@ -156,7 +156,7 @@ bool StampMatcher::is_optimal_whatever_comes() const {
   }
 }
 
-/// True if a set that ends and starts then is no better than the candidate.
+/// True if a set with this end and this start is no better than the candidate.
 bool StampMatcher::is_worth_no_more(Stamp end, Stamp start) const {
   return (1.0 + age_penalty) * static_cast<double>(end - candidate_->end) >=
          static_cast<double>(start - candidate_->start);
@@ -177,7 +177,7 @@ void StampMatcher::begin_again() {
   }
 }
 
-/// Makes what is to be tried now the candidate; what comes before belongs to no set any more.
+/// Makes the heads of the queues the candidate. Earlier stamps belong to no set any more.
 void StampMatcher::make_candidate(const Boundary& start, const Boundary& end) {
   candidate_->start = start.stamp;
   candidate_->end = end.stamp;
@@ -204,8 +204,8 @@ void StampMatcher::emit() {
   begin_again();
 }
 
-/// The input with the earliest stamp, of equal ones the first; and that with the latest, of equal
-/// ones the last.
+/// Finds the input with the earliest stamp, the first of equal ones, and the input with the latest,
+/// the last of equal ones.
 template <class StampOf>
 std::pair<StampMatcher::Boundary, StampMatcher::Boundary> StampMatcher::boundaries(
     const StampOf& stamp_of) const {
