@@ -43,35 +43,35 @@ add_library(fiber_proximity_mpi SHARED
   src/mpi/closest_contacts.cpp
   src/mpi/closest_of_fibers.cpp
   src/mpi/communicator.cpp
+  src/mpi/contact_search.cpp
   src/mpi/contact_sort.cpp
   src/mpi/contact_writer.cpp
-  src/mpi/work_queue.cpp
-  src/mpi/distributed_contacts.cpp
   src/mpi/distributed_engine.cpp
   src/mpi/distributed_options.cpp
   src/mpi/earliest_contacts.cpp
   src/mpi/fiber_chains.cpp
   src/mpi/fiber_name_data.cpp
-  src/mpi/fiber_pair_search.cpp
   src/mpi/fiber_name_text.cpp
+  src/mpi/fiber_pair_search.cpp
   src/mpi/fiber_reader.cpp
   src/mpi/fiber_writer.cpp
-  src/mpi/kth_smallest.cpp
   src/mpi/frame_files.cpp
   src/mpi/gather_fibers.cpp
   src/mpi/halo_exchange.cpp
-  src/mpi/send_lists.cpp
   src/mpi/hdf5_file.cpp
-  src/mpi/loop_questions.cpp
+  src/mpi/kth_smallest.cpp
+  src/mpi/load_balance.cpp
   src/mpi/local_fibers.cpp
+  src/mpi/loop_questions.cpp
+  src/mpi/motion_search.cpp
   src/mpi/ordered_pairs.cpp
+  src/mpi/owned_fibers.cpp
+  src/mpi/partial_file.cpp
   src/mpi/partition.cpp
   src/mpi/piece_boxes.cpp
-  src/mpi/rank_fibers.cpp
-  src/mpi/rank_load.cpp
-  src/mpi/motion_search.cpp
-  src/mpi/contact_search.cpp
-  src/mpi/partial_file.cpp
+  src/mpi/piece_routes.cpp
+  src/mpi/send_lists.cpp
+  src/mpi/work_queue.cpp
 )
 target_include_directories(fiber_proximity_mpi SYSTEM PRIVATE
   ${ZOLTAN_INCLUDE_FOLDER} ${PARALLEL_HDF5_INCLUDE_FOLDER})

@@ -25,3 +25,9 @@ function(fiber_proximity_tool name)
   set_target_properties(${name} PROPERTIES INSTALL_RPATH "$ORIGIN/${libraries}")
   install(TARGETS ${name} RUNTIME DESTINATION ${program_folder})
 endfunction()
+
+# What fiber_query and fiber_query_mpi have in common.
+add_library(fiber_proximity_query_tools OBJECT
+  src/tools/candidate_checker.cpp src/tools/fiber_match.cpp src/tools/query_options.cpp)
+target_link_libraries(fiber_proximity_query_tools PUBLIC fiber_proximity_command_line fiber_proximity_environment)
+fiber_proximity_compile_tool(fiber_proximity_query_tools)

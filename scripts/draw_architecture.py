@@ -39,7 +39,7 @@ def read_includes():
     """For each box: the boxes that it includes."""
     included = collections.defaultdict(set)
     for root in (ROOT / 'src', ROOT / 'include' / 'fiber_proximity'):
-        for path in root.rglob('*.?pp'):
+        for path in root.glob('*/**/*.?pp'):
             box = box_of(path.relative_to(root).parent.as_posix())
             others = {box_of(other) for other in INCLUDE.findall(path.read_text(encoding='utf-8'))}
             included[box] |= others - {box}

@@ -14,9 +14,9 @@
 #include "fiber_proximity/scenes/large_scene.hpp"
 #include "src/mpi/communicator.hpp"
 #include "src/mpi/local_fibers.hpp"
+#include "src/mpi/owned_fibers.hpp"
 #include "src/mpi/partition.hpp"
 #include "src/mpi/piece_boxes.hpp"
-#include "src/mpi/rank_fibers.hpp"
 #include "src/tools/mpi_tool.hpp"
 
 namespace fiber {
@@ -56,7 +56,7 @@ std::vector<Part> split(const LargeScene& scene, int count) {
   for (std::uint64_t fiber = 0; fiber < scene.fiber_count; ++fiber) {
     names.push_back({fiber, 0});
   }
-  RankFibers all;
+  OwnedFibers all;
   all.update(self, scene.fibers(0, scene.fiber_count, 0), names);
   std::vector<PartitionObject> objects;
   for (const FiberRun& run : all.own().runs()) {

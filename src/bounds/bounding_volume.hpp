@@ -57,7 +57,7 @@ struct RoundedCapsule {
   }
 };
 
-/// What squares below the normal range of float may err by, as their digits run out [m²].
+/// The most that squares below the normal range of float may err by, as their digits run out [m²].
 constexpr float squared_underflow = std::numeric_limits<float>::min();
 
 /// Parameters of a volume that has none.

@@ -39,7 +39,7 @@ void validate(const NamedPair& pair) {
     throw std::invalid_argument(label(pair) +
                                 ": segments must be the first and the last one, or empty");
   }
-  // Of different signs, the order depends on the fibre's length.
+  // With different signs the order depends on the fibre's length.
   if ((segments[0] < 0) == (segments[1] < 0) && segments[0] > segments[1]) {
     throw std::invalid_argument(label(pair) + ": the first segment comes after the last");
   }

@@ -103,7 +103,7 @@ void check_path(const FiberPath& path, std::size_t index) {
 /// earliest ones.
 class PathCollector {
  public:
-  /// What is reported of a contact in a step.
+  /// Reports a contact in a step.
   using Report = std::function<Contact(const MotionContact&)>;
 
   /// @param contacts is cleared
@@ -121,7 +121,7 @@ class PathCollector {
     return !has_left_out_;
   }
 
-  /// What the next step is to be asked for.
+  /// The options of the next step.
   MotionOptions options() const {
     MotionOptions options = options_;
     options.type = MotionType::ALL;
@@ -275,7 +275,7 @@ class MotionChecker {
     });
   }
 
-  /// Of the three answers, each of which has its earliest contact.
+  /// Keeps the earliest of the three answers, each of which has its own.
   static void leave_earliest(MotionCheck& check) {
     PathContacts* const answers[] = {&check.self, &check.fibers, &check.environment};
     const PathContacts* earliest = nullptr;

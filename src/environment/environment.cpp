@@ -16,7 +16,7 @@
 namespace fiber {
 namespace {
 
-/// What is reported of a segment (a) and a shape (b); which segment it is is left open.
+/// The contact of a segment (a) and a shape (b); which segment it is is left open.
 Contact contact_of(const Capsule& capsule, const WorldShape& shape, const AxisDistance& axis) {
   const Eigen::Vector3d nearest = capsule.p0 + axis.s * (capsule.p1 - capsule.p0);
   const Eigen::Vector3d away = shape.pose.linear() * axis.gradient;

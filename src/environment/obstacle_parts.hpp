@@ -8,7 +8,7 @@
 
 namespace fiber {
 
-// What an obstacle is made of, as files and messages give it. Sizes are validated later, with the
+// The parts of an obstacle, as files and messages give it. Sizes are validated later, with the
 // object.
 
 /// Names that obstacles may not have, as the node itself uses them.

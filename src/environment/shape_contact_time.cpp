@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// Of coordinates: more than all roundings of planes and distances together.
+/// A part of coordinates: more than all roundings of planes and distances together.
 constexpr double rounding_of_planes = 0x1p-45;
 
 /// Lengths of normals of sheets and columns of rotations may be off by a little, which validate()
@@ -37,8 +37,8 @@ AxisDistance distance_of_axis(const TriangleCorners& triangle, const Vector3d& p
   return {found.s, found.distance, found.distance, unit_of(between)};
 }
 
-/// What of a direction is at right angles to where the solid is straight in a plane of this normal:
-/// along its own axes, as far as they are in the plane.
+/// The part of a direction at right angles to where the solid is straight in a plane of this
+/// normal: along its own axes, as far as they are in the plane.
 template <class Solid>
 Vector3d off_straight(const Solid& /*solid*/, const Vector3d& normal, const Vector3d& direction) {
   Vector3d off = direction;
@@ -48,7 +48,7 @@ Vector3d off_straight(const Solid& /*solid*/, const Vector3d& normal, const Vect
   return off;
 }
 
-/// The same of a triangle: along the edge that is in the plane, nearly.
+/// For a triangle this is along the edge that is in the plane, nearly.
 Vector3d off_straight(const TriangleCorners& triangle, const Vector3d& normal,
                       const Vector3d& direction) {
   constexpr double nearly = 1e-6;
@@ -103,7 +103,7 @@ class SeparatingPlane {
     return time;
   }
 
-  /// The same of one that turns with the axis, and moves along as the solid needs it: for the most
+  /// Bounds a plane that turns with the axis, and moves along as the solid needs it: for the most
   /// of the time, a quarter of it, a sixteenth, … that is proven to be free, if it is more than
   /// `least`.
   double turning_separates_for(double most, double least) const {
@@ -258,7 +258,7 @@ class SolidAdvance {
   double speed_ = 0.0;      // [m] in all of the motion, of the faster end
 };
 
-/// Of several solids: that of the first one, certain if one of them is.
+/// The time of several solids is that of the first one, certain if one of them is.
 void combine(const ContactTime& time, ContactTime& first) {
   if (!time.hit) {
     return;
@@ -334,7 +334,7 @@ class MovingAxis {
   const double tolerance_;  // [m]
   double error_ = 0.0;      // [m]
   WorldBox box_;            // around the difference of the axis [m]
-  // What separates the axis from one triangle often does so from the next ones.
+  // A plane that separates the axis from one triangle often does so from the next ones.
   mutable Vector3d guess_ = Vector3d::Zero();
 };
 

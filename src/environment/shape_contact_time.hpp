@@ -25,7 +25,7 @@ struct AxisLimit {
 /// `lower`; the distance is at most limit and tolerance at `upper`, and where it is `certain`, at
 /// most the limit.
 ///
-/// Of a closed mesh only the surface is looked at: an axis that is inside from the beginning is in
+/// A closed mesh counts by its surface alone: an axis that is inside from the beginning is in
 /// contact then, which is for the caller to see.
 ///
 /// Conservative advancement: a plane between the axis and a convex solid that all of the solid is

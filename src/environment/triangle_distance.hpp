@@ -6,7 +6,7 @@
 
 namespace fiber {
 
-/// What of a triangle is nearest: its inside, edge i from corner i to the next one, or corner i.
+/// The nearest part of a triangle: its inside, edge i from corner i to the next one, or corner i.
 struct TriangleFeature {
   enum class Kind { FACE, EDGE, CORNER };
   Kind kind = Kind::FACE;

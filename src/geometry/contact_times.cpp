@@ -165,7 +165,8 @@ namespace {
 using WideMotion = SegmentMotion<DoubleDouble>;
 using WideState = Advancement<DoubleDouble>::State;
 
-/// Of coordinates and limit: as those of double, with numbers that err by 2⁻¹⁰² instead of 2⁻⁵³.
+/// A part of coordinates and limit, as those of double are, with numbers that err by 2⁻¹⁰² instead
+/// of 2⁻⁵³.
 constexpr double wide_roundings = 0x1p-94;
 
 using WideVector = NumberVector<DoubleDouble>;

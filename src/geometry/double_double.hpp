@@ -69,7 +69,7 @@ inline DoubleDouble operator/(DoubleDouble a, DoubleDouble b) {
   return exact_ordered_sum(first, second) + DoubleDouble(last.high / b.high);
 }
 
-/// Of a number above 0.
+/// Square root of a number above 0.
 inline DoubleDouble root(DoubleDouble a) {
   const double first = std::sqrt(a.high);
   const DoubleDouble rest = a - exact_product(first, first);

@@ -37,7 +37,7 @@ Integer scaled_integer(double value, int exponent);
 /// The least exponent of the last bits of all coordinates; the largest int if all are 0.
 int last_bit(std::initializer_list<Eigen::Vector3d> vectors);
 
-/// The same as scaled_integer() by coordinate.
+/// Scales each coordinate as scaled_integer() does.
 IntegerVector scaled_integers(const Eigen::Vector3d& vector, int exponent);
 
 /// A double and whether it is exact.

@@ -25,7 +25,7 @@ using MotionTag = LaneNumber::Tag;
 
 constexpr std::size_t max_motion_lanes = hn::MaxLanes(MotionTag());
 
-/// What is computed in double errs by less than this part of coordinates and limit
+/// Results in double err by less than this part of coordinates and limit
 /// (docs/numerics.md).
 constexpr double motion_roundings = 0x1p-46;
 
@@ -65,7 +65,7 @@ HWY_INLINE MotionLook<LaneNumber> look_in_lanes(const Parallelogram<LaneNumber>&
   return look_at(now, rate, LaneNumber(nearest.s), LaneNumber(nearest.t), limit, error);
 }
 
-/// What is looked at more closely, a pair a lane: coordinate by coordinate, then lane.
+/// Pairs that are followed one by one, a pair a lane: coordinate by coordinate, then lane.
 class alignas(64) LaneMotions {
  public:
   void set(std::size_t lane, const SegmentMotion<double>& motion) {
@@ -179,13 +179,13 @@ class FirstLook {
     hn::Store(look.distance.lanes, d, distance_);
     hn::Store(look.closing.lanes, d, closing_);
     hn::Store(look.free.lanes, d, free_);
-    // Of two points of the segments, whichever they are: their distance is hardly rounded.
+    // The distance of two points of the segments is hardly rounded, whichever they are.
     const auto is_touching = look.distance + error < limit - error;
     const auto never_touches = hn::Or(is_apart, LaneNumber(1.0) < look.free);
     return {bits_of(is_touching), bits_of(hn::Not(hn::Or(never_touches, is_touching)))};
   }
 
-  /// What has been seen of a pair that is to be looked at more closely.
+  /// A first look at a pair that must be followed.
   MotionLook<double> look_of(std::size_t lane) const {
     return {distance_[lane], closing_[lane], free_[lane]};
   }

@@ -58,7 +58,7 @@ HWY_INLINE LaneNumber choose(LaneNumber::Mask condition, LaneNumber yes, LaneNum
   return LaneNumber(hn::IfThenElse(condition, yes.lanes, no.lanes));
 }
 
-// The same of numbers that stand alone.
+// These are their counterparts for numbers that stand alone.
 inline double root_of(double a) { return std::sqrt(a); }
 inline DoubleDouble root_of(DoubleDouble a) { return a.high == 0.0 ? a : root(a); }
 inline bool both(bool a, bool b) { return a && b; }
@@ -160,7 +160,7 @@ HWY_INLINE Parallelogram<Number> moved(const Parallelogram<Number>& start,
   return now;
 }
 
-/// What is seen of two moving segments at one time.
+/// Two moving segments as they are at one time.
 template <class Number>
 struct MotionLook {
   Number distance;  ///< [m] of the two points
@@ -180,7 +180,7 @@ HWY_INLINE Number first_root(const Number& a, const Number& b) {
   return choose(both(zero < a, zero < result), result, zero);
 }
 
-/// The same of a + b·h + c·h².
+/// The first root of a + b·h + c·h², likewise.
 template <class Number>
 HWY_INLINE Number first_root(const Number& a, const Number& b, const Number& c) {
   const Number zero(0.0);
@@ -215,7 +215,7 @@ HWY_INLINE TurningPlane<Number> plane_between(const Parallelogram<Number>& now,
                                               const NumberVector<Number>& nearest) {
   const Number zero(0.0);
   const Number one(1.0);
-  // Of lines at smaller angles than this, the cross product is not as good as what is nearest.
+  // At smaller angles than this the nearest points serve better than the cross product.
   const Number min_sine_squared(1e-6);
   const NumberVector<Number> u = now.along_a();
   const NumberVector<Number> v = now.along_b();

@@ -15,7 +15,7 @@ struct PerturbedPoint {
   std::optional<std::uint32_t> id;
 };
 
-/// What decides the sign of a polynomial in infinitesimal perturbations.
+/// The term that decides the sign of a polynomial in infinitesimal perturbations.
 struct LeadingTerm {
   Integer coefficient = 0;  ///< not 0
   /// The perturbations it has as factors, the smallest first, then 0s: 1 + 3 id + axis.

@@ -24,7 +24,7 @@ namespace HWY_NAMESPACE {
 /// Than all corners in the units that they are computed in, and no infinity.
 constexpr double longest_limit = 0x1p1000;
 
-/// What lengths are multiplied with, a power of two: 1 where fourth powers of the largest
+/// The factor of all lengths, a power of two: 1 where fourth powers of the largest
 /// coordinate stay in the range of double.
 inline double scale_of(double largest) {
   if (largest == 0.0 || (largest > min_distance_scale && largest < largest_distance_scale)) {
@@ -34,7 +34,7 @@ inline double scale_of(double largest) {
   return std::ldexp(1.0, std::min(-std::ilogb(largest), largest_exponent));
 }
 
-/// What contact_time() is asked, in numbers of this kind. Lengths are in metres, or where fourth
+/// The question to contact_time(), in numbers of this kind. Lengths are in metres, or where fourth
 /// powers of these leave the range of double, in a power of two of them.
 template <class Number>
 class SegmentMotion {
@@ -168,7 +168,7 @@ class Advancement {
   double time() const { return time_; }
   const ContactTime& result() const { return result_; }
 
-  /// What is seen at time().
+  /// Takes a look at the pair at time().
   void take(const SegmentMotion<Number>& motion, const MotionLook<Number>& look) {
     const Number upper = look.distance + motion.error;
     const bool is_contact = !(motion.limit < upper);

@@ -24,7 +24,7 @@ Eigen::Vector3d drift_of(const FiberAssembly& before, const FiberAssembly& after
   constexpr std::size_t sample = 512;
   const std::size_t step = before.point_count() / sample + 1;
   const std::size_t count = (before.point_count() + step - 1) / step;
-  // Of each its part: the sum of all could leave the range of double.
+  // Each adds its part: the sum of all could leave the range of double.
   const double part = 1.0 / static_cast<double>(std::max<std::size_t>(count, 1));
   Eigen::Vector3d drift = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < before.point_count(); i += step) {

@@ -21,7 +21,7 @@ Eigen::Vector3d drift_of(const FiberAssembly& before, const FiberAssembly& after
 /// Fibres that hold all that others come by while each of their points moves linearly: each segment
 /// where it is halfway, thicker by half the way of its ends.
 ///
-/// What all points have in common, the drift, is taken out of the ways: it brings no two segments
+/// The drift, common to all points, is taken out of the ways: it brings no two segments
 /// nearer. Between two segments the true gap at any time is at least that of the swept ones.
 class SweptFibers {
  public:
@@ -30,7 +30,7 @@ class SweptFibers {
   ///         what there was is lost then
   void update(const FiberAssembly& before, const FiberAssembly& after);
 
-  /// The same of a shape that is looked for among fibres with this drift [m].
+  /// Sweeps a shape that is compared with fibres of this drift [m].
   void update(const FiberAssembly& before, const FiberAssembly& after,
               const Eigen::Vector3d& drift);
 

@@ -35,7 +35,7 @@ struct Dot {
   bool is_surely_positive() const { return value > 8.0 * half_ulp * magnitude; }
 };
 
-/// Of two end points that are `offset` apart: nearest if the distance grows along both segments.
+/// Two end points that are `offset` apart are nearest if the distance grows along both segments.
 /// @param u, v from these ends to the others'
 std::optional<WideDistance> between_ends(const DoubleDoubleVector& offset, const Vector3d& u,
                                          const Vector3d& v) {
@@ -47,7 +47,7 @@ std::optional<WideDistance> between_ends(const DoubleDoubleVector& offset, const
   return WideDistance{root(dot(offset, offset)), 0x1p-98};
 }
 
-/// Of an end point and a line: nearest if its foot is inside the segment and the distance grows
+/// An end point and a line are nearest if its foot is inside the segment and the distance grows
 /// along the segment the end is of.
 /// @param offset from the line's start to the end point
 /// @param line   the segment the foot is on
@@ -75,7 +75,7 @@ std::optional<WideDistance> to_line(const DoubleDoubleVector& offset,
   return WideDistance{distance, 0x1p-98 * (1.0 + o.norm() / distance.high)};
 }
 
-/// Of two lines: nearest if both feet are inside.
+/// Points of two lines are nearest if both feet are inside.
 /// @param w from the start of v to the start of u
 std::optional<WideDistance> between_lines(const DoubleDoubleVector& u, const DoubleDoubleVector& v,
                                           const DoubleDoubleVector& w) {
@@ -137,7 +137,7 @@ bool is_in_range(const SegmentDistance& robust, const Vector3d& u, const Vector3
 const DoubleDouble zero(0.0);
 const DoubleDouble one(1.0);
 
-/// Of coordinates and limit: all that is computed here errs by less (docs/numerics.md).
+/// A part of coordinates and limit: all results here err by less (docs/numerics.md).
 constexpr double roundings = 0x1p-94;
 
 /// A parameter of a segment: from 0 to 1, also where the quotient is not a number.
@@ -154,7 +154,7 @@ struct WideNearest {
   DoubleDoubleVector normal;
 };
 
-/// Of the points that are nearest if the robust ones are of the right kind: ends, or insides.
+/// The points that are nearest if the robust ones are of the right kind: ends, or insides.
 /// @param corners [i][j] from end j of q to end i of p
 WideNearest wide_nearest_of(const SegmentDistance& robust,
                             const DoubleDoubleVector (&corners)[2][2], const DoubleDoubleVector& u,
@@ -244,7 +244,7 @@ SegmentDistance rounded_segment_distance(const SegmentDistance& robust, const Ve
 
 bool gap_at_most(const SegmentDistance& robust, const Vector3d& p0, const Vector3d& p1,
                  const Vector3d& q0, const Vector3d& q1, const ContactLimit& limit) {
-  // What is proven of the robust distance, and the rounding of sum and difference here.
+  // The proven error of the robust distance, and the rounding of sum and difference here.
   const double error = proven_robust_error_per_error * robust.error + 0x1p-50 * limit.parts() +
                        std::numeric_limits<double>::min();
   const double gap = robust.distance - limit.sum();

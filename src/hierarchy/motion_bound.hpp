@@ -14,7 +14,7 @@ class MotionBound {
   /// From now on, motion is measured from here.
   void start(const FiberAssembly& fibers);
 
-  /// The same of one fibre alone, of the topology and radii of start().
+  /// Measures one fibre from here from now on, of the topology and radii of start().
   void restart(const FiberAssembly& fibers, std::uint32_t fiber);
 
   /// Measures how far every fibre has moved. The topology must be that of start().
@@ -22,7 +22,7 @@ class MotionBound {
   /// move no further than its ends. Infinite if radii have changed.
   double measure(const FiberAssembly& fibers);
 
-  /// [m] The same of each fibre, as measured last; not set if radii have changed.
+  /// [m] How far each fibre has moved, as measured last; not set if radii have changed.
   const std::vector<double>& by_fiber() const { return by_fiber_; }
 
   std::size_t memory_bytes() const;

@@ -1,4 +1,4 @@
-// What a traversal compares boxes with. Included once per instruction set, so it has the guard that
+// A group as traversals compare it. Included once per instruction set, so it has the guard that
 // Highway asks for instead of #pragma once.
 #if defined(FIBER_PROBE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef FIBER_PROBE_INL

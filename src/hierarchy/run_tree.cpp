@@ -137,7 +137,7 @@ void RunTree::sort(const FiberAssembly& fibers) {
   sorted_looseness_ = looseness(fibers);
 }
 
-/// Of what is in the order of the curve: they stay while boxes are refitted.
+/// The least points follow the order of the curve: they stay while boxes are refitted.
 void RunTree::find_min_points() {
   const std::vector<std::uint32_t>* below = &first_points_;
   for (std::vector<std::uint32_t>& level : min_points_) {

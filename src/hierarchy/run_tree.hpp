@@ -30,7 +30,7 @@ class FIBER_PROXIMITY_EXPORT RunTree {
 
   void build(const TreeFibers& fibers);
 
-  /// The same of some segments only.
+  /// Builds a tree of some segments only.
   /// @param first_points of the segments, all different
   void build(const TreeFibers& fibers, const std::vector<std::uint32_t>& first_points);
 

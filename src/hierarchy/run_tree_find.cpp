@@ -64,9 +64,9 @@ class Finder {
 
   static constexpr auto none = static_cast<std::uint32_t>(-1);
 
-  /// Of a tree with itself, the group with itself; of another one, where nothing is known yet of
-  /// how near it is, its nearest group, the nearest run of that first: descend() finds the bound
-  /// smaller.
+  /// In a tree with itself this is the group with itself; in another one, where nothing is known
+  /// yet of how near it is, its nearest group, the nearest run of that first: descend() finds the
+  /// bound smaller.
   bool visit_near_ones() {
     if (self_) {
       visited_ = group_;
@@ -162,7 +162,7 @@ class Finder {
       // Those next along the curve, which are near, are popped first.
       while (bits != 0) {
         const std::uint32_t child = node.index * run_width + take_highest(bits);
-        // Of a tree with itself, each pair of groups once: later ones only.
+        // A tree with itself has each pair of groups once: later ones only.
         const std::uint64_t groups_end = std::uint64_t{child + 1} << (3U * (node.level - 1));
         if (!self_ || groups_end > group_ + 1) {
           stack[size++] = {node.level - 1, child};
@@ -181,7 +181,7 @@ class Finder {
     }
     chosen &= children(runs, h);
     for (std::uint32_t run = 0; run < probe_.run_count(); ++run) {
-      // Of a group with itself: a run with itself, and with those after it.
+      // A group with itself: a run with itself, and with those after it.
       const std::uint32_t wanted = same ? chosen & ~first_bits(run) : chosen;
       std::uint32_t bits = wanted & overlapping(runs.boxes[h], probe_.runs(), run);
       count(bits);
@@ -222,7 +222,7 @@ class Finder {
     const bool same = self_ && a == b;
     while (rows != 0) {
       const std::uint32_t i = take_lowest(rows);
-      // Of a run with itself: each segment with those after it.
+      // A run with itself: each segment with those after it.
       const std::uint32_t wanted = same ? columns & ~first_bits(i + 1) : columns;
       std::uint32_t bits = wanted & overlapping(boxes, probe_.segments(run), i);
       if (bits != 0 && self_) {

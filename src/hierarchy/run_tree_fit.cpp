@@ -106,7 +106,7 @@ struct SingleBox {
   }
 };
 
-/// Of no segments.
+/// The box of no segments.
 HWY_INLINE SingleBox empty_box() {
   const auto infinity = hn::Set(Floats(), std::numeric_limits<float>::infinity());
   const LaneVector infinities{infinity, infinity, infinity};
@@ -158,7 +158,7 @@ class GroupReader {
       if (i % run_width == 0) {
         prefetch(fibers_, first_points_, segment_count_, first + i + ahead);
       }
-      // Of the last group's last run, lanes without a segment repeat the last.
+      // Lanes of the last run without a segment repeat the last segment.
       const std::uint32_t point = first_points_[std::min(first + i, segment_count_ - 1)];
       const double* const coordinates = fibers_.points()[point].data();
       make_relative(coordinates, origin_.first, points_.first_halves[i]);
@@ -205,7 +205,7 @@ void fit_run(const GroupReader& group, std::uint32_t first, Run& run, BoxBlock& 
   box.store(boxes, lane);
 }
 
-/// The same of segments that move: halfway, thicker by as much as their ends leave the displacement
+/// Fits segments that move: halfway, thicker by as much as their ends leave the displacement
 /// of their middle, which goes into the displacements.
 ///
 /// Rounded, both states are off by u of the largest coordinate M, u = 2⁻²⁴; halfway is off by 2

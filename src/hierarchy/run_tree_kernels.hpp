@@ -43,18 +43,18 @@ struct RunTreeLevel {
   std::uint32_t node_count;
   std::uint32_t child_count;  ///< of all nodes of the level
 
-  /// Of the children, by node: the least of their segments' first points. Lanes without a child
+  /// The least first point of the segments of each child, by node. Lanes without a child
   /// have the largest number there is.
   const std::uint32_t* min_points;
 };
 
-/// What the kernels see of a tree.
+/// A tree as the kernels read it.
 struct RunTreeView {
   static constexpr std::uint32_t max_levels = 11;  // 8^11 runs are more than there can be
 
   const Run* runs = nullptr;
   const RunDisplacement* displacements = nullptr;  ///< of the runs; none where nothing moves
-  /// Of the segments, along the curve; lanes without a segment repeat the last.
+  /// First points of segments, along the curve; lanes without a segment repeat the last.
   const std::uint32_t* first_points = nullptr;
   std::uint32_t segment_count = 0;
   RunTreeLevel levels[max_levels] = {};
@@ -91,7 +91,7 @@ struct KeyBound {
   }
 };
 
-/// What a tree is fitted to: fibres where they are, or with each point moving linearly from there
+/// A tree is fitted to these: fibres where they are, or with each point moving linearly from there
 /// to where it is after. All is relative to an origin [m], which may move as well: what moves along
 /// with it stands still.
 struct TreeFibers {
@@ -108,7 +108,7 @@ struct TreeFibers {
   bool moves = false;
 };
 
-/// What receives the candidates of a traversal.
+/// Receives the candidates of a traversal.
 class PairSink {
  public:
   virtual ~PairSink() = default;

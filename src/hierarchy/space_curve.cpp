@@ -41,7 +41,7 @@ HWY_INLINE Word spread_bits(Word bits) {
   return hn::And(hn::Or(bits, hn::ShiftLeft<2>(bits)), hn::Set(d, 0x09249249U));
 }
 
-/// What a bit of x decides about the bits below: x and the first axis swap them where it is 0, the
+/// A bit of x decides about the bits below: x and the first axis swap them where it is 0, the
 /// first axis inverts them where it is 1.
 HWY_INLINE void turn(Word& first, Word& x, std::uint32_t bit) {
   const Words d;

@@ -15,7 +15,7 @@ struct CsvColumns {
 
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
-  /// What is expected, as an error says it.
+  /// Names the expected columns, as an error does.
   static constexpr const char* rule =
       "expected the columns x, y, z and, where there are any, frame, fiber, radius (or a name that "
       "ends in .hair)";

@@ -130,7 +130,7 @@ class CsvReader {
     }
   }
 
-  /// Of columns that are not read.
+  /// The note that names columns that are not read.
   std::string note_of_others() const {
     constexpr std::size_t max_names = 5;
     const std::vector<std::string>& others = columns_->others;

@@ -22,7 +22,7 @@ inline std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-/// What separates the values of a line: one of these letters, a blank for any number of blanks.
+/// The separator of the values of a line: one of these letters, a blank for any number of blanks.
 constexpr std::string_view separators = ",;\t ";
 
 /// Values of a line of CSV (RFC 4180): without the blanks around them, or quoted, whatever is in

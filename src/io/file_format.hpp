@@ -18,13 +18,13 @@ enum class FileFormat {
   OTHER,  ///< that is neither read nor written
 };
 
-/// What a file's name means by its end, in capitals or not; nothing by most ends, and by none.
+/// The format that a name means by its end, in capitals or not; nothing by most ends, and by none.
 FIBER_PROXIMITY_EXPORT std::optional<FileFormat> format_meant(const std::string& path);
 
 /// The same; CSV where it means nothing.
 FIBER_PROXIMITY_EXPORT FileFormat format_of(const std::string& path);
 
-/// What a file is that has a name of CSV, by its first bytes, for an error; "" if they are none
+/// The format of a file with a name of CSV, by its first bytes, for an error; "" if they are none
 /// that are known.
 std::string format_of_content(std::string_view begin);
 

@@ -58,7 +58,7 @@ class FrameBuilder {
 
   std::string scattered_;
 
-  // Of the frame before.
+  // These are of the frame before.
   std::vector<std::uint32_t> names_before_;
   FiberNames fiber_names_;
 };

@@ -11,7 +11,7 @@ static_assert(boost::endian::order::native == boost::endian::order::little);
 
 constexpr char signature[] = {'H', 'A', 'I', 'R'};
 
-/// What follows the signature.
+/// The header after the signature.
 struct Header {
   std::uint32_t strands = 0;
   std::uint32_t points = 0;

@@ -61,7 +61,7 @@ std::optional<double> parse_double(std::string_view text, bool is_hex) {
   const NumbersOfC numbers;
   const std::size_t sign = !text.empty() && text[0] == '-' ? 1 : 0;
   std::string number(text.substr(sign));
-  // What strtod reads beyond what is a number here: signs, blanks, 0x.
+  // strtod reads more than what is a number here: signs, blanks, 0x.
   if (number.empty() || number.find_first_of("+- \t\n\v\f\r") == 0 ||
       (number.size() > 1 && (number[1] == 'x' || number[1] == 'X'))) {
     return std::nullopt;

@@ -19,7 +19,7 @@ FIBER_PROXIMITY_EXPORT void append_double(std::string& text, double value);
 /// without 0x. Without a plus sign or blanks. Nothing if it is no number or lies outside the range.
 FIBER_PROXIMITY_EXPORT std::optional<double> parse_double(std::string_view text, bool is_hex);
 
-/// The same two by the C library: for a standard library that has them for integers only, as that
+/// Both functions by the C library: for a standard library that has them for integers only, as that
 /// of GCC 9 and 10.
 namespace by_c_library {
 FIBER_PROXIMITY_EXPORT void append_double(std::string& text, double value);
@@ -67,7 +67,7 @@ std::optional<Number> parse_number(std::string_view text) {
   }
 }
 
-/// The same of a decimal number or a C hexadecimal one, such as -0x1.8p-3.
+/// Parses a decimal number or a C hexadecimal one, such as -0x1.8p-3.
 inline std::optional<double> parse_decimal_or_hex(std::string_view text) {
   const bool signs = !text.empty() && (text[0] == '-' || text[0] == '+');
   std::string_view digits = text.substr(signs ? 1 : 0);

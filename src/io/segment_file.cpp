@@ -16,7 +16,7 @@
 namespace fiber {
 namespace {
 
-/// What a row of a file of points is made of.
+/// The parts of a row of a file of points.
 struct RowFormat {
   /// Columns before the coordinates, as errors call them.
   std::vector<const char*> names;
@@ -42,7 +42,7 @@ void append_parts(std::string_view field, std::vector<std::string_view>& parts) 
   } while (!field.empty());
 }
 
-/// What separates the values of a row, beside blanks: the first that stands in no quotes.
+/// The separator of the values of a row, beside blanks: the first that stands in no quotes.
 char separator_in(std::string_view row) {
   bool is_quoted = false;
   for (const char letter : row) {
@@ -80,7 +80,7 @@ class CoordinateRows {
     return found;
   }
 
-  /// What is in a column of names; empty where the row has none.
+  /// The text of a column of names; empty where the row has none.
   std::string_view name(std::size_t index) const {
     return index < name_count_ ? fields_[index] : std::string_view();
   }

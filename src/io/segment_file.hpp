@@ -26,7 +26,7 @@ struct SegmentPair {
 /// @throws FileError naming line, column, value and what is allowed
 FIBER_PROXIMITY_EXPORT std::vector<SegmentPair> read_segment_pairs(const std::string& path);
 
-/// The same from a stream; errors call it by `name`.
+/// Reads them from a stream; errors call it by `name`.
 FIBER_PROXIMITY_EXPORT std::vector<SegmentPair> read_segment_pairs(std::istream& stream,
                                                                    const std::string& name);
 
@@ -49,7 +49,7 @@ struct MovingSegmentPair {
 /// @throws FileError naming line, column, value and what is allowed
 FIBER_PROXIMITY_EXPORT std::vector<MovingSegmentPair> read_segment_motions(const std::string& path);
 
-/// The same from a stream; errors call it by `name`.
+/// Reads them from a stream; errors call it by `name`.
 FIBER_PROXIMITY_EXPORT std::vector<MovingSegmentPair> read_segment_motions(std::istream& stream,
                                                                            const std::string& name);
 

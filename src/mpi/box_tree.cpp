@@ -6,27 +6,27 @@
 namespace fiber {
 namespace {
 
-constexpr float largest = std::numeric_limits<float>::max();
+constexpr float max_float = std::numeric_limits<float>::max();
 
-// What comes off one bound and onto the other: more than the roundings of the number as it is seen
-// from the origin, and once it is single.
-float room_of(float bound) {
+// Outward margin of a bound: more than it is rounded by when it is taken from the origin and when
+// it becomes a float.
+float outward_margin(float bound) {
   return 0x1p-22F * std::abs(bound) + std::numeric_limits<float>::min();
 }
 
-double centre(const PlainBox& box, std::size_t axis) {
-  return 0.5 * box.lower[axis] + 0.5 * box.upper[axis];
+double centre(const Box3d& box, std::size_t axis) {
+  return 0.5 * box.min()[axis] + 0.5 * box.max()[axis];
 }
 
-std::size_t longest_axis(const std::vector<PlainBox>& boxes, const std::uint32_t* begin,
+std::size_t longest_axis(const std::vector<Box3d>& boxes, const std::uint32_t* begin,
                          const std::uint32_t* end) {
-  PlainBox all = boxes[*begin];
+  Box3d all = boxes[*begin];
   for (const std::uint32_t* number = begin; number != end; ++number) {
-    all = merged(all, boxes[*number]);
+    all.extend(boxes[*number]);
   }
   std::size_t longest = 0;
   for (std::size_t axis = 1; axis < 3; ++axis) {
-    if (all.upper[axis] - all.lower[axis] > all.upper[longest] - all.lower[longest]) {
+    if (all.sizes()[axis] > all.sizes()[longest]) {
       longest = axis;
     }
   }
@@ -35,7 +35,7 @@ std::size_t longest_axis(const std::vector<PlainBox>& boxes, const std::uint32_t
 
 }  // namespace
 
-std::vector<std::uint32_t> spatial_order(const std::vector<PlainBox>& boxes) {
+std::vector<std::uint32_t> spatial_order(const std::vector<Box3d>& boxes) {
   std::vector<std::uint32_t> numbers(boxes.size());
   std::iota(numbers.begin(), numbers.end(), 0U);
   struct Range {
@@ -69,7 +69,7 @@ std::vector<std::uint32_t> spatial_order(const std::vector<PlainBox>& boxes) {
   return numbers;
 }
 
-BoxTree::BoxTree(std::size_t count, const PlainBox& around) : boxes_(count) {
+BoxTree::BoxTree(std::size_t count, const Box3d& around) : boxes_(count) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     // Boxes that single precision cannot tell apart are around everything.
     const double middle = centre(around, axis);
@@ -84,31 +84,30 @@ BoxTree::BoxTree(std::size_t count, const PlainBox& around) : boxes_(count) {
   nodes_.resize(begin);
 }
 
-BoxTree::BoxTree(const std::vector<PlainBox>& boxes)
-    : BoxTree(boxes.size(), boxes.empty() ? PlainBox() : union_of(boxes)) {
+BoxTree::BoxTree(const std::vector<Box3d>& boxes) : BoxTree(boxes.size(), union_of(boxes)) {
   for (std::uint32_t place = 0; place < boxes.size(); ++place) {
     put(place, boxes[place]);
   }
   close();
 }
 
-BoxTree::Box BoxTree::seen_from_origin(const PlainBox& box) const {
+BoxTree::Box BoxTree::seen_from_origin(const Box3d& box) const {
   Box seen;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto lower = static_cast<float>(box.lower[axis] - origin_[axis]);
-    const auto upper = static_cast<float>(box.upper[axis] - origin_[axis]);
+    const auto lower = static_cast<float>(box.min()[axis] - origin_[axis]);
+    const auto upper = static_cast<float>(box.max()[axis] - origin_[axis]);
     seen.lower[axis] =
-        std::min(lower, largest) - room_of(lower);  // what overflows is on the safe side
-    seen.upper[axis] = std::max(upper, -largest) + room_of(upper);
+        std::min(lower, max_float) - outward_margin(lower);  // what overflows is on the safe side
+    seen.upper[axis] = std::max(upper, -max_float) + outward_margin(upper);
   }
   return seen;
 }
 
-PlainBox BoxTree::absolute(const Box& box) const {
-  PlainBox all;
+Box3d BoxTree::absolute(const Box& box) const {
+  Box3d all;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    all.lower[axis] = origin_[axis] + double{box.lower[axis]};
-    all.upper[axis] = origin_[axis] + double{box.upper[axis]};
+    all.min()[axis] = origin_[axis] + double{box.lower[axis]};
+    all.max()[axis] = origin_[axis] + double{box.upper[axis]};
   }
   return all;
 }
@@ -119,19 +118,19 @@ void BoxTree::close() {
     for (std::size_t i = 0; i < count_at(level); ++i) {
       Box all = node(level - 1, fan * i);
       for (std::size_t child = fan * i + 1; child < std::min(fan * i + fan, below); ++child) {
-        all = merged(all, node(level - 1, child));
+        all = all.merged(node(level - 1, child));
       }
       nodes_[begins_[level - 1] + i] = all;
     }
   }
 }
 
-std::vector<PlainBox> BoxTree::level_of_at_most(std::size_t count) const {
+std::vector<Box3d> BoxTree::level_of_at_most(std::size_t count) const {
   std::size_t level = 0;
   while (count_at(level) > count) {
     ++level;
   }
-  std::vector<PlainBox> boxes;
+  std::vector<Box3d> boxes;
   for (std::size_t i = 0; i < count_at(level); ++i) {
     boxes.push_back(absolute(node(level, i)));
   }
@@ -145,7 +144,7 @@ void BoxTree::append_meeting(const Box& box, const Visit& visit,
   std::size_t end = visit.end;
   for (std::size_t i = visit.begin; i < visit.end; ++i) {
     places[end] = places[i];  // without a branch
-    end += meet(node(visit.level_of_others, places[i]), box) ? 1 : 0;
+    end += node(visit.level_of_others, places[i]).intersects(box) ? 1 : 0;
   }
   places.resize(end);
 }
@@ -162,7 +161,7 @@ void BoxTree::append_children(const Box& box, std::size_t level, std::size_t beg
     const std::size_t first = fan * std::size_t{places[i]};
     for (std::size_t child = first; child < std::min(first + fan, count); ++child) {
       places[end] = static_cast<std::uint32_t>(child);
-      end += meet(node(level - 1, child), box) ? 1 : 0;
+      end += node(level - 1, child).intersects(box) ? 1 : 0;
     }
   }
   places.resize(end);

@@ -1,66 +1,51 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <vector>
 
 #include "src/mpi/fiber_runs.hpp"
 
 namespace fiber {
 
-/// An axis-aligned box that travels [m].
-struct PlainBox {
-  PlainPoint lower{};
-  PlainPoint upper{};
-};
+/// An axis-aligned box [m].
+using Box3d = Eigen::AlignedBox3d;
+
+/// It owns nothing, though Eigen writes its destructor out.
+template <>
+inline constexpr bool is_sendable<Box3d> = true;
 
 /// Larger on all sides by a length [m], and by the roundings of distances to what is in it: four
 /// times what NarrowPhase::gap_lower_bound() allows for.
-inline PlainBox inflated(const PlainBox& box, double length) {
+inline Box3d inflated(const Box3d& box, double length) {
   double by = length;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    by = std::max(by, length + 0x1p-46 * (box.upper[axis] - box.lower[axis] + length));
+    by = std::max(by, length + 0x1p-46 * (box.max()[axis] - box.min()[axis] + length));
   }
-  PlainBox larger;
+  Box3d larger;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    larger.lower[axis] = box.lower[axis] - (by + 0x1p-51 * std::abs(box.lower[axis]));
-    larger.upper[axis] = box.upper[axis] + (by + 0x1p-51 * std::abs(box.upper[axis]));
+    larger.min()[axis] = box.min()[axis] - (by + 0x1p-51 * std::abs(box.min()[axis]));
+    larger.max()[axis] = box.max()[axis] + (by + 0x1p-51 * std::abs(box.max()[axis]));
   }
   return larger;
 }
 
-template <class Box>
-Box merged(const Box& a, const Box& b) {
-  Box box;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    box.lower[axis] = std::min(a.lower[axis], b.lower[axis]);
-    box.upper[axis] = std::max(a.upper[axis], b.upper[axis]);
+/// Whether capsules in the two boxes may be, or be found, as near as the margin [m].
+inline bool may_come_within(const Box3d& a, const Box3d& b, double margin) {
+  return inflated(a, margin).intersects(b);
+}
+
+/// The box around all of these; empty without any.
+inline Box3d union_of(const std::vector<Box3d>& boxes) {
+  Box3d all;
+  for (const Box3d& box : boxes) {
+    all.extend(box);
   }
-  return box;
-}
-
-template <class Box>
-bool meet(const Box& a, const Box& b) {
-  unsigned do_meet = 1U;
-  for (std::size_t axis = 0; axis < 3; ++axis) {  // without branches: no one foresees them
-    do_meet &= static_cast<unsigned>(a.lower[axis] <= b.upper[axis]) &
-               static_cast<unsigned>(b.lower[axis] <= a.upper[axis]);
-  }
-  return do_meet != 0U;
-}
-
-/// Whether capsules in the two boxes may be as near as the margin [m], or be found so near.
-inline bool may_come_within(const PlainBox& a, const PlainBox& b, double margin) {
-  return meet(inflated(a, margin), b);
-}
-
-/// Around all of these; there must be any.
-inline PlainBox union_of(const std::vector<PlainBox>& boxes) {
-  return std::accumulate(boxes.begin() + 1, boxes.end(), boxes.front(), merged<PlainBox>);
+  return all;
 }
 
 /// How many boxes, or nodes, a node of a BoxTree is around.
@@ -69,7 +54,7 @@ constexpr std::size_t fan = 4;
 /// An order of these boxes in which those that follow each other are near each other, as a BoxTree
 /// needs them.
 /// @return their numbers
-std::vector<std::uint32_t> spatial_order(const std::vector<PlainBox>& boxes);
+std::vector<std::uint32_t> spatial_order(const std::vector<Box3d>& boxes);
 
 /// Boxes around boxes: each around four that follow each other. Finds out who is near. Boxes
 /// are kept in single precision, little larger than they are.
@@ -79,33 +64,50 @@ class BoxTree {
   struct Box {
     std::array<float, 3> lower{};
     std::array<float, 3> upper{};
+
+    Box merged(const Box& other) const {
+      Box box;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        box.lower[axis] = std::min(lower[axis], other.lower[axis]);
+        box.upper[axis] = std::max(upper[axis], other.upper[axis]);
+      }
+      return box;
+    }
+    bool intersects(const Box& other) const {
+      unsigned intersect = 1U;
+      for (std::size_t axis = 0; axis < 3; ++axis) {  // without branches, which cannot be predicted
+        intersect &= static_cast<unsigned>(lower[axis] <= other.upper[axis]) &
+                     static_cast<unsigned>(other.lower[axis] <= upper[axis]);
+      }
+      return intersect != 0U;
+    }
   };
 
   BoxTree() = default;
 
-  /// With places for so many boxes, which all must be put there, in an order like that of
+  /// Makes places for so many boxes. All must be put there, in an order like that of
   /// spatial_order().
   /// @param around most of them: the nearer they are to it, the less larger they get
-  BoxTree(std::size_t count, const PlainBox& around);
+  BoxTree(std::size_t count, const Box3d& around);
 
-  /// With these boxes, in such an order.
-  explicit BoxTree(const std::vector<PlainBox>& boxes);
+  /// Makes a tree of these boxes, which are in such an order.
+  explicit BoxTree(const std::vector<Box3d>& boxes);
 
   bool empty() const { return boxes_.empty(); }
-  PlainBox box(std::uint32_t place) const { return absolute(boxes_[place]); }
+  Box3d box(std::uint32_t place) const { return absolute(boxes_[place]); }
 
-  /// Around all; there must be any.
-  PlainBox root() const { return absolute(node(height(), 0)); }
+  /// The box around all boxes; there must be any.
+  Box3d root() const { return absolute(node(height(), 0)); }
 
   /// Boxes around the boxes of the lowest level that has at most so many.
-  std::vector<PlainBox> level_of_at_most(std::size_t count) const;
+  std::vector<Box3d> level_of_at_most(std::size_t count) const;
 
   /// A box in which this one is, to hold against those of the tree.
-  Box seen_from_origin(const PlainBox& box) const;
-  bool meets(std::uint32_t place, const Box& box) const { return meet(boxes_[place], box); }
+  Box seen_from_origin(const Box3d& box) const;
+  bool meets(std::uint32_t place, const Box& box) const { return boxes_[place].intersects(box); }
 
   /// Puts a box at its place, or moves it. What is around it follows with close().
-  void put(std::uint32_t place, const PlainBox& box) { boxes_[place] = seen_from_origin(box); }
+  void put(std::uint32_t place, const Box3d& box) { boxes_[place] = seen_from_origin(box); }
   void close();
 
   /// Calls with the place of each box that may come within the margin [m] of some of others, and
@@ -124,7 +126,7 @@ class BoxTree {
     std::size_t end = 0;
   };
 
-  /// Of level 0 are the boxes themselves.
+  /// Level 0 are the boxes themselves.
   std::size_t height() const { return begins_.size(); }
   std::size_t count_at(std::size_t level) const {
     if (level == 0) {
@@ -135,12 +137,12 @@ class BoxTree {
   const Box& node(std::size_t level, std::size_t index) const {
     return level == 0 ? boxes_[index] : nodes_[begins_[level - 1] + index];
   }
-  PlainBox absolute(const Box& box) const;
+  Box3d absolute(const Box& box) const;
   void append_meeting(const Box& box, const Visit& visit, std::vector<std::uint32_t>& places) const;
   void append_children(const Box& box, std::size_t level, std::size_t begin,
                        std::vector<std::uint32_t>& places) const;
 
-  PlainPoint origin_{};
+  Eigen::Vector3d origin_{};
   std::vector<Box> boxes_;
   std::vector<Box> nodes_;           // level by level, from 1
   std::vector<std::size_t> begins_;  // of the levels

@@ -10,9 +10,9 @@ namespace fiber {
 
 /// The margin within which the so many closest contacts of all ranks are, as found and in truth
 /// [m]; infinity if there are fewer. Collective.
-/// @param contacts of this rank, in any order, which is changed
+/// @param contacts of this rank, in any order
 double margin_of_closest(const Communicator& ranks, std::uint64_t count,
-                         std::vector<DistributedContact>& contacts);
+                         const std::vector<DistributedContact>& contacts);
 
 /// Leaves of the contacts of all ranks the so many closest ones. Those that go count in
 /// others_lower, of this rank. Collective.

@@ -58,11 +58,11 @@ void ClosestOfFibers::lower_bound() {
     return;
   }
   changes_ = 0;
-  double most = -no_gap;
+  double max_gap = -no_gap;
   for (const FiberPairMinimum& minimum : minima_) {
-    most = std::max(most, minimum.key.value);
+    max_gap = std::max(max_gap, minimum.key.value);
   }
-  bound_ = std::min(bound_, most);
+  bound_ = std::min(bound_, max_gap);
 }
 
 double ClosestOfFibers::exchange(const Communicator& ranks, double& others_lower) {
@@ -72,7 +72,7 @@ double ClosestOfFibers::exchange(const Communicator& ranks, double& others_lower
     places.push_back(minimum.key);
   }
   const std::vector<PairKey> closest = closest_of_fibers(ranks, places);
-  double most = -no_gap;
+  double max_gap = -no_gap;
   std::uint64_t reported = 0;
   for (std::size_t i = 0; i < minima_.size(); ++i) {
     FiberPairMinimum& minimum = minima_[i];
@@ -82,15 +82,16 @@ double ClosestOfFibers::exchange(const Communicator& ranks, double& others_lower
       minimum.is_here = false;
       ++changes_;
     }
-    most = minimum.is_here ? std::max({most, minimum.key.value, minimum.contact.upper}) : most;
+    max_gap =
+        minimum.is_here ? std::max({max_gap, minimum.key.value, minimum.contact.upper}) : max_gap;
     reported += minimum.is_here ? 1 : 0;
   }
   lower_bound();
   // Each pair of segments is one rank's, so each pair of fibres that has any is counted once.
   const bool are_all_known = ranks.sum(reported) == pair_count_;
-  most = ranks.max(most);
-  bound_ = are_all_known ? std::min(bound_, std::max(0.0, most)) : bound_;
-  return are_all_known ? std::min(margin_, std::max(0.0, most)) : margin_;
+  max_gap = ranks.max(max_gap);
+  bound_ = are_all_known ? std::min(bound_, std::max(0.0, max_gap)) : bound_;
+  return are_all_known ? std::min(margin_, std::max(0.0, max_gap)) : margin_;
 }
 
 std::uint64_t count_fiber_pairs(const Communicator& ranks, const LocalFibers& own,
@@ -120,10 +121,7 @@ std::vector<PairKey> closest_of_fibers(const Communicator& ranks,
     met[home_of(key)].push_back(key);
   }
   met = ranks.exchange(std::move(met));
-  std::vector<PairKey> closest;
-  for (const std::vector<PairKey>& some : met) {
-    closest.insert(closest.end(), some.begin(), some.end());
-  }
+  std::vector<PairKey> closest = joined(met);
   std::sort(closest.begin(), closest.end(), [](const PairKey& x, const PairKey& y) {
     return two_fibers_of(x) < two_fibers_of(y) || (two_fibers_of(x) == two_fibers_of(y) && x < y);
   });

@@ -21,8 +21,8 @@ struct FiberPairMinimum {
   bool is_across = false;  ///< its segment b is another rank's
 };
 
-/// Of each pair of fibres the closest pair of segments that this rank knows of, and how close
-/// others must be to matter.
+/// The closest pair of segments that this rank knows of each pair of fibres, and how close others
+/// must be to matter.
 class ClosestOfFibers {
  public:
   /// @param pair_count of fibres that may have one, over all ranks
@@ -34,7 +34,7 @@ class ClosestOfFibers {
   /// than the margin once each pair of fibres has a minimum.
   double bound() const { return bound_; }
 
-  /// What is known of these fibres, nullptr for nothing.
+  /// The closest pair known of these fibres, nullptr for none.
   const FiberPairMinimum* find(std::uint64_t fiber_a, std::uint64_t fiber_b);
 
   /// [m] Pairs of segments of these fibres further apart than this do not matter.
@@ -84,7 +84,7 @@ class ClosestOfFibers {
 /// How many pairs of fibres may have a closest pair of segments, over all ranks. Collective.
 std::uint64_t count_fiber_pairs(const Communicator& ranks, const LocalFibers& own, Pairing pairing);
 
-/// Of the fibres of each key the closest key that any rank has. Collective.
+/// Finds for each key the closest one that any rank has of the same two fibres. Collective.
 /// @param places of this rank, each of other fibres
 std::vector<PairKey> closest_of_fibers(const Communicator& ranks,
                                        const std::vector<PairKey>& places);

@@ -7,8 +7,14 @@
 namespace fiber {
 namespace {
 
-constexpr int exchange_tag = 1;
-constexpr std::size_t most_bytes_at_once = std::size_t{1} << 28U;
+/// Calls with each part of a message: call(where it begins, how many bytes it has).
+template <class Byte, class Call>
+void for_each_part(Byte* data, std::size_t bytes, const Call& call) {
+  constexpr std::size_t max_bytes = std::size_t{1} << 28U;
+  for (std::size_t done = 0; done < bytes; done += max_bytes) {
+    call(data + done, static_cast<int>(std::min(max_bytes, bytes - done)));
+  }
+}
 
 void require_running_mpi() {
   int is_running = 0;
@@ -62,15 +68,15 @@ void Communicator::throw_on_all(const std::string& error) const {
 
 bool Communicator::all(bool value) const {
   const int mine = value ? 1 : 0;
-  int least = 0;
-  MPI_Allreduce(&mine, &least, 1, MPI_INT, MPI_MIN, ranks_);
-  return least != 0;
+  int smallest = 0;
+  MPI_Allreduce(&mine, &smallest, 1, MPI_INT, MPI_MIN, ranks_);
+  return smallest != 0;
 }
 
 double Communicator::min(double value) const {
-  double least = value;
-  MPI_Allreduce(&value, &least, 1, MPI_DOUBLE, MPI_MIN, ranks_);
-  return least;
+  double smallest = value;
+  MPI_Allreduce(&value, &smallest, 1, MPI_DOUBLE, MPI_MIN, ranks_);
+  return smallest;
 }
 
 double Communicator::max(double value) const { return -min(-value); }
@@ -81,28 +87,23 @@ std::uint64_t Communicator::sum(std::uint64_t value) const {
   return all;
 }
 
-void Communicator::broadcast(void* data, std::size_t bytes) const {
-  auto* const begin = static_cast<char*>(data);
-  for (std::size_t done = 0; done < bytes; done += most_bytes_at_once) {
-    MPI_Bcast(begin + done, static_cast<int>(std::min(most_bytes_at_once, bytes - done)), MPI_BYTE,
-              0, ranks_);
-  }
+void Communicator::broadcast_bytes(void* data, std::size_t bytes) const {
+  for_each_part(static_cast<char*>(data), bytes,
+                [&](char* part, int size) { MPI_Bcast(part, size, MPI_BYTE, 0, ranks_); });
 }
 
 void Transfer::send(std::size_t to, const void* data, std::size_t bytes) {
-  const auto* const begin = static_cast<const char*>(data);
-  for (std::size_t done = 0; done < bytes; done += most_bytes_at_once) {
-    MPI_Isend(begin + done, static_cast<int>(std::min(most_bytes_at_once, bytes - done)), MPI_BYTE,
-              static_cast<int>(to), exchange_tag, ranks_.handle(), &requests_.emplace_back());
-  }
+  for_each_part(static_cast<const char*>(data), bytes, [&](const char* part, int size) {
+    MPI_Isend(part, size, MPI_BYTE, static_cast<int>(to), tag_, ranks_.handle(),
+              &requests_.emplace_back());
+  });
 }
 
 void Transfer::receive(std::size_t from, void* data, std::size_t bytes) {
-  auto* const begin = static_cast<char*>(data);
-  for (std::size_t done = 0; done < bytes; done += most_bytes_at_once) {
-    MPI_Irecv(begin + done, static_cast<int>(std::min(most_bytes_at_once, bytes - done)), MPI_BYTE,
-              static_cast<int>(from), exchange_tag, ranks_.handle(), &requests_.emplace_back());
-  }
+  for_each_part(static_cast<char*>(data), bytes, [&](char* part, int size) {
+    MPI_Irecv(part, size, MPI_BYTE, static_cast<int>(from), tag_, ranks_.handle(),
+              &requests_.emplace_back());
+  });
 }
 
 void Transfer::finish() {

@@ -12,9 +12,29 @@
 
 namespace fiber {
 
-/// For each rank what is sent to it, or what came from it.
+/// Whether objects of a type may be sent as their bytes: those that own nothing. Not asked for is
+/// std::is_trivially_copyable, which Eigen 3.4's vectors are not.
+template <class T>
+constexpr bool is_sendable = std::is_trivially_destructible_v<T> && !std::is_polymorphic_v<T>;
+
+/// A list per rank: what is sent to it, or what has come from it.
 template <class T>
 using PerRank = std::vector<std::vector<T>>;
+
+/// The lists of all ranks as one, in the order of ranks.
+template <class T>
+std::vector<T> joined(const PerRank<T>& lists) {
+  std::size_t count = 0;
+  for (const std::vector<T>& list : lists) {
+    count += list.size();
+  }
+  std::vector<T> all;
+  all.reserve(count);
+  for (const std::vector<T>& list : lists) {
+    all.insert(all.end(), list.begin(), list.end());
+  }
+  return all;
+}
 
 /// A group of ranks with messages of its own: those of others that use the same ranks never meet
 /// them. All functions but rank() and size() are collective: every rank calls them, in one order.
@@ -31,7 +51,7 @@ class Communicator {
   int size() const { return size_; }
   MPI_Comm handle() const { return ranks_; }
 
-  /// Ends what cannot go on, on all ranks alike.
+  /// Throws on all ranks if any has an error.
   /// @param error of this rank, "" for none
   /// @throws std::invalid_argument on every rank if any has an error: that of the lowest of these
   void throw_on_all(const std::string& error) const;
@@ -41,29 +61,29 @@ class Communicator {
   double max(double value) const;
   std::uint64_t sum(std::uint64_t value) const;
 
-  /// Of each rank its value.
+  /// Gathers the value of each rank on all ranks.
   template <class T>
   std::vector<T> gather_all(const T& value) const {
-    static_assert(std::is_trivially_copyable_v<T>);
+    static_assert(is_sendable<T>);
     std::vector<T> values(static_cast<std::size_t>(size_));
     MPI_Allgather(&value, sizeof(T), MPI_BYTE, values.data(), sizeof(T), MPI_BYTE, ranks_);
     return values;
   }
 
-  /// Of rank 0 its value.
+  /// Returns the value of rank 0 on all ranks.
   template <class T>
   T broadcast(T value) const {
-    static_assert(std::is_trivially_copyable_v<T>);
+    static_assert(is_sendable<T>);
     MPI_Bcast(&value, sizeof(T), MPI_BYTE, 0, ranks_);
     return value;
   }
 
-  /// The same of a list.
+  /// Returns the list of rank 0 on all ranks.
   template <class T>
   std::vector<T> broadcast(std::vector<T> values) const {
-    static_assert(std::is_trivially_copyable_v<T>);
+    static_assert(is_sendable<T>);
     values.resize(broadcast<std::uint64_t>(values.size()));
-    broadcast(values.data(), values.size() * sizeof(T));
+    broadcast_bytes(values.data(), values.size() * sizeof(T));
     return values;
   }
 
@@ -71,7 +91,8 @@ class Communicator {
   template <class T>
   PerRank<T> exchange(PerRank<T> to) const;
 
-  /// What each rank has for this one of what this one has for it. Only counts go to all ranks.
+  /// Tells each rank how much this one has for it.
+  /// @return how much each rank has for this one
   std::vector<std::uint64_t> exchange_counts(const std::vector<std::uint64_t>& counts) const {
     std::vector<std::uint64_t> received(counts.size());
     MPI_Alltoall(counts.data(), 1, MPI_UINT64_T, received.data(), 1, MPI_UINT64_T, ranks_);
@@ -79,7 +100,7 @@ class Communicator {
   }
 
  private:
-  void broadcast(void* data, std::size_t bytes) const;
+  void broadcast_bytes(void* data, std::size_t bytes) const;
 
   MPI_Comm ranks_ = MPI_COMM_NULL;
   int rank_ = 0;
@@ -89,28 +110,39 @@ class Communicator {
 /// @return what was thrown, "" for nothing
 std::string error_in(const std::function<void()>& work);
 
-/// Does on rank 0 what may go wrong there. Collective.
+/// Does work on rank 0 that may fail there. Collective.
 /// @throws std::invalid_argument on all ranks if it does
 void run_on_root(const Communicator& ranks, const std::function<void()>& work);
 
-/// Messages under way. Those of any size: MPI counts in int.
+/// Tags keep messages of different kinds apart.
+enum class MessageTag {
+  EXCHANGE = 1,
+  CHAIN,    ///< passes along a chain of ranks, one by one
+  TEXT,     ///< on its way to rank 0
+  REQUEST,  ///< for the next chunk of a work queue
+  CHUNK     ///< of a work queue
+};
+
+/// Messages under way, of any size: they are sent in parts, as MPI counts in int.
 class Transfer {
  public:
-  explicit Transfer(const Communicator& ranks) : ranks_(ranks) {}
+  explicit Transfer(const Communicator& ranks, MessageTag tag = MessageTag::EXCHANGE)
+      : ranks_(ranks), tag_(static_cast<int>(tag)) {}
   void send(std::size_t to, const void* data, std::size_t bytes);
   void receive(std::size_t from, void* data, std::size_t bytes);
   void finish();
 
  private:
   const Communicator& ranks_;
+  int tag_;
   std::vector<MPI_Request> requests_;
 };
 
-/// What goes from each rank to each while they do other things. Exchanges that overlap are started
-/// in the same order on all ranks.
+/// Messages from each rank to each, under way while ranks do other things. Exchanges that overlap
+/// are started in the same order on all ranks.
 template <class T>
 class Exchange {
-  static_assert(std::is_trivially_copyable_v<T>);
+  static_assert(is_sendable<T>);
 
  public:
   explicit Exchange(const Communicator& ranks) : ranks_(ranks), transfer_(ranks) {}
@@ -159,15 +191,5 @@ PerRank<T> Communicator::exchange(PerRank<T> to) const {
   exchange.start(std::move(to));
   return exchange.finish();
 }
-
-/// Messages that pass along a chain of ranks, one by one, apart from those of exchange().
-constexpr int chain_tag = 2;
-
-/// Text on its way to rank 0.
-constexpr int text_tag = 3;
-
-/// What ranks ask rank 0 for, and get of it, while work is dealt out.
-constexpr int wish_tag = 4;
-constexpr int share_tag = 5;
 
 }  // namespace fiber

@@ -4,7 +4,6 @@
 
 #include "fiber_proximity/query/for_engines/narrow_phase.hpp"
 #include "src/mpi/fiber_pair_search.hpp"
-#include "src/mpi/plain_contact.hpp"
 #include "src/mpi/whole_fiber_pairs.hpp"
 
 namespace fiber {
@@ -17,13 +16,14 @@ void ContactSearch::clear() {
   across_.clear();
 }
 
-void ContactSearch::update(const RankFibers& fibers) {
+void ContactSearch::update(const OwnedFibers& fibers) {
   clear();
   fibers_ = &fibers;
   engine_->update(fibers.own().fibers());
 }
 
-/// What leaves out no pair that the options want. Those that are too many are left out later.
+/// Options for the engine that leave out no pair that the query wants. Pairs that are too many are
+/// left out later.
 QueryOptions ContactSearch::options_here(const QueryOptions& options) const {
   QueryOptions here = options;
   static_cast<PairOptions&>(here) = options_of_stretches(options, fibers_->arc_roundings());
@@ -38,14 +38,17 @@ void ContactSearch::find_inner(const QueryOptions& options, std::uint64_t count,
   const RankPairs pairs{ranks_, fibers_->own(), halo_};
   QueryOptions here = options_here(options);
   across_.clear();
-  constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
+  constexpr std::uint64_t max_count = std::numeric_limits<std::uint32_t>::max();
   constexpr std::uint64_t more = 16;
   bool is_first = options.type == QueryType::FIRST;
   // Pairs that are none along whole fibres may be among those that the engine finds: it is asked
   // for more until enough are left.
-  for (std::uint64_t asked = count; true; asked = asked > most / more ? no_limit : more * asked) {
-    here.type = is_first ? QueryType::FIRST : asked > most ? QueryType::ALL : QueryType::LIMITED;
-    here.max_contacts = static_cast<std::uint32_t>(std::min(asked, most));
+  for (std::uint64_t asked = count; true;
+       asked = asked > max_count / more ? no_limit : more * asked) {
+    here.type = is_first            ? QueryType::FIRST
+                : asked > max_count ? QueryType::ALL
+                                    : QueryType::LIMITED;
+    here.max_contacts = static_cast<std::uint32_t>(std::min(asked, max_count));
     here.deadline = deadline.left();
     engine_->query(here, inner_);
     counts_ += inner_.counts;
@@ -70,15 +73,11 @@ double ContactSearch::rounding_across() const {
   if (halo_.fibers().point_count() == 0) {
     return 0.0;
   }
-  PlainBox box = fibers_->around();
+  Box3d box = fibers_->around();
   for (const Eigen::Vector3d& point : halo_.fibers().points()) {
-    box = merged(box, {plain(point), plain(point)});
+    box.extend(point);
   }
-  double longest = 0.0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    longest = std::max(longest, box.upper[axis] - box.lower[axis]);
-  }
-  return 0x1p-44 * (longest + halo_.fibers().largest_radius());
+  return 0x1p-44 * (box.sizes().maxCoeff() + halo_.fibers().largest_radius());
 }
 
 void ContactSearch::find_across(const FiberRuns& halo, const QueryOptions& options,
@@ -155,7 +154,7 @@ void ContactSearch::write(std::vector<DistributedContact>& contacts) const {
   auto across = across_.begin();
   for (const Contact& contact : inner_.contacts) {
     const DistributedContact inner = named(contact, own);
-    while (across != across_.end() && is_before(named(*across, halo_), inner)) {
+    while (across != across_.end() && by_key(named(*across, halo_), inner)) {
       contacts.push_back(named(*across++, halo_));
     }
     contacts.push_back(inner);

@@ -10,9 +10,9 @@
 #include "fiber_proximity/query/engine.hpp"
 #include "src/mpi/communicator.hpp"
 #include "src/mpi/fiber_runs.hpp"
+#include "src/mpi/load_balance.hpp"
 #include "src/mpi/local_fibers.hpp"
-#include "src/mpi/rank_fibers.hpp"
-#include "src/mpi/rank_load.hpp"
+#include "src/mpi/owned_fibers.hpp"
 #include "src/query/run_tree_engine.hpp"
 
 namespace fiber {
@@ -27,10 +27,10 @@ class ContactSearch {
       : ranks_(ranks), engine_(std::make_unique<RunTreeEngine>(options)) {}
 
   /// Makes these fibres those that are looked at; they must live until the next update.
-  void update(const RankFibers& fibers);
+  void update(const OwnedFibers& fibers);
 
-  /// The same fibres are elsewhere in memory.
-  void follow(const RankFibers& fibers) { engine_->update(fibers.own().fibers()); }
+  /// Takes the same fibres, which have moved to another place in memory.
+  void follow(const OwnedFibers& fibers) { engine_->update(fibers.own().fibers()); }
 
   /// Forgets them.
   void clear();
@@ -60,7 +60,7 @@ class ContactSearch {
 
   std::uint64_t halo_segments() const { return halo_.fibers().segment_count(); }
 
-  /// Of this rank, since the last update.
+  /// Work of this rank since the last update.
   const QueryCounts& counts() const { return counts_; }
 
   /// About what the last update and the queries since then took of this rank.
@@ -72,7 +72,7 @@ class ContactSearch {
 
   const Communicator& ranks_;
   std::unique_ptr<RunTreeEngine> engine_;
-  const RankFibers* fibers_ = nullptr;
+  const OwnedFibers* fibers_ = nullptr;
   LocalFibers halo_;
   QueryCounts counts_;
 

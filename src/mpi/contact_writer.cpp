@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint64_t bytes_per_contact = 169;  // of all datasets
 
-/// Where contacts of this rank stand among those of all.
+/// The rows that contacts of this rank take among those of all ranks.
 struct ContactRows {
   std::uint64_t first = 0;
   std::uint64_t all = 0;
@@ -67,7 +67,7 @@ class ContactColumn<Eigen::Vector3d> {
   Eigen::Vector3d DistributedContact::*member_;
 };
 
-/// The same as lines from point_a to point_b, for VTK: points and values are those of the columns,
+/// Contacts as lines from point_a to point_b, for VTK. Points and values are those of the columns,
 /// under other names.
 class ContactLines {
  public:
@@ -88,7 +88,7 @@ class ContactLines {
     }
   }
 
-  void write(std::uint64_t count, bool is_first_rank) {
+  void write(std::uint64_t count, bool is_root) {
     for (std::uint64_t row = rows_.first; row < rows_.first + count; ++row) {
       connectivity_.append(static_cast<std::int64_t>(row));
       connectivity_.append(static_cast<std::int64_t>(rows_.all + row));
@@ -98,7 +98,7 @@ class ContactLines {
     connectivity_.flush();
     offsets_.flush();
     types_.flush();
-    if (is_first_rank) {
+    if (is_root) {
       sizes_.write();
       write_end(offsets_.dataset(), {rows_.all, 2 * rows_.all});
     }
@@ -118,21 +118,21 @@ class ContactDatasets {
  public:
   ContactDatasets(hid_t file, const ContactRows& rows)
       : group_(create_group(file, layout::contacts)),
-        ids_{ContactColumn(group_.get(), "fiber_a", rows, &DistributedContact::fiber_a),
-             ContactColumn(group_.get(), "segment_a", rows, &DistributedContact::segment_a),
-             ContactColumn(group_.get(), "fiber_b", rows, &DistributedContact::fiber_b),
-             ContactColumn(group_.get(), "segment_b", rows, &DistributedContact::segment_b)},
-        numbers_{ContactColumn(group_.get(), "s", rows, &DistributedContact::s),
-                 ContactColumn(group_.get(), "t", rows, &DistributedContact::t),
-                 ContactColumn(group_.get(), "distance", rows, &DistributedContact::distance),
-                 ContactColumn(group_.get(), "lower", rows, &DistributedContact::lower),
-                 ContactColumn(group_.get(), "upper", rows, &DistributedContact::upper)},
-        vectors_{ContactColumn(group_.get(), "point_a", rows, &DistributedContact::point_a),
-                 ContactColumn(group_.get(), "point_b", rows, &DistributedContact::point_b),
-                 ContactColumn(group_.get(), "normal", rows, &DistributedContact::normal)},
+        ids_{{{group_.get(), "fiber_a", rows, &DistributedContact::fiber_a},
+              {group_.get(), "segment_a", rows, &DistributedContact::segment_a},
+              {group_.get(), "fiber_b", rows, &DistributedContact::fiber_b},
+              {group_.get(), "segment_b", rows, &DistributedContact::segment_b}}},
+        numbers_{{{group_.get(), "s", rows, &DistributedContact::s},
+                  {group_.get(), "t", rows, &DistributedContact::t},
+                  {group_.get(), "distance", rows, &DistributedContact::distance},
+                  {group_.get(), "lower", rows, &DistributedContact::lower},
+                  {group_.get(), "upper", rows, &DistributedContact::upper}}},
+        vectors_{{{group_.get(), "point_a", rows, &DistributedContact::point_a},
+                  {group_.get(), "point_b", rows, &DistributedContact::point_b},
+                  {group_.get(), "normal", rows, &DistributedContact::normal}}},
         lines_(file, group_.get(), rows) {}
 
-  void write(const std::vector<DistributedContact>& contacts, bool is_first_rank) {
+  void write(const std::vector<DistributedContact>& contacts, bool is_root) {
     const auto write_columns = [&](auto& columns) {
       for (auto& column : columns) {
         for (const DistributedContact& contact : contacts) {
@@ -144,7 +144,7 @@ class ContactDatasets {
     write_columns(ids_);
     write_columns(numbers_);
     write_columns(vectors_);
-    lines_.write(contacts.size(), is_first_rank);
+    lines_.write(contacts.size(), is_root);
   }
 
  private:

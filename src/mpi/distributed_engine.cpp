@@ -12,8 +12,7 @@
 #include "src/mpi/earliest_contacts.hpp"
 #include "src/mpi/halo_exchange.hpp"
 #include "src/mpi/motion_search.hpp"
-#include "src/mpi/plain_contact.hpp"
-#include "src/mpi/rank_fibers.hpp"
+#include "src/mpi/owned_fibers.hpp"
 
 namespace fiber {
 
@@ -23,7 +22,7 @@ struct DistributedEngine::State {
 
   Communicator ranks;
   EngineOptions engine_options;
-  RankFibers fibers;
+  OwnedFibers fibers;
   SendLists lists;
   ContactSearch search;
   std::optional<MotionSearch> motions;  // none until there is a motion
@@ -36,34 +35,35 @@ struct DistributedEngine::State {
     }
   }
 
-  /// Of a limit of pairs.
+  /// The part of a limit of pairs that each rank gets.
   std::uint64_t share_of(std::uint64_t limit) const {
     return limit == 0 ? 0 : std::max<std::uint64_t>(1, limit / ranks.size());
   }
-  void find_all(const QueryOptions& options, std::uint64_t most, DistributedResult& result);
-  void find_closest_of_fibers(const QueryOptions& options, std::uint64_t most,
+  void find_all(const QueryOptions& options, std::uint64_t max_contacts, DistributedResult& result);
+  void find_closest_of_fibers(const QueryOptions& options, std::uint64_t max_contacts,
                               DistributedResult& result);
-  void find_closest(const QueryOptions& options, std::uint64_t most, DistributedResult& result);
+  void find_closest(const QueryOptions& options, std::uint64_t max_contacts,
+                    DistributedResult& result);
 };
 
-/// @param most contacts to be reported
-void DistributedEngine::State::find_all(const QueryOptions& options, std::uint64_t most,
+/// @param max_contacts to be reported, over all ranks
+void DistributedEngine::State::find_all(const QueryOptions& options, std::uint64_t max_contacts,
                                         DistributedResult& result) {
-  const bool is_limited = most != ContactSearch::no_limit;
+  const bool is_limited = max_contacts != ContactSearch::no_limit;
   const Deadline deadline(options.deadline);
   HaloExchange halo(ranks, fibers.states(), lists.find(ranks, fibers, options.margin));
-  // Of a limited number one more, to see whether there are more.
-  search.find_inner(options, is_limited ? most + 1 : ContactSearch::no_limit, result);
+  // One more than the limit shows whether there are more.
+  search.find_inner(options, is_limited ? max_contacts + 1 : ContactSearch::no_limit, result);
   QueryOptions rest = options;
   rest.deadline = deadline.left();
   search.find_across(halo.take(), rest, result);
   search.write(result.contacts);
-  const bool are_more = is_limited && keep_closest(ranks, most, result);
+  const bool are_more = is_limited && keep_closest(ranks, max_contacts, result);
   result.limit_reached = are_more || result.limit_reached;
 }
 
 void DistributedEngine::State::find_closest_of_fibers(const QueryOptions& options,
-                                                      std::uint64_t most,
+                                                      std::uint64_t max_contacts,
                                                       DistributedResult& result) {
   // The lists of a margin serve several queries, and its halo comes while this rank looks at what
   // it has. Without a margin all others would come: then what it finds says first how near they
@@ -84,17 +84,17 @@ void DistributedEngine::State::find_closest_of_fibers(const QueryOptions& option
       },
       options, result);
   search.write(result.contacts);
-  const bool are_more = keep_closest(ranks, most, result);
+  const bool are_more = keep_closest(ranks, max_contacts, result);
   result.limit_reached = are_more || result.limit_reached;
 }
 
 /// Pairs of what each rank has make a bound: nothing of others matters that is further than that.
-void DistributedEngine::State::find_closest(const QueryOptions& options, std::uint64_t most,
+void DistributedEngine::State::find_closest(const QueryOptions& options, std::uint64_t max_contacts,
                                             DistributedResult& result) {
   const Deadline deadline(options.deadline);
-  search.find_inner(options, most, result);
+  search.find_inner(options, max_contacts, result);
   search.write(result.contacts);
-  const double enough = margin_of_closest(ranks, most, result.contacts);
+  const double enough = margin_of_closest(ranks, max_contacts, result.contacts);
   const bool is_over = options.type == QueryType::FIRST && std::isfinite(enough);
   if (ranks.all(result.complete) && !is_over) {
     QueryOptions rest = options;
@@ -105,8 +105,8 @@ void DistributedEngine::State::find_closest(const QueryOptions& options, std::ui
         result);
     search.write(result.contacts);
   }
-  keep_closest(ranks, most, result);
-  const bool are_enough = ranks.sum(result.contacts.size()) == most;
+  keep_closest(ranks, max_contacts, result);
+  const bool are_enough = ranks.sum(result.contacts.size()) == max_contacts;
   result.limit_reached = (options.type == QueryType::LIMITED && are_enough) || result.limit_reached;
 }
 
@@ -163,7 +163,7 @@ void DistributedEngine::query(const QueryOptions& options, DistributedResult& re
   QueryOptions here = options;
   here.pair_limit = state.share_of(options.pair_limit);
   const bool is_limited = options.contact_limit > 0;
-  const std::uint64_t most = is_limited ? options.contact_limit : ContactSearch::no_limit;
+  const std::uint64_t max_contacts = is_limited ? options.contact_limit : ContactSearch::no_limit;
   result.contacts.clear();
   switch (options.type) {
     case QueryType::FIRST:
@@ -171,17 +171,17 @@ void DistributedEngine::query(const QueryOptions& options, DistributedResult& re
       state.find_closest(here, 1, result);
       break;
     case QueryType::LIMITED:
-      state.find_closest(here, std::min<std::uint64_t>(options.max_contacts, most), result);
+      state.find_closest(here, std::min<std::uint64_t>(options.max_contacts, max_contacts), result);
       break;
     case QueryType::ALL:
-      state.find_all(here, most, result);
+      state.find_all(here, max_contacts, result);
       break;
     case QueryType::FIBER_PAIRS:
-      state.find_closest_of_fibers(here, most, result);
+      state.find_closest_of_fibers(here, max_contacts, result);
       break;
   }
   if (options.type != QueryType::ALL || is_limited) {  // all are sorted as they are written
-    std::sort(result.contacts.begin(), result.contacts.end(), is_before);
+    std::sort(result.contacts.begin(), result.contacts.end(), by_key);
   }
   result.limit_reached = !state.ranks.all(!result.limit_reached);
   result.complete = state.ranks.all(result.complete);

@@ -7,17 +7,6 @@
 namespace fiber {
 namespace {
 
-/// "" if the options validate.
-template <class Options>
-std::string error_of(const Options& options) {
-  try {
-    validate(options);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
-}
-
 struct Field {
   const char* name;
   double value;
@@ -50,14 +39,14 @@ void require_same(const Communicator& ranks, const PairOptions& options) {
 }  // namespace
 
 void require_distributed_options(const Communicator& ranks, const QueryOptions& options) {
-  ranks.throw_on_all(error_of(options));
+  ranks.throw_on_all(error_in([&] { validate(options); }));
   require_same(ranks, {{"type", static_cast<double>(options.type)},
                        {"kernel", static_cast<double>(options.kernel)}});
   require_same(ranks, static_cast<const PairOptions&>(options));
 }
 
 void require_distributed_options(const Communicator& ranks, const MotionOptions& options) {
-  ranks.throw_on_all(error_of(options));
+  ranks.throw_on_all(error_in([&] { validate(options); }));
   require_same(ranks, {{"type", static_cast<double>(options.type)},
                        {"tolerance", options.tolerance},
                        {"time_tolerance", options.time_tolerance}});

@@ -19,15 +19,9 @@ struct PartNotice {
   int rank = 0;
 };
 
-struct LinkNotice {
-  std::uint32_t part = 0;
-  int before = -1;
-  int after = -1;
-};
-
-/// Where a part ends.
+/// The end of a part.
 struct Joint {
-  PlainPoint point{};
+  Eigen::Vector3d point{};
   double arc = 0.0;
 };
 
@@ -52,7 +46,7 @@ std::string gap_in(const std::vector<PartNotice>& parts) {
   return "";
 }
 
-std::string text_of(const PlainPoint& point) {
+std::string text_of(const Eigen::Vector3d& point) {
   std::ostringstream text;
   text.precision(17);
   text << '(' << point[0] << ", " << point[1] << ", " << point[2] << ')';
@@ -70,15 +64,12 @@ FiberChains::FiberChains(const Communicator& ranks, const FiberAssembly& parts,
     notices[names[part].fiber % size].push_back(
         {{names[part].fiber, names[part].first_segment}, count, part, ranks.rank()});
   }
-  std::vector<PartNotice> sorted;
-  for (const std::vector<PartNotice>& some : ranks.exchange(std::move(notices))) {
-    sorted.insert(sorted.end(), some.begin(), some.end());
-  }
+  std::vector<PartNotice> sorted = joined(ranks.exchange(std::move(notices)));
   std::stable_sort(sorted.begin(), sorted.end(),
                    [](const PartNotice& x, const PartNotice& y) { return x.first < y.first; });
   ranks.throw_on_all(gap_in(sorted));
 
-  PerRank<LinkNotice> links(size);
+  PerRank<Link> links(size);
   for (std::size_t i = 0; i < sorted.size(); ++i) {
     const PartNotice& part = sorted[i];
     const bool goes_on = i > 0 && sorted[i - 1].first.fiber == part.first.fiber;
@@ -86,11 +77,7 @@ FiberChains::FiberChains(const Communicator& ranks, const FiberAssembly& parts,
     links[static_cast<std::size_t>(part.rank)].push_back(
         {part.part, goes_on ? sorted[i - 1].rank : -1, is_followed ? sorted[i + 1].rank : -1});
   }
-  for (const std::vector<LinkNotice>& some : ranks.exchange(std::move(links))) {
-    for (const LinkNotice& link : some) {
-      links_.push_back({link.part, link.before, link.after});
-    }
-  }
+  links_ = joined(ranks.exchange(std::move(links)));
   // On every rank in the same order: then no two wait for each other, and messages come as awaited.
   std::sort(links_.begin(), links_.end(), [&](const Link& x, const Link& y) {
     const auto name_of = [&](const Link& link) {
@@ -119,10 +106,10 @@ ArcLengths FiberChains::arc_lengths(const Communicator& ranks, const FiberAssemb
     double length = 0.0;
     if (link.before >= 0) {
       Joint joint;
-      MPI_Recv(&joint, sizeof(Joint), MPI_BYTE, link.before, chain_tag, ranks.handle(),
-               MPI_STATUS_IGNORE);
+      MPI_Recv(&joint, sizeof(Joint), MPI_BYTE, link.before, static_cast<int>(MessageTag::CHAIN),
+               ranks.handle(), MPI_STATUS_IGNORE);
       length = joint.arc;
-      const PlainPoint start = plain(parts.points()[begin]);
+      const Eigen::Vector3d start = parts.points()[begin];
       if (start != joint.point && error.empty()) {
         error = "fibre " + std::to_string(names[link.part].fiber) + ": the part from segment " +
                 std::to_string(names[link.part].first_segment) + " on starts at " + text_of(start) +
@@ -139,9 +126,9 @@ ArcLengths FiberChains::arc_lengths(const Communicator& ranks, const FiberAssemb
     const double count = static_cast<double>(names[link.part].first_segment + (last - begin));
     lengths.roundings = std::max(lengths.roundings, count * length);
     if (link.after >= 0) {
-      sent.push_back({plain(parts.points()[last]), length});
-      MPI_Isend(&sent.back(), sizeof(Joint), MPI_BYTE, link.after, chain_tag, ranks.handle(),
-                &requests.emplace_back());
+      sent.push_back({parts.points()[last], length});
+      MPI_Isend(&sent.back(), sizeof(Joint), MPI_BYTE, link.after,
+                static_cast<int>(MessageTag::CHAIN), ranks.handle(), &requests.emplace_back());
     }
   }
   MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);

@@ -63,7 +63,7 @@ class VtkSizes {
     connectivity_.append(static_cast<std::int64_t>(counts.connectivity));
   }
 
-  /// By one rank.
+  /// Called by one rank.
   void write() {
     points_.flush();
     cells_.flush();
@@ -76,7 +76,7 @@ class VtkSizes {
   RowWriter<std::int64_t> connectivity_;
 };
 
-/// Where the last line ends. By one rank.
+/// Writes where the last line ends. Called by one rank.
 inline void write_end(hid_t offsets, const FiberCounts& all) {
   const auto end = static_cast<std::int64_t>(all.points);
   write_rows(offsets, hdf5_type(end).memory, all.lines, {1, 1}, &end);

@@ -10,7 +10,7 @@
 
 namespace fiber {
 
-// What fibres are called, in a file of HDF5.
+// Names of fibres in a file of HDF5.
 
 /// [byte] that names take there.
 std::uint64_t size_of_names(const FiberNames& names);

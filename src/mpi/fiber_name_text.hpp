@@ -7,7 +7,7 @@
 
 namespace fiber {
 
-// What fibres are called, as one text: on its way to other ranks, and in a file.
+// Names of fibres as one text: sent to other ranks, and in a file.
 
 /// Each name with a line's end after it; nothing of fibres that are called by their numbers.
 std::vector<char> text_of_names(const FiberNames& names);

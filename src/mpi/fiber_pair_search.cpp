@@ -190,7 +190,7 @@ void FiberPairSearch::keep(const Pair& pair, const Contact& contact) {
   leave_out(closest_.keep({{contact.distance, pair.a, pair.b}, contact, true, pair.is_across}));
 }
 
-/// By the length between them along the whole fibre.
+/// Whether the length between the two along the whole fibre is too short.
 bool FiberPairSearch::is_left_out(const Pair& pair, const Contact& contact) const {
   return pair.a.fiber == pair.b.fiber && options_.neighbour_skip_length.value_or(0.0) > 0.0 &&
          RankPairs{ranks_, own_, halo_}.are_left_out(options_, contact,
@@ -218,7 +218,8 @@ void FiberPairSearch::join_halo() {
   }));
 }
 
-/// Where both segments are, if that is one stretch: of what has been joined or else of own ones.
+/// The points of both segments on one stretch of fibre, if they are on one: a joined stretch once
+/// there are any, otherwise an own one.
 std::optional<PointPair> FiberPairSearch::on_one_stretch(const Pair& pair) {
   if (!loops_) {
     const bool is_one = own_ids_.stretch_of(pair.points.a) == own_ids_.stretch_of(pair.points.b);
@@ -261,13 +262,13 @@ void FiberPairSearch::ask_about_loops() {
   std::sort(open_.begin(), open_.end(), [](const OpenPair& x, const OpenPair& y) {
     return x.a.fiber < y.a.fiber || (x.a.fiber == y.a.fiber && x.key() < y.key());
   });
-  for (std::size_t most = 1; true; most *= more) {
+  for (std::size_t max_per_fiber = 1; true; max_per_fiber *= more) {
     closest_.exchange(ranks_, others_lower_);
     drop_those_beaten();
     if (ranks_.sum(open_.size()) == 0) {
       return;
     }
-    const std::vector<OpenPair> asked = take_closest(most);
+    const std::vector<OpenPair> asked = take_closest(max_per_fiber);
     std::vector<LoopQuestion> questions;
     questions.reserve(asked.size());
     for (const OpenPair& pair : asked) {
@@ -305,14 +306,14 @@ void FiberPairSearch::drop_those_beaten() {
   open_.resize(kept);
 }
 
-/// Of the open pairs, which are sorted, so many of each fibre; the others stay.
-std::vector<FiberPairSearch::OpenPair> FiberPairSearch::take_closest(std::size_t most) {
+/// Takes so many open pairs of each fibre, the closest first; the others stay open.
+std::vector<FiberPairSearch::OpenPair> FiberPairSearch::take_closest(std::size_t max_per_fiber) {
   std::vector<OpenPair> taken;
   std::vector<OpenPair> left;
   std::size_t of_fiber = 0;
   for (std::size_t i = 0; i < open_.size(); ++i) {
     of_fiber = i > 0 && open_[i].a.fiber == open_[i - 1].a.fiber ? of_fiber + 1 : 0;
-    (of_fiber < most ? taken : left).push_back(open_[i]);
+    (of_fiber < max_per_fiber ? taken : left).push_back(open_[i]);
   }
   open_ = std::move(left);
   return taken;

@@ -28,15 +28,15 @@ class FiberPairSearch {
   FiberPairSearch(const Communicator& ranks, const LocalFibers& own, const RunTreeEngine& engine,
                   const LocalFibers& halo, const QueryOptions& options, const QueryOptions& here);
 
-  /// Pairs of segments of this rank. Collective.
+  /// Looks for pairs among own segments. Collective.
   /// @return [m] how close segments of others must be to matter
   double find_inner();
 
-  /// Those with segments of the halo, which is there by now, and those of which this rank could not
-  /// tell before. Collective.
+  /// Looks for pairs with segments of the halo, which has arrived, and for pairs that this rank
+  /// could not decide before. Collective.
   void find_across();
 
-  /// What was found, sorted: among this rank's own segments, and with those of the halo.
+  /// Writes the pairs found, sorted: those among own segments, and those with the halo.
   void write(std::vector<Contact>& inner, std::vector<Contact>& across) const;
 
   bool is_complete() const { return !is_over_; }
@@ -77,7 +77,7 @@ class FiberPairSearch {
   void join_halo();
   void ask_about_loops();
   LoopQuestion question_about(const Pair& pair) const;
-  std::vector<OpenPair> take_closest(std::size_t most);
+  std::vector<OpenPair> take_closest(std::size_t max_per_fiber);
   void drop_those_beaten();
   const NarrowPhase& test_of(const Pair& pair) const {
     return pair.is_across ? *across_test_ : inner_test_;

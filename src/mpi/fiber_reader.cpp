@@ -68,7 +68,7 @@ class FiberData {
 
   std::uint64_t segment_count() const { return all_.points - all_.lines; }
 
-  /// Where a segment is that has as many before it. Offsets need not be right.
+  /// Finds the segment that has so many before it. Offsets need not be right.
   FileSegment find(std::uint64_t before) const {
     if (before >= segment_count()) {
       return {all_.lines, all_.points};
@@ -122,7 +122,7 @@ class FiberData {
   FiberCounts all_;
 };
 
-/// Where the lines of a part begin, and where the last one ends.
+/// The points at which the lines of a part begin, and the end of the last one.
 std::vector<std::uint64_t> FiberData::offsets_of(std::uint64_t begin, std::uint64_t end) const {
   auto offsets = read_values<std::uint64_t>(offsets_.get(), begin, end - begin + 1);
   for (std::size_t i = 0; i + 1 < offsets.size(); ++i) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <tuple>
@@ -21,16 +20,10 @@ struct GlobalSegment {
   bool operator<(const GlobalSegment& other) const { return key() < other.key(); }
 };
 
-/// A point as it travels: bytes that may be copied.
-using PlainPoint = std::array<double, 3>;  // [m]
-
-inline PlainPoint plain(const Eigen::Vector3d& point) { return {point[0], point[1], point[2]}; }
-inline Eigen::Vector3d vector_of(const PlainPoint& point) { return {point[0], point[1], point[2]}; }
-
 /// A point of a run.
 struct FiberNode {
-  PlainPoint point{};   // [m]
-  double radius = 0.0;  // [m] of the segment that starts here; 0 at the last point of a run
+  Eigen::Vector3d point{};  // [m]
+  double radius = 0.0;      // [m] of the segment that starts here; 0 at the last point of a run
 };
 
 /// Segments of one fibre that follow each other: `count` of them from `first` on, with one node
@@ -71,19 +64,6 @@ inline std::vector<FiberRun> joined_runs(const PerRank<FiberRun>& from) {
   return runs;
 }
 
-inline std::vector<FiberNode> joined_nodes(const PerRank<FiberNode>& from) {
-  std::size_t count = 0;
-  for (const std::vector<FiberNode>& some : from) {
-    count += some.size();
-  }
-  std::vector<FiberNode> nodes;
-  nodes.reserve(count);
-  for (const std::vector<FiberNode>& some : from) {
-    nodes.insert(nodes.end(), some.begin(), some.end());
-  }
-  return nodes;
-}
-
 /// Sends each rank its runs, and takes those that are for this one.
 inline FiberRuns exchange_runs(const Communicator& ranks, std::vector<FiberRuns> to) {
   PerRank<FiberRun> runs(to.size());
@@ -94,7 +74,7 @@ inline FiberRuns exchange_runs(const Communicator& ranks, std::vector<FiberRuns>
   }
   FiberRuns all;
   all.runs = joined_runs(ranks.exchange(runs));
-  all.nodes = joined_nodes(ranks.exchange(nodes));
+  all.nodes = joined(ranks.exchange(nodes));
   return all;
 }
 

@@ -44,9 +44,9 @@ struct FiberStates {
     });
   }
 
-  /// Around segments that follow each other, on all their way.
+  /// A box around consecutive segments during the whole motion.
   /// @param begin, end the first point and the last one
-  PlainBox box_around(std::uint64_t begin, std::uint64_t end) const {
+  Box3d box_around(std::uint64_t begin, std::uint64_t end) const {
     const Eigen::Vector3d& first = before.fibers().points()[begin];
     Eigen::Array3d lower = first;
     Eigen::Array3d upper = first;
@@ -59,7 +59,7 @@ struct FiberStates {
       }
       radius = std::max(radius, largest_radius(fibers, begin, end));
     });
-    return inflated({{lower[0], lower[1], lower[2]}, {upper[0], upper[1], upper[2]}}, radius);
+    return inflated({lower.matrix().eval(), upper.matrix().eval()}, radius);
   }
 };
 

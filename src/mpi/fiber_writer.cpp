@@ -15,13 +15,13 @@
 namespace fiber {
 namespace {
 
-/// As files have them: a zero below none is another.
+/// Whether numbers are the same in a file: -0 is another than 0.
 bool has_same_bits(double x, double y) { return x == y && std::signbit(x) == std::signbit(y); }
 
 /// A point where a part may go on: it does at a point that has the same of all of this.
 struct PartEnd {
   GlobalSegment next;  // the segment that starts here
-  PlainPoint point{};
+  Eigen::Vector3d point{};
   double radius = 0.0;
 
   bool operator==(const PartEnd& other) const {
@@ -36,11 +36,11 @@ PartEnd end_of(const DistributedFibers& fibers, std::size_t part, bool is_start)
   const std::uint32_t point = is_start ? begin : fibers.parts.offsets()[part + 1] - 1;
   const FiberPart& name = fibers.names[part];
   return {{name.fiber, name.first_segment + (point - begin)},
-          plain(fibers.parts.points()[point]),
+          fibers.parts.points()[point],
           fibers.parts.radius_at(part, point)};
 }
 
-/// Of a rank the parts that are lines of their own in the file, and what it adds to it.
+/// The lines that the parts of a rank become in the file.
 struct RankLines {
   std::vector<bool> is_joined;  // to the part before it, by part
   FiberCounts own;
@@ -85,11 +85,11 @@ RankLines lines_of(const Communicator& ranks, const DistributedFibers& fibers) {
 /// The datasets of a frame. All ranks make them alike, then each writes its rows.
 class FiberDatasets {
  public:
-  FiberDatasets(hid_t file, const RankLines& lines, bool is_first_rank)
+  FiberDatasets(hid_t file, const RankLines& lines, bool is_root)
       : vtk_(create_group(file, layout::vtk)),
         at_points_(create_group(vtk_.get(), layout::at_points)),
         at_cells_(create_group(vtk_.get(), layout::at_cells)),
-        is_first_rank_(is_first_rank),
+        is_root_(is_root),
         next_point_(lines.before.points),
         all_(lines.all),
         points_(vtk_.get(), layout::points, all_.points, lines.before.points),
@@ -117,7 +117,7 @@ class FiberDatasets {
       }
     }
     flush();
-    if (is_first_rank_) {
+    if (is_root_) {
       sizes_.write();
       write_end(offsets_.dataset(), all_);
     }
@@ -144,7 +144,7 @@ class FiberDatasets {
   Hdf5Id vtk_;
   Hdf5Id at_points_;
   Hdf5Id at_cells_;
-  const bool is_first_rank_;
+  const bool is_root_;
   std::uint64_t next_point_;
   const FiberCounts all_;
   RowWriter<double, 3> points_;

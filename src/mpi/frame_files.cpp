@@ -33,7 +33,7 @@ void make_room(const std::string& path, std::uint64_t size) {
   }
 }
 
-/// Where a file is written, by all ranks at once, anywhere in it. Collective.
+/// The file that all ranks write at once, each anywhere in it. Collective.
 std::string place_of_file(const Communicator& ranks, const std::string& path) {
   const WritePlace place = write_place(ranks, path);
   ranks.throw_on_all(

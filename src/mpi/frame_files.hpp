@@ -14,7 +14,7 @@
 
 namespace fiber {
 
-/// What all our files have, in attributes of their root.
+/// Attributes that the root of each of our files has.
 namespace attribute {
 constexpr const char* content = "fiber_proximity";  // "fibers" or "contacts"
 constexpr const char* version = "version";

@@ -24,7 +24,7 @@ FiberRuns runs_of(const DistributedFibers& fibers) {
                          end - begin - 1,
                          runs.nodes.size()});
     for (std::uint32_t p = begin; p < end; ++p) {
-      runs.nodes.push_back({plain(fibers.parts.points()[p]), fibers.parts.radius_at(part, p)});
+      runs.nodes.push_back({fibers.parts.points()[p], fibers.parts.radius_at(part, p)});
     }
   }
   return runs;
@@ -53,7 +53,7 @@ FiberAssembly joined(const FiberRuns& runs) {
       ++node;
     }
     for (; node != end; ++node) {
-      points.push_back(vector_of(node->point));
+      points.push_back(node->point);
       radii.push_back(node->radius);
     }
   }
@@ -68,7 +68,7 @@ FiberAssembly joined(const FiberRuns& runs) {
   return {std::move(points), std::move(offsets), shared_if_equal(std::move(radii))};
 }
 
-/// What the fibres of sorted runs are called, each once.
+/// The names of the fibres of sorted runs, each once.
 FiberNames names_of(const FiberRuns& runs, const FiberNames& by_number) {
   std::vector<std::string> names;
   for (const FiberRun& run : runs.runs) {

@@ -7,8 +7,8 @@
 
 namespace fiber {
 
-/// What segments are called by all ranks, by the points that they start at: for whoever asks for
-/// each pair there is, in any order.
+/// Global ids of segments by the points that they start at: a table for whoever asks for each pair
+/// there is, in any order.
 class GlobalSegments {
  public:
   GlobalSegments() = default;

@@ -34,7 +34,7 @@ HaloExchange::HaloExchange(const Communicator& ranks, const FiberStates& own,
 FiberRuns HaloExchange::take() {
   FiberRuns all;
   all.runs = joined_runs(runs_.finish());
-  all.nodes = joined_nodes(nodes_.finish());
+  all.nodes = joined(nodes_.finish());
   return all;
 }
 

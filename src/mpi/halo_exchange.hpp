@@ -9,20 +9,20 @@
 
 namespace fiber {
 
-/// The segments of other ranks that this rank needs for its pairs, on the way while the rank does
-/// other things.
+/// Sends the segments near other ranks to these, and receives the ghosts that this rank needs for
+/// its own pairs. They are under way while the rank does other things.
 class HaloExchange {
  public:
-  /// Begins to send what others need. Collective.
+  /// Begins to send. Collective.
   /// @param own   this rank's
-  /// @param spans of these, by the rank that needs them
+  /// @param spans the send list of each rank: segments of own
   HaloExchange(const Communicator& ranks, const FiberStates& own, const PerRank<RunSpan>& spans);
 
-  /// Waits for what this rank needs. Collective.
+  /// Waits for the halo of this rank. Collective.
   FiberRuns take();
 
-  /// The nodes of the same runs after the motion, none without one. After take(); collective.
-  std::vector<FiberNode> take_after() { return joined_nodes(nodes_after_.finish()); }
+  /// The nodes of the halo after the motion, none without one. Call it after take(). Collective.
+  std::vector<FiberNode> take_after() { return joined(nodes_after_.finish()); }
 
  private:
   Exchange<FiberRun> runs_;

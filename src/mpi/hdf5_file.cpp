@@ -29,7 +29,7 @@ Hdf5Id list_without_times(hid_t kind) {
   return list;
 }
 
-/// For a file whose ids are all closed with it: what is still open would keep it open.
+/// Access that closes all ids with the file: an open id would keep the file open.
 Hdf5Id file_access() {
   Hdf5Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "no property list");
   require_success(H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG), "no property list");
@@ -47,7 +47,7 @@ Hdf5Id parallel_access(const Communicator& ranks) {
 Hdf5Id access_alone() {
   Hdf5Id access = file_access();
 #if H5_VERSION_GE(1, 10, 7)
-  // As with MPI: there are file systems that know no locks.
+  // Some file systems have no locks; MPI-IO does not ask for them either.
   require_success(H5Pset_file_locking(access.get(), 0, 1), "no property list");
 #endif
   return access;
@@ -60,7 +60,7 @@ Hdf5Id space_of(Hdf5Shape shape) {
   return {H5Screate_simple(rank_of(shape), sizes_of(shape).data(), nullptr), H5Sclose, "no space"};
 }
 
-/// Of a dataset's rows those of a part.
+/// Selects the rows of a part of a dataset.
 Hdf5Id selection(hid_t dataset, std::uint64_t first, Hdf5Shape part) {
   Hdf5Id space(H5Dget_space(dataset), H5Sclose, "a dataset has no space");
   const std::array<hsize_t, 2> start{first, 0};
@@ -68,6 +68,17 @@ Hdf5Id selection(hid_t dataset, std::uint64_t first, Hdf5Shape part) {
                                       sizes_of(part).data(), nullptr),
                   "rows cannot be selected");
   return space;
+}
+
+Hdf5Id scalar_space() { return {H5Screate(H5S_SCALAR), H5Sclose, "no space"}; }
+
+void write_attribute(hid_t place, const std::string& name, hid_t file_type, hid_t memory_type,
+                     const Hdf5Id& space, const void* value) {
+  const std::string failed = "attribute " + name + " cannot be written";
+  const Hdf5Id attribute(
+      H5Acreate2(place, name.c_str(), file_type, space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+      failed);
+  require_success(H5Awrite(attribute.get(), memory_type, value), failed);
 }
 
 /// An attribute's value if it is of this class.
@@ -143,23 +154,14 @@ bool has_link(hid_t place, const std::string& name) {
 }
 
 void write_numbers(hid_t place, const std::string& name, const std::vector<std::int64_t>& values) {
-  const std::string failed = "attribute " + name + " cannot be written";
-  const Hdf5Id space = values.size() == 1 ? Hdf5Id(H5Screate(H5S_SCALAR), H5Sclose, failed)
-                                          : space_of({values.size()});
-  const Hdf5Id attribute(H5Acreate2(place, name.c_str(), hdf5_type(std::int64_t()).file,
-                                    space.get(), H5P_DEFAULT, H5P_DEFAULT),
-                         H5Aclose, failed);
-  require_success(H5Awrite(attribute.get(), hdf5_type(std::int64_t()).memory, values.data()),
-                  failed);
+  const hid_t type = hdf5_type(std::int64_t()).file;
+  const Hdf5Id space = values.size() == 1 ? scalar_space() : space_of({values.size()});
+  write_attribute(place, name, type, hdf5_type(std::int64_t()).memory, space, values.data());
 }
 
 void write_real(hid_t place, const std::string& name, double value) {
-  const std::string failed = "attribute " + name + " cannot be written";
-  const Hdf5Id space(H5Screate(H5S_SCALAR), H5Sclose, failed);
-  const Hdf5Id attribute(
-      H5Acreate2(place, name.c_str(), hdf5_type(value).file, space.get(), H5P_DEFAULT, H5P_DEFAULT),
-      H5Aclose, failed);
-  require_success(H5Awrite(attribute.get(), hdf5_type(value).memory, &value), failed);
+  const Hdf5Type type = hdf5_type(value);
+  write_attribute(place, name, type.file, type.memory, scalar_space(), &value);
 }
 
 void write_text(hid_t place, const std::string& name, const std::string& text) {
@@ -167,11 +169,7 @@ void write_text(hid_t place, const std::string& name, const std::string& text) {
   const Hdf5Id type(H5Tcopy(H5T_C_S1), H5Tclose, failed);
   require_success(H5Tset_size(type.get(), std::max<std::size_t>(text.size(), 1)), failed);
   require_success(H5Tset_strpad(type.get(), H5T_STR_NULLPAD), failed);
-  const Hdf5Id space(H5Screate(H5S_SCALAR), H5Sclose, failed);
-  const Hdf5Id attribute(
-      H5Acreate2(place, name.c_str(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
-      failed);
-  require_success(H5Awrite(attribute.get(), type.get(), text.c_str()), failed);
+  write_attribute(place, name, type.get(), type.get(), scalar_space(), text.c_str());
 }
 
 std::optional<std::int64_t> read_number(hid_t place, const std::string& name) {

@@ -13,7 +13,7 @@
 
 #include "src/mpi/communicator.hpp"
 
-// What is needed of HDF5's C interface. What fails there throws Hdf5Error with HDF5's own reason.
+// Wrappers of HDF5's C interface. A failure throws std::runtime_error with HDF5's own reason.
 
 namespace fiber {
 
@@ -44,7 +44,7 @@ class Hdf5Id {
 
   hid_t get() const { return id_; }
 
-  /// The same as the end of its life does, but that it tells of errors.
+  /// Closes it as the destructor does, and reports errors.
   /// @throws std::runtime_error
   void close(const std::string& what);
 
@@ -86,7 +86,7 @@ Hdf5Type hdf5_type(std::int64_t);
 Hdf5Type hdf5_type(std::uint64_t);
 Hdf5Type hdf5_type(std::uint8_t);
 
-/// Where data of the file stand, as it is laid out when it is made: nothing is filled in.
+/// The size of a dataset. When it is made, space is taken and nothing is filled in.
 struct Hdf5Shape {
   std::uint64_t rows = 0;
   std::uint64_t columns = 1;  // 1: no dimension of its own
@@ -110,8 +110,7 @@ void write_rows(hid_t dataset, hid_t memory_type, std::uint64_t first, Hdf5Shape
                 const void* values);
 void read_rows(hid_t dataset, hid_t memory_type, std::uint64_t first, Hdf5Shape part, void* values);
 
-/// What a rank writes to rows of a dataset that follow each other, in slices: they are never in
-/// memory as a whole.
+/// Writes consecutive rows of a dataset in slices, so that they are never in memory as a whole.
 template <class T, std::size_t columns = 1>
 class RowWriter {
  public:

@@ -96,7 +96,7 @@ const FiberNode* LocalFibers::place(std::size_t number, double arc, const FiberN
   }
   double moved = 0.0;
   for (std::uint64_t i = 0; i <= run.count; ++i) {
-    const Eigen::Vector3d point = vector_of(nodes[i].point);
+    const Eigen::Vector3d point = nodes[i].point;
     moved =
         std::max(moved, (point - points_[run.begin + i]).lpNorm<1>());  // which never underflows
     points_[run.begin + i] = point;

@@ -10,8 +10,8 @@
 
 namespace fiber {
 
-/// Runs of the fibres of all ranks as an assembly that knows their names. Runs that follow each
-/// other are joined to one fibre here, and all are in the order of contacts, so that a pair has the
+/// Segments that a rank has, its own ones or its halo, as an assembly with global ids. Consecutive
+/// runs are joined to one fibre here, and all are in the order of contacts, so that a pair has the
 /// same first segment everywhere.
 class LocalFibers {
  public:
@@ -43,10 +43,10 @@ class LocalFibers {
   /// Sorted; `begin` is the first point of each among those of fibers().
   const std::vector<FiberRun>& runs() const { return runs_; }
 
-  /// What the first segments of fibers() are called, by fibre.
+  /// Global ids of the first segments of fibers(), by fibre.
   const std::vector<GlobalSegment>& first_ids() const { return first_ids_; }
 
-  /// What the segment of this index along this fibre here is called by all.
+  /// The global id of a segment: the one of this index along this fibre of fibers().
   GlobalSegment global_id(std::uint32_t fiber, std::uint32_t segment) const {
     return {first_ids_[fiber].fiber, first_ids_[fiber].segment + segment};
   }
@@ -61,8 +61,7 @@ class LocalFibers {
   std::size_t sorted_index(std::size_t number) const { return numbers_[number]; }
 
   FiberNode node(std::uint64_t point) const {
-    return {plain(fibers_.points()[point]),
-            fibers_.segment_radius(static_cast<std::uint32_t>(point))};
+    return {fibers_.points()[point], fibers_.segment_radius(static_cast<std::uint32_t>(point))};
   }
 
   /// Adds segments [begin, end) of one of runs() to others.
@@ -70,7 +69,7 @@ class LocalFibers {
 
   /// [m] From the start of the whole fibre to this point: the sum that one process makes.
   double arc(std::uint32_t point) const;
-  /// The same for point `i` of a run, from 0 to its number of segments.
+  /// [m] From the start of the whole fibre to point `i` of a run, from 0 to its number of segments.
   double arc(const FiberRun& run, std::uint64_t i) const;
 
  private:
@@ -79,8 +78,8 @@ class LocalFibers {
 
   FiberAssembly fibers_;
   std::vector<FiberRun> runs_;
-  std::vector<std::uint32_t> numbers_;  // place among the sorted runs by the number it was given
-  std::vector<GlobalSegment> first_ids_;    // of the first segment, by fibre
+  std::vector<std::uint32_t> numbers_;    // place among the sorted runs by the number it was given
+  std::vector<GlobalSegment> first_ids_;  // of the first segment, by fibre
 
   // While nodes are placed those of fibers_, which has none then:
   std::vector<Eigen::Vector3d> points_;

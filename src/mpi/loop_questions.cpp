@@ -10,25 +10,19 @@ namespace {
 
 bool comes_first(const OwnedRun& x, const OwnedRun& y) { return x.first < y.first; }
 
-/// For each question of the rule, by its bit, whether a point goes too far.
+/// A bit for each question of the rule: whether a point goes too far.
 using Answers = std::uint8_t;
 static_assert(loop_question_count <= 8);
-
-Capsule capsule_of(const PlainPoint& p0, const PlainPoint& p1, double radius) {
-  return {vector_of(p0), vector_of(p1), radius};
-}
 
 SegmentDistance nearest_of(const Capsule& a, const Capsule& b) {
   return segment_distance(a.p0, a.p1, b.p0, b.p1);
 }
 
-/// What the points here say to a question.
-Answers answer(const PlainLoopQuestion& question, KnownRuns& own, KnownRuns& halo) {
-  const Capsule a = capsule_of(question.a0, question.a1, question.radius_a);
-  const Capsule b = capsule_of(question.b0, question.b1, question.radius_b);
+/// Answers a question by the points here.
+Answers answer(const LoopQuestion& question, KnownRuns& own, KnownRuns& halo) {
   Answers answers = 0;
   makes_loop_by(
-      a, b, nearest_of(a, b),
+      question.a, question.b, nearest_of(question.a, question.b),
       [&](int number, const LoopPlace& x, const LoopPlace& y, double limit) {
         const LoopReach by_x(x, limit);
         const LoopReach by_y(y, limit);
@@ -58,10 +52,7 @@ std::vector<OwnedRun> find_owners(const Communicator& ranks, const KnownRuns& ow
   for (const OwnedRun& run : own.joined(ranks.rank())) {
     notices[run.first.fiber % size].push_back(run);
   }
-  std::vector<OwnedRun> known;
-  for (const std::vector<OwnedRun>& some : ranks.exchange(std::move(notices))) {
-    known.insert(known.end(), some.begin(), some.end());
-  }
+  std::vector<OwnedRun> known = joined(ranks.exchange(std::move(notices)));
   std::sort(known.begin(), known.end(), comes_first);
 
   PerRank<std::uint64_t> fibers(size);
@@ -83,10 +74,7 @@ std::vector<OwnedRun> find_owners(const Communicator& ranks, const KnownRuns& ow
       }
     }
   }
-  std::vector<OwnedRun> owners;
-  for (const std::vector<OwnedRun>& some : ranks.exchange(std::move(replies))) {
-    owners.insert(owners.end(), some.begin(), some.end());
-  }
+  std::vector<OwnedRun> owners = joined(ranks.exchange(std::move(replies)));
   std::sort(owners.begin(), owners.end(), comes_first);
   return owners;
 }
@@ -108,19 +96,6 @@ std::vector<int> ranks_between(const std::vector<OwnedRun>& owners, const LoopQu
   return ranks;
 }
 
-PlainLoopQuestion plain_question(const LoopQuestion& question) {
-  PlainLoopQuestion asked;
-  asked.first = {question.fiber, question.segment_a + 1};
-  asked.last = question.segment_b;
-  asked.a0 = plain(question.a.p0);
-  asked.a1 = plain(question.a.p1);
-  asked.b0 = plain(question.b.p0);
-  asked.b1 = plain(question.b.p1);
-  asked.radius_a = question.a.radius;
-  asked.radius_b = question.b.radius;
-  return asked;
-}
-
 }  // namespace
 
 std::vector<bool> find_loops(const Communicator& ranks, const LocalFibers& own,
@@ -131,11 +106,11 @@ std::vector<bool> find_loops(const Communicator& ranks, const LocalFibers& own,
   std::vector<Answers> by_question(questions.size(), 0);
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < questions.size(); ++i) {
-    const PlainLoopQuestion question = plain_question(questions[i]);
+    const LoopQuestion& question = questions[i];
     by_question[i] = answer(question, own_runs, halo_runs);
     // More points can only answer more questions with yes, and that only makes loops.
-    loops[i] = makes_loop(questions[i], by_question[i]);
-    const std::uint64_t count = question.last + 1 - question.first.segment;
+    loops[i] = makes_loop(question, by_question[i]);
+    const std::uint64_t count = question.segment_b - question.segment_a;
     if (!loops[i] && own_runs.count(question) + halo_runs.count(question) < count) {
       open.push_back(i);
     }
@@ -145,18 +120,18 @@ std::vector<bool> find_loops(const Communicator& ranks, const LocalFibers& own,
   }
   const auto size = static_cast<std::size_t>(ranks.size());
   const std::vector<OwnedRun> owners = find_owners(ranks, own_runs, questions, open);
-  PerRank<PlainLoopQuestion> asked(size);
+  PerRank<LoopQuestion> asked(size);
   PerRank<std::size_t> numbers(size);  // of the questions asked
   for (const std::size_t i : open) {
     for (const int rank : ranks_between(owners, questions[i])) {
-      asked[static_cast<std::size_t>(rank)].push_back(plain_question(questions[i]));
+      asked[static_cast<std::size_t>(rank)].push_back(questions[i]);
       numbers[static_cast<std::size_t>(rank)].push_back(i);
     }
   }
   asked = ranks.exchange(std::move(asked));
   PerRank<Answers> answers(size);
   for (std::size_t other = 0; other < size; ++other) {
-    for (const PlainLoopQuestion& question : asked[other]) {
+    for (const LoopQuestion& question : asked[other]) {
       answers[other].push_back(answer(question, own_runs, halo_runs));
     }
   }
@@ -174,7 +149,7 @@ std::vector<bool> find_loops(const Communicator& ranks, const LocalFibers& own,
 }
 
 bool LoopsOfRank::know_of(const LoopQuestion& question) {
-  return makes_loop(question, answer(plain_question(question), own_, of_others_));
+  return makes_loop(question, answer(question, own_, of_others_));
 }
 
 }  // namespace fiber

@@ -10,16 +10,6 @@
 
 namespace fiber {
 
-/// Whether a fibre makes a loop between two of its segments, where this rank does not have all
-/// points between them.
-struct LoopQuestion {
-  std::uint64_t fiber = 0;
-  std::uint64_t segment_a = 0;  // index along the fibre, the smaller one
-  std::uint64_t segment_b = 0;
-  Capsule a;
-  Capsule b;
-};
-
 /// Answers the questions of all ranks by the rule of LoopTest: what a rank does not know of the
 /// points between two segments it asks their owners. Collective.
 /// @param own  segments of this rank
@@ -28,7 +18,7 @@ struct LoopQuestion {
 std::vector<bool> find_loops(const Communicator& ranks, const LocalFibers& own,
                              const LocalFibers& halo, const std::vector<LoopQuestion>& questions);
 
-/// What the segments of one rank tell of loops by themselves.
+/// Finds loops by the segments of one rank alone.
 class LoopsOfRank {
  public:
   explicit LoopsOfRank(const LocalFibers& own) : own_(own), of_others_(none_) {}

@@ -18,13 +18,14 @@ bool is_stopped_by_limit(const MotionResult& result) {
 
 }  // namespace
 
-void MotionSearch::update(const RankFibers& fibers) {
+void MotionSearch::update(const OwnedFibers& fibers) {
   fibers_ = &fibers;
   ranks_.throw_on_all(error_in(
       [&] { engine_->update_motion(fibers.own().fibers(), fibers.own_after().fibers()); }));
 }
 
-/// Appends of what is found of this rank's own segments (a) and others what is a pair.
+/// Appends those of the pairs found that are pairs along whole fibres; segment a is this rank's
+/// own.
 void MotionSearch::append(const MotionOptions& options, const LocalFibers& fibers_b,
                           MotionResult& found, DistributedMotionResult& result) const {
   const LocalFibers& own = fibers_->own();
@@ -91,8 +92,8 @@ void MotionSearch::find(const MotionOptions& options, const PerRank<RunSpan>& sp
     runs.nodes = halo.take_after();
     halo_after_.assign(runs);
   }));
-  // What is a shape to the engine is the first of each pair there, and the second one here. All
-  // that may be reported is less apart than this, whichever comes first.
+  // The engine takes the halo's segment for the first of each pair, here it is the second. Pairs
+  // that may be reported are less apart than this, whichever comes first.
   here.margin = reach_of(options);
   here.time_tolerance = std::numeric_limits<double>::infinity();
   here.deadline = deadline.left();

@@ -7,7 +7,7 @@
 #include "fiber_proximity/query/engine.hpp"
 #include "src/mpi/communicator.hpp"
 #include "src/mpi/local_fibers.hpp"
-#include "src/mpi/rank_fibers.hpp"
+#include "src/mpi/owned_fibers.hpp"
 #include "src/mpi/send_lists.hpp"
 
 namespace fiber {
@@ -26,7 +26,7 @@ class MotionSearch {
   /// Makes the motion of these fibres the one that is looked at; they must live until the next
   /// update. Collective.
   /// @throws std::invalid_argument on every rank if a segment moves too far on one
-  void update(const RankFibers& fibers);
+  void update(const OwnedFibers& fibers);
 
   /// All pairs of a segment of this rank's own that there are, whatever type and limits of contacts
   /// the options have. Collective.
@@ -45,7 +45,7 @@ class MotionSearch {
 
   const Communicator& ranks_;
   std::unique_ptr<ProximityEngine> engine_;
-  const RankFibers* fibers_ = nullptr;
+  const OwnedFibers* fibers_ = nullptr;
   LocalFibers halo_;
   LocalFibers halo_after_;
   MotionResult found_;  // work memory

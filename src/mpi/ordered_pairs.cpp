@@ -11,7 +11,7 @@
 namespace fiber {
 namespace {
 
-// Of the pairs that are offered, one in nine is another rank's.
+// One in nine of the pairs that are offered is another rank's.
 constexpr std::size_t ordered_parts = 8;
 
 /// Points at which segments start, in the order of their names, as points are.

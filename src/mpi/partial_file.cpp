@@ -41,10 +41,10 @@ WritePlace place_of_name(const std::string& path) {
   if (fs::exists(status) && !fs::is_regular_file(status)) {
     return {path, false};
   }
-  constexpr int most_links = 40;  // as systems allow
+  constexpr int max_links = 40;  // as systems allow
   fs::path place(path);
   for (int links = 0; fs::is_symlink(fs::symlink_status(place, error)); ++links) {
-    if (links == most_links) {
+    if (links == max_links) {
       throw FileError(path, "cannot be written: too many links");
     }
     place = place.parent_path() / fs::read_symlink(place);  // an absolute one replaces all
@@ -73,7 +73,7 @@ void reserve(const std::string& path, std::uint64_t size) {
 }
 
 void move_into_place(const std::string& path) {
-  // What is no file on a disk needs no waiting for it.
+  // A device or a pipe has no disk to wait for.
   with_file(partial_name(path), O_RDONLY,
             [](int file) { return fsync(file) == 0 || errno == EINVAL || errno == EROFS; });
   std::error_code error;

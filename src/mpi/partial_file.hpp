@@ -7,12 +7,13 @@
 
 namespace fiber {
 
-/// Where what is written under a name goes: to what a link leads to, never in the place of a link.
+/// The target of a file name to write: the one that links lead to, never a link itself.
 struct WritePlace {
   std::string path;
 
-  /// A file, or nothing so far: it is written aside and gets its name once it is whole. Otherwise a
-  /// device, a pipe or a socket, which is written to as it stands.
+  /// Whether the target is a file or does not exist: then a partial file is written, which gets the
+  /// name once it is whole. Otherwise it is a device, a pipe or a socket, and is written to
+  /// directly.
   bool is_file = true;
 };
 
@@ -20,19 +21,19 @@ struct WritePlace {
 /// @throws std::invalid_argument for a folder, and for links that lead in a circle
 WritePlace write_place(const Communicator& ranks, const std::string& path);
 
-/// How a file is called while it is written.
+/// The name of a file while it is written.
 inline std::string partial_name(const std::string& path) { return path + ".part"; }
 
-/// Makes a file that is there as long as this, if the system can: a disk that is full is known
-/// before anything is written, as HDF5 does not survive it. By one rank.
+/// Makes an existing file so long, if the system can: a full disk is known before anything is
+/// written, as HDF5 does not survive it. Called by one rank.
 /// @throws FileError
 void reserve(const std::string& path, std::uint64_t size);
 
-/// Gives a file that was written aside its name, once it is on the disk. By one rank.
+/// Gives a partial file its name, once it is on the disk. Called by one rank.
 /// @throws FileError
 void move_into_place(const std::string& path);
 
-/// Removes what was written aside, if there is anything. By one rank.
+/// Removes the partial file, if there is one. Called by one rank.
 void remove_partial(const std::string& path);
 
 }  // namespace fiber

@@ -58,8 +58,8 @@ void centres_of(void* data, int /*global_entries*/, int /*local_entries*/, int c
 /// objects without weight, at the ends of a cube, keep it from that.
 Objects with_cube(const Communicator& ranks, const Objects& objects) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  PlainPoint lower{infinity, infinity, infinity};
-  PlainPoint upper{-infinity, -infinity, -infinity};
+  Eigen::Vector3d lower{infinity, infinity, infinity};
+  Eigen::Vector3d upper{-infinity, -infinity, -infinity};
   for (const PartitionObject& object : objects) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       lower[axis] = std::min(lower[axis], object.centre[axis]);
@@ -125,7 +125,7 @@ void throw_on_all_after_zoltan(const Communicator& ranks, const std::string& err
   }
 }
 
-/// What Zoltan says of the objects that leave; it has memory of its own.
+/// Zoltan's list of objects that change ranks, in memory of its own.
 struct Moves {
   int count = 0;
   ZOLTAN_ID_PTR global_ids = nullptr;
@@ -165,21 +165,21 @@ std::vector<int> partition(const Communicator& ranks, const std::vector<Partitio
   Zoltan_Set_Num_Geom_Fn(zoltan.get(), dimension_of, data);
   Zoltan_Set_Geom_Multi_Fn(zoltan.get(), centres_of, data);
 
-  Moves come;
-  Moves go;
+  Moves imports;
+  Moves exports;
   int changes = 0;
   int global_entries = 2;
   int local_entries = 1;
-  const int error =
-      Zoltan_LB_Partition(zoltan.get(), &changes, &global_entries, &local_entries, &come.count,
-                          &come.global_ids, &come.local_ids, &come.ranks, &come.parts, &go.count,
-                          &go.global_ids, &go.local_ids, &go.ranks, &go.parts);
+  const int error = Zoltan_LB_Partition(
+      zoltan.get(), &changes, &global_entries, &local_entries, &imports.count, &imports.global_ids,
+      &imports.local_ids, &imports.ranks, &imports.parts, &exports.count, &exports.global_ids,
+      &exports.local_ids, &exports.ranks, &exports.parts);
   throw_on_all_after_zoltan(ranks, zoltan_error(error));
-  // Those that are not told of belong to the part of this rank's number.
+  // Objects that are not exported belong to the part of this rank's number.
   std::vector<int> part_of(objects.size(), ranks.rank());
-  for (int i = 0; i < go.count; ++i) {
-    if (go.local_ids[i] < part_of.size()) {
-      part_of[go.local_ids[i]] = go.parts[i];
+  for (int i = 0; i < exports.count; ++i) {
+    if (exports.local_ids[i] < part_of.size()) {
+      part_of[exports.local_ids[i]] = exports.parts[i];
     }
   }
   return part_of;

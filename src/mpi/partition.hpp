@@ -7,14 +7,15 @@
 
 namespace fiber {
 
-/// What goes to one rank as a whole.
+/// A unit of the split, which goes to one rank as a whole.
 struct PartitionObject {
-  PlainPoint centre{};  // [m]
-  float weight = 1.0F;  // > 0
+  Eigen::Vector3d centre{};  // [m]
+  float weight = 1.0F;       // > 0
 };
 
 /// Splits the objects of all ranks along a space-filling curve, in parts of about equal weight,
-/// which are the same, but for their numbers, however the objects are dealt out. Collective.
+/// which are the same, but for their numbers, however the objects are spread over ranks.
+/// Collective.
 /// @param parts how many
 /// @return for each object of this rank the part it belongs to
 /// @throws std::invalid_argument on every rank if Zoltan fails; where it fails on some ranks and

@@ -12,7 +12,7 @@ constexpr std::size_t ahead = 8;
 
 }  // namespace
 
-PlainBox PieceBoxes::box_of(const FiberStates& fibers, const Piece& piece) {
+Box3d PieceBoxes::box_of(const FiberStates& fibers, const Piece& piece) {
   const FiberRun& run = fibers.before.runs()[piece.run];
   return fibers.box_around(run.begin + piece.begin, run.begin + end_of(piece, run));
 }
@@ -25,9 +25,8 @@ void PieceBoxes::fetch(const FiberStates& fibers, const Piece& piece) {
 double PieceBoxes::mean_side() const {
   double sum = 0.0;
   for (std::uint32_t place = 0; place < pieces_.size(); ++place) {
-    const PlainBox box = tree_.box(place);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      sum += box.upper[axis] - box.lower[axis];
+    for (const double side : tree_.box(place).sizes().eval()) {
+      sum += side;
     }
   }
   return pieces_.empty() ? std::numeric_limits<double>::infinity()
@@ -71,17 +70,17 @@ void PieceBoxes::for_each_piece(const FiberStates& fibers, const Call& call) {
 /// Makes a tree with places for the pieces of these fibres.
 void PieceBoxes::order_pieces(const FiberStates& fibers) {
   std::vector<Piece> by_runs;
-  std::vector<PlainBox> boxes;
-  const std::size_t most =
+  std::vector<Box3d> boxes;
+  const std::size_t max_pieces =
       fibers.before.fibers().segment_count() / segments_per_piece + fibers.before.runs().size();
-  by_runs.reserve(most);
-  boxes.reserve(most);
+  by_runs.reserve(max_pieces);
+  boxes.reserve(max_pieces);
   for_each_piece(fibers, [&](const Piece& piece) {
     by_runs.push_back(piece);
     boxes.push_back(box_of(fibers, piece));
   });
   const std::vector<std::uint32_t> numbers = spatial_order(boxes);
-  tree_ = boxes.empty() ? BoxTree() : BoxTree(boxes.size(), union_of(boxes));
+  tree_ = BoxTree(boxes.size(), union_of(boxes));
   boxes = {};
   pieces_.resize(by_runs.size());
   places_.resize(by_runs.size());

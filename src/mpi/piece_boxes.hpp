@@ -60,7 +60,7 @@ class PieceBoxes {
   static std::uint64_t end_of(const Piece& piece, const FiberRun& run) {
     return std::min(piece.begin + segments_per_piece, run.count);
   }
-  static PlainBox box_of(const FiberStates& fibers, const Piece& piece);
+  static Box3d box_of(const FiberStates& fibers, const Piece& piece);
   static void fetch(const FiberStates& fibers, const Piece& piece);
   void order_pieces(const FiberStates& fibers);
 

@@ -8,15 +8,15 @@
 
 namespace fiber {
 
-/// A capsule around segments that follow each other, on all their way, as it travels: around the
-/// line from the first point to the last one. Much tighter than a box where a line runs askew.
+/// A capsule around consecutive segments during their whole motion: around the line from the first
+/// point to the last one. It is much tighter than a box where a line runs askew.
 struct PieceCapsule {
-  PlainPoint start{};
-  PlainPoint line{};    // [m] from there to the end
-  double radius = 0.0;  // [m]
+  Eigen::Vector3d start{};
+  Eigen::Vector3d line{};  // [m] from there to the end
+  double radius = 0.0;     // [m]
 };
 
-/// Around one segment, on all its way.
+/// A ball around one segment during its whole motion.
 struct SegmentBall {
   Eigen::Vector3d centre;  // [m]
   double radius = 0.0;     // [m]
@@ -53,7 +53,7 @@ inline PieceCapsule capsule_around(const FiberStates& states, std::uint64_t begi
     }
     radius = std::max(radius, largest_radius(fibers, begin, end));
   });
-  return {plain(start), plain(line), radius + std::sqrt(square) + lost_length};
+  return {start, line, radius + std::sqrt(square) + lost_length};
 }
 
 /// @param point the segment's first one
@@ -73,8 +73,8 @@ inline SegmentBall ball_around(const FiberStates& states, std::uint64_t point) {
 
 /// Whether segments within the two may be as near as the margin [m], or be found so near.
 inline bool may_come_within(const SegmentBall& ball, const PieceCapsule& capsule, double margin) {
-  const Eigen::Vector3d line = vector_of(capsule.line);
-  const Eigen::Vector3d from_start = ball.centre - vector_of(capsule.start);
+  const Eigen::Vector3d line = capsule.line;
+  const Eigen::Vector3d from_start = ball.centre - capsule.start;
   const double distance = std::sqrt(square_to_line(from_start, line, inverse_square_of(line)));
   const double reach = ball.radius + capsule.radius + margin;
   // Far more than the roundings here and those of the distances of what is within.

@@ -8,28 +8,18 @@
 namespace fiber {
 namespace {
 
-// Of a rank, for those near it to see which of theirs matter to it.
+// So many boxes a rank shows its neighbours, for them to see which of their segments matter to it.
 constexpr std::size_t coarse_boxes = 64;
-
-/// The root of a rank's tree.
-struct RankBox {
-  PlainBox around;
-  bool has_segments = false;
-};
 
 /// Other ranks whose segments may be near.
 std::vector<std::size_t> find_neighbours(const Communicator& ranks, const BoxTree& tree,
                                          double margin) {
-  RankBox mine;
-  mine.has_segments = !tree.empty();
-  if (mine.has_segments) {
-    mine.around = tree.root();
-  }
-  const std::vector<RankBox> boxes = ranks.gather_all(mine);
+  const Box3d own = tree.empty() ? Box3d() : tree.root();
+  const std::vector<Box3d> boxes = ranks.gather_all(own);
   std::vector<std::size_t> neighbours;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    if (static_cast<int>(i) != ranks.rank() && mine.has_segments && boxes[i].has_segments &&
-        may_come_within(mine.around, boxes[i].around, margin)) {
+    if (static_cast<int>(i) != ranks.rank() && !own.isEmpty() && !boxes[i].isEmpty() &&
+        may_come_within(own, boxes[i], margin)) {
       neighbours.push_back(i);
     }
   }
@@ -40,10 +30,10 @@ std::vector<std::size_t> find_neighbours(const Communicator& ranks, const BoxTre
 /// small beside pieces: then the halo is little larger.
 double room_for(const Communicator& ranks, double motion, const PieceBoxes& boxes) {
   constexpr double updates = 8.0;
-  constexpr double most_of_piece = 0.1;
-  const double most = most_of_piece * ranks.min(boxes.mean_side());
+  constexpr double max_part_of_piece = 0.1;
+  const double max_room = max_part_of_piece * ranks.min(boxes.mean_side());
   const double per_update = 2.0 * motion;  // of two segments
-  return per_update <= most ? std::min(updates * per_update, most) : 0.0;
+  return per_update <= max_room ? std::min(updates * per_update, max_room) : 0.0;
 }
 
 }  // namespace
@@ -54,14 +44,14 @@ PerRank<RunSpan> find_send_lists(const Communicator& ranks, const FiberStates& o
   const BoxTree& tree = boxes.tree();
   const std::vector<std::size_t> neighbours = find_neighbours(ranks, tree, margin);
 
-  PerRank<PlainBox> coarse(size);
+  PerRank<Box3d> coarse(size);
   for (const std::size_t other : neighbours) {
     coarse[other] = tree.level_of_at_most(coarse_boxes);
   }
   coarse = ranks.exchange(std::move(coarse));
 
   // A neighbour needs those of my pieces that are near its own, to find what I need from it.
-  PerRank<PlainBox> fine(size);
+  PerRank<Box3d> fine(size);
   PerRank<NearPiece> pieces(size);
   for (const std::size_t other : neighbours) {
     const BoxTree theirs(coarse[other]);
@@ -90,23 +80,23 @@ PerRank<RunSpan> find_send_lists(const Communicator& ranks, const FiberStates& o
   return spans;
 }
 
-const PerRank<RunSpan>& SendLists::find(const Communicator& ranks, RankFibers& fibers,
+const PerRank<RunSpan>& SendLists::find(const Communicator& ranks, OwnedFibers& fibers,
                                         double margin) {
   if (ranks.size() == 1) {
     spans_.resize(1);
     return spans_;
   }
-  const RankFibers::Displacement& now = fibers.displacement();
+  const Displacement& now = fibers.displacement();
   // Both of two segments may have moved; a little more than the roundings of these sums.
-  const double nearer = 2.0 * (1.0 + 0x1p-40) * (now.length - displacement_.length);
-  if (now.epoch == displacement_.epoch && margin == margin_ && margin + nearer <= reach_) {
+  const double nearer = 2.0 * (1.0 + 0x1p-40) * (now.length - found_at_.length);
+  if (now.epoch == found_at_.epoch && margin == margin_ && margin + nearer <= reach_) {
     return spans_;
   }
   ++search_count_;
   const PieceBoxes& boxes = fibers.fit_boxes();
   margin_ = margin;
   reach_ = (1.0 + 0x1p-50) * (margin + room_for(ranks, now.last, boxes));
-  displacement_ = now;
+  found_at_ = now;
   spans_ = find_send_lists(ranks, fibers.states(), boxes, reach_);
   return spans_;
 }

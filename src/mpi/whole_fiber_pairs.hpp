@@ -15,7 +15,7 @@ namespace fiber {
 
 /// Options with which an engine that has stretches of fibres leaves out no pair of those that the
 /// options ask for. Some that it finds are none along whole fibres.
-/// @param arc_roundings see RankFibers
+/// @param arc_roundings see OwnedFibers
 inline PairOptions options_of_stretches(const PairOptions& options, double arc_roundings) {
   PairOptions here = options;
   here.contact_limit = 0;
@@ -32,12 +32,13 @@ inline PairOptions options_of_stretches(const PairOptions& options, double arc_r
   return here;
 }
 
-/// The part of a limit of pairs that is left, at least one; 0 stays none.
+/// The part of a limit of pairs that is left, at min_length one; 0 stays none.
 inline std::uint64_t rest_of(std::uint64_t limit, std::uint64_t taken) {
   return limit == 0 ? 0 : std::max<std::uint64_t>(1, limit - std::min(limit, taken));
 }
 
-/// Where a rank looks for pairs: segment a is one of its own, b one of these or of its halo.
+/// The segments that a rank looks for pairs of: a is one of its own, b an own one or one of its
+/// halo.
 struct RankPairs {
   const Communicator& ranks;
   const LocalFibers& own;
@@ -55,10 +56,10 @@ struct RankPairs {
         b.segment - a.segment <= options.neighbour_skip.value_or(1)) {
       return true;
     }
-    const double least = options.neighbour_skip_length.value_or(0.0);
-    return least > 0.0 && fibers_b.arc(fibers_b.point_of(pair.fiber_b, pair.segment_b)) -
-                                  own.arc(own.point_of(pair.fiber_a, pair.segment_a) + 1) <
-                              least;
+    const double min_length = options.neighbour_skip_length.value_or(0.0);
+    return min_length > 0.0 && fibers_b.arc(fibers_b.point_of(pair.fiber_b, pair.segment_b)) -
+                                       own.arc(own.point_of(pair.fiber_a, pair.segment_a) + 1) <
+                                   min_length;
   }
 
   /// Leaves of what an engine found those that are pairs along whole fibres. Collective.
@@ -87,7 +88,7 @@ void RankPairs::keep_those_of_whole_fibers(const PairOptions& options, const Loc
     }
     const GlobalSegment a = own.global_id(pair.fiber_a, pair.segment_a);
     const GlobalSegment b = fibers_b.global_id(pair.fiber_b, pair.segment_b);
-    // Where a stretch of the fibre holds both, the engine has seen the loop.
+    // The engine has seen the loop if both segments are on one stretch of the fibre.
     const bool is_loop_known = &fibers_b == &own && pair.fiber_a == pair.fiber_b;
     if (options.needs_loops() && a.fiber == b.fiber && !is_loop_known) {
       asked.push_back(kept);

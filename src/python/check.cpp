@@ -236,7 +236,7 @@ void bind_check(py::module& module) {
              py::arg("environment") = none, py::arg("margin") = 0.0, py::arg("type") = "first",
              py::arg("radii") = 0.0, py::arg("allowed") = none, py::arg("with_itself") = true,
              motions_doc);
-  // The same, of an engine.
+  // An engine has the same methods.
   const auto of_engine = [](auto function) {
     return [function](const std::shared_ptr<Engine>& engine, const py::object& asked,
                       const py::object& environment, double margin, const std::string& type,

@@ -17,7 +17,7 @@
 namespace fiber::python {
 namespace {
 
-/// What there is now; made where something has changed.
+/// The objects there are now; made where something has changed.
 std::shared_ptr<const Environment> snapshot(const SharedWorld& world) {
   const WithoutPythonLock others_may_run;
   return world.environment();

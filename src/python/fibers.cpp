@@ -61,7 +61,7 @@ FiberAssembly make_fibers(const py::object& points, const py::object& offsets,
   std::vector<std::uint32_t> begins;
   if (offsets.is_none()) {
     const Py_ssize_t length = is_stack ? array.shape(1) : array.shape(0);
-    // Of fibres without points one is enough to be refused.
+    // One fibre without points is enough to be refused.
     const Py_ssize_t most = length == 0 ? 1 : std::numeric_limits<Py_ssize_t>::max();
     const Py_ssize_t fibers = is_stack ? std::min(array.shape(0), most) : 1;
     for (Py_ssize_t fiber = 0; fiber <= fibers; ++fiber) {
@@ -191,8 +191,8 @@ void move(Fibers& fibers, const py::object& points) {
   fibers.move(rows, count);
 }
 
-/// What copy and pickle make another one of: of the same class, which may be a subclass, with what
-/// it holds besides. Python's own way would leave the C++ part out.
+/// Arguments from which copy and pickle make another one: of its class, which may be a subclass,
+/// with what it holds besides. Python's own way would leave the C++ part out.
 py::tuple reduce(const py::object& self) {
   const auto& fibers = self.cast<const Fibers&>();
   const Fibers::State state = fibers.state();

@@ -20,7 +20,7 @@ FiberFile read_without_lock(const std::string& path, double default_radius) {
   }
 }
 
-/// What of the file is not read is a warning.
+/// Warns of all in the file that was not read.
 FiberFile read_file(const std::string& path, double default_radius) {
   require_readable(path);
   FiberFile file = read_without_lock(path, default_radius);

@@ -16,7 +16,7 @@ namespace fiber::python {
 QueryOptions query_options(const std::string& type, double margin,
                            const pybind11::kwargs& keywords);
 
-/// The same of a motion.
+/// Options of a question about a motion.
 MotionOptions motion_options(const std::string& type, double margin,
                              const pybind11::kwargs& keywords);
 

@@ -7,7 +7,7 @@ namespace fiber::python {
 
 /// Lets other threads of Python run as long as it lives.
 ///
-/// What pybind11 has for this ends the process where a thread comes back from a long call while
+/// pybind11's own class for this ends the process where a thread comes back from a long call while
 /// Python is shutting down, as threads of rospy do: Python then ends the thread in a destructor
 /// that may not throw. Here it stays where it is until the process has ended, as later versions of
 /// Python have it.

@@ -51,21 +51,6 @@ void Simulation::reset() {
 
 namespace {
 
-/// The node of this index; negative ones count from the end.
-NodeOfRod find_node(const SimScene& scene, std::uint32_t rod, std::int64_t node) {
-  const auto count = static_cast<std::int64_t>(scene.stepper->rods().node_count(rod));
-  const std::int64_t index = node < 0 ? count + node : node;
-  if (index < 0 || index >= count) {
-    throw std::invalid_argument("fibre " + quote(scene.fiber_names[rod]) + " has " +
-                                std::to_string(count) + " nodes, there is no node " +
-                                std::to_string(node));
-  }
-  if (scene.attachment == nullptr) {
-    throw std::invalid_argument("the scene does not name the effect attachment");
-  }
-  return {rod, static_cast<std::uint32_t>(index)};
-}
-
 /// Straight to the target from where the node is.
 Attachment::Hold make_hold(const SimScene& scene, const NodeOfRod& held,
                            const HoldRequest& request) {
@@ -113,16 +98,6 @@ void attach(SimScene& scene, std::uint32_t rod, std::int64_t node, const HoldReq
   }
   without.add(rods, hold);
   *scene.attachment = std::move(without);
-}
-
-void detach(SimScene& scene, std::uint32_t rod, std::int64_t node) {
-  const NodeOfRod held = find_node(scene, rod, node);
-  const auto id = scene.attachment->find(held.rod, held.node);
-  if (!id) {
-    throw std::invalid_argument("nothing holds node " + std::to_string(node) + " of fibre " +
-                                quote(scene.fiber_names[rod]));
-  }
-  scene.attachment->remove(*id);
 }
 
 }  // namespace fiber::python

@@ -44,7 +44,7 @@ class Simulation : public OnlyShared {
   std::string failure_;  // of a step; empty if none has failed
 };
 
-/// What a node is held by: a pin, or a clamp where it has a tangent.
+/// The hold of a node: a pin, or a clamp where it has a tangent.
 struct HoldRequest {
   Eigen::Vector3d target;                   ///< [m]
   double speed = 0.0;                       ///< [m/s] with which it goes there; 0: within a step
@@ -56,9 +56,6 @@ struct HoldRequest {
 /// Holds a node, in place of what holds it.
 /// @throws std::invalid_argument as require_reach() and Attachment::add()
 void attach(SimScene& scene, std::uint32_t rod, std::int64_t node, const HoldRequest& request);
-
-/// @throws std::invalid_argument if nothing holds the node
-void detach(SimScene& scene, std::uint32_t rod, std::int64_t node);
 
 /// Adds what forces are made of.
 void bind_forces(py::module& module);

@@ -8,6 +8,7 @@
 #include "src/python/environment.hpp"
 #include "src/python/errors.hpp"
 #include "src/python/simulation.hpp"
+#include "src/sim/scene/reach.hpp"
 #include "src/sim/scene/report.hpp"
 #include "src/text/quote.hpp"
 
@@ -15,7 +16,7 @@ namespace fiber::python {
 
 namespace {
 
-/// What json cannot write of a scene: numpy's arrays and numbers.
+/// Brings to json what it cannot write of a scene: numpy's arrays and numbers.
 py::object to_plain(const py::object& value) {
   refuse_masked(value, "a value of the scene");
   if (py::hasattr(value, "tolist")) {
@@ -100,7 +101,7 @@ void attach_to(Simulation& simulation, const py::object& fiber, std::int64_t nod
 void detach_from(Simulation& simulation, const py::object& fiber, std::int64_t node) {
   const auto named = fiber_argument(fiber);
   simulation.with(
-      [&](SimScene& scene) { detach(scene, find_fiber(scene, named.first, named.second), node); });
+      [&](SimScene& scene) { release_node(scene, find_fiber(scene, named.first, named.second), node); });
 }
 
 py::dict parameters_of(const Simulation& simulation) {

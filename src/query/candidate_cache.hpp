@@ -13,7 +13,7 @@
 
 namespace fiber {
 
-/// What candidates of a query depend on, beside the fibres: they serve all queries of the same key.
+/// Options that decide the candidates of a query: they serve all queries of an equal key.
 class CandidateKey {
  public:
   CandidateKey() = default;
@@ -39,7 +39,7 @@ class CandidateCache {
     CURRENT
   };
 
-  /// Of the ones that are kept.
+  /// State of the candidates that are kept.
   State state() const;
 
   /// Makes them worse: CURRENT ones STALE or NONE, STALE ones NONE.
@@ -78,7 +78,7 @@ class DirtySegments {
 
   std::size_t size() const { return first_points_.size(); }
 
-  /// Of a segment by its first point.
+  /// Whether a segment, by its first point, is dirty.
   bool contains(std::uint32_t first_point) const { return is_dirty_[first_point] != 0; }
 
   const RunTreeView& tree() const { return tree_.view(); }

@@ -33,7 +33,7 @@ class ContactBatch {
                 const QueryLimits& limits, bool prunes, std::vector<std::uint64_t>& keys,
                 QueryCounts& counts);
 
-  /// The same from candidates of a tree with itself that were collected before: those of dirty
+  /// Reuses candidates of a tree with itself that were collected before: those of dirty
   /// segments are left out and looked for anew.
   Found replace(const std::vector<std::uint64_t>& old_keys, const DirtySegments& dirty,
                 const RunTreeView& tree, const NarrowPhase& test, double bound,

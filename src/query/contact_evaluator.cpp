@@ -55,7 +55,7 @@ void ContactEvaluator::evaluate(const std::vector<std::uint64_t>& keys, const Na
   }
 }
 
-/// Of the contacts so far, which are more.
+/// Keeps so many of the contacts so far, which are more.
 void ContactEvaluator::leave_closest(std::uint64_t count, QueryResult& result) {
   result.contacts.resize(contact_count_);
   result.limit_reached = keep_closest(count, result) || result.limit_reached;
@@ -99,7 +99,8 @@ void ContactEvaluator::make_room(std::size_t evaluated, std::size_t candidates,
     contacts.reserve(
         std::min(static_cast<std::uint64_t>(expected), limits.max_kept + pairs_per_round));
   }
-  // What a query before has left there is written over: making it anew would take as long.
+  // Contacts that an earlier query has left there are written over: making them anew would take
+  // as long.
   contacts.resize(std::max(contacts.size(), contact_count_));
 }
 

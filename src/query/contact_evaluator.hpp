@@ -15,7 +15,7 @@ namespace fiber {
 /// of threads. Keeps its memory from query to query.
 class FIBER_PROXIMITY_EXPORT ContactEvaluator {
  public:
-  /// Of the time until the deadline, when candidates are judged: contacts are written down after.
+  /// Candidates are judged until this part of the time has passed; then contacts are written.
   static constexpr double part_of_time = 0.9;
 
   /// @param keys of the candidates, as NarrowPhase orders pairs, in ascending order
@@ -49,12 +49,12 @@ class FIBER_PROXIMITY_EXPORT ContactEvaluator {
   void evaluate_slice(const std::uint64_t* keys, const NarrowPhase& test,
                       std::uint64_t loop_steps_left, Slice& slice);
 
-  // Of a round:
+  // These are of a round.
   std::vector<Slice> slices_;
   std::vector<PairDistance> distances_;
   std::vector<std::uint8_t> is_contact_;
 
-  // Of all rounds so far:
+  // These are of all rounds so far.
   std::size_t contact_count_ = 0;
   std::uint64_t loop_steps_ = 0;  // along fibres
   bool took_too_long_ = false;

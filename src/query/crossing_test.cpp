@@ -32,8 +32,9 @@ constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 bool is_large(const Vector3d& v) { return !(v.cwiseAbs().maxCoeff() <= largest_entry); }
 
-/// Of three vectors that are each rounded once: at most eight roundings in a product of three, so
-/// 8.1 · 2⁻⁵³ of the sum of their magnitudes (as in Shewchuk 1997, orient3d); twice that here.
+/// The error of three vectors that are each rounded once: at most eight roundings in a product of
+/// three, so 8.1 · 2⁻⁵³ of the sum of their magnitudes (as in Shewchuk 1997, orient3d); twice that
+/// here.
 Approximate determinant(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   if (is_large(a) || is_large(b) || is_large(c)) {
     return {0.0, unbounded};

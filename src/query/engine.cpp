@@ -189,7 +189,7 @@ void ProximityEngine::do_find_candidates(const FiberMotion* shape, const NarrowP
   QueryOptions options = candidate_options(test, limits);
   QueryResult result;
   if (shape == nullptr) {
-    // What is left out by where the fibres are is evaluated by where they were before the motion.
+    // Rules that depend on where the fibres are are evaluated by where they were before the motion.
     options.neighbour_skip = test.wants_adjacent() ? 0 : 1;
     do_query(swept, options, result);
     take(result, swept, swept, test, limits, candidates);

@@ -7,7 +7,7 @@
 
 namespace fiber {
 
-/// What queries work in, kept from one to the next. Queries that run at the same time do not share:
+/// Memory of queries, kept from one to the next. Queries that run at the same time do not share:
 /// there come to be as many as do.
 template <class Memory>
 class IdleMemory {

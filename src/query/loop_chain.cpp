@@ -18,7 +18,7 @@ constexpr double max_fall_back = 1.75;
 constexpr double min_step = 0x1p-1000;
 
 /// Whether these points fall back along none of the four directions by more than the limit [m].
-/// Of every step, what rounding may have added is taken off first.
+/// Every step is first shortened by all that rounding may have added.
 bool is_loop_free(const std::vector<Vector3d>& points, std::uint32_t first, std::uint32_t last,
                   double limit) {
   const Vector3d axis = unit_of(points[last] - points[first]);

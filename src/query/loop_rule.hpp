@@ -73,7 +73,7 @@ bool makes_loop_by(const Capsule& a, const Capsule& b, const SegmentDistance& ne
   const double radius = std::max(a.radius, b.radius);
   const double length_a = norm_of(a.p1 - a.p0);
   const double length_b = norm_of(b.p1 - b.p0);
-  // What places on segments are rounded by makes no loop.
+  // The rounding of places on segments makes no loop.
   const double allowance = count_of_radii * radius + 0x1p-48 * (length_a + length_b);
   const auto limit = [&](double distance) { return part_of_distance * distance + allowance; };
   const LoopPlace on_a = place_on(a, nearest.s);

@@ -36,7 +36,7 @@ double longest_step(const FiberAssembly& fibers, std::uint32_t fiber) {
 
 }  // namespace
 
-/// What is worth knowing of a fibre for long walks along it.
+/// Knowledge of a fibre that shortens long walks along it.
 struct LoopTest::Chain {
   void fit(const FiberAssembly& fibers, std::uint32_t fiber) {
     step = longest_step(fibers, fiber);

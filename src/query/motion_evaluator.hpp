@@ -17,7 +17,7 @@ namespace fiber {
 /// Candidates that one thread looks at at a time.
 constexpr std::size_t motions_per_slice = 512;
 
-/// What one thread finds at a time.
+/// Results of one thread for the candidates it takes at a time.
 struct MotionSlice {
   std::vector<MotionContact> contacts;
   std::vector<MotionContact> touching;

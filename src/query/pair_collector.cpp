@@ -183,7 +183,7 @@ void ContactAccumulator::leave_out(double lower) {
   result_.others_lower = std::min(result_.others_lower, lower);
 }
 
-/// What is found is sorted at the end, which must be over by then.
+/// Contacts are sorted at the end, which must be over by then.
 void ContactAccumulator::check_deadline() {
   constexpr double seconds_to_sort_one = 4e-7;
   const double needed = seconds_to_sort_one * static_cast<double>(result_.contacts.size());

@@ -38,7 +38,7 @@ void find_some(const RunTreeView& a, const RunTreeView& b, const QueryOptions& o
   collector.finish();
 }
 
-/// What moves so far that no engine allows it is beyond the range of float.
+/// Points that move further than any engine allows are beyond the range of float.
 /// @throws std::invalid_argument as SweptFibers
 void check_ways(const RunTree& tree, const FiberAssembly& before, const FiberAssembly& after) {
   if (tree.is_unbounded()) {

@@ -29,7 +29,7 @@ class FIBER_PROXIMITY_EXPORT RunTreeEngine final : public ProximityEngine {
   /// while the sink wants more and not all is over, which is asked often. One thread.
   void offer_pairs(PairSink& sink, const std::function<bool()>& is_over, QueryCounts& counts) const;
 
-  /// The same for pairs of a segment of the shape (a) and one of its fibres (b).
+  /// Offers pairs of a segment of the shape (a) and one of its fibres (b).
   void offer_pairs_with(const FiberAssembly& shape, PairSink& sink,
                         const std::function<bool()>& is_over, QueryCounts& counts) const;
 

@@ -31,7 +31,7 @@ class Neighbours {
   void for_each(const Other& other, std::size_t end, const Use& use) {
     const std::uint64_t b = number_of(other.fiber_b, other.segment_b);
     const std::uint64_t min_b = other.segment_b == 0 ? b : b - 1;
-    // Of each segment next to the first one, and of itself, its own place.
+    // The first segment and each one next to it have a place of their own.
     for (std::uint32_t row = other.segment_a == 0 ? 1 : 0; row < 3; ++row) {
       const std::uint64_t a = number_of(other.fiber_a, other.segment_a) + row - 1;
       std::size_t& begin = begins_[row];
@@ -274,7 +274,8 @@ void TouchTracker::take(const TouchingPair& pair, const TimeBounds& step, TouchS
   taken.was_there = taken.was_there || (was_there && !pair.is_gone);
 }
 
-/// What was there already and has parted from a touch that goes on elsewhere begins when it parts.
+/// A patch that was there already and has parted from a touch that goes on elsewhere begins when it
+/// parts.
 void TouchTracker::begin_when_parted(std::size_t pair_count) {
   for (std::size_t i = 0; i < pair_count && !partings_.empty(); ++i) {
     TouchStep& touch = touches_[touch_of_patch_[patches_[i]]];

@@ -80,7 +80,7 @@ class FIBER_PROXIMITY_EXPORT TouchTracker {
   /// @param step from the last state to that in which they are no more
   void renumber(const FiberIndices& indices, const TimeBounds& step,
                 std::vector<TouchEvent>& events);
-  /// The same where first and second bodies are of two kinds.
+  /// Renumbers where first and second bodies are of two kinds.
   void renumber(const FiberIndices& indices_a, const FiberIndices& indices_b,
                 const TimeBounds& step, std::vector<TouchEvent>& events);
 
@@ -129,11 +129,12 @@ class FIBER_PROXIMITY_EXPORT TouchTracker {
     auto key() const { return std::tie(touch, is_next_to, patch); }
   };
 
-  // Of the step that is being taken; members for their memory. A patch is known by its first pair.
+  // These are of the step being taken; members for their memory. A patch is known by its first
+  // pair.
   std::vector<std::uint32_t> patches_;  // by pair: an earlier pair of its patch, or itself
   std::vector<std::uint32_t> parts_;    // the same, of what is there at the end of the step
 
-  /// What becomes of a patch.
+  /// The outcome of a patch.
   struct Parting {
     std::uint32_t first_part;
     bool has_parted;

@@ -13,7 +13,7 @@ namespace fiber {
 /// quarter stay, with how many there are between them.
 FIBER_PROXIMITY_EXPORT std::string shortened(std::string_view text, std::size_t most = 200);
 
-/// The same between quotes.
+/// The shortened text between quotes.
 FIBER_PROXIMITY_EXPORT std::string quote(std::string_view text);
 
 }  // namespace fiber

@@ -68,7 +68,7 @@ CLI::Validator number_of(const std::string& kind, const std::string& range,
 
 std::string length_range() { return "from 0 to " + text_of(FiberAssembly::max_coordinate); }
 
-/// What stands where a subcommand should, if there is one and none of this name.
+/// The first argument, if it stands where a subcommand should and is none.
 std::optional<std::string> unknown_subcommand(const std::vector<std::string>& known, int argc,
                                               const char* const* argv) {
   if (known.empty() || argc < 2 || argv[1][0] == '-' ||
@@ -116,15 +116,14 @@ int run_tool(const char* name, const char* description, const Setup& setup, int 
   }
 }
 
-CLI::Validator whole_number(std::uint64_t least) {
-  return number_of<std::uint64_t>("a whole number", "from " + std::to_string(least),
-                                  [least](std::uint64_t value) { return value >= least; });
+CLI::Validator whole_number(std::uint64_t min) {
+  return number_of<std::uint64_t>("a whole number", "from " + std::to_string(min),
+                                  [min](std::uint64_t value) { return value >= min; });
 }
 
-CLI::Validator finite_number(double least) {
-  return number_of<double>("a finite number", "from " + text_of(least), [least](double value) {
-    return std::isfinite(value) && value >= least;
-  });
+CLI::Validator finite_number(double min) {
+  return number_of<double>("a finite number", "from " + text_of(min),
+                           [min](double value) { return std::isfinite(value) && value >= min; });
 }
 
 CLI::Validator length() {

@@ -26,16 +26,16 @@ using Setup = std::function<void(CLI::App& app, Command& command)>;
 int run_tool(const char* name, const char* description, const Setup& setup, int argc,
              const char* const* argv);
 
-/// Accepts whole numbers from `least`.
-CLI::Validator whole_number(std::uint64_t least);
+/// Accepts whole numbers from `min`.
+CLI::Validator whole_number(std::uint64_t min);
 
-/// Accepts finite numbers from `least`.
-CLI::Validator finite_number(double least);
+/// Accepts finite numbers from `min`.
+CLI::Validator finite_number(double min);
 
 /// Accepts lengths [m] from 0 to FiberAssembly::max_coordinate.
 CLI::Validator length();
 
-/// The same, and infinity.
+/// Accepts lengths [m] from 0 to FiberAssembly::max_coordinate, and infinity.
 CLI::Validator length_or_infinity();
 
 /// The vector of an option's text X,Y,Z.

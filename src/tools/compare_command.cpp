@@ -10,7 +10,6 @@
 #include "fiber_proximity/compare/fcl_comparer.hpp"
 #include "fiber_proximity/io/fiber_file.hpp"
 #include "src/tools/fiber_query.hpp"
-#include "src/tools/read_input.hpp"
 #include "src/tools/text_output.hpp"
 
 namespace fiber {
@@ -19,6 +18,7 @@ namespace {
 constexpr Verdict verdicts[] = {Verdict::BOTH, Verdict::OURS, Verdict::FCL, Verdict::NEITHER};
 
 struct CompareRequest : FiberRequest {
+  std::string engine = "run_tree";
   QueryOptions query;
   std::string format = "text";
 };
@@ -102,9 +102,8 @@ nlohmann::ordered_json json_of(const FiberNames& names, const StyleComparison& s
   return object;
 }
 
-std::string csv_columns(bool has_frames) {
-  std::string text = has_frames ? "frame," : "";
-  text +=
+std::string csv_columns() {
+  std::string text =
       "method,update_time,detect_time,pair_tests,contacts,only_ours,only_fcl,in_both,no_answer,"
       "largest_difference";
   for (const Verdict verdict : verdicts) {
@@ -173,7 +172,7 @@ void write_text(TextOutput& output, const FrameComparison& frame) {
   output.write(text);
 }
 
-/// All disagreements of a file, for its last line.
+/// Counts the disagreements of a file, for its last line.
 class Totals {
  public:
   void add(const Comparison& comparison) {
@@ -205,33 +204,31 @@ class Totals {
 ExitCode run(const CompareRequest& request) {
   const std::unique_ptr<ProximityEngine> engine =
       make_engine(request.engine, request.engine_options);
-  const FiberFile file = read_input("fiber_query", request.file, request.radius);
   const bool csv = request.format == "csv";
   const auto write = csv ? write_csv : request.format == "json" ? write_json : write_text;
   FclComparer comparer;
   Totals totals;
-  TextOutput output(std::cout);
-  output.write(csv ? csv_columns(file.has_frames) : "");
-  for (const FiberFrame& frame : file.frames) {
-    const auto begin = std::chrono::steady_clock::now();
-    engine->update(frame.fibers);
-    const std::chrono::duration<double> update = std::chrono::steady_clock::now() - begin;
-    const FrameComparison found{{file.has_frames, frame.frame},
-                                frame.names,
-                                update.count(),
-                                comparer.compare(frame.fibers, *engine, request.query)};
-    totals.add(found.comparison);
-    write(output, found);
-    output.flush();
+  write_frames(
+      request.file, request.radius, csv ? csv_columns() : "",
+      [&](const FrameNumber& number, const FiberFrame& frame, TextOutput& output) {
+        const auto begin = std::chrono::steady_clock::now();
+        engine->update(frame.fibers);
+        const std::chrono::duration<double> update = std::chrono::steady_clock::now() - begin;
+        const FrameComparison found{number, frame.names, update.count(),
+                                    comparer.compare(frame.fibers, *engine, request.query)};
+        totals.add(found.comparison);
+        write(output, found);
+      });
+  if (request.format == "text") {
+    std::cout << totals.text();
   }
-  output.write(request.format == "text" ? totals.text() : "");
-  output.flush();
   return totals.exit_code();
 }
 
 void add_options(CLI::App& app, CompareRequest& request) {
-  add_fiber_options(app, request,
+  add_fiber_options(app, request, file_help,
                     "most threads for the engine, 0 for as many as there are cores; FCL has one");
+  add_engine_option(app, request.engine);
   app.add_option("--margin", request.query.margin, "pairs with a gap of at most this; finite [m]")
       ->check(finite_number(0.0))
       ->capture_default_str();

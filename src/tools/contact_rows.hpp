@@ -13,7 +13,7 @@ constexpr const char* contact_columns =
     "fiber_a,segment_a,s,fiber_b,segment_b,t,distance,point_a_x,point_a_y,point_a_z,"
     "point_b_x,point_b_y,point_b_z,normal_x,normal_y,normal_z,lower,upper\n";
 
-/// What the fibres of a pair are called.
+/// The names of the fibres that a pair may be of.
 struct PairNames {
   const FiberNames& a;
   const FiberNames& b;
@@ -68,7 +68,7 @@ inline nlohmann::ordered_json json_of_answer(const FrameNumber& frame, bool is_c
   return object;
 }
 
-/// What is said of an answer that is not complete.
+/// Tells that an answer is not complete.
 inline std::string deadline_warning(const FrameNumber& frame) {
   return "the deadline has passed" +
          (frame.is_given ? " in frame " + std::to_string(frame.number) : "") +

@@ -6,7 +6,7 @@
 
 #include "fiber_proximity/mpi/distributed_files.hpp"
 #include "src/mpi/communicator.hpp"
-#include "src/tools/rank_text.hpp"
+#include "src/tools/parallel_text_file.hpp"
 #include "src/tools/text_output.hpp"
 
 namespace fiber {
@@ -45,7 +45,7 @@ class ContactSink {
   const Communicator& ranks_;
   const ContactFormat format_;
   std::optional<DistributedContactWriter> hdf5_;
-  std::optional<RankText> text_;  // one of the two
+  std::optional<ParallelTextFile> text_;  // one of the two
 };
 
 }  // namespace fiber

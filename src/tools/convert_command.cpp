@@ -97,8 +97,8 @@ class SerialFile {
   std::optional<CsvWriter> csv_;  // else .hair
 };
 
-void convert_on_first_rank(const Communicator& ranks, const ConvertRequest& request,
-                           FiberSource& source) {
+void convert_run_on_root(const Communicator& ranks, const ConvertRequest& request,
+                         FiberSource& source) {
   std::optional<SerialFile> file;
   const WritePlace place = write_place(ranks, request.out);
   run_on_root(ranks, [&] { file.emplace(place, format_of(request.out), source.has_frames()); });
@@ -125,11 +125,11 @@ ExitCode convert(const ConvertRequest& request) {
   }
   const Communicator ranks(MPI_COMM_WORLD);
   require_other_file(ranks, request.in, request.out);
-  FiberSource source(ranks, request.in, request.radius);
+  FiberSource source(ranks, request.in, request.radius, FrameSharing::PARTS);
   if (is_hdf5) {
     convert_to_hdf5(ranks, request, source);
   } else {
-    convert_on_first_rank(ranks, request, source);
+    convert_run_on_root(ranks, request, source);
   }
   return SUCCEEDED;
 }
@@ -145,8 +145,7 @@ void add_convert(CLI::App& app, Command& command) {
       ->add_option("OUT", request->out,
                    "what to write; all fibres of a frame are on rank 0 unless both files are .h5")
       ->required();
-  subcommand->add_option("--radius", request->radius, "of all fibres, if the file has no radii [m]")
-      ->capture_default_str();
+  add_radius_option(*subcommand, request->radius);
   subcommand->add_flag("--resume", request->resume,
                        "go on after the last whole frame of a run that was interrupted (.h5)");
   subcommand->callback([&command, request] { command = [request] { return convert(*request); }; });

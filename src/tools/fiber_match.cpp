@@ -12,11 +12,11 @@ std::uint32_t points_of(const FiberAssembly& fibers, std::uint32_t fiber) {
   return fibers.offsets()[fiber + 1] - fibers.offsets()[fiber];
 }
 
-/// Some names, and how many more there are.
+/// Lists the first few names, and counts the others.
 class SomeNames {
  public:
   void add(const std::string& name) {
-    if (++count_ <= most) {
+    if (++count_ <= max_listed) {
       list_ += (list_.empty() ? "" : ", ") + quote(name);
     }
   }
@@ -24,11 +24,12 @@ class SomeNames {
     return count_ == 0
                ? ""
                : "; " + what + ": " + list_ +
-                     (count_ > most ? " and " + std::to_string(count_ - most) + " more" : "");
+                     (count_ > max_listed ? " and " + std::to_string(count_ - max_listed) + " more"
+                                          : "");
   }
 
  private:
-  static constexpr std::size_t most = 3;
+  static constexpr std::size_t max_listed = 3;
 
   std::string list_;
   std::size_t count_ = 0;

@@ -17,7 +17,7 @@ struct FiberMatch {
   std::vector<std::uint32_t>
       others;  ///< the rest of the frame, whose motion is not known, in order
 
-  /// What else is different, on one line; "" for nothing.
+  /// Tells on one line what else is different; "" if nothing is.
   std::string difference;
 
   bool is_other(std::uint64_t fiber) const {

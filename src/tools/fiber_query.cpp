@@ -17,6 +17,7 @@ namespace fiber {
 namespace {
 
 struct Request : FiberRequest {
+  std::string engine = "run_tree";
   PairRequest pairs;
   Eigen::Vector3d point;  // [m]
   std::uint32_t k = 1;
@@ -27,7 +28,8 @@ struct Request : FiberRequest {
 using Ask = std::function<void(const ProximityEngine& engine, QueryResult& result)>;
 
 void add_file_options(CLI::App& app, Request& request) {
-  add_fiber_options(app, request);
+  add_fiber_options(app, request, file_help, threads_help);
+  add_engine_option(app, request.engine);
   app.add_option("--format", request.format, format_help)
       ->check(CLI::IsMember({"csv", "json"}))
       ->capture_default_str();
@@ -43,29 +45,21 @@ void write_json_contacts(TextOutput& output, const FrameNumber& frame, const Fib
 ExitCode run(const Request& request, const Ask& ask) {
   const std::unique_ptr<ProximityEngine> engine =
       make_engine(request.engine, request.engine_options);
-  const FiberFile file = read_input("fiber_query", request.file, request.radius);
   const bool json = request.format == "json";
   QueryResult result;
-  TextOutput output(std::cout);
-  if (!json) {
-    output.write((file.has_frames ? "frame," : "") + std::string(contact_columns));
-  }
-  for (const FiberFrame& frame : file.frames) {
-    engine->update(frame.fibers);
-    ask(*engine, result);
-    const FrameNumber number{file.has_frames, frame.frame};
-    if (json) {
-      write_json_contacts(output, number, frame.names, result);
-    } else {
-      write_csv_contacts(output, number, frame.names, result.contacts);
-    }
-    output.flush();
-    if (!result.complete) {
-      std::cerr << "fiber_query: " << deadline_warning(number) << '\n';
-    }
-  }
-  output.flush();  // the header of a file without frames
-  return SUCCEEDED;
+  return write_frames(request.file, request.radius, json ? "" : contact_columns,
+                      [&](const FrameNumber& number, const FiberFrame& frame, TextOutput& output) {
+                        engine->update(frame.fibers);
+                        ask(*engine, result);
+                        if (json) {
+                          write_json_contacts(output, number, frame.names, result);
+                        } else {
+                          write_csv_contacts(output, number, frame.names, result.contacts);
+                        }
+                        if (!result.complete) {
+                          std::cerr << "fiber_query: " << deadline_warning(number) << '\n';
+                        }
+                      });
 }
 
 void add_pair_queries(CLI::App& app, Command& command, const std::shared_ptr<Request>& request) {
@@ -116,21 +110,31 @@ void setup(CLI::App& app, Command& command) {
   add_segments(app, command);
   add_motions(app, command);
   add_sweep(app, command);
+  add_check(app, command);
   add_compare(app, command);
   add_topology(app, command);
 }
 
 }  // namespace
 
-void add_fiber_options(CLI::App& app, FiberRequest& request, const std::string& threads) {
-  app.add_option("FILE", request.file, file_help)->required();
-  app.add_option("--engine", request.engine, "one of " + join(engine_names()))
-      ->capture_default_str();
-  app.add_option("--radius", request.radius, "of all fibres, if the file has no radii [m]")
-      ->capture_default_str();
-  app.add_option("--threads", request.engine_options.threads, threads)
-      ->check(whole_number(0))
-      ->capture_default_str();
+void add_engine_option(CLI::App& app, std::string& engine) {
+  app.add_option("--engine", engine, "one of " + join(engine_names()))->capture_default_str();
+}
+
+ExitCode write_frames(const std::string& path, double radius, const std::string& columns,
+                      const std::function<void(const FrameNumber& number, const FiberFrame& frame,
+                                               TextOutput& output)>& write) {
+  const FiberFile file = read_input("fiber_query", path, radius);
+  TextOutput output(std::cout);
+  if (!columns.empty()) {
+    output.write((file.has_frames ? "frame," : "") + columns);
+  }
+  for (const FiberFrame& frame : file.frames) {
+    write({file.has_frames, frame.frame}, frame, output);
+    output.flush();
+  }
+  output.flush();  // the header of a file without frames
+  return SUCCEEDED;
 }
 
 }  // namespace fiber

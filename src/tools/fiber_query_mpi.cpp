@@ -18,27 +18,26 @@
 #include "src/mpi/communicator.hpp"
 #include "src/tools/contact_rows.hpp"
 #include "src/tools/contact_sink.hpp"
-#include "src/tools/fiber_query.hpp"
 #include "src/tools/fiber_source.hpp"
 #include "src/tools/mpi_tool.hpp"
 
 namespace fiber {
 namespace {
 
-struct MpiRequest : RankRequest {
+struct MpiRequest : FiberRequest {
   PairRequest pairs;
   std::string out;  // "" for stdout
   std::optional<std::string> format;
   bool resume = false;
 };
 
-/// What a subcommand asks.
+/// The question that a subcommand asks.
 struct Question {
   std::string name;
   QueryOptions query;
 };
 
-/// All that the answer depends on.
+/// Names all that the answer depends on.
 std::string run_of(const Communicator& ranks, const MpiRequest& request, const Question& question) {
   const QueryOptions& query = question.query;
   return question.name + " of " + description_of_file(ranks, request.file) + ", radius " +
@@ -75,7 +74,7 @@ ExitCode run(const MpiRequest& request, const Question& question) {
   const Communicator ranks(MPI_COMM_WORLD);
   require_other_file(ranks, request.file, request.out);
   DistributedEngine engine(MPI_COMM_WORLD, request.engine_options);
-  FiberSource source(ranks, request.file, request.radius);
+  FiberSource source(ranks, request.file, request.radius, FrameSharing::PARTS);
   DistributedFileOptions options;
   options.has_frames = source.has_frames();
   options.resume = request.resume;
@@ -100,13 +99,9 @@ ExitCode run(const MpiRequest& request, const Question& question) {
 }
 
 void add_output_options(CLI::App& app, MpiRequest& request) {
-  app.add_option("--out", request.out,
-                 "write to this file, .h5, .csv or .json, which has its name once it is whole; "
-                 "without this, to what mpirun takes as output");
-  app.add_option(
-         "--format", request.format,
-         "of the output; json: one object per frame, in which a fibre's name is a number if "
-         "it is whole; without this, by the end of its name, else csv")
+  add_out_option(app, request.out, ".h5, .csv or .json");
+  app.add_option("--format", request.format,
+                 std::string(format_help) + "; without this, by the end of its name, else csv")
       ->check(CLI::IsMember({"csv", "json", "hdf5"}));
   app.add_flag("--resume", request.resume,
                "go on after the last whole frame of a run that was interrupted (.h5)");
@@ -130,7 +125,7 @@ void add_pair_queries(CLI::App& app, Command& command) {
 void setup_mpi(CLI::App& app, Command& command) {
   app.require_subcommand(0, 1);
   add_pair_queries(app, command);
-  add_check(app, command);
+  add_check_mpi(app, command);
   add_convert(app, command);
   add_sweep_mpi(app, command);
 }
@@ -146,17 +141,19 @@ std::string text_of_pairs(const QueryOptions& query) {
          text_of_option(query.neighbour_skip_length) + ", kernel " + name_of(query.kernel);
 }
 
-void add_rank_options(CLI::App& app, RankRequest& request) {
-  app.add_option("FILE", request.file,
-                 "fibre file: .h5, of which each rank reads its part; .hair, or CSV as fiber_query "
-                 "reads it, which rank 0 reads")
-      ->required();
-  app.add_option("--radius", request.radius, "of all fibres, if the file has no radii [m]")
-      ->capture_default_str();
-  app.add_option("--threads", request.engine_options.threads,
-                 "most threads that each rank uses, 0 for as many as there are cores")
-      ->check(whole_number(0))
-      ->capture_default_str();
+void add_rank_options(CLI::App& app, FiberRequest& request) {
+  request.engine_options.threads = 1;
+  add_fiber_options(app, request,
+                    "fibre file: .h5, of which each rank reads its part; .hair, or CSV as "
+                    "fiber_query reads it, which rank 0 reads",
+                    rank_threads_help);
+}
+
+void add_out_option(CLI::App& app, std::string& out, const std::string& ends) {
+  app.add_option("--out", out,
+                 "write to this file (" + ends +
+                     "), which has its name once it is whole; without this, to what mpirun takes "
+                     "as output");
 }
 
 }  // namespace fiber

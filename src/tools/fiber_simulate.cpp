@@ -112,7 +112,7 @@ class Balance {
     const StepReport& report = scene.stepper->report();
     const IslandReport& worst = report.worst;
     unbalanced_ += report.unbalanced > 0 ? 1 : 0;
-    most_gained_ = std::max(most_gained_, report.energy_gain);
+    max_gain_ = std::max(max_gain_, report.energy_gain);
     if (worst.residual > residual_) {
       residual_ = worst.residual;
       std::ostringstream text;
@@ -129,14 +129,14 @@ class Balance {
                 << scene.options.max_iterations
                 << " iterations, as the scene asks, before forces balance: what is left would "
                    "change a speed by up to "
-                << where_ << "; the most energy that a step gained is " << most_gained_ << " J\n";
+                << where_ << "; the most energy that a step gained is " << max_gain_ << " J\n";
     }
   }
 
  private:
   std::int64_t unbalanced_ = 0;
-  double most_gained_ = 0.0;  // [J]
-  double residual_ = 0.0;     // [m/s]
+  double max_gain_ = 0.0;  // [J]
+  double residual_ = 0.0;  // [m/s]
   std::string where_;
 };
 
@@ -158,13 +158,14 @@ SimScene make_scene(const Request& request) {
   return scene;
 }
 
-/// As many frames as it takes to come so far; a time step is mostly written with few digits.
+/// The number of frames that last so long. Time steps are mostly written with few digits, so hardly
+/// more than a whole number of them counts as whole.
 std::int64_t frames_in(double seconds, double time_step) {
-  constexpr double most = 1e9;
+  constexpr double max = 1e9;
   const double frames = std::ceil(seconds / time_step * (1.0 - 1e-9));
-  if (!(frames <= most)) {
+  if (!(frames <= max)) {
     std::ostringstream error;
-    error << "--seconds is " << seconds << ": that is more than " << most << " frames of "
+    error << "--seconds is " << seconds << ": that is more than " << max << " frames of "
           << time_step << " s";
     throw std::invalid_argument(error.str());
   }

@@ -19,7 +19,7 @@
 namespace fiber {
 namespace {
 
-/// For what only one rank need say.
+/// Swallows what another rank says already.
 class NoText : public std::streambuf {
  protected:
   int_type overflow(int_type c) override { return traits_type::not_eof(c); }
@@ -54,7 +54,7 @@ int run_mpi_tool(const char* name, const char* description, const Setup& setup, 
   int rank = 0;
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   std::set_new_handler(end_without_memory);
-  // What is too large for the system is an error like that of a full disk.
+  // A file that is too large for the system is an error like that of a full disk.
   std::signal(SIGXFSZ, SIG_IGN);
   NoText none;
   std::streambuf* const output = std::cout.rdbuf();

@@ -14,11 +14,11 @@ namespace fiber {
 int run_mpi_tool(const char* name, const char* description, const Setup& setup, int argc,
                  char** argv);
 
-/// Of rank 0, where its stderr ends in a terminal; nothing of the others.
+/// Shows the progress of rank 0, if its stderr ends in a terminal, and nothing of the others.
 Progress rank_progress(const Communicator& ranks);
 
-/// A bar; nothing of a single one.
-/// @param what they are
+/// Shows a bar, unless there is only one step.
+/// @param what the steps are
 void show_done(Progress& progress, std::uint64_t done, std::uint64_t all, const std::string& what);
 
 /// @throws std::invalid_argument on all ranks if both names are of the same file

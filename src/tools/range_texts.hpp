@@ -9,17 +9,17 @@
 
 namespace fiber {
 
-/// What a rank writes of a range that it was dealt.
+/// The text that a rank has made of a range of the work.
 struct RangeText {
   std::uint64_t begin = 0;
   std::string text;
 };
 
-/// Deals the texts of all ranks out anew, so that those of a rank come before those of the next.
+/// Sends texts between the ranks so that those of a rank come before those of the next one.
 /// Collective.
-/// @param all   that was dealt out
+/// @param all   the work that was shared out
 /// @param texts of this rank, in any order
-/// @return this rank's, in order
+/// @return the texts that this rank has then, in order
 std::vector<RangeText> sort_over_ranks(const Communicator& ranks, const WorkRange& all,
                                        std::vector<RangeText> texts);
 

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <stdexcept>
@@ -27,15 +29,29 @@ struct FrameNumber {
   std::int64_t number;
 };
 
-/// Lines on their way to a stream, written piece by piece: a frame may have millions of them. What
-/// writes throws std::runtime_error if it cannot.
+/// Lines on their way to a stream or elsewhere, written piece by piece: a frame may have millions
+/// of them.
 class TextOutput {
  public:
-  explicit TextOutput(std::ostream& stream) : stream_(stream) {}
+  static constexpr std::size_t max_piece = 65'536;  // [byte]
+
+  /// Takes the pieces of the text in their order, each of at most max_piece bytes. What it throws,
+  /// the functions that write throw.
+  using Sink = std::function<void(std::string_view piece)>;
+
+  explicit TextOutput(Sink sink) : sink_(std::move(sink)) {}
+
+  /// The functions that write throw std::runtime_error where the stream fails.
+  explicit TextOutput(std::ostream& stream)
+      : TextOutput([&stream](std::string_view piece) {
+          if (!stream.write(piece.data(), static_cast<std::streamsize>(piece.size()))) {
+            throw std::runtime_error("the output cannot be written");
+          }
+        }) {}
 
   void write(std::string_view text) {
     text_ += text;
-    if (text_.size() >= long_text) {
+    if (text_.size() >= max_piece) {
       flush();
     }
   }
@@ -63,7 +79,7 @@ class TextOutput {
     end_object();
   }
 
-  // The same in pieces, which several may write one after another.
+  // A JSON object with a list may also be written in pieces, by several one after another.
 
   void begin_object(nlohmann::ordered_json object, const char* list) {
     object[list] = nlohmann::ordered_json::array();
@@ -82,15 +98,13 @@ class TextOutput {
   void end_object() { write(end_of_object); }
 
   void flush() {
-    stream_ << text_;
-    text_.clear();
-    if (!stream_) {
-      throw std::runtime_error("the output cannot be written");
+    for (std::size_t begin = 0; begin < text_.size(); begin += max_piece) {
+      sink_(std::string_view(text_).substr(begin, max_piece));
     }
+    text_.clear();
   }
 
  private:
-  static constexpr std::size_t long_text = 65'536;  // [byte]
   static constexpr std::string_view end_of_object = "]}\n";
 
   /// JSON is UTF-8: what is none in a name becomes U+FFFD.
@@ -124,7 +138,7 @@ class TextOutput {
     }
   }
 
-  std::ostream& stream_;
+  const Sink sink_;
   std::string text_;
 };
 
@@ -142,10 +156,10 @@ inline nlohmann::ordered_json json_of(const FiberCalled& called) {
   if (called.names.are_indices()) {
     return called.fiber;
   }
-  constexpr std::int64_t most = 9'007'199'254'740'992;  // 2⁵³: others read it as a double
+  constexpr std::int64_t max = 9'007'199'254'740'992;  // 2⁵³: others read it as a double
   std::string name = called.names.of(called.fiber);
   const auto number = parse_number<std::int64_t>(name);
-  if (number && *number > -most && *number < most && text_of(*number) == name) {
+  if (number && *number > -max && *number < max && text_of(*number) == name) {
     return *number;
   }
   return name;

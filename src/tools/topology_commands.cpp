@@ -8,7 +8,6 @@
 #include "fiber_proximity/query/crossings.hpp"
 #include "src/io/number.hpp"
 #include "src/tools/fiber_query.hpp"
-#include "src/tools/read_input.hpp"
 #include "src/tools/text_output.hpp"
 
 namespace fiber {
@@ -33,27 +32,20 @@ struct TopologyRequest {
 template <class Ask, class ToJson, class ToRow>
 ExitCode run(const TopologyRequest& request, const std::string& columns, const char* name,
              const Ask& ask, const ToJson& to_json, const ToRow& to_row) {
-  const FiberFile file = read_input("fiber_query", request.file, request.radius);
-  TextOutput output(std::cout);
-  if (!request.json()) {
-    output.write((file.has_frames ? "frame," : "") + columns);
-  }
-  for (const FiberFrame& frame : file.frames) {
-    const FrameNumber number{file.has_frames, frame.frame};
-    const auto& items = ask(frame.fibers);
-    if (request.json()) {
-      output.write_object(object_of(number), name, items,
-                          [&](const auto& item) { return to_json(frame.names, item); });
-    } else {
-      for (const auto& item : items) {
-        to_row(frame.names, item,
-               [&](const auto&... fields) { output.write_row(number, fields...); });
-      }
-    }
-    output.flush();
-  }
-  output.flush();  // the header of a file without frames
-  return SUCCEEDED;
+  return write_frames(
+      request.file, request.radius, request.json() ? "" : columns,
+      [&](const FrameNumber& number, const FiberFrame& frame, TextOutput& output) {
+        const auto& items = ask(frame.fibers);
+        if (request.json()) {
+          output.write_object(object_of(number), name, items,
+                              [&](const auto& item) { return to_json(frame.names, item); });
+          return;
+        }
+        for (const auto& item : items) {
+          to_row(frame.names, item,
+                 [&](const auto&... fields) { output.write_row(number, fields...); });
+        }
+      });
 }
 
 nlohmann::ordered_json json_of_crossing(const FiberNames& names, const Crossing& crossing) {
@@ -170,13 +162,8 @@ void add_topology(CLI::App& app, Command& command) {
       add(app, command, request, "crossings",
           "where fibres cross over and under each other and themselves in a view", run_crossings);
   add_view_options(*crossings, request);
-  crossings->add_option("--radius", request->radius, "of all fibres, if the file has no radii [m]")
-      ->capture_default_str();
-  crossings
-      ->add_option("--threads", request->threads,
-                   "most threads to use, 0 for as many as there are cores")
-      ->check(whole_number(0))
-      ->capture_default_str();
+  add_radius_option(*crossings, request->radius);
+  add_threads_option(*crossings, request->threads, threads_help);
   add(app, command, request, "linking",
       "linking numbers of the fibres, each closed from its last point to its first; pairs that are "
       "not listed have 0",

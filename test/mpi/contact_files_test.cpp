@@ -16,14 +16,14 @@
 namespace fiber::test {
 namespace {
 
-/// Contacts with keys of their own, dealt to the ranks; on all of them the same of all.
-struct DealtContacts {
+/// Contacts with keys of their own, scattered to the ranks; on all of them the same of all.
+struct ScatteredContacts {
   std::vector<DistributedContact> all;  // sorted
   DistributedResult mine;
 };
 
-DealtContacts deal_contacts(int count, double share_of_first, Random& random) {
-  DealtContacts dealt;
+ScatteredContacts scatter_contacts(int count, double share_of_first, Random& random) {
+  ScatteredContacts scattered;
   std::vector<int> ranks;
   for (int i = 0; i < count; ++i) {
     DistributedContact contact;
@@ -41,14 +41,14 @@ DealtContacts deal_contacts(int count, double share_of_first, Random& random) {
     contact.normal = Eigen::Vector3d::UnitZ();
     const bool is_first = random.chance(share_of_first);
     if (const int rank = random.integer(0, rank_count() - 1); own_rank() == (is_first ? 0 : rank)) {
-      dealt.mine.contacts.push_back(contact);
+      scattered.mine.contacts.push_back(contact);
     }
-    dealt.all.push_back(contact);
+    scattered.all.push_back(contact);
   }
   std::sort(
-      dealt.all.begin(), dealt.all.end(),
+      scattered.all.begin(), scattered.all.end(),
       [](const DistributedContact& x, const DistributedContact& y) { return x.key() < y.key(); });
-  return dealt;
+  return scattered;
 }
 
 bool are_same(const DistributedContact& x, const DistributedContact& y) {
@@ -71,22 +71,23 @@ TEST(ContactFiles, ContactsAreSortedOverTheRanks) {
   for (const int count : {0, 1, 2, 5, 100, 3000}) {
     for (const double share_of_first : {0.0, 0.9, 1.0}) {
       SCOPED_TRACE(std::to_string(count) + " contacts, " + std::to_string(share_of_first));
-      DealtContacts dealt = deal_contacts(count, share_of_first, random);
-      dealt.mine.others_lower = 0.25;
-      sort_over_ranks(MPI_COMM_WORLD, dealt.mine);
-      EXPECT_EQ(dealt.mine.others_lower, 0.25);
-      const std::vector<std::size_t> counts = counts_of(dealt.mine);
+      ScatteredContacts scattered = scatter_contacts(count, share_of_first, random);
+      scattered.mine.others_lower = 0.25;
+      sort_over_ranks(MPI_COMM_WORLD, scattered.mine);
+      EXPECT_EQ(scattered.mine.others_lower, 0.25);
+      const std::vector<std::size_t> counts = counts_of(scattered.mine);
       std::size_t first = 0;
       for (std::size_t rank = 0; rank < counts.size(); ++rank) {
-        EXPECT_LE(counts[rank], 2 * dealt.all.size() / counts.size() + 1);
+        EXPECT_LE(counts[rank], 2 * scattered.all.size() / counts.size() + 1);
         if (static_cast<int>(rank) == own_rank()) {
-          ASSERT_LE(first + counts[rank], dealt.all.size());
-          EXPECT_TRUE(std::equal(dealt.mine.contacts.begin(), dealt.mine.contacts.end(),
-                                 dealt.all.begin() + static_cast<std::ptrdiff_t>(first), are_same));
+          ASSERT_LE(first + counts[rank], scattered.all.size());
+          EXPECT_TRUE(std::equal(scattered.mine.contacts.begin(), scattered.mine.contacts.end(),
+                                 scattered.all.begin() + static_cast<std::ptrdiff_t>(first),
+                                 are_same));
         }
         first += counts[rank];
       }
-      EXPECT_EQ(first, dealt.all.size());
+      EXPECT_EQ(first, scattered.all.size());
     }
   }
 }
@@ -110,12 +111,12 @@ TEST(ContactFiles, TheFileIsTheSameForAnyNumberOfRanks) {
   Random random(32);
   for (const int count : {0, 1, 3, 1000}) {
     SCOPED_TRACE(count);
-    DealtContacts dealt = deal_contacts(count, 0.0, random);
-    sort_over_ranks(MPI_COMM_WORLD, dealt.mine);
-    write_contacts(MPI_COMM_WORLD, folder / "ranks.h5", dealt.mine);
+    ScatteredContacts scattered = scatter_contacts(count, 0.0, random);
+    sort_over_ranks(MPI_COMM_WORLD, scattered.mine);
+    write_contacts(MPI_COMM_WORLD, folder / "ranks.h5", scattered.mine);
     if (own_rank() == 0) {
       DistributedResult all;
-      all.contacts = dealt.all;
+      all.contacts = scattered.all;
       write_contacts(MPI_COMM_SELF, folder / "one.h5", all);
       EXPECT_TRUE(bytes_in(folder / "ranks.h5") == bytes_in(folder / "one.h5"));
       EXPECT_GT(std::filesystem::file_size(folder / "one.h5"),
@@ -128,10 +129,11 @@ TEST(ContactFiles, TheFileIsTheSameForAnyNumberOfRanks) {
 TEST(ContactFiles, NamesOfFibresStandInTheFileOnce) {
   const SharedFolder folder;
   Random random(34);
-  DealtContacts dealt = deal_contacts(5, 0.0, random);
-  sort_over_ranks(MPI_COMM_WORLD, dealt.mine);
-  write_contacts(MPI_COMM_WORLD, folder / "named.h5", dealt.mine, FiberNames({"rope", "a tube"}));
-  write_contacts(MPI_COMM_WORLD, folder / "numbered.h5", dealt.mine);
+  ScatteredContacts scattered = scatter_contacts(5, 0.0, random);
+  sort_over_ranks(MPI_COMM_WORLD, scattered.mine);
+  write_contacts(MPI_COMM_WORLD, folder / "named.h5", scattered.mine,
+                 FiberNames({"rope", "a tube"}));
+  write_contacts(MPI_COMM_WORLD, folder / "numbered.h5", scattered.mine);
   const std::string named = bytes_in(folder / "named.h5");
   const std::size_t place = named.find("rope\na tube\n");
   EXPECT_NE(place, std::string::npos);
@@ -148,9 +150,9 @@ TEST(ContactFiles, ARunGoesOnAfterTheLastWholeFrame) {
   options.run = "margin 1";
   std::vector<DistributedResult> frames;
   for (int i = 0; i < 4; ++i) {
-    DealtContacts dealt = deal_contacts(50 * i, 0.0, random);
-    sort_over_ranks(MPI_COMM_WORLD, dealt.mine);
-    frames.push_back(std::move(dealt.mine));
+    ScatteredContacts scattered = scatter_contacts(50 * i, 0.0, random);
+    sort_over_ranks(MPI_COMM_WORLD, scattered.mine);
+    frames.push_back(std::move(scattered.mine));
   }
   const auto write_from = [&](DistributedContactWriter& writer, std::size_t count) {
     for (std::size_t i = writer.done(); i < count; ++i) {

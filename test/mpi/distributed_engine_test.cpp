@@ -10,9 +10,6 @@
 
 #include "src/io/number.hpp"
 #include "test/mpi/scattered_fibers.hpp"
-#include "test/support/contacts.hpp"
-#include "test/support/dense_fibers.hpp"
-#include "test/support/hard_scenes.hpp"
 #include "test/support/neighbour_skips.hpp"
 #include "test/support/rounds.hpp"
 
@@ -34,20 +31,6 @@ FiberAssembly dense_ball(Random& random) {
   return builder.build({0.02});
 }
 
-/// One fibre that winds up to a ball, and comes by each place many times.
-FiberAssembly long_fiber(Random& random) {
-  std::vector<Vector3d> points;
-  const double turns = random.uniform(20.0, 30.0);
-  for (int i = 0; i <= 3000; ++i) {
-    const double x = i / 3000.0;
-    const double around = 2.0 * pi * turns * x;
-    const double out = 0.1 * std::sin(pi * x * 7.0);
-    points.emplace_back(out * std::cos(around), out * std::sin(around),
-                        0.1 * std::cos(pi * x * 7.0));
-  }
-  return as_fibers({points}, random.uniform(0.0005, 0.003));
-}
-
 /// A soup with radii of 10⁻⁵ to 10⁻¹ of the cube it is in.
 FiberAssembly radii_of_all_sizes(Random& random) {
   AssemblyBuilder builder;
@@ -62,12 +45,10 @@ FiberAssembly radii_of_all_sizes(Random& random) {
 FiberAssembly many_walks(Random& random) { return walks(random, 200, 20, 0.05, 0.005); }
 
 std::vector<AssemblyFamily> families() {
-  std::vector<AssemblyFamily> all = assembly_families();
-  for (const std::vector<AssemblyFamily>& more : {dense_families(), hard_scenes()}) {
-    all.insert(all.end(), more.begin(), more.end());
-  }
+  std::vector<AssemblyFamily> all = rank_families();
   all.push_back({"dense_ball", dense_ball});
-  all.push_back({"long_fiber", long_fiber});
+  all.push_back(
+      {"long_fiber", [](Random& random) { return ball_of_wool(random, 3000, 20.0, 0.0005); }});
   all.push_back({"radii_of_all_sizes", radii_of_all_sizes});
   all.push_back({"many_walks", many_walks});
   return all;
@@ -186,10 +167,10 @@ INSTANTIATE_TEST_SUITE_P(Families, DistributedEngineTest,
 TEST(DistributedEngine, WhatIsAdoptedIsNotSent) {
   Random random;
   FiberAssembly fibers = many_walks(random);
-  const DistributedFibers dealt = scattered_to(own_rank(), fibers, scatter(fibers, 2, random));
+  const DistributedFibers scattered = scattered_to(own_rank(), fibers, scatter(fibers, 2, random));
   DistributedEngine engine(MPI_COMM_WORLD, one_thread());
   EXPECT_THROW(engine.adopt(), std::logic_error);
-  engine.update(dealt.parts, dealt.names);
+  engine.update(scattered.parts, scattered.names);
   EXPECT_EQ(over_ranks(engine.facts().sent_points, MPI_SUM) == 0, rank_count() == 1);
   DistributedFibers mine = engine.adopt();
   EXPECT_EQ(mine.parts.segment_count(), engine.facts().own_segments);
@@ -214,7 +195,7 @@ TEST(DistributedEngine, FirstIsAnyPairThereIs) {
   int found_count = 0;
   for (int scene = 0; scene < rounds(60); ++scene) {
     const FiberAssembly fibers = walks(random, random.integer(2, 60), 12, 0.1, 0.002);
-    DealtEngine engine(fibers, random);
+    ScatteredEngine engine(fibers, random);
     QueryOptions options = within(draw_margin(fibers, random));
     set_neighbour_skips(options, random, 2, 0.0);
     const std::vector<Contact> all = answer("run_tree", fibers, options).contacts;
@@ -235,7 +216,7 @@ TEST(DistributedEngine, FirstIsAnyPairThereIs) {
 TEST(DistributedEngine, TheClosestNeedNoMoreThanWhatIsNear) {
   Random random;
   const FiberAssembly fibers = walks(random, 500, 12, 0.01, 1e-5);
-  DealtEngine engine(fibers, random);
+  ScatteredEngine engine(fibers, random);
   QueryOptions options = within(std::numeric_limits<double>::infinity(), QueryType::LIMITED);
   options.max_contacts = 10;
   const DistributedResult found = answer(engine, options);
@@ -246,25 +227,15 @@ TEST(DistributedEngine, TheClosestNeedNoMoreThanWhatIsNear) {
 TEST(DistributedEngine, ALimitOfPairsAndADeadlineLeaveTheRestOut) {
   Random random;
   const FiberAssembly fibers = walks(random, 200, 20, 0.05, 0.005);
-  DealtEngine engine(fibers, random);
-  QueryOptions options = within(0.01);
-  const std::size_t all = answer("run_tree", fibers, options).contacts.size();
-  options.pair_limit = 100;
-  DistributedResult found = answer(engine, options);
-  EXPECT_FALSE(found.complete);
-  EXPECT_TRUE(found.limit_reached);
-  EXPECT_LT(found.contacts.size(), all);
-  options.pair_limit = 0;
-  options.deadline = 1e-9;
-  found = answer(engine, options);
-  EXPECT_FALSE(found.complete);
-  EXPECT_LT(found.contacts.size(), all);
+  ScatteredEngine engine(fibers, random);
+  const QueryOptions options = within(0.01);
+  expect_limits_leave_out(engine, options, answer("run_tree", fibers, options).contacts.size());
 }
 
 TEST(DistributedEngine, AMarginWithoutLimitBringsAllPairs) {
   Random random;
   const FiberAssembly fibers = walks(random, 10, 12, 0.1, 0.01);
-  DealtEngine engine(fibers, random);
+  ScatteredEngine engine(fibers, random);
   const QueryOptions options = within(std::numeric_limits<double>::infinity());
   const DistributedResult found = answer(engine, options);
   EXPECT_TRUE(same_as_one_process(found, answer("run_tree", fibers, options).contacts));
@@ -273,7 +244,7 @@ TEST(DistributedEngine, AMarginWithoutLimitBringsAllPairs) {
 TEST(DistributedEngine, BoundsWhatIsNotReported) {
   Random random;
   const FiberAssembly fibers = walks(random, 60, 12, 0.1, 0.01);
-  DealtEngine engine(fibers, random);
+  ScatteredEngine engine(fibers, random);
   const QueryOptions options = within(0.01);
   const DistributedResult found = answer(engine, options);
   EXPECT_LE(found.others_lower, options.margin);

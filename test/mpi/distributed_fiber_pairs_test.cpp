@@ -8,9 +8,6 @@
 
 #include "src/io/number.hpp"
 #include "test/mpi/scattered_fibers.hpp"
-#include "test/support/assemblies.hpp"
-#include "test/support/contacts.hpp"
-#include "test/support/hard_scenes.hpp"
 #include "test/support/neighbour_skips.hpp"
 #include "test/support/rounds.hpp"
 
@@ -50,7 +47,7 @@ struct Work {
 
 Work work_of(const FiberAssembly& fibers, const QueryOptions& options) {
   Random random;
-  DealtEngine engine(fibers, random);
+  ScatteredEngine engine(fibers, random);
   const DistributedResult found = answer(engine, options);
   const QueryResult expected = answer("run_tree", fibers, options);
   EXPECT_TRUE(same_as_one_process(found, expected.contacts));
@@ -91,25 +88,11 @@ TEST(DistributedFiberPairs, OfManyFibersCostNoMoreThanInOneProcess) {
   }
 }
 
-/// One fibre that winds up to a ball: what is near each other is far along it.
-FiberAssembly ball_of_wool(Random& random) {
-  std::vector<Vector3d> points;
-  const double turns = random.uniform(10.0, 15.0);
-  for (int i = 0; i <= 800; ++i) {
-    const double x = i / 800.0;
-    const double around = 2.0 * pi * turns * x;
-    const double out = 0.1 * std::sin(pi * x * 7.0);
-    points.emplace_back(out * std::cos(around), out * std::sin(around),
-                        0.1 * std::cos(pi * x * 7.0));
-  }
-  return as_fibers({points}, random.uniform(0.0001, 0.001));
-}
-
 /// Fibres of few segments and of many, alone and in heaps.
 FiberAssembly some_fibers(Random& random) {
   switch (random.integer(0, 4)) {
     case 4:
-      return ball_of_wool(random);
+      return ball_of_wool(random, 800, 10.0, 0.0001);
     case 0:
       return coil(static_cast<std::uint32_t>(random.integer(3, 400)));
     case 1:
@@ -126,7 +109,7 @@ TEST(DistributedFiberPairs, AreThoseOfOneProcess) {
   Random random;
   for (int round = 0; round < rounds(80); ++round) {
     const FiberAssembly fibers = some_fibers(random);
-    DealtEngine engine(fibers, random);
+    ScatteredEngine engine(fibers, random);
     for (int query = 0; query < 4; ++query) {
       QueryOptions options =
           within(random.chance(0.5) ? no_margin : std::pow(10.0, random.uniform(-4.0, -0.5)),
@@ -154,7 +137,7 @@ TEST(DistributedFiberPairs, BoundWhatIsNotReported) {
   Random random;
   for (int round = 0; round < rounds(20); ++round) {
     const FiberAssembly fibers = walks(random, random.integer(1, 6), 40, 0.1, 0.01);
-    DealtEngine engine(fibers, random);
+    ScatteredEngine engine(fibers, random);
     const DistributedResult found = answer(engine, within(no_margin, QueryType::FIBER_PAIRS));
     const auto is_reported = [&](const Contact& contact) {
       return std::any_of(found.contacts.begin(), found.contacts.end(),
@@ -171,16 +154,9 @@ TEST(DistributedFiberPairs, BoundWhatIsNotReported) {
 TEST(DistributedFiberPairs, ALimitOfPairsAndADeadlineLeaveTheRestOut) {
   Random random;
   const FiberAssembly fibers = walks(random, 60, 40, 0.05, 0.005);
-  DealtEngine engine(fibers, random);
-  QueryOptions options = within(no_margin, QueryType::FIBER_PAIRS);
-  options.pair_limit = 100;
-  DistributedResult found = answer(engine, options);
-  EXPECT_FALSE(found.complete);
-  EXPECT_TRUE(found.limit_reached);
-  options.pair_limit = 0;
-  options.deadline = 1e-9;
-  found = answer(engine, options);
-  EXPECT_FALSE(found.complete);
+  ScatteredEngine engine(fibers, random);
+  const QueryOptions options = within(no_margin, QueryType::FIBER_PAIRS);
+  expect_limits_leave_out(engine, options, answer("run_tree", fibers, options).contacts.size());
 }
 
 }  // namespace

@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -22,38 +22,26 @@
 namespace fiber {
 namespace {
 
-/// A segment with all that is known of it, as all ranks see it.
-using SegmentFacts = std::tuple<std::uint64_t, std::uint64_t, PlainPoint, PlainPoint, double>;
+/// All that is known of a segment: fibre and index, both points, and the radius.
+using SegmentFacts = std::array<double, 9>;
 
 /// Of all ranks, in the order of fibres.
 std::vector<SegmentFacts> segments_of(const DistributedFibers& fibers) {
-  struct Plain {
-    GlobalSegment name;
-    PlainPoint p0, p1;
-    double radius;
-  };
   const Communicator ranks(MPI_COMM_WORLD);
-  PerRank<Plain> to(static_cast<std::size_t>(ranks.size()));
+  std::vector<SegmentFacts> mine;
   for (std::size_t part = 0; part < fibers.names.size(); ++part) {
+    const FiberPart& name = fibers.names[part];
     const std::uint32_t begin = fibers.parts.offsets()[part];
     for (std::uint32_t p = begin; p + 1 < fibers.parts.offsets()[part + 1]; ++p) {
-      const Capsule capsule = fibers.parts.capsule(p);
-      const Plain segment{{fibers.names[part].fiber, fibers.names[part].first_segment + p - begin},
-                          plain(capsule.p0),
-                          plain(capsule.p1),
-                          capsule.radius};
-      for (std::vector<Plain>& some : to) {
-        some.push_back(segment);
-      }
+      const Capsule segment = fibers.parts.capsule(p);
+      mine.push_back({static_cast<double>(name.fiber),
+                      static_cast<double>(name.first_segment + p - begin), segment.p0[0],
+                      segment.p0[1], segment.p0[2], segment.p1[0], segment.p1[1], segment.p1[2],
+                      segment.radius});
     }
   }
-  std::vector<SegmentFacts> all;
-  for (const std::vector<Plain>& some : ranks.exchange(to)) {
-    for (const Plain& segment : some) {
-      all.emplace_back(segment.name.fiber, segment.name.segment, segment.p0, segment.p1,
-                       segment.radius);
-    }
-  }
+  std::vector<SegmentFacts> all =
+      joined(ranks.exchange(PerRank<SegmentFacts>(static_cast<std::size_t>(ranks.size()), mine)));
   std::sort(all.begin(), all.end());
   return all;
 }

@@ -17,7 +17,7 @@
 namespace fiber::test {
 namespace {
 
-/// A soup of short fibres, dealt out fibre by fibre as they come; the first may be thick.
+/// A soup of short fibres, scattered out fibre by fibre as they come; the first may be thick.
 struct Soup {
   explicit Soup(double first_radius) {
     AssemblyBuilder builder;
@@ -126,11 +126,11 @@ TEST(DistributedHalo, ServesWhilePointsMoveLittle) {
   int frames = 0;
   for (int scene = 0; scene < 8; ++scene) {
     FiberAssembly fibers = walks(random, 300, 20, 0.05, 0.002);
-    const std::vector<ScatteredPart> dealt = scatter(fibers, 2, random);
+    const std::vector<ScatteredPart> scattered = scatter(fibers, 2, random);
     DistributedEngine engine(MPI_COMM_WORLD, one_thread());
     const QueryOptions options = within(scene % 2 == 0 ? 0.0 : 0.003);
     for (int frame = 0; frame < 20; ++frame, ++frames) {
-      const DistributedFibers mine = scattered_to(own_rank(), fibers, dealt);
+      const DistributedFibers mine = scattered_to(own_rank(), fibers, scattered);
       engine.update(mine.parts, mine.names);
       ASSERT_TRUE(same_as_one_process(answer(engine, options),
                                       answer("run_tree", fibers, options).contacts))
@@ -152,8 +152,8 @@ std::pair<FiberNode, FiberNode> across(double place, double radius) {
   return {{{place, -1e-3, 0.0}, radius}, {{place, 1e-3, 0.0}, 0.0}};
 }
 
-PlainBox box_of(const FiberNode& start, const FiberNode& end) {
-  return inflated(union_of({{start.point, start.point}, {end.point, end.point}}), start.radius);
+Box3d box_of(const FiberNode& start, const FiberNode& end) {
+  return inflated(Box3d(start.point).extend(end.point), start.radius);
 }
 
 TEST(DistributedHalo, BoxesAreNoFurtherApartThanSegmentsAreFound) {
@@ -163,8 +163,7 @@ TEST(DistributedHalo, BoxesAreNoFurtherApartThanSegmentsAreFound) {
     const double far = near + random.uniform(0.5, 2.0);
     const auto [a0, a1] = across(near, random.uniform(0.0, 0.2));
     const auto [b0, b1] = across(far, random.uniform(0.0, 0.2));
-    const SegmentDistance nearest = segment_distance(vector_of(a0.point), vector_of(a1.point),
-                                                     vector_of(b0.point), vector_of(b1.point));
+    const SegmentDistance nearest = segment_distance(a0.point, a1.point, b0.point, b1.point);
     const double gap = nearest.distance - (a0.radius + b0.radius);
     ASSERT_TRUE(may_come_within(box_of(a0, a1), box_of(b0, b1), gap)) << gap;
     ASSERT_FALSE(may_come_within(box_of(a0, a1), box_of(b0, b1), gap - 1e-12)) << gap;
@@ -176,7 +175,7 @@ LocalFibers run_of(const std::vector<Eigen::Vector3d>& points, double radius) {
   FiberRuns set;
   set.runs.push_back({{7, 3}, points.size() - 1, 0, 0.0});
   for (const Eigen::Vector3d& point : points) {
-    set.nodes.push_back({plain(point), radius});
+    set.nodes.push_back({point, radius});
   }
   LocalFibers fibers;
   fibers.assign(set);

@@ -8,23 +8,13 @@
 #include <vector>
 
 #include "fiber_proximity/mpi/distributed_engine.hpp"
+#include "src/mpi/communicator.hpp"
 #include "test/mpi/scattered_fibers.hpp"
-#include "test/support/contacts.hpp"
-#include "test/support/dense_fibers.hpp"
-#include "test/support/hard_scenes.hpp"
 #include "test/support/neighbour_skips.hpp"
 #include "test/support/rounds.hpp"
 
 namespace fiber::test {
 namespace {
-
-std::vector<AssemblyFamily> families() {
-  std::vector<AssemblyFamily> all = assembly_families();
-  for (const std::vector<AssemblyFamily>& more : {dense_families(), hard_scenes()}) {
-    all.insert(all.end(), more.begin(), more.end());
-  }
-  return all;
-}
 
 MotionOptions draw_options(double extent, Random& random) {
   QueryOptions pairs =
@@ -43,42 +33,12 @@ MotionOptions draw_options(double extent, Random& random) {
   return options;
 }
 
-/// Of all ranks on rank 0, in their order.
-std::vector<DistributedMotionContact> gathered(const std::vector<DistributedMotionContact>& mine) {
-  std::vector<double> numbers;
-  for (const DistributedMotionContact& contact : mine) {
-    for (const std::uint64_t number :
-         {contact.fiber_a, contact.segment_a, contact.fiber_b, contact.segment_b}) {
-      numbers.push_back(static_cast<double>(number));
-    }
-    numbers.insert(numbers.end(), {contact.lower, contact.upper, contact.certain ? 1.0 : 0.0});
-  }
-  int size = 0;
-  MPI_Comm_size(MPI_COMM_WORLD, &size);
-  const int count = static_cast<int>(numbers.size());
-  std::vector<int> counts(static_cast<std::size_t>(size));
-  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, MPI_COMM_WORLD);
-  std::vector<int> begins(1, 0);
-  for (const int some : counts) {
-    begins.push_back(begins.back() + some);
-  }
-  std::vector<double> all(static_cast<std::size_t>(begins.back()));
-  MPI_Allgatherv(numbers.data(), count, MPI_DOUBLE, all.data(), counts.data(), begins.data(),
-                 MPI_DOUBLE, MPI_COMM_WORLD);
-  std::vector<DistributedMotionContact> contacts;
-  for (std::size_t i = 0; i + 7 <= all.size(); i += 7) {
-    const auto name = [&](std::size_t k) { return static_cast<std::uint64_t>(all[i + k]); };
-    contacts.push_back(
-        {name(0), name(1), name(2), name(3), all[i + 4], all[i + 5], all[i + 6] != 0.0});
-  }
-  std::sort(contacts.begin(), contacts.end(),
-            [](const auto& x, const auto& y) { return x.key() < y.key(); });
-  return contacts;
-}
-
 testing::AssertionResult are_same(const std::vector<DistributedMotionContact>& mine,
                                   const std::vector<MotionContact>& expected) {
-  const std::vector<DistributedMotionContact> found = gathered(mine);
+  const Communicator ranks(MPI_COMM_WORLD);
+  std::vector<DistributedMotionContact> found = joined(ranks.exchange(
+      PerRank<DistributedMotionContact>(static_cast<std::size_t>(ranks.size()), mine)));
+  std::sort(found.begin(), found.end(), by_key);
   if (found.size() != expected.size()) {
     return testing::AssertionFailure() << found.size() << " contacts, expected " << expected.size();
   }
@@ -98,9 +58,9 @@ testing::AssertionResult are_same(const std::vector<DistributedMotionContact>& m
 
 /// Updates the ranks' engine.
 void update(DistributedEngine& engine, const FiberAssembly& before, const FiberAssembly& after,
-            const std::vector<ScatteredPart>& dealt) {
-  const DistributedFibers from = scattered_to(own_rank(), before, dealt);
-  const DistributedFibers to = scattered_to(own_rank(), after, dealt);
+            const std::vector<ScatteredPart>& scattered) {
+  const DistributedFibers from = scattered_to(own_rank(), before, scattered);
+  const DistributedFibers to = scattered_to(own_rank(), after, scattered);
   engine.update_motion(from.parts, to.parts, from.names);
 }
 
@@ -108,16 +68,16 @@ class DistributedMotionTest : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(DistributedMotionTest, FindsWhatOneProcessFinds) {
   SCOPED_TRACE(seed_message());
-  const AssemblyFamily family = families()[GetParam()];
+  const AssemblyFamily family = rank_families()[GetParam()];
   Random random(GetParam());
   DistributedEngine engine(MPI_COMM_WORLD, one_thread());
   for (int scene = 0; scene < rounds(6); ++scene) {
     FiberAssembly before = family.make(random);
     const double extent = extent_of(before);
-    const std::vector<ScatteredPart> dealt = scatter(before, 3, random);
+    const std::vector<ScatteredPart> scattered = scatter(before, 3, random);
     for (int frame = 0; frame < 2; ++frame) {
       const FiberAssembly after = shaken(before, 0.02 * extent, random);
-      update(engine, before, after, dealt);
+      update(engine, before, after, scattered);
       const auto one = make_engine("run_tree", one_thread());
       one->update_motion(before, after);
       for (int query = 0; query < 3; ++query) {
@@ -142,29 +102,29 @@ TEST_P(DistributedMotionTest, FindsWhatOneProcessFinds) {
 }
 
 std::string name_of_family(const testing::TestParamInfo<std::size_t>& info) {
-  return test_name(families()[info.param].name);
+  return test_name(rank_families()[info.param].name);
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, DistributedMotionTest,
-                         testing::Range(std::size_t{0}, families().size()), name_of_family);
+                         testing::Range(std::size_t{0}, rank_families().size()), name_of_family);
 
 /// Walks that come close to each other as they are shaken.
 struct Shaken {
   FiberAssembly before;
   FiberAssembly after;
-  std::vector<ScatteredPart> dealt;
+  std::vector<ScatteredPart> scattered;
 
   explicit Shaken(Random& random)
       : before(walks(random, 100, 20, 0.05, 0.005)),
         after(shaken(before, 0.05, random)),
-        dealt(scatter(before, 3, random)) {}
+        scattered(scatter(before, 3, random)) {}
 };
 
 TEST(DistributedMotion, FindsContactsOfEveryKind) {
   Random random;
   const Shaken fibers(random);
   DistributedEngine engine(MPI_COMM_WORLD, one_thread());
-  update(engine, fibers.before, fibers.after, fibers.dealt);
+  update(engine, fibers.before, fibers.after, fibers.scattered);
   MotionOptions options;
   options.margin = 0.02;
   DistributedMotionResult found;
@@ -177,7 +137,7 @@ TEST(DistributedMotion, ReportsNothingBeyondALimitOfPairs) {
   Random random;
   const Shaken fibers(random);
   DistributedEngine engine(MPI_COMM_WORLD, one_thread());
-  update(engine, fibers.before, fibers.after, fibers.dealt);
+  update(engine, fibers.before, fibers.after, fibers.scattered);
   MotionOptions options;
   options.pair_limit = 10;
   DistributedMotionResult found;
@@ -199,9 +159,9 @@ TEST(DistributedMotion, IsForQueriesAboutMotionsOnly) {
   DistributedMotionResult motion;
   DistributedResult result;
   EXPECT_THROW(engine.query_motion({}, motion), std::logic_error);
-  update(engine, fibers.before, fibers.after, fibers.dealt);
+  update(engine, fibers.before, fibers.after, fibers.scattered);
   EXPECT_THROW(engine.query({}, result), std::logic_error);
-  const DistributedFibers mine = scattered_to(own_rank(), fibers.before, fibers.dealt);
+  const DistributedFibers mine = scattered_to(own_rank(), fibers.before, fibers.scattered);
   engine.update(mine.parts, mine.names);
   EXPECT_THROW(engine.query_motion({}, motion), std::logic_error);
   engine.query(within(0.001), result);
@@ -213,7 +173,7 @@ TEST(DistributedMotion, RefusesFibersThatAreOthersAfterwards) {
   Random random;
   const Shaken fibers(random);
   DistributedEngine engine(MPI_COMM_WORLD, one_thread());
-  const DistributedFibers from = scattered_to(own_rank(), fibers.before, fibers.dealt);
+  const DistributedFibers from = scattered_to(own_rank(), fibers.before, fibers.scattered);
   const bool is_wrong = own_rank() == 0;
   const FiberAssembly other({{0, 0, 0}, {1, 0, 0}}, {0, 2}, {0.1});
   EXPECT_THROW(engine.update_motion(from.parts, is_wrong ? other : from.parts, from.names),
@@ -221,7 +181,7 @@ TEST(DistributedMotion, RefusesFibersThatAreOthersAfterwards) {
       << "on every rank";
   MotionOptions options;
   options.tolerance = -1.0;
-  update(engine, fibers.before, fibers.after, fibers.dealt);
+  update(engine, fibers.before, fibers.after, fibers.scattered);
   DistributedMotionResult motion;
   EXPECT_THROW(engine.query_motion(options, motion), std::invalid_argument);
   options.tolerance = 1e-6 * (1.0 + own_rank());

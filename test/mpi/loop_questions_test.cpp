@@ -30,7 +30,7 @@ void deal_runs(const FiberAssembly& fibers, Random& random, FiberRuns& own, Fibe
       if (random.chance(0.3) || is_own) {
         nodes.clear();
         for (std::uint32_t p = first; p <= first + count; ++p) {
-          nodes.push_back({plain(fibers.points()[p]), fibers.segment_radius(p)});
+          nodes.push_back({fibers.points()[p], fibers.segment_radius(p)});
         }
         (is_own ? own : halo)
             .add({{name_of_fiber(fiber), first - begin}, count, 0, 0.0}, nodes.data());

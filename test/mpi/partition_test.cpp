@@ -20,8 +20,8 @@ TEST(Partition, DoesNotCutWhatIsFlatIntoSlices) {
   }
   const std::vector<int> parts = partition(ranks, objects, 16);
   for (int part = 0; part < 16; ++part) {
-    PlainPoint lower{1.0, 1.0, 1.0};
-    PlainPoint upper{0.0, 0.0, 0.0};
+    Eigen::Vector3d lower{1.0, 1.0, 1.0};
+    Eigen::Vector3d upper{0.0, 0.0, 0.0};
     for (std::size_t i = 0; i < objects.size(); ++i) {
       for (std::size_t axis = 0; axis < 3 && parts[i] == part; ++axis) {
         lower[axis] = std::min(lower[axis], objects[i].centre[axis]);

@@ -4,6 +4,7 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -13,6 +14,9 @@
 #include "fiber_proximity/geometry/fiber_assembly.hpp"
 #include "fiber_proximity/mpi/distributed_engine.hpp"
 #include "test/support/answers.hpp"
+#include "test/support/contacts.hpp"
+#include "test/support/dense_fibers.hpp"
+#include "test/support/hard_scenes.hpp"
 #include "test/support/random.hpp"
 
 namespace fiber::test {
@@ -48,7 +52,7 @@ struct ScatteredPart {
   int rank = 0;
 };
 
-/// Cuts fibres and deals them out, the same on every rank; some ranks may get nothing.
+/// Cuts fibres into parts and gives them to ranks, the same on every rank; some may get nothing.
 /// @param cuts for each fibre, at most
 inline std::vector<ScatteredPart> scatter(const FiberAssembly& fibers, int cuts, Random& random) {
   const int first = random.chance(0.3) ? random.integer(0, rank_count() - 1) : 0;
@@ -74,9 +78,9 @@ inline std::vector<ScatteredPart> scatter(const FiberAssembly& fibers, int cuts,
   return parts;
 }
 
-/// What a rank has been dealt.
+/// The parts that a rank gets.
 inline DistributedFibers scattered_to(int rank, const FiberAssembly& fibers,
-                                      const std::vector<ScatteredPart>& deal) {
+                                      const std::vector<ScatteredPart>& scattered) {
   std::vector<Eigen::Vector3d> points;
   std::vector<double> radii;
   std::vector<std::uint32_t> offsets{0};
@@ -85,7 +89,7 @@ inline DistributedFibers scattered_to(int rank, const FiberAssembly& fibers,
     const std::vector<double>& all = fibers.radii();
     return all.size() == 1 ? all[0] : all.size() == fibers.fiber_count() ? all[fiber] : all[point];
   };
-  for (const ScatteredPart& part : deal) {
+  for (const ScatteredPart& part : scattered) {
     if (part.rank == rank) {
       const std::uint32_t start = fibers.offsets()[part.fiber];
       for (std::uint32_t p = start + part.begin; p <= start + part.end; ++p) {
@@ -178,20 +182,61 @@ inline EngineOptions one_thread() {
   return options;
 }
 
-/// The ranks' engine, which has these fibres, dealt out at random.
-struct DealtEngine : DistributedEngine {
-  DealtEngine(const FiberAssembly& fibers, Random& random)
+/// The ranks' engine, which has these fibres, scattered at random.
+struct ScatteredEngine : DistributedEngine {
+  ScatteredEngine(const FiberAssembly& fibers, Random& random)
       : DistributedEngine(MPI_COMM_WORLD, one_thread()) {
     const DistributedFibers mine = scattered_to(own_rank(), fibers, scatter(fibers, 2, random));
     update(mine.parts, mine.names);
   }
 };
 
+/// Assemblies of all kinds, for whatever is to be the same on any number of ranks.
+inline std::vector<AssemblyFamily> rank_families() {
+  std::vector<AssemblyFamily> all = assembly_families();
+  for (const std::vector<AssemblyFamily>& more : {dense_families(), hard_scenes()}) {
+    all.insert(all.end(), more.begin(), more.end());
+  }
+  return all;
+}
+
+/// One fibre that winds up to a ball, and comes by each place many times.
+inline FiberAssembly ball_of_wool(Random& random, int segments, double min_turns,
+                                  double min_radius) {
+  std::vector<Eigen::Vector3d> points;
+  const double turns = random.uniform(min_turns, 1.5 * min_turns);
+  for (int i = 0; i <= segments; ++i) {
+    const double x = static_cast<double>(i) / segments;
+    const double around = 2.0 * pi * turns * x;
+    const double out = 0.1 * std::sin(pi * x * 7.0);
+    points.emplace_back(out * std::cos(around), out * std::sin(around),
+                        0.1 * std::cos(pi * x * 7.0));
+  }
+  return as_fibers({points}, random.uniform(min_radius, 10.0 * min_radius));
+}
+
 /// What the ranks find together, on rank 0.
 inline DistributedResult answer(DistributedEngine& engine, const QueryOptions& options) {
   DistributedResult result;
   engine.query(options, result);
   return gather(MPI_COMM_WORLD, result);
+}
+
+/// A limit of pairs, and then a deadline that nothing can keep: pairs are missing, and that is
+/// told.
+/// @param all contacts that there are
+inline void expect_limits_leave_out(DistributedEngine& engine, QueryOptions options,
+                                    std::size_t all) {
+  options.pair_limit = 100;
+  DistributedResult found = answer(engine, options);
+  EXPECT_FALSE(found.complete);
+  EXPECT_TRUE(found.limit_reached);
+  EXPECT_LT(found.contacts.size(), all);
+  options.pair_limit = 0;
+  options.deadline = 1e-9;
+  found = answer(engine, options);
+  EXPECT_FALSE(found.complete);
+  EXPECT_LT(found.contacts.size(), all);
 }
 
 }  // namespace fiber::test

@@ -1,4 +1,4 @@
-// Work that is dealt out is done once, whatever ranks do with it.
+// Work that is scattered out is done once, whatever ranks do with it.
 #include "src/mpi/work_queue.hpp"
 
 #include <gtest/gtest.h>
@@ -94,7 +94,7 @@ TEST(WorkQueue, OthersDoWhatARankHasNoTimeFor) {
   if (last == 0) {
     return;
   }
-  // The last rank goes on with its first number only once all have been dealt out.
+  // The last rank goes on with its first number only once all have been scattered out.
   bool has_waited = false;
   const auto wait = [&] {
     if (own_rank() == last && !has_waited) {

@@ -66,6 +66,9 @@ grep -q "^fibre 0 segment 1 and fibre 1 segment 0: 0.0020 m apart" "$work/first_
   fail "first_query has another answer"
 "$work/examples/engine_loop" | tee "$work/engine_loop.txt"
 grep -q "the first after" "$work/engine_loop.txt" || fail "engine_loop finds no contact"
+"$work/examples/check_candidates" | tee "$work/check_candidates.txt"
+[ "$(cut -d' ' -f3- "$work/check_candidates.txt" | tr '\n' ';')" = "floor;post;post;free;the cable that is there;free;" ] ||
+  fail "check_candidates has another answer"
 "$work/examples/simulate_scene" "$source/config/sim/hanging_cable.yaml" >"$work/simulate.txt"
 first=$(head -n 1 "$work/simulate.txt")
 [ "${first#*: }" != "$(tail -n 1 "$work/simulate.txt" | sed 's/^[^:]*: //')" ] || fail "the simulation stands still"

@@ -10,12 +10,20 @@ namespace {
 
 constexpr double longest_motion = 1.0;  // [s]
 
+std::shared_ptr<const FiberMessage> message_of(fiber::FiberAssembly fibers,
+                                               std::vector<std::string> names) {
+  FiberMessage message;
+  message.fibers = std::move(fibers);
+  message.names = std::move(names);
+  return std::make_shared<const FiberMessage>(std::move(message));
+}
+
 /// Two fibres of two inputs.
 FiberState state_at(double stamp_a, double stamp_b, double height = 0.0) {
   FiberState state;
   state.has_fibers = true;
-  state.fibers = {{{0, 0, height}, {1, 0, height}, {0, 1, 0}, {1, 1, 0}}, {0, 2, 4}, {0.1}};
-  state.names = {"a", "b"};
+  state.message = message_of(
+      {{{0, 0, height}, {1, 0, height}, {0, 1, 0}, {1, 1, 0}}, {0, 2, 4}, {0.1}}, {"a", "b"});
   state.stamps = {ros::Time(stamp_a), ros::Time(stamp_b)};
   state.stamp = ros::Time(std::max(stamp_a, stamp_b));
   return state;
@@ -92,13 +100,13 @@ TEST_F(FiberStepTest, StampsMustNotJump) {
 
 TEST_F(FiberStepTest, FibersMustBeTheSame) {
   FiberState renamed = state_at(10.5, 10.0);
-  renamed.names = {"b", "a"};
+  renamed.message = message_of(renamed.message->fibers, {"b", "a"});
   advance(renamed);
   expect_problem("the fibres are no longer the same: 2 of 4 points before, 2 of 4 points now",
                  10.5);
   FiberState longer = state_at(10.75, 10.0);
-  longer.fibers = {{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {0, 3, 5}, {0.1}};
-  longer.names = {"b", "a"};
+  longer.message = message_of(
+      {{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {0, 3, 5}, {0.1}}, {"b", "a"});
   advance(longer);
   expect_problem("the fibres are no longer the same: 2 of 4 points before, 2 of 5 points now",
                  10.75);

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <cstdlib>
+#include <limits>
 #include <new>
 
 #include "src/ros/inputs/merged_fibers.hpp"
@@ -27,7 +28,7 @@ void count_allocation(std::size_t size) {
 }  // namespace
 
 // Counts every allocation of this process. GCC inlines one half of the pair and then believes that
-// new and free are mixed. Eigen's own memory, which malloc() gives, is aligned as that of new.
+// new and free are mixed.
 #pragma GCC diagnostic ignored "-Wmismatched-new-delete"
 void* operator new(std::size_t size) {
   count_allocation(size);
@@ -71,7 +72,7 @@ class Walk {
 
 class InputAllocationTest : public testing::Test {
  protected:
-  InputAllocationTest() { ros::Time::init(); }
+  static void SetUpTestSuite() { ros::Time::init(); }
 
   static sensor_msgs::PointCloud2 cloud(bool has_gap) {
     test_messages::Points points;
@@ -126,7 +127,7 @@ TEST_F(InputAllocationTest, TheFirstMessagesOfTwoInputsAreCopiedTwice) {
 
 TEST_F(InputAllocationTest, AMessageInSteadyStateTakesNoMemoryButTheListOfInputs) {
   const sensor_msgs::PointCloud2 message = cloud(false);
-  for (const std::size_t inputs : {1, 2}) {
+  for (const std::size_t inputs : {std::size_t{1}, std::size_t{2}}) {
     constexpr int warm_up = 5;
     std::size_t before = 0;
     for (int i = 0; i < 2 * warm_up; ++i) {

@@ -212,7 +212,7 @@ TEST(StampMatcher, AnInputThatIsLeftOutStopsNobodyUntilItIsBack) {
   EXPECT_EQ(matcher.take(), (std::vector<StampSet>{set_of({400, 400, 400})}));
 }
 
-TEST(StampMatcher, AStrangerIsLeftOutUntilOneOfItsStampsIsNearTheOthers) {
+TEST(StampMatcher, AnUnmatchedInputIsLeftOutUntilOneOfItsStampsIsNearTheOthers) {
   StampMatcher matcher(3, 0.01, 10);
   const auto send = [&matcher](std::int64_t stamp, std::int64_t stamp_of_third) {
     matcher.add(2, milliseconds(stamp_of_third));  // ahead of the others each time
@@ -225,16 +225,16 @@ TEST(StampMatcher, AStrangerIsLeftOutUntilOneOfItsStampsIsNearTheOthers) {
     EXPECT_TRUE(send(stamp, stamp - 10'000).empty());
   }
   EXPECT_TRUE(matcher.is_waiting());
-  matcher.leave_out_stranger(milliseconds(500));
-  EXPECT_FALSE(matcher.is_stranger(0));
-  EXPECT_FALSE(matcher.is_stranger(1));
-  EXPECT_TRUE(matcher.is_stranger(2));
+  matcher.leave_out_farthest(milliseconds(500));
+  EXPECT_FALSE(matcher.is_unmatched(0));
+  EXPECT_FALSE(matcher.is_unmatched(1));
+  EXPECT_TRUE(matcher.is_unmatched(2));
   EXPECT_GE(matcher.take().size(), 9U) << "what was kept";
   for (std::int64_t stamp = 528; stamp < 1000; stamp += 33) {
     EXPECT_EQ(send(stamp, stamp - 9'000), (std::vector<StampSet>{set_of({stamp, stamp, -1})}));
   }
   EXPECT_EQ(send(1000, 1000), (std::vector<StampSet>{set_of({1000, 1000, 1000})}));
-  EXPECT_FALSE(matcher.is_stranger(2));
+  EXPECT_FALSE(matcher.is_unmatched(2));
   EXPECT_EQ(send(1033, 1033), (std::vector<StampSet>{set_of({1033, 1033, 1033})}));
 }
 

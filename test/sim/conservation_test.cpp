@@ -1,4 +1,4 @@
-// What rods that nothing touches keep: momentum, angular momentum, energy; and that it is the same
+// Free rods conserve momentum, angular momentum and energy; and they do so the same
 // wherever they are.
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ Rods moving_rods(Random& random) {
   return rods;
 }
 
-/// As long as steps are balanced: a fold of a twisted rod may have no balance to be found.
+/// Holds as long as steps converge: a fold of a twisted rod may have no equilibrium.
 TEST(Conservation, MomentumIsKept) {
   SCOPED_TRACE(seed_message());
   Random random(1);

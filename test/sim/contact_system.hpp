@@ -9,7 +9,7 @@
 
 namespace fiber::test {
 
-/// What rods may touch from where they are, if none goes further than some room [m].
+/// The contacts of rods from where they are, if none goes further than some bound [m].
 inline ContactSet contacts_of(Contacts& contacts, const Rods& rods, double room = 0.0) {
   TravelBound around;
   around.start = rods.positions;
@@ -22,7 +22,7 @@ inline ContactSet contacts_of(Contacts& contacts, const Rods& rods, double room 
   return found;
 }
 
-/// Of contacts, and of friction if they have begun with it [J].
+/// Energy of contacts, and of friction if they have begun with it [J].
 inline double energy_in(ContactSet& contacts, const Rods& rods) {
   std::vector<EnergySum> energies(1);
   contacts.update_distances(rods);
@@ -30,8 +30,8 @@ inline double energy_in(ContactSet& contacts, const Rods& rods) {
   return energies[0].energy;
 }
 
-/// What contacts add to the equations of all rods, as full vectors and matrices: x, y and z node by
-/// node.
+/// The contacts' part of the equations of all rods, as full vectors and matrices: x, y and z node
+/// by node.
 struct FullSystem {
   Eigen::VectorXd gradient;
   Eigen::MatrixXd hessian;

@@ -1,5 +1,5 @@
-// What a scene does not name takes neither memory nor calls. Counts allocations and calls, not
-// time.
+// Effects that a scene does not name take neither memory nor calls. Counts allocations and calls,
+// not time.
 
 #include <gtest/gtest.h>
 
@@ -51,7 +51,7 @@ using Eigen::Vector3d;
 
 constexpr double step = 1.0 / 240.0;
 
-/// What was asked of new.
+/// The requests to operator new.
 struct Memory {
   std::size_t allocations = 0;
   std::size_t bytes = 0;
@@ -155,7 +155,7 @@ TEST(Cost, OfAnEffectThatAnotherSceneNamesIsNothing) {
   EXPECT_EQ(memory_of(plain), alone);
 }
 
-/// That the counts above would have seen it.
+/// Shows that the counts above would have seen it.
 TEST(Cost, OfAnEffectThatTheSceneNamesIsThere) {
   const int count = 3;
   const Memory without = memory_of([=] { simulate(stacked(count, 20, 0.1), base); });

@@ -84,7 +84,7 @@ Rods random_pair(Random& random, const Kind& kind) {
       point += to_middle * length * along + 0.3 * edges * length * (along - other);
     }
     rods.add(points, edge_radius, rubber(edge_radius));
-    // In a plane, bent ones come to each other in hollows.
+    // In a plane, bent rods meet in hollows.
     const Vector3d normal = along.cross(across);
     const Vector3d way =
         kind.has_ends_in_reach ? Vector3d(normal + 0.3 * random.direction()) : normal;
@@ -98,7 +98,7 @@ std::ostream& operator<<(std::ostream& out, const Kind& kind) { return out << ki
 
 class PairOfKind : public testing::TestWithParam<Kind> {};
 
-/// Of all pairs of edges together: what one has, another may have had before.
+/// The energy of all pairs of edges together: a contact may move from one pair to another.
 TEST_P(PairOfKind, HasTheGradientOfItsEnergy) {
   SCOPED_TRACE(seed_message());
   Random random(1);

@@ -13,7 +13,7 @@
 
 namespace fiber::test {
 
-/// What an effect adds to the system of one rod.
+/// The part of an effect in the system of one rod.
 struct Derivatives {
   Eigen::VectorXd gradient;
   Eigen::MatrixXd hessian;
@@ -96,7 +96,7 @@ inline Derivatives derivatives_of(const Effect& effect, const Rods& rods, std::u
   return PackedRods(effect, rods, {rod}).derivatives();
 }
 
-/// By central differences of the energy.
+/// The gradient, by central differences of the energy.
 inline Eigen::VectorXd gradient_by_differences(const Effect& effect, Rods rods, std::uint32_t rod,
                                                double difference) {
   Eigen::VectorXd gradient(rods.node_count(rod) * unknowns_of(rods));
@@ -112,7 +112,7 @@ inline Eigen::VectorXd gradient_by_differences(const Effect& effect, Rods rods, 
   return gradient;
 }
 
-/// By central differences of the gradient.
+/// The Hessian, by central differences of the gradient.
 inline Eigen::MatrixXd hessian_by_differences(const Effect& effect, Rods rods, std::uint32_t rod,
                                               double difference) {
   const Eigen::Index size = rods.node_count(rod) * unknowns_of(rods);
@@ -129,7 +129,7 @@ inline Eigen::MatrixXd hessian_by_differences(const Effect& effect, Rods rods, s
   return hessian;
 }
 
-/// To the last bit, whatever is in the other lanes.
+/// Checks that derivatives are the same to the last bit, whatever is in the other lanes.
 inline void expect_same_side_by_side(const Effect& effect, const Rods& rods) {
   std::vector<std::uint32_t> all(rods.count());
   std::iota(all.begin(), all.end(), 0U);

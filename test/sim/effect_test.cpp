@@ -59,7 +59,7 @@ EffectPointer make_curved_bend(Rods& rods, Random& random) {
   return std::make_unique<Bend>();
 }
 
-/// To random sides, up to a fold and beyond.
+/// Bends to random sides, up to a fold and beyond.
 void curve(Rods& rods, Random& random) {
   rods.natural_curvature_vectors.resize(rods.positions.size());
   for (Eigen::Vector2d& curvature : rods.natural_curvature_vectors) {
@@ -84,7 +84,7 @@ EffectPointer make_inextensible(Rods& rods, Random& random) {
   return inextensible;
 }
 
-/// Of directors that have turned against each other, some by more than a turn.
+/// Directors that have turned against each other, some by more than a turn.
 EffectPointer make_twist(Rods& rods, Random& random) {
   auto twist = std::make_unique<Twist>(rods);
   for (int i = 0; i < 10; ++i) {
@@ -219,7 +219,7 @@ TEST_P(EffectTest, DoesTheSameToRodsSideBySide) {
   }
 }
 
-/// Those whose matrix is the Hessian, no part of it left out, where all edges are stretched.
+/// Effects whose matrix is the whole Hessian where all edges are stretched.
 class ExactEffectTest : public EffectTest {};
 
 TEST_P(ExactEffectTest, HasItsHessian) {

@@ -44,7 +44,7 @@ inline double weight_times_length(const Rods& rods, std::uint32_t rod) {
   return mass * gravity.norm() * length;
 }
 
-/// What each rod may have of energy after a step.
+/// The energy that each rod may have after a step, at most.
 ///
 /// With implicit Euler: not to move at all would leave the incremental potential that there was of
 /// kinetic and potential energy, and no step ends higher, however few its iterations are. So what
@@ -61,7 +61,7 @@ class EnergyBounds {
     }
   }
 
-  /// To be asked after each step.
+  /// Checks the bounds after each step.
   testing::AssertionResult hold(const Rods& rods) {
     ++steps_;
     for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {

@@ -1,4 +1,4 @@
-// What energy and angular momentum do without input.
+// Energy and angular momentum without input.
 
 #include <gtest/gtest.h>
 

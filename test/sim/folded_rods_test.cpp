@@ -13,7 +13,7 @@ using Eigen::MatrixXd;
 
 constexpr TimeStep folded_step{1.5, 0.02};
 
-/// What bends a straight rod a little meets all of the Hessian, to either side.
+/// A small bend of a straight rod meets all of the Hessian, to either side.
 TEST(Bend, HasItsHessianWhereARodIsStraight) {
   Rods rods;
   rods.add({{0, 0, 0}, {0.3, 0, 0}, {0.5, 0, 0}, {0.9, 0, 0}}, 0.01, {1.0, 0.7, 0.0, 1.0, 0.0});

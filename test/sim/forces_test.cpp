@@ -1,4 +1,4 @@
-// What the simulation says of its forces: that their sum is how momentum changes, and that they are
+// The forces that the simulation reports: their sum is the change of momentum, and they are
 // those of statics.
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ double mass_of(const Rods& rods) {
   return mass;
 }
 
-/// Of gravity, holds and obstacles [N].
+/// The sum of the forces of gravity, holds and obstacles [N].
 Vector3d outer_forces(const Stepper& stepper) {
   const RodForces forces = stepper.forces();
   Vector3d sum(0.0, 0.0, -standard_gravity * mass_of(stepper.rods()));

@@ -19,7 +19,7 @@ double largest_strain(const Rods& rods) {
   return largest;
 }
 
-/// Of 1 m, in few segments or thousands.
+/// A rod of 1 m, in few segments or thousands.
 class HangingRod : public testing::TestWithParam<std::uint32_t> {};
 
 TEST_P(HangingRod, KeepsItsLengthAndKnowsItsTension) {

@@ -57,7 +57,7 @@ TEST(LineSearch, AStepAcrossAValleyGoesBackToItsMiddle) {
   EXPECT_EQ(search.island(1).share, 1.0) << "each by itself";
 }
 
-/// What a parabola expects is higher than what was found.
+/// The expected minimum of a parabola is higher than the accepted energy.
 TEST(LineSearch, WhatWasFoundStaysWhereItIsBetter) {
   const Energy two_valleys = [](double x) {
     return x < 0.7 ? -x + 4.0 * x * x : -0.2 - 2.0 * (x - 0.7);

@@ -84,7 +84,7 @@ TEST(Motion, ImplicitEulerDampsInTheFirstOrderOfTheStep) {
   EXPECT_NEAR((0.1 - damped_amplitude(0.02)) / (0.1 - damped_amplitude(0.01)), 2.0, 0.05);
 }
 
-/// To the last digits.
+/// The two are equal to the last digits.
 TEST(Motion, AFreeFallHasTheBiasOfItsIntegrator) {
   for (const double step : {0.1, 0.01}) {
     for (const Integrator integrator : {Integrator::IMPLICIT_EULER, Integrator::BDF2}) {

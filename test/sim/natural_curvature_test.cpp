@@ -55,7 +55,7 @@ struct NaturalRod {
   }
 };
 
-/// As a step that begins with the rods finds them.
+/// The rods as a step that begins with them finds them.
 Bend bend_of(const Rods& rods) {
   Bend bend;
   Rods same = rods;
@@ -181,7 +181,7 @@ TEST(NaturalCurvature, ItsEnergyIsTheSameWhereverARodIsTurned) {
   }
 }
 
-/// What there is without natural curvature stays as it is where that is zero.
+/// With a natural curvature of zero, rods behave as without one.
 TEST(NaturalCurvature, NoneIsThatOfAStraightRod) {
   SCOPED_TRACE(seed_message());
   Random random(4);
@@ -212,7 +212,7 @@ TEST(NaturalCurvature, BendingInItsPlaneIsThatOfTheExcess) {
   }
 }
 
-/// What is to turn by half a turn has no side to turn to, and cannot turn any further.
+/// A natural turn by half a turn has no side to turn to, and cannot be exceeded.
 TEST(NaturalCurvature, AFoldIsTheMost) {
   for (const double natural : {M_PI, 4.0, 100.0}) {
     Rods rods;

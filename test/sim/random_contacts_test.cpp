@@ -145,7 +145,7 @@ class SceneMaker {
   std::ostringstream text_;
 };
 
-/// That of rods which touch nothing yet [J].
+/// The energy of rods that touch nothing yet [J].
 double energy_at_start(const Effects& effects, Rods& rods, double step) {
   begin(effects, rods, step);
   double energy = kinetic_energy(rods);

@@ -62,7 +62,7 @@ inline void give_velocities(Rods& rods, Random& random, double speed) {
   }
 }
 
-/// Of a rod's nodes and of its edges' spins [J].
+/// Kinetic energy of a rod's nodes and of its edges' spins [J].
 inline double kinetic_energy(const Rods& rods, std::uint32_t rod) {
   double energy = 0.0;
   for (std::uint32_t i = rods.first(rod); i < rods.end(rod); ++i) {
@@ -75,7 +75,7 @@ inline double kinetic_energy(const Rods& rods, std::uint32_t rod) {
   return energy;
 }
 
-/// Of all rods [J].
+/// Kinetic energy of all rods [J].
 inline double kinetic_energy(const Rods& rods) {
   double energy = 0.0;
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {

@@ -1,4 +1,4 @@
-// What holds may ask of a rod.
+// The limits of holds by the length of their rod.
 
 #include "src/sim/scene/reach.hpp"
 

@@ -1,4 +1,4 @@
-// What users of other simulators have reported.
+// Problems that users of other simulators have reported.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// What the solver calls balanced is balanced, by a sum of forces that the solver has no part in:
+// Forces balance where the solver says so, by a sum of forces that the solver has no part in:
 // each node's mass times how its velocity changes in a step is what acts on it, to the stated
 // residual.
 
@@ -62,15 +62,15 @@ std::unique_ptr<Contacts> stiff_contacts(const std::shared_ptr<const Environment
                                     std::make_unique<Friction>(Friction::Options{0.4, 1e-3}));
 }
 
-/// Of a step from one state to another: what is left of each node's equation, as a change of speed
-/// [m/s].
+/// The residual of each node's equation after a step from one state to another, as a change of
+/// speed [m/s].
 std::vector<double> residuals(const Rods& before, const Rods& after,
                               const std::shared_ptr<const Environment>& environment) {
   Effects effects = effects_of_scene();
   Rods start = before;
   begin(effects, start, balance_step);
   const auto contacts = stiff_contacts(environment);
-  // As far as rods have gone, and farther.
+  // The bound is farther than rods have gone.
   ContactSet found = contacts_of(*contacts, before, pressed_radius);
   found.begin(before, contacts->friction(), before.positions, balance_step);
   found.update_distances(after);

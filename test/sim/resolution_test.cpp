@@ -20,7 +20,7 @@ struct Load {
 
 const std::vector<Load> loads{{1, 0}, {3, 0}, {10, 0}, {0, 1}, {0, 8}, {0, 20}, {2, 5}};
 
-/// How much less or more the tip sinks than it should, in parts of that.
+/// The relative error of how far the tip sinks.
 double tip_error(int segments, const Load& load) {
   Rods rods;
   const double mass = load.spread > 0.0 ? load.spread : 1e-9;
@@ -88,7 +88,7 @@ Stepper swing(Integrator integrator) {
 
 constexpr double period = 2.0 * M_PI;  // of this swing [s]
 
-/// What a period in so many steps takes of the swing's height.
+/// The relative loss of the swing's height in a period of so many steps.
 double lost_height(std::uint32_t steps) {
   Stepper stepper = swing(Integrator::IMPLICIT_EULER);
   for (std::uint32_t i = 0; i < steps; ++i) {
@@ -98,7 +98,7 @@ double lost_height(std::uint32_t steps) {
   return 1.0 - std::hypot(rods.positions[1].x(), rods.velocities[1].x()) / 0.001;
 }
 
-/// By what part its angle is behind after a period in so many steps.
+/// The relative lag of its angle after a period of so many steps.
 double late(std::uint32_t steps) {
   Stepper stepper = swing(Integrator::BDF2);
   for (std::uint32_t i = 0; i < steps; ++i) {

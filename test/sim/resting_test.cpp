@@ -48,7 +48,7 @@ void run(Stepper& stepper, int steps) {
   }
 }
 
-/// What obstacles, or rods, bear upwards [N].
+/// The upward force of obstacles, or rods [N].
 double carried(const Stepper& stepper, bool by_obstacles) {
   double sum = 0.0;
   for (const RodForces::ContactForce& contact : stepper.forces().contacts) {

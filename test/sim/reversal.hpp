@@ -49,7 +49,7 @@ class Reversal {
       speed += step * force / mass();
       by_obstacles += step * speed;
     }
-    // As implicit Euler rises.
+    // The height to which implicit Euler rises.
     free_ = 0.5 * standard_gravity * stepper_->time() * (stepper_->time() + step);
     rise_ = height() - start;
     by_obstacles_ = by_obstacles;

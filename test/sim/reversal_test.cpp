@@ -1,4 +1,4 @@
-// What lies somewhere rises freely where gravity is turned round: a simulation whose contacts lock
+// Rods at rest rise freely where gravity is turned round: a simulation whose contacts lock
 // would stay, and look as if it were at rest.
 
 #include "test/sim/reversal.hpp"

@@ -255,7 +255,7 @@ TEST(Robustness, AnEdgeWithoutLengthKeepsItsDirector) {
   }
 }
 
-/// As many turns as one likes between two clamps are no fewer when the rod is measured.
+/// Any number of turns between two clamps stays when the rod is evaluated.
 TEST(Robustness, TwistCountsItsTurns) {
   constexpr int segments = 20;
   constexpr double turns = 3.0;

@@ -1,4 +1,4 @@
-// What the simulation does not take, said so that the caller finds it.
+// The simulation refuses wrong rods and effects with errors that name what is wrong.
 
 #include "fiber_proximity/sim/rods.hpp"
 

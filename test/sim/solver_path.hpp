@@ -14,7 +14,7 @@ namespace fiber::test {
 /// looks on: derivatives are asked for where rods have come to, energies also where they try to go.
 class SolverPath {
  public:
-  /// To be added to a scene's effects; this must outlive it.
+  /// Returns an effect to be added to a scene; this must outlive it.
   std::unique_ptr<Effect> watcher() { return std::make_unique<Watcher>(*this); }
 
   /// Where the last step began [m].

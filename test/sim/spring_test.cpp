@@ -35,7 +35,8 @@ double exact_stiffness(const Spring& spring) {
   return (spring.twisting * cosine * cosine + sine * sine) * cosine / (2.0 * M_PI * spring.turns);
 }
 
-/// The same from the energy of a spring of radius 1 between clamps, one of which is drawn away.
+/// The stiffness from the energy of a spring of radius 1 between clamps, one of which is drawn
+/// away.
 double simulated_stiffness(const Spring& spring) {
   const int segments = spring.turns * spring.segments;
   std::vector<Vector3d> points;

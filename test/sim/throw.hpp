@@ -25,7 +25,7 @@ inline std::vector<Eigen::Vector3d> chain(Random& random, const Eigen::Vector3d&
   return points;
 }
 
-/// What becomes of rods that are thrown at each other in steps so long that things come, go and
+/// Follows rods that are thrown at each other in steps so long that contacts appear, vanish and
 /// slide within one.
 struct Throw {
   Throw(Rods rods, Effects effects, std::unique_ptr<Contacts> contacts) {

@@ -118,7 +118,7 @@ class TunnellingChecker {
     });
   }
 
-  /// The same with an edge that does not move.
+  /// Whether rods have passed through an edge that does not move.
   static bool passes(const Rods& rods, const SolverPath& path, const Eigen::Vector3d& b0,
                      const Eigen::Vector3d& b1) {
     for (std::uint32_t i = 0; i < rods.positions.size(); ++i) {

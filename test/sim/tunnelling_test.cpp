@@ -27,12 +27,12 @@ void run(Stepper& stepper, int steps, double length) {
   }
 }
 
-/// What rods store, contacts included, that have not moved yet [J].
+/// The stored energy of rods that have not moved yet, contacts included [J].
 double energy_at_rest(Rods rods) {
   for (Vector3d& velocity : rods.velocities) {
     velocity.setZero();
   }
-  // In so short a step nothing moves.
+  // In such a short step nothing moves.
   Stepper stepper(rods, elastic(), StepperOptions{}, contacts_with(nullptr));
   stepper.step(1e-12);
   return stepper.energy();

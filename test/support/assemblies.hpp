@@ -146,6 +146,23 @@ inline FiberAssembly thin_walks(Random& random, int thin_axes) {
   return with_points(fibers, points);
 }
 
+/// Clusters of walks that are small beside what is between them.
+inline FiberAssembly clustered_walks(Random& random) {
+  constexpr double size = 1e-4;
+  AssemblyBuilder builder;
+  for (int cluster = 0; cluster < 3; ++cluster) {
+    const Eigen::Vector3d centre = random.in_cube();
+    for (int fiber = 0; fiber < 3; ++fiber) {
+      std::vector<Eigen::Vector3d> points = random_walk(random, random.integer(1, 20), 0.1);
+      for (Eigen::Vector3d& point : points) {
+        point = centre + size * point;
+      }
+      builder.add_fiber(points);
+    }
+  }
+  return builder.build({random.uniform(0.0, 0.05) * size});
+}
+
 /// Ordinary and hard assemblies, small enough for brute force.
 inline std::vector<AssemblyFamily> assembly_families() {
   const auto walks = [](Random& random, double scale, const Eigen::Vector3d& centre) {
@@ -276,6 +293,7 @@ inline std::vector<AssemblyFamily> assembly_families() {
        }},
       {"flat", [](Random& r) { return thin_walks(r, 1); }},
       {"needle", [](Random& r) { return thin_walks(r, 2); }},
+      {"clustered", clustered_walks},
       {"no_fibers", [](Random& /*r*/) { return FiberAssembly(); }},
   };
 }

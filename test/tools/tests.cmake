@@ -2,6 +2,7 @@
 
 fiber_proximity_gtest(tools_test
   tools/bad_command_line_test.cpp
+  tools/check_test.cpp
   tools/compare_test.cpp
   tools/fiber_query_engines_test.cpp
   tools/fiber_query_refusals_test.cpp

@@ -8,7 +8,7 @@
 
 namespace fiber {
 
-/// What hypothetical fibres are checked against. Holds references: only for the call.
+/// All that hypothetical fibres are checked against. Holds references: only for the call.
 struct Surroundings {
   const ProximityEngine* fibers = nullptr;   ///< the fibres there are, nullptr to leave them out
   const Environment* environment = nullptr;  ///< nullptr to leave it out
@@ -16,7 +16,7 @@ struct Surroundings {
   bool self = true;                          ///< contacts among the candidate's own fibres count
 };
 
-/// What a candidate touches: one answer each. What is not asked for, or needs no look any more, has
+/// Contacts of a candidate, one answer for each kind. One that is not asked for, or not needed, has
 /// no contacts.
 template <class Answer>
 struct CandidateCheck {
@@ -34,7 +34,7 @@ struct CandidateCheck {
   bool is_free() const { return !has_contact() && is_complete(); }
   /// Whether it is known to be free, or not to be.
   bool is_decided() const { return has_contact() || is_complete(); }
-  /// Of one of the three answers.
+  /// Whether one of the three answers has reached its limit.
   bool is_limit_reached() const {
     return self.limit_reached || fibers.limit_reached || environment.limit_reached;
   }

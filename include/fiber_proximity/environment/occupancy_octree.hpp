@@ -48,7 +48,7 @@ class OccupancyOctree {
 
  private:
   double resolution_;  // [m]
-  // Of the cells along Morton's curve, ascending: cubes of the octree are ranges of them.
+  // Places of the cells along Morton's curve, ascending: cubes of the octree are ranges of them.
   std::vector<Cell> cells_;
   std::vector<Eigen::Vector3d> centres_;
   WorldBox box_;

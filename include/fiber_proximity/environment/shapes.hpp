@@ -97,7 +97,7 @@ void validate(const Shape& shape);
 /// @throws std::invalid_argument otherwise
 void validate(const Eigen::Isometry3d& pose);
 
-/// The same of an object, all its shapes and its name, which must not be empty.
+/// Validates an object, all its shapes and its name, which must not be empty.
 /// @throws std::invalid_argument naming the object and the shape, too
 void validate(const EnvironmentObject& object);
 

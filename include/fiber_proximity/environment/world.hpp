@@ -40,7 +40,7 @@ class World {
   bool has(const std::string& name) const;
   std::size_t object_count() const;
 
-  /// What there is now, by name. Made when it is first asked for after a change.
+  /// The objects there are now, by name. Made when it is first asked for after a change.
   std::shared_ptr<const Environment> environment() const;
 
  private:

@@ -32,7 +32,7 @@ struct ContactTime {
   /// without a hit.
   double upper = std::numeric_limits<double>::infinity();
 
-  /// Of a hit: there is a contact, the margin included, no later than `upper`; otherwise the
+  /// For a hit: there is a contact, the margin included, no later than `upper`; otherwise the
   /// capsules may also only come as near as margin + tolerance. Without a hit: true.
   bool certain = true;
 };
@@ -56,13 +56,13 @@ struct ContactTime {
 /// capsules overlap at the second one, or, of segments without thickness that cross, where the
 /// tolerance is more than they move meanwhile. If it is not, `upper` is infinite.
 ///
-/// The same bits on every instruction set and in any batch. Valid for coordinates up to
+/// Gives the same bits on every instruction set and in any batch. Valid for coordinates up to
 /// FiberAssembly::max_coordinate, which is not checked.
 /// @param tolerance [m]
 /// @throws std::invalid_argument for a tolerance that is negative or not a number
 ContactTime contact_time(const SegmentMotions& motions, double tolerance);
 
-/// The same of many pairs at once, faster.
+/// contact_time() of many pairs at once, faster.
 void contact_times(const SegmentMotions* motions, std::size_t count, double tolerance,
                    ContactTime* times);
 

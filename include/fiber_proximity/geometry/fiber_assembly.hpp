@@ -58,7 +58,7 @@ class FiberAssembly {
   /// Largest magnitude of a coordinate or radius [m]; squares of differences stay finite below it.
   static constexpr double max_coordinate = 1e150;
 
-  /// What the values must be, and how an error message says so.
+  /// Rules for the values, and how an error message tells them.
   static bool is_valid_coordinate(double value) {
     return std::abs(value) <= max_coordinate;  // false for NaN
   }
@@ -81,7 +81,7 @@ class FiberAssembly {
   ///         is unchanged then
   void update_points(const std::vector<Eigen::Vector3d>& points);
 
-  /// The same without a copy: takes these points and leaves those it had.
+  /// update_points() without a copy: takes these points and leaves those it had.
   void exchange_points(std::vector<Eigen::Vector3d>& points);
 
   /// Moves all points by a pose, in place.
@@ -97,7 +97,7 @@ class FiberAssembly {
                        const std::vector<std::uint32_t>& offsets,
                        const std::vector<double>& segment_radii);
 
-  /// The same without a copy: takes these and leaves the points and offsets it had, and the memory
+  /// assign_segments() without a copy: takes these, leaves its points and offsets, and the memory
   /// of its radii.
   void exchange_segments(std::vector<Eigen::Vector3d>& points, std::vector<std::uint32_t>& offsets,
                          std::vector<double>& segment_radii);

@@ -69,13 +69,13 @@ struct SegmentDistance {
 SegmentDistance segment_distance(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1,
                                  const Eigen::Vector3d& q0, const Eigen::Vector3d& q1);
 
-/// The same, bit for bit, of many pairs at once: of the segments a[i][0]–a[i][1] and
+/// segment_distance(), bit for bit, of many pairs at once: of the segments a[i][0]–a[i][1] and
 /// b[i][0]–b[i][1].
 /// @param distances of the `count` pairs
 void segment_distances(const Eigen::Vector3d* const* a, const Eigen::Vector3d* const* b,
                        std::size_t count, SegmentDistance* distances);
 
-/// Of one pair, by the kernel of choice.
+/// Closest points of one pair, by the kernel of choice.
 SegmentDistance segment_distance(Kernel kernel, const Eigen::Vector3d& p0,
                                  const Eigen::Vector3d& p1, const Eigen::Vector3d& q0,
                                  const Eigen::Vector3d& q1);
@@ -99,14 +99,14 @@ constexpr double largest_distance_scale = 0x1p200;
 SegmentDistance exact_segment_distance(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1,
                                        const Eigen::Vector3d& q0, const Eigen::Vector3d& q1);
 
-/// The same distance, rounded to the nearest double, in a few times the time of a robust one that
+/// The exact distance, rounded to the nearest double, in a few times the time of a robust one that
 /// is already there: numbers of twice a double's digits mostly prove how it is rounded, integers
 /// do where they do not. Then parameters and delta are exact as well; mostly they stay robust.
 SegmentDistance rounded_segment_distance(const SegmentDistance& robust, const Eigen::Vector3d& p0,
                                          const Eigen::Vector3d& p1, const Eigen::Vector3d& q0,
                                          const Eigen::Vector3d& q1);
 
-/// What makes two capsules a contact: their axes are at most the sum of these three apart. Answers
+/// The limit of a contact of two capsules: axes are at most the sum of these three apart. Answers
 /// are about the sum itself, not about what it is rounded to.
 struct ContactLimit {
   double radius_a = 0.0;  ///< [m] >= 0
@@ -132,12 +132,12 @@ bool exact_gap_at_most(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1,
                        const Eigen::Vector3d& q0, const Eigen::Vector3d& q1,
                        const ContactLimit& limit);
 
-/// The same answer, mostly from the robust distance and what is proven of its error. What that
+/// exact_gap_at_most(), mostly from the robust distance and what is proven of its error. What that
 /// leaves open is decided by numbers of twice the digits, and what these leave open by integers.
 bool gap_at_most(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1, const Eigen::Vector3d& q0,
                  const Eigen::Vector3d& q1, const ContactLimit& limit);
 
-/// The same for a robust distance [m] that is already there.
+/// gap_at_most() for a robust distance [m] that is already there.
 bool gap_at_most(const SegmentDistance& robust, const Eigen::Vector3d& p0,
                  const Eigen::Vector3d& p1, const Eigen::Vector3d& q0, const Eigen::Vector3d& q1,
                  const ContactLimit& limit);

@@ -16,7 +16,7 @@
 
 namespace FIBER_PROXIMITY_EXPORT fiber {
 
-/// What fibres are called, by index. Fibres without names of their own are called by their indices,
+/// Names of fibres, by index. Fibres without names of their own are called by their indices,
 /// which takes no memory. Copies share the names.
 class FiberNames {
  public:
@@ -35,7 +35,7 @@ class FiberNames {
   /// How many there are; 0 if they are indices, of which there are as many as fibres.
   std::size_t size() const { return names_ == nullptr ? 0 : names_->size(); }
 
-  /// What a fibre is called.
+  /// The name of a fibre.
   /// @param fiber below size(), unless names are indices
   std::string of(std::uint64_t fiber) const {
     return names_ == nullptr ? std::to_string(fiber) : (*names_)[fiber];
@@ -64,12 +64,12 @@ struct FiberFrame {
   FiberNames names{};
 };
 
-/// What a fibre file holds: one frame without a number, or any number of numbered ones.
+/// The content of a fibre file: one frame without a number, or any number of numbered ones.
 struct FiberFile {
   bool has_frames = false;
   std::vector<FiberFrame> frames;  ///< in the file's order, see read_csv(); one without numbers
 
-  /// What of the file is not in here, such as columns that mean nothing: a sentence each.
+  /// Tells of all in the file that is not in here, such as unknown columns: a sentence each.
   std::vector<std::string> notes{};
 };
 
@@ -92,7 +92,7 @@ struct FiberFile {
 /// @throws std::invalid_argument for a bad default_radius
 FiberFile read_csv(const std::string& path, double default_radius = 0.0);
 
-/// The same from a stream; errors call it by `name`.
+/// read_csv() from a stream; errors call it by `name`.
 FiberFile read_csv(std::istream& stream, const std::string& name, double default_radius = 0.0);
 
 /// Writes a fibre file frame by frame, so that a long one never is in memory. The radius column is
@@ -143,7 +143,7 @@ void write_csv(const std::string& path, const FiberFile& file);
 /// @throws std::invalid_argument for a bad default_radius
 FiberFile read_hair(const std::string& path, double default_radius = 0.0);
 
-/// The same from a stream, which must be able to seek; errors call it by `name`.
+/// read_hair() from a stream, which must be able to seek; errors call it by `name`.
 FiberFile read_hair(std::istream& stream, const std::string& name, double default_radius = 0.0);
 
 /// Writes a .hair file. Coordinates and radii are rounded to single precision, all that the format
@@ -154,7 +154,7 @@ FiberFile read_hair(std::istream& stream, const std::string& name, double defaul
 ///         beyond single precision
 void write_hair(const std::string& path, const FiberFile& file);
 
-/// The same to a stream, which is not checked for errors.
+/// write_hair() to a stream, which is not checked for errors.
 void write_hair(std::ostream& stream, const FiberFile& file);
 
 // ---- for ParaView

@@ -29,7 +29,7 @@ class FileError : public std::runtime_error {
 /// A file that is written.
 class OutputFile {
  public:
-  /// What the file held is gone.
+  /// Opens the file; its former content is gone.
   /// @throws FileError
   explicit OutputFile(const std::string& path);
 

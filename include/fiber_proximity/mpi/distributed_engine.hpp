@@ -17,7 +17,7 @@
 
 namespace fiber {
 
-/// What a rank calls a part of a fibre that it brings: the fibre, and the index along it of the
+/// The name of a part of a fibre that a rank brings: the fibre, and the index along it of the
 /// part's first segment, both from 0. Fibres may have any numbers; contacts are sorted by them.
 struct FiberPart {
   std::uint64_t fiber = 0;
@@ -28,37 +28,21 @@ struct FiberPart {
   }
 };
 
-/// What a rank brings to DistributedEngine::update().
+/// The fibres that a rank brings to DistributedEngine::update().
 struct DistributedFibers {
   FiberAssembly parts;
   std::vector<FiberPart> names;  ///< one per part
 
-  /// What people call the fibres, by number, the same on all ranks: for files and answers.
+  /// Names of the fibres by number, the same on all ranks: for files and answers.
   FiberNames fiber_names{};
 };
 
-/// A Contact with names that hold for all ranks.
-struct DistributedContact {
-  std::uint64_t fiber_a = 0;
-  std::uint64_t segment_a = 0;  ///< index along the fibre
-  std::uint64_t fiber_b = 0;
-  std::uint64_t segment_b = 0;
-  double s = 0.0;           ///< curve parameter on segment a, in [0, 1]
-  double t = 0.0;           ///< curve parameter on segment b, in [0, 1]
-  double distance = 0.0;    ///< signed gap of the surfaces, negative in penetration [m]
-  double lower = 0.0;       ///< the true gap is at least this [m]
-  double upper = 0.0;       ///< and at most this [m]
-  Eigen::Vector3d point_a;  ///< nearest point on the surface of a [m]
-  Eigen::Vector3d point_b;  ///< nearest point on the surface of b [m]
-  Eigen::Vector3d normal;   ///< unit vector from a to b
-
-  /// What contacts are sorted by.
-  auto key() const { return std::tie(fiber_a, segment_a, fiber_b, segment_b); }
-};
+/// A contact whose fibres and segments have the numbers that hold for all ranks.
+using DistributedContact = BasicContact<std::uint64_t>;
 
 /// A rank's part of an answer.
 struct DistributedResult {
-  /// Of the pairs whose smaller segment this rank holds, sorted by DistributedContact::key().
+  /// Pairs whose smaller segment this rank owns, sorted by key().
   std::vector<DistributedContact> contacts;
 
   // The rest is the same on all ranks.
@@ -70,23 +54,12 @@ struct DistributedResult {
   double others_lower = -std::numeric_limits<double>::infinity();
 };
 
-/// A MotionContact with names that hold for all ranks.
-struct DistributedMotionContact {
-  std::uint64_t fiber_a = 0;
-  std::uint64_t segment_a = 0;  ///< index along the fibre
-  std::uint64_t fiber_b = 0;
-  std::uint64_t segment_b = 0;
-  double lower = 0.0;  ///< as in MotionContact, like the next two
-  double upper = 0.0;
-  bool certain = false;
-
-  /// What contacts are sorted by.
-  auto key() const { return std::tie(fiber_a, segment_a, fiber_b, segment_b); }
-};
+/// A contact during a motion, with the numbers that hold for all ranks.
+using DistributedMotionContact = BasicMotionContact<std::uint64_t>;
 
 /// A rank's part of an answer about a motion.
 struct DistributedMotionResult {
-  /// Of the pairs whose smaller segment this rank holds; otherwise as in MotionResult.
+  /// Pairs whose smaller segment this rank owns; otherwise as in MotionResult.
   std::vector<DistributedMotionContact> contacts;
   std::vector<DistributedMotionContact> touching;
 
@@ -97,7 +70,7 @@ struct DistributedMotionResult {
   double others_lower = 0.0;
 };
 
-/// What a rank holds.
+/// Sizes and counts of a rank.
 struct DistributedFacts {
   std::uint64_t own_segments = 0;   ///< that the split gave to this rank
   std::uint64_t halo_segments = 0;  ///< of other ranks, for the last query
@@ -109,7 +82,7 @@ struct DistributedFacts {
   /// How often ranks looked for what others need. What they find serves until points have moved.
   std::uint64_t halo_search_count = 0;
 
-  /// What queries since the last update took of this rank.
+  /// Work of this rank for queries since the last update.
   QueryCounts query_counts;
 };
 
@@ -203,7 +176,7 @@ class DistributedEngine {
 /// @return all contacts on that rank, none on the others
 DistributedResult gather(MPI_Comm ranks, const DistributedResult& result, int root = 0);
 
-/// Deals the contacts of all ranks out anew, sorted by DistributedContact::key(): those of a rank
+/// Deals the contacts of all ranks out anew, sorted by key(): those of a rank
 /// come before those of the next, and none has more than about twice as many as there are for each.
 /// Collective.
 void sort_over_ranks(MPI_Comm ranks, DistributedResult& result);

@@ -40,7 +40,7 @@ struct DistributedFileOptions {
 ///
 /// In the file, parts stand in the order of ranks, and within a rank as they are brought. Where one
 /// begins at the segment, the point and the radius at which the one before it ends, the two become
-/// one: a file does not tell how whole fibres in their order were dealt out.
+/// one: a file does not tell how whole fibres in their order were spread over ranks.
 class DistributedFiberWriter {
  public:
   /// @throws std::invalid_argument where files cannot be written, and where those of an earlier run

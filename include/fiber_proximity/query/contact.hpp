@@ -11,22 +11,25 @@
 
 namespace FIBER_PROXIMITY_EXPORT fiber {
 
-/// Two segments, by fibre and index along it.
-struct SegmentIdPair {
-  std::uint32_t fiber_a = 0;
-  std::uint32_t segment_a = 0;
-  std::uint32_t fiber_b = 0;
-  std::uint32_t segment_b = 0;
+/// Two segments, by fibre and index along it. Fibres spread over ranks have 64-bit indices.
+template <class Index>
+struct BasicSegmentIdPair {
+  Index fiber_a = 0;
+  Index segment_a = 0;
+  Index fiber_b = 0;
+  Index segment_b = 0;
 
-  /// What contacts are sorted by.
+  /// The key that contacts are sorted by.
   auto key() const { return std::tie(fiber_a, segment_a, fiber_b, segment_b); }
 };
+using SegmentIdPair = BasicSegmentIdPair<std::uint32_t>;
 
 /// SegmentIdPair::key() for algorithms.
 inline constexpr auto by_key = [](const auto& x, const auto& y) { return x.key() < y.key(); };
 
 /// A pair of segments and where they are nearest.
-struct Contact : SegmentIdPair {
+template <class Index>
+struct BasicContact : BasicSegmentIdPair<Index> {
   double s = 0.0;           ///< curve parameter on segment a, in [0, 1]
   double t = 0.0;           ///< curve parameter on segment b, in [0, 1]
   double distance = 0.0;    ///< signed gap of the surfaces, negative in penetration [m]
@@ -37,13 +40,14 @@ struct Contact : SegmentIdPair {
   Eigen::Vector3d normal;   ///< unit vector from a to b: (point_b − point_a)·normal = distance
 
   /// Closer than another; of the same distance, of smaller indices.
-  bool closer_than(const Contact& other) const {
-    return distance < other.distance || (distance == other.distance && key() < other.key());
+  bool closer_than(const BasicContact& other) const {
+    return distance < other.distance || (distance == other.distance && this->key() < other.key());
   }
 };
+using Contact = BasicContact<std::uint32_t>;
 
 /// Contact::closer_than for algorithms.
-inline constexpr auto closer = [](const Contact& x, const Contact& y) { return x.closer_than(y); };
+inline constexpr auto closer = [](const auto& x, const auto& y) { return x.closer_than(y); };
 
 /// Sorts by SegmentIdPair::key(), as results have them.
 void sort_by_key(std::vector<Contact>& contacts);

@@ -80,7 +80,7 @@ class CrossingFinder {
   QueryResult candidates_;
 };
 
-/// The same, once.
+/// Finds crossings once, as CrossingFinder::find().
 std::vector<Crossing> find_crossings(const FiberAssembly& fibers, const View& view);
 
 /// How often one closed fibre is wound around another.
@@ -98,7 +98,7 @@ struct LinkingNumber {
 /// number; theirs is that of curves moved apart by infinitesimal amounts.
 std::vector<LinkingNumber> linking_numbers(const FiberAssembly& fibers);
 
-/// Of two closed polygons; the last point is joined to the first [m].
+/// The linking number of two closed polygons; the last point is joined to the first [m].
 /// @throws std::invalid_argument for fewer than two points, or a bad coordinate
 std::int64_t linking_number(const std::vector<Eigen::Vector3d>& curve_a,
                             const std::vector<Eigen::Vector3d>& curve_b);

@@ -26,7 +26,7 @@ struct NodeBox {
   Eigen::Vector3d upper;
 };
 
-/// What changes the cost of answers, and not what they are. Only run_tree heeds it.
+/// Options that change the cost of answers, and not the answers. Only run_tree heeds it.
 struct EngineOptions {
   /// Most threads to use, 0 for as many as there are cores.
   std::uint32_t threads = 0;
@@ -37,7 +37,7 @@ struct EngineOptions {
   double skin = 0.0;
 };
 
-/// What an engine takes and holds since its last update.
+/// Memory and work of an engine since its last update.
 struct EngineFacts {
   std::uint32_t thread_count = 1;  ///< that updates and queries use at most
   std::size_t memory_bytes = 0;    ///< for its fibres, the fibres themselves apart
@@ -126,7 +126,7 @@ class ProximityEngine {
   ///              pairs of the fibres
   virtual void do_find_candidates(const FiberMotion* shape, const NarrowPhase& test,
                                   const QueryLimits& limits, MotionCandidates& candidates) const;
-  /// What is known of the loops of the fibres before the motion, nullptr if nothing is.
+  /// The loops of the fibres before the motion, nullptr if nothing is known of them.
   virtual const LoopTest* loops_before() const { return nullptr; }
   /// Works on as many threads as this engine may use.
   virtual void on_threads(const std::function<void()>& work) const;
@@ -156,7 +156,7 @@ std::vector<std::string> engine_names();
 
 /// Engines that make_engine() can make, beside those of this library.
 struct EngineFamily {
-  /// What engine_names() lists, in this order.
+  /// Names that engine_names() lists, in this order.
   std::vector<std::string> names;
 
   /// Makes the engine of a name: one of `names`, or another that the family knows.

@@ -19,7 +19,7 @@ enum class MotionType {
   ALL       ///< all of them, each with its first contact
 };
 
-/// What to ask about a motion from one state of the fibres to the next. Times are parts of it: 0
+/// Options for a motion from one state of the fibres to the next. Times are parts of it: 0
 /// before, 1 after.
 ///
 /// Whether a fibre makes a loop, and how long it is between two segments, is judged before the
@@ -52,15 +52,17 @@ QueryOptions pairs_of(const MotionOptions& options);
 MotionOptions motion_options(const QueryOptions& options, double tolerance);
 
 /// Two segments, and when their gap first falls to the margin: a ContactTime with a hit.
-struct MotionContact : SegmentIdPair {
+template <class Index>
+struct BasicMotionContact : BasicSegmentIdPair<Index> {
   double lower = 0.0;    ///< there is no contact before this
   double upper = 0.0;    ///< the gap is at most margin + tolerance at this time
   bool certain = false;  ///< the gap is at most the margin no later than `upper`
 
-  bool earlier_than(const MotionContact& other) const {
-    return lower < other.lower || (lower == other.lower && key() < other.key());
+  bool earlier_than(const BasicMotionContact& other) const {
+    return lower < other.lower || (lower == other.lower && this->key() < other.key());
   }
 };
+using MotionContact = BasicMotionContact<std::uint32_t>;
 
 /// Answer to a query about a motion; kept by the caller and reused, so that its memory is.
 struct MotionResult {
@@ -78,7 +80,7 @@ struct MotionResult {
   /// False: the deadline or the pair_limit came before all pairs had been ruled out.
   bool complete = true;
 
-  /// Of the pairs that were asked about, none that is not reported comes into contact before this;
+  /// No pair that was asked about and is not reported comes into contact before this;
   /// 1 if none does at all.
   double others_lower = 0.0;
 

@@ -72,7 +72,7 @@ struct PairOptions {
   std::uint64_t pair_limit = 0;
 };
 
-/// What a query asks for.
+/// The options of a query.
 struct QueryOptions : PairOptions {
   QueryType type = QueryType::ALL;
 
@@ -86,7 +86,7 @@ struct QueryOptions : PairOptions {
   /// engine.
   double tolerance = 0.0;
 
-  /// The same as a part of the distance; >= 0. The larger of both counts: a distance d is reported
+  /// Tolerance as a part of the distance; >= 0. The larger of both counts: a distance d is reported
   /// where the closest is at least d − |d|·ρ / (1 + ρ), where ρ is this. For d ≥ 0 that is
   /// d / (1 + ρ). In penetration a depth is reported where the greatest is at most 1 + ρ times as
   /// much, and less than twice.

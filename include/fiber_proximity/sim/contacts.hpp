@@ -135,9 +135,6 @@ class EnvironmentContact : public ContactSource {
   EnvironmentContact(std::shared_ptr<const Environment> environment, const Options& options);
   ~EnvironmentContact() override;
 
-  /// Replaces the environment, from the next step on.
-  void set_environment(std::shared_ptr<const Environment> environment);
-
   void find(const Rods& rods, const TravelBound& bound, ContactSet& found) override;
 
  private:

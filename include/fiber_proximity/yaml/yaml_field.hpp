@@ -20,7 +20,7 @@ class YamlField {
   YamlField(const YAML::Node& node, std::string source, std::string path = "")
       : node_(node), source_(std::move(source)), path_(std::move(path)) {}
 
-  /// The same value; errors name it and its fields so.
+  /// This value by another name: errors call it and its fields so.
   YamlField named(const std::string& name) const { return {node_, source_, name}; }
 
   /// Throws unless this is a map of these keys, each at most once.
@@ -29,7 +29,7 @@ class YamlField {
   /// The value of a key; none if there is no such key.
   std::optional<YamlField> find(const std::string& key) const;
 
-  /// The same, throwing if there is none.
+  /// The value of a key; throws if there is none.
   YamlField get(const std::string& key) const;
 
   /// The items of a list.
@@ -74,7 +74,7 @@ class YamlField {
 ///         in it stand for more than ten values per byte: a few lines could stand for any number
 YamlField load_yaml(const std::string& file);
 
-/// The same from a document.
+/// Reads a YAML document, as load_yaml() a file.
 /// @param name what errors call it
 YamlField parse_yaml(const std::string& text, const std::string& name);
 

@@ -77,7 +77,7 @@ TriangleMesh::Triangle read_triangle(const YamlField& field) {
   return triangle;
 }
 
-/// What a function reads of each item of the list of a key; nothing if there is no such key.
+/// Reads each item of the list of a key with a function; nothing if there is no such key.
 template <class Read>
 auto read_list(const YamlField& entry, const std::string& key, const Read& read) {
   std::vector<decltype(read(entry))> values;

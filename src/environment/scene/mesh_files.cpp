@@ -34,7 +34,7 @@ struct ParseLimits {
   std::size_t memory;   // [byte]
 };
 
-/// What a file of a mesh holds.
+/// The content of a file of a mesh.
 struct ParsedMesh {
   std::vector<Eigen::Vector3d> vertices;  ///< [m]
   std::vector<TriangleMesh::Triangle> triangles;
@@ -42,7 +42,7 @@ struct ParsedMesh {
 
 constexpr std::uint64_t max_vertices = 3 * TriangleMesh::max_triangles;
 
-/// What comes first of what the process that reads a mesh writes.
+/// The process that reads a mesh writes this first.
 struct MeshCounts {
   std::uint64_t vertices = 0;
   std::uint64_t triangles = 0;
@@ -107,8 +107,8 @@ void add_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& pose,
   }
 }
 
-/// What assimp makes of the bytes. The root's transformation is left out, as rviz does it: assimp
-/// turns files there so that y is up, and in ROS z is.
+/// The mesh that assimp makes of the bytes. The root's transformation is left out, as rviz does it:
+/// assimp turns files there so that y is up, and in ROS z is.
 ParsedMesh parse(const std::string& bytes, const std::string& name) {
   Assimp::Importer importer;
   // Vertices that differ in nothing but what is removed are one.

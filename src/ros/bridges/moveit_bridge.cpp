@@ -13,7 +13,7 @@ using moveit_msgs::CollisionObject;
 using moveit_msgs::PlanningScene;
 using Names = std::vector<std::string>;
 
-/// Zero throughout is a pose that nobody filled in.
+/// True unless the pose is the identity, or zero throughout, which nobody filled in.
 bool is_displaced(const geometry_msgs::Pose& pose) {
   const auto& p = pose.position;
   const auto& q = pose.orientation;
@@ -27,10 +27,10 @@ bool changes_links(const PlanningScene& scene) {
                      [](const auto& link) { return link.scale != 1.0; });
 }
 
-/// Unbounded: what is too much is said here, roscpp would drop it without a word.
+/// An unbounded queue. This bridge tells of messages it drops; roscpp would not.
 constexpr std::uint32_t queue_size = 0;
 
-/// [s] How often a service that was not there is tried again, and how often that is logged.
+/// [s] The time between two tries of a service that is not there, and between two logs of that.
 constexpr double retry_period = 0.2;
 constexpr double warning_period = 5.0;
 

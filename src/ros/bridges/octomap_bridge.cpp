@@ -20,7 +20,7 @@ namespace {
 /// Cells along an edge of the root: octomap's trees have 16 levels below it.
 constexpr std::int32_t root_cells = 65536;
 
-/// [m] Single precision has room for all coordinates in between, and for half a cell.
+/// [m] Between these, single precision has room for all coordinates and for half a cell.
 constexpr double min_resolution = 1e-30;
 constexpr double max_resolution = 1e30;
 
@@ -39,7 +39,7 @@ OctomapLeaf child_of(const OctomapLeaf& cube, unsigned child) {
   return octant;
 }
 
-/// Walks through the bytes of one octree.
+/// Reads the occupied leaves from the bytes of one octree.
 class LeafReader {
  public:
   explicit LeafReader(const octomap_msgs::Octomap& map)
@@ -60,7 +60,7 @@ class LeafReader {
   }
 
  private:
-  /// An inner node: two bits for each child.
+  /// Reads an inner node, which has two bits for each child.
   void read_binary(const OctomapLeaf& cube) {
     enum State : unsigned { UNKNOWN, FREE, OCCUPIED, INNER };
     require_depth(cube);
@@ -81,7 +81,7 @@ class LeafReader {
     }
   }
 
-  /// Any node: the logarithm of its odds, its colour, a bit for each child.
+  /// Reads any node: the logarithm of its odds, its colour, a bit for each child.
   void read_full(const OctomapLeaf& cube) {
     const float log_odds = read_float();
     skip(color_size_);

@@ -24,8 +24,7 @@ void read_state(InputSet& inputs, bool keeps_fibers, FiberState& state) {
   }
   state.stamp = inputs.header().stamp;
   if (state.has_fibers) {
-    state.fibers = inputs.fibers();
-    state.names = inputs.names();
+    state.message = inputs.message();
   }
 }
 
@@ -65,9 +64,11 @@ void FiberStep::set_static() {
 /// @returns why this is no motion; empty if it is
 std::string FiberStep::find_motion() {
   std::ostringstream problem;
-  if (before_.names != after_.names || before_.fibers.offsets() != after_.fibers.offsets()) {
-    problem << "the fibres are no longer the same: " << extent_of(before_.fibers) << " before, "
-            << extent_of(after_.fibers) << " now";
+  const fiber::FiberAssembly& before = before_.message->fibers;
+  const fiber::FiberAssembly& after = after_.message->fibers;
+  if (before_.message->names != after_.message->names || before.offsets() != after.offsets()) {
+    problem << "the fibres are no longer the same: " << extent_of(before) << " before, "
+            << extent_of(after) << " now";
     return problem.str();
   }
   auto begin = ros::Time(ros::TIME_MAX);

@@ -17,8 +17,7 @@ namespace fiber_proximity_ros {
 /// The fibres of an answer, and when they were there.
 struct FiberState {
   bool has_fibers = false;  ///< false: there are none, or they are not to be kept
-  fiber::FiberAssembly fibers;
-  std::vector<std::string> names;
+  std::shared_ptr<const FiberMessage> message = std::make_shared<const FiberMessage>();
   std::vector<std::optional<ros::Time>> stamps;  ///< by input, of those that are fresh
   ros::Time stamp;                               ///< the newest
 };
@@ -55,7 +54,7 @@ class FiberStep {
 
   /// The motion; at rest, one from where the fibres are to where they are.
   fiber::FiberMotion motion() const {
-    return {rests_ ? after_.fibers : before_.fibers, after_.fibers};
+    return {rests_ ? after_.message->fibers : before_.message->fibers, after_.message->fibers};
   }
 
   /// The time of the motion, from the oldest stamp before to the newest one after among the inputs

@@ -15,7 +15,7 @@
 namespace fiber_proximity_ros {
 namespace {
 
-/// [s] How often a cloud of which nothing is used is logged.
+/// [s] The time between two warnings of clouds without a point that is used.
 constexpr double unused_warning_period = 5.0;
 
 bool is_latched(const ros::MessageEvent<const sensor_msgs::PointCloud2>& event) {

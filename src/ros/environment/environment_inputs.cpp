@@ -10,7 +10,7 @@
 namespace fiber_proximity_ros {
 namespace {
 
-/// [message] Obstacles are sent once each, so that none should be dropped.
+/// How many messages may wait. Obstacles are sent once each, so that none should be dropped.
 constexpr std::uint32_t queue_size = 1000;
 
 bool is_configured(const EnvironmentOptions& options) {
@@ -32,7 +32,7 @@ void check_stamps(Change& change, double max_ahead) {
   }
 }
 
-/// A part of a message, which keeps the message alive.
+/// Points to a part of a message, and keeps the message alive.
 template <class Message, class Part>
 std::shared_ptr<const Part> part_of(const boost::shared_ptr<const Message>& message,
                                     const Part& part) {

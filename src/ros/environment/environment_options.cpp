@@ -108,7 +108,8 @@ std::vector<RobotLink> read_robot(const ros::NodeHandle& node, const Parameters&
                              [&] { return read_robot(description, meshes); });
 }
 
-/// @returns false if this is not what an entry must be
+/// Reads an entry of ~obstacle_markers.
+/// @returns false if the entry is malformed
 bool read_marker_topic(const XmlRpcValue& entry, MarkerTopic& topic) {
   if (entry.getType() == XmlRpcValue::TypeString) {
     topic.topic = static_cast<const std::string&>(entry);

@@ -26,7 +26,7 @@ bool lies_in(const path& file, const path& folder) {
   return rest == folder.end();
 }
 
-/// All links followed; what does not exist is taken as it is written.
+/// Follows all links. Parts that do not exist are taken as they are written.
 path real_path(const path& written) {
   std::error_code error;
   path real = std::filesystem::weakly_canonical(written, error);

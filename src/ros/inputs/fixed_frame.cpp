@@ -89,7 +89,8 @@ geometry_msgs::TransformStamped FixedFrame::look_up(const std_msgs::Header& head
   try {
     return buffer_.lookupTransform(name_, frame, header.stamp);
   } catch (const tf2::LookupException&) {
-    // tf names the first that it misses: the fixed frame, as long as nobody has published any.
+    // tf names the first frame that it lacks. That is the fixed one as long as nobody has
+    // published.
     const bool knows_fixed = buffer_._frameExists(name_);
     throw TransformUnavailable(
         what + "unknown frame: " +

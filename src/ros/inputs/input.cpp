@@ -78,9 +78,9 @@ std::vector<FiberMessagePtr> Input::take_placed(const FixedFrame& frame) {
   return {};
 }
 
-/// Gives back what its fibres have taken.
+/// Gives back the memory of its fibres.
 void Input::leave_out() {
-  takes_leave_ = true;
+  was_left_out_ = true;
   has_fibers_ = false;
   transforms_.clear();
   placed_.clear();
@@ -112,11 +112,11 @@ void Input::overtake_placed(std::size_t left) {
   }
 }
 
-bool Input::expire(const ros::Time& now, bool is_stranger) {
+bool Input::expire(const ros::Time& now, bool is_unmatched) {
   const bool has_stopped = stamps_.has_placed() && is_silent(now);
-  const Staleness staleness = has_stopped   ? Staleness::SILENT
-                              : is_stranger ? Staleness::STRANGER
-                                            : Staleness::NONE;
+  const Staleness staleness = has_stopped    ? Staleness::SILENT
+                              : is_unmatched ? Staleness::UNMATCHED
+                                             : Staleness::NONE;
   if (staleness == Staleness::NONE || staleness == staleness_) {
     return false;
   }
@@ -125,13 +125,13 @@ bool Input::expire(const ros::Time& now, bool is_stranger) {
     overtake_placed(0);
   }
   staleness_ = staleness;
-  stale_reason_ = has_stopped ? silence() : strangeness();
+  stale_reason_ = has_stopped ? silence() : mismatch();
   ROS_WARN_STREAM(log_.label() << ": " << stale_reason_ << "; its " << fibers().fiber_count()
                                << " fibre(s) are left out");
   return was_fresh;
 }
 
-/// Why the fibres are stale though nobody says that they are gone: no message comes.
+/// Tells why the fibres of an input that has fallen silent are stale.
 std::string Input::silence() const {
   std::ostringstream reason;
   reason << "no new message for " << timing_.input_timeout << " s"
@@ -142,8 +142,8 @@ std::string Input::silence() const {
   return reason.str();
 }
 
-/// Why the fibres are stale though messages come: they match those of no other input.
-std::string Input::strangeness() const {
+/// Tells why the fibres are stale of an input whose messages match those of no other input.
+std::string Input::mismatch() const {
   std::ostringstream reason;
   reason << "no stamp within " << timing_.synchronize_slop
          << " s (synchronize_slop) of those of the other inputs for " << timing_.input_timeout
@@ -182,7 +182,7 @@ std::optional<Unknown> Input::unknown() const {
   return unknown;
 }
 
-/// Why there have been no fibres yet.
+/// Tells why there have been no fibres yet.
 std::string Input::absence() const {
   const std::string reason = stamps_.has_placed()
                                  ? "no message that belongs to those of other inputs yet"

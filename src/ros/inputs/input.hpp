@@ -10,8 +10,8 @@
 
 #include "fiber_proximity/InputStatistics.h"
 #include "src/ros/inputs/fiber_message.hpp"
-#include "src/ros/inputs/fiber_trial.hpp"
 #include "src/ros/inputs/fixed_frame.hpp"
+#include "src/ros/inputs/input_budget.hpp"
 #include "src/ros/inputs/input_source.hpp"
 #include "src/ros/inputs/input_stamps.hpp"
 #include "src/ros/inputs/message_log.hpp"
@@ -49,7 +49,7 @@ class Input {
   /// Marks the fibres stale when they were not renewed for `input_timeout`, or when the messages
   /// belong to none of the other inputs.
   /// @returns true if they have just become so
-  bool expire(const ros::Time& now, bool is_stranger);
+  bool expire(const ros::Time& now, bool is_unmatched);
 
   /// Forgets all fibres, as when time starts again.
   void reset();
@@ -59,8 +59,8 @@ class Input {
   /// An answer has taken so long [s].
   void doubt(double time) { trial_.budget().doubt(time); }
 
-  /// Whether its fibres are left out as they cost too much; is told once.
-  bool takes_leave() { return std::exchange(takes_leave_, false); }
+  /// Whether its fibres were left out since this was last asked, as they cost too much.
+  bool take_left_out() { return std::exchange(was_left_out_, false); }
 
   /// True if there are fibres and they are not stale: these may be used.
   bool is_fresh() const { return has_fibers_ && staleness_ == Staleness::NONE; }
@@ -88,13 +88,13 @@ class Input {
 
  private:
   /// Why the fibres are stale: no message comes, or those that come match no other input's.
-  enum class Staleness { NONE, SILENT, STRANGER };
+  enum class Staleness { NONE, SILENT, UNMATCHED };
 
   std::vector<FiberMessagePtr> take_placed(const FixedFrame& frame);
   void overtake_placed(std::size_t left);
   void leave_out();
   std::string silence() const;
-  std::string strangeness() const;
+  std::string mismatch() const;
   std::string absence() const;
 
   InputOptions options_;
@@ -108,7 +108,7 @@ class Input {
   std::deque<FiberMessagePtr> placed_;  // in the fixed frame, to be accepted
   FiberMessagePtr current_ = std::make_shared<FiberMessage>();
   bool has_fibers_ = false;
-  bool takes_leave_ = false;
+  bool was_left_out_ = false;
   Staleness staleness_ = Staleness::NONE;
   std::string stale_reason_;
 };

@@ -2,6 +2,7 @@
 
 #include <ctime>
 #include <sstream>
+#include <utility>
 
 #include "fiber_proximity/query/contact.hpp"
 #include "fiber_proximity/query/engine.hpp"
@@ -10,13 +11,13 @@
 namespace fiber_proximity_ros {
 namespace {
 
-/// Trials take at most this part of the time.
+/// The largest part of the time that trials may take.
 constexpr double trial_part = 0.05;
 
-/// [s] Fibres that have passed are not doubted for so long.
+/// [s] For so long fibres that have passed a trial are not tried again.
 constexpr double shortest_trust = 1.0;
 
-/// [s] of the processor that this thread has used.
+/// Time of the processor that this thread has used [s].
 double thread_time() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
@@ -40,7 +41,7 @@ FiberCost cost_of(const fiber::FiberAssembly& fibers, fiber::QueryOptions option
   bool takes_too_long = has_deadline && left <= 0.0;
   bool has_too_many_pairs = false;
   fiber::QueryResult result;
-  // A deadline is of all the time that passes: where others use the processor, one more try.
+  // A deadline counts the time of other threads, too. Where these took it, there is one more try.
   for (options.deadline = has_deadline ? left : 0.0; !takes_too_long; options.deadline *= 2.0) {
     const double query_begin = thread_time();
     engine->query(options, result);
@@ -69,7 +70,7 @@ FiberCost cost_of(const fiber::FiberAssembly& fibers, fiber::QueryOptions option
 
 bool InputBudget::is_to_be_tried(const fiber::FiberAssembly& fibers) const {
   const std::size_t count = fibers.segment_count();
-  // Fewer have not so many pairs.
+  // Fewer segments cannot have so many pairs.
   const bool are_many = limits_.max_pairs == 0 ? limits_.max_time > 0.0
                                                : count * count / 2 > std::size_t{limits_.max_pairs};
   return are_many && count > 2 * passed_segments_;
@@ -94,6 +95,20 @@ void InputBudget::doubt(double time) {
       (ros::SteadyTime::now() - last_trial_).toSec() > shortest_trust) {
     passed_segments_ = 0;
   }
+}
+
+void FiberTrial::begin(FiberMessagePtr message, const fiber::QueryOptions& answered) {
+  auto find_cost = [message, answered, limits = budget_.limits()] {
+    return cost_of(message->fibers, answered, limits);
+  };
+  running_.emplace(
+      Running{std::move(message), Prepared<FiberCost>(std::move(find_cost), &worker_)});
+}
+
+FiberMessagePtr FiberTrial::end() {
+  Running trial = std::move(*std::exchange(running_, std::nullopt));
+  budget_.take(trial.message->fibers, trial.cost.get());
+  return budget_.problem().empty() ? std::move(trial.message) : nullptr;
 }
 
 }  // namespace fiber_proximity_ros

@@ -46,9 +46,9 @@ bool InputSet::update() {
   changed = accept_placed() || changed;
   bool leaves = false;
   for (std::size_t i = 0; i < inputs_.size(); ++i) {
-    const bool is_stranger = synchronizer_ && synchronizer_->is_stranger(i);
-    changed = inputs_[i]->expire(last_time_, is_stranger) || changed;
-    if (inputs_[i]->takes_leave()) {
+    const bool is_unmatched = synchronizer_ && synchronizer_->is_unmatched(i);
+    changed = inputs_[i]->expire(last_time_, is_unmatched) || changed;
+    if (inputs_[i]->take_left_out()) {
       changed = true;
       leaves = true;
     }
@@ -108,11 +108,11 @@ void InputSet::require_fresh() const {
   }
 }
 
-const fiber::FiberAssembly& InputSet::fibers() {
+const std::shared_ptr<const FiberMessage>& InputSet::message() {
   if (std::exchange(merged_is_old_, false)) {
     merge();
   }
-  return merged_.message()->fibers;
+  return merged_.message();
 }
 
 void InputSet::receive(Input& input, const ReceivedMessage& message) {
@@ -139,7 +139,7 @@ void InputSet::watch_time() {
   last_time_ = now;
 }
 
-/// Takes what each input has, on its own or where it belongs together.
+/// Has each input accept its placed messages: the newest, or those that belong together.
 /// @returns true if that changed the fibres
 bool InputSet::accept_placed() {
   bool changed = false;

@@ -53,8 +53,10 @@ class InputSet {
   /// The input of the fibre with this index among all.
   const Input& input_of(std::size_t fiber) const;
 
-  /// The fibres of all fresh inputs, merged at the first call after a change.
-  const fiber::FiberAssembly& fibers();
+  /// The fibres of all fresh inputs, merged at the first call after a change. They stay as they are
+  /// while somebody holds them.
+  const std::shared_ptr<const FiberMessage>& message();
+  const fiber::FiberAssembly& fibers() { return message()->fibers; }
   const std::vector<std::string>& names() const { return merged_.message()->names; }
 
   /// Fixed frame, and the newest stamp among the fibres; without any, the time of the last update.

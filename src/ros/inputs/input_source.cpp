@@ -20,7 +20,7 @@ template <class Message>
 constexpr bool is_marker = std::is_same_v<Message, visualization_msgs::Marker> ||
                            std::is_same_v<Message, visualization_msgs::MarkerArray>;
 
-/// Each marker of a message, which keeps the message alive.
+/// Lists the markers of a message. Each keeps the message alive.
 std::vector<MarkerInput::MarkerPtr> markers_of(const visualization_msgs::Marker::ConstPtr& one) {
   return {MarkerInput::MarkerPtr(one.get(), [one](const void* /*marker*/) {})};
 }
@@ -36,7 +36,7 @@ std::vector<MarkerInput::MarkerPtr> markers_of(
   return markers;
 }
 
-/// Publishers number the messages of types that begin with a header, and no others.
+/// The number of a message. Publishers number only messages of types that begin with a header.
 template <class Message>
 std::optional<std::uint32_t> sequence_of(const Message& message) {
   if constexpr (ros::message_traits::HasHeader<Message>::value) {

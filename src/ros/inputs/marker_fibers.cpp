@@ -15,7 +15,8 @@ namespace {
 using visualization_msgs::Marker;
 using Markers = std::vector<const Marker*>;
 
-/// Part of the shorter segment's length within which ends of different namespaces are one.
+/// The largest gap between ends of different namespaces that are joined, as a part of the shorter
+/// segment's length.
 constexpr double max_between_namespaces = 1e-3;
 
 /// The ways to read a marker, best first.
@@ -90,7 +91,7 @@ std::vector<Group> groups_of(const Markers& markers, Kind kind, double weld_tole
   return groups;
 }
 
-/// Reads markers of one kind into fibers.
+/// Reads the fibres that markers of one kind show.
 class MarkerReader {
  public:
   MarkerReader(const MarkerInputOptions& options, FiberBuffer& fibers)
@@ -119,7 +120,7 @@ class MarkerReader {
     welder_.end_fiber();
   }
 
-  /// Names of all fibres.
+  /// Names all fibres.
   void name_fibers() {
     std::map<std::string, std::size_t> counts;
     for (const Marker* first : firsts_) {

@@ -5,34 +5,27 @@
 namespace fiber_proximity_ros {
 namespace {
 
-bool has_radius_per_point(const fiber::FiberAssembly& fibers) {
-  return fibers.radii().size() > 1 && fibers.radii().size() == fibers.point_count();
-}
-
-/// Writes the radii of one input out per fibre or per point.
+/// Writes the radii of one message out per fibre or per point.
 void append_radii(const fiber::FiberAssembly& fibers, bool per_point, std::vector<double>& radii) {
-  if (per_point && has_radius_per_point(fibers)) {
-    radii.insert(radii.end(), fibers.radii().begin(), fibers.radii().end());
-    return;
-  }
   for (std::size_t fiber = 0; fiber < fibers.fiber_count(); ++fiber) {
-    const double radius = fibers.radii()[fibers.radii().size() == 1 ? 0 : fiber];
-    const std::size_t points = fibers.offsets()[fiber + 1] - fibers.offsets()[fiber];
-    radii.insert(radii.end(), per_point ? points : 1, radius);
+    const std::size_t begin = fibers.offsets()[fiber];
+    const std::size_t end = per_point ? fibers.offsets()[fiber + 1] : begin + 1;
+    for (std::size_t point = begin; point < end; ++point) {
+      radii.push_back(fibers.radius_at(fiber, point));
+    }
   }
 }
 
-/// The shortest form that holds the radii of all: one, one per fibre, or one per point.
+/// Finds the shortest form that holds the radii of all: one, one per fibre, or one per point.
 void merge_radii(const std::vector<FiberMessagePtr>& messages, std::vector<double>& radii) {
   const std::vector<double>& first = messages.front()->fibers.radii();
-  if (first.size() == 1 && std::all_of(messages.begin(), messages.end(), [&](const auto& message) {
-        return message->fibers.radii() == first;
-      })) {
+  const auto has_first = [&](const auto& message) { return message->fibers.radii() == first; };
+  if (first.size() == 1 && std::all_of(messages.begin(), messages.end(), has_first)) {
     radii = first;
     return;
   }
   const bool per_point = std::any_of(messages.begin(), messages.end(), [](const auto& message) {
-    return has_radius_per_point(message->fibers);
+    return message->fibers.radius_per() == fiber::RadiusPer::POINT;
   });
   for (const FiberMessagePtr& message : messages) {
     append_radii(message->fibers, per_point, radii);

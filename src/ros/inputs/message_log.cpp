@@ -8,7 +8,7 @@
 namespace fiber_proximity_ros {
 namespace {
 
-/// [s] How often one reason is logged at most.
+/// [s] The shortest time between two logs of one reason.
 constexpr double log_interval = 1.0;
 
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
@@ -32,7 +32,7 @@ std::string and_more(std::uint64_t count, const std::string& what) {
   return count == 0 ? "" : " (and " + std::to_string(count) + " more refused " + what + ")";
 }
 
-/// Publishers remembered at most: tools with names of their own for each run come and go.
+/// How many publishers are remembered. Tools that have another name in each run come and go.
 constexpr std::size_t max_publishers = 64;
 
 }  // namespace
@@ -72,7 +72,7 @@ void MessageLog::remark(const std::string& text) {
   }
 }
 
-/// The entry of a reason, a new one if need be; nullptr if all are taken by reasons of this second.
+/// Finds or makes the entry of a reason; null if all entries are of reasons of this second.
 MessageLog::Reason* MessageLog::place_of(const std::string& kind, const ros::SteadyTime& now) {
   for (Reason& reason : reasons_) {
     if (reason.kind == kind) {

@@ -12,7 +12,7 @@ namespace {
 
 bool is_missing(const Eigen::Vector3d& point) { return !point.allFinite(); }
 
-/// True if every point belongs to a fibre of two at least, and radii can be told whose they are.
+/// True if every point belongs to a fibre of two at least, and the number of radii fits.
 bool has_sound_layout(const FiberBuffer& fibers) {
   const std::vector<std::uint32_t>& offsets = fibers.offsets;
   const auto is_too_short = [](std::uint32_t begin, std::uint32_t end) {

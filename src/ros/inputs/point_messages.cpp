@@ -71,7 +71,7 @@ void check_layout(const PointCloud2& cloud) {
   }
 }
 
-/// The items of a message's list as the points of one fibre.
+/// Reads the items of a message's list as the points of one fibre.
 template <class Message, class Items, class PositionOf>
 void read_points(const Message& message, const Items& items, FiberBuffer& fibers,
                  const PositionOf& position_of) {
@@ -115,7 +115,7 @@ void to_chains(const geometry_msgs::PoseArray& message, FiberBuffer& fibers) {
 void to_chains(const nav_msgs::Path& message, FiberBuffer& fibers) {
   for (std::size_t i = 0; i < message.poses.size(); ++i) {
     const std::string& frame = message.poses[i].header.frame_id;
-    // Many publishers fill in the path's frame only.
+    // Many publishers fill in only the path's frame.
     if (!frame.empty() && frame != message.header.frame_id) {
       throw std::invalid_argument(
           "pose " + std::to_string(i) + " is in frame " + fiber::quote(frame) + ", the path in " +

@@ -10,12 +10,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Part of a segment's length within which ends coincide, but for how they were computed.
+/// The part of a segment's length within which ends coincide but for rounding.
 constexpr double coincidence = 1e-3;
 
 bool is_known(const Vector3d& point) { return point.allFinite(); }
 
-/// Infinite where one of the points is missing.
+/// The distance of two points, infinite where one of them is missing.
 double distance(const Vector3d& a, const Vector3d& b) {
   return is_known(a) && is_known(b) ? (a - b).norm() : std::numeric_limits<double>::infinity();
 }
@@ -102,7 +102,8 @@ bool SegmentWelder::reaches(const Vector3d& from, const Vector3d& to, double len
   return !is_compared || distance(*known, is_known(from) ? from : to) <= segments * longest;
 }
 
-/// Later ones have an end that is joined already.
+/// Turns the fibre's first segment if its other end is nearer to the next segment. Later segments
+/// cannot be turned: one of their ends is joined already.
 /// @returns whether it is turned
 bool SegmentWelder::turn_first_segment_towards(const Vector3d& from, const Vector3d& to,
                                                double reach) {

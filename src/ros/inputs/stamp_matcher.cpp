@@ -8,7 +8,7 @@
 namespace fiber_proximity_ros {
 namespace {
 
-/// A later set must span less by this part of how much later it is.
+/// A later set is better only if it spans less by this part of the time that it is later.
 constexpr double age_penalty = 0.1;
 
 std::int64_t to_nanoseconds(const ros::Time& stamp) {
@@ -16,8 +16,8 @@ std::int64_t to_nanoseconds(const ros::Time& stamp) {
 }
 
 std::int64_t to_nanoseconds(double seconds) {
-  constexpr double most = 4e18;  // beyond all differences of stamps
-  return static_cast<std::int64_t>(std::min(std::round(1e9 * seconds), most));
+  constexpr double max = 4e18;  // beyond all differences of stamps
+  return static_cast<std::int64_t>(std::min(std::round(1e9 * seconds), max));
 }
 
 }  // namespace
@@ -27,7 +27,7 @@ StampMatcher::StampMatcher(std::size_t inputs, double slop, std::size_t queue_si
 
 void StampMatcher::add(std::size_t input, const ros::Time& stamp) {
   Queue& queue = queues_[input];
-  if (!queue.takes_part && !queue.is_stranger) {
+  if (!queue.takes_part && !queue.is_unmatched) {
     queue.takes_part = true;
     begin_again();
   }
@@ -40,11 +40,11 @@ void StampMatcher::add(std::size_t input, const ros::Time& stamp) {
     queue.has_dropped = true;
     search();
   }
-  readmit_strangers();
+  readmit_unmatched();
 }
 
 bool StampMatcher::leave_out(std::size_t input) {
-  if (!queues_[input].takes_part && !queues_[input].is_stranger) {
+  if (!queues_[input].takes_part && !queues_[input].is_unmatched) {
     return false;
   }
   begin_again();
@@ -53,20 +53,20 @@ bool StampMatcher::leave_out(std::size_t input) {
   return true;
 }
 
-void StampMatcher::leave_out_stranger(const ros::Time& now) {
-  Queue* stranger = nullptr;
-  Stamp farthest = -1;
+void StampMatcher::leave_out_farthest(const ros::Time& now) {
+  Queue* farthest = nullptr;
+  Stamp max_distance = -1;
   for (Queue& queue : queues_) {
     const Stamp distance =
         queue.takes_part && queue.newest ? std::abs(*queue.newest - to_nanoseconds(now)) : -1;
-    if (distance > farthest) {
-      farthest = distance;
-      stranger = &queue;
+    if (distance > max_distance) {
+      max_distance = distance;
+      farthest = &queue;
     }
   }
-  if (stranger != nullptr) {
-    stranger->takes_part = false;
-    stranger->is_stranger = true;
+  if (farthest != nullptr) {
+    farthest->takes_part = false;
+    farthest->is_unmatched = true;
     begin_again();
     search();
   }
@@ -84,11 +84,11 @@ void StampMatcher::reset() {
   found_.clear();
 }
 
-void StampMatcher::readmit_strangers() {
+void StampMatcher::readmit_unmatched() {
   for (Queue& queue : queues_) {
-    if (queue.is_stranger && std::any_of(queue.stamps.begin(), queue.stamps.end(),
-                                         [this](Stamp stamp) { return is_near(stamp); })) {
-      queue.is_stranger = false;
+    if (queue.is_unmatched && std::any_of(queue.stamps.begin(), queue.stamps.end(),
+                                          [this](Stamp stamp) { return is_near(stamp); })) {
+      queue.is_unmatched = false;
       queue.takes_part = true;
       begin_again();
       search();
@@ -156,7 +156,7 @@ bool StampMatcher::is_optimal_whatever_comes() const {
   }
 }
 
-/// True if a set that ends and starts then is no better than the candidate.
+/// True if a set with this end and this start is no better than the candidate.
 bool StampMatcher::is_worth_no_more(Stamp end, Stamp start) const {
   return (1.0 + age_penalty) * static_cast<double>(end - candidate_->end) >=
          static_cast<double>(start - candidate_->start);
@@ -177,7 +177,7 @@ void StampMatcher::begin_again() {
   }
 }
 
-/// Makes what is to be tried now the candidate; what comes before belongs to no set any more.
+/// Makes the heads of the queues the candidate. Earlier stamps belong to no set any more.
 void StampMatcher::make_candidate(const Boundary& start, const Boundary& end) {
   candidate_->start = start.stamp;
   candidate_->end = end.stamp;
@@ -204,8 +204,8 @@ void StampMatcher::emit() {
   begin_again();
 }
 
-/// The input with the earliest stamp, of equal ones the first; and that with the latest, of equal
-/// ones the last.
+/// Finds the input with the earliest stamp, the first of equal ones, and the input with the latest,
+/// the last of equal ones.
 template <class StampOf>
 std::pair<StampMatcher::Boundary, StampMatcher::Boundary> StampMatcher::boundaries(
     const StampOf& stamp_of) const {

@@ -38,9 +38,9 @@ class StampMatcher {
 
   /// Makes sets without the input whose newest stamp is farthest from this time, for the sake of
   /// the others, until one of its stamps is within the slop of theirs.
-  void leave_out_stranger(const ros::Time& now);
+  void leave_out_farthest(const ros::Time& now);
 
-  bool is_stranger(std::size_t input) const { return queues_[input].is_stranger; }
+  bool is_unmatched(std::size_t input) const { return queues_[input].is_unmatched; }
 
   /// True if there are stamps that wait for others to make a set.
   bool is_waiting() const;
@@ -56,8 +56,8 @@ class StampMatcher {
 
   struct Queue {
     bool takes_part = false;
-    bool is_stranger = false;  // does not take part, but may again
-    bool has_dropped = false;  // a better partner may have been lost, so this is no good pivot
+    bool is_unmatched = false;  // does not take part, but may again
+    bool has_dropped = false;   // a better partner may have been lost, so this is no good pivot
     std::optional<Stamp> newest;
     std::deque<Stamp> stamps;
     std::size_t head = 0;  // those before have been tried already
@@ -78,7 +78,7 @@ class StampMatcher {
     Stamp stamp = 0;
   };
 
-  void readmit_strangers();
+  void readmit_unmatched();
   bool is_near(Stamp stamp) const;
   void search();
   bool is_optimal_whatever_comes() const;

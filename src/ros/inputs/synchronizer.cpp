@@ -10,11 +10,11 @@ bool Synchronizer::accept(const Inputs& inputs, const ros::Time& now) {
     }
   }
   std::vector<StampSet> sets = matcher_.take();
-  // Who waited for one that has left had no time to match yet.
+  // Inputs that waited for one that was left out have had no time to match yet.
   if (!sets.empty() || one_has_left || !matcher_.is_waiting()) {
     last_match_ = now;
   } else if ((now - last_match_).toSec() > input_timeout_) {
-    matcher_.leave_out_stranger(now);
+    matcher_.leave_out_farthest(now);
     sets = matcher_.take();
     last_match_ = now;
   }

@@ -30,7 +30,7 @@ class Synchronizer {
   bool accept(const Inputs& inputs, const ros::Time& now);
 
   /// Whether an input is left out as its stamps never match.
-  bool is_stranger(std::size_t input) const { return matcher_.is_stranger(input); }
+  bool is_unmatched(std::size_t input) const { return matcher_.is_unmatched(input); }
 
   /// Forgets all messages, as when time starts again.
   void reset(const ros::Time& now);

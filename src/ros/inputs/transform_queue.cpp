@@ -15,8 +15,8 @@ void TransformQueue::add(FiberMessagePtr message) {
 }
 
 std::vector<FiberMessagePtr> TransformQueue::place(const FixedFrame& frame) {
-  // From the newest to the oldest: what comes before one that is placed has lost its turn, unless
-  // it can be placed, too, and may be the one that those of the other inputs belong to.
+  // The loop goes from the newest to the oldest. Messages before a placed one have lost their turn.
+  // Where inputs are synchronised they are placed, too: the others' messages may belong to them.
   std::vector<FiberMessagePtr> placed;
   for (auto message = waiting_.rbegin(); message != waiting_.rend(); ++message) {
     if ((placed.empty() || timing_.synchronize) && place(*message, frame)) {

@@ -130,7 +130,7 @@ struct FiberFormat {
   std::string name;
   bool one_fiber;  // the message has room for a single one
 
-  /// Advertises the topic; what it returns publishes fibres there.
+  /// Advertises the topic and returns the function that publishes fibres there.
   Publish (*advertise)(ros::NodeHandle& node, const std::string& topic);
 };
 
@@ -147,7 +147,7 @@ const FiberFormat& find_fiber_format(const std::string& name) {
   return find_by_name(formats, "format", name);
 }
 
-/// The frame as it is played.
+/// Selects the fibres of a frame that are played.
 FiberAssembly select(FiberAssembly fibers, const PlayerOptions& options, const std::string& where) {
   const std::string count = std::to_string(fibers.fiber_count());
   if (options.fiber < 0) {

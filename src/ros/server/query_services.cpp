@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 
 #include "fiber_proximity/QueryProximity.h"
 #include "fiber_proximity/query/contact.hpp"

@@ -44,7 +44,7 @@ Matrix3d axes_of(const fiber::Placement& placement) {
   return axes;
 }
 
-/// What the fibre exerts on a hold; see SimForces.
+/// The wrench of the fibre on a hold; see SimForces.
 /// @param header of what is in the scene's frame
 geometry_msgs::WrenchStamped wrench_of(const fiber::SimScene& scene,
                                        const fiber::RodForces::HoldForce& hold,
@@ -132,10 +132,10 @@ double round_up(double value) {
   return 10.0 * power;
 }
 
-/// What is drawn as full, for a largest value now and what it was before.
+/// The value that is drawn as full, for the largest value now and the full one before.
 double full_scale(double largest, double before) {
-  constexpr double least = 1e-9;
-  return std::max({largest, fading * before, least});
+  constexpr double min_scale = 1e-9;
+  return std::max({largest, fading * before, min_scale});
 }
 
 Rgb tension_color(double part) {

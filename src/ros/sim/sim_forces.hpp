@@ -13,12 +13,12 @@
 
 namespace fiber_proximity_ros {
 
-/// Publishes what acts in fibres and on them, as far as anybody listens:
+/// Publishes the forces in fibres and on them while anybody listens:
 ///
 /// - ~forces: all of it
 /// - ~wrenches/FIBRE/NODE: for each hold what the fibre exerts on it, as a sensor of force and
-///   torque in a gripper measures it. Of what a frame of tf holds, in that frame and about its
-///   origin; of other holds in the scene's frame and about the node.
+///   torque in a gripper measures it. For a hold that follows a frame of tf it is in that frame and
+///   about its origin; for other holds in the scene's frame and about the node.
 /// - ~force_markers: drawn for rviz
 ///
 /// | ns       | what                                                                            |

@@ -72,7 +72,7 @@ void SimFrames::follow(const fiber::SimScene& scene) {
                          : "nothing new of frame " + fiber::quote(followed.frame) +
                                " for more than " + std::to_string(timeout_) + " s");
       const fiber::Placement& in_frame = followed.in_frame;
-      // As far on the way there as a step leads.
+      // The hold goes as far on the way there as a frame leads.
       const fiber::Lead lead = fiber::lead(scene, {followed.rod, followed.node}, last.position,
                                            frame.pose * in_frame.position, fastest_frame);
       note(followed, !lead.problem.empty(),

@@ -11,9 +11,9 @@
 
 namespace fiber_proximity_ros {
 
-/// Keeps what frames of tf hold where these are. What a frame holds that tf does not know, or of
-/// which nothing new has come for some time, stays where it is, and what its fibre does not reach
-/// goes no further (lead()), with a warning; and with a word when it follows again.
+/// Moves holds that follow frames of tf. A hold stays where it is while tf does not know its frame,
+/// or nothing new of it has come for some time, and goes no further than its fibre reaches
+/// (lead()). It warns of both, and logs when the hold follows again.
 class SimFrames {
  public:
   /// @param world   in which the fibres are; must outlive this
@@ -26,8 +26,8 @@ class SimFrames {
   /// come
   void wait_for(const std::vector<fiber::FollowedFrame>& frames, double timeout) const;
 
-  /// Leads all that is held from where it is to where the frames are, during the next frame of the
-  /// scene; no faster than 5 m/s, as after a gap it may be far away.
+  /// Leads all holds to their frames during the next frame of the scene, no faster than 5 m/s, as
+  /// after a gap they may be far away.
   void follow(const fiber::SimScene& scene);
 
  private:

@@ -25,18 +25,19 @@ using Eigen::Vector3d;
 /// [s] How often a warning is repeated.
 constexpr double warning_pause = 5.0;
 
-/// How often handles are moved: rviz takes far longer for them than for fibres.
+/// The period in which handles are moved: rviz takes far longer for them than for fibres.
 const ros::WallDuration marker_period(1.0 / 30.0);
 
-/// What the scene is, and what is to be expected of it.
+/// Logs the scene's contents, and what to expect of it: that is measured on a copy, as the log
+/// says.
 void log_scene(const SimOptions& options, const fiber::SimDescription& description,
                const fiber::SimScene& scene) {
   const fiber::Rods& rods = scene.stepper->rods();
   ROS_INFO_STREAM(options.scene << ": " << rods.count() << " fibre(s), " << rods.positions.size()
                                 << " nodes, effects " << fiber::join(scene.effect_names) << ", "
                                 << scene.substeps << " steps of " << scene.step_length() << " s");
-  constexpr std::uint32_t most = 10;
-  for (std::uint32_t rod = 0; rod < std::min(most, rods.count()); ++rod) {
+  constexpr std::uint32_t max_logged = 10;
+  for (std::uint32_t rod = 0; rod < std::min(max_logged, rods.count()); ++rod) {
     const fiber::RodSection& section = rods.sections[rod];
     ROS_INFO_STREAM("fibre '" << scene.fiber_names[rod] << "': EA " << section.stretching_stiffness
                               << " N, EI " << section.bending_stiffness << " N m^2, GJ "
@@ -180,7 +181,7 @@ void SimServer::run_frame() {
   warn();
 }
 
-/// Of each kind of warning not too often.
+/// Logs warnings, each kind of them not too often.
 void SimServer::warn() {
   const ros::SteadyTime now = ros::SteadyTime::now();
   for (const fiber::SimWarning& warning : fiber::frame_warnings(scene_)) {
@@ -207,7 +208,7 @@ void SimServer::publish() {
   fibers_.publish(message_);
 }
 
-/// @param before of the scene before, of which what is no longer there goes
+/// @param before objects of the scene before: those that the scene no longer has are removed
 void SimServer::publish_obstacles(const std::vector<fiber::EnvironmentObject>& before) {
   const std::vector<fiber::EnvironmentObject>& objects = scene_.environment->objects();
   fiber_proximity::ObstacleArray message;

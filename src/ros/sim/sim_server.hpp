@@ -27,8 +27,7 @@
 
 namespace fiber_proximity_ros {
 
-/// What the simulation runs, and how; the node's private parameters of the same names, whose
-/// defaults are in cfg/interface.yaml.
+/// The node's private parameters of the same names, whose defaults are in cfg/interface.yaml.
 struct SimOptions {
   std::string scene;        ///< YAML file
   std::uint32_t threads{};  ///< most to use, 0 for as many as there are cores

@@ -1,4 +1,4 @@
-// What the simulation's services do.
+// The services of the simulation.
 #include <ros/init.h>
 
 #include <algorithm>
@@ -39,30 +39,20 @@ bool answer(Response& response, const Function& function) {
   return true;
 }
 
-/// The node of a fibre that a request names, counted from the end if it is negative.
-fiber::NodeOfRod find_node(const fiber::SimScene& scene, const std::string& fiber,
-                           std::int32_t node) {
+/// The rod of a fibre by its name.
+std::uint32_t find_rod(const fiber::SimScene& scene, const std::string& fiber) {
   const auto& names = scene.fiber_names;
   const auto found = std::find(names.begin(), names.end(), fiber);
   if (found == names.end()) {
     throw std::invalid_argument("there is no fibre " + fiber::quote(fiber));
   }
-  const auto rod = static_cast<std::uint32_t>(found - names.begin());
-  const auto count = static_cast<std::int64_t>(scene.stepper->rods().node_count(rod));
-  const std::int64_t index = node < 0 ? count + node : node;
-  if (index < 0 || index >= count) {
-    throw std::invalid_argument("fibre " + fiber::quote(fiber) + " has " + std::to_string(count) +
-                                " nodes, there is no node " + std::to_string(node));
-  }
-  if (scene.attachment == nullptr) {
-    throw std::invalid_argument("the scene does not name the effect attachment");
-  }
-  return {rod, static_cast<std::uint32_t>(index)};
+  return static_cast<std::uint32_t>(found - names.begin());
 }
 
 /// Has a scene hold a node where a request says.
 void hold(const fiber_proximity::AttachFiber::Request& request, fiber::SimScene& scene) {
-  const fiber::NodeOfRod held = find_node(scene, request.fiber, request.node);
+  const fiber::NodeOfRod held =
+      fiber::find_node(scene, find_rod(scene, request.fiber), request.node);
   const Vector3d target = to_vector(request.position);
   if (!target.allFinite() || !(request.speed >= 0.0)) {
     throw std::invalid_argument("position must be finite and speed at least 0");
@@ -166,13 +156,7 @@ bool SimServer::detach(fiber_proximity::DetachFiber::Request& request,
   return answer(response, [&] {
     const std::lock_guard<FairMutex> lock(mutex_);
     require_running();
-    const fiber::NodeOfRod held = find_node(scene_, request.fiber, request.node);
-    const auto id = scene_.attachment->find(held.rod, held.node);
-    if (!id) {
-      throw std::invalid_argument("nothing holds node " + std::to_string(request.node) +
-                                  " of fibre " + fiber::quote(request.fiber));
-    }
-    scene_.attachment->remove(*id);
+    fiber::release_node(scene_, find_rod(scene_, request.fiber), request.node);
   });
 }
 

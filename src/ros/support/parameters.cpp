@@ -16,7 +16,7 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-/// How many letters must be changed, added or left out to make one name of the other.
+/// Counts the letters that must be changed, added or left out to make one name of the other.
 std::size_t edit_distance(const std::string& from, const std::string& to) {
   std::vector<std::size_t> row(to.size() + 1);
   std::iota(row.begin(), row.end(), 0);
@@ -32,7 +32,7 @@ std::size_t edit_distance(const std::string& from, const std::string& to) {
   return row.back();
 }
 
-/// The known name that is nearest, if it is near enough to have been meant.
+/// Suggests the nearest known name if it is near enough to have been meant.
 std::string suggested_parameter(const std::string& name, const std::vector<Parameter>& known) {
   const std::string* nearest = nullptr;
   std::size_t least = std::max<std::size_t>(1, name.size() / 3);

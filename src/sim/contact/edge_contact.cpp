@@ -56,23 +56,15 @@ class EdgeContact {
     return end < 2 ? pair_.edge_b : pair_.edge_a;
   }
 
-  static DistanceTerm term(std::uint32_t end, const EndDistance& nearest_to_end, double slope,
+  static DistanceTerm term(std::uint32_t end, const EndDistance& to_end, double slope,
                            double curvature, double pressure) {
-    const Vector3d normal = nearest_to_end.delta / nearest_to_end.distance;
+    const Vector3d normal = to_end.delta / to_end.distance;
     const double own = end % 2 == 0 ? 0.0 : 1.0;
-    const double across = std::max(0.0, slope) / nearest_to_end.distance;
-    return end < 2 ? DistanceTerm{own,       nearest_to_end.parameter,
-                                  normal,    slope,
-                                  curvature, pressure,
-                                  0.0,       across}
-                   : DistanceTerm{nearest_to_end.parameter,
-                                  own,
-                                  -normal,
-                                  slope,
-                                  curvature,
-                                  pressure,
-                                  0.0,
-                                  across};
+    const double across = std::max(0.0, slope) / to_end.distance;
+    return end < 2 ? DistanceTerm{own,       to_end.parameter, normal, slope,
+                                  curvature, pressure,         0.0,    across}
+                   : DistanceTerm{to_end.parameter, own,      -normal, slope,
+                                  curvature,        pressure, 0.0,     across};
   }
 
   /// Adds the energy of the edges' distance, with its weight.
@@ -115,15 +107,15 @@ class EdgeContact {
 
   /// Adds the energy of the distance of an end from the other edge.
   double add_node(std::uint32_t end, std::vector<DistanceTerm>* terms) {
-    const EndDistance& nearest_to_end = ends_[end];
-    if (!pair_.owns[end] || nearest_to_end.distance >= barrier_.outer) {
+    const EndDistance& to_end = ends_[end];
+    if (!pair_.owns[end] || to_end.distance >= barrier_.outer) {
       return 0.0;
     }
     double share = 1.0;
     double shared = 0.0;  // energy
     for (std::uint32_t last = 0; last < 2; ++last) {
       const double corner_parameter = last;
-      const bool is_corner = nearest_to_end.parameter == corner_parameter;
+      const bool is_corner = to_end.parameter == corner_parameter;
       if (!pair_.has_neighbour[end][last]) {
         continue;
       }
@@ -138,12 +130,12 @@ class EdgeContact {
     if (share == 0.0) {
       return shared;
     }
-    if (terms != nullptr && nearest_to_end.distance > barrier_.inner) {
-      slopes_[end] += share * barrier_.slope(nearest_to_end.distance);
-      pressures_[end] -= share * barrier_.slope(nearest_to_end.distance);
-      curvatures_[end] += share * barrier_.curvature(nearest_to_end.distance);
+    if (terms != nullptr && to_end.distance > barrier_.inner) {
+      slopes_[end] += share * barrier_.slope(to_end.distance);
+      pressures_[end] -= share * barrier_.slope(to_end.distance);
+      curvatures_[end] += share * barrier_.curvature(to_end.distance);
     }
-    return share * barrier_.energy(nearest_to_end.distance) + shared;
+    return share * barrier_.energy(to_end.distance) + shared;
   }
 
   /// Whether the edge before or after the other one is nearest to the end at their common node. It

@@ -210,20 +210,11 @@ AllowedPair doubled(const AllowedPair& pair) {
 
 EnvironmentContact::EnvironmentContact(std::shared_ptr<const Environment> environment,
                                        const Options& options)
-    : options_(options) {
+    : environment_(std::move(environment)), options_(options) {
   require_not_negative("environment_contact: the stiffness", options.stiffness, " N/m");
   for (const AllowedPair& pair : options.allowed) {
     allowed_.push_back(doubled(pair));
   }
-  set_environment(std::move(environment));
-}
-
-EnvironmentContact::~EnvironmentContact() = default;
-
-void EnvironmentContact::set_environment(std::shared_ptr<const Environment> environment) {
-  environment_ = std::move(environment);
-  reach_ = -1.0;
-  shapes_.clear();
   std::uint32_t index = 0;
   for (const EnvironmentObject& object : environment_->objects()) {
     shapes_.emplace_back();
@@ -233,6 +224,8 @@ void EnvironmentContact::set_environment(std::shared_ptr<const Environment> envi
     ++index;
   }
 }
+
+EnvironmentContact::~EnvironmentContact() = default;
 
 void EnvironmentContact::place_fibers(const Rods& rods) {
   if (fibers_.point_count() == 2 * rods.positions.size()) {

@@ -125,6 +125,30 @@ std::string out_of_reach(const SimScene& scene, const NodeOfRod& held, const Vec
 
 }  // namespace
 
+NodeOfRod find_node(const SimScene& scene, std::uint32_t rod, std::int64_t index) {
+  const auto count = static_cast<std::int64_t>(scene.stepper->rods().node_count(rod));
+  const std::int64_t node = index < 0 ? count + index : index;
+  if (node < 0 || node >= count) {
+    throw std::invalid_argument("fibre " + quote(scene.fiber_names[rod]) + " has " +
+                                std::to_string(count) + " nodes, there is no node " +
+                                std::to_string(index));
+  }
+  if (scene.attachment == nullptr) {
+    throw std::invalid_argument("the scene does not name the effect attachment");
+  }
+  return {rod, static_cast<std::uint32_t>(node)};
+}
+
+void release_node(const SimScene& scene, std::uint32_t rod, std::int64_t index) {
+  const NodeOfRod held = find_node(scene, rod, index);
+  const auto id = scene.attachment->find(held.rod, held.node);
+  if (!id) {
+    throw std::invalid_argument("nothing holds node " + std::to_string(index) + " of fibre " +
+                                quote(scene.fiber_names[rod]));
+  }
+  scene.attachment->remove(*id);
+}
+
 void hold_on_path(SimScene& scene, const NodeOfRod& node,
                   const std::shared_ptr<const PlacementPath>& path) {
   if (const auto id = scene.attachment->find(node.rod, node.node)) {

@@ -59,6 +59,11 @@ struct NodeOfRod {
   std::uint32_t node;
 };
 
+/// The node of a rod by its index; negative indices count from the end.
+/// @throws std::invalid_argument naming fibre and index if there is no such node, and for a scene
+///         without the effect attachment
+NodeOfRod find_node(const SimScene& scene, std::uint32_t rod, std::int64_t index);
+
 /// The position of a node [m].
 inline const Eigen::Vector3d& position_of(const Rods& rods, const NodeOfRod& node) {
   return rods.positions[rods.first(node.rod) + node.node];
@@ -68,6 +73,10 @@ inline const Eigen::Vector3d& position_of(const Rods& rods, const NodeOfRod& nod
 /// the node's hold if it has one.
 void hold_on_path(SimScene& scene, const NodeOfRod& node,
                   const std::shared_ptr<const PlacementPath>& path);
+
+/// Removes the hold of the node that find_node() finds.
+/// @throws std::invalid_argument as find_node(), and if nothing holds the node
+void release_node(const SimScene& scene, std::uint32_t rod, std::int64_t index);
 
 /// How far a hold may move its node in the next frame.
 struct Lead {

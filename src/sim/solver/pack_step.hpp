@@ -171,13 +171,9 @@ class PackStep {
   /// The step from where the rods are to where inertia alone would bring them.
   /// @param step step_size() of them, overwritten
   void predict(SimdBatch* step) {
-    search_start_ = pack_.positions;
-    for (std::size_t i = 0; i < system_.size(); ++i) {
-      for (std::size_t lane = 0; lane < lane_count; ++lane) {
-        step[i][lane] = predicted_[i][lane] - pack_.positions[i][lane];
-      }
-    }
-    std::fill(step + system_.size(), step + step_size(), SimdBatch{});
+    fill(step, [this](std::size_t i, std::size_t lane) {
+      return predicted_[i][lane] - pack_.positions[i][lane];
+    });
   }
 
   /// Moves each rod by a share of a step from where predict() or find_newton_step() began.
@@ -253,13 +249,7 @@ class PackStep {
     // All effects add positive semidefinite blocks, and masses are positive: only rounding errors
     // can make it indefinite, and what it solves for then still lets the energy fall.
     factorise_band(system_);
-    search_start_ = pack_.positions;
-    for (std::size_t i = 0; i < system_.size(); ++i) {
-      for (std::size_t lane = 0; lane < lane_count; ++lane) {
-        step[i][lane] = -system_.gradient[i][lane];
-      }
-    }
-    std::fill(step + system_.size(), step + step_size(), SimdBatch{});
+    fill(step, [this](std::size_t i, std::size_t lane) { return -system_.gradient[i][lane]; });
     solve_band(system_, step);
     clear_nonfinite_steps(step);
   }
@@ -288,6 +278,18 @@ class PackStep {
   }
 
  private:
+  /// Fills a step from where the rods are by value(unknown, lane), and the zeros after it.
+  template <class Value>
+  void fill(SimdBatch* step, const Value& value) {
+    search_start_ = pack_.positions;
+    for (std::size_t i = 0; i < system_.size(); ++i) {
+      for (std::size_t lane = 0; lane < lane_count; ++lane) {
+        step[i][lane] = value(i, lane);
+      }
+    }
+    std::fill(step + system_.size(), step + step_size(), SimdBatch{});
+  }
+
   /// Where edges have shrunk to nothing, as they may without the effect stretch, stiffnesses
   /// overflow: such a rod has no step.
   void clear_nonfinite_steps(SimdBatch* step) const {

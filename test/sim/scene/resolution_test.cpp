@@ -14,7 +14,7 @@ TEST_F(SimSceneTest, AccuracyChoosesSegmentsAndSubsteps) {
   EXPECT_NEAR(fine.substeps, 100.0 * coarse.substeps, 100.0);
   EXPECT_LT(second_order.substeps, fine.substeps);
   EXPECT_EQ(fine.accuracy, 0.001);
-  // What is given stays; what turns needs more.
+  // Given segments stay; a fibre that turns needs more.
   const SimScene given = read(scene_text(line, "[stretch]", "accuracy: 1 %\nsubsteps: 7\n"));
   EXPECT_EQ(segments(given), 4U);
   EXPECT_EQ(given.substeps, 7U);

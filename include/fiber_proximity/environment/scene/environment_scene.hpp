@@ -43,7 +43,7 @@ struct SceneObstacle {
   EnvironmentObject object;
 };
 
-/// What is around the fibres from the start.
+/// Obstacles around the fibres from the start.
 struct EnvironmentScene {
   std::vector<SceneObstacle> obstacles;  ///< each with a name of its own
   std::vector<NamedPair> allowed;

@@ -19,7 +19,7 @@ struct PairDistance {
   double gap = 0.0;
 };
 
-/// What is reported of two segments that are so far apart, but for the names of their fibres.
+/// The contact of two segments that are so far apart, but for the names of their fibres.
 Contact contact_of(const Capsule& a, const Capsule& b, const SegmentDistance& nearest);
 
 /// The one narrow phase: which pairs of segments count, how far apart they are, what is reported of
@@ -58,13 +58,13 @@ class NarrowPhase {
     return loops_ != nullptr && loops_->are_of_one_fiber(pair) &&
            !loops_->makes_loop(pair, distance.nearest, loop_steps);
   }
-  /// The same where the distance is not there.
+  /// lacks_loop() where the distance is not known yet.
   bool lacks_loop(PointPair pair) const {
     return loops_ != nullptr && loops_->are_of_one_fiber(pair) &&
            !loops_->makes_loop(pair, distance(pair).nearest);
   }
 
-  /// What is certain to lack a loop; see LoopTest.
+  /// Whether it is certain that a loop is lacking; see LoopTest.
   bool rules_out(std::uint32_t first, std::uint32_t last) const {
     return loops_ != nullptr && loops_->rules_out(first, last);
   }
@@ -74,7 +74,7 @@ class NarrowPhase {
 
   /// By the kernel ROBUST.
   PairDistance distance(PointPair pair) const;
-  /// The same of many pairs, faster.
+  /// distance() of many pairs, faster.
   void distances(const PointPair* pairs, std::size_t count, PairDistance* distances) const;
 
   /// Whether the gap is at most the margin: of ROBUST the one computed, otherwise the true one.
@@ -94,7 +94,7 @@ class NarrowPhase {
   /// [m] distance(pair).gap is at least this, its rounding included; costs a fraction of it.
   double gap_lower_bound(PointPair pair) const;
 
-  /// What is reported of a pair; of EXACT with a distance that is rounded correctly.
+  /// The contact of a pair; with EXACT its distance is rounded correctly.
   Contact contact(PointPair pair, const PairDistance& distance) const;
 
  private:

@@ -15,7 +15,7 @@
 
 namespace FIBER_PROXIMITY_EXPORT fiber {
 
-/// What the options of a query allow it to cost: where it stops, and how much it may report. A
+/// The cost that the options of a query allow: where it stops, and how much it may report. A
 /// limit that is not set is one that nothing reaches.
 struct QueryLimits {
   explicit QueryLimits(const QueryOptions& options)
@@ -139,7 +139,7 @@ class ContactAccumulator {
     }
     return done_;
   }
-  /// The same for what asks seldom.
+  /// done(), for callers that ask seldom: looks at the clock each time.
   bool done_by_now() {
     if (limits_.deadline.is_set()) {
       check_deadline();

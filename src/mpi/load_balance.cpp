@@ -1,16 +1,17 @@
-#include "src/mpi/rank_load.hpp"
+#include "src/mpi/load_balance.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace fiber {
 namespace {
 
-// [s] Fitted to the times of fiber_bench_mpi; only how they compare matters.
+// [s] Fitted to the times of fiber_bench_mpi; only their ratios matter.
 constexpr double per_segment = 60e-9;
 constexpr double per_node_test = 3e-9;
 constexpr double per_pair = 250e-9;
 
-/// Pairs cost where contacts are, all else is the same for each segment.
+/// Pairs cost time where contacts are; all else costs the same for each segment.
 /// @param of_segments, of_pairs [s] of all
 std::vector<double> costs_of_runs(const LocalFibers& own, double of_segments, double of_pairs,
                                   const std::vector<Contact>& inner,
@@ -51,6 +52,21 @@ RankLoad load_of(const LocalFibers& own, const QueryCounts& counts,
   return {of_segments + of_pairs, [=, &own, &inner, &across] {
             return costs_of_runs(own, of_segments, of_pairs, inner, across);
           }};
+}
+
+bool LoadBalance::is_too_uneven(const std::vector<double>& costs) {
+  constexpr double max_imbalance = 1.1;  // beside what the last split reached
+  const double mean =
+      std::accumulate(costs.begin(), costs.end(), 0.0) / static_cast<double>(costs.size());
+  const double max_cost = *std::max_element(costs.begin(), costs.end());
+  if (mean <= 0.0) {
+    return false;
+  }
+  if (!is_reached_known_) {
+    is_reached_known_ = true;
+    best_imbalance_ = max_cost / mean;
+  }
+  return max_cost > max_imbalance * best_imbalance_ * mean;
 }
 
 }  // namespace fiber

@@ -1,4 +1,4 @@
-#include "src/tools/run_note.hpp"
+#include "src/tools/checkpoint_file.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -11,23 +11,23 @@
 
 namespace fiber {
 
-RunNote::RunNote(const std::string& path, std::string run)
-    : part_(partial_name(path)), name_(part_ + ".run"), run_(std::move(run)) {}
+CheckpointFile::CheckpointFile(const std::string& path, std::string run)
+    : part_(partial_name(path)), path_(part_ + ".run"), run_(std::move(run)) {}
 
-std::optional<RunProgress> RunNote::read() const {
-  std::ifstream note(name_);
+std::optional<RunProgress> CheckpointFile::read() const {
+  std::ifstream file(path_);
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(part_, error);
-  if (!note || error) {
+  if (!file || error) {
     return std::nullopt;
   }
   RunProgress progress;
   std::string rest;
   std::string run;
-  note >> progress.steps >> progress.bytes;
-  if (!std::getline(note, rest) || !std::getline(note, run) || !rest.empty() ||
+  file >> progress.steps >> progress.bytes;
+  if (!std::getline(file, rest) || !std::getline(file, run) || !rest.empty() ||
       progress.bytes > size) {
-    throw FileError(name_, "cannot be gone on with: does not tell how far " + part_ + " has come");
+    throw FileError(path_, "cannot be gone on with: does not tell how far " + part_ + " has come");
   }
   if (run != run_) {
     throw FileError(part_, "cannot be gone on with: is of another run, " + quote(run) +
@@ -36,18 +36,18 @@ std::optional<RunProgress> RunNote::read() const {
   return progress;
 }
 
-void RunNote::write(const RunProgress& progress) const {
-  OutputFile file(partial_name(name_));
+void CheckpointFile::write(const RunProgress& progress) const {
+  OutputFile file(partial_name(path_));
   file.write(std::to_string(progress.steps) + " " + std::to_string(progress.bytes) + "\n" + run_ +
              "\n");
   file.close();
-  move_into_place(name_);
+  move_into_place(path_);
 }
 
-void RunNote::remove() const {
+void CheckpointFile::remove() const {
   std::error_code ignored;
-  std::filesystem::remove(name_, ignored);
-  remove_partial(name_);
+  std::filesystem::remove(path_, ignored);
+  remove_partial(path_);
 }
 
 }  // namespace fiber
