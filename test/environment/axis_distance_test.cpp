@@ -108,6 +108,20 @@ TEST(AxisDistance, OfAnOpenMeshIsThatOfTheNearestTriangle) {
   }
 }
 
+TEST(AxisDistance, OfATriangleDoesNotDependOnWhichCornerIsFirst) {
+  SCOPED_TRACE(seed_message());
+  Random random;
+  for (int round = 0; round < 1000; ++round) {
+    const auto [p0, p1] = random_segment(random, 1.0);
+    const TriangleCorners corners{random.in_cube(1.0), random.in_cube(1.0), random.in_cube(1.0)};
+    const double distance = segment_triangle(p0, p1, corners).distance;
+    for (const TriangleCorners& other : {TriangleCorners{corners[1], corners[2], corners[0]},
+                                         TriangleCorners{corners[2], corners[0], corners[1]}}) {
+      ASSERT_NEAR(segment_triangle(p0, p1, other).distance, distance, 1e-12);
+    }
+  }
+}
+
 /// A box and a mesh of its surface are the same solid.
 TEST(AxisDistance, OfAClosedMeshIsThatOfItsSolid) {
   SCOPED_TRACE(seed_message());

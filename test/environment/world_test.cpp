@@ -59,6 +59,8 @@ TEST(World, AppliesAllOrNothing) {
                             {Operation::MOVE, place("ball", 2.0)}}),
             "object 'ball': there is no object of this name to move or to remove");
   EXPECT_EQ(world.environment(), before);
+  EXPECT_TRUE(world.has("ball"));
+  EXPECT_FALSE(world.has("other"));
   EXPECT_NE(refusal(world, {{Operation::MOVE, ball("ball", 1.0)}}).find("comes with shapes"),
             std::string::npos);
   EXPECT_NE(refusal(world, {{Operation::ADD, place("empty", 1.0)}}).find("'empty'"),

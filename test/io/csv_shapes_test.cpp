@@ -87,6 +87,13 @@ TEST(CsvShapes, OfOneSpellingAndOfAllOthers) {
   }
 }
 
+TEST(CsvShapes, AllColumnsMayBeInCapitals) {
+  const FiberFile file = read("FRAME,FIBRE,X,Y,Z,RADIUS\n4,a,0,0,0,0.5\n4,a,1,0,0,0.5\n");
+  ASSERT_TRUE(file.has_frames);
+  EXPECT_EQ(file.frames[0].frame, 4);
+  EXPECT_EQ(file.frames[0].fibers.radii(), std::vector<double>{0.5});
+}
+
 TEST(CsvShapes, RowsMayBeShuffledAsLongAsThoseOfAFibreKeepTheirOrder) {
   test::Random random;
   const Names labels{"b", "7", "a c", "#1"};

@@ -26,7 +26,8 @@ FiberAssembly assembly(const Offsets& offsets, Radii radii) {
 }
 
 TEST(WriteHair, ReadsBackAsTheSameFibers) {
-  for (const Offsets& offsets : {Offsets{0, 3, 6}, Offsets{0, 2, 6}, Offsets{0, 70'000, 140'000}}) {
+  for (const Offsets& offsets :
+       {Offsets{0, 3, 6}, Offsets{0, 2, 6}, Offsets{0, 4, 6}, Offsets{0, 70'000, 140'000}}) {
     const Radii per_point(offsets.back(), 0.5);
     Radii tapered = per_point;
     tapered.back() = 0.25;

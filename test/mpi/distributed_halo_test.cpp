@@ -156,6 +156,19 @@ Box3d box_of(const FiberNode& start, const FiberNode& end) {
   return inflated(Box3d(start.point).extend(end.point), start.radius);
 }
 
+TEST(BoxTree, BoxesInSinglePrecisionHoldThoseInDouble) {
+  Random random;
+  std::vector<Box3d> boxes;
+  for (int i = 0; i < 1000; ++i) {
+    const Eigen::Vector3d corner = random.in_cube();
+    boxes.push_back(Box3d(corner).extend(corner + 0.1 * random.in_cube()));
+  }
+  const BoxTree tree(boxes);
+  for (std::uint32_t i = 0; i < boxes.size(); ++i) {
+    ASSERT_TRUE(tree.box(i).contains(boxes[i])) << i;
+  }
+}
+
 TEST(DistributedHalo, BoxesAreNoFurtherApartThanSegmentsAreFound) {
   Random random;
   for (int round = 0; round < 20000; ++round) {

@@ -87,6 +87,10 @@ TEST_F(KeptMarkers, TheStampNeverGoesBackByADeletion) {
   take(1.0, one("a", 0.0, 10.0));
   take(1.0, one("b", 5.0, 12.0));
   EXPECT_EQ(chains_.header.stamp, ros::Time(12.0));
+  MarkerArray late = deletion(Marker::DELETE, "c");
+  late.markers[0].header.stamp = ros::Time(11.0);
+  take(1.05, late);
+  EXPECT_EQ(chains_.header.stamp, ros::Time(12.0)) << "though the deletion is of 11";
   MarkerArray gone = deletion(Marker::DELETE, "b");
   gone.markers[0].header.stamp = ros::Time(13.0);
   take(1.1, gone);

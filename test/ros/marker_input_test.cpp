@@ -65,6 +65,14 @@ TEST(MarkerInput, LineListsAreWeldedWithATolerance) {
             (std::vector<std::uint32_t>{0, 2, 5}));
 }
 
+TEST(MarkerInput, TheToleranceIsAPartOfTheShorterSegment) {
+  MarkerInputOptions options;
+  options.weld_tolerance = 0.1;
+  const Points pairs{{0, 0, 0}, {1, 0, 0}, {1.05, 0, 0}, {1.15, 0, 0}};
+  EXPECT_EQ(read(array({marker(header("map"), Marker::LINE_LIST, pairs)}), options).offsets,
+            (std::vector<std::uint32_t>{0, 2, 4}));
+}
+
 TEST(MarkerInput, LineListsOfTwoMarkersAreTwoFibres) {
   const Points all = chain(0);
   const FiberBuffer chains =

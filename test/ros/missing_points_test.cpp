@@ -64,9 +64,10 @@ Handled handle(MissingPoints policy, const FiberBuffer& chains) {
   return handled;
 }
 
-void expect_counts(const MissingPointCounts& counts, std::uint64_t points, std::uint64_t fibers,
-                   std::uint64_t lone_points) {
+void expect_counts(const MissingPointCounts& counts, std::uint64_t points, std::uint64_t gaps,
+                   std::uint64_t fibers, std::uint64_t lone_points) {
   EXPECT_EQ(counts.points, points);
+  EXPECT_EQ(counts.gaps, gaps);
   EXPECT_EQ(counts.fibers, fibers);
   EXPECT_EQ(counts.lone_points, lone_points);
 }
@@ -75,7 +76,7 @@ TEST(MissingPoints, ABridgeJoinsTheNeighboursAndDropsTheEnds) {
   const Handled handled = handle(MissingPoints::BRIDGE, chains_of({"x.x..xx.xx", "...", ".x."}));
   EXPECT_EQ(places(handled.chains), (Places{{1, 3, 4, 7}, {10, 11, 12}, {13, 15}}));
   EXPECT_EQ(handled.chains.names, (Names{"f0", "f1", "f2"}));
-  expect_counts(handled.counts, 7, 0, 0);
+  expect_counts(handled.counts, 7, 3, 0, 0);
 }
 
 TEST(MissingPoints, ASplitKeepsThePiecesAndNamesThemByTheirFirstPoint) {
@@ -83,7 +84,7 @@ TEST(MissingPoints, ASplitKeepsThePiecesAndNamesThemByTheirFirstPoint) {
   EXPECT_EQ(places(handled.chains),
             (Places{{1, 2}, {6, 7, 8}, {10, 11}, {12, 13, 14}, {15, 16}, {18, 19}}));
   EXPECT_EQ(handled.chains.names, (Names{"f0", "f0[6]", "f0[10]", "f1", "f2", "f2[3]"}));
-  expect_counts(handled.counts, 5, 0, 1);
+  expect_counts(handled.counts, 5, 5, 0, 1);
 }
 
 TEST(MissingPoints, AFibreOfWhichTooLittleIsKnownIsAbsent) {
@@ -91,11 +92,11 @@ TEST(MissingPoints, AFibreOfWhichTooLittleIsKnownIsAbsent) {
     const Handled handled = handle(policy, chains_of({"xxx", "...", "x.x", "xx"}));
     EXPECT_EQ(places(handled.chains), (Places{{3, 4, 5}}));
     EXPECT_EQ(handled.chains.names, (Names{"f1"}));
-    expect_counts(handled.counts, 7, 3, 1);
+    expect_counts(handled.counts, 7, 7, 3, 1);
   }
   const Handled split = handle(MissingPoints::SPLIT, chains_of({".x.x."}));
   EXPECT_EQ(places(split.chains), Places{});
-  expect_counts(split.counts, 2, 1, 3);
+  expect_counts(split.counts, 2, 2, 1, 3);
 }
 
 TEST(MissingPoints, NothingLeftIsAnAssemblyOfNoFibres) {
@@ -158,7 +159,7 @@ TEST(MissingPoints, RefusedIsTheFirstByNameAndAllAreCounted) {
     EXPECT_EQ(message.rfind("fibre 1, point 2: x is nan, coordinates must be ", 0), 0U) << message;
     EXPECT_NE(message.find("missing_points: bridge or split"), std::string::npos) << message;
   }
-  expect_counts(counts, 2, 0, 0);
+  expect_counts(counts, 2, 0, 0, 0);
 }
 
 TEST(MissingPoints, WhatLiesAboutItsLayoutStaysForTheAssemblyToRefuse) {
@@ -176,7 +177,7 @@ TEST(MissingPoints, WhatLiesAboutItsLayoutStaysForTheAssemblyToRefuse) {
       fiber::FiberAssembly fibers;
       EXPECT_THROW(assign(assigned, fibers), std::invalid_argument);
     }
-    expect_counts(counts, 0, 0, 0);
+    expect_counts(counts, 0, 0, 0, 0);
   };
   expect_untouched([](FiberBuffer& chains) { chains.offsets.clear(); });
   expect_untouched([](FiberBuffer& chains) { chains.offsets = {0, 6, 5, 8}; });

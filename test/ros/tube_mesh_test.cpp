@@ -55,6 +55,23 @@ double volume_of(const std::vector<Vector3d>& corners) {
   return volume;
 }
 
+TEST(TubeMesh, HasOneRingAtAGentleBendAndTwoAtASharpOne) {
+  const Vector3d first(1, 0, 0);
+  const Vector3d second = Vector3d(1, 0.2, 0).normalized();
+  const Vector3d third(0, 0, 1);
+  const Vector3d begin(1, 2, 3);
+  std::vector<TubeRing> rings;
+  sweep_tube(
+      chain({begin, begin + first, begin + first + second, begin + first + second + third}, 0.1), 0,
+      rings);
+  const std::vector<Vector3d> tangents{first, (first + second).normalized(), second, third, third};
+  ASSERT_EQ(rings.size(), tangents.size());
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    EXPECT_LT((rings[i].tangent - tangents[i]).norm(), 1e-12) << i;
+    EXPECT_NEAR(rings[i].normal.dot(tangents[i]), 0.0, 1e-12) << i;
+  }
+}
+
 TEST(TubeMesh, StraightTubeHasTheExactRadius) {
   const FiberAssembly fibers = chain({{1, 2, 3}, {1.5, 2, 3}, {2, 2, 3}}, 0.25);
   const std::vector<Vector3d> corners = mesh_of(fibers);
