@@ -40,7 +40,6 @@ message(STATUS "Library for clusters: MPI ${MPI_CXX_VERSION}, ${ZOLTAN_LIBRARY},
 
 add_library(fiber_proximity_mpi SHARED
   src/mpi/box_tree.cpp
-  src/mpi/closest_contacts.cpp
   src/mpi/closest_of_fibers.cpp
   src/mpi/communicator.cpp
   src/mpi/contact_search.cpp
@@ -48,7 +47,6 @@ add_library(fiber_proximity_mpi SHARED
   src/mpi/contact_writer.cpp
   src/mpi/distributed_engine.cpp
   src/mpi/distributed_options.cpp
-  src/mpi/earliest_contacts.cpp
   src/mpi/fiber_chains.cpp
   src/mpi/fiber_name_data.cpp
   src/mpi/fiber_name_text.cpp
@@ -70,6 +68,7 @@ add_library(fiber_proximity_mpi SHARED
   src/mpi/partition.cpp
   src/mpi/piece_boxes.cpp
   src/mpi/piece_routes.cpp
+  src/mpi/select_contacts.cpp
   src/mpi/send_lists.cpp
   src/mpi/work_queue.cpp
 )

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <type_traits>
 
 #include "fiber_proximity/mpi/distributed_files.hpp"
 #include "src/mpi/communicator.hpp"
@@ -33,7 +34,7 @@ ContactRows rows_of(const Communicator& ranks, std::uint64_t count) {
   return rows;
 }
 
-/// A column of contacts: a dataset each.
+/// A column of contacts: a dataset, with three columns for a vector.
 template <class T>
 class ContactColumn {
  public:
@@ -41,30 +42,22 @@ class ContactColumn {
                 T DistributedContact::*member)
       : writer_(group, name, rows.all, rows.first), member_(member) {}
 
-  void append(const DistributedContact& contact) { writer_.append(contact.*member_); }
-  void flush() { writer_.flush(); }
-
- private:
-  RowWriter<T> writer_;
-  T DistributedContact::*member_;
-};
-
-template <>
-class ContactColumn<Eigen::Vector3d> {
- public:
-  ContactColumn(hid_t group, const char* name, const ContactRows& rows,
-                Eigen::Vector3d DistributedContact::*member)
-      : writer_(group, name, rows.all, rows.first), member_(member) {}
-
   void append(const DistributedContact& contact) {
-    const Eigen::Vector3d& vector = contact.*member_;
-    writer_.append(vector[0], vector[1], vector[2]);
+    const T& value = contact.*member_;
+    if constexpr (is_vector) {
+      writer_.append(value[0], value[1], value[2]);
+    } else {
+      writer_.append(value);
+    }
   }
   void flush() { writer_.flush(); }
 
  private:
-  RowWriter<double, 3> writer_;
-  Eigen::Vector3d DistributedContact::*member_;
+  static constexpr bool is_vector = std::is_same_v<T, Eigen::Vector3d>;
+  using Writer = std::conditional_t<is_vector, RowWriter<double, 3>, RowWriter<T>>;
+
+  Writer writer_;
+  T DistributedContact::*member_;
 };
 
 /// Contacts as lines from point_a to point_b, for VTK. Points and values are those of the columns,

@@ -5,14 +5,13 @@
 #include <optional>
 #include <stdexcept>
 
-#include "src/mpi/closest_contacts.hpp"
 #include "src/mpi/communicator.hpp"
 #include "src/mpi/contact_search.hpp"
 #include "src/mpi/distributed_options.hpp"
-#include "src/mpi/earliest_contacts.hpp"
 #include "src/mpi/halo_exchange.hpp"
 #include "src/mpi/motion_search.hpp"
 #include "src/mpi/owned_fibers.hpp"
+#include "src/mpi/select_contacts.hpp"
 
 namespace fiber {
 

@@ -19,4 +19,10 @@ double margin_of_closest(const Communicator& ranks, std::uint64_t count,
 /// @return whether any go, of any rank
 bool keep_closest(const Communicator& ranks, std::uint64_t count, DistributedResult& result);
 
+/// Leaves of the contacts that all ranks have found during a motion those that the options ask for,
+/// sorted, and sets the flags and bounds of the answer. Collective.
+/// @param result all pairs that this rank reports; limit_reached: the pair_limit was
+void keep_earliest(const Communicator& ranks, const MotionOptions& options,
+                   DistributedMotionResult& result);
+
 }  // namespace fiber
