@@ -1,57 +1,34 @@
 """Time against error of a pair of segments: our kernels and other libraries on hard pairs."""
 
-import dataclasses
 import math
 import statistics
 
-from .accuracy_kernels_report import draw_kernels, group_table, kind_table
-from .hard_families import group_and_kind
-from .process import read_lines
-from .runs import Limits, measure_all
-from .tables import write_csv
+from .hard_families import GROUPS, KINDS, group_and_kind
+from .plot import COLORS, legend_below, panels, save
+from .runs import Limits, Run, rows_of_all
+from .tables import markdown, write_csv, write_table
 
 COUNTS = ("pairs", "answered", "contacts", "false", "missed", "plain_false", "plain_missed",
           "outside_bounds", "not_finite", "no_answer", "ended")
 LARGEST = ("error", "error_units", "relative_error")
-
-
-@dataclasses.dataclass(frozen=True)
-class KernelsRun:
-    """All kernels of the build on all families, in turns in one process."""
-
-    pairs: int  # per family
-    repeats: int
-    seed: int = 1
-
-    def title(self):
-        return f"kernels on {self.pairs} pairs per family"
-
-    def measure(self, tool, limits):
-        """`rows`, a dict per family and kernel."""
-        command = [tool, "kernels", "--pairs", str(self.pairs), "--repeats", str(self.repeats),
-                   "--seed", str(self.seed), "--json"]
-        # As many lines as there are; each may be the first of a family, after all its work.
-        rows, peak_mib = read_lines(command, [limits.stage] * 100000)
-        return {**dataclasses.asdict(self), "rows": rows, "peak_mib": peak_mib}
-
-
-FULL = KernelsRun(pairs=1000, repeats=11)
-QUICK = KernelsRun(pairs=100, repeats=5)
+FULL = "--pairs 1000 --repeats 11"
+QUICK = "--pairs 100 --repeats 5"
 FAMILY_LIMIT_S = 600.0
+MIN_UNITS = 0.05  # an error of 0 stands at the lower edge of the figure
+MAX_UNITS = 1e18  # one beyond double at the upper
+KIND_KERNELS = ("robust", "exact", "textbook", "fcl_capsule", "fcl_gjk", "bullet", "cgal")
 
 
 def measure_kernels(tool, out, quick):
     """Writes kernels.csv, .svg, .md and kernel_kinds.md; the table by groups."""
-    plan = QUICK if quick else FULL
-    result = measure_all(tool, [plan], Limits(stage=FAMILY_LIMIT_S), out)[plan]
-    rows = [with_place(row) for row in result["rows"]]
+    run = Run("kernels on hard pairs", f"{{tool}} kernels {QUICK if quick else FULL} --seed 1 --json")
+    rows = [with_place(row) for row in rows_of_all(tool, [run], Limits(stage=FAMILY_LIMIT_S), out)[0]]
     write_csv(rows, out / "kernels.csv")
     groups = summaries(rows, "group")
     draw_kernels(groups, out / "kernels.svg")
     (out / "kernel_kinds.md").write_text(kind_table(summaries(rows, "kind")))
-    table = group_table(groups)
-    (out / "kernels.md").write_text(table)
-    return table
+    return write_table(out / "kernels.md", GROUP_COLUMNS,
+                       [found for group in GROUPS for (of, _), found in groups.items() if of == group])
 
 
 def with_place(row):
@@ -66,14 +43,87 @@ def summaries(rows, key):
     found = {}
     for row in rows:
         found.setdefault((row[key], row["kernel"]), []).append(row)
-    return {place: summary(of_place) for place, of_place in found.items()}
+    return {place: {"group": of_place[0]["group"], "kernel": of_place[0]["kernel"], **summary(of_place)}
+            for place, of_place in found.items()}
 
 
 def summary(rows):
     """Counts add up, of errors the largest counts; p50 is the median family's, p99 the slowest's."""
     p50 = [row["p50_ns"] for row in rows if row["p50_ns"] is not None]
     p99 = [row["p99_ns"] for row in rows if row["p99_ns"] is not None]
-    return {**{key: sum(row[key] for row in rows) for key in COUNTS},
-            **{key: max(row[key] for row in rows) for key in LARGEST},
+    counts = {key: sum(row[key] for row in rows) for key in COUNTS}
+    return {**counts, **{key: max(row[key] for row in rows) for key in LARGEST},
+            "unanswered": counts["pairs"] - counts["answered"],
             "p50_ns": statistics.median(p50) if p50 else None,
             "p99_ns": max(p99) if p99 else None}
+
+
+def percent(count, pairs):
+    """A share that is not 0 never looks like 0, nor does one that is not all look like all."""
+    share = 100 * count / pairs
+    if 0 < share < 0.1:
+        return "<0.1 %"
+    if share >= 99.5:
+        return "100 %" if count == pairs else ">99 %"
+    return f"{share:.2g} %"
+
+
+def number(value):
+    if value is None:
+        return "–"
+    if math.isinf(value):
+        return "∞"
+    return f"{value:.0f}" if 99.5 <= value < 1e4 else f"{value:.2g}"
+
+
+def number_of(key):
+    return lambda found: number(found[key])
+
+
+def share_of(key):
+    return lambda found: percent(found[key], found["pairs"])
+
+
+GROUP_COLUMNS = [("group", "group"), ("kernel", lambda found: f"`{found['kernel']}`"),
+                 ("p50 [ns]", number_of("p50_ns")), ("p99 [ns]", number_of("p99_ns")),
+                 ("largest error [ε·M]", number_of("error_units")), ("relative", number_of("relative_error")),
+                 ("missed", share_of("missed")), ("false", share_of("false")),
+                 ("missed by d", share_of("plain_missed")), ("false by d", share_of("plain_false")),
+                 ("no answer", share_of("unanswered"))]
+
+
+def draw_kernels(groups, path):
+    """A panel per group; each mark is a kernel, with its wrong decisions."""
+    figure, axes = panels(len(GROUPS), 4.0 * len(GROUPS), 4.6)
+    for group, axis in zip(GROUPS, axes):
+        for (of, kernel), found in groups.items():
+            if of == group and found["p50_ns"] and found["answered"]:
+                axis.scatter(found["p50_ns"], min(max(found["error_units"], MIN_UNITS), MAX_UNITS),
+                             color=COLORS[kernel], label=mark_label(found), s=28,
+                             marker="s" if found["missed"] else "o")
+        axis.set(xscale="log", yscale="log", ylim=(MIN_UNITS / 3, MAX_UNITS * 3), title=group,
+                 xlabel="time per pair, median [ns]")
+        legend_below(axis)
+    axes[0].set_ylabel("largest error [ε·M], 0 at the lower edge")
+    save(figure, path)
+
+
+def mark_label(found):
+    parts = [f"{percent(found[key], found['pairs'])} {word}" for key, word in
+             (("missed", "missed"), ("false", "false"), ("unanswered", "no answer")) if found[key]]
+    return f"{found['kernel']}: {', '.join(parts) or 'all decisions right'}"
+
+
+def kind_table(kinds):
+    """A row per kind of pairs, a column per kernel: largest error, and what went wrong."""
+    known = [kernel for kernel in KIND_KERNELS if any(of == kernel for _, of in kinds)]
+    return markdown(["pairs", *(f"`{kernel}`" for kernel in known)],
+                    [[kind, *(kind_cell(kinds.get((kind, kernel))) for kernel in known)] for _, kind, _ in KINDS])
+
+
+def kind_cell(found):
+    if found is None:
+        return "–"
+    wrong = [percent(found[key], found["pairs"]) + sign for key, sign in
+             (("missed", "−"), ("false", "+"), ("unanswered", "∅")) if found[key]]
+    return " ".join([number(found["error_units"]) if found["answered"] else "–", *wrong])

@@ -8,7 +8,7 @@ it took at the smaller sizes say that a cycle stays within the limit.
 import dataclasses
 import math
 
-from .cycle_run import CycleRun
+from .runs import Limits, Run, Runs
 
 
 @dataclasses.dataclass(frozen=True)
@@ -34,8 +34,12 @@ class Climb:
     threads: int
 
     def run(self, size, engines):
-        return CycleRun(self.scene, size.scale, size.copies, ",".join(engines), self.threads,
-                        size.repeats)
+        """These engines in turns, in one process: a row for each, or none if they take too long together."""
+        return Run(f"{self.scene} ×{size.factor():.2g}, {self.threads} thread(s)",
+                   f"{{tool}} cycle --scene {self.scene} --scale {size.scale} --copies {size.copies} "
+                   f"--engines {','.join(engines)} --threads {self.threads} --repeats {size.repeats} --json",
+                   # Nothing is printed before all frames are done; building counts for a frame.
+                   patience=len(engines) * (size.repeats + 1), needs_rows=False)
 
 
 def forecast_s(times, size):
@@ -68,6 +72,12 @@ def climb(runs, plan, limit_s):
         rows += [{"scene": plan.scene, **dataclasses.asdict(size), "engine": engine,
                   "left_out": why} for engine, why in left_out.items()]
     return rows
+
+
+def climb_all(tool, plans, limit_s, out):
+    """(plan, its rows) of all."""
+    with Runs(tool, Limits(stage=limit_s), out, sum(len(plan.sizes) for plan in plans)) as runs:
+        return [(plan, climb(runs, plan, limit_s)) for plan in plans]
 
 
 def measure_together(runs, plan, size, forecasts, left_out):

@@ -1,19 +1,20 @@
 """What a skin is worth on scenes whose points move a little in every frame."""
 
 import dataclasses
-import pathlib
 
-from .coherence_report import coherence_table, draw_skins
-from .coherence_run import CoherenceRun
-from .machine import describe_machine
-from .runs import Limits, measure_all
-from .tables import write_csv
+from .plot import panels, save
+from .runs import Limits, Run, experiment, rows_of_all
+from .tables import rounded, scene_title, shown, write_csv, write_table
 
 HEADS = ("charming", "curly", "windy", "longish")
 OTHERS = ("tress_a", "tress_b", "cloth", "soup")
 MOTION = 0.02  # mean segment lengths per frame
 SKINS = "0,0.06,0.09,0.12,0.18,0.24,0.48"  # mean segment lengths
 THREADS = 2
+COLUMNS = [("scene", scene_title), ("segments", "segments"), ("without skin [ms]", rounded("without_ms")),
+           ("best skin [segment lengths]", shown("skin_lengths", "{:g}")), ("with it [ms]", rounded("cycle_ms")),
+           ("faster", lambda best: f"{best['without_ms'] / best['cycle_ms']:.1f}×"),
+           ("frames that refitted", lambda best: f"{best['refits']} of {best['frames']}")]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -25,29 +26,51 @@ class Plan:
 
     def runs(self):
         scales = {**dict.fromkeys(OTHERS, self.scale), **dict.fromkeys(HEADS, self.head_scale)}
-        return [CoherenceRun(scene, scale, MOTION, SKINS, self.frames, THREADS)
-                for scene, scale in scales.items()]
+        return [skins_run(scene, scale, SKINS, self.frames) for scene, scale in scales.items()]
 
 
 FULL = Plan(0.1, 1.0, 60, 30.0)
 QUICK = Plan(0.01, 0.02, 60, 1.0)
 
 
-def run(tool, folder, quick):
+def skins_run(scene, scale, skins, frames):
+    """run_tree with several skins in turns, in one process: a row for each skin."""
+    return Run(f"{scene} ×{scale:g}, {THREADS} thread(s)",
+               f"{{tool}} coherence --scene {scene} --scale {scale} --motion {MOTION} --skins {skins} "
+               f"--frames {frames} --threads {THREADS} --json",
+               # Nothing is printed before all frames are done; warming up counts for a frame.
+               patience=len(skins.split(",")) * (frames + 1))
+
+
+@experiment
+def run(tool, out, quick):
     plan = QUICK if quick else FULL
-    out = pathlib.Path(folder)
-    out.mkdir(parents=True, exist_ok=True)
-    measured = measure_all(tool, plan.runs(), Limits(stage=plan.limit_s), out)
-    scenes = [with_ratios(result["rows"]) for result in measured.values()]
+    scenes = [with_ratios(rows) for rows in rows_of_all(tool, plan.runs(), Limits(stage=plan.limit_s), out)]
     write_csv([row for rows in scenes for row in rows], out / "coherence.csv")
     draw_skins(scenes, out / "coherence.svg")
-    table = coherence_table(scenes)
-    (out / "coherence.md").write_text(table)
-    (out / "machine.txt").write_text(describe_machine())
-    print(table, end="")
+    best = [{**min(rows, key=lambda row: row["cycle_ms"]), "without_ms": without_skin_ms(rows)} for rows in scenes]
+    return write_table(out / "coherence.md", COLUMNS, best)
+
+
+def without_skin_ms(rows):
+    return next(row["cycle_ms"] for row in rows if row["skin_lengths"] == 0)
 
 
 def with_ratios(rows):
     """Adds times_no_skin, the mean frame in units of that without skin in the same process."""
-    base = next(row["cycle_ms"] for row in rows if row["skin_lengths"] == 0)
-    return [{**row, "times_no_skin": row["cycle_ms"] / base} for row in rows]
+    return [{**row, "times_no_skin": row["cycle_ms"] / without_skin_ms(rows)} for row in rows]
+
+
+def draw_skins(scenes, path):
+    figure, (axis,) = panels(1, 6.0, 3.6)
+    for rows in scenes:
+        shown_rows = sorted(rows, key=lambda row: row["skin_lengths"])
+        axis.plot([row["skin_lengths"] for row in shown_rows], [row["times_no_skin"] for row in shown_rows],
+                  marker=".", label=scene_title(shown_rows[0]))
+    first = scenes[0][0]
+    axis.axhline(1.0, color="black", linewidth=0.5)
+    axis.set(xlabel="skin [mean segment lengths]", ylabel="time per frame, that without skin = 1",
+             yscale="log",
+             title=f"{first['motion']:g} segment lengths per frame, {first['threads']} thread(s)")
+    axis.legend()
+    save(figure, path)

@@ -1,17 +1,15 @@
 """When moving things touch: whether the answers are right, and what they cost."""
 
-import pathlib
-
 from .continuous_motions import measure_motions
 from .continuous_scenes import measure_scenes
-from .machine import describe_machine
+from .runs import experiment
 
 
-def run(tool, folder, quick):
-    out = pathlib.Path(folder)
-    out.mkdir(parents=True, exist_ok=True)
+@experiment
+def run(tool, out, quick):
     text, wrong = measure_motions(tool, out, quick)
-    print(text, measure_scenes(tool, out, quick), sep="\n", end="")
-    (out / "machine.txt").write_text(describe_machine())
+    text = f"{text}\n{measure_scenes(tool, out, quick)}"
     if wrong:
+        print(text, end="")
         raise SystemExit(f"bench: {wrong} wrong answers, see {out / 'wrong.csv'}")
+    return text

@@ -1,6 +1,6 @@
 """The figure and the tables of cables by other simulators."""
 
-from .plot import panels, save
+from .plot import legend_below, panels, save
 from .tables import markdown, significant
 
 NAMES = {"own": "ours", "bullet": "Bullet", "mujoco": "MuJoCo"}
@@ -8,7 +8,7 @@ STYLES = {"own": ("#000000", "o"), "bullet": ("#fd8d3c", "s"), "mujoco": ("#1f77
 TITLES = {"hanging": "swinging rope: error of the tip [% of the length]",
           "cantilever": "cantilever at rest: error of the tip [% of the length]",
           "falling": "ropes that fall: deepest on the way [radii]"}
-LEAST_DEPTH, MOST_DEPTH = 1e-2, 1e1  # what is beyond stands at the edge of a figure
+MIN_DEPTH, MAX_DEPTH = 1e-2, 1e1  # what is beyond stands at the edge of a figure
 NO_VALUE = "–"
 
 
@@ -19,7 +19,7 @@ def of_scene(rows, scene):
 def shown_value(row):
     """What the figure has of a row."""
     if row["scene"] == "falling":
-        return min(max(row["deepest"], LEAST_DEPTH), MOST_DEPTH)
+        return min(max(row["deepest"], MIN_DEPTH), MAX_DEPTH)
     return 100 * row["error"]
 
 
@@ -41,7 +41,7 @@ def draw_peers(rows, path):
                          alpha=0.7, label=f"{NAMES[method]}, {segments} segments")
         axis.set(xscale="log", yscale="log", title=title,
                  xlabel="time [ms per second of the scene]")
-    axes[1].legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), ncols=3)
+    legend_below(axes[1], 3, 0.16)
     save(figure, path)
 
 

@@ -42,6 +42,10 @@ def save(figure, path):
     pyplot.close(figure)
 
 
+def legend_below(axis, columns=1, gap=0.14):
+    axis.legend(loc="upper center", bbox_to_anchor=(0.5, -gap), ncols=columns)
+
+
 def grouped_bars(axis, groups, series, value, limit=None):
     """Bars side by side for each group; a value that is missing stands hatched at the limit."""
     width = 0.85 / len(series)

@@ -1,60 +1,34 @@
 """What calls from Python cost beside C++, and the same questions asked of what else Python has."""
 
-import dataclasses
-import pathlib
-import sys
-
 from .machine import describe_machine
 from .plot import panels, save
-from .process import read_lines
-from .runs import Limits, measure_all
-from .tables import markdown, significant, write_csv
+from .runs import Limits, Run, experiment, rows_of_all
+from .tables import significant, table, write_csv
 
-SCRIPTS = pathlib.Path(__file__).resolve().parents[1] / "python"
 JOBS = {"contacts": "contacts within 5 mm", "closest": "the closest pair of two cables",
         "check": "1000 candidates of ten cables: which are free", "nearest": "the nearest segments of 10 000 points"}
-SIDES = ("fiber_proximity", "numpy", "kd_tree", "kd_tree_sampled", "bullet")
+OWN = "fiber_proximity"
+SIDES = (OWN, "numpy", "kd_tree", "kd_tree_sampled", "bullet")
 COLORS = dict(zip(SIDES, ("#000000", "#969696", "#238b45", "#a1d99b", "#fd8d3c")))
 ROW_LIMIT_S = 1800.0  # the first row of a size waits for all of its sides
-MOST_ROWS = 100
 
 
-@dataclasses.dataclass(frozen=True)
-class PythonRun:
-    """What a script of benchmark/python measures in one process."""
-
-    script: str
-    options: str  # as on a command line
-
-    def title(self):
-        return f"{self.script} {self.options}"
-
-    def measure(self, tool, limits):
-        """`rows`, a dict per line."""
-        command = [sys.executable, "-B", str(SCRIPTS / self.script), *self.options.split()]
-        if self.script == "calls.py":
-            command += ["--tool", tool, "--json"]
-        rows, _ = read_lines(command, [limits.stage] * MOST_ROWS)
-        if not rows:
-            raise SystemExit(f"bench: {self.title()}: not done within {limits.stage:g} s")
-        return {**dataclasses.asdict(self), "rows": rows}
-
-
-def run(tool, folder, quick):
-    out = pathlib.Path(folder)
-    out.mkdir(parents=True, exist_ok=True)
+@experiment
+def run(tool, out, quick):
     more = " --quick" if quick else ""
-    runs = [PythonRun("calls.py", more.strip()), *(PythonRun("peers.py", job + more) for job in JOBS)]
-    found = [result["rows"] for result in measure_all(tool, runs, Limits(stage=ROW_LIMIT_S), out).values()]
-    calls, peers = found[0], [row for rows in found[1:] for row in rows]
+    runs = [Run(f"calls{more}", f"{{python}} -B {{scripts}}/calls.py{more} --tool {{tool}} --json"),
+            *(Run(f"{job}{more}", f"{{python}} -B {{scripts}}/peers.py {job}{more}") for job in JOBS)]
+    calls, *found = rows_of_all(tool, runs, Limits(stage=ROW_LIMIT_S), out)
+    peers = [row for rows in found for row in rows]
     write_csv(calls, out / "calls.csv")
     write_csv(peers, out / "peers.csv")
-    draw(peers, out / "peers.svg")
-    machine = describe_machine()
-    table = f"{peers_table(peers)}\n`scripts/bench.sh python{more}`, {machine}"
-    (out / "peers.md").write_text(table)
-    (out / "machine.txt").write_text(machine)
-    print(table, end="")
+    questions = {}  # (job, segments) → side → row
+    for row in peers:
+        questions.setdefault((row["job"], row["segments"]), {})[row["side"]] = row
+    draw(questions, out / "peers.svg")
+    text = f"{table(COLUMNS, questions.values())}\n`scripts/bench.sh python{more}`, {describe_machine()}"
+    (out / "peers.md").write_text(text)
+    return text
 
 
 def cell(row, ours):
@@ -71,23 +45,16 @@ def cell(row, ours):
     return text
 
 
-def by_question(peers):
-    """(job, segments) → side → row."""
-    found = {}
-    for row in peers:
-        found.setdefault((row["job"], row["segments"]), {})[row["side"]] = row
-    return found
+def of_side(side):
+    return lambda sides: cell(sides.get(side), sides[OWN])
 
 
-def peers_table(peers):
-    rows = [[JOBS[job], segments, *(cell(sides.get(side), sides["fiber_proximity"]) for side in SIDES)]
-            for (job, segments), sides in by_question(peers).items()]
-    return markdown(["question", "segments", *SIDES], rows)
+COLUMNS = [("question", lambda sides: JOBS[sides[OWN]["job"]]), ("segments", lambda sides: sides[OWN]["segments"]),
+           *((side, of_side(side)) for side in SIDES)]
 
 
-def draw(peers, path):
+def draw(questions, path):
     """How time grows with the number of segments, for the questions that were asked of several numbers."""
-    questions = by_question(peers)
     jobs = [job for job in JOBS if len({segments for of, segments in questions if of == job}) > 1]
     figure, axes = panels(len(jobs), 8)
     for axis, job in zip(axes, jobs):

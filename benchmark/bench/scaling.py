@@ -1,13 +1,12 @@
 """How a cycle grows with the scene, and what a second thread is worth."""
 
 import dataclasses
-import pathlib
+import math
 
-from .climb import Climb, Size, climb
-from .machine import describe_machine
-from .runs import Limits, Runs
-from .scaling_report import draw_growth, growth_table
-from .tables import write_csv
+from .climb import Climb, Size, climb_all
+from .plot import COLORS, panels, save
+from .runs import experiment
+from .tables import significant, write_csv, write_table
 
 SCENE = "curly"
 LOCK = 0.0022  # scale of a lock of 103 hairs, 10 300 segments
@@ -30,11 +29,12 @@ class Plan:
     limit_s: float  # a cycle of one engine may take
 
     def climbs(self):
-        """(family, climb)"""
-        families = {"locks": tuple(sized(LOCK, copies) for copies in self.copies),
-                    "patch": tuple(sized(scale, 1) for scale in self.scales)}
-        return [(family, Climb(SCENE, sizes, ENGINES, threads))
-                for family, sizes in families.items() for threads in THREADS]
+        sizes = [*(sized(LOCK, copies) for copies in self.copies)], [*(sized(scale, 1) for scale in self.scales)]
+        return [Climb(SCENE, tuple(of_family), ENGINES, threads) for of_family in sizes for threads in THREADS]
+
+    def families(self):
+        """Of the climbs."""
+        return ["locks"] * len(THREADS) + ["patch"] * len(THREADS)
 
 
 FULL = Plan((1, 2, 5, 10, 22, 46, 100, 215, 456),
@@ -43,21 +43,75 @@ FULL = Plan((1, 2, 5, 10, 22, 46, 100, 215, 456),
 QUICK = Plan((1, 2, 5, 10), (LOCK, 0.0047, 0.01, 0.022), 5.0)
 
 
-def run(tool, folder, quick):
+@experiment
+def run(tool, out, quick):
     plan = QUICK if quick else FULL
-    out = pathlib.Path(folder)
-    out.mkdir(parents=True, exist_ok=True)
-    climbs = plan.climbs()
-    rows = []
-    total = sum(len(each.sizes) for _, each in climbs)
-    with Runs(tool, Limits(stage=plan.limit_s), out, total) as runs:
-        for family, each in climbs:
-            # most_threads: what an engine might use; threads: what it used
-            rows += [{"family": family, "most_threads": each.threads, **row}
-                     for row in climb(runs, each, plan.limit_s)]
+    found = climb_all(tool, plan.climbs(), plan.limit_s, out)
+    # most_threads: what an engine might use; threads: what it used
+    rows = [{"family": family, "most_threads": climb.threads, **row}
+            for family, (climb, rows) in zip(plan.families(), found) for row in rows]
     write_csv(rows, out / "scaling.csv")
-    draw_growth(rows, out / "scaling.svg")
-    table = growth_table(rows)
-    (out / "scaling.md").write_text(table)
-    (out / "machine.txt").write_text(describe_machine())
-    print(table, end="")
+    series = {}  # (family, engine, most_threads) → its rows that were measured, by size
+    for row in rows:
+        if "cycle_ms" in row:
+            series.setdefault((row["family"], row["engine"], row["most_threads"]), []).append(row)
+    draw_growth(series, out / "scaling.svg")
+    lines = [{"found": found, "one_thread": series.get((family, engine, 1), [])}
+             for (family, engine, _), found in series.items()]
+    return write_table(out / "scaling.md", COLUMNS, lines)
+
+
+def fitted_exponent(rows):
+    """Of cycle ~ segments^exponent: least squares through the logarithms; None of one size."""
+    x = [math.log(row["segments"]) for row in rows]
+    y = [math.log(row["cycle_ms"]) for row in rows]
+    mean_x, mean_y = sum(x) / len(x), sum(y) / len(y)
+    spread = sum((each - mean_x) ** 2 for each in x)
+    if spread == 0.0:
+        return None
+    return sum((a - mean_x) * (b - mean_y) for a, b in zip(x, y)) / spread
+
+
+def exponent_text(rows):
+    exponent = fitted_exponent(rows)
+    return "–" if exponent is None else f"{exponent:.2f}"
+
+
+def speedup(line):
+    """One thread's time over this one's, at the largest size both have: two processes."""
+    one = {row["segments"]: row["cycle_ms"] for row in line["one_thread"]}
+    ratios = [one[row["segments"]] / row["cycle_ms"] for row in line["found"] if row["segments"] in one]
+    return f"{ratios[-1]:.2f}×" if ratios else "–"
+
+
+def first_and_last(text):
+    return lambda line: f"{text(line['found'][0])} … {text(line['found'][-1])}"
+
+
+COLUMNS = [("scene", lambda line: line["found"][0]["family"]),
+           ("engine", lambda line: f"`{line['found'][0]['engine']}`"),
+           ("threads", lambda line: f"{line['found'][-1]['threads']} of {line['found'][-1]['most_threads']}"),
+           ("segments", first_and_last(lambda row: row["segments"])),
+           ("cycle [ms]", first_and_last(lambda row: significant(row["cycle_ms"]))),
+           ("exponent", lambda line: exponent_text(line["found"])), ("one thread / this", speedup)]
+
+
+def draw_growth(series, path):
+    families = list(dict.fromkeys(family for family, _, _ in series))
+    figure, axes = panels(len(families) + 1, 12.0, 3.6)
+    for family, axis in zip(families, axes):
+        of_family = {key: found for key, found in series.items() if key[0] == family}
+        for (_, engine, threads), found in of_family.items():
+            axis.plot([row["segments"] for row in found], [row["cycle_ms"] for row in found],
+                      marker=".", linestyle="--" if threads == 1 else "-", color=COLORS[engine],
+                      label=f"{engine}, {threads} thread(s): n^{exponent_text(found)}")
+        axis.set(title=f"{family}: update and all collisions [ms]", xscale="log", yscale="log",
+                 xlabel="segments")
+        axis.legend()
+        # All engines find the same contacts.
+        found = next(iter(of_family.values()))
+        axes[-1].plot([row["segments"] for row in found],
+                      [row["pairs"] / row["segments"] for row in found], marker=".", label=family)
+    axes[-1].set(title="contacts per segment", xscale="log", xlabel="segments", ylim=(0, None))
+    axes[-1].legend()
+    save(figure, path)

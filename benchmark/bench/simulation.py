@@ -1,16 +1,12 @@
 """Whether the simulation is right, how its error and its time depend on what it is told, beside other
 simulators, too, and what each effect costs."""
 
-import pathlib
-
 from .machine import describe_machine
 from .peer_cables_report import draw_peers, peers_table
-from .runs import Limits, measure_all
-from .simulation_report import (draw_convergence, draw_effects, draw_xpbd, effect_table,
-                                real_time_table, resolution_table, validation_summary,
-                                validation_table, xpbd_table)
-from .simulation_run import SimulationRun
-from .tables import write_csv
+from .runs import Limits, Run, experiment, rows_of_all
+from .simulation_report import (EFFECT_COLUMNS, REAL_TIME_COLUMNS, VALIDATION_COLUMNS, draw_convergence,
+                                draw_effects, draw_xpbd, resolution_table, validation_summary, with_base, xpbd_table)
+from .tables import table, write_csv
 
 PARTS = ("validation", "convergence", "xpbd", "peers", "effects", "real_time")
 FULL = {part: "" for part in PARTS}
@@ -30,33 +26,30 @@ BEGIN = "<!-- begin: scripts/bench.sh simulation -->\n"
 END = "<!-- end -->\n"
 
 
-def run(tool, folder, quick):
-    out = pathlib.Path(folder)
-    out.mkdir(parents=True, exist_ok=True)
-    plan = QUICK if quick else FULL
-    runs = [SimulationRun(part, options) for part, options in plan.items()]
-    found = measure_all(tool, runs, Limits(stage=ROW_LIMIT_S), out)
-    rows = {part.part: result["rows"] for part, result in found.items()}
+@experiment
+def run(tool, out, quick):
+    runs = [Run(f"simulate {part}", f"{{tool}} simulate --parts {part} {options} --json")
+            for part, options in (QUICK if quick else FULL).items()]
+    rows = dict(zip(PARTS, rows_of_all(tool, runs, Limits(stage=ROW_LIMIT_S), out)))
     for part in PARTS:
         write_csv([plain(row) for row in rows[part]], out / f"{part}.csv")
+    hoses = rows["convergence"] + rows["xpbd"]
     draw_convergence(rows["convergence"], out / "convergence.svg")
-    draw_xpbd(rows["convergence"] + rows["xpbd"], out / "xpbd.svg")
+    draw_xpbd(hoses, out / "xpbd.svg")
     draw_peers(rows["peers"], out / "peers.svg")
     draw_effects(rows["effects"], out / "effects.svg")
-    machine = describe_machine()
-    command = f"`scripts/bench.sh simulation{' --quick' if quick else ''}`, {machine}"
+    command = f"`scripts/bench.sh simulation{' --quick' if quick else ''}`, {describe_machine()}"
     summary = f"{validation_summary(rows['validation'])}\n{command}"
-    tables = {"validation": validation_table(rows["validation"]),
+    tables = {"validation": table(VALIDATION_COLUMNS, rows["validation"]),
               "resolution": resolution_table(rows["convergence"]),
-              "xpbd": xpbd_table(rows["convergence"] + rows["xpbd"]),
+              "xpbd": xpbd_table(hoses),
               "peers": peers_table(rows["peers"]),
-              "effects": effect_table(rows["effects"]),
-              "real_time": real_time_table(rows["real_time"])}
-    for name, table in tables.items():
-        (out / f"{name}.md").write_text(f"{table}\n{command}")
-    (out / "machine.txt").write_text(machine)
+              "effects": table(EFFECT_COLUMNS, with_base(rows["effects"])),
+              "real_time": table(REAL_TIME_COLUMNS, rows["real_time"])}
+    for name, text in tables.items():
+        (out / f"{name}.md").write_text(f"{text}\n{command}")
     put_between_marks(out.with_name(f"{out.name}_method.md"), summary)
-    print(summary, *tables.values(), sep="\n", end="")
+    return "\n".join([summary, *tables.values()])
 
 
 def plain(row):

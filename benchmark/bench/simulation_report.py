@@ -1,20 +1,13 @@
 """The figures and the tables of the simulation."""
 
-from .plot import grid, panels, save
-from .tables import markdown, significant
+from .plot import grid, legend_below, panels, save
+from .tables import markdown, shown, significant, table
 
 DEFAULT_SEGMENTS = 50
 NAMES = {"implicit_euler": "implicit Euler", "bdf2": "BDF2", "xpbd": "XPBD"}
 TITLES = {"segments": "segments", "substeps": "substeps", "residual": "residual [m/s]",
-          "max_iterations": "most iterations"}
-LEAST_ERROR = 1e-12  # one of 0 stands at the lower edge of a figure
-
-
-def validation_table(rows):
-    return markdown(["test", "scene", "quantity", "segments", "theory", "simulated", "error"],
-                    [[row["test"], row["scene"], row["quantity"], row["segments"],
-                      f"{row['theory']:.5g}", f"{row['simulated']:.5g}", percent(row["error"])]
-                     for row in rows])
+          "max_iterations": "max. iterations"}
+MIN_ERROR = 1e-12  # one of 0 stands at the lower edge of a figure
 
 
 def validation_summary(rows):
@@ -22,12 +15,8 @@ def validation_summary(rows):
     tests = {}
     for row in rows:
         tests.setdefault(row["test"], []).append(row)
-    lines = []
-    for test, of_test in tests.items():
-        worst = max(of_test, key=lambda row: abs(row["error"]))
-        lines.append([test, len(of_test), percent(worst["error"]),
-                      f"{worst['scene']}: {worst['quantity']}", limit(worst["allowed"])])
-    return markdown(["test", "numbers", "largest error", "where", "allowed"], lines)
+    return table(SUMMARY_COLUMNS, [{"numbers": len(of_test), **max(of_test, key=lambda row: abs(row["error"]))}
+                                   for of_test in tests.values()])
 
 
 def percent(part):
@@ -38,6 +27,14 @@ def percent(part):
 
 def limit(part):
     return f"{100 * part:g} %" if part >= 1e-6 else f"{part:g}"
+
+
+SUMMARY_COLUMNS = [("test", "test"), ("numbers", "numbers"), ("largest error", lambda row: percent(row["error"])),
+                   ("where", lambda row: f"{row['scene']}: {row['quantity']}"),
+                   ("allowed", lambda row: limit(row["allowed"]))]
+VALIDATION_COLUMNS = [("test", "test"), ("scene", "scene"), ("quantity", "quantity"), ("segments", "segments"),
+                      ("theory", shown("theory", "{:.5g}")), ("simulated", shown("simulated", "{:.5g}")),
+                      ("error", lambda row: percent(row["error"]))]
 
 
 def select(rows, **fields):
@@ -51,27 +48,27 @@ def finest(rows, key):
 def draw_convergence(rows, path):
     """Error above, time below, by segments, substeps, residual and most iterations."""
     of_grid = select(rows, varied="grid")
-    most_segments, most_substeps = finest(of_grid, "segments"), finest(of_grid, "substeps")
+    max_segments, max_substeps = finest(of_grid, "segments"), finest(of_grid, "substeps")
     lines = {"segments": [("settling", select(rows, varied="segments"))],
              "substeps": [("settling", select(rows, varied="substeps"))],
              **{key: [(motion, select(rows, varied=key, motion=motion))
                       for motion in ("settling", "swinging")]
                 for key in ("residual", "max_iterations")}}
     for method in ("implicit_euler", "bdf2"):
-        lines["segments"].append((f"swinging, {NAMES[method]}, {most_substeps} substeps",
-                                  select(of_grid, method=method, substeps=most_substeps)))
-        lines["substeps"].append((f"swinging, {NAMES[method]}, {most_segments} segments",
-                                  select(of_grid, method=method, segments=most_segments)))
+        lines["segments"].append((f"swinging, {NAMES[method]}, {max_substeps} substeps",
+                                  select(of_grid, method=method, substeps=max_substeps)))
+        lines["substeps"].append((f"swinging, {NAMES[method]}, {max_segments} segments",
+                                  select(of_grid, method=method, segments=max_segments)))
     figure, axes = grid(2, len(lines), 15.0, 7.0)
     for column, (key, shown) in enumerate(lines.items()):
         upper, lower = axes[0][column], axes[1][column]
         for label, of_line in shown:
             values = [row[key] for row in of_line]
-            upper.plot(values, [100 * max(row["error"], LEAST_ERROR) for row in of_line],
+            upper.plot(values, [100 * max(row["error"], MIN_ERROR) for row in of_line],
                        marker=".", label=label)
             lower.plot(values, [row["ms_per_step"] for row in of_line], marker=".", label=label)
         upper.set(xscale="log", yscale="log", title=f"by {TITLES[key]}")
-        upper.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1))
+        legend_below(upper, gap=0.1)
         lower.set(xscale="log", yscale="log", xlabel=TITLES[key])
     axes[0][0].set_ylabel("error [% of the length]")
     axes[1][0].set_ylabel("time of a step [ms]")
@@ -84,11 +81,11 @@ def draw_xpbd(rows, path):
     for axis, motion in zip(axes, ("swinging", "settling")):
         for label, of_line in lines_of(rows, motion):
             axis.plot([row["ms_per_second"] for row in of_line],
-                      [100 * max(row["error"], LEAST_ERROR) for row in of_line], marker=".",
+                      [100 * max(row["error"], MIN_ERROR) for row in of_line], marker=".",
                       linestyle="--" if of_line[0]["method"] == "xpbd" else "-", label=label)
         axis.set(xscale="log", yscale="log", xlabel="time [ms per second of the scene]",
                  title=f"{motion} hose")
-        axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2)
+        legend_below(axis, 2)
     axes[0].set_ylabel("error [% of the length]")
     save(figure, path)
 
@@ -160,18 +157,16 @@ def draw_effects(rows, path):
     save(figure, path)
 
 
-def effect_table(rows):
-    base = rows[0]
-    return markdown(["effect", "ms per step", "µs per node and step", "beside the base",
-                     "bytes per node", "unknowns per node"],
-                    [[row["added"], f"{row['ms_per_step']:.3f}", f"{row['us_per_node_step']:.2f}",
-                      f"{row['ms_per_step'] / base['ms_per_step']:.2f}×",
-                      f"{row['bytes_per_node']:.0f}", row["unknowns_per_node"]] for row in rows])
+def with_base(rows):
+    """Adds times_base, the time of a step in units of that of the first row."""
+    return [{**row, "times_base": row["ms_per_step"] / rows[0]["ms_per_step"]} for row in rows]
 
 
-def real_time_table(rows):
-    return markdown(["scene", "rods", "segments", "substeps of a frame", "threads", "ms per step",
-                     "µs per node and step", "times as fast as the clock"],
-                    [[row["scene"], row["rods"], row["segments"], row["substeps"], row["threads"],
-                      f"{row['ms_per_step']:.2f}", f"{row['us_per_node_step']:.3f}",
-                      f"{row['real_time_factor']:.2f}"] for row in rows])
+EFFECT_COLUMNS = [("effect", "added"), ("ms per step", shown("ms_per_step", "{:.3f}")),
+                  ("µs per node and step", shown("us_per_node_step", "{:.2f}")),
+                  ("beside the base", shown("times_base", "{:.2f}×")),
+                  ("bytes per node", shown("bytes_per_node", "{:.0f}")), ("unknowns per node", "unknowns_per_node")]
+REAL_TIME_COLUMNS = [("scene", "scene"), ("rods", "rods"), ("segments", "segments"), ("substeps of a frame", "substeps"),
+                     ("threads", "threads"), ("ms per step", shown("ms_per_step", "{:.2f}")),
+                     ("µs per node and step", shown("us_per_node_step", "{:.3f}")),
+                     ("times as fast as the clock", shown("real_time_factor", "{:.2f}"))]

@@ -28,6 +28,7 @@ class StageRun:
             "--until", self.until, *[flag for flag in flags if flag],
         ]
 
+    @property
     def title(self):
         return f"{self.scene} {self.engine}" + (" shuffled" if self.shuffle else "")
 
@@ -43,7 +44,7 @@ class StageRun:
             str(limits.trials), "--seconds", str(limits.seconds),
         ]
         stages = self.stages()
-        # What a stage does is repeated: its limit is that of one and of the repeats.
+        # A stage is repeated: its limit is that of one and of the repeats.
         lines, peak_mib = read_lines(command, [limits.stage + limits.seconds] * len(stages))
         result = {**dataclasses.asdict(self), "over_limit": ""}
         for values in lines:

@@ -58,7 +58,7 @@ class Bench:
     def compare(self, what, path, margin, call, repeats, calls, **more):
         turns = np.array([(median_seconds(call, repeats, calls), self.in_cpp(what, path, margin, repeats))
                           for _ in range(self.turns)])
-        # Of each turn: the processor's clock changes between them.
+        # Ratios are taken in each turn, as the processor's clock changes between turns.
         python, cpp, overhead, throughput = np.median(
             np.column_stack([1e6 * turns, 1e6 * (turns[:, 0] - turns[:, 1]), turns[:, 1] / turns[:, 0]]), axis=0)
         self.report(call=what, python_us=python, cpp_us=cpp, overhead_us=overhead, throughput=throughput, **more)
@@ -101,7 +101,7 @@ class Bench:
         found = engine.contacts(0.01)
         self.compare('contacts', path, 0.01, lambda: engine.contacts(0.01), 3, 1, segments=fibers.segment_count,
                      contacts=len(found), megabytes=found.nbytes / 1e6)
-        # What another copy of the answer takes.
+        # This is the time of another copy of the answer.
         copy = median_seconds(found.copy, 3, 1)
         self.report(call='copy of the answer', python_us=1e6 * copy)
         points = fibers.points.copy()

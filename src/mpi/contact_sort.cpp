@@ -69,6 +69,9 @@ std::vector<ContactKey> find_splitters(const Communicator& ranks, const std::vec
 template <class T>
 void sort_all(const Communicator& ranks, std::vector<T>& contacts) {
   std::sort(contacts.begin(), contacts.end(), by_key);
+  if (ranks.size() == 1) {
+    return;
+  }
   const std::vector<ContactKey> splitters = find_splitters(ranks, contacts);
   PerRank<T> parts(static_cast<std::size_t>(ranks.size()));
   auto begin = contacts.begin();
@@ -81,6 +84,11 @@ void sort_all(const Communicator& ranks, std::vector<T>& contacts) {
   }
   contacts = {};
   parts = ranks.exchange(std::exchange(parts, {}));
+  std::size_t count = 0;
+  for (const std::vector<T>& some : parts) {
+    count += some.size();
+  }
+  contacts.reserve(count);  // a list that grows would be there twice
   for (std::vector<T>& some : parts) {
     contacts.insert(contacts.end(), some.begin(), some.end());
     some = {};

@@ -42,7 +42,7 @@ py::dtype hold_force_dtype() {
                      {"force", "(3,)f8", at(&Force::force)},
                      {"moment", "(3,)f8", at(&Force::moment)},
                      {"lag", "f8", at(&Force::lag)},
-                     {"max_force", "f8", at(&Force::most)}},
+                     {"max_force", "f8", at(&Force::max_force)}},
                     sizeof(Force));
 }
 

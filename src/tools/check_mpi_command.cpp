@@ -13,8 +13,8 @@
 #include "src/tools/fiber_query_mpi.hpp"
 #include "src/tools/fiber_source.hpp"
 #include "src/tools/mpi_tool.hpp"
+#include "src/tools/packed.hpp"
 #include "src/tools/parallel_text_file.hpp"
-#include "src/tools/range_texts.hpp"
 
 namespace fiber {
 namespace {
@@ -37,6 +37,40 @@ std::string run_of(const Communicator& ranks, const CheckRequest& request) {
          ", environment " + text_of_file(request.environment) + ", fibers " +
          text_of_file(request.fibers) + ", self " + (request.without_self ? "no" : "yes") +
          ", type " + request.type + text_of_pairs(request.query);
+}
+
+/// The rows of a range of the candidates.
+struct RangeRows {
+  std::uint64_t begin = 0;
+  std::string text;
+};
+
+/// Sends rows between the ranks so that those of a rank come before those of the next one.
+/// Collective.
+/// @param all  the candidates that were shared out
+/// @param rows of this rank, in any order
+/// @return the rows that this rank has then, in order
+std::vector<RangeRows> sort_rows(const Communicator& ranks, const WorkRange& all,
+                                 std::vector<RangeRows> rows) {
+  const auto rank_count = static_cast<std::size_t>(ranks.size());
+  PerRank<char> packed(rank_count);
+  for (RangeRows& range : rows) {
+    const std::size_t to = (range.begin - all.begin) * rank_count / (all.end - all.begin);
+    pack(packed[to], std::vector{range.begin});
+    pack(packed[to], range.text);
+    range.text = {};
+  }
+  packed = ranks.exchange(std::move(packed));
+  rows.clear();
+  for (const std::vector<char>& from : packed) {
+    for (const char* next = from.data(); next != from.data() + from.size();) {
+      const auto begin = unpack<std::vector<std::uint64_t>>(next);
+      rows.push_back({begin.front(), unpack<std::string>(next)});
+    }
+  }
+  std::sort(rows.begin(), rows.end(),
+            [](const RangeRows& x, const RangeRows& y) { return x.begin < y.begin; });
+  return rows;
 }
 
 ExitCode run(const RankCheckRequest& request) {
@@ -65,10 +99,10 @@ ExitCode run(const RankCheckRequest& request) {
   const std::uint64_t step = max_in_memory * static_cast<std::uint64_t>(ranks.size());
   for (std::uint64_t begin = text.done(); begin < count; begin += step) {
     const std::uint64_t end = std::min(begin + step, count);
-    std::vector<RangeText> checked;
+    std::vector<RangeRows> checked;
     WorkQueue work{{begin, end}, candidates_at_once};
     work.work = [&](const WorkRange& range, const std::vector<char>& packed) {
-      RangeText rows{range.begin, {}};
+      RangeRows rows{range.begin, {}};
       TextOutput output([&rows](std::string_view piece) { rows.text += piece; });
       checker->check(source.take(range, packed), source.has_frames(), output);
       output.flush();
@@ -79,9 +113,9 @@ ExitCode run(const RankCheckRequest& request) {
     }
     work.show = [&](std::uint64_t taken) { show_done(progress, taken, count, "candidates"); };
     run_work_queue(ranks, work);
-    checked = sort_over_ranks(ranks, work.all, std::move(checked));
+    checked = sort_rows(ranks, work.all, std::move(checked));
     text.append([&](TextOutput& output) {
-      for (const RangeText& range : checked) {
+      for (const RangeRows& range : checked) {
         output.write(range.text);
       }
     });

@@ -86,6 +86,8 @@ ExitCode run(const MpiRequest& request, const Question& question) {
   for (std::size_t i = sink.done(); i < source.frame_count(); ++i) {
     const std::int64_t frame = source.read(i, fibers);
     engine.update(fibers.parts, fibers.names);
+    fibers.parts = {};  // the engine has its own, and contacts need the memory
+    fibers.names = {};
     engine.query(question.query, result);
     const FrameNumber number{source.has_frames(), frame};
     sink.write(number, fibers.fiber_names, result);

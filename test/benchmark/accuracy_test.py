@@ -15,8 +15,7 @@ if importlib.util.find_spec("matplotlib") is None:
     sys.exit(0)
 
 from bench.accuracy import run
-from bench.accuracy_kernels import summary, with_place
-from bench.accuracy_kernels_report import number, percent
+from bench.accuracy_kernels import number, percent, summary, with_place
 from bench.hard_families import GROUPS, group_and_kind
 
 ROW = {"seed": 1, "pairs": 100, "repeats": 5, "contacts": 60, "answered": 100, "error": 1e-15,

@@ -13,8 +13,7 @@ if importlib.util.find_spec("matplotlib") is None:
     print("skipped: python3-matplotlib is missing (scripts/setup.sh --bench installs it)")
     sys.exit(0)
 
-from bench.coherence import MOTION, SKINS, THREADS, run
-from bench.coherence_run import CoherenceRun
+from bench.coherence import MOTION, SKINS, THREADS, run, skins_run
 from bench.runs import Limits, measure_all
 
 # A frame takes 8 ms without skin; with one, less the nearer it is to 0.12. It never answers about
@@ -80,12 +79,12 @@ class CoherenceTest(BenchTestCase):
         self.assertEqual((again[:-1], len(again)), (lines[:-1], len(lines)))
 
     def measure(self, scene, limit_s):
-        one = CoherenceRun(scene, 1.0, 0.02, "0,0.1", 2, 1)
+        one = skins_run(scene, 1.0, "0,0.1", 2)
         with contextlib.redirect_stderr(io.StringIO()):
             return measure_all(str(self.tool), [one], Limits(stage=limit_s), self.folder)
 
     def test_a_scene_over_the_limit_ends_everything(self):
-        with self.assertRaisesRegex(SystemExit, "stuck ×1, 1 thread.*not done within 0.6 s"):
+        with self.assertRaisesRegex(SystemExit, "stuck ×1, 2 thread.*not done within 0.6 s"):
             self.measure("stuck", 0.1)
 
     def test_answers_that_differ_end_everything(self):

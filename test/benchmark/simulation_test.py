@@ -116,7 +116,7 @@ class SimulationTest(BenchTestCase):
         self.assertIn("| free fall | 1 | 0 % | implicit midpoint: height | 1e-11 |", printed)
 
     def test_the_summary_goes_between_the_marks_of_the_page_beside_the_folder(self):
-        page = self.folder / "out.md"
+        page = self.folder / "out_method.md"
         page.write_text(PAGE)
         self.run_quick()
         self.run_quick()
@@ -127,7 +127,7 @@ class SimulationTest(BenchTestCase):
         self.assertEqual(text.count("| cantilever, tip load |"), 1)
 
     def test_a_page_without_marks_stays_as_it_is(self):
-        page = self.folder / "out.md"
+        page = self.folder / "out_method.md"
         page.write_text("nothing to replace\n")
         self.run_quick()
         self.assertEqual(page.read_text(), "nothing to replace\n")

@@ -52,6 +52,25 @@ TEST(FiberAssembly, TakesOneRadiusOnePerFiberOrOnePerPoint) {
   EXPECT_EQ(FiberAssembly(five_points, {0, 3, 5}, {0.1, 0.2}).segment_radius(3), 0.2);
 }
 
+TEST(FiberAssembly, KnowsTheRadiusAtAPointAsItWasGiven) {
+  const auto expect_radii = [](const FiberAssembly& fibers, RadiusPer how,
+                               const std::vector<double>& expected) {
+    EXPECT_EQ(fibers.radius_per(), how);
+    for (std::size_t point = 0; point < expected.size(); ++point) {
+      EXPECT_EQ(fibers.radius_at(point < 3 ? 0 : 1, point), expected[point]) << "point " << point;
+    }
+  };
+  FiberAssembly fibers(five_points, {0, 3, 5}, {1, 2, 3, 4, 5});
+  expect_radii(fibers, RadiusPer::POINT, {1, 2, 3, 4, 5});
+  expect_radii({five_points, {0, 3, 5}, {1, 2}}, RadiusPer::FIBER, {1, 1, 1, 2, 2});
+  expect_radii({five_points, {0, 3, 5}, {7}}, RadiusPer::ASSEMBLY, {7, 7, 7, 7, 7});
+  expect_radii({five_points, {0, 5}, {7}}, RadiusPer::ASSEMBLY, {7});
+  fibers.assign_segments(five_points, {0, 3, 5}, {6});
+  expect_radii(fibers, RadiusPer::ASSEMBLY, {6, 6, 6, 6, 6});
+  fibers.assign_segments(five_points, {0, 3, 5}, {1, 3, 0, 2, 0});
+  expect_radii(fibers, RadiusPer::POINT, {1, 3, 0, 2, 0});
+}
+
 TEST(FiberAssembly, TakesOneRadiusPerSegmentWithNewFibers) {
   FiberAssembly fibers({{7, 7, 7}, {8, 8, 8}}, {0, 2}, {9.0});
   fibers.assign_segments(five_points, {0, 3, 5}, {1, 3, 0, 2, 0});

@@ -19,7 +19,7 @@ fail() {
 
 bash -n "$batch"
 
-# What Slurm and Open MPI have on a cluster: an mpirun that needs no number of ranks, and scontrol.
+# Stand-ins for what a cluster has: an mpirun that needs no number of ranks, and scontrol.
 mkdir bin
 printf '#!/usr/bin/env bash\nready=%q\nstart=(%s)\n' "$work/ready" "$(printf '%q ' "$@")" >bin/mpirun
 cat >>bin/mpirun <<'END'

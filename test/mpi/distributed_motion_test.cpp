@@ -33,12 +33,18 @@ MotionOptions draw_options(double extent, Random& random) {
   return options;
 }
 
+/// The contacts of all ranks, sorted, on every rank.
+std::vector<DistributedMotionContact> gathered(const std::vector<DistributedMotionContact>& mine) {
+  const Communicator ranks(MPI_COMM_WORLD);
+  std::vector<DistributedMotionContact> all = joined(ranks.exchange(
+      PerRank<DistributedMotionContact>(static_cast<std::size_t>(ranks.size()), mine)));
+  std::sort(all.begin(), all.end(), by_key);
+  return all;
+}
+
 testing::AssertionResult are_same(const std::vector<DistributedMotionContact>& mine,
                                   const std::vector<MotionContact>& expected) {
-  const Communicator ranks(MPI_COMM_WORLD);
-  std::vector<DistributedMotionContact> found = joined(ranks.exchange(
-      PerRank<DistributedMotionContact>(static_cast<std::size_t>(ranks.size()), mine)));
-  std::sort(found.begin(), found.end(), by_key);
+  const std::vector<DistributedMotionContact> found = gathered(mine);
   if (found.size() != expected.size()) {
     return testing::AssertionFailure() << found.size() << " contacts, expected " << expected.size();
   }

@@ -21,13 +21,13 @@ TOOLS = pathlib.Path(sys.argv[2]).resolve()
 MPIEXEC = sys.argv[3:]
 ROOT = PAGE.resolve().parents[1]
 
-# What a command of the page has, and has here.
+# Parts of the page's commands, and what stands in their place here.
 SMALLER = {
     "--segments 1e9": "--segments 1e4",
     "soup --scale 0.1 ": "soup --scale 0.02 ",
 }
 
-# What stands in for mpirun on a machine of the test's own.
+# An mpirun that starts ranks as this machine can.
 MPIRUN = """#!/usr/bin/env bash
 [ "$1" = -n ] || { echo "mpirun: -n must come first" >&2; exit 1; }
 ranks=$(($2 < 4 ? $2 : 4))

@@ -40,7 +40,7 @@ check 3 bars.csv --environment world.yaml --margin 0.01 --out found.csv
 head -n 1 found.csv | grep -q '^frame,free,with,object,fiber_a,segment_a,s,' || fail "no such header"
 tail -n +2 found.csv | sed -E 's/^([0-9]+,1,,),+$/\1/; s/^([0-9]+,0,object,(floor|"a ""ball"", round")),.*/\1/' | cmp expected.csv - ||
   fail "other candidates are free"
-# What is allowed to touch, what is left out, and what there is no environment for.
+# Allowed pairs, candidates without an environment, and names that differ between candidates.
 printf 'allowed:\n  - {object: floor, fiber: bar, segments: [0, 0]}\n' | cat world.yaml - >allowed.yaml
 check 2 bars.csv --environment allowed.yaml --margin 0.01 >found.csv
 [ "$(grep -c '^[0-9]*,0,object,floor' found.csv)" -eq 0 ] || fail "what may touch counts"

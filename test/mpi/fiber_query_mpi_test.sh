@@ -118,7 +118,7 @@ done
 [ "$(wc -l <told.txt)" -eq 3 ] || fail "not told where fibres differ: $(cat told.txt)"
 grep -qF "frames 7 and 6 have different fibres (gone: 'rope', 'wire'; new: 'new', 'a, \"long\" one')" told.txt ||
   fail "not told who comes and goes: $(cat told.txt)"
-# What of a file is not read is told once.
+# Columns that are not read are told of once.
 sed '1s/radius/thickness/' named.csv >more.csv
 ask 3 contacts more.csv --out found.csv 2>error.txt
 [ "$(cat error.txt)" = "fiber_query_mpi: more.csv: column 'thickness' is not read" ] || fail "told: $(cat error.txt)"
@@ -149,7 +149,7 @@ expect_refused "margin is -1" contacts soup.csv --margin -1 --out found.csv
 expect_refused "unknown subcommand 'nearest', known are: contacts, closest, first, fiber_pairs" nearest soup.csv
 expect_refused "deadline is -1" first soup.csv --deadline -1 --out found.csv
 expect_refused "tolerance is -1" closest soup.csv --tolerance -1 --out found.csv
-# What an answer depends on tells its run from others.
+# All that an answer depends on tells its run from others.
 ask 2 closest tress.csv --out found.h5
 for options in "fiber_pairs" "closest --margin 1" "closest --radius 0.1" "closest --deadline 9" "closest --tolerance 1e-9" \
   "closest --relative-tolerance 1e-9" "closest --kernel exact" "closest --neighbour-skip 1" \

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What the tools over ranks write to: links are followed, pipes and devices are written to as they stand, and none becomes
+# Outputs of the tools over ranks: links are followed, pipes and devices are written to as they stand, and none becomes
 # a file; HDF5 refuses what is none. A name that means another format is refused.
 #   outputs_test.sh FOLDER MPIEXEC [FLAG...]
 #     see tool_test.sh

@@ -22,7 +22,7 @@ if(TARGET fiber_proximity_mpi)
     target_link_libraries(distributed_engine_test GTest::gtest)
   endif()
   target_link_libraries(distributed_engine_test
-    fiber_proximity_mpi fiber_proximity_paper ${PARALLEL_HDF5_LIBRARY} fiber_proximity_options)
+    fiber_proximity_mpi ${PARALLEL_HDF5_LIBRARY} fiber_proximity_options)
   target_include_directories(distributed_engine_test SYSTEM PRIVATE ${PARALLEL_HDF5_INCLUDE_FOLDER})
   fiber_proximity_compile_fast(distributed_engine_test)
   fiber_proximity_compile_tests_together(distributed_engine_test)

@@ -1,4 +1,4 @@
-# What tests of the tools over ranks begin with; sourced, with their arguments: FOLDER MPIEXEC [FLAG...]
+# The beginning of tests of the tools over ranks; sourced, with their arguments: FOLDER MPIEXEC [FLAG...]
 #     FOLDER  of the tools
 #     FLAG    of MPIEXEC, the last one before the number of ranks
 # shellcheck shell=bash

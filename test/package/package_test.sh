@@ -88,6 +88,7 @@ expect_paper_engines() {
   answer=$("$(find "$1" -name paper_engines -type f)" 2>&1) || fail "paper_engines of $1: $answer"
   [ "$answer" = "AL: 1 contact, 0.5 m" ] || fail "paper_engines of $1 has another answer: $answer"
 }
+# shellcheck disable=SC2016  # the quotes of Markdown
 sed -n '/^## In C++$/,/^## /{/^```cpp$/,/^```$/{/^```/!p}}' "$source/README.md" >"$work/readme.cpp"
 cmake -S "$source/test/package/cmake_user" -B "$work/cmake_user" -DCMAKE_PREFIX_PATH="$prefix" \
   -DREADME_PROGRAM="$work/readme.cpp" \

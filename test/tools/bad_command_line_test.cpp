@@ -1,4 +1,4 @@
-// What a user mistypes, and files that are none: one short line on stderr, exit 2.
+// Typing errors and files that are none are refused in one short line on stderr, with exit 2.
 #include "test/tools/tools_test.hpp"
 
 namespace fiber::test {

@@ -1,4 +1,4 @@
-// What fiber_query refuses, and says why.
+// fiber_query says why it refuses something.
 #include <string>
 
 #include "test/tools/fiber_query.hpp"

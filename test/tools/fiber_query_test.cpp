@@ -79,7 +79,7 @@ TEST_F(FiberQuery, FirstIsOneOfTheContacts) {
   EXPECT_NE(std::find(all.begin() + 1, all.end(), first[1]), all.end());
 }
 
-// Of the hairpin a with itself, and of each pair of fibres.
+// The pair of the hairpin a with itself, and one of each pair of fibres.
 TEST_F(FiberQuery, FiberPairsAreTheMinimumDistancesOfFibres) {
   const std::string file = write("hairpin.csv",
                                  "fiber,x,y,z\n"

@@ -1,4 +1,4 @@
-// What the tools hold in memory where there is much to write.
+// The tools hold little in memory where there is much to write.
 #include <cstdlib>
 #include <filesystem>
 

@@ -1,4 +1,4 @@
-// What the fibres of a file are called is what answers call them.
+// Answers call fibres by the names that they have in the file.
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -10,7 +10,7 @@ namespace {
 
 class Names : public FiberQuery {
  protected:
-  /// The same file with these names in place of 0, 1 and 2.
+  /// The file of crossing() with these names in place of 0, 1 and 2.
   std::string crossing_of(const std::string& first, const std::string& second,
                           const std::string& third) const {
     const std::vector<std::string> names{first, second, third};

@@ -57,7 +57,7 @@ TEST_F(SelfContactOfFiles, StrandsThatTouchHaveThemAtEveryMargin) {
                              open_ring(4.0, 20), tight_knot(45)}) {
     SCOPED_TRACE(cable.name);
     const std::string file = write_cable(cable);
-    // What strands that touch may be apart by rounding.
+    // Rounding may part strands that touch by so much.
     SegmentPairs before = pairs("contacts", file, "--margin 1e-6");
     EXPECT_FALSE(before.empty());
     EXPECT_EQ(pairs("closest", file, "").size(), 1U);

@@ -58,7 +58,7 @@ TEST_F(Simulate, ForcesAreAFileOfTheirOwn) {
       "  - attachment: [{fiber: hangs}]\n"
       "environment: {obstacles: [{id: table, half_spaces: [{coef: [0, 0, 1, 0]}]}]}\n");
   frames(scene, "--seconds 5 --forces " + path("forces.csv"));
-  // Of half a metre of silicone tube [N].
+  // The weight of half a metre of silicone tube [N].
   const double weight = 9.81 * 1150.0 * M_PI * 0.005 * 0.005 * 0.5;
   std::map<std::string, std::size_t> counts;
   Eigen::Vector3d hold = Eigen::Vector3d::Zero();
@@ -78,7 +78,7 @@ TEST_F(Simulate, ForcesAreAFileOfTheirOwn) {
       EXPECT_EQ(row.fiber, 1U);
       contacts += row.force;
     } else if (row.kind == "tension" && row.fiber == 0) {
-      // What is below the middle of the edge pulls it down.
+      // The part below the middle of the edge pulls it down.
       const Eigen::Vector3d below(0, 0, -weight * (0.95 - 0.1 * row.index));
       EXPECT_LT((row.force - below).norm(), 1e-3 * weight) << row.index;
     } else if (row.kind == "bending" || row.kind == "twisting") {

@@ -68,8 +68,8 @@ TEST_F(SweepNames, AFibreThatComesTakesNobodysPlace) {
             "");
 }
 
-// What is in both frames is still swept: a falls through b; c, which goes, touched d and would be
-// in the way of e; f, of other points, touched d as well.
+// Fibres that are in both frames are still swept: a falls through b; c, which goes, touched d and
+// would be in the way of e; f, of other points, touched d as well.
 TEST_F(SweepNames, OfFibresThatGoTheContactsOfTheFrameItself) {
   const std::string first = bar(0, "c", 3.0, 0.0) + bar(0, "a", 0.0, 1.0) + bar(0, "b", 0.0, 0.0) +
                             bar(0, "d", 3.015, 0.0) + bar(0, "e", 3.0, 1.0) +

@@ -32,7 +32,7 @@ TEST_F(TinyFibers, NeighboursAreLeftOutByLengthAtEveryScale) {
       text += "0," + at + scale + ",0,0,9" + scale + "\n";
     }
     const std::string file = write("line.csv", text);
-    // Of five segments in a row those with so many between them, and more.
+    // The pairs of five segments in a row that have so many between them, and more.
     EXPECT_EQ(contacts(file, "--neighbour-skip-length 0.5" + scale).size(), 6U);
     EXPECT_EQ(contacts(file, "--neighbour-skip-length 1.5" + scale).size(), 3U);
     EXPECT_EQ(contacts(file, "--neighbour-skip-length 2.5" + scale).size(), 1U);
@@ -46,7 +46,7 @@ TEST_F(TinyFibers, NeighboursAreLeftOutByLengthAtEveryScale) {
 }
 
 TEST_F(TinyFibers, NormalsAreOfUnitLength) {
-  // Of 3 and 4 of the smallest number that there is; and where squares are less than that.
+  // Sides of 3 and 4 times the smallest number that there is; and where squares are less than that.
   for (const auto& [x, y] : {std::pair{"1.5e-323", "-2e-323"}, {"3e-170", "-4e-170"}}) {
     SCOPED_TRACE(x);
     const std::string point = std::string(x) + "," + y + ",0,0\n";
