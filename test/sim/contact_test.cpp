@@ -89,7 +89,9 @@ Rods rod_at(Random& random, const std::shared_ptr<const Environment>& environmen
 
 class OfShape : public testing::TestWithParam<std::size_t> {
  protected:
-  std::shared_ptr<const Environment> environment_ = environment_of(shapes()[GetParam()]);
+  std::shared_ptr<const Environment> environment_ = environment_of(
+      shapes()[GetParam()],
+      Eigen::Isometry3d(Eigen::AngleAxisd(0.5, Vector3d(1.0, 2.0, 3.0).normalized())));
 };
 
 TEST_P(OfShape, TheGradientIsThatOfTheEnergy) {
