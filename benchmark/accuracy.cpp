@@ -1,14 +1,14 @@
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <iostream>
 #include <limits>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "benchmark/accuracy_settings.hpp"
 #include "benchmark/answer_errors.hpp"
 #include "benchmark/commands.hpp"
+#include "benchmark/options.hpp"
+#include "benchmark/report.hpp"
 #include "benchmark/scene_options.hpp"
 #include "benchmark/statistics.hpp"
 #include "fiber_proximity/query/engine.hpp"
@@ -99,57 +99,49 @@ class Accuracy {
     progress_.show("");
   }
 
-  void print_json() const {
+  void print() const {
+    if (!request_.json) {
+      std::cout << request_.scene << ": " << fibers_.segment_count() << " segments, "
+                << request_.engine << ", median of " << request_.repeats
+                << " frame(s); update takes " << median(update_ms_) << " ms\n";
+    }
+    RowPrinter printer({"query",
+                        "setting",
+                        {"detect [ms]", "detect_ms"},
+                        {"p99 [ms]", "detect_p99_ms"},
+                        "late",
+                        "pairs",
+                        "missed",
+                        "false",
+                        "found",
+                        {"error [m]", "error"},
+                        {"bound [m]", "bound"}},
+                       request_.json);
     for (const SettingRun& run : runs_) {
       const AnswerErrors& errors = run.errors();
-      const nlohmann::ordered_json line{{"scene", request_.scene},
-                                        {"scale", request_.scene_options.scale},
-                                        {"seed", request_.scene_options.seed},
-                                        {"engine", request_.engine},
-                                        {"segments", fibers_.segment_count()},
-                                        {"threads", engine_->facts().thread_count},
-                                        {"query", run.setting().query},
-                                        {"setting", run.setting().name},
-                                        {"kernel", name_of(run.setting().options.kernel)},
-                                        {"tolerance", run.setting().options.tolerance},
-                                        {"deadline_ms", run.deadline_ms()},
-                                        {"late", run.late()},
-                                        {"update_ms", median(update_ms_)},
-                                        {"detect_ms", run.median_ms()},
-                                        {"detect_p99_ms", run.p99_ms()},
-                                        {"cycle_ms", median(update_ms_) + run.median_ms()},
-                                        {"pairs", run.pairs()},
-                                        {"missed", errors.missed},
-                                        {"false", errors.extra},
-                                        {"found", errors.found_part()},
-                                        {"error", errors.error},
-                                        {"bound", errors.bound},
-                                        {"wrong_bounds", errors.wrong_bounds}};
-      std::cout << line.dump() << '\n';
-    }
-  }
-
-  void print_table() const {
-    std::cout << request_.scene << ": " << fibers_.segment_count() << " segments, "
-              << request_.engine << ", median of " << request_.repeats << " frame(s); update takes "
-              << median(update_ms_) << " ms\n";
-    constexpr int name_width = 30;
-    constexpr int width = 13;
-    std::cout << std::left << std::setw(name_width) << "query" << std::right;
-    for (const char* column : {"detect [ms]", "p99 [ms]", "late", "pairs", "missed", "false",
-                               "found", "error [m]", "bound [m]"}) {
-      std::cout << std::setw(width) << column;
-    }
-    std::cout << '\n';
-    for (const SettingRun& run : runs_) {
-      const AnswerErrors& errors = run.errors();
-      std::cout << std::left << std::setw(name_width)
-                << run.setting().query + ", " + run.setting().name << std::right << std::setw(width)
-                << run.median_ms() << std::setw(width) << run.p99_ms() << std::setw(width)
-                << run.late() << std::setw(width) << run.pairs() << std::setw(width)
-                << errors.missed << std::setw(width) << errors.extra << std::setw(width)
-                << errors.found_part() << std::setw(width) << errors.error << std::setw(width)
-                << errors.bound << '\n';
+      printer.print({{"scene", request_.scene},
+                     {"scale", request_.scene_options.scale},
+                     {"seed", request_.scene_options.seed},
+                     {"engine", request_.engine},
+                     {"segments", fibers_.segment_count()},
+                     {"threads", engine_->facts().thread_count},
+                     {"query", run.setting().query},
+                     {"setting", run.setting().name},
+                     {"kernel", name_of(run.setting().options.kernel)},
+                     {"tolerance", run.setting().options.tolerance},
+                     {"deadline_ms", run.deadline_ms()},
+                     {"late", run.late()},
+                     {"update_ms", median(update_ms_)},
+                     {"detect_ms", run.median_ms()},
+                     {"detect_p99_ms", run.p99_ms()},
+                     {"cycle_ms", median(update_ms_) + run.median_ms()},
+                     {"pairs", run.pairs()},
+                     {"missed", errors.missed},
+                     {"false", errors.extra},
+                     {"found", errors.found_part()},
+                     {"error", errors.error},
+                     {"bound", errors.bound},
+                     {"wrong_bounds", errors.wrong_bounds}});
     }
   }
 
@@ -174,7 +166,7 @@ class Accuracy {
     return truth.result;
   }
 
-  /// What a query of this type takes with the default kernel and without knobs [ms].
+  /// The time of a query of this type with the default kernel and no other option [ms].
   double whole_ms(QueryType type) const {
     for (const SettingRun& run : runs_) {
       if (run.setting().options.type == type && run.setting().is_reference) {
@@ -201,10 +193,10 @@ class Accuracy {
   Progress progress_;
 };
 
-ExitCode run(const AccuracyRequest& request) {
+ExitCode run_accuracy(const AccuracyRequest& request) {
   Accuracy accuracy(request);
   accuracy.measure();
-  request.json ? accuracy.print_json() : accuracy.print_table();
+  accuracy.print();
   if (!accuracy.all_bounds_hold()) {
     std::cerr << "fiber_bench: an answer's bounds do not hold the exact distance\n";
     return DISAGREED;
@@ -216,18 +208,14 @@ ExitCode run(const AccuracyRequest& request) {
 
 void add_accuracy_command(CLI::App& app, Command& command) {
   const auto request = std::make_shared<AccuracyRequest>();
-  CLI::App* accuracy = app.add_subcommand(
-      "accuracy", "what kernels, tolerances and deadlines cost and bring on a moving scene");
-  accuracy->callback([&command, request] { command = [request] { return run(*request); }; });
+  CLI::App* const accuracy =
+      add_subcommand(app, command, "accuracy",
+                     "what kernels, tolerances and deadlines cost and bring on a moving scene",
+                     request, run_accuracy);
   add_scene_options(*accuracy, request->scene, request->scene_options);
-  accuracy->add_option("--engine", request->engine, "one of " + join(engine_names()))
-      ->capture_default_str();
-  accuracy->add_option("--threads", request->threads, "most threads to use")
-      ->check(whole_number(1))
-      ->capture_default_str();
-  accuracy->add_option("--repeats", request->repeats, "frames to measure, after one to warm up")
-      ->check(whole_number(1))
-      ->capture_default_str();
+  add_value(*accuracy, "--engine", request->engine, "one of " + join(engine_names()));
+  add_count(*accuracy, "--threads", request->threads, "most threads to use");
+  add_count(*accuracy, "--repeats", request->repeats, "frames to measure, after one to warm up");
   accuracy->add_flag("--json", request->json, "JSON Lines instead of a table");
 }
 

@@ -9,7 +9,7 @@
 namespace fiber {
 namespace {
 
-constexpr std::size_t most_checked = 1000;
+constexpr std::size_t max_checked = 1000;
 
 /// But for its last digit, and for the rounding of the radii [m].
 double exact_gap(const FiberAssembly& fibers, const Contact& contact) {
@@ -18,12 +18,12 @@ double exact_gap(const FiberAssembly& fibers, const Contact& contact) {
   return exact_segment_distance(a.p0, a.p1, b.p0, b.p1).distance - (a.radius + b.radius);
 }
 
-/// What exact_gap() may be off by [m].
+/// The largest error of exact_gap() [m].
 double rounding(double gap) { return 4.0 * std::numeric_limits<double>::epsilon() * std::abs(gap); }
 
 void check_contacts(const FiberAssembly& fibers, const std::vector<Contact>& contacts,
                     AnswerErrors& errors) {
-  const std::size_t step = contacts.size() / most_checked + 1;
+  const std::size_t step = contacts.size() / max_checked + 1;
   for (std::size_t i = 0; i < contacts.size(); i += step) {
     const Contact& contact = contacts[i];
     const double gap = exact_gap(fibers, contact);
@@ -52,7 +52,7 @@ void check_pairs(const QueryResult& answer, const QueryResult& exact, AnswerErro
   (answer.complete ? errors.missed : errors.cut_off) = missing;
 }
 
-/// Of the smallest distance: the pair that has it may be another one.
+/// Errors of the smallest distance. The pair that has it may be another one.
 void check_minimum(const QueryResult& answer, const QueryResult& exact, AnswerErrors& errors) {
   const Contact* closest = exact.closest();
   errors.expected = exact.contacts.size();
@@ -71,7 +71,7 @@ void check_minimum(const QueryResult& answer, const QueryResult& exact, AnswerEr
   }
 }
 
-/// Of each pair of fibres: the segments that are closest may be others.
+/// Errors of each pair of fibres. The segments that are closest may be others.
 void check_fiber_pairs(const QueryResult& answer, const QueryResult& exact, AnswerErrors& errors) {
   const auto fibers = [](const Contact& contact) {
     return std::make_pair(contact.fiber_a, contact.fiber_b);

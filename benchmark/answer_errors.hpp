@@ -8,7 +8,7 @@
 
 namespace fiber {
 
-/// What is wrong with an answer, or with several: the worst, and counts in all.
+/// The errors of an answer, or of several: the largest of each kind, and counts in all.
 struct AnswerErrors {
   std::size_t expected = 0;      ///< contacts of the exact answers
   std::size_t missed = 0;        ///< of these not reported, in answers that were complete

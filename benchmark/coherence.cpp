@@ -1,13 +1,13 @@
-#include <iomanip>
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "benchmark/agreement.hpp"
 #include "benchmark/commands.hpp"
+#include "benchmark/options.hpp"
+#include "benchmark/report.hpp"
 #include "benchmark/scene_options.hpp"
 #include "benchmark/statistics.hpp"
 #include "benchmark/swaying.hpp"
@@ -114,54 +114,46 @@ class Coherence {
     progress_.show("");
   }
 
-  void print_json() const {
-    for (const auto& run : runs_) {
-      const auto segments = static_cast<double>(fibers_.segment_count());
-      const nlohmann::ordered_json line{
-          {"scene", request_.scene},
-          {"scale", request_.scene_options.scale},
-          {"seed", request_.scene_options.seed},
-          {"shuffle", request_.scene_options.shuffle},
-          {"frames", request_.frames},
-          {"motion", request_.motion},
-          {"moving", request_.moving},
-          {"engine", "run_tree"},
-          {"skin", run->skin()},
-          {"skin_lengths", run->skin_lengths()},
-          {"fibers", fibers_.fiber_count()},
-          {"points", fibers_.point_count()},
-          {"segments", fibers_.segment_count()},
-          {"segment_length", segment_length_},
-          {"threads", run->threads()},
-          {"update_ms", run->update_ms()},
-          {"detect_ms", run->detect_ms()},
-          {"cycle_ms", run->cycle_ms()},
-          {"refits", run->refits()},
-          {"partial", run->partial()},
-          {"pairs", run->pairs()},
-          {"bytes_per_segment", static_cast<double>(run->memory_bytes()) / segments}};
-      std::cout << line.dump() << '\n';
+  void print() const {
+    const auto segments = static_cast<double>(fibers_.segment_count());
+    if (!request_.json) {
+      std::cout << request_.scene << ": " << fibers_.fiber_count() << " fibres, " << segments
+                << " segments of " << segment_length_ << " m; means over " << request_.frames
+                << " frame(s), the points of " << request_.moving << " of the fibres move by "
+                << request_.motion << " segment lengths per frame\n";
     }
-  }
-
-  void print_table() const {
-    std::cout << request_.scene << ": " << fibers_.fiber_count() << " fibres, "
-              << fibers_.segment_count() << " segments of " << segment_length_ << " m; means over "
-              << request_.frames << " frame(s), the points of " << request_.moving
-              << " of the fibres move by " << request_.motion << " segment lengths per frame\n";
-    constexpr int width = 14;
-    for (const char* column : {"skin", "skin [m]", "update [ms]", "detect [ms]", "cycle [ms]",
-                               "refits", "partial", "pairs"}) {
-      std::cout << std::setw(width) << column;
-    }
-    std::cout << '\n';
+    RowPrinter printer({{"skin", "skin_lengths"},
+                        {"skin [m]", "skin"},
+                        {"update [ms]", "update_ms"},
+                        {"detect [ms]", "detect_ms"},
+                        {"cycle [ms]", "cycle_ms"},
+                        "refits",
+                        "partial",
+                        "pairs"},
+                       request_.json);
     for (const auto& run : runs_) {
-      for (const double value : {run->skin_lengths(), run->skin(), run->update_ms(),
-                                 run->detect_ms(), run->cycle_ms()}) {
-        std::cout << std::setw(width) << value;
-      }
-      std::cout << std::setw(width) << run->refits() << std::setw(width) << run->partial()
-                << std::setw(width) << run->pairs() << '\n';
+      printer.print({{"scene", request_.scene},
+                     {"scale", request_.scene_options.scale},
+                     {"seed", request_.scene_options.seed},
+                     {"shuffle", request_.scene_options.shuffle},
+                     {"frames", request_.frames},
+                     {"motion", request_.motion},
+                     {"moving", request_.moving},
+                     {"engine", "run_tree"},
+                     {"skin", run->skin()},
+                     {"skin_lengths", run->skin_lengths()},
+                     {"fibers", fibers_.fiber_count()},
+                     {"points", fibers_.point_count()},
+                     {"segments", fibers_.segment_count()},
+                     {"segment_length", segment_length_},
+                     {"threads", run->threads()},
+                     {"update_ms", run->update_ms()},
+                     {"detect_ms", run->detect_ms()},
+                     {"cycle_ms", run->cycle_ms()},
+                     {"refits", run->refits()},
+                     {"partial", run->partial()},
+                     {"pairs", run->pairs()},
+                     {"bytes_per_segment", static_cast<double>(run->memory_bytes()) / segments}});
     }
   }
 
@@ -177,10 +169,10 @@ class Coherence {
   Progress progress_;
 };
 
-ExitCode run(const CoherenceRequest& request) {
+ExitCode run_coherence(const CoherenceRequest& request) {
   Coherence coherence(request);
   coherence.measure();
-  request.json ? coherence.print_json() : coherence.print_table();
+  coherence.print();
   if (!coherence.disagreement().empty()) {
     std::cerr << "fiber_bench: " << coherence.disagreement() << '\n';
     return DISAGREED;
@@ -192,31 +184,20 @@ ExitCode run(const CoherenceRequest& request) {
 
 void add_coherence_command(CLI::App& app, Command& command) {
   const auto request = std::make_shared<CoherenceRequest>();
-  CLI::App* coherence = app.add_subcommand(
-      "coherence",
+  CLI::App* const coherence = add_subcommand(
+      app, command, "coherence",
       "run_tree with several skins on a scene that moves a little in every frame; means over the "
-      "frames, as most are cheap and those that look for candidates anew are dear");
-  coherence->callback([&command, request] { command = [request] { return run(*request); }; });
+      "frames, as most are cheap and those that look for candidates anew are dear",
+      request, run_coherence);
   add_scene_options(*coherence, request->scene, request->scene_options);
-  coherence
-      ->add_option("--motion", request->motion,
-                   "how far points move per frame, in mean segment lengths")
-      ->check(finite_number(0.0))
-      ->capture_default_str();
-  coherence->add_option("--moving", request->moving, "the part of the fibres that moves")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
-  coherence
-      ->add_option("--skins", request->skins, "in mean segment lengths, with commas between them")
-      ->delimiter(',')
-      ->check(finite_number(0.0))
-      ->capture_default_str();
-  coherence->add_option("--frames", request->frames, "to measure, after one to warm up")
-      ->check(whole_number(1))
-      ->capture_default_str();
-  coherence->add_option("--threads", request->threads, "most threads to use")
-      ->check(whole_number(1))
-      ->capture_default_str();
+  add_value(*coherence, "--motion", request->motion,
+            "how far points move per frame, in mean segment lengths", finite_number(0.0));
+  add_value(*coherence, "--moving", request->moving, "the part of the fibres that moves",
+            CLI::Range(0.0, 1.0));
+  add_values(*coherence, "--skins", request->skins,
+             "in mean segment lengths, with commas between them", finite_number(0.0));
+  add_count(*coherence, "--frames", request->frames, "to measure, after one to warm up");
+  add_count(*coherence, "--threads", request->threads, "most threads to use");
   coherence->add_flag("--json", request->json, "JSON Lines instead of a table");
 }
 

@@ -67,11 +67,10 @@ Scene side_by_side(Scene scene, std::uint32_t copies) {
     return scene;
   }
   const FiberAssembly first = scene(0);
-  constexpr std::uint64_t most_points = 0x7FFF'FFFF;
-  if (std::uint64_t{copies} * first.point_count() > most_points) {
+  constexpr std::uint64_t max_points = 0x7FFF'FFFF;
+  if (std::uint64_t{copies} * first.point_count() > max_points) {
     throw std::invalid_argument("copies is " + std::to_string(copies) + ", of this scene at most " +
-                                std::to_string(most_points / first.point_count()) +
-                                " are possible");
+                                std::to_string(max_points / first.point_count()) + " are possible");
   }
   return [scene = std::move(scene), copies, step = spacing(first)](std::uint32_t frame) {
     return repeat(scene(frame), copies, step);

@@ -2,19 +2,16 @@
 #include <fiber_proximity/ContactEvent.h>
 #include <fiber_proximity/FiberArray.h>
 #include <fiber_proximity/TimeToContact.h>
-#include <ros/ros.h>
 
 #include <atomic>
 #include <cmath>
-#include <iostream>
 #include <map>
 #include <memory>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "benchmark/commands.hpp"
-#include "benchmark/statistics.hpp"
+#include "benchmark/running_node.hpp"
 #include "src/tools/progress.hpp"
 
 namespace fiber {
@@ -24,19 +21,17 @@ using fiber_proximity::ContactArray;
 using fiber_proximity::FiberArray;
 using Clock = std::chrono::steady_clock;
 
-struct LatencyRequest {
+struct LatencyRequest : RunningNodeRequest {
+  LatencyRequest() {
+    rate = 100.0;
+    contacts = "proximity/contacts";
+  }
+
   std::uint32_t cables = 10;
   std::uint32_t points = 100;  // per cable
-  double rate = 100.0;         // [Hz]
-  double seconds = 10.0;
-  double timeout = 10.0;  // to wait for the node [s]
-  std::string topic = "fibers";
-  std::string contacts = "proximity/contacts";
   std::string events = "proximity/contact_events";
   std::string times = "proximity/time_to_contact";
   bool continuous = false;  // whether to listen to these two as well
-  std::string frame = "world";
-  bool json = false;
 };
 
 /// Cables of 1 m side by side, swaying so that neighbours touch here and there.
@@ -172,21 +167,16 @@ class LatencyRun {
  private:
   void on_contacts(const ContactArray& contacts) { log_.answered(contacts); }
 
-  template <class Condition>
-  void publish(double seconds, const Condition& enough) {
-    const ros::WallTime start = ros::WallTime::now();
-    ros::WallRate rate(request_.rate);
-    double time = 0.0;
-    while (ros::ok() && time < seconds && !enough()) {
+  template <class IsEnough>
+  void publish(double seconds, const IsEnough& is_enough) {
+    publish_at_rate(request_, seconds, is_enough, [this](double time) {
       const ros::Time stamp = ros::Time::now();
       const FiberArray cables = make_cables(request_, stamp, time);
       log_.sent(stamp);
       publisher_.publish(cables);
       ++published_;
-      rate.sleep();
-      time = (ros::WallTime::now() - start).toSec();
       progress_.show(std::to_string(published_) + " messages");
-    }
+    });
   }
 
   const LatencyRequest& request_;
@@ -202,44 +192,24 @@ class LatencyRun {
   ros::AsyncSpinner spinner_{1};  // last: stops before what its callbacks use
 };
 
-void print(const LatencyRequest& request, const LatencyRun& run) {
+ExitCode run_latency(const LatencyRequest& request) {
+  connect_to_ros();
+  LatencyRun run(request);
+  run.run();
   const std::vector<double> latencies = run.log().latencies_ms();
-  nlohmann::ordered_json result{{"cables", request.cables},
-                                {"points", request.points},
-                                {"rate", request.rate},
-                                {"published", run.published()},
-                                {"answered", latencies.size()},
-                                {"contacts", run.log().contacts()},
-                                {"median_ms", quantile(latencies, 0.5)},
-                                {"p90_ms", quantile(latencies, 0.9)},
-                                {"p99_ms", quantile(latencies, 0.99)},
-                                {"max_ms", quantile(latencies, 1.0)}};
+  if (latencies.empty()) {
+    throw std::runtime_error("none of " + std::to_string(run.published()) +
+                             " messages was answered");
+  }
+  BenchmarkRow result{{"cables", request.cables},     {"points", request.points},
+                      {"rate", request.rate},         {"published", run.published()},
+                      {"answered", latencies.size()}, {"contacts", run.log().contacts()}};
+  add_quantiles(latencies, result);
   if (request.continuous) {
     result["events"] = run.events();
     result["predictions"] = run.predictions();
   }
-  if (request.json) {
-    std::cout << result.dump() << '\n';
-    return;
-  }
-  for (const auto& [name, value] : result.items()) {
-    std::cout << name << ' ' << value << '\n';
-  }
-}
-
-ExitCode run(const LatencyRequest& request) {
-  ros::init(ros::M_string(), "fiber_bench",
-            ros::init_options::AnonymousName | ros::init_options::NoRosout);
-  if (!ros::master::check()) {
-    throw std::runtime_error("no ROS master at " + ros::master::getURI());
-  }
-  LatencyRun latency(request);
-  latency.run();
-  if (latency.log().latencies_ms().empty()) {
-    throw std::runtime_error("none of " + std::to_string(latency.published()) +
-                             " messages was answered");
-  }
-  print(request, latency);
+  print_fields(result, request.json);
   return SUCCEEDED;
 }
 
@@ -247,36 +217,17 @@ ExitCode run(const LatencyRequest& request) {
 
 void add_latency_command(CLI::App& app, Command& command) {
   const auto request = std::make_shared<LatencyRequest>();
-  CLI::App* latency = app.add_subcommand(
-      "latency", "time from publishing cables to a running node to the arrival of their contacts");
-  latency->callback([&command, request] { command = [request] { return run(*request); }; });
-  latency->add_option("--cables", request->cables, "number of cables")
-      ->check(whole_number(1))
-      ->capture_default_str();
-  latency->add_option("--points", request->points, "per cable")
-      ->check(whole_number(2))
-      ->capture_default_str();
-  latency->add_option("--rate", request->rate, "[Hz]")
-      ->check(CLI::Range(0.1, 1e5))
-      ->capture_default_str();
-  latency->add_option("--seconds", request->seconds, "to measure")
-      ->check(CLI::Range(0.1, 1e5))
-      ->capture_default_str();
-  latency->add_option("--timeout", request->timeout, "to wait for the node [s]")
-      ->check(CLI::Range(0.0, 1e5))
-      ->capture_default_str();
-  latency->add_option("--topic", request->topic, "the node's FiberArray input")
-      ->capture_default_str();
-  latency->add_option("--contacts", request->contacts, "the node's ContactArray output")
-      ->capture_default_str();
+  CLI::App* const latency = add_subcommand(
+      app, command, "latency",
+      "time from publishing cables to a running node to the arrival of their contacts", request,
+      run_latency);
+  add_count(*latency, "--cables", request->cables, "number of cables");
+  add_count(*latency, "--points", request->points, "per cable", 2);
+  add_running_node_options(*latency, *request, "[Hz]");
   latency->add_flag("--continuous", request->continuous,
                     "listen to the node's ~contact_events and ~time_to_contact, too");
-  latency->add_option("--events", request->events, "the node's ContactEvent output")
-      ->capture_default_str();
-  latency->add_option("--times", request->times, "the node's TimeToContact output")
-      ->capture_default_str();
-  latency->add_option("--frame", request->frame, "of the cables")->capture_default_str();
-  latency->add_flag("--json", request->json, "a JSON object instead of lines");
+  add_value(*latency, "--events", request->events, "the node's ContactEvent output");
+  add_value(*latency, "--times", request->times, "the node's TimeToContact output");
 }
 
 }  // namespace fiber

@@ -9,7 +9,7 @@
 
 namespace fiber {
 
-/// What to measure: engines on the moving frames of a scene.
+/// Settings of a measurement of engines on the moving frames of a scene.
 struct MeasurementOptions {
   std::string scene = "soup";
   SceneOptions scene_options;

@@ -1,21 +1,18 @@
 #include <fiber_proximity/ContactArray.h>
 #include <fiber_proximity/FiberArray.h>
 #include <fiber_proximity/ObstacleArray.h>
-#include <ros/ros.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <iostream>
 #include <map>
 #include <memory>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <random>
 #include <stdexcept>
 
 #include "benchmark/commands.hpp"
-#include "benchmark/statistics.hpp"
+#include "benchmark/running_node.hpp"
 #include "src/tools/progress.hpp"
 
 namespace fiber {
@@ -27,18 +24,16 @@ using fiber_proximity::Obstacle;
 using fiber_proximity::ObstacleArray;
 using Clock = std::chrono::steady_clock;
 
-struct ObstacleLatencyRequest {
-  double rate = 20.0;           // of the moving obstacle [Hz]
+struct ObstacleLatencyRequest : RunningNodeRequest {
+  ObstacleLatencyRequest() {
+    rate = 20.0;
+    contacts = "proximity/environment_contacts";
+  }
+
   double bad_rate = 1.0;        // of obstacles in an unknown frame [Hz]
   std::uint32_t triangles = 0;  // of a mesh
   double mesh_period = 2.0;     // [s] between meshes
-  double seconds = 10.0;
-  double timeout = 10.0;  // to wait for the node [s]
-  std::string topic = "fibers";
   std::string obstacles = "proximity/obstacles";
-  std::string contacts = "proximity/environment_contacts";
-  std::string frame = "world";
-  bool json = false;
 };
 
 constexpr double radius = 0.01;       // of ball and fibre [m]
@@ -182,14 +177,11 @@ class ObstacleRun {
     fibers_.publish(fiber);
   }
 
-  template <class Condition>
-  void publish(double seconds, bool disturbed, const Condition& enough) {
-    const ros::WallTime start = ros::WallTime::now();
-    ros::WallRate rate(request_.rate);
+  template <class IsEnough>
+  void publish(double seconds, bool disturbed, const IsEnough& is_enough) {
     double next_bad = 0.0;
     double next_mesh = 0.0;
-    for (double time = 0.0; ros::ok() && time < seconds && !enough();
-         time = (ros::WallTime::now() - start).toSec()) {
+    publish_at_rate(request_, seconds, is_enough, [&](double time) {
       if (disturbed && request_.bad_rate > 0.0 && time >= next_bad) {
         publish_obstacle(ball("lost", "no_such_frame", 0.0));
         next_bad = time + 1.0 / request_.bad_rate;
@@ -201,9 +193,8 @@ class ObstacleRun {
       publish_fiber();
       publish_obstacle(
           ball("ball", request_.frame, first_height + step * static_cast<double>(log_.send())));
-      rate.sleep();
       progress_.show(std::to_string(log_.lags_ms().size()) + " places");
-    }
+    });
   }
 
   const ObstacleLatencyRequest& request_;
@@ -217,33 +208,21 @@ class ObstacleRun {
   ros::AsyncSpinner spinner_{1};  // last: stops before what its callbacks use
 };
 
-ExitCode run(const ObstacleLatencyRequest& request) {
-  ros::init(ros::M_string(), "fiber_bench",
-            ros::init_options::AnonymousName | ros::init_options::NoRosout);
-  if (!ros::master::check()) {
-    throw std::runtime_error("no ROS master at " + ros::master::getURI());
-  }
+ExitCode run_obstacle_latency(const ObstacleLatencyRequest& request) {
+  connect_to_ros();
   ObstacleRun obstacles(request);
   obstacles.run();
   const std::vector<double> lags = obstacles.log().lags_ms();
   if (lags.empty()) {
     throw std::runtime_error("the moving obstacle was not seen to move");
   }
-  const nlohmann::ordered_json result{{"rate", request.rate},
-                                      {"bad_rate", request.bad_rate},
-                                      {"triangles", request.triangles},
-                                      {"places", lags.size()},
-                                      {"median_ms", quantile(lags, 0.5)},
-                                      {"p90_ms", quantile(lags, 0.9)},
-                                      {"max_ms", quantile(lags, 1.0)},
-                                      {"longest_gap_ms", obstacles.log().longest_gap_ms()}};
-  if (request.json) {
-    std::cout << result.dump() << '\n';
-    return SUCCEEDED;
-  }
-  for (const auto& [name, value] : result.items()) {
-    std::cout << name << ' ' << value << '\n';
-  }
+  BenchmarkRow result{{"rate", request.rate},
+                      {"bad_rate", request.bad_rate},
+                      {"triangles", request.triangles},
+                      {"places", lags.size()}};
+  add_quantiles(lags, result);
+  result["longest_gap_ms"] = obstacles.log().longest_gap_ms();
+  print_fields(result, request.json);
   return SUCCEEDED;
 }
 
@@ -251,39 +230,18 @@ ExitCode run(const ObstacleLatencyRequest& request) {
 
 void add_obstacle_latency_command(CLI::App& app, Command& command) {
   const auto request = std::make_shared<ObstacleLatencyRequest>();
-  CLI::App* latency = app.add_subcommand(
-      "obstacle_latency",
+  CLI::App* const latency = add_subcommand(
+      app, command, "obstacle_latency",
       "time from publishing a moving obstacle to a running node to its being there, beside "
-      "obstacles that are bad or large");
-  latency->callback([&command, request] { command = [request] { return run(*request); }; });
-  const CLI::Range positive(0.1, 1e5);
-  const CLI::Range not_negative(0.0, 1e5);
-  latency->add_option("--rate", request->rate, "of the moving obstacle [Hz]")
-      ->check(positive)
-      ->capture_default_str();
-  latency->add_option("--bad-rate", request->bad_rate, "of obstacles in an unknown frame [Hz]")
-      ->check(not_negative)
-      ->capture_default_str();
-  latency->add_option("--triangles", request->triangles, "of a mesh; 0 for none")
-      ->check(whole_number(0))
-      ->capture_default_str();
-  latency->add_option("--mesh-period", request->mesh_period, "from mesh to mesh [s]")
-      ->check(positive)
-      ->capture_default_str();
-  latency->add_option("--seconds", request->seconds, "to measure")
-      ->check(positive)
-      ->capture_default_str();
-  latency->add_option("--timeout", request->timeout, "to wait for the node [s]")
-      ->check(not_negative)
-      ->capture_default_str();
-  latency->add_option("--topic", request->topic, "the node's FiberArray input")
-      ->capture_default_str();
-  latency->add_option("--obstacles", request->obstacles, "the node's obstacles")
-      ->capture_default_str();
-  latency->add_option("--contacts", request->contacts, "the node's environment contacts")
-      ->capture_default_str();
-  latency->add_option("--frame", request->frame, "of fibre and obstacle")->capture_default_str();
-  latency->add_flag("--json", request->json, "a JSON object instead of lines");
+      "obstacles that are bad or large",
+      request, run_obstacle_latency);
+  add_running_node_options(*latency, *request, "of the moving obstacle [Hz]");
+  add_value(*latency, "--bad-rate", request->bad_rate, "of obstacles in an unknown frame [Hz]",
+            CLI::Range(0.0, 1e5));
+  add_count(*latency, "--triangles", request->triangles, "of a mesh; 0 for none", 0);
+  add_value(*latency, "--mesh-period", request->mesh_period, "from mesh to mesh [s]",
+            CLI::Range(0.1, 1e5));
+  add_value(*latency, "--obstacles", request->obstacles, "the node's obstacles");
 }
 
 }  // namespace fiber

@@ -1,9 +1,10 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "benchmark/commands.hpp"
+#include "benchmark/options.hpp"
+#include "benchmark/report.hpp"
 #include "benchmark/scene_options.hpp"
 #include "benchmark/statistics.hpp"
 #include "fiber_proximity/query/engine.hpp"
@@ -12,8 +13,6 @@
 
 namespace fiber {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct StagesRequest {
   std::string scene = "soup";
@@ -105,16 +104,16 @@ class Stages {
   }
 
   /// A line as soon as a stage is over, so that whoever ends a run that takes too long keeps it.
-  void print(const std::string& stage, const Json& results) const {
-    Json line{{"stage", stage},
-              {"scene", request_.scene},
-              {"scale", request_.scene_options.scale},
-              {"seed", request_.scene_options.seed},
-              {"shuffle", request_.scene_options.shuffle},
-              {"engine", request_.engine},
-              {"fibers", fibers_.fiber_count()},
-              {"segments", fibers_.segment_count()},
-              {"leaf_pretest", !request_.no_leaf_pretest}};
+  void print(const std::string& stage, const BenchmarkRow& results) const {
+    BenchmarkRow line{{"stage", stage},
+                      {"scene", request_.scene},
+                      {"scale", request_.scene_options.scale},
+                      {"seed", request_.scene_options.seed},
+                      {"shuffle", request_.scene_options.shuffle},
+                      {"engine", request_.engine},
+                      {"fibers", fibers_.fiber_count()},
+                      {"segments", fibers_.segment_count()},
+                      {"leaf_pretest", !request_.no_leaf_pretest}};
     line.update(results);
     std::cout << line.dump() << std::endl;
   }
@@ -127,7 +126,7 @@ class Stages {
   QueryResult result_;
 };
 
-ExitCode run(const StagesRequest& request) {
+ExitCode run_stages(const StagesRequest& request) {
   Stages stages(request);
   stages.update();
   if (request.levels) {
@@ -147,26 +146,19 @@ ExitCode run(const StagesRequest& request) {
 
 void add_stages_command(CLI::App& app, Command& command) {
   const auto request = std::make_shared<StagesRequest>();
-  CLI::App* stages = app.add_subcommand(
-      "stages",
+  CLI::App* const stages = add_subcommand(
+      app, command, "stages",
       "one engine on one scene: build, update, first pair, all pairs; a JSON line as "
-      "soon as each is measured");
-  stages->callback([&command, request] { command = [request] { return run(*request); }; });
+      "soon as each is measured",
+      request, run_stages);
   add_scene_options(*stages, request->scene, request->scene_options);
-  stages->add_option("--engine", request->engine, "one of " + join(engine_names()))
-      ->capture_default_str();
-  stages->add_option("--repeats", request->repeats, "of updates and of detections, at most")
-      ->check(whole_number(1))
-      ->capture_default_str();
-  stages->add_option("--trials", request->trials, "of the first pair, at most")
-      ->check(whole_number(1))
-      ->capture_default_str();
-  stages->add_option("--seconds", request->seconds, "after which no repeat or trial begins")
-      ->check(CLI::Range(0.0, 1e5))
-      ->capture_default_str();
-  stages->add_option("--until", request->until, "the last stage to measure")
-      ->check(CLI::IsMember({"update", "first", "detect"}))
-      ->capture_default_str();
+  add_value(*stages, "--engine", request->engine, "one of " + join(engine_names()));
+  add_count(*stages, "--repeats", request->repeats, "of updates and of detections, at most");
+  add_count(*stages, "--trials", request->trials, "of the first pair, at most");
+  add_value(*stages, "--seconds", request->seconds, "after which no repeat or trial begins",
+            CLI::Range(0.0, 1e5));
+  add_value(*stages, "--until", request->until, "the last stage to measure",
+            CLI::IsMember({"update", "first", "detect"}));
   stages->add_flag("--levels", request->levels, "also the mean volume of the cages of each level");
   stages->add_flag("--no-leaf-pretest", request->no_leaf_pretest,
                    "test segments without testing their own cages first");

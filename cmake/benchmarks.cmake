@@ -8,12 +8,11 @@ fiber_proximity_tool(fiber_bench benchmark/fiber_bench.cpp
   benchmark/environment/capsule_mesh.cpp benchmark/environment/cell.cpp
   benchmark/environment/cell_difference.cpp benchmark/environment/fcl_checker.cpp
   benchmark/environment/fcl_shapes.cpp benchmark/environment/measure_batch.cpp
-  benchmark/environment/measure_steps.cpp
   benchmark/environment/measure_cell.cpp benchmark/environment/measure_octree.cpp
   benchmark/environment/own_checker.cpp benchmark/kernels.cpp
   benchmark/continuous/fiber_ways.cpp benchmark/continuous/measure_accuracy.cpp benchmark/continuous/measure_scenes.cpp
   benchmark/continuous/measure_times.cpp benchmark/continuous/scene_motions.cpp
-  benchmark/measurement.cpp benchmark/motions.cpp benchmark/scene_commands.cpp
+  benchmark/measurement.cpp benchmark/motions.cpp benchmark/report.cpp benchmark/scene_commands.cpp
   benchmark/scene_options.cpp benchmark/sim/cable_judge.cpp benchmark/sim/cable_run.cpp
   benchmark/sim/cable_scene.cpp benchmark/sim/effect_costs.cpp benchmark/sim/effect_scene.cpp
   benchmark/sim/hose.cpp benchmark/sim/loads.cpp

@@ -5,24 +5,22 @@ option(FIBER_PROXIMITY_PEERS "Build fiber_bench with the peers installed here" O
 
 find_package(Threads REQUIRED)
 add_library(fiber_bench_peers STATIC
+  benchmark/continuous/motion_accuracy.cpp
+  benchmark/kernels/child_process.cpp
+  benchmark/kernels/decision_score.cpp
+  benchmark/kernels/discrete_motions.cpp
+  benchmark/kernels/guarded_calls.cpp
+  benchmark/kernels/kernel_lists.cpp
+  benchmark/kernels/motion_times.cpp
+  benchmark/kernels/own_motions.cpp
+  benchmark/kernels/own_pairs.cpp
+  benchmark/kernels/pair_score.cpp
+  benchmark/kernels/pair_times.cpp
+  benchmark/kernels/textbook_pairs.cpp
+  benchmark/kernels/turn_times.cpp
   benchmark/peers/cable_peers.cpp
   benchmark/peers/peer.cpp
   benchmark/peers/peer_engine.cpp
-  benchmark/continuous/decision_score.cpp
-  benchmark/continuous/discrete_motions.cpp
-  benchmark/continuous/motion_accuracy.cpp
-  benchmark/continuous/motion_kernel.cpp
-  benchmark/continuous/motion_times.cpp
-  benchmark/continuous/own_motions.cpp
-  benchmark/pairs/child_process.cpp
-  benchmark/pairs/guarded_answers.cpp
-  benchmark/pairs/guarded_calls.cpp
-  benchmark/pairs/own_pairs.cpp
-  benchmark/pairs/pair_kernel.cpp
-  benchmark/pairs/pair_score.cpp
-  benchmark/pairs/pair_times.cpp
-  benchmark/pairs/textbook_pairs.cpp
-  benchmark/pairs/turn_times.cpp
 )
 target_link_libraries(fiber_bench_peers
   PUBLIC validation_geometry fiber_proximity PRIVATE Threads::Threads fiber_proximity_options)

@@ -1,6 +1,6 @@
 #include "benchmark/continuous/measurements.hpp"
 #include "benchmark/continuous/motion_accuracy.hpp"
-#include "benchmark/pairs/chosen_families.hpp"
+#include "benchmark/kernels/chosen_families.hpp"
 #include "validation/geometry/known_motions.hpp"
 
 namespace fiber {
@@ -9,7 +9,7 @@ namespace {
 constexpr std::uint32_t motions_per_exact_one = 100;
 
 /// One that `fiber_query motions` reads, but for the thickness.
-MotionRow wrong_row(const WrongAnswer& wrong) {
+BenchmarkRow wrong_row(const WrongAnswer& wrong) {
   const ContactTime& answer = wrong.answer;
   return {{"motion", coordinates_of(wrong.motion)},
           {"radius_a", wrong.motion.radius_a},
@@ -21,7 +21,7 @@ MotionRow wrong_row(const WrongAnswer& wrong) {
           {"certain", answer.certain}};
 }
 
-void append(const MotionAccuracy& accuracy, MotionRow& row) {
+void append(const MotionAccuracy& accuracy, BenchmarkRow& row) {
   const MotionScore& score = accuracy.score;
   row.update({{"motions", score.motions},
               {"hits", score.hits},
@@ -32,7 +32,7 @@ void append(const MotionAccuracy& accuracy, MotionRow& row) {
               {"wrongly_certain", score.wrongly_certain},
               {"wide", score.wide},
               {"undecided", score.undecided}});
-  row["wrong"] = MotionRow::array();
+  row["wrong"] = BenchmarkRow::array();
   for (const WrongAnswer& wrong : accuracy.wrong) {
     row["wrong"].push_back(wrong_row(wrong));
   }
@@ -45,14 +45,14 @@ bool has_thickness(const MotionFamily& family, std::uint64_t seed) {
 
 }  // namespace
 
-void measure_motion_accuracy(const MotionMeasurement& what, const ReportMotionRow& report) {
+void measure_motion_accuracy(const MotionMeasurement& what, const ReportRow& report) {
   for (const MotionFamily& family : chosen_families(motion_families(), what.families)) {
     const std::uint32_t one_of = has_thickness(family, what.seed) ? 1 : motions_per_exact_one;
     const MotionDraw draw{(what.count + one_of - 1) / one_of, what.seed};
     const std::vector<MotionAccuracy> found =
         motion_accuracy(family, draw, what.tolerances, what.threads, contact_time);
     for (std::size_t i = 0; i < found.size(); ++i) {
-      MotionRow row{
+      BenchmarkRow row{
           {"family", family.name}, {"seed", what.seed}, {"tolerance", what.tolerances[i]}};
       append(found[i], row);
       report(row);
@@ -60,7 +60,7 @@ void measure_motion_accuracy(const MotionMeasurement& what, const ReportMotionRo
   }
 }
 
-void measure_known_motions(const MotionMeasurement& what, const ReportMotionRow& report) {
+void measure_known_motions(const MotionMeasurement& what, const ReportRow& report) {
   if (what.known.empty()) {
     return;
   }
@@ -80,12 +80,12 @@ void measure_known_motions(const MotionMeasurement& what, const ReportMotionRow&
       contacts_invented += !contact && answer.hit && answer.certain ? 1 : 0;
       near_hits += !contact && answer.hit && !answer.certain ? 1 : 0;
     }
-    MotionRow row{{"file", what.known},
-                  {"tolerance", part},
-                  {"contacts", contacts},
-                  {"contacts_missed", contacts_missed},
-                  {"contacts_invented", contacts_invented},
-                  {"near_hits", near_hits}};
+    BenchmarkRow row{{"file", what.known},
+                     {"tolerance", part},
+                     {"contacts", contacts},
+                     {"contacts_missed", contacts_missed},
+                     {"contacts_invented", contacts_invented},
+                     {"near_hits", near_hits}};
     append(accuracy, row);
     report(row);
   }

@@ -3,7 +3,7 @@
 
 namespace fiber {
 
-void measure_scene_motions(const MotionMeasurement& what, const ReportMotionRow& report) {
+void measure_scene_motions(const MotionMeasurement& what, const ReportRow& report) {
   for (const std::string& scene : what.scenes) {
     for (const double way : what.ways) {
       SceneMotionSettings settings;
@@ -24,7 +24,7 @@ void measure_scene_motions(const MotionMeasurement& what, const ReportMotionRow&
                 {"method", result.method},
                 {"frames", result.frames},
                 {"contacts", result.contacts},
-                {"missed", is_judged ? MotionRow(result.missed) : MotionRow()},
+                {"missed", is_judged ? BenchmarkRow(result.missed) : BenchmarkRow()},
                 {"candidates", result.candidates},
                 {"time_ms", result.time_ms},
                 {"times_discrete", result.times_discrete}});

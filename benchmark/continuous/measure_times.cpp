@@ -1,13 +1,13 @@
 #include "benchmark/continuous/measurements.hpp"
-#include "benchmark/continuous/motion_times.hpp"
-#include "benchmark/pairs/chosen_families.hpp"
+#include "benchmark/kernels/chosen_families.hpp"
+#include "benchmark/kernels/motion_times.hpp"
 #include "benchmark/statistics.hpp"
 #include "validation/geometry/known_motions.hpp"
 
 namespace fiber {
 namespace {
 
-/// What is asked of all: a kernel, and a part of the extent.
+/// A kernel, and the tolerance it is asked with, a part of the extent.
 struct Question {
   std::string kernel;
   double tolerance;
@@ -61,12 +61,12 @@ double median_extent(const std::vector<HardMotion>& motions) {
   return median(extents);
 }
 
-MotionRow time_or_null(const std::optional<double>& time) {
-  return time ? MotionRow(*time) : MotionRow();
+BenchmarkRow time_or_null(const std::optional<double>& time) {
+  return time ? BenchmarkRow(*time) : BenchmarkRow();
 }
 
-MotionRow row_of(const MotionMeasurement& what, const NamedMotions& group, const Question& question,
-                 const MotionKernelResult& result) {
+BenchmarkRow row_of(const MotionMeasurement& what, const NamedMotions& group,
+                    const Question& question, const MotionKernelResult& result) {
   const DecisionScore& score = result.score;
   return {{"family", group.name},
           {"seed", what.seed},
@@ -95,7 +95,7 @@ MotionRow row_of(const MotionMeasurement& what, const NamedMotions& group, const
 
 }  // namespace
 
-void measure_motion_times(const MotionMeasurement& what, const ReportMotionRow& report) {
+void measure_motion_times(const MotionMeasurement& what, const ReportRow& report) {
   const std::vector<Question> questions = questions_of(what);
   for_each_group(what, [&](const NamedMotions& group) {
     const double extent = median_extent(group.motions);

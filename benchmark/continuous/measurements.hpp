@@ -1,16 +1,15 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "benchmark/continuous/motion_kernel.hpp"
+#include "benchmark/kernels/motion_kernel.hpp"
+#include "benchmark/report.hpp"
 
 namespace fiber {
 
-/// What to measure of contact times; all counts at least 1.
+/// Settings of the measurement of contact times; all counts are at least 1.
 struct MotionMeasurement {
   std::vector<std::string> families;                        ///< none: all
   std::vector<double> tolerances{1e-3, 1e-6, 1e-9, 1e-12};  ///< parts of the motion's extent
@@ -33,20 +32,16 @@ struct MotionMeasurement {
   std::string known;  ///< a file of motions for read_known_motions(); none: no such rows
 };
 
-/// A line of results, names to values.
-using MotionRow = nlohmann::ordered_json;
-using ReportMotionRow = std::function<void(const MotionRow&)>;
-
 /// Our answers to motions of each family, judged.
-void measure_motion_accuracy(const MotionMeasurement& what, const ReportMotionRow& report);
+void measure_motion_accuracy(const MotionMeasurement& what, const ReportRow& report);
 
 /// Our answers to the known motions, judged and compared with the truth in the file.
-void measure_known_motions(const MotionMeasurement& what, const ReportMotionRow& report);
+void measure_known_motions(const MotionMeasurement& what, const ReportRow& report);
 
 /// Decisions and times of all kernels, on the known motions as well.
-void measure_motion_times(const MotionMeasurement& what, const ReportMotionRow& report);
+void measure_motion_times(const MotionMeasurement& what, const ReportRow& report);
 
 /// Whole scenes, one state after the other against the motion between them.
-void measure_scene_motions(const MotionMeasurement& what, const ReportMotionRow& report);
+void measure_scene_motions(const MotionMeasurement& what, const ReportRow& report);
 
 }  // namespace fiber

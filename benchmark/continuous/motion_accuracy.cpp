@@ -8,7 +8,7 @@ namespace fiber {
 namespace {
 
 constexpr std::uint32_t motions_per_chunk = 100;
-constexpr std::size_t most_wrong = 5;  // to keep
+constexpr std::size_t max_wrong = 5;  // to keep
 
 /// Chunks of one seed have different motions.
 std::uint64_t seed_of(std::uint64_t seed, std::uint32_t chunk) {
@@ -34,14 +34,14 @@ std::vector<MotionAccuracy> accuracy_of(const std::vector<HardMotion>& motions,
 void MotionAccuracy::add(const WrongAnswer& answer) {
   const MotionScore judged = judge(answer.motion, answer.tolerance, answer.answer);
   score += judged;
-  if (judged.has_wrong_answers() && wrong.size() < most_wrong) {
+  if (judged.has_wrong_answers() && wrong.size() < max_wrong) {
     wrong.push_back(answer);
   }
 }
 
 MotionAccuracy& MotionAccuracy::operator+=(const MotionAccuracy& more) {
   score += more.score;
-  const std::size_t some = std::min(most_wrong - wrong.size(), more.wrong.size());
+  const std::size_t some = std::min(max_wrong - wrong.size(), more.wrong.size());
   wrong.insert(wrong.end(), more.wrong.begin(),
                more.wrong.begin() + static_cast<std::ptrdiff_t>(some));
   return *this;

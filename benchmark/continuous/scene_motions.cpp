@@ -71,7 +71,7 @@ class MovingScene {
   std::vector<Eigen::Vector3d> points_;
 };
 
-/// What comes out between two frames.
+/// The contacts between two frames.
 struct SceneLook {
   double time_ms = 0.0;
   std::uint64_t candidates = 0;

@@ -17,7 +17,7 @@ struct SceneMotionSettings {
   std::uint32_t repeats = 11;  ///< motions to measure
 };
 
-/// What one way of looking for contacts between frames finds and takes, with one thread.
+/// The contacts that one way of looking between frames finds, and its time on one thread.
 struct SceneMotionResult {
   std::string method;
   bool finds_all = true;

@@ -9,7 +9,7 @@
 
 namespace fiber {
 
-/// What is asked in every frame.
+/// The questions of every frame.
 struct CellQuestions {
   double margin = 0.005;      ///< [m] of contacts
   std::uint32_t threads = 1;  ///< most to use
@@ -43,7 +43,7 @@ class CellChecker {
   virtual void find_contacts() = 0;
   virtual void find_nearest() = 0;
 
-  /// What was found, not timed.
+  /// Returns all that was found. This is not timed.
   virtual CellAnswer answer() const = 0;
 
   /// How often it has given up on a pair so far.

@@ -20,7 +20,7 @@ namespace {
 using Eigen::Vector3d;
 using Manager = fcl::DynamicAABBTreeCollisionManagerd;
 
-/// What an object of FCL is.
+/// The kind of an object of FCL.
 struct Label {
   bool is_segment;
   std::uint32_t index;

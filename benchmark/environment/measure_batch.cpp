@@ -11,64 +11,94 @@
 namespace fiber {
 namespace {
 
-/// Which of the candidates touch something.
-class BatchRun {
- public:
-  explicit BatchRun(std::uint32_t threads) : threads_(threads) {}
+constexpr double step_of_candidates = 0.05;  // [m]
 
-  void measure(const Environment& environment, const std::vector<FiberAssembly>& candidates) {
-    Surroundings surroundings;
-    surroundings.environment = &environment;
-    surroundings.self = false;
-    QueryOptions first;
-    first.type = QueryType::FIRST;
-    tbb::task_arena arena(arena_concurrency(threads_));
-    times_ms_.push_back(time_of(
-        [&] { arena.execute([&] { check_fibers(candidates, surroundings, first, checks_); }); }));
+/// A cable and its next state: all of it has moved, one end twice as far as the other.
+FiberPath candidate_step(std::uint32_t points, std::uint64_t seed) {
+  const FiberAssembly before = candidate_cable(points, seed);
+  const FiberAssembly other = candidate_cable(points, seed + 1);
+  const Eigen::Vector3d way =
+      step_of_candidates * (other.points().back() - other.points().front()).normalized();
+  std::vector<Eigen::Vector3d> moved = before.points();
+  for (std::uint32_t i = 0; i < points; ++i) {
+    moved[i] += (1.0 + static_cast<double>(i) / points) / 2.0 * way;
   }
+  FiberAssembly after = before;
+  after.update_points(moved);
+  return {before, after};
+}
 
-  BenchmarkRow row() const {
-    const auto touches = [](const FiberCheck& check) { return check.has_contact(); };
-    return {{"part", "batch"},
-            {"threads", threads_},
-            {"per_candidate_ms", median(times_ms_) / static_cast<double>(checks_.size())},
-            {"touching", std::count_if(checks_.begin(), checks_.end(), touches)}};
-  }
-
- private:
-  const std::uint32_t threads_;
-  std::vector<double> times_ms_;
-  std::vector<FiberCheck> checks_;
+/// A batch of candidates, checked by some threads.
+template <class Check>
+struct BatchRun {
+  std::uint32_t threads;
+  std::vector<double> times_ms;
+  std::vector<Check> checks;
 };
+
+/// Checks all candidates on one thread and on several, in turns.
+/// @param check_all check_fibers() or check_motions(), with its options
+template <class Check, class Candidates, class CheckAll>
+void measure_candidates(const EnvironmentMeasurement& what, const Candidates& candidates,
+                        const CheckAll& check_all, const ReportRow& report) {
+  const Environment environment(Cell(what.size).objects());
+  Surroundings surroundings;
+  surroundings.environment = &environment;
+  surroundings.self = false;
+  BatchRun<Check> runs[]{{1, {}, {}}, {what.questions.threads, {}, {}}};
+  Progress progress;
+  for (std::uint32_t repeat = 0; repeat < what.repeats; ++repeat) {
+    progress.show("batch " + std::to_string(repeat) + " of " + std::to_string(what.repeats));
+    for (std::size_t turn = 0; turn < std::size(runs); ++turn) {
+      BatchRun<Check>& run = runs[(repeat + turn) % std::size(runs)];
+      tbb::task_arena arena(arena_concurrency(run.threads));
+      run.times_ms.push_back(time_of(
+          [&] { arena.execute([&] { check_all(candidates, surroundings, run.checks); }); }));
+    }
+  }
+  for (const BatchRun<Check>& run : runs) {
+    const auto touches = [](const Check& check) { return check.has_contact(); };
+    const auto count = static_cast<double>(run.checks.size());
+    report({{"threads", run.threads},
+            {"per_candidate_ms", median(run.times_ms) / count},
+            {"touching", std::count_if(run.checks.begin(), run.checks.end(), touches)},
+            {"candidates", what.candidates},
+            {"points", what.size.points},
+            {"seed", what.seed},
+            {"repeats", what.repeats}});
+  }
+}
 
 }  // namespace
 
-std::vector<BenchmarkRow> measure_batch(const EnvironmentMeasurement& what) {
-  const Environment environment(Cell(what.size).objects());
+void measure_batch(const EnvironmentMeasurement& what, const ReportRow& report) {
   std::vector<FiberAssembly> candidates;
   for (std::uint32_t i = 0; i < what.candidates; ++i) {
     candidates.push_back(candidate_cable(what.size.points, what.seed + i));
   }
-  std::vector<BatchRun> runs;
-  runs.emplace_back(1);
-  runs.emplace_back(what.questions.threads);
-  Progress progress;
-  for (std::uint32_t repeat = 0; repeat < what.repeats; ++repeat) {
-    progress.show("batch " + std::to_string(repeat) + " of " + std::to_string(what.repeats));
-    for (std::size_t turn = 0; turn < runs.size(); ++turn) {
-      runs[(repeat + turn) % runs.size()].measure(environment, candidates);
-    }
+  QueryOptions first;
+  first.type = QueryType::FIRST;
+  measure_candidates<FiberCheck>(
+      what, candidates,
+      [&](const auto& all, const Surroundings& surroundings, std::vector<FiberCheck>& checks) {
+        check_fibers(all, surroundings, first, checks);
+      },
+      report);
+}
+
+void measure_motions(const EnvironmentMeasurement& what, const ReportRow& report) {
+  std::vector<FiberPath> motions;
+  for (std::uint32_t i = 0; i < what.candidates; ++i) {
+    motions.push_back(candidate_step(what.size.points, what.seed + i));
   }
-  std::vector<BenchmarkRow> rows;
-  for (const BatchRun& run : runs) {
-    BenchmarkRow row = run.row();
-    row["candidates"] = what.candidates;
-    row["points"] = what.size.points;
-    row["seed"] = what.seed;
-    row["repeats"] = what.repeats;
-    rows.push_back(row);
-  }
-  return rows;
+  MotionOptions first;
+  first.type = MotionType::FIRST;
+  measure_candidates<MotionCheck>(
+      what, motions,
+      [&](const auto& all, const Surroundings& surroundings, std::vector<MotionCheck>& checks) {
+        check_motions(all, surroundings, first, checks);
+      },
+      report);
 }
 
 }  // namespace fiber

@@ -48,7 +48,7 @@ class CheckerRun {
   BenchmarkRow row() const {
     constexpr std::array<const char*, stage_count> names{"objects_ms", "cables_ms", "self_ms",
                                                          "contacts_ms", "nearest_ms"};
-    BenchmarkRow row{{"part", "cell"}, {"checker", name_}};
+    BenchmarkRow row{{"checker", name_}};
     for (std::size_t i = 0; i < stage_count; ++i) {
       row[names[i]] = median(times_ms_[i]);
     }
@@ -77,7 +77,7 @@ class CheckerRun {
 
 }  // namespace
 
-std::vector<BenchmarkRow> measure_cell(const EnvironmentMeasurement& what) {
+void measure_cell(const EnvironmentMeasurement& what, const ReportRow& report) {
   const Cell cell(what.size);
   FiberAssembly cables = cell.cables(0);
   std::vector<CheckerRun> runs;
@@ -98,7 +98,6 @@ std::vector<BenchmarkRow> measure_cell(const EnvironmentMeasurement& what) {
       }
     }
   }
-  std::vector<BenchmarkRow> rows;
   for (const CheckerRun& run : runs) {
     BenchmarkRow row = run.row();
     row["times_own"] = run.median_ms() / runs.front().median_ms();
@@ -108,9 +107,8 @@ std::vector<BenchmarkRow> measure_cell(const EnvironmentMeasurement& what) {
     row["margin"] = what.questions.margin;
     row["threads"] = what.questions.threads;
     row["repeats"] = what.repeats;
-    rows.push_back(row);
+    report(row);
   }
-  return rows;
 }
 
 }  // namespace fiber

@@ -17,7 +17,7 @@ struct OctreeRun {
 
 }  // namespace
 
-std::vector<BenchmarkRow> measure_octree(const EnvironmentMeasurement& what) {
+void measure_octree(const EnvironmentMeasurement& what, const ReportRow& report) {
   const std::vector<Eigen::Vector3d> cloud = camera_cloud(what.pixels, what.seed);
   std::array<OctreeRun, 2> runs{{{0.01, {}}, {0.02, {}}}};
   Progress progress;
@@ -35,17 +35,14 @@ std::vector<BenchmarkRow> measure_octree(const EnvironmentMeasurement& what) {
       }));
     }
   }
-  std::vector<BenchmarkRow> rows;
   for (const OctreeRun& run : runs) {
-    rows.push_back({{"part", "octree"},
-                    {"resolution", run.resolution},
-                    {"build_ms", median(run.times_ms)},
-                    {"cells", run.cells},
-                    {"pixels", what.pixels},
-                    {"seed", what.seed},
-                    {"repeats", what.repeats}});
+    report({{"resolution", run.resolution},
+            {"build_ms", median(run.times_ms)},
+            {"cells", run.cells},
+            {"pixels", what.pixels},
+            {"seed", what.seed},
+            {"repeats", what.repeats}});
   }
-  return rows;
 }
 
 }  // namespace fiber

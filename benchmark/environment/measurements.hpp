@@ -1,14 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
-#include <vector>
 
 #include "benchmark/environment/cell_checker.hpp"
+#include "benchmark/report.hpp"
 
 namespace fiber {
 
-/// What to measure of the environment; all counts at least 1, points at least 2.
+/// Settings of the measurement of the environment; all counts are at least 1, points at least 2.
 struct EnvironmentMeasurement {
   CellSize size;
   CellQuestions questions;
@@ -18,20 +17,18 @@ struct EnvironmentMeasurement {
   std::uint64_t seed = 1;            ///< of the cloud and the candidates
 };
 
-/// A line of results, names to values.
-using BenchmarkRow = nlohmann::ordered_json;
-
 /// The cell checked in every frame by this library and by FCL alone, in turns.
-std::vector<BenchmarkRow> measure_cell(const EnvironmentMeasurement& what);
+void measure_cell(const EnvironmentMeasurement& what, const ReportRow& report);
 
 /// A cloud into octrees of 1 cm and of 2 cm, in turns.
-std::vector<BenchmarkRow> measure_octree(const EnvironmentMeasurement& what);
+void measure_octree(const EnvironmentMeasurement& what, const ReportRow& report);
 
 /// Candidate cables against the cell's objects, any contact, on one thread and on several, in
 /// turns.
-std::vector<BenchmarkRow> measure_batch(const EnvironmentMeasurement& what);
+void measure_batch(const EnvironmentMeasurement& what, const ReportRow& report);
 
-/// The same of candidates that go 5 cm, for their first contact on the way.
-std::vector<BenchmarkRow> measure_steps(const EnvironmentMeasurement& what);
+/// Candidate cables that move by 5 cm against the cell's objects, their first contact on the way,
+/// on one thread and on several, in turns.
+void measure_motions(const EnvironmentMeasurement& what, const ReportRow& report);
 
 }  // namespace fiber

@@ -4,8 +4,7 @@
 
 #include <stdexcept>
 
-#include "benchmark/continuous/makers.hpp"
-#include "benchmark/pairs/makers.hpp"
+#include "benchmark/kernels/makers.hpp"
 
 namespace fiber {
 namespace {

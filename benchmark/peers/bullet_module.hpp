@@ -1,7 +1,7 @@
 #pragma once
 
-#include "benchmark/continuous/motion_kernel.hpp"
-#include "benchmark/pairs/pair_kernel.hpp"
+#include "benchmark/kernels/motion_kernel.hpp"
+#include "benchmark/kernels/pair_kernel.hpp"
 
 namespace fiber {
 
@@ -10,7 +10,7 @@ enum class BulletCast { CONTINUOUS, GJK };
 
 }  // namespace fiber
 
-// What the module with Bullet in double precision offers: new kernels.
+// The module with Bullet in double precision offers these functions, which make kernels.
 extern "C" {
 __attribute__((visibility("default"))) fiber::PairKernel* fiber_bench_make_bullet_pairs();
 __attribute__((visibility("default"))) fiber::MotionKernel* fiber_bench_make_bullet_motions(

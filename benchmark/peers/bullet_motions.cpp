@@ -31,13 +31,12 @@ class BulletMotions final : public MotionKernel {
 
   bool can_answer(const HardMotion& motion) const override { return is_translation(motion); }
 
-  void prepare(const std::vector<HardMotion>& motions, double tolerance) override {
+  void prepare(const std::vector<HardMotion>& motions) override {
     motions_ = &motions;
-    tolerance_ = tolerance;
     make_moving_capsules(motions, a_, b_);
   }
 
-  void find(std::size_t first, std::size_t count, ContactTime* times) override {
+  void run(std::size_t first, std::size_t count, ContactTime* times) override {
     for (std::size_t i = 0; i < count; ++i) {
       times[i] = found(first + i);
     }
@@ -59,14 +58,13 @@ class BulletMotions final : public MotionKernel {
     result.m_fraction = 1.0;  // as btCollisionWorld::convexSweepTest() has it
     const bool hit =
         cast.calcTimeOfImpact(a_[index].pose, a_[index].end, b_[index].pose, b_[index].end, result);
-    return hit ? stated_time((*motions_)[index], result.m_fraction, tolerance_) : ContactTime();
+    return hit ? stated_time((*motions_)[index], result.m_fraction, tolerance()) : ContactTime();
   }
 
   const BulletCast cast_;
   btVoronoiSimplexSolver simplex_;
   btGjkEpaPenetrationDepthSolver penetration_;
   const std::vector<HardMotion>* motions_ = nullptr;
-  double tolerance_ = 0.0;  // [m]
   std::vector<BulletMovingCapsule> a_;
   std::vector<BulletMovingCapsule> b_;
 };

@@ -11,7 +11,7 @@
 namespace fiber {
 namespace {
 
-/// What GJK found, if anything.
+/// The result of GJK, if there is one.
 struct Found final : btDiscreteCollisionDetectorInterface::Result {
   void setShapeIdentifiersA(int /*part*/, int /*index*/) override {}
   void setShapeIdentifiersB(int /*part*/, int /*index*/) override {}
@@ -28,7 +28,7 @@ class BulletPairs final : public PairKernel {
  public:
   void prepare(const std::vector<HardPair>& pairs) override { make_capsules(pairs, a_, b_); }
 
-  void distances(std::size_t first, std::size_t count, double* distances) override {
+  void run(std::size_t first, std::size_t count, double* distances) override {
     for (std::size_t i = 0; i < count; ++i) {
       distances[i] = gap(first + i);
     }

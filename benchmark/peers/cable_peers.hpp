@@ -11,7 +11,7 @@ namespace fiber {
 /// process.
 std::vector<CableMethod> peer_cables(const CableScene& scene, const std::vector<int>& segments);
 
-/// Of those this build is without, a line each that says what to install.
+/// A line for each peer that this build is without, which says what to install.
 std::vector<std::string> missing_cable_peers();
 
 // One library each, where it is in this build.

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "benchmark/pairs/makers.hpp"
+#include "benchmark/kernels/makers.hpp"
 
 namespace fiber {
 namespace {
@@ -46,7 +46,7 @@ class CgalPairs final : public PairKernel {
     }
   }
 
-  void distances(std::size_t first, std::size_t count, double* distances) override {
+  void run(std::size_t first, std::size_t count, double* distances) override {
     for (std::size_t i = 0; i < count; ++i) {
       distances[i] = distance(first + i);
     }

@@ -37,7 +37,7 @@ void get_bounds(const RTCBoundsFunctionArguments* arguments) {
   bounds.upper_z = box.upper[2];
 }
 
-/// What rtcCollide's callback needs.
+/// The data of rtcCollide's callback.
 struct Collision {
   const SegmentBoxes& boxes;
   ParallelCollector& collector;

@@ -1,6 +1,6 @@
 #include <fcl/narrowphase/continuous_collision.h>
 
-#include "benchmark/continuous/makers.hpp"
+#include "benchmark/kernels/makers.hpp"
 #include "benchmark/peers/fcl_capsule.hpp"
 #include "benchmark/peers/translation.hpp"
 
@@ -24,13 +24,12 @@ class FclMotions final : public MotionKernel {
 
   bool can_answer(const HardMotion& motion) const override { return is_translation(motion); }
 
-  void prepare(const std::vector<HardMotion>& motions, double tolerance) override {
+  void prepare(const std::vector<HardMotion>& motions) override {
     motions_ = &motions;
-    tolerance_ = tolerance;
     make_moving_capsules(motions, a_, b_);
   }
 
-  void find(std::size_t first, std::size_t count, ContactTime* times) override {
+  void run(std::size_t first, std::size_t count, ContactTime* times) override {
     for (std::size_t i = first; i < first + count; ++i) {
       fcl::ContinuousCollisionResultd result;
       fcl::continuousCollide(&a_[i].capsule, a_[i].pose, a_[i].end, &b_[i].capsule, b_[i].pose,
@@ -43,7 +42,7 @@ class FclMotions final : public MotionKernel {
  private:
   ContactTime answer(const HardMotion& motion, double time) const {
     if (request_.ccd_solver_type != fcl::CCDC_NAIVE) {
-      return stated_time(motion, time, tolerance_);
+      return stated_time(motion, time, tolerance());
     }
     // Looks at times that are as far from each other as this.
     const double step = 1.0 / (static_cast<double>(request_.num_max_iterations) - 1.0);
@@ -52,7 +51,6 @@ class FclMotions final : public MotionKernel {
 
   const fcl::ContinuousCollisionRequestd request_;
   const std::vector<HardMotion>* motions_ = nullptr;
-  double tolerance_ = 0.0;  // [m]
   std::vector<FclMovingCapsule> a_;
   std::vector<FclMovingCapsule> b_;
 };

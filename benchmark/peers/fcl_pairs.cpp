@@ -1,6 +1,6 @@
 #include <fcl/narrowphase/distance.h>
 
-#include "benchmark/pairs/makers.hpp"
+#include "benchmark/kernels/makers.hpp"
 #include "benchmark/peers/fcl_capsule.hpp"
 
 namespace fiber {
@@ -14,7 +14,7 @@ class FclPairs final : public PairKernel {
 
   void prepare(const std::vector<HardPair>& pairs) override { make_capsules(pairs, a_, b_); }
 
-  void distances(std::size_t first, std::size_t count, double* distances) override {
+  void run(std::size_t first, std::size_t count, double* distances) override {
     for (std::size_t i = 0; i < count; ++i) {
       try {
         distances[i] = gap(first + i);
@@ -33,7 +33,7 @@ class FclPairs final : public PairKernel {
   }
 
  private:
-  /// Of the surfaces [m].
+  /// The gap of the surfaces [m].
   double gap(std::size_t index) const {
     fcl::DistanceResultd result;
     fcl::distance(&a_[index].capsule, a_[index].pose, &b_[index].capsule, b_[index].pose, request_,

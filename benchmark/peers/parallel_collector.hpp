@@ -19,7 +19,8 @@ namespace fiber {
 /// threads. Keeps its memory from query to query.
 class ParallelCollector {
  public:
-  /// What one thread has found. Most pairs of boxes are no contacts: they are left out at once.
+  /// The pairs that one thread has found. Most pairs of boxes are no contacts: they are left out at
+  /// once.
   class Part {
    public:
     /// Considers the segments that start at these points; each pair may be offered once.
@@ -44,7 +45,7 @@ class ParallelCollector {
     }
 
     void flush() {
-      std::array<PairDistance, most_waiting> distances;
+      std::array<PairDistance, max_waiting> distances;
       test_->distances(waiting_.data(), size_, distances.data());
       for (std::size_t i = 0; i < size_; ++i) {
         if (test_->is_within_margin(waiting_[i], distances[i])) {
@@ -55,10 +56,10 @@ class ParallelCollector {
       size_ = 0;
     }
 
-    static constexpr std::size_t most_waiting = 256;
+    static constexpr std::size_t max_waiting = 256;
 
     const NarrowPhase* test_ = nullptr;
-    std::array<PointPair, most_waiting> waiting_{};
+    std::array<PointPair, max_waiting> waiting_{};
     std::size_t size_ = 0;
     std::vector<std::uint64_t> keys_;
     std::uint64_t tests_ = 0;

@@ -9,7 +9,7 @@
 
 namespace fiber {
 
-/// What the engines of a benchmark are made with.
+/// Options of the engines of a benchmark.
 struct BenchEngineOptions {
   std::uint32_t threads = 1;  ///< most threads to use, at least 1
   double margin = 0.0;        ///< [m] peers answer queries up to this one; >= 0, finite

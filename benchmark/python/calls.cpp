@@ -1,4 +1,4 @@
-// What benchmark/python/calls.py does, without Python.
+// Measures in C++ the calls that benchmark/python/calls.py measures in Python.
 //   fiber_python_calls contacts|closest|update|nearest|check FILE MARGIN REPEATS
 // Prints the median time of a call [s]. Of `check`, the frames of the file are the candidates.
 #include <algorithm>

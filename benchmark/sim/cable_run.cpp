@@ -6,7 +6,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "benchmark/pairs/child_process.hpp"
+#include "benchmark/kernels/child_process.hpp"
 #include "benchmark/processor_time.hpp"
 
 namespace fiber {
@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// What the child hands on.
+/// The data that the child hands to its parent.
 struct Told {
   CableEnding ending;
   double ms;

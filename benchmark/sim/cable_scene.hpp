@@ -14,7 +14,7 @@ namespace fiber {
 /// How the first end of a cable is held: not, in its place, or in its place and direction.
 enum class CableEnd { FREE, PINNED, CLAMPED };
 
-/// What other simulators are compared on: straight cables that are let go at time 0, at rest.
+/// A scene for all simulators: straight cables that are let go at time 0, at rest.
 struct CableScene {
   static constexpr double step = 1.0 / 240.0;  ///< [s]
   static constexpr double gravity = 9.81;      ///< [m/s²] along -z

@@ -9,7 +9,7 @@
 
 namespace fiber {
 
-/// What simulating it with these effects takes, on one thread.
+/// The time and memory of simulating the scene with these effects, on one thread.
 struct EffectCost {
   std::vector<std::string> effects;  ///< their names in scene files
   std::string added;                 ///< beside the base, or "base" or "all"

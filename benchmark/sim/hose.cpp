@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Of what others are compared with: far less than they leave.
+/// The residual of the reference, far less than the others leave.
 constexpr double exact_residual = 1e-7;
 
 std::unique_ptr<Stepper> make_hose(const HoseSetting& setting) {

@@ -27,7 +27,7 @@ enum class HoseMotion {
   SETTLING  ///< a mass loses 6 of its speed per second: it comes to rest, which this has no part in
 };
 
-/// What a simulation is told.
+/// The settings of a simulation.
 struct HoseSetting {
   int segments = 50;
   int substeps = 4;  ///< steps per frame
@@ -50,7 +50,7 @@ double hose_damping(HoseMotion motion, double step);
 
 HoseRun simulate_hose(HoseMotion motion, const HoseSetting& setting, int frames);
 
-/// What simulations come to where segments and steps are ever shorter: extrapolated from two
+/// The limit of simulations where segments and steps are ever shorter: extrapolated from two
 /// numbers of segments and two of substeps, by the second order of their errors (Richardson).
 /// @param segments, substeps the larger of the two
 /// @returns the tip frame by frame; of SETTLING, at rest in the last one

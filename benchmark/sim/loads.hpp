@@ -18,7 +18,7 @@ struct LoadSizes {
   std::vector<int> threads{1, 0};   ///< 0 for as many as there are cores
 };
 
-/// What a scene takes of the clock.
+/// The time that a scene takes by the clock.
 struct LoadResult {
   std::string scene;
   std::uint32_t rods = 0;

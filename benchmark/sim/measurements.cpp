@@ -35,9 +35,9 @@ struct HoseTask {
 
 /// Runs a simulation until it has taken long enough to be timed; the fastest counts.
 template <class Simulate>
-HoseRun repeated(double least_ms, const Simulate& simulate) {
+HoseRun repeated(double min_ms, const Simulate& simulate) {
   HoseRun run = simulate();
-  for (double sum = run.ms; sum < least_ms;) {
+  for (double sum = run.ms; sum < min_ms;) {
     const double ms = simulate().ms;
     run.ms = std::min(run.ms, ms);
     sum += std::max(ms, 1e-3);
@@ -45,8 +45,8 @@ HoseRun repeated(double least_ms, const Simulate& simulate) {
   return run;
 }
 
-SimulationRow row_of(const char* method, const char* varied, const HoseTask& task,
-                     const HoseSetting& setting, const HoseRun& run) {
+BenchmarkRow row_of(const char* method, const char* varied, const HoseTask& task,
+                    const HoseSetting& setting, const HoseRun& run) {
   const double steps = static_cast<double>(task.frames) * setting.substeps;
   const double ms_per_step = run.ms / steps;
   return {{"method", method},
@@ -68,7 +68,7 @@ SimulationRow row_of(const char* method, const char* varied, const HoseTask& tas
 void measure_hose(const SimulationMeasurement& what, const HoseTask& task,
                   const HoseSetting& setting, const char* varied, const ReportRow& report) {
   const HoseRun run =
-      repeated(what.least_ms, [&] { return simulate_hose(task.motion, setting, task.frames); });
+      repeated(what.min_ms, [&] { return simulate_hose(task.motion, setting, task.frames); });
   report(row_of(name_of(setting.integrator), varied, task, setting, run));
 }
 
@@ -143,8 +143,8 @@ void measure_xpbd(const SimulationMeasurement& what, const ReportRow& report) {
       setting.segments = segments;
       setting.substeps = substeps;
       const HoseRun run =
-          repeated(what.least_ms, [&] { return simulate_xpbd(task, setting, inertia); });
-      SimulationRow row = row_of("xpbd", "grid", task, setting, run);
+          repeated(what.min_ms, [&] { return simulate_xpbd(task, setting, inertia); });
+      BenchmarkRow row = row_of("xpbd", "grid", task, setting, run);
       row["inertia"] = inertia;
       report(row);
     };

@@ -1,16 +1,15 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <nlohmann/json.hpp>
 #include <vector>
 
+#include "benchmark/report.hpp"
 #include "benchmark/sim/effect_costs.hpp"
 #include "benchmark/sim/loads.hpp"
 
 namespace fiber {
 
-/// What to measure of the simulation; all counts at least 1, residuals above 0.
+/// Settings of the measurement of the simulation; all counts are at least 1, residuals above 0.
 struct SimulationMeasurement {
   std::vector<int> segments{10, 20, 30, 50, 100, 200, 400};     ///< of the hose
   std::vector<int> substeps{1, 2, 4, 8, 16, 32};                ///< of a frame of 1/60 s
@@ -22,7 +21,7 @@ struct SimulationMeasurement {
   std::uint32_t frames = 120;    ///< of the swinging hose; the settling one has twice as many
   int reference_segments = 400;  ///< of what the hose is compared with, and half as many
   int reference_substeps = 128;  ///< likewise
-  double least_ms = 50.0;        ///< what is faster is measured again and again
+  double min_ms = 50.0;          ///< what is faster is measured again and again
   std::vector<int> peer_segments{10, 20, 50};  ///< of a cable beside Bullet and MuJoCo
   std::vector<int> peer_cable_segments{20};    ///< where cables touch
   std::uint32_t peer_cables = 10;              ///< that touch
@@ -31,17 +30,13 @@ struct SimulationMeasurement {
   LoadSizes loads;
 };
 
-/// A line of results, names to values.
-using SimulationRow = nlohmann::ordered_json;
-using ReportRow = std::function<void(const SimulationRow&)>;
-
 /// Closed forms and simulated rods of 50 segments.
 void measure_validation(const SimulationMeasurement& what, const ReportRow& report);
 
 /// Error and time of the hose by segments, substeps, residual and the most iterations.
 void measure_convergence(const SimulationMeasurement& what, const ReportRow& report);
 
-/// The same hose as a textbook's XPBD rod; rows as of the above.
+/// Error and time of the hose as a textbook's XPBD rod, by segments, substeps and inertia.
 void measure_xpbd(const SimulationMeasurement& what, const ReportRow& report);
 
 /// Cables by Bullet and MuJoCo, where they are installed, beside ours; those that are not, a line

@@ -34,8 +34,8 @@ struct Measured {
 
 constexpr double longest_ms = 1e4;  // of a run that is repeated
 
-/// In turns, so that a machine that is slower for a while is so for all. What takes very long is
-/// not repeated.
+/// Measures in turns, so that a machine that is slower for a while is so for all. What takes very
+/// long is not repeated.
 std::vector<Measured> measured(const CableScene& scene, const std::vector<CableMethod>& methods,
                                std::uint32_t repeats) {
   std::vector<Measured> found;
@@ -72,8 +72,8 @@ double own_time(const std::vector<Measured>& all, int segments) {
   return unknown;
 }
 
-SimulationRow row_of(const CableScene& scene, const Measured& one,
-                     const std::vector<Measured>& all) {
+BenchmarkRow row_of(const CableScene& scene, const Measured& one,
+                    const std::vector<Measured>& all) {
   return {{"scene", scene.name},
           {"method", one.method.method},
           {"setting", one.method.setting},
@@ -98,7 +98,7 @@ void measure_scene(const CableScene& scene, const std::vector<int>& segments, st
   for (const Measured& one : all) {
     const bool done = one.run.ending == CableEnding::DONE;
     const CableVerdict verdict = done ? judge_cables(scene, one.run) : CableVerdict();
-    SimulationRow row = row_of(scene, one, all);
+    BenchmarkRow row = row_of(scene, one, all);
     row["error"] = done ? error(one.run, verdict) : unknown;
     row["moved"] = done ? verdict.moved : unknown;
     row["speed"] = done ? verdict.speed : unknown;

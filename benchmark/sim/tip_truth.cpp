@@ -14,7 +14,7 @@ namespace {
 
 constexpr int steps_per_frame = 4;
 
-/// Of a single cable, by frame.
+/// The tip of a single cable in each frame.
 std::vector<Vector3d> converging_tips(const CableScene& scene, int segments, int substeps) {
   StepperOptions options;
   options.integrator = Integrator::BDF2;

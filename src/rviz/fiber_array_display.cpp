@@ -213,11 +213,11 @@ void FiberArrayDisplay::fit_view() {
 }
 
 void FiberArrayDisplay::read_fibers() {
-  to_chains(*shown_.fibers, chains_);
-  if (chains_.radii.empty()) {
-    chains_.radii = {properties_.default_radius()};
+  to_chains(*shown_.fibers, buffer_);
+  if (buffer_.radii.empty()) {
+    buffer_.radii = {properties_.default_radius()};
   }
-  assign(chains_, fibers_);
+  assign(buffer_, fibers_);
 }
 
 void FiberArrayDisplay::apply_transform(const std_msgs::Header& header) {

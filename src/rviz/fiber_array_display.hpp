@@ -74,7 +74,7 @@ class FiberArrayDisplay : public rviz::MessageFilterDisplay<fiber_proximity::Fib
   bool is_new_ = false;      // the transform of `shown_` has not been applied
   bool is_changed_ = false;  // `shown_` has not been drawn as the properties say
 
-  fiber_proximity_ros::FiberBuffer chains_;
+  fiber_proximity_ros::FiberBuffer buffer_;
   fiber::FiberAssembly fibers_;
   std::vector<Color> colors_;
   std::optional<ValueRange> shown_range_;  // that colours stand for

@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 
 constexpr double comb_reach = 0.4;  // level (see Head) off the skin
 
-/// What all hairs of a lock share.
+/// The path and size that all hairs of a lock share.
 struct LockShape {
   std::vector<Vector3d> path;
   std::vector<Vector3d> side;  // unit, perpendicular to the path
@@ -266,11 +266,11 @@ const HairStyle longish{39'000,
                         0.01};
 
 FiberAssembly hair(const HairStyle& style, const SceneOptions& options, std::uint32_t frame) {
-  const std::uint32_t most_hairs =
-      style.on_head ? Head::most_hairs : std::numeric_limits<std::uint32_t>::max();
+  const std::uint32_t max_hairs =
+      style.on_head ? Head::max_hairs : std::numeric_limits<std::uint32_t>::max();
   const std::uint32_t points_per_hair = style.segments + 1;
   const std::uint32_t hairs =
-      scaled_fiber_count(options, style.hair_count, points_per_hair, most_hairs);
+      scaled_fiber_count(options, style.hair_count, points_per_hair, max_hairs);
   const double time = static_cast<double>(frame % sway_period) / sway_period;
   return equal_fibers(HairGrower(style, options.seed, time, hairs).grow(), points_per_hair,
                       hair_radius);

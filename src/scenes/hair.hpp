@@ -8,8 +8,8 @@
 
 namespace fiber {
 
-/// What makes a hair style. Hairs follow smooth paths; those of a lock are drawn towards the path
-/// of the lock, and curl together with it.
+/// The parameters of a hair style. Hairs follow smooth paths; those of a lock are drawn towards the
+/// path of the lock, and curl together with it.
 struct HairStyle {
   std::uint32_t hair_count = 0;  ///< at scale 1
   std::uint32_t segments = 0;    ///< of every hair

@@ -28,8 +28,8 @@ void require_part(const LargeScene& scene, std::uint64_t begin, std::uint64_t en
                                 std::to_string(end) + ", there are " +
                                 std::to_string(scene.fiber_count));
   }
-  constexpr std::uint64_t most_points = (std::uint64_t{1} << 31U) - 1;
-  const std::uint64_t most = most_points / (scene.segments_per_fiber + 1);
+  constexpr std::uint64_t max_points = (std::uint64_t{1} << 31U) - 1;
+  const std::uint64_t most = max_points / (scene.segments_per_fiber + 1);
   if (end - begin > most) {
     throw std::invalid_argument(std::to_string(end - begin) +
                                 " fibres in one part, there may be at most " +
@@ -44,10 +44,10 @@ LargeScene make_large_scene(const std::string& name, std::uint64_t segments, std
     if (name != scene_name) {
       continue;
     }
-    if (segments == 0 || segments > LargeScene::most_segments) {
+    if (segments == 0 || segments > LargeScene::max_segments) {
       throw std::invalid_argument("segments is " + std::to_string(segments) +
                                   ", it must be from 1 to " +
-                                  std::to_string(LargeScene::most_segments));
+                                  std::to_string(LargeScene::max_segments));
     }
     LargeScene scene = make(segments, seed);
     scene.fibers = [unseen = scene](std::uint64_t begin, std::uint64_t end, std::uint32_t frame) {

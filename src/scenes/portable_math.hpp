@@ -32,7 +32,7 @@ inline double sine_of_turns(double x) {
 /// cos(2πx), with an error below 1e-13.
 inline double cosine_of_turns(double x) { return sine_of_turns(x + 0.25); }
 
-/// Of a number from 1e-18 to 1e18, with an error of a few units in the last place.
+/// The cube root of a number from 1e-18 to 1e18, with an error of a few units in the last place.
 inline double cube_root(double x) {
   // Newton's method: a third closer with each step, then twice the digits.
   double root = x > 1.0 ? x : 1.0;
@@ -52,7 +52,7 @@ inline double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return a.x() * b.x() + a.y() * b.y() + a.z() * b.z();
 }
 
-/// Of length 1; not for the zero vector.
+/// The vector with length 1. It must not be zero.
 inline Eigen::Vector3d unit(const Eigen::Vector3d& v) { return v / std::sqrt(dot(v, v)); }
 
 /// The part of v that is perpendicular to a unit vector, made a unit vector itself.

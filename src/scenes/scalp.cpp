@@ -75,9 +75,9 @@ double Head::level(const Vector3d& point) {
   return std::sqrt(dot(image, image));
 }
 
-Vector3d Head::lifted(const Vector3d& point, double least_level) {
+Vector3d Head::lifted(const Vector3d& point, double min_level) {
   const double current = level(point);
-  return current < least_level ? Vector3d(point * (least_level / current)) : point;
+  return current < min_level ? Vector3d(point * (min_level / current)) : point;
 }
 
 Vector3d Head::normal(const Vector3d& point) { return unit(to_sphere(to_sphere(point))); }

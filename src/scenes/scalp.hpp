@@ -14,7 +14,7 @@ struct Head {
   static constexpr double semi_axes[3] = {0.095, 0.075, 0.115};
 
   /// Most hairs that find a place at 200 per cm²: 650 cm² of scalp, the paper's "up to 130 000".
-  static constexpr unsigned most_hairs = 130'000;
+  static constexpr unsigned max_hairs = 130'000;
 
   /// The image of the point when the head becomes the unit sphere.
   static Eigen::Vector3d to_sphere(const Eigen::Vector3d& point) {
@@ -28,7 +28,7 @@ struct Head {
   static double level(const Eigen::Vector3d& point);
 
   /// The point itself, or moved away from the centre to this level if it lies below.
-  static Eigen::Vector3d lifted(const Eigen::Vector3d& point, double least_level);
+  static Eigen::Vector3d lifted(const Eigen::Vector3d& point, double min_level);
 
   /// Unit normal of the ellipsoid through the point, outwards.
   static Eigen::Vector3d normal(const Eigen::Vector3d& point);
@@ -49,7 +49,7 @@ struct Root {
 /// They stand along a spiral, each somewhere in a cell of its own.
 std::vector<Root> scalp_roots(std::uint32_t count, Random& random);
 
-/// The same on a disc z = 0 around the origin, whose normal points down: a tress is held there.
+/// Roots on a disc z = 0 around the origin, whose normal points down: a tress is held there.
 std::vector<Root> disc_roots(std::uint32_t count, Random& random);
 
 /// Roots that share a square of the map.

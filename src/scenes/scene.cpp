@@ -68,9 +68,9 @@ std::vector<std::string> scene_names() {
 }
 
 std::uint32_t scaled_fiber_count(const SceneOptions& options, std::uint32_t full_count,
-                                 std::uint32_t points_per_fiber, std::uint32_t most_fibers) {
-  constexpr double most_points = 0x1p31 - 1.0;
-  const double limit = std::min<double>(std::floor(most_points / points_per_fiber), most_fibers);
+                                 std::uint32_t points_per_fiber, std::uint32_t max_fibers) {
+  constexpr double max_points = 0x1p31 - 1.0;
+  const double limit = std::min<double>(std::floor(max_points / points_per_fiber), max_fibers);
   const double fibers = std::floor(options.scale * full_count + 0.5);
   if (!(options.scale > 0.0) || fibers > limit) {
     throw std::invalid_argument("scale is " + text_of(options.scale) +

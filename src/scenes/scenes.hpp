@@ -20,8 +20,7 @@ FiberAssembly cables(double time);
 
 constexpr double cables_period = 12.0;  ///< [s]
 
-/// The same by frame, at 30 frames per second.
-/// A smaller scale leaves out the last cables.
+/// The demo by frame, at 30 frames per second. A smaller scale leaves out the last cables.
 /// @throws std::invalid_argument for a scale above 1: the scene is arranged by hand
 FiberAssembly cables(const SceneOptions& options, std::uint32_t frame);
 
@@ -45,15 +44,15 @@ FiberAssembly cloth(const SceneOptions& options, std::uint32_t frame);
 /// frame is computed from nothing but the options and its number, and is the same bits everywhere.
 FiberAssembly soup(const SceneOptions& options, std::uint32_t frame);
 
-// What scenes are made with.
+// Functions that make scenes.
 
 /// Number of fibres of a scene that has `full_count` at scale 1.
 /// @param points_per_fiber for the limit: an assembly holds fewer than 2³¹ points
-/// @param most_fibers that the scene has room for
+/// @param max_fibers that the scene has room for
 /// @throws std::invalid_argument naming the scale and what is allowed
 std::uint32_t scaled_fiber_count(
     const SceneOptions& options, std::uint32_t full_count, std::uint32_t points_per_fiber,
-    std::uint32_t most_fibers = std::numeric_limits<std::uint32_t>::max());
+    std::uint32_t max_fibers = std::numeric_limits<std::uint32_t>::max());
 
 /// Fibres of so many points each, all of one radius [m].
 FiberAssembly equal_fibers(std::vector<Eigen::Vector3d> points, std::uint32_t points_per_fiber,

@@ -29,7 +29,7 @@ struct SceneRequest {
 
 /// A whole number that may be written as 1e9.
 std::uint64_t parse_segments(const std::string& text) {
-  constexpr double max = LargeScene::most_segments;
+  constexpr double max = LargeScene::max_segments;
   const double count = parse_number<double>(text).value_or(0.0);
   if (!(count >= 1.0 && count <= max) || count != std::floor(count)) {
     throw std::invalid_argument("--segments: " + quote(text) +

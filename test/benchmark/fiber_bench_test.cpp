@@ -8,7 +8,7 @@ namespace fiber::test {
 namespace {
 
 TEST_F(FiberBench, EnginesAgreeOnEverySubcommand) {
-  // Of this seed, two fibres touch in frame 2.
+  // With this seed, two fibres touch in frame 2.
   for (const std::string command : {"update", "cycle"}) {
     SCOPED_TRACE(command);
     const ProcessResult result =

@@ -1,4 +1,4 @@
-// What answers about motions are judged by.
+// Tests of the oracle that judges answers about motions.
 #include "validation/geometry/motion_oracle.hpp"
 
 #include <gtest/gtest.h>

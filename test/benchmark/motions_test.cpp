@@ -5,10 +5,10 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "benchmark/continuous/decision_score.hpp"
 #include "benchmark/continuous/motion_accuracy.hpp"
-#include "benchmark/continuous/motion_kernel.hpp"
-#include "benchmark/continuous/motion_times.hpp"
+#include "benchmark/kernels/decision_score.hpp"
+#include "benchmark/kernels/motion_kernel.hpp"
+#include "benchmark/kernels/motion_times.hpp"
 
 namespace fiber::test {
 namespace {
@@ -147,7 +147,7 @@ TEST(DecisionScore, CountsWhatIsNoAnswerAndNothingElseOfIt) {
   const HardMotion motion = meeting_spheres(2.0);
   const MotionTruth truth(motion, 1e-6);
   DecisionScore score;
-  score.add(motion, truth, GuardedTime());
+  score.add(motion, truth, Guarded<ContactTime>());
   score.add(motion, truth, {Outcome::NO_ANSWER, {}});
   score.add(motion, truth, {Outcome::NOT_FINITE, {}});
   EXPECT_EQ(score.ended, 1U);
@@ -166,11 +166,9 @@ class FailingMotions final : public MotionKernel {
 
   bool can_answer(const HardMotion& motion) const override { return motion.radius_a != unknown; }
 
-  void prepare(const std::vector<HardMotion>& motions, double /*tolerance*/) override {
-    motions_ = &motions;
-  }
+  void prepare(const std::vector<HardMotion>& motions) override { motions_ = &motions; }
 
-  void find(std::size_t first, std::size_t count, ContactTime* times) override {
+  void run(std::size_t first, std::size_t count, ContactTime* times) override {
     for (std::size_t i = 0; i < count; ++i) {
       const double radius = (*motions_)[first + i].radius_a;
       times[i] = ContactTime();
@@ -231,18 +229,19 @@ TEST(MotionKernels, MostlyAgreeOnEasyMotions) {
       motions.push_back(motion);
     }
   }
-  const double most_early = 1e-2;  // Bullet stops a millimetre before
+  const double max_early = 1e-2;  // Bullet stops a millimetre before
   for (const std::string& name : motion_kernel_names()) {
     SCOPED_TRACE(name);
     const std::unique_ptr<MotionKernel> kernel = make_motion_kernel(name);
-    kernel->prepare(motions, 1e-6);
+    kernel->set_tolerance(1e-6);
+    kernel->prepare(motions);
     std::vector<ContactTime> found(motions.size());
-    kernel->find(0, found.size(), found.data());
+    kernel->run(0, found.size(), found.data());
     std::size_t agreed = 0;
     for (std::size_t i = 0; i < found.size(); ++i) {
       const ContactTime expected = contact_time(motions[i].motions(), 1e-6);
       agreed += found[i].hit && found[i].lower <= expected.upper &&
-                        found[i].upper >= expected.lower - most_early
+                        found[i].upper >= expected.lower - max_early
                     ? 1
                     : 0;
     }

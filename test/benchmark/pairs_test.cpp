@@ -6,10 +6,10 @@
 #include <limits>
 #include <stdexcept>
 
-#include "benchmark/pairs/pair_kernel.hpp"
-#include "benchmark/pairs/pair_score.hpp"
-#include "benchmark/pairs/pair_times.hpp"
-#include "benchmark/pairs/textbook.hpp"
+#include "benchmark/kernels/pair_kernel.hpp"
+#include "benchmark/kernels/pair_score.hpp"
+#include "benchmark/kernels/pair_times.hpp"
+#include "benchmark/kernels/textbook.hpp"
 #include "test/support/not_finite.hpp"
 
 namespace fiber::test {
@@ -22,12 +22,12 @@ HardPair parallel_pair(double more) {
   return {{0, 0, 0}, {4, 0, 0}, {0, 3, 0}, {4, 3, 0}, 1.0, 2.0 + more};
 }
 
-GuardedAnswer answered(double distance, bool contact, double lower = -infinity,
-                       double upper = infinity) {
+Guarded<PairAnswer> answered(double distance, bool contact, double lower = -infinity,
+                             double upper = infinity) {
   return {Outcome::ANSWERED, {distance, lower, upper, contact}};
 }
 
-PairScore score_of(const HardPair& pair, const GuardedAnswer& answer) {
+PairScore score_of(const HardPair& pair, const Guarded<PairAnswer>& answer) {
   PairScore score;
   score.add(pair, PairTruth(pair), answer);
   return score;
@@ -119,7 +119,7 @@ TEST(PairScore, CountsEachKindOfNoAnswerAndNothingElseOfIt) {
 class Failing final : public PairKernel {
  public:
   void prepare(const std::vector<HardPair>& /*pairs*/) override {}
-  void distances(std::size_t /*first*/, std::size_t /*count*/, double* /*distances*/) override {}
+  void run(std::size_t /*first*/, std::size_t /*count*/, double* /*distances*/) override {}
   PairAnswer answer(std::size_t index) override {
     switch (index) {
       case 1:
@@ -139,7 +139,7 @@ class Failing final : public PairKernel {
 
 TEST(GuardedAnswers, SurviveWhatAKernelDoes) {
   Failing kernel;
-  const std::vector<GuardedAnswer> answers = guarded_answers(kernel, 7);
+  const std::vector<Guarded<PairAnswer>> answers = guarded_answers(kernel, 7);
   const std::vector<Outcome> expected{Outcome::ANSWERED,   Outcome::ENDED, Outcome::NO_ANSWER,
                                       Outcome::NOT_FINITE, Outcome::ENDED, Outcome::ANSWERED,
                                       Outcome::ANSWERED};
@@ -155,7 +155,7 @@ TEST(GuardedAnswers, SurviveWhatAKernelDoes) {
 class Aborting final : public PairKernel {
  public:
   void prepare(const std::vector<HardPair>& pairs) override { pairs_ = &pairs; }
-  void distances(std::size_t first, std::size_t count, double* distances) override {
+  void run(std::size_t first, std::size_t count, double* distances) override {
     for (std::size_t i = 0; i < count; ++i) {
       if ((*pairs_)[first + i].radius_a == fatal) {
         std::abort();
@@ -216,7 +216,7 @@ TEST(PairKernels, AgreeOnEasyPairs) {
     SCOPED_TRACE(name);
     const std::unique_ptr<PairKernel> kernel = make_pair_kernel(name);
     kernel->prepare(pairs);
-    const std::vector<GuardedAnswer> answers = guarded_answers(*kernel, pairs.size());
+    const std::vector<Guarded<PairAnswer>> answers = guarded_answers(*kernel, pairs.size());
     std::size_t answered = 0;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       if (answers[i].outcome == Outcome::ANSWERED) {

@@ -28,7 +28,7 @@ class PeerTest : public testing::TestWithParam<std::string> {
   }
 };
 
-/// The same fibres with points moved a little.
+/// Copies the fibres with points moved a little.
 void move(FiberAssembly& fibers, double step, Random& random) {
   std::vector<Eigen::Vector3d> points = fibers.points();
   for (Eigen::Vector3d& point : points) {

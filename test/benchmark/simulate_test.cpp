@@ -82,8 +82,8 @@ TEST_F(FiberBench, SaysHowFastLargeScenesAreBesideTheClock) {
 using Rows = std::vector<nlohmann::json>;
 
 /// The smallest value of a field in rows of a scene that are done; none may stand still.
-double least_of_moving(const Rows& rows, const std::string& scene, const std::string& method,
-                       const std::string& field, int segments) {
+double min_of_moving(const Rows& rows, const std::string& scene, const std::string& method,
+                     const std::string& field, int segments) {
   double least = std::numeric_limits<double>::infinity();
   for (const nlohmann::json& row : rows) {
     if (row.at("scene") == scene && row.at("method") == method && row.at("ending") == "done" &&
@@ -123,17 +123,17 @@ TEST_F(FiberBench, HoldsTheSimulationBesideOtherSimulators) {
   }
   // A chain of rigid links is about as right as a rod of as many nodes, in several times the time.
   for (const char* const scene : {"hanging", "cantilever"}) {
-    const double own = least_of_moving(rows, scene, "own", "error", 20);
+    const double own = min_of_moving(rows, scene, "own", "error", 20);
     EXPECT_LT(own, 0.01) << scene;
     for (const std::string& peer : peers) {
-      EXPECT_LT(own, least_of_moving(rows, scene, peer, "error", 8)) << scene << ", " << peer;
-      least_of_moving(rows, scene, peer, "error", 20);
+      EXPECT_LT(own, min_of_moving(rows, scene, peer, "error", 8)) << scene << ", " << peer;
+      min_of_moving(rows, scene, peer, "error", 20);
     }
   }
-  const double own_depth = least_of_moving(rows, "falling", "own", "deepest", 10);
+  const double own_depth = min_of_moving(rows, "falling", "own", "deepest", 10);
   EXPECT_LT(own_depth, 0.2) << "in radii: axes are never nearer than 0.9 of the sum of radii";
   for (const std::string& peer : peers) {
-    EXPECT_LT(own_depth, least_of_moving(rows, "falling", peer, "deepest", 10)) << peer;
+    EXPECT_LT(own_depth, min_of_moving(rows, "falling", peer, "deepest", 10)) << peer;
   }
 }
 

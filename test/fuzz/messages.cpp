@@ -41,24 +41,24 @@ Options options_of(std::uint8_t bits) {
 }
 
 bool read_markers(const std::vector<MarkerInput::MarkerPtr>& markers, const Options& options,
-                  FiberBuffer& chains) {
-  return MarkerInput(options.marker).read(markers, ros::Time(1.0), chains).is_for_input;
+                  FiberBuffer& buffer) {
+  return MarkerInput(options.marker).read(markers, ros::Time(1.0), buffer).is_for_input;
 }
-bool read(const visualization_msgs::Marker& message, const Options& options, FiberBuffer& chains) {
+bool read(const visualization_msgs::Marker& message, const Options& options, FiberBuffer& buffer) {
   return read_markers({std::make_shared<const visualization_msgs::Marker>(message)}, options,
-                      chains);
+                      buffer);
 }
 bool read(const visualization_msgs::MarkerArray& message, const Options& options,
-          FiberBuffer& chains) {
+          FiberBuffer& buffer) {
   std::vector<MarkerInput::MarkerPtr> markers;
   for (const visualization_msgs::Marker& marker : message.markers) {
     markers.push_back(std::make_shared<const visualization_msgs::Marker>(marker));
   }
-  return read_markers(markers, options, chains);
+  return read_markers(markers, options, buffer);
 }
 template <class Message>
-bool read(const Message& message, const Options& /*options*/, FiberBuffer& chains) {
-  to_chains(message, chains);
+bool read(const Message& message, const Options& /*options*/, FiberBuffer& buffer) {
+  to_chains(message, buffer);
   return true;
 }
 
@@ -66,29 +66,29 @@ bool read(const Message& message, const Options& /*options*/, FiberBuffer& chain
 template <class Message>
 void try_fibers(MessageStream& stream, const Options& options) {
   const auto message = stream.read<Message>();
-  FiberBuffer chains;
-  if (!read(message, options, chains)) {
+  FiberBuffer buffer;
+  if (!read(message, options, buffer)) {
     return;
   }
   MissingPointCounts counts;
-  resolve_missing_points(options.missing_points, chains, counts);
-  if (chains.radii.empty()) {
-    chains.radii.assign(1, 0.01);
+  resolve_missing_points(options.missing_points, buffer, counts);
+  if (buffer.radii.empty()) {
+    buffer.radii.assign(1, 0.01);
   }
   fiber::FiberAssembly fibers;
-  assign(chains, fibers);
-  if (!chains.names.empty() && chains.names.size() != fibers.fiber_count()) {
+  assign(buffer, fibers);
+  if (!buffer.names.empty() && buffer.names.size() != fibers.fiber_count()) {
     fiber::test::finding("names that are not those of the fibres");
   }
 }
 
 void try_cloud(MessageStream& stream, const Options& /*options*/) {
   const auto message = stream.read<sensor_msgs::PointCloud2>();
-  FiberBuffer chains;
-  to_chains(message, chains);
+  FiberBuffer buffer;
+  to_chains(message, buffer);
   CloudCells cells{CloudOptions{0.02}};
   const CloudCounts counts =
-      cells.add(chains.points, Eigen::Isometry3d::Identity(), message.header.stamp.toSec());
+      cells.add(buffer.points, Eigen::Isometry3d::Identity(), message.header.stamp.toSec());
   const auto octree = cells.octree();
   if ((octree != nullptr) != (counts.used() > 0)) {
     fiber::test::finding("cells of no points, or points without cells");

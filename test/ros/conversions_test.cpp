@@ -28,13 +28,13 @@ std::string error_of(const std::function<void()>& function) {
   return "no error";
 }
 
-void expect_one_chain(const FiberBuffer& chains) {
-  EXPECT_EQ(chains.header.frame_id, "camera");
-  EXPECT_EQ(chains.header.stamp, ros::Time(3, 4));
-  EXPECT_EQ(chains.points, three_points());
-  EXPECT_EQ(chains.offsets, (std::vector<std::uint32_t>{0, 3}));
-  EXPECT_TRUE(chains.radii.empty());
-  EXPECT_TRUE(chains.names.empty());
+void expect_one_fiber(const FiberBuffer& buffer) {
+  EXPECT_EQ(buffer.header.frame_id, "camera");
+  EXPECT_EQ(buffer.header.stamp, ros::Time(3, 4));
+  EXPECT_EQ(buffer.points, three_points());
+  EXPECT_EQ(buffer.offsets, (std::vector<std::uint32_t>{0, 3}));
+  EXPECT_TRUE(buffer.radii.empty());
+  EXPECT_TRUE(buffer.names.empty());
 }
 
 TEST(Conversions, AnAssemblyComesBackFromItsMessage) {
@@ -42,19 +42,19 @@ TEST(Conversions, AnAssemblyComesBackFromItsMessage) {
                                     {0.5, 0.25});
   fiber_proximity::FiberArray message;
   to_message(fibers, {"left", "right"}, message);
-  FiberBuffer chains;
-  to_chains(message, chains);
-  EXPECT_EQ(chains.points, fibers.points());
-  EXPECT_EQ(chains.offsets, fibers.offsets());
-  EXPECT_EQ(chains.radii, fibers.radii());
-  EXPECT_EQ(chains.names, (std::vector<std::string>{"left", "right"}));
+  FiberBuffer buffer;
+  to_chains(message, buffer);
+  EXPECT_EQ(buffer.points, fibers.points());
+  EXPECT_EQ(buffer.offsets, fibers.offsets());
+  EXPECT_EQ(buffer.radii, fibers.radii());
+  EXPECT_EQ(buffer.names, (std::vector<std::string>{"left", "right"}));
 }
 
 TEST(Conversions, NamesMustBeOnePerFibre) {
   fiber_proximity::FiberArray message = test_messages::fiber_array(header("map"), three_points());
   message.names = {"one", "two"};
-  FiberBuffer chains;
-  EXPECT_EQ(error_of([&] { to_chains(message, chains); }),
+  FiberBuffer buffer;
+  EXPECT_EQ(error_of([&] { to_chains(message, buffer); }),
             "2 names for 1 fibre(s); give one per fibre or none");
 }
 
@@ -90,29 +90,29 @@ TEST(Conversions, ContactKeepsEveryField) {
 
 TEST(Conversions, EveryTypeOfOneChainGivesTheSame) {
   const std_msgs::Header camera = header("camera", ros::Time(3, 4));
-  FiberBuffer chains;
-  to_chains(test_messages::fiber_array(camera, three_points()), chains);
-  expect_one_chain(chains);
-  to_chains(test_messages::point_cloud2(camera, three_points()), chains);
-  expect_one_chain(chains);
-  to_chains(test_messages::point_cloud(camera, three_points()), chains);
-  expect_one_chain(chains);
-  to_chains(test_messages::pose_array(camera, three_points()), chains);
-  expect_one_chain(chains);
-  to_chains(test_messages::path(camera, three_points()), chains);
-  expect_one_chain(chains);
+  FiberBuffer buffer;
+  to_chains(test_messages::fiber_array(camera, three_points()), buffer);
+  expect_one_fiber(buffer);
+  to_chains(test_messages::point_cloud2(camera, three_points()), buffer);
+  expect_one_fiber(buffer);
+  to_chains(test_messages::point_cloud(camera, three_points()), buffer);
+  expect_one_fiber(buffer);
+  to_chains(test_messages::pose_array(camera, three_points()), buffer);
+  expect_one_fiber(buffer);
+  to_chains(test_messages::path(camera, three_points()), buffer);
+  expect_one_fiber(buffer);
 }
 
 TEST(Conversions, APoseOfAPathMustBeInThePathsFrame) {
   nav_msgs::Path message = test_messages::path(header("map"), three_points());
   message.poses[1].header.frame_id = "map";
-  FiberBuffer chains;
-  EXPECT_NO_THROW(to_chains(message, chains));
+  FiberBuffer buffer;
+  EXPECT_NO_THROW(to_chains(message, buffer));
   message.poses[2].header.frame_id = "gripper";
-  EXPECT_EQ(error_of([&] { to_chains(message, chains); }),
+  EXPECT_EQ(error_of([&] { to_chains(message, buffer); }),
             "pose 2 is in frame 'gripper', the path in 'map'; they must be the same");
   message.poses[2].header.frame_id = "grip\xC0\n";
-  EXPECT_EQ(error_of([&] { to_chains(message, chains); }),
+  EXPECT_EQ(error_of([&] { to_chains(message, buffer); }),
             "pose 2 is in frame 'grip\\xC0\\n', the path in 'map'; they must be the same");
 }
 
@@ -149,27 +149,27 @@ sensor_msgs::PointCloud2 unusual_cloud() {
 }
 
 TEST(PointCloud2, AnyLayoutIsReadRowByRow) {
-  FiberBuffer chains;
-  to_chains(unusual_cloud(), chains);
-  EXPECT_EQ(chains.points,
+  FiberBuffer buffer;
+  to_chains(unusual_cloud(), buffer);
+  EXPECT_EQ(buffer.points,
             (Points{{20, 10, 0.0}, {21, 11, 0.1}, {22, 12, 0.2}, {23, 13, 0.1 * 3}}));
-  EXPECT_EQ(chains.offsets, (std::vector<std::uint32_t>{0, 4}));
+  EXPECT_EQ(buffer.offsets, (std::vector<std::uint32_t>{0, 4}));
 }
 
 TEST(PointCloud2, AnEmptyCloudIsAFibreOfNoPoints) {
   sensor_msgs::PointCloud2 cloud = test_messages::point_cloud2(header("map"), {});
   cloud.height = 0xFFFF'FFFFU;
-  FiberBuffer chains;
-  to_chains(cloud, chains);
-  EXPECT_EQ(chains.offsets, (std::vector<std::uint32_t>{0, 0}));
+  FiberBuffer buffer;
+  to_chains(cloud, buffer);
+  EXPECT_EQ(buffer.offsets, (std::vector<std::uint32_t>{0, 0}));
 }
 
 TEST(PointCloud2, MalformedCloudsAreRefused) {
-  FiberBuffer chains;
-  const auto error_after = [&chains](const std::function<void(sensor_msgs::PointCloud2&)>& change) {
+  FiberBuffer buffer;
+  const auto error_after = [&buffer](const std::function<void(sensor_msgs::PointCloud2&)>& change) {
     sensor_msgs::PointCloud2 cloud = unusual_cloud();
     change(cloud);
-    return error_of([&] { to_chains(cloud, chains); });
+    return error_of([&] { to_chains(cloud, buffer); });
   };
   EXPECT_EQ(error_after([](auto& cloud) { cloud.fields.pop_back(); }),
             "the cloud has no field 'x', it needs x, y and z");

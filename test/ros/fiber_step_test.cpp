@@ -33,7 +33,7 @@ class FiberStepTest : public testing::Test {
  protected:
   FiberStepTest() { advance(state_at(10.0, 10.0)); }
 
-  void advance(FiberState state) { step_.advance(state); }
+  void advance(FiberState state) { step_.advance(std::move(state)); }
 
   void expect_motion(double begin, double end) const {
     EXPECT_TRUE(step_.is_motion());

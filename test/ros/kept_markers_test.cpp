@@ -13,7 +13,7 @@ class KeptMarkers : public ::testing::Test {
  protected:
   /// Takes a message at a time.
   ReadResult take(double time, const MarkerArray& message) {
-    const ReadResult result = input_.read(parts_of(message), ros::Time(time), chains_);
+    const ReadResult result = input_.read(parts_of(message), ros::Time(time), buffer_);
     input_.keep();
     return result;
   }
@@ -35,8 +35,8 @@ class KeptMarkers : public ::testing::Test {
 
   std::vector<double> places() const {
     std::vector<double> places;
-    for (std::size_t i = 0; i + 1 < chains_.offsets.size(); ++i) {
-      places.push_back(chains_.points[chains_.offsets[i]].x());
+    for (std::size_t i = 0; i + 1 < buffer_.offsets.size(); ++i) {
+      places.push_back(buffer_.points[buffer_.offsets[i]].x());
     }
     return places;
   }
@@ -50,16 +50,16 @@ class KeptMarkers : public ::testing::Test {
 
   using Places = std::vector<double>;
   MarkerInput input_{options()};
-  FiberBuffer chains_;
+  FiberBuffer buffer_;
 };
 
 TEST_F(KeptMarkers, EachCableMayComeInAMessageOfItsOwn) {
   take(1.0, one("a", 0.0, 1.0));
   EXPECT_EQ(places(), Places{0.0});
-  EXPECT_EQ(chains_.names, std::vector<std::string>{"cable"});
+  EXPECT_EQ(buffer_.names, std::vector<std::string>{"cable"});
   EXPECT_TRUE(take(1.1, one("b", 5.0, 1.0)).is_news) << "though its stamp is the same";
   EXPECT_EQ(places(), (Places{0.0, 5.0}));
-  EXPECT_EQ(chains_.names, (std::vector<std::string>{"cable/a", "cable/b"}));
+  EXPECT_EQ(buffer_.names, (std::vector<std::string>{"cable/a", "cable/b"}));
   EXPECT_TRUE(take(1.2, one("a", 1.0, 1.1)).is_news);
   EXPECT_EQ(places(), (Places{1.0, 5.0}));
   EXPECT_FALSE(take(1.3, one("a", 1.0, 1.1)).is_news) << "a tracker that has frozen";
@@ -78,7 +78,7 @@ TEST_F(KeptMarkers, DeletionsAreThoseOfRviz) {
   EXPECT_TRUE(all.is_news);
   EXPECT_EQ(places(), Places{});
   EXPECT_EQ(all.missing, "") << "the tracker has said so";
-  EXPECT_EQ(chains_.header.frame_id, "map");
+  EXPECT_EQ(buffer_.header.frame_id, "map");
   take(1.4, one("b", 2.0));
   EXPECT_EQ(places(), Places{2.0});
 }
@@ -86,17 +86,17 @@ TEST_F(KeptMarkers, DeletionsAreThoseOfRviz) {
 TEST_F(KeptMarkers, TheStampNeverGoesBackByADeletion) {
   take(1.0, one("a", 0.0, 10.0));
   take(1.0, one("b", 5.0, 12.0));
-  EXPECT_EQ(chains_.header.stamp, ros::Time(12.0));
+  EXPECT_EQ(buffer_.header.stamp, ros::Time(12.0));
   MarkerArray late = deletion(Marker::DELETE, "c");
   late.markers[0].header.stamp = ros::Time(11.0);
   take(1.05, late);
-  EXPECT_EQ(chains_.header.stamp, ros::Time(12.0)) << "though the deletion is of 11";
+  EXPECT_EQ(buffer_.header.stamp, ros::Time(12.0)) << "though the deletion is of 11";
   MarkerArray gone = deletion(Marker::DELETE, "b");
   gone.markers[0].header.stamp = ros::Time(13.0);
   take(1.1, gone);
-  EXPECT_EQ(chains_.header.stamp, ros::Time(13.0)) << "though what is left is of 10";
+  EXPECT_EQ(buffer_.header.stamp, ros::Time(13.0)) << "though what is left is of 10";
   take(1.2, deletion(Marker::DELETE, "a"));
-  EXPECT_EQ(chains_.header.stamp, ros::Time()) << "when it arrives";
+  EXPECT_EQ(buffer_.header.stamp, ros::Time()) << "when it arrives";
 }
 
 TEST_F(KeptMarkers, ALifetimeEnds) {
@@ -126,7 +126,7 @@ TEST_F(KeptMarkers, WhatIsRefusedHasNotBeen) {
   bad.markers.push_back(strip_of("c", {}));
   bad.markers.back().action = 7;
   EXPECT_THROW(take(1.1, bad), std::invalid_argument);
-  input_.read(parts_of(one("d", 9.0)), ros::Time(1.2), chains_);  // and is not kept
+  input_.read(parts_of(one("d", 9.0)), ros::Time(1.2), buffer_);  // and is not kept
   take(1.3, one("a", 1.0));
   EXPECT_EQ(places(), Places{1.0});
 }

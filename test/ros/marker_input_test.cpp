@@ -15,19 +15,19 @@ using namespace marker_test;  // NOLINT(google-build-using-namespace)
 TEST(MarkerInput, AListOfPointsIsAFibre) {
   for (const int type :
        {Marker::LINE_STRIP, Marker::POINTS, Marker::SPHERE_LIST, Marker::CUBE_LIST}) {
-    const FiberBuffer chains =
+    const FiberBuffer buffer =
         read(array({marker(header("map"), type, chain(0)), marker(header("map"), type, chain(5))}));
-    EXPECT_EQ(chains.offsets, (std::vector<std::uint32_t>{0, 4, 8})) << type;
-    EXPECT_EQ(Points(chains.points.begin(), chains.points.begin() + 4), chain(0)) << type;
-    EXPECT_EQ(Points(chains.points.begin() + 4, chains.points.end()), chain(5)) << type;
-    EXPECT_TRUE(chains.radii.empty());
+    EXPECT_EQ(buffer.offsets, (std::vector<std::uint32_t>{0, 4, 8})) << type;
+    EXPECT_EQ(Points(buffer.points.begin(), buffer.points.begin() + 4), chain(0)) << type;
+    EXPECT_EQ(Points(buffer.points.begin() + 4, buffer.points.end()), chain(5)) << type;
+    EXPECT_TRUE(buffer.radii.empty());
   }
 }
 
 TEST(MarkerInput, ASingleMarkerIsAFibreInItsFrame) {
-  const FiberBuffer chains = read(array({marker(header("map"), Marker::LINE_STRIP, chain(0))}));
-  EXPECT_EQ(chains.points, chain(0));
-  EXPECT_EQ(chains.header.frame_id, "map");
+  const FiberBuffer buffer = read(array({marker(header("map"), Marker::LINE_STRIP, chain(0))}));
+  EXPECT_EQ(buffer.points, chain(0));
+  EXPECT_EQ(buffer.header.frame_id, "map");
 }
 
 TEST(MarkerInput, TheMarkersPoseIsApplied) {
@@ -40,9 +40,9 @@ TEST(MarkerInput, TheMarkersPoseIsApplied) {
   strip.pose.orientation.x = 2.0 * q.x();
   strip.pose.orientation.y = 2.0 * q.y();
   strip.pose.orientation.z = 2.0 * q.z();
-  const FiberBuffer chains = read(array({strip}));
+  const FiberBuffer buffer = read(array({strip}));
   for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_LT((chains.points[i] - pose * chain(0)[i]).norm(), 1e-14);
+    EXPECT_LT((buffer.points[i] - pose * chain(0)[i]).norm(), 1e-14);
   }
   strip.pose.orientation = geometry_msgs::Quaternion();
   EXPECT_EQ(read(array({strip})).points[1], Eigen::Vector3d(1, 3, 3)) << "no orientation is none";
@@ -53,11 +53,11 @@ TEST(MarkerInput, LineListsAreWeldedWithATolerance) {
   pairs[2] += Eigen::Vector3d(0.1, 0, 0);  // a gap at the first joint
   std::swap(pairs[0], pairs[1]);           // segments turned round
   std::swap(pairs[4], pairs[5]);
-  const FiberBuffer chains = read(array({marker(header("map"), Marker::LINE_LIST, pairs)}));
+  const FiberBuffer buffer = read(array({marker(header("map"), Marker::LINE_LIST, pairs)}));
   Points expected = chain(0);
   expected[1] += Eigen::Vector3d(0.05, 0, 0);
-  EXPECT_EQ(chains.points, expected);
-  EXPECT_EQ(chains.offsets, (std::vector<std::uint32_t>{0, 4}));
+  EXPECT_EQ(buffer.points, expected);
+  EXPECT_EQ(buffer.offsets, (std::vector<std::uint32_t>{0, 4}));
 
   MarkerInputOptions exact;
   exact.weld_tolerance = 0.05;
@@ -75,10 +75,10 @@ TEST(MarkerInput, TheToleranceIsAPartOfTheShorterSegment) {
 
 TEST(MarkerInput, LineListsOfTwoMarkersAreTwoFibres) {
   const Points all = chain(0);
-  const FiberBuffer chains =
+  const FiberBuffer buffer =
       read(array({marker(header("map"), Marker::LINE_LIST, segments({all[0], all[1], all[2]})),
                   marker(header("map"), Marker::LINE_LIST, segments({all[2], all[3]}))}));
-  EXPECT_EQ(chains.offsets, (std::vector<std::uint32_t>{0, 3, 5}));
+  EXPECT_EQ(buffer.offsets, (std::vector<std::uint32_t>{0, 3, 5}));
 }
 
 TEST(MarkerInput, StripsOfTwoPointsAreWelded) {
@@ -89,16 +89,16 @@ TEST(MarkerInput, StripsOfTwoPointsAreWelded) {
   }
   MarkerArray message = array(strips);
   message.markers.emplace_back();  // a planner that sizes its array one too large
-  const FiberBuffer chains = read(message);
-  EXPECT_EQ(chains.points, chain(0));
-  EXPECT_EQ(chains.offsets, (std::vector<std::uint32_t>{0, 4}));
+  const FiberBuffer buffer = read(message);
+  EXPECT_EQ(buffer.points, chain(0));
+  EXPECT_EQ(buffer.offsets, (std::vector<std::uint32_t>{0, 4}));
 }
 
 TEST(MarkerInput, LinesWinOverPointsOfTheSameCable) {
-  const FiberBuffer chains =
+  const FiberBuffer buffer =
       read(array({marker(header("map"), Marker::POINTS, {{9, 9, 9}, {8, 8, 8}}),
                   marker(header("map"), Marker::LINE_LIST, segments(chain(0)))}));
-  EXPECT_EQ(chains.points, chain(0));
+  EXPECT_EQ(buffer.points, chain(0));
 }
 
 TEST(MarkerInput, SpheresAreAFibreInTheOrderOfTheirIds) {
@@ -127,12 +127,12 @@ TEST(MarkerInput, CylindersAreWeldedAlongTheirAxes) {
   }
   MarkerInputOptions options;
   options.radius_from_marker = true;
-  const FiberBuffer chains = read(message, options);
-  ASSERT_EQ(chains.offsets, (std::vector<std::uint32_t>{0, 4}));
-  EXPECT_EQ(chains.radii, std::vector<double>{0.01});
+  const FiberBuffer buffer = read(message, options);
+  ASSERT_EQ(buffer.offsets, (std::vector<std::uint32_t>{0, 4}));
+  EXPECT_EQ(buffer.radii, std::vector<double>{0.01});
   for (int i = 0; i < 4; ++i) {
     EXPECT_LT(
-        (chains.points[static_cast<std::size_t>(i)] - Eigen::Vector3d(-1 + 0.5 * i, 0, 0)).norm(),
+        (buffer.points[static_cast<std::size_t>(i)] - Eigen::Vector3d(-1 + 0.5 * i, 0, 0)).norm(),
         1e-14);
   }
 }
@@ -141,12 +141,12 @@ using fiber::test::nan;
 const Eigen::Vector3d missing_point(nan, nan, nan);
 
 /// A character per point: k known, m missing, a bar between fibres.
-std::string pattern_of(const FiberBuffer& chains) {
+std::string pattern_of(const FiberBuffer& buffer) {
   std::string pattern;
-  for (std::size_t i = 0; i < chains.points.size(); ++i) {
-    const auto begin = std::find(chains.offsets.begin(), chains.offsets.end(), i);
-    pattern += begin != chains.offsets.end() && i > 0 ? "|" : "";
-    pattern += chains.points[i].allFinite() ? "k" : "m";
+  for (std::size_t i = 0; i < buffer.points.size(); ++i) {
+    const auto begin = std::find(buffer.offsets.begin(), buffer.offsets.end(), i);
+    pattern += begin != buffer.offsets.end() && i > 0 ? "|" : "";
+    pattern += buffer.points[i].allFinite() ? "k" : "m";
   }
   return pattern;
 }
@@ -189,9 +189,9 @@ TEST(MarkerInput, AMissingCylinderIsAGapOfItsFibre) {
   }
   MarkerInputOptions options;
   options.radius_from_marker = true;
-  const FiberBuffer chains = read(message, options);
-  EXPECT_EQ(pattern_of(chains), "kkkmkkk");
-  EXPECT_EQ(chains.radii, std::vector<double>{0.01});
+  const FiberBuffer buffer = read(message, options);
+  EXPECT_EQ(pattern_of(buffer), "kkkmkkk");
+  EXPECT_EQ(buffer.radii, std::vector<double>{0.01});
 }
 
 TEST(MarkerInput, RadiusFromMarkerIsHalfItsWidthPerFibre) {
@@ -211,8 +211,8 @@ TEST(MarkerInput, OnlyTheChosenNamespaceIsRead) {
   options.marker_namespace = "other";
   EXPECT_EQ(read(message, options).points, chain(3));
   options.marker_namespace = "nobody";
-  FiberBuffer chains;
-  EXPECT_FALSE(read_first(message, options, chains).is_for_input);
+  FiberBuffer buffer;
+  EXPECT_FALSE(read_first(message, options, buffer).is_for_input);
 }
 
 TEST(MarkerInput, DeletionsAreNoFibres) {
@@ -221,8 +221,8 @@ TEST(MarkerInput, DeletionsAreNoFibres) {
   message.markers[0].action = Marker::DELETEALL;
   EXPECT_EQ(read(message).points, chain(3));
   message.markers[1].action = Marker::DELETE;
-  FiberBuffer chains;
-  EXPECT_FALSE(read_first(message, {}, chains).is_for_input) << "there has been none";
+  FiberBuffer buffer;
+  EXPECT_FALSE(read_first(message, {}, buffer).is_for_input) << "there has been none";
 }
 
 TEST(MarkerInput, MalformedMarkersAreRefused) {
@@ -263,11 +263,11 @@ TEST(MarkerInput, StraightCablesInTwoNamespacesAreTwoFibresAsTheyAre) {
                                Points{{1.2, 0.1, 0}, {2.2, 0.1, 0}}}) {  // behind it
     MarkerArray message;
     message.markers = {strip_of("tether_1", first), strip_of("tether_2", second)};
-    const FiberBuffer chains = read_named(message);
-    ASSERT_EQ(chains.offsets, (std::vector<std::uint32_t>{0, 2, 4}));
-    EXPECT_EQ(Points(chains.points.begin(), chains.points.begin() + 2), first);
-    EXPECT_EQ(Points(chains.points.begin() + 2, chains.points.end()), second);
-    EXPECT_EQ(chains.names, (std::vector<std::string>{"tree/tether_1", "tree/tether_2"}));
+    const FiberBuffer buffer = read_named(message);
+    ASSERT_EQ(buffer.offsets, (std::vector<std::uint32_t>{0, 2, 4}));
+    EXPECT_EQ(Points(buffer.points.begin(), buffer.points.begin() + 2), first);
+    EXPECT_EQ(Points(buffer.points.begin() + 2, buffer.points.end()), second);
+    EXPECT_EQ(buffer.names, (std::vector<std::string>{"tree/tether_1", "tree/tether_2"}));
   }
 }
 
@@ -296,17 +296,17 @@ TEST(MarkerInput, ANamespaceOfSeveralSpheresIsAFibreOfItsOwn) {
     sphere.pose.position.y = i < 3 ? 0.0 : 0.3;
     message.markers.push_back(sphere);
   }
-  const FiberBuffer chains = read_named(message);
-  EXPECT_EQ(chains.offsets, (std::vector<std::uint32_t>{0, 3, 6}));
-  EXPECT_EQ(chains.points[3], Eigen::Vector3d(0, 0.3, 0));
-  EXPECT_EQ(chains.names, (std::vector<std::string>{"tree/a", "tree/b"}));
+  const FiberBuffer buffer = read_named(message);
+  EXPECT_EQ(buffer.offsets, (std::vector<std::uint32_t>{0, 3, 6}));
+  EXPECT_EQ(buffer.points[3], Eigen::Vector3d(0, 0.3, 0));
+  EXPECT_EQ(buffer.names, (std::vector<std::string>{"tree/a", "tree/b"}));
 }
 
 TEST(MarkerInput, WhatIsTurnedRoundOrMovedIsTold) {
   const Points all = chain(0);
   const auto remarks_of = [](const Points& pairs) {
-    FiberBuffer chains;
-    return read_first(array({marker(header("map"), Marker::LINE_LIST, pairs)}), {}, chains).remarks;
+    FiberBuffer buffer;
+    return read_first(array({marker(header("map"), Marker::LINE_LIST, pairs)}), {}, buffer).remarks;
   };
   EXPECT_TRUE(remarks_of(segments(all)).empty());
   Points turned = segments(all);

@@ -53,19 +53,19 @@ inline std::vector<MarkerInput::MarkerPtr> parts_of(const MarkerArray& message) 
 
 /// As the first message of an input.
 inline ReadResult read_first(const MarkerArray& message, const MarkerInputOptions& options,
-                             FiberBuffer& chains) {
-  return MarkerInput(options).read(parts_of(message), ros::Time(100.0), chains);
+                             FiberBuffer& buffer) {
+  return MarkerInput(options).read(parts_of(message), ros::Time(100.0), buffer);
 }
 
 inline FiberBuffer read(const MarkerArray& message, const MarkerInputOptions& options = {}) {
-  FiberBuffer chains;
-  EXPECT_TRUE(read_first(message, options, chains).is_for_input);
-  return chains;
+  FiberBuffer buffer;
+  EXPECT_TRUE(read_first(message, options, buffer).is_for_input);
+  return buffer;
 }
 
 inline std::string refusal_of(const MarkerArray& message) {
-  FiberBuffer chains;
-  return fiber::test::error_of([&] { read_first(message, {}, chains); });
+  FiberBuffer buffer;
+  return fiber::test::error_of([&] { read_first(message, {}, buffer); });
 }
 
 inline Marker strip_of(const std::string& ns, const Points& points) {

@@ -20,30 +20,30 @@ using fiber::test::nan;
 
 /// Fibres as strings: a point per character, `.` known and `x` missing. The x of a point tells its
 /// place among all.
-FiberBuffer chains_of(const std::vector<std::string>& fibers) {
-  FiberBuffer chains;
-  chains.header.frame_id = "camera";
+FiberBuffer buffer_of(const std::vector<std::string>& fibers) {
+  FiberBuffer buffer;
+  buffer.header.frame_id = "camera";
   const std::vector<Eigen::Vector3d> missing{{nan, 0, 0}, {0, infinity, 0}, {0, 0, -infinity}};
   for (const std::string& fiber : fibers) {
     for (const char point : fiber) {
-      const auto place = static_cast<double>(chains.points.size());
-      chains.points.emplace_back(place, 0, 0);
+      const auto place = static_cast<double>(buffer.points.size());
+      buffer.points.emplace_back(place, 0, 0);
       if (point == 'x') {
-        chains.points.back() = missing[chains.points.size() % missing.size()];
+        buffer.points.back() = missing[buffer.points.size() % missing.size()];
       }
     }
-    chains.end_chain();
-    chains.names.push_back("f" + std::to_string(chains.names.size()));
+    buffer.end_chain();
+    buffer.names.push_back("f" + std::to_string(buffer.names.size()));
   }
-  return chains;
+  return buffer;
 }
 
 /// Fibres as lists of the places their points had.
-std::vector<std::vector<int>> places(const FiberBuffer& chains) {
-  std::vector<std::vector<int>> fibers(chains.fiber_count());
+std::vector<std::vector<int>> places(const FiberBuffer& buffer) {
+  std::vector<std::vector<int>> fibers(buffer.fiber_count());
   for (std::size_t fiber = 0; fiber < fibers.size(); ++fiber) {
-    for (std::uint32_t i = chains.offsets[fiber]; i < chains.offsets[fiber + 1]; ++i) {
-      fibers[fiber].push_back(static_cast<int>(chains.points[i].x()));
+    for (std::uint32_t i = buffer.offsets[fiber]; i < buffer.offsets[fiber + 1]; ++i) {
+      fibers[fiber].push_back(static_cast<int>(buffer.points[i].x()));
     }
   }
   return fibers;
@@ -52,15 +52,15 @@ std::vector<std::vector<int>> places(const FiberBuffer& chains) {
 using Places = std::vector<std::vector<int>>;
 
 struct Handled {
-  FiberBuffer chains;
+  FiberBuffer buffer;
   MissingPointCounts counts;
 };
 
-Handled handle(MissingPoints policy, const FiberBuffer& chains) {
-  Handled handled{chains, {}};
-  resolve_missing_points(policy, handled.chains, handled.counts);
-  EXPECT_EQ(handled.chains.header.frame_id, "camera");
-  EXPECT_EQ(handled.chains.names.size(), handled.chains.fiber_count());
+Handled handle(MissingPoints policy, const FiberBuffer& buffer) {
+  Handled handled{buffer, {}};
+  resolve_missing_points(policy, handled.buffer, handled.counts);
+  EXPECT_EQ(handled.buffer.header.frame_id, "camera");
+  EXPECT_EQ(handled.buffer.names.size(), handled.buffer.fiber_count());
   return handled;
 }
 
@@ -73,37 +73,37 @@ void expect_counts(const MissingPointCounts& counts, std::uint64_t points, std::
 }
 
 TEST(MissingPoints, ABridgeJoinsTheNeighboursAndDropsTheEnds) {
-  const Handled handled = handle(MissingPoints::BRIDGE, chains_of({"x.x..xx.xx", "...", ".x."}));
-  EXPECT_EQ(places(handled.chains), (Places{{1, 3, 4, 7}, {10, 11, 12}, {13, 15}}));
-  EXPECT_EQ(handled.chains.names, (Names{"f0", "f1", "f2"}));
+  const Handled handled = handle(MissingPoints::BRIDGE, buffer_of({"x.x..xx.xx", "...", ".x."}));
+  EXPECT_EQ(places(handled.buffer), (Places{{1, 3, 4, 7}, {10, 11, 12}, {13, 15}}));
+  EXPECT_EQ(handled.buffer.names, (Names{"f0", "f1", "f2"}));
   expect_counts(handled.counts, 7, 3, 0, 0);
 }
 
 TEST(MissingPoints, ASplitKeepsThePiecesAndNamesThemByTheirFirstPoint) {
-  const Handled handled = handle(MissingPoints::SPLIT, chains_of({"x..x.x...x..", "...", "..x.."}));
-  EXPECT_EQ(places(handled.chains),
+  const Handled handled = handle(MissingPoints::SPLIT, buffer_of({"x..x.x...x..", "...", "..x.."}));
+  EXPECT_EQ(places(handled.buffer),
             (Places{{1, 2}, {6, 7, 8}, {10, 11}, {12, 13, 14}, {15, 16}, {18, 19}}));
-  EXPECT_EQ(handled.chains.names, (Names{"f0", "f0[6]", "f0[10]", "f1", "f2", "f2[3]"}));
+  EXPECT_EQ(handled.buffer.names, (Names{"f0", "f0[6]", "f0[10]", "f1", "f2", "f2[3]"}));
   expect_counts(handled.counts, 5, 5, 0, 1);
 }
 
 TEST(MissingPoints, AFibreOfWhichTooLittleIsKnownIsAbsent) {
   for (const MissingPoints policy : {MissingPoints::BRIDGE, MissingPoints::SPLIT}) {
-    const Handled handled = handle(policy, chains_of({"xxx", "...", "x.x", "xx"}));
-    EXPECT_EQ(places(handled.chains), (Places{{3, 4, 5}}));
-    EXPECT_EQ(handled.chains.names, (Names{"f1"}));
+    const Handled handled = handle(policy, buffer_of({"xxx", "...", "x.x", "xx"}));
+    EXPECT_EQ(places(handled.buffer), (Places{{3, 4, 5}}));
+    EXPECT_EQ(handled.buffer.names, (Names{"f1"}));
     expect_counts(handled.counts, 7, 7, 3, 1);
   }
-  const Handled split = handle(MissingPoints::SPLIT, chains_of({".x.x."}));
-  EXPECT_EQ(places(split.chains), Places{});
+  const Handled split = handle(MissingPoints::SPLIT, buffer_of({".x.x."}));
+  EXPECT_EQ(places(split.buffer), Places{});
   expect_counts(split.counts, 2, 2, 1, 3);
 }
 
 TEST(MissingPoints, NothingLeftIsAnAssemblyOfNoFibres) {
   for (const Radii& radii : {Radii{}, Radii{0.5}, Radii{0.5, 0.25}, Radii{1, 2, 3, 4, 5}}) {
-    FiberBuffer chains = chains_of({"xxx", "xx"});
-    chains.radii = radii;
-    FiberBuffer left = handle(MissingPoints::SPLIT, chains).chains;
+    FiberBuffer buffer = buffer_of({"xxx", "xx"});
+    buffer.radii = radii;
+    FiberBuffer left = handle(MissingPoints::SPLIT, buffer).buffer;
     EXPECT_EQ(left.fiber_count(), 0U);
     left.radii.resize(1);  // as the input does
     fiber::FiberAssembly fibers;
@@ -113,10 +113,10 @@ TEST(MissingPoints, NothingLeftIsAnAssemblyOfNoFibres) {
 }
 
 TEST(MissingPoints, RadiiGoWithTheirPointsOrFibres) {
-  FiberBuffer chains = chains_of({"..x..", ".x.", "xx"});
-  const auto radii_after = [&chains](MissingPoints policy, const Radii& radii) {
-    chains.radii = radii;
-    FiberBuffer left = handle(policy, chains).chains;
+  FiberBuffer buffer = buffer_of({"..x..", ".x.", "xx"});
+  const auto radii_after = [&buffer](MissingPoints policy, const Radii& radii) {
+    buffer.radii = radii;
+    FiberBuffer left = handle(policy, buffer).buffer;
     Radii radii_left = left.radii;
     fiber::FiberAssembly fibers;
     EXPECT_NO_THROW(assign(left, fibers));
@@ -132,9 +132,9 @@ TEST(MissingPoints, RadiiGoWithTheirPointsOrFibres) {
 }
 
 TEST(MissingPoints, NamesStayUniqueWhateverTheTrackerCallsItsFibres) {
-  FiberBuffer chains = chains_of({"..x..x..", "..", "..x.."});
-  chains.names = {"f", "f[3]", "f[3][3]"};
-  const Names names = handle(MissingPoints::SPLIT, chains).chains.names;
+  FiberBuffer buffer = buffer_of({"..x..x..", "..", "..x.."});
+  buffer.names = {"f", "f[3]", "f[3][3]"};
+  const Names names = handle(MissingPoints::SPLIT, buffer).buffer.names;
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), 6U);
   EXPECT_EQ(names[0], "f");
   EXPECT_EQ(names[2], "f[6]");
@@ -143,16 +143,16 @@ TEST(MissingPoints, NamesStayUniqueWhateverTheTrackerCallsItsFibres) {
 }
 
 TEST(MissingPoints, ThePieceOfTheSamePointsHasTheSameNameWhateverElseIsMissing) {
-  EXPECT_EQ(handle(MissingPoints::SPLIT, chains_of({"..x...x..x.."})).chains.names[2], "f0[7]");
-  EXPECT_EQ(handle(MissingPoints::SPLIT, chains_of({"......x..x.."})).chains.names[1], "f0[7]");
-  EXPECT_EQ(handle(MissingPoints::SPLIT, chains_of({".x.x..x..xxx"})).chains.names[1], "f0[7]");
+  EXPECT_EQ(handle(MissingPoints::SPLIT, buffer_of({"..x...x..x.."})).buffer.names[2], "f0[7]");
+  EXPECT_EQ(handle(MissingPoints::SPLIT, buffer_of({"......x..x.."})).buffer.names[1], "f0[7]");
+  EXPECT_EQ(handle(MissingPoints::SPLIT, buffer_of({".x.x..x..xxx"})).buffer.names[1], "f0[7]");
 }
 
 TEST(MissingPoints, RefusedIsTheFirstByNameAndAllAreCounted) {
-  FiberBuffer chains = chains_of({"...", "..x.x"});
+  FiberBuffer buffer = buffer_of({"...", "..x.x"});
   MissingPointCounts counts;
   try {
-    resolve_missing_points(MissingPoints::REFUSE, chains, counts);
+    resolve_missing_points(MissingPoints::REFUSE, buffer, counts);
     FAIL() << "not refused";
   } catch (const std::invalid_argument& error) {
     const std::string message = error.what();
@@ -164,30 +164,30 @@ TEST(MissingPoints, RefusedIsTheFirstByNameAndAllAreCounted) {
 
 TEST(MissingPoints, WhatLiesAboutItsLayoutStaysForTheAssemblyToRefuse) {
   const auto expect_untouched = [](const std::function<void(FiberBuffer&)>& spoil) {
-    FiberBuffer chains = chains_of({"..x..", "..."});
-    spoil(chains);
-    const Offsets offsets = chains.offsets;
+    FiberBuffer buffer = buffer_of({"..x..", "..."});
+    spoil(buffer);
+    const Offsets offsets = buffer.offsets;
     MissingPointCounts counts;
     for (const MissingPoints policy : {MissingPoints::BRIDGE, MissingPoints::SPLIT}) {
-      resolve_missing_points(policy, chains, counts);
-      EXPECT_EQ(chains.points.size(), 8U);
-      EXPECT_EQ(chains.offsets, offsets);
-      chains.radii.resize(std::max<std::size_t>(chains.radii.size(), 1));
-      FiberBuffer assigned = chains;
+      resolve_missing_points(policy, buffer, counts);
+      EXPECT_EQ(buffer.points.size(), 8U);
+      EXPECT_EQ(buffer.offsets, offsets);
+      buffer.radii.resize(std::max<std::size_t>(buffer.radii.size(), 1));
+      FiberBuffer assigned = buffer;
       fiber::FiberAssembly fibers;
       EXPECT_THROW(assign(assigned, fibers), std::invalid_argument);
     }
     expect_counts(counts, 0, 0, 0, 0);
   };
-  expect_untouched([](FiberBuffer& chains) { chains.offsets.clear(); });
-  expect_untouched([](FiberBuffer& chains) { chains.offsets = {0, 6, 5, 8}; });
-  expect_untouched([](FiberBuffer& chains) { chains.offsets = {0, 5, 9}; });
-  expect_untouched([](FiberBuffer& chains) { chains.offsets = {1, 5, 8}; });
-  expect_untouched([](FiberBuffer& chains) { chains.offsets = {0, 5, 7}; });
-  expect_untouched([](FiberBuffer& chains) { chains.offsets = {0, 5, 7, 8}; });
-  expect_untouched([](FiberBuffer& chains) { chains.offsets = {0, 5, 0xFFFF'FFFFU, 8}; });
+  expect_untouched([](FiberBuffer& buffer) { buffer.offsets.clear(); });
+  expect_untouched([](FiberBuffer& buffer) { buffer.offsets = {0, 6, 5, 8}; });
+  expect_untouched([](FiberBuffer& buffer) { buffer.offsets = {0, 5, 9}; });
+  expect_untouched([](FiberBuffer& buffer) { buffer.offsets = {1, 5, 8}; });
+  expect_untouched([](FiberBuffer& buffer) { buffer.offsets = {0, 5, 7}; });
+  expect_untouched([](FiberBuffer& buffer) { buffer.offsets = {0, 5, 7, 8}; });
+  expect_untouched([](FiberBuffer& buffer) { buffer.offsets = {0, 5, 0xFFFF'FFFFU, 8}; });
   // Two pieces and another fibre would have three radii.
-  expect_untouched([](FiberBuffer& chains) { chains.radii = {1, 2, 3}; });
+  expect_untouched([](FiberBuffer& buffer) { buffer.radii = {1, 2, 3}; });
 }
 
 TEST(MissingPoints, OfRandomFibresEveryKnownPointIsInOrderOrCounted) {
@@ -200,18 +200,18 @@ TEST(MissingPoints, OfRandomFibresEveryKnownPointIsInOrderOrCounted) {
         point = random() % 3 == 0 ? 'x' : '.';
       }
     }
-    const FiberBuffer chains = chains_of(fibers);
+    const FiberBuffer buffer = buffer_of(fibers);
     for (const MissingPoints policy : {MissingPoints::BRIDGE, MissingPoints::SPLIT}) {
-      const Handled handled = handle(policy, chains);
+      const Handled handled = handle(policy, buffer);
       std::size_t known = 0;
       std::set<std::uint32_t> fibers_left;
-      for (const std::vector<int>& piece : places(handled.chains)) {
+      for (const std::vector<int>& piece : places(handled.buffer)) {
         ASSERT_GE(piece.size(), 2U);
-        const auto fiber_of = [&chains](int place) {
-          return static_cast<std::uint32_t>(std::upper_bound(chains.offsets.begin(),
-                                                             chains.offsets.end(),
+        const auto fiber_of = [&buffer](int place) {
+          return static_cast<std::uint32_t>(std::upper_bound(buffer.offsets.begin(),
+                                                             buffer.offsets.end(),
                                                              static_cast<std::uint32_t>(place)) -
-                                            chains.offsets.begin());
+                                            buffer.offsets.begin());
         };
         fibers_left.insert(fiber_of(piece.front()));
         for (std::size_t i = 0; i + 1 < piece.size(); ++i) {
@@ -220,14 +220,14 @@ TEST(MissingPoints, OfRandomFibresEveryKnownPointIsInOrderOrCounted) {
             ASSERT_EQ(piece[i] + 1, piece[i + 1]);
           }
           for (int between = piece[i] + 1; between < piece[i + 1]; ++between) {
-            ASSERT_FALSE(chains.points[static_cast<std::size_t>(between)].allFinite());
+            ASSERT_FALSE(buffer.points[static_cast<std::size_t>(between)].allFinite());
           }
         }
         known += piece.size();
       }
-      EXPECT_EQ(known + handled.counts.lone_points + handled.counts.points, chains.points.size());
+      EXPECT_EQ(known + handled.counts.lone_points + handled.counts.points, buffer.points.size());
       EXPECT_EQ(fibers_left.size() + handled.counts.fibers, fibers.size());
-      const Names& names = handled.chains.names;
+      const Names& names = handled.buffer.names;
       EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
     }
   }

@@ -193,9 +193,9 @@ class NodeTest : public ::testing::Test {
 };
 
 inline fiber::FiberAssembly to_assembly(const fiber_proximity::FiberArray& message) {
-  fiber_proximity_ros::FiberBuffer chains;
-  fiber_proximity_ros::to_chains(message, chains);
-  return {chains.points, chains.offsets, chains.radii};
+  fiber_proximity_ros::FiberBuffer buffer;
+  fiber_proximity_ros::to_chains(message, buffer);
+  return {buffer.points, buffer.offsets, buffer.radii};
 }
 
 inline void expect_same(const fiber_proximity::Contact& message, const fiber::Contact& contact) {

@@ -38,7 +38,7 @@ SceneOptions about(const HairStyle& style, double hairs, std::uint64_t seed = 1)
 }
 
 /// Least level (see Head) on a segment.
-double least_level(const Vector3d& p0, const Vector3d& p1) {
+double min_level(const Vector3d& p0, const Vector3d& p1) {
   const Vector3d a = Head::to_sphere(p0);
   const Vector3d u = Head::to_sphere(p1) - a;
   const double s = std::clamp(-a.dot(u) / u.squaredNorm(), 0.0, 1.0);
@@ -140,7 +140,7 @@ TEST(Hair, DoesNotPassThroughTheHead) {
         const std::uint32_t root = fibers.offsets()[fiber];
         ASSERT_NEAR(Head::level(fibers.points()[root]), 1.0, 1e-12);
         for (std::uint32_t i = root; i + 1 < fibers.offsets()[fiber + 1]; ++i) {
-          const double level = least_level(fibers.points()[i], fibers.points()[i + 1]);
+          const double level = min_level(fibers.points()[i], fibers.points()[i + 1]);
           ASSERT_GE(Head::level(fibers.points()[i + 1]), 1.0 + hair_clearance - 1e-12);
           // Beyond the root there is room for the hair's radius.
           ASSERT_GT(level, i == root ? 1.0 - 1e-12 : 1.0 + hair_radius / 0.075)
@@ -223,7 +223,7 @@ TEST(Hair, ScaleIsChecked) {
 
 TEST(Hair, ALargeScalpStaysOnTheHead) {
   Random random(1);
-  const std::vector<Root> roots = scalp_roots(Head::most_hairs, random);
+  const std::vector<Root> roots = scalp_roots(Head::max_hairs, random);
   for (const Root& root : roots) {
     ASSERT_LT(root.polar, 0.4) << "turns from the crown";
   }

@@ -57,7 +57,7 @@ TEST(LargeScene, HasTheSegmentsAskedForInWholeFibres) {
     SCOPED_TRACE(name);
     for (const std::uint64_t segments :
          {std::uint64_t{1}, std::uint64_t{per_fiber}, std::uint64_t{per_fiber + 1},
-          std::uint64_t{10'000'000'000}, LargeScene::most_segments}) {
+          std::uint64_t{10'000'000'000}, LargeScene::max_segments}) {
       const LargeScene scene = make_large_scene(name, segments);
       EXPECT_EQ(scene.segments_per_fiber, per_fiber);
       EXPECT_EQ(scene.typical_segments, typical);
@@ -103,7 +103,7 @@ double contacts_per_segment(const LargeScene& scene) {
 }
 
 TEST(LargeScene, StaysAsDenseWhenItGrows) {
-  // Of what is at the sides, a smaller scene has more.
+  // A smaller scene has more of what is at the sides.
   struct Sizes {
     std::string name;
     std::uint64_t small, large;
@@ -124,9 +124,9 @@ TEST(LargeScene, SaysWhatIsWrong) {
   };
   EXPECT_EQ(refusal("cloth", 100), "unknown scene 'cloth', known are: soup, tress_b, locks");
   EXPECT_EQ(refusal("soup", 0), "segments is 0, it must be from 1 to 1000000000000000");
-  EXPECT_EQ(refusal("soup", LargeScene::most_segments + 1),
+  EXPECT_EQ(refusal("soup", LargeScene::max_segments + 1),
             "segments is 1000000000000001, it must be from 1 to 1000000000000000");
-  const LargeScene scene = make_large_scene("soup", LargeScene::most_segments);
+  const LargeScene scene = make_large_scene("soup", LargeScene::max_segments);
   EXPECT_EQ(test::error_of([&] { scene.fibers(3, 2, 0); }),
             "fibres from 3 to before 2, there are 10000000000000");
   EXPECT_EQ(test::error_of([&] { scene.fibers(9'999'999'999'999, 10'000'000'000'001, 0); }),

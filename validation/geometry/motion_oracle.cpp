@@ -17,7 +17,7 @@ using reference::Vector;
 using Rational = boost::multiprecision::cpp_rational;
 using Verdict = MotionOracle::Verdict;
 
-constexpr int most_looks = 20000;
+constexpr int max_looks = 20000;
 constexpr int crossing_pieces = 256;
 
 /// Where parallel lines have made the textbook's solution worthless: the best of two projections.
@@ -121,7 +121,7 @@ Verdict MotionOracle::contact_before(double end) const {
         stands_between(piece) || (looks > looks_without_polynomials && is_separated(piece))) {
       continue;
     }
-    if (looks > most_looks || !(piece.begin < middle && middle < piece.end)) {
+    if (looks > max_looks || !(piece.begin < middle && middle < piece.end)) {
       return Verdict::UNDECIDED;
     }
     pieces.push_back({middle, piece.end});

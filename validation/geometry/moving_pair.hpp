@@ -92,7 +92,7 @@ Nearest<Number> nearest_of(const Placed<Number>& placed) {
   const Number t = a * e - b * d;
   if (s > 0 && s < determinant && t > 0 && t < determinant) {
     const Number inside = s / determinant;
-    // Of a parameter that is off, the best one beside it.
+    // The parameter may be off: the other one is the best for it.
     candidates.emplace_back(inside, clamped<Number>(e + inside * b, c));
   }
   Nearest<Number> best{zero, zero, squared_at<Number>(placed, zero, zero)};

@@ -5,7 +5,8 @@
 namespace fiber {
 namespace {
 
-/// Of all that is computed here, as a part of magnitudes: some hundred operations in 113 bits.
+/// The error of all that is computed here, as a part of magnitudes: it takes some hundred
+/// operations in 113 bits.
 const QuadNumber roundings = 1e-28;
 
 }  // namespace

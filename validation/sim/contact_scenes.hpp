@@ -38,7 +38,7 @@ inline std::shared_ptr<const Environment> environment_of(
   return std::make_shared<const Environment>(std::vector<EnvironmentObject>{object});
 }
 
-/// Of the rods with each other and with an environment, unless that is null.
+/// Contacts of the rods with each other, and with an environment unless that is null.
 inline std::unique_ptr<Contacts> contacts_with(
     const std::shared_ptr<const Environment>& environment,
     std::optional<double> friction_coefficient = std::nullopt) {

@@ -17,10 +17,10 @@ class Incline {
   /// @param time [s]
   void run(double time);
 
-  /// Of the whole rod, downwards [m/s].
+  /// The speed of the whole rod, downwards [m/s].
   double speed() const;
 
-  /// Of friction on the whole rod, upwards, and of what presses it to the plane [N].
+  /// The forces of friction on the whole rod, upwards, and of the plane that presses on it [N].
   double friction_force() const;
   double normal_force() const;
 

@@ -7,18 +7,19 @@ namespace fiber {
 /// above, they go ever farther. Growth is how many times farther they are than shortly after they
 /// were disturbed.
 
-/// Of a column that is clamped at its foot and weighs this much.
+/// The growth of a column that is clamped at its foot and weighs this much.
 double growth_of_column(double weight);
 double critical_weight_of_column();
 
-/// Of a straight rod between two clamps that are twisted against each other by this angle [rad].
+/// The growth of a straight rod between two clamps that are twisted against each other
+/// by this angle [rad].
 double growth_of_twisted(double angle);
 double critical_twist();  ///< Greenhill's
 
-/// Of a straight rod between two hinges, the ends of which a moment turns against each other [N m].
-/// It creeps, without inertia: a moment that follows the ends it turns has no potential, and what
-/// the integrator damps makes motion flutter below the load at which the rod is not stiff any more
-/// (Ziegler 1968).
+/// The growth of a straight rod between two hinges, when a moment turns its ends against
+/// each other [N m]. It creeps, without inertia: a moment that follows the ends it turns has no
+/// potential, and what the integrator damps makes motion flutter below the load at which the rod is
+/// not stiff any more (Ziegler 1968).
 double growth_of_hinged(double moment);
 double critical_moment_of_hinged();  ///< Greenhill's
 

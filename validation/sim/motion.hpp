@@ -25,7 +25,7 @@ double exact_pendulum_ratio(double amplitude);
 double point_pendulum_period();
 double rod_pendulum_period();
 
-/// Of a rod of length 1 m that is let go at an angle from the vertical, with BDF2 [s].
+/// The period of a rod of length 1 m that is let go at an angle from the vertical, with BDF2 [s].
 /// One segment has its mass at its ends, many have it all along.
 /// @param step [s]
 double simulated_pendulum_period(int segments, double angle, double step);

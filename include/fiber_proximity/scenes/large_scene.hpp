@@ -14,7 +14,7 @@ namespace fiber {
 /// they are. All fibres are of a hair's radius and have the same number of segments.
 struct LargeScene {
   /// Most segments that may be asked for.
-  static constexpr std::uint64_t most_segments = 1'000'000'000'000'000;
+  static constexpr std::uint64_t max_segments = 1'000'000'000'000'000;
 
   std::uint64_t fiber_count = 0;  ///< as many as it takes to have the segments asked for
   std::uint32_t segments_per_fiber = 0;
@@ -45,7 +45,7 @@ struct LargeScene {
 /// @param segments at least, in whole fibres
 /// @param seed     of all that is random
 /// @throws std::invalid_argument listing the names, and for a number of segments that is 0 or above
-///         most_segments
+///         max_segments
 LargeScene make_large_scene(const std::string& name, std::uint64_t segments,
                             std::uint64_t seed = 1);
 

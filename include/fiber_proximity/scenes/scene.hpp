@@ -9,7 +9,7 @@
 
 namespace fiber {
 
-/// What every scene takes.
+/// Options of every scene.
 struct SceneOptions {
   double scale = 1.0;      ///< of the number of fibres; above 0. At least one fibre remains.
   std::uint64_t seed = 1;  ///< of all that is random

@@ -51,7 +51,7 @@ class Traversal {
       if (NearFirst && pair.distance > collector_.bound()) {
         continue;
       }
-      if (stack_.size() < size_ + most_pushed) {
+      if (stack_.size() < size_ + max_pushed) {
         stack_.resize(2 * stack_.size());
       }
       if (self_ && pair.a == pair.b) {
@@ -69,7 +69,7 @@ class Traversal {
     float distance;  // [m] lower bound, with NearFirst
   };
 
-  static constexpr std::size_t most_pushed = 4;  // by one visit
+  static constexpr std::size_t max_pushed = 4;  // by one visit
 
   void visit(std::uint32_t a, std::uint32_t b) {
     const BinaryTree& tree_a = a_.tree();

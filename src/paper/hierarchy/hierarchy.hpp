@@ -26,7 +26,7 @@ class Hierarchy {
   const BinaryTree& tree() const { return tree_; }
   const Volume& volume(std::uint32_t node) const { return volumes_[node]; }
 
-  /// What all volumes are relative to [m]; hierarchies that are traversed together share it.
+  /// The origin of all volumes [m]; hierarchies that are traversed together share it.
   const Eigen::Vector3d& origin() const { return origin_; }
   const Parameters& parameters() const { return parameters_; }
 

@@ -16,21 +16,8 @@ std::string extent_of(const fiber::FiberAssembly& fibers) {
 
 }  // namespace
 
-void read_state(InputSet& inputs, bool keeps_fibers, FiberState& state) {
-  state.has_fibers = keeps_fibers && inputs.is_fresh();
-  state.stamps.clear();
-  for (const std::unique_ptr<Input>& input : inputs.inputs()) {
-    state.stamps.push_back(input->is_fresh() ? std::optional(input->stamp()) : std::nullopt);
-  }
-  state.stamp = inputs.header().stamp;
-  if (state.has_fibers) {
-    state.message = inputs.message();
-  }
-}
-
-void FiberStep::advance(FiberState& newest) {
-  std::swap(before_, after_);
-  std::swap(after_, newest);
+void FiberStep::advance(FiberState newest) {
+  before_ = std::exchange(after_, std::move(newest));
   rest();
   rests_ = false;
   if (before_.has_fibers && after_.has_fibers) {

@@ -22,17 +22,14 @@ struct FiberState {
   ros::Time stamp;                               ///< the newest
 };
 
-/// @param keeps_fibers whether they are to be kept for the motion to the next ones
-void read_state(InputSet& inputs, bool keeps_fibers, FiberState& state);
-
 /// The step from the fibres of one answer to those of the next: what moved meanwhile, and when.
 class FiberStep {
  public:
   /// @param longest_motion [s] more time than this between two states is a jump, not a motion
   explicit FiberStep(double longest_motion) : longest_motion_(longest_motion) {}
 
-  /// Takes the fibres of a new answer, and gives old ones for their memory.
-  void advance(FiberState& newest);
+  /// Takes the fibres of a new answer.
+  void advance(FiberState newest);
 
   /// An answer is given about the same fibres again, which have not moved since.
   void rest();

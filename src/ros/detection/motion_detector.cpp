@@ -3,12 +3,21 @@
 #include <ros/console.h>
 
 #include <stdexcept>
+#include <utility>
 
 namespace fiber_proximity_ros {
 
 void MotionDetector::take(InputSet& fibers, bool keeps_fibers) {
-  read_state(fibers, keeps_fibers, newest_);
-  step_.advance(newest_);
+  FiberState newest;
+  newest.has_fibers = keeps_fibers && fibers.is_fresh();
+  for (const std::unique_ptr<Input>& input : fibers.inputs()) {
+    newest.stamps.push_back(input->is_fresh() ? std::optional(input->stamp()) : std::nullopt);
+  }
+  newest.stamp = fibers.header().stamp;
+  if (newest.has_fibers) {
+    newest.message = fibers.message();
+  }
+  step_.advance(std::move(newest));
 }
 
 std::optional<KnownMotion> MotionDetector::detect(const fiber::QueryOptions& options,

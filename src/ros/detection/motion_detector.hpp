@@ -20,7 +20,7 @@ class MotionDetector {
       : engine_(fiber::make_engine(engine, options)), step_(longest_motion) {}
 
   /// Takes the fibres of a new answer.
-  /// @param keeps_fibers whether they are to be kept for the motion to the next ones
+  /// @param keeps_fibers whether they are kept for the motion to the next ones
   void take(InputSet& fibers, bool keeps_fibers);
 
   /// An answer is given about the same fibres again, which have not moved since.
@@ -40,7 +40,6 @@ class MotionDetector {
  private:
   std::unique_ptr<fiber::ProximityEngine> engine_;
   FiberStep step_;
-  FiberState newest_;  // for its memory
   fiber::MotionResult result_;
 };
 

@@ -174,6 +174,16 @@ void draw_axes(const MarkerScale& scale, MarkerCanvas& canvas) {
   }
 }
 
+/// The things that an answer lacks, in one line.
+std::string incomplete_text(const std::vector<std::string>& unknown) {
+  assert(!unknown.empty());
+  std::string text = "incomplete: " + unknown.front();
+  if (unknown.size() > 1) {
+    text += "; and " + std::to_string(unknown.size() - 1) + " more";
+  }
+  return text;
+}
+
 /// Above all else. Without fibres there is nothing that it could lie beside, or be as large as.
 void draw_incomplete(const std::vector<std::string>& unknown, const MarkerScale& scale,
                      MarkerCanvas& canvas) {
@@ -203,15 +213,6 @@ std::string cost_text(const std::string& kernel, double seconds, double error, b
   std::snprintf(text.data(), text.size(), "%s: %.2f ms, error <= %.1e m%s", kernel.c_str(),
                 1e3 * seconds, error, is_complete ? "" : ", cut off");
   return text.data();
-}
-
-std::string incomplete_text(const std::vector<std::string>& unknown) {
-  assert(!unknown.empty());
-  std::string text = "incomplete: " + unknown.front();
-  if (unknown.size() > 1) {
-    text += "; and " + std::to_string(unknown.size() - 1) + " more";
-  }
-  return text;
 }
 
 std::vector<LegendLine> legend_lines(const MarkerOptions& options,

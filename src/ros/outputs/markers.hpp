@@ -55,10 +55,6 @@ struct Drawing {
 /// @param error   [m] of a contact's distance, at most
 std::string cost_text(const std::string& kernel, double seconds, double error, bool is_complete);
 
-/// The things that an answer lacks, in one line.
-/// @param unknown not empty
-std::string incomplete_text(const std::vector<std::string>& unknown);
-
 /// The legend of the markers that these options show: a line for each colour.
 /// @param margin [m] of the contacts; may be infinite
 std::vector<LegendLine> legend_lines(const MarkerOptions& options,

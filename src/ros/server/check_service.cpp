@@ -80,17 +80,17 @@ void validate_waypoints(const CheckFibers::Request& request) {
 /// @throws TransformUnavailable
 fiber::FiberAssembly to_candidate(const fiber_proximity::FiberArray& message,
                                   const FixedFrame& frame) {
-  FiberBuffer chains;
-  to_chains(message, chains);
-  if (chains.radii.empty()) {
+  FiberBuffer buffer;
+  to_chains(message, buffer);
+  if (buffer.radii.empty()) {
     throw std::invalid_argument("has no radii, it needs one, one per fibre or one per point");
   }
   fiber::FiberAssembly fibers;
-  assign(chains, fibers);
-  if (chains.header.frame_id.empty()) {
-    chains.header.frame_id = frame.name();
+  assign(buffer, fibers);
+  if (buffer.header.frame_id.empty()) {
+    buffer.header.frame_id = frame.name();
   }
-  frame.place(chains.header, fibers);
+  frame.place(buffer.header, fibers);
   return fibers;
 }
 

@@ -110,6 +110,23 @@ void check_engine(const ros::NodeHandle& private_node, const ServerOptions& opti
   }
 }
 
+/// Reads the parameters that can change while the node runs. dynamic_reconfigure alone would keep
+/// silent about bad ones, and take the default or the nearest value.
+/// @throws std::invalid_argument naming the parameter, its value and what is allowed
+ProximityConfig read_dynamic_parameters(const ros::NodeHandle& private_node) {
+  const Parameters parameters(private_node, interface());
+  for (const Parameter& parameter : interface().parameters) {
+    XmlRpcValue value;
+    if (parameter.is_dynamic && private_node.getParam(parameter.name, value)) {
+      parameters.require_allowed(parameter.name, value);
+    }
+  }
+  ProximityConfig config = ProximityConfig::__getDefault__();
+  config.__fromServer__(private_node);
+  check(private_node, config);
+  return config;
+}
+
 }  // namespace
 
 ServerOptions read_server_options(const ros::NodeHandle& node,
@@ -138,20 +155,6 @@ ServerOptions read_server_options(const ros::NodeHandle& node,
   read_inputs(node, parameters, radius, options.fibers);
   parameters.warn_of_unknown();
   return options;
-}
-
-ProximityConfig read_dynamic_parameters(const ros::NodeHandle& private_node) {
-  const Parameters parameters(private_node, interface());
-  for (const Parameter& parameter : interface().parameters) {
-    XmlRpcValue value;
-    if (parameter.is_dynamic && private_node.getParam(parameter.name, value)) {
-      parameters.require_allowed(parameter.name, value);
-    }
-  }
-  ProximityConfig config = ProximityConfig::__getDefault__();
-  config.__fromServer__(private_node);
-  check(private_node, config);
-  return config;
 }
 
 void check(const ros::NodeHandle& private_node, const ProximityConfig& config) {

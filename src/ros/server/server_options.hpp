@@ -31,13 +31,9 @@ struct ServerOptions {
 ///         allowed
 ServerOptions read_server_options(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
 
-/// Reads the parameters that can change while the node runs; those that are absent keep their
-/// defaults. Their types and ranges are those of cfg/interface.yaml.
-/// @throws std::invalid_argument naming the parameter, its value and what is allowed:
-///         dynamic_reconfigure alone would keep silent, and take the default or the nearest value
-fiber_proximity::ProximityConfig read_dynamic_parameters(const ros::NodeHandle& private_node);
-
-/// @throws std::invalid_argument as read_dynamic_parameters()
+/// Checks the parameters that can change while the node runs. Their types and ranges are those of
+/// cfg/interface.yaml.
+/// @throws std::invalid_argument naming the parameter, its value and what is allowed
 void check(const ros::NodeHandle& private_node, const fiber_proximity::ProximityConfig& config);
 
 /// The configuration as it is asked for: dynamic_reconfigure::Server would bend a value that is out

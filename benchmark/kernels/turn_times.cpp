@@ -1,9 +1,9 @@
-#include "benchmark/pairs/turn_times.hpp"
+#include "benchmark/kernels/turn_times.hpp"
 
 #include <algorithm>
 #include <stdexcept>
 
-#include "benchmark/pairs/child_process.hpp"
+#include "benchmark/kernels/child_process.hpp"
 #include "benchmark/statistics.hpp"
 
 namespace fiber {
@@ -18,7 +18,7 @@ struct Turn {
   std::size_t count;
 };
 
-/// What reading the clock adds to a time [ns].
+/// The time that reading the clock adds [ns].
 double clock_ns() {
   std::vector<double> times;
   for (int i = 0; i < 1000; ++i) {

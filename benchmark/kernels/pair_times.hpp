@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "benchmark/pairs/pair_kernel.hpp"
+#include "benchmark/kernels/pair_kernel.hpp"
 
 namespace fiber {
 

@@ -1,4 +1,4 @@
-#include "benchmark/continuous/decision_score.hpp"
+#include "benchmark/kernels/decision_score.hpp"
 
 namespace fiber {
 
@@ -27,7 +27,7 @@ MotionTruth::MotionTruth(const HardMotion& motion, double tolerance_in_metres)
 }
 
 void DecisionScore::add(const HardMotion& motion, const MotionTruth& truth,
-                        const GuardedTime& guarded) {
+                        const Guarded<ContactTime>& guarded) {
   ended += guarded.outcome == Outcome::ENDED ? 1 : 0;
   no_answer +=
       guarded.outcome == Outcome::NO_ANSWER || guarded.outcome == Outcome::NOT_FINITE ? 1 : 0;
@@ -35,13 +35,13 @@ void DecisionScore::add(const HardMotion& motion, const MotionTruth& truth,
     return;
   }
   ++answered;
-  if (!guarded.time.hit) {
+  if (!guarded.answer.hit) {
     misses += truth.contact ? 1 : 0;
     start_misses += truth.at_start ? 1 : 0;
     return;
   }
   false_alarms += truth.near ? 0 : 1;
-  const MotionScore score = judge(motion, truth.tolerance, guarded.time);
+  const MotionScore score = judge(motion, truth.tolerance, guarded.answer);
   late += score.misses;
   early += score.false_alarms;
 }

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "benchmark/pairs/makers.hpp"
-#include "benchmark/pairs/textbook.hpp"
+#include "benchmark/kernels/makers.hpp"
+#include "benchmark/kernels/textbook.hpp"
 
 namespace fiber {
 
@@ -53,7 +53,7 @@ class TextbookPairs final : public PairKernel {
  public:
   void prepare(const std::vector<HardPair>& pairs) override { pairs_ = &pairs; }
 
-  void distances(std::size_t first, std::size_t count, double* distances) override {
+  void run(std::size_t first, std::size_t count, double* distances) override {
     for (std::size_t i = 0; i < count; ++i) {
       distances[i] = distance((*pairs_)[first + i]);
     }

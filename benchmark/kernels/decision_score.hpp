@@ -2,13 +2,13 @@
 
 #include <cstdint>
 
-#include "benchmark/pairs/outcome.hpp"
+#include "benchmark/kernels/guarded.hpp"
 #include "validation/geometry/motion_score.hpp"
 
 namespace fiber {
 
-/// What is true of a motion, whoever answers: by judge(), which looks first where contact_time()
-/// claims that there is a contact.
+/// The truth about a motion, found by judge(), which looks first where contact_time() claims that
+/// there is a contact.
 struct MotionTruth {
   MotionTruth(const HardMotion& motion, double tolerance);
 
@@ -17,12 +17,6 @@ struct MotionTruth {
   bool at_start = false;   ///< they do at the beginning
   bool near = false;       ///< they may come within the tolerance of it
   bool undecided = false;  ///< one of these could not be found out
-};
-
-/// What became of asking a kernel about a motion.
-struct GuardedTime {
-  Outcome outcome = Outcome::ENDED;
-  ContactTime time;  ///< if it is ANSWERED
 };
 
 /// How right a kernel's decisions and times are, whatever it promises.
@@ -36,7 +30,7 @@ struct DecisionScore {
   std::uint64_t no_answer = 0;     ///< an exception, or a time that is none
   std::uint64_t ended = 0;         ///< ends of the process, and seconds without an answer
 
-  void add(const HardMotion& motion, const MotionTruth& truth, const GuardedTime& guarded);
+  void add(const HardMotion& motion, const MotionTruth& truth, const Guarded<ContactTime>& guarded);
 };
 
 }  // namespace fiber

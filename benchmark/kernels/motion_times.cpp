@@ -1,4 +1,4 @@
-#include "benchmark/continuous/motion_times.hpp"
+#include "benchmark/kernels/motion_times.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,60 +6,18 @@
 #include <tuple>
 #include <utility>
 
-#include "benchmark/pairs/child_process.hpp"
-#include "benchmark/pairs/guarded_calls.hpp"
-#include "benchmark/pairs/turn_times.hpp"
+#include "benchmark/kernels/guarded.hpp"
+#include "benchmark/kernels/kernel_calls.hpp"
 #include "benchmark/peers/translation.hpp"
 
 namespace fiber {
 namespace {
 
-/// Motions of one kind, whose times are measured.
-class MotionCalls final : public TimedCalls {
- public:
-  explicit MotionCalls(const MotionContestant& contestant)
-      : kernel_(contestant.make()), tolerance_(contestant.tolerance) {}
-
-  void add(const HardMotion& motion) { motions_.push_back(motion); }
-
-  std::size_t size() const override { return motions_.size(); }
-
-  void prepare() override {
-    kernel_->prepare(motions_, tolerance_);
-    times_.resize(motions_.size());
-  }
-
-  void call(std::size_t first, std::size_t count) override {
-    kernel_->find(first, count, times_.data());
-  }
-
-  void leave_out(std::size_t first, std::size_t count) override {
-    std::vector<HardMotion> left;
-    for (std::size_t i = 0; i < motions_.size(); ++i) {
-      if (i < first || i >= first + count) {
-        left.push_back(motions_[i]);
-      }
-    }
-    motions_.swap(left);
-  }
-
- private:
-  const std::unique_ptr<MotionKernel> kernel_;
-  const double tolerance_;  // [m]
-  std::vector<HardMotion> motions_;
-  std::vector<ContactTime> times_;
-};
-
-GuardedTime ask_about(MotionKernel& kernel, std::size_t index) {
-  GuardedTime result;
-  try {
-    kernel.find(index, 1, &result.time);
-    const bool is_time = !result.time.hit || !(std::isnan(result.time.upper));
-    result.outcome = is_time ? Outcome::ANSWERED : Outcome::NOT_FINITE;
-  } catch (const std::exception&) {
-    result.outcome = Outcome::NO_ANSWER;
-  }
-  return result;
+/// A new kernel that is asked with the contestant's tolerance.
+std::unique_ptr<MotionKernel> kernel_of(const MotionContestant& contestant) {
+  std::unique_ptr<MotionKernel> kernel = contestant.make();
+  kernel->set_tolerance(contestant.tolerance);
+  return kernel;
 }
 
 /// One contestant and all motions.
@@ -67,10 +25,13 @@ class MotionRun {
  public:
   MotionRun(const std::vector<HardMotion>& motions, const std::vector<MotionTruth>& truths,
             const MotionContestant& contestant)
-      : rejected_(contestant), hits_(contestant) {
+      : rejecting_(kernel_of(contestant)),
+        hitting_(kernel_of(contestant)),
+        rejected_(*rejecting_),
+        hits_(*hitting_) {
     result_.translations =
         static_cast<std::uint64_t>(std::count_if(motions.begin(), motions.end(), is_translation));
-    const std::unique_ptr<MotionKernel> kernel = contestant.make();
+    const std::unique_ptr<MotionKernel> kernel = kernel_of(contestant);
     std::vector<HardMotion> known;
     std::vector<MotionTruth> known_truths;
     for (std::size_t i = 0; i < motions.size(); ++i) {
@@ -85,7 +46,7 @@ class MotionRun {
       result_.near += truth.near && !truth.contact ? 1 : 0;
       result_.undecided += truth.undecided ? 1 : 0;
     }
-    kernel->prepare(known, contestant.tolerance);
+    kernel->prepare(known);
     ask(*kernel, known, known_truths);
   }
 
@@ -103,8 +64,14 @@ class MotionRun {
  private:
   void ask(MotionKernel& kernel, const std::vector<HardMotion>& motions,
            const std::vector<MotionTruth>& truths) {
-    const SharedArray<GuardedTime> times(motions.size());
-    guarded_calls(motions.size(), [&](std::size_t i) { times[i] = ask_about(kernel, i); });
+    const std::vector<Guarded<ContactTime>> times = guarded_answers<ContactTime>(
+        motions.size(),
+        [&](std::size_t i) {
+          ContactTime time;
+          kernel.run(i, 1, &time);
+          return time;
+        },
+        [](const ContactTime& time) { return !time.hit || !std::isnan(time.upper); });
     for (std::size_t i = 0; i < motions.size(); ++i) {
       result_.score.add(motions[i], truths[i], times[i]);
       if (times[i].outcome != Outcome::ANSWERED) {
@@ -133,8 +100,10 @@ class MotionRun {
   }
 
   MotionKernelResult result_;
-  MotionCalls rejected_;
-  MotionCalls hits_;
+  std::unique_ptr<MotionKernel> rejecting_;
+  std::unique_ptr<MotionKernel> hitting_;
+  KernelCalls<MotionKernel> rejected_;
+  KernelCalls<MotionKernel> hits_;
 };
 
 }  // namespace

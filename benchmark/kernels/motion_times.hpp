@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "benchmark/continuous/decision_score.hpp"
-#include "benchmark/continuous/motion_kernel.hpp"
+#include "benchmark/kernels/decision_score.hpp"
+#include "benchmark/kernels/motion_kernel.hpp"
 
 namespace fiber {
 
@@ -16,7 +16,7 @@ struct MotionContestant {
   double tolerance = 0.0;
 };
 
-/// What a contestant answers, and how fast.
+/// The answers of a contestant, and its times.
 struct MotionKernelResult {
   std::uint64_t translations = 0;  ///< motions of rigid bodies
   std::uint64_t answerable = 0;    ///< motions that the kernel knows; of these:

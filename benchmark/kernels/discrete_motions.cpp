@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "benchmark/continuous/makers.hpp"
+#include "benchmark/kernels/makers.hpp"
 
 namespace fiber {
 namespace {
@@ -12,7 +12,7 @@ class DiscreteMotions final : public MotionKernel {
  public:
   explicit DiscreteMotions(int steps) : steps_(steps) {}
 
-  void prepare(const std::vector<HardMotion>& motions, double /*tolerance*/) override {
+  void prepare(const std::vector<HardMotion>& motions) override {
     motions_ = &motions;
     points_.resize(4 * motions.size());
     a_.clear();
@@ -25,7 +25,7 @@ class DiscreteMotions final : public MotionKernel {
     distances_.resize(motions.size());
   }
 
-  void find(std::size_t first, std::size_t count, ContactTime* times) override {
+  void run(std::size_t first, std::size_t count, ContactTime* times) override {
     std::fill_n(times, count, ContactTime());
     for (std::size_t i = 0; i < count; ++i) {
       free_[i] = i;

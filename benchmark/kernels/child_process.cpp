@@ -1,4 +1,4 @@
-#include "benchmark/pairs/child_process.hpp"
+#include "benchmark/kernels/child_process.hpp"
 
 #include <fcntl.h>
 #include <sys/mman.h>

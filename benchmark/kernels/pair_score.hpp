@@ -2,11 +2,11 @@
 
 #include <cstdint>
 
-#include "benchmark/pairs/guarded_answers.hpp"
+#include "benchmark/kernels/pair_kernel.hpp"
 
 namespace fiber {
 
-/// What is true of a pair, from integers as long as it takes.
+/// The truth about a pair, computed with integers of any length.
 struct PairTruth {
   explicit PairTruth(const HardPair& pair);
 
@@ -19,7 +19,7 @@ struct PairTruth {
 /// How right a kernel is about pairs.
 class PairScore {
  public:
-  void add(const HardPair& pair, const PairTruth& truth, const GuardedAnswer& answer);
+  void add(const HardPair& pair, const PairTruth& truth, const Guarded<PairAnswer>& answer);
 
   double error() const { return error_; }                    ///< [m] largest |d − d*|
   double error_units() const { return error_units_; }        ///< largest, in units of PairTruth

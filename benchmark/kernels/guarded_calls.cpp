@@ -1,10 +1,10 @@
-#include "benchmark/pairs/guarded_calls.hpp"
+#include "benchmark/kernels/guarded_calls.hpp"
 
 #include <sys/time.h>
 
 #include <stdexcept>
 
-#include "benchmark/pairs/child_process.hpp"
+#include "benchmark/kernels/child_process.hpp"
 
 namespace fiber {
 namespace {

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "benchmark/pairs/makers.hpp"
+#include "benchmark/kernels/makers.hpp"
 #include "fiber_proximity/geometry/segment_distance.hpp"
 
 namespace fiber {
@@ -13,7 +13,7 @@ class OwnPairs : public PairKernel {
 
   void prepare(const std::vector<HardPair>& pairs) override { pairs_ = &pairs; }
 
-  void distances(std::size_t first, std::size_t count, double* distances) override {
+  void run(std::size_t first, std::size_t count, double* distances) override {
     for (std::size_t i = 0; i < count; ++i) {
       const HardPair& pair = (*pairs_)[first + i];
       distances[i] = segment_distance(kernel_, pair.p0, pair.p1, pair.q0, pair.q1).distance;
@@ -74,7 +74,7 @@ class OwnBatchPairs final : public OwnPairs {
     found_.resize(pairs.size());
   }
 
-  void distances(std::size_t first, std::size_t count, double* distances) override {
+  void run(std::size_t first, std::size_t count, double* distances) override {
     batch_(&a_[first], &b_[first], count, found_.data());
     for (std::size_t i = 0; i < count; ++i) {
       distances[i] = found_[i].distance;

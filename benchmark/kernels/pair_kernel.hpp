@@ -6,11 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "benchmark/kernels/guarded.hpp"
+#include "benchmark/kernels/kernel.hpp"
 #include "validation/geometry/hard_pairs.hpp"
 
 namespace fiber {
 
-/// What a kernel says of a pair of capsules.
+/// The answer of a kernel to a pair of capsules.
 struct PairAnswer {
   double distance = std::numeric_limits<double>::quiet_NaN();  ///< of the axes [m]
   double lower = -std::numeric_limits<double>::infinity();  ///< [m] the true one is at least this
@@ -18,26 +20,17 @@ struct PairAnswer {
   bool contact = false;  ///< whether the kernel takes them for a contact, used as it should be
 };
 
-/// A way to compute the distance of two capsules, one of ours or of another library.
-class PairKernel {
+/// A way to compute the distance of the axes of two capsules [m], something not finite where there
+/// is no answer.
+class PairKernel : public BenchmarkKernel<HardPair, double> {
  public:
-  PairKernel() = default;
-  PairKernel(const PairKernel&) = delete;
-  PairKernel& operator=(const PairKernel&) = delete;
-  virtual ~PairKernel() = default;
-
-  /// Makes of the pairs what the kernel works on. This is not measured: whoever uses another
-  /// library has its objects. The pairs live until the next call.
-  virtual void prepare(const std::vector<HardPair>& pairs) = 0;
-
-  /// Distances of the axes of `count` pairs from the one with index `first` on [m], something not
-  /// finite where there is no answer. This is measured.
-  virtual void distances(std::size_t first, std::size_t count, double* distances) = 0;
-
   /// All that the kernel has to say about a pair.
   /// @throws std::exception if it has no answer
   virtual PairAnswer answer(std::size_t index) = 0;
 };
+
+/// Asks a kernel about `count` pairs that it has been prepared for, by guarded_calls().
+std::vector<Guarded<PairAnswer>> guarded_answers(PairKernel& kernel, std::size_t count);
 
 /// The kernel of this name, by make_kernel().
 std::unique_ptr<PairKernel> make_pair_kernel(const std::string& name);

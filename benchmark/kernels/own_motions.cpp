@@ -1,4 +1,4 @@
-#include "benchmark/continuous/makers.hpp"
+#include "benchmark/kernels/makers.hpp"
 
 namespace fiber {
 namespace {
@@ -10,28 +10,26 @@ class OwnMotions final : public MotionKernel {
 
   bool keeps_tolerance() const override { return true; }
 
-  void prepare(const std::vector<HardMotion>& motions, double tolerance) override {
+  void prepare(const std::vector<HardMotion>& motions) override {
     queries_.clear();
     for (const HardMotion& motion : motions) {
       queries_.push_back(motion.motions());
     }
-    tolerance_ = tolerance;
   }
 
-  void find(std::size_t first, std::size_t count, ContactTime* times) override {
+  void run(std::size_t first, std::size_t count, ContactTime* times) override {
     if (is_batch_) {
-      contact_times(&queries_[first], count, tolerance_, times);
+      contact_times(&queries_[first], count, tolerance(), times);
       return;
     }
     for (std::size_t i = 0; i < count; ++i) {
-      times[i] = contact_time(queries_[first + i], tolerance_);
+      times[i] = contact_time(queries_[first + i], tolerance());
     }
   }
 
  private:
   const bool is_batch_;
   std::vector<SegmentMotions> queries_;
-  double tolerance_ = 0.0;  // [m]
 };
 
 }  // namespace

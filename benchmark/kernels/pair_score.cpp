@@ -1,4 +1,4 @@
-#include "benchmark/pairs/pair_score.hpp"
+#include "benchmark/kernels/pair_score.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,12 +28,19 @@ bool is_within(const HardPair& pair, double lower, double upper) {
 
 }  // namespace
 
+std::vector<Guarded<PairAnswer>> guarded_answers(PairKernel& kernel, std::size_t count) {
+  return guarded_answers<PairAnswer>(
+      count, [&](std::size_t index) { return kernel.answer(index); },
+      [](const PairAnswer& answer) { return std::isfinite(answer.distance); });
+}
+
 PairTruth::PairTruth(const HardPair& pair)
     : distance(exact_segment_distance(pair.p0, pair.p1, pair.q0, pair.q1).distance),
       unit(std::max(std::numeric_limits<double>::epsilon() * extent(pair), least)),
       contact(is_at_most(pair, {pair.radius_a, pair.radius_b, 0.0})) {}
 
-void PairScore::add(const HardPair& pair, const PairTruth& truth, const GuardedAnswer& guarded) {
+void PairScore::add(const HardPair& pair, const PairTruth& truth,
+                    const Guarded<PairAnswer>& guarded) {
   not_finite_ += guarded.outcome == Outcome::NOT_FINITE ? 1 : 0;
   no_answer_ += guarded.outcome == Outcome::NO_ANSWER ? 1 : 0;
   ended_ += guarded.outcome == Outcome::ENDED ? 1 : 0;
