@@ -38,6 +38,8 @@ enum class About { NOTHING, FIBERS, ENVIRONMENT, BOTH };
 
 class UnknownTest : public FailingSources {
  protected:
+  UnknownTest() { start(); }
+
   static CheckFibers::Response check(bool with_fibers, bool with_environment, bool moves) {
     CheckFibers service;
     service.request.ignore_fibers = !with_fibers;

@@ -64,7 +64,8 @@ struct Source {
 /// Sends what the sources have, as their faults are.
 class FailingSources : public node_test::SimulatedTimeTest {
  protected:
-  FailingSources() {
+  /// To be called when all is listened to that the sources bring about.
+  void start() {
     a_ = advertise<FiberArray>("/a");
     b_ = advertise<FiberArray>("/b");
     cloud_ = advertise<PointCloud2>("/proximity/cloud");
