@@ -100,8 +100,9 @@ void attach_to(Simulation& simulation, const py::object& fiber, std::int64_t nod
 
 void detach_from(Simulation& simulation, const py::object& fiber, std::int64_t node) {
   const auto named = fiber_argument(fiber);
-  simulation.with(
-      [&](SimScene& scene) { release_node(scene, find_fiber(scene, named.first, named.second), node); });
+  simulation.with([&](SimScene& scene) {
+    release_node(scene, find_fiber(scene, named.first, named.second), node);
+  });
 }
 
 py::dict parameters_of(const Simulation& simulation) {
