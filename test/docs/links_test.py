@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Every link of the documentation leads somewhere: to a file of the repository, and to a heading in it. What a
-tutorial shows of C++ is in a source that a test compiles.
+tutorial shows of C++ is in a source that a test compiles. The walks of docs/architecture.md go through sources and
+classes that there are.
 
 Usage: links_test.py ROOT
 """
@@ -43,10 +44,35 @@ def compiled_sources(root):
     return text
 
 
+def stops_that_are_not_there(root):
+    """What docs/architecture.md names, `class::function` or `folder/source`, that src and include do not have."""
+    with open(os.path.join(root, 'docs/architecture.md'), encoding='utf-8') as file:
+        names = {name for name in re.findall(r'`([\w/:-]+)`', file.read()) if not name.startswith('fiber_proximity')}
+    sources = set()
+    text = ''
+    for top in ('src', 'include/fiber_proximity'):
+        for folder, _, files in os.walk(os.path.join(root, top)):
+            place = os.path.relpath(folder, os.path.join(root, top))
+            sources.add(place)
+            for name in files:
+                sources.add(os.path.join(place, os.path.splitext(name)[0]))
+                sources.add(os.path.join(place, name))
+                if name.endswith(('.cpp', '.hpp')):
+                    with open(os.path.join(folder, name), encoding='utf-8') as file:
+                        text += file.read()
+    for name in sorted(names):
+        if '/' in name:
+            exists = name in sources or os.path.exists(os.path.join(root, name))
+        else:
+            exists = all(re.search(rf'\b{part}\b', text) for part in name.split('::'))
+        if not exists:
+            yield f'docs/architecture.md: {name}: neither a source nor a name in one'
+
+
 def main():
     root = os.path.abspath(sys.argv[1])
     links = 0
-    broken = []
+    broken = list(stops_that_are_not_there(root))
     compiled = compiled_sources(root)
     for name in pages(root):
         with open(os.path.join(root, name), encoding='utf-8') as file:
