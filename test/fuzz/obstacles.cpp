@@ -2,6 +2,7 @@
 // environment is made, and the contacts that are allowed.
 #include "fiber_proximity/environment/environment.hpp"
 #include "fiber_proximity/environment/scene/environment_scene.hpp"
+#include "src/environment/allowed_contacts.hpp"
 #include "test/fuzz/fuzz_target.hpp"
 #include "test/fuzz/no_mesh.hpp"
 
