@@ -205,8 +205,8 @@ class Effect {
   /// The data of each node that the energy needs, as begin_step() has found them.
   virtual NodeData per_node_data() const { return {}; }
 
-  /// Energy of the rods where they are now [J], up to a constant of the step.
-  /// @param values per_node_data() of the pack's nodes
+  /// Energy of the rods where they are now [J], up to a constant of the step. The values are the
+  /// per_node_data() of the pack's nodes.
   /// @param energy by lane, overwritten
   virtual void energy(const RodPack& /*rods*/, const NodeValues& /*values*/,
                       SimdBatch& energy) const {
