@@ -203,20 +203,6 @@ Rods crossed_rods(Random& random, int count) {
 }
 
 /// Slips of a micrometre and of millimetres; some stick, some slide.
-TEST(FrictionContacts, TheLawHasTheDerivativesItTellsAlsoWhereSlippingBegins) {
-  constexpr double stick_length = 1e-3;
-  constexpr double step = 1e-8;
-  for (const double share : {0.3, 0.9, 1.0, 1.5}) {
-    const double slip = share * stick_length;
-    const Friction::Law law = Friction::law(slip, stick_length);
-    const Friction::Law less = Friction::law(slip - step, stick_length);
-    const Friction::Law more = Friction::law(slip + step, stick_length);
-    EXPECT_NEAR((more.energy - less.energy) / (2.0 * step), law.resistance * slip, 1e-4) << share;
-    const double rise = more.resistance * (slip + step) - less.resistance * (slip - step);
-    EXPECT_NEAR(rise / (2.0 * step), law.curvature, 1e-3 / stick_length) << share;
-  }
-}
-
 TEST(FrictionContacts, TheGradientIsThatOfTheEnergy) {
   SCOPED_TRACE(seed_message());
   Random random(1);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "fiber_proximity/sim/contacts.hpp"
 #include "validation/sim/contact_scenes.hpp"
 #include "validation/sim/friction_scenes.hpp"
 
@@ -33,6 +34,20 @@ TEST_P(Coefficient, ARodSlidesDownSlopesAboveIt) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OfFriction, Coefficient, testing::Values(0.1, 0.2, 0.3));
+
+TEST(Friction, TheLawHasTheDerivativesItTellsAlsoWhereSlippingBegins) {
+  constexpr double stick_length = 1e-3;
+  constexpr double step = 1e-8;
+  for (const double share : {0.3, 0.9, 1.0, 1.5}) {
+    const double slip = share * stick_length;
+    const Friction::Law law = Friction::law(slip, stick_length);
+    const Friction::Law less = Friction::law(slip - step, stick_length);
+    const Friction::Law more = Friction::law(slip + step, stick_length);
+    EXPECT_NEAR((more.energy - less.energy) / (2.0 * step), law.resistance * slip, 1e-4) << share;
+    const double rise = more.resistance * (slip + step) - less.resistance * (slip - step);
+    EXPECT_NEAR(rise / (2.0 * step), law.curvature, 1e-3 / stick_length) << share;
+  }
+}
 
 TEST(Friction, WithoutACoefficientNothingSticks) {
   Incline incline(0.1, 0.0);
