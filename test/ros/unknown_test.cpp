@@ -95,7 +95,7 @@ TEST_F(UnknownTest, WhatEveryFibreMayTouchIsNotAskedAbout) {
   ASSERT_TRUE(node_test::call_service("/proximity/allow_pairs", service));
   ASSERT_TRUE(node_test::wait_for([&] {
     step();
-    return around_.messages.back()->complete != 0;
+    return !around_.messages.empty() && around_.messages.back()->complete != 0;
   }));
   EXPECT_NE(check(false, true, false).free[0], 0);
   EXPECT_EQ(query(QueryProximity::Request::ENVIRONMENT).complete, 0) << "shapes may touch nothing";
