@@ -19,7 +19,8 @@ namespace {
 constexpr double margins[] = {0.0, 0.5, 4.0};  // [radii]
 
 std::vector<std::string> engines_under_test() {
-  std::vector<std::string> names = all_engine_names();
+  register_paper_engines();  // all of them, as it is their trees that are compared
+  std::vector<std::string> names = engine_names();
   names.insert(names.end(), {"DL-6", "DS-6", "DL-14-classic", "DS-14-classic"});
   names.erase(std::find(names.begin(), names.end(), "brute_force"));
   return names;
