@@ -20,6 +20,9 @@ bool is_stopped_by_limit(const MotionResult& result) {
 
 void MotionSearch::update(const OwnedFibers& fibers) {
   fibers_ = &fibers;
+  // Loops are looked for in the halo, too: where others were before says nothing of where they are.
+  halo_.assign(FiberRuns());
+  halo_after_.assign(FiberRuns());
   ranks_.throw_on_all(error_in(
       [&] { engine_->update_motion(fibers.own().fibers(), fibers.own_after().fibers()); }));
 }

@@ -32,7 +32,7 @@ inline PairOptions options_of_stretches(const PairOptions& options, double arc_r
   return here;
 }
 
-/// The part of a limit of pairs that is left, at min_length one; 0 stays none.
+/// The part of a limit of pairs that is left, at least one; 0 stays none.
 inline std::uint64_t rest_of(std::uint64_t limit, std::uint64_t taken) {
   return limit == 0 ? 0 : std::max<std::uint64_t>(1, limit - std::min(limit, taken));
 }
