@@ -103,11 +103,16 @@ def table(report):
     return "\n".join(lines)
 
 
-def write_table(report, path):
+def replace_table(path, name, text, script):
+    """Writes a table between its marks in a page; the script ends if they are not there."""
     path = pathlib.Path(path)
-    begin, end = "<!-- campaign: begin -->", "<!-- campaign: end -->"
+    begin, end = f"<!-- {name}: begin -->", f"<!-- {name}: end -->"
     before, _, rest = path.read_text().partition(begin)
     _, found, after = rest.partition(end)
     if not found:
-        sys.exit(f"campaign.sh: {path} has no place for the table ({begin} ... {end})")
-    path.write_text(f"{before}{begin}\n{table(report)}\n{end}{after}")
+        sys.exit(f"{script}: {path} has no place for the table ({begin} ... {end})")
+    path.write_text(f"{before}{begin}\n{text}\n{end}{after}")
+
+
+def write_table(report, path):
+    replace_table(path, "campaign", table(report), "campaign.sh")

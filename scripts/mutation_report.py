@@ -5,7 +5,7 @@ import json
 import pathlib
 import sys
 
-from campaign_report import machine
+from campaign_report import machine, replace_table
 
 OUTCOMES = ("killed", "survived", "survives with a reason", "did not compile", "no longer applies")
 
@@ -47,12 +47,6 @@ def table(report, mutants):
 
 
 def write_table(report, mutants, path):
-    path = pathlib.Path(path)
-    begin, end = "<!-- mutation: begin -->", "<!-- mutation: end -->"
-    before, _, rest = path.read_text().partition(begin)
-    _, found, after = rest.partition(end)
-    if not found:
-        sys.exit(f"mutate.sh: {path} has no place for the table ({begin} ... {end})")
     if not report.outcomes:
         sys.exit("mutate.sh: nothing has been tried yet")
-    path.write_text(f"{before}{begin}\n{table(report, mutants)}\n{end}{after}")
+    replace_table(path, "mutation", table(report, mutants), "mutate.sh")

@@ -133,22 +133,31 @@ TEST(Layers, AFolderWithoutOneMayNotInclude) {
   EXPECT_FALSE(may_include("tools", "ros/inputs"));
 }
 
+/// Calls with the source of each line in the repository that matches, and the first group of the
+/// match.
+void for_each_match(
+    const std::regex& pattern,
+    const std::function<void(const fs::path& path, const std::string& group)>& call) {
+  for (const char* folder : {"src", "include", "test", "benchmark", "validation"}) {
+    for_each_line(fs::path(fiber::test::source_folder()) / folder,
+                  [&](const fs::path& path, int number, const std::string& line) {
+                    std::smatch match;
+                    if (std::regex_match(line, match, pattern)) {
+                      SCOPED_TRACE(path.string() + ":" + std::to_string(number) + ": " + line);
+                      call(path, match[1].str());
+                    }
+                  });
+  }
+}
+
 TEST(Layers, IncludesHaveOneSpelling) {
   static const std::regex ours(R"x(^\s*#\s*include\s*"(.*\.(?:hpp|inc))".*)x");
   static const std::regex from_root(R"((src|test|benchmark|validation|fiber_proximity)/.*)");
   const fs::path source = fiber::test::source_folder();
-  for (const char* folder : {"src", "include", "test", "benchmark", "validation"}) {
-    for_each_line(source / folder, [&](const fs::path& path, int number, const std::string& line) {
-      std::smatch match;
-      if (std::regex_match(line, match, ours)) {
-        EXPECT_TRUE(std::regex_match(match[1].str(), from_root))
-            << path << ":" << number << ": " << line;
-        EXPECT_TRUE(fs::exists(source / match[1].str()) ||
-                    fs::exists(source / "include" / match[1].str()))
-            << path << ":" << number << ": " << line;
-      }
-    });
-  }
+  for_each_match(ours, [&](const fs::path& /*path*/, const std::string& included) {
+    EXPECT_TRUE(std::regex_match(included, from_root));
+    EXPECT_TRUE(fs::exists(source / included) || fs::exists(source / "include" / included));
+  });
 }
 
 /// Whether a source in this folder of the repository may include one of `test`, `benchmark` or
@@ -163,15 +172,9 @@ bool may_include_checks(const std::string& folder, const std::string& other) {
 TEST(Layers, TestsAndBenchmarksMeetInValidationOnly) {
   static const std::regex checks(R"(^\s*#\s*include\s*"(test|benchmark|validation)/.*)");
   const fs::path source = fiber::test::source_folder();
-  for (const char* root : {"src", "include", "test", "benchmark", "validation"}) {
-    for_each_line(source / root, [&](const fs::path& path, int number, const std::string& line) {
-      std::smatch match;
-      if (std::regex_match(line, match, checks)) {
-        EXPECT_TRUE(may_include_checks(fs::relative(path.parent_path(), source), match[1].str()))
-            << path << ":" << number << ": " << line;
-      }
-    });
-  }
+  for_each_match(checks, [&](const fs::path& path, const std::string& root) {
+    EXPECT_TRUE(may_include_checks(fs::relative(path.parent_path(), source), root));
+  });
 }
 
 TEST(Layers, ATestMayNotIncludeABenchmark) {
