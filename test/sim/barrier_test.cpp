@@ -89,27 +89,14 @@ TEST(Barrier, WithLessWeightItBeginsNearerAndNeverLetsNearerThanTheLeastDistance
   EXPECT_NEAR(barrier.effective(barrier.min_distance(), 0.0), barrier.inner, 1e-15);
 }
 
-TEST(Barrier, ItsLogarithmIsThatOfTheStandardLibrary) {
-  SCOPED_TRACE(seed_message());
-  Random random(3);
-  for (int round = 0; round < 10000; ++round) {
-    const double x = std::pow(10.0, random.uniform(-320.0, 300.0)) * random.uniform(0.5, 2.0);
-    EXPECT_NEAR(natural_log(x), std::log(x), 4e-16 * std::max(1.0, std::abs(std::log(x)))) << x;
-    const double near_one = 1.0 + random.uniform(-1e-3, 1e-3);
-    EXPECT_NEAR(natural_log(near_one), std::log(near_one),
-                1e-18 + 4e-16 * std::abs(near_one - 1.0));
+TEST(Barrier, AHeavyLoadLeavesRoomToSolveIn) {
+  const Barrier barrier = Barrier::around(0.02, 100.0);
+  const double touching = -barrier.slope(0.02);
+  double distance = 0.02;
+  while (-barrier.slope(distance) < 1000.0 * touching) {
+    distance -= 1e-4 * barrier.width();
   }
-}
-
-TEST(Barrier, ALoadIsAForceInPartsOfWhatItHoldsWell) {
-  SCOPED_TRACE(seed_message());
-  Random random(4);
-  for (int round = 0; round < 100; ++round) {
-    const Barrier barrier = random_barrier(random);
-    const double force = -barrier.slope(barrier.inner + barrier.width() / 3.0);
-    EXPECT_NEAR(barrier.load_of(force), 1.0, 1e-4);
-    EXPECT_NEAR(barrier.load_of(2.0 * force), 2.0, 2e-4);
-  }
+  EXPECT_GT(distance - barrier.inner, barrier.width() / 7.0);
 }
 
 TEST(Barrier, WhatBeginsNearerThanTheInnerDistanceMayStayOrPart) {

@@ -170,7 +170,7 @@ TEST_P(PairOfKind, NeitherEnergyNorGradientJump) {
       for (int i = 0; i <= places; ++i) {
         Rods rods = start;
         move_second(rods, (static_cast<double>(i) / places - 0.5) * way);
-        if (nearest_distance(rods) < edge_touching - 0.3 * edge_width) {
+        if (nearest_distance(rods) < edge_touching - 0.1 * edge_width) {
           gradient.resize(0);  // so near that forces grow from place to place
           continue;
         }

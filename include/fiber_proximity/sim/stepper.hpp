@@ -60,9 +60,6 @@ struct StepReport {
   /// The increase of kinetic and stored energy by the step, without the work of its input [J]. A
   /// converged step of implicit Euler gains none; one that its iterations cut short may.
   double energy_gain = 0.0;
-
-  /// The increase of the stored energy of contacts that are stiffened for the next step [J].
-  double stiffening_energy = 0.0;
 };
 
 /// Moves rods by the effects a scene calls for: discrete elastic rods in implicit time steps

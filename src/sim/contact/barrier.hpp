@@ -4,51 +4,25 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <limits>
 
 #include "fiber_proximity/sim/rods.hpp"
 
 namespace fiber {
 
-/// The natural logarithm of a positive, finite number, to some units of the last digit. Unlike the
-/// standard library's it is the same on all processors. It is inline, and its series has no long
-/// chain of products, because contacts evaluate it all the time.
-inline double natural_log(double x) {
-  constexpr double root_of_half = 0.7071067811865476;
-  constexpr double log_of_two = 0.6931471805599453;
-  constexpr int mantissa_bits = 52;
-  constexpr std::uint64_t mantissa = (std::uint64_t{1} << mantissa_bits) - 1;
-  constexpr std::uint64_t half = std::uint64_t{0x3fe} << mantissa_bits;
-  const bool is_subnormal = x < std::numeric_limits<double>::min();
-  x *= is_subnormal ? 0x1p54 : 1.0;
-  std::uint64_t bits = 0;
-  std::memcpy(&bits, &x, sizeof bits);
-  int exponent = static_cast<int>(bits >> mantissa_bits) - 0x3fe - (is_subnormal ? 54 : 0);
-  bits = (bits & mantissa) | half;
-  double fraction = 0.0;  // in [1/2, 1)
-  std::memcpy(&fraction, &bits, sizeof fraction);
-  if (fraction < root_of_half) {
-    fraction *= 2.0;
-    --exponent;
-  }
-  // ln f = 2 artanh z, with |z| < 0.172
-  const double z = (fraction - 1.0) / (fraction + 1.0);
-  const double z2 = z * z;
-  const double z4 = z2 * z2;
-  const double z8 = z4 * z4;
-  const double first = (1.0 + z2 * (1.0 / 3.0)) + z4 * (1.0 / 5.0 + z2 * (1.0 / 7.0));
-  const double second = (1.0 / 9.0 + z2 * (1.0 / 11.0)) + z4 * (1.0 / 13.0 + z2 * (1.0 / 15.0));
-  const double third = (1.0 / 17.0 + z2 * (1.0 / 19.0)) + z4 * (1.0 / 21.0);
-  return exponent * log_of_two + 2.0 * z * (first + z8 * (second + z8 * third));
-}
-
-/// The potential of a contact by the distance of axes (Li et al. 2020, Eq. 6): none from the outer
-/// distance on, infinite at the inner one and below, and smooth in between.
-///   b = −k (d − outer)² ln((d − inner) / (outer − inner))
+/// The potential of a contact by the distance of axes: none from the outer distance on, infinite at
+/// the inner one and below, and smooth in between. With the part u of the way from the outer to the
+/// inner distance,
+///   b = k w² u³ / (1 − u)⁴
 /// Surfaces meet in the middle: fibres begin to push before they touch, and no force brings them
 /// further into each other than to the inner distance.
+///
+/// It has the part of the barrier of Li et al. 2020 (Eq. 6), whose logarithm pushes with 1 / (1 −
+/// u) near the inner distance, where this pushes with 1 / (1 − u)⁵: a force a thousand times that
+/// where surfaces meet leaves a seventh of the width, not a thousandth of it, over which the
+/// stiffness hardly changes in a step of Newton's method. So one barrier holds the weight of a hair
+/// and the pull of a knot, and none has to grow stiffer while it is pressed, which would make
+/// energy.
 struct Barrier {
   /// The inner and outer distance are below and above the distance at which surfaces meet by this
   /// part of it.
@@ -57,7 +31,7 @@ struct Barrier {
   /// @param touching  distance at which surfaces meet [m]
   /// @param stiffness force by distance where surfaces meet [N/m]
   static Barrier around(double touching, double stiffness) {
-    constexpr double curvature_in_middle = 6.386294361119891;  // 5 + 2 ln 2
+    constexpr double curvature_in_middle = 400.0;
     return {(1.0 - half_width) * touching, (1.0 + half_width) * touching,
             stiffness / curvature_in_middle};
   }
@@ -65,17 +39,10 @@ struct Barrier {
   /// A barrier whose energy is finite at a distance, for contacts that begin a step below the inner
   /// one, as scenes may make them: they can only part.
   Barrier relaxed_to(double distance) const {
-    constexpr double margin = 1e-3;
+    constexpr double margin = 0.1;
     Barrier barrier = *this;
     barrier.inner = std::min(inner, distance - margin * width());
     return barrier;
-  }
-
-  /// A force in units of the one that holds surfaces a third of the way from the inner distance to
-  /// the outer one.
-  double load_of(double force) const {
-    constexpr double unit_force = 2.7981;  // of a barrier of 1 N/m and 1 m width there
-    return force / (unit_force * scale * width());
   }
 
   double inner = 0.0;  ///< [m]
@@ -106,21 +73,29 @@ struct Barrier {
     if (!(distance > inner)) {
       return std::numeric_limits<double>::infinity();
     }
-    const double below = distance - outer;
-    return -scale * below * below * natural_log((distance - inner) / width());
+    const auto [u, inverse] = depth(distance);
+    const double square = inverse * inverse;
+    return scale * width() * width() * u * u * u * square * square;
   }
 
   /// The energy's derivatives by the distance, which must be within (inner, outer): the slope is
   /// never positive [N], the curvature never negative [N/m].
   double slope(double distance) const {
-    assert(distance > inner && distance < outer);
-    const double below = distance - outer;
-    const double gap = distance - inner;
-    return scale * below * (-2.0 * natural_log(gap / width()) - below / gap);
+    const auto [u, inverse] = depth(distance);
+    const double square = inverse * inverse;
+    return -scale * width() * u * u * (3.0 + u) * square * square * inverse;
   }
   double curvature(double distance) const {
-    const double ratio = (distance - outer) / (distance - inner);
-    return scale * (-2.0 * natural_log((distance - inner) / width()) - 4.0 * ratio + ratio * ratio);
+    const auto [u, inverse] = depth(distance);
+    const double square = inverse * inverse;
+    return 2.0 * scale * u * (3.0 + u * (6.0 + u)) * square * square * square;
+  }
+
+ private:
+  /// The part u of the way from the outer to the inner distance, and 1 / (1 − u).
+  std::array<double, 2> depth(double distance) const {
+    assert(distance > inner && distance < outer);
+    return {(outer - distance) / width(), width() / (distance - inner)};
   }
 };
 

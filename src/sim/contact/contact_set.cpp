@@ -45,7 +45,7 @@ void ContactSet::clear() {
   }
 }
 
-/// Calls function(points, term, barrier) for each term of a contact's energy.
+/// Calls function(points, term) for each term of a contact's energy.
 /// @param found buffer for the terms
 template <class Function>
 void ContactSet::for_each_term(const Rods& rods, std::size_t index,
@@ -57,15 +57,14 @@ void ContactSet::for_each_term(const Rods& rods, std::size_t index,
     for (const DistanceTerm& term : found) {
       function(ContactPoints{contact.rod, contact.edge, term.s, contact.piece.object(),
                              ContactPoints::no_edge, 0.0},
-               term, contact.barrier);
+               term);
     }
     return;
   }
   const EdgePair& pair = pairs[index - obstacle_contacts.size()];
   edge_contact(pair, rods.positions, distances_[index - obstacle_contacts.size()], &found);
   for (const DistanceTerm& term : found) {
-    function(ContactPoints{pair.rod_a, pair.edge_a, term.s, pair.rod_b, pair.edge_b, term.t}, term,
-             pair.barrier);
+    function(ContactPoints{pair.rod_a, pair.edge_a, term.s, pair.rod_b, pair.edge_b, term.t}, term);
   }
 }
 
@@ -81,8 +80,7 @@ void ContactSet::begin(const Rods& rods, const Friction* friction,
   std::vector<std::vector<FrictionPoint>> by_chunk(chunk_count(distance_count()));
   for_each_chunk(distance_count(), [&](std::size_t index, std::size_t begin, std::size_t end) {
     std::vector<DistanceTerm> buffer;
-    const auto add = [&](const ContactPoints& points, const DistanceTerm& term,
-                         const Barrier& /*barrier*/) {
+    const auto add = [&](const ContactPoints& points, const DistanceTerm& term) {
       if (term.pressure > 0.0) {
         Vector3d reference = point_at(references, points.edge_a, points.s);
         if (points.is_of_rods()) {
@@ -190,26 +188,13 @@ double ContactSet::stored_energy() const {
   return std::accumulate(energies_.begin(), end, 0.0);
 }
 
-double ContactSet::stiffening_energy(const std::vector<double>& before,
-                                     const std::vector<double>& after) const {
-  double energy = 0.0;
-  for (std::size_t i = 0; i < distance_count(); ++i) {
-    const auto [a, b] = rods_of(i);
-    const double growth = std::max(after[a], after[b]) / std::max(before[a], before[b]);
-    energy += (growth - 1.0) * energies_[i];
-  }
-  return energy;
-}
-
 void ContactSet::find_terms(const Rods& rods, std::size_t contact, std::vector<DistanceTerm>& found,
                             std::vector<ContactTerm>& terms) const {
-  const auto add = [&](const ContactPoints& points, const DistanceTerm& term,
-                       const Barrier& barrier) {
+  const auto add = [&](const ContactPoints& points, const DistanceTerm& term) {
     terms.push_back({points, term.slope * term.normal,
                      (term.curvature - term.across) * term.normal * term.normal.transpose() +
                          term.across * Matrix3d::Identity(),
-                     term.turning > 0.0 ? term.turning / (term.slope * term.slope) : 0.0,
-                     barrier.load_of(std::abs(term.slope))});
+                     term.turning > 0.0 ? term.turning / (term.slope * term.slope) : 0.0});
   };
   if (contact < distance_count()) {
     for_each_term(rods, contact, found, add);
@@ -226,7 +211,7 @@ void ContactSet::find_terms(const Rods& rods, std::size_t contact, std::vector<D
     hessian += (law.curvature - law.resistance) * along * along.transpose();
   }
   terms.push_back(
-      {point.points, point.max_force * law.resistance * slip, point.max_force * hessian, 0.0, 0.0});
+      {point.points, point.max_force * law.resistance * slip, point.max_force * hessian, 0.0});
 }
 
 void ContactSet::find_derivatives(const Rods& rods) {
@@ -259,8 +244,7 @@ void ContactSet::add_forces(const Rods& rods, std::vector<RodForces::ContactForc
     return forces[place->second];
   };
   std::map<std::size_t, double> weights;
-  const auto press = [&](const ContactPoints& points, const DistanceTerm& term,
-                         const Barrier& /*barrier*/) {
+  const auto press = [&](const ContactPoints& points, const DistanceTerm& term) {
     RodForces::ContactForce& force = force_of(points);
     const Vector3d on_a = point_at(rods.positions, points.edge_a, points.s);
     Vector3d between = on_a - rods.radii[points.rod_a] * term.normal;

@@ -44,7 +44,6 @@ struct ContactTerm {
   Eigen::Vector3d gradient;
   Eigen::Matrix3d hessian;
   double turning;  ///< times g gᵀ, part of the Hessian by the difference of a's ends [1/(N m)]
-  double load;     ///< see add_loads(); 0 of friction
 };
 
 /// Terms by chunk of contacts. Threads share the chunks.
@@ -66,10 +65,6 @@ bool has_coupling(const ContactTerms& terms);
 /// @param displacements of all unknowns
 void add_coupling(const ContactTerms& terms, const std::vector<std::size_t>& places,
                   const SimdBatch* displacements, SimdBatch* product);
-
-/// Finds the largest load of each rod's contacts, see Barrier::load_of().
-/// @param loads by rod: raised
-void add_loads(const ContactTerms& terms, std::vector<double>& loads);
 
 /// The contacts that some rods may have in a step: their potential, and that of friction in them.
 class ContactSet {
@@ -101,12 +96,6 @@ class ContactSet {
 
   /// The sum of the energies added last, without friction [J].
   double stored_energy() const;
-
-  /// The increase of that sum if rods stiffened contacts by other factors [J].
-  /// @param before factors that they have, by rod
-  /// @param after  others
-  double stiffening_energy(const std::vector<double>& before,
-                           const std::vector<double>& after) const;
 
   /// Finds the derivatives at the current distances.
   void find_derivatives(const Rods& rods);

@@ -134,16 +134,6 @@ void add_coupling(const ContactTerms& terms, const std::vector<std::size_t>& pla
   });
 }
 
-void add_loads(const ContactTerms& terms, std::vector<double>& loads) {
-  for_each_term(terms, [&](const ContactTerm& term) {
-    const ContactPoints& points = term.points;
-    loads[points.rod_a] = std::max(loads[points.rod_a], term.load);
-    if (points.is_of_rods()) {
-      loads[points.rod_b] = std::max(loads[points.rod_b], term.load);
-    }
-  });
-}
-
 void ContactSet::bound_step(const Rods& rods, const std::vector<Vector3d>& displacements,
                             const std::vector<std::uint32_t>& islands, std::vector<double>& shares,
                             std::vector<Vector3d>& ends) const {

@@ -1,4 +1,4 @@
-// A solve adapts the rods' travel bounds and the stiffness of contacts for the next one.
+// A solve adapts the rods' travel bounds for the next one.
 
 #include <algorithm>
 #include <cmath>
@@ -70,43 +70,6 @@ void StageSolver::adapt_travel_bound(const Rods& rods) {
     travel_bound_.by_rod[rod] =
         std::max({StepBound::min_travel * rods.radii[rod], travel_factor * std::sqrt(square),
                   travel_bound_.is_final ? 0.0 : kept_travel * travel_bound_.by_rod[rod]});
-  }
-}
-
-/// Barriers are as stiff as the material makes natural; where holds pull far harder, they would
-/// hold only right at their inner distance, where equations are hard to solve.
-void StageSolver::stiffen_contacts() {
-  for (ContactSet& found : found_by_) {
-    for (EdgePair& pair : found.pairs) {
-      pair.barrier.scale *= std::max(stiffening_[pair.rod_a], stiffening_[pair.rod_b]);
-    }
-    for (ObstacleContact& contact : found.obstacle_contacts) {
-      contact.barrier.scale *= stiffening_[contact.rod];
-    }
-  }
-}
-
-/// Stiffens the contacts of rods whose largest contact force in this step was beyond what barriers
-/// hold well. Where it was below, stiffness falls back to the material's, by 5 % a step at most.
-void StageSolver::adapt_stiffening(const Rods& rods) {
-  constexpr double kept = 0.95;
-  constexpr double max_growth = 4.0;
-  loads_.assign(rods.count(), 0.0);
-  for (const Group& group : groups_) {
-    // Forces that do not balance tell nothing of what contacts have to hold.
-    const bool is_balanced = std::all_of(
-        group.reports.begin(), group.reports.end(),
-        [this](const IslandReport& report) { return report.residual <= options_.residual; });
-    if (is_balanced) {
-      add_loads(group.contacts.terms(), loads_);
-    }
-  }
-  const std::vector<double> before = stiffening_;
-  for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
-    stiffening_[rod] = std::max(1.0, stiffening_[rod] * std::clamp(loads_[rod], kept, max_growth));
-  }
-  for (Group& group : groups_) {
-    group.stiffening_energy = group.contacts.stiffening_energy(before, stiffening_);
   }
 }
 

@@ -33,7 +33,6 @@ StageSolver::StageSolver(const Rods& rods, const StepperOptions& options, Contac
   for (std::uint32_t rod = 0; rod < rods.count(); ++rod) {
     travel_bound_.by_rod.push_back(StepBound::min_travel * rods.radii[rod]);
   }
-  stiffening_.assign(rods.count(), 1.0);
   islands_.reset(rods.count());
   make_groups(rods);
 }
@@ -84,7 +83,6 @@ void StageSolver::solve(Rods& rods, const Effects& effects, const TimeStep& stag
         predict_motion(reference_, stage.length);
       }
       adapt_travel_bound(rods);
-      adapt_stiffening(rods);
     }
   });
 }
@@ -98,7 +96,6 @@ void StageSolver::find_contacts(Rods& rods) {
     contacts_->sources()[source]->find(rods, travel_bound_, found_by_[source]);
   });
   rods.positions.swap(start_.positions);
-  stiffen_contacts();
   islands_.reset(rods.count());
   for (const ContactSet& found : found_by_) {
     for (const EdgePair& pair : found.pairs) {
@@ -235,7 +232,6 @@ void StageSolver::add_to(StepReport& report) const {
   std::uint32_t iterations = 0;
   for (const Group& group : groups_) {
     report.energy_gain += group.stored_gain;
-    report.stiffening_energy += group.stiffening_energy;
     for (const IslandReport& island : group.reports) {
       iterations = std::max(iterations, island.iterations);
       report.unbalanced += island.residual > options_.residual ? 1 : 0;

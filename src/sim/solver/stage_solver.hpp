@@ -68,7 +68,6 @@ class StageSolver {
     ContactSet contacts;
     std::vector<IslandReport> reports;
     double stored_gain = 0.0;  // of energy in the solve [J]
-    double stiffening_energy = 0.0;
     std::vector<std::pair<std::uint32_t, double>> needed_travel;
     bool is_solved = false;
   };
@@ -79,8 +78,6 @@ class StageSolver {
   void predict_motion(const RodState& reference, double step);
   void widen_travel_bound(const Rods& rods);
   void adapt_travel_bound(const Rods& rods);
-  void stiffen_contacts();
-  void adapt_stiffening(const Rods& rods);
   void solve_group(Rods& rods, const Effects& effects, double step, Group& group);
   void copy_state(const RodState& state, const Group& group, Rods& rods, bool has_rates) const;
   template <class Function>
@@ -95,8 +92,6 @@ class StageSolver {
   SolverScratch scratch_;
   std::vector<ContactSet> found_by_;  // by source
   TravelBound travel_bound_;
-  std::vector<double> stiffening_;  // of contacts that have much to hold, by rod
-  std::vector<double> loads_;       // of contacts, by rod
   bool is_at_start_ = true;  // whether rods are where the solve starts, and rates are measured from
   RodState start_;
   RodState reference_;
