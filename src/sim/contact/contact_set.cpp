@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numeric>
 
@@ -71,32 +72,54 @@ void ContactSet::for_each_term(const Rods& rods, std::size_t index,
 void ContactSet::begin(const Rods& rods, const Friction* friction,
                        const std::vector<Vector3d>& references, double step) {
   frictions_.clear();
+  friction_ = friction;
+  references_ = &references;
   update_distances(rods);
   relax_initial_overlap(rods);
-  if (friction == nullptr) {
-    return;
+  if (friction != nullptr) {
+    stick_length_ = friction->stick_length(step);
+    frictions_ = find_friction(rods);
   }
-  stick_length_ = friction->stick_length(step);
+}
+
+/// Friction by the normal forces at the current distances.
+std::vector<ContactSet::FrictionPoint> ContactSet::find_friction(const Rods& rods) const {
   std::vector<std::vector<FrictionPoint>> by_chunk(chunk_count(distance_count()));
   for_each_chunk(distance_count(), [&](std::size_t index, std::size_t begin, std::size_t end) {
     std::vector<DistanceTerm> buffer;
-    const auto add = [&](const ContactPoints& points, const DistanceTerm& term) {
-      if (term.pressure > 0.0) {
-        Vector3d reference = point_at(references, points.edge_a, points.s);
-        if (points.is_of_rods()) {
-          reference -= point_at(references, points.edge_b, points.t);
-        }
-        by_chunk[index].push_back(
-            {points, term.normal, friction->coefficient() * term.pressure, reference});
-      }
-    };
     for (std::size_t i = begin; i < end; ++i) {
-      for_each_term(rods, i, buffer, add);
+      for_each_term(rods, i, buffer, [&](const ContactPoints& points, const DistanceTerm& term) {
+        if (term.pressure > 0.0) {
+          Vector3d reference = point_at(*references_, points.edge_a, points.s);
+          if (points.is_of_rods()) {
+            reference -= point_at(*references_, points.edge_b, points.t);
+          }
+          by_chunk[index].push_back(
+              {points, term.normal, friction_->coefficient() * term.pressure, reference});
+        }
+      });
     }
   });
+  std::vector<FrictionPoint> found;
   for (const std::vector<FrictionPoint>& points : by_chunk) {
-    frictions_.insert(frictions_.end(), points.begin(), points.end());
+    found.insert(found.end(), points.begin(), points.end());
   }
+  return found;
+}
+
+void ContactSet::update_friction(const Rods& rods, const std::vector<std::uint32_t>& islands,
+                                 const std::vector<bool>& which) {
+  if (friction_ == nullptr || std::find(which.begin(), which.end(), true) == which.end()) {
+    return;
+  }
+  const auto is_asked_for = [&](const FrictionPoint& point) {
+    return which[islands[point.points.rod_a]];
+  };
+  frictions_.erase(std::remove_if(frictions_.begin(), frictions_.end(), is_asked_for),
+                   frictions_.end());
+  const std::vector<FrictionPoint> found = find_friction(rods);
+  std::copy_if(found.begin(), found.end(), std::back_inserter(frictions_), is_asked_for);
+  evaluate_energies(rods, distance_count());
 }
 
 /// Contacts that begin the step where their energy is infinite get barriers that begin nearer.
@@ -157,14 +180,19 @@ double ContactSet::energy_of(const Rods& rods, std::size_t contact) const {
   return point.max_force * Friction::law(point.slip(rods).norm(), stick_length_).energy;
 }
 
-void ContactSet::add_energies(const Rods& rods, const std::vector<std::uint32_t>& islands,
-                              std::vector<EnergySum>& energies) {
+/// Those from the first one asked for.
+void ContactSet::evaluate_energies(const Rods& rods, std::size_t first) {
   energies_.resize(contact_count());
-  for_each_chunk(energies_.size(), [&](std::size_t /*index*/, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      energies_[i] = energy_of(rods, i);
-    }
-  });
+  for_each_chunk(energies_.size() - first,
+                 [&](std::size_t /*index*/, std::size_t begin, std::size_t end) {
+                   for (std::size_t i = first + begin; i < first + end; ++i) {
+                     energies_[i] = energy_of(rods, i);
+                   }
+                 });
+}
+
+void ContactSet::add_energies(const std::vector<std::uint32_t>& islands,
+                              std::vector<EnergySum>& energies) const {
   for (std::size_t i = 0; i < energies_.size(); ++i) {
     energies[islands[rods_of(i).first]].add(energies_[i]);
   }

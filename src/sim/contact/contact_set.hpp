@@ -79,22 +79,33 @@ class ContactSet {
     return pairs.empty() && obstacle_contacts.empty() && obstacle_edges.empty();
   }
 
-  /// Begins a step where the rods are: contacts that press there have friction in the step.
-  /// @param friction   null for none
-  /// @param references of nodes: slips are measured from there [m]
+  /// Begins a step where the rods are: contacts that press there have friction, by the forces with
+  /// which they press.
+  /// @param friction   null for none; must outlive the step
+  /// @param references of nodes: slips are measured from there [m]; must outlive the step
   /// @param step       [s]
   void begin(const Rods& rods, const Friction* friction,
              const std::vector<Eigen::Vector3d>& references, double step);
 
+  /// Makes the friction of some islands that of the normal forces where the rods are now, whose
+  /// distances have been found, and updates its energies.
+  /// @param islands by rod
+  /// @param which   by island: whether it is one of them
+  void update_friction(const Rods& rods, const std::vector<std::uint32_t>& islands,
+                       const std::vector<bool>& which);
+
   /// Updates the distances to where the rods are now. The functions below use these.
   void update_distances(const Rods& rods);
 
-  /// Adds the energy of each contact to that of the island of its rod.
-  /// @param islands by rod
-  void add_energies(const Rods& rods, const std::vector<std::uint32_t>& islands,
-                    std::vector<EnergySum>& energies);
+  /// Evaluates the energy of each contact at the current distances.
+  void evaluate_energies(const Rods& rods) { evaluate_energies(rods, 0); }
 
-  /// The sum of the energies added last, without friction [J].
+  /// Adds the energy of each contact, as it was evaluated last, to that of the island of its rod.
+  /// @param islands by rod
+  void add_energies(const std::vector<std::uint32_t>& islands,
+                    std::vector<EnergySum>& energies) const;
+
+  /// The sum of the energies that were evaluated last, without friction [J].
   double stored_energy() const;
 
   /// Finds the derivatives at the current distances.
@@ -116,7 +127,7 @@ class ContactSet {
   void add_forces(const Rods& rods, std::vector<RodForces::ContactForce>& forces) const;
 
  private:
-  /// A contact that had a normal force when the step began.
+  /// A contact with a normal force.
   struct FrictionPoint {
     ContactPoints points;
     Eigen::Vector3d normal;
@@ -127,10 +138,12 @@ class ContactSet {
   };
 
   void relax_initial_overlap(const Rods& rods);
+  std::vector<FrictionPoint> find_friction(const Rods& rods) const;
   template <class Function>
   void for_each_term(const Rods& rods, std::size_t index, std::vector<DistanceTerm>& found,
                      const Function& function) const;
   double energy_of(const Rods& rods, std::size_t contact) const;
+  void evaluate_energies(const Rods& rods, std::size_t first);
   void find_terms(const Rods& rods, std::size_t contact, std::vector<DistanceTerm>& found,
                   std::vector<ContactTerm>& terms) const;
   std::pair<std::uint32_t, std::uint32_t> rods_of(std::size_t contact) const;
@@ -140,6 +153,8 @@ class ContactSet {
   std::vector<SegmentDistance> distances_;            // by pair
   std::vector<ObstacleDistance> obstacle_distances_;  // by contact
   std::vector<FrictionPoint> frictions_;
+  const Friction* friction_ = nullptr;
+  const std::vector<Eigen::Vector3d>* references_ = nullptr;
   double stick_length_ = 0.0;  // [m]
   ContactTerms terms_;
   std::vector<double> energies_;  // by contact [J]

@@ -77,6 +77,9 @@ std::optional<double> NewtonSolver::solve(Rods& rods, const Problem& problem) {
     return std::nullopt;
   }
   for (std::uint32_t iteration = 0;; ++iteration) {
+    if (iteration > 0) {
+      update_friction(rods, problem);
+    }
     assemble(rods, problem);
     check_convergence(rods, problem, iteration);
     const bool is_any_active = std::any_of(states_.begin(), states_.end(),
@@ -112,13 +115,21 @@ void NewtonSolver::evaluate_energies(Rods& rods, const Problem& problem) {
       store(packs_[pack].rods(), rods);
     }
   });
+  if (problem.contacts != nullptr) {
+    problem.contacts->update_distances(rods);
+    problem.contacts->evaluate_energies(rods);
+  }
+  sum_energies(problem);
+}
+
+/// Sums the energies that were evaluated last, by island.
+void NewtonSolver::sum_energies(const Problem& problem) {
   energies_.assign(states_.size(), EnergySum{});
   for_each_rod([&](std::size_t pack, std::size_t lane, std::uint32_t island) {
     energies_[island].add(packs_[pack].energy(lane));
   });
   if (problem.contacts != nullptr) {
-    problem.contacts->update_distances(rods);
-    problem.contacts->add_energies(rods, scratch_->islands, energies_);
+    problem.contacts->add_energies(scratch_->islands, energies_);
   }
 }
 
@@ -163,13 +174,26 @@ void NewtonSolver::assemble(Rods& rods, const Problem& problem) {
   });
 }
 
-/// Deactivates islands whose residual is within the tolerance. Effects with multipliers update them
-/// first, which may raise the residual again.
+/// Deactivates islands whose residual is within the tolerance, with friction by the forces of now.
+/// Effects with multipliers update them first, which may raise the residual again.
 void NewtonSolver::check_convergence(Rods& rods, const Problem& problem, std::uint32_t iteration) {
   find_residuals();
   const double allowed = (iteration == 0 ? rest_tolerance : 1.0) * problem.options.residual;
+  const auto is_near = [&](std::size_t i) {
+    return states_[i].is_active && reports_[i].residual <= allowed;
+  };
+  bool has_friction_of_before = false;
   for (std::size_t i = 0; i < states_.size(); ++i) {
-    states_[i].is_converged = states_[i].is_active && reports_[i].residual <= allowed;
+    has_friction_of_before |=
+        problem.friction != nullptr && is_near(i) && !states_[i].has_friction_of_now;
+  }
+  if (has_friction_of_before) {
+    update_friction(rods, problem);
+    assemble(rods, problem);
+    find_residuals();
+  }
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    states_[i].is_converged = is_near(i);
   }
   if (update_multipliers(rods, problem)) {
     for (PackStep& pack : packs_) {
@@ -225,6 +249,25 @@ bool NewtonSolver::update_multipliers(Rods& rods, const Problem& problem) {
     });
   }
   return is_any_violated;
+}
+
+/// Makes the friction of islands that are near convergence that of the normal forces where they
+/// are. A step that ends with friction by the forces of the step before has none in a contact that
+/// begins, and any in an impact (Larionov et al. 2023).
+void NewtonSolver::update_friction(const Rods& rods, const Problem& problem) {
+  constexpr double near_convergence = 30.0;  // times the residual that is allowed
+  if (problem.friction == nullptr) {
+    return;
+  }
+  std::vector<bool> which;
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    IslandState& state = states_[i];
+    state.has_friction_of_now =
+        state.is_active && reports_[i].residual <= near_convergence * problem.options.residual;
+    which.push_back(state.has_friction_of_now);
+  }
+  problem.contacts->update_friction(rods, scratch_->islands, which);
+  sum_energies(problem);
 }
 
 void NewtonSolver::find_newton_step(const Problem& problem) {

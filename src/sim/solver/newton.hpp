@@ -72,9 +72,10 @@ class NewtonSolver {
  private:
   /// An island in the course of a solve.
   struct IslandState {
-    double predicted_decrease = 0.0;  ///< minus the directional derivative of a whole step [J]
-    double scale = 1.0;               ///< factor for the next step, if the last one was too short
-    bool is_active = true;            ///< iterates
+    double predicted_decrease = 0.0;   ///< minus the directional derivative of a whole step [J]
+    double scale = 1.0;                ///< factor for the next step, if the last one was too short
+    bool is_active = true;             ///< iterates
+    bool has_friction_of_now = false;  ///< by the normal forces where its rods are
     bool is_converged = false;
     bool was_converged = false;  ///< before multipliers were updated
   };
@@ -91,11 +92,13 @@ class NewtonSolver {
   SimdBatch* part(std::size_t pack) { return step_.data() + offsets_[pack]; }
 
   void evaluate_energies(Rods& rods, const Problem& problem);
+  void sum_energies(const Problem& problem);
   double stored_energy(const Problem& problem) const;
   bool predict(Rods& rods, const Problem& problem);
   void assemble(Rods& rods, const Problem& problem);
   void check_convergence(Rods& rods, const Problem& problem, std::uint32_t iteration);
   bool update_multipliers(Rods& rods, const Problem& problem);
+  void update_friction(const Rods& rods, const Problem& problem);
   void find_residuals();
   void find_newton_step(const Problem& problem);
   void update_directional_derivatives();

@@ -276,9 +276,8 @@ double StageSolver::stored_energy(Rods& rods, const Effects& effects) {
     energy += pack.stored_energy();
   });
   for (Group& group : groups_) {
-    std::vector<EnergySum> by_island(group.islands);
     group.contacts.update_distances(rods);
-    group.contacts.add_energies(rods, scratch_.islands, by_island);
+    group.contacts.evaluate_energies(rods);
     energy += group.contacts.stored_energy();
   }
   return energy;
