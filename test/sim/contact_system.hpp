@@ -26,7 +26,8 @@ inline ContactSet contacts_of(Contacts& contacts, const Rods& rods, double room 
 inline double energy_in(ContactSet& contacts, const Rods& rods) {
   std::vector<EnergySum> energies(1);
   contacts.update_distances(rods);
-  contacts.add_energies(rods, std::vector<std::uint32_t>(rods.count(), 0), energies);
+  contacts.evaluate_energies(rods);
+  contacts.add_energies(std::vector<std::uint32_t>(rods.count(), 0), energies);
   return energies[0].energy;
 }
 

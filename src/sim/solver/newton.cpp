@@ -255,7 +255,7 @@ bool NewtonSolver::update_multipliers(Rods& rods, const Problem& problem) {
 /// are. A step that ends with friction by the forces of the step before has none in a contact that
 /// begins, and any in an impact (Larionov et al. 2023).
 void NewtonSolver::update_friction(const Rods& rods, const Problem& problem) {
-  constexpr double near_convergence = 30.0;  // times the residual that is allowed
+  constexpr double near_convergence = 1000.0;  // times the residual that is allowed
   if (problem.friction == nullptr) {
     return;
   }
