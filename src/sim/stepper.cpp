@@ -31,18 +31,22 @@ void validate(const StepperOptions& options) {
   throw std::runtime_error(error.str());
 }
 
-/// sum = a · from + b · other, of all that a state has.
-void combine(double a, const RodState& from, double b, const RodState& other, RodState& sum) {
-  const auto add = [&](const auto& values, const auto& others, auto& sums) {
+/// The weighted sum of two states, of all that they have.
+void combine(const std::array<WeightedState, 2>& states, RodState& sum) {
+  const auto& [first, second] = states;
+  const auto add = [&](auto RodState::*part) {
+    const auto& values = first.state->*part;
+    const auto& others = second.state->*part;
+    auto& sums = sum.*part;
     sums.resize(values.size());
     for (std::size_t i = 0; i < values.size(); ++i) {
-      sums[i] = a * values[i] + b * others[i];
+      sums[i] = first.weight * values[i] + second.weight * others[i];
     }
   };
-  add(from.positions, other.positions, sum.positions);
-  add(from.velocities, other.velocities, sum.velocities);
-  add(from.angles, other.angles, sum.angles);
-  add(from.spins, other.spins, sum.spins);
+  add(&RodState::positions);
+  add(&RodState::velocities);
+  add(&RodState::angles);
+  add(&RodState::spins);
 }
 
 /// [J]
@@ -128,9 +132,12 @@ void Stepper::step_by_bdf2(double length) {
     const double ratio = length / history_.length;
     const double share = 1.0 / (1.0 + 2.0 * ratio);
     const double stage = (1.0 + ratio) * share * length;
-    combine((1.0 + ratio) * (1.0 + ratio) * share, history_.begin, -ratio * ratio * share,
-            history_.before, history_.reference);
-    solver_->solve(rods_, effects_, {time_ + length - stage, stage}, &history_.reference);
+    const TimeStep step{time_ + length - stage,
+                        stage,
+                        {{{&history_.begin, (1.0 + ratio) * (1.0 + ratio) * share},
+                          {&history_.before, -ratio * ratio * share}}}};
+    combine(step.earlier, history_.reference);
+    solver_->solve(rods_, effects_, step, &history_.reference);
     solver_->add_to(report_);
   }
   std::swap(history_.before, history_.begin);
@@ -148,8 +155,10 @@ void Stepper::step_by_sdirk2(double length) {
   solver_->add_to(report_);
   const double part = rest / stage;
   history_.after = rods_.state();
-  combine(1.0 - part, history_.begin, part, history_.after, history_.reference);
-  solver_->solve(rods_, effects_, {time_ + rest, stage}, &history_.reference);
+  const TimeStep second{
+      time_ + rest, stage, {{{&history_.begin, 1.0 - part}, {&history_.after, part}}}};
+  combine(second.earlier, history_.reference);
+  solver_->solve(rods_, effects_, second, &history_.reference);
   solver_->add_to(report_);
 }
 

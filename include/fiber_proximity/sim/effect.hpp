@@ -179,12 +179,39 @@ class RodSystem {
 
 struct RodForces;
 
-/// The beginning and the length of a step [s].
+/// A state of the rods before a step's end, and its weight in the rates there.
+struct WeightedState {
+  const RodState* state = nullptr;
+  double weight = 0.0;
+};
+
+/// The beginning and the length of a step [s], and the states that its rates are measured from:
+/// where the step ends, the rate of a quantity q is (q − Σ wᵢ qᵢ) / length, with its values qᵢ in
+/// earlier states and their weights wᵢ, which add up to 1.
 struct TimeStep {
   double start;
   double length;
 
+  /// Those without a state are none. With none at all it is a step of implicit Euler: rates are
+  /// measured from the state in which Effect::begin_step() finds the rods.
+  std::array<WeightedState, 2> earlier{};
+
   double end() const { return start + length; }
+
+  /// Calls function(state, weight) for each earlier state.
+  /// @param now the rods as Effect::begin_step() finds them
+  template <class Function>
+  void for_each_earlier(const RodState& now, const Function& function) const {
+    if (earlier.front().state == nullptr) {
+      function(now, 1.0);
+      return;
+    }
+    for (const WeightedState& each : earlier) {
+      if (each.state != nullptr) {
+        function(*each.state, each.weight);
+      }
+    }
+  }
 };
 
 /// An effect that acts on rods, given by its energy. A scene has objects only for the effects it
@@ -197,9 +224,11 @@ class Effect {
  public:
   virtual ~Effect() = default;
 
-  /// Called once before each solve, by one thread, with the rods where rates of the step are
-  /// measured from: where it began, or for the second stage of a scheme of two where the first one
-  /// points to.
+  /// Called once before each solve, by one thread. Rods are where rates of positions and angles are
+  /// measured from: the sum of the step's earlier states, by their weights. Other quantities, such
+  /// as strains, are not linear in positions: an effect that needs their rates takes the weighted
+  /// sum of what they are in each earlier state. Directors and their tangents are those with which
+  /// the whole step began; a single transport leads from there to each of these states.
   virtual void begin_step(Rods& /*rods*/, const TimeStep& /*step*/) {}
 
   /// The data of each node that the energy needs, as begin_step() has found them.
