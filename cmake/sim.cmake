@@ -2,6 +2,7 @@
 
 add_library(fiber_proximity_sim SHARED
   src/sim/contact/contact_set.cpp
+  src/sim/contact/impact.cpp
   src/sim/contact/contact_set_step.cpp
   src/sim/contact/edge_contact.cpp
   src/sim/contact/obstacle_contact.cpp
@@ -18,6 +19,7 @@ add_library(fiber_proximity_sim SHARED
   src/sim/rods.cpp
   src/sim/solver/newton.cpp
   src/sim/solver/pack_kernels.cpp
+  src/sim/solver/newton_impacts.cpp
   src/sim/solver/stage_adaption.cpp
   src/sim/solver/stage_solver.cpp
   src/sim/stepper.cpp

@@ -24,4 +24,8 @@ inline void require_not_negative(const std::string& what, double value, const ch
   require(std::isfinite(value) && value >= 0.0, what, value, unit, "at least 0 and finite");
 }
 
+inline void require_share(const std::string& what, double value) {
+  require(value >= 0.0 && value <= 1.0, what, value, "", "from 0 to 1");
+}
+
 }  // namespace fiber

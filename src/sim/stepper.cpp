@@ -122,44 +122,67 @@ void Stepper::step(double length) {
   time_ += length;
 }
 
-/// With the ratio w of this step to the last one, x' = ((1 + w)² x₁ − w² x₀) / (1 + 2w) and v'
-/// alike, it is a step of implicit Euler of (1 + w) / (1 + 2w) of its length from there.
+/// A step with an impact, and the one after it, are of implicit Euler: velocities jump in an
+/// impact, and what is extrapolated from before leads through it.
 void Stepper::step_by_bdf2(double length) {
+  const bool is_at_history = history_.length > 0.0 && is_at(rods_, history_.after);
   history_.begin = rods_.state();
-  if (history_.length == 0.0 || !is_at(rods_, history_.after)) {
-    step_by_sdirk2(length);
+  if (!is_at_history) {
+    report_.is_first_order = !is_solved_by_sdirk2(length);
   } else {
-    const double ratio = length / history_.length;
-    const double share = 1.0 / (1.0 + 2.0 * ratio);
-    const double stage = (1.0 + ratio) * share * length;
-    const TimeStep step{time_ + length - stage,
-                        stage,
-                        {{{&history_.begin, (1.0 + ratio) * (1.0 + ratio) * share},
-                          {&history_.before, -ratio * ratio * share}}}};
-    combine(step.earlier, history_.reference);
-    solver_->solve(rods_, effects_, step, &history_.reference);
-    solver_->add_to(report_);
+    report_.is_first_order = history_.has_impacts || !is_solved_by_bdf2(length);
   }
+  if (report_.is_first_order) {
+    rods_.state() = history_.begin;
+    solver_->solve(rods_, effects_, {time_, length}, nullptr);
+  }
+  solver_->add_to(report_);
+  history_.has_impacts = solver_->has_impacts();
   std::swap(history_.before, history_.begin);
   history_.after = rods_.state();
   history_.length = length;
 }
 
+/// With the ratio w of this step to the last one, x' = ((1 + w)² x₁ − w² x₀) / (1 + 2w) and v'
+/// alike, it is a step of implicit Euler of (1 + w) / (1 + 2w) of its length from there.
+/// @returns false if there are impacts
+bool Stepper::is_solved_by_bdf2(double length) {
+  const double ratio = length / history_.length;
+  const double share = 1.0 / (1.0 + 2.0 * ratio);
+  const double stage = (1.0 + ratio) * share * length;
+  const TimeStep step{time_ + length - stage,
+                      stage,
+                      {{{&history_.begin, (1.0 + ratio) * (1.0 + ratio) * share},
+                        {&history_.before, -ratio * ratio * share}}}};
+  combine(step.earlier, history_.reference);
+  solver_->solve(rods_, effects_, step, &history_.reference);
+  return !solver_->has_impacts();
+}
+
 /// There are two stages, each of γ = 1 − 1/√2 of the step. The first ends at γ, the second at the
 /// end of the step: its rates are measured from where those of the first lead in the rest of the
 /// step.
-void Stepper::step_by_sdirk2(double length) {
+/// @returns false if there are impacts
+bool Stepper::is_solved_by_sdirk2(double length) {
   const double stage = (1.0 - std::sqrt(0.5)) * length;
   const double rest = length - stage;
   solver_->solve(rods_, effects_, {time_, stage}, nullptr);
-  solver_->add_to(report_);
+  if (solver_->has_impacts()) {
+    return false;
+  }
+  StepReport first;
+  solver_->add_to(first);
   const double part = rest / stage;
   history_.after = rods_.state();
   const TimeStep second{
       time_ + rest, stage, {{{&history_.begin, 1.0 - part}, {&history_.after, part}}}};
   combine(second.earlier, history_.reference);
   solver_->solve(rods_, effects_, second, &history_.reference);
-  solver_->add_to(report_);
+  if (solver_->has_impacts()) {
+    return false;
+  }
+  report_ = first;
+  return true;
 }
 
 RodForces Stepper::forces() const {

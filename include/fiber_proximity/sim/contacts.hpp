@@ -74,6 +74,9 @@ class Contacts {
 
 struct EdgePair;
 
+/// A cable that falls on a table from 1 m rises 4 cm.
+constexpr double default_restitution = 0.2;
+
 /// Contacts of rods with themselves, with each other, or both, by the potential of
 /// src/sim/contact/edge_contact.hpp: from 1.05 of the sum of radii between axes on, and never
 /// nearer than 0.95 of it.
@@ -88,9 +91,14 @@ class FiberContact : public ContactSource {
     /// Force by distance where surfaces meet [N/m] >= 0; 0 derives it from how the rods resist
     /// stretch.
     double stiffness = 0.0;
+
+    /// The part of the speed of their approach with which surfaces part after an impact (Newton's
+    /// law of impact), in [0, 1].
+    double restitution = default_restitution;
   };
 
-  /// @throws std::invalid_argument for a stiffness that is negative or not finite
+  /// @throws std::invalid_argument for a stiffness that is negative or not finite, or a restitution
+  ///         outside [0, 1]
   explicit FiberContact(const Options& options);
   ~FiberContact() override;
 
@@ -129,9 +137,11 @@ class EnvironmentContact : public ContactSource {
   struct Options {
     double stiffness = 0.0;  ///< [N/m] >= 0; 0 derives it from the rod as FiberContact does
     AllowedPairs allowed;    ///< pairs that may overlap and have no contacts; fibres are rods
+    double restitution = default_restitution;  ///< of impacts, in [0, 1], as FiberContact has it
   };
 
-  /// @throws std::invalid_argument for a stiffness that is negative or not finite
+  /// @throws std::invalid_argument for a stiffness that is negative or not finite, or a restitution
+  ///         outside [0, 1]
   EnvironmentContact(std::shared_ptr<const Environment> environment, const Options& options);
   ~EnvironmentContact() override;
 

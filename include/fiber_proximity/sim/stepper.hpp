@@ -57,6 +57,10 @@ struct StepReport {
   IslandReport worst;              ///< the island with the largest residual
   std::uint32_t coupled_rods = 0;  ///< that were solved together with others
 
+  /// Whether a step of BDF2 was one of implicit Euler, because a contact began in it or in the one
+  /// before.
+  bool is_first_order = false;
+
   /// The increase of kinetic and stored energy by the step, without the work of its input [J]. A
   /// converged step of implicit Euler gains none; one that its iterations cut short may.
   double energy_gain = 0.0;
@@ -105,12 +109,14 @@ class Stepper {
     RodState before;      // the last step
     RodState after;       // the last step
     double length = 0.0;  // of the last step [s]; 0 where there was none
-    RodState begin;       // buffer: the beginning of this step
-    RodState reference;   // buffer: where rates of this step are measured from
+    bool has_impacts = false;
+    RodState begin;      // buffer: the beginning of this step
+    RodState reference;  // buffer: where rates of this step are measured from
   };
 
-  void step_by_sdirk2(double length);
   void step_by_bdf2(double length);
+  bool is_solved_by_bdf2(double length);
+  bool is_solved_by_sdirk2(double length);
 
   Rods rods_;
   Effects effects_;

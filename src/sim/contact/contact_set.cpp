@@ -40,7 +40,9 @@ void ContactSet::clear() {
   pairs.clear();
   obstacle_contacts.clear();
   obstacle_edges.clear();
+  was_near_.clear();
   frictions_.clear();
+  impacts_.clear();
   for (std::vector<ContactTerm>& terms : terms_) {
     terms.clear();
   }
@@ -74,8 +76,18 @@ void ContactSet::begin(const Rods& rods, const Friction* friction,
   frictions_.clear();
   friction_ = friction;
   references_ = &references;
+  step_ = step;
   update_distances(rods);
   relax_initial_overlap(rods);
+  impacts_.clear();
+  was_near_.clear();
+  for (std::size_t i = 0; i < obstacle_contacts.size(); ++i) {
+    was_near_.push_back(obstacle_distances_[i].nearest.distance <
+                        obstacle_contacts[i].barrier.outer);
+  }
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    was_near_.push_back(distances_[i].distance < pairs[i].barrier.outer);
+  }
   if (friction != nullptr) {
     stick_length_ = friction->stick_length(step);
     frictions_ = find_friction(rods);
@@ -211,6 +223,13 @@ std::pair<std::uint32_t, std::uint32_t> ContactSet::rods_of(std::size_t contact)
   return {points.rod_a, points.is_of_rods() ? points.rod_b : points.rod_a};
 }
 
+void ContactSet::add_stored_energies(const std::vector<std::uint32_t>& islands,
+                                     std::vector<double>& energies) const {
+  for (std::size_t i = 0; i < distance_count(); ++i) {
+    energies[islands[rods_of(i).first]] += energies_[i];
+  }
+}
+
 double ContactSet::stored_energy() const {
   const auto end = energies_.begin() + static_cast<std::ptrdiff_t>(distance_count());
   return std::accumulate(energies_.begin(), end, 0.0);
@@ -292,6 +311,11 @@ void ContactSet::add_forces(const Rods& rods, std::vector<RodForces::ContactForc
   }
   for (const auto& [place, weight] : weights) {
     forces[place].point /= weight;
+  }
+  for (const Impact& impact : impacts_) {
+    RodForces::ContactForce& force = force_of(impact.points);
+    force.normal_force += impact.pressure * impact.normal;
+    force.friction_force += impact.friction;
   }
   for (const FrictionPoint& point : frictions_) {
     const Vector3d slip = point.slip(rods);

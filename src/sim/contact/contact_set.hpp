@@ -7,7 +7,9 @@
 #include "fiber_proximity/sim/contacts.hpp"
 #include "fiber_proximity/sim/effect.hpp"
 #include "fiber_proximity/sim/forces.hpp"
+#include "src/sim/contact/contact_terms.hpp"
 #include "src/sim/contact/edge_contact.hpp"
+#include "src/sim/contact/impact.hpp"
 #include "src/sim/contact/obstacle_contact.hpp"
 #include "src/sim/solver/line_search.hpp"
 
@@ -23,48 +25,6 @@ struct ObstacleEdge {
   Eigen::Vector3d normal;                 ///< from there to the edge, a unit vector
   std::array<Eigen::Vector3d, 2> starts;  ///< where the ends of the edge were then [m]
 };
-
-/// Points of two edges, or of an edge and an obstacle.
-struct ContactPoints {
-  static constexpr std::uint32_t no_edge = RodForces::ContactForce::obstacle;
-
-  std::uint32_t rod_a;
-  std::uint32_t edge_a;  ///< as Rods counts edges
-  double s;
-  std::uint32_t rod_b;   ///< the object's index, for an obstacle
-  std::uint32_t edge_b;  ///< no_edge for an obstacle
-  double t;
-
-  bool is_of_rods() const { return edge_b != no_edge; }
-};
-
-/// A term of the contacts' gradient and Hessian, by the difference of two points.
-struct ContactTerm {
-  ContactPoints points;
-  Eigen::Vector3d gradient;
-  Eigen::Matrix3d hessian;
-  double turning;  ///< times g gᵀ, part of the Hessian by the difference of a's ends [1/(N m)]
-};
-
-/// Terms by chunk of contacts. Threads share the chunks.
-using ContactTerms = std::vector<std::vector<ContactTerm>>;
-
-/// Adds the gradient to some rods, and the blocks of the Hessian between nodes of one edge.
-/// @param systems  by rod
-/// @param packs    by rod
-/// @param which    pack the rods are of
-void add_derivatives(const ContactTerms& terms, const Rods& rods,
-                     const std::vector<RodSystem*>& systems,
-                     const std::vector<std::uint32_t>& packs, std::uint32_t which);
-
-/// Whether the Hessian has other blocks: those between two rods' edges.
-bool has_coupling(const ContactTerms& terms);
-
-/// Adds the product of these other blocks with displacements.
-/// @param places        of each node's x in these arrays; y and z are lane_count further each
-/// @param displacements of all unknowns
-void add_coupling(const ContactTerms& terms, const std::vector<std::size_t>& places,
-                  const SimdBatch* displacements, SimdBatch* product);
 
 /// The contacts that some rods may have in a step: their potential, and that of friction in them.
 class ContactSet {
@@ -94,6 +54,20 @@ class ContactSet {
   void update_friction(const Rods& rods, const std::vector<std::uint32_t>& islands,
                        const std::vector<bool>& which);
 
+  /// Finds the impacts of the step, where it ends: contacts that press there, were not near when it
+  /// began, and whose sides approached each other then, faster than Impact::min_speed.
+  /// @param rods with the velocities with which the step began
+  std::vector<Impact> find_impacts(const Rods& rods) const;
+
+  /// Makes the terms those of a change of velocities by impacts: the impacts' own, and of all other
+  /// contacts how stiff they are. Expressed in displacements, which are the change times the step.
+  /// @param displacements of the last iteration, by node [m]
+  void find_impact_derivatives(const Rods& rods, const std::vector<Impact>& impacts,
+                               const std::vector<Eigen::Vector3d>& displacements);
+
+  /// Keeps the forces of impacts, for add_forces().
+  void keep_impacts(std::vector<Impact> impacts) { impacts_ = std::move(impacts); }
+
   /// Updates the distances to where the rods are now. The functions below use these.
   void update_distances(const Rods& rods);
 
@@ -107,6 +81,10 @@ class ContactSet {
 
   /// The sum of the energies that were evaluated last, without friction [J].
   double stored_energy() const;
+
+  /// Adds the same to the sum of each contact's island [J].
+  void add_stored_energies(const std::vector<std::uint32_t>& islands,
+                           std::vector<double>& energies) const;
 
   /// Finds the derivatives at the current distances.
   void find_derivatives(const Rods& rods);
@@ -139,6 +117,7 @@ class ContactSet {
 
   void relax_initial_overlap(const Rods& rods);
   std::vector<FrictionPoint> find_friction(const Rods& rods) const;
+  double restitution_of(std::size_t contact) const;
   template <class Function>
   void for_each_term(const Rods& rods, std::size_t index, std::vector<DistanceTerm>& found,
                      const Function& function) const;
@@ -152,9 +131,12 @@ class ContactSet {
 
   std::vector<SegmentDistance> distances_;            // by pair
   std::vector<ObstacleDistance> obstacle_distances_;  // by contact
+  std::vector<bool> was_near_;                        // when the step began, by contact
   std::vector<FrictionPoint> frictions_;
+  std::vector<Impact> impacts_;  // of the step
   const Friction* friction_ = nullptr;
   const std::vector<Eigen::Vector3d>* references_ = nullptr;
+  double step_ = 0.0;          // [s]
   double stick_length_ = 0.0;  // [m]
   ContactTerms terms_;
   std::vector<double> energies_;  // by contact [J]

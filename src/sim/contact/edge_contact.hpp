@@ -46,6 +46,7 @@ struct EdgePair {
   std::uint32_t rod_b;
   std::uint32_t edge_b;
   Barrier barrier;
+  double restitution;  ///< of impacts, in [0, 1]
 
   /// For each of the four ends (two of a, two of b): whether the contact of this node and the other
   /// edge belongs to this pair, and not to that of the neighbouring edge at the node.

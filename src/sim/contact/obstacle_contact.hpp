@@ -75,6 +75,7 @@ struct ObstacleContact {
   std::uint32_t edge;  ///< as Rods counts edges
   Part part;           ///< of the edge
   Barrier barrier;
+  double restitution;  ///< of impacts, in [0, 1]
   ObstaclePiece piece;
 };
 

@@ -63,6 +63,7 @@ double expected_approach(const TravelBound& bound, const EdgePair& pair) {
 FiberContact::FiberContact(const Options& options)
     : options_(options), engine_(make_engine("run_tree")) {
   require_not_negative("contact: the stiffness", options.stiffness, " N/m");
+  require_share("contact: the restitution", options.restitution);
 }
 
 FiberContact::~FiberContact() = default;
@@ -166,6 +167,7 @@ EdgePair FiberContact::candidate(const Rods& rods, const Contact& contact) const
           : std::sqrt(material_contact_stiffness(rods.sections[pair.rod_a], touching) *
                       material_contact_stiffness(rods.sections[pair.rod_b], touching));
   pair.barrier = Barrier::around(touching, stiffness);
+  pair.restitution = options_.restitution;
   // Two pairs of edges contain the contact of a node and another edge: those of the node's two
   // edges. The pair of the edge further along the rod owns it, for it exists if the other pair
   // does.
@@ -212,6 +214,7 @@ EnvironmentContact::EnvironmentContact(std::shared_ptr<const Environment> enviro
                                        const Options& options)
     : environment_(std::move(environment)), options_(options) {
   require_not_negative("environment_contact: the stiffness", options.stiffness, " N/m");
+  require_share("environment_contact: the restitution", options.restitution);
   for (const AllowedPair& pair : options.allowed) {
     allowed_.push_back(doubled(pair));
   }
@@ -310,7 +313,7 @@ void EnvironmentContact::add(const Rods& rods, const Contact& contact, double wi
   using Part = ObstacleContact::Part;
   const Part part = is_edge ? Part::EDGE : is_last ? Part::LAST_NODE : Part::FIRST_NODE;
   const auto add_piece = [&](const ObstaclePiece& piece) {
-    found.obstacle_contacts.push_back({rod, edge, part, barrier, piece});
+    found.obstacle_contacts.push_back({rod, edge, part, barrier, options_.restitution, piece});
   };
   if (shape.is_convex()) {
     add_piece(ObstaclePiece(shape, {}));

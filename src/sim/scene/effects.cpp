@@ -23,6 +23,7 @@ const std::map<std::string, EffectOptions>& known_effects() {
     const Drag::Options drag;
     const Friction::Options friction;
     const Plasticity::Options plasticity;
+    const EffectOptions contact{{"restitution", {default_restitution}}, {"stiffness", {0.0}}};
     return std::map<std::string, EffectOptions>{
         {"attachment", {}},
         {"bend", {}},
@@ -35,15 +36,15 @@ const std::map<std::string, EffectOptions>& known_effects() {
           {"wind.gust", {0.0, 0.0, 0.0}},
           {"wind.gust_period", {drag.wind.gust_period}},
           {"wind.gust_length", {drag.wind.gust_length}}}},
-        {"environment_contact", {{"stiffness", {0.0}}}},
-        {"fiber_contact", {{"stiffness", {0.0}}}},
+        {"environment_contact", contact},
+        {"fiber_contact", contact},
         {"friction",
          {{"coefficient", {friction.coefficient}}, {"stick_speed", {friction.stick_speed}}}},
         {"gravity", {{"acceleration", {0.0, 0.0, -9.81}}}},
         {"inextensible", {}},
         {"plasticity",
          {{"yield_strain", {plasticity.yield_strain}}, {"hardening", {plasticity.hardening}}}},
-        {"self_contact", {{"stiffness", {0.0}}}},
+        {"self_contact", contact},
         {"stretch", {}},
         {"twist", {}}};
   }();
@@ -173,24 +174,26 @@ std::shared_ptr<Attachment> make_attachment(const SimDescription& description, c
 std::unique_ptr<Contacts> make_contacts(const SimDescription& description, SimScene& scene) {
   std::vector<std::unique_ptr<ContactSource>> sources;
   const auto add = [&](const char* name, const auto& source) {
-    auto made = make(description, name,
-                     [&](const EffectOptions& options) -> std::unique_ptr<ContactSource> {
-                       return source(number_of(options, "stiffness"));
-                     });
+    auto made = make(
+        description, name, [&](const EffectOptions& options) -> std::unique_ptr<ContactSource> {
+          return source(number_of(options, "stiffness"), number_of(options, "restitution"));
+        });
     if (made != nullptr) {
       sources.push_back(std::move(made));
     }
   };
-  add("self_contact", [](double stiffness) {
-    return std::make_unique<FiberContact>(FiberContact::Options{Pairing::SAME_FIBER, stiffness});
-  });
-  add("fiber_contact", [](double stiffness) {
+  add("self_contact", [](double stiffness, double restitution) {
     return std::make_unique<FiberContact>(
-        FiberContact::Options{Pairing::DIFFERENT_FIBERS, stiffness});
+        FiberContact::Options{Pairing::SAME_FIBER, stiffness, restitution});
   });
-  add("environment_contact", [&](double stiffness) {
+  add("fiber_contact", [](double stiffness, double restitution) {
+    return std::make_unique<FiberContact>(
+        FiberContact::Options{Pairing::DIFFERENT_FIBERS, stiffness, restitution});
+  });
+  add("environment_contact", [&](double stiffness, double restitution) {
     return std::make_unique<EnvironmentContact>(
-        description.environment, EnvironmentContact::Options{stiffness, description.allowed});
+        description.environment,
+        EnvironmentContact::Options{stiffness, description.allowed, restitution});
   });
   auto friction = make_adjustable(description, "friction", make_friction, scene);
   return sources.empty() ? nullptr

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "src/sim/solver/coupling.hpp"
 #include "src/sim/solver/pack_kernels.hpp"
@@ -72,7 +74,8 @@ std::optional<double> NewtonSolver::solve(Rods& rods, const Problem& problem) {
     problem.contacts->begin(rods, problem.friction, problem.references, problem.step);
   }
   evaluate_energies(rods, problem);
-  const double stored_before = stored_energy(problem);
+  std::vector<double> max_kinetic = stored_energies(problem);
+  const double stored_before = std::accumulate(max_kinetic.begin(), max_kinetic.end(), 0.0);
   if (!predict(rods, problem)) {
     return std::nullopt;
   }
@@ -99,12 +102,28 @@ std::optional<double> NewtonSolver::solve(Rods& rods, const Problem& problem) {
       states_[i].is_active = states_[i].is_active && !accepted.has_failed;
     }
   }
+  std::vector<Impact> impacts;
+  if (problem.contacts != nullptr) {
+    impacts = problem.contacts->find_impacts(rods);
+  }
+  has_impacts_ = !impacts.empty();
+  // An impact gives back no more than what the first minimum has taken.
+  const std::vector<double> stored = stored_energies(problem);
+  if (has_impacts_) {
+    const std::vector<double> kinetic = kinetic_energies(rods);
+    for (std::size_t i = 0; i < max_kinetic.size(); ++i) {
+      max_kinetic[i] += kinetic[i] - stored[i];
+    }
+  }
   for_each_pack(packs_.size(), Work::LITTLE, [&](std::size_t pack) { packs_[pack].finish(rods); });
   if (problem.travel_bound != nullptr && !problem.travel_bound->is_final &&
       !bound_.is_within(rods, members_)) {
     return std::nullopt;
   }
-  return stored_energy(problem) - stored_before;
+  if (has_impacts_ && problem.has_start_rates) {
+    resolve_impacts(rods, problem, std::move(impacts), max_kinetic);
+  }
+  return std::accumulate(stored.begin(), stored.end(), 0.0) - stored_before;
 }
 
 /// Sums the incremental potential where the rods are, by island.
@@ -133,11 +152,16 @@ void NewtonSolver::sum_energies(const Problem& problem) {
   }
 }
 
-/// Stored energy of rods and contacts where they were evaluated last [J].
-double NewtonSolver::stored_energy(const Problem& problem) const {
-  double stored = problem.contacts != nullptr ? problem.contacts->stored_energy() : 0.0;
-  for (const PackStep& pack : packs_) {
-    stored += pack.stored_energy();
+/// Stored energy of rods and contacts where they were evaluated last, by island [J].
+std::vector<double> NewtonSolver::stored_energies(const Problem& problem) const {
+  std::vector<double> stored(states_.size(), 0.0);
+  for (std::size_t pack = 0; pack < packs_.size(); ++pack) {
+    for (std::size_t lane = 0; lane < packs_[pack].rods().used; ++lane) {
+      stored[islands_[pack][lane]] += packs_[pack].stored_energy(lane);
+    }
+  }
+  if (problem.contacts != nullptr) {
+    problem.contacts->add_stored_energies(scratch_->islands, stored);
   }
   return stored;
 }
@@ -320,12 +344,8 @@ void NewtonSolver::update_directional_derivatives() {
   }
 }
 
-/// @returns false if a rod needs a wider travel bound
-bool NewtonSolver::bound_step(const Rods& rods, const Problem& problem) {
-  trial_shares_.assign(states_.size(), 1.0);
-  if (problem.contacts == nullptr) {
-    return true;
-  }
+/// Finds the displacements of nodes by a whole step.
+void NewtonSolver::find_displacements(const Rods& rods) {
   using Stride = Eigen::InnerStride<lane_count>;
   const double* const step = step_.data()->lanes.data();
   for (const std::uint32_t rod : members_) {
@@ -334,6 +354,15 @@ bool NewtonSolver::bound_step(const Rods& rods, const Problem& problem) {
           Eigen::Map<const Vector3d, 0, Stride>(step + scratch_->places[i]);
     }
   }
+}
+
+/// @returns false if a rod needs a wider travel bound
+bool NewtonSolver::bound_step(const Rods& rods, const Problem& problem) {
+  trial_shares_.assign(states_.size(), 1.0);
+  if (problem.contacts == nullptr) {
+    return true;
+  }
+  find_displacements(rods);
   return bound_.bound(rods, scratch_->displacements, members_, scratch_->islands, *problem.contacts,
                       trial_shares_, scratch_->ends);
 }

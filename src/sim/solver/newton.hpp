@@ -45,6 +45,7 @@ class NewtonSolver {
     const TravelBound* travel_bound;                 ///< null: rods may go anywhere
     const Friction* friction;                        ///< null for none
     const std::vector<Eigen::Vector3d>& references;  ///< where rates are measured from, by node [m]
+    bool has_start_rates;  ///< whether that is the start: only such a step resolves its impacts
   };
 
   /// Replaces the rods that it solves for. Memory is reused.
@@ -68,6 +69,9 @@ class NewtonSolver {
   /// Reports of the last solve, by island.
   const std::vector<IslandReport>& reports() const { return reports_; }
   const StepBound& step_bound() const { return bound_; }
+
+  /// Whether the last solve found impacts.
+  bool has_impacts() const { return has_impacts_; }
 
  private:
   /// An island in the course of a solve.
@@ -93,7 +97,15 @@ class NewtonSolver {
 
   void evaluate_energies(Rods& rods, const Problem& problem);
   void sum_energies(const Problem& problem);
-  double stored_energy(const Problem& problem) const;
+  std::vector<double> stored_energies(const Problem& problem) const;
+  template <class Function>
+  void for_each_unknown(Rods& rods, const Function& function) const;
+  std::vector<double> kinetic_energies(Rods& rods) const;
+  void resolve_impacts(Rods& rods, const Problem& problem, std::vector<Impact> impacts,
+                       const std::vector<double>& max_kinetic);
+  void find_displacements(const Rods& rods);
+  void change_velocities(Rods& rods, double step, const std::vector<double>& max_kinetic,
+                         std::vector<Impact>& impacts);
   bool predict(Rods& rods, const Problem& problem);
   void assemble(Rods& rods, const Problem& problem);
   void check_convergence(Rods& rods, const Problem& problem, std::uint32_t iteration);
@@ -115,7 +127,8 @@ class NewtonSolver {
   std::vector<IslandReport> reports_;  // by island
   std::vector<EnergySum> energies_;    // by island, where its rods are
   std::vector<double> decreases_;      // by island
-  std::vector<double> trial_shares_;   // of the step, by island: bounds, then those accepted
+  bool has_impacts_ = false;
+  std::vector<double> trial_shares_;  // of the step, by island: bounds, then those accepted
   std::vector<SimdBatch> step_;
   LineSearch line_search_;
   Coupling coupling_;

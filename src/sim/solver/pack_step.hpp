@@ -191,22 +191,22 @@ class PackStep {
       energies_[lane] = EnergySum{};
       energies_[lane].add(0.5 * kinetic[lane] / (step_length_ * step_length_));
     }
-    stored_ = 0.0;
+    stored_ = SimdBatch{};
     for (std::size_t e = 0; e < effects.size(); ++e) {
       SimdBatch energy;
       effects[e]->energy(pack_, values_[e], energy);
       const bool is_stored = effects[e]->is_stored();
       for (std::size_t lane = 0; lane < pack_.used; ++lane) {
         energies_[lane].add(energy[lane]);
-        stored_ += is_stored ? energy[lane] : 0.0;
+        stored_[lane] += is_stored ? energy[lane] : 0.0;
       }
     }
   }
 
   const EnergySum& energy(std::size_t lane) const { return energies_[lane]; }
 
-  /// The conservative part of the energy, without inertia, over all rods [J].
-  double stored_energy() const { return stored_; }
+  /// The conservative part of a rod's energy, without inertia [J].
+  double stored_energy(std::size_t lane) const { return stored_[lane]; }
 
   /// Makes gradient and Hessian those of the energies where the rods are now.
   void assemble(const Effects& effects) {
@@ -220,6 +220,9 @@ class PackStep {
       effects[e]->add_derivatives(pack_, values_[e], system_);
     }
   }
+
+  /// Makes the gradient zero, for equations whose right side is in contacts alone.
+  void clear_gradient() { system_.gradient.assign(system_.gradient.size(), SimdBatch{}); }
 
   /// The system of one rod, to add contacts to it after assemble().
   RodSystem& system(std::size_t lane) { return views_[lane]; }
@@ -319,7 +322,7 @@ class PackStep {
   std::vector<SimdBatch> search_start_;  // of the step that was found last
   std::vector<SimdBatch> residuals_;     // squared, by node
   std::array<EnergySum, lane_count> energies_;
-  double stored_ = 0.0;
+  SimdBatch stored_;                            // [J]
   std::vector<std::vector<SimdBatch>> values_;  // by effect: its data of the nodes
   double step_length_ = 0.0;                    // [s]
 };

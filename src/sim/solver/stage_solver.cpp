@@ -40,7 +40,7 @@ StageSolver::StageSolver(const Rods& rods, const StepperOptions& options, Contac
 void StageSolver::solve(Rods& rods, const Effects& effects, const TimeStep& stage,
                         const RodState* reference) {
   last_step_ = stage.length;
-  is_at_start_ = reference == nullptr;
+  is_at_start_ = has_start_rates_ = reference == nullptr;
   if (contacts_ != nullptr || reference != nullptr) {
     start_ = rods.state();
     if (reference != nullptr) {
@@ -199,9 +199,10 @@ void StageSolver::solve_group(Rods& rods, const Effects& effects, double step, G
   const Friction* const friction = bounds ? contacts_->friction() : nullptr;
   const std::optional<double> gain =
       solver->solve(rods, {effects, options_, step, bounds ? &group.contacts : nullptr,
-                           travel_bound, friction, reference_.positions});
+                           travel_bound, friction, reference_.positions, has_start_rates_});
   group.is_solved = gain.has_value();
   group.stored_gain = gain.value_or(0.0);
+  group.has_impacts = solver->has_impacts();
   group.reports = solver->reports();
   group.needed_travel = solver->step_bound().needed();
   solvers_.push(std::move(solver));
@@ -226,6 +227,11 @@ void StageSolver::copy_state(const RodState& state, const Group& group, Rods& ro
       }
     }
   }
+}
+
+bool StageSolver::has_impacts() const {
+  return std::any_of(groups_.begin(), groups_.end(),
+                     [](const Group& group) { return group.has_impacts; });
 }
 
 void StageSolver::add_to(StepReport& report) const {
@@ -273,7 +279,9 @@ double StageSolver::stored_energy(Rods& rods, const Effects& effects) {
   double energy = 0.0;
   for_each_pack(rods, effects, [&](PackStep& pack) {
     pack.evaluate_energies(effects);
-    energy += pack.stored_energy();
+    for (std::size_t lane = 0; lane < pack.rods().used; ++lane) {
+      energy += pack.stored_energy(lane);
+    }
   });
   for (Group& group : groups_) {
     group.contacts.update_distances(rods);

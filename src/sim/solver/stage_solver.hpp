@@ -52,6 +52,10 @@ class StageSolver {
   /// @param reference where rates are measured from; null for where the solve starts
   void solve(Rods& rods, const Effects& effects, const TimeStep& stage, const RodState* reference);
 
+  /// Whether the last solve found impacts. It resolves them only if rates are measured from where
+  /// it starts: extrapolated ones lead through the impact.
+  bool has_impacts() const;
+
   /// Adds the results of the last solve.
   void add_to(StepReport& report) const;
 
@@ -69,6 +73,7 @@ class StageSolver {
     std::vector<IslandReport> reports;
     double stored_gain = 0.0;  // of energy in the solve [J]
     std::vector<std::pair<std::uint32_t, double>> needed_travel;
+    bool has_impacts = false;
     bool is_solved = false;
   };
 
@@ -92,6 +97,7 @@ class StageSolver {
   SolverScratch scratch_;
   std::vector<ContactSet> found_by_;  // by source
   TravelBound travel_bound_;
+  bool has_start_rates_ = true;  // whether rates are measured from where the solve starts
   bool is_at_start_ = true;  // whether rods are where the solve starts, and rates are measured from
   RodState start_;
   RodState reference_;
