@@ -122,7 +122,8 @@ TEST(Residual, IsWhatIsLeftOfEachNodesEquation) {
     for (int i = 0; i < 480; ++i) {
       const Rods before = stepper.rods();
       stepper.step(balance_step);
-      if (stepper.report().unbalanced > 0 || i % 10 != 0) {
+      // Impacts change velocities beyond what the equations say.
+      if (stepper.report().unbalanced > 0 || stepper.report().impacts > 0 || i % 10 != 0) {
         continue;
       }
       ++balanced;

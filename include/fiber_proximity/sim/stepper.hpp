@@ -48,6 +48,7 @@ struct IslandReport {
   double residual = 0.0;         ///< largest change of speed that is left [m/s]
   std::uint32_t rod = 0;         ///< whose residual that is
   std::uint32_t node = 0;        ///< counted from the rod's first one
+  std::uint32_t impacts = 0;     ///< contacts that shared in an impact
 };
 
 /// The result of a step.
@@ -56,6 +57,8 @@ struct StepReport {
   std::uint32_t unbalanced = 0;    ///< islands that have not converged to the residual asked for
   IslandReport worst;              ///< the island with the largest residual
   std::uint32_t coupled_rods = 0;  ///< that were solved together with others
+
+  std::uint32_t impacts = 0;  ///< contacts that shared in an impact
 
   /// Whether a step of BDF2 was one of implicit Euler, because a contact began in it or in the one
   /// before.

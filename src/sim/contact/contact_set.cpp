@@ -314,8 +314,8 @@ void ContactSet::add_forces(const Rods& rods, std::vector<RodForces::ContactForc
   }
   for (const Impact& impact : impacts_) {
     RodForces::ContactForce& force = force_of(impact.points);
-    force.normal_force += impact.pressure * impact.normal;
-    force.friction_force += impact.friction;
+    force.normal_force += impact.pressure / step_ * impact.normal;
+    force.friction_force += impact.friction / step_;
   }
   for (const FrictionPoint& point : frictions_) {
     const Vector3d slip = point.slip(rods);

@@ -54,19 +54,16 @@ class ContactSet {
   void update_friction(const Rods& rods, const std::vector<std::uint32_t>& islands,
                        const std::vector<bool>& which);
 
-  /// Finds the impacts of the step, where it ends: contacts that press there, were not near when it
-  /// began, and whose sides approached each other then, faster than Impact::min_speed.
+  /// Finds the impacts of the step where it ends: if contacts press there that were not near when
+  /// it began, and whose sides approached each other then faster than Impact::min_speed, those and
+  /// all others that press.
   /// @param rods with the velocities with which the step began
   std::vector<Impact> find_impacts(const Rods& rods) const;
 
-  /// Makes the terms those of a change of velocities by impacts: the impacts' own, and of all other
-  /// contacts how stiff they are. Expressed in displacements, which are the change times the step.
-  /// @param displacements of the last iteration, by node [m]
-  void find_impact_derivatives(const Rods& rods, const std::vector<Impact>& impacts,
-                               const std::vector<Eigen::Vector3d>& displacements);
-
-  /// Keeps the forces of impacts, for add_forces().
-  void keep_impacts(std::vector<Impact> impacts) { impacts_ = std::move(impacts); }
+  /// Keeps impacts, for add_forces(): their impulses are forces over the step.
+  void add_impacts(const std::vector<Impact>& impacts) {
+    impacts_.insert(impacts_.end(), impacts.begin(), impacts.end());
+  }
 
   /// Updates the distances to where the rods are now. The functions below use these.
   void update_distances(const Rods& rods);

@@ -140,48 +140,25 @@ double ContactSet::restitution_of(std::size_t contact) const {
 }
 
 std::vector<Impact> ContactSet::find_impacts(const Rods& rods) const {
-  const auto velocity_at = [&](std::uint32_t edge, double parameter) -> Vector3d {
-    return (1.0 - parameter) * rods.velocities[edge] + parameter * rods.velocities[edge + 1];
-  };
   std::vector<Impact> found;
+  bool has_any_begun = false;
   std::vector<DistanceTerm> buffer;
   for (std::size_t i = 0; i < distance_count(); ++i) {
-    if (was_near_[i] || energies_[i] == 0.0) {
+    if (energies_[i] == 0.0) {
       continue;
     }
     for_each_term(rods, i, buffer, [&](const ContactPoints& points, const DistanceTerm& term) {
-      Vector3d velocity = velocity_at(points.edge_a, points.s);
-      if (points.is_of_rods()) {
-        velocity -= velocity_at(points.edge_b, points.t);
+      if (!(term.pressure > 0.0)) {
+        return;
       }
-      const double approach = -velocity.dot(term.normal);
-      if (term.pressure > 0.0 && approach > Impact::min_speed) {
-        found.push_back({i, points, term.normal, step_ * restitution_of(i) * approach});
-      }
+      const double approach = -relative_velocity(rods.velocities, points).dot(term.normal);
+      const bool has_begun = !was_near_[i] && approach > Impact::min_speed;
+      has_any_begun |= has_begun;
+      found.push_back(
+          {points, term.normal, has_begun, has_begun ? restitution_of(i) * approach : 0.0});
     });
   }
-  return found;
-}
-
-void ContactSet::find_impact_derivatives(const Rods& rods, const std::vector<Impact>& impacts,
-                                         const std::vector<Vector3d>& displacements) {
-  std::vector<bool> has_impact(distance_count(), false);
-  terms_.assign(1, {});
-  for (const Impact& impact : impacts) {
-    has_impact[impact.contact] = true;
-    terms_.front().push_back(impact.term(displacements, friction_, stick_length_));
-  }
-  std::vector<DistanceTerm> buffer;
-  for (std::size_t i = 0; i < distance_count(); ++i) {
-    if (!has_impact[i] && energies_[i] > 0.0) {
-      const std::size_t first = terms_.front().size();
-      find_terms(rods, i, buffer, terms_.front());
-      for (std::size_t k = first; k < terms_.front().size(); ++k) {
-        terms_.front()[k].gradient.setZero();
-        terms_.front()[k].turning = 0.0;
-      }
-    }
-  }
+  return has_any_begun ? found : std::vector<Impact>{};
 }
 
 void ContactSet::bound_step(const Rods& rods, const std::vector<Vector3d>& displacements,

@@ -22,6 +22,20 @@ struct ContactPoints {
   bool is_of_rods() const { return edge_b != no_edge; }
 };
 
+/// The velocity of a's point against b's, or against an obstacle [m/s].
+/// @param velocities of nodes [m/s]
+inline Eigen::Vector3d relative_velocity(const std::vector<Eigen::Vector3d>& velocities,
+                                         const ContactPoints& points) {
+  const auto at = [&](std::uint32_t edge, double parameter) -> Eigen::Vector3d {
+    return (1.0 - parameter) * velocities[edge] + parameter * velocities[edge + 1];
+  };
+  Eigen::Vector3d found = at(points.edge_a, points.s);
+  if (points.is_of_rods()) {
+    found -= at(points.edge_b, points.t);
+  }
+  return found;
+}
+
 /// A term of the contacts' gradient and Hessian, by the difference of two points.
 struct ContactTerm {
   ContactPoints points;

@@ -1,78 +1,70 @@
 #include "src/sim/contact/impact.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace fiber {
 
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 namespace {
 
-/// The difference of a node value between the points of two edges, or at one against an obstacle.
-Vector3d difference(const ContactPoints& points, const std::vector<Vector3d>& values) {
-  const auto at = [&](std::uint32_t edge, double parameter) -> Vector3d {
-    return (1.0 - parameter) * values[edge] + parameter * values[edge + 1];
-  };
-  Vector3d found = at(points.edge_a, points.s);
-  if (points.is_of_rods()) {
-    found -= at(points.edge_b, points.t);
-  }
-  return found;
+/// Adds the velocities by an impulse on a point of an edge.
+void push(std::uint32_t edge, double parameter, const Vector3d& impulse,
+          const std::vector<double>& masses, std::vector<Vector3d>& velocities) {
+  velocities[edge] += (1.0 - parameter) / masses[edge] * impulse;
+  velocities[edge + 1] += parameter / masses[edge + 1] * impulse;
+}
+
+/// The change of a point's velocity by a unit impulse on it [1/kg].
+double mobility(std::uint32_t edge, double parameter, const std::vector<double>& masses) {
+  return (1.0 - parameter) * (1.0 - parameter) / masses[edge] +
+         parameter * parameter / masses[edge + 1];
 }
 
 }  // namespace
 
-void Impact::begin(const Rods& rods, double step) {
-  // What is left of the approach is this part of it at most.
-  constexpr double ratio = 1e4;
-  stiffness = ratio * rods.masses[points.edge_a] / (step * step);
-  motion = step * difference(points, rods.velocities);
-}
-
-Vector3d Impact::motion_after(const std::vector<Vector3d>& displacements) const {
-  return motion + difference(points, displacements);
-}
-
-ContactTerm Impact::term(const std::vector<Vector3d>& displacements, const Friction* law,
-                         double stick_length) const {
-  ContactTerm term{points, Vector3d::Zero(), Matrix3d::Zero(), 0.0};
-  const Vector3d after = motion_after(displacements);
-  if (after.dot(normal) < separation) {
-    term.gradient = stiffness * (motion.dot(normal) - separation) * normal;
-    term.hessian = stiffness * normal * normal.transpose();
-  }
-  if (law != nullptr && pressure > 0.0) {
-    const double max_force = law->coefficient() * pressure;
-    const Vector3d slip = after - normal * normal.dot(after);
-    const double length = slip.norm();
-    const Friction::Law at_slip = Friction::law(length, stick_length);
-    Matrix3d hessian = at_slip.resistance * (Matrix3d::Identity() - normal * normal.transpose());
-    if (length > 0.0) {
-      hessian +=
-          (at_slip.curvature - at_slip.resistance) / (length * length) * slip * slip.transpose();
+void resolve(const std::vector<double>& masses, double coefficient, std::vector<Impact>& impacts,
+             std::vector<Vector3d>& velocities) {
+  constexpr int max_iterations = 200;
+  constexpr double max_change = 1e-6;  // of the largest impulse
+  for (Impact& impact : impacts) {
+    if (!impact.has_begun) {
+      impact.separation =
+          std::min(0.0, relative_velocity(velocities, impact.points).dot(impact.normal));
     }
-    term.gradient += max_force * (at_slip.resistance * slip - hessian * (after - motion));
-    term.hessian += max_force * hessian;
   }
-  return term;
-}
-
-double Impact::update_forces(const std::vector<Vector3d>& displacements, const Friction* law,
-                             double stick_length) {
-  const Vector3d after = motion_after(displacements);
-  const double pressed = std::max(0.0, stiffness * (separation - after.dot(normal)));
-  Vector3d rubbed = Vector3d::Zero();
-  if (law != nullptr) {
-    const Vector3d slip = after - normal * normal.dot(after);
-    rubbed =
-        -law->coefficient() * pressed * Friction::law(slip.norm(), stick_length).resistance * slip;
+  double change = 1.0;
+  double largest = 0.0;
+  for (int i = 0; i < max_iterations && change > max_change * largest; ++i) {
+    change = 0.0;
+    for (Impact& impact : impacts) {
+      const ContactPoints& points = impact.points;
+      const double inverse_mass =
+          mobility(points.edge_a, points.s, masses) +
+          (points.is_of_rods() ? mobility(points.edge_b, points.t, masses) : 0.0);
+      const auto push_both = [&](const Vector3d& impulse) {
+        push(points.edge_a, points.s, impulse, masses, velocities);
+        if (points.is_of_rods()) {
+          push(points.edge_b, points.t, -impulse, masses, velocities);
+        }
+      };
+      const double speed = relative_velocity(velocities, points).dot(impact.normal);
+      const double pressure =
+          std::max(0.0, impact.pressure + (impact.separation - speed) / inverse_mass);
+      push_both((pressure - impact.pressure) * impact.normal);
+      const Vector3d velocity = relative_velocity(velocities, points);
+      const Vector3d slip = velocity - impact.normal * impact.normal.dot(velocity);
+      Vector3d friction = impact.friction - slip / inverse_mass;
+      const double max_friction = coefficient * pressure;
+      friction *= friction.norm() > max_friction ? max_friction / friction.norm() : 1.0;
+      push_both(friction - impact.friction);
+      change = std::max(
+          {change, std::abs(pressure - impact.pressure), (friction - impact.friction).norm()});
+      largest = std::max(largest, pressure);
+      impact.pressure = pressure;
+      impact.friction = friction;
+    }
   }
-  const double change = std::abs(pressed - pressure) + (rubbed - friction).norm();
-  pressure = pressed;
-  friction = rubbed;
-  return pressed > 0.0 ? change / pressed : change > 0.0 ? 1.0 : 0.0;
 }
 
 }  // namespace fiber

@@ -98,14 +98,9 @@ class NewtonSolver {
   void evaluate_energies(Rods& rods, const Problem& problem);
   void sum_energies(const Problem& problem);
   std::vector<double> stored_energies(const Problem& problem) const;
-  template <class Function>
-  void for_each_unknown(Rods& rods, const Function& function) const;
-  std::vector<double> kinetic_energies(Rods& rods) const;
-  void resolve_impacts(Rods& rods, const Problem& problem, std::vector<Impact> impacts,
+  std::vector<double> kinetic_energies(const Rods& rods) const;
+  void resolve_impacts(Rods& rods, const Problem& problem, const std::vector<Impact>& impacts,
                        const std::vector<double>& max_kinetic);
-  void find_displacements(const Rods& rods);
-  void change_velocities(Rods& rods, double step, const std::vector<double>& max_kinetic,
-                         std::vector<Impact>& impacts);
   bool predict(Rods& rods, const Problem& problem);
   void assemble(Rods& rods, const Problem& problem);
   void check_convergence(Rods& rods, const Problem& problem, std::uint32_t iteration);

@@ -9,109 +9,84 @@ namespace fiber {
 
 using Eigen::Vector3d;
 
-/// Calls function(island, inertia, velocity, displacement) for the unknowns of the rods; inertias
-/// and velocities are those of angles where displacements are angles.
-template <class Function>
-void NewtonSolver::for_each_unknown(Rods& rods, const Function& function) const {
-  const double* const step = step_.data()->lanes.data();
+namespace {
+
+/// The largest part, up to 1, of a change of velocities that adds no more kinetic energy than is
+/// allowed.
+double allowed_share(const std::vector<double>& masses, const std::vector<Vector3d>& before,
+                     const std::vector<Vector3d>& after, const std::vector<std::uint32_t>& nodes,
+                     double allowed) {
+  double linear = 0.0;  // the energy by the share y is y linear + y² square
+  double square = 0.0;
+  for (const std::uint32_t node : nodes) {
+    const Vector3d change = after[node] - before[node];
+    linear += masses[node] * before[node].dot(change);
+    square += 0.5 * masses[node] * change.squaredNorm();
+  }
+  if (linear + square <= allowed) {
+    return 1.0;
+  }
+  return (std::sqrt(linear * linear + 4.0 * square * allowed) - linear) / (2.0 * square);
+}
+
+}  // namespace
+
+/// Kinetic energy of the rods at their velocities, by island [J].
+std::vector<double> NewtonSolver::kinetic_energies(const Rods& rods) const {
+  std::vector<double> energies(states_.size(), 0.0);
   for (const std::uint32_t rod : members_) {
-    const std::uint32_t island = scratch_->islands[rod];
     for (std::uint32_t i = rods.first(rod); i < rods.end(rod); ++i) {
-      const double* const displacement = step + scratch_->places[i];
-      for (std::uint32_t k = 0; k < 3; ++k) {
-        function(island, rods.masses[i], rods.velocities[i][k], displacement[k * lane_count]);
-      }
+      double& energy = energies[scratch_->islands[rod]];
+      energy += 0.5 * rods.masses[i] * rods.velocities[i].squaredNorm();
       if (!rods.spins.empty()) {
         const double inertia = rods.sections[rod].inertia_per_length * rods.rest_lengths[i];
-        function(island, inertia, rods.spins[i], displacement[3 * lane_count]);
+        energy += 0.5 * inertia * rods.spins[i] * rods.spins[i];
       }
     }
   }
-}
-
-/// Kinetic energy of the rods at their velocities, by island [J].
-std::vector<double> NewtonSolver::kinetic_energies(Rods& rods) const {
-  std::vector<double> energies(states_.size(), 0.0);
-  for_each_unknown(rods, [&](std::uint32_t island, double inertia, double velocity, double) {
-    energies[island] += 0.5 * inertia * velocity * velocity;
-  });
   return energies;
 }
 
-/// Finds the change of velocities by Newton's method: the equations are linear but for which
-/// impacts press and which slide, and settle in a few iterations.
-/// @param max_kinetic energy afterwards, by island [J]
-void NewtonSolver::resolve_impacts(Rods& rods, const Problem& problem, std::vector<Impact> impacts,
+/// Changes the velocities by the impacts of each island.
+/// @param max_kinetic energy afterwards, by island [J]: no more than what the solve has taken
+void NewtonSolver::resolve_impacts(Rods& rods, const Problem& problem,
+                                   const std::vector<Impact>& impacts,
                                    const std::vector<double>& max_kinetic) {
-  constexpr int max_iterations = 30;
-  constexpr double max_change = 1e-3;
-  const double stick_length =
-      problem.friction != nullptr ? problem.friction->stick_length(problem.step) : 0.0;
-  for (IslandState& state : states_) {
-    state.is_active = false;
-    state.scale = 1.0;
-  }
-  for (Impact& impact : impacts) {
-    states_[scratch_->islands[impact.points.rod_a]].is_active = true;
-    impact.begin(rods, problem.step);
-  }
-  for (const std::uint32_t rod : members_) {
-    std::fill(scratch_->displacements.begin() + rods.first(rod),
-              scratch_->displacements.begin() + rods.end(rod), Vector3d::Zero());
-  }
-  double change = 1.0;
-  for (int i = 0; i < max_iterations && change > max_change; ++i) {
-    problem.contacts->find_impact_derivatives(rods, impacts, scratch_->displacements);
-    for_each_pack(packs_.size(), Work::MUCH, [&](std::size_t pack) {
-      packs_[pack].assemble(problem.effects);
-      packs_[pack].clear_gradient();
-      add_derivatives(problem.contacts->terms(), rods, scratch_->systems, scratch_->packs,
-                      static_cast<std::uint32_t>(pack));
-    });
-    find_newton_step(problem);
-    find_displacements(rods);
-    change = 0.0;
-    for (Impact& impact : impacts) {
-      change = std::max(
-          change, impact.update_forces(scratch_->displacements, problem.friction, stick_length));
+  const double coefficient = problem.friction != nullptr ? problem.friction->coefficient() : 0.0;
+  const std::vector<double> kinetic = kinetic_energies(rods);
+  for (std::uint32_t island = 0; island < states_.size(); ++island) {
+    std::vector<Impact> own;
+    std::vector<std::uint32_t> nodes;
+    for (const Impact& impact : impacts) {
+      if (scratch_->islands[impact.points.rod_a] == island) {
+        own.push_back(impact);
+        nodes.insert(nodes.end(), {impact.points.edge_a, impact.points.edge_a + 1});
+        if (impact.points.is_of_rods()) {
+          nodes.insert(nodes.end(), {impact.points.edge_b, impact.points.edge_b + 1});
+        }
+      }
     }
-  }
-  change_velocities(rods, problem.step, max_kinetic, impacts);
-  problem.contacts->keep_impacts(std::move(impacts));
-}
-
-/// Changes the velocities of islands by their displacements, or by the largest part of that which
-/// their energy allows.
-void NewtonSolver::change_velocities(Rods& rods, double step,
-                                     const std::vector<double>& max_kinetic,
-                                     std::vector<Impact>& impacts) {
-  // Energy by the share y of the change: energies + y linear + y² square.
-  const std::vector<double> energies = kinetic_energies(rods);
-  std::vector<double> linear(states_.size(), 0.0);
-  std::vector<double> square(states_.size(), 0.0);
-  for_each_unknown(rods,
-                   [&](std::uint32_t i, double inertia, double velocity, double displacement) {
-                     const double change = displacement / step;
-                     linear[i] += inertia * velocity * change;
-                     square[i] += 0.5 * inertia * change * change;
-                   });
-  std::vector<double> shares(states_.size(), 0.0);
-  for (std::size_t i = 0; i < shares.size(); ++i) {
-    const double allowed = std::max(0.0, max_kinetic[i] - energies[i]);
-    if (!states_[i].is_active || linear[i] + square[i] <= allowed) {
-      shares[i] = states_[i].is_active ? 1.0 : 0.0;
-    } else {
-      const double root = std::sqrt(linear[i] * linear[i] + 4.0 * square[i] * allowed);
-      shares[i] = (root - linear[i]) / (2.0 * square[i]);
+    if (std::none_of(own.begin(), own.end(), [](const auto& impact) { return impact.has_begun; })) {
+      continue;
     }
-  }
-  for_each_unknown(rods, [&](std::uint32_t i, double, double& velocity, double displacement) {
-    velocity += shares[i] * displacement / step;
-  });
-  for (Impact& impact : impacts) {
-    const double share = shares[scratch_->islands[impact.points.rod_a]];
-    impact.pressure *= share;
-    impact.friction *= share;
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    std::vector<Vector3d>& before = scratch_->displacements;
+    for (const std::uint32_t node : nodes) {
+      before[node] = rods.velocities[node];
+    }
+    resolve(rods.masses, coefficient, own, rods.velocities);
+    const double share = allowed_share(rods.masses, before, rods.velocities, nodes,
+                                       std::max(0.0, max_kinetic[island] - kinetic[island]));
+    for (const std::uint32_t node : nodes) {
+      rods.velocities[node] = before[node] + share * (rods.velocities[node] - before[node]);
+    }
+    for (Impact& impact : own) {
+      impact.pressure *= share;
+      impact.friction *= share;
+    }
+    problem.contacts->add_impacts(own);
+    reports_[island].impacts = static_cast<std::uint32_t>(own.size());
   }
 }
 

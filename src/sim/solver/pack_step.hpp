@@ -221,9 +221,6 @@ class PackStep {
     }
   }
 
-  /// Makes the gradient zero, for equations whose right side is in contacts alone.
-  void clear_gradient() { system_.gradient.assign(system_.gradient.size(), SimdBatch{}); }
-
   /// The system of one rod, to add contacts to it after assemble().
   RodSystem& system(std::size_t lane) { return views_[lane]; }
 

@@ -240,6 +240,7 @@ void StageSolver::add_to(StepReport& report) const {
     report.energy_gain += group.stored_gain;
     for (const IslandReport& island : group.reports) {
       iterations = std::max(iterations, island.iterations);
+      report.impacts += island.impacts;
       report.unbalanced += island.residual > options_.residual ? 1 : 0;
       if (!(island.residual <= report.worst.residual)) {
         report.worst = island;
