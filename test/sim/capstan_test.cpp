@@ -29,9 +29,9 @@ std::ostream& operator<<(std::ostream& out, const Drawn& drawn) {
 
 class CapstanOf : public testing::TestWithParam<Drawn> {};
 
-TEST_P(CapstanOf, HasItsRatioTo1PercentWith64EdgesATurn) {
+TEST_P(CapstanOf, HasItsRatioTo1PercentWith72EdgesATurn) {
   const Drawn& drawn = GetParam();
-  const double found = tension_ratio({drawn.turns(), 64, drawn.material}, drawn.friction);
+  const double found = tension_ratio({drawn.turns(), 72, drawn.material}, drawn.friction);
   EXPECT_NEAR(found, drawn.exact(), 0.01 * drawn.exact());
 }
 

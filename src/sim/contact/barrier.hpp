@@ -13,13 +13,13 @@ namespace fiber {
 /// The potential of a contact by the distance of axes: none from the outer distance on, infinite at
 /// the inner one and below, and smooth in between. With the part u of the way from the outer to the
 /// inner distance,
-///   b = k w² u³ / (1 − u)⁴
+///   b = k w² (u / (1 − u))³
 /// Surfaces meet in the middle: fibres begin to push before they touch, and no force brings them
 /// further into each other than to the inner distance.
 ///
 /// It has the part of the barrier of Li et al. 2020 (Eq. 6), whose logarithm pushes with 1 / (1 −
-/// u) near the inner distance, where this pushes with 1 / (1 − u)⁵: a force a thousand times that
-/// where surfaces meet leaves a seventh of the width, not a thousandth of it, over which the
+/// u) near the inner distance, where this pushes with 1 / (1 − u)⁴: a force a thousand times that
+/// where surfaces meet leaves an eighth of the width, not a thousandth of it, over which the
 /// stiffness hardly changes in a step of Newton's method. So one barrier holds the weight of a hair
 /// and the pull of a knot, and none has to grow stiffer while it is pressed, which would make
 /// energy.
@@ -31,7 +31,7 @@ struct Barrier {
   /// @param touching  distance at which surfaces meet [m]
   /// @param stiffness force by distance where surfaces meet [N/m]
   static Barrier around(double touching, double stiffness) {
-    constexpr double curvature_in_middle = 400.0;
+    constexpr double curvature_in_middle = 144.0;
     return {(1.0 - half_width) * touching, (1.0 + half_width) * touching,
             stiffness / curvature_in_middle};
   }
@@ -74,8 +74,8 @@ struct Barrier {
       return std::numeric_limits<double>::infinity();
     }
     const auto [u, inverse] = depth(distance);
-    const double square = inverse * inverse;
-    return scale * width() * width() * u * u * u * square * square;
+    const double ratio = u * inverse;
+    return scale * width() * width() * ratio * ratio * ratio;
   }
 
   /// The energy's derivatives by the distance, which must be within (inner, outer): the slope is
@@ -83,12 +83,12 @@ struct Barrier {
   double slope(double distance) const {
     const auto [u, inverse] = depth(distance);
     const double square = inverse * inverse;
-    return -scale * width() * u * u * (3.0 + u) * square * square * inverse;
+    return -3.0 * scale * width() * u * u * square * square;
   }
   double curvature(double distance) const {
     const auto [u, inverse] = depth(distance);
     const double square = inverse * inverse;
-    return 2.0 * scale * u * (3.0 + u * (6.0 + u)) * square * square * square;
+    return 6.0 * scale * u * (1.0 + u) * square * square * inverse;
   }
 
  private:
