@@ -68,7 +68,7 @@ TEST_F(SimSceneTest, OptionsOfEffectsAreReadAndHaveDefaults) {
       "[{gravity: {acceleration: [1, 2, 3]}}, {damping: {relaxation_time: 0.5}}, {drag: {across: "
       "2, "
       "wind: {mean: [4, 5, 6], gust_period: 7}}}, {plasticity: {hardening: 0.25}}, {self_contact: "
-      "{stiffness: 8}}, {friction: {coefficient: 0.75}}, stretch]"));
+      "{restitution: 0.5, stiffness: 8}}, {friction: {coefficient: 0.75}}, stretch]"));
   const auto options = [&scene](const char* effect) { return scene.find_effect(effect)->options; };
   using Options = EffectOptions;
   EXPECT_EQ(options("gravity"), (Options{{"acceleration", {1, 2, 3}}}));
@@ -81,7 +81,7 @@ TEST_F(SimSceneTest, OptionsOfEffectsAreReadAndHaveDefaults) {
                                       {"wind.gust_period", {7}},
                                       {"wind.gust_length", {1}}}));
   EXPECT_EQ(options("plasticity"), (Options{{"yield_strain", {0.02}}, {"hardening", {0.25}}}));
-  EXPECT_EQ(options("self_contact"), (Options{{"stiffness", {8}}}));
+  EXPECT_EQ(options("self_contact"), (Options{{"restitution", {0.5}}, {"stiffness", {8}}}));
   EXPECT_EQ(options("friction"), (Options{{"coefficient", {0.75}}, {"stick_speed", {1e-3}}}));
   EXPECT_EQ(options("stretch"), Options());
   EXPECT_EQ(scene.find_effect("twist"), nullptr);

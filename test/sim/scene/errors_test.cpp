@@ -24,6 +24,8 @@ TEST_F(SimSceneTest, ErrorsNameLineAndWhatIsAllowed) {
       {scene_text(line, "[friction]"), "name self_contact, fiber_contact or environment_contact"},
       {scene_text(line, "[environment_contact]"), "the scene has no environment"},
       {scene_text(line, "[{damping: {relaxation_time: -1}}]"), "relaxation time is -1"},
+      {scene_text(line, "[{self_contact: {restitution: 1.5}}]"),
+       "7: effects[0]: contact: the restitution is 1.500000, it must be from 0 to 1"},
       {scene_text(line, "[{bend: {natural_curvature: -1}}]"),
        "7: effects[0].bend.natural_curvature is -1, it must be at least 0 and finite, or "
        "from_shape"},
