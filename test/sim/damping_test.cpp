@@ -118,7 +118,7 @@ TEST(Damping, LosesWhatTheStrainRatesOfASwingingCableLose) {
         effects(std::make_unique<Gravity>(Vector3d(0, 0, -free_fall)), std::make_unique<Stretch>(),
                 std::make_unique<Bend>(), std::make_unique<Damping>(relaxation_time),
                 hold(rods, {pin(0, rods.positions.front()), pin(30, rods.positions.back())})),
-        precise(Integrator::BDF2));
+        StepperOptions{Integrator::BDF2});
     double expected = 0.0;
     for (int i = 0; i < 2000; ++i) {
       const Rods before = stepper.rods();
@@ -144,7 +144,7 @@ TEST(Damping, LetsABentCableTurnAboutItsHinges) {
         effects(std::make_unique<Stretch>(), std::make_unique<Bend>(),
                 std::make_unique<Damping>(relaxation_time),
                 hold(rods, {pin(0, rods.positions.front()), pin(50, rods.positions.back())})),
-        precise(Integrator::BDF2));
+        StepperOptions{Integrator::BDF2});
     for (int i = 0; i < 1920; ++i) {
       stepper.step(1.0 / 960);
     }
