@@ -115,35 +115,6 @@ TEST(ContactNeighbours, EdgesOfAZigZagDoNotPassThroughEachOther) {
   EXPECT_GT(nearest, min_nearest);
 }
 
-/// A helix of two turns and few edges is drawn out and pushed together.
-TEST(ContactNeighbours, TurnsOfACoarseHelixDoNotPassThroughEachOther) {
-  constexpr double radius = 0.005;
-  for (const int edges_of_turn : {3, 4, 6}) {
-    std::vector<Vector3d> points;
-    for (int i = 0; i <= 2 * edges_of_turn; ++i) {
-      const double angle = 2.0 * M_PI * i / edges_of_turn;
-      points.emplace_back(0.05 * std::cos(angle), 0.05 * std::sin(angle), 0.02 * i / edges_of_turn);
-    }
-    Rods rods;
-    rods.add(points, radius, rubber(radius));
-    Effects all = elastic(0.0);
-    Attachment::Hold pushed = pin(static_cast<std::uint32_t>(points.size()) - 1, points.back());
-    pushed.placement = [start = points.back()](double time) {
-      return Placement{start - Vector3d(0.0, 0.0, 0.08 * std::min(1.0, time)), Vector3d::Zero(),
-                       Vector3d::Zero()};
-    };
-    all.push_back(hold(rods, {pin(0, points.front()), pushed}));
-    Stepper stepper(rods, std::move(all), {}, contacts_with(nullptr));
-    double nearest = nearest_axes(rods);
-    while (stepper.time() < 1.0) {
-      stepper.step(1.0 / 240.0);
-      nearest = std::min(nearest, nearest_axes(stepper.rods()));
-    }
-    EXPECT_LT(nearest, 1.1) << edges_of_turn << " edges of a turn meet";
-    EXPECT_GT(nearest, min_nearest) << edges_of_turn << " edges of a turn";
-  }
-}
-
 /// A hairpin whose arms touch: they are held apart as those of two rods are.
 TEST(ContactNeighbours, ArmsOfAHairpinAreHeldApart) {
   constexpr double edge = 2.0 * thin_radius;
