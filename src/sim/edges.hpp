@@ -21,7 +21,7 @@ inline EdgeDirection direction_of(const Eigen::Vector3d& edge) {
   return {length, edge / length};
 }
 
-inline EdgeDirection edge_direction(const Rods& rods, std::uint32_t edge) {
+inline EdgeDirection edge_direction(const RodState& rods, std::uint32_t edge) {
   return direction_of(rods.positions[edge + 1] - rods.positions[edge]);
 }
 
@@ -57,6 +57,32 @@ inline double signed_angle(const Eigen::Vector3d& from, const Eigen::Vector3d& t
 inline double nearest_turn(double angle, double to) {
   const double turn = 2.0 * M_PI;
   return angle - turn * std::round((angle - to) / turn);
+}
+
+struct CosineSine {
+  double cosine;
+  double sine;
+};
+
+/// Of an angle, to some units of the last digit. The standard library's differ between processors.
+inline CosineSine cosine_and_sine(double angle) {
+  // The series of an eighth of an angle of up to half a turn are short.
+  const double eighth = 0.125 * nearest_turn(angle, 0.0);
+  const double square = eighth * eighth;
+  double sine = 1.0;
+  double versine = 1.0;  // 1 - cosine
+  for (int power = 15; power >= 3; power -= 2) {
+    sine = 1.0 - sine * square / (power * (power - 1));
+    versine = 1.0 - versine * square / (power * (power + 1));
+  }
+  sine *= eighth;
+  versine *= 0.5 * square;
+  for (int doubled = 0; doubled < 3; ++doubled) {
+    const double half = sine;
+    sine = 2.0 * half * (1.0 - versine);
+    versine = 2.0 * half * half;
+  }
+  return {1.0 - versine, sine};
 }
 
 /// The derivative of the twist between two edges by the point after the second is this over twice

@@ -146,33 +146,38 @@ class Twist : public LaneEffect {
 };
 
 /// Internal friction of a Kelvin–Voigt material: each stiffness resists the rate of its strain as
-/// well, with a relaxation time. Rigid motion is not damped, but for a bent rod's turning about its
-/// own tangents: cross-sections are taken not to turn about them. Nor is a fold, which has no
-/// direction.
+/// well, with a relaxation time. Strains are such that no rigid motion changes them: lengths of
+/// edges and, of the turns between them,
+///
+/// - without twist the size, as cross-sections that do not resist twist turn about the tangent as
+///   they please;
+/// - with twist both components along the material directions of the cross-sections, and the twist
+///   between these.
+///
+/// Rates are those of the time integration: of the strains that the earlier states of the step have
+/// (TimeStep), not of the strains of their weighted sum.
 class Damping : public LaneEffect {
  public:
-  /// @param relaxation_time of stretch and bend [s]
+  /// @param relaxation_time of stretch, bend and twist [s]
   /// @throws std::invalid_argument if it is negative or not finite
   explicit Damping(double relaxation_time);
 
   void begin_step(Rods& rods, const TimeStep& step) override;
   bool is_stored() const override { return false; }
-  NodeData per_node_data() const override { return {starts_.front().turn.data(), 7}; }
+  NodeData per_node_data() const override { return {earlier_.data(), per_node_}; }
   void add_forces(const RodPack& rods, const NodeValues& values, RodForces& forces) const override;
 
  private:
-  /// The data of an edge and its first node when the step began, see per_node_data().
-  struct Start {
-    Eigen::Vector3d turn = Eigen::Vector3d::Zero();
-    Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // of the tangents; zero where it is folded
-    double length = 0.0;                               // [m]
-  };
-
   Kernels kernels() const override;
 
   double relaxation_time_;
   double share_ = 0.0;  // of a stiffness, against the change by a step
-  std::vector<Start> starts_;
+
+  // By edge, or the node that it begins with, what rates are measured from: the length, and without
+  // twist the size of the turn, with twist its two components, the twist, and the part of that
+  // which the directors have.
+  std::vector<double> earlier_;
+  std::uint32_t per_node_ = 0;
 };
 
 /// A uniform acceleration.

@@ -8,12 +8,13 @@
 
 namespace fiber {
 
-/// Edges of one rod whose indices differ by at most this are never in contact: only folding would
-/// bring them together.
-constexpr std::uint32_t contact_neighbour_skip = 2;
+/// Edges of one rod whose indices differ by at most this are never in contact: they meet at a node.
+constexpr std::uint32_t contact_neighbour_skip = 1;
 
 /// Edges with less of the rod between them than this, measured at rest, are never in contact
-/// either: four radii [m].
+/// either: four radii [m]. A rod that turns back in a half-circle of that length has 2.5 radii
+/// between its axes, and does not touch itself: however long its edges are, a contact needs a
+/// sharper bend or a loop.
 inline double contact_neighbour_length(const Rods& rods, std::uint32_t rod) {
   return 4.0 * rods.radii[rod];
 }

@@ -12,7 +12,7 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
-#include "src/sim/simd-inl.hpp"
+#include "src/sim/effects/strains-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace fiber {
@@ -53,27 +53,12 @@ void add_derivatives(const RodPack& rods, const NodeValues& /*values*/, const do
   with_unknowns(system, [&](auto u) { add_derivatives_of<u>(rods, system); });
 }
 
-/// The turn at a node, and its excess over the natural one.
-struct CurvedTurn {
-  Vector turn;
-  Real size;
-  Real excess;
-};
-
-/// @param natural what Bend keeps of the nodes
-HWY_INLINE CurvedTurn curved_turn(const TwoEdges& edges, const SimdBatch& natural,
-                                  std::size_t lane) {
-  const Vector turn = edges.after - edges.before;
-  const Real size = hn::Sqrt(dot(turn, turn));
-  return {turn, size, size - load(natural, lane)};
-}
-
 void curved_energy(const RodPack& rods, const NodeValues& natural, const double* /*constants*/,
                    SimdBatch& energy) {
   for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
     Real sum = real(0.0);
     for (std::size_t i = 1; i + 1 < rods.node_count; ++i) {
-      const Real excess = curved_turn(edges_beside(rods, i, lane), natural[i], lane).excess;
+      const Real excess = sized_turn(edges_beside(rods, i, lane), load(natural[i], lane)).excess;
       sum = sum + excess * excess * load(rods.inverse_node_lengths[i], lane);
     }
     store(real(0.5) * load(rods.bending_stiffness, lane) * sum, energy, lane);
@@ -82,7 +67,7 @@ void curved_energy(const RodPack& rods, const NodeValues& natural, const double*
 
 /// The direction of the turn; where there is none, any direction across the rod, found lane by
 /// lane.
-HWY_INLINE Vector direction_of(const CurvedTurn& turn, const Vector& tangent) {
+HWY_INLINE Vector direction_of(const SizedTurn& turn, const Vector& tangent) {
   const Real zero = real(0.0);
   const auto is_bent = hn::Gt(turn.size, zero);
   const Vector along = real(1.0) / turn.size * turn.turn;
@@ -107,25 +92,13 @@ HWY_INLINE Vector direction_of(const CurvedTurn& turn, const Vector& tangent) {
 
 template <std::size_t U>
 void add_curved_derivatives_of(const RodPack& rods, const NodeValues& natural, PackSystem& system) {
-  const Real zero = real(0.0);
-  const Real one = real(1.0);
   for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
     const Real total = load(rods.bending_stiffness, lane);
     for (std::size_t i = 1; i + 1 < rods.node_count; ++i) {
       const Real stiffness = total * load(rods.inverse_node_lengths[i], lane);
       const TwoEdges edges = edges_beside(rods, i, lane);
-      const CurvedTurn turn = curved_turn(edges, natural[i], lane);
-      const Vector direction = direction_of(turn, edges.before);
-      const Vector gradient = stiffness * turn.excess * direction;
-      add_gradient<U>(edges, negative(gradient), gradient, i, lane, system);
-      // A rod that is straighter than it wants to be gives way sideways: as in Stretch.
-      const Real wanted = load(natural[i], lane);
-      const Real share = hn::Max(zero, turn.excess) / hn::Max(turn.size, wanted);
-      const auto is_straight = hn::Eq(wanted, zero);
-      const Real sideways = hn::IfThenElse(is_straight, one, share);
-      EdgeBlocks blocks = isotropic_blocks(edges, stiffness * sideways);
-      add_along(edges, stiffness * (one - sideways), direction, blocks);
-      add_hessian<U>(blocks, i, lane, system);
+      const SizedTurn turn = sized_turn(edges, load(natural[i], lane));
+      add_sized_turn<U>(edges, turn, direction_of(turn, edges.before), stiffness, i, lane, system);
     }
   }
 }

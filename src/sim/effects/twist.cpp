@@ -12,14 +12,12 @@
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 
-#include "src/sim/simd-inl.hpp"
+#include "src/sim/effects/strains-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace fiber {
 namespace HWY_NAMESPACE {
 namespace {
-
-constexpr std::size_t unknowns = 4;
 
 /// @param references what Twist keeps of the nodes
 HWY_INLINE Real twist_at(const RodPack& rods, const NodeValues& references, std::size_t node,
@@ -40,50 +38,15 @@ void energy(const RodPack& rods, const NodeValues& references, const double* /*c
   }
 }
 
-/// The derivative of the twist at a node by all unknowns from the previous node to the next one.
-struct TwistDerivative {
-  static constexpr std::size_t size = 2 * unknowns + 3;
-  Real values[size];
-};
-
-HWY_INLINE TwistDerivative derivative_at(const RodPack& rods, std::size_t node, std::size_t lane) {
-  const Vector binormal =
-      curvature_binormal(tangent_at(rods, node - 1, lane), tangent_at(rods, node, lane));
-  const Real half = real(0.5);
-  const Vector by_previous = director_turn(rods, node - 1, lane) -
-                             half * load(rods.inverse_lengths[node - 1], lane) * binormal;
-  const Vector by_next =
-      director_turn(rods, node, lane) + half * load(rods.inverse_lengths[node], lane) * binormal;
-  TwistDerivative derivative;
-  for (std::size_t k = 0; k < 3; ++k) {
-    derivative.values[k] = by_previous.xyz[k];
-    derivative.values[unknowns + k] = hn::Neg(by_previous.xyz[k] + by_next.xyz[k]);
-    derivative.values[2 * unknowns + k] = by_next.xyz[k];
-  }
-  derivative.values[3] = real(-1.0);
-  derivative.values[unknowns + 3] = real(1.0);
-  return derivative;
-}
-
 void add_derivatives(const RodPack& rods, const NodeValues& references, const double* /*constants*/,
                      PackSystem& system) {
-  assert(system.unknowns == unknowns);
+  assert(system.unknowns == section_unknowns);
   for (std::size_t lane = 0; lane < rods.used; lane += lanes_at_once()) {
     const Real total = load(rods.twisting_stiffness, lane);
     for (std::size_t i = 1; i + 1 < rods.node_count; ++i) {
       const Real stiffness = total * load(rods.inverse_node_lengths[i], lane);
       const Real moment = stiffness * twist_at(rods, references, i, lane);
-      const TwistDerivative derivative = derivative_at(rods, i, lane);
-      const std::size_t start = unknowns * (i - 1);
-      SimdBatch* const gradient = &system.gradient[start];
-      SimdBatch* const hessian = &system.hessian[start * column_height<unknowns>];
-      for (std::size_t c = 0; c < TwistDerivative::size; ++c) {
-        add(moment * derivative.values[c], gradient[c], lane);
-        const Real scaled = stiffness * derivative.values[c];
-        for (std::size_t r = c; r < TwistDerivative::size; ++r) {
-          add(scaled * derivative.values[r], hessian[c * column_height<unknowns> + r - c], lane);
-        }
-      }
+      add_square(twist_derivative(rods, i, lane), moment, stiffness, i, lane, system);
     }
   }
 }
