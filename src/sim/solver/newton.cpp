@@ -20,7 +20,7 @@ constexpr double rest_tolerance = 1e-3;
 /// With friction, whose normal forces follow from iteration to iteration, the residual falls by
 /// about the same factor in each: where an iteration ends just within the tolerance, all contacts
 /// of a rod that slides would err to the same side.
-constexpr double friction_tolerance = 0.1;
+constexpr double friction_tolerance = 0.3;
 
 /// Factor for the next Newton step.
 double next_scale(double scale, const LineSearch::Island& accepted) {
