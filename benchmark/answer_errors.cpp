@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "fiber_proximity/geometry/segment_distance.hpp"
@@ -35,21 +36,17 @@ void check_contacts(const FiberAssembly& fibers, const std::vector<Contact>& con
 }
 
 void check_pairs(const QueryResult& answer, const QueryResult& exact, AnswerErrors& errors) {
-  auto expected = exact.contacts.begin();
-  std::size_t missing = 0;
-  for (const Contact& contact : answer.contacts) {
-    for (; expected != exact.contacts.end() && expected->key() < contact.key(); ++expected) {
-      ++missing;
-    }
-    if (expected != exact.contacts.end() && expected->key() == contact.key()) {
-      ++expected;
-    } else {
-      ++errors.extra;
-    }
-  }
-  missing += static_cast<std::size_t>(exact.contacts.end() - expected);
-  errors.expected = exact.contacts.size();
-  (answer.complete ? errors.missed : errors.cut_off) = missing;
+  const std::vector<Contact>& found = answer.contacts;
+  const std::vector<Contact>& expected = exact.contacts;
+  std::vector<Contact> missing;
+  std::vector<Contact> extra;
+  std::set_difference(expected.begin(), expected.end(), found.begin(), found.end(),
+                      std::back_inserter(missing), by_key);
+  std::set_difference(found.begin(), found.end(), expected.begin(), expected.end(),
+                      std::back_inserter(extra), by_key);
+  errors.expected = expected.size();
+  errors.extra += extra.size();
+  (answer.complete ? errors.missed : errors.cut_off) = missing.size();
 }
 
 /// Errors of the smallest distance. The pair that has it may be another one.

@@ -1,6 +1,6 @@
 #include "benchmark/copies.hpp"
 
-#include <algorithm>
+#include <Eigen/Geometry>
 #include <cassert>
 #include <stdexcept>
 #include <string>
@@ -11,16 +11,12 @@ namespace {
 
 /// Size of the box around the fibres, and a hundredth of it, so that copies do not touch [m].
 Eigen::Vector3d spacing(const FiberAssembly& fibers) {
-  const std::vector<Eigen::Vector3d>& points = fibers.points();
-  Eigen::Vector3d lower = points.front();
-  Eigen::Vector3d upper = points.front();
-  for (const Eigen::Vector3d& point : points) {
-    lower = lower.cwiseMin(point);
-    upper = upper.cwiseMax(point);
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& point : fibers.points()) {
+    box.extend(point);
   }
-  const double radius = *std::max_element(fibers.radii().begin(), fibers.radii().end());
   constexpr double with_gap = 1.01;
-  return with_gap * (upper - lower).array() + 2.0 * with_gap * radius;
+  return with_gap * box.sizes().array() + 2.0 * with_gap * fibers.largest_radius();
 }
 
 std::uint32_t cube_root_rounded_up(std::uint32_t value) {

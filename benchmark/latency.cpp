@@ -5,9 +5,7 @@
 
 #include <atomic>
 #include <cmath>
-#include <map>
 #include <memory>
-#include <mutex>
 #include <stdexcept>
 
 #include "benchmark/commands.hpp"
@@ -19,7 +17,6 @@ namespace {
 
 using fiber_proximity::ContactArray;
 using fiber_proximity::FiberArray;
-using Clock = std::chrono::steady_clock;
 
 struct LatencyRequest : RunningNodeRequest {
   LatencyRequest() {
@@ -56,52 +53,6 @@ FiberArray make_cables(const LatencyRequest& request, const ros::Time& stamp, do
   message.radii.push_back(radius);
   return message;
 }
-
-/// Which messages are under way, and how long those took that were answered.
-class LatencyLog {
- public:
-  void sent(const ros::Time& stamp) {
-    const std::lock_guard lock(mutex_);
-    sent_[stamp] = Clock::now();
-  }
-
-  void answered(const ContactArray& contacts) {
-    const Clock::time_point now = Clock::now();
-    const std::lock_guard lock(mutex_);
-    const auto message = sent_.find(contacts.header.stamp);
-    if (message == sent_.end()) {
-      return;  // from before the measurement
-    }
-    latencies_ms_.push_back(milliseconds(now - message->second));
-    contacts_ = contacts.contacts.size();
-    sent_.erase(message);
-  }
-
-  void clear() {
-    const std::lock_guard lock(mutex_);
-    sent_.clear();
-    latencies_ms_.clear();
-  }
-
-  std::size_t pending() const {
-    const std::lock_guard lock(mutex_);
-    return sent_.size();
-  }
-  std::vector<double> latencies_ms() const {
-    const std::lock_guard lock(mutex_);
-    return latencies_ms_;
-  }
-  std::size_t contacts() const {
-    const std::lock_guard lock(mutex_);
-    return contacts_;
-  }
-
- private:
-  mutable std::mutex mutex_;
-  std::map<ros::Time, Clock::time_point> sent_;
-  std::vector<double> latencies_ms_;
-  std::size_t contacts_ = 0;  // of the newest answer
-};
 
 /// Polls until the condition holds or the time is over; whether it held.
 template <class Condition>
@@ -146,8 +97,8 @@ class LatencyRun {
       throw std::runtime_error("nobody publishes " + subscriber_.getTopic());
     }
     // The first messages build the node's tree and find its memory: they are not measured.
-    publish(request_.timeout, [this] { return !log_.latencies_ms().empty(); });
-    if (log_.latencies_ms().empty()) {
+    publish(request_.timeout, [this] { return !log_.times_ms().empty(); });
+    if (log_.times_ms().empty()) {
       throw std::runtime_error("no answer on " + subscriber_.getTopic() +
                                " to what is published on " + publisher_.getTopic());
     }
@@ -160,19 +111,23 @@ class LatencyRun {
   }
 
   std::size_t published() const { return published_; }
-  const LatencyLog& log() const { return log_; }
+  std::vector<double> latencies_ms() const { return log_.times_ms(); }
+  std::size_t contacts() const { return contacts_; }
   std::size_t events() const { return events_; }
   std::size_t predictions() const { return predictions_; }
 
  private:
-  void on_contacts(const ContactArray& contacts) { log_.answered(contacts); }
+  void on_contacts(const ContactArray& contacts) {
+    log_.receive(contacts.header.stamp, contacts.header.stamp);
+    contacts_ = contacts.contacts.size();
+  }
 
   template <class IsEnough>
   void publish(double seconds, const IsEnough& is_enough) {
     publish_at_rate(request_, seconds, is_enough, [this](double time) {
       const ros::Time stamp = ros::Time::now();
       const FiberArray cables = make_cables(request_, stamp, time);
-      log_.sent(stamp);
+      log_.send(stamp);
       publisher_.publish(cables);
       ++published_;
       progress_.show(std::to_string(published_) + " messages");
@@ -180,11 +135,12 @@ class LatencyRun {
   }
 
   const LatencyRequest& request_;
-  LatencyLog log_;
+  TravelLog<ros::Time> log_;
   Progress progress_;
   std::size_t published_ = 0;
   ros::NodeHandle node_;
   ros::Publisher publisher_;
+  std::atomic<std::size_t> contacts_{0};  // of the newest answer
   std::atomic<std::size_t> events_{0};
   std::atomic<std::size_t> predictions_{0};
   ros::Subscriber subscriber_;
@@ -196,14 +152,14 @@ ExitCode run_latency(const LatencyRequest& request) {
   connect_to_ros();
   LatencyRun run(request);
   run.run();
-  const std::vector<double> latencies = run.log().latencies_ms();
+  const std::vector<double> latencies = run.latencies_ms();
   if (latencies.empty()) {
     throw std::runtime_error("none of " + std::to_string(run.published()) +
                              " messages was answered");
   }
   BenchmarkRow result{{"cables", request.cables},     {"points", request.points},
                       {"rate", request.rate},         {"published", run.published()},
-                      {"answered", latencies.size()}, {"contacts", run.log().contacts()}};
+                      {"answered", latencies.size()}, {"contacts", run.contacts()}};
   add_quantiles(latencies, result);
   if (request.continuous) {
     result["events"] = run.events();

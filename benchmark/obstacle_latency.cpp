@@ -3,11 +3,10 @@
 #include <fiber_proximity/ObstacleArray.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
-#include <map>
 #include <memory>
-#include <mutex>
 #include <random>
 #include <stdexcept>
 
@@ -79,55 +78,6 @@ Obstacle thicket(const ObstacleLatencyRequest& request) {
   return thicket;
 }
 
-/// When the ball was sent to which place, and how long it took until the node had it there or
-/// further.
-class ObstacleLog {
- public:
-  std::size_t send() {
-    const std::lock_guard lock(mutex_);
-    sent_[next_] = Clock::now();
-    return next_++;
-  }
-
-  void seen(double distance) {
-    const Clock::time_point now = Clock::now();
-    const auto index = static_cast<std::size_t>(
-        std::max(0.0, std::round((distance + 2.0 * radius - first_height) / step)));
-    const std::lock_guard lock(mutex_);
-    while (!sent_.empty() && sent_.begin()->first <= index) {
-      lags_ms_.push_back(milliseconds(now - sent_.begin()->second));
-      sent_.erase(sent_.begin());
-    }
-    if (last_.time_since_epoch().count() != 0) {
-      longest_gap_ms_ = std::max(longest_gap_ms_, milliseconds(now - last_));
-    }
-    last_ = now;
-  }
-
-  void clear() {
-    const std::lock_guard lock(mutex_);
-    lags_ms_.clear();
-    longest_gap_ms_ = 0.0;
-  }
-
-  std::vector<double> lags_ms() const {
-    const std::lock_guard lock(mutex_);
-    return lags_ms_;
-  }
-  double longest_gap_ms() const {
-    const std::lock_guard lock(mutex_);
-    return longest_gap_ms_;
-  }
-
- private:
-  mutable std::mutex mutex_;
-  std::map<std::size_t, Clock::time_point> sent_;
-  std::size_t next_ = 0;
-  std::vector<double> lags_ms_;
-  double longest_gap_ms_ = 0.0;  // between answers
-  Clock::time_point last_;
-};
-
 /// A moving obstacle among bad ones and large ones, and a node that tells how far it is.
 class ObstacleRun {
  public:
@@ -144,20 +94,32 @@ class ObstacleRun {
   }
 
   void run() {
-    publish(request_.timeout, false, [this] { return !log_.lags_ms().empty(); });
-    if (log_.lags_ms().empty()) {
+    publish(request_.timeout, false, [this] { return !log_.times_ms().empty(); });
+    if (log_.times_ms().empty()) {
       throw std::runtime_error("no answer on " + subscriber_.getTopic() +
                                " to what is published on " + fibers_.getTopic() + " and " +
                                obstacles_.getTopic());
     }
     log_.clear();
+    longest_gap_ms_ = 0.0;
     publish(request_.seconds, true, [] { return false; });
   }
 
-  const ObstacleLog& log() const { return log_; }
+  /// How long it took until the node had the ball at a place or further.
+  std::vector<double> lags_ms() const { return log_.times_ms(); }
+  double longest_gap_ms() const { return longest_gap_ms_; }
 
  private:
-  void on_contacts(const ContactArray& contacts) { log_.seen(contacts.minimum_distance); }
+  void on_contacts(const ContactArray& contacts) {
+    const double height = contacts.minimum_distance + 2.0 * radius;
+    log_.receive(
+        0, static_cast<std::size_t>(std::max(0.0, std::round((height - first_height) / step))));
+    const Clock::time_point now = Clock::now();
+    if (last_.time_since_epoch().count() != 0) {
+      longest_gap_ms_ = std::max(longest_gap_ms_.load(), milliseconds(now - last_));
+    }
+    last_ = now;
+  }
 
   void publish_obstacle(const Obstacle& obstacle) {
     ObstacleArray message;
@@ -191,15 +153,19 @@ class ObstacleRun {
         next_mesh = time + request_.mesh_period;
       }
       publish_fiber();
+      log_.send(next_);
       publish_obstacle(
-          ball("ball", request_.frame, first_height + step * static_cast<double>(log_.send())));
-      progress_.show(std::to_string(log_.lags_ms().size()) + " places");
+          ball("ball", request_.frame, first_height + step * static_cast<double>(next_++)));
+      progress_.show(std::to_string(log_.times_ms().size()) + " places");
     });
   }
 
   const ObstacleLatencyRequest& request_;
   ObstacleArray thicket_;
-  ObstacleLog log_;
+  TravelLog<std::size_t> log_;             // of the ball, by the number of its place
+  std::size_t next_ = 0;                   // place
+  std::atomic<double> longest_gap_ms_{0};  // between answers
+  Clock::time_point last_;
   Progress progress_;
   ros::NodeHandle node_;
   ros::Publisher fibers_;
@@ -212,7 +178,7 @@ ExitCode run_obstacle_latency(const ObstacleLatencyRequest& request) {
   connect_to_ros();
   ObstacleRun obstacles(request);
   obstacles.run();
-  const std::vector<double> lags = obstacles.log().lags_ms();
+  const std::vector<double> lags = obstacles.lags_ms();
   if (lags.empty()) {
     throw std::runtime_error("the moving obstacle was not seen to move");
   }
@@ -221,7 +187,7 @@ ExitCode run_obstacle_latency(const ObstacleLatencyRequest& request) {
                       {"triangles", request.triangles},
                       {"places", lags.size()}};
   add_quantiles(lags, result);
-  result["longest_gap_ms"] = obstacles.log().longest_gap_ms();
+  result["longest_gap_ms"] = obstacles.longest_gap_ms();
   print_fields(result, request.json);
   return SUCCEEDED;
 }

@@ -2,6 +2,10 @@
 
 #include <ros/ros.h>
 
+#include <chrono>
+#include <cstddef>
+#include <map>
+#include <mutex>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -57,6 +61,48 @@ void publish_at_rate(const RunningNodeRequest& request, double seconds, const Is
     rate.sleep();
   }
 }
+
+/// The messages that are under way, by what tells them apart, and how long the others took.
+template <class Key>
+class TravelLog {
+  using Clock = std::chrono::steady_clock;
+
+ public:
+  void send(const Key& key) {
+    const std::lock_guard lock(mutex_);
+    sent_[key] = Clock::now();
+  }
+
+  /// Notes that all from the first up to the last have arrived.
+  void receive(const Key& first, const Key& last) {
+    const Clock::time_point now = Clock::now();
+    const std::lock_guard lock(mutex_);
+    for (auto message = sent_.lower_bound(first);
+         message != sent_.end() && !(last < message->first); message = sent_.erase(message)) {
+      times_ms_.push_back(milliseconds(now - message->second));
+    }
+  }
+
+  void clear() {
+    const std::lock_guard lock(mutex_);
+    sent_.clear();
+    times_ms_.clear();
+  }
+
+  std::size_t pending() const {
+    const std::lock_guard lock(mutex_);
+    return sent_.size();
+  }
+  std::vector<double> times_ms() const {
+    const std::lock_guard lock(mutex_);
+    return times_ms_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::map<Key, Clock::time_point> sent_;
+  std::vector<double> times_ms_;
+};
 
 /// Adds the median and other quantiles of times [ms].
 inline void add_quantiles(const std::vector<double>& times_ms, BenchmarkRow& row) {

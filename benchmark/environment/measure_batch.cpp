@@ -69,36 +69,37 @@ void measure_candidates(const EnvironmentMeasurement& what, const Candidates& ca
   }
 }
 
-}  // namespace
-
-void measure_batch(const EnvironmentMeasurement& what, const ReportRow& report) {
-  std::vector<FiberAssembly> candidates;
+/// Checks candidates for any contact.
+/// @param make  makes one of so many points, by a seed
+/// @param check check_fibers() or check_motions()
+template <class Candidate, class Options, class Check>
+void measure_first(const EnvironmentMeasurement& what,
+                   Candidate (*make)(std::uint32_t points, std::uint64_t seed),
+                   void (*check)(const std::vector<Candidate>&, const Surroundings&, const Options&,
+                                 std::vector<Check>&),
+                   const ReportRow& report) {
+  std::vector<Candidate> candidates;
   for (std::uint32_t i = 0; i < what.candidates; ++i) {
-    candidates.push_back(candidate_cable(what.size.points, what.seed + i));
+    candidates.push_back(make(what.size.points, what.seed + i));
   }
-  QueryOptions first;
-  first.type = QueryType::FIRST;
-  measure_candidates<FiberCheck>(
+  Options first;
+  first.type = decltype(first.type)::FIRST;
+  measure_candidates<Check>(
       what, candidates,
-      [&](const auto& all, const Surroundings& surroundings, std::vector<FiberCheck>& checks) {
-        check_fibers(all, surroundings, first, checks);
+      [&](const auto& all, const Surroundings& surroundings, std::vector<Check>& checks) {
+        check(all, surroundings, first, checks);
       },
       report);
 }
 
+}  // namespace
+
+void measure_batch(const EnvironmentMeasurement& what, const ReportRow& report) {
+  measure_first(what, candidate_cable, check_fibers, report);
+}
+
 void measure_motions(const EnvironmentMeasurement& what, const ReportRow& report) {
-  std::vector<FiberPath> motions;
-  for (std::uint32_t i = 0; i < what.candidates; ++i) {
-    motions.push_back(candidate_step(what.size.points, what.seed + i));
-  }
-  MotionOptions first;
-  first.type = MotionType::FIRST;
-  measure_candidates<MotionCheck>(
-      what, motions,
-      [&](const auto& all, const Surroundings& surroundings, std::vector<MotionCheck>& checks) {
-        check_motions(all, surroundings, first, checks);
-      },
-      report);
+  measure_first(what, candidate_step, check_motions, report);
 }
 
 }  // namespace fiber

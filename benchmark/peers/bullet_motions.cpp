@@ -25,16 +25,9 @@ struct BulletMovingCapsule : BulletCapsule {
 
 /// One of Bullet's casts, in double; btCollisionWorld::convexSweepTest() takes the continuous one.
 /// They stop where the gap is a millimetre, and report no overlap of capsules that move apart.
-class BulletMotions final : public MotionKernel {
+class BulletMotions final : public MovingCapsules<BulletMovingCapsule> {
  public:
   explicit BulletMotions(BulletCast cast) : cast_(cast) {}
-
-  bool can_answer(const HardMotion& motion) const override { return is_translation(motion); }
-
-  void prepare(const std::vector<HardMotion>& motions) override {
-    motions_ = &motions;
-    make_moving_capsules(motions, a_, b_);
-  }
 
   void run(std::size_t first, std::size_t count, ContactTime* times) override {
     for (std::size_t i = 0; i < count; ++i) {
@@ -44,12 +37,12 @@ class BulletMotions final : public MotionKernel {
 
  private:
   ContactTime found(std::size_t index) {
-    const BulletMovingCapsule& a = a_[index];
-    const BulletMovingCapsule& b = b_[index];
+    const btConvexShape* const shape_a = &a_[index].shape;
+    const btConvexShape* const shape_b = &b_[index].shape;
     if (cast_ == BulletCast::GJK) {
-      return found(index, btGjkConvexCast(&a.shape, &b.shape, &simplex_));
+      return found(index, btGjkConvexCast(shape_a, shape_b, &simplex_));
     }
-    return found(index, btContinuousConvexCollision(&a.shape, &b.shape, &simplex_, &penetration_));
+    return found(index, btContinuousConvexCollision(shape_a, shape_b, &simplex_, &penetration_));
   }
 
   template <class Cast>
@@ -64,9 +57,6 @@ class BulletMotions final : public MotionKernel {
   const BulletCast cast_;
   btVoronoiSimplexSolver simplex_;
   btGjkEpaPenetrationDepthSolver penetration_;
-  const std::vector<HardMotion>* motions_ = nullptr;
-  std::vector<BulletMovingCapsule> a_;
-  std::vector<BulletMovingCapsule> b_;
 };
 
 }  // namespace

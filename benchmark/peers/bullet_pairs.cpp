@@ -3,8 +3,6 @@
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
 
-#include <stdexcept>
-
 #include "benchmark/peers/bullet_capsule.hpp"
 #include "benchmark/peers/bullet_module.hpp"
 
@@ -24,35 +22,20 @@ struct Found final : btDiscreteCollisionDetectorInterface::Result {
 };
 
 /// btGjkPairDetector with EPA behind it, as in Bullet's default configuration, in double.
-class BulletPairs final : public PairKernel {
+class BulletPairs final : public CapsulePairs<BulletCapsule> {
  public:
-  void prepare(const std::vector<HardPair>& pairs) override { make_capsules(pairs, a_, b_); }
-
   void run(std::size_t first, std::size_t count, double* distances) override {
     for (std::size_t i = 0; i < count; ++i) {
       distances[i] = gap(first + i);
     }
   }
 
-  PairAnswer answer(std::size_t index) override {
-    const double found = gap(index);
-    if (std::isnan(found)) {
-      throw std::runtime_error("no contact point");
-    }
-    PairAnswer answer;
-    answer.distance = found + (a_[index].radius + b_[index].radius);
-    answer.contact = found <= 0.0;
-    return answer;
-  }
-
  private:
-  double gap(std::size_t index) {
-    const BulletCapsule& a = a_[index];
-    const BulletCapsule& b = b_[index];
-    btGjkPairDetector detector(&a.shape, &b.shape, &simplex_, &penetration_);
+  double gap(std::size_t index) override {
+    btGjkPairDetector detector(&a_[index].shape, &b_[index].shape, &simplex_, &penetration_);
     btGjkPairDetector::ClosestPointInput input;
-    input.m_transformA = a.pose;
-    input.m_transformB = b.pose;
+    input.m_transformA = a_[index].pose;
+    input.m_transformB = b_[index].pose;
     Found found;
     detector.getClosestPoints(input, found, nullptr);
     return found.gap;
@@ -60,8 +43,6 @@ class BulletPairs final : public PairKernel {
 
   btVoronoiSimplexSolver simplex_;
   btGjkEpaPenetrationDepthSolver penetration_;
-  std::vector<BulletCapsule> a_;
-  std::vector<BulletCapsule> b_;
 };
 
 }  // namespace

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cmath>
+#include <stdexcept>
 #include <vector>
 
-#include "validation/geometry/hard_pairs.hpp"
+#include "benchmark/kernels/pair_kernel.hpp"
 
 namespace fiber {
 
@@ -28,16 +30,40 @@ inline CapsulePose capsule_pose(const Eigen::Vector3d& p0, const Eigen::Vector3d
   return pose;
 }
 
-/// The capsules of pairs as objects of a library, made of two points and a radius [m].
+/// A kernel that measures gaps of the capsules of pairs, as objects of a library that are made of
+/// two points and a radius [m].
 template <class Capsule>
-void make_capsules(const std::vector<HardPair>& pairs, std::vector<Capsule>& a,
-                   std::vector<Capsule>& b) {
-  a.clear();
-  b.clear();
-  for (const HardPair& pair : pairs) {
-    a.emplace_back(pair.p0, pair.p1, pair.radius_a);
-    b.emplace_back(pair.q0, pair.q1, pair.radius_b);
+class CapsulePairs : public PairKernel {
+ public:
+  void prepare(const std::vector<HardPair>& pairs) override {
+    pairs_ = &pairs;
+    a_.clear();
+    b_.clear();
+    for (const HardPair& pair : pairs) {
+      a_.emplace_back(pair.p0, pair.p1, pair.radius_a);
+      b_.emplace_back(pair.q0, pair.q1, pair.radius_b);
+    }
   }
-}
+
+  PairAnswer answer(std::size_t index) override {
+    const HardPair& pair = (*pairs_)[index];
+    const double found = gap(index);
+    if (std::isnan(found)) {
+      throw std::runtime_error("no contact point");
+    }
+    PairAnswer answer;
+    answer.distance = found + (pair.radius_a + pair.radius_b);
+    answer.contact = found <= 0.0;
+    return answer;
+  }
+
+ protected:
+  /// The gap of the surfaces [m], nan without an answer.
+  virtual double gap(std::size_t index) = 0;
+
+  const std::vector<HardPair>* pairs_ = nullptr;
+  std::vector<Capsule> a_;
+  std::vector<Capsule> b_;
+};
 
 }  // namespace fiber

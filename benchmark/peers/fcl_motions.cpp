@@ -18,16 +18,9 @@ struct FclMovingCapsule : FclCapsule {
 };
 
 /// fcl::continuousCollide() of two capsules.
-class FclMotions final : public MotionKernel {
+class FclMotions final : public MovingCapsules<FclMovingCapsule> {
  public:
   explicit FclMotions(const fcl::ContinuousCollisionRequestd& request) : request_(request) {}
-
-  bool can_answer(const HardMotion& motion) const override { return is_translation(motion); }
-
-  void prepare(const std::vector<HardMotion>& motions) override {
-    motions_ = &motions;
-    make_moving_capsules(motions, a_, b_);
-  }
 
   void run(std::size_t first, std::size_t count, ContactTime* times) override {
     for (std::size_t i = first; i < first + count; ++i) {
@@ -50,9 +43,6 @@ class FclMotions final : public MotionKernel {
   }
 
   const fcl::ContinuousCollisionRequestd request_;
-  const std::vector<HardMotion>* motions_ = nullptr;
-  std::vector<FclMovingCapsule> a_;
-  std::vector<FclMovingCapsule> b_;
 };
 
 }  // namespace

@@ -8,11 +8,9 @@ namespace {
 
 /// fcl::distance() of two capsules in poses. Unsigned, FCL takes its own algorithm for two
 /// capsules; signed, GJK, and EPA where they overlap, as for all other shapes.
-class FclPairs final : public PairKernel {
+class FclPairs final : public CapsulePairs<FclCapsule> {
  public:
   explicit FclPairs(bool is_signed) { request_.enable_signed_distance = is_signed; }
-
-  void prepare(const std::vector<HardPair>& pairs) override { make_capsules(pairs, a_, b_); }
 
   void run(std::size_t first, std::size_t count, double* distances) override {
     for (std::size_t i = 0; i < count; ++i) {
@@ -24,17 +22,8 @@ class FclPairs final : public PairKernel {
     }
   }
 
-  PairAnswer answer(std::size_t index) override {
-    const double found = gap(index);
-    PairAnswer answer;
-    answer.distance = found + (a_[index].capsule.radius + b_[index].capsule.radius);
-    answer.contact = found <= 0.0;
-    return answer;
-  }
-
  private:
-  /// The gap of the surfaces [m].
-  double gap(std::size_t index) const {
+  double gap(std::size_t index) override {
     fcl::DistanceResultd result;
     fcl::distance(&a_[index].capsule, a_[index].pose, &b_[index].capsule, b_[index].pose, request_,
                   result);
@@ -42,8 +31,6 @@ class FclPairs final : public PairKernel {
   }
 
   fcl::DistanceRequestd request_;
-  std::vector<FclCapsule> a_;
-  std::vector<FclCapsule> b_;
 };
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "validation/geometry/hard_motions.hpp"
+#include "benchmark/kernels/motion_kernel.hpp"
 
 namespace fiber {
 
@@ -32,17 +32,27 @@ inline ContactTime stated_time(const HardMotion& motion, double time, double tol
   return {true, std::max(0.0, time - earlier), time, false};
 }
 
-/// The capsules of motions as objects of a library, made of both ends before, both after, and a
-/// radius [m].
+/// A kernel that knows translations of capsules, as objects of a library that are made of both ends
+/// before, both after, and a radius [m].
 template <class Capsule>
-void make_moving_capsules(const std::vector<HardMotion>& motions, std::vector<Capsule>& a,
-                          std::vector<Capsule>& b) {
-  a.clear();
-  b.clear();
-  for (const HardMotion& motion : motions) {
-    a.emplace_back(motion.a_before.data(), motion.a_after.data(), motion.radius_a);
-    b.emplace_back(motion.b_before.data(), motion.b_after.data(), motion.radius_b);
+class MovingCapsules : public MotionKernel {
+ public:
+  bool can_answer(const HardMotion& motion) const override { return is_translation(motion); }
+
+  void prepare(const std::vector<HardMotion>& motions) override {
+    motions_ = &motions;
+    a_.clear();
+    b_.clear();
+    for (const HardMotion& motion : motions) {
+      a_.emplace_back(motion.a_before.data(), motion.a_after.data(), motion.radius_a);
+      b_.emplace_back(motion.b_before.data(), motion.b_after.data(), motion.radius_b);
+    }
   }
-}
+
+ protected:
+  const std::vector<HardMotion>* motions_ = nullptr;
+  std::vector<Capsule> a_;
+  std::vector<Capsule> b_;
+};
 
 }  // namespace fiber

@@ -24,13 +24,9 @@ std::size_t longest_axis(const std::vector<Box3d>& boxes, const std::uint32_t* b
   for (const std::uint32_t* number = begin; number != end; ++number) {
     all.extend(boxes[*number]);
   }
-  std::size_t longest = 0;
-  for (std::size_t axis = 1; axis < 3; ++axis) {
-    if (all.sizes()[axis] > all.sizes()[longest]) {
-      longest = axis;
-    }
-  }
-  return longest;
+  Eigen::Index longest = 0;
+  all.sizes().maxCoeff(&longest);
+  return static_cast<std::size_t>(longest);
 }
 
 }  // namespace

@@ -11,22 +11,18 @@ namespace {
 
 constexpr double no_gap = std::numeric_limits<double>::infinity();
 
-std::uint64_t hash_of_fibers(std::uint64_t fiber_a, std::uint64_t fiber_b) {
-  constexpr std::uint64_t odd = 0x9e3779b97f4a7c15U;  // spreads neighbouring numbers
-  return (fiber_a * odd ^ fiber_b) * odd >> 32U;
-}
-
 auto two_fibers_of(const PairKey& key) { return std::tie(key.a.fiber, key.b.fiber); }
 
 }  // namespace
 
-std::size_t ClosestOfFibers::Hash::operator()(const FiberPair& pair) const {
-  return static_cast<std::size_t>(hash_of_fibers(pair.a, pair.b));
+std::size_t ClosestOfFibers::Hash::operator()(const FiberPair& fibers) const {
+  constexpr std::uint64_t odd = 0x9e3779b97f4a7c15U;  // spreads neighbouring numbers
+  return (fibers.first * odd ^ fibers.second) * odd >> 32U;
 }
 
 const FiberPairMinimum* ClosestOfFibers::find(std::uint64_t fiber_a, std::uint64_t fiber_b) {
   const FiberPair pair{fiber_a, fiber_b};
-  if (!(pair == last_) || last_place_ == none) {
+  if (pair != last_ || last_place_ == none) {
     const auto found = places_.find(pair);
     last_ = pair;
     last_place_ = found == places_.end() ? none : found->second;
@@ -36,7 +32,7 @@ const FiberPairMinimum* ClosestOfFibers::find(std::uint64_t fiber_a, std::uint64
 
 double ClosestOfFibers::keep(const FiberPairMinimum& minimum) {
   const FiberPair pair{minimum.key.a.fiber, minimum.key.b.fiber};
-  const FiberPairMinimum* known = find(pair.a, pair.b);
+  const FiberPairMinimum* known = find(pair.first, pair.second);
   double lower = no_gap;
   if (known != nullptr) {
     assert(minimum.key < known->key);
@@ -71,7 +67,7 @@ double ClosestOfFibers::exchange(const Communicator& ranks, double& others_lower
   for (const FiberPairMinimum& minimum : minima_) {
     places.push_back(minimum.key);
   }
-  const std::vector<PairKey> closest = closest_of_fibers(ranks, places);
+  const std::vector<PairKey> closest = closest_of_all(ranks, places);
   double max_gap = -no_gap;
   std::uint64_t reported = 0;
   for (std::size_t i = 0; i < minima_.size(); ++i) {
@@ -109,12 +105,12 @@ std::uint64_t count_fiber_pairs(const Communicator& ranks, const LocalFibers& ow
                                                 : of_two + fibers;
 }
 
-std::vector<PairKey> closest_of_fibers(const Communicator& ranks,
-                                       const std::vector<PairKey>& places) {
+std::vector<PairKey> ClosestOfFibers::closest_of_all(const Communicator& ranks,
+                                                     const std::vector<PairKey>& places) {
   // Each pair of fibres has a rank where its places meet.
   const auto size = static_cast<std::size_t>(ranks.size());
   const auto home_of = [size](const PairKey& key) {
-    return hash_of_fibers(key.a.fiber, key.b.fiber) % size;
+    return Hash()({key.a.fiber, key.b.fiber}) % size;
   };
   PerRank<PairKey> met(size);
   for (const PairKey& key : places) {

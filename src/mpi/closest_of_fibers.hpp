@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "fiber_proximity/query/contact.hpp"
@@ -56,16 +57,15 @@ class ClosestOfFibers {
   double exchange(const Communicator& ranks, double& others_lower);
 
  private:
-  struct FiberPair {
-    std::uint64_t a = 0;
-    std::uint64_t b = 0;
-
-    bool operator==(const FiberPair& other) const { return a == other.a && b == other.b; }
-  };
+  using FiberPair = std::pair<std::uint64_t, std::uint64_t>;
   struct Hash {
-    std::size_t operator()(const FiberPair& pair) const;
+    std::size_t operator()(const FiberPair& fibers) const;
   };
 
+  /// Finds for each key the closest one that any rank has of the same two fibres. Collective.
+  /// @param places of this rank, each of other fibres
+  static std::vector<PairKey> closest_of_all(const Communicator& ranks,
+                                             const std::vector<PairKey>& places);
   void lower_bound();
 
   const std::uint64_t pair_count_;
@@ -83,10 +83,5 @@ class ClosestOfFibers {
 
 /// How many pairs of fibres may have a closest pair of segments, over all ranks. Collective.
 std::uint64_t count_fiber_pairs(const Communicator& ranks, const LocalFibers& own, Pairing pairing);
-
-/// Finds for each key the closest one that any rank has of the same two fibres. Collective.
-/// @param places of this rank, each of other fibres
-std::vector<PairKey> closest_of_fibers(const Communicator& ranks,
-                                       const std::vector<PairKey>& places);
 
 }  // namespace fiber

@@ -87,6 +87,12 @@ std::uint64_t Communicator::sum(std::uint64_t value) const {
   return all;
 }
 
+RankShare Communicator::share(std::uint64_t count) const {
+  std::uint64_t before = 0;
+  MPI_Exscan(&count, &before, 1, MPI_UINT64_T, MPI_SUM, ranks_);
+  return {rank_ == 0 ? 0 : before, sum(count)};  // MPI leaves it open what rank 0 gets
+}
+
 void Communicator::broadcast_bytes(void* data, std::size_t bytes) const {
   for_each_part(static_cast<char*>(data), bytes,
                 [&](char* part, int size) { MPI_Bcast(part, size, MPI_BYTE, 0, ranks_); });

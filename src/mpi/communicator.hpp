@@ -36,6 +36,12 @@ std::vector<T> joined(const PerRank<T>& lists) {
   return all;
 }
 
+/// The place of what a rank has among what all ranks have, in the order of ranks.
+struct RankShare {
+  std::uint64_t before = 0;  ///< what ranks of smaller numbers have
+  std::uint64_t all = 0;
+};
+
 /// A group of ranks with messages of its own: those of others that use the same ranks never meet
 /// them. All functions but rank() and size() are collective: every rank calls them, in one order.
 class Communicator {
@@ -60,6 +66,9 @@ class Communicator {
   double min(double value) const;
   double max(double value) const;
   std::uint64_t sum(std::uint64_t value) const;
+
+  /// Tells where so many of this rank are among those of all ranks.
+  RankShare share(std::uint64_t count) const;
 
   /// Gathers the value of each rank on all ranks.
   template <class T>

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "src/mpi/hdf5_file.hpp"
+#include "src/mpi/frame_datasets.hpp"
 
 namespace fiber {
 
@@ -30,56 +30,27 @@ constexpr std::uint8_t line = 3;       // VTK_LINE
 constexpr std::uint8_t poly_line = 4;  // VTK_POLY_LINE
 }  // namespace layout
 
-/// How many lines, parts of fibres, and how many points they have.
-struct FiberCounts {
-  std::uint64_t lines = 0;
+/// How many of each an unstructured grid of VTK has.
+struct VtkSizes {
   std::uint64_t points = 0;
-
-  FiberCounts& operator+=(const FiberCounts& other) {
-    lines += other.lines;
-    points += other.points;
-    return *this;
-  }
+  std::uint64_t cells = 0;
+  std::uint64_t connectivity = 0;
 };
 
-/// How many of each an unstructured grid of VTK has, which is one piece here.
-class VtkSizes {
- public:
-  struct Counts {
-    std::uint64_t points = 0;
-    std::uint64_t cells = 0;
-    std::uint64_t connectivity = 0;
+/// Adds what says that a group is such a grid, of one piece. Collective.
+inline void add_vtk_sizes(FrameDatasets& datasets, hid_t vtk, const VtkSizes& sizes, bool is_root) {
+  const auto add = [&](const char* name, std::uint64_t size) {
+    datasets.add<std::int64_t>(vtk, name, {0, 1}, [size, is_root](auto& rows) {
+      if (is_root) {
+        rows.append(static_cast<std::int64_t>(size));
+      }
+    });
   };
-
-  /// Makes their datasets, and the attributes of the group. Collective.
-  VtkSizes(hid_t vtk, const Counts& counts)
-      : points_(vtk, "NumberOfPoints", 1, 0),
-        cells_(vtk, "NumberOfCells", 1, 0),
-        connectivity_(vtk, "NumberOfConnectivityIds", 1, 0) {
-    write_numbers(vtk, "Version", {1, 0});
-    write_text(vtk, "Type", "UnstructuredGrid");
-    points_.append(static_cast<std::int64_t>(counts.points));
-    cells_.append(static_cast<std::int64_t>(counts.cells));
-    connectivity_.append(static_cast<std::int64_t>(counts.connectivity));
-  }
-
-  /// Called by one rank.
-  void write() {
-    points_.flush();
-    cells_.flush();
-    connectivity_.flush();
-  }
-
- private:
-  RowWriter<std::int64_t> points_;
-  RowWriter<std::int64_t> cells_;
-  RowWriter<std::int64_t> connectivity_;
-};
-
-/// Writes where the last line ends. Called by one rank.
-inline void write_end(hid_t offsets, const FiberCounts& all) {
-  const auto end = static_cast<std::int64_t>(all.points);
-  write_rows(offsets, hdf5_type(end).memory, all.lines, {1, 1}, &end);
+  add("NumberOfPoints", sizes.points);
+  add("NumberOfCells", sizes.cells);
+  add("NumberOfConnectivityIds", sizes.connectivity);
+  write_numbers(vtk, "Version", {1, 0});
+  write_text(vtk, "Type", "UnstructuredGrid");
 }
 
 }  // namespace fiber

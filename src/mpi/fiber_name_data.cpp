@@ -1,8 +1,8 @@
 #include "src/mpi/fiber_name_data.hpp"
 
-#include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "src/mpi/fiber_layout.hpp"
@@ -23,19 +23,18 @@ void require_names(const DistributedFibers& fibers) {
 
 std::uint64_t size_of_names(const FiberNames& names) { return text_of_names(names).size(); }
 
-std::function<void()> create_names(hid_t place, const FiberNames& names) {
+void add_names(FrameDatasets& datasets, hid_t place, const FiberNames& names, bool is_root) {
   if (names.are_indices()) {
-    return [] {};
+    return;
   }
-  const auto text = std::make_shared<const std::vector<char>>(text_of_names(names));
-  const auto writer =
-      std::make_shared<RowWriter<std::uint8_t>>(place, layout::fiber_names, text->size(), 0);
-  return [text, writer] {
-    for (const char letter : *text) {
-      writer->append(static_cast<std::uint8_t>(letter));
-    }
-    writer->flush();
-  };
+  std::vector<char> text = text_of_names(names);
+  const std::uint64_t size = text.size();
+  datasets.add<std::uint8_t>(place, layout::fiber_names, {0, size},
+                             [is_root, text = std::move(text)](auto& rows) {
+                               for (std::size_t i = 0; is_root && i < text.size(); ++i) {
+                                 rows.append(static_cast<std::uint8_t>(text[i]));
+                               }
+                             });
 }
 
 FiberNames read_names(hid_t place) {

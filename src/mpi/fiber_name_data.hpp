@@ -3,10 +3,10 @@
 #include <hdf5.h>
 
 #include <cstdint>
-#include <functional>
 
 #include "fiber_proximity/io/fiber_file.hpp"
 #include "fiber_proximity/mpi/distributed_engine.hpp"
+#include "src/mpi/frame_datasets.hpp"
 
 namespace fiber {
 
@@ -15,9 +15,9 @@ namespace fiber {
 /// [byte] that names take there.
 std::uint64_t size_of_names(const FiberNames& names);
 
-/// Makes the dataset of names on all ranks alike, none of fibres that are called by their numbers.
-/// @return what writes them, for one rank to call
-std::function<void()> create_names(hid_t place, const FiberNames& names);
+/// Adds the dataset of names, which rank 0 writes; none of fibres that are called by their numbers.
+/// Collective.
+void add_names(FrameDatasets& datasets, hid_t place, const FiberNames& names, bool is_root);
 
 /// The names in a file; numbers where there are none.
 /// @throws std::runtime_error, std::invalid_argument

@@ -49,7 +49,7 @@ FiberPairSearch::FiberPairSearch(const Communicator& ranks, const LocalFibers& o
       inner_test_(own.fibers(), here),
       own_ids_(own),
       closest_(count_fiber_pairs(ranks, own, options.pairing), options.margin),
-      own_loops_(own),
+      own_runs_(own),
       tries_left_(own.fibers().segment_count()),
       pairs_left_(QueryLimits(options).pairs) {}
 
@@ -156,7 +156,7 @@ void FiberPairSearch::consider(const Pair& pair) {
     open_.push_back({pair, contact.distance, contact.lower});
   } else {
     --tries_left_;
-    if (own_loops_.know_of(question_about(pair))) {
+    if (is_known_loop(own_runs_, question_about(pair))) {
       keep(pair, contact);
     }
   }

@@ -106,7 +106,7 @@ class FiberPairSearch {
 
   // Own segments of one fibre that are on two stretches wait for the halo. Before it a few of them
   // may be known to make a loop, which is a bound.
-  LoopsOfRank own_loops_;
+  KnownRuns own_runs_;
   std::uint64_t tries_left_;
   bool has_split_fibers_ = false;
 

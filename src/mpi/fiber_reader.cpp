@@ -35,6 +35,12 @@ std::vector<T> read_values(hid_t dataset, std::uint64_t first, std::uint64_t cou
   return values;
 }
 
+/// How many lines, parts of fibres, and how many points they have.
+struct FiberCounts {
+  std::uint64_t lines = 0;
+  std::uint64_t points = 0;
+};
+
 /// The datasets of a frame, to read.
 class FiberData {
  public:

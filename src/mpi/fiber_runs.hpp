@@ -64,18 +64,4 @@ inline std::vector<FiberRun> joined_runs(const PerRank<FiberRun>& from) {
   return runs;
 }
 
-/// Sends each rank its runs, and takes those that are for this one.
-inline FiberRuns exchange_runs(const Communicator& ranks, std::vector<FiberRuns> to) {
-  PerRank<FiberRun> runs(to.size());
-  PerRank<FiberNode> nodes(to.size());
-  for (std::size_t i = 0; i < to.size(); ++i) {
-    runs[i] = std::move(to[i].runs);
-    nodes[i] = std::move(to[i].nodes);
-  }
-  FiberRuns all;
-  all.runs = joined_runs(ranks.exchange(runs));
-  all.nodes = joined(ranks.exchange(nodes));
-  return all;
-}
-
 }  // namespace fiber

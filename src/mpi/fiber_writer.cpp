@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -43,9 +42,8 @@ PartEnd end_of(const DistributedFibers& fibers, std::size_t part, bool is_start)
 /// The lines that the parts of a rank become in the file.
 struct RankLines {
   std::vector<bool> is_joined;  // to the part before it, by part
-  FiberCounts own;
-  FiberCounts before;  // of the ranks before
-  FiberCounts all;
+  RankShare lines;
+  RankShare points;
 };
 
 RankLines lines_of(const Communicator& ranks, const DistributedFibers& fibers) {
@@ -65,118 +63,107 @@ RankLines lines_of(const Communicator& ranks, const DistributedFibers& fibers) {
     before = some.has_parts ? some.last : before;
   }
   RankLines lines;
+  std::uint64_t line_count = 0;
+  std::uint64_t point_count = fibers.parts.point_count();
   for (std::size_t part = 0; part < count; ++part) {
     const bool is_joined = before && *before == end_of(fibers, part, true);
     lines.is_joined.push_back(is_joined);
-    lines.own.lines += is_joined ? 0 : 1;
-    lines.own.points +=
-        fibers.parts.offsets()[part + 1] - fibers.parts.offsets()[part] - (is_joined ? 1 : 0);
+    line_count += is_joined ? 0 : 1;
+    point_count -= is_joined ? 1 : 0;
     before = end_of(fibers, part, false);
   }
-  const std::vector<FiberCounts> counts = ranks.gather_all(lines.own);
-  for (int other = 0; other < ranks.size(); ++other) {
-    const FiberCounts& some = counts[static_cast<std::size_t>(other)];
-    lines.all += some;
-    lines.before += other < ranks.rank() ? some : FiberCounts{};
-  }
+  lines.lines = ranks.share(line_count);
+  lines.points = ranks.share(point_count);
   return lines;
 }
 
-/// The datasets of a frame. All ranks make them alike, then each writes its rows.
-class FiberDatasets {
- public:
-  FiberDatasets(hid_t file, const RankLines& lines, bool is_root)
-      : vtk_(create_group(file, layout::vtk)),
-        at_points_(create_group(vtk_.get(), layout::at_points)),
-        at_cells_(create_group(vtk_.get(), layout::at_cells)),
-        is_root_(is_root),
-        next_point_(lines.before.points),
-        all_(lines.all),
-        points_(vtk_.get(), layout::points, all_.points, lines.before.points),
-        connectivity_(vtk_.get(), layout::connectivity, all_.points, lines.before.points),
-        offsets_(vtk_.get(), layout::offsets, all_.lines + 1, lines.before.lines),
-        types_(vtk_.get(), layout::types, all_.lines, lines.before.lines),
-        radii_(at_points_.get(), layout::radius, all_.points, lines.before.points),
-        fibers_(at_cells_.get(), layout::fiber, all_.lines, lines.before.lines),
-        first_segments_(at_cells_.get(), layout::first_segment, all_.lines, lines.before.lines),
-        sizes_(vtk_.get(), {all_.points, all_.lines, all_.points}) {}
+/// Goes through what a rank writes.
+struct FiberRows {
+  const DistributedFibers& fibers;
+  const RankLines& lines;
 
-  void write(const DistributedFibers& fibers, const RankLines& lines) {
+  /// Calls with the name of each part that begins a line, and the number of its first point in the
+  /// file.
+  template <class Call>
+  void for_each_line(const Call& call) const {
+    std::uint64_t first_point = lines.points.before;
     for (std::size_t part = 0; part < fibers.names.size(); ++part) {
-      std::uint32_t point = fibers.parts.offsets()[part];
-      if (lines.is_joined[part]) {
-        ++point;  // the part before has it
-      } else {
-        begin_line(fibers.names[part]);
+      if (!lines.is_joined[part]) {
+        call(fibers.names[part], first_point);
       }
-      for (; point < fibers.parts.offsets()[part + 1]; ++point) {
-        const Eigen::Vector3d& p = fibers.parts.points()[point];
-        points_.append(p[0], p[1], p[2]);
-        radii_.append(fibers.parts.radius_at(part, point));
-        connectivity_.append(static_cast<std::int64_t>(next_point_++));
-      }
+      first_point += fibers.parts.offsets()[part + 1] - first_of(part);
     }
-    flush();
-    if (is_root_) {
-      sizes_.write();
-      write_end(offsets_.dataset(), all_);
+  }
+
+  /// Calls with each point, and with its part.
+  template <class Call>
+  void for_each_point(const Call& call) const {
+    for (std::size_t part = 0; part < fibers.names.size(); ++part) {
+      for (std::uint32_t p = first_of(part); p < fibers.parts.offsets()[part + 1]; ++p) {
+        call(part, p);
+      }
     }
   }
 
  private:
-  void begin_line(const FiberPart& name) {
-    offsets_.append(static_cast<std::int64_t>(next_point_));
-    types_.append(layout::poly_line);
-    fibers_.append(name.fiber);
-    first_segments_.append(name.first_segment);
+  /// The first point of a part that the part before it does not have.
+  std::uint32_t first_of(std::size_t part) const {
+    return fibers.parts.offsets()[part] + (lines.is_joined[part] ? 1 : 0);
   }
-
-  void flush() {
-    points_.flush();
-    connectivity_.flush();
-    offsets_.flush();
-    types_.flush();
-    radii_.flush();
-    fibers_.flush();
-    first_segments_.flush();
-  }
-
-  Hdf5Id vtk_;
-  Hdf5Id at_points_;
-  Hdf5Id at_cells_;
-  const bool is_root_;
-  std::uint64_t next_point_;
-  const FiberCounts all_;
-  RowWriter<double, 3> points_;
-  RowWriter<std::int64_t> connectivity_;
-  RowWriter<std::int64_t> offsets_;
-  RowWriter<std::uint8_t> types_;
-  RowWriter<double> radii_;
-  RowWriter<std::uint64_t> fibers_;
-  RowWriter<std::uint64_t> first_segments_;
-  VtkSizes sizes_;
 };
 
-/// [byte]
-std::uint64_t size_of(const FiberCounts& all) { return 40 * all.points + 25 * all.lines; }
+void add_fibers(FrameDatasets& datasets, hid_t file, const Communicator& ranks,
+                const FiberRows& rows) {
+  const Hdf5Id vtk = create_group(file, layout::vtk);
+  const Hdf5Id at_points = create_group(vtk.get(), layout::at_points);
+  const Hdf5Id at_cells = create_group(vtk.get(), layout::at_cells);
+  const RankShare& lines = rows.lines.lines;
+  const RankShare& points = rows.lines.points;
+  datasets.add<double, 3>(vtk.get(), layout::points, points, [rows](auto& to) {
+    rows.for_each_point([&](std::size_t /*part*/, std::uint32_t p) {
+      const Eigen::Vector3d& point = rows.fibers.parts.points()[p];
+      to.append(point[0], point[1], point[2]);
+    });
+  });
+  datasets.add<std::int64_t>(vtk.get(), layout::connectivity, points, [rows](auto& to) {
+    auto next = static_cast<std::int64_t>(rows.lines.points.before);
+    rows.for_each_point([&](std::size_t /*part*/, std::uint32_t /*p*/) { to.append(next++); });
+  });
+  const bool is_last = ranks.rank() == ranks.size() - 1;  // which also writes where all lines end
+  datasets.add<std::int64_t>(
+      vtk.get(), layout::offsets, {lines.before, lines.all + 1}, [rows, is_last](auto& to) {
+        rows.for_each_line([&](const FiberPart& /*name*/, std::uint64_t first_point) {
+          to.append(static_cast<std::int64_t>(first_point));
+        });
+        if (is_last) {
+          to.append(static_cast<std::int64_t>(rows.lines.points.all));
+        }
+      });
+  const auto add_to_lines = [&](hid_t place, const char* name, const auto& value_of) {
+    using Value = decltype(value_of(FiberPart()));
+    datasets.add<Value>(place, name, lines, [rows, value_of](auto& to) {
+      rows.for_each_line(
+          [&](const FiberPart& part, std::uint64_t /*first_point*/) { to.append(value_of(part)); });
+    });
+  };
+  add_to_lines(vtk.get(), layout::types,
+               [](const FiberPart& /*part*/) { return layout::poly_line; });
+  datasets.add<double>(at_points.get(), layout::radius, points, [rows](auto& to) {
+    rows.for_each_point([&](std::size_t part, std::uint32_t p) {
+      to.append(rows.fibers.parts.radius_at(part, p));
+    });
+  });
+  add_to_lines(at_cells.get(), layout::fiber, [](const FiberPart& part) { return part.fiber; });
+  add_to_lines(at_cells.get(), layout::first_segment,
+               [](const FiberPart& part) { return part.first_segment; });
+  add_vtk_sizes(datasets, vtk.get(), {points.all, lines.all, points.all}, ranks.rank() == 0);
+}
 
 }  // namespace
 
-struct DistributedFiberWriter::State {
-  Communicator ranks;
-  FrameFiles files;
-
-  State(MPI_Comm comm, const std::string& path, const DistributedFileOptions& options)
-      : ranks(comm), files(ranks, path, layout::fibers, options) {}
-};
-
 DistributedFiberWriter::DistributedFiberWriter(MPI_Comm ranks, const std::string& path,
                                                const DistributedFileOptions& options)
-    : state_(std::make_unique<State>(ranks, path, options)) {}
-
-DistributedFiberWriter::~DistributedFiberWriter() = default;
-
-std::size_t DistributedFiberWriter::done() const { return state_->files.done(); }
+    : DistributedFileWriter(ranks, path, layout::fibers, options) {}
 
 void DistributedFiberWriter::write(std::int64_t frame, const DistributedFibers& fibers) {
   const Communicator& ranks = state_->ranks;
@@ -187,18 +174,12 @@ void DistributedFiberWriter::write(std::int64_t frame, const DistributedFibers& 
                                std::to_string(count) + " parts, there must be one per part");
   ranks.throw_on_all(error_in([&] { require_names(fibers); }));
   const RankLines lines = lines_of(ranks, fibers);
-  const std::uint64_t size = size_of(lines.all) + size_of_names(fibers.fiber_names);
-  state_->files.write(frame, size, [&](hid_t file) -> std::function<void()> {
-    const auto datasets = std::make_shared<FiberDatasets>(file, lines, ranks.rank() == 0);
-    return [&, datasets, write_names = create_names(file, fibers.fiber_names)] {
-      datasets->write(fibers, lines);
-      if (ranks.rank() == 0) {
-        write_names();
-      }
-    };
+  const std::uint64_t size =
+      40 * lines.points.all + 25 * lines.lines.all + size_of_names(fibers.fiber_names);
+  state_->files.write(frame, size, [&](hid_t file, FrameDatasets& datasets) {
+    add_fibers(datasets, file, ranks, {fibers, lines});
+    add_names(datasets, file, fibers.fiber_names, ranks.rank() == 0);
   });
 }
-
-void DistributedFiberWriter::finish() { state_->files.finish(); }
 
 }  // namespace fiber

@@ -1,10 +1,9 @@
 #include "src/mpi/frame_files.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <exception>
 #include <filesystem>
 #include <optional>
+#include <regex>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -44,16 +43,9 @@ std::string place_of_file(const Communicator& ranks, const std::string& path) {
 }
 
 /// Whether a file is one of our frames, finished or not.
-bool is_frame_name(std::string name) {
-  for (const std::string end : {".part", ".h5"}) {
-    if (name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0) {
-      name.resize(name.size() - end.size());
-    } else if (end == ".h5") {
-      return false;
-    }
-  }
-  return name.size() >= 6 && std::all_of(name.begin(), name.end(),
-                                         [](unsigned char c) { return std::isdigit(c) != 0; });
+bool is_frame_name(const std::string& name) {
+  static const std::regex frame("[0-9]{6,}\\.h5(\\.part)?");
+  return std::regex_match(name, frame);
 }
 
 }  // namespace
@@ -151,7 +143,7 @@ void FrameFiles::write_attributes(hid_t file) const {
 }
 
 void FrameFiles::write(std::int64_t frame, std::uint64_t data_size,
-                       const std::function<std::function<void()>(hid_t file)>& make) {
+                       const std::function<void(hid_t file, FrameDatasets& datasets)>& make) {
   const QuietHdf5 quiet;
   const std::string path = path_of(done_);
   run_on_root(ranks_, [&] {
@@ -165,21 +157,21 @@ void FrameFiles::write(std::int64_t frame, std::uint64_t data_size,
   });
   // All that is collective is done before a rank can fail alone.
   std::optional<Hdf5Id> file;
-  std::function<void()> write_rows;
+  FrameDatasets datasets;
   std::string error = error_in([&] {
     file.emplace(create_parallel_file(ranks_, partial_name(path)));
     write_attributes(file->get());
     if (options_.has_frames) {
       write_numbers(file->get(), attribute::frame, {frame});
     }
-    write_rows = make(file->get());
+    make(file->get(), datasets);
   });
   bool went_well = ranks_.all(error.empty());
   if (went_well) {
-    error = error_in(write_rows);
+    error = error_in([&] { datasets.write(); });
     went_well = ranks_.all(error.empty());
   }
-  write_rows = {};
+  datasets.close();
   if (!went_well && ranks_.rank() == 0) {
     std::error_code ignored;
     std::filesystem::resize_file(partial_name(path), 0,
@@ -231,5 +223,16 @@ void FrameFiles::finish() {
     }
   });
 }
+
+DistributedFileWriter::DistributedFileWriter(MPI_Comm ranks, const std::string& path,
+                                             const char* content,
+                                             const DistributedFileOptions& options)
+    : state_(std::make_unique<State>(ranks, path, content, options)) {}
+
+DistributedFileWriter::~DistributedFileWriter() = default;
+
+std::size_t DistributedFileWriter::done() const { return state_->files.done(); }
+
+void DistributedFileWriter::finish() { state_->files.finish(); }
 
 }  // namespace fiber

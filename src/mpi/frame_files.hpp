@@ -10,6 +10,7 @@
 
 #include "fiber_proximity/mpi/distributed_files.hpp"
 #include "src/mpi/communicator.hpp"
+#include "src/mpi/frame_datasets.hpp"
 #include "src/mpi/partial_file.hpp"
 
 namespace fiber {
@@ -41,11 +42,10 @@ class FrameFiles {
 
   /// Writes the next frame.
   /// @param data_size of all datasets together [byte]
-  /// @param make makes all groups, attributes and datasets on all ranks alike, and then returns a
-  ///             function that writes this rank's rows
+  /// @param make makes all groups, attributes and datasets on all ranks alike
   /// @throws std::invalid_argument
   void write(std::int64_t frame, std::uint64_t data_size,
-             const std::function<std::function<void()>(hid_t file)>& make);
+             const std::function<void(hid_t file, FrameDatasets& datasets)>& make);
 
   /// @throws std::invalid_argument
   void finish();
@@ -65,6 +65,15 @@ class FrameFiles {
   const DistributedFileOptions options_;
   std::size_t done_ = 0;
   std::set<std::int64_t> frames_;  // numbers of those that are done
+};
+
+struct DistributedFileWriter::State {
+  State(MPI_Comm comm, const std::string& path, const char* content,
+        const DistributedFileOptions& options)
+      : ranks(comm), files(ranks, path, content, options) {}
+
+  Communicator ranks;
+  FrameFiles files;
 };
 
 }  // namespace fiber

@@ -31,7 +31,7 @@ FiberRuns runs_of(const DistributedFibers& fibers) {
 }
 
 /// Makes whole fibres of runs that are sorted.
-FiberAssembly joined(const FiberRuns& runs) {
+FiberAssembly whole_fibers(const FiberRuns& runs) {
   std::vector<Eigen::Vector3d> points;
   std::vector<double> radii;
   std::vector<std::uint32_t> offsets;
@@ -85,15 +85,19 @@ WholeFibers gather_fibers(const Communicator& ranks, DistributedFibers fibers) {
   const FiberChains chains(ranks, fibers.parts, fibers.names);
   // Parts that do not meet are refused; of the lengths hardly any are kept.
   chains.arc_lengths(ranks, fibers.parts, fibers.names, 1U << 20U);
-  std::vector<FiberRuns> to(static_cast<std::size_t>(ranks.size()));
-  to[0] = runs_of(fibers);
+  FiberRuns own = runs_of(fibers);
+  PerRank<FiberRun> runs(static_cast<std::size_t>(ranks.size()));
+  PerRank<FiberNode> nodes(runs.size());
+  runs[0] = std::move(own.runs);
+  nodes[0] = std::move(own.nodes);
   const FiberNames names = std::move(fibers.fiber_names);
   fibers = {};
-  FiberRuns all = exchange_runs(ranks, std::move(to));
+  FiberRuns all{joined_runs(ranks.exchange(std::move(runs))),
+                joined(ranks.exchange(std::move(nodes)))};
   std::sort(all.runs.begin(), all.runs.end(),
             [](const FiberRun& x, const FiberRun& y) { return x.first < y.first; });
   WholeFibers whole;
-  ranks.throw_on_all(error_in([&] { whole = {joined(all), names_of(all, names)}; }));
+  ranks.throw_on_all(error_in([&] { whole = {whole_fibers(all), names_of(all, names)}; }));
   return whole;
 }
 

@@ -135,8 +135,6 @@ class RowWriter {
     values_.clear();
   }
 
-  hid_t dataset() const { return dataset_.get(); }
-
  private:
   static constexpr std::size_t slice = std::size_t{1} << 15U;  // [row]
 

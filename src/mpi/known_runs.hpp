@@ -12,13 +12,6 @@
 
 namespace fiber {
 
-/// Who owns segments of a fibre that follow each other.
-struct OwnedRun {
-  GlobalSegment first;
-  std::uint64_t count = 0;
-  int rank = 0;
-};
-
 /// Whether a fibre makes a loop between two of its segments, where this rank does not have all
 /// points between them. The points to look at start the segments after a, up to b.
 struct LoopQuestion {
@@ -35,20 +28,6 @@ struct LoopQuestion {
 class KnownRuns {
  public:
   explicit KnownRuns(const LocalFibers& fibers) : fibers_(fibers) {}
-
-  /// The runs of this rank; consecutive ones are joined.
-  std::vector<OwnedRun> joined(int rank) const {
-    std::vector<OwnedRun> runs;
-    for (const FiberRun& run : fibers_.runs()) {
-      if (!runs.empty() && runs.back().first.fiber == run.first.fiber &&
-          runs.back().first.segment + runs.back().count == run.first.segment) {
-        runs.back().count += run.count;
-      } else {
-        runs.push_back({run.first, run.count, rank});
-      }
-    }
-    return runs;
-  }
 
   /// How many of the points asked about are here.
   std::uint64_t count(const LoopQuestion& question) const {

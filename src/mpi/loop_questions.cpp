@@ -1,12 +1,19 @@
 #include "src/mpi/loop_questions.hpp"
 
 #include <algorithm>
+#include <initializer_list>
 #include <utility>
 
 #include "src/query/loop_rule.hpp"
 
 namespace fiber {
 namespace {
+
+/// Who owns a fibre from a segment on.
+struct OwnedRun {
+  GlobalSegment first;
+  int rank = 0;
+};
 
 bool comes_first(const OwnedRun& x, const OwnedRun& y) { return x.first < y.first; }
 
@@ -18,19 +25,20 @@ SegmentDistance nearest_of(const Capsule& a, const Capsule& b) {
   return segment_distance(a.p0, a.p1, b.p0, b.p1);
 }
 
-/// Answers a question by the points here.
-Answers answer(const LoopQuestion& question, KnownRuns& own, KnownRuns& halo) {
+/// Answers a question by the points of these runs.
+Answers answer(const LoopQuestion& question, std::initializer_list<KnownRuns*> known) {
   Answers answers = 0;
-  makes_loop_by(
-      question.a, question.b, nearest_of(question.a, question.b),
-      [&](int number, const LoopPlace& x, const LoopPlace& y, double limit) {
-        const LoopReach by_x(x, limit);
-        const LoopReach by_y(y, limit);
-        if (own.any_beyond(question, by_x, by_y) || halo.any_beyond(question, by_x, by_y)) {
-          answers = static_cast<Answers>(answers | 1U << static_cast<unsigned>(number));
-        }
-        return number == 0;  // whatever others say: so that all questions come
-      });
+  makes_loop_by(question.a, question.b, nearest_of(question.a, question.b),
+                [&](int number, const LoopPlace& x, const LoopPlace& y, double limit) {
+                  const LoopReach by_x(x, limit);
+                  const LoopReach by_y(y, limit);
+                  if (std::any_of(known.begin(), known.end(), [&](KnownRuns* runs) {
+                        return runs->any_beyond(question, by_x, by_y);
+                      })) {
+                    answers = static_cast<Answers>(answers | 1U << static_cast<unsigned>(number));
+                  }
+                  return number == 0;  // whatever others say: so that all questions come
+                });
   return answers;
 }
 
@@ -43,14 +51,14 @@ bool makes_loop(const LoopQuestion& question, Answers answers) {
 }
 
 /// Asks for the owners of the fibres that the open questions are about; sorted.
-std::vector<OwnedRun> find_owners(const Communicator& ranks, const KnownRuns& own,
+std::vector<OwnedRun> find_owners(const Communicator& ranks, const LocalFibers& own,
                                   const std::vector<LoopQuestion>& questions,
                                   const std::vector<std::size_t>& open) {
   // Each fibre has a rank that knows who owns it.
   const auto size = static_cast<std::size_t>(ranks.size());
   PerRank<OwnedRun> notices(size);
-  for (const OwnedRun& run : own.joined(ranks.rank())) {
-    notices[run.first.fiber % size].push_back(run);
+  for (const GlobalSegment& first : own.first_ids()) {
+    notices[first.fiber % size].push_back({first, ranks.rank()});
   }
   std::vector<OwnedRun> known = joined(ranks.exchange(std::move(notices)));
   std::sort(known.begin(), known.end(), comes_first);
@@ -67,8 +75,7 @@ std::vector<OwnedRun> find_owners(const Communicator& ranks, const KnownRuns& ow
   PerRank<OwnedRun> replies(size);
   for (std::size_t other = 0; other < size; ++other) {
     for (const std::uint64_t fiber : fibers[other]) {
-      auto run =
-          std::lower_bound(known.begin(), known.end(), OwnedRun{{fiber, 0}, 0, 0}, comes_first);
+      auto run = std::lower_bound(known.begin(), known.end(), OwnedRun{{fiber, 0}, 0}, comes_first);
       for (; run != known.end() && run->first.fiber == fiber; ++run) {
         replies[other].push_back(*run);
       }
@@ -83,8 +90,7 @@ std::vector<OwnedRun> find_owners(const Communicator& ranks, const KnownRuns& ow
 std::vector<int> ranks_between(const std::vector<OwnedRun>& owners, const LoopQuestion& question) {
   std::vector<int> ranks;
   auto run =
-      std::upper_bound(owners.begin(), owners.end(),
-                       OwnedRun{{question.fiber, question.segment_a + 1}, 0, 0}, comes_first);
+      std::upper_bound(owners.begin(), owners.end(), OwnedRun{question.first(), 0}, comes_first);
   run -= run == owners.begin() ? 0 : 1;
   for (; run != owners.end() && run->first.fiber == question.fiber &&
          run->first.segment <= question.segment_b;
@@ -107,7 +113,7 @@ std::vector<bool> find_loops(const Communicator& ranks, const LocalFibers& own,
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < questions.size(); ++i) {
     const LoopQuestion& question = questions[i];
-    by_question[i] = answer(question, own_runs, halo_runs);
+    by_question[i] = answer(question, {&own_runs, &halo_runs});
     // More points can only answer more questions with yes, and that only makes loops.
     loops[i] = makes_loop(question, by_question[i]);
     const std::uint64_t count = question.segment_b - question.segment_a;
@@ -119,7 +125,7 @@ std::vector<bool> find_loops(const Communicator& ranks, const LocalFibers& own,
     return loops;
   }
   const auto size = static_cast<std::size_t>(ranks.size());
-  const std::vector<OwnedRun> owners = find_owners(ranks, own_runs, questions, open);
+  const std::vector<OwnedRun> owners = find_owners(ranks, own, questions, open);
   PerRank<LoopQuestion> asked(size);
   PerRank<std::size_t> numbers(size);  // of the questions asked
   for (const std::size_t i : open) {
@@ -132,7 +138,7 @@ std::vector<bool> find_loops(const Communicator& ranks, const LocalFibers& own,
   PerRank<Answers> answers(size);
   for (std::size_t other = 0; other < size; ++other) {
     for (const LoopQuestion& question : asked[other]) {
-      answers[other].push_back(answer(question, own_runs, halo_runs));
+      answers[other].push_back(answer(question, {&own_runs, &halo_runs}));
     }
   }
   answers = ranks.exchange(std::move(answers));
@@ -148,8 +154,8 @@ std::vector<bool> find_loops(const Communicator& ranks, const LocalFibers& own,
   return loops;
 }
 
-bool LoopsOfRank::know_of(const LoopQuestion& question) {
-  return makes_loop(question, answer(question, own_, of_others_));
+bool is_known_loop(KnownRuns& own, const LoopQuestion& question) {
+  return makes_loop(question, answer(question, {&own}));
 }
 
 }  // namespace fiber

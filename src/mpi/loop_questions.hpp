@@ -18,18 +18,8 @@ namespace fiber {
 std::vector<bool> find_loops(const Communicator& ranks, const LocalFibers& own,
                              const LocalFibers& halo, const std::vector<LoopQuestion>& questions);
 
-/// Finds loops by the segments of one rank alone.
-class LoopsOfRank {
- public:
-  explicit LoopsOfRank(const LocalFibers& own) : own_(own), of_others_(none_) {}
-
-  /// Whether there is a loop for certain. If not, there may be one by the points of others.
-  bool know_of(const LoopQuestion& question);
-
- private:
-  const LocalFibers none_;
-  KnownRuns own_;
-  KnownRuns of_others_;
-};
+/// Whether there is a loop for certain, by the segments of one rank alone. If not, there may be one
+/// by the points of others.
+bool is_known_loop(KnownRuns& own, const LoopQuestion& question);
 
 }  // namespace fiber

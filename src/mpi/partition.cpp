@@ -2,10 +2,10 @@
 
 #include <zoltan.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <limits>
 #include <memory>
 #include <string>
 #include <thread>
@@ -57,24 +57,20 @@ void centres_of(void* data, int /*global_entries*/, int /*local_entries*/, int c
 /// Zoltan stretches the box around all objects to a cube, and so parts of a flat box to slices. Two
 /// objects without weight, at the ends of a cube, keep it from that.
 Objects with_cube(const Communicator& ranks, const Objects& objects) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Eigen::Vector3d lower{infinity, infinity, infinity};
-  Eigen::Vector3d upper{-infinity, -infinity, -infinity};
+  Eigen::AlignedBox3d box;
   for (const PartitionObject& object : objects) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      lower[axis] = std::min(lower[axis], object.centre[axis]);
-      upper[axis] = std::max(upper[axis], object.centre[axis]);
-    }
+    box.extend(object.centre);
   }
+  Eigen::Vector3d lower;
   double edge = 0.0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    lower[axis] = ranks.min(lower[axis]);
-    edge = std::max(edge, ranks.max(upper[axis]) - lower[axis]);
+    lower[axis] = ranks.min(box.min()[axis]);
+    edge = std::max(edge, ranks.max(box.max()[axis]) - lower[axis]);
   }
   Objects all = objects;
   if (ranks.rank() == 0) {
     all.push_back({lower, 0x1p-10F});
-    all.push_back({{lower[0] + edge, lower[1] + edge, lower[2] + edge}, 0x1p-10F});
+    all.push_back({lower.array() + edge, 0x1p-10F});
   }
   return all;
 }

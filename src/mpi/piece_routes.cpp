@@ -16,33 +16,6 @@ constexpr std::uint32_t segments_per_piece = 16;
 // A rank sends so many nodes at a time: so they are not in memory twice.
 constexpr std::size_t nodes_per_slice = std::size_t{1} << 16U;
 
-/// Goes through the pieces of parts, one after another.
-class PieceCursor {
- public:
-  explicit PieceCursor(const std::vector<std::uint32_t>& offsets) : offsets_(offsets) {}
-
-  bool is_over() const { return part_ + 1 >= offsets_.size(); }
-  std::size_t part() const { return part_; }
-  std::uint32_t first_point() const { return offsets_[part_] + begin_; }
-  std::uint32_t first_segment() const { return begin_; }  ///< along the part
-  std::uint32_t count() const { return std::min(segments_per_piece, segments() - begin_); }
-
-  void advance() {
-    begin_ += segments_per_piece;
-    if (begin_ >= segments()) {
-      ++part_;
-      begin_ = 0;
-    }
-  }
-
- private:
-  std::uint32_t segments() const { return offsets_[part_ + 1] - offsets_[part_] - 1; }
-
-  const std::vector<std::uint32_t>& offsets_;
-  std::size_t part_ = 0;
-  std::uint32_t begin_ = 0;
-};
-
 }  // namespace
 
 void PieceRoutes::set_parts(const Communicator& ranks, const FiberAssembly& parts,
@@ -50,6 +23,13 @@ void PieceRoutes::set_parts(const Communicator& ranks, const FiberAssembly& part
   chains_.emplace(ranks, parts, names);
   names_ = names;
   offsets_ = parts.offsets();
+  pieces_.clear();
+  for (std::uint32_t part = 0; part < names.size(); ++part) {
+    const std::uint32_t count = offsets_[part + 1] - offsets_[part] - 1;
+    for (std::uint32_t begin = 0; begin < count; begin += segments_per_piece) {
+      pieces_.push_back({part, begin, std::min(segments_per_piece, count - begin)});
+    }
+  }
 }
 
 ArcLengths PieceRoutes::arc_lengths(const Communicator& ranks, const FiberAssembly& parts) const {
@@ -63,36 +43,33 @@ void PieceRoutes::split(const Communicator& ranks, const FiberAssembly& parts,
   const double all = std::accumulate(of_ranks.begin(), of_ranks.end(), 0.0);
   const std::uint64_t count = ranks.sum(costs.size());
   std::vector<PartitionObject> objects;
-  for (PieceCursor piece(offsets_); !piece.is_over(); piece.advance()) {
-    double weight = piece.count();
+  for (const Piece& piece : pieces_) {
+    double weight = piece.count;
     if (all > 0.0) {
       // Zoltan adds up in single precision: small whole numbers are exact for long.
       const double of_mean = costs[objects.size()] * static_cast<double>(count) / all;
       weight = std::clamp(std::round(segments_per_piece * of_mean), 1.0, 0x1p10);
     }
     objects.push_back(
-        {parts.points()[piece.first_point() + piece.count() / 2], static_cast<float>(weight)});
+        {parts.points()[first_point(piece) + piece.count / 2], static_cast<float>(weight)});
   }
   owners_ = partition(ranks, objects, ranks.size());
 }
 
 void PieceRoutes::keep_all(const Communicator& ranks) {
-  owners_.clear();
-  for (PieceCursor piece(offsets_); !piece.is_over(); piece.advance()) {
-    owners_.push_back(ranks.rank());
-  }
+  owners_.assign(pieces_.size(), ranks.rank());
 }
 
 std::vector<FiberRun> PieceRoutes::send_runs(const Communicator& ranks) {
   PerRank<FiberRun> runs(static_cast<std::size_t>(ranks.size()));
   std::size_t i = 0;
   sent_points_ = 0;
-  for (PieceCursor piece(offsets_); !piece.is_over(); piece.advance()) {
-    const FiberPart& name = names_[piece.part()];
-    const GlobalSegment first{name.fiber, name.first_segment + piece.first_segment()};
+  for (const Piece& piece : pieces_) {
+    const FiberPart& name = names_[piece.part];
+    const GlobalSegment first{name.fiber, name.first_segment + piece.begin};
     const int owner = owners_[i++];
-    runs[static_cast<std::size_t>(owner)].push_back({first, piece.count(), 0, 0.0});
-    sent_points_ += owner == ranks.rank() ? 0 : piece.count() + 1;
+    runs[static_cast<std::size_t>(owner)].push_back({first, piece.count, 0, 0.0});
+    sent_points_ += owner == ranks.rank() ? 0 : piece.count + 1;
   }
   runs = ranks.exchange(std::move(runs));
   first_of_rank_.assign(1, 0);
@@ -111,19 +88,19 @@ void PieceRoutes::send_nodes(const Communicator& ranks, const FiberAssembly& par
   }
   const PerRank<double> arcs_from = ranks.exchange(std::move(arcs_to));
   std::vector<std::size_t> next(size, 0);
-  PieceCursor piece(offsets_);
-  for (std::size_t i = 0; !ranks.all(piece.is_over());) {
+  for (std::size_t i = 0; !ranks.all(i == pieces_.size());) {
     PerRank<FiberNode> to(size);
     for (std::vector<FiberNode>& nodes : to) {
       nodes.reserve(std::min(nodes_per_slice, 2 * nodes_per_slice / size));
     }
-    for (std::size_t count = 0; !piece.is_over() && count < nodes_per_slice; piece.advance()) {
-      std::vector<FiberNode>& nodes = to[static_cast<std::size_t>(owners_[i++])];
-      const std::uint32_t last = piece.first_point() + piece.count();
-      for (std::uint32_t p = piece.first_point(); p <= last; ++p) {
+    for (std::size_t count = 0; i < pieces_.size() && count < nodes_per_slice; ++i) {
+      std::vector<FiberNode>& nodes = to[static_cast<std::size_t>(owners_[i])];
+      const std::uint32_t first = first_point(pieces_[i]);
+      const std::uint32_t last = first + pieces_[i].count;
+      for (std::uint32_t p = first; p <= last; ++p) {
         nodes.push_back({parts.points()[p], p < last ? parts.segment_radius(p) : 0.0});
       }
-      count += piece.count() + 1;
+      count += last - first + 1;
     }
     const PerRank<FiberNode> from = ranks.exchange(std::move(to));
     for (std::size_t rank = 0; rank < size; ++rank) {

@@ -59,8 +59,18 @@ class PieceRoutes {
   std::uint64_t sent_points() const { return sent_points_; }
 
  private:
+  /// Segments of a part that follow each other.
+  struct Piece {
+    std::uint32_t part = 0;
+    std::uint32_t begin = 0;  // along the part
+    std::uint32_t count = 0;
+  };
+
+  std::uint32_t first_point(const Piece& piece) const { return offsets_[piece.part] + piece.begin; }
+
   std::vector<FiberPart> names_;
   std::vector<std::uint32_t> offsets_;
+  std::vector<Piece> pieces_;  // part by part
   std::optional<FiberChains> chains_;
   std::vector<int> owners_;                 // of the pieces, part by part
   std::vector<std::size_t> first_of_rank_;  // number of the first run that each rank sends

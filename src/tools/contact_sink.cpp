@@ -1,8 +1,6 @@
 #include "src/tools/contact_sink.hpp"
 
 #include <algorithm>
-#include <cstdint>
-#include <vector>
 
 #include "src/tools/contact_rows.hpp"
 
@@ -44,10 +42,7 @@ void ContactSink::write_json(const FrameNumber& frame, const FiberNames& names,
     lower = std::min(lower, contact.lower);
   }
   lower = ranks_.min(lower);
-  const std::vector<std::uint64_t> counts =
-      ranks_.gather_all<std::uint64_t>(result.contacts.size());
-  const bool is_first = std::all_of(counts.begin(), counts.begin() + ranks_.rank(),
-                                    [](std::uint64_t count) { return count == 0; });
+  const bool is_first = ranks_.share(result.contacts.size()).before == 0;
   text_->append([&](TextOutput& output) {
     if (ranks_.rank() == 0) {
       output.begin_object(json_of_answer(frame, result.complete, lower), "contacts");

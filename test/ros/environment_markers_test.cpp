@@ -7,6 +7,7 @@
 
 #include "fiber_proximity/environment/environment.hpp"
 #include "fiber_proximity/ros/conversions.hpp"
+#include "src/ros/outputs/markers.hpp"
 
 namespace fiber_proximity_ros {
 namespace {
@@ -31,6 +32,7 @@ class EnvironmentMarkersTest : public testing::Test {
         objects_({ball("near", {0.5, 0.1, 0}), ball("robot/hand", {1.0, 0, 0.2})}) {
     header_.frame_id = "world";
     header_.stamp = ros::Time(12, 34);
+    options_.show_fibers = false;
   }
 
   /// Asks the environment as the node does, and draws.
@@ -41,9 +43,13 @@ class EnvironmentMarkersTest : public testing::Test {
     query.type = fiber::QueryType::FIBER_PAIRS;
     fiber::QueryResult result;
     environment.query(fibers_, query, {}, result);
-    array_.markers.clear();
-    drawer_.append(header_, {fibers_, environment.objects(), result.contacts, result.closest()},
-                   options_, array_);
+    const EnvironmentDrawing around{environment.objects(), result.contacts, result.closest()};
+    const std::vector<fiber::Contact> none;
+    const std::vector<fiber::NodeBox> boxes;
+    const std::string cost;
+    Drawing drawing{fibers_, none, nullptr, boxes, cost};
+    drawing.environment = &around;
+    builder_.build(header_, drawing, options_, array_);
   }
 
   const Marker* find(const std::string& ns, int id = 0, int action = Marker::ADD) const {
@@ -69,8 +75,8 @@ class EnvironmentMarkersTest : public testing::Test {
   std_msgs::Header header_;
   FiberAssembly fibers_;
   std::vector<fiber::EnvironmentObject> objects_;
-  EnvironmentMarkerOptions options_;
-  EnvironmentMarkers drawer_;
+  MarkerOptions options_;
+  MarkerBuilder builder_;
   visualization_msgs::MarkerArray array_;
 };
 
@@ -231,20 +237,17 @@ TEST_F(EnvironmentMarkersTest, DeletesWhatVanishedOnceAndNothingElse) {
   EXPECT_EQ(deletions(), 0U);
 }
 
-TEST_F(EnvironmentMarkersTest, AppendsToWhatIsThere) {
-  array_.markers.resize(2);
-  array_.markers[0].ns = "fibers";
-  array_.markers[1].ns = "contacts";
-  drawer_.append(header_, {fibers_, objects_, {}, nullptr}, options_, array_);
-  ASSERT_EQ(array_.markers.size(), 4U);
+TEST_F(EnvironmentMarkersTest, ComeAfterTheFibers) {
+  options_.show_fibers = true;
+  draw();
+  ASSERT_EQ(array_.markers.size(), 8U);
   EXPECT_EQ(array_.markers[0].ns, "fibers");
-  EXPECT_EQ(array_.markers[1].ns, "contacts");
-  EXPECT_EQ(array_.markers[2].ns, "obstacles");
+  EXPECT_EQ(array_.markers[1].ns, "obstacles");
 }
 
 TEST_F(EnvironmentMarkersTest, OptionsTurnPartsOff) {
   draw();
-  options_.show_objects = options_.show_distances = options_.show_nearest = false;
+  options_.show_objects = options_.show_contacts = options_.show_nearest = false;
   draw();
   EXPECT_EQ(array_.markers.size(), 7U);
   EXPECT_EQ(deletions(), 7U);

@@ -171,28 +171,23 @@ std::vector<std::string> texts_of(const std::vector<LegendLine>& lines) {
 
 TEST(Legend, TellsOfWhatIsShown) {
   MarkerOptions options;
-  EnvironmentMarkerOptions environment;
-  environment.show_distances = false;
   const std::string penetrating = "red: penetrating";
   const std::string normals = "lines: normals of contacts";
   const std::string nearest = "white: nearest pair";
   using Texts = std::vector<std::string>;
-  EXPECT_EQ(texts_of(legend_lines(options, environment, 0.0)),
-            (Texts{penetrating, normals, nearest}));
-  EXPECT_EQ(texts_of(legend_lines(options, environment, 0.02)),
+  EXPECT_EQ(texts_of(legend_lines(options, false, 0.0)), (Texts{penetrating, normals, nearest}));
+  EXPECT_EQ(texts_of(legend_lines(options, false, 0.02)),
             (Texts{penetrating, "amber: within 20.0 mm", normals, nearest}));
-  EXPECT_EQ(texts_of(legend_lines(options, environment, HUGE_VAL)),
+  EXPECT_EQ(texts_of(legend_lines(options, false, HUGE_VAL)),
             (Texts{penetrating, "amber: apart", normals, nearest}));
-  environment.show_distances = true;
   options.show_nearest = false;
-  EXPECT_EQ(texts_of(legend_lines(options, environment, 0.0)),
+  EXPECT_EQ(texts_of(legend_lines(options, true, 0.0)),
             (Texts{penetrating, normals, "red to green: from objects, 0 to 100.0 mm"}));
-  environment.show_distances = false;
   options.show_contacts = false;
   options.show_boxes = true;
   options.show_crossings = true;
   EXPECT_EQ(
-      texts_of(legend_lines(options, environment, 0.0)),
+      texts_of(legend_lines(options, false, 0.0)),
       (Texts{"green: crossing of sign +1", "magenta: crossing of sign -1", "boxes: level 4"}));
 }
 

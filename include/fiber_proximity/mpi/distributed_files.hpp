@@ -36,39 +36,47 @@ struct DistributedFileOptions {
   bool resume = false;  ///< go on after the frames that an earlier run has finished
 };
 
-/// Writes fibres, each rank its parts, in slices.
-///
-/// In the file, parts stand in the order of ranks, and within a rank as they are brought. Where one
-/// begins at the segment, the point and the radius at which the one before it ends, the two become
-/// one: a file does not tell how whole fibres in their order were spread over ranks.
-class DistributedFiberWriter {
+/// Writes a file frame by frame: what the writers of fibres and of contacts have in common.
+class DistributedFileWriter {
  public:
-  /// @throws std::invalid_argument where files cannot be written, and where those of an earlier run
-  ///         cannot be gone on with
-  DistributedFiberWriter(MPI_Comm ranks, const std::string& path,
-                         const DistributedFileOptions& options = {});
-  ~DistributedFiberWriter();
-  DistributedFiberWriter(const DistributedFiberWriter&) = delete;
-  DistributedFiberWriter& operator=(const DistributedFiberWriter&) = delete;
+  DistributedFileWriter(const DistributedFileWriter&) = delete;
+  DistributedFileWriter& operator=(const DistributedFileWriter&) = delete;
 
   /// How many frames are whole already, of an earlier run: the next one has this index.
   std::size_t done() const;
-
-  /// Writes the next frame: once this returns, it is whole.
-  /// @param frame its number, if frames have one
-  /// @throws std::invalid_argument for a second frame without numbers, a number of an earlier
-  /// frame,
-  ///         other than one name per part, fibres that fiber_names has none for, and where the file
-  ///         cannot be written
-  void write(std::int64_t frame, const DistributedFibers& fibers);
 
   /// Call once, after the last frame: only then is there a file of the name.
   /// @throws std::invalid_argument without a frame, and where the file cannot be written
   void finish();
 
- private:
+ protected:
   struct State;
+
+  DistributedFileWriter(MPI_Comm ranks, const std::string& path, const char* content,
+                        const DistributedFileOptions& options);
+  ~DistributedFileWriter();
+
   std::unique_ptr<State> state_;
+};
+
+/// Writes fibres, each rank its parts, in slices.
+///
+/// In the file, parts stand in the order of ranks, and within a rank as they are brought. Where one
+/// begins at the segment, the point and the radius at which the one before it ends, the two become
+/// one: a file does not tell how whole fibres in their order were spread over ranks.
+class DistributedFiberWriter : public DistributedFileWriter {
+ public:
+  /// @throws std::invalid_argument where files cannot be written, and where those of an earlier run
+  ///         cannot be gone on with
+  DistributedFiberWriter(MPI_Comm ranks, const std::string& path,
+                         const DistributedFileOptions& options = {});
+
+  /// Writes the next frame: once this returns, it is whole.
+  /// @param frame its number, if frames have one
+  /// @throws std::invalid_argument for a second frame without numbers, a number of an earlier
+  ///         frame, other than one name per part, fibres that fiber_names has none for, and where
+  ///         the file cannot be written
+  void write(std::int64_t frame, const DistributedFibers& fibers);
 };
 
 /// Reads fibres, each rank about as many segments; ranks whose number is larger have what comes
@@ -97,17 +105,11 @@ class DistributedFiberReader {
 
 /// Writes contacts, sorted by DistributedContact::key() over all ranks: the file is the same for
 /// any number of ranks.
-class DistributedContactWriter {
+class DistributedContactWriter : public DistributedFileWriter {
  public:
   /// @throws std::invalid_argument as DistributedFiberWriter
   DistributedContactWriter(MPI_Comm ranks, const std::string& path,
                            const DistributedFileOptions& options = {});
-  ~DistributedContactWriter();
-  DistributedContactWriter(const DistributedContactWriter&) = delete;
-  DistributedContactWriter& operator=(const DistributedContactWriter&) = delete;
-
-  /// How many frames are whole already, of an earlier run: the next one has this index.
-  std::size_t done() const;
 
   /// Writes the next frame: once this returns, it is whole.
   /// @param frame  its number, if frames have one
@@ -115,13 +117,6 @@ class DistributedContactWriter {
   /// @param names  what the fibres are called, by number, the same on all ranks
   /// @throws std::invalid_argument as DistributedFiberWriter::write()
   void write(std::int64_t frame, const DistributedResult& result, const FiberNames& names = {});
-
-  /// As DistributedFiberWriter::finish().
-  void finish();
-
- private:
-  struct State;
-  std::unique_ptr<State> state_;
 };
 
 }  // namespace fiber

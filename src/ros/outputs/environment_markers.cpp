@@ -230,9 +230,38 @@ class Neighbourhood {
   WorldBox around_;
 };
 
-void draw_objects(const EnvironmentDrawing& drawing, double reach, MarkerCanvas& canvas) {
-  const Neighbourhood near(drawing.fibers, reach);
-  for (const fiber::EnvironmentObject& object : drawing.objects) {
+}  // namespace
+
+bool reaches_into(const WorldBox& box, const fiber::Shape& shape, const Isometry3d& pose) {
+  assert(!box.isEmpty());
+  if (const auto* half_space = std::get_if<fiber::HalfSpaceShape>(&shape)) {
+    return Sheet(*half_space, pose).distances(box).first <= 0.0;
+  }
+  if (const auto* plane = std::get_if<fiber::PlaneShape>(&shape)) {
+    const auto [nearest, furthest] = Sheet(*plane, pose).distances(box);
+    return nearest <= 0.0 && furthest >= 0.0;
+  }
+  return fiber::world_box(shape, pose).intersects(box);
+}
+
+void draw_shape(const fiber::Shape& shape, const Isometry3d& pose, const WorldBox& around,
+                Marker& marker) {
+  assert(!around.isEmpty());
+  std::visit(ShapeDrawer(pose, around, marker), shape);
+}
+
+std_msgs::ColorRGBA distance_color(double distance, double free_distance) {
+  assert(free_distance > 0.0);
+  const double part = 2.0 * std::clamp(distance / free_distance, 0.0, 1.0);
+  return color(part <= 1.0 ? mix(palette::penetrating, palette::nearby, part)
+                           : mix(palette::nearby, palette::distant, part - 1.0));
+}
+
+void draw_objects(const fiber::FiberAssembly& fibers,
+                  const std::vector<fiber::EnvironmentObject>& objects, double reach,
+                  MarkerCanvas& canvas) {
+  const Neighbourhood near(fibers, reach);
+  for (const fiber::EnvironmentObject& object : objects) {
     for (const fiber::PlacedShape& placed : object.shapes) {
       const Isometry3d pose = object.pose * placed.pose;
       if (near.contains(placed.shape, pose)) {
@@ -261,20 +290,8 @@ void draw_distances(const std::vector<fiber::Contact>& contacts, double free_dis
   }
 }
 
-/// Texts that are drawn already.
-std::vector<PlacedText> texts_of(const visualization_msgs::MarkerArray& markers) {
-  std::vector<PlacedText> texts;
-  for (const Marker& marker : markers.markers) {
-    if (marker.type == Marker::TEXT_VIEW_FACING && marker.action == Marker::ADD) {
-      texts.push_back({to_vector(marker.pose.position), marker.scale.z, marker.text.size()});
-    }
-  }
-  return texts;
-}
-
-void draw_nearest_object(const EnvironmentDrawing& drawing, double free_distance,
-                         const std::vector<PlacedText>& others, const MarkerScale& scale,
-                         MarkerCanvas& canvas) {
+void draw_nearest_object(const fiber::FiberAssembly& fibers, const EnvironmentDrawing& drawing,
+                         double free_distance, const MarkerScale& scale, MarkerCanvas& canvas) {
   const fiber::Contact& minimum = *drawing.minimum;
   // At the object, on the side where its surface is, as its inside would hide the text; a little
   // upwards, as what it stands on would.
@@ -283,54 +300,10 @@ void draw_nearest_object(const EnvironmentDrawing& drawing, double free_distance
   const Vector3d outwards = (0.6 * scale.up - minimum.normal).stableNormalized();
   const double height = 0.035 * scale.extent;
   const double gap = 1.5 * height;
-  const Label label{minimum.point_b, outwards, gap, height, text.size(), minimum.normal, others};
-  draw_closest_pair(drawing.fibers, scale, minimum, distance_color(minimum.distance, free_distance),
-                    label, text, "environment_nearest", canvas);
-}
-
-}  // namespace
-
-bool reaches_into(const WorldBox& box, const fiber::Shape& shape, const Isometry3d& pose) {
-  assert(!box.isEmpty());
-  if (const auto* half_space = std::get_if<fiber::HalfSpaceShape>(&shape)) {
-    return Sheet(*half_space, pose).distances(box).first <= 0.0;
-  }
-  if (const auto* plane = std::get_if<fiber::PlaneShape>(&shape)) {
-    const auto [nearest, furthest] = Sheet(*plane, pose).distances(box);
-    return nearest <= 0.0 && furthest >= 0.0;
-  }
-  return fiber::world_box(shape, pose).intersects(box);
-}
-
-void draw_shape(const fiber::Shape& shape, const Isometry3d& pose, const WorldBox& around,
-                Marker& marker) {
-  assert(!around.isEmpty());
-  std::visit(ShapeDrawer(pose, around, marker), shape);
-}
-
-std_msgs::ColorRGBA distance_color(double distance, double free_distance) {
-  assert(free_distance > 0.0);
-  const double part = 2.0 * std::clamp(distance / free_distance, 0.0, 1.0);
-  return color(part <= 1.0 ? mix(palette::penetrating, palette::nearby, part)
-                           : mix(palette::nearby, palette::distant, part - 1.0));
-}
-
-void EnvironmentMarkers::append(const std_msgs::Header& header, const EnvironmentDrawing& drawing,
-                                const EnvironmentMarkerOptions& options,
-                                visualization_msgs::MarkerArray& markers) {
-  const MarkerScale scale(drawing.fibers, header.frame_id);
-  const std::vector<PlacedText> others = texts_of(markers);
-  MarkerCanvas canvas(header, markers, markers.markers.size());
-  if (options.show_objects && drawing.fibers.fiber_count() > 0) {
-    draw_objects(drawing, options.reach, canvas);
-  }
-  if (options.show_distances && !drawing.contacts.empty()) {
-    draw_distances(drawing.contacts, options.free_distance, 3.0 * scale.thickest, canvas);
-  }
-  if (options.show_nearest && drawing.minimum != nullptr) {
-    draw_nearest_object(drawing, options.free_distance, others, scale, canvas);
-  }
-  canvas.finish(drawn_);
+  const Label label{minimum.point_b, outwards,       gap,           height,
+                    text.size(),     minimum.normal, canvas.texts()};
+  draw_closest_pair(fibers, scale, minimum, distance_color(minimum.distance, free_distance), label,
+                    text, "environment_nearest", canvas);
 }
 
 }  // namespace fiber_proximity_ros

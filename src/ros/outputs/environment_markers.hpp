@@ -1,6 +1,5 @@
 #pragma once
 
-#include <std_msgs/Header.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <vector>
@@ -12,18 +11,8 @@
 
 namespace fiber_proximity_ros {
 
-/// Options for drawing the environment.
-struct EnvironmentMarkerOptions {
-  bool show_objects = true;
-  bool show_distances = true;
-  bool show_nearest = true;
-  double reach = 0.3;          ///< [m] objects whose boxes are further from all fibres are left out
-  double free_distance = 0.1;  ///< [m] from here on a distance is green; above 0
-};
-
-/// An answer of fiber::Environment::query to draw. Holds references: only for the call.
+/// What is around the fibres, to draw. Holds references: only for the call.
 struct EnvironmentDrawing {
-  const fiber::FiberAssembly& fibers;
   const std::vector<fiber::EnvironmentObject>& objects;
   const std::vector<fiber::Contact>& contacts;  ///< fiber_b is the index of the object
   const fiber::Contact* minimum;                ///< the closest pair, nullptr if there is none
@@ -50,25 +39,19 @@ void draw_shape(const fiber::Shape& shape, const Eigen::Isometry3d& pose,
 /// Red at contact and in penetration, over yellow, to green from `free_distance` [m] on.
 std_msgs::ColorRGBA distance_color(double distance, double free_distance);
 
-/// Draws what is around the fibres for rviz.
-///
-/// | ns                         | id | what                                                       |
-/// |----------------------------|----|------------------------------------------------------------|
-/// | `obstacles`                | n  | half-transparent shapes near fibres, see draw_shape()      |
-/// | `robot`                    | n  | half-transparent shapes of the robot's links near fibres   |
-/// | `environment_distances`    | 0  | LINE_LIST between nearest points, coloured by distance     |
-/// | `environment_points`       | 0  | SPHERE_LIST of the points on the objects, so coloured, too |
-/// | `environment_nearest`      | 0  | LINE_LIST between the nearest points of the closest pair   |
-/// | `environment_nearest_text` | 0  | its object's name and distance in mm, above the fibres     |
-class EnvironmentMarkers {
- public:
-  /// Appends the markers of one update, then DELETE for what the previous call drew and this one
-  /// does not.
-  void append(const std_msgs::Header& header, const EnvironmentDrawing& drawing,
-              const EnvironmentMarkerOptions& options, visualization_msgs::MarkerArray& markers);
+/// Draws the shapes near the fibres, of which there must be any, half-transparent.
+/// @param reach [m] objects whose boxes are further from all fibres are left out
+void draw_objects(const fiber::FiberAssembly& fibers,
+                  const std::vector<fiber::EnvironmentObject>& objects, double reach,
+                  MarkerCanvas& canvas);
 
- private:
-  MarkerCanvas::Counts drawn_;  // what is on the screen
-};
+/// Draws lines between nearest points, and the points on the objects, coloured by distance.
+/// @param thickness [m] of what is drawn
+void draw_distances(const std::vector<fiber::Contact>& contacts, double free_distance,
+                    double thickness, MarkerCanvas& canvas);
+
+/// Draws the closest pair, of which there must be one, with its object's name and its distance.
+void draw_nearest_object(const fiber::FiberAssembly& fibers, const EnvironmentDrawing& drawing,
+                         double free_distance, const MarkerScale& scale, MarkerCanvas& canvas);
 
 }  // namespace fiber_proximity_ros

@@ -11,13 +11,6 @@
 
 namespace fiber_proximity_ros {
 
-/// Where another text is.
-struct PlacedText {
-  Eigen::Vector3d middle;  ///< [m]
-  double height;           ///< [m] of its letters
-  std::size_t letters;
-};
-
 /// A text that belongs to a point.
 struct Label {
   Eigen::Vector3d point;      ///< [m] what it is about

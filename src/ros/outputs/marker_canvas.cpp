@@ -68,6 +68,7 @@ Marker& MarkerCanvas::add_text(const std::string& ns, double height, const Vecto
   marker.scale.z = height;
   marker.pose.position = to_message(position);
   marker.text = text;
+  texts_.push_back({position, height, text.size()});
   return marker;
 }
 

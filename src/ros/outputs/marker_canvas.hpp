@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -49,6 +50,13 @@ struct MarkerScale {
   Eigen::AlignedBox3d box;                        ///< around the points
 };
 
+/// Where a text is.
+struct PlacedText {
+  Eigen::Vector3d middle;  ///< [m]
+  double height;           ///< [m] of its letters
+  std::size_t letters;
+};
+
 /// A line of the legend: the meaning of a colour.
 struct LegendLine {
   Rgb color;
@@ -62,10 +70,9 @@ class MarkerCanvas {
   using Counts = std::map<std::string, std::int32_t>;  ///< of markers, by namespace
 
   /// Holds references: they must outlive it.
-  /// @param markers those from `first` on are overwritten, and their memory is reused
-  MarkerCanvas(const std_msgs::Header& header, visualization_msgs::MarkerArray& markers,
-               std::size_t first = 0)
-      : header_(header), markers_(markers.markers), used_(first) {}
+  /// @param markers overwritten; their memory is reused
+  MarkerCanvas(const std_msgs::Header& header, visualization_msgs::MarkerArray& markers)
+      : header_(header), markers_(markers.markers) {}
 
   /// The next marker of this namespace, white, without points.
   visualization_msgs::Marker& add(const std::string& ns, int type);
@@ -74,6 +81,9 @@ class MarkerCanvas {
   /// @param height [m] of its letters
   visualization_msgs::Marker& add_text(const std::string& ns, double height,
                                        const Eigen::Vector3d& position, const std::string& text);
+
+  /// Texts that are drawn already.
+  const std::vector<PlacedText>& texts() const { return texts_; }
 
   /// A thin line from what a text is about towards it.
   void add_leader(const std::string& ns, const MarkerScale& scale, const Eigen::Vector3d& point,
@@ -90,8 +100,9 @@ class MarkerCanvas {
 
   const std_msgs::Header& header_;
   std::vector<visualization_msgs::Marker>& markers_;
-  std::size_t used_;
+  std::size_t used_ = 0;
   Counts counts_;
+  std::vector<PlacedText> texts_;
 };
 
 /// Appends a line to a LINE_LIST that has a colour for each point.

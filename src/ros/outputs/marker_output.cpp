@@ -16,18 +16,8 @@ MarkerOptions marker_options(const fiber_proximity::ProximityConfig& config) {
   options.show_crossings = config.show_crossings;
   options.show_names = config.show_names;
   options.show_legend = config.show_legend;
+  options.show_objects = config.show_objects;
   options.level = static_cast<std::uint32_t>(config.box_level);
-  return options;
-}
-
-/// @param is_used whether there is something around: what was detected before is not to be seen any
-///                more when there is not
-EnvironmentMarkerOptions environment_options(const fiber_proximity::ProximityConfig& config,
-                                             bool is_used) {
-  EnvironmentMarkerOptions options;
-  options.show_objects = is_used && config.show_objects;
-  options.show_distances = is_used && config.show_contacts;
-  options.show_nearest = is_used && config.show_nearest;
   return options;
 }
 
@@ -40,8 +30,8 @@ void MarkerOutput::publish(const DetectedScene& subject, CrossingsOutput& crossi
   last_time_ = ros::SteadyTime::now();
   InputSet& inputs = subject.scene.fibers;
   const MarkerOptions options = marker_options(config);
-  const EnvironmentMarkerOptions environment_shown =
-      environment_options(config, subject.scene.environment.is_used());
+  // What was detected before is not to be seen any more when there is nothing around.
+  const bool is_alone = !subject.scene.environment.is_used();
   const Detection& found = subject.detector.detection();
   const Detection& around = subject.environment.detection();
   boxes_.clear();
@@ -61,12 +51,13 @@ void MarkerOutput::publish(const DetectedScene& subject, CrossingsOutput& crossi
   std::vector<LegendLine> legend;
   if (options.show_legend) {
     // Where fibres may touch all that is around them, there are no distances to explain.
-    EnvironmentMarkerOptions explained = environment_shown;
-    explained.show_distances = explained.show_distances && has_shown_distances_;
-    legend = legend_lines(options, explained, subject.query.margin);
+    legend = legend_lines(options, !is_alone && options.show_contacts && has_shown_distances_,
+                          subject.query.margin);
   }
   passed_.forget_old();
   const CrossingDrawing crossing_drawing{crossings.crossings(), crossings.view()};
+  const EnvironmentDrawing environment{subject.environment.environment().objects(),
+                                       around.contacts().contacts, around.minimum()};
   const Drawing drawing{inputs.fibers(),
                         found.contacts().contacts,
                         found.minimum(),
@@ -76,12 +67,9 @@ void MarkerOutput::publish(const DetectedScene& subject, CrossingsOutput& crossi
                         &inputs.names(),
                         &legend,
                         &passed_.contacts(),
-                        &completeness.unknown()};
+                        &completeness.unknown(),
+                        is_alone ? nullptr : &environment};
   builder_.build(inputs.header(), drawing, options, topic_.message());
-  environment_markers_.append(inputs.header(),
-                              {inputs.fibers(), subject.environment.environment().objects(),
-                               around.contacts().contacts, around.minimum()},
-                              environment_shown, topic_.message());
   topic_.publish();
 }
 

@@ -9,7 +9,6 @@
 #include "src/ros/detection/detected_scene.hpp"
 #include "src/ros/detection/step_contacts.hpp"
 #include "src/ros/outputs/crossings_output.hpp"
-#include "src/ros/outputs/environment_markers.hpp"
 #include "src/ros/outputs/markers.hpp"
 #include "src/ros/outputs/output_topic.hpp"
 
@@ -48,7 +47,6 @@ class MarkerOutput {
   PassedContacts passed_;
   bool has_shown_distances_ = false;  // from objects
   MarkerBuilder builder_;
-  EnvironmentMarkers environment_markers_;
   std::vector<fiber::NodeBox> boxes_;  // for their memory
 };
 

@@ -215,8 +215,8 @@ std::string cost_text(const std::string& kernel, double seconds, double error, b
   return text.data();
 }
 
-std::vector<LegendLine> legend_lines(const MarkerOptions& options,
-                                     const EnvironmentMarkerOptions& environment, double margin) {
+std::vector<LegendLine> legend_lines(const MarkerOptions& options, bool has_distances,
+                                     double margin) {
   std::vector<LegendLine> lines;
   if (options.show_contacts) {
     lines.push_back({palette::penetrating, "red: penetrating"});
@@ -230,9 +230,9 @@ std::vector<LegendLine> legend_lines(const MarkerOptions& options,
   if (options.show_passed) {
     lines.push_back({palette::passed, "cyan: came and went between two messages"});
   }
-  if (environment.show_distances) {
-    lines.push_back({palette::distant, "red to green: from objects, 0 to " +
-                                           distance_text(environment.free_distance)});
+  if (has_distances) {
+    lines.push_back({palette::distant,
+                     "red to green: from objects, 0 to " + distance_text(options.free_distance)});
   }
   if (options.show_crossings) {
     lines.push_back({palette::positive_crossing, "green: crossing of sign +1"});
@@ -273,8 +273,8 @@ void draw_crossings(const fiber::FiberAssembly& fibers, const CrossingDrawing& d
 
 void MarkerBuilder::build(const std_msgs::Header& header, const Drawing& drawing,
                           const MarkerOptions& options, visualization_msgs::MarkerArray& markers) {
-  const auto& [fibers, contacts, minimum, boxes, cost, crossings, names, legend, passed, unknown] =
-      drawing;
+  const auto& [fibers, contacts, minimum, boxes, cost, crossings, names, legend, passed, unknown,
+               environment] = drawing;
   const MarkerScale scale(fibers, header.frame_id);
   // Thicker than the fibres, to be seen where two of them hide the point of contact.
   const double thickness = 3.0 * scale.thickest;
@@ -313,6 +313,15 @@ void MarkerBuilder::build(const std_msgs::Header& header, const Drawing& drawing
   }
   if (unknown != nullptr && !unknown->empty()) {
     draw_incomplete(*unknown, scale, canvas);
+  }
+  if (environment != nullptr && options.show_objects && fibers.fiber_count() > 0) {
+    draw_objects(fibers, environment->objects, options.reach, canvas);
+  }
+  if (environment != nullptr && options.show_contacts && !environment->contacts.empty()) {
+    draw_distances(environment->contacts, options.free_distance, thickness, canvas);
+  }
+  if (environment != nullptr && options.show_nearest && environment->minimum != nullptr) {
+    draw_nearest_object(fibers, *environment, options.free_distance, scale, canvas);
   }
   canvas.finish(drawn_);
 }

@@ -28,6 +28,9 @@ struct MarkerOptions {
   bool show_names = false;
   bool show_legend = false;
   bool show_passed = false;  ///< contacts that came and went, if there are any to show
+  bool show_objects = true;
+  double reach = 0.3;          ///< [m] objects whose boxes are further from all fibres are left out
+  double free_distance = 0.1;  ///< [m] from here on the distance of an object is green; above 0
 };
 
 /// Crossings to draw, and how they are looked at. Holds references: only for the call.
@@ -48,6 +51,7 @@ struct Drawing {
   const std::vector<LegendLine>* legend = nullptr;  ///< if it is shown
   const std::vector<fiber::Contact>* passed = nullptr;  ///< contacts that came and went
   const std::vector<std::string>* unknown = nullptr;  ///< what the answer lacks; it is always shown
+  const EnvironmentDrawing* environment = nullptr;    ///< nullptr if the fibres are alone
 };
 
 /// The cost of an answer and its accuracy, in one line.
@@ -56,9 +60,10 @@ struct Drawing {
 std::string cost_text(const std::string& kernel, double seconds, double error, bool is_complete);
 
 /// The legend of the markers that these options show: a line for each colour.
-/// @param margin [m] of the contacts; may be infinite
-std::vector<LegendLine> legend_lines(const MarkerOptions& options,
-                                     const EnvironmentMarkerOptions& environment, double margin);
+/// @param has_distances whether there are distances from objects to explain
+/// @param margin        [m] of the contacts; may be infinite
+std::vector<LegendLine> legend_lines(const MarkerOptions& options, bool has_distances,
+                                     double margin);
 
 /// Draws each crossing as diagrams of knots do, into a LINE_LIST marker: a bar along the strand
 /// above, and of the strand below two stubs with a gap between them. In front of the fibres as the
@@ -68,7 +73,7 @@ std::vector<LegendLine> legend_lines(const MarkerOptions& options,
 void draw_crossings(const fiber::FiberAssembly& fibers, const CrossingDrawing& drawing,
                     double thickness, visualization_msgs::Marker& marker);
 
-/// Draws fibres, contacts and boxes for rviz.
+/// Draws fibres, contacts, boxes and what is around the fibres for rviz.
 ///
 /// | ns             | id          | what                                                         |
 /// |----------------|-------------|--------------------------------------------------------------|
@@ -91,6 +96,13 @@ void draw_crossings(const fiber::FiberAssembly& fibers, const CrossingDrawing& d
 /// | `axes`         | 0           | LINE_LIST beside the fibres, with the legend: x red, y       |
 /// |                |             | green, z blue, as the frame has them                         |
 /// | `incomplete`   | 0           | TEXT_VIEW_FACING above all: what the answer lacks; red       |
+/// | `obstacles`    | n           | half-transparent shapes near fibres, see draw_shape()        |
+/// | `robot`        | n           | half-transparent shapes of the robot's links near fibres     |
+/// | `environment_distances` | 0  | LINE_LIST between nearest points, coloured by distance       |
+/// | `environment_points`    | 0  | SPHERE_LIST of the points on the objects, so coloured, too   |
+/// | `environment_nearest`   | 0  | LINE_LIST between the nearest points of the closest pair     |
+/// | `environment_nearest_text` | 0 | its object's name and distance in mm, beside it            |
+/// | `environment_nearest_leader` | 0 | LINE_LIST from the object to the text                    |
 ///
 /// Above is z, or −y in a camera's optical frame.
 class MarkerBuilder {
